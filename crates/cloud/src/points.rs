@@ -1,0 +1,31 @@
+//! The cloud: positions as `f64`, and every other property as it came.
+
+use geom::Vec3;
+use stream::Table;
+
+/// Points of a scanned surface.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Cloud {
+    /// Positions [m].
+    pub points: Vec<Vec3>,
+    /// Every property besides x, y, z, in the order of the file; as many rows as points.
+    pub attributes: Table,
+    /// Whether x, y, z are `double` in the file (they are written as they came).
+    pub double: bool,
+    /// Place of x among the columns of the file (y and z follow it), so that order is kept.
+    pub position_column: usize,
+    /// Comment lines of the header.
+    pub comments: Vec<String>,
+}
+
+impl Cloud {
+    /// The given points with their properties, in that order.
+    pub fn select(&self, rows: &[u32]) -> Cloud {
+        Cloud {
+            points: rows.iter().map(|&r| self.points[r as usize]).collect(),
+            attributes: self.attributes.select(rows),
+            comments: self.comments.clone(),
+            ..*self
+        }
+    }
+}

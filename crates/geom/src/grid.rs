@@ -1,0 +1,248 @@
+//! The cell grid: finds points near a place. The only neighbour search with a fixed radius in the project.
+//!
+//! Points are sorted by cell, x fastest, so that the points of neighbouring cells along x are one
+//! contiguous run, and within a cell by their index, so that the order depends on nothing else.
+//! Cells are looked up in a dense table where the box is well filled (a bed of grains) and in a hash
+//! table where it is mostly empty (a scanned surface); both give the same order.
+
+use crate::Vec3;
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Most cells along one axis; a wider cloud gets wider cells, which costs time and not correctness.
+const CELLS_PER_AXIS: f64 = 2_000_000.0;
+/// A dense table may have this many cells for each point.
+const DENSE_CELLS_PER_POINT: f64 = 8.0;
+const EMPTY: u64 = u64::MAX;
+
+/// Points sorted into cubic cells.
+#[derive(Debug, Clone)]
+pub struct Grid {
+    origin: Vec3,
+    cell: f64,
+    dims: [i64; 3],
+    order: Vec<u32>,
+    table: Table,
+}
+
+#[derive(Debug, Clone)]
+enum Table {
+    /// First sorted place of each cell, and one more.
+    Dense(Vec<u32>),
+    /// Open addressing: key and its run of sorted places.
+    Sparse { keys: Vec<u64>, runs: Vec<(u32, u32)> },
+}
+
+impl Grid {
+    /// Sorts `points` [m], all finite and fewer than 2³², into cells at least `cell` [m] wide.
+    ///
+    /// # Panics
+    /// When `cell` is not positive, or a coordinate is not finite.
+    pub fn new(points: &[Vec3], cell: f64) -> Grid {
+        assert!(cell > 0.0 && cell.is_finite(), "cell size must be positive, got {cell} m");
+        assert!(points.len() < u32::MAX as usize, "more than 2^32 points in one grid");
+        let (lo, hi) = bounds(points);
+        let extent = if points.is_empty() { Vec3::zeros() } else { hi - lo };
+        assert!(extent.iter().all(|e| e.is_finite()), "coordinates must be finite");
+        let cell = cell.max(extent.max() / CELLS_PER_AXIS);
+        let dims = [0, 1, 2].map(|a| (extent[a] / cell).floor() as i64 + 1);
+        let mut grid = Grid { origin: lo, cell, dims, order: Vec::new(), table: Table::Dense(Vec::new()) };
+        if points.is_empty() {
+            (grid.dims, grid.origin) = ([0; 3], Vec3::zeros());
+            return grid;
+        }
+        let keys: Vec<u64> = points.par_iter().map(|p| grid.key(grid.cell_of(p))).collect();
+        let cells = dims.iter().map(|&d| d as f64).product::<f64>();
+        if cells <= DENSE_CELLS_PER_POINT * points.len() as f64 + 1024.0 {
+            grid.fill_dense(&keys, cells as usize);
+        } else {
+            grid.fill_sparse(&keys);
+        }
+        grid
+    }
+
+    /// Counting sort: stable, so points of one cell stay in index order.
+    fn fill_dense(&mut self, keys: &[u64], cells: usize) {
+        let mut starts = vec![0u32; cells + 1];
+        for &k in keys {
+            starts[k as usize + 1] += 1;
+        }
+        for c in 0..cells {
+            starts[c + 1] += starts[c];
+        }
+        let mut next = starts.clone();
+        self.order = vec![0; keys.len()];
+        for (i, &k) in keys.iter().enumerate() {
+            let place = &mut next[k as usize];
+            self.order[*place as usize] = i as u32;
+            *place += 1;
+        }
+        self.table = Table::Dense(starts);
+    }
+
+    fn fill_sparse(&mut self, point_keys: &[u64]) {
+        let mut sorted: Vec<(u64, u32)> = point_keys.iter().zip(0u32..).map(|(&k, i)| (k, i)).collect();
+        sorted.par_sort_unstable();
+        let occupied = 1 + sorted.windows(2).filter(|w| w[0].0 != w[1].0).count();
+        let slots = (2 * occupied).next_power_of_two();
+        let (mut keys, mut runs) = (vec![EMPTY; slots], vec![(0, 0); slots]);
+        let mut start = 0;
+        for run in sorted.chunk_by(|a, b| a.0 == b.0) {
+            let mut slot = hash(run[0].0) as usize & (slots - 1);
+            while keys[slot] != EMPTY {
+                slot = (slot + 1) & (slots - 1);
+            }
+            keys[slot] = run[0].0;
+            runs[slot] = (start, start + run.len() as u32);
+            start += run.len() as u32;
+        }
+        self.order = sorted.into_iter().map(|(_, i)| i).collect();
+        self.table = Table::Sparse { keys, runs };
+    }
+
+    /// Point indices in sorted order: by cell (z slowest, x fastest), then by index.
+    pub fn order(&self) -> &[u32] {
+        &self.order
+    }
+
+    /// Width of a cell [m], at least what was asked for.
+    pub fn cell(&self) -> f64 {
+        self.cell
+    }
+
+    /// The cell that holds `p`, clamped to the box of the points.
+    pub fn cell_of(&self, p: &Vec3) -> [i64; 3] {
+        [0, 1, 2].map(|a| (((p[a] - self.origin[a]) / self.cell) as i64).clamp(0, (self.dims[a] - 1).max(0)))
+    }
+
+    /// Number of cells along x, y, z.
+    pub fn dims(&self) -> [i64; 3] {
+        self.dims
+    }
+
+    fn key(&self, [x, y, z]: [i64; 3]) -> u64 {
+        ((z * self.dims[1] + y) * self.dims[0] + x) as u64
+    }
+
+    /// Sorted places of the points in the cells `x` of row (`y`, `z`): one contiguous run, perhaps empty.
+    pub fn row(&self, x: Range<i64>, y: i64, z: i64) -> Range<usize> {
+        let (x0, x1) = (x.start.max(0), x.end.min(self.dims[0]));
+        if x0 >= x1 || y < 0 || z < 0 || y >= self.dims[1] || z >= self.dims[2] {
+            return 0..0;
+        }
+        let first = self.key([x0, y, z]);
+        let count = (x1 - x0) as u64;
+        match &self.table {
+            Table::Dense(starts) => {
+                starts[first as usize] as usize..starts[(first + count) as usize] as usize
+            }
+            Table::Sparse { keys, runs } => {
+                let mut found = 0..0;
+                for key in first..first + count {
+                    let mut slot = hash(key) as usize & (keys.len() - 1);
+                    while keys[slot] != EMPTY && keys[slot] != key {
+                        slot = (slot + 1) & (keys.len() - 1);
+                    }
+                    if keys[slot] == key {
+                        let (start, end) = (runs[slot].0 as usize, runs[slot].1 as usize);
+                        found = if found.is_empty() { start..end } else { found.start..end };
+                    }
+                }
+                found
+            }
+        }
+    }
+
+    /// Runs of sorted places of all cells that a ball of `radius` [m] around `centre` touches, in sorted order.
+    /// Their points are candidates: the caller compares distances.
+    pub fn runs_near(&self, centre: Vec3, radius: f64) -> impl Iterator<Item = Range<usize>> + '_ {
+        let empty = self.order.is_empty();
+        let low = |a: usize| (((centre[a] - radius - self.origin[a]) / self.cell).floor()).max(-1.0) as i64;
+        let high = |a: usize| {
+            (((centre[a] + radius - self.origin[a]) / self.cell).floor()).min(self.dims[a] as f64) as i64
+        };
+        let (lo, hi) = ([0, 1, 2].map(|a| low(a).max(0)), [0, 1, 2].map(|a| high(a).min(self.dims[a] - 1)));
+        let rows = if empty { 0..0 } else { lo[2]..hi[2] + 1 };
+        rows.flat_map(move |z| (lo[1]..hi[1] + 1).map(move |y| (y, z)))
+            .map(move |(y, z)| self.row(lo[0]..hi[0] + 1, y, z))
+            .filter(|run| !run.is_empty())
+    }
+
+    /// Indices of the `points` (those the grid was made of) within `radius` [m] of `centre`, in sorted order.
+    pub fn within<'a>(
+        &'a self,
+        points: &'a [Vec3],
+        centre: Vec3,
+        radius: f64,
+    ) -> impl Iterator<Item = u32> + 'a {
+        self.runs_near(centre, radius)
+            .flat_map(|run| self.order[run].iter().copied())
+            .filter(move |&i| (points[i as usize] - centre).norm_squared() <= radius * radius)
+    }
+}
+
+/// Lowest and highest coordinates [m]; (∞, −∞) for no points.
+pub fn bounds(points: &[Vec3]) -> (Vec3, Vec3) {
+    let none = || (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
+    points
+        .par_iter()
+        .fold(none, |(lo, hi), p| (lo.inf(p), hi.sup(p)))
+        .reduce(none, |a, b| (a.0.inf(&b.0), a.1.sup(&b.1)))
+}
+
+/// Mixes the bits of a cell key (Stafford 2011, variant 13 of the MurmurHash3 finaliser).
+fn hash(key: u64) -> u64 {
+    let key = (key ^ (key >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let key = (key ^ (key >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    key ^ (key >> 31)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Points of a small congruential generator, `spread` wide.
+    fn scatter(count: usize, spread: [f64; 3]) -> Vec<Vec3> {
+        let mut state = 7u64;
+        let mut next = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 11) as f64 / (1u64 << 53) as f64
+        };
+        (0..count).map(|_| Vec3::new(spread[0] * next(), spread[1] * next(), spread[2] * next())).collect()
+    }
+
+    #[test]
+    fn within_finds_what_brute_force_finds_in_dense_and_sparse_grids() {
+        for spread in [[1.0, 1.0, 1.0], [1.0, 1.0, 1e-9], [1.0, 0.0, 0.0], [400.0, 400.0, 400.0]] {
+            let points = scatter(600, spread);
+            for (cell, radius) in [(0.1, 0.1), (0.05, 0.13), (0.3, 0.1), (0.01, 0.02)] {
+                let grid = Grid::new(&points, cell);
+                for &centre in points.iter().step_by(37).chain(&[Vec3::new(-5.0, 0.5, 0.5)]) {
+                    let mut found: Vec<u32> = grid.within(&points, centre, radius).collect();
+                    found.sort();
+                    let near = |i: &u32| (points[*i as usize] - centre).norm() <= radius;
+                    assert_eq!(found, (0..600).filter(near).collect::<Vec<u32>>());
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn order_is_a_permutation_sorted_by_cell_then_index() {
+        for spread in [[1.0; 3], [90.0; 3]] {
+            let points = scatter(500, spread);
+            let grid = Grid::new(&points, 0.2);
+            let keys: Vec<_> =
+                grid.order().iter().map(|&i| (grid.key(grid.cell_of(&points[i as usize])), i)).collect();
+            assert!(keys.is_sorted());
+            assert_eq!(keys.len(), 500);
+        }
+    }
+
+    #[test]
+    fn no_point_and_one_point() {
+        assert_eq!(Grid::new(&[], 1.0).within(&[], Vec3::zeros(), 1.0).count(), 0);
+        let one = [Vec3::new(1e9, 0.0, 0.0)];
+        assert_eq!(Grid::new(&one, 1.0).within(&one, one[0], 0.0).count(), 1);
+    }
+}

@@ -1,0 +1,1 @@
+//! Laws, hard cases and whole pipelines, tested from outside.

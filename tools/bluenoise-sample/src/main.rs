@@ -1,0 +1,2 @@
+//! bluenoise-sample
+fn main() {}

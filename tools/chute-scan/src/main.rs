@@ -1,0 +1,2 @@
+//! chute-scan
+fn main() {}

@@ -1,0 +1,2 @@
+//! cloud-crop
+fn main() {}

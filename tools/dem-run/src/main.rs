@@ -1,0 +1,2 @@
+//! dem-run
+fn main() {}

@@ -1,0 +1,2 @@
+//! dem-view
+fn main() {}

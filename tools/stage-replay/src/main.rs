@@ -1,0 +1,2 @@
+//! stage-replay
+fn main() {}

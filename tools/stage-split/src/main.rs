@@ -1,0 +1,2 @@
+//! stage-split
+fn main() {}

@@ -1,0 +1,2 @@
+//! wallgen
+fn main() {}
