@@ -1,0 +1,220 @@
+//! What a simulation is made of: plain data, checked and turned into an engine by [`crate::Simulation::new`].
+
+use geom::{Plane, Vec3, mesh::TriMesh};
+use serde::{Deserialize, Serialize};
+
+/// Everything that a run needs. SI units throughout.
+#[derive(Debug, Clone)]
+pub struct Setup {
+    /// Acceleration of free fall [m/s²].
+    pub gravity: Vec3,
+    /// Materials, by index.
+    pub materials: Vec<Material>,
+    /// Laws of contact between pairs of materials; a pair that can meet must have one.
+    pub contacts: Vec<Contact>,
+    /// Particles at t = 0.
+    pub particles: Vec<Particle>,
+    /// Walls: they act on particles and are not moved by them.
+    pub walls: Vec<Wall>,
+    /// Storage planes with their zones (SYSTEMS B1–B3).
+    pub outlets: Vec<Zone>,
+    /// Zones that particles enter by (SYSTEMS B4, B5); `Entry::inlet` is an index of this list.
+    pub inlets: Vec<Zone>,
+    /// Largest radius [m] that inlets will bring; 0 when there is none.
+    pub largest_entry: f64,
+    /// Smallest radius [m] that inlets will bring; 0 when there is none.
+    pub smallest_entry: f64,
+    /// Materials that inlets will bring.
+    pub entry_materials: Vec<u16>,
+    /// Time step [s], or the share of the critical one.
+    pub step: Step,
+    /// Periodic extent (lowest, highest) [m] along x, y, z; `None` along an open axis.
+    pub periodic: [Option<(f64, f64)>; 3],
+    /// Neighbours are listed up to this gap [m]; `None` chooses.
+    pub skin: Option<f64>,
+    /// Whether the energy ledger is kept (it costs time).
+    pub ledger: bool,
+    /// When a run is stopped.
+    pub guards: Guards,
+}
+
+/// How the time step is chosen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Step {
+    /// This share of the critical step [–].
+    Auto(f64),
+    /// This step [s]; refused when above the critical one.
+    Fixed(f64),
+}
+
+/// Elastic constants and density.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Material {
+    /// Name, for messages.
+    pub name: String,
+    /// Density [kg/m³]; of no effect for walls.
+    pub density: f64,
+    /// Young's modulus [Pa].
+    pub young: f64,
+    /// Poisson's ratio [–].
+    pub poisson: f64,
+}
+
+/// The law between two materials. An absent effect takes no memory and no time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Contact {
+    /// The two materials, by index, in any order.
+    pub between: (u16, u16),
+    /// Normal law.
+    pub law: Law,
+    /// Restitution e of a head-on impact [–], 0…1.
+    pub restitution: f64,
+    /// Sliding friction μ [–].
+    pub sliding_friction: Option<f64>,
+    /// Rolling resistance μ_r [–].
+    pub rolling_resistance: Option<f64>,
+}
+
+/// Normal law.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum Law {
+    /// Linear spring and dashpot.
+    Hooke {
+        /// Normal stiffness k_n [N/m].
+        stiffness: f64,
+        /// Tangential over normal stiffness k_t/k_n [–]; `None`: Mindlin's 4 G*/E* from Poisson's ratios.
+        tangential_ratio: Option<f64>,
+    },
+    /// Hertz's law, with Mindlin's tangential stiffness, from the elastic constants.
+    Hertz,
+}
+
+/// A sphere.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Particle {
+    /// Unique number.
+    pub id: u32,
+    /// Index of its material.
+    pub material: u16,
+    /// Radius [m].
+    pub radius: f64,
+    /// Centre [m].
+    pub position: Vec3,
+    /// Velocity of the centre [m/s].
+    pub velocity: Vec3,
+    /// Angular velocity [rad/s].
+    pub spin: Vec3,
+}
+
+/// A wall: a shape that moves as one rigid body.
+#[derive(Debug, Clone)]
+pub struct Wall {
+    /// Name, for messages and reports.
+    pub name: String,
+    /// Index of its material.
+    pub material: u16,
+    /// Where its surface is at t = 0.
+    pub shape: WallShape,
+    /// How it moves.
+    pub motion: Motion,
+}
+
+/// The surface of a wall.
+#[derive(Debug, Clone)]
+pub enum WallShape {
+    /// Wall spheres: centre [m], radius [m].
+    Spheres(Vec<(Vec3, f64)>),
+    /// An unbounded plane; particles are on the side that the normal points to.
+    Plane(Plane),
+    /// Triangles; both sides act.
+    Mesh(TriMesh),
+}
+
+/// Rigid motion: a turn about a fixed axis, then a shift.
+///
+/// ```text
+/// x(t) = c + R(Ω t)(x₀ − c) + v t + a sin(2π f t) d
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Motion {
+    /// v [m/s].
+    pub velocity: Vec3,
+    /// Ω, axis times rate [rad/s].
+    pub turn: Vec3,
+    /// c, a point of the axis [m].
+    pub through: Vec3,
+    /// a d, amplitude and direction of the vibration [m].
+    pub amplitude: Vec3,
+    /// f [Hz].
+    pub frequency: f64,
+}
+
+impl Motion {
+    /// A wall at rest.
+    pub fn still() -> Motion {
+        let zero = Vec3::zeros();
+        Motion { velocity: zero, turn: zero, through: zero, amplitude: zero, frequency: 0.0 }
+    }
+}
+
+/// A plane with a region behind it in which particles move by a prescribed motion.
+///
+/// Outlet: `plane` is the storage plane, the exclusion plane lies `length` further along the normal.
+/// Inlet: `plane` is the calculation plane, the generation plane lies `length` before it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Zone {
+    /// The plane; its normal is the direction of flow.
+    pub plane: Plane,
+    /// L1 or L2 [m]; longer than the largest particle diameter.
+    pub length: f64,
+}
+
+/// A particle that will enter.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Entry {
+    /// When it is at `particle.position`, on the generation plane [s].
+    pub time: f64,
+    /// Which inlet.
+    pub inlet: u32,
+    /// State at that time; the velocity is kept until the calculation plane.
+    pub particle: Particle,
+}
+
+/// A particle that has passed a storage plane.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Crossing {
+    /// Passage time, interpolated within the step [s].
+    pub time: f64,
+    /// Which outlet.
+    pub outlet: u32,
+    /// State at that time (position on the plane).
+    pub particle: Particle,
+    /// Partners in contact, by id (`None` for a wall), with the force on this particle [N]: normal, tangential.
+    pub touching: Vec<Touch>,
+}
+
+/// One contact of a crossing.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Touch {
+    /// Id of the other particle; `None` for a wall.
+    pub partner: Option<u32>,
+    /// Normal force on the crossing particle [N].
+    pub normal: Vec3,
+    /// Tangential force on the crossing particle [N].
+    pub tangential: Vec3,
+}
+
+/// When a run is stopped.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Guards {
+    /// Largest overlap, as a share of the smaller radius [–].
+    pub overlap: f64,
+    /// Largest motion in one step, as a share of the radius [–].
+    pub motion: f64,
+}
+
+impl Default for Guards {
+    fn default() -> Guards {
+        Guards { overlap: 0.25, motion: 0.25 }
+    }
+}
