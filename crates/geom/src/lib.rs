@@ -1,8 +1,18 @@
 //! Geometry that every other crate stands on: vectors, the cell grid, shapes, planes, triangle meshes.
 
 pub mod grid;
+mod inside;
+pub mod mesh;
+mod numbers;
+pub mod plane;
+pub mod prism;
+pub mod shape;
+mod triangle;
 
 pub use grid::Grid;
+pub use numbers::NumbersError;
+pub use plane::Plane;
+pub use shape::Shape;
 
 /// A point or vector of three `f64` [m, m/s, …].
 pub type Vec3 = nalgebra::Vector3<f64>;
