@@ -1,1 +1,37 @@
-//! cli
+//! What every tool's main shares: streams, progress, errors, exit codes.
+//!
+//! A main parses, opens streams, calls a library once, and returns a [`Report`]:
+//!
+//! ```no_run
+//! #[derive(clap::Parser)]
+//! struct Args {
+//!     #[command(flatten)]
+//!     input: cli::Input,
+//!     #[command(flatten)]
+//!     output: cli::Output,
+//! }
+//!
+//! fn main() -> std::process::ExitCode {
+//!     cli::run("cloud-copy", |args: Args| {
+//!         let cloud = args.input.read_cloud()?;
+//!         args.output.write_cloud(&cloud)?;
+//!         Ok(cli::Report::new(format!("{} points", cloud.points.len())).with("points", cloud.points.len()))
+//!     })
+//! }
+//! ```
+//!
+//! `-q`, `--threads` and `--report` are added to every tool by [`run`]; exit codes are in [`exit`].
+
+pub mod exit;
+mod input;
+mod output;
+mod progress;
+mod report;
+mod run;
+
+pub use exit::{Stopped, Usage, usage};
+pub use input::{Input, Source};
+pub use output::{Output, OutputStream};
+pub use progress::Progress;
+pub use report::Report;
+pub use run::{Common, Seed, arguments, provenance, quiet, run, warn};

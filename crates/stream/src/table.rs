@@ -31,6 +31,7 @@ macro_rules! each {
         }
     };
 }
+pub(crate) use each;
 
 impl Values {
     /// Number of rows.

@@ -1,0 +1,104 @@
+//! Exit codes: 0 done (also when the reader closed the pipe), 1 failed, 2 wrong usage, 3 stopped by a guard.
+
+use crate::Report;
+use std::{error::Error, fmt, io};
+
+/// Exit code of wrong usage.
+pub const USAGE: u8 = 2;
+/// Exit code of a run that a guard stopped; its output is valid.
+pub const STOPPED: u8 = 3;
+
+/// Wrong usage: exit code 2.
+#[derive(Debug)]
+pub struct Usage(pub String);
+
+impl fmt::Display for Usage {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+impl Error for Usage {}
+
+/// An error that ends the tool with exit code 2.
+pub fn usage(message: impl Into<String>) -> anyhow::Error {
+    anyhow::Error::new(Usage(message.into()))
+}
+
+/// A guard stopped the run: exit code 3. Output that was committed stays, and the report is written.
+#[derive(Debug)]
+pub struct Stopped {
+    /// Which guard, where, when, at what value.
+    pub reason: String,
+    /// What was done until then.
+    pub report: Option<Report>,
+}
+
+impl Stopped {
+    /// An error that ends the tool with exit code 3 after writing `report`.
+    pub fn error(reason: impl Into<String>, report: Option<Report>) -> anyhow::Error {
+        anyhow::Error::new(Stopped { reason: reason.into(), report })
+    }
+}
+
+impl fmt::Display for Stopped {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(&self.reason)
+    }
+}
+impl Error for Stopped {}
+
+/// Whether the reader of our output went away: not a failure, nobody wants the rest.
+pub(crate) fn reader_closed_the_pipe(error: &anyhow::Error) -> bool {
+    error
+        .chain()
+        .filter_map(|cause| cause.downcast_ref::<io::Error>())
+        .any(|cause| cause.kind() == io::ErrorKind::BrokenPipe)
+}
+
+/// The exit code of an error.
+pub(crate) fn code(error: &anyhow::Error) -> u8 {
+    if reader_closed_the_pipe(error) {
+        0
+    } else if error.chain().any(|cause| cause.is::<Usage>()) {
+        USAGE
+    } else if error.chain().any(|cause| cause.is::<Stopped>()) {
+        STOPPED
+    } else {
+        1
+    }
+}
+
+/// The error and its causes on one line. A cause that its parent already quotes is not said twice.
+pub(crate) fn one_line(error: &anyhow::Error) -> String {
+    let mut line = String::new();
+    for cause in error.chain() {
+        let text = cause.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
+        if line.is_empty() {
+            line = text;
+        } else if !line.contains(&text) {
+            line = format!("{line}: {text}");
+        }
+    }
+    line
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use anyhow::{Context, anyhow};
+
+    #[test]
+    fn the_kind_of_error_sets_the_exit_code_through_any_context() {
+        let broken = Err::<(), _>(io::Error::from(io::ErrorKind::BrokenPipe)).context("stdout").unwrap_err();
+        assert_eq!(code(&broken), 0);
+        assert_eq!(code(&usage("no").context("option --x")), 2);
+        assert_eq!(code(&Stopped::error("overlap", None).context("dem")), 3);
+        assert_eq!(code(&anyhow!("disk")), 1);
+    }
+
+    #[test]
+    fn an_error_is_one_line_and_says_nothing_twice() {
+        let error = anyhow!("byte 7").context("scan.ply: byte 7").context("cannot\nread");
+        assert_eq!(one_line(&error), "cannot read: scan.ply: byte 7");
+    }
+}

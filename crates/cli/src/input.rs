@@ -1,0 +1,131 @@
+//! Inputs: a file, or `-` for stdin, with the name that messages use.
+
+use crate::exit::usage;
+use anyhow::Context;
+use std::{
+    convert::Infallible,
+    fmt,
+    fs::File,
+    io::{self, IsTerminal, Read},
+    path::{Path, PathBuf},
+    str::FromStr,
+};
+
+/// A file or stdin. As a clap argument: `#[arg(value_name = "RUN.mcap", default_value = "-")] run: cli::Source`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Source {
+    /// `-`
+    Stdin,
+    /// A path.
+    File(PathBuf),
+}
+
+impl FromStr for Source {
+    type Err = Infallible;
+    fn from_str(text: &str) -> Result<Source, Infallible> {
+        Ok(if text == "-" { Source::Stdin } else { Source::File(PathBuf::from(text)) })
+    }
+}
+
+impl fmt::Display for Source {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Source::Stdin => f.write_str("stdin"),
+            Source::File(path) => write!(f, "{}", path.display()),
+        }
+    }
+}
+
+impl Source {
+    /// Opens the source; a pipe can be read while it is still being written.
+    ///
+    /// # Errors
+    /// No such file; stdin is a terminal (wrong usage).
+    pub fn open(&self) -> anyhow::Result<Box<dyn Read + Send>> {
+        match self {
+            Source::Stdin if io::stdin().is_terminal() => Err(usage(
+                "stdin is a terminal: give a file, or pipe the output of another tool into this one",
+            )),
+            Source::Stdin => Ok(Box::new(io::stdin())),
+            Source::File(path) if path.is_dir() => {
+                Err(anyhow::anyhow!("{self}: is a folder: name a file in it"))
+            }
+            Source::File(path) => {
+                let file = File::open(path)
+                    .with_context(|| format!("{self}: cannot open it (check the path, '-' is stdin)"))?;
+                Ok(Box::new(file))
+            }
+        }
+    }
+
+    /// Reads everything.
+    ///
+    /// # Errors
+    /// As [`Source::open`]; a read that fails.
+    pub fn read_all(&self) -> anyhow::Result<Vec<u8>> {
+        let mut bytes = Vec::new();
+        self.open()?.read_to_end(&mut bytes).with_context(|| format!("{self}: cannot read"))?;
+        Ok(bytes)
+    }
+
+    /// Reads everything as text.
+    ///
+    /// # Errors
+    /// As [`Source::read_all`]; bytes that are not UTF-8.
+    pub fn read_text(&self) -> anyhow::Result<String> {
+        String::from_utf8(self.read_all()?).map_err(|e| {
+            let at = e.utf8_error().valid_up_to();
+            anyhow::anyhow!("{self}: byte {at}: this is not UTF-8 text")
+        })
+    }
+
+    /// The path, when it is a file.
+    pub fn path(&self) -> Option<&Path> {
+        match self {
+            Source::Stdin => None,
+            Source::File(path) => Some(path),
+        }
+    }
+}
+
+/// The cloud that a tool reads: flatten it into the tool's arguments.
+#[derive(Debug, Clone, clap::Args)]
+pub struct Input {
+    /// Point cloud (PLY, LAS, LAZ, E57, PCD, XYZ, PTS; told apart by content), - for stdin
+    #[arg(value_name = "CLOUD", default_value = "-", hide_default_value = true)]
+    pub cloud: Source,
+}
+
+impl Input {
+    /// The name that messages use.
+    pub fn name(&self) -> String {
+        self.cloud.to_string()
+    }
+
+    /// Opens the stream.
+    ///
+    /// # Errors
+    /// As [`Source::open`].
+    pub fn open(&self) -> anyhow::Result<Box<dyn Read + Send>> {
+        self.cloud.open()
+    }
+
+    /// Reads the cloud, whatever its format.
+    ///
+    /// # Errors
+    /// As [`Source::open`]; content that is no cloud.
+    pub fn read_cloud(&self) -> anyhow::Result<cloud::Cloud> {
+        cloud::read(self.open()?).with_context(|| self.name())
+    }
+
+    /// Reads the cloud, and its name and SHA-256 for [`crate::provenance`].
+    ///
+    /// # Errors
+    /// As [`Input::read_cloud`].
+    pub fn read_cloud_hashed(&self) -> anyhow::Result<(cloud::Cloud, (String, String))> {
+        let bytes = self.cloud.read_all()?;
+        let hash = stream::sha256(&bytes);
+        let cloud = cloud::read(bytes.as_slice()).with_context(|| self.name())?;
+        Ok((cloud, ("cloud".to_owned(), hash)))
+    }
+}

@@ -1,0 +1,192 @@
+//! Outputs: stdout, or a file that appears under its name only when it is whole.
+
+use crate::exit::usage;
+use anyhow::Context;
+use std::{
+    fs::{self, File},
+    io::{self, BufWriter, IsTerminal, Write},
+    path::{Path, PathBuf},
+};
+use stream::ply::Encoding;
+use tempfile::NamedTempFile;
+
+/// Enough that a pipe is filled by one write.
+const BUFFER: usize = 1 << 18;
+
+/// Where a tool writes: flatten it into the tool's arguments.
+#[derive(Debug, Clone, Default, clap::Args)]
+pub struct Output {
+    /// Write to FILE (appears when whole) instead of stdout
+    #[arg(short = 'o', long = "output", value_name = "FILE")]
+    pub file: Option<PathBuf>,
+    /// Write PLY as text
+    #[arg(long)]
+    pub ascii: bool,
+}
+
+impl Output {
+    /// The file, unless it is stdout (`-`).
+    pub fn path(&self) -> Option<&Path> {
+        self.file.as_deref().filter(|path| *path != Path::new("-"))
+    }
+
+    /// Whether the file's name ends in `.extension`, in any case of letters.
+    pub fn has_extension(&self, extension: &str) -> bool {
+        let ending = self.path().and_then(|path| path.extension());
+        ending.is_some_and(|ending| ending.eq_ignore_ascii_case(extension))
+    }
+
+    /// The name that messages use.
+    pub fn name(&self) -> String {
+        self.path().map_or_else(|| "stdout".to_owned(), |path| path.display().to_string())
+    }
+
+    /// Opens a binary stream. What is written to a file is lost unless [`OutputStream::commit`] is called.
+    ///
+    /// # Errors
+    /// Wrong usage when stdout is a terminal; a folder that cannot be written to.
+    pub fn open(&self) -> anyhow::Result<OutputStream> {
+        if self.path().is_none() && io::stdout().is_terminal() {
+            return Err(usage("stdout is a terminal and this output is binary: use -o FILE, or pipe it on"));
+        }
+        self.open_text()
+    }
+
+    /// Opens a stream for text, which a terminal may show.
+    ///
+    /// # Errors
+    /// A folder that cannot be written to.
+    pub fn open_text(&self) -> anyhow::Result<OutputStream> {
+        match self.path() {
+            Some(path) => OutputStream::file(path),
+            None => OutputStream::stdout(),
+        }
+    }
+
+    /// Writes a cloud as PLY and commits it.
+    ///
+    /// # Errors
+    /// As [`Output::open`]; a write that fails.
+    pub fn write_cloud(&self, cloud: &cloud::Cloud) -> anyhow::Result<()> {
+        let encoding = if self.ascii { Encoding::Ascii } else { Encoding::BinaryLittleEndian };
+        let mut out = if self.ascii { self.open_text()? } else { self.open()? };
+        cloud::write_ply(&mut out, cloud, encoding)
+            .with_context(|| format!("{}: cannot write", self.name()))?;
+        out.commit()
+    }
+}
+
+/// A buffered stream that is committed at the end.
+pub struct OutputStream {
+    sink: BufWriter<Sink>,
+    name: String,
+}
+
+enum Sink {
+    /// Stdout, a device or a named pipe: bytes go out as they are written.
+    Direct(File),
+    /// Beside the final name; removed on drop, also while a panic unwinds.
+    Pending { temp: NamedTempFile, path: PathBuf },
+}
+
+impl OutputStream {
+    fn new(sink: Sink, name: String) -> OutputStream {
+        OutputStream { sink: BufWriter::with_capacity(BUFFER, sink), name }
+    }
+
+    /// The process's stdout, past the line buffer of `std::io::Stdout`.
+    ///
+    /// # Errors
+    /// A closed stdout.
+    pub fn stdout() -> anyhow::Result<OutputStream> {
+        use std::os::fd::AsFd;
+        let stdout = io::stdout().as_fd().try_clone_to_owned().context("stdout: cannot open")?;
+        Ok(OutputStream::new(Sink::Direct(stdout.into()), "stdout".to_owned()))
+    }
+
+    /// A file that appears as `path` when it is committed.
+    ///
+    /// # Errors
+    /// A folder that is missing or cannot be written to.
+    pub fn file(path: &Path) -> anyhow::Result<OutputStream> {
+        let name = path.display().to_string();
+        let failed = || format!("{name}: cannot create it (is the folder there, and may you write to it?)");
+        // A link stays a link: its target is replaced. Devices and named pipes are written to, not replaced.
+        let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        match fs::metadata(&target) {
+            Ok(kind) if kind.is_dir() => anyhow::bail!("{name}: is a folder: name a file in it"),
+            Ok(kind) if !kind.is_file() => {
+                let device = File::options().write(true).open(&target).with_context(failed)?;
+                return Ok(OutputStream::new(Sink::Direct(device), name));
+            }
+            _ => {}
+        }
+        let folder = target.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let stem = target.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let temp = beside(folder, &stem).with_context(failed)?;
+        Ok(OutputStream::new(Sink::Pending { temp, path: target }, name))
+    }
+
+    /// The name that messages use.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Whether bytes go out as they are written, so that a reader may be waiting for them.
+    pub fn is_stream(&self) -> bool {
+        matches!(self.sink.get_ref(), Sink::Direct(_))
+    }
+
+    /// Flushes, and gives a file its name.
+    ///
+    /// # Errors
+    /// A full disk, a closed pipe; then no file appears.
+    pub fn commit(self) -> anyhow::Result<()> {
+        let name = self.name;
+        let mut sink = self.sink.into_inner().map_err(|e| e.into_error()).with_context(|| name.clone())?;
+        sink.flush().with_context(|| name.clone())?;
+        if let Sink::Pending { temp, path } = sink {
+            temp.persist(&path)
+                .map_err(|e| e.error)
+                .with_context(|| format!("{name}: cannot rename to it"))?;
+        }
+        Ok(())
+    }
+}
+
+/// A temporary file in the same folder (a rename must not cross file systems) with ordinary permissions.
+fn beside(folder: &Path, stem: &str) -> io::Result<NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    let prefix = format!(".{stem}.");
+    builder.prefix(&prefix).suffix(".part");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    builder.tempfile_in(folder)
+}
+
+impl Write for Sink {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self {
+            Sink::Direct(file) => file.write(bytes),
+            Sink::Pending { temp, .. } => temp.write(bytes),
+        }
+    }
+    fn flush(&mut self) -> io::Result<()> {
+        match self {
+            Sink::Direct(file) => file.flush(),
+            Sink::Pending { temp, .. } => temp.flush(),
+        }
+    }
+}
+
+impl Write for OutputStream {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.sink.write(bytes)
+    }
+    fn flush(&mut self) -> io::Result<()> {
+        self.sink.flush()
+    }
+}

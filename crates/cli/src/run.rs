@@ -1,0 +1,183 @@
+//! The one way a tool starts and ends.
+
+use crate::{
+    Report, Source, Stopped,
+    exit::{self, code, one_line, reader_closed_the_pipe},
+    output::OutputStream,
+};
+use anyhow::Context;
+use clap::{ArgMatches, Args as _, Command, FromArgMatches as _, parser::ValueSource};
+use serde_json::{Map, Value, json};
+use std::{
+    io::Write,
+    num::NonZeroUsize,
+    path::{Path, PathBuf},
+    process::ExitCode,
+    sync::OnceLock,
+    time::Instant,
+};
+use stream::mcap::Provenance;
+
+/// Options of every tool; [`run`] adds them, so a tool need not flatten them.
+#[derive(Debug, Clone, Default, clap::Args)]
+pub struct Common {
+    /// Say nothing but errors
+    #[arg(short, long)]
+    pub quiet: bool,
+    /// Threads to use (default: all cores); the result is the same for any number
+    #[arg(long, value_name = "N")]
+    pub threads: Option<NonZeroUsize>,
+    /// Write a JSON report of what was done
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
+}
+
+/// `--seed N`, for tools where chance plays a part.
+#[derive(Debug, Clone, Copy, Default, clap::Args)]
+pub struct Seed {
+    /// Seed of the random numbers; the same seed gives the same result
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub seed: u64,
+}
+
+/// What the running tool was started with.
+struct Invocation {
+    tool: &'static str,
+    arguments: Vec<String>,
+    quiet: bool,
+}
+
+static INVOCATION: OnceLock<Invocation> = OnceLock::new();
+
+/// Whether `-q` was given.
+pub fn quiet() -> bool {
+    INVOCATION.get().is_some_and(|i| i.quiet)
+}
+
+/// Says on stderr something that is no error, unless `-q` was given.
+pub fn warn(message: &str) {
+    if let Some(i) = INVOCATION.get().filter(|i| !i.quiet) {
+        let _ = writeln!(std::io::stderr(), "{}: warning: {message}", i.tool);
+    }
+}
+
+/// The arguments that can change the result, in one spelling: `--radius=solve`.
+/// Inputs (which provenance names by hash) and outputs are left out, so that a pipe and a file give the same bytes.
+pub fn arguments() -> Vec<String> {
+    INVOCATION.get().map(|i| i.arguments.clone()).unwrap_or_default()
+}
+
+/// Provenance of the running tool; `inputs` are roles and SHA-256 (`("cloud", "9f86…")`).
+pub fn provenance(inputs: Vec<(String, String)>) -> Provenance {
+    Provenance {
+        tool: INVOCATION.get().map_or("", |i| i.tool).to_owned(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        arguments: arguments(),
+        inputs,
+    }
+}
+
+/// Parses the arguments, runs `work`, reports, and turns every outcome into an exit code.
+pub fn run<A: clap::Parser>(name: &'static str, work: impl FnOnce(A) -> anyhow::Result<Report>) -> ExitCode {
+    let start = Instant::now();
+    let matches = command::<A>(name).get_matches();
+    let (args, common) = match (A::from_arg_matches(&matches), Common::from_arg_matches(&matches)) {
+        (Ok(args), Ok(common)) => (args, common),
+        (Err(e), _) | (_, Err(e)) => e.with_cmd(&command::<A>(name)).exit(),
+    };
+    let arguments = canonical(&command::<A>(name), &matches);
+    let _ = INVOCATION.set(Invocation { tool: name, arguments, quiet: common.quiet });
+    let outcome = set_threads(&common).and_then(|()| work(args));
+    let (report, error) = match outcome {
+        Ok(report) => (Some(report), None),
+        Err(mut e) => (e.downcast_mut::<Stopped>().and_then(|s| s.report.take()), Some(e)),
+    };
+    let error = error.or_else(|| report.as_ref().and_then(|r| tell(name, r, &common, start).err()));
+    let Some(error) = error else { return ExitCode::SUCCESS };
+    if code(&error) == exit::STOPPED
+        && let Some(report) = &report
+    {
+        let _ = tell(name, report, &common, start);
+    }
+    if !reader_closed_the_pipe(&error) {
+        let _ = writeln!(std::io::stderr(), "{name}: {}", one_line(&error));
+    }
+    ExitCode::from(code(&error))
+}
+
+/// The tool's command line, with the options of every tool and the project's version.
+fn command<A: clap::Parser>(name: &'static str) -> Command {
+    let command = A::command().name(name).version(env!("CARGO_PKG_VERSION"));
+    if command.get_arguments().any(|a| a.get_id() == "quiet") {
+        return command;
+    }
+    Common::augment_args(command)
+}
+
+fn set_threads(common: &Common) -> anyhow::Result<()> {
+    let Some(threads) = common.threads else { return Ok(()) };
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads.get())
+        .build_global()
+        .with_context(|| format!("--threads {threads}: cannot start them"))
+}
+
+/// See [`arguments`].
+fn canonical(command: &Command, matches: &ArgMatches) -> Vec<String> {
+    let silent = ["quiet", "threads", "report", "file", "help", "version"];
+    let mut list = Vec::new();
+    for argument in command.get_arguments() {
+        let id = argument.get_id().as_str();
+        let given = matches!(matches.try_contains_id(id), Ok(true))
+            && matches.value_source(id) == Some(ValueSource::CommandLine);
+        if !given || silent.contains(&id) || matches.try_get_many::<Source>(id).is_ok() {
+            continue;
+        }
+        let prefix = argument.get_long().map(|long| format!("--{long}")).unwrap_or_default();
+        for value in matches.get_raw(id).into_iter().flatten() {
+            let value = value.to_string_lossy();
+            list.push(match (prefix.is_empty(), argument.get_action().takes_values()) {
+                (true, _) => value.into_owned(),
+                (false, true) => format!("{prefix}={value}"),
+                (false, false) => prefix.clone(),
+            });
+        }
+    }
+    list
+}
+
+/// Writes `--report` and the summary line.
+fn tell(name: &str, report: &Report, common: &Common, start: Instant) -> anyhow::Result<()> {
+    if let Some(path) = &common.report {
+        write_report(path, name, report, start).context("--report")?;
+    }
+    if !common.quiet && !report.summary.is_empty() {
+        let _ = writeln!(std::io::stderr(), "{name}: {}", report.summary);
+    }
+    Ok(())
+}
+
+fn write_report(path: &Path, name: &str, report: &Report, start: Instant) -> anyhow::Result<()> {
+    let mut all = Map::new();
+    all.insert("tool".into(), json!(name));
+    all.insert("version".into(), json!(env!("CARGO_PKG_VERSION")));
+    all.insert(
+        "arguments".into(),
+        json!(std::env::args_os().skip(1).map(|a| a.to_string_lossy().into_owned()).collect::<Vec<_>>()),
+    );
+    all.insert("seconds".into(), json!(start.elapsed().as_secs_f64()));
+    all.insert("peak_memory_bytes".into(), peak_memory().map_or(Value::Null, |b| json!(b)));
+    all.insert("summary".into(), json!(report.summary));
+    all.extend(report.fields.clone());
+    let mut out = OutputStream::file(path)?;
+    serde_json::to_writer_pretty(&mut out, &Value::Object(all)).map_err(std::io::Error::from)?;
+    out.write_all(b"\n")?;
+    out.commit()
+}
+
+/// Most memory this process ever held [B], where the system tells (Linux: VmHWM).
+fn peak_memory() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
+    line.split_whitespace().nth(1)?.parse::<u64>().ok().map(|kib| 1024 * kib)
+}

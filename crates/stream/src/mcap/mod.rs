@@ -1,0 +1,71 @@
+//! MCAP over files and pipes: everything that has a time, or attributes per sphere.
+//!
+//! A stream is a header, a metadata record `provenance`, further metadata, chunks of messages, and a last
+//! metadata record `end_of_stream`, which only [`Writer::finish`] writes and on which [`Reader`] insists: a tool
+//! that failed half way leaves a file that nobody takes for a whole one. Points travel as
+//! `foxglove.PointCloud`; times are simulation times, and nothing depends on the clock, so that the same
+//! input gives the same bytes.
+
+mod chunk;
+mod points;
+mod provenance;
+mod reader;
+#[cfg(test)]
+mod tests;
+mod writer;
+
+pub use provenance::{PROVENANCE, Provenance};
+pub use reader::{Event, Reader};
+pub use writer::{Compression, Writer};
+
+use std::io;
+use thiserror::Error;
+
+/// Name of the metadata record that ends a good stream; its key `messages` holds their number.
+pub const END_OF_STREAM: &str = "end_of_stream";
+
+/// What is wrong with an MCAP stream.
+#[derive(Debug, Error)]
+#[allow(missing_docs)]
+pub enum McapError {
+    #[error("MCAP: cannot read or write")]
+    Io(#[from] io::Error),
+    #[error("MCAP: the stream is empty: did the tool before this one fail?")]
+    Empty,
+    #[error("MCAP: this is no MCAP stream: it does not begin with the bytes of one")]
+    Magic,
+    #[error(
+        "MCAP: truncated after {messages} messages (byte {byte}): the end-of-stream record is missing, the tool that \
+         wrote it did not finish"
+    )]
+    Truncated { messages: u64, byte: u64 },
+    #[error("MCAP: near byte {byte}, after {messages} messages: damaged")]
+    Damaged {
+        byte: u64,
+        messages: u64,
+        #[source]
+        source: Box<::mcap::McapError>,
+    },
+    #[error("MCAP: near byte {byte}, after {messages} messages: {what}")]
+    Malformed { byte: u64, messages: u64, what: &'static str },
+    #[error(
+        "MCAP: bytes follow the end of the stream (from byte {byte}): were files joined with cat? Give them one by one"
+    )]
+    Trailing { byte: u64 },
+    #[error("MCAP: {found} messages where the end-of-stream record counts {expected}")]
+    Count { found: u64, expected: u64 },
+    #[error("MCAP: topic '{topic}' at {time_ns} ns: point cloud: {what}")]
+    Points { topic: String, time_ns: u64, what: String },
+    #[error("MCAP: cannot write")]
+    Write(#[source] Box<::mcap::McapError>),
+}
+
+impl McapError {
+    /// Keeps an I/O error in sight, so that a closed pipe is known for what it is.
+    fn writing(error: ::mcap::McapError) -> McapError {
+        match error {
+            ::mcap::McapError::Io(e) => McapError::Io(e),
+            other => McapError::Write(Box::new(other)),
+        }
+    }
+}

@@ -1,0 +1,181 @@
+//! Writes a stream that is whole only when it was finished.
+
+use super::{END_OF_STREAM, McapError, PROVENANCE, Provenance, points};
+use crate::Table;
+use ::mcap::{WriteOptions, records, write::NoSeek};
+use std::{collections::BTreeMap, io::Write};
+
+/// Name of the writer in the header; free of versions, so that bytes do not depend on them.
+const LIBRARY: &str = "grainpipe";
+/// A chunk is closed when it has grown to this [B].
+const CHUNK: u64 = 1 << 20;
+
+/// How chunks are packed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Compression {
+    /// Not at all: the fastest between two tools.
+    #[default]
+    None,
+    /// Zstandard at level 1: for files that stay.
+    Zstd,
+}
+
+/// Writes an MCAP stream to a file or a pipe; the bytes are the same for both.
+///
+/// Dropping it without [`Writer::finish`] leaves a stream that every reader refuses as truncated.
+pub struct Writer<W: Write> {
+    inner: Option<::mcap::Writer<NoSeek<W>>>,
+    /// Id and next sequence number, by schema or encoding and topic.
+    channels: BTreeMap<String, (u16, u32)>,
+    /// Memory of the last message, used again.
+    message: Vec<u8>,
+    /// Bytes in the open chunk.
+    open: u64,
+    messages: u64,
+}
+
+impl<W: Write> Writer<W> {
+    /// Begins a stream without compression.
+    ///
+    /// # Errors
+    /// A write that fails.
+    pub fn new(out: W, provenance: &Provenance) -> Result<Writer<W>, McapError> {
+        Writer::compressed(out, provenance, Compression::None)
+    }
+
+    /// Begins a stream.
+    ///
+    /// # Errors
+    /// A write that fails.
+    pub fn compressed(out: W, provenance: &Provenance, how: Compression) -> Result<Writer<W>, McapError> {
+        let options = WriteOptions::new()
+            .library(LIBRARY)
+            .compression(match how {
+                Compression::None => None,
+                Compression::Zstd => Some(::mcap::Compression::Zstd),
+            })
+            .compression_level(1)
+            // With threads, bytes would depend on their number.
+            .compression_threads(0)
+            .chunk_size(None)
+            .disable_seeking(true);
+        let inner = options.create(NoSeek::new(out)).map_err(McapError::writing)?;
+        let mut writer = Writer {
+            inner: Some(inner),
+            channels: BTreeMap::new(),
+            message: Vec::new(),
+            open: 0,
+            messages: 0,
+        };
+        writer.metadata(PROVENANCE, provenance.to_map())?;
+        Ok(writer)
+    }
+
+    fn inner(&mut self) -> Result<&mut ::mcap::Writer<NoSeek<W>>, McapError> {
+        // Only `finish`, which takes the writer away, empties it.
+        self.inner.as_mut().ok_or_else(|| McapError::Io(std::io::ErrorKind::NotConnected.into()))
+    }
+
+    /// Writes a metadata record, and sends on what is in the open chunk.
+    ///
+    /// # Errors
+    /// A write that fails.
+    pub fn metadata(&mut self, name: &str, map: BTreeMap<String, String>) -> Result<(), McapError> {
+        let record = records::Metadata { name: name.to_owned(), metadata: map };
+        self.inner()?.write_metadata(&record).map_err(McapError::writing)?;
+        self.flush_chunk()
+    }
+
+    /// Writes a table as one `foxglove.PointCloud` at `time_ns` [ns] of simulated time.
+    ///
+    /// # Errors
+    /// A write that fails; a table of 2 GiB or more.
+    pub fn points(
+        &mut self,
+        topic: &str,
+        time_ns: u64,
+        frame_id: &str,
+        table: &Table,
+    ) -> Result<(), McapError> {
+        let mut message = std::mem::take(&mut self.message);
+        let wrong = |what| McapError::Points { topic: topic.to_owned(), time_ns, what };
+        points::encode(table, time_ns, frame_id, &mut message).map_err(wrong)?;
+        let channel = format!("foxglove.PointCloud {topic}");
+        if !self.channels.contains_key(&channel) {
+            let schema = points::schema().ok_or_else(|| wrong("it has no schema".to_owned()))?;
+            let inner = self.inner()?;
+            let schema = inner.add_schema(&schema.name, &schema.encoding, &schema.data);
+            self.add_channel(&channel, schema.map_err(McapError::writing)?, topic, "protobuf")?;
+        }
+        self.send(&channel, time_ns, &message)?;
+        self.message = message;
+        Ok(())
+    }
+
+    /// Writes bytes in a named encoding (`json`, `bincode`…) at `time_ns` [ns] of simulated time.
+    ///
+    /// # Errors
+    /// A write that fails.
+    pub fn bytes(&mut self, topic: &str, encoding: &str, time_ns: u64, data: &[u8]) -> Result<(), McapError> {
+        let channel = format!("{encoding} {topic}");
+        if !self.channels.contains_key(&channel) {
+            self.add_channel(&channel, 0, topic, encoding)?;
+        }
+        self.send(&channel, time_ns, data)
+    }
+
+    fn add_channel(&mut self, key: &str, schema: u16, topic: &str, encoding: &str) -> Result<(), McapError> {
+        let none = BTreeMap::new();
+        let id = self.inner()?.add_channel(schema, topic, encoding, &none).map_err(McapError::writing)?;
+        self.channels.insert(key.to_owned(), (id, 0));
+        Ok(())
+    }
+
+    fn send(&mut self, channel: &str, time: u64, data: &[u8]) -> Result<(), McapError> {
+        let Some((channel_id, sequence)) = self.channels.get_mut(channel) else { return Ok(()) };
+        let header = records::MessageHeader {
+            channel_id: *channel_id,
+            sequence: *sequence,
+            log_time: time,
+            publish_time: time,
+        };
+        *sequence = sequence.wrapping_add(1);
+        self.messages += 1;
+        self.open += data.len() as u64;
+        self.inner()?.write_to_known_channel(&header, data).map_err(McapError::writing)?;
+        if self.open >= CHUNK { self.flush_chunk() } else { Ok(()) }
+    }
+
+    /// Closes the open chunk and sends it on: a reader now sees every message so far.
+    ///
+    /// # Errors
+    /// A write that fails.
+    pub fn flush_chunk(&mut self) -> Result<(), McapError> {
+        self.open = 0;
+        self.inner()?.flush().map_err(McapError::writing)
+    }
+
+    /// Ends the stream and gives the output back, flushed.
+    ///
+    /// # Errors
+    /// A write that fails; then the stream stays without its end.
+    pub fn finish(mut self) -> Result<W, McapError> {
+        let end = BTreeMap::from([("messages".to_owned(), self.messages.to_string())]);
+        self.metadata(END_OF_STREAM, end)?;
+        self.inner()?.finish().map_err(McapError::writing)?;
+        let inner =
+            self.inner.take().ok_or_else(|| McapError::Io(std::io::ErrorKind::NotConnected.into()))?;
+        let mut out = inner.into_inner().into_inner();
+        out.flush()?;
+        Ok(out)
+    }
+}
+
+impl<W: Write> Drop for Writer<W> {
+    /// Takes the output out of the mcap writer, which would write a summary and end magic on its own drop.
+    fn drop(&mut self) {
+        if let Some(inner) = self.inner.take() {
+            drop(inner.into_inner());
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! Between columns and packed rows of bytes, the layout of binary PLY and of point cloud messages.
+
+use crate::{
+    Values,
+    kind::{Kind, of_kind},
+    table::each,
+};
+use rayon::prelude::*;
+
+/// Rows that one thread takes at a time; fixed, and small enough that they stay in the cache.
+const CHUNK: usize = 2048;
+
+/// A number with a fixed layout.
+pub(crate) trait Number: Copy + Default + Send + Sync {
+    /// From the first bytes of a slice that is long enough.
+    fn get<const BIG: bool>(bytes: &[u8]) -> Self;
+    /// To the first bytes of a slice that is long enough.
+    fn put<const BIG: bool>(self, bytes: &mut [u8]);
+    /// To the end of a buffer.
+    fn append<const BIG: bool>(self, bytes: &mut Vec<u8>);
+}
+
+macro_rules! number {
+    ($($t:ty)*) => {$(
+        impl Number for $t {
+            #[inline(always)]
+            fn get<const BIG: bool>(bytes: &[u8]) -> Self {
+                let mut own = [0; size_of::<$t>()];
+                own.copy_from_slice(&bytes[..size_of::<$t>()]);
+                if BIG { <$t>::from_be_bytes(own) } else { <$t>::from_le_bytes(own) }
+            }
+            #[inline(always)]
+            fn put<const BIG: bool>(self, bytes: &mut [u8]) {
+                let own = if BIG { self.to_be_bytes() } else { self.to_le_bytes() };
+                bytes[..size_of::<$t>()].copy_from_slice(&own);
+            }
+            fn append<const BIG: bool>(self, bytes: &mut Vec<u8>) {
+                bytes.extend_from_slice(&if BIG { self.to_be_bytes() } else { self.to_le_bytes() });
+            }
+        }
+    )*};
+}
+number!(i8 u8 i16 u16 i32 u32 f32 f64);
+
+/// The column at `offset` of rows that are `stride` bytes wide; `bytes` holds whole rows.
+pub(crate) fn column<const BIG: bool>(bytes: &[u8], stride: usize, offset: usize, kind: Kind) -> Values {
+    of_kind!(kind, T, V => V(bytes
+        .par_chunks_exact(stride)
+        .with_min_len(CHUNK)
+        .map(|row| T::get::<BIG>(&row[offset..]))
+        .collect()))
+}
+
+/// Bytes of one row of `columns`.
+pub(crate) fn stride(columns: &[&Values]) -> usize {
+    columns.iter().map(|c| c.kind().size()).sum()
+}
+
+/// Fills `out`, which holds whole rows, with the rows from `first` on.
+pub(crate) fn pack<const BIG: bool>(columns: &[&Values], first: usize, out: &mut [u8]) {
+    let stride = stride(columns);
+    if stride == 0 {
+        return;
+    }
+    out.par_chunks_mut(CHUNK * stride).enumerate().for_each(|(chunk, out)| {
+        let first = first + chunk * CHUNK;
+        let mut offset = 0;
+        for column in columns {
+            let rows = out.chunks_exact_mut(stride);
+            each!(column, v => for (row, x) in rows.zip(&v[first..]) {
+                x.put::<BIG>(&mut row[offset..]);
+            });
+            offset += column.kind().size();
+        }
+    });
+}
