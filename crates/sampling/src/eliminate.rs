@@ -1,0 +1,84 @@
+//! Weighted sample elimination: removes the most crowded point again and again, until the count is left.
+//!
+//! ```text
+//! w(i) = Σⱼ (1 − max(dᵢⱼ, d_min)/2 r_max)^8        dᵢⱼ < 2 r_max
+//! r_max = √(A/(2√3 N)),   d_min = 2 r_max (1 − (N/M)^1.5) 0.65
+//! ```
+//!
+//! M points in, N out. Yuksel (2015), doi:10.1111/cgf.12538. The area A is not known; r_max comes from the spacing r
+//! at which a Poisson-disk sample has N points: N = 0.75 A/r². Weights are whole numbers, so that the order of
+//! subtractions changes nothing.
+
+use crate::cells::Cells;
+use crate::{Amount, Sample, SampleError, Wish, amount};
+use geom::Vec3;
+use std::collections::BinaryHeap;
+
+/// r_max over r: √(1/(2√3 · 0.75)).
+const RADIUS: f64 = 0.62;
+/// Weights are multiples of this share of the largest one.
+const UNIT: f64 = (1u64 << 40) as f64;
+
+pub(crate) fn eliminate(
+    points: &[Vec3],
+    forced: Option<&[bool]>,
+    wish: &Wish,
+) -> Result<Sample, SampleError> {
+    let start = amount::poisson_of(points, forced, wish.amount, wish.seed)?;
+    let count = match wish.amount {
+        Amount::Count(count) => count,
+        _ => start.kept.len(),
+    };
+    let must = forced.map_or(0, |f| f.iter().filter(|&&f| f).count());
+    if must > count {
+        return Err(SampleError::Forced { forced: must, there: count });
+    }
+    let reach = 2.0 * RADIUS * start.spacing;
+    let cells = Cells::new(points, reach);
+    let left = 1.0 - libm::pow(count as f64 / points.len() as f64, 1.5);
+    let alive = remove(&cells, forced, count, Weight { reach, least: reach * left * 0.65 });
+    let mut kept: Vec<u32> =
+        (0..points.len()).filter(|&place| alive[place]).map(|place| cells.order[place]).collect();
+    kept.sort_unstable();
+    Ok(Sample { kept, ..start })
+}
+
+#[derive(Clone, Copy)]
+struct Weight {
+    /// 2 r_max [m].
+    reach: f64,
+    /// Nearer than this counts as this [m].
+    least: f64,
+}
+
+impl Weight {
+    fn of(&self, square: f64) -> u64 {
+        let w = 1.0 - square.sqrt().max(self.least) / self.reach;
+        let (w2, unit) = (w * w, UNIT);
+        (w2 * w2 * w2 * w2 * unit) as u64
+    }
+}
+
+/// Heap with late updates: a weight only falls, so an entry that is out of date is too high and is pushed back.
+fn remove(cells: &Cells, forced: Option<&[bool]>, count: usize, weight: Weight) -> Vec<bool> {
+    let near = |place| cells.near(place, weight.reach).filter(move |&(other, _)| other != place);
+    let mut w: Vec<u64> = cells.map(|place| near(place).map(|(_, s)| weight.of(s)).sum());
+    let free = |place: &usize| forced.is_none_or(|f| !f[cells.order[*place] as usize]);
+    let mut heap: BinaryHeap<(u64, u32)> =
+        (0..cells.len()).filter(free).map(|place| (w[place], place as u32)).collect();
+    let mut alive = vec![true; cells.len()];
+    let mut left = cells.len();
+    while left > count {
+        let Some((was, place)) = heap.pop() else { break };
+        if was != w[place as usize] {
+            heap.push((w[place as usize], place));
+            continue;
+        }
+        alive[place as usize] = false;
+        left -= 1;
+        for (other, square) in near(place).filter(|&(other, _)| alive[other as usize]) {
+            w[other as usize] -= weight.of(square);
+        }
+    }
+    alive
+}

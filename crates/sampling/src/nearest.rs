@@ -1,0 +1,76 @@
+//! Distances to the nearest other point: how even a cloud is.
+
+use crate::cells::Cells;
+use geom::Vec3;
+use rayon::prelude::*;
+use serde::Serialize;
+
+/// Statistics of the distance from each point to the nearest other one.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct NearestDistances {
+    /// Least [m].
+    pub min: f64,
+    /// Mean [m].
+    pub mean: f64,
+    /// Middle one [m].
+    pub median: f64,
+    /// Standard deviation over mean [–].
+    pub variation: f64,
+}
+
+/// Statistics of the nearest distances; `None` for fewer than two points.
+pub fn nearest_distances(points: &[Vec3]) -> Option<NearestDistances> {
+    let mut distances = distances(points);
+    if distances.len() < 2 {
+        return None;
+    }
+    let count = distances.len() as f64;
+    let mean = distances.iter().sum::<f64>() / count;
+    let variance = distances.iter().map(|d| (d - mean) * (d - mean)).sum::<f64>() / count;
+    let variation = if mean > 0.0 { variance.sqrt() / mean } else { 0.0 };
+    let (_, &mut median, _) = distances.select_nth_unstable_by(points.len() / 2, f64::total_cmp);
+    let min = distances.iter().copied().fold(f64::INFINITY, f64::min);
+    Some(NearestDistances { min, mean, median, variation })
+}
+
+/// Distance [m] from each point to the nearest other one, by index; empty for fewer than two points.
+pub fn distances(points: &[Vec3]) -> Vec<f64> {
+    let mut nearest = vec![f64::INFINITY; points.len()];
+    if points.len() < 2 {
+        return Vec::new();
+    }
+    let mut open: Vec<u32> = (0..points.len() as u32).collect();
+    let mut reach = first_reach(points);
+    // Points without a neighbour in reach are tried again with twice the reach, against all points.
+    while !open.is_empty() {
+        let cells = Cells::new(points, reach);
+        let mut place_of = vec![0; points.len()];
+        for (place, &i) in cells.order.iter().enumerate() {
+            place_of[i as usize] = place as u32;
+        }
+        let found: Vec<f64> =
+            open.par_iter().map(|&i| nearest_in(&cells, place_of[i as usize], reach)).collect();
+        for (&i, d) in open.iter().zip(&found) {
+            nearest[i as usize] = *d;
+        }
+        open.retain(|&i| nearest[i as usize].is_infinite());
+        reach *= 2.0;
+    }
+    nearest
+}
+
+fn nearest_in(cells: &Cells, place: u32, reach: f64) -> f64 {
+    let squares = cells.near(place, reach).filter(|&(other, _)| other != place).map(|(_, s)| s);
+    squares.fold(f64::INFINITY, f64::min).sqrt()
+}
+
+/// Spacing of the points were they spread evenly over the two longest sides of their box [m].
+fn first_reach(points: &[Vec3]) -> f64 {
+    let (lo, hi) = geom::grid::bounds(points);
+    let mut sides = [hi.x - lo.x, hi.y - lo.y, hi.z - lo.z];
+    sides.sort_by(f64::total_cmp);
+    let count = points.len() as f64;
+    let even = (sides[2] * sides[1].max(sides[2] / count) / count).sqrt();
+    let scale = lo.abs().max().max(hi.abs().max()).max(1e-9);
+    even.max(1e-12 * scale)
+}

@@ -1,0 +1,79 @@
+//! Lloyd's relaxation on the points of the cloud: each kept point moves to the input point nearest to the middle of its share.
+//!
+//! Starts from a Poisson-disk sample. Shares are sets of input points nearest to the same kept point; each counts by
+//! 1/(number of points nearer than the spacing), so that crowded places do not pull. Lloyd (1982), doi:10.1109/TIT.1982.1056489;
+//! snapping keeps every result an input point. Eight rounds: more bring out a lattice, and blue noise is lost.
+
+use crate::cells::Cells;
+use crate::{Sample, SampleError, Wish, amount};
+use geom::{Grid, Vec3};
+use rayon::prelude::*;
+
+const ROUNDS: usize = 8;
+
+pub(crate) fn relax(points: &[Vec3], forced: Option<&[bool]>, wish: &Wish) -> Result<Sample, SampleError> {
+    let mut sample = amount::poisson_of(points, forced, wish.amount, wish.seed)?;
+    let cells = Cells::new(points, sample.spacing);
+    let mut weight = vec![0.0; points.len()];
+    let counts = cells.map(|place| cells.near(place, sample.spacing).count());
+    for (place, count) in counts.into_iter().enumerate() {
+        weight[cells.order[place] as usize] = 1.0 / count as f64;
+    }
+    for _ in 0..ROUNDS {
+        let owner = owners(points, &sample.kept, sample.spacing);
+        let middles = middles(points, &weight, &owner, sample.kept.len());
+        let next = snap(points, &owner, &middles, &sample.kept, forced);
+        if next == sample.kept {
+            break;
+        }
+        sample.kept = next;
+    }
+    sample.kept.sort_unstable();
+    sample.kept.dedup();
+    Ok(sample)
+}
+
+/// Place in `kept` of the kept point nearest to each point.
+fn owners(points: &[Vec3], kept: &[u32], spacing: f64) -> Vec<u32> {
+    let chosen: Vec<Vec3> = kept.iter().map(|&i| points[i as usize]).collect();
+    let grid = Grid::new(&chosen, spacing);
+    let nearest = |p: &Vec3| {
+        let mut reach = spacing;
+        loop {
+            let distance = |k: u32| ((chosen[k as usize] - p).norm_squared(), k);
+            let best = grid.within(&chosen, *p, reach).map(distance).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            if let Some((_, k)) = best {
+                return k;
+            }
+            reach *= 2.0;
+        }
+    };
+    points.par_iter().map(nearest).collect()
+}
+
+fn middles(points: &[Vec3], weight: &[f64], owner: &[u32], count: usize) -> Vec<Vec3> {
+    let mut sums = vec![(Vec3::zeros(), 0.0); count];
+    for ((p, &w), &k) in points.iter().zip(weight).zip(owner) {
+        sums[k as usize].0 += p * w;
+        sums[k as usize].1 += w;
+    }
+    sums.into_iter().map(|(sum, w)| if w > 0.0 { sum / w } else { sum }).collect()
+}
+
+/// The point of each share that is nearest to its middle; a forced point stays.
+fn snap(
+    points: &[Vec3],
+    owner: &[u32],
+    middles: &[Vec3],
+    kept: &[u32],
+    forced: Option<&[bool]>,
+) -> Vec<u32> {
+    let mut best: Vec<(f64, u32)> = kept.iter().map(|&i| (f64::INFINITY, i)).collect();
+    for (i, (p, &k)) in points.iter().zip(owner).enumerate() {
+        let (k, off) = (k as usize, (p - middles[k as usize]).norm_squared());
+        if off < best[k].0 && !forced.is_some_and(|f| f[kept[k] as usize] || f[i]) {
+            best[k] = (off, i as u32);
+        }
+    }
+    best.into_iter().map(|(_, i)| i).collect()
+}
