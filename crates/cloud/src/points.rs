@@ -28,4 +28,16 @@ impl Cloud {
             ..*self
         }
     }
+
+    /// The points whose coordinates are all finite, and how many were not.
+    pub fn finite(self) -> (Cloud, usize) {
+        let is_finite = |p: &Vec3| p.x.is_finite() && p.y.is_finite() && p.z.is_finite();
+        let bad = self.points.iter().filter(|p| !is_finite(p)).count();
+        if bad == 0 {
+            return (self, 0);
+        }
+        let rows = (0u32..).zip(&self.points).filter(|(_, p)| is_finite(p)).map(|(i, _)| i);
+        let rows: Vec<u32> = rows.collect();
+        (self.select(&rows), bad)
+    }
 }

@@ -1,0 +1,129 @@
+//! Formats of clouds, told apart by their first bytes, never by the ending of a name.
+//!
+//! A format is its file here and its line in [`FORMATS`]; text without a mark of its own comes last.
+
+mod e57;
+mod las;
+mod pcd;
+mod ply;
+mod xyz;
+
+pub use ply::{read_mesh, to_ply, write_mesh, write_ply};
+
+use crate::Cloud;
+use std::io::Read;
+use stream::ply::PlyError;
+use stream::table::TableError;
+use thiserror::Error;
+
+/// One format.
+struct Format {
+    name: &'static str,
+    /// Whether these are its first bytes.
+    matches: fn(&[u8]) -> bool,
+    read: fn(Vec<u8>) -> Result<Cloud, ReadError>,
+}
+
+/// Every format that a cloud is read from.
+const FORMATS: [Format; 5] = [
+    Format { name: "PLY", matches: ply::matches, read: ply::read },
+    Format { name: "LAS/LAZ", matches: las::matches, read: las::read },
+    Format { name: "E57", matches: e57::matches, read: e57::read },
+    Format { name: "PCD", matches: pcd::matches, read: pcd::read },
+    Format { name: "XYZ/PTS", matches: xyz::matches, read: xyz::read },
+];
+
+/// Why bytes are no cloud.
+#[derive(Debug, Error)]
+#[allow(missing_docs)]
+pub enum ReadError {
+    #[error("cannot read")]
+    Io(#[source] std::io::Error),
+    #[error("nothing to read: the input has no byte; did the tool upstream fail?")]
+    Empty,
+    #[error("no known cloud format begins with {start}{hint}: give PLY, LAS, LAZ, E57, PCD or XYZ/PTS text")]
+    Unknown { start: String, hint: &'static str },
+    #[error("not a cloud")]
+    Ply(#[source] PlyError),
+    #[error("PLY: no element has the properties x, y, z: this is no cloud")]
+    NoPosition,
+    #[error("PLY: element '{element}' has x but no '{missing}'")]
+    HalfPosition { element: String, missing: &'static str },
+    #[error("PLY: face {face}: {what}")]
+    Face { face: usize, what: String },
+    #[error("{format}: {what}{}", at_point(*.point))]
+    Broken { format: &'static str, what: String, point: Option<u64> },
+    #[error("XYZ/PTS: line {line}: {what}: '{text}'")]
+    Text { line: usize, what: String, text: String },
+    #[error("{format}: columns cannot be put together")]
+    Table {
+        format: &'static str,
+        #[source]
+        source: TableError,
+    },
+    #[error("{points} points are more than one cloud can hold ({}): cut the scan in parts", u32::MAX - 1)]
+    TooMany { points: u64 },
+}
+
+fn at_point(point: Option<u64>) -> String {
+    point.map(|p| format!(" (at point {p})")).unwrap_or_default()
+}
+
+/// Reads a cloud to its end, whatever its format.
+///
+/// Points may be NaN where a scanner had no echo: see [`Cloud::finite`].
+///
+/// # Errors
+/// Content that is no cloud, or is cut off, with its place.
+pub fn read(mut from: impl Read) -> Result<Cloud, ReadError> {
+    let mut bytes = Vec::new();
+    from.read_to_end(&mut bytes).map_err(ReadError::Io)?;
+    from_bytes(bytes)
+}
+
+/// Reads a cloud that is in memory.
+///
+/// # Errors
+/// As [`read`].
+pub fn from_bytes(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
+    if bytes.is_empty() {
+        return Err(ReadError::Empty);
+    }
+    let Some(format) = FORMATS.iter().find(|f| (f.matches)(&bytes)) else {
+        let start: String =
+            bytes.iter().take(12).flat_map(|b| std::ascii::escape_default(*b)).map(char::from).collect();
+        return Err(ReadError::Unknown { start: format!("'{start}'"), hint: hint(&bytes) });
+    };
+    let cloud = (format.read)(bytes)?;
+    if cloud.points.len() >= u32::MAX as usize {
+        return Err(ReadError::TooMany { points: cloud.points.len() as u64 });
+    }
+    Ok(cloud)
+}
+
+/// The name of the format that `bytes` begin with.
+pub fn name_of(bytes: &[u8]) -> Option<&'static str> {
+    FORMATS.iter().find(|f| (f.matches)(bytes)).map(|f| f.name)
+}
+
+/// What else the bytes may be.
+fn hint(bytes: &[u8]) -> &'static str {
+    match bytes {
+        [0x1f, 0x8b, ..] => " (gzip: unpack it first, gunzip -c FILE |)",
+        [0x28, 0xb5, 0x2f, 0xfd, ..] => " (zstd: unpack it first, zstd -dc FILE |)",
+        [b'P', b'K', 3, 4, ..] => " (zip: unpack it first)",
+        [0x89, b'M', b'C', b'A', b'P', ..] => " (MCAP: walls or a run, which is no cloud)",
+        _ => "",
+    }
+}
+
+/// Runs a reader of another crate; a panic in it becomes an error.
+fn catch(
+    format: &'static str,
+    read: impl FnOnce() -> Result<Cloud, ReadError> + std::panic::UnwindSafe,
+) -> Result<Cloud, ReadError> {
+    std::panic::catch_unwind(read).unwrap_or_else(|_| {
+        let what = "the file is broken in a way its reader could not name: export it again".to_owned();
+        Err(ReadError::Broken { format, what, point: None })
+    })
+}

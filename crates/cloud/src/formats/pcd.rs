@@ -1,0 +1,121 @@
+//! PCD 0.7 (text, binary, compressed), by the `pcd-rs` crate.
+
+use super::{ReadError, catch};
+use crate::Cloud;
+use geom::Vec3;
+use pcd_rs::{DynReader, Field, ValueKind};
+use stream::{Table, Values};
+
+pub(super) fn matches(bytes: &[u8]) -> bool {
+    let head = &bytes[..bytes.len().min(1024)];
+    head.starts_with(b"# .PCD") || (head.starts_with(b"VERSION") && head.windows(6).any(|w| w == b"FIELDS"))
+}
+
+pub(super) fn read(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
+    catch("PCD", move || decode(&bytes))
+}
+
+fn broken(what: impl ToString, point: Option<u64>) -> ReadError {
+    ReadError::Broken { format: "PCD", what: what.to_string(), point }
+}
+
+fn decode(bytes: &[u8]) -> Result<Cloud, ReadError> {
+    let reader = DynReader::from_bytes(bytes).map_err(|e| broken(e, None))?;
+    let fields = reader.meta().field_defs.fields.clone();
+    let axis = |name: &str| fields.iter().position(|f| f.name == name && f.count == 1);
+    let (Some(x), Some(y), Some(z)) = (axis("x"), axis("y"), axis("z")) else {
+        let names: Vec<&str> = fields.iter().map(|f| f.name.as_str()).collect();
+        return Err(broken(format!("no fields x, y, z; there are: {}", names.join(" ")), None));
+    };
+    let promised = reader.meta().num_points;
+    let mut points = Vec::new();
+    let mut columns: Vec<Vec<Values>> =
+        fields.iter().map(|f| (0..f.count).map(|_| empty(f.kind)).collect()).collect();
+    for record in reader {
+        let record = record.map_err(|e| broken(e, Some(points.len() as u64)))?.0;
+        points.push(Vec3::from([x, y, z].map(|a| number(&record[a], 0))));
+        for (column, field) in columns.iter_mut().zip(&record) {
+            column.iter_mut().enumerate().for_each(|(i, values)| push(values, field, i));
+        }
+    }
+    if (points.len() as u64) < promised {
+        return Err(broken(
+            format!("{promised} points promised, {} there: it is cut off", points.len()),
+            None,
+        ));
+    }
+    let mut attributes = Table::with_rows(points.len());
+    for (f, (field, column)) in fields.iter().zip(columns).enumerate() {
+        if [x, y, z].contains(&f) || field.is_padding() {
+            continue;
+        }
+        for (name, values) in named(&field.name, column) {
+            attributes.push(&name, values).map_err(|source| ReadError::Table { format: "PCD", source })?;
+        }
+    }
+    let double = [x, y, z].iter().any(|&a| fields[a].kind != ValueKind::F32);
+    let position_column = [x, y, z].into_iter().min().unwrap_or(0).min(attributes.columns().len());
+    Ok(Cloud { points, attributes, double, position_column, comments: Vec::new() })
+}
+
+/// A field with several values becomes `name_0`, `name_1`…; packed `rgb` becomes red, green, blue.
+fn named(name: &str, mut column: Vec<Values>) -> Vec<(String, Values)> {
+    if column.len() == 1 && (name == "rgb" || name == "rgba") {
+        let packed: Option<Vec<u32>> = match &column[0] {
+            Values::F32(v) => Some(v.iter().map(|c| c.to_bits()).collect()),
+            Values::U32(v) => Some(v.clone()),
+            _ => None,
+        };
+        if let Some(packed) = packed {
+            let part = |shift: u32| Values::U8(packed.iter().map(|&c| (c >> shift) as u8).collect());
+            return vec![("red".into(), part(16)), ("green".into(), part(8)), ("blue".into(), part(0))];
+        }
+    }
+    if column.len() == 1 {
+        return column.pop().map(|values| (name.to_owned(), values)).into_iter().collect();
+    }
+    column.into_iter().enumerate().map(|(i, values)| (format!("{name}_{i}"), values)).collect()
+}
+
+fn empty(kind: ValueKind) -> Values {
+    match kind {
+        ValueKind::I8 => Values::I8(Vec::new()),
+        ValueKind::U8 => Values::U8(Vec::new()),
+        ValueKind::I16 => Values::I16(Vec::new()),
+        ValueKind::U16 => Values::U16(Vec::new()),
+        ValueKind::I32 => Values::I32(Vec::new()),
+        ValueKind::U32 => Values::U32(Vec::new()),
+        ValueKind::F32 => Values::F32(Vec::new()),
+        // Columns have no 64-bit integers; `double` is exact up to 2⁵³.
+        ValueKind::F64 | ValueKind::I64 | ValueKind::U64 => Values::F64(Vec::new()),
+    }
+}
+
+fn push(values: &mut Values, field: &Field, i: usize) {
+    match (values, field) {
+        (Values::I8(to), Field::I8(from)) => to.push(from[i]),
+        (Values::U8(to), Field::U8(from)) => to.push(from[i]),
+        (Values::I16(to), Field::I16(from)) => to.push(from[i]),
+        (Values::U16(to), Field::U16(from)) => to.push(from[i]),
+        (Values::I32(to), Field::I32(from)) => to.push(from[i]),
+        (Values::U32(to), Field::U32(from)) => to.push(from[i]),
+        (Values::F32(to), Field::F32(from)) => to.push(from[i]),
+        (Values::F64(to), from) => to.push(number(from, i)),
+        _ => {}
+    }
+}
+
+fn number(field: &Field, i: usize) -> f64 {
+    match field {
+        Field::I8(v) => v[i].into(),
+        Field::I16(v) => v[i].into(),
+        Field::I32(v) => v[i].into(),
+        Field::I64(v) => v[i] as f64,
+        Field::U8(v) => v[i].into(),
+        Field::U16(v) => v[i].into(),
+        Field::U32(v) => v[i].into(),
+        Field::U64(v) => v[i] as f64,
+        Field::F32(v) => v[i].into(),
+        Field::F64(v) => v[i],
+    }
+}
