@@ -1,0 +1,237 @@
+//! Values that a key may have.
+
+use crate::error::{SceneError, nearest};
+use crate::model::{Diameter, Model, OrAuto, Wall};
+use crate::text::Text;
+use std::fmt::Display;
+
+/// Refuses values, naming key, value, unit and cure.
+pub(crate) struct Check<'a> {
+    pub text: &'a Text,
+}
+
+type Checked = Result<(), SceneError>;
+
+impl Check<'_> {
+    /// The error for a key's value.
+    pub(crate) fn wrong(&self, key: &str, value: impl Display, why: &str, cure: &str) -> SceneError {
+        SceneError::Value {
+            place: self.text.place(key),
+            key: key.to_owned(),
+            value: value.to_string(),
+            why: why.to_owned(),
+            cure: cure.to_owned(),
+        }
+    }
+
+    /// A number above zero.
+    pub(crate) fn positive(&self, key: &str, value: f64, unit: &str) -> Checked {
+        if value > 0.0 && value.is_finite() {
+            return Ok(());
+        }
+        Err(self.wrong(key, format!("{value} {unit}"), "must be a finite number above 0", "give a positive value"))
+    }
+
+    fn positive_if(&self, key: &str, value: Option<f64>, unit: &str) -> Checked {
+        value.map_or(Ok(()), |v| self.positive(key, v, unit))
+    }
+
+    fn within(&self, key: &str, value: f64, low: f64, high: f64, unit: &str) -> Checked {
+        if (low..=high).contains(&value) {
+            return Ok(());
+        }
+        let cure = format!("give {low} to {high}{}{unit}", if unit.is_empty() { "" } else { " " });
+        Err(self.wrong(key, format!("{value} {unit}").trim_end(), "is outside the range", &cure))
+    }
+
+    fn finite(&self, key: &str, value: &[f64], unit: &str) -> Checked {
+        if value.iter().all(|v| v.is_finite()) {
+            return Ok(());
+        }
+        Err(self.wrong(key, format!("{value:?} {unit}"), "must be finite", "give numbers"))
+    }
+
+    fn diameter(&self, key: &str, d: Diameter) -> Checked {
+        self.positive(key, d.low, "m")?;
+        self.positive(key, d.high, "m")?;
+        if d.low > d.high {
+            let value = format!("[{}, {}] m", d.low, d.high);
+            return Err(self.wrong(key, value, "the range is upside down", "give [smallest, largest]"));
+        }
+        if d.high > 100.0 {
+            let value = format!("{} m", d.high);
+            return Err(self.wrong(key, value, "is larger than 100 m", "lengths are in metres: 5 mm is 0.005"));
+        }
+        Ok(())
+    }
+
+    fn length(&self, key: &str, value: OrAuto) -> Checked {
+        match value {
+            OrAuto::Auto => Ok(()),
+            OrAuto::Given(v) => self.positive(key, v, "m"),
+        }
+    }
+
+    /// One and only one of several keys.
+    fn one_of(&self, entry: &str, keys: &[(&str, bool)]) -> Checked {
+        let names = || keys.iter().map(|k| k.0).collect::<Vec<_>>().join(" or ");
+        let given: Vec<&str> = keys.iter().filter(|k| k.1).map(|k| k.0).collect();
+        match given[..] {
+            [_] => Ok(()),
+            [] => Err(self.wrong(entry, "(without)", &format!("{} is missing", names()), "add one of them")),
+            _ => Err(self.wrong(entry, given.join(" and "), "only one of them can be", "take the others out")),
+        }
+    }
+
+    /// Every value of a scene that can be judged by itself.
+    pub(crate) fn model(&self, m: &Model) -> Checked {
+        self.finite("gravity", &m.gravity, "m/s²")?;
+        self.positive_if("time.until", m.time.until, "s")?;
+        if let OrAuto::Given(dt) = m.time.dt {
+            self.positive("time.dt", dt, "s")?;
+        }
+        self.within("time.safety", m.time.safety, 1e-6, 1.0, "")?;
+        self.positive_if("output.every", m.output.every, "s")?;
+        self.positive_if("output.checkpoint", m.output.checkpoint, "s")?;
+        self.positive_if("neighbours.skin", m.neighbours.skin, "m")?;
+        self.positive_if("guards.overlap", m.guards.overlap, "")?;
+        self.positive_if("guards.motion", m.guards.motion, "")?;
+        self.materials(m)?;
+        self.contacts(m)?;
+        self.sources(m)?;
+        for (i, w) in m.wall.iter().enumerate() {
+            self.wall(&format!("wall.{i}"), w)?;
+        }
+        for (i, o) in m.outlet.iter().enumerate() {
+            self.length(&format!("outlet.{i}.length"), o.length)?;
+        }
+        for (i, o) in m.inlet.iter().enumerate() {
+            self.length(&format!("inlet.{i}.length"), o.length)?;
+        }
+        Ok(())
+    }
+
+    fn materials(&self, m: &Model) -> Checked {
+        for (i, material) in m.material.iter().enumerate() {
+            let key = |k: &str| format!("material.{i}.{k}");
+            if m.material[..i].iter().any(|o| o.name == material.name) {
+                let why = "another material has this name";
+                return Err(self.wrong(&key("name"), &material.name, why, "give every material its own name"));
+            }
+            if material.name.is_empty() || material.name == "*" {
+                return Err(self.wrong(&key("name"), &material.name, "is no name", "name the material"));
+            }
+            self.positive_if(&key("density"), material.density, "kg/m³")?;
+            self.positive(&key("young"), material.young, "Pa")?;
+            self.within(&key("poisson"), material.poisson, 0.0, 0.499, "")?;
+        }
+        Ok(())
+    }
+
+    fn contacts(&self, m: &Model) -> Checked {
+        for (i, c) in m.contact.iter().enumerate() {
+            let key = |k: &str| format!("contact.{i}.{k}");
+            self.within(&key("restitution"), c.restitution, 0.0, 1.0, "")?;
+            for (name, value) in
+                [("sliding_friction", c.sliding_friction), ("rolling_resistance", c.rolling_resistance)]
+            {
+                self.within(&key(name), value.unwrap_or(0.0), 0.0, 1e3, "")?;
+            }
+            self.positive_if(&key("stiffness"), c.stiffness, "N/m")?;
+            self.positive_if(&key("characteristic_velocity"), c.characteristic_velocity, "m/s")?;
+            self.positive_if(&key("tangential_ratio"), c.tangential_ratio, "")?;
+            let linear = [
+                ("stiffness", c.stiffness.is_some()),
+                ("characteristic_velocity", c.characteristic_velocity.is_some()),
+            ];
+            match c.law {
+                crate::model::Law::Hooke => self.one_of(&format!("contact.{i}"), &linear)?,
+                crate::model::Law::Hertz => {
+                    let also = ("tangential_ratio", c.tangential_ratio.is_some());
+                    if let Some((k, _)) = linear.iter().chain([&also]).find(|k| k.1) {
+                        let why = "law = \"hertz\" takes its stiffness from young and poisson";
+                        return Err(self.wrong(&key(k), "(given)", why, "take it out, or use law = \"hooke\""));
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn sources(&self, m: &Model) -> Checked {
+        for (i, f) in m.fill.iter().enumerate() {
+            let key = |k: &str| format!("fill.{i}.{k}");
+            self.diameter(&key("diameter"), f.diameter)?;
+            self.positive_if(&key("mass"), f.mass, "kg")?;
+            self.one_of(&format!("fill.{i}"), &[("mass", f.mass.is_some()), ("count", f.count.is_some())])?;
+            self.finite(&key("velocity"), &f.velocity, "m/s")?;
+        }
+        for (i, f) in m.insert.iter().enumerate() {
+            let key = |k: &str| format!("insert.{i}.{k}");
+            self.diameter(&key("diameter"), f.diameter)?;
+            self.positive_if(&key("rate"), f.rate, "kg/s")?;
+            self.positive_if(&key("rate_count"), f.rate_count, "1/s")?;
+            let rates = [("rate", f.rate.is_some()), ("rate_count", f.rate_count.is_some())];
+            self.one_of(&format!("insert.{i}"), &rates)?;
+            self.finite(&key("velocity"), &f.velocity, "m/s")?;
+            self.within(&key("from"), f.from, 0.0, f64::MAX, "s")?;
+            if f.until.is_some_and(|u| u.is_nan() || u <= f.from) {
+                let value = format!("{} s", f.until.unwrap_or(0.0));
+                return Err(self.wrong(&key("until"), value, "is not after 'from'", "give a later time"));
+            }
+        }
+        Ok(())
+    }
+
+    fn wall(&self, entry: &str, w: &Wall) -> Checked {
+        let kinds = [
+            ("source", w.source.is_some()),
+            ("plane", w.plane.is_some()),
+            ("mesh", w.mesh.is_some()),
+            ("box", w.cuboid.is_some()),
+        ];
+        if kinds.iter().any(|k| k.1) {
+            self.one_of(entry, &kinds)?;
+        }
+        if w.faces.is_some() && w.cuboid.is_none() {
+            let why = "only a box has faces";
+            return Err(self.wrong(&format!("{entry}.faces"), "(given)", why, "add box = [x0,y0,z0,x1,y1,z1]"));
+        }
+        if let Some(b) = w.cuboid {
+            self.finite(&format!("{entry}.box"), &b, "m")?;
+            if (0..3).any(|a| b[a] >= b[a + 3]) {
+                let why = "has no inside";
+                return Err(self.wrong(&format!("{entry}.box"), format!("{b:?} m"), why, "give the lowest corner, then the highest"));
+            }
+        }
+        let Some(motion) = &w.motion else { return Ok(()) };
+        let key = |k: &str| format!("{entry}.motion.{k}");
+        if let Some(r) = &motion.rotate {
+            self.finite(&key("rotate.about"), &r.about, "")?;
+            self.finite(&key("rotate.through"), &r.through, "m")?;
+            self.finite(&key("rotate.rpm"), &[r.rpm], "1/min")?;
+            if r.about == [0.0; 3] {
+                return Err(self.wrong(&key("rotate.about"), "[0, 0, 0]", "has no direction", "such as [0, 0, 1]"));
+            }
+        }
+        self.finite(&key("translate"), &motion.translate.unwrap_or_default(), "m/s")?;
+        if let Some(v) = &motion.vibrate {
+            self.finite(&key("vibrate.amplitude"), &v.amplitude, "m")?;
+            self.positive(&key("vibrate.frequency"), v.frequency, "Hz")?;
+        }
+        Ok(())
+    }
+
+    /// The index of a material, by name.
+    pub(crate) fn material(&self, key: &str, name: &str, known: &[dem::setup::Material]) -> Result<u16, SceneError> {
+        if let Some(at) = known.iter().position(|m| m.name == name) {
+            return Ok(at as u16);
+        }
+        let names = known.iter().map(|m| m.name.as_str());
+        let cure = match nearest(name, names.clone()) {
+            Some(near) => format!("did you mean '{near}'?"),
+            None => format!("known: {}", names.collect::<Vec<_>>().join(", ")),
+        };
+        Err(self.wrong(key, format!("\"{name}\""), "no [[material]] has this name", &cure))
+    }
+}

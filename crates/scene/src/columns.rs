@@ -1,0 +1,79 @@
+//! Columns of a table as vectors, with errors that name what is missing.
+
+use crate::error::SceneError;
+use geom::Vec3;
+use stream::Table;
+
+/// A table and the stream it came from.
+pub(crate) struct Columns<'a> {
+    pub name: &'a str,
+    pub table: &'a Table,
+}
+
+impl Columns<'_> {
+    /// The column, when there is one.
+    pub(crate) fn optional(&self, column: &str) -> Option<Vec<f64>> {
+        self.table.get(column).map(|v| v.to_f64())
+    }
+
+    /// The column; its numbers must be finite.
+    pub(crate) fn numbers(&self, column: &str) -> Result<Vec<f64>, SceneError> {
+        let Some(values) = self.optional(column) else {
+            let has: Vec<&str> = self.table.columns().iter().map(|c| c.name.as_str()).collect();
+            let why = format!("the column '{column}' is missing");
+            return Err(SceneError::file(self.name, why, format!("it has {}", has.join(", "))));
+        };
+        match values.iter().position(|v| !v.is_finite()) {
+            None => Ok(values),
+            Some(row) => {
+                let why = format!("row {row}: {column} = {} is not finite", values[row]);
+                Err(SceneError::file(self.name, why, "take the row out, or write the file again"))
+            }
+        }
+    }
+
+    /// Three columns as vectors.
+    pub(crate) fn vectors(&self, columns: [&str; 3]) -> Result<Vec<Vec3>, SceneError> {
+        let [x, y, z] = columns.map(|c| self.numbers(c));
+        let (x, y, z) = (x?, y?, z?);
+        Ok((0..x.len()).map(|i| Vec3::new(x[i], y[i], z[i])).collect())
+    }
+
+    /// Three columns as vectors; zeros when the first is missing.
+    pub(crate) fn vectors_or_zero(&self, columns: [&str; 3]) -> Result<Vec<Vec3>, SceneError> {
+        match self.table.get(columns[0]) {
+            Some(_) => self.vectors(columns),
+            None => Ok(vec![Vec3::zeros(); self.table.rows()]),
+        }
+    }
+
+    /// The column `radius`, or half of `diameter`; above zero.
+    pub(crate) fn radii(&self) -> Result<Vec<f64>, SceneError> {
+        let radii = match (self.table.get("radius"), self.optional("diameter")) {
+            (None, Some(d)) => d.iter().map(|d| d / 2.0).collect(),
+            _ => self.numbers("radius")?,
+        };
+        match radii.iter().position(|r| !(*r > 0.0 && r.is_finite())) {
+            None => Ok(radii),
+            Some(row) => {
+                let why = format!("row {row}: radius {} m must be above 0", radii[row]);
+                Err(SceneError::file(self.name, why, "take the row out, or write the file again"))
+            }
+        }
+    }
+
+    /// A column of whole numbers that are at most `most`.
+    pub(crate) fn indices(&self, column: &str, most: f64) -> Result<Option<Vec<u32>>, SceneError> {
+        if self.table.get(column).is_none() {
+            return Ok(None);
+        }
+        let values = self.numbers(column)?;
+        match values.iter().position(|v| v.fract() != 0.0 || *v < 0.0 || *v > most) {
+            None => Ok(Some(values.iter().map(|v| *v as u32).collect())),
+            Some(row) => {
+                let why = format!("row {row}: {column} = {} is no whole number of 0 to {most}", values[row]);
+                Err(SceneError::file(self.name, why, "write the file again"))
+            }
+        }
+    }
+}

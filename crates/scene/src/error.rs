@@ -1,0 +1,62 @@
+//! What a scene is refused for.
+
+use std::fmt;
+use thiserror::Error;
+
+/// A place in a scene file.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Place {
+    /// The file, as it was named.
+    pub file: String,
+    /// Line and column, from 1; `None` when the key is not written in the file.
+    pub at: Option<(usize, usize)>,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.at {
+            Some((line, column)) => write!(f, "{}:{line}:{column}", self.file),
+            None => f.write_str(&self.file),
+        }
+    }
+}
+
+/// Why a scene cannot be run.
+#[derive(Debug, Error)]
+#[allow(missing_docs)]
+pub enum SceneError {
+    #[error("{name}: cannot read the file")]
+    Read { name: String, source: std::io::Error },
+    #[error("{place}: {message}")]
+    Syntax { place: Place, message: String },
+    #[error("{place}: unknown key '{key}'{hint}")]
+    UnknownKey { place: Place, key: String, hint: String },
+    #[error("{place}: not available yet: '{key}'; {instead}")]
+    NotYet { place: Place, key: String, instead: &'static str },
+    #[error("{place}: {key} = {value}: {why}; {cure}")]
+    Value { place: Place, key: String, value: String, why: String, cure: String },
+    #[error("--set {text}: {why}")]
+    Override { text: String, why: String },
+    #[error("{name}: {why}; {cure}")]
+    File { name: String, why: String, cure: String },
+    #[error("{name}: cannot be read as {wanted}")]
+    Content {
+        name: String,
+        wanted: &'static str,
+        source: Box<dyn std::error::Error + Send + Sync + 'static>,
+    },
+}
+
+impl SceneError {
+    /// A file that holds something else than wanted.
+    pub(crate) fn file(name: &str, why: impl Into<String>, cure: impl Into<String>) -> SceneError {
+        SceneError::File { name: name.to_owned(), why: why.into(), cure: cure.into() }
+    }
+}
+
+/// The known name nearest to `name`, when one is near enough to be meant.
+pub(crate) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    let near = known.map(|k| (strsim::damerau_levenshtein(name, k), k)).min()?;
+    let longest = name.chars().count().max(near.1.chars().count());
+    (near.0 <= 2.max(longest / 2)).then_some(near.1)
+}

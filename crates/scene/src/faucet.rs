@@ -1,0 +1,251 @@
+//! `[[insert]]`: particles that come through a cross-section at a rate.
+//!
+//! The shape is a zone: particles are generated where its velocity enters it, keep that velocity through it and
+//! are free behind it. Seen from the moving particles, the places of one after the other are random and none
+//! touches another, because the distance along the velocity v of two that come Δt apart is v Δt.
+
+use crate::check::Check;
+use crate::error::SceneError;
+use crate::fill::{diameter, generator, unit, volume};
+use crate::model::{Diameter, Insert};
+use crate::room::{bounds, holds};
+use dem::setup::{Entry, Particle, Zone};
+use geom::{Plane, Shape, Vec3};
+use rand_pcg::Pcg64Mcg;
+use std::collections::VecDeque;
+
+/// Random places saturate at a solid fraction of 0.38 in space; near it, tries become many.
+const DENSEST: f64 = 0.3;
+const TRIES: usize = 20_000;
+
+/// A faucet that gives its particles one after the other, in the order of their times.
+#[derive(Debug, Clone)]
+pub(crate) struct Faucet {
+    key: String,
+    shape: Shape,
+    middle: f64,
+    frame: [Vec3; 3],
+    low: [f64; 2],
+    high: [f64; 2],
+    start: f64,
+    velocity: Vec3,
+    diameter: Diameter,
+    material: (u16, f64),
+    rate: Rate,
+    until: f64,
+    time: f64,
+    count: u32,
+    first_id: u32,
+    inlet: u32,
+    random: Pcg64Mcg,
+    recent: VecDeque<(Vec3, f64)>,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Rate {
+    Mass(f64),
+    Count(f64),
+}
+
+impl Faucet {
+    /// A faucet and its zone.
+    ///
+    /// # Errors
+    /// A shape that is too thin, has no end, or is too narrow for the rate.
+    pub(crate) fn new(
+        check: &Check,
+        index: usize,
+        entry: &Insert,
+        shape: Shape,
+        material: (u16, f64),
+        ids: (u32, u32),
+    ) -> Result<(Faucet, Zone), SceneError> {
+        let key = |k: &str| format!("insert.{index}.{k}");
+        let velocity = Vec3::from(entry.velocity);
+        let speed = velocity.norm();
+        if speed == 0.0 {
+            let cure = "give the velocity that particles leave the shape with";
+            return Err(check.wrong(&key("velocity"), "0 m/s", "nothing would come out", cure));
+        }
+        let Some((low, high)) = bounds(&shape) else {
+            let why = "has no end: only box, sphere and cylinder (without '!') can be a faucet";
+            return Err(check.wrong(&key("shape"), &entry.shape, why, "use one of these"));
+        };
+        let axis = velocity / speed;
+        let across = axis.cross(&if axis.x.abs() < 0.9 { Vec3::x() } else { Vec3::y() }).normalize();
+        let frame = [axis, across, axis.cross(&across)];
+        let range = |n: &Vec3| extent(n, &low, &high);
+        let [along, one, two] = [range(&frame[0]), range(&frame[1]), range(&frame[2])];
+        let thickness = along.1 - along.0;
+        if thickness <= entry.diameter.high {
+            let why = format!("is {thickness} m thick along the velocity, and the largest diameter is {} m", entry.diameter.high);
+            let cure = format!("make it at least {} m thick", 1.2 * entry.diameter.high);
+            return Err(check.wrong(&key("shape"), &entry.shape, &why, &cure));
+        }
+        let rate = match (entry.rate, entry.rate_count) {
+            (Some(mass), _) => Rate::Mass(mass),
+            (None, count) => Rate::Count(count.unwrap_or(0.0)),
+        };
+        let faucet = Faucet {
+            key: format!("insert.{index}"),
+            shape,
+            middle: (along.0 + along.1) / 2.0,
+            frame,
+            low: [one.0, two.0],
+            high: [one.1, two.1],
+            start: along.0,
+            velocity,
+            diameter: entry.diameter,
+            material,
+            rate,
+            until: entry.until.unwrap_or(f64::INFINITY),
+            time: entry.from,
+            count: 0,
+            first_id: ids.0,
+            inlet: ids.1,
+            random: generator(entry.seed, 2, index as u64),
+            recent: VecDeque::new(),
+        };
+        faucet.check_rate(check, index)?;
+        let point = frame[0] * along.1 + frame[1] * ((one.0 + one.1) / 2.0) + frame[2] * ((two.0 + two.1) / 2.0);
+        let plane = Plane::new(point, axis).map_err(|e| check.wrong(&key("velocity"), speed, &e.to_string(), "change it"))?;
+        Ok((faucet, Zone { plane, length: thickness }))
+    }
+
+    /// Refuses a rate that needs more room than the cross-section has.
+    fn check_rate(&self, check: &Check, index: usize) -> Result<(), SceneError> {
+        let radius = self.diameter.high / 2.0;
+        let mut random = generator(0, 3, index as u64);
+        let inside = (0..10_000).filter(|_| self.candidate(radius, &mut random).is_some()).count() as f64 / 1e4;
+        // The section that spheres fill is wider than that of their centres by their radius.
+        let area = inside * (0..2).map(|a| self.high[a] - self.low[a]).product::<f64>();
+        let mean = volume(self.diameter.low / 2.0) + volume(radius);
+        let (flow, written) = match self.rate {
+            Rate::Mass(rate) => (rate / self.material.1, format!("{rate} kg/s")),
+            Rate::Count(rate) => (rate * mean / 2.0, format!("{rate} 1/s")),
+        };
+        let fraction = flow / (area * self.velocity.norm());
+        if fraction <= DENSEST {
+            return Ok(());
+        }
+        let key = if matches!(self.rate, Rate::Mass(_)) { "rate" } else { "rate_count" };
+        let why = if inside == 0.0 {
+            "no particle fits into the cross-section of the shape".to_owned()
+        } else {
+            format!("would fill {:.0} % of the room that passes ({:.3e} m² at {} m/s)", 100.0 * fraction, area, self.velocity.norm())
+        };
+        let cure = format!("at most {:.0} % can be: a lower rate, a wider shape or a higher velocity", 100.0 * DENSEST);
+        Err(check.wrong(&format!("{}.{key}", self.key), written, &why, &cure))
+    }
+
+    /// A place across the flow that holds a sphere.
+    fn candidate(&self, radius: f64, random: &mut Pcg64Mcg) -> Option<Vec3> {
+        let [u, w] = [0, 1].map(|a| self.low[a] + (self.high[a] - self.low[a]) * unit(random));
+        let across = self.frame[1] * u + self.frame[2] * w;
+        let inside = across + self.frame[0] * self.middle;
+        holds(&self.shape, &inside, radius).then_some(across)
+    }
+
+    /// Time of the next particle [s]; `None` when the faucet is closed for good.
+    pub(crate) fn next_time(&self) -> Option<f64> {
+        (self.time < self.until).then_some(self.time)
+    }
+
+    /// The next particle.
+    ///
+    /// # Errors
+    /// No room is found.
+    pub(crate) fn next(&mut self) -> Result<Option<Entry>, SceneError> {
+        let Some(time) = self.next_time() else { return Ok(None) };
+        let mut random = self.random.clone();
+        let radius = diameter(self.diameter, &mut random) / 2.0;
+        let behind = self.frame[0] * (-self.velocity.norm() * time);
+        let reach = self.velocity.norm() * time;
+        // Those further ahead than the largest diameter touch nothing that comes from now on.
+        while self.recent.front().is_some_and(|(p, _)| p.dot(&self.frame[0]) + reach > self.diameter.high) {
+            self.recent.pop_front();
+        }
+        let found = (0..TRIES).find_map(|_| {
+            let across = self.candidate(radius, &mut random)?;
+            let moving = across + behind;
+            let free = |(p, r): &(Vec3, f64)| (p - moving).norm_squared() >= (r + radius) * (r + radius);
+            self.recent.iter().all(free).then_some(across)
+        });
+        self.random = random;
+        let Some(across) = found else {
+            let why = format!("no room for a particle of diameter {} m at {time} s", 2.0 * radius);
+            return Err(SceneError::file(&self.key, why, "use a lower rate, a wider shape or a higher velocity"));
+        };
+        self.recent.push_back((across + behind, radius));
+        let step = match self.rate {
+            Rate::Mass(rate) => volume(radius) * self.material.1 / rate,
+            Rate::Count(rate) => 1.0 / rate,
+        };
+        self.time += step;
+        let id = self.first_id.wrapping_add(self.count);
+        self.count += 1;
+        let position = across + self.frame[0] * self.start;
+        let (velocity, spin) = (self.velocity, Vec3::zeros());
+        let particle = Particle { id, material: self.material.0, radius, position, velocity, spin };
+        Ok(Some(Entry { time, inlet: self.inlet, particle }))
+    }
+}
+
+/// The range that a box covers along a direction.
+fn extent(n: &Vec3, low: &Vec3, high: &Vec3) -> (f64, f64) {
+    let (middle, half) = ((low + high) / 2.0, (high - low) / 2.0);
+    let reach: f64 = (0..3).map(|a| (n[a] * half[a]).abs()).sum();
+    (n.dot(&middle) - reach, n.dot(&middle) + reach)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::text::Text;
+
+    fn faucet(rate: f64) -> Result<Faucet, SceneError> {
+        let text = Text::new("s", String::new());
+        let shape = "cylinder:0,0,1,0,0,1.03,0.05";
+        let entry = Insert {
+            material: "m".into(),
+            shape: shape.into(),
+            diameter: Diameter { low: 0.01, high: 0.02 },
+            velocity: [0.0, 0.0, -1.0],
+            rate: Some(rate),
+            rate_count: None,
+            from: 0.0,
+            until: Some(1.0),
+            seed: 0,
+        };
+        let made = Faucet::new(&Check { text: &text }, 0, &entry, shape.parse().unwrap(), (0, 1000.0), (0, 0));
+        made.map(|(faucet, zone)| {
+            assert!((zone.length - 0.03).abs() < 1e-12 && (zone.plane.point.z - 1.0).abs() < 1e-12);
+            faucet
+        })
+    }
+
+    #[test]
+    fn a_faucet_gives_its_rate_and_nothing_overlaps_on_the_way() {
+        let mut faucet = faucet(0.8).unwrap();
+        let mut all: Vec<Entry> = Vec::new();
+        while let Some(entry) = faucet.next().unwrap() {
+            assert!((entry.particle.position.z - 1.03).abs() < 1e-12);
+            all.push(entry);
+        }
+        let mass: f64 = all.iter().map(|e| 1000.0 * volume(e.particle.radius)).sum();
+        assert!((mass - 0.8).abs() < 0.01, "{mass} kg in 1 s");
+        for (i, a) in all.iter().enumerate() {
+            for b in &all[..i] {
+                assert!(a.time >= b.time);
+                let apart = a.particle.position - b.particle.position - b.particle.velocity * (a.time - b.time);
+                assert!(apart.norm() >= a.particle.radius + b.particle.radius - 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn a_rate_that_does_not_fit_is_refused() {
+        let message = faucet(8.0).unwrap_err().to_string();
+        assert!(message.contains("insert.0.rate = 8 kg/s") && message.contains("at most 30 %"), "{message}");
+    }
+}

@@ -1,0 +1,105 @@
+//! Streams that a run is given: walls or an inlet, told apart by what they hold.
+
+use crate::crossings::{CROSSINGS, SIZES, Sizes, WATERMARK, topic};
+use crate::error::SceneError;
+use crate::inlet::{INLET, InletStream, Source, zone_from_map};
+use crate::material_info::{self, MATERIALS, MaterialInfo};
+use crate::wall_file::WallFile;
+use stream::mcap::{Event, McapError, Reader};
+
+/// Metadata record that every run has.
+pub const SCENE: &str = "scene";
+
+/// A stream, as far as it had to be read to know what it is.
+pub enum Input {
+    /// Wall spheres; read whole.
+    Walls(WallFile),
+    /// Recorded particles; read as the run needs them.
+    Inlet(Box<InletStream>),
+}
+
+impl Input {
+    /// Opens a stream under the name that messages use.
+    ///
+    /// # Errors
+    /// A stream that breaks off, or holds neither walls nor crossings.
+    pub fn open(name: &str, source: Source) -> Result<Input, SceneError> {
+        let mut reader = Reader::new(source);
+        let (mut zone, mut sizes) = (None, None);
+        let mut materials: Vec<MaterialInfo> = Vec::new();
+        loop {
+            let Some(event) = reader.next() else {
+                return Err(SceneError::file(name, "holds no message", "give walls (wallgen) or an inlet (stage-replay)"));
+            };
+            let event = event.map_err(|e| broken(name, e))?;
+            let Event::Metadata { name: record, map } = &event else {
+                return Input::by_topic(name, reader, event, zone, sizes, materials);
+            };
+            match record.as_str() {
+                MATERIALS => materials = material_info::from_map(name, map)?,
+                SIZES => sizes = Some(Sizes::from_map(name, map)?),
+                SCENE => {
+                    let why = "is a run, neither walls nor an inlet";
+                    return Err(SceneError::file(name, why, "pass it through stage-replay to let its particles in"));
+                }
+                // The last record of an inlet: from here on, messages may come as late as a run upstream makes them.
+                INLET => {
+                    zone = Some(zone_from_map(name, INLET, map)?);
+                    return Input::inlet(name, reader, None, zone, sizes, materials);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn by_topic(
+        name: &str,
+        mut reader: Reader<Source>,
+        first: Event,
+        zone: Option<dem::setup::Zone>,
+        sizes: Option<Sizes>,
+        materials: Vec<MaterialInfo>,
+    ) -> Result<Input, SceneError> {
+        match (topic(&first).unwrap_or_default(), &first) {
+            (CROSSINGS | WATERMARK, _) => Input::inlet(name, reader, Some(first), zone, sizes, materials),
+            ("/walls", Event::Points { table, .. }) => {
+                let walls = WallFile::new(name, table, materials)?;
+                // To the end, where the record is that tells a whole stream from a broken one.
+                for event in reader.by_ref() {
+                    let event = event.map_err(|e| broken(name, e))?;
+                    if topic(&event) == Some("/walls") {
+                        let why = "has walls at several times";
+                        return Err(SceneError::file(name, why, "give still walls, and their motion in the scene"));
+                    }
+                }
+                Ok(Input::Walls(walls))
+            }
+            (other, _) => {
+                let why = format!("begins with messages on '{other}', neither /walls nor /crossings");
+                Err(SceneError::file(name, why, "give walls (wallgen) or an inlet (stage-replay)"))
+            }
+        }
+    }
+
+    fn inlet(
+        name: &str,
+        reader: Reader<Source>,
+        first: Option<Event>,
+        zone: Option<dem::setup::Zone>,
+        sizes: Option<Sizes>,
+        materials: Vec<MaterialInfo>,
+    ) -> Result<Input, SceneError> {
+        let missing = |record: &str, what: &str| {
+            SceneError::file(name, format!("the record '{record}' ({what}) is missing"), "write it with stage-replay")
+        };
+        let sizes = sizes.ok_or_else(|| missing(SIZES, "range of the radii"))?;
+        if materials.is_empty() {
+            return Err(missing(MATERIALS, "names of the materials"));
+        }
+        Ok(Input::Inlet(Box::new(InletStream::new(name, reader, (zone, sizes), materials, first)?)))
+    }
+}
+
+fn broken(name: &str, error: McapError) -> SceneError {
+    SceneError::Content { name: name.to_owned(), wanted: "walls or an inlet", source: error.into() }
+}

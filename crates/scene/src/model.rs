@@ -1,0 +1,369 @@
+//! The keys of a scene, as they are written.
+
+use serde::Deserialize;
+
+/// A scene; see CLI.md of the project for an example. SI units.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Model {
+    /// Acceleration of free fall [m/s²]; absent: none.
+    #[serde(default)]
+    pub gravity: [f64; 3],
+    /// Id of the first particle that the scene itself makes; particles of an inlet keep theirs.
+    #[serde(default)]
+    pub first_id: u32,
+    /// Time.
+    pub time: Time,
+    /// What is written, and when.
+    #[serde(default)]
+    pub output: Output,
+    /// Extent.
+    #[serde(default)]
+    pub domain: Domain,
+    /// Search for neighbours.
+    #[serde(default)]
+    pub neighbours: Neighbours,
+    /// When the run is stopped.
+    #[serde(default)]
+    pub guards: Guards,
+    /// Materials.
+    #[serde(default)]
+    pub material: Vec<Material>,
+    /// Laws between materials.
+    #[serde(default)]
+    pub contact: Vec<Contact>,
+    /// Shapes filled with particles at t = 0.
+    #[serde(default)]
+    pub fill: Vec<Fill>,
+    /// Particles from files.
+    #[serde(default)]
+    pub particles: Vec<Particles>,
+    /// Faucets.
+    #[serde(default)]
+    pub insert: Vec<Insert>,
+    /// Walls.
+    #[serde(default)]
+    pub wall: Vec<Wall>,
+    /// Storage planes with their zones.
+    #[serde(default)]
+    pub outlet: Vec<Outlet>,
+    /// Zones that recorded particles enter by.
+    #[serde(default)]
+    pub inlet: Vec<Inlet>,
+}
+
+/// `[time]`
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Time {
+    /// End of the run [s]; may come from `--until`.
+    pub until: Option<f64>,
+    /// Step.
+    #[serde(default)]
+    pub dt: OrAuto,
+    /// Share of the critical step when `dt` is "auto" [–].
+    #[serde(default = "safety")]
+    pub safety: f64,
+}
+
+fn safety() -> f64 {
+    0.2
+}
+
+/// A number, or "auto".
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum OrAuto {
+    /// Chosen by the program.
+    #[default]
+    Auto,
+    /// As given.
+    Given(f64),
+}
+
+/// `[output]`
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Output {
+    /// Time between frames [s]; absent: a hundredth of the run.
+    pub every: Option<f64>,
+    /// Time between checkpoints [s]; absent: one at the end.
+    pub checkpoint: Option<f64>,
+    /// Whether the energy ledger is kept and written.
+    #[serde(default)]
+    pub energy: bool,
+    /// Type of the numbers in frames.
+    #[serde(default)]
+    pub precision: Precision,
+}
+
+impl Default for Output {
+    fn default() -> Output {
+        Output { every: None, checkpoint: None, energy: false, precision: Precision::F64 }
+    }
+}
+
+/// Type of the numbers in frames; checkpoints and crossings are always exact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Precision {
+    /// Double.
+    #[default]
+    F64,
+    /// Single.
+    F32,
+}
+
+/// `[domain]`
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Domain {
+    /// Periodic axes.
+    #[serde(default)]
+    pub periodic: Vec<Axis>,
+    /// Lowest corner [m].
+    pub low: Option<[f64; 3]>,
+    /// Highest corner [m].
+    pub high: Option<[f64; 3]>,
+}
+
+/// An axis of space.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[allow(missing_docs)]
+pub enum Axis {
+    X,
+    Y,
+    Z,
+}
+
+/// `[neighbours]`
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Neighbours {
+    /// Neighbours are listed up to this gap [m]; absent: chosen.
+    pub skin: Option<f64>,
+}
+
+/// `[guards]`
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Guards {
+    /// Largest overlap, as a share of the smaller radius [–].
+    pub overlap: Option<f64>,
+    /// Largest motion in one step, as a share of the radius [–].
+    pub motion: Option<f64>,
+}
+
+/// `[[material]]`
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    /// Name.
+    pub name: String,
+    /// Density [kg/m³]; walls need none.
+    pub density: Option<f64>,
+    /// Young's modulus [Pa].
+    pub young: f64,
+    /// Poisson's ratio [–].
+    pub poisson: f64,
+}
+
+/// `[[contact]]`
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Contact {
+    /// Two names of materials; "*" stands for every one.
+    pub between: [String; 2],
+    /// Normal law.
+    #[serde(default)]
+    pub law: Law,
+    /// k_n of "hooke" [N/m].
+    pub stiffness: Option<f64>,
+    /// Speed of impact at which "hooke" is as deep as "hertz" [m/s]; in place of `stiffness`.
+    pub characteristic_velocity: Option<f64>,
+    /// k_t/k_n of "hooke" [–].
+    pub tangential_ratio: Option<f64>,
+    /// Restitution [–].
+    pub restitution: f64,
+    /// μ [–]; absent: frictionless.
+    pub sliding_friction: Option<f64>,
+    /// μ_r [–]; absent: none.
+    pub rolling_resistance: Option<f64>,
+}
+
+/// Normal law of a contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Law {
+    /// Hertz–Mindlin.
+    #[default]
+    Hertz,
+    /// Linear.
+    Hooke,
+}
+
+/// One diameter or a range [m].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Diameter {
+    /// Smallest [m].
+    pub low: f64,
+    /// Largest [m].
+    pub high: f64,
+}
+
+/// `[[fill]]`
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Fill {
+    /// Material.
+    pub material: String,
+    /// Where; spheres lie wholly inside.
+    pub shape: String,
+    /// Diameters, uniform in the range [m].
+    pub diameter: Diameter,
+    /// Mass [kg]; this or `count`.
+    pub mass: Option<f64>,
+    /// Number; this or `mass`.
+    pub count: Option<u64>,
+    /// Velocity at t = 0 [m/s].
+    #[serde(default)]
+    pub velocity: [f64; 3],
+    /// Seed of the random numbers.
+    #[serde(default)]
+    pub seed: u64,
+}
+
+/// `[[particles]]`
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Particles {
+    /// CSV, PLY or run MCAP (its last frame).
+    pub source: String,
+    /// Material of all; needed unless the file is a run, which names its own.
+    pub material: Option<String>,
+}
+
+/// `[[insert]]`
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Insert {
+    /// Material.
+    pub material: String,
+    /// Cross-section, thicker along the velocity than the largest diameter.
+    pub shape: String,
+    /// Diameters, uniform in the range [m].
+    pub diameter: Diameter,
+    /// Velocity [m/s]; particles keep it until they leave the shape.
+    pub velocity: [f64; 3],
+    /// Rate [kg/s]; this or `rate_count`.
+    pub rate: Option<f64>,
+    /// Rate [1/s]; this or `rate`.
+    pub rate_count: Option<f64>,
+    /// When it opens [s].
+    #[serde(default)]
+    pub from: f64,
+    /// When it closes [s]; absent: never.
+    pub until: Option<f64>,
+    /// Seed of the random numbers.
+    #[serde(default)]
+    pub seed: u64,
+}
+
+/// `[[wall]]`: one of `source`, `plane`, `mesh`, `box`, or none for walls of the command line.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Wall {
+    /// Name, for messages.
+    pub name: Option<String>,
+    /// Wall spheres: a walls MCAP.
+    pub source: Option<String>,
+    /// Unbounded plane; its normal points to the particles.
+    pub plane: Option<String>,
+    /// Triangles: a PLY file.
+    pub mesh: Option<String>,
+    /// Planes that look inward: lowest, highest corner [m].
+    #[serde(rename = "box")]
+    pub cuboid: Option<[f64; 6]>,
+    /// Which faces of the box there are; absent: all six.
+    pub faces: Option<Vec<Face>>,
+    /// Material; walls of an MCAP name their own.
+    pub material: Option<String>,
+    /// Motion; absent: at rest.
+    pub motion: Option<Motion>,
+}
+
+/// A face of a box.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[allow(missing_docs)]
+pub enum Face {
+    #[serde(rename = "x-")]
+    LowX,
+    #[serde(rename = "x+")]
+    HighX,
+    #[serde(rename = "y-")]
+    LowY,
+    #[serde(rename = "y+")]
+    HighY,
+    #[serde(rename = "z-")]
+    LowZ,
+    #[serde(rename = "z+")]
+    HighZ,
+}
+
+/// Motion of a wall.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Motion {
+    /// Turn.
+    pub rotate: Option<Rotate>,
+    /// Shift [m/s].
+    pub translate: Option<[f64; 3]>,
+    /// Vibration.
+    pub vibrate: Option<Vibrate>,
+}
+
+/// A turn about a fixed axis.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Rotate {
+    /// Direction of the axis, right-handed.
+    pub about: [f64; 3],
+    /// A point of the axis [m].
+    pub through: [f64; 3],
+    /// Turns per minute.
+    pub rpm: f64,
+}
+
+/// A harmonic vibration.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Vibrate {
+    /// Amplitude and direction [m].
+    pub amplitude: [f64; 3],
+    /// Frequency [Hz].
+    pub frequency: f64,
+}
+
+/// `[[outlet]]`
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Outlet {
+    /// Storage plane, its normal in the direction of flow.
+    pub plane: String,
+    /// L1 [m]; "auto" is 1.2 times the largest diameter.
+    #[serde(default)]
+    pub length: OrAuto,
+}
+
+/// `[[inlet]]`
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Inlet {
+    /// Calculation plane, its normal in the direction of flow.
+    pub plane: String,
+    /// L2 [m]; "auto" is what the recorded stream was written with.
+    #[serde(default)]
+    pub length: OrAuto,
+    /// Inlet MCAP; absent: given on the command line.
+    pub source: Option<String>,
+}

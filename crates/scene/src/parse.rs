@@ -1,0 +1,100 @@
+//! From text to keys, with errors that name the place and the nearest known key.
+
+use crate::error::{SceneError, nearest};
+use crate::model::Model;
+use crate::text::Text;
+
+/// What scenes will say one day, and what to do until then.
+const NOT_YET: &[(&str, &str)] = &[
+    ("bond", "use 'contact' laws without bonds"),
+    ("bonds", "use 'contact' laws without bonds"),
+    ("clump", "use spheres"),
+    ("clumps", "use spheres"),
+    ("polyhedron", "use spheres"),
+    ("cohesion", "leave it out: contacts only push"),
+    ("twisting", "use rolling_resistance"),
+    ("twisting_resistance", "use rolling_resistance"),
+    ("servo", "move the wall by 'motion'"),
+    ("sleep", "leave it out: every particle is moved at every step"),
+    ("drag", "leave it out"),
+    ("buoyancy", "lower gravity by hand"),
+    ("temperature", "leave it out"),
+    ("wear", "leave it out"),
+    ("roughness", "give it to wallgen --roughness"),
+    ("test", "leave it out: the centre of a particle is tested at the plane"),
+];
+
+/// Reads a scene.
+///
+/// # Errors
+/// Anything that is no TOML, an unknown key, a value of the wrong type.
+pub(crate) fn parse(text: &Text) -> Result<Model, SceneError> {
+    toml::from_str::<Model>(&text.toml).map_err(|e| {
+        let place = text.at(e.span().map(|s| s.start));
+        let message = e.message().trim();
+        match message.strip_prefix("unknown field `").and_then(|rest| rest.split_once('`')) {
+            Some((key, rest)) => unknown_key(place, key, rest),
+            None => {
+                let hint = variant_hint(message).map_or(String::new(), |h| format!("; did you mean '{h}'?"));
+                SceneError::Syntax { place, message: format!("{}{hint}", message.replace('`', "'")) }
+            }
+        }
+    })
+}
+
+fn unknown_key(place: crate::error::Place, key: &str, expected: &str) -> SceneError {
+    if let Some((key, instead)) = NOT_YET.iter().find(|(k, _)| *k == key) {
+        return SceneError::NotYet { place, key: (*key).to_owned(), instead };
+    }
+    let known: Vec<&str> = quoted(expected).collect();
+    let hint = match nearest(key, known.iter().copied()) {
+        Some(near) => format!("; did you mean '{near}'?"),
+        None => format!("; known here: {}", known.join(", ")),
+    };
+    SceneError::UnknownKey { place, key: key.to_owned(), hint }
+}
+
+/// The nearest of the words that serde says it expected.
+fn variant_hint(message: &str) -> Option<&str> {
+    let (wrong, rest) = message.strip_prefix("unknown variant `")?.split_once('`')?;
+    nearest(wrong, quoted(rest))
+}
+
+/// The words between back quotes.
+fn quoted(text: &str) -> impl Iterator<Item = &str> {
+    text.split('`').skip(1).step_by(2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refused(toml: &str) -> String {
+        parse(&Text::new("s.toml", toml.to_owned())).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn unknown_keys_name_place_and_nearest() {
+        let message = refused("[time]\nuntil = 1\nsaftey = 0.1\n");
+        assert_eq!(message, "s.toml:3:1: unknown key 'saftey'; did you mean 'safety'?");
+        let message = refused("[time]\nuntil = 1\n[[contact]]\nbetween = [\"*\", \"*\"]\nrestitution = 1\nslidingfriction = 1");
+        assert!(message.contains("s.toml:6:1") && message.contains("'sliding_friction'"), "{message}");
+        assert!(refused("[time]\nzzzzzzzzzzzz = 1").contains("known here: until, dt"));
+    }
+
+    #[test]
+    fn wrong_types_name_the_place() {
+        let message = refused("[time]\nuntil = \"long\"");
+        assert!(message.starts_with("s.toml:2:9: ") && message.contains("f64"), "{message}");
+        assert!(refused("[time]\ndt = \"fast\"").contains("\"auto\" or a number"));
+        let message = refused("[time]\n[[contact]]\nbetween=[\"*\",\"*\"]\nrestitution=1\nlaw=\"herz\"");
+        assert!(message.contains("did you mean 'hertz'?"), "{message}");
+        assert!(refused("[time\n").starts_with("s.toml:1:"));
+    }
+
+    #[test]
+    fn later_features_are_refused_by_name() {
+        let message = refused("[time]\n[[bond]]\nstrength = 1");
+        assert!(message.contains("not available yet: 'bond'"), "{message}");
+    }
+}

@@ -1,0 +1,97 @@
+//! Room for whole spheres inside a shape.
+
+use geom::{Shape, Vec3, shape::Solid};
+
+/// The corners (lowest, highest) [m] of a shape that has an end; `None` for one that has none.
+pub(crate) fn bounds(shape: &Shape) -> Option<(Vec3, Vec3)> {
+    if shape.outside {
+        return None;
+    }
+    match &shape.solid {
+        Solid::Box(low, high) => Some((*low, *high)),
+        Solid::Sphere(centre, r) => Some((centre.add_scalar(-r), centre.add_scalar(*r))),
+        Solid::Cylinder(a, b, r) => {
+            let axis = (b - a).normalize();
+            let reach = axis.map(|c| r * (1.0 - c * c).max(0.0).sqrt());
+            Some((a.inf(b) - reach, a.sup(b) + reach))
+        }
+        Solid::Halfspace(_) | Solid::Prism(_) | Solid::Mesh(_) => None,
+    }
+}
+
+/// Whether a whole sphere lies inside the shape.
+pub(crate) fn holds(shape: &Shape, centre: &Vec3, radius: f64) -> bool {
+    match (&shape.solid, shape.outside) {
+        (Solid::Box(low, high), false) => {
+            (0..3).all(|a| low[a] + radius <= centre[a] && centre[a] <= high[a] - radius)
+        }
+        (Solid::Sphere(middle, r), false) => (centre - middle).norm() + radius <= *r,
+        (Solid::Cylinder(a, b, r), false) => {
+            let length = (b - a).norm();
+            let along = (centre - a).dot(&(b - a)) / length;
+            let out = (centre - a - (b - a) * (along / length)).norm();
+            (radius..=length - radius).contains(&along) && out + radius <= *r
+        }
+        _ => shape.contains(centre),
+    }
+}
+
+/// Spheres sorted into cells as they come, to see at once whether another one fits between them.
+pub(crate) struct Occupied {
+    low: Vec3,
+    cell: f64,
+    count: [usize; 3],
+    /// Last sphere of each cell, and for each sphere the one before it in its cell.
+    last: Vec<u32>,
+    before: Vec<u32>,
+    spheres: Vec<(Vec3, f64)>,
+}
+
+const NONE: u32 = u32::MAX;
+
+impl Occupied {
+    /// No spheres yet, of at most this radius, between two corners [m].
+    pub(crate) fn new(low: Vec3, high: Vec3, largest: f64) -> Occupied {
+        let size = high - low;
+        // A very large empty shape gets larger cells rather than more of them than memory has room for.
+        let cell = (2.0 * largest).max((size.x * size.y * size.z / 2e7).cbrt()).max(size.max() / 4e3);
+        let count = [0, 1, 2].map(|a| (size[a] / cell) as usize + 1);
+        let cells = count.iter().product();
+        Occupied { low, cell, count, last: vec![NONE; cells], before: Vec::new(), spheres: Vec::new() }
+    }
+
+    fn cell_of(&self, at: &Vec3) -> [usize; 3] {
+        let index = |a: usize| ((at[a] - self.low[a]) / self.cell).max(0.0) as usize;
+        [0, 1, 2].map(|a| index(a).min(self.count[a] - 1))
+    }
+
+    /// Whether a sphere touches none of those that are there.
+    pub(crate) fn is_free(&self, centre: &Vec3, radius: f64) -> bool {
+        let here = self.cell_of(centre);
+        let range = |a: usize| here[a].saturating_sub(1)..=(here[a] + 1).min(self.count[a] - 1);
+        for z in range(2) {
+            for y in range(1) {
+                for x in range(0) {
+                    let mut next = self.last[(z * self.count[1] + y) * self.count[0] + x];
+                    while next != NONE {
+                        let (other, r) = &self.spheres[next as usize];
+                        if (other - centre).norm_squared() < (r + radius) * (r + radius) {
+                            return false;
+                        }
+                        next = self.before[next as usize];
+                    }
+                }
+            }
+        }
+        true
+    }
+
+    /// Puts a sphere there.
+    pub(crate) fn take(&mut self, centre: Vec3, radius: f64) {
+        let [x, y, z] = self.cell_of(&centre);
+        let cell = (z * self.count[1] + y) * self.count[0] + x;
+        self.before.push(self.last[cell]);
+        self.last[cell] = self.spheres.len() as u32;
+        self.spheres.push((centre, radius));
+    }
+}
