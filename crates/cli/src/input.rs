@@ -7,6 +7,7 @@ use std::{
     fmt,
     fs::File,
     io::{self, IsTerminal, Read},
+    os::fd::AsFd,
     path::{Path, PathBuf},
     str::FromStr,
 };
@@ -46,7 +47,11 @@ impl Source {
             Source::Stdin if io::stdin().is_terminal() => Err(usage(
                 "stdin is a terminal: give a file, or pipe the output of another tool into this one",
             )),
-            Source::Stdin => Ok(Box::new(io::stdin())),
+            // Past the buffer of `std::io::Stdin`, which would cut every read into small ones.
+            Source::Stdin => {
+                let stdin = io::stdin().as_fd().try_clone_to_owned().context("stdin: cannot open it")?;
+                Ok(Box::new(File::from(stdin)))
+            }
             Source::File(path) if path.is_dir() => {
                 Err(anyhow::anyhow!("{self}: is a folder: name a file in it"))
             }
@@ -125,7 +130,7 @@ impl Input {
     pub fn read_cloud_hashed(&self) -> anyhow::Result<(cloud::Cloud, (String, String))> {
         let bytes = self.cloud.read_all()?;
         let hash = stream::sha256(&bytes);
-        let cloud = cloud::read(bytes.as_slice()).with_context(|| self.name())?;
+        let cloud = cloud::from_bytes(bytes).with_context(|| self.name())?;
         Ok((cloud, ("cloud".to_owned(), hash)))
     }
 }

@@ -28,6 +28,7 @@ mod output;
 mod progress;
 mod report;
 mod run;
+mod signals;
 
 pub use exit::{Stopped, Usage, usage};
 pub use input::{Input, Source};

@@ -1,13 +1,13 @@
 //! Outputs: stdout, or a file that appears under its name only when it is whole.
 
-use crate::exit::usage;
+use crate::{exit::usage, signals};
 use anyhow::Context;
 use std::{
     fs::{self, File},
     io::{self, BufWriter, IsTerminal, Write},
     path::{Path, PathBuf},
 };
-use stream::ply::Encoding;
+use stream::{mcap, ply::Encoding};
 use tempfile::NamedTempFile;
 
 /// Enough that a pipe is filled by one write.
@@ -61,6 +61,22 @@ impl Output {
             Some(path) => OutputStream::file(path),
             None => OutputStream::stdout(),
         }
+    }
+
+    /// Begins an MCAP stream: packed by zstd into a file, not packed to a reader that waits for it.
+    /// `inputs` are roles and SHA-256, as in [`crate::provenance`]. End it with `finish()?.commit()?`.
+    ///
+    /// # Errors
+    /// As [`Output::open`]; `--ascii`; a write that fails.
+    pub fn open_mcap(&self, inputs: Vec<(String, String)>) -> anyhow::Result<mcap::Writer<OutputStream>> {
+        if self.ascii {
+            return Err(usage("--ascii: this output is MCAP, which has no text form; leave --ascii out"));
+        }
+        let out = self.open()?;
+        let how = if out.is_stream() { mcap::Compression::None } else { mcap::Compression::Zstd };
+        let provenance = crate::provenance(inputs);
+        mcap::Writer::compressed(out, &provenance, how)
+            .with_context(|| format!("{}: cannot write", self.name()))
     }
 
     /// Writes a cloud as PLY and commits it.
@@ -124,6 +140,7 @@ impl OutputStream {
         let folder = target.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let stem = target.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let temp = beside(folder, &stem).with_context(failed)?;
+        signals::remove_on_signal(temp.path());
         Ok(OutputStream::new(Sink::Pending { temp, path: target }, name))
     }
 

@@ -1,1 +1,281 @@
+use super::*;
+use crate::{Table, Values};
+use std::{
+    collections::BTreeMap,
+    io::{self, Read, Write},
+    sync::mpsc,
+};
 
+fn table(rows: usize) -> Table {
+    let mut table = Table::default();
+    let column = |k: f64| Values::F64((0..rows).map(|r| k / (r as f64 + 0.3)).collect());
+    for (name, k) in [("x", 1.0), ("y", -2.0), ("z", 1e-300), ("radius", 0.004)] {
+        table.push(name, column(k)).unwrap();
+    }
+    table.push("id", Values::U32((0..rows as u32).map(|r| u32::MAX - r).collect())).unwrap();
+    table.push("material", Values::U16(vec![7; rows])).unwrap();
+    table.push("f", Values::F32(vec![f32::MIN_POSITIVE; rows])).unwrap();
+    table.push("i", Values::I8(vec![-5; rows])).unwrap();
+    table
+}
+
+fn provenance() -> Provenance {
+    Provenance {
+        tool: "wallgen".into(),
+        version: "0.1.0".into(),
+        arguments: vec!["--roughness=0.001".into(), "a \"b\"".into()],
+        inputs: vec![("cloud".into(), "ab".repeat(32))],
+    }
+}
+
+fn one(key: &str, value: &str) -> BTreeMap<String, String> {
+    BTreeMap::from([(key.to_owned(), value.to_owned())])
+}
+
+fn begin<W: Write>(out: W, how: Compression) -> Writer<W> {
+    let mut writer = Writer::compressed(out, &provenance(), how).unwrap();
+    writer.metadata("materials", one("0", r#"{"name":"steel"}"#)).unwrap();
+    for frame in 0..3 {
+        writer.points("/particles", frame * 20_000_000, "world", &table(40)).unwrap();
+        writer.bytes("/energy", "json", frame * 20_000_000, b"{\"kinetic\":1}").unwrap();
+        writer.flush_chunk().unwrap();
+    }
+    writer
+}
+
+fn stream(how: Compression) -> Vec<u8> {
+    begin(Vec::new(), how).finish().unwrap()
+}
+
+fn read(bytes: &[u8]) -> Result<Vec<Event>, McapError> {
+    Reader::new(bytes).collect()
+}
+
+/// One byte a call, as a slow pipe may give them.
+struct Slow<'a>(&'a [u8]);
+impl Read for Slow<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let n = buffer.len().min(1).min(self.0.len());
+        buffer[..n].copy_from_slice(&self.0[..n]);
+        self.0 = &self.0[n..];
+        Ok(n)
+    }
+}
+
+#[test]
+fn everything_comes_back_in_order() {
+    for how in [Compression::None, Compression::Zstd] {
+        let bytes = stream(how);
+        let events = read(&bytes).unwrap();
+        assert_eq!(events.len(), 8);
+        let Event::Metadata { name, map } = &events[0] else { panic!("{events:?}") };
+        assert_eq!((name.as_str(), Provenance::from_map(map)), (PROVENANCE, provenance()));
+        assert!(matches!(&events[1], Event::Metadata { name, .. } if name == "materials"));
+        for frame in 0..3u64 {
+            let points =
+                Event::Points { topic: "/particles".into(), time_ns: frame * 20_000_000, table: table(40) };
+            assert_eq!(events[2 + 2 * frame as usize], points);
+            assert!(matches!(&events[3 + 2 * frame as usize], Event::Bytes { topic, data, .. }
+                if topic == "/energy" && data == b"{\"kinetic\":1}"));
+        }
+        assert_eq!(Reader::new(Slow(&bytes)).collect::<Result<Vec<_>, _>>().unwrap(), events);
+    }
+}
+
+/// Hazard 1: the mcap crate ends a file on drop, so that a failed tool leaves one that looks whole.
+#[test]
+fn a_stream_that_was_not_finished_is_refused() {
+    for how in [Compression::None, Compression::Zstd] {
+        let mut bytes = Vec::new();
+        drop(begin(&mut bytes, how));
+        assert!(matches!(read(&bytes), Err(McapError::Truncated { messages: 6, .. })));
+        assert!(!bytes.ends_with(::mcap::MAGIC));
+        assert_eq!(Reader::new(&bytes[..]).filter(Result::is_ok).count(), 8, "earlier data are readable");
+    }
+    // A foreign program's file, whole by its own summary, but without the record.
+    let mut other = ::mcap::Writer::new(io::Cursor::new(Vec::new())).unwrap();
+    other.finish().unwrap();
+    let bytes = other.into_inner().into_inner();
+    assert!(matches!(read(&bytes), Err(McapError::Truncated { messages: 0, .. })));
+}
+
+/// Hazard 2: with default options a flipped byte in a packed chunk is read without an error.
+#[test]
+fn no_flipped_byte_is_read_as_good() {
+    for how in [Compression::None, Compression::Zstd] {
+        let good = stream(how);
+        for at in 0..good.len() {
+            for mask in [0x01, 0x80] {
+                let mut bad = good.clone();
+                bad[at] ^= mask;
+                assert!(read(&bad).is_err(), "{how:?}: byte {at} of {}", good.len());
+            }
+        }
+    }
+}
+
+/// What a chunk holds is given out only after its CRC was checked.
+#[test]
+fn nothing_of_a_damaged_chunk_is_given_out() {
+    let mut bytes = stream(Compression::None);
+    let last = bytes.windows(7).position(|w| w == b"kinetic").unwrap();
+    bytes[last] ^= 1;
+    let events: Vec<_> = Reader::new(&bytes[..]).collect();
+    assert!(
+        matches!(&events[2], Err(McapError::Malformed { what, .. }) if what.contains("CRC")),
+        "{events:?}"
+    );
+    assert_eq!(events.len(), 3, "ends after the first error");
+}
+
+/// Packed by lz4, as other programs do, and damaged.
+#[test]
+fn lz4_chunks_are_read_and_checked() {
+    let options = ::mcap::WriteOptions::new().compression(Some(::mcap::Compression::Lz4));
+    let mut other = options.create(io::Cursor::new(Vec::new())).unwrap();
+    let channel = other.add_channel(0, "/log", "json", &BTreeMap::new()).unwrap();
+    let header =
+        ::mcap::records::MessageHeader { channel_id: channel, sequence: 0, log_time: 5, publish_time: 5 };
+    other.write_to_known_channel(&header, &[b'7'; 3000]).unwrap();
+    let end = ::mcap::records::Metadata { name: END_OF_STREAM.into(), metadata: BTreeMap::new() };
+    other.write_metadata(&end).unwrap();
+    other.finish().unwrap();
+    let good = other.into_inner().into_inner();
+    assert!(matches!(&read(&good).unwrap()[..], [Event::Bytes { data, .. }] if data.len() == 3000));
+    for at in 8..good.len() {
+        let mut bad = good.clone();
+        bad[at] ^= 0x20;
+        let _ = read(&bad); // the header's text is protected by the CRC of the data, all else too: no panic
+    }
+}
+
+/// Hazard 3: of `cat a.mcap b.mcap` only the first is read, silently.
+#[test]
+fn bytes_after_the_end_are_refused() {
+    let twice = [stream(Compression::None), stream(Compression::None)].concat();
+    assert!(matches!(read(&twice), Err(McapError::Trailing { .. })));
+    assert!(matches!(
+        read(&[&stream(Compression::Zstd)[..], b"\n"].concat()),
+        Err(McapError::Trailing { .. })
+    ));
+}
+
+/// Hazard 4: viewers refuse files without a summary.
+#[test]
+fn a_finished_stream_has_chunks_and_a_summary() {
+    let bytes = stream(Compression::Zstd);
+    let summary = ::mcap::Summary::read(&bytes).unwrap().expect("a summary");
+    assert_eq!((summary.chunk_indexes.len(), summary.stats.unwrap().message_count), (3, 6));
+    let channel = summary.channels.values().find(|c| c.topic == "/particles").unwrap();
+    let schema = channel.schema.as_ref().unwrap();
+    assert_eq!(
+        (schema.name.as_str(), channel.message_encoding.as_str()),
+        ("foxglove.PointCloud", "protobuf")
+    );
+}
+
+/// Hazard 5: the header names the crate's version by default.
+#[test]
+fn the_same_input_gives_the_same_bytes_free_of_versions_and_clocks() {
+    assert_eq!(stream(Compression::Zstd), stream(Compression::Zstd));
+    let text = String::from_utf8_lossy(&stream(Compression::None)).into_owned();
+    assert!(text.contains("grainpipe") && !text.contains("mcap-rust"));
+}
+
+#[test]
+fn a_cut_stream_is_refused_and_gives_what_came_before() {
+    let good = stream(Compression::Zstd);
+    for end in 0..good.len() {
+        let events: Vec<_> = Reader::new(&good[..end]).collect();
+        assert!(events.last().is_some_and(Result::is_err), "cut at {end}");
+    }
+    assert!(matches!(read(b""), Err(McapError::Empty)));
+    assert!(matches!(read(b"ply\nformat ascii 1.0\n"), Err(McapError::Magic)));
+}
+
+/// A reader at the other end of a pipe sees a message when its chunk was flushed, not at the end.
+#[test]
+fn a_stream_is_read_while_it_is_written() {
+    let (read_end, write_end) = io::pipe().unwrap();
+    let (seen, see) = mpsc::channel();
+    let reader = std::thread::spawn(move || {
+        for event in Reader::new(read_end) {
+            if let Event::Points { time_ns, .. } = event.unwrap() {
+                seen.send(time_ns).unwrap();
+            }
+        }
+    });
+    let mut writer = Writer::new(write_end, &provenance()).unwrap();
+    for time in 0..5 {
+        writer.points("/particles", time, "world", &table(3)).unwrap();
+        assert!(see.try_recv().is_err(), "nothing before the flush");
+        writer.flush_chunk().unwrap();
+        assert_eq!(see.recv_timeout(std::time::Duration::from_secs(20)).unwrap(), time);
+    }
+    writer.finish().unwrap();
+    reader.join().unwrap();
+}
+
+#[test]
+fn the_digest_depends_on_content_only() {
+    let digest = |bytes: &[u8]| {
+        let mut reader = Reader::hashed(bytes);
+        reader.by_ref().for_each(|e| drop(e.unwrap()));
+        reader.digest()
+    };
+    let plain = digest(&stream(Compression::None));
+    assert_eq!((plain.len(), &plain), (64, &digest(&stream(Compression::Zstd))));
+    let mut longer = begin(Vec::new(), Compression::None);
+    longer.bytes("/energy", "json", 1, b"{}").unwrap();
+    assert_ne!(plain, digest(&longer.finish().unwrap()));
+    assert_eq!(Reader::new(&b""[..]).digest(), "");
+}
+
+/// The message written by hand around the packed rows is what prost makes of the same fields.
+#[test]
+fn a_message_is_a_protobuf_point_cloud() {
+    use prost::Message;
+    let mut message = Vec::new();
+    points::encode(&table(5), 1_500_000_000, "world", &mut message).unwrap();
+    let cloud = foxglove::messages::PointCloud::decode(&message[..]).unwrap();
+    assert_eq!(cloud.encode_to_vec(), message);
+    assert_eq!((cloud.point_stride, cloud.data.len(), cloud.fields.len()), (43, 215, 8));
+    assert_eq!(cloud.timestamp.map(|t| (t.sec(), t.nsec())), Some((1, 500_000_000)));
+    assert_eq!(points::decode(message).unwrap(), table(5));
+}
+
+#[test]
+fn tables_without_rows_or_columns_travel() {
+    for empty in [Table::default(), table(0)] {
+        let mut message = Vec::new();
+        points::encode(&empty, 0, "", &mut message).unwrap();
+        assert_eq!(points::decode(message).unwrap(), empty);
+    }
+}
+
+#[test]
+fn point_clouds_that_contradict_themselves_are_refused() {
+    use foxglove::messages::{PackedElementField, PointCloud};
+    use prost::Message;
+    let refused = |stride, offset, kind, bytes: usize, expected: &str| {
+        let field = PackedElementField { name: "x".into(), offset, r#type: kind };
+        let data = vec![0; bytes].into();
+        let cloud = PointCloud { point_stride: stride, fields: vec![field], data, ..Default::default() };
+        let message = points::decode(cloud.encode_to_vec()).unwrap_err();
+        assert!(message.contains(expected), "{message}");
+    };
+    refused(0, 0, 8, 8, "point_stride is 0");
+    refused(8, 0, 8, 9, "no whole number of rows");
+    refused(8, 1, 8, 8, "reaches over the end");
+    refused(8, u32::MAX, 8, 8, "reaches over the end");
+    refused(8, 0, 99, 8, "unknown type");
+}
+
+/// An output that fails for good must be seen as what it is: a closed pipe ends a tool quietly.
+#[test]
+fn a_closed_pipe_is_told_as_an_io_error() {
+    let (read_end, write_end) = io::pipe().unwrap();
+    drop(read_end);
+    let error = Writer::new(write_end, &provenance()).err().unwrap();
+    assert!(matches!(error, McapError::Io(e) if e.kind() == io::ErrorKind::BrokenPipe));
+}
