@@ -1,6 +1,34 @@
 //! The engine: particles, contacts, effects, integration, neighbours, zones, energy, checkpoints.
 //!
 //! Signs: the unit normal n of a contact points from j to i, an overlap δ > 0 is contact, repulsion is
-//! positive.
+//! positive. It knows nothing of files, TOML or the terminal.
 
+mod advance;
+mod check;
+pub mod effects;
+mod energy;
+mod error;
+mod guards;
+mod interaction;
+mod kernel;
+pub mod lane;
+mod law;
+mod limit;
+mod motion;
+mod neighbours;
+mod particles;
+mod relist;
 pub mod setup;
+mod simulation;
+mod state;
+mod touching;
+mod walls;
+mod zones;
+
+pub use energy::Energy;
+pub use error::{Halt, SetupError};
+pub use limit::{Limit, critical_step};
+pub use particles::mass;
+pub use setup::Setup;
+pub use simulation::Simulation;
+pub use state::State;

@@ -1,0 +1,166 @@
+//! What is refused before a run starts.
+
+use crate::error::SetupError;
+use crate::setup::{Setup, Step, WallShape};
+use geom::Vec3;
+use std::collections::HashSet;
+
+/// Checks every number of a setup that would make a run meaningless.
+pub fn check(setup: &Setup) -> Result<(), SetupError> {
+    materials(setup)?;
+    contacts(setup)?;
+    particles(setup)?;
+    walls(setup)?;
+    zones(setup)?;
+    periodic(setup)?;
+    match setup.step {
+        Step::Auto(share) => {
+            within("time.safety", share, "[–]", share > 0.0 && share <= 1.0, "0 < safety ≤ 1")
+        }
+        Step::Fixed(dt) => within("time.dt", dt, "s", dt > 0.0 && dt.is_finite(), "dt > 0"),
+    }?;
+    within(
+        "guards.overlap",
+        setup.guards.overlap,
+        "[–]",
+        setup.guards.overlap > 0.0 && setup.guards.overlap <= 1.0,
+        "0 < overlap ≤ 1",
+    )?;
+    within("guards.motion", setup.guards.motion, "[–]", setup.guards.motion > 0.0, "motion > 0")?;
+    let skin = setup.skin.unwrap_or(1.0);
+    within("neighbours.skin", skin, "m", skin > 0.0 && skin.is_finite(), "skin > 0")?;
+    finite("gravity", &setup.gravity, "m/s²")
+}
+
+fn within(
+    what: &str,
+    value: f64,
+    unit: &'static str,
+    ok: bool,
+    range: &'static str,
+) -> Result<(), SetupError> {
+    if ok { Ok(()) } else { Err(SetupError::Range { what: what.to_owned(), value, unit, range }) }
+}
+
+fn finite(what: &str, v: &Vec3, unit: &'static str) -> Result<(), SetupError> {
+    let bad = v.iter().find(|x| !x.is_finite());
+    bad.map_or(Ok(()), |&x| within(what, x, unit, false, "the finite numbers"))
+}
+
+fn materials(setup: &Setup) -> Result<(), SetupError> {
+    for m in &setup.materials {
+        let at = |key: &str| format!("material '{}': {key}", m.name);
+        within(&at("density"), m.density, "kg/m³", m.density > 0.0 && m.density.is_finite(), "density > 0")?;
+        within(&at("young"), m.young, "Pa", m.young > 0.0 && m.young.is_finite(), "young > 0")?;
+        within(&at("poisson"), m.poisson, "[–]", m.poisson > -1.0 && m.poisson <= 0.5, "−1 < poisson ≤ 0.5")?;
+    }
+    Ok(())
+}
+
+fn contacts(setup: &Setup) -> Result<(), SetupError> {
+    for c in &setup.contacts {
+        let name = |m: u16| setup.materials[m as usize].name.as_str();
+        let at = |key: &str| format!("contact {}–{}: {key}", name(c.between.0), name(c.between.1));
+        let e = c.restitution;
+        within(&at("restitution"), e, "[–]", (0.0..=1.0).contains(&e), "0 ≤ restitution ≤ 1")?;
+        let mu = c.sliding_friction.unwrap_or(0.0);
+        within(&at("sliding_friction"), mu, "[–]", mu >= 0.0 && mu.is_finite(), "sliding_friction ≥ 0")?;
+        let mu_r = c.rolling_resistance.unwrap_or(0.0);
+        within(
+            &at("rolling_resistance"),
+            mu_r,
+            "[–]",
+            mu_r >= 0.0 && mu_r.is_finite(),
+            "rolling_resistance ≥ 0",
+        )?;
+        let turns = c.rolling_resistance.is_none() || c.sliding_friction.is_some();
+        within(
+            &at("rolling_resistance"),
+            mu_r,
+            "[–]",
+            turns,
+            "scenes with sliding_friction (nothing else turns a particle)",
+        )?;
+        if let crate::setup::Law::Hooke { stiffness, tangential_ratio } = c.law {
+            within(
+                &at("stiffness"),
+                stiffness,
+                "N/m",
+                stiffness > 0.0 && stiffness.is_finite(),
+                "stiffness > 0",
+            )?;
+            let q = tangential_ratio.unwrap_or(1.0);
+            within(&at("tangential_ratio"), q, "[–]", q > 0.0 && q.is_finite(), "tangential_ratio > 0")?;
+        }
+    }
+    Ok(())
+}
+
+fn particles(setup: &Setup) -> Result<(), SetupError> {
+    let mut ids = HashSet::with_capacity(setup.particles.len());
+    for p in &setup.particles {
+        let at = |key: &str| format!("particle {}: {key}", p.id);
+        within(&at("radius"), p.radius, "m", p.radius > 0.0 && p.radius.is_finite(), "radius > 0")?;
+        let known = (p.material as usize) < setup.materials.len();
+        within(&at("material"), p.material as f64, "[–]", known, "the scene's materials")?;
+        finite(&at("position"), &p.position, "m")?;
+        finite(&at("velocity"), &p.velocity, "m/s")?;
+        finite(&at("spin"), &p.spin, "rad/s")?;
+        if !ids.insert(p.id) {
+            return Err(SetupError::IdTwice(p.id));
+        }
+    }
+    Ok(())
+}
+
+fn walls(setup: &Setup) -> Result<(), SetupError> {
+    for w in &setup.walls {
+        let at = |key: &str| format!("wall '{}': {key}", w.name);
+        let known = (w.material as usize) < setup.materials.len();
+        within(&at("material"), w.material as f64, "[–]", known, "the scene's materials")?;
+        match &w.shape {
+            WallShape::Spheres(spheres) => {
+                for (centre, radius) in spheres {
+                    finite(&at("sphere"), centre, "m")?;
+                    within(&at("radius"), *radius, "m", *radius > 0.0 && radius.is_finite(), "radius > 0")?;
+                }
+            }
+            WallShape::Plane(plane) => {
+                finite(&at("plane"), &plane.point, "m")?;
+                if w.motion.turn != Vec3::zeros() {
+                    return Err(SetupError::TurningPlane(w.name.clone()));
+                }
+            }
+            WallShape::Mesh(mesh) => mesh.vertices.iter().try_for_each(|v| finite(&at("vertex"), v, "m"))?,
+        }
+        finite(&at("velocity"), &w.motion.velocity, "m/s")?;
+        finite(&at("rotation"), &w.motion.turn, "rad/s")?;
+    }
+    Ok(())
+}
+
+fn largest_radius(setup: &Setup) -> f64 {
+    setup.particles.iter().map(|p| p.radius).fold(setup.largest_entry, f64::max)
+}
+
+fn zones(setup: &Setup) -> Result<(), SetupError> {
+    let diameter = 2.0 * largest_radius(setup);
+    for z in setup.outlets.iter().chain(&setup.inlets) {
+        if !(z.length > diameter) {
+            return Err(SetupError::ZoneTooShort { length: z.length, diameter });
+        }
+    }
+    Ok(())
+}
+
+fn periodic(setup: &Setup) -> Result<(), SetupError> {
+    let least = 5.0 * largest_radius(setup);
+    for (axis, range) in ['x', 'y', 'z'].into_iter().zip(&setup.periodic) {
+        if let Some((lo, hi)) = *range {
+            if !(hi - lo >= least) {
+                return Err(SetupError::PeriodTooSmall { axis, period: hi - lo, least });
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,49 @@
+//! Rolling resistance: a rotational spring and dashpot, capped by a couple proportional to the normal force.
+//!
+//! ```text
+//! θ ← θ + ω_r Δt,   ω_r = (ω_i − ω_j) − its part along n
+//! M = −k_r θ − c_r ω_r,  |M| ≤ μ_r R* F_n
+//! k_r = 2.25 S (μ_r R*)²,   c_r = 2 η √(k_r I_r),  η = 0.3,  I_r = 7/5 m* R*²
+//! ```
+//!
+//! Elastic–plastic spring–dashpot model: Ai, Chen, Rotter & Ooi (2011), Powder Technology 206, eqs 18–24,
+//! doi:10.1016/j.powtec.2010.09.030, model C. Deviation: the dashpot acts within the cap and not beside it, so that
+//! M never exceeds the cap.
+
+use super::capped_spring::CappedSpring;
+use super::{Contact, Effect, Load};
+use crate::lane::{Lane, V};
+
+/// Share of critical damping [–].
+const ETA: f64 = 0.3;
+
+/// Rotational spring and dashpot under a cap.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RollingResistance {
+    /// μ_r [–].
+    pub resistance: f64,
+}
+
+impl Effect for RollingResistance {
+    type Memory<R: Lane> = V<R>;
+    const ROTATES: bool = true;
+    const COUPLES: bool = true;
+
+    #[inline(always)]
+    fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, theta: &mut V<R>, load: &mut Load<R>) {
+        let n = contact.normal;
+        let rolling = contact.spin - n.scale(contact.spin.dot(n));
+        let arm = R::splat(self.resistance) * contact.radius;
+        let stiffness = (R::splat(2.25) * load.stiffness * arm * arm).max(R::splat(1e-150));
+        let inertia = R::splat(1.4) * contact.mass * contact.radius * contact.radius;
+        let spring = CappedSpring {
+            stiffness,
+            damping: R::splat(2.0 * ETA) * (stiffness * inertia).sqrt(),
+            cap: arm * load.normal.max(R::splat(0.0)),
+        };
+        let pull = spring.pull(theta, n, rolling, dt);
+        load.couple = load.couple + pull.force;
+        load.elastic = load.elastic + pull.elastic;
+        load.dissipated[2] = load.dissipated[2] + pull.dissipated;
+    }
+}

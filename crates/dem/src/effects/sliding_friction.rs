@@ -1,0 +1,47 @@
+//! Sliding friction: a tangential spring and dashpot, capped by Coulomb's law.
+//!
+//! ```text
+//! ξ ← ξ + v_t Δt        the spring turns with the contact and stretches
+//! F_t = −k_t ξ − c_t v_t     sticks while |F_t| ≤ μ F_n
+//! F_t = μ F_n F_t/|F_t|      slides otherwise; ξ is cut back to match
+//! k_t = q S,  c_t = γ √(k_t m*)       S: the normal law's stiffness; q = 4 G*/E* (Mindlin) unless given
+//! ```
+//!
+//! Cundall & Strack (1979), Géotechnique 29(1), doi:10.1680/geot.1979.29.1.47; Mindlin (1949), J. Appl. Mech. 16. Where the
+//! normal force pulls, nothing holds. Comes after every effect that changes F_n.
+
+use super::capped_spring::CappedSpring;
+use super::{Contact, Effect, Load};
+use crate::lane::{Lane, V};
+
+/// Tangential spring and dashpot under Coulomb's cap.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SlidingFriction {
+    /// μ [–].
+    pub friction: f64,
+    /// q = k_t/S [–].
+    pub stiffness_ratio: f64,
+    /// γ [–], as for the normal law.
+    pub damping_ratio: f64,
+}
+
+impl Effect for SlidingFriction {
+    type Memory<R: Lane> = V<R>;
+    const ROTATES: bool = true;
+    const COUPLES: bool = false;
+
+    #[inline(always)]
+    fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, xi: &mut V<R>, load: &mut Load<R>) {
+        // A stiffness of 0 at δ = 0 (Hertz) would be divided by; nothing holds there in any case.
+        let stiffness = (R::splat(self.stiffness_ratio) * load.stiffness).max(R::splat(1e-150));
+        let spring = CappedSpring {
+            stiffness,
+            damping: R::splat(self.damping_ratio) * (stiffness * contact.mass).sqrt(),
+            cap: R::splat(self.friction) * load.normal.max(R::splat(0.0)),
+        };
+        let pull = spring.pull(xi, contact.normal, contact.slip, dt);
+        load.tangential = load.tangential + pull.force;
+        load.elastic = load.elastic + pull.elastic;
+        load.dissipated[1] = load.dissipated[1] + pull.dissipated;
+    }
+}

@@ -1,0 +1,86 @@
+//! The energy ledger: each term by its own formula.
+
+use crate::interaction::{Interaction, With};
+use crate::kernel::LEDGER;
+use crate::particles::mass;
+use crate::setup::{Particle, Setup};
+use serde::{Deserialize, Serialize};
+
+/// Energy of one instant, and what has left since the start [J].
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Energy {
+    /// ½ m v².
+    pub translation: f64,
+    /// ½ I ω².
+    pub rotation: f64,
+    /// −m g·x, from the origin.
+    pub potential: f64,
+    /// In the springs of contacts.
+    pub elastic: f64,
+    /// Dissipated by the dashpot of the normal law.
+    pub normal: f64,
+    /// Dissipated by sliding friction, dashpot included.
+    pub sliding: f64,
+    /// Dissipated by rolling resistance, dashpot included.
+    pub rolling: f64,
+    /// Work of moving walls on particles.
+    pub walls: f64,
+}
+
+impl Energy {
+    /// Everything that was there at the start: constant up to the integrator's error, as long as no particle
+    /// enters or leaves.
+    pub fn balance(&self) -> f64 {
+        self.translation
+            + self.rotation
+            + self.potential
+            + self.elastic
+            + self.normal
+            + self.sliding
+            + self.rolling
+            - self.walls
+    }
+
+    pub(crate) fn of(particles: &[Particle], setup: &Setup, ledger: &[f64], account: &Account) -> Energy {
+        let mut e = Energy {
+            normal: account.dissipated[0],
+            sliding: account.dissipated[1],
+            rolling: account.dissipated[2],
+            walls: account.walls,
+            elastic: ledger.chunks_exact(LEDGER).map(|row| row[0]).sum(),
+            ..Energy::default()
+        };
+        for p in particles {
+            let m = mass(p.radius, setup.materials[p.material as usize].density);
+            e.translation += 0.5 * m * p.velocity.norm_squared();
+            e.rotation += 0.2 * m * p.radius * p.radius * p.spin.norm_squared();
+            e.potential -= m * setup.gravity.dot(&p.position);
+        }
+        e
+    }
+}
+
+/// Sums since the start [J].
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Account {
+    dissipated: [f64; 3],
+    walls: f64,
+}
+
+impl Account {
+    /// Adds one step's ledger, in its order.
+    pub fn add(&mut self, interactions: &[Interaction], ledger: &[f64]) {
+        for it in interactions {
+            let rows = &ledger[it.first_load * LEDGER..(it.first_load + it.len) * LEDGER];
+            let wall = matches!(it.with, With::Wall(_));
+            for row in rows.chunks_exact(LEDGER) {
+                for (sum, part) in self.dissipated.iter_mut().zip(&row[1..4]) {
+                    *sum += part;
+                }
+                if wall {
+                    self.walls += row[4];
+                }
+            }
+        }
+    }
+}

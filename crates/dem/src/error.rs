@@ -1,0 +1,135 @@
+//! What the engine refuses, and what stops it.
+
+use thiserror::Error;
+
+/// Why a setup cannot run.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum SetupError {
+    /// Two materials can meet and have no law.
+    #[error("contact: no law between '{a}' and '{b}': add a [[contact]] with between = [\"{a}\", \"{b}\"]")]
+    NoContact {
+        /// One material.
+        a: String,
+        /// The other.
+        b: String,
+    },
+    /// The time step is not stable.
+    #[error(
+        "time.dt: {dt:.4e} s is above the critical step {critical:.4e} s of {pair}: use dt = \"auto\", a smaller dt, or softer materials"
+    )]
+    StepTooLarge {
+        /// Asked for [s].
+        dt: f64,
+        /// Critical [s].
+        critical: f64,
+        /// What sets it.
+        pair: String,
+    },
+    /// No contact can occur, so no step follows.
+    #[error("time.dt: \"auto\" needs a pair that can touch, and there is none: give dt in seconds")]
+    NoStep,
+    /// A quantity is outside its range.
+    #[error("{what}: {value} {unit} is outside {range}")]
+    Range {
+        /// Where and what.
+        what: String,
+        /// Its value.
+        value: f64,
+        /// Its unit.
+        unit: &'static str,
+        /// What is allowed.
+        range: &'static str,
+    },
+    /// Two particles of one id.
+    #[error("particle id {0} is used twice: give each particle its own")]
+    IdTwice(u32),
+    /// A zone that lets particles act across it.
+    #[error("zone of {length:.4e} m is not longer than the largest particle diameter {diameter:.4e} m: use at least {:.4e} m", 1.2 * diameter)]
+    ZoneTooShort {
+        /// Its length [m].
+        length: f64,
+        /// Largest diameter [m].
+        diameter: f64,
+    },
+    /// A periodic box in which a particle meets itself.
+    #[error(
+        "domain: period of {period:.4e} m along {axis} is too small: particles need at least {least:.4e} m"
+    )]
+    PeriodTooSmall {
+        /// x, y or z.
+        axis: char,
+        /// The period [m].
+        period: f64,
+        /// Least [m].
+        least: f64,
+    },
+    /// An entry out of order or later than it is due.
+    #[error("inlet: particle {id} is due at {time} s, before {now} s: crossings must come in time order")]
+    EntryLate {
+        /// Its id.
+        id: u32,
+        /// Its time [s].
+        time: f64,
+        /// Now, or the time of the entry before [s].
+        now: f64,
+    },
+    /// A rotating plane, whose speed has no bound.
+    #[error("wall '{0}': a plane cannot rotate: use a mesh or wall spheres")]
+    TurningPlane(String),
+    /// A saved state of another setup.
+    #[error("resume: the saved state does not fit this scene: {0}")]
+    OtherState(String),
+}
+
+/// Why a run was stopped.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Halt {
+    /// Two bodies overlap too far.
+    #[error(
+        "t = {time:.6e} s: particle {id} at ({x:.4e}, {y:.4e}, {z:.4e}) m overlaps {partner} by {overlap:.3e} m, {:.1} % of the smaller radius (limit {:.1} %): stiffen the material, shorten dt, or raise guards.overlap",
+        100.0 * share, 100.0 * limit
+    )]
+    Overlap {
+        /// When [s].
+        time: f64,
+        /// Which particle.
+        id: u32,
+        /// What it overlaps.
+        partner: String,
+        /// Where [m].
+        x: f64,
+        /// Where [m].
+        y: f64,
+        /// Where [m].
+        z: f64,
+        /// By how much [m].
+        overlap: f64,
+        /// Over the smaller radius [–].
+        share: f64,
+        /// Allowed share [–].
+        limit: f64,
+    },
+    /// A particle moved too far in one step, or its state is not a number.
+    #[error(
+        "t = {time:.6e} s: particle {id} at ({x:.4e}, {y:.4e}, {z:.4e}) m moves {motion:.3e} m in one step, {:.1} % of its radius (limit {:.1} %): shorten dt or raise guards.motion",
+        100.0 * share, 100.0 * limit
+    )]
+    Motion {
+        /// When [s].
+        time: f64,
+        /// Which particle.
+        id: u32,
+        /// Where [m].
+        x: f64,
+        /// Where [m].
+        y: f64,
+        /// Where [m].
+        z: f64,
+        /// How far [m].
+        motion: f64,
+        /// Over its radius [–].
+        share: f64,
+        /// Allowed share [–].
+        limit: f64,
+    },
+}

@@ -1,0 +1,236 @@
+//! One kind of contact: its law, its list, its memory.
+//!
+//! A kind is a pair of materials that particles have, or a wall and a material. Each has its own composition of effects,
+//! so that a frictionless pair takes no memory even where another pair has friction.
+
+use crate::kernel::{Common, Kernel, LEDGER, Task};
+use crate::lane::{BLOCK, Row, Row4};
+use crate::particles::{FAR, Particles};
+use crate::walls::WallBody;
+use geom::Vec3;
+
+/// Contacts of one task.
+const CHUNK: usize = 64 * BLOCK;
+/// A particle that was not there before.
+pub const NEW: u32 = u32::MAX;
+
+/// Whom the particles of an interaction meet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum With {
+    /// Each other.
+    Particles,
+    /// Each other across a periodic face.
+    Images,
+    /// The wall of this number.
+    Wall(usize),
+}
+
+/// Contacts that share a law.
+pub struct Interaction {
+    /// The law.
+    pub kernel: Box<dyn Kernel>,
+    /// Materials, lower first; of the particle, then of the wall.
+    pub between: (u16, u16),
+    /// Whom they meet.
+    pub with: With,
+    /// Number of contacts listed.
+    pub len: usize,
+    /// First particle, in whole blocks.
+    pub i: Vec<u32>,
+    /// Second particle, or place in `partner_rows`.
+    j: Vec<u32>,
+    /// Second particle, or part of the wall.
+    pub partner: Vec<u32>,
+    /// Shift of an image [m].
+    shift: Vec<Vec3>,
+    partner_rows: Vec<Row>,
+    partner_spins: Vec<Row4>,
+    memory: Vec<f64>,
+    active: Vec<bool>,
+    /// Place of the first contact among all loads.
+    pub first_load: usize,
+}
+
+/// A listed contact: particle, partner (particle or part of a wall), shift of the partner [m].
+pub type Listed = (u32, u32, Vec3);
+
+impl Interaction {
+    /// Without contacts yet.
+    pub fn new(kernel: Box<dyn Kernel>, between: (u16, u16), with: With) -> Interaction {
+        let none = Vec::new;
+        Interaction {
+            kernel,
+            between,
+            with,
+            len: 0,
+            i: none(),
+            j: Vec::new(),
+            partner: Vec::new(),
+            shift: Vec::new(),
+            partner_rows: Vec::new(),
+            partner_spins: Vec::new(),
+            memory: Vec::new(),
+            active: Vec::new(),
+            first_load: 0,
+        }
+    }
+
+    /// Places for loads that it takes: whole blocks.
+    pub fn places(&self) -> usize {
+        self.i.len()
+    }
+
+    /// Replaces the list; `particles` is the number of particles. Memory starts at zero.
+    pub fn list(&mut self, contacts: &[Listed], particles: usize) {
+        self.len = contacts.len();
+        let padded = self.len.next_multiple_of(BLOCK);
+        let far = particles as u32;
+        let pad = |v: &mut Vec<u32>, with: u32| v.resize(padded, with);
+        self.i = contacts.iter().map(|c| c.0).collect();
+        pad(&mut self.i, far);
+        self.partner = contacts.iter().map(|c| c.1).collect();
+        if self.with == With::Particles {
+            self.j = self.partner.clone();
+            pad(&mut self.j, far + 1);
+        } else {
+            self.j = (0..padded as u32).collect();
+            self.shift = contacts.iter().map(|c| c.2).collect();
+            self.partner_rows = vec![FAR[1]; padded];
+            self.partner_spins = if self.kernel.rotates() { vec![[0.0; 4]; padded] } else { Vec::new() };
+        }
+        self.memory = vec![0.0; padded * self.kernel.memory()];
+        self.active = vec![true; padded / BLOCK];
+    }
+
+    /// Finds the contact points of images and walls as they are at `time` [s].
+    pub fn renew(&mut self, particles: &Particles, walls: &[WallBody], time: f64, listed_now: bool) {
+        match self.with {
+            With::Particles => {}
+            With::Images => self.renew_images(particles),
+            With::Wall(w) if listed_now || walls[w].renewed() => {
+                let pose = walls[w].motion.pose(time);
+                let mut from = 0;
+                while from < self.len {
+                    let i = self.i[from];
+                    let to = from + self.i[from..self.len].iter().take_while(|&&k| k == i).count();
+                    let spins = if self.partner_spins.is_empty() {
+                        &mut []
+                    } else {
+                        &mut self.partner_spins[from..to]
+                    };
+                    let parts = &self.partner[from..to];
+                    walls[w].meet(
+                        &pose,
+                        particles.position(i as usize),
+                        parts,
+                        &mut self.partner_rows[from..to],
+                        spins,
+                    );
+                    from = to;
+                }
+            }
+            With::Wall(_) => {}
+        }
+    }
+
+    fn renew_images(&mut self, particles: &Particles) {
+        for k in 0..self.len {
+            let (j, shift) = (self.partner[k] as usize, self.shift[k]);
+            let mut row = particles.rows[j];
+            for a in 0..3 {
+                row[a] += shift[a];
+            }
+            self.partner_rows[k] = row;
+            if let Some(spin) = self.partner_spins.get_mut(k) {
+                *spin = particles.spins[j];
+            }
+        }
+    }
+
+    /// Its contacts as tasks, each with its part of the loads, couples and ledger.
+    pub fn tasks<'a>(
+        &'a mut self,
+        common: &Common<'a>,
+        walls: &[WallBody],
+        mut loads: &'a mut [f64],
+        mut couples: &'a mut [f64],
+        mut ledger: &'a mut [f64],
+        out: &mut Vec<(&'a dyn Kernel, Task<'a>)>,
+    ) {
+        let partners = match self.with {
+            With::Particles => (common.rows, common.spins),
+            _ => (&self.partner_rows[..], &self.partner_spins[..]),
+        };
+        let flat = matches!(self.with, With::Wall(w) if walls[w].flat());
+        let columns = self.kernel.memory();
+        let mut memory = &mut self.memory[..];
+        let blocks =
+            self.i.chunks(CHUNK).zip(self.j.chunks(CHUNK)).zip(self.active.chunks_mut(CHUNK / BLOCK));
+        for ((i, j), active) in blocks {
+            let n = i.len();
+            out.push((
+                &*self.kernel,
+                Task {
+                    partners,
+                    flat,
+                    i,
+                    j,
+                    memory: take(&mut memory, n * columns),
+                    active,
+                    loads: take(&mut loads, n * common.stride),
+                    couples: take(&mut couples, n * 4),
+                    ledger: take(&mut ledger, n * LEDGER),
+                },
+            ));
+        }
+    }
+
+    /// Memory of contact `k`, column by column.
+    pub fn memory(&self, k: usize) -> impl Iterator<Item = f64> + '_ {
+        let columns = self.kernel.memory();
+        (0..columns).map(move |c| self.memory[(k / BLOCK * columns + c) * BLOCK + k % BLOCK])
+    }
+
+    /// Sets the memory of contact `k`, `sign` times what is given.
+    pub fn remember(&mut self, k: usize, sign: f64, memory: impl Iterator<Item = f64>) {
+        let columns = self.kernel.memory();
+        for (c, value) in memory.enumerate() {
+            self.memory[(k / BLOCK * columns + c) * BLOCK + k % BLOCK] = sign * value;
+        }
+    }
+
+    /// All memory, for checkpoints.
+    pub fn all_memory(&self) -> &[f64] {
+        &self.memory
+    }
+
+    /// Puts back what [`Interaction::all_memory`] gave; false when the size is another.
+    pub fn restore_memory(&mut self, memory: &[f64]) -> bool {
+        if memory.len() != self.memory.len() {
+            return false;
+        }
+        self.memory.copy_from_slice(memory);
+        true
+    }
+}
+
+/// Splits the first `n` numbers off; all there are when the slice is empty or shorter.
+fn take<'a>(from: &mut &'a mut [f64], n: usize) -> &'a mut [f64] {
+    let n = n.min(from.len());
+    let (head, tail) = std::mem::take(from).split_at_mut(n);
+    *from = tail;
+    head
+}
+
+impl Interaction {
+    /// Where the partner of an image's or wall's contact was when loads were computed [m].
+    pub fn place_of_partner(&self, contact: usize) -> Vec3 {
+        let row = &self.partner_rows[contact];
+        Vec3::new(row[0], row[1], row[2])
+    }
+
+    /// Its radius [m]; 0 on a flat wall.
+    pub fn radius_of_partner(&self, contact: usize) -> f64 {
+        self.partner_rows[contact][3]
+    }
+}

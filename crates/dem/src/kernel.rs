@@ -1,0 +1,226 @@
+//! The contact loop: the only one, for pairs and for walls, for every composition of effects and every width.
+
+use crate::effects::{Contact, Effect, Load, Memory};
+use crate::lane::{BLOCK, Lane, Row, Row4, V, Width};
+
+/// Numbers of one contact in the energy ledger: elastic, dissipated (normal, sliding, rolling), wall work.
+pub const LEDGER: usize = 8;
+/// Numbers of one contact's load without rotation: force on i and a pad.
+pub const FORCE: usize = 4;
+/// With rotation: force on i, n × F_t, and the arms of i and j.
+pub const FORCE_AND_MOMENT: usize = 8;
+
+/// What all contacts share in one step.
+#[derive(Clone, Copy)]
+pub struct Common<'a> {
+    /// Δt [s].
+    pub dt: f64,
+    /// Largest overlap over the smaller radius [–].
+    pub overlap_limit: f64,
+    /// Particle rows.
+    pub rows: &'a [Row],
+    /// Particle spins; empty without rotation.
+    pub spins: &'a [Row4],
+    /// Numbers of one load.
+    pub stride: usize,
+}
+
+/// Some blocks of one interaction.
+pub struct Task<'a> {
+    /// Rows and spins that `j` points into: the particles' own, or a wall's contact points.
+    pub partners: (&'a [Row], &'a [Row4]),
+    /// Whether partners are points of a flat surface (R* = r_i) and not spheres.
+    pub flat: bool,
+    /// First particle of each contact; whole blocks.
+    pub i: &'a [u32],
+    /// Its partner.
+    pub j: &'a [u32],
+    /// Contact memory, by block and column.
+    pub memory: &'a mut [f64],
+    /// Whether a block's loads or memory are not all zero.
+    pub active: &'a mut [bool],
+    /// Loads, `stride` numbers a contact.
+    pub loads: &'a mut [f64],
+    /// Couples, four numbers a contact; empty when no effect of the scene makes one.
+    pub couples: &'a mut [f64],
+    /// Ledger, [`LEDGER`] numbers a contact; empty when it is not kept.
+    pub ledger: &'a mut [f64],
+}
+
+/// A composition of effects, as the engine sees it.
+pub trait Kernel: Send + Sync {
+    /// Numbers of memory for each contact.
+    fn memory(&self) -> usize;
+    /// Whether it turns particles.
+    fn rotates(&self) -> bool;
+    /// Whether it makes couples.
+    fn couples(&self) -> bool;
+    /// Computes the loads of some blocks; true when an overlap passes the limit.
+    fn run(&self, width: Width, common: Common, task: Task) -> bool;
+}
+
+impl<E: Effect> Kernel for E {
+    fn memory(&self) -> usize {
+        E::MEMORY
+    }
+    fn rotates(&self) -> bool {
+        E::ROTATES
+    }
+    fn couples(&self) -> bool {
+        E::COUPLES
+    }
+    fn run(&self, width: Width, common: Common, task: Task) -> bool {
+        match (task.flat, task.ledger.is_empty()) {
+            (false, true) => dispatch::<E, false, false>(self, width, common, task),
+            (true, true) => dispatch::<E, true, false>(self, width, common, task),
+            (false, false) => dispatch::<E, false, true>(self, width, common, task),
+            (true, false) => dispatch::<E, true, true>(self, width, common, task),
+        }
+    }
+}
+
+fn dispatch<E: Effect, const FLAT: bool, const KEEP: bool>(
+    effect: &E,
+    width: Width,
+    common: Common,
+    task: Task,
+) -> bool {
+    match width {
+        #[cfg(target_arch = "x86_64")]
+        Width::Avx512 => simd::avx512::<E, FLAT, KEEP>(effect, common, task),
+        #[cfg(target_arch = "x86_64")]
+        Width::Avx2 => simd::avx2::<E, FLAT, KEEP>(effect, common, task),
+        _ => blocks::<f64, E, FLAT, KEEP>(effect, common, task),
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+mod simd {
+    //! The loop, compiled for wider registers.
+    #![allow(unsafe_code)]
+    use super::*;
+    use crate::lane::x86::{X4, X8};
+
+    pub fn avx512<E: Effect, const FLAT: bool, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
+        #[target_feature(enable = "avx512f,avx512dq,avx2")]
+        fn inner<E: Effect, const FLAT: bool, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
+            blocks::<X8, E, FLAT, KEEP>(e, common, task)
+        }
+        // SAFETY: `Width::Avx512` is only made where the processor has these features.
+        unsafe { inner::<E, FLAT, KEEP>(e, common, task) }
+    }
+
+    pub fn avx2<E: Effect, const FLAT: bool, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
+        #[target_feature(enable = "avx2")]
+        fn inner<E: Effect, const FLAT: bool, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
+            blocks::<X4, E, FLAT, KEEP>(e, common, task)
+        }
+        // SAFETY: `Width::Avx2` is only made where the processor has these features.
+        unsafe { inner::<E, FLAT, KEEP>(e, common, task) }
+    }
+}
+
+#[inline(always)]
+fn blocks<R: Lane, E: Effect, const FLAT: bool, const KEEP: bool>(
+    e: &E,
+    common: Common,
+    mut task: Task,
+) -> bool {
+    let mut too_deep = false;
+    for block in 0..task.active.len() {
+        let was_active = task.active[block];
+        let mut active = false;
+        for lane in (0..BLOCK).step_by(R::WIDTH) {
+            let (touches, deep) = lanes::<R, E, FLAT, KEEP>(e, &common, &mut task, block, lane, was_active);
+            active |= touches;
+            too_deep |= deep;
+        }
+        task.active[block] = active;
+    }
+    too_deep
+}
+
+/// `WIDTH` contacts; whether any touches, and whether any overlap passes the limit.
+#[inline(always)]
+fn lanes<R: Lane, E: Effect, const FLAT: bool, const KEEP: bool>(
+    effect: &E,
+    common: &Common,
+    task: &mut Task,
+    block: usize,
+    lane: usize,
+    was_active: bool,
+) -> (bool, bool) {
+    let at = block * BLOCK + lane;
+    let (i, j) = (&task.i[at..at + R::WIDTH], &task.j[at..at + R::WIDTH]);
+    let [xi, yi, zi, ri, ui, vi, wi, inverse_mi] = R::rows(common.rows, i);
+    let [xj, yj, zj, rj, uj, vj, wj, inverse_mj] = R::rows(task.partners.0, j);
+    let apart = V::new(xi - xj, yi - yj, zi - zj);
+    let reach = ri + rj;
+    let square = apart.dot(apart);
+    let touching = (reach * reach).gt(square);
+    if !R::any(touching) && !was_active {
+        return (false, false);
+    }
+    let distance = square.sqrt();
+    let normal = apart.scale(R::splat(1.0) / distance);
+    let overlap = reach - distance;
+    // The contact point divides the distance as the radii do: the whole of it on i's side at a flat wall.
+    let share = distance / reach;
+    let (arm_i, arm_j) = (ri * share, rj * share);
+    let velocity = V::new(ui - uj, vi - vj, wi - wj);
+    let along = velocity.dot(normal);
+    let mut slip = velocity - normal.scale(along);
+    let mut spin = V::zero();
+    let mut surface = V::new(uj, vj, wj);
+    if E::ROTATES {
+        let [axi, ayi, azi, _] = R::rows4(common.spins, i);
+        let [axj, ayj, azj, _] = R::rows4(task.partners.1, j);
+        let (si, sj) = (V::new(axi, ayi, azi), V::new(axj, ayj, azj));
+        slip = slip - (si.scale(arm_i) + sj.scale(arm_j)).cross(normal);
+        surface = surface + sj.scale(arm_j).cross(normal);
+        spin = si - sj;
+    }
+    let contact = Contact {
+        touching,
+        normal,
+        overlap,
+        radius: if FLAT { ri } else { ri * rj / reach },
+        mass: R::splat(1.0) / (inverse_mi + inverse_mj),
+        approach: -along,
+        slip,
+        spin,
+    };
+    let columns = E::MEMORY * BLOCK;
+    let stored = &mut task.memory[block * columns..(block + 1) * columns];
+    let mut memory = <E::Memory<R> as Memory<R>>::load(stored, lane);
+    let mut load = Load::zero();
+    effect.apply(&contact, R::splat(common.dt), &mut memory, &mut load);
+    memory.keep(touching).store(stored, lane);
+
+    let force = V::select(touching, normal.scale(load.normal) + load.tangential, V::zero());
+    let zero = R::splat(0.0);
+    if E::ROTATES {
+        let moment = V::select(touching, normal.cross(load.tangential), V::zero());
+        let row = [force.x, force.y, force.z, moment.x, moment.y, moment.z, arm_i, arm_j];
+        R::store_rows(row, &mut task.loads[at * FORCE_AND_MOMENT..]);
+    } else if common.stride == FORCE {
+        R::store_rows4([force.x, force.y, force.z, zero], &mut task.loads[at * FORCE..]);
+    } else {
+        let row = [force.x, force.y, force.z, zero, zero, zero, zero, zero];
+        R::store_rows(row, &mut task.loads[at * FORCE_AND_MOMENT..]);
+    }
+    if E::COUPLES {
+        let c = V::select(touching, load.couple, V::zero());
+        R::store_rows4([c.x, c.y, c.z, zero], &mut task.couples[at * 4..]);
+    }
+    if KEEP {
+        let [a, b, c] = load.dissipated;
+        // Work of j's surface on i; only walls' is added up.
+        let surface = surface.dot(force) * R::splat(common.dt);
+        let row = [load.elastic, a, b, c, surface, zero, zero, zero];
+        R::store_rows(row.map(|x| R::select(touching, x, zero)), &mut task.ledger[at * LEDGER..]);
+    }
+    let smaller = if FLAT { ri } else { ri.min(rj) };
+    let deep = R::both(touching, overlap.gt(smaller * R::splat(common.overlap_limit)));
+    (R::any(touching), R::any(deep))
+}

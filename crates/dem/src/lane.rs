@@ -1,0 +1,151 @@
+//! Lanes: one contact, or several at a time, computed by the same source with the same bits.
+//!
+//! Only operations that IEEE 754 rounds the same way everywhere: +, −, ×, ÷, √, comparison. No fused
+//! multiply-add and no reassociation, so a wide lane equals the scalar one bit for bit.
+
+mod scalar;
+#[cfg(target_arch = "x86_64")]
+pub mod x86;
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// Contacts are stored in blocks of this many, whatever the width of the lanes that compute them.
+pub const BLOCK: usize = 8;
+
+/// State that a contact needs of a particle: x, y, z, radius, vx, vy, vz, 1/m; one cache line.
+pub type Row = [f64; 8];
+
+/// Angular velocity and a pad.
+pub type Row4 = [f64; 4];
+
+/// `WIDTH` numbers that are computed at once.
+pub trait Lane:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+{
+    /// How many contacts; divides [`BLOCK`].
+    const WIDTH: usize;
+    /// One truth value each.
+    type Mask: Copy;
+
+    /// The same number everywhere.
+    fn splat(x: f64) -> Self;
+    /// The first `WIDTH` numbers of `from`.
+    fn load(from: &[f64]) -> Self;
+    /// Writes the first `WIDTH` numbers of `to`.
+    fn store(self, to: &mut [f64]);
+    /// Square root.
+    fn sqrt(self) -> Self;
+    /// The smaller; `other` where either is NaN.
+    fn min(self, other: Self) -> Self;
+    /// The larger; `other` where either is NaN.
+    fn max(self, other: Self) -> Self;
+    /// self > other; false for NaN.
+    fn gt(self, other: Self) -> Self::Mask;
+    /// `yes` where the mask holds, else `no`.
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+    /// Both.
+    fn both(a: Self::Mask, b: Self::Mask) -> Self::Mask;
+    /// Whether any lane holds.
+    fn any(mask: Self::Mask) -> bool;
+    /// Columns of the rows named by the first `WIDTH` of `index`.
+    fn rows(table: &[Row], index: &[u32]) -> [Self; 8];
+    /// The like for rows of four.
+    fn rows4(table: &[Row4], index: &[u32]) -> [Self; 4];
+    /// Writes columns as `WIDTH` rows of eight.
+    fn store_rows(columns: [Self; 8], to: &mut [f64]);
+    /// Writes columns as `WIDTH` rows of four.
+    fn store_rows4(columns: [Self; 4], to: &mut [f64]);
+}
+
+/// A vector of lanes.
+#[derive(Clone, Copy)]
+pub struct V<R> {
+    /// x.
+    pub x: R,
+    /// y.
+    pub y: R,
+    /// z.
+    pub z: R,
+}
+
+impl<R: Lane> V<R> {
+    /// The vector of three lanes.
+    #[inline(always)]
+    pub fn new(x: R, y: R, z: R) -> V<R> {
+        V { x, y, z }
+    }
+    /// Zero.
+    #[inline(always)]
+    pub fn zero() -> V<R> {
+        V::new(R::splat(0.0), R::splat(0.0), R::splat(0.0))
+    }
+    /// Scalar product.
+    #[inline(always)]
+    pub fn dot(self, o: V<R>) -> R {
+        self.x * o.x + self.y * o.y + self.z * o.z
+    }
+    /// Vector product.
+    #[inline(always)]
+    pub fn cross(self, o: V<R>) -> V<R> {
+        V::new(self.y * o.z - self.z * o.y, self.z * o.x - self.x * o.z, self.x * o.y - self.y * o.x)
+    }
+    /// Times a number.
+    #[inline(always)]
+    pub fn scale(self, s: R) -> V<R> {
+        V::new(self.x * s, self.y * s, self.z * s)
+    }
+    /// `yes` where the mask holds, else `no`.
+    #[inline(always)]
+    pub fn select(mask: R::Mask, yes: V<R>, no: V<R>) -> V<R> {
+        V::new(R::select(mask, yes.x, no.x), R::select(mask, yes.y, no.y), R::select(mask, yes.z, no.z))
+    }
+}
+
+impl<R: Lane> Add for V<R> {
+    type Output = V<R>;
+    #[inline(always)]
+    fn add(self, o: V<R>) -> V<R> {
+        V::new(self.x + o.x, self.y + o.y, self.z + o.z)
+    }
+}
+
+impl<R: Lane> Sub for V<R> {
+    type Output = V<R>;
+    #[inline(always)]
+    fn sub(self, o: V<R>) -> V<R> {
+        V::new(self.x - o.x, self.y - o.y, self.z - o.z)
+    }
+}
+
+/// The lanes that this machine computes with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Width {
+    /// One contact at a time: the reference.
+    Scalar,
+    /// Four at a time.
+    Avx2,
+    /// Eight at a time.
+    Avx512,
+}
+
+impl Width {
+    /// All that this machine can run, widest last.
+    pub fn available() -> Vec<Width> {
+        let mut widths = vec![Width::Scalar];
+        #[cfg(target_arch = "x86_64")]
+        {
+            if is_x86_feature_detected!("avx2") {
+                widths.push(Width::Avx2);
+            }
+            if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {
+                widths.push(Width::Avx512);
+            }
+        }
+        widths
+    }
+
+    /// The widest that this machine can run.
+    pub fn best() -> Width {
+        Width::available().pop().unwrap_or(Width::Scalar)
+    }
+}

@@ -1,0 +1,65 @@
+//! One contact at a time: what the wide lanes must equal.
+
+use super::{Lane, Row, Row4};
+
+impl Lane for f64 {
+    const WIDTH: usize = 1;
+    type Mask = bool;
+
+    #[inline(always)]
+    fn splat(x: f64) -> f64 {
+        x
+    }
+    #[inline(always)]
+    fn load(from: &[f64]) -> f64 {
+        from[0]
+    }
+    #[inline(always)]
+    fn store(self, to: &mut [f64]) {
+        to[0] = self;
+    }
+    #[inline(always)]
+    fn sqrt(self) -> f64 {
+        f64::sqrt(self)
+    }
+    #[inline(always)]
+    fn min(self, other: f64) -> f64 {
+        if self < other { self } else { other }
+    }
+    #[inline(always)]
+    fn max(self, other: f64) -> f64 {
+        if self > other { self } else { other }
+    }
+    #[inline(always)]
+    fn gt(self, other: f64) -> bool {
+        self > other
+    }
+    #[inline(always)]
+    fn select(mask: bool, yes: f64, no: f64) -> f64 {
+        if mask { yes } else { no }
+    }
+    #[inline(always)]
+    fn both(a: bool, b: bool) -> bool {
+        a & b
+    }
+    #[inline(always)]
+    fn any(mask: bool) -> bool {
+        mask
+    }
+    #[inline(always)]
+    fn rows(table: &[Row], index: &[u32]) -> [f64; 8] {
+        table[index[0] as usize]
+    }
+    #[inline(always)]
+    fn rows4(table: &[Row4], index: &[u32]) -> [f64; 4] {
+        table[index[0] as usize]
+    }
+    #[inline(always)]
+    fn store_rows(columns: [f64; 8], to: &mut [f64]) {
+        to[..8].copy_from_slice(&columns);
+    }
+    #[inline(always)]
+    fn store_rows4(columns: [f64; 4], to: &mut [f64]) {
+        to[..4].copy_from_slice(&columns);
+    }
+}

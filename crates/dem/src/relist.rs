@@ -1,0 +1,247 @@
+//! Makes the lists anew: sorts the particles in space, finds pairs and walls near them, carries contact memory over.
+
+use crate::interaction::{Interaction, Listed, NEW, With};
+use crate::kernel::LEDGER;
+use crate::neighbours::pairs;
+use crate::simulation::{Simulation, stride};
+use geom::{Grid, Vec3};
+use std::collections::HashMap;
+
+impl Simulation {
+    /// Sorts, lists, and remembers.
+    pub(crate) fn relist(&mut self) {
+        self.wrap();
+        let order = self.space_order();
+        let old: Vec<u32> = {
+            self.particles.select(&order);
+            order.clone()
+        };
+        self.zones.reorder(&order);
+        let place: HashMap<u32, u32> = order.iter().zip(0u32..).map(|(&o, n)| (o, n)).collect();
+        self.fresh = self.fresh.iter().filter_map(|k| place.get(k).copied()).collect();
+        for k in 0..self.particles.len() {
+            let r = self.particles.rows[k];
+            self.particles.home[k] = [r[0], r[1], r[2], 0.0];
+        }
+        let memories = Memories::of(&self.interactions);
+        self.listed = self.steps;
+        self.list_contacts();
+        memories.recall(&mut self.interactions, &old);
+        self.away = 0.0;
+        self.stale = false;
+        self.listings += 1;
+    }
+
+    /// Particles that have left the box through a periodic face come back through the other.
+    fn wrap(&mut self) {
+        if self.setup.periodic.iter().all(|p| p.is_none()) {
+            return;
+        }
+        for k in 0..self.particles.len() {
+            let p = self.wrapped(self.particles.position(k));
+            self.particles.rows[k][..3].copy_from_slice(p.as_slice());
+        }
+    }
+
+    /// Old places of the particles that stay, sorted by cell and, within a cell, by id.
+    fn space_order(&self) -> Vec<u32> {
+        let mut stay: Vec<u32> =
+            (0..self.particles.len() as u32).filter(|&k| !self.zones.is_gone(k as usize)).collect();
+        stay.sort_unstable_by_key(|&k| self.particles.id[k as usize]);
+        let points: Vec<Vec3> = stay.iter().map(|&k| self.particles.position(k as usize)).collect();
+        if points.is_empty() {
+            return stay;
+        }
+        let grid = Grid::new(&points, self.cell());
+        grid.order().iter().map(|&k| stay[k as usize]).collect()
+    }
+
+    fn largest_radius(&self) -> f64 {
+        let count = self.particles.len();
+        self.particles.rows[..count].iter().map(|r| r[3]).fold(0.0, f64::max)
+    }
+
+    fn cell(&self) -> f64 {
+        (2.0 * self.largest_radius() + self.skin).max(f64::MIN_POSITIVE)
+    }
+
+    /// Lists all contacts of the particles where they were listed (`home`): a function of those places, of the step of
+    /// listing, and of nothing else, so that a resumed run has the same lists.
+    pub(crate) fn list_contacts(&mut self) {
+        let p = &self.particles;
+        let count = p.len();
+        let points: Vec<Vec3> = p.home.iter().map(|h| Vec3::new(h[0], h[1], h[2])).collect();
+        let radii: Vec<f64> = p.rows[..count].iter().map(|r| r[3]).collect();
+        let largest = self.largest_radius();
+        let grid = Grid::new(&points, self.cell());
+        let time = self.listed as f64 * self.dt;
+        let mut lists: Vec<Vec<Listed>> = vec![Vec::new(); self.interactions.len()];
+        let class = self.classes(With::Particles);
+        for (i, j) in pairs(&points, &radii, &grid, largest, self.skin) {
+            let at = class[&ordered(p.material[i as usize], p.material[j as usize])];
+            lists[at].push((i, j, Vec3::zeros()));
+        }
+        let images = self.classes(With::Images);
+        if !images.is_empty() {
+            for (i, j, shift) in self.image_pairs(&points, &radii, &grid, largest) {
+                let at = images[&ordered(p.material[i as usize], p.material[j as usize])];
+                lists[at].push((i, j, shift));
+            }
+        }
+        for (list, interaction) in lists.iter_mut().zip(&self.interactions) {
+            if let With::Wall(w) = interaction.with {
+                let member = |k: usize| p.material[k] == interaction.between.0;
+                let near = self.walls[w].near(&points, &radii, member, self.skin, time);
+                *list = near.into_iter().map(|(i, part)| (i, part, Vec3::zeros())).collect();
+            }
+        }
+        self.adopt(lists, count);
+    }
+
+    fn adopt(&mut self, lists: Vec<Vec<Listed>>, count: usize) {
+        let mut places = 0;
+        for (list, interaction) in lists.iter().zip(&mut self.interactions) {
+            interaction.list(list, count);
+            interaction.first_load = places;
+            places += interaction.places();
+        }
+        let couples = self.interactions.iter().any(|i| i.kernel.couples());
+        let fill = |v: &mut Vec<f64>, n: usize| {
+            v.clear();
+            v.resize(n, 0.0);
+        };
+        fill(&mut self.loads, places * stride(self.particles.rotates()));
+        fill(&mut self.couples, if couples { places * 4 } else { 0 });
+        fill(&mut self.ledger, if self.setup.ledger { places * LEDGER } else { 0 });
+        self.index_loads(count);
+        self.just_listed = true;
+    }
+
+    /// For each particle, its loads in a fixed order.
+    fn index_loads(&mut self, count: usize) {
+        let each = |interactions: &[Interaction], put: &mut dyn FnMut(u32, u32)| {
+            for it in interactions {
+                for k in 0..it.len {
+                    let load = 2 * (it.first_load + k) as u32;
+                    put(it.i[k], load);
+                    if !matches!(it.with, With::Wall(_)) {
+                        put(it.partner[k], load + 1);
+                    }
+                }
+            }
+        };
+        let mut starts = vec![0u32; count + 1];
+        each(&self.interactions, &mut |particle, _| starts[particle as usize + 1] += 1);
+        for k in 0..count {
+            starts[k + 1] += starts[k];
+        }
+        let mut next = starts.clone();
+        let mut entries = vec![0u32; starts[count] as usize];
+        each(&self.interactions, &mut |particle, entry| {
+            let place = &mut next[particle as usize];
+            entries[*place as usize] = entry;
+            *place += 1;
+        });
+        (self.starts, self.entries) = (starts, entries);
+    }
+
+    fn classes(&self, with: With) -> HashMap<(u16, u16), usize> {
+        let these = self.interactions.iter().enumerate().filter(|(_, i)| i.with == with);
+        these.map(|(at, i)| (i.between, at)).collect()
+    }
+
+    /// Pairs across periodic faces: i, j, and the shift of j. Each pair once, by the half of all shifts whose first part that
+    /// is not zero is positive.
+    fn image_pairs(&self, points: &[Vec3], radii: &[f64], grid: &Grid, largest: f64) -> Vec<Listed> {
+        let mut found = Vec::new();
+        for shift in half_of_shifts(&self.setup.periodic) {
+            for (i, p) in points.iter().enumerate() {
+                let reach = radii[i] + self.skin;
+                for j in grid.runs_near(p - shift, reach + largest).flatten() {
+                    let close = reach + radii[j];
+                    if (points[j] + shift - p).norm_squared() < close * close {
+                        found.push((i as u32, j as u32, shift));
+                    }
+                }
+            }
+        }
+        found.sort_by_key(|f: &Listed| (f.0, f.1));
+        found
+    }
+}
+
+fn ordered(a: u16, b: u16) -> (u16, u16) {
+    (a.min(b), a.max(b))
+}
+
+fn half_of_shifts(periodic: &[Option<(f64, f64)>; 3]) -> Vec<Vec3> {
+    let period = periodic.map(|p| p.map(|(lo, hi)| hi - lo));
+    let choices = period.map(|p| if p.is_some() { vec![-1.0, 0.0, 1.0] } else { vec![0.0] });
+    let mut shifts = Vec::new();
+    for &x in &choices[0] {
+        for &y in &choices[1] {
+            for &z in &choices[2] {
+                if [x, y, z].into_iter().find(|&s| s != 0.0) == Some(1.0) {
+                    let of = |a: usize, s: f64| s * period[a].unwrap_or(0.0);
+                    shifts.push(Vec3::new(of(0, x), of(1, y), of(2, z)));
+                }
+            }
+        }
+    }
+    shifts
+}
+
+/// Contact memory that is not zero, by what touches what, in the old order.
+struct Memories {
+    kept: Vec<HashMap<(u32, u32), Vec<f64>>>,
+}
+
+impl Memories {
+    fn of(interactions: &[Interaction]) -> Memories {
+        let of_one = |it: &Interaction| {
+            let mut kept = HashMap::new();
+            for k in 0..if it.kernel.memory() > 0 { it.len } else { 0 } {
+                if it.memory(k).any(|x| x != 0.0) {
+                    kept.insert((it.i[k], it.partner[k]), it.memory(k).collect());
+                }
+            }
+            kept
+        };
+        Memories { kept: interactions.iter().map(of_one).collect() }
+    }
+
+    /// Gives each new contact the memory that it had; `old` tells each particle's old place.
+    fn recall(&self, interactions: &mut [Interaction], old: &[u32]) {
+        let classes: Vec<((u16, u16), With)> = interactions.iter().map(|i| (i.between, i.with)).collect();
+        for (at, it) in interactions.iter_mut().enumerate() {
+            if it.kernel.memory() == 0 {
+                continue;
+            }
+            let wall = matches!(it.with, With::Wall(_));
+            // A pair may have become a pair across a periodic face, or stopped being one.
+            let same = |k: &usize| {
+                if wall {
+                    *k == at
+                } else {
+                    classes[*k].0 == it.between && !matches!(classes[*k].1, With::Wall(_))
+                }
+            };
+            let sources: Vec<usize> = (0..classes.len()).filter(same).collect();
+            for k in 0..it.len {
+                let (i, partner) = (it.i[k], it.partner[k]);
+                let key = (old[i as usize], if wall { partner } else { old[partner as usize] });
+                if key.0 == NEW || (!wall && key.1 == NEW) {
+                    continue;
+                }
+                let swapped = (key.1, key.0);
+                let found = sources.iter().find_map(|&s| {
+                    let there = self.kept[s].get(&key).map(|m| (1.0, m));
+                    there.or_else(|| if wall { None } else { self.kept[s].get(&swapped).map(|m| (-1.0, m)) })
+                });
+                if let Some((sign, memory)) = found {
+                    it.remember(k, sign, memory.iter().copied());
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! Checkpoints: the whole state of a run, so that a resumed one goes on bit for bit.
+
+use crate::energy::Account;
+use crate::error::SetupError;
+use crate::particles::Particles;
+use crate::setup::Setup;
+use crate::simulation::Simulation;
+use crate::zones::Zones;
+use serde::{Deserialize, Serialize};
+
+/// Everything that a setup and the lists do not give.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct State {
+    dt: f64,
+    skin: f64,
+    steps: u64,
+    listed: u64,
+    away: f64,
+    stale: bool,
+    current: bool,
+    fresh: Vec<u32>,
+    particles: Particles,
+    zones: Zones,
+    account: Account,
+    listings: u64,
+    /// Contact memory of each interaction; empty while lists are stale from the start.
+    memory: Vec<Vec<f64>>,
+    /// Loads, couples and ledger, when they are those of this step.
+    loads: [Vec<f64>; 3],
+}
+
+impl State {
+    /// Steps done.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+    /// Steps × Δt [s].
+    pub fn time(&self) -> f64 {
+        self.steps as f64 * self.dt
+    }
+}
+
+impl Simulation {
+    /// The state of this instant.
+    pub fn state(&self) -> State {
+        let loads = if self.current {
+            [self.loads.clone(), self.couples.clone(), self.ledger.clone()]
+        } else {
+            Default::default()
+        };
+        State {
+            dt: self.dt,
+            skin: self.skin,
+            steps: self.steps,
+            listed: self.listed,
+            away: self.away,
+            stale: self.stale,
+            current: self.current,
+            fresh: self.fresh.clone(),
+            particles: self.particles.clone(),
+            zones: self.zones.clone(),
+            account: self.account,
+            listings: self.listings,
+            memory: self.interactions.iter().map(|i| i.all_memory().to_vec()).collect(),
+            loads,
+        }
+    }
+
+    /// Goes on from a state of the same setup.
+    ///
+    /// # Errors
+    /// A setup that cannot run, or a state of another one.
+    pub fn resume(setup: Setup, state: State) -> Result<Simulation, SetupError> {
+        let mut sim = Simulation::new(setup)?;
+        let other = |what: &str| SetupError::OtherState(what.to_owned());
+        if sim.dt != state.dt {
+            return Err(other(&format!("time step {} s, saved {} s", sim.dt, state.dt)));
+        }
+        if sim.particles.rotates() != state.particles.rotates() {
+            return Err(other("one has rotation and the other has not"));
+        }
+        (sim.skin, sim.steps, sim.listed, sim.away) = (state.skin, state.steps, state.listed, state.away);
+        (sim.particles, sim.zones, sim.account) = (state.particles, state.zones, state.account);
+        (sim.fresh, sim.listings) = (state.fresh, state.listings);
+        if state.memory.len() != sim.interactions.len() {
+            return Err(other("another number of materials or walls"));
+        }
+        if state.listings > 0 {
+            sim.list_contacts();
+            for (interaction, memory) in sim.interactions.iter_mut().zip(&state.memory) {
+                if !interaction.restore_memory(memory) {
+                    return Err(other("another number of contacts"));
+                }
+            }
+        }
+        sim.stale = state.stale;
+        if state.current {
+            let [loads, couples, ledger] = state.loads;
+            if loads.len() != sim.loads.len()
+                || couples.len() != sim.couples.len()
+                || ledger.len() != sim.ledger.len()
+            {
+                return Err(other("another number of loads"));
+            }
+            (sim.loads, sim.couples, sim.ledger, sim.current) = (loads, couples, ledger, true);
+        }
+        Ok(sim)
+    }
+}
