@@ -17,7 +17,7 @@ const BUFFER: usize = 1 << 18;
 #[derive(Debug, Clone, Default, clap::Args)]
 pub struct Output {
     /// Write to FILE (appears when whole) instead of stdout
-    #[arg(short = 'o', long = "output", value_name = "FILE")]
+    #[arg(id = "output", short = 'o', long = "output", value_name = "FILE")]
     pub file: Option<PathBuf>,
     /// Write PLY as text
     #[arg(long)]

@@ -124,7 +124,7 @@ fn set_threads(common: &Common) -> anyhow::Result<()> {
 
 /// See [`arguments`].
 fn canonical(command: &Command, matches: &ArgMatches) -> Vec<String> {
-    let silent = ["quiet", "threads", "report", "file", "help", "version"];
+    let silent = ["quiet", "threads", "report", "output", "help", "version"];
     let mut list = Vec::new();
     for argument in command.get_arguments() {
         let id = argument.get_id().as_str();

@@ -1,0 +1,216 @@
+//! What a process does: exit codes, pipes, files that appear when whole. Starts itself as a tool.
+
+mod tool;
+
+use serde_json::Value;
+use std::{
+    fs,
+    io::{Read, Write},
+    path::Path,
+    process::{Child, Command, ExitCode, Output, Stdio},
+    time::{Duration, Instant},
+};
+
+fn main() -> ExitCode {
+    if std::env::var_os(tool::SWITCH).is_some() {
+        return tool::main();
+    }
+    let tests: [(&str, fn(&Path)); 12] = [
+        ("a file appears when it is whole, with ordinary permissions", a_file_appears_when_it_is_whole),
+        ("a failed tool leaves the old file and nothing else", a_failed_tool_leaves_the_old_file),
+        ("a panic leaves nothing", a_panic_leaves_nothing),
+        ("a signal leaves nothing", a_signal_leaves_nothing),
+        ("links stay links, devices and pipes stay what they are", links_and_pipes_stay),
+        ("a closed pipe is no failure", a_closed_pipe_is_no_failure),
+        ("wrong usage is exit 2", wrong_usage_is_exit_2),
+        ("a guard's stop is exit 3, with output and report", a_stop_is_exit_3),
+        ("a missing input names the tool, the file and the cure", a_missing_input_is_named),
+        ("the report says what was done", the_report_says_what_was_done),
+        ("quiet is quiet", quiet_is_quiet),
+        ("pipes and files give the same bytes", pipes_and_files_give_the_same_bytes),
+    ];
+    let wanted: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
+    for (name, test) in tests.iter().filter(|(name, _)| wanted.iter().all(|w| name.contains(w))) {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        test(folder.path());
+        println!("test {name} ... ok");
+    }
+    ExitCode::SUCCESS
+}
+
+fn start(folder: &Path, arguments: &[&str]) -> Child {
+    Command::new(std::env::current_exe().unwrap())
+        .args(arguments)
+        .env(tool::SWITCH, "1")
+        .current_dir(folder)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap()
+}
+
+fn run(folder: &Path, arguments: &[&str]) -> Output {
+    start(folder, arguments).wait_with_output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<String> = fs::read_dir(folder)
+        .unwrap()
+        .map(|e| e.unwrap().file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    names
+}
+
+const CLOUD: &str = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n\
+                     property uchar red\nend_header\n0 0 0 1\n1 0 0 2\n";
+
+fn a_file_appears_when_it_is_whole(folder: &Path) {
+    let out = run(folder, &["write", "-o", "out.bin"]);
+    assert!(out.status.success(), "{}", text(&out.stderr));
+    // While it was being written it stood hidden beside its final name.
+    let during =
+        text(&out.stderr).lines().find_map(|l| l.strip_prefix("during: ").map(str::to_owned)).unwrap();
+    assert!(
+        during.starts_with(".out.bin.") && during.ends_with(".part") && !during.contains(' '),
+        "{during}"
+    );
+    assert_eq!(names(folder), ["out.bin"]);
+    let created = folder.join("by-hand");
+    fs::write(&created, "").unwrap();
+    let mode = |path: &Path| fs::metadata(path).unwrap().permissions();
+    assert_eq!(mode(&folder.join("out.bin")), mode(&created));
+}
+
+fn a_failed_tool_leaves_the_old_file(folder: &Path) {
+    fs::write(folder.join("out.bin"), "old").unwrap();
+    let out = run(folder, &["fail", "-o", "out.bin", "--report", "report.json"]);
+    assert_eq!((out.status.code(), names(folder)), (Some(1), vec!["out.bin".to_owned()]));
+    assert_eq!(fs::read(folder.join("out.bin")).unwrap(), b"old");
+    assert_eq!(text(&out.stderr), "cloud-test: scan.ply: point 7: x is NaN: drop it\n");
+}
+
+fn a_panic_leaves_nothing(folder: &Path) {
+    assert_eq!(run(folder, &["panic", "-o", "out.bin"]).status.code(), Some(101));
+    assert_eq!(names(folder), [""; 0]);
+}
+
+fn a_signal_leaves_nothing(folder: &Path) {
+    let mut child = start(folder, &["wait", "-o", "out.bin"]);
+    let deadline = Instant::now() + Duration::from_secs(20);
+    while names(folder).is_empty() {
+        assert!(Instant::now() < deadline, "the tool did not start");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    // The listener starts just after the file.
+    std::thread::sleep(Duration::from_millis(200));
+    let sent = Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap();
+    assert!(sent.success());
+    let status = child.wait().unwrap();
+    assert_eq!((status.code(), names(folder)), (None, vec![]));
+}
+
+fn links_and_pipes_stay(folder: &Path) {
+    fs::write(folder.join("real"), "old").unwrap();
+    std::os::unix::fs::symlink("real", folder.join("link")).unwrap();
+    assert!(run(folder, &["write", "-o", "link"]).status.success());
+    assert!(folder.join("link").is_symlink() && fs::read(folder.join("real")).unwrap().len() > 3);
+    assert!(run(folder, &["write", "-o", "/dev/null"]).status.success());
+    assert!(!fs::metadata("/dev/null").unwrap().is_file());
+    assert!(Command::new("mkfifo").arg(folder.join("pipe")).status().unwrap().success());
+    let child = start(folder, &["write", "-o", "pipe"]);
+    let mut bytes = Vec::new();
+    fs::File::open(folder.join("pipe")).unwrap().read_to_end(&mut bytes).unwrap();
+    assert!(child.wait_with_output().unwrap().status.success());
+    assert_eq!(bytes, fs::read(folder.join("real")).unwrap());
+    let out = run(folder, &["write", "-o", "."]);
+    assert!(text(&out.stderr).contains("is a folder"));
+    let out = run(folder, &["write", "-o", "no/such/out.bin"]);
+    assert!(out.status.code() == Some(1) && text(&out.stderr).contains("no/such/out.bin: cannot create it"));
+}
+
+fn a_closed_pipe_is_no_failure(folder: &Path) {
+    let mut child = start(folder, &["flood"]);
+    let mut first = [0; 10];
+    child.stdout.take().unwrap().read_exact(&mut first).unwrap();
+    let out = child.wait_with_output().unwrap();
+    assert_eq!((out.status.code(), text(&out.stderr)), (Some(0), String::new()));
+}
+
+fn wrong_usage_is_exit_2(folder: &Path) {
+    assert_eq!(run(folder, &["write", "--no-such-flag"]).status.code(), Some(2));
+    assert_eq!(run(folder, &["write", "--threads", "0"]).status.code(), Some(2));
+    let out = run(folder, &["usage"]);
+    assert_eq!(
+        (out.status.code(), text(&out.stderr)),
+        (Some(2), "cloud-test: --spacing: 0 m: give more\n".into())
+    );
+    let out = run(folder, &["--version"]);
+    assert_eq!((out.status.code(), text(&out.stdout).starts_with("cloud-test 0.")), (Some(0), true));
+    let help = text(&run(folder, &["--help"]).stdout);
+    assert!(
+        ["--quiet", "--threads", "--report", "--output", "--seed"].iter().all(|flag| help.contains(flag))
+    );
+}
+
+fn a_stop_is_exit_3(folder: &Path) {
+    let out = run(folder, &["stop", "-o", "out.bin", "--report", "report.json"]);
+    assert_eq!(
+        (out.status.code(), names(folder)),
+        (Some(3), vec!["out.bin".to_owned(), "report.json".to_owned()])
+    );
+    assert!(text(&out.stderr).contains("cloud-test: particle 5: overlap"), "{}", text(&out.stderr));
+}
+
+fn a_missing_input_is_named(folder: &Path) {
+    let out = run(folder, &["copy", "none.ply"]);
+    assert_eq!(out.status.code(), Some(1));
+    let said = text(&out.stderr);
+    assert!(said.starts_with("cloud-test: none.ply: cannot open it (check the path"), "{said}");
+    assert_eq!(said.lines().count(), 1);
+    fs::write(folder.join("cut.ply"), &CLOUD[..CLOUD.len() - 4]).unwrap();
+    let said = text(&run(folder, &["copy", "cut.ply", "-o", "out.ply"]).stderr);
+    assert!(said.contains("cut.ply") && said.contains("row 1"), "{said}");
+    assert_eq!(names(folder), ["cut.ply"]);
+}
+
+fn the_report_says_what_was_done(folder: &Path) {
+    fs::write(folder.join("in.ply"), CLOUD).unwrap();
+    let out = run(folder, &["copy", "in.ply", "-o", "out.ply", "--report", "r.json", "--threads", "2"]);
+    assert_eq!(text(&out.stderr), "cloud-test: 2 points\n");
+    let report: Value = serde_json::from_slice(&fs::read(folder.join("r.json")).unwrap()).unwrap();
+    assert_eq!((&report["tool"], &report["points"]), (&"cloud-test".into(), &2.into()));
+    assert_eq!(report["threads"], 2);
+    assert_eq!(report["arguments"][0], "copy");
+    assert!(
+        report["seconds"].as_f64().unwrap() > 0.0 && report["peak_memory_bytes"].as_u64() > Some(100_000)
+    );
+}
+
+fn quiet_is_quiet(folder: &Path) {
+    fs::write(folder.join("in.ply"), CLOUD).unwrap();
+    let out = run(folder, &["-q", "copy", "in.ply"]);
+    assert!(out.status.success() && out.stderr.is_empty() && out.stdout.starts_with(b"ply\n"));
+    assert_eq!(run(folder, &["-q", "fail"]).stderr.is_empty(), false, "errors are still told");
+}
+
+fn pipes_and_files_give_the_same_bytes(folder: &Path) {
+    fs::write(folder.join("in.ply"), CLOUD).unwrap();
+    let by_file = run(folder, &["copy", "in.ply", "--seed", "3", "-o", "out.ply"]);
+    assert!(by_file.status.success(), "{}", text(&by_file.stderr));
+    let mut child = start(folder, &["copy", "--seed=3"]);
+    child.stdin.take().unwrap().write_all(CLOUD.as_bytes()).unwrap();
+    let by_pipe = child.wait_with_output().unwrap();
+    assert_eq!(fs::read(folder.join("out.ply")).unwrap(), by_pipe.stdout);
+    let says = |arguments: &[&str]| text(&run(folder, &[&["arguments"], arguments].concat()).stdout);
+    assert_eq!(
+        says(&["in.ply", "--seed", "3", "-o", "/dev/null", "-q"]),
+        says(&["--seed=3", "--threads", "1", "-"])
+    );
+    assert_eq!(says(&["--seed=3"]).trim(), "[\"arguments\", \"--seed=3\"]");
+}

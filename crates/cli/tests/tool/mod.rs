@@ -1,0 +1,74 @@
+//! The tool under test: its first argument says how it ends.
+
+use cli::{Input, Output, Report, Seed, Stopped};
+use std::{
+    io::{Read, Write},
+    process::ExitCode,
+};
+
+/// Environment variable that turns the test program into this tool.
+pub const SWITCH: &str = "GRAINPIPE_CLI_TEST_TOOL";
+
+#[derive(clap::Parser)]
+struct Args {
+    action: String,
+    #[command(flatten)]
+    input: Input,
+    #[command(flatten)]
+    output: Output,
+    #[command(flatten)]
+    seed: Seed,
+}
+
+pub fn main() -> ExitCode {
+    cli::run("cloud-test", |args: Args| {
+        let report = Report::new("done").with("seed", args.seed.seed);
+        match args.action.as_str() {
+            "copy" => return copy(&args),
+            "arguments" => println!("{:?}", cli::arguments()),
+            "usage" => return Err(cli::usage("--spacing: 0 m: give more")),
+            "flood" => {
+                let mut out = args.output.open()?;
+                loop {
+                    out.write_all(&[7; 4096])?;
+                }
+            }
+            action => {
+                let mut out = args.output.open()?;
+                out.write_all(&[7; 1_000_000])?;
+                end(action)?;
+                out.commit()?;
+                if action == "stop" {
+                    return Err(Stopped::error("particle 5: overlap 31 %", Some(report)));
+                }
+            }
+        }
+        Ok(report)
+    })
+}
+
+fn end(action: &str) -> anyhow::Result<()> {
+    match action {
+        "write" => {
+            let names =
+                std::fs::read_dir(".")?.map(|e| e.map(|e| e.file_name().to_string_lossy().into_owned()));
+            let names: Vec<String> = names.collect::<Result<_, _>>()?;
+            eprintln!("during: {}", names.join(" "));
+        }
+        "fail" => return Err(anyhow::anyhow!("point 7: x is NaN: drop it").context("scan.ply")),
+        "panic" => panic!("on purpose"),
+        "wait" => {
+            std::io::stdin().read_to_end(&mut Vec::new())?;
+        }
+        _ => {}
+    }
+    Ok(())
+}
+
+fn copy(args: &Args) -> anyhow::Result<Report> {
+    let cloud = args.input.read_cloud()?;
+    args.output.write_cloud(&cloud)?;
+    Ok(Report::new(format!("{} points", cloud.points.len()))
+        .with("points", cloud.points.len())
+        .with("threads", rayon::current_num_threads()))
+}
