@@ -1,2 +1,52 @@
-//! chute-scan
-fn main() {}
+//! Makes the scan of a swivel chute that the samples and tests use.
+
+mod scan;
+
+use clap::Parser;
+use cli::Report;
+use std::process::ExitCode;
+
+/// Make a synthetic laser scan of a swivel chute, with a blind spot and its mounting end
+#[derive(Parser)]
+struct Args {
+    /// Number of points
+    #[arg(long, value_name = "N", default_value_t = 60_000, value_parser = clap::value_parser!(u32).range(1..=50_000_000))]
+    points: u32,
+    /// Deviation of the range noise [m]
+    #[arg(long, value_name = "M", default_value_t = 0.0008, value_parser = length)]
+    noise: f64,
+    /// Radius of the blind spot [m], 0 for none
+    #[arg(long, value_name = "M", default_value_t = 0.12, value_parser = length)]
+    blind: f64,
+    #[command(flatten)]
+    seed: cli::Seed,
+    #[command(flatten)]
+    output: cli::Output,
+}
+
+fn main() -> ExitCode {
+    cli::run("chute-scan", |args: Args| {
+        let scan = scan::Scan {
+            points: args.points as usize,
+            noise: args.noise,
+            blind: args.blind,
+            seed: args.seed.seed,
+        };
+        let cloud = scan.cloud();
+        args.output.write_cloud(&cloud)?;
+        let summary =
+            format!("{} points, noise {} m, blind spot of radius {} m", args.points, args.noise, args.blind);
+        Ok(Report::new(summary)
+            .with("points", args.points)
+            .with("noise_m", args.noise)
+            .with("blind_m", args.blind)
+            .with("seed", args.seed.seed))
+    })
+}
+
+fn length(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if (0.0..=0.3).contains(&value) => Ok(value),
+        _ => Err("give a length from 0 to 0.3 in metres".into()),
+    }
+}

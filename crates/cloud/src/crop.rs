@@ -1,0 +1,111 @@
+//! Crop: which points stay.
+//!
+//! A point stays when it is in some `keep` (or none is given) and in no `remove`; of those, isolated points
+//! and small parts go when asked.
+
+use crate::{Cloud, largest, outliers};
+use geom::{Shape, Vec3};
+use rayon::prelude::*;
+use serde::Serialize;
+
+/// Points judged by one task.
+const CHUNK: usize = 1 << 14;
+
+/// What to keep.
+#[derive(Debug, Clone, Default)]
+pub struct Rules {
+    /// Keep the points of these shapes; all when there is none.
+    pub keep: Vec<Shape>,
+    /// Remove the points of these shapes.
+    pub remove: Vec<Shape>,
+    /// Remove points far from their neighbours.
+    pub outliers: Option<outliers::Outliers>,
+    /// Keep only the largest part whose points are connected by steps of at most this [m].
+    pub largest: Option<f64>,
+}
+
+/// What was kept and why not.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct Cropped {
+    /// Points that came in.
+    pub points_in: usize,
+    /// Points without finite coordinates.
+    pub not_finite: usize,
+    /// Points that the shapes took away.
+    pub outside_shapes: usize,
+    /// Points far from their neighbours.
+    pub outliers: usize,
+    /// Points of smaller parts.
+    pub smaller_parts: usize,
+    /// Points that stay.
+    pub points_out: usize,
+}
+
+/// The points that stay, in their order, with all their properties.
+pub fn crop(cloud: &Cloud, rules: &Rules) -> (Cloud, Cropped) {
+    let points = &cloud.points;
+    let is_finite = |p: &Vec3| p.x.is_finite() && p.y.is_finite() && p.z.is_finite();
+    let in_shapes = |p: &Vec3| {
+        (rules.keep.is_empty() || rules.keep.iter().any(|s| s.contains(p)))
+            && !rules.remove.iter().any(|s| s.contains(p))
+    };
+    let judged: Vec<(Vec<u32>, usize)> = points
+        .par_chunks(CHUNK)
+        .enumerate()
+        .map(|(chunk, points)| {
+            let first = (chunk * CHUNK) as u32;
+            let finite = (first..).zip(points).filter(|(_, p)| is_finite(p));
+            let bad = points.len() - finite.clone().count();
+            (finite.filter(|(_, p)| in_shapes(p)).map(|(i, _)| i).collect(), bad)
+        })
+        .collect();
+    let not_finite = judged.iter().map(|(_, bad)| bad).sum();
+    let mut rows: Vec<u32> = judged.into_iter().flat_map(|(rows, _)| rows).collect();
+    let mut report = Cropped { points_in: points.len(), not_finite, ..Cropped::default() };
+    report.outside_shapes = points.len() - not_finite - rows.len();
+    if let Some(rule) = &rules.outliers {
+        let before = rows.len();
+        rows = refine(points, rows, |p| outliers::inliers(p, rule));
+        report.outliers = before - rows.len();
+    }
+    if let Some(radius) = rules.largest {
+        let before = rows.len();
+        rows = refine(points, rows, |p| largest::largest(p, radius));
+        report.smaller_parts = before - rows.len();
+    }
+    report.points_out = rows.len();
+    let all = rows.len() == points.len();
+    (if all { cloud.clone() } else { cloud.select(&rows) }, report)
+}
+
+/// The rows that `choose` picks from the points of `rows`.
+fn refine(points: &[Vec3], rows: Vec<u32>, choose: impl Fn(&[Vec3]) -> Vec<u32>) -> Vec<u32> {
+    let some: Vec<Vec3> = rows.iter().map(|&r| points[r as usize]).collect();
+    choose(&some).into_iter().map(|i| rows[i as usize]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use stream::{Table, Values};
+
+    #[test]
+    fn a_point_stays_in_some_keep_and_no_remove() {
+        let points: Vec<Vec3> = (0..10).map(|i| Vec3::new(i as f64, 0.0, 0.0)).collect();
+        let mut attributes = Table::with_rows(11);
+        attributes.push("id", Values::I32((0..11).collect())).unwrap();
+        let points = [&points[..], &[Vec3::repeat(f64::NAN)]].concat();
+        let cloud = Cloud { points, attributes, ..Cloud::default() };
+        let shape = |text: &str| text.parse::<Shape>().unwrap();
+        let rules = Rules {
+            keep: vec![shape("box:0,-1,-1,3,1,1"), shape("sphere:8,0,0,1.5")],
+            remove: vec![shape("sphere:2,0,0,0.5")],
+            ..Rules::default()
+        };
+        let (kept, report) = crop(&cloud, &rules);
+        assert_eq!(kept.attributes.get("id"), Some(&Values::I32(vec![0, 1, 3, 7, 8, 9])));
+        assert_eq!((report.not_finite, report.outside_shapes, report.points_out), (1, 4, 6));
+        let (none, _) = crop(&Cloud::default(), &rules);
+        assert!(none.points.is_empty());
+    }
+}

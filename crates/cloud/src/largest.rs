@@ -1,0 +1,163 @@
+//! The largest part of a cloud whose points are connected by steps of at most a radius.
+//!
+//! Cells of a width of radius/√3 hold only connected points, so parts are found by joining cells.
+
+use geom::{Grid, Vec3};
+
+/// Rows of the finite `points` [m] that belong to the part with the most points, in order; of two equal
+/// parts, the one with the lower first row. `radius` [m] is positive.
+pub fn largest(points: &[Vec3], radius: f64) -> Vec<u32> {
+    if points.is_empty() || !(radius > 0.0 && radius.is_finite()) {
+        return Vec::new();
+    }
+    // A little less, so that rounding cannot part the corners of a cell.
+    let grid = Grid::new(points, radius / 3f64.sqrt() * (1.0 - 1e-9));
+    let cells = Cells::new(points, &grid);
+    let mut parts = Parts::new(cells.starts.len() - 1);
+    let whole_cells = grid.cell() <= radius / 3f64.sqrt();
+    let mut sorted_parts;
+    if whole_cells {
+        cells.join(points, &grid, radius, &mut parts);
+        sorted_parts = vec![0; points.len()];
+        for (cell, run) in cells.starts.windows(2).enumerate() {
+            sorted_parts[run[0]..run[1]].fill(parts.root(cell as u32));
+        }
+    } else {
+        // Cells were widened because the cloud is vast: join point by point.
+        parts = Parts::new(points.len());
+        for (i, p) in points.iter().enumerate() {
+            grid.within(points, *p, radius).for_each(|j| parts.join(i as u32, j));
+        }
+        sorted_parts = grid.order().iter().map(|&i| parts.root(i)).collect();
+    }
+    let mut part_of = vec![0u32; points.len()];
+    grid.order().iter().zip(&sorted_parts).for_each(|(&i, &part)| part_of[i as usize] = part);
+    most_common(&part_of)
+}
+
+/// Rows that hold the most common value.
+fn most_common(part_of: &[u32]) -> Vec<u32> {
+    let mut count = vec![0u32; part_of.len()];
+    part_of.iter().for_each(|&part| count[part as usize] += 1);
+    let most = count.iter().copied().max().unwrap_or(0);
+    let Some(&winner) = part_of.iter().find(|&&part| count[part as usize] == most) else { return Vec::new() };
+    (0u32..).zip(part_of).filter(|&(_, &part)| part == winner).map(|(i, _)| i).collect()
+}
+
+/// The occupied cells of a grid.
+struct Cells {
+    /// Cell `c` holds the sorted places `starts[c]..starts[c + 1]`.
+    starts: Vec<usize>,
+    /// The occupied cell of each sorted place.
+    of_place: Vec<u32>,
+}
+
+impl Cells {
+    fn new(points: &[Vec3], grid: &Grid) -> Cells {
+        let (mut starts, mut of_place) = (Vec::new(), Vec::with_capacity(points.len()));
+        let mut last = None;
+        for (place, &i) in grid.order().iter().enumerate() {
+            let cell = grid.cell_of(&points[i as usize]);
+            if last != Some(cell) {
+                starts.push(place);
+                last = Some(cell);
+            }
+            of_place.push(starts.len() as u32 - 1);
+        }
+        starts.push(points.len());
+        Cells { starts, of_place }
+    }
+
+    /// Joins cells that have two points within `radius`: these are at most two cells apart along each axis.
+    fn join(&self, points: &[Vec3], grid: &Grid, radius: f64, parts: &mut Parts) {
+        for cell in 0..self.starts.len() - 1 {
+            let first = points[grid.order()[self.starts[cell]] as usize];
+            let [x, y, z] = grid.cell_of(&first);
+            for (dy, dz) in (0..=2).flat_map(|dz| (-2..=2).map(move |dy| (dy, dz))) {
+                if dz == 0 && dy < 0 {
+                    continue;
+                }
+                let run = grid.row(x - 2..x + 3, y + dy, z + dz);
+                let mut place = run.start;
+                while place < run.end {
+                    let other = self.of_place[place] as usize;
+                    if other > cell
+                        && parts.root(cell as u32) != parts.root(other as u32)
+                        && self.touch(points, grid, [cell, other], radius)
+                    {
+                        parts.join(cell as u32, other as u32);
+                    }
+                    place = self.starts[other + 1];
+                }
+            }
+        }
+    }
+
+    fn touch(&self, points: &[Vec3], grid: &Grid, cells: [usize; 2], radius: f64) -> bool {
+        let [a, b] = cells.map(|c| &grid.order()[self.starts[c]..self.starts[c + 1]]);
+        let near =
+            |i: &u32, j: &u32| (points[*i as usize] - points[*j as usize]).norm_squared() <= radius * radius;
+        a.iter().any(|i| b.iter().any(|j| near(i, j)))
+    }
+}
+
+/// Union-find; the root of a part is its lowest member.
+pub(crate) struct Parts(Vec<u32>);
+
+impl Parts {
+    pub(crate) fn new(count: usize) -> Parts {
+        Parts((0..count as u32).collect())
+    }
+
+    pub(crate) fn root(&mut self, mut i: u32) -> u32 {
+        while self.0[i as usize] != i {
+            let up = self.0[self.0[i as usize] as usize];
+            self.0[i as usize] = up;
+            i = up;
+        }
+        i
+    }
+
+    pub(crate) fn join(&mut self, i: u32, j: u32) {
+        let (a, b) = (self.root(i), self.root(j));
+        self.0[a.max(b) as usize] = a.min(b);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn brute(points: &[Vec3], radius: f64) -> Vec<u32> {
+        let mut parts = Parts::new(points.len());
+        for i in 0..points.len() {
+            for j in 0..i {
+                if (points[i] - points[j]).norm_squared() <= radius * radius {
+                    parts.join(i as u32, j as u32);
+                }
+            }
+        }
+        most_common(&(0..points.len() as u32).map(|i| parts.root(i)).collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn is_the_part_that_brute_force_finds() {
+        let point = |i: u32| {
+            let v = |s: u32| f64::from(i.wrapping_mul(2654435761).rotate_left(s) % 1000) / 100.0;
+            Vec3::new(v(1), v(9), v(17))
+        };
+        let points: Vec<Vec3> = (0..600).map(point).collect();
+        for radius in [0.3, 0.6, 0.8, 1.0, 1.5, 20.0] {
+            assert_eq!(largest(&points, radius), brute(&points, radius), "{radius}");
+        }
+    }
+
+    #[test]
+    fn a_point_very_far_away_does_not_join() {
+        let mut points: Vec<Vec3> = (0..50).map(|i| Vec3::new(0.1 * i as f64, 0.0, 0.0)).collect();
+        points.push(Vec3::new(1e9, 0.0, 0.0));
+        assert_eq!(largest(&points, 0.11).len(), 50);
+        assert!(largest(&[], 1.0).is_empty());
+        assert_eq!(largest(&[Vec3::zeros(); 9], 1.0).len(), 9);
+    }
+}

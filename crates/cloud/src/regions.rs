@@ -1,0 +1,141 @@
+//! Named regions of a plant, kept in a file so that every scan of it is cropped alike.
+//!
+//! ```toml
+//! [[region]]
+//! name = "mounting"
+//! shape = "box:-1,-1,-1,0,1,1"      # as on the command line; files are sought beside this one
+//! action = "remove"                 # or "keep"
+//! ```
+
+use crate::crop::Rules;
+use geom::Shape;
+use geom::mesh::TriMesh;
+use geom::shape::ShapeError;
+use serde::Deserialize;
+use std::path::Path;
+use thiserror::Error;
+
+/// Why a text is no list of regions.
+#[derive(Debug, Error)]
+#[allow(missing_docs)]
+pub enum RegionsError {
+    #[error("not a list of [[region]] with name, shape and action: {0}")]
+    Toml(#[from] toml::de::Error),
+    #[error("region '{name}'")]
+    Shape {
+        name: String,
+        #[source]
+        source: ShapeError,
+    },
+    #[error("two regions are called '{0}': give each its own name")]
+    Twice(String),
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    #[serde(default)]
+    region: Vec<Region>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Region {
+    name: String,
+    shape: String,
+    action: Action,
+}
+
+#[derive(Deserialize, PartialEq)]
+#[serde(rename_all = "lowercase")]
+enum Action {
+    Keep,
+    Remove,
+}
+
+/// Adds the regions of a TOML `text` to the rules; files named in it are sought in `folder`.
+///
+/// # Errors
+/// Unknown keys, names given twice, texts that are no shapes.
+pub fn add_regions(rules: &mut Rules, text: &str, folder: &Path) -> Result<usize, RegionsError> {
+    let file: File = toml::from_str(text)?;
+    for (i, region) in file.region.iter().enumerate() {
+        if file.region[..i].iter().any(|r| r.name == region.name) {
+            return Err(RegionsError::Twice(region.name.clone()));
+        }
+        let shape = Shape::parse(&beside(&region.shape, folder), &load_mesh);
+        let shape = shape.map_err(|source| RegionsError::Shape { name: region.name.clone(), source })?;
+        let list = if region.action == Action::Keep { &mut rules.keep } else { &mut rules.remove };
+        list.push(shape);
+    }
+    Ok(file.region.len())
+}
+
+/// Reads a SHAPE of the command line, `mesh:FILE` included.
+///
+/// # Errors
+/// As [`Shape::parse`].
+pub fn shape(text: &str) -> Result<Shape, ShapeError> {
+    Shape::parse(text, &load_mesh)
+}
+
+/// A shape's file, when it has a relative one, in `folder`.
+fn beside(shape: &str, folder: &Path) -> String {
+    let (outside, body) = shape.strip_prefix('!').map_or(("", shape), |rest| ("!", rest));
+    match body.split_once(':') {
+        Some((kind @ ("prism" | "mesh"), file)) => format!("{outside}{kind}:{}", folder.join(file).display()),
+        _ => shape.to_owned(),
+    }
+}
+
+fn load_mesh(file: &str) -> Result<TriMesh, String> {
+    let bytes = std::fs::read(file).map_err(|e| format!("cannot read the mesh: {e}"))?;
+    crate::read_mesh(&mut bytes.as_slice()).map_err(|e| {
+        let cause = std::error::Error::source(&e).map(|c| format!(": {c}")).unwrap_or_default();
+        format!("{e}{cause}")
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use geom::Vec3;
+
+    #[test]
+    fn regions_become_rules() {
+        let text = r#"
+            [[region]]
+            name = "chute"
+            shape = "box:0,0,0,1,1,1"
+            action = "keep"
+            [[region]]
+            name = "bolt"
+            shape = "sphere:0,0,0,0.1"
+            action = "remove""#;
+        let mut rules = Rules::default();
+        assert_eq!(add_regions(&mut rules, text, Path::new(".")).unwrap(), 2);
+        assert!(rules.keep[0].contains(&Vec3::repeat(0.5)) && rules.remove[0].contains(&Vec3::zeros()));
+    }
+
+    #[test]
+    fn wrong_files_name_the_region_or_the_line() {
+        for (text, part) in [
+            ("[[region]]\nname = 'a'\nshape = 'ball:1'\naction = 'keep'", "'a'"),
+            ("[[region]]\nname = 'a'\nshape = 'sphere:0,0,0,1'\naction = 'drop'", "drop"),
+            ("[[regoin]]", "regoin"),
+            (
+                "[[region]]\nname = 'a'\nshape = 'sphere:0,0,0,1'\naction = 'keep'\n[[region]]\nname = 'a'\nshape = 'sphere:0,0,0,1'\naction = 'keep'",
+                "two regions",
+            ),
+        ] {
+            let error = add_regions(&mut Rules::default(), text, Path::new(".")).unwrap_err();
+            assert!(error.to_string().contains(part), "{error}");
+        }
+    }
+
+    #[test]
+    fn files_are_sought_beside_the_regions() {
+        assert_eq!(beside("!prism:a.json", Path::new("/plant")), "!prism:/plant/a.json");
+        assert_eq!(beside("mesh:/x/a.ply", Path::new("/plant")), "mesh:/x/a.ply");
+    }
+}
