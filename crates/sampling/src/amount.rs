@@ -54,7 +54,11 @@ fn by_count(
         if off <= COUNT_WITHIN * count as f64 {
             break;
         }
-        if y > 0.0 { low = low.max(x) } else { high = high.min(x) }
+        if y > 0.0 {
+            low = low.max(x)
+        } else {
+            high = high.min(x)
+        }
         let share = ((y + goal).exp() / points.len() as f64).min(1.0);
         let slope = match last {
             Some((x0, y0)) if x0 != x && y0 != y => ((y - y0) / (x - x0)).clamp(-3.0, -0.05),
@@ -64,7 +68,14 @@ fn by_count(
         last = Some((x, y));
         let step = x - (y / slope).clamp(-1.5, 1.5);
         let inside = step > low && step < high;
-        spacing = if inside { step } else if low.is_finite() && high.is_finite() { 0.5 * (low + high) } else { x - (y / slope).signum() }.exp();
+        spacing = if inside {
+            step
+        } else if low.is_finite() && high.is_finite() {
+            0.5 * (low + high)
+        } else {
+            x - (y / slope).signum()
+        }
+        .exp();
         if high - low < 1e-9 || spacing < f64::MIN_POSITIVE.sqrt() {
             break;
         }
@@ -112,7 +123,7 @@ fn by_density(points: &[Vec3], low: f64, high: f64, throw: impl Fn(&Cells, f64) 
 pub fn median_density(points: &[Vec3], spacing: f64) -> f64 {
     let disk = DENSITY_DISK * spacing;
     let cells = Cells::new(points, disk);
-    let mut counts = cells.map(|place| cells.near(place, disk).count());
+    let mut counts = cells.map(|place| cells.count_near(place, disk, u32::MAX - 1));
     counts.sort_unstable();
     counts.get(counts.len() / 2).map_or(0.0, |&n| n as f64 / (std::f64::consts::PI * disk * disk))
 }

@@ -8,11 +8,20 @@ use geom::{Grid, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// A cell that holds points.
+/// Cells and places are worked on in parts of this many.
+const PART: usize = 1024;
+
+/// The cells that hold points, sorted: where each is, its key, and its first place (and one more).
+struct Filled {
+    dims: [i64; 3],
+    at: Vec<[i64; 3]>,
+    keys: Vec<i64>,
+    starts: Vec<u32>,
+}
+
+/// The surroundings of a cell that holds points.
 #[derive(Debug, Clone)]
 struct Cell {
-    /// Its own places.
-    own: (u32, u32),
     /// Places in the 27 cells around it: at most nine contiguous runs.
     rows: [(u32, u32); 9],
     /// Runs in use.
@@ -39,14 +48,17 @@ impl Cells {
         let order = grid.order().to_vec();
         let sorted: Vec<Vec3> = order.par_iter().map(|&i| points[i as usize]).collect();
         let at: Vec<[i64; 3]> = sorted.par_iter().map(|p| grid.cell_of(p)).collect();
-        let mut own = Vec::new();
-        let mut cell_of = Vec::with_capacity(order.len());
-        for run in at.chunk_by(|a, b| a == b) {
-            let start = cell_of.len() as u32;
-            cell_of.extend(std::iter::repeat_n(own.len() as u32, run.len()));
-            own.push((start, start + run.len() as u32));
+        let mut filled = Filled { dims: grid.dims(), at: Vec::new(), keys: Vec::new(), starts: Vec::new() };
+        let mut cell_of = vec![0; order.len()];
+        for place in 0..order.len() {
+            if place == 0 || at[place] != at[place - 1] {
+                filled.push(at[place], place as u32);
+            }
+            cell_of[place] = filled.at.len() as u32 - 1;
         }
-        let cells = own.par_iter().map(|&own| cell_around(&grid, at[own.0 as usize], own)).collect();
+        let mut cells = vec![Cell { rows: [(0, 0); 9], used: 0 }; filled.at.len()];
+        filled.starts.push(order.len() as u32);
+        cells.par_chunks_mut(PART).enumerate().for_each(|(part, cells)| filled.rows(part * PART, cells));
         Cells { points: sorted, order, width: grid.cell(), cells, cell_of }
     }
 
@@ -56,29 +68,46 @@ impl Cells {
     }
 
     /// Runs of places that hold every point within one cell width of the point at `place`.
-    pub fn runs(&self, place: u32) -> impl Iterator<Item = Range<usize>> + '_ {
+    fn runs(&self, place: u32) -> impl Iterator<Item = Range<usize>> + '_ {
         let cell = &self.cells[self.cell_of[place as usize] as usize];
         cell.rows[..cell.used as usize].iter().map(|&(a, b)| a as usize..b as usize)
     }
 
-    /// Places, and squared distances [m²], of the points nearer than `radius` [m] to the one at `place`; itself too.
-    pub fn near(&self, place: u32, radius: f64) -> impl Iterator<Item = (u32, f64)> + '_ {
+    /// Calls `f` with the place and the squared distance [m²] of each point nearer than `radius` [m]
+    /// to the one at `place`; itself too.
+    pub fn each_near(&self, place: u32, radius: f64, mut f: impl FnMut(u32, f64)) {
         debug_assert!(radius <= self.width);
         let centre = self.points[place as usize];
-        self.runs(place).flatten().filter_map(move |other| {
-            let square = (self.points[other] - centre).norm_squared();
-            (square < radius * radius).then_some((other as u32, square))
-        })
+        for run in self.runs(place) {
+            for (other, point) in (run.start as u32..).zip(&self.points[run]) {
+                let square = (point - centre).norm_squared();
+                if square < radius * radius {
+                    f(other, square);
+                }
+            }
+        }
     }
 
-    /// For each place, `f` of the place; in parallel, cell by cell.
-    pub fn map<T: Send>(&self, f: impl Fn(u32) -> T + Sync) -> Vec<T> {
-        let parts: Vec<&[Cell]> = self.cells.chunks(256).collect();
-        let mapped: Vec<Vec<T>> = parts
-            .into_par_iter()
-            .map(|part| part.iter().flat_map(|cell| cell.own.0..cell.own.1).map(&f).collect())
-            .collect();
-        mapped.into_iter().flatten().collect()
+    /// Number of points nearer than `radius` [m] to the one at `place`, itself too; counting may stop past `enough`.
+    pub fn count_near(&self, place: u32, radius: f64, enough: u32) -> u32 {
+        let centre = self.points[place as usize];
+        let mut count = 0;
+        for run in self.runs(place) {
+            // Without a branch: about half of the candidates are near, which cannot be predicted.
+            count += self.points[run]
+                .iter()
+                .map(|p| ((p - centre).norm_squared() < radius * radius) as u32)
+                .sum::<u32>();
+            if count > enough {
+                break;
+            }
+        }
+        count
+    }
+
+    /// For each place, `f` of the place; in parallel, in parts of fixed size.
+    pub fn map<T: Send>(&self, f: impl Fn(u32) -> T + Sync + Send) -> Vec<T> {
+        (0..self.len() as u32).into_par_iter().with_min_len(PART).map(f).collect()
     }
 
     /// Number of cells that hold a point.
@@ -87,14 +116,43 @@ impl Cells {
     }
 }
 
-fn cell_around(grid: &Grid, [x, y, z]: [i64; 3], own: (u32, u32)) -> Cell {
-    let mut cell = Cell { own, rows: [(0, 0); 9], used: 0 };
-    for (dy, dz) in (-1..2).flat_map(|dz| (-1..2).map(move |dy| (dy, dz))) {
-        let run = grid.row(x - 1..x + 2, y + dy, z + dz);
-        if !run.is_empty() {
-            cell.rows[cell.used as usize] = (run.start as u32, run.end as u32);
-            cell.used += 1;
+impl Filled {
+    fn key(&self, [x, y, z]: [i64; 3]) -> i64 {
+        (z * self.dims[1] + y) * self.dims[0] + x
+    }
+
+    fn push(&mut self, at: [i64; 3], start: u32) {
+        self.keys.push(self.key(at));
+        self.at.push(at);
+        self.starts.push(start);
+    }
+
+    /// Rows around the cells from `first` on. Cells are sorted (z slowest, x fastest), so the rows of successive cells
+    /// move forward only: nine pointers walk along the list once, and nothing is looked up.
+    fn rows(&self, first: usize, cells: &mut [Cell]) {
+        let [nx, ny, nz] = self.dims;
+        for (dz, dy) in (-1..2).flat_map(|dz| (-1..2).map(move |dy| (dz, dy))) {
+            let shift = (dz * ny + dy) * nx;
+            let mut from = self.keys.partition_point(|&k| k < self.keys[first] + shift - 1);
+            for (index, around) in (first..).zip(cells.iter_mut()) {
+                let [x, y, z] = self.at[index];
+                if y + dy < 0 || z + dz < 0 || y + dy >= ny || z + dz >= nz {
+                    continue;
+                }
+                let middle = self.keys[index] + shift;
+                let (lowest, highest) = (middle - (x > 0) as i64, middle + (x + 1 < nx) as i64);
+                while from < self.keys.len() && self.keys[from] < lowest {
+                    from += 1;
+                }
+                let mut to = from;
+                while to < self.keys.len() && self.keys[to] <= highest {
+                    to += 1;
+                }
+                if to > from {
+                    around.rows[around.used as usize] = (self.starts[from], self.starts[to]);
+                    around.used += 1;
+                }
+            }
         }
     }
-    cell
 }

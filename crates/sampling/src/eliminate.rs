@@ -61,8 +61,13 @@ impl Weight {
 
 /// Heap with late updates: a weight only falls, so an entry that is out of date is too high and is pushed back.
 fn remove(cells: &Cells, forced: Option<&[bool]>, count: usize, weight: Weight) -> Vec<bool> {
-    let near = |place| cells.near(place, weight.reach).filter(move |&(other, _)| other != place);
-    let mut w: Vec<u64> = cells.map(|place| near(place).map(|(_, s)| weight.of(s)).sum());
+    let mut w: Vec<u64> = cells.map(|place| {
+        let mut sum = 0;
+        cells.each_near(place, weight.reach, |other, square| {
+            sum += if other == place { 0 } else { weight.of(square) }
+        });
+        sum
+    });
     let free = |place: &usize| forced.is_none_or(|f| !f[cells.order[*place] as usize]);
     let mut heap: BinaryHeap<(u64, u32)> =
         (0..cells.len()).filter(free).map(|place| (w[place], place as u32)).collect();
@@ -76,9 +81,11 @@ fn remove(cells: &Cells, forced: Option<&[bool]>, count: usize, weight: Weight) 
         }
         alive[place as usize] = false;
         left -= 1;
-        for (other, square) in near(place).filter(|&(other, _)| alive[other as usize]) {
-            w[other as usize] -= weight.of(square);
-        }
+        cells.each_near(place, weight.reach, |other, square| {
+            if alive[other as usize] {
+                w[other as usize] -= weight.of(square);
+            }
+        });
     }
     alive
 }

@@ -13,7 +13,11 @@ pub(crate) fn lattice(
     amount: Amount,
 ) -> Result<Sample, SampleError> {
     let Amount::Spacing(spacing) = amount else {
-        return Err(SampleError::Unavailable { method: "grid", amount: "a count or a density", instead: "--spacing" });
+        return Err(SampleError::Unavailable {
+            method: "grid",
+            amount: "a count or a density",
+            instead: "--spacing",
+        });
     };
     let is_forced = |i: u32| forced.is_some_and(|f| f[i as usize]);
     let mut near: Vec<([i64; 3], u64, u32)> = (0..points.len() as u32)

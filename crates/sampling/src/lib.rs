@@ -20,11 +20,11 @@ mod poisson;
 mod relax;
 pub mod spectrum;
 
-use cells::Cells;
 use geom::Vec3;
 use serde::Serialize;
 use thiserror::Error;
 
+pub use amount::median_density;
 pub use nearest::{NearestDistances, nearest_distances};
 pub use spectrum::{Spectrum, spectrum};
 
@@ -83,15 +83,21 @@ pub struct Sample {
 pub enum SampleError {
     #[error("the cloud has no points: nothing to sample; check the step before")]
     Empty,
-    #[error("point {index}: coordinates ({x}, {y}, {z}) m are not finite: remove it first, e.g. with cloud-crop")]
+    #[error(
+        "point {index}: coordinates ({x}, {y}, {z}) m are not finite: remove it first, e.g. with cloud-crop"
+    )]
     NotFinite { index: usize, x: f64, y: f64, z: f64 },
     #[error("spacing {0} m: must be a positive length")]
     Spacing(f64),
-    #[error("count {asked}: must be between 1 and the {there} points there are")]
+    #[error("count 0: must be at least 1")]
+    NoCount,
+    #[error("count {asked}: only {there} points are there; ask for at most that many")]
     Count { asked: usize, there: usize },
     #[error("density {low},{high} points/m²: must be positive numbers, the lower one first")]
     Density { low: f64, high: f64 },
-    #[error("count {asked}: {distinct} distinct points were found, the rest are duplicates; ask for at most that many")]
+    #[error(
+        "count {asked}: {distinct} distinct points were found, the rest are duplicates; ask for at most that many"
+    )]
     Duplicates { asked: usize, distinct: usize },
     #[error("method {method} with {amount}: not available yet; use {instead}")]
     Unavailable { method: &'static str, amount: &'static str, instead: &'static str },
@@ -124,10 +130,28 @@ fn check(points: &[Vec3], forced: Option<&[bool]>, wish: &Wish) -> Result<(), Sa
     if let Some(forced) = forced.filter(|f| f.len() != points.len()) {
         return Err(SampleError::Forced { forced: forced.len(), there: points.len() });
     }
+    if let Amount::Count(asked) = wish.amount
+        && asked > points.len()
+    {
+        return Err(SampleError::Count { asked, there: points.len() });
+    }
+    check_wish(wish)
+}
+
+/// Checks what can be checked without the points.
+///
+/// # Errors
+/// Lengths, counts and densities that are not positive; a method that does not take the amount.
+pub fn check_wish(wish: &Wish) -> Result<(), SampleError> {
     match wish.amount {
         Amount::Spacing(r) if !(r > 0.0 && r.is_finite()) => Err(SampleError::Spacing(r)),
-        Amount::Count(asked) if asked == 0 || asked > points.len() => {
-            Err(SampleError::Count { asked, there: points.len() })
+        Amount::Count(0) => Err(SampleError::NoCount),
+        Amount::Count(_) | Amount::Density(..) if wish.method == Method::Grid => {
+            Err(SampleError::Unavailable {
+                method: "grid",
+                amount: "a count or a density",
+                instead: "--spacing",
+            })
         }
         Amount::Density(low, high) if !(low > 0.0 && high >= low && high.is_finite()) => {
             Err(SampleError::Density { low, high })

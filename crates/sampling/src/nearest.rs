@@ -60,8 +60,13 @@ pub fn distances(points: &[Vec3]) -> Vec<f64> {
 }
 
 fn nearest_in(cells: &Cells, place: u32, reach: f64) -> f64 {
-    let squares = cells.near(place, reach).filter(|&(other, _)| other != place).map(|(_, s)| s);
-    squares.fold(f64::INFINITY, f64::min).sqrt()
+    let mut least = f64::INFINITY;
+    cells.each_near(place, reach, |other, square| {
+        if other != place {
+            least = least.min(square);
+        }
+    });
+    least.sqrt()
 }
 
 /// Spacing of the points were they spread evenly over the two longest sides of their box [m].

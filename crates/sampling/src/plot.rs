@@ -20,7 +20,11 @@ pub enum PlotError {
 /// Another ending than .svg or .png.
 pub fn check_name(name: &str) -> Result<(), PlotError> {
     let lower = name.to_ascii_lowercase();
-    if lower.ends_with(".svg") || lower.ends_with(".png") { Ok(()) } else { Err(PlotError::Ending(name.to_owned())) }
+    if lower.ends_with(".svg") || lower.ends_with(".png") {
+        Ok(())
+    } else {
+        Err(PlotError::Ending(name.to_owned()))
+    }
 }
 
 /// The bytes of the picture; the ending of `name` chooses the format.
@@ -30,7 +34,8 @@ pub fn check_name(name: &str) -> Result<(), PlotError> {
 pub fn draw(name: &str, spectrum: &Spectrum) -> Result<Vec<u8>, PlotError> {
     check_name(name)?;
     let line = |values: &[f64], colour: &str, label: &str| {
-        let data: Vec<(f64, f64)> = spectrum.wave_number.iter().copied().zip(values.iter().copied()).collect();
+        let data: Vec<(f64, f64)> =
+            spectrum.wave_number.iter().copied().zip(values.iter().copied()).collect();
         Plot::from(LinePlot::new().with_data(data).with_color(colour).with_legend(label))
     };
     let plots = vec![

@@ -22,7 +22,7 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicU8, Ordering::Relaxed};
 
 /// More rivals than this are not told apart: the cost stays linear in the number of points.
-const RIVALS: usize = 48;
+const RIVALS: u32 = 48;
 /// Width of a block in spacings; must be more than 2.
 const BLOCK: f64 = 16.0;
 
@@ -53,7 +53,7 @@ pub(crate) fn poisson(cells: &Cells, spacing: f64, seed: u64, forced: Option<&[b
 
 /// Few rivals first, then by chance.
 fn rank(cells: &Cells, place: u32, spacing: f64, seed: u64) -> u64 {
-    let rivals = cells.near(place, spacing).take(RIVALS).count();
+    let rivals = cells.count_near(place, spacing, RIVALS).min(RIVALS);
     (rivals as u64) << 56 | chance(seed, cells.order[place as usize] as u64) >> 8
 }
 
@@ -70,11 +70,11 @@ pub(crate) fn chance(seed: u64, index: u64) -> u64 {
 fn keep_forced(cells: &Cells, spacing: f64, forced: &[bool], state: &[AtomicU8]) {
     (0..cells.len() as u32).into_par_iter().filter(|&p| forced[cells.order[p as usize] as usize]).for_each(
         |place| {
-            for (other, _) in cells.near(place, spacing) {
+            cells.each_near(place, spacing, |other, _| {
                 if !forced[cells.order[other as usize] as usize] {
                     state[other as usize].store(COVERED, Relaxed);
                 }
-            }
+            });
             state[place as usize].store(KEPT, Relaxed);
         },
     );
@@ -86,9 +86,7 @@ fn throw(cells: &Cells, spacing: f64, block: &[u32], state: &[AtomicU8]) {
         if state[place as usize].load(Relaxed) != OPEN {
             continue;
         }
-        for (other, _) in cells.near(place, spacing) {
-            state[other as usize].store(COVERED, Relaxed);
-        }
+        cells.each_near(place, spacing, |other, _| state[other as usize].store(COVERED, Relaxed));
         state[place as usize].store(KEPT, Relaxed);
     }
 }

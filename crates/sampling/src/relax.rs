@@ -2,7 +2,7 @@
 //!
 //! Starts from a Poisson-disk sample. Shares are sets of input points nearest to the same kept point; each counts by
 //! 1/(number of points nearer than the spacing), so that crowded places do not pull. Lloyd (1982), doi:10.1109/TIT.1982.1056489;
-//! snapping keeps every result an input point. Eight rounds: more bring out a lattice, and blue noise is lost.
+//! snapping keeps every result an input point, and a move that would bring two nearer than the spacing is not made. Eight rounds: more bring out a lattice, and blue noise is lost.
 
 use crate::cells::Cells;
 use crate::{Sample, SampleError, Wish, amount};
@@ -15,21 +15,23 @@ pub(crate) fn relax(points: &[Vec3], forced: Option<&[bool]>, wish: &Wish) -> Re
     let mut sample = amount::poisson_of(points, forced, wish.amount, wish.seed)?;
     let cells = Cells::new(points, sample.spacing);
     let mut weight = vec![0.0; points.len()];
-    let counts = cells.map(|place| cells.near(place, sample.spacing).count());
+    let counts = cells.map(|place| cells.count_near(place, sample.spacing, u32::MAX - 1));
     for (place, count) in counts.into_iter().enumerate() {
-        weight[cells.order[place] as usize] = 1.0 / count as f64;
+        weight[cells.order[place] as usize] = 1.0 / f64::from(count);
+    }
+    let mut place_of = vec![0; points.len()];
+    for (place, &i) in cells.order.iter().enumerate() {
+        place_of[i as usize] = place as u32;
     }
     for _ in 0..ROUNDS {
         let owner = owners(points, &sample.kept, sample.spacing);
         let middles = middles(points, &weight, &owner, sample.kept.len());
-        let next = snap(points, &owner, &middles, &sample.kept, forced);
-        if next == sample.kept {
+        let wanted = wanted(points, &owner, &middles, &sample.kept, forced);
+        if !snap(&cells, &place_of, &wanted, &mut sample.kept, sample.spacing) {
             break;
         }
-        sample.kept = next;
     }
     sample.kept.sort_unstable();
-    sample.kept.dedup();
     Ok(sample)
 }
 
@@ -41,7 +43,10 @@ fn owners(points: &[Vec3], kept: &[u32], spacing: f64) -> Vec<u32> {
         let mut reach = spacing;
         loop {
             let distance = |k: u32| ((chosen[k as usize] - p).norm_squared(), k);
-            let best = grid.within(&chosen, *p, reach).map(distance).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            let best = grid
+                .within(&chosen, *p, reach)
+                .map(distance)
+                .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
             if let Some((_, k)) = best {
                 return k;
             }
@@ -60,14 +65,36 @@ fn middles(points: &[Vec3], weight: &[f64], owner: &[u32], count: usize) -> Vec<
     sums.into_iter().map(|(sum, w)| if w > 0.0 { sum / w } else { sum }).collect()
 }
 
-/// The point of each share that is nearest to its middle; a forced point stays.
-fn snap(
+/// The point of each share that is nearest to its middle; a forced point stays, and so does one whose
+/// move would bring two kept points nearer than the spacing. One after the other, so that every move sees the ones before.
+fn snap(cells: &Cells, place_of: &[u32], wanted: &[(f64, u32)], kept: &mut [u32], spacing: f64) -> bool {
+    let mut taken = vec![false; place_of.len()];
+    for &i in kept.iter() {
+        taken[place_of[i as usize] as usize] = true;
+    }
+    let mut moved = false;
+    for (now, &(_, to)) in kept.iter_mut().zip(wanted) {
+        let (from, place) = (place_of[*now as usize], place_of[to as usize]);
+        let mut free = from != place;
+        if free {
+            cells.each_near(place, spacing, |other, _| free &= other == from || !taken[other as usize]);
+        }
+        if free {
+            (taken[from as usize], taken[place as usize]) = (false, true);
+            (*now, moved) = (to, true);
+        }
+    }
+    moved
+}
+
+/// For each kept point, the point of its share nearest to the middle of the share.
+fn wanted(
     points: &[Vec3],
     owner: &[u32],
     middles: &[Vec3],
     kept: &[u32],
     forced: Option<&[bool]>,
-) -> Vec<u32> {
+) -> Vec<(f64, u32)> {
     let mut best: Vec<(f64, u32)> = kept.iter().map(|&i| (f64::INFINITY, i)).collect();
     for (i, (p, &k)) in points.iter().zip(owner).enumerate() {
         let (k, off) = (k as usize, (p - middles[k as usize]).norm_squared());
@@ -75,5 +102,5 @@ fn snap(
             best[k] = (off, i as u32);
         }
     }
-    best.into_iter().map(|(_, i)| i).collect()
+    best
 }

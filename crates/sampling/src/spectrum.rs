@@ -4,8 +4,8 @@
 //! P(k) = | Σⱼ wⱼ e^{−i k·xⱼ} − W(k) |² / Σⱼ wⱼ²        wⱼ = exp(−|xⱼ|²/2σ²),   W(k) = (Σⱼ wⱼ) exp(−|k|²σ²/2)
 //! ```
 //!
-//! A direct sum over round patches: around points spread over the cloud, the points within 4 σ are projected
-//! onto their plane of least squares, scaled by the patch's own mean spacing s = √(area per point), and summed against
+//! A direct sum over round patches: around points spread over the cloud, the points within 3 σ are laid
+//! onto their plane of least squares (at their distance in space from the patch's centre), scaled by the patch's own mean spacing s = √(area per point), and summed against
 //! 24 wave directions and 64 wave numbers ν = |k| s/2π. Directions start from one axis of the cloud (its longest), laid into
 //! each plane, so that rows that follow the cloud add up. W removes the window's own transform. P → 1 for random points;
 //! blue noise is ≪ 1 below ν = 1 and has no sharp peak. (Ulichney 1988, doi:10.1109/5.3288; Lagae & Dutré 2008,
@@ -25,7 +25,7 @@ const WAVES: usize = 64;
 /// Widest wave number, in waves per mean spacing.
 const HIGHEST: f64 = 3.2;
 /// σ of the window in mean spacings; the patch ends at 3 σ.
-const SIGMA: f64 = 5.0;
+const SIGMA: f64 = 4.0;
 const PATCH: f64 = 3.0;
 /// A patch counts when its middle is its centre within this many σ, else the border of the sheet runs through it.
 const OFF_CENTRE: f64 = 0.2;
@@ -46,19 +46,27 @@ pub struct Spectrum {
 impl Spectrum {
     /// Highest power and where it is, above ν = 0.5 [–].
     pub fn peak(&self) -> (f64, f64) {
-        let pairs = self.wave_number.iter().copied().zip(self.power.iter().copied()).filter(|(v, _)| *v > 0.5);
+        let pairs =
+            self.wave_number.iter().copied().zip(self.power.iter().copied()).filter(|(v, _)| *v > 0.5);
         pairs.fold((0.0, 0.0), |best, (v, p)| if p > best.1 { (v, p) } else { best })
     }
 
     /// Mean power below ν = 0.5 [–]: what unevenness of large extent is left.
     pub fn low(&self) -> f64 {
-        let low: Vec<f64> = self.wave_number.iter().zip(&self.power).filter(|(v, _)| **v < 0.5).map(|(_, p)| *p).collect();
+        let low: Vec<f64> =
+            self.wave_number.iter().zip(&self.power).filter(|(v, _)| **v < 0.5).map(|(_, p)| *p).collect();
         low.iter().sum::<f64>() / low.len().max(1) as f64
     }
 
     /// Mean anisotropy over all wave numbers from ν = 0.5 [–].
     pub fn mean_anisotropy(&self) -> f64 {
-        let high: Vec<f64> = self.wave_number.iter().zip(&self.anisotropy).filter(|(v, _)| **v > 0.5).map(|(_, a)| *a).collect();
+        let high: Vec<f64> = self
+            .wave_number
+            .iter()
+            .zip(&self.anisotropy)
+            .filter(|(v, _)| **v > 0.5)
+            .map(|(_, a)| *a)
+            .collect();
         high.iter().sum::<f64>() / high.len().max(1) as f64
     }
 }
@@ -74,8 +82,10 @@ pub fn spectrum(points: &[Vec3], spacing: f64) -> Option<Spectrum> {
     // Centres by stride through the cells' order: spread over the cloud, the same each time.
     let stride = (points.len() / (3 * PATCHES)).max(1);
     let centres: Vec<u32> = grid.order().iter().copied().step_by(stride).collect();
-    let patches: Vec<Vec<f64>> =
-        centres.par_iter().filter_map(|&c| patch_power(points, &grid, points[c as usize], reach, axis)).collect();
+    let patches: Vec<Vec<f64>> = centres
+        .par_iter()
+        .filter_map(|&c| patch_power(points, &grid, points[c as usize], reach, axis))
+        .collect();
     if patches.is_empty() {
         return None;
     }
@@ -91,7 +101,7 @@ fn patch_power(points: &[Vec3], grid: &Grid, centre: Vec3, reach: f64, axis: Vec
     let (u, v, normal) = plane(&near, axis)?;
     // The sheet alone: points off the plane by more than a sixth of the reach lie on another one, or on a bend.
     let flat: Vec<[f64; 2]> =
-        near.iter().filter(|p| p.dot(&normal).abs() < reach / 6.0).map(|p| [p.dot(&u), p.dot(&v)]).collect();
+        near.iter().filter(|p| p.dot(&normal).abs() < reach / 6.0).map(|p| unroll(p, &u, &v)).collect();
     let spacing = mean_spacing(&flat, reach);
     let scale = 1.0 / spacing;
     let sigma = (reach * scale / PATCH).min(SIGMA);
@@ -110,11 +120,20 @@ fn patch_power(points: &[Vec3], grid: &Grid, centre: Vec3, reach: f64, axis: Vec
         return None;
     }
     let squares: f64 = placed.iter().map(|(_, w)| w * w).sum();
-    Some((0..DIRECTIONS).flat_map(|d| direction_power(&placed, d, total, sigma).map(move |p| p / squares)).collect())
+    Some(
+        (0..DIRECTIONS)
+            .flat_map(|d| direction_power(&placed, d, total, sigma).map(move |p| p / squares))
+            .collect(),
+    )
 }
 
 /// |sum|² at each wave number along one direction; the phase of the next wave number is the last one turned on.
-fn direction_power(placed: &[([f64; 2], f64)], direction: usize, total: f64, sigma: f64) -> impl Iterator<Item = f64> {
+fn direction_power(
+    placed: &[([f64; 2], f64)],
+    direction: usize,
+    total: f64,
+    sigma: f64,
+) -> impl Iterator<Item = f64> {
     let angle = std::f64::consts::PI * direction as f64 / DIRECTIONS as f64;
     let (sin, cos) = libm::sincos(angle);
     let step = 2.0 * std::f64::consts::PI * HIGHEST / WAVES as f64;
@@ -133,6 +152,14 @@ fn direction_power(placed: &[([f64; 2], f64)], direction: usize, total: f64, sig
         let re = re - total * libm::exp(-0.5 * k * k);
         re * re + im * im
     })
+}
+
+/// Coordinates in the plane, at the distance that the point has in space: a bent sheet is laid flat, not foreshortened.
+fn unroll(p: &Vec3, u: &Vec3, v: &Vec3) -> [f64; 2] {
+    let flat = [p.dot(u), p.dot(v)];
+    let length = (flat[0] * flat[0] + flat[1] * flat[1]).sqrt();
+    let stretch = if length > 0.0 { p.norm() / length } else { 1.0 };
+    flat.map(|x| x * stretch)
 }
 
 /// Two axes in the plane of least squares, the first along `axis` where it can be, and the normal.
@@ -172,11 +199,15 @@ fn average(patches: &[Vec<f64>]) -> Spectrum {
         }
     }
     let at = |wave: usize| (0..DIRECTIONS).map(move |d| d * WAVES + wave);
-    let power: Vec<f64> = (0..WAVES).map(|w| at(w).map(|i| mean[i]).sum::<f64>() / DIRECTIONS as f64).collect();
-    let spread = |w: usize| at(w).map(|i| (mean[i] - power[w]).powi(2)).sum::<f64>() / (DIRECTIONS - 1) as f64;
+    let power: Vec<f64> =
+        (0..WAVES).map(|w| at(w).map(|i| mean[i]).sum::<f64>() / DIRECTIONS as f64).collect();
+    let spread =
+        |w: usize| at(w).map(|i| (mean[i] - power[w]).powi(2)).sum::<f64>() / (DIRECTIONS - 1) as f64;
     Spectrum {
         wave_number: (1..=WAVES).map(|n| HIGHEST * n as f64 / WAVES as f64).collect(),
-        anisotropy: (0..WAVES).map(|w| if power[w] > 0.0 { count * spread(w) / (power[w] * power[w]) } else { 0.0 }).collect(),
+        anisotropy: (0..WAVES)
+            .map(|w| if power[w] > 0.0 { count * spread(w) / (power[w] * power[w]) } else { 0.0 })
+            .collect(),
         power,
         patches: patches.len(),
     }

@@ -1,1 +1,115 @@
-//! wall
+//! From points on a surface to wall spheres: roughness, radii by equation (1), placement, attributes, leak check.
+//!
+//! One sphere for each point. Neighbours are the pairs of the Gabriel graph (see [`star`]); the radii follow from
+//! their distances P and the roughness ζ (see [`equation`]).
+
+pub mod attributes;
+mod build;
+pub mod equation;
+pub mod leak;
+pub mod normals;
+pub mod regions;
+pub mod solve;
+pub mod star;
+mod table;
+mod write;
+
+pub use build::{Wall, WallReport, build};
+pub use regions::{Regions, Surface};
+pub use write::write_mcap;
+
+use geom::Vec3;
+use serde::Serialize;
+use thiserror::Error;
+
+/// How the radii are found.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Radius {
+    /// Point by point, from equation (1) for every pair of neighbours.
+    #[default]
+    Solve,
+    /// One for all, from a representative distance.
+    Uniform,
+    /// Given [m].
+    Given(f64),
+}
+
+/// The distance that stands for all.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Representative {
+    /// Mean over the pairs of neighbours.
+    #[default]
+    Mean,
+    /// Median over the pairs of neighbours.
+    Median,
+}
+
+/// Where a sphere sits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Placement {
+    /// Its centre on the point.
+    #[default]
+    Centre,
+    /// Its surface on the point, on the flow side.
+    Surface,
+}
+
+/// What is wanted.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Wish {
+    /// Radii.
+    pub radius: Radius,
+    /// Distance that stands for all.
+    pub representative: Representative,
+    /// Place of the spheres.
+    pub placement: Placement,
+    /// Direction in which the flow side lies; needed for [`Placement::Surface`].
+    pub facing: Option<Vec3>,
+    /// Diameter of the smallest particle [m]: checks gaps and sizes.
+    pub smallest_particle: Option<f64>,
+}
+
+/// What a wall refuses.
+#[derive(Debug, Error)]
+#[allow(missing_docs)]
+pub enum WallError {
+    #[error("the cloud has {0} points: a wall needs at least 2 that are apart; check the step before")]
+    TooFew(usize),
+    #[error(
+        "point {index}: coordinates ({x}, {y}, {z}) m are not finite: remove it first, e.g. with cloud-crop"
+    )]
+    NotFinite { index: usize, x: f64, y: f64, z: f64 },
+    #[error(
+        "points {first} and {second} at ({x}, {y}, {z}) m are the same place: sample the cloud first, e.g. with bluenoise-sample"
+    )]
+    Duplicate { first: u32, second: u32, x: f64, y: f64, z: f64 },
+    #[error("roughness {roughness} m: must be positive and at most half the distance of neighbours")]
+    NotPositive { roughness: f64 },
+    #[error(
+        "roughness {roughness} m is more than half of the {which} {spacing} m ({place}): no sphere has dents that deep; \
+         use a roughness of at most {most} m, or points at least {need} m apart"
+    )]
+    TooRough { roughness: f64, spacing: f64, which: &'static str, place: String, most: f64, need: f64 },
+    #[error("radius {0} m: must be a positive length")]
+    BadRadius(f64),
+    #[error("a roughness is needed to find the radii: give one, or give the radius itself")]
+    NoRoughness,
+    #[error(
+        "placement on the surface needs the flow side: give the direction in which it lies, e.g. --facing 0,0,1"
+    )]
+    NoFacing,
+    #[error("facing ({x}, {y}, {z}): has no direction")]
+    BadFacing { x: f64, y: f64, z: f64 },
+    #[error("smallest particle {0} m: must be a positive diameter")]
+    BadParticle(f64),
+    #[error("no point has a neighbour within {reach} m: a wall needs points of about equal spacing")]
+    NoPairs { reach: f64 },
+    #[error(transparent)]
+    Attribute(#[from] attributes::AttributeError),
+    #[error(transparent)]
+    Regions(#[from] regions::RegionsError),
+    #[error("column: {0}")]
+    Table(#[from] stream::table::TableError),
+}

@@ -1,0 +1,212 @@
+//! Puts a wall together: neighbours, radii, placement, leak check.
+
+use crate::solve::Changes;
+use crate::star::{Stars, stars};
+use crate::{Placement, Radius, Regions, Representative, WallError, Wish, equation, leak, normals, solve};
+use geom::{Grid, Vec3};
+use serde::Serialize;
+
+/// Wall sphere diameter over smallest particle diameter below which spheres cost more than they give [–].
+const PRACTICAL: f64 = 0.8;
+
+/// Wall spheres.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Wall {
+    /// Centres [m], in the order of the points.
+    pub centres: Vec<Vec3>,
+    /// Radii [m].
+    pub radii: Vec<f64>,
+    /// Region of each sphere; 0 outside of all.
+    pub regions: Vec<u16>,
+}
+
+/// What was built, for the report.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct WallReport {
+    /// Spheres.
+    pub spheres: usize,
+    /// Representative distance of neighbours P [m].
+    pub spacing: f64,
+    /// Shortest and longest distance of a pair [m].
+    pub spacing_range: [f64; 2],
+    /// Representative roughness ζ [m]: the one asked for, or what the given radius makes.
+    pub roughness: f64,
+    /// Least, mean and largest radius [m].
+    pub radius_range: [f64; 3],
+    /// How far the dents are from those asked for.
+    pub changes: Changes,
+    /// The widest gap; `None` when not asked for or when there is none.
+    pub widest_gap: Option<leak::Gap>,
+    /// Gaps that the smallest particle passes.
+    pub leaks: usize,
+    /// Gaps wider than this [m] between three points cannot be told from the outline.
+    pub gaps_up_to: f64,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+}
+
+/// One sphere for each point [m], all finite.
+///
+/// # Errors
+/// Points or settings that make no wall; see [`WallError`].
+pub fn build(points: &[Vec3], regions: &Regions, wish: &Wish) -> Result<(Wall, WallReport), WallError> {
+    check(points, wish)?;
+    let stars = stars(points, nearest(points)?);
+    if stars.pairs.is_empty() {
+        return Err(WallError::NoPairs { reach: stars.largest });
+    }
+    let region_of = regions.of(points);
+    let lengths: Vec<f64> =
+        stars.pairs.iter().map(|&(i, j)| (points[i as usize] - points[j as usize]).norm()).collect();
+    let spacing = representative(lengths.clone(), wish.representative);
+    let zeta = roughness(regions, &region_of, wish)?;
+    let (radii, zeta_all) = radii(points, &stars, &lengths, spacing, zeta.as_deref(), wish)?;
+    let asked = zeta.unwrap_or_else(|| vec![zeta_all; points.len()]);
+    let changes = solve::changes(points, &stars.pairs, &asked, &radii);
+    let centres = place(points, &stars, &radii, wish)?;
+    let mut report = WallReport {
+        spheres: radii.len(),
+        spacing,
+        spacing_range: range(&lengths),
+        roughness: zeta_all,
+        radius_range: [range(&radii)[0], radii.iter().sum::<f64>() / radii.len() as f64, range(&radii)[1]],
+        changes,
+        widest_gap: None,
+        leaks: 0,
+        gaps_up_to: stars.largest,
+        warnings: Vec::new(),
+    };
+    if let Some(particle) = wish.smallest_particle {
+        check_particle(&mut report, particle, &centres, &radii, &stars);
+    }
+    Ok((Wall { centres, radii, regions: region_of }, report))
+}
+
+fn check(points: &[Vec3], wish: &Wish) -> Result<(), WallError> {
+    if points.len() < 2 {
+        return Err(WallError::TooFew(points.len()));
+    }
+    if let Some(index) = points.iter().position(|p| !p.iter().all(|c| c.is_finite())) {
+        let p = points[index];
+        return Err(WallError::NotFinite { index, x: p.x, y: p.y, z: p.z });
+    }
+    let positive = |x: f64| x > 0.0 && x.is_finite();
+    match (wish.radius, wish.smallest_particle, wish.facing) {
+        (Radius::Given(r), _, _) if !positive(r) => Err(WallError::BadRadius(r)),
+        (_, Some(d), _) if !positive(d) => Err(WallError::BadParticle(d)),
+        (_, _, Some(f)) if !positive(f.norm()) => Err(WallError::BadFacing { x: f.x, y: f.y, z: f.z }),
+        (_, _, None) if wish.placement == Placement::Surface => Err(WallError::NoFacing),
+        _ => Ok(()),
+    }
+}
+
+/// Middle one of the nearest distances [m].
+fn nearest(points: &[Vec3]) -> Result<f64, WallError> {
+    let mut distances = sampling::nearest::distances(points);
+    if let Some(first) = distances.iter().position(|&d| d == 0.0) {
+        let p = points[first];
+        let same = Grid::new(points, 1.0).within(points, p, 0.0).find(|&j| j as usize != first);
+        let second = same.unwrap_or(first as u32);
+        return Err(WallError::Duplicate { first: first as u32, second, x: p.x, y: p.y, z: p.z });
+    }
+    let middle = distances.len() / 2;
+    Ok(*distances.select_nth_unstable_by(middle, f64::total_cmp).1)
+}
+
+/// Roughness asked for at each point [m]; `None` when the radius is given instead.
+fn roughness(regions: &Regions, region_of: &[u16], wish: &Wish) -> Result<Option<Vec<f64>>, WallError> {
+    if matches!(wish.radius, Radius::Given(_)) && regions.surfaces.iter().all(|s| s.roughness.is_none()) {
+        return Ok(None);
+    }
+    let of = |&r: &u16| regions.surfaces[r as usize].roughness.ok_or(WallError::NoRoughness);
+    region_of.iter().map(of).collect::<Result<Vec<f64>, _>>().map(Some)
+}
+
+/// Radii [m], and the representative roughness [m].
+fn radii(
+    points: &[Vec3],
+    stars: &Stars,
+    lengths: &[f64],
+    spacing: f64,
+    zeta: Option<&[f64]>,
+    wish: &Wish,
+) -> Result<(Vec<f64>, f64), WallError> {
+    if let Radius::Given(radius) = wish.radius {
+        let zeta = equation::dent(radius, radius, spacing);
+        return Ok((vec![radius; points.len()], zeta));
+    }
+    let zeta = zeta.ok_or(WallError::NoRoughness)?;
+    let common = representative(zeta.to_vec(), wish.representative);
+    let even = |zeta: f64| {
+        let place = "the representative one".to_owned();
+        equation::radius(spacing, zeta)
+            .ok_or_else(|| too_rough(zeta, spacing, "representative spacing", place))
+    };
+    if wish.radius == Radius::Uniform {
+        return Ok((vec![even(common)?; points.len()], common));
+    }
+    for (&(i, j), &p) in stars.pairs.iter().zip(lengths) {
+        let want = 0.5 * (zeta[i as usize] + zeta[j as usize]);
+        if want > 0.5 * p * (1.0 + 1e-9) {
+            let at = points[i as usize];
+            let place = format!("points {i} and {j} at ({}, {}, {}) m", at.x, at.y, at.z);
+            return Err(too_rough(want, p, "spacing", place));
+        }
+    }
+    let start = zeta.iter().map(|&z| even(z)).collect::<Result<Vec<f64>, _>>()?;
+    Ok((solve::solve(points, &stars.pairs, zeta, &start), common))
+}
+
+fn too_rough(roughness: f64, spacing: f64, which: &'static str, place: String) -> WallError {
+    match roughness > 0.5 * spacing {
+        true => WallError::TooRough {
+            roughness,
+            spacing,
+            which,
+            place,
+            most: 0.5 * spacing,
+            need: 2.0 * roughness,
+        },
+        false => WallError::NotPositive { roughness },
+    }
+}
+
+fn place(points: &[Vec3], stars: &Stars, radii: &[f64], wish: &Wish) -> Result<Vec<Vec3>, WallError> {
+    if wish.placement == Placement::Centre {
+        return Ok(points.to_vec());
+    }
+    let facing = wish.facing.ok_or(WallError::NoFacing)?;
+    let normals = normals::oriented(&stars.normals, &stars.pairs, facing);
+    Ok(points.iter().zip(&normals).zip(radii).map(|((p, n), r)| p - n * *r).collect())
+}
+
+fn check_particle(report: &mut WallReport, particle: f64, centres: &[Vec3], radii: &[f64], stars: &Stars) {
+    (report.widest_gap, report.leaks) = leak::widest(centres, radii, &stars.triangles, particle);
+    if let Some(gap) = report.widest_gap.filter(|g| g.diameter >= particle) {
+        let [x, y, z] = gap.at;
+        report.warnings.push(format!(
+            "the wall leaks: {} gaps pass a particle of {particle} m, the widest ({} m) at ({x}, {y}, {z}) m; \
+             sample with a smaller spacing, fill the hole, or use larger radii (less roughness)",
+            report.leaks, gap.diameter
+        ));
+    }
+    let least = 2.0 * report.radius_range[0];
+    if least < PRACTICAL * particle {
+        report.warnings.push(format!(
+            "wall spheres down to {least} m in diameter are smaller than 80 % of the smallest particle ({particle} m): \
+             they cost more spheres and a shorter time step; use a larger spacing or less roughness"
+        ));
+    }
+}
+
+fn representative(mut values: Vec<f64>, which: Representative) -> f64 {
+    let middle = values.len() / 2;
+    match which {
+        Representative::Mean => values.iter().sum::<f64>() / values.len() as f64,
+        Representative::Median => *values.select_nth_unstable_by(middle, f64::total_cmp).1,
+    }
+}
+
+fn range(values: &[f64]) -> [f64; 2] {
+    values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[lo, hi], &v| [lo.min(v), hi.max(v)])
+}

@@ -1,0 +1,61 @@
+//! What can leak through a wall of spheres.
+//!
+//! ```text
+//! |c − p_k| = ρ + r_k,  k = 1, 2, 3,   c in the plane of p_1, p_2, p_3
+//! ```
+//!
+//! ρ is the radius of the sphere that touches three neighbouring wall spheres with its centre c in their plane: a particle up to that
+//! size passes between them (Apollonius' circle). The voids are the corners of the Voronoi cells of [`crate::star`];
+//! what is wider than the largest of these cannot be told from the wall's outline.
+
+use geom::Vec3;
+use rayon::prelude::*;
+use serde::Serialize;
+
+/// The widest gap of a wall.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Gap {
+    /// Diameter of the largest sphere that passes [m].
+    pub diameter: f64,
+    /// Where its centre passes [m].
+    pub at: [f64; 3],
+}
+
+/// The widest gap between three neighbours, and the number of gaps wider than `limit` [m]; `None` for a wall without gaps.
+pub fn widest(centres: &[Vec3], radii: &[f64], triangles: &[[u32; 3]], limit: f64) -> (Option<Gap>, usize) {
+    let gaps: Vec<Gap> = triangles.par_iter().filter_map(|t| gap(centres, radii, t)).collect();
+    let wider = gaps.iter().filter(|g| g.diameter >= limit).count();
+    let widest = gaps.into_iter().fold(None, |best: Option<Gap>, g| match best {
+        Some(b) if b.diameter >= g.diameter => Some(b),
+        _ => Some(g),
+    });
+    (widest, wider)
+}
+
+/// The sphere that passes between three; `None` when they close the gap.
+pub fn gap(centres: &[Vec3], radii: &[f64], triangle: &[u32; 3]) -> Option<Gap> {
+    let [p, q, s] = triangle.map(|i| centres[i as usize]);
+    let [r0, r1, r2] = triangle.map(|i| radii[i as usize]);
+    let u = (q - p).normalize();
+    let (a, b) = ((q - p).norm(), (s - p).dot(&u));
+    let v = (s - p) - u * b;
+    let height = v.norm();
+    if height.is_nan() || height <= 1e-9 * a {
+        return None;
+    }
+    // In the plane: p = (0, 0), q = (a, 0), s = (b, h). Differences of the squares are linear in x, y, ρ.
+    let (x0, x1) = ((a * a + r0 * r0 - r1 * r1) / (2.0 * a), (r0 - r1) / a);
+    let y0 = (b * b + height * height + r0 * r0 - r2 * r2 - 2.0 * b * x0) / (2.0 * height);
+    let y1 = (r0 - r2 - b * x1) / height;
+    // (x0 + x1 ρ)² + (y0 + y1 ρ)² = (ρ + r0)²
+    let (k2, k1, k0) = (x1 * x1 + y1 * y1 - 1.0, x0 * x1 + y0 * y1 - r0, x0 * x0 + y0 * y0 - r0 * r0);
+    let rho = if k2.abs() < 1e-14 {
+        -0.5 * k0 / k1
+    } else {
+        let root = (k1 * k1 - k2 * k0).max(0.0).sqrt();
+        let both = [(-k1 - root) / k2, (-k1 + root) / k2];
+        both.into_iter().filter(|&x| x > 0.0).fold(f64::INFINITY, f64::min)
+    };
+    let at = p + u * (x0 + x1 * rho) + v / height * (y0 + y1 * rho);
+    (rho.is_finite() && rho > 0.0).then(|| Gap { diameter: 2.0 * rho, at: at.into() })
+}

@@ -1,0 +1,187 @@
+//! Roughness, material and velocity by region.
+//!
+//! ```toml
+//! roughness = 0.0005             # [m] where no region says otherwise
+//! [[region]]                     # the first region that holds a point decides
+//! name = "worn"
+//! shape = "box:0,-1,-1,1,1,1"
+//! roughness = 0.002              # absent keys: as outside of all regions
+//! material = "liner"
+//! friction = 0.4
+//! velocity = [0.1, 0, 0]
+//! ```
+
+use crate::attributes::{AttributeError, Material, check_velocity};
+use geom::{Vec3, mesh::TriMesh, shape::Shape};
+use rayon::prelude::*;
+use serde::Deserialize;
+use thiserror::Error;
+
+/// What a region's surface is like.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Surface {
+    /// Name of the region; empty outside of all.
+    pub name: String,
+    /// Depth of the dents between neighbouring spheres ζ [m]; `None` when only radii are given.
+    pub roughness: Option<f64>,
+    /// Its material, as a place in [`Regions::materials`].
+    pub material: u16,
+    /// Velocity [m/s].
+    pub velocity: Vec3,
+}
+
+/// All regions: the first surface is that of the points in none of them.
+#[derive(Debug)]
+pub struct Regions {
+    /// Materials, by number.
+    pub materials: Vec<Material>,
+    /// Surfaces; number 0 is outside of all regions.
+    pub surfaces: Vec<Surface>,
+    shapes: Vec<Shape>,
+}
+
+/// Why a file is no table of regions.
+#[derive(Debug, Error)]
+#[allow(missing_docs)]
+pub enum RegionsError {
+    #[error("{0}")]
+    Toml(#[from] toml::de::Error),
+    #[error(
+        "wear: a table of roughness by wear and position is not available yet; use [[region]] with shape and roughness"
+    )]
+    Wear,
+    #[error("region {number} '{name}': {source}")]
+    Shape { number: usize, name: String, source: Box<geom::shape::ShapeError> },
+    #[error("{place}: roughness {value} m: must be positive")]
+    Roughness { place: String, value: f64 },
+    #[error(transparent)]
+    Attribute(#[from] AttributeError),
+    #[error("more than 65535 regions")]
+    TooMany,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    roughness: Option<f64>,
+    #[serde(default)]
+    region: Vec<Region>,
+    wear: Option<toml::Value>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Region {
+    #[serde(default)]
+    name: String,
+    shape: String,
+    roughness: Option<f64>,
+    material: Option<String>,
+    young: Option<f64>,
+    poisson: Option<f64>,
+    friction: Option<f64>,
+    restitution: Option<f64>,
+    velocity: Option<[f64; 3]>,
+}
+
+impl Regions {
+    /// One surface everywhere.
+    ///
+    /// # Errors
+    /// Values outside their ranges.
+    pub fn one(roughness: Option<f64>, material: Material, velocity: Vec3) -> Result<Regions, RegionsError> {
+        material.check("material")?;
+        check_velocity(&velocity, "velocity")?;
+        check_roughness(roughness, "roughness")?;
+        let surface = Surface { name: String::new(), roughness, material: 0, velocity };
+        Ok(Regions { materials: vec![material], surfaces: vec![surface], shapes: Vec::new() })
+    }
+
+    /// Regions of a TOML text, and what holds outside of them; `load` reads the file of a shape `mesh:FILE`.
+    ///
+    /// # Errors
+    /// Text that is no such table, shapes that cannot be read, values outside their ranges.
+    pub fn parse(
+        text: &str,
+        material: Material,
+        velocity: Vec3,
+        load: &dyn Fn(&str) -> Result<TriMesh, String>,
+    ) -> Result<Regions, RegionsError> {
+        let file: File = toml::from_str(text)?;
+        if file.wear.is_some() {
+            return Err(RegionsError::Wear);
+        }
+        let mut regions = Regions::one(file.roughness, material, velocity)?;
+        if file.region.len() >= u16::MAX as usize {
+            return Err(RegionsError::TooMany);
+        }
+        for (number, region) in (1..).zip(file.region) {
+            let shape = Shape::parse(&region.shape, load).map_err(|source| RegionsError::Shape {
+                number,
+                name: region.name.clone(),
+                source: Box::new(source),
+            })?;
+            regions.shapes.push(shape);
+            regions.add(number, region)?;
+        }
+        Ok(regions)
+    }
+
+    fn add(&mut self, number: usize, region: Region) -> Result<(), RegionsError> {
+        let place = format!("region {number} '{}'", region.name);
+        let outside = self.surfaces[0].clone();
+        check_roughness(region.roughness, &place)?;
+        let velocity = region.velocity.map_or(outside.velocity, Vec3::from);
+        check_velocity(&velocity, &place)?;
+        let material = self.material(&region, &place)?;
+        let roughness = region.roughness.or(outside.roughness);
+        self.surfaces.push(Surface { name: region.name, roughness, material, velocity });
+        Ok(())
+    }
+
+    /// The number of the region's material; a new one when its values are new.
+    fn material(&mut self, region: &Region, place: &str) -> Result<u16, RegionsError> {
+        let outside = &self.materials[0];
+        let own = region.young.or(region.poisson).or(region.friction).or(region.restitution).is_some();
+        let named = region.material.clone();
+        let name = named.unwrap_or_else(|| match own {
+            true if !region.name.is_empty() => format!("{}-{}", outside.name, region.name),
+            _ => outside.name.clone(),
+        });
+        let known = self.materials.iter().find(|m| m.name == name);
+        let base = known.unwrap_or(outside);
+        let material = Material {
+            young: region.young.or(base.young),
+            poisson: region.poisson.or(base.poisson),
+            friction: region.friction.or(base.friction),
+            restitution: region.restitution.or(base.restitution),
+            name,
+        };
+        material.check(place)?;
+        match self.materials.iter().position(|m| m.name == material.name) {
+            Some(at) if self.materials[at] == material => Ok(at as u16),
+            Some(_) => {
+                Err(AttributeError::TwoOfOneName { place: place.to_owned(), name: material.name }.into())
+            }
+            None => {
+                self.materials.push(material);
+                Ok(self.materials.len() as u16 - 1)
+            }
+        }
+    }
+
+    /// The surface of each point [m]: the first region that holds it, else 0.
+    pub fn of(&self, points: &[Vec3]) -> Vec<u16> {
+        let first = |p: &Vec3| self.shapes.iter().position(|s| s.contains(p)).map_or(0, |at| at as u16 + 1);
+        points.par_iter().map(first).collect()
+    }
+}
+
+fn check_roughness(roughness: Option<f64>, place: &str) -> Result<(), RegionsError> {
+    match roughness {
+        Some(value) if !(value > 0.0 && value.is_finite()) => {
+            Err(RegionsError::Roughness { place: place.to_owned(), value })
+        }
+        _ => Ok(()),
+    }
+}

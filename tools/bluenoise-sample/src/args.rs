@@ -1,0 +1,91 @@
+//! The command line.
+
+use cloud::Cloud;
+use sampling::{Amount, Method, Wish};
+use std::path::PathBuf;
+
+/// Keep points of a cloud so that their distances are even and their spectrum is blue noise.
+#[derive(clap::Parser)]
+#[command(group = clap::ArgGroup::new("amount").required(true).args(["spacing", "count", "density"]))]
+pub struct Args {
+    #[command(flatten)]
+    pub input: cli::Input,
+    #[command(flatten)]
+    pub output: cli::Output,
+    /// Least distance between kept points (grid: distance between its nodes) [m]
+    #[arg(long, value_name = "M")]
+    spacing: Option<f64>,
+    /// Number of points to keep (within 1 %; eliminate: exactly)
+    #[arg(long, value_name = "N")]
+    count: Option<usize>,
+    /// Lowest and highest number of kept points per area [1/m²]
+    #[arg(long, value_name = "LO,HI", value_parser = density)]
+    density: Option<(f64, f64)>,
+    /// How points are chosen
+    #[arg(long, value_enum, default_value = "poisson")]
+    method: Choice,
+    /// Keep all points whose property `filled` is 1
+    #[arg(long)]
+    keep_filled: bool,
+    /// Draw the spectrum and the anisotropy (FILE.svg or FILE.png)
+    #[arg(long, value_name = "FILE")]
+    pub plot: Option<PathBuf>,
+    #[command(flatten)]
+    seed: cli::Seed,
+    #[command(flatten)]
+    common: cli::Common,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum Choice {
+    /// Poisson disk: no two kept points nearer than the spacing, no other farther from a kept one
+    Poisson,
+    /// Weighted sample elimination
+    Eliminate,
+    /// Poisson disk, then relaxation
+    Relax,
+    /// Tiles of precomputed samples (not available yet)
+    Tile,
+    /// The point nearest to each node of a grid along x, y, z
+    Grid,
+}
+
+impl Args {
+    /// What sampling is asked for.
+    pub fn wish(&self) -> anyhow::Result<Wish> {
+        let method = match self.method {
+            Choice::Poisson => Method::Poisson,
+            Choice::Eliminate => Method::Eliminate,
+            Choice::Relax => Method::Relax,
+            Choice::Grid => Method::Grid,
+            Choice::Tile => return Err(cli::usage("--method tile: not available yet; use --method poisson")),
+        };
+        let amount = match (self.spacing, self.count, self.density) {
+            (Some(spacing), _, _) => Amount::Spacing(spacing),
+            (_, Some(count), _) => Amount::Count(count),
+            (_, _, Some((low, high))) => Amount::Density(low, high),
+            _ => return Err(cli::usage("one of --spacing, --count, --density is needed")),
+        };
+        let wish = Wish { amount, method, seed: self.seed.seed };
+        sampling::check_wish(&wish).map_err(|e| cli::usage(e.to_string()))?;
+        Ok(wish)
+    }
+
+    /// The points to keep as they are, when `--keep-filled` was given and there are any.
+    pub fn forced(&self, cloud: &Cloud) -> Option<Vec<bool>> {
+        let filled = cloud.attributes.get("filled").filter(|_| self.keep_filled)?;
+        Some((0..filled.len()).map(|row| filled.get(row) == 1.0).collect())
+    }
+
+    /// Whether somebody will see the measures: they take longer than the sampling.
+    pub fn measured(&self) -> bool {
+        self.common.report.is_some() || self.plot.is_some()
+    }
+}
+
+fn density(text: &str) -> Result<(f64, f64), String> {
+    let wrong = || format!("'{text}' is not LO,HI: give two numbers of points per m², such as 20000,30000");
+    let (low, high) = text.split_once(',').ok_or_else(wrong)?;
+    let number = |t: &str| t.trim().parse::<f64>().map_err(|_| wrong());
+    Ok((number(low)?, number(high)?))
+}

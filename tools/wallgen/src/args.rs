@@ -1,0 +1,154 @@
+//! The command line.
+
+use anyhow::Context;
+use geom::Vec3;
+use std::path::{Path, PathBuf};
+use wall::attributes::Material;
+use wall::{Placement, Radius, Regions, Representative, Wish};
+
+/// Turn the points of a surface into wall spheres (MCAP; PLY with -o FILE.ply).
+#[derive(clap::Parser)]
+pub struct Args {
+    #[command(flatten)]
+    pub input: cli::Input,
+    #[command(flatten)]
+    pub output: cli::Output,
+    /// Depth of the dents between neighbouring spheres [m], or a table of regions (see the documentation of crate wall)
+    #[arg(long, value_name = "M|FILE.toml", allow_hyphen_values = true)]
+    roughness: Option<String>,
+    /// Radii: solve (pair by pair), uniform, or a length [m]
+    #[arg(long, value_name = "solve|uniform|M", default_value = "solve", value_parser = radius)]
+    radius: Radius,
+    /// The neighbour distance that stands for all
+    #[arg(long, value_enum, default_value = "mean")]
+    representative: Middle,
+    /// What touches the point: the sphere's centre, or its surface on the flow side
+    #[arg(long, value_enum, default_value = "centre")]
+    place: Place,
+    /// Direction in which the flow side lies
+    #[arg(long, value_name = "x,y,z", value_parser = vector, allow_hyphen_values = true)]
+    facing: Option<Vec3>,
+    /// Spheres inside a surface mesh (not available yet)
+    #[arg(long, value_name = "FILE")]
+    from_mesh: Option<PathBuf>,
+    /// Name of the material
+    #[arg(long, value_name = "NAME", default_value = "wall")]
+    material: String,
+    /// Young's modulus [Pa]
+    #[arg(long, value_name = "PA")]
+    young: Option<f64>,
+    /// Poisson's ratio
+    #[arg(long, value_name = "X", allow_hyphen_values = true)]
+    poisson: Option<f64>,
+    /// Coefficient of sliding friction
+    #[arg(long, value_name = "X")]
+    friction: Option<f64>,
+    /// Coefficient of restitution
+    #[arg(long, value_name = "X")]
+    restitution: Option<f64>,
+    /// Velocity of the spheres [m/s]
+    #[arg(long, value_name = "x,y,z", default_value = "0,0,0", value_parser = vector, allow_hyphen_values = true)]
+    velocity: Vec3,
+    /// Diameter of the smallest particle [m]: checks the wall's gaps and the spheres' sizes
+    #[arg(long, value_name = "M")]
+    smallest_particle: Option<f64>,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum Middle {
+    Mean,
+    Median,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum Place {
+    Centre,
+    Surface,
+}
+
+impl Args {
+    /// What is asked for.
+    pub fn wish(&self) -> anyhow::Result<Wish> {
+        if self.roughness.is_none() && !matches!(self.radius, Radius::Given(_)) {
+            return Err(cli::usage(
+                "--roughness: is needed to find the radii; add --roughness M, or give --radius M",
+            ));
+        }
+        if self.from_mesh.is_some() {
+            return Err(cli::usage(
+                "--from-mesh: not available yet; use a cloud of points of the surface instead",
+            ));
+        }
+        let placement = match self.place {
+            Place::Centre => Placement::Centre,
+            Place::Surface if self.facing.is_none() => {
+                return Err(cli::usage("--place surface: the flow side is needed; add --facing x,y,z"));
+            }
+            Place::Surface => Placement::Surface,
+        };
+        let representative = match self.representative {
+            Middle::Mean => Representative::Mean,
+            Middle::Median => Representative::Median,
+        };
+        let (facing, smallest_particle) = (self.facing, self.smallest_particle);
+        Ok(Wish { radius: self.radius, representative, placement, facing, smallest_particle })
+    }
+
+    /// Roughness, material and velocity, everywhere or by region.
+    pub fn regions(&self) -> anyhow::Result<Regions> {
+        let material = Material {
+            name: self.material.clone(),
+            young: self.young,
+            poisson: self.poisson,
+            friction: self.friction,
+            restitution: self.restitution,
+        };
+        let Some(path) = self.regions_file() else {
+            let roughness = self.roughness.as_deref().map(|text| text.parse::<f64>()).transpose();
+            let roughness =
+                roughness.map_err(|_| cli::usage("--roughness: give a length in m, or FILE.toml"))?;
+            return Regions::one(roughness, material, self.velocity)
+                .map_err(|e| cli::usage(format!("--{e}")));
+        };
+        let text =
+            std::fs::read_to_string(path).with_context(|| format!("{}: cannot read", path.display()))?;
+        let load = |name: &str| {
+            let file = std::fs::File::open(name).map_err(|e| e.to_string())?;
+            cloud::read_mesh(&mut std::io::BufReader::new(file)).map_err(|e| e.to_string())
+        };
+        Regions::parse(&text, material, self.velocity, &load).with_context(|| path.display().to_string())
+    }
+
+    /// Role and hash of the table of regions, for provenance.
+    pub fn regions_hash(&self) -> anyhow::Result<Option<(String, String)>> {
+        let Some(path) = self.regions_file() else { return Ok(None) };
+        let bytes = std::fs::read(path).with_context(|| format!("{}: cannot read", path.display()))?;
+        Ok(Some(("roughness".to_owned(), stream::sha256(&bytes))))
+    }
+
+    /// A roughness that is no number is a file.
+    fn regions_file(&self) -> Option<&Path> {
+        self.roughness.as_deref().filter(|text| text.parse::<f64>().is_err()).map(Path::new)
+    }
+}
+
+fn radius(text: &str) -> Result<Radius, String> {
+    match text {
+        "solve" => Ok(Radius::Solve),
+        "uniform" => Ok(Radius::Uniform),
+        _ => match text.parse::<f64>() {
+            Ok(radius) if radius > 0.0 && radius.is_finite() => Ok(Radius::Given(radius)),
+            _ => Err(format!("'{text}' is neither solve, uniform, nor a positive length in m")),
+        },
+    }
+}
+
+fn vector(text: &str) -> Result<Vec3, String> {
+    let wrong = || format!("'{text}' is not x,y,z: give three numbers");
+    let numbers: Vec<f64> =
+        text.split(',').map(|t| t.trim().parse().map_err(|_| wrong())).collect::<Result<_, _>>()?;
+    match numbers[..] {
+        [x, y, z] if numbers.iter().all(|n| n.is_finite()) => Ok(Vec3::new(x, y, z)),
+        _ => Err(wrong()),
+    }
+}
