@@ -1,1 +1,3 @@
 //! Laws, hard cases and whole pipelines, tested from outside.
+
+pub mod setups;

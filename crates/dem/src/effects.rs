@@ -44,6 +44,8 @@ pub struct Load<R: Lane> {
     pub normal: R,
     /// ∂F_n/∂δ, without damping [N/m].
     pub stiffness: R,
+    /// The same a step ago, over the one now [–].
+    pub stiffness_before: R,
     /// F_t on i [N].
     pub tangential: V<R>,
     /// Couple on i [N·m]; j gets its opposite.
@@ -62,6 +64,7 @@ impl<R: Lane> Load<R> {
         Load {
             normal: zero,
             stiffness: zero,
+            stiffness_before: zero,
             tangential: V::zero(),
             couple: V::zero(),
             elastic: zero,

@@ -2,12 +2,16 @@
 //!
 //! ```text
 //! ξ ← ξ − (ξ·n) n, length kept       the spring turns with the contact
+//! ξ ← ξ min(1, k_before/k)            a spring that stiffens keeps its force, one that softens its length
 //! ξ at t = ξ + v Δt/2                 stored ξ are half a step ahead, so that the sum is the midpoint rule
-//! F = −k ξ − c v,  capped: F ← F cap/|F|,  ξ ← −F/k
+//! F = −k ξ − c v,  capped: F ← F cap/|F|,  ξ ← ξ min(1, cap/|k ξ|)
 //! ```
 //!
-//! Cutting ξ back to the cap: Luding (2008), Granular Matter 10(4), doi:10.1007/s10035-008-0099-x. Deviation: the spring
-//! keeps the whole capped force and not the force less the dashpot's, which has no bound as k → 0 (Hertz at first touch).
+//! Cutting ξ back to the cap: Luding (2008), Granular Matter 10(4), doi:10.1007/s10035-008-0099-x. Deviation: the spring is
+//! cut to the cap, not to the capped force less the dashpot's: that has no bound as k → 0 (Hertz at first touch), and it
+//! stretches the spring, out of nothing, where the dashpot alone passes the cap. Stiffening and softening so that
+//! neither makes energy: Mindlin & Deresiewicz (1953), J. Appl. Mech. 20; Thornton, Cummins & Cleary (2013), Powder
+//! Technology 233, doi:10.1016/j.powtec.2012.08.012.
 
 use crate::lane::{Lane, V};
 
@@ -18,6 +22,8 @@ const TINY: f64 = 1e-300;
 pub struct CappedSpring<R: Lane> {
     /// k, spring.
     pub stiffness: R,
+    /// k of the step before over k [–].
+    pub before: R,
     /// c, dashpot.
     pub damping: R,
     /// Largest force; at least 0.
@@ -39,21 +45,28 @@ impl<R: Lane> CappedSpring<R> {
     #[inline(always)]
     pub fn pull(&self, spring: &mut V<R>, normal: V<R>, rate: V<R>, dt: R) -> Outcome<R> {
         let half = rate.scale(R::splat(0.5) * dt);
-        let stretched = turned(*spring, normal) + half;
+        let there = turned(*spring, normal);
+        let keeps = self.before.min(R::splat(1.0));
+        let stretched = there.scale(keeps) + half;
+        let lost = R::splat(0.5) * self.stiffness * there.dot(there) * (self.before - keeps * keeps);
         let dashpot = rate.scale(self.damping);
-        let trial = V::zero() - stretched.scale(self.stiffness) - dashpot;
-        let size = trial.dot(trial);
+        let mut force = V::zero() - stretched.scale(self.stiffness) - dashpot;
+        let mut kept = stretched;
+        let size = force.dot(force);
         let slides = size.gt(self.cap * self.cap);
-        let shrink = R::select(slides, self.cap / size.max(R::splat(TINY)).sqrt(), R::splat(1.0));
-        let force = trial.scale(shrink);
-        let back = force.scale(R::splat(-1.0) / self.stiffness);
-        let kept = V::select(slides, back, stretched);
+        if R::any(slides) {
+            let one = R::splat(1.0);
+            let shrink = |square: R| (self.cap / square.max(R::splat(TINY)).sqrt()).min(one);
+            let pull = stretched.scale(self.stiffness);
+            kept = V::select(slides, stretched.scale(shrink(pull.dot(pull))), stretched);
+            force = V::select(slides, force.scale(shrink(size)), force);
+        }
         *spring = kept + half;
-        let cut = (stretched - kept).dot(kept) * self.stiffness;
+        let spring_force = kept.scale(self.stiffness);
         Outcome {
             force,
-            elastic: R::splat(0.5) * self.stiffness * kept.dot(kept),
-            dissipated: dashpot.dot(rate) * dt + R::select(slides, cut, R::splat(0.0)),
+            elastic: R::splat(0.5) * spring_force.dot(kept),
+            dissipated: lost + spring_force.dot(stretched - kept) - (force + spring_force).dot(rate) * dt,
         }
     }
 }

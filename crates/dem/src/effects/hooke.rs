@@ -32,6 +32,7 @@ impl Effect for Hooke {
         let damping = c * contact.approach;
         load.normal = load.normal + (k * contact.overlap + damping);
         load.stiffness = k;
+        load.stiffness_before = R::splat(1.0);
         load.elastic = load.elastic + R::splat(0.5) * k * contact.overlap * contact.overlap;
         load.dissipated[0] = load.dissipated[0] + damping * contact.approach * dt;
     }

@@ -38,6 +38,7 @@ impl Effect for RollingResistance {
         let inertia = R::splat(1.4) * contact.mass * contact.radius * contact.radius;
         let spring = CappedSpring {
             stiffness,
+            before: load.stiffness_before,
             damping: R::splat(2.0 * ETA) * (stiffness * inertia).sqrt(),
             cap: arm * load.normal.max(R::splat(0.0)),
         };

@@ -36,6 +36,7 @@ impl Effect for SlidingFriction {
         let stiffness = (R::splat(self.stiffness_ratio) * load.stiffness).max(R::splat(1e-150));
         let spring = CappedSpring {
             stiffness,
+            before: load.stiffness_before,
             damping: R::splat(self.damping_ratio) * (stiffness * contact.mass).sqrt(),
             cap: R::splat(self.friction) * load.normal.max(R::splat(0.0)),
         };

@@ -1,0 +1,70 @@
+//! Small setups for laws with closed answers.
+
+use dem::setup::*;
+use geom::{Plane, Vec3};
+
+/// Materials 0 (grain) and 1 (wall) with one law for all pairs, no particle, no wall, no gravity.
+pub fn empty(law: Law, restitution: f64) -> Setup {
+    let material =
+        |name: &str| Material { name: name.to_owned(), density: 2500.0, young: 1e7, poisson: 0.25 };
+    let contact =
+        |between| Contact { between, law, restitution, sliding_friction: None, rolling_resistance: None };
+    Setup {
+        gravity: Vec3::zeros(),
+        materials: vec![material("grain"), material("wall")],
+        contacts: vec![contact((0, 0)), contact((0, 1))],
+        particles: vec![],
+        walls: vec![],
+        outlets: vec![],
+        inlets: vec![],
+        largest_entry: 0.0,
+        smallest_entry: 0.0,
+        entry_materials: vec![],
+        step: Step::Auto(0.05),
+        periodic: [None; 3],
+        skin: None,
+        ledger: false,
+        guards: Guards::default(),
+    }
+}
+
+/// A linear law.
+pub const HOOKE: Law = Law::Hooke { stiffness: 1e4, tangential_ratio: None };
+
+/// Both normal laws.
+pub const LAWS: [Law; 2] = [HOOKE, Law::Hertz];
+
+/// A grain of radius 10 mm at rest.
+pub fn grain(id: u32, position: Vec3) -> Particle {
+    Particle { id, material: 0, radius: 0.01, position, velocity: Vec3::zeros(), spin: Vec3::zeros() }
+}
+
+/// A still plane through the origin.
+pub fn plane(normal: Vec3) -> Wall {
+    let plane = Plane { point: Vec3::zeros(), normal: normal.normalize() };
+    Wall { name: "plane".to_owned(), material: 1, shape: WallShape::Plane(plane), motion: Motion::still() }
+}
+
+/// Gives every pair sliding friction μ.
+pub fn with_friction(mut setup: Setup, friction: f64) -> Setup {
+    setup.contacts.iter_mut().for_each(|c| c.sliding_friction = Some(friction));
+    setup
+}
+
+/// Steps until `time` [s] has passed.
+///
+/// # Panics
+/// When a guard stops the run: no law here reaches one.
+pub fn run_until(sim: &mut dem::Simulation, time: f64) {
+    while sim.time() < time {
+        sim.step().expect("no guard trips in a test of a law");
+    }
+}
+
+/// The particles, by id.
+///
+/// # Panics
+/// When a guard has tripped.
+pub fn particles(sim: &mut dem::Simulation) -> Vec<Particle> {
+    sim.particles().expect("no guard trips in a test of a law")
+}
