@@ -1,0 +1,100 @@
+//! The fields of a table: what its spheres can be coloured by, under which name and in which unit.
+
+use stream::{Table, table::Values};
+
+/// Three columns whose length is a field of its own.
+const VECTORS: [([&str; 3], &str); 3] =
+    [(["vx", "vy", "vz"], "speed"), (["wx", "wy", "wz"], "spin"), (["fx", "fy", "fz"], "force")];
+
+/// Whether the column is one component of a position or of a vector that is shown by its length.
+fn is_component(table: &Table, name: &str) -> bool {
+    ["x", "y", "z"].contains(&name)
+        || VECTORS.iter().any(|(of, _)| of.contains(&name) && of.iter().all(|c| table.get(c).is_some()))
+}
+
+/// Names of the fields, lengths of vectors first; components of vectors only when `components`.
+pub fn names(table: &Table, components: bool) -> Vec<String> {
+    let whole = |of: &[&str; 3]| of.iter().all(|c| table.get(c).is_some());
+    let lengths = VECTORS.iter().filter(|(of, name)| whole(of) && table.get(name).is_none());
+    let mut names: Vec<String> = lengths.map(|(_, name)| (*name).to_owned()).collect();
+    let shown = |name: &str| match name {
+        "x" | "y" | "z" => false,
+        _ => components || !is_component(table, name),
+    };
+    names.extend(table.columns().iter().map(|c| c.name.clone()).filter(|n| shown(n)));
+    names
+}
+
+/// One value a row, or none when the table has no such field.
+pub fn values(table: &Table, name: &str) -> Option<Vec<f64>> {
+    if let Some(column) = table.get(name) {
+        return Some(column.to_f64());
+    }
+    let (of, _) = VECTORS.iter().find(|(_, length)| *length == name)?;
+    let [a, b, c] = [table.get(of[0])?, table.get(of[1])?, table.get(of[2])?];
+    let length = |i| (a.get(i).powi(2) + b.get(i).powi(2) + c.get(i).powi(2)).sqrt();
+    Some((0..table.rows()).map(length).collect())
+}
+
+/// Whether the field holds whole numbers only.
+pub fn is_whole(table: &Table, name: &str) -> bool {
+    table.get(name).is_some_and(|v| !matches!(v, Values::F32(_) | Values::F64(_)))
+}
+
+/// The field a person means by another name for it.
+pub fn canonical(name: &str) -> &str {
+    match name {
+        "velocity" | "v" => "speed",
+        "height" => "z",
+        "omega" | "w" => "spin",
+        other => other,
+    }
+}
+
+/// Unit of a field [SI], empty for a pure number.
+pub fn unit(name: &str) -> &'static str {
+    match name {
+        "x" | "y" | "z" | "radius" | "diameter" | "roughness" | "overlap" => "m",
+        "vx" | "vy" | "vz" | "speed" => "m/s",
+        "wx" | "wy" | "wz" | "spin" => "rad/s",
+        "fx" | "fy" | "fz" | "force" => "N",
+        "stress" | "pressure" => "Pa",
+        "mass" => "kg",
+        "time" => "s",
+        "energy" => "J",
+        _ => "",
+    }
+}
+
+/// The field shown when nobody asks for one: speed, else height.
+pub fn default_of(table: &Table) -> String {
+    let has_speed = names(table, false).iter().any(|n| n == "speed");
+    if has_speed { "speed" } else { "z" }.to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn moving() -> Table {
+        let mut table = Table::default();
+        for name in ["x", "y", "z", "vx", "vy", "vz"] {
+            table.push(name, Values::F64(vec![2.0])).expect("fits");
+        }
+        table.push("id", Values::U32(vec![7])).expect("fits");
+        table
+    }
+
+    #[test]
+    fn speed_is_the_length_of_the_velocity() {
+        assert_eq!(names(&moving(), false), ["speed", "id"]);
+        assert_eq!(values(&moving(), "speed"), Some(vec![12f64.sqrt()]));
+        assert_eq!(default_of(&moving()), "speed");
+    }
+
+    #[test]
+    fn components_are_fields_when_asked_for() {
+        assert_eq!(names(&moving(), true), ["speed", "vx", "vy", "vz", "id"]);
+        assert!(is_whole(&moving(), "id") && !is_whole(&moving(), "vx"));
+    }
+}

@@ -1,0 +1,41 @@
+//! Grains, walls and clouds on a display: one self-contained HTML page ([`Page`]), or a picture ([`picture`]).
+//!
+//! Everything shown is a table with the columns x, y, z, usually radius [m], and any others, which are fields
+//! to colour by. Whoever calls reads the files; this crate knows of none.
+
+mod camera;
+mod colour;
+mod error;
+mod field;
+mod page;
+pub mod picture;
+mod scale;
+mod spheres;
+
+pub use camera::Camera;
+pub use colour::{Map, Rgb};
+pub use error::ViewError;
+pub use page::{Kept, Page, PageOptions};
+pub use picture::{Image, Part, PictureOptions};
+
+/// What a table of spheres or points is, and so how it is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Role {
+    /// Moving particles: coloured by a field.
+    Grains,
+    /// Wall spheres: grey, and translucent where they hide grains.
+    Walls,
+    /// Points of a scan, which have no radius of their own.
+    Cloud,
+}
+
+impl Role {
+    /// The word for it in a page.
+    fn word(self) -> &'static str {
+        match self {
+            Role::Grains => "grains",
+            Role::Walls => "walls",
+            Role::Cloud => "cloud",
+        }
+    }
+}

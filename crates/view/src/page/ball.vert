@@ -1,0 +1,56 @@
+#version 300 es
+// A sphere is drawn on a square that just covers its outline as the eye sees it.
+// Seen coordinates: x right, y up, z forward, the eye at 0.
+precision highp float;
+layout(location = 0) in vec3 position;  // share of the frame's box
+layout(location = 1) in float radius;   // share of the frame's range
+layout(location = 2) in float red;      // the field, or the red of a scan
+layout(location = 3) in float green;
+layout(location = 4) in float blue;
+uniform vec3 boxLo, boxSize, radiusOf;  // radiusOf: lowest, range, factor
+uniform vec2 valueOf[3];
+uniform mat3 turn;
+uniform vec3 eye;
+uniform vec2 focal;                     // of the shorter way, scaled to clip space
+uniform vec2 nearFar;
+uniform float flatView, pixel;          // pixel: size of a pixel at distance 1 (or at all, when flat)
+uniform vec4 cut;
+uniform int mode, axis;                 // mode 0 plain, 1 map, 2 kinds, 3 own colours
+uniform vec2 shown;
+uniform vec3 plain, kinds[8];
+uniform sampler2D map;
+out vec3 corner;
+flat out vec3 centre, colour;
+flat out float size;
+
+vec3 coloured(vec3 place) {
+  float value = axis < 0 ? valueOf[0].x + red * valueOf[0].y : place[axis];
+  if (mode == 1) return texture(map, vec2(clamp((value - shown.x) / (shown.y - shown.x), 0.0, 1.0) * 255.0 / 256.0 + 0.5 / 256.0, 0.5)).rgb;
+  if (mode == 2) return kinds[int(value + 0.5) % 8];
+  if (mode == 3) return vec3(value, valueOf[1].x + green * valueOf[1].y, valueOf[2].x + blue * valueOf[2].y) / 255.0;
+  return plain;
+}
+
+void main() {
+  vec3 place = boxLo + position * boxSize;
+  vec2 side = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+  centre = turn * (place - eye);
+  size = (radiusOf.x + radius * radiusOf.y) * radiusOf.z;
+  float far = flatView > 0.5 ? 1.0 : centre.z;
+  size = max(size, 0.6 * pixel * far);
+  float away = dot(centre, centre) - size * size;
+  bool hidden = dot(cut.xyz, place) > cut.w || (flatView < 0.5 && (centre.z < nearFar.x || away < 0.02 * size * size));
+  if (hidden) { gl_Position = vec4(2.0, 2.0, 2.0, 1.0); return; }
+  colour = coloured(place);
+  if (flatView > 0.5) {
+    corner = centre + size * vec3(side, 0.0);
+    gl_Position = vec4(corner.xy * focal, 0.0, 1.0);
+    return;
+  }
+  vec3 forward = normalize(centre);
+  vec3 right = normalize(cross(forward, vec3(0.0, 1.0, 0.0)));
+  vec3 up = cross(right, forward);
+  float reach = size * length(centre) / sqrt(away);
+  corner = centre + reach * (side.x * right + side.y * up);
+  gl_Position = vec4(corner.xy * focal, 0.0, corner.z);
+}

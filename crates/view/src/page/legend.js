@@ -1,0 +1,94 @@
+// What the colours, lengths and directions mean.
+function mapAt(name, share) {
+  const anchors = run.maps[name];
+  const place = Math.max(0, Math.min(1, share)) * (anchors.length - 1);
+  const below = Math.min(Math.floor(place), anchors.length - 2);
+  return anchors[below].map((a, k) => Math.round(a + (place - below) * (anchors[below + 1][k] - a)));
+}
+
+const css = (colour) => `rgb(${colour.join(",")})`;
+const grouped = (n) => String(n).replace(/\B(?=(\d{3})+$)/g, "\u202f");
+const number = (v, decimals) => { const t = v.toFixed(decimals); return Number(t) === 0 ? t.replace("-", "") : t.replace("-", "−"); };
+
+function roundBelow(limit) {
+  const ten = 10 ** Math.floor(Math.log10(limit));
+  return [5, 2, 1].map((m) => m * ten).find((v) => v <= limit * (1 + 1e-9)) || ten;
+}
+
+function element(tag, text, style) {
+  const made = document.createElement(tag);
+  if (text !== undefined) made.textContent = text;
+  if (style) Object.assign(made.style, style);
+  return made;
+}
+
+function showLegend() {
+  const legend = byId("legend");
+  legend.replaceChildren();
+  const about = describe(state.field);
+  legend.hidden = !about;
+  if (!about) return;
+  legend.append(element("h2", about.unit ? `${about.name} [${about.unit}]` : about.name));
+  if (about.kinds) {
+    const list = element("ul");
+    const names = mainLayers[0].kinds;
+    for (let k = about.all[0]; k <= about.all[1]; k++) {
+      const item = element("li");
+      item.append(element("i", "", { background: css(run.kinds[k]) }), (about.name === "material" && names[k]) || String(k));
+      list.append(item);
+    }
+    legend.append(list);
+    return;
+  }
+  const bar = element("div");
+  bar.className = "bar";
+  const stops = run.maps[state.map].map(css);
+  bar.style.background = `linear-gradient(to top, ${stops.join(",")})`;
+  const [lo, hi] = state.shown.map((v) => v * about.factor);
+  const step = roundBelow((hi - lo) / 4);
+  const decimals = Math.max(0, Math.min(9, -Math.floor(Math.log10(step))));
+  for (let k = Math.ceil((lo - 1e-6 * step) / step); k * step <= hi + 1e-6 * step; k++) {
+    bar.append(element("span", number(k * step, decimals), { bottom: `${100 * (k * step - lo) / (hi - lo)}%` }));
+  }
+  legend.append(bar);
+  legend.setAttribute("aria-label", `Colour scale: ${about.name} from ${number(lo, decimals)} to ${number(hi, decimals)} ${about.unit}`);
+}
+
+function readableLength(metres) {
+  const [unit, factor] = metres >= 0.5 ? ["m", 1] : metres >= 5e-4 ? ["mm", 1e3] : ["µm", 1e6];
+  return `${Number((metres * factor).toPrecision(6))} ${unit}`;
+}
+
+function showRuler() {
+  const short = Math.min(innerWidth, innerHeight);
+  const pixels = short / (2 * halfView * camera.distance);
+  const metres = roundBelow(Math.min(180, 0.3 * innerWidth) / pixels);
+  byId("ruler").querySelector("span").textContent = readableLength(metres);
+  byId("ruler").querySelector("i").style.width = `${metres * pixels}px`;
+}
+
+function showGnomon() {
+  const [right, up, forward] = camera.axes();
+  const dark = paper()[0] < 0.5;
+  const colours = dark ? ["#ff7b6b", "#5fd394", "#7fb2f0"] : ["#c0392b", "#2e8b57", "#2c5fb3"];
+  const far = [0, 1, 2].sort((a, b) => forward[b] - forward[a]);
+  byId("gnomon").innerHTML = far.map((k) => {
+    const [x, y] = [25 * right[k], -25 * up[k]];
+    const seen = Math.hypot(x, y) > 4;
+    return `<line x1="0" y1="0" x2="${x}" y2="${y}" stroke="${colours[k]}"/>` +
+      (seen ? `<text x="${x * 1.38}" y="${y * 1.38}" fill="${colours[k]}">${"xyz"[k]}</text>` : "");
+  }).join("");
+}
+
+function showCounts() {
+  const count = (role) => run.layers.filter((l) => l.role === role && !state.hidden.has(l))
+    .reduce((sum, l) => sum + frameAt(l, clock[state.frame]).count, 0);
+  const words = [["grains", "grains"], ["walls", "wall spheres"], ["cloud", "points"]];
+  byId("count").textContent = words.filter(([role]) => count(role)).map(([role, word]) => `${grouped(count(role))} ${word}`).join(" · ");
+  byId("clock").textContent = clock.length > 1 || clock[0] > 0 ? `t = ${clock[state.frame].toFixed(timeDecimals)} s` : "";
+}
+
+const timeDecimals = (() => {
+  const gap = clock.length > 1 ? (clock[clock.length - 1] - clock[0]) / (clock.length - 1) : 1e-3;
+  return Math.max(2, Math.min(9, 1 - Math.floor(Math.log10(gap))));
+})();

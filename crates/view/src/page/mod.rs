@@ -1,0 +1,205 @@
+//! One self-contained HTML page that shows a run, its walls, and clouds; it asks for nothing over a network.
+//!
+//! Frames are packed as they come (positions as 16-bit numbers in a box of their own), so a run that does not fit
+//! in memory can be shown; when the page grows beyond its limit, every second frame is left out again.
+
+mod pack;
+mod timeline;
+mod write;
+
+use crate::{Camera, Map, Role, ViewError, field, scale::Range, spheres::Spheres};
+use pack::Packed;
+use stream::Table;
+use timeline::Timeline;
+
+/// A page's settings.
+#[derive(Debug, Clone)]
+pub struct PageOptions {
+    /// Shown as the page's title.
+    pub title: String,
+    /// Field to colour by first; none: speed, else height.
+    pub colour: Option<String>,
+    /// Colour map shown first.
+    pub map: Map,
+    /// Ends of the colour scale in the field's unit; none: what 98 % of the values lie in.
+    pub range: Option<[f64; 2]>,
+    /// Where to look from first.
+    pub camera: Camera,
+    /// Time to show first [s]; with none, the run plays.
+    pub time: Option<f64>,
+    /// Size the page should stay below [byte].
+    pub most_bytes: usize,
+    /// Whether components of vectors are fields too.
+    pub components: bool,
+}
+
+impl Default for PageOptions {
+    fn default() -> Self {
+        PageOptions {
+            title: "Grainpipe".to_owned(),
+            colour: None,
+            map: Map::default(),
+            range: None,
+            camera: Camera::default(),
+            time: None,
+            most_bytes: 60_000_000,
+            components: false,
+        }
+    }
+}
+
+/// What became of the frames.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Kept {
+    /// Frames given.
+    pub given: usize,
+    /// Frames in the page.
+    pub kept: usize,
+    /// One frame of so many is in the page, and the last.
+    pub stride: usize,
+    /// Bound on the error of a position by packing [m].
+    pub position_error: f64,
+    /// Bound on the error of a radius by packing [m].
+    pub radius_error: f64,
+}
+
+/// One thing shown: a file's grains, walls or cloud.
+pub(crate) struct Layer {
+    pub name: String,
+    pub role: Role,
+    /// Names of the kinds that the field `material` counts.
+    pub kinds: Vec<String>,
+    pub fields: Vec<Field>,
+    pub frames: Timeline,
+    /// Radius of points without their own [m]; zero when spheres have theirs.
+    pub point_radius: f64,
+    /// Box that the view is fitted to [m].
+    pub extent: [Range; 3],
+}
+
+/// A field of a layer.
+pub(crate) struct Field {
+    pub name: String,
+    pub whole: bool,
+    /// Smallest and largest value in all frames.
+    pub all: Range,
+    /// What 98 % of the values lie in, frame by frame.
+    pub most: Range,
+}
+
+/// A page in the making.
+pub struct Page {
+    options: PageOptions,
+    layers: Vec<Layer>,
+    given: usize,
+    stride: usize,
+}
+
+impl Page {
+    /// A page without anything in it.
+    pub fn new(options: PageOptions) -> Page {
+        Page { options, layers: Vec::new(), given: 0, stride: 1 }
+    }
+
+    /// Adds a layer; its number is for [`Page::push`].
+    pub fn layer(&mut self, role: Role, name: &str) -> usize {
+        self.layers.push(Layer {
+            name: name.to_owned(),
+            role,
+            kinds: Vec::new(),
+            fields: Vec::new(),
+            frames: Timeline::default(),
+            point_radius: 0.0,
+            extent: [Range::EMPTY; 3],
+        });
+        self.layers.len() - 1
+    }
+
+    /// Names the kinds that the field `material` of a layer counts.
+    pub fn kinds(&mut self, layer: usize, kinds: Vec<String>) {
+        self.layers[layer].kinds = kinds;
+    }
+
+    /// Adds what a layer looks like at `time` [s] and after; times of a layer must not fall.
+    ///
+    /// # Errors
+    /// A table without positions, or with a position that is not finite.
+    pub fn push(&mut self, layer: usize, time: f64, table: &Table) -> Result<(), ViewError> {
+        let sorted = by_id(table);
+        let table = sorted.as_ref().unwrap_or(table);
+        let layer = &mut self.layers[layer];
+        let spheres = Spheres::of(table, &layer.name)?;
+        let moving = layer.role == Role::Grains;
+        if layer.frames.is_empty() {
+            let mut names = field::names(table, self.options.components);
+            let asked = self.options.colour.as_deref().map(field::canonical);
+            names.retain(|n| n != "radius" || spheres.sized);
+            names.extend(
+                asked.filter(|a| table.get(a).is_some() && !["x", "y", "z"].contains(a)).map(str::to_owned),
+            );
+            names.dedup();
+            layer.fields = new_fields(table, names);
+            layer.point_radius =
+                if spheres.sized { 0.0 } else { spheres.radius.first().copied().unwrap_or(0.0) };
+        }
+        layer.extent = super::picture::around([layer.extent, spheres.extent(!moving)].into_iter());
+        let mut columns = Vec::new();
+        for field in &mut layer.fields {
+            let values = field::values(table, &field.name).unwrap_or_else(|| vec![0.0; table.rows()]);
+            field.all = field.all.with(Range::of(&values));
+            field.most = field.most.with(Range::of_most(&values));
+            columns.push(values);
+        }
+        let packed = Packed::new(time, &spheres, &columns, &layer.fields, layer.frames.last());
+        layer.frames.push(packed, self.stride);
+        self.given += usize::from(moving);
+        self.thin();
+        Ok(())
+    }
+
+    /// Leaves out every second frame while the page is too big.
+    fn thin(&mut self) {
+        while self.layers.iter().map(|l| l.frames.bytes()).sum::<usize>() > self.options.most_bytes / 4 * 3
+            && self.layers.iter().any(|l| l.frames.len() > 2)
+        {
+            self.stride *= 2;
+            self.layers.iter_mut().for_each(|l| l.frames.thin(self.stride));
+        }
+    }
+
+    /// What became of the frames so far.
+    pub fn kept(&self) -> Kept {
+        let grains = self.layers.iter().filter(|l| l.role == Role::Grains);
+        let error = |of: fn(&Packed) -> f64| {
+            self.layers.iter().flat_map(|l| l.frames.iter()).map(of).fold(0.0, f64::max)
+        };
+        Kept {
+            given: self.given,
+            kept: grains.map(|l| l.frames.len()).sum(),
+            stride: self.stride,
+            position_error: error(Packed::position_error),
+            radius_error: error(|p| p.radius.error()),
+        }
+    }
+}
+
+fn new_fields(table: &Table, names: Vec<String>) -> Vec<Field> {
+    let field = |name: String| Field {
+        whole: field::is_whole(table, &name),
+        name,
+        all: Range::EMPTY,
+        most: Range::EMPTY,
+    };
+    names.into_iter().map(field).collect()
+}
+
+/// The rows in the order of their id, so that what stays the same between frames is the same column of bytes.
+fn by_id(table: &Table) -> Option<Table> {
+    let id = table.get("id")?.to_f64();
+    if id.is_sorted() {
+        return None;
+    }
+    let mut order: Vec<u32> = (0..table.rows() as u32).collect();
+    order.sort_by(|&a, &b| id[a as usize].total_cmp(&id[b as usize]));
+    Some(table.select(&order))
+}

@@ -1,0 +1,187 @@
+//! Packing: numbers as 8 or 16 bits between the least and the greatest of a frame.
+//!
+//! ```text
+//! q = round((v − lo)/(hi − lo) · m)      v ≈ lo + q/m (hi − lo)      |error| ≤ (hi − lo)/(2 m),  m = 255 or 65 535
+//! ```
+
+use super::Field;
+use crate::{scale::Range, spheres::Spheres};
+use std::sync::Arc;
+
+/// How much wider than needed a box is made, so that the next frames fit in it too [–].
+const ROOM: f64 = 0.02;
+
+/// A column of packed numbers.
+#[derive(Clone)]
+pub(crate) struct Column {
+    /// What 0 and the greatest number stand for.
+    pub range: Range,
+    /// Bytes of a number: 1 or 2, little-endian.
+    pub width: usize,
+    /// The numbers; the same place in memory as the last frame's when they are the same.
+    pub bytes: Arc<Vec<u8>>,
+}
+
+impl Column {
+    fn new(values: &[f64], range: Range, width: usize, last: Option<&Column>) -> Column {
+        let mut bytes = Vec::with_capacity(values.len() * width);
+        for &v in values {
+            quantise(v, range, width, &mut bytes);
+        }
+        let same = last.filter(|l| l.range == range && l.width == width && *l.bytes == bytes);
+        Column { range, width, bytes: same.map_or_else(|| Arc::new(bytes), |l| Arc::clone(&l.bytes)) }
+    }
+
+    /// Bound on the error of a number by packing, in its unit.
+    pub fn error(&self) -> f64 {
+        if self.range.hi > self.range.lo {
+            (self.range.hi - self.range.lo) / (2.0 * most(self.width))
+        } else {
+            0.0
+        }
+    }
+}
+
+fn most(width: usize) -> f64 {
+    if width == 1 { 255.0 } else { 65_535.0 }
+}
+
+fn quantise(value: f64, range: Range, width: usize, bytes: &mut Vec<u8>) {
+    let share = if range.hi > range.lo && value.is_finite() { range.share(value) } else { 0.0 };
+    let number = (share * most(width)).round() as u16;
+    bytes.extend_from_slice(&number.to_le_bytes()[..width]);
+}
+
+/// One layer at one time.
+pub(crate) struct Packed {
+    /// From when on it is so [s].
+    pub time: f64,
+    /// How many spheres.
+    pub count: usize,
+    /// The box of the positions [m].
+    pub extent: [Range; 3],
+    /// Positions: x, y, z of each, two bytes each.
+    pub position: Arc<Vec<u8>>,
+    /// Radii [m]; no bytes when all spheres share one.
+    pub radius: Column,
+    /// The fields, in the layer's order.
+    pub fields: Vec<Column>,
+}
+
+impl Packed {
+    /// Packs a frame; `last` is the one before, whose box and bytes are used again where they fit.
+    pub fn new(
+        time: f64,
+        spheres: &Spheres,
+        columns: &[Vec<f64>],
+        fields: &[Field],
+        last: Option<&Packed>,
+    ) -> Packed {
+        let extent = std::array::from_fn(|k| roomy(Range::of(&spheres.centre[k]), last.map(|l| l.extent[k])));
+        let mut bytes = Vec::with_capacity(spheres.len() * 6);
+        for i in 0..spheres.len() {
+            (0..3).for_each(|k| quantise(spheres.centre[k][i], extent[k], 2, &mut bytes));
+        }
+        let same = last.filter(|l| l.extent == extent && *l.position == bytes);
+        let position = same.map_or_else(|| Arc::new(bytes), |l| Arc::clone(&l.position));
+        let sizes = Range::of(&spheres.radius);
+        let radii: &[f64] = if sizes.hi > sizes.lo { &spheres.radius } else { &[] };
+        let pack = |n: usize| {
+            let before = last.and_then(|l| l.fields.get(n));
+            let all = Range::of(&columns[n]);
+            match fields[n].whole && all.hi - all.lo <= 65_535.0 {
+                true => {
+                    Column::new(&columns[n], whole(all), if all.hi - all.lo <= 255.0 { 1 } else { 2 }, before)
+                }
+                false => Column::new(&columns[n], all, 2, before),
+            }
+        };
+        Packed {
+            time,
+            count: spheres.len(),
+            extent,
+            position,
+            radius: Column::new(radii, sizes, 2, last.map(|l| &l.radius)),
+            fields: (0..columns.len()).map(pack).collect(),
+        }
+    }
+
+    /// Bound on the error of a position along any axis by packing [m].
+    pub fn position_error(&self) -> f64 {
+        self.extent
+            .iter()
+            .filter(|r| r.hi > r.lo)
+            .map(|r| (r.hi - r.lo) / (2.0 * most(2)))
+            .fold(0.0, f64::max)
+    }
+
+    /// All columns of bytes.
+    pub fn blobs(&self) -> impl Iterator<Item = &Arc<Vec<u8>>> {
+        [&self.position, &self.radius.bytes].into_iter().chain(self.fields.iter().map(|f| &f.bytes))
+    }
+}
+
+/// A range of whole numbers in which each has a packed number of its own: steps of 1.
+fn whole(all: Range) -> Range {
+    let width = if all.hi - all.lo <= 255.0 { 255.0 } else { 65_535.0 };
+    if all.lo <= all.hi { Range { lo: all.lo, hi: all.lo + width } } else { all }
+}
+
+/// The last frame's range where it still fits, so that what rests keeps its bytes; else a slightly wider one.
+fn roomy(needed: Range, last: Option<Range>) -> Range {
+    let width = needed.hi - needed.lo;
+    match last {
+        Some(l) if l.lo <= needed.lo && l.hi >= needed.hi && l.hi - l.lo <= 1.3 * width => l,
+        _ if width > 0.0 => Range { lo: needed.lo - ROOM * width, hi: needed.hi + ROOM * width },
+        _ => needed,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The value a packed number stands for, as the page computes it.
+    fn unpacked(column: &[u8], i: usize, range: Range) -> f64 {
+        let q = f64::from(u16::from_le_bytes([column[2 * i], column[2 * i + 1]]));
+        range.lo + q / 65_535.0 * (range.hi - range.lo)
+    }
+
+    fn spheres(n: usize, scale: f64) -> Spheres {
+        let wave = |i: usize, f: f64| scale * (i as f64 * f).sin();
+        let axis = |f: f64| (0..n).map(|i| wave(i, f)).collect::<Vec<f64>>();
+        Spheres { centre: [axis(0.7), axis(1.3), vec![2.0; n]], radius: vec![0.01; n], sized: true }
+    }
+
+    #[test]
+    fn no_position_is_off_by_more_than_the_stated_error() {
+        let given = spheres(5000, 3.7);
+        let packed = Packed::new(0.0, &given, &[], &[], None);
+        let bound = packed.position_error() * (1.0 + 1e-9);
+        assert!(bound < 3.7 * 2.0 * 1.05 / 131_070.0);
+        for i in 0..given.len() {
+            for k in 0..3 {
+                let error =
+                    (unpacked(&packed.position, 3 * i + k, packed.extent[k]) - given.centre[k][i]).abs();
+                assert!(error <= bound, "{i} {k} {error}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_does_not_move_is_stored_once() {
+        let given = spheres(100, 1.0);
+        let first = Packed::new(0.0, &given, &[], &[], None);
+        let second = Packed::new(1.0, &given, &[], &[], Some(&first));
+        assert!(Arc::ptr_eq(&first.position, &second.position));
+        assert!(first.radius.bytes.is_empty());
+    }
+
+    #[test]
+    fn whole_numbers_come_back_exactly() {
+        let id: Vec<f64> = (0..40_000).map(|i| f64::from(i + 17)).collect();
+        let range = whole(Range::of(&id));
+        let column = Column::new(&id, range, 2, None);
+        assert!((0..id.len()).all(|i| (unpacked(&column.bytes, i, range) - id[i]).abs() < 1e-6));
+    }
+}

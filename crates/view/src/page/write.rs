@@ -1,0 +1,195 @@
+//! The page as text: a header in JSON, and each column of bytes once, in base64.
+
+use super::{Layer, Page, pack::Column};
+use crate::{Map, Role, ViewError, colour, field, scale};
+use base64::{Engine, engine::general_purpose::STANDARD};
+use serde_json::{Value, json};
+use std::collections::HashMap;
+use std::io::{self, Write};
+use std::sync::Arc;
+
+const TEMPLATE: &str = include_str!("page.html");
+const STYLE: &str = include_str!("page.css");
+const SCRIPT: [&str; 7] = [
+    include_str!("data.js"),
+    include_str!("camera.js"),
+    include_str!("draw.js"),
+    include_str!("legend.js"),
+    include_str!("play.js"),
+    include_str!("controls.js"),
+    include_str!("main.js"),
+];
+const SHADERS: [(&str, &str); 4] = [
+    ("ball-vert", include_str!("ball.vert")),
+    ("ball-frag", include_str!("ball.frag")),
+    ("light-vert", include_str!("light.vert")),
+    ("light-frag", include_str!("light.frag")),
+];
+
+/// Every column of bytes with a number, each place in memory once.
+#[derive(Default)]
+struct Blobs<'a> {
+    list: Vec<&'a [u8]>,
+    number: HashMap<*const Vec<u8>, usize>,
+}
+
+impl<'a> Blobs<'a> {
+    fn number(&mut self, bytes: &'a Arc<Vec<u8>>) -> usize {
+        *self.number.entry(Arc::as_ptr(bytes)).or_insert_with(|| {
+            self.list.push(bytes);
+            self.list.len() - 1
+        })
+    }
+
+    fn column(&mut self, column: &'a Column) -> Value {
+        let blob = if column.bytes.is_empty() { Value::Null } else { json!(self.number(&column.bytes)) };
+        json!([blob, column.range.lo, column.range.hi, column.width])
+    }
+}
+
+impl Page {
+    /// The page as one text.
+    ///
+    /// # Errors
+    /// Nothing to show, or no layer has the field to colour by.
+    pub fn html(&self) -> Result<String, ViewError> {
+        let mut bytes = Vec::new();
+        self.check()?;
+        // Writing to memory does not fail.
+        let _ = self.write_checked(&mut bytes);
+        Ok(String::from_utf8_lossy(&bytes).into_owned())
+    }
+
+    /// Whether the page can be written: something to show, and the colour asked for.
+    ///
+    /// # Errors
+    /// Nothing to show, or no layer has the field to colour by.
+    pub fn check(&self) -> Result<(), ViewError> {
+        let shown = |l: &&Layer| l.frames.iter().any(|f| f.count > 0);
+        let layers: Vec<&Layer> = self.layers.iter().filter(shown).collect();
+        if layers.is_empty() {
+            return Err(ViewError::Empty);
+        }
+        let mut known: Vec<String> =
+            layers.iter().flat_map(|l| l.fields.iter().map(|f| f.name.clone())).collect();
+        known.extend(["x", "y", "z"].map(str::to_owned));
+        match self.options.colour.as_deref().map(field::canonical) {
+            Some(name) if name != "rgb" && !known.iter().any(|k| k == name) => {
+                Err(ViewError::NoField { name: name.to_owned(), known })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Writes the page; [`Page::check`] first.
+    ///
+    /// # Errors
+    /// What the writer says.
+    pub fn write_checked(&self, out: &mut impl Write) -> io::Result<()> {
+        let mut blobs = Blobs::default();
+        let header = self.header(&mut blobs);
+        // `<` cannot end the script that the text stands in when it is written as an escape.
+        let header = header.to_string().replace('<', "\\u003c");
+        for (n, piece) in TEMPLATE.split("{{").enumerate() {
+            let (slot, rest) =
+                if n == 0 { ("", piece) } else { piece.split_once("}}").unwrap_or(("", piece)) };
+            match slot {
+                "title" => out.write_all(escaped(&self.options.title).as_bytes())?,
+                "style" => out.write_all(STYLE.as_bytes())?,
+                "shaders" => shaders(out)?,
+                "header" => out.write_all(header.as_bytes())?,
+                "blobs" => write_blobs(&blobs, out)?,
+                "script" => SCRIPT.iter().try_for_each(|part| out.write_all(part.as_bytes()))?,
+                _ => {}
+            }
+            out.write_all(rest.as_bytes())?;
+        }
+        Ok(())
+    }
+
+    fn header<'a>(&'a self, blobs: &mut Blobs<'a>) -> Value {
+        let kept = self.kept();
+        let maps: serde_json::Map<String, Value> =
+            Map::ALL.iter().map(|(name, map)| ((*name).to_owned(), json!(map.anchors()))).collect();
+        let kinds: Vec<_> = (0..colour::KIND_COUNT).map(colour::kind).collect();
+        let map = Map::ALL.iter().find(|(_, m)| *m == self.options.map).map(|(name, _)| *name);
+        let camera = &self.options.camera;
+        json!({
+            "title": self.options.title,
+            "maps": maps, "kinds": kinds, "wall": colour::WALL, "map": map,
+            "colour": self.options.colour.as_deref().map(field::canonical),
+            "range": self.options.range,
+            "time": self.options.time,
+            "camera": {
+                "towards": camera.towards_eye.as_slice(),
+                "eye": camera.eye.map(|e| [e.x, e.y, e.z]),
+                "target": camera.target.map(|t| [t.x, t.y, t.z]),
+            },
+            "given": kept.given, "stride": kept.stride,
+            "positionError": kept.position_error, "radiusError": kept.radius_error,
+            "layers": self.layers.iter().filter(|l| !l.frames.is_empty()).map(|l| layer(l, blobs)).collect::<Vec<_>>(),
+        })
+    }
+}
+
+fn layer<'a>(layer: &'a Layer, blobs: &mut Blobs<'a>) -> Value {
+    let mut frames = Vec::new();
+    for frame in layer.frames.iter() {
+        frames.push(json!({
+            "time": frame.time,
+            "count": frame.count,
+            "lo": frame.extent.map(|r| r.lo),
+            "hi": frame.extent.map(|r| r.hi),
+            "position": blobs.number(&frame.position),
+            "radius": blobs.column(&frame.radius),
+            "fields": frame.fields.iter().map(|f| blobs.column(f)).collect::<Vec<_>>(),
+        }));
+    }
+    let fields = layer.fields.iter().map(|f| {
+        let shown = f.most.opened();
+        named_field(&f.name, f.whole, [f.all.lo, f.all.hi], [shown.lo, shown.hi])
+    });
+    let axes = (0..3).map(|k| {
+        let of = layer.extent[k];
+        named_field(["x", "y", "z"][k], false, [of.lo, of.hi], [of.lo, of.hi])
+    });
+    json!({
+        "name": layer.name,
+        "role": layer.role.word(),
+        "main": layer.role == Role::Grains,
+        "kinds": layer.kinds,
+        "pointRadius": layer.point_radius,
+        "lo": layer.extent.map(|r| r.lo),
+        "hi": layer.extent.map(|r| r.hi),
+        "fields": fields.chain(axes).collect::<Vec<_>>(),
+        "frames": frames,
+    })
+}
+
+fn named_field(name: &str, whole: bool, all: [f64; 2], shown: [f64; 2]) -> Value {
+    let (unit, factor) = scale::readable(field::unit(name), shown[0].abs().max(shown[1].abs()));
+    json!({ "name": name, "whole": whole, "unit": unit, "factor": factor, "all": all, "shown": shown })
+}
+
+fn shaders(out: &mut impl Write) -> io::Result<()> {
+    for (id, text) in SHADERS {
+        writeln!(out, "<script type=\"x-shader\" id=\"{id}\">{text}</script>")?;
+    }
+    Ok(())
+}
+
+fn write_blobs(blobs: &Blobs, out: &mut impl Write) -> io::Result<()> {
+    for (n, bytes) in blobs.list.iter().enumerate() {
+        write!(out, "<script type=\"x-bytes\" id=\"b{n}\">")?;
+        // A multiple of 3 bytes at a time, so that the pieces of text join.
+        for piece in bytes.chunks(3 << 16) {
+            out.write_all(STANDARD.encode(piece).as_bytes())?;
+        }
+        out.write_all(b"</script>\n")?;
+    }
+    Ok(())
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}

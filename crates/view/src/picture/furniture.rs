@@ -1,0 +1,148 @@
+//! What makes a picture readable: colour bar, scale bar, time, count and axes.
+
+use super::{
+    Image, PictureOptions,
+    ink::{Anchor, Pen},
+    lens::Lens,
+    paint::{Key, Painted},
+};
+use crate::{Map, Role, colour, scale};
+
+const INK: [u8; 3] = [0x22, 0x26, 0x2b];
+
+/// Adds all of it.
+pub fn add(image: &mut Image, painted: &Painted, lens: &Lens, options: &PictureOptions) {
+    let text = (f64::from(image.height.min(image.width)) / 62.0).max(7.0);
+    let [w, h] = [f64::from(image.width), f64::from(image.height)];
+    let mut pen = Pen { image, colour: INK };
+    match &painted.key {
+        Key::Bar { .. } => bar(&mut pen, [w, h], text, &painted.key, options.map),
+        Key::Kinds { field, names } => kinds(&mut pen, [w, h], text, field, names),
+        Key::None => {}
+    }
+    let margin = 2.2 * text;
+    let mut line = margin + text;
+    if let Some(time) = options.time {
+        pen.text([margin, line], 1.15 * text, Anchor::Left, &format!("t = {time:.3} s"));
+        line += 2.2 * text;
+    }
+    pen.text([margin, line], text, Anchor::Left, &count(painted));
+    scale_bar(&mut pen, [margin, h - margin], text, lens, 0.16 * w);
+    gnomon(&mut pen, [w - 4.6 * text, h - 4.6 * text], text, lens);
+}
+
+/// "50 000 grains, 12 000 wall spheres".
+fn count(painted: &Painted) -> String {
+    let of = |role: Role, word: &str| {
+        let count: usize = painted.layers.iter().filter(|l| l.role == role).map(|l| l.spheres.len()).sum();
+        (count > 0).then(|| format!("{} {word}", grouped(count)))
+    };
+    let words = [of(Role::Grains, "grains"), of(Role::Walls, "wall spheres"), of(Role::Cloud, "points")];
+    words.into_iter().flatten().collect::<Vec<_>>().join(", ")
+}
+
+/// Digits in groups of three.
+fn grouped(count: usize) -> String {
+    let digits = count.to_string();
+    let groups: Vec<&[u8]> = digits.as_bytes().rchunks(3).rev().collect();
+    groups.iter().map(|g| String::from_utf8_lossy(g)).collect::<Vec<_>>().join(" ")
+}
+
+/// A number as printed, with a true minus.
+fn number(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(rest) if rest.bytes().any(|b| (b'1'..=b'9').contains(&b)) => format!("−{rest}"),
+        Some(rest) => rest.to_owned(),
+        None => text,
+    }
+}
+
+/// The colour bar at the right, pointed at an end that values lie beyond.
+fn bar(pen: &mut Pen, [w, h]: [f64; 2], text: f64, key: &Key, map: Map) {
+    let Key::Bar { field, unit, range, beyond } = key else { return };
+    let (unit, factor) = scale::readable(unit, range.lo.abs().max(range.hi.abs()));
+    let (top, bottom) = ((0.22 * h).round(), (0.74 * h).round());
+    let width = (1.5 * text).round();
+    let left = (w - 0.078 * w).round();
+    for y in (top - width) as i64..(bottom + width) as i64 {
+        let middle = y as f64 + 0.5;
+        let over = (top - middle).max(middle - bottom).max(0.0);
+        if over > 0.0 && !beyond[usize::from(middle < top)] {
+            continue;
+        }
+        let inset = 0.5 * over;
+        pen.colour = map.at((bottom - middle) / (bottom - top)).map(|c| (c * 255.0).round() as u8);
+        pen.fill([left + inset, y as f64, left + width - inset, y as f64 + 1.0]);
+    }
+    pen.colour = INK;
+    let (ticks, decimals) = scale::ticks(scale::Range { lo: range.lo * factor, hi: range.hi * factor }, 6);
+    for tick in ticks {
+        let y = bottom - (bottom - top) * range.share(tick / factor);
+        pen.strokes(&[[[left + width, y], [left + width + 0.4 * text, y]]], (0.09 * text).max(1.0));
+        pen.text([left + width + 0.9 * text, y + 0.5 * text], text, Anchor::Left, &number(tick, decimals));
+    }
+    let title = if unit.is_empty() { field.clone() } else { format!("{field} [{unit}]") };
+    pen.text([w - 0.9 * text, top - width - 1.3 * text], text, Anchor::Right, &title);
+}
+
+/// A patch and a name for each kind.
+fn kinds(pen: &mut Pen, [w, h]: [f64; 2], text: f64, field: &str, names: &[String]) {
+    let top = 0.3 * h;
+    let left = w - 0.085 * w;
+    pen.text([left, top - 1.4 * text], text, Anchor::Left, field);
+    for (n, name) in names.iter().enumerate() {
+        let y = top + 2.2 * text * n as f64;
+        pen.colour = colour::kind(n);
+        pen.fill([left, y, left + 1.2 * text, y + 1.2 * text]);
+        pen.colour = INK;
+        pen.text([left + 1.9 * text, y + 1.1 * text], text, Anchor::Left, name);
+    }
+}
+
+/// A round length at the distance of the point looked at.
+fn scale_bar(pen: &mut Pen, [x, y]: [f64; 2], text: f64, lens: &Lens, longest: f64) {
+    let metres = scale::round_below(longest / lens.pixels_per_metre());
+    let length = metres * lens.pixels_per_metre();
+    let line = (0.14 * text).max(1.0);
+    let tick = 0.45 * text;
+    pen.strokes(
+        &[
+            [[x, y], [x + length, y]],
+            [[x, y - tick], [x, y + tick]],
+            [[x + length, y - tick], [x + length, y + tick]],
+        ],
+        line,
+    );
+    let (unit, factor) = scale::readable("m", metres);
+    let label = format!("{} {unit}", (metres * factor * 1e6).round() / 1e6);
+    pen.text([x + 0.5 * length, y - 0.9 * text], text, Anchor::Middle, &label);
+}
+
+/// The axes of the world as the eye sees them.
+fn gnomon(pen: &mut Pen, [x, y]: [f64; 2], text: f64, lens: &Lens) {
+    const COLOURS: [[u8; 3]; 3] = [[0xc0, 0x39, 0x2b], [0x2e, 0x8b, 0x57], [0x2c, 0x5f, 0xb3]];
+    for k in 0..3 {
+        let [right, down, away] = lens.axis(k);
+        if away.abs() > 0.98 {
+            continue; // it points at the eye
+        }
+        pen.colour = COLOURS[k];
+        let end = |length: f64| [x + length * text * right, y + length * text * down];
+        pen.strokes(&[[[x, y], end(2.2)]], (0.16 * text).max(1.2));
+        let [lx, ly] = end(3.1);
+        pen.text([lx, ly + 0.33 * text], 0.85 * text, Anchor::Middle, ["x", "y", "z"][k]);
+    }
+    pen.colour = INK;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_printed_for_readers() {
+        assert_eq!([grouped(50_000), grouped(999), grouped(1_234_567)], ["50 000", "999", "1 234 567"]);
+        assert_eq!([number(-0.04, 1), number(-1.5, 1), number(2.0, 0)], ["0.0", "−1.5", "2"]);
+    }
+}

@@ -1,0 +1,96 @@
+//! Lines, areas and text, drawn into a picture with soft edges.
+
+use super::{Image, font};
+
+/// Where the given point of a text lies in it.
+#[derive(Clone, Copy)]
+pub enum Anchor {
+    Left,
+    Middle,
+    Right,
+}
+
+/// Draws into an image.
+pub struct Pen<'a> {
+    pub image: &'a mut Image,
+    pub colour: [u8; 3],
+}
+
+impl Pen<'_> {
+    /// Text that stands on `at`, its capitals `height` pixels high.
+    pub fn text(&mut self, at: [f64; 2], height: f64, anchor: Anchor, text: &str) {
+        let unit = height / font::CAPITAL;
+        let (pieces, width) = font::lay_out(text);
+        let shift = match anchor {
+            Anchor::Left => 0.0,
+            Anchor::Middle => 0.5 * width,
+            Anchor::Right => width,
+        };
+        let place = |p: [f64; 2]| [at[0] + unit * (p[0] - shift), at[1] - unit * p[1]];
+        let pieces: Vec<font::Piece> = pieces.into_iter().map(|piece| piece.map(place)).collect();
+        self.strokes(&pieces, (0.135 * height).max(1.1));
+    }
+
+    /// Straight pieces with round ends, inked once where they meet.
+    pub fn strokes(&mut self, pieces: &[font::Piece], width: f64) {
+        let reach = 0.5 * width + 1.0;
+        let ends = || pieces.iter().flatten();
+        let low = |k: usize| ends().map(|p| p[k] - reach).fold(f64::INFINITY, f64::min).max(0.0) as usize;
+        let high = |k: usize, size: u32| {
+            ends().map(|p| p[k] + reach).fold(0.0, f64::max).ceil().min(f64::from(size)) as usize
+        };
+        let [x0, y0] = [low(0), low(1)];
+        let [x1, y1] = [high(0, self.image.width), high(1, self.image.height)];
+        if x0 >= x1 || y0 >= y1 {
+            return;
+        }
+        let mut ink = vec![0f64; (x1 - x0) * (y1 - y0)];
+        for piece in pieces {
+            let span = |k: usize, from: usize, to: usize| {
+                let [a, b] = [piece[0][k].min(piece[1][k]), piece[0][k].max(piece[1][k])];
+                ((a - reach).max(from as f64) as usize)
+                    ..((b + reach).ceil().clamp(from as f64, to as f64) as usize)
+            };
+            for y in span(1, y0, y1) {
+                for x in span(0, x0, x1) {
+                    let cover = 0.5 + 0.5 * width - distance([x as f64 + 0.5, y as f64 + 0.5], *piece);
+                    let place = &mut ink[(y - y0) * (x1 - x0) + x - x0];
+                    *place = place.max(cover.clamp(0.0, 1.0));
+                }
+            }
+        }
+        for y in y0..y1 {
+            for x in x0..x1 {
+                self.blend(x, y, ink[(y - y0) * (x1 - x0) + x - x0]);
+            }
+        }
+    }
+
+    /// A filled rectangle: left, top, right, bottom [pixel].
+    pub fn fill(&mut self, area: [f64; 4]) {
+        let [x0, y0, x1, y1] = area.map(|v| v.round().max(0.0) as usize);
+        for y in y0..y1.min(self.image.height as usize) {
+            for x in x0..x1.min(self.image.width as usize) {
+                self.blend(x, y, 1.0);
+            }
+        }
+    }
+
+    fn blend(&mut self, x: usize, y: usize, share: f64) {
+        let at = 4 * (y * self.image.width as usize + x);
+        for k in 0..3 {
+            let under = f64::from(self.image.rgba[at + k]);
+            self.image.rgba[at + k] = (under + share * (f64::from(self.colour[k]) - under)).round() as u8;
+        }
+    }
+}
+
+/// From a point to the nearest of a straight piece.
+fn distance(point: [f64; 2], [a, b]: font::Piece) -> f64 {
+    let along = [b[0] - a[0], b[1] - a[1]];
+    let from = [point[0] - a[0], point[1] - a[1]];
+    let length = along[0] * along[0] + along[1] * along[1];
+    let t =
+        if length > 0.0 { ((from[0] * along[0] + from[1] * along[1]) / length).clamp(0.0, 1.0) } else { 0.0 };
+    (from[0] - t * along[0]).hypot(from[1] - t * along[1])
+}

@@ -1,0 +1,160 @@
+//! Light: a lamp over the left shoulder, a bright sky, and less of both in the gaps between grains.
+
+use super::{
+    PictureOptions,
+    lens::{Lens, SAMPLES},
+    paint::{Layer, Painted},
+    splat::{Depths, NOTHING, splat},
+};
+use crate::{Role, spheres::Spheres};
+use geom::Vec3;
+use rayon::prelude::*;
+
+/// Direction to the lamp: right, up, forward (unit length).
+const LAMP: [f32; 3] = [-0.424, 0.707, -0.566];
+
+/// Places looked at around a sample for what covers it: a spiral, as shares of the reach.
+const SPIRAL: [[f32; 2]; 8] = [
+    [0.09, 0.05],
+    [-0.16, 0.14],
+    [-0.05, -0.33],
+    [0.42, 0.12],
+    [0.10, 0.55],
+    [-0.66, 0.08],
+    [0.22, -0.76],
+    [0.69, 0.66],
+];
+
+/// One kind of surface in the picture, with what is needed to light it.
+struct Shaded {
+    depths: Depths,
+    /// Colour of each ball, by its number.
+    colour: Vec<[f32; 3]>,
+    /// How far around a sample shade is looked for [m].
+    reach: f64,
+}
+
+/// Draws everything on white; four bytes a pixel.
+pub fn render(painted: &Painted, lens: &Lens, options: &PictureOptions) -> Vec<u8> {
+    let walls_only = painted.layers.iter().all(|l| l.role == Role::Walls);
+    let see_through = |l: &&Layer| l.role == Role::Walls && !walls_only && options.wall_opacity < 1.0;
+    let (glass, solid): (Vec<&Layer>, Vec<&Layer>) = painted.layers.iter().partition(see_through);
+    let keep = |place: Vec3| !options.cut || lens.seen(place)[2] >= lens.distance;
+    let solid = Shaded::new(&solid, lens, keep);
+    let glass = Shaded::new(&glass, lens, keep);
+    let opacity = options.wall_opacity as f32;
+    let width = options.width as usize;
+    let mut rgba = vec![255u8; width * options.height as usize * 4];
+    rgba.par_chunks_mut(width * 4).enumerate().for_each(|(y, row)| {
+        for (x, pixel) in row.chunks_exact_mut(4).enumerate() {
+            let mut sum = [0f32; 3];
+            for sample in 0..SAMPLES * SAMPLES {
+                let at = [x * SAMPLES + sample % SAMPLES, y * SAMPLES + sample / SAMPLES];
+                let seen = through(&solid, &glass, lens, at, opacity);
+                sum = std::array::from_fn(|k| sum[k] + seen[k]);
+            }
+            for k in 0..3 {
+                pixel[k] = (sum[k] * 255.0 / (SAMPLES * SAMPLES) as f32 + 0.5).clamp(0.0, 255.0) as u8;
+            }
+        }
+    });
+    rgba
+}
+
+/// The colour of one sample: grains, and walls before or behind them.
+fn through(solid: &Shaded, glass: &Shaded, lens: &Lens, at: [usize; 2], opacity: f32) -> [f32; 3] {
+    let place = at[1] * lens.size[0] + at[0];
+    let mix = |under: [f32; 3], over: [f32; 3], share: f32| -> [f32; 3] {
+        std::array::from_fn(|k| under[k] + share * (over[k] - under[k]))
+    };
+    let (near, far) = (glass.depths.depth[place], solid.depths.depth[place]);
+    let under = solid.colour(lens, at);
+    match (under, near < far) {
+        (None, true) => {
+            glass.colour(lens, at).map_or([1.0; 3], |wall| mix([1.0; 3], wall, 0.35 + 0.65 * opacity))
+        }
+        (Some(grain), true) => glass.colour(lens, at).map_or(grain, |wall| mix(grain, wall, opacity)),
+        (grain, false) => grain.unwrap_or([1.0; 3]),
+    }
+}
+
+impl Shaded {
+    /// The surfaces of all `layers` together; walls only where `keep` holds for their place.
+    fn new(layers: &[&Layer], lens: &Lens, keep: impl Fn(Vec3) -> bool) -> Self {
+        let mut joined = Spheres::default();
+        let mut colour = Vec::new();
+        for layer in layers {
+            for i in 0..layer.spheres.len() {
+                let place = layer.spheres.at(i);
+                if layer.role == Role::Walls && !keep(place) {
+                    continue;
+                }
+                (0..3).for_each(|k| joined.centre[k].push(place[k]));
+                joined.radius.push(layer.spheres.radius[i]);
+                colour.push(layer.colour[i]);
+            }
+        }
+        let depths = splat(&joined, lens);
+        Shaded { depths, colour, reach: 4.0 * middle_of(joined.radius) }
+    }
+
+    /// The lit colour at a sample, or none where there is nothing.
+    fn colour(&self, lens: &Lens, at: [usize; 2]) -> Option<[f32; 3]> {
+        let place = at[1] * lens.size[0] + at[0];
+        let number = self.depths.ball[place];
+        if number == NOTHING {
+            return None;
+        }
+        let ball = &self.depths.balls[number as usize];
+        let depth = f64::from(self.depths.depth[place]);
+        let point = self.point(lens, at, depth);
+        let normal: [f32; 3] = std::array::from_fn(|k| ((point[k] - ball.centre[k]) / ball.radius) as f32);
+        let lamp: f32 = (0..3).map(|k| normal[k] * LAMP[k]).sum();
+        let open = self.openness(lens, at, point, normal);
+        let bright = open * (0.64 + 0.14 * normal[1] + 0.38 * lamp.max(0.0));
+        let gloss = 0.10 * open * lamp.max(0.0).powi(12);
+        let own = self.colour[ball.number as usize];
+        Some(own.map(|c| (c * bright + gloss).min(1.0)))
+    }
+
+    fn point(&self, lens: &Lens, at: [usize; 2], depth: f64) -> [f64; 3] {
+        let dx = (at[0] as f64 + 0.5 - lens.centre[0]) / lens.focal;
+        let dy = (lens.centre[1] - at[1] as f64 - 0.5) / lens.focal;
+        [dx * depth, dy * depth, depth]
+    }
+
+    /// How much of the sky a sample sees, 0 to 1, judged by what stands around it in the picture.
+    fn openness(&self, lens: &Lens, at: [usize; 2], point: [f64; 3], normal: [f32; 3]) -> f32 {
+        let reach = (self.reach * lens.focal / point[2]).clamp(4.0, 0.06 * lens.size[1] as f64) as f32;
+        let world = (f64::from(reach) * point[2] / lens.focal) as f32;
+        // Each of the four samples of a pixel looks a quarter turn further on, so a pixel looks everywhere.
+        let (cos, sin) =
+            [(1.0, 0.0), (0.0, 1.0), (-0.707, 0.707), (0.707, 0.707)][at[0] % 2 + 2 * (at[1] % 2)];
+        let mut covered = 0.0;
+        for [sx, sy] in SPIRAL {
+            let x = at[0] as i64 + (reach * (sx * cos - sy * sin)).round() as i64;
+            let y = at[1] as i64 + (reach * (sx * sin + sy * cos)).round() as i64;
+            if x < 0 || y < 0 || x >= lens.size[0] as i64 || y >= lens.size[1] as i64 {
+                continue;
+            }
+            let there = [x as usize, y as usize];
+            let depth = f64::from(self.depths.depth[there[1] * lens.size[0] + there[0]]);
+            if !depth.is_finite() {
+                continue;
+            }
+            let other = self.point(lens, there, depth);
+            let away: [f32; 3] = std::array::from_fn(|k| (other[k] - point[k]) as f32);
+            let length = away.iter().map(|a| a * a).sum::<f32>().sqrt().max(1e-9);
+            let above = (0..3).map(|k| normal[k] * away[k]).sum::<f32>() / length;
+            let fade = (1.0 - length / (1.5 * world)).max(0.0);
+            covered += (above - 0.08).max(0.0) * fade;
+        }
+        (1.0 - 2.4 * covered / SPIRAL.len() as f32).clamp(0.15, 1.0)
+    }
+}
+
+/// The middle one of the radii [m].
+fn middle_of(mut radius: Vec<f64>) -> f64 {
+    let middle = radius.len() / 2;
+    if radius.is_empty() { 0.0 } else { *radius.select_nth_unstable_by(middle, f64::total_cmp).1 }
+}

@@ -1,0 +1,111 @@
+//! Pictures: spheres with their true outlines, drawn by a z-buffer of our own, the same bits every time.
+
+mod font;
+mod furniture;
+mod ink;
+mod lens;
+mod light;
+mod paint;
+mod splat;
+
+pub use paint::Part;
+
+use crate::{Camera, Map, ViewError, scale::Range};
+use paint::Painted;
+
+/// A picture's settings.
+#[derive(Debug, Clone)]
+pub struct PictureOptions {
+    /// Width [pixel].
+    pub width: u32,
+    /// Height [pixel].
+    pub height: u32,
+    /// Where to look from.
+    pub camera: Camera,
+    /// Field to colour by; none: speed, else height.
+    pub colour: Option<String>,
+    /// Colour map.
+    pub map: Map,
+    /// Ends of the colour scale in the field's unit; none: what 98 % of the values lie in.
+    pub range: Option<[f64; 2]>,
+    /// Time to state in the picture [s].
+    pub time: Option<f64>,
+    /// How much of the grains a wall in front of them hides, 0 to 1.
+    pub wall_opacity: f64,
+    /// Leave out the half of the walls that is nearer to the eye than the middle.
+    pub cut: bool,
+}
+
+impl Default for PictureOptions {
+    fn default() -> Self {
+        PictureOptions {
+            width: 1920,
+            height: 1080,
+            camera: Camera::default(),
+            colour: None,
+            map: Map::default(),
+            range: None,
+            time: None,
+            wall_opacity: 0.2,
+            cut: false,
+        }
+    }
+}
+
+/// A picture: red, green, blue, alpha, row by row from the top.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Image {
+    /// Width [pixel].
+    pub width: u32,
+    /// Height [pixel].
+    pub height: u32,
+    /// Four bytes a pixel.
+    pub rgba: Vec<u8>,
+}
+
+impl Image {
+    /// The colour at a pixel, from the top left.
+    pub fn pixel(&self, x: u32, y: u32) -> [u8; 4] {
+        let at = 4 * (y as usize * self.width as usize + x as usize);
+        [self.rgba[at], self.rgba[at + 1], self.rgba[at + 2], self.rgba[at + 3]]
+    }
+
+    /// The picture as a PNG file.
+    ///
+    /// # Errors
+    /// The encoder failed.
+    pub fn png(&self) -> Result<Vec<u8>, ViewError> {
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, self.width, self.height);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_depth(png::BitDepth::Eight);
+        encoder.set_compression(png::Compression::Fast);
+        let rgb: Vec<u8> = self.rgba.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
+        let mut writer = encoder.write_header().map_err(ViewError::Png)?;
+        writer.write_image_data(&rgb).map_err(ViewError::Png)?;
+        writer.finish().map_err(ViewError::Png)?;
+        Ok(bytes)
+    }
+}
+
+/// Draws the parts as they are at one moment.
+///
+/// # Errors
+/// Nothing to draw, a broken table, an unknown field, or a size out of range.
+pub fn draw(parts: &[Part], options: &PictureOptions) -> Result<Image, ViewError> {
+    let (width, height) = (options.width, options.height);
+    if !(64..=16384).contains(&width) || !(64..=16384).contains(&height) {
+        return Err(ViewError::Size { width, height });
+    }
+    let painted = Painted::new(parts, options)?;
+    let lens = lens::Lens::new(&painted, options);
+    let shown = light::render(&painted, &lens, options);
+    let mut image = Image { width, height, rgba: shown };
+    furniture::add(&mut image, &painted, &lens, options);
+    Ok(image)
+}
+
+/// The box around everything that is looked at.
+pub(crate) fn around(extents: impl Iterator<Item = [Range; 3]>) -> [Range; 3] {
+    extents.fold([Range::EMPTY; 3], |all, one| std::array::from_fn(|k| all[k].with(one[k])))
+}

@@ -1,0 +1,154 @@
+//! The z-buffer: which sphere is nearest at each sample of the picture, and how far.
+//!
+//! The picture is cut into tiles; a tile draws its spheres from near to far, in the order of their numbers where
+//! equally near, and skips those behind all it has drawn. Tiles do not touch each other's samples, so the result
+//! does not depend on the number of threads.
+
+use super::lens::{Lens, tangents};
+use crate::spheres::Spheres;
+use rayon::prelude::*;
+
+/// Side of a tile [sample].
+const TILE: usize = 64;
+
+/// No sphere here.
+pub const NOTHING: u32 = u32::MAX;
+
+/// A sphere as seen from the eye.
+#[derive(Clone, Copy)]
+pub struct Ball {
+    /// Centre: right, up, forward [m].
+    pub centre: [f64; 3],
+    /// Radius [m].
+    pub radius: f64,
+    /// First and last sample in x and y, not yet cut to the picture.
+    window: [f64; 4],
+    /// Number in the list it came from.
+    pub number: u32,
+}
+
+/// The nearest surface at each sample.
+pub struct Depths {
+    /// Distance along the axis of the eye [m]; infinite where there is nothing.
+    pub depth: Vec<f32>,
+    /// The ball there, or [`NOTHING`].
+    pub ball: Vec<u32>,
+    /// The balls.
+    pub balls: Vec<Ball>,
+}
+
+/// Draws all spheres.
+pub fn splat(spheres: &Spheres, lens: &Lens) -> Depths {
+    let ball = |i: usize| seen_ball(spheres, i, lens);
+    let mut balls: Vec<Ball> = (0..spheres.len()).into_par_iter().filter_map(ball).collect();
+    let near = |b: &Ball| b.centre[2] - b.radius;
+    balls.par_sort_unstable_by(|a, b| near(a).total_cmp(&near(b)).then(a.number.cmp(&b.number)));
+    let [w, h] = lens.size;
+    let across = w.div_ceil(TILE);
+    let lists = by_tile(&balls, [w, h]);
+    let mut depths = Depths { depth: vec![f32::INFINITY; w * h], ball: vec![NOTHING; w * h], balls };
+    let bands = depths.depth.par_chunks_mut(TILE * w).zip(depths.ball.par_chunks_mut(TILE * w));
+    let balls = &depths.balls;
+    bands.enumerate().for_each(|(row, (depth, ball))| {
+        for column in 0..across {
+            let mut tile = Tile { depth, ball, width: w, left: column * TILE, top: row * TILE };
+            tile.draw(balls, &lists[row * across + column], lens);
+        }
+    });
+    depths
+}
+
+fn seen_ball(spheres: &Spheres, i: usize, lens: &Lens) -> Option<Ball> {
+    let centre = lens.seen(spheres.at(i));
+    let radius = spheres.radius[i];
+    let [x0, x1] = tangents(centre[0], centre[2], radius)?;
+    let [y0, y1] = tangents(centre[1], centre[2], radius)?;
+    let [cx, cy] = lens.centre;
+    let window = [cx + lens.focal * x0, cx + lens.focal * x1, cy - lens.focal * y1, cy - lens.focal * y0];
+    let inside = window[1] >= 0.0
+        && window[3] >= 0.0
+        && window[0] < lens.size[0] as f64
+        && window[2] < lens.size[1] as f64;
+    inside.then_some(Ball { centre, radius, window, number: i as u32 })
+}
+
+/// The places in `balls` that reach into each tile, near ones first.
+fn by_tile(balls: &[Ball], size: [usize; 2]) -> Vec<Vec<u32>> {
+    let [across, down] = size.map(|s| s.div_ceil(TILE));
+    let mut lists = vec![Vec::new(); across * down];
+    let tile = |sample: f64, count: usize| (sample.max(0.0) as usize / TILE).min(count - 1);
+    for (place, ball) in balls.iter().enumerate() {
+        let [x0, x1, y0, y1] = ball.window;
+        for row in tile(y0, down)..=tile(y1, down) {
+            for column in tile(x0, across)..=tile(x1, across) {
+                lists[row * across + column].push(place as u32);
+            }
+        }
+    }
+    lists
+}
+
+/// One tile, in the band of rows that holds it.
+struct Tile<'a> {
+    depth: &'a mut [f32],
+    ball: &'a mut [u32],
+    width: usize,
+    left: usize,
+    top: usize,
+}
+
+impl Tile<'_> {
+    fn draw(&mut self, balls: &[Ball], list: &[u32], lens: &Lens) {
+        let mut behind = f32::INFINITY;
+        for (n, &place) in list.iter().enumerate() {
+            let ball = &balls[place as usize];
+            if n % 64 == 63 {
+                behind = self.farthest();
+            }
+            if (ball.centre[2] - ball.radius) as f32 > behind {
+                return; // all others are farther still
+            }
+            self.draw_ball(ball, place, lens);
+        }
+    }
+
+    /// Samples of the tile, as ends of its columns and rows in the band.
+    fn bounds(&self) -> [usize; 4] {
+        let rows = self.depth.len() / self.width;
+        [self.left, (self.left + TILE).min(self.width), 0, rows]
+    }
+
+    fn farthest(&self) -> f32 {
+        let [x0, x1, y0, y1] = self.bounds();
+        let row = |y: usize| &self.depth[y * self.width + x0..y * self.width + x1];
+        (y0..y1).flat_map(row).copied().fold(0.0, f32::max)
+    }
+
+    fn draw_ball(&mut self, ball: &Ball, place: u32, lens: &Lens) {
+        let [x0, x1, y0, y1] = self.bounds();
+        let [bx0, bx1, by0, by1] = ball.window;
+        let from = |sample: f64, low: usize| (sample.ceil().max(0.0) as usize).max(low);
+        let to = |sample: f64, high: usize| ((sample.floor().max(-1.0) + 1.0) as usize).min(high);
+        let [left, right] = [from(bx0 - 0.5, x0), to(bx1 - 0.5, x1)];
+        let [top, bottom] = [from(by0 - 0.5, self.top + y0), to(by1 - 0.5, self.top + y1)];
+        let [cx, cy, cz] = ball.centre;
+        let outside = cx * cx + cy * cy + cz * cz - ball.radius * ball.radius;
+        for y in top..bottom {
+            let dy = (lens.centre[1] - (y as f64 + 0.5)) / lens.focal;
+            let base = (y - self.top) * self.width;
+            for x in left..right {
+                let dx = (x as f64 + 0.5 - lens.centre[0]) / lens.focal;
+                let (a, b) = (dx * dx + dy * dy + 1.0, dx * cx + dy * cy + cz);
+                let inside = b * b - a * outside;
+                if inside < 0.0 {
+                    continue;
+                }
+                let depth = ((b - inside.sqrt()) / a) as f32;
+                if depth < self.depth[base + x] {
+                    self.depth[base + x] = depth;
+                    self.ball[base + x] = place;
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! Places and sizes out of a table, checked.
+
+use crate::{ViewError, scale::Range};
+use geom::Vec3;
+use std::collections::HashSet;
+use stream::Table;
+
+/// Spheres in columns.
+#[derive(Default)]
+pub(crate) struct Spheres {
+    /// x, y and z of the centres [m].
+    pub centre: [Vec<f64>; 3],
+    /// Radii [m]; for points without one, half their usual distance.
+    pub radius: Vec<f64>,
+    /// Whether the radius is a column of the table.
+    pub sized: bool,
+}
+
+impl Spheres {
+    /// Takes x, y, z and radius out of `table`; `name` is for messages.
+    ///
+    /// # Errors
+    /// A position is missing, or a number is not finite.
+    pub fn of(table: &Table, name: &str) -> Result<Spheres, ViewError> {
+        let column = |column| {
+            let missing = || ViewError::NoPosition { name: name.to_owned(), column };
+            finite(table, name, column).transpose().ok_or_else(missing)?
+        };
+        let centre = [column("x")?, column("y")?, column("z")?];
+        let (radius, sized) = match finite(table, name, "radius")? {
+            Some(radius) => (radius, true),
+            None => (vec![0.5 * spacing(&centre); table.rows()], false),
+        };
+        Ok(Spheres { centre, radius, sized })
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.radius.len()
+    }
+
+    /// The centre of one [m].
+    pub fn at(&self, i: usize) -> Vec3 {
+        Vec3::new(self.centre[0][i], self.centre[1][i], self.centre[2][i])
+    }
+
+    /// The box of all centres, or of most of them: strays that fell off must not shrink the rest to a dot.
+    pub fn extent(&self, all: bool) -> [Range; 3] {
+        let widest = self.radius.iter().copied().fold(0.0, f64::max);
+        self.centre.each_ref().map(|c| {
+            let range = if all { Range::of(c) } else { most_of(c) };
+            Range { lo: range.lo - widest, hi: range.hi + widest }
+        })
+    }
+}
+
+/// All values, unless the outer 1 % of them take up more than half the width.
+fn most_of(values: &[f64]) -> Range {
+    let (all, most) = (Range::of(values), Range::of_most(values));
+    let far = values.len() > 200 && all.hi - all.lo > 2.0 * (most.hi - most.lo);
+    if far { most } else { all }
+}
+
+fn finite(table: &Table, name: &str, column: &'static str) -> Result<Option<Vec<f64>>, ViewError> {
+    let Some(values) = table.get(column).map(stream::Values::to_f64) else { return Ok(None) };
+    match values.iter().position(|v| !v.is_finite()) {
+        Some(row) => Err(ViewError::NotFinite { name: name.to_owned(), row, column, value: values[row] }),
+        None => Ok(Some(values)),
+    }
+}
+
+/// The usual distance of neighbours on a surface [m]: the area is counted in occupied boxes of a coarse grid.
+fn spacing(centre: &[Vec<f64>; 3]) -> f64 {
+    let box_of = centre.each_ref().map(|c| most_of(c));
+    let widest = box_of.iter().map(|r| r.hi - r.lo).fold(0.0, f64::max);
+    let count = centre[0].len();
+    if count < 2 || widest <= 0.0 {
+        return 1e-3;
+    }
+    let cells = ((count as f64 / 8.0).sqrt()).clamp(2.0, 128.0);
+    let side = widest / cells;
+    let cell =
+        |k: usize, i: usize| ((centre[k][i].clamp(box_of[k].lo, box_of[k].hi) - box_of[k].lo) / side) as u16;
+    let occupied: HashSet<[u16; 3]> = (0..count).map(|i| [cell(0, i), cell(1, i), cell(2, i)]).collect();
+    side * (occupied.len() as f64 / count as f64).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use stream::Values;
+
+    fn table(x: Vec<f64>) -> Table {
+        let mut table = Table::default();
+        let zeros = vec![0.0; x.len()];
+        table.push("x", Values::F64(x)).expect("fits");
+        table.push("y", Values::F64(zeros.clone())).expect("fits");
+        table.push("z", Values::F64(zeros)).expect("fits");
+        table
+    }
+
+    #[test]
+    fn a_missing_or_broken_position_is_named() {
+        let broken = Spheres::of(&table(vec![1.0, f64::NAN]), "run").err().expect("refused").to_string();
+        assert!(broken.contains("run: row 1: x is NaN"), "{broken}");
+        let missing = Spheres::of(&Table::with_rows(3), "run").err().expect("refused").to_string();
+        assert!(missing.contains("no column 'x'"), "{missing}");
+    }
+
+    #[test]
+    fn points_of_a_square_lattice_get_half_its_spacing() {
+        let lattice = |i: i32| [f64::from(i % 100) * 0.1, f64::from(i / 100) * 0.1];
+        let points: Vec<[f64; 2]> = (0..10_000).map(lattice).collect();
+        let column = |k: usize| points.iter().map(|p| p[k]).collect::<Vec<f64>>();
+        let found = spacing(&[column(0), column(1), vec![0.0; 10_000]]);
+        assert!((found / 0.1 - 1.0).abs() < 0.3, "{found}");
+    }
+
+    #[test]
+    fn a_stray_does_not_widen_the_view() {
+        let mut x: Vec<f64> = (0..1000).map(|i| f64::from(i) * 1e-3).collect();
+        x.push(1e4);
+        let spheres = Spheres::of(&table(x), "run").expect("whole");
+        assert!(spheres.extent(false)[0].hi < 2.0 && spheres.extent(true)[0].hi > 1e3);
+    }
+}
