@@ -29,7 +29,12 @@ impl Check<'_> {
         if value > 0.0 && value.is_finite() {
             return Ok(());
         }
-        Err(self.wrong(key, format!("{value} {unit}"), "must be a finite number above 0", "give a positive value"))
+        Err(self.wrong(
+            key,
+            format!("{value} {unit}"),
+            "must be a finite number above 0",
+            "give a positive value",
+        ))
     }
 
     fn positive_if(&self, key: &str, value: Option<f64>, unit: &str) -> Checked {
@@ -60,7 +65,12 @@ impl Check<'_> {
         }
         if d.high > 100.0 {
             let value = format!("{} m", d.high);
-            return Err(self.wrong(key, value, "is larger than 100 m", "lengths are in metres: 5 mm is 0.005"));
+            return Err(self.wrong(
+                key,
+                value,
+                "is larger than 100 m",
+                "lengths are in metres: 5 mm is 0.005",
+            ));
         }
         Ok(())
     }
@@ -79,7 +89,9 @@ impl Check<'_> {
         match given[..] {
             [_] => Ok(()),
             [] => Err(self.wrong(entry, "(without)", &format!("{} is missing", names()), "add one of them")),
-            _ => Err(self.wrong(entry, given.join(" and "), "only one of them can be", "take the others out")),
+            _ => {
+                Err(self.wrong(entry, given.join(" and "), "only one of them can be", "take the others out"))
+            }
         }
     }
 
@@ -116,7 +128,12 @@ impl Check<'_> {
             let key = |k: &str| format!("material.{i}.{k}");
             if m.material[..i].iter().any(|o| o.name == material.name) {
                 let why = "another material has this name";
-                return Err(self.wrong(&key("name"), &material.name, why, "give every material its own name"));
+                return Err(self.wrong(
+                    &key("name"),
+                    &material.name,
+                    why,
+                    "give every material its own name",
+                ));
             }
             if material.name.is_empty() || material.name == "*" {
                 return Err(self.wrong(&key("name"), &material.name, "is no name", "name the material"));
@@ -150,7 +167,12 @@ impl Check<'_> {
                     let also = ("tangential_ratio", c.tangential_ratio.is_some());
                     if let Some((k, _)) = linear.iter().chain([&also]).find(|k| k.1) {
                         let why = "law = \"hertz\" takes its stiffness from young and poisson";
-                        return Err(self.wrong(&key(k), "(given)", why, "take it out, or use law = \"hooke\""));
+                        return Err(self.wrong(
+                            &key(k),
+                            "(given)",
+                            why,
+                            "take it out, or use law = \"hooke\"",
+                        ));
                     }
                 }
             }
@@ -195,13 +217,23 @@ impl Check<'_> {
         }
         if w.faces.is_some() && w.cuboid.is_none() {
             let why = "only a box has faces";
-            return Err(self.wrong(&format!("{entry}.faces"), "(given)", why, "add box = [x0,y0,z0,x1,y1,z1]"));
+            return Err(self.wrong(
+                &format!("{entry}.faces"),
+                "(given)",
+                why,
+                "add box = [x0,y0,z0,x1,y1,z1]",
+            ));
         }
         if let Some(b) = w.cuboid {
             self.finite(&format!("{entry}.box"), &b, "m")?;
             if (0..3).any(|a| b[a] >= b[a + 3]) {
                 let why = "has no inside";
-                return Err(self.wrong(&format!("{entry}.box"), format!("{b:?} m"), why, "give the lowest corner, then the highest"));
+                return Err(self.wrong(
+                    &format!("{entry}.box"),
+                    format!("{b:?} m"),
+                    why,
+                    "give the lowest corner, then the highest",
+                ));
             }
         }
         let Some(motion) = &w.motion else { return Ok(()) };
@@ -211,7 +243,12 @@ impl Check<'_> {
             self.finite(&key("rotate.through"), &r.through, "m")?;
             self.finite(&key("rotate.rpm"), &[r.rpm], "1/min")?;
             if r.about == [0.0; 3] {
-                return Err(self.wrong(&key("rotate.about"), "[0, 0, 0]", "has no direction", "such as [0, 0, 1]"));
+                return Err(self.wrong(
+                    &key("rotate.about"),
+                    "[0, 0, 0]",
+                    "has no direction",
+                    "such as [0, 0, 1]",
+                ));
             }
         }
         self.finite(&key("translate"), &motion.translate.unwrap_or_default(), "m/s")?;
@@ -223,7 +260,12 @@ impl Check<'_> {
     }
 
     /// The index of a material, by name.
-    pub(crate) fn material(&self, key: &str, name: &str, known: &[dem::setup::Material]) -> Result<u16, SceneError> {
+    pub(crate) fn material(
+        &self,
+        key: &str,
+        name: &str,
+        known: &[dem::setup::Material],
+    ) -> Result<u16, SceneError> {
         if let Some(at) = known.iter().position(|m| m.name == name) {
             return Ok(at as u16);
         }

@@ -57,7 +57,12 @@ fn matches(entry: &Contact, a: &str, b: &str) -> Option<usize> {
     hit.then(|| [p, q].iter().filter(|s| s.as_str() != "*").count())
 }
 
-fn best<'e>(check: &Check, entries: &'e [Contact], a: &str, b: &str) -> Result<Option<&'e Contact>, SceneError> {
+fn best<'e>(
+    check: &Check,
+    entries: &'e [Contact],
+    a: &str,
+    b: &str,
+) -> Result<Option<&'e Contact>, SceneError> {
     let mut best: Option<(usize, usize)> = None;
     for (i, entry) in entries.iter().enumerate() {
         let Some(rank) = matches(entry, a, b) else { continue };
@@ -65,7 +70,9 @@ fn best<'e>(check: &Check, entries: &'e [Contact], a: &str, b: &str) -> Result<O
             Some((top, first)) if top == rank => {
                 let other = &entries[first];
                 if (Contact { between: other.between.clone(), ..entry.clone() }) != *other {
-                    let why = format!("contact.{first} says otherwise about {a} and {b}, and neither is more specific");
+                    let why = format!(
+                        "contact.{first} says otherwise about {a} and {b}, and neither is more specific"
+                    );
                     let cure = format!("add a [[contact]] between = [\"{a}\", \"{b}\"]");
                     let value = format!("{:?}", entry.between);
                     return Err(check.wrong(&format!("contact.{i}.between"), value, &why, &cure));
@@ -90,7 +97,8 @@ fn law(entry: &Contact, a: &setup::Material, b: &setup::Material, largest: f64) 
     }
     let stiffness = entry.stiffness.unwrap_or_else(|| {
         let v = entry.characteristic_velocity.unwrap_or(1.0);
-        let modulus = 1.0 / ((1.0 - a.poisson * a.poisson) / a.young + (1.0 - b.poisson * b.poisson) / b.young);
+        let modulus =
+            1.0 / ((1.0 - a.poisson * a.poisson) / a.young + (1.0 - b.poisson * b.poisson) / b.young);
         let mass = 4.0 / 3.0 * std::f64::consts::PI * largest.powi(3) * a.density.max(b.density) / 2.0;
         let stem = (largest / 2.0).sqrt() * modulus;
         16.0 / 15.0 * stem * libm::pow(15.0 * mass * v * v / (16.0 * stem), 0.2)
@@ -118,13 +126,15 @@ mod tests {
 
     fn solved(entries: &[Contact]) -> Result<Vec<setup::Contact>, SceneError> {
         let text = Text::new("s", String::new());
-        let material = |name: &str| setup::Material { name: name.into(), density: 1e3, young: 1e6, poisson: 0.3 };
+        let material =
+            |name: &str| setup::Material { name: name.into(), density: 1e3, young: 1e6, poisson: 0.3 };
         resolve(&Check { text: &text }, entries, &[material("sinter"), material("steel")], 0.01)
     }
 
     #[test]
     fn the_most_specific_entry_holds() {
-        let found = solved(&[entry("*", "*", 0.1), entry("steel", "*", 0.2), entry("steel", "sinter", 0.3)]).unwrap();
+        let found =
+            solved(&[entry("*", "*", 0.1), entry("steel", "*", 0.2), entry("steel", "sinter", 0.3)]).unwrap();
         let e = |a, b| found.iter().find(|c| c.between == (a, b)).unwrap().restitution;
         assert_eq!((e(0, 0), e(0, 1), e(1, 1)), (0.1, 0.3, 0.2));
     }

@@ -38,8 +38,9 @@ impl Watermark {
     /// # Errors
     /// Something else than the JSON that is wanted.
     pub fn read(stream: &str, data: &[u8]) -> Result<Watermark, SceneError> {
-        serde_json::from_slice(data)
-            .map_err(|e| SceneError::file(stream, format!("{WATERMARK}: {e}"), "wanted: {\"until\": seconds}"))
+        serde_json::from_slice(data).map_err(|e| {
+            SceneError::file(stream, format!("{WATERMARK}: {e}"), "wanted: {\"until\": seconds}")
+        })
     }
 }
 
@@ -58,7 +59,12 @@ pub struct Passage {
 
 impl From<&Crossing> for Passage {
     fn from(c: &Crossing) -> Passage {
-        Passage { time: c.time, outlet: c.outlet as u16, particle: c.particle, contacts: c.touching.len() as u16 }
+        Passage {
+            time: c.time,
+            outlet: c.outlet as u16,
+            particle: c.particle,
+            contacts: c.touching.len() as u16,
+        }
     }
 }
 
@@ -117,7 +123,9 @@ pub fn from_table(stream: &str, table: &Table, materials: usize) -> Result<Vec<P
     let radii = columns.radii()?;
     let need = |column: &str, most: f64| {
         let found = columns.indices(column, most)?;
-        found.ok_or_else(|| SceneError::file(stream, format!("the column '{column}' is missing"), "run stage-replay again"))
+        found.ok_or_else(|| {
+            SceneError::file(stream, format!("the column '{column}' is missing"), "run stage-replay again")
+        })
     };
     let ids = need("id", f64::from(u32::MAX - 1))?;
     let material = need("material", materials as f64 - 1.0)?;
@@ -176,7 +184,10 @@ impl Sizes {
     /// # Errors
     /// A key that is missing or no positive number.
     pub fn from_map(stream: &str, map: &BTreeMap<String, String>) -> Result<Sizes, SceneError> {
-        Ok(Sizes { smallest: number(stream, SIZES, map, "smallest_radius")?, largest: number(stream, SIZES, map, "largest_radius")? })
+        Ok(Sizes {
+            smallest: number(stream, SIZES, map, "smallest_radius")?,
+            largest: number(stream, SIZES, map, "largest_radius")?,
+        })
     }
 
     /// The range that holds both.
@@ -191,7 +202,12 @@ impl Sizes {
 }
 
 /// A positive number of a metadata record.
-pub(crate) fn number(stream: &str, record: &str, map: &BTreeMap<String, String>, key: &str) -> Result<f64, SceneError> {
+pub(crate) fn number(
+    stream: &str,
+    record: &str,
+    map: &BTreeMap<String, String>,
+    key: &str,
+) -> Result<f64, SceneError> {
     let value = map.get(key).and_then(|t| t.parse::<f64>().ok()).filter(|v| *v > 0.0 && v.is_finite());
     value.ok_or_else(|| {
         let found = map.get(key).map_or("nothing", String::as_str);

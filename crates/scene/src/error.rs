@@ -40,11 +40,7 @@ pub enum SceneError {
     #[error("{name}: {why}; {cure}")]
     File { name: String, why: String, cure: String },
     #[error("{name}: cannot be read as {wanted}")]
-    Content {
-        name: String,
-        wanted: &'static str,
-        source: Box<dyn std::error::Error + Send + Sync + 'static>,
-    },
+    Content { name: String, wanted: &'static str, source: Box<dyn std::error::Error + Send + Sync + 'static> },
 }
 
 impl SceneError {

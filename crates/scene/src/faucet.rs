@@ -78,7 +78,10 @@ impl Faucet {
         let [along, one, two] = [range(&frame[0]), range(&frame[1]), range(&frame[2])];
         let thickness = along.1 - along.0;
         if thickness <= entry.diameter.high {
-            let why = format!("is {thickness} m thick along the velocity, and the largest diameter is {} m", entry.diameter.high);
+            let why = format!(
+                "is {thickness} m thick along the velocity, and the largest diameter is {} m",
+                entry.diameter.high
+            );
             let cure = format!("make it at least {} m thick", 1.2 * entry.diameter.high);
             return Err(check.wrong(&key("shape"), &entry.shape, &why, &cure));
         }
@@ -107,8 +110,10 @@ impl Faucet {
             recent: VecDeque::new(),
         };
         faucet.check_rate(check, index)?;
-        let point = frame[0] * along.1 + frame[1] * ((one.0 + one.1) / 2.0) + frame[2] * ((two.0 + two.1) / 2.0);
-        let plane = Plane::new(point, axis).map_err(|e| check.wrong(&key("velocity"), speed, &e.to_string(), "change it"))?;
+        let point =
+            frame[0] * along.1 + frame[1] * ((one.0 + one.1) / 2.0) + frame[2] * ((two.0 + two.1) / 2.0);
+        let plane = Plane::new(point, axis)
+            .map_err(|e| check.wrong(&key("velocity"), speed, &e.to_string(), "change it"))?;
         Ok((faucet, Zone { plane, length: thickness }))
     }
 
@@ -116,7 +121,8 @@ impl Faucet {
     fn check_rate(&self, check: &Check, index: usize) -> Result<(), SceneError> {
         let radius = self.diameter.high / 2.0;
         let mut random = generator(0, 3, index as u64);
-        let inside = (0..10_000).filter(|_| self.candidate(radius, &mut random).is_some()).count() as f64 / 1e4;
+        let inside =
+            (0..10_000).filter(|_| self.candidate(radius, &mut random).is_some()).count() as f64 / 1e4;
         // The section that spheres fill is wider than that of their centres by their radius.
         let area = inside * (0..2).map(|a| self.high[a] - self.low[a]).product::<f64>();
         let mean = volume(self.diameter.low / 2.0) + volume(radius);
@@ -132,9 +138,17 @@ impl Faucet {
         let why = if inside == 0.0 {
             "no particle fits into the cross-section of the shape".to_owned()
         } else {
-            format!("would fill {:.0} % of the room that passes ({:.3e} m² at {} m/s)", 100.0 * fraction, area, self.velocity.norm())
+            format!(
+                "would fill {:.0} % of the room that passes ({:.3e} m² at {} m/s)",
+                100.0 * fraction,
+                area,
+                self.velocity.norm()
+            )
         };
-        let cure = format!("at most {:.0} % can be: a lower rate, a wider shape or a higher velocity", 100.0 * DENSEST);
+        let cure = format!(
+            "at most {:.0} % can be: a lower rate, a wider shape or a higher velocity",
+            100.0 * DENSEST
+        );
         Err(check.wrong(&format!("{}.{key}", self.key), written, &why, &cure))
     }
 
@@ -174,7 +188,11 @@ impl Faucet {
         self.random = random;
         let Some(across) = found else {
             let why = format!("no room for a particle of diameter {} m at {time} s", 2.0 * radius);
-            return Err(SceneError::file(&self.key, why, "use a lower rate, a wider shape or a higher velocity"));
+            return Err(SceneError::file(
+                &self.key,
+                why,
+                "use a lower rate, a wider shape or a higher velocity",
+            ));
         };
         self.recent.push_back((across + behind, radius));
         let step = match self.rate {
@@ -217,7 +235,8 @@ mod tests {
             until: Some(1.0),
             seed: 0,
         };
-        let made = Faucet::new(&Check { text: &text }, 0, &entry, shape.parse().unwrap(), (0, 1000.0), (0, 0));
+        let made =
+            Faucet::new(&Check { text: &text }, 0, &entry, shape.parse().unwrap(), (0, 1000.0), (0, 0));
         made.map(|(faucet, zone)| {
             assert!((zone.length - 0.03).abs() < 1e-12 && (zone.plane.point.z - 1.0).abs() < 1e-12);
             faucet
@@ -237,7 +256,8 @@ mod tests {
         for (i, a) in all.iter().enumerate() {
             for b in &all[..i] {
                 assert!(a.time >= b.time);
-                let apart = a.particle.position - b.particle.position - b.particle.velocity * (a.time - b.time);
+                let apart =
+                    a.particle.position - b.particle.position - b.particle.velocity * (a.time - b.time);
                 assert!(apart.norm() >= a.particle.radius + b.particle.radius - 1e-12);
             }
         }

@@ -66,34 +66,58 @@ pub(crate) fn fill(
     let key = |k: &str| format!("fill.{index}.{k}");
     let Some((low, high)) = bounds(shape) else {
         let why = "cannot be filled: only box, sphere and cylinder (without '!') can";
-        return Err(check.wrong(&key("shape"), &fill.shape, why, "use one of these, or [[particles]] from a file"));
+        return Err(check.wrong(
+            &key("shape"),
+            &fill.shape,
+            why,
+            "use one of these, or [[particles]] from a file",
+        ));
     };
     let mut random = generator(fill.seed, 1, index as u64);
     let radii = radii(check, &key("mass"), fill, material.1, &mut random)?;
     let largest = particles.iter().map(|p| p.radius).fold(fill.diameter.high / 2.0, f64::max);
     let mut room = Occupied::new(low, high, largest);
-    let near = |p: &&Particle| (0..3).all(|a| p.position[a] > low[a] - 2.0 * largest && p.position[a] < high[a] + 2.0 * largest);
+    let near = |p: &&Particle| {
+        (0..3).all(|a| p.position[a] > low[a] - 2.0 * largest && p.position[a] < high[a] + 2.0 * largest)
+    };
     particles.iter().filter(near).for_each(|p| room.take(p.position, p.radius));
     let wanted: f64 = radii.iter().map(|r| volume(*r)).sum();
     let mut placed = 0.0;
     for (n, &radius) in radii.iter().enumerate() {
         let Some(position) = place(shape, low, high, radius, &room, &mut random) else {
             let (fits, of) = (placed * material.1, wanted * material.1);
-            let why = format!("only {n} of {} particles ({fits:.4} of {of:.4} kg) fit without touching", radii.len());
-            let cure = "make the shape larger (random places fill about a third of it), or pour with [[insert]]";
+            let why = format!(
+                "only {n} of {} particles ({fits:.4} of {of:.4} kg) fit without touching",
+                radii.len()
+            );
+            let cure =
+                "make the shape larger (random places fill about a third of it), or pour with [[insert]]";
             return Err(check.wrong(&key("shape"), &fill.shape, &why, cure));
         };
         room.take(position, radius);
         placed += volume(radius);
         let velocity = Vec3::from(fill.velocity);
         let id = first_id + n as u32;
-        particles.push(Particle { id, material: material.0, radius, position, velocity, spin: Vec3::zeros() });
+        particles.push(Particle {
+            id,
+            material: material.0,
+            radius,
+            position,
+            velocity,
+            spin: Vec3::zeros(),
+        });
     }
     Ok(())
 }
 
 /// The radii, largest first; as many as come nearest to the mass.
-fn radii(check: &Check, key: &str, fill: &Fill, density: f64, random: &mut Pcg64Mcg) -> Result<Vec<f64>, SceneError> {
+fn radii(
+    check: &Check,
+    key: &str,
+    fill: &Fill,
+    density: f64,
+    random: &mut Pcg64Mcg,
+) -> Result<Vec<f64>, SceneError> {
     let smallest = volume(fill.diameter.low / 2.0) * density;
     let most = fill.count.unwrap_or_else(|| (fill.mass.unwrap_or(0.0) / smallest) as u64);
     if most > MOST {
@@ -123,7 +147,14 @@ fn radii(check: &Check, key: &str, fill: &Fill, density: f64, random: &mut Pcg64
     Ok(radii)
 }
 
-fn place(shape: &Shape, low: Vec3, high: Vec3, radius: f64, room: &Occupied, random: &mut Pcg64Mcg) -> Option<Vec3> {
+fn place(
+    shape: &Shape,
+    low: Vec3,
+    high: Vec3,
+    radius: f64,
+    room: &Occupied,
+    random: &mut Pcg64Mcg,
+) -> Option<Vec3> {
     let (low, size) = (low.add_scalar(radius), (high - low).add_scalar(-2.0 * radius));
     if size.min() < 0.0 {
         return None;

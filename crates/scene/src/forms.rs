@@ -28,7 +28,11 @@ impl Visitor<'_> for OrAutoVisitor {
     }
 
     fn visit_str<E: Error>(self, v: &str) -> Result<OrAuto, E> {
-        if v == "auto" { Ok(OrAuto::Auto) } else { Err(E::invalid_value(serde::de::Unexpected::Str(v), &self)) }
+        if v == "auto" {
+            Ok(OrAuto::Auto)
+        } else {
+            Err(E::invalid_value(serde::de::Unexpected::Str(v), &self))
+        }
     }
 }
 

@@ -103,7 +103,7 @@ impl InletStream {
                 self.pending.pop_front();
                 return Ok(Some(self.entry(passage)));
             }
-            if self.known > time {
+            if self.known > time || self.known == f64::INFINITY {
                 return Ok(None);
             }
             match self.reader.next() {
@@ -146,13 +146,20 @@ impl InletStream {
     fn check(&self, passage: &Passage) -> Result<(), SceneError> {
         let (time, id) = (passage.time, passage.particle.id);
         if time < self.last || time < self.known {
-            let why = format!("particle {id} passes at {time} s, after {} s was told", self.last.max(self.known));
-            return Err(SceneError::file(&self.name, why, "crossings must come in time order: run stage-replay again"));
+            let why =
+                format!("particle {id} passes at {time} s, after {} s was told", self.last.max(self.known));
+            return Err(SceneError::file(
+                &self.name,
+                why,
+                "crossings must come in time order: run stage-replay again",
+            ));
         }
         let radius = passage.particle.radius;
         if radius < self.sizes.smallest || radius > self.sizes.largest {
             let range = format!("{} to {} m", self.sizes.smallest, self.sizes.largest);
-            let why = format!("particle {id} has a radius of {radius} m, outside the {range} of its record 'sizes'");
+            let why = format!(
+                "particle {id} has a radius of {radius} m, outside the {range} of its record 'sizes'"
+            );
             return Err(SceneError::file(&self.name, why, "write the stream again"));
         }
         Ok(())

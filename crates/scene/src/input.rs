@@ -29,7 +29,11 @@ impl Input {
         let mut materials: Vec<MaterialInfo> = Vec::new();
         loop {
             let Some(event) = reader.next() else {
-                return Err(SceneError::file(name, "holds no message", "give walls (wallgen) or an inlet (stage-replay)"));
+                return Err(SceneError::file(
+                    name,
+                    "holds no message",
+                    "give walls (wallgen) or an inlet (stage-replay)",
+                ));
             };
             let event = event.map_err(|e| broken(name, e))?;
             let Event::Metadata { name: record, map } = &event else {
@@ -40,7 +44,11 @@ impl Input {
                 SIZES => sizes = Some(Sizes::from_map(name, map)?),
                 SCENE => {
                     let why = "is a run, neither walls nor an inlet";
-                    return Err(SceneError::file(name, why, "pass it through stage-replay to let its particles in"));
+                    return Err(SceneError::file(
+                        name,
+                        why,
+                        "pass it through stage-replay to let its particles in",
+                    ));
                 }
                 // The last record of an inlet: from here on, messages may come as late as a run upstream makes them.
                 INLET => {
@@ -69,7 +77,11 @@ impl Input {
                     let event = event.map_err(|e| broken(name, e))?;
                     if topic(&event) == Some("/walls") {
                         let why = "has walls at several times";
-                        return Err(SceneError::file(name, why, "give still walls, and their motion in the scene"));
+                        return Err(SceneError::file(
+                            name,
+                            why,
+                            "give still walls, and their motion in the scene",
+                        ));
                     }
                 }
                 Ok(Input::Walls(walls))
@@ -90,7 +102,11 @@ impl Input {
         materials: Vec<MaterialInfo>,
     ) -> Result<Input, SceneError> {
         let missing = |record: &str, what: &str| {
-            SceneError::file(name, format!("the record '{record}' ({what}) is missing"), "write it with stage-replay")
+            SceneError::file(
+                name,
+                format!("the record '{record}' ({what}) is missing"),
+                "write it with stage-replay",
+            )
         };
         let sizes = sizes.ok_or_else(|| missing(SIZES, "range of the radii"))?;
         if materials.is_empty() {

@@ -1,13 +1,17 @@
 //! The TOML scene: its keys, its checks, its defaults; what it calls for, which engine that makes, and the run.
 
 mod check;
+pub mod checkpoint;
 mod columns;
 mod contacts;
 pub mod crossings;
 pub mod error;
+pub mod explain;
 mod faucet;
+mod feeds;
 mod fill;
 mod forms;
+pub mod frames;
 pub mod inlet;
 pub mod input;
 pub mod material_info;
@@ -16,12 +20,17 @@ pub mod model;
 mod parse;
 mod particle_file;
 mod plan;
+pub mod replay;
 mod room;
+pub mod run;
 mod scene;
+pub mod schedule;
+pub mod split;
 pub mod text;
 mod wall_file;
 mod walls;
 
+pub use checkpoint::Checkpoint;
 pub use error::SceneError;
 pub use input::Input;
 pub use plan::Plan;

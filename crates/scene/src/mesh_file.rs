@@ -12,14 +12,20 @@ pub fn read(path: &Path) -> Result<TriMesh, SceneError> {
     let name = path.display().to_string();
     let bytes = std::fs::read(path).map_err(|source| SceneError::Read { name: name.clone(), source })?;
     if !bytes.starts_with(b"ply") {
-        let why = if bytes.starts_with(b"solid") || path.extension().is_some_and(|e| e.eq_ignore_ascii_case("stl")) {
+        let why = if bytes.starts_with(b"solid")
+            || path.extension().is_some_and(|e| e.eq_ignore_ascii_case("stl"))
+        {
             "not available yet: meshes in STL"
         } else {
             "is no PLY file"
         };
         return Err(SceneError::file(&name, why, "convert it to PLY"));
     }
-    let wrong = |e: stream::ply::PlyError| SceneError::Content { name: name.clone(), wanted: "a mesh", source: e.into() };
+    let wrong = |e: stream::ply::PlyError| SceneError::Content {
+        name: name.clone(),
+        wanted: "a mesh",
+        source: e.into(),
+    };
     let ply = stream::ply::parse(&bytes).map_err(wrong)?;
     triangles(&name, &ply)
 }

@@ -13,6 +13,7 @@ pub struct Model {
     #[serde(default)]
     pub first_id: u32,
     /// Time.
+    #[serde(default)]
     pub time: Time,
     /// What is written, and when.
     #[serde(default)]
@@ -64,6 +65,12 @@ pub struct Time {
     /// Share of the critical step when `dt` is "auto" [–].
     #[serde(default = "safety")]
     pub safety: f64,
+}
+
+impl Default for Time {
+    fn default() -> Time {
+        Time { until: None, dt: OrAuto::Auto, safety: safety() }
+    }
 }
 
 fn safety() -> f64 {

@@ -77,7 +77,9 @@ mod tests {
     fn unknown_keys_name_place_and_nearest() {
         let message = refused("[time]\nuntil = 1\nsaftey = 0.1\n");
         assert_eq!(message, "s.toml:3:1: unknown key 'saftey'; did you mean 'safety'?");
-        let message = refused("[time]\nuntil = 1\n[[contact]]\nbetween = [\"*\", \"*\"]\nrestitution = 1\nslidingfriction = 1");
+        let message = refused(
+            "[time]\nuntil = 1\n[[contact]]\nbetween = [\"*\", \"*\"]\nrestitution = 1\nslidingfriction = 1",
+        );
         assert!(message.contains("s.toml:6:1") && message.contains("'sliding_friction'"), "{message}");
         assert!(refused("[time]\nzzzzzzzzzzzz = 1").contains("known here: until, dt"));
     }

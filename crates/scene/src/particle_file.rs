@@ -29,7 +29,11 @@ pub(crate) fn read(path: &Path) -> Result<ParticleFile, SceneError> {
     let name = path.display().to_string();
     let bytes = std::fs::read(path).map_err(|source| SceneError::Read { name: name.clone(), source })?;
     let (table, materials) = if bytes.starts_with(b"ply") {
-        let content = |e: stream::ply::PlyError| SceneError::Content { name: name.clone(), wanted: "particles", source: e.into() };
+        let content = |e: stream::ply::PlyError| SceneError::Content {
+            name: name.clone(),
+            wanted: "particles",
+            source: e.into(),
+        };
         let ply = stream::ply::parse(&bytes).map_err(content)?;
         let vertex = ply.elements.into_iter().find(|e| e.name == "vertex");
         let none = || SceneError::file(&name, "has no element 'vertex'", "give particles as vertices");
@@ -49,7 +53,11 @@ fn from_table(name: &str, table: &Table, materials: Vec<MaterialInfo>) -> Result
     let velocities = columns.vectors_or_zero(["vx", "vy", "vz"])?;
     let spins = columns.vectors_or_zero(["wx", "wy", "wz"])?;
     let ids = columns.indices("id", f64::from(u32::MAX - 1))?;
-    let material = if materials.is_empty() { None } else { columns.indices("material", materials.len() as f64 - 1.0)? };
+    let material = if materials.is_empty() {
+        None
+    } else {
+        columns.indices("material", materials.len() as f64 - 1.0)?
+    };
     let particle = |i: usize| Particle {
         id: ids.as_ref().map_or(i as u32, |ids| ids[i]),
         material: material.as_ref().map_or(0, |m| m[i] as u16),
@@ -65,7 +73,11 @@ fn from_table(name: &str, table: &Table, materials: Vec<MaterialInfo>) -> Result
 fn last_frame(name: &str, bytes: &[u8]) -> Result<(Table, Vec<MaterialInfo>), SceneError> {
     let (mut frame, mut materials) = (None, Vec::new());
     for event in Reader::new(bytes) {
-        let content = |e: stream::mcap::McapError| SceneError::Content { name: name.to_owned(), wanted: "a run", source: e.into() };
+        let content = |e: stream::mcap::McapError| SceneError::Content {
+            name: name.to_owned(),
+            wanted: "a run",
+            source: e.into(),
+        };
         match event.map_err(content)? {
             Event::Metadata { name: record, map } if record == MATERIALS => {
                 materials = material_info::from_map(name, &map)?;
@@ -80,11 +92,16 @@ fn last_frame(name: &str, bytes: &[u8]) -> Result<(Table, Vec<MaterialInfo>), Sc
 
 /// A table of text: names on the first line, commas or blanks between, `#` starts a comment.
 fn csv(name: &str, bytes: &[u8]) -> Result<Table, SceneError> {
-    let wrong = |why: String| SceneError::file(name, why, "wanted: a line of names such as id,x,y,z,radius, then numbers");
+    let wrong = |why: String| {
+        SceneError::file(name, why, "wanted: a line of names such as id,x,y,z,radius, then numbers")
+    };
     let text = std::str::from_utf8(bytes);
     let text = text.map_err(|e| wrong(format!("byte {}: is no text, PLY or MCAP", e.valid_up_to())))?;
     let split = |line: &str| -> Vec<String> {
-        line.split(|c: char| c == ',' || c == ';' || c.is_whitespace()).filter(|f| !f.is_empty()).map(str::to_owned).collect()
+        line.split(|c: char| c == ',' || c == ';' || c.is_whitespace())
+            .filter(|f| !f.is_empty())
+            .map(str::to_owned)
+            .collect()
     };
     let lines = text.lines().enumerate().map(|(n, l)| (n + 1, l.split('#').next().unwrap_or("").trim()));
     let mut lines = lines.filter(|(_, l)| !l.is_empty());
@@ -97,7 +114,11 @@ fn csv(name: &str, bytes: &[u8]) -> Result<Table, SceneError> {
     for (n, line) in lines {
         let fields = split(line);
         if fields.len() != names.len() {
-            return Err(wrong(format!("line {n}: {} numbers where there are {} names", fields.len(), names.len())));
+            return Err(wrong(format!(
+                "line {n}: {} numbers where there are {} names",
+                fields.len(),
+                names.len()
+            )));
         }
         for (column, field) in columns.iter_mut().zip(&fields) {
             column.push(field.parse().map_err(|_| wrong(format!("line {n}: '{field}' is no number")))?);
@@ -118,8 +139,13 @@ mod tests {
     fn a_csv_has_names_and_numbers() {
         let table = csv("a.csv", b"# pile\nid,x,y,z,radius,vx,vy,vz\n4, 0,1,2,0.5, 1,0,0\n").unwrap();
         let file = from_table("a.csv", &table, Vec::new()).unwrap();
-        assert_eq!((file.particles[0].id, file.particles[0].position.z, file.particles[0].velocity.x), (4, 2.0, 1.0));
-        for (text, part) in [("1,2,3", "names is missing"), ("x,y\n1", "line 2: 1 numbers"), ("x\na", "'a' is no number")] {
+        assert_eq!(
+            (file.particles[0].id, file.particles[0].position.z, file.particles[0].velocity.x),
+            (4, 2.0, 1.0)
+        );
+        for (text, part) in
+            [("1,2,3", "names is missing"), ("x,y\n1", "line 2: 1 numbers"), ("x\na", "'a' is no number")]
+        {
             let message = csv("a.csv", text.as_bytes()).unwrap_err().to_string();
             assert!(message.contains(part), "{message}");
         }

@@ -141,7 +141,10 @@ impl<'a> Draft<'a> {
             return Ok(at as u16);
         }
         let (Some(young), Some(poisson)) = (info.young, info.poisson) else {
-            let why = format!("its material '{}' has no Young's modulus or Poisson's ratio, and the scene does not define it", info.name);
+            let why = format!(
+                "its material '{}' has no Young's modulus or Poisson's ratio, and the scene does not define it",
+                info.name
+            );
             let cure = format!("add [[material]] name = \"{}\" with young and poisson", info.name);
             return Err(SceneError::file(stream, why, cure));
         };
@@ -184,7 +187,8 @@ impl<'a> Draft<'a> {
             };
             let first = self.next_id();
             for (n, mut p) in file.particles.into_iter().enumerate() {
-                p.material = if entry.material.is_some() { materials[0] } else { materials[p.material as usize] };
+                p.material =
+                    if entry.material.is_some() { materials[0] } else { materials[p.material as usize] };
                 p.id = if file.has_ids { p.id } else { first + n as u32 };
                 self.particles.push(p);
             }
@@ -206,7 +210,12 @@ impl<'a> Draft<'a> {
                 Some(source) => self.open_inlet(source)?,
                 None => given.next().ok_or_else(|| {
                     let why = "waits for an inlet of the command line, and none was given";
-                    self.check.wrong(&key, "(without source)", why, "dem-run SCENE.toml INLET.mcap, or give it source")
+                    self.check.wrong(
+                        &key,
+                        "(without source)",
+                        why,
+                        "dem-run SCENE.toml INLET.mcap, or give it source",
+                    )
                 })?,
             };
             let plane = walls::plane(&self.check, &format!("{key}.plane"), &entry.plane)?;
@@ -224,7 +233,8 @@ impl<'a> Draft<'a> {
         }
         for stream in given {
             let Some(zone) = stream.zone else {
-                let why = "does not say where its particles enter, and the scene has no [[inlet]] left for it";
+                let why =
+                    "does not say where its particles enter, and the scene has no [[inlet]] left for it";
                 return Err(SceneError::file(&stream.name, why, "add [[inlet]] plane = \"…\" to the scene"));
             };
             self.feed(stream, zone)?;
@@ -239,12 +249,22 @@ impl<'a> Draft<'a> {
         if apart > 1e-6 * size.max(apart) && apart > 1e-3 * size || turned > 1e-6 {
             let value = crate::inlet::plane_text(&scene.plane);
             let why = format!("{name} was made for the plane {}", crate::inlet::plane_text(&stream.plane));
-            return Err(self.check.wrong(&format!("{key}.plane"), value, &why, "run stage-replay with --at this plane"));
+            return Err(self.check.wrong(
+                &format!("{key}.plane"),
+                value,
+                &why,
+                "run stage-replay with --at this plane",
+            ));
         }
         if (scene.length - stream.length).abs() > 1e-9 * size {
             let why = format!("{name} was made for a length of {} m", stream.length);
             let cure = "run stage-replay with this --length, or use length = \"auto\"";
-            return Err(self.check.wrong(&format!("{key}.length"), format!("{} m", scene.length), &why, cure));
+            return Err(self.check.wrong(
+                &format!("{key}.length"),
+                format!("{} m", scene.length),
+                &why,
+                cure,
+            ));
         }
         Ok(())
     }
@@ -252,10 +272,13 @@ impl<'a> Draft<'a> {
     fn open_inlet(&self, source: &str) -> Result<InletStream, SceneError> {
         let path = self.path(source);
         let name = path.display().to_string();
-        let file = std::fs::File::open(&path).map_err(|source| SceneError::Read { name: name.clone(), source })?;
+        let file =
+            std::fs::File::open(&path).map_err(|source| SceneError::Read { name: name.clone(), source })?;
         match Input::open(&name, Box::new(file))? {
             Input::Inlet(stream) => Ok(*stream),
-            Input::Walls(_) => Err(SceneError::file(&name, "holds walls, no crossings", "name it in [[wall]]")),
+            Input::Walls(_) => {
+                Err(SceneError::file(&name, "holds walls, no crossings", "name it in [[wall]]"))
+            }
         }
     }
 
@@ -311,7 +334,12 @@ impl<'a> Draft<'a> {
             if length <= largest {
                 let why = format!("is not above the largest diameter, {largest} m");
                 let cure = format!("use \"auto\", or at least {} m", 1.2 * largest);
-                return Err(self.check.wrong(&format!("outlet.{i}.length"), format!("{length} m"), &why, &cure));
+                return Err(self.check.wrong(
+                    &format!("outlet.{i}.length"),
+                    format!("{length} m"),
+                    &why,
+                    &cure,
+                ));
             }
             self.outlets.push(Zone { plane, length });
         }
@@ -372,11 +400,15 @@ impl<'a> Draft<'a> {
                         sliding_friction: info.friction.filter(|mu| *mu > 0.0),
                         rolling_resistance: None,
                     }),
-                    (Some(at), _) if info.friction.is_some() && info.friction != laws[at].sliding_friction => {
+                    (Some(at), _)
+                        if info.friction.is_some() && info.friction != laws[at].sliding_friction =>
+                    {
                         let (a, b) = (&self.materials[grain as usize].name, &info.name);
                         let scene = laws[at].sliding_friction.unwrap_or(0.0);
                         let file = info.friction.unwrap_or(0.0);
-                        self.notes.push(format!("{a}–{b}: sliding_friction {scene} of the scene, not {file} of the wall file"));
+                        self.notes.push(format!(
+                            "{a}–{b}: sliding_friction {scene} of the scene, not {file} of the wall file"
+                        ));
                     }
                     _ => {}
                 }
@@ -389,9 +421,12 @@ impl<'a> Draft<'a> {
             (grain(a) && (grain(b) || walls.contains(&b))) || (grain(b) && walls.contains(&a))
         });
         // Nothing turns where nothing rubs.
-        if laws.iter().all(|l| l.sliding_friction.is_none()) && laws.iter().any(|l| l.rolling_resistance.is_some()) {
+        if laws.iter().all(|l| l.sliding_friction.is_none())
+            && laws.iter().any(|l| l.rolling_resistance.is_some())
+        {
             laws.iter_mut().for_each(|l| l.rolling_resistance = None);
-            self.notes.push("rolling_resistance is left out: without sliding_friction nothing turns".to_owned());
+            self.notes
+                .push("rolling_resistance is left out: without sliding_friction nothing turns".to_owned());
         }
         laws
     }
@@ -403,17 +438,32 @@ impl<'a> Draft<'a> {
             let a = *axis as usize;
             let (Some(low), Some(high)) = (domain.low, domain.high) else {
                 let why = "needs the corners of the domain";
-                return Err(self.check.wrong("domain.periodic", format!("{axis:?}"), why, "add low and high, in metres"));
+                return Err(self.check.wrong(
+                    "domain.periodic",
+                    format!("{axis:?}"),
+                    why,
+                    "add low and high, in metres",
+                ));
             };
             if low[a].is_nan() || high[a].is_nan() || low[a] >= high[a] {
                 let value = format!("{} m", high[a]);
-                return Err(self.check.wrong("domain.high", value, "is not above low", "swap them, or widen the domain"));
+                return Err(self.check.wrong(
+                    "domain.high",
+                    value,
+                    "is not above low",
+                    "swap them, or widen the domain",
+                ));
             }
             periodic[a] = Some((low[a], high[a]));
         }
         if domain.periodic.is_empty() && (domain.low.is_some() || domain.high.is_some()) {
             let why = "no axis is periodic, and a domain does not hold particles back";
-            return Err(self.check.wrong("domain", "(low, high)", why, "add periodic = [\"x\"], or a [[wall]] with box"));
+            return Err(self.check.wrong(
+                "domain",
+                "(low, high)",
+                why,
+                "add periodic = [\"x\"], or a [[wall]] with box",
+            ));
         }
         Ok(periodic)
     }

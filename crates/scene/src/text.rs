@@ -115,7 +115,8 @@ fn put_into(item: &mut Item, name: &str, path: &[&str], value: Value) -> Result<
     if let Some(list) = item.as_array_of_tables_mut() {
         let len = list.len();
         let table = list.get_mut(index);
-        let table = table.ok_or(format!("'{name}' has entries 0 to {}, no {index}", len.saturating_sub(1)))?;
+        let table =
+            table.ok_or(format!("'{name}' has entries 0 to {}, no {index}", len.saturating_sub(1)))?;
         return if rest.is_empty() {
             Err(format!("'{name}.{index}' is a table: name one of its keys"))
         } else {

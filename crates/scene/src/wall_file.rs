@@ -27,7 +27,11 @@ impl WallFile {
     ///
     /// # Errors
     /// Columns that are missing or wrong; spheres that move one by one.
-    pub(crate) fn new(name: &str, table: &Table, materials: Vec<MaterialInfo>) -> Result<WallFile, SceneError> {
+    pub(crate) fn new(
+        name: &str,
+        table: &Table,
+        materials: Vec<MaterialInfo>,
+    ) -> Result<WallFile, SceneError> {
         let columns = Columns { name, table };
         let centres = columns.vectors(["x", "y", "z"])?;
         let radii = columns.radii()?;
@@ -41,7 +45,8 @@ impl WallFile {
         };
         let material = columns.indices("material", materials.len() as f64 - 1.0)?;
         let material = |row: usize| material.as_ref().map_or(0, |m| m[row] as u16);
-        let spheres = centres.iter().zip(&radii).enumerate().map(|(i, (c, r))| (*c, *r, material(i))).collect();
+        let spheres =
+            centres.iter().zip(&radii).enumerate().map(|(i, (c, r))| (*c, *r, material(i))).collect();
         let velocities = columns.vectors_or_zero(["vx", "vy", "vz"])?;
         let velocity = velocities[0];
         if let Some(row) = velocities.iter().position(|v| *v != velocity) {

@@ -53,13 +53,20 @@ fn read(draft: &Draft, source: &str) -> Result<WallFile, SceneError> {
     let file = File::open(&path).map_err(|source| SceneError::Read { name: name.clone(), source })?;
     match crate::input::Input::open(&name, Box::new(file))? {
         crate::input::Input::Walls(walls) => Ok(walls),
-        crate::input::Input::Inlet(_) => Err(SceneError::file(&name, "is an inlet, no walls", "name it in [[inlet]]")),
+        crate::input::Input::Inlet(_) => {
+            Err(SceneError::file(&name, "is an inlet, no walls", "name it in [[inlet]]"))
+        }
     }
 }
 
 fn material(draft: &Draft, key: &str, entry: &Wall) -> Result<u16, SceneError> {
     let Some(name) = &entry.material else {
-        return Err(draft.check.wrong(key, "(without material)", "material is missing", "add material = \"…\""));
+        return Err(draft.check.wrong(
+            key,
+            "(without material)",
+            "material is missing",
+            "add material = \"…\"",
+        ));
     };
     draft.check.material(&format!("{key}.material"), name, &draft.materials)
 }
@@ -75,7 +82,8 @@ fn spheres(
     draft.inputs.push(("walls".to_owned(), file.hash.clone()));
     motion.velocity += file.velocity;
     for (k, info) in file.materials.iter().enumerate() {
-        let spheres: Vec<(Vec3, f64)> = file.spheres.iter().filter(|s| s.2 as usize == k).map(|s| (s.0, s.1)).collect();
+        let spheres: Vec<(Vec3, f64)> =
+            file.spheres.iter().filter(|s| s.2 as usize == k).map(|s| (s.0, s.1)).collect();
         if spheres.is_empty() {
             continue;
         }
@@ -84,13 +92,19 @@ fn spheres(
             None => draft.material_of(&file.name, info)?,
         };
         draft.wall_infos.push((material, info.clone()));
-        let name = if file.materials.len() == 1 { name.to_owned() } else { format!("{name} ({})", info.name) };
+        let name =
+            if file.materials.len() == 1 { name.to_owned() } else { format!("{name} ({})", info.name) };
         draft.walls.push(setup::Wall { name, material, shape: WallShape::Spheres(spheres), motion });
     }
     Ok(())
 }
 
-fn surfaces(draft: &Draft, key: &str, name: &str, entry: &Wall) -> Result<Vec<(String, WallShape)>, SceneError> {
+fn surfaces(
+    draft: &Draft,
+    key: &str,
+    name: &str,
+    entry: &Wall,
+) -> Result<Vec<(String, WallShape)>, SceneError> {
     if let Some(text) = &entry.plane {
         let plane = plane(&draft.check, &format!("{key}.plane"), text)?;
         return Ok(vec![(name.to_owned(), WallShape::Plane(plane))]);
@@ -101,7 +115,10 @@ fn surfaces(draft: &Draft, key: &str, name: &str, entry: &Wall) -> Result<Vec<(S
     }
     let corners = entry.cuboid.unwrap_or_default();
     let faces = entry.faces.as_deref().unwrap_or(&ALL);
-    Ok(faces.iter().map(|face| (format!("{name} {}", face_name(*face)), WallShape::Plane(side(&corners, *face)))).collect())
+    Ok(faces
+        .iter()
+        .map(|face| (format!("{name} {}", face_name(*face)), WallShape::Plane(side(&corners, *face))))
+        .collect())
 }
 
 /// A plane of a key.

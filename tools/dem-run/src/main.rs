@@ -1,2 +1,98 @@
-//! dem-run
-fn main() {}
+//! Runs a scene: particles, contacts and walls through time, written as a run MCAP.
+
+use anyhow::Context;
+use clap::Parser;
+use cli::{Output, Report, Source, Stopped};
+use scene::run::{Settings, run};
+use scene::{Checkpoint, Input, Plan, Scene};
+use std::path::Path;
+use std::process::ExitCode;
+use stream::mcap::Compression;
+
+/// Runs a DEM scene and writes a run MCAP (walls, frames, crossings, checkpoints)
+#[derive(Parser)]
+struct Args {
+    /// The scene (TOML), - for stdin
+    #[arg(value_name = "SCENE.toml")]
+    scene: Source,
+    /// Walls and inlets (MCAP, told apart by content), - for stdin
+    #[arg(value_name = "WALLS|INLET.mcap")]
+    inputs: Vec<Source>,
+    /// Change a key of the scene, such as contact.0.restitution=0.3; may be repeated
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// End of the run [s], in place of time.until
+    #[arg(long, value_name = "S")]
+    until: Option<f64>,
+    /// Say which effects the scene switches on, why, what they cost, and what limits the time step
+    #[arg(long)]
+    explain: bool,
+    /// Do everything short of running
+    #[arg(long)]
+    check: bool,
+    /// Go on from the last checkpoint of a run
+    #[arg(long, value_name = "RUN.mcap")]
+    resume: Option<Source>,
+    #[command(flatten)]
+    output: Output,
+}
+
+fn main() -> ExitCode {
+    cli::run("dem-run", dem_run)
+}
+
+fn dem_run(args: Args) -> anyhow::Result<Report> {
+    let scene = read_scene(&args)?;
+    let resume = match &args.resume {
+        Some(source) => Some(Checkpoint::last(&source.to_string(), source.open()?)?),
+        None => None,
+    };
+    let mut inputs = Vec::new();
+    for source in &args.inputs {
+        inputs.push(Input::open(&source.to_string(), source.open()?)?);
+    }
+    let plan = scene.plan(inputs)?;
+    plan.notes.iter().for_each(|note| cli::warn(note));
+    if args.explain || args.check {
+        return explain(&args, &scene, plan);
+    }
+    scene::run::ready(&scene, &plan)?;
+    simulate(&args, &scene, plan, resume)
+}
+
+fn read_scene(args: &Args) -> anyhow::Result<Scene> {
+    let mut overrides = args.set.clone();
+    overrides.extend(args.until.map(|s| format!("time.until={s:?}")));
+    let folder = args.scene.path().and_then(Path::parent).unwrap_or(Path::new(""));
+    Ok(Scene::new(&args.scene.to_string(), args.scene.read_text()?, &overrides, folder)?)
+}
+
+fn explain(args: &Args, scene: &Scene, plan: Plan) -> anyhow::Result<Report> {
+    let explained = scene::explain::explain(scene, plan, args.explain)?;
+    if args.explain {
+        let mut out = args.output.open_text()?;
+        std::io::Write::write_all(&mut out, explained.text.as_bytes()).context("--explain")?;
+        out.commit()?;
+    }
+    Ok(Report::new(format!("the scene can run: {}", explained.summary)).with_all(&explained.fields))
+}
+
+fn simulate(args: &Args, scene: &Scene, plan: Plan, resume: Option<Checkpoint>) -> anyhow::Result<Report> {
+    let out = args.output.open()?;
+    let compression = if out.is_stream() { Compression::None } else { Compression::Zstd };
+    let settings = Settings { provenance: cli::provenance(plan.inputs.clone()), compression };
+    let bar = cli::Progress::new("run", 1000);
+    let (outcome, out) =
+        run(scene, plan, resume, out, settings, &mut |share| bar.set((1000.0 * share) as u64))?;
+    out.commit()?;
+    drop(bar);
+    let summary = format!(
+        "{} steps of {:.3e} s to {:.4} s, {} particles, {} frames",
+        outcome.steps, outcome.dt, outcome.time, outcome.particles, outcome.frames
+    );
+    let report = Report::new(summary).with_all(&outcome);
+    match outcome.stopped {
+        Some(reason) => Err(Stopped::error(format!("stopped by a guard: {reason}"), Some(report))),
+        None => Ok(report),
+    }
+}

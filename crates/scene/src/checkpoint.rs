@@ -1,0 +1,118 @@
+//! Checkpoints of a run: the engine's state, what fed it, and the scene it belongs to.
+
+use crate::error::SceneError;
+use crate::run::RunError;
+use serde::{Deserialize, Serialize};
+use std::io::Read;
+use stream::mcap::{Event, McapError, Reader};
+
+/// Topic of checkpoints.
+pub const CHECKPOINT: &str = "/checkpoint";
+
+/// Everything that a run goes on from.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Checkpoint {
+    /// Text of the scene.
+    pub(crate) scene: String,
+    /// Role and SHA-256 of what the scene was run with.
+    pub(crate) inputs: Vec<(String, String)>,
+    /// Particles that each feed had given.
+    pub(crate) given: Vec<u64>,
+    /// State of the engine.
+    pub(crate) state: dem::State,
+}
+
+impl Checkpoint {
+    /// The last whole checkpoint of a run, also of one that was killed while it was written.
+    ///
+    /// # Errors
+    /// A stream that is damaged, or has no whole checkpoint.
+    pub fn last(name: &str, source: impl Read) -> Result<Checkpoint, RunError> {
+        let mut last = None;
+        for event in Reader::new(source) {
+            match event {
+                Ok(Event::Bytes { topic, data, .. }) if topic == CHECKPOINT => last = Some(data),
+                Ok(_) => {}
+                Err(McapError::Truncated { .. }) => break,
+                Err(error) => {
+                    return Err(SceneError::Content {
+                        name: name.into(),
+                        wanted: "a run",
+                        source: error.into(),
+                    }
+                    .into());
+                }
+            }
+        }
+        let Some(data) = last else {
+            let why = "has no whole checkpoint";
+            let cure = "start anew, with [output] checkpoint = seconds for the next time";
+            return Err(SceneError::file(name, why, cure).into());
+        };
+        Ok(stream::state::decode(&data)?)
+    }
+
+    /// Time of the checkpoint [s].
+    pub fn time(&self) -> f64 {
+        self.state.time()
+    }
+
+    /// Refuses another scene than the one that was saved; its end and its output may differ.
+    ///
+    /// # Errors
+    /// What differs.
+    pub(crate) fn fits(&self, scene: &str, inputs: &[(String, String)]) -> Result<(), SceneError> {
+        let refuse = |what: String| {
+            let cure =
+                "resume with the scene and inputs of the saved run (only time.until and [output] may change)";
+            Err(SceneError::file("--resume", format!("the saved run differs: {what}"), cure))
+        };
+        let table = |text: &str| {
+            let mut table: toml::Table = toml::from_str(text).unwrap_or_default();
+            if let Some(time) = table.get_mut("time").and_then(|t| t.as_table_mut()) {
+                time.remove("until");
+            }
+            if let Some(output) = table.get_mut("output").and_then(|t| t.as_table_mut()) {
+                ["every", "checkpoint", "precision"].iter().for_each(|k| drop(output.remove(*k)));
+                if output.is_empty() {
+                    table.remove("output");
+                }
+            }
+            toml::Value::Table(table)
+        };
+        if let Some(difference) = difference("", &table(&self.scene), &table(scene)) {
+            return refuse(difference);
+        }
+        let others =
+            |list: &[(String, String)]| list.iter().filter(|i| i.0 != "scene").cloned().collect::<Vec<_>>();
+        let (saved, now) = (others(&self.inputs), others(inputs));
+        match saved.iter().zip(&now).find(|(a, b)| a != b) {
+            Some((a, _)) => refuse(format!("the {} are others", a.0)),
+            None if saved.len() != now.len() => {
+                refuse(format!("{} inputs then, {} now", saved.len(), now.len()))
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+/// The first key whose values differ.
+fn difference(key: &str, saved: &toml::Value, now: &toml::Value) -> Option<String> {
+    use toml::Value::{Array, Table};
+    let join = |k: &str| if key.is_empty() { k.to_owned() } else { format!("{key}.{k}") };
+    match (saved, now) {
+        (Table(a), Table(b)) => {
+            let keys = a.keys().chain(b.keys().filter(|k| !a.contains_key(*k)));
+            keys.into_iter().find_map(|k| match (a.get(k), b.get(k)) {
+                (Some(x), Some(y)) => difference(&join(k), x, y),
+                (Some(_), None) => Some(format!("{} is gone", join(k))),
+                _ => Some(format!("{} is new", join(k))),
+            })
+        }
+        (Array(a), Array(b)) if a.len() == b.len() => {
+            a.iter().zip(b).enumerate().find_map(|(i, (x, y))| difference(&join(&i.to_string()), x, y))
+        }
+        (Array(a), Array(b)) => Some(format!("{key} had {} entries, now {}", a.len(), b.len())),
+        _ => (saved != now).then(|| format!("{key} was {saved}, now {now}")),
+    }
+}

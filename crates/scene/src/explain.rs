@@ -1,0 +1,179 @@
+//! What a scene switches on, why, and what it costs.
+
+use crate::run::RunError;
+use crate::schedule::Schedule;
+use crate::{Plan, Scene};
+use dem::setup::{Contact, Law, Setup};
+use dem::{Simulation, critical_step};
+use serde::Serialize;
+use std::fmt::Write;
+use std::time::Instant;
+
+/// Bytes of a tangential spring or a rolling spring: three numbers a contact.
+const SPRING: usize = 24;
+/// Time that a measurement takes at least [s].
+const MEASURE: f64 = 0.15;
+/// Steps that a measurement takes at most: the start of a run, before anything can go wrong.
+const MOST: u32 = 500;
+
+/// The answer.
+pub struct Explained {
+    /// For people: several lines.
+    pub text: String,
+    /// One line.
+    pub summary: String,
+    /// For machines.
+    pub fields: Fields,
+}
+
+/// The answer's numbers.
+#[derive(Debug, Clone, Serialize)]
+pub struct Fields {
+    /// Particles at t = 0.
+    pub particles: usize,
+    /// Wall spheres.
+    pub wall_spheres: usize,
+    /// Time step [s].
+    pub dt: f64,
+    /// Critical time step [s].
+    pub critical_dt: f64,
+    /// The pair that limits it.
+    pub limiting_pair: String,
+    /// Steps of the run.
+    pub steps: u64,
+    /// Effects.
+    pub effects: Vec<Effect>,
+    /// Measured time of a step at the start [s], when it was measured.
+    pub seconds_per_step: Option<f64>,
+}
+
+/// One effect of a scene.
+#[derive(Debug, Clone, Serialize)]
+pub struct Effect {
+    /// Its name.
+    pub name: String,
+    /// Which keys call for it.
+    pub why: String,
+    /// Memory between steps [B] for each contact.
+    pub bytes_per_contact: usize,
+    /// Measured share of a step, when it was measured: how much faster the scene is without it [–].
+    pub share: Option<f64>,
+}
+
+/// Explains a scene; `measure` also runs some steps, with and without each effect.
+///
+/// # Errors
+/// Whatever would keep the scene from running.
+pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained, RunError> {
+    let setup = plan.setup;
+    let limit = critical_step(&setup)?;
+    let sim = Simulation::new(setup.clone())?;
+    let schedule = Schedule::new(scene, sim.dt())?;
+    let whole = measure.then(|| time_step(sim)).flatten();
+    let effects = effects(&setup).into_iter().map(|(mut effect, without)| {
+        let less = without.filter(|_| measure).and_then(|s| Simulation::new(s).ok()).and_then(time_step);
+        effect.share = less.zip(whole).map(|(less, whole)| (1.0 - less / whole).max(0.0));
+        effect
+    });
+    let spheres = setup.walls.iter().map(|w| match &w.shape {
+        dem::setup::WallShape::Spheres(s) => s.len(),
+        _ => 0,
+    });
+    let fields = Fields {
+        particles: setup.particles.len(),
+        wall_spheres: spheres.sum(),
+        dt: schedule.dt,
+        critical_dt: limit.dt,
+        limiting_pair: limit.pair,
+        steps: schedule.last,
+        effects: effects.collect(),
+        seconds_per_step: whole,
+    };
+    let summary = format!(
+        "{} particles, {} walls, {} steps of {:.3e} s",
+        fields.particles,
+        setup.walls.len(),
+        fields.steps,
+        fields.dt
+    );
+    Ok(Explained { text: text(&fields), summary, fields })
+}
+
+fn text(fields: &Fields) -> String {
+    let mut out = String::new();
+    // Writing to a string does not fail.
+    let _ = writeln!(
+        out,
+        "time step      {:.4e} s, {:.3} of the critical {:.4e} s",
+        fields.dt,
+        fields.dt / fields.critical_dt,
+        fields.critical_dt
+    );
+    let _ = writeln!(out, "limited by     {}", fields.limiting_pair);
+    let _ = writeln!(out, "steps          {}", fields.steps);
+    let _ = writeln!(out, "particles      {}, and {} wall spheres", fields.particles, fields.wall_spheres);
+    if let Some(seconds) = fields.seconds_per_step {
+        let hours = seconds * fields.steps as f64;
+        let _ =
+            writeln!(out, "measured       {:.3e} s a step at the start: {hours:.1} s for the run", seconds);
+    }
+    let _ = writeln!(out, "\n{:22} {:>10} {:>8}  called for by", "effect", "B/contact", "share");
+    for e in &fields.effects {
+        let share = e.share.map_or("–".to_owned(), |s| format!("{:.0} %", 100.0 * s));
+        let _ = writeln!(out, "{:22} {:>10} {:>8}  {}", e.name, e.bytes_per_contact, share, e.why);
+    }
+    out
+}
+
+/// Every effect, and the setup without it where there is one.
+fn effects(setup: &Setup) -> Vec<(Effect, Option<Setup>)> {
+    let pairs = |of: &dyn Fn(&Contact) -> bool| {
+        let name = |m: u16| setup.materials[m as usize].name.as_str();
+        let list = setup.contacts.iter().filter(|c| of(c));
+        list.map(|c| format!("{}–{}", name(c.between.0), name(c.between.1))).collect::<Vec<_>>().join(", ")
+    };
+    let mut found = Vec::new();
+    let mut add = |name: &str, why: String, bytes: usize, without: Option<Setup>| {
+        if !why.is_empty() {
+            let effect = Effect { name: name.into(), why, bytes_per_contact: bytes, share: None };
+            found.push((effect, without));
+        }
+    };
+    let without = |change: &dyn Fn(&mut Contact)| {
+        let mut less = setup.clone();
+        less.contacts.iter_mut().for_each(change);
+        Some(less)
+    };
+    let named = |there: bool, key: &str| if there { key.to_owned() } else { String::new() };
+    add("hertz", pairs(&|c| c.law == Law::Hertz), 0, None);
+    add("hooke", pairs(&|c| c.law != Law::Hertz), 0, None);
+    let frictionless = without(&|c| (c.sliding_friction, c.rolling_resistance) = (None, None));
+    add("sliding_friction", pairs(&|c| c.sliding_friction.is_some()), SPRING, frictionless);
+    let rolling = without(&|c| c.rolling_resistance = None);
+    add("rolling_resistance", pairs(&|c| c.rolling_resistance.is_some()), SPRING, rolling);
+    add("gravity", named(setup.gravity.norm() > 0.0, "gravity"), 0, None);
+    let ledger = Setup { ledger: false, ..setup.clone() };
+    add("energy", named(setup.ledger, "output.energy"), 0, Some(ledger));
+    let zones = |n: usize, key: &str| if n > 0 { format!("{n} [[{key}]]") } else { String::new() };
+    add("outlet", zones(setup.outlets.len(), "outlet"), 0, None);
+    add("inlet", zones(setup.inlets.len(), "inlet or insert"), 0, None);
+    let moving = setup.walls.iter().filter(|w| w.motion != dem::setup::Motion::still());
+    let names: Vec<&str> = moving.map(|w| w.name.as_str()).collect();
+    add("wall motion", names.join(", "), 0, None);
+    found
+}
+
+/// Time of a step [s], from the start of a scene; `None` when a guard stops it.
+fn time_step(mut sim: Simulation) -> Option<f64> {
+    sim.step().ok()?;
+    let start = Instant::now();
+    let mut steps = 0;
+    loop {
+        sim.step().ok()?;
+        steps += 1;
+        let passed = start.elapsed().as_secs_f64();
+        if (passed > MEASURE && steps >= 10) || steps == MOST {
+            return Some(passed / f64::from(steps));
+        }
+    }
+}

@@ -1,0 +1,351 @@
+//! The run: steps, frames, crossings, checkpoints.
+
+use crate::checkpoint::{CHECKPOINT, Checkpoint};
+use crate::crossings::{self, CROSSINGS, Passage, SIZES, TOUCHES, WATERMARK, Watermark};
+use crate::error::SceneError;
+use crate::feeds::Supply;
+use crate::frames::{self, WallHead};
+use crate::material_info::{self, MATERIALS};
+use crate::model::Precision;
+use crate::schedule::{Schedule, nanoseconds};
+use crate::{Plan, Scene, input::SCENE};
+use dem::setup::Crossing;
+use dem::{Halt, SetupError, Simulation};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::io::Write;
+use stream::mcap::{Compression, McapError, Provenance, Writer};
+use thiserror::Error;
+
+/// Topic of frames.
+pub const PARTICLES: &str = "/particles";
+/// Topic of wall spheres.
+pub const WALLS: &str = "/walls";
+/// Topic of planes, meshes and motions of walls.
+pub const SURFACES: &str = "/surfaces";
+/// Topic of the energy ledger.
+pub const ENERGY: &str = "/energy";
+/// Topic of what happened.
+pub const LOG: &str = "/log";
+/// Metadata record with the outlets of a run.
+pub const OUTLETS: &str = "outlets";
+
+const FRAME: &str = "world";
+
+/// Why a run failed.
+#[derive(Debug, Error)]
+#[allow(missing_docs)]
+pub enum RunError {
+    #[error("scene")]
+    Scene(#[from] SceneError),
+    #[error("scene")]
+    Setup(#[from] SetupError),
+    #[error("run")]
+    Mcap(#[from] McapError),
+    #[error("checkpoint")]
+    State(#[from] stream::state::StateError),
+}
+
+/// What was done.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Outcome {
+    /// Why a guard stopped the run.
+    pub stopped: Option<String>,
+    /// Time reached [s].
+    pub time: f64,
+    /// Time step [s].
+    pub dt: f64,
+    /// Steps done in this run.
+    pub steps: u64,
+    /// Frames written.
+    pub frames: u64,
+    /// Particles at the end.
+    pub particles: usize,
+    /// Particles that entered.
+    pub entered: u64,
+    /// Particles that passed a storage plane.
+    pub crossings: u64,
+}
+
+/// How a run is written.
+pub struct Settings {
+    /// What made it.
+    pub provenance: Provenance,
+    /// How chunks are packed.
+    pub compression: Compression,
+}
+
+/// Refuses what would only be refused after the output was opened.
+///
+/// # Errors
+/// What the engine refuses, an end that is missing.
+pub fn ready(scene: &Scene, plan: &Plan) -> Result<(), RunError> {
+    let limit = dem::critical_step(&plan.setup)?;
+    let dt = match plan.setup.step {
+        dem::setup::Step::Auto(share) => share * limit.dt,
+        dem::setup::Step::Fixed(dt) => dt,
+    };
+    if dt.is_finite() {
+        Schedule::new(scene, dt)?;
+    }
+    Ok(())
+}
+
+struct Run<W: Write> {
+    sim: Simulation,
+    supply: Supply,
+    writer: Writer<W>,
+    schedule: Schedule,
+    scene: String,
+    inputs: Vec<(String, String)>,
+    walls: Vec<WallHead>,
+    moving: bool,
+    outlets: bool,
+    energy: bool,
+    precision: Precision,
+    crossings: Vec<Crossing>,
+    outcome: Outcome,
+}
+
+/// Runs a scene to its end, or until a guard stops it, and gives the output back.
+///
+/// `progress` hears the share that is done.
+///
+/// # Errors
+/// What the engine refuses, an inlet that breaks off, output that cannot be written.
+pub fn run<W: Write>(
+    scene: &Scene,
+    plan: Plan,
+    resume: Option<Checkpoint>,
+    out: W,
+    settings: Settings,
+    progress: &mut dyn FnMut(f64),
+) -> Result<(Outcome, W), RunError> {
+    let mut run = Run::start(scene, plan, resume, out, settings)?;
+    let first = run.sim.steps();
+    let halt = loop {
+        let step = run.sim.steps();
+        if let Err(halt) = run.look(step, first)? {
+            break Some(halt);
+        }
+        if step >= run.schedule.last {
+            break None;
+        }
+        if step % 256 == 0 {
+            progress((step - first) as f64 / (run.schedule.last - first) as f64);
+        }
+        run.feed()?;
+        let outcome = run.sim.step();
+        run.crossings.append(&mut run.sim.take_crossings());
+        if let Err(halt) = outcome {
+            break Some(halt);
+        }
+    };
+    if let Some(halt) = halt {
+        run.stop(&halt)?;
+    }
+    run.outcome.steps = run.sim.steps() - first;
+    run.outcome.time = run.sim.time();
+    run.outcome.particles = run.sim.particle_count();
+    run.outcome.entered = run.supply.given.iter().sum();
+    let out = run.writer.finish()?;
+    Ok((run.outcome, out))
+}
+
+impl<W: Write> Run<W> {
+    fn start(
+        scene: &Scene,
+        plan: Plan,
+        resume: Option<Checkpoint>,
+        out: W,
+        settings: Settings,
+    ) -> Result<Run<W>, RunError> {
+        let mut supply = Supply::new(plan.feeds);
+        if let Some(saved) = &resume {
+            saved.fits(&scene.text.toml, &plan.inputs)?;
+            supply.skip(&saved.given)?;
+        }
+        let walls = frames::heads(&plan.setup);
+        let surfaces = frames::surfaces(&plan.setup.walls);
+        let materials = material_info::to_map(&plan.setup.materials);
+        let outlets: BTreeMap<String, String> =
+            plan.setup.outlets.iter().enumerate().map(|(i, z)| (i.to_string(), json(z))).collect();
+        let moving = plan.setup.walls.iter().any(|w| {
+            let m = &w.motion;
+            matches!(w.shape, dem::setup::WallShape::Spheres(_))
+                && (m.velocity.norm() > 0.0 || m.turn.norm() > 0.0 || m.amplitude.norm() * m.frequency > 0.0)
+        });
+        let sim = match resume {
+            Some(saved) => Simulation::resume(plan.setup, saved.state)?,
+            None => Simulation::new(plan.setup)?,
+        };
+        let schedule = Schedule::new(scene, sim.dt())?;
+        if sim.steps() >= schedule.last {
+            let why = format!(
+                "the saved run has reached {} s, the scene ends at {} s",
+                sim.time(),
+                schedule.last as f64 * schedule.dt
+            );
+            return Err(SceneError::file("--resume", why, "give a later --until").into());
+        }
+        let mut writer = Writer::compressed(out, &settings.provenance, settings.compression)?;
+        writer.metadata(SCENE, BTreeMap::from([("toml".to_owned(), scene.text.toml.clone())]))?;
+        writer.metadata(MATERIALS, materials)?;
+        if let Some(sizes) = plan.sizes {
+            writer.metadata(SIZES, sizes.to_map())?;
+        }
+        let start = (sim.steps().to_string(), sim.time());
+        let times = [("dt", sim.dt()), ("start", start.1), ("end", schedule.last as f64 * schedule.dt)];
+        writer.metadata("time", times.iter().map(|(k, v)| ((*k).to_owned(), v.to_string())).collect())?;
+        if !outlets.is_empty() {
+            writer.metadata(OUTLETS, outlets.clone())?;
+        }
+        let mut run = Run {
+            outcome: Outcome {
+                stopped: None,
+                time: 0.0,
+                dt: sim.dt(),
+                steps: 0,
+                frames: 0,
+                particles: 0,
+                entered: 0,
+                crossings: 0,
+            },
+            sim,
+            supply,
+            writer,
+            schedule,
+            scene: scene.text.toml.clone(),
+            inputs: plan.inputs,
+            walls,
+            moving,
+            outlets: !outlets.is_empty(),
+            energy: scene.model.output.energy,
+            precision: scene.model.output.precision,
+            crossings: Vec::new(),
+        };
+        run.write_walls(&surfaces, &plan.notes)?;
+        Ok(run)
+    }
+
+    fn now(&self) -> u64 {
+        nanoseconds(self.sim.time())
+    }
+
+    fn write_walls(&mut self, surfaces: &serde_json::Value, notes: &[String]) -> Result<(), RunError> {
+        let now = self.now();
+        if let Some(table) = frames::wall_spheres(&self.sim, &self.walls) {
+            self.writer.points(WALLS, now, FRAME, &table)?;
+        }
+        self.writer.bytes(SURFACES, "json", now, json(surfaces).as_bytes())?;
+        for note in notes {
+            self.log("note", note)?;
+        }
+        Ok(self.writer.flush_chunk()?)
+    }
+
+    fn log(&mut self, kind: &str, text: &str) -> Result<(), RunError> {
+        let message = serde_json::json!({"time": self.sim.time(), "kind": kind, "text": text});
+        Ok(self.writer.bytes(LOG, "json", self.now(), json(&message).as_bytes())?)
+    }
+
+    /// Everything that enters before the next step must know of it.
+    fn feed(&mut self) -> Result<(), RunError> {
+        let horizon = self.sim.time() + self.sim.look_ahead();
+        while let Some(entry) = self.supply.next_until(horizon)? {
+            self.sim.enter(entry)?;
+        }
+        Ok(())
+    }
+
+    /// Writes what is due after `step` steps. A run that was resumed does not repeat what it was resumed from.
+    fn look(&mut self, step: u64, first: u64) -> Result<Result<(), Halt>, RunError> {
+        let resumed = step == first && step > 0;
+        let (frame, checkpoint) = (self.schedule.is_frame(step), self.schedule.is_checkpoint(step));
+        if resumed || !(frame || checkpoint) {
+            return Ok(Ok(()));
+        }
+        self.write_crossings()?;
+        if frame && let Err(halt) = self.write_frame()? {
+            return Ok(Err(halt));
+        }
+        if checkpoint {
+            self.write_checkpoint()?;
+        }
+        self.writer.flush_chunk()?;
+        Ok(Ok(()))
+    }
+
+    fn write_frame(&mut self) -> Result<Result<(), Halt>, RunError> {
+        // What enters now belongs to this instant.
+        self.feed()?;
+        let particles = match self.sim.particles() {
+            Ok(particles) => particles,
+            Err(halt) => return Ok(Err(halt)),
+        };
+        let now = self.now();
+        if self.moving
+            && self.sim.steps() > 0
+            && let Some(table) = frames::wall_spheres(&self.sim, &self.walls)
+        {
+            self.writer.points(WALLS, now, FRAME, &table)?;
+        }
+        self.writer.points(PARTICLES, now, FRAME, &frames::particles(&particles, self.precision))?;
+        self.outcome.frames += 1;
+        if self.energy {
+            let energy = match self.sim.energy() {
+                Ok(energy) => energy,
+                Err(halt) => return Ok(Err(halt)),
+            };
+            let mut message = serde_json::to_value(energy).unwrap_or_default();
+            message["time"] = self.sim.time().into();
+            message["balance"] = energy.balance().into();
+            self.writer.bytes(ENERGY, "json", now, json(&message).as_bytes())?;
+        }
+        Ok(Ok(()))
+    }
+
+    fn write_crossings(&mut self) -> Result<(), RunError> {
+        if !self.outlets {
+            return Ok(());
+        }
+        let now = self.now();
+        let crossings = std::mem::take(&mut self.crossings);
+        if !crossings.is_empty() {
+            let rows: Vec<Passage> = crossings.iter().map(Passage::from).collect();
+            self.writer.points(CROSSINGS, now, FRAME, &crossings::to_table(&rows))?;
+            let touches = crossings::touches(&crossings);
+            if touches.rows() > 0 {
+                self.writer.points(TOUCHES, now, FRAME, &touches)?;
+            }
+            self.outcome.crossings += rows.len() as u64;
+        }
+        let watermark = Watermark { until: self.sim.time() };
+        Ok(self.writer.bytes(WATERMARK, "json", now, &watermark.to_json())?)
+    }
+
+    fn write_checkpoint(&mut self) -> Result<(), RunError> {
+        let checkpoint = Checkpoint {
+            scene: self.scene.clone(),
+            inputs: self.inputs.clone(),
+            given: self.supply.given.clone(),
+            state: self.sim.state(),
+        };
+        let bytes = stream::state::encode(&checkpoint)?;
+        Ok(self.writer.bytes(CHECKPOINT, "bincode", self.now(), &bytes)?)
+    }
+
+    /// A guard stopped the run: the file says why, and ends in a checkpoint.
+    fn stop(&mut self, halt: &Halt) -> Result<(), RunError> {
+        self.write_crossings()?;
+        self.log("stopped", &halt.to_string())?;
+        self.write_checkpoint()?;
+        self.outcome.stopped = Some(halt.to_string());
+        Ok(())
+    }
+}
+
+/// JSON of what always is JSON: structs of numbers and text.
+fn json(value: &impl Serialize) -> String {
+    serde_json::to_string(value).unwrap_or_default()
+}

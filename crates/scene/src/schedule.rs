@@ -1,0 +1,91 @@
+//! Which steps are frames, checkpoints, and the last one.
+//!
+//! The time step is never changed to hit a time: frame k is the step nearest to k · every / Δt.
+
+use crate::error::SceneError;
+use crate::scene::Scene;
+
+/// Steps of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Schedule {
+    /// Time step [s].
+    pub dt: f64,
+    /// Last step.
+    pub last: u64,
+    every: f64,
+    checkpoint: Option<f64>,
+}
+
+impl Schedule {
+    /// The schedule of a scene for a time step [s].
+    ///
+    /// # Errors
+    /// An end that is missing or before the first step, frames closer than steps.
+    pub fn new(scene: &Scene, dt: f64) -> Result<Schedule, SceneError> {
+        let check = crate::check::Check { text: &scene.text };
+        let Some(until) = scene.model.time.until else {
+            let cure = "add until [s] to [time], or use --until";
+            return Err(check.wrong("time.until", "(nothing)", "the end of the run is missing", cure));
+        };
+        let output = &scene.model.output;
+        let every = output.every.unwrap_or((until / 100.0).max(dt));
+        for (key, value) in [("output.every", Some(every)), ("output.checkpoint", output.checkpoint)] {
+            if value.is_some_and(|v| v < dt) {
+                let value = format!("{} s", value.unwrap_or(0.0));
+                return Err(check.wrong(
+                    key,
+                    value,
+                    &format!("is shorter than the time step, {dt:.4e} s"),
+                    "make it longer",
+                ));
+            }
+        }
+        let last = nearest(until, dt);
+        if last == 0 {
+            let why = format!("is less than half the time step, {dt:.4e} s");
+            return Err(check.wrong("time.until", format!("{until} s"), &why, "run longer"));
+        }
+        Ok(Schedule { dt, last, every, checkpoint: output.checkpoint })
+    }
+
+    /// Whether a frame is written after `step` steps; the last step always is one.
+    pub fn is_frame(&self, step: u64) -> bool {
+        step == self.last || self.hits(step, self.every)
+    }
+
+    /// Whether a checkpoint is; the last step always is one.
+    pub fn is_checkpoint(&self, step: u64) -> bool {
+        step == self.last || (step > 0 && self.checkpoint.is_some_and(|every| self.hits(step, every)))
+    }
+
+    fn hits(&self, step: u64, every: f64) -> bool {
+        let k = (step as f64 * self.dt / every).round();
+        // Rounding may move the nearest multiple by one.
+        [k - 1.0, k, k + 1.0].iter().any(|k| *k >= 0.0 && nearest(k * every, self.dt) == step)
+    }
+}
+
+/// The step nearest to a time [s].
+fn nearest(time: f64, dt: f64) -> u64 {
+    (time / dt).round() as u64
+}
+
+/// A simulated time [s] as the clock of messages [ns].
+pub fn nanoseconds(time: f64) -> u64 {
+    (time * 1e9).round() as u64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_multiple_has_one_frame() {
+        let schedule = Schedule { dt: 7e-4, last: 1429, every: 0.01, checkpoint: Some(0.3) };
+        let frames: Vec<u64> = (0..=1429).filter(|s| schedule.is_frame(*s)).collect();
+        assert_eq!(frames.len(), 101);
+        assert!(frames.iter().enumerate().all(|(k, s)| (*s as f64 * 7e-4 - k as f64 * 0.01).abs() <= 3.6e-4));
+        let saved: Vec<u64> = (0..=1429).filter(|s| schedule.is_checkpoint(*s)).collect();
+        assert_eq!(saved, [429, 857, 1286, 1429]);
+    }
+}
