@@ -234,3 +234,18 @@ impl Interaction {
         self.partner_rows[contact][3]
     }
 }
+
+impl Interaction {
+    /// Memory that lists, contact points and contact memory take [bytes].
+    pub fn bytes(&self) -> usize {
+        use std::mem::size_of_val;
+        size_of_val(&self.i[..])
+            + size_of_val(&self.j[..])
+            + size_of_val(&self.partner[..])
+            + size_of_val(&self.shift[..])
+            + size_of_val(&self.partner_rows[..])
+            + size_of_val(&self.partner_spins[..])
+            + size_of_val(&self.memory[..])
+            + size_of_val(&self.active[..])
+    }
+}

@@ -8,6 +8,7 @@ mod check;
 pub mod effects;
 mod energy;
 mod error;
+mod explain;
 mod guards;
 mod interaction;
 mod kernel;
@@ -27,6 +28,7 @@ mod zones;
 
 pub use energy::Energy;
 pub use error::{Halt, SetupError};
+pub use explain::EffectCost;
 pub use limit::{Limit, critical_step};
 pub use particles::mass;
 pub use setup::Setup;

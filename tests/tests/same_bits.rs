@@ -1,0 +1,122 @@
+//! The same bits for every width of lanes, any number of threads, any order of the particles, and across a checkpoint.
+
+use dem::lane::Width;
+use dem::setup::*;
+use dem::{Setup, Simulation};
+use geom::Vec3;
+use grainpipe_tests::setups::{HOOKE, LAWS, empty, particles, plane, with_friction};
+
+/// Grains of three sizes that fall into a periodic, shaken trough of wall spheres.
+fn shaken_trough(law: Law) -> Setup {
+    let mut setup = with_friction(empty(law, 0.4), 0.4);
+    setup.contacts[0].rolling_resistance = Some(0.1);
+    setup.gravity = Vec3::new(0.5, 0.0, -9.81);
+    setup.periodic = [Some((0.0, 0.2)), Some((0.0, 0.2)), None];
+    setup.step = Step::Auto(0.2);
+    setup.guards.overlap = 0.5;
+    let at = |k: usize| Vec3::new(0.005 + 0.01 * (k % 20) as f64, 0.005 + 0.01 * (k / 20) as f64, 0.0);
+    let mut floor = plane(Vec3::z());
+    floor.shape = WallShape::Spheres((0..400).map(|k| (at(k), 0.008)).collect());
+    floor.motion.amplitude = Vec3::new(0.0, 0.0, 0.002);
+    floor.motion.frequency = 25.0;
+    setup.walls = vec![floor];
+    setup.particles = (0..600u32)
+        .map(|k| Particle {
+            id: k,
+            material: 0,
+            radius: [0.006, 0.008, 0.0095][k as usize % 3],
+            position: Vec3::new(
+                0.01 + 0.02 * (k % 10) as f64,
+                0.01 + 0.02 * (k / 10 % 10) as f64,
+                0.03 + 0.021 * (k / 100) as f64,
+            ),
+            velocity: Vec3::new(0.1 * (k % 7) as f64 - 0.3, 0.05 * (k % 5) as f64 - 0.1, -0.5),
+            spin: Vec3::zeros(),
+        })
+        .collect();
+    setup
+}
+
+/// Every bit of every particle.
+fn bits(mut sim: Simulation, steps: u64) -> Vec<u64> {
+    for _ in 0..steps {
+        sim.step().expect("within the guards");
+    }
+    let of = |p: &Particle| [p.position, p.velocity, p.spin].map(|v| [v.x, v.y, v.z]).concat();
+    particles(&mut sim).iter().flat_map(of).map(f64::to_bits).collect()
+}
+
+fn simulation(setup: Setup) -> Simulation {
+    Simulation::new(setup).expect("sound")
+}
+
+#[test]
+fn every_width_of_lanes() {
+    for law in LAWS {
+        let all: Vec<_> = Width::available()
+            .into_iter()
+            .map(|width| (width, bits(Simulation::with_width(shaken_trough(law), width).expect("sound"), 1500)))
+            .collect();
+        for (width, got) in &all {
+            assert!(*got == all[0].1, "{law:?}: {width:?} differs from {:?}", all[0].0);
+        }
+    }
+}
+
+#[test]
+fn every_number_of_threads() {
+    let with = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        pool.install(|| bits(simulation(shaken_trough(Law::Hertz)), 1500))
+    };
+    let one = with(1);
+    for threads in [2, 3, 7] {
+        assert!(with(threads) == one, "{threads} threads");
+    }
+}
+
+#[test]
+fn any_order_of_the_particles() {
+    let mut shuffled = shaken_trough(HOOKE);
+    shuffled.particles.reverse();
+    shuffled.particles.rotate_left(217);
+    assert!(bits(simulation(shuffled), 1500) == bits(simulation(shaken_trough(HOOKE)), 1500));
+}
+
+#[test]
+fn looking_changes_nothing() {
+    let mut watched = simulation(shaken_trough(HOOKE));
+    for step in 0..1500 {
+        if step % 7 == 0 {
+            particles(&mut watched);
+        }
+        watched.step().expect("within the guards");
+    }
+    assert!(bits(watched, 0) == bits(simulation(shaken_trough(HOOKE)), 1500));
+}
+
+#[test]
+fn resumed_run_equals_the_uninterrupted_one() {
+    for looked in [false, true] {
+        let mut first = simulation(shaken_trough(Law::Hertz));
+        for _ in 0..700 {
+            first.step().expect("within the guards");
+        }
+        if looked {
+            particles(&mut first);
+        }
+        let resumed = Simulation::resume(shaken_trough(Law::Hertz), first.state()).expect("the same setup");
+        assert!(bits(resumed, 800) == bits(first, 800), "looked at: {looked}");
+    }
+}
+
+/// Without friction no particle turns and nothing is remembered; with it, three numbers a contact.
+#[test]
+fn absent_effects_cost_nothing() {
+    let sizes = |setup: Setup| simulation(setup).explain().iter().map(|e| e.bytes_per_contact).collect::<Vec<_>>();
+    let mut smooth = empty(HOOKE, 0.5);
+    smooth.particles = shaken_trough(HOOKE).particles;
+    assert_eq!(sizes(smooth.clone()), [0], "Hooke alone");
+    assert_eq!(sizes(with_friction(smooth.clone(), 0.5)), [0, 24], "with friction");
+    assert_eq!(simulation(smooth.clone()).bytes_per_particle() + 64, simulation(with_friction(smooth, 0.5)).bytes_per_particle());
+}
