@@ -139,8 +139,7 @@ impl OutputStream {
         }
         let folder = target.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let stem = target.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let temp = beside(folder, &stem).with_context(failed)?;
-        signals::remove_on_signal(temp.path());
+        let temp = signals::removed_on_signal(|| beside(folder, &stem)).with_context(failed)?;
         Ok(OutputStream::new(Sink::Pending { temp, path: target }, name))
     }
 
