@@ -8,12 +8,10 @@ use crate::lane::{BLOCK, Row, Row4};
 use crate::particles::{FAR, Particles};
 use crate::walls::WallBody;
 use geom::Vec3;
+use rayon::prelude::*;
 
 /// Contacts of one task.
 const CHUNK: usize = 64 * BLOCK;
-/// A particle that was not there before.
-pub const NEW: u32 = u32::MAX;
-
 /// Whom the particles of an interaction meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum With {
@@ -94,7 +92,8 @@ impl Interaction {
             pad(&mut self.j, far + 1);
         } else {
             self.j = (0..padded as u32).collect();
-            self.shift = contacts.iter().map(|c| c.2).collect();
+            self.shift =
+                if self.with == With::Images { contacts.iter().map(|c| c.2).collect() } else { Vec::new() };
             self.partner_rows = vec![FAR[1]; padded];
             self.partner_spins = if self.kernel.rotates() { vec![[0.0; 4]; padded] } else { Vec::new() };
         }
@@ -185,18 +184,34 @@ impl Interaction {
         }
     }
 
-    /// Memory of contact `k`, column by column.
-    pub fn memory(&self, k: usize) -> impl Iterator<Item = f64> + '_ {
-        let columns = self.kernel.memory();
-        (0..columns).map(move |c| self.memory[(k / BLOCK * columns + c) * BLOCK + k % BLOCK])
+    /// Takes list and memory out, and leaves none.
+    pub fn take_lists(&mut self) -> Interaction {
+        let empty = Interaction::new(Box::new(()), self.between, self.with);
+        let (i, partner, memory) = (&mut self.i, &mut self.partner, &mut self.memory);
+        Interaction {
+            i: std::mem::take(i),
+            partner: std::mem::take(partner),
+            memory: std::mem::take(memory),
+            len: std::mem::take(&mut self.len),
+            ..empty
+        }
     }
 
-    /// Sets the memory of contact `k`, `sign` times what is given.
-    pub fn remember(&mut self, k: usize, sign: f64, memory: impl Iterator<Item = f64>) {
+    /// Fills the memory of each contact from what `find` knows of (particle, partner): a sign, an old list and the place in it.
+    pub fn recall<'a>(&mut self, find: impl Fn(u32, u32) -> Option<(f64, &'a Interaction, usize)> + Sync) {
         let columns = self.kernel.memory();
-        for (c, value) in memory.enumerate() {
-            self.memory[(k / BLOCK * columns + c) * BLOCK + k % BLOCK] = sign * value;
+        if columns == 0 {
+            return;
         }
+        let (len, i, partner) = (self.len, &self.i, &self.partner);
+        self.memory.par_chunks_mut(CHUNK * columns).enumerate().for_each(|(chunk, memory)| {
+            for k in chunk * CHUNK..((chunk + 1) * CHUNK).min(len) {
+                let Some((sign, old, from)) = find(i[k], partner[k]) else { continue };
+                for c in 0..columns {
+                    memory[place(k - chunk * CHUNK, c, columns)] = sign * old.memory[place(from, c, columns)];
+                }
+            }
+        });
     }
 
     /// All memory, for checkpoints.
@@ -212,6 +227,11 @@ impl Interaction {
         self.memory.copy_from_slice(memory);
         true
     }
+}
+
+/// Where number `c` of contact `k` is in memory of so many columns.
+fn place(k: usize, c: usize, columns: usize) -> usize {
+    (k / BLOCK * columns + c) * BLOCK + k % BLOCK
 }
 
 /// Splits the first `n` numbers off; all there are when the slice is empty or shorter.

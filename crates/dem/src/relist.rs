@@ -1,6 +1,6 @@
 //! Makes the lists anew: sorts the particles in space, finds pairs and walls near them, carries contact memory over.
 
-use crate::interaction::{Interaction, Listed, NEW, With};
+use crate::interaction::{Interaction, Listed, With};
 use crate::kernel::LEDGER;
 use crate::neighbours::pairs;
 use crate::simulation::{Simulation, stride};
@@ -12,24 +12,31 @@ impl Simulation {
     pub(crate) fn relist(&mut self) {
         self.wrap();
         let order = self.space_order();
-        let old: Vec<u32> = {
-            self.particles.select(&order);
-            order.clone()
+        let before: Vec<Option<Remembered>> = {
+            let count = self.particles.len();
+            self.interactions.iter_mut().map(|i| Remembered::take(i, count)).collect()
         };
+        self.particles.select(&order);
         self.zones.reorder(&order);
-        let place: HashMap<u32, u32> = order.iter().zip(0u32..).map(|(&o, n)| (o, n)).collect();
-        self.fresh = self.fresh.iter().filter_map(|k| place.get(k).copied()).collect();
+        self.follow_fresh(&order);
         for k in 0..self.particles.len() {
             let r = self.particles.rows[k];
             self.particles.home[k] = [r[0], r[1], r[2], 0.0];
         }
-        let memories = Memories::of(&self.interactions);
         self.listed = self.steps;
         self.list_contacts();
-        memories.recall(&mut self.interactions, &old);
+        recall(&before, &mut self.interactions, &order);
         self.away = 0.0;
         self.stale = false;
         self.listings += 1;
+    }
+
+    fn follow_fresh(&mut self, order: &[u32]) {
+        if self.fresh.is_empty() {
+            return;
+        }
+        let place: HashMap<u32, u32> = order.iter().zip(0u32..).map(|(&o, n)| (o, n)).collect();
+        self.fresh = self.fresh.iter().filter_map(|k| place.get(k).copied()).collect();
     }
 
     /// Particles that have left the box through a periodic face come back through the other.
@@ -77,9 +84,14 @@ impl Simulation {
         let time = self.listed as f64 * self.dt;
         let mut lists: Vec<Vec<Listed>> = vec![Vec::new(); self.interactions.len()];
         let class = self.classes(With::Particles);
-        for (i, j) in pairs(&points, &radii, &grid, largest, self.skin) {
-            let at = class[&ordered(p.material[i as usize], p.material[j as usize])];
-            lists[at].push((i, j, Vec3::zeros()));
+        let found = pairs(&points, &radii, &grid, largest, self.skin);
+        if let [(_, only)] = class.iter().collect::<Vec<_>>()[..] {
+            lists[*only] = found.into_iter().map(|(i, j)| (i, j, Vec3::zeros())).collect();
+        } else {
+            for (i, j) in found {
+                let at = class[&ordered(p.material[i as usize], p.material[j as usize])];
+                lists[at].push((i, j, Vec3::zeros()));
+            }
         }
         let images = self.classes(With::Images);
         if !images.is_empty() {
@@ -154,10 +166,15 @@ impl Simulation {
     /// is not zero is positive.
     fn image_pairs(&self, points: &[Vec3], radii: &[f64], grid: &Grid, largest: f64) -> Vec<Listed> {
         let mut found = Vec::new();
+        let (lo, hi) = geom::grid::bounds(points);
         for shift in half_of_shifts(&self.setup.periodic) {
             for (i, p) in points.iter().enumerate() {
                 let reach = radii[i] + self.skin;
-                for j in grid.runs_near(p - shift, reach + largest).flatten() {
+                let (place, far) = (p - shift, reach + largest);
+                if (0..3).any(|a| place[a] < lo[a] - far || place[a] > hi[a] + far) {
+                    continue;
+                }
+                for j in grid.runs_near(place, far).flatten() {
                     let close = reach + radii[j];
                     if (points[j] + shift - p).norm_squared() < close * close {
                         found.push((i as u32, j as u32, shift));
@@ -191,57 +208,55 @@ fn half_of_shifts(periodic: &[Option<(f64, f64)>; 3]) -> Vec<Vec3> {
     shifts
 }
 
-/// Contact memory that is not zero, by what touches what, in the old order.
-struct Memories {
-    kept: Vec<HashMap<(u32, u32), Vec<f64>>>,
+/// Lists and memory as they were before: what new contacts remember from.
+struct Remembered {
+    /// First contact of each particle, and one more.
+    first: Vec<u32>,
+    old: Interaction,
 }
 
-impl Memories {
-    fn of(interactions: &[Interaction]) -> Memories {
-        let of_one = |it: &Interaction| {
-            let mut kept = HashMap::new();
-            for k in 0..if it.kernel.memory() > 0 { it.len } else { 0 } {
-                if it.memory(k).any(|x| x != 0.0) {
-                    kept.insert((it.i[k], it.partner[k]), it.memory(k).collect());
-                }
-            }
-            kept
-        };
-        Memories { kept: interactions.iter().map(of_one).collect() }
+impl Remembered {
+    /// Takes list and memory out of an interaction.
+    fn take(interaction: &mut Interaction, particles: usize) -> Option<Remembered> {
+        if interaction.kernel.memory() == 0 {
+            return None;
+        }
+        let old = interaction.take_lists();
+        let mut first = vec![0u32; particles + 1];
+        for &i in &old.i[..old.len] {
+            first[i as usize + 1] += 1;
+        }
+        for k in 0..particles {
+            first[k + 1] += first[k];
+        }
+        Some(Remembered { first, old })
     }
 
-    /// Gives each new contact the memory that it had; `old` tells each particle's old place.
-    fn recall(&self, interactions: &mut [Interaction], old: &[u32]) {
-        let classes: Vec<((u16, u16), With)> = interactions.iter().map(|i| (i.between, i.with)).collect();
-        for (at, it) in interactions.iter_mut().enumerate() {
-            if it.kernel.memory() == 0 {
-                continue;
-            }
-            let wall = matches!(it.with, With::Wall(_));
-            // A pair may have become a pair across a periodic face, or stopped being one.
-            let same = |k: &usize| {
-                if wall {
-                    *k == at
-                } else {
-                    classes[*k].0 == it.between && !matches!(classes[*k].1, With::Wall(_))
-                }
-            };
-            let sources: Vec<usize> = (0..classes.len()).filter(same).collect();
-            for k in 0..it.len {
-                let (i, partner) = (it.i[k], it.partner[k]);
-                let key = (old[i as usize], if wall { partner } else { old[partner as usize] });
-                if key.0 == NEW || (!wall && key.1 == NEW) {
-                    continue;
-                }
-                let swapped = (key.1, key.0);
-                let found = sources.iter().find_map(|&s| {
-                    let there = self.kept[s].get(&key).map(|m| (1.0, m));
-                    there.or_else(|| if wall { None } else { self.kept[s].get(&swapped).map(|m| (-1.0, m)) })
-                });
-                if let Some((sign, memory)) = found {
-                    it.remember(k, sign, memory.iter().copied());
-                }
-            }
-        }
+    fn find(&self, i: u32, partner: u32) -> Option<usize> {
+        let run = *self.first.get(i as usize)? as usize..*self.first.get(i as usize + 1)? as usize;
+        run.into_iter().find(|&k| self.old.partner[k] == partner)
+    }
+}
+
+/// Gives each new contact the memory that it had; `order` tells each particle's old place. A contact whose two partners have
+/// changed places remembers the opposite.
+fn recall(before: &[Option<Remembered>], now: &mut [Interaction], order: &[u32]) {
+    let kinds: Vec<((u16, u16), With)> = now.iter().map(|i| (i.between, i.with)).collect();
+    for (at, it) in now.iter_mut().enumerate() {
+        let wall = matches!(it.with, With::Wall(_));
+        // A pair may have become a pair across a periodic face, or stopped being one.
+        let source = |k: usize| {
+            if wall { k == at } else { kinds[k].0 == it.between && !matches!(kinds[k].1, With::Wall(_)) }
+        };
+        let sources: Vec<&Remembered> =
+            before.iter().enumerate().filter(|(k, _)| source(*k)).filter_map(|(_, r)| r.as_ref()).collect();
+        it.recall(|i, partner| {
+            let i = order[i as usize];
+            let partner = if wall { partner } else { order[partner as usize] };
+            sources.iter().find_map(|s| {
+                let same = s.find(i, partner).map(|k| (1.0, &s.old, k));
+                same.or_else(|| if wall { None } else { s.find(partner, i).map(|k| (-1.0, &s.old, k)) })
+            })
+        });
     }
 }
