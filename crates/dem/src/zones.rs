@@ -229,9 +229,10 @@ impl Simulation {
 
     /// Out of everyone's reach until the next listing drops it.
     fn exclude(&mut self, k: usize) {
-        let far = crate::particles::FAR[0];
-        self.particles.rows[k][..3].copy_from_slice(&far[..3]);
-        self.particles.home[k][..3].copy_from_slice(&far[..3]);
+        // Each to a place of its own: two at one place would overlap.
+        let far = [-1e100 * (k + 1) as f64; 3];
+        self.particles.rows[k][..3].copy_from_slice(&far);
+        self.particles.home[k][..3].copy_from_slice(&far);
         self.zones.busy[k] = false;
         self.zones.gone[k] = true;
     }
