@@ -1,16 +1,24 @@
 //! Point clouds with named columns: formats, crop, outliers, density, holes, ball pivoting, fill.
 
+mod cover;
 pub mod crop;
+mod darts;
 pub mod density;
+pub mod fill;
 pub mod formats;
+mod holes;
 pub mod largest;
 pub mod outliers;
+mod patch;
 pub mod pivot;
 pub mod points;
+mod raster;
 pub mod regions;
 mod sheet;
 
 pub use crop::crop;
+pub use darts::Method;
+pub use fill::fill;
 pub use formats::{ReadError, from_bytes, read, read_mesh, write_mesh, write_ply};
 pub use points::Cloud;
 pub use regions::shape;

@@ -1,2 +1,102 @@
-//! cloud-fill
-fn main() {}
+//! Fills the blind spots of a scan.
+
+use clap::Parser;
+use cli::Report;
+use cloud::Method;
+use cloud::fill::Settings;
+use geom::Shape;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+const ABOUT: &str = "Holes are regions inside the outline of the surface whose density is at or below --below; \
+    the rim is left alone. Each is meshed by ball pivoting, and points are put on the smooth surface that goes on \
+    from its surroundings. Added points have the property filled = 1 and take every other property from the \
+    nearest scanned point. The default threshold is a quarter of the density that only the sparsest 20th of the \
+    surface is below; the report states it.";
+
+/// Find the holes of a scan and fill them with points
+#[derive(Parser)]
+#[command(after_help = ABOUT)]
+struct Args {
+    #[command(flatten)]
+    input: cli::Input,
+    #[command(flatten)]
+    output: cli::Output,
+    /// Least distance of added points [m] (default: as dense as the surroundings)
+    #[arg(long, value_name = "M", value_parser = positive)]
+    spacing: Option<f64>,
+    /// Fill where there are at most DENSITY points per m² (default: from the cloud)
+    #[arg(long, value_name = "DENSITY", value_parser = positive)]
+    below: Option<f64>,
+    /// Fill only inside SHAPE, also where it crosses the rim (repeat for more)
+    #[arg(long, value_name = "SHAPE", value_parser = cloud::shape)]
+    region: Vec<Shape>,
+    /// Widest hole to fill [m] (default: a third of the cloud's diagonal)
+    #[arg(long, value_name = "M", value_parser = positive)]
+    max_hole: Option<f64>,
+    /// How added points are spread: blue-noise, random or grid
+    #[arg(long, value_name = "METHOD", default_value = "blue-noise")]
+    fill: Method,
+    /// Radii of the balls that mesh a hole [m], growing (default: fitted to each hole)
+    #[arg(long, value_name = "M,…", value_delimiter = ',', value_parser = positive)]
+    ball: Vec<f64>,
+    /// Write what was meshed (PLY)
+    #[arg(long, value_name = "FILE")]
+    mesh: Option<PathBuf>,
+    #[command(flatten)]
+    seed: cli::Seed,
+}
+
+fn main() -> ExitCode {
+    cli::run("cloud-fill", fill)
+}
+
+fn fill(args: Args) -> anyhow::Result<Report> {
+    let mut balls = args.ball;
+    balls.sort_by(f64::total_cmp);
+    let settings = Settings {
+        spacing: args.spacing,
+        below: args.below,
+        regions: args.region,
+        max_hole: args.max_hole,
+        method: args.fill,
+        balls,
+        seed: args.seed.seed,
+    };
+    let filled = cloud::fill(args.input.read_cloud()?, &settings);
+    warn(&filled.report);
+    if let Some(path) = &args.mesh {
+        let mut out = cli::OutputStream::file(path)?;
+        cloud::write_mesh(&mut out, &filled.mesh, stream::ply::Encoding::default())?;
+        out.commit()?;
+    }
+    args.output.write_cloud(&filled.cloud)?;
+    let report = &filled.report;
+    let summary = format!("{} points added in {} holes", report.added, report.holes.len());
+    Ok(Report::new(summary).with_all(report))
+}
+
+/// What the user should know besides the numbers.
+fn warn(report: &cloud::fill::Report) {
+    if report.not_finite > 0 {
+        cli::warn(&format!("{} points without finite coordinates were dropped", report.not_finite));
+    }
+    if report.below.is_none() {
+        cli::warn("too few points, or all in one place: no density to compare with, nothing was filled");
+    }
+    for hole in report.holes.iter().filter(|h| h.open) {
+        let [x, y, z] = hole.centre;
+        cli::warn(&format!(
+            "the hole at {x:.3},{y:.3},{z:.3} of width {:.3} m is not closed: the largest ball, {:.3} m, falls \
+             through; give a larger --ball or none",
+            hole.width, hole.ball
+        ));
+    }
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
+        _ => Err("give a number above 0".into()),
+    }
+}

@@ -1,0 +1,211 @@
+//! Fill: finds the holes of a cloud and puts points on the surface that spans them.
+
+use crate::cover::{Cover, FallsThrough};
+use crate::darts::{Method, PACKING, throw};
+use crate::holes::{Hole, Search, find};
+use crate::{Cloud, density};
+use geom::mesh::TriMesh;
+use geom::{Shape, Vec3};
+use rayon::prelude::*;
+use serde::Serialize;
+use stream::Values;
+
+/// Share of the surface whose density sets the threshold, and the part of that density which is the threshold.
+const SPARSEST: (f64, f64) = (0.05, 0.25);
+/// Widest hole, as a share of the cloud's diagonal.
+const WIDEST: f64 = 1.0 / 3.0;
+
+/// What to fill and how.
+#[derive(Debug, Clone, Default)]
+pub struct Settings {
+    /// Least distance of added points [m]; as dense as the surroundings when not given.
+    pub spacing: Option<f64>,
+    /// Holes are where the density is at most this [1/m²]; from the cloud when not given.
+    pub below: Option<f64>,
+    /// Fill only in these shapes, and there whatever the outline.
+    pub regions: Vec<Shape>,
+    /// Widest hole to fill [m]; a third of the cloud's diagonal when not given.
+    pub max_hole: Option<f64>,
+    /// How points are spread.
+    pub method: Method,
+    /// Radii of the balls that mesh a hole [m], growing; fitted to each hole when empty.
+    pub balls: Vec<f64>,
+    /// Seed of the random numbers.
+    pub seed: u64,
+}
+
+/// A cloud with its holes filled.
+#[derive(Debug, Clone)]
+pub struct Filled {
+    /// The points that came in, then the added ones; `filled` is 1 for the latter.
+    pub cloud: Cloud,
+    /// What was meshed [m].
+    pub mesh: TriMesh,
+    /// What was done.
+    pub report: Report,
+}
+
+/// What was found and added.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Report {
+    /// Points that came in.
+    pub points_in: usize,
+    /// Points without finite coordinates, dropped.
+    pub not_finite: usize,
+    /// Density at or below which a place is part of a hole [1/m²].
+    pub below: Option<f64>,
+    /// Whether that was chosen from the cloud.
+    pub below_is_automatic: bool,
+    /// Widest hole that is filled [m].
+    pub max_hole: f64,
+    /// How points were spread.
+    pub method: Method,
+    /// The holes.
+    pub holes: Vec<HoleReport>,
+    /// Points added.
+    pub added: usize,
+    /// Points that go out.
+    pub points_out: usize,
+}
+
+/// One hole.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct HoleReport {
+    /// Middle [m].
+    pub centre: [f64; 3],
+    /// Greatest width [m].
+    pub width: f64,
+    /// Density of its surroundings [1/m²].
+    pub density: f64,
+    /// Least distance of the added points [m].
+    pub spacing: f64,
+    /// Largest ball that was rolled over it [m].
+    pub ball: f64,
+    /// Triangles.
+    pub faces: usize,
+    /// Points added.
+    pub added: usize,
+    /// Whether the largest ball fell through, so that some of it stays open.
+    pub open: bool,
+}
+
+/// Fills the holes of a cloud.
+pub fn fill(cloud: Cloud, settings: &Settings) -> Filled {
+    let points_in = cloud.points.len();
+    let (cloud, not_finite) = cloud.finite();
+    let automatic = || density::sparse(&cloud.points, SPARSEST.0).map(|d| d * SPARSEST.1);
+    let below = settings.below.or_else(automatic);
+    let max_hole = settings.max_hole.unwrap_or_else(|| WIDEST * diagonal(&cloud.points));
+    let mut report =
+        Report { points_in, not_finite, below, max_hole, method: settings.method, ..Report::default() };
+    report.below_is_automatic = settings.below.is_none();
+    let holes = match below {
+        Some(below) if cloud.points.len() >= density::FEWEST => {
+            find(&cloud.points, &Search { below, widest: max_hole, regions: &settings.regions })
+        }
+        _ => Vec::new(),
+    };
+    let patches: Vec<Patch> =
+        holes.par_iter().enumerate().map(|(i, hole)| Patch::new(hole, settings, i as u64)).collect();
+    let mut mesh = TriMesh::default();
+    for patch in &patches {
+        let first = mesh.vertices.len() as u32;
+        mesh.vertices.extend(patch.corners.iter().map(|&row| cloud.points[row as usize]));
+        mesh.faces.extend(patch.faces.iter().map(|face| face.map(|i| i + first)));
+    }
+    let cloud = extended(cloud, &patches);
+    report.holes = patches.into_iter().map(|p| p.report).collect();
+    report.added = report.holes.iter().map(|h| h.added).sum();
+    report.points_out = cloud.points.len();
+    Filled { cloud, mesh, report }
+}
+
+/// What one hole adds.
+struct Patch {
+    points: Vec<Vec3>,
+    /// A row near each point, for the other properties.
+    like: Vec<u32>,
+    /// Rows that are corners of the mesh.
+    corners: Vec<u32>,
+    faces: Vec<[u32; 3]>,
+    report: HoleReport,
+}
+
+impl Patch {
+    fn new(hole: &Hole, settings: &Settings, number: u64) -> Patch {
+        let mut report = HoleReport {
+            centre: hole.centre.into(),
+            width: hole.width,
+            density: 0.0,
+            spacing: 0.0,
+            ball: 0.0,
+            faces: 0,
+            added: 0,
+            open: true,
+        };
+        let Ok(cover) = Cover::new(hole, &settings.balls).map_err(|FallsThrough| ()) else {
+            return Patch { points: vec![], like: vec![], corners: vec![], faces: vec![], report };
+        };
+        // Dense enough to be as dense as the surroundings: a grid fills its plane, a Poisson disk less of it.
+        let packing = if settings.method == Method::Grid { 1.0 } else { PACKING };
+        let spacing = settings.spacing.unwrap_or((packing / cover.density).sqrt());
+        let seed = settings.seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(number);
+        let local = throw(hole, &cover, settings.method, spacing, seed);
+        report = HoleReport {
+            density: cover.density,
+            spacing,
+            ball: cover.ball,
+            faces: cover.faces.len(),
+            added: local.len(),
+            open: !cover.is_closed(),
+            ..report
+        };
+        Patch {
+            like: local.iter().map(|p| nearest(p, &cover.corners)).collect(),
+            points: local.iter().map(|p| hole.frame.world(p)).collect(),
+            corners: cover.corners.iter().map(|c| c.0).collect(),
+            faces: cover.faces,
+            report,
+        }
+    }
+}
+
+/// Row of the corner nearest to a local place.
+fn nearest(p: &Vec3, corners: &[(u32, Vec3)]) -> u32 {
+    let far = |c: &&(u32, Vec3)| (c.1 - p).norm_squared();
+    corners.iter().min_by(|a, b| far(a).total_cmp(&far(b))).map_or(0, |c| c.0)
+}
+
+/// The cloud with the patches' points at its end, and the column `filled`.
+fn extended(cloud: Cloud, patches: &[Patch]) -> Cloud {
+    let count = cloud.points.len();
+    let added: Vec<Vec3> = patches.iter().flat_map(|p| p.points.iter().copied()).collect();
+    let mut filled = match cloud.attributes.get("filled") {
+        Some(before) => (0..count).map(|i| u8::from(before.get(i) != 0.0)).collect(),
+        None => vec![0u8; count],
+    };
+    filled.resize(count + added.len(), 1);
+    let mut cloud = cloud;
+    if !added.is_empty() {
+        let rows: Vec<u32> =
+            (0..count as u32).chain(patches.iter().flat_map(|p| p.like.iter().copied())).collect();
+        cloud.attributes = cloud.attributes.select(&rows);
+        cloud.points.extend(added);
+    }
+    // As many rows as points: `replace` has nothing to refuse.
+    let replaced = cloud.attributes.replace("filled", Values::U8(filled));
+    debug_assert!(replaced.is_ok(), "{replaced:?}");
+    cloud
+}
+
+/// Diagonal of the box that holds nearly all points [m]: a hundredth may lie outside along each axis.
+fn diagonal(points: &[Vec3]) -> f64 {
+    let step = points.len().div_ceil(2000).max(1);
+    let extent = |a: usize| {
+        let mut some: Vec<f64> = points.iter().step_by(step).map(|p| p[a]).collect();
+        some.sort_by(f64::total_cmp);
+        let cut = some.len() / 200;
+        if some.is_empty() { 0.0 } else { some[some.len() - 1 - cut] - some[cut] }
+    };
+    Vec3::new(extent(0), extent(1), extent(2)).norm()
+}

@@ -1,0 +1,265 @@
+//! Holes: blind spots of the scanner inside the outline of the surface.
+//!
+//! ```text
+//! threshold D [1/m²]   given, or a quarter of the density that only the sparsest 20th of the surface is below
+//! scale     c = 1/√D   a disc of c² has one point where the density is D
+//! 1. the surface ends where the cells of width c around a place leave a gap of 100° and more (`sheet`)
+//! 2. ends are linked to loops when they are near and look the same way: across a hole or a narrow strip they do not
+//! 3. each loop's surroundings are laid flat: plane, and the quadratic over it (`patch`)
+//! 4. there, cells whose window of (2.5 c)² holds at most 6.25 c² D points are open; open cells that are not
+//!    joined to the outside are a hole
+//! ```
+//!
+//! Step 4 decides, so that the rim of the surface, and false ends of step 1, are no holes.
+
+use crate::largest::Parts;
+use crate::patch::{Frame, Quadratic};
+use crate::raster::Raster;
+use crate::sheet::{End, NOWHERE, REACH, Sheet};
+use geom::{Grid, Shape, Vec3};
+use rayon::prelude::*;
+
+/// Cells of the patch a scale.
+pub(crate) const CELLS: f64 = 2.0;
+/// Half the window, in cells of the patch.
+const WINDOW: usize = 2;
+/// Fewest open cells of a hole: less is chance.
+const FEWEST_CELLS: usize = 6;
+/// Fewest ends of a loop.
+const FEWEST_ENDS: usize = 4;
+/// How far the window makes a hole look smaller than it is, in cells.
+pub(crate) const GROW: f64 = 2.5;
+/// Most cells of one patch.
+const MOST_CELLS: f64 = 16e6;
+
+/// What counts as a hole.
+pub(crate) struct Search<'a> {
+    /// Open where the density is at most this [1/m²].
+    pub below: f64,
+    /// Widest hole that is one [m].
+    pub widest: f64,
+    /// Only in these shapes, and there without regard to outline and width; everywhere when there is none.
+    pub regions: &'a [Shape],
+}
+
+/// A hole, laid flat.
+pub(crate) struct Hole {
+    pub frame: Frame,
+    pub surface: Quadratic,
+    pub raster: Raster,
+    /// The open cells.
+    pub open: Vec<usize>,
+    /// Rows of the points of this sheet around the hole, and their local places [m].
+    pub around: Vec<(u32, Vec3)>,
+    /// Middle of the open cells [m].
+    pub centre: Vec3,
+    /// Greatest width [m].
+    pub width: f64,
+}
+
+/// The holes of a cloud of finite points, in the order of their first ends.
+pub(crate) fn find(points: &[Vec3], search: &Search) -> Vec<Hole> {
+    let cell = 1.0 / search.below.sqrt();
+    let sheet = Sheet::new(points, cell);
+    let ends = sheet.ends();
+    let loops = if search.regions.is_empty() {
+        loops(&sheet, &ends, search.widest)
+    } else {
+        search.regions.iter().map(|shape| ends_of(&sheet, &ends, shape)).collect()
+    };
+    let patches: Vec<Patch> = loops
+        .into_iter()
+        .enumerate()
+        .filter_map(|(i, ends)| Patch::new(&sheet, ends, search.regions.get(i)))
+        .collect();
+    let rows = gather(&sheet, &patches);
+    let found: Vec<Vec<Hole>> = patches
+        .par_iter()
+        .zip(&rows)
+        .map(|(patch, rows)| patch.holes(points, &sheet, rows, search))
+        .collect();
+    once(found.into_iter().flatten().collect())
+}
+
+/// Ends in loops no wider than `widest`, by the number of their first place.
+fn loops(sheet: &Sheet, ends: &[End], widest: f64) -> Vec<Vec<End>> {
+    let places: Vec<Vec3> = ends.iter().map(|e| sheet.places[e.place as usize]).collect();
+    let reach = REACH * sheet.cell;
+    let grid = Grid::new(&places, reach);
+    let mut parts = Parts::new(ends.len());
+    for (i, end) in ends.iter().enumerate() {
+        for j in grid.within(&places, places[i], reach).filter(|&j| j > i as u32) {
+            if end.free.dot(&ends[j as usize].free) > 0.2 {
+                parts.join(i as u32, j);
+            }
+        }
+    }
+    let mut by_root: Vec<(u32, End)> = (0u32..).zip(ends).map(|(i, e)| (parts.root(i), *e)).collect();
+    by_root.sort_by_key(|(root, _)| *root);
+    let groups =
+        by_root.chunk_by(|a, b| a.0 == b.0).map(|group| group.iter().map(|g| g.1).collect::<Vec<End>>());
+    let narrow = |group: &Vec<End>| {
+        let places: Vec<Vec3> = group.iter().map(|e| sheet.places[e.place as usize]).collect();
+        let (lo, hi) = geom::grid::bounds(&places);
+        group.len() >= FEWEST_ENDS && (hi - lo).norm() <= 2.0 * (widest + reach)
+    };
+    groups.filter(narrow).collect()
+}
+
+/// Ends in a shape, or looking into it.
+fn ends_of(sheet: &Sheet, ends: &[End], shape: &Shape) -> Vec<End> {
+    let looks_in = |end: &&End| {
+        let place = sheet.places[end.place as usize];
+        (0..8).any(|step| shape.contains(&(place + end.free * (0.5 * f64::from(step) * sheet.cell))))
+    };
+    ends.iter().filter(looks_in).copied().collect()
+}
+
+/// The surroundings of a loop of ends.
+struct Patch<'a> {
+    ends: Vec<End>,
+    frame: Frame,
+    /// Around the frame's origin [m].
+    radius: f64,
+    shape: Option<&'a Shape>,
+}
+
+impl<'a> Patch<'a> {
+    fn new(sheet: &Sheet, ends: Vec<End>, shape: Option<&'a Shape>) -> Option<Patch<'a>> {
+        if ends.len() < FEWEST_ENDS {
+            return None;
+        }
+        let places = ends.iter().map(|e| sheet.places[e.place as usize]);
+        let centre = places.clone().sum::<Vec3>() / ends.len() as f64;
+        let normals: Vec<Vec3> = ends.iter().map(|e| e.normal).collect();
+        let frame = Frame::new(centre, &normals)?;
+        let radius = places.map(|p| (p - centre).norm()).fold(0.0, f64::max) + 5.0 * sheet.cell;
+        ((2.0 * radius * CELLS / sheet.cell).powi(2) < MOST_CELLS).then_some(Patch {
+            ends,
+            frame,
+            radius,
+            shape,
+        })
+    }
+
+    fn holes(&self, points: &[Vec3], sheet: &Sheet, rows: &[u32], search: &Search) -> Vec<Hole> {
+        let Some(surface) = self.surface(sheet) else { return Vec::new() };
+        let tolerance = (3.0 * surface.rms).max(1.5 * sheet.cell);
+        let on_sheet = |p: &Vec3| (p.z - surface.height(p.x, p.y)).abs() <= tolerance;
+        let local = rows.iter().map(|&r| (r, self.frame.local(&points[r as usize])));
+        let raster = Raster::new(self.radius, sheet.cell / CELLS);
+        let inside = |p: &Vec3| raster.at(p.x, p.y).is_some();
+        let around: Vec<(u32, Vec3)> = local.filter(|(_, p)| inside(p) && on_sheet(p)).collect();
+        let open = self.open(&raster, &around, &surface, search);
+        let fewest = if self.shape.is_some() { 1 } else { FEWEST_CELLS };
+        let parts = raster.parts(open).into_iter().filter(|part| part.len() >= fewest);
+        parts.filter_map(|part| self.hole(part, &raster, &surface, &around, search)).collect()
+    }
+
+    /// The quadratic through the places around the ends.
+    fn surface(&self, sheet: &Sheet) -> Option<Quadratic> {
+        let reach = REACH * sheet.cell;
+        let near = |e: &End| sheet.grid.within(&sheet.places, sheet.places[e.place as usize], reach);
+        let mut near: Vec<u32> = self.ends.iter().flat_map(near).collect();
+        near.sort_unstable();
+        near.dedup();
+        let places: Vec<Vec3> = near.iter().map(|&i| self.frame.local(&sheet.places[i as usize])).collect();
+        Quadratic::fit(&places)
+    }
+
+    /// The open cells that may be filled.
+    fn open(
+        &self,
+        raster: &Raster,
+        around: &[(u32, Vec3)],
+        surface: &Quadratic,
+        search: &Search,
+    ) -> Vec<bool> {
+        let mut counts = vec![0u32; raster.len()];
+        around.iter().filter_map(|(_, p)| raster.at(p.x, p.y)).for_each(|cell| counts[cell] += 1);
+        let window = (2 * WINDOW + 1) as f64 * raster.cell;
+        let most = search.below * window * window;
+        let mut open: Vec<bool> =
+            raster.windows(&counts, WINDOW).into_iter().map(|count| f64::from(count) <= most).collect();
+        match self.shape {
+            None => raster.drop_outside(&mut open),
+            Some(shape) => {
+                for (cell, open) in open.iter_mut().enumerate().filter(|(_, open)| **open) {
+                    let (u, v) = raster.middle(cell);
+                    *open = shape.contains(&self.frame.world(&Vec3::new(u, v, surface.height(u, v))));
+                }
+            }
+        }
+        open
+    }
+
+    fn hole(
+        &self,
+        open: Vec<usize>,
+        raster: &Raster,
+        surface: &Quadratic,
+        around: &[(u32, Vec3)],
+        search: &Search,
+    ) -> Option<Hole> {
+        let places: Vec<Vec3> = open
+            .iter()
+            .map(|&cell| {
+                let (u, v) = raster.middle(cell);
+                Vec3::new(u, v, surface.height(u, v))
+            })
+            .collect();
+        let (lo, hi) = geom::grid::bounds(&places);
+        let width = (hi - lo).max() + (1.0 + GROW) * raster.cell;
+        let reach = 0.5 * (hi - lo).norm() + 5.0 * CELLS * raster.cell;
+        let middle = (lo + hi) / 2.0;
+        let near = |p: &&(u32, Vec3)| (p.1 - middle).xy().norm() <= reach;
+        (self.shape.is_some() || width <= search.widest).then(|| Hole {
+            frame: self.frame,
+            surface: *surface,
+            raster: *raster,
+            centre: self.frame.world(&(places.iter().sum::<Vec3>() / places.len() as f64)),
+            width,
+            around: around.iter().filter(near).copied().collect(),
+            open,
+        })
+    }
+}
+
+/// Rows of the points near each patch.
+fn gather(sheet: &Sheet, patches: &[Patch]) -> Vec<Vec<u32>> {
+    let near: Vec<Vec<u32>> = patches
+        .par_iter()
+        .map(|p| sheet.grid.within(&sheet.places, p.frame.origin, p.radius * 1.5).collect())
+        .collect();
+    // Only the cells that some patch wants are listed with their points.
+    let mut slot = vec![NOWHERE; sheet.places.len()];
+    let mut slots = 0;
+    for &place in near.iter().flatten() {
+        if slot[place as usize] == NOWHERE {
+            slot[place as usize] = slots;
+            slots += 1;
+        }
+    }
+    let mut rows: Vec<Vec<u32>> = vec![Vec::new(); slots as usize];
+    for (row, &place) in (0u32..).zip(&sheet.cell_of) {
+        if place != NOWHERE && slot[place as usize] != NOWHERE {
+            rows[slot[place as usize] as usize].push(row);
+        }
+    }
+    near.iter()
+        .map(|places| places.iter().flat_map(|&p| rows[slot[p as usize] as usize].iter().copied()).collect())
+        .collect()
+}
+
+/// Each hole once: two patches may both see it, the smaller one better.
+fn once(mut holes: Vec<Hole>) -> Vec<Hole> {
+    holes.sort_by(|a, b| a.raster.half.total_cmp(&b.raster.half));
+    let mut kept: Vec<Hole> = Vec::new();
+    for hole in holes {
+        let same = |other: &Hole| (other.centre - hole.centre).norm() < 0.5 * other.width.max(hole.width);
+        if !kept.iter().any(same) {
+            kept.push(hole);
+        }
+    }
+    kept
+}

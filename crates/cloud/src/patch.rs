@@ -1,0 +1,187 @@
+//! A smooth height over a plane, fitted to the surroundings of a hole.
+//!
+//! ```text
+//! w(u, v) = c₀ + c₁u + c₂v + c₃u² + c₄uv + c₅v²  +  Σ aᵢ φ(|(u,v) − (uᵢ,vᵢ)|) + b₀ + b₁u + b₂v,   φ(r) = r² ln r
+//! ```
+//!
+//! The quadratic takes the curvature, the thin plate (least bending; Duchon 1977) what is left of it, smoothed by
+//! λ on the diagonal so that the noise of the scan is not followed.
+
+use geom::Vec3;
+use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, SymmetricEigen, Vector6};
+
+/// Axes of a patch: u and v in its plane, n normal to it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Frame {
+    pub origin: Vec3,
+    pub u: Vec3,
+    pub v: Vec3,
+    pub n: Vec3,
+}
+
+impl Frame {
+    /// The plane through `origin` whose normal is nearest to all `normals`, of either sign; u follows the
+    /// coordinate axis that lies flattest in it. None when the normals disagree too much for one patch.
+    pub fn new(origin: Vec3, normals: &[Vec3]) -> Option<Frame> {
+        let sum: Matrix3<f64> = normals.iter().map(|n| n * n.transpose()).sum();
+        let eigen = SymmetricEigen::new(sum);
+        let n: Vec3 = eigen.eigenvectors.column(eigen.eigenvalues.imax()).normalize();
+        let agreement = normals.iter().map(|m| m.dot(&n).abs()).sum::<f64>() / normals.len() as f64;
+        let axis = Vec3::ith(n.iamin(), 1.0);
+        let u = (axis - n * n.dot(&axis)).normalize();
+        (agreement >= 0.5).then(|| Frame { origin, u, v: n.cross(&u), n })
+    }
+
+    pub fn local(&self, p: &Vec3) -> Vec3 {
+        let d = p - self.origin;
+        Vec3::new(d.dot(&self.u), d.dot(&self.v), d.dot(&self.n))
+    }
+
+    pub fn world(&self, p: &Vec3) -> Vec3 {
+        self.origin + self.u * p.x + self.v * p.y + self.n * p.z
+    }
+}
+
+/// w as a quadratic of u and v.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Quadratic {
+    coefficients: Vector6<f64>,
+    scale: f64,
+    /// Root mean square of what it leaves [m].
+    pub rms: f64,
+}
+
+impl Quadratic {
+    /// Least squares through local places; none for too few, or places on one line.
+    pub fn fit(places: &[Vec3]) -> Option<Quadratic> {
+        if places.len() < 8 {
+            return None;
+        }
+        let scale = places.iter().map(|p| p.x.abs().max(p.y.abs())).fold(0.0, f64::max);
+        let (mut a, mut b) = (Matrix6::zeros(), Vector6::zeros());
+        for p in places {
+            let row = terms(p.x / scale, p.y / scale);
+            a += row * row.transpose();
+            b += row * p.z;
+        }
+        // A trace of ridge: places on a conic leave one term free.
+        a += Matrix6::identity() * (1e-9 * places.len() as f64);
+        let coefficients = a.cholesky()?.solve(&b);
+        let mut fit = Quadratic { coefficients, scale, rms: 0.0 };
+        let left = places.iter().map(|p| (p.z - fit.height(p.x, p.y)).powi(2)).sum::<f64>();
+        fit.rms = (left / places.len() as f64).sqrt();
+        fit.rms.is_finite().then_some(fit)
+    }
+
+    pub fn height(&self, u: f64, v: f64) -> f64 {
+        self.coefficients.dot(&terms(u / self.scale, v / self.scale))
+    }
+
+    /// Area of the surface over an area of the plane [–].
+    pub fn stretch(&self, u: f64, v: f64) -> f64 {
+        let (c, u, v) = (&self.coefficients, u / self.scale, v / self.scale);
+        let along_u = (c[1] + 2.0 * c[3] * u + c[4] * v) / self.scale;
+        let along_v = (c[2] + c[4] * u + 2.0 * c[5] * v) / self.scale;
+        (1.0 + along_u * along_u + along_v * along_v).sqrt()
+    }
+}
+
+fn terms(u: f64, v: f64) -> Vector6<f64> {
+    Vector6::new(1.0, u, v, u * u, u * v, v * v)
+}
+
+/// The sheet of least bending through scattered heights.
+#[derive(Debug, Clone)]
+pub(crate) struct ThinPlate {
+    centres: Vec<(f64, f64)>,
+    /// One a centre, then b₀, b₁, b₂.
+    weights: DVector<f64>,
+    scale: f64,
+}
+
+impl ThinPlate {
+    /// Through places (u, v, height) about `scale` [m] apart, smoothed by `smoothing` [–]; flat zero when they
+    /// do not determine one.
+    pub fn fit(places: &[Vec3], scale: f64, smoothing: f64) -> ThinPlate {
+        let centres: Vec<(f64, f64)> = places.iter().map(|p| (p.x / scale, p.y / scale)).collect();
+        let n = centres.len();
+        let mut a = DMatrix::zeros(n + 3, n + 3);
+        for (i, p) in centres.iter().enumerate() {
+            for (j, q) in centres.iter().enumerate() {
+                a[(i, j)] = kernel(*p, *q);
+            }
+            a[(i, i)] = smoothing;
+            for (k, value) in [1.0, p.0, p.1].into_iter().enumerate() {
+                a[(i, n + k)] = value;
+                a[(n + k, i)] = value;
+            }
+        }
+        let mut heights: Vec<f64> = places.iter().map(|p| p.z).collect();
+        heights.extend([0.0; 3]);
+        let solved = a.lu().solve(&DVector::from_vec(heights)).filter(|w| w.iter().all(|x| x.is_finite()));
+        match solved {
+            Some(weights) if n >= 3 => ThinPlate { centres, weights, scale },
+            _ => ThinPlate { centres: Vec::new(), weights: DVector::zeros(3), scale },
+        }
+    }
+
+    pub fn height(&self, u: f64, v: f64) -> f64 {
+        let (u, v, n) = (u / self.scale, v / self.scale, self.centres.len());
+        let bent: f64 =
+            self.centres.iter().zip(self.weights.iter()).map(|(c, w)| w * kernel(*c, (u, v))).sum();
+        bent + self.weights[n] + self.weights[n + 1] * u + self.weights[n + 2] * v
+    }
+}
+
+fn kernel(p: (f64, f64), q: (f64, f64)) -> f64 {
+    let r2 = (p.0 - q.0) * (p.0 - q.0) + (p.1 - q.1) * (p.1 - q.1);
+    if r2 > 0.0 { 0.5 * r2 * libm::log(r2) } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ring(height: impl Fn(f64, f64) -> f64) -> Vec<Vec3> {
+        let turn = |i: i32| f64::from(i) * 0.17;
+        (0..150)
+            .map(|i| {
+                let r = 1.0 + 0.2 * f64::from(i % 4);
+                let (u, v) = (r * turn(i).cos(), r * turn(i).sin());
+                Vec3::new(u, v, height(u, v))
+            })
+            .collect()
+    }
+
+    #[test]
+    fn a_quadratic_is_found_again() {
+        let truth = |u: f64, v: f64| 1.0 + 0.1 * u - 0.2 * v + 0.3 * u * u - 0.1 * u * v + 0.05 * v * v;
+        let fit = Quadratic::fit(&ring(truth)).unwrap();
+        assert!(fit.rms < 1e-6 && (fit.height(0.1, 0.2) - truth(0.1, 0.2)).abs() < 1e-6);
+        let slope = (1.0f64 + 0.1 * 0.1 + 0.2 * 0.2).sqrt();
+        assert!((fit.stretch(0.0, 0.0) - slope).abs() < 1e-6);
+    }
+
+    #[test]
+    fn the_plate_spans_a_hole_in_a_cylinder() {
+        // Radius 4 around a hole of radius 1: the quadratic alone leaves its fourth order.
+        let truth = |u: f64, _: f64| 4.0 - (16.0 - u * u).sqrt();
+        let places = ring(truth);
+        let fit = Quadratic::fit(&places).unwrap();
+        let left: Vec<Vec3> =
+            places.iter().map(|p| Vec3::new(p.x, p.y, p.z - fit.height(p.x, p.y))).collect();
+        let plate = ThinPlate::fit(&left, 0.2, 1.0);
+        for (u, v) in [(0.0, 0.0), (0.5, 0.3), (-0.8, 0.1), (0.0, 0.9)] {
+            let error = fit.height(u, v) + plate.height(u, v) - truth(u, v);
+            assert!(error.abs() < 0.002, "{error}");
+        }
+    }
+
+    #[test]
+    fn too_little_is_no_fit() {
+        assert!(Quadratic::fit(&[Vec3::zeros(); 5]).is_none());
+        let nothing = ThinPlate::fit(&[Vec3::x(); 2], 1.0, 1.0);
+        assert_eq!(nothing.height(3.0, 4.0), 0.0);
+        assert!(Frame::new(Vec3::zeros(), &[Vec3::x(), Vec3::x(), -Vec3::x()]).is_some());
+    }
+}
