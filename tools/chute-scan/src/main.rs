@@ -18,6 +18,9 @@ struct Args {
     /// Radius of the blind spot [m], 0 for none
     #[arg(long, value_name = "M", default_value_t = 0.12, value_parser = length)]
     blind: f64,
+    /// Angle of the chute's axis below the horizontal [degrees]
+    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
+    tilt_deg: f64,
     #[command(flatten)]
     seed: cli::Seed,
     #[command(flatten)]
@@ -30,6 +33,7 @@ fn main() -> ExitCode {
             points: args.points as usize,
             noise: args.noise,
             blind: args.blind,
+            tilt: args.tilt_deg.to_radians(),
             seed: args.seed.seed,
         };
         let cloud = scan.cloud();
@@ -40,6 +44,7 @@ fn main() -> ExitCode {
             .with("points", args.points)
             .with("noise_m", args.noise)
             .with("blind_m", args.blind)
+            .with("tilt_deg", args.tilt_deg)
             .with("seed", args.seed.seed))
     })
 }

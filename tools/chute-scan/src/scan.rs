@@ -6,6 +6,7 @@
 //! blind    no point within `blind` [m] of x = 1.7 m, θ = 0.2, along the surface
 //! mounting x < 0: a ring plate at x = −0.03 m (radii 0.46 … 0.65 m) and a sleeve (R = 0.5 m) behind it
 //! noise    normal, the same along each axis
+//! tilt     the whole turned about y, so that the far end goes down
 //! ```
 
 use cloud::Cloud;
@@ -29,6 +30,8 @@ pub struct Scan {
     pub noise: f64,
     /// [m]
     pub blind: f64,
+    /// [rad]
+    pub tilt: f64,
     pub seed: u64,
 }
 
@@ -44,16 +47,28 @@ impl Scan {
             let ray = p - Vec3::new(-SCANNER, 0.0, 0.0);
             let facing = (ray.dot(&normal) / ray.norm()).abs();
             intensity.push((4000.0 * facing / ray.norm_squared()).clamp(1.0, 65535.0) as u16);
-            points.push(p + Vec3::new(random.normal(), random.normal(), random.normal()) * self.noise);
+            let noisy = p + Vec3::new(random.normal(), random.normal(), random.normal()) * self.noise;
+            points.push(self.tilted(noisy));
         }
         let mut attributes = Table::with_rows(points.len());
         let pushed = attributes.push("intensity", Values::U16(intensity));
         debug_assert!(pushed.is_ok());
         let comments = vec![
             "synthetic scan of a swivel chute, made by chute-scan".to_owned(),
-            format!("seed {} noise {} m blind spot {} m", self.seed, self.noise, self.blind),
+            format!(
+                "seed {} noise {} m blind spot {} m tilt {} deg",
+                self.seed,
+                self.noise,
+                self.blind,
+                self.tilt.to_degrees()
+            ),
         ];
         Cloud { points, attributes, comments, ..Cloud::default() }
+    }
+
+    fn tilted(&self, p: Vec3) -> Vec3 {
+        let (sin, cos) = (libm::sin(self.tilt), libm::cos(self.tilt));
+        Vec3::new(p.x * cos + p.z * sin, p.y, p.z * cos - p.x * sin)
     }
 
     /// A place on the half pipe and the normal there.
@@ -110,7 +125,7 @@ mod tests {
 
     #[test]
     fn the_blind_spot_is_empty_and_the_mounting_end_is_there() {
-        let cloud = Scan { points: 20_000, noise: 0.0, blind: 0.12, seed: 0 }.cloud();
+        let cloud = Scan { points: 20_000, noise: 0.0, blind: 0.12, tilt: 0.0, seed: 0 }.cloud();
         let radius = 0.45 - 0.05 * 1.7 / 3.0;
         let centre = Vec3::new(1.7, radius * libm::sin(0.2), -radius * libm::cos(0.2));
         assert!(cloud.points.iter().all(|p| (p - centre).norm() > 0.115));
@@ -121,7 +136,7 @@ mod tests {
 
     #[test]
     fn a_seed_gives_the_same_scan() {
-        let scan = |seed| Scan { points: 100, noise: 0.001, blind: 0.1, seed }.cloud();
+        let scan = |seed| Scan { points: 100, noise: 0.001, blind: 0.1, tilt: 0.0, seed }.cloud();
         assert_eq!(scan(3), scan(3));
         assert_ne!(scan(3), scan(4));
     }
