@@ -23,10 +23,10 @@ pub use picture::{Image, Part, PictureOptions};
 pub enum Role {
     /// Moving particles: coloured by a field.
     Grains,
-    /// Wall spheres: grey, and translucent where they hide grains.
-    Walls,
-    /// Points of a scan, which have no radius of their own.
+    /// Points of a scan, which have no radius of their own: coloured when there are no grains.
     Cloud,
+    /// Wall spheres: grey, and translucent where they hide anything else.
+    Walls,
 }
 
 impl Role {

@@ -75,3 +75,28 @@ fn an_empty_page_and_an_unknown_colour_are_refused() {
     let message = page(1, options).html().expect_err("unknown").to_string();
     assert!(message.contains("'warmth'") && message.contains("speed"), "{message}");
 }
+
+#[test]
+fn frames_and_layers_without_grains_are_numbers_too() {
+    let mut page = Page::new(PageOptions::default());
+    let (run, none) = (page.layer(Role::Grains, "run.mcap"), page.layer(Role::Walls, "walls"));
+    page.push(run, 0.0, &grains(0, 0.0)).expect("empty");
+    page.push(run, 0.1, &grains(10, 0.1)).expect("whole");
+    page.push(none, 0.0, &grains(0, 0.0)).expect("empty");
+    let html = page.html().expect("written");
+    let header =
+        html.split("id=\"header\">").nth(1).and_then(|s| s.split("</script>").next()).expect("there");
+    let header: serde_json::Value = serde_json::from_str(header).expect("JSON");
+    let layers = header["layers"].as_array().expect("layers");
+    assert_eq!(layers.len(), 1);
+    let numbers =
+        |v: &serde_json::Value| v.as_array().is_some_and(|a| a.iter().all(serde_json::Value::is_number));
+    assert!(
+        layers[0]["frames"]
+            .as_array()
+            .expect("frames")
+            .iter()
+            .all(|f| numbers(&f["lo"]) && numbers(&f["hi"]))
+    );
+    assert!(numbers(&layers[0]["lo"]) && numbers(&layers[0]["fields"][0]["shown"]));
+}

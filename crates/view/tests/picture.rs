@@ -114,7 +114,8 @@ fn what_cannot_be_drawn_is_named() {
     let table = table(&[[0.0, 0.0, 0.0, 1.0]], &[0.0]);
     let part = Part { role: Role::Grains, name: "run".into(), table: &table, kinds: vec![] };
     let options = PictureOptions { colour: Some("warmth".into()), ..PictureOptions::default() };
-    let message = picture::draw(std::slice::from_ref(&part), &options).expect_err("no such field").to_string();
+    let message =
+        picture::draw(std::slice::from_ref(&part), &options).expect_err("no such field").to_string();
     assert!(message.contains("'warmth'") && message.contains("load"), "{message}");
     let small = PictureOptions { width: 3, ..PictureOptions::default() };
     assert!(picture::draw(&[part], &small).expect_err("too small").to_string().contains("3 x 1080"));

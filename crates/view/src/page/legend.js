@@ -50,6 +50,10 @@ function showLegend() {
   for (let k = Math.ceil((lo - 1e-6 * step) / step); k * step <= hi + 1e-6 * step; k++) {
     bar.append(element("span", number(k * step, decimals), { bottom: `${100 * (k * step - lo) / (hi - lo)}%` }));
   }
+  // A bar ends in a point where some values lie beyond it.
+  const slack = 1e-6 * (state.shown[1] - state.shown[0]);
+  const beyond = [about.all[0] < state.shown[0] - slack, about.all[1] > state.shown[1] + slack];
+  beyond.forEach((on, end) => { if (on) bar.append(Object.assign(element("b", undefined, { background: stops[end ? stops.length - 1 : 0] }), { className: end ? "above" : "below" })); });
   legend.append(bar);
   legend.setAttribute("aria-label", `Colour scale: ${about.name} from ${number(lo, decimals)} to ${number(hi, decimals)} ${about.unit}`);
 }

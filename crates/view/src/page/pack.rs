@@ -11,6 +11,9 @@ use std::sync::Arc;
 /// How much wider than needed a box is made, so that the next frames fit in it too [–].
 const ROOM: f64 = 0.02;
 
+/// The range of a column without a number in it.
+const NO_RANGE: Range = Range { lo: 0.0, hi: 0.0 };
+
 /// A column of packed numbers.
 #[derive(Clone)]
 pub(crate) struct Column {
@@ -24,6 +27,7 @@ pub(crate) struct Column {
 
 impl Column {
     fn new(values: &[f64], range: Range, width: usize, last: Option<&Column>) -> Column {
+        let range = if range.lo > range.hi { NO_RANGE } else { range };
         let mut bytes = Vec::with_capacity(values.len() * width);
         for &v in values {
             quantise(v, range, width, &mut bytes);
@@ -129,6 +133,9 @@ fn whole(all: Range) -> Range {
 
 /// The last frame's range where it still fits, so that what rests keeps its bytes; else a slightly wider one.
 fn roomy(needed: Range, last: Option<Range>) -> Range {
+    if needed.lo > needed.hi {
+        return NO_RANGE; // a frame without grains
+    }
     let width = needed.hi - needed.lo;
     match last {
         Some(l) if l.lo <= needed.lo && l.hi >= needed.hi && l.hi - l.lo <= 1.3 * width => l,

@@ -24,11 +24,13 @@ function play(on) {
   byId("play").setAttribute("aria-label", state.playing ? "Pause" : "Play");
 }
 
-// The speed at which the run takes about ten seconds, or its own where that is bearable.
+// The speed at which frames follow each other fast enough to be seen as motion, and slowly enough to be followed:
+// real time where that takes 3 to 30 seconds.
 function naturalSpeed() {
   const length = clock[clock.length - 1] - clock[0];
-  if (length >= 2 && length <= 30) return 1;
-  return SPEEDS.find((s) => length / s <= 10) || SPEEDS[SPEEDS.length - 1];
+  if (length >= 3 && length <= 30) return 1;
+  const wanted = Math.max(3, Math.min(12, clock.length / 15));
+  return SPEEDS.find((s) => length / s <= wanted) || SPEEDS[SPEEDS.length - 1];
 }
 
 function advance(now) {

@@ -65,8 +65,7 @@ impl Page {
     /// # Errors
     /// Nothing to show, or no layer has the field to colour by.
     pub fn check(&self) -> Result<(), ViewError> {
-        let shown = |l: &&Layer| l.frames.iter().any(|f| f.count > 0);
-        let layers: Vec<&Layer> = self.layers.iter().filter(shown).collect();
+        let layers: Vec<&Layer> = self.layers.iter().filter(is_shown).collect();
         if layers.is_empty() {
             return Err(ViewError::Empty);
         }
@@ -127,9 +126,14 @@ impl Page {
             },
             "given": kept.given, "stride": kept.stride,
             "positionError": kept.position_error, "radiusError": kept.radius_error,
-            "layers": self.layers.iter().filter(|l| !l.frames.is_empty()).map(|l| layer(l, blobs)).collect::<Vec<_>>(),
+            "layers": self.layers.iter().filter(is_shown).map(|l| layer(l, blobs)).collect::<Vec<_>>(),
         })
     }
+}
+
+/// Whether the layer has anything in it, ever.
+fn is_shown(layer: &&Layer) -> bool {
+    layer.frames.iter().any(|f| f.count > 0)
 }
 
 fn layer<'a>(layer: &'a Layer, blobs: &mut Blobs<'a>) -> Value {

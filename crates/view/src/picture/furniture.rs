@@ -80,7 +80,7 @@ fn bar(pen: &mut Pen, [w, h]: [f64; 2], text: f64, key: &Key, map: Map) {
     for tick in ticks {
         let y = bottom - (bottom - top) * range.share(tick / factor);
         pen.strokes(&[[[left + width, y], [left + width + 0.4 * text, y]]], (0.09 * text).max(1.0));
-        pen.text([left + width + 0.9 * text, y + 0.5 * text], text, Anchor::Left, &number(tick, decimals));
+        pen.text([left + width + 1.25 * text, y + 0.5 * text], text, Anchor::Left, &number(tick, decimals));
     }
     let title = if unit.is_empty() { field.clone() } else { format!("{field} [{unit}]") };
     pen.text([w - 0.9 * text, top - width - 1.3 * text], text, Anchor::Right, &title);

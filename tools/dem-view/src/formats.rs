@@ -1,0 +1,73 @@
+//! What the command line's words stand for.
+
+use cli::Output;
+use view::{Camera, Map};
+
+/// What is written.
+pub enum Format {
+    Html,
+    Png,
+}
+
+/// Formats of the contract that come later.
+const LATER: [&str; 4] = ["gif", "mp4", "vtp", "pvd"];
+
+impl Format {
+    /// By the ending of the output's name; HTML to stdout.
+    pub fn of(output: &Output) -> anyhow::Result<Format> {
+        if output.path().is_none() || output.has_extension("html") || output.has_extension("htm") {
+            return Ok(Format::Html);
+        }
+        if output.has_extension("png") {
+            return Ok(Format::Png);
+        }
+        let name = output.name();
+        Err(match LATER.iter().find(|ending| output.has_extension(ending)) {
+            Some(ending) => {
+                cli::usage(format!("-o {name}: .{ending} is not available yet: use .html or .png"))
+            }
+            None => cli::usage(format!("-o {name}: cannot tell what to write: use a name in .html or .png")),
+        })
+    }
+}
+
+/// `LO,HI`.
+pub fn range(text: &str) -> Result<[f64; 2], String> {
+    let ends: Vec<f64> = text.split(',').filter_map(|part| part.trim().parse().ok()).collect();
+    match ends[..] {
+        [lo, hi] if lo < hi && lo.is_finite() && hi.is_finite() => Ok([lo, hi]),
+        _ => Err("give two numbers, the lower first: 0,1.5".into()),
+    }
+}
+
+/// The name of a colour map.
+pub fn map(text: &str) -> Result<Map, String> {
+    Map::named(text).ok_or_else(|| "viridis or turbo".into())
+}
+
+/// A view direction.
+pub fn camera(text: &str) -> Result<Camera, String> {
+    text.parse::<Camera>().map_err(|e| e.to_string())
+}
+
+/// `WxH`.
+pub fn size(text: &str) -> Result<[u32; 2], String> {
+    let sides: Vec<u32> = text.split('x').filter_map(|part| part.parse().ok()).collect();
+    match sides[..] {
+        [w, h] if (64..=16384).contains(&w) && (64..=16384).contains(&h) => Ok([w, h]),
+        _ => Err("give width x height, 64 to 16384 each, as 1920x1080".into()),
+    }
+}
+
+/// 0 to 1.
+pub fn share(text: &str) -> Result<f64, String> {
+    text.parse().ok().filter(|v| (0.0..=1.0).contains(v)).ok_or_else(|| "give a number from 0 to 1".into())
+}
+
+/// A size above nothing.
+pub fn megabytes(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|v| *v > 0.0 && *v <= 1e6)
+        .ok_or_else(|| "give a number of megabytes above 0".into())
+}

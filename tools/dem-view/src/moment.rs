@@ -1,0 +1,60 @@
+//! One moment of everything, for a picture.
+
+use crate::inputs::Show;
+use stream::Table;
+use view::{Part, Role, ViewError};
+
+/// One thing, as it is at the moment.
+struct Layer {
+    role: Role,
+    name: String,
+    kinds: Vec<String>,
+    shown: Option<(f64, Table)>,
+}
+
+/// The last state of each layer that is not after a time.
+pub struct Moment {
+    until: f64,
+    layers: Vec<Layer>,
+}
+
+impl Moment {
+    /// At `time` [s], or at the end.
+    pub fn at(time: Option<f64>) -> Moment {
+        Moment { until: time.unwrap_or(f64::INFINITY), layers: Vec::new() }
+    }
+
+    /// The time of the grains shown [s].
+    pub fn time(&self) -> Option<f64> {
+        let grains = self.layers.iter().filter(|l| l.role == Role::Grains);
+        grains.filter_map(|l| l.shown.as_ref()).map(|(time, _)| *time).reduce(f64::max)
+    }
+
+    /// What to draw.
+    pub fn parts(&self) -> Vec<Part<'_>> {
+        let shown = self.layers.iter().filter_map(|l| l.shown.as_ref().map(|(_, table)| (l, table)));
+        shown
+            .map(|(l, table)| Part { role: l.role, name: l.name.clone(), table, kinds: l.kinds.clone() })
+            .collect()
+    }
+}
+
+impl Show for Moment {
+    fn layer(&mut self, role: Role, name: &str) -> usize {
+        self.layers.push(Layer { role, name: name.to_owned(), kinds: Vec::new(), shown: None });
+        self.layers.len() - 1
+    }
+
+    fn kinds(&mut self, layer: usize, kinds: Vec<String>) {
+        self.layers[layer].kinds = kinds;
+    }
+
+    fn push(&mut self, layer: usize, time: f64, table: Table) -> Result<(), ViewError> {
+        let shown = &mut self.layers[layer].shown;
+        // A hair of slack: 0.3 s is stored in nanoseconds.
+        if shown.is_none() || time <= self.until + 1e-9 {
+            *shown = Some((time, table));
+        }
+        Ok(())
+    }
+}
