@@ -6,6 +6,7 @@ use serde_json::Value;
 use std::{
     fs,
     io::{Read, Write},
+    os::unix::fs::FileTypeExt,
     path::Path,
     process::{Child, Command, ExitCode, Output, Stdio},
     time::{Duration, Instant},
@@ -120,14 +121,19 @@ fn links_and_pipes_stay(folder: &Path) {
     std::os::unix::fs::symlink("real", folder.join("link")).unwrap();
     assert!(run(folder, &["write", "-o", "link"]).status.success());
     assert!(folder.join("link").is_symlink() && fs::read(folder.join("real")).unwrap().len() > 3);
-    assert!(run(folder, &["write", "-o", "/dev/null"]).status.success());
-    assert!(!fs::metadata("/dev/null").unwrap().is_file());
-    assert!(Command::new("mkfifo").arg(folder.join("pipe")).status().unwrap().success());
-    let child = start(folder, &["write", "-o", "pipe"]);
-    let mut bytes = Vec::new();
-    fs::File::open(folder.join("pipe")).unwrap().read_to_end(&mut bytes).unwrap();
-    assert!(child.wait_with_output().unwrap().status.success());
-    assert_eq!(bytes, fs::read(folder.join("real")).unwrap());
+    // A named pipe of our own stands for every device: a broken build must not replace a real one.
+    let pipe = folder.join("pipe");
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let received = fs::File::create(folder.join("received")).unwrap();
+    let mut reader = Command::new("cat").arg(&pipe).stdout(received).spawn().unwrap();
+    let written = run(folder, &["write", "-o", "pipe"]).status.success();
+    let stayed = fs::metadata(&pipe).unwrap().file_type().is_fifo();
+    if !(written && stayed) {
+        reader.kill().unwrap();
+    }
+    reader.wait().unwrap();
+    assert!(written && stayed, "written {written}, still a pipe {stayed}");
+    assert_eq!(fs::read(folder.join("received")).unwrap(), fs::read(folder.join("real")).unwrap());
     let out = run(folder, &["write", "-o", "."]);
     assert!(text(&out.stderr).contains("is a folder"));
     let out = run(folder, &["write", "-o", "no/such/out.bin"]);
@@ -209,7 +215,7 @@ fn pipes_and_files_give_the_same_bytes(folder: &Path) {
     assert_eq!(fs::read(folder.join("out.ply")).unwrap(), by_pipe.stdout);
     let says = |arguments: &[&str]| text(&run(folder, &[&["arguments"], arguments].concat()).stdout);
     assert_eq!(
-        says(&["in.ply", "--seed", "3", "-o", "/dev/null", "-q"]),
+        says(&["in.ply", "--seed", "3", "-o", "out.ply", "-q"]),
         says(&["--seed=3", "--threads", "1", "-"])
     );
     assert_eq!(says(&["--seed=3"]).trim(), "[\"arguments\", \"--seed=3\"]");
