@@ -10,3 +10,4 @@ pub fn skip(program: &str) {
     assert!(std::env::var_os("CI").is_none(), "{program} is missing: install it, this test must run in CI");
     eprintln!("skipped: {program} not found");
 }
+pub mod tools;

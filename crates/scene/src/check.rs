@@ -1,6 +1,6 @@
 //! Values that a key may have.
 
-use crate::error::{SceneError, nearest};
+use crate::error::{SceneError, ValueError, nearest};
 use crate::model::{Diameter, Model, OrAuto, Wall};
 use crate::text::Text;
 use std::fmt::Display;
@@ -15,13 +15,13 @@ type Checked = Result<(), SceneError>;
 impl Check<'_> {
     /// The error for a key's value.
     pub(crate) fn wrong(&self, key: &str, value: impl Display, why: &str, cure: &str) -> SceneError {
-        SceneError::Value {
+        SceneError::Value(Box::new(ValueError {
             place: self.text.place(key),
             key: key.to_owned(),
             value: value.to_string(),
             why: why.to_owned(),
             cure: cure.to_owned(),
-        }
+        }))
     }
 
     /// A number above zero.

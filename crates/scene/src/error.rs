@@ -33,14 +33,30 @@ pub enum SceneError {
     UnknownKey { place: Place, key: String, hint: String },
     #[error("{place}: not available yet: '{key}'; {instead}")]
     NotYet { place: Place, key: String, instead: &'static str },
-    #[error("{place}: {key} = {value}: {why}; {cure}")]
-    Value { place: Place, key: String, value: String, why: String, cure: String },
+    #[error(transparent)]
+    Value(Box<ValueError>),
     #[error("--set {text}: {why}")]
     Override { text: String, why: String },
     #[error("{name}: {why}; {cure}")]
     File { name: String, why: String, cure: String },
     #[error("{name}: cannot be read as {wanted}")]
     Content { name: String, wanted: &'static str, source: Box<dyn std::error::Error + Send + Sync + 'static> },
+}
+
+/// A value that a key cannot have.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("{place}: {key} = {value}: {why}; {cure}")]
+pub struct ValueError {
+    /// Where it is written.
+    pub place: Place,
+    /// The dotted key.
+    pub key: String,
+    /// The value and its unit.
+    pub value: String,
+    /// What is wrong with it.
+    pub why: String,
+    /// What to do.
+    pub cure: String,
 }
 
 impl SceneError {

@@ -16,19 +16,18 @@ fn numbers(precision: Precision, values: impl Iterator<Item = f64>) -> Values {
 
 /// The table of the topic `/particles`.
 pub fn particles(rows: &[Particle], precision: Precision) -> Table {
-    let mut table = Builder::new(rows.len());
-    let place = |p: &Particle| p.position;
-    let vectors: [([&str; 3], fn(&Particle) -> geom::Vec3); 3] =
-        [(["x", "y", "z"], place), (["vx", "vy", "vz"], |p| p.velocity), (["wx", "wy", "wz"], |p| p.spin)];
-    for (n, (names, of)) in vectors.into_iter().enumerate() {
-        for (axis, name) in names.into_iter().enumerate() {
-            table = table.with(name, numbers(precision, rows.iter().map(|p| of(p)[axis])));
-        }
-        if n == 0 {
-            table = table.with("radius", numbers(precision, rows.iter().map(|p| p.radius)));
-        }
-    }
-    table
+    let one = |of: &dyn Fn(&Particle) -> f64| numbers(precision, rows.iter().map(of));
+    Builder::new(rows.len())
+        .with("x", one(&|p| p.position.x))
+        .with("y", one(&|p| p.position.y))
+        .with("z", one(&|p| p.position.z))
+        .with("radius", one(&|p| p.radius))
+        .with("vx", one(&|p| p.velocity.x))
+        .with("vy", one(&|p| p.velocity.y))
+        .with("vz", one(&|p| p.velocity.z))
+        .with("wx", one(&|p| p.spin.x))
+        .with("wy", one(&|p| p.spin.y))
+        .with("wz", one(&|p| p.spin.z))
         .with("id", Values::U32(rows.iter().map(|p| p.id).collect()))
         .with("material", Values::U16(rows.iter().map(|p| p.material).collect()))
         .0

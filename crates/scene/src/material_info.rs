@@ -50,7 +50,7 @@ pub fn from_map(stream: &str, map: &BTreeMap<String, String>) -> Result<Vec<Mate
 pub(crate) fn to_map(materials: &[dem::setup::Material]) -> BTreeMap<String, String> {
     let info = |m: &dem::setup::Material| MaterialInfo {
         name: m.name.clone(),
-        density: (m.density > 0.0).then_some(m.density),
+        density: (m.density > crate::plan::NO_DENSITY).then_some(m.density),
         young: Some(m.young),
         poisson: Some(m.poisson),
         friction: None,

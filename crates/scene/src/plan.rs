@@ -28,6 +28,9 @@ pub struct Plan {
     pub sizes: Option<Sizes>,
 }
 
+/// Density of materials that no particle is made of [kg/m³].
+pub(crate) const NO_DENSITY: f64 = f64::MIN_POSITIVE;
+
 /// Where particles come from while the run goes on.
 pub(crate) struct Feeds {
     pub faucets: Vec<Faucet>,
@@ -352,6 +355,8 @@ impl<'a> Draft<'a> {
         let largest = sizes.map_or(0.0, |s| s.largest);
         let contacts = contacts::resolve(&self.check, &model.contact, &self.materials, largest)?;
         let contacts = self.meeting(contacts);
+        // The engine wants a density of every material, also of walls, whose mass plays no part.
+        self.materials.iter_mut().filter(|m| m.density == 0.0).for_each(|m| m.density = NO_DENSITY);
         self.entry_materials.sort_unstable();
         self.entry_materials.dedup();
         let entries = self.entry_sizes;

@@ -36,13 +36,13 @@ const FRAME: &str = "world";
 #[derive(Debug, Error)]
 #[allow(missing_docs)]
 pub enum RunError {
-    #[error("scene")]
+    #[error("{0}")]
     Scene(#[from] SceneError),
-    #[error("scene")]
+    #[error("{0}")]
     Setup(#[from] SetupError),
-    #[error("run")]
+    #[error("{0}")]
     Mcap(#[from] McapError),
-    #[error("checkpoint")]
+    #[error("{0}")]
     State(#[from] stream::state::StateError),
 }
 
@@ -83,6 +83,9 @@ pub fn ready(scene: &Scene, plan: &Plan) -> Result<(), RunError> {
     let limit = dem::critical_step(&plan.setup)?;
     let dt = match plan.setup.step {
         dem::setup::Step::Auto(share) => share * limit.dt,
+        dem::setup::Step::Fixed(dt) if dt > limit.dt => {
+            return Err(SetupError::StepTooLarge { dt, critical: limit.dt, pair: limit.pair }.into());
+        }
         dem::setup::Step::Fixed(dt) => dt,
     };
     if dt.is_finite() {

@@ -1,0 +1,223 @@
+//! A run is exact, resumes bit for bit, and what stops it leaves a file that can be read.
+
+use grainpipe_tests::tools::{line, succeed, tool};
+use std::fs;
+use std::path::Path;
+use stream::Table;
+use stream::mcap::{Event, Reader};
+use tempfile::{TempDir, tempdir};
+
+const SCENE: &str = r#"gravity = [0, 0, -9.81]
+[time]
+until = 0.12
+[output]
+every = 0.01
+checkpoint = 0.04
+[[material]]
+name = "sinter"
+density = 3300
+young = 2e7
+poisson = 0.25
+[[contact]]
+between = ["*", "*"]
+restitution = 0.5
+sliding_friction = 0.5
+rolling_resistance = 0.1
+[[fill]]
+material = "sinter"
+shape = "cylinder:0,0,0,0,0,0.1,0.04"
+diameter = [0.008, 0.012]
+mass = 0.2
+[[wall]]
+plane = "0,0,0,0,0,1"
+material = "sinter"
+"#;
+
+fn folder(scene: &str) -> TempDir {
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("s.toml"), scene).unwrap();
+    folder
+}
+
+/// Everything of a run that can be read, and whether its end is there.
+fn events(path: &Path) -> (Vec<Event>, bool) {
+    let mut events = Vec::new();
+    for event in Reader::new(fs::File::open(path).unwrap()) {
+        match event {
+            Ok(event) => events.push(event),
+            Err(_) => return (events, false),
+        }
+    }
+    (events, true)
+}
+
+fn frames(path: &Path) -> Vec<(u64, Table)> {
+    let pick = |event| match event {
+        Event::Points { topic, time_ns, table } if topic == "/particles" => Some((time_ns, table)),
+        _ => None,
+    };
+    events(path).0.into_iter().filter_map(pick).collect()
+}
+
+fn checkpoints(path: &Path) -> Vec<Vec<u8>> {
+    let pick = |event| match event {
+        Event::Bytes { topic, data, .. } if topic == "/checkpoint" => Some(data),
+        _ => None,
+    };
+    events(path).0.into_iter().filter_map(pick).collect()
+}
+
+#[test]
+fn a_run_has_its_frames_scene_and_end() {
+    let folder = folder(SCENE);
+    succeed(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap"]);
+    let (events, whole) = events(&folder.path().join("run.mcap"));
+    assert!(whole);
+    let frames = frames(&folder.path().join("run.mcap"));
+    assert_eq!(frames.len(), 13);
+    assert!(frames.iter().enumerate().all(|(k, f)| f.0.abs_diff(k as u64 * 10_000_000) < 100_000));
+    let names: Vec<&str> = frames[0].1.columns().iter().map(|c| c.name.as_str()).collect();
+    assert_eq!(names.join(" "), "x y z radius vx vy vz wx wy wz id material");
+    let scene = events.iter().find_map(|e| match e {
+        Event::Metadata { name, map } if name == "scene" => map.get("toml"),
+        _ => None,
+    });
+    assert_eq!(scene.map(String::as_str), Some(SCENE));
+}
+
+#[test]
+fn threads_change_no_byte() {
+    let folder = folder(SCENE);
+    for threads in ["1", "2", "3"] {
+        succeed(folder.path(), "dem-run", &["s.toml", "-o", threads, "--threads", threads]);
+    }
+    let bytes = |name: &str| fs::read(folder.path().join(name)).unwrap();
+    assert!(bytes("1") == bytes("2") && bytes("1") == bytes("3"));
+}
+
+#[test]
+fn a_resumed_run_goes_on_as_if_it_had_never_stopped() {
+    let folder = folder(SCENE);
+    let path = |name: &str| folder.path().join(name);
+    succeed(folder.path(), "dem-run", &["s.toml", "-o", "whole.mcap"]);
+    succeed(folder.path(), "dem-run", &["s.toml", "--until", "0.055", "-o", "part.mcap"]);
+    succeed(folder.path(), "dem-run", &["s.toml", "--resume", "part.mcap", "-o", "rest.mcap"]);
+    let (whole, rest) = (frames(&path("whole.mcap")), frames(&path("rest.mcap")));
+    assert_eq!(rest.len(), 7, "0.06 to 0.12 s");
+    assert!(whole[6..] == rest[..], "frames after the checkpoint differ");
+    assert!(checkpoints(&path("whole.mcap")).last() == checkpoints(&path("rest.mcap")).last());
+}
+
+#[test]
+fn a_killed_run_is_refused_as_input_and_resumes_from_its_last_checkpoint() {
+    let folder = folder(SCENE);
+    let path = |name: &str| folder.path().join(name);
+    succeed(folder.path(), "dem-run", &["s.toml", "-o", "whole.mcap"]);
+    let done = line(folder.path(), "dem-run s.toml | head -c 9000 > /dev/null");
+    assert_eq!(done.code, 0, "a reader that goes away is no failure: {}", done.stderr);
+    let bytes = succeed(folder.path(), "dem-run", &["s.toml"]).stdout;
+    fs::write(path("killed.mcap"), &bytes[..bytes.len() * 55 / 100]).unwrap();
+    assert!(!events(&path("killed.mcap")).1);
+    assert_eq!(checkpoints(&path("killed.mcap")).len(), 1, "the cut is between two checkpoints");
+    succeed(folder.path(), "dem-run", &["s.toml", "--resume", "killed.mcap", "-o", "rest.mcap"]);
+    let (whole, rest) = (frames(&path("whole.mcap")), frames(&path("rest.mcap")));
+    assert!(whole[5..] == rest[..]);
+    let done = tool(folder.path(), "stage-replay", &["killed.mcap", "-o", "x.mcap"]);
+    assert!(done.code == 1 && !path("x.mcap").exists(), "{}", done.stderr);
+}
+
+#[test]
+fn another_scene_or_a_damaged_run_is_not_resumed() {
+    let folder = folder(SCENE);
+    succeed(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap", "--until", "0.05"]);
+    let resume = |run: &str, set: &str| {
+        tool(folder.path(), "dem-run", &["s.toml", "--resume", run, "--set", set, "-o", "x.mcap"])
+    };
+    for (set, part) in [
+        ("contact.0.restitution=0.4", "contact.0.restitution was 0.5, now 0.4"),
+        ("fill.0.seed=1", "fill.0.seed is new"),
+        ("time.until=0.02", "give a later --until"),
+    ] {
+        let done = resume("run.mcap", set);
+        assert!(done.code == 1 && done.stderr.contains(part), "{set}: {}", done.stderr);
+    }
+    let mut bytes = fs::read(folder.path().join("run.mcap")).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    fs::write(folder.path().join("flipped.mcap"), bytes).unwrap();
+    let done = resume("flipped.mcap", "output.every=0.02");
+    assert!(done.code == 1 && done.stderr.contains("flipped.mcap"), "{}", done.stderr);
+    fs::write(folder.path().join("empty.mcap"), "").unwrap();
+    assert_eq!(resume("empty.mcap", "output.every=0.02").code, 1);
+    assert!(!folder.path().join("x.mcap").exists());
+}
+
+#[test]
+fn a_guard_ends_the_run_with_code_3_a_reason_and_a_checkpoint() {
+    let folder = folder(SCENE);
+    let done = tool(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap", "--set", "guards.overlap=0.01"]);
+    assert_eq!(done.code, 3, "{}", done.stderr);
+    assert!(done.stderr.contains("overlaps") && done.stderr.contains("guards.overlap"), "{}", done.stderr);
+    let (events, whole) = events(&folder.path().join("run.mcap"));
+    assert!(whole, "the file is valid");
+    let log = events.iter().any(|e| {
+        matches!(e, Event::Bytes { topic, data, .. }
+        if topic == "/log" && String::from_utf8_lossy(data).contains("overlaps"))
+    });
+    assert!(log, "the log says why");
+    let last = events.iter().rev().find(|e| !matches!(e, Event::Metadata { .. }));
+    assert!(
+        matches!(last, Some(Event::Bytes { topic, .. }) if topic == "/checkpoint"),
+        "it ends in a checkpoint"
+    );
+}
+
+#[test]
+fn walls_that_move_are_written_with_every_frame() {
+    let scene = SCENE.replace("plane = \"0,0,0,0,0,1\"\nmaterial = \"sinter\"", "");
+    let scene =
+        format!("{scene}motion = {{ rotate = {{ about = [0,0,1], through = [0,0,0], rpm = 60 }} }}\n");
+    let folder = folder(&scene.replace("until = 0.12", "until = 0.05"));
+    write_walls(&folder.path().join("walls.mcap"));
+    succeed(folder.path(), "dem-run", &["s.toml", "walls.mcap", "-o", "run.mcap"]);
+    succeed(folder.path(), "dem-run", &["s.toml", "walls.mcap", "-o", "again.mcap"]);
+    let piped = line(folder.path(), "cat walls.mcap | dem-run s.toml - -o piped.mcap");
+    assert_eq!(piped.code, 0, "{}", piped.stderr);
+    let bytes = |name: &str| fs::read(folder.path().join(name)).unwrap();
+    assert!(bytes("run.mcap") == bytes("again.mcap") && bytes("run.mcap") == bytes("piped.mcap"));
+    let walls: Vec<Table> = events(&folder.path().join("run.mcap"))
+        .0
+        .into_iter()
+        .filter_map(|e| match e {
+            Event::Points { topic, table, .. } if topic == "/walls" => Some(table),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(walls.len(), 6);
+    let place = |t: &Table| (t.get("x").unwrap().get(0), t.get("y").unwrap().get(0));
+    let (before, after) = (place(&walls[0]), place(&walls[5]));
+    let turned = after.1.atan2(after.0) - before.1.atan2(before.0);
+    assert!((turned - 0.05 * 60.0 / 60.0 * std::f64::consts::TAU).abs() < 1e-3, "{turned} rad in 0.05 s");
+    let cut = &fs::read(folder.path().join("walls.mcap")).unwrap()[..2000];
+    fs::write(folder.path().join("cut.mcap"), cut).unwrap();
+    let done = tool(folder.path(), "dem-run", &["s.toml", "cut.mcap", "-o", "x.mcap"]);
+    assert!(done.code == 1 && done.stderr.contains("cut.mcap"), "{}", done.stderr);
+}
+
+/// A floor of wall spheres, of a material that the scene does not know.
+fn write_walls(path: &Path) {
+    let places: Vec<(f64, f64)> =
+        (0..400).map(|i| (f64::from(i % 20) * 0.006 - 0.057, f64::from(i / 20) * 0.006 - 0.057)).collect();
+    let mut table = Table::default();
+    let column = |f: &dyn Fn(&(f64, f64)) -> f64| stream::Values::F64(places.iter().map(f).collect());
+    table.push("x", column(&|p| p.0)).unwrap();
+    table.push("y", column(&|p| p.1)).unwrap();
+    table.push("z", column(&|_| -0.005)).unwrap();
+    table.push("radius", column(&|_| 0.005)).unwrap();
+    table.push("material", stream::Values::U16(vec![0; 400])).unwrap();
+    let mut writer = stream::mcap::Writer::new(fs::File::create(path).unwrap(), &Default::default()).unwrap();
+    let steel = r#"{"name":"steel","young":2e7,"poisson":0.3,"friction":0.4}"#;
+    writer.metadata("materials", [("0".to_owned(), steel.to_owned())].into()).unwrap();
+    writer.points("/walls", 0, "world", &table).unwrap();
+    writer.finish().unwrap();
+}

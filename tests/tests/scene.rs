@@ -1,0 +1,164 @@
+//! Scenes that are wrong are refused with place, value, unit and cure, before anything is written.
+
+use grainpipe_tests::tools::{succeed, tool};
+use std::fs;
+use tempfile::tempdir;
+
+const SCENE: &str = r#"gravity = [0, 0, -9.81]
+[time]
+until = 0.01
+[[material]]
+name = "sinter"
+density = 3300
+young = 5e6
+poisson = 0.25
+[[material]]
+name = "steel"
+young = 2e8
+poisson = 0.3
+[[contact]]
+between = ["sinter", "*"]
+restitution = 0.5
+sliding_friction = 0.5
+[[fill]]
+material = "sinter"
+shape = "box:0,0,0,0.1,0.1,0.1"
+diameter = [0.01, 0.02]
+count = 5
+[[wall]]
+name = "floor"
+plane = "0,0,-0.01,0,0,1"
+material = "steel"
+"#;
+
+/// The message for the scene with one text in the place of another.
+fn refused(from: &str, to: &str) -> String {
+    let folder = tempdir().unwrap();
+    assert!(SCENE.contains(from), "{from}");
+    fs::write(folder.path().join("s.toml"), SCENE.replacen(from, to, 1)).unwrap();
+    let done = tool(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap"]);
+    assert_eq!(done.code, 1, "{to}: {}", done.stderr);
+    assert_eq!(done.stderr.lines().count(), 1, "{}", done.stderr);
+    assert!(!folder.path().join("run.mcap").exists());
+    done.stderr
+}
+
+#[test]
+fn wrong_scenes_say_where_what_and_what_to_do() {
+    let cases: &[(&str, &str, &[&str])] = &[
+        ("poisson = 0.25", "poison = 0.25", &["s.toml:8:1", "'poison'", "did you mean 'poisson'?"]),
+        ("[[fill]]", "[[fil]]", &["s.toml:17:3", "did you mean 'fill'?"]),
+        (
+            "restitution = 0.5",
+            "restitution = 1.5",
+            &["s.toml:15:15", "contact.0.restitution = 1.5", "0 to 1"],
+        ),
+        ("density = 3300", "density = -1", &["material.0.density = -1 kg/m³", "positive"]),
+        ("density = 3300\n", "", &["fill.0.material", "density is missing", "kg/m³"]),
+        ("[0.01, 0.02]", "[0.02, 0.01]", &["fill.0.diameter = [0.02, 0.01] m", "[smallest, largest]"]),
+        ("[0.01, 0.02]", "[10, 200]", &["5 mm is 0.005"]),
+        ("count = 5", "count = 5\nmass = 1", &["fill.0", "mass and count", "only one"]),
+        ("count = 5", "count = 500", &["fit without touching", "kg"]),
+        ("box:0,0,0,0.1,0.1,0.1", "ball:0", &["fill.0.shape", "sphere:x,y,z,r"]),
+        ("\"sinter\", \"*\"", "\"sintr\", \"*\"", &["contact.0.between.0", "did you mean 'sinter'?"]),
+        (
+            "\"sinter\", \"*\"",
+            "\"sinter\", \"sinter\"",
+            &["no law between 'sinter' and 'steel'", "[[contact]]"],
+        ),
+        ("material = \"steel\"\n", "", &["wall.0", "material is missing"]),
+        ("plane = \"0,0,-0.01,0,0,1\"", "mesh = \"no.ply\"", &["no.ply: cannot read the file"]),
+        ("plane = \"0,0,-0.01,0,0,1\"", "source = \"no.mcap\"", &["no.mcap: cannot read the file"]),
+        ("plane = \"0,0,-0.01,0,0,1\"\n", "", &["waits for walls of the command line"]),
+        ("0,0,-0.01,0,0,1", "0,0,-0.01,0,0,0", &["wall.0.plane", "no length"]),
+        ("[time]", "[time]\ndt = 1", &["above the critical step", "sinter"]),
+        ("until = 0.01", "", &["time.until", "--until"]),
+        ("until = 0.01", "until = 0.01\nsteps = 4", &["unknown key 'steps'"]),
+        ("[[wall]]", "[[bond]]\nstrength = 1\n[[wall]]", &["not available yet: 'bond'"]),
+        ("restitution = 0.5", "restitution = 0.5\ncohesion = 1", &["not available yet: 'cohesion'"]),
+        ("restitution = 0.5", "restitution = 0.5\nlaw = \"hook\"", &["did you mean 'hooke'?"]),
+        (
+            "restitution = 0.5",
+            "restitution = 0.5\nlaw = \"hooke\"",
+            &["stiffness or characteristic_velocity is missing"],
+        ),
+        ("restitution = 0.5", "restitution = 0.5\nstiffness = 1e5", &["contact.0.stiffness", "hertz"]),
+        ("gravity = [0, 0, -9.81]", "gravity = -9.81", &["s.toml:1:11"]),
+        (
+            "[[wall]]",
+            "[[outlet]]\nplane = \"0,0,-1,0,0,-1\"\nlength = 0.01\n[[wall]]",
+            &["outlet.0.length = 0.01 m", "largest diameter"],
+        ),
+        (
+            "[[wall]]",
+            "[[inlet]]\nplane = \"0,0,-1,0,0,-1\"\n[[wall]]",
+            &["waits for an inlet of the command line"],
+        ),
+        (
+            "name = \"floor\"",
+            "motion = { rotate = { about = [0,0,0], through = [0,0,0], rpm = 1 } }",
+            &["no direction"],
+        ),
+        (
+            "[[wall]]",
+            "[[contact]]\nbetween = [\"*\", \"steel\"]\nrestitution = 0.1\n[[wall]]",
+            &["contradiction", "sinter and steel"],
+        ),
+    ];
+    for (from, to, parts) in cases {
+        let message = refused(from, to);
+        for part in parts.iter().filter(|p| **p != "contradiction") {
+            assert!(message.contains(part), "{to}: wanted '{part}' in: {message}");
+        }
+    }
+}
+
+#[test]
+fn overrides_change_one_key_and_wrong_ones_are_refused() {
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("s.toml"), SCENE).unwrap();
+    let check = |set: &str| tool(folder.path(), "dem-run", &["s.toml", "--check", "--set", set]);
+    assert_eq!(check("contact.0.restitution=0.3").code, 0);
+    assert_eq!(check("time.dt=1e-6").code, 0);
+    assert_eq!(check("contact.0.law=hertz").code, 0);
+    for (set, part) in [
+        ("time.dt", "'=' is missing"),
+        ("contact.4.restitution=1", "'contact' has entries 0 to 0, no 4"),
+        ("contact.0.restitutio=1", "did you mean 'restitution'?"),
+        ("fill.0.diameter.9=1", "no 9"),
+        ("contact.0.restitution=7", "contact.0.restitution = 7"),
+    ] {
+        let done = check(set);
+        assert!(done.code == 1 && done.stderr.contains(part), "{set}: {}", done.stderr);
+    }
+}
+
+#[test]
+fn explain_names_effects_their_bytes_and_the_limiting_pair() {
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("s.toml"), SCENE).unwrap();
+    let text =
+        |arguments: &[&str]| String::from_utf8(succeed(folder.path(), "dem-run", arguments).stdout).unwrap();
+    let with = text(&["s.toml", "--explain"]);
+    for part in ["limited by     sinter", "sliding_friction", "24", "sinter–steel", "gravity"] {
+        assert!(with.contains(part), "'{part}' in {with}");
+    }
+    let without = text(&["s.toml", "--explain", "--set", "contact.0.sliding_friction=0"]);
+    assert!(!without.contains("sliding_friction") && without.contains("hertz"), "{without}");
+}
+
+#[test]
+fn particles_come_from_csv_and_walls_name_their_own_material() {
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("p.csv"), "id,x,y,z,radius\n7,0,0,0.1,0.01\n9,0.05,0,0.1,0.01\n").unwrap();
+    let from_file = SCENE.replace(
+        "shape = \"box:0,0,0,0.1,0.1,0.1\"\ndiameter = [0.01, 0.02]\ncount = 5",
+        "source = \"p.csv\"",
+    );
+    fs::write(folder.path().join("s.toml"), from_file.replace("[[fill]]", "[[particles]]")).unwrap();
+    let done = succeed(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap"]);
+    assert!(done.stderr.contains("2 particles"), "{}", done.stderr);
+    fs::write(folder.path().join("p.csv"), "id,x,y,z,radius\n7,0,0,0.1,0.01\n7,0.05,0,0.1,0.01\n").unwrap();
+    let done = tool(folder.path(), "dem-run", &["s.toml", "-o", "run2.mcap"]);
+    assert!(done.code == 1 && done.stderr.contains("id 7 is used twice"), "{}", done.stderr);
+}
