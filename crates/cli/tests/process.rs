@@ -105,6 +105,8 @@ fn a_panic_leaves_nothing(folder: &Path) {
 
 fn a_signal_leaves_nothing(folder: &Path) {
     let mut child = start(folder, &["wait", "-o", "out.bin"]);
+    // `wait` would close it, and the tool would end well before the signal arrives.
+    let stdin = child.stdin.take();
     let deadline = Instant::now() + Duration::from_secs(20);
     while names(folder).is_empty() {
         assert!(Instant::now() < deadline, "the tool did not start");
@@ -113,6 +115,7 @@ fn a_signal_leaves_nothing(folder: &Path) {
     let sent = Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap();
     assert!(sent.success());
     let status = child.wait().unwrap();
+    drop(stdin);
     assert_eq!((status.code(), names(folder)), (None, vec![]));
 }
 
