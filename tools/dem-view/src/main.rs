@@ -30,7 +30,7 @@ struct Args {
     /// Colour map: viridis or turbo
     #[arg(long, value_name = "NAME", value_parser = formats::map, default_value = "viridis")]
     map: Map,
-    /// Time to show [s]; HTML: show it first, paused; PNG: the last frame not after it [default: the last]
+    /// Time to show [s]; HTML: show it first, paused; PNG: the last frame not after it [default: the last with grains in it]
     #[arg(long, value_name = "S")]
     time: Option<f64>,
     /// iso, top, bottom, front, back, left, right, or the eye's x,y,z and, after it, the point looked at [m]

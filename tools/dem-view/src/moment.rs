@@ -51,6 +51,10 @@ impl Show for Moment {
 
     fn push(&mut self, layer: usize, time: f64, table: Table) -> Result<(), ViewError> {
         let shown = &mut self.layers[layer].shown;
+        // Without a time asked for, the last frame with anything in it: in the end all grains may have left.
+        if self.until.is_infinite() && table.rows() == 0 && shown.is_some() {
+            return Ok(());
+        }
         // A hair of slack: 0.3 s is stored in nanoseconds.
         if shown.is_none() || time <= self.until + 1e-9 {
             *shown = Some((time, table));
