@@ -187,7 +187,7 @@ impl Near {
 
     fn slot(&self, x: i64, y: i64) -> Option<usize> {
         let inside = (0..self.side.0 as i64).contains(&x) && (0..self.side.1 as i64).contains(&y);
-        inside.then_some(y as usize * self.side.0 + x as usize)
+        inside.then(|| y as usize * self.side.0 + x as usize)
     }
 
     fn add(&mut self, p: Vec3) {

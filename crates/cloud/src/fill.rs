@@ -150,7 +150,10 @@ impl Patch {
         let packing = if settings.method == Method::Grid { 1.0 } else { PACKING };
         let spacing = settings.spacing.unwrap_or((packing / cover.density).sqrt());
         let seed = settings.seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(number);
-        let local = throw(hole, &cover, settings.method, spacing, seed);
+        let mut local = throw(hole, &cover, settings.method, spacing, seed);
+        if !settings.regions.is_empty() {
+            local.retain(|p| settings.regions.iter().any(|shape| shape.contains(&hole.frame.world(p))));
+        }
         report = HoleReport {
             density: cover.density,
             spacing,

@@ -29,6 +29,9 @@ const FEWEST_CELLS: usize = 6;
 const FEWEST_ENDS: usize = 4;
 /// How far the window makes a hole look smaller than it is, in cells.
 pub(crate) const GROW: f64 = 2.5;
+/// Points this far off the surface of a patch, as a share of its radius, still cover it: a stone that rises out of
+/// its shadow is no hole in the ground. A wall scanned from both sides must be thicker, or cropped to one side.
+const COVERS: f64 = 0.5;
 /// Most cells of one patch.
 const MOST_CELLS: f64 = 16e6;
 
@@ -145,15 +148,18 @@ impl<'a> Patch<'a> {
     fn holes(&self, points: &[Vec3], sheet: &Sheet, rows: &[u32], search: &Search) -> Vec<Hole> {
         let Some(surface) = self.surface(sheet) else { return Vec::new() };
         let tolerance = (3.0 * surface.rms).max(1.5 * sheet.cell);
-        let on_sheet = |p: &Vec3| (p.z - surface.height(p.x, p.y)).abs() <= tolerance;
-        let local = rows.iter().map(|&r| (r, self.frame.local(&points[r as usize])));
+        let off = |p: &Vec3| (p.z - surface.height(p.x, p.y)).abs();
         let raster = Raster::new(self.radius, sheet.cell / CELLS);
-        let inside = |p: &Vec3| raster.at(p.x, p.y).is_some();
-        let around: Vec<(u32, Vec3)> = local.filter(|(_, p)| inside(p) && on_sheet(p)).collect();
+        let local = rows.iter().map(|&r| (r, self.frame.local(&points[r as usize])));
+        let near = |p: &Vec3| raster.at(p.x, p.y).is_some() && off(p) <= tolerance.max(COVERS * self.radius);
+        let mut around: Vec<(u32, Vec3)> = local.filter(|(_, p)| near(p)).collect();
         let open = self.open(&raster, &around, &surface, search);
+        around.retain(|(_, p)| off(p) <= tolerance);
         let fewest = if self.shape.is_some() { 1 } else { FEWEST_CELLS };
-        let parts = raster.parts(open).into_iter().filter(|part| part.len() >= fewest);
-        parts.filter_map(|part| self.hole(part, &raster, &surface, &around, search)).collect()
+        let mut parts = raster.parts(open);
+        parts.retain(|part| part.len() >= fewest);
+        parts.iter_mut().for_each(|part| part.sort_unstable());
+        parts.into_iter().filter_map(|part| self.hole(part, &raster, &surface, &around, search)).collect()
     }
 
     /// The quadratic through the places around the ends.
@@ -256,10 +262,26 @@ fn once(mut holes: Vec<Hole>) -> Vec<Hole> {
     holes.sort_by(|a, b| a.raster.half.total_cmp(&b.raster.half));
     let mut kept: Vec<Hole> = Vec::new();
     for hole in holes {
-        let same = |other: &Hole| (other.centre - hole.centre).norm() < 0.5 * other.width.max(hole.width);
-        if !kept.iter().any(same) {
+        if !kept.iter().any(|other| other.overlaps(&hole)) {
             kept.push(hole);
         }
     }
     kept
+}
+
+impl Hole {
+    /// Whether a good part of the `other` lies over or under this one.
+    fn overlaps(&self, other: &Hole) -> bool {
+        let reach = 0.75 * (self.width + other.width);
+        if (self.centre - other.centre).norm() > reach {
+            return false;
+        }
+        let inside = |cell: &&usize| {
+            let (u, v) = other.raster.middle(**cell);
+            let place = other.frame.world(&Vec3::new(u, v, other.surface.height(u, v)));
+            let local = self.frame.local(&place);
+            self.raster.at(local.x, local.y).is_some_and(|cell| self.open.binary_search(&cell).is_ok())
+        };
+        5 * other.open.iter().filter(inside).count() >= other.open.len()
+    }
 }

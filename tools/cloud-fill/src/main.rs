@@ -84,11 +84,12 @@ fn warn(report: &cloud::fill::Report) {
     if report.below.is_none() {
         cli::warn("too few points, or all in one place: no density to compare with, nothing was filled");
     }
-    for hole in report.holes.iter().filter(|h| h.open) {
+    let open = report.holes.iter().filter(|h| h.open).count();
+    if let Some(hole) = report.holes.iter().find(|h| h.open) {
         let [x, y, z] = hole.centre;
         cli::warn(&format!(
-            "the hole at {x:.3},{y:.3},{z:.3} of width {:.3} m is not closed: the largest ball, {:.3} m, falls \
-             through; give a larger --ball or none",
+            "{open} holes are not closed whole, the first at {x:.3},{y:.3},{z:.3}, {:.3} m wide: balls up to {:.3} m \
+             fall through, or its surroundings are too few; the report lists them",
             hole.width, hole.ball
         ));
     }

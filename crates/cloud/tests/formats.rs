@@ -1,0 +1,227 @@
+//! Every format is read back from bytes made here, and broken bytes are refused with their place.
+
+use cloud::{Cloud, from_bytes};
+use geom::Vec3;
+use std::io::Cursor;
+use stream::Values;
+
+fn read(bytes: impl AsRef<[u8]>) -> Cloud {
+    from_bytes(bytes.as_ref().to_vec()).unwrap()
+}
+
+/// The error and its causes on one line.
+fn refused(bytes: impl AsRef<[u8]>) -> String {
+    let error = from_bytes(bytes.as_ref().to_vec()).unwrap_err();
+    let mut text = error.to_string();
+    let mut cause = std::error::Error::source(&error);
+    while let Some(c) = cause {
+        text += &format!(": {c}");
+        cause = c.source();
+    }
+    text
+}
+
+fn column(cloud: &Cloud, name: &str) -> Vec<f64> {
+    cloud.attributes.get(name).unwrap_or_else(|| panic!("no column {name}")).to_f64()
+}
+
+#[test]
+fn ply_keeps_every_property_in_its_place() {
+    let text = "ply\nformat ascii 1.0\ncomment made by hand\nelement vertex 2\nproperty uchar red\nproperty float x\n\
+                property float y\nproperty float z\nproperty int label\nelement face 0\n\
+                property list uchar int vertex_indices\nend_header\n1 0.5 1 2 -7\n255 3 nan 5 8\n";
+    let cloud = read(text);
+    assert_eq!(cloud.points[0], Vec3::new(0.5, 1.0, 2.0));
+    assert!(cloud.points[1].y.is_nan() && !cloud.double);
+    assert_eq!(cloud.attributes.get("label"), Some(&Values::I32(vec![-7, 8])));
+    let mut bytes = Vec::new();
+    cloud::write_ply(&mut bytes, &cloud, stream::ply::Encoding::BinaryLittleEndian).unwrap();
+    let header = String::from_utf8_lossy(&bytes[..bytes.len().min(250)]).into_owned();
+    assert!(
+        header
+            .contains("uchar red\nproperty float x\nproperty float y\nproperty float z\nproperty int label")
+    );
+    let (again, bad) = read(&bytes).finite();
+    assert_eq!((again.points.len(), bad), (1, 1));
+    assert_eq!(again.comments, ["made by hand"]);
+}
+
+#[test]
+fn ply_meshes_come_back_and_polygons_become_fans() {
+    let text = "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n\
+                element face 1\nproperty list uchar int vertex_indices\nend_header\n\
+                0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
+    let mesh = cloud::read_mesh(&mut text.as_bytes()).unwrap();
+    assert_eq!((mesh.faces.len(), mesh.area()), (2, 1.0));
+    let mut bytes = Vec::new();
+    cloud::write_mesh(&mut bytes, &mesh, stream::ply::Encoding::Ascii).unwrap();
+    assert_eq!(cloud::read_mesh(&mut bytes.as_slice()).unwrap(), mesh);
+    let wrong = text.replace("4 0 1 2 3", "3 0 1 9");
+    assert!(cloud::read_mesh(&mut wrong.as_bytes()).unwrap_err().to_string().contains("vertex 9 of 4"));
+}
+
+fn las_bytes(compressed: bool) -> Vec<u8> {
+    let mut builder = las::Builder::from((1, 2));
+    builder.point_format = las::point::Format::new(3).unwrap();
+    builder.point_format.is_compressed = compressed;
+    let header = builder.into_header().unwrap();
+    let mut writer = las::Writer::new(Cursor::new(Vec::new()), header).unwrap();
+    for i in 0..300u16 {
+        let point = las::Point {
+            x: f64::from(i),
+            y: 0.5 * f64::from(i),
+            z: -f64::from(i),
+            intensity: i,
+            gps_time: Some(10.0 + f64::from(i)),
+            color: Some(las::Color::new(i, 2 * i, 3 * i)),
+            ..las::Point::default()
+        };
+        writer.write_point(point).unwrap();
+    }
+    writer.into_inner().unwrap().into_inner()
+}
+
+#[test]
+fn las_and_laz() {
+    for compressed in [false, true] {
+        let bytes = las_bytes(compressed);
+        assert_eq!(cloud::formats::name_of(&bytes), Some("LAS/LAZ"));
+        let cloud = read(&bytes);
+        assert_eq!(cloud.points.len(), 300);
+        assert!((cloud.points[200] - Vec3::new(200.0, 100.0, -200.0)).norm() < 1e-3);
+        assert_eq!(column(&cloud, "intensity")[200], 200.0);
+        assert_eq!((column(&cloud, "gps_time")[5], column(&cloud, "blue")[5]), (15.0, 15.0));
+        let message = refused(&bytes[..bytes.len() * 2 / 3]);
+        assert!(message.starts_with("LAS/LAZ"), "{message}");
+        assert!(refused(&bytes[..40]).starts_with("LAS/LAZ"));
+    }
+}
+
+#[test]
+fn e57_with_two_scans_and_points_without_an_echo() {
+    use e57::{Record, RecordValue as Value};
+    let mut file = Cursor::new(Vec::new());
+    let mut writer = e57::E57Writer::new(&mut file, "file").unwrap();
+    for scan in 0..2 {
+        let prototype = vec![
+            Record::CARTESIAN_X_F64,
+            Record::CARTESIAN_Y_F64,
+            Record::CARTESIAN_Z_F64,
+            Record {
+                name: e57::RecordName::CartesianInvalidState,
+                data_type: e57::RecordDataType::Integer { min: 0, max: 2 },
+            },
+            Record::COLOR_RED_U8,
+            Record::COLOR_GREEN_U8,
+            Record::COLOR_BLUE_U8,
+        ];
+        let mut points = writer.add_pointcloud(&format!("scan {scan}"), prototype).unwrap();
+        for i in 0..50i64 {
+            let coordinate = |a: i64| Value::Double((i * a + scan) as f64);
+            let invalid = Value::Integer(if i == 9 { 2 } else { 0 });
+            let color = |c: i64| Value::Integer(c);
+            points
+                .add_point(vec![
+                    coordinate(1),
+                    coordinate(2),
+                    coordinate(3),
+                    invalid,
+                    color(i),
+                    color(1),
+                    color(255),
+                ])
+                .unwrap();
+        }
+        points.finalize().unwrap();
+    }
+    writer.finalize().unwrap();
+    drop(writer);
+    let bytes = file.into_inner();
+    let cloud = read(&bytes);
+    assert_eq!(cloud.points.len(), 100);
+    assert_eq!(cloud.points[60], Vec3::new(11.0, 21.0, 31.0));
+    assert!(cloud.points[9].x.is_nan());
+    assert_eq!(cloud.attributes.get("red").map(|v| v.get(7)), Some(7.0));
+    assert_eq!(column(&cloud, "scan")[60], 1.0);
+    assert_eq!(cloud.finite().1, 2);
+    assert!(refused(&bytes[..bytes.len() / 2]).starts_with("E57"));
+}
+
+#[test]
+fn pcd_as_text_and_binary() {
+    let header = |data: &str| {
+        format!(
+            "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z rgb label\nSIZE 4 4 4 4 2\nTYPE F F F U U\nCOUNT 1 1 1 1 1\n\
+             WIDTH 2\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 2\nDATA {data}\n"
+        )
+    };
+    let text = header("ascii") + "1 2 3 16711935 7\n4 nan 6 255 8\n";
+    let mut binary = header("binary").into_bytes();
+    for (p, rgb, label) in [([1f32, 2.0, 3.0], 16711935u32, 7u16), ([4.0, f32::NAN, 6.0], 255, 8)] {
+        p.iter().for_each(|c| binary.extend(c.to_le_bytes()));
+        binary.extend(rgb.to_le_bytes());
+        binary.extend(label.to_le_bytes());
+    }
+    for bytes in [text.as_bytes(), &binary] {
+        let cloud = read(bytes);
+        assert_eq!(cloud.points[0], Vec3::new(1.0, 2.0, 3.0));
+        assert!(cloud.points[1].y.is_nan() && !cloud.double);
+        assert_eq!((column(&cloud, "red")[0], column(&cloud, "green")[0]), (255.0, 0.0));
+        assert_eq!(cloud.attributes.get("label"), Some(&Values::U16(vec![7, 8])));
+        assert!(refused(&bytes[..bytes.len() - 6]).starts_with("PCD"));
+    }
+    assert!(refused(text.replace(" x y z ", " a y z ")).contains("no fields x, y, z"));
+}
+
+#[test]
+fn text_with_any_separator_header_and_count() {
+    let plain = read("1 2 3\n4\t5\t6\r\n\n7, 8, 9\n1e1;11;12\n");
+    assert_eq!(plain.points.len(), 4);
+    assert_eq!(plain.points[3], Vec3::new(10.0, 11.0, 12.0));
+    let named = read("//X Y Z Intensity R\n# a comment\n1 2 3 0.25 200\n4 5 6 nan 100\n");
+    assert_eq!(named.comments, ["a comment"]);
+    assert_eq!(column(&named, "Intensity")[0], 0.25);
+    assert_eq!(named.attributes.get("red"), Some(&Values::U8(vec![200, 100])));
+    let csv = read("\"x\",\"y\",\"z\",\"depth [m]\"\n1,2,3,4\n");
+    assert_eq!(csv.attributes.columns()[0].name, "depth");
+    let pts = read("2\n1 2 3 -500 10 20 30\n4 5 6 -400 40 50 60\n1\n7 8 9 0 0 0 0\n");
+    assert_eq!((pts.points.len(), column(&pts, "intensity")[1], column(&pts, "blue")[1]), (3, -400.0, 60.0));
+    let unnamed = read("1 2 3 4 5\n");
+    assert_eq!((column(&unnamed, "c4")[0], column(&unnamed, "c5")[0]), (4.0, 5.0));
+    assert_eq!(read("1 2 3\r4 5 6\r").points.len(), 2);
+    assert_eq!(read("\u{feff}1 2 3\n").points.len(), 1);
+}
+
+#[test]
+fn wrong_text_names_line_and_words() {
+    for (text, parts) in [
+        ("1 2 3\n4 five 6\n", ["line 2", "'five' (column 2)"]),
+        ("1 2 3\n4 5\n", ["line 2", "2 numbers where"]),
+        ("1 2 3 4\n4 5 6\n", ["line 2", "3 columns where the first point has 4"]),
+        ("1 2 3\n4 5 6 7\n", ["line 2", "4 columns where the first point has 3"]),
+        ("3\n1 2 3\n4 5 6\n", ["end of file", "3 points promised, 2 there"]),
+        ("1\n1 2 3\n4 5 6\n", ["line 3", "a point after the 1"]),
+        ("Hello, world 1\n", ["line 1", "'Hello' (column 1)"]),
+        ("# only comments 1\n", ["without a point", "end of file"]),
+    ] {
+        let message = refused(text);
+        assert!(parts.iter().all(|part| message.contains(part)), "{text}: {message}");
+    }
+}
+
+#[test]
+fn other_content_is_refused_by_name() {
+    for (bytes, part) in [
+        (&b""[..], "nothing to read"),
+        (b"\x1f\x8b\x08\0\0\0", "gunzip"),
+        (b"\x89MCAP0\r\n", "MCAP"),
+        (b"PK\x03\x04....", "zip"),
+        (b"\0\0\0\0\0\0", "\\x00"),
+        (b"ply\nformat ascii 1.0\nelement vertex 1\nproperty float a\nend_header\n1\n", "no element has"),
+        (b"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n", "no 'y'"),
+        (b"ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nend_header\n1\n", "PLY"),
+    ] {
+        let message = refused(bytes);
+        assert!(message.contains(part), "{part}: {message}");
+    }
+}
