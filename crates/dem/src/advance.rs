@@ -13,6 +13,8 @@ use crate::kernel::{FORCE, FORCE_AND_MOMENT};
 use crate::lane::{Row, Row4};
 use rayon::prelude::*;
 
+/// Tasks below which one thread is faster than several.
+const FEW_TASKS: usize = 5;
 /// Particles of one task; fixed, so that results do not depend on the number of threads.
 const CHUNK: usize = 1024;
 
@@ -100,7 +102,7 @@ pub fn advance(columns: Columns, loads: Loads, drive: Drive) -> Moved {
         if spin { chunk::<true>(task, loads, drive) } else { chunk::<false>(task, loads, drive) }
     };
     let join = |a: Moved, b: Moved| Moved { away: a.away.max(b.away), wild: a.wild | b.wild };
-    if tasks.len() < 3 {
+    if tasks.len() < FEW_TASKS {
         return tasks.into_iter().map(run).fold(Moved::default(), join);
     }
     tasks.into_par_iter().map(run).reduce(Moved::default, join)

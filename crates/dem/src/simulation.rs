@@ -19,7 +19,7 @@ use geom::Vec3;
 use rayon::prelude::*;
 
 /// Blocks of contacts below which one thread is faster than several.
-const FEW_TASKS: usize = 3;
+const FEW_TASKS: usize = 8;
 
 /// A running simulation.
 pub struct Simulation {
