@@ -9,7 +9,7 @@ use geom::Vec3;
 const COUNT_WITHIN: f64 = 0.005;
 const MOST_TRIES: usize = 40;
 /// Kept points per area of a maximal sample of a dense cloud, times the spacing squared [–]; measured.
-const PACKING: f64 = 0.75;
+const PACKING: f64 = 0.7;
 /// Local density is counted in a disk of this many spacings.
 const DENSITY_DISK: f64 = 3.0;
 
@@ -81,7 +81,7 @@ fn by_count(
         }
     }
     let (off, sample) = best.ok_or(SampleError::Empty)?;
-    if off > 0.01 * count as f64 && off > 1.0 && sample.kept.len() < count && !high.is_finite() {
+    if off > 0.01 * count as f64 && off > 1.0 && sample.kept.len() < count && !low.is_finite() {
         return Err(SampleError::Duplicates { asked: count, distinct: sample.kept.len() });
     }
     Ok(sample)
@@ -111,7 +111,7 @@ fn by_density(points: &[Vec3], low: f64, high: f64, throw: impl Fn(&Cells, f64) 
         let kept = throw(&Cells::new(points, spacing), spacing);
         let chosen: Vec<Vec3> = kept.iter().map(|&i| points[i as usize]).collect();
         let density = median_density(&chosen, spacing);
-        if density <= high || tries == 5 {
+        if (low..=high).contains(&density) || tries == 5 {
             return Sample { kept, spacing, tries };
         }
         spacing *= (density / goal).sqrt();
@@ -123,7 +123,7 @@ fn by_density(points: &[Vec3], low: f64, high: f64, throw: impl Fn(&Cells, f64) 
 pub fn median_density(points: &[Vec3], spacing: f64) -> f64 {
     let disk = DENSITY_DISK * spacing;
     let cells = Cells::new(points, disk);
-    let mut counts = cells.map(|place| cells.count_near(place, disk, u32::MAX - 1));
+    let mut counts = cells.map(|place| cells.count_near(place, disk, u32::MAX / 2));
     counts.sort_unstable();
     counts.get(counts.len() / 2).map_or(0.0, |&n| n as f64 / (std::f64::consts::PI * disk * disk))
 }

@@ -92,12 +92,10 @@ impl Cells {
     pub fn count_near(&self, place: u32, radius: f64, enough: u32) -> u32 {
         let centre = self.points[place as usize];
         let mut count = 0;
-        for run in self.runs(place) {
+        for part in self.runs(place).flat_map(|run| self.points[run].chunks(enough.clamp(64, 4096) as usize))
+        {
             // Without a branch: about half of the candidates are near, which cannot be predicted.
-            count += self.points[run]
-                .iter()
-                .map(|p| ((p - centre).norm_squared() < radius * radius) as u32)
-                .sum::<u32>();
+            count += part.iter().map(|p| ((p - centre).norm_squared() < radius * radius) as u32).sum::<u32>();
             if count > enough {
                 break;
             }

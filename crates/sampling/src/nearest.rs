@@ -5,6 +5,9 @@ use geom::Vec3;
 use rayon::prelude::*;
 use serde::Serialize;
 
+/// Points that stand for all.
+const TYPICAL: usize = 4096;
+
 /// Statistics of the distance from each point to the nearest other one.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct NearestDistances {
@@ -57,6 +60,27 @@ pub fn distances(points: &[Vec3]) -> Vec<f64> {
         reach *= 2.0;
     }
     nearest
+}
+
+/// Median distance [m] to the nearest other point, of every so-manieth point: a quick measure to choose a reach by. `None` when
+/// it is zero, or for fewer than two points.
+pub fn typical(points: &[Vec3]) -> Option<f64> {
+    if points.len() < 2 {
+        return None;
+    }
+    let stride = points.len().div_ceil(TYPICAL);
+    let mut reach = first_reach(points);
+    loop {
+        let cells = Cells::new(points, reach);
+        let places: Vec<u32> = (0..points.len() as u32).step_by(stride).collect();
+        let mut found: Vec<f64> = places.par_iter().map(|&p| nearest_in(&cells, p, reach)).collect();
+        let middle = found.len() / 2;
+        let median = *found.select_nth_unstable_by(middle, f64::total_cmp).1;
+        if median.is_finite() {
+            return (median > 0.0).then_some(median);
+        }
+        reach *= 2.0;
+    }
 }
 
 fn nearest_in(cells: &Cells, place: u32, reach: f64) -> f64 {

@@ -15,7 +15,7 @@ pub(crate) fn relax(points: &[Vec3], forced: Option<&[bool]>, wish: &Wish) -> Re
     let mut sample = amount::poisson_of(points, forced, wish.amount, wish.seed)?;
     let cells = Cells::new(points, sample.spacing);
     let mut weight = vec![0.0; points.len()];
-    let counts = cells.map(|place| cells.count_near(place, sample.spacing, u32::MAX - 1));
+    let counts = cells.map(|place| cells.count_near(place, sample.spacing, u32::MAX / 2));
     for (place, count) in counts.into_iter().enumerate() {
         weight[cells.order[place] as usize] = 1.0 / f64::from(count);
     }

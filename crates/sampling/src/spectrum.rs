@@ -4,7 +4,7 @@
 //! P(k) = | Σⱼ wⱼ e^{−i k·xⱼ} − W(k) |² / Σⱼ wⱼ²        wⱼ = exp(−|xⱼ|²/2σ²),   W(k) = (Σⱼ wⱼ) exp(−|k|²σ²/2)
 //! ```
 //!
-//! A direct sum over round patches: around points spread over the cloud, the points within 3 σ are laid
+//! A direct sum over round patches: around points spread over the cloud (10 spacings apart), the points within 3 σ are laid
 //! onto their plane of least squares (at their distance in space from the patch's centre), scaled by the patch's own mean spacing s = √(area per point), and summed against
 //! 24 wave directions and 64 wave numbers ν = |k| s/2π. Directions start from one axis of the cloud (its longest), laid into
 //! each plane, so that rows that follow the cloud add up. W removes the window's own transform. P → 1 for random points;
@@ -14,6 +14,8 @@
 //! Anisotropy at ν: the variance over directions of the power, over its mean squared, times the number of
 //! patches: 1 when directions differ by chance only (the −10 dB of Ulichney for ten patches), and large for rows.
 
+use crate::cells::Cells;
+use crate::poisson::poisson;
 use geom::{Grid, Vec3};
 use nalgebra::{Matrix3, SymmetricEigen};
 use rayon::prelude::*;
@@ -79,9 +81,7 @@ pub fn spectrum(points: &[Vec3], spacing: f64) -> Option<Spectrum> {
     let reach = 1.5 * PATCH * SIGMA * spacing;
     let grid = Grid::new(points, reach);
     let axis = longest_axis(points);
-    // Centres by stride through the cells' order: spread over the cloud, the same each time.
-    let stride = (points.len() / (3 * PATCHES)).max(1);
-    let centres: Vec<u32> = grid.order().iter().copied().step_by(stride).collect();
+    let centres = centres(points, spacing);
     let patches: Vec<Vec<f64>> = centres
         .par_iter()
         .filter_map(|&c| patch_power(points, &grid, points[c as usize], reach, axis))
@@ -90,6 +90,13 @@ pub fn spectrum(points: &[Vec3], spacing: f64) -> Option<Spectrum> {
         return None;
     }
     Some(average(&patches))
+}
+
+/// Centres of patches, spread over the cloud, far enough apart that patches share little and differ by chance on their own.
+fn centres(points: &[Vec3], spacing: f64) -> Vec<u32> {
+    let apart = 2.5 * SIGMA * spacing;
+    let all = poisson(&Cells::new(points, apart), apart, 0, None);
+    all.iter().copied().step_by(all.len().div_ceil(2 * PATCHES)).collect()
 }
 
 /// Power of one patch for each direction and wave number.

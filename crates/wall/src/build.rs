@@ -3,11 +3,14 @@
 use crate::solve::Changes;
 use crate::star::{Stars, stars};
 use crate::{Placement, Radius, Regions, Representative, WallError, Wish, equation, leak, normals, solve};
-use geom::{Grid, Vec3};
+use geom::Vec3;
 use serde::Serialize;
 
 /// Wall sphere diameter over smallest particle diameter below which spheres cost more than they give [–].
 const PRACTICAL: f64 = 0.8;
+
+/// A length that is too large by less than this factor is meant to be equal.
+const ROUNDED: f64 = 1.0 + 1e-9;
 
 /// Wall spheres.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,7 +54,9 @@ pub struct WallReport {
 /// Points or settings that make no wall; see [`WallError`].
 pub fn build(points: &[Vec3], regions: &Regions, wish: &Wish) -> Result<(Wall, WallReport), WallError> {
     check(points, wish)?;
-    let stars = stars(points, nearest(points)?);
+    let nearest = sampling::nearest::typical(points).ok_or(WallError::OnePlace(points.len()))?;
+    let stars = stars(points, nearest);
+    check_apart(points, &stars)?;
     if stars.pairs.is_empty() {
         return Err(WallError::NoPairs { reach: stars.largest });
     }
@@ -100,17 +105,12 @@ fn check(points: &[Vec3], wish: &Wish) -> Result<(), WallError> {
     }
 }
 
-/// Middle one of the nearest distances [m].
-fn nearest(points: &[Vec3]) -> Result<f64, WallError> {
-    let mut distances = sampling::nearest::distances(points);
-    if let Some(first) = distances.iter().position(|&d| d == 0.0) {
-        let p = points[first];
-        let same = Grid::new(points, 1.0).within(points, p, 0.0).find(|&j| j as usize != first);
-        let second = same.unwrap_or(first as u32);
-        return Err(WallError::Duplicate { first: first as u32, second, x: p.x, y: p.y, z: p.z });
-    }
-    let middle = distances.len() / 2;
-    Ok(*distances.select_nth_unstable_by(middle, f64::total_cmp).1)
+/// Refuses two points at one place.
+fn check_apart(points: &[Vec3], stars: &Stars) -> Result<(), WallError> {
+    let Some(first) = stars.nearest.iter().position(|&d| d == 0.0) else { return Ok(()) };
+    let p = points[first];
+    let second = points.iter().rposition(|q| *q == p).unwrap_or(first) as u32;
+    Err(WallError::Duplicate { first: first as u32, second, x: p.x, y: p.y, z: p.z })
 }
 
 /// Roughness asked for at each point [m]; `None` when the radius is given instead.
@@ -139,7 +139,9 @@ fn radii(
     let common = representative(zeta.to_vec(), wish.representative);
     let even = |zeta: f64| {
         let place = "the representative one".to_owned();
-        equation::radius(spacing, zeta)
+        // ζ = P/2 is valid, and P is a sum of rounded numbers.
+        let rounded = if zeta <= 0.5 * spacing * ROUNDED { zeta.min(0.5 * spacing) } else { zeta };
+        equation::radius(spacing, rounded)
             .ok_or_else(|| too_rough(zeta, spacing, "representative spacing", place))
     };
     if wish.radius == Radius::Uniform {
@@ -147,7 +149,7 @@ fn radii(
     }
     for (&(i, j), &p) in stars.pairs.iter().zip(lengths) {
         let want = 0.5 * (zeta[i as usize] + zeta[j as usize]);
-        if want > 0.5 * p * (1.0 + 1e-9) {
+        if want > 0.5 * p * ROUNDED {
             let at = points[i as usize];
             let place = format!("points {i} and {j} at ({}, {}, {}) m", at.x, at.y, at.z);
             return Err(too_rough(want, p, "spacing", place));
@@ -157,15 +159,20 @@ fn radii(
     Ok((solve::solve(points, &stars.pairs, zeta, &start), common))
 }
 
+/// Without the last digits, which are rounding and hide the value that was meant.
+fn tidy(length: f64) -> f64 {
+    format!("{length:.9e}").parse().unwrap_or(length)
+}
+
 fn too_rough(roughness: f64, spacing: f64, which: &'static str, place: String) -> WallError {
     match roughness > 0.5 * spacing {
         true => WallError::TooRough {
-            roughness,
-            spacing,
+            roughness: tidy(roughness),
+            spacing: tidy(spacing),
             which,
             place,
-            most: 0.5 * spacing,
-            need: 2.0 * roughness,
+            most: tidy(0.5 * spacing),
+            need: tidy(2.0 * roughness),
         },
         false => WallError::NotPositive { roughness },
     }
@@ -181,7 +188,8 @@ fn place(points: &[Vec3], stars: &Stars, radii: &[f64], wish: &Wish) -> Result<V
 }
 
 fn check_particle(report: &mut WallReport, particle: f64, centres: &[Vec3], radii: &[f64], stars: &Stars) {
-    (report.widest_gap, report.leaks) = leak::widest(centres, radii, &stars.triangles, particle);
+    (report.widest_gap, report.leaks) =
+        leak::widest(centres, radii, &stars.triangles, particle, 1.5 * stars.largest);
     if let Some(gap) = report.widest_gap.filter(|g| g.diameter >= particle) {
         let [x, y, z] = gap.at;
         report.warnings.push(format!(
@@ -202,6 +210,8 @@ fn check_particle(report: &mut WallReport, particle: f64, centres: &[Vec3], radi
 fn representative(mut values: Vec<f64>, which: Representative) -> f64 {
     let middle = values.len() / 2;
     match which {
+        // The mean of equal numbers is that number, not one beside it.
+        Representative::Mean if range(&values)[0] == range(&values)[1] => values[0],
         Representative::Mean => values.iter().sum::<f64>() / values.len() as f64,
         Representative::Median => *values.select_nth_unstable_by(middle, f64::total_cmp).1,
     }

@@ -63,49 +63,51 @@ pub fn residual(r_i: f64, r_j: f64, zeta: f64, p: f64) -> f64 {
     chord(r_i) + chord(r_j) - ((p - (r_i - r_j)) * (p + (r_i - r_j))).sqrt()
 }
 
-/// Radii [m] r_j that meet (1) beside `r_i`: on the far side of the least P of `r_i`, and on the near side.
-/// Where neither exists, `r_i` is too large for this pair.
-pub fn partners(r_i: f64, zeta: f64, p: f64) -> [Option<f64>; 2] {
-    let inner = zeta * (2.0 * r_i - zeta);
-    if inner < 0.0 {
+/// Radii [m] r_j between `within.0` and `within.1` that meet (1) beside `r_i`: the one on the far side of the least P of `r_i`, and
+/// the one on the near side. Where neither exists, `r_i` is too large for this pair.
+pub fn partners(r_i: f64, zeta: f64, p: f64, within: (f64, f64)) -> [Option<f64>; 2] {
+    let half_chord = |r: f64| (zeta * (2.0 * r - zeta)).max(0.0).sqrt();
+    if 2.0 * r_i < zeta {
         return [None, None];
     }
-    let s = inner.sqrt();
-    let excess = |t: f64| (s + t) * (1.0 + (s - t) * (s - t) / (4.0 * zeta * zeta)).sqrt() - p;
+    let (s, lowest, highest) = (half_chord(r_i), half_chord(within.0), half_chord(within.1));
     // Turning points of the left side: t (s − t) = 2ζ².
     let turn = s * s - 8.0 * zeta * zeta;
     let (most, least) =
         if turn > 0.0 { (0.5 * (s - turn.sqrt()), 0.5 * (s + turn.sqrt())) } else { (0.0, 0.0) };
     let radius = |t: f64| 0.5 * (t * t / zeta + zeta);
-    let larger = between(excess, least, p.max(least)).map(radius);
-    let smaller = if turn > 0.0 { between(excess, least, most).map(radius) } else { None };
-    [larger, smaller]
+    let larger = root(s, zeta, p, least.max(lowest), highest).map(radius);
+    let smaller = (turn > 0.0).then(|| root(s, zeta, p, least.min(highest), most.max(lowest)));
+    [larger, smaller.flatten().map(radius)]
 }
 
-/// The root of `f` between `low`, where it is not positive, and `high`, where it is not negative (regula falsi, Illinois variant).
-fn between(f: impl Fn(f64) -> f64, low: f64, high: f64) -> Option<f64> {
-    let (mut a, mut b) = (low, high);
-    let (mut fa, mut fb) = (f(a), f(b));
-    if fa > 0.0 || fb < 0.0 {
+/// The half chord t from `below`, where the left side of (1) is at most P, to `above`, where it is at least P; `None` when they are not.
+/// Newton's method on the squared equation, halving where it leaves the bracket.
+fn root(s: f64, zeta: f64, p: f64, below: f64, above: f64) -> Option<f64> {
+    let four = 4.0 * zeta * zeta;
+    let excess = |t: f64| (s + t) * (s + t) * (four + (s - t) * (s - t)) - four * p * p;
+    let slope = |t: f64| 2.0 * (s + t) * (four - 2.0 * t * (s - t));
+    if excess(below) > 0.0 || excess(above) < 0.0 {
         return None;
     }
-    let close = 1e-14 * (a.abs() + b.abs());
-    for _ in 0..60 {
-        let c = if fb > fa { (a * fb - b * fa) / (fb - fa) } else { 0.5 * (a + b) };
-        let fc = f(c);
-        if fc == 0.0 || (b - a).abs() <= close {
-            return Some(c);
-        }
-        if fc > 0.0 {
-            (b, fb, fa) = (c, fc, 0.5 * fa);
+    let (mut low, mut high) = (below, above);
+    let mut t = above;
+    for _ in 0..80 {
+        let f = excess(t);
+        if f > 0.0 {
+            high = t
         } else {
-            (a, fa, fb) = (c, fc, 0.5 * fb);
+            low = t
         }
-        if fc.abs() <= 1e-15 * (a.abs() + b.abs()) {
-            return Some(c);
+        let newton = t - f / slope(t);
+        let inside = newton > low.min(high) && newton < low.max(high);
+        let next = if inside { newton } else { 0.5 * (low + high) };
+        if (next - t).abs() <= 4.0 * f64::EPSILON * (s + t) {
+            return Some(next);
         }
+        t = next;
     }
-    Some(0.5 * (a + b))
+    Some(t)
 }
 
 #[cfg(test)]
@@ -158,7 +160,7 @@ mod tests {
         for r_i in [0.004, 0.006, 0.01, 0.02] {
             for p in [0.005, 0.006, 0.008, 0.012] {
                 for zeta in [0.0004, 0.001, 0.0024] {
-                    for r_j in partners(r_i, zeta, p).into_iter().flatten() {
+                    for r_j in partners(r_i, zeta, p, (zeta, 1.0)).into_iter().flatten() {
                         found += 1;
                         let off = residual(r_i, r_j, zeta, p);
                         assert!(off.abs() < 1e-9 * p, "r_i {r_i} r_j {r_j} ζ {zeta} P {p}: {off}");
@@ -166,6 +168,6 @@ mod tests {
                 }
             }
         }
-        assert!(found > 40, "{found}");
+        assert!(found > 25, "{found}");
     }
 }

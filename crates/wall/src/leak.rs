@@ -21,9 +21,15 @@ pub struct Gap {
     pub at: [f64; 3],
 }
 
-/// The widest gap between three neighbours, and the number of gaps wider than `limit` [m]; `None` for a wall without gaps.
-pub fn widest(centres: &[Vec3], radii: &[f64], triangles: &[[u32; 3]], limit: f64) -> (Option<Gap>, usize) {
-    let gaps: Vec<Gap> = triangles.par_iter().filter_map(|t| gap(centres, radii, t)).collect();
+/// The widest gap between three neighbours within `reach` [m], and the number of gaps wider than `limit` [m]; `None` for a wall without gaps.
+pub fn widest(
+    centres: &[Vec3],
+    radii: &[f64],
+    triangles: &[[u32; 3]],
+    limit: f64,
+    reach: f64,
+) -> (Option<Gap>, usize) {
+    let gaps: Vec<Gap> = triangles.par_iter().filter_map(|t| gap(centres, radii, t, reach)).collect();
     let wider = gaps.iter().filter(|g| g.diameter >= limit).count();
     let widest = gaps.into_iter().fold(None, |best: Option<Gap>, g| match best {
         Some(b) if b.diameter >= g.diameter => Some(b),
@@ -32,8 +38,8 @@ pub fn widest(centres: &[Vec3], radii: &[f64], triangles: &[[u32; 3]], limit: f6
     (widest, wider)
 }
 
-/// The sphere that passes between three; `None` when they close the gap.
-pub fn gap(centres: &[Vec3], radii: &[f64], triangle: &[u32; 3]) -> Option<Gap> {
+/// The sphere that passes between three, its centre within `reach` [m] of the first; `None` when they close the gap.
+pub fn gap(centres: &[Vec3], radii: &[f64], triangle: &[u32; 3], reach: f64) -> Option<Gap> {
     let [p, q, s] = triangle.map(|i| centres[i as usize]);
     let [r0, r1, r2] = triangle.map(|i| radii[i as usize]);
     let u = (q - p).normalize();
@@ -49,6 +55,10 @@ pub fn gap(centres: &[Vec3], radii: &[f64], triangle: &[u32; 3]) -> Option<Gap> 
     let y1 = (r0 - r2 - b * x1) / height;
     // (x0 + x1 ρ)² + (y0 + y1 ρ)² = (ρ + r0)²
     let (k2, k1, k0) = (x1 * x1 + y1 * y1 - 1.0, x0 * x1 + y0 * y1 - r0, x0 * x0 + y0 * y0 - r0 * r0);
+    // The three already overlap where the gap would be.
+    if k0 <= 0.0 {
+        return None;
+    }
     let rho = if k2.abs() < 1e-14 {
         -0.5 * k0 / k1
     } else {
@@ -56,6 +66,11 @@ pub fn gap(centres: &[Vec3], radii: &[f64], triangle: &[u32; 3]) -> Option<Gap> 
         let both = [(-k1 - root) / k2, (-k1 + root) / k2];
         both.into_iter().filter(|&x| x > 0.0).fold(f64::INFINITY, f64::min)
     };
+    // Further away than any void of these three: the sphere touches them from outside.
+    let (x, y) = (x0 + x1 * rho, y0 + y1 * rho);
+    if x * x + y * y > reach * reach {
+        return None;
+    }
     let at = p + u * (x0 + x1 * rho) + v / height * (y0 + y1 * rho);
     (rho.is_finite() && rho > 0.0).then(|| Gap { diameter: 2.0 * rho, at: at.into() })
 }

@@ -78,6 +78,10 @@ pub enum WallError {
     #[error("the cloud has {0} points: a wall needs at least 2 that are apart; check the step before")]
     TooFew(usize),
     #[error(
+        "most of the {0} points are at the same place as another: sample the cloud first, e.g. with bluenoise-sample"
+    )]
+    OnePlace(usize),
+    #[error(
         "point {index}: coordinates ({x}, {y}, {z}) m are not finite: remove it first, e.g. with cloud-crop"
     )]
     NotFinite { index: usize, x: f64, y: f64, z: f64 },

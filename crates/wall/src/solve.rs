@@ -19,7 +19,7 @@ use serde::Serialize;
 
 const MOST_SWEEPS: usize = 12;
 /// A sweep that gains less than this share is the last.
-const WORTH: f64 = 0.005;
+const WORTH: f64 = 0.01;
 const EQUAL: f64 = 0.05;
 /// Radii stay within this factor of r̄: beyond it contact search and time step pay for roughness nobody sees.
 const WIDEST: f64 = 2.0;
@@ -56,24 +56,35 @@ pub fn solve(points: &[Vec3], pairs: &[(u32, u32)], zeta: &[f64], even: &[f64]) 
     let links = links(points, pairs, zeta);
     let colours = colours(&links, points.len());
     let mut radii = even.to_vec();
-    let mut before = f64::INFINITY;
+    let mut cost = vec![0.0; points.len()];
+    // When (in steps of colours) a point was changed and visited: one whose neighbours stayed would choose the same again.
+    let (mut changed, mut visited) = (vec![1u32; points.len()], vec![0u32; points.len()]);
+    let (mut step, mut before) = (1, f64::INFINITY);
     for _ in 0..MOST_SWEEPS {
-        let mut cost = 0.0;
         for colour in &colours {
-            let new: Vec<(f64, f64)> = colour
+            step += 1;
+            let stale =
+                |i: &u32| links.of(*i).iter().any(|&(j, _, _)| changed[j as usize] > visited[*i as usize]);
+            let due: Vec<u32> = colour.iter().copied().filter(stale).collect();
+            let new: Vec<(f64, f64)> = due
                 .par_iter()
                 .with_min_len(256)
                 .map(|&i| visit(links.of(i), &radii, i, zeta[i as usize], even[i as usize]))
                 .collect();
-            for (&i, (radius, sum)) in colour.iter().zip(new) {
-                radii[i as usize] = radius;
-                cost += sum;
+            for (&i, (radius, sum)) in due.iter().zip(new) {
+                let i = i as usize;
+                visited[i] = step;
+                if radii[i] != radius {
+                    (radii[i], changed[i]) = (radius, step);
+                }
+                cost[i] = sum;
             }
         }
-        if before - cost <= WORTH * cost {
+        let total: f64 = cost.iter().sum();
+        if before - total <= WORTH * total {
             break;
         }
-        before = cost;
+        before = total;
     }
     radii
 }
@@ -81,8 +92,13 @@ pub fn solve(points: &[Vec3], pairs: &[(u32, u32)], zeta: &[f64], even: &[f64]) 
 /// The best radius of one point [m], and its sum [m].
 fn visit(links: &[(u32, f64, f64)], radii: &[f64], i: u32, zeta: f64, even: f64) -> (f64, f64) {
     let sum = |radius: f64| {
-        let dents = links.iter().map(|&(j, p, want)| (dent(radius, radii[j as usize], p) - want).abs());
-        dents.sum::<f64>() + EQUAL * zeta * libm::log(radius / even).abs()
+        let off = |&(j, p, want): &(u32, f64, f64)| {
+            let other = radii[j as usize];
+            // One sphere inside the other is no wall: never chosen, whatever it saves elsewhere.
+            let nested = if (radius - other).abs() >= p { links.len() as f64 * p } else { 0.0 };
+            (dent(radius, other, p) - want).abs() + nested
+        };
+        links.iter().map(off).sum::<f64>() + EQUAL * zeta * libm::log(radius / even).abs()
     };
     let now = radii[i as usize];
     let mut best = (now, sum(now));
@@ -93,12 +109,9 @@ fn visit(links: &[(u32, f64, f64)], radii: &[f64], i: u32, zeta: f64, even: f64)
         }
     };
     offer(even);
+    let within = (even / WIDEST, even * WIDEST);
     for &(j, p, want) in links {
-        for radius in partners(radii[j as usize], want, p).into_iter().flatten() {
-            if radius > even / WIDEST && radius < even * WIDEST {
-                offer(radius);
-            }
-        }
+        partners(radii[j as usize], want, p, within).into_iter().flatten().for_each(&mut offer);
     }
     best
 }

@@ -6,7 +6,7 @@
 //! (Gabriel & Sokal 1969, doi:10.2307/2412323); on an even lattice these are the lattice's edges, without diagonals.
 
 use geom::{Grid, Vec3};
-use nalgebra::{Matrix3, SymmetricEigen};
+use nalgebra::Matrix3;
 use rayon::prelude::*;
 
 /// Half width of the first square, and so the largest void that is looked for, in nearest distances.
@@ -15,6 +15,10 @@ const SQUARE: f64 = 3.0;
 const FIRST_REACH: f64 = 2.8;
 /// Points of the normal are at most this many.
 const FOR_NORMAL: usize = 24;
+/// A pair is at most this many times as far apart as the farther of its two nearest distances: longer ones reach across the outline.
+const LONGEST: f64 = 2.0;
+/// Points are worked on in parts of this many.
+const PART: usize = 512;
 /// A point as near as this to the border of the ball counts as inside: on a square lattice there is no diagonal.
 const ON_BORDER: f64 = 1e-9;
 
@@ -27,15 +31,10 @@ pub struct Stars {
     pub pairs: Vec<(u32, u32)>,
     /// Three points around a void, the first the lowest.
     pub triangles: Vec<[u32; 3]>,
+    /// Distance from each point to the nearest other one [m]; infinite when none is near.
+    pub nearest: Vec<f64>,
     /// Largest circle through three points that is told from the outline of the wall [m].
     pub largest: f64,
-}
-
-/// One point's own.
-struct Star {
-    normal: Vec3,
-    pairs: Vec<u32>,
-    triangles: Vec<[u32; 3]>,
 }
 
 /// A corner of the cell, and the neighbour whose bisector starts there (none: a side of the first square).
@@ -45,48 +44,75 @@ struct Corner {
     next: Option<u32>,
 }
 
-/// Stars of points [m], all finite and apart, whose nearest distance is about `nearest` [m].
+/// Stars of points [m], all finite, whose nearest distance is about `nearest` [m].
 pub fn stars(points: &[Vec3], nearest: f64) -> Stars {
     let grid = Grid::new(points, FIRST_REACH * nearest);
-    let stars: Vec<Star> =
-        (0..points.len() as u32).into_par_iter().map(|i| star(points, &grid, i, nearest)).collect();
+    let firsts: Vec<usize> = (0..points.len()).step_by(PART).collect();
+    let parts: Vec<Stars> = firsts
+        .par_iter()
+        .map(|&first| {
+            let mut part = Stars::default();
+            let mut work = Work::default();
+            for i in first..points.len().min(first + PART) {
+                star(points, &grid, i as u32, nearest, &mut work, &mut part);
+            }
+            part
+        })
+        .collect();
     let mut all = Stars { largest: SQUARE * nearest, ..Stars::default() };
-    for (i, star) in (0u32..).zip(stars) {
-        all.normals.push(star.normal);
-        all.pairs.extend(star.pairs.iter().map(|&j| (i, j)));
-        all.triangles.extend(star.triangles);
+    for part in parts {
+        all.normals.extend(part.normals);
+        all.pairs.extend(part.pairs);
+        all.triangles.extend(part.triangles);
+        all.nearest.extend(part.nearest);
     }
+    let Stars { pairs, nearest, .. } = &mut all;
+    pairs.retain(|&(i, j)| {
+        let (i, j) = (i as usize, j as usize);
+        (points[i] - points[j]).norm() <= LONGEST * nearest[i].max(nearest[j])
+    });
     all
 }
 
-fn star(points: &[Vec3], grid: &Grid, i: u32, nearest: f64) -> Star {
+/// Memory that is used again for every point.
+#[derive(Default)]
+struct Work {
+    near: Vec<(f64, u32, Vec3)>,
+    cell: Vec<Corner>,
+    kept: Vec<Corner>,
+}
+
+fn star(points: &[Vec3], grid: &Grid, i: u32, nearest: f64, work: &mut Work, part: &mut Stars) {
     let mut reach = FIRST_REACH * nearest;
     let furthest = 2.0 * SQUARE * nearest;
     loop {
-        let near = neighbours(points, grid, i, reach);
-        let (u, v, normal) = plane(&near);
-        let cell = voronoi(&near, &u, &v, SQUARE * nearest);
-        let extent = cell.iter().map(|c| c.at[0].hypot(c.at[1])).fold(0.0, f64::max);
+        neighbours(points, grid, i, reach, &mut work.near);
+        let (u, v, normal) = plane(&work.near);
+        voronoi(work, &u, &v, SQUARE * nearest);
+        let extent = work.cell.iter().map(|c| c.at[0].hypot(c.at[1])).fold(0.0, f64::max);
         if 2.0 * extent <= reach || reach >= furthest {
-            return finish(points, i, normal, &near, &cell, SQUARE * nearest);
+            part.normals.push(normal);
+            part.nearest.push(work.near.first().map_or(f64::INFINITY, |n| n.0.sqrt()));
+            return finish(i, &work.near, &work.cell, SQUARE * nearest, part);
         }
         reach = (2.0 * extent).min(furthest);
     }
 }
 
 /// Points within reach, nearest first, relative to the point.
-fn neighbours(points: &[Vec3], grid: &Grid, i: u32, reach: f64) -> Vec<(f64, u32, Vec3)> {
+fn neighbours(points: &[Vec3], grid: &Grid, i: u32, reach: f64, near: &mut Vec<(f64, u32, Vec3)>) {
     let centre = points[i as usize];
-    let mut near: Vec<(f64, u32, Vec3)> = grid
-        .within(points, centre, reach)
-        .filter(|&j| j != i)
-        .map(|j| {
+    near.clear();
+    for run in grid.runs_near(centre, reach) {
+        for &j in &grid.order()[run] {
             let to = points[j as usize] - centre;
-            (to.norm_squared(), j, to)
-        })
-        .collect();
+            let square = to.norm_squared();
+            if square <= reach * reach && j != i {
+                near.push((square, j, to));
+            }
+        }
+    }
     near.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    near
 }
 
 /// Two axes and the normal of the plane of least squares through the point and those nearest to it.
@@ -98,19 +124,51 @@ fn plane(near: &[(f64, u32, Vec3)]) -> (Vec3, Vec3, Vec3) {
     for (_, _, p) in some {
         spread += (p - mean) * (p - mean).transpose();
     }
-    let eigen = SymmetricEigen::new(spread);
-    let mut order = [0, 1, 2];
-    order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
-    let axis = |k: usize| eigen.eigenvectors.column(order[k]).into_owned();
-    let flat = eigen.eigenvalues[order[1]] > 1e-12 * eigen.eigenvalues[order[0]];
-    (axis(0), axis(1), if flat { axis(2) } else { Vec3::zeros() })
+    match least_axis(&spread) {
+        Some(normal) => {
+            let u = across(&normal);
+            (u, normal.cross(&u), normal)
+        }
+        None => {
+            let along = near.last().map_or(Vec3::x(), |n| n.2).try_normalize(0.0).unwrap_or_else(Vec3::x);
+            (along, across(&along), Vec3::zeros())
+        }
+    }
+}
+
+/// A unit vector at a right angle.
+fn across(axis: &Vec3) -> Vec3 {
+    let mut other = Vec3::zeros();
+    other[axis.abs().imin()] = 1.0;
+    axis.cross(&other).normalize()
+}
+
+/// Direction of least spread, in closed form (Smith 1961, doi:10.1145/355578.366316): the general solver takes ten times as long.
+/// `None` when there is none, the points lying on a line.
+fn least_axis(spread: &Matrix3<f64>) -> Option<Vec3> {
+    let scale = spread.amax();
+    if scale.is_nan() || scale <= 0.0 {
+        return None;
+    }
+    let a = spread / scale;
+    let mean = a.trace() / 3.0;
+    let b = a - Matrix3::identity() * mean;
+    let p = (b.norm_squared() / 6.0).sqrt();
+    let cosine = if p > 0.0 { (0.5 * b.determinant() / (p * p * p)).clamp(-1.0, 1.0) } else { 0.0 };
+    let least = mean + 2.0 * p * libm::cos((libm::acos(cosine) + 2.0 * std::f64::consts::PI) / 3.0);
+    let m = a - Matrix3::identity() * least;
+    let row = |k: usize| m.row(k).transpose();
+    let crosses = [row(0).cross(&row(1)), row(1).cross(&row(2)), row(2).cross(&row(0))];
+    let longest = crosses.into_iter().max_by(|x, y| x.norm_squared().total_cmp(&y.norm_squared()))?;
+    (longest.norm() > 1e-10).then(|| longest.normalize())
 }
 
 /// The Voronoi cell in the plane, around the origin.
-fn voronoi(near: &[(f64, u32, Vec3)], u: &Vec3, v: &Vec3, half: f64) -> Vec<Corner> {
+fn voronoi(work: &mut Work, u: &Vec3, v: &Vec3, half: f64) {
+    let Work { near, cell, kept } = work;
     let square = [[-half, -half], [half, -half], [half, half], [-half, half]];
-    let mut cell: Vec<Corner> = square.iter().map(|&at| Corner { at, next: None }).collect();
-    let mut kept = Vec::with_capacity(16);
+    cell.clear();
+    cell.extend(square.map(|at| Corner { at, next: None }));
     let mut extent = half * half * 2.0;
     for (index, (_, _, p)) in (0u32..).zip(near) {
         let q = [p.dot(u), p.dot(v)];
@@ -119,11 +177,10 @@ fn voronoi(near: &[(f64, u32, Vec3)], u: &Vec3, v: &Vec3, half: f64) -> Vec<Corn
         if square >= 4.0 * extent || square <= 0.0 {
             continue;
         }
-        cut(&cell, &mut kept, q, index);
-        std::mem::swap(&mut cell, &mut kept);
+        cut(cell, kept, q, index);
+        std::mem::swap(cell, kept);
         extent = cell.iter().map(|c| c.at[0] * c.at[0] + c.at[1] * c.at[1]).fold(0.0, f64::max);
     }
-    cell
 }
 
 /// Keeps what is nearer to the origin than to `q`.
@@ -145,36 +202,27 @@ fn cut(cell: &[Corner], kept: &mut Vec<Corner>, q: [f64; 2], index: u32) {
     }
 }
 
-fn finish(
-    points: &[Vec3],
-    i: u32,
-    normal: Vec3,
-    near: &[(f64, u32, Vec3)],
-    cell: &[Corner],
-    half: f64,
-) -> Star {
-    let sides: Vec<u32> = cell.iter().filter_map(|c| c.next).collect();
+fn finish(i: u32, near: &[(f64, u32, Vec3)], cell: &[Corner], half: f64, part: &mut Stars) {
+    let sides = || cell.iter().filter_map(|c| c.next);
     let in_ball = |a: u32, b: u32| {
         let (p, q) = (near[a as usize].2, near[b as usize].2);
         (q - 0.5 * p).norm_squared() < (0.25 + ON_BORDER) * p.norm_squared()
     };
     // Any point in the ball of i and j takes j's side away or is a neighbour itself, up to the bend of the sheet.
-    let mut pairs: Vec<u32> = sides
-        .iter()
-        .filter(|&&a| near[a as usize].1 > i && !sides.iter().any(|&b| b != a && in_ball(a, b)))
-        .map(|&a| near[a as usize].1)
-        .collect();
-    pairs.sort_unstable();
-    pairs.dedup();
-    let mut triangles = Vec::new();
-    for k in 0..cell.len() {
-        let before = cell[(k + cell.len() - 1) % cell.len()].next;
-        let (Some(a), Some(b)) = (before, cell[k].next) else { continue };
-        let (j, k2) = (near[a as usize].1, near[b as usize].1);
-        let inside = cell[k].at[0].hypot(cell[k].at[1]) <= half;
-        if inside && i < j && i < k2 && j != k2 && points.len() > 2 {
-            triangles.push([i, j.min(k2), j.max(k2)]);
+    let first = part.pairs.len();
+    for a in sides() {
+        let j = near[a as usize].1;
+        if j > i && !sides().any(|b| b != a && in_ball(a, b)) {
+            part.pairs.push((i, j));
         }
     }
-    Star { normal, pairs, triangles }
+    part.pairs[first..].sort_unstable();
+    for (k, corner) in cell.iter().enumerate() {
+        let before = cell[(k + cell.len() - 1) % cell.len()].next;
+        let (Some(a), Some(b)) = (before, corner.next) else { continue };
+        let (j, k) = (near[a as usize].1, near[b as usize].1);
+        if corner.at[0].hypot(corner.at[1]) <= half && i < j && i < k && j != k {
+            part.triangles.push([i, j.min(k), j.max(k)]);
+        }
+    }
 }
