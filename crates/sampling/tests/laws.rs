@@ -35,7 +35,7 @@ fn chute(count: usize) -> Vec<Vec3> {
         let (radius, chance) = (0.45 - 0.05 * x / 3.0, 0.36 / ((x + 0.6) * (x + 0.6)));
         if next() < chance && (x - 1.7).hypot(radius * (angle - 0.2)) > 0.12 {
             let noise = |a: f64, b: f64| {
-                0.0008 * (-2.0 * libm::log(1.0 - a)).sqrt() * libm::cos(6.283185307179586 * b)
+                0.0008 * (-2.0 * libm::log(1.0 - a)).sqrt() * libm::cos(std::f64::consts::TAU * b)
             };
             let off = Vec3::new(noise(next(), next()), noise(next(), next()), noise(next(), next()));
             points.push(Vec3::new(x, radius * libm::sin(angle), -radius * libm::cos(angle)) + off);

@@ -188,8 +188,7 @@ fn place(points: &[Vec3], stars: &Stars, radii: &[f64], wish: &Wish) -> Result<V
 }
 
 fn check_particle(report: &mut WallReport, particle: f64, centres: &[Vec3], radii: &[f64], stars: &Stars) {
-    (report.widest_gap, report.leaks) =
-        leak::widest(centres, radii, &stars.triangles, particle, 1.5 * stars.largest);
+    (report.widest_gap, report.leaks) = leak::widest(centres, radii, &stars.triangles, particle);
     if let Some(gap) = report.widest_gap.filter(|g| g.diameter >= particle) {
         let [x, y, z] = gap.at;
         report.warnings.push(format!(

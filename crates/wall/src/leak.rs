@@ -21,15 +21,9 @@ pub struct Gap {
     pub at: [f64; 3],
 }
 
-/// The widest gap between three neighbours within `reach` [m], and the number of gaps wider than `limit` [m]; `None` for a wall without gaps.
-pub fn widest(
-    centres: &[Vec3],
-    radii: &[f64],
-    triangles: &[[u32; 3]],
-    limit: f64,
-    reach: f64,
-) -> (Option<Gap>, usize) {
-    let gaps: Vec<Gap> = triangles.par_iter().filter_map(|t| gap(centres, radii, t, reach)).collect();
+/// The widest gap between three neighbours, and the number of gaps wider than `limit` [m]; `None` for a wall without gaps.
+pub fn widest(centres: &[Vec3], radii: &[f64], triangles: &[[u32; 3]], limit: f64) -> (Option<Gap>, usize) {
+    let gaps: Vec<Gap> = triangles.par_iter().filter_map(|t| gap(centres, radii, t)).collect();
     let wider = gaps.iter().filter(|g| g.diameter >= limit).count();
     let widest = gaps.into_iter().fold(None, |best: Option<Gap>, g| match best {
         Some(b) if b.diameter >= g.diameter => Some(b),
@@ -38,8 +32,8 @@ pub fn widest(
     (widest, wider)
 }
 
-/// The sphere that passes between three, its centre within `reach` [m] of the first; `None` when they close the gap.
-pub fn gap(centres: &[Vec3], radii: &[f64], triangle: &[u32; 3], reach: f64) -> Option<Gap> {
+/// The sphere that passes between three; `None` when they close the gap.
+pub fn gap(centres: &[Vec3], radii: &[f64], triangle: &[u32; 3]) -> Option<Gap> {
     let [p, q, s] = triangle.map(|i| centres[i as usize]);
     let [r0, r1, r2] = triangle.map(|i| radii[i as usize]);
     let u = (q - p).normalize();
@@ -66,9 +60,11 @@ pub fn gap(centres: &[Vec3], radii: &[f64], triangle: &[u32; 3], reach: f64) -> 
         let both = [(-k1 - root) / k2, (-k1 + root) / k2];
         both.into_iter().filter(|&x| x > 0.0).fold(f64::INFINITY, f64::min)
     };
-    // Further away than any void of these three: the sphere touches them from outside.
-    let (x, y) = (x0 + x1 * rho, y0 + y1 * rho);
-    if x * x + y * y > reach * reach {
+    // No place between the points is farther from all three than the centre of their circle: beyond it, the sphere
+    // touches the three from outside.
+    let y = (b * b + height * height - a * b) / (2.0 * height);
+    let circle = (0.25 * a * a + y * y).sqrt();
+    if rho + r0.min(r1).min(r2) > circle * (1.0 + 1e-9) {
         return None;
     }
     let at = p + u * (x0 + x1 * rho) + v / height * (y0 + y1 * rho);
