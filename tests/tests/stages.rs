@@ -112,6 +112,26 @@ fn replay_keeps_intervals_places_and_states_exactly() {
 }
 
 #[test]
+fn replay_can_keep_intervals_and_places_at_the_calculation_plane_too() {
+    let folder = plant();
+    let path = |name: &str| folder.path().join(name);
+    succeed(folder.path(), "dem-run", &["up.toml", "-o", "up.mcap"]);
+    succeed(folder.path(), "stage-replay", &["up.mcap", "--intervals", "both", "-o", "in.mcap"]);
+    let (recorded, replayed) = (passages(&path("up.mcap")), passages(&path("in.mcap")));
+    let ahead = -replayed[0].particle.position.z / recorded[0].particle.velocity.z;
+    assert!(
+        ahead > 0.0 && (replayed[0].particle.position.z - 1.2 * 0.012).abs() < 1e-3,
+        "first: a zone before"
+    );
+    for (a, b) in recorded.iter().zip(&replayed) {
+        assert_eq!(b.time, a.time - recorded[0].time);
+        let arrives = b.particle.position + b.particle.velocity * ahead;
+        assert!((arrives - a.particle.position).norm() < 1e-12, "it arrives where it was recorded");
+    }
+    succeed(folder.path(), "dem-run", &["down.toml", "in.mcap", "-o", "down.mcap"]);
+}
+
+#[test]
 fn windows_of_time_and_kept_times() {
     let folder = plant();
     let path = |name: &str| folder.path().join(name);
@@ -202,4 +222,22 @@ fn a_zone_shorter_than_the_largest_particle_is_refused_everywhere() {
     assert!(done.code == 1 && done.stderr.contains("largest diameter"), "{}", done.stderr);
     let done = tool(folder.path(), "dem-run", &["up.toml", "--set", "outlet.0.length=0.01", "-o", "x.mcap"]);
     assert!(done.code == 1 && done.stderr.contains("largest diameter"), "{}", done.stderr);
+}
+
+/// The scene of the `stages` pipeline, started: both stages find their walls from another folder.
+#[test]
+fn the_plant_of_the_pipelines_can_be_cut_at_its_mouth() {
+    let folder = tempdir().unwrap();
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../pipelines/scenes/plant.toml");
+    let scene = scene.to_str().unwrap();
+    for (keep, file) in [("upstream", "up.toml"), ("downstream", "down.toml")] {
+        let cut = ["--at", "0,0,0.6,0,0,-1", "--length", "0.006", "--keep", keep, "-o", file];
+        succeed(folder.path(), "stage-split", &[&[scene], &cut[..]].concat());
+    }
+    let up = succeed(folder.path(), "dem-run", &["up.toml", "--check"]);
+    assert!(up.stderr.contains("2 walls"), "chute and box are not upstream: {}", up.stderr);
+    let line = "dem-run up.toml --until 0.2 --set fill.0.mass=0.02 | stage-replay --intervals both \
+                | dem-run down.toml - --until 0.1 -o down.mcap";
+    let done = grainpipe_tests::tools::line(folder.path(), line);
+    assert_eq!(done.code, 0, "{}", done.stderr);
 }

@@ -28,6 +28,20 @@ pub struct Replay {
     pub keep_times: bool,
     /// Which storage plane of the run.
     pub outlet: u16,
+    /// Where intervals and places are those that were recorded.
+    pub intervals: Intervals,
+}
+
+/// Where the recorded intervals and in-plane places are kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Intervals {
+    /// On the generation plane, as in the source document: the faster ones then catch up in the zone, so that
+    /// grains of a dense flow may overlap when they are released.
+    #[default]
+    Generation,
+    /// On the calculation plane too: every particle is generated the same time T before it arrives, v T before its
+    /// recorded place; T is what the first one needs for the length of the zone.
+    Both,
 }
 
 /// What was done.
@@ -77,7 +91,7 @@ pub fn replay<W: Write>(
     writer.metadata(SIZES, head.sizes.to_map())?;
     writer.metadata(INLET, zone_to_map(&head.zone))?;
     let start = if what.keep_times { Some(0.0) } else { what.from };
-    let mut passing = Passing { name, what, head, start, done: Replayed::default(), known: 0.0 };
+    let mut passing = Passing { name, what, head, start, ahead: None, done: Replayed::default(), known: 0.0 };
     let mut events = first.map(Ok).into_iter().chain(reader.by_ref());
     for event in events.by_ref() {
         if passing.pass(event.map_err(broken)?, &mut writer)? {
@@ -134,6 +148,8 @@ struct Passing<'a> {
     what: &'a Replay,
     head: Head,
     start: Option<f64>,
+    /// T of [`Intervals::Both`] [s].
+    ahead: Option<f64>,
     done: Replayed,
     /// Watermark of the run [s].
     known: f64,
@@ -174,8 +190,17 @@ impl Passing<'_> {
             return None;
         }
         let zone = self.head.zone;
-        let generation = Plane { point: zone.plane.point - zone.plane.normal * zone.length, ..zone.plane };
-        row.particle.position = generation.project(&row.particle.position);
+        row.particle.position = match self.what.intervals {
+            Intervals::Generation => {
+                let point = zone.plane.point - zone.plane.normal * zone.length;
+                Plane { point, ..zone.plane }.project(&row.particle.position)
+            }
+            Intervals::Both => {
+                let velocity = row.particle.velocity;
+                let ahead = *self.ahead.get_or_insert(zone.length / velocity.dot(&zone.plane.normal));
+                zone.plane.project(&row.particle.position) - velocity * ahead
+            }
+        };
         row.time -= *self.start.get_or_insert(row.time);
         row.outlet = 0;
         Some(row)

@@ -260,8 +260,13 @@ fn remove(document: &mut DocumentMut, key: &str, index: usize, name: String, gon
 
 /// A file as seen from a folder; as it is when the way is not known.
 fn relative(file: &Path, folder: &Path) -> String {
-    let here = |p: &Path| std::path::absolute(p).unwrap_or_else(|_| p.to_owned());
-    let (to, from) = (clean(&here(file)), clean(&here(folder)));
+    // An empty path is the folder that the tool was started in.
+    let here = |p: &Path| match p.as_os_str().is_empty() {
+        true => std::env::current_dir(),
+        false => std::path::absolute(p),
+    };
+    let (Ok(to), Ok(from)) = (here(file), here(folder)) else { return file.display().to_string() };
+    let (to, from) = (clean(&to), clean(&from));
     let common = to.iter().zip(&from).take_while(|(a, b)| a == b).count();
     let mut way = PathBuf::new();
     from[common..].iter().for_each(|_| way.push(".."));
@@ -343,5 +348,7 @@ material = "m"
     #[test]
     fn files_are_seen_from_the_new_folder() {
         assert_eq!(relative(Path::new("/a/b/../c/w.mcap"), Path::new("/a/out")), "../c/w.mcap");
+        assert_eq!(relative(Path::new("w.mcap"), Path::new("")), "w.mcap");
+        assert_eq!(relative(Path::new("w.mcap"), Path::new("out")), "../w.mcap");
     }
 }

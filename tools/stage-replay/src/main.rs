@@ -3,7 +3,7 @@
 use clap::{Parser, ValueEnum};
 use cli::{Output, Report, Source, usage};
 use geom::Plane;
-use scene::replay::{Replay, replay};
+use scene::replay::{Intervals, Replay, replay};
 use std::process::ExitCode;
 use stream::mcap::Compression;
 
@@ -31,11 +31,20 @@ struct Args {
     /// Index of the storage plane
     #[arg(long, value_name = "N", default_value_t = 0)]
     outlet: u16,
+    /// Where recorded intervals are kept; "both" lets grains of a dense flow in without overlap
+    #[arg(long, value_enum, default_value = "generation")]
+    intervals: Keep,
     /// Motion in the zone
     #[arg(long = "move", value_enum, default_value = "constant")]
     motion: Motion,
     #[command(flatten)]
     output: Output,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Keep {
+    Generation,
+    Both,
 }
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
@@ -60,6 +69,10 @@ fn stage_replay(args: Args) -> anyhow::Result<Report> {
         until: args.until,
         keep_times: args.keep_times,
         outlet: args.outlet,
+        intervals: match args.intervals {
+            Keep::Generation => Intervals::Generation,
+            Keep::Both => Intervals::Both,
+        },
     };
     let source = args.run.open()?;
     let out = args.output.open()?;
