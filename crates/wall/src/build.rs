@@ -147,13 +147,14 @@ fn radii(
     if wish.radius == Radius::Uniform {
         return Ok((vec![even(common)?; points.len()], common));
     }
-    for (&(i, j), &p) in stars.pairs.iter().zip(lengths) {
-        let want = 0.5 * (zeta[i as usize] + zeta[j as usize]);
-        if want > 0.5 * p * ROUNDED {
-            let at = points[i as usize];
-            let place = format!("points {i} and {j} at ({}, {}, {}) m", at.x, at.y, at.z);
-            return Err(too_rough(want, p, "spacing", place));
-        }
+    // The worst pair is named, so that one cure serves all.
+    let want = |&(i, j): &(u32, u32)| 0.5 * (zeta[i as usize] + zeta[j as usize]);
+    let rough = stars.pairs.iter().zip(lengths).filter(|(pair, p)| want(pair) > 0.5 * **p * ROUNDED);
+    let worst = rough.max_by(|a, b| (want(a.0) / a.1).total_cmp(&(want(b.0) / b.1)));
+    if let Some((pair, &p)) = worst {
+        let ((i, j), at) = (pair, points[pair.0 as usize]);
+        let place = format!("points {i} and {j} at ({:.4}, {:.4}, {:.4}) m", at.x, at.y, at.z);
+        return Err(too_rough(want(pair), p, "spacing", place));
     }
     let start = zeta.iter().map(|&z| even(z)).collect::<Result<Vec<f64>, _>>()?;
     Ok((solve::solve(points, &stars.pairs, zeta, &start), common))
@@ -190,11 +191,12 @@ fn place(points: &[Vec3], stars: &Stars, radii: &[f64], wish: &Wish) -> Result<V
 fn check_particle(report: &mut WallReport, particle: f64, centres: &[Vec3], radii: &[f64], stars: &Stars) {
     (report.widest_gap, report.leaks) = leak::widest(centres, radii, &stars.triangles, particle);
     if let Some(gap) = report.widest_gap.filter(|g| g.diameter >= particle) {
-        let [x, y, z] = gap.at;
+        let [x, y, z] = gap.at.map(|c| format!("{c:.4}"));
         report.warnings.push(format!(
             "the wall leaks: {} gaps pass a particle of {particle} m, the widest ({} m) at ({x}, {y}, {z}) m; \
              sample with a smaller spacing, fill the hole, or use larger radii (less roughness)",
-            report.leaks, gap.diameter
+            report.leaks,
+            tidy(gap.diameter)
         ));
     }
     let least = 2.0 * report.radius_range[0];

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 /// Keep points of a cloud so that their distances are even and their spectrum is blue noise.
 #[derive(clap::Parser)]
+#[command(allow_negative_numbers = true)]
 #[command(group = clap::ArgGroup::new("amount").required(true).args(["spacing", "count", "density"]))]
 pub struct Args {
     #[command(flatten)]

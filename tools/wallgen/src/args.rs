@@ -8,6 +8,7 @@ use wall::{Placement, Radius, Regions, Representative, Wish};
 
 /// Turn the points of a surface into wall spheres (MCAP; PLY with -o FILE.ply).
 #[derive(clap::Parser)]
+#[command(allow_negative_numbers = true)]
 pub struct Args {
     #[command(flatten)]
     pub input: cli::Input,
