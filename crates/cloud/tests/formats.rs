@@ -97,8 +97,7 @@ fn las_and_laz() {
     }
 }
 
-#[test]
-fn e57_with_two_scans_and_points_without_an_echo() {
+fn e57_bytes() -> Vec<u8> {
     use e57::{Record, RecordValue as Value};
     let mut file = Cursor::new(Vec::new());
     let mut writer = e57::E57Writer::new(&mut file, "file").unwrap();
@@ -136,7 +135,12 @@ fn e57_with_two_scans_and_points_without_an_echo() {
     }
     writer.finalize().unwrap();
     drop(writer);
-    let bytes = file.into_inner();
+    file.into_inner()
+}
+
+#[test]
+fn e57_with_two_scans_and_points_without_an_echo() {
+    let bytes = e57_bytes();
     let cloud = read(&bytes);
     assert_eq!(cloud.points.len(), 100);
     assert_eq!(cloud.points[60], Vec3::new(11.0, 21.0, 31.0));
@@ -223,5 +227,44 @@ fn other_content_is_refused_by_name() {
     ] {
         let message = refused(bytes);
         assert!(message.contains(part), "{part}: {message}");
+    }
+}
+
+/// Whatever a byte is changed to, the reader comes back, with a cloud or with an error.
+#[test]
+fn flipped_bytes_never_end_the_program() {
+    let ply = b"ply\nformat binary_little_endian 1.0\nelement vertex 2\nproperty float x\nproperty float y\n\
+                property float z\nend_header\n123412341234123412341234";
+    let text = b"2\n1 2 3 4 5 6 7\n1 2 3 4 5 6 7\n";
+    let mut state = 1u64;
+    let mut next = || {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (state >> 33) as usize
+    };
+    for whole in [las_bytes(false), las_bytes(true), e57_bytes(), ply.to_vec(), text.to_vec()] {
+        for _ in 0..400 {
+            let mut bytes = whole.clone();
+            // Headers are short: half of the changes go there.
+            let reach = if next() % 2 == 0 { bytes.len().min(400) } else { bytes.len() };
+            let at = next() % reach;
+            bytes[at] ^= 1 << (next() % 8);
+            let _ = from_bytes(bytes);
+        }
+    }
+}
+
+/// Numbers as laspy reads them.
+#[test]
+fn a_scan_of_terrain_has_the_numbers_that_another_reader_finds() {
+    for file in ["autzen_400.las", "autzen_400.laz"] {
+        let path = format!("{}/../../sample-data/autzen/{file}", env!("CARGO_MANIFEST_DIR"));
+        let cloud = read(std::fs::read(path).unwrap());
+        assert_eq!(cloud.points.len(), 400);
+        assert!((cloud.points[123] - Vec3::new(636758.36, 849026.5, 426.28)).norm() < 1e-6);
+        let at = |name: &str| column(&cloud, name)[123];
+        assert_eq!((at("intensity"), at("classification"), at("red")), (167.0, 1.0, 146.0));
+        assert_eq!((at("gps_time"), at("point_source_id")), (245382.3918436729, 7326.0));
+        assert_eq!(column(&cloud, "intensity").iter().sum::<f64>(), 38630.0);
+        assert!((cloud.points.iter().map(|p| p.z).sum::<f64>() - 171997.38).abs() < 1e-6);
     }
 }

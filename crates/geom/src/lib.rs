@@ -7,7 +7,7 @@ mod numbers;
 pub mod plane;
 pub mod prism;
 pub mod shape;
-mod triangle;
+pub mod triangle;
 
 pub use grid::Grid;
 pub use numbers::NumbersError;
