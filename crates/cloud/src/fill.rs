@@ -9,11 +9,14 @@ use geom::{Shape, Vec3};
 use rayon::prelude::*;
 use serde::Serialize;
 use stream::Values;
+use thiserror::Error;
 
 /// Share of the surface whose density sets the threshold, and the part of that density which is the threshold.
 const SPARSEST: (f64, f64) = (0.05, 0.25);
-/// Widest hole, as a share of the cloud's diagonal.
-const WIDEST: f64 = 1.0 / 3.0;
+/// Widest hole, as a share of the cloud's diagonal: a blind spot is small, the mouth of a pipe is not.
+const WIDEST: f64 = 1.0 / 5.0;
+/// Most points that are added.
+const MOST: f64 = 5e7;
 
 /// What to fill and how.
 #[derive(Debug, Clone, Default)]
@@ -24,7 +27,7 @@ pub struct Settings {
     pub below: Option<f64>,
     /// Fill only in these shapes, and there whatever the outline.
     pub regions: Vec<Shape>,
-    /// Widest hole to fill [m]; a third of the cloud's diagonal when not given.
+    /// Widest hole to fill [m]; a fifth of the cloud's diagonal when not given.
     pub max_hole: Option<f64>,
     /// How points are spread.
     pub method: Method,
@@ -89,8 +92,26 @@ pub struct HoleReport {
     pub open: bool,
 }
 
+/// Why a cloud cannot be filled.
+#[derive(Debug, Error, PartialEq)]
+pub enum FillError {
+    /// A spacing so small that memory would not hold the points.
+    #[error(
+        "a spacing of {spacing} m puts {points:.1e} points into the holes, more than {MOST:.0e}: give a wider spacing"
+    )]
+    TooMany {
+        /// Least distance [m].
+        spacing: f64,
+        /// Points wanted.
+        points: f64,
+    },
+}
+
 /// Fills the holes of a cloud.
-pub fn fill(cloud: Cloud, settings: &Settings) -> Filled {
+///
+/// # Errors
+/// A spacing so small that memory would not hold the points.
+pub fn fill(cloud: Cloud, settings: &Settings) -> Result<Filled, FillError> {
     let points_in = cloud.points.len();
     let (cloud, not_finite) = cloud.finite();
     let automatic = || density::sparse(&cloud.points, SPARSEST.0).map(|d| d * SPARSEST.1);
@@ -105,6 +126,12 @@ pub fn fill(cloud: Cloud, settings: &Settings) -> Filled {
         }
         _ => Vec::new(),
     };
+    let area: f64 = holes.iter().map(Hole::area).sum();
+    if let Some(spacing) = settings.spacing
+        && area / (spacing * spacing) > MOST
+    {
+        return Err(FillError::TooMany { spacing, points: area / (spacing * spacing) });
+    }
     let patches: Vec<Patch> =
         holes.par_iter().enumerate().map(|(i, hole)| Patch::new(hole, settings, i as u64)).collect();
     let mut mesh = TriMesh::default();
@@ -117,7 +144,7 @@ pub fn fill(cloud: Cloud, settings: &Settings) -> Filled {
     report.holes = patches.into_iter().map(|p| p.report).collect();
     report.added = report.holes.iter().map(|h| h.added).sum();
     report.points_out = cloud.points.len();
-    Filled { cloud, mesh, report }
+    Ok(Filled { cloud, mesh, report })
 }
 
 /// What one hole adds.

@@ -270,6 +270,11 @@ fn once(mut holes: Vec<Hole>) -> Vec<Hole> {
 }
 
 impl Hole {
+    /// Area of the open cells, laid flat [m²].
+    pub fn area(&self) -> f64 {
+        self.open.len() as f64 * self.raster.cell * self.raster.cell
+    }
+
     /// Whether a good part of the `other` lies over or under this one.
     fn overlaps(&self, other: &Hole) -> bool {
         let reach = 0.75 * (self.width + other.width);

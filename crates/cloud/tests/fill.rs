@@ -1,9 +1,14 @@
 //! Filling is checked against surfaces that are known.
 
-use cloud::fill::{Settings, fill};
+use cloud::fill::{FillError, Filled, Settings};
 use cloud::{Cloud, Method};
 use geom::Vec3;
 use stream::{Table, Values};
+
+/// Fills, where nothing is to be refused.
+fn fill(cloud: Cloud, settings: &Settings) -> Filled {
+    cloud::fill(cloud, settings).unwrap()
+}
 
 /// Numbers of a small congruential generator, uniform in 0 … 1.
 struct Random(u64);
@@ -158,4 +163,11 @@ fn bad_clouds_come_back_as_they_were() {
     cloud.points[7] = Vec3::repeat(f64::NAN);
     let filled = fill(cloud, &Settings::default());
     assert_eq!((filled.report.not_finite, filled.report.holes.len()), (1, 1));
+}
+
+#[test]
+fn a_spacing_that_memory_cannot_hold_is_refused() {
+    let settings = Settings { spacing: Some(1e-7), ..Settings::default() };
+    let error = cloud::fill(half_pipe(&[(0.7, 0.0, 0.1)], 8), &settings).unwrap_err();
+    assert!(matches!(error, FillError::TooMany { spacing: 1e-7, .. }), "{error}");
 }

@@ -31,7 +31,7 @@ struct Args {
     /// Fill only inside SHAPE, also where it crosses the rim (repeat for more)
     #[arg(long, value_name = "SHAPE", value_parser = cloud::shape)]
     region: Vec<Shape>,
-    /// Widest hole to fill [m] (default: a third of the cloud's diagonal)
+    /// Widest hole to fill [m] (default: a fifth of the cloud's diagonal)
     #[arg(long, value_name = "M", value_parser = positive)]
     max_hole: Option<f64>,
     /// How added points are spread: blue-noise, random or grid
@@ -63,8 +63,13 @@ fn fill(args: Args) -> anyhow::Result<Report> {
         balls,
         seed: args.seed.seed,
     };
-    let filled = cloud::fill(args.input.read_cloud()?, &settings);
+    let filled = cloud::fill(args.input.read_cloud()?, &settings)?;
     warn(&filled.report);
+    if !settings.regions.is_empty() && filled.report.holes.is_empty() {
+        cli::warn(
+            "no end of the surface is in or beside the regions: nothing was filled; check their coordinates",
+        );
+    }
     if let Some(path) = &args.mesh {
         let mut out = cli::OutputStream::file(path)?;
         cloud::write_mesh(&mut out, &filled.mesh, stream::ply::Encoding::default())?;
