@@ -221,3 +221,45 @@ fn write_walls(path: &Path) {
     writer.points("/walls", 0, "world", &table).unwrap();
     writer.finish().unwrap();
 }
+
+/// A faucet gives its rate into a box, and a run resumed in the middle of it gives the same.
+#[test]
+fn a_faucet_pours_at_its_rate_and_resumes() {
+    let scene = SCENE
+        .replace("[[fill]]", "[[insert]]")
+        .replace("mass = 0.2", "rate = 2\nvelocity = [0, 0, -1]\nuntil = 0.1");
+    let scene = scene.replace("cylinder:0,0,0,0,0,0.1,0.04", "cylinder:0,0,0.1,0,0,0.12,0.04");
+    let scene = scene.replace("plane = \"0,0,0,0,0,1\"", "box = [-0.06, -0.06, 0, 0.06, 0.06, 1]");
+    let folder = folder(&scene.replace("every = 0.01", "every = 0.02"));
+    succeed(folder.path(), "dem-run", &["s.toml", "-o", "whole.mcap"]);
+    succeed(folder.path(), "dem-run", &["s.toml", "-o", "part.mcap", "--until", "0.05"]);
+    succeed(folder.path(), "dem-run", &["s.toml", "--resume", "part.mcap", "-o", "rest.mcap"]);
+    let (whole, rest) = (frames(&folder.path().join("whole.mcap")), frames(&folder.path().join("rest.mcap")));
+    assert!(whole[3..] == rest[..] && rest.len() == 4, "{} frames", rest.len());
+    let last = &whole.last().unwrap().1;
+    let radius = last.get("radius").unwrap().to_f64();
+    let mass: f64 = radius.iter().map(|r| 3300.0 * 4.0 / 3.0 * std::f64::consts::PI * r.powi(3)).sum();
+    assert!((mass - 0.2).abs() < 0.01, "{mass} kg in 0.1 s at 2 kg/s");
+}
+
+/// Energy is written when it is asked for, and nothing of the motion changes by asking.
+#[test]
+fn the_ledger_is_written_and_changes_nothing() {
+    let folder = folder(SCENE);
+    succeed(folder.path(), "dem-run", &["s.toml", "-o", "without.mcap"]);
+    succeed(folder.path(), "dem-run", &["s.toml", "-o", "with.mcap", "--set", "output.energy=true"]);
+    let path = |name: &str| folder.path().join(name);
+    assert!(frames(&path("with.mcap")) == frames(&path("without.mcap")));
+    let balances: Vec<f64> = events(&path("with.mcap"))
+        .0
+        .into_iter()
+        .filter_map(|e| match e {
+            Event::Bytes { topic, data, .. } if topic == "/energy" => Some(data),
+            _ => None,
+        })
+        .map(|data| serde_json::from_slice::<serde_json::Value>(&data).unwrap()["balance"].as_f64().unwrap())
+        .collect();
+    assert_eq!(balances.len(), 13);
+    let first = balances[0];
+    assert!(balances.iter().all(|b| (b - first).abs() < 0.02 * first.abs()), "{balances:?}");
+}

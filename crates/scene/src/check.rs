@@ -108,6 +108,7 @@ impl Check<'_> {
         self.positive_if("neighbours.skin", m.neighbours.skin, "m")?;
         self.positive_if("guards.overlap", m.guards.overlap, "")?;
         self.positive_if("guards.motion", m.guards.motion, "")?;
+        self.within("first_id", f64::from(m.first_id), 0.0, 4e9, "")?;
         self.materials(m)?;
         self.contacts(m)?;
         self.sources(m)?;

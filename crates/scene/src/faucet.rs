@@ -22,12 +22,7 @@ const TRIES: usize = 20_000;
 #[derive(Debug, Clone)]
 pub(crate) struct Faucet {
     key: String,
-    shape: Shape,
-    middle: f64,
-    frame: [Vec3; 3],
-    low: [f64; 2],
-    high: [f64; 2],
-    start: f64,
+    section: Section,
     velocity: Vec3,
     diameter: Diameter,
     material: (u16, f64),
@@ -39,6 +34,49 @@ pub(crate) struct Faucet {
     inlet: u32,
     random: Pcg64Mcg,
     recent: VecDeque<(Vec3, f64)>,
+}
+
+/// The shape as seen along the velocity.
+#[derive(Debug, Clone)]
+struct Section {
+    shape: Shape,
+    /// Along the velocity, and twice across it.
+    frame: [Vec3; 3],
+    /// What the shape covers along each of them [m].
+    ranges: [(f64, f64); 3],
+}
+
+impl Section {
+    /// `None` for a shape without end.
+    fn new(shape: Shape, axis: Vec3) -> Option<Section> {
+        let (low, high) = bounds(&shape)?;
+        let across = axis.cross(&if axis.x.abs() < 0.9 { Vec3::x() } else { Vec3::y() }).normalize();
+        let frame = [axis, across, axis.cross(&across)];
+        let ranges = frame.map(|n| extent(&n, &low, &high));
+        Some(Section { shape, frame, ranges })
+    }
+
+    fn middle(&self, n: usize) -> f64 {
+        (self.ranges[n].0 + self.ranges[n].1) / 2.0
+    }
+
+    fn size(&self, n: usize) -> f64 {
+        self.ranges[n].1 - self.ranges[n].0
+    }
+
+    /// The zone: its calculation plane is where the shape ends.
+    fn zone(&self) -> Zone {
+        let end = self.frame[0] * self.ranges[0].1;
+        let point = end + self.frame[1] * self.middle(1) + self.frame[2] * self.middle(2);
+        Zone { plane: Plane { point, normal: self.frame[0] }, length: self.size(0) }
+    }
+
+    /// A place across the flow that holds a sphere.
+    fn candidate(&self, radius: f64, random: &mut Pcg64Mcg) -> Option<Vec3> {
+        let [u, w] = [1, 2].map(|n| self.ranges[n].0 + self.size(n) * unit(random));
+        let across = self.frame[1] * u + self.frame[2] * w;
+        holds(&self.shape, &(across + self.frame[0] * self.middle(0)), radius).then_some(across)
+    }
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -67,22 +105,15 @@ impl Faucet {
             let cure = "give the velocity that particles leave the shape with";
             return Err(check.wrong(&key("velocity"), "0 m/s", "nothing would come out", cure));
         }
-        let Some((low, high)) = bounds(&shape) else {
+        let Some(section) = Section::new(shape, velocity / speed) else {
             let why = "has no end: only box, sphere and cylinder (without '!') can be a faucet";
             return Err(check.wrong(&key("shape"), &entry.shape, why, "use one of these"));
         };
-        let axis = velocity / speed;
-        let across = axis.cross(&if axis.x.abs() < 0.9 { Vec3::x() } else { Vec3::y() }).normalize();
-        let frame = [axis, across, axis.cross(&across)];
-        let range = |n: &Vec3| extent(n, &low, &high);
-        let [along, one, two] = [range(&frame[0]), range(&frame[1]), range(&frame[2])];
-        let thickness = along.1 - along.0;
-        if thickness <= entry.diameter.high {
-            let why = format!(
-                "is {thickness} m thick along the velocity, and the largest diameter is {} m",
-                entry.diameter.high
-            );
-            let cure = format!("make it at least {} m thick", 1.2 * entry.diameter.high);
+        let (thickness, largest) = (section.size(0), entry.diameter.high);
+        if thickness <= largest {
+            let why =
+                format!("is {thickness} m thick along the velocity, and the largest diameter is {largest} m");
+            let cure = format!("make it at least {} m thick", 1.2 * largest);
             return Err(check.wrong(&key("shape"), &entry.shape, &why, &cure));
         }
         let rate = match (entry.rate, entry.rate_count) {
@@ -91,12 +122,7 @@ impl Faucet {
         };
         let faucet = Faucet {
             key: format!("insert.{index}"),
-            shape,
-            middle: (along.0 + along.1) / 2.0,
-            frame,
-            low: [one.0, two.0],
-            high: [one.1, two.1],
-            start: along.0,
+            section,
             velocity,
             diameter: entry.diameter,
             material,
@@ -110,21 +136,19 @@ impl Faucet {
             recent: VecDeque::new(),
         };
         faucet.check_rate(check, index)?;
-        let point =
-            frame[0] * along.1 + frame[1] * ((one.0 + one.1) / 2.0) + frame[2] * ((two.0 + two.1) / 2.0);
-        let plane = Plane::new(point, axis)
-            .map_err(|e| check.wrong(&key("velocity"), speed, &e.to_string(), "change it"))?;
-        Ok((faucet, Zone { plane, length: thickness }))
+        let zone = faucet.section.zone();
+        Ok((faucet, zone))
     }
 
     /// Refuses a rate that needs more room than the cross-section has.
     fn check_rate(&self, check: &Check, index: usize) -> Result<(), SceneError> {
         let radius = self.diameter.high / 2.0;
         let mut random = generator(0, 3, index as u64);
-        let inside =
-            (0..10_000).filter(|_| self.candidate(radius, &mut random).is_some()).count() as f64 / 1e4;
+        let inside = (0..10_000).filter(|_| self.section.candidate(radius, &mut random).is_some()).count()
+            as f64
+            / 1e4;
         // The section that spheres fill is wider than that of their centres by their radius.
-        let area = inside * (0..2).map(|a| self.high[a] - self.low[a]).product::<f64>();
+        let area = inside * self.section.size(1) * self.section.size(2);
         let mean = volume(self.diameter.low / 2.0) + volume(radius);
         let (flow, written) = match self.rate {
             Rate::Mass(rate) => (rate / self.material.1, format!("{rate} kg/s")),
@@ -152,14 +176,6 @@ impl Faucet {
         Err(check.wrong(&format!("{}.{key}", self.key), written, &why, &cure))
     }
 
-    /// A place across the flow that holds a sphere.
-    fn candidate(&self, radius: f64, random: &mut Pcg64Mcg) -> Option<Vec3> {
-        let [u, w] = [0, 1].map(|a| self.low[a] + (self.high[a] - self.low[a]) * unit(random));
-        let across = self.frame[1] * u + self.frame[2] * w;
-        let inside = across + self.frame[0] * self.middle;
-        holds(&self.shape, &inside, radius).then_some(across)
-    }
-
     /// Time of the next particle [s]; `None` when the faucet is closed for good.
     pub(crate) fn next_time(&self) -> Option<f64> {
         (self.time < self.until).then_some(self.time)
@@ -173,14 +189,15 @@ impl Faucet {
         let Some(time) = self.next_time() else { return Ok(None) };
         let mut random = self.random.clone();
         let radius = diameter(self.diameter, &mut random) / 2.0;
-        let behind = self.frame[0] * (-self.velocity.norm() * time);
+        let axis = self.section.frame[0];
+        let behind = axis * (-self.velocity.norm() * time);
         let reach = self.velocity.norm() * time;
         // Those further ahead than the largest diameter touch nothing that comes from now on.
-        while self.recent.front().is_some_and(|(p, _)| p.dot(&self.frame[0]) + reach > self.diameter.high) {
+        while self.recent.front().is_some_and(|(p, _)| p.dot(&axis) + reach > self.diameter.high) {
             self.recent.pop_front();
         }
         let found = (0..TRIES).find_map(|_| {
-            let across = self.candidate(radius, &mut random)?;
+            let across = self.section.candidate(radius, &mut random)?;
             let moving = across + behind;
             let free = |(p, r): &(Vec3, f64)| (p - moving).norm_squared() >= (r + radius) * (r + radius);
             self.recent.iter().all(free).then_some(across)
@@ -202,7 +219,7 @@ impl Faucet {
         self.time += step;
         let id = self.first_id.wrapping_add(self.count);
         self.count += 1;
-        let position = across + self.frame[0] * self.start;
+        let position = across + axis * self.section.ranges[0].0;
         let (velocity, spin) = (self.velocity, Vec3::zeros());
         let particle = Particle { id, material: self.material.0, radius, position, velocity, spin };
         Ok(Some(Entry { time, inlet: self.inlet, particle }))

@@ -97,7 +97,7 @@ pub(crate) fn fill(
         room.take(position, radius);
         placed += volume(radius);
         let velocity = Vec3::from(fill.velocity);
-        let id = first_id + n as u32;
+        let id = first_id.wrapping_add(n as u32);
         particles.push(Particle {
             id,
             material: material.0,

@@ -15,6 +15,7 @@ pub mod frames;
 pub mod inlet;
 pub mod input;
 pub mod material_info;
+mod meeting;
 pub mod mesh_file;
 pub mod model;
 mod parse;
@@ -29,6 +30,7 @@ pub mod split;
 pub mod text;
 mod wall_file;
 mod walls;
+mod zones;
 
 pub use checkpoint::Checkpoint;
 pub use error::SceneError;

@@ -112,7 +112,7 @@ impl<'a> Draft<'a> {
         }
     }
 
-    fn model(&self) -> &'a Model {
+    pub(crate) fn model(&self) -> &'a Model {
         &self.scene.model
     }
 
@@ -121,14 +121,14 @@ impl<'a> Draft<'a> {
         self.scene.folder.join(file)
     }
 
-    fn shape(&self, key: &str, text: &str) -> Result<Shape, SceneError> {
+    pub(crate) fn shape(&self, key: &str, text: &str) -> Result<Shape, SceneError> {
         let load = |file: &str| crate::mesh_file::read(&self.path(file)).map_err(|e| e.to_string());
         Shape::parse(text, &load)
             .map_err(|e| self.check.wrong(key, format!("\"{text}\""), &e.to_string(), "see SHAPE in --help"))
     }
 
     /// Index and density of a material that particles are made of.
-    fn grain(&self, key: &str, name: &str) -> Result<(u16, f64), SceneError> {
+    pub(crate) fn grain(&self, key: &str, name: &str) -> Result<(u16, f64), SceneError> {
         let index = self.check.material(key, name, &self.materials)?;
         let density = self.materials[index as usize].density;
         if density > 0.0 {
@@ -165,8 +165,8 @@ impl<'a> Draft<'a> {
         Ok(self.materials.len() as u16 - 1)
     }
 
-    fn next_id(&self) -> u32 {
-        self.particles.iter().map(|p| p.id + 1).max().unwrap_or(0).max(self.model().first_id)
+    pub(crate) fn next_id(&self) -> u32 {
+        self.particles.iter().map(|p| p.id.saturating_add(1)).max().unwrap_or(0).max(self.model().first_id)
     }
 
     fn particles(&mut self) -> Result<(), SceneError> {
@@ -192,7 +192,7 @@ impl<'a> Draft<'a> {
             for (n, mut p) in file.particles.into_iter().enumerate() {
                 p.material =
                     if entry.material.is_some() { materials[0] } else { materials[p.material as usize] };
-                p.id = if file.has_ids { p.id } else { first + n as u32 };
+                p.id = if file.has_ids { p.id } else { first.wrapping_add(n as u32) };
                 self.particles.push(p);
             }
         }
@@ -205,148 +205,9 @@ impl<'a> Draft<'a> {
         Ok(())
     }
 
-    fn inlets(&mut self, streams: Vec<InletStream>) -> Result<(), SceneError> {
-        let mut given = streams.into_iter();
-        for (i, entry) in self.model().inlet.iter().enumerate() {
-            let key = format!("inlet.{i}");
-            let stream = match &entry.source {
-                Some(source) => self.open_inlet(source)?,
-                None => given.next().ok_or_else(|| {
-                    let why = "waits for an inlet of the command line, and none was given";
-                    self.check.wrong(
-                        &key,
-                        "(without source)",
-                        why,
-                        "dem-run SCENE.toml INLET.mcap, or give it source",
-                    )
-                })?,
-            };
-            let plane = walls::plane(&self.check, &format!("{key}.plane"), &entry.plane)?;
-            let recorded = stream.zone.map(|z| z.length);
-            let length = match (entry.length, recorded) {
-                (OrAuto::Given(length), _) => length,
-                (OrAuto::Auto, Some(length)) => length,
-                (OrAuto::Auto, None) => 2.4 * stream.sizes.largest,
-            };
-            let zone = Zone { plane, length };
-            if let Some(recorded) = stream.zone {
-                self.same_zone(&key, &zone, &recorded, &stream.name)?;
-            }
-            self.feed(stream, zone)?;
-        }
-        for stream in given {
-            let Some(zone) = stream.zone else {
-                let why =
-                    "does not say where its particles enter, and the scene has no [[inlet]] left for it";
-                return Err(SceneError::file(&stream.name, why, "add [[inlet]] plane = \"…\" to the scene"));
-            };
-            self.feed(stream, zone)?;
-        }
-        Ok(())
-    }
-
-    fn same_zone(&self, key: &str, scene: &Zone, stream: &Zone, name: &str) -> Result<(), SceneError> {
-        let size = stream.length;
-        let apart = stream.plane.signed_distance(&scene.plane.point).abs();
-        let turned = (scene.plane.normal - stream.plane.normal).norm();
-        if apart > 1e-6 * size.max(apart) && apart > 1e-3 * size || turned > 1e-6 {
-            let value = crate::inlet::plane_text(&scene.plane);
-            let why = format!("{name} was made for the plane {}", crate::inlet::plane_text(&stream.plane));
-            return Err(self.check.wrong(
-                &format!("{key}.plane"),
-                value,
-                &why,
-                "run stage-replay with --at this plane",
-            ));
-        }
-        if (scene.length - stream.length).abs() > 1e-9 * size {
-            let why = format!("{name} was made for a length of {} m", stream.length);
-            let cure = "run stage-replay with this --length, or use length = \"auto\"";
-            return Err(self.check.wrong(
-                &format!("{key}.length"),
-                format!("{} m", scene.length),
-                &why,
-                cure,
-            ));
-        }
-        Ok(())
-    }
-
-    fn open_inlet(&self, source: &str) -> Result<InletStream, SceneError> {
-        let path = self.path(source);
-        let name = path.display().to_string();
-        let file =
-            std::fs::File::open(&path).map_err(|source| SceneError::Read { name: name.clone(), source })?;
-        match Input::open(&name, Box::new(file))? {
-            Input::Inlet(stream) => Ok(*stream),
-            Input::Walls(_) => {
-                Err(SceneError::file(&name, "holds walls, no crossings", "name it in [[wall]]"))
-            }
-        }
-    }
-
-    fn feed(&mut self, mut stream: InletStream, zone: Zone) -> Result<(), SceneError> {
-        let name = stream.name.clone();
-        stream.inlet = self.inlets.len() as u32;
-        stream.to_scene.clear();
-        // All that a stream names must fit, because which it brings is known only when it has brought them.
-        for info in stream.materials.clone() {
-            let material = self.material_of(&name, &info)?;
-            if self.materials[material as usize].density > 0.0 {
-                self.entry_materials.push(material);
-            }
-            stream.to_scene.push(material);
-        }
-        self.entry_sizes = Sizes::union(self.entry_sizes, Some(stream.sizes));
-        self.inlets.push(zone);
-        self.feeds.streams.push(stream);
-        Ok(())
-    }
-
-    fn faucets(&mut self) -> Result<(), SceneError> {
-        let mut first = self.next_id();
-        for (i, entry) in self.model().insert.iter().enumerate() {
-            let material = self.grain(&format!("insert.{i}.material"), &entry.material)?;
-            let shape = self.shape(&format!("insert.{i}.shape"), &entry.shape)?;
-            let ids = (first, self.inlets.len() as u32);
-            let (faucet, zone) = Faucet::new(&self.check, i, entry, shape, material, ids)?;
-            // Room for the ids of each faucet: they would have to give this many to meet.
-            first = first.saturating_add(200_000_000);
-            let sizes = Sizes { smallest: entry.diameter.low / 2.0, largest: entry.diameter.high / 2.0 };
-            self.entry_sizes = Sizes::union(self.entry_sizes, Some(sizes));
-            self.entry_materials.push(material.0);
-            self.inlets.push(zone);
-            self.feeds.faucets.push(faucet);
-        }
-        Ok(())
-    }
-
-    fn sizes(&self) -> Option<Sizes> {
+    pub(crate) fn sizes(&self) -> Option<Sizes> {
         let own = self.particles.iter().map(|p| Some(Sizes { smallest: p.radius, largest: p.radius }));
         own.fold(self.entry_sizes, Sizes::union)
-    }
-
-    fn outlets(&mut self) -> Result<(), SceneError> {
-        let largest = self.sizes().map_or(0.0, |s| 2.0 * s.largest);
-        for (i, entry) in self.model().outlet.iter().enumerate() {
-            let plane = walls::plane(&self.check, &format!("outlet.{i}.plane"), &entry.plane)?;
-            let length = match entry.length {
-                OrAuto::Auto => 1.2 * largest,
-                OrAuto::Given(length) => length,
-            };
-            if length <= largest {
-                let why = format!("is not above the largest diameter, {largest} m");
-                let cure = format!("use \"auto\", or at least {} m", 1.2 * largest);
-                return Err(self.check.wrong(
-                    &format!("outlet.{i}.length"),
-                    format!("{length} m"),
-                    &why,
-                    &cure,
-                ));
-            }
-            self.outlets.push(Zone { plane, length });
-        }
-        Ok(())
     }
 
     fn finish(mut self) -> Result<Plan, SceneError> {
@@ -384,92 +245,5 @@ impl<'a> Draft<'a> {
             },
         };
         Ok(Plan { setup, feeds: self.feeds, notes: self.notes, inputs: self.inputs, sizes })
-    }
-
-    /// The laws of pairs that can meet; what wall files say fills in where the scene is silent.
-    fn meeting(&mut self, mut laws: Vec<setup::Contact>) -> Vec<setup::Contact> {
-        let mut grains: Vec<u16> = self.particles.iter().map(|p| p.material).collect();
-        grains.extend(&self.entry_materials);
-        grains.sort_unstable();
-        grains.dedup();
-        let of = |laws: &[setup::Contact], a: u16, b: u16| {
-            laws.iter().position(|l| l.between == (a, b) || l.between == (b, a))
-        };
-        for (wall, info) in &self.wall_infos {
-            for &grain in &grains {
-                match (of(&laws, grain, *wall), info.restitution) {
-                    (None, Some(restitution)) => laws.push(setup::Contact {
-                        between: (grain.min(*wall), grain.max(*wall)),
-                        law: setup::Law::Hertz,
-                        restitution,
-                        sliding_friction: info.friction.filter(|mu| *mu > 0.0),
-                        rolling_resistance: None,
-                    }),
-                    (Some(at), _)
-                        if info.friction.is_some() && info.friction != laws[at].sliding_friction =>
-                    {
-                        let (a, b) = (&self.materials[grain as usize].name, &info.name);
-                        let scene = laws[at].sliding_friction.unwrap_or(0.0);
-                        let file = info.friction.unwrap_or(0.0);
-                        self.notes.push(format!(
-                            "{a}–{b}: sliding_friction {scene} of the scene, not {file} of the wall file"
-                        ));
-                    }
-                    _ => {}
-                }
-            }
-        }
-        let walls: Vec<u16> = self.walls.iter().map(|w| w.material).collect();
-        let grain = |m: u16| grains.contains(&m);
-        laws.retain(|l| {
-            let (a, b) = l.between;
-            (grain(a) && (grain(b) || walls.contains(&b))) || (grain(b) && walls.contains(&a))
-        });
-        // Nothing turns where nothing rubs.
-        if laws.iter().all(|l| l.sliding_friction.is_none())
-            && laws.iter().any(|l| l.rolling_resistance.is_some())
-        {
-            laws.iter_mut().for_each(|l| l.rolling_resistance = None);
-            self.notes
-                .push("rolling_resistance is left out: without sliding_friction nothing turns".to_owned());
-        }
-        laws
-    }
-
-    fn periodic(&self) -> Result<[Option<(f64, f64)>; 3], SceneError> {
-        let domain = &self.model().domain;
-        let mut periodic = [None; 3];
-        for axis in &domain.periodic {
-            let a = *axis as usize;
-            let (Some(low), Some(high)) = (domain.low, domain.high) else {
-                let why = "needs the corners of the domain";
-                return Err(self.check.wrong(
-                    "domain.periodic",
-                    format!("{axis:?}"),
-                    why,
-                    "add low and high, in metres",
-                ));
-            };
-            if low[a].is_nan() || high[a].is_nan() || low[a] >= high[a] {
-                let value = format!("{} m", high[a]);
-                return Err(self.check.wrong(
-                    "domain.high",
-                    value,
-                    "is not above low",
-                    "swap them, or widen the domain",
-                ));
-            }
-            periodic[a] = Some((low[a], high[a]));
-        }
-        if domain.periodic.is_empty() && (domain.low.is_some() || domain.high.is_some()) {
-            let why = "no axis is periodic, and a domain does not hold particles back";
-            return Err(self.check.wrong(
-                "domain",
-                "(low, high)",
-                why,
-                "add periodic = [\"x\"], or a [[wall]] with box",
-            ));
-        }
-        Ok(periodic)
     }
 }

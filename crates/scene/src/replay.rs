@@ -70,7 +70,7 @@ pub fn replay<W: Write>(
     source: Source,
     what: &Replay,
     out: W,
-    (provenance, compression): (Provenance, Compression),
+    (mut provenance, compression): (Provenance, Compression),
 ) -> Result<(Replayed, W), RunError> {
     let mut reader = Reader::new(source);
     let broken = |e: stream::mcap::McapError| SceneError::Content {
@@ -85,6 +85,11 @@ pub fn replay<W: Write>(
             other => break other,
         }
     };
+    if let Some(scene) =
+        records.get(crate::input::SCENE).and_then(|r: &BTreeMap<String, String>| r.get("toml"))
+    {
+        provenance.inputs.push(("scene of the run".to_owned(), crate::sha256(scene)));
+    }
     let head = head(name, records, what)?;
     let mut writer = Writer::compressed(out, &provenance, compression)?;
     writer.metadata(MATERIALS, head.materials.clone())?;

@@ -47,7 +47,7 @@ pub enum RunError {
 }
 
 /// What was done.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Outcome {
     /// Why a guard stopped the run.
     pub stopped: Option<String>,
@@ -171,13 +171,9 @@ impl<W: Write> Run<W> {
         let walls = frames::heads(&plan.setup);
         let surfaces = frames::surfaces(&plan.setup.walls);
         let materials = material_info::to_map(&plan.setup.materials);
-        let outlets: BTreeMap<String, String> =
+        let outlets: Record =
             plan.setup.outlets.iter().enumerate().map(|(i, z)| (i.to_string(), json(z))).collect();
-        let moving = plan.setup.walls.iter().any(|w| {
-            let m = &w.motion;
-            matches!(w.shape, dem::setup::WallShape::Spheres(_))
-                && (m.velocity.norm() > 0.0 || m.turn.norm() > 0.0 || m.amplitude.norm() * m.frequency > 0.0)
-        });
+        let moving = spheres_move(&plan.setup.walls);
         let sim = match resume {
             Some(saved) => Simulation::resume(plan.setup, saved.state)?,
             None => Simulation::new(plan.setup)?,
@@ -192,28 +188,11 @@ impl<W: Write> Run<W> {
             return Err(SceneError::file("--resume", why, "give a later --until").into());
         }
         let mut writer = Writer::compressed(out, &settings.provenance, settings.compression)?;
-        writer.metadata(SCENE, BTreeMap::from([("toml".to_owned(), scene.text.toml.clone())]))?;
-        writer.metadata(MATERIALS, materials)?;
-        if let Some(sizes) = plan.sizes {
-            writer.metadata(SIZES, sizes.to_map())?;
-        }
-        let start = (sim.steps().to_string(), sim.time());
-        let times = [("dt", sim.dt()), ("start", start.1), ("end", schedule.last as f64 * schedule.dt)];
-        writer.metadata("time", times.iter().map(|(k, v)| ((*k).to_owned(), v.to_string())).collect())?;
-        if !outlets.is_empty() {
-            writer.metadata(OUTLETS, outlets.clone())?;
+        for (name, record) in records(scene, &schedule, &sim, materials, plan.sizes, &outlets) {
+            writer.metadata(name, record)?;
         }
         let mut run = Run {
-            outcome: Outcome {
-                stopped: None,
-                time: 0.0,
-                dt: sim.dt(),
-                steps: 0,
-                frames: 0,
-                particles: 0,
-                entered: 0,
-                crossings: 0,
-            },
+            outcome: Outcome { dt: sim.dt(), ..Outcome::default() },
             sim,
             supply,
             writer,
@@ -346,6 +325,40 @@ impl<W: Write> Run<W> {
         self.outcome.stopped = Some(halt.to_string());
         Ok(())
     }
+}
+
+type Record = BTreeMap<String, String>;
+
+/// The metadata of a run: scene, materials, sizes, times, outlets.
+fn records(
+    scene: &Scene,
+    schedule: &Schedule,
+    sim: &Simulation,
+    materials: Record,
+    sizes: Option<crossings::Sizes>,
+    outlets: &Record,
+) -> Vec<(&'static str, Record)> {
+    let times = [("dt", sim.dt()), ("start", sim.time()), ("end", schedule.last as f64 * schedule.dt)];
+    let times = times.iter().map(|(k, v)| ((*k).to_owned(), v.to_string())).collect();
+    let mut records = vec![
+        (SCENE, Record::from([("toml".to_owned(), scene.text.toml.clone())])),
+        (MATERIALS, materials),
+        ("time", times),
+    ];
+    records.extend(sizes.map(|s| (SIZES, s.to_map())));
+    if !outlets.is_empty() {
+        records.push((OUTLETS, outlets.clone()));
+    }
+    records
+}
+
+/// Whether wall spheres move, so that they are written with every frame.
+fn spheres_move(walls: &[dem::setup::Wall]) -> bool {
+    walls.iter().any(|w| {
+        let m = &w.motion;
+        matches!(w.shape, dem::setup::WallShape::Spheres(_))
+            && (m.velocity.norm() > 0.0 || m.turn.norm() > 0.0 || m.amplitude.norm() * m.frequency > 0.0)
+    })
 }
 
 /// JSON of what always is JSON: structs of numbers and text.

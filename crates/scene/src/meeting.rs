@@ -1,0 +1,94 @@
+//! Laws of the pairs that can meet, and the extent in which they do.
+
+use crate::error::SceneError;
+use crate::plan::Draft;
+use dem::setup;
+
+impl Draft<'_> {
+    /// The laws of pairs that can meet; what wall files say fills in where the scene is silent.
+    pub(crate) fn meeting(&mut self, mut laws: Vec<setup::Contact>) -> Vec<setup::Contact> {
+        let mut grains: Vec<u16> = self.particles.iter().map(|p| p.material).collect();
+        grains.extend(&self.entry_materials);
+        grains.sort_unstable();
+        grains.dedup();
+        let of = |laws: &[setup::Contact], a: u16, b: u16| {
+            laws.iter().position(|l| l.between == (a, b) || l.between == (b, a))
+        };
+        for (wall, info) in &self.wall_infos {
+            for &grain in &grains {
+                match (of(&laws, grain, *wall), info.restitution) {
+                    (None, Some(restitution)) => laws.push(setup::Contact {
+                        between: (grain.min(*wall), grain.max(*wall)),
+                        law: setup::Law::Hertz,
+                        restitution,
+                        sliding_friction: info.friction.filter(|mu| *mu > 0.0),
+                        rolling_resistance: None,
+                    }),
+                    (Some(at), _)
+                        if info.friction.is_some() && info.friction != laws[at].sliding_friction =>
+                    {
+                        let (a, b) = (&self.materials[grain as usize].name, &info.name);
+                        let scene = laws[at].sliding_friction.unwrap_or(0.0);
+                        let file = info.friction.unwrap_or(0.0);
+                        self.notes.push(format!(
+                            "{a}–{b}: sliding_friction {scene} of the scene, not {file} of the wall file"
+                        ));
+                    }
+                    _ => {}
+                }
+            }
+        }
+        let walls: Vec<u16> = self.walls.iter().map(|w| w.material).collect();
+        let grain = |m: u16| grains.contains(&m);
+        laws.retain(|l| {
+            let (a, b) = l.between;
+            (grain(a) && (grain(b) || walls.contains(&b))) || (grain(b) && walls.contains(&a))
+        });
+        // Nothing turns where nothing rubs.
+        if laws.iter().all(|l| l.sliding_friction.is_none())
+            && laws.iter().any(|l| l.rolling_resistance.is_some())
+        {
+            laws.iter_mut().for_each(|l| l.rolling_resistance = None);
+            self.notes
+                .push("rolling_resistance is left out: without sliding_friction nothing turns".to_owned());
+        }
+        laws
+    }
+
+    pub(crate) fn periodic(&self) -> Result<[Option<(f64, f64)>; 3], SceneError> {
+        let domain = &self.model().domain;
+        let mut periodic = [None; 3];
+        for axis in &domain.periodic {
+            let a = *axis as usize;
+            let (Some(low), Some(high)) = (domain.low, domain.high) else {
+                let why = "needs the corners of the domain";
+                return Err(self.check.wrong(
+                    "domain.periodic",
+                    format!("{axis:?}"),
+                    why,
+                    "add low and high, in metres",
+                ));
+            };
+            if low[a].is_nan() || high[a].is_nan() || low[a] >= high[a] {
+                let value = format!("{} m", high[a]);
+                return Err(self.check.wrong(
+                    "domain.high",
+                    value,
+                    "is not above low",
+                    "swap them, or widen the domain",
+                ));
+            }
+            periodic[a] = Some((low[a], high[a]));
+        }
+        if domain.periodic.is_empty() && (domain.low.is_some() || domain.high.is_some()) {
+            let why = "no axis is periodic, and a domain does not hold particles back";
+            return Err(self.check.wrong(
+                "domain",
+                "(low, high)",
+                why,
+                "add periodic = [\"x\"], or a [[wall]] with box",
+            ));
+        }
+        Ok(periodic)
+    }
+}

@@ -1,0 +1,152 @@
+//! `[[inlet]]`, `[[insert]]` and `[[outlet]]` to the engine's zones, and what feeds them.
+
+use crate::crossings::Sizes;
+use crate::error::SceneError;
+use crate::faucet::Faucet;
+use crate::inlet::InletStream;
+use crate::input::Input;
+use crate::model::OrAuto;
+use crate::plan::Draft;
+use crate::walls;
+use dem::setup::Zone;
+
+impl Draft<'_> {
+    pub(crate) fn inlets(&mut self, streams: Vec<InletStream>) -> Result<(), SceneError> {
+        let mut given = streams.into_iter();
+        for (i, entry) in self.model().inlet.iter().enumerate() {
+            let key = format!("inlet.{i}");
+            let stream = match &entry.source {
+                Some(source) => self.open_inlet(source)?,
+                None => given.next().ok_or_else(|| {
+                    let why = "waits for an inlet of the command line, and none was given";
+                    self.check.wrong(
+                        &key,
+                        "(without source)",
+                        why,
+                        "dem-run SCENE.toml INLET.mcap, or give it source",
+                    )
+                })?,
+            };
+            let plane = walls::plane(&self.check, &format!("{key}.plane"), &entry.plane)?;
+            let recorded = stream.zone.map(|z| z.length);
+            let length = match (entry.length, recorded) {
+                (OrAuto::Given(length), _) => length,
+                (OrAuto::Auto, Some(length)) => length,
+                (OrAuto::Auto, None) => 2.4 * stream.sizes.largest,
+            };
+            let zone = Zone { plane, length };
+            if let Some(recorded) = stream.zone {
+                self.same_zone(&key, &zone, &recorded, &stream.name)?;
+            }
+            self.feed(stream, zone)?;
+        }
+        for stream in given {
+            let Some(zone) = stream.zone else {
+                let why =
+                    "does not say where its particles enter, and the scene has no [[inlet]] left for it";
+                return Err(SceneError::file(&stream.name, why, "add [[inlet]] plane = \"…\" to the scene"));
+            };
+            self.feed(stream, zone)?;
+        }
+        Ok(())
+    }
+
+    fn same_zone(&self, key: &str, scene: &Zone, stream: &Zone, name: &str) -> Result<(), SceneError> {
+        let size = stream.length;
+        let apart = stream.plane.signed_distance(&scene.plane.point).abs();
+        let turned = (scene.plane.normal - stream.plane.normal).norm();
+        if apart > 1e-6 * size.max(apart) && apart > 1e-3 * size || turned > 1e-6 {
+            let value = crate::inlet::plane_text(&scene.plane);
+            let why = format!("{name} was made for the plane {}", crate::inlet::plane_text(&stream.plane));
+            return Err(self.check.wrong(
+                &format!("{key}.plane"),
+                value,
+                &why,
+                "run stage-replay with --at this plane",
+            ));
+        }
+        if (scene.length - stream.length).abs() > 1e-9 * size {
+            let why = format!("{name} was made for a length of {} m", stream.length);
+            let cure = "run stage-replay with this --length, or use length = \"auto\"";
+            return Err(self.check.wrong(
+                &format!("{key}.length"),
+                format!("{} m", scene.length),
+                &why,
+                cure,
+            ));
+        }
+        Ok(())
+    }
+
+    fn open_inlet(&self, source: &str) -> Result<InletStream, SceneError> {
+        let path = self.path(source);
+        let name = path.display().to_string();
+        let file =
+            std::fs::File::open(&path).map_err(|source| SceneError::Read { name: name.clone(), source })?;
+        match Input::open(&name, Box::new(file))? {
+            Input::Inlet(stream) => Ok(*stream),
+            Input::Walls(_) => {
+                Err(SceneError::file(&name, "holds walls, no crossings", "name it in [[wall]]"))
+            }
+        }
+    }
+
+    fn feed(&mut self, mut stream: InletStream, zone: Zone) -> Result<(), SceneError> {
+        let name = stream.name.clone();
+        stream.inlet = self.inlets.len() as u32;
+        stream.to_scene.clear();
+        // All that a stream names must fit, because which it brings is known only when it has brought them.
+        for info in stream.materials.clone() {
+            let material = self.material_of(&name, &info)?;
+            if self.materials[material as usize].density > 0.0 {
+                self.entry_materials.push(material);
+            }
+            stream.to_scene.push(material);
+        }
+        self.entry_sizes = Sizes::union(self.entry_sizes, Some(stream.sizes));
+        self.inlets.push(zone);
+        self.feeds.streams.push(stream);
+        Ok(())
+    }
+
+    pub(crate) fn faucets(&mut self) -> Result<(), SceneError> {
+        let mut first = self.next_id();
+        for (i, entry) in self.model().insert.iter().enumerate() {
+            let material = self.grain(&format!("insert.{i}.material"), &entry.material)?;
+            let shape = self.shape(&format!("insert.{i}.shape"), &entry.shape)?;
+            let ids = (first, self.inlets.len() as u32);
+            let (faucet, zone) = Faucet::new(&self.check, i, entry, shape, material, ids)?;
+            // Room for the ids of each faucet: they would have to give this many to meet.
+            first = first.saturating_add(200_000_000);
+            let sizes = Sizes { smallest: entry.diameter.low / 2.0, largest: entry.diameter.high / 2.0 };
+            self.entry_sizes = Sizes::union(self.entry_sizes, Some(sizes));
+            self.entry_materials.push(material.0);
+            self.inlets.push(zone);
+            self.feeds.faucets.push(faucet);
+        }
+        Ok(())
+    }
+
+    pub(crate) fn outlets(&mut self) -> Result<(), SceneError> {
+        let largest = self.sizes().map_or(0.0, |s| 2.0 * s.largest);
+        for (i, entry) in self.model().outlet.iter().enumerate() {
+            let plane = walls::plane(&self.check, &format!("outlet.{i}.plane"), &entry.plane)?;
+            let length = match entry.length {
+                OrAuto::Auto => 1.2 * largest,
+                OrAuto::Given(length) => length,
+            };
+            if length <= largest {
+                let why = format!("is not above the largest diameter, {largest} m");
+                let cure = format!("use \"auto\", or at least {} m", 1.2 * largest);
+                return Err(self.check.wrong(
+                    &format!("outlet.{i}.length"),
+                    format!("{length} m"),
+                    &why,
+                    &cure,
+                ));
+            }
+            self.outlets.push(Zone { plane, length });
+        }
+        Ok(())
+    }
+}
