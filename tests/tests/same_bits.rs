@@ -55,7 +55,9 @@ fn every_width_of_lanes() {
     for law in LAWS {
         let all: Vec<_> = Width::available()
             .into_iter()
-            .map(|width| (width, bits(Simulation::with_width(shaken_trough(law), width).expect("sound"), 1500)))
+            .map(|width| {
+                (width, bits(Simulation::with_width(shaken_trough(law), width).expect("sound"), 1500))
+            })
             .collect();
         for (width, got) in &all {
             assert!(*got == all[0].1, "{law:?}: {width:?} differs from {:?}", all[0].0);
@@ -113,10 +115,14 @@ fn resumed_run_equals_the_uninterrupted_one() {
 /// Without friction no particle turns and nothing is remembered; with it, three numbers a contact.
 #[test]
 fn absent_effects_cost_nothing() {
-    let sizes = |setup: Setup| simulation(setup).explain().iter().map(|e| e.bytes_per_contact).collect::<Vec<_>>();
+    let sizes =
+        |setup: Setup| simulation(setup).explain().iter().map(|e| e.bytes_per_contact).collect::<Vec<_>>();
     let mut smooth = empty(HOOKE, 0.5);
     smooth.particles = shaken_trough(HOOKE).particles;
     assert_eq!(sizes(smooth.clone()), [0], "Hooke alone");
     assert_eq!(sizes(with_friction(smooth.clone(), 0.5)), [0, 24], "with friction");
-    assert_eq!(simulation(smooth.clone()).bytes_per_particle() + 64, simulation(with_friction(smooth, 0.5)).bytes_per_particle());
+    assert_eq!(
+        simulation(smooth.clone()).bytes_per_particle() + 64,
+        simulation(with_friction(smooth, 0.5)).bytes_per_particle()
+    );
 }
