@@ -123,8 +123,14 @@ impl<'a> Draft<'a> {
 
     pub(crate) fn shape(&self, key: &str, text: &str) -> Result<Shape, SceneError> {
         let load = |file: &str| crate::mesh_file::read(&self.path(file)).map_err(|e| e.to_string());
-        Shape::parse(text, &load)
-            .map_err(|e| self.check.wrong(key, format!("\"{text}\""), &e.to_string(), "see SHAPE in --help"))
+        Shape::parse(text, &load).map_err(|e| {
+            self.check.wrong(
+                key,
+                format!("\"{text}\""),
+                &e.to_string(),
+                "write box:x0,y0,z0,x1,y1,z1, sphere:x,y,z,r or cylinder:x0,y0,z0,x1,y1,z1,r",
+            )
+        })
     }
 
     /// Index and density of a material that particles are made of.
