@@ -8,7 +8,7 @@
 //!     #[command(flatten)]
 //!     input: cli::Input,
 //!     #[command(flatten)]
-//!     output: cli::Output,
+//!     output: cli::CloudOutput,
 //! }
 //!
 //! fn main() -> std::process::ExitCode {
@@ -32,7 +32,7 @@ mod signals;
 
 pub use exit::{Stopped, Usage, usage};
 pub use input::{Input, Source};
-pub use output::{Output, OutputStream};
+pub use output::{CloudOutput, Output, OutputStream};
 pub use progress::Progress;
 pub use report::Report;
 pub use run::{Common, Seed, arguments, provenance, quiet, run, warn};

@@ -19,6 +19,14 @@ pub struct Output {
     /// Write to FILE (appears when whole) instead of stdout
     #[arg(id = "output", short = 'o', long = "output", value_name = "FILE")]
     pub file: Option<PathBuf>,
+}
+
+/// Where a tool writes a cloud: flatten it into the arguments of a tool that writes PLY.
+#[derive(Debug, Clone, Default, clap::Args)]
+pub struct CloudOutput {
+    /// File or stdout.
+    #[command(flatten)]
+    pub to: Output,
     /// Write PLY as text
     #[arg(long)]
     pub ascii: bool,
@@ -67,28 +75,40 @@ impl Output {
     /// `inputs` are roles and SHA-256, as in [`crate::provenance`]. End it with `finish()?.commit()?`.
     ///
     /// # Errors
-    /// As [`Output::open`]; `--ascii`; a write that fails.
+    /// As [`Output::open`]; a write that fails.
     pub fn open_mcap(&self, inputs: Vec<(String, String)>) -> anyhow::Result<mcap::Writer<OutputStream>> {
-        if self.ascii {
-            return Err(usage("--ascii: this output is MCAP, which has no text form; leave --ascii out"));
-        }
         let out = self.open()?;
         let how = if out.is_stream() { mcap::Compression::None } else { mcap::Compression::Zstd };
         let provenance = crate::provenance(inputs);
         mcap::Writer::compressed(out, &provenance, how)
             .with_context(|| format!("{}: cannot write", self.name()))
     }
+}
 
+impl CloudOutput {
     /// Writes a cloud as PLY and commits it.
     ///
     /// # Errors
     /// As [`Output::open`]; a write that fails.
     pub fn write_cloud(&self, cloud: &cloud::Cloud) -> anyhow::Result<()> {
         let encoding = if self.ascii { Encoding::Ascii } else { Encoding::BinaryLittleEndian };
-        let mut out = if self.ascii { self.open_text()? } else { self.open()? };
+        let mut out = if self.ascii { self.to.open_text()? } else { self.to.open()? };
         cloud::write_ply(&mut out, cloud, encoding)
-            .with_context(|| format!("{}: cannot write", self.name()))?;
+            .with_context(|| format!("{}: cannot write", self.to.name()))?;
         out.commit()
+    }
+
+    /// Opens a stream for something else than PLY.
+    ///
+    /// # Errors
+    /// As [`Output::open`]; `--ascii`, which only PLY has.
+    pub fn open_binary(&self, what: &str) -> anyhow::Result<OutputStream> {
+        if self.ascii {
+            return Err(usage(format!(
+                "--ascii: {what} has no text form: leave --ascii out, or write PLY with -o FILE.ply"
+            )));
+        }
+        self.to.open()
     }
 }
 

@@ -6,7 +6,7 @@ use crate::{
     output::OutputStream,
 };
 use anyhow::Context;
-use clap::{ArgMatches, Args as _, Command, FromArgMatches as _, parser::ValueSource};
+use clap::{ArgMatches, Args as _, Command, FromArgMatches as _, builder::Resettable, parser::ValueSource};
 use serde_json::{Map, Value, json};
 use std::{
     io::Write,
@@ -111,7 +111,9 @@ fn command<A: clap::Parser>(name: &'static str) -> Command {
     if command.get_arguments().any(|a| a.get_id() == "quiet") {
         return command;
     }
-    Common::augment_args(command)
+    // Adding arguments also puts their group's documentation in the place of the tool's own.
+    let (about, long_about) = (command.get_about().cloned(), command.get_long_about().cloned());
+    Common::augment_args(command).about(Resettable::from(about)).long_about(Resettable::from(long_about))
 }
 
 fn set_threads(common: &Common) -> anyhow::Result<()> {

@@ -162,6 +162,7 @@ fn wrong_usage_is_exit_2(folder: &Path) {
     let out = run(folder, &["--version"]);
     assert_eq!((out.status.code(), text(&out.stdout).starts_with("cloud-test 0.")), (Some(0), true));
     let help = text(&run(folder, &["--help"]).stdout);
+    assert!(help.starts_with("Tries every way to end"), "{help}");
     assert!(
         ["--quiet", "--threads", "--report", "--output", "--seed"].iter().all(|flag| help.contains(flag))
     );

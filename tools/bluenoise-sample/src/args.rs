@@ -12,7 +12,7 @@ pub struct Args {
     #[command(flatten)]
     pub input: cli::Input,
     #[command(flatten)]
-    pub output: cli::Output,
+    pub output: cli::CloudOutput,
     /// Least distance between kept points (grid: distance between its nodes) [m]
     #[arg(long, value_name = "M")]
     spacing: Option<f64>,

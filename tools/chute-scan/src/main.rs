@@ -24,7 +24,7 @@ struct Args {
     #[command(flatten)]
     seed: cli::Seed,
     #[command(flatten)]
-    output: cli::Output,
+    output: cli::CloudOutput,
 }
 
 fn main() -> ExitCode {

@@ -20,7 +20,7 @@ struct Args {
     #[command(flatten)]
     input: cli::Input,
     #[command(flatten)]
-    output: cli::Output,
+    output: cli::CloudOutput,
     /// Keep the points inside SHAPE (repeat: inside any of them)
     #[arg(long, value_name = "SHAPE", value_parser = cloud::shape)]
     keep: Vec<Shape>,

@@ -21,7 +21,7 @@ struct Args {
     #[command(flatten)]
     input: cli::Input,
     #[command(flatten)]
-    output: cli::Output,
+    output: cli::CloudOutput,
     /// Least distance of added points [m] (default: as dense as the surroundings)
     #[arg(long, value_name = "M", value_parser = positive)]
     spacing: Option<f64>,

@@ -13,7 +13,7 @@ pub struct Args {
     #[command(flatten)]
     pub input: cli::Input,
     #[command(flatten)]
-    pub output: cli::Output,
+    pub output: cli::CloudOutput,
     /// Depth of the dents between neighbouring spheres [m], or a table of regions (see the documentation of crate wall)
     #[arg(long, value_name = "M|FILE.toml", allow_hyphen_values = true)]
     roughness: Option<String>,

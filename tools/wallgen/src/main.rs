@@ -18,13 +18,18 @@ fn wallgen(args: Args) -> anyhow::Result<Report> {
     let regions = args.regions()?;
     let (cloud, hash) = args.input.read_cloud_hashed()?;
     let (wall, report) = build(&cloud.points, &regions, &wish).with_context(|| args.input.name())?;
-    if args.output.has_extension("ply") {
+    if args.output.to.has_extension("ply") {
         args.output.write_cloud(&as_cloud(cloud, &wall, &regions)?)?;
     } else {
         let inputs = std::iter::once(hash).chain(args.regions_hash()?).collect();
         let table = wall.table(&regions)?;
-        let out = wall::write_mcap(args.output.open()?, &table, &regions, &cli::provenance(inputs))
-            .with_context(|| args.output.name())?;
+        let out = wall::write_mcap(
+            args.output.open_binary("walls MCAP")?,
+            &table,
+            &regions,
+            &cli::provenance(inputs),
+        )
+        .with_context(|| args.output.to.name())?;
         out.commit()?;
     }
     report.warnings.iter().for_each(|w| cli::warn(w));

@@ -1,6 +1,6 @@
 //! The tool under test: its first argument says how it ends.
 
-use cli::{Input, Output, Report, Seed, Stopped};
+use cli::{CloudOutput, Input, Report, Seed, Stopped};
 use std::{
     io::{Read, Write},
     process::ExitCode,
@@ -9,13 +9,14 @@ use std::{
 /// Environment variable that turns the test program into this tool.
 pub const SWITCH: &str = "GRAINPIPE_CLI_TEST_TOOL";
 
+/// Tries every way to end
 #[derive(clap::Parser)]
 struct Args {
     action: String,
     #[command(flatten)]
     input: Input,
     #[command(flatten)]
-    output: Output,
+    output: CloudOutput,
     #[command(flatten)]
     seed: Seed,
 }
@@ -28,13 +29,13 @@ pub fn main() -> ExitCode {
             "arguments" => println!("{:?}", cli::arguments()),
             "usage" => return Err(cli::usage("--spacing: 0 m: give more")),
             "flood" => {
-                let mut out = args.output.open()?;
+                let mut out = args.output.to.open()?;
                 loop {
                     out.write_all(&[7; 4096])?;
                 }
             }
             action => {
-                let mut out = args.output.open()?;
+                let mut out = args.output.to.open()?;
                 out.write_all(&[7; 1_000_000])?;
                 end(action)?;
                 out.commit()?;
