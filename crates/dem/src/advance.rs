@@ -10,7 +10,8 @@
 //! Vyas, Ottino, Lueptow & Umbanhowar (2024), arXiv:2410.14798. Rotation in the same way, I = 2/5 m r².
 
 use crate::kernel::{FORCE, FORCE_AND_MOMENT};
-use crate::lane::{Row, Row4};
+use crate::lane::scalar::Each;
+use crate::lane::{Four, Row, Row4, Width};
 use rayon::prelude::*;
 
 /// Tasks below which one thread is faster than several.
@@ -31,39 +32,47 @@ pub struct Loads<'a> {
     pub entries: &'a [u32],
 }
 
-/// Force [N] and moment [N·m].
-#[derive(Clone, Copy, Default)]
-pub struct Sum {
-    pub force: [f64; 3],
-    pub moment: [f64; 3],
+/// Force [N] and moment [N·m]; the fourth number of each means nothing.
+#[derive(Clone, Copy)]
+pub struct Sum<Q> {
+    pub force: Q,
+    pub moment: Q,
 }
 
 impl Loads<'_> {
     /// Sum over the contacts of particle `k`, in the order of its entries.
     #[inline(always)]
-    pub fn sum<const SPIN: bool>(&self, k: usize) -> Sum {
-        let mut sum = Sum::default();
+    pub fn sum<Q: Four, const SPIN: bool>(&self, k: usize) -> Sum<Q> {
+        let mut sum = Sum { force: Q::all(0.0), moment: Q::all(0.0) };
+        let quarters = self.loads.as_chunks::<4>().0;
+        let couples = self.couples.as_chunks::<4>().0;
+        let stride = if SPIN { FORCE_AND_MOMENT / 4 } else { FORCE / 4 };
         for &entry in &self.entries[self.starts[k] as usize..self.starts[k + 1] as usize] {
-            let (contact, second) = ((entry >> 1) as usize, entry & 1);
-            let sign = if second == 0 { 1.0 } else { -1.0 };
-            let stride = if SPIN { FORCE_AND_MOMENT } else { FORCE };
-            let row = &self.loads[contact * stride..(contact + 1) * stride];
-            for a in 0..3 {
-                sum.force[a] += sign * row[a];
-            }
+            let (contact, second) = ((entry >> 1) as usize, (entry & 1) as usize);
+            let sign = Q::all([1.0, -1.0][second]);
+            let row = &quarters[contact * stride..(contact + 1) * stride];
+            sum.force = sum.force + sign * Q::read(&row[0]);
             if SPIN {
-                let arm = row[6 + second as usize];
-                for a in 0..3 {
-                    sum.moment[a] -= arm * row[3 + a];
-                }
-                if !self.couples.is_empty() {
-                    for a in 0..3 {
-                        sum.moment[a] += sign * self.couples[4 * contact + a];
-                    }
+                // The arms stand behind force and moment: the arm of i, then of j.
+                let arm = Q::all(row[second][3]);
+                sum.moment = sum.moment - arm * Q::read(&row[1]);
+                if !couples.is_empty() {
+                    sum.moment = sum.moment + sign * Q::read(&couples[contact]);
                 }
             }
         }
         sum
+    }
+
+    /// Force [N] and moment [N·m] on particle `k`.
+    pub fn on(&self, k: usize, spin: bool) -> ([f64; 3], [f64; 3]) {
+        let sum = if spin { self.sum::<Each, true>(k) } else { self.sum::<Each, false>(k) };
+        let three = |q: Each| {
+            let mut row = [0.0; 4];
+            q.write(&mut row);
+            [row[0], row[1], row[2]]
+        };
+        (three(sum.force), three(sum.moment))
     }
 }
 
@@ -94,18 +103,44 @@ pub struct Drive {
     pub motion_limit: f64,
 }
 
-/// Moves all particles by one step.
-pub fn advance(columns: Columns, loads: Loads, drive: Drive) -> Moved {
+/// Moves all particles by one step, computing with lanes of `width`; all widths give the same bits.
+pub fn advance(width: Width, columns: Columns, loads: Loads, drive: Drive) -> Moved {
     let spin = !columns.spins.is_empty();
     let tasks = split(columns);
-    let run = |task: Columns| {
-        if spin { chunk::<true>(task, loads, drive) } else { chunk::<false>(task, loads, drive) }
+    let run = |task: Columns| match spin {
+        true => dispatch::<true>(width, task, loads, drive),
+        false => dispatch::<false>(width, task, loads, drive),
     };
     let join = |a: Moved, b: Moved| Moved { away: a.away.max(b.away), wild: a.wild | b.wild };
     if tasks.len() < FEW_TASKS {
         return tasks.into_iter().map(run).fold(Moved::default(), join);
     }
     tasks.into_par_iter().map(run).reduce(Moved::default, join)
+}
+
+fn dispatch<const SPIN: bool>(width: Width, columns: Columns, loads: Loads, drive: Drive) -> Moved {
+    match width {
+        #[cfg(target_arch = "x86_64")]
+        Width::Avx2 | Width::Avx512 => simd::avx2::<SPIN>(columns, loads, drive),
+        _ => chunk::<Each, SPIN>(columns, loads, drive),
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+mod simd {
+    //! The move, compiled for wider registers.
+    #![allow(unsafe_code)]
+    use super::*;
+    use crate::lane::x86::X4;
+
+    pub fn avx2<const SPIN: bool>(columns: Columns, loads: Loads, drive: Drive) -> Moved {
+        #[target_feature(enable = "avx2")]
+        fn inner<const SPIN: bool>(columns: Columns, loads: Loads, drive: Drive) -> Moved {
+            chunk::<X4, SPIN>(columns, loads, drive)
+        }
+        // SAFETY: these widths are only made where the processor has AVX2.
+        unsafe { inner::<SPIN>(columns, loads, drive) }
+    }
 }
 
 fn split(columns: Columns) -> Vec<Columns> {
@@ -122,37 +157,44 @@ fn split(columns: Columns) -> Vec<Columns> {
     tasks
 }
 
-fn chunk<const SPIN: bool>(columns: Columns, loads: Loads, drive: Drive) -> Moved {
+#[inline(always)]
+fn chunk<Q: Four, const SPIN: bool>(columns: Columns, loads: Loads, drive: Drive) -> Moved {
     let Columns { first, rows, acceleration, spins, turning, home } = columns;
-    let (dt, half, square) = (drive.dt, 0.5 * drive.dt, 0.5 * drive.dt * drive.dt);
+    let [gx, gy, gz] = drive.gravity;
+    let gravity = Q::read(&[gx, gy, gz, 0.0]);
+    // Rows hold radius and 1/m in the fourth place, which must not move.
+    let three = Q::read(&[1.0, 1.0, 1.0, 0.0]);
+    let (dt, half, square) = (Q::all(drive.dt), Q::all(0.5 * drive.dt), Q::all(0.5 * drive.dt * drive.dt));
     let mut moved = Moved::default();
     for k in 0..rows.len() {
-        let sum = loads.sum::<SPIN>(first + k);
-        let (row, old) = (&mut rows[k], &mut acceleration[k]);
-        let (mut step, mut away) = (0.0, 0.0);
-        for a in 0..3 {
-            let new = sum.force[a] * row[7] + drive.gravity[a];
-            let v = row[4 + a] + half * (new - old[a]);
-            let moves = dt * v + square * new;
-            row[a] += moves;
-            row[4 + a] = v + dt * new;
-            old[a] = new;
-            step += moves * moves;
-            away += (row[a] - home[k][a]) * (row[a] - home[k][a]);
-        }
-        let limit = drive.motion_limit * row[3];
+        let sum = loads.sum::<Q, SPIN>(first + k);
+        let ([place, velocity], []) = rows[k].as_chunks_mut::<4>() else { continue };
+        let (radius, inverse_mass) = (place[3], velocity[3]);
+        let new = (sum.force * Q::all(inverse_mass) + gravity) * three;
+        let v = Q::read(velocity) + half * (new - Q::read(&acceleration[k]));
+        let moves = (dt * v + square * new) * three;
+        let there = Q::read(place) + moves;
+        there.write(place);
+        (v + dt * new).write(velocity);
+        new.write(&mut acceleration[k]);
+        let limit = drive.motion_limit * radius;
         // Written so that NaN is caught.
-        moved.wild |= !(step <= limit * limit);
-        moved.away = moved.away.max(away);
+        moved.wild |= !(length2(moves) <= limit * limit);
+        moved.away = moved.away.max(length2(there - Q::read(&home[k])));
         if SPIN {
-            let inverse_inertia = 2.5 * row[7] / (row[3] * row[3]);
-            for a in 0..3 {
-                let new = sum.moment[a] * inverse_inertia;
-                let w = spins[k][a] + half * (new - turning[k][a]);
-                spins[k][a] = w + dt * new;
-                turning[k][a] = new;
-            }
+            let new = sum.moment * Q::all(2.5 * inverse_mass / (radius * radius)) * three;
+            let w = Q::read(&spins[k]) + half * (new - Q::read(&turning[k]));
+            (w + dt * new).write(&mut spins[k]);
+            new.write(&mut turning[k]);
         }
     }
     moved
+}
+
+/// x² + y² + z².
+#[inline(always)]
+fn length2<Q: Four>(v: Q) -> f64 {
+    let mut row = [0.0; 4];
+    (v * v).write(&mut row);
+    row[0] + row[1] + row[2]
 }

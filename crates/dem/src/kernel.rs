@@ -7,7 +7,7 @@ use crate::lane::{BLOCK, Lane, Row, Row4, V, Width};
 pub const LEDGER: usize = 8;
 /// Numbers of one contact's load without rotation: force on i and a pad.
 pub const FORCE: usize = 4;
-/// With rotation: force on i, n × F_t, and the arms of i and j.
+/// With rotation: force on i, arm of i, n × F_t, arm of j.
 pub const FORCE_AND_MOMENT: usize = 8;
 
 /// What all contacts share in one step.
@@ -201,7 +201,7 @@ fn lanes<R: Lane, E: Effect, const FLAT: bool, const KEEP: bool>(
     let zero = R::splat(0.0);
     if E::ROTATES {
         let moment = V::select(touching, normal.cross(load.tangential), V::zero());
-        let row = [force.x, force.y, force.z, moment.x, moment.y, moment.z, arm_i, arm_j];
+        let row = [force.x, force.y, force.z, arm_i, moment.x, moment.y, moment.z, arm_j];
         R::store_rows(row, &mut task.loads[at * FORCE_AND_MOMENT..]);
     } else if common.stride == FORCE {
         R::store_rows4([force.x, force.y, force.z, zero], &mut task.loads[at * FORCE..]);

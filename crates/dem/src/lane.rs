@@ -3,7 +3,7 @@
 //! Only operations that IEEE 754 rounds the same way everywhere: +, −, ×, ÷, √, comparison. No fused
 //! multiply-add and no reassociation, so a wide lane equals the scalar one bit for bit.
 
-mod scalar;
+pub mod scalar;
 #[cfg(target_arch = "x86_64")]
 pub mod x86;
 
@@ -55,6 +55,16 @@ pub trait Lane:
     fn store_rows(columns: [Self; 8], to: &mut [f64]);
     /// Writes columns as `WIDTH` rows of four.
     fn store_rows4(columns: [Self; 4], to: &mut [f64]);
+}
+
+/// Four numbers of one particle that are computed at once.
+pub trait Four: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
+    /// Reads four numbers.
+    fn read(from: &Row4) -> Self;
+    /// Writes them.
+    fn write(self, to: &mut Row4);
+    /// The same number four times.
+    fn all(x: f64) -> Self;
 }
 
 /// A vector of lanes.

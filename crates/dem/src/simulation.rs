@@ -184,17 +184,17 @@ impl Simulation {
             .map(|k| {
                 let row = &p.rows[k];
                 let free = !self.zones.travels(k);
-                let sum = if p.rotates() { loads.sum::<true>(k) } else { loads.sum::<false>(k) };
+                let (force, moment) = loads.on(k, p.rotates());
                 let (mut v, mut w) = (Vec3::new(row[4], row[5], row[6]), Vec3::zeros());
                 for a in 0..3 {
                     if free {
-                        v[a] += half * (sum.force[a] * row[7] + self.setup.gravity[a] - p.acceleration[k][a]);
+                        v[a] += half * (force[a] * row[7] + self.setup.gravity[a] - p.acceleration[k][a]);
                     }
                     if p.rotates() {
                         w[a] = p.spins[k][a];
                         if free {
                             let inverse_inertia = 2.5 * row[7] / (row[3] * row[3]);
-                            w[a] += half * (sum.moment[a] * inverse_inertia - p.turning[k][a]);
+                            w[a] += half * (moment[a] * inverse_inertia - p.turning[k][a]);
                         }
                     }
                 }
@@ -250,7 +250,7 @@ impl Simulation {
             starts: &self.starts,
             entries: &self.entries,
         };
-        let moved: Moved = advance(columns, loads, drive);
+        let moved: Moved = advance(self.width, columns, loads, drive);
         self.away = moved.away.sqrt();
         self.steps += 1;
         self.current = false;
@@ -328,16 +328,15 @@ impl Simulation {
             let k = k as usize;
             let rotates = self.particles.rotates();
             let loads = self.all_loads();
-            let sum = if rotates { loads.sum::<true>(k) } else { loads.sum::<false>(k) };
+            let (force, m) = loads.on(k, rotates);
             let row = self.particles.rows[k];
             let mut a: Row4 = [0.0; 4];
             for (axis, value) in a.iter_mut().enumerate().take(3) {
-                *value = sum.force[axis] * row[7] + self.setup.gravity[axis];
+                *value = force[axis] * row[7] + self.setup.gravity[axis];
             }
             self.particles.acceleration[k] = a;
             if rotates {
                 let inverse_inertia = 2.5 * row[7] / (row[3] * row[3]);
-                let m = sum.moment;
                 self.particles.turning[k] =
                     [m[0] * inverse_inertia, m[1] * inverse_inertia, m[2] * inverse_inertia, 0.0];
             }

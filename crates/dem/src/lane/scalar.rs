@@ -1,6 +1,7 @@
 //! One contact at a time: what the wide lanes must equal.
 
-use super::{Lane, Row, Row4};
+use super::{Four, Lane, Row, Row4};
+use std::ops::{Add, Mul, Sub};
 
 impl Lane for f64 {
     const WIDTH: usize = 1;
@@ -63,3 +64,38 @@ impl Lane for f64 {
         to[..4].copy_from_slice(&columns);
     }
 }
+
+/// Four numbers, one after the other.
+#[derive(Clone, Copy)]
+pub struct Each(Row4);
+
+impl Four for Each {
+    #[inline(always)]
+    fn read(from: &Row4) -> Each {
+        Each(*from)
+    }
+    #[inline(always)]
+    fn write(self, to: &mut Row4) {
+        *to = self.0;
+    }
+    #[inline(always)]
+    fn all(x: f64) -> Each {
+        Each([x; 4])
+    }
+}
+
+macro_rules! each {
+    ($trait:ident, $f:ident, $op:tt) => {
+        impl $trait for Each {
+            type Output = Each;
+            #[inline(always)]
+            fn $f(self, o: Each) -> Each {
+                Each(std::array::from_fn(|k| self.0[k] $op o.0[k]))
+            }
+        }
+    };
+}
+
+each!(Add, add, +);
+each!(Sub, sub, -);
+each!(Mul, mul, *);

@@ -5,7 +5,7 @@
 //! index, as in scalar code. All functions are inlined into those kernels.
 #![allow(unsafe_code)]
 
-use super::{Lane, Row, Row4};
+use super::{Four, Lane, Row, Row4};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -286,5 +286,20 @@ impl Lane for X8 {
         let (a, b) = (c.map(|x| half(x).0), c.map(|x| half(x).1));
         X4::store_rows4(a, to);
         X4::store_rows4(b, &mut to[16..]);
+    }
+}
+
+impl Four for X4 {
+    #[inline(always)]
+    fn read(from: &Row4) -> X4 {
+        X4::load(from)
+    }
+    #[inline(always)]
+    fn write(self, to: &mut Row4) {
+        self.store(to);
+    }
+    #[inline(always)]
+    fn all(x: f64) -> X4 {
+        X4::splat(x)
     }
 }
