@@ -35,10 +35,10 @@ pub struct Interaction {
     pub len: usize,
     /// First particle, in whole blocks.
     pub i: Vec<u32>,
-    /// Second particle, or place in `partner_rows`.
-    j: Vec<u32>,
-    /// Second particle, or part of the wall.
+    /// Second particle, or part of the wall, in whole blocks.
     pub partner: Vec<u32>,
+    /// Place of each contact in `partner_rows`; empty for pairs.
+    place: Vec<u32>,
     /// Shift of an image [m].
     shift: Vec<Vec3>,
     partner_rows: Vec<Row>,
@@ -49,8 +49,24 @@ pub struct Interaction {
     pub first_load: usize,
 }
 
-/// A listed contact: particle, partner (particle or part of a wall), shift of the partner [m].
-pub type Listed = (u32, u32, Vec3);
+/// Contacts to be listed, ordered by particle.
+#[derive(Debug, Clone, Default)]
+pub struct List {
+    /// Particle.
+    pub i: Vec<u32>,
+    /// Other particle, or part of the wall.
+    pub partner: Vec<u32>,
+    /// Shift of the other particle's image [m]; empty for all but images.
+    pub shift: Vec<Vec3>,
+}
+
+impl List {
+    /// Adds a contact at the end.
+    pub fn push(&mut self, i: u32, partner: u32) {
+        self.i.push(i);
+        self.partner.push(partner);
+    }
+}
 
 impl Interaction {
     /// Without contacts yet.
@@ -62,8 +78,8 @@ impl Interaction {
             with,
             len: 0,
             i: none(),
-            j: Vec::new(),
             partner: Vec::new(),
+            place: Vec::new(),
             shift: Vec::new(),
             partner_rows: Vec::new(),
             partner_spins: Vec::new(),
@@ -79,21 +95,14 @@ impl Interaction {
     }
 
     /// Replaces the list; `particles` is the number of particles. Memory starts at zero.
-    pub fn list(&mut self, contacts: &[Listed], particles: usize) {
-        self.len = contacts.len();
+    pub fn list(&mut self, list: List, particles: usize) {
+        self.len = list.i.len();
         let padded = self.len.next_multiple_of(BLOCK);
-        let far = particles as u32;
-        let pad = |v: &mut Vec<u32>, with: u32| v.resize(padded, with);
-        self.i = contacts.iter().map(|c| c.0).collect();
-        pad(&mut self.i, far);
-        self.partner = contacts.iter().map(|c| c.1).collect();
-        if self.with == With::Particles {
-            self.j = self.partner.clone();
-            pad(&mut self.j, far + 1);
-        } else {
-            self.j = (0..padded as u32).collect();
-            self.shift =
-                if self.with == With::Images { contacts.iter().map(|c| c.2).collect() } else { Vec::new() };
+        (self.i, self.partner, self.shift) = (list.i, list.partner, list.shift);
+        self.i.resize(padded, particles as u32);
+        self.partner.resize(padded, particles as u32 + 1);
+        if self.with != With::Particles {
+            self.place = (0..padded as u32).collect();
             self.partner_rows = vec![FAR[1]; padded];
             self.partner_spins = if self.kernel.rotates() { vec![[0.0; 4]; padded] } else { Vec::new() };
         }
@@ -156,15 +165,14 @@ impl Interaction {
         mut ledger: &'a mut [f64],
         out: &mut Vec<(&'a dyn Kernel, Task<'a>)>,
     ) {
-        let partners = match self.with {
-            With::Particles => (common.rows, common.spins),
-            _ => (&self.partner_rows[..], &self.partner_spins[..]),
+        let (partners, j) = match self.with {
+            With::Particles => ((common.rows, common.spins), &self.partner),
+            _ => ((&self.partner_rows[..], &self.partner_spins[..]), &self.place),
         };
         let flat = matches!(self.with, With::Wall(w) if walls[w].flat());
         let columns = self.kernel.memory();
         let mut memory = &mut self.memory[..];
-        let blocks =
-            self.i.chunks(CHUNK).zip(self.j.chunks(CHUNK)).zip(self.active.chunks_mut(CHUNK / BLOCK));
+        let blocks = self.i.chunks(CHUNK).zip(j.chunks(CHUNK)).zip(self.active.chunks_mut(CHUNK / BLOCK));
         for ((i, j), active) in blocks {
             let n = i.len();
             out.push((
@@ -260,7 +268,7 @@ impl Interaction {
     pub fn bytes(&self) -> usize {
         use std::mem::size_of_val;
         size_of_val(&self.i[..])
-            + size_of_val(&self.j[..])
+            + size_of_val(&self.place[..])
             + size_of_val(&self.partner[..])
             + size_of_val(&self.shift[..])
             + size_of_val(&self.partner_rows[..])

@@ -9,11 +9,14 @@ use rayon::prelude::*;
 const CHUNK: usize = 512;
 
 /// A pair of particles, i < j.
-pub type Pair = (u32, u32);
+type Pair = (u32, u32);
 
-/// Pairs of `points` [m] (in the grid's sorted order) whose surfaces are closer than `skin` [m].
-pub fn pairs(points: &[Vec3], radii: &[f64], grid: &Grid, largest: f64, skin: f64) -> Vec<Pair> {
-    let chunks: Vec<Vec<Pair>> = (0..points.len().div_ceil(CHUNK))
+/// Some pairs, in order.
+pub type Pairs = Vec<Pair>;
+
+/// Pairs of `points` [m] (in the grid's sorted order) whose surfaces are closer than `skin` [m], in pieces that follow each other.
+pub fn pairs(points: &[Vec3], radii: &[f64], grid: &Grid, largest: f64, skin: f64) -> Vec<Pairs> {
+    (0..points.len().div_ceil(CHUNK))
         .into_par_iter()
         .map(|c| {
             let mut found = Vec::with_capacity(CHUNK * 5);
@@ -22,8 +25,7 @@ pub fn pairs(points: &[Vec3], radii: &[f64], grid: &Grid, largest: f64, skin: f6
             }
             found
         })
-        .collect();
-    chunks.concat()
+        .collect()
 }
 
 fn scan(

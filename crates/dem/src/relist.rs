@@ -1,6 +1,6 @@
 //! Makes the lists anew: sorts the particles in space, finds pairs and walls near them, carries contact memory over.
 
-use crate::interaction::{Interaction, Listed, With};
+use crate::interaction::{Interaction, List, With};
 use crate::kernel::LEDGER;
 use crate::neighbours::pairs;
 use crate::simulation::{Simulation, stride};
@@ -82,37 +82,33 @@ impl Simulation {
         let largest = self.largest_radius();
         let grid = Grid::new(&points, self.cell());
         let time = self.listed as f64 * self.dt;
-        let mut lists: Vec<Vec<Listed>> = vec![Vec::new(); self.interactions.len()];
+        let mut lists: Vec<List> = vec![List::default(); self.interactions.len()];
         let class = self.classes(With::Particles);
-        let found = pairs(&points, &radii, &grid, largest, self.skin);
-        if let [(_, only)] = class.iter().collect::<Vec<_>>()[..] {
-            lists[*only] = found.into_iter().map(|(i, j)| (i, j, Vec3::zeros())).collect();
-        } else {
-            for (i, j) in found {
-                let at = class[&ordered(p.material[i as usize], p.material[j as usize])];
-                lists[at].push((i, j, Vec3::zeros()));
-            }
+        for (i, j) in pairs(&points, &radii, &grid, largest, self.skin).into_iter().flatten() {
+            lists[class.of(p.material[i as usize], p.material[j as usize])].push(i, j);
         }
-        let images = self.classes(With::Images);
-        if !images.is_empty() {
+        if self.setup.periodic.iter().any(|p| p.is_some()) {
+            let class = self.classes(With::Images);
             for (i, j, shift) in self.image_pairs(&points, &radii, &grid, largest) {
-                let at = images[&ordered(p.material[i as usize], p.material[j as usize])];
-                lists[at].push((i, j, shift));
+                let list = &mut lists[class.of(p.material[i as usize], p.material[j as usize])];
+                list.push(i, j);
+                list.shift.push(shift);
             }
         }
         for (list, interaction) in lists.iter_mut().zip(&self.interactions) {
             if let With::Wall(w) = interaction.with {
                 let member = |k: usize| p.material[k] == interaction.between.0;
-                let near = self.walls[w].near(&points, &radii, member, self.skin, time);
-                *list = near.into_iter().map(|(i, part)| (i, part, Vec3::zeros())).collect();
+                for (i, part) in self.walls[w].near(&points, &radii, member, self.skin, time) {
+                    list.push(i, part);
+                }
             }
         }
         self.adopt(lists, count);
     }
 
-    fn adopt(&mut self, lists: Vec<Vec<Listed>>, count: usize) {
+    fn adopt(&mut self, lists: Vec<List>, count: usize) {
         let mut places = 0;
-        for (list, interaction) in lists.iter().zip(&mut self.interactions) {
+        for (list, interaction) in lists.into_iter().zip(&mut self.interactions) {
             interaction.list(list, count);
             interaction.first_load = places;
             places += interaction.places();
@@ -157,14 +153,20 @@ impl Simulation {
         (self.starts, self.entries) = (starts, entries);
     }
 
-    fn classes(&self, with: With) -> HashMap<(u16, u16), usize> {
-        let these = self.interactions.iter().enumerate().filter(|(_, i)| i.with == with);
-        these.map(|(at, i)| (i.between, at)).collect()
+    fn classes(&self, with: With) -> Classes {
+        let materials = self.setup.materials.len();
+        let mut at = vec![usize::MAX; materials * materials];
+        for (k, i) in self.interactions.iter().enumerate().filter(|(_, i)| i.with == with) {
+            let (a, b) = (i.between.0 as usize, i.between.1 as usize);
+            at[a * materials + b] = k;
+            at[b * materials + a] = k;
+        }
+        Classes { materials, at }
     }
 
     /// Pairs across periodic faces: i, j, and the shift of j. Each pair once, by the half of all shifts whose first part that
     /// is not zero is positive.
-    fn image_pairs(&self, points: &[Vec3], radii: &[f64], grid: &Grid, largest: f64) -> Vec<Listed> {
+    fn image_pairs(&self, points: &[Vec3], radii: &[f64], grid: &Grid, largest: f64) -> Vec<Image> {
         let mut found = Vec::new();
         let (lo, hi) = geom::grid::bounds(points);
         for shift in half_of_shifts(&self.setup.periodic) {
@@ -182,14 +184,25 @@ impl Simulation {
                 }
             }
         }
-        found.sort_by_key(|f: &Listed| (f.0, f.1));
+        found.sort_by_key(|f: &Image| (f.0, f.1));
         found
     }
 }
 
-fn ordered(a: u16, b: u16) -> (u16, u16) {
-    (a.min(b), a.max(b))
+/// Which interaction two materials belong to.
+struct Classes {
+    materials: usize,
+    at: Vec<usize>,
 }
+
+impl Classes {
+    fn of(&self, a: u16, b: u16) -> usize {
+        self.at[a as usize * self.materials + b as usize]
+    }
+}
+
+/// A pair across a periodic face: i, j, the shift of j [m].
+type Image = (u32, u32, Vec3);
 
 fn half_of_shifts(periodic: &[Option<(f64, f64)>; 3]) -> Vec<Vec3> {
     let period = periodic.map(|p| p.map(|(lo, hi)| hi - lo));

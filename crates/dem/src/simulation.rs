@@ -80,6 +80,8 @@ impl Simulation {
         let skin = setup.skin.unwrap_or_else(|| default_skin(&setup));
         let walls = setup.walls.iter().map(WallBody::new).collect();
         let zones = Zones::new(&setup, &particles);
+        // They are in their columns now.
+        let setup = Setup { particles: Vec::new(), ..setup };
         Ok(Simulation {
             setup,
             dt,
