@@ -23,6 +23,9 @@
 //!
 //! which may have no root (r_i too large for this P), one, or more: the dent is deepest for nearly equal radii.
 
+/// A step of Newton's method this small, as a share, leaves nothing to a further one.
+const NEAR: f64 = 3e-9;
+
 /// Radius [m] of equal spheres at distance `spacing` [m] with dents of depth `roughness` [m]; `None` outside 0 < ζ ≤ P/2.
 pub fn radius(spacing: f64, roughness: f64) -> Option<f64> {
     let valid = roughness > 0.0 && roughness <= 0.5 * spacing && spacing.is_finite();
@@ -46,15 +49,17 @@ pub fn spacing(radius: f64, roughness: f64) -> Option<f64> {
 
 /// Depth of the dent [m] between any two spheres at distance `p` [m]. Goes on steadily where there is none, so that a solver
 /// can come back: below 0 when one sphere lies inside the other, above the deepest dent when they do not meet.
+#[inline]
 pub fn dent(r_i: f64, r_j: f64, p: f64) -> f64 {
-    let a = (r_i - r_j) / p;
-    if a.abs() >= 1.0 {
-        return p * (1.0 - a.abs());
-    }
-    let gap = (p - r_i - r_j).max(0.0);
-    let x = 0.5 * (p + (r_i - r_j) * (r_i + r_j) / p);
-    let h = ((r_i - x) * (r_i + x)).max(0.0).sqrt();
-    r_i - a * x - (1.0 - a * a).sqrt() * h + gap
+    // Without branches and with one root, so that the compiler does several pairs at once.
+    let (sum, difference, per) = (r_i + r_j, r_i - r_j, 1.0 / p);
+    let a = difference * per;
+    let x = 0.5 * (p + sum * a);
+    let square = (1.0 - a) * (1.0 + a) * ((r_i - x) * (r_i + x));
+    let root = if square > 0.0 { square } else { 0.0 }.sqrt();
+    let gap = if p > sum { p - sum } else { 0.0 };
+    let meeting = r_i - a * x - root + gap;
+    if a.abs() >= 1.0 { p * (1.0 - a.abs()) } else { meeting }
 }
 
 /// Left side minus right side of (1) [m]; NaN where a root has no value.
@@ -65,6 +70,7 @@ pub fn residual(r_i: f64, r_j: f64, zeta: f64, p: f64) -> f64 {
 
 /// Radii [m] r_j between `within.0` and `within.1` that meet (1) beside `r_i`: the one on the far side of the least P of `r_i`, and
 /// the one on the near side. Where neither exists, `r_i` is too large for this pair.
+#[inline]
 pub fn partners(r_i: f64, zeta: f64, p: f64, within: (f64, f64)) -> [Option<f64>; 2] {
     let half_chord = |r: f64| (zeta * (2.0 * r - zeta)).max(0.0).sqrt();
     if 2.0 * r_i < zeta {
@@ -76,38 +82,57 @@ pub fn partners(r_i: f64, zeta: f64, p: f64, within: (f64, f64)) -> [Option<f64>
     let (most, least) =
         if turn > 0.0 { (0.5 * (s - turn.sqrt()), 0.5 * (s + turn.sqrt())) } else { (0.0, 0.0) };
     let radius = |t: f64| 0.5 * (t * t / zeta + zeta);
-    let larger = root(s, zeta, p, least.max(lowest), highest).map(radius);
-    let smaller = (turn > 0.0).then(|| root(s, zeta, p, least.min(highest), most.max(lowest)));
+    let half = Half { s, four: 4.0 * zeta * zeta, p };
+    // Two equal half chords are P.
+    let larger = half.root(p - s, least.max(lowest), highest).map(radius);
+    // Where the slope is steepest Newton's method cannot overshoot.
+    let steepest = ((s * s - 0.5 * half.four) / 3.0).max(0.0).sqrt();
+    let below = turn > 0.0 && lowest < least;
+    let smaller = below.then(|| half.root(steepest, least.min(highest), most.max(lowest)));
     [larger, smaller.flatten().map(radius)]
 }
 
-/// The half chord t from `below`, where the left side of (1) is at most P, to `above`, where it is at least P; `None` when they are not.
-/// Newton's method on the squared equation, halving where it leaves the bracket.
-fn root(s: f64, zeta: f64, p: f64, below: f64, above: f64) -> Option<f64> {
-    let four = 4.0 * zeta * zeta;
-    let excess = |t: f64| (s + t) * (s + t) * (four + (s - t) * (s - t)) - four * p * p;
-    let slope = |t: f64| 2.0 * (s + t) * (four - 2.0 * t * (s - t));
-    if excess(below) > 0.0 || excess(above) < 0.0 {
-        return None;
+/// (1), squared, for one half chord: ((s + t)² (4ζ² + (s − t)²) = 4ζ² P².
+struct Half {
+    s: f64,
+    four: f64,
+    p: f64,
+}
+
+impl Half {
+    fn excess(&self, t: f64) -> f64 {
+        let (sum, difference) = (self.s + t, self.s - t);
+        sum * sum * (self.four + difference * difference) - self.four * self.p * self.p
     }
-    let (mut low, mut high) = (below, above);
-    let mut t = above;
-    for _ in 0..80 {
-        let f = excess(t);
-        if f > 0.0 {
-            high = t
-        } else {
-            low = t
+
+    /// The half chord t from `below`, where the left side of (1) is at most P, to `above`, where it is at least P; `None` when they are
+    /// not. Newton's method from `start`, halving where it leaves the bracket.
+    fn root(&self, start: f64, below: f64, above: f64) -> Option<f64> {
+        if self.excess(below) > 0.0 || self.excess(above) < 0.0 {
+            return None;
         }
-        let newton = t - f / slope(t);
-        let inside = newton > low.min(high) && newton < low.max(high);
-        let next = if inside { newton } else { 0.5 * (low + high) };
-        if (next - t).abs() <= 4.0 * f64::EPSILON * (s + t) {
-            return Some(next);
+        let (mut low, mut high) = (below, above);
+        let mut t = start.clamp(below.min(above), below.max(above));
+        for _ in 0..80 {
+            let f = self.excess(t);
+            if f > 0.0 {
+                high = t
+            } else {
+                low = t
+            }
+            let slope = 2.0 * (self.s + t) * (self.four - 2.0 * t * (self.s - t));
+            let newton = t - f / slope;
+            let inside = newton >= low.min(high) && newton <= low.max(high);
+            let next = if inside { newton } else { 0.5 * (low + high) };
+            // The error of a step of Newton's is about the square of the step.
+            let close = if inside { NEAR } else { 4.0 * f64::EPSILON };
+            if (next - t).abs() <= close * (self.s + t) {
+                return Some(next);
+            }
+            t = next;
         }
-        t = next;
+        Some(t)
     }
-    Some(t)
 }
 
 #[cfg(test)]

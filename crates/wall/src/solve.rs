@@ -23,6 +23,8 @@ const WORTH: f64 = 0.03;
 const EQUAL: f64 = 0.05;
 /// Radii stay within this factor of r̄: beyond it contact search and time step pay for roughness nobody sees.
 const WIDEST: f64 = 2.0;
+/// Points are visited in parts of this many.
+const PART: usize = 512;
 /// ζ_ij counts as changed beyond this share of it.
 const CHANGED: f64 = 1e-6;
 
@@ -42,11 +44,18 @@ pub struct Changes {
 /// Neighbours of each point with their distance [m] and the ζ [m] asked for.
 struct Links {
     starts: Vec<u32>,
-    to: Vec<(u32, f64, f64)>,
+    to: Vec<Link>,
+}
+
+#[derive(Clone, Copy, Default)]
+struct Link {
+    to: u32,
+    p: f64,
+    zeta: f64,
 }
 
 impl Links {
-    fn of(&self, i: u32) -> &[(u32, f64, f64)] {
+    fn of(&self, i: u32) -> &[Link] {
         &self.to[self.starts[i as usize] as usize..self.starts[i as usize + 1] as usize]
     }
 }
@@ -60,18 +69,22 @@ pub fn solve(points: &[Vec3], pairs: &[(u32, u32)], zeta: &[f64], even: &[f64]) 
     // When (in steps of colours) a point was changed and visited: one whose neighbours stayed would choose the same again.
     let (mut changed, mut visited) = (vec![1u32; points.len()], vec![0u32; points.len()]);
     let (mut step, mut before) = (1, f64::INFINITY);
+    let (mut due, mut new): (Vec<u32>, Vec<(f64, f64)>) = Default::default();
     for _ in 0..MOST_SWEEPS {
         for colour in &colours {
             step += 1;
             let stale =
-                |i: &u32| links.of(*i).iter().any(|&(j, _, _)| changed[j as usize] > visited[*i as usize]);
-            let due: Vec<u32> = colour.iter().copied().filter(stale).collect();
-            let new: Vec<(f64, f64)> = due
-                .par_iter()
-                .with_min_len(256)
-                .map(|&i| visit(links.of(i), &radii, i, zeta[i as usize], even[i as usize]))
-                .collect();
-            for (&i, (radius, sum)) in due.iter().zip(new) {
+                |i: &u32| links.of(*i).iter().any(|link| changed[link.to as usize] > visited[*i as usize]);
+            due.clear();
+            due.extend(colour.iter().copied().filter(stale));
+            new.resize(due.len(), (0.0, 0.0));
+            new.par_chunks_mut(PART).zip(due.par_chunks(PART)).for_each(|(new, due)| {
+                let mut work = Visit::default();
+                for (new, &i) in new.iter_mut().zip(due) {
+                    *new = work.visit(links.of(i), &radii, i, zeta[i as usize], even[i as usize]);
+                }
+            });
+            for (&i, &(radius, sum)) in due.iter().zip(&new) {
                 let i = i as usize;
                 visited[i] = step;
                 if radii[i] != radius {
@@ -89,31 +102,45 @@ pub fn solve(points: &[Vec3], pairs: &[(u32, u32)], zeta: &[f64], even: &[f64]) 
     radii
 }
 
-/// The best radius of one point [m], and its sum [m].
-fn visit(links: &[(u32, f64, f64)], radii: &[f64], i: u32, zeta: f64, even: f64) -> (f64, f64) {
-    let sum = |radius: f64| {
-        let off = |&(j, p, want): &(u32, f64, f64)| {
-            let other = radii[j as usize];
-            // One sphere inside the other is no wall: never chosen, whatever it saves elsewhere.
-            let nested = if (radius - other).abs() >= p { links.len() as f64 * p } else { 0.0 };
-            (dent(radius, other, p) - want).abs() + nested
-        };
-        links.iter().map(off).sum::<f64>() + EQUAL * zeta * libm::log(radius / even).abs()
-    };
-    let now = radii[i as usize];
-    let mut best = (now, sum(now));
-    let mut offer = |radius: f64| {
-        let cost = sum(radius);
-        if cost < best.1 * (1.0 - 1e-12) {
-            best = (radius, cost);
+/// One point's choice; the memory is used again for the next.
+#[derive(Default)]
+struct Visit {
+    radii: Vec<f64>,
+    sums: Vec<f64>,
+}
+
+impl Visit {
+    /// The best radius of one point [m], and its sum [m].
+    fn visit(&mut self, links: &[Link], all: &[f64], i: u32, zeta: f64, even: f64) -> (f64, f64) {
+        let Visit { radii, sums } = self;
+        radii.clear();
+        radii.extend([all[i as usize], even]);
+        let within = (even / WIDEST, even * WIDEST);
+        for link in links {
+            let met = partners(all[link.to as usize], link.zeta, link.p, within);
+            radii.extend(met.into_iter().flatten());
         }
-    };
-    offer(even);
-    let within = (even / WIDEST, even * WIDEST);
-    for &(j, p, want) in links {
-        partners(radii[j as usize], want, p, within).into_iter().flatten().for_each(&mut offer);
+        sums.clear();
+        sums.resize(radii.len(), 0.0);
+        for link in links {
+            // One sphere inside the other is no wall: never chosen, whatever it saves elsewhere.
+            let (other, nested) = (all[link.to as usize], links.len() as f64 * link.p);
+            for (sum, &radius) in sums.iter_mut().zip(&*radii) {
+                let off = (dent(radius, other, link.p) - link.zeta).abs();
+                *sum += off + if (radius - other).abs() >= link.p { nested } else { 0.0 };
+            }
+        }
+        // The logarithm is dear, and adds: who has lost without it has lost.
+        let equal = |radius: f64| EQUAL * zeta * libm::log(radius / even).abs();
+        let mut best = (radii[0], sums[0] + equal(radii[0]));
+        for (&radius, &sum) in radii.iter().zip(&*sums).skip(1) {
+            let bar = best.1 * (1.0 - 1e-12);
+            if sum < bar && sum + equal(radius) < bar {
+                best = (radius, sum + equal(radius));
+            }
+        }
+        best
     }
-    best
 }
 
 /// How far the dents of given radii are from those asked for.
@@ -140,12 +167,12 @@ fn links(points: &[Vec3], pairs: &[(u32, u32)], zeta: &[f64]) -> Links {
         starts[i + 1] += starts[i];
     }
     let mut next = starts.clone();
-    let mut to = vec![(0, 0.0, 0.0); 2 * pairs.len()];
+    let mut to = vec![Link::default(); 2 * pairs.len()];
     for &(i, j) in pairs {
         let p = (points[i as usize] - points[j as usize]).norm();
         let want = 0.5 * (zeta[i as usize] + zeta[j as usize]);
         for (a, b) in [(i, j), (j, i)] {
-            to[next[a as usize] as usize] = (b, p, want);
+            to[next[a as usize] as usize] = Link { to: b, p, zeta: want };
             next[a as usize] += 1;
         }
     }
@@ -157,7 +184,7 @@ fn colours(links: &Links, count: usize) -> Vec<Vec<u32>> {
     let mut colour = vec![u32::MAX; count];
     let mut sets: Vec<Vec<u32>> = Vec::new();
     for i in 0..count as u32 {
-        let taken = |c: u32| links.of(i).iter().any(|&(j, _, _)| colour[j as usize] == c);
+        let taken = |c: u32| links.of(i).iter().any(|link| colour[link.to as usize] == c);
         let mine = (0..).find(|&c| !taken(c)).unwrap_or(0);
         colour[i as usize] = mine;
         if mine as usize == sets.len() {
