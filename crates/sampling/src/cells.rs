@@ -30,11 +30,11 @@ struct Cell {
 
 /// Points sorted by cell; a *place* is an index in this order.
 #[derive(Debug, Clone)]
-pub(crate) struct Cells {
+pub struct Cells {
     /// Positions by place [m].
     pub points: Vec<Vec3>,
-    /// Index of the point at each place.
-    pub order: Vec<u32>,
+    /// The grid that gave the order; for searches wider than a cell.
+    pub grid: Grid,
     /// Width of a cell, and the largest radius that may be asked for [m].
     pub width: f64,
     cells: Vec<Cell>,
@@ -45,7 +45,7 @@ impl Cells {
     /// Sorts `points` [m] into cells for searches up to `reach` [m].
     pub fn new(points: &[Vec3], reach: f64) -> Cells {
         let grid = Grid::new(points, reach);
-        let order = grid.order().to_vec();
+        let order = grid.order();
         let sorted: Vec<Vec3> = order.par_iter().map(|&i| points[i as usize]).collect();
         let at: Vec<[i64; 3]> = sorted.par_iter().map(|p| grid.cell_of(p)).collect();
         let mut filled = Filled { dims: grid.dims(), at: Vec::new(), keys: Vec::new(), starts: Vec::new() };
@@ -59,16 +59,35 @@ impl Cells {
         let mut cells = vec![Cell { rows: [(0, 0); 9], used: 0 }; filled.at.len()];
         filled.starts.push(order.len() as u32);
         cells.par_chunks_mut(PART).enumerate().for_each(|(part, cells)| filled.rows(part * PART, cells));
-        Cells { points: sorted, order, width: grid.cell(), cells, cell_of }
+        Cells { points: sorted, width: grid.cell(), grid, cells, cell_of }
+    }
+
+    /// Index of the point at each place.
+    pub fn order(&self) -> &[u32] {
+        self.grid.order()
+    }
+
+    /// Place of each point, by index.
+    pub fn places(&self) -> Vec<u32> {
+        let mut places = vec![0; self.len()];
+        for (place, &i) in (0..).zip(self.order()) {
+            places[i as usize] = place;
+        }
+        places
+    }
+
+    /// Whether there are no points.
+    pub fn is_empty(&self) -> bool {
+        self.points.is_empty()
     }
 
     /// Number of points.
     pub fn len(&self) -> usize {
-        self.order.len()
+        self.points.len()
     }
 
     /// Runs of places that hold every point within one cell width of the point at `place`.
-    fn runs(&self, place: u32) -> impl Iterator<Item = Range<usize>> + '_ {
+    pub fn runs(&self, place: u32) -> impl Iterator<Item = Range<usize>> + '_ {
         let cell = &self.cells[self.cell_of[place as usize] as usize];
         cell.rows[..cell.used as usize].iter().map(|&(a, b)| a as usize..b as usize)
     }

@@ -45,7 +45,7 @@ pub(crate) fn eliminate(
     let alive = remove(&cells, forced.as_deref(), count, Weight { reach, least: reach * left * 0.65 });
     let mut kept: Vec<u32> = (0..crowd.len())
         .filter(|&place| alive[place])
-        .map(|place| all[cells.order[place] as usize])
+        .map(|place| all[cells.order()[place] as usize])
         .collect();
     kept.sort_unstable();
     Ok(Sample { kept, ..start })
@@ -83,7 +83,7 @@ fn remove(cells: &Cells, forced: Option<&[bool]>, count: usize, weight: Weight) 
         });
         sum
     });
-    let free = |place: &usize| forced.is_none_or(|f| !f[cells.order[*place] as usize]);
+    let free = |place: &usize| forced.is_none_or(|f| !f[cells.order()[*place] as usize]);
     let mut heap: BinaryHeap<(u64, u32)> =
         (0..cells.len()).filter(free).map(|place| (w[place], place as u32)).collect();
     let mut alive = vec![true; cells.len()];

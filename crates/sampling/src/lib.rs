@@ -11,7 +11,7 @@
 //! not the surface: two sheets closer than the spacing are thinned as if they were one.
 
 mod amount;
-mod cells;
+pub mod cells;
 mod eliminate;
 mod lattice;
 pub mod nearest;

@@ -1,7 +1,7 @@
 //! Distances to the nearest other point: how even a cloud is.
 
 use crate::cells::Cells;
-use geom::Vec3;
+use geom::{Grid, Vec3};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -47,10 +47,7 @@ pub fn distances(points: &[Vec3]) -> Vec<f64> {
     // Points without a neighbour in reach are tried again with twice the reach, against all points.
     while !open.is_empty() {
         let cells = Cells::new(points, reach);
-        let mut place_of = vec![0; points.len()];
-        for (place, &i) in cells.order.iter().enumerate() {
-            place_of[i as usize] = place as u32;
-        }
+        let place_of = cells.places();
         let found: Vec<f64> =
             open.par_iter().map(|&i| nearest_in(&cells, place_of[i as usize], reach)).collect();
         for (&i, d) in open.iter().zip(&found) {
@@ -71,9 +68,14 @@ pub fn typical(points: &[Vec3]) -> Option<f64> {
     let stride = points.len().div_ceil(TYPICAL);
     let mut reach = first_reach(points);
     loop {
-        let cells = Cells::new(points, reach);
-        let places: Vec<u32> = (0..points.len() as u32).step_by(stride).collect();
-        let mut found: Vec<f64> = places.par_iter().map(|&p| nearest_in(&cells, p, reach)).collect();
+        let grid = Grid::new(points, reach);
+        let nearest = |&i: &u32| {
+            let near = grid.within(points, points[i as usize], reach).filter(|&j| j != i);
+            let square = |j: u32| (points[j as usize] - points[i as usize]).norm_squared();
+            near.map(square).fold(f64::INFINITY, f64::min).sqrt()
+        };
+        let some: Vec<u32> = grid.order().iter().copied().step_by(stride).collect();
+        let mut found: Vec<f64> = some.par_iter().map(nearest).collect();
         let middle = found.len() / 2;
         let median = *found.select_nth_unstable_by(middle, f64::total_cmp).1;
         if median.is_finite() {

@@ -46,7 +46,7 @@ pub(crate) fn poisson(cells: &Cells, spacing: f64, seed: u64, forced: Option<&[b
         });
     }
     let is_kept = |place: &usize| state[*place].load(Relaxed) == KEPT;
-    let mut kept: Vec<u32> = (0..cells.len()).filter(is_kept).map(|place| cells.order[place]).collect();
+    let mut kept: Vec<u32> = (0..cells.len()).filter(is_kept).map(|place| cells.order()[place]).collect();
     kept.par_sort_unstable();
     kept
 }
@@ -54,7 +54,7 @@ pub(crate) fn poisson(cells: &Cells, spacing: f64, seed: u64, forced: Option<&[b
 /// Few rivals first, then by chance.
 fn rank(cells: &Cells, place: u32, spacing: f64, seed: u64) -> u64 {
     let rivals = cells.count_near(place, spacing, RIVALS).min(RIVALS);
-    (rivals as u64) << 56 | chance(seed, cells.order[place as usize] as u64) >> 8
+    (rivals as u64) << 56 | chance(seed, cells.order()[place as usize] as u64) >> 8
 }
 
 /// A number that depends on the seed and the point's index only (two rounds of splitmix64, Steele et al. 2014).
@@ -68,10 +68,10 @@ pub(crate) fn chance(seed: u64, index: u64) -> u64 {
 }
 
 fn keep_forced(cells: &Cells, spacing: f64, forced: &[bool], state: &[AtomicU8]) {
-    (0..cells.len() as u32).into_par_iter().filter(|&p| forced[cells.order[p as usize] as usize]).for_each(
+    (0..cells.len() as u32).into_par_iter().filter(|&p| forced[cells.order()[p as usize] as usize]).for_each(
         |place| {
             cells.each_near(place, spacing, |other, _| {
-                if !forced[cells.order[other as usize] as usize] {
+                if !forced[cells.order()[other as usize] as usize] {
                     state[other as usize].store(COVERED, Relaxed);
                 }
             });

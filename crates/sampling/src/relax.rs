@@ -17,10 +17,10 @@ pub(crate) fn relax(points: &[Vec3], forced: Option<&[bool]>, wish: &Wish) -> Re
     let mut weight = vec![0.0; points.len()];
     let counts = cells.map(|place| cells.count_near(place, sample.spacing, u32::MAX / 2));
     for (place, count) in counts.into_iter().enumerate() {
-        weight[cells.order[place] as usize] = 1.0 / f64::from(count);
+        weight[cells.order()[place] as usize] = 1.0 / f64::from(count);
     }
     let mut place_of = vec![0; points.len()];
-    for (place, &i) in cells.order.iter().enumerate() {
+    for (place, &i) in cells.order().iter().enumerate() {
         place_of[i as usize] = place as u32;
     }
     for _ in 0..ROUNDS {

@@ -5,9 +5,11 @@
 //! three points as from no other. Two neighbours are a *pair* when no other one lies in the ball whose diameter they are
 //! (Gabriel & Sokal 1969, doi:10.2307/2412323); on an even lattice these are the lattice's edges, without diagonals.
 
-use geom::{Grid, Vec3};
+use geom::Vec3;
 use nalgebra::Matrix3;
 use rayon::prelude::*;
+use sampling::cells::Cells;
+use std::ops::Range;
 
 /// Half width of the first square, and so the largest void that is looked for, in nearest distances.
 const SQUARE: f64 = 3.0;
@@ -44,22 +46,34 @@ struct Corner {
     next: Option<u32>,
 }
 
+/// A point near by: its index, and where it is from the point in the middle [m].
+#[derive(Clone, Copy)]
+struct Near {
+    index: u32,
+    to: Vec3,
+}
+
 /// Stars of points [m], all finite, whose nearest distance is about `nearest` [m].
 pub fn stars(points: &[Vec3], nearest: f64) -> Stars {
-    let grid = Grid::new(points, FIRST_REACH * nearest);
-    let firsts: Vec<usize> = (0..points.len()).step_by(PART).collect();
-    let parts: Vec<Stars> = firsts
-        .par_iter()
-        .map(|&first| {
-            let mut part = Stars::default();
+    let cells = Cells::new(points, FIRST_REACH * nearest);
+    let places = cells.places();
+    let parts: Vec<Stars> = places
+        .par_chunks(PART)
+        .enumerate()
+        .map(|(part, places)| {
+            let mut stars = Stars::default();
             let mut work = Work::default();
-            for i in first..points.len().min(first + PART) {
-                star(points, &grid, i as u32, nearest, &mut work, &mut part);
+            for (i, &place) in ((part * PART) as u32..).zip(places) {
+                star(&cells, place, i, nearest, &mut work, &mut stars);
             }
-            part
+            stars
         })
         .collect();
     let mut all = Stars { largest: SQUARE * nearest, ..Stars::default() };
+    all.normals.reserve_exact(points.len());
+    all.nearest.reserve_exact(points.len());
+    all.pairs.reserve_exact(parts.iter().map(|part| part.pairs.len()).sum());
+    all.triangles.reserve_exact(parts.iter().map(|part| part.triangles.len()).sum());
     for part in parts {
         all.normals.extend(part.normals);
         all.pairs.extend(part.pairs);
@@ -77,22 +91,23 @@ pub fn stars(points: &[Vec3], nearest: f64) -> Stars {
 /// Memory that is used again for every point.
 #[derive(Default)]
 struct Work {
-    near: Vec<(f64, u32, Vec3)>,
+    /// Squared distance [m²] (its bits are in the order of the numbers), index, place.
+    found: Vec<(u64, u32, u32)>,
+    near: Vec<Near>,
     cell: Vec<Corner>,
     kept: Vec<Corner>,
 }
 
-fn star(points: &[Vec3], grid: &Grid, i: u32, nearest: f64, work: &mut Work, part: &mut Stars) {
+fn star(cells: &Cells, place: u32, i: u32, nearest: f64, work: &mut Work, part: &mut Stars) {
     let mut reach = FIRST_REACH * nearest;
     let furthest = 2.0 * SQUARE * nearest;
     loop {
-        neighbours(points, grid, i, reach, &mut work.near);
+        neighbours(cells, place, reach, work);
         let (u, v, normal) = plane(&work.near);
-        voronoi(work, &u, &v, SQUARE * nearest);
-        let extent = work.cell.iter().map(|c| c.at[0].hypot(c.at[1])).fold(0.0, f64::max);
+        let extent = voronoi(work, &u, &v, SQUARE * nearest);
         if 2.0 * extent <= reach || reach >= furthest {
             part.normals.push(normal);
-            part.nearest.push(work.near.first().map_or(f64::INFINITY, |n| n.0.sqrt()));
+            part.nearest.push(work.near.first().map_or(f64::INFINITY, |n| n.to.norm()));
             return finish(i, &work.near, &work.cell, SQUARE * nearest, part);
         }
         reach = (2.0 * extent).min(furthest);
@@ -100,37 +115,48 @@ fn star(points: &[Vec3], grid: &Grid, i: u32, nearest: f64, work: &mut Work, par
 }
 
 /// Points within reach, nearest first, relative to the point.
-fn neighbours(points: &[Vec3], grid: &Grid, i: u32, reach: f64, near: &mut Vec<(f64, u32, Vec3)>) {
-    let centre = points[i as usize];
-    near.clear();
-    for run in grid.runs_near(centre, reach) {
-        for &j in &grid.order()[run] {
-            let to = points[j as usize] - centre;
-            let square = to.norm_squared();
-            if square <= reach * reach && j != i {
-                near.push((square, j, to));
+fn neighbours(cells: &Cells, place: u32, reach: f64, work: &mut Work) {
+    let Work { found, near, .. } = work;
+    let centre = cells.points[place as usize];
+    found.clear();
+    let mut look = |run: Range<usize>| {
+        let order = &cells.order()[run.clone()];
+        for ((other, point), &index) in (run.start as u32..).zip(&cells.points[run]).zip(order) {
+            let square = (point - centre).norm_squared();
+            if square <= reach * reach && other != place {
+                found.push((square.to_bits(), index, other));
             }
         }
+    };
+    match reach <= cells.width {
+        true => cells.runs(place).for_each(&mut look),
+        false => cells.grid.runs_near(centre, reach).for_each(&mut look),
     }
-    near.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    found.sort_unstable();
+    near.clear();
+    near.extend(found.iter().map(|&(_, index, p)| Near { index, to: cells.points[p as usize] - centre }));
 }
 
 /// Two axes and the normal of the plane of least squares through the point and those nearest to it.
-fn plane(near: &[(f64, u32, Vec3)]) -> (Vec3, Vec3, Vec3) {
+fn plane(near: &[Near]) -> (Vec3, Vec3, Vec3) {
     let some = &near[..near.len().min(FOR_NORMAL)];
     let count = some.len() as f64 + 1.0;
-    let mean = some.iter().map(|n| n.2).sum::<Vec3>() / count;
-    let mut spread: Matrix3<f64> = mean * mean.transpose();
-    for (_, _, p) in some {
-        spread += (p - mean) * (p - mean).transpose();
+    let mean = some.iter().map(|n| n.to).sum::<Vec3>() / count;
+    // The six different entries of the sum of d dᵀ; the point itself is at zero.
+    let entries = |d: Vec3| [d.x * d.x, d.x * d.y, d.x * d.z, d.y * d.y, d.y * d.z, d.z * d.z];
+    let mut sums = entries(mean);
+    for n in some {
+        let more = entries(n.to - mean);
+        (0..6).for_each(|k| sums[k] += more[k]);
     }
-    match least_axis(&spread) {
+    let [xx, xy, xz, yy, yz, zz] = sums;
+    match least_axis(&Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)) {
         Some(normal) => {
             let u = across(&normal);
             (u, normal.cross(&u), normal)
         }
         None => {
-            let along = near.last().map_or(Vec3::x(), |n| n.2).try_normalize(0.0).unwrap_or_else(Vec3::x);
+            let along = near.last().map_or(Vec3::x(), |n| n.to).try_normalize(0.0).unwrap_or_else(Vec3::x);
             (along, across(&along), Vec3::zeros())
         }
     }
@@ -163,55 +189,61 @@ fn least_axis(spread: &Matrix3<f64>) -> Option<Vec3> {
     (longest.norm() > 1e-10).then(|| longest.normalize())
 }
 
-/// The Voronoi cell in the plane, around the origin.
-fn voronoi(work: &mut Work, u: &Vec3, v: &Vec3, half: f64) {
-    let Work { near, cell, kept } = work;
+/// The Voronoi cell in the plane, around the origin; how far its furthest corner is [m].
+fn voronoi(work: &mut Work, u: &Vec3, v: &Vec3, half: f64) -> f64 {
+    let Work { near, cell, kept, .. } = work;
     let square = [[-half, -half], [half, -half], [half, half], [-half, half]];
     cell.clear();
     cell.extend(square.map(|at| Corner { at, next: None }));
     let mut extent = half * half * 2.0;
-    for (index, (_, _, p)) in (0u32..).zip(near) {
-        let q = [p.dot(u), p.dot(v)];
+    for (index, n) in (0u32..).zip(&*near) {
+        let q = [n.to.dot(u), n.to.dot(v)];
         let square = q[0] * q[0] + q[1] * q[1];
         // Its bisector passes beyond the furthest corner.
         if square >= 4.0 * extent || square <= 0.0 {
             continue;
         }
-        cut(cell, kept, q, index);
+        let beyond = |c: &Corner| c.at[0] * q[0] + c.at[1] * q[1] - 0.5 * square;
+        if cell.iter().all(|c| beyond(c) <= 0.0) {
+            continue;
+        }
+        cut(cell, kept, beyond, index);
         std::mem::swap(cell, kept);
         extent = cell.iter().map(|c| c.at[0] * c.at[0] + c.at[1] * c.at[1]).fold(0.0, f64::max);
     }
+    extent.sqrt()
 }
 
-/// Keeps what is nearer to the origin than to `q`.
-fn cut(cell: &[Corner], kept: &mut Vec<Corner>, q: [f64; 2], index: u32) {
+/// Keeps the corners that are not `beyond` the bisector, where that is above 0, and those that it makes.
+fn cut(cell: &[Corner], kept: &mut Vec<Corner>, beyond: impl Fn(&Corner) -> f64, index: u32) {
     kept.clear();
-    let beyond = |c: &Corner| c.at[0] * q[0] + c.at[1] * q[1] - 0.5 * (q[0] * q[0] + q[1] * q[1]);
-    for k in 0..cell.len() {
-        let (a, b) = (cell[k], cell[(k + 1) % cell.len()]);
-        let (fa, fb) = (beyond(&a), beyond(&b));
-        if fa <= 0.0 {
-            kept.push(a);
-        }
+    let Some(mut a) = cell.last() else { return };
+    let mut fa = beyond(a);
+    for b in cell {
+        let fb = beyond(b);
         if (fa <= 0.0) != (fb <= 0.0) {
             let s = fa / (fa - fb);
             let at = [a.at[0] + s * (b.at[0] - a.at[0]), a.at[1] + s * (b.at[1] - a.at[1])];
             // Going out, the new side begins; coming back, the old one goes on.
             kept.push(Corner { at, next: if fa <= 0.0 { Some(index) } else { a.next } });
         }
+        if fb <= 0.0 {
+            kept.push(*b);
+        }
+        (a, fa) = (b, fb);
     }
 }
 
-fn finish(i: u32, near: &[(f64, u32, Vec3)], cell: &[Corner], half: f64, part: &mut Stars) {
+fn finish(i: u32, near: &[Near], cell: &[Corner], half: f64, part: &mut Stars) {
     let sides = || cell.iter().filter_map(|c| c.next);
     let in_ball = |a: u32, b: u32| {
-        let (p, q) = (near[a as usize].2, near[b as usize].2);
+        let (p, q) = (near[a as usize].to, near[b as usize].to);
         (q - 0.5 * p).norm_squared() < (0.25 + ON_BORDER) * p.norm_squared()
     };
     // Any point in the ball of i and j takes j's side away or is a neighbour itself, up to the bend of the sheet.
     let first = part.pairs.len();
     for a in sides() {
-        let j = near[a as usize].1;
+        let j = near[a as usize].index;
         if j > i && !sides().any(|b| b != a && in_ball(a, b)) {
             part.pairs.push((i, j));
         }
@@ -220,8 +252,9 @@ fn finish(i: u32, near: &[(f64, u32, Vec3)], cell: &[Corner], half: f64, part: &
     for (k, corner) in cell.iter().enumerate() {
         let before = cell[(k + cell.len() - 1) % cell.len()].next;
         let (Some(a), Some(b)) = (before, corner.next) else { continue };
-        let (j, k) = (near[a as usize].1, near[b as usize].1);
-        if corner.at[0].hypot(corner.at[1]) <= half && i < j && i < k && j != k {
+        let (j, k) = (near[a as usize].index, near[b as usize].index);
+        let [x, y] = corner.at;
+        if x * x + y * y <= half * half && i < j && i < k && j != k {
             part.triangles.push([i, j.min(k), j.max(k)]);
         }
     }
