@@ -107,7 +107,8 @@ fn resumed_run_equals_the_uninterrupted_one() {
         if looked {
             particles(&mut first);
         }
-        let resumed = Simulation::resume(shaken_trough(Law::Hertz), first.state()).expect("the same setup");
+        let resumed =
+            Simulation::resume(shaken_trough(Law::Hertz), first.state().to_state()).expect("the same setup");
         assert!(bits(resumed, 800) == bits(first, 800), "looked at: {looked}");
     }
 }

@@ -166,7 +166,7 @@ fn zones_resume_exactly() {
     let all = run(&mut whole, 2500);
     let mut first = Simulation::new(setup.clone()).expect("sound");
     let mut parts = run(&mut first, 1200);
-    let mut second = Simulation::resume(setup, first.state()).expect("the same setup");
+    let mut second = Simulation::resume(setup, first.state().to_state()).expect("the same setup");
     parts.extend(run(&mut second, 1300));
     assert_eq!(all, parts);
     assert_eq!(particles(&mut whole), particles(&mut second));

@@ -156,10 +156,10 @@ fn zones(setup: &Setup) -> Result<(), SetupError> {
 fn periodic(setup: &Setup) -> Result<(), SetupError> {
     let least = 5.0 * largest_radius(setup);
     for (axis, range) in ['x', 'y', 'z'].into_iter().zip(&setup.periodic) {
-        if let Some((lo, hi)) = *range {
-            if !(hi - lo >= least) {
-                return Err(SetupError::PeriodTooSmall { axis, period: hi - lo, least });
-            }
+        if let Some((lo, hi)) = *range
+            && !(hi - lo >= least)
+        {
+            return Err(SetupError::PeriodTooSmall { axis, period: hi - lo, least });
         }
     }
     Ok(())

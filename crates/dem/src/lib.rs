@@ -33,4 +33,4 @@ pub use limit::{Limit, critical_step};
 pub use particles::mass;
 pub use setup::Setup;
 pub use simulation::Simulation;
-pub use state::State;
+pub use state::{State, StateView};

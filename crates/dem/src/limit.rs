@@ -33,7 +33,7 @@ pub struct Limit {
 ///
 /// # Errors
 /// When the setup has none for them.
-pub fn contact_between<'a>(setup: &'a Setup, a: u16, b: u16) -> Result<&'a Contact, SetupError> {
+pub fn contact_between(setup: &Setup, a: u16, b: u16) -> Result<&Contact, SetupError> {
     let matches = |c: &&Contact| c.between == (a, b) || c.between == (b, a);
     setup.contacts.iter().find(matches).ok_or_else(|| {
         let name = |m: u16| setup.materials[m as usize].name.clone();

@@ -11,6 +11,9 @@ impl Simulation {
     /// Sorts, lists, and remembers.
     pub(crate) fn relist(&mut self) {
         self.wrap();
+        // Freed before anything is listed: old and new together would be the most that a run ever takes.
+        (self.loads, self.couples, self.ledger) = (Vec::new(), Vec::new(), Vec::new());
+        (self.starts, self.entries) = (Vec::new(), Vec::new());
         let order = self.space_order();
         let before: Vec<Option<Remembered>> = {
             let count = self.particles.len();
@@ -114,13 +117,9 @@ impl Simulation {
             places += interaction.places();
         }
         let couples = self.interactions.iter().any(|i| i.kernel.couples());
-        let fill = |v: &mut Vec<f64>, n: usize| {
-            v.clear();
-            v.resize(n, 0.0);
-        };
-        fill(&mut self.loads, places * stride(self.particles.rotates()));
-        fill(&mut self.couples, if couples { places * 4 } else { 0 });
-        fill(&mut self.ledger, if self.setup.ledger { places * LEDGER } else { 0 });
+        self.loads = vec![0.0; places * stride(self.particles.rotates())];
+        self.couples = vec![0.0; if couples { places * 4 } else { 0 }];
+        self.ledger = vec![0.0; if self.setup.ledger { places * LEDGER } else { 0 }];
         self.index_loads(count);
         self.just_listed = true;
     }

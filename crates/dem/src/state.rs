@@ -29,6 +29,47 @@ pub struct State {
     loads: [Vec<f64>; 3],
 }
 
+/// The like, borrowed from a simulation; serialized, it is a [`State`].
+#[derive(Debug, Serialize)]
+pub struct StateView<'a> {
+    dt: f64,
+    skin: f64,
+    steps: u64,
+    listed: u64,
+    away: f64,
+    stale: bool,
+    current: bool,
+    fresh: &'a [u32],
+    particles: &'a Particles,
+    zones: &'a Zones,
+    account: Account,
+    listings: u64,
+    memory: Vec<&'a [f64]>,
+    loads: [&'a [f64]; 3],
+}
+
+impl StateView<'_> {
+    /// A copy that outlives the simulation.
+    pub fn to_state(&self) -> State {
+        State {
+            dt: self.dt,
+            skin: self.skin,
+            steps: self.steps,
+            listed: self.listed,
+            away: self.away,
+            stale: self.stale,
+            current: self.current,
+            fresh: self.fresh.to_vec(),
+            particles: self.particles.clone(),
+            zones: self.zones.clone(),
+            account: self.account,
+            listings: self.listings,
+            memory: self.memory.iter().map(|m| m.to_vec()).collect(),
+            loads: self.loads.map(<[f64]>::to_vec),
+        }
+    }
+}
+
 impl State {
     /// Steps done.
     pub fn steps(&self) -> u64 {
@@ -42,13 +83,8 @@ impl State {
 
 impl Simulation {
     /// The state of this instant.
-    pub fn state(&self) -> State {
-        let loads = if self.current {
-            [self.loads.clone(), self.couples.clone(), self.ledger.clone()]
-        } else {
-            Default::default()
-        };
-        State {
+    pub fn state(&self) -> StateView<'_> {
+        StateView {
             dt: self.dt,
             skin: self.skin,
             steps: self.steps,
@@ -56,13 +92,13 @@ impl Simulation {
             away: self.away,
             stale: self.stale,
             current: self.current,
-            fresh: self.fresh.clone(),
-            particles: self.particles.clone(),
-            zones: self.zones.clone(),
+            fresh: &self.fresh,
+            particles: &self.particles,
+            zones: &self.zones,
             account: self.account,
             listings: self.listings,
-            memory: self.interactions.iter().map(|i| i.all_memory().to_vec()).collect(),
-            loads,
+            memory: self.interactions.iter().map(|i| i.all_memory()).collect(),
+            loads: if self.current { [&self.loads, &self.couples, &self.ledger] } else { [&[]; 3] },
         }
     }
 

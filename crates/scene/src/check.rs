@@ -186,6 +186,9 @@ impl Check<'_> {
             let key = |k: &str| format!("fill.{i}.{k}");
             self.diameter(&key("diameter"), f.diameter)?;
             self.positive_if(&key("mass"), f.mass, "kg")?;
+            if f.count == Some(0) {
+                return Err(self.wrong(&key("count"), "0", "no particle is asked for", "give at least 1"));
+            }
             self.one_of(&format!("fill.{i}"), &[("mass", f.mass.is_some()), ("count", f.count.is_some())])?;
             self.finite(&key("velocity"), &f.velocity, "m/s")?;
         }

@@ -3,15 +3,57 @@
 use crate::error::SceneError;
 use crate::run::RunError;
 use serde::{Deserialize, Serialize};
-use std::io::Read;
-use stream::mcap::{Event, McapError, Reader};
+use std::io::{Read, Write};
+use stream::mcap::{Event, McapError, Reader, Writer};
 
 /// Topic of checkpoints.
 pub const CHECKPOINT: &str = "/checkpoint";
 
-/// Everything that a run goes on from.
+/// Largest piece of a checkpoint in one message [B], so that no buffer on the way holds a whole one.
+const PIECE: usize = 1 << 20;
+
+/// Writes a checkpoint as messages: pieces, each behind a byte that is 1 in the last.
+pub(crate) struct Pieces<'a, W: Write> {
+    writer: &'a mut Writer<W>,
+    now: u64,
+    piece: Vec<u8>,
+}
+
+impl<'a, W: Write> Pieces<'a, W> {
+    pub(crate) fn new(writer: &'a mut Writer<W>, now: u64) -> Pieces<'a, W> {
+        Pieces { writer, now, piece: vec![0] }
+    }
+
+    /// Writes the last piece.
+    pub(crate) fn finish(mut self) -> Result<(), McapError> {
+        self.piece[0] = 1;
+        self.send()
+    }
+
+    fn send(&mut self) -> Result<(), McapError> {
+        self.writer.bytes(CHECKPOINT, "bincode", self.now, &self.piece)?;
+        self.piece.truncate(1);
+        Ok(())
+    }
+}
+
+impl<W: Write> Write for Pieces<'_, W> {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        if self.piece.len() >= PIECE {
+            self.send().map_err(std::io::Error::other)?;
+        }
+        self.piece.extend_from_slice(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+/// Everything that a run goes on from; `S` is the state, owned when it is read, borrowed when it is written.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct Checkpoint {
+pub struct Checkpoint<S = dem::State> {
     /// Text of the scene.
     pub(crate) scene: String,
     /// Role and SHA-256 of what the scene was run with.
@@ -19,7 +61,7 @@ pub struct Checkpoint {
     /// Particles that each feed had given.
     pub(crate) given: Vec<u64>,
     /// State of the engine.
-    pub(crate) state: dem::State,
+    pub(crate) state: S,
 }
 
 impl Checkpoint {
@@ -28,10 +70,15 @@ impl Checkpoint {
     /// # Errors
     /// A stream that is damaged, or has no whole checkpoint.
     pub fn last(name: &str, source: impl Read) -> Result<Checkpoint, RunError> {
-        let mut last = None;
+        let (mut last, mut pieces) = (None, Vec::new());
         for event in Reader::new(source) {
             match event {
-                Ok(Event::Bytes { topic, data, .. }) if topic == CHECKPOINT => last = Some(data),
+                Ok(Event::Bytes { topic, data, .. }) if topic == CHECKPOINT => {
+                    pieces.extend_from_slice(data.get(1..).unwrap_or_default());
+                    if data.first() == Some(&1) {
+                        last = Some(std::mem::take(&mut pieces));
+                    }
+                }
                 Ok(_) => {}
                 Err(McapError::Truncated { .. }) => break,
                 Err(error) => {

@@ -10,7 +10,7 @@ use crate::fill::{diameter, generator, unit, volume};
 use crate::model::{Diameter, Insert};
 use crate::room::{bounds, holds};
 use dem::setup::{Entry, Particle, Zone};
-use geom::{Plane, Shape, Vec3};
+use geom::{Plane, Shape, Shown, Vec3};
 use rand_pcg::Pcg64Mcg;
 use std::collections::VecDeque;
 
@@ -111,9 +111,12 @@ impl Faucet {
         };
         let (thickness, largest) = (section.size(0), entry.diameter.high);
         if thickness <= largest {
-            let why =
-                format!("is {thickness} m thick along the velocity, and the largest diameter is {largest} m");
-            let cure = format!("make it at least {} m thick", 1.2 * largest);
+            let why = format!(
+                "is {} m thick along the velocity, and the largest diameter is {} m",
+                Shown(thickness),
+                Shown(largest)
+            );
+            let cure = format!("make it at least {} m thick", Shown(1.2 * largest));
             return Err(check.wrong(&key("shape"), &entry.shape, &why, &cure));
         }
         let rate = match (entry.rate, entry.rate_count) {
@@ -166,7 +169,7 @@ impl Faucet {
                 "would fill {:.0} % of the room that passes ({:.3e} m² at {} m/s)",
                 100.0 * fraction,
                 area,
-                self.velocity.norm()
+                Shown(self.velocity.norm())
             )
         };
         let cure = format!(
@@ -204,7 +207,8 @@ impl Faucet {
         });
         self.random = random;
         let Some(across) = found else {
-            let why = format!("no room for a particle of diameter {} m at {time} s", 2.0 * radius);
+            let why =
+                format!("no room for a particle of diameter {} m at {} s", Shown(2.0 * radius), Shown(time));
             return Err(SceneError::file(
                 &self.key,
                 why,

@@ -4,7 +4,7 @@ use crate::crossings::{self, CROSSINGS, Passage, Sizes, WATERMARK, Watermark};
 use crate::error::SceneError;
 use crate::material_info::MaterialInfo;
 use dem::setup::{Entry, Zone};
-use geom::Plane;
+use geom::{Plane, Shown};
 use std::collections::{BTreeMap, VecDeque};
 use std::io::Read;
 use stream::mcap::{Event, Reader};
@@ -146,8 +146,11 @@ impl InletStream {
     fn check(&self, passage: &Passage) -> Result<(), SceneError> {
         let (time, id) = (passage.time, passage.particle.id);
         if time < self.last || time < self.known {
-            let why =
-                format!("particle {id} passes at {time} s, after {} s was told", self.last.max(self.known));
+            let why = format!(
+                "particle {id} passes at {} s, after {} s was told",
+                Shown(time),
+                Shown(self.last.max(self.known))
+            );
             return Err(SceneError::file(
                 &self.name,
                 why,
@@ -156,9 +159,10 @@ impl InletStream {
         }
         let radius = passage.particle.radius;
         if radius < self.sizes.smallest || radius > self.sizes.largest {
-            let range = format!("{} to {} m", self.sizes.smallest, self.sizes.largest);
+            let range = format!("{} to {} m", Shown(self.sizes.smallest), Shown(self.sizes.largest));
             let why = format!(
-                "particle {id} has a radius of {radius} m, outside the {range} of its record 'sizes'"
+                "particle {id} has a radius of {} m, outside the {range} of its record 'sizes'",
+                Shown(radius)
             );
             return Err(SceneError::file(&self.name, why, "write the stream again"));
         }

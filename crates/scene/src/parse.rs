@@ -36,7 +36,7 @@ pub(crate) fn parse(text: &Text) -> Result<Model, SceneError> {
             Some((key, rest)) => unknown_key(place, key, rest),
             None => {
                 let hint = variant_hint(message).map_or(String::new(), |h| format!("; did you mean '{h}'?"));
-                SceneError::Syntax { place, message: format!("{}{hint}", message.replace('`', "'")) }
+                SceneError::Syntax { place, message: format!("{}{hint}", plain(message)) }
             }
         }
     })
@@ -52,6 +52,22 @@ fn unknown_key(place: crate::error::Place, key: &str, expected: &str) -> SceneEr
         None => format!("; known here: {}", known.join(", ")),
     };
     SceneError::UnknownKey { place, key: key.to_owned(), hint }
+}
+
+/// The message in the words of a scene, not of a program.
+fn plain(message: &str) -> String {
+    let mut text = message.replace('`', "'");
+    if let Some((rest, kind)) = text.split_once(", expected ") {
+        let wanted = match kind.split(' ').next().unwrap_or_default() {
+            "f64" => "a number, such as 0.5",
+            "u8" | "u16" | "u32" | "u64" | "usize" => "a whole number from 0",
+            "i64" => "a whole number",
+            "a" if kind.starts_with("a sequence") => "a list, such as [0, 0, 1]",
+            _ => kind,
+        };
+        text = format!("{rest}, expected {wanted}");
+    }
+    text.replace("invalid type: ", "wrong kind of value: ").replace("floating point", "number")
 }
 
 /// The nearest of the words that serde says it expected.
@@ -87,7 +103,7 @@ mod tests {
     #[test]
     fn wrong_types_name_the_place() {
         let message = refused("[time]\nuntil = \"long\"");
-        assert!(message.starts_with("s.toml:2:9: ") && message.contains("f64"), "{message}");
+        assert!(message.starts_with("s.toml:2:9: ") && message.contains("expected a number"), "{message}");
         assert!(refused("[time]\ndt = \"fast\"").contains("\"auto\" or a number"));
         let message = refused("[time]\n[[contact]]\nbetween=[\"*\",\"*\"]\nrestitution=1\nlaw=\"herz\"");
         assert!(message.contains("did you mean 'hertz'?"), "{message}");

@@ -1,6 +1,6 @@
 //! The run: steps, frames, crossings, checkpoints.
 
-use crate::checkpoint::{CHECKPOINT, Checkpoint};
+use crate::checkpoint::{Checkpoint, Pieces};
 use crate::crossings::{self, CROSSINGS, Passage, SIZES, TOUCHES, WATERMARK, Watermark};
 use crate::error::SceneError;
 use crate::feeds::Supply;
@@ -248,11 +248,12 @@ impl<W: Write> Run<W> {
             return Ok(Ok(()));
         }
         self.write_crossings()?;
-        if frame && let Err(halt) = self.write_frame()? {
-            return Ok(Err(halt));
-        }
+        // Before the frame: looking computes loads, which would then belong to the state.
         if checkpoint {
             self.write_checkpoint()?;
+        }
+        if frame && let Err(halt) = self.write_frame()? {
+            return Ok(Err(halt));
         }
         self.writer.flush_chunk()?;
         Ok(Ok(()))
@@ -313,8 +314,10 @@ impl<W: Write> Run<W> {
             given: self.supply.given.clone(),
             state: self.sim.state(),
         };
-        let bytes = stream::state::encode(&checkpoint)?;
-        Ok(self.writer.bytes(CHECKPOINT, "bincode", self.now(), &bytes)?)
+        let now = nanoseconds(self.sim.time());
+        let mut pieces = Pieces::new(&mut self.writer, now);
+        stream::state::encode_to(&checkpoint, &mut pieces)?;
+        Ok(pieces.finish()?)
     }
 
     /// A guard stopped the run: the file says why, and ends in a checkpoint.

@@ -6,7 +6,7 @@ use crate::input::Input;
 use crate::model::{Diameter, Wall};
 use crate::room::bounds;
 use crate::{Scene, mesh_file, particle_file};
-use geom::{Plane, Shape, Vec3};
+use geom::{Plane, Shape, Shown, Vec3};
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, value};
@@ -95,12 +95,14 @@ impl Cutting<'_> {
     fn check_length(&self) -> Result<(), SceneError> {
         match self.cut.length {
             Some(length) if length.is_nan() || length <= self.largest => {
-                let why =
-                    format!("--length {length} m is not above the largest diameter, {} m", self.largest);
+                let why = format!(
+                    "--length {length} m is not above the largest diameter, {} m",
+                    Shown(self.largest)
+                );
                 Err(SceneError::file(
                     &self.scene.text.name,
                     why,
-                    format!("use at least {} m", 1.2 * self.largest),
+                    format!("use at least {} m", Shown(1.2 * self.largest)),
                 ))
             }
             _ => Ok(()),
@@ -113,8 +115,11 @@ impl Cutting<'_> {
             (true, _, stage) => Ok(stage == Stage::Upstream),
             (_, true, stage) => Ok(stage == Stage::Downstream),
             _ => {
-                let why =
-                    format!("{what} lies on both sides of the plane ({} to {} m from it)", range.0, range.1);
+                let why = format!(
+                    "{what} lies on both sides of the plane ({} to {} m from it)",
+                    Shown(range.0),
+                    Shown(range.1)
+                );
                 Err(SceneError::file(&self.scene.text.name, why, "move the plane, or divide it into two"))
             }
         }

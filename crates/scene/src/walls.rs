@@ -25,7 +25,8 @@ pub(crate) fn add(draft: &mut Draft, entries: &[Wall], given: Vec<WallFile>) -> 
         if entry.source.is_none() && entry.plane.is_none() && entry.mesh.is_none() && entry.cuboid.is_none() {
             let Some(file) = given.next() else {
                 let why = "waits for walls of the command line, and none were given";
-                let cure = "dem-run SCENE.toml WALLS.mcap, or give it source, plane, mesh or box";
+                let cure = "give dem-run the walls that wallgen wrote (dem-run SCENE.toml WALLS.mcap), or this entry source, plane, \
+                            mesh or box";
                 return Err(draft.check.wrong(&key, "(without source)", why, cure));
             };
             spheres(draft, &name, entry, motion, file)?;

@@ -9,6 +9,7 @@ use crate::model::OrAuto;
 use crate::plan::Draft;
 use crate::walls;
 use dem::setup::Zone;
+use geom::Shown;
 
 impl Draft<'_> {
     pub(crate) fn inlets(&mut self, streams: Vec<InletStream>) -> Result<(), SceneError> {
@@ -23,7 +24,7 @@ impl Draft<'_> {
                         &key,
                         "(without source)",
                         why,
-                        "dem-run SCENE.toml INLET.mcap, or give it source",
+                        "give dem-run the inlet that stage-replay wrote (dem-run SCENE.toml INLET.mcap), or this entry source",
                     )
                 })?,
             };
@@ -136,8 +137,8 @@ impl Draft<'_> {
                 OrAuto::Given(length) => length,
             };
             if length <= largest {
-                let why = format!("is not above the largest diameter, {largest} m");
-                let cure = format!("use \"auto\", or at least {} m", 1.2 * largest);
+                let why = format!("is not above the largest diameter, {} m", Shown(largest));
+                let cure = format!("use \"auto\", or at least {} m", Shown(1.2 * largest));
                 return Err(self.check.wrong(
                     &format!("outlet.{i}.length"),
                     format!("{length} m"),

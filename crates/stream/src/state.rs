@@ -14,6 +14,7 @@
 use bincode::config::{self, Config};
 use serde::{Serialize, de::DeserializeOwned};
 use sha2::{Digest, Sha256};
+use std::io::Write;
 use thiserror::Error;
 
 const MAGIC: &[u8; 8] = b"GRNSTATE";
@@ -38,6 +39,8 @@ pub enum StateError {
     Hash,
     #[error("state: it holds something else than what this program expects")]
     Decode(#[source] Box<bincode::error::DecodeError>),
+    #[error("state: cannot be written")]
+    Write(#[source] std::io::Error),
     #[error("state: cannot be encoded")]
     Encode(#[source] Box<bincode::error::EncodeError>),
 }
@@ -51,15 +54,45 @@ fn layout() -> impl Config {
 /// # Errors
 /// A value that has no fixed layout (a map of unknown length).
 pub fn encode(state: &impl Serialize) -> Result<Vec<u8>, StateError> {
-    let mut bytes = vec![0; HEAD];
-    bincode::serde::encode_into_std_write(state, &mut bytes, layout())
-        .map_err(|e| StateError::Encode(Box::new(e)))?;
-    let (head, body) = bytes.split_at_mut(HEAD);
+    let mut bytes = Vec::new();
+    encode_to(state, &mut bytes)?;
+    Ok(bytes)
+}
+
+/// Encodes a state into `out`, without ever holding the whole: once to count and to hash, once to write.
+///
+/// # Errors
+/// As for [`encode`], or what `out` says.
+pub fn encode_to(state: &impl Serialize, out: &mut impl Write) -> Result<(), StateError> {
+    let wrong = |e| StateError::Encode(Box::new(e));
+    let mut sum = Sum { hash: Sha256::new(), length: 0 };
+    bincode::serde::encode_into_std_write(state, &mut sum, layout()).map_err(wrong)?;
+    let mut head = [0; HEAD];
     head[..8].copy_from_slice(MAGIC);
     head[8..12].copy_from_slice(&VERSION.to_le_bytes());
-    head[12..20].copy_from_slice(&(body.len() as u64).to_le_bytes());
-    head[20..].copy_from_slice(&Sha256::digest(body));
-    Ok(bytes)
+    head[12..20].copy_from_slice(&sum.length.to_le_bytes());
+    head[20..].copy_from_slice(&sum.hash.finalize());
+    out.write_all(&head).map_err(StateError::Write)?;
+    bincode::serde::encode_into_std_write(state, out, layout()).map_err(wrong)?;
+    Ok(())
+}
+
+/// Counts and hashes what is written to it.
+struct Sum {
+    hash: Sha256,
+    length: u64,
+}
+
+impl Write for Sum {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.hash.update(bytes);
+        self.length += bytes.len() as u64;
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
 }
 
 /// Decodes a state, after checking that it is whole.

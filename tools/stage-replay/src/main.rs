@@ -32,7 +32,7 @@ struct Args {
     #[arg(long, value_name = "N", default_value_t = 0)]
     outlet: u16,
     /// Where recorded intervals are kept; "both" lets grains of a dense flow in without overlap
-    #[arg(long, value_enum, default_value = "generation")]
+    #[arg(long, value_enum, default_value = "both")]
     intervals: Keep,
     /// Motion in the zone
     #[arg(long = "move", value_enum, default_value = "constant")]
