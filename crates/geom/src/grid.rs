@@ -8,12 +8,15 @@
 use crate::Vec3;
 use rayon::prelude::*;
 use std::ops::Range;
+use std::sync::OnceLock;
 
 /// Most cells along one axis; a wider cloud gets wider cells, which costs time and not correctness.
 const CELLS_PER_AXIS: f64 = 2_000_000.0;
 /// A dense table may have this many cells for each point.
 const DENSE_CELLS_PER_POINT: f64 = 8.0;
-const EMPTY: u64 = u64::MAX;
+const EMPTY: u32 = u32::MAX;
+/// Bits of a key that one pass of the sort looks at.
+const DIGIT: u32 = 11;
 
 /// Points sorted into cubic cells.
 #[derive(Debug, Clone)]
@@ -29,8 +32,9 @@ pub struct Grid {
 enum Table {
     /// First sorted place of each cell, and one more.
     Dense(Vec<u32>),
-    /// Open addressing: key and its run of sorted places.
-    Sparse { keys: Vec<u64>, runs: Vec<(u32, u32)> },
+    /// The cells that hold points: their keys, ascending, the first sorted place of each, and one more. Where a key is
+    /// is kept in `slots` (open addressing), made when somebody asks.
+    Sparse { keys: Vec<u64>, starts: Vec<u32>, slots: OnceLock<Vec<u32>> },
 }
 
 impl Grid {
@@ -51,12 +55,20 @@ impl Grid {
             (grid.dims, grid.origin) = ([0; 3], Vec3::zeros());
             return grid;
         }
-        let keys: Vec<u64> = points.par_iter().map(|p| grid.key(grid.cell_of(p))).collect();
         let cells = dims.iter().map(|&d| d as f64).product::<f64>();
+        let key = |p: &Vec3| grid.key(grid.cell_of(p));
         if cells <= DENSE_CELLS_PER_POINT * points.len() as f64 + 1024.0 {
+            let keys: Vec<u64> = points.par_iter().map(key).collect();
             grid.fill_dense(&keys, cells as usize);
+        } else if cells < f64::from(u32::MAX) {
+            let keys = points.par_iter().enumerate().map(|(i, p)| key(p) << 32 | i as u64).collect();
+            let sorted = sorted(keys, u64::BITS - (cells as u64).leading_zeros());
+            grid.fill_sparse(&sorted, |&both| (both >> 32, both as u32));
         } else {
-            grid.fill_sparse(&keys);
+            let mut keys: Vec<(u64, u32)> =
+                points.par_iter().enumerate().map(|(i, p)| (key(p), i as u32)).collect();
+            keys.par_sort_unstable();
+            grid.fill_sparse(&keys, |&both| both);
         }
         grid
     }
@@ -80,24 +92,31 @@ impl Grid {
         self.table = Table::Dense(starts);
     }
 
-    fn fill_sparse(&mut self, point_keys: &[u64]) {
-        let mut sorted: Vec<(u64, u32)> = point_keys.iter().zip(0u32..).map(|(&k, i)| (k, i)).collect();
-        sorted.par_sort_unstable();
-        let occupied = 1 + sorted.windows(2).filter(|w| w[0].0 != w[1].0).count();
-        let slots = (2 * occupied).next_power_of_two();
-        let (mut keys, mut runs) = (vec![EMPTY; slots], vec![(0, 0); slots]);
-        let mut start = 0;
-        for run in sorted.chunk_by(|a, b| a.0 == b.0) {
-            let mut slot = hash(run[0].0) as usize & (slots - 1);
-            while keys[slot] != EMPTY {
-                slot = (slot + 1) & (slots - 1);
+    /// From points sorted by key; `split` gives the key and the index.
+    fn fill_sparse<T: Sync>(&mut self, sorted: &[T], split: impl Fn(&T) -> (u64, u32) + Sync) {
+        let (mut keys, mut starts) = (Vec::new(), Vec::new());
+        for (place, key) in (0..).zip(sorted.iter().map(|both| split(both).0)) {
+            if keys.last() != Some(&key) {
+                keys.push(key);
+                starts.push(place);
             }
-            keys[slot] = run[0].0;
-            runs[slot] = (start, start + run.len() as u32);
-            start += run.len() as u32;
         }
-        self.order = sorted.into_iter().map(|(_, i)| i).collect();
-        self.table = Table::Sparse { keys, runs };
+        starts.push(sorted.len() as u32);
+        self.order = sorted.iter().map(|both| split(both).1).collect();
+        self.table = Table::Sparse { keys, starts, slots: OnceLock::new() };
+    }
+
+    /// The cells that hold points, in sorted order: keys (see [`Grid::key`]), the first sorted place of each, and one more.
+    pub fn filled(&self) -> (Vec<u64>, Vec<u32>) {
+        match &self.table {
+            Table::Sparse { keys, starts, .. } => (keys.clone(), starts.clone()),
+            Table::Dense(all) => {
+                let holds = |&cell: &usize| all[cell] < all[cell + 1];
+                let cells: Vec<usize> = (0..all.len().saturating_sub(1)).filter(holds).collect();
+                let starts = cells.iter().map(|&c| all[c]).chain([self.order.len() as u32]).collect();
+                (cells.into_iter().map(|c| c as u64).collect(), starts)
+            }
+        }
     }
 
     /// Point indices in sorted order: by cell (z slowest, x fastest), then by index.
@@ -120,7 +139,8 @@ impl Grid {
         self.dims
     }
 
-    fn key(&self, [x, y, z]: [i64; 3]) -> u64 {
+    /// Number of a cell in sorted order: z slowest, x fastest.
+    pub fn key(&self, [x, y, z]: [i64; 3]) -> u64 {
         ((z * self.dims[1] + y) * self.dims[0] + x) as u64
     }
 
@@ -136,19 +156,15 @@ impl Grid {
             Table::Dense(starts) => {
                 starts[first as usize] as usize..starts[(first + count) as usize] as usize
             }
-            Table::Sparse { keys, runs } => {
-                let mut found = 0..0;
-                for key in first..first + count {
-                    let mut slot = hash(key) as usize & (keys.len() - 1);
-                    while keys[slot] != EMPTY && keys[slot] != key {
-                        slot = (slot + 1) & (keys.len() - 1);
-                    }
-                    if keys[slot] == key {
-                        let (start, end) = (runs[slot].0 as usize, runs[slot].1 as usize);
-                        found = if found.is_empty() { start..end } else { found.start..end };
-                    }
-                }
-                found
+            Table::Sparse { keys, starts, slots } => {
+                let slots = slots.get_or_init(|| slots_of(keys));
+                // The cells of a row that hold points follow each other in the list.
+                let Some(from) = (first..first + count).find_map(|key| find(keys, slots, key)) else {
+                    return 0..0;
+                };
+                let others = keys[from..].iter().take(count as usize);
+                let to = from + others.take_while(|&&key| key < first + count).count();
+                starts[from] as usize..starts[to] as usize
             }
         }
     }
@@ -188,6 +204,49 @@ pub fn bounds(points: &[Vec3]) -> (Vec3, Vec3) {
         .par_iter()
         .fold(none, |(lo, hi), p| (lo.inf(p), hi.sup(p)))
         .reduce(none, |a, b| (a.0.inf(&b.0), a.1.sup(&b.1)))
+}
+
+/// Sorts by the upper 32 bits, of which `bits` are in use, keeping the order of equals (least significant digit first).
+fn sorted(mut items: Vec<u64>, bits: u32) -> Vec<u64> {
+    let mut other = vec![0; items.len()];
+    for shift in (32..32 + bits).step_by(DIGIT as usize) {
+        let digit = |item: u64| (item >> shift) as usize & ((1 << DIGIT) - 1);
+        let mut next = [0u32; 1 << DIGIT];
+        items.iter().for_each(|&item| next[digit(item)] += 1);
+        let mut sum = 0;
+        next.iter_mut().for_each(|n| sum += std::mem::replace(n, sum));
+        for &item in &items {
+            let place = &mut next[digit(item)];
+            other[*place as usize] = item;
+            *place += 1;
+        }
+        std::mem::swap(&mut items, &mut other);
+    }
+    items
+}
+
+/// Where each key is, by open addressing.
+fn slots_of(keys: &[u64]) -> Vec<u32> {
+    let mut slots = vec![EMPTY; (2 * keys.len()).next_power_of_two()];
+    for (index, &key) in (0..).zip(keys) {
+        let mut slot = hash(key) as usize & (slots.len() - 1);
+        while slots[slot] != EMPTY {
+            slot = (slot + 1) & (slots.len() - 1);
+        }
+        slots[slot] = index;
+    }
+    slots
+}
+
+fn find(keys: &[u64], slots: &[u32], key: u64) -> Option<usize> {
+    let mut slot = hash(key) as usize & (slots.len() - 1);
+    loop {
+        match slots[slot] {
+            EMPTY => return None,
+            index if keys[index as usize] == key => return Some(index as usize),
+            _ => slot = (slot + 1) & (slots.len() - 1),
+        }
+    }
 }
 
 /// Mixes the bits of a cell key (Stafford 2011, variant 13 of the MurmurHash3 finaliser).

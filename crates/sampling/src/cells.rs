@@ -11,11 +11,10 @@ use std::ops::Range;
 /// Cells and places are worked on in parts of this many.
 const PART: usize = 1024;
 
-/// The cells that hold points, sorted: where each is, its key, and its first place (and one more).
+/// The cells that hold points, sorted: the key of each, and its first place (and one more).
 struct Filled {
     dims: [i64; 3],
-    at: Vec<[i64; 3]>,
-    keys: Vec<i64>,
+    keys: Vec<u64>,
     starts: Vec<u32>,
 }
 
@@ -47,17 +46,13 @@ impl Cells {
         let grid = Grid::new(points, reach);
         let order = grid.order();
         let sorted: Vec<Vec3> = order.par_iter().map(|&i| points[i as usize]).collect();
-        let at: Vec<[i64; 3]> = sorted.par_iter().map(|p| grid.cell_of(p)).collect();
-        let mut filled = Filled { dims: grid.dims(), at: Vec::new(), keys: Vec::new(), starts: Vec::new() };
+        let (keys, starts) = grid.filled();
+        let filled = Filled { dims: grid.dims(), keys, starts };
         let mut cell_of = vec![0; order.len()];
-        for place in 0..order.len() {
-            if place == 0 || at[place] != at[place - 1] {
-                filled.push(at[place], place as u32);
-            }
-            cell_of[place] = filled.at.len() as u32 - 1;
+        for (cell, run) in (0..).zip(filled.starts.windows(2)) {
+            cell_of[run[0] as usize..run[1] as usize].fill(cell);
         }
-        let mut cells = vec![Cell { rows: [(0, 0); 9], used: 0 }; filled.at.len()];
-        filled.starts.push(order.len() as u32);
+        let mut cells = vec![Cell { rows: [(0, 0); 9], used: 0 }; filled.keys.len()];
         cells.par_chunks_mut(PART).enumerate().for_each(|(part, cells)| filled.rows(part * PART, cells));
         Cells { points: sorted, width: grid.cell(), grid, cells, cell_of }
     }
@@ -134,14 +129,10 @@ impl Cells {
 }
 
 impl Filled {
-    fn key(&self, [x, y, z]: [i64; 3]) -> i64 {
-        (z * self.dims[1] + y) * self.dims[0] + x
-    }
-
-    fn push(&mut self, at: [i64; 3], start: u32) {
-        self.keys.push(self.key(at));
-        self.at.push(at);
-        self.starts.push(start);
+    /// Where a cell is.
+    fn at(&self, cell: usize) -> [i64; 3] {
+        let (key, [nx, ny, _]) = (self.keys[cell] as i64, self.dims);
+        [key % nx, key / nx % ny, key / nx / ny]
     }
 
     /// Rows around the cells from `first` on. Cells are sorted (z slowest, x fastest), so the rows of successive cells
@@ -150,19 +141,19 @@ impl Filled {
         let [nx, ny, nz] = self.dims;
         for (dz, dy) in (-1..2).flat_map(|dz| (-1..2).map(move |dy| (dz, dy))) {
             let shift = (dz * ny + dy) * nx;
-            let mut from = self.keys.partition_point(|&k| k < self.keys[first] + shift - 1);
+            let mut from = self.keys.partition_point(|&k| (k as i64) < self.keys[first] as i64 + shift - 1);
             for (index, around) in (first..).zip(cells.iter_mut()) {
-                let [x, y, z] = self.at[index];
+                let [x, y, z] = self.at(index);
                 if y + dy < 0 || z + dz < 0 || y + dy >= ny || z + dz >= nz {
                     continue;
                 }
-                let middle = self.keys[index] + shift;
+                let middle = self.keys[index] as i64 + shift;
                 let (lowest, highest) = (middle - (x > 0) as i64, middle + (x + 1 < nx) as i64);
-                while from < self.keys.len() && self.keys[from] < lowest {
+                while from < self.keys.len() && (self.keys[from] as i64) < lowest {
                     from += 1;
                 }
                 let mut to = from;
-                while to < self.keys.len() && self.keys[to] <= highest {
+                while to < self.keys.len() && self.keys[to] as i64 <= highest {
                     to += 1;
                 }
                 if to > from {
