@@ -1,7 +1,8 @@
 //! Runs the tools as a user would: built beside this test, in a folder of their own.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 /// The program of a tool.
 ///
@@ -11,7 +12,7 @@ pub fn program(tool: &str) -> PathBuf {
     let exe = std::env::current_exe().expect("the test has a path");
     let folder = exe.parent().and_then(Path::parent).expect("target/debug/deps/test");
     let program = folder.join(tool);
-    assert!(program.exists(), "{} is missing: cargo build --workspace comes first", program.display());
+    assert!(program.exists(), "{} is missing: build the tools first, cargo build --bins", program.display());
     program
 }
 
@@ -43,6 +44,24 @@ pub fn tool(folder: &Path, tool: &str, arguments: &[&str]) -> Done {
     let mut command = Command::new(program(tool));
     command.current_dir(folder).args(arguments);
     command.output().expect("the tool starts").into()
+}
+
+/// Runs a tool in a folder with bytes on its stdin.
+///
+/// # Panics
+/// When it cannot be started.
+pub fn with_stdin(folder: &Path, tool: &str, arguments: &[&str], bytes: &[u8]) -> Done {
+    let mut command = Command::new(program(tool));
+    command.current_dir(folder).args(arguments);
+    command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().expect("the tool starts");
+    let to = child.stdin.take();
+    let bytes = bytes.to_vec();
+    // In a thread of its own: a tool may write before it has read everything, or read nothing at all.
+    let writer = std::thread::spawn(move || to.map(|mut to| to.write_all(&bytes)));
+    let done = child.wait_with_output().expect("the tool ends").into();
+    let _ = writer.join();
+    done
 }
 
 /// Runs a tool that must succeed.

@@ -80,7 +80,7 @@ impl Source {
     pub fn read_text(&self) -> anyhow::Result<String> {
         String::from_utf8(self.read_all()?).map_err(|e| {
             let at = e.utf8_error().valid_up_to();
-            anyhow::anyhow!("{self}: byte {at}: this is not UTF-8 text")
+            anyhow::anyhow!("{self}: byte {at}: this is not UTF-8 text: is it the right file?")
         })
     }
 

@@ -80,10 +80,10 @@ pub fn provenance(inputs: Vec<(String, String)>) -> Provenance {
 /// Parses the arguments, runs `work`, reports, and turns every outcome into an exit code.
 pub fn run<A: clap::Parser>(name: &'static str, work: impl FnOnce(A) -> anyhow::Result<Report>) -> ExitCode {
     let start = Instant::now();
-    let matches = command::<A>(name).get_matches();
+    let matches = command::<A>(name).try_get_matches().unwrap_or_else(|e| refuse(name, &e));
     let (args, common) = match (A::from_arg_matches(&matches), Common::from_arg_matches(&matches)) {
         (Ok(args), Ok(common)) => (args, common),
-        (Err(e), _) | (_, Err(e)) => e.with_cmd(&command::<A>(name)).exit(),
+        (Err(e), _) | (_, Err(e)) => refuse(name, &e.with_cmd(&command::<A>(name))),
     };
     let arguments = canonical(&command::<A>(name), &matches);
     let _ = INVOCATION.set(Invocation { tool: name, arguments, quiet: common.quiet });
@@ -108,12 +108,35 @@ pub fn run<A: clap::Parser>(name: &'static str, work: impl FnOnce(A) -> anyhow::
 /// The tool's command line, with the options of every tool and the project's version.
 fn command<A: clap::Parser>(name: &'static str) -> Command {
     let command = A::command().name(name).version(env!("CARGO_PKG_VERSION"));
+    // -1 is a wrong spacing, not an unknown flag.
+    let command = command.allow_negative_numbers(true);
     if command.get_arguments().any(|a| a.get_id() == "quiet") {
         return command;
     }
     // Adding arguments also puts their group's documentation in the place of the tool's own.
     let (about, long_about) = (command.get_about().cloned(), command.get_long_about().cloned());
     Common::augment_args(command).about(Resettable::from(about)).long_about(Resettable::from(long_about))
+}
+
+/// What parsers of numbers say, and what it means.
+const PLAIN: [(&str, &str); 4] = [
+    ("invalid float literal", "this is no number: give it in SI units and without the unit, such as 0.012"),
+    ("invalid digit found in string", "this is no whole number"),
+    ("cannot parse integer from empty string", "a number is missing"),
+    ("number would be zero for non-zero type", "give at least 1"),
+];
+
+/// Ends the tool: help and version as they are, wrong usage with the tool's name, which a pipe of several needs.
+fn refuse(name: &str, error: &clap::Error) -> ! {
+    if !error.use_stderr() {
+        error.exit();
+    }
+    let mut text = error.render().to_string();
+    for (program, people) in PLAIN {
+        text = text.replace(program, people);
+    }
+    let _ = write!(std::io::stderr(), "{name}: {}", text.strip_prefix("error: ").unwrap_or(&text));
+    std::process::exit(i32::from(exit::USAGE))
 }
 
 fn set_threads(common: &Common) -> anyhow::Result<()> {

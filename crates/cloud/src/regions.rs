@@ -19,8 +19,8 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[allow(missing_docs)]
 pub enum RegionsError {
-    #[error("not a list of [[region]] with name, shape and action: {0}")]
-    Toml(#[from] toml::de::Error),
+    #[error("line {line}: not a list of [[region]] with name, shape and action: {message}")]
+    Toml { line: usize, message: String },
     #[error("region '{name}'")]
     Shape {
         name: String,
@@ -58,7 +58,11 @@ enum Action {
 /// # Errors
 /// Unknown keys, names given twice, texts that are no shapes.
 pub fn add_regions(rules: &mut Rules, text: &str, folder: &Path) -> Result<usize, RegionsError> {
-    let file: File = toml::from_str(text)?;
+    let file: File = toml::from_str(text).map_err(|e| {
+        let before = e.span().and_then(|span| text.get(..span.start)).unwrap_or_default();
+        let message = e.message().replace('`', "'");
+        RegionsError::Toml { line: 1 + before.matches('\n').count(), message }
+    })?;
     for (i, region) in file.region.iter().enumerate() {
         if file.region[..i].iter().any(|r| r.name == region.name) {
             return Err(RegionsError::Twice(region.name.clone()));

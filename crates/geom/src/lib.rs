@@ -7,12 +7,14 @@ mod numbers;
 pub mod plane;
 pub mod prism;
 pub mod shape;
+mod shown;
 pub mod triangle;
 
 pub use grid::Grid;
 pub use numbers::NumbersError;
 pub use plane::Plane;
 pub use shape::Shape;
+pub use shown::Shown;
 
 /// A point or vector of three `f64` [m, m/s, …].
 pub type Vec3 = nalgebra::Vector3<f64>;

@@ -109,7 +109,7 @@ impl Args {
             let roughness =
                 roughness.map_err(|_| cli::usage("--roughness: give a length in m, or FILE.toml"))?;
             return Regions::one(roughness, material, self.velocity)
-                .map_err(|e| cli::usage(format!("--{e}")));
+                .map_err(|e| cli::usage(option(&e.to_string())));
         };
         let text =
             std::fs::read_to_string(path).with_context(|| format!("{}: cannot read", path.display()))?;
@@ -130,6 +130,17 @@ impl Args {
     /// A roughness that is no number is a file.
     fn regions_file(&self) -> Option<&Path> {
         self.roughness.as_deref().filter(|text| text.parse::<f64>().is_err()).map(Path::new)
+    }
+}
+
+/// A message of the library with the option that it is about in front.
+fn option(message: &str) -> String {
+    let detail = ["roughness: ", "material: "].iter().find_map(|place| message.strip_prefix(place));
+    match detail {
+        Some(detail) if !detail.starts_with("the ") && !detail.starts_with("material ") => {
+            format!("--{detail}")
+        }
+        _ => format!("--{message}"),
     }
 }
 

@@ -47,11 +47,11 @@ pub enum ReadError {
     Ply(#[source] PlyError),
     #[error("PLY: no element has the properties x, y, z: this is no cloud")]
     NoPosition,
-    #[error("PLY: element '{element}' has x but no '{missing}'")]
+    #[error("PLY: element '{element}' has x but no '{missing}': a point needs x, y and z")]
     HalfPosition { element: String, missing: &'static str },
     #[error("PLY: face {face}: {what}")]
     Face { face: usize, what: String },
-    #[error("{format}: {what}{}", at_point(*.point))]
+    #[error("{format}: {}{}", plain(.what), at_point(*.point))]
     Broken { format: &'static str, what: String, point: Option<u64> },
     #[error("XYZ/PTS: line {line}: {what}: '{text}'")]
     Text { line: usize, what: String, text: String },
@@ -67,6 +67,17 @@ pub enum ReadError {
 
 fn at_point(point: Option<u64>) -> String {
     point.map(|p| format!(" (at point {p})")).unwrap_or_default()
+}
+
+/// What the reader of another crate said, and what to do when it did not say that.
+fn plain(what: &str) -> String {
+    if what.contains("failed to fill whole buffer") {
+        "the file ends early: it is cut off, write or copy it again".to_owned()
+    } else if ["cut off", "again", "there are"].iter().any(|cure| what.contains(cure)) {
+        what.to_owned()
+    } else {
+        format!("{what}: the file is damaged or cut off, export it again")
+    }
 }
 
 /// Reads a cloud to its end, whatever its format.

@@ -32,21 +32,25 @@ pub enum McapError {
     Io(#[from] io::Error),
     #[error("MCAP: the stream is empty: did the tool before this one fail?")]
     Empty,
-    #[error("MCAP: this is no MCAP stream: it does not begin with the bytes of one")]
+    #[error(
+        "MCAP: this is no MCAP stream: its first bytes are others; give what wallgen, dem-run or stage-replay wrote"
+    )]
     Magic,
     #[error(
         "MCAP: truncated after {messages} messages (byte {byte}): the end-of-stream record is missing, the tool that \
-         wrote it did not finish"
+         wrote it did not finish; run it again"
     )]
     Truncated { messages: u64, byte: u64 },
-    #[error("MCAP: near byte {byte}, after {messages} messages: damaged")]
+    #[error("MCAP: near byte {byte}, after {messages} messages: the file is damaged, write or copy it again")]
     Damaged {
         byte: u64,
         messages: u64,
         #[source]
         source: Box<::mcap::McapError>,
     },
-    #[error("MCAP: near byte {byte}, after {messages} messages: {what}")]
+    #[error(
+        "MCAP: near byte {byte}, after {messages} messages: {what}; the file is damaged, write or copy it again"
+    )]
     Malformed { byte: u64, messages: u64, what: &'static str },
     #[error(
         "MCAP: bytes follow the end of the stream (from byte {byte}): were files joined with cat? Give them one by one"

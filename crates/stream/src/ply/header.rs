@@ -60,7 +60,11 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Header, usize), PlyError> {
             "obj_info" => header.obj_info.push(rest.to_owned()),
             "" => {}
             "format" if format.is_some() => return Err(wrong("a second format")),
-            "format" => format = Some(encoding(rest).ok_or_else(|| wrong("unknown format"))?),
+            "format" => {
+                format = Some(encoding(rest).ok_or_else(|| {
+                    wrong("unknown format (known: ascii, binary_little_endian, binary_big_endian, 1.0)")
+                })?)
+            }
             "element" => {
                 header.elements.push(element(rest).ok_or_else(|| wrong("not 'element NAME COUNT'"))?)
             }

@@ -123,7 +123,10 @@ fn messages_name_the_place() {
     let cases = [
         ("solid cube".to_owned(), "line 1"),
         ("".to_owned(), "line 1"),
-        ("ply\nformat ascii 2.0\nend_header\n".to_owned(), "line 2: unknown format: 'format ascii 2.0'"),
+        (
+            "ply\nformat ascii 2.0\nend_header\n".to_owned(),
+            "line 2: unknown format (known: ascii, binary_little_endian, binary_big_endian, 1.0): 'format ascii 2.0'",
+        ),
         ("ply\nformat ascii 1.0\nelement vertex 2\n".to_owned(), "'end_header' is missing"),
         ("ply\nelement v 0\nend_header\n".to_owned(), "no 'format'"),
         (head.replace("float", "float128"), "line 4: unknown type"),
