@@ -3,7 +3,7 @@
 use crate::solve::Changes;
 use crate::star::{Stars, stars};
 use crate::{Placement, Radius, Regions, Representative, WallError, Wish, equation, leak, normals, solve};
-use geom::Vec3;
+use geom::{Shown, Vec3};
 use serde::Serialize;
 
 /// Wall sphere diameter over smallest particle diameter below which spheres cost more than they give [–].
@@ -63,11 +63,11 @@ pub fn build(points: &[Vec3], regions: &Regions, wish: &Wish) -> Result<(Wall, W
     let region_of = regions.of(points);
     let lengths: Vec<f64> =
         stars.pairs.iter().map(|&(i, j)| (points[i as usize] - points[j as usize]).norm()).collect();
-    let spacing = representative(lengths.clone(), wish.representative);
+    let spacing = representative(&lengths, wish.representative);
     let zeta = roughness(regions, &region_of, wish)?;
     let (radii, zeta_all) = radii(points, &stars, &lengths, spacing, zeta.as_deref(), wish)?;
     let asked = zeta.unwrap_or_else(|| vec![zeta_all; points.len()]);
-    let changes = solve::changes(points, &stars.pairs, &asked, &radii);
+    let changes = solve::changes(&stars.pairs, &lengths, &asked, &radii);
     let centres = place(points, &stars, &radii, wish)?;
     let mut report = WallReport {
         spheres: radii.len(),
@@ -136,7 +136,7 @@ fn radii(
         return Ok((vec![radius; points.len()], zeta));
     }
     let zeta = zeta.ok_or(WallError::NoRoughness)?;
-    let common = representative(zeta.to_vec(), wish.representative);
+    let common = representative(zeta, wish.representative);
     let even = |zeta: f64| {
         let place = "the representative one".to_owned();
         // ζ = P/2 is valid, and P is a sum of rounded numbers.
@@ -157,23 +157,18 @@ fn radii(
         return Err(too_rough(want(pair), p, "spacing", place));
     }
     let start = zeta.iter().map(|&z| even(z)).collect::<Result<Vec<f64>, _>>()?;
-    Ok((solve::solve(points, &stars.pairs, zeta, &start), common))
-}
-
-/// Without the last digits, which are rounding and hide the value that was meant.
-fn tidy(length: f64) -> f64 {
-    format!("{length:.9e}").parse().unwrap_or(length)
+    Ok((solve::solve(&stars.pairs, lengths, zeta, &start), common))
 }
 
 fn too_rough(roughness: f64, spacing: f64, which: &'static str, place: String) -> WallError {
     match roughness > 0.5 * spacing {
         true => WallError::TooRough {
-            roughness: tidy(roughness),
-            spacing: tidy(spacing),
+            roughness,
+            spacing,
             which,
             place,
-            most: tidy(0.5 * spacing),
-            need: tidy(2.0 * roughness),
+            most: 0.5 * spacing,
+            need: 2.0 * roughness,
         },
         false => WallError::NotPositive { roughness },
     }
@@ -192,29 +187,32 @@ fn check_particle(report: &mut WallReport, particle: f64, centres: &[Vec3], radi
     (report.widest_gap, report.leaks) = leak::widest(centres, radii, &stars.triangles, particle);
     if let Some(gap) = report.widest_gap.filter(|g| g.diameter >= particle) {
         let [x, y, z] = gap.at.map(|c| format!("{c:.4}"));
+        let passes = Shown(particle);
         report.warnings.push(format!(
-            "the wall leaks: {} gaps pass a particle of {particle} m, the widest ({} m) at ({x}, {y}, {z}) m; \
+            "the wall leaks: {} gaps pass a particle of {passes} m, the widest ({} m) at ({x}, {y}, {z}) m; \
              sample with a smaller spacing, fill the hole, or use larger radii (less roughness)",
             report.leaks,
-            tidy(gap.diameter)
+            Shown(gap.diameter)
         ));
     }
     let least = 2.0 * report.radius_range[0];
     if least < PRACTICAL * particle {
         report.warnings.push(format!(
-            "wall spheres down to {least} m in diameter are smaller than 80 % of the smallest particle ({particle} m): \
-             they cost more spheres and a shorter time step; use a larger spacing or less roughness"
+            "wall spheres down to {} m in diameter are smaller than 80 % of the smallest particle ({} m): \
+             they cost more spheres and a shorter time step; use a larger spacing or less roughness",
+            Shown(least),
+            Shown(particle)
         ));
     }
 }
 
-fn representative(mut values: Vec<f64>, which: Representative) -> f64 {
+fn representative(values: &[f64], which: Representative) -> f64 {
     let middle = values.len() / 2;
     match which {
         // The mean of equal numbers is that number, not one beside it.
-        Representative::Mean if range(&values)[0] == range(&values)[1] => values[0],
+        Representative::Mean if range(values)[0] == range(values)[1] => values[0],
         Representative::Mean => values.iter().sum::<f64>() / values.len() as f64,
-        Representative::Median => *values.select_nth_unstable_by(middle, f64::total_cmp).1,
+        Representative::Median => *values.to_vec().select_nth_unstable_by(middle, f64::total_cmp).1,
     }
 }
 

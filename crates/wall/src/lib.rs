@@ -18,7 +18,7 @@ pub use build::{Wall, WallReport, build};
 pub use regions::{Regions, Surface};
 pub use write::write_mcap;
 
-use geom::Vec3;
+use geom::{Shown, Vec3};
 use serde::Serialize;
 use thiserror::Error;
 
@@ -92,8 +92,9 @@ pub enum WallError {
     #[error("roughness {roughness} m: must be positive and at most half the distance of neighbours")]
     NotPositive { roughness: f64 },
     #[error(
-        "roughness {roughness} m is more than half of the {which} {spacing} m ({place}): no sphere has dents that deep; \
-         use a roughness of at most {most} m, or points at least {need} m apart"
+        "roughness {} m is more than half of the {which} {} m ({place}): no sphere has dents that deep; \
+         use a roughness of at most {} m, or points at least {} m apart",
+        Shown(*roughness), Shown(*spacing), Shown(*most), Shown(*need)
     )]
     TooRough { roughness: f64, spacing: f64, which: &'static str, place: String, most: f64, need: f64 },
     #[error("radius {0} m: must be a positive length")]
@@ -108,7 +109,7 @@ pub enum WallError {
     BadFacing { x: f64, y: f64, z: f64 },
     #[error("smallest particle {0} m: must be a positive diameter")]
     BadParticle(f64),
-    #[error("no point has a neighbour within {reach} m: a wall needs points of about equal spacing")]
+    #[error("no point has a neighbour within {} m: a wall needs points of about equal spacing", Shown(*reach))]
     NoPairs { reach: f64 },
     #[error(transparent)]
     Attribute(#[from] attributes::AttributeError),

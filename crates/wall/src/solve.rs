@@ -13,7 +13,6 @@
 //! points of a colour can be visited at once and the result does not depend on threads.
 
 use crate::equation::{dent, partners};
-use geom::Vec3;
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -39,6 +38,10 @@ pub struct Changes {
     pub mean_change: f64,
     /// Largest change [m].
     pub largest_change: f64,
+    /// Least, mean and largest ζ of the pairs whose spheres meet [m]; zeros when none do.
+    pub dents: [f64; 3],
+    /// Pairs whose spheres do not meet, or lie one in the other.
+    pub pairs_apart: usize,
 }
 
 /// Neighbours of each point with their distance [m] and the ζ [m] asked for.
@@ -60,14 +63,14 @@ impl Links {
     }
 }
 
-/// Radii [m] for pairs of points [m] with roughness `zeta` [m] each, from the uniform ones `even` [m].
-pub fn solve(points: &[Vec3], pairs: &[(u32, u32)], zeta: &[f64], even: &[f64]) -> Vec<f64> {
-    let links = links(points, pairs, zeta);
-    let colours = colours(&links, points.len());
+/// Radii [m] for pairs of points at distances `lengths` [m] with roughness `zeta` [m] each point, from the uniform ones `even` [m].
+pub fn solve(pairs: &[(u32, u32)], lengths: &[f64], zeta: &[f64], even: &[f64]) -> Vec<f64> {
+    let links = links(pairs, lengths, zeta);
+    let colours = colours(&links, even.len());
     let mut radii = even.to_vec();
-    let mut cost = vec![0.0; points.len()];
+    let mut cost = vec![0.0; even.len()];
     // When (in steps of colours) a point was changed and visited: one whose neighbours stayed would choose the same again.
-    let (mut changed, mut visited) = (vec![1u32; points.len()], vec![0u32; points.len()]);
+    let (mut changed, mut visited) = (vec![1u32; even.len()], vec![0u32; even.len()]);
     let (mut step, mut before) = (1, f64::INFINITY);
     let (mut due, mut new): (Vec<u32>, Vec<(f64, f64)>) = Default::default();
     for _ in 0..MOST_SWEEPS {
@@ -143,36 +146,70 @@ impl Visit {
     }
 }
 
-/// How far the dents of given radii are from those asked for.
-pub fn changes(points: &[Vec3], pairs: &[(u32, u32)], zeta: &[f64], radii: &[f64]) -> Changes {
-    let mut changes = Changes { pairs: pairs.len(), ..Changes::default() };
-    for &(i, j) in pairs {
-        let (i, j) = (i as usize, j as usize);
-        let want = 0.5 * (zeta[i] + zeta[j]);
-        let off = (dent(radii[i], radii[j], (points[i] - points[j]).norm()) - want).abs();
-        changes.pairs_changed += (off > CHANGED * want) as usize;
-        changes.mean_change += off / pairs.len() as f64;
-        changes.largest_change = changes.largest_change.max(off);
-    }
-    changes
+/// How far the dents of given radii are from those asked for; `lengths` [m] are the pairs' distances.
+pub fn changes(pairs: &[(u32, u32)], lengths: &[f64], zeta: &[f64], radii: &[f64]) -> Changes {
+    let none = Changes { dents: [f64::INFINITY, 0.0, f64::NEG_INFINITY], ..Changes::default() };
+    let parts: Vec<Changes> = pairs
+        .par_chunks(PART * 8)
+        .zip(lengths.par_chunks(PART * 8))
+        .map(|(pairs, lengths)| {
+            let mut part = Changes { pairs: pairs.len(), ..none };
+            pairs.iter().zip(lengths).for_each(|(pair, p)| part.add(pair, *p, zeta, radii));
+            part
+        })
+        .collect();
+    // In order, so that the sums have the same bits for any number of threads.
+    let mut all = parts.iter().fold(none, Changes::with);
+    let met = all.pairs - all.pairs_apart;
+    all.mean_change /= all.pairs.max(1) as f64;
+    all.dents = if met > 0 { [all.dents[0], all.dents[1] / met as f64, all.dents[2]] } else { [0.0; 3] };
+    all
 }
 
-fn links(points: &[Vec3], pairs: &[(u32, u32)], zeta: &[f64]) -> Links {
-    let mut starts = vec![0u32; points.len() + 1];
+impl Changes {
+    /// Adds a pair; means are sums until the end.
+    fn add(&mut self, &(i, j): &(u32, u32), p: f64, zeta: &[f64], radii: &[f64]) {
+        let (i, j) = (i as usize, j as usize);
+        let (want, dent) = (0.5 * (zeta[i] + zeta[j]), dent(radii[i], radii[j], p));
+        let off = (dent - want).abs();
+        self.pairs_changed += (off > CHANGED * want) as usize;
+        self.mean_change += off;
+        self.largest_change = self.largest_change.max(off);
+        if p <= radii[i] + radii[j] && (radii[i] - radii[j]).abs() < p {
+            self.dents = [self.dents[0].min(dent), self.dents[1] + dent, self.dents[2].max(dent)];
+        } else {
+            self.pairs_apart += 1;
+        }
+    }
+
+    fn with(self, other: &Changes) -> Changes {
+        let (a, b) = (self.dents, other.dents);
+        Changes {
+            pairs: self.pairs + other.pairs,
+            pairs_changed: self.pairs_changed + other.pairs_changed,
+            mean_change: self.mean_change + other.mean_change,
+            largest_change: self.largest_change.max(other.largest_change),
+            dents: [a[0].min(b[0]), a[1] + b[1], a[2].max(b[2])],
+            pairs_apart: self.pairs_apart + other.pairs_apart,
+        }
+    }
+}
+
+fn links(pairs: &[(u32, u32)], lengths: &[f64], zeta: &[f64]) -> Links {
+    let mut starts = vec![0u32; zeta.len() + 1];
     for &(i, j) in pairs {
         starts[i as usize + 1] += 1;
         starts[j as usize + 1] += 1;
     }
-    for i in 0..points.len() {
+    for i in 0..zeta.len() {
         starts[i + 1] += starts[i];
     }
     let mut next = starts.clone();
     let mut to = vec![Link::default(); 2 * pairs.len()];
-    for &(i, j) in pairs {
-        let p = (points[i as usize] - points[j as usize]).norm();
-        let want = 0.5 * (zeta[i as usize] + zeta[j as usize]);
+    for (&(i, j), &p) in pairs.iter().zip(lengths) {
+        let zeta = 0.5 * (zeta[i as usize] + zeta[j as usize]);
         for (a, b) in [(i, j), (j, i)] {
-            to[next[a as usize] as usize] = Link { to: b, p, zeta: want };
+            to[next[a as usize] as usize] = Link { to: b, p, zeta };
             next[a as usize] += 1;
         }
     }

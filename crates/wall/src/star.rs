@@ -21,6 +21,8 @@ const FOR_NORMAL: usize = 24;
 const LONGEST: f64 = 2.0;
 /// Points are worked on in parts of this many.
 const PART: usize = 512;
+/// Steps of Newton's method: two equal eigenvalues are reached by halves.
+const NEWTON: usize = 60;
 /// A point as near as this to the border of the ball counts as inside: on a square lattice there is no diagonal.
 const ON_BORDER: f64 = 1e-9;
 
@@ -169,19 +171,28 @@ fn across(axis: &Vec3) -> Vec3 {
     axis.cross(&other).normalize()
 }
 
-/// Direction of least spread, in closed form (Smith 1961, doi:10.1145/355578.366316): the general solver takes ten times as long.
-/// `None` when there is none, the points lying on a line.
+/// Direction of least spread; `None` when there is none, the points lying on a line.
+///
+/// The least eigenvalue is the first zero of the characteristic polynomial, which Newton's method reaches from below without
+/// passing it; of a sheet it is near 0, and few steps do. The general solver takes ten times as long.
 fn least_axis(spread: &Matrix3<f64>) -> Option<Vec3> {
     let scale = spread.amax();
     if scale.is_nan() || scale <= 0.0 {
         return None;
     }
     let a = spread / scale;
-    let mean = a.trace() / 3.0;
-    let b = a - Matrix3::identity() * mean;
-    let p = (b.norm_squared() / 6.0).sqrt();
-    let cosine = if p > 0.0 { (0.5 * b.determinant() / (p * p * p)).clamp(-1.0, 1.0) } else { 0.0 };
-    let least = mean + 2.0 * p * libm::cos((libm::acos(cosine) + 2.0 * std::f64::consts::PI) / 3.0);
+    let pair = |i: usize, j: usize| a[(i, i)] * a[(j, j)] - a[(i, j)] * a[(i, j)];
+    let (trace, minors, determinant) = (a.trace(), pair(0, 1) + pair(1, 2) + pair(2, 0), a.determinant());
+    let mut least = 0.0;
+    for _ in 0..NEWTON {
+        let value = determinant - least * (minors - least * (trace - least));
+        let slope = minors - least * (2.0 * trace - 3.0 * least);
+        let step = value / slope;
+        if step.is_nan() || step <= 1e-15 {
+            break;
+        }
+        least += step;
+    }
     let m = a - Matrix3::identity() * least;
     let row = |k: usize| m.row(k).transpose();
     let crosses = [row(0).cross(&row(1)), row(1).cross(&row(2)), row(2).cross(&row(0))];

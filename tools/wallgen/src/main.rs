@@ -5,9 +5,10 @@ mod args;
 use anyhow::Context;
 use args::Args;
 use cli::Report;
+use geom::Shown;
 use std::process::ExitCode;
 use stream::Values;
-use wall::{Regions, Wall, WallReport, build};
+use wall::{Radius, Regions, Wall, WallReport, Wish, build};
 
 fn main() -> ExitCode {
     cli::run("wallgen", wallgen)
@@ -33,7 +34,7 @@ fn wallgen(args: Args) -> anyhow::Result<Report> {
         out.commit()?;
     }
     report.warnings.iter().for_each(|w| cli::warn(w));
-    Ok(summary(&report).with_all(&report).with("materials", &regions.materials))
+    Ok(summary(&report, &wish).with_all(&report).with("materials", &regions.materials))
 }
 
 /// The cloud with the spheres' columns in it; its other properties stay.
@@ -45,10 +46,27 @@ fn as_cloud(mut cloud: cloud::Cloud, wall: &Wall, regions: &Regions) -> anyhow::
     Ok(cloud)
 }
 
-fn summary(report: &WallReport) -> Report {
-    let [least, mean, largest] = report.radius_range;
+fn summary(report: &WallReport, wish: &Wish) -> Report {
+    let [least, mean, largest] = report.radius_range.map(Shown);
+    let (spheres, spacing, changes) = (report.spheres, Shown(report.spacing), &report.changes);
+    if wish.radius == Radius::Solve {
+        return Report::new(format!(
+            "{spheres} wall spheres, radius {least} to {largest} m (mean {mean}), spacing {spacing} m, \
+             roughness changed on {} of {} pairs",
+            changes.pairs_changed, changes.pairs
+        ));
+    }
+    let [low, middle, high] = changes.dents.map(Shown);
+    let asked = match wish.radius {
+        Radius::Uniform => format!(" where {} m was asked for", Shown(report.roughness)),
+        _ => String::new(),
+    };
+    let apart = match changes.pairs_apart {
+        0 => String::new(),
+        apart => format!("; {apart} of {} pairs are too far apart to meet", changes.pairs),
+    };
     Report::new(format!(
-        "{} wall spheres, radius {least:.4} to {largest:.4} m (mean {mean:.4}), spacing {:.4} m, roughness changed on {} of {} pairs",
-        report.spheres, report.spacing, report.changes.pairs_changed, report.changes.pairs
+        "{spheres} wall spheres of radius {mean} m, spacing {spacing} m, \
+         dents {low} to {high} m (mean {middle}){asked}{apart}"
     ))
 }
