@@ -1,22 +1,29 @@
 //! Grains, walls and clouds on a display: one self-contained HTML page ([`Page`]), or a picture ([`picture`]).
 //!
 //! Everything shown is a table with the columns x, y, z, usually radius [m], and any others, which are fields
-//! to colour by. Whoever calls reads the files; this crate knows of none.
+//! to colour by; besides, there are walls that are planes or meshes ([`Surface`]). Whoever calls reads the files;
+//! this crate knows of none.
 
 mod camera;
 mod colour;
 mod error;
 mod field;
+mod motion;
+mod outline;
 mod page;
 pub mod picture;
 mod scale;
+mod sheet;
 mod spheres;
+mod surface;
 
 pub use camera::Camera;
 pub use colour::{Map, Rgb};
 pub use error::ViewError;
+pub use motion::Motion;
 pub use page::{Kept, Page, PageOptions};
 pub use picture::{Image, Part, PictureOptions};
+pub use surface::{Surface, SurfaceShape};
 
 /// What a table of spheres or points is, and so how it is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

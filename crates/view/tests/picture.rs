@@ -26,7 +26,7 @@ fn seen<'a>(parts: &[(Role, &'a Table)], colour: &str) -> Image {
         range: Some([0.0, 1.0]),
         ..PictureOptions::default()
     };
-    picture::draw(&parts, &options).expect("drawn")
+    picture::draw(&parts, &[], &options).expect("drawn")
 }
 
 /// The pixel column that a direction `x` over `distance` falls on: 9 % at the right are the colour bar's.
@@ -90,7 +90,7 @@ fn draw_heap(count: usize, threads: usize) -> Image {
     let options =
         PictureOptions { colour: Some("load".into()), time: Some(0.5), ..PictureOptions::default() };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-    pool.install(|| picture::draw(&[part], &options)).expect("drawn")
+    pool.install(|| picture::draw(&[part], &[], &options)).expect("drawn")
 }
 
 #[test]
@@ -115,9 +115,9 @@ fn what_cannot_be_drawn_is_named() {
     let part = Part { role: Role::Grains, name: "run".into(), table: &table, kinds: vec![] };
     let options = PictureOptions { colour: Some("warmth".into()), ..PictureOptions::default() };
     let message =
-        picture::draw(std::slice::from_ref(&part), &options).expect_err("no such field").to_string();
+        picture::draw(std::slice::from_ref(&part), &[], &options).expect_err("no such field").to_string();
     assert!(message.contains("'warmth'") && message.contains("load"), "{message}");
     let small = PictureOptions { width: 3, ..PictureOptions::default() };
     assert!(picture::draw(&[part], &small).expect_err("too small").to_string().contains("3 x 1080"));
-    assert!(picture::draw(&[], &options).expect_err("nothing").to_string().contains("nothing to show"));
+    assert!(picture::draw(&[], &[], &options).expect_err("nothing").to_string().contains("nothing to show"));
 }

@@ -3,6 +3,7 @@
 mod formats;
 mod inputs;
 mod moment;
+mod run;
 
 use anyhow::Context;
 use clap::Parser;
@@ -72,7 +73,7 @@ fn show(mut args: Args) -> anyhow::Result<Report> {
     if args.inputs.is_empty() {
         args.inputs.push(Source::Stdin);
     }
-    let output = Output { file: args.file.clone(), ..Output::default() };
+    let output = Output { file: args.file.clone() };
     match Format::of(&output)? {
         Format::Html => html(&args, &output),
         Format::Png => png(&args, &output),
@@ -120,6 +121,7 @@ fn html(args: &Args, output: &Output) -> anyhow::Result<Report> {
 fn png(args: &Args, output: &Output) -> anyhow::Result<Report> {
     let mut moment = Moment::at(args.time);
     let seen = inputs::read_all(&args.inputs, &mut moment)?;
+    moment.settle();
     let [width, height] = args.size;
     let options = PictureOptions {
         width,
@@ -132,7 +134,7 @@ fn png(args: &Args, output: &Output) -> anyhow::Result<Report> {
         wall_opacity: args.wall_opacity,
         cut: args.cut,
     };
-    let image = picture::draw(&moment.parts(), &options)?;
+    let image = picture::draw(&moment.parts(), moment.surfaces(), &options)?;
     let mut out: OutputStream = output.open()?;
     out.write_all(&image.png()?).with_context(|| output.name())?;
     out.commit()?;

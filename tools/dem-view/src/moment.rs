@@ -2,7 +2,7 @@
 
 use crate::inputs::Show;
 use stream::Table;
-use view::{Part, Role, ViewError};
+use view::{Motion, Part, Role, Surface, ViewError};
 
 /// One thing, as it is at the moment.
 struct Layer {
@@ -10,24 +10,39 @@ struct Layer {
     name: String,
     kinds: Vec<String>,
     shown: Option<(f64, Table)>,
+    motion: Motion,
 }
 
 /// The last state of each layer that is not after a time.
 pub struct Moment {
     until: f64,
     layers: Vec<Layer>,
+    surfaces: Vec<Surface>,
 }
 
 impl Moment {
     /// At `time` [s], or at the end.
     pub fn at(time: Option<f64>) -> Moment {
-        Moment { until: time.unwrap_or(f64::INFINITY), layers: Vec::new() }
+        Moment { until: time.unwrap_or(f64::INFINITY), layers: Vec::new(), surfaces: Vec::new() }
     }
 
     /// The time of the grains shown [s].
     pub fn time(&self) -> Option<f64> {
         let grains = self.layers.iter().filter(|l| l.role == Role::Grains);
         grains.filter_map(|l| l.shown.as_ref()).map(|(time, _)| *time).reduce(f64::max)
+    }
+
+    /// Takes walls that move to where they are at the time shown.
+    pub fn settle(&mut self) {
+        let time = self.time().unwrap_or(0.0);
+        for layer in self.layers.iter_mut().filter(|l| l.motion.moves()) {
+            layer.shown = layer.shown.take().map(|(_, home)| (time, layer.motion.place(&home, time)));
+        }
+    }
+
+    /// Planes and meshes.
+    pub fn surfaces(&self) -> &[Surface] {
+        &self.surfaces
     }
 
     /// What to draw.
@@ -41,12 +56,26 @@ impl Moment {
 
 impl Show for Moment {
     fn layer(&mut self, role: Role, name: &str) -> usize {
-        self.layers.push(Layer { role, name: name.to_owned(), kinds: Vec::new(), shown: None });
+        self.layers.push(Layer {
+            role,
+            name: name.to_owned(),
+            kinds: Vec::new(),
+            shown: None,
+            motion: Motion::default(),
+        });
         self.layers.len() - 1
     }
 
     fn kinds(&mut self, layer: usize, kinds: Vec<String>) {
         self.layers[layer].kinds = kinds;
+    }
+
+    fn moves(&mut self, layer: usize, motion: Motion) {
+        self.layers[layer].motion = motion;
+    }
+
+    fn surface(&mut self, surface: Surface) {
+        self.surfaces.push(surface);
     }
 
     fn push(&mut self, layer: usize, time: f64, table: Table) -> Result<(), ViewError> {

@@ -9,7 +9,8 @@ layout(location = 3) in float green;
 layout(location = 4) in float blue;
 uniform vec3 boxLo, boxSize, radiusOf;  // radiusOf: lowest, range, factor
 uniform vec2 valueOf[3];
-uniform mat3 turn;
+uniform mat3 turn, pose;                // pose, poseShift: where the layer is now
+uniform vec3 poseShift;
 uniform vec3 eye;
 uniform vec2 focal;                     // of the shorter way, scaled to clip space
 uniform vec2 nearFar;
@@ -32,7 +33,7 @@ vec3 coloured(vec3 place) {
 }
 
 void main() {
-  vec3 place = boxLo + position * boxSize;
+  vec3 place = pose * (boxLo + position * boxSize) + poseShift;
   vec2 side = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
   centre = turn * (place - eye);
   size = (radiusOf.x + radius * radiusOf.y) * radiusOf.z;

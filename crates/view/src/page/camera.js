@@ -26,19 +26,22 @@ const camera = {
     return this.target.map((t, k) => t - this.distance * forward[k]);
   },
 
-  // The least distance from which the whole box is seen in a window of this shape.
+  // The point to look at and the least distance from which everything that stands out is seen in a window of this
+  // shape: |x - tx| <= hx (z + d) for all places.
   fit(width, height) {
-    this.target = [0, 0, 0];
     const short = Math.min(width, height);
-    const half = [0.84 * halfView * width / short, 0.84 * halfView * height / short];
+    const half = [0.86 * halfView * width / short, 0.86 * halfView * height / short];
     const axes = this.axes();
-    this.distance = 1e-9;
-    for (let n = 0; n < 8; n++) {
-      const p = [0, 1, 2].map((k) => ((n >> k) & 1 ? box.hi[k] : box.lo[k]) - middle[k]);
-      const [x, y, z] = axes.map((a) => dot3(a, p));
-      const depth = this.flat ? 0 : z;
-      this.distance = Math.max(this.distance, Math.abs(x) / half[0] - depth, Math.abs(y) / half[1] - depth);
-    }
+    const seen = run.outline.map((p) => axes.map((a) => dot3(a, p.map((c, k) => c - middle[k]))));
+    const most = (of) => seen.reduce((m, p) => Math.max(m, of(p)), -Infinity);
+    const lean = this.flat ? [0, 0] : half;
+    const far = [0, 1].map((k) => most((p) => p[k] - lean[k] * p[2]));
+    const low = [0, 1].map((k) => -most((p) => -p[k] - lean[k] * p[2]));
+    const back = Math.max(...[0, 1].map((k) => (far[k] - low[k]) / (2 * half[k])));
+    const depth = 0.5 * (most((p) => p[2]) - most((p) => -p[2]));
+    const aim = [0.5 * (far[0] + low[0]), 0.5 * (far[1] + low[1]), depth];
+    this.target = [0, 1, 2].map((k) => axes.reduce((sum, a, n) => sum + a[k] * aim[n], 0));
+    this.distance = Math.max(1e-9, back + (this.flat ? 0 : depth));
   },
 
   turn(right, up) {

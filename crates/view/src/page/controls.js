@@ -30,7 +30,7 @@ function choices() {
     button.onclick = () => lookFrom(name);
     byId("views").append(button);
   });
-  run.layers.forEach((layer) => {
+  [...run.layers, ...run.surfaces].forEach((layer) => {
     const label = element("label");
     label.className = "check";
     const box_ = Object.assign(element("input"), { type: "checkbox", checked: true });
@@ -39,7 +39,7 @@ function choices() {
     label.append(box_, ` ${layer.name}`);
     byId("layers").append(label);
   });
-  byId("glass").hidden = mainRole === "walls" || !run.layers.some((l) => l.role === "walls");
+  byId("glass").hidden = !run.surfaces.length && (mainRole === "walls" || !run.layers.some((l) => l.role === "walls"));
   byId("dots").hidden = !run.layers.some((l) => l.pointRadius);
   const preferred = mainLayers.some(hasColours) ? "rgb" : names.includes("speed") ? "speed" : "z";
   byId("map").value = state.map;
@@ -53,7 +53,7 @@ function lookFrom(name) {
 }
 
 function toggleWalls() {
-  const walls = run.layers.filter((l) => l.role === "walls");
+  const walls = [...run.layers.filter((l) => l.role === "walls"), ...run.surfaces];
   const on = walls.some((l) => state.hidden.has(l));
   walls.forEach((l) => { state.hidden[on ? "delete" : "add"](l); l.box.checked = on; });
   changed();

@@ -15,16 +15,12 @@ function bytes(number) {
 
 // The layer that colours are about: grains, else a cloud, else walls.
 const order = ["grains", "cloud", "walls"];
-const mainRole = order.find((role) => run.layers.some((l) => l.role === role));
+const mainRole = order.find((role) => run.layers.some((l) => l.role === role)) || "walls";
 const mainLayers = run.layers.filter((l) => l.role === mainRole);
 const hasColours = (l) => ["red", "green", "blue"].every((c) => l.fields.some((f) => f.name === c));
 
 // Times at which anything changes, in order.
-const clock = (() => {
-  const moving = run.layers.filter((l) => l.role === "grains");
-  const times = (moving.length ? moving : run.layers).flatMap((l) => l.frames.map((f) => f.time));
-  return [...new Set(times)].sort((a, b) => a - b);
-})();
+const clock = run.clock;
 
 // The frame of a layer at a time: the last one that is not later, else its first.
 function frameAt(layer, time) {
@@ -37,8 +33,7 @@ function frameAt(layer, time) {
 }
 
 // The box that is looked at, and its middle: all coordinates on the graphics card are relative to it.
-const box = { lo: [0, 1, 2].map((k) => Math.min(...run.layers.map((l) => l.lo[k]))),
-              hi: [0, 1, 2].map((k) => Math.max(...run.layers.map((l) => l.hi[k]))) };
+const box = { lo: run.lo, hi: run.hi };
 const middle = box.lo.map((lo, k) => 0.5 * (lo + box.hi[k]));
 const halfDiagonal = Math.max(1e-9, Math.hypot(...box.lo.map((lo, k) => 0.5 * (box.hi[k] - lo))));
 

@@ -119,6 +119,7 @@ const painter = {
     for (const b of all) if (!isGlass(b)) this.spheres(b);
     this.glass.begin();
     for (const b of glass) this.spheres(b);
+    sheets.draw(view, size, glass.length > 0);
     this.compose(view, quality, glass.length > 0);
   },
 
@@ -131,14 +132,18 @@ const painter = {
     return { eye, focal, nearFar: [near, centre + 4 * halfDiagonal], clip: [2 * focal / width, 2 * focal / height] };
   },
 
-  setView(view) {
-    const { at } = this.ball;
+  setEye({ at }, view) {
     const [r, u, f] = camera.axes();
     gl.uniformMatrix3fv(at("turn"), false, [r[0], u[0], f[0], r[1], u[1], f[1], r[2], u[2], f[2]]);
     gl.uniform3fv(at("eye"), view.eye);
     gl.uniform2fv(at("focal"), view.clip);
     gl.uniform2fv(at("nearFar"), view.nearFar);
     gl.uniform1f(at("flatView"), camera.flat ? 1 : 0);
+  },
+
+  setView(view) {
+    const { at } = this.ball;
+    this.setEye(this.ball, view);
     gl.uniform1f(at("pixel"), 1 / view.focal);
     gl.uniform3fv(at("kinds[0]"), run.kinds.flat().map((c) => c / 255));
     gl.uniform3fv(at("plain"), run.wall.map((c) => c / 255));
@@ -154,6 +159,9 @@ const painter = {
     buffers.column(1, frame.radius[0], 1, 2);
     gl.uniform3fv(at("boxLo"), frame.lo.map((lo, k) => lo - middle[k]));
     gl.uniform3fv(at("boxSize"), frame.hi.map((hi, k) => hi - frame.lo[k]));
+    const pose = poseOf(layer.motion, middle, clock[state.frame]);
+    gl.uniformMatrix3fv(at("pose"), false, pose.turn);
+    gl.uniform3fv(at("poseShift"), pose.shift);
     gl.uniform3f(at("radiusOf"), frame.radius[1], frame.radius[2] - frame.radius[1], layer.pointRadius ? state.dot : 1);
     this.colours(buffers, frame);
     this.cut(layer);
@@ -181,13 +189,7 @@ const painter = {
   },
 
   cut(layer) {
-    const { at } = this.ball;
-    const off = state.cutAxis < 0 || (layer.role === "grains" && !state.cutGrains);
-    if (off) { gl.uniform4f(at("cut"), 0, 0, 0, 1); return; }
-    const k = state.cutAxis;
-    const place = box.lo[k] + state.cutAt * (box.hi[k] - box.lo[k]) - middle[k];
-    const normal = [0, 1, 2].map((n) => (n === k ? state.cutSide : 0));
-    gl.uniform4f(at("cut"), ...normal, state.cutSide * place);
+    gl.uniform4fv(this.ball.at("cut"), layer.role === "grains" && !state.cutGrains ? [0, 0, 0, 1] : cutPlane());
   },
 
   compose(view, quality, glass) {
@@ -198,7 +200,8 @@ const painter = {
     gl.useProgram(this.light.made);
     gl.bindVertexArray(this.empty);
     const inputs = [["solidColour", this.solid.colour], ["solidNormal", this.solid.normal], ["solidDepth", this.solid.depth],
-                    ["glassColour", this.glass.colour], ["glassNormal", this.glass.normal], ["glassDepth", this.glass.depth]];
+                    ["glassColour", this.glass.colour], ["glassNormal", this.glass.normal], ["glassDepth", this.glass.depth],
+                    ["sheetBehind", sheets.target.colour], ["sheetBefore", sheets.target.normal]];
     inputs.forEach(([name, input], n) => {
       gl.activeTexture(gl.TEXTURE0 + n);
       gl.bindTexture(gl.TEXTURE_2D, input);
@@ -209,14 +212,24 @@ const painter = {
     gl.uniform2f(at("focal"), view.focal, view.focal);
     gl.uniform1f(at("flatView"), camera.flat ? 1 : 0);
     gl.uniform1f(at("opacity"), glass ? state.opacity : 0);
+    gl.uniform1i(at("sheets"), sheets.shown().length ? 1 : 0);
     gl.uniform1f(at("reach"), 4 * typicalRadius());
     gl.uniform1i(at("samples"), quality);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   },
 };
 
+// What is shown: normal . place <= limit.
+function cutPlane() {
+  const k = state.cutAxis;
+  if (k < 0) return [0, 0, 0, 1];
+  const place = box.lo[k] + state.cutAt * (box.hi[k] - box.lo[k]) - middle[k];
+  return [...[0, 1, 2].map((n) => (n === k ? state.cutSide : 0)), state.cutSide * place];
+}
+
 function typicalRadius() {
   const layer = mainLayers[0];
+  if (!layer) return 0.01 * halfDiagonal;
   const radius = frameAt(layer, clock[state.frame]).radius;
   return 0.5 * (radius[1] + radius[2]) * (layer.pointRadius ? state.dot : 1);
 }

@@ -2,11 +2,11 @@
 // Joins grains and walls, darkens the gaps between grains, and averages the samples of a pixel.
 precision highp float;
 precision highp sampler2D;
-uniform sampler2D solidColour, solidNormal, solidDepth, glassColour, glassNormal, glassDepth;
+uniform sampler2D solidColour, solidNormal, solidDepth, glassColour, glassNormal, glassDepth, sheetBehind, sheetBefore;
 uniform vec3 paper;
 uniform vec2 nearFar, focal;   // focal in samples
 uniform float flatView, opacity, reach;
-uniform int samples;
+uniform int samples, sheets;
 out vec4 shownColour;
 
 const vec2 SPIRAL[8] = vec2[8](vec2(0.09, 0.05), vec2(-0.16, 0.14), vec2(-0.05, -0.33), vec2(0.42, 0.12),
@@ -42,14 +42,21 @@ float openness(sampler2D depths, sampler2D normals, ivec2 at, float share) {
   return clamp(1.0 - 2.4 * covered / 8.0, 0.15, 1.0);
 }
 
+vec3 veiled(sampler2D by, ivec2 at, vec3 under) {
+  if (sheets == 0) return under;
+  vec4 veil = texelFetch(by, at, 0);
+  return veil.rgb + (1.0 - veil.a) * under;
+}
+
 vec3 seen(ivec2 at) {
   float far = texelFetch(solidDepth, at, 0).r;
   float near = opacity > 0.0 ? texelFetch(glassDepth, at, 0).r : 1.0;
   vec3 under = paper;
   if (far < 1.0) under = texelFetch(solidColour, at, 0).rgb * openness(solidDepth, solidNormal, at, far);
-  if (near >= far) return under;
+  under = veiled(sheetBehind, at, under);
+  if (near >= far) return veiled(sheetBefore, at, under);
   vec3 wall = texelFetch(glassColour, at, 0).rgb * openness(glassDepth, glassNormal, at, near);
-  return mix(under, wall, far < 1.0 ? opacity : 0.35 + 0.65 * opacity);
+  return veiled(sheetBefore, at, mix(under, wall, far < 1.0 ? opacity : 0.35 + 0.65 * opacity));
 }
 
 void main() {

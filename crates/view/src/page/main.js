@@ -49,6 +49,7 @@ function start() {
     fitCanvas();
     camera.start(innerWidth, innerHeight);
     painter.start();
+    sheets.start();
   } catch (problem) {
     return fail(`The graphics driver refused this page's drawing program: ${problem.message}`);
   }

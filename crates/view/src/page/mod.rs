@@ -4,10 +4,13 @@
 //! in memory can be shown; when the page grows beyond its limit, every second frame is left out again.
 
 mod pack;
+mod panes;
 mod timeline;
 mod write;
 
-use crate::{Camera, Map, Role, ViewError, field, scale::Range, spheres::Spheres};
+use crate::{
+    Camera, Map, Motion, Role, Surface, ViewError, field, outline::Outline, scale::Range, spheres::Spheres,
+};
 use pack::Packed;
 use stream::Table;
 use timeline::Timeline;
@@ -73,8 +76,10 @@ pub(crate) struct Layer {
     pub frames: Timeline,
     /// Radius of points without their own [m]; zero when spheres have theirs.
     pub point_radius: f64,
-    /// Box that the view is fitted to [m].
-    pub extent: [Range; 3],
+    /// Places that stand out, as pushed [m].
+    pub outline: Outline,
+    /// How it moves besides.
+    pub motion: Motion,
 }
 
 /// A field of a layer.
@@ -91,6 +96,7 @@ pub(crate) struct Field {
 pub struct Page {
     options: PageOptions,
     layers: Vec<Layer>,
+    surfaces: Vec<Surface>,
     given: usize,
     stride: usize,
 }
@@ -98,7 +104,7 @@ pub struct Page {
 impl Page {
     /// A page without anything in it.
     pub fn new(options: PageOptions) -> Page {
-        Page { options, layers: Vec::new(), given: 0, stride: 1 }
+        Page { options, layers: Vec::new(), surfaces: Vec::new(), given: 0, stride: 1 }
     }
 
     /// Adds a layer; its number is for [`Page::push`].
@@ -110,7 +116,8 @@ impl Page {
             fields: Vec::new(),
             frames: Timeline::default(),
             point_radius: 0.0,
-            extent: [Range::EMPTY; 3],
+            outline: Outline::default(),
+            motion: Motion::default(),
         });
         self.layers.len() - 1
     }
@@ -118,6 +125,16 @@ impl Page {
     /// Names the kinds that the field `material` of a layer counts.
     pub fn kinds(&mut self, layer: usize, kinds: Vec<String>) {
         self.layers[layer].kinds = kinds;
+    }
+
+    /// Lets a layer move as one body; what is pushed is where its spheres are at t = 0.
+    pub fn moves(&mut self, layer: usize, motion: Motion) {
+        self.layers[layer].motion = motion;
+    }
+
+    /// Adds a wall that is a plane or a mesh.
+    pub fn surface(&mut self, surface: Surface) {
+        self.surfaces.push(surface);
     }
 
     /// Adds what a layer looks like at `time` [s] and after; times of a layer must not fall.
@@ -142,7 +159,7 @@ impl Page {
             layer.point_radius =
                 if spheres.sized { 0.0 } else { spheres.radius.first().copied().unwrap_or(0.0) };
         }
-        layer.extent = super::picture::around([layer.extent, spheres.extent(!moving)].into_iter());
+        layer.outline.add_spheres(&spheres, layer.role != Role::Walls);
         let mut columns = Vec::new();
         for field in &mut layer.fields {
             let values = field::values(table, &field.name).unwrap_or_else(|| vec![0.0; table.rows()]);

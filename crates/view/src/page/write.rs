@@ -1,7 +1,11 @@
 //! The page as text: a header in JSON, and each column of bytes once, in base64.
 
-use super::{Layer, Page, pack::Column};
-use crate::{Map, Role, ViewError, colour, field, scale};
+use super::{
+    Layer, Page,
+    pack::Column,
+    panes::{self, Framed, Pane},
+};
+use crate::{Map, Role, ViewError, colour, field, scale, sheet};
 use base64::{Engine, engine::general_purpose::STANDARD};
 use serde_json::{Value, json};
 use std::collections::HashMap;
@@ -10,18 +14,21 @@ use std::sync::Arc;
 
 const TEMPLATE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
-const SCRIPT: [&str; 7] = [
+const SCRIPT: [&str; 8] = [
     include_str!("data.js"),
     include_str!("camera.js"),
     include_str!("draw.js"),
+    include_str!("sheet.js"),
     include_str!("legend.js"),
     include_str!("play.js"),
     include_str!("controls.js"),
     include_str!("main.js"),
 ];
-const SHADERS: [(&str, &str); 4] = [
+const SHADERS: [(&str, &str); 6] = [
     ("ball-vert", include_str!("ball.vert")),
     ("ball-frag", include_str!("ball.frag")),
+    ("sheet-vert", include_str!("sheet.vert")),
+    ("sheet-frag", include_str!("sheet.frag")),
     ("light-vert", include_str!("light.vert")),
     ("light-frag", include_str!("light.frag")),
 ];
@@ -66,7 +73,7 @@ impl Page {
     /// Nothing to show, or no layer has the field to colour by.
     pub fn check(&self) -> Result<(), ViewError> {
         let layers: Vec<&Layer> = self.layers.iter().filter(is_shown).collect();
-        if layers.is_empty() {
+        if layers.is_empty() && self.surfaces.is_empty() {
             return Err(ViewError::Empty);
         }
         let mut known: Vec<String> =
@@ -85,8 +92,9 @@ impl Page {
     /// # Errors
     /// What the writer says.
     pub fn write_checked(&self, out: &mut impl Write) -> io::Result<()> {
+        let framed = self.framed();
         let mut blobs = Blobs::default();
-        let header = self.header(&mut blobs);
+        let header = self.header(&framed, &mut blobs);
         // `<` cannot end the script that the text stands in when it is written as an escape.
         let header = header.to_string().replace('<', "\\u003c");
         for (n, piece) in TEMPLATE.split("{{").enumerate() {
@@ -106,7 +114,7 @@ impl Page {
         Ok(())
     }
 
-    fn header<'a>(&'a self, blobs: &mut Blobs<'a>) -> Value {
+    fn header<'a>(&'a self, framed: &'a Framed, blobs: &mut Blobs<'a>) -> Value {
         let kept = self.kept();
         let maps: serde_json::Map<String, Value> =
             Map::ALL.iter().map(|(name, map)| ((*name).to_owned(), json!(map.anchors()))).collect();
@@ -126,7 +134,11 @@ impl Page {
             },
             "given": kept.given, "stride": kept.stride,
             "positionError": kept.position_error, "radiusError": kept.radius_error,
+            "clock": self.times(),
+            "outline": framed.outline.iter().map(panes::triple).collect::<Vec<_>>(),
+            "lo": framed.extent.map(|r| r.lo), "hi": framed.extent.map(|r| r.hi),
             "layers": self.layers.iter().filter(is_shown).map(|l| layer(l, blobs)).collect::<Vec<_>>(),
+            "surfaces": framed.panes.iter().map(|p| pane(p, blobs)).collect::<Vec<_>>(),
         })
     }
 }
@@ -134,6 +146,14 @@ impl Page {
 /// Whether the layer has anything in it, ever.
 fn is_shown(layer: &&Layer) -> bool {
     layer.frames.iter().any(|f| f.count > 0)
+}
+
+fn pane<'a>(pane: &'a Pane, blobs: &mut Blobs<'a>) -> Value {
+    let [vertices, faces, lines] = [&pane.vertices, &pane.faces, &pane.lines].map(|b| blobs.number(b));
+    json!({
+        "name": pane.name, "motion": panes::motion(&pane.motion), "origin": panes::triple(&pane.origin),
+        "vertices": vertices, "faces": faces, "lines": lines,
+    })
 }
 
 fn layer<'a>(layer: &'a Layer, blobs: &mut Blobs<'a>) -> Value {
@@ -153,8 +173,9 @@ fn layer<'a>(layer: &'a Layer, blobs: &mut Blobs<'a>) -> Value {
         let shown = f.most.opened();
         named_field(&f.name, f.whole, [f.all.lo, f.all.hi], [shown.lo, shown.hi])
     });
+    let extent = sheet::box_of(&layer.outline.places());
     let axes = (0..3).map(|k| {
-        let of = layer.extent[k];
+        let of = extent[k];
         named_field(["x", "y", "z"][k], false, [of.lo, of.hi], [of.lo, of.hi])
     });
     json!({
@@ -163,8 +184,7 @@ fn layer<'a>(layer: &'a Layer, blobs: &mut Blobs<'a>) -> Value {
         "main": layer.role == Role::Grains,
         "kinds": layer.kinds,
         "pointRadius": layer.point_radius,
-        "lo": layer.extent.map(|r| r.lo),
-        "hi": layer.extent.map(|r| r.hi),
+        "motion": panes::motion(&layer.motion),
         "fields": fields.chain(axes).collect::<Vec<_>>(),
         "frames": frames,
     })

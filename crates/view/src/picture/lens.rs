@@ -1,7 +1,7 @@
 //! The eye: from metres to samples of the picture.
 
 use super::{PictureOptions, paint::Painted};
-use crate::camera;
+use crate::{camera, scale::Range};
 use geom::Vec3;
 
 /// Samples along each side of a pixel.
@@ -37,9 +37,9 @@ impl Lens {
         let focal = 0.5 * h / HALF_VIEW;
         let free = [w * (1.0 - BAR_SHARE), h];
         let centre = [0.5 * free[0], 0.49 * h];
-        let distance = match options.camera.eye {
-            Some(eye) => (eye - target).norm(),
-            None => fitted(painted, target, &axes, free.map(|s| 0.46 * s / focal)),
+        let (target, distance) = match (options.camera.eye, options.camera.target) {
+            (Some(eye), _) => (target, (eye - target).norm()),
+            (None, _) => fitted(&painted.outline, target, &axes, free.map(|s| 0.46 * s / focal)),
         };
         Lens { eye: target + towards_eye * distance, axes, focal, centre, size, distance }
     }
@@ -61,17 +61,24 @@ impl Lens {
     }
 }
 
-/// The least distance [m] from which every corner of the box lies within `half` = x/z, y/z.
-fn fitted(painted: &Painted, target: Vec3, axes: &[Vec3; 3], half: [f64; 2]) -> f64 {
-    let corner = |n: usize| {
-        let side = |k: usize| if n >> k & 1 == 0 { painted.extent[k].lo } else { painted.extent[k].hi };
-        Vec3::new(side(0), side(1), side(2)) - target
-    };
-    let needed = |n: usize| {
-        let [x, y, z] = axes.map(|axis| axis.dot(&corner(n)));
-        (x.abs() / half[0]).max(y.abs() / half[1]) - z
-    };
-    (0..8).map(needed).fold(1e-9, f64::max)
+/// The point to look at and the least distance [m] from which all `places` lie within `half` = x/z, y/z.
+///
+/// ```text
+/// |x − tₓ| ≤ hₓ (z + d)  for all places   ⇔   A − hₓ d ≤ tₓ ≤ B + hₓ d,   A = max(x − hₓ z), B = min(x + hₓ z)
+/// ```
+///
+/// so d = (A − B)/2hₓ and tₓ = (A + B)/2, and the same with y; x, y, z are seen from `near`, any point.
+fn fitted(places: &[Vec3], near: Vec3, axes: &[Vec3; 3], half: [f64; 2]) -> (Vec3, f64) {
+    let seen: Vec<[f64; 3]> = places.iter().map(|p| axes.map(|a| a.dot(&(p - near)))).collect();
+    let ends = |of: &dyn Fn(&[f64; 3]) -> f64| Range::of(&seen.iter().map(of).collect::<Vec<f64>>());
+    let depth = ends(&|p| p[2]);
+    let far = [0, 1].map(|k| ends(&|p| p[k] - half[k] * p[2]).hi);
+    let low = [0, 1].map(|k| ends(&|p| p[k] + half[k] * p[2]).lo);
+    let needed = |k: usize| (far[k] - low[k]) / (2.0 * half[k]);
+    let back = needed(0).max(needed(1));
+    let middle = 0.5 * (depth.lo + depth.hi);
+    let [x, y] = [0, 1].map(|k| 0.5 * (far[k] + low[k]));
+    (near + axes[0] * x + axes[1] * y + axes[2] * middle, (back + middle).max(1e-9))
 }
 
 /// The samples that a sphere at `c` (coordinate and depth) with radius `r` covers along one side: its two tangents.

@@ -2,6 +2,7 @@
 
 use super::{
     PictureOptions,
+    glaze::Glaze,
     lens::{Lens, SAMPLES},
     paint::{Layer, Painted},
     splat::{Depths, NOTHING, splat},
@@ -11,7 +12,7 @@ use geom::Vec3;
 use rayon::prelude::*;
 
 /// Direction to the lamp: right, up, forward (unit length).
-const LAMP: [f32; 3] = [-0.424, 0.707, -0.566];
+pub const LAMP: [f32; 3] = [-0.424, 0.707, -0.566];
 
 /// Places looked at around a sample for what covers it: a spiral, as shares of the reach.
 const SPIRAL: [[f32; 2]; 8] = [
@@ -42,6 +43,7 @@ pub fn render(painted: &Painted, lens: &Lens, options: &PictureOptions) -> Vec<u
     let keep = |place: Vec3| !options.cut || lens.seen(place)[2] >= lens.distance;
     let solid = Shaded::new(&solid, lens, keep);
     let glass = Shaded::new(&glass, lens, keep);
+    let glaze = Glaze::new(&painted.panes, lens, [&solid.depths, &glass.depths], options);
     let opacity = options.wall_opacity as f32;
     let width = options.width as usize;
     let mut rgba = vec![255u8; width * options.height as usize * 4];
@@ -50,7 +52,7 @@ pub fn render(painted: &Painted, lens: &Lens, options: &PictureOptions) -> Vec<u
             let mut sum = [0f32; 3];
             for sample in 0..SAMPLES * SAMPLES {
                 let at = [x * SAMPLES + sample % SAMPLES, y * SAMPLES + sample / SAMPLES];
-                let seen = through(&solid, &glass, lens, at, opacity);
+                let seen = through(&solid, &glass, &glaze, lens, at, opacity);
                 sum = std::array::from_fn(|k| sum[k] + seen[k]);
             }
             for k in 0..3 {
@@ -62,20 +64,24 @@ pub fn render(painted: &Painted, lens: &Lens, options: &PictureOptions) -> Vec<u
 }
 
 /// The colour of one sample: grains, and walls before or behind them.
-fn through(solid: &Shaded, glass: &Shaded, lens: &Lens, at: [usize; 2], opacity: f32) -> [f32; 3] {
+fn through(
+    solid: &Shaded,
+    glass: &Shaded,
+    glaze: &Glaze,
+    lens: &Lens,
+    at: [usize; 2],
+    opacity: f32,
+) -> [f32; 3] {
     let place = at[1] * lens.size[0] + at[0];
-    let mix = |under: [f32; 3], over: [f32; 3], share: f32| -> [f32; 3] {
-        std::array::from_fn(|k| under[k] + share * (over[k] - under[k]))
-    };
-    let (near, far) = (glass.depths.depth[place], solid.depths.depth[place]);
-    let under = solid.colour(lens, at);
-    match (under, near < far) {
-        (None, true) => {
-            glass.colour(lens, at).map_or([1.0; 3], |wall| mix([1.0; 3], wall, 0.35 + 0.65 * opacity))
-        }
-        (Some(grain), true) => glass.colour(lens, at).map_or(grain, |wall| mix(grain, wall, opacity)),
-        (grain, false) => grain.unwrap_or([1.0; 3]),
+    let grain = solid.colour(lens, at);
+    let mut seen = glaze.behind(place, grain.unwrap_or([1.0; 3]));
+    if glass.depths.depth[place] < solid.depths.depth[place]
+        && let Some(wall) = glass.colour(lens, at)
+    {
+        let share = if grain.is_some() { opacity } else { 0.35 + 0.65 * opacity };
+        seen = std::array::from_fn(|k| seen[k] + share * (wall[k] - seen[k]));
     }
+    glaze.before(place, seen)
 }
 
 impl Shaded {

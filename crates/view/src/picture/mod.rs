@@ -2,6 +2,7 @@
 
 mod font;
 mod furniture;
+mod glaze;
 mod ink;
 mod lens;
 mod light;
@@ -10,7 +11,7 @@ mod splat;
 
 pub use paint::Part;
 
-use crate::{Camera, Map, ViewError, scale::Range};
+use crate::{Camera, Map, Surface, ViewError, scale::Range};
 use paint::Painted;
 
 /// A picture's settings.
@@ -88,16 +89,16 @@ impl Image {
     }
 }
 
-/// Draws the parts as they are at one moment.
+/// Draws the parts as they are at one moment, and the surfaces where they are at the time stated.
 ///
 /// # Errors
 /// Nothing to draw, a broken table, an unknown field, or a size out of range.
-pub fn draw(parts: &[Part], options: &PictureOptions) -> Result<Image, ViewError> {
+pub fn draw(parts: &[Part], surfaces: &[Surface], options: &PictureOptions) -> Result<Image, ViewError> {
     let (width, height) = (options.width, options.height);
     if !(64..=16384).contains(&width) || !(64..=16384).contains(&height) {
         return Err(ViewError::Size { width, height });
     }
-    let painted = Painted::new(parts, options)?;
+    let painted = Painted::new(parts, surfaces, options)?;
     let lens = lens::Lens::new(&painted, options);
     let shown = light::render(&painted, &lens, options);
     let mut image = Image { width, height, rgba: shown };

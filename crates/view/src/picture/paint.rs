@@ -1,7 +1,9 @@
-//! What is drawn: every sphere of every part, with its colour.
+//! What is drawn: every sphere of every part, with its colour, and thin walls.
 
 use super::PictureOptions;
-use crate::{Role, ViewError, colour, field, scale::Range, spheres::Spheres};
+use crate::{
+    Role, Surface, ViewError, colour, field, outline::Outline, scale::Range, sheet, spheres::Spheres,
+};
 use geom::Vec3;
 use stream::Table;
 
@@ -36,29 +38,69 @@ pub(crate) struct Layer {
     pub colour: Vec<[f32; 3]>,
 }
 
+/// A plane or mesh where it is at the moment.
+pub(crate) struct Pane {
+    /// Corners of its faces [m].
+    pub faces: Vec<[Vec3; 3]>,
+    /// Ends of its lines [m].
+    pub lines: Vec<[Vec3; 2]>,
+}
+
 /// Everything in the picture.
 pub(crate) struct Painted {
     pub layers: Vec<Layer>,
+    pub panes: Vec<Pane>,
+    /// Places that the camera must see [m].
+    pub outline: Vec<Vec3>,
     pub key: Key,
     /// Box that the view is fitted to [m].
     pub extent: [Range; 3],
 }
 
 impl Painted {
-    pub fn new(parts: &[Part], options: &PictureOptions) -> Result<Painted, ViewError> {
+    pub fn new(parts: &[Part], surfaces: &[Surface], options: &PictureOptions) -> Result<Painted, ViewError> {
         let parts: Vec<&Part> = parts.iter().filter(|p| p.table.rows() > 0).collect();
-        let main = parts.iter().map(|p| p.role).min().ok_or(ViewError::Empty)?;
-        let (key, colour_of) = key(&parts, main, options)?;
-        let mut layers = Vec::new();
-        for part in &parts {
-            let spheres = Spheres::of(part.table, &part.name)?;
-            let plain = || vec![colour::fraction(colour::WALL); spheres.len()];
-            let colour = if part.role == main { colour_of(part.table) } else { plain() };
-            layers.push(Layer { role: part.role, spheres, colour });
+        if parts.is_empty() && surfaces.is_empty() {
+            return Err(ViewError::Empty);
         }
-        // Strays are left out of the view only when they are grains: walls were put where they are.
-        let extent = super::around(layers.iter().map(|l| l.spheres.extent(l.role == Role::Walls)));
-        Ok(Painted { layers, key, extent })
+        let mut painted = Painted::bare();
+        if let Some(main) = parts.iter().map(|p| p.role).min() {
+            let (key, colour_of) = key(&parts, main, options)?;
+            painted.key = key;
+            for part in &parts {
+                let spheres = Spheres::of(part.table, &part.name)?;
+                let plain = || vec![colour::fraction(colour::WALL); spheres.len()];
+                let colour = if part.role == main { colour_of(part.table) } else { plain() };
+                painted.layers.push(Layer { role: part.role, spheres, colour });
+            }
+        }
+        painted.frame(surfaces, options.time.unwrap_or(0.0));
+        Ok(painted)
+    }
+
+    fn bare() -> Painted {
+        let (layers, panes, outline) = (Vec::new(), Vec::new(), Vec::new());
+        Painted { layers, panes, outline, key: Key::None, extent: [Range::EMPTY; 3] }
+    }
+
+    /// Places the surfaces, and finds what the camera must see: all but strays among the grains.
+    fn frame(&mut self, surfaces: &[Surface], time: f64) {
+        let mut outline = Outline::default();
+        for layer in &self.layers {
+            outline.add_spheres(&layer.spheres, layer.role != Role::Walls);
+        }
+        let around = sheet::box_of(&outline.places());
+        for sheet in sheet::sheets(surfaces, around) {
+            let place = sheet.surface.motion.to(time);
+            let vertices: Vec<Vec3> = sheet.vertices.iter().map(|v| place(*v)).collect();
+            if sheet.whole {
+                outline.add(&vertices);
+            }
+            let faces = sheet.faces.iter().map(|f| f.map(|v| vertices[v as usize])).collect();
+            self.panes.push(Pane { faces, lines: sheet.lines.iter().map(|l| l.map(&place)).collect() });
+        }
+        self.outline = outline.places();
+        self.extent = sheet::box_of(&self.outline);
     }
 
     /// Middle of what is looked at [m].

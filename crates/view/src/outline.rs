@@ -1,0 +1,94 @@
+//! The places that stand out farthest, each way: what a camera must see to see everything.
+
+use crate::spheres::Spheres;
+use geom::Vec3;
+
+/// Spheres of a layer that are looked at, at most: their outline hardly depends on more.
+const SAMPLE: usize = 8192;
+
+/// Share of grains left out at each end of each direction: strays that fell off must not shrink the rest to a dot.
+const STRAYS: f64 = 0.01;
+
+/// Places that stand out.
+#[derive(Clone, Default)]
+pub(crate) struct Outline {
+    /// The farthest place in each direction [m], with how far.
+    ends: Vec<(f64, Vec3)>,
+}
+
+impl Outline {
+    /// Takes in spheres; without their strays when they are `loose`.
+    pub fn add_spheres(&mut self, spheres: &Spheres, loose: bool) {
+        let step = if loose { spheres.len().div_ceil(SAMPLE).max(1) } else { 1 };
+        let balls: Vec<(Vec3, f64)> =
+            (0..spheres.len()).step_by(step).map(|i| (spheres.at(i), spheres.radius[i])).collect();
+        let left_out =
+            if loose { (STRAYS * balls.len().saturating_sub(1) as f64).round() as usize } else { 0 };
+        for (n, direction) in directions().enumerate() {
+            let mut reach: Vec<(f64, usize)> =
+                balls.iter().enumerate().map(|(i, (p, r))| (p.dot(&direction) + r, i)).collect();
+            if reach.is_empty() {
+                return;
+            }
+            let farthest = |a: &(f64, usize), b: &(f64, usize)| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1));
+            let (_, &mut (far, i), _) = reach.select_nth_unstable_by(left_out, farthest);
+            self.take(n, far, balls[i].0 + direction * balls[i].1);
+        }
+    }
+
+    /// Takes in places.
+    pub fn add(&mut self, places: &[Vec3]) {
+        for (n, direction) in directions().enumerate() {
+            for place in places {
+                self.take(n, place.dot(&direction), *place);
+            }
+        }
+    }
+
+    fn take(&mut self, direction: usize, far: f64, place: Vec3) {
+        match self.ends.get_mut(direction) {
+            Some(end) if end.0 < far => *end = (far, place),
+            Some(_) => {}
+            None => self.ends.push((far, place)),
+        }
+    }
+
+    /// The places [m].
+    pub fn places(&self) -> Vec<Vec3> {
+        let mut places: Vec<Vec3> = self.ends.iter().map(|(_, place)| *place).collect();
+        places.dedup();
+        places
+    }
+}
+
+/// 98 directions: those of a lattice five wide, each once.
+fn directions() -> impl Iterator<Item = Vec3> {
+    let at = |n: i32| [n % 5 - 2, n / 5 % 5 - 2, n / 25 - 2];
+    let once = |p: &[i32; 3]| p.iter().any(|c| c % 2 != 0);
+    (0..125).map(at).filter(once).map(|p| Vec3::from(p.map(f64::from)).normalize())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ball_of_spheres_is_outlined_without_its_stray() {
+        let place = |i: usize| {
+            let (a, z) = (2.4 * i as f64, (i as f64 + 0.5) / 500.0 - 1.0);
+            let r = (1.0 - z * z).sqrt();
+            Vec3::new(r * a.cos(), r * a.sin(), z)
+        };
+        let mut all: Vec<Vec3> = (0..1000).map(place).collect();
+        all.push(Vec3::new(1e4, 0.0, 0.0));
+        let centre = std::array::from_fn(|k| all.iter().map(|p| p[k]).collect());
+        let spheres = Spheres { centre, radius: vec![0.0; all.len()], sized: true };
+        let outlined = |loose| {
+            let mut outline = Outline::default();
+            outline.add_spheres(&spheres, loose);
+            outline.places().iter().map(|p| p.norm()).fold(0.0, f64::max)
+        };
+        assert!(outlined(false) > 1e3 && (outlined(true) - 1.0).abs() < 1e-9);
+        assert_eq!(directions().count(), 98);
+    }
+}

@@ -1,0 +1,109 @@
+//! Thin walls in a page, packed once: where they are at t = 0, and how they move.
+
+use super::{Layer, Page};
+use crate::{Motion, Role, outline::Outline, scale::Range, sheet};
+use geom::Vec3;
+use serde_json::{Value, json};
+use std::sync::Arc;
+
+/// Moments at which moving walls are looked at for the camera, at most.
+const MOMENTS: usize = 32;
+
+/// A plane or mesh, packed.
+pub(super) struct Pane {
+    pub name: String,
+    pub motion: Motion,
+    /// What the places are relative to [m].
+    pub origin: Vec3,
+    /// x, y, z of each corner, as 4-byte numbers [m].
+    pub vertices: Arc<Vec<u8>>,
+    /// Three corners of each face, as 4-byte numbers.
+    pub faces: Arc<Vec<u8>>,
+    /// x, y, z of both ends of each line, as 4-byte numbers [m].
+    pub lines: Arc<Vec<u8>>,
+}
+
+/// What depends on all layers and surfaces together.
+pub(super) struct Framed {
+    pub panes: Vec<Pane>,
+    /// Places that the camera must see [m].
+    pub outline: Vec<Vec3>,
+    /// The box around everything [m].
+    pub extent: [Range; 3],
+}
+
+impl Page {
+    /// Times at which anything changes [s]: those of grains, where there are any.
+    pub(super) fn times(&self) -> Vec<f64> {
+        let grains = |l: &&Layer| l.role == Role::Grains && !l.frames.is_empty();
+        let any = self.layers.iter().any(|l| grains(&l));
+        let of = self.layers.iter().filter(|l| !any || grains(l));
+        let mut times: Vec<f64> = of.flat_map(|l| l.frames.iter().map(|f| f.time)).collect();
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        if times.is_empty() { vec![0.0] } else { times }
+    }
+
+    pub(super) fn framed(&self) -> Framed {
+        let times = self.times();
+        let moments: Vec<f64> = times.iter().copied().step_by(times.len().div_ceil(MOMENTS)).collect();
+        let mut outline = Outline::default();
+        for layer in &self.layers {
+            add_moving(&mut outline, &layer.outline.places(), &layer.motion, &moments);
+        }
+        let mut panes = Vec::new();
+        for sheet in sheet::sheets(&self.surfaces, sheet::box_of(&outline.places())) {
+            if sheet.whole {
+                let mut own = Outline::default();
+                own.add(&sheet.vertices);
+                add_moving(&mut outline, &own.places(), &sheet.surface.motion, &moments);
+            }
+            panes.push(Pane::new(&sheet));
+        }
+        let outline = outline.places();
+        Framed { panes, extent: sheet::box_of(&outline), outline }
+    }
+}
+
+/// Takes in places on their way.
+fn add_moving(outline: &mut Outline, places: &[Vec3], motion: &Motion, moments: &[f64]) {
+    let moments = if motion.moves() { moments } else { &[0.0] };
+    for &time in moments {
+        let moved: Vec<Vec3> = places.iter().copied().map(motion.to(time)).collect();
+        outline.add(&moved);
+    }
+}
+
+impl Pane {
+    fn new(sheet: &sheet::Sheet) -> Pane {
+        let origin = sheet.vertices.first().copied().unwrap_or_default();
+        let packed = |places: &mut dyn Iterator<Item = Vec3>| {
+            let numbers = places.flat_map(|p| <[f64; 3]>::from(p - origin));
+            Arc::new(numbers.flat_map(|c| (c as f32).to_le_bytes()).collect::<Vec<u8>>())
+        };
+        Pane {
+            name: sheet.surface.name.clone(),
+            motion: sheet.surface.motion,
+            origin,
+            vertices: packed(&mut sheet.vertices.iter().copied()),
+            faces: Arc::new(sheet.faces.iter().flatten().flat_map(|n| n.to_le_bytes()).collect()),
+            lines: packed(&mut sheet.lines.iter().flatten().copied()),
+        }
+    }
+}
+
+/// A place or direction in the page's header.
+pub(super) fn triple(v: &Vec3) -> [f64; 3] {
+    [v.x, v.y, v.z]
+}
+
+/// A motion in the page's header; nothing for what rests.
+pub(super) fn motion(motion: &Motion) -> Value {
+    if !motion.moves() {
+        return Value::Null;
+    }
+    json!({
+        "velocity": triple(&motion.velocity), "turn": triple(&motion.turn), "through": triple(&motion.through),
+        "amplitude": triple(&motion.amplitude), "frequency": motion.frequency,
+    })
+}

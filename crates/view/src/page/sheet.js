@@ -1,0 +1,99 @@
+// Thin walls: planes and meshes, sent to the graphics card once and moved there.
+
+// The turn (by columns) and shift that take a point relative to `origin` at t = 0 to one relative to `middle` at `time`:
+// x(t) = c + R(W t)(x0 - c) + v t + a sin(2 pi f t) d
+function poseOf(motion, origin, time) {
+  if (!motion) return { turn: [1, 0, 0, 0, 1, 0, 0, 0, 1], shift: origin.map((o, k) => o - middle[k]) };
+  const rate = Math.hypot(...motion.turn);
+  const [x, y, z] = rate > 0 ? motion.turn.map((t) => t / rate) : [0, 0, 1];
+  const [s, c] = [Math.sin(rate * time), Math.cos(rate * time)];
+  const d = 1 - c;
+  const turn = [c + x * x * d, y * x * d + z * s, z * x * d - y * s, x * y * d - z * s, c + y * y * d, z * y * d + x * s,
+                x * z * d + y * s, y * z * d - x * s, c + z * z * d];
+  const swing = Math.sin(2 * Math.PI * motion.frequency * time);
+  const arm = origin.map((o, k) => o - motion.through[k]);
+  const shift = [0, 1, 2].map((k) => dot3([turn[k], turn[3 + k], turn[6 + k]], arm) + motion.through[k]
+    + motion.velocity[k] * time + motion.amplitude[k] * swing - middle[k]);
+  return { turn, shift };
+}
+
+const sheets = {
+  target: null,
+
+  start() {
+    this.program = program("sheet");
+    this.target = new Target();
+    this.parts = run.surfaces.map((surface) => ({ surface, faces: this.faces(surface), lines: this.lines(surface) }));
+  },
+
+  faces(surface) {
+    const [array, corners] = [gl.createVertexArray(), bytes(surface.faces)];
+    gl.bindVertexArray(array);
+    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+    gl.bufferData(gl.ARRAY_BUFFER, bytes(surface.vertices), gl.STATIC_DRAW);
+    gl.enableVertexAttribArray(0);
+    gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 0, 0);
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
+    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, corners, gl.STATIC_DRAW);
+    return { array, count: corners.length / 4 };
+  },
+
+  lines(surface) {
+    const [array, ends] = [gl.createVertexArray(), bytes(surface.lines)];
+    gl.bindVertexArray(array);
+    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+    gl.bufferData(gl.ARRAY_BUFFER, ends, gl.STATIC_DRAW);
+    for (const place of [0, 1]) {
+      gl.enableVertexAttribArray(place);
+      gl.vertexAttribPointer(place, 3, gl.FLOAT, false, 24, 12 * place);
+      gl.vertexAttribDivisor(place, 1);
+    }
+    return { array, count: ends.length / 24 };
+  },
+
+  shown() {
+    return state.opacity > 0 ? this.parts.filter((p) => !state.hidden.has(p.surface)) : [];
+  },
+
+  draw(view, size, glass) {
+    const shown = this.shown();
+    this.target.resize(...(shown.length ? size : [1, 1]));
+    if (!shown.length) return;
+    this.target.begin();
+    gl.useProgram(this.program.made);
+    this.setView(view, size, glass);
+    gl.disable(gl.DEPTH_TEST);
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+    for (const part of shown) this.drawPart(part, 0);
+    for (const part of shown) this.drawPart(part, 1.3 * size[0] / innerWidth);
+    gl.disable(gl.BLEND);
+    gl.activeTexture(gl.TEXTURE0);
+  },
+
+  drawPart({ surface, faces, lines }, width) {
+    const { at } = this.program;
+    const pose = poseOf(surface.motion, surface.origin, clock[state.frame]);
+    gl.uniformMatrix3fv(at("pose"), false, pose.turn);
+    gl.uniform3fv(at("poseShift"), pose.shift);
+    gl.uniform1f(at("width"), width);
+    gl.uniform1f(at("hides"), width ? Math.min(1, 0.45 + 0.5 * state.opacity) : state.opacity);
+    gl.bindVertexArray((width ? lines : faces).array);
+    if (width) gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, lines.count);
+    else gl.drawElements(gl.TRIANGLES, faces.count, gl.UNSIGNED_INT, 0);
+  },
+
+  setView(view, size, glass) {
+    const { at } = this.program;
+    painter.setEye(this.program, view);
+    gl.uniform2fv(at("size"), size);
+    gl.uniform3fv(at("plain"), run.wall.map((c) => c / 255));
+    gl.uniform4fv(at("cut"), cutPlane());
+    gl.uniform1i(at("glass"), glass ? 1 : 0);
+    [["solidDepth", painter.solid.depth], ["glassDepth", painter.glass.depth]].forEach(([name, input], n) => {
+      gl.activeTexture(gl.TEXTURE1 + n);
+      gl.bindTexture(gl.TEXTURE_2D, input);
+      gl.uniform1i(at(name), 1 + n);
+    });
+  },
+};

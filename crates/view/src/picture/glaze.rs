@@ -1,0 +1,201 @@
+//! Thin walls in a picture: each veils what is behind it, the farther ones first.
+
+use super::{
+    PictureOptions,
+    lens::{Lens, SAMPLES},
+    light::LAMP,
+    paint::Pane,
+    splat::Depths,
+};
+use crate::colour;
+use geom::Vec3;
+use rayon::prelude::*;
+
+/// Rows of samples that are drawn together.
+const BAND: usize = 32;
+
+/// Nearest distance drawn, as a share of the distance of what is looked at [–].
+const NEAREST: f64 = 1e-3;
+
+/// Width of a line [pixel].
+const LINE: f64 = 1.3;
+
+/// Brightness of a line [–].
+const INK: f32 = 0.5;
+
+/// What a line hides [–].
+const LINE_HIDES: f32 = 0.55;
+
+/// A triangle on the picture.
+struct Piece {
+    /// Column and row [sample], and 1/z [1/m], which is linear on the picture.
+    corner: [[f64; 3]; 3],
+    /// Brightness, and how much it hides [–].
+    tone: [f32; 2],
+    /// Mean 1/z, for the order.
+    near: f64,
+}
+
+/// Brightness times share, and share, of what veils a sample.
+type Veil = [f32; 2];
+
+/// All thin walls in a picture.
+pub struct Glaze {
+    /// Between the grains and the wall spheres, and before both; empty without thin walls.
+    veils: Vec<[Veil; 2]>,
+}
+
+impl Glaze {
+    /// Draws `panes` where they are nearer than `solid`, and apart where they are nearer than `glass` too.
+    pub fn new(panes: &[Pane], lens: &Lens, [solid, glass]: [&Depths; 2], options: &PictureOptions) -> Glaze {
+        let pieces = pieces(panes, lens, options);
+        if pieces.is_empty() {
+            return Glaze { veils: Vec::new() };
+        }
+        let width = lens.size[0];
+        let farthest = if options.cut { 1.0 / lens.distance } else { f64::INFINITY };
+        let mut veils = vec![[[0.0; 2]; 2]; width * lens.size[1]];
+        veils.par_chunks_mut(width * BAND).enumerate().for_each(|(n, band)| {
+            let rows = [n * BAND, n * BAND + band.len() / width];
+            for piece in &pieces {
+                piece.fill(rows, width, |at, inverse| {
+                    let depth = (1.0 / inverse) as f32;
+                    if inverse <= farthest && depth < solid.depth[at] {
+                        let before = usize::from(depth < glass.depth[at]);
+                        lay(&mut band[at - rows[0] * width][before], piece.tone);
+                    }
+                });
+            }
+        });
+        Glaze { veils }
+    }
+
+    /// A colour as seen through what is between grains and wall spheres.
+    pub fn behind(&self, place: usize, under: [f32; 3]) -> [f32; 3] {
+        self.veils.get(place).map_or(under, |v| veiled(under, v[0]))
+    }
+
+    /// A colour as seen through what is before both.
+    pub fn before(&self, place: usize, under: [f32; 3]) -> [f32; 3] {
+        self.veils.get(place).map_or(under, |v| veiled(under, v[1]))
+    }
+}
+
+fn lay(veil: &mut Veil, [bright, hides]: [f32; 2]) {
+    *veil = [veil[0] + hides * (bright - veil[0]), veil[1] + hides * (1.0 - veil[1])];
+}
+
+fn veiled(under: [f32; 3], [bright, hides]: Veil) -> [f32; 3] {
+    let wall = colour::fraction(colour::WALL);
+    std::array::from_fn(|k| under[k] * (1.0 - hides) + wall[k] * bright)
+}
+
+/// Everything to draw, far ones first.
+fn pieces(panes: &[Pane], lens: &Lens, options: &PictureOptions) -> Vec<Piece> {
+    let mut pieces = Vec::new();
+    for pane in panes {
+        for face in &pane.faces {
+            let seen = face.map(|p| lens.seen(p));
+            let tone = [brightness(seen), options.wall_opacity as f32];
+            let cut = before_the_eye(&seen, NEAREST * lens.distance);
+            let on: Vec<[f64; 3]> = cut.iter().map(|p| projected(*p, lens)).collect();
+            pieces.extend((2..on.len()).map(|n| Piece::new([on[0], on[n - 1], on[n]], tone)));
+        }
+        for line in &pane.lines {
+            let ends = before_the_eye(&line.map(|p| lens.seen(p)), NEAREST * lens.distance);
+            if let [a, b, ..] = ends[..] {
+                pieces.extend(stroke(projected(a, lens), projected(b, lens)));
+            }
+        }
+    }
+    pieces.sort_by(|a, b| a.near.total_cmp(&b.near));
+    pieces
+}
+
+/// A polygon, or a line, without what is nearer than `nearest` [m].
+fn before_the_eye(polygon: &[[f64; 3]], nearest: f64) -> Vec<[f64; 3]> {
+    let mut kept = Vec::new();
+    for (n, a) in polygon.iter().enumerate() {
+        let b = polygon[(n + 1) % polygon.len()];
+        if a[2] >= nearest {
+            kept.push(*a);
+        }
+        let closes = polygon.len() == 2 && n == 1;
+        if (a[2] >= nearest) != (b[2] >= nearest) && !closes {
+            let share = (nearest - a[2]) / (b[2] - a[2]);
+            kept.push(std::array::from_fn(|k| a[k] + share * (b[k] - a[k])));
+        }
+    }
+    kept
+}
+
+fn projected([x, y, z]: [f64; 3], lens: &Lens) -> [f64; 3] {
+    [lens.centre[0] + lens.focal * x / z, lens.centre[1] - lens.focal * y / z, 1.0 / z]
+}
+
+/// A line as two triangles.
+fn stroke(a: [f64; 3], b: [f64; 3]) -> Vec<Piece> {
+    let length = (b[0] - a[0]).hypot(b[1] - a[1]).max(1e-9);
+    let half = 0.5 * LINE * SAMPLES as f64 / length;
+    let [dx, dy] = [half * (b[1] - a[1]), half * (a[0] - b[0])];
+    let aside = |p: [f64; 3], side: f64| [p[0] + side * dx, p[1] + side * dy, p[2]];
+    let [p, q, r, s] = [aside(a, 1.0), aside(a, -1.0), aside(b, -1.0), aside(b, 1.0)];
+    [[p, q, r], [p, r, s]].map(|corner| Piece::new(corner, [INK, LINE_HIDES])).into()
+}
+
+/// The light on the side of a face that is seen.
+fn brightness(seen: [[f64; 3]; 3]) -> f32 {
+    let [a, b, c] = seen.map(Vec3::from);
+    let normal = (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or_default();
+    let normal = if normal.dot(&a) > 0.0 { -normal } else { normal };
+    let lamp: f32 = (0..3).map(|k| normal[k] as f32 * LAMP[k]).sum();
+    0.64 + 0.14 * normal.y as f32 + 0.38 * lamp.max(0.0)
+}
+
+impl Piece {
+    fn new(corner: [[f64; 3]; 3], tone: [f32; 2]) -> Piece {
+        Piece { corner, tone, near: corner.iter().map(|c| c[2]).sum::<f64>() / 3.0 }
+    }
+
+    /// Calls `paint` with the place and 1/z of every sample inside, in the rows given. A sample on the common edge of
+    /// two triangles belongs to one of them.
+    fn fill(&self, rows: [usize; 2], width: usize, mut paint: impl FnMut(usize, f64)) {
+        let [a, b, c] = self.corner;
+        let twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        if twice == 0.0 || !twice.is_finite() {
+            return;
+        }
+        let low = |k: usize| self.corner.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min);
+        let high = |k: usize| self.corner.iter().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max);
+        let first = rows[0].max((low(1) - 0.5).ceil().max(0.0) as usize);
+        let last = rows[1].min((high(1) + 0.5).ceil().max(0.0) as usize);
+        // 1/z and where the sides are, as linear functions of the column in a row.
+        let slope = ((b[2] - a[2]) * (c[1] - a[1]) - (c[2] - a[2]) * (b[1] - a[1])) / twice;
+        let fall = ((c[2] - a[2]) * (b[0] - a[0]) - (b[2] - a[2]) * (c[0] - a[0])) / twice;
+        for row in first..last {
+            let y = row as f64 + 0.5;
+            let Some([left, right]) = self.span(y) else { continue };
+            let from = (left - 0.5).ceil().max(0.0) as usize;
+            let to = ((right - 0.5).ceil().max(0.0) as usize).min(width);
+            for column in from..to {
+                let x = column as f64 + 0.5;
+                paint(row * width + column, a[2] + slope * (x - a[0]) + fall * (y - a[1]));
+            }
+        }
+    }
+
+    /// Where the sides meet a row, left and right.
+    fn span(&self, y: f64) -> Option<[f64; 2]> {
+        let mut ends: Option<[f64; 2]> = None;
+        for n in 0..3 {
+            // From the upper end to the lower, so that two triangles compute a common side alike.
+            let [p, q] = [self.corner[n], self.corner[(n + 1) % 3]];
+            let [p, q] = if (p[1], p[0]) <= (q[1], q[0]) { [p, q] } else { [q, p] };
+            if p[1] <= y && y < q[1] {
+                let x = p[0] + (q[0] - p[0]) * ((y - p[1]) / (q[1] - p[1]));
+                ends = Some(ends.map_or([x, x], |[l, r]| [l.min(x), r.max(x)]));
+            }
+        }
+        ends
+    }
+}
