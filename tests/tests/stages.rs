@@ -89,7 +89,11 @@ fn replay_keeps_intervals_places_and_states_exactly() {
     let folder = plant();
     let path = |name: &str| folder.path().join(name);
     succeed(folder.path(), "dem-run", &["up.toml", "-o", "up.mcap"]);
-    succeed(folder.path(), "stage-replay", &["up.mcap", "--length", "0.02", "-o", "in.mcap"]);
+    succeed(
+        folder.path(),
+        "stage-replay",
+        &["up.mcap", "--intervals", "generation", "--length", "0.02", "-o", "in.mcap"],
+    );
     let (recorded, replayed) = (passages(&path("up.mcap")), passages(&path("in.mcap")));
     assert!(recorded.len() > 30 && recorded.len() == replayed.len(), "{}", recorded.len());
     assert_eq!(replayed[0].time, 0.0);

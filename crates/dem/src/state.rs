@@ -3,7 +3,7 @@
 use crate::energy::Account;
 use crate::error::SetupError;
 use crate::particles::Particles;
-use crate::setup::Setup;
+use crate::setup::{Setup, Step};
 use crate::simulation::Simulation;
 use crate::zones::Zones;
 use serde::{Deserialize, Serialize};
@@ -107,7 +107,9 @@ impl Simulation {
     /// # Errors
     /// A setup that cannot run, or a state of another one.
     pub fn resume(setup: Setup, state: State) -> Result<Simulation, SetupError> {
-        let mut sim = Simulation::new(setup)?;
+        // "auto" goes on with the step it began with, also where a guard that enters the critical step has changed.
+        let step = if let Step::Auto(_) = setup.step { Step::Fixed(state.dt) } else { setup.step };
+        let mut sim = Simulation::new(Setup { step, ..setup })?;
         let other = |what: &str| SetupError::OtherState(what.to_owned());
         if sim.dt != state.dt {
             return Err(other(&format!("time step {} s, saved {} s", sim.dt, state.dt)));

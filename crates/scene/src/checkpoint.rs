@@ -110,14 +110,13 @@ impl Checkpoint {
     /// What differs.
     pub(crate) fn fits(&self, scene: &str, inputs: &[(String, String)]) -> Result<(), SceneError> {
         let refuse = |what: String| {
-            let cure = "resume with the scene and inputs of the saved run (only [time], [output] and [guards] may change)";
+            let cure = "resume with the scene and inputs of the saved run (only time.until, [output] and [guards] may change)";
             Err(SceneError::file("--resume", format!("the saved run differs: {what}"), cure))
         };
         let table = |text: &str| {
             let mut table: toml::Table = toml::from_str(text).unwrap_or_default();
             if let Some(time) = table.get_mut("time").and_then(|t| t.as_table_mut()) {
-                // The engine itself compares the step that follows from these.
-                ["until", "dt", "safety"].iter().for_each(|k| drop(time.remove(*k)));
+                time.remove("until");
             }
             table.retain(|key, value| key != "time" || value.as_table().is_none_or(|t| !t.is_empty()));
             if let Some(output) = table.get_mut("output").and_then(|t| t.as_table_mut()) {
