@@ -347,7 +347,11 @@ fn scenes_that_cannot_run() {
             ("dem-run key.toml", 1, &["key.toml:10:1", "'yung'", "did you mean 'young'?"]),
             ("dem-run type.toml", 1, &["type.toml:9:11", "expected a number"]),
             ("dem-run broken.toml", 1, &["broken.toml:2:"]),
-            ("dem-run law.toml", 1, &["no law between 'sinter' and 'steel'", "[[contact]]"]),
+            (
+                "dem-run law.toml",
+                1,
+                &["law.toml: contact: no law between 'sinter' and 'steel'", "[[contact]]"],
+            ),
             ("dem-run s.toml --set material.0.density=-1", 1, &["material.0.density = -1 kg/m³", "positive"]),
             (
                 "dem-run s.toml --set contact.0.restitutio=1",
@@ -357,7 +361,7 @@ fn scenes_that_cannot_run() {
             (
                 "dem-run s.toml --set time.dt=0.01",
                 1,
-                &["time.dt: 1.0000e-2 s", "critical step", "sinter (radius", "auto"],
+                &["s.toml: time.dt: 1.0000e-2 s", "critical step", "sinter (radius", "auto"],
             ),
             ("dem-run s.toml --set fill.0.count=0", 1, &["fill.0.count", "0"]),
             ("dem-run s.toml --set fill.0.diameter.0=-0.1", 1, &["fill.0.diameter", "-0.1"]),
@@ -371,7 +375,7 @@ fn scenes_that_cannot_run() {
             ("dem-run walls.toml walls-twice.mcap", 1, &["walls-twice.mcap", "bytes follow the end"]),
             ("dem-run walls.toml walls-flipped.mcap", 1, &["walls-flipped.mcap", "damaged"]),
             ("dem-run s.toml missing.mcap", 1, &["missing.mcap", "cannot open"]),
-            ("dem-run s.toml in.mcap", 1, &["used twice"]),
+            ("dem-run s.toml in.mcap", 1, &["s.toml: particle id", "used twice"]),
         ],
     );
 }

@@ -38,7 +38,15 @@ struct Args {
 }
 
 fn main() -> ExitCode {
-    cli::run("dem-run", dem_run)
+    cli::run("dem-run", |args: Args| {
+        let scene = args.scene.to_string();
+        dem_run(args).map_err(|e| in_scene(e, scene))
+    })
+}
+
+/// What the engine refuses does not know the file: it is named here.
+fn in_scene(error: anyhow::Error, scene: String) -> anyhow::Error {
+    if error.chain().any(|cause| cause.is::<dem::SetupError>()) { error.context(scene) } else { error }
 }
 
 fn dem_run(args: Args) -> anyhow::Result<Report> {
