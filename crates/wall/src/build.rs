@@ -184,7 +184,8 @@ fn place(points: &[Vec3], stars: &Stars, radii: &[f64], wish: &Wish) -> Result<V
 }
 
 fn check_particle(report: &mut WallReport, particle: f64, centres: &[Vec3], radii: &[f64], stars: &Stars) {
-    (report.widest_gap, report.leaks) = leak::widest(centres, radii, &stars.triangles, particle);
+    (report.widest_gap, report.leaks) =
+        leak::widest(centres, radii, &stars.triangles, &stars.outline, particle);
     if let Some(gap) = report.widest_gap.filter(|g| g.diameter >= particle) {
         let [x, y, z] = gap.at.map(|c| format!("{c:.4}"));
         let passes = Shown(particle);

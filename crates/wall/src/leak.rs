@@ -6,7 +6,9 @@
 //!
 //! ρ is the radius of the sphere that touches three neighbouring wall spheres with its centre c in their plane: a particle up to that
 //! size passes between them (Apollonius' circle). The voids are the corners of the Voronoi cells of [`crate::star`];
-//! what is wider than the largest of these cannot be told from the wall's outline.
+//! what is wider than the largest of these cannot be told from the wall's outline. Along the outline, three points may lie
+//! nearly in a row, and the sphere that touches them stands outside: a gap whose centre lies beyond an edge of the outline, or
+//! that opens to it as wide as the particle, is a notch of the rim and not a leak.
 
 use geom::Vec3;
 use rayon::prelude::*;
@@ -22,14 +24,45 @@ pub struct Gap {
 }
 
 /// The widest gap between three neighbours, and the number of gaps wider than `limit` [m]; `None` for a wall without gaps.
-pub fn widest(centres: &[Vec3], radii: &[f64], triangles: &[[u32; 3]], limit: f64) -> (Option<Gap>, usize) {
-    let gaps: Vec<Gap> = triangles.par_iter().filter_map(|t| gap(centres, radii, t)).collect();
+/// `outline` are the edges of the wall's outline, lower index first, ascending.
+pub fn widest(
+    centres: &[Vec3],
+    radii: &[f64],
+    triangles: &[[u32; 3]],
+    outline: &[(u32, u32)],
+    limit: f64,
+) -> (Option<Gap>, usize) {
+    let inside = |t: &[u32; 3], g: &Gap| !is_notch(centres, radii, t, outline, g, limit);
+    let gap = |t: &[u32; 3]| gap(centres, radii, t).filter(|g| inside(t, g));
+    let gaps: Vec<Gap> = triangles.par_iter().filter_map(gap).collect();
     let wider = gaps.iter().filter(|g| g.diameter >= limit).count();
     let widest = gaps.into_iter().fold(None, |best: Option<Gap>, g| match best {
         Some(b) if b.diameter >= g.diameter => Some(b),
         _ => Some(g),
     });
     (widest, wider)
+}
+
+/// Whether a gap lies beyond an edge of the outline, or a particle of diameter `limit` [m] reaches it from there.
+fn is_notch(
+    centres: &[Vec3],
+    radii: &[f64],
+    triangle: &[u32; 3],
+    outline: &[(u32, u32)],
+    gap: &Gap,
+    limit: f64,
+) -> bool {
+    (0..3).any(|k| {
+        let [i, j, other] = [0, 1, 2].map(|n| triangle[(k + n) % 3]);
+        if outline.binary_search(&(i.min(j), i.max(j))).is_err() {
+            return false;
+        }
+        let [p, q, s] = [i, j, other].map(|n| centres[n as usize]);
+        let along = (q - p).normalize();
+        let off = |to: Vec3| (to - p) - along * along.dot(&(to - p));
+        let is_beyond = off(Vec3::from(gap.at)).dot(&off(s)) <= 0.0;
+        is_beyond || (q - p).norm() - radii[i as usize] - radii[j as usize] >= limit
+    })
 }
 
 /// The sphere that passes between three; `None` when they close the gap.

@@ -35,6 +35,8 @@ pub struct Stars {
     pub pairs: Vec<(u32, u32)>,
     /// Three points around a void, the first the lowest.
     pub triangles: Vec<[u32; 3]>,
+    /// Edges of the wall's outline, lower index first, ascending: on one of their sides no void is found.
+    pub outline: Vec<(u32, u32)>,
     /// Distance from each point to the nearest other one [m]; infinite when none is near.
     pub nearest: Vec<f64>,
     /// Largest circle through three points that is told from the outline of the wall [m].
@@ -80,8 +82,11 @@ pub fn stars(points: &[Vec3], nearest: f64) -> Stars {
         all.normals.extend(part.normals);
         all.pairs.extend(part.pairs);
         all.triangles.extend(part.triangles);
+        all.outline.extend(part.outline);
         all.nearest.extend(part.nearest);
     }
+    all.outline.sort_unstable();
+    all.outline.dedup();
     let Stars { pairs, nearest, .. } = &mut all;
     pairs.retain(|&(i, j)| {
         let (i, j) = (i as usize, j as usize);
@@ -260,12 +265,24 @@ fn finish(i: u32, near: &[Near], cell: &[Corner], half: f64, part: &mut Stars) {
         }
     }
     part.pairs[first..].sort_unstable();
-    for (k, corner) in cell.iter().enumerate() {
-        let before = cell[(k + cell.len() - 1) % cell.len()].next;
-        let (Some(a), Some(b)) = (before, corner.next) else { continue };
+    // A corner is a void when three points make it and it is not too far.
+    let is_void = |k: usize| {
+        let (before, [x, y]) = (cell[(k + cell.len() - 1) % cell.len()].next, cell[k].at);
+        before.zip(cell[k].next).filter(|_| x * x + y * y <= half * half)
+    };
+    let mut last = is_void(cell.len() - 1);
+    for k in 0..cell.len() {
+        let void = is_void(k);
+        // The side that ends here began at the last corner.
+        let side = cell[(k + cell.len() - 1) % cell.len()].next;
+        if let Some(a) = side.filter(|_| void.is_none() || last.is_none()) {
+            let j = near[a as usize].index;
+            part.outline.push((i.min(j), i.max(j)));
+        }
+        last = void;
+        let Some((a, b)) = void else { continue };
         let (j, k) = (near[a as usize].index, near[b as usize].index);
-        let [x, y] = corner.at;
-        if x * x + y * y <= half * half && i < j && i < k && j != k {
+        if i < j && i < k && j != k {
             part.triangles.push([i, j.min(k), j.max(k)]);
         }
     }

@@ -115,6 +115,19 @@ fn the_widest_gap_of_a_square_lattice_is_its_diagonal_less_two_radii() {
     assert_eq!((report.leaks, report.warnings.len()), (0, 0));
 }
 
+/// A point missing in the outermost row leaves a notch, one missing inside leaves a hole of the same width.
+#[test]
+fn a_notch_of_the_rim_is_no_leak_and_a_hole_of_its_width_is() {
+    let leaks = |hole: Vec3| {
+        let points: Vec<Vec3> = lattice(12, 0.01).into_iter().filter(|p| (p - hole).norm() > 0.005).collect();
+        let wish = Wish { smallest_particle: Some(0.004), ..with(Radius::Given(0.0075)) };
+        build(&points, &everywhere(0.001), &wish).unwrap().1.leaks
+    };
+    let corner = lattice(12, 0.01)[0];
+    assert_eq!(leaks(corner + Vec3::new(0.05, 0.0, 0.0)), 0);
+    assert!(leaks(corner + Vec3::new(0.05, 0.05, 0.0)) > 0);
+}
+
 #[test]
 fn a_missing_sphere_is_found_as_the_widest_gap() {
     let mut points = lattice(12, 0.01);
