@@ -9,6 +9,9 @@ const SAMPLE: usize = 8192;
 /// Share of grains left out at each end of each direction: strays that fell off must not shrink the rest to a dot.
 const STRAYS: f64 = 0.01;
 
+/// They are kept where leaving them out would gain less than this share of the width [–].
+const NEAR: f64 = 0.12;
+
 /// Places that stand out.
 #[derive(Clone, Default)]
 pub(crate) struct Outline {
@@ -22,17 +25,12 @@ impl Outline {
         let step = if loose { spheres.len().div_ceil(SAMPLE).max(1) } else { 1 };
         let balls: Vec<(Vec3, f64)> =
             (0..spheres.len()).step_by(step).map(|i| (spheres.at(i), spheres.radius[i])).collect();
-        let left_out =
-            if loose { (STRAYS * balls.len().saturating_sub(1) as f64).round() as usize } else { 0 };
         for (n, direction) in directions().enumerate() {
-            let mut reach: Vec<(f64, usize)> =
-                balls.iter().enumerate().map(|(i, (p, r))| (p.dot(&direction) + r, i)).collect();
-            if reach.is_empty() {
-                return;
+            let reach = balls.iter().map(|(p, r)| p.dot(&direction) + r).enumerate();
+            if let Some(i) = farthest(reach.map(|(i, far)| (far, i)).collect(), loose) {
+                let place = balls[i].0 + direction * balls[i].1;
+                self.take(n, place.dot(&direction), place);
             }
-            let farthest = |a: &(f64, usize), b: &(f64, usize)| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1));
-            let (_, &mut (far, i), _) = reach.select_nth_unstable_by(left_out, farthest);
-            self.take(n, far, balls[i].0 + direction * balls[i].1);
         }
     }
 
@@ -59,6 +57,17 @@ impl Outline {
         places.dedup();
         places
     }
+}
+
+/// Which of (how far, which) is the farthest, strays left out when they are `loose` and far off.
+fn farthest(mut reach: Vec<(f64, usize)>, loose: bool) -> Option<usize> {
+    let order = |a: &(f64, usize), b: &(f64, usize)| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1));
+    let first = *reach.iter().min_by(|a, b| order(a, b))?;
+    let strays = (STRAYS * (reach.len() - 1) as f64).round() as usize;
+    let (last, strays) = (reach.len() - 1 - strays, if loose { strays } else { 0 });
+    let most = *reach.select_nth_unstable_by(strays, order).1;
+    let least = *reach.select_nth_unstable_by(last, order).1;
+    Some(if first.0 - most.0 <= NEAR * (most.0 - least.0) { first.1 } else { most.1 })
 }
 
 /// 98 directions: those of a lattice five wide, each once.

@@ -30,7 +30,8 @@ const camera = {
   // shape: |x - tx| <= hx (z + d) for all places.
   fit(width, height) {
     const short = Math.min(width, height);
-    const half = [0.86 * halfView * width / short, 0.86 * halfView * height / short];
+    const bar = clock.length > 1 ? 54 : 0;  // the player covers so many pixels at the bottom
+    const half = [0.86 * halfView * width / short, 0.88 * halfView * (height - bar) / short];
     const axes = this.axes();
     const seen = run.outline.map((p) => axes.map((a) => dot3(a, p.map((c, k) => c - middle[k]))));
     const most = (of) => seen.reduce((m, p) => Math.max(m, of(p)), -Infinity);
@@ -42,6 +43,7 @@ const camera = {
     const aim = [0.5 * (far[0] + low[0]), 0.5 * (far[1] + low[1]), depth];
     this.target = [0, 1, 2].map((k) => axes.reduce((sum, a, n) => sum + a[k] * aim[n], 0));
     this.distance = Math.max(1e-9, back + (this.flat ? 0 : depth));
+    this.shift(0, -0.5 * bar, short);
   },
 
   turn(right, up) {

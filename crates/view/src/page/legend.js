@@ -88,7 +88,7 @@ function showCounts() {
   const count = (role) => run.layers.filter((l) => l.role === role && !state.hidden.has(l))
     .reduce((sum, l) => sum + frameAt(l, clock[state.frame]).count, 0);
   const words = [["grains", "grains"], ["walls", "wall spheres"], ["cloud", "points"]];
-  byId("count").textContent = words.filter(([role]) => count(role)).map(([role, word]) => `${grouped(count(role))} ${word}`).join(" · ");
+  byId("count").textContent = words.filter(([role]) => count(role)).map(([role, word]) => `${grouped(count(role))} ${count(role) === 1 ? word.slice(0, -1) : word}`).join(" · ");
   byId("clock").textContent = clock.length > 1 || clock[0] > 0 ? `t = ${clock[state.frame].toFixed(timeDecimals)} s` : "";
 }
 

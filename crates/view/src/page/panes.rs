@@ -21,6 +21,8 @@ pub(super) struct Pane {
     pub faces: Arc<Vec<u8>>,
     /// x, y, z of both ends of each line, as 4-byte numbers [m].
     pub lines: Arc<Vec<u8>>,
+    /// How much a line hides [–].
+    pub ink: f32,
 }
 
 /// What depends on all layers and surfaces together.
@@ -88,6 +90,7 @@ impl Pane {
             vertices: packed(&mut sheet.vertices.iter().copied()),
             faces: Arc::new(sheet.faces.iter().flatten().flat_map(|n| n.to_le_bytes()).collect()),
             lines: packed(&mut sheet.lines.iter().flatten().copied()),
+            ink: sheet.ink,
         }
     }
 }

@@ -77,7 +77,7 @@ const sheets = {
     gl.uniformMatrix3fv(at("pose"), false, pose.turn);
     gl.uniform3fv(at("poseShift"), pose.shift);
     gl.uniform1f(at("width"), width);
-    gl.uniform1f(at("hides"), width ? Math.min(1, 0.45 + 0.5 * state.opacity) : state.opacity);
+    gl.uniform1f(at("hides"), width ? surface.ink : state.opacity);
     gl.bindVertexArray((width ? lines : faces).array);
     if (width) gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, lines.count);
     else gl.drawElements(gl.TRIANGLES, faces.count, gl.UNSIGNED_INT, 0);

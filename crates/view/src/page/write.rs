@@ -152,7 +152,7 @@ fn pane<'a>(pane: &'a Pane, blobs: &mut Blobs<'a>) -> Value {
     let [vertices, faces, lines] = [&pane.vertices, &pane.faces, &pane.lines].map(|b| blobs.number(b));
     json!({
         "name": pane.name, "motion": panes::motion(&pane.motion), "origin": panes::triple(&pane.origin),
-        "vertices": vertices, "faces": faces, "lines": lines,
+        "vertices": vertices, "faces": faces, "lines": lines, "ink": pane.ink,
     })
 }
 

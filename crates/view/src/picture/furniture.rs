@@ -35,6 +35,7 @@ pub fn add(image: &mut Image, painted: &Painted, lens: &Lens, options: &PictureO
 fn count(painted: &Painted) -> String {
     let of = |role: Role, word: &str| {
         let count: usize = painted.layers.iter().filter(|l| l.role == role).map(|l| l.spheres.len()).sum();
+        let word = if count == 1 { word.trim_end_matches('s') } else { word };
         (count > 0).then(|| format!("{} {word}", grouped(count)))
     };
     let words = [of(Role::Grains, "grains"), of(Role::Walls, "wall spheres"), of(Role::Cloud, "points")];

@@ -23,9 +23,6 @@ const LINE: f64 = 1.3;
 /// Brightness of a line [–].
 const INK: f32 = 0.5;
 
-/// What a line hides [–].
-const LINE_HIDES: f32 = 0.55;
-
 /// A triangle on the picture.
 struct Piece {
     /// Column and row [sample], and 1/z [1/m], which is linear on the picture.
@@ -104,7 +101,7 @@ fn pieces(panes: &[Pane], lens: &Lens, options: &PictureOptions) -> Vec<Piece> {
         for line in &pane.lines {
             let ends = before_the_eye(&line.map(|p| lens.seen(p)), NEAREST * lens.distance);
             if let [a, b, ..] = ends[..] {
-                pieces.extend(stroke(projected(a, lens), projected(b, lens)));
+                pieces.extend(stroke(projected(a, lens), projected(b, lens), pane.ink));
             }
         }
     }
@@ -134,13 +131,13 @@ fn projected([x, y, z]: [f64; 3], lens: &Lens) -> [f64; 3] {
 }
 
 /// A line as two triangles.
-fn stroke(a: [f64; 3], b: [f64; 3]) -> Vec<Piece> {
+fn stroke(a: [f64; 3], b: [f64; 3], hides: f32) -> Vec<Piece> {
     let length = (b[0] - a[0]).hypot(b[1] - a[1]).max(1e-9);
     let half = 0.5 * LINE * SAMPLES as f64 / length;
     let [dx, dy] = [half * (b[1] - a[1]), half * (a[0] - b[0])];
     let aside = |p: [f64; 3], side: f64| [p[0] + side * dx, p[1] + side * dy, p[2]];
     let [p, q, r, s] = [aside(a, 1.0), aside(a, -1.0), aside(b, -1.0), aside(b, 1.0)];
-    [[p, q, r], [p, r, s]].map(|corner| Piece::new(corner, [INK, LINE_HIDES])).into()
+    [[p, q, r], [p, r, s]].map(|corner| Piece::new(corner, [INK, hides])).into()
 }
 
 /// The light on the side of a face that is seen.

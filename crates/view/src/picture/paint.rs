@@ -44,6 +44,8 @@ pub(crate) struct Pane {
     pub faces: Vec<[Vec3; 3]>,
     /// Ends of its lines [m].
     pub lines: Vec<[Vec3; 2]>,
+    /// How much a line hides [–].
+    pub ink: f32,
 }
 
 /// Everything in the picture.
@@ -97,7 +99,8 @@ impl Painted {
                 outline.add(&vertices);
             }
             let faces = sheet.faces.iter().map(|f| f.map(|v| vertices[v as usize])).collect();
-            self.panes.push(Pane { faces, lines: sheet.lines.iter().map(|l| l.map(&place)).collect() });
+            let lines = sheet.lines.iter().map(|l| l.map(&place)).collect();
+            self.panes.push(Pane { faces, lines, ink: sheet.ink });
         }
         self.outline = outline.places();
         self.extent = sheet::box_of(&self.outline);

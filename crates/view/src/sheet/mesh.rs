@@ -12,7 +12,7 @@ const FLAT: f64 = 0.906;
 pub fn sheet<'a>(surface: &'a Surface, mesh: &TriMesh) -> Sheet<'a> {
     let mesh = mesh.welded();
     let lines = edges(&mesh);
-    Sheet { surface, vertices: mesh.vertices, faces: mesh.faces, lines, whole: true }
+    Sheet { surface, vertices: mesh.vertices, faces: mesh.faces, lines, ink: 0.65, whole: true }
 }
 
 /// Edges of one face, of more than two, or between two faces that bend.

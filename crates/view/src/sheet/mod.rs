@@ -16,6 +16,8 @@ pub(crate) struct Sheet<'a> {
     pub faces: Vec<[u32; 3]>,
     /// Ends of straight lines [m]: edges of a mesh, the grid of a plane.
     pub lines: Vec<[Vec3; 2]>,
+    /// How much a line hides [–]: edges are the shape of a mesh, a grid only lies on its plane.
+    pub ink: f32,
     /// Whether the camera must see all of it: a plane goes on for ever.
     pub whole: bool,
 }
