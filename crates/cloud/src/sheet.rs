@@ -11,6 +11,8 @@ use std::hash::{BuildHasherDefault, Hasher};
 pub(crate) const REACH: f64 = 2.5;
 /// A place whose neighbours leave a gap this wide is at an end of the surface [rad].
 const GAP: f64 = 100.0 * PI / 180.0;
+/// cos 99°, without its sign [–].
+const SURELY: f64 = 0.156;
 /// Cells along an axis that a key can tell apart.
 const SPAN: f64 = (1u64 << 21) as f64;
 /// No cell: the point is too far from the rest to belong to any surface.
@@ -79,6 +81,9 @@ impl Sheet {
         let normal = normal(&offsets)?;
         let u = normal.cross(&Vec3::ith(normal.iamin(), 1.0)).normalize();
         let v = normal.cross(&u);
+        if is_surrounded(offsets.iter().map(|o| [o.dot(&u), o.dot(&v)])) {
+            return None;
+        }
         let mut angles: Vec<f64> = offsets.iter().map(|o| libm::atan2(o.dot(&v), o.dot(&u))).collect();
         angles.sort_by(f64::total_cmp);
         let (mut gap, mut middle) = (angles[0] + TAU - angles[angles.len() - 1], angles[0]);
@@ -92,6 +97,27 @@ impl Sheet {
         let free = u * libm::cos(middle) + v * libm::sin(middle);
         (gap >= GAP).then_some(End { place, normal, free })
     }
+}
+
+/// Whether directions in the plane surely leave no gap of 100°: most places are inside the surface, and this needs no angles.
+fn is_surrounded(directions: impl Iterator<Item = [f64; 2]>) -> bool {
+    // x/(|x| + |y|) turns with the angle.
+    let turn = |[x, y]: [f64; 2]| {
+        let share = x / (x.abs() + y.abs());
+        if y >= 0.0 { 1.0 - share } else { 3.0 + share }
+    };
+    let mut around: Vec<(f64, [f64; 2])> = directions.map(|d| (turn(d), d)).collect();
+    around.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    // Half a turn is 2: directions within one leave the other half open.
+    let spread = around.last().map_or(0.0, |last| last.0 - around[0].0);
+    let narrow = |&[ax, ay]: &[f64; 2], &[bx, by]: &[f64; 2]| {
+        let (sine, cosine) = (ax * by - ay * bx, ax * bx + ay * by);
+        let lengths = (ax * ax + ay * ay) * (bx * bx + by * by);
+        // Somewhat less than 100°, so that rounding decides nothing.
+        sine >= 0.0 && (cosine >= 0.0 || cosine * cosine < SURELY * SURELY * lengths)
+    };
+    let next = around.iter().cycle().skip(1);
+    spread > 2.0 && around.iter().zip(next).all(|((turn, a), (_, b))| turn.is_finite() && narrow(a, b))
 }
 
 /// Direction of least spread of vectors around their mean; none when they spread along one line only.

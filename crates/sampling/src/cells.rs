@@ -139,11 +139,11 @@ impl Filled {
     /// move forward only: nine pointers walk along the list once, and nothing is looked up.
     fn rows(&self, first: usize, cells: &mut [Cell]) {
         let [nx, ny, nz] = self.dims;
+        let at: Vec<[i64; 3]> = (first..first + cells.len()).map(|cell| self.at(cell)).collect();
         for (dz, dy) in (-1..2).flat_map(|dz| (-1..2).map(move |dy| (dz, dy))) {
             let shift = (dz * ny + dy) * nx;
             let mut from = self.keys.partition_point(|&k| (k as i64) < self.keys[first] as i64 + shift - 1);
-            for (index, around) in (first..).zip(cells.iter_mut()) {
-                let [x, y, z] = self.at(index);
+            for ((index, around), &[x, y, z]) in (first..).zip(cells.iter_mut()).zip(&at) {
                 if y + dy < 0 || z + dz < 0 || y + dy >= ny || z + dz >= nz {
                     continue;
                 }

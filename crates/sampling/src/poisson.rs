@@ -16,7 +16,7 @@
 //! turn, the blocks of a colour at the same time.
 
 use crate::cells::Cells;
-use geom::{Grid, Vec3};
+use geom::Grid;
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU8, Ordering::Relaxed};
@@ -38,7 +38,7 @@ pub(crate) fn poisson(cells: &Cells, spacing: f64, seed: u64, forced: Option<&[b
     }
     let rank = cells.map(|place| rank(cells, place, spacing, seed));
     let blocks = Grid::new(&cells.points, BLOCK * spacing);
-    for colour in colours(&blocks, &cells.points) {
+    for colour in colours(&blocks) {
         colour.into_par_iter().for_each(|run| {
             let mut block = blocks.order()[run].to_vec();
             block.sort_unstable_by_key(|&place| (rank[place as usize], place));
@@ -92,14 +92,13 @@ fn throw(cells: &Cells, spacing: f64, block: &[u32], state: &[AtomicU8]) {
 }
 
 /// Runs of the blocks' order, by colour.
-fn colours(blocks: &Grid, points: &[Vec3]) -> [Vec<Range<usize>>; 8] {
+fn colours(blocks: &Grid) -> [Vec<Range<usize>>; 8] {
     let mut colours: [Vec<Range<usize>>; 8] = Default::default();
-    let cell = |place: &u32| blocks.cell_of(&points[*place as usize]);
-    let mut start = 0;
-    for run in blocks.order().chunk_by(|a, b| cell(a) == cell(b)) {
-        let [x, y, z] = cell(&run[0]);
-        colours[((x & 1) | (y & 1) << 1 | (z & 1) << 2) as usize].push(start..start + run.len());
-        start += run.len();
+    let ([nx, ny, _], (keys, starts)) = (blocks.dims().map(|n| n as u64), blocks.filled());
+    for (key, run) in keys.into_iter().zip(starts.windows(2)) {
+        let [x, y, z] = [key % nx, key / nx % ny, key / nx / ny];
+        let colour = (x & 1) | (y & 1) << 1 | (z & 1) << 2;
+        colours[colour as usize].push(run[0] as usize..run[1] as usize);
     }
     colours
 }
