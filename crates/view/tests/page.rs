@@ -98,5 +98,5 @@ fn frames_and_layers_without_grains_are_numbers_too() {
             .iter()
             .all(|f| numbers(&f["lo"]) && numbers(&f["hi"]))
     );
-    assert!(numbers(&layers[0]["lo"]) && numbers(&layers[0]["fields"][0]["shown"]));
+    assert!(numbers(&header["lo"]) && numbers(&layers[0]["fields"][0]["shown"]));
 }

@@ -1,8 +1,9 @@
 //! Pictures of scenes whose every pixel can be worked out by hand.
 
+use geom::{Plane, Vec3, mesh::TriMesh};
 use std::time::Instant;
 use stream::{Table, Values};
-use view::{Image, Part, PictureOptions, Role, picture};
+use view::{Image, Motion, Part, PictureOptions, Role, Surface, SurfaceShape, picture};
 
 /// Spheres x, y, z, r with a field `load`.
 fn table(spheres: &[[f64; 4]], load: &[f64]) -> Table {
@@ -71,6 +72,104 @@ fn a_wall_in_front_lets_grains_be_seen_and_one_behind_does_not_change_them() {
     assert!(veiled != alone && veiled[0] > veiled[2], "still yellow: {veiled:?}");
 }
 
+/// A sheet 2 m wide and high, 2 m right of the middle, in the plane y = `y`.
+fn sheet(y: f64, motion: Motion) -> Surface {
+    let corner = |x: f64, z: f64| Vec3::new(x, y, z);
+    let vertices = vec![corner(1.0, -1.0), corner(3.0, -1.0), corner(3.0, 1.0), corner(1.0, 1.0)];
+    let mesh = TriMesh::new(vertices, vec![[0, 1, 2], [0, 2, 3]]).expect("whole");
+    Surface { name: "sheet".into(), shape: SurfaceShape::Mesh(mesh), motion }
+}
+
+/// The same eye as [`seen`], at a time.
+fn seen_with(surfaces: &[Surface], grain: &Table, time: f64, cut: bool) -> Image {
+    let part = Part { role: Role::Grains, name: "test".into(), table: grain, kinds: vec![] };
+    let options = PictureOptions {
+        width: 600,
+        height: 400,
+        camera: "0,-10,0,0,0,0".parse().expect("a place"),
+        colour: Some("load".into()),
+        range: Some([0.0, 1.0]),
+        time: Some(time),
+        cut,
+        ..PictureOptions::default()
+    };
+    picture::draw(&[part], surfaces, &options).expect("drawn")
+}
+
+#[test]
+fn a_mesh_is_drawn_from_its_left_edge_to_its_right_and_lets_grains_be_seen() {
+    let grain = table(&[[2.0, 3.0, 0.0, 0.1]], &[1.0]);
+    let image = seen_with(&[sheet(0.0, Motion::default())], &grain, 0.0, false);
+    let [left, right] = [column(0.1), column(0.3)];
+    assert!(is_paper(&image, left - 2.5) && !is_paper(&image, left + 2.5));
+    assert!(is_paper(&image, right + 2.5) && !is_paper(&image, right - 2.5));
+    let behind = image.pixel(column(2.0 / 13.0) as u32, 196);
+    let alone = seen_with(&[], &grain, 0.0, false).pixel(column(2.0 / 13.0) as u32, 196);
+    assert!(behind != alone && behind[0] > behind[2] + 30, "still yellow: {behind:?}, {alone:?}");
+    let before = table(&[[2.0, -3.0, 0.0, 0.1]], &[1.0]);
+    let at = column(2.0 / 7.0) as u32;
+    let unchanged = seen_with(&[sheet(0.0, Motion::default())], &before, 0.0, false).pixel(at, 196);
+    assert_eq!(unchanged, seen_with(&[], &before, 0.0, false).pixel(at, 196));
+}
+
+#[test]
+fn a_mesh_that_moves_is_where_its_motion_takes_it() {
+    let grain = table(&[[0.0, 0.0, -1.5, 0.1]], &[1.0]);
+    let motion = Motion { velocity: Vec3::new(-2.0, 0.0, 0.0), ..Motion::default() };
+    let [home, later] = [0.0, 2.0].map(|t| seen_with(&[sheet(0.0, motion)], &grain, t, false));
+    let [right, left] = [column(0.2), column(-0.2)];
+    assert!(!is_paper(&home, right) && is_paper(&home, left));
+    assert!(is_paper(&later, right) && !is_paper(&later, left));
+}
+
+#[test]
+fn the_cut_leaves_out_what_is_nearer_than_the_middle() {
+    let grain = table(&[[0.0, 0.0, 0.0, 0.1]], &[1.0]);
+    for (y, stays) in [(-1.0, false), (1.0, true)] {
+        let image = seen_with(&[sheet(y, Motion::default())], &grain, 0.0, true);
+        assert_eq!(!is_paper(&image, column(2.0 / (10.0 + y))), stays, "y = {y}");
+    }
+}
+
+#[test]
+fn a_floor_is_drawn_below_the_grains_and_not_above() {
+    let plane = Plane::new(Vec3::new(0.0, 0.0, -0.5), Vec3::z()).expect("a direction");
+    let floor =
+        Surface { name: "floor".into(), shape: SurfaceShape::Plane(plane), motion: Motion::default() };
+    let grain = table(&[[0.0, 0.0, 0.0, 0.5]], &[1.0]);
+    let part = Part { role: Role::Grains, name: "test".into(), table: &grain, kinds: vec![] };
+    let options = PictureOptions { width: 600, height: 400, ..PictureOptions::default() };
+    let image = picture::draw(&[part], &[floor], &options).expect("drawn");
+    let tinted = |rows: std::ops::Range<u32>| {
+        let all = rows.flat_map(|y| (150..400).map(move |x| (x, y)));
+        all.filter(
+            |&(x, y)| matches!(image.pixel(x, y), [r, g, b, _] if r > 200 && r < 250 && g >= r && b >= g),
+        )
+        .count()
+    };
+    assert!(tinted(250..380) > 2000 && tinted(0..100) == 0, "{} {}", tinted(250..380), tinted(0..100));
+}
+
+/// The grains fill most of the height of the picture although one has flown far away.
+#[test]
+fn a_stray_does_not_shrink_the_picture() {
+    let mut spheres: Vec<[f64; 4]> = (0..1000)
+        .map(|i| [f64::from(i % 10) * 0.1, f64::from(i / 10 % 10) * 0.1, f64::from(i / 100) * 0.1, 0.05])
+        .collect();
+    spheres.push([1e3, 0.0, 0.0, 0.05]);
+    let table = table(&spheres, &vec![0.5; spheres.len()]);
+    let part = Part { role: Role::Grains, name: "heap".into(), table: &table, kinds: vec![] };
+    let options = PictureOptions {
+        width: 600,
+        height: 400,
+        camera: "front".parse().expect("known"),
+        ..PictureOptions::default()
+    };
+    let image = picture::draw(&[part], &[], &options).expect("drawn");
+    let inked = (0..400).filter(|y| (200..400).any(|x| image.pixel(x, *y) != [255; 4])).count();
+    assert!((330..396).contains(&inked), "{inked} of 400 rows");
+}
+
 /// A heap of spheres without order, always the same.
 fn heap(count: usize) -> Table {
     let mut state = 1u64;
@@ -118,6 +217,6 @@ fn what_cannot_be_drawn_is_named() {
         picture::draw(std::slice::from_ref(&part), &[], &options).expect_err("no such field").to_string();
     assert!(message.contains("'warmth'") && message.contains("load"), "{message}");
     let small = PictureOptions { width: 3, ..PictureOptions::default() };
-    assert!(picture::draw(&[part], &small).expect_err("too small").to_string().contains("3 x 1080"));
+    assert!(picture::draw(&[part], &[], &small).expect_err("too small").to_string().contains("3 x 1080"));
     assert!(picture::draw(&[], &[], &options).expect_err("nothing").to_string().contains("nothing to show"));
 }

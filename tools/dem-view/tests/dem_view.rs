@@ -82,6 +82,66 @@ fn a_cloud_and_a_run_are_shown_together() {
     assert!(page.contains("\"role\":\"cloud\"") && page.contains("\"role\":\"grains\""));
 }
 
+/// A run of 40 frames whose one wall of 2000 spheres turns; a floor and a mesh rest.
+fn turning(frames: u32) -> Vec<u8> {
+    let mut writer = Writer::new(Vec::new(), &Provenance::default()).expect("begun");
+    let still = r#""velocity":[0,0,0],"turn":[0,0,0],"through":[0,0,0],"amplitude":[0,0,0],"frequency":0"#;
+    let turns = still.replace("\"turn\":[0,0,0]", "\"turn\":[0,0,1]");
+    let surfaces = format!(
+        r#"[{{"name":"drum","motion":{{{turns}}},"shape":{{"spheres":2000}}}},
+            {{"name":"ground","motion":{{{still}}},"shape":{{"plane":{{"point":[0,0,-2],"normal":[0,0,1]}}}}}},
+            {{"name":"bin","motion":{{{still}}},"shape":{{"mesh":{{"vertices":[[0,0,0],[1,0,0],[0,1,0]],"faces":[[0,1,2]]}}}}}}]"#
+    );
+    for k in 0..frames {
+        let (time, angle) = (u64::from(k) * 100_000_000, 0.1 * f64::from(k));
+        let mut walls = Table::default();
+        let column = |of: &dyn Fn(f64) -> f64| {
+            Values::F64((0..2000).map(|i| of(f64::from(i) * 0.003 + angle)).collect())
+        };
+        for (name, values) in [("x", column(&f64::cos)), ("y", column(&f64::sin)), ("z", column(&|_| 0.0))] {
+            walls.push(name, values).expect("fits");
+        }
+        walls.push("radius", Values::F64(vec![0.01; 2000])).expect("fits");
+        walls.push("wall", Values::U16(vec![0; 2000])).expect("fits");
+        writer.points("/walls", time, "world", &walls).expect("written");
+        if k == 0 {
+            writer.bytes("/surfaces", "json", time, surfaces.as_bytes()).expect("written");
+        }
+        writer.points("/particles", time, "world", &spheres(0.0, 0.0)).expect("written");
+    }
+    writer.finish().expect("finished")
+}
+
+#[test]
+fn walls_that_move_are_stored_once_with_their_motion() {
+    let folder = folder();
+    let page = |frames: u32| {
+        fs::write(folder.path().join("drum.mcap"), turning(frames)).expect("written");
+        dem_view(folder.path(), &["drum.mcap", "-o", "drum.html"]).success();
+        fs::read_to_string(folder.path().join("drum.html")).expect("there")
+    };
+    let (short, long) = (page(2), page(40));
+    assert!(long.len() < short.len() + 38 * 400, "{} {}", long.len(), short.len());
+    for word in ["\"drum (drum.mcap)\"", "\"ground\"", "\"bin\"", "\"turn\":[0.0,0.0,1.0]"] {
+        assert!(long.contains(word), "{word}");
+    }
+    let picture = |time: &str, name: &str| {
+        dem_view(folder.path(), &["drum.mcap", "-o", name, "--size", "320x200", "--time", time]).success();
+        fs::read(folder.path().join(name)).expect("there")
+    };
+    assert_ne!(picture("0", "a.png"), picture("3", "b.png"));
+}
+
+#[test]
+fn surfaces_that_cannot_be_read_are_named() {
+    let folder = folder();
+    let mut writer = Writer::new(Vec::new(), &Provenance::default()).expect("begun");
+    writer.bytes("/surfaces", "json", 0, br#"[{"name":"bin","motion":{}}]"#).expect("written");
+    fs::write(folder.path().join("bad.mcap"), writer.finish().expect("finished")).expect("written");
+    let assert = dem_view(folder.path(), &["bad.mcap", "-o", "bad.html"]).code(1);
+    assert!(said(&assert).contains("bin: motion"), "{}", said(&assert));
+}
+
 #[test]
 fn what_comes_later_is_refused_by_name() {
     let folder = folder();

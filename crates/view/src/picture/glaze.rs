@@ -29,6 +29,8 @@ struct Piece {
     corner: [[f64; 3]; 3],
     /// Brightness, and how much it hides [–].
     tone: [f32; 2],
+    /// Nothing nearer than this is drawn: largest 1/z [1/m].
+    farthest: f64,
     /// Mean 1/z, for the order.
     near: f64,
 }
@@ -50,14 +52,13 @@ impl Glaze {
             return Glaze { veils: Vec::new() };
         }
         let width = lens.size[0];
-        let farthest = if options.cut { 1.0 / lens.distance } else { f64::INFINITY };
         let mut veils = vec![[[0.0; 2]; 2]; width * lens.size[1]];
         veils.par_chunks_mut(width * BAND).enumerate().for_each(|(n, band)| {
             let rows = [n * BAND, n * BAND + band.len() / width];
             for piece in &pieces {
                 piece.fill(rows, width, |at, inverse| {
                     let depth = (1.0 / inverse) as f32;
-                    if inverse <= farthest && depth < solid.depth[at] {
+                    if inverse <= piece.farthest && depth < solid.depth[at] {
                         let before = usize::from(depth < glass.depth[at]);
                         lay(&mut band[at - rows[0] * width][before], piece.tone);
                     }
@@ -91,6 +92,7 @@ fn veiled(under: [f32; 3], [bright, hides]: Veil) -> [f32; 3] {
 fn pieces(panes: &[Pane], lens: &Lens, options: &PictureOptions) -> Vec<Piece> {
     let mut pieces = Vec::new();
     for pane in panes {
+        let first = pieces.len();
         for face in &pane.faces {
             let seen = face.map(|p| lens.seen(p));
             let tone = [brightness(seen), options.wall_opacity as f32];
@@ -103,6 +105,11 @@ fn pieces(panes: &[Pane], lens: &Lens, options: &PictureOptions) -> Vec<Piece> {
             if let [a, b, ..] = ends[..] {
                 pieces.extend(stroke(projected(a, lens), projected(b, lens), pane.ink));
             }
+        }
+        // A plane whose grains are on the eye's side hides none of them: a floor stays whole.
+        let hides = pane.side.is_none_or(|[point, normal]| (lens.eye - point).dot(&normal) < 0.0);
+        if options.cut && hides {
+            pieces[first..].iter_mut().for_each(|p| p.farthest = 1.0 / lens.distance);
         }
     }
     pieces.sort_by(|a, b| a.near.total_cmp(&b.near));
@@ -151,7 +158,7 @@ fn brightness(seen: [[f64; 3]; 3]) -> f32 {
 
 impl Piece {
     fn new(corner: [[f64; 3]; 3], tone: [f32; 2]) -> Piece {
-        Piece { corner, tone, near: corner.iter().map(|c| c[2]).sum::<f64>() / 3.0 }
+        Piece { corner, tone, farthest: f64::INFINITY, near: corner.iter().map(|c| c[2]).sum::<f64>() / 3.0 }
     }
 
     /// Calls `paint` with the place and 1/z of every sample inside, in the rows given. A sample on the common edge of

@@ -28,7 +28,12 @@ impl Pen<'_> {
         };
         let place = |p: [f64; 2]| [at[0] + unit * (p[0] - shift), at[1] - unit * p[1]];
         let pieces: Vec<font::Piece> = pieces.into_iter().map(|piece| piece.map(place)).collect();
-        self.strokes(&pieces, (0.135 * height).max(1.1));
+        let width = (0.135 * height).max(1.1);
+        // A rim of paper keeps text readable on grains.
+        let ink = std::mem::replace(&mut self.colour, [255; 3]);
+        self.strokes(&pieces, width + 0.3 * height);
+        self.colour = ink;
+        self.strokes(&pieces, width);
     }
 
     /// Straight pieces with round ends, inked once where they meet.

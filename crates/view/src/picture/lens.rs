@@ -15,7 +15,8 @@ const BAR_SHARE: f64 = 0.09;
 
 /// A pinhole eye. Seen coordinates: x right, y up, z forward from the eye [m].
 pub(crate) struct Lens {
-    eye: Vec3,
+    /// Where it is [m].
+    pub eye: Vec3,
     axes: [Vec3; 3],
     /// Samples per unit of x/z.
     pub focal: f64,

@@ -2,7 +2,8 @@
 
 use super::PictureOptions;
 use crate::{
-    Role, Surface, ViewError, colour, field, outline::Outline, scale::Range, sheet, spheres::Spheres,
+    Role, Surface, SurfaceShape, ViewError, colour, field, outline::Outline, scale::Range, sheet,
+    spheres::Spheres,
 };
 use geom::Vec3;
 use stream::Table;
@@ -46,6 +47,8 @@ pub(crate) struct Pane {
     pub lines: Vec<[Vec3; 2]>,
     /// How much a line hides [–].
     pub ink: f32,
+    /// A point and the normal [m] of a plane, which points to the grains.
+    pub side: Option<[Vec3; 2]>,
 }
 
 /// Everything in the picture.
@@ -100,7 +103,11 @@ impl Painted {
             }
             let faces = sheet.faces.iter().map(|f| f.map(|v| vertices[v as usize])).collect();
             let lines = sheet.lines.iter().map(|l| l.map(&place)).collect();
-            self.panes.push(Pane { faces, lines, ink: sheet.ink });
+            let side = match &sheet.surface.shape {
+                SurfaceShape::Plane(p) => Some([place(p.point), place(p.point + p.normal) - place(p.point)]),
+                SurfaceShape::Mesh(_) => None,
+            };
+            self.panes.push(Pane { faces, lines, ink: sheet.ink, side });
         }
         self.outline = outline.places();
         self.extent = sheet::box_of(&self.outline);
