@@ -7,7 +7,7 @@ use serde_json::json;
 use std::path::PathBuf;
 use stream::{Table, Values};
 use tempfile::TempDir;
-use view::{Page, PageOptions, Role};
+use view::{Motion, Page, PageOptions, Role, Surface, SurfaceShape};
 
 const GRAINS: usize = 1500;
 const WALLS: usize = 400;
@@ -117,6 +117,88 @@ fn settings(browser: &mut Chromium) {
     browser.value("dispatchEvent(new KeyboardEvent('keydown', { key: 'w' }))");
     browser.value("grainpipe.pixels()");
     assert_eq!(browser.value("grainpipe.drawn"), json!(GRAINS));
+}
+
+/// A paddle that turns about z, shifts and shakes, in the JSON of a run.
+fn motion() -> serde_json::Value {
+    json!({"velocity": [0.05, 0.0, -0.1], "turn": [0.0, 3.0, 25.0], "through": [0.05, 0.05, 0.0],
+           "amplitude": [0.0, 0.01, 0.0], "frequency": 7.0})
+}
+
+/// The page of the block, with a floor, and a paddle of mesh and one of wall spheres that move.
+fn page_with_surfaces() -> (TempDir, PathBuf) {
+    let mut page = Page::new(PageOptions { time: Some(0.0), ..PageOptions::default() });
+    let run = page.layer(Role::Grains, "run.mcap");
+    for frame in 0..FRAMES {
+        page.push(run, frame as f64 * 0.01, &grains(0.0)).expect("a whole table");
+    }
+    let motion = Motion::of(&motion()).expect("whole");
+    let mesh = json!({"mesh": {"vertices": [[-0.1, 0.05, 0.0], [0.2, 0.05, 0.0], [0.05, 0.05, 0.4]], "faces": [[0, 1, 2]]}});
+    let plane = json!({"plane": {"point": [0, 0, -0.02], "normal": [0, 0, 1]}});
+    for (name, shape, motion) in [("paddle", mesh, motion), ("floor", plane, Motion::default())] {
+        let shape = SurfaceShape::of(&shape).expect("whole").expect("a surface");
+        page.surface(Surface { name: name.into(), shape, motion });
+    }
+    let walls = page.layer(Role::Walls, "paddle");
+    page.moves(walls, motion);
+    page.push(walls, 0.0, &floor()).expect("a whole table");
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("surfaces.html");
+    std::fs::write(&file, page.html().expect("a page")).expect("written");
+    (folder, file)
+}
+
+/// Grains rest, so that all that changes in the picture is the wall.
+#[test]
+fn planes_and_meshes_are_drawn_move_hide_and_ask_for_nothing() {
+    let Some(program) = chromium::find() else { return grainpipe_tests::skip("chromium") };
+    let (_folder, file) = page_with_surfaces();
+    let mut browser = Chromium::start(&program, &[]);
+    browser.open(&file);
+    browser.wait_for("window.grainpipe?.ready === true");
+    let hidden = |browser: &mut Chromium, index: usize, frame: usize| {
+        let boxes = "document.querySelectorAll('#layers input')";
+        browser.value(&format!(
+            "{boxes}.forEach((b, i) => {{ if (b.checked !== (i === 0 || i === {index})) b.click() }})"
+        ));
+        browser.value(&format!("grainpipe.show({frame}); grainpipe.pixels()"))["sum"].clone()
+    };
+    let bare = hidden(&mut browser, 0, 0);
+    // Wall spheres, mesh, floor: each is seen, and only what moves changes.
+    for (index, moves) in [(1, true), (2, true), (3, false)] {
+        let [first, last] = [0, FRAMES - 1].map(|frame| hidden(&mut browser, index, frame));
+        assert_ne!(first, bare, "layer {index} is not seen");
+        assert_eq!(first != last, moves, "layer {index}");
+    }
+    browser.value("document.querySelectorAll('#layers input').forEach((b) => { if (!b.checked) b.click() })");
+    browser.value("dispatchEvent(new KeyboardEvent('keydown', { key: 'w' })); grainpipe.show(0)");
+    assert_eq!(browser.value("grainpipe.pixels().sum"), bare, "W hides all walls");
+    assert_eq!(browser.value("grainpipe.glError"), json!(0));
+    assert!(browser.problems().is_empty(), "{:?}", browser.problems());
+    assert_eq!(browser.requests().len(), 1, "{:?}", browser.requests());
+}
+
+/// Engine, picture and page take a wall to the same place.
+#[test]
+fn a_wall_is_shown_where_the_engine_has_it() {
+    let engine: dem::setup::Motion = serde_json::from_value(motion()).expect("whole");
+    let (time, home) = (0.07, geom::Vec3::new(0.31, -0.2, 0.13));
+    let place = engine.pose(time).place(&home);
+    let shown = Motion::of(&motion()).expect("whole").to(time)(home);
+    assert!((shown - place).norm() < 1e-12, "{shown} {place}");
+    let Some(program) = chromium::find() else { return grainpipe_tests::skip("chromium") };
+    let (_folder, file) = page_with_surfaces();
+    let mut browser = Chromium::start(&program, &[]);
+    browser.open(&file);
+    browser.wait_for("window.grainpipe?.ready === true");
+    let in_page = browser.value(&format!(
+        "(() => {{ const p = poseOf({}, [0, 0, 0], {time}); return [0, 1, 2].map((k) => dot3([p.turn[k], p.turn[3 + k], \
+         p.turn[6 + k]], [{}, {}, {}]) + p.shift[k] + middle[k]); }})()",
+        motion(), home.x, home.y, home.z
+    ));
+    for k in 0..3 {
+        assert!((in_page[k].as_f64().expect("a number") - place[k]).abs() < 1e-12, "{in_page} {place}");
+    }
 }
 
 #[test]
