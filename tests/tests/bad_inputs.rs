@@ -127,6 +127,7 @@ fn clouds() -> TempDir {
     let on_line: String = (0..50).map(|k| format!("{} 0 0\n", 0.01 * f64::from(k))).collect();
     write("line.xyz", on_line.as_bytes());
     write("nan.xyz", [surface(), "nan 0 0\n".to_owned()].concat().as_bytes());
+    write("far.xyz", [surface(), "1e300 0 0\n".to_owned()].concat().as_bytes());
     write("word.xyz", b"1 2 3\n1 2 three\n");
     write("row.xyz", b"1 2 3\n4 5\n");
     write("empty.xyz", b"");
@@ -135,6 +136,23 @@ fn clouds() -> TempDir {
     write("regions.toml", b"[[region]]\nname = \"a\"\nshap = \"sphere:0,0,0,1\"\naction = \"remove\"\n");
     fs::create_dir(folder.path().join("folder")).unwrap();
     folder
+}
+
+/// The check itself: what succeeds is seen as whole, so that "not whole" means something.
+#[test]
+fn what_succeeds_is_seen_as_whole() {
+    let folder = scenes();
+    for line in [
+        "cloud-crop good.ply",
+        "wallgen good.ply --roughness 0.002",
+        "dem-run s.toml",
+        "stage-replay up.mcap",
+    ] {
+        let done = run(folder.path(), line, &[]);
+        assert!(done.code == 0 && whole(&done.stdout), "{line}: {}", done.stderr);
+        assert!(!whole(&done.stdout[..done.stdout.len() - 5]), "{line}");
+    }
+    assert!(long_number("0.010000000000000009 m") && !long_number("0.0433050 m, 1.2.3"));
 }
 
 #[test]
@@ -182,6 +200,8 @@ fn clouds_that_cannot_become_a_wall_or_a_sample() {
                 &["nan.xyz", "point 400", "not finite", "cloud-crop"],
             ),
             ("bluenoise-sample good.ply --count 401", 1, &["good.ply", "401", "400 points"]),
+            ("wallgen far.xyz --roughness 0.001", 1, &["far.xyz", "point 400", "1e300", "cloud-crop"]),
+            ("bluenoise-sample far.xyz --spacing 0.01", 1, &["far.xyz", "point 400", "1e300", "cloud-crop"]),
             ("wallgen none.ply --roughness 0.001", 1, &["none.ply", "0 points", "at least 2"]),
             ("wallgen one.xyz --roughness 0.001", 1, &["one.xyz", "at least 2"]),
             (
@@ -237,6 +257,15 @@ fn options_that_cannot_be_meant() {
             ("wallgen good.ply", 2, &["--roughness", "--radius M"]),
             ("wallgen good.ply --roughness 0", 2, &["--roughness 0 m", "positive"]),
             ("wallgen good.ply --roughness -0.001", 2, &["--roughness -0.001 m", "positive"]),
+            ("wallgen good.ply --roughness 0.001 --facing 0,0,0", 2, &["--facing 0,0,0", "no direction"]),
+            ("wallgen good.ply --roughness 0.001 --smallest-particle -1", 2, &["--smallest-particle -1 m"]),
+            ("wallgen good.ply --roughness 0.001 --young 0", 2, &["--young 0 Pa", "positive"]),
+            ("cloud-crop good.ply --threads 1000000", 2, &["--threads 1000000", "at most 4096"]),
+            ("stage-replay up.mcap --from nan", 2, &["--from", "nan", "seconds"]),
+            ("stage-replay up.mcap --from 2 --until 1", 2, &["--until 1 s", "--from 2 s"]),
+            ("dem-view good.ply --time nan", 2, &["--time", "seconds"]),
+            ("dem-view - -", 2, &["only one of the inputs"]),
+            ("dem-run - -", 2, &["only one of the inputs", "give files"]),
             ("wallgen good.ply --roughness 0.001 --place surface", 2, &["--place surface", "--facing x,y,z"]),
             ("wallgen good.ply --roughness 0.001 --poisson 0.7", 2, &["--poisson", "0.7"]),
             (
@@ -364,6 +393,18 @@ fn scenes_that_cannot_run() {
                 &["s.toml: time.dt: 1.0000e-2 s", "critical step", "sinter (radius", "auto"],
             ),
             ("dem-run s.toml --set fill.0.count=0", 1, &["fill.0.count", "0"]),
+            (
+                "dem-run s.toml --set fill.0.count=4000000000",
+                1,
+                &["fill.0.count = 4000000000", "fifty million"],
+            ),
+            (
+                "dem-run s.toml --set gravity=[0,0]",
+                1,
+                &["s.toml with --set:1:", "number of values: 2", "list of 3"],
+            ),
+            ("dem-run s.toml --set material.0.name=\"\"", 1, &["material.0.name = \"\"", "is no name"]),
+            ("dem-run s.toml --set guards.overlap=0", 1, &["guards.overlap = 0: must"]),
             ("dem-run s.toml --set fill.0.diameter.0=-0.1", 1, &["fill.0.diameter", "-0.1"]),
             ("dem-run s.toml --set fill.0.shape=box:0,0,0,1", 1, &["fill.0.shape", "6 numbers wanted"]),
             ("dem-run s.toml --until=-1", 1, &["time.until = -1", "s"]),

@@ -38,6 +38,17 @@ impl fmt::Display for Source {
 }
 
 impl Source {
+    /// Refuses that more than one of the inputs is stdin: the first would leave nothing for the others.
+    ///
+    /// # Errors
+    /// Wrong usage.
+    pub fn one_stdin<'a>(sources: impl IntoIterator<Item = &'a Source>) -> anyhow::Result<()> {
+        if sources.into_iter().filter(|source| **source == Source::Stdin).count() > 1 {
+            return Err(usage("-: stdin can be only one of the inputs: give files for the others"));
+        }
+        Ok(())
+    }
+
     /// Opens the source; a pipe can be read while it is still being written.
     ///
     /// # Errors

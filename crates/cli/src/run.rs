@@ -57,8 +57,13 @@ pub fn quiet() -> bool {
 /// Says on stderr something that is no error, unless `-q` was given.
 pub fn warn(message: &str) {
     if let Some(i) = INVOCATION.get().filter(|i| !i.quiet) {
-        let _ = writeln!(std::io::stderr(), "{}: warning: {message}", i.tool);
+        say(&format!("{}: warning: {message}\n", i.tool));
     }
+}
+
+/// In one piece: the tools of a pipe speak at the same time, and stderr is not buffered.
+fn say(text: &str) {
+    let _ = std::io::stderr().write_all(text.as_bytes());
 }
 
 /// The arguments that can change the result, in one spelling: `--radius=solve`.
@@ -100,7 +105,7 @@ pub fn run<A: clap::Parser>(name: &'static str, work: impl FnOnce(A) -> anyhow::
         let _ = tell(name, report, &common, start);
     }
     if !reader_closed_the_pipe(&error) {
-        let _ = writeln!(std::io::stderr(), "{name}: {}", one_line(&error));
+        say(&format!("{name}: {}\n", one_line(&error)));
     }
     ExitCode::from(code(&error))
 }
@@ -118,10 +123,14 @@ fn command<A: clap::Parser>(name: &'static str) -> Command {
     Common::augment_args(command).about(Resettable::from(about)).long_about(Resettable::from(long_about))
 }
 
+/// More threads than any machine has cores: a slip of the hand.
+const MOST_THREADS: usize = 4096;
+
 /// What parsers of numbers say, and what it means.
-const PLAIN: [(&str, &str); 4] = [
+const PLAIN: [(&str, &str); 5] = [
     ("invalid float literal", "this is no number: give it in SI units and without the unit, such as 0.012"),
     ("invalid digit found in string", "this is no whole number"),
+    ("number too large to fit in target type", "this number is too large"),
     ("cannot parse integer from empty string", "a number is missing"),
     ("number would be zero for non-zero type", "give at least 1"),
 ];
@@ -135,12 +144,15 @@ fn refuse(name: &str, error: &clap::Error) -> ! {
     for (program, people) in PLAIN {
         text = text.replace(program, people);
     }
-    let _ = write!(std::io::stderr(), "{name}: {}", text.strip_prefix("error: ").unwrap_or(&text));
+    say(&format!("{name}: {}", text.strip_prefix("error: ").unwrap_or(&text)));
     std::process::exit(i32::from(exit::USAGE))
 }
 
 fn set_threads(common: &Common) -> anyhow::Result<()> {
     let Some(threads) = common.threads else { return Ok(()) };
+    if threads.get() > MOST_THREADS {
+        return Err(exit::usage(format!("--threads {threads}: give at most {MOST_THREADS}")));
+    }
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads.get())
         .build_global()
@@ -177,7 +189,7 @@ fn tell(name: &str, report: &Report, common: &Common, start: Instant) -> anyhow:
         write_report(path, name, report, start).context("--report")?;
     }
     if !common.quiet && !report.summary.is_empty() {
-        let _ = writeln!(std::io::stderr(), "{name}: {}", report.summary);
+        say(&format!("{name}: {}\n", report.summary));
     }
     Ok(())
 }

@@ -20,5 +20,5 @@ pub use crop::crop;
 pub use darts::Method;
 pub use fill::fill;
 pub use formats::{ReadError, from_bytes, read, read_mesh, write_mesh, write_ply};
-pub use points::Cloud;
+pub use points::{Cloud, TooFar};
 pub use regions::shape;

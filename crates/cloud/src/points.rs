@@ -2,6 +2,7 @@
 
 use geom::Vec3;
 use stream::Table;
+use thiserror::Error;
 
 /// Points of a scanned surface.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -18,7 +19,33 @@ pub struct Cloud {
     pub comments: Vec<String>,
 }
 
+/// Farther from the origin than any plant is [m]; a scanner's mark for "no echo", such as 3.4e38, is beyond it.
+const FARTHEST: f64 = 1e9;
+
+/// A point that no scan has.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error(
+    "point {index}: coordinates ({:e}, {:e}, {:e}) m are farther than {FARTHEST:e} m from the origin: remove it \
+     first, e.g. with cloud-crop --keep SHAPE", at.x, at.y, at.z
+)]
+pub struct TooFar {
+    /// Its row.
+    pub index: usize,
+    /// Where it is [m].
+    pub at: Vec3,
+}
+
 impl Cloud {
+    /// Refuses points so far away that their distances cannot be computed with.
+    ///
+    /// # Errors
+    /// The first of them.
+    pub fn check_reach(&self) -> Result<(), TooFar> {
+        let far = |p: &Vec3| p.iter().any(|c| c.is_finite() && c.abs() > FARTHEST);
+        let found = self.points.iter().position(far);
+        found.map_or(Ok(()), |index| Err(TooFar { index, at: self.points[index] }))
+    }
+
     /// The given points with their properties, in that order.
     pub fn select(&self, rows: &[u32]) -> Cloud {
         Cloud {

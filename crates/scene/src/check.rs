@@ -31,7 +31,7 @@ impl Check<'_> {
         }
         Err(self.wrong(
             key,
-            format!("{value} {unit}"),
+            format!("{value} {unit}").trim_end(),
             "must be a finite number above 0",
             "give a positive value",
         ))
@@ -137,7 +137,12 @@ impl Check<'_> {
                 ));
             }
             if material.name.is_empty() || material.name == "*" {
-                return Err(self.wrong(&key("name"), &material.name, "is no name", "name the material"));
+                return Err(self.wrong(
+                    &key("name"),
+                    format!("\"{}\"", material.name),
+                    "is no name",
+                    "name the material",
+                ));
             }
             self.positive_if(&key("density"), material.density, "kg/m³")?;
             self.positive(&key("young"), material.young, "Pa")?;

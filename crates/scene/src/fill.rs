@@ -122,7 +122,8 @@ fn radii(
     let most = fill.count.unwrap_or_else(|| (fill.mass.unwrap_or(0.0) / smallest) as u64);
     if most > MOST {
         let why = "makes more than fifty million particles";
-        return Err(check.wrong(key, format!("{most} particles"), why, "fewer or larger ones"));
+        let key = if fill.count.is_some() { key.replace(".mass", ".count") } else { key.to_owned() };
+        return Err(check.wrong(&key, format!("{most} particles"), why, "ask for fewer or larger ones"));
     }
     let mut radii = Vec::new();
     let mut mass = 0.0;

@@ -67,7 +67,10 @@ fn plain(message: &str) -> String {
         };
         text = format!("{rest}, expected {wanted}");
     }
-    text.replace("invalid type: ", "wrong kind of value: ").replace("floating point", "number")
+    text.replace("invalid length ", "wrong number of values: ")
+        .replace("an array of length ", "a list of ")
+        .replace("invalid type: ", "wrong kind of value: ")
+        .replace("floating point", "number")
 }
 
 /// The nearest of the words that serde says it expected.

@@ -21,15 +21,16 @@ fn bluenoise_sample(args: Args) -> anyhow::Result<Report> {
             .map_err(|e| cli::usage(format!("--plot: {e}")))?;
     }
     let cloud = args.input.read_cloud()?;
+    cloud.check_reach().with_context(|| args.input.name())?;
     let forced = args.forced(&cloud);
     let chosen = sample(&cloud.points, forced.as_deref(), &wish).with_context(|| args.input.name())?;
     let kept = cloud.select(&chosen.kept);
     args.output.write_cloud(&kept)?;
     let mut report = Report::new(format!(
-        "{} of {} points, spacing {:.4} m",
+        "{} of {} points, spacing {} m",
         kept.points.len(),
         cloud.points.len(),
-        chosen.spacing
+        geom::Shown(chosen.spacing)
     ))
     .with("points_before", cloud.points.len())
     .with("points_after", kept.points.len())

@@ -3,7 +3,7 @@
 use anyhow::Context;
 use clap::Parser;
 use cli::{Output, Report, Source, Stopped};
-use scene::run::{Settings, run};
+use scene::run::{RunError, Settings, run};
 use scene::{Checkpoint, Input, Plan, Scene};
 use std::path::Path;
 use std::process::ExitCode;
@@ -50,6 +50,7 @@ fn in_scene(error: anyhow::Error, scene: String) -> anyhow::Error {
 }
 
 fn dem_run(args: Args) -> anyhow::Result<Report> {
+    Source::one_stdin([&args.scene].into_iter().chain(&args.inputs).chain(&args.resume))?;
     let scene = read_scene(&args)?;
     let resume = match &args.resume {
         Some(source) => Some(Checkpoint::last(&source.to_string(), source.open()?)?),
@@ -66,6 +67,14 @@ fn dem_run(args: Args) -> anyhow::Result<Report> {
     }
     scene::run::ready(&scene, &plan)?;
     simulate(&args, &scene, plan, resume)
+}
+
+/// What cannot be written does not know where: it is named here.
+fn written(error: RunError, args: &Args) -> anyhow::Error {
+    match error {
+        RunError::Mcap(e) => anyhow::Error::new(e).context(format!("{}: cannot write", args.output.name())),
+        other => other.into(),
+    }
 }
 
 fn read_scene(args: &Args) -> anyhow::Result<Scene> {
@@ -91,7 +100,8 @@ fn simulate(args: &Args, scene: &Scene, plan: Plan, resume: Option<Checkpoint>) 
     let settings = Settings { provenance: cli::provenance(plan.inputs.clone()), compression };
     let bar = cli::Progress::new("run", 1000);
     let (outcome, out) =
-        run(scene, plan, resume, out, settings, &mut |share| bar.set((1000.0 * share) as u64))?;
+        run(scene, plan, resume, out, settings, &mut |share| bar.set((1000.0 * share) as u64))
+            .map_err(|e| written(e, args))?;
     out.commit()?;
     drop(bar);
     let summary = format!(

@@ -40,6 +40,12 @@ pub fn range(text: &str) -> Result<[f64; 2], String> {
     }
 }
 
+/// A time [s].
+pub fn seconds(text: &str) -> Result<f64, String> {
+    let time = text.parse().ok().filter(|time: &f64| time.is_finite());
+    time.ok_or_else(|| "give a time in seconds, such as 0.5".into())
+}
+
 /// The name of a colour map.
 pub fn map(text: &str) -> Result<Map, String> {
     Map::named(text).ok_or_else(|| "viridis or turbo".into())

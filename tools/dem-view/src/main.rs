@@ -32,7 +32,7 @@ struct Args {
     #[arg(long, value_name = "NAME", value_parser = formats::map, default_value = "viridis")]
     map: Map,
     /// Time to show [s]; HTML: show it first, paused; PNG: the last frame not after it [default: the last with grains in it]
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", value_parser = formats::seconds)]
     time: Option<f64>,
     /// iso, top, bottom, front, back, left, right, or the eye's x,y,z and, after it, the point looked at [m]
     #[arg(long, value_name = "VIEW", value_parser = formats::camera, default_value = "iso", allow_hyphen_values = true)]
@@ -74,6 +74,7 @@ fn show(mut args: Args) -> anyhow::Result<Report> {
         args.inputs.push(Source::Stdin);
     }
     let output = Output { file: args.file.clone() };
+    Source::one_stdin(&args.inputs)?;
     match Format::of(&output)? {
         Format::Html => html(&args, &output),
         Format::Png => png(&args, &output),

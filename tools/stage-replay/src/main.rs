@@ -20,10 +20,10 @@ struct Args {
     #[arg(long, value_name = "M")]
     length: Option<f64>,
     /// Leave out what passes before S; S becomes time 0 [s]
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", value_parser = seconds)]
     from: Option<f64>,
     /// Leave out what passes at S or later [s]
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", value_parser = seconds)]
     until: Option<f64>,
     /// Keep the recorded times (default: the first passage becomes time 0)
     #[arg(long, conflicts_with = "from")]
@@ -62,6 +62,11 @@ fn stage_replay(args: Args) -> anyhow::Result<Report> {
     if args.motion != Motion::Constant {
         return Err(usage("not available yet: --move ballistic and recorded; use --move constant"));
     }
+    if let (Some(from), Some(until)) = (args.from, args.until)
+        && until <= from
+    {
+        return Err(usage(format!("--until {until} s is not after --from {from} s: give a later end")));
+    }
     let what = Replay {
         at: args.at,
         length: args.length,
@@ -86,4 +91,11 @@ fn stage_replay(args: Args) -> anyhow::Result<Report> {
     let summary =
         format!("{} particles over {:.4} s, from {:.4} s on", done.particles, done.last, done.start);
     Ok(Report::new(summary).with_all(&done))
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        _ => Err("give a time in seconds, such as 0.5".into()),
+    }
 }

@@ -80,6 +80,12 @@ impl Args {
                 "--from-mesh: not available yet; use a cloud of points of the surface instead",
             ));
         }
+        if self.facing.is_some_and(|facing| facing.norm() == 0.0) {
+            return Err(cli::usage("--facing 0,0,0: has no direction; give one, such as 0,0,1"));
+        }
+        if let Some(diameter) = self.smallest_particle.filter(|d| !(*d > 0.0 && d.is_finite())) {
+            return Err(cli::usage(format!("--smallest-particle {diameter} m: must be a positive diameter")));
+        }
         let placement = match self.place {
             Place::Centre => Placement::Centre,
             Place::Surface if self.facing.is_none() => {
@@ -137,6 +143,9 @@ impl Args {
 fn option(message: &str) -> String {
     let detail = ["roughness: ", "material: "].iter().find_map(|place| message.strip_prefix(place));
     match detail {
+        Some(detail) if detail.contains(" [Pa] ") => {
+            format!("--{}", detail.replace(" [Pa]", "").replacen(": ", " Pa: ", 1))
+        }
         Some(detail) if !detail.starts_with("the ") && !detail.starts_with("material ") => {
             format!("--{detail}")
         }

@@ -18,6 +18,7 @@ fn wallgen(args: Args) -> anyhow::Result<Report> {
     let wish = args.wish()?;
     let regions = args.regions()?;
     let (cloud, hash) = args.input.read_cloud_hashed()?;
+    cloud.check_reach().with_context(|| args.input.name())?;
     let (wall, report) = build(&cloud.points, &regions, &wish).with_context(|| args.input.name())?;
     if args.output.to.has_extension("ply") {
         args.output.write_cloud(&as_cloud(cloud, &wall, &regions)?)?;
