@@ -1,7 +1,7 @@
 //! Thin walls in a page, packed once: where they are at t = 0, and how they move.
 
 use super::{Layer, Page};
-use crate::{Motion, Role, outline::Outline, scale::Range, sheet};
+use crate::{Motion, Role, SurfaceShape, outline::Outline, scale::Range, sheet};
 use geom::Vec3;
 use serde_json::{Value, json};
 use std::sync::Arc;
@@ -23,6 +23,8 @@ pub(super) struct Pane {
     pub lines: Arc<Vec<u8>>,
     /// How much a line hides [–].
     pub ink: f32,
+    /// Normal of a plane, which points to the grains.
+    pub normal: Option<Vec3>,
 }
 
 /// What depends on all layers and surfaces together.
@@ -91,6 +93,10 @@ impl Pane {
             faces: Arc::new(sheet.faces.iter().flatten().flat_map(|n| n.to_le_bytes()).collect()),
             lines: packed(&mut sheet.lines.iter().flatten().copied()),
             ink: sheet.ink,
+            normal: match &sheet.surface.shape {
+                SurfaceShape::Plane(plane) => Some(plane.normal),
+                SurfaceShape::Mesh(_) => None,
+            },
         }
     }
 }

@@ -7,7 +7,7 @@ uniform sampler2D solidDepth, glassDepth;
 uniform vec3 plain;
 uniform vec2 nearFar;
 uniform vec4 cut;
-uniform float flatView, width, hides;
+uniform float flatView, width, hides, ink;   // ink: brightness of lines
 uniform int glass;
 layout(location = 0) out vec4 behind;
 layout(location = 1) out vec4 before;
@@ -21,7 +21,7 @@ void main() {
   vec3 normal = slope / max(1e-30, length(slope));
   if (dot(normal, flatView > 0.5 ? vec3(0.0, 0.0, 1.0) : seen) > 0.0) normal = -normal;
   float lamp = max(0.0, dot(normal, vec3(-0.4243, 0.7071, -0.5657)));
-  float bright = width > 0.0 ? 0.5 : 0.64 + 0.14 * normal.y + 0.38 * lamp;
+  float bright = width > 0.0 ? ink : 0.64 + 0.14 * normal.y + 0.38 * lamp;
   vec4 veil = vec4(plain * bright, 1.0) * hides;
   bool nearest = glass == 0 || depth < texelFetch(glassDepth, at, 0).r;
   behind = nearest ? vec4(0.0) : veil;

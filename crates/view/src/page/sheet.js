@@ -65,10 +65,21 @@ const sheets = {
     gl.disable(gl.DEPTH_TEST);
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
-    for (const part of shown) this.drawPart(part, 0);
-    for (const part of shown) this.drawPart(part, 1.3 * size[0] / innerWidth);
+    const rank = (part) => this.rank(part.surface, view.eye);
+    const order = [...shown].sort((a, b) => rank(a) - rank(b));
+    for (const part of order) this.drawPart(part, 0);
+    for (const part of order) this.drawPart(part, 1.3 * size[0] / innerWidth);
     gl.disable(gl.BLEND);
     gl.activeTexture(gl.TEXTURE0);
+  },
+
+  // A plane before or behind all grains is before or behind all meshes too: 0 behind, 1 mesh, 2 before.
+  rank({ normal, motion, origin }, eye) {
+    if (!normal) return 1;
+    const { turn, shift } = poseOf(motion, origin, clock[state.frame]);
+    const away = eye.map((e, k) => e - shift[k]);
+    const turned = [0, 1, 2].map((k) => dot3([turn[k], turn[3 + k], turn[6 + k]], normal));
+    return dot3(turned, away) < 0 ? 2 : 0;
   },
 
   drawPart({ surface, faces, lines }, width) {
@@ -89,6 +100,7 @@ const sheets = {
     gl.uniform2fv(at("size"), size);
     gl.uniform3fv(at("plain"), run.wall.map((c) => c / 255));
     gl.uniform4fv(at("cut"), cutPlane());
+    gl.uniform1f(at("ink"), paper()[0] < 0.5 ? 1.1 : 0.5);
     gl.uniform1i(at("glass"), glass ? 1 : 0);
     [["solidDepth", painter.solid.depth], ["glassDepth", painter.glass.depth]].forEach(([name, input], n) => {
       gl.activeTexture(gl.TEXTURE1 + n);

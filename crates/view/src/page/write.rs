@@ -153,6 +153,7 @@ fn pane<'a>(pane: &'a Pane, blobs: &mut Blobs<'a>) -> Value {
     json!({
         "name": pane.name, "motion": panes::motion(&pane.motion), "origin": panes::triple(&pane.origin),
         "vertices": vertices, "faces": faces, "lines": lines, "ink": pane.ink,
+        "normal": pane.normal.as_ref().map(panes::triple),
     })
 }
 

@@ -31,7 +31,9 @@ struct Piece {
     tone: [f32; 2],
     /// Nothing nearer than this is drawn: largest 1/z [1/m].
     farthest: f64,
-    /// Mean 1/z, for the order.
+    /// Planes before or behind all grains are before or behind all meshes too: 0 behind, 1 mesh, 2 before.
+    rank: u8,
+    /// Mean 1/z, for the order of the rest.
     near: f64,
 }
 
@@ -107,12 +109,14 @@ fn pieces(panes: &[Pane], lens: &Lens, options: &PictureOptions) -> Vec<Piece> {
             }
         }
         // A plane whose grains are on the eye's side hides none of them: a floor stays whole.
-        let hides = pane.side.is_none_or(|[point, normal]| (lens.eye - point).dot(&normal) < 0.0);
-        if options.cut && hides {
-            pieces[first..].iter_mut().for_each(|p| p.farthest = 1.0 / lens.distance);
+        let faces_away = |[point, normal]: [Vec3; 2]| (lens.eye - point).dot(&normal) < 0.0;
+        let rank = pane.side.map_or(1, |side| if faces_away(side) { 2 } else { 0 });
+        let farthest = if options.cut && rank > 0 { 1.0 / lens.distance } else { f64::INFINITY };
+        for piece in &mut pieces[first..] {
+            (piece.rank, piece.farthest) = (rank, farthest);
         }
     }
-    pieces.sort_by(|a, b| a.near.total_cmp(&b.near));
+    pieces.sort_by(|a, b| a.rank.cmp(&b.rank).then(a.near.total_cmp(&b.near)));
     pieces
 }
 
@@ -158,7 +162,13 @@ fn brightness(seen: [[f64; 3]; 3]) -> f32 {
 
 impl Piece {
     fn new(corner: [[f64; 3]; 3], tone: [f32; 2]) -> Piece {
-        Piece { corner, tone, farthest: f64::INFINITY, near: corner.iter().map(|c| c[2]).sum::<f64>() / 3.0 }
+        Piece {
+            corner,
+            tone,
+            farthest: f64::INFINITY,
+            rank: 1,
+            near: corner.iter().map(|c| c[2]).sum::<f64>() / 3.0,
+        }
     }
 
     /// Calls `paint` with the place and 1/z of every sample inside, in the rows given. A sample on the common edge of
