@@ -16,6 +16,7 @@ pub fn skip(program: &str) {
     // The runner hides what a passing test prints; pipelines/test.sh shows and counts these lines.
     if let Some(list) = std::env::var_os("GRAINPIPE_SKIPS") {
         let file = std::fs::OpenOptions::new().append(true).create(true).open(list);
-        file.and_then(|mut f| f.write_all(line.as_bytes())).expect("the list of skipped tests can be written");
+        file.and_then(|mut f| f.write_all(line.as_bytes()))
+            .expect("the list of skipped tests can be written");
     }
 }

@@ -7,7 +7,7 @@ use crate::material_info::MATERIALS;
 use crate::run::{OUTLETS, RunError};
 use crate::schedule::nanoseconds;
 use dem::setup::Zone;
-use geom::Plane;
+use geom::{Plane, Shown};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -140,10 +140,10 @@ fn head(
     if zone.length.is_nan() || zone.length <= 2.0 * sizes.largest {
         let why = format!(
             "--length {} m is not above the largest diameter, {} m",
-            zone.length,
-            2.0 * sizes.largest
+            Shown(zone.length),
+            Shown(2.0 * sizes.largest)
         );
-        return Err(SceneError::file(name, why, format!("use at least {} m", 2.4 * sizes.largest)));
+        return Err(SceneError::file(name, why, format!("use at least {} m", Shown(2.4 * sizes.largest))));
     }
     Ok(Head { materials: records.remove(MATERIALS).ok_or_else(|| no_run(MATERIALS))?, sizes, zone })
 }

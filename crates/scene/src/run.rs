@@ -182,8 +182,8 @@ impl<W: Write> Run<W> {
         if sim.steps() >= schedule.last {
             let why = format!(
                 "the saved run has reached {} s, the scene ends at {} s",
-                sim.time(),
-                schedule.last as f64 * schedule.dt
+                geom::Shown(sim.time()),
+                geom::Shown(schedule.last as f64 * schedule.dt)
             );
             return Err(SceneError::file("--resume", why, "give a later --until").into());
         }
