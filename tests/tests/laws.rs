@@ -286,7 +286,7 @@ fn static_column() {
     for law in LAWS {
         let mut setup = empty(law, 0.1);
         setup.gravity.z = -9.81;
-        setup.step = Step::Auto(0.2);
+        setup.step = Step::Auto(0.8);
         setup.walls = vec![plane(Vec3::z())];
         let n = 10;
         setup.particles = (0..n).map(|k| grain(k, Vec3::new(0.0, 0.0, 0.01 + 0.02 * k as f64))).collect();

@@ -1,7 +1,7 @@
 //! What is refused before a run starts.
 
 use crate::error::SetupError;
-use crate::setup::{Setup, Step, WallShape};
+use crate::setup::{Particle, Setup, Step, WallShape};
 use geom::Vec3;
 use std::collections::HashSet;
 
@@ -59,6 +59,14 @@ fn materials(setup: &Setup) -> Result<(), SetupError> {
 
 fn contacts(setup: &Setup) -> Result<(), SetupError> {
     for c in &setup.contacts {
+        let known = (c.between.0.max(c.between.1) as usize) < setup.materials.len();
+        within(
+            "contact: between",
+            c.between.0.max(c.between.1).into(),
+            "[–]",
+            known,
+            "the scene's materials",
+        )?;
         let name = |m: u16| setup.materials[m as usize].name.as_str();
         let at = |key: &str| format!("contact {}–{}: {key}", name(c.between.0), name(c.between.1));
         let e = c.restitution;
@@ -127,6 +135,11 @@ fn walls(setup: &Setup) -> Result<(), SetupError> {
             }
             WallShape::Plane(plane) => {
                 finite(&at("plane"), &plane.point, "m")?;
+                let behind = |p: &&Particle| plane.signed_distance(&p.position) <= 0.0;
+                if let Some(p) = setup.particles.iter().find(behind) {
+                    let depth = -plane.signed_distance(&p.position);
+                    return Err(SetupError::BehindPlane { id: p.id, depth, wall: w.name.clone() });
+                }
                 if w.motion.turn != Vec3::zeros() {
                     return Err(SetupError::TurningPlane(w.name.clone()));
                 }
@@ -135,6 +148,15 @@ fn walls(setup: &Setup) -> Result<(), SetupError> {
         }
         finite(&at("velocity"), &w.motion.velocity, "m/s")?;
         finite(&at("rotation"), &w.motion.turn, "rad/s")?;
+        finite(&at("rotation through"), &w.motion.through, "m")?;
+        finite(&at("vibration"), &w.motion.amplitude, "m")?;
+        within(
+            &at("frequency"),
+            w.motion.frequency,
+            "Hz",
+            w.motion.frequency.is_finite(),
+            "the finite numbers",
+        )?;
     }
     Ok(())
 }

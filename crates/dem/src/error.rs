@@ -73,6 +73,32 @@ pub enum SetupError {
         /// Now, or the time of the entry before [s].
         now: f64,
     },
+    /// A particle that no plane can hold.
+    #[error(
+        "particle {id} starts {depth:.4e} m behind wall '{wall}': move it to the side that the plane's normal points to"
+    )]
+    BehindPlane {
+        /// Its id.
+        id: u32,
+        /// How far [m].
+        depth: f64,
+        /// The wall.
+        wall: String,
+    },
+    /// A wall that a particle cannot see coming.
+    #[error("wall '{wall}': {speed:.4e} m/s is {:.1} % of the smallest radius in a step of {dt:.4e} s (limit {:.1} %): shorten dt, or slow the wall", 100.0 * share, 100.0 * limit)]
+    WallTooFast {
+        /// The wall.
+        wall: String,
+        /// Its largest speed [m/s].
+        speed: f64,
+        /// Step [s].
+        dt: f64,
+        /// Way in a step over the smallest radius [–].
+        share: f64,
+        /// Allowed [–].
+        limit: f64,
+    },
     /// A rotating plane, whose speed has no bound.
     #[error("wall '{0}': a plane cannot rotate: use a mesh or wall spheres")]
     TurningPlane(String),

@@ -171,14 +171,14 @@ fn lanes<R: Lane, E: Effect, const FLAT: bool, const KEEP: bool>(
     let along = velocity.dot(normal);
     let mut slip = velocity - normal.scale(along);
     let mut spin = V::zero();
-    let mut surface = V::new(uj, vj, wj);
+    let (mut surface, mut turning) = (V::new(uj, vj, wj), V::zero());
     if E::ROTATES {
         let [axi, ayi, azi, _] = R::rows4(common.spins, i);
         let [axj, ayj, azj, _] = R::rows4(task.partners.1, j);
         let (si, sj) = (V::new(axi, ayi, azi), V::new(axj, ayj, azj));
         slip = slip - (si.scale(arm_i) + sj.scale(arm_j)).cross(normal);
         surface = surface + sj.scale(arm_j).cross(normal);
-        spin = si - sj;
+        (spin, turning) = (si - sj, sj);
     }
     let contact = Contact {
         touching,
@@ -216,7 +216,7 @@ fn lanes<R: Lane, E: Effect, const FLAT: bool, const KEEP: bool>(
     if KEEP {
         let [a, b, c] = load.dissipated;
         // Work of j's surface on i; only walls' is added up.
-        let surface = surface.dot(force) * R::splat(common.dt);
+        let surface = (surface.dot(force) + load.couple.dot(turning)) * R::splat(common.dt);
         let row = [load.elastic, a, b, c, surface, zero, zero, zero];
         R::store_rows(row.map(|x| R::select(touching, x, zero)), &mut task.ledger[at * LEDGER..]);
     }

@@ -1,15 +1,17 @@
 //! The largest stable time step.
 //!
 //! ```text
-//! ω² = 4 max(S, 7/2 k_t) / m*              S = dF_n/dδ at the overlap limit (Hertz) or k (Hooke)
-//! Δt_crit = 2/ω (√(1 + ζ²) − ζ),  ζ = γ/2
+//! Δt(N, k) = 2/ω (√(1 + 4 ζ²) − 2 ζ),   ω² = N k/m*,  ζ = γ √N / 2
+//! Δt_crit  = min { Δt(4, S), Δt(20, k_t), √(m*/20 k_t), 0.188/μ_r √(m*/S) }
+//! S = dF_n/dδ at the overlap limit (Hertz) or k (Hooke); the last three where the scene asks for them
 //! ```
 //!
-//! A pair of masses on one spring has ω² = k/m*. 7/2: translation and rotation both yield to a tangential force,
-//! 1/m + r²/I = 7/2 · 1/m. 4: several contacts pull at once; by Gershgorin's bound on a close packing (twelve contacts,
-//! a third of their stiffness along any axis, each against a neighbour that moves the other way).
-//! The factor with ζ: central differences with a dashpot that sees the predicted velocity (Belytschko, Liu & Moran
-//! (2000), Nonlinear Finite Elements, §6.6).
+//! Δt(N, k) is where the integrator of [`crate::advance`] turns unstable (an eigenvalue of −1: (ω Δt)²/4 + 2 ζ ω Δt = 1, the
+//! dashpot seeing the predicted velocity) for N contacts of stiffness k that pull at once. N = 4: Gershgorin's bound on a close
+//! packing, twelve contacts, a third of their stiffness along any axis, each against a neighbour that moves the other way.
+//! N = 20 = 40/7 × 7/2: the same packing with all grains turning one way, where translation and rotation both yield to a
+//! tangential force, 1/m + r²/I = 7/2 · 1/m. √(m*/20 k_t): up to there the tangential spring, whose rate is predicted as well, takes more energy than
+//! it makes without a dashpot. 0.188/μ_r: the dashpot of rolling resistance.
 
 use crate::effects::damping_ratio;
 use crate::error::SetupError;
@@ -100,8 +102,7 @@ fn tighten(
         Partner::Wall(wall) => match &wall.shape {
             WallShape::Spheres(spheres) => {
                 let rb = spheres.iter().map(|s| s.1).fold(0.0, f64::max);
-                let smallest = spheres.iter().map(|s| s.1).fold(f64::INFINITY, f64::min);
-                (ma, ra * rb / (ra + rb), ra.min(smallest), format!("wall '{}'", wall.name))
+                (ma, ra * rb / (ra + rb), ra.min(rb), format!("wall '{}'", wall.name))
             }
             _ => (ma, ra, ra, format!("wall '{}'", wall.name)),
         },
@@ -111,10 +112,21 @@ fn tighten(
         Law::Hooke { stiffness, .. } => stiffness,
         Law::Hertz => 2.0 * elastic.modulus * (radius * setup.guards.overlap * smaller).sqrt(),
     };
-    let tangential = contact.sliding_friction.map_or(0.0, |_| 3.5 * tangential_ratio(contact, elastic));
-    let omega = (CONTACTS * stiffness * tangential.max(1.0) / reduced_mass).sqrt();
-    let zeta = 0.5 * damping_ratio(contact.restitution);
-    let dt = 2.0 / omega * ((1.0 + zeta * zeta).sqrt() - zeta);
+    let gamma = damping_ratio(contact.restitution);
+    // K and C over m*, of several contacts at once; the predicted velocity doubles the dashpot's share.
+    let step = |count: f64, k: f64| {
+        let (omega, zeta) = ((count * k / reduced_mass).sqrt(), 0.5 * gamma * count.sqrt());
+        2.0 / omega * ((1.0 + 4.0 * zeta * zeta).sqrt() - 2.0 * zeta)
+    };
+    let mut dt = step(CONTACTS, stiffness);
+    if contact.sliding_friction.is_some() {
+        // Twelve contacts of a close packing whose grains all turn the same way: 40/7 contacts of 7/2 k_t.
+        let k = tangential_ratio(contact, elastic) * stiffness;
+        dt = dt.min(step(20.0, k)).min((reduced_mass / (20.0 * k)).sqrt());
+    }
+    if let Some(resistance) = contact.rolling_resistance.filter(|&r| r > 0.0) {
+        dt = dt.min(0.188 / resistance * (reduced_mass / stiffness).sqrt());
+    }
     if dt < limit.dt {
         let pair = format!("{} (radius {ra:.4e} m) – {} ({what})", first.name, second.name);
         *limit = Limit { dt, pair };

@@ -78,7 +78,8 @@ impl Simulation {
         }
         let fresh = (0..particles.len() as u32).collect();
         let skin = setup.skin.unwrap_or_else(|| default_skin(&setup));
-        let walls = setup.walls.iter().map(WallBody::new).collect();
+        let walls: Vec<WallBody> = setup.walls.iter().map(WallBody::new).collect();
+        slow_enough(&setup, &walls, dt)?;
         let zones = Zones::new(&setup, &particles);
         // They are in their columns now.
         let setup = Setup { particles: Vec::new(), ..setup };
@@ -374,6 +375,19 @@ fn time_step(setup: &Setup) -> Result<f64, SetupError> {
         }
         Step::Fixed(dt) => Ok(dt),
     }
+}
+
+/// A wall must not pass a particle within a few steps.
+fn slow_enough(setup: &Setup, walls: &[WallBody], dt: f64) -> Result<(), SetupError> {
+    let smallest = radii_by_material(setup).iter().flatten().map(|r| r.0).fold(f64::INFINITY, f64::min);
+    for (body, wall) in walls.iter().zip(&setup.walls) {
+        let (speed, limit) = (body.fastest(), setup.guards.motion);
+        let share = speed * dt / smallest;
+        if share > limit {
+            return Err(SetupError::WallTooFast { wall: wall.name.clone(), speed, dt, share, limit });
+        }
+    }
+    Ok(())
 }
 
 /// 0.3 × the mean radius: of the widths tried on the bench pile, the one with the least time per step.

@@ -124,7 +124,15 @@ impl Simulation {
             return Err(other("another number of materials or walls"));
         }
         if state.listings > 0 {
+            // Those who have left since were still there when neighbours were listed.
+            for (k, home) in sim.zones.left.clone() {
+                sim.particles.home[k as usize] = home;
+            }
             sim.list_contacts();
+            for (k, _) in sim.zones.left.clone() {
+                let row = sim.particles.rows[k as usize];
+                sim.particles.home[k as usize] = [row[0], row[1], row[2], 0.0];
+            }
             for (interaction, memory) in sim.interactions.iter_mut().zip(&state.memory) {
                 if !interaction.restore_memory(memory) {
                     return Err(other("another number of contacts"));
@@ -141,6 +149,12 @@ impl Simulation {
                 return Err(other("another number of loads"));
             }
             (sim.loads, sim.couples, sim.ledger, sim.current) = (loads, couples, ledger, true);
+            // A crossing in this step asks where walls were touched.
+            let time = sim.time();
+            for interaction in &mut sim.interactions {
+                interaction.renew(&sim.particles, &sim.walls, time, true);
+            }
+            sim.just_listed = false;
         }
         Ok(sim)
     }

@@ -148,7 +148,7 @@ impl WallBody {
             let v = pose.velocity(&place);
             rows[k] = [place.x, place.y, place.z, radius, v.x, v.y, v.z, 0.0];
             if let Some(spin) = spins.get_mut(k) {
-                *spin = if radius > 0.0 { [pose.turn.x, pose.turn.y, pose.turn.z, 0.0] } else { [0.0; 4] };
+                *spin = [pose.turn.x, pose.turn.y, pose.turn.z, 0.0];
             }
         };
         match &self.surface {

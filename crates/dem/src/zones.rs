@@ -7,6 +7,7 @@
 //! A traveller's row is overwritten after each move, so that the move itself knows nothing of zones.
 
 use crate::error::SetupError;
+use crate::lane::Row4;
 use crate::particles::Particles;
 use crate::setup::{Crossing, Entry, Particle, Setup, Zone};
 use crate::simulation::Simulation;
@@ -45,6 +46,8 @@ pub struct Zones {
     crossings: Vec<Crossing>,
     /// Whether a particle is out of the calculation and waits for the next listing.
     gone: Vec<bool>,
+    /// Those, and where they were when neighbours were listed.
+    pub(crate) left: Vec<(u32, Row4)>,
     /// Whether a particle travels.
     busy: Vec<bool>,
     ids: BTreeSet<u32>,
@@ -120,6 +123,7 @@ impl Zones {
         }
         self.busy = order.iter().map(|&o| self.busy[o as usize]).collect();
         self.gone = vec![false; order.len()];
+        self.left.clear();
     }
 
     /// Queues an entry.
@@ -131,6 +135,19 @@ impl Zones {
         }
         let range =
             |what: String, value: f64, unit, range| Err(SetupError::Range { what, value, unit, range });
+        let Particle { position, velocity, spin, material, .. } = entry.particle;
+        let numbers = position.iter().chain(&velocity).chain(&spin).chain([&entry.time]);
+        if let Some(&wrong) = numbers.into_iter().find(|x| !x.is_finite()) {
+            return range(format!("inlet: state of particle {id}"), wrong, "", "the finite numbers");
+        }
+        if !setup.entry_materials.contains(&material) {
+            return range(
+                format!("inlet: material of particle {id}"),
+                material.into(),
+                "[–]",
+                "what the inlet announced",
+            );
+        }
         if entry.inlet as usize >= self.inlets.len() {
             return range(format!("inlet of particle {id}"), entry.inlet as f64, "[–]", "the scene's inlets");
         }
@@ -138,7 +155,7 @@ impl Zones {
             return range(format!("inlet: radius of particle {id}"), radius, "m", "what the inlet announced");
         }
         let zone = &self.inlets[entry.inlet as usize];
-        if zone.plane.normal.dot(&entry.particle.velocity) <= 0.0 {
+        if !(zone.plane.normal.dot(&entry.particle.velocity) > 0.0) {
             let speed = zone.plane.normal.dot(&entry.particle.velocity);
             return range(
                 format!("inlet: velocity of particle {id} along the flow"),
@@ -207,7 +224,7 @@ impl Simulation {
                     let inside =
                         now < t.since || self.zones.inlets[i as usize].plane.signed_distance(&place) < 0.0;
                     if !inside {
-                        self.release(t.at as usize, place);
+                        self.release(t.at as usize, place, t.start.velocity);
                     }
                     inside
                 }
@@ -229,6 +246,7 @@ impl Simulation {
 
     /// Out of everyone's reach until the next listing drops it.
     fn exclude(&mut self, k: usize) {
+        self.zones.left.push((k as u32, self.particles.home[k]));
         // Each to a place of its own: two at one place would overlap.
         let far = [-1e100 * (k + 1) as f64; 3];
         self.particles.rows[k][..3].copy_from_slice(&far);
@@ -237,11 +255,17 @@ impl Simulation {
         self.zones.gone[k] = true;
     }
 
-    fn release(&mut self, k: usize, place: Vec3) {
+    fn release(&mut self, k: usize, place: Vec3, velocity: Vec3) {
         self.zones.busy[k] = false;
         self.fresh.push(k as u32);
+        self.particles.acceleration[k] = [0.0; 4];
+        if let Some(turning) = self.particles.turning.get_mut(k) {
+            *turning = [0.0; 4];
+        }
+        // What passes a storage plane in this very step crosses it.
+        let before = place - velocity * self.dt;
         for (zone, beyond) in self.zones.outlets.iter().zip(&mut self.zones.beyond) {
-            if zone.plane.signed_distance(&place) >= 0.0 {
+            if zone.plane.signed_distance(&before) >= 0.0 {
                 beyond.insert(self.particles.id[k]);
             }
         }

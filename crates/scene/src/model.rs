@@ -74,7 +74,7 @@ impl Default for Time {
 }
 
 fn safety() -> f64 {
-    0.2
+    0.5
 }
 
 /// A number, or "auto".

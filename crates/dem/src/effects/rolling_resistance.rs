@@ -40,6 +40,7 @@ impl Effect for RollingResistance {
             stiffness,
             before: load.stiffness_before,
             damping: R::splat(2.0 * ETA) * (stiffness * inertia).sqrt(),
+            pace: R::splat(0.25) * stiffness / inertia,
             cap: arm * load.normal.max(R::splat(0.0)),
         };
         let pull = spring.pull(theta, n, rolling, dt);

@@ -38,6 +38,7 @@ impl Effect for SlidingFriction {
             stiffness,
             before: load.stiffness_before,
             damping: R::splat(self.damping_ratio) * (stiffness * contact.mass).sqrt(),
+            pace: R::splat(5.0) * stiffness / contact.mass,
             cap: R::splat(self.friction) * load.normal.max(R::splat(0.0)),
         };
         let pull = spring.pull(xi, contact.normal, contact.slip, dt);
