@@ -39,12 +39,28 @@ impl Columns<'_> {
         Ok((0..x.len()).map(|i| Vec3::new(x[i], y[i], z[i])).collect())
     }
 
-    /// Three columns as vectors; zeros when the first is missing.
+    /// Three columns as vectors; a component whose column is missing is zero.
     pub(crate) fn vectors_or_zero(&self, columns: [&str; 3]) -> Result<Vec<Vec3>, SceneError> {
-        match self.table.get(columns[0]) {
-            Some(_) => self.vectors(columns),
-            None => Ok(vec![Vec3::zeros(); self.table.rows()]),
+        let mut vectors = vec![Vec3::zeros(); self.table.rows()];
+        for (axis, column) in columns.into_iter().enumerate() {
+            if self.table.get(column).is_some() {
+                let values = self.numbers(column)?;
+                vectors.iter_mut().zip(values).for_each(|(vector, value)| vector[axis] = value);
+            }
         }
+        Ok(vectors)
+    }
+
+    /// What to tell about columns that are none of `known`.
+    pub(crate) fn unused(&self, known: &[&str]) -> Option<String> {
+        let names = self.table.columns().iter().map(|c| c.name.as_str());
+        let unused: Vec<String> = names.filter(|n| !known.contains(n)).map(|n| format!("'{n}'")).collect();
+        let what = match unused.len() {
+            0 => return None,
+            1 => format!("column {} is not used", unused[0]),
+            _ => format!("columns {} are not used", unused.join(", ")),
+        };
+        Some(format!("{}: {what}; known: {}", self.name, known.join(" ")))
     }
 
     /// The column `radius`, or half of `diameter`; above zero.

@@ -8,6 +8,9 @@ use std::path::Path;
 use stream::mcap::{Event, Reader};
 use stream::{Table, Values};
 
+/// Columns of a CSV or PLY that are read.
+const KNOWN: [&str; 12] = ["id", "x", "y", "z", "radius", "diameter", "vx", "vy", "vz", "wx", "wy", "wz"];
+
 /// Particles of a file. Their materials are indices of `materials`, when the file names its own.
 #[derive(Debug, Clone)]
 pub(crate) struct ParticleFile {
@@ -19,6 +22,8 @@ pub(crate) struct ParticleFile {
     pub materials: Vec<MaterialInfo>,
     /// SHA-256 of the columns.
     pub hash: String,
+    /// Columns that are not used, for the user to know.
+    pub note: Option<String>,
 }
 
 /// Reads particles; the format is told by content.
@@ -28,6 +33,7 @@ pub(crate) struct ParticleFile {
 pub(crate) fn read(path: &Path) -> Result<ParticleFile, SceneError> {
     let name = path.display().to_string();
     let bytes = std::fs::read(path).map_err(|source| SceneError::Read { name: name.clone(), source })?;
+    let run = bytes.starts_with(b"\x89MCAP");
     let (table, materials) = if bytes.starts_with(b"ply") {
         let content = |e: stream::ply::PlyError| SceneError::Content {
             name: name.clone(),
@@ -38,12 +44,14 @@ pub(crate) fn read(path: &Path) -> Result<ParticleFile, SceneError> {
         let vertex = ply.elements.into_iter().find(|e| e.name == "vertex");
         let none = || SceneError::file(&name, "has no element 'vertex'", "give particles as vertices");
         (vertex.ok_or_else(none)?.table, Vec::new())
-    } else if bytes.starts_with(b"\x89MCAP") {
+    } else if run {
         last_frame(&name, &bytes)?
     } else {
         (csv(&name, &bytes)?, Vec::new())
     };
-    from_table(&name, &table, materials)
+    let file = from_table(&name, &table, materials)?;
+    // A run has columns of its own that nobody wrote by hand.
+    Ok(ParticleFile { note: file.note.filter(|_| !run), ..file })
 }
 
 fn from_table(name: &str, table: &Table, materials: Vec<MaterialInfo>) -> Result<ParticleFile, SceneError> {
@@ -67,7 +75,8 @@ fn from_table(name: &str, table: &Table, materials: Vec<MaterialInfo>) -> Result
         spin: spins[i],
     };
     let particles = (0..positions.len()).map(particle).collect();
-    Ok(ParticleFile { particles, has_ids: ids.is_some(), materials, hash: crate::wall_file::hash(table) })
+    let (hash, note) = (crate::wall_file::hash(table), columns.unused(&KNOWN));
+    Ok(ParticleFile { particles, has_ids: ids.is_some(), materials, hash, note })
 }
 
 fn last_frame(name: &str, bytes: &[u8]) -> Result<(Table, Vec<MaterialInfo>), SceneError> {
@@ -143,6 +152,13 @@ mod tests {
             (file.particles[0].id, file.particles[0].position.z, file.particles[0].velocity.x),
             (4, 2.0, 1.0)
         );
+        assert_eq!(file.note, None);
+        let table = csv("pl.csv", b"x,y,z,radius,vz,wy,v_z\n0,1,2,0.5,-3,4,5\n").unwrap();
+        let file = from_table("pl.csv", &table, Vec::new()).unwrap();
+        let (velocity, spin) = (file.particles[0].velocity, file.particles[0].spin);
+        assert_eq!((velocity.x, velocity.z, spin.y, spin.z), (0.0, -3.0, 4.0, 0.0));
+        let note = "pl.csv: column 'v_z' is not used; known: id x y z radius diameter vx vy vz wx wy wz";
+        assert_eq!(file.note.as_deref(), Some(note));
         for (text, part) in
             [("1,2,3", "names is missing"), ("x,y\n1", "line 2: 1 numbers"), ("x\na", "'a' is no number")]
         {

@@ -179,6 +179,7 @@ impl<'a> Draft<'a> {
         for (i, entry) in self.model().particles.iter().enumerate() {
             let file = particle_file::read(&self.path(&entry.source))?;
             self.inputs.push(("particles".to_owned(), file.hash.clone()));
+            self.notes.extend(file.note.clone());
             let key = format!("particles.{i}.material");
             let materials: Vec<u16> = match (&entry.material, &file.materials[..]) {
                 (Some(name), _) => vec![self.grain(&key, name)?.0],
