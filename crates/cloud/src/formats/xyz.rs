@@ -1,6 +1,6 @@
 //! Text: a point a line, as XYZ, PTS, CSV, ASC and TXT exports have it.
 //!
-//! Numbers are separated by blanks, tabs, commas or semicolons. Lines that begin with `#` or `//` are
+//! Numbers are separated by blanks, tabs, commas or semicolons; decimal commas are refused. Lines that begin with `#` or `//` are
 //! comments. A first line of words names the columns. A line that is one whole number promises so many
 //! points (PTS; again in front of each further scan).
 
@@ -47,6 +47,23 @@ fn error(line: usize, what: impl Into<String>, text: &str) -> ReadError {
 fn words(line: &str) -> impl Iterator<Item = &str> {
     // A comma or semicolon with blanks around it is one separator.
     line.split([' ', '\t', ',', ';']).filter(|w| !w.is_empty())
+}
+
+/// Whether a comma is the decimal sign: something else, or a comma with a blank, separates numbers.
+fn decimal_commas(line: &str) -> bool {
+    if !line.contains(',') {
+        return false;
+    }
+    let words = || line.split([' ', '\t']).filter(|w| !w.is_empty());
+    let tight = words().any(|w| w.trim_matches(',').contains(','));
+    let before = words().zip(words().skip(1));
+    let (mut blank, mut comma) = (false, false);
+    before.for_each(|(a, b)| {
+        let touches = a.ends_with(',') || b.starts_with(',');
+        (blank, comma) = (blank || !touches, comma || touches);
+    });
+    // "1.5,2, 3" has points and is only written unevenly.
+    line.contains(';') || (blank && tight) || (comma && tight && !line.contains('.'))
 }
 
 #[derive(Default)]
@@ -98,6 +115,9 @@ impl Rows {
     }
 
     fn point(&mut self, number: usize, line: &str) -> Result<(), ReadError> {
+        if decimal_commas(line) {
+            return Err(error(number, "decimal commas: write numbers with a point", line));
+        }
         let mut values = [0.0; 3];
         let mut width = 0;
         for word in words(line) {
@@ -190,4 +210,23 @@ fn typed(name: &str, column: Vec<f64>) -> Values {
         return Values::U8(column.into_iter().map(|v| v as u8).collect());
     }
     Values::F64(column)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decimal_commas_are_refused() {
+        for line in ["0,5 1,25 2,0", "0,39;0,04;0,1", "0 1,5 2", "0,5, 1,25, 2,0", "0,5\t1,2\t3"] {
+            let message = read(line.as_bytes().to_vec()).unwrap_err().to_string();
+            assert!(
+                message.contains(&format!("line 1: decimal commas: write numbers with a point: '{line}'"))
+            );
+        }
+        for line in ["1, 2, 3", "1,2,3", "1 , 2 , 3", "1.5,2, 3", "1; 2; 3", "1 2 3", "1,2,3,"] {
+            let cloud = read(line.as_bytes().to_vec()).unwrap();
+            assert_eq!((cloud.points.len(), cloud.points[0].z), (1, 3.0), "{line}");
+        }
+    }
 }
