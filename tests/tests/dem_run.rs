@@ -1,6 +1,6 @@
 //! A run is exact, resumes bit for bit, and what stops it leaves a file that can be read.
 
-use grainpipe_tests::tools::{line, succeed, tool};
+use grainpipe_tests::tools::{line, program, succeed, tool};
 use std::fs;
 use std::path::Path;
 use stream::Table;
@@ -262,4 +262,72 @@ fn the_ledger_is_written_and_changes_nothing() {
     assert_eq!(balances.len(), 13);
     let first = balances[0];
     assert!(balances.iter().all(|b| (b - first).abs() < 0.02 * first.abs()), "{balances:?}");
+}
+
+/// Starts a run that takes minutes.
+fn long_run(folder: &Path) -> std::process::Child {
+    let mut command = std::process::Command::new(program("dem-run"));
+    command.current_dir(folder).args(["s.toml", "--until", "1000", "-o", "run.mcap"]);
+    command.args(["--set", "output.every=0.01", "--set", "output.checkpoint=0.01"]);
+    command.stderr(std::process::Stdio::piped()).spawn().unwrap()
+}
+
+/// The hidden file of a run, once it holds some frames and checkpoints.
+fn hidden_file(folder: &Path) -> std::path::PathBuf {
+    let start = std::time::Instant::now();
+    loop {
+        let mut files = fs::read_dir(folder).unwrap().map(|e| e.unwrap().path());
+        let part = files.find(|p| p.extension().is_some_and(|e| e == "part"));
+        if let Some(part) = part.filter(|p| fs::metadata(p).is_ok_and(|m| m.len() > 600_000)) {
+            return part;
+        }
+        assert!(start.elapsed().as_secs() < 60, "the run does not begin");
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+}
+
+fn send(signal: &str, child: &std::process::Child) {
+    let id = child.id().to_string();
+    assert!(std::process::Command::new("kill").args([signal, &id]).status().unwrap().success());
+}
+
+#[test]
+fn a_signal_ends_the_run_with_code_3_and_a_checkpoint_to_go_on_from() {
+    let folder = folder(SCENE);
+    let path = |name: &str| folder.path().join(name);
+    for signal in ["-INT", "-TERM"] {
+        let child = long_run(folder.path());
+        let part = hidden_file(folder.path());
+        send(signal, &child);
+        let done = child.wait_with_output().unwrap();
+        let said = String::from_utf8_lossy(&done.stderr);
+        assert_eq!(done.status.code(), Some(3), "{said}");
+        assert!(said.contains("stopped by a signal at t = ") && said.contains("--resume run.mcap"), "{said}");
+        assert!(events(&path("run.mcap")).1 && !part.exists(), "the file is whole");
+    }
+    let stopped = frames(&path("run.mcap"));
+    let until = (stopped.len() as f64 + 3.5) * 0.01;
+    let (until, every) = (until.to_string(), ["--set", "output.every=0.01"]);
+    let every = [&every[..], &["--set", "output.checkpoint=0.01"]].concat();
+    succeed(
+        folder.path(),
+        "dem-run",
+        &[&["s.toml", "--until", &until, "-o", "whole.mcap"], &every[..]].concat(),
+    );
+    let resume = ["s.toml", "--until", &until, "--resume", "run.mcap", "-o", "rest.mcap"];
+    succeed(folder.path(), "dem-run", &[&resume, &every[..]].concat());
+    let (whole, rest) = (frames(&path("whole.mcap")), frames(&path("rest.mcap")));
+    assert!(whole[..stopped.len()] == stopped[..] && whole[stopped.len()..] == rest[..]);
+}
+
+#[test]
+fn a_killed_run_leaves_a_hidden_file_that_is_resumed() {
+    let folder = folder(SCENE);
+    let child = long_run(folder.path());
+    let part = hidden_file(folder.path());
+    send("-KILL", &child);
+    child.wait_with_output().unwrap();
+    let part = part.file_name().unwrap().to_str().unwrap();
+    succeed(folder.path(), "dem-run", &["s.toml", "--until", "1000", "--check", "--resume", part]);
+    assert!(!checkpoints(&folder.path().join(part)).is_empty());
 }

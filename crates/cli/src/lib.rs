@@ -36,3 +36,4 @@ pub use output::{CloudOutput, Output, OutputStream};
 pub use progress::Progress;
 pub use report::Report;
 pub use run::{Common, Seed, arguments, provenance, quiet, run, warn};
+pub use signals::{stop_in_order, stop_requested};

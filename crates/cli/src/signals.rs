@@ -1,15 +1,38 @@
-//! Ctrl-C and termination: unfinished files are removed, then the signal does what it always does.
+//! Ctrl-C and termination: unfinished files are removed, then the signal does what it always does. A tool that asked
+//! for it is told first, and may end in order; a second signal ends it at once.
 
-use signal_hook::{consts::TERM_SIGNALS, iterator::Signals, low_level::emulate_default_handler};
+use signal_hook::{
+    consts::{SIGINT, SIGTERM, TERM_SIGNALS},
+    iterator::Signals,
+    low_level::emulate_default_handler,
+};
 use std::{
     io,
     path::PathBuf,
-    sync::{Mutex, Once, PoisonError},
+    sync::{
+        Mutex, Once, PoisonError,
+        atomic::{AtomicBool, Ordering::SeqCst},
+    },
 };
 use tempfile::NamedTempFile;
 
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 static LISTEN: Once = Once::new();
+/// Whether the tool ends in order by itself.
+static ORDERLY: AtomicBool = AtomicBool::new(false);
+/// Whether a signal asked it to.
+static STOP: AtomicBool = AtomicBool::new(false);
+
+/// From now on, the first SIGINT or SIGTERM only makes [`stop_requested`] true.
+pub fn stop_in_order() {
+    ORDERLY.store(true, SeqCst);
+    LISTEN.call_once(listen);
+}
+
+/// Whether a signal asked the tool to stop; only after [`stop_in_order`].
+pub fn stop_requested() -> bool {
+    STOP.load(SeqCst)
+}
 
 /// Creates a file that is removed when a signal ends the process. Once renamed, it is no longer there to be
 /// removed. A signal that arrives during the creation waits for it.
@@ -28,6 +51,10 @@ fn listen() {
     let Ok(mut signals) = Signals::new(TERM_SIGNALS) else { return };
     std::thread::spawn(move || {
         for signal in signals.forever() {
+            let polite = signal == SIGINT || signal == SIGTERM;
+            if polite && ORDERLY.load(SeqCst) && !STOP.swap(true, SeqCst) {
+                continue;
+            }
             let unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
             for path in unfinished.iter() {
                 let _ = std::fs::remove_file(path);

@@ -30,6 +30,9 @@ pub const LOG: &str = "/log";
 /// Metadata record with the outlets of a run.
 pub const OUTLETS: &str = "outlets";
 
+/// Why a run was stopped that [`Settings::stop`] ended.
+pub const SIGNAL: &str = "by a signal";
+
 const FRAME: &str = "world";
 
 /// Why a run failed.
@@ -49,7 +52,7 @@ pub enum RunError {
 /// What was done.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Outcome {
-    /// Why a guard stopped the run.
+    /// Why the run was stopped: what a guard says, or [`SIGNAL`].
     pub stopped: Option<String>,
     /// Time reached [s].
     pub time: f64,
@@ -73,6 +76,8 @@ pub struct Settings {
     pub provenance: Provenance,
     /// How chunks are packed.
     pub compression: Compression,
+    /// Asked between steps: whether the run is to end here, with a checkpoint.
+    pub stop: fn() -> bool,
 }
 
 /// Refuses what would only be refused after the output was opened.
@@ -110,7 +115,7 @@ struct Run<W: Write> {
     outcome: Outcome,
 }
 
-/// Runs a scene to its end, or until a guard stops it, and gives the output back.
+/// Runs a scene to its end, or until a guard or a request stops it, and gives the output back.
 ///
 /// `progress` hears the share that is done.
 ///
@@ -124,12 +129,13 @@ pub fn run<W: Write>(
     settings: Settings,
     progress: &mut dyn FnMut(f64),
 ) -> Result<(Outcome, W), RunError> {
+    let stop = settings.stop;
     let mut run = Run::start(scene, plan, resume, out, settings)?;
     let first = run.sim.steps();
-    let halt = loop {
+    let reason = loop {
         let step = run.sim.steps();
         if let Err(halt) = run.look(step, first)? {
-            break Some(halt);
+            break Some(halt.to_string());
         }
         if step >= run.schedule.last {
             break None;
@@ -137,15 +143,23 @@ pub fn run<W: Write>(
         if step % 256 == 0 {
             progress((step - first) as f64 / (run.schedule.last - first) as f64);
         }
-        run.feed()?;
+        // After the frame: a run that is resumed does not write it again.
+        if stop() {
+            break Some(SIGNAL.to_owned());
+        }
+        match run.feed() {
+            // The signal also ended what feeds this run; what had come in is in the checkpoint.
+            Err(_) if stop() => break Some(SIGNAL.to_owned()),
+            other => other?,
+        }
         let outcome = run.sim.step();
         run.crossings.append(&mut run.sim.take_crossings());
         if let Err(halt) = outcome {
-            break Some(halt);
+            break Some(halt.to_string());
         }
     };
-    if let Some(halt) = halt {
-        run.stop(&halt)?;
+    if let Some(reason) = reason {
+        run.stop(reason)?;
     }
     run.outcome.steps = run.sim.steps() - first;
     run.outcome.time = run.sim.time();
@@ -320,12 +334,12 @@ impl<W: Write> Run<W> {
         Ok(pieces.finish()?)
     }
 
-    /// A guard stopped the run: the file says why, and ends in a checkpoint.
-    fn stop(&mut self, halt: &Halt) -> Result<(), RunError> {
+    /// The run is stopped: the file says why, and ends in a checkpoint.
+    fn stop(&mut self, reason: String) -> Result<(), RunError> {
         self.write_crossings()?;
-        self.log("stopped", &halt.to_string())?;
+        self.log("stopped", &reason)?;
         self.write_checkpoint()?;
-        self.outcome.stopped = Some(halt.to_string());
+        self.outcome.stopped = Some(reason);
         Ok(())
     }
 }

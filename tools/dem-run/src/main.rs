@@ -3,7 +3,7 @@
 use anyhow::Context;
 use clap::Parser;
 use cli::{Output, Report, Source, Stopped};
-use scene::run::{RunError, Settings, run};
+use scene::run::{RunError, SIGNAL, Settings, run};
 use scene::{Checkpoint, Input, Plan, Scene};
 use std::path::Path;
 use std::process::ExitCode;
@@ -97,7 +97,9 @@ fn explain(args: &Args, scene: &Scene, plan: Plan) -> anyhow::Result<Report> {
 fn simulate(args: &Args, scene: &Scene, plan: Plan, resume: Option<Checkpoint>) -> anyhow::Result<Report> {
     let out = args.output.open()?;
     let compression = if out.is_stream() { Compression::None } else { Compression::Zstd };
-    let settings = Settings { provenance: cli::provenance(plan.inputs.clone()), compression };
+    let settings =
+        Settings { provenance: cli::provenance(plan.inputs.clone()), compression, stop: cli::stop_requested };
+    cli::stop_in_order();
     let bar = cli::Progress::new("run", 1000);
     let (outcome, out) =
         run(scene, plan, resume, out, settings, &mut |share| bar.set((1000.0 * share) as u64))
@@ -110,6 +112,13 @@ fn simulate(args: &Args, scene: &Scene, plan: Plan, resume: Option<Checkpoint>) 
     );
     let report = Report::new(summary).with_all(&outcome);
     match outcome.stopped {
+        Some(reason) if reason == SIGNAL => {
+            let time = geom::Shown(outcome.time);
+            let file =
+                args.output.path().map_or_else(|| "FILE".to_owned(), |path| path.display().to_string());
+            let reason = format!("stopped {reason} at t = {time} s; go on with --resume {file}");
+            Err(Stopped::error(reason, Some(report)))
+        }
         Some(reason) => Err(Stopped::error(format!("stopped by a guard: {reason}"), Some(report))),
         None => Ok(report),
     }
