@@ -9,6 +9,9 @@ use serde::Serialize;
 /// Wall sphere diameter over smallest particle diameter below which spheres cost more than they give [–].
 const PRACTICAL: f64 = 0.8;
 
+/// Median wall sphere radius over smallest particle diameter above which a unit is likely wrong [–].
+const FAR_LARGER: f64 = 20.0;
+
 /// A length that is too large by less than this factor is meant to be equal.
 const ROUNDED: f64 = 1.0 + 1e-9;
 
@@ -82,6 +85,7 @@ pub fn build(points: &[Vec3], regions: &Regions, wish: &Wish) -> Result<(Wall, W
         warnings: Vec::new(),
     };
     if let Some(particle) = wish.smallest_particle {
+        check_sizes(&mut report, particle, points, &radii)?;
         check_particle(&mut report, particle, &centres, &radii, &stars);
     }
     Ok((Wall { centres, radii, regions: region_of }, report))
@@ -181,6 +185,31 @@ fn place(points: &[Vec3], stars: &Stars, radii: &[f64], wish: &Wish) -> Result<V
     let facing = wish.facing.ok_or(WallError::NoFacing)?;
     let normals = normals::oriented(&stars.normals, &stars.pairs, facing);
     Ok(points.iter().zip(&normals).zip(radii).map(|((p, n), r)| p - n * *r).collect())
+}
+
+/// Refuses spheres larger than the cloud; warns of those far larger than the smallest particle [m].
+fn check_sizes(
+    report: &mut WallReport,
+    particle: f64,
+    points: &[Vec3],
+    radii: &[f64],
+) -> Result<(), WallError> {
+    let (low, high) = points.iter().fold((points[0], points[0]), |(a, b), p| (a.inf(p), b.sup(p)));
+    let (width, radius) = ((high - low).max(), report.radius_range[2]);
+    if radius > width {
+        return Err(WallError::LargerThanCloud { radius, width });
+    }
+    let median = representative(radii, Representative::Median);
+    if median > FAR_LARGER * particle {
+        report.warnings.push(format!(
+            "wall spheres of radius {} m (median) are far larger than the smallest particle ({} m), \
+             and the cloud is {} m wide: is it in millimetres? If not, use a smaller spacing or more roughness",
+            Shown(median),
+            Shown(particle),
+            Shown(width)
+        ));
+    }
+    Ok(())
 }
 
 fn check_particle(report: &mut WallReport, particle: f64, centres: &[Vec3], radii: &[f64], stars: &Stars) {

@@ -109,6 +109,12 @@ pub enum WallError {
     BadFacing { x: f64, y: f64, z: f64 },
     #[error("smallest particle {0} m: must be a positive diameter")]
     BadParticle(f64),
+    #[error(
+        "wall spheres of radius {} m are larger than the whole cloud: the cloud is {} m wide: is it in millimetres? \
+         Give all lengths in metres",
+        Shown(*radius), Shown(*width)
+    )]
+    LargerThanCloud { radius: f64, width: f64 },
     #[error("no point has a neighbour within {} m: a wall needs points of about equal spacing", Shown(*reach))]
     NoPairs { reach: f64 },
     #[error(transparent)]
