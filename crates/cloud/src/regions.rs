@@ -94,6 +94,9 @@ fn beside(shape: &str, folder: &Path) -> String {
 
 fn load_mesh(file: &str) -> Result<TriMesh, String> {
     let bytes = std::fs::read(file).map_err(|e| format!("cannot read the mesh: {e}"))?;
+    if !bytes.starts_with(b"ply") {
+        return Err(format!("{file}: is no PLY file: convert it"));
+    }
     crate::read_mesh(&mut bytes.as_slice()).map_err(|e| {
         let cause = std::error::Error::source(&e).map(|c| format!(": {c}")).unwrap_or_default();
         format!("{e}{cause}")

@@ -15,6 +15,7 @@ fn main() -> ExitCode {
 }
 
 fn bluenoise_sample(args: Args) -> anyhow::Result<Report> {
+    check_ending(&args.output.to)?;
     let wish = args.wish()?;
     if let Some(plot) = &args.plot {
         sampling::plot::check_name(&plot.to_string_lossy())
@@ -25,6 +26,7 @@ fn bluenoise_sample(args: Args) -> anyhow::Result<Report> {
     let forced = args.forced(&cloud);
     let chosen = sample(&cloud.points, forced.as_deref(), &wish).with_context(|| args.input.name())?;
     let kept = cloud.select(&chosen.kept);
+    warn(&wish.amount, cloud.points.len(), kept.points.len(), chosen.spacing);
     args.output.write_cloud(&kept)?;
     let mut report = Report::new(format!(
         "{} of {} points, spacing {} m",
@@ -49,9 +51,36 @@ fn bluenoise_sample(args: Args) -> anyhow::Result<Report> {
     Ok(report)
 }
 
+/// Says when a spacing [m] or a density does not fit the cloud, as with a scan in millimetres.
+fn warn(amount: &Amount, before: usize, after: usize, spacing: f64) {
+    if matches!(amount, Amount::Count(_)) || before < 4 {
+        return;
+    }
+    let spacing = geom::Shown(spacing);
+    if after == before {
+        cli::warn(&format!(
+            "all {before} points were kept: the spacing {spacing} m is below the cloud's own; is the cloud in metres?"
+        ));
+    } else if after < 4 {
+        cli::warn(&format!(
+            "{after} of {before} points were kept: the spacing {spacing} m is about as wide as the cloud; \
+             is the cloud in metres?"
+        ));
+    }
+}
+
 /// Writes a picture so that it appears when it is whole.
 fn write_picture(path: &std::path::Path, bytes: &[u8]) -> anyhow::Result<()> {
     let mut out = cli::OutputStream::file(path)?;
     out.write_all(bytes).with_context(|| path.display().to_string())?;
     out.commit()
+}
+
+/// Refuses a name that promises another format than PLY.
+fn check_ending(output: &cli::Output) -> anyhow::Result<()> {
+    let ending = output.path().and_then(std::path::Path::extension);
+    if ending.is_none() || output.has_extension("ply") {
+        return Ok(());
+    }
+    Err(cli::usage(format!("-o {}: only PLY is written: use a name in .ply", output.name())))
 }

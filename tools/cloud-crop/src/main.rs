@@ -43,6 +43,7 @@ fn main() -> ExitCode {
 }
 
 fn crop(args: Args) -> anyhow::Result<Report> {
+    check_ending(&args.output.to)?;
     let mut rules =
         Rules { keep: args.keep, remove: args.remove, outliers: args.outliers, largest: args.largest };
     if let Some(file) = &args.regions {
@@ -69,4 +70,13 @@ fn positive(text: &str) -> Result<f64, String> {
         Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
         _ => Err("give a length above 0 in metres".into()),
     }
+}
+
+/// Refuses a name that promises another format than PLY.
+fn check_ending(output: &cli::Output) -> anyhow::Result<()> {
+    let ending = output.path().and_then(std::path::Path::extension);
+    if ending.is_none() || output.has_extension("ply") {
+        return Ok(());
+    }
+    Err(cli::usage(format!("-o {}: only PLY is written: use a name in .ply", output.name())))
 }

@@ -52,6 +52,7 @@ fn main() -> ExitCode {
 }
 
 fn fill(args: Args) -> anyhow::Result<Report> {
+    check_ending(&args.output.to)?;
     let mut balls = args.ball;
     balls.sort_by(f64::total_cmp);
     let settings = Settings {
@@ -105,4 +106,13 @@ fn positive(text: &str) -> Result<f64, String> {
         Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
         _ => Err("give a number above 0".into()),
     }
+}
+
+/// Refuses a name that promises another format than PLY.
+fn check_ending(output: &cli::Output) -> anyhow::Result<()> {
+    let ending = output.path().and_then(std::path::Path::extension);
+    if ending.is_none() || output.has_extension("ply") {
+        return Ok(());
+    }
+    Err(cli::usage(format!("-o {}: only PLY is written: use a name in .ply", output.name())))
 }

@@ -110,6 +110,7 @@ impl Args {
             friction: self.friction,
             restitution: self.restitution,
         };
+        self.check_length()?;
         let Some(path) = self.regions_file() else {
             let roughness = self.roughness.as_deref().map(|text| text.parse::<f64>()).transpose();
             let roughness =
@@ -120,8 +121,11 @@ impl Args {
         let text =
             std::fs::read_to_string(path).with_context(|| format!("{}: cannot read", path.display()))?;
         let load = |name: &str| {
-            let file = std::fs::File::open(name).map_err(|e| e.to_string())?;
-            cloud::read_mesh(&mut std::io::BufReader::new(file)).map_err(|e| e.to_string())
+            let bytes = std::fs::read(name).map_err(|e| format!("cannot read the mesh: {e}"))?;
+            if !bytes.starts_with(b"ply") {
+                return Err(format!("{name}: is no PLY file: convert it"));
+            }
+            cloud::read_mesh(&mut bytes.as_slice()).map_err(|e| e.to_string())
         };
         Regions::parse(&text, material, self.velocity, &load).with_context(|| path.display().to_string())
     }
@@ -131,6 +135,17 @@ impl Args {
         let Some(path) = self.regions_file() else { return Ok(None) };
         let bytes = std::fs::read(path).with_context(|| format!("{}: cannot read", path.display()))?;
         Ok(Some(("roughness".to_owned(), stream::sha256(&bytes))))
+    }
+
+    /// Refuses a length with a unit behind it, which is no file's name either.
+    fn check_length(&self) -> anyhow::Result<()> {
+        let Some(path) = self.regions_file().filter(|path| !path.exists()) else { return Ok(()) };
+        let text = path.to_string_lossy();
+        let unit = text.trim_start_matches(|c: char| c.is_ascii_digit() || "+-.,".contains(c)).trim();
+        if matches!(unit, "" | "m" | "mm" | "cm" | "um" | "µm" | "in") {
+            return Err(cli::usage(format!("--roughness {text}: is no number of metres and no file")));
+        }
+        Ok(())
     }
 
     /// A roughness that is no number is a file.

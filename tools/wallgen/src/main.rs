@@ -15,6 +15,7 @@ fn main() -> ExitCode {
 }
 
 fn wallgen(args: Args) -> anyhow::Result<Report> {
+    check_ending(&args.output.to)?;
     let wish = args.wish()?;
     let regions = args.regions()?;
     let (cloud, hash) = args.input.read_cloud_hashed()?;
@@ -70,4 +71,16 @@ fn summary(report: &WallReport, wish: &Wish) -> Report {
         "{spheres} wall spheres of radius {mean} m, spacing {spacing} m, \
          dents {low} to {high} m (mean {middle}){asked}{apart}"
     ))
+}
+
+/// Refuses a name that promises another format than MCAP or PLY.
+fn check_ending(output: &cli::Output) -> anyhow::Result<()> {
+    let ending = output.path().and_then(std::path::Path::extension);
+    if ending.is_none() || output.has_extension("mcap") || output.has_extension("ply") {
+        return Ok(());
+    }
+    Err(cli::usage(format!(
+        "-o {}: only MCAP and PLY are written: use a name in .mcap or .ply",
+        output.name()
+    )))
 }
