@@ -44,10 +44,14 @@ pub fn split(scene: &Scene, cut: &Cut) -> Result<(String, Vec<String>), SceneErr
     let cutting = Cutting { scene, cut, largest: largest(scene)? };
     cutting.check_length()?;
     let mut document = scene.text.document()?;
-    let mut gone = Vec::new();
-    cutting.sources(&mut document, &mut gone)?;
-    cutting.zones(&mut document, &mut gone)?;
-    cutting.walls(&mut document, &mut gone);
+    let mut found = Found::default();
+    cutting.sources(&mut document, &mut found)?;
+    cutting.zones(&mut document, &mut found)?;
+    if !found.upstream {
+        let why = "no grains start upstream of the plane: does its normal point with the flow?";
+        return Err(SceneError::file(&scene.text.name, why, "turn the plane or move it"));
+    }
+    cutting.walls(&mut document, &mut found);
     cutting.rebase(&mut document);
     let (kind, word) = match cut.keep {
         Stage::Upstream => ("outlet", "upstream"),
@@ -67,7 +71,7 @@ pub fn split(scene: &Scene, cut: &Cut) -> Result<(String, Vec<String>), SceneErr
             return Err(SceneError::file(&scene.text.name, why, format!("write it as [[{kind}]]")));
         }
     }
-    Ok((document.to_string(), gone))
+    Ok((document.to_string(), found.names()))
 }
 
 /// Largest diameter that the scene itself tells [m]; 0 when its particles come from an inlet alone.
@@ -80,6 +84,28 @@ fn largest(scene: &Scene) -> Result<f64, SceneError> {
         largest = file.particles.iter().map(|p| 2.0 * p.radius).fold(largest, f64::max);
     }
     Ok(largest)
+}
+
+/// What the cut finds in a scene.
+#[derive(Default)]
+struct Found {
+    /// What is left out, each with its place in the text.
+    gone: Vec<(Option<isize>, String)>,
+    /// Whether grains start, or come in, upstream of the plane.
+    upstream: bool,
+}
+
+impl Found {
+    /// What is left out, in the order of the scene.
+    fn names(mut self) -> Vec<String> {
+        self.gone.sort_by_key(|(place, _)| *place);
+        self.gone.into_iter().map(|(_, name)| name).collect()
+    }
+}
+
+/// A wall as its author calls it.
+fn wall_name(index: usize, wall: &Wall) -> String {
+    wall.name.as_ref().map_or_else(|| format!("wall.{index}"), |name| format!("wall '{name}'"))
 }
 
 struct Cutting<'a> {
@@ -149,7 +175,7 @@ impl Cutting<'_> {
     }
 
     /// Fills, inserts and particle files of the other stage.
-    fn sources(&self, document: &mut DocumentMut, gone: &mut Vec<String>) -> Result<(), SceneError> {
+    fn sources(&self, document: &mut DocumentMut, found: &mut Found) -> Result<(), SceneError> {
         let m = &self.scene.model;
         let mut kept = 0;
         let shapes = [
@@ -159,20 +185,24 @@ impl Cutting<'_> {
         for (key, shapes) in shapes {
             for (i, shape) in shapes.iter().enumerate().rev() {
                 let name = format!("{key}.{i}");
-                if self.keeps(&name, self.of_shape(&name, shape)?)? {
+                let range = self.of_shape(&name, shape)?;
+                found.upstream |= range.1 <= 0.0;
+                if self.keeps(&name, range)? {
                     kept += 1;
                 } else {
-                    remove(document, key, i, name, gone);
+                    remove(document, key, i, name, found);
                 }
             }
         }
         for (i, entry) in m.particles.iter().enumerate().rev() {
             let name = format!("particles.{i}");
             let file = particle_file::read(&self.scene.folder.join(&entry.source))?;
-            if self.keeps(&name, self.of_points(file.particles.iter().map(|p| (p.position, 0.0))))? {
+            let range = self.of_points(file.particles.iter().map(|p| (p.position, 0.0)));
+            found.upstream |= range.1 <= 0.0;
+            if self.keeps(&name, range)? {
                 kept += 1;
             } else {
-                remove(document, "particles", i, name, gone);
+                remove(document, "particles", i, name, found);
             }
         }
         if kept > 0 && self.cut.keep == Stage::Downstream && m.first_id == 0 {
@@ -182,7 +212,7 @@ impl Cutting<'_> {
     }
 
     /// Zones that are there already stay with the stage they lie in.
-    fn zones(&self, document: &mut DocumentMut, gone: &mut Vec<String>) -> Result<(), SceneError> {
+    fn zones(&self, document: &mut DocumentMut, found: &mut Found) -> Result<(), SceneError> {
         let m = &self.scene.model;
         let outlets = m.outlet.iter().map(|o| ("outlet", &o.plane)).enumerate().rev();
         let inlets = m.inlet.iter().map(|o| ("inlet", &o.plane)).enumerate().rev();
@@ -193,15 +223,16 @@ impl Cutting<'_> {
             };
             let plane: Plane = plane.parse().map_err(wrong)?;
             let distance = self.cut.plane.signed_distance(&plane.point);
+            found.upstream |= key == "inlet" && distance <= 0.0;
             if !self.keeps(&name, (distance, distance))? {
-                remove(document, key, i, name, gone);
+                remove(document, key, i, name, found);
             }
         }
         Ok(())
     }
 
     /// Walls at rest that no particle of the stage can reach.
-    fn walls(&self, document: &mut DocumentMut, gone: &mut Vec<String>) {
+    fn walls(&self, document: &mut DocumentMut, found: &mut Found) {
         for (i, wall) in self.scene.model.wall.iter().enumerate().rev() {
             let Some(range) = self.of_wall(wall).filter(|_| wall.motion.is_none()) else { continue };
             let reach = self.largest / 2.0;
@@ -210,7 +241,7 @@ impl Cutting<'_> {
                 Stage::Downstream => range.1 < -reach,
             };
             if self.largest > 0.0 && unreachable {
-                remove(document, "wall", i, format!("wall.{i}"), gone);
+                remove(document, "wall", i, wall_name(i, wall), found);
             }
         }
     }
@@ -253,10 +284,11 @@ impl Cutting<'_> {
     }
 }
 
-fn remove(document: &mut DocumentMut, key: &str, index: usize, name: String, gone: &mut Vec<String>) {
+fn remove(document: &mut DocumentMut, key: &str, index: usize, name: String, found: &mut Found) {
     if let Some(tables) = document.get_mut(key).and_then(Item::as_array_of_tables_mut) {
+        let place = tables.get(index).and_then(Table::position);
         tables.remove(index);
-        gone.push(name);
+        found.gone.push((place, name));
         if tables.is_empty() {
             document.remove(key);
         }
@@ -348,6 +380,32 @@ material = "m"
         assert!(message.contains("fill.0 lies on both sides"), "{message}");
         let message = cut(Stage::Upstream, "0,0,0,0,0,-1", Some(0.1)).unwrap_err().to_string();
         assert!(message.contains("--length 0.1 m is not above the largest diameter, 0.1 m"), "{message}");
+    }
+
+    #[test]
+    fn what_is_left_out_is_named_in_the_order_of_the_scene() {
+        let folder = std::env::temp_dir().join(format!("split-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n\
+            property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n\
+            0 0 -2\n1 0 -2\n0 1 -2\n3 0 1 2\n";
+        std::fs::write(folder.join("a.ply"), ply).unwrap();
+        let wall = |name: &str| format!("[[wall]]\n{name}mesh = \"a.ply\"\nmaterial = \"m\"\n");
+        let walls = [wall("name = \"chute\"\n"), wall(""), wall("name = \"lip\"\n")].concat();
+        let scene = Scene::new("p.toml", format!("{PLANT}{walls}"), &[], &folder).unwrap();
+        let plane = "0,0,0,0,0,-1".parse().unwrap();
+        let at = Cut { plane, keep: Stage::Upstream, length: None, folder: folder.clone() };
+        let (_, gone) = split(&scene, &at).unwrap();
+        std::fs::remove_dir_all(&folder).unwrap();
+        assert_eq!(gone, ["fill.1", "wall 'chute'", "wall.2", "wall 'lip'"]);
+    }
+
+    #[test]
+    fn a_plane_that_looks_the_wrong_way_is_refused() {
+        for keep in [Stage::Upstream, Stage::Downstream] {
+            let message = cut(keep, "0,0,5,0,0,-1", None).unwrap_err().to_string();
+            assert!(message.contains("no grains start upstream of the plane: does its normal"), "{message}");
+        }
     }
 
     #[test]
