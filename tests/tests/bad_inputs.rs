@@ -18,7 +18,11 @@ fn check(folder: &Path, cases: &[Case]) {
 /// Why a case is not refused as it should be.
 fn outcome(folder: &Path, &(line, code, parts): &Case) -> Result<(), String> {
     let before = names(folder);
-    let output = if line.starts_with("dem-view") { "out.png" } else { "out.mcap" };
+    let output = match line.split(['-', ' ']).next() {
+        Some("cloud" | "bluenoise") => "out.ply",
+        _ if line.starts_with("dem-view") => "out.png",
+        _ => "out.mcap",
+    };
     let (to_file, to_stdout) = (run(folder, line, &["-o", output]), run(folder, line, &[]));
     let said = to_file.stderr.trim_end();
     // Shown by --nocapture: the messages are to be read, too.
@@ -125,6 +129,10 @@ fn clouds() -> TempDir {
     write("line.xyz", on_line.as_bytes());
     write("nan.xyz", [surface(), "nan 0 0\n".to_owned()].concat().as_bytes());
     write("far.xyz", [surface(), "1e300 0 0\n".to_owned()].concat().as_bytes());
+    write("comma.xyz", b"0,5 1,25 2,0\n");
+    let wide: String = (0..400).map(|k| format!("{} {} 0\n", k % 20, k / 20)).collect();
+    write("mm.xyz", wide.as_bytes());
+    write("mesh.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     write("word.xyz", b"1 2 3\n1 2 three\n");
     write("row.xyz", b"1 2 3\n4 5\n");
     write("empty.xyz", b"");
@@ -167,6 +175,11 @@ fn clouds_that_are_damaged_or_no_clouds() {
             ("cloud-crop cut.e57", 1, &["cut.e57", "E57", "cut off"]),
             ("cloud-crop cut.pcd", 1, &["cut.pcd", "PCD", "point 2", "cut off"]),
             ("cloud-crop row.xyz", 1, &["row.xyz", "line 2"]),
+            (
+                "cloud-crop comma.xyz",
+                1,
+                &["comma.xyz", "line 1", "decimal commas: write numbers with a point", "0,5 1,25 2,0"],
+            ),
             ("cloud-crop word.xyz", 1, &["word.xyz", "line 2", "three"]),
             ("cloud-crop text.ply", 1, &["text.ply", "line 9", "row 1", "'y'", "'o'"]),
             ("cloud-crop no-z.ply", 1, &["no-z.ply", "no 'z'"]),
@@ -206,6 +219,11 @@ fn clouds_that_cannot_become_a_wall_or_a_sample() {
                 1,
                 &["same.xyz", "50 points", "same place", "bluenoise-sample"],
             ),
+            (
+                "wallgen mm.xyz --roughness 0.0001 --smallest-particle 0.01",
+                1,
+                &["mm.xyz", "the cloud is 19 m wide: is it in millimetres?"],
+            ),
             ("wallgen nan.xyz --roughness 0.001", 1, &["nan.xyz", "point 400", "not finite"]),
             ("wallgen line.xyz --roughness 0.02", 1, &["roughness 0.02 m", "half", "0.01 m"]),
             ("wallgen good.ply --roughness 0.006", 1, &["good.ply", "roughness 0.006 m", "half", "0.01 m"]),
@@ -227,6 +245,12 @@ fn options_that_cannot_be_meant() {
             ("cloud-crop good.ply --remove halfspace:0,0,0,0,0,0", 2, &["--remove", "normal"]),
             ("cloud-crop good.ply --keep sphere:0,0,0,-1", 2, &["radius -1 m", "positive"]),
             ("cloud-crop good.ply --keep mesh:missing.ply", 2, &["missing.ply", "cannot read"]),
+            ("cloud-crop good.ply --keep mesh:mesh.obj", 2, &["mesh.obj: is no PLY file: convert it"]),
+            (
+                "wallgen good.ply --roughness 0.002mm",
+                2,
+                &["--roughness 0.002mm: is no number of metres and no file"],
+            ),
             ("cloud-crop good.ply --kep sphere:0,0,0,1", 2, &["--kep", "--keep"]),
             ("cloud-crop good.ply --largest -1", 2, &["--largest"]),
             ("cloud-crop good.ply --threads 0", 2, &["--threads"]),
@@ -281,6 +305,10 @@ fn options_that_cannot_be_meant() {
         ],
     );
     for (line, part) in [
+        ("cloud-crop good.ply -o a.las", "-o a.las: only PLY"),
+        ("cloud-fill good.ply -o a.csv", "-o a.csv: only PLY"),
+        ("bluenoise-sample good.ply --spacing 0.02 -o a.xyz", "-o a.xyz: only PLY"),
+        ("wallgen good.ply --roughness 0.002 -o a.las", "-o a.las: only MCAP and PLY"),
         ("dem-view good.ply -o a.gif", "not available yet"),
         ("dem-view good.ply -o a.xyz", ".html"),
         ("dem-view good.ply -o a", ".html"),
@@ -296,6 +324,19 @@ fn options_that_cannot_be_meant() {
         let done = run(folder.path(), line, &[]);
         assert!(done.code == 1 && done.stderr.contains("folder"), "{line}: {}", done.stderr);
         println!("{line}\n    {}", done.stderr);
+    }
+}
+
+#[test]
+fn lengths_of_another_unit_are_told() {
+    let folder = clouds();
+    for (line, part) in [
+        ("wallgen mm.xyz --roughness 0.05 --smallest-particle 0.01", "far larger than the smallest particle"),
+        ("bluenoise-sample mm.xyz --spacing 0.01", "all 400 points were kept"),
+        ("bluenoise-sample good.ply --spacing 10", "1 of 400 points were kept"),
+    ] {
+        let done = run(folder.path(), line, &[]);
+        assert!(done.code == 0 && done.stderr.contains(part), "{line}: {}", done.stderr);
     }
 }
 
@@ -438,6 +479,11 @@ fn stages_and_resumed_runs_that_do_not_fit() {
                 "stage-split plant.toml --at 0,0,0,0,0,-1 --keep upstream --length 0.01",
                 1,
                 &["--length 0.01 m", "largest diameter", "at least 0.0144 m"],
+            ),
+            (
+                "stage-split plant.toml --at 0,0,0.1,0,0,-1 --keep upstream",
+                1,
+                &["no grains start upstream of the plane: does its normal point with the flow?"],
             ),
             ("stage-split plant.toml --at 0,0,0.04,0,0,-1 --keep upstream", 1, &["fill.0", "both sides"]),
             (
