@@ -331,3 +331,74 @@ fn a_killed_run_leaves_a_hidden_file_that_is_resumed() {
     succeed(folder.path(), "dem-run", &["s.toml", "--until", "1000", "--check", "--resume", part]);
     assert!(!checkpoints(&folder.path().join(part)).is_empty());
 }
+
+/// Exit code and words of a line that must be refused, and that it leaves no `x.mcap`.
+fn refused(folder: &Path, words: &str, code: i32, parts: &[&str]) {
+    let done = line(folder, words);
+    let said = parts.iter().all(|part| done.stderr.contains(part));
+    assert!(done.code == code && said, "{words}: {}: {}", done.code, done.stderr);
+    assert!(!folder.join("x.mcap").exists(), "{words}");
+}
+
+#[test]
+fn a_run_that_was_stopped_gives_no_stage_downstream_that_looks_whole() {
+    let outlet = "[[outlet]]\nplane = \"0,0,-0.05,0,0,-1\"\nlength = 0.03\n";
+    // A slope that only the outermost grains meet before they pass the outlet.
+    let slope = "plane = \"0.04,0,-0.046,-1,0,1\"";
+    let falling = SCENE.replace("plane = \"0,0,0,0,0,1\"", slope) + outlet;
+    let folder = folder(&falling.replace("until = 0.12", "until = 0.4"));
+    let strict = "dem-run s.toml --set guards.overlap=0.001";
+    assert_eq!(line(folder.path(), &format!("{strict} -o up.mcap")).code, 3);
+    let why = ["up.mcap: the run was stopped at t = 1.1", "guards.overlap", "--until"];
+    refused(folder.path(), "stage-replay up.mcap -o x.mcap", 1, &why);
+    let passed = line(folder.path(), "stage-replay up.mcap").stdout;
+    let events: Vec<_> = Reader::new(&passed[..]).collect();
+    assert!(events.iter().any(|e| matches!(e, Ok(Event::Points { .. }))), "what was recorded is passed on");
+    assert!(events.iter().any(|e| e.is_err()), "and has no end");
+    succeed(folder.path(), "stage-replay", &["up.mcap", "--until", "0.11", "-o", "early.mcap"]);
+}
+
+#[test]
+fn an_output_that_is_also_an_input_is_refused() {
+    let folder = folder(SCENE);
+    let also = ["-o s.toml is also an input: choose another name"];
+    refused(folder.path(), "dem-run s.toml -o s.toml", 2, &also);
+    refused(folder.path(), "dem-run ./s.toml --check -o s.toml", 2, &also);
+    fs::write(folder.path().join("a.xyz"), "0 0 0\n1 0 0\n0 1 0\n").unwrap();
+    std::os::unix::fs::symlink("a.xyz", folder.path().join("b.xyz")).unwrap();
+    refused(folder.path(), "cloud-crop a.xyz -o b.xyz", 2, &["-o b.xyz is also an input"]);
+    assert_eq!(fs::read_to_string(folder.path().join("s.toml")).unwrap(), SCENE);
+}
+
+#[test]
+fn an_input_that_is_given_twice_or_that_nothing_waits_for_is_refused() {
+    let scene = SCENE.replace("plane = \"0,0,0,0,0,1\"\nmaterial = \"sinter\"", "");
+    let folder = folder(&scene);
+    write_walls(&folder.path().join("fl.mcap"));
+    refused(folder.path(), "dem-run s.toml fl.mcap fl.mcap -o x.mcap", 1, &["fl.mcap: is given twice"]);
+    refused(folder.path(), "cat fl.mcap | dem-run s.toml fl.mcap - -o x.mcap", 1, &["stdin: is given twice"]);
+    fs::copy(folder.path().join("fl.mcap"), folder.path().join("copy.mcap")).unwrap();
+    refused(folder.path(), "dem-run s.toml fl.mcap copy.mcap -o x.mcap", 1, &["copy.mcap: is given twice"]);
+    let outlet = "[[outlet]]\nplane = \"0,0,-0.05,0,0,-1\"\nlength = 0.03\n";
+    let up = SCENE.replace("plane = \"0,0,0,0,0,1\"", "plane = \"0,0,-9,0,0,1\"") + outlet;
+    let up = up.replace("until = 0.12", "until = 0.2");
+    fs::write(folder.path().join("up.toml"), up).unwrap();
+    succeed(folder.path(), "dem-run", &["up.toml", "-o", "up.mcap"]);
+    succeed(folder.path(), "stage-replay", &["up.mcap", "-o", "in.mcap"]);
+    succeed(folder.path(), "stage-replay", &["up.mcap", "--until", "0.15", "-o", "in2.mcap"]);
+    refused(folder.path(), "dem-run up.toml in.mcap -o x.mcap", 1, &["in.mcap: the scene has no [[inlet]]"]);
+    let down = &SCENE[..SCENE.find("[[fill]]").unwrap()];
+    let down = format!("{down}[[inlet]]\nplane = \"0,0,-0.05,0,0,-1\"\n");
+    fs::write(folder.path().join("down.toml"), down).unwrap();
+    let both = ["in2.mcap: 2 inlets are given, and 1 [[inlet]]"];
+    refused(folder.path(), "dem-run down.toml in.mcap in2.mcap -o x.mcap", 1, &both);
+}
+
+#[test]
+fn a_grain_that_starts_in_a_wall_is_refused_before_the_run() {
+    let folder = folder(&SCENE.replace("plane = \"0,0,0,0,0,1\"", "plane = \"0,0,0.003,0,0,1\""));
+    let inside = ["s.toml: particle ", " starts inside wall '", "(overlap ", "m): move it"];
+    refused(folder.path(), "dem-run s.toml -o x.mcap", 1, &inside);
+    refused(folder.path(), "dem-run s.toml --check", 1, &inside);
+    refused(folder.path(), "dem-run s.toml --explain", 1, &inside);
+}

@@ -92,7 +92,9 @@ pub fn run<A: clap::Parser>(name: &'static str, work: impl FnOnce(A) -> anyhow::
     };
     let arguments = canonical(&command::<A>(name), &matches);
     let _ = INVOCATION.set(Invocation { tool: name, arguments, quiet: common.quiet });
-    let outcome = set_threads(&common).and_then(|()| work(args));
+    let outcome = not_an_input(&command::<A>(name), &matches)
+        .and_then(|()| set_threads(&common))
+        .and_then(|()| work(args));
     let (report, error) = match outcome {
         Ok(report) => (Some(report), None),
         Err(mut e) => (e.downcast_mut::<Stopped>().and_then(|s| s.report.take()), Some(e)),
@@ -157,6 +159,30 @@ fn set_threads(common: &Common) -> anyhow::Result<()> {
         .num_threads(threads.get())
         .build_global()
         .with_context(|| format!("--threads {threads}: cannot start them"))
+}
+
+/// Refuses an output that would replace what the same call reads.
+fn not_an_input(command: &Command, matches: &ArgMatches) -> anyhow::Result<()> {
+    let mut inputs = Vec::new();
+    for argument in command.get_arguments() {
+        let sources = matches.try_get_many::<Source>(argument.get_id().as_str()).ok().flatten();
+        inputs.extend(sources.into_iter().flatten().filter_map(Source::path).filter_map(real));
+    }
+    for (id, flag) in [("output", "-o"), ("report", "--report")] {
+        let Some(path) = matches.try_get_one::<PathBuf>(id).ok().flatten() else { continue };
+        if real(path).is_some_and(|path| inputs.contains(&path)) {
+            return Err(exit::usage(format!(
+                "{flag} {} is also an input: choose another name",
+                path.display()
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// The one name of a file; devices and pipes are not replaced by an output and have none.
+fn real(path: &Path) -> Option<PathBuf> {
+    path.canonicalize().ok().filter(|path| path.is_file())
 }
 
 /// See [`arguments`].

@@ -39,6 +39,8 @@ pub enum SceneError {
     Override { text: String, why: String },
     #[error("{name}: {why}; {cure}")]
     File { name: String, why: String, cure: String },
+    #[error("{name}: particle {id} starts inside {partner} (overlap {overlap:.3e} m): move it")]
+    Inside { name: String, id: u32, partner: String, overlap: f64 },
     #[error("{name}: cannot be read as {wanted}")]
     Content { name: String, wanted: &'static str, source: Box<dyn std::error::Error + Send + Sync + 'static> },
 }

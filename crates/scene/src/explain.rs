@@ -67,7 +67,10 @@ pub struct Effect {
 pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained, RunError> {
     let setup = plan.setup;
     let limit = critical_step(&setup)?;
-    let sim = Simulation::new(setup.clone())?;
+    let mut sim = Simulation::new(setup.clone())?;
+    if let Err(halt) = sim.particles() {
+        crate::run::stopped(scene, 0, halt)?;
+    }
     let schedule = Schedule::new(scene, sim.dt())?;
     let whole = measure.then(|| time_step(sim)).flatten();
     let effects = effects(&setup).into_iter().map(|(mut effect, without)| {

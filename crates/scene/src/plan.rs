@@ -66,6 +66,9 @@ impl Scene {
         let (mut wall_files, mut streams): (Vec<WallFile>, Vec<InletStream>) = (Vec::new(), Vec::new());
         for input in given {
             match input {
+                Input::Walls(file) if wall_files.iter().any(|w| w.hash == file.hash) => {
+                    return Err(SceneError::file(&file.name, "is given twice", "leave one out"));
+                }
                 Input::Walls(file) => wall_files.push(file),
                 Input::Inlet(stream) => streams.push(*stream),
             }

@@ -4,11 +4,11 @@ use crate::crossings::{self, CROSSINGS, Passage, SIZES, Sizes, WATERMARK, Waterm
 use crate::error::SceneError;
 use crate::inlet::{INLET, Source, zone_to_map};
 use crate::material_info::MATERIALS;
-use crate::run::{OUTLETS, RunError};
+use crate::run::{LOG, OUTLETS, RunError};
 use crate::schedule::nanoseconds;
 use dem::setup::Zone;
 use geom::{Plane, Shown};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::io::Write;
 use stream::mcap::{Compression, Event, Provenance, Reader, Writer};
@@ -64,7 +64,7 @@ struct Head {
 /// Passes the crossings of a run on as an inlet stream, each as soon as it is read.
 ///
 /// # Errors
-/// A stream that is no run with an outlet, or breaks off; a length that is too short.
+/// A stream that is no run with an outlet, breaks off, or was stopped before its end; a length that is too short.
 pub fn replay<W: Write>(
     name: &str,
     source: Source,
@@ -96,12 +96,31 @@ pub fn replay<W: Write>(
     writer.metadata(SIZES, head.sizes.to_map())?;
     writer.metadata(INLET, zone_to_map(&head.zone))?;
     let start = if what.keep_times { Some(0.0) } else { what.from };
-    let mut passing = Passing { name, what, head, start, ahead: None, done: Replayed::default(), known: 0.0 };
+    let mut passing = Passing {
+        name,
+        what,
+        head,
+        start,
+        ahead: None,
+        done: Replayed::default(),
+        known: 0.0,
+        stopped: None,
+    };
     let mut events = first.map(Ok).into_iter().chain(reader.by_ref());
     for event in events.by_ref() {
         if passing.pass(event.map_err(broken)?, &mut writer)? {
             break;
         }
+    }
+    if let Some(stop) = passing.stopped {
+        // What was recorded is passed on, but the stream has no end: what is downstream must not look whole.
+        writer.flush_chunk()?;
+        // A guard says the time itself.
+        let said = stop.text.starts_with("t = ");
+        let time = if said { String::new() } else { format!("t = {} s: ", Shown(stop.time)) };
+        let why = format!("the run was stopped at {time}{}", stop.text);
+        let cure = "go on with dem-run --resume, or take what lies before the stop with --until";
+        return Err(SceneError::file(name, why, cure).into());
     }
     // The reader downstream may go on; whether the run is whole still matters.
     let out = writer.finish()?;
@@ -158,6 +177,16 @@ struct Passing<'a> {
     done: Replayed,
     /// Watermark of the run [s].
     known: f64,
+    /// The run's word that it did not come to its end.
+    stopped: Option<Logged>,
+}
+
+/// A message of the topic `/log`.
+#[derive(Deserialize)]
+struct Logged {
+    time: f64,
+    kind: String,
+    text: String,
 }
 
 impl Passing<'_> {
@@ -182,6 +211,11 @@ impl Passing<'_> {
                 }
                 writer.flush_chunk()?;
                 Ok(self.what.until.is_some_and(|until| self.known > until))
+            }
+            Event::Bytes { topic, data, .. } if topic == LOG => {
+                let logged = serde_json::from_slice::<Logged>(&data).ok();
+                self.stopped = self.stopped.take().or(logged.filter(|l| l.kind == "stopped"));
+                Ok(false)
             }
             _ => Ok(false),
         }

@@ -135,7 +135,7 @@ pub fn run<W: Write>(
     let reason = loop {
         let step = run.sim.steps();
         if let Err(halt) = run.look(step, first)? {
-            break Some(halt.to_string());
+            break Some(stopped(scene, step, halt)?);
         }
         if step >= run.schedule.last {
             break None;
@@ -155,7 +155,7 @@ pub fn run<W: Write>(
         let outcome = run.sim.step();
         run.crossings.append(&mut run.sim.take_crossings());
         if let Err(halt) = outcome {
-            break Some(halt.to_string());
+            break Some(stopped(scene, step, halt)?);
         }
     };
     if let Some(reason) = reason {
@@ -167,6 +167,16 @@ pub fn run<W: Write>(
     run.outcome.entered = run.supply.given.iter().sum();
     let out = run.writer.finish()?;
     Ok((run.outcome, out))
+}
+
+/// What a guard says. What overlaps before the first step is no matter of the calculation: the scene is wrong.
+pub(crate) fn stopped(scene: &Scene, step: u64, halt: Halt) -> Result<String, SceneError> {
+    match halt {
+        Halt::Overlap { id, partner, overlap, .. } if step == 0 => {
+            Err(SceneError::Inside { name: scene.text.name.clone(), id, partner, overlap })
+        }
+        other => Ok(other.to_string()),
+    }
 }
 
 impl<W: Write> Run<W> {

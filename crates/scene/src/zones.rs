@@ -13,6 +13,7 @@ use geom::Shown;
 
 impl Draft<'_> {
     pub(crate) fn inlets(&mut self, streams: Vec<InletStream>) -> Result<(), SceneError> {
+        self.all_wanted(&streams)?;
         let mut given = streams.into_iter();
         for (i, entry) in self.model().inlet.iter().enumerate() {
             let key = format!("inlet.{i}");
@@ -41,15 +42,19 @@ impl Draft<'_> {
             }
             self.feed(stream, zone)?;
         }
-        for stream in given {
-            let Some(zone) = stream.zone else {
-                let why =
-                    "does not say where its particles enter, and the scene has no [[inlet]] left for it";
-                return Err(SceneError::file(&stream.name, why, "add [[inlet]] plane = \"…\" to the scene"));
-            };
-            self.feed(stream, zone)?;
-        }
         Ok(())
+    }
+
+    /// Refuses inlets that no entry of the scene waits for.
+    fn all_wanted(&self, streams: &[InletStream]) -> Result<(), SceneError> {
+        let wanted = self.model().inlet.iter().filter(|entry| entry.source.is_none()).count();
+        let Some(left) = streams.get(wanted) else { return Ok(()) };
+        let why = if self.model().inlet.is_empty() {
+            "the scene has no [[inlet]]".to_owned()
+        } else {
+            format!("{} inlets are given, and {wanted} [[inlet]] without source wait for one", streams.len())
+        };
+        Err(SceneError::file(&left.name, why, "add [[inlet]] plane = \"…\" to the scene, or leave it out"))
     }
 
     fn same_zone(&self, key: &str, scene: &Zone, stream: &Zone, name: &str) -> Result<(), SceneError> {

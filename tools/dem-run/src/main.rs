@@ -5,6 +5,8 @@ use clap::Parser;
 use cli::{Output, Report, Source, Stopped};
 use scene::run::{RunError, SIGNAL, Settings, run};
 use scene::{Checkpoint, Input, Plan, Scene};
+use std::fs::File;
+use std::io::{self, BufRead, BufReader};
 use std::path::Path;
 use std::process::ExitCode;
 use stream::mcap::Compression;
@@ -56,6 +58,7 @@ fn dem_run(args: Args) -> anyhow::Result<Report> {
         Some(source) => Some(Checkpoint::last(&source.to_string(), source.open()?)?),
         None => None,
     };
+    given_once(&args.inputs)?;
     let mut inputs = Vec::new();
     for source in &args.inputs {
         inputs.push(Input::open(&source.to_string(), source.open()?)?);
@@ -67,6 +70,39 @@ fn dem_run(args: Args) -> anyhow::Result<Report> {
     }
     scene::run::ready(&scene, &plan)?;
     simulate(&args, &scene, plan, resume)
+}
+
+/// Refuses a file that is given twice, also under two names.
+fn given_once(sources: &[Source]) -> anyhow::Result<()> {
+    let files = || sources.iter().filter_map(Source::path).filter(|path| path.is_file());
+    for (n, later) in files().enumerate() {
+        for earlier in files().take(n) {
+            if same_file(earlier, later).unwrap_or(false) {
+                anyhow::bail!("{}: is given twice; leave one out", later.display());
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Whether two files are one, or hold the same; reads them only when their lengths are equal.
+fn same_file(a: &Path, b: &Path) -> io::Result<bool> {
+    if a.canonicalize()? == b.canonicalize()? {
+        return Ok(true);
+    }
+    let (mut a, mut b) = (BufReader::new(File::open(a)?), BufReader::new(File::open(b)?));
+    if a.get_ref().metadata()?.len() != b.get_ref().metadata()?.len() {
+        return Ok(false);
+    }
+    loop {
+        let (x, y) = (a.fill_buf()?, b.fill_buf()?);
+        let count = x.len().min(y.len());
+        if count == 0 || x[..count] != y[..count] {
+            return Ok(x.is_empty() && y.is_empty());
+        }
+        a.consume(count);
+        b.consume(count);
+    }
 }
 
 /// What cannot be written does not know where: it is named here.
