@@ -454,7 +454,7 @@ fn scenes_that_cannot_run() {
             ("dem-run walls.toml walls-twice.mcap", 1, &["walls-twice.mcap", "bytes follow the end"]),
             ("dem-run walls.toml walls-flipped.mcap", 1, &["walls-flipped.mcap", "damaged"]),
             ("dem-run s.toml missing.mcap", 1, &["missing.mcap", "cannot open"]),
-            ("dem-run s.toml in.mcap", 1, &["s.toml: particle id", "used twice"]),
+            ("dem-run s.toml in.mcap", 1, &["in.mcap: the scene has no [[inlet]]"]),
         ],
     );
 }
