@@ -29,6 +29,8 @@ impl Simulation {
         self.listed = self.steps;
         self.list_contacts();
         recall(&before, &mut self.interactions, &order);
+        drop(before);
+        self.make_room();
         self.away = 0.0;
         self.stale = false;
         self.listings += 1;
@@ -116,12 +118,17 @@ impl Simulation {
             interaction.first_load = places;
             places += interaction.places();
         }
+        self.index_loads(count);
+        self.just_listed = true;
+    }
+
+    /// Room for the loads of all listed contacts; made last, when old lists are gone.
+    pub(crate) fn make_room(&mut self) {
         let couples = self.interactions.iter().any(|i| i.kernel.couples());
+        let places: usize = self.interactions.iter().map(|i| i.places()).sum();
         self.loads = vec![0.0; places * stride(self.particles.rotates())];
         self.couples = vec![0.0; if couples { places * 4 } else { 0 }];
         self.ledger = vec![0.0; if self.setup.ledger { places * LEDGER } else { 0 }];
-        self.index_loads(count);
-        self.just_listed = true;
     }
 
     /// For each particle, its loads in a fixed order.

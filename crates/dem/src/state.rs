@@ -129,6 +129,7 @@ impl Simulation {
                 sim.particles.home[k as usize] = home;
             }
             sim.list_contacts();
+            sim.make_room();
             for (k, _) in sim.zones.left.clone() {
                 let row = sim.particles.rows[k as usize];
                 sim.particles.home[k as usize] = [row[0], row[1], row[2], 0.0];
