@@ -1,5 +1,6 @@
 //! What a run computes, and what each part takes.
 
+use crate::effects::{Effect, Hertz, Hooke, RollingResistance, SlidingFriction};
 use crate::lane::{Row, Row4};
 use crate::setup::{Contact, Law};
 use crate::simulation::Simulation;
@@ -40,16 +41,19 @@ impl Simulation {
             bytes_per_contact: numbers * size_of::<f64>(),
         };
         let mut list = vec![match c.law {
-            Law::Hooke { stiffness, .. } => cost("hooke", format!("law = \"hooke\", {stiffness:e} N/m"), 0),
-            Law::Hertz => cost("hertz", "law = \"hertz\"".to_owned(), 0),
+            Law::Hooke { stiffness, .. } => {
+                cost("hooke", format!("law = \"hooke\", {stiffness:e} N/m"), Hooke::MEMORY)
+            }
+            Law::Hertz => cost("hertz", "law = \"hertz\"".to_owned(), Hertz::MEMORY),
         }];
         list.extend(
-            c.sliding_friction.map(|mu| cost("sliding_friction", format!("sliding_friction = {mu}"), 3)),
+            c.sliding_friction.map(|mu| {
+                cost("sliding_friction", format!("sliding_friction = {mu}"), SlidingFriction::MEMORY)
+            }),
         );
-        list.extend(
-            c.rolling_resistance
-                .map(|mu| cost("rolling_resistance", format!("rolling_resistance = {mu}"), 3)),
-        );
+        list.extend(c.rolling_resistance.map(|mu| {
+            cost("rolling_resistance", format!("rolling_resistance = {mu}"), RollingResistance::MEMORY)
+        }));
         list
     }
 

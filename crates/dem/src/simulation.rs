@@ -390,7 +390,7 @@ fn slow_enough(setup: &Setup, walls: &[WallBody], dt: f64) -> Result<(), SetupEr
     Ok(())
 }
 
-/// 0.3 × the mean radius: of the widths tried on the bench pile, the one with the least time per step.
+/// 0.3 × the mean radius: the skin of the bench pile, scaled to the grains.
 fn default_skin(setup: &Setup) -> f64 {
     let count = setup.particles.len() as f64;
     let mean = setup.particles.iter().map(|p| p.radius).sum::<f64>() / count;

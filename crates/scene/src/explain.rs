@@ -3,6 +3,7 @@
 use crate::run::RunError;
 use crate::schedule::Schedule;
 use crate::{Plan, Scene};
+use dem::effects::{Effect as _, SlidingFriction};
 use dem::setup::{Contact, Law, Setup};
 use dem::{Simulation, critical_step};
 use serde::Serialize;
@@ -10,7 +11,7 @@ use std::fmt::Write;
 use std::time::Instant;
 
 /// Bytes of a tangential spring or a rolling spring: three numbers a contact.
-const SPRING: usize = 24;
+const SPRING: usize = SlidingFriction::MEMORY * size_of::<f64>();
 /// Time that a measurement takes at least [s].
 const MEASURE: f64 = 0.15;
 /// Steps that a measurement takes at most: the start of a run, before anything can go wrong.
