@@ -15,6 +15,7 @@ pub fn empty(law: Law, restitution: f64) -> Setup {
         contacts: vec![contact((0, 0)), contact((0, 1))],
         particles: vec![],
         walls: vec![],
+        clumps: Clumps::default(),
         outlets: vec![],
         inlets: vec![],
         largest_entry: 0.0,

@@ -42,6 +42,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         contacts: vec![contact((0, 0)), contact((0, 1))],
         particles,
         walls: vec![floor],
+        clumps: Clumps::default(),
         outlets: vec![],
         inlets: vec![],
         largest_entry: 0.0,

@@ -1,5 +1,6 @@
 //! The energy ledger: each term by its own formula.
 
+use crate::bodies::BodyState;
 use crate::interaction::{Interaction, With};
 use crate::kernel::LEDGER;
 use crate::particles::mass;
@@ -57,6 +58,15 @@ impl Energy {
             e.potential -= m * setup.gravity.dot(&p.position);
         }
         e
+    }
+}
+
+impl Energy {
+    /// Adds a rigid clump: ½ m v², ½ ω·L, −m g·x.
+    pub(crate) fn add_body(&mut self, body: &BodyState, setup: &Setup) {
+        self.translation += 0.5 * body.mass * body.velocity.norm_squared();
+        self.rotation += 0.5 * body.spin.dot(&body.angular_momentum);
+        self.potential -= body.mass * setup.gravity.dot(&body.position);
     }
 }
 

@@ -4,6 +4,7 @@
 //! positive. It knows nothing of files, TOML or the terminal.
 
 mod advance;
+mod bodies;
 mod check;
 pub mod effects;
 mod energy;
@@ -26,6 +27,7 @@ mod touching;
 mod walls;
 mod zones;
 
+pub use bodies::BodyState;
 pub use energy::Energy;
 pub use error::{Halt, SetupError};
 pub use explain::EffectCost;

@@ -21,6 +21,7 @@ impl Simulation {
         };
         self.particles.select(&order);
         self.zones.reorder(&order);
+        self.bodies.reorder(&order);
         self.follow_fresh(&order);
         for k in 0..self.particles.len() {
             let r = self.particles.rows[k];
@@ -50,9 +51,14 @@ impl Simulation {
             return;
         }
         for k in 0..self.particles.len() {
+            if self.bodies.is_member(k) {
+                continue;
+            }
             let p = self.wrapped(self.particles.position(k));
             self.particles.rows[k][..3].copy_from_slice(p.as_slice());
         }
+        let periodic = self.setup.periodic;
+        self.bodies.wrap(&mut self.particles, |p| crate::simulation::wrapped(&periodic, p));
     }
 
     /// Old places of the particles that stay, sorted by cell and, within a cell, by id.
@@ -90,6 +96,9 @@ impl Simulation {
         let mut lists: Vec<List> = vec![List::default(); self.interactions.len()];
         let class = self.classes(With::Particles);
         for (i, j) in pairs(&points, &radii, &grid, largest, self.skin).into_iter().flatten() {
+            if self.bodies.same(i, j) {
+                continue;
+            }
             lists[class.of(p.material[i as usize], p.material[j as usize])].push(i, j);
         }
         if self.setup.periodic.iter().any(|p| p.is_some()) {
@@ -184,7 +193,8 @@ impl Simulation {
                 }
                 for j in grid.runs_near(place, far).flatten() {
                     let close = reach + radii[j];
-                    if (points[j] + shift - p).norm_squared() < close * close {
+                    let near = (points[j] + shift - p).norm_squared() < close * close;
+                    if near && !self.bodies.same(i as u32, j as u32) {
                         found.push((i as u32, j as u32, shift));
                     }
                 }

@@ -1,7 +1,10 @@
 //! What a simulation is made of: plain data, checked and turned into an engine by [`crate::Simulation::new`].
 
 use geom::{Plane, Vec3, mesh::TriMesh};
+use nalgebra::UnitQuaternion;
 use serde::{Deserialize, Serialize};
+
+pub use crate::bodies::ClumpShape;
 
 /// Everything that a run needs. SI units throughout.
 #[derive(Debug, Clone)]
@@ -14,6 +17,8 @@ pub struct Setup {
     pub contacts: Vec<Contact>,
     /// Particles at t = 0.
     pub particles: Vec<Particle>,
+    /// Rigid clumps; empty where the scene has none.
+    pub clumps: Clumps,
     /// Walls: they act on particles and are not moved by them.
     pub walls: Vec<Wall>,
     /// Storage planes with their zones (SYSTEMS B1–B3).
@@ -101,6 +106,36 @@ pub struct Particle {
     /// Centre [m].
     pub position: Vec3,
     /// Velocity of the centre [m/s].
+    pub velocity: Vec3,
+    /// Angular velocity [rad/s].
+    pub spin: Vec3,
+}
+
+/// Rigid clumps: their shapes, and the bodies of these shapes at t = 0.
+#[derive(Debug, Clone, Default)]
+pub struct Clumps {
+    /// Shapes.
+    pub shapes: Vec<ClumpShape>,
+    /// Bodies at t = 0.
+    pub bodies: Vec<Body>,
+    /// Shape, smallest and largest scale [–] of the bodies that inlets will bring.
+    pub entries: Vec<(u32, f64, f64)>,
+}
+
+/// A rigid clump. Its members have the ids from `id` on, one each.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Body {
+    /// Id of its first member.
+    pub id: u32,
+    /// Index of its shape.
+    pub shape: u32,
+    /// Size over that of the shape [–].
+    pub scale: f64,
+    /// Centre of mass [m].
+    pub position: Vec3,
+    /// From the frame that the shape was given in to space.
+    pub orientation: UnitQuaternion<f64>,
+    /// Velocity of the centre of mass [m/s].
     pub velocity: Vec3,
     /// Angular velocity [rad/s].
     pub spin: Vec3,

@@ -4,6 +4,7 @@
 //! (gather, move to n + 1), then zones. Looking at a simulation calls `ready` and no more, so that output changes nothing.
 
 use crate::advance::{Columns, Drive, Loads, Moved, advance};
+use crate::bodies::{Bodies, BodyState};
 use crate::energy::{Account, Energy};
 use crate::error::{Halt, SetupError};
 use crate::interaction::{Interaction, With};
@@ -49,6 +50,7 @@ pub struct Simulation {
     /// Particles whose acceleration of the step before is unknown.
     pub(crate) fresh: Vec<u32>,
     pub(crate) zones: Zones,
+    pub(crate) bodies: Bodies,
     pub(crate) account: Account,
     /// How often neighbours were listed.
     pub(crate) listings: u64,
@@ -76,13 +78,14 @@ impl Simulation {
         for p in &setup.particles {
             particles.push(p, &setup.materials);
         }
+        let bodies = Bodies::new(&setup, &mut particles);
         let fresh = (0..particles.len() as u32).collect();
         let skin = setup.skin.unwrap_or_else(|| default_skin(&setup));
         let walls: Vec<WallBody> = setup.walls.iter().map(WallBody::new).collect();
         slow_enough(&setup, &walls, dt)?;
         let zones = Zones::new(&setup, &particles);
         // They are in their columns now.
-        let setup = Setup { particles: Vec::new(), ..setup };
+        let setup = Setup { particles: Vec::new(), clumps: setup.clumps.without_bodies(), ..setup };
         Ok(Simulation {
             setup,
             dt,
@@ -104,6 +107,7 @@ impl Simulation {
             just_listed: false,
             fresh,
             zones,
+            bodies,
             account: Account::default(),
             listings: 0,
         })
@@ -182,6 +186,7 @@ impl Simulation {
         let half = 0.5 * self.dt;
         let loads = self.all_loads();
         let (p, time) = (&self.particles, self.time());
+        let members = self.bodies.member_states(p, &loads, &self.setup.gravity, self.dt);
         let mut out: Vec<Particle> = (0..p.len())
             .filter(|&k| !self.zones.is_hidden(k, time))
             .map(|k| {
@@ -200,6 +205,9 @@ impl Simulation {
                             w[a] += half * (moment[a] * inverse_inertia - p.turning[k][a]);
                         }
                     }
+                }
+                if let Some(&Some(state)) = members.get(k) {
+                    (v, w) = state;
                 }
                 let (id, material) = (p.id[k], p.material[k]);
                 Particle {
@@ -221,8 +229,23 @@ impl Simulation {
     /// # Errors
     /// When the state is beyond a guard.
     pub fn energy(&mut self) -> Result<Energy, Halt> {
-        let particles = self.particles()?;
-        Ok(Energy::of(&particles, &self.setup, &self.ledger, &self.account))
+        let mut particles = self.particles()?;
+        let bodies = self.bodies()?;
+        bodies.iter().for_each(|b| particles.retain(|p| !b.has(p.id)));
+        let mut energy = Energy::of(&particles, &self.setup, &self.ledger, &self.account);
+        bodies.iter().for_each(|b| energy.add_body(b, &self.setup));
+        Ok(energy)
+    }
+
+    /// Rigid clumps in the calculation, by id, with velocities of this instant.
+    ///
+    /// # Errors
+    /// When the state is beyond a guard.
+    pub fn bodies(&mut self) -> Result<Vec<BodyState>, Halt> {
+        self.ready()?;
+        let mut states = self.bodies.states(&self.particles, &self.all_loads(), &self.setup, self.dt);
+        states.iter_mut().for_each(|s| s.position = self.wrapped(s.position));
+        Ok(states)
     }
 
     /// One time step.
@@ -254,6 +277,7 @@ impl Simulation {
             entries: &self.entries,
         };
         let moved: Moved = advance(self.width, columns, loads, drive);
+        let moved = self.move_bodies(moved);
         self.away = moved.away.sqrt();
         self.steps += 1;
         self.current = false;
@@ -344,20 +368,36 @@ impl Simulation {
                     [m[0] * inverse_inertia, m[1] * inverse_inertia, m[2] * inverse_inertia, 0.0];
             }
         }
+        self.bodies.prime(&self.particles, &self.setup.gravity);
+    }
+
+    /// After a move: rigid clumps take the loads of their members and put them in their places.
+    fn move_bodies(&mut self, moved: Moved) -> Moved {
+        if self.bodies.none() {
+            return moved;
+        }
+        let (gravity, limit) = (self.setup.gravity, self.setup.guards.motion);
+        let own = self.bodies.advance(&mut self.particles, self.dt, &gravity, limit);
+        Moved { away: moved.away.max(own.away), wild: moved.wild | own.wild }
     }
 
     pub(crate) fn all_loads(&self) -> Loads<'_> {
         Loads { loads: &self.loads, couples: &self.couples, starts: &self.starts, entries: &self.entries }
     }
 
-    pub(crate) fn wrapped(&self, mut p: Vec3) -> Vec3 {
-        for a in 0..3 {
-            if let Some((lo, hi)) = self.setup.periodic[a] {
-                p[a] -= (hi - lo) * ((p[a] - lo) / (hi - lo)).floor();
-            }
-        }
-        p
+    pub(crate) fn wrapped(&self, p: Vec3) -> Vec3 {
+        wrapped(&self.setup.periodic, p)
     }
+}
+
+/// A place, brought back into the periodic box.
+pub(crate) fn wrapped(periodic: &[Option<(f64, f64)>; 3], mut p: Vec3) -> Vec3 {
+    for a in 0..3 {
+        if let Some((lo, hi)) = periodic[a] {
+            p[a] -= (hi - lo) * ((p[a] - lo) / (hi - lo)).floor();
+        }
+    }
+    p
 }
 
 /// Numbers of one load.

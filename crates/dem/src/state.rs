@@ -1,5 +1,6 @@
 //! Checkpoints: the whole state of a run, so that a resumed one goes on bit for bit.
 
+use crate::bodies::Bodies;
 use crate::energy::Account;
 use crate::error::SetupError;
 use crate::particles::Particles;
@@ -21,6 +22,7 @@ pub struct State {
     fresh: Vec<u32>,
     particles: Particles,
     zones: Zones,
+    bodies: Bodies,
     account: Account,
     listings: u64,
     /// Contact memory of each interaction; empty while lists are stale from the start.
@@ -42,6 +44,7 @@ pub struct StateView<'a> {
     fresh: &'a [u32],
     particles: &'a Particles,
     zones: &'a Zones,
+    bodies: &'a Bodies,
     account: Account,
     listings: u64,
     memory: Vec<&'a [f64]>,
@@ -62,6 +65,7 @@ impl StateView<'_> {
             fresh: self.fresh.to_vec(),
             particles: self.particles.clone(),
             zones: self.zones.clone(),
+            bodies: self.bodies.clone(),
             account: self.account,
             listings: self.listings,
             memory: self.memory.iter().map(|m| m.to_vec()).collect(),
@@ -95,6 +99,7 @@ impl Simulation {
             fresh: &self.fresh,
             particles: &self.particles,
             zones: &self.zones,
+            bodies: &self.bodies,
             account: self.account,
             listings: self.listings,
             memory: self.interactions.iter().map(|i| i.all_memory()).collect(),
@@ -119,6 +124,7 @@ impl Simulation {
         }
         (sim.skin, sim.steps, sim.listed, sim.away) = (state.skin, state.steps, state.listed, state.away);
         (sim.particles, sim.zones, sim.account) = (state.particles, state.zones, state.account);
+        sim.bodies = state.bodies;
         (sim.fresh, sim.listings) = (state.fresh, state.listings);
         if state.memory.len() != sim.interactions.len() {
             return Err(other("another number of materials or walls"));

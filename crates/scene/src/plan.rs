@@ -237,6 +237,7 @@ impl<'a> Draft<'a> {
             materials: self.materials,
             contacts,
             particles: self.particles,
+            clumps: setup::Clumps::default(),
             walls: self.walls,
             outlets: self.outlets,
             inlets: self.inlets,
