@@ -14,9 +14,11 @@
 //! L is kept in space: without torque it never changes. Kick, turn, kick: Dullweber, Leimkuhler & McLachlan (1997), J. Chem. Phys.
 //! 107, doi:10.1063/1.474310. Members of one body never form a contact: such pairs are left out of the lists.
 
+mod check;
 mod shape;
 mod turn;
 
+pub(crate) use check::check;
 pub use shape::ClumpShape;
 
 use crate::advance::{Loads, Moved};
@@ -130,11 +132,6 @@ impl Bodies {
     /// Whether there is none.
     pub fn none(&self) -> bool {
         self.flights.is_empty()
-    }
-
-    /// Number of bodies.
-    pub fn len(&self) -> usize {
-        self.flights.len()
     }
 
     /// Adds a body, its members at the end of the particles.
@@ -346,6 +343,12 @@ impl Bodies {
     pub fn bytes() -> (usize, usize) {
         (size_of::<Flight>(), 2 * size_of::<u32>() + size_of::<Row4>())
     }
+
+    /// Memory of all bodies [bytes].
+    pub fn all_bytes(&self) -> usize {
+        let (flights, members, arms) = (&self.flights[..], &self.members[..], &self.arms[..]);
+        size_of_val(flights) + size_of_val(members) + size_of_val(&self.of[..]) + size_of_val(arms)
+    }
 }
 
 fn arm(row: &Row4) -> Vec3 {
@@ -378,6 +381,18 @@ impl Clumps {
     /// Shapes and entries, for when the bodies are in their columns.
     pub(crate) fn without_bodies(self) -> Clumps {
         Clumps { bodies: Vec::new(), ..self }
+    }
+
+    /// Radius of every member at t = 0 [m], or of every shape that inlets bring where there is none.
+    pub(crate) fn member_radii(&self) -> Vec<f64> {
+        let of = |(shape, scale): (u32, f64)| {
+            let spheres = self.shapes.get(shape as usize).map_or(&[][..], |s| &s.spheres[..]);
+            spheres.iter().map(move |s| s.1 * scale)
+        };
+        if self.bodies.is_empty() {
+            return self.entries.iter().map(|e| (e.0, e.1)).flat_map(of).collect();
+        }
+        self.bodies.iter().map(|b| (b.shape, b.scale)).flat_map(of).collect()
     }
 
     /// Material, smallest and largest radius [m] of the members of all bodies, those that inlets bring included.

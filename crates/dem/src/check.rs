@@ -10,6 +10,7 @@ pub fn check(setup: &Setup) -> Result<(), SetupError> {
     materials(setup)?;
     contacts(setup)?;
     particles(setup)?;
+    crate::bodies::check(setup)?;
     walls(setup)?;
     zones(setup)?;
     periodic(setup)?;
@@ -32,7 +33,7 @@ pub fn check(setup: &Setup) -> Result<(), SetupError> {
     finite("gravity", &setup.gravity, "m/s²")
 }
 
-fn within(
+pub(crate) fn within(
     what: &str,
     value: f64,
     unit: &'static str,
@@ -42,7 +43,7 @@ fn within(
     if ok { Ok(()) } else { Err(SetupError::Range { what: what.to_owned(), value, unit, range }) }
 }
 
-fn finite(what: &str, v: &Vec3, unit: &'static str) -> Result<(), SetupError> {
+pub(crate) fn finite(what: &str, v: &Vec3, unit: &'static str) -> Result<(), SetupError> {
     let bad = v.iter().find(|x| !x.is_finite());
     bad.map_or(Ok(()), |&x| within(what, x, unit, false, "the finite numbers"))
 }
@@ -161,8 +162,10 @@ fn walls(setup: &Setup) -> Result<(), SetupError> {
     Ok(())
 }
 
+/// Of spheres, and of the spheres that hold whole clumps [m].
 fn largest_radius(setup: &Setup) -> f64 {
-    setup.particles.iter().map(|p| p.radius).fold(setup.largest_entry, f64::max)
+    let clumps = setup.clumps.scales().map(|(shape, _, high)| shape.reach() * high);
+    setup.particles.iter().map(|p| p.radius).chain(clumps).fold(setup.largest_entry, f64::max)
 }
 
 fn zones(setup: &Setup) -> Result<(), SetupError> {

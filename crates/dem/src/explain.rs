@@ -64,6 +64,11 @@ impl Simulation {
         state + rotation + size_of::<u32>() + size_of::<u16>() + size_of::<u32>()
     }
 
+    /// Memory that rigid clumps take beyond that of their members' rows [bytes].
+    pub fn bytes_of_clumps(&self) -> usize {
+        self.bodies.all_bytes()
+    }
+
     /// Everything that one listed contact takes in a kind of interaction, averaged over all listed now [bytes].
     pub fn bytes_per_listed_contact(&self) -> f64 {
         let lists: usize = self.interactions.iter().map(|i| i.bytes()).sum();

@@ -432,8 +432,10 @@ fn slow_enough(setup: &Setup, walls: &[WallBody], dt: f64) -> Result<(), SetupEr
 
 /// 0.3 × the mean radius: the skin of the bench pile, scaled to the grains.
 fn default_skin(setup: &Setup) -> f64 {
-    let count = setup.particles.len() as f64;
-    let mean = setup.particles.iter().map(|p| p.radius).sum::<f64>() / count;
+    let members = setup.clumps.member_radii();
+    let radii = || setup.particles.iter().map(|p| p.radius).chain(members.iter().copied());
+    let count = radii().count() as f64;
+    let mean = radii().sum::<f64>() / count;
     0.3 * if count > 0.0 { mean } else { 0.5 * (setup.smallest_entry + setup.largest_entry).max(1e-30) }
 }
 
