@@ -4,13 +4,14 @@
 //! positive. It knows nothing of files, TOML or the terminal.
 
 mod advance;
+mod aligned;
 mod check;
+mod contacts;
 pub mod effects;
 mod energy;
 mod error;
 mod explain;
 mod guards;
-mod interaction;
 mod kernel;
 pub mod lane;
 mod law;
@@ -22,6 +23,7 @@ mod relist;
 pub mod setup;
 mod simulation;
 mod state;
+mod sweep;
 mod touching;
 mod walls;
 mod zones;
