@@ -112,7 +112,7 @@ pub fn heap_angle(frame: &Frame, options: &HeapOptions, up: Option<Vec3>) -> Res
     if let Some(wall) = options.wall {
         let level = wall - axes.up * axes.up.dot(&wall);
         if level.norm() < 0.5 * wall.norm() || level.norm() == 0.0 {
-            let cure = "give a wall beside the heap, not above or below it (--wall and --up)";
+            let cure = "give a wall beside the heap, not above or below it (--side and --up)";
             return Err(MeasureError::Setting {
                 what: "wall direction along up",
                 value: axes.up.dot(&wall),
@@ -282,7 +282,7 @@ impl OfFrame for Repose {
         let Some(heap) = &self.last else { return Chart::default() };
         let profile = |(k, f): (usize, &Flank)| Curve {
             name: format!("{k}"),
-            points: f.profile.clone(),
+            points: f.profile[..(f.fitted[1] + 4).min(f.profile.len())].to_vec(),
             look: Look::Dots,
         };
         let mut curves: Vec<Curve> = heap.flanks.iter().enumerate().map(profile).collect();
@@ -299,7 +299,7 @@ impl OfFrame for Repose {
         let centre = 0.5 * (ends[0] + ends[1]);
         let level = heap.flanks.iter().map(|f| f.line.intercept + f.line.slope * centre).sum::<f64>() / count;
         let points = ends.map(|x| [x, level + slope * (x - centre)]).to_vec();
-        curves.push(Curve { name: "mean".to_owned(), points, look: Look::Line });
+        curves.push(Curve { name: "mean".to_owned(), points, look: Look::Dashed });
         let [mean, interval] = [heap.angle.mean, heap.angle.interval].map(f64::to_degrees);
         let from = if self.options.wall.is_some() {
             "distance from the wall [m]"
