@@ -1,6 +1,7 @@
-//! Time of the bench pile: `cargo run --release -p dem --example pile -- PILE.csv STEPS [THREADS]`.
+//! Time of the bench pile: `cargo run --release -p dem --example pile -- PILE.csv STEPS [THREADS [SKIN]]`.
 //!
-//! Spheres settled on a floor, periodic in x and y; Hooke, dashpot, sliding friction with memory; Δt = 10⁻⁵ s, skin 0.6 mm.
+//! Spheres settled on a floor, periodic in x and y; Hooke, dashpot, sliding friction with memory; Δt = 10⁻⁵ s; one skin [m] for all, or
+//! the engine's own choice.
 //! Columns of the file: id, x, y, z, radius, vx, vy, vz, wx, wy, wz.
 
 use dem::setup::*;
@@ -50,7 +51,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         entry_materials: vec![],
         step: Step::Fixed(1e-5),
         periodic: [Some((0.0, 0.1196)), Some((0.0, 0.1196)), None],
-        skin: Some(6e-4),
+        skin: args.get(4).map(|s| s.parse()).transpose()?,
         ledger: false,
         guards: Guards::default(),
     };

@@ -123,7 +123,9 @@ impl Bodies {
     /// The bodies of a setup at t = 0; their members are added to the particles.
     pub fn new(setup: &Setup, particles: &mut Particles) -> Bodies {
         let mut bodies = Bodies::default();
-        for body in &setup.clumps.bodies {
+        let mut sorted: Vec<&Body> = setup.clumps.bodies.iter().collect();
+        sorted.sort_unstable_by_key(|b| b.id);
+        for body in sorted {
             bodies.push(body, &setup.clumps.shapes[body.shape as usize], &setup.materials, particles);
         }
         bodies
@@ -135,13 +137,19 @@ impl Bodies {
     }
 
     /// Adds a body, its members at the end of the particles.
-    pub fn push(&mut self, body: &Body, shape: &ClumpShape, materials: &[Material], particles: &mut Particles) {
+    pub fn push(
+        &mut self,
+        body: &Body,
+        shape: &ClumpShape,
+        materials: &[Material],
+        particles: &mut Particles,
+    ) {
         let density = materials[shape.material as usize].density;
         let (s, mass) = (body.scale, shape.mass(body.scale, density));
         let inverse_inertia = shape.inertia.map(|i| 1.0 / (i * density * s * s * s * s * s));
         let turn = body.orientation * shape.frame;
         self.of.resize(particles.len(), FREE);
-        self.arms.resize(particles.len(), [0.0; 4]);
+        self.arms.resize(particles.len(), Row4::default());
         let (flight, first) = (self.flights.len() as u32, self.members.len() as u32);
         for (k, (centre, radius)) in shape.spheres.iter().enumerate() {
             let arm = centre * s;
@@ -161,7 +169,7 @@ impl Bodies {
             particles.rows[at][7] = 1.0 / mass;
             self.members.push(at as u32);
             self.of.push(flight);
-            self.arms.push([arm.x, arm.y, arm.z, 0.0]);
+            self.arms.push(Row4([arm.x, arm.y, arm.z, 0.0]));
         }
         let momentum = turn::momentum(&turn, &body.spin, &inverse_inertia);
         let turn = turn.into_inner().coords.into();
@@ -187,11 +195,15 @@ impl Bodies {
         });
     }
 
-    /// Whether two rows belong to one body.
-    #[inline]
-    pub fn same(&self, i: u32, j: u32) -> bool {
-        let of = |k: u32| self.of.get(k as usize).copied().unwrap_or(FREE);
-        of(i) != FREE && of(i) == of(j)
+    /// Takes the pairs of one body's own members out of a list.
+    pub fn drop_own<T>(&self, list: &mut Vec<T>, pair: impl Fn(&T) -> (u32, u32)) {
+        if !self.none() {
+            let of = |k: u32| self.of.get(k as usize).copied().unwrap_or(FREE);
+            list.retain(|p| {
+                let (i, j) = pair(p);
+                of(i) == FREE || of(i) != of(j)
+            });
+        }
     }
 
     /// Whether a row is a member of a body.
@@ -216,7 +228,13 @@ impl Bodies {
     }
 
     /// Moves the bodies whose members have been moved as if they were free, and puts the members in their places.
-    pub fn advance(&mut self, particles: &mut Particles, dt: f64, gravity: &Vec3, motion_limit: f64) -> Moved {
+    pub fn advance(
+        &mut self,
+        particles: &mut Particles,
+        dt: f64,
+        gravity: &Vec3,
+        motion_limit: f64,
+    ) -> Moved {
         let (members, arms) = (&self.members, &self.arms);
         let seen = &*particles;
         self.flights.par_chunks_mut(CHUNK).for_each(|chunk| {
@@ -244,10 +262,11 @@ impl Bodies {
         let spins = (&mut particles.spins, &self.of).into_par_iter().with_min_len(CHUNK);
         spins.for_each(|(spin, of)| {
             if let Some(f) = flight(of) {
-                *spin = [f.spin.x, f.spin.y, f.spin.z, 0.0];
+                *spin = Row4([f.spin.x, f.spin.y, f.spin.z, 0.0]);
             }
         });
-        let columns = (&mut particles.rows, &mut particles.acceleration, &particles.home, &self.of, &self.arms);
+        let columns =
+            (&mut particles.rows, &mut particles.acceleration, &particles.home, &self.of, &self.arms);
         let moved = |(row, acceleration, h, of, out): (&mut Row, &mut Row4, &Row4, &u32, &Row4)| {
             let Some(f) = flight(of) else { return Moved::default() };
             let (place, velocity, way) = f.point(out);
@@ -255,13 +274,12 @@ impl Bodies {
             row[4..7].copy_from_slice(velocity.as_slice());
             // What brings it back to where it was: `position_before`.
             let a = (velocity * dt - way) * (2.0 / (dt * dt));
-            *acceleration = [a.x, a.y, a.z, 0.0];
+            *acceleration = Row4([a.x, a.y, a.z, 0.0]);
             let limit = motion_limit * row[3];
             let wild = !(way.norm_squared() <= limit * limit);
-            Moved { away: (place - arm(h)).norm_squared(), wild }
+            Moved { out: (place - arm(h)).norm_squared() > h[3] * h[3], wild }
         };
-        let join = |a: Moved, b: Moved| Moved { away: a.away.max(b.away), wild: a.wild | b.wild };
-        columns.into_par_iter().with_min_len(CHUNK).map(moved).reduce(Moved::default, join)
+        columns.into_par_iter().with_min_len(CHUNK).map(moved).reduce(Moved::default, Moved::and)
     }
 
     /// Moves every body that has left through a periodic face to the other side, with its members; the others are left where they are.
@@ -441,7 +459,13 @@ impl Clumps {
 impl Flight {
     /// Acceleration of the centre and torque about it, from what a free move made of the members' loads:
     /// F_k = m (a_k − g), M_k = 2/5 m R_k² α_k.
-    fn gathered(&self, members: &[u32], arms: &[Row4], particles: &Particles, gravity: &Vec3) -> (Vec3, Vec3) {
+    fn gathered(
+        &self,
+        members: &[u32],
+        arms: &[Row4],
+        particles: &Particles,
+        gravity: &Vec3,
+    ) -> (Vec3, Vec3) {
         let turn = quaternion(&self.turn);
         let (mut a, mut torque) = (Vec3::zeros(), Vec3::zeros());
         for &m in &members[self.first as usize..(self.first + self.count) as usize] {

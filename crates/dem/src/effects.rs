@@ -98,6 +98,8 @@ pub trait Memory<R: Lane>: Copy {
     fn store(self, block: &mut [f64], lane: usize);
     /// Forgets where the mask does not hold.
     fn keep(self, mask: R::Mask) -> Self;
+    /// Whether column `c` changes its sign when i and j are the other way round.
+    fn flips(c: usize) -> bool;
 }
 
 impl<R: Lane> Memory<R> for () {
@@ -108,6 +110,9 @@ impl<R: Lane> Memory<R> for () {
     fn store(self, _: &mut [f64], _: usize) {}
     #[inline(always)]
     fn keep(self, _: R::Mask) {}
+    fn flips(_: usize) -> bool {
+        false
+    }
 }
 
 impl<R: Lane> Memory<R> for V<R> {
@@ -126,6 +131,9 @@ impl<R: Lane> Memory<R> for V<R> {
     fn keep(self, mask: R::Mask) -> V<R> {
         V::select(mask, self, V::zero())
     }
+    fn flips(_: usize) -> bool {
+        true
+    }
 }
 
 impl<R: Lane, A: Memory<R>, B: Memory<R>> Memory<R> for (A, B) {
@@ -142,6 +150,9 @@ impl<R: Lane, A: Memory<R>, B: Memory<R>> Memory<R> for (A, B) {
     #[inline(always)]
     fn keep(self, mask: R::Mask) -> (A, B) {
         (self.0.keep(mask), self.1.keep(mask))
+    }
+    fn flips(c: usize) -> bool {
+        if c < A::COLUMNS { A::flips(c) } else { B::flips(c - A::COLUMNS) }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The energy ledger: each term by its own formula.
 
 use crate::bodies::BodyState;
-use crate::interaction::{Interaction, With};
+use crate::contacts::{Contacts, Kind, With};
 use crate::kernel::LEDGER;
 use crate::particles::mass;
 use crate::setup::{Particle, Setup};
@@ -42,13 +42,18 @@ impl Energy {
             - self.walls
     }
 
-    pub(crate) fn of(particles: &[Particle], setup: &Setup, ledger: &[f64], account: &Account) -> Energy {
+    pub(crate) fn of(
+        particles: &[Particle],
+        setup: &Setup,
+        contacts: &Contacts,
+        account: &Account,
+    ) -> Energy {
         let mut e = Energy {
             normal: account.dissipated[0],
             sliding: account.dissipated[1],
             rolling: account.dissipated[2],
             walls: account.walls,
-            elastic: ledger.chunks_exact(LEDGER).map(|row| row[0]).sum(),
+            elastic: contacts.ledger.chunks_exact(LEDGER).map(|row| row[0]).sum(),
             ..Energy::default()
         };
         for p in particles {
@@ -79,10 +84,11 @@ pub struct Account {
 
 impl Account {
     /// Adds one step's ledger, in its order.
-    pub fn add(&mut self, interactions: &[Interaction], ledger: &[f64]) {
-        for it in interactions {
-            let rows = &ledger[it.first_load * LEDGER..(it.first_load + it.len) * LEDGER];
-            let wall = matches!(it.with, With::Wall(_));
+    pub fn add(&mut self, kinds: &[Kind], contacts: &Contacts) {
+        for segment in &contacts.segments {
+            let places = segment.contacts();
+            let rows = &contacts.ledger[places.start * LEDGER..places.end * LEDGER];
+            let wall = matches!(kinds[segment.kind].with, With::Wall(_));
             for row in rows.chunks_exact(LEDGER) {
                 for (sum, part) in self.dissipated.iter_mut().zip(&row[1..4]) {
                     *sum += part;

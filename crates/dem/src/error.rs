@@ -86,7 +86,9 @@ pub enum SetupError {
         wall: String,
     },
     /// A storage plane in a scene with clumps.
-    #[error("outlet: a storage plane cannot record clumps (the scene has '{0}'): leave out the [[outlet]], or use spheres")]
+    #[error(
+        "outlet: a storage plane cannot record clumps (the scene has '{0}'): leave out the [[outlet]], or use spheres"
+    )]
     ClumpOutlet(String),
     /// A wall that a particle cannot see coming.
     #[error("wall '{wall}': {speed:.4e} m/s is {:.1} % of the smallest radius in a step of {dt:.4e} s (limit {:.1} %): shorten dt, or slow the wall", 100.0 * share, 100.0 * limit)]

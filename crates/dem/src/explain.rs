@@ -23,7 +23,7 @@ pub struct EffectCost {
 impl Simulation {
     /// Effects in force, by pair of materials that can meet.
     pub fn explain(&self) -> Vec<EffectCost> {
-        let mut pairs: Vec<(u16, u16)> = self.interactions.iter().map(|i| i.between).collect();
+        let mut pairs: Vec<(u16, u16)> = self.kinds.iter().map(|k| k.between).collect();
         pairs.sort_unstable();
         pairs.dedup();
         let contacts = &self.setup.contacts;
@@ -59,8 +59,8 @@ impl Simulation {
 
     /// State of one particle [bytes], without its share of contacts.
     pub fn bytes_per_particle(&self) -> usize {
-        let rotation = if self.particles.rotates() { 2 * size_of::<Row4>() } else { 0 };
-        let state = size_of::<Row>() + 2 * size_of::<Row4>();
+        let rotation = if self.particles.rotates() { 3 * size_of::<Row4>() } else { 0 };
+        let state = 2 * size_of::<Row>() + 2 * size_of::<Row4>();
         state + rotation + size_of::<u32>() + size_of::<u16>() + size_of::<u32>()
     }
 
@@ -71,10 +71,7 @@ impl Simulation {
 
     /// Everything that one listed contact takes in a kind of interaction, averaged over all listed now [bytes].
     pub fn bytes_per_listed_contact(&self) -> f64 {
-        let lists: usize = self.interactions.iter().map(|i| i.bytes()).sum();
-        let loads = 8 * (self.loads.len() + self.couples.len() + self.ledger.len());
-        let index = 4 * self.entries.len();
-        (lists + loads + index) as f64 / self.listed_contacts().max(1) as f64
+        self.contacts.bytes() as f64 / self.listed_contacts().max(1) as f64
     }
 
     /// Whether particles turn in this scene.

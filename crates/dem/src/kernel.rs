@@ -29,8 +29,6 @@ pub struct Common<'a> {
 pub struct Task<'a> {
     /// Rows and spins that `j` points into: the particles' own, or a wall's contact points.
     pub partners: (&'a [Row], &'a [Row4]),
-    /// Whether partners are points of a flat surface (R* = r_i) and not spheres.
-    pub flat: bool,
     /// First particle of each contact; whole blocks.
     pub i: &'a [u32],
     /// Its partner.
@@ -51,6 +49,8 @@ pub struct Task<'a> {
 pub trait Kernel: Send + Sync {
     /// Numbers of memory for each contact.
     fn memory(&self) -> usize;
+    /// Whether number `column` of memory changes its sign when i and j are the other way round.
+    fn flips(&self, column: usize) -> bool;
     /// Whether it turns particles.
     fn rotates(&self) -> bool;
     /// Whether it makes couples.
@@ -63,6 +63,9 @@ impl<E: Effect> Kernel for E {
     fn memory(&self) -> usize {
         E::MEMORY
     }
+    fn flips(&self, column: usize) -> bool {
+        <E::Memory<f64> as Memory<f64>>::flips(column)
+    }
     fn rotates(&self) -> bool {
         E::ROTATES
     }
@@ -70,27 +73,20 @@ impl<E: Effect> Kernel for E {
         E::COUPLES
     }
     fn run(&self, width: Width, common: Common, task: Task) -> bool {
-        match (task.flat, task.ledger.is_empty()) {
-            (false, true) => dispatch::<E, false, false>(self, width, common, task),
-            (true, true) => dispatch::<E, true, false>(self, width, common, task),
-            (false, false) => dispatch::<E, false, true>(self, width, common, task),
-            (true, false) => dispatch::<E, true, true>(self, width, common, task),
+        match task.ledger.is_empty() {
+            true => dispatch::<E, false>(self, width, common, task),
+            false => dispatch::<E, true>(self, width, common, task),
         }
     }
 }
 
-fn dispatch<E: Effect, const FLAT: bool, const KEEP: bool>(
-    effect: &E,
-    width: Width,
-    common: Common,
-    task: Task,
-) -> bool {
+fn dispatch<E: Effect, const KEEP: bool>(effect: &E, width: Width, common: Common, task: Task) -> bool {
     match width {
         #[cfg(target_arch = "x86_64")]
-        Width::Avx512 => simd::avx512::<E, FLAT, KEEP>(effect, common, task),
+        Width::Avx512 => simd::avx512::<E, KEEP>(effect, common, task),
         #[cfg(target_arch = "x86_64")]
-        Width::Avx2 => simd::avx2::<E, FLAT, KEEP>(effect, common, task),
-        _ => blocks::<f64, E, FLAT, KEEP>(effect, common, task),
+        Width::Avx2 => simd::avx2::<E, KEEP>(effect, common, task),
+        _ => blocks::<f64, E, KEEP>(effect, common, task),
     }
 }
 
@@ -101,37 +97,33 @@ mod simd {
     use super::*;
     use crate::lane::x86::{X4, X8};
 
-    pub fn avx512<E: Effect, const FLAT: bool, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
+    pub fn avx512<E: Effect, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
         #[target_feature(enable = "avx512f,avx512dq,avx2")]
-        fn inner<E: Effect, const FLAT: bool, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
-            blocks::<X8, E, FLAT, KEEP>(e, common, task)
+        fn inner<E: Effect, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
+            blocks::<X8, E, KEEP>(e, common, task)
         }
         // SAFETY: `Width::Avx512` is only made where the processor has these features.
-        unsafe { inner::<E, FLAT, KEEP>(e, common, task) }
+        unsafe { inner::<E, KEEP>(e, common, task) }
     }
 
-    pub fn avx2<E: Effect, const FLAT: bool, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
+    pub fn avx2<E: Effect, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
         #[target_feature(enable = "avx2")]
-        fn inner<E: Effect, const FLAT: bool, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
-            blocks::<X4, E, FLAT, KEEP>(e, common, task)
+        fn inner<E: Effect, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
+            blocks::<X4, E, KEEP>(e, common, task)
         }
         // SAFETY: `Width::Avx2` is only made where the processor has these features.
-        unsafe { inner::<E, FLAT, KEEP>(e, common, task) }
+        unsafe { inner::<E, KEEP>(e, common, task) }
     }
 }
 
 #[inline(always)]
-fn blocks<R: Lane, E: Effect, const FLAT: bool, const KEEP: bool>(
-    e: &E,
-    common: Common,
-    mut task: Task,
-) -> bool {
+fn blocks<R: Lane, E: Effect, const KEEP: bool>(e: &E, common: Common, mut task: Task) -> bool {
     let mut too_deep = false;
     for block in 0..task.active.len() {
         let was_active = task.active[block];
         let mut active = false;
         for lane in (0..BLOCK).step_by(R::WIDTH) {
-            let (touches, deep) = lanes::<R, E, FLAT, KEEP>(e, &common, &mut task, block, lane, was_active);
+            let (touches, deep) = lanes::<R, E, KEEP>(e, &common, &mut task, block, lane, was_active);
             active |= touches;
             too_deep |= deep;
         }
@@ -142,7 +134,7 @@ fn blocks<R: Lane, E: Effect, const FLAT: bool, const KEEP: bool>(
 
 /// `WIDTH` contacts; whether any touches, and whether any overlap passes the limit.
 #[inline(always)]
-fn lanes<R: Lane, E: Effect, const FLAT: bool, const KEEP: bool>(
+fn lanes<R: Lane, E: Effect, const KEEP: bool>(
     effect: &E,
     common: &Common,
     task: &mut Task,
@@ -162,11 +154,17 @@ fn lanes<R: Lane, E: Effect, const FLAT: bool, const KEEP: bool>(
         return (false, false);
     }
     let distance = square.sqrt();
-    let normal = apart.scale(R::splat(1.0) / distance);
+    let inverse_mass = inverse_mi + inverse_mj;
+    // One division for three: it takes as long as all multiplications of a contact.
+    let both = distance * reach;
+    let inverse = R::splat(1.0) / (both * inverse_mass);
+    let normal = apart.scale(inverse * (reach * inverse_mass));
+    let inverse_reach = inverse * (distance * inverse_mass);
     let overlap = reach - distance;
     // The contact point divides the distance as the radii do: the whole of it on i's side at a flat wall.
-    let share = distance / reach;
+    let share = distance * inverse_reach;
     let (arm_i, arm_j) = (ri * share, rj * share);
+    let round = rj.gt(R::splat(0.0));
     let velocity = V::new(ui - uj, vi - vj, wi - wj);
     let along = velocity.dot(normal);
     let mut slip = velocity - normal.scale(along);
@@ -184,8 +182,8 @@ fn lanes<R: Lane, E: Effect, const FLAT: bool, const KEEP: bool>(
         touching,
         normal,
         overlap,
-        radius: if FLAT { ri } else { ri * rj / reach },
-        mass: R::splat(1.0) / (inverse_mi + inverse_mj),
+        radius: R::select(round, ri * rj * inverse_reach, ri),
+        mass: inverse * both,
         approach: -along,
         slip,
         spin,
@@ -220,7 +218,7 @@ fn lanes<R: Lane, E: Effect, const FLAT: bool, const KEEP: bool>(
         let row = [load.elastic, a, b, c, surface, zero, zero, zero];
         R::store_rows(row.map(|x| R::select(touching, x, zero)), &mut task.ledger[at * LEDGER..]);
     }
-    let smaller = if FLAT { ri } else { ri.min(rj) };
+    let smaller = R::select(round, ri.min(rj), ri);
     let deep = R::both(touching, overlap.gt(smaller * R::splat(common.overlap_limit)));
     (R::any(touching), R::any(deep))
 }

@@ -4,14 +4,15 @@
 //! positive. It knows nothing of files, TOML or the terminal.
 
 mod advance;
+mod aligned;
 mod bodies;
 mod check;
+mod contacts;
 pub mod effects;
 mod energy;
 mod error;
 mod explain;
 mod guards;
-mod interaction;
 mod kernel;
 pub mod lane;
 mod law;
@@ -23,6 +24,7 @@ mod relist;
 pub mod setup;
 mod simulation;
 mod state;
+mod sweep;
 mod touching;
 mod walls;
 mod zones;

@@ -238,10 +238,10 @@ impl Simulation {
         let row = &mut self.particles.rows[k];
         (row[0], row[1], row[2], row[4], row[5], row[6]) = (place.x, place.y, place.z, v.x, v.y, v.z);
         if let Some(spin) = self.particles.spins.get_mut(k) {
-            *spin = [state.spin.x, state.spin.y, state.spin.z, 0.0];
+            *spin = Row4([state.spin.x, state.spin.y, state.spin.z, 0.0]);
         }
         let h = self.particles.home[k];
-        self.away = self.away.max((place - Vec3::new(h[0], h[1], h[2])).norm());
+        self.out |= (place - Vec3::new(h[0], h[1], h[2])).norm() > h[3];
     }
 
     /// Out of everyone's reach until the next listing drops it.
@@ -258,9 +258,9 @@ impl Simulation {
     fn release(&mut self, k: usize, place: Vec3, velocity: Vec3) {
         self.zones.busy[k] = false;
         self.fresh.push(k as u32);
-        self.particles.acceleration[k] = [0.0; 4];
+        self.particles.acceleration[k] = Row4::default();
         if let Some(turning) = self.particles.turning.get_mut(k) {
-            *turning = [0.0; 4];
+            *turning = Row4::default();
         }
         // What passes a storage plane in this very step crosses it.
         let before = place - velocity * self.dt;

@@ -60,7 +60,9 @@ pub enum BodyError {
     #[error("the volume is {0:.3e} m³: the surface encloses nothing")]
     NoVolume(f64),
     /// Spheres that do not hang together.
-    #[error("the spheres fall into {0} parts that do not overlap: move or enlarge them until they make one body")]
+    #[error(
+        "the spheres fall into {0} parts that do not overlap: move or enlarge them until they make one body"
+    )]
     Parts(usize),
 }
 

@@ -200,7 +200,8 @@ fn add_arc(&[x, y, a]: &Disc, from: f64, to: f64, sum: &mut [f64; 6]) {
     sum[4] += a / 3.0 * (y * y * y * s + 3.0 * y * y * a * ss + 3.0 * y * a * a * sss + a * a * a * ssss);
     sum[5] += 0.5
         * a
-        * (y * (x * x * c + 2.0 * x * a * cc + a * a * ccc) + a * (x * x * cs + 2.0 * x * a * ccs + a * a * cccs));
+        * (y * (x * x * c + 2.0 * x * a * cc + a * a * ccc)
+            + a * (x * x * cs + 2.0 * x * a * ccs + a * a * cccs));
 }
 
 /// Antiderivatives at `t` of 1, c, s, c², s², c³, s³, c⁴, s⁴, c s, c² s with c = cos t, s = sin t.

@@ -6,7 +6,7 @@ use cli::Source;
 use serde_json::{Value, json};
 use std::io::{Cursor, Read};
 use stream::{Table, Values};
-use view::{Motion, Page, Role, Surface, ViewError};
+use view::{Motion, Page, Role, Surface, SurfaceShape, ViewError};
 
 /// The bytes that every MCAP stream begins with.
 const MCAP: &[u8] = b"\x89MCAP";
@@ -68,9 +68,14 @@ pub fn read_all(sources: &[Source], show: &mut impl Show) -> anyhow::Result<Vec<
     Ok(found)
 }
 
-/// A cloud; one whose points have a radius is a set of wall spheres.
-fn scan(from: impl Read, name: &str, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
-    let (cloud, dropped) = cloud::read(from)?.finite();
+/// A mesh, or a cloud; one whose points have a radius is a set of wall spheres.
+fn scan(mut from: impl Read, name: &str, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
+    let mut bytes = Vec::new();
+    from.read_to_end(&mut bytes).with_context(|| format!("{name}: cannot read"))?;
+    if has_faces(&bytes) {
+        return mesh(&bytes, name, show);
+    }
+    let (cloud, dropped) = cloud::from_bytes(bytes)?.finite();
     if dropped > 0 {
         cli::warn(&format!("{name}: {dropped} points without finite coordinates are not shown"));
     }
@@ -87,4 +92,20 @@ fn scan(from: impl Read, name: &str, show: &mut impl Show) -> anyhow::Result<Vec
     let layer = show.layer(role, name);
     show.push(layer, 0.0, table)?;
     Ok(vec![json!({ "input": name, "points": points })])
+}
+
+/// Whether this is a PLY file with faces in it.
+fn has_faces(bytes: &[u8]) -> bool {
+    let head = bytes.split(|b| *b == b'\n').take_while(|line| !line.starts_with(b"end_header"));
+    let mut counts = head.take(1000).filter_map(|line| line.strip_prefix(b"element face "));
+    bytes.starts_with(b"ply") && counts.any(|count| count.iter().any(|digit| (b'1'..=b'9').contains(digit)))
+}
+
+/// A mesh of triangles, at rest.
+fn mesh(mut bytes: &[u8], name: &str, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
+    let mesh = cloud::read_mesh(&mut bytes)?;
+    let faces = mesh.faces.len();
+    let (shape, motion) = (SurfaceShape::Mesh(mesh), Motion::default());
+    show.surface(Surface { name: name.to_owned(), shape, motion });
+    Ok(vec![json!({ "input": name, "triangles": faces })])
 }

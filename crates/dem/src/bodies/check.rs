@@ -53,7 +53,9 @@ fn body<'a>(body: &Body, setup: &'a Setup) -> Result<&'a ClumpShape, SetupError>
     let at = |key: &str| format!("clump {}: {key}", body.id);
     let Some(shape) = setup.clumps.shapes.get(body.shape as usize) else {
         let value = body.shape.into();
-        return Err(SetupError::Range { what: at("shape"), value, unit: "[–]", range: "the scene's clumps" });
+        return Err(SetupError::Range {
+            what: at("shape"), value, unit: "[–]", range: "the scene's clumps"
+        });
     };
     within(&at("scale"), body.scale, "[–]", body.scale > 0.0 && body.scale.is_finite(), "scale > 0")?;
     finite(&at("position"), &body.position, "m")?;

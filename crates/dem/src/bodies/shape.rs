@@ -135,7 +135,9 @@ mod tests {
         let spheres = [(Vec3::new(1.0, 2.0, 3.0), 0.3)];
         let shape = ClumpShape::new("ball", 0, &spheres, &Moments::of_sum(&spheres));
         let (normal, tangential) = shape.yielding();
-        assert!((normal * shape.volume - 1.0).abs() < 1e-12 && (tangential * shape.volume - 1.0).abs() < 1e-12);
+        assert!(
+            (normal * shape.volume - 1.0).abs() < 1e-12 && (tangential * shape.volume - 1.0).abs() < 1e-12
+        );
         assert!(shape.spheres[0].0.norm() < 1e-15 && (shape.reach() - 0.3).abs() < 1e-15);
     }
 
@@ -147,7 +149,8 @@ mod tests {
         let moments = Moments::of_sum(&spheres);
         let shape = ClumpShape::new("three", 0, &spheres, &moments);
         let turn = shape.frame.to_rotation_matrix();
-        let back = turn.matrix() * Matrix3::from_diagonal(&Vec3::from(shape.inertia)) * turn.matrix().transpose();
+        let back =
+            turn.matrix() * Matrix3::from_diagonal(&Vec3::from(shape.inertia)) * turn.matrix().transpose();
         assert!((back - moments.inertia).norm() < 1e-14, "{back}");
         for ((local, _), (given, _)) in shape.spheres.iter().zip(&spheres) {
             assert!((shape.frame * local + shape.centre - given).norm() < 1e-14);

@@ -15,12 +15,7 @@ use nalgebra::{Quaternion, UnitQuaternion};
 
 /// The turn after `dt` [s] of a body with turn `q` (its axes to space), angular momentum `momentum` in space [kg·m²/s], and
 /// 1/I along its axes [1/(kg·m²)].
-pub fn turned(
-    q: &UnitQuaternion<f64>,
-    momentum: &Vec3,
-    inverse: &[f64; 3],
-    dt: f64,
-) -> UnitQuaternion<f64> {
+pub fn turned(q: &UnitQuaternion<f64>, momentum: &Vec3, inverse: &[f64; 3], dt: f64) -> UnitQuaternion<f64> {
     let mut own = q.inverse_transform_vector(momentum);
     let (second, third) = (inverse[1] - inverse[0], inverse[2] - inverse[0]);
     let mut q = spun(&(momentum * (inverse[0] * dt))).into_inner() * q.quaternion();
