@@ -40,9 +40,14 @@ fn boomerang() -> ClumpShape {
 
 /// A cube of 20 mm with a sphere of 3 mm at every corner.
 fn cube() -> ClumpShape {
+    die(0.003)
+}
+
+/// The like with spheres of another radius [m].
+fn die(radius: f64) -> ClumpShape {
     let side = Vec3::repeat(0.01);
     let mesh = geom::mesh::cuboid(-side, side);
-    let spheres: Vec<(Vec3, f64)> = mesh.vertices.iter().map(|v| (*v, 0.003)).collect();
+    let spheres: Vec<(Vec3, f64)> = mesh.vertices.iter().map(|v| (*v, radius)).collect();
     ClumpShape::new("cube", 0, &spheres, &Moments::of_mesh(&mesh).expect("closed"))
 }
 
@@ -56,6 +61,7 @@ fn body(id: u32, position: Vec3) -> Body {
 fn alone(shape: ClumpShape, spin: Vec3, dt: f64) -> Setup {
     let mut setup = empty(Law::Hooke { stiffness: 1e-3, tangential_ratio: None }, 0.5);
     setup.step = Step::Fixed(dt);
+    setup.guards.motion = 1.0;
     let turn = Rotation3::from_euler_angles(0.3, -0.8, 0.5).into();
     let one = Body { orientation: turn, spin, velocity: Vec3::new(0.3, 0.1, -0.2), ..body(7, Vec3::x()) };
     setup.clumps = Clumps { shapes: vec![shape], bodies: vec![one], entries: vec![] };
@@ -261,7 +267,11 @@ fn cube_rests_on_its_face_and_slides_above_the_angle_of_friction() {
         let rested = bodies(&mut sim)[0];
         run_until(&mut sim, 2.0);
         let b = bodies(&mut sim)[0];
-        assert!((b.position - rested.position).norm() < 1e-13, "{law:?} creeps: {:?}", b.position - rested.position);
+        assert!(
+            (b.position - rested.position).norm() < 1e-13,
+            "{law:?} creeps: {:?}",
+            b.position - rested.position
+        );
         assert!(b.velocity.norm() < 1e-12 && b.spin.norm() < 1e-10, "{law:?}: {b:?}");
         // Four corners carry the weight.
         let at = 0.013 - b.position.z;
@@ -271,7 +281,11 @@ fn cube_rests_on_its_face_and_slides_above_the_angle_of_friction() {
         let rested = bodies(&mut sim)[0];
         run_until(&mut sim, 2.0);
         let b = bodies(&mut sim)[0];
-        assert!((b.position - rested.position).norm() < 1e-9, "{law:?} stays: {:?}", b.position - rested.position);
+        assert!(
+            (b.position - rested.position).norm() < 1e-9,
+            "{law:?} stays: {:?}",
+            b.position - rested.position
+        );
         let mut sim = on_slope(1.1 * mu, 0.5);
         let theta = f64::atan(1.1 * mu);
         let expected = 9.81 * (theta.sin() - mu * theta.cos()) * sim.time();
@@ -290,10 +304,12 @@ fn collision_conserves_momentum_and_angular_momentum() {
         (first.velocity, first.spin) = (Vec3::new(0.6, 0.0, 0.05), Vec3::new(10.0, -4.0, 15.0));
         let mut second = body(10, Vec3::new(0.02, -0.003, 0.0));
         (second.shape, second.scale, second.spin) = (1, 1.3, Vec3::new(-9.0, 3.0, 5.0));
-        setup.clumps = Clumps { shapes: vec![boomerang(), cube()], bodies: vec![first, second], entries: vec![] };
+        setup.clumps =
+            Clumps { shapes: vec![boomerang(), cube()], bodies: vec![first, second], entries: vec![] };
         let totals = |list: &[BodyState]| {
             let p: Vec3 = list.iter().map(|b| b.velocity * b.mass).sum();
-            let l: Vec3 = list.iter().map(|b| b.position.cross(&b.velocity) * b.mass + b.angular_momentum).sum();
+            let l: Vec3 =
+                list.iter().map(|b| b.position.cross(&b.velocity) * b.mass + b.angular_momentum).sum();
             (p, l)
         };
         let mut sim = simulation(setup);
@@ -310,7 +326,7 @@ fn collision_conserves_momentum_and_angular_momentum() {
 }
 
 /// Clumps of three kinds and spheres, thrown into a periodic, shaken trough of wall spheres.
-fn trough(law: Law) -> Setup {
+fn trough(law: Law, count: u32) -> Setup {
     let mut setup = with_friction(empty(law, 0.4), 0.4);
     setup.contacts.iter_mut().for_each(|c| c.rolling_resistance = Some(0.05));
     setup.gravity = Vec3::new(0.5, 0.0, -9.81);
@@ -324,11 +340,15 @@ fn trough(law: Law) -> Setup {
     floor.motion.frequency = 25.0;
     setup.walls = vec![floor];
     let place = |k: u32| {
-        Vec3::new(0.03 + 0.06 * (k % 5) as f64, 0.03 + 0.06 * (k / 5 % 5) as f64, 0.05 + 0.06 * (k / 25) as f64)
+        Vec3::new(
+            0.03 + 0.06 * (k % 5) as f64,
+            0.03 + 0.06 * (k / 5 % 5) as f64,
+            0.05 + 0.06 * (k / 25) as f64,
+        )
     };
     let thrown = |k: u32| Vec3::new(0.1 * (k % 7) as f64 - 0.3, 0.05 * (k % 5) as f64 - 0.1, -0.5);
-    setup.clumps.shapes = vec![boomerang(), cube(), dumbbell()];
-    for k in 0..75 {
+    setup.clumps.shapes = vec![boomerang(), die(0.006), dumbbell()];
+    for k in 0..count {
         if k % 4 == 3 {
             let mut p = grain(10 * k, place(k));
             p.velocity = thrown(k);
@@ -336,9 +356,16 @@ fn trough(law: Law) -> Setup {
         } else {
             let orientation = Rotation3::from_euler_angles(k as f64, 0.3 * k as f64, 0.0).into();
             let spin = Vec3::new(5.0, -3.0, 2.0) * (k % 3) as f64;
-            let scale = 0.8 + 0.01 * k as f64 / 2.0;
+            let scale = 0.8 + 0.005 * (k % 80) as f64;
             let one = body(10 * k, place(k));
-            setup.clumps.bodies.push(Body { shape: k % 4, scale, orientation, spin, velocity: thrown(k), ..one });
+            setup.clumps.bodies.push(Body {
+                shape: k % 4,
+                scale,
+                orientation,
+                spin,
+                velocity: thrown(k),
+                ..one
+            });
         }
     }
     setup
@@ -351,7 +378,8 @@ fn bits(mut sim: Simulation, steps: u64) -> Vec<u64> {
     }
     let of = |p: &Particle| [p.position, p.velocity, p.spin].map(|v| [v.x, v.y, v.z]).concat();
     let mut all: Vec<f64> = particles(&mut sim).iter().flat_map(of).collect();
-    let turn = |b: &BodyState| b.orientation.coords.iter().chain(&b.angular_momentum).copied().collect::<Vec<_>>();
+    let turn =
+        |b: &BodyState| b.orientation.coords.iter().chain(&b.angular_momentum).copied().collect::<Vec<_>>();
     all.extend(bodies(&mut sim).iter().flat_map(turn));
     all.into_iter().map(f64::to_bits).collect()
 }
@@ -361,9 +389,11 @@ fn bits(mut sim: Simulation, steps: u64) -> Vec<u64> {
 fn energy_budget_closes() {
     for law in LAWS {
         let closing = |safety: f64| {
-            let mut setup = trough(law);
+            let mut setup = trough(law, 75);
             setup.ledger = true;
             setup.gravity.x = 0.0;
+            // Wall spheres end at the edge of the box: what goes through a periodic face jumps between them.
+            setup.walls[0].shape = plane(Vec3::z()).shape;
             setup.step = Step::Auto(safety);
             let mut sim = simulation(setup);
             let start = energy(&mut sim).balance();
@@ -381,21 +411,24 @@ fn energy_budget_closes() {
 
 #[test]
 fn same_bits_for_widths_threads_order_and_resume() {
-    let reference = bits(simulation(trough(Law::Hertz)), 900);
+    let reference = bits(simulation(trough(Law::Hertz, 75)), 900);
     for width in Width::available() {
-        let sim = Simulation::with_width(trough(Law::Hertz), width).expect("sound");
+        let sim = Simulation::with_width(trough(Law::Hertz, 75), width).expect("sound");
         assert!(bits(sim, 900) == reference, "{width:?}");
     }
     for threads in [1, 3] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-        assert!(pool.install(|| bits(simulation(trough(Law::Hertz)), 900)) == reference, "{threads} threads");
+        assert!(
+            pool.install(|| bits(simulation(trough(Law::Hertz, 75)), 900)) == reference,
+            "{threads} threads"
+        );
     }
-    let mut shuffled = trough(Law::Hertz);
+    let mut shuffled = trough(Law::Hertz, 75);
     shuffled.particles.reverse();
     shuffled.clumps.bodies.rotate_left(17);
     assert!(bits(simulation(shuffled), 900) == reference, "another order");
     for looked in [false, true] {
-        let mut first = simulation(trough(Law::Hertz));
+        let mut first = simulation(trough(Law::Hertz, 75));
         for _ in 0..400 {
             first.step().expect("within the guards");
         }
@@ -403,7 +436,7 @@ fn same_bits_for_widths_threads_order_and_resume() {
             particles(&mut first);
         }
         let saved = first.state().to_state();
-        let resumed = Simulation::resume(trough(Law::Hertz), saved).expect("the same setup");
+        let resumed = Simulation::resume(trough(Law::Hertz, 75), saved).expect("the same setup");
         assert!(bits(resumed, 500) == reference, "resumed, looked at: {looked}");
     }
 }
@@ -412,8 +445,8 @@ fn same_bits_for_widths_threads_order_and_resume() {
 #[test]
 fn stable_just_below_the_critical_step() {
     for law in LAWS {
-        let mut setup = trough(law);
-        setup.walls[0].motion = Motion::still();
+        let mut setup = trough(law, 300);
+        setup.walls = vec![plane(Vec3::z())];
         setup.gravity.x = 0.0;
         let critical = dem::critical_step(&setup).expect("laws for all pairs");
         assert!(critical.pair.contains("clump '"), "{}", critical.pair);
@@ -422,14 +455,13 @@ fn stable_just_below_the_critical_step() {
         setup.step = Step::Fixed(0.95 * critical.dt);
         let mut sim = simulation(setup);
         run_until(&mut sim, 1.2);
-        let e = energy(&mut sim);
-        println!("{law:?}: {:e} J left", e.translation + e.rotation);
-        run_until(&mut sim, 2.4);
+        let first = energy(&mut sim);
+        run_until(&mut sim, 1.8);
         let later = energy(&mut sim);
-        assert!(
-            later.translation + later.rotation <= 0.5 * (e.translation + e.rotation) + 1e-12,
-            "{law:?}: {e:?} {later:?}"
-        );
+        println!("{law:?}: {:e} J, then {:e} J", first.translation, later.translation);
+        assert!(later.translation < 0.1 * first.translation, "{law:?} trembles: {first:?} {later:?}");
+        // A single foot may spin on: nothing resists twisting.
+        assert!(later.rotation <= first.rotation * (1.0 + 1e-9), "{law:?} heats: {first:?} {later:?}");
     }
 }
 

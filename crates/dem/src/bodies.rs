@@ -110,6 +110,8 @@ pub struct Bodies {
     of: Vec<u32>,
     /// Place of each row in its body, in the principal frame [m].
     arms: Vec<Row4>,
+    /// Periods between each row and its place in the body: members lie in the periodic box, each by itself.
+    images: Vec<[i8; 3]>,
 }
 
 /// Velocity and angular velocity of a body, and its angular momentum.
@@ -150,6 +152,7 @@ impl Bodies {
         let turn = body.orientation * shape.frame;
         self.of.resize(particles.len(), FREE);
         self.arms.resize(particles.len(), Row4::default());
+        self.images.resize(particles.len(), [0; 3]);
         let (flight, first) = (self.flights.len() as u32, self.members.len() as u32);
         for (k, (centre, radius)) in shape.spheres.iter().enumerate() {
             let arm = centre * s;
@@ -170,6 +173,7 @@ impl Bodies {
             self.members.push(at as u32);
             self.of.push(flight);
             self.arms.push(Row4([arm.x, arm.y, arm.z, 0.0]));
+            self.images.push([0; 3]);
         }
         let momentum = turn::momentum(&turn, &body.spin, &inverse_inertia);
         let turn = turn.into_inner().coords.into();
@@ -221,29 +225,25 @@ impl Bodies {
             new[o as usize] = n as u32;
         }
         self.members.iter_mut().for_each(|m| *m = new[*m as usize]);
-        let old = |o: &u32| self.of.get(*o as usize).copied().unwrap_or(FREE);
-        let of = order.iter().map(old).collect();
+        let before = std::mem::take(&mut self.of);
+        let old = |o: &u32| before.get(*o as usize).copied().unwrap_or(FREE);
+        self.of = order.iter().map(old).collect();
         self.arms = order.iter().map(|&o| self.arms.get(o as usize).copied().unwrap_or_default()).collect();
-        self.of = of;
+        self.images =
+            order.iter().map(|&o| self.images.get(o as usize).copied().unwrap_or_default()).collect();
     }
 
     /// Moves the bodies whose members have been moved as if they were free, and puts the members in their places.
-    pub fn advance(
-        &mut self,
-        particles: &mut Particles,
-        dt: f64,
-        gravity: &Vec3,
-        motion_limit: f64,
-    ) -> Moved {
+    pub fn advance(&mut self, particles: &mut Particles, setup: &Setup, dt: f64) -> Moved {
         let (members, arms) = (&self.members, &self.arms);
         let seen = &*particles;
         self.flights.par_chunks_mut(CHUNK).for_each(|chunk| {
             for f in chunk.iter_mut().filter(|f| !f.travels) {
-                let (a, torque) = f.gathered(members, arms, seen, gravity);
+                let (a, torque) = f.gathered(members, arms, seen, &setup.gravity);
                 f.advance(a, torque, dt);
             }
         });
-        self.place(particles, dt, motion_limit)
+        self.place(particles, setup, dt)
     }
 
     /// Bodies without a past get the acceleration and the torque of this instant as those of the step before.
@@ -256,8 +256,9 @@ impl Bodies {
     }
 
     /// Writes the members' rows.
-    fn place(&self, particles: &mut Particles, dt: f64, motion_limit: f64) -> Moved {
+    fn place(&self, particles: &mut Particles, setup: &Setup, dt: f64) -> Moved {
         let flights = &self.flights;
+        let (periods, motion_limit) = (periods(&setup.periodic), setup.guards.motion);
         let flight = |of: &u32| flights.get(*of as usize).filter(|f| !f.travels);
         let spins = (&mut particles.spins, &self.of).into_par_iter().with_min_len(CHUNK);
         spins.for_each(|(spin, of)| {
@@ -265,11 +266,13 @@ impl Bodies {
                 *spin = Row4([f.spin.x, f.spin.y, f.spin.z, 0.0]);
             }
         });
-        let columns =
-            (&mut particles.rows, &mut particles.acceleration, &particles.home, &self.of, &self.arms);
-        let moved = |(row, acceleration, h, of, out): (&mut Row, &mut Row4, &Row4, &u32, &Row4)| {
+        let seats = (&self.of, &self.arms, &self.images).into_par_iter();
+        let columns = (&mut particles.rows, &mut particles.acceleration, &particles.home, seats);
+        let moved = |(row, acceleration, h, seat): (&mut Row, &mut Row4, &Row4, Seat)| {
+            let (of, out, image) = seat;
             let Some(f) = flight(of) else { return Moved::default() };
             let (place, velocity, way) = f.point(out);
+            let place = place + far(image, &periods);
             row[..3].copy_from_slice(place.as_slice());
             row[4..7].copy_from_slice(velocity.as_slice());
             // What brings it back to where it was: `position_before`.
@@ -282,18 +285,22 @@ impl Bodies {
         columns.into_par_iter().with_min_len(CHUNK).map(moved).reduce(Moved::default, Moved::and)
     }
 
-    /// Moves every body that has left through a periodic face to the other side, with its members; the others are left where they are.
-    pub fn wrap(&mut self, particles: &mut Particles, wrapped: impl Fn(Vec3) -> Vec3) {
+    /// Brings bodies, and each of their members, back into the periodic box.
+    pub fn wrap(&mut self, particles: &mut Particles, periodic: &[Option<(f64, f64)>; 3]) {
+        let periods = periods(periodic);
+        let away =
+            |p: &Vec3, a: usize| periodic[a].map_or(0.0, |(lo, hi)| -((p[a] - lo) / (hi - lo)).floor());
+        let there = |p: Vec3| [0, 1, 2].map(|a| away(&p, a));
         for f in &mut self.flights {
-            let there = wrapped(f.place);
-            let shift = there - f.place;
-            if shift != Vec3::zeros() {
-                f.place = there;
-                f.place_before += shift;
-                for &m in &self.members[f.first as usize..(f.first + f.count) as usize] {
-                    let out = quaternion(&f.turn) * arm(&self.arms[m as usize]);
-                    particles.rows[m as usize][..3].copy_from_slice((there + out).as_slice());
-                }
+            let shift = Vec3::from(there(f.place)).component_mul(&periods);
+            f.place += shift;
+            f.place_before += shift;
+            for &m in &self.members[f.first as usize..(f.first + f.count) as usize] {
+                let m = m as usize;
+                let place = f.place + quaternion(&f.turn) * arm(&self.arms[m]);
+                self.images[m] = there(place).map(|n| n as i8);
+                let place = place + far(&self.images[m], &periods);
+                particles.rows[m][..3].copy_from_slice(place.as_slice());
             }
         }
     }
@@ -359,14 +366,30 @@ impl Bodies {
 
     /// Memory of one body, and of each of its members beyond a particle's [bytes].
     pub fn bytes() -> (usize, usize) {
-        (size_of::<Flight>(), 2 * size_of::<u32>() + size_of::<Row4>())
+        (size_of::<Flight>(), 2 * size_of::<u32>() + size_of::<Row4>() + size_of::<[i8; 3]>())
     }
 
     /// Memory of all bodies [bytes].
     pub fn all_bytes(&self) -> usize {
         let (flights, members, arms) = (&self.flights[..], &self.members[..], &self.arms[..]);
-        size_of_val(flights) + size_of_val(members) + size_of_val(&self.of[..]) + size_of_val(arms)
+        size_of_val(flights)
+            + size_of_val(members)
+            + size_of_val(&self.of[..])
+            + size_of_val(arms)
+            + size_of_val(&self.images[..])
     }
+}
+
+/// Body, arm and image of a row.
+type Seat<'a> = (&'a u32, &'a Row4, &'a [i8; 3]);
+
+/// Periods along x, y, z [m]; 0 along an open axis.
+fn periods(periodic: &[Option<(f64, f64)>; 3]) -> Vec3 {
+    Vec3::from(periodic.map(|p| p.map_or(0.0, |(lo, hi)| hi - lo)))
+}
+
+fn far(image: &[i8; 3], periods: &Vec3) -> Vec3 {
+    Vec3::from(image.map(f64::from)).component_mul(periods)
 }
 
 fn arm(row: &Row4) -> Vec3 {

@@ -51,7 +51,7 @@ impl Simulation {
             let p = wrapped(&self.setup.periodic, self.particles.position(k));
             self.particles.rows[k][..3].copy_from_slice(p.as_slice());
         }
-        self.bodies.wrap(&mut self.particles, |p| wrapped(&self.setup.periodic, p));
+        self.bodies.wrap(&mut self.particles, &self.setup.periodic);
     }
 
     /// Gives each particle that stays its home and its room there, and sorts them.

@@ -232,7 +232,8 @@ impl Simulation {
     pub fn energy(&mut self) -> Result<Energy, Halt> {
         let mut particles = self.particles()?;
         let bodies = self.bodies()?;
-        particles.retain(|p| !bodies.iter().any(|b| b.has(p.id)));
+        let body_of = |id: u32| bodies[..bodies.partition_point(|b| b.id <= id)].last();
+        particles.retain(|p| !body_of(p.id).is_some_and(|b| b.has(p.id)));
         let mut energy = Energy::of(&particles, &self.setup, &self.contacts, &self.account);
         bodies.iter().for_each(|b| energy.add_body(b, &self.setup));
         Ok(energy)
@@ -336,8 +337,7 @@ impl Simulation {
         if self.bodies.none() {
             return moved;
         }
-        let (gravity, limit) = (self.setup.gravity, self.setup.guards.motion);
-        moved.and(self.bodies.advance(&mut self.particles, self.dt, &gravity, limit))
+        moved.and(self.bodies.advance(&mut self.particles, &self.setup, self.dt))
     }
 
     pub(crate) fn all_loads(&self) -> Loads<'_> {
