@@ -64,6 +64,11 @@ impl Simulation {
         state + rotation + size_of::<u32>() + size_of::<u16>() + size_of::<u32>()
     }
 
+    /// Memory of a rigid clump, and of each of its members beyond that of a particle [bytes].
+    pub fn bytes_of_clump() -> (usize, usize) {
+        crate::bodies::Bodies::bytes()
+    }
+
     /// Memory that rigid clumps take beyond that of their members' rows [bytes].
     pub fn bytes_of_clumps(&self) -> usize {
         self.bodies.all_bytes()

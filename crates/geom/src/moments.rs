@@ -164,7 +164,7 @@ mod tests {
             corner(-1.0, 1.0, -1.0),
             corner(-1.0, -1.0, 1.0),
         ];
-        let faces = vec![[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]];
+        let faces = [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]];
         for flip in [false, true] {
             let faces = faces.iter().map(|&[a, b, c]| if flip { [a, c, b] } else { [a, b, c] }).collect();
             let m = Moments::of_mesh(&TriMesh { vertices: vertices.clone(), faces }).unwrap();
