@@ -144,6 +144,8 @@ pub fn touching(run: &Run, frame: &Frame) -> Vec<(usize, usize)> {
     pairs
 }
 
+const FEW: MeasureError = MeasureError::FewGrains { what: "a contact number", most: 0, wanted: 1 };
+
 /// Measures contact numbers over time.
 pub struct ContactNumbers {
     which: Which,
@@ -239,7 +241,7 @@ impl Observer for ContactNumbers {
         let time = self.waiting.as_ref().map(|f| f.time);
         let own = self.early.take().filter(|c| Some(c.time) == time);
         self.settle(run, own.as_ref(), rows);
-        let none = || if self.frames == 0 { NO_FRAMES } else { MeasureError::NoGrains { time: 0.0 } };
+        let none = || if self.frames == 0 { NO_FRAMES } else { FEW };
         let (c, time) = self.last.as_ref().ok_or_else(none)?;
         let (mechanical, rattlers) = c.mechanical();
         let summary = Summary::default()

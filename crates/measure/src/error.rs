@@ -39,6 +39,10 @@ pub enum MeasureError {
         corners(low, high)
     )]
     NothingInside { what: &'static str, low: [f64; 3], high: [f64; 3] },
+    #[error(
+        "frames hold at most {most} grains, and {what} needs {wanted}: run longer, or choose other frames"
+    )]
+    FewGrains { what: &'static str, most: usize, wanted: usize },
     #[error("frame at {} s holds no grains: choose another time with --time", Shown(*time))]
     NoGrains { time: f64 },
     #[error(

@@ -229,7 +229,9 @@ impl OfFrame for Profile {
     }
 
     fn end(&mut self) -> Result<(Vec<Row>, Summary), MeasureError> {
-        let Some(grid) = &self.grid else { return Err(MeasureError::NoGrains { time: 0.0 }) };
+        let Some(grid) = &self.grid else {
+            return Err(MeasureError::FewGrains { what: "a profile", most: 0, wanted: 1 });
+        };
         if self.fraction == 0.0 {
             let (low, high) = self.bounds.unwrap_or_default();
             return Err(MeasureError::NothingInside { what: "grain", low: low.into(), high: high.into() });
@@ -252,7 +254,8 @@ impl OfFrame for Profile {
         let wide: Vec<usize> = (0..3).filter(|k| bins[*k] > 1).collect();
         let name = |axis: usize| format!("{} [m]", ["x", "y", "z"][axis]);
         let time = rows.first().map_or(0.0, |r| r[0]);
-        let mut chart = Chart::new(format!("Profile at {time:.4} s"));
+        let title = if self.options.mean { "Mean profile until" } else { "Profile at" };
+        let mut chart = Chart::new(format!("{title} {time:.4} s"));
         match wide[..] {
             [] | [_] => {
                 let axis = wide.first().copied().unwrap_or(2);

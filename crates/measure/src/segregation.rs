@@ -95,6 +95,7 @@ pub struct Segregation {
     cell: Option<f64>,
     axis: Option<Vec3>,
     last: Option<(Mixing, f64)>,
+    most: usize,
 }
 
 impl Segregation {
@@ -109,7 +110,7 @@ impl Segregation {
                 return Err(MeasureError::Setting { what, value, unit: "m", cure: "give a length above 0" });
             }
         }
-        Ok(Segregation { kinds, cell, axis: axis.map(|a| a.normalize()), last: None })
+        Ok(Segregation { kinds, cell, axis: axis.map(|a| a.normalize()), last: None, most: 0 })
     }
 
     fn first(&mut self, run: &Run, frame: &Frame) -> Result<Vec<bool>, MeasureError> {
@@ -144,6 +145,7 @@ impl OfFrame for Segregation {
     }
 
     fn measure(&mut self, run: &Run, frame: &Frame) -> Result<Vec<Row>, MeasureError> {
+        self.most = self.most.max(frame.len());
         if frame.len() < 2 {
             return Ok(Vec::new());
         }
@@ -156,7 +158,8 @@ impl OfFrame for Segregation {
     }
 
     fn end(&mut self) -> Result<(Vec<Row>, Summary), MeasureError> {
-        let (m, time) = self.last.ok_or(MeasureError::NoGrains { time: 0.0 })?;
+        let (m, time) =
+            self.last.ok_or(MeasureError::FewGrains { what: "mixing", most: self.most, wanted: 2 })?;
         let mut summary = Summary::default()
             .with("lacey_index", "1", m.lacey)
             .with("centre_difference", "1", m.difference)
