@@ -18,13 +18,14 @@ mod check;
 mod shape;
 mod turn;
 
-pub(crate) use check::check;
+pub(crate) use check::{check, check_entry};
 pub use shape::ClumpShape;
 
 use crate::advance::{Loads, Moved};
 use crate::lane::{Row, Row4};
 use crate::particles::Particles;
-use crate::setup::{Body, Clumps, Material, Particle, Setup};
+use crate::setup::{Body, Clumps, EntryClump, Material, Particle, Setup};
+use crate::simulation::Simulation;
 use geom::Vec3;
 use nalgebra::{Quaternion, UnitQuaternion};
 use rayon::prelude::*;
@@ -199,6 +200,51 @@ impl Bodies {
         });
     }
 
+    /// Adds a body that moves by a prescribed motion for now, after `since` [s] on its way from `start`; gives the start of each member.
+    pub fn enter(
+        &mut self,
+        start: &Particle,
+        clump: &EntryClump,
+        since: f64,
+        setup: &Setup,
+        particles: &mut Particles,
+    ) -> Vec<Particle> {
+        let shape = &setup.clumps.shapes[clump.shape as usize];
+        let EntryClump { shape: index, scale, orientation } = *clump;
+        let position = start.position + start.velocity * since;
+        let (id, velocity, spin) = (start.id, start.velocity, Vec3::zeros());
+        let body = Body { id, shape: index, scale, position, orientation, velocity, spin };
+        self.push(&body, shape, &setup.materials, particles);
+        if let Some(flight) = self.flights.last_mut() {
+            flight.travels = true;
+        }
+        let turn = orientation * shape.frame;
+        let member = |(k, (centre, radius)): (usize, &(Vec3, f64))| Particle {
+            id: id.wrapping_add(k as u32),
+            radius: radius * scale,
+            position: start.position + turn * (centre * scale),
+            spin,
+            material: shape.material,
+            ..*start
+        };
+        shape.spheres.iter().enumerate().map(member).collect()
+    }
+
+    /// Where the centre of row `k`'s body is that travels.
+    pub fn carry(&mut self, k: usize, centre: Vec3) {
+        if let Some(f) = self.of.get(k).and_then(|&b| self.flights.get_mut(b as usize)) {
+            f.place = centre;
+            f.place_before = centre;
+        }
+    }
+
+    /// The body of row `k` is free from now on.
+    pub fn release(&mut self, k: usize) {
+        if let Some(f) = self.of.get(k).and_then(|&b| self.flights.get_mut(b as usize)) {
+            (f.travels, f.fresh) = (false, true);
+        }
+    }
+
     /// Takes the pairs of one body's own members out of a list.
     pub fn drop_own<T>(&self, list: &mut Vec<T>, pair: impl Fn(&T) -> (u32, u32)) {
         if !self.none() {
@@ -305,25 +351,29 @@ impl Bodies {
         }
     }
 
-    /// The bodies with velocities of this instant, by id.
-    pub fn states(&self, particles: &Particles, loads: &Loads, setup: &Setup, dt: f64) -> Vec<BodyState> {
+    /// The bodies in the calculation with velocities of this instant, by id.
+    pub fn states(&self, sim: &Simulation) -> Vec<BodyState> {
+        let (loads, time) = (sim.all_loads(), sim.time());
         let state = |f: &Flight| {
-            let Instant { velocity, spin, momentum } = self.instant(f, particles, loads, &setup.gravity, dt);
-            let shape = &setup.clumps.shapes[f.shape as usize];
+            let gravity = &sim.setup.gravity;
+            let Instant { velocity, spin, momentum } =
+                self.instant(f, &sim.particles, &loads, gravity, sim.dt);
+            let shape = &sim.setup.clumps.shapes[f.shape as usize];
             BodyState {
                 id: f.id,
                 shape: f.shape,
                 members: f.count,
                 scale: f.scale,
                 mass: f.mass,
-                position: f.place,
+                position: sim.wrapped(f.place),
                 orientation: quaternion(&f.turn) * shape.frame.inverse(),
                 velocity,
                 spin,
                 angular_momentum: momentum,
             }
         };
-        let mut states: Vec<BodyState> = self.flights.iter().map(state).collect();
+        let seen = |f: &&Flight| !sim.zones.is_hidden(self.members[f.first as usize] as usize, time);
+        let mut states: Vec<BodyState> = self.flights.iter().filter(seen).map(state).collect();
         states.sort_by_key(|s| s.id);
         states
     }
@@ -422,6 +472,11 @@ impl Clumps {
     /// Shapes and entries, for when the bodies are in their columns.
     pub(crate) fn without_bodies(self) -> Clumps {
         Clumps { bodies: Vec::new(), ..self }
+    }
+
+    /// Number of members of all bodies at t = 0.
+    pub fn members(&self) -> usize {
+        self.bodies.iter().filter_map(|b| self.shapes.get(b.shape as usize)).map(|s| s.spheres.len()).sum()
     }
 
     /// Radius of every member at t = 0 [m], or of every shape that inlets bring where there is none.

@@ -211,8 +211,22 @@ pub struct Entry {
     pub time: f64,
     /// Which inlet.
     pub inlet: u32,
-    /// State at that time; the velocity is kept until the calculation plane.
+    /// State at that time; the velocity is kept until the calculation plane. Of a rigid clump: id of its first member, centre of
+    /// mass, and the sphere that holds it; it does not turn before the calculation plane.
     pub particle: Particle,
+    /// What makes it a rigid clump.
+    pub clump: Option<EntryClump>,
+}
+
+/// The shape of an entry that is a rigid clump.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct EntryClump {
+    /// Index of its shape.
+    pub shape: u32,
+    /// Size over that of the shape [–].
+    pub scale: f64,
+    /// From the frame that the shape was given in to space.
+    pub orientation: UnitQuaternion<f64>,
 }
 
 /// A particle that has passed a storage plane.

@@ -245,9 +245,7 @@ impl Simulation {
     /// When the state is beyond a guard.
     pub fn bodies(&mut self) -> Result<Vec<BodyState>, Halt> {
         self.ready()?;
-        let mut states = self.bodies.states(&self.particles, &self.all_loads(), &self.setup, self.dt);
-        states.iter_mut().for_each(|s| s.position = self.wrapped(s.position));
-        Ok(states)
+        Ok(self.bodies.states(self))
     }
 
     /// One time step.

@@ -111,6 +111,7 @@ impl Check<'_> {
         self.within("first_id", f64::from(m.first_id), 0.0, 4e9, "")?;
         self.materials(m)?;
         self.contacts(m)?;
+        self.clumps(m)?;
         self.sources(m)?;
         for (i, w) in m.wall.iter().enumerate() {
             self.wall(&format!("wall.{i}"), w)?;
@@ -186,10 +187,103 @@ impl Check<'_> {
         Ok(())
     }
 
+    /// Spheres have material and diameter, clumps a name and perhaps a scale.
+    fn grains(
+        &self,
+        entry: &str,
+        material: &str,
+        diameter: Diameter,
+        (clump, scale): (bool, Option<Diameter>),
+    ) -> Checked {
+        let key = |k: &str| format!("{entry}.{k}");
+        let given = diameter != Diameter::default();
+        if clump {
+            for (name, given) in [("material", !material.is_empty()), ("diameter", given)] {
+                if given {
+                    let why = "a clump has its own";
+                    return Err(self.wrong(&key(name), "(given)", why, "take it out, or use scale"));
+                }
+            }
+            let range = scale.unwrap_or(Diameter { low: 1.0, high: 1.0 });
+            self.positive(&key("scale"), range.low, "")?;
+            self.positive(&key("scale"), range.high, "")?;
+            if range.low > range.high {
+                let value = format!("[{}, {}]", range.low, range.high);
+                return Err(self.wrong(
+                    &key("scale"),
+                    value,
+                    "the range is upside down",
+                    "give [smallest, largest]",
+                ));
+            }
+            return Ok(());
+        }
+        for (name, given) in [("material", !material.is_empty()), ("diameter", given)] {
+            if !given {
+                let why = format!("{name} is missing");
+                return Err(self.wrong(
+                    entry,
+                    format!("(without {name})"),
+                    &why,
+                    "add it, or the name of a clump",
+                ));
+            }
+        }
+        if scale.is_some() {
+            let why = "only clumps have a scale";
+            return Err(self.wrong(&key("scale"), "(given)", why, "use diameter, or add clump = \"…\""));
+        }
+        self.diameter(&key("diameter"), diameter)
+    }
+
+    fn clumps(&self, m: &Model) -> Checked {
+        for (i, c) in m.clump.iter().enumerate() {
+            let key = |k: &str| format!("clump.{i}.{k}");
+            if c.name.is_empty() || m.clump[..i].iter().any(|o| o.name == c.name) {
+                let value = format!("\"{}\"", c.name);
+                return Err(self.wrong(
+                    &key("name"),
+                    value,
+                    "is no name of its own",
+                    "name each clump differently",
+                ));
+            }
+            let kinds = [("spheres", c.spheres.is_some()), ("mesh", c.mesh.is_some())];
+            self.one_of(&format!("clump.{i}"), &kinds)?;
+            self.positive(&key("scale"), c.scale, "")?;
+            self.positive_if(&key("vertex_radius"), c.vertex_radius, "m")?;
+            if c.mesh.is_some() != c.vertex_radius.is_some() {
+                let why = "vertex_radius goes with mesh, and mesh with vertex_radius";
+                return Err(self.wrong(&format!("clump.{i}"), "(one of them)", why, "give both, or spheres"));
+            }
+            let spheres = c.spheres.as_deref().unwrap_or_default();
+            if c.spheres.is_some() && spheres.is_empty() {
+                return Err(self.wrong(
+                    &key("spheres"),
+                    "[]",
+                    "has no sphere",
+                    "give [[x, y, z, radius], …]",
+                ));
+            }
+            for (k, sphere) in spheres.iter().enumerate() {
+                self.finite(&key(&format!("spheres.{k}")), &sphere[..3], "m")?;
+                self.positive(&key(&format!("spheres.{k}")), sphere[3], "m")?;
+            }
+        }
+        for (i, b) in m.body.iter().enumerate() {
+            let key = |k: &str| format!("body.{i}.{k}");
+            self.finite(&key("position"), &b.position, "m")?;
+            self.finite(&key("velocity"), &b.velocity, "m/s")?;
+            self.finite(&key("spin"), &b.spin, "rad/s")?;
+            self.positive(&key("scale"), b.scale, "")?;
+        }
+        Ok(())
+    }
+
     fn sources(&self, m: &Model) -> Checked {
         for (i, f) in m.fill.iter().enumerate() {
             let key = |k: &str| format!("fill.{i}.{k}");
-            self.diameter(&key("diameter"), f.diameter)?;
+            self.grains(&format!("fill.{i}"), &f.material, f.diameter, (f.clump.is_some(), f.scale))?;
             self.positive_if(&key("mass"), f.mass, "kg")?;
             if f.count == Some(0) {
                 return Err(self.wrong(&key("count"), "0", "no particle is asked for", "give at least 1"));
@@ -199,7 +293,7 @@ impl Check<'_> {
         }
         for (i, f) in m.insert.iter().enumerate() {
             let key = |k: &str| format!("insert.{i}.{k}");
-            self.diameter(&key("diameter"), f.diameter)?;
+            self.grains(&format!("insert.{i}"), &f.material, f.diameter, (f.clump.is_some(), f.scale))?;
             self.positive_if(&key("rate"), f.rate, "kg/s")?;
             self.positive_if(&key("rate_count"), f.rate_count, "1/s")?;
             let rates = [("rate", f.rate.is_some()), ("rate_count", f.rate_count.is_some())];

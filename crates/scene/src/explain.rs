@@ -84,7 +84,7 @@ pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained, Ru
         _ => 0,
     });
     let fields = Fields {
-        particles: setup.particles.len(),
+        particles: setup.particles.len() + setup.clumps.members(),
         wall_spheres: spheres.sum(),
         dt: schedule.dt,
         critical_dt: limit.dt,
@@ -155,6 +155,11 @@ fn effects(setup: &Setup) -> Vec<(Effect, Option<Setup>)> {
     add("sliding_friction", pairs(&|c| c.sliding_friction.is_some()), SPRING, frictionless);
     let rolling = without(&|c| c.rolling_resistance = None);
     add("rolling_resistance", pairs(&|c| c.rolling_resistance.is_some()), SPRING, rolling);
+    let (body, member) = Simulation::bytes_of_clump();
+    let clumps = setup.clumps.shapes.iter().map(|s| format!("'{}' of {}", s.name, s.spheres.len()));
+    let clumps = clumps.collect::<Vec<_>>().join(", ");
+    let why = format!("[[clump]] {clumps}: {body} B a body, {member} B a member");
+    add("clump", if clumps.is_empty() { clumps } else { why }, 0, None);
     add("gravity", named(setup.gravity.norm() > 0.0, "gravity"), 0, None);
     let ledger = Setup { ledger: false, ..setup.clone() };
     add("energy", named(setup.ledger, "output.energy"), 0, Some(ledger));

@@ -8,9 +8,6 @@ use crate::text::Text;
 const NOT_YET: &[(&str, &str)] = &[
     ("bond", "use 'contact' laws without bonds"),
     ("bonds", "use 'contact' laws without bonds"),
-    ("clump", "use spheres"),
-    ("clumps", "use spheres"),
-    ("polyhedron", "use spheres"),
     ("cohesion", "leave it out: contacts only push"),
     ("twisting", "use rolling_resistance"),
     ("twisting_resistance", "use rolling_resistance"),

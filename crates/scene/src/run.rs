@@ -19,6 +19,8 @@ use thiserror::Error;
 
 /// Topic of frames.
 pub const PARTICLES: &str = "/particles";
+/// Topic of rigid clumps.
+pub const BODIES: &str = "/bodies";
 /// Topic of wall spheres.
 pub const WALLS: &str = "/walls";
 /// Topic of planes, meshes and motions of walls.
@@ -27,6 +29,8 @@ pub const SURFACES: &str = "/surfaces";
 pub const ENERGY: &str = "/energy";
 /// Topic of what happened.
 pub const LOG: &str = "/log";
+/// Metadata record with the shapes of clumps: JSON by index, the column `clump` of [`BODIES`].
+pub const CLUMPS: &str = "clumps";
 /// Metadata record with the outlets of a run.
 pub const OUTLETS: &str = "outlets";
 
@@ -109,6 +113,7 @@ struct Run<W: Write> {
     walls: Vec<WallHead>,
     moving: bool,
     outlets: bool,
+    clumps: bool,
     energy: bool,
     precision: Precision,
     crossings: Vec<Crossing>,
@@ -198,6 +203,8 @@ impl<W: Write> Run<W> {
         let outlets: Record =
             plan.setup.outlets.iter().enumerate().map(|(i, z)| (i.to_string(), json(z))).collect();
         let moving = spheres_move(&plan.setup.walls);
+        let shapes = frames::clumps(&plan.setup.clumps);
+        let clumps = !shapes.is_empty();
         let sim = match resume {
             Some(saved) => Simulation::resume(plan.setup, saved.state)?,
             None => Simulation::new(plan.setup)?,
@@ -215,6 +222,9 @@ impl<W: Write> Run<W> {
         for (name, record) in records(scene, &schedule, &sim, materials, plan.sizes, &outlets) {
             writer.metadata(name, record)?;
         }
+        if clumps {
+            writer.metadata(CLUMPS, shapes)?;
+        }
         let mut run = Run {
             outcome: Outcome { dt: sim.dt(), ..Outcome::default() },
             sim,
@@ -226,6 +236,7 @@ impl<W: Write> Run<W> {
             walls,
             moving,
             outlets: !outlets.is_empty(),
+            clumps,
             energy: scene.model.output.energy,
             precision: scene.model.output.precision,
             crossings: Vec::new(),
@@ -297,7 +308,15 @@ impl<W: Write> Run<W> {
         {
             self.writer.points(WALLS, now, FRAME, &table)?;
         }
-        self.writer.points(PARTICLES, now, FRAME, &frames::particles(&particles, self.precision))?;
+        let bodies = match self.clumps.then(|| self.sim.bodies()).transpose() {
+            Ok(bodies) => bodies,
+            Err(halt) => return Ok(Err(halt)),
+        };
+        let table = frames::particles(&particles, self.precision, bodies.as_deref());
+        self.writer.points(PARTICLES, now, FRAME, &table)?;
+        if let Some(bodies) = bodies {
+            self.writer.points(BODIES, now, FRAME, &frames::bodies(&bodies))?;
+        }
         self.outcome.frames += 1;
         if self.energy {
             let energy = match self.sim.energy() {
