@@ -24,6 +24,7 @@ pub fn empty(law: Law, restitution: f64) -> Setup {
         step: Step::Auto(0.05),
         periodic: [None; 3],
         skin: None,
+        sleep: None,
         ledger: false,
         guards: Guards::default(),
     }

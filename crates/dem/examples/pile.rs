@@ -52,6 +52,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         step: Step::Fixed(1e-5),
         periodic: [Some((0.0, 0.1196)), Some((0.0, 0.1196)), None],
         skin: args.get(4).map(|s| s.parse()).transpose()?,
+        sleep: None,
         ledger: false,
         guards: Guards::default(),
     };

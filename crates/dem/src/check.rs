@@ -1,7 +1,7 @@
 //! What is refused before a run starts.
 
 use crate::error::SetupError;
-use crate::setup::{Particle, Setup, Step, WallShape};
+use crate::setup::{Particle, Setup, Sleep, Step, WallShape};
 use geom::Vec3;
 use std::collections::HashSet;
 
@@ -30,7 +30,23 @@ pub fn check(setup: &Setup) -> Result<(), SetupError> {
     within("guards.motion", setup.guards.motion, "[–]", setup.guards.motion > 0.0, "motion > 0")?;
     let skin = setup.skin.unwrap_or(1.0);
     within("neighbours.skin", skin, "m", skin > 0.0 && skin.is_finite(), "skin > 0")?;
-    finite("gravity", &setup.gravity, "m/s²")
+    finite("gravity", &setup.gravity, "m/s²")?;
+    setup.sleep.map_or(Ok(()), |s| sleep(&s, &setup.gravity))
+}
+
+fn sleep(s: &Sleep, gravity: &Vec3) -> Result<(), SetupError> {
+    let positive = |what: &str, x: f64, unit, range| within(what, x, unit, x > 0.0 && x.is_finite(), range);
+    positive("sleep.speed", s.speed, "m/s", "speed > 0")?;
+    positive("sleep.time", s.time, "s", "time > 0")?;
+    positive("sleep.wake", s.wake, "[–]", "wake > 0")?;
+    let g = gravity.norm();
+    within(
+        "gravity, with [sleep]",
+        g,
+        "m/s²",
+        g > 0.0,
+        "scenes with gravity: a sleeper wakes by a share of its weight",
+    )
 }
 
 pub(crate) fn within(

@@ -26,6 +26,8 @@ pub struct Energy {
     pub rolling: f64,
     /// Work of moving walls on particles.
     pub walls: f64,
+    /// Kinetic energy of particles that fell asleep.
+    pub slept: f64,
 }
 
 impl Energy {
@@ -39,6 +41,7 @@ impl Energy {
             + self.normal
             + self.sliding
             + self.rolling
+            + self.slept
             - self.walls
     }
 
@@ -53,6 +56,7 @@ impl Energy {
             sliding: account.dissipated[1],
             rolling: account.dissipated[2],
             walls: account.walls,
+            slept: account.slept,
             elastic: contacts.ledger.chunks_exact(LEDGER).map(|row| row[0]).sum(),
             ..Energy::default()
         };
@@ -80,6 +84,7 @@ impl Energy {
 pub struct Account {
     dissipated: [f64; 3],
     walls: f64,
+    pub(crate) slept: f64,
 }
 
 impl Account {

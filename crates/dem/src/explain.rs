@@ -61,7 +61,8 @@ impl Simulation {
     pub fn bytes_per_particle(&self) -> usize {
         let rotation = if self.particles.rotates() { 3 * size_of::<Row4>() } else { 0 };
         let state = 2 * size_of::<Row>() + 2 * size_of::<Row4>();
-        state + rotation + size_of::<u32>() + size_of::<u16>() + size_of::<u32>()
+        let sleep = if self.sleepers.is_some() { size_of::<Row>() + size_of::<u32>() + 2 } else { 0 };
+        state + rotation + sleep + size_of::<u32>() + size_of::<u16>() + size_of::<u32>()
     }
 
     /// Memory of a rigid clump, and of each of its members beyond that of a particle [bytes].

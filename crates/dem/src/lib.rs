@@ -23,6 +23,7 @@ mod particles;
 mod relist;
 pub mod setup;
 mod simulation;
+mod sleep;
 mod state;
 mod sweep;
 mod touching;

@@ -5,6 +5,7 @@ use nalgebra::UnitQuaternion;
 use serde::{Deserialize, Serialize};
 
 pub use crate::bodies::ClumpShape;
+pub use crate::sleep::Sleep;
 
 /// Everything that a run needs. SI units throughout.
 #[derive(Debug, Clone)]
@@ -37,6 +38,8 @@ pub struct Setup {
     pub periodic: [Option<(f64, f64)>; 3],
     /// Neighbours are listed up to this gap [m]; `None` chooses.
     pub skin: Option<f64>,
+    /// When particles at rest are passed over; `None`: never.
+    pub sleep: Option<Sleep>,
     /// Whether the energy ledger is kept (it costs time).
     pub ledger: bool,
     /// When a run is stopped.

@@ -14,6 +14,7 @@ use crate::law::{Elastic, compose};
 use crate::limit::{contact_between, critical_step, radii_by_material};
 use crate::particles::Particles;
 use crate::setup::{Entry, Particle, Setup, Step};
+use crate::sleep::Sleepers;
 use crate::sweep::Pass;
 use crate::walls::WallBody;
 use crate::zones::Zones;
@@ -52,6 +53,8 @@ pub struct Simulation {
     pub(crate) fresh: Vec<u32>,
     pub(crate) zones: Zones,
     pub(crate) bodies: Bodies,
+    /// Who sleeps, where the setup asks for it.
+    pub(crate) sleepers: Option<Sleepers>,
     pub(crate) account: Account,
     /// How often neighbours were listed.
     pub(crate) listings: u64,
@@ -86,6 +89,7 @@ impl Simulation {
         let walls: Vec<WallBody> = setup.walls.iter().map(WallBody::new).collect();
         slow_enough(&setup, &walls, dt)?;
         let zones = Zones::new(&setup, &particles);
+        let sleepers = setup.sleep.map(|s| Sleepers::new(s, dt, setup.gravity.norm(), particles.len()));
         // They are in their columns now.
         let setup = Setup { particles: Vec::new(), clumps: setup.clumps.without_bodies(), ..setup };
         Ok(Simulation {
@@ -107,6 +111,7 @@ impl Simulation {
             stale: true,
             current: false,
             fresh,
+            sleepers,
             zones,
             bodies,
             account: Account::default(),
@@ -142,6 +147,11 @@ impl Simulation {
     /// Number of contacts listed now.
     pub fn listed_contacts(&self) -> usize {
         self.contacts.len()
+    }
+
+    /// Number of particles that sleep.
+    pub fn asleep(&self) -> usize {
+        self.sleepers.as_ref().map_or(0, Sleepers::count)
     }
 
     /// Number of particles in the calculation.
@@ -268,6 +278,9 @@ impl Simulation {
         let found = self.pass(pass);
         if self.setup.ledger {
             self.account.add(&self.kinds, &self.contacts);
+        }
+        if let Some(sleepers) = &mut self.sleepers {
+            self.account.slept += sleepers.turn();
         }
         let moved = self.move_bodies(found.moved);
         self.out = moved.out;

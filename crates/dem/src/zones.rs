@@ -104,6 +104,11 @@ impl Zones {
         self.busy.get(k) == Some(&true)
     }
 
+    /// Whether each particle is in a zone; empty without zones.
+    pub fn busy(&self) -> &[bool] {
+        &self.busy
+    }
+
     /// Crossings since the last call.
     pub fn take_crossings(&mut self) -> Vec<Crossing> {
         std::mem::take(&mut self.crossings)
@@ -186,6 +191,9 @@ impl Simulation {
             let mut particle = e.particle;
             particle.position += particle.velocity * (now - e.time);
             self.particles.push(&particle, &self.setup.materials);
+            if let Some(sleepers) = &mut self.sleepers {
+                sleepers.push();
+            }
             self.zones.busy.push(true);
             self.zones.gone.push(false);
             let way = Way::In(e.inlet);
@@ -293,6 +301,9 @@ impl Simulation {
             let traveller = Traveller { at: k as u32, since: crossing.time, start: crossing.particle, way };
             let after = self.time() - crossing.time;
             self.zones.busy[k] = true;
+            if let Some(sleepers) = &mut self.sleepers {
+                sleepers.rouse(k);
+            }
             self.place(k, traveller.start.position + traveller.start.velocity * after, &crossing.particle);
             self.zones.travellers.push(traveller);
             self.zones.crossings.push(crossing);

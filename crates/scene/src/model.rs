@@ -24,6 +24,8 @@ pub struct Model {
     /// Search for neighbours.
     #[serde(default)]
     pub neighbours: Neighbours,
+    /// When particles at rest are passed over; absent: never.
+    pub sleep: Option<Sleep>,
     /// When the run is stopped.
     #[serde(default)]
     pub guards: Guards,
@@ -118,6 +120,28 @@ pub enum Precision {
     F64,
     /// Single.
     F32,
+}
+
+/// `[sleep]`
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Sleep {
+    /// Speed of the surface below which a particle is at rest [m/s].
+    pub speed: f64,
+    /// How long it must have been at rest [s].
+    #[serde(default = "sleep_time")]
+    pub time: f64,
+    /// Force that wakes it, over its weight [–].
+    #[serde(default = "sleep_wake")]
+    pub wake: f64,
+}
+
+fn sleep_time() -> f64 {
+    0.02
+}
+
+fn sleep_wake() -> f64 {
+    0.1
 }
 
 /// `[domain]`

@@ -12,6 +12,9 @@ pub fn check(setup: &Setup) -> Result<(), SetupError> {
     if let Some((first, ..)) = clumps.scales().next().filter(|_| !setup.outlets.is_empty()) {
         return Err(SetupError::ClumpOutlet(first.name.clone()));
     }
+    if let Some((first, ..)) = clumps.scales().next().filter(|_| setup.sleep.is_some()) {
+        return Err(SetupError::ClumpSleep(first.name.clone()));
+    }
     let mut ids: HashSet<u32> = if clumps.bodies.is_empty() {
         HashSet::new()
     } else {
