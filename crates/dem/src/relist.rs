@@ -13,7 +13,7 @@ impl Simulation {
     pub(crate) fn relist(&mut self) {
         // Lists that are stale for another reason say nothing of the skin.
         if self.setup.skin.is_none() && !self.stale {
-            self.skin = SKIN.next(self.skin, self.steps - self.listed, self.grain);
+            self.skin = SKIN.next(self.skin, self.steps - self.listed, self.grain).max(self.reach);
         }
         self.wrap();
         let mut before = std::mem::take(&mut self.contacts);

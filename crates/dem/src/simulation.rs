@@ -11,7 +11,7 @@ use crate::error::{Halt, SetupError};
 use crate::kernel::{FORCE, FORCE_AND_MOMENT};
 use crate::lane::{Row, Row4, Width};
 use crate::law::{Elastic, compose};
-use crate::limit::{contact_between, critical_step, radii_by_material};
+use crate::limit::{contact_between, critical_step, largest_reach, radii_by_material};
 use crate::particles::Particles;
 use crate::setup::{Entry, Particle, Setup, Step};
 use crate::sleep::Sleepers;
@@ -28,6 +28,8 @@ pub struct Simulation {
     pub(crate) setup: Setup,
     pub(crate) dt: f64,
     pub(crate) skin: f64,
+    /// Largest gap at which a contact that was made still acts [m]; the skin is no less.
+    pub(crate) reach: f64,
     pub(crate) width: Width,
     pub(crate) particles: Particles,
     pub(crate) walls: Vec<WallBody>,
@@ -84,7 +86,8 @@ impl Simulation {
         let bodies = Bodies::new(&setup, &mut particles);
         let fresh = (0..particles.len() as u32).collect();
         let grain = mean_radius(&setup);
-        let skin = setup.skin.unwrap_or(crate::neighbours::SKIN.start * grain);
+        let reach = largest_reach(&setup);
+        let skin = setup.skin.unwrap_or(crate::neighbours::SKIN.start * grain).max(reach);
         let horizon = if setup.skin.is_some() { 0.0 } else { HORIZON };
         let walls: Vec<WallBody> = setup.walls.iter().map(WallBody::new).collect();
         slow_enough(&setup, &walls, dt)?;
@@ -96,6 +99,7 @@ impl Simulation {
             setup,
             dt,
             skin,
+            reach,
             width,
             particles,
             walls,
