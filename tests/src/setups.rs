@@ -7,8 +7,7 @@ use geom::{Plane, Vec3};
 pub fn empty(law: Law, restitution: f64) -> Setup {
     let material =
         |name: &str| Material { name: name.to_owned(), density: 2500.0, young: 1e7, poisson: 0.25 };
-    let contact =
-        |between| Contact { between, law, restitution, sliding_friction: None, rolling_resistance: None };
+    let contact = |between| Contact::new(between, law, restitution);
     Setup {
         gravity: Vec3::zeros(),
         materials: vec![material("grain"), material("wall")],
@@ -24,6 +23,7 @@ pub fn empty(law: Law, restitution: f64) -> Setup {
         step: Step::Auto(0.05),
         periodic: [None; 3],
         skin: None,
+        sleep: None,
         ledger: false,
         guards: Guards::default(),
     }

@@ -12,6 +12,7 @@
 use crate::kernel::{FORCE, FORCE_AND_MOMENT};
 use crate::lane::scalar::Each;
 use crate::lane::{Four, Row, Row4, Width};
+use crate::sleep::Beds;
 
 /// Loads and couples (four numbers a contact, or empty) of some contacts.
 pub type Computed<'a> = (&'a [f64], &'a [f64]);
@@ -93,6 +94,8 @@ pub struct Columns<'a> {
     pub turning: &'a mut [Row4],
     /// Where they were listed, and their rooms.
     pub home: &'a [Row4],
+    /// Who sleeps, where the scene asks for it.
+    pub beds: Option<Beds<'a>>,
 }
 
 impl<'a> Columns<'a> {
@@ -107,6 +110,7 @@ impl<'a> Columns<'a> {
             acceleration: self.acceleration,
             turning: self.turning,
             home: self.home,
+            beds: self.beds.as_mut().map(Beds::by_ref),
         }
     }
 
@@ -122,7 +126,8 @@ impl<'a> Columns<'a> {
         let (turning, turning2) = self.turning.split_at_mut(turn);
         let (home, home2) = self.home.split_at(n);
         let first = self.first;
-        let one = Columns { first, rows, spins, next, next_spins, acceleration, turning, home };
+        let (beds, beds2) = self.beds.map(|b| b.split(n)).unzip();
+        let one = Columns { first, rows, spins, next, next_spins, acceleration, turning, home, beds };
         let two = Columns {
             first: first + n,
             rows: rows2,
@@ -132,6 +137,7 @@ impl<'a> Columns<'a> {
             acceleration: acceleration2,
             turning: turning2,
             home: home2,
+            beds: beds2,
         };
         (one, two)
     }
@@ -196,7 +202,7 @@ mod simd {
 
 #[inline(always)]
 fn chunk<Q: Four, const SPIN: bool>(columns: Columns, loads: &Loads, drive: &Drive) -> Moved {
-    let Columns { first, rows, spins, next, next_spins, acceleration, turning, home } = columns;
+    let Columns { first, rows, spins, next, next_spins, acceleration, turning, home, .. } = columns;
     let [gx, gy, gz] = drive.gravity;
     let gravity = Q::read(&[gx, gy, gz, 0.0]);
     // Rows hold radius and 1/m in the fourth place, which must not move.

@@ -9,6 +9,7 @@ use crate::kernel::{Common, Kernel, LEDGER, Task};
 use crate::lane::{BLOCK, Row, Row4, Width};
 use crate::motion::Pose;
 use crate::particles::FAR;
+use crate::sleep::runs;
 use crate::walls::WallBody;
 use geom::Vec3;
 use std::ops::Range;
@@ -35,6 +36,14 @@ pub struct Kind {
     pub between: (u16, u16),
     /// Whom they meet.
     pub with: With,
+}
+
+/// What may disturb a sleeper.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Met {
+    Particles,
+    StillWall,
+    MovingWall,
 }
 
 /// Contacts of one kind in one tile.
@@ -88,6 +97,8 @@ pub struct Contacts {
     /// For each tile, the first that has a contact with it.
     lowest: Vec<u32>,
     count: Vec<u32>,
+    /// Whom the contacts of each block meet; only where particles sleep.
+    met: Vec<Met>,
     /// Whether contact points of walls at rest are to be found.
     pub new: bool,
 }
@@ -164,6 +175,17 @@ impl Contacts {
             let from = self.i[place] / TILE as u32;
             let lowest = &mut self.lowest[self.partner[place] as usize / TILE];
             *lowest = from.min(*lowest);
+        }
+    }
+
+    /// Notes whom blocks meet.
+    pub fn note_walls(&mut self, kinds: &[Kind], walls: &[WallBody]) {
+        self.met = vec![Met::Particles; self.active.len()];
+        for s in &self.segments {
+            if let With::Wall(w) = kinds[s.kind].with {
+                let met = if walls[w].motion.moves() { Met::MovingWall } else { Met::StillWall };
+                self.met[s.places.start / BLOCK..s.places.end / BLOCK].fill(met);
+            }
         }
     }
 
@@ -249,6 +271,7 @@ impl Contacts {
             partner: &self.partner,
             shift: &self.shift,
             count: &self.count,
+            met: &self.met,
             new: self.new,
             tiles: &self.tiles,
             lowest: &self.lowest,
@@ -278,6 +301,7 @@ pub struct Lists<'a> {
     partner: &'a [u32],
     shift: &'a [Vec3],
     count: &'a [u32],
+    met: &'a [Met],
     new: bool,
     /// First segment of each tile, and one more.
     pub tiles: &'a [usize],
@@ -289,6 +313,35 @@ pub struct Lists<'a> {
     pub entries: &'a [u32],
 }
 
+impl Lists<'_> {
+    /// Whether a particle has a contact that may have changed while it slept.
+    pub fn stirred(&self, particle: usize, asleep: &[bool]) -> bool {
+        let entries = self.starts[particle] as usize..self.starts[particle + 1] as usize;
+        self.new
+            || self.entries[entries].iter().any(|&entry| {
+                let (place, second) = ((entry >> 1) as usize, entry & 1 == 1);
+                match self.met[place / BLOCK] {
+                    Met::Particles => {
+                        !asleep[if second { self.i[place] } else { self.partner[place] } as usize]
+                    }
+                    Met::StillWall => false,
+                    Met::MovingWall => true,
+                }
+            })
+    }
+
+    /// Whether all contacts of a block are between sleepers, or of sleepers with a wall at rest.
+    fn rests(&self, block: usize, asleep: &[bool]) -> bool {
+        let all = |of: &[u32]| of[block * BLOCK..(block + 1) * BLOCK].iter().all(|&k| asleep[k as usize]);
+        !self.new
+            && match self.met[block] {
+                Met::Particles => all(self.i) && all(self.partner),
+                Met::StillWall => all(self.i),
+                Met::MovingWall => false,
+            }
+    }
+}
+
 /// What a contact needs besides the lists.
 #[derive(Clone, Copy)]
 pub struct Scenery<'a> {
@@ -297,6 +350,8 @@ pub struct Scenery<'a> {
     pub poses: &'a [Pose],
     pub width: Width,
     pub common: Common<'a>,
+    /// Who sleeps, where the scene asks for it.
+    pub asleep: Option<&'a [bool]>,
 }
 
 /// Where a part begins.
@@ -375,20 +430,51 @@ impl<'a> Part<'a> {
     /// Contact points and loads of segment `k` of this part; true when an overlap passes the limit.
     pub fn compute(&mut self, k: usize, lists: &Lists, scenery: &Scenery) -> bool {
         let s = &self.segments[k];
-        let kind = &scenery.kinds[s.kind];
         self.renew(s, lists, scenery);
-        let (first, n) = (s.places.start - self.from.place, s.places.len());
-        let columns = kind.kernel.memory();
-        let (row, memory) = (s.rows - self.from.row, s.memory - self.from.memory);
-        let (partners, j) = match kind.with {
-            With::Particles => {
-                ((scenery.common.rows, scenery.common.spins), &lists.partner[s.places.clone()])
+        let Some(asleep) = scenery.asleep else {
+            return self.compute_places(s, s.places.clone(), lists, scenery);
+        };
+        let blocks = s.places.start / BLOCK..s.places.end / BLOCK;
+        let rests: Vec<bool> = blocks.map(|b| lists.rests(b, asleep)).collect();
+        let mut deep = false;
+        for run in runs(&rests) {
+            let places = s.places.start + run.start * BLOCK..s.places.start + run.end * BLOCK;
+            if rests[run.start] {
+                self.forget_ledger(places);
+            } else {
+                deep |= self.compute_places(s, places, lists, scenery);
             }
-            _ => ((&self.rows[row..row + n], part(&self.spins, row, n)), &lists.count[..n]),
+        }
+        deep
+    }
+
+    /// What is passed over loses no energy.
+    fn forget_ledger(&mut self, places: Range<usize>) {
+        let first = places.start - self.from.place;
+        for row in part_mut(self.ledger, first * LEDGER, places.len() * LEDGER).chunks_exact_mut(LEDGER) {
+            row[1..].fill(0.0);
+        }
+    }
+
+    fn compute_places(
+        &mut self,
+        s: &Segment,
+        places: Range<usize>,
+        lists: &Lists,
+        scenery: &Scenery,
+    ) -> bool {
+        let kind = &scenery.kinds[s.kind];
+        let (first, n) = (places.start - self.from.place, places.len());
+        let columns = kind.kernel.memory();
+        let within = places.start - s.places.start;
+        let (row, memory) = (s.rows - self.from.row + within, s.memory - self.from.memory + within * columns);
+        let (partners, j) = match kind.with {
+            With::Particles => ((scenery.common.rows, scenery.common.spins), &lists.partner[places.clone()]),
+            _ => ((&self.rows[row..row + n], part(self.spins, row, n)), &lists.count[..n]),
         };
         let task = Task {
             partners,
-            i: &lists.i[s.places.clone()],
+            i: &lists.i[places],
             j,
             memory: &mut self.memory[memory..memory + n * columns],
             active: &mut self.active[first / BLOCK..(first + n) / BLOCK],

@@ -2,6 +2,7 @@
 
 use crate::bodies::BodyState;
 use crate::contacts::{Contacts, Kind, With};
+use crate::effects::DISSIPATORS;
 use crate::kernel::LEDGER;
 use crate::particles::mass;
 use crate::setup::{Particle, Setup};
@@ -16,16 +17,20 @@ pub struct Energy {
     pub rotation: f64,
     /// −m g·x, from the origin.
     pub potential: f64,
-    /// In the springs of contacts.
+    /// In the springs of contacts; negative where cohesion binds.
     pub elastic: f64,
-    /// Dissipated by the dashpot of the normal law.
+    /// Dissipated by the normal law: its dashpot, and what it takes to part grains that adhere.
     pub normal: f64,
     /// Dissipated by sliding friction, dashpot included.
     pub sliding: f64,
     /// Dissipated by rolling resistance, dashpot included.
     pub rolling: f64,
+    /// Dissipated by twisting resistance, dashpot included.
+    pub twisting: f64,
     /// Work of moving walls on particles.
     pub walls: f64,
+    /// Kinetic energy of particles that fell asleep.
+    pub slept: f64,
 }
 
 impl Energy {
@@ -39,6 +44,8 @@ impl Energy {
             + self.normal
             + self.sliding
             + self.rolling
+            + self.twisting
+            + self.slept
             - self.walls
     }
 
@@ -52,7 +59,9 @@ impl Energy {
             normal: account.dissipated[0],
             sliding: account.dissipated[1],
             rolling: account.dissipated[2],
+            twisting: account.dissipated[3],
             walls: account.walls,
+            slept: account.slept,
             elastic: contacts.ledger.chunks_exact(LEDGER).map(|row| row[0]).sum(),
             ..Energy::default()
         };
@@ -78,8 +87,9 @@ impl Energy {
 /// Sums since the start [J].
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Account {
-    dissipated: [f64; 3],
+    dissipated: [f64; DISSIPATORS],
     walls: f64,
+    pub(crate) slept: f64,
 }
 
 impl Account {
@@ -90,11 +100,11 @@ impl Account {
             let rows = &contacts.ledger[places.start * LEDGER..places.end * LEDGER];
             let wall = matches!(kinds[segment.kind].with, With::Wall(_));
             for row in rows.chunks_exact(LEDGER) {
-                for (sum, part) in self.dissipated.iter_mut().zip(&row[1..4]) {
+                for (sum, part) in self.dissipated.iter_mut().zip(&row[1..=DISSIPATORS]) {
                     *sum += part;
                 }
                 if wall {
-                    self.walls += row[4];
+                    self.walls += row[1 + DISSIPATORS];
                 }
             }
         }

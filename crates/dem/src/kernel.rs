@@ -3,7 +3,7 @@
 use crate::effects::{Contact, Effect, Load, Memory};
 use crate::lane::{BLOCK, Lane, Row, Row4, V, Width};
 
-/// Numbers of one contact in the energy ledger: elastic, dissipated (normal, sliding, rolling), wall work.
+/// Numbers of one contact in the energy ledger: elastic, dissipated (normal, sliding, rolling, twisting), wall work.
 pub const LEDGER: usize = 8;
 /// Numbers of one contact's load without rotation: force on i and a pad.
 pub const FORCE: usize = 4;
@@ -149,7 +149,7 @@ fn lanes<R: Lane, E: Effect, const KEEP: bool>(
     let apart = V::new(xi - xj, yi - yj, zi - zj);
     let reach = ri + rj;
     let square = apart.dot(apart);
-    let touching = (reach * reach).gt(square);
+    let mut touching = (reach * reach).gt(square);
     if !R::any(touching) && !was_active {
         return (false, false);
     }
@@ -178,25 +178,32 @@ fn lanes<R: Lane, E: Effect, const KEEP: bool>(
         surface = surface + sj.scale(arm_j).cross(normal);
         (spin, turning) = (si - sj, sj);
     }
+    let radius = R::select(round, ri * rj * inverse_reach, ri);
+    let columns = E::MEMORY * BLOCK;
+    let stored = &mut task.memory[block * columns..(block + 1) * columns];
+    let mut memory = <E::Memory<R> as Memory<R>>::load(stored, lane);
+    let zero = R::splat(0.0);
+    let mut was_held = zero;
+    if E::REACHES {
+        was_held = effect.reach(radius, &memory);
+        touching = R::select(touching, reach, overlap + was_held).gt(zero);
+    }
     let contact = Contact {
         touching,
         normal,
         overlap,
-        radius: R::select(round, ri * rj * inverse_reach, ri),
+        radius,
+        curvature: R::select(round, inverse_reach, zero),
         mass: inverse * both,
         approach: -along,
         slip,
         spin,
     };
-    let columns = E::MEMORY * BLOCK;
-    let stored = &mut task.memory[block * columns..(block + 1) * columns];
-    let mut memory = <E::Memory<R> as Memory<R>>::load(stored, lane);
     let mut load = Load::zero();
     effect.apply(&contact, R::splat(common.dt), &mut memory, &mut load);
     memory.keep(touching).store(stored, lane);
 
     let force = V::select(touching, normal.scale(load.normal) + load.tangential, V::zero());
-    let zero = R::splat(0.0);
     if E::ROTATES {
         let moment = V::select(touching, normal.cross(load.tangential), V::zero());
         let row = [force.x, force.y, force.z, arm_i, moment.x, moment.y, moment.z, arm_j];
@@ -212,13 +219,21 @@ fn lanes<R: Lane, E: Effect, const KEEP: bool>(
         R::store_rows4([c.x, c.y, c.z, zero], &mut task.couples[at * 4..]);
     }
     if KEEP {
-        let [a, b, c] = load.dissipated;
+        let [a, b, c, d] = load.dissipated;
         // Work of j's surface on i; only walls' is added up.
         let surface = (surface.dot(force) + load.couple.dot(turning)) * R::splat(common.dt);
-        let row = [load.elastic, a, b, c, surface, zero, zero, zero];
-        R::store_rows(row.map(|x| R::select(touching, x, zero)), &mut task.ledger[at * LEDGER..]);
+        let row = [load.elastic, a, b, c, d, surface, zero, zero];
+        let mut row = row.map(|x| R::select(touching, x, zero));
+        if E::REACHES {
+            // What a contact holds when it breaks is lost.
+            let broken = R::select(was_held.gt(zero), load.elastic, zero);
+            row[1] = R::select(touching, row[1], broken);
+        }
+        R::store_rows(row, &mut task.ledger[at * LEDGER..]);
     }
     let smaller = R::select(round, ri.min(rj), ri);
     let deep = R::both(touching, overlap.gt(smaller * R::splat(common.overlap_limit)));
-    (R::any(touching), R::any(deep))
+    // A contact that has just broken stays in the ledger for one step.
+    let active = R::any(touching) || (E::REACHES && KEEP && R::any(was_held.gt(zero)));
+    (active, R::any(deep))
 }

@@ -2,8 +2,8 @@
 //!
 //! ```text
 //! Δt(N, k) = 2/ω (√(1 + 4 ζ²) − 2 ζ),   ω² = N k/m*,  ζ = γ √N / 2
-//! Δt_crit  = min { Δt(4, S), Δt(20, k_t), √(m*/20 k_t), 0.188/μ_r √(m*/S) }
-//! S = dF_n/dδ at the overlap limit (Hertz) or k (Hooke); the last three where the scene asks for them
+//! Δt_crit  = min { Δt(4, S), Δt(20, k_t), √(m*/20 k_t), 0.188/μ_r √(m*/S), Δt(10, k_t) }
+//! S = k (Hooke), dF_n/dδ at the overlap limit (Hertz), 2 E* a there (JKR); all but the first where the scene asks for them
 //! ```
 //!
 //! Δt(N, k) is where the integrator of [`crate::advance`] turns unstable (an eigenvalue of −1: (ω Δt)²/4 + 2 ζ ω Δt = 1, the
@@ -11,17 +11,20 @@
 //! packing, twelve contacts, a third of their stiffness along any axis, each against a neighbour that moves the other way.
 //! N = 20 = 40/7 × 7/2: the same packing with all grains turning one way, where translation and rotation both yield to a
 //! tangential force, 1/m + r²/I = 7/2 · 1/m. √(m*/20 k_t): up to there the tangential spring, whose rate is predicted as well, takes more energy than
-//! it makes without a dashpot. 0.188/μ_r: the dashpot of rolling resistance.
+//! it makes without a dashpot. 0.188/μ_r: the dashpot of rolling resistance (spring). Δt(10, k_t), γ = 0.6: twisting, 4 × 5/2 k_t. Cohesion
+//! only softens a contact, and the constant couple of rolling limits itself.
 
 use crate::bodies::Yielding;
-use crate::effects::damping_ratio;
+use crate::effects::{Jkr, damping_ratio};
 use crate::error::SetupError;
-use crate::law::{Elastic, tangential_ratio};
+use crate::law::{Elastic, reach, tangential_ratio};
 use crate::particles::mass;
-use crate::setup::{Contact, Law, Material, Setup, Wall, WallShape};
+use crate::setup::{Contact, Law, Material, RollingModel, Setup, Wall, WallShape};
 
 /// Several contacts at once.
 const CONTACTS: f64 = 4.0;
+/// γ of the dashpot of twisting, 2 η [–].
+const TWISTING: f64 = 0.6;
 
 /// A critical step and what sets it.
 #[derive(Debug, Clone, PartialEq)]
@@ -126,6 +129,21 @@ pub fn critical_step(setup: &Setup) -> Result<Limit, SetupError> {
     Ok(limit)
 }
 
+/// Largest gap at which any contact of a setup that was made still acts [m]: the skin is to be no less.
+pub fn largest_reach(setup: &Setup) -> f64 {
+    let radii = radii_by_material(setup);
+    let of = |c: &Contact| {
+        let (a, b) = (c.between.0 as usize, c.between.1 as usize);
+        let largest = [radii[a], radii[b]].iter().flatten().map(|r| r.1).fold(0.0, f64::max);
+        if largest > 0.0 {
+            reach(c, Elastic::of(&setup.materials[a], &setup.materials[b]), largest)
+        } else {
+            0.0
+        }
+    };
+    setup.contacts.iter().map(of).fold(0.0, f64::max)
+}
+
 enum Partner<'a> {
     Grain(&'a Grain),
     Wall(&'a Wall),
@@ -155,20 +173,29 @@ fn tighten(limit: &mut Limit, setup: &Setup, a: &Grain, partner: Partner) -> Res
     let stiffness = match contact.law {
         Law::Hooke { stiffness, .. } => stiffness,
         Law::Hertz => 2.0 * elastic.modulus * (radius * setup.guards.overlap * smaller).sqrt(),
+        Law::Jkr { work_of_adhesion } => {
+            let law = Jkr { modulus: elastic.modulus, work_of_adhesion, damping_ratio: 0.0 };
+            let last = law.last_radius(radius);
+            2.0 * elastic.modulus * last * Jkr::spread(setup.guards.overlap * smaller, radius, last).powi(2)
+        }
     };
     let gamma = damping_ratio(contact.restitution);
     // K and C over m*, of several contacts at once; the predicted velocity doubles the dashpot's share.
-    let step = |count: f64, k: f64, inverse_mass: f64| {
+    let step = |count: f64, k: f64, gamma: f64, inverse_mass: f64| {
         let (omega, zeta) = ((count * k * inverse_mass).sqrt(), 0.5 * gamma * count.sqrt());
         2.0 / omega * ((1.0 + 4.0 * zeta * zeta).sqrt() - 2.0 * zeta)
     };
-    let mut dt = step(CONTACTS, stiffness, yields.0);
+    let mut dt = step(CONTACTS, stiffness, gamma, yields.0);
     if contact.sliding_friction.is_some() {
         // Twelve contacts of a close packing whose grains all turn the same way: 40/7 contacts of 7/2 k_t.
         let k = tangential_ratio(contact, elastic) * stiffness;
-        dt = dt.min(step(20.0, k, yields.1)).min((20.0 * k * yields.1).sqrt().recip());
+        dt = dt.min(step(20.0, k, gamma, yields.1)).min((20.0 * k * yields.1).sqrt().recip());
+        if contact.twisting_resistance.is_some() {
+            dt = dt.min(step(CONTACTS, 2.5 * k, TWISTING, yields.1));
+        }
     }
-    if let Some(resistance) = contact.rolling_resistance.filter(|&r| r > 0.0) {
+    let spring = contact.rolling_model == RollingModel::Spring;
+    if let Some(resistance) = contact.rolling_resistance.filter(|&r| spring && r > 0.0) {
         dt = dt.min(0.188 / resistance * (stiffness * yields.0).sqrt().recip());
     }
     if dt < limit.dt {

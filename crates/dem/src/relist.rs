@@ -13,7 +13,7 @@ impl Simulation {
     pub(crate) fn relist(&mut self) {
         // Lists that are stale for another reason say nothing of the skin.
         if self.setup.skin.is_none() && !self.stale {
-            self.skin = SKIN.next(self.skin, self.steps - self.listed, self.grain);
+            self.skin = SKIN.next(self.skin, self.steps - self.listed, self.grain).max(self.reach);
         }
         self.wrap();
         let mut before = std::mem::take(&mut self.contacts);
@@ -23,6 +23,9 @@ impl Simulation {
         self.particles.select(&order);
         self.zones.reorder(&order);
         self.bodies.reorder(&order);
+        if let Some(sleepers) = &mut self.sleepers {
+            sleepers.select(&order);
+        }
         self.follow_fresh(&order);
         self.listed = self.steps;
         self.list_contacts(&search);
@@ -102,6 +105,9 @@ impl Simulation {
             })
             .collect();
         self.contacts = Contacts::new(&self.kinds, &self.list_images(search), &tiles, count);
+        if self.sleepers.is_some() {
+            self.contacts.note_walls(&self.kinds, &self.walls);
+        }
     }
 
     fn list_walls(&self, range: Range<usize>, time: f64, lists: &mut [List]) {

@@ -11,9 +11,10 @@ use crate::error::{Halt, SetupError};
 use crate::kernel::{FORCE, FORCE_AND_MOMENT};
 use crate::lane::{Row, Row4, Width};
 use crate::law::{Elastic, compose};
-use crate::limit::{contact_between, critical_step, radii_by_material};
+use crate::limit::{contact_between, critical_step, largest_reach, radii_by_material};
 use crate::particles::Particles;
 use crate::setup::{Entry, Particle, Setup, Step};
+use crate::sleep::Sleepers;
 use crate::sweep::Pass;
 use crate::walls::WallBody;
 use crate::zones::Zones;
@@ -27,6 +28,8 @@ pub struct Simulation {
     pub(crate) setup: Setup,
     pub(crate) dt: f64,
     pub(crate) skin: f64,
+    /// Largest gap at which a contact that was made still acts [m]; the skin is no less.
+    pub(crate) reach: f64,
     pub(crate) width: Width,
     pub(crate) particles: Particles,
     pub(crate) walls: Vec<WallBody>,
@@ -52,6 +55,8 @@ pub struct Simulation {
     pub(crate) fresh: Vec<u32>,
     pub(crate) zones: Zones,
     pub(crate) bodies: Bodies,
+    /// Who sleeps, where the setup asks for it.
+    pub(crate) sleepers: Option<Sleepers>,
     pub(crate) account: Account,
     /// How often neighbours were listed.
     pub(crate) listings: u64,
@@ -81,17 +86,20 @@ impl Simulation {
         let bodies = Bodies::new(&setup, &mut particles);
         let fresh = (0..particles.len() as u32).collect();
         let grain = mean_radius(&setup);
-        let skin = setup.skin.unwrap_or(crate::neighbours::SKIN.start * grain);
+        let reach = largest_reach(&setup);
+        let skin = setup.skin.unwrap_or(crate::neighbours::SKIN.start * grain).max(reach);
         let horizon = if setup.skin.is_some() { 0.0 } else { HORIZON };
         let walls: Vec<WallBody> = setup.walls.iter().map(WallBody::new).collect();
         slow_enough(&setup, &walls, dt)?;
         let zones = Zones::new(&setup, &particles);
+        let sleepers = setup.sleep.map(|s| Sleepers::new(s, dt, setup.gravity.norm(), particles.len()));
         // They are in their columns now.
         let setup = Setup { particles: Vec::new(), clumps: setup.clumps.without_bodies(), ..setup };
         Ok(Simulation {
             setup,
             dt,
             skin,
+            reach,
             width,
             particles,
             walls,
@@ -107,6 +115,7 @@ impl Simulation {
             stale: true,
             current: false,
             fresh,
+            sleepers,
             zones,
             bodies,
             account: Account::default(),
@@ -142,6 +151,11 @@ impl Simulation {
     /// Number of contacts listed now.
     pub fn listed_contacts(&self) -> usize {
         self.contacts.len()
+    }
+
+    /// Number of particles that sleep.
+    pub fn asleep(&self) -> usize {
+        self.sleepers.as_ref().map_or(0, Sleepers::count)
     }
 
     /// Number of particles in the calculation.
@@ -266,6 +280,9 @@ impl Simulation {
         let found = self.pass(pass);
         if self.setup.ledger {
             self.account.add(&self.kinds, &self.contacts);
+        }
+        if let Some(sleepers) = &mut self.sleepers {
+            self.account.slept += sleepers.turn();
         }
         let moved = self.move_bodies(found.moved);
         self.out = moved.out;

@@ -6,6 +6,7 @@ use crate::error::SetupError;
 use crate::particles::Particles;
 use crate::setup::{Setup, Step};
 use crate::simulation::Simulation;
+use crate::sleep::Sleepers;
 use crate::zones::Zones;
 use serde::{Deserialize, Serialize};
 
@@ -23,6 +24,7 @@ pub struct State {
     particles: Particles,
     zones: Zones,
     bodies: Bodies,
+    sleepers: Option<Sleepers>,
     account: Account,
     listings: u64,
     /// Contact memory, by place.
@@ -45,6 +47,7 @@ pub struct StateView<'a> {
     particles: &'a Particles,
     zones: &'a Zones,
     bodies: &'a Bodies,
+    sleepers: Option<&'a Sleepers>,
     account: Account,
     listings: u64,
     memory: &'a [f64],
@@ -66,6 +69,7 @@ impl StateView<'_> {
             particles: self.particles.clone(),
             zones: self.zones.clone(),
             bodies: self.bodies.clone(),
+            sleepers: self.sleepers.cloned(),
             account: self.account,
             listings: self.listings,
             memory: self.memory.to_vec(),
@@ -101,6 +105,7 @@ impl Simulation {
             particles: &self.particles,
             zones: &self.zones,
             bodies: &self.bodies,
+            sleepers: self.sleepers.as_ref(),
             account: self.account,
             listings: self.listings,
             memory: &self.contacts.memory,
@@ -120,13 +125,16 @@ impl Simulation {
         if sim.dt != state.dt {
             return Err(other(&format!("time step {} s, saved {} s", sim.dt, state.dt)));
         }
+        if sim.sleepers.is_some() != state.sleepers.is_some() {
+            return Err(other("one has particles that sleep and the other has not"));
+        }
         if sim.particles.rotates() != state.particles.rotates() {
             return Err(other("one has rotation and the other has not"));
         }
         (sim.skin, sim.steps, sim.listed, sim.out) = (state.skin, state.steps, state.listed, state.out);
         (sim.particles, sim.zones, sim.account) = (state.particles, state.zones, state.account);
         sim.bodies = state.bodies;
-        (sim.fresh, sim.listings) = (state.fresh, state.listings);
+        (sim.fresh, sim.listings, sim.sleepers) = (state.fresh, state.listings, state.sleepers);
         if state.listings > 0 {
             // Those who have left since were still there when neighbours were listed.
             for (k, home) in sim.zones.left.clone() {

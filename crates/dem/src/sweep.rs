@@ -12,6 +12,7 @@ use crate::lane::Width;
 use crate::motion::Pose;
 use crate::particles::Particles;
 use crate::simulation::{Simulation, stride};
+use crate::sleep::{Beds, advance_awake};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -72,7 +73,10 @@ impl Simulation {
         let (dt, width, count) = (self.dt, self.width, acceleration.len());
         let rotating = if spins.is_empty() { 0 } else { count };
         let common = Common { dt, overlap_limit: self.setup.guards.overlap, rows, spins, stride };
-        let scenery = Scenery { kinds: &self.kinds, walls: &self.walls, poses: &poses, width, common };
+        let beds = self.sleepers.as_mut().map(|s| s.beds(self.zones.busy()));
+        let asleep = beds.as_ref().map(Beds::asleep);
+        let (kinds, walls) = (&self.kinds, &self.walls);
+        let scenery = Scenery { kinds, walls, poses: &poses, width, common, asleep };
         let columns = Columns {
             first: 0,
             rows: &rows[..count],
@@ -82,6 +86,7 @@ impl Simulation {
             acceleration,
             turning,
             home,
+            beds,
         };
         let g = self.setup.gravity;
         let drive = Drive { dt, gravity: [g.x, g.y, g.z], motion_limit: self.setup.guards.motion };
@@ -112,7 +117,7 @@ impl Simulation {
         let Particles { rows, spins, .. } = &self.particles;
         let common = Common { dt: self.dt, overlap_limit: self.setup.guards.overlap, rows, spins, stride };
         let (kinds, walls, width) = (&self.kinds, &self.walls, self.width);
-        let scenery = Scenery { kinds, walls, poses: &poses, width, common };
+        let scenery = Scenery { kinds, walls, poses: &poses, width, common, asleep: None };
         let (lists, mut part) = self.contacts.parts(stride);
         for segment in part.segments {
             part.renew(segment, &lists, &scenery);
@@ -135,10 +140,7 @@ impl Shared<'_> {
             let late = self.late(&ranges, columns);
             let (first, loads, couples) = own.loads();
             let loads = self.loads(images, (loads, couples), first);
-            found = all(late, found, |c| Found {
-                moved: advance(self.width, c, &loads, &self.drive),
-                deep: false,
-            });
+            found = all(late, found, |c| Found { moved: self.advance(c, &loads), deep: false });
         }
         found
     }
@@ -178,10 +180,17 @@ impl Shared<'_> {
             if self.pass == Pass::Step && !self.waits(tile, tiles.start) {
                 let (first, loads, couples) = part.loads();
                 let loads = self.loads(images, (loads, couples), first);
-                found.moved = found.moved.and(advance(self.width, columns, &loads, &self.drive));
+                found.moved = found.moved.and(self.advance(columns, &loads));
             }
         }
         found
+    }
+
+    fn advance(&self, columns: Columns, loads: &Loads) -> Moved {
+        match columns.beds {
+            None => advance(self.width, columns, loads, &self.drive),
+            Some(_) => advance_awake(self.width, columns, loads, &self.drive, &self.lists),
+        }
     }
 
     /// Whether a tile has contacts with tiles before `first`.

@@ -106,6 +106,11 @@ impl Zones {
         self.busy.get(k) == Some(&true)
     }
 
+    /// Whether each particle is in a zone; empty without zones.
+    pub fn busy(&self) -> &[bool] {
+        &self.busy
+    }
+
     /// Crossings since the last call.
     pub fn take_crossings(&mut self) -> Vec<Crossing> {
         std::mem::take(&mut self.crossings)
@@ -205,6 +210,9 @@ impl Simulation {
             for (at, start) in (at..).zip(starts) {
                 self.zones.busy.push(true);
                 self.zones.gone.push(false);
+                if let Some(sleepers) = &mut self.sleepers {
+                    sleepers.push();
+                }
                 let way = Way::In(e.inlet);
                 let centre = e.particle.position;
                 self.zones.travellers.push(Traveller { at, since: e.time, start, centre, way });
@@ -316,6 +324,9 @@ impl Simulation {
             let traveller = Traveller { at: k as u32, since, start, centre: start.position, way };
             let after = self.time() - crossing.time;
             self.zones.busy[k] = true;
+            if let Some(sleepers) = &mut self.sleepers {
+                sleepers.rouse(k);
+            }
             self.place(k, traveller.start.position + traveller.start.velocity * after, &crossing.particle);
             self.zones.travellers.push(traveller);
             self.zones.crossings.push(crossing);

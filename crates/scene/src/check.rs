@@ -10,7 +10,7 @@ pub(crate) struct Check<'a> {
     pub text: &'a Text,
 }
 
-type Checked = Result<(), SceneError>;
+pub(crate) type Checked = Result<(), SceneError>;
 
 impl Check<'_> {
     /// The error for a key's value.
@@ -37,11 +37,11 @@ impl Check<'_> {
         ))
     }
 
-    fn positive_if(&self, key: &str, value: Option<f64>, unit: &str) -> Checked {
+    pub(crate) fn positive_if(&self, key: &str, value: Option<f64>, unit: &str) -> Checked {
         value.map_or(Ok(()), |v| self.positive(key, v, unit))
     }
 
-    fn within(&self, key: &str, value: f64, low: f64, high: f64, unit: &str) -> Checked {
+    pub(crate) fn within(&self, key: &str, value: f64, low: f64, high: f64, unit: &str) -> Checked {
         if (low..=high).contains(&value) {
             return Ok(());
         }
@@ -49,14 +49,14 @@ impl Check<'_> {
         Err(self.wrong(key, format!("{value} {unit}").trim_end(), "is outside the range", &cure))
     }
 
-    fn finite(&self, key: &str, value: &[f64], unit: &str) -> Checked {
+    pub(crate) fn finite(&self, key: &str, value: &[f64], unit: &str) -> Checked {
         if value.iter().all(|v| v.is_finite()) {
             return Ok(());
         }
         Err(self.wrong(key, format!("{value:?} {unit}"), "must be finite", "give numbers"))
     }
 
-    fn diameter(&self, key: &str, d: Diameter) -> Checked {
+    pub(crate) fn diameter(&self, key: &str, d: Diameter) -> Checked {
         self.positive(key, d.low, "m")?;
         self.positive(key, d.high, "m")?;
         if d.low > d.high {
@@ -83,7 +83,7 @@ impl Check<'_> {
     }
 
     /// One and only one of several keys.
-    fn one_of(&self, entry: &str, keys: &[(&str, bool)]) -> Checked {
+    pub(crate) fn one_of(&self, entry: &str, keys: &[(&str, bool)]) -> Checked {
         let names = || keys.iter().map(|k| k.0).collect::<Vec<_>>().join(" or ");
         let given: Vec<&str> = keys.iter().filter(|k| k.1).map(|k| k.0).collect();
         match given[..] {
@@ -148,134 +148,6 @@ impl Check<'_> {
             self.positive_if(&key("density"), material.density, "kg/m³")?;
             self.positive(&key("young"), material.young, "Pa")?;
             self.within(&key("poisson"), material.poisson, 0.0, 0.499, "")?;
-        }
-        Ok(())
-    }
-
-    fn contacts(&self, m: &Model) -> Checked {
-        for (i, c) in m.contact.iter().enumerate() {
-            let key = |k: &str| format!("contact.{i}.{k}");
-            self.within(&key("restitution"), c.restitution, 0.0, 1.0, "")?;
-            for (name, value) in
-                [("sliding_friction", c.sliding_friction), ("rolling_resistance", c.rolling_resistance)]
-            {
-                self.within(&key(name), value.unwrap_or(0.0), 0.0, 1e3, "")?;
-            }
-            self.positive_if(&key("stiffness"), c.stiffness, "N/m")?;
-            self.positive_if(&key("characteristic_velocity"), c.characteristic_velocity, "m/s")?;
-            self.positive_if(&key("tangential_ratio"), c.tangential_ratio, "")?;
-            let linear = [
-                ("stiffness", c.stiffness.is_some()),
-                ("characteristic_velocity", c.characteristic_velocity.is_some()),
-            ];
-            match c.law {
-                crate::model::Law::Hooke => self.one_of(&format!("contact.{i}"), &linear)?,
-                crate::model::Law::Hertz => {
-                    let also = ("tangential_ratio", c.tangential_ratio.is_some());
-                    if let Some((k, _)) = linear.iter().chain([&also]).find(|k| k.1) {
-                        let why = "law = \"hertz\" takes its stiffness from young and poisson";
-                        return Err(self.wrong(
-                            &key(k),
-                            "(given)",
-                            why,
-                            "take it out, or use law = \"hooke\"",
-                        ));
-                    }
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// Spheres have material and diameter, clumps a name and perhaps a scale.
-    fn grains(
-        &self,
-        entry: &str,
-        material: &str,
-        diameter: Diameter,
-        (clump, scale): (bool, Option<Diameter>),
-    ) -> Checked {
-        let key = |k: &str| format!("{entry}.{k}");
-        let given = diameter != Diameter::default();
-        if clump {
-            for (name, given) in [("material", !material.is_empty()), ("diameter", given)] {
-                if given {
-                    let why = "a clump has its own";
-                    return Err(self.wrong(&key(name), "(given)", why, "take it out, or use scale"));
-                }
-            }
-            let range = scale.unwrap_or(Diameter { low: 1.0, high: 1.0 });
-            self.positive(&key("scale"), range.low, "")?;
-            self.positive(&key("scale"), range.high, "")?;
-            if range.low > range.high {
-                let value = format!("[{}, {}]", range.low, range.high);
-                return Err(self.wrong(
-                    &key("scale"),
-                    value,
-                    "the range is upside down",
-                    "give [smallest, largest]",
-                ));
-            }
-            return Ok(());
-        }
-        for (name, given) in [("material", !material.is_empty()), ("diameter", given)] {
-            if !given {
-                let why = format!("{name} is missing");
-                return Err(self.wrong(
-                    entry,
-                    format!("(without {name})"),
-                    &why,
-                    "add it, or the name of a clump",
-                ));
-            }
-        }
-        if scale.is_some() {
-            let why = "only clumps have a scale";
-            return Err(self.wrong(&key("scale"), "(given)", why, "use diameter, or add clump = \"…\""));
-        }
-        self.diameter(&key("diameter"), diameter)
-    }
-
-    fn clumps(&self, m: &Model) -> Checked {
-        for (i, c) in m.clump.iter().enumerate() {
-            let key = |k: &str| format!("clump.{i}.{k}");
-            if c.name.is_empty() || m.clump[..i].iter().any(|o| o.name == c.name) {
-                let value = format!("\"{}\"", c.name);
-                return Err(self.wrong(
-                    &key("name"),
-                    value,
-                    "is no name of its own",
-                    "name each clump differently",
-                ));
-            }
-            let kinds = [("spheres", c.spheres.is_some()), ("mesh", c.mesh.is_some())];
-            self.one_of(&format!("clump.{i}"), &kinds)?;
-            self.positive(&key("scale"), c.scale, "")?;
-            self.positive_if(&key("vertex_radius"), c.vertex_radius, "m")?;
-            if c.mesh.is_some() != c.vertex_radius.is_some() {
-                let why = "vertex_radius goes with mesh, and mesh with vertex_radius";
-                return Err(self.wrong(&format!("clump.{i}"), "(one of them)", why, "give both, or spheres"));
-            }
-            let spheres = c.spheres.as_deref().unwrap_or_default();
-            if c.spheres.is_some() && spheres.is_empty() {
-                return Err(self.wrong(
-                    &key("spheres"),
-                    "[]",
-                    "has no sphere",
-                    "give [[x, y, z, radius], …]",
-                ));
-            }
-            for (k, sphere) in spheres.iter().enumerate() {
-                self.finite(&key(&format!("spheres.{k}")), &sphere[..3], "m")?;
-                self.positive(&key(&format!("spheres.{k}")), sphere[3], "m")?;
-            }
-        }
-        for (i, b) in m.body.iter().enumerate() {
-            let key = |k: &str| format!("body.{i}.{k}");
-            self.finite(&key("position"), &b.position, "m")?;
-            self.finite(&key("velocity"), &b.velocity, "m/s")?;
-            self.finite(&key("spin"), &b.spin, "rad/s")?;
-            self.positive(&key("scale"), b.scale, "")?;
         }
         Ok(())
     }

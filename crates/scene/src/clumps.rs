@@ -4,8 +4,9 @@
 //! Polyhedron: those of the inside of the mesh, exactly; a sphere of `vertex_radius` sits centred on every vertex that a face uses, so that
 //! the mesh is the hull of the centres and contacts lie `vertex_radius` outside of it (JP6939487B2, particles as polyhedra).
 
+use crate::check::Check;
 use crate::error::SceneError;
-use crate::model::{Clump, ClumpMass};
+use crate::model::{Clump, ClumpMass, Diameter, Model};
 use crate::plan::Draft;
 use dem::setup::ClumpShape;
 use geom::moments::BodyError;
@@ -92,5 +93,101 @@ impl Draft<'_> {
             None => format!("known: {}", names().collect::<Vec<_>>().join(", ")),
         };
         Err(self.check.wrong(key, format!("\"{name}\""), "no [[clump]] has this name", &cure))
+    }
+}
+
+impl Check<'_> {
+    /// Spheres have material and diameter, clumps a name and perhaps a scale.
+    pub(crate) fn grains(
+        &self,
+        entry: &str,
+        material: &str,
+        diameter: Diameter,
+        (clump, scale): (bool, Option<Diameter>),
+    ) -> Result<(), SceneError> {
+        let key = |k: &str| format!("{entry}.{k}");
+        let given = diameter != Diameter::default();
+        if clump {
+            for (name, given) in [("material", !material.is_empty()), ("diameter", given)] {
+                if given {
+                    let why = "a clump has its own";
+                    return Err(self.wrong(&key(name), "(given)", why, "take it out, or use scale"));
+                }
+            }
+            let range = scale.unwrap_or(Diameter { low: 1.0, high: 1.0 });
+            self.positive(&key("scale"), range.low, "")?;
+            self.positive(&key("scale"), range.high, "")?;
+            if range.low > range.high {
+                let value = format!("[{}, {}]", range.low, range.high);
+                return Err(self.wrong(
+                    &key("scale"),
+                    value,
+                    "the range is upside down",
+                    "give [smallest, largest]",
+                ));
+            }
+            return Ok(());
+        }
+        for (name, given) in [("material", !material.is_empty()), ("diameter", given)] {
+            if !given {
+                let why = format!("{name} is missing");
+                return Err(self.wrong(
+                    entry,
+                    format!("(without {name})"),
+                    &why,
+                    "add it, or the name of a clump",
+                ));
+            }
+        }
+        if scale.is_some() {
+            let why = "only clumps have a scale";
+            return Err(self.wrong(&key("scale"), "(given)", why, "use diameter, or add clump = \"…\""));
+        }
+        self.diameter(&key("diameter"), diameter)
+    }
+
+    /// Every value of `[[clump]]` and `[[body]]` that can be judged by itself.
+    pub(crate) fn clumps(&self, m: &Model) -> Result<(), SceneError> {
+        for (i, c) in m.clump.iter().enumerate() {
+            let key = |k: &str| format!("clump.{i}.{k}");
+            if c.name.is_empty() || m.clump[..i].iter().any(|o| o.name == c.name) {
+                let value = format!("\"{}\"", c.name);
+                return Err(self.wrong(
+                    &key("name"),
+                    value,
+                    "is no name of its own",
+                    "name each clump differently",
+                ));
+            }
+            let kinds = [("spheres", c.spheres.is_some()), ("mesh", c.mesh.is_some())];
+            self.one_of(&format!("clump.{i}"), &kinds)?;
+            self.positive(&key("scale"), c.scale, "")?;
+            self.positive_if(&key("vertex_radius"), c.vertex_radius, "m")?;
+            if c.mesh.is_some() != c.vertex_radius.is_some() {
+                let why = "vertex_radius goes with mesh, and mesh with vertex_radius";
+                return Err(self.wrong(&format!("clump.{i}"), "(one of them)", why, "give both, or spheres"));
+            }
+            let spheres = c.spheres.as_deref().unwrap_or_default();
+            if c.spheres.is_some() && spheres.is_empty() {
+                return Err(self.wrong(
+                    &key("spheres"),
+                    "[]",
+                    "has no sphere",
+                    "give [[x, y, z, radius], …]",
+                ));
+            }
+            for (k, sphere) in spheres.iter().enumerate() {
+                self.finite(&key(&format!("spheres.{k}")), &sphere[..3], "m")?;
+                self.positive(&key(&format!("spheres.{k}")), sphere[3], "m")?;
+            }
+        }
+        for (i, b) in m.body.iter().enumerate() {
+            let key = |k: &str| format!("body.{i}.{k}");
+            self.finite(&key("position"), &b.position, "m")?;
+            self.finite(&key("velocity"), &b.velocity, "m/s")?;
+            self.finite(&key("spin"), &b.spin, "rad/s")?;
+            self.positive(&key("scale"), b.scale, "")?;
+        }
+        Ok(())
     }
 }

@@ -5,6 +5,7 @@ mod check;
 pub mod checkpoint;
 mod clumps;
 mod columns;
+mod contact_check;
 mod contacts;
 pub mod crossings;
 pub mod error;

@@ -8,9 +8,6 @@ use crate::text::Text;
 const NOT_YET: &[(&str, &str)] = &[
     ("bond", "use 'contact' laws without bonds"),
     ("bonds", "use 'contact' laws without bonds"),
-    ("cohesion", "leave it out: contacts only push"),
-    ("twisting", "use rolling_resistance"),
-    ("twisting_resistance", "use rolling_resistance"),
     ("servo", "move the wall by 'motion'"),
     ("sleep", "leave it out: every particle is moved at every step"),
     ("drag", "leave it out"),

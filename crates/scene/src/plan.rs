@@ -271,6 +271,7 @@ impl<'a> Draft<'a> {
                 OrAuto::Given(dt) => Step::Fixed(dt),
             },
             skin: model.neighbours.skin,
+            sleep: model.sleep.map(|s| dem::setup::Sleep { speed: s.speed, time: s.time, wake: s.wake }),
             ledger: model.output.energy,
             guards: Guards {
                 overlap: model.guards.overlap.unwrap_or(Guards::default().overlap),

@@ -16,6 +16,9 @@ pub fn check(setup: &Setup) -> Result<(), SetupError> {
         let known = (index as usize) < clumps.shapes.len() && 0.0 < low && low <= high && high.is_finite();
         within("inlet: scale of clumps", low, "[–]", known, "0 < smallest ≤ largest")?;
     }
+    if let Some((first, ..)) = clumps.scales().next().filter(|_| setup.sleep.is_some()) {
+        return Err(SetupError::ClumpSleep(first.name.clone()));
+    }
     let mut ids: HashSet<u32> = if clumps.bodies.is_empty() {
         HashSet::new()
     } else {
