@@ -9,8 +9,8 @@
 //! 4. The angle is the mean over the sectors, its 95 % interval ± t s/√n with the deviation s between them.
 //!
 //! The axis goes through the centre of what stands above half height; where no grain is, the surface is the ground.
-//! A line through the middle part of the flank is what Beakawi Al-Hashemi & Baghabra Al-Amoudi (2018), Powder
-//! Technology 330, DOI 10.1016/j.powtec.2018.02.003, review as the usual definition for heaps.
+//! For ways to measure the angle of repose see the review of Beakawi Al-Hashemi & Baghabra Al-Amoudi (2018), Powder
+//! Technology 330, DOI 10.1016/j.powtec.2018.02.003; this one is the angle of the flank of a poured heap.
 
 mod surface;
 
