@@ -380,7 +380,7 @@ fn what_cannot_be_measured_is_refused_with_a_cure() {
     Made::new("").save(&none.path().join("run.mcap"));
     let stream = tempdir().unwrap();
     uniform_stream(&stream);
-    let cases: [(&TempDir, &[&str], &[&str]); 24] = [
+    let cases: [(&TempDir, &[&str], &[&str]); 26] = [
         (&some, &["--energy"], &["run.mcap: --energy: run holds no energy ledger", "[output] energy = true"]),
         (&some, &["--forces"], &["run holds no contacts: set [output] contacts = true"]),
         (&some, &["--wall-force", "all"], &["run holds no contacts: set [output] contacts = true"]),
@@ -410,6 +410,12 @@ fn what_cannot_be_measured_is_refused_with_a_cure() {
         (&folder, &["--wall-force", "all", "--wall", "roof"], &["no material or wall 'roof'", "floor, side"]),
         (&some, &["--profile", "--field", "heat"], &["no field 'heat' in /particles", "vx, vy, vz"]),
         (&some, &["--repose"], &["heap at 0 s", "profile bins", "smaller --bin"]),
+        (
+            &some,
+            &["--repose", "--bin", "0.001"],
+            &["bin = 0.001 m: give at least a quarter of a mean diameter"],
+        ),
+        (&some, &["--repose", "--sectors", "1"], &["sectors = 1: give 2 to 1000"]),
         (&some, &["--segregation"], &["frames hold at most 1 grains, and mixing needs 2"]),
         (&folder, &["--segregation", "--kind", "z"], &["no material or wall 'z'; there are a, b"]),
         (
