@@ -10,6 +10,8 @@ use serde_json::Value;
 use std::f64::consts::PI;
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Command, Stdio};
+use std::sync::mpsc;
+use std::time::Duration;
 use tempfile::{TempDir, tempdir};
 
 /// Saves a run as `run.mcap` in a folder of its own.
@@ -168,7 +170,8 @@ fn a_dense_lattice_has_its_coordination_and_solid_fraction() {
     assert_eq!((column(&done, "coordination"), column(&done, "rattlers")), (vec![12.0], vec![0.0]));
     assert_eq!(column(&done, "pairs"), [6.0 * 256.0]);
     let phi = PI / 18f64.sqrt();
-    let inner = "box:0.02,0.02,0.02,0.06,0.06,0.06";
+    // Cells of the lattice hold as much wherever they begin.
+    let inner = "box:0.023,0.027,0.031,0.063,0.067,0.071";
     for (shape, tolerance) in [(inner, 1e-8), ("sphere:0.04,0.04,0.04,0.03", 0.02)] {
         let found = 1.0 - sum(&folder, &["--porosity", shape], "porosity");
         assert!((found - phi).abs() < tolerance, "{shape}: {found}");
@@ -265,7 +268,7 @@ fn with_contacts() -> TempDir {
                 (0, 1, false, [0.01, 0.0, 0.01], [-1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], 0.0),
                 (0, 1, false, [0.01, 0.0, 0.01], [-1.0, 0.0, 0.0], [-3.0, 0.0, 0.5], 0.0),
                 (0, 0, true, [0.0; 3], z, [0.5, 0.0, push], 0.25),
-                (1, 0, true, [0.021, 0.0, 0.0], z, [0.0, 0.0, 1.0], 0.5),
+                (1, 0, true, [0.028, 0.0, -0.005], z, [0.0, 0.0, 1.0], 0.5),
                 (1, 1, true, [0.03, 0.0, 0.01], x, [7.0, 0.0, 0.0], 0.0),
             ],
         );
@@ -343,12 +346,17 @@ fn rows_come_as_the_run_grows() {
     // The second frame and the end are held back.
     let cut = bytes.len() * 3 / 5;
     to.write_all(&bytes[..cut]).unwrap();
-    let mut lines = BufReader::new(from).lines();
-    let first: Vec<String> = lines.by_ref().take(2).map(Result::unwrap).collect();
+    // In a thread of its own: a tool that holds its rows back fails here and does not hang.
+    let (send, lines) = mpsc::channel();
+    std::thread::spawn(move || {
+        BufReader::new(from).lines().map_while(Result::ok).try_for_each(|l| send.send(l))
+    });
+    let first =
+        [0, 1].map(|_| lines.recv_timeout(Duration::from_secs(20)).expect("rows come before the end"));
     assert!(first[0].starts_with("time [s],porosity [1]") && first[1].starts_with("0,0.99581"), "{first:?}");
     to.write_all(&bytes[cut..]).unwrap();
     drop(to);
-    assert_eq!(lines.count(), 1);
+    assert_eq!(lines.iter().count(), 1);
     assert!(child.wait().unwrap().success());
 }
 
@@ -372,7 +380,7 @@ fn what_cannot_be_measured_is_refused_with_a_cure() {
     Made::new("").save(&none.path().join("run.mcap"));
     let stream = tempdir().unwrap();
     uniform_stream(&stream);
-    let cases: [(&TempDir, &[&str], &[&str]); 24] = [
+    let cases: [(&TempDir, &[&str], &[&str]); 26] = [
         (&some, &["--energy"], &["run.mcap: --energy: run holds no energy ledger", "[output] energy = true"]),
         (&some, &["--forces"], &["run holds no contacts: set [output] contacts = true"]),
         (&some, &["--wall-force", "all"], &["run holds no contacts: set [output] contacts = true"]),
@@ -402,6 +410,12 @@ fn what_cannot_be_measured_is_refused_with_a_cure() {
         (&folder, &["--wall-force", "all", "--wall", "roof"], &["no material or wall 'roof'", "floor, side"]),
         (&some, &["--profile", "--field", "heat"], &["no field 'heat' in /particles", "vx, vy, vz"]),
         (&some, &["--repose"], &["heap at 0 s", "profile bins", "smaller --bin"]),
+        (
+            &some,
+            &["--repose", "--bin", "0.001"],
+            &["bin = 0.001 m: give at least a quarter of a mean diameter"],
+        ),
+        (&some, &["--repose", "--sectors", "1"], &["sectors = 1: give 2 to 1000"]),
         (&some, &["--segregation"], &["frames hold at most 1 grains, and mixing needs 2"]),
         (&folder, &["--segregation", "--kind", "z"], &["no material or wall 'z'; there are a, b"]),
         (

@@ -9,8 +9,8 @@
 //! 4. The angle is the mean over the sectors, its 95 % interval ± t s/√n with the deviation s between them.
 //!
 //! The axis goes through the centre of what stands above half height; where no grain is, the surface is the ground.
-//! A line through the middle part of the flank is what Beakawi Al-Hashemi & Baghabra Al-Amoudi (2018), Powder
-//! Technology 330, DOI 10.1016/j.powtec.2018.02.003, review as the usual definition for heaps.
+//! For ways to measure the angle of repose see the review of Beakawi Al-Hashemi & Baghabra Al-Amoudi (2018), Powder
+//! Technology 330, DOI 10.1016/j.powtec.2018.02.003; this one is the angle of the flank of a poured heap.
 
 mod surface;
 
@@ -22,6 +22,8 @@ use crate::statistics::{Line, Mean, median, theil_sen};
 use crate::{Frame, MeasureError, Run};
 use geom::Vec3;
 use std::f64::consts::PI;
+
+const MOST_SECTORS: usize = 1000;
 
 /// How the angle is taken.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,8 +56,8 @@ impl HeapOptions {
     pub fn check(&self) -> Result<(), MeasureError> {
         let wrong = |what, value, unit, cure| Err(MeasureError::Setting { what, value, unit, cure });
         let [low, high] = self.fractions;
-        if self.sectors < 2 {
-            return wrong("sectors", self.sectors as f64, "", "give at least 2, the interval is over them");
+        if !(2..=MOST_SECTORS).contains(&self.sectors) {
+            return wrong("sectors", self.sectors as f64, "", "give 2 to 1000: the interval is over them");
         }
         if !(0.0 <= low && low < high && high <= 1.0) {
             return wrong("lower fraction", low, "", "give two numbers from 0 to 1, the lower first");
@@ -125,6 +127,10 @@ pub fn heap_angle(frame: &Frame, options: &HeapOptions, up: Option<Vec3>) -> Res
     }
     let surface = Surface::new(frame, &axes, options.ground);
     let bin = options.bin.unwrap_or(frame.mean_diameter());
+    if bin < surface.step {
+        let cure = "give at least a quarter of a mean diameter";
+        return Err(MeasureError::Setting { what: "bin", value: bin, unit: "m", cure });
+    }
     let (axis, profiles) = match options.wall {
         None => sectors(&surface, options.sectors, bin),
         Some(_) => lanes(&surface, options.sectors, bin),
@@ -220,6 +226,8 @@ fn flank(place: f64, profile: Vec<[f64; 2]>, height: f64, fractions: [f64; 2]) -
 pub struct Repose {
     options: HeapOptions,
     last: Option<HeapAngle>,
+    /// Frames whose heap was too small, and why.
+    left_out: (u64, Option<MeasureError>),
 }
 
 impl Repose {
@@ -229,7 +237,7 @@ impl Repose {
     /// As [`HeapOptions::check`].
     pub fn new(options: HeapOptions) -> Result<Repose, MeasureError> {
         options.check()?;
-        Ok(Repose { options, last: None })
+        Ok(Repose { options, last: None, left_out: (0, None) })
     }
 }
 
@@ -250,7 +258,15 @@ impl OfFrame for Repose {
     }
 
     fn measure(&mut self, run: &Run, frame: &Frame) -> Result<Vec<Row>, MeasureError> {
-        let heap = heap_angle(frame, &self.options, run.up)?;
+        let heap = match heap_angle(frame, &self.options, run.up) {
+            Ok(heap) => heap,
+            // A heap that still grows may be measured later.
+            Err(why @ (MeasureError::SmallHeap { .. } | MeasureError::NoGrains { .. })) => {
+                self.left_out = (self.left_out.0 + 1, Some(why));
+                return Ok(Vec::new());
+            }
+            Err(other) => return Err(other),
+        };
         let degrees = |angle: f64| angle.to_degrees();
         let free = self.options.wall.is_none();
         let row = |(k, f): (usize, &Flank)| {
@@ -266,7 +282,10 @@ impl OfFrame for Repose {
     }
 
     fn end(&mut self) -> Result<(Vec<Row>, Summary), MeasureError> {
-        let Some(heap) = &self.last else { return Ok(Default::default()) };
+        let Some(heap) = &self.last else {
+            let few = MeasureError::FewGrains { what: "a heap", most: 0, wanted: 1 };
+            return Err(self.left_out.1.take().unwrap_or(few));
+        };
         let a = &heap.angle;
         let summary = Summary::default()
             .with("angle", "deg", a.mean.to_degrees())
@@ -275,7 +294,8 @@ impl OfFrame for Repose {
             .with("parts", "1", a.count as f64)
             .with("height", "m", heap.height)
             .with("time", "s", heap.time);
-        Ok((Vec::new(), summary))
+        let note = format!("{} frames left out: no heap, or too small a one", self.left_out.0);
+        Ok((Vec::new(), if self.left_out.0 > 0 { summary.note(note) } else { summary }))
     }
 
     fn chart(&self, _: &[Row]) -> Chart {

@@ -192,8 +192,9 @@ impl Observer for Wear {
         let margin = 0.5 * self.cell.unwrap_or(2.0 * first[3]);
         let low = [a, b].map(|k| of(k).fold(f64::INFINITY, f64::min) - margin);
         let wide = [a, b].map(|k| reach(k) + 2.0 * margin);
-        let step = self.cell.unwrap_or(wide[0].max(wide[1]) / CELLS as f64);
-        let count = wide.map(|w| (libm::round(w / step) as usize).clamp(1, 4 * CELLS));
+        let longest = wide[0].max(wide[1]);
+        let step = self.cell.unwrap_or(longest / CELLS as f64).max(longest / (4 * CELLS) as f64);
+        let count = wide.map(|w| (libm::round(w / step) as usize).max(1));
         for (value, column) in [("sliding work [J]", 7), ("mean normal force [N]", 5)] {
             let mut cells = vec![vec![f64::NAN; count[0]]; count[1]];
             for row in rows {

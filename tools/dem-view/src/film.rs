@@ -126,7 +126,7 @@ impl Reel {
         let trial = |n: usize| self.draw(times[n * (times.len() - 1) / (trials - 1).max(1)]);
         let images = (0..trials).map(trial).collect::<Result<Vec<_>, _>>()?;
         let delay = (100.0 / f64::from(args.fps)).round().max(2.0) as u16;
-        let gif = Gif::new(output.open()?, size, Palette::of(&images), delay)?;
+        let gif = Gif::new(output.open()?, size, Palette::of(&images, self.options.map), delay)?;
         Ok((Sink::Gif(gif), f64::from(delay) / 100.0))
     }
 }

@@ -68,7 +68,7 @@ pub fn read_all(sources: &[Source], show: &mut impl Show) -> anyhow::Result<Vec<
     Ok(found)
 }
 
-/// A mesh, or a cloud; one whose points have a radius is a set of wall spheres.
+/// A mesh, or a cloud; one whose points have a radius is a set of wall spheres, with a velocity of grains.
 fn scan(mut from: impl Read, name: &str, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
     let mut bytes = Vec::new();
     from.read_to_end(&mut bytes).with_context(|| format!("{name}: cannot read"))?;
@@ -87,7 +87,12 @@ fn scan(mut from: impl Read, name: &str, show: &mut impl Show) -> anyhow::Result
     for column in cloud.attributes.columns() {
         table.push(&column.name, column.values.clone())?;
     }
-    let role = if table.get("radius").is_some() { Role::Walls } else { Role::Cloud };
+    let has = |column| table.get(column).is_some();
+    let role = match (has("radius"), has("vx")) {
+        (true, true) => Role::Grains,
+        (true, false) => Role::Walls,
+        (false, _) => Role::Cloud,
+    };
     let points = table.rows();
     let layer = show.layer(role, name);
     show.push(layer, 0.0, table)?;

@@ -1,6 +1,6 @@
 //! The colours of a film: 255 that fit its pictures best, the same ones on every run.
 
-use crate::Image;
+use crate::{Image, Map};
 use color_quant::NeuQuant;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -11,7 +11,11 @@ const COLOURS: usize = 255;
 /// Bits of each part of a colour that are told apart.
 const BITS: usize = 6;
 
-/// A colour is counted once for each doubling of its share: paper must not take the colours of the grains.
+/// So many of them are steps of the colour map, for the colour bar and the grains.
+const STEPS: usize = 64;
+
+/// Of the others, a colour is counted once for each doubling of its share: many dark grains must not take the colours
+/// of a few bright ones.
 const PER_DOUBLING: usize = 4;
 
 /// The colours of all pictures of a film.
@@ -24,21 +28,23 @@ pub struct Palette {
 }
 
 impl Palette {
-    /// The colours that fit `images`, some pictures of the film: by a self-organising map (A. H. Dekker 1994,
-    /// Network: Computation in Neural Systems 5, 351), learnt in a fixed order. White is always among them.
-    pub fn of(images: &[Image]) -> Palette {
+    /// The colours that fit `images`, some pictures of the film: white, steps of the `map` they are coloured by, and
+    /// for all else a self-organising map (A. H. Dekker 1994, Network: Computation in Neural Systems 5, 351), learnt
+    /// in a fixed order.
+    pub fn of(images: &[Image], map: Map) -> Palette {
         let mut seen: BTreeMap<[u8; 3], usize> = BTreeMap::new();
         for pixel in images.iter().flat_map(|image| image.rgba.chunks_exact(4)) {
             *seen.entry([pixel[0], pixel[1], pixel[2]].map(|c| c >> (8 - BITS))).or_default() += 1;
         }
-        let lessons = |(bin, count): (&[u8; 3], &usize)| {
+        let step = |n: usize| map.at(n as f64 / (STEPS - 1) as f64).map(|c| (255.0 * c).round() as u8);
+        let mut colours: Vec<[u8; 3]> = [[255; 3]].into_iter().chain((0..STEPS).map(step)).collect();
+        let lesson = |(bin, count): (&[u8; 3], &usize)| {
             let [r, g, b] = bin.map(middle);
             [r, g, b, 255].repeat(1 + PER_DOUBLING * count.ilog2() as usize)
         };
-        let lessons: Vec<u8> = seen.iter().flat_map(lessons).collect();
-        let mut colours = vec![[255; 3]];
+        let lessons: Vec<u8> = seen.iter().flat_map(lesson).collect();
         if !lessons.is_empty() {
-            let learnt = NeuQuant::new(1, COLOURS - 1, &lessons).color_map_rgb();
+            let learnt = NeuQuant::new(1, COLOURS - colours.len(), &lessons).color_map_rgb();
             colours.extend(learnt.chunks_exact(3).map(|c| [c[0], c[1], c[2]]));
         }
         let nearest = (0..1usize << (3 * BITS)).into_par_iter().map(|bin| closest(&colours, bin)).collect();
@@ -80,7 +86,7 @@ mod tests {
         for (n, pixel) in image.rgba.chunks_exact_mut(4).enumerate().take(600) {
             pixel[..3].copy_from_slice(&[(n / 4) as u8, 90, 200 - (n / 4) as u8]);
         }
-        let palette = Palette::of(std::slice::from_ref(&image));
+        let palette = Palette::of(std::slice::from_ref(&image), Map::Viridis);
         assert_eq!(palette.colours[palette.index(&[255, 255, 255, 255]) as usize], [255; 3]);
         for pixel in image.rgba.chunks_exact(4) {
             let shown = palette.colours[palette.index(pixel) as usize];

@@ -8,6 +8,7 @@ mod key;
 mod lens;
 mod light;
 mod paint;
+mod shadow;
 mod splat;
 mod survey;
 

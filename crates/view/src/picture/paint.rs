@@ -38,6 +38,8 @@ pub(crate) struct Pane {
     pub lines: Vec<[Vec3; 2]>,
     /// How much a line hides [–].
     pub ink: f32,
+    /// Whether it hides all that is behind it.
+    pub opaque: bool,
     /// A point and the normal [m] of a plane, which points to the grains.
     pub side: Option<[Vec3; 2]>,
 }
@@ -78,9 +80,10 @@ impl Painted {
         Ok(painted)
     }
 
-    /// Places the surfaces; a plane that is not far off is looked at too.
+    /// Places the surfaces; a plane is looked at where there is nothing else.
     fn place(&mut self, surfaces: &[Surface], survey: &Survey, time: f64) {
         let mut outline = survey.outline.clone();
+        self.outline = outline.places();
         for sheet in sheet::sheets(surfaces, self.extent) {
             let place = sheet.surface.motion.to(time);
             let vertices: Vec<Vec3> = sheet.vertices.iter().map(|v| place(*v)).collect();
@@ -90,10 +93,11 @@ impl Painted {
                 SurfaceShape::Plane(p) => Some([place(p.point), place(p.point + p.normal) - place(p.point)]),
                 SurfaceShape::Mesh(_) => None,
             };
-            if sheet.whole && side.is_some() {
+            if sheet.whole && side.is_some() && self.outline.is_empty() {
                 outline.add(&vertices);
             }
-            self.panes.push(Pane { faces, lines, ink: sheet.ink, side });
+            let opaque = sheet.closed && self.layers.is_empty();
+            self.panes.push(Pane { faces, lines, ink: sheet.ink, opaque, side });
         }
         self.outline = outline.places();
         self.extent = sheet::box_of(&self.outline);
@@ -102,5 +106,11 @@ impl Painted {
     /// Middle of what is looked at [m].
     pub fn middle(&self) -> Vec3 {
         Vec3::from_fn(|k, _| 0.5 * (self.extent[k].lo + self.extent[k].hi))
+    }
+
+    /// A ball around what is looked at: middle and radius [m].
+    pub fn ball(&self) -> (Vec3, f64) {
+        let side = Vec3::from_fn(|k, _| (self.extent[k].hi - self.extent[k].lo).max(0.0));
+        (self.middle(), 0.5 * side.norm())
     }
 }
