@@ -142,6 +142,32 @@ fn a_uniform_stream_flows_evenly_between_frames_too() {
     assert_eq!(column(&back, "backward").iter().sum::<f64>(), 52.0);
 }
 
+/// A grain that goes from x = 0.95 m through the face at 1 m to 0.05 m passes what lies between, on both sides of the face.
+#[test]
+fn a_periodic_face_is_no_way_back() {
+    let at = |x: f64| Grain { velocity: Vec3::x(), ..grain(0, [x, 0.5, 0.5], 0.01) };
+    let mut made = Made::new("[domain]\nperiodic = [\"x\"]\nlow = [0, 0, 0]\nhigh = [1, 1, 1]\n");
+    made.frame(0.0, &[at(0.95)]).frame(0.1, &[at(0.05)]);
+    let folder = saved(made);
+    for (x, passes) in [("0.98", 1.0), ("0", 1.0), ("0.03", 1.0), ("0.5", 0.0), ("0.07", 0.0)] {
+        let done = measure(&folder, &["--flow", &format!("{x},0,0,1,0,0")]);
+        assert_eq!((column(&done, "forward")[0], column(&done, "backward")[0]), (passes, 0.0), "x = {x}");
+    }
+}
+
+/// Grains that are taken out, or come in, within the interval in which they pass cannot be seen to pass.
+#[test]
+fn grains_that_vanish_at_the_plane_are_told() {
+    let falling = |id, z| Grain { velocity: Vec3::new(0.0, 0.0, -1.0), ..grain(id, [0.0, 0.0, z], 0.001) };
+    let mut made = Made::new("");
+    made.frame(0.0, &[falling(0, 0.01), falling(1, 0.05), falling(2, 0.015)]);
+    made.frame(0.02, &[falling(2, -0.005), falling(3, -0.01), falling(4, -0.05)]);
+    let folder = saved(made);
+    let done = measure(&folder, &["--flow", "0,0,0,0,0,-1"]);
+    assert_eq!(column(&done, "forward"), [1.0]);
+    assert!(done.stderr.contains("2 grains near the plane vanished or appeared"), "{}", done.stderr);
+}
+
 #[test]
 fn recorded_crossings_are_counted_where_an_outlet_lies_in_the_plane() {
     let mut made = Made::new("");
