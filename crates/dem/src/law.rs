@@ -4,8 +4,8 @@ use crate::effects::{
     Coefficient, Cohesion, ConstantRolling, Effect, Friction, Hertz, Hooke, Jkr, RollingResistance,
     SlidingFriction, TwistingResistance, Weakening, damping_ratio,
 };
-use crate::kernel::Kernel;
-use crate::setup::{Contact, Law, Material, RollingModel};
+use crate::kernel::{Kernel, Mixed};
+use crate::setup::{Contact, Law, Material, Precision, RollingModel};
 use std::f64::consts::PI;
 
 /// Elastic constants of a pair.
@@ -80,6 +80,14 @@ pub fn reach(contact: &Contact, elastic: Elastic, largest: f64) -> f64 {
 struct Pair<'a> {
     contact: &'a Contact,
     elastic: Elastic,
+    precision: Precision,
+}
+
+/// Whether a law has an effect that is offered in double precision only.
+pub fn is_rare(c: &Contact) -> bool {
+    let constant = c.rolling_resistance.is_some() && c.rolling_model == RollingModel::Constant;
+    let adheres = c.cohesion.is_some() || matches!(c.law, Law::Jkr { .. });
+    adheres || c.weakening.is_some() || c.twisting_resistance.is_some() || constant
 }
 
 /// The effects of a contact, composed; the only place that knows which compositions there are.
@@ -87,8 +95,8 @@ struct Pair<'a> {
 /// Each composition is compiled for every width of lanes, with and without the ledger. So that there are not too many, what has
 /// no memory and is rare is not a composition of its own: cohesion and the weakening of friction are a question that a kernel
 /// asks once for each group of contacts, and only kernels with something rare in them.
-pub fn compose(contact: &Contact, elastic: Elastic) -> Box<dyn Kernel> {
-    let pair = Pair { contact, elastic };
+pub fn compose(contact: &Contact, elastic: Elastic, precision: Precision) -> Box<dyn Kernel> {
+    let pair = Pair { contact, elastic, precision };
     let (damping_ratio, modulus) = (damping_ratio(contact.restitution), elastic.modulus);
     match contact.law {
         Law::Hooke { stiffness, .. } => pair.normal(Hooke { stiffness, damping_ratio }),
@@ -100,16 +108,23 @@ pub fn compose(contact: &Contact, elastic: Elastic) -> Box<dyn Kernel> {
 impl Pair<'_> {
     fn normal<N: Effect>(self, normal: N) -> Box<dyn Kernel> {
         let c = self.contact;
-        let constant = c.rolling_resistance.is_some() && c.rolling_model == RollingModel::Constant;
-        if c.cohesion.is_some() || c.weakening.is_some() || c.twisting_resistance.is_some() || constant {
+        if is_rare(c) {
             return self.rare((normal, c.cohesion.map(|energy_density| Cohesion { energy_density })));
         }
         match (c.sliding_friction, c.rolling_resistance) {
-            (None, _) => Box::new(normal),
-            (Some(friction), None) => Box::new((normal, self.sliding(friction))),
+            (None, _) => self.common(normal),
+            (Some(friction), None) => self.common((normal, self.sliding(friction))),
             (Some(friction), Some(resistance)) => {
-                Box::new((normal, (self.sliding(friction), RollingResistance { resistance })))
+                self.common((normal, (self.sliding(friction), RollingResistance { resistance })))
             }
+        }
+    }
+
+    /// What is offered in every precision.
+    fn common<E: Effect>(self, effects: E) -> Box<dyn Kernel> {
+        match self.precision {
+            Precision::Double => Box::new(effects),
+            Precision::Mixed => Box::new(Mixed(effects)),
         }
     }
 

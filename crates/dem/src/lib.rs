@@ -33,7 +33,7 @@ mod zones;
 pub use bodies::BodyState;
 pub use energy::Energy;
 pub use error::{Halt, SetupError};
-pub use explain::{EffectCost, Part, parts};
+pub use explain::{EffectCost, Part, needed, parts};
 pub use limit::{Limit, critical_step};
 pub use particles::mass;
 pub use setup::Setup;

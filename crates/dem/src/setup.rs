@@ -36,6 +36,8 @@ pub struct Setup {
     pub step: Step,
     /// Periodic extent (lowest, highest) [m] along x, y, z; `None` along an open axis.
     pub periodic: [Option<(f64, f64)>; 3],
+    /// In which precision contacts are computed.
+    pub precision: Precision,
     /// Neighbours are listed up to this gap [m]; `None` chooses.
     pub skin: Option<f64>,
     /// When particles at rest are passed over; `None`: never.
@@ -44,6 +46,16 @@ pub struct Setup {
     pub ledger: bool,
     /// When a run is stopped.
     pub guards: Guards,
+}
+
+/// In which precision contacts are computed; places, velocities and sums are always in double precision.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Precision {
+    /// Double precision.
+    #[default]
+    Double,
+    /// What happens in a contact in single precision.
+    Mixed,
 }
 
 /// How the time step is chosen.

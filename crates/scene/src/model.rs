@@ -12,6 +12,9 @@ pub struct Model {
     /// Id of the first particle that the scene itself makes; particles of an inlet keep theirs.
     #[serde(default)]
     pub first_id: u32,
+    /// In which precision contacts are computed.
+    #[serde(default)]
+    pub precision: Arithmetic,
     /// Time.
     #[serde(default)]
     pub time: Time,
@@ -59,6 +62,17 @@ pub struct Model {
     /// Zones that recorded particles enter by.
     #[serde(default)]
     pub inlet: Vec<Inlet>,
+}
+
+/// In which precision contacts are computed; places and sums are always double.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Arithmetic {
+    /// Double.
+    #[default]
+    F64,
+    /// Single in contacts.
+    Mixed,
 }
 
 /// `[time]`

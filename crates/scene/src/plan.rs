@@ -7,7 +7,7 @@ use crate::faucet::Faucet;
 use crate::inlet::InletStream;
 use crate::input::Input;
 use crate::material_info::MaterialInfo;
-use crate::model::{Model, OrAuto};
+use crate::model::{Arithmetic, Model, OrAuto};
 use crate::wall_file::WallFile;
 use crate::{Scene, contacts, fill, particle_file, walls};
 use dem::setup::{self, Guards, Particle, Setup, Step, Zone};
@@ -269,6 +269,10 @@ impl<'a> Draft<'a> {
             step: match model.time.dt {
                 OrAuto::Auto => Step::Auto(model.time.safety),
                 OrAuto::Given(dt) => Step::Fixed(dt),
+            },
+            precision: match model.precision {
+                Arithmetic::F64 => dem::setup::Precision::Double,
+                Arithmetic::Mixed => dem::setup::Precision::Mixed,
             },
             skin: model.neighbours.skin,
             sleep: model.sleep.map(|s| dem::setup::Sleep { speed: s.speed, time: s.time, wake: s.wake }),

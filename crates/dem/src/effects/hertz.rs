@@ -35,7 +35,7 @@ impl Effect for Hertz {
         load.stiffness = s;
         // S ∝ √δ; the overlap a step ago follows from the approach.
         let before = (overlap - contact.approach * dt).max(R::splat(0.0));
-        load.stiffness_before = (before / overlap.max(R::splat(1e-300))).sqrt();
+        load.stiffness_before = (before / overlap.max(R::splat(R::TINY))).sqrt();
         load.elastic = load.elastic + R::splat(0.4) * elastic * overlap;
         load.dissipated[0] = load.dissipated[0] + damping * contact.approach * dt;
     }

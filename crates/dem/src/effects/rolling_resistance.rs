@@ -34,7 +34,7 @@ impl Effect for RollingResistance {
         let n = contact.normal;
         let rolling = contact.spin - n.scale(contact.spin.dot(n));
         let arm = R::splat(self.resistance) * contact.radius;
-        let stiffness = (R::splat(2.25) * load.stiffness * arm * arm).max(R::splat(1e-150));
+        let stiffness = (R::splat(2.25) * load.stiffness * arm * arm).max(R::splat(R::TINY));
         let inertia = R::splat(1.4) * contact.mass * contact.radius * contact.radius;
         let spring = CappedSpring {
             stiffness,

@@ -47,7 +47,7 @@ impl<C: Coefficient> Effect for SlidingFriction<C> {
     #[inline(always)]
     fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, xi: &mut V<R>, load: &mut Load<R>) {
         // A stiffness of 0 at δ = 0 (Hertz) would be divided by; nothing holds there in any case.
-        let stiffness = (R::splat(self.stiffness_ratio) * load.stiffness).max(R::splat(1e-150));
+        let stiffness = (R::splat(self.stiffness_ratio) * load.stiffness).max(R::splat(R::TINY));
         let spring = CappedSpring {
             stiffness,
             before: load.stiffness_before,
