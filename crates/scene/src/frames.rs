@@ -2,8 +2,8 @@
 
 use crate::crossings::Builder;
 use crate::model::Precision;
-use dem::Simulation;
 use dem::setup::{Particle, Setup, Wall, WallShape};
+use dem::{ContactRecord, Simulation};
 use serde_json::{Value, json};
 use stream::{Table, Values};
 
@@ -30,6 +30,27 @@ pub fn particles(rows: &[Particle], precision: Precision) -> Table {
         .with("wz", one(&|p| p.spin.z))
         .with("id", Values::U32(rows.iter().map(|p| p.id).collect()))
         .with("material", Values::U16(rows.iter().map(|p| p.material).collect()))
+        .0
+}
+
+/// The table of the topic `/contacts`.
+pub(crate) fn contacts(rows: &[ContactRecord], precision: Precision) -> Table {
+    let one = |of: &dyn Fn(&ContactRecord) -> f64| numbers(precision, rows.iter().map(of));
+    Builder::new(rows.len())
+        .with("x", one(&|c| c.point.x))
+        .with("y", one(&|c| c.point.y))
+        .with("z", one(&|c| c.point.z))
+        .with("nx", one(&|c| c.normal.x))
+        .with("ny", one(&|c| c.normal.y))
+        .with("nz", one(&|c| c.normal.z))
+        .with("fx", one(&|c| c.force.x))
+        .with("fy", one(&|c| c.force.y))
+        .with("fz", one(&|c| c.force.z))
+        .with("overlap", one(&|c| c.overlap))
+        .with("id_i", Values::U32(rows.iter().map(|c| c.i).collect()))
+        .with("id_j", Values::U32(rows.iter().map(|c| c.j).collect()))
+        .with("kind", Values::U16(rows.iter().map(|c| u16::from(c.wall)).collect()))
+        .with("work", one(&|c| c.work))
         .0
 }
 

@@ -19,6 +19,8 @@ use thiserror::Error;
 
 /// Topic of frames.
 pub const PARTICLES: &str = "/particles";
+/// Topic of contacts.
+pub const CONTACTS: &str = "/contacts";
 /// Topic of wall spheres.
 pub const WALLS: &str = "/walls";
 /// Topic of planes, meshes and motions of walls.
@@ -110,6 +112,7 @@ struct Run<W: Write> {
     moving: bool,
     outlets: bool,
     energy: bool,
+    contacts: bool,
     precision: Precision,
     crossings: Vec<Crossing>,
     outcome: Outcome,
@@ -227,6 +230,7 @@ impl<W: Write> Run<W> {
             moving,
             outlets: !outlets.is_empty(),
             energy: scene.model.output.energy,
+            contacts: scene.model.output.contacts,
             precision: scene.model.output.precision,
             crossings: Vec::new(),
         };
@@ -298,6 +302,13 @@ impl<W: Write> Run<W> {
             self.writer.points(WALLS, now, FRAME, &table)?;
         }
         self.writer.points(PARTICLES, now, FRAME, &frames::particles(&particles, self.precision))?;
+        if self.contacts {
+            let contacts = match self.sim.record_contacts() {
+                Ok(contacts) => contacts,
+                Err(halt) => return Ok(Err(halt)),
+            };
+            self.writer.points(CONTACTS, now, FRAME, &frames::contacts(&contacts, self.precision))?;
+        }
         self.outcome.frames += 1;
         if self.energy {
             let energy = match self.sim.energy() {
