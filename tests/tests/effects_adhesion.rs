@@ -3,7 +3,7 @@
 use dem::setup::*;
 use dem::{Setup, Simulation, mass};
 use geom::Vec3;
-use grainpipe_tests::normals::{MODULUS, NORMALS, Normal, SURFACES, Surface, WORK};
+use grainpipe_tests::normals::{MODULUS, NORMALS, Normal, SURFACES, Surface, WORK, still};
 use grainpipe_tests::setups::{grain, particles, run_until};
 use std::f64::consts::PI;
 
@@ -85,6 +85,48 @@ fn every_normal_law_rebounds_as_its_energy_says() {
                         got / 0.05
                     );
                 }
+            }
+        }
+    }
+}
+
+/// The deepest overlap of an elastic impact is where the contact holds ½ m* v² more than when it was made; with Hertz that is
+/// δ_max = (15 m* v²/(16 √R* E*))^0.4.
+#[test]
+fn deepest_overlap_holds_the_energy_of_the_impact() {
+    for normal in NORMALS {
+        for on in [None, Some(Surface::Plane), Some(Surface::Sphere)] {
+            let m = mass(0.01, 2500.0);
+            let (reduced, speed, radius, curvature) =
+                if on.is_some() { (m, 0.2, 0.01, 0.0) } else { (0.5 * m, 0.4, 0.005, 50.0) };
+            let energy = 0.5 * reduced * speed * speed;
+            let held = |overlap: f64| normal.load(&still(overlap, radius, curvature)).elastic;
+            let (mut low, mut high) = (0.0, 2e-3);
+            for _ in 0..100 {
+                let middle = 0.5 * (low + high);
+                if held(middle) - held(0.0) < energy { low = middle } else { high = middle }
+            }
+            let mut sim = simulation(impact(normal, 1.0, on, 0.2));
+            let mut deepest = 0.0f64;
+            for _ in 0..4000 {
+                sim.step().expect("within the guards");
+                let p = particles(&mut sim);
+                let gap = if on.is_some() {
+                    p[0].position.z - 0.01
+                } else {
+                    (p[0].position - p[1].position).norm() - 0.02
+                };
+                deepest = deepest.max(-gap);
+            }
+            assert!(deepest > 0.0 && particles(&mut sim)[0].velocity.z > 0.0, "it has turned round");
+            assert!(
+                (deepest / high - 1.0).abs() < 1e-3,
+                "{} on {on:?}: {deepest} m, not {high} m",
+                normal.name
+            );
+            if normal.name == "hertz" {
+                let closed = (15.0 * reduced * speed * speed / (16.0 * radius.sqrt() * MODULUS)).powf(0.4);
+                assert!((high / closed - 1.0).abs() < 1e-9);
             }
         }
     }

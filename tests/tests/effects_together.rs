@@ -153,7 +153,7 @@ fn piles_come_to_rest() {
         for rubbing in RUBBING.iter().filter(|r| r.2.len() == 3) {
             let mut setup = drop(normal, rubbing, 12);
             setup.walls[0].motion = Motion::still();
-            setup.step = Step::Auto(0.5);
+            setup.step = Step::Auto(0.95);
             setup.contacts.iter_mut().for_each(|c| c.restitution = 0.2);
             let mut sim = Simulation::new(setup).expect("sound");
             let mut kinetic = |time: f64| {
