@@ -212,15 +212,43 @@ fn stretched_contact_survives_listing() {
             let p = particles(&mut sim);
             gaps.push((p[0].position - p[1].position).norm() - 0.02);
         }
-        (gaps, sim.listings())
+        (gaps, sim.listings(), sim.energy().expect("sound").normal)
     };
-    let ((still, few), (moving, many)) = (relative(0.0), relative(3.0));
+    let ((still, few, once), (moving, many, again)) = (relative(0.0), relative(3.0));
     assert!(many > 10 * few, "{many} listings against {few}");
     assert!(still.iter().any(|&g| g > 2e-7), "the contact is stretched: {still:?}");
     assert!(still.iter().all(|&g| g < cycle(0.005).1), "and holds");
+    assert!((again / once - 1.0).abs() < 1e-9, "made once: {once} J, and {again} J booked");
     for (a, b) in still.iter().zip(&moving) {
         assert!((a - b).abs() < 1e-10, "{a} m and {b} m");
     }
+}
+
+/// Two grains that stick turn about each other, change places in the list at every half turn, and stay one contact: it is
+/// booked once, and their energy stays.
+#[test]
+fn turning_pair_remembers_its_contact() {
+    let mut setup = JKR.setup(1.0);
+    (setup.ledger, setup.skin, setup.step) = (true, Some(1e-3), Step::Auto(0.02));
+    // The last one holds the cells of the search in place.
+    setup.particles = vec![grain(1, Vec3::z() * 0.0099999), grain(2, Vec3::z() * -0.0099999)];
+    setup.particles[0].velocity.x = 0.1;
+    setup.particles[1].velocity.x = -0.1;
+    setup.particles.push(grain(9, Vec3::new(-0.5, 0.3, -0.031)));
+    let mut sim = simulation(setup);
+    // What is lost in a step is booked at its end.
+    sim.step().expect("within the guards");
+    let start = sim.energy().expect("sound").balance();
+    let mut lowest = 0.0f64;
+    for k in 1..140 {
+        run_until(&mut sim, 0.005 * f64::from(k));
+        lowest = lowest.min(particles(&mut sim)[0].position.z);
+    }
+    let (e, p) = (sim.energy().expect("sound"), particles(&mut sim));
+    assert!(lowest < -0.0099 && sim.listings() > 10, "they have turned: {lowest} m");
+    assert!((p[0].position - p[1].position).norm() < 0.02 + cycle(0.005).1, "and hold");
+    assert!((e.normal / cycle(0.005).0 - 1.0).abs() < 1e-9, "{} J booked", e.normal);
+    assert!((e.balance() - start).abs() < 1e-6 * e.translation, "{:e} J", e.balance() - start);
 }
 
 /// Cohesion that would pull grains into each other beyond the guard is refused, with its key.
