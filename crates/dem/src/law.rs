@@ -190,7 +190,7 @@ mod tests {
     fn kernels_take_the_memory_of_their_effects_and_no_more() {
         let material = Material { name: "a".to_owned(), density: 1e3, young: 1e6, poisson: 0.3 };
         for c in contacts() {
-            let kernel = compose(&c, Elastic::of(&material, &material));
+            let kernel = compose(&c, Elastic::of(&material, &material), Precision::Double);
             let bytes: usize = parts(&c).iter().map(|p| p.bytes).sum();
             assert_eq!(8 * kernel.memory(), bytes, "{c:?}");
             assert_eq!(kernel.rotates(), c.sliding_friction.is_some(), "{c:?}");
