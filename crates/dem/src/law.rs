@@ -160,3 +160,45 @@ impl Pair<'_> {
         SlidingFriction { friction, stiffness_ratio, damping_ratio: damping_ratio(self.contact.restitution) }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::explain::parts;
+    use crate::setup::Weakening as Weakens;
+
+    /// Every contact that a scene can ask for.
+    fn contacts() -> Vec<Contact> {
+        let hooke = Law::Hooke { stiffness: 1e4, tangential_ratio: None };
+        let laws = [hooke, Law::Hertz, Law::Jkr { work_of_adhesion: 1.0 }];
+        let mut all: Vec<Contact> = laws.map(|law| Contact::new((0, 0), law, 0.5)).to_vec();
+        let mut also = |change: fn(&mut Contact)| {
+            let mut more = all.clone();
+            more.iter_mut().for_each(change);
+            all.extend(more);
+        };
+        also(|c| c.cohesion = Some(1e3).filter(|_| !matches!(c.law, Law::Jkr { .. })));
+        also(|c| c.sliding_friction = Some(0.5));
+        also(|c| c.weakening = c.sliding_friction.map(|mu| Weakens { dynamic: 0.5 * mu, speed: 0.1 }));
+        also(|c| c.rolling_resistance = c.sliding_friction);
+        also(|c| c.rolling_model = RollingModel::Constant);
+        also(|c| c.twisting_resistance = c.sliding_friction);
+        all
+    }
+
+    #[test]
+    fn kernels_take_the_memory_of_their_effects_and_no_more() {
+        let material = Material { name: "a".to_owned(), density: 1e3, young: 1e6, poisson: 0.3 };
+        for c in contacts() {
+            let kernel = compose(&c, Elastic::of(&material, &material), Precision::Double);
+            let bytes: usize = parts(&c).iter().map(|p| p.bytes).sum();
+            assert_eq!(8 * kernel.memory(), bytes, "{c:?}");
+            assert_eq!(kernel.rotates(), c.sliding_friction.is_some(), "{c:?}");
+            let couples = c.rolling_resistance.is_some() || c.twisting_resistance.is_some();
+            assert_eq!(kernel.couples(), couples, "{c:?}");
+            // Vectors change their sign when i and j change places, numbers do not.
+            let flips = (0..kernel.memory()).filter(|&k| kernel.flips(k)).count();
+            assert_eq!(flips, kernel.memory() / 3 * 3, "{c:?}");
+        }
+    }
+}

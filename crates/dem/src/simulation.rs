@@ -283,6 +283,7 @@ impl Simulation {
         let found = self.pass(pass);
         if self.setup.ledger {
             self.account.add(&self.kinds, &self.contacts);
+            self.contacts.add_work();
         }
         if let Some(sleepers) = &mut self.sleepers {
             self.account.slept += sleepers.turn();

@@ -179,7 +179,7 @@ fn effects(setup: &Setup) -> Vec<(Effect, Option<Setup>)> {
     add("clump", if clumps.is_empty() { clumps } else { why }, 0, None);
     add("gravity", named(setup.gravity.norm() > 0.0, "gravity"), 0, None);
     let ledger = Setup { ledger: false, ..setup.clone() };
-    add("energy", named(setup.ledger, "output.energy"), 0, Some(ledger));
+    add("energy", named(setup.ledger, "output.energy or output.contacts"), 0, Some(ledger));
     let clumps = setup.clumps.shapes.len();
     add("clumps", if clumps > 0 { format!("{clumps} [[clump]]") } else { String::new() }, 0, None);
     let awake = Setup { sleep: None, ..setup.clone() };

@@ -3,7 +3,7 @@
 use crate::crossings::Builder;
 use crate::model::Precision;
 use dem::setup::{ClumpShape, Clumps, Particle, Setup, Wall, WallShape};
-use dem::{BodyState, Simulation};
+use dem::{BodyState, ContactRecord, Simulation};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use stream::{Table, Values};
@@ -74,6 +74,27 @@ pub(crate) fn clumps(clumps: &Clumps) -> BTreeMap<String, String> {
         })
     };
     clumps.shapes.iter().enumerate().map(|(k, s)| (k.to_string(), one(s).to_string())).collect()
+}
+
+/// The table of the topic `/contacts`.
+pub(crate) fn contacts(rows: &[ContactRecord], precision: Precision) -> Table {
+    let one = |of: &dyn Fn(&ContactRecord) -> f64| numbers(precision, rows.iter().map(of));
+    Builder::new(rows.len())
+        .with("x", one(&|c| c.point.x))
+        .with("y", one(&|c| c.point.y))
+        .with("z", one(&|c| c.point.z))
+        .with("nx", one(&|c| c.normal.x))
+        .with("ny", one(&|c| c.normal.y))
+        .with("nz", one(&|c| c.normal.z))
+        .with("fx", one(&|c| c.force.x))
+        .with("fy", one(&|c| c.force.y))
+        .with("fz", one(&|c| c.force.z))
+        .with("overlap", one(&|c| c.overlap))
+        .with("id_i", Values::U32(rows.iter().map(|c| c.i).collect()))
+        .with("id_j", Values::U32(rows.iter().map(|c| c.j).collect()))
+        .with("kind", Values::U16(rows.iter().map(|c| u16::from(c.wall)).collect()))
+        .with("work", one(&|c| c.work))
+        .0
 }
 
 /// The table of the topic `/walls`: all wall spheres as they are now; `None` when there is none.

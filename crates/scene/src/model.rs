@@ -120,6 +120,9 @@ pub struct Output {
     /// Whether the energy ledger is kept and written.
     #[serde(default)]
     pub energy: bool,
+    /// Whether contacts are written with each frame.
+    #[serde(default)]
+    pub contacts: bool,
     /// Type of the numbers in frames.
     #[serde(default)]
     pub precision: Precision,
@@ -127,7 +130,7 @@ pub struct Output {
 
 impl Default for Output {
     fn default() -> Output {
-        Output { every: None, checkpoint: None, energy: false, precision: Precision::F64 }
+        Output { every: None, checkpoint: None, energy: false, contacts: false, precision: Precision::F64 }
     }
 }
 

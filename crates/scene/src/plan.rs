@@ -276,7 +276,8 @@ impl<'a> Draft<'a> {
             },
             skin: model.neighbours.skin,
             sleep: model.sleep.map(|s| dem::setup::Sleep { speed: s.speed, time: s.time, wake: s.wake }),
-            ledger: model.output.energy,
+            // Contacts are written with the work of sliding, which the ledger knows.
+            ledger: model.output.energy || model.output.contacts,
             guards: Guards {
                 overlap: model.guards.overlap.unwrap_or(Guards::default().overlap),
                 motion: model.guards.motion.unwrap_or(Guards::default().motion),

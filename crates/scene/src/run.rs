@@ -21,6 +21,8 @@ use thiserror::Error;
 pub const PARTICLES: &str = "/particles";
 /// Topic of rigid clumps.
 pub const BODIES: &str = "/bodies";
+/// Topic of contacts.
+pub const CONTACTS: &str = "/contacts";
 /// Topic of wall spheres.
 pub const WALLS: &str = "/walls";
 /// Topic of planes, meshes and motions of walls.
@@ -115,6 +117,7 @@ struct Run<W: Write> {
     outlets: bool,
     clumps: bool,
     energy: bool,
+    contacts: bool,
     precision: Precision,
     crossings: Vec<Crossing>,
     outcome: Outcome,
@@ -238,6 +241,7 @@ impl<W: Write> Run<W> {
             outlets: !outlets.is_empty(),
             clumps,
             energy: scene.model.output.energy,
+            contacts: scene.model.output.contacts,
             precision: scene.model.output.precision,
             crossings: Vec::new(),
         };
@@ -316,6 +320,13 @@ impl<W: Write> Run<W> {
         self.writer.points(PARTICLES, now, FRAME, &table)?;
         if let Some(bodies) = bodies {
             self.writer.points(BODIES, now, FRAME, &frames::bodies(&bodies))?;
+        }
+        if self.contacts {
+            let contacts = match self.sim.record_contacts() {
+                Ok(contacts) => contacts,
+                Err(halt) => return Ok(Err(halt)),
+            };
+            self.writer.points(CONTACTS, now, FRAME, &frames::contacts(&contacts, self.precision))?;
         }
         self.outcome.frames += 1;
         if self.energy {
