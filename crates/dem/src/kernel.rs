@@ -234,6 +234,7 @@ fn lanes<R: Lane, E: Effect, const KEEP: bool>(
         radius,
         curvature: R::select(round, inverse_reach, zero),
         mass: inverse * both,
+        inverse_mass,
         approach: -along,
         slip,
         spin,

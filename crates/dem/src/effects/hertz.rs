@@ -27,7 +27,8 @@ impl Effect for Hertz {
     fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, _: &mut (), load: &mut Load<R>) {
         let overlap = contact.overlap.max(R::splat(0.0));
         let s = R::splat(2.0 * self.modulus) * (contact.radius * overlap).sqrt();
-        let c = R::splat(self.damping_ratio * (5.0f64 / 6.0).sqrt()) * (s * contact.mass).sqrt();
+        load.impedance = (s * contact.mass).sqrt();
+        let c = R::splat(self.damping_ratio * (5.0f64 / 6.0).sqrt()) * load.impedance;
         let elastic = R::splat(2.0 / 3.0) * s * overlap;
         let damping = c * contact.approach;
         load.normal = load.normal + (elastic + damping);

@@ -93,7 +93,8 @@ impl Effect for Jkr {
         let pull = number(PI * self.work_of_adhesion) * r;
         let elastic = pull * cube * (cube / number(6.0) - number(1.0));
         let s = number(2.0 * self.modulus) * last * y * y;
-        let c = number(self.damping_ratio * (5.0f64 / 6.0).sqrt()) * (s * contact.mass).sqrt();
+        load.impedance = (s * contact.mass).sqrt();
+        let c = number(self.damping_ratio * (5.0f64 / 6.0).sqrt()) * load.impedance;
         let damping = c * contact.approach;
         load.normal = load.normal + (elastic + damping);
         load.pressing = load.normal + number(3.0) * pull;

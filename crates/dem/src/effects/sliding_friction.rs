@@ -51,8 +51,8 @@ impl<C: Coefficient> Effect for SlidingFriction<C> {
         let spring = CappedSpring {
             stiffness,
             before: load.stiffness_before,
-            damping: R::splat(self.damping_ratio) * (stiffness * contact.mass).sqrt(),
-            pace: R::splat(5.0) * stiffness / contact.mass,
+            damping: R::splat(self.damping_ratio * self.stiffness_ratio.sqrt()) * load.impedance,
+            pace: R::splat(5.0) * stiffness * contact.inverse_mass,
             cap: self.friction.of(contact) * load.pressing.max(R::splat(0.0)),
         };
         *xi = turned(*xi, contact.normal);
