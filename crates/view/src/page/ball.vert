@@ -1,5 +1,5 @@
 #version 300 es
-// A sphere is drawn on a square that just covers its outline as the eye sees it.
+// A sphere is drawn on a square that just covers its outline as the eye sees it, or as a point of its size.
 // Seen coordinates: x right, y up, z forward, the eye at 0.
 precision highp float;
 layout(location = 0) in vec3 position;  // share of the frame's box
@@ -7,6 +7,7 @@ layout(location = 1) in float radius;   // share of the frame's range
 layout(location = 2) in float red;      // the field, or the red of a scan
 layout(location = 3) in float green;
 layout(location = 4) in float blue;
+layout(location = 5) in float marked;
 uniform vec3 boxLo, boxSize, radiusOf;  // radiusOf: lowest, range, factor
 uniform vec2 valueOf[3];
 uniform mat3 turn, pose;                // pose, poseShift: where the layer is now
@@ -15,10 +16,11 @@ uniform vec3 eye;
 uniform vec2 focal;                     // of the shorter way, scaled to clip space
 uniform vec2 nearFar;
 uniform float flatView, pixel;          // pixel: size of a pixel at distance 1 (or at all, when flat)
-uniform vec4 cut;
-uniform int mode, axis;                 // mode 0 plain, 1 map, 2 kinds, 3 own colours
+uniform vec4 cut;                       // what is shown: cutLeast <= cut.xyz . place <= cut.w
+uniform float cutLeast;
+uniform int mode, axis, asDots;         // mode 0 plain, 1 map, 2 kinds, 3 own colours
 uniform vec2 shown;
-uniform vec3 plain, kinds[8];
+uniform vec3 plain, kinds[8], markColour;
 uniform sampler2D map;
 out vec3 corner;
 flat out vec3 centre, colour;
@@ -32,6 +34,14 @@ vec3 coloured(vec3 place) {
   return plain;
 }
 
+void point_(float far) {
+  float share = (centre.z - size - nearFar.x) / (nearFar.y - nearFar.x);
+  float w = flatView > 0.5 ? 1.0 : centre.z;
+  gl_Position = vec4(centre.xy * focal, (2.0 * share - 1.0) * w, w);
+  gl_PointSize = max(1.0, 2.0 * size / (pixel * far));
+  corner = centre;
+}
+
 void main() {
   vec3 place = pose * (boxLo + position * boxSize) + poseShift;
   vec2 side = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
@@ -40,9 +50,14 @@ void main() {
   float far = flatView > 0.5 ? 1.0 : centre.z;
   size = max(size, 0.6 * pixel * far);
   float away = dot(centre, centre) - size * size;
-  bool hidden = dot(cut.xyz, place) > cut.w || (flatView < 0.5 && (centre.z < nearFar.x || away < 0.02 * size * size));
+  float along = dot(cut.xyz, place);
+  float reach = asDots > 0 ? 0.0 : size * length(cut.xyz);
+  bool hidden = along - reach > cut.w || along + reach < cutLeast
+    || (flatView < 0.5 && (centre.z < nearFar.x || away < 0.02 * size * size));
+  gl_PointSize = 1.0;
   if (hidden) { gl_Position = vec4(2.0, 2.0, 2.0, 1.0); return; }
-  colour = coloured(place);
+  colour = mix(coloured(place), markColour, 0.85 * marked);
+  if (asDots > 0) { point_(far); return; }
   if (flatView > 0.5) {
     corner = centre + size * vec3(side, 0.0);
     gl_Position = vec4(corner.xy * focal, 0.0, 1.0);
@@ -51,7 +66,7 @@ void main() {
   vec3 forward = normalize(centre);
   vec3 right = normalize(cross(forward, vec3(0.0, 1.0, 0.0)));
   vec3 up = cross(right, forward);
-  float reach = size * length(centre) / sqrt(away);
-  corner = centre + reach * (side.x * right + side.y * up);
+  float wide = size * length(centre) / sqrt(away);
+  corner = centre + wide * (side.x * right + side.y * up);
   gl_Position = vec4(corner.xy * focal, 0.0, corner.z);
 }

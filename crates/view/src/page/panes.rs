@@ -1,7 +1,7 @@
 //! Thin walls in a page, packed once: where they are at t = 0, and how they move.
 
 use super::{Layer, Page};
-use crate::{Motion, Role, SurfaceShape, outline::Outline, scale::Range, sheet};
+use crate::{Motion, Role, Surface, SurfaceShape, outline::Outline, scale::Range, sheet};
 use geom::Vec3;
 use serde_json::{Value, json};
 use std::sync::Arc;
@@ -66,6 +66,14 @@ impl Page {
         }
         let outline = outline.places();
         Framed { panes, extent: sheet::box_of(&outline), outline }
+    }
+}
+
+/// Bytes that a surface takes, without its lines.
+pub(super) fn bytes(surface: &Surface) -> usize {
+    match &surface.shape {
+        SurfaceShape::Plane(_) => 0,
+        SurfaceShape::Mesh(mesh) => 12 * (mesh.vertices.len() + mesh.faces.len()),
     }
 }
 

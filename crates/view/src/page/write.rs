@@ -13,22 +13,33 @@ use std::io::{self, Write};
 use std::sync::Arc;
 
 const TEMPLATE: &str = include_str!("page.html");
+const REGION: &str = include_str!("region.html");
 const STYLE: &str = include_str!("page.css");
-const SCRIPT: [&str; 8] = [
+const SCRIPT: [&str; 14] = [
     include_str!("data.js"),
     include_str!("camera.js"),
+    include_str!("card.js"),
+    include_str!("gpu.js"),
     include_str!("draw.js"),
     include_str!("sheet.js"),
+    include_str!("cut.js"),
+    include_str!("find.js"),
     include_str!("legend.js"),
     include_str!("play.js"),
-    include_str!("controls.js"),
+    include_str!("panel.js"),
+    include_str!("keys.js"),
+    include_str!("touch.js"),
     include_str!("main.js"),
 ];
-const SHADERS: [(&str, &str); 6] = [
+/// What a page has besides on which regions are drawn.
+const REGIONS: [&str; 2] = [include_str!("shape.js"), include_str!("region.js")];
+const SHADERS: [(&str, &str); 8] = [
     ("ball-vert", include_str!("ball.vert")),
     ("ball-frag", include_str!("ball.frag")),
+    ("dot-frag", include_str!("dot.frag")),
     ("sheet-vert", include_str!("sheet.vert")),
     ("sheet-frag", include_str!("sheet.frag")),
+    ("mesh-frag", include_str!("mesh.frag")),
     ("light-vert", include_str!("light.vert")),
     ("light-frag", include_str!("light.frag")),
 ];
@@ -94,7 +105,9 @@ impl Page {
     pub fn write_checked(&self, out: &mut impl Write) -> io::Result<()> {
         let framed = self.framed();
         let mut blobs = Blobs::default();
-        let header = self.header(&framed, &mut blobs);
+        let mut header = self.header(&framed, &mut blobs);
+        let script = self.script();
+        header["bytes"] = json!(page_size(&blobs, &header, &script));
         // `<` cannot end the script that the text stands in when it is written as an escape.
         let header = header.to_string().replace('<', "\\u003c");
         for (n, piece) in TEMPLATE.split("{{").enumerate() {
@@ -102,16 +115,24 @@ impl Page {
                 if n == 0 { ("", piece) } else { piece.split_once("}}").unwrap_or(("", piece)) };
             match slot {
                 "title" => out.write_all(escaped(&self.options.title).as_bytes())?,
+                "regions" if self.options.pick.is_some() => out.write_all(REGION.as_bytes())?,
                 "style" => out.write_all(STYLE.as_bytes())?,
                 "shaders" => shaders(out)?,
                 "header" => out.write_all(header.as_bytes())?,
                 "blobs" => write_blobs(&blobs, out)?,
-                "script" => SCRIPT.iter().try_for_each(|part| out.write_all(part.as_bytes()))?,
+                "script" => out.write_all(script.as_bytes())?,
                 _ => {}
             }
             out.write_all(rest.as_bytes())?;
         }
         Ok(())
+    }
+
+    fn script(&self) -> String {
+        let regions: &[&str] = if self.options.pick.is_some() { &REGIONS } else { &[] };
+        // The last part starts what the others define.
+        let (last, parts) = SCRIPT.split_last().unwrap_or((&"", &[]));
+        [parts, regions, &[*last]].concat().concat()
     }
 
     fn header<'a>(&'a self, framed: &'a Framed, blobs: &mut Blobs<'a>) -> Value {
@@ -133,6 +154,8 @@ impl Page {
                 "target": camera.target.map(|t| [t.x, t.y, t.z]),
             },
             "given": kept.given, "stride": kept.stride,
+            "lengthsOnly": kept.lengths_only, "mostBytes": self.options.most_bytes,
+            "pick": self.options.pick, "onePointOf": kept.one_point_of,
             "positionError": kept.position_error, "radiusError": kept.radius_error,
             "clock": self.times(),
             "outline": framed.outline.iter().map(panes::triple).collect::<Vec<_>>(),
@@ -148,12 +171,19 @@ fn is_shown(layer: &&Layer) -> bool {
     layer.frames.iter().any(|f| f.count > 0)
 }
 
+/// Bytes of the page, to a few.
+fn page_size(blobs: &Blobs, header: &Value, script: &str) -> usize {
+    let shaders: usize = SHADERS.iter().map(|(id, text)| id.len() + text.len() + 44).sum();
+    let packed: usize = blobs.list.iter().map(|b| b.len().div_ceil(3) * 4 + 45).sum();
+    TEMPLATE.len() + STYLE.len() + shaders + script.len() + packed + header.to_string().len()
+}
+
 fn pane<'a>(pane: &'a Pane, blobs: &mut Blobs<'a>) -> Value {
     let [vertices, faces, lines] = [&pane.vertices, &pane.faces, &pane.lines].map(|b| blobs.number(b));
     json!({
         "name": pane.name, "motion": panes::motion(&pane.motion), "origin": panes::triple(&pane.origin),
         "vertices": vertices, "faces": faces, "lines": lines, "ink": pane.ink,
-        "normal": pane.normal.as_ref().map(panes::triple),
+        "faceCount": pane.faces.len() / 12, "normal": pane.normal.as_ref().map(panes::triple),
     })
 }
 
@@ -185,6 +215,7 @@ fn layer<'a>(layer: &'a Layer, blobs: &mut Blobs<'a>) -> Value {
         "main": layer.role == Role::Grains,
         "kinds": layer.kinds,
         "pointRadius": layer.point_radius,
+        "exact": layer.exact.as_ref().map(|e| json!([blobs.number(&e.bytes), e.width])),
         "motion": panes::motion(&layer.motion),
         "fields": fields.chain(axes).collect::<Vec<_>>(),
         "frames": frames,
