@@ -1,5 +1,7 @@
 // Where the eye stands. Angles in radians; z is up; lengths in metres from the middle of everything.
 const dot3 = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const minus3 = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+const cross3 = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 const halfView = 0.2679;  // tangent of half the angle of view, along the shorter side
 
 const VIEWS = { iso: [0.62, -0.94, 0.62], front: [0, -1, 0], right: [1, 0, 0], top: [0, 0, 1],
@@ -26,14 +28,14 @@ const camera = {
     return this.target.map((t, k) => t - this.distance * forward[k]);
   },
 
-  // The point to look at and the least distance from which everything that stands out is seen in a window of this
-  // shape: |x - tx| <= hx (z + d) for all places.
+  // The point to look at and the least distance from which everything that stands out is seen in the part of the
+  // window that nothing covers: |x - tx| <= hx (z + d) for all places.
   fit(width, height) {
     const short = Math.min(width, height);
-    const bar = clock.length > 1 ? 54 : 0;  // the player covers so many pixels at the bottom
-    const half = [0.86 * halfView * width / short, 0.88 * halfView * (height - bar) / short];
+    const [top, right, bottom, left] = covered(width, height);
+    const half = [0.94 * halfView * (width - left - right) / short, 0.94 * halfView * (height - top - bottom) / short];
     const axes = this.axes();
-    const seen = run.outline.map((p) => axes.map((a) => dot3(a, p.map((c, k) => c - middle[k]))));
+    const seen = run.outline.map((p) => axes.map((a) => dot3(a, minus3(p, middle))));
     const most = (of) => seen.reduce((m, p) => Math.max(m, of(p)), -Infinity);
     const lean = this.flat ? [0, 0] : half;
     const far = [0, 1].map((k) => most((p) => p[k] - lean[k] * p[2]));
@@ -43,7 +45,7 @@ const camera = {
     const aim = [0.5 * (far[0] + low[0]), 0.5 * (far[1] + low[1]), depth];
     this.target = [0, 1, 2].map((k) => axes.reduce((sum, a, n) => sum + a[k] * aim[n], 0));
     this.distance = Math.max(1e-9, back + (this.flat ? 0 : depth));
-    this.shift(0, -0.5 * bar, short);
+    this.shift(0.5 * (left - right), 0.5 * (top - bottom), short);
   },
 
   turn(right, up) {
@@ -76,3 +78,32 @@ const camera = {
     }
   },
 };
+
+// Pixels at the top, right, bottom and left of the window where text and controls stand.
+function covered(width, height) {
+  const edge = (id, side, without) => (byId(id) && !byId(id).hidden ? byId(id).getBoundingClientRect()[side] : without);
+  const narrow = width <= 560;
+  const lowest = Math.min(...(narrow ? ["legend", "player", "region"] : ["player"]).map((id) => edge(id, "top", height)));
+  const right = narrow ? 0 : width - edge("legend", "left", width);
+  const left = narrow ? 0 : edge("region", "right", 0);
+  return [Math.min(0.25 * height, edge("head", "bottom", 0) + 6), Math.min(0.3 * width, right), Math.min(0.5 * height, Math.max(24, height - lowest)), Math.min(0.5 * width, left)];
+}
+
+// The ray from the eye through a pixel of the window, and where a place is seen; relative to the middle.
+function rayAt(x, y) {
+  const [r, u, f] = camera.axes();
+  const pixel = 2 * halfView / Math.min(innerWidth, innerHeight);
+  const [a, b] = [pixel * (x - innerWidth / 2), pixel * (innerHeight / 2 - y)];
+  const eye = camera.eye();
+  if (camera.flat) return { from: eye.map((e, k) => e + camera.distance * (a * r[k] + b * u[k])), along: f, pixel };
+  const along = [0, 1, 2].map((k) => f[k] + a * r[k] + b * u[k]);
+  const length = Math.hypot(...along);
+  return { from: eye, along: along.map((c) => c / length), pixel };
+}
+
+function seenAt(place) {
+  const seen = camera.axes().map((a) => dot3(a, minus3(place, camera.eye())));
+  const depth = camera.flat ? camera.distance : seen[2];
+  const scale = Math.min(innerWidth, innerHeight) / (2 * halfView * depth);
+  return { x: innerWidth / 2 + seen[0] * scale, y: innerHeight / 2 - seen[1] * scale, scale, before: depth > 0 };
+}
