@@ -1,4 +1,4 @@
-//! Reads what is to be shown: runs and walls (MCAP), and clouds, told apart by their content.
+//! Reads what is to be shown: runs and walls (MCAP), meshes (PLY with faces) and clouds, told apart by their content.
 
 use crate::run;
 use anyhow::Context;
@@ -6,7 +6,7 @@ use cli::Source;
 use serde_json::{Value, json};
 use std::io::{Cursor, Read};
 use stream::{Table, Values};
-use view::{Motion, Page, Role, Surface, ViewError};
+use view::{Motion, Page, Role, Surface, SurfaceShape, ViewError};
 
 /// The bytes that every MCAP stream begins with.
 const MCAP: &[u8] = b"\x89MCAP";
@@ -23,6 +23,10 @@ pub trait Show {
     fn surface(&mut self, surface: Surface);
     /// Adds a state of a layer.
     fn push(&mut self, layer: usize, time: f64, table: Table) -> Result<(), ViewError>;
+    /// Whether only the points of a cloud are wanted.
+    fn wants_points(&self) -> bool {
+        false
+    }
 }
 
 impl Show for Page {
@@ -40,6 +44,9 @@ impl Show for Page {
     }
     fn push(&mut self, layer: usize, time: f64, table: Table) -> Result<(), ViewError> {
         Page::push(self, layer, time, &table)
+    }
+    fn wants_points(&self) -> bool {
+        self.picks()
     }
 }
 
@@ -62,15 +69,48 @@ pub fn read_all(sources: &[Source], show: &mut impl Show) -> anyhow::Result<Vec<
         let is_mcap = head == MCAP;
         let whole = Cursor::new(head).chain(from);
         let name = short_name(source);
-        let layers = if is_mcap { run::read(whole, &name, show) } else { scan(whole, &name, show) };
+        if is_mcap && show.wants_points() {
+            anyhow::bail!(
+                "{source}: --pick is for a cloud that cloud-crop reads, and this is MCAP, a run or walls: leave --pick out"
+            );
+        }
+        let layers = if is_mcap { run::read(whole, &name, show) } else { still(whole, &name, show) };
         found.extend(layers.with_context(|| source.to_string())?);
     }
     Ok(found)
 }
 
+/// A mesh or a cloud.
+fn still(mut from: impl Read, name: &str, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
+    let mut bytes = Vec::new();
+    from.read_to_end(&mut bytes).context("cannot read")?;
+    if !show.wants_points() && has_faces(&bytes) { mesh(&bytes, name, show) } else { scan(bytes, name, show) }
+}
+
+/// Whether it is PLY whose head announces faces.
+fn has_faces(bytes: &[u8]) -> bool {
+    const END: &[u8] = b"end_header";
+    let head = bytes.windows(END.len()).take(1 << 16).position(|w| w == END);
+    let Some(head) = head.filter(|_| bytes.starts_with(b"ply")) else { return false };
+    let words =
+        |line: &[u8]| String::from_utf8_lossy(line).split_whitespace().map(str::to_owned).collect::<Vec<_>>();
+    bytes[..head].split(|b| *b == b'\n').map(words).any(|line| match &line[..] {
+        [element, face, count] => element == "element" && face == "face" && count != "0",
+        _ => false,
+    })
+}
+
+fn mesh(mut bytes: &[u8], name: &str, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
+    let mesh = cloud::read_mesh(&mut bytes)?;
+    let found = json!({ "input": name, "vertices": mesh.vertices.len(), "faces": mesh.faces.len() });
+    let shape = SurfaceShape::Mesh(mesh);
+    show.surface(Surface { name: name.to_owned(), shape, motion: Motion::default() });
+    Ok(vec![found])
+}
+
 /// A cloud; one whose points have a radius is a set of wall spheres.
-fn scan(from: impl Read, name: &str, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
-    let (cloud, dropped) = cloud::read(from)?.finite();
+fn scan(bytes: Vec<u8>, name: &str, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
+    let (cloud, dropped) = cloud::read(Cursor::new(bytes))?.finite();
     if dropped > 0 {
         cli::warn(&format!("{name}: {dropped} points without finite coordinates are not shown"));
     }

@@ -3,6 +3,7 @@
 mod formats;
 mod inputs;
 mod moment;
+mod page;
 mod run;
 
 use anyhow::Context;
@@ -11,12 +12,12 @@ use cli::{Output, OutputStream, Report, Source};
 use formats::Format;
 use moment::Moment;
 use std::{io::Write, path::PathBuf, process::ExitCode};
-use view::{Camera, Map, Page, PageOptions, PictureOptions, picture};
+use view::{Camera, Map, PictureOptions, picture};
 
 /// Show runs, walls and clouds together as one HTML page (no network needed) or as a PNG picture
 #[derive(Parser)]
 struct Args {
-    /// Runs and walls (MCAP), clouds (PLY, LAS, E57, PCD, XYZ), all shown together; - or none: stdin
+    /// Runs and walls (MCAP), meshes (PLY), clouds (PLY, LAS, E57, PCD, XYZ), all shown together; - or none: stdin
     #[arg(value_name = "INPUT")]
     inputs: Vec<Source>,
     /// Write to FILE (.html or .png; appears when whole) instead of HTML to stdout
@@ -46,16 +47,16 @@ struct Args {
     /// Leave out the nearer half of the walls in the picture
     #[arg(long)]
     cut: bool,
-    /// Leave out frames of the page, evenly, when it would be larger [MB]
+    /// Size of the page [MB]: components of vectors, then frames, evenly, are left out of a larger one; the rest is refused
     #[arg(long, value_name = "MB", value_parser = formats::megabytes, default_value = "60")]
     max_mb: f64,
-    /// Let each component of a vector be a field of the page too
+    /// Keep the components of vectors in a page that is too large, and leave out more frames
     #[arg(long)]
     components: bool,
     /// Title of the page [default: the inputs' names]
     #[arg(long)]
     title: Option<String>,
-    /// Page on which a region can be drawn (not available yet)
+    /// Page on which regions are drawn over one cloud, as --keep and --remove options for cloud-crop
     #[arg(long)]
     pick: bool,
 }
@@ -65,58 +66,15 @@ fn main() -> ExitCode {
 }
 
 fn show(mut args: Args) -> anyhow::Result<Report> {
-    if args.pick {
-        return Err(cli::usage(
-            "--pick: not available yet: give the shapes to cloud-crop with --keep and --remove",
-        ));
-    }
     if args.inputs.is_empty() {
         args.inputs.push(Source::Stdin);
     }
     let output = Output { file: args.file.clone() };
     Source::one_stdin(&args.inputs)?;
     match Format::of(&output)? {
-        Format::Html => html(&args, &output),
+        Format::Html => page::html(&args, &output),
         Format::Png => png(&args, &output),
     }
-}
-
-fn html(args: &Args, output: &Output) -> anyhow::Result<Report> {
-    let names: Vec<String> = args.inputs.iter().map(inputs::short_name).collect();
-    let mut page = Page::new(PageOptions {
-        title: args.title.clone().unwrap_or_else(|| names.join(" + ")),
-        colour: args.colour.clone(),
-        map: args.map,
-        range: args.range,
-        camera: args.camera,
-        time: args.time,
-        most_bytes: (args.max_mb * 1e6) as usize,
-        components: args.components,
-    });
-    let seen = inputs::read_all(&args.inputs, &mut page)?;
-    page.check()?;
-    let mut out = output.open_text()?;
-    page.write_checked(&mut out).with_context(|| output.name())?;
-    out.commit()?;
-    let kept = page.kept();
-    if kept.stride > 1 {
-        cli::warn(&format!(
-            "{} of {} frames are in the page, to keep it below {} MB: one of {}, and the last; --max-mb changes that",
-            kept.kept, kept.given, args.max_mb, kept.stride
-        ));
-    }
-    let frames = match kept.given {
-        0 => "nothing that moves".to_owned(),
-        given => format!("{} of {given} frames", kept.kept),
-    };
-    let summary = format!("{}: {frames}", output.name());
-    Ok(Report::new(summary)
-        .with("frames_given", kept.given)
-        .with("frames_kept", kept.kept)
-        .with("one_frame_of", kept.stride)
-        .with("position_error_m", kept.position_error)
-        .with("radius_error_m", kept.radius_error)
-        .with("layers", seen))
 }
 
 fn png(args: &Args, output: &Output) -> anyhow::Result<Report> {

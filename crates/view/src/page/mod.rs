@@ -124,6 +124,11 @@ impl Page {
         Page { options, layers, surfaces, given: 0, stride: 1, lengths_only: false, one_point_of: 1 }
     }
 
+    /// Whether regions can be drawn on it.
+    pub fn picks(&self) -> bool {
+        self.options.pick.is_some()
+    }
+
     /// Adds a layer; its number is for [`Page::push`].
     pub fn layer(&mut self, role: Role, name: &str) -> usize {
         self.layers.push(Layer {

@@ -44,6 +44,24 @@ const SHADERS: [(&str, &str); 8] = [
     ("light-frag", include_str!("light.frag")),
 ];
 
+/// Counts what passes.
+struct Counted<W> {
+    to: W,
+    bytes: u64,
+}
+
+impl<W: Write> Write for Counted<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.to.write(bytes)?;
+        self.bytes += written as u64;
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.to.flush()
+    }
+}
+
 /// Every column of bytes with a number, each place in memory once.
 #[derive(Default)]
 struct Blobs<'a> {
@@ -98,11 +116,12 @@ impl Page {
         }
     }
 
-    /// Writes the page; [`Page::check`] first.
+    /// Writes the page, and says how many bytes it has; [`Page::check`] first.
     ///
     /// # Errors
     /// What the writer says.
-    pub fn write_checked(&self, out: &mut impl Write) -> io::Result<()> {
+    pub fn write_checked(&self, out: &mut impl Write) -> io::Result<u64> {
+        let out = &mut Counted { to: out, bytes: 0 };
         let framed = self.framed();
         let mut blobs = Blobs::default();
         let mut header = self.header(&framed, &mut blobs);
@@ -125,7 +144,7 @@ impl Page {
             }
             out.write_all(rest.as_bytes())?;
         }
-        Ok(())
+        Ok(out.bytes)
     }
 
     fn script(&self) -> String {
