@@ -108,7 +108,7 @@ fn mesh(mut bytes: &[u8], name: &str, show: &mut impl Show) -> anyhow::Result<Ve
     Ok(vec![found])
 }
 
-/// A cloud; one whose points have a radius is a set of wall spheres.
+/// A cloud; one whose points have a radius is a set of wall spheres, and of grains where each has an id.
 fn scan(bytes: Vec<u8>, name: &str, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
     let (cloud, dropped) = cloud::read(Cursor::new(bytes))?.finite();
     if dropped > 0 {
@@ -122,7 +122,11 @@ fn scan(bytes: Vec<u8>, name: &str, show: &mut impl Show) -> anyhow::Result<Vec<
     for column in cloud.attributes.columns() {
         table.push(&column.name, column.values.clone())?;
     }
-    let role = if table.get("radius").is_some() { Role::Walls } else { Role::Cloud };
+    let role = match (table.get("radius"), table.get("id")) {
+        (None, _) => Role::Cloud,
+        (Some(_), None) => Role::Walls,
+        (Some(_), Some(_)) => Role::Grains,
+    };
     let points = table.rows();
     let layer = show.layer(role, name);
     show.push(layer, 0.0, table)?;

@@ -8,7 +8,7 @@ const VIEWS = { iso: [0.62, -0.94, 0.62], front: [0, -1, 0], right: [1, 0, 0], t
                 back: [0, 1, 0], left: [-1, 0, 0], bottom: [0, 0, -1] };
 
 const camera = {
-  yaw: 0, pitch: 0, distance: 1, target: [0, 0, 0], flat: false,
+  yaw: 0, pitch: 0, distance: 1, target: [0, 0, 0], flat: false, rests: false,
 
   look(direction) {
     const [x, y, z] = direction;
@@ -49,6 +49,7 @@ const camera = {
   },
 
   turn(right, up) {
+    if (this.rests) return;
     this.yaw -= right;
     this.pitch = Math.max(-Math.PI / 2, Math.min(Math.PI / 2, this.pitch + up));
   },

@@ -51,7 +51,7 @@ function choices() {
 }
 
 function lookFrom(name) {
-  camera.look(VIEWS[name]);
+  if (run.pick && regions.drawing) regions.aim(name); else camera.look(VIEWS[name]);
   fitView();
 }
 
@@ -95,7 +95,7 @@ function wire() {
   on("field", "change", (e) => setField(e.target.value));
   on("map", "change", (e) => { state.map = e.target.value; showLegend(); changed(); });
   ["lo", "hi"].forEach((id) => on(id, "change", setEnds));
-  on("flat", "change", (e) => { camera.flat = e.target.checked; changed(); });
+  on("flat", "change", (e) => { camera.flat = e.target.checked = e.target.checked || camera.rests; changed(); });
   on("opacity", "input", (e) => { state.opacity = Number(e.target.value); changed(); });
   on("dot", "input", (e) => { state.dot = 2 ** Number(e.target.value); changed(); });
   on("detail", "change", (e) => { state.detail = e.target.value; changed(); });

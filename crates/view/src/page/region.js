@@ -19,6 +19,10 @@ const regions = {
     on("box", () => this.draw("box"));
     on("copy", () => this.copy());
     on("files", () => this.list.filter((r) => r.kind === "prism").forEach((r) => this.save(r)));
+    for (const name of Object.keys(VIEWS).filter((n) => n !== "iso")) {
+      const button = Object.assign(element("button", name), { type: "button", onclick: () => lookFrom(name) });
+      byId("sides").append(button);
+    }
     canvas.addEventListener("pointermove", (e) => this.move(e));
     canvas.addEventListener("pointerup", (e) => this.up(e));
     this.changed();
@@ -42,11 +46,19 @@ const regions = {
     const forward = camera.axes()[2];
     const along = (name) => -dot3(VIEWS[name], forward);
     const name = Object.keys(VIEWS).filter((n) => n !== "iso").reduce((best, n) => (along(n) > along(best) + 1e-9 ? n : best));
-    camera.look(VIEWS[name]);
     camera.flat = true;
     byId("flat").checked = true;
     pick(null);
-    this.drawing = { tool, name, axis: VIEWS[name].findIndex((c) => c !== 0), corners: [], to: null };
+    this.drawing = { tool };
+    this.aim(name);
+  },
+
+  // Draws from that side; what was drawn from another is forgotten. The view rests until it is done.
+  aim(name) {
+    if (name === "iso") return;
+    camera.rests = false;
+    camera.look(VIEWS[name]);
+    Object.assign(this.drawing, { name, axis: VIEWS[name].findIndex((c) => c !== 0), corners: [], to: null });
     this.changed();
   },
 
@@ -195,9 +207,11 @@ const regions = {
   show(hint, copied) {
     const { drawing } = this;
     const hints = { polygon: "click the corners; close with Enter or at the first one. Backspace takes one back,", box: "drag from corner to corner." };
-    const still = "Turn the cloud as you like: drawing looks along the nearest axis. What will be dropped is red.";
+    const still = "Choose a side, then draw. What will be dropped is red.";
     byId("hint").textContent = hint || (drawing ? `Seen from the ${drawing.name}: ${hints[drawing.tool]} Esc stops.` : this.list.length ? "" : still);
     for (const tool of ["polygon", "box"]) byId(tool).setAttribute("aria-pressed", drawing?.tool === tool);
+    camera.rests = drawing !== null;
+    for (const side of byId("sides").children) side.setAttribute("aria-pressed", drawing?.name === side.textContent);
     canvas.style.cursor = drawing ? "crosshair" : "";
     byId("regions").replaceChildren(...this.list.map((r) => this.row(r)));
     const part = run.onePointOf > 1 ? ` on this page, which has one of ${run.onePointOf},` : "";
