@@ -1,10 +1,15 @@
 #version 300 es
 // The ray of this sample against the sphere, and against the planes of the slice: outline, depth and normal are exact.
+#ifdef GL_EXT_conservative_depth
+// The square has the depth of the sphere's nearest point: what is hidden is not drawn at all.
+#extension GL_EXT_conservative_depth : enable
+layout(depth_greater) out highp float gl_FragDepth;
+#endif
 precision highp float;
-in vec3 corner;
 flat in vec3 centre, colour;
 flat in float size;
-uniform vec2 nearFar;
+uniform vec2 nearFar, picture;    // picture: samples
+uniform vec2 lens;                // of the shorter way, scaled to the picture
 uniform float flatView;
 uniform vec4 cut;
 uniform float cutLeast, cutEye;   // cutEye: where the eye is along the slice's normal
@@ -13,8 +18,9 @@ layout(location = 0) out vec4 lit;
 layout(location = 1) out vec4 normalOut;
 
 void main() {
-  vec3 ray = flatView > 0.5 ? vec3(0.0, 0.0, 1.0) : normalize(corner);
-  vec3 from = flatView > 0.5 ? vec3(corner.xy, 0.0) : vec3(0.0);
+  vec2 here = (2.0 * gl_FragCoord.xy / picture - 1.0) / lens;
+  vec3 ray = flatView > 0.5 ? vec3(0.0, 0.0, 1.0) : normalize(vec3(here, 1.0));
+  vec3 from = flatView > 0.5 ? vec3(here, 0.0) : vec3(0.0);
   // The centre's offset from the ray is taken first: the difference of large squares would lose small spheres.
   vec3 towards = centre - from;
   float along = dot(towards, ray);

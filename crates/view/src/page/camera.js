@@ -35,7 +35,10 @@ const camera = {
     const [top, right, bottom, left] = covered(width, height);
     const half = [0.94 * halfView * (width - left - right) / short, 0.94 * halfView * (height - top - bottom) / short];
     const axes = this.axes();
-    const seen = run.outline.map((p) => axes.map((a) => dot3(a, minus3(p, middle))));
+    const everything = [...run.layers, ...run.surfaces];
+    const shown = everything.filter((l) => !state.hidden.has(l) && l.outline.length);
+    const outline = (shown.length ? shown : everything).flatMap((l) => l.outline);
+    const seen = outline.map((p) => axes.map((a) => dot3(a, minus3(p, middle))));
     const most = (of) => seen.reduce((m, p) => Math.max(m, of(p)), -Infinity);
     const lean = this.flat ? [0, 0] : half;
     const far = [0, 1].map((k) => most((p) => p[k] - lean[k] * p[2]));

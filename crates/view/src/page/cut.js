@@ -30,9 +30,23 @@ function setCut({ at }, cut) {
 function sliceAcross(axis) {
   state.cutAxis = state.cutAxis === axis && axis < 3 ? -1 : axis;
   if (axis === 3) state.cutNormal = camera.axes()[2].map((f) => -f);
-  // What is nearer to the eye goes.
+  // Through what was picked, else through the middle of the grains; what is nearer to the eye goes.
+  const at = axis >= 0 && dot3(cutDirection(), minus3(pickedPlace()?.place || midst(), middle));
+  const [lo, hi] = axis >= 0 ? boxAlong(cutDirection()) : [0, 1];
+  state.cutAt = Math.max(0, Math.min(1, (at - lo) / (hi - lo)));
   if (axis >= 0) state.cutSide = axis === 3 || dot3(cutDirection(), camera.axes()[2]) <= 0 ? 1 : -1;
   showCut();
+}
+
+// The mean place of what is looked at [m], of some of it.
+function midst() {
+  const layer = mainLayers.find((l) => frameAt(l, clock[state.frame]).count);
+  if (!layer) return middle;
+  const frame = frameAt(layer, clock[state.frame]);
+  const step = Math.ceil(frame.count / 1000);
+  let [sum, count] = [[0, 0, 0], 0];
+  for (let row = 0; row < frame.count; row += step, count++) sum = placeAt(frame, row).map((c, k) => sum[k] + c);
+  return sum.map((c) => c / count);
 }
 
 function moveSlice(share) {

@@ -1,7 +1,6 @@
 #version 300 es
 // A point that is lit like a sphere; its depth is one for all of it, which is quick.
 precision highp float;
-in vec3 corner;
 flat in vec3 centre, colour;
 flat in float size;
 layout(location = 0) out vec4 lit;

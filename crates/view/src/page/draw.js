@@ -1,5 +1,5 @@
-// Drawing: spheres on squares, or as points, into a buffer of colour, normal and depth; then light, walls and smoothing in
-// one pass.
+// Drawing: spheres, or dots where they are too many, into a buffer of colour, normal and depth; then light, walls and
+// smoothing in one pass.
 const FEW = 4e5;    // up to here all is drawn as spheres
 const MANY = 2e6;   // beyond, always as points
 
@@ -10,6 +10,7 @@ const painter = {
     this.balls = program("ball", "ball");
     this.points = program("ball", "dot");
     this.light = program("light", "light");
+    this.most = Math.min(256, gl.getParameter(gl.ALIASED_POINT_SIZE_RANGE)[1]);
     this.solid = new Target();
     this.glass = new Target();
     this.empty = gl.createVertexArray();
@@ -58,13 +59,16 @@ const painter = {
     gl.enable(gl.DEPTH_TEST);
     gl.useProgram(this.ball.made);
     this.setMap();
-    this.setView(view);
+    this.setView(view, size);
     this.solid.begin();
-    for (const b of all) if (!isGlass(b)) this.spheres(b);
+    this.widen(size);
+    for (const b of all) if (!isGlass(b)) this.spheres(b, view);
+    gl.viewport(0, 0, ...size);
     sheets.drawSolid(view);
     gl.useProgram(this.ball.made);
     this.glass.begin();
-    for (const b of glass) this.spheres(b);
+    this.widen(size);
+    for (const b of glass) this.spheres(b, view);
     sheets.draw(view, size, glass.length > 0);
     this.compose(view, quality, glass.length > 0);
   },
@@ -78,6 +82,12 @@ const painter = {
     return { eye, focal, nearFar: [near, centre + 4 * halfDiagonal], clip: [2 * focal / width, 2 * focal / height] };
   },
 
+  // A point whose centre is outside of the picture is not drawn at all: the picture is made wider than its buffer.
+  widen([width, height]) {
+    const edge = 0.5 * this.most;
+    gl.viewport(-edge, -edge, width + 2 * edge, height + 2 * edge);
+  },
+
   setEye({ at }, view) {
     const [r, u, f] = camera.axes();
     gl.uniformMatrix3fv(at("turn"), false, [r[0], u[0], f[0], r[1], u[1], f[1], r[2], u[2], f[2]]);
@@ -87,37 +97,59 @@ const painter = {
     gl.uniform1f(at("flatView"), camera.flat ? 1 : 0);
   },
 
-  setView(view) {
+  setView(view, size) {
     const { at } = this.ball;
     this.setEye(this.ball, view);
+    gl.uniform2fv(at("focal"), view.clip.map((c, k) => c * size[k] / (size[k] + this.most)));
+    gl.uniform2fv(at("lens"), view.clip);
+    gl.uniform2fv(at("picture"), size);
+    gl.uniform1f(at("most"), this.most);
     gl.uniform1f(at("pixel"), 1 / view.focal);
-    gl.uniform1i(at("asDots"), this.dots ? 1 : 0);
     gl.uniform3fv(at("markColour"), [0.9, 0.22, 0.18]);
     gl.uniform3fv(at("kinds[0]"), run.kinds.flat().map((c) => c / 255));
     gl.uniform3fv(at("plain"), run.wall.map((c) => c / 255));
     gl.uniform1i(at("map"), 0);
   },
 
-  spheres(buffers) {
+  spheres(buffers, view) {
     const { at } = this.ball;
     const layer = buffers.layer;
     const frame = frameAt(layer, clock[state.frame]);
+    const pose = poseOf(layer.motion, middle, clock[state.frame]);
+    const scale = layer.pointRadius ? state.dot : 1;
     gl.bindVertexArray(buffers.array);
-    const each = this.dots ? 0 : 1;
+    gl.uniform3fv(at("boxLo"), frame.lo.map((lo, k) => lo - middle[k]));
+    gl.uniform3fv(at("boxSize"), frame.hi.map((hi, k) => hi - frame.lo[k]));
+    gl.uniformMatrix3fv(at("pose"), false, pose.turn);
+    gl.uniform3fv(at("poseShift"), pose.shift);
+    gl.uniform3f(at("radiusOf"), frame.radius[1], frame.radius[2] - frame.radius[1], scale);
+    setCut(this.ball, layer.role === "grains" && !state.cutGrains ? null : cutOf());
+    this.columns(buffers, frame, 0);
+    gl.uniform1i(at("asPoints"), this.dots ? 2 : 1);
+    gl.drawArrays(gl.POINTS, 0, frame.count);
+    if (!this.dots && this.mayBeLarge(frame, pose, scale, view)) {
+      this.columns(buffers, frame, 1);
+      gl.uniform1i(at("asPoints"), 0);
+      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, frame.count);
+    }
+    this.drawn += frame.count;
+  },
+
+  // Whether any sphere of a frame may be seen larger than points can be: the nearest corner of its box decides.
+  mayBeLarge(frame, pose, scale, view) {
+    const radius = Math.max(frame.radius[2] * scale, 1e-30);
+    const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((n) => [0, 1, 2].map((k) => (n >> k & 1 ? frame.hi[k] : frame.lo[k]) - middle[k]));
+    const forward = camera.axes()[2];
+    const depth = (c) => dot3(forward, minus3([0, 1, 2].map((k) => dot3([pose.turn[k], pose.turn[3 + k], pose.turn[6 + k]], c) + pose.shift[k]), view.eye));
+    const nearest = camera.flat ? 1 : Math.min(...corners.map(depth)) - radius;
+    return nearest <= 0 || 3 * radius / nearest * view.focal + 2 > this.most;
+  },
+
+  columns(buffers, frame, each) {
     buffers.column(0, frame.position, 3, 2, each);
     buffers.column(1, frame.radius[0], 1, 2, each);
     buffers.marks(each);
-    gl.uniform3fv(at("boxLo"), frame.lo.map((lo, k) => lo - middle[k]));
-    gl.uniform3fv(at("boxSize"), frame.hi.map((hi, k) => hi - frame.lo[k]));
-    const pose = poseOf(layer.motion, middle, clock[state.frame]);
-    gl.uniformMatrix3fv(at("pose"), false, pose.turn);
-    gl.uniform3fv(at("poseShift"), pose.shift);
-    gl.uniform3f(at("radiusOf"), frame.radius[1], frame.radius[2] - frame.radius[1], layer.pointRadius ? state.dot : 1);
     this.colours(buffers, frame, each);
-    setCut(this.ball, layer.role === "grains" && !state.cutGrains ? null : cutOf());
-    if (this.dots) gl.drawArrays(gl.POINTS, 0, frame.count);
-    else gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, frame.count);
-    this.drawn += frame.count;
   },
 
   colours(buffers, frame, each) {

@@ -8,7 +8,9 @@ function findAt(x, y) {
   const shown = run.layers.filter((l) => !state.hidden.has(l) && !(l.role === "walls" && state.opacity === 0));
   const nearest = (hits) => hits.filter(Boolean).sort((a, b) => a.miss - b.miss || a.depth - b.depth)[0] || null;
   const solid = nearest([...shown.filter((l) => !veil(l)).map((l) => sphereOn(ray, l)), ...sheets.solid().map((p) => faceOn(ray, p))]);
-  return solid || nearest([...shown.filter(veil).map((l) => sphereOn(ray, l)), ...sheets.glass().map((p) => faceOn(ray, p))]);
+  // A plane is ground: a click on it lets go.
+  const glass = sheets.glass().filter((p) => !p.surface.normal);
+  return solid || nearest([...shown.filter(veil).map((l) => sphereOn(ray, l)), ...glass.map((p) => faceOn(ray, p))]);
 }
 
 // The ray and the slice as they are before the layer is moved.

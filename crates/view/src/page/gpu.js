@@ -2,6 +2,9 @@
 const canvas = byId("view");
 const gl = canvas.getContext("webgl2", { antialias: false, alpha: false, depth: false, powerPreference: "high-performance" });
 
+// What is behind is left out before its depth is computed, where the driver can.
+gl?.getExtension("EXT_conservative_depth");
+
 function program(vert, frag) {
   const made = gl.createProgram();
   const name = `${vert} + ${frag}`;

@@ -234,7 +234,8 @@ const regions = {
     action.onchange = () => { region.action = action.value; this.changed(); };
     const inside = element("span", `${grouped(region.inside)} inside`);
     inside.className = "inside";
-    const gone = Object.assign(element("button", "Delete"), { type: "button" });
+    const gone = Object.assign(element("button"), { type: "button", title: "Delete", innerHTML: byId("close").innerHTML });
+    gone.setAttribute("aria-label", "Delete");
     gone.onclick = () => { this.list.splice(this.list.indexOf(region), 1); this.changed(); };
     const depth = element("div");
     depth.className = "depth";

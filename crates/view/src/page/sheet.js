@@ -122,7 +122,7 @@ const sheets = {
     const { at } = this.program;
     this.place(part, this.program);
     gl.uniform1f(at("width"), width);
-    gl.uniform1f(at("hides"), width ? surface.ink : state.opacity);
+    gl.uniform1f(at("hides"), width ? surface.ink : Math.min(state.opacity, surface.normal ? 0.3 : 1));
     gl.bindVertexArray((width ? lines : faces).array);
     if (width) gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, lines.count);
     else gl.drawElements(gl.TRIANGLES, faces.count, gl.UNSIGNED_INT, 0);

@@ -7,6 +7,7 @@ use super::{
 };
 use crate::{Map, Role, ViewError, colour, field, scale, sheet};
 use base64::{Engine, engine::general_purpose::STANDARD};
+use geom::Vec3;
 use serde_json::{Value, json};
 use std::collections::HashMap;
 use std::io::{self, Write};
@@ -101,7 +102,7 @@ impl Page {
     /// # Errors
     /// Nothing to show, or no layer has the field to colour by.
     pub fn check(&self) -> Result<(), ViewError> {
-        let layers: Vec<&Layer> = self.layers.iter().filter(is_shown).collect();
+        let layers: Vec<&Layer> = self.layers.iter().filter(|l| is_shown(l)).collect();
         if layers.is_empty() && self.surfaces.is_empty() {
             return Err(ViewError::Empty);
         }
@@ -161,6 +162,7 @@ impl Page {
         let kinds: Vec<_> = (0..colour::KIND_COUNT).map(colour::kind).collect();
         let map = Map::ALL.iter().find(|(_, m)| *m == self.options.map).map(|(name, _)| *name);
         let camera = &self.options.camera;
+        let with_outline = self.layers.iter().zip(&framed.outlines).filter(|(l, _)| is_shown(l));
         json!({
             "title": self.options.title,
             "maps": maps, "kinds": kinds, "wall": colour::WALL, "map": map,
@@ -177,16 +179,15 @@ impl Page {
             "pick": self.options.pick, "onePointOf": kept.one_point_of,
             "positionError": kept.position_error, "radiusError": kept.radius_error,
             "clock": self.times(),
-            "outline": framed.outline.iter().map(panes::triple).collect::<Vec<_>>(),
             "lo": framed.extent.map(|r| r.lo), "hi": framed.extent.map(|r| r.hi),
-            "layers": self.layers.iter().filter(is_shown).map(|l| layer(l, blobs)).collect::<Vec<_>>(),
+            "layers": with_outline.map(|(l, o)| layer(l, o, blobs)).collect::<Vec<_>>(),
             "surfaces": framed.panes.iter().map(|p| pane(p, blobs)).collect::<Vec<_>>(),
         })
     }
 }
 
 /// Whether the layer has anything in it, ever.
-fn is_shown(layer: &&Layer) -> bool {
+fn is_shown(layer: &Layer) -> bool {
     layer.frames.iter().any(|f| f.count > 0)
 }
 
@@ -203,10 +204,11 @@ fn pane<'a>(pane: &'a Pane, blobs: &mut Blobs<'a>) -> Value {
         "name": pane.name, "motion": panes::motion(&pane.motion), "origin": panes::triple(&pane.origin),
         "vertices": vertices, "faces": faces, "lines": lines, "ink": pane.ink,
         "faceCount": pane.faces.len() / 12, "normal": pane.normal.as_ref().map(panes::triple),
+        "outline": pane.outline.iter().map(panes::triple).collect::<Vec<_>>(),
     })
 }
 
-fn layer<'a>(layer: &'a Layer, blobs: &mut Blobs<'a>) -> Value {
+fn layer<'a>(layer: &'a Layer, outline: &[Vec3], blobs: &mut Blobs<'a>) -> Value {
     let mut frames = Vec::new();
     for frame in layer.frames.iter() {
         frames.push(json!({
@@ -237,6 +239,7 @@ fn layer<'a>(layer: &'a Layer, blobs: &mut Blobs<'a>) -> Value {
         "exact": layer.exact.as_ref().map(|e| json!([blobs.number(&e.bytes), e.width])),
         "motion": panes::motion(&layer.motion),
         "fields": fields.chain(axes).collect::<Vec<_>>(),
+        "outline": outline.iter().map(panes::triple).collect::<Vec<_>>(),
         "frames": frames,
     })
 }
