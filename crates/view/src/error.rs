@@ -30,7 +30,7 @@ pub enum ViewError {
     Empty,
     /// A page beyond its limit, though every frame but two is left out.
     #[error(
-        "{name}: {count} spheres or points, {frames} of its frames: a page of {megabytes:.0} MB, and the limit is {limit:.0} MB: \
+        "{name}: {count} spheres or points, {frames} of its frames: a page of {megabytes:.0} MB, and the limit is {limit} MB: \
          give --max-mb {megabytes:.0} (a browser takes a few hundred), or show fewer: a part of the cloud, a picture"
     )]
     TooBig {

@@ -5,6 +5,7 @@
 //! which the lengths stay, then every second frame, again and again; what is then still too big is refused.
 
 mod exact;
+mod fit;
 mod pack;
 mod panes;
 mod timeline;
@@ -191,51 +192,6 @@ impl Page {
         self.fit()
     }
 
-    /// Where regions are drawn and the cloud is too big: one point of so many, of which the rest can be judged.
-    fn every_so_many(&mut self, table: &Table) -> Option<Table> {
-        self.options.pick.as_ref()?;
-        // 6 bytes to draw, up to 24 to mark, 2 a column
-        let bytes = table.rows() * (30 + 2 * table.columns().len());
-        self.one_point_of = bytes.div_ceil(self.limit()).max(1);
-        let rows: Vec<u32> = (0..table.rows() as u32).step_by(self.one_point_of).collect();
-        Some(table.select(&rows))
-    }
-
-    /// Packed bytes that the page may have: base64 makes four of three.
-    fn limit(&self) -> usize {
-        (self.options.most_bytes / 4 * 3).max(1)
-    }
-
-    /// Packed bytes of everything so far.
-    fn bytes(&self) -> usize {
-        let layers = self.layers.iter().map(|l| l.frames.bytes() + l.exact.as_ref().map_or(0, Exact::len));
-        layers.chain(self.surfaces.iter().map(panes::bytes)).sum()
-    }
-
-    /// Leaves out what may be left out while the page is too big: components of vectors, then frames.
-    fn fit(&mut self) -> Result<(), ViewError> {
-        if self.bytes() > self.limit() && !self.options.components && !self.lengths_only {
-            self.lengths_only = true;
-            let kept = self.options.colour.as_deref().map(field::canonical);
-            self.layers.iter_mut().for_each(|layer| layer.leave_components(kept));
-        }
-        while self.bytes() > self.limit() && self.layers.iter().any(|l| l.frames.len() > 2) {
-            self.stride *= 2;
-            self.layers.iter_mut().for_each(|l| l.frames.thin(self.stride));
-        }
-        let Some(largest) = self.layers.iter().max_by_key(|l| l.frames.bytes()) else { return Ok(()) };
-        if self.bytes() <= self.limit() {
-            return Ok(());
-        }
-        Err(ViewError::TooBig {
-            name: largest.name.clone(),
-            count: largest.frames.last().map_or(0, |f| f.count),
-            frames: largest.frames.len(),
-            megabytes: (self.bytes() as f64 * 4.0 / 3.0 * 1.05 / 1e6).ceil(),
-            limit: self.options.most_bytes as f64 / 1e6,
-        })
-    }
-
     /// What became of the frames so far.
     pub fn kept(&self) -> Kept {
         let grains = self.layers.iter().filter(|l| l.role == Role::Grains);
@@ -263,18 +219,6 @@ impl Page {
 }
 
 impl Layer {
-    /// Leaves out the components of vectors whose length is a field; `kept` stays.
-    fn leave_components(&mut self, kept: Option<&str>) {
-        let lengths: Vec<&str> = self.fields.iter().map(|f| f.name.as_str()).collect();
-        let stays = |f: &Field| {
-            kept == Some(f.name.as_str()) || field::length_of(&f.name).is_none_or(|l| !lengths.contains(&l))
-        };
-        let stays: Vec<bool> = self.fields.iter().map(stays).collect();
-        self.frames.keep_fields(&stays);
-        let mut stays = stays.into_iter();
-        self.fields.retain(|_| stays.next().unwrap_or(true));
-    }
-
     /// Name and bound on the error by packing of each field.
     fn field_errors(&self) -> impl Iterator<Item = (String, f64)> {
         self.fields.iter().enumerate().map(|(n, field)| {
