@@ -7,14 +7,14 @@ use geom::{Plane, Vec3};
 pub fn empty(law: Law, restitution: f64) -> Setup {
     let material =
         |name: &str| Material { name: name.to_owned(), density: 2500.0, young: 1e7, poisson: 0.25 };
-    let contact =
-        |between| Contact { between, law, restitution, sliding_friction: None, rolling_resistance: None };
+    let contact = |between| Contact::new(between, law, restitution);
     Setup {
         gravity: Vec3::zeros(),
         materials: vec![material("grain"), material("wall")],
         contacts: vec![contact((0, 0)), contact((0, 1))],
         particles: vec![],
         walls: vec![],
+        clumps: Clumps::default(),
         outlets: vec![],
         inlets: vec![],
         largest_entry: 0.0,
@@ -23,6 +23,7 @@ pub fn empty(law: Law, restitution: f64) -> Setup {
         step: Step::Auto(0.05),
         periodic: [None; 3],
         skin: None,
+        sleep: None,
         ledger: false,
         guards: Guards::default(),
     }

@@ -123,7 +123,7 @@ fn absent_effects_cost_nothing() {
     assert_eq!(sizes(smooth.clone()), [0], "Hooke alone");
     assert_eq!(sizes(with_friction(smooth.clone(), 0.5)), [0, 24], "with friction");
     assert_eq!(
-        simulation(smooth.clone()).bytes_per_particle() + 64,
+        simulation(smooth.clone()).bytes_per_particle() + 96,
         simulation(with_friction(smooth, 0.5)).bytes_per_particle()
     );
 }

@@ -1,6 +1,7 @@
-//! Time of the bench pile: `cargo run --release -p dem --example pile -- PILE.csv STEPS [THREADS]`.
+//! Time of the bench pile: `cargo run --release -p dem --example pile -- PILE.csv STEPS [THREADS [SKIN]]`.
 //!
-//! Spheres settled on a floor, periodic in x and y; Hooke, dashpot, sliding friction with memory; Δt = 10⁻⁵ s, skin 0.6 mm.
+//! Spheres settled on a floor, periodic in x and y; Hooke, dashpot, sliding friction with memory; Δt = 10⁻⁵ s; one skin [m] for all, or
+//! the engine's own choice.
 //! Columns of the file: id, x, y, z, radius, vx, vy, vz, wx, wy, wz.
 
 use dem::setup::*;
@@ -22,13 +23,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         particles.push(Particle { id: c[0] as u32, material: 0, radius: c[4], position, velocity, spin });
     }
     let material = |name: &str| Material { name: name.to_owned(), density: 3300.0, young: 5e6, poisson: 0.3 };
-    let contact = |between| Contact {
-        between,
-        law: Law::Hooke { stiffness: 1e4, tangential_ratio: Some(2.0 / 7.0) },
-        restitution: 0.9977,
-        sliding_friction: Some(0.5),
-        rolling_resistance: None,
-    };
+    let law = Law::Hooke { stiffness: 1e4, tangential_ratio: Some(2.0 / 7.0) };
+    let contact = |between| Contact { sliding_friction: Some(0.5), ..Contact::new(between, law, 0.9977) };
     let floor = Wall {
         name: "floor".to_owned(),
         material: 1,
@@ -42,6 +38,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         contacts: vec![contact((0, 0)), contact((0, 1))],
         particles,
         walls: vec![floor],
+        clumps: Clumps::default(),
         outlets: vec![],
         inlets: vec![],
         largest_entry: 0.0,
@@ -49,7 +46,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         entry_materials: vec![],
         step: Step::Fixed(1e-5),
         periodic: [Some((0.0, 0.1196)), Some((0.0, 0.1196)), None],
-        skin: Some(6e-4),
+        skin: args.get(4).map(|s| s.parse()).transpose()?,
+        sleep: None,
         ledger: false,
         guards: Guards::default(),
     };

@@ -12,20 +12,20 @@
 use crate::kernel::{FORCE, FORCE_AND_MOMENT};
 use crate::lane::scalar::Each;
 use crate::lane::{Four, Row, Row4, Width};
-use rayon::prelude::*;
+use crate::sleep::Beds;
 
-/// Tasks below which one thread is faster than several.
-const FEW_TASKS: usize = 5;
-/// Particles of one task; fixed, so that results do not depend on the number of threads.
-const CHUNK: usize = 1024;
+/// Loads and couples (four numbers a contact, or empty) of some contacts.
+pub type Computed<'a> = (&'a [f64], &'a [f64]);
 
-/// Loads of all contacts and who they belong to.
+/// Loads of contacts and who they belong to.
 #[derive(Clone, Copy)]
 pub struct Loads<'a> {
-    /// Loads: [`FORCE_AND_MOMENT`] numbers a contact, or [`FORCE`] without rotation.
-    pub loads: &'a [f64],
-    /// Couples, four numbers a contact, or empty.
-    pub couples: &'a [f64],
+    /// Of the first contacts, by place: [`FORCE_AND_MOMENT`] numbers each, or [`FORCE`] without rotation.
+    pub images: Computed<'a>,
+    /// Of the contacts from place `first` on.
+    pub own: Computed<'a>,
+    /// Where `own` begins.
+    pub first: usize,
     /// First entry of each particle, and one more.
     pub starts: &'a [u32],
     /// Contact × 2, + 1 where the particle is j.
@@ -44,20 +44,22 @@ impl Loads<'_> {
     #[inline(always)]
     pub fn sum<Q: Four, const SPIN: bool>(&self, k: usize) -> Sum<Q> {
         let mut sum = Sum { force: Q::all(0.0), moment: Q::all(0.0) };
-        let quarters = self.loads.as_chunks::<4>().0;
-        let couples = self.couples.as_chunks::<4>().0;
+        let quarters = [self.images.0.as_chunks::<4>().0, self.own.0.as_chunks::<4>().0];
+        let couples = [self.images.1.as_chunks::<4>().0, self.own.1.as_chunks::<4>().0];
         let stride = if SPIN { FORCE_AND_MOMENT / 4 } else { FORCE / 4 };
         for &entry in &self.entries[self.starts[k] as usize..self.starts[k + 1] as usize] {
             let (contact, second) = ((entry >> 1) as usize, (entry & 1) as usize);
             let sign = Q::all([1.0, -1.0][second]);
-            let row = &quarters[contact * stride..(contact + 1) * stride];
+            let own = usize::from(contact >= self.first);
+            let contact = contact - self.first * own;
+            let row = &quarters[own][contact * stride..(contact + 1) * stride];
             sum.force = sum.force + sign * Q::read(&row[0]);
             if SPIN {
                 // The arms stand behind force and moment: the arm of i, then of j.
                 let arm = Q::all(row[second][3]);
                 sum.moment = sum.moment - arm * Q::read(&row[1]);
-                if !couples.is_empty() {
-                    sum.moment = sum.moment + sign * Q::read(&couples[contact]);
+                if !couples[1].is_empty() {
+                    sum.moment = sum.moment + sign * Q::read(&couples[own][contact]);
                 }
             }
         }
@@ -78,21 +80,83 @@ impl Loads<'_> {
 
 /// Columns of some particles.
 pub struct Columns<'a> {
+    /// Number of the first.
     pub first: usize,
-    pub rows: &'a mut [Row],
+    /// As they are.
+    pub rows: &'a [Row],
+    /// As they are.
+    pub spins: &'a [Row4],
+    /// As they will be.
+    pub next: &'a mut [Row],
+    /// As they will be.
+    pub next_spins: &'a mut [Row4],
     pub acceleration: &'a mut [Row4],
-    pub spins: &'a mut [Row4],
     pub turning: &'a mut [Row4],
+    /// Where they were listed, and their rooms.
     pub home: &'a [Row4],
+    /// Who sleeps, where the scene asks for it.
+    pub beds: Option<Beds<'a>>,
+}
+
+impl<'a> Columns<'a> {
+    /// The same, for a while.
+    pub fn by_ref(&mut self) -> Columns<'_> {
+        Columns {
+            first: self.first,
+            rows: self.rows,
+            spins: self.spins,
+            next: self.next,
+            next_spins: self.next_spins,
+            acceleration: self.acceleration,
+            turning: self.turning,
+            home: self.home,
+            beds: self.beds.as_mut().map(Beds::by_ref),
+        }
+    }
+
+    /// The particles before number `to`, and the others.
+    pub fn split(self, to: usize) -> (Columns<'a>, Columns<'a>) {
+        let n = (to - self.first).min(self.rows.len());
+        let turn = n.min(self.spins.len());
+        let (rows, rows2) = self.rows.split_at(n);
+        let (spins, spins2) = self.spins.split_at(turn);
+        let (next, next2) = self.next.split_at_mut(n);
+        let (next_spins, next_spins2) = self.next_spins.split_at_mut(turn);
+        let (acceleration, acceleration2) = self.acceleration.split_at_mut(n);
+        let (turning, turning2) = self.turning.split_at_mut(turn);
+        let (home, home2) = self.home.split_at(n);
+        let first = self.first;
+        let (beds, beds2) = self.beds.map(|b| b.split(n)).unzip();
+        let one = Columns { first, rows, spins, next, next_spins, acceleration, turning, home, beds };
+        let two = Columns {
+            first: first + n,
+            rows: rows2,
+            spins: spins2,
+            next: next2,
+            next_spins: next_spins2,
+            acceleration: acceleration2,
+            turning: turning2,
+            home: home2,
+            beds: beds2,
+        };
+        (one, two)
+    }
 }
 
 /// What one move found.
 #[derive(Clone, Copy, Default)]
 pub struct Moved {
-    /// Largest square of the distance from home [m²].
-    pub away: f64,
+    /// Whether a particle has left the room that its neighbours were listed for.
+    pub out: bool,
     /// Whether a particle moved more than its limit, or is not a number.
     pub wild: bool,
+}
+
+impl Moved {
+    /// Either.
+    pub fn and(self, o: Moved) -> Moved {
+        Moved { out: self.out | o.out, wild: self.wild | o.wild }
+    }
 }
 
 /// Step [s], acceleration of free fall [m/s²], largest motion in one step over the radius [–].
@@ -103,22 +167,15 @@ pub struct Drive {
     pub motion_limit: f64,
 }
 
-/// Moves all particles by one step, computing with lanes of `width`; all widths give the same bits.
-pub fn advance(width: Width, columns: Columns, loads: Loads, drive: Drive) -> Moved {
-    let spin = !columns.spins.is_empty();
-    let tasks = split(columns);
-    let run = |task: Columns| match spin {
-        true => dispatch::<true>(width, task, loads, drive),
-        false => dispatch::<false>(width, task, loads, drive),
-    };
-    let join = |a: Moved, b: Moved| Moved { away: a.away.max(b.away), wild: a.wild | b.wild };
-    if tasks.len() < FEW_TASKS {
-        return tasks.into_iter().map(run).fold(Moved::default(), join);
+/// Moves particles by one step, computing with lanes of `width`; all widths give the same bits.
+pub fn advance(width: Width, columns: Columns, loads: &Loads, drive: &Drive) -> Moved {
+    match columns.spins.is_empty() {
+        false => dispatch::<true>(width, columns, loads, drive),
+        true => dispatch::<false>(width, columns, loads, drive),
     }
-    tasks.into_par_iter().map(run).reduce(Moved::default, join)
 }
 
-fn dispatch<const SPIN: bool>(width: Width, columns: Columns, loads: Loads, drive: Drive) -> Moved {
+fn dispatch<const SPIN: bool>(width: Width, columns: Columns, loads: &Loads, drive: &Drive) -> Moved {
     match width {
         #[cfg(target_arch = "x86_64")]
         Width::Avx2 | Width::Avx512 => simd::avx2::<SPIN>(columns, loads, drive),
@@ -133,9 +190,9 @@ mod simd {
     use super::*;
     use crate::lane::x86::X4;
 
-    pub fn avx2<const SPIN: bool>(columns: Columns, loads: Loads, drive: Drive) -> Moved {
+    pub fn avx2<const SPIN: bool>(columns: Columns, loads: &Loads, drive: &Drive) -> Moved {
         #[target_feature(enable = "avx2")]
-        fn inner<const SPIN: bool>(columns: Columns, loads: Loads, drive: Drive) -> Moved {
+        fn inner<const SPIN: bool>(columns: Columns, loads: &Loads, drive: &Drive) -> Moved {
             chunk::<X4, SPIN>(columns, loads, drive)
         }
         // SAFETY: these widths are only made where the processor has AVX2.
@@ -143,23 +200,9 @@ mod simd {
     }
 }
 
-fn split(columns: Columns) -> Vec<Columns> {
-    let Columns { rows, acceleration, mut spins, mut turning, home, .. } = columns;
-    let mut tasks = Vec::with_capacity(rows.len() / CHUNK + 1);
-    let parts = rows.chunks_mut(CHUNK).zip(acceleration.chunks_mut(CHUNK)).zip(home.chunks(CHUNK));
-    for (c, ((rows, acceleration), home)) in parts.enumerate() {
-        let take = rows.len().min(spins.len());
-        let (s, spins_rest) = spins.split_at_mut(take);
-        let (t, turning_rest) = turning.split_at_mut(take);
-        (spins, turning) = (spins_rest, turning_rest);
-        tasks.push(Columns { first: c * CHUNK, rows, acceleration, spins: s, turning: t, home });
-    }
-    tasks
-}
-
 #[inline(always)]
-fn chunk<Q: Four, const SPIN: bool>(columns: Columns, loads: Loads, drive: Drive) -> Moved {
-    let Columns { first, rows, acceleration, spins, turning, home } = columns;
+fn chunk<Q: Four, const SPIN: bool>(columns: Columns, loads: &Loads, drive: &Drive) -> Moved {
+    let Columns { first, rows, spins, next, next_spins, acceleration, turning, home, .. } = columns;
     let [gx, gy, gz] = drive.gravity;
     let gravity = Q::read(&[gx, gy, gz, 0.0]);
     // Rows hold radius and 1/m in the fourth place, which must not move.
@@ -168,23 +211,25 @@ fn chunk<Q: Four, const SPIN: bool>(columns: Columns, loads: Loads, drive: Drive
     let mut moved = Moved::default();
     for k in 0..rows.len() {
         let sum = loads.sum::<Q, SPIN>(first + k);
-        let ([place, velocity], []) = rows[k].as_chunks_mut::<4>() else { continue };
+        let ([place, velocity], []) = rows[k].as_chunks::<4>() else { continue };
+        let ([next_place, next_velocity], []) = next[k].as_chunks_mut::<4>() else { continue };
         let (radius, inverse_mass) = (place[3], velocity[3]);
         let new = (sum.force * Q::all(inverse_mass) + gravity) * three;
         let v = Q::read(velocity) + half * (new - Q::read(&acceleration[k]));
         let moves = (dt * v + square * new) * three;
         let there = Q::read(place) + moves;
-        there.write(place);
-        (v + dt * new).write(velocity);
+        there.write(next_place);
+        (v + dt * new).write(next_velocity);
         new.write(&mut acceleration[k]);
         let limit = drive.motion_limit * radius;
         // Written so that NaN is caught.
         moved.wild |= !(length2(moves) <= limit * limit);
-        moved.away = moved.away.max(length2(there - Q::read(&home[k])));
+        let room = home[k][3];
+        moved.out |= length2(there - Q::read(&home[k])) > room * room;
         if SPIN {
             let new = sum.moment * Q::all(2.5 * inverse_mass / (radius * radius)) * three;
             let w = Q::read(&spins[k]) + half * (new - Q::read(&turning[k]));
-            (w + dt * new).write(&mut spins[k]);
+            (w + dt * new).write(&mut next_spins[k]);
             new.write(&mut turning[k]);
         }
     }

@@ -1,7 +1,9 @@
 //! What is refused before a run starts.
 
 use crate::error::SetupError;
-use crate::setup::{Particle, Setup, Step, WallShape};
+use crate::law::{Elastic, overlap_without_load};
+use crate::limit::radii_by_material;
+use crate::setup::{Contact, Law, Particle, Setup, Sleep, Step, WallShape};
 use geom::Vec3;
 use std::collections::HashSet;
 
@@ -10,6 +12,7 @@ pub fn check(setup: &Setup) -> Result<(), SetupError> {
     materials(setup)?;
     contacts(setup)?;
     particles(setup)?;
+    crate::bodies::check(setup)?;
     walls(setup)?;
     zones(setup)?;
     periodic(setup)?;
@@ -29,10 +32,26 @@ pub fn check(setup: &Setup) -> Result<(), SetupError> {
     within("guards.motion", setup.guards.motion, "[–]", setup.guards.motion > 0.0, "motion > 0")?;
     let skin = setup.skin.unwrap_or(1.0);
     within("neighbours.skin", skin, "m", skin > 0.0 && skin.is_finite(), "skin > 0")?;
-    finite("gravity", &setup.gravity, "m/s²")
+    finite("gravity", &setup.gravity, "m/s²")?;
+    setup.sleep.map_or(Ok(()), |s| sleep(&s, &setup.gravity))
 }
 
-fn within(
+fn sleep(s: &Sleep, gravity: &Vec3) -> Result<(), SetupError> {
+    let positive = |what: &str, x: f64, unit, range| within(what, x, unit, x > 0.0 && x.is_finite(), range);
+    positive("sleep.speed", s.speed, "m/s", "speed > 0")?;
+    positive("sleep.time", s.time, "s", "time > 0")?;
+    positive("sleep.wake", s.wake, "[–]", "wake > 0")?;
+    let g = gravity.norm();
+    within(
+        "gravity, with [sleep]",
+        g,
+        "m/s²",
+        g > 0.0,
+        "scenes with gravity: a sleeper wakes by a share of its weight",
+    )
+}
+
+pub(crate) fn within(
     what: &str,
     value: f64,
     unit: &'static str,
@@ -42,7 +61,7 @@ fn within(
     if ok { Ok(()) } else { Err(SetupError::Range { what: what.to_owned(), value, unit, range }) }
 }
 
-fn finite(what: &str, v: &Vec3, unit: &'static str) -> Result<(), SetupError> {
+pub(crate) fn finite(what: &str, v: &Vec3, unit: &'static str) -> Result<(), SetupError> {
     let bad = v.iter().find(|x| !x.is_finite());
     bad.map_or(Ok(()), |&x| within(what, x, unit, false, "the finite numbers"))
 }
@@ -59,49 +78,90 @@ fn materials(setup: &Setup) -> Result<(), SetupError> {
 
 fn contacts(setup: &Setup) -> Result<(), SetupError> {
     for c in &setup.contacts {
-        let known = (c.between.0.max(c.between.1) as usize) < setup.materials.len();
-        within(
-            "contact: between",
-            c.between.0.max(c.between.1).into(),
-            "[–]",
-            known,
-            "the scene's materials",
-        )?;
+        let last = c.between.0.max(c.between.1);
+        let known = (last as usize) < setup.materials.len();
+        within("contact: between", last.into(), "[–]", known, "the scene's materials")?;
         let name = |m: u16| setup.materials[m as usize].name.as_str();
-        let at = |key: &str| format!("contact {}–{}: {key}", name(c.between.0), name(c.between.1));
+        let at = format!("contact {}–{}", name(c.between.0), name(c.between.1));
         let e = c.restitution;
-        within(&at("restitution"), e, "[–]", (0.0..=1.0).contains(&e), "0 ≤ restitution ≤ 1")?;
-        let mu = c.sliding_friction.unwrap_or(0.0);
-        within(&at("sliding_friction"), mu, "[–]", mu >= 0.0 && mu.is_finite(), "sliding_friction ≥ 0")?;
-        let mu_r = c.rolling_resistance.unwrap_or(0.0);
-        within(
-            &at("rolling_resistance"),
-            mu_r,
-            "[–]",
-            mu_r >= 0.0 && mu_r.is_finite(),
-            "rolling_resistance ≥ 0",
-        )?;
-        let turns = c.rolling_resistance.is_none() || c.sliding_friction.is_some();
-        within(
-            &at("rolling_resistance"),
-            mu_r,
-            "[–]",
-            turns,
-            "scenes with sliding_friction (nothing else turns a particle)",
-        )?;
-        if let crate::setup::Law::Hooke { stiffness, tangential_ratio } = c.law {
-            within(
-                &at("stiffness"),
-                stiffness,
-                "N/m",
-                stiffness > 0.0 && stiffness.is_finite(),
-                "stiffness > 0",
-            )?;
-            let q = tangential_ratio.unwrap_or(1.0);
-            within(&at("tangential_ratio"), q, "[–]", q > 0.0 && q.is_finite(), "tangential_ratio > 0")?;
-        }
+        within(&format!("{at}: restitution"), e, "[–]", (0.0..=1.0).contains(&e), "0 ≤ restitution ≤ 1")?;
+        normal_law(&at, c)?;
+        friction(&at, c)?;
+        bound_grains(&at, c, setup)?;
     }
     Ok(())
+}
+
+fn normal_law(at: &str, c: &Contact) -> Result<(), SetupError> {
+    let positive = |key: &str, value: f64, unit, range| {
+        within(&format!("{at}: {key}"), value, unit, value > 0.0 && value.is_finite(), range)
+    };
+    match c.law {
+        Law::Hooke { stiffness, tangential_ratio } => {
+            positive("stiffness", stiffness, "N/m", "stiffness > 0")?;
+            positive("tangential_ratio", tangential_ratio.unwrap_or(1.0), "[–]", "tangential_ratio > 0")?;
+        }
+        Law::Hertz => {}
+        Law::Jkr { work_of_adhesion } => {
+            positive("work_of_adhesion", work_of_adhesion, "J/m²", "work_of_adhesion > 0")?;
+        }
+    }
+    let Some(density) = c.cohesion else { return Ok(()) };
+    positive("cohesion_energy_density", density, "J/m³", "cohesion_energy_density > 0")?;
+    let adheres = matches!(c.law, Law::Jkr { .. });
+    within(&format!("{at}: cohesion"), density, "J/m³", !adheres, "law = \"jkr\", which has work_of_adhesion")
+}
+
+fn friction(at: &str, c: &Contact) -> Result<(), SetupError> {
+    let ranges = [
+        ("sliding_friction", c.sliding_friction, "sliding_friction ≥ 0"),
+        ("rolling_resistance", c.rolling_resistance, "rolling_resistance ≥ 0"),
+        ("twisting_resistance", c.twisting_resistance, "twisting_resistance ≥ 0"),
+        ("sliding_friction.dynamic", c.weakening.map(|w| w.dynamic), "dynamic ≥ 0"),
+    ];
+    for (key, value, range) in ranges {
+        let value = value.unwrap_or(0.0);
+        within(&format!("{at}: {key}"), value, "[–]", value >= 0.0 && value.is_finite(), range)?;
+    }
+    let speed = c.weakening.map_or(1.0, |w| w.speed);
+    within(
+        &format!("{at}: sliding_friction.speed"),
+        speed,
+        "m/s",
+        speed > 0.0 && speed.is_finite(),
+        "speed > 0",
+    )?;
+    let turning =
+        [("rolling_resistance", c.rolling_resistance), ("twisting_resistance", c.twisting_resistance)];
+    for (key, value) in turning {
+        let turns = value.is_none() || c.sliding_friction.is_some();
+        let range = "scenes with sliding_friction (nothing else turns a particle)";
+        within(&format!("{at}: {key}"), value.unwrap_or(0.0), "[–]", turns, range)?;
+    }
+    let slides = c.weakening.is_none() || c.sliding_friction.is_some();
+    within(
+        &format!("{at}: sliding_friction.speed"),
+        speed,
+        "m/s",
+        slides,
+        "scenes with sliding_friction.static",
+    )
+}
+
+/// Cohesion that would pull grains into each other, beyond the guard, without any load.
+fn bound_grains(at: &str, c: &Contact, setup: &Setup) -> Result<(), SetupError> {
+    let sizes = radii_by_material(setup);
+    let both = [c.between.0, c.between.1].map(|m| sizes[m as usize]);
+    let Some(smallest) = both.iter().flatten().map(|r| r.0).reduce(f64::min) else { return Ok(()) };
+    let largest = both.iter().flatten().map(|r| r.1).fold(0.0, f64::max);
+    let elastic = Elastic::of(&setup.materials[c.between.0 as usize], &setup.materials[c.between.1 as usize]);
+    let share = overlap_without_load(c, elastic, smallest, largest);
+    let (key, value, unit) = match c.law {
+        Law::Jkr { work_of_adhesion } => ("work_of_adhesion", work_of_adhesion, "J/m²"),
+        _ => ("cohesion_energy_density", c.cohesion.unwrap_or(0.0), "J/m³"),
+    };
+    let range = "what the stiffness bears: grains without load would overlap by more than guards.overlap";
+    within(&format!("{at}: {key}"), value, unit, share < setup.guards.overlap, range)
 }
 
 fn particles(setup: &Setup) -> Result<(), SetupError> {
@@ -161,8 +221,10 @@ fn walls(setup: &Setup) -> Result<(), SetupError> {
     Ok(())
 }
 
+/// Of spheres, and of the spheres that hold whole clumps [m].
 fn largest_radius(setup: &Setup) -> f64 {
-    setup.particles.iter().map(|p| p.radius).fold(setup.largest_entry, f64::max)
+    let clumps = setup.clumps.scales().map(|(shape, _, high)| shape.reach() * high);
+    setup.particles.iter().map(|p| p.radius).chain(clumps).fold(setup.largest_entry, f64::max)
 }
 
 fn zones(setup: &Setup) -> Result<(), SetupError> {

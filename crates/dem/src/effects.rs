@@ -4,22 +4,32 @@
 //! picks the composition once, outside the time loop ([`crate::interaction`]).
 
 mod capped_spring;
+mod cohesion;
+mod constant_rolling;
 mod hertz;
 mod hooke;
+mod jkr;
 mod rolling_resistance;
 mod sliding_friction;
+mod twisting_resistance;
+mod weakening;
 
+pub use cohesion::Cohesion;
+pub use constant_rolling::ConstantRolling;
 pub use hertz::Hertz;
 pub use hooke::Hooke;
+pub use jkr::Jkr;
 pub use rolling_resistance::RollingResistance;
-pub use sliding_friction::SlidingFriction;
+pub use sliding_friction::{Coefficient, SlidingFriction};
+pub use twisting_resistance::TwistingResistance;
+pub use weakening::{Friction, Weakening};
 
 use crate::lane::{BLOCK, Lane, V};
 
 /// What effects know of a contact; i is pushed along the normal.
 #[derive(Clone, Copy)]
 pub struct Contact<R: Lane> {
-    /// Where the two touch.
+    /// Where the two act on each other: they touch, or a contact that was made lasts ([`Effect::reach`]).
     pub touching: R::Mask,
     /// n, from j to i [–].
     pub normal: V<R>,
@@ -27,6 +37,8 @@ pub struct Contact<R: Lane> {
     pub overlap: R,
     /// R* [m].
     pub radius: R,
+    /// 1/(r_i + r_j), 0 at a flat wall [1/m].
+    pub curvature: R,
     /// m* [kg].
     pub mass: R,
     /// Rate at which the overlap grows, −v·n [m/s].
@@ -37,11 +49,16 @@ pub struct Contact<R: Lane> {
     pub spin: V<R>,
 }
 
+/// Kinds of dissipation that are told apart.
+pub const DISSIPATORS: usize = 4;
+
 /// What effects make of it.
 #[derive(Clone, Copy)]
 pub struct Load<R: Lane> {
     /// F_n [N], repulsion positive.
     pub normal: R,
+    /// What caps friction, rolling and twisting resistance [N]: F_n without the pull of cohesion.
+    pub pressing: R,
     /// ∂F_n/∂δ, without damping [N/m].
     pub stiffness: R,
     /// The same a step ago, over the one now [–].
@@ -52,8 +69,8 @@ pub struct Load<R: Lane> {
     pub couple: V<R>,
     /// Elastic energy in the contact [J].
     pub elastic: R,
-    /// Energy dissipated in this step: by the normal law, sliding, rolling [J].
-    pub dissipated: [R; 3],
+    /// Energy dissipated in this step: by the normal law, sliding, rolling, twisting [J].
+    pub dissipated: [R; DISSIPATORS],
 }
 
 impl<R: Lane> Load<R> {
@@ -63,12 +80,13 @@ impl<R: Lane> Load<R> {
         let zero = R::splat(0.0);
         Load {
             normal: zero,
+            pressing: zero,
             stiffness: zero,
             stiffness_before: zero,
             tangential: V::zero(),
             couple: V::zero(),
             elastic: zero,
-            dissipated: [zero; 3],
+            dissipated: [zero; DISSIPATORS],
         }
     }
 }
@@ -80,12 +98,20 @@ pub trait Effect: Copy + Send + Sync + 'static {
     /// Numbers of memory for each contact.
     const MEMORY: usize = <Self::Memory<f64> as Memory<f64>>::COLUMNS;
     /// Whether it turns particles: without any such effect there is no rotation at all.
-    const ROTATES: bool;
+    const ROTATES: bool = false;
     /// Whether it makes a couple besides the moment of the tangential force.
-    const COUPLES: bool;
+    const COUPLES: bool = false;
+    /// Whether a contact that was made lasts beyond touching.
+    const REACHES: bool = false;
 
     /// Adds to the load; `dt` [s].
     fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, memory: &mut Self::Memory<R>, load: &mut Load<R>);
+
+    /// Gap up to which the contact still acts [m]: 0 where none was made; `radius` is R* [m].
+    #[inline(always)]
+    fn reach<R: Lane>(&self, _radius: R, _memory: &Self::Memory<R>) -> R {
+        R::splat(0.0)
+    }
 }
 
 /// Memory that is stored as columns of numbers.
@@ -98,6 +124,8 @@ pub trait Memory<R: Lane>: Copy {
     fn store(self, block: &mut [f64], lane: usize);
     /// Forgets where the mask does not hold.
     fn keep(self, mask: R::Mask) -> Self;
+    /// Whether a column changes its sign when i and j change places, as vectors do.
+    fn flips(column: usize) -> bool;
 }
 
 impl<R: Lane> Memory<R> for () {
@@ -108,23 +136,50 @@ impl<R: Lane> Memory<R> for () {
     fn store(self, _: &mut [f64], _: usize) {}
     #[inline(always)]
     fn keep(self, _: R::Mask) {}
+    fn flips(_: usize) -> bool {
+        false
+    }
+}
+
+/// A number is the same seen from i and from j.
+impl<R: Lane> Memory<R> for R {
+    const COLUMNS: usize = 1;
+    #[inline(always)]
+    fn load(block: &[f64], lane: usize) -> R {
+        <R as Lane>::load(&block[lane..])
+    }
+    #[inline(always)]
+    fn store(self, block: &mut [f64], lane: usize) {
+        Lane::store(self, &mut block[lane..]);
+    }
+    #[inline(always)]
+    fn keep(self, mask: R::Mask) -> R {
+        R::select(mask, self, R::splat(0.0))
+    }
+    fn flips(_: usize) -> bool {
+        false
+    }
 }
 
 impl<R: Lane> Memory<R> for V<R> {
     const COLUMNS: usize = 3;
     #[inline(always)]
     fn load(block: &[f64], lane: usize) -> V<R> {
-        V::new(R::load(&block[lane..]), R::load(&block[BLOCK + lane..]), R::load(&block[2 * BLOCK + lane..]))
+        let column = |c: usize| <R as Lane>::load(&block[c * BLOCK + lane..]);
+        V::new(column(0), column(1), column(2))
     }
     #[inline(always)]
     fn store(self, block: &mut [f64], lane: usize) {
-        self.x.store(&mut block[lane..]);
-        self.y.store(&mut block[BLOCK + lane..]);
-        self.z.store(&mut block[2 * BLOCK + lane..]);
+        Lane::store(self.x, &mut block[lane..]);
+        Lane::store(self.y, &mut block[BLOCK + lane..]);
+        Lane::store(self.z, &mut block[2 * BLOCK + lane..]);
     }
     #[inline(always)]
     fn keep(self, mask: R::Mask) -> V<R> {
         V::select(mask, self, V::zero())
+    }
+    fn flips(_: usize) -> bool {
+        true
     }
 }
 
@@ -143,24 +198,53 @@ impl<R: Lane, A: Memory<R>, B: Memory<R>> Memory<R> for (A, B) {
     fn keep(self, mask: R::Mask) -> (A, B) {
         (self.0.keep(mask), self.1.keep(mask))
     }
+    fn flips(column: usize) -> bool {
+        if column < A::COLUMNS { A::flips(column) } else { B::flips(column - A::COLUMNS) }
+    }
 }
 
 impl Effect for () {
     type Memory<R: Lane> = ();
-    const ROTATES: bool = false;
-    const COUPLES: bool = false;
     #[inline(always)]
     fn apply<R: Lane>(&self, _: &Contact<R>, _: R, _: &mut (), _: &mut Load<R>) {}
+}
+
+/// An effect that may be absent at run time: for what is rare and has no memory, so that there need not be a composition with it
+/// and one without. Absent, it costs a question for each group of contacts.
+impl<E: Effect> Effect for Option<E> {
+    type Memory<R: Lane> = E::Memory<R>;
+    const ROTATES: bool = E::ROTATES;
+    const COUPLES: bool = E::COUPLES;
+    const REACHES: bool = E::REACHES;
+    #[inline(always)]
+    fn apply<R: Lane>(&self, c: &Contact<R>, dt: R, memory: &mut Self::Memory<R>, load: &mut Load<R>) {
+        if let Some(effect) = self {
+            effect.apply(c, dt, memory, load);
+        }
+    }
+    #[inline(always)]
+    fn reach<R: Lane>(&self, radius: R, memory: &Self::Memory<R>) -> R {
+        self.map_or(R::splat(0.0), |effect| effect.reach(radius, memory))
+    }
 }
 
 impl<A: Effect, B: Effect> Effect for (A, B) {
     type Memory<R: Lane> = (A::Memory<R>, B::Memory<R>);
     const ROTATES: bool = A::ROTATES || B::ROTATES;
     const COUPLES: bool = A::COUPLES || B::COUPLES;
+    const REACHES: bool = A::REACHES || B::REACHES;
     #[inline(always)]
     fn apply<R: Lane>(&self, c: &Contact<R>, dt: R, memory: &mut Self::Memory<R>, load: &mut Load<R>) {
         self.0.apply(c, dt, &mut memory.0, load);
         self.1.apply(c, dt, &mut memory.1, load);
+    }
+    #[inline(always)]
+    fn reach<R: Lane>(&self, radius: R, memory: &Self::Memory<R>) -> R {
+        match (A::REACHES, B::REACHES) {
+            (true, true) => self.0.reach(radius, &memory.0).max(self.1.reach(radius, &memory.1)),
+            (true, false) => self.0.reach(radius, &memory.0),
+            (false, _) => self.1.reach(radius, &memory.1),
+        }
     }
 }
 

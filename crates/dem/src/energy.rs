@@ -1,6 +1,8 @@
 //! The energy ledger: each term by its own formula.
 
-use crate::interaction::{Interaction, With};
+use crate::bodies::BodyState;
+use crate::contacts::{Contacts, Kind, With};
+use crate::effects::DISSIPATORS;
 use crate::kernel::LEDGER;
 use crate::particles::mass;
 use crate::setup::{Particle, Setup};
@@ -15,16 +17,20 @@ pub struct Energy {
     pub rotation: f64,
     /// −m g·x, from the origin.
     pub potential: f64,
-    /// In the springs of contacts.
+    /// In the springs of contacts; negative where cohesion binds.
     pub elastic: f64,
-    /// Dissipated by the dashpot of the normal law.
+    /// Dissipated by the normal law: its dashpot, and what it takes to part grains that adhere.
     pub normal: f64,
     /// Dissipated by sliding friction, dashpot included.
     pub sliding: f64,
     /// Dissipated by rolling resistance, dashpot included.
     pub rolling: f64,
+    /// Dissipated by twisting resistance, dashpot included.
+    pub twisting: f64,
     /// Work of moving walls on particles.
     pub walls: f64,
+    /// Kinetic energy of particles that fell asleep.
+    pub slept: f64,
 }
 
 impl Energy {
@@ -38,16 +44,25 @@ impl Energy {
             + self.normal
             + self.sliding
             + self.rolling
+            + self.twisting
+            + self.slept
             - self.walls
     }
 
-    pub(crate) fn of(particles: &[Particle], setup: &Setup, ledger: &[f64], account: &Account) -> Energy {
+    pub(crate) fn of(
+        particles: &[Particle],
+        setup: &Setup,
+        contacts: &Contacts,
+        account: &Account,
+    ) -> Energy {
         let mut e = Energy {
             normal: account.dissipated[0],
             sliding: account.dissipated[1],
             rolling: account.dissipated[2],
+            twisting: account.dissipated[3],
             walls: account.walls,
-            elastic: ledger.chunks_exact(LEDGER).map(|row| row[0]).sum(),
+            slept: account.slept,
+            elastic: contacts.ledger.chunks_exact(LEDGER).map(|row| row[0]).sum(),
             ..Energy::default()
         };
         for p in particles {
@@ -60,25 +75,36 @@ impl Energy {
     }
 }
 
+impl Energy {
+    /// Adds a rigid clump: ½ m v², ½ ω·L, −m g·x.
+    pub(crate) fn add_body(&mut self, body: &BodyState, setup: &Setup) {
+        self.translation += 0.5 * body.mass * body.velocity.norm_squared();
+        self.rotation += 0.5 * body.spin.dot(&body.angular_momentum);
+        self.potential -= body.mass * setup.gravity.dot(&body.position);
+    }
+}
+
 /// Sums since the start [J].
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Account {
-    dissipated: [f64; 3],
+    dissipated: [f64; DISSIPATORS],
     walls: f64,
+    pub(crate) slept: f64,
 }
 
 impl Account {
     /// Adds one step's ledger, in its order.
-    pub fn add(&mut self, interactions: &[Interaction], ledger: &[f64]) {
-        for it in interactions {
-            let rows = &ledger[it.first_load * LEDGER..(it.first_load + it.len) * LEDGER];
-            let wall = matches!(it.with, With::Wall(_));
+    pub fn add(&mut self, kinds: &[Kind], contacts: &Contacts) {
+        for segment in &contacts.segments {
+            let places = segment.contacts();
+            let rows = &contacts.ledger[places.start * LEDGER..places.end * LEDGER];
+            let wall = matches!(kinds[segment.kind].with, With::Wall(_));
             for row in rows.chunks_exact(LEDGER) {
-                for (sum, part) in self.dissipated.iter_mut().zip(&row[1..4]) {
+                for (sum, part) in self.dissipated.iter_mut().zip(&row[1..=DISSIPATORS]) {
                     *sum += part;
                 }
                 if wall {
-                    self.walls += row[4];
+                    self.walls += row[1 + DISSIPATORS];
                 }
             }
         }

@@ -85,6 +85,14 @@ pub enum SetupError {
         /// The wall.
         wall: String,
     },
+    /// A storage plane in a scene with clumps.
+    #[error(
+        "outlet: a storage plane cannot record clumps (the scene has '{0}'): leave out the [[outlet]], or use spheres"
+    )]
+    ClumpOutlet(String),
+    /// Sleep in a scene with clumps.
+    #[error("sleep: clumps (the scene has '{0}') do not sleep: leave out [sleep], or use spheres")]
+    ClumpSleep(String),
     /// A wall that a particle cannot see coming.
     #[error("wall '{wall}': {speed:.4e} m/s is {:.1} % of the smallest radius in a step of {dt:.4e} s (limit {:.1} %): shorten dt, or slow the wall", 100.0 * share, 100.0 * limit)]
     WallTooFast {

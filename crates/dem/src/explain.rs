@@ -1,8 +1,11 @@
 //! What a run computes, and what each part takes.
 
-use crate::effects::{Effect, Hertz, Hooke, RollingResistance, SlidingFriction};
+use crate::effects::{
+    Cohesion, ConstantRolling, Effect, Hertz, Hooke, Jkr, RollingResistance, SlidingFriction,
+    TwistingResistance, Weakening,
+};
 use crate::lane::{Row, Row4};
-use crate::setup::{Contact, Law};
+use crate::setup::{Contact, Law, RollingModel};
 use crate::simulation::Simulation;
 use serde::Serialize;
 use std::mem::size_of;
@@ -20,10 +23,86 @@ pub struct EffectCost {
     pub bytes_per_contact: usize,
 }
 
+/// An effect of one contact.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    /// Name, as in the scene.
+    pub effect: &'static str,
+    /// The key that calls for it, with its value.
+    pub because: String,
+    /// Contact memory [bytes].
+    pub bytes: usize,
+    /// The contact without it; `None` for the normal law.
+    pub without: Option<Contact>,
+}
+
+/// The effects of a contact, in the order in which they act.
+pub fn parts(c: &Contact) -> Vec<Part> {
+    let part = |effect, because: String, numbers: usize| Part {
+        effect,
+        because,
+        bytes: numbers * size_of::<f64>(),
+        without: None,
+    };
+    let normal = match c.law {
+        Law::Hooke { stiffness, .. } => {
+            part("hooke", format!("law = \"hooke\", {stiffness:e} N/m"), Hooke::MEMORY)
+        }
+        Law::Hertz => part("hertz", "law = \"hertz\"".to_owned(), Hertz::MEMORY),
+        Law::Jkr { work_of_adhesion: w } => part("jkr", format!("law = \"jkr\", {w:e} J/m²"), Jkr::MEMORY),
+    };
+    let cohesion = c.cohesion.map(|density| {
+        let without = Some(Contact { cohesion: None, ..c.clone() });
+        Part {
+            without,
+            ..part("cohesion", format!("cohesion = \"sjkr\", {density:e} J/m³"), Cohesion::MEMORY)
+        }
+    });
+    let twisting = c.twisting_resistance.map(|mu| {
+        let without = Some(Contact { twisting_resistance: None, ..c.clone() });
+        let because = format!("twisting_resistance = {mu}");
+        Part { without, ..part("twisting_resistance", because, TwistingResistance::MEMORY) }
+    });
+    let rest = [cohesion, sliding(c), rolling(c), twisting];
+    std::iter::once(normal).chain(rest.into_iter().flatten()).collect()
+}
+
+fn sliding(c: &Contact) -> Option<Part> {
+    let mu = c.sliding_friction?;
+    let (because, numbers) = match c.weakening {
+        None => (format!("sliding_friction = {mu}"), SlidingFriction::<f64>::MEMORY),
+        Some(w) => (
+            format!("sliding_friction = {mu} at rest, {} far above {} m/s", w.dynamic, w.speed),
+            SlidingFriction::<Weakening>::MEMORY,
+        ),
+    };
+    // Nothing turns without it.
+    let without = Contact {
+        sliding_friction: None,
+        weakening: None,
+        rolling_resistance: None,
+        twisting_resistance: None,
+        ..c.clone()
+    };
+    let bytes = numbers * size_of::<f64>();
+    Some(Part { effect: "sliding_friction", because, bytes, without: Some(without) })
+}
+
+fn rolling(c: &Contact) -> Option<Part> {
+    let mu = c.rolling_resistance?;
+    let (model, numbers) = match c.rolling_model {
+        RollingModel::Spring => ("spring", RollingResistance::MEMORY),
+        RollingModel::Constant => ("constant", ConstantRolling::MEMORY),
+    };
+    let because = format!("rolling_resistance = {mu}, rolling_model = \"{model}\"");
+    let without = Some(Contact { rolling_resistance: None, ..c.clone() });
+    Some(Part { effect: "rolling_resistance", because, bytes: numbers * size_of::<f64>(), without })
+}
+
 impl Simulation {
     /// Effects in force, by pair of materials that can meet.
     pub fn explain(&self) -> Vec<EffectCost> {
-        let mut pairs: Vec<(u16, u16)> = self.interactions.iter().map(|i| i.between).collect();
+        let mut pairs: Vec<(u16, u16)> = self.kinds.iter().map(|k| k.between).collect();
         pairs.sort_unstable();
         pairs.dedup();
         let contacts = &self.setup.contacts;
@@ -34,42 +113,36 @@ impl Simulation {
     fn effects_of(&self, c: &Contact) -> Vec<EffectCost> {
         let name = |m: u16| self.setup.materials[m as usize].name.clone();
         let between = (name(c.between.0), name(c.between.1));
-        let cost = |effect, because: String, numbers: usize| EffectCost {
-            effect,
+        let cost = |part: Part| EffectCost {
+            effect: part.effect,
             between: between.clone(),
-            because,
-            bytes_per_contact: numbers * size_of::<f64>(),
+            because: part.because,
+            bytes_per_contact: part.bytes,
         };
-        let mut list = vec![match c.law {
-            Law::Hooke { stiffness, .. } => {
-                cost("hooke", format!("law = \"hooke\", {stiffness:e} N/m"), Hooke::MEMORY)
-            }
-            Law::Hertz => cost("hertz", "law = \"hertz\"".to_owned(), Hertz::MEMORY),
-        }];
-        list.extend(
-            c.sliding_friction.map(|mu| {
-                cost("sliding_friction", format!("sliding_friction = {mu}"), SlidingFriction::MEMORY)
-            }),
-        );
-        list.extend(c.rolling_resistance.map(|mu| {
-            cost("rolling_resistance", format!("rolling_resistance = {mu}"), RollingResistance::MEMORY)
-        }));
-        list
+        parts(c).into_iter().map(cost).collect()
     }
 
     /// State of one particle [bytes], without its share of contacts.
     pub fn bytes_per_particle(&self) -> usize {
-        let rotation = if self.particles.rotates() { 2 * size_of::<Row4>() } else { 0 };
-        let state = size_of::<Row>() + 2 * size_of::<Row4>();
-        state + rotation + size_of::<u32>() + size_of::<u16>() + size_of::<u32>()
+        let rotation = if self.particles.rotates() { 3 * size_of::<Row4>() } else { 0 };
+        let state = 2 * size_of::<Row>() + 2 * size_of::<Row4>();
+        let sleep = if self.sleepers.is_some() { size_of::<Row>() + size_of::<u32>() + 2 } else { 0 };
+        state + rotation + sleep + size_of::<u32>() + size_of::<u16>() + size_of::<u32>()
+    }
+
+    /// Memory of a rigid clump, and of each of its members beyond that of a particle [bytes].
+    pub fn bytes_of_clump() -> (usize, usize) {
+        crate::bodies::Bodies::bytes()
+    }
+
+    /// Memory that rigid clumps take beyond that of their members' rows [bytes].
+    pub fn bytes_of_clumps(&self) -> usize {
+        self.bodies.all_bytes()
     }
 
     /// Everything that one listed contact takes in a kind of interaction, averaged over all listed now [bytes].
     pub fn bytes_per_listed_contact(&self) -> f64 {
-        let lists: usize = self.interactions.iter().map(|i| i.bytes()).sum();
-        let loads = 8 * (self.loads.len() + self.couples.len() + self.ledger.len());
-        let index = 4 * self.entries.len();
-        (lists + loads + index) as f64 / self.listed_contacts().max(1) as f64
+        self.contacts.bytes() as f64 / self.listed_contacts().max(1) as f64
     }
 
     /// Whether particles turn in this scene.

@@ -1,31 +1,41 @@
 //! What is looked for when a guard has tripped: which particle, where, by how much.
 
+use crate::contacts::With;
 use crate::error::Halt;
-use crate::interaction::With;
 use crate::simulation::Simulation;
+use geom::Vec3;
 
-/// The deepest overlap, travellers among themselves left out; `Ok` when only those are too deep.
-pub fn overlap(sim: &Simulation) -> Result<(), Halt> {
+/// The deepest overlap, travellers among themselves left out; `Ok` when only those are too deep. Where particles have `moved`
+/// since loads were computed, they are looked for where they were.
+pub fn overlap(sim: &Simulation, moved: bool) -> Result<(), Halt> {
     let limit = sim.setup.guards.overlap;
+    let place = |k: usize| if moved { sim.position_before(k) } else { sim.particles.position(k) };
+    let time = sim.time() - if moved { sim.dt } else { 0.0 };
     let mut worst: Option<(f64, Halt)> = None;
-    for it in &sim.interactions {
-        for k in 0..it.len {
-            let i = it.i[k] as usize;
-            let (row, pair) = (sim.particles.rows[i], matches!(it.with, With::Particles | With::Images));
-            let partner = it.partner[k] as usize;
+    for segment in &sim.contacts.segments {
+        let with = sim.kinds[segment.kind].with;
+        for at in segment.contacts() {
+            let (i, partner) = (sim.contacts.i[at] as usize, sim.contacts.partner[at] as usize);
+            let pair = !matches!(with, With::Wall(_));
             if sim.zones.travels(i) && (!pair || sim.zones.travels(partner)) {
                 continue;
             }
-            let (place, radius) = sim.contact_partner(it, k);
-            let flat = radius == 0.0;
-            let overlap = row[3] + radius - (sim.particles.position(i) - place).norm();
-            let share = overlap / if flat { row[3] } else { row[3].min(radius) };
+            let (other, radius) = match with {
+                With::Particles => (place(partner), sim.particles.rows[partner][3]),
+                _ => {
+                    let row = sim.contacts.partner_row(segment, at);
+                    (Vec3::new(row[0], row[1], row[2]), row[3])
+                }
+            };
+            let (here, mine) = (place(i), sim.particles.rows[i][3]);
+            let overlap = mine + radius - (here - other).norm();
+            let share = overlap / if radius == 0.0 { mine } else { mine.min(radius) };
             if share > limit && worst.as_ref().is_none_or(|w| share > w.0) {
-                let partner = match it.with {
+                let partner = match with {
                     With::Wall(w) => format!("wall '{}'", sim.setup.walls[w].name),
                     _ => format!("particle {}", sim.particles.id[partner]),
                 };
-                let (time, id, [x, y, z]) = (sim.time(), sim.particles.id[i], [row[0], row[1], row[2]]);
+                let (id, [x, y, z]) = (sim.particles.id[i], [here.x, here.y, here.z]);
                 worst = Some((share, Halt::Overlap { time, id, partner, x, y, z, overlap, share, limit }));
             }
         }
@@ -47,17 +57,4 @@ pub fn motion(sim: &Simulation) -> Result<(), Halt> {
         }
     }
     worst.map_or(Ok(()), |(_, halt)| Err(halt))
-}
-
-impl Simulation {
-    /// Centre and radius [m] of the partner of a contact; radius 0 on a flat wall.
-    fn contact_partner(&self, it: &crate::interaction::Interaction, k: usize) -> (geom::Vec3, f64) {
-        match it.with {
-            With::Particles => {
-                let j = it.partner[k] as usize;
-                (self.particles.position(j), self.particles.rows[j][3])
-            }
-            _ => (it.place_of_partner(k), it.radius_of_partner(k)),
-        }
-    }
 }

@@ -3,7 +3,7 @@
 use crate::effects::{Contact, Effect, Load, Memory};
 use crate::lane::{BLOCK, Lane, Row, Row4, V, Width};
 
-/// Numbers of one contact in the energy ledger: elastic, dissipated (normal, sliding, rolling), wall work.
+/// Numbers of one contact in the energy ledger: elastic, dissipated (normal, sliding, rolling, twisting), wall work.
 pub const LEDGER: usize = 8;
 /// Numbers of one contact's load without rotation: force on i and a pad.
 pub const FORCE: usize = 4;
@@ -29,8 +29,6 @@ pub struct Common<'a> {
 pub struct Task<'a> {
     /// Rows and spins that `j` points into: the particles' own, or a wall's contact points.
     pub partners: (&'a [Row], &'a [Row4]),
-    /// Whether partners are points of a flat surface (R* = r_i) and not spheres.
-    pub flat: bool,
     /// First particle of each contact; whole blocks.
     pub i: &'a [u32],
     /// Its partner.
@@ -51,6 +49,8 @@ pub struct Task<'a> {
 pub trait Kernel: Send + Sync {
     /// Numbers of memory for each contact.
     fn memory(&self) -> usize;
+    /// Whether number `column` of memory changes its sign when i and j are the other way round.
+    fn flips(&self, column: usize) -> bool;
     /// Whether it turns particles.
     fn rotates(&self) -> bool;
     /// Whether it makes couples.
@@ -63,6 +63,9 @@ impl<E: Effect> Kernel for E {
     fn memory(&self) -> usize {
         E::MEMORY
     }
+    fn flips(&self, column: usize) -> bool {
+        <E::Memory<f64> as Memory<f64>>::flips(column)
+    }
     fn rotates(&self) -> bool {
         E::ROTATES
     }
@@ -70,27 +73,20 @@ impl<E: Effect> Kernel for E {
         E::COUPLES
     }
     fn run(&self, width: Width, common: Common, task: Task) -> bool {
-        match (task.flat, task.ledger.is_empty()) {
-            (false, true) => dispatch::<E, false, false>(self, width, common, task),
-            (true, true) => dispatch::<E, true, false>(self, width, common, task),
-            (false, false) => dispatch::<E, false, true>(self, width, common, task),
-            (true, false) => dispatch::<E, true, true>(self, width, common, task),
+        match task.ledger.is_empty() {
+            true => dispatch::<E, false>(self, width, common, task),
+            false => dispatch::<E, true>(self, width, common, task),
         }
     }
 }
 
-fn dispatch<E: Effect, const FLAT: bool, const KEEP: bool>(
-    effect: &E,
-    width: Width,
-    common: Common,
-    task: Task,
-) -> bool {
+fn dispatch<E: Effect, const KEEP: bool>(effect: &E, width: Width, common: Common, task: Task) -> bool {
     match width {
         #[cfg(target_arch = "x86_64")]
-        Width::Avx512 => simd::avx512::<E, FLAT, KEEP>(effect, common, task),
+        Width::Avx512 => simd::avx512::<E, KEEP>(effect, common, task),
         #[cfg(target_arch = "x86_64")]
-        Width::Avx2 => simd::avx2::<E, FLAT, KEEP>(effect, common, task),
-        _ => blocks::<f64, E, FLAT, KEEP>(effect, common, task),
+        Width::Avx2 => simd::avx2::<E, KEEP>(effect, common, task),
+        _ => blocks::<f64, E, KEEP>(effect, common, task),
     }
 }
 
@@ -101,37 +97,33 @@ mod simd {
     use super::*;
     use crate::lane::x86::{X4, X8};
 
-    pub fn avx512<E: Effect, const FLAT: bool, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
+    pub fn avx512<E: Effect, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
         #[target_feature(enable = "avx512f,avx512dq,avx2")]
-        fn inner<E: Effect, const FLAT: bool, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
-            blocks::<X8, E, FLAT, KEEP>(e, common, task)
+        fn inner<E: Effect, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
+            blocks::<X8, E, KEEP>(e, common, task)
         }
         // SAFETY: `Width::Avx512` is only made where the processor has these features.
-        unsafe { inner::<E, FLAT, KEEP>(e, common, task) }
+        unsafe { inner::<E, KEEP>(e, common, task) }
     }
 
-    pub fn avx2<E: Effect, const FLAT: bool, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
+    pub fn avx2<E: Effect, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
         #[target_feature(enable = "avx2")]
-        fn inner<E: Effect, const FLAT: bool, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
-            blocks::<X4, E, FLAT, KEEP>(e, common, task)
+        fn inner<E: Effect, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
+            blocks::<X4, E, KEEP>(e, common, task)
         }
         // SAFETY: `Width::Avx2` is only made where the processor has these features.
-        unsafe { inner::<E, FLAT, KEEP>(e, common, task) }
+        unsafe { inner::<E, KEEP>(e, common, task) }
     }
 }
 
 #[inline(always)]
-fn blocks<R: Lane, E: Effect, const FLAT: bool, const KEEP: bool>(
-    e: &E,
-    common: Common,
-    mut task: Task,
-) -> bool {
+fn blocks<R: Lane, E: Effect, const KEEP: bool>(e: &E, common: Common, mut task: Task) -> bool {
     let mut too_deep = false;
     for block in 0..task.active.len() {
         let was_active = task.active[block];
         let mut active = false;
         for lane in (0..BLOCK).step_by(R::WIDTH) {
-            let (touches, deep) = lanes::<R, E, FLAT, KEEP>(e, &common, &mut task, block, lane, was_active);
+            let (touches, deep) = lanes::<R, E, KEEP>(e, &common, &mut task, block, lane, was_active);
             active |= touches;
             too_deep |= deep;
         }
@@ -142,7 +134,7 @@ fn blocks<R: Lane, E: Effect, const FLAT: bool, const KEEP: bool>(
 
 /// `WIDTH` contacts; whether any touches, and whether any overlap passes the limit.
 #[inline(always)]
-fn lanes<R: Lane, E: Effect, const FLAT: bool, const KEEP: bool>(
+fn lanes<R: Lane, E: Effect, const KEEP: bool>(
     effect: &E,
     common: &Common,
     task: &mut Task,
@@ -157,16 +149,22 @@ fn lanes<R: Lane, E: Effect, const FLAT: bool, const KEEP: bool>(
     let apart = V::new(xi - xj, yi - yj, zi - zj);
     let reach = ri + rj;
     let square = apart.dot(apart);
-    let touching = (reach * reach).gt(square);
+    let mut touching = (reach * reach).gt(square);
     if !R::any(touching) && !was_active {
         return (false, false);
     }
     let distance = square.sqrt();
-    let normal = apart.scale(R::splat(1.0) / distance);
+    let inverse_mass = inverse_mi + inverse_mj;
+    // One division for three: it takes as long as all multiplications of a contact.
+    let both = distance * reach;
+    let inverse = R::splat(1.0) / (both * inverse_mass);
+    let normal = apart.scale(inverse * (reach * inverse_mass));
+    let inverse_reach = inverse * (distance * inverse_mass);
     let overlap = reach - distance;
     // The contact point divides the distance as the radii do: the whole of it on i's side at a flat wall.
-    let share = distance / reach;
+    let share = distance * inverse_reach;
     let (arm_i, arm_j) = (ri * share, rj * share);
+    let round = rj.gt(R::splat(0.0));
     let velocity = V::new(ui - uj, vi - vj, wi - wj);
     let along = velocity.dot(normal);
     let mut slip = velocity - normal.scale(along);
@@ -180,25 +178,32 @@ fn lanes<R: Lane, E: Effect, const FLAT: bool, const KEEP: bool>(
         surface = surface + sj.scale(arm_j).cross(normal);
         (spin, turning) = (si - sj, sj);
     }
+    let radius = R::select(round, ri * rj * inverse_reach, ri);
+    let columns = E::MEMORY * BLOCK;
+    let stored = &mut task.memory[block * columns..(block + 1) * columns];
+    let mut memory = <E::Memory<R> as Memory<R>>::load(stored, lane);
+    let zero = R::splat(0.0);
+    let mut was_held = zero;
+    if E::REACHES {
+        was_held = effect.reach(radius, &memory);
+        touching = R::select(touching, reach, overlap + was_held).gt(zero);
+    }
     let contact = Contact {
         touching,
         normal,
         overlap,
-        radius: if FLAT { ri } else { ri * rj / reach },
-        mass: R::splat(1.0) / (inverse_mi + inverse_mj),
+        radius,
+        curvature: R::select(round, inverse_reach, zero),
+        mass: inverse * both,
         approach: -along,
         slip,
         spin,
     };
-    let columns = E::MEMORY * BLOCK;
-    let stored = &mut task.memory[block * columns..(block + 1) * columns];
-    let mut memory = <E::Memory<R> as Memory<R>>::load(stored, lane);
     let mut load = Load::zero();
     effect.apply(&contact, R::splat(common.dt), &mut memory, &mut load);
     memory.keep(touching).store(stored, lane);
 
     let force = V::select(touching, normal.scale(load.normal) + load.tangential, V::zero());
-    let zero = R::splat(0.0);
     if E::ROTATES {
         let moment = V::select(touching, normal.cross(load.tangential), V::zero());
         let row = [force.x, force.y, force.z, arm_i, moment.x, moment.y, moment.z, arm_j];
@@ -214,13 +219,21 @@ fn lanes<R: Lane, E: Effect, const FLAT: bool, const KEEP: bool>(
         R::store_rows4([c.x, c.y, c.z, zero], &mut task.couples[at * 4..]);
     }
     if KEEP {
-        let [a, b, c] = load.dissipated;
+        let [a, b, c, d] = load.dissipated;
         // Work of j's surface on i; only walls' is added up.
         let surface = (surface.dot(force) + load.couple.dot(turning)) * R::splat(common.dt);
-        let row = [load.elastic, a, b, c, surface, zero, zero, zero];
-        R::store_rows(row.map(|x| R::select(touching, x, zero)), &mut task.ledger[at * LEDGER..]);
+        let row = [load.elastic, a, b, c, d, surface, zero, zero];
+        let mut row = row.map(|x| R::select(touching, x, zero));
+        if E::REACHES {
+            // What a contact holds when it breaks is lost.
+            let broken = R::select(was_held.gt(zero), load.elastic, zero);
+            row[1] = R::select(touching, row[1], broken);
+        }
+        R::store_rows(row, &mut task.ledger[at * LEDGER..]);
     }
-    let smaller = if FLAT { ri } else { ri.min(rj) };
+    let smaller = R::select(round, ri.min(rj), ri);
     let deep = R::both(touching, overlap.gt(smaller * R::splat(common.overlap_limit)));
-    (R::any(touching), R::any(deep))
+    // A contact that has just broken stays in the ledger for one step.
+    let active = R::any(touching) || (E::REACHES && KEEP && R::any(was_held.gt(zero)));
+    (active, R::any(deep))
 }

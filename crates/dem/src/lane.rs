@@ -7,16 +7,42 @@ pub mod scalar;
 #[cfg(target_arch = "x86_64")]
 pub mod x86;
 
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use serde::{Deserialize, Serialize};
+use std::ops::{Add, Deref, DerefMut, Div, Mul, Neg, Sub};
 
 /// Contacts are stored in blocks of this many, whatever the width of the lanes that compute them.
 pub const BLOCK: usize = 8;
 
-/// State that a contact needs of a particle: x, y, z, radius, vx, vy, vz, 1/m; one cache line.
-pub type Row = [f64; 8];
+/// State that a contact needs of a particle: x, y, z, radius, vx, vy, vz, 1/m; one cache line, and never two.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[repr(C, align(64))]
+pub struct Row(pub [f64; 8]);
 
-/// Angular velocity and a pad.
-pub type Row4 = [f64; 4];
+/// A vector and a fourth number, within one cache line.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[repr(C, align(32))]
+pub struct Row4(pub [f64; 4]);
+
+macro_rules! behaves_as {
+    ($row:ty, $array:ty) => {
+        impl Deref for $row {
+            type Target = $array;
+            #[inline(always)]
+            fn deref(&self) -> &$array {
+                &self.0
+            }
+        }
+        impl DerefMut for $row {
+            #[inline(always)]
+            fn deref_mut(&mut self) -> &mut $array {
+                &mut self.0
+            }
+        }
+    };
+}
+
+behaves_as!(Row, [f64; 8]);
+behaves_as!(Row4, [f64; 4]);
 
 /// `WIDTH` numbers that are computed at once.
 pub trait Lane:
@@ -60,9 +86,9 @@ pub trait Lane:
 /// Four numbers of one particle that are computed at once.
 pub trait Four: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
     /// Reads four numbers.
-    fn read(from: &Row4) -> Self;
+    fn read(from: &[f64; 4]) -> Self;
     /// Writes them.
-    fn write(self, to: &mut Row4);
+    fn write(self, to: &mut [f64; 4]);
     /// The same number four times.
     fn all(x: f64) -> Self;
 }

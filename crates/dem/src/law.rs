@@ -1,8 +1,12 @@
 //! From material constants to the composition of effects that a pair of materials calls for.
 
-use crate::effects::{Effect, Hertz, Hooke, RollingResistance, SlidingFriction, damping_ratio};
+use crate::effects::{
+    Coefficient, Cohesion, ConstantRolling, Effect, Friction, Hertz, Hooke, Jkr, RollingResistance,
+    SlidingFriction, TwistingResistance, Weakening, damping_ratio,
+};
 use crate::kernel::Kernel;
-use crate::setup::{Contact, Law, Material};
+use crate::setup::{Contact, Law, Material, RollingModel};
+use std::f64::consts::PI;
 
 /// Elastic constants of a pair.
 ///
@@ -35,24 +39,109 @@ pub fn tangential_ratio(contact: &Contact, elastic: Elastic) -> f64 {
     }
 }
 
-/// The effects of a contact, composed; the only place that knows which compositions there are.
-pub fn compose(contact: &Contact, elastic: Elastic) -> Box<dyn Kernel> {
-    let damping_ratio = damping_ratio(contact.restitution);
-    match contact.law {
-        Law::Hooke { stiffness, .. } => with_friction(Hooke { stiffness, damping_ratio }, contact, elastic),
-        Law::Hertz => with_friction(Hertz { modulus: elastic.modulus, damping_ratio }, contact, elastic),
+/// Largest overlap of two grains that bear no load, over the smaller radius [–], for radii [m] in a range: 0 without cohesion,
+/// infinite where the pull grows faster than the spring.
+///
+/// ```text
+/// Hooke with cohesion: 0 as long as C < k/2πR*      Hertz with cohesion: (9π²/4) (C/E*)²      JKR: 2·6^(1/3) (π w/8E* r)^(2/3)
+/// ```
+pub fn overlap_without_load(contact: &Contact, elastic: Elastic, smallest: f64, largest: f64) -> f64 {
+    match (contact.law, contact.cohesion) {
+        (Law::Jkr { work_of_adhesion }, _) => {
+            let root = libm::cbrt(PI * work_of_adhesion / (8.0 * elastic.modulus * smallest));
+            2.0 * libm::cbrt(6.0) * root * root
+        }
+        (_, None) => 0.0,
+        (Law::Hertz, Some(density)) => 2.25 * (PI * density / elastic.modulus).powi(2),
+        (Law::Hooke { stiffness, .. }, Some(density)) => {
+            if density < stiffness / (2.0 * PI * largest) {
+                0.0
+            } else {
+                f64::INFINITY
+            }
+        }
     }
 }
 
-fn with_friction<N: Effect>(normal: N, contact: &Contact, elastic: Elastic) -> Box<dyn Kernel> {
-    let Some(friction) = contact.sliding_friction else { return Box::new((normal, ())) };
-    let sliding = SlidingFriction {
-        friction,
-        stiffness_ratio: tangential_ratio(contact, elastic),
-        damping_ratio: damping_ratio(contact.restitution),
-    };
-    match contact.rolling_resistance {
-        Some(resistance) => Box::new((normal, (sliding, RollingResistance { resistance }))),
-        None => Box::new((normal, sliding)),
+/// Largest gap at which a contact that was made still acts [m], for grains up to a radius [m]: neighbours are to be listed
+/// at least up to there.
+pub fn reach(contact: &Contact, elastic: Elastic, largest: f64) -> f64 {
+    match contact.law {
+        Law::Jkr { work_of_adhesion } => {
+            let law = Jkr { modulus: elastic.modulus, work_of_adhesion, damping_ratio: 0.0 };
+            Jkr::last_gap(largest, law.last_radius(largest))
+        }
+        _ => 0.0,
+    }
+}
+
+/// A contact's numbers, and what follows from its two materials.
+#[derive(Clone, Copy)]
+struct Pair<'a> {
+    contact: &'a Contact,
+    elastic: Elastic,
+}
+
+/// The effects of a contact, composed; the only place that knows which compositions there are.
+///
+/// Each composition is compiled for every width of lanes, with and without the ledger. So that there are not too many, what has
+/// no memory and is rare is not a composition of its own: cohesion and the weakening of friction are a question that a kernel
+/// asks once for each group of contacts, and only kernels with something rare in them.
+pub fn compose(contact: &Contact, elastic: Elastic) -> Box<dyn Kernel> {
+    let pair = Pair { contact, elastic };
+    let (damping_ratio, modulus) = (damping_ratio(contact.restitution), elastic.modulus);
+    match contact.law {
+        Law::Hooke { stiffness, .. } => pair.normal(Hooke { stiffness, damping_ratio }),
+        Law::Hertz => pair.normal(Hertz { modulus, damping_ratio }),
+        Law::Jkr { work_of_adhesion } => pair.rare(Jkr { modulus, work_of_adhesion, damping_ratio }),
+    }
+}
+
+impl Pair<'_> {
+    fn normal<N: Effect>(self, normal: N) -> Box<dyn Kernel> {
+        let c = self.contact;
+        let constant = c.rolling_resistance.is_some() && c.rolling_model == RollingModel::Constant;
+        if c.cohesion.is_some() || c.weakening.is_some() || c.twisting_resistance.is_some() || constant {
+            return self.rare((normal, c.cohesion.map(|energy_density| Cohesion { energy_density })));
+        }
+        match (c.sliding_friction, c.rolling_resistance) {
+            (None, _) => Box::new(normal),
+            (Some(friction), None) => Box::new((normal, self.sliding(friction))),
+            (Some(friction), Some(resistance)) => {
+                Box::new((normal, (self.sliding(friction), RollingResistance { resistance })))
+            }
+        }
+    }
+
+    fn rare<N: Effect>(self, normal: N) -> Box<dyn Kernel> {
+        let c = self.contact;
+        let Some(at_rest) = c.sliding_friction else { return Box::new(normal) };
+        let friction = match c.weakening {
+            Some(w) => Friction::Weakening(Weakening { at_rest, sliding: w.dynamic, speed: w.speed }),
+            None => Friction::Constant(at_rest),
+        };
+        let rubbing = (normal, self.sliding(friction));
+        match (c.rolling_resistance, c.rolling_model) {
+            (None, _) => self.twisting(rubbing),
+            (Some(resistance), RollingModel::Spring) => {
+                self.twisting((rubbing, RollingResistance { resistance }))
+            }
+            (Some(resistance), RollingModel::Constant) => {
+                self.twisting((rubbing, ConstantRolling { resistance }))
+            }
+        }
+    }
+
+    fn twisting<E: Effect>(self, so_far: E) -> Box<dyn Kernel> {
+        let stiffness_ratio = tangential_ratio(self.contact, self.elastic);
+        match self.contact.twisting_resistance {
+            Some(resistance) => Box::new((so_far, TwistingResistance { resistance, stiffness_ratio })),
+            None => Box::new(so_far),
+        }
+    }
+
+    fn sliding<C: Coefficient>(self, friction: C) -> SlidingFriction<C> {
+        let stiffness_ratio = tangential_ratio(self.contact, self.elastic);
+        SlidingFriction { friction, stiffness_ratio, damping_ratio: damping_ratio(self.contact.restitution) }
     }
 }

@@ -4,13 +4,15 @@
 //! positive. It knows nothing of files, TOML or the terminal.
 
 mod advance;
+mod aligned;
+mod bodies;
 mod check;
+mod contacts;
 pub mod effects;
 mod energy;
 mod error;
 mod explain;
 mod guards;
-mod interaction;
 mod kernel;
 pub mod lane;
 mod law;
@@ -21,14 +23,17 @@ mod particles;
 mod relist;
 pub mod setup;
 mod simulation;
+mod sleep;
 mod state;
+mod sweep;
 mod touching;
 mod walls;
 mod zones;
 
+pub use bodies::BodyState;
 pub use energy::Energy;
 pub use error::{Halt, SetupError};
-pub use explain::EffectCost;
+pub use explain::{EffectCost, Part, parts};
 pub use limit::{Limit, critical_step};
 pub use particles::mass;
 pub use setup::Setup;

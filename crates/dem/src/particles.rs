@@ -6,8 +6,10 @@ use geom::Vec3;
 use serde::{Deserialize, Serialize};
 
 /// Two rows that nothing ever touches: what the unused places of a block point to.
-pub const FAR: [Row; 2] =
-    [[1e150, 1e150, 1e150, 0.0, 0.0, 0.0, 0.0, 1.0], [-1e150, -1e150, -1e150, 0.0, 0.0, 0.0, 0.0, 1.0]];
+pub const FAR: [Row; 2] = [
+    Row([1e150, 1e150, 1e150, 0.0, 0.0, 0.0, 0.0, 1.0]),
+    Row([-1e150, -1e150, -1e150, 0.0, 0.0, 0.0, 0.0, 1.0]),
+];
 
 /// Columns, one entry a particle; `rows` and `spins` have two more ([`FAR`]).
 ///
@@ -27,7 +29,7 @@ pub struct Particles {
     pub id: Vec<u32>,
     /// Material.
     pub material: Vec<u16>,
-    /// Where the particle was when neighbours were listed [m].
+    /// Where the particle was when neighbours were listed, and its room around that place [m].
     pub home: Vec<Row4>,
 }
 
@@ -37,7 +39,7 @@ impl Particles {
         Particles {
             rows: FAR.to_vec(),
             acceleration: Vec::new(),
-            spins: if rotates { vec![[0.0; 4]; 2] } else { Vec::new() },
+            spins: if rotates { vec![Row4::default(); 2] } else { Vec::new() },
             turning: Vec::new(),
             id: Vec::new(),
             material: Vec::new(),
@@ -61,15 +63,15 @@ impl Particles {
         let Particle { position: p, velocity: v, spin: w, radius, material, .. } = *particle;
         let row =
             [p.x, p.y, p.z, radius, v.x, v.y, v.z, 1.0 / mass(radius, materials[material as usize].density)];
-        self.rows.insert(at, row);
-        self.acceleration.push([0.0; 4]);
+        self.rows.insert(at, Row(row));
+        self.acceleration.push(Row4::default());
         if self.rotates() {
-            self.spins.insert(at, [w.x, w.y, w.z, 0.0]);
-            self.turning.push([0.0; 4]);
+            self.spins.insert(at, Row4([w.x, w.y, w.z, 0.0]));
+            self.turning.push(Row4::default());
         }
         self.id.push(particle.id);
         self.material.push(material);
-        self.home.push([p.x, p.y, p.z, 0.0]);
+        self.home.push(Row4([p.x, p.y, p.z, 0.0]));
     }
 
     /// Takes the particles named by `order`, and leaves the others.
@@ -88,6 +90,11 @@ impl Particles {
         pick(&mut self.id, order, 0);
         pick(&mut self.material, order, 0);
         pick(&mut self.home, order, 0);
+    }
+
+    /// How far the surface of particle `k` may come from its home [m].
+    pub fn reach(&self, k: usize) -> f64 {
+        self.rows[k][3] + self.home[k][3]
     }
 
     /// Centre of particle `k` [m].

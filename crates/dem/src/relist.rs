@@ -1,37 +1,38 @@
 //! Makes the lists anew: sorts the particles in space, finds pairs and walls near them, carries contact memory over.
 
-use crate::interaction::{Interaction, List, With};
-use crate::kernel::LEDGER;
-use crate::neighbours::pairs;
-use crate::simulation::{Simulation, stride};
-use geom::{Grid, Vec3};
+use crate::contacts::{Contacts, Kind, List, Segment, TILE, With};
+use crate::neighbours::{Pair, SKIN, Search, room};
+use crate::simulation::{Simulation, stride, wrapped};
+use geom::Vec3;
+use rayon::prelude::*;
 use std::collections::HashMap;
+use std::ops::Range;
 
 impl Simulation {
     /// Sorts, lists, and remembers.
     pub(crate) fn relist(&mut self) {
+        // Lists that are stale for another reason say nothing of the skin.
+        if self.setup.skin.is_none() && !self.stale {
+            self.skin = SKIN.next(self.skin, self.steps - self.listed, self.grain).max(self.reach);
+        }
         self.wrap();
+        let mut before = std::mem::take(&mut self.contacts);
         // Freed before anything is listed: old and new together would be the most that a run ever takes.
-        (self.loads, self.couples, self.ledger) = (Vec::new(), Vec::new(), Vec::new());
-        (self.starts, self.entries) = (Vec::new(), Vec::new());
-        let order = self.space_order();
-        let before: Vec<Option<Remembered>> = {
-            let count = self.particles.len();
-            self.interactions.iter_mut().map(|i| Remembered::take(i, count)).collect()
-        };
+        before.make_room(0, false, false);
+        let (search, order) = self.space_order();
         self.particles.select(&order);
         self.zones.reorder(&order);
-        self.follow_fresh(&order);
-        for k in 0..self.particles.len() {
-            let r = self.particles.rows[k];
-            self.particles.home[k] = [r[0], r[1], r[2], 0.0];
+        self.bodies.reorder(&order);
+        if let Some(sleepers) = &mut self.sleepers {
+            sleepers.select(&order);
         }
+        self.follow_fresh(&order);
         self.listed = self.steps;
-        self.list_contacts();
-        recall(&before, &mut self.interactions, &order);
+        self.list_contacts(&search);
+        self.recall(&before, &order);
         drop(before);
         self.make_room();
-        self.away = 0.0;
+        self.out = false;
         self.stale = false;
         self.listings += 1;
     }
@@ -49,153 +50,157 @@ impl Simulation {
         if self.setup.periodic.iter().all(|p| p.is_none()) {
             return;
         }
-        for k in 0..self.particles.len() {
-            let p = self.wrapped(self.particles.position(k));
+        for k in (0..self.particles.len()).filter(|&k| !self.bodies.is_member(k)) {
+            let p = wrapped(&self.setup.periodic, self.particles.position(k));
             self.particles.rows[k][..3].copy_from_slice(p.as_slice());
         }
+        self.bodies.wrap(&mut self.particles, &self.setup.periodic);
     }
 
-    /// Old places of the particles that stay, sorted by cell and, within a cell, by id.
-    fn space_order(&self) -> Vec<u32> {
-        let mut stay: Vec<u32> =
-            (0..self.particles.len() as u32).filter(|&k| !self.zones.is_gone(k as usize)).collect();
-        stay.sort_unstable_by_key(|&k| self.particles.id[k as usize]);
-        let points: Vec<Vec3> = stay.iter().map(|&k| self.particles.position(k as usize)).collect();
-        if points.is_empty() {
-            return stay;
+    /// Gives each particle that stays its home and its room there, and sorts them.
+    fn space_order(&mut self) -> (Search, Vec<u32>) {
+        let (horizon, gravity) = (self.horizon * self.dt, self.setup.gravity.norm());
+        let p = &mut self.particles;
+        let stay: Vec<u32> = (0..p.len() as u32).filter(|&k| !self.zones.is_gone(k as usize)).collect();
+        for &k in &stay {
+            let row = &p.rows[k as usize];
+            let speed = Vec3::new(row[4], row[5], row[6]).norm();
+            let room = room(self.skin, horizon, speed, gravity);
+            p.home[k as usize].0 = [row[0], row[1], row[2], room];
         }
-        let grid = Grid::new(&points, self.cell());
-        grid.order().iter().map(|&k| stay[k as usize]).collect()
+        let points: Vec<Vec3> = stay.iter().map(|&k| p.position(k as usize)).collect();
+        let reach: Vec<f64> = stay.iter().map(|&k| p.reach(k as usize)).collect();
+        let search = Search::new(&points, &reach);
+        let order = search.order().iter().map(|&k| stay[k as usize]).collect();
+        (search, order)
     }
 
-    fn largest_radius(&self) -> f64 {
-        let count = self.particles.len();
-        self.particles.rows[..count].iter().map(|r| r[3]).fold(0.0, f64::max)
-    }
-
-    fn cell(&self) -> f64 {
-        (2.0 * self.largest_radius() + self.skin).max(f64::MIN_POSITIVE)
-    }
-
-    /// Lists all contacts of the particles where they were listed (`home`): a function of those places, of the step of
+    /// Lists all contacts of the particles where they were listed: a function of those places and rooms, of the step of
     /// listing, and of nothing else, so that a resumed run has the same lists.
-    pub(crate) fn list_contacts(&mut self) {
+    pub(crate) fn list_again(&mut self) {
         let p = &self.particles;
-        let count = p.len();
         let points: Vec<Vec3> = p.home.iter().map(|h| Vec3::new(h[0], h[1], h[2])).collect();
-        let radii: Vec<f64> = p.rows[..count].iter().map(|r| r[3]).collect();
-        let largest = self.largest_radius();
-        let grid = Grid::new(&points, self.cell());
+        let reach: Vec<f64> = (0..p.len()).map(|k| p.reach(k)).collect();
+        self.list_contacts(&Search::new(&points, &reach));
+    }
+
+    fn list_contacts(&mut self, search: &Search) {
+        let count = self.particles.len();
+        let wide = search.wide_pairs();
         let time = self.listed as f64 * self.dt;
-        let mut lists: Vec<List> = vec![List::default(); self.interactions.len()];
         let class = self.classes(With::Particles);
-        for (i, j) in pairs(&points, &radii, &grid, largest, self.skin).into_iter().flatten() {
-            lists[class.of(p.material[i as usize], p.material[j as usize])].push(i, j);
-        }
-        if self.setup.periodic.iter().any(|p| p.is_some()) {
-            let class = self.classes(With::Images);
-            for (i, j, shift) in self.image_pairs(&points, &radii, &grid, largest) {
-                let list = &mut lists[class.of(p.material[i as usize], p.material[j as usize])];
-                list.push(i, j);
-                list.shift.push(shift);
-            }
-        }
-        for (list, interaction) in lists.iter_mut().zip(&self.interactions) {
-            if let With::Wall(w) = interaction.with {
-                let member = |k: usize| p.material[k] == interaction.between.0;
-                for (i, part) in self.walls[w].near(&points, &radii, member, self.skin, time) {
-                    list.push(i, part);
+        let tiles: Vec<Vec<List>> = (0..count.div_ceil(TILE))
+            .into_par_iter()
+            .map(|tile| {
+                let range = tile * TILE..((tile + 1) * TILE).min(count);
+                let mut lists = vec![List::default(); self.kinds.len()];
+                let material = |k: u32| self.particles.material[k as usize];
+                let mut pairs = pairs(search, &wide, &range);
+                self.bodies.drop_own(&mut pairs, |p| *p);
+                for (i, j) in pairs {
+                    lists[class.of(material(i), material(j))].push(i, j);
                 }
+                self.list_walls(range, time, &mut lists);
+                lists
+            })
+            .collect();
+        self.contacts = Contacts::new(&self.kinds, &self.list_images(search), &tiles, count);
+        if self.sleepers.is_some() {
+            self.contacts.note_walls(&self.kinds, &self.walls);
+        }
+    }
+
+    fn list_walls(&self, range: Range<usize>, time: f64, lists: &mut [List]) {
+        for (kind, list) in self.kinds.iter().zip(lists) {
+            let With::Wall(w) = kind.with else { continue };
+            let (pose, moves) = (self.walls[w].motion.pose(time), self.wall_room(w));
+            for k in range.clone().filter(|&k| self.particles.material[k] == kind.between.0) {
+                let home = &self.particles.home[k];
+                let place = pose.home(&Vec3::new(home[0], home[1], home[2]));
+                self.walls[w]
+                    .parts_near(place, self.particles.reach(k) + moves, |part| list.push(k as u32, part));
             }
         }
-        self.adopt(lists, count);
     }
 
-    fn adopt(&mut self, lists: Vec<List>, count: usize) {
-        let mut places = 0;
-        for (list, interaction) in lists.into_iter().zip(&mut self.interactions) {
-            interaction.list(list, count);
-            interaction.first_load = places;
-            places += interaction.places();
+    /// How far a wall may move until lists are made anew [m].
+    pub(crate) fn wall_room(&self, wall: usize) -> f64 {
+        room(self.skin, self.horizon * self.dt, self.walls[wall].fastest(), 0.0)
+    }
+
+    /// Pairs across periodic faces: each once, by the half of all shifts whose first part that is not zero is positive.
+    fn list_images(&self, search: &Search) -> Vec<List> {
+        let mut found = Vec::new();
+        for shift in half_of_shifts(&self.setup.periodic) {
+            search.shifted_pairs(&shift, &mut found);
         }
-        self.index_loads(count);
-        self.just_listed = true;
+        self.bodies.drop_own(&mut found, |f| (f.0, f.1));
+        found.sort_by_key(|f| (f.0, f.1));
+        let class = self.classes(With::Images);
+        let mut lists = vec![List::default(); self.kinds.len()];
+        let material = |k: u32| self.particles.material[k as usize];
+        for (i, j, shift) in found {
+            let list = &mut lists[class.of(material(i), material(j))];
+            list.push(i, j);
+            list.shift.push(shift);
+        }
+        lists
     }
 
-    /// Room for the loads of all listed contacts; made last, when old lists are gone.
+    /// Room for the loads of all listed contacts, and for the next rows; made last, when old lists are gone.
     pub(crate) fn make_room(&mut self) {
-        let couples = self.interactions.iter().any(|i| i.kernel.couples());
-        let places: usize = self.interactions.iter().map(|i| i.places()).sum();
-        self.loads = vec![0.0; places * stride(self.particles.rotates())];
-        self.couples = vec![0.0; if couples { places * 4 } else { 0 }];
-        self.ledger = vec![0.0; if self.setup.ledger { places * LEDGER } else { 0 }];
+        let couples = self.kinds.iter().any(|k| k.kernel.couples());
+        self.contacts.make_room(stride(self.particles.rotates()), couples, self.setup.ledger);
+        self.next_rows.clone_from(&self.particles.rows);
+        self.next_spins.clone_from(&self.particles.spins);
     }
 
-    /// For each particle, its loads in a fixed order.
-    fn index_loads(&mut self, count: usize) {
-        let each = |interactions: &[Interaction], put: &mut dyn FnMut(u32, u32)| {
-            for it in interactions {
-                for k in 0..it.len {
-                    let load = 2 * (it.first_load + k) as u32;
-                    put(it.i[k], load);
-                    if !matches!(it.with, With::Wall(_)) {
-                        put(it.partner[k], load + 1);
-                    }
-                }
+    /// Gives each new contact the memory that it had; `order` tells each particle's old place.
+    fn recall(&mut self, before: &Contacts, order: &[u32]) {
+        let kinds = &self.kinds;
+        let mut memory = std::mem::take(&mut self.contacts.memory);
+        if !memory.is_empty() && !before.memory.is_empty() {
+            let now = &self.contacts;
+            let mut rest = &mut memory[..];
+            let mut pieces = Vec::with_capacity(now.segments.len());
+            for s in &now.segments {
+                let columns = kinds[s.kind].kernel.memory();
+                let (mine, others) = rest.split_at_mut(s.places.len() * columns);
+                rest = others;
+                pieces.push((s, mine));
             }
-        };
-        let mut starts = vec![0u32; count + 1];
-        each(&self.interactions, &mut |particle, _| starts[particle as usize + 1] += 1);
-        for k in 0..count {
-            starts[k + 1] += starts[k];
+            let old = Remembered { kinds, before, order };
+            pieces.into_par_iter().for_each(|(s, memory)| old.recall(now, s, memory));
         }
-        let mut next = starts.clone();
-        let mut entries = vec![0u32; starts[count] as usize];
-        each(&self.interactions, &mut |particle, entry| {
-            let place = &mut next[particle as usize];
-            entries[*place as usize] = entry;
-            *place += 1;
-        });
-        (self.starts, self.entries) = (starts, entries);
+        self.contacts.memory = memory;
     }
 
     fn classes(&self, with: With) -> Classes {
         let materials = self.setup.materials.len();
         let mut at = vec![usize::MAX; materials * materials];
-        for (k, i) in self.interactions.iter().enumerate().filter(|(_, i)| i.with == with) {
+        for (k, i) in self.kinds.iter().enumerate().filter(|(_, i)| i.with == with) {
             let (a, b) = (i.between.0 as usize, i.between.1 as usize);
             at[a * materials + b] = k;
             at[b * materials + a] = k;
         }
         Classes { materials, at }
     }
-
-    /// Pairs across periodic faces: i, j, and the shift of j. Each pair once, by the half of all shifts whose first part that
-    /// is not zero is positive.
-    fn image_pairs(&self, points: &[Vec3], radii: &[f64], grid: &Grid, largest: f64) -> Vec<Image> {
-        let mut found = Vec::new();
-        let (lo, hi) = geom::grid::bounds(points);
-        for shift in half_of_shifts(&self.setup.periodic) {
-            for (i, p) in points.iter().enumerate() {
-                let reach = radii[i] + self.skin;
-                let (place, far) = (p - shift, reach + largest);
-                if (0..3).any(|a| place[a] < lo[a] - far || place[a] > hi[a] + far) {
-                    continue;
-                }
-                for j in grid.runs_near(place, far).flatten() {
-                    let close = reach + radii[j];
-                    if (points[j] + shift - p).norm_squared() < close * close {
-                        found.push((i as u32, j as u32, shift));
-                    }
-                }
-            }
-        }
-        found.sort_by_key(|f: &Image| (f.0, f.1));
-        found
-    }
 }
 
-/// Which interaction two materials belong to.
+/// Pairs whose first is in `range`; `wide` are those of the whole search with wide particles.
+fn pairs(search: &Search, wide: &[Pair], range: &Range<usize>) -> Vec<Pair> {
+    let mut found = Vec::with_capacity(4 * range.len());
+    search.common_pairs(range.clone(), &mut found);
+    let at = |k: usize| wide.partition_point(|p| (p.0 as usize) < k);
+    let wide = &wide[at(range.start)..at(range.end)];
+    if !wide.is_empty() {
+        found.extend(wide);
+        found.sort_unstable();
+    }
+    found
+}
+
+/// Which kind two materials belong to.
 struct Classes {
     materials: usize,
     at: Vec<usize>,
@@ -206,9 +211,6 @@ impl Classes {
         self.at[a as usize * self.materials + b as usize]
     }
 }
-
-/// A pair across a periodic face: i, j, the shift of j [m].
-type Image = (u32, u32, Vec3);
 
 fn half_of_shifts(periodic: &[Option<(f64, f64)>; 3]) -> Vec<Vec3> {
     let period = periodic.map(|p| p.map(|(lo, hi)| hi - lo));
@@ -228,54 +230,51 @@ fn half_of_shifts(periodic: &[Option<(f64, f64)>; 3]) -> Vec<Vec3> {
 }
 
 /// Lists and memory as they were before: what new contacts remember from.
-struct Remembered {
-    /// First contact of each particle, and one more.
-    first: Vec<u32>,
-    old: Interaction,
+struct Remembered<'a> {
+    kinds: &'a [Kind],
+    before: &'a Contacts,
+    order: &'a [u32],
 }
 
-impl Remembered {
-    /// Takes list and memory out of an interaction.
-    fn take(interaction: &mut Interaction, particles: usize) -> Option<Remembered> {
-        if interaction.kernel.memory() == 0 {
-            return None;
+impl Remembered<'_> {
+    /// Fills the memory of one segment. A contact whose two partners have changed places remembers the opposite.
+    fn recall(&self, now: &Contacts, segment: &Segment, memory: &mut [f64]) {
+        let kernel = &self.kinds[segment.kind].kernel;
+        let columns = kernel.memory();
+        if columns == 0 {
+            return;
         }
-        let old = interaction.take_lists();
-        let mut first = vec![0u32; particles + 1];
-        for &i in &old.i[..old.len] {
-            first[i as usize + 1] += 1;
+        for place in segment.contacts() {
+            let Some((old, from, swapped)) = self.find(segment.kind, now.i[place], now.partner[place]) else {
+                continue;
+            };
+            let start = now.memory_at(segment, segment.places.start, 0, columns);
+            for c in 0..columns {
+                let was = self.before.memory[self.before.memory_at(old, from, c, columns)];
+                let turned = swapped && kernel.flips(c);
+                memory[now.memory_at(segment, place, c, columns) - start] = if turned { -was } else { was };
+            }
         }
-        for k in 0..particles {
-            first[k + 1] += first[k];
-        }
-        Some(Remembered { first, old })
     }
 
-    fn find(&self, i: u32, partner: u32) -> Option<usize> {
-        let run = *self.first.get(i as usize)? as usize..*self.first.get(i as usize + 1)? as usize;
-        run.into_iter().find(|&k| self.old.partner[k] == partner)
-    }
-}
-
-/// Gives each new contact the memory that it had; `order` tells each particle's old place. A contact whose two partners have
-/// changed places remembers the opposite.
-fn recall(before: &[Option<Remembered>], now: &mut [Interaction], order: &[u32]) {
-    let kinds: Vec<((u16, u16), With)> = now.iter().map(|i| (i.between, i.with)).collect();
-    for (at, it) in now.iter_mut().enumerate() {
-        let wall = matches!(it.with, With::Wall(_));
-        // A pair may have become a pair across a periodic face, or stopped being one.
-        let source = |k: usize| {
-            if wall { k == at } else { kinds[k].0 == it.between && !matches!(kinds[k].1, With::Wall(_)) }
-        };
-        let sources: Vec<&Remembered> =
-            before.iter().enumerate().filter(|(k, _)| source(*k)).filter_map(|(_, r)| r.as_ref()).collect();
-        it.recall(|i, partner| {
-            let i = order[i as usize];
-            let partner = if wall { partner } else { order[partner as usize] };
-            sources.iter().find_map(|s| {
-                let same = s.find(i, partner).map(|k| (1.0, &s.old, k));
-                same.or_else(|| if wall { None } else { s.find(partner, i).map(|k| (-1.0, &s.old, k)) })
-            })
-        });
+    /// Where a contact was: its segment and place, and whether its partners were the other way round.
+    fn find(&self, kind: usize, i: u32, partner: u32) -> Option<(&Segment, usize, bool)> {
+        let wall = matches!(self.kinds[kind].with, With::Wall(_));
+        let old = |k: u32| self.order[k as usize];
+        let (i, partner) = (old(i), if wall { partner } else { old(partner) });
+        let range =
+            *self.before.starts.get(i as usize)? as usize..*self.before.starts.get(i as usize + 1)? as usize;
+        self.before.entries[range].iter().find_map(|&entry| {
+            let (place, second) = ((entry >> 1) as usize, entry & 1 == 1);
+            let other = if second { self.before.i[place] } else { self.before.partner[place] };
+            if other != partner {
+                return None;
+            }
+            let segment = self.before.segment_of(place);
+            // A pair may have become a pair across a periodic face, or stopped being one.
+            let with = self.kinds[segment.kind].with;
+            let same = if wall { segment.kind == kind } else { !matches!(with, With::Wall(_)) };
+            same.then_some((segment, place, second))
+        })
     }
 }

@@ -1,7 +1,11 @@
 //! What a simulation is made of: plain data, checked and turned into an engine by [`crate::Simulation::new`].
 
 use geom::{Plane, Vec3, mesh::TriMesh};
+use nalgebra::UnitQuaternion;
 use serde::{Deserialize, Serialize};
+
+pub use crate::bodies::ClumpShape;
+pub use crate::sleep::Sleep;
 
 /// Everything that a run needs. SI units throughout.
 #[derive(Debug, Clone)]
@@ -14,6 +18,8 @@ pub struct Setup {
     pub contacts: Vec<Contact>,
     /// Particles at t = 0.
     pub particles: Vec<Particle>,
+    /// Rigid clumps; empty where the scene has none.
+    pub clumps: Clumps,
     /// Walls: they act on particles and are not moved by them.
     pub walls: Vec<Wall>,
     /// Storage planes with their zones (SYSTEMS B1–B3).
@@ -32,6 +38,8 @@ pub struct Setup {
     pub periodic: [Option<(f64, f64)>; 3],
     /// Neighbours are listed up to this gap [m]; `None` chooses.
     pub skin: Option<f64>,
+    /// When particles at rest are passed over; `None`: never.
+    pub sleep: Option<Sleep>,
     /// Whether the energy ledger is kept (it costs time).
     pub ledger: bool,
     /// When a run is stopped.
@@ -67,12 +75,56 @@ pub struct Contact {
     pub between: (u16, u16),
     /// Normal law.
     pub law: Law,
-    /// Restitution e of a head-on impact [–], 0…1.
+    /// Restitution e of a head-on impact [–], 0…1; with cohesion, that of the same contact without it.
     pub restitution: f64,
+    /// Cohesion energy density C of Hooke or Hertz [J/m³].
+    pub cohesion: Option<f64>,
     /// Sliding friction μ [–].
     pub sliding_friction: Option<f64>,
+    /// How friction weakens with the speed of sliding; `sliding_friction` is then that at rest.
+    pub weakening: Option<Weakening>,
     /// Rolling resistance μ_r [–].
     pub rolling_resistance: Option<f64>,
+    /// Its model.
+    pub rolling_model: RollingModel,
+    /// Twisting resistance μ_w [–].
+    pub twisting_resistance: Option<f64>,
+}
+
+impl Contact {
+    /// A normal law and nothing else.
+    pub fn new(between: (u16, u16), law: Law, restitution: f64) -> Contact {
+        Contact {
+            between,
+            law,
+            restitution,
+            cohesion: None,
+            sliding_friction: None,
+            weakening: None,
+            rolling_resistance: None,
+            rolling_model: RollingModel::Spring,
+            twisting_resistance: None,
+        }
+    }
+}
+
+/// Friction that weakens with the speed of sliding: see [`crate::effects::Weakening`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Weakening {
+    /// μ_d, far above the speed [–].
+    pub dynamic: f64,
+    /// v_c, at which it is half-way [m/s].
+    pub speed: f64,
+}
+
+/// Model of rolling resistance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum RollingModel {
+    /// A spring and dashpot, capped: holds a grain on a slope.
+    #[default]
+    Spring,
+    /// A couple of constant size, without memory: slows rolling, holds nothing.
+    Constant,
 }
 
 /// Normal law.
@@ -87,6 +139,11 @@ pub enum Law {
     },
     /// Hertz's law, with Mindlin's tangential stiffness, from the elastic constants.
     Hertz,
+    /// Hertz's law of spheres that adhere (Johnson, Kendall and Roberts).
+    Jkr {
+        /// Energy w to part a square metre of contact [J/m²].
+        work_of_adhesion: f64,
+    },
 }
 
 /// A sphere.
@@ -101,6 +158,36 @@ pub struct Particle {
     /// Centre [m].
     pub position: Vec3,
     /// Velocity of the centre [m/s].
+    pub velocity: Vec3,
+    /// Angular velocity [rad/s].
+    pub spin: Vec3,
+}
+
+/// Rigid clumps: their shapes, and the bodies of these shapes at t = 0.
+#[derive(Debug, Clone, Default)]
+pub struct Clumps {
+    /// Shapes.
+    pub shapes: Vec<ClumpShape>,
+    /// Bodies at t = 0.
+    pub bodies: Vec<Body>,
+    /// Shape, smallest and largest scale [–] of the bodies that inlets will bring.
+    pub entries: Vec<(u32, f64, f64)>,
+}
+
+/// A rigid clump. Its members have the ids from `id` on, one each.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Body {
+    /// Id of its first member.
+    pub id: u32,
+    /// Index of its shape.
+    pub shape: u32,
+    /// Size over that of the shape [–].
+    pub scale: f64,
+    /// Centre of mass [m].
+    pub position: Vec3,
+    /// From the frame that the shape was given in to space.
+    pub orientation: UnitQuaternion<f64>,
+    /// Velocity of the centre of mass [m/s].
     pub velocity: Vec3,
     /// Angular velocity [rad/s].
     pub spin: Vec3,

@@ -3,52 +3,60 @@
 //! One step: `ready` (lists still hold? contact points of walls, loads of all contacts at time n), then `advance`
 //! (gather, move to n + 1), then zones. Looking at a simulation calls `ready` and no more, so that output changes nothing.
 
-use crate::advance::{Columns, Drive, Loads, Moved, advance};
+use crate::advance::{Loads, Moved};
+use crate::bodies::{Bodies, BodyState};
+use crate::contacts::{Contacts, Kind, With};
 use crate::energy::{Account, Energy};
 use crate::error::{Halt, SetupError};
-use crate::interaction::{Interaction, With};
-use crate::kernel::{Common, FORCE, FORCE_AND_MOMENT, LEDGER};
-use crate::lane::{Row4, Width};
+use crate::kernel::{FORCE, FORCE_AND_MOMENT};
+use crate::lane::{Row, Row4, Width};
 use crate::law::{Elastic, compose};
-use crate::limit::{contact_between, critical_step, radii_by_material};
+use crate::limit::{contact_between, critical_step, largest_reach, radii_by_material};
 use crate::particles::Particles;
 use crate::setup::{Entry, Particle, Setup, Step};
+use crate::sleep::Sleepers;
+use crate::sweep::Pass;
 use crate::walls::WallBody;
 use crate::zones::Zones;
 use geom::Vec3;
-use rayon::prelude::*;
 
-/// Blocks of contacts below which one thread is faster than several.
-const FEW_TASKS: usize = 8;
+/// Steps that rooms are made for; chosen on the bench pile.
+const HORIZON: f64 = 100.0;
 
 /// A running simulation.
 pub struct Simulation {
     pub(crate) setup: Setup,
     pub(crate) dt: f64,
     pub(crate) skin: f64,
+    /// Largest gap at which a contact that was made still acts [m]; the skin is no less.
+    pub(crate) reach: f64,
     pub(crate) width: Width,
     pub(crate) particles: Particles,
     pub(crate) walls: Vec<WallBody>,
-    pub(crate) interactions: Vec<Interaction>,
-    pub(crate) starts: Vec<u32>,
-    pub(crate) entries: Vec<u32>,
-    pub(crate) loads: Vec<f64>,
-    pub(crate) couples: Vec<f64>,
-    pub(crate) ledger: Vec<f64>,
+    pub(crate) kinds: Vec<Kind>,
+    pub(crate) contacts: Contacts,
+    /// Where the next step is written.
+    pub(crate) next_rows: Vec<Row>,
+    pub(crate) next_spins: Vec<Row4>,
+    /// Steps that the rooms of particles are made for; 0 where the setup gives the skin.
+    pub(crate) horizon: f64,
+    /// Mean radius [m].
+    pub(crate) grain: f64,
     pub(crate) steps: u64,
     /// Step at which neighbours were listed.
     pub(crate) listed: u64,
-    /// Largest distance from home [m].
-    pub(crate) away: f64,
+    /// Whether a particle has left its room.
+    pub(crate) out: bool,
     /// Whether lists must be made anew whatever has moved.
     pub(crate) stale: bool,
     /// Whether loads are those of this step.
     pub(crate) current: bool,
-    /// Whether contact points of walls at rest are to be found.
-    pub(crate) just_listed: bool,
     /// Particles whose acceleration of the step before is unknown.
     pub(crate) fresh: Vec<u32>,
     pub(crate) zones: Zones,
+    pub(crate) bodies: Bodies,
+    /// Who sleeps, where the setup asks for it.
+    pub(crate) sleepers: Option<Sleepers>,
     pub(crate) account: Account,
     /// How often neighbours were listed.
     pub(crate) listings: u64,
@@ -70,40 +78,46 @@ impl Simulation {
     pub fn with_width(setup: Setup, width: Width) -> Result<Simulation, SetupError> {
         crate::check::check(&setup)?;
         let dt = time_step(&setup)?;
-        let interactions = interactions(&setup)?;
-        let rotates = interactions.iter().any(|i| i.kernel.rotates());
-        let mut particles = Particles::new(rotates);
-        for p in &setup.particles {
-            particles.push(p, &setup.materials);
-        }
+        let kinds = kinds(&setup)?;
+        let mut particles = Particles::new(kinds.iter().any(|k| k.kernel.rotates()));
+        let mut sorted: Vec<&Particle> = setup.particles.iter().collect();
+        sorted.sort_unstable_by_key(|p| p.id);
+        sorted.into_iter().for_each(|p| particles.push(p, &setup.materials));
+        let bodies = Bodies::new(&setup, &mut particles);
         let fresh = (0..particles.len() as u32).collect();
-        let skin = setup.skin.unwrap_or_else(|| default_skin(&setup));
+        let grain = mean_radius(&setup);
+        let reach = largest_reach(&setup);
+        let skin = setup.skin.unwrap_or(crate::neighbours::SKIN.start * grain).max(reach);
+        let horizon = if setup.skin.is_some() { 0.0 } else { HORIZON };
         let walls: Vec<WallBody> = setup.walls.iter().map(WallBody::new).collect();
         slow_enough(&setup, &walls, dt)?;
         let zones = Zones::new(&setup, &particles);
+        let sleepers = setup.sleep.map(|s| Sleepers::new(s, dt, setup.gravity.norm(), particles.len()));
         // They are in their columns now.
-        let setup = Setup { particles: Vec::new(), ..setup };
+        let setup = Setup { particles: Vec::new(), clumps: setup.clumps.without_bodies(), ..setup };
         Ok(Simulation {
             setup,
             dt,
             skin,
+            reach,
             width,
             particles,
             walls,
-            interactions,
-            starts: Vec::new(),
-            entries: Vec::new(),
-            loads: Vec::new(),
-            couples: Vec::new(),
-            ledger: Vec::new(),
+            kinds,
+            contacts: Contacts::default(),
+            next_rows: Vec::new(),
+            next_spins: Vec::new(),
+            horizon,
+            grain,
             steps: 0,
             listed: 0,
-            away: 0.0,
+            out: false,
             stale: true,
             current: false,
-            just_listed: false,
             fresh,
+            sleepers,
             zones,
+            bodies,
             account: Account::default(),
             listings: 0,
         })
@@ -136,7 +150,12 @@ impl Simulation {
 
     /// Number of contacts listed now.
     pub fn listed_contacts(&self) -> usize {
-        self.interactions.iter().map(|i| i.len).sum()
+        self.contacts.len()
+    }
+
+    /// Number of particles that sleep.
+    pub fn asleep(&self) -> usize {
+        self.sleepers.as_ref().map_or(0, Sleepers::count)
     }
 
     /// Number of particles in the calculation.
@@ -182,6 +201,7 @@ impl Simulation {
         let half = 0.5 * self.dt;
         let loads = self.all_loads();
         let (p, time) = (&self.particles, self.time());
+        let members = self.bodies.member_states(p, &loads, &self.setup.gravity, self.dt);
         let mut out: Vec<Particle> = (0..p.len())
             .filter(|&k| !self.zones.is_hidden(k, time))
             .map(|k| {
@@ -200,6 +220,9 @@ impl Simulation {
                             w[a] += half * (moment[a] * inverse_inertia - p.turning[k][a]);
                         }
                     }
+                }
+                if let Some(&Some(state)) = members.get(k) {
+                    (v, w) = state;
                 }
                 let (id, material) = (p.id[k], p.material[k]);
                 Particle {
@@ -221,44 +244,57 @@ impl Simulation {
     /// # Errors
     /// When the state is beyond a guard.
     pub fn energy(&mut self) -> Result<Energy, Halt> {
-        let particles = self.particles()?;
-        Ok(Energy::of(&particles, &self.setup, &self.ledger, &self.account))
+        let mut particles = self.particles()?;
+        let bodies = self.bodies()?;
+        let body_of = |id: u32| bodies[..bodies.partition_point(|b| b.id <= id)].last();
+        particles.retain(|p| !body_of(p.id).is_some_and(|b| b.has(p.id)));
+        let mut energy = Energy::of(&particles, &self.setup, &self.contacts, &self.account);
+        bodies.iter().for_each(|b| energy.add_body(b, &self.setup));
+        Ok(energy)
+    }
+
+    /// Rigid clumps in the calculation, by id, with velocities of this instant.
+    ///
+    /// # Errors
+    /// When the state is beyond a guard.
+    pub fn bodies(&mut self) -> Result<Vec<BodyState>, Halt> {
+        self.ready()?;
+        let mut states = self.bodies.states(&self.particles, &self.all_loads(), &self.setup, self.dt);
+        states.iter_mut().for_each(|s| s.position = self.wrapped(s.position));
+        Ok(states)
     }
 
     /// One time step.
     ///
     /// # Errors
-    /// A guard: the state is then that of the last whole step, unless a particle has moved too far.
+    /// A guard. The state is that of the last whole step; where only this step's loads showed an overlap, of the step itself.
     pub fn step(&mut self) -> Result<(), Halt> {
-        self.ready()?;
-        if self.setup.ledger {
-            self.account.add(&self.interactions, &self.ledger);
+        let pass = if self.current {
+            Pass::Move
+        } else {
+            self.prepare();
+            if self.fresh.is_empty() { Pass::Step } else { Pass::Loads }
+        };
+        if pass == Pass::Loads {
+            self.ready()?;
         }
-        let gravity = [self.setup.gravity.x, self.setup.gravity.y, self.setup.gravity.z];
-        let drive = Drive { dt: self.dt, gravity, motion_limit: self.setup.guards.motion };
-        let count = self.particles.len();
-        let Particles { rows, acceleration, spins, turning, home, .. } = &mut self.particles;
-        let rotating = if spins.is_empty() { 0 } else { count };
-        let columns = Columns {
-            first: 0,
-            rows: &mut rows[..count],
-            acceleration,
-            spins: &mut spins[..rotating],
-            turning,
-            home,
-        };
-        let loads = Loads {
-            loads: &self.loads,
-            couples: &self.couples,
-            starts: &self.starts,
-            entries: &self.entries,
-        };
-        let moved: Moved = advance(self.width, columns, loads, drive);
-        self.away = moved.away.sqrt();
+        let pass = if pass == Pass::Loads { Pass::Move } else { pass };
+        let found = self.pass(pass);
+        if self.setup.ledger {
+            self.account.add(&self.kinds, &self.contacts);
+        }
+        if let Some(sleepers) = &mut self.sleepers {
+            self.account.slept += sleepers.turn();
+        }
+        let moved = self.move_bodies(found.moved);
+        self.out = moved.out;
         self.steps += 1;
         self.current = false;
         if !self.zones.none() {
             self.move_zones();
+        }
+        if found.deep {
+            crate::guards::overlap(self, true)?;
         }
         if moved.wild { crate::guards::motion(self) } else { Ok(()) }
     }
@@ -268,61 +304,27 @@ impl Simulation {
         if self.current {
             return Ok(());
         }
+        self.prepare();
+        let found = self.pass(Pass::Loads);
+        self.current = true;
+        self.prime();
+        if found.deep { crate::guards::overlap(self, false) } else { Ok(()) }
+    }
+
+    /// Brings lists to this instant.
+    fn prepare(&mut self) {
         if !self.zones.none() {
             self.admit();
         }
         if self.stale || self.lists_expired() {
             self.relist();
         }
-        let too_deep = self.load();
-        self.current = true;
-        self.prime();
-        if too_deep { crate::guards::overlap(self) } else { Ok(()) }
     }
 
-    /// Half a skin each for two particles, or a particle's way and a wall's.
+    /// Whether a particle or a wall may have left the room that neighbours were listed for.
     fn lists_expired(&self) -> bool {
         let since = (self.steps - self.listed) as f64 * self.dt;
-        let wall = self.walls.iter().map(|w| w.fastest() * since).fold(0.0, f64::max);
-        self.away + self.away.max(wall) > self.skin
-    }
-
-    /// Loads of all contacts; whether any overlap passes its limit.
-    fn load(&mut self) -> bool {
-        let time = self.time();
-        for interaction in &mut self.interactions {
-            interaction.renew(&self.particles, &self.walls, time, self.just_listed);
-        }
-        self.just_listed = false;
-        let stride = stride(self.particles.rotates());
-        let common = Common {
-            dt: self.dt,
-            overlap_limit: self.setup.guards.overlap,
-            rows: &self.particles.rows,
-            spins: &self.particles.spins,
-            stride,
-        };
-        let (mut loads, mut couples, mut ledger) =
-            (&mut self.loads[..], &mut self.couples[..], &mut self.ledger[..]);
-        let mut tasks = Vec::new();
-        for interaction in &mut self.interactions {
-            let places = interaction.places();
-            let (l, rest) = loads.split_at_mut(places * stride);
-            let (c, couples_rest) = couples.split_at_mut((places * 4).min(couples.len()));
-            let (e, ledger_rest) = ledger.split_at_mut((places * LEDGER).min(ledger.len()));
-            (loads, couples, ledger) = (rest, couples_rest, ledger_rest);
-            interaction.tasks(&common, &self.walls, l, c, e, &mut tasks);
-        }
-        let width = self.width;
-        if tasks.len() < FEW_TASKS {
-            return tasks
-                .into_iter()
-                .fold(false, |deep, (kernel, task)| kernel.run(width, common, task) | deep);
-        }
-        tasks
-            .into_par_iter()
-            .map(|(kernel, task)| kernel.run(width, common, task))
-            .reduce(|| false, |a, b| a | b)
+        self.out || (0..self.walls.len()).any(|w| self.walls[w].fastest() * since > self.wall_room(w))
     }
 
     /// Particles without a past get the acceleration of this instant as that of the step before.
@@ -333,31 +335,52 @@ impl Simulation {
             let loads = self.all_loads();
             let (force, m) = loads.on(k, rotates);
             let row = self.particles.rows[k];
-            let mut a: Row4 = [0.0; 4];
+            let mut a = Row4::default();
             for (axis, value) in a.iter_mut().enumerate().take(3) {
                 *value = force[axis] * row[7] + self.setup.gravity[axis];
             }
             self.particles.acceleration[k] = a;
             if rotates {
                 let inverse_inertia = 2.5 * row[7] / (row[3] * row[3]);
-                self.particles.turning[k] =
+                self.particles.turning[k].0 =
                     [m[0] * inverse_inertia, m[1] * inverse_inertia, m[2] * inverse_inertia, 0.0];
             }
         }
+        self.bodies.prime(&self.particles, &self.setup.gravity);
+    }
+
+    /// After a move: rigid clumps take the loads of their members and put them in their places.
+    fn move_bodies(&mut self, moved: Moved) -> Moved {
+        if self.bodies.none() {
+            return moved;
+        }
+        moved.and(self.bodies.advance(&mut self.particles, &self.setup, self.dt))
     }
 
     pub(crate) fn all_loads(&self) -> Loads<'_> {
-        Loads { loads: &self.loads, couples: &self.couples, starts: &self.starts, entries: &self.entries }
+        let c = &self.contacts;
+        Loads {
+            images: (&[], &[]),
+            own: (&c.loads, &c.couples),
+            first: 0,
+            starts: &c.starts,
+            entries: &c.entries,
+        }
     }
 
-    pub(crate) fn wrapped(&self, mut p: Vec3) -> Vec3 {
-        for a in 0..3 {
-            if let Some((lo, hi)) = self.setup.periodic[a] {
-                p[a] -= (hi - lo) * ((p[a] - lo) / (hi - lo)).floor();
-            }
-        }
-        p
+    pub(crate) fn wrapped(&self, p: Vec3) -> Vec3 {
+        wrapped(&self.setup.periodic, p)
     }
+}
+
+/// A place, brought back into the periodic box.
+pub(crate) fn wrapped(periodic: &[Option<(f64, f64)>; 3], mut p: Vec3) -> Vec3 {
+    for a in 0..3 {
+        if let Some((lo, hi)) = periodic[a] {
+            p[a] -= (hi - lo) * ((p[a] - lo) / (hi - lo)).floor();
+        }
+    }
+    p
 }
 
 /// Numbers of one load.
@@ -390,32 +413,34 @@ fn slow_enough(setup: &Setup, walls: &[WallBody], dt: f64) -> Result<(), SetupEr
     Ok(())
 }
 
-/// 0.3 × the mean radius: the skin of the bench pile, scaled to the grains.
-fn default_skin(setup: &Setup) -> f64 {
-    let count = setup.particles.len() as f64;
-    let mean = setup.particles.iter().map(|p| p.radius).sum::<f64>() / count;
-    0.3 * if count > 0.0 { mean } else { 0.5 * (setup.smallest_entry + setup.largest_entry).max(1e-30) }
+/// Mean radius of the particles, or of those that will enter [m].
+fn mean_radius(setup: &Setup) -> f64 {
+    let members = setup.clumps.member_radii();
+    let radii = || setup.particles.iter().map(|p| p.radius).chain(members.iter().copied());
+    let count = radii().count() as f64;
+    let mean = radii().sum::<f64>() / count;
+    if count > 0.0 { mean } else { 0.5 * (setup.smallest_entry + setup.largest_entry).max(1e-30) }
 }
 
-/// One interaction for each pair of materials that particles have, and for each wall and material.
-fn interactions(setup: &Setup) -> Result<Vec<Interaction>, SetupError> {
+/// One kind for each pair of materials that particles have, and for each wall and material.
+fn kinds(setup: &Setup) -> Result<Vec<Kind>, SetupError> {
     let present: Vec<u16> =
         (0u16..).zip(radii_by_material(setup)).filter(|(_, r)| r.is_some()).map(|(m, _)| m).collect();
     let periodic = setup.periodic.iter().any(|p| p.is_some());
     let mut list = Vec::new();
-    let kernel = |a: u16, b: u16| -> Result<_, SetupError> {
+    let kind = |a: u16, b: u16, with: With| -> Result<Kind, SetupError> {
         let elastic = Elastic::of(&setup.materials[a as usize], &setup.materials[b as usize]);
-        Ok(compose(contact_between(setup, a, b)?, elastic))
+        Ok(Kind { kernel: compose(contact_between(setup, a, b)?, elastic), between: (a, b), with })
     };
     for &a in &present {
         for &b in present.iter().filter(|&&b| a <= b) {
-            list.push(Interaction::new(kernel(a, b)?, (a, b), With::Particles));
+            list.push(kind(a, b, With::Particles)?);
             if periodic {
-                list.push(Interaction::new(kernel(a, b)?, (a, b), With::Images));
+                list.push(kind(a, b, With::Images)?);
             }
         }
         for (w, wall) in setup.walls.iter().enumerate() {
-            list.push(Interaction::new(kernel(a, wall.material)?, (a, wall.material), With::Wall(w)));
+            list.push(kind(a, wall.material, With::Wall(w))?);
         }
     }
     Ok(list)

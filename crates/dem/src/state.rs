@@ -1,10 +1,12 @@
 //! Checkpoints: the whole state of a run, so that a resumed one goes on bit for bit.
 
+use crate::bodies::Bodies;
 use crate::energy::Account;
 use crate::error::SetupError;
 use crate::particles::Particles;
 use crate::setup::{Setup, Step};
 use crate::simulation::Simulation;
+use crate::sleep::Sleepers;
 use crate::zones::Zones;
 use serde::{Deserialize, Serialize};
 
@@ -15,16 +17,18 @@ pub struct State {
     skin: f64,
     steps: u64,
     listed: u64,
-    away: f64,
+    out: bool,
     stale: bool,
     current: bool,
     fresh: Vec<u32>,
     particles: Particles,
     zones: Zones,
+    bodies: Bodies,
+    sleepers: Option<Sleepers>,
     account: Account,
     listings: u64,
-    /// Contact memory of each interaction; empty while lists are stale from the start.
-    memory: Vec<Vec<f64>>,
+    /// Contact memory, by place.
+    memory: Vec<f64>,
     /// Loads, couples and ledger, when they are those of this step.
     loads: [Vec<f64>; 3],
 }
@@ -36,15 +40,17 @@ pub struct StateView<'a> {
     skin: f64,
     steps: u64,
     listed: u64,
-    away: f64,
+    out: bool,
     stale: bool,
     current: bool,
     fresh: &'a [u32],
     particles: &'a Particles,
     zones: &'a Zones,
+    bodies: &'a Bodies,
+    sleepers: Option<&'a Sleepers>,
     account: Account,
     listings: u64,
-    memory: Vec<&'a [f64]>,
+    memory: &'a [f64],
     loads: [&'a [f64]; 3],
 }
 
@@ -56,15 +62,17 @@ impl StateView<'_> {
             skin: self.skin,
             steps: self.steps,
             listed: self.listed,
-            away: self.away,
+            out: self.out,
             stale: self.stale,
             current: self.current,
             fresh: self.fresh.to_vec(),
             particles: self.particles.clone(),
             zones: self.zones.clone(),
+            bodies: self.bodies.clone(),
+            sleepers: self.sleepers.cloned(),
             account: self.account,
             listings: self.listings,
-            memory: self.memory.iter().map(|m| m.to_vec()).collect(),
+            memory: self.memory.to_vec(),
             loads: self.loads.map(<[f64]>::to_vec),
         }
     }
@@ -84,21 +92,24 @@ impl State {
 impl Simulation {
     /// The state of this instant.
     pub fn state(&self) -> StateView<'_> {
+        let c = &self.contacts;
         StateView {
             dt: self.dt,
             skin: self.skin,
             steps: self.steps,
             listed: self.listed,
-            away: self.away,
+            out: self.out,
             stale: self.stale,
             current: self.current,
             fresh: &self.fresh,
             particles: &self.particles,
             zones: &self.zones,
+            bodies: &self.bodies,
+            sleepers: self.sleepers.as_ref(),
             account: self.account,
             listings: self.listings,
-            memory: self.interactions.iter().map(|i| i.all_memory()).collect(),
-            loads: if self.current { [&self.loads, &self.couples, &self.ledger] } else { [&[]; 3] },
+            memory: &self.contacts.memory,
+            loads: if self.current { [&c.loads, &c.couples, &c.ledger] } else { [&[]; 3] },
         }
     }
 
@@ -114,48 +125,44 @@ impl Simulation {
         if sim.dt != state.dt {
             return Err(other(&format!("time step {} s, saved {} s", sim.dt, state.dt)));
         }
+        if sim.sleepers.is_some() != state.sleepers.is_some() {
+            return Err(other("one has particles that sleep and the other has not"));
+        }
         if sim.particles.rotates() != state.particles.rotates() {
             return Err(other("one has rotation and the other has not"));
         }
-        (sim.skin, sim.steps, sim.listed, sim.away) = (state.skin, state.steps, state.listed, state.away);
+        (sim.skin, sim.steps, sim.listed, sim.out) = (state.skin, state.steps, state.listed, state.out);
         (sim.particles, sim.zones, sim.account) = (state.particles, state.zones, state.account);
-        (sim.fresh, sim.listings) = (state.fresh, state.listings);
-        if state.memory.len() != sim.interactions.len() {
-            return Err(other("another number of materials or walls"));
-        }
+        sim.bodies = state.bodies;
+        (sim.fresh, sim.listings, sim.sleepers) = (state.fresh, state.listings, state.sleepers);
         if state.listings > 0 {
             // Those who have left since were still there when neighbours were listed.
             for (k, home) in sim.zones.left.clone() {
                 sim.particles.home[k as usize] = home;
             }
-            sim.list_contacts();
+            sim.list_again();
             sim.make_room();
             for (k, _) in sim.zones.left.clone() {
                 let row = sim.particles.rows[k as usize];
-                sim.particles.home[k as usize] = [row[0], row[1], row[2], 0.0];
+                sim.particles.home[k as usize].0 = [row[0], row[1], row[2], 0.0];
             }
-            for (interaction, memory) in sim.interactions.iter_mut().zip(&state.memory) {
-                if !interaction.restore_memory(memory) {
-                    return Err(other("another number of contacts"));
-                }
+            if state.memory.len() != sim.contacts.memory.len() {
+                return Err(other("another number of contacts"));
             }
+            sim.contacts.memory.copy_from_slice(&state.memory);
         }
         sim.stale = state.stale;
         if state.current {
-            let [loads, couples, ledger] = state.loads;
-            if loads.len() != sim.loads.len()
-                || couples.len() != sim.couples.len()
-                || ledger.len() != sim.ledger.len()
-            {
-                return Err(other("another number of loads"));
+            let c = &mut sim.contacts;
+            for (saved, now) in state.loads.iter().zip([&mut c.loads, &mut c.couples, &mut c.ledger]) {
+                if saved.len() != now.len() {
+                    return Err(other("another number of loads"));
+                }
+                now.copy_from_slice(saved);
             }
-            (sim.loads, sim.couples, sim.ledger, sim.current) = (loads, couples, ledger, true);
+            sim.current = true;
             // A crossing in this step asks where walls were touched.
-            let time = sim.time();
-            for interaction in &mut sim.interactions {
-                interaction.renew(&sim.particles, &sim.walls, time, true);
-            }
-            sim.just_listed = false;
+            sim.find_contact_points();
         }
         Ok(sim)
     }

@@ -9,7 +9,6 @@ use crate::particles::FAR;
 use crate::setup::{Motion, Wall, WallShape};
 use geom::triangle::{Feature, closest_feature};
 use geom::{Grid, Plane, Vec3};
-use rayon::prelude::*;
 
 /// Two points of a mesh closer than this share of the radius are one contact [–].
 const SAME_POINT: f64 = 1e-6;
@@ -36,9 +35,6 @@ enum Surface {
     Plane(Plane),
     Triangles(Vec<[Vec3; 3]>),
 }
-
-/// A particle and the part of a wall that it may touch.
-pub type Near = (u32, u32);
 
 impl WallBody {
     /// Sorts wall spheres into their own grid, once.
@@ -87,34 +83,8 @@ impl WallBody {
         out
     }
 
-    /// Particles of `member`s closer than `skin` [m], with the parts of the wall, ordered by particle, then part.
-    pub fn near(
-        &self,
-        points: &[Vec3],
-        radii: &[f64],
-        member: impl Fn(usize) -> bool + Sync,
-        skin: f64,
-        time: f64,
-    ) -> Vec<Near> {
-        let pose = self.motion.pose(time);
-        const CHUNK: usize = 512;
-        let chunks: Vec<Vec<Near>> = (0..points.len().div_ceil(CHUNK))
-            .into_par_iter()
-            .map(|c| {
-                let mut found = Vec::new();
-                for i in (c * CHUNK..((c + 1) * CHUNK).min(points.len())).filter(|&i| member(i)) {
-                    self.parts_near(pose.home(&points[i]), radii[i] + skin, |part| {
-                        found.push((i as u32, part))
-                    });
-                }
-                found
-            })
-            .collect();
-        chunks.concat()
-    }
-
     /// Parts of the wall, as at t = 0, within `reach` [m] of `p`, in order.
-    fn parts_near(&self, p: Vec3, reach: f64, mut found: impl FnMut(u32)) {
+    pub fn parts_near(&self, p: Vec3, reach: f64, mut found: impl FnMut(u32)) {
         match &self.surface {
             Surface::Spheres { centres, radii, grid, largest, .. } => {
                 for k in grid.runs_near(p, reach + largest).flatten() {
@@ -146,9 +116,9 @@ impl WallBody {
         let local = pose.home(&centre);
         let mut put = |k: usize, place: Vec3, radius: f64| {
             let v = pose.velocity(&place);
-            rows[k] = [place.x, place.y, place.z, radius, v.x, v.y, v.z, 0.0];
+            rows[k] = Row([place.x, place.y, place.z, radius, v.x, v.y, v.z, 0.0]);
             if let Some(spin) = spins.get_mut(k) {
-                *spin = [pose.turn.x, pose.turn.y, pose.turn.z, 0.0];
+                *spin = Row4([pose.turn.x, pose.turn.y, pose.turn.z, 0.0]);
             }
         };
         match &self.surface {

@@ -104,6 +104,11 @@ impl Zones {
         self.busy.get(k) == Some(&true)
     }
 
+    /// Whether each particle is in a zone; empty without zones.
+    pub fn busy(&self) -> &[bool] {
+        &self.busy
+    }
+
     /// Crossings since the last call.
     pub fn take_crossings(&mut self) -> Vec<Crossing> {
         std::mem::take(&mut self.crossings)
@@ -186,6 +191,9 @@ impl Simulation {
             let mut particle = e.particle;
             particle.position += particle.velocity * (now - e.time);
             self.particles.push(&particle, &self.setup.materials);
+            if let Some(sleepers) = &mut self.sleepers {
+                sleepers.push();
+            }
             self.zones.busy.push(true);
             self.zones.gone.push(false);
             let way = Way::In(e.inlet);
@@ -238,10 +246,10 @@ impl Simulation {
         let row = &mut self.particles.rows[k];
         (row[0], row[1], row[2], row[4], row[5], row[6]) = (place.x, place.y, place.z, v.x, v.y, v.z);
         if let Some(spin) = self.particles.spins.get_mut(k) {
-            *spin = [state.spin.x, state.spin.y, state.spin.z, 0.0];
+            *spin = Row4([state.spin.x, state.spin.y, state.spin.z, 0.0]);
         }
         let h = self.particles.home[k];
-        self.away = self.away.max((place - Vec3::new(h[0], h[1], h[2])).norm());
+        self.out |= (place - Vec3::new(h[0], h[1], h[2])).norm() > h[3];
     }
 
     /// Out of everyone's reach until the next listing drops it.
@@ -258,9 +266,9 @@ impl Simulation {
     fn release(&mut self, k: usize, place: Vec3, velocity: Vec3) {
         self.zones.busy[k] = false;
         self.fresh.push(k as u32);
-        self.particles.acceleration[k] = [0.0; 4];
+        self.particles.acceleration[k] = Row4::default();
         if let Some(turning) = self.particles.turning.get_mut(k) {
-            *turning = [0.0; 4];
+            *turning = Row4::default();
         }
         // What passes a storage plane in this very step crosses it.
         let before = place - velocity * self.dt;
@@ -293,6 +301,9 @@ impl Simulation {
             let traveller = Traveller { at: k as u32, since: crossing.time, start: crossing.particle, way };
             let after = self.time() - crossing.time;
             self.zones.busy[k] = true;
+            if let Some(sleepers) = &mut self.sleepers {
+                sleepers.rouse(k);
+            }
             self.place(k, traveller.start.position + traveller.start.velocity * after, &crossing.particle);
             self.zones.travellers.push(traveller);
             self.zones.crossings.push(crossing);

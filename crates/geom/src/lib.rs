@@ -3,14 +3,17 @@
 pub mod grid;
 mod inside;
 pub mod mesh;
+pub mod moments;
 mod numbers;
 pub mod plane;
 pub mod prism;
 pub mod shape;
 mod shown;
 pub mod triangle;
+mod union;
 
 pub use grid::Grid;
+pub use moments::Moments;
 pub use numbers::NumbersError;
 pub use plane::Plane;
 pub use shape::Shape;

@@ -10,7 +10,7 @@ pub(crate) struct Check<'a> {
     pub text: &'a Text,
 }
 
-type Checked = Result<(), SceneError>;
+pub(crate) type Checked = Result<(), SceneError>;
 
 impl Check<'_> {
     /// The error for a key's value.
@@ -37,11 +37,11 @@ impl Check<'_> {
         ))
     }
 
-    fn positive_if(&self, key: &str, value: Option<f64>, unit: &str) -> Checked {
+    pub(crate) fn positive_if(&self, key: &str, value: Option<f64>, unit: &str) -> Checked {
         value.map_or(Ok(()), |v| self.positive(key, v, unit))
     }
 
-    fn within(&self, key: &str, value: f64, low: f64, high: f64, unit: &str) -> Checked {
+    pub(crate) fn within(&self, key: &str, value: f64, low: f64, high: f64, unit: &str) -> Checked {
         if (low..=high).contains(&value) {
             return Ok(());
         }
@@ -83,7 +83,7 @@ impl Check<'_> {
     }
 
     /// One and only one of several keys.
-    fn one_of(&self, entry: &str, keys: &[(&str, bool)]) -> Checked {
+    pub(crate) fn one_of(&self, entry: &str, keys: &[(&str, bool)]) -> Checked {
         let names = || keys.iter().map(|k| k.0).collect::<Vec<_>>().join(" or ");
         let given: Vec<&str> = keys.iter().filter(|k| k.1).map(|k| k.0).collect();
         match given[..] {
@@ -147,41 +147,6 @@ impl Check<'_> {
             self.positive_if(&key("density"), material.density, "kg/m³")?;
             self.positive(&key("young"), material.young, "Pa")?;
             self.within(&key("poisson"), material.poisson, 0.0, 0.499, "")?;
-        }
-        Ok(())
-    }
-
-    fn contacts(&self, m: &Model) -> Checked {
-        for (i, c) in m.contact.iter().enumerate() {
-            let key = |k: &str| format!("contact.{i}.{k}");
-            self.within(&key("restitution"), c.restitution, 0.0, 1.0, "")?;
-            for (name, value) in
-                [("sliding_friction", c.sliding_friction), ("rolling_resistance", c.rolling_resistance)]
-            {
-                self.within(&key(name), value.unwrap_or(0.0), 0.0, 1e3, "")?;
-            }
-            self.positive_if(&key("stiffness"), c.stiffness, "N/m")?;
-            self.positive_if(&key("characteristic_velocity"), c.characteristic_velocity, "m/s")?;
-            self.positive_if(&key("tangential_ratio"), c.tangential_ratio, "")?;
-            let linear = [
-                ("stiffness", c.stiffness.is_some()),
-                ("characteristic_velocity", c.characteristic_velocity.is_some()),
-            ];
-            match c.law {
-                crate::model::Law::Hooke => self.one_of(&format!("contact.{i}"), &linear)?,
-                crate::model::Law::Hertz => {
-                    let also = ("tangential_ratio", c.tangential_ratio.is_some());
-                    if let Some((k, _)) = linear.iter().chain([&also]).find(|k| k.1) {
-                        let why = "law = \"hertz\" takes its stiffness from young and poisson";
-                        return Err(self.wrong(
-                            &key(k),
-                            "(given)",
-                            why,
-                            "take it out, or use law = \"hooke\"",
-                        ));
-                    }
-                }
-            }
         }
         Ok(())
     }

@@ -2,7 +2,7 @@
 
 use crate::check::Check;
 use crate::error::{SceneError, nearest};
-use crate::model::{Contact, Law};
+use crate::model::{Contact, Friction, Law, RollingModel};
 use dem::setup;
 
 /// One law for every pair that some entry of the scene matches. `largest` is the largest particle radius [m].
@@ -24,17 +24,38 @@ pub(crate) fn resolve(
     for a in 0..materials.len() {
         for b in a..materials.len() {
             let Some(entry) = best(check, entries, &materials[a].name, &materials[b].name)? else { continue };
-            found.push(setup::Contact {
-                between: (a as u16, b as u16),
-                law: law(entry, &materials[a], &materials[b], largest),
-                restitution: entry.restitution,
-                // An effect that does nothing is absent.
-                sliding_friction: entry.sliding_friction.filter(|mu| *mu > 0.0),
-                rolling_resistance: entry.rolling_resistance.filter(|mu| *mu > 0.0),
-            });
+            found.push(contact(
+                entry,
+                (a as u16, b as u16),
+                law(entry, &materials[a], &materials[b], largest),
+            ));
         }
     }
     Ok(found)
+}
+
+/// What an entry asks for; an effect that does nothing is absent.
+fn contact(entry: &Contact, between: (u16, u16), law: setup::Law) -> setup::Contact {
+    let positive = |x: Option<f64>| x.filter(|x| *x > 0.0);
+    let (sliding_friction, weakening) = match entry.sliding_friction {
+        None => (None, None),
+        Some(Friction::Constant(mu)) => (positive(Some(mu)), None),
+        Some(Friction::Weakening(w)) => {
+            (Some(w.at_rest), Some(setup::Weakening { dynamic: w.dynamic, speed: w.speed }))
+        }
+    };
+    setup::Contact {
+        cohesion: positive(entry.cohesion_energy_density.filter(|_| entry.cohesion.is_some())),
+        sliding_friction,
+        weakening,
+        rolling_resistance: positive(entry.rolling_resistance),
+        rolling_model: match entry.rolling_model {
+            Some(RollingModel::Constant) => setup::RollingModel::Constant,
+            Some(RollingModel::Spring) | None => setup::RollingModel::Spring,
+        },
+        twisting_resistance: positive(entry.twisting_resistance),
+        ..setup::Contact::new(between, law, entry.restitution)
+    }
 }
 
 fn known(check: &Check, key: &str, name: &str, materials: &[setup::Material]) -> Result<(), SceneError> {
@@ -92,8 +113,12 @@ fn best<'e>(
 /// The stiffness that stores as much at Hertz's deepest overlap for the characteristic speed v, for a pair of
 /// the largest particles (E* of the pair of materials, the density of the heavier).
 fn law(entry: &Contact, a: &setup::Material, b: &setup::Material, largest: f64) -> setup::Law {
-    if entry.law == Law::Hertz {
-        return setup::Law::Hertz;
+    match (entry.law, entry.work_of_adhesion) {
+        (Law::Hooke, _) => {}
+        (Law::Jkr, Some(work_of_adhesion)) if work_of_adhesion > 0.0 => {
+            return setup::Law::Jkr { work_of_adhesion };
+        }
+        _ => return setup::Law::Hertz,
     }
     let stiffness = entry.stiffness.unwrap_or_else(|| {
         let v = entry.characteristic_velocity.unwrap_or(1.0);
@@ -119,8 +144,13 @@ mod tests {
             characteristic_velocity: None,
             tangential_ratio: None,
             restitution,
+            work_of_adhesion: None,
+            cohesion: None,
+            cohesion_energy_density: None,
             sliding_friction: None,
             rolling_resistance: None,
+            rolling_model: None,
+            twisting_resistance: None,
         }
     }
 

@@ -3,15 +3,12 @@
 use crate::run::RunError;
 use crate::schedule::Schedule;
 use crate::{Plan, Scene};
-use dem::effects::{Effect as _, SlidingFriction};
-use dem::setup::{Contact, Law, Setup};
+use dem::setup::Setup;
 use dem::{Simulation, critical_step};
 use serde::Serialize;
 use std::fmt::Write;
 use std::time::Instant;
 
-/// Bytes of a tangential spring or a rolling spring: three numbers a contact.
-const SPRING: usize = SlidingFriction::MEMORY * size_of::<f64>();
 /// Time that a measurement takes at least [s].
 const MEASURE: f64 = 0.15;
 /// Steps that a measurement takes at most: the start of a run, before anything can go wrong.
@@ -131,30 +128,14 @@ fn text(fields: &Fields) -> String {
 
 /// Every effect, and the setup without it where there is one.
 fn effects(setup: &Setup) -> Vec<(Effect, Option<Setup>)> {
-    let pairs = |of: &dyn Fn(&Contact) -> bool| {
-        let name = |m: u16| setup.materials[m as usize].name.as_str();
-        let list = setup.contacts.iter().filter(|c| of(c));
-        list.map(|c| format!("{}–{}", name(c.between.0), name(c.between.1))).collect::<Vec<_>>().join(", ")
-    };
-    let mut found = Vec::new();
+    let mut found = contact_effects(setup);
     let mut add = |name: &str, why: String, bytes: usize, without: Option<Setup>| {
         if !why.is_empty() {
             let effect = Effect { name: name.into(), why, bytes_per_contact: bytes, share: None };
             found.push((effect, without));
         }
     };
-    let without = |change: &dyn Fn(&mut Contact)| {
-        let mut less = setup.clone();
-        less.contacts.iter_mut().for_each(change);
-        Some(less)
-    };
     let named = |there: bool, key: &str| if there { key.to_owned() } else { String::new() };
-    add("hertz", pairs(&|c| c.law == Law::Hertz), 0, None);
-    add("hooke", pairs(&|c| c.law != Law::Hertz), 0, None);
-    let frictionless = without(&|c| (c.sliding_friction, c.rolling_resistance) = (None, None));
-    add("sliding_friction", pairs(&|c| c.sliding_friction.is_some()), SPRING, frictionless);
-    let rolling = without(&|c| c.rolling_resistance = None);
-    add("rolling_resistance", pairs(&|c| c.rolling_resistance.is_some()), SPRING, rolling);
     add("gravity", named(setup.gravity.norm() > 0.0, "gravity"), 0, None);
     let ledger = Setup { ledger: false, ..setup.clone() };
     add("energy", named(setup.ledger, "output.energy"), 0, Some(ledger));
@@ -164,6 +145,35 @@ fn effects(setup: &Setup) -> Vec<(Effect, Option<Setup>)> {
     let moving = setup.walls.iter().filter(|w| w.motion != dem::setup::Motion::still());
     let names: Vec<&str> = moving.map(|w| w.name.as_str()).collect();
     add("wall motion", names.join(", "), 0, None);
+    found
+}
+
+/// Effects of contact, each once, with the pairs that call for it.
+fn contact_effects(setup: &Setup) -> Vec<(Effect, Option<Setup>)> {
+    let name = |m: u16| setup.materials[m as usize].name.as_str();
+    let mut found: Vec<(Effect, Option<Setup>)> = Vec::new();
+    for (at, c) in setup.contacts.iter().enumerate() {
+        let pair = format!("{}–{}", name(c.between.0), name(c.between.1));
+        for part in dem::parts(c) {
+            let known = found.iter().position(|(e, _)| e.name == part.effect);
+            let Some(known) = known else {
+                let less = part.without.map(|c| {
+                    let mut less = setup.clone();
+                    less.contacts[at] = c;
+                    less
+                });
+                let (name, bytes_per_contact) = (part.effect.to_owned(), part.bytes);
+                found.push((Effect { name, why: pair.clone(), bytes_per_contact, share: None }, less));
+                continue;
+            };
+            let (effect, less) = &mut found[known];
+            effect.why = format!("{}, {pair}", effect.why);
+            effect.bytes_per_contact = effect.bytes_per_contact.max(part.bytes);
+            if let (Some(less), Some(c)) = (less, part.without) {
+                less.contacts[at] = c;
+            }
+        }
+    }
     found
 }
 

@@ -3,6 +3,7 @@
 mod check;
 pub mod checkpoint;
 mod columns;
+mod contact_check;
 mod contacts;
 pub mod crossings;
 pub mod error;

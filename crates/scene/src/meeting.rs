@@ -18,11 +18,12 @@ impl Draft<'_> {
             for &grain in &grains {
                 match (of(&laws, grain, *wall), info.restitution) {
                     (None, Some(restitution)) => laws.push(setup::Contact {
-                        between: (grain.min(*wall), grain.max(*wall)),
-                        law: setup::Law::Hertz,
-                        restitution,
                         sliding_friction: info.friction.filter(|mu| *mu > 0.0),
-                        rolling_resistance: None,
+                        ..setup::Contact::new(
+                            (grain.min(*wall), grain.max(*wall)),
+                            setup::Law::Hertz,
+                            restitution,
+                        )
                     }),
                     (Some(at), _)
                         if info.friction.is_some() && info.friction != laws[at].sliding_friction =>
@@ -45,12 +46,14 @@ impl Draft<'_> {
             (grain(a) && (grain(b) || walls.contains(&b))) || (grain(b) && walls.contains(&a))
         });
         // Nothing turns where nothing rubs.
-        if laws.iter().all(|l| l.sliding_friction.is_none())
-            && laws.iter().any(|l| l.rolling_resistance.is_some())
-        {
-            laws.iter_mut().for_each(|l| l.rolling_resistance = None);
-            self.notes
-                .push("rolling_resistance is left out: without sliding_friction nothing turns".to_owned());
+        if laws.iter().all(|l| l.sliding_friction.is_none()) {
+            let couples = |l: &setup::Contact| [l.rolling_resistance, l.twisting_resistance];
+            for (at, key) in ["rolling_resistance", "twisting_resistance"].into_iter().enumerate() {
+                if laws.iter().any(|l| couples(l)[at].is_some()) {
+                    self.notes.push(format!("{key} is left out: without sliding_friction nothing turns"));
+                }
+            }
+            laws.iter_mut().for_each(|l| (l.rolling_resistance, l.twisting_resistance) = (None, None));
         }
         laws
     }

@@ -24,6 +24,8 @@ pub struct Model {
     /// Search for neighbours.
     #[serde(default)]
     pub neighbours: Neighbours,
+    /// When particles at rest are passed over; absent: never.
+    pub sleep: Option<Sleep>,
     /// When the run is stopped.
     #[serde(default)]
     pub guards: Guards,
@@ -120,6 +122,28 @@ pub enum Precision {
     F32,
 }
 
+/// `[sleep]`
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Sleep {
+    /// Speed of the surface below which a particle is at rest [m/s].
+    pub speed: f64,
+    /// How long it must have been at rest [s].
+    #[serde(default = "sleep_time")]
+    pub time: f64,
+    /// Force that wakes it, over its weight [–].
+    #[serde(default = "sleep_wake")]
+    pub wake: f64,
+}
+
+fn sleep_time() -> f64 {
+    0.02
+}
+
+fn sleep_wake() -> f64 {
+    0.1
+}
+
 /// `[domain]`
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -192,10 +216,20 @@ pub struct Contact {
     pub tangential_ratio: Option<f64>,
     /// Restitution [–].
     pub restitution: f64,
-    /// μ [–]; absent: frictionless.
-    pub sliding_friction: Option<f64>,
+    /// w of "jkr" [J/m²].
+    pub work_of_adhesion: Option<f64>,
+    /// Cohesion of "hertz" and "hooke"; absent: none.
+    pub cohesion: Option<Cohesion>,
+    /// Its energy density [J/m³].
+    pub cohesion_energy_density: Option<f64>,
+    /// μ [–], or how it depends on speed; absent: frictionless.
+    pub sliding_friction: Option<Friction>,
     /// μ_r [–]; absent: none.
     pub rolling_resistance: Option<f64>,
+    /// Its model; absent: a spring.
+    pub rolling_model: Option<RollingModel>,
+    /// μ_w [–]; absent: none.
+    pub twisting_resistance: Option<f64>,
 }
 
 /// Normal law of a contact.
@@ -207,6 +241,48 @@ pub enum Law {
     Hertz,
     /// Linear.
     Hooke,
+    /// Hertz with adhesion: Johnson, Kendall and Roberts.
+    Jkr,
+}
+
+/// Model of cohesion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Cohesion {
+    /// A pull proportional to the area of contact.
+    Sjkr,
+}
+
+/// Model of rolling resistance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum RollingModel {
+    /// A spring and dashpot, capped.
+    Spring,
+    /// A couple of constant size.
+    Constant,
+}
+
+/// μ: a number, or a table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Friction {
+    /// The same at every speed [–].
+    Constant(f64),
+    /// Weaker the faster the contact slides.
+    Weakening(Weakening),
+}
+
+/// μ_d + (μ_s − μ_d)/(1 + (v/v_c)²)
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Weakening {
+    /// μ_s, at rest [–].
+    #[serde(rename = "static")]
+    pub at_rest: f64,
+    /// μ_d, far above the speed [–].
+    pub dynamic: f64,
+    /// v_c, at which it is half-way [m/s].
+    pub speed: f64,
 }
 
 /// One diameter or a range [m].

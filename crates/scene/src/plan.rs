@@ -237,6 +237,7 @@ impl<'a> Draft<'a> {
             materials: self.materials,
             contacts,
             particles: self.particles,
+            clumps: setup::Clumps::default(),
             walls: self.walls,
             outlets: self.outlets,
             inlets: self.inlets,
@@ -248,6 +249,7 @@ impl<'a> Draft<'a> {
                 OrAuto::Given(dt) => Step::Fixed(dt),
             },
             skin: model.neighbours.skin,
+            sleep: model.sleep.map(|s| dem::setup::Sleep { speed: s.speed, time: s.time, wake: s.wake }),
             ledger: model.output.energy,
             guards: Guards {
                 overlap: model.guards.overlap.unwrap_or(Guards::default().overlap),

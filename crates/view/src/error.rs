@@ -55,7 +55,8 @@ pub enum ViewError {
     },
     /// A view direction that cannot be read.
     #[error(
-        "camera '{text}': {problem}: give iso, top, bottom, front, back, left, right, or x,y,z of the eye [m] and, after it, of the point looked at"
+        "camera '{text}': {problem}: give iso, top, bottom, front, back, left, right, the side of the eye (x, -x, y, -y, z, \
+         -z), its azimuth/elevation in degrees (35/20), or its x,y,z [m] and, after it, those of the point looked at"
     )]
     Camera {
         /// As given.
@@ -74,4 +75,16 @@ pub enum ViewError {
     /// The PNG encoder failed.
     #[error("cannot encode the picture as PNG")]
     Png(#[source] png::EncodingError),
+    /// The GIF encoder failed.
+    #[error("cannot encode the film as GIF")]
+    Gif(#[source] gif::EncodingError),
+    /// A file that a moment of a run was to be kept in.
+    #[error("{file}: cannot write")]
+    Keep {
+        /// The file.
+        file: String,
+        /// Why.
+        #[source]
+        source: std::io::Error,
+    },
 }

@@ -41,6 +41,21 @@ pub fn values(table: &Table, name: &str) -> Option<Vec<f64>> {
     Some((0..table.rows()).map(length).collect())
 }
 
+/// Columns that show where and how large things are, in their own colours or by the field `asked`; none when the
+/// table does not have that field.
+pub fn columns(table: &Table, asked: Option<&str>) -> Option<Vec<String>> {
+    let mut columns = vec!["x", "y", "z", "radius", "red", "green", "blue"];
+    let default = default_of(table);
+    let name = asked.unwrap_or(&default);
+    if let Some(column) = table.columns().iter().find(|c| c.name == name) {
+        columns.push(&column.name);
+    } else if name != "rgb" {
+        let (of, _) = VECTORS.iter().find(|(_, length)| *length == name)?;
+        columns.extend(of.iter().map(|c| table.get(c).map(|_| *c)).collect::<Option<Vec<_>>>()?);
+    }
+    Some(columns.into_iter().map(str::to_owned).collect())
+}
+
 /// Whether the field holds whole numbers only.
 pub fn is_whole(table: &Table, name: &str) -> bool {
     table.get(name).is_some_and(|v| !matches!(v, Values::F32(_) | Values::F64(_)))

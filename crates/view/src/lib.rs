@@ -1,4 +1,5 @@
-//! Grains, walls and clouds on a display: one self-contained HTML page ([`Page`]), or a picture ([`picture`]).
+//! Grains, walls and clouds on a display: one self-contained HTML page ([`Page`]), a picture ([`picture`]),
+//! a film ([`film`]), or files for ParaView ([`vtk`]).
 //!
 //! Everything shown is a table with the columns x, y, z, usually radius [m], and any others, which are fields
 //! to colour by; besides, there are walls that are planes or meshes ([`Surface`]). Whoever calls reads the files;
@@ -8,6 +9,7 @@ mod camera;
 mod colour;
 mod error;
 mod field;
+pub mod film;
 mod motion;
 mod outline;
 mod page;
@@ -16,13 +18,14 @@ mod scale;
 mod sheet;
 mod spheres;
 mod surface;
+pub mod vtk;
 
 pub use camera::Camera;
 pub use colour::{Map, Rgb};
 pub use error::ViewError;
 pub use motion::Motion;
 pub use page::{Kept, Page, PageOptions};
-pub use picture::{Image, Part, PictureOptions};
+pub use picture::{Image, Part, PictureOptions, Survey};
 pub use surface::{Surface, SurfaceShape};
 
 /// What a table of spheres or points is, and so how it is drawn.

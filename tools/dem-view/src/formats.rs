@@ -4,30 +4,45 @@ use cli::Output;
 use view::{Camera, Map};
 
 /// What is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
     Html,
     Png,
+    Gif,
+    Mp4,
+    Vtp,
+    Pvd,
 }
 
-/// Formats of the contract that come later.
-const LATER: [&str; 4] = ["gif", "mp4", "vtp", "pvd"];
+/// Every format, by the ending of its name.
+const ENDINGS: [(&str, Format); 7] = [
+    ("html", Format::Html),
+    ("htm", Format::Html),
+    ("png", Format::Png),
+    ("gif", Format::Gif),
+    ("mp4", Format::Mp4),
+    ("vtp", Format::Vtp),
+    ("pvd", Format::Pvd),
+];
 
 impl Format {
     /// By the ending of the output's name; HTML to stdout.
     pub fn of(output: &Output) -> anyhow::Result<Format> {
-        if output.path().is_none() || output.has_extension("html") || output.has_extension("htm") {
+        if output.path().is_none() {
             return Ok(Format::Html);
         }
-        if output.has_extension("png") {
-            return Ok(Format::Png);
-        }
-        let name = output.name();
-        Err(match LATER.iter().find(|ending| output.has_extension(ending)) {
-            Some(ending) => {
-                cli::usage(format!("-o {name}: .{ending} is not available yet: use .html or .png"))
-            }
-            None => cli::usage(format!("-o {name}: cannot tell what to write: use a name in .html or .png")),
+        let known = ENDINGS.iter().find(|(ending, _)| output.has_extension(ending));
+        known.map(|(_, format)| *format).ok_or_else(|| {
+            cli::usage(format!(
+                "-o {}: cannot tell what to write: use a name in .html, .png, .gif, .mp4, .vtp or .pvd",
+                output.name()
+            ))
         })
+    }
+
+    /// Whether it shows more than one moment.
+    pub fn is_series(self) -> bool {
+        matches!(self, Format::Gif | Format::Mp4 | Format::Pvd)
     }
 }
 
@@ -44,6 +59,12 @@ pub fn range(text: &str) -> Result<[f64; 2], String> {
 pub fn seconds(text: &str) -> Result<f64, String> {
     let time = text.parse().ok().filter(|time: &f64| time.is_finite());
     time.ok_or_else(|| "give a time in seconds, such as 0.5".into())
+}
+
+/// A length of time above nothing [s].
+pub fn interval(text: &str) -> Result<f64, String> {
+    let time = text.parse().ok().filter(|time: &f64| time.is_finite() && *time > 0.0);
+    time.ok_or_else(|| "give a number of seconds above 0, such as 0.02".into())
 }
 
 /// The name of a colour map.

@@ -1,4 +1,4 @@
-//! Reads what is to be shown: runs and walls (MCAP), meshes (PLY with faces) and clouds, told apart by their content.
+//! Reads what is to be shown: runs and walls (MCAP), and clouds, told apart by their content.
 
 use crate::run;
 use anyhow::Context;
@@ -74,43 +74,20 @@ pub fn read_all(sources: &[Source], show: &mut impl Show) -> anyhow::Result<Vec<
                 "{source}: --pick is for a cloud that cloud-crop reads, and this is MCAP, a run or walls: leave --pick out"
             );
         }
-        let layers = if is_mcap { run::read(whole, &name, show) } else { still(whole, &name, show) };
+        let layers = if is_mcap { run::read(whole, &name, show) } else { scan(whole, &name, show) };
         found.extend(layers.with_context(|| source.to_string())?);
     }
     Ok(found)
 }
 
-/// A mesh or a cloud.
-fn still(mut from: impl Read, name: &str, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
+/// A mesh, or a cloud; one whose points have a radius is a set of wall spheres, and of grains where each has an id.
+fn scan(mut from: impl Read, name: &str, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
     let mut bytes = Vec::new();
-    from.read_to_end(&mut bytes).context("cannot read")?;
-    if !show.wants_points() && has_faces(&bytes) { mesh(&bytes, name, show) } else { scan(bytes, name, show) }
-}
-
-/// Whether it is PLY whose head announces faces.
-fn has_faces(bytes: &[u8]) -> bool {
-    const END: &[u8] = b"end_header";
-    let head = bytes.windows(END.len()).take(1 << 16).position(|w| w == END);
-    let Some(head) = head.filter(|_| bytes.starts_with(b"ply")) else { return false };
-    let words =
-        |line: &[u8]| String::from_utf8_lossy(line).split_whitespace().map(str::to_owned).collect::<Vec<_>>();
-    bytes[..head].split(|b| *b == b'\n').map(words).any(|line| match &line[..] {
-        [element, face, count] => element == "element" && face == "face" && count != "0",
-        _ => false,
-    })
-}
-
-fn mesh(mut bytes: &[u8], name: &str, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
-    let mesh = cloud::read_mesh(&mut bytes)?;
-    let found = json!({ "input": name, "vertices": mesh.vertices.len(), "faces": mesh.faces.len() });
-    let shape = SurfaceShape::Mesh(mesh);
-    show.surface(Surface { name: name.to_owned(), shape, motion: Motion::default() });
-    Ok(vec![found])
-}
-
-/// A cloud; one whose points have a radius is a set of wall spheres, and of grains where each has an id.
-fn scan(bytes: Vec<u8>, name: &str, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
-    let (cloud, dropped) = cloud::read(Cursor::new(bytes))?.finite();
+    from.read_to_end(&mut bytes).with_context(|| format!("{name}: cannot read"))?;
+    if has_faces(&bytes) && !show.wants_points() {
+        return mesh(&bytes, name, show);
+    }
+    let (cloud, dropped) = cloud::from_bytes(bytes)?.finite();
     if dropped > 0 {
         cli::warn(&format!("{name}: {dropped} points without finite coordinates are not shown"));
     }
@@ -122,13 +99,30 @@ fn scan(bytes: Vec<u8>, name: &str, show: &mut impl Show) -> anyhow::Result<Vec<
     for column in cloud.attributes.columns() {
         table.push(&column.name, column.values.clone())?;
     }
-    let role = match (table.get("radius"), table.get("id")) {
-        (None, _) => Role::Cloud,
-        (Some(_), None) => Role::Walls,
-        (Some(_), Some(_)) => Role::Grains,
+    let has = |column| table.get(column).is_some();
+    let role = match (has("radius"), has("id")) {
+        (true, true) => Role::Grains,
+        (true, false) => Role::Walls,
+        (false, _) => Role::Cloud,
     };
     let points = table.rows();
     let layer = show.layer(role, name);
     show.push(layer, 0.0, table)?;
     Ok(vec![json!({ "input": name, "points": points })])
+}
+
+/// Whether this is a PLY file with faces in it.
+fn has_faces(bytes: &[u8]) -> bool {
+    let head = bytes.split(|b| *b == b'\n').take_while(|line| !line.starts_with(b"end_header"));
+    let mut counts = head.take(1000).filter_map(|line| line.strip_prefix(b"element face "));
+    bytes.starts_with(b"ply") && counts.any(|count| count.iter().any(|digit| (b'1'..=b'9').contains(digit)))
+}
+
+/// A mesh of triangles, at rest.
+fn mesh(mut bytes: &[u8], name: &str, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
+    let mesh = cloud::read_mesh(&mut bytes)?;
+    let faces = mesh.faces.len();
+    let (shape, motion) = (SurfaceShape::Mesh(mesh), Motion::default());
+    show.surface(Surface { name: name.to_owned(), shape, motion });
+    Ok(vec![json!({ "input": name, "triangles": faces })])
 }

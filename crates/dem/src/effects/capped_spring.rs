@@ -1,4 +1,5 @@
-//! A spring and dashpot in the tangent plane whose force is capped: what sliding and rolling share.
+//! A spring and dashpot whose force is capped: what sliding, rolling and twisting share. Sliding and rolling are vectors in the
+//! tangent plane, twisting is a number, the angle about the normal.
 //!
 //! ```text
 //! ξ ← ξ − (ξ·n) n, length kept       the spring turns with the contact
@@ -15,9 +16,60 @@
 //! Technology 233, doi:10.1016/j.powtec.2012.08.012.
 
 use crate::lane::{Lane, V};
+use std::ops::{Add, Sub};
 
 /// Smallest square that is divided by.
 const TINY: f64 = 1e-300;
+
+/// What a spring is stretched by: a vector, or a number.
+pub trait Stretch<R: Lane>: Copy + Add<Output = Self> + Sub<Output = Self> {
+    /// None.
+    fn none() -> Self;
+    /// Times a number.
+    fn times(self, s: R) -> Self;
+    /// Scalar product.
+    fn with(self, other: Self) -> R;
+    /// `yes` where the mask holds, else `no`.
+    fn choose(mask: R::Mask, yes: Self, no: Self) -> Self;
+}
+
+impl<R: Lane> Stretch<R> for R {
+    #[inline(always)]
+    fn none() -> R {
+        R::splat(0.0)
+    }
+    #[inline(always)]
+    fn times(self, s: R) -> R {
+        self * s
+    }
+    #[inline(always)]
+    fn with(self, other: R) -> R {
+        self * other
+    }
+    #[inline(always)]
+    fn choose(mask: R::Mask, yes: R, no: R) -> R {
+        R::select(mask, yes, no)
+    }
+}
+
+impl<R: Lane> Stretch<R> for V<R> {
+    #[inline(always)]
+    fn none() -> V<R> {
+        V::zero()
+    }
+    #[inline(always)]
+    fn times(self, s: R) -> V<R> {
+        self.scale(s)
+    }
+    #[inline(always)]
+    fn with(self, other: V<R>) -> R {
+        self.dot(other)
+    }
+    #[inline(always)]
+    fn choose(mask: R::Mask, yes: V<R>, no: V<R>) -> V<R> {
+        V::select(mask, yes, no)
+    }
+}
 
 /// The spring and dashpot at one instant.
 pub struct CappedSpring<R: Lane> {
@@ -34,9 +86,9 @@ pub struct CappedSpring<R: Lane> {
 }
 
 /// What came of it.
-pub struct Outcome<R: Lane> {
+pub struct Outcome<R: Lane, X> {
     /// The force, opposite to the motion.
-    pub force: V<R>,
+    pub force: X,
     /// Energy in the spring.
     pub elastic: R,
     /// Energy lost in this step, by the dashpot and by cutting the spring back.
@@ -44,41 +96,41 @@ pub struct Outcome<R: Lane> {
 }
 
 impl<R: Lane> CappedSpring<R> {
-    /// Moves the spring by `rate` over `dt` in the plane across `normal`, and gives its force.
+    /// Moves the spring by `rate` over `dt`, and gives its force.
     #[inline(always)]
-    pub fn pull(&self, spring: &mut V<R>, normal: V<R>, rate: V<R>, dt: R) -> Outcome<R> {
+    pub fn pull<X: Stretch<R>>(&self, spring: &mut X, rate: X, dt: R) -> Outcome<R, X> {
         let late = (self.pace * dt * dt).min(R::splat(0.5));
-        let half = rate.scale((R::splat(0.5) + late) * dt);
-        let rest = rate.scale((R::splat(0.5) - late) * dt);
-        let there = turned(*spring, normal);
+        let half = rate.times((R::splat(0.5) + late) * dt);
+        let rest = rate.times((R::splat(0.5) - late) * dt);
+        let there = *spring;
         let keeps = self.before.min(R::splat(1.0));
-        let stretched = there.scale(keeps) + half;
-        let lost = R::splat(0.5) * self.stiffness * there.dot(there) * (self.before - keeps * keeps);
-        let dashpot = rate.scale(self.damping);
-        let mut force = V::zero() - stretched.scale(self.stiffness) - dashpot;
+        let stretched = there.times(keeps) + half;
+        let lost = R::splat(0.5) * self.stiffness * there.with(there) * (self.before - keeps * keeps);
+        let dashpot = rate.times(self.damping);
+        let mut force = X::none() - stretched.times(self.stiffness) - dashpot;
         let mut kept = stretched;
-        let size = force.dot(force);
+        let size = force.with(force);
         let slides = size.gt(self.cap * self.cap);
         if R::any(slides) {
             let one = R::splat(1.0);
             let shrink = |square: R| (self.cap / square.max(R::splat(TINY)).sqrt()).min(one);
-            let pull = stretched.scale(self.stiffness);
-            kept = V::select(slides, stretched.scale(shrink(pull.dot(pull))), stretched);
-            force = V::select(slides, force.scale(shrink(size)), force);
+            let pull = stretched.times(self.stiffness);
+            kept = X::choose(slides, stretched.times(shrink(pull.with(pull))), stretched);
+            force = X::choose(slides, force.times(shrink(size)), force);
         }
         *spring = kept + rest;
-        let spring_force = kept.scale(self.stiffness);
+        let spring_force = kept.times(self.stiffness);
         Outcome {
             force,
-            elastic: R::splat(0.5) * spring_force.dot(kept),
-            dissipated: lost + spring_force.dot(stretched - kept) - (force + spring_force).dot(rate) * dt,
+            elastic: R::splat(0.5) * spring_force.with(kept),
+            dissipated: lost + spring_force.with(stretched - kept) - (force + spring_force).with(rate) * dt,
         }
     }
 }
 
 /// The spring laid into the plane across `normal`, its length kept.
 #[inline(always)]
-fn turned<R: Lane>(spring: V<R>, normal: V<R>) -> V<R> {
+pub fn turned<R: Lane>(spring: V<R>, normal: V<R>) -> V<R> {
     let flat = spring - normal.scale(spring.dot(normal));
     let (before, after) = (spring.dot(spring), flat.dot(flat));
     flat.scale((before / after.max(R::splat(TINY))).sqrt())

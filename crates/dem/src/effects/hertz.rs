@@ -22,8 +22,6 @@ pub struct Hertz {
 
 impl Effect for Hertz {
     type Memory<R: Lane> = ();
-    const ROTATES: bool = false;
-    const COUPLES: bool = false;
 
     #[inline(always)]
     fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, _: &mut (), load: &mut Load<R>) {
@@ -33,6 +31,7 @@ impl Effect for Hertz {
         let elastic = R::splat(2.0 / 3.0) * s * overlap;
         let damping = c * contact.approach;
         load.normal = load.normal + (elastic + damping);
+        load.pressing = load.normal;
         load.stiffness = s;
         // S ∝ √δ; the overlap a step ago follows from the approach.
         let before = (overlap - contact.approach * dt).max(R::splat(0.0));

@@ -22,8 +22,6 @@ pub struct Hooke {
 
 impl Effect for Hooke {
     type Memory<R: Lane> = ();
-    const ROTATES: bool = false;
-    const COUPLES: bool = false;
 
     #[inline(always)]
     fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, _: &mut (), load: &mut Load<R>) {
@@ -31,6 +29,7 @@ impl Effect for Hooke {
         let c = R::splat(self.damping_ratio) * (k * contact.mass).sqrt();
         let damping = c * contact.approach;
         load.normal = load.normal + (k * contact.overlap + damping);
+        load.pressing = load.normal;
         load.stiffness = k;
         load.stiffness_before = R::splat(1.0);
         load.elastic = load.elastic + R::splat(0.5) * k * contact.overlap * contact.overlap;

@@ -1,8 +1,8 @@
-//! Rolling resistance: a rotational spring and dashpot, capped by a couple proportional to the normal force.
+//! Rolling resistance (`rolling_model = "spring"`): a rotational spring and dashpot, capped by a couple proportional to the normal force.
 //!
 //! ```text
 //! θ ← θ + ω_r Δt,   ω_r = (ω_i − ω_j) − its part along n
-//! M = −k_r θ − c_r ω_r,  |M| ≤ μ_r R* F_n
+//! M = −k_r θ − c_r ω_r,  |M| ≤ μ_r R* F_n        with cohesion F_n is without its pull
 //! k_r = 2.25 S (μ_r R*)²,   c_r = 2 η √(k_r I_r),  η = 0.3,  I_r = 7/5 m* R*²
 //! ```
 //!
@@ -10,7 +10,7 @@
 //! doi:10.1016/j.powtec.2010.09.030, model C. Deviation: the dashpot acts within the cap and not beside it, so that
 //! M never exceeds the cap.
 
-use super::capped_spring::CappedSpring;
+use super::capped_spring::{CappedSpring, turned};
 use super::{Contact, Effect, Load};
 use crate::lane::{Lane, V};
 
@@ -41,9 +41,10 @@ impl Effect for RollingResistance {
             before: load.stiffness_before,
             damping: R::splat(2.0 * ETA) * (stiffness * inertia).sqrt(),
             pace: R::splat(0.25) * stiffness / inertia,
-            cap: arm * load.normal.max(R::splat(0.0)),
+            cap: arm * load.pressing.max(R::splat(0.0)),
         };
-        let pull = spring.pull(theta, n, rolling, dt);
+        *theta = turned(*theta, n);
+        let pull = spring.pull(theta, rolling, dt);
         load.couple = load.couple + pull.force;
         load.elastic = load.elastic + pull.elastic;
         load.dissipated[2] = load.dissipated[2] + pull.dissipated;

@@ -2,33 +2,47 @@
 //!
 //! ```text
 //! ξ ← ξ + v_t Δt        the spring turns with the contact and stretches
-//! F_t = −k_t ξ − c_t v_t     sticks while |F_t| ≤ μ F_n
-//! F_t = μ F_n F_t/|F_t|      slides otherwise; ξ is cut back to match
+//! F_t = −k_t ξ − c_t v_t     sticks while |F_t| ≤ μ F_p
+//! F_t = μ F_p F_t/|F_t|      slides otherwise; ξ is cut back to match
 //! k_t = q S,  c_t = γ √(k_t m*)       S: the normal law's stiffness; q = 4 G*/E* (Mindlin) unless given
+//! F_p = F_n,  with JKR F_n + 2 F_po,  with cohesion F_n without its pull
 //! ```
 //!
-//! Cundall & Strack (1979), Géotechnique 29(1), doi:10.1680/geot.1979.29.1.47; Mindlin (1949), J. Appl. Mech. 16. Where the
-//! normal force pulls, nothing holds. Comes after every effect that changes F_n.
+//! Cundall & Strack (1979), Géotechnique 29(1), doi:10.1680/geot.1979.29.1.47; Mindlin (1949), J. Appl. Mech. 16. What
+//! grains pulled together are pressed by: Thornton (1991), J. Phys. D 24, doi:10.1088/0022-3727/24/11/007. Where F_p
+//! pulls, nothing holds. Comes after every effect that changes F_n.
 
-use super::capped_spring::CappedSpring;
+use super::capped_spring::{CappedSpring, turned};
 use super::{Contact, Effect, Load};
 use crate::lane::{Lane, V};
 
+/// What μ is: a number, or a function of the state of the contact.
+pub trait Coefficient: Copy + Send + Sync + 'static {
+    /// μ [–] of a contact.
+    fn of<R: Lane>(&self, contact: &Contact<R>) -> R;
+}
+
+impl Coefficient for f64 {
+    #[inline(always)]
+    fn of<R: Lane>(&self, _: &Contact<R>) -> R {
+        R::splat(*self)
+    }
+}
+
 /// Tangential spring and dashpot under Coulomb's cap.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SlidingFriction {
+pub struct SlidingFriction<C = f64> {
     /// μ [–].
-    pub friction: f64,
+    pub friction: C,
     /// q = k_t/S [–].
     pub stiffness_ratio: f64,
     /// γ [–], as for the normal law.
     pub damping_ratio: f64,
 }
 
-impl Effect for SlidingFriction {
+impl<C: Coefficient> Effect for SlidingFriction<C> {
     type Memory<R: Lane> = V<R>;
     const ROTATES: bool = true;
-    const COUPLES: bool = false;
 
     #[inline(always)]
     fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, xi: &mut V<R>, load: &mut Load<R>) {
@@ -39,9 +53,10 @@ impl Effect for SlidingFriction {
             before: load.stiffness_before,
             damping: R::splat(self.damping_ratio) * (stiffness * contact.mass).sqrt(),
             pace: R::splat(5.0) * stiffness / contact.mass,
-            cap: R::splat(self.friction) * load.normal.max(R::splat(0.0)),
+            cap: self.friction.of(contact) * load.pressing.max(R::splat(0.0)),
         };
-        let pull = spring.pull(xi, contact.normal, contact.slip, dt);
+        *xi = turned(*xi, contact.normal);
+        let pull = spring.pull(xi, contact.slip, dt);
         load.tangential = load.tangential + pull.force;
         load.elastic = load.elastic + pull.elastic;
         load.dissipated[1] = load.dissipated[1] + pull.dissipated;

@@ -49,11 +49,11 @@ impl Lane for f64 {
     }
     #[inline(always)]
     fn rows(table: &[Row], index: &[u32]) -> [f64; 8] {
-        table[index[0] as usize]
+        table[index[0] as usize].0
     }
     #[inline(always)]
     fn rows4(table: &[Row4], index: &[u32]) -> [f64; 4] {
-        table[index[0] as usize]
+        table[index[0] as usize].0
     }
     #[inline(always)]
     fn store_rows(columns: [f64; 8], to: &mut [f64]) {
@@ -67,15 +67,15 @@ impl Lane for f64 {
 
 /// Four numbers, one after the other.
 #[derive(Clone, Copy)]
-pub struct Each(Row4);
+pub struct Each([f64; 4]);
 
 impl Four for Each {
     #[inline(always)]
-    fn read(from: &Row4) -> Each {
+    fn read(from: &[f64; 4]) -> Each {
         Each(*from)
     }
     #[inline(always)]
-    fn write(self, to: &mut Row4) {
+    fn write(self, to: &mut [f64; 4]) {
         *to = self.0;
     }
     #[inline(always)]

@@ -291,11 +291,11 @@ impl Lane for X8 {
 
 impl Four for X4 {
     #[inline(always)]
-    fn read(from: &Row4) -> X4 {
+    fn read(from: &[f64; 4]) -> X4 {
         X4::load(from)
     }
     #[inline(always)]
-    fn write(self, to: &mut Row4) {
+    fn write(self, to: &mut [f64; 4]) {
         self.store(to);
     }
     #[inline(always)]

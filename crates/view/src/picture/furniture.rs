@@ -3,10 +3,11 @@
 use super::{
     Image, PictureOptions,
     ink::{Anchor, Pen},
+    key::Key,
     lens::Lens,
-    paint::{Key, Painted},
+    paint::Painted,
 };
-use crate::{Map, Role, colour, scale};
+use crate::{Role, colour, scale};
 
 const INK: [u8; 3] = [0x22, 0x26, 0x2b];
 
@@ -16,7 +17,7 @@ pub fn add(image: &mut Image, painted: &Painted, lens: &Lens, options: &PictureO
     let [w, h] = [f64::from(image.width), f64::from(image.height)];
     let mut pen = Pen { image, colour: INK };
     match &painted.key {
-        Key::Bar { .. } => bar(&mut pen, [w, h], text, &painted.key, options.map),
+        Key::Bar { .. } => bar(&mut pen, [w, h], text, &painted.key),
         Key::Kinds { field, names } => kinds(&mut pen, [w, h], text, field, names),
         Key::None => {}
     }
@@ -60,8 +61,8 @@ fn number(value: f64, decimals: usize) -> String {
 }
 
 /// The colour bar at the right, pointed at an end that values lie beyond.
-fn bar(pen: &mut Pen, [w, h]: [f64; 2], text: f64, key: &Key, map: Map) {
-    let Key::Bar { field, unit, range, beyond } = key else { return };
+fn bar(pen: &mut Pen, [w, h]: [f64; 2], text: f64, key: &Key) {
+    let Key::Bar { field, unit, range, beyond, map } = key else { return };
     let (unit, factor) = scale::readable(unit, range.lo.abs().max(range.hi.abs()));
     let (top, bottom) = ((0.22 * h).round(), (0.74 * h).round());
     let width = (1.5 * text).round();

@@ -5,6 +5,7 @@ use super::{
     lens::{Lens, SAMPLES},
     light::LAMP,
     paint::Pane,
+    shadow::Shadow,
     splat::Depths,
 };
 use crate::colour;
@@ -23,6 +24,9 @@ const LINE: f64 = 1.3;
 /// Brightness of a line [–].
 const INK: f32 = 0.5;
 
+/// How much a shadow on a face hides, at least [–].
+const SHADOW: f32 = 0.6;
+
 /// A triangle on the picture.
 struct Piece {
     /// Column and row [sample], and 1/z [1/m], which is linear on the picture.
@@ -35,6 +39,8 @@ struct Piece {
     rank: u8,
     /// Mean 1/z, for the order of the rest.
     near: f64,
+    /// Whether it is part of a face, on which shadows fall.
+    face: bool,
 }
 
 /// Brightness times share, and share, of what veils a sample.
@@ -48,7 +54,14 @@ pub struct Glaze {
 
 impl Glaze {
     /// Draws `panes` where they are nearer than `solid`, and apart where they are nearer than `glass` too.
-    pub fn new(panes: &[Pane], lens: &Lens, [solid, glass]: [&Depths; 2], options: &PictureOptions) -> Glaze {
+    /// On their faces lies the `shadow` of what is solid.
+    pub fn new(
+        panes: &[Pane],
+        lens: &Lens,
+        [solid, glass]: [&Depths; 2],
+        shadow: &Shadow,
+        options: &PictureOptions,
+    ) -> Glaze {
         let pieces = pieces(panes, lens, options);
         if pieces.is_empty() {
             return Glaze { veils: Vec::new() };
@@ -62,7 +75,8 @@ impl Glaze {
                     let depth = (1.0 / inverse) as f32;
                     if inverse <= piece.farthest && depth < solid.depth[at] {
                         let before = usize::from(depth < glass.depth[at]);
-                        lay(&mut band[at - rows[0] * width][before], piece.tone);
+                        let tone = piece.shaded(shadow, lens, at, 1.0 / inverse);
+                        lay(&mut band[at - rows[0] * width][before], tone);
                     }
                 });
             }
@@ -97,10 +111,12 @@ fn pieces(panes: &[Pane], lens: &Lens, options: &PictureOptions) -> Vec<Piece> {
         let first = pieces.len();
         for face in &pane.faces {
             let seen = face.map(|p| lens.seen(p));
-            let tone = [brightness(seen), options.wall_opacity as f32];
+            let tone = [brightness(seen), if pane.opaque { 1.0 } else { options.wall_opacity as f32 }];
             let cut = before_the_eye(&seen, NEAREST * lens.distance);
             let on: Vec<[f64; 3]> = cut.iter().map(|p| projected(*p, lens)).collect();
-            pieces.extend((2..on.len()).map(|n| Piece::new([on[0], on[n - 1], on[n]], tone)));
+            pieces.extend(
+                (2..on.len()).map(|n| Piece { face: true, ..Piece::new([on[0], on[n - 1], on[n]], tone) }),
+            );
         }
         for line in &pane.lines {
             let ends = before_the_eye(&line.map(|p| lens.seen(p)), NEAREST * lens.distance);
@@ -167,8 +183,20 @@ impl Piece {
             tone,
             farthest: f64::INFINITY,
             rank: 1,
+            face: false,
             near: corner.iter().map(|c| c[2]).sum::<f64>() / 3.0,
         }
+    }
+
+    /// Its tone at a sample: darker and thicker in a shadow.
+    fn shaded(&self, shadow: &Shadow, lens: &Lens, at: usize, depth: f64) -> [f32; 2] {
+        if !self.face {
+            return self.tone;
+        }
+        let sample = [at % lens.size[0], at / lens.size[0]];
+        let dark = 1.0 - shadow.lit(lens, lens.at(sample, depth), [0.0; 3], 0.0, sample);
+        let [bright, hides] = self.tone;
+        [bright * (1.0 - 0.45 * dark), hides + dark * (SHADOW - hides).max(0.0)]
     }
 
     /// Calls `paint` with the place and 1/z of every sample inside, in the rows given. A sample on the common edge of

@@ -13,6 +13,9 @@ const HALF_VIEW: f64 = 0.2679;
 /// Share of the width kept free at the right for the colour bar.
 const BAR_SHARE: f64 = 0.09;
 
+/// Distance of a far lens, in radii of what it sees [–].
+const FAR: f64 = 50.0;
+
 /// A pinhole eye. Seen coordinates: x right, y up, z forward from the eye [m].
 pub(crate) struct Lens {
     /// Where it is [m].
@@ -43,6 +46,33 @@ impl Lens {
             (None, _) => fitted(&painted.outline, target, &axes, free.map(|s| 0.46 * s / focal)),
         };
         Lens { eye: target + towards_eye * distance, axes, focal, centre, size, distance }
+    }
+
+    /// A lens so far off that it sees a ball of `radius` [m] around `middle` nearly without perspective, on
+    /// `size` x `size` samples.
+    pub fn far(middle: Vec3, radius: f64, towards_eye: Vec3, size: usize) -> Lens {
+        let radius = radius.max(1e-9);
+        let distance = FAR * radius;
+        Lens {
+            eye: middle + towards_eye * distance,
+            axes: camera::axes(towards_eye),
+            focal: 0.5 * size as f64 * (FAR - 1.0),
+            centre: [0.5 * size as f64; 2],
+            size: [size; 2],
+            distance,
+        }
+    }
+
+    /// The place of a point as seen.
+    pub fn place(&self, seen: [f64; 3]) -> Vec3 {
+        self.eye + self.axes[0] * seen[0] + self.axes[1] * seen[1] + self.axes[2] * seen[2]
+    }
+
+    /// What a sample sees at a depth [m].
+    pub fn at(&self, sample: [usize; 2], depth: f64) -> [f64; 3] {
+        let dx = (sample[0] as f64 + 0.5 - self.centre[0]) / self.focal;
+        let dy = (self.centre[1] - sample[1] as f64 - 0.5) / self.focal;
+        [dx * depth, dy * depth, depth]
     }
 
     /// The point as seen from the eye.

@@ -1,15 +1,20 @@
-//! Light: a lamp over the left shoulder, a bright sky, and less of both in the gaps between grains.
+//! Light: a lamp over the left shoulder that casts shadows, a bright sky, less of it in the gaps between grains, and its
+//! reflection, by which dark grains show their shape too.
 
 use super::{
     PictureOptions,
     glaze::Glaze,
     lens::{Lens, SAMPLES},
     paint::{Layer, Painted},
+    shadow::Shadow,
     splat::{Depths, NOTHING, splat},
 };
 use crate::{Role, spheres::Spheres};
 use geom::Vec3;
 use rayon::prelude::*;
+
+/// How much a translucent wall hides of the paper, at least [–].
+const PAPER: f32 = 0.55;
 
 /// Direction to the lamp: right, up, forward (unit length).
 pub const LAMP: [f32; 3] = [-0.424, 0.707, -0.566];
@@ -29,6 +34,8 @@ const SPIRAL: [[f32; 2]; 8] = [
 /// One kind of surface in the picture, with what is needed to light it.
 struct Shaded {
     depths: Depths,
+    /// What it keeps the lamp's light from.
+    shadow: Shadow,
     /// Colour of each ball, by its number.
     colour: Vec<[f32; 3]>,
     /// How far around a sample shade is looked for [m].
@@ -41,9 +48,10 @@ pub fn render(painted: &Painted, lens: &Lens, options: &PictureOptions) -> Vec<u
     let see_through = |l: &&Layer| l.role == Role::Walls && !walls_only && options.wall_opacity < 1.0;
     let (glass, solid): (Vec<&Layer>, Vec<&Layer>) = painted.layers.iter().partition(see_through);
     let keep = |place: Vec3| !options.cut || lens.seen(place)[2] >= lens.distance;
-    let solid = Shaded::new(&solid, lens, keep);
-    let glass = Shaded::new(&glass, lens, keep);
-    let glaze = Glaze::new(&painted.panes, lens, [&solid.depths, &glass.depths], options);
+    let extent = painted.ball();
+    let solid = Shaded::new(&solid, lens, extent, keep);
+    let glass = Shaded::new(&glass, lens, extent, keep);
+    let glaze = Glaze::new(&painted.panes, lens, [&solid.depths, &glass.depths], &solid.shadow, options);
     let opacity = options.wall_opacity as f32;
     let width = options.width as usize;
     let mut rgba = vec![255u8; width * options.height as usize * 4];
@@ -73,12 +81,12 @@ fn through(
     opacity: f32,
 ) -> [f32; 3] {
     let place = at[1] * lens.size[0] + at[0];
-    let grain = solid.colour(lens, at);
+    let grain = solid.colour(lens, at, None);
     let mut seen = glaze.behind(place, grain.unwrap_or([1.0; 3]));
     if glass.depths.depth[place] < solid.depths.depth[place]
-        && let Some(wall) = glass.colour(lens, at)
+        && let Some(wall) = glass.colour(lens, at, Some(&solid.shadow))
     {
-        let share = if grain.is_some() { opacity } else { 0.35 + 0.65 * opacity };
+        let share = if grain.is_some() { opacity } else { PAPER + (1.0 - PAPER) * opacity };
         seen = std::array::from_fn(|k| seen[k] + share * (wall[k] - seen[k]));
     }
     glaze.before(place, seen)
@@ -86,7 +94,7 @@ fn through(
 
 impl Shaded {
     /// The surfaces of all `layers` together; walls only where `keep` holds for their place.
-    fn new(layers: &[&Layer], lens: &Lens, keep: impl Fn(Vec3) -> bool) -> Self {
+    fn new(layers: &[&Layer], lens: &Lens, extent: (Vec3, f64), keep: impl Fn(Vec3) -> bool) -> Self {
         let mut joined = Spheres::default();
         let mut colour = Vec::new();
         for layer in layers {
@@ -100,12 +108,13 @@ impl Shaded {
                 colour.push(layer.colour[i]);
             }
         }
-        let depths = splat(&joined, lens);
-        Shaded { depths, colour, reach: 4.0 * middle_of(joined.radius) }
+        let usual = middle_of(joined.radius.clone());
+        let (depths, shadow) = (splat(&joined, lens), Shadow::of(&joined, usual, lens, extent));
+        Shaded { depths, shadow, colour, reach: 4.0 * usual }
     }
 
-    /// The lit colour at a sample, or none where there is nothing.
-    fn colour(&self, lens: &Lens, at: [usize; 2]) -> Option<[f32; 3]> {
+    /// The lit colour at a sample, or none where there is nothing; `others` cast shadows on it too.
+    fn colour(&self, lens: &Lens, at: [usize; 2], others: Option<&Shadow>) -> Option<[f32; 3]> {
         let place = at[1] * lens.size[0] + at[0];
         let number = self.depths.ball[place];
         if number == NOTHING {
@@ -113,20 +122,20 @@ impl Shaded {
         }
         let ball = &self.depths.balls[number as usize];
         let depth = f64::from(self.depths.depth[place]);
-        let point = self.point(lens, at, depth);
+        let point = lens.at(at, depth);
         let normal: [f32; 3] = std::array::from_fn(|k| ((point[k] - ball.centre[k]) / ball.radius) as f32);
-        let lamp: f32 = (0..3).map(|k| normal[k] * LAMP[k]).sum();
+        let facing: f32 = (0..3).map(|k| normal[k] * LAMP[k]).sum();
+        let lit = |shadow: &Shadow| shadow.lit(lens, point, normal, ball.radius, at);
+        let lit = || lit(&self.shadow).min(others.map_or(1.0, lit));
+        let lamp = if facing > 0.0 { facing * lit() } else { 0.0 };
         let open = self.openness(lens, at, point, normal);
-        let bright = open * (0.64 + 0.14 * normal[1] + 0.38 * lamp.max(0.0));
-        let gloss = 0.10 * open * lamp.max(0.0).powi(12);
+        let bright = open * (0.62 + 0.14 * normal[1]) + 0.46 * (0.3 + 0.7 * open) * lamp;
+        let rim = (1.0 + normal[2]).clamp(0.0, 1.0).powi(3);
+        let sky = open * (0.6 + 0.4 * normal[1]) * (0.10 + 0.22 * rim);
+        let gloss = sky + 0.12 * open * lamp.powi(12);
         let own = self.colour[ball.number as usize];
-        Some(own.map(|c| (c * bright + gloss).min(1.0)))
-    }
-
-    fn point(&self, lens: &Lens, at: [usize; 2], depth: f64) -> [f64; 3] {
-        let dx = (at[0] as f64 + 0.5 - lens.centre[0]) / lens.focal;
-        let dy = (lens.centre[1] - at[1] as f64 - 0.5) / lens.focal;
-        [dx * depth, dy * depth, depth]
+        // Light colours need no gloss to show their shape.
+        Some(own.map(|c| (c * bright + (1.0 - 0.8 * c) * gloss).min(1.0)))
     }
 
     /// How much of the sky a sample sees, 0 to 1, judged by what stands around it in the picture.
@@ -148,7 +157,7 @@ impl Shaded {
             if !depth.is_finite() {
                 continue;
             }
-            let other = self.point(lens, there, depth);
+            let other = lens.at(there, depth);
             let away: [f32; 3] = std::array::from_fn(|k| (other[k] - point[k]) as f32);
             let length = away.iter().map(|a| a * a).sum::<f32>().sqrt().max(1e-9);
             let above = (0..3).map(|k| normal[k] * away[k]).sum::<f32>() / length;

@@ -4,15 +4,20 @@ mod font;
 mod furniture;
 mod glaze;
 mod ink;
+mod key;
 mod lens;
 mod light;
 mod paint;
+mod shadow;
 mod splat;
+mod survey;
 
 pub use paint::Part;
+pub use survey::Survey;
 
-use crate::{Camera, Map, Surface, ViewError, scale::Range};
+use crate::{Camera, Map, Surface, ViewError, field, scale::Range};
 use paint::Painted;
+use stream::Table;
 
 /// A picture's settings.
 #[derive(Debug, Clone)]
@@ -94,16 +99,43 @@ impl Image {
 /// # Errors
 /// Nothing to draw, a broken table, an unknown field, or a size out of range.
 pub fn draw(parts: &[Part], surfaces: &[Surface], options: &PictureOptions) -> Result<Image, ViewError> {
+    let mut survey = Survey::default();
+    survey.add(parts, surfaces, options)?;
+    draw_surveyed(parts, surfaces, &survey, options)
+}
+
+/// Draws a moment of a film: seen and coloured as all the moments that `survey` took in.
+///
+/// # Errors
+/// As [`draw`].
+pub fn draw_surveyed(
+    parts: &[Part],
+    surfaces: &[Surface],
+    survey: &Survey,
+    options: &PictureOptions,
+) -> Result<Image, ViewError> {
     let (width, height) = (options.width, options.height);
     if !(64..=16384).contains(&width) || !(64..=16384).contains(&height) {
         return Err(ViewError::Size { width, height });
     }
-    let painted = Painted::new(parts, surfaces, options)?;
+    let painted = Painted::new(parts, surfaces, survey, options)?;
     let lens = lens::Lens::new(&painted, options);
     let shown = light::render(&painted, &lens, options);
     let mut image = Image { width, height, rgba: shown };
     furniture::add(&mut image, &painted, &lens, options);
     Ok(image)
+}
+
+/// The columns of a table that a picture coloured by `colour` needs; all of them where that field is not there, so
+/// that the message can name what is.
+pub fn needed(mut table: Table, colour: Option<&str>) -> Table {
+    let asked = colour.map(field::canonical);
+    let Some(wanted) = field::columns(&table, asked) else { return table };
+    let others: Vec<String> = table.columns().iter().map(|c| c.name.clone()).collect();
+    for name in others.iter().filter(|name| !wanted.contains(name)) {
+        table.remove(name);
+    }
+    table
 }
 
 /// The box around everything that is looked at.

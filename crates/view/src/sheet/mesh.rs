@@ -8,15 +8,21 @@ use std::collections::BTreeMap;
 /// Cosine of the angle between two faces [–] above which their common edge is not drawn: 25°.
 const FLAT: f64 = 0.906;
 
+/// The same for meshes of many faces, which are scans more often than constructions: 50°.
+const ROUGH: f64 = 0.643;
+
+/// Many faces.
+const MANY: usize = 500;
+
 /// The sheet of a mesh.
 pub fn sheet<'a>(surface: &'a Surface, mesh: &TriMesh) -> Sheet<'a> {
     let mesh = mesh.welded();
-    let lines = edges(&mesh);
-    Sheet { surface, vertices: mesh.vertices, faces: mesh.faces, lines, ink: 0.65, whole: true }
+    let (lines, closed) = edges(&mesh);
+    Sheet { surface, vertices: mesh.vertices, faces: mesh.faces, lines, ink: 0.65, closed, whole: true }
 }
 
-/// Edges of one face, of more than two, or between two faces that bend.
-fn edges(mesh: &TriMesh) -> Vec<[Vec3; 2]> {
+/// Edges of one face, of more than two, or between two faces that bend; and whether all edges are of two faces.
+fn edges(mesh: &TriMesh) -> (Vec<[Vec3; 2]>, bool) {
     let mut faces: BTreeMap<[u32; 2], Vec<usize>> = BTreeMap::new();
     for (face, [a, b, c]) in mesh.faces.iter().enumerate() {
         for [u, v] in [[a, b], [b, c], [c, a]] {
@@ -27,12 +33,14 @@ fn edges(mesh: &TriMesh) -> Vec<[Vec3; 2]> {
         let [a, b, c] = mesh.triangle(face);
         (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or_default()
     };
+    let flat = if mesh.faces.len() > MANY { ROUGH } else { FLAT };
+    let closed = faces.values().all(|on| on.len() == 2);
     let bends = |on: &Vec<usize>| match on[..] {
-        [one, other] => normal(one).dot(&normal(other)).abs() < FLAT,
+        [one, other] => normal(one).dot(&normal(other)).abs() < flat,
         _ => true,
     };
     let drawn = faces.into_iter().filter(|(_, on)| bends(on));
-    drawn.map(|(ends, _)| ends.map(|v| mesh.vertices[v as usize])).collect()
+    (drawn.map(|(ends, _)| ends.map(|v| mesh.vertices[v as usize])).collect(), closed)
 }
 
 #[cfg(test)]
@@ -44,6 +52,8 @@ mod tests {
         let corner = |x: f64, z: f64| [Vec3::new(x, 0.0, z), Vec3::new(x, 1.0, z)];
         let vertices = [corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0)].concat();
         let faces = vec![[0, 2, 3], [0, 3, 1], [2, 4, 5], [2, 5, 3]];
-        assert_eq!(edges(&TriMesh { vertices, faces }).len(), 7);
+        let (lines, closed) = edges(&TriMesh { vertices, faces });
+        assert!(lines.len() == 7 && !closed);
+        assert!(edges(&geom::mesh::cuboid(Vec3::zeros(), Vec3::repeat(1.0))).1);
     }
 }

@@ -18,6 +18,8 @@ pub(crate) struct Sheet<'a> {
     pub lines: Vec<[Vec3; 2]>,
     /// How much a line hides [–]: edges are the shape of a mesh, a grid only lies on its plane.
     pub ink: f32,
+    /// Whether it is the whole surface of a body, which has no inside to look at.
+    pub closed: bool,
     /// Whether the camera must see all of it: a plane goes on for ever.
     pub whole: bool,
 }

@@ -1,0 +1,80 @@
+//! Clumps that are refused before a run starts.
+
+use crate::check::{finite, within};
+use crate::error::SetupError;
+use crate::setup::{Body, ClumpShape, Setup, WallShape};
+use std::collections::HashSet;
+
+/// Checks shapes and bodies.
+pub fn check(setup: &Setup) -> Result<(), SetupError> {
+    let clumps = &setup.clumps;
+    clumps.shapes.iter().try_for_each(|s| shape(s, setup))?;
+    if let Some((first, ..)) = clumps.scales().next().filter(|_| !setup.outlets.is_empty()) {
+        return Err(SetupError::ClumpOutlet(first.name.clone()));
+    }
+    if let Some((first, ..)) = clumps.scales().next().filter(|_| setup.sleep.is_some()) {
+        return Err(SetupError::ClumpSleep(first.name.clone()));
+    }
+    let mut ids: HashSet<u32> = if clumps.bodies.is_empty() {
+        HashSet::new()
+    } else {
+        setup.particles.iter().map(|p| p.id).collect()
+    };
+    for b in &clumps.bodies {
+        let shape = body(b, setup)?;
+        for k in 0..shape.spheres.len() as u32 {
+            if !ids.insert(b.id.wrapping_add(k)) {
+                return Err(SetupError::IdTwice(b.id.wrapping_add(k)));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn shape(shape: &ClumpShape, setup: &Setup) -> Result<(), SetupError> {
+    let at = |key: &str| format!("clump '{}': {key}", shape.name);
+    let known = (shape.material as usize) < setup.materials.len();
+    within(&at("material"), shape.material.into(), "[–]", known, "the scene's materials")?;
+    let count = shape.spheres.len();
+    within(&at("spheres"), count as f64, "[–]", (1..=1_000_000).contains(&count), "1 to 1000000 spheres")?;
+    for (centre, radius) in &shape.spheres {
+        finite(&at("sphere"), centre, "m")?;
+        within(&at("radius"), *radius, "m", *radius > 0.0 && radius.is_finite(), "radius > 0")?;
+    }
+    let volume = shape.volume;
+    within(&at("volume"), volume, "m³", volume > 0.0 && volume.is_finite(), "volume > 0")?;
+    let [a, b, c] = shape.inertia;
+    for moment in [a, b, c] {
+        within(&at("inertia"), moment, "m⁵", moment > 0.0 && moment.is_finite(), "inertia > 0")?;
+    }
+    // Of a body, no moment is larger than the two others together.
+    let excess = 2.0 * a.max(b).max(c) - (a + b + c);
+    within(&at("inertia"), excess, "m⁵", excess <= 1e-9 * (a + b + c), "what a body can have")
+}
+
+fn body<'a>(body: &Body, setup: &'a Setup) -> Result<&'a ClumpShape, SetupError> {
+    let at = |key: &str| format!("clump {}: {key}", body.id);
+    let Some(shape) = setup.clumps.shapes.get(body.shape as usize) else {
+        let value = body.shape.into();
+        return Err(SetupError::Range {
+            what: at("shape"), value, unit: "[–]", range: "the scene's clumps"
+        });
+    };
+    within(&at("scale"), body.scale, "[–]", body.scale > 0.0 && body.scale.is_finite(), "scale > 0")?;
+    finite(&at("position"), &body.position, "m")?;
+    finite(&at("velocity"), &body.velocity, "m/s")?;
+    finite(&at("spin"), &body.spin, "rad/s")?;
+    let length = body.orientation.norm();
+    within(&at("orientation"), length, "[–]", (length - 1.0).abs() < 1e-9, "quaternions of length 1")?;
+    for wall in &setup.walls {
+        let WallShape::Plane(plane) = &wall.shape else { continue };
+        for (centre, _) in &shape.spheres {
+            let place = body.position + body.orientation * (shape.frame * centre * body.scale);
+            let depth = -plane.signed_distance(&place);
+            if depth >= 0.0 {
+                return Err(SetupError::BehindPlane { id: body.id, depth, wall: wall.name.clone() });
+            }
+        }
+    }
+    Ok(shape)
+}

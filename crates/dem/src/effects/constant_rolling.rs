@@ -1,0 +1,45 @@
+//! Rolling resistance (`rolling_model = "constant"`): a couple against the rolling that does not depend on its speed, without memory.
+//!
+//! ```text
+//! M = −μ_r R* F_n ω_r/|ω_r|,   ω_r = (ω_i − ω_j) − its part along n
+//! |M| ≤ β I_r |ω_r| / Δt,      I_r = 2/5 m* R*²,  β = 1/8
+//! ```
+//!
+//! Zhou, Wright, Yang, Xu & Yu (1999), Physica A 269, doi:10.1016/S0378-4371(99)00183-1; model A of Ai, Chen, Rotter & Ooi
+//! (2011), Powder Technology 206, doi:10.1016/j.powtec.2010.09.030. Deviation, the second line: a couple of constant size would turn
+//! round at every step of a grain at rest. It never takes more than the share β of the rolling in one step; below
+//! |ω_r| = μ_r R* F_n Δt/β I_r it is a dashpot, which never makes energy, and ω_r decays to zero instead of jittering. I_r is
+//! at most the inertia against relative rolling, a quarter of it for equal spheres, so that twelve contacts at
+//! once, or three of a wall and nine others, stay below the whole rolling. What it cannot do: hold a grain on a slope, where it creeps at the
+//! speed at which the dashpot bears the moment, ∝ Δt; the spring model holds it.
+
+use super::{Contact, Effect, Load};
+use crate::lane::Lane;
+
+/// β, the share of the rolling that one contact may take in one step [–].
+const SHARE: f64 = 0.125;
+
+/// A couple of constant size.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ConstantRolling {
+    /// μ_r [–].
+    pub resistance: f64,
+}
+
+impl Effect for ConstantRolling {
+    type Memory<R: Lane> = ();
+    const ROTATES: bool = true;
+    const COUPLES: bool = true;
+
+    #[inline(always)]
+    fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, _: &mut (), load: &mut Load<R>) {
+        let n = contact.normal;
+        let rolling = contact.spin - n.scale(contact.spin.dot(n));
+        let square = rolling.dot(rolling);
+        let cap = R::splat(self.resistance) * contact.radius * load.pressing.max(R::splat(0.0));
+        let inertia = R::splat(0.4) * contact.mass * contact.radius * contact.radius;
+        let dashpot = (cap / square.max(R::splat(1e-300)).sqrt()).min(R::splat(SHARE) * inertia / dt);
+        load.couple = load.couple - rolling.scale(dashpot);
+        load.dissipated[2] = load.dissipated[2] + dashpot * square * dt;
+    }
+}

@@ -1,0 +1,51 @@
+//! Twisting resistance: a rotational spring and dashpot about the normal, capped by a couple proportional to the normal force.
+//!
+//! ```text
+//! φ ← φ + ω_n Δt,   ω_n = (ω_i − ω_j)·n
+//! M = (−k_w φ − c_w ω_n) n,  |M| ≤ μ_w R* F_n        with cohesion F_n is without its pull
+//! k_w = k_t R*²,   c_w = 2 η √(k_w I_w),  η = 0.3,  I_w = 2/5 m* R*²
+//! ```
+//!
+//! Torsion of Luding (2008), Granular Matter 10(4), doi:10.1007/s10035-008-0099-x: the law of sliding for the displacement R* φ,
+//! with the stiffness of sliding. Deviations: the dashpot is a share of the critical one, as for rolling. φ is a number: it turns
+//! with the contact by itself, and is the same seen from i and from j.
+
+use super::capped_spring::CappedSpring;
+use super::{Contact, Effect, Load};
+use crate::lane::Lane;
+
+/// Share of critical damping [–].
+const ETA: f64 = 0.3;
+
+/// Spring and dashpot about the normal, under a cap.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TwistingResistance {
+    /// μ_w [–].
+    pub resistance: f64,
+    /// k_t/S [–], as for sliding.
+    pub stiffness_ratio: f64,
+}
+
+impl Effect for TwistingResistance {
+    type Memory<R: Lane> = R;
+    const ROTATES: bool = true;
+    const COUPLES: bool = true;
+
+    #[inline(always)]
+    fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, phi: &mut R, load: &mut Load<R>) {
+        let square = contact.radius * contact.radius;
+        let stiffness = (R::splat(self.stiffness_ratio) * load.stiffness * square).max(R::splat(1e-150));
+        let inertia = R::splat(0.4) * contact.mass * square;
+        let spring = CappedSpring {
+            stiffness,
+            before: load.stiffness_before,
+            damping: R::splat(2.0 * ETA) * (stiffness * inertia).sqrt(),
+            pace: R::splat(0.25) * stiffness / inertia,
+            cap: R::splat(self.resistance) * contact.radius * load.pressing.max(R::splat(0.0)),
+        };
+        let pull = spring.pull(phi, contact.spin.dot(contact.normal), dt);
+        load.couple = load.couple + contact.normal.scale(pull.force);
+        load.elastic = load.elastic + pull.elastic;
+        load.dissipated[3] = load.dissipated[3] + pull.dissipated;
+    }
+}

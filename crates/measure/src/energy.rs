@@ -1,0 +1,132 @@
+//! The energy ledger of a run, and how well it closes.
+//!
+//! ```text
+//! closure error = Σ Δ balance       balance = kinetic + potential + elastic + dissipated − work of walls
+//! ```
+//!
+//! over the intervals between ledgers in which no grain enters or leaves (by the ids of the frames): there the balance is
+//! constant but for the integrator's error. It is also given relative to what was exchanged so far: the largest change
+//! of any one term. Grains that travel through a zone at constant velocity gain or lose what gravity does to them there;
+//! the ledger cannot tell that from an error.
+
+use crate::observer::Observer;
+use crate::run::Ledger;
+use crate::sheet::{Chart, Head, Row, Summary};
+use crate::{MeasureError, Run, Seen};
+
+/// Terms in this order; what a run has besides follows by name.
+const ORDER: [&str; 8] =
+    ["translation", "rotation", "potential", "elastic", "normal", "sliding", "rolling", "walls"];
+
+/// Number of grains, sum of their ids and of the squares of these: other grains give others.
+type Grains = (usize, u64, u64);
+
+/// Reads the ledger.
+pub struct Energy {
+    between: (f64, f64),
+    terms: Vec<String>,
+    first: Option<Ledger>,
+    exchanged: f64,
+    error: f64,
+    worst: f64,
+    last: f64,
+    /// Balance of the ledger before [J], and whose it was.
+    before: Option<(f64, Grains)>,
+    now: Grains,
+    /// Intervals in which grains entered or left.
+    left_out: u64,
+}
+
+impl Energy {
+    /// Nothing read yet; only ledgers between two times [s].
+    pub fn new(between: (f64, f64)) -> Energy {
+        Energy {
+            between,
+            terms: ORDER.map(str::to_owned).to_vec(),
+            first: None,
+            exchanged: 0.0,
+            error: 0.0,
+            worst: 0.0,
+            last: 0.0,
+            before: None,
+            now: Grains::default(),
+            left_out: 0,
+        }
+    }
+
+    fn row(&mut self, ledger: Ledger) -> Row {
+        if self.first.is_none() {
+            self.terms.retain(|term| ledger.terms.contains_key(term));
+            self.terms.extend(ledger.terms.keys().filter(|k| !ORDER.contains(&k.as_str())).cloned());
+            self.first = Some(ledger.clone());
+        }
+        let value = |l: &Ledger, term: &String| l.terms.get(term).copied().unwrap_or(0.0);
+        if let Some(first) = &self.first {
+            for term in &self.terms {
+                self.exchanged = self.exchanged.max((value(&ledger, term) - value(first, term)).abs());
+            }
+        }
+        match self.before.replace((ledger.balance, self.now)) {
+            Some((balance, grains)) if grains == self.now => self.error += ledger.balance - balance,
+            Some(_) => self.left_out += 1,
+            None => {}
+        }
+        self.worst = self.worst.max(self.error.abs());
+        self.last = ledger.time;
+        let relative = if self.exchanged > 0.0 { self.error / self.exchanged } else { f64::NAN };
+        let mut row = vec![ledger.time];
+        row.extend(self.terms.iter().map(|term| value(&ledger, term)));
+        row.extend([ledger.balance, self.error, relative]);
+        row
+    }
+}
+
+impl Observer for Energy {
+    fn heads(&self) -> Vec<Head> {
+        let mut heads = Head::list(&[("time", "s")]);
+        heads.extend(self.terms.iter().map(|name| Head { name: name.clone(), unit: "J" }));
+        heads.extend(Head::list(&[("balance", "J"), ("closure_error", "J"), ("closure_relative", "1")]));
+        heads
+    }
+
+    fn see(&mut self, _: &Run, seen: Seen, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+        match seen {
+            Seen::Frame(frame) => {
+                let sum = |of: fn(u64) -> u64| frame.id.iter().fold(0, |s: u64, id| s.wrapping_add(of(*id)));
+                self.now = (frame.len(), sum(|id| id), sum(|id| id.wrapping_mul(id)));
+            }
+            Seen::Ledger(l) if self.between.0 <= l.time && l.time <= self.between.1 => {
+                rows.push(self.row(l));
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn end(&mut self, _: &Run, _: &mut Vec<Row>) -> Result<Summary, MeasureError> {
+        if self.first.is_none() {
+            let cure = "set [output] energy = true";
+            return Err(MeasureError::Channel { topic: crate::run::ENERGY, what: "energy ledger", cure });
+        }
+        let summary = Summary::default()
+            .with("closure_error", "J", self.error)
+            .with("largest_closure_error", "J", self.worst)
+            .with("exchanged", "J", self.exchanged)
+            .with("largest_relative", "1", self.worst / self.exchanged)
+            .with("time", "s", self.last);
+        let note = format!("{} intervals left out of the closure: grains entered or left", self.left_out);
+        Ok(if self.left_out > 0 { summary.note(note) } else { summary })
+    }
+
+    fn chart(&self, rows: &[Row]) -> Chart {
+        let terms: Vec<(&str, usize)> =
+            self.terms.iter().enumerate().map(|(k, t)| (t.as_str(), k + 1)).collect();
+        let error = self.terms.len() + 2;
+        Chart::new("Energy").columns(("time [s]", 0), "energy [J]", &terms, rows).columns(
+            ("time [s]", 0),
+            "closure error [J]",
+            &[("", error)],
+            rows,
+        )
+    }
+}

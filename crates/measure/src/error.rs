@@ -1,0 +1,72 @@
+//! What cannot be measured, and what to do about it.
+
+use geom::Shown;
+use thiserror::Error;
+
+/// Why something could not be measured.
+#[derive(Debug, Error, PartialEq)]
+#[allow(missing_docs)]
+pub enum MeasureError {
+    #[error("run holds no {what}: {cure}")]
+    Channel { topic: &'static str, what: &'static str, cure: &'static str },
+    #[error("{topic}: the column '{column}' is missing; it has {}: write the run with dem-run", has.join(", "))]
+    Column { topic: String, column: String, has: Vec<String> },
+    #[error(
+        "{topic} at {} s: row {row}: {column} = {value} is {wrong}: the run is damaged here, stop before with --until",
+        Shown(*time)
+    )]
+    Value { topic: String, time: f64, row: usize, column: String, value: f64, wrong: &'static str },
+    #[error("{topic} at {} s: {why}: write the run again", Shown(*time))]
+    Message { topic: String, time: f64, why: String },
+    #[error(
+        "run has {frames} frame{}: {what} needs two: set [output] every to less, or run longer",
+        if *frames == 1 { "" } else { "s" }
+    )]
+    OneFrame { what: &'static str, frames: u64 },
+    #[error("run has no frame {}: its frames are from {} to {} s", wanted, Shown(*first), Shown(*last))]
+    NoFrame { wanted: String, first: f64, last: f64 },
+    #[error(
+        "plane lies outside of the grains, which are from {} to {} m of it along its normal: move it there",
+        Shown(*low), Shown(*high)
+    )]
+    PlaneOutside { low: f64, high: f64 },
+    #[error("shape has a volume of {} m³: give one with room inside", Shown(*volume))]
+    EmptyShape { volume: f64 },
+    #[error("shape has no end, so no volume: give a box, sphere, cylinder, prism or mesh, without !")]
+    EndlessShape,
+    #[error(
+        "no {what} in the shape at any time: the grains are in box:{}: move the shape",
+        corners(low, high)
+    )]
+    NothingInside { what: &'static str, low: [f64; 3], high: [f64; 3] },
+    #[error(
+        "frames hold at most {most} grains, and {what} needs {wanted}: run longer, or choose other frames"
+    )]
+    FewGrains { what: &'static str, most: usize, wanted: usize },
+    #[error("frame at {} s holds no grains: choose another time with --time", Shown(*time))]
+    NoGrains { time: f64 },
+    #[error(
+        "material {index} has no density in this run, so its grains have no mass: give [[material]] density"
+    )]
+    Density { index: u16 },
+    #[error("no field '{name}' in /particles; it has {}", has.join(", "))]
+    Field { name: String, has: Vec<String> },
+    #[error(
+        "heap at {} s: {part} has {found} profile bins between {} and {} of its height {} m, and 3 are needed: \
+         give smaller --bin (now {} m), wider --fractions or fewer --sectors",
+        Shown(*time), Shown(fractions[0]), Shown(fractions[1]), Shown(*height), Shown(*bin)
+    )]
+    SmallHeap { time: f64, part: String, found: usize, fractions: [f64; 2], height: f64, bin: f64 },
+    #[error("{what} = {} {unit}: {cure}", Shown(*value))]
+    Setting { what: &'static str, value: f64, unit: &'static str, cure: &'static str },
+    #[error("{what}: {count} cells are more than {most}: give fewer bins, or a larger --cell")]
+    Cells { what: &'static str, count: f64, most: f64 },
+    #[error("there is only one kind of grains ({kind}): {cure}")]
+    OneKind { kind: String, cure: &'static str },
+    #[error("no material or wall '{name}'; there are {}", has.join(", "))]
+    Name { name: String, has: Vec<String> },
+}
+
+fn corners(low: &[f64; 3], high: &[f64; 3]) -> String {
+    low.iter().chain(high).map(|v| Shown(*v).to_string()).collect::<Vec<_>>().join(",")
+}

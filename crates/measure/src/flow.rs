@@ -1,0 +1,300 @@
+//! Mass and number of grains that pass a plane, over time.
+//!
+//! Where an outlet of the run lies in the plane, its recorded passages are counted: exact in time. Else a grain passes
+//! when its centre is on the other side in the next frame; when and where follows from its path between the frames
+//! (see [`crate::path`]). Grains that come or go between two frames (inlets, outlets) are not judged there.
+
+use crate::observer::{NO_FRAMES, Observer, SLACK};
+use crate::path::Before;
+use crate::sheet::{Chart, Head, Row, Summary};
+use crate::statistics::Mean;
+use crate::{Frame, MeasureError, Run, Seen};
+use geom::{Plane, Shape, Vec3};
+use std::collections::VecDeque;
+
+/// One grain through the plane.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pass {
+    /// When [s].
+    pub time: f64,
+    /// Whether in the direction of the normal.
+    pub forward: bool,
+    /// Mass [kg].
+    pub mass: f64,
+}
+
+/// What passed in a span of time.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Span {
+    /// Start [s].
+    pub from: f64,
+    /// End [s].
+    pub to: f64,
+    /// Grains along the normal, and against it.
+    pub count: [u64; 2],
+    /// Mass [kg] along the normal, and against it.
+    pub mass: [f64; 2],
+}
+
+impl Span {
+    fn add(&mut self, pass: &Pass) {
+        let side = usize::from(!pass.forward);
+        self.count[side] += 1;
+        self.mass[side] += pass.mass;
+    }
+
+    /// Net mass flow along the normal [kg/s].
+    pub fn mass_flow(&self) -> f64 {
+        (self.mass[0] - self.mass[1]) / (self.to - self.from)
+    }
+
+    /// Net number flow along the normal [1/s].
+    pub fn number_flow(&self) -> f64 {
+        (self.count[0] as f64 - self.count[1] as f64) / (self.to - self.from)
+    }
+}
+
+/// What is asked for.
+#[derive(Debug, Clone)]
+pub struct FlowOptions {
+    /// The plane; its normal is the direction of flow.
+    pub plane: Plane,
+    /// Count only what passes inside this shape.
+    pub within: Option<Shape>,
+    /// Length of the spans [s]; `None`: from frame to frame.
+    pub span: Option<f64>,
+    /// Start and end [s].
+    pub between: (f64, f64),
+}
+
+/// Counts grains through a plane.
+pub struct Flow {
+    options: FlowOptions,
+    /// The outlet in the plane and whether its normal is the plane's; known once the first frame is there.
+    outlet: Option<(usize, bool)>,
+    before: Before,
+    passes: VecDeque<Pass>,
+    /// Where the open span starts [s].
+    start: Option<f64>,
+    /// Number of the open span, of those of equal length.
+    number: u64,
+    frames: u64,
+    /// Least and largest distance of grains from the plane [m].
+    reach: (f64, f64),
+    total: Span,
+    flows: Vec<f64>,
+    appeared: u64,
+}
+
+impl Flow {
+    /// Nothing counted yet.
+    ///
+    /// # Errors
+    /// Spans that are not above zero.
+    pub fn new(options: FlowOptions) -> Result<Flow, MeasureError> {
+        if let Some(value) = options.span.filter(|s| !(*s > 0.0 && s.is_finite())) {
+            return Err(MeasureError::Setting {
+                what: "span",
+                value,
+                unit: "s",
+                cure: "give a time above 0",
+            });
+        }
+        Ok(Flow {
+            options,
+            outlet: None,
+            before: Before::default(),
+            passes: VecDeque::new(),
+            start: None,
+            number: 0,
+            frames: 0,
+            reach: (f64::INFINITY, f64::NEG_INFINITY),
+            total: Span::default(),
+            flows: Vec::new(),
+            appeared: 0,
+        })
+    }
+
+    /// The outlet that lies in the plane, and whether its normal points the same way.
+    fn outlet_of(&self, run: &Run) -> Option<(usize, bool)> {
+        let plane = &self.options.plane;
+        let same = |other: &Plane| {
+            let size = plane.point.amax().max(other.point.amax()).max(1.0);
+            plane.normal.cross(&other.normal).norm() < 1e-6
+                && plane.signed_distance(&other.point).abs() < 1e-6 * size
+        };
+        let found = run.outlets.iter().position(same)?;
+        Some((found, run.outlets[found].normal.dot(&plane.normal) > 0.0))
+    }
+
+    fn wanted(&self, place: &Vec3) -> bool {
+        self.options.within.as_ref().is_none_or(|shape| shape.contains(place))
+    }
+
+    fn add(&mut self, time: f64, forward: bool, mass: f64) {
+        let (from, until) = self.options.between;
+        if from <= time && time < until {
+            self.passes.push_back(Pass { time, forward, mass });
+        }
+    }
+
+    fn compare(&mut self, run: &Run, frame: &Frame) -> Result<(), MeasureError> {
+        let masses = frame.masses()?;
+        let plane = self.options.plane;
+        let beyond = |p: &Vec3| plane.signed_distance(p) >= 0.0;
+        let mut found = Vec::new();
+        for (row, mass) in masses.iter().enumerate() {
+            let Some((path, other)) = self.before.paths(run, frame, row) else {
+                self.appeared += 1;
+                continue;
+            };
+            for path in [Some(path), other].into_iter().flatten() {
+                let (start, end) = (beyond(&path.at(0.0)), beyond(&path.at(1.0)));
+                if start != end {
+                    let (time, place) = path.change(beyond);
+                    if self.wanted(&place) {
+                        found.push((time, end, *mass));
+                    }
+                }
+            }
+        }
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        found.into_iter().for_each(|(time, forward, mass)| self.add(time, forward, mass));
+        Ok(())
+    }
+
+    fn frame(&mut self, run: &Run, frame: &Frame, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+        if self.frames == 0 {
+            self.outlet = self.outlet_of(run);
+            self.start = Some(frame.time.max(self.options.between.0));
+        }
+        self.frames += 1;
+        for p in &frame.position {
+            let s = self.options.plane.signed_distance(p);
+            self.reach = (self.reach.0.min(s), self.reach.1.max(s));
+        }
+        if self.outlet.is_none() {
+            if self.before.time().is_some() {
+                self.compare(run, frame)?;
+            }
+            self.before.replace(frame);
+        }
+        self.close(frame.time.min(self.options.between.1), rows);
+        Ok(())
+    }
+
+    /// Rows of the spans that end at or before a time [s].
+    fn close(&mut self, time: f64, rows: &mut Vec<Row>) {
+        let Some(origin) = self.start else { return };
+        match self.options.span {
+            None if time > origin + SLACK => {
+                self.row(origin, time, rows);
+                self.start = Some(time);
+            }
+            None => {}
+            Some(length) => loop {
+                let [from, to] = [self.number, self.number + 1].map(|k| origin + k as f64 * length);
+                if to > time + SLACK {
+                    break;
+                }
+                self.row(from, to, rows);
+                self.number += 1;
+            },
+        }
+    }
+
+    fn row(&mut self, from: f64, to: f64, rows: &mut Vec<Row>) {
+        let mut span = Span { from, to, ..Span::default() };
+        while let Some(pass) = self.passes.front().filter(|pass| pass.time <= to) {
+            span.add(pass);
+            self.total.add(pass);
+            self.passes.pop_front();
+        }
+        self.total.from = if self.flows.is_empty() { from } else { self.total.from };
+        self.total.to = to;
+        self.flows.push(span.mass_flow());
+        let [there, back] = span.count.map(|n| n as f64);
+        let sum = self.total.mass[0] - self.total.mass[1];
+        rows.push(vec![
+            from,
+            to,
+            there,
+            back,
+            span.mass[0],
+            span.mass[1],
+            span.mass_flow(),
+            span.number_flow(),
+            sum,
+        ]);
+    }
+}
+
+impl Observer for Flow {
+    fn heads(&self) -> Vec<Head> {
+        Head::list(&[
+            ("from", "s"),
+            ("to", "s"),
+            ("forward", "1"),
+            ("backward", "1"),
+            ("mass_forward", "kg"),
+            ("mass_backward", "kg"),
+            ("mass_flow", "kg/s"),
+            ("number_flow", "1/s"),
+            ("mass_sum", "kg"),
+        ])
+    }
+
+    fn see(&mut self, run: &Run, seen: Seen, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+        match seen {
+            Seen::Frame(frame) => self.frame(run, &frame, rows)?,
+            Seen::Passages(passages) => {
+                if let Some((outlet, along)) = self.outlet_of(run) {
+                    let own = passages.iter().filter(|p| p.outlet == outlet && self.wanted(&p.position));
+                    for p in own.copied().collect::<Vec<_>>() {
+                        if p.mass.is_nan() {
+                            return Err(MeasureError::Density { index: 0 });
+                        }
+                        self.add(p.time, along, p.mass);
+                    }
+                }
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn end(&mut self, _: &Run, _: &mut Vec<Row>) -> Result<Summary, MeasureError> {
+        if self.frames < 2 {
+            let what = "a flow between frames";
+            return Err(if self.frames == 0 {
+                NO_FRAMES
+            } else {
+                MeasureError::OneFrame { what, frames: 1 }
+            });
+        }
+        let (low, high) = self.reach;
+        if self.total.count == [0, 0] && (low >= 0.0 || high < 0.0) && self.outlet.is_none() {
+            return Err(MeasureError::PlaneOutside { low, high });
+        }
+        let t = &self.total;
+        let flow = Mean::of(&self.flows);
+        let summary = Summary::default()
+            .with("mass_flow", "kg/s", t.mass_flow())
+            .with("mass_flow_deviation", "kg/s", flow.deviation)
+            .with("number_flow", "1/s", t.number_flow())
+            .with("forward", "1", t.count[0] as f64)
+            .with("backward", "1", t.count[1] as f64)
+            .with("mass", "kg", t.mass[0] - t.mass[1])
+            .with("from", "s", t.from)
+            .with("to", "s", t.to)
+            .with("appeared", "1", self.appeared as f64)
+            .note(if self.outlet.is_some() { "from recorded crossings" } else { "from frames, by id" });
+        Ok(summary)
+    }
+
+    fn chart(&self, rows: &[Row]) -> Chart {
+        Chart::new("Flow through the plane")
+            .columns(("time [s]", 1), "mass flow [kg/s]", &[("", 6)], rows)
+            .columns(("time [s]", 1), "mass passed [kg]", &[("", 8)], rows)
+    }
+}

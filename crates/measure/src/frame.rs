@@ -1,0 +1,182 @@
+//! Columns of a run at one time: grains, their contacts, grains that passed an outlet.
+
+use crate::MeasureError;
+use crate::table::Columns;
+use geom::Vec3;
+use std::f64::consts::PI;
+use stream::Table;
+
+/// All grains at one time.
+#[derive(Debug, Clone, Default)]
+pub struct Frame {
+    /// Time [s].
+    pub time: f64,
+    /// Identity of each grain.
+    pub id: Vec<u64>,
+    /// Centres [m].
+    pub position: Vec<Vec3>,
+    /// Velocities [m/s].
+    pub velocity: Vec<Vec3>,
+    /// Radii [m].
+    pub radius: Vec<f64>,
+    /// Index of the material.
+    pub material: Vec<u16>,
+    /// Masses [kg]; NaN where the material has no density.
+    pub mass: Vec<f64>,
+    /// All columns of the message.
+    pub table: Table,
+}
+
+impl Frame {
+    /// A frame from the table of a message; `densities` [kg/m³] are by material, NaN where unknown.
+    ///
+    /// # Errors
+    /// Columns that are missing, numbers that are not finite, radii not above zero.
+    pub fn new(time: f64, table: Table, densities: &[f64]) -> Result<Frame, MeasureError> {
+        let columns = Columns { topic: "/particles", time, table: &table };
+        let position = columns.vectors(["x", "y", "z"])?;
+        let velocity = columns.vectors(["vx", "vy", "vz"])?;
+        let radius = columns.positive("radius")?;
+        let id = columns.whole("id")?;
+        let material = columns.or_zero("material")?.into_iter().map(|m| m as u16).collect::<Vec<_>>();
+        let mass = material.iter().zip(&radius).map(|(m, r)| mass(*m, *r, densities)).collect();
+        Ok(Frame { time, id, position, velocity, radius, material, mass, table })
+    }
+
+    /// Number of grains.
+    pub fn len(&self) -> usize {
+        self.position.len()
+    }
+
+    /// Whether there is no grain.
+    pub fn is_empty(&self) -> bool {
+        self.position.is_empty()
+    }
+
+    /// Masses [kg], when all are known.
+    ///
+    /// # Errors
+    /// A material without density.
+    pub fn masses(&self) -> Result<&[f64], MeasureError> {
+        match self.mass.iter().position(|m| m.is_nan()) {
+            None => Ok(&self.mass),
+            Some(row) => Err(MeasureError::Density { index: self.material.get(row).copied().unwrap_or(0) }),
+        }
+    }
+
+    /// Mean diameter [m]; NaN without grains.
+    pub fn mean_diameter(&self) -> f64 {
+        2.0 * self.radius.iter().sum::<f64>() / self.len() as f64
+    }
+
+    /// Corners of the box around all grains, surfaces included [m].
+    pub fn bounds(&self) -> (Vec3, Vec3) {
+        let none = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
+        self.position
+            .iter()
+            .zip(&self.radius)
+            .fold(none, |(low, high), (p, r)| (low.inf(&p.add_scalar(-r)), high.sup(&p.add_scalar(*r))))
+    }
+}
+
+/// Mass of a ball [kg]; NaN where the density is unknown.
+pub(crate) fn mass(material: u16, radius: f64, densities: &[f64]) -> f64 {
+    let density = densities.get(usize::from(material)).copied().unwrap_or(f64::NAN);
+    4.0 / 3.0 * PI * radius * radius * radius * density
+}
+
+/// What a grain touches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Partner {
+    /// Another grain, by id.
+    Grain(u64),
+    /// A wall, by index.
+    Wall(u64),
+}
+
+/// One contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contact {
+    /// Grain i, by id.
+    pub grain: u64,
+    /// What it touches, j.
+    pub partner: Partner,
+    /// Where [m].
+    pub point: Vec3,
+    /// Unit normal from j to i [–].
+    pub normal: Vec3,
+    /// Force on i [N].
+    pub force: Vec3,
+    /// Sliding work since the frame before [J].
+    pub work: f64,
+}
+
+/// All contacts at one time.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Contacts {
+    /// Time [s].
+    pub time: f64,
+    /// The contacts, in the order of the message.
+    pub rows: Vec<Contact>,
+}
+
+impl Contacts {
+    /// Contacts from the table of a message: x y z, nx ny nz, fx fy fz, id_i, id_j, kind (0 pair, 1 wall), work.
+    ///
+    /// # Errors
+    /// Columns that are missing, numbers that are not finite.
+    pub fn new(time: f64, table: &Table) -> Result<Contacts, MeasureError> {
+        let columns = Columns { topic: crate::run::CONTACTS, time, table };
+        let point = columns.vectors(["x", "y", "z"])?;
+        let normal = columns.vectors(["nx", "ny", "nz"])?;
+        let force = columns.vectors(["fx", "fy", "fz"])?;
+        let (i, j, kind) = (columns.whole("id_i")?, columns.whole("id_j")?, columns.whole("kind")?);
+        let work = columns.or_zero("work")?;
+        let row = |k: usize| Contact {
+            grain: i[k],
+            partner: if kind[k] == 0 { Partner::Grain(j[k]) } else { Partner::Wall(j[k]) },
+            point: point[k],
+            normal: normal[k],
+            force: force[k],
+            work: work[k],
+        };
+        Ok(Contacts { time, rows: (0..point.len()).map(row).collect() })
+    }
+}
+
+/// A grain that passed an outlet's plane.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Passage {
+    /// When [s].
+    pub time: f64,
+    /// Index of the outlet.
+    pub outlet: usize,
+    /// Where [m].
+    pub position: Vec3,
+    /// Identity.
+    pub id: u64,
+    /// Mass [kg]; NaN where the material has no density.
+    pub mass: f64,
+}
+
+impl Passage {
+    /// Passages from the table of a message of `/crossings`.
+    ///
+    /// # Errors
+    /// Columns that are missing, numbers that are not finite.
+    pub fn list(time: f64, table: &Table, densities: &[f64]) -> Result<Vec<Passage>, MeasureError> {
+        let columns = Columns { topic: crate::run::CROSSINGS, time, table };
+        let position = columns.vectors(["x", "y", "z"])?;
+        let (times, radius) = (columns.numbers("time")?, columns.positive("radius")?);
+        let (id, material) = (columns.whole("id")?, columns.or_zero("material")?);
+        let outlet = columns.or_zero("outlet")?;
+        let row = |k: usize| Passage {
+            time: times[k],
+            outlet: outlet[k] as usize,
+            position: position[k],
+            id: id[k],
+            mass: mass(material[k] as u16, radius[k], densities),
+        };
+        Ok((0..position.len()).map(row).collect())
+    }
+}

@@ -1,0 +1,35 @@
+//! Measures of runs: heap angle, flow, profiles, segregation, energy, contacts, porosity, wall force, residence.
+//!
+//! Each measure stands alone: it takes a [`Frame`] (columns at one time) or a table of contacts and gives a typed
+//! result. An [`Observer`] does the same for a run that comes event by event (see [`Run::take`]), also while it is
+//! still being written, in memory for a frame or two, and gives rows of numbers under named columns with units, a
+//! [`Summary`] by name, and what to draw. Nothing here reads files, prints or draws.
+
+pub mod ball;
+pub mod coordination;
+pub mod cylinder;
+pub mod energy;
+mod error;
+pub mod flow;
+pub mod forces;
+mod frame;
+pub mod observer;
+pub mod path;
+pub mod porosity;
+pub mod profile;
+pub mod region;
+pub mod repose;
+pub mod residence;
+pub mod run;
+pub mod segregation;
+mod sheet;
+pub mod statistics;
+mod table;
+pub mod wall_force;
+pub mod wear;
+
+pub use error::MeasureError;
+pub use frame::{Contact, Contacts, Frame, Partner, Passage};
+pub use observer::{Observer, OfFrame, PerFrame, Which};
+pub use run::{Ledger, Run, Seen, WallSpheres};
+pub use sheet::{Chart, Curve, Head, Look, Panel, Row, Summary};

@@ -1,0 +1,191 @@
+//! A run as it comes, event by event: what it says of itself, and what can be measured.
+
+use crate::frame::{Contacts, Frame, Passage};
+use crate::{MeasureError, table::Columns};
+use geom::{Plane, Vec3};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use stream::{Table, mcap::Event};
+
+/// Topic of frames.
+pub const PARTICLES: &str = "/particles";
+/// Topic of contacts.
+pub const CONTACTS: &str = "/contacts";
+/// Topic of grains that passed an outlet's plane.
+pub const CROSSINGS: &str = "/crossings";
+/// Topic of the energy ledger.
+pub const ENERGY: &str = "/energy";
+const WALLS: &str = "/walls";
+const SURFACES: &str = "/surfaces";
+
+/// Wall spheres as they are now.
+#[derive(Debug, Clone, Default)]
+pub struct WallSpheres {
+    /// Centres [m].
+    pub position: Vec<Vec3>,
+    /// Radii [m].
+    pub radius: Vec<f64>,
+    /// Index of the wall of each.
+    pub wall: Vec<u64>,
+}
+
+/// The energy ledger at one time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ledger {
+    /// Time [s].
+    pub time: f64,
+    /// Name and value [J] of each term, by name; without time and balance.
+    pub terms: BTreeMap<String, f64>,
+    /// Everything that was there at the start, as the run sums it up [J].
+    pub balance: f64,
+}
+
+/// Something to measure.
+#[derive(Debug, Clone)]
+pub enum Seen {
+    /// Grains at one time.
+    Frame(Frame),
+    /// Contacts at one time.
+    Contacts(Contacts),
+    /// Grains that passed outlets.
+    Passages(Vec<Passage>),
+    /// The energy ledger at one time.
+    Ledger(Ledger),
+}
+
+/// What a run has said of itself so far.
+#[derive(Debug, Clone, Default)]
+pub struct Run {
+    /// Names of the materials.
+    pub materials: Vec<String>,
+    /// Densities of the materials [kg/m³]; NaN where there is none.
+    pub densities: Vec<f64>,
+    /// Storage planes of its outlets.
+    pub outlets: Vec<Plane>,
+    /// Direction against gravity [–]; `None` without gravity.
+    pub up: Option<Vec3>,
+    /// Lowest and highest coordinate [m] of each axis that is periodic.
+    pub periodic: [Option<(f64, f64)>; 3],
+    /// Names of the walls.
+    pub walls: Vec<String>,
+    /// Its wall spheres.
+    pub spheres: WallSpheres,
+    /// Changes whenever `spheres` does.
+    pub spheres_seen: u64,
+}
+
+impl Run {
+    /// Takes an event of the stream; gives what can be measured.
+    ///
+    /// # Errors
+    /// Messages that lack columns or hold numbers that cannot be.
+    pub fn take(&mut self, event: Event) -> Result<Option<Seen>, MeasureError> {
+        let seconds = |ns: u64| ns as f64 / 1e9;
+        Ok(match event {
+            Event::Metadata { name, map } => {
+                self.metadata(&name, &map);
+                None
+            }
+            Event::Points { topic, time_ns, table } => self.points(&topic, seconds(time_ns), table)?,
+            Event::Bytes { topic, time_ns, data } if topic == ENERGY => {
+                Some(Seen::Ledger(ledger(seconds(time_ns), &data)?))
+            }
+            Event::Bytes { topic, data, .. } if topic == SURFACES => {
+                self.surfaces(&data);
+                None
+            }
+            Event::Bytes { .. } => None,
+        })
+    }
+
+    fn points(&mut self, topic: &str, time: f64, table: Table) -> Result<Option<Seen>, MeasureError> {
+        Ok(match topic {
+            PARTICLES => Some(Seen::Frame(Frame::new(time, table, &self.densities)?)),
+            CONTACTS => Some(Seen::Contacts(Contacts::new(time, &table)?)),
+            CROSSINGS => Some(Seen::Passages(Passage::list(time, &table, &self.densities)?)),
+            WALLS => {
+                let columns = Columns { topic: WALLS, time, table: &table };
+                let (position, radius) = (columns.vectors(["x", "y", "z"])?, columns.positive("radius")?);
+                let wall = columns.or_zero("wall")?.into_iter().map(|w| w as u64).collect();
+                self.spheres = WallSpheres { position, radius, wall };
+                self.spheres_seen += 1;
+                None
+            }
+            _ => None,
+        })
+    }
+
+    /// What is not understood stays unknown: a run of another program may lack it.
+    fn metadata(&mut self, name: &str, map: &BTreeMap<String, String>) {
+        let json = |k: usize| serde_json::from_str(map.get(&k.to_string())?).ok();
+        let all: Vec<Value> = (0..map.len()).map_while(json).collect();
+        match name {
+            "materials" => {
+                let name = |(k, m): (usize, &Value)| m["name"].as_str().map_or(k.to_string(), str::to_owned);
+                self.materials = all.iter().enumerate().map(name).collect();
+                self.densities = all.iter().map(|m| m["density"].as_f64().unwrap_or(f64::NAN)).collect();
+            }
+            "outlets" => self.outlets = all.iter().filter_map(plane).collect(),
+            "scene" => {
+                let text = map.get("toml").map_or("", String::as_str);
+                if let Ok(scene) = text.parse::<toml::Table>() {
+                    self.scene(&scene);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn scene(&mut self, scene: &toml::Table) {
+        let gravity = scene.get("gravity").and_then(numbers);
+        self.up = gravity.filter(|g| g.norm() > 0.0).map(|g| -g.normalize());
+        let Some(domain) = scene.get("domain").and_then(toml::Value::as_table) else { return };
+        let [low, high] = ["low", "high"].map(|key| domain.get(key).and_then(numbers));
+        let (Some(low), Some(high)) = (low, high) else { return };
+        let axes = domain.get("periodic").and_then(toml::Value::as_array);
+        for axis in axes.into_iter().flatten().filter_map(toml::Value::as_str) {
+            if let Some(k) = ["x", "y", "z"].iter().position(|name| *name == axis) {
+                self.periodic[k] = Some((low[k], high[k]));
+            }
+        }
+    }
+
+    fn surfaces(&mut self, data: &[u8]) {
+        let walls: Value = serde_json::from_slice(data).unwrap_or_default();
+        let name = |(k, w): (usize, &Value)| w["name"].as_str().map_or(k.to_string(), str::to_owned);
+        self.walls = walls.as_array().into_iter().flatten().enumerate().map(name).collect();
+    }
+
+    /// The shortest way from `a` to `b` [m], through periodic faces where that is shorter.
+    pub fn way(&self, a: &Vec3, b: &Vec3) -> Vec3 {
+        let mut way = b - a;
+        for (axis, period) in self.periodic.iter().enumerate() {
+            if let Some((low, high)) = period {
+                way[axis] -= (high - low) * libm::round(way[axis] / (high - low));
+            }
+        }
+        way
+    }
+}
+
+fn plane(json: &Value) -> Option<Plane> {
+    let vector = |v: &Value| Some(Vec3::new(v[0].as_f64()?, v[1].as_f64()?, v[2].as_f64()?));
+    Plane::new(vector(&json["plane"]["point"])?, vector(&json["plane"]["normal"])?).ok()
+}
+
+fn numbers(value: &toml::Value) -> Option<Vec3> {
+    let number = |v: &toml::Value| v.as_float().or_else(|| v.as_integer().map(|i| i as f64));
+    let list: Vec<f64> = value.as_array()?.iter().filter_map(number).collect();
+    (list.len() == 3).then(|| Vec3::from_column_slice(&list))
+}
+
+fn ledger(time: f64, data: &[u8]) -> Result<Ledger, MeasureError> {
+    let wrong = |why: &str| MeasureError::Message { topic: ENERGY.to_owned(), time, why: why.to_owned() };
+    let message: Value = serde_json::from_slice(data).map_err(|e| wrong(&e.to_string()))?;
+    let map = message.as_object().ok_or_else(|| wrong("no JSON object"))?;
+    let number = |(name, value): (&String, &Value)| Some((name.clone(), value.as_f64()?));
+    let mut terms: BTreeMap<String, f64> = map.iter().filter_map(number).collect();
+    let balance = terms.remove("balance").ok_or_else(|| wrong("its 'balance' is missing"))?;
+    let time = terms.remove("time").unwrap_or(time);
+    Ok(Ledger { time, terms, balance })
+}

@@ -1,0 +1,211 @@
+//! Where walls are loaded and worn: force and sliding work by wall sphere, or by cell of space.
+//!
+//! Sliding work W = Σ |F_t · slip| is what Archard's law (1953, J. Appl. Phys. 24, DOI 10.1063/1.1721448) turns into a
+//! worn volume, k W / (μ H). A contact belongs to the wall sphere whose surface is nearest to its point, wherever the
+//! sphere is at that time, or to the cube of space it lies in; the area of a cube is taken as the square of its side,
+//! which is that of a flat wall along a face of it.
+
+use crate::observer::{NO_CONTACTS, Observer};
+use crate::sheet::{Chart, Head, Panel, Row, Summary};
+use crate::wall_force::OnWalls;
+use crate::{Contact, MeasureError, Run, Seen};
+use geom::{Grid, Vec3};
+use std::collections::BTreeMap;
+
+/// What a place has borne.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Borne {
+    /// Σ over frames of the normal force [N].
+    normal: f64,
+    /// Normal force of this frame so far, and the largest of all frames [N].
+    now: f64,
+    largest: f64,
+    /// Sliding work [J].
+    work: f64,
+    contacts: u64,
+}
+
+/// Measures wear by place.
+pub struct Wear {
+    what: OnWalls,
+    /// Side of the cubes [m]; `None`: by wall sphere.
+    cell: Option<f64>,
+    by_sphere: BTreeMap<usize, Borne>,
+    by_cell: BTreeMap<[i64; 3], Borne>,
+    grid: Option<(u64, Grid, f64)>,
+    frames: u64,
+    seen: u64,
+    elsewhere: u64,
+}
+
+impl Wear {
+    /// Of these contacts; by cubes of side `cell` [m], or by wall sphere.
+    ///
+    /// # Errors
+    /// A cell not above zero.
+    pub fn new(what: OnWalls, cell: Option<f64>) -> Result<Wear, MeasureError> {
+        if let Some(value) = cell.filter(|c| !(*c > 0.0 && c.is_finite())) {
+            return Err(MeasureError::Setting {
+                what: "cell",
+                value,
+                unit: "m",
+                cure: "give a length above 0",
+            });
+        }
+        Ok(Wear {
+            what,
+            cell,
+            by_sphere: BTreeMap::new(),
+            by_cell: BTreeMap::new(),
+            grid: None,
+            frames: 0,
+            seen: 0,
+            elsewhere: 0,
+        })
+    }
+
+    /// The wall sphere whose surface is nearest to a point; `None` when none is near.
+    fn sphere(&mut self, run: &Run, point: &Vec3) -> Option<usize> {
+        let spheres = &run.spheres;
+        if self.grid.as_ref().is_none_or(|g| g.0 != run.spheres_seen) {
+            let largest = spheres.radius.iter().copied().fold(0.0, f64::max);
+            let grid = Grid::new(&spheres.position, (2.0 * largest).max(f64::MIN_POSITIVE));
+            self.grid = Some((run.spheres_seen, grid, 1.5 * largest));
+        }
+        let (_, grid, reach) = self.grid.as_ref()?;
+        let gap = |k: &u32| {
+            let k = *k as usize;
+            (spheres.position[k] - point).norm() - spheres.radius[k]
+        };
+        let near = grid.within(&spheres.position, *point, *reach);
+        near.min_by(|a, b| gap(a).total_cmp(&gap(b))).map(|k| k as usize)
+    }
+
+    fn add(&mut self, run: &Run, contact: &Contact) {
+        let borne = match self.cell {
+            Some(cell) => {
+                let key = [0, 1, 2].map(|k| (contact.point[k] / cell).floor() as i64);
+                self.by_cell.entry(key).or_default()
+            }
+            None => match self.sphere(run, &contact.point) {
+                Some(sphere) => self.by_sphere.entry(sphere).or_default(),
+                None => {
+                    self.elsewhere += 1;
+                    return;
+                }
+            },
+        };
+        let normal = contact.force.dot(&contact.normal);
+        borne.normal += normal;
+        borne.now += normal;
+        borne.work += contact.work;
+        borne.contacts += 1;
+    }
+
+    fn row(&self, place: Vec3, size: f64, area: f64, b: &Borne) -> Row {
+        let frames = self.frames as f64;
+        let mean = b.normal / frames;
+        vec![
+            place.x,
+            place.y,
+            place.z,
+            size,
+            b.contacts as f64,
+            mean,
+            b.largest,
+            b.work,
+            b.work / area,
+            mean / area,
+        ]
+    }
+}
+
+impl Observer for Wear {
+    fn heads(&self) -> Vec<Head> {
+        let size = if self.cell.is_some() { "side" } else { "radius" };
+        Head::list(&[
+            ("x", "m"),
+            ("y", "m"),
+            ("z", "m"),
+            (size, "m"),
+            ("contacts", "1"),
+            ("mean_normal", "N"),
+            ("largest_normal", "N"),
+            ("sliding_work", "J"),
+            ("work_per_area", "J/m²"),
+            ("pressure", "Pa"),
+        ])
+    }
+
+    fn see(&mut self, run: &Run, seen: Seen, _: &mut Vec<Row>) -> Result<(), MeasureError> {
+        let Seen::Contacts(contacts) = seen else { return Ok(()) };
+        self.seen += 1;
+        if !self.what.holds(contacts.time) {
+            return Ok(());
+        }
+        if self.cell.is_none() && run.spheres.position.is_empty() {
+            let cure = "give --cell M for a map by cells of space";
+            return Err(MeasureError::Channel { topic: "/walls", what: "wall spheres", cure });
+        }
+        self.frames += 1;
+        let own: Vec<Contact> = self.what.of(run, &contacts)?.copied().collect();
+        own.iter().for_each(|contact| self.add(run, contact));
+        for b in self.by_sphere.values_mut().chain(self.by_cell.values_mut()) {
+            b.largest = b.largest.max(b.now);
+            b.now = 0.0;
+        }
+        Ok(())
+    }
+
+    fn end(&mut self, run: &Run, rows: &mut Vec<Row>) -> Result<Summary, MeasureError> {
+        if self.seen == 0 {
+            return Err(NO_CONTACTS);
+        }
+        let side = self.cell.unwrap_or(f64::NAN);
+        let centre = |key: &[i64; 3]| Vec3::from(key.map(|k| (k as f64 + 0.5) * side));
+        rows.extend(self.by_cell.iter().map(|(key, b)| self.row(centre(key), side, side * side, b)));
+        for (k, b) in &self.by_sphere {
+            if let (Some(place), Some(r)) = (run.spheres.position.get(*k), run.spheres.radius.get(*k)) {
+                // What a sphere stands for of a wall is not known here.
+                rows.push(self.row(*place, *r, f64::NAN, b));
+            }
+        }
+        let work: f64 = rows.iter().map(|r| r[7]).sum();
+        Ok(Summary::default()
+            .with("places", "1", rows.len() as f64)
+            .with("sliding_work", "J", work)
+            .with("largest_work", "J", rows.iter().map(|r| r[7]).fold(0.0, f64::max))
+            .with("frames", "1", self.frames as f64)
+            .with("contacts_elsewhere", "1", self.elsewhere as f64))
+    }
+
+    /// A map over the two axes along which the wall reaches farthest.
+    fn chart(&self, rows: &[Row]) -> Chart {
+        const CELLS: usize = 60;
+        let of = |k: usize| rows.iter().map(move |r| r[k]);
+        let reach = |k: usize| of(k).fold(f64::NEG_INFINITY, f64::max) - of(k).fold(f64::INFINITY, f64::min);
+        let mut axes = [0, 1, 2];
+        axes.sort_by(|a, b| reach(*b).total_cmp(&reach(*a)));
+        let (a, b) = (axes[0].min(axes[1]), axes[0].max(axes[1]));
+        let mut chart = Chart::new("Wear of walls");
+        let Some(first) = rows.first() else { return chart };
+        let margin = 0.5 * self.cell.unwrap_or(2.0 * first[3]);
+        let low = [a, b].map(|k| of(k).fold(f64::INFINITY, f64::min) - margin);
+        let wide = [a, b].map(|k| reach(k) + 2.0 * margin);
+        let step = self.cell.unwrap_or(wide[0].max(wide[1]) / CELLS as f64);
+        let count = wide.map(|w| (libm::round(w / step) as usize).clamp(1, 4 * CELLS));
+        for (value, column) in [("sliding work [J]", 7), ("mean normal force [N]", 5)] {
+            let mut cells = vec![vec![f64::NAN; count[0]]; count[1]];
+            for row in rows {
+                let [i, j] = [(a, 0), (b, 1)]
+                    .map(|(axis, k)| (((row[axis] - low[k]) / step) as usize).min(count[k] - 1));
+                let cell = &mut cells[j][i];
+                *cell = if cell.is_nan() { row[column] } else { *cell + row[column] };
+            }
+            let range = [low[0], low[1], low[0] + count[0] as f64 * step, low[1] + count[1] as f64 * step];
+            let [x, y] = [a, b].map(|k| format!("{} [m]", ["x", "y", "z"][k]));
+            chart.panels.push(Panel::Map { x, y, value: value.to_owned(), range, cells });
+        }
+        chart
+    }
+}

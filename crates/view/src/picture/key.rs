@@ -1,0 +1,52 @@
+//! What colours mean, and the colours of a table by it.
+
+use crate::{Map, colour, field, scale::Range};
+use stream::{Table, Values};
+
+/// What the colours mean.
+pub(crate) enum Key {
+    /// A range of a field.
+    Bar { field: String, unit: &'static str, range: Range, beyond: [bool; 2], map: Map },
+    /// Kinds by number, with their names.
+    Kinds { field: String, names: Vec<String> },
+    /// The colours of the scan itself.
+    None,
+}
+
+impl Key {
+    /// A colour for each row, parts 0 to 1; rows without the field are as walls are.
+    pub fn colours(&self, table: &Table) -> Vec<[f32; 3]> {
+        let found = match self {
+            Key::None => scan_colours(table),
+            Key::Kinds { field, .. } => field::values(table, field).map(by_kind),
+            Key::Bar { field, range, map, .. } => {
+                field::values(table, field).map(|v| by_value(v, *range, *map))
+            }
+        };
+        found.unwrap_or_else(|| plain(table.rows()))
+    }
+}
+
+fn by_value(values: Vec<f64>, range: Range, map: Map) -> Vec<[f32; 3]> {
+    let steps: Vec<[f32; 3]> = (0..=1023).map(|i| map.at(f64::from(i) / 1023.0)).collect();
+    values.into_iter().map(|v| steps[(1023.0 * range.share(v)) as usize]).collect()
+}
+
+fn by_kind(values: Vec<f64>) -> Vec<[f32; 3]> {
+    values.into_iter().map(|v| colour::fraction(colour::kind(v as usize))).collect()
+}
+
+/// The colour of walls.
+pub(crate) fn plain(rows: usize) -> Vec<[f32; 3]> {
+    vec![colour::fraction(colour::WALL); rows]
+}
+
+/// The scan's own colours, when it has them as bytes.
+pub(crate) fn scan_colours(table: &Table) -> Option<Vec<[f32; 3]>> {
+    let byte = |name| match table.get(name) {
+        Some(Values::U8(v)) => Some(v),
+        _ => None,
+    };
+    let (r, g, b) = (byte("red")?, byte("green")?, byte("blue")?);
+    Some((0..table.rows()).map(|i| colour::fraction([r[i], g[i], b[i]])).collect())
+}

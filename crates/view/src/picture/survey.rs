@@ -1,0 +1,120 @@
+//! What all pictures of a film have in common: what the camera sees, and what the colours mean.
+
+use super::{
+    PictureOptions,
+    key::{Key, scan_colours},
+    paint::Part,
+};
+use crate::{
+    Role, Surface, SurfaceShape, ViewError, colour, field, outline::Outline, scale::Range, sheet::box_of,
+    spheres::Spheres,
+};
+use geom::Vec3;
+
+/// Values of a moment that are kept to find the range of the colours, at most, when there are many moments.
+const SAMPLE: usize = 20_000;
+
+/// What was seen of the moments that are to be drawn.
+#[derive(Clone, Default)]
+pub struct Survey {
+    pub(super) outline: Outline,
+    colours: Option<Colours>,
+    moments: usize,
+}
+
+/// What is coloured, by what.
+#[derive(Clone)]
+struct Colours {
+    role: Role,
+    /// None: the scan's own colours.
+    field: Option<String>,
+    whole: bool,
+    kinds: Vec<String>,
+    values: Vec<f64>,
+    all: Range,
+}
+
+impl Survey {
+    /// Takes in a moment: what is there, and where meshes are at the time of `options`.
+    ///
+    /// # Errors
+    /// A broken table, an unknown field.
+    pub fn add(
+        &mut self,
+        parts: &[Part],
+        surfaces: &[Surface],
+        options: &PictureOptions,
+    ) -> Result<(), ViewError> {
+        self.moments += 1;
+        let parts = || parts.iter().filter(|p| p.table.rows() > 0);
+        for part in parts() {
+            self.outline.add_spheres(&Spheres::of(part.table, &part.name)?, part.role != Role::Walls);
+        }
+        for surface in surfaces.iter().filter(|s| self.moments == 1 || s.motion.moves()) {
+            if let SurfaceShape::Mesh(mesh) = &surface.shape {
+                let place = surface.motion.to(options.time.unwrap_or(0.0));
+                self.outline.add(&mesh.vertices.iter().map(|v| place(*v)).collect::<Vec<Vec3>>());
+            }
+        }
+        let Some(first) = parts().min_by_key(|p| p.role) else { return Ok(()) };
+        if self.colours.as_ref().is_none_or(|c| first.role < c.role) {
+            self.colours = Some(Colours::of(first, options));
+        }
+        let Some(colours) = &mut self.colours else { return Ok(()) };
+        let role = colours.role;
+        parts().filter(|p| p.role == role).try_for_each(|part| colours.add(part))
+    }
+
+    /// What is coloured.
+    pub(super) fn role(&self) -> Option<Role> {
+        self.colours.as_ref().map(|c| c.role)
+    }
+
+    /// The box around everything but planes [m].
+    pub(super) fn extent(&self) -> [Range; 3] {
+        box_of(&self.outline.places())
+    }
+
+    /// What the colours mean.
+    pub(super) fn key(&self, options: &PictureOptions) -> Key {
+        let Some(Colours { field: Some(field), whole, kinds, values, all, .. }) = &self.colours else {
+            return Key::None;
+        };
+        let name = field.clone();
+        if *whole && all.lo >= 0.0 && all.hi < colour::KIND_COUNT as f64 {
+            let names = (0..=all.hi as usize).map(|k| kinds.get(k).cloned().unwrap_or_else(|| k.to_string()));
+            return Key::Kinds { field: name, names: names.collect() };
+        }
+        let range = match options.range {
+            Some([lo, hi]) => Range { lo, hi },
+            None => Range::of_most(values).opened(),
+        };
+        let slack = 1e-9 * (range.hi - range.lo);
+        let beyond = [all.lo < range.lo - slack, all.hi > range.hi + slack];
+        Key::Bar { unit: field::unit(&name), field: name, range, beyond, map: options.map }
+    }
+}
+
+impl Colours {
+    fn of(part: &Part, options: &PictureOptions) -> Colours {
+        let asked = options.colour.as_deref().map(field::canonical);
+        let own = asked.is_none_or(|f| f == "rgb") && scan_colours(part.table).is_some();
+        let name = || asked.map_or_else(|| field::default_of(part.table), str::to_owned);
+        let field = (!own).then(name);
+        let whole = field.as_deref().is_some_and(|f| field::is_whole(part.table, f));
+        let (kinds, values) = (part.kinds.clone(), Vec::new());
+        Colours { role: part.role, field, whole, kinds, values, all: Range::EMPTY }
+    }
+
+    fn add(&mut self, part: &Part) -> Result<(), ViewError> {
+        let Some(name) = &self.field else { return Ok(()) };
+        let Some(values) = field::values(part.table, name) else {
+            let known = field::names(part.table, true).into_iter().chain(["x", "y", "z"].map(str::to_owned));
+            return Err(ViewError::NoField { name: name.clone(), known: known.collect() });
+        };
+        self.all = self.all.with(Range::of(&values));
+        let step = values.len().div_ceil(SAMPLE).max(1);
+        self.values.extend(values.into_iter().step_by(step));
+        Ok(())
+    }
+}

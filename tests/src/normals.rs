@@ -1,0 +1,124 @@
+//! Every normal law there is, with and without cohesion, and every surface a grain can meet: what laws are tried on.
+
+use crate::setups::{HOOKE, empty, grain, plane};
+use dem::effects::{Cohesion, Contact, Effect, Hertz, Hooke, Jkr, Load};
+use dem::lane::V;
+use dem::setup::*;
+use dem::{Setup, mass};
+use geom::Vec3;
+
+/// A normal law, and what adheres.
+#[derive(Debug, Clone, Copy)]
+pub struct Normal {
+    /// Name.
+    pub name: &'static str,
+    /// Law.
+    pub law: Law,
+    /// C [J/m³].
+    pub cohesion: Option<f64>,
+}
+
+/// w of the JKR law here [J/m²].
+pub const WORK: f64 = 1.0;
+
+/// All of them.
+pub const NORMALS: [Normal; 5] = [
+    Normal { name: "hooke", law: HOOKE, cohesion: None },
+    Normal { name: "hertz", law: Law::Hertz, cohesion: None },
+    Normal { name: "jkr", law: Law::Jkr { work_of_adhesion: WORK }, cohesion: None },
+    Normal { name: "hooke with cohesion", law: HOOKE, cohesion: Some(5e4) },
+    Normal { name: "hertz with cohesion", law: Law::Hertz, cohesion: Some(5e4) },
+];
+
+/// E* of the materials of [`empty`] [Pa].
+pub const MODULUS: f64 = 1e7 / (1.0 - 0.25 * 0.25) / 2.0;
+
+/// A contact of no speed.
+pub fn still(overlap: f64, radius: f64, curvature: f64) -> Contact<f64> {
+    Contact {
+        touching: true,
+        normal: V::new(0.0, 0.0, 1.0),
+        overlap,
+        radius,
+        curvature,
+        mass: 0.01,
+        approach: 0.0,
+        slip: V::zero(),
+        spin: V::zero(),
+    }
+}
+
+/// What an effect makes of a contact that has just been made.
+pub fn load<E: Effect>(effect: E, contact: &Contact<f64>) -> Load<f64> {
+    let nothing = vec![0.0; E::MEMORY * dem::lane::BLOCK];
+    let mut memory = <E::Memory<f64> as dem::effects::Memory<f64>>::load(&nothing, 0);
+    let mut load = Load::zero();
+    effect.apply(contact, 1e-6, &mut memory, &mut load);
+    load
+}
+
+impl Normal {
+    /// Two materials with this law and restitution for every pair.
+    pub fn setup(&self, restitution: f64) -> Setup {
+        let mut setup = empty(self.law, restitution);
+        setup.contacts.iter_mut().for_each(|c| c.cohesion = self.cohesion);
+        setup
+    }
+
+    /// Force and energy without damping.
+    pub fn load(&self, contact: &Contact<f64>) -> Load<f64> {
+        let cohesion = self.cohesion.map(|energy_density| Cohesion { energy_density });
+        let (modulus, damping_ratio) = (MODULUS, 0.0);
+        match self.law {
+            Law::Hooke { stiffness, .. } => load((Hooke { stiffness, damping_ratio }, cohesion), contact),
+            Law::Hertz => load((Hertz { modulus, damping_ratio }, cohesion), contact),
+            Law::Jkr { work_of_adhesion } => load(Jkr { modulus, work_of_adhesion, damping_ratio }, contact),
+        }
+    }
+
+    /// Overlap [m] at which a grain of 10 mm on a flat wall bears a force [N], and what friction is capped by there [N].
+    pub fn at_rest(&self, force: f64) -> (f64, f64) {
+        let of = |overlap| self.load(&still(overlap, 0.01, 0.0));
+        // Above the overlap without load the force grows with the overlap.
+        let (mut low, mut high) = (0.0, 2e-3);
+        for _ in 0..200 {
+            let middle = 0.5 * (low + high);
+            if of(middle).normal < force { low = middle } else { high = middle }
+        }
+        (high, of(high).pressing)
+    }
+
+    /// A grain of 10 mm at rest under gravity on a surface, and what friction is capped by over its mass [m/s²].
+    pub fn resting(&self, restitution: f64, surface: Surface) -> (Setup, f64) {
+        let mut setup = self.setup(restitution);
+        let m = mass(0.01, 2500.0);
+        let (overlap, pressing) = self.at_rest(m * 9.81);
+        setup.gravity.z = -9.81;
+        setup.walls = vec![surface.wall()];
+        setup.particles = vec![grain(1, Vec3::new(0.0, 0.0, 0.01 - overlap))];
+        (setup, pressing / m)
+    }
+}
+
+/// What a grain rests on: its top is at z = 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Surface {
+    /// A plane.
+    Plane,
+    /// A wall sphere so large that it is flat for a grain.
+    Sphere,
+}
+
+/// All of them.
+pub const SURFACES: [Surface; 2] = [Surface::Plane, Surface::Sphere];
+
+impl Surface {
+    /// The wall.
+    pub fn wall(self) -> Wall {
+        let mut wall = plane(Vec3::z());
+        if self == Surface::Sphere {
+            wall.shape = WallShape::Spheres(vec![(Vec3::new(0.0, 0.0, -1e4), 1e4)]);
+        }
+        wall
+    }
+}

@@ -1,0 +1,441 @@
+//! What dem-measure says of runs whose answers are known.
+
+#[path = "measure/made.rs"]
+mod made;
+
+use geom::Vec3;
+use grainpipe_tests::tools::{Done, line, program, succeed, tool};
+use made::{Chance, Grain, Made, at_rest, fcc, grain};
+use serde_json::Value;
+use std::f64::consts::PI;
+use std::io::{BufRead, BufReader, Write};
+use std::process::{Command, Stdio};
+use tempfile::{TempDir, tempdir};
+
+/// Saves a run as `run.mcap` in a folder of its own.
+fn saved(made: Made) -> TempDir {
+    let folder = tempdir().unwrap();
+    made.save(&folder.path().join("run.mcap"));
+    folder
+}
+
+fn one_frame(scene: &str, grains: &[Grain]) -> TempDir {
+    let mut made = Made::new(scene);
+    made.frame(0.0, grains);
+    saved(made)
+}
+
+fn measure(folder: &TempDir, arguments: &[&str]) -> Done {
+    succeed(folder.path(), "dem-measure", &[&["run.mcap"], arguments].concat())
+}
+
+/// The column of a CSV that is called so, without its unit.
+fn column(done: &Done, name: &str) -> Vec<f64> {
+    let text = String::from_utf8_lossy(&done.stdout).into_owned();
+    let mut lines = text.lines();
+    let heads: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
+    let at = heads.iter().position(|h| h.split(' ').next() == Some(name));
+    let at = at.unwrap_or_else(|| panic!("{name} in {heads:?}"));
+    lines.map(|l| l.split(',').nth(at).unwrap().parse().unwrap_or(f64::NAN)).collect()
+}
+
+/// A value of the sum, from the JSON.
+fn sum(folder: &TempDir, arguments: &[&str], name: &str) -> f64 {
+    let done = measure(folder, &[arguments, &["--json"]].concat());
+    let json: Value = serde_json::from_slice(&done.stdout).unwrap();
+    json["summary"][name]["value"].as_f64().unwrap_or(f64::NAN)
+}
+
+fn refused(folder: &TempDir, arguments: &[&str]) -> String {
+    let done = tool(folder.path(), "dem-measure", &[&["run.mcap"], arguments].concat());
+    assert_ne!(done.code, 0, "{arguments:?} must fail");
+    done.stderr
+}
+
+/// A heap of grains of radius 5 mm whose centres lie on `height` of x, y, with noise of a third of a diameter.
+fn heap(height: impl Fn(f64, f64) -> f64, seed: u64) -> Vec<Grain> {
+    let mut chance = Chance(seed);
+    let mut places = Vec::new();
+    for i in -45..=45 {
+        for j in -45..=45 {
+            let x = (f64::from(i) + 0.8 * (chance.next() - 0.5)) * 0.007;
+            let y = (f64::from(j) + 0.8 * (chance.next() - 0.5)) * 0.007;
+            let h = height(x, y);
+            places.push([x, y, if h > 0.0 { h + 0.0033 * chance.next() } else { 0.0 }]);
+        }
+    }
+    at_rest(places, 0.005)
+}
+
+#[test]
+fn a_noisy_cone_has_its_angle_within_the_interval() {
+    let slope = 28f64.to_radians().tan();
+    let mut grains = heap(|x, y| (0.28 - (x * x + y * y).sqrt()) * slope, 1);
+    let folder = one_frame("", &grains);
+    let (angle, interval) =
+        (sum(&folder, &["--repose"], "angle"), sum(&folder, &["--repose"], "angle_interval"));
+    assert!((angle - 28.0).abs() <= interval && interval < 0.6, "{angle} ± {interval}");
+    // Grains in the air and a cone that lies on its side change nothing.
+    let mut chance = Chance(7);
+    for id in 0..60 {
+        let place = [chance.next() - 0.5, chance.next() - 0.5, 0.3 + chance.next()].map(|v| 0.5 * v);
+        grains.push(grain(100_000 + id, place, 0.005));
+    }
+    grains.iter_mut().for_each(|g| g.place = Vec3::new(g.place.z, g.place.x, g.place.y));
+    let folder = one_frame("", &grains);
+    let turned = sum(&folder, &["--repose", "--up", "1,0,0"], "angle");
+    assert!((turned - 28.0).abs() <= interval + 0.2, "{turned}");
+    // Gravity says the same.
+    let folder = one_frame("gravity = [-9.81, 0, 0]", &grains);
+    assert_eq!(sum(&folder, &["--repose"], "angle"), turned);
+}
+
+#[test]
+fn a_heap_that_leans_on_a_wall_has_the_angle_of_its_slope() {
+    let slope = 33f64.to_radians().tan();
+    let folder = one_frame("", &heap(|x, _| (x + 0.1) * slope, 3));
+    let options = ["--repose", "--side", "x+", "--sectors", "6"];
+    let (angle, interval) = (sum(&folder, &options, "angle"), sum(&folder, &options, "angle_interval"));
+    assert!((angle - 33.0).abs() <= interval && interval < 0.6, "{angle} ± {interval}");
+    let picture = measure(&folder, &[&options[..], &["--plot", "heap.png"]].concat());
+    assert_eq!(column(&picture, "angle").len(), 6);
+    assert!(std::fs::read(folder.path().join("heap.png")).unwrap().starts_with(b"\x89PNG"));
+}
+
+/// Layers of four grains, 10 mm apart, that fall at 2 m/s: 800 grains a second, 8 in every 10 ms.
+fn uniform_stream(folder: &TempDir) {
+    let mut made = Made::new("");
+    for frame in 0..11 {
+        let time = f64::from(frame) * 0.013;
+        let at = |id: u32| {
+            let (layer, corner) = (f64::from(id / 4), id % 4);
+            let place = [
+                f64::from(corner / 2) * 0.01,
+                f64::from(corner % 2) * 0.01,
+                0.002 + layer * 0.01 - 2.0 * time,
+            ];
+            Grain { velocity: Vec3::new(0.0, 0.0, -2.0), ..grain(id, place, 0.004) }
+        };
+        let grains: Vec<Grain> = (0..160).map(at).collect();
+        made.frame(time, &grains);
+    }
+    made.save(&folder.path().join("run.mcap"));
+}
+
+#[test]
+fn a_uniform_stream_flows_evenly_between_frames_too() {
+    let folder = tempdir().unwrap();
+    uniform_stream(&folder);
+    let done = measure(&folder, &["--flow", "0,0,0,0,0,-1", "--span", "0.01"]);
+    assert_eq!(column(&done, "forward"), vec![8.0; 13]);
+    let mass = 4.0 / 3.0 * PI * 0.004f64.powi(3) * 2500.0;
+    for flow in column(&done, "mass_flow") {
+        assert!((flow / (800.0 * mass) - 1.0).abs() < 1e-9, "{flow}");
+    }
+    // Against the normal, and in half of the stream only.
+    let back = measure(&folder, &["--flow", "0,0,0,0,0,1", "--within", "box:-1,-1,-1,0.005,1,1"]);
+    assert_eq!(column(&back, "forward").iter().sum::<f64>(), 0.0);
+    assert_eq!(column(&back, "backward").iter().sum::<f64>(), 52.0);
+}
+
+#[test]
+fn recorded_crossings_are_counted_where_an_outlet_lies_in_the_plane() {
+    let mut made = Made::new("");
+    let outlet = r#"{"plane": {"point": [0, 0, 0], "normal": [0, 0, -1]}, "length": 0.1}"#;
+    made.record("outlets", &[("0", outlet)]);
+    made.frame(0.0, &[grain(9, [0.0, 0.0, 0.01], 0.01)]);
+    made.passages(0.1, &[(0.02, 1), (0.06, 2), (0.09, 3)]).frame(0.1, &[]);
+    made.passages(0.2, &[(0.15, 4)]).frame(0.2, &[]);
+    let folder = saved(made);
+    let done = measure(&folder, &["--flow", "5,5,0,0,0,-2"]);
+    assert_eq!(column(&done, "forward"), [3.0, 1.0]);
+    assert!(done.stderr.contains("from recorded crossings"), "{}", done.stderr);
+    let done = measure(&folder, &["--flow", "0,0,0,0,0,1", "--span", "0.05"]);
+    assert_eq!(column(&done, "backward"), [1.0, 2.0, 1.0, 0.0]);
+}
+
+/// Face-centred cubic: 12 contacts, φ = π/√18, in any slab that holds whole layers.
+#[test]
+fn a_dense_lattice_has_its_coordination_and_solid_fraction() {
+    let a = 0.02;
+    // A hair of overlap, which porosity takes off again.
+    let radius = a / 8f64.sqrt() * (1.0 + 1e-9);
+    let mut grains = at_rest(fcc(4, a), radius);
+    grains.iter_mut().for_each(|g| g.velocity = Vec3::new(3.0, 0.0, if g.id % 2 == 0 { 4.0 } else { -4.0 }));
+    let scene = "[domain]\nperiodic = [\"x\", \"y\", \"z\"]\nlow = [0, 0, 0]\nhigh = [0.08, 0.08, 0.08]\n";
+    let folder = one_frame(scene, &grains);
+    let done = measure(&folder, &["--contacts"]);
+    assert_eq!((column(&done, "coordination"), column(&done, "rattlers")), (vec![12.0], vec![0.0]));
+    assert_eq!(column(&done, "pairs"), [6.0 * 256.0]);
+    let phi = PI / 18f64.sqrt();
+    let inner = "box:0.02,0.02,0.02,0.06,0.06,0.06";
+    for (shape, tolerance) in [(inner, 1e-8), ("sphere:0.04,0.04,0.04,0.03", 0.02)] {
+        let found = 1.0 - sum(&folder, &["--porosity", shape], "porosity");
+        assert!((found - phi).abs() < tolerance, "{shape}: {found}");
+    }
+    let done = measure(&folder, &["--profile", "--within", inner, "--bins", "4", "--field", "radius"]);
+    for (k, found) in column(&done, "solid_fraction").into_iter().enumerate() {
+        assert!((found - phi).abs() < 1e-8, "slab {k}: {found}");
+    }
+    assert!(column(&done, "vx").iter().all(|v| (v - 3.0).abs() < 1e-9));
+    assert!(column(&done, "radius").iter().all(|r| (r - radius).abs() < 1e-9));
+    let heat = column(&done, "granular_temperature");
+    assert!(heat.iter().all(|t| (t - 16.0 / 3.0).abs() < 0.5), "{heat:?}");
+}
+
+#[test]
+fn velocities_are_weighted_by_mass() {
+    let heavy = Grain { velocity: Vec3::x(), ..grain(0, [0.3, 0.5, 0.5], 0.1) };
+    let light = Grain { velocity: Vec3::zeros(), material: 1, ..grain(1, [0.7, 0.5, 0.5], 0.1) };
+    let mut made = Made::new("");
+    made.frame(0.0, &[heavy, light]).frame(1.0, &[heavy]);
+    let folder = saved(made);
+    let options = ["--profile", "--within", "box:0,0,0,1,1,1", "--bins", "1", "--mean"];
+    let done = measure(&folder, &options);
+    assert!(
+        (column(&done, "vx")[0] - 5000.0 / 6000.0).abs() < 1e-11,
+        "two frames of the heavy, one of the light"
+    );
+    let volume = 4.0 / 3.0 * PI * 0.001;
+    assert!((column(&done, "solid_fraction")[0] - 1.5 * volume).abs() < 1e-12);
+}
+
+#[test]
+fn mixed_and_segregated_beds_have_indices_1_and_0() {
+    let mut chance = Chance(5);
+    let lattice =
+        (0..12 * 12 * 12).map(|k| [k % 12, k / 12 % 12, k / 144].map(|i| (f64::from(i) + 0.5) * 0.01));
+    let mut grains = at_rest(lattice, 0.004);
+    let options = ["--segregation", "--kind", "b", "--cell", "0.03"];
+    grains.iter_mut().for_each(|g| g.material = u16::from(g.place.z > 0.06));
+    let folder = one_frame("", &grains);
+    assert!(sum(&folder, &options, "lacey_index").abs() < 1e-12);
+    // Of lighter grains, whose bed is two halves of unequal mass.
+    let difference = sum(&folder, &options, "centre_difference");
+    assert!((difference - 1.0).abs() < 0.12 && difference > 0.0, "{difference}");
+    grains.iter_mut().for_each(|g| g.material = u16::from(chance.next() < 0.4));
+    let folder = one_frame("", &grains);
+    let (index, difference) =
+        (sum(&folder, &options, "lacey_index"), sum(&folder, &options, "centre_difference"));
+    // 64 cells of 27: the index of a random mixture deviates by √(2/63)/26 = 0.007.
+    assert!((index - 1.0).abs() < 0.02 && difference.abs() < 0.1, "{index} {difference}");
+    // By size, where it is the size that differs.
+    grains.iter_mut().for_each(|g| g.radius = if g.place.z > 0.06 { 0.0045 } else { 0.004 });
+    let folder = one_frame("", &grains);
+    let by_size = ["--segregation", "--split", "0.0085", "--cell", "0.03"];
+    assert!(sum(&folder, &by_size, "lacey_index").abs() < 1e-12);
+    assert!(refused(&folder, &["--segregation", "--split", "1"]).contains("only one kind of grains"));
+}
+
+#[test]
+fn the_ledger_closes_where_no_grain_enters() {
+    let mut made = Made::new("");
+    let ledger = |k: f64, balance: f64| {
+        format!(r#"{{"translation": {k}, "potential": {}, "bonds": 0.5, "balance": {balance}}}"#, -k)
+    };
+    let one = [grain(0, [0.0; 3], 0.01)];
+    let two = [one[0], grain(1, [1.0; 3], 0.01)];
+    made.frame(0.0, &one).json("/energy", 0.0, &ledger(0.0, 1.0));
+    made.frame(0.1, &one).json("/energy", 0.1, &ledger(2.0, 1.001));
+    made.frame(0.2, &two).json("/energy", 0.2, &ledger(4.0, 7.0));
+    made.frame(0.3, &two).json("/energy", 0.3, &ledger(4.0, 6.998));
+    let folder = saved(made);
+    let done = measure(&folder, &["--energy", "--plot", "energy.svg"]);
+    let expected = [0.0, 0.001, 0.001, -0.001];
+    for (found, expected) in column(&done, "closure_error").iter().zip(expected) {
+        assert!((found - expected).abs() < 1e-12, "{found} {expected}");
+    }
+    assert_eq!(column(&done, "bonds"), [0.5; 4]);
+    assert!((column(&done, "closure_relative")[3] + 0.00025).abs() < 1e-12, "of the 4 J exchanged");
+    assert!(done.stderr.contains("1 intervals left out"), "{}", done.stderr);
+    assert!(std::fs::read(folder.path().join("energy.svg")).unwrap().starts_with(b"<svg"));
+}
+
+/// Grain 0 on the floor and against grain 1; grain 2 touches nothing.
+fn with_contacts() -> TempDir {
+    let mut made = Made::new("");
+    made.json("/surfaces", 0.0, r#"[{"name": "floor"}, {"name": "side"}]"#);
+    made.wall_spheres(&[[0.0, 0.0, -0.01], [0.02, 0.0, -0.01], [0.04, 0.0, -0.01]]);
+    let grains = at_rest([[0.0, 0.0, 0.01], [0.02, 0.0, 0.01], [0.5, 0.5, 0.5]], 0.01);
+    let (x, z) = ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]);
+    for (time, push) in [(0.0, 2.0), (0.1, 4.0)] {
+        made.frame(time, &grains).contacts(
+            time,
+            &[
+                (0, 1, false, [0.01, 0.0, 0.01], [-1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], 0.0),
+                (0, 1, false, [0.01, 0.0, 0.01], [-1.0, 0.0, 0.0], [-3.0, 0.0, 0.5], 0.0),
+                (0, 0, true, [0.0; 3], z, [0.5, 0.0, push], 0.25),
+                (1, 0, true, [0.021, 0.0, 0.0], z, [0.0, 0.0, 1.0], 0.5),
+                (1, 1, true, [0.03, 0.0, 0.01], x, [7.0, 0.0, 0.0], 0.0),
+            ],
+        );
+    }
+    saved(made)
+}
+
+#[test]
+fn recorded_contacts_give_numbers_forces_and_wear() {
+    let folder = with_contacts();
+    let done = measure(&folder, &["--contacts", "--last"]);
+    assert_eq!((column(&done, "pairs"), column(&done, "wall_contacts")), (vec![1.0], vec![3.0]));
+    assert!((column(&done, "coordination")[0] - 2.0 / 3.0).abs() < 1e-11);
+    // Grain 0 has two, grain 1 three, grain 2 rattles.
+    assert_eq!(column(&done, "mechanical_coordination"), [2.5]);
+    assert!((column(&done, "rattlers")[0] - 1.0 / 3.0).abs() < 1e-11);
+    let done = measure(&folder, &["--forces"]);
+    let normal = column(&done, "normal");
+    // 1 N and 3 N: half and one and a half of the mean.
+    assert_eq!((normal[2], normal[7], normal.iter().sum::<f64>()), (1.0, 1.0, 2.0));
+    assert!((column(&done, "normal_density")[2] - 2.5).abs() < 1e-12);
+    assert!((sum(&folder, &["--forces"], "mean_tangential") - 0.25).abs() < 1e-12);
+    let floor = measure(&folder, &["--wall-force", "all", "--wall", "floor"]);
+    assert_eq!((column(&floor, "fz"), column(&floor, "fx")), (vec![-3.0, -5.0], vec![-0.5, -0.5]));
+    assert_eq!(column(&floor, "sliding_work_sum"), [0.75, 1.5]);
+    let left = measure(&folder, &["--wall-force", "box:-1,-1,-1,0.01,1,1"]);
+    assert_eq!(column(&left, "fz"), [-2.0, -4.0]);
+    let wear = measure(&folder, &["--wear", "all", "--wall", "0", "--plot", "wear.png"]);
+    assert_eq!((column(&wear, "x"), column(&wear, "sliding_work")), (vec![0.0, 0.02], vec![0.5, 1.0]));
+    assert_eq!(
+        (column(&wear, "mean_normal"), column(&wear, "largest_normal")),
+        (vec![3.0, 1.0], vec![4.0, 1.0])
+    );
+    let cells = measure(&folder, &["--wear", "all", "--wall", "floor", "--cell", "0.02"]);
+    assert_eq!(
+        (column(&cells, "x"), column(&cells, "work_per_area")),
+        (vec![0.01, 0.03], vec![1250.0, 2500.0])
+    );
+}
+
+/// A ball falls freely from z = 0.3 m, without speed, past a plane and through a box: dem-run and dem-measure in a pipe.
+#[test]
+fn a_falling_ball_is_timed_in_a_pipe() {
+    let folder = tempdir().unwrap();
+    let scene = "gravity = [0, 0, -9.81]\n[time]\nuntil = 0.3\n[output]\nevery = 0.02\n[[material]]\nname = \"m\"\n\
+        density = 2500\nyoung = 1e6\npoisson = 0.3\n[[contact]]\nbetween = [\"*\", \"*\"]\nrestitution = 0.5\n\
+        [[particles]]\nsource = \"balls.csv\"\nmaterial = \"m\"\n";
+    std::fs::write(folder.path().join("fall.toml"), scene).unwrap();
+    std::fs::write(folder.path().join("balls.csv"), "id,x,y,z,radius\n5,0,0,0.3,0.01\n").unwrap();
+    let fall = |height: f64| (2.0 * height / 9.81).sqrt();
+    let done = line(folder.path(), "dem-run fall.toml | dem-measure - --residence box:-1,-1,0.05,1,1,0.2");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let (entered, left) = (column(&done, "entered")[0], column(&done, "left")[0]);
+    assert!((entered - fall(0.1)).abs() < 1e-6 && (left - fall(0.25)).abs() < 1e-6, "{entered} {left}");
+    assert!((column(&done, "residence")[0] - (fall(0.25) - fall(0.1))).abs() < 1e-6);
+    let done = line(folder.path(), "dem-run fall.toml | dem-measure - --flow 0,0,0.1,0,0,-1 --span 0.01");
+    let passed = column(&done, "forward").iter().position(|n| *n == 1.0).unwrap();
+    assert_eq!(passed, (fall(0.2) / 0.01) as usize, "{}", done.stderr);
+}
+
+/// Rows come while the run is still being written.
+#[test]
+fn rows_come_as_the_run_grows() {
+    let folder = tempdir().unwrap();
+    let mut command = Command::new(program("dem-measure"));
+    command.current_dir(folder.path()).args(["-", "--porosity", "box:0,0,0,1,1,1"]);
+    let mut child =
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
+    let (mut to, from) = (child.stdin.take().unwrap(), child.stdout.take().unwrap());
+    let mut made = Made::new("");
+    made.frame(0.0, &[grain(0, [0.5; 3], 0.1)]);
+    made.0.flush_chunk().unwrap();
+    made.frame(0.1, &[grain(0, [0.5; 3], 0.1)]);
+    let bytes = made.0.finish().unwrap();
+    // The second frame and the end are held back.
+    let cut = bytes.len() * 3 / 5;
+    to.write_all(&bytes[..cut]).unwrap();
+    let mut lines = BufReader::new(from).lines();
+    let first: Vec<String> = lines.by_ref().take(2).map(Result::unwrap).collect();
+    assert!(first[0].starts_with("time [s],porosity [1]") && first[1].starts_with("0,0.99581"), "{first:?}");
+    to.write_all(&bytes[cut..]).unwrap();
+    drop(to);
+    assert_eq!(lines.count(), 1);
+    assert!(child.wait().unwrap().success());
+}
+
+#[test]
+fn the_same_bytes_for_any_number_of_threads() {
+    let slope = 0.5;
+    let folder = one_frame("", &heap(|x, y| (0.28 - (x * x + y * y).sqrt()) * slope, 1));
+    for options in
+        [&["--repose"][..], &["--porosity", "cylinder:0,0,0,0,0,0.1,0.1"], &["--profile"], &["--contacts"]]
+    {
+        let [one, many] = ["1", "3"].map(|n| measure(&folder, &[options, &["--threads", n]].concat()).stdout);
+        assert_eq!(one, many, "{options:?}");
+    }
+}
+
+#[test]
+fn what_cannot_be_measured_is_refused_with_a_cure() {
+    let folder = with_contacts();
+    let some = one_frame("", &[grain(0, [0.0, 0.0, 0.01], 0.01)]);
+    let none = tempdir().unwrap();
+    Made::new("").save(&none.path().join("run.mcap"));
+    let stream = tempdir().unwrap();
+    uniform_stream(&stream);
+    let cases: [(&TempDir, &[&str], &[&str]); 24] = [
+        (&some, &["--energy"], &["run.mcap: --energy: run holds no energy ledger", "[output] energy = true"]),
+        (&some, &["--forces"], &["run holds no contacts: set [output] contacts = true"]),
+        (&some, &["--wall-force", "all"], &["run holds no contacts: set [output] contacts = true"]),
+        (&some, &["--wear", "all"], &["run holds no contacts: set [output] contacts = true"]),
+        (&none, &["--repose"], &["run holds no frames"]),
+        (&none, &["--flow", "0,0,0,0,0,1"], &["run holds no frames"]),
+        (&some, &["--flow", "0,0,0,0,0,1"], &["run has 1 frame:", "set [output] every"]),
+        (&some, &["--residence", "all"], &["run has 1 frame:"]),
+        (
+            &stream,
+            &["--flow", "0,0,5,0,0,1"],
+            &["plane lies outside of the grains", "from -5.258 to -4.608 m", "move it"],
+        ),
+        (&some, &["--porosity", "box:0,0,0,1,1,0"], &["volume of 0 m³", "room inside"]),
+        (&some, &["--porosity", "halfspace:0,0,0,0,0,1"], &["shape has no end"]),
+        (
+            &some,
+            &["--porosity", "box:5,5,5,6,6,6"],
+            &["no grain in the shape", "box:-0.01,-0.01,0,0.01,0.01,0.02"],
+        ),
+        (&stream, &["--residence", "sphere:9,9,9,1"], &["no grain in the shape"]),
+        (
+            &folder,
+            &["--wall-force", "box:5,5,5,6,6,6"],
+            &["no contact with a wall in the shape", "move the shape"],
+        ),
+        (&folder, &["--wall-force", "all", "--wall", "roof"], &["no material or wall 'roof'", "floor, side"]),
+        (&some, &["--profile", "--field", "heat"], &["no field 'heat' in /particles", "vx, vy, vz"]),
+        (&some, &["--repose"], &["heap at 0 s", "profile bins", "smaller --bin"]),
+        (&some, &["--segregation"], &["frames hold at most 1 grains, and mixing needs 2"]),
+        (&folder, &["--segregation", "--kind", "z"], &["no material or wall 'z'; there are a, b"]),
+        (
+            &some,
+            &["--time", "-1", "--porosity", "sphere:0,0,0,1"],
+            &["no frame at or before -1 s", "from 0 to 0 s"],
+        ),
+        (&some, &["--profile", "--sectors", "3"], &["--sectors: is an option of --repose"]),
+        (
+            &some,
+            &["--energy", "--time", "1"],
+            &["--time: --energy is measured over time", "--from and --until"],
+        ),
+        (&some, &["--contacts", "--plot", "x.pdf"], &["must end in .svg or .png"]),
+        (&some, &[], &["--repose", "--porosity <SHAPE>"]),
+    ];
+    for (folder, arguments, parts) in cases {
+        let message = refused(folder, arguments);
+        assert!(message.starts_with("dem-measure: "), "{message}");
+        for part in parts {
+            assert!(message.contains(part), "{arguments:?}: {part} in {message}");
+        }
+    }
+}
+
+/// What was measured before the break is there, and the break is told.
+#[test]
+fn a_broken_run_is_measured_as_far_as_it_goes() {
+    let folder = tempdir().unwrap();
+    uniform_stream(&folder);
+    let path = folder.path().join("run.mcap");
+    let bytes = std::fs::read(&path).unwrap();
+    std::fs::write(&path, &bytes[..bytes.len() - 40]).unwrap();
+    let done = tool(folder.path(), "dem-measure", &["run.mcap", "--flow", "0,0,0,0,0,-1"]);
+    assert_eq!(done.code, 1);
+    assert!(done.stderr.contains("truncated") && column(&done, "forward").len() == 10, "{}", done.stderr);
+}

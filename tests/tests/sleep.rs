@@ -1,0 +1,166 @@
+//! Sleep: what is at rest is passed over until it is disturbed, and the heap is the one that was computed in full.
+
+use dem::lane::Width;
+use dem::setup::*;
+use dem::{Setup, Simulation};
+use geom::Vec3;
+use grainpipe_tests::setups::{HOOKE, LAWS, empty, grain, particles, plane, run_until, with_friction};
+
+/// Grains of radius 10 mm that fall on a floor, 8 × 8 in layers, in a periodic box.
+fn filling(law: Law, layers: u32) -> Setup {
+    let mut setup = with_friction(empty(law, 0.3), 0.5);
+    setup.gravity.z = -9.81;
+    setup.step = Step::Auto(0.5);
+    setup.periodic = [Some((0.0, 0.17)), Some((0.0, 0.17)), None];
+    setup.walls = vec![plane(Vec3::z())];
+    setup.particles = (0..64 * layers)
+        .map(|k| {
+            let shift = 0.001 * f64::from(k * 7 % 11) - 0.005;
+            let at = |n: u32| 0.0106 + 0.0212 * f64::from(n % 8);
+            grain(
+                k,
+                Vec3::new(at(k) + 0.2 * shift, at(k / 8) - 0.1 * shift, 0.012 + 0.0213 * f64::from(k / 64)),
+            )
+        })
+        .collect();
+    setup
+}
+
+fn sleepy(setup: Setup) -> Setup {
+    Setup { sleep: Some(Sleep { speed: 1e-3, time: 0.01, wake: 0.05 }), ..setup }
+}
+
+fn simulation(setup: Setup) -> Simulation {
+    Simulation::new(setup).expect("sound")
+}
+
+fn mean_height(sim: &mut Simulation) -> f64 {
+    let all = particles(sim);
+    all.iter().map(|p| p.position.z).sum::<f64>() / all.len() as f64
+}
+
+#[test]
+fn a_heap_at_rest_sleeps_where_it_would_lie_awake() {
+    for law in LAWS {
+        let (mut with, mut without) = (simulation(sleepy(filling(law, 3))), simulation(filling(law, 3)));
+        run_until(&mut with, 1.3);
+        run_until(&mut without, 1.3);
+        let asleep = with.asleep() as f64 / with.particle_count() as f64;
+        assert!(asleep > 0.9, "{law:?}: only {asleep:.2} of the heap sleeps");
+        assert_eq!(without.asleep(), 0);
+        let (a, b) = (mean_height(&mut with), mean_height(&mut without));
+        assert!((a - b).abs() < 0.01 * b, "{law:?}: mean height {a} m asleep, {b} m awake");
+    }
+}
+
+/// A heap that sleeps is woken by a heavy grain that falls on it.
+#[test]
+fn an_impact_wakes_those_that_it_reaches() {
+    let mut setup = sleepy(filling(Law::Hooke { stiffness: 1e5, tangential_ratio: None }, 1));
+    setup.guards.overlap = 0.5;
+    setup.contacts.iter_mut().for_each(|c| c.rolling_resistance = Some(0.3));
+    // Thrown up, it is back at t = 1.22 s with 6.4 m/s.
+    let (start, up) = (Vec3::new(0.085, 0.085, 0.5), Vec3::new(0.0, 0.0, 5.6));
+    setup.particles.push(Particle { velocity: up, ..grain(9999, start) });
+    let mut sim = simulation(setup);
+    run_until(&mut sim, 1.2);
+    let before = sim.asleep();
+    assert!(before > 50, "{before} sleep before the impact");
+    let low = particles(&mut sim);
+    run_until(&mut sim, 1.26);
+    assert!(sim.asleep() < before, "{} sleep while it lands, {before} did before", sim.asleep());
+    let moved = |(a, b): (&Particle, &Particle)| (a.position - b.position).norm() > 1e-4;
+    let high = particles(&mut sim);
+    let stirred = low.iter().zip(&high).filter(|(a, _)| a.id != 9999).filter(|&(a, b)| moved((a, b))).count();
+    assert!(stirred > 3, "{stirred} grains were pushed aside");
+    run_until(&mut sim, 2.0);
+    assert!(sim.asleep() + 10 >= before, "{} sleep in the end", sim.asleep());
+}
+
+/// A sleeper whose support is drawn away falls as freely as one that never slept.
+#[test]
+fn a_sleeper_that_loses_its_support_falls() {
+    let mut setup = sleepy(empty(HOOKE, 0.3));
+    setup.gravity.z = -9.81;
+    let mut floor = plane(Vec3::z());
+    // Up and down once in two seconds: it starts at rest height and leaves with 3.1 m/s, faster than the grain.
+    floor.motion = Motion { amplitude: Vec3::new(0.0, 0.0, -1.0), frequency: 0.5, ..Motion::still() };
+    setup.walls = vec![floor];
+    setup.particles = vec![grain(0, Vec3::new(0.0, 0.0, 0.0101))];
+    let mut sim = simulation(setup);
+    run_until(&mut sim, 0.3);
+    assert_eq!(sim.asleep(), 0, "a wall that moves lets nobody sleep");
+    let z = particles(&mut sim)[0].position.z;
+    let free = 0.0101 - 0.5 * 9.81 * sim.time() * sim.time();
+    assert!((z - free).abs() < 1e-3, "fell to {z} m, freely to {free} m");
+}
+
+#[test]
+fn sleep_is_the_same_for_every_width_and_thread_and_across_a_checkpoint() {
+    let end = |mut sim: Simulation| {
+        run_until(&mut sim, 0.8);
+        let all = particles(&mut sim);
+        (
+            sim.asleep(),
+            all.iter()
+                .flat_map(|p| [p.position.x, p.position.z, p.velocity.z].map(f64::to_bits))
+                .collect::<Vec<_>>(),
+        )
+    };
+    let reference = end(simulation(sleepy(filling(HOOKE, 5))));
+    assert!(reference.0 > 0, "nobody sleeps");
+    for width in Width::available() {
+        let sim = Simulation::with_width(sleepy(filling(HOOKE, 5)), width).expect("sound");
+        assert!(end(sim) == reference, "{width:?}");
+    }
+    for threads in [1, 2, 3, 7] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        assert!(
+            pool.install(|| end(simulation(sleepy(filling(HOOKE, 5))))) == reference,
+            "{threads} threads"
+        );
+    }
+    let mut first = simulation(sleepy(filling(HOOKE, 5)));
+    run_until(&mut first, 0.72);
+    let state = first.state().to_state();
+    let resumed = Simulation::resume(sleepy(filling(HOOKE, 5)), state).expect("the same setup");
+    assert!(end(resumed) == reference, "resumed");
+}
+
+/// A sleeper that is looked at goes on sleeping: its place does not change by a bit.
+#[test]
+fn looking_wakes_nobody() {
+    let mut sim = simulation(sleepy(filling(HOOKE, 1)));
+    run_until(&mut sim, 0.2);
+    assert_eq!(sim.asleep(), 64);
+    let before = particles(&mut sim);
+    for _ in 0..50 {
+        sim.step().expect("within the guards");
+        assert_eq!(particles(&mut sim)[7].position, before[7].position);
+    }
+}
+
+/// What sleepers lose is in the ledger.
+#[test]
+fn the_ledger_closes_with_sleepers() {
+    let mut setup = sleepy(filling(HOOKE, 3));
+    setup.ledger = true;
+    setup.step = Step::Auto(0.1);
+    let mut sim = simulation(setup);
+    let start = sim.energy().expect("within the guards").balance();
+    run_until(&mut sim, 1.1);
+    let end = sim.energy().expect("within the guards");
+    assert!(sim.asleep() > 100 && end.slept > 0.0);
+    let exchanged = end.normal + end.sliding;
+    assert!((end.balance() - start).abs() < 2e-3 * exchanged, "{} J of {exchanged} J", end.balance() - start);
+}
+
+/// Without the key there is nothing of it.
+#[test]
+fn no_sleep_no_bytes() {
+    assert_eq!(simulation(filling(HOOKE, 2)).asleep(), 0);
+    assert!(
+        simulation(filling(HOOKE, 2)).bytes_per_particle()
+            < simulation(sleepy(filling(HOOKE, 2))).bytes_per_particle()
+    );
+}

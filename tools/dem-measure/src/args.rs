@@ -1,0 +1,228 @@
+//! The command line.
+
+use clap::{ArgGroup, Parser};
+use cli::{Output, Source, usage};
+use geom::{Plane, Shape, Vec3};
+use std::path::PathBuf;
+
+const SHAPES: &str = "SHAPE: box:x0,y0,z0,x1,y1,z1 | sphere:x,y,z,r | cylinder:x0,y0,z0,x1,y1,z1,r | \
+    halfspace:px,py,pz,nx,ny,nz | prism:FILE.json | mesh:FILE | all (where no volume is needed); a ! in front \
+    means outside. PLANE: px,py,pz,nx,ny,nz, n in the direction of flow. All in metres.\n\
+    How each measure is defined, and its columns: docs/measure.md.";
+
+/// Measures a run (MCAP), also while it is still being written: CSV (or JSON) to stdout
+#[derive(Parser, Debug)]
+#[command(after_help = SHAPES)]
+#[command(group(ArgGroup::new("measure").required(true)))]
+pub struct Args {
+    /// The run (MCAP), - for stdin
+    #[arg(value_name = "RUN.mcap", default_value = "-", hide_default_value = true)]
+    pub run: Source,
+    /// Angle of a heap, with its 95 % interval, in several directions
+    #[arg(long, group = "measure")]
+    pub repose: bool,
+    /// Mass and number of grains through PLANE over time
+    #[arg(long, group = "measure", value_name = "PLANE", allow_hyphen_values = true)]
+    pub flow: Option<Plane>,
+    /// Velocity, solid fraction and size on a grid
+    #[arg(long, group = "measure")]
+    pub profile: bool,
+    /// How well two kinds of grains are mixed: Lacey's index, difference of the centres of mass
+    #[arg(long, group = "measure")]
+    pub segregation: bool,
+    /// The energy ledger and how well it closes
+    #[arg(long, group = "measure")]
+    pub energy: bool,
+    /// Contact numbers, with and without rattlers
+    #[arg(long, group = "measure")]
+    pub contacts: bool,
+    /// Distribution of contact forces
+    #[arg(long, group = "measure")]
+    pub forces: bool,
+    /// Porosity in SHAPE
+    #[arg(long, group = "measure", value_name = "SHAPE", value_parser = shape)]
+    pub porosity: Option<GivenShape>,
+    /// Force on walls, and sliding work, of the contacts in SHAPE over time
+    #[arg(long, group = "measure", value_name = "SHAPE", value_parser = shape)]
+    pub wall_force: Option<GivenShape>,
+    /// Map of force and sliding work on walls in SHAPE: by wall sphere, or by --cell
+    #[arg(long, group = "measure", value_name = "SHAPE", value_parser = shape)]
+    pub wear: Option<GivenShape>,
+    /// How long grains stay in SHAPE
+    #[arg(long, group = "measure", value_name = "SHAPE", value_parser = shape)]
+    pub residence: Option<GivenShape>,
+
+    /// The last frame not after S [s]
+    #[arg(long, value_name = "S", help_heading = "Which frames")]
+    pub time: Option<f64>,
+    /// The last frame (repose, profile and forces: the default)
+    #[arg(long, conflicts_with = "time", help_heading = "Which frames")]
+    pub last: bool,
+    /// Every frame (the others' default)
+    #[arg(long, conflicts_with_all = ["time", "last"], help_heading = "Which frames")]
+    pub all: bool,
+    /// Every frame from S on [s]
+    #[arg(long, value_name = "S", conflicts_with_all = ["time", "last"], help_heading = "Which frames")]
+    pub from: Option<f64>,
+    /// Every frame until S [s]
+    #[arg(long, value_name = "S", conflicts_with_all = ["time", "last"], help_heading = "Which frames")]
+    pub until: Option<f64>,
+
+    /// Up (default: against the scene's gravity, else z) [repose, segregation]
+    #[arg(long, value_name = "x,y,z", value_parser = vector, allow_hyphen_values = true, help_heading = "How")]
+    pub up: Option<Vec3>,
+    /// Sectors around the axis, or lanes from the wall (default 8) [repose]
+    #[arg(long, value_name = "N", help_heading = "How")]
+    pub sectors: Option<usize>,
+    /// Fractions of the heap's height between which the flank is fitted (default 0.2,0.8) [repose]
+    #[arg(long, value_name = "LO,HI", value_parser = pair, help_heading = "How")]
+    pub fractions: Option<[f64; 2]>,
+    /// Width of the bins of the heap's profile [m] (default: a mean diameter) [repose]
+    #[arg(long, value_name = "M", help_heading = "How")]
+    pub bin: Option<f64>,
+    /// Height of the ground [m] (default: that of the lowest grains) [repose]
+    #[arg(long, value_name = "M", allow_hyphen_values = true, help_heading = "How")]
+    pub ground: Option<f64>,
+    /// The heap leans on a wall at this side: x- x+ y- y+ z- z+ [repose]
+    #[arg(long, value_name = "SIDE", value_parser = side, allow_hyphen_values = true, help_heading = "How")]
+    pub side: Option<Vec3>,
+    /// Only inside SHAPE [flow]; the box of the grid [profile]
+    #[arg(long, value_name = "SHAPE", value_parser = shape, help_heading = "How")]
+    pub within: Option<GivenShape>,
+    /// Rows for spans of S [s] (default: from frame to frame) [flow]
+    #[arg(long, value_name = "S", help_heading = "How")]
+    pub span: Option<f64>,
+    /// Axis of the bins: x, y or z (default z) [profile]
+    #[arg(long, value_name = "AXIS", value_parser = axis, help_heading = "How")]
+    pub axis: Option<usize>,
+    /// Number of bins along the axis (default 20), or along all three axes [profile]
+    #[arg(long, value_name = "N|NX,NY,NZ", value_parser = bins, help_heading = "How")]
+    pub bins: Option<Bins>,
+    /// One profile, averaged over the frames [profile]
+    #[arg(long, conflicts_with_all = ["time", "last"], help_heading = "How")]
+    pub mean: bool,
+    /// Also the mean of this column of /particles (repeat) [profile]
+    #[arg(long, value_name = "NAME", help_heading = "How")]
+    pub field: Vec<String>,
+    /// Side of the cells [m] [segregation: default 3 mean diameters; wear]
+    #[arg(long, value_name = "M", help_heading = "How")]
+    pub cell: Option<f64>,
+    /// The first kind is what is larger than M [m] (default: the median) [segregation]
+    #[arg(long, value_name = "M", conflicts_with = "kind", help_heading = "How")]
+    pub split: Option<f64>,
+    /// The first kind is what is of this material [segregation]
+    #[arg(long, value_name = "MATERIAL", help_heading = "How")]
+    pub kind: Option<String>,
+    /// Only this wall, by name or index [wall-force, wear]
+    #[arg(long, value_name = "WALL", help_heading = "How")]
+    pub wall: Option<String>,
+    /// Forces on walls in the place of forces between grains [forces]
+    #[arg(long, help_heading = "How")]
+    pub on_walls: bool,
+
+    /// Draw it, too
+    #[arg(long, value_name = "FILE.svg|png")]
+    pub plot: Option<PathBuf>,
+    /// JSON in the place of CSV
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub output: Output,
+}
+
+/// A shape and its text.
+#[derive(Debug, Clone)]
+pub struct GivenShape {
+    /// As given.
+    pub text: String,
+    /// The shape.
+    pub shape: Shape,
+}
+
+/// Numbers of bins.
+#[derive(Debug, Clone, Copy)]
+pub enum Bins {
+    /// Along the axis.
+    One(usize),
+    /// Along x, y, z.
+    All([usize; 3]),
+}
+
+impl Args {
+    /// Refuses options of other measures than the one that is asked for.
+    pub fn check(&self, measure: &str) -> anyhow::Result<()> {
+        let options: [(&str, bool, &[&str]); 17] = [
+            ("--up", self.up.is_some(), &["--repose", "--segregation"]),
+            ("--sectors", self.sectors.is_some(), &["--repose"]),
+            ("--fractions", self.fractions.is_some(), &["--repose"]),
+            ("--bin", self.bin.is_some(), &["--repose"]),
+            ("--ground", self.ground.is_some(), &["--repose"]),
+            ("--side", self.side.is_some(), &["--repose"]),
+            ("--within", self.within.is_some(), &["--flow", "--profile"]),
+            ("--span", self.span.is_some(), &["--flow"]),
+            ("--axis", self.axis.is_some(), &["--profile"]),
+            ("--bins", self.bins.is_some(), &["--profile"]),
+            ("--mean", self.mean, &["--profile"]),
+            ("--field", !self.field.is_empty(), &["--profile"]),
+            ("--cell", self.cell.is_some(), &["--segregation", "--wear"]),
+            ("--split", self.split.is_some(), &["--segregation"]),
+            ("--kind", self.kind.is_some(), &["--segregation"]),
+            ("--wall", self.wall.is_some(), &["--wall-force", "--wear"]),
+            ("--on-walls", self.on_walls, &["--forces"]),
+        ];
+        for (option, given, of) in options {
+            if given && !of.contains(&measure) {
+                let of = of.join(" and ");
+                return Err(usage(format!("{option}: is an option of {of}: leave it out with {measure}")));
+            }
+        }
+        let single = ["--flow", "--energy", "--residence", "--wall-force", "--wear"].contains(&measure);
+        if single && (self.time.is_some() || self.last) {
+            let option = if self.last { "--last" } else { "--time" };
+            return Err(usage(format!(
+                "{option}: {measure} is measured over time: choose frames with --from and --until"
+            )));
+        }
+        Ok(())
+    }
+}
+
+fn shape(text: &str) -> Result<GivenShape, String> {
+    // Everything is above a plane that is far enough below.
+    let wanted = if text == "all" { "halfspace:0,0,-1e300,0,0,1" } else { text };
+    let shape = cloud::shape(wanted).map_err(|e| e.to_string())?;
+    Ok(GivenShape { text: text.to_owned(), shape })
+}
+
+fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
+    let list: Vec<f64> = text.split(',').map(|part| part.trim().parse().ok()).collect::<Option<_>>()?;
+    <[f64; N]>::try_from(list).ok().filter(|all| all.iter().all(|v| v.is_finite()))
+}
+
+fn vector(text: &str) -> Result<Vec3, String> {
+    let v = numbers(text).map(|v: [f64; 3]| Vec3::from(v)).filter(|v| v.norm() > 0.0);
+    v.ok_or_else(|| "give a direction of three numbers, such as 0,0,1".into())
+}
+
+fn pair(text: &str) -> Result<[f64; 2], String> {
+    numbers(text).ok_or_else(|| "give two numbers, such as 0.2,0.8".into())
+}
+
+fn side(text: &str) -> Result<Vec3, String> {
+    let names = ["x-", "x+", "y-", "y+", "z-", "z+"];
+    let found = names.iter().position(|name| *name == text).ok_or("give one of x- x+ y- y+ z- z+")?;
+    Ok(Vec3::ith(found / 2, if found % 2 == 0 { -1.0 } else { 1.0 }))
+}
+
+fn axis(text: &str) -> Result<usize, String> {
+    ["x", "y", "z"].iter().position(|name| *name == text).ok_or_else(|| "give x, y or z".into())
+}
+
+fn bins(text: &str) -> Result<Bins, String> {
+    let list: Option<Vec<usize>> = text.split(',').map(|p| p.trim().parse().ok()).collect();
+    match list.as_deref() {
+        Some([n]) if *n > 0 => Ok(Bins::One(*n)),
+        Some([x, y, z]) if x * y * z > 0 => Ok(Bins::All([*x, *y, *z])),
+        _ => Err("give a number of bins, or three for x, y and z, such as 20 or 10,1,20".into()),
+    }
+}

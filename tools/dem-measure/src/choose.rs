@@ -1,0 +1,155 @@
+//! From the command line to what measures.
+
+use crate::args::{Args, Bins, GivenShape};
+use anyhow::{Context, anyhow};
+use cli::usage;
+use geom::{Vec3, shape::Solid};
+use measure::coordination::ContactNumbers;
+use measure::energy::Energy;
+use measure::flow::{Flow, FlowOptions};
+use measure::forces::Forces;
+use measure::porosity::Porosity;
+use measure::profile::{Profile, ProfileOptions};
+use measure::region::Region;
+use measure::repose::{HeapOptions, Repose};
+use measure::residence::Residence;
+use measure::segregation::{Kinds, Segregation};
+use measure::wall_force::{OnWalls, WallForce};
+use measure::wear::Wear;
+use measure::{Observer, PerFrame, Which};
+
+/// The option that was given, and what measures.
+pub fn observer(args: &Args) -> anyhow::Result<(&'static str, Box<dyn Observer>)> {
+    let between = between(args)?;
+    let series = which(args, Which::ALL, between);
+    let single = which(args, Which::Last, between);
+    let name = name(args);
+    args.check(name)?;
+    let observer: Box<dyn Observer> = match (args, name) {
+        (_, "--repose") => Box::new(PerFrame::new(Repose::new(heap(args)).context(name)?, single)),
+        (Args { flow: Some(plane), .. }, _) => {
+            let within = args.within.as_ref().map(|g| g.shape.clone());
+            let options = FlowOptions { plane: *plane, within, span: args.span, between };
+            Box::new(Flow::new(options).context(name)?)
+        }
+        (_, "--profile") => {
+            let which = if args.mean { which(args, Which::ALL, between) } else { single };
+            Box::new(PerFrame::new(Profile::new(grid(args)?).context(name)?, which))
+        }
+        (_, "--segregation") => {
+            let kinds = args.kind.clone().map_or(Kinds::Size(args.split), Kinds::Material);
+            let measure = Segregation::new(kinds, args.cell, args.up).context(name)?;
+            Box::new(PerFrame::new(measure, series))
+        }
+        (_, "--energy") => Box::new(Energy::new(between)),
+        (_, "--forces") => Box::new(Forces::new(single, args.on_walls)),
+        (Args { porosity: Some(given), .. }, _) => {
+            let region = Region::new(given.shape.clone(), volume(given)?);
+            Box::new(PerFrame::new(
+                Porosity::new(region).context(format!("--porosity {}", given.text))?,
+                series,
+            ))
+        }
+        (Args { wall_force: Some(given), .. }, _) => Box::new(WallForce::new(on_walls(args, given, between))),
+        (Args { wear: Some(given), .. }, _) => {
+            Box::new(Wear::new(on_walls(args, given, between), args.cell).context(name)?)
+        }
+        (Args { residence: Some(given), .. }, _) => Box::new(Residence::new(given.shape.clone(), between)),
+        _ => Box::new(ContactNumbers::new(series)),
+    };
+    Ok((name, observer))
+}
+
+/// Clap sees to it that one is given.
+fn name(args: &Args) -> &'static str {
+    let given = [
+        ("--repose", args.repose),
+        ("--flow", args.flow.is_some()),
+        ("--profile", args.profile),
+        ("--segregation", args.segregation),
+        ("--energy", args.energy),
+        ("--forces", args.forces),
+        ("--porosity", args.porosity.is_some()),
+        ("--wall-force", args.wall_force.is_some()),
+        ("--wear", args.wear.is_some()),
+        ("--residence", args.residence.is_some()),
+    ];
+    given.iter().find(|(_, given)| *given).map_or("--contacts", |(name, _)| name)
+}
+
+fn between(args: &Args) -> anyhow::Result<(f64, f64)> {
+    let (from, until) = (args.from.unwrap_or(f64::NEG_INFINITY), args.until.unwrap_or(f64::INFINITY));
+    match from < until {
+        true => Ok((from, until)),
+        false => Err(usage(format!("--until {until} s is not after --from {from} s: give a later end"))),
+    }
+}
+
+fn which(args: &Args, default: Which, (from, until): (f64, f64)) -> Which {
+    match args.time {
+        Some(time) => Which::At(time),
+        None if args.last => Which::Last,
+        None if args.all || args.from.is_some() || args.until.is_some() => Which::Between(from, until),
+        None => default,
+    }
+}
+
+fn heap(args: &Args) -> HeapOptions {
+    let default = HeapOptions::default();
+    HeapOptions {
+        up: args.up,
+        wall: args.side,
+        sectors: args.sectors.unwrap_or(default.sectors),
+        fractions: args.fractions.unwrap_or(default.fractions),
+        bin: args.bin,
+        ground: args.ground,
+    }
+}
+
+fn grid(args: &Args) -> anyhow::Result<ProfileOptions> {
+    let corners = match args.within.as_ref().map(|g| (&g.shape, &g.text)) {
+        None => None,
+        Some((shape, text)) => match &shape.solid {
+            Solid::Box(low, high) if !shape.outside => Some((*low, *high)),
+            _ => return Err(usage(format!("--within {text}: the grid of --profile is a box: give box:…"))),
+        },
+    };
+    let mut bins = [1; 3];
+    match args.bins.unwrap_or(Bins::One(20)) {
+        Bins::One(n) => bins[args.axis.unwrap_or(2)] = n,
+        Bins::All(_) if args.axis.is_some() => {
+            return Err(usage("--axis: --bins gives all three axes: leave --axis out"));
+        }
+        Bins::All(all) => bins = all,
+    }
+    Ok(ProfileOptions { bins, corners, mean: args.mean, fields: args.field.clone() })
+}
+
+fn on_walls(args: &Args, given: &GivenShape, between: (f64, f64)) -> OnWalls {
+    OnWalls { shape: given.shape.clone(), wall: args.wall.clone(), between }
+}
+
+/// Volume [m³] of what has a file; shapes without one know theirs.
+fn volume(given: &GivenShape) -> anyhow::Result<f64> {
+    match given.text.trim_start_matches('!').split_once(':') {
+        Some(("mesh", file)) => {
+            let bytes = std::fs::read(file).with_context(|| format!("{file}: cannot read"))?;
+            Ok(cloud::read_mesh(&mut bytes.as_slice()).with_context(|| file.to_owned())?.volume().abs())
+        }
+        Some(("prism", file)) => {
+            let text = std::fs::read_to_string(file).with_context(|| format!("{file}: cannot read"))?;
+            prism_volume(&text).ok_or_else(|| anyhow!("{file}: not a prism"))
+        }
+        _ => Ok(f64::NAN),
+    }
+}
+
+/// Area of the polygon (as a vector) times the extrusion.
+fn prism_volume(text: &str) -> Option<f64> {
+    let json: serde_json::Value = serde_json::from_str(text).ok()?;
+    let vector = |v: &serde_json::Value| Some(Vec3::new(v[0].as_f64()?, v[1].as_f64()?, v[2].as_f64()?));
+    let corners: Vec<Vec3> = json["polygon"].as_array()?.iter().map(vector).collect::<Option<_>>()?;
+    let first = corners.first()?;
+    let area: Vec3 = corners.windows(2).map(|w| (w[0] - first).cross(&(w[1] - first)) * 0.5).sum();
+    Some(area.dot(&vector(&json["extrusion"])?).abs())
+}

@@ -1,0 +1,65 @@
+//! Measures a run: heap angle, flow, profiles, segregation, energy, contacts, porosity, wall force, wear, residence.
+
+mod args;
+mod choose;
+mod plot;
+mod sheet;
+
+use anyhow::Context;
+use args::Args;
+use cli::{Progress, Report};
+use measure::{Row, Run, Summary};
+use sheet::Sheet;
+use std::io::Write;
+use std::process::ExitCode;
+use stream::mcap::Reader;
+
+fn main() -> ExitCode {
+    cli::run("dem-measure", measure_run)
+}
+
+fn measure_run(args: Args) -> anyhow::Result<Report> {
+    let (what, mut observer) = choose::observer(&args)?;
+    if let Some(file) = &args.plot {
+        plot::check_name(file)?;
+    }
+    let place = || format!("{}: {what}", args.run);
+    let source = args.run.open()?;
+    let mut sheet = Sheet::new(args.output.open_text()?, args.json, what);
+    // Rows are kept only where they are drawn: a run may be longer than the memory.
+    let (mut run, mut rows, mut kept): (Run, Vec<Row>, Vec<Row>) = Default::default();
+    let progress = Progress::new("frames", 0);
+    for event in Reader::new(source) {
+        let event = event.with_context(|| args.run.to_string())?;
+        if let Some(seen) = run.take(event).with_context(place)? {
+            progress.add(u64::from(matches!(seen, measure::Seen::Frame(_))));
+            observer.see(&run, seen, &mut rows).with_context(place)?;
+            sheet.rows(&observer.heads(), &rows)?;
+            kept.append(&mut if args.plot.is_some() { std::mem::take(&mut rows) } else { Vec::new() });
+            rows.clear();
+        }
+    }
+    drop(progress);
+    let summary = observer.end(&run, &mut rows).with_context(place)?;
+    let count = sheet.finish(&observer.heads(), &rows, &summary)?;
+    kept.append(&mut rows);
+    if let Some(file) = &args.plot {
+        let mut out = cli::OutputStream::file(file)?;
+        out.write_all(&plot::draw(file, &observer.chart(&kept))?)?;
+        out.commit()?;
+    }
+    Ok(report(what, count, &summary))
+}
+
+fn report(what: &str, rows: u64, summary: &Summary) -> Report {
+    let shown = |(head, value): &(measure::Head, f64)| {
+        let unit = if head.unit == "1" { String::new() } else { format!(" {}", head.unit) };
+        format!("{} {}{unit}", head.name, geom::Shown(*value))
+    };
+    let known = summary.values.iter().filter(|(_, value)| value.is_finite());
+    let mut line: Vec<String> = known.take(5).map(shown).collect();
+    line.extend(summary.notes.iter().cloned());
+    let report = Report::new(format!("{what}: {rows} rows; {}", line.join(", "))).with("rows", rows);
+    let report = report.with("measure", what).with("notes", &summary.notes);
+    summary.values.iter().fold(report, |report, (head, value)| report.with(&head.name, value))
+}

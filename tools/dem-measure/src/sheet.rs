@@ -1,0 +1,98 @@
+//! Writes rows as they come, as CSV or as one JSON document.
+
+use anyhow::Context;
+use cli::OutputStream;
+use measure::{Head, Row, Summary};
+use serde_json::{Map, Value, json};
+use std::io::Write;
+
+/// Where rows go.
+pub struct Sheet {
+    out: OutputStream,
+    json: bool,
+    what: &'static str,
+    begun: bool,
+    rows: u64,
+}
+
+impl Sheet {
+    /// Nothing written yet.
+    pub fn new(out: OutputStream, json: bool, what: &'static str) -> Sheet {
+        Sheet { out, json, what, begun: false, rows: 0 }
+    }
+
+    /// Writes rows and sends them on: somebody may be waiting at the other end of a pipe.
+    pub fn rows(&mut self, heads: &[Head], rows: &[Row]) -> anyhow::Result<()> {
+        if rows.is_empty() {
+            return Ok(());
+        }
+        self.write(heads, rows).and_then(|()| self.out.flush()).context("cannot write")
+    }
+
+    /// Writes the last rows and the sum, and gives the output its name; returns the number of rows.
+    pub fn finish(mut self, heads: &[Head], rows: &[Row], summary: &Summary) -> anyhow::Result<u64> {
+        self.write(heads, rows).context("cannot write")?;
+        if self.json {
+            let value = |(head, value): &(Head, f64)| {
+                (head.name.clone(), json!({"value": number(*value), "unit": head.unit}))
+            };
+            let values: Map<String, Value> = summary.values.iter().map(value).collect();
+            let values = Value::Object(values);
+            let notes = json!(summary.notes);
+            write!(self.out, "\n ],\n \"summary\": {values},\n \"notes\": {notes}\n}}\n")
+                .context("cannot write")?;
+        }
+        self.out.commit()?;
+        Ok(self.rows)
+    }
+
+    fn write(&mut self, heads: &[Head], rows: &[Row]) -> std::io::Result<()> {
+        if !self.begun {
+            self.begun = true;
+            self.head(heads)?;
+        }
+        for row in rows {
+            if self.json {
+                let comma = if self.rows == 0 { "" } else { "," };
+                let row = Value::Array(row.iter().map(|v| number(*v)).collect());
+                write!(self.out, "{comma}\n  {row}")?;
+            } else {
+                let row: Vec<String> = row.iter().map(|v| cell(*v)).collect();
+                writeln!(self.out, "{}", row.join(","))?;
+            }
+            self.rows += 1;
+        }
+        Ok(())
+    }
+
+    fn head(&mut self, heads: &[Head]) -> std::io::Result<()> {
+        if !self.json {
+            let names: Vec<String> = heads.iter().map(title).collect();
+            return writeln!(self.out, "{}", names.join(","));
+        }
+        let columns: Vec<Value> = heads.iter().map(|h| json!({"name": h.name, "unit": h.unit})).collect();
+        let (what, columns) = (json!(self.what.trim_start_matches('-')), Value::Array(columns));
+        write!(self.out, "{{\n \"measure\": {what},\n \"columns\": {columns},\n \"rows\": [")
+    }
+}
+
+/// `mass_flow [kg/s]`
+fn title(head: &Head) -> String {
+    format!("{} [{}]", head.name, head.unit)
+}
+
+/// Twelve significant digits: what follows is rounding. Whole numbers, such as ids, keep theirs; −0 is 0.
+fn tidy(value: f64) -> f64 {
+    let rounded = format!("{value:.11e}").parse().unwrap_or(value);
+    if value.fract() == 0.0 { value + 0.0 } else { rounded }
+}
+
+/// Empty where there is no number.
+fn cell(value: f64) -> String {
+    if value.is_finite() { tidy(value).to_string() } else { String::new() }
+}
+
+fn number(value: f64) -> Value {
+    // What JSON has no number for is null.
+    serde_json::Number::from_f64(tidy(value)).map_or(Value::Null, Value::Number)
+}

@@ -1,0 +1,159 @@
+//! All moments of everything, for a film or a series of files: what is kept of each state is up to the caller.
+
+use crate::inputs::Show;
+use stream::Table;
+use view::{Motion, Role, Surface, ViewError};
+
+/// The part of a run that is shown.
+#[derive(Debug, Clone, Copy)]
+pub struct Span {
+    /// First time [s].
+    pub from: f64,
+    /// Last time [s].
+    pub to: f64,
+    /// Least time between two states [s].
+    pub every: Option<f64>,
+}
+
+/// One thing, over time.
+pub struct Layer<T> {
+    pub role: Role,
+    pub name: String,
+    pub kinds: Vec<String>,
+    pub motion: Motion,
+    /// Where a thing that moves as one body is at t = 0.
+    pub home: Option<Table>,
+    /// What is kept of each state, with its time [s].
+    pub states: Vec<(f64, T)>,
+    /// Number of the step of the span that was last taken.
+    taken: Option<i64>,
+}
+
+/// Keeps of a state (number of the layer, layer, time, columns) what is needed later.
+type Keep<T> = Box<dyn FnMut(usize, &Layer<T>, f64, Table) -> Result<T, ViewError>>;
+
+/// What is kept of everything shown.
+pub struct Series<T> {
+    pub layers: Vec<Layer<T>>,
+    pub surfaces: Vec<Surface>,
+    span: Span,
+    keep: Keep<T>,
+}
+
+impl<T> Series<T> {
+    /// Keeps what `keep` makes of each state in the span.
+    pub fn new(span: Span, keep: Keep<T>) -> Series<T> {
+        Series { layers: Vec::new(), surfaces: Vec::new(), span, keep }
+    }
+
+    /// The times that grains were kept of, in order; without grains, those of all else.
+    pub fn times(&self) -> Vec<f64> {
+        let of = |grains: bool| {
+            let layers = self.layers.iter().filter(|l| (l.role == Role::Grains) == grains);
+            let times = layers.flat_map(|l| l.states.iter().map(|(time, _)| *time));
+            let mut times: Vec<f64> = times.filter(|t| self.span.holds(*t)).collect();
+            times.sort_by(f64::total_cmp);
+            times.dedup();
+            times
+        };
+        let grains = of(true);
+        if grains.is_empty() { of(false) } else { grains }
+    }
+}
+
+impl<T> Layer<T> {
+    /// The last state that is not after `time` [s], else the first.
+    pub fn at(&self, time: f64) -> Option<&T> {
+        let before = self.states.iter().rev().find(|(t, _)| *t <= time + 1e-9);
+        before.or(self.states.first()).map(|(_, state)| state)
+    }
+}
+
+impl Span {
+    fn holds(&self, time: f64) -> bool {
+        // A hair of slack: 0.3 s is stored in nanoseconds.
+        (self.from - 1e-9..=self.to + 1e-9).contains(&time)
+    }
+
+    /// The number of the step that holds a time; none outside.
+    fn step(&self, time: f64) -> Option<i64> {
+        let start = if self.from.is_finite() { self.from } else { 0.0 };
+        let step = |every: f64| ((time - start) / every + 1e-6).floor() as i64;
+        self.holds(time).then(|| self.every.map_or(0, step))
+    }
+}
+
+impl<T> Show for Series<T> {
+    fn layer(&mut self, role: Role, name: &str) -> usize {
+        self.layers.push(Layer {
+            role,
+            name: name.to_owned(),
+            kinds: Vec::new(),
+            motion: Motion::default(),
+            home: None,
+            states: Vec::new(),
+            taken: None,
+        });
+        self.layers.len() - 1
+    }
+
+    fn kinds(&mut self, layer: usize, kinds: Vec<String>) {
+        self.layers[layer].kinds = kinds;
+    }
+
+    fn moves(&mut self, layer: usize, motion: Motion) {
+        self.layers[layer].motion = motion;
+    }
+
+    fn surface(&mut self, surface: Surface) {
+        self.surfaces.push(surface);
+    }
+
+    fn push(&mut self, layer: usize, time: f64, table: Table) -> Result<(), ViewError> {
+        let known = &mut self.layers[layer];
+        if known.motion.moves() {
+            known.home = Some(table);
+            return Ok(());
+        }
+        // Walls and clouds are there from the first moment on, whichever that is.
+        if known.role == Role::Grains {
+            let Some(step) = self.span.step(time) else { return Ok(()) };
+            if self.span.every.is_some() && known.taken.is_some_and(|last| step <= last) {
+                return Ok(());
+            }
+            known.taken = Some(step);
+        } else if time > self.span.to + 1e-9 && !known.states.is_empty() {
+            return Ok(());
+        }
+        let kept = (self.keep)(layer, &self.layers[layer], time, table)?;
+        self.layers[layer].states.push((time, kept));
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn kept(span: Span) -> Vec<f64> {
+        let mut series: Series<usize> = Series::new(span, Box::new(|_, _, _, table| Ok(table.rows())));
+        let grains = Show::layer(&mut series, Role::Grains, "grains");
+        let walls = Show::layer(&mut series, Role::Walls, "walls");
+        Show::push(&mut series, walls, 0.0, Table::with_rows(7)).expect("kept");
+        for k in 0..=10 {
+            let time = f64::from(k) * 0.1;
+            Show::push(&mut series, grains, time, Table::with_rows(k as usize)).expect("kept");
+        }
+        assert_eq!(series.layers[walls].at(0.5), Some(&7));
+        series.times()
+    }
+
+    #[test]
+    fn a_span_takes_its_part_and_of_that_what_is_far_enough_apart() {
+        let all = Span { from: f64::NEG_INFINITY, to: f64::INFINITY, every: None };
+        assert_eq!(kept(all).len(), 11);
+        let part = kept(Span { from: 0.2, to: 0.8, every: Some(0.2) });
+        let near = |(a, b): (&f64, f64)| (a - b).abs() < 1e-9;
+        assert!(part.len() == 4 && part.iter().zip([0.2, 0.4, 0.6, 0.8]).all(near), "{part:?}");
+    }
+}
