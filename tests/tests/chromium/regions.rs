@@ -152,7 +152,7 @@ fn a_mesh_is_drawn_as_triangles_and_a_run_has_no_regions() {
     succeed(folder.path(), "dem-view", &["stone.ply", "-o", "stone.html", "--report", "stone.json"]);
     let report = std::fs::read_to_string(folder.path().join("stone.json")).expect("written");
     let report: Value = serde_json::from_str(&report).expect("JSON");
-    assert_eq!(report["layers"][0]["faces"], json!(4));
+    assert_eq!(report["layers"][0]["triangles"], json!(4));
     succeed(folder.path(), "dem-view", &["stone.ply", "-o", "pick.html", "--pick"]);
     std::fs::write(folder.path().join("run.mcap"), b"\x89MCAP0\r\n").expect("written");
     let refused = tool(folder.path(), "dem-view", &["run.mcap", "--pick", "-o", "x.html"]);

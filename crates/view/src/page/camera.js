@@ -86,11 +86,11 @@ const camera = {
 // Pixels at the top, right, bottom and left of the window where text and controls stand.
 function covered(width, height) {
   const edge = (id, side, without) => (byId(id) && !byId(id).hidden ? byId(id).getBoundingClientRect()[side] : without);
-  const narrow = width <= 560;
+  const narrow = width <= 560 && height >= width;
   const lowest = Math.min(...(narrow ? ["legend", "player", "region"] : ["player"]).map((id) => edge(id, "top", height)));
   const right = narrow ? 0 : width - edge("legend", "left", width);
   const left = narrow ? 0 : edge("region", "right", 0);
-  return [Math.min(0.25 * height, edge("head", "bottom", 0) + 6), Math.min(0.3 * width, right), Math.min(0.5 * height, Math.max(24, height - lowest)), Math.min(0.5 * width, left)];
+  return [Math.min(0.35 * height, edge("head", "bottom", 0) + 6), Math.min(0.3 * width, right), Math.min(0.5 * height, Math.max(12, height - lowest)), Math.min(0.5 * width, left)];
 }
 
 // The ray from the eye through a pixel of the window, and where a place is seen; relative to the middle.
