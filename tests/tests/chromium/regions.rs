@@ -161,12 +161,14 @@ fn a_mesh_is_drawn_as_triangles_and_a_run_has_no_regions() {
     assert!(refused.code == 2 && refused.stderr.contains("one cloud"), "{}", refused.stderr);
     let Some(program) = chromium::find() else { return grainpipe_tests::skip("chromium") };
     let mut browser = Chromium::start(&program, &[]);
+    browser.window(800, 600, false);
     browser.show(&folder.path().join("stone.html"));
     assert_eq!(browser.value("[run.layers.length, run.surfaces.length]"), json!([0, 1]));
     let pixels = browser.value("grainpipe.pixels()");
     let share = |of: &str| pixels[of].as_f64().expect("a number");
     assert!(share("covered") > 0.1 * share("width") * share("height"), "{pixels}");
-    browser.click([240.0, 180.0]);
+    let seen = browser.value("(({x, y}) => [x, y])(seenAt(minus3([0.33, 0.33, 0.34], middle)))");
+    browser.click([0, 1].map(|k| seen[k].as_f64().expect("a number")));
     assert!(browser.text("byId('card').innerText").contains("stone.ply"));
     let place = browser.value("grainpipe.picked.place");
     let on = [0, 1, 2].map(|k| place[k].as_f64().expect("a number"));

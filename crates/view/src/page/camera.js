@@ -31,24 +31,28 @@ const camera = {
   // The point to look at and the least distance from which everything that stands out is seen in the part of the
   // window that nothing covers: |x - tx| <= hx (z + d) for all places.
   fit(width, height) {
-    const short = Math.min(width, height);
-    const [top, right, bottom, left] = covered(width, height);
-    const half = [0.94 * halfView * (width - left - right) / short, 0.94 * halfView * (height - top - bottom) / short];
-    const axes = this.axes();
     const everything = [...run.layers, ...run.surfaces];
     const shown = everything.filter((l) => !state.hidden.has(l) && l.outline.length);
-    const outline = (shown.length ? shown : everything).flatMap((l) => l.outline);
-    const seen = outline.map((p) => axes.map((a) => dot3(a, minus3(p, middle))));
+    const axes = this.axes();
+    const seen = (shown.length ? shown : everything).flatMap((l) => l.outline).map((p) => axes.map((a) => dot3(a, minus3(p, middle))));
+    const ways = covered(width, height).map((edges) => ({ edges, ...this.within(edges, seen, width, height) }));
+    const best = ways.reduce((a, b) => (b.distance < a.distance ? b : a));
+    const [top, right, bottom, left] = best.edges;
+    this.target = [0, 1, 2].map((k) => axes.reduce((sum, a, n) => sum + a[k] * best.aim[n], 0));
+    this.distance = best.distance;
+    this.shift(0.5 * (left - right), 0.5 * (top - bottom), Math.min(width, height));
+  },
+
+  within([top, right, bottom, left], seen, width, height) {
+    const short = Math.min(width, height);
+    const half = [0.94 * halfView * (width - left - right) / short, 0.94 * halfView * (height - top - bottom) / short];
     const most = (of) => seen.reduce((m, p) => Math.max(m, of(p)), -Infinity);
     const lean = this.flat ? [0, 0] : half;
     const far = [0, 1].map((k) => most((p) => p[k] - lean[k] * p[2]));
     const low = [0, 1].map((k) => -most((p) => -p[k] - lean[k] * p[2]));
     const back = Math.max(...[0, 1].map((k) => (far[k] - low[k]) / (2 * half[k])));
     const depth = 0.5 * (most((p) => p[2]) - most((p) => -p[2]));
-    const aim = [0.5 * (far[0] + low[0]), 0.5 * (far[1] + low[1]), depth];
-    this.target = [0, 1, 2].map((k) => axes.reduce((sum, a, n) => sum + a[k] * aim[n], 0));
-    this.distance = Math.max(1e-9, back + (this.flat ? 0 : depth));
-    this.shift(0.5 * (left - right), 0.5 * (top - bottom), short);
+    return { aim: [0.5 * (far[0] + low[0]), 0.5 * (far[1] + low[1]), depth], distance: Math.max(1e-9, back + (this.flat ? 0 : depth)) };
   },
 
   turn(right, up) {
@@ -83,14 +87,17 @@ const camera = {
   },
 };
 
-// Pixels at the top, right, bottom and left of the window where text and controls stand.
+// Pixels at the top, right, bottom and left of the window where text and controls stand: below the head, or beside it.
 function covered(width, height) {
   const edge = (id, side, without) => (byId(id) && !byId(id).hidden ? byId(id).getBoundingClientRect()[side] : without);
   const narrow = width <= 560 && height >= width;
   const lowest = Math.min(...(narrow ? ["legend", "player", "region"] : ["player"]).map((id) => edge(id, "top", height)));
-  const right = narrow ? 0 : width - edge("legend", "left", width);
-  const left = narrow ? 0 : edge("region", "right", 0);
-  return [Math.min(0.35 * height, edge("head", "bottom", 0) + 6), Math.min(0.3 * width, right), Math.min(0.5 * height, Math.max(12, height - lowest)), Math.min(0.5 * width, left)];
+  const right = Math.min(0.3 * width, narrow ? 0 : width - edge("legend", "left", width));
+  const bottom = Math.min(0.5 * height, Math.max(12, height - lowest));
+  const left = Math.min(0.5 * width, narrow ? 0 : edge("region", "right", 0));
+  const below = [Math.min(0.35 * height, edge("head", "bottom", 0) + 6), right, bottom, left];
+  const beside = [12, right, bottom, Math.min(0.5 * width, Math.max(left, edge("head", "right", 0) + 12))];
+  return [below, beside];
 }
 
 // The ray from the eye through a pixel of the window, and where a place is seen; relative to the middle.
