@@ -42,6 +42,7 @@ pub fn still(overlap: f64, radius: f64, curvature: f64) -> Contact<f64> {
         radius,
         curvature,
         mass: 0.01,
+        inverse_mass: 100.0,
         approach: 0.0,
         slip: V::zero(),
         spin: V::zero(),

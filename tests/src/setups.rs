@@ -24,6 +24,7 @@ pub fn empty(law: Law, restitution: f64) -> Setup {
         periodic: [None; 3],
         skin: None,
         sleep: None,
+        precision: Precision::Double,
         ledger: false,
         guards: Guards::default(),
     }

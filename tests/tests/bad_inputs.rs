@@ -309,7 +309,7 @@ fn options_that_cannot_be_meant() {
         ("cloud-fill good.ply -o a.csv", "-o a.csv: only PLY"),
         ("bluenoise-sample good.ply --spacing 0.02 -o a.xyz", "-o a.xyz: only PLY"),
         ("wallgen good.ply --roughness 0.002 -o a.las", "-o a.las: only MCAP and PLY"),
-        ("dem-view good.ply -o a.gif", "not available yet"),
+        ("dem-view good.ply -o a.png --every 0.1", "--every is for a film"),
         ("dem-view good.ply -o a.xyz", ".html"),
         ("dem-view good.ply -o a", ".html"),
     ] {

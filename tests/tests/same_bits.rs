@@ -65,6 +65,20 @@ fn every_width_of_lanes() {
     }
 }
 
+/// Mixed precision has the same bits for every width as well, and other ones than double precision.
+#[test]
+fn every_width_of_lanes_in_mixed_precision() {
+    for law in LAWS {
+        let mixed = || Setup { precision: Precision::Mixed, ..shaken_trough(law) };
+        let of = |width| bits(Simulation::with_width(mixed(), width).expect("sound"), 1500);
+        let all: Vec<_> = Width::available().into_iter().map(|width| (width, of(width))).collect();
+        for (width, got) in &all {
+            assert!(*got == all[0].1, "{law:?}: {width:?} differs from {:?}", all[0].0);
+        }
+        assert!(all[0].1 != bits(simulation(shaken_trough(law)), 1500), "mixed is as exact as double");
+    }
+}
+
 #[test]
 fn every_number_of_threads() {
     let with = |threads| {

@@ -75,7 +75,47 @@ fn wrong_scenes_say_where_what_and_what_to_do() {
         ("until = 0.01", "", &["time.until", "--until"]),
         ("until = 0.01", "until = 0.01\nsteps = 4", &["unknown key 'steps'"]),
         ("[[wall]]", "[[bond]]\nstrength = 1\n[[wall]]", &["not available yet: 'bond'"]),
-        ("restitution = 0.5", "restitution = 0.5\ncohesion = 1", &["not available yet: 'cohesion'"]),
+        ("restitution = 0.5", "restitution = 0.5\ncohesion = \"sjk\"", &["did you mean 'sjkr'?"]),
+        (
+            "restitution = 0.5",
+            "restitution = 0.5\ncohesion = \"sjkr\"",
+            &["contact.0.cohesion_energy_density", "J/m³"],
+        ),
+        (
+            "restitution = 0.5",
+            "restitution = 0.5\ncohesion_energy_density = 1e3",
+            &["contact.0.cohesion_energy_density", "add cohesion = \"sjkr\""],
+        ),
+        (
+            "restitution = 0.5",
+            "restitution = 0.5\ncohesion = \"sjkr\"\ncohesion_energy_density = 1e7",
+            &["cohesion_energy_density: 10000000 J/m³", "guards.overlap"],
+        ),
+        ("restitution = 0.5", "restitution = 0.5\nlaw = \"jkr\"", &["work_of_adhesion", "J/m²"]),
+        (
+            "restitution = 0.5",
+            "restitution = 0.5\nwork_of_adhesion = 0.1",
+            &["contact.0.work_of_adhesion", "use law = \"jkr\""],
+        ),
+        (
+            "restitution = 0.5",
+            "restitution = 0.5\nlaw = \"jkr\"\nwork_of_adhesion = 1\ncohesion = \"sjkr\"\ncohesion_energy_density = 1",
+            &["contact.0.cohesion", "adheres by itself"],
+        ),
+        (
+            "sliding_friction = 0.5",
+            "sliding_friction = { static = 0.5, dinamic = 0.4, speed = 1 }",
+            &["s.toml:16", "did you mean 'dynamic'?"],
+        ),
+        (
+            "sliding_friction = 0.5",
+            "sliding_friction = { static = 0.5, dynamic = 0.4, speed = 0 }",
+            &["contact.0.sliding_friction.speed = 0 m/s"],
+        ),
+        ("sliding_friction = 0.5", "sliding_friction = \"rough\"", &["a number, such as 0.5, or {"]),
+        ("restitution = 0.5", "restitution = 0.5\nrolling_model = \"spring\"", &["add rolling_resistance"]),
+        ("restitution = 0.5", "restitution = 0.5\nrolling_model = \"sprung\"", &["did you mean 'spring'?"]),
+        ("restitution = 0.5", "restitution = 0.5\ntwisting_resistence = 1", &["'twisting_resistance'"]),
         ("restitution = 0.5", "restitution = 0.5\nlaw = \"hook\"", &["did you mean 'hooke'?"]),
         (
             "restitution = 0.5",
@@ -161,4 +201,33 @@ fn particles_come_from_csv_and_walls_name_their_own_material() {
     fs::write(folder.path().join("p.csv"), "id,x,y,z,radius\n7,0,0,0.1,0.01\n7,0.05,0,0.1,0.01\n").unwrap();
     let done = tool(folder.path(), "dem-run", &["s.toml", "-o", "run2.mcap"]);
     assert!(done.code == 1 && done.stderr.contains("id 7 is used twice"), "{}", done.stderr);
+}
+
+/// Every effect of contact: its key reaches the engine, and `--explain` says what it takes.
+#[test]
+fn explain_names_every_effect_of_contact_with_its_bytes() {
+    let folder = tempdir().unwrap();
+    let cases: &[(&str, &[(&str, &str)])] = &[
+        ("law = \"jkr\"\nwork_of_adhesion = 0.1", &[("jkr", "8"), ("sliding_friction", "24")]),
+        ("cohesion = \"sjkr\"\ncohesion_energy_density = 1e3", &[("hertz", "0"), ("cohesion", "0")]),
+        ("rolling_resistance = 0.1", &[("rolling_resistance", "24")]),
+        ("rolling_resistance = 0.1\nrolling_model = \"constant\"", &[("rolling_resistance", "0")]),
+        ("twisting_resistance = 0.1", &[("twisting_resistance", "8")]),
+    ];
+    for (keys, lines) in cases {
+        let scene = SCENE.replacen("restitution = 0.5", &format!("restitution = 0.5\n{keys}"), 1);
+        fs::write(folder.path().join("s.toml"), scene).unwrap();
+        let done = succeed(folder.path(), "dem-run", &["s.toml", "--explain"]);
+        let text = String::from_utf8(done.stdout).unwrap();
+        for (effect, bytes) in *lines {
+            let words: Vec<Vec<&str>> = text.lines().map(|l| l.split_whitespace().collect()).collect();
+            let found = words.iter().any(|w| w.len() > 1 && w[0] == *effect && w[1] == *bytes);
+            assert!(found, "{keys}: {effect} with {bytes} bytes in {text}");
+        }
+        succeed(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap"]);
+    }
+    let table =
+        SCENE.replacen("= 0.5\n[[fill]]", "= { static = 0.5, dynamic = 0.4, speed = 0.1 }\n[[fill]]", 1);
+    fs::write(folder.path().join("s.toml"), table).unwrap();
+    succeed(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap"]);
 }

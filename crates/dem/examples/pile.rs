@@ -48,6 +48,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         periodic: [Some((0.0, 0.1196)), Some((0.0, 0.1196)), None],
         skin: args.get(4).map(|s| s.parse()).transpose()?,
         sleep: None,
+        precision: Precision::Double,
         ledger: false,
         guards: Guards::default(),
     };

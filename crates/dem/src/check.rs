@@ -1,9 +1,9 @@
 //! What is refused before a run starts.
 
 use crate::error::SetupError;
-use crate::law::{Elastic, overlap_without_load};
+use crate::law::{Elastic, is_rare, overlap_without_load};
 use crate::limit::radii_by_material;
-use crate::setup::{Contact, Law, Particle, Setup, Sleep, Step, WallShape};
+use crate::setup::{Contact, Law, Particle, Precision, Setup, Sleep, Step, WallShape};
 use geom::Vec3;
 use std::collections::HashSet;
 
@@ -11,6 +11,7 @@ use std::collections::HashSet;
 pub fn check(setup: &Setup) -> Result<(), SetupError> {
     materials(setup)?;
     contacts(setup)?;
+    precision(setup)?;
     particles(setup)?;
     crate::bodies::check(setup)?;
     walls(setup)?;
@@ -34,6 +35,16 @@ pub fn check(setup: &Setup) -> Result<(), SetupError> {
     within("neighbours.skin", skin, "m", skin > 0.0 && skin.is_finite(), "skin > 0")?;
     finite("gravity", &setup.gravity, "m/s²")?;
     setup.sleep.map_or(Ok(()), |s| sleep(&s, &setup.gravity))
+}
+
+/// Rare effects are compiled for double precision only.
+fn precision(setup: &Setup) -> Result<(), SetupError> {
+    let rare = setup.contacts.iter().find(|c| setup.precision == Precision::Mixed && is_rare(c));
+    rare.map_or(Ok(()), |c| {
+        let name = |m: u16| setup.materials[m as usize].name.as_str();
+        let what = "cohesion, JKR, twisting, weakening friction or constant rolling";
+        Err(SetupError::MixedWithout(format!("{what} ({}–{})", name(c.between.0), name(c.between.1))))
+    })
 }
 
 fn sleep(s: &Sleep, gravity: &Vec3) -> Result<(), SetupError> {

@@ -90,6 +90,8 @@ pub struct Contacts {
     pub couples: Aligned,
     /// Energy of each contact, or none.
     pub ledger: Aligned,
+    /// Sliding work of each contact since it was asked for [J], or none.
+    pub work: Vec<f64>,
     /// First entry of each particle, and one more.
     pub starts: Vec<u32>,
     /// Place × 2, + 1 where the particle is the second.
@@ -233,6 +235,7 @@ impl Contacts {
         self.loads = Aligned::zeros(places * stride);
         self.couples = Aligned::zeros(if couples { places * 4 } else { 0 });
         self.ledger = Aligned::zeros(if ledger { places * LEDGER } else { 0 });
+        self.work.resize(if ledger { places } else { 0 }, 0.0);
     }
 
     /// The segment that a place belongs to.
@@ -261,7 +264,11 @@ impl Contacts {
             + size_of_val(&self.spins[..])
             + size_of_val(&self.active[..])
             + size_of_val(&self.entries[..])
-            + 8 * (self.memory.len() + self.loads.len() + self.couples.len() + self.ledger.len())
+            + 8 * (self.work.len()
+                + self.memory.len()
+                + self.loads.len()
+                + self.couples.len()
+                + self.ledger.len())
     }
 
     /// Everything, to be computed; `stride`: numbers of one load.

@@ -41,6 +41,8 @@ pub struct Contact<R: Lane> {
     pub curvature: R,
     /// m* [kg].
     pub mass: R,
+    /// 1/m* [1/kg].
+    pub inverse_mass: R,
     /// Rate at which the overlap grows, −v·n [m/s].
     pub approach: R,
     /// v_t: velocity of i's surface relative to j's at the contact, in the tangent plane [m/s].
@@ -63,6 +65,8 @@ pub struct Load<R: Lane> {
     pub stiffness: R,
     /// The same a step ago, over the one now [–].
     pub stiffness_before: R,
+    /// √(∂F_n/∂δ m*): what all dashpots are a share of, and the root of a contact that is taken once [N·s/m].
+    pub impedance: R,
     /// F_t on i [N].
     pub tangential: V<R>,
     /// Couple on i [N·m]; j gets its opposite.
@@ -83,6 +87,7 @@ impl<R: Lane> Load<R> {
             pressing: zero,
             stiffness: zero,
             stiffness_before: zero,
+            impedance: zero,
             tangential: V::zero(),
             couple: V::zero(),
             elastic: zero,

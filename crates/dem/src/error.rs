@@ -90,6 +90,9 @@ pub enum SetupError {
         "outlet: a storage plane cannot record clumps (the scene has '{0}'): leave out the [[outlet]], or use spheres"
     )]
     ClumpOutlet(String),
+    /// An effect that is computed in double precision only.
+    #[error("precision: \"mixed\" has no {0}: leave the key out for double precision, or that effect")]
+    MixedWithout(String),
     /// Sleep in a scene with clumps.
     #[error("sleep: clumps (the scene has '{0}') do not sleep: leave out [sleep], or use spheres")]
     ClumpSleep(String),

@@ -99,6 +99,27 @@ fn rolling(c: &Contact) -> Option<Part> {
     Some(Part { effect: "rolling_resistance", because, bytes: numbers * size_of::<f64>(), without })
 }
 
+/// The contact without effects that cannot matter (a coefficient of 0), and their keys.
+pub fn needed(c: &Contact) -> (Contact, Vec<&'static str>) {
+    let mut less = c.clone();
+    let mut dropped = Vec::new();
+    let mut drop_zero = |value: &mut Option<f64>, key| {
+        if *value == Some(0.0) {
+            *value = None;
+            dropped.push(key);
+        }
+    };
+    drop_zero(&mut less.cohesion, "cohesion");
+    drop_zero(&mut less.rolling_resistance, "rolling_resistance");
+    drop_zero(&mut less.twisting_resistance, "twisting_resistance");
+    // Rolling and twisting resistance turn particles, which is computed with friction, though it be 0.
+    let turns = less.rolling_resistance.is_some() || less.twisting_resistance.is_some();
+    if less.weakening.is_none() && !turns {
+        drop_zero(&mut less.sliding_friction, "sliding_friction");
+    }
+    (less, dropped)
+}
+
 impl Simulation {
     /// Effects in force, by pair of materials that can meet.
     pub fn explain(&self) -> Vec<EffectCost> {

@@ -2,6 +2,11 @@
 
 use crate::effects::{Contact, Effect, Load, Memory};
 use crate::lane::{BLOCK, Lane, Row, Row4, V, Width};
+#[cfg(target_arch = "x86_64")]
+use crate::lane::{
+    x86::{X4, X8},
+    x86_single::{Y4, Y8},
+};
 
 /// Numbers of one contact in the energy ledger: elastic, dissipated (normal, sliding, rolling, twisting), wall work.
 pub const LEDGER: usize = 8;
@@ -80,12 +85,46 @@ impl<E: Effect> Kernel for E {
     }
 }
 
+/// A composition of effects computed in single precision; places and all sums stay in double precision.
+pub struct Mixed<E>(pub E);
+
+impl<E: Effect> Kernel for Mixed<E> {
+    fn memory(&self) -> usize {
+        self.0.memory()
+    }
+    fn flips(&self, column: usize) -> bool {
+        self.0.flips(column)
+    }
+    fn rotates(&self) -> bool {
+        self.0.rotates()
+    }
+    fn couples(&self) -> bool {
+        self.0.couples()
+    }
+    fn run(&self, width: Width, common: Common, task: Task) -> bool {
+        match task.ledger.is_empty() {
+            true => dispatch_mixed::<E, false>(&self.0, width, common, task),
+            false => dispatch_mixed::<E, true>(&self.0, width, common, task),
+        }
+    }
+}
+
+fn dispatch_mixed<E: Effect, const KEEP: bool>(e: &E, width: Width, common: Common, task: Task) -> bool {
+    match width {
+        #[cfg(target_arch = "x86_64")]
+        Width::Avx512 => simd::avx512::<Y8, E, KEEP>(e, common, task),
+        #[cfg(target_arch = "x86_64")]
+        Width::Avx2 => simd::avx2::<Y4, E, KEEP>(e, common, task),
+        _ => blocks::<f32, E, KEEP>(e, common, task),
+    }
+}
+
 fn dispatch<E: Effect, const KEEP: bool>(effect: &E, width: Width, common: Common, task: Task) -> bool {
     match width {
         #[cfg(target_arch = "x86_64")]
-        Width::Avx512 => simd::avx512::<E, KEEP>(effect, common, task),
+        Width::Avx512 => simd::avx512::<X8, E, KEEP>(effect, common, task),
         #[cfg(target_arch = "x86_64")]
-        Width::Avx2 => simd::avx2::<E, KEEP>(effect, common, task),
+        Width::Avx2 => simd::avx2::<X4, E, KEEP>(effect, common, task),
         _ => blocks::<f64, E, KEEP>(effect, common, task),
     }
 }
@@ -95,24 +134,23 @@ mod simd {
     //! The loop, compiled for wider registers.
     #![allow(unsafe_code)]
     use super::*;
-    use crate::lane::x86::{X4, X8};
 
-    pub fn avx512<E: Effect, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
+    pub fn avx512<R: Lane, E: Effect, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
         #[target_feature(enable = "avx512f,avx512dq,avx2")]
-        fn inner<E: Effect, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
-            blocks::<X8, E, KEEP>(e, common, task)
+        fn inner<R: Lane, E: Effect, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
+            blocks::<R, E, KEEP>(e, common, task)
         }
         // SAFETY: `Width::Avx512` is only made where the processor has these features.
-        unsafe { inner::<E, KEEP>(e, common, task) }
+        unsafe { inner::<R, E, KEEP>(e, common, task) }
     }
 
-    pub fn avx2<E: Effect, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
+    pub fn avx2<R: Lane, E: Effect, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
         #[target_feature(enable = "avx2")]
-        fn inner<E: Effect, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
-            blocks::<X4, E, KEEP>(e, common, task)
+        fn inner<R: Lane, E: Effect, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
+            blocks::<R, E, KEEP>(e, common, task)
         }
         // SAFETY: `Width::Avx2` is only made where the processor has these features.
-        unsafe { inner::<E, KEEP>(e, common, task) }
+        unsafe { inner::<R, E, KEEP>(e, common, task) }
     }
 }
 
@@ -144,32 +182,33 @@ fn lanes<R: Lane, E: Effect, const KEEP: bool>(
 ) -> (bool, bool) {
     let at = block * BLOCK + lane;
     let (i, j) = (&task.i[at..at + R::WIDTH], &task.j[at..at + R::WIDTH]);
-    let [xi, yi, zi, ri, ui, vi, wi, inverse_mi] = R::rows(common.rows, i);
-    let [xj, yj, zj, rj, uj, vj, wj, inverse_mj] = R::rows(task.partners.0, j);
-    let apart = V::new(xi - xj, yi - yj, zi - zj);
-    let reach = ri + rj;
+    let [xi, yi, zi, ri, ui, vi, wi, inverse_mi] = R::Wide::rows(common.rows, i);
+    let [xj, yj, zj, rj, uj, vj, wj, inverse_mj] = R::Wide::rows(task.partners.0, j);
+    let (apart, reach) = (V::new(xi - xj, yi - yj, zi - zj), ri + rj);
     let square = apart.dot(apart);
-    let mut touching = (reach * reach).gt(square);
+    let gap = R::narrow(reach * reach - square);
+    let mut touching = gap.gt(R::splat(0.0));
     if !R::any(touching) && !was_active {
         return (false, false);
     }
-    let distance = square.sqrt();
-    let inverse_mass = inverse_mi + inverse_mj;
+    let (apart, reach, distance) = (V::narrow(apart), R::narrow(reach), R::narrow(square).sqrt());
+    let (ri, rj) = (R::narrow(ri), R::narrow(rj));
+    let inverse_mass = R::narrow(inverse_mi + inverse_mj);
     // One division for three: it takes as long as all multiplications of a contact.
     let both = distance * reach;
     let inverse = R::splat(1.0) / (both * inverse_mass);
     let normal = apart.scale(inverse * (reach * inverse_mass));
     let inverse_reach = inverse * (distance * inverse_mass);
-    let overlap = reach - distance;
+    let overlap = R::overlap(gap, reach, distance);
     // The contact point divides the distance as the radii do: the whole of it on i's side at a flat wall.
     let share = distance * inverse_reach;
     let (arm_i, arm_j) = (ri * share, rj * share);
     let round = rj.gt(R::splat(0.0));
-    let velocity = V::new(ui - uj, vi - vj, wi - wj);
+    let velocity = V::narrow(V::new(ui - uj, vi - vj, wi - wj));
     let along = velocity.dot(normal);
     let mut slip = velocity - normal.scale(along);
     let mut spin = V::zero();
-    let (mut surface, mut turning) = (V::new(uj, vj, wj), V::zero());
+    let (mut surface, mut turning) = (V::narrow(V::new(uj, vj, wj)), V::zero());
     if E::ROTATES {
         let [axi, ayi, azi, _] = R::rows4(common.spins, i);
         let [axj, ayj, azj, _] = R::rows4(task.partners.1, j);
@@ -195,6 +234,7 @@ fn lanes<R: Lane, E: Effect, const KEEP: bool>(
         radius,
         curvature: R::select(round, inverse_reach, zero),
         mass: inverse * both,
+        inverse_mass,
         approach: -along,
         slip,
         spin,

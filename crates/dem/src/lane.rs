@@ -1,11 +1,17 @@
 //! Lanes: one contact, or several at a time, computed by the same source with the same bits.
 //!
+//! Arithmetic is in double precision, or, for what happens in a contact, in single precision ([`single`]): places are subtracted in
+//! double precision first, so that nothing is lost far from the origin.
+//!
 //! Only operations that IEEE 754 rounds the same way everywhere: +, −, ×, ÷, √, comparison. No fused
 //! multiply-add and no reassociation, so a wide lane equals the scalar one bit for bit.
 
 pub mod scalar;
+pub mod single;
 #[cfg(target_arch = "x86_64")]
 pub mod x86;
+#[cfg(target_arch = "x86_64")]
+pub mod x86_single;
 
 use serde::{Deserialize, Serialize};
 use std::ops::{Add, Deref, DerefMut, Div, Mul, Neg, Sub};
@@ -50,8 +56,19 @@ pub trait Lane:
 {
     /// How many contacts; divides [`BLOCK`].
     const WIDTH: usize;
+    /// Smallest square that is divided by.
+    const TINY: f64;
     /// One truth value each.
     type Mask: Copy;
+    /// The same many numbers in double precision: rows are read and subtracted so.
+    type Wide: Lane;
+
+    /// Rounded to the precision of this lane.
+    fn narrow(wide: Self::Wide) -> Self;
+    /// In double precision.
+    fn widen(self) -> Self::Wide;
+    /// r_i + r_j − distance, where `gap` is (r_i + r_j)² − distance² in double precision, and `reach` r_i + r_j.
+    fn overlap(gap: Self, reach: Self, distance: Self) -> Self;
 
     /// The same number everywhere.
     fn splat(x: f64) -> Self;
@@ -109,6 +126,11 @@ impl<R: Lane> V<R> {
     #[inline(always)]
     pub fn new(x: R, y: R, z: R) -> V<R> {
         V { x, y, z }
+    }
+    /// Rounded to the precision of the lane.
+    #[inline(always)]
+    pub fn narrow(wide: V<R::Wide>) -> V<R> {
+        V::new(R::narrow(wide.x), R::narrow(wide.y), R::narrow(wide.z))
     }
     /// Zero.
     #[inline(always)]

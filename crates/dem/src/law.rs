@@ -4,8 +4,8 @@ use crate::effects::{
     Coefficient, Cohesion, ConstantRolling, Effect, Friction, Hertz, Hooke, Jkr, RollingResistance,
     SlidingFriction, TwistingResistance, Weakening, damping_ratio,
 };
-use crate::kernel::Kernel;
-use crate::setup::{Contact, Law, Material, RollingModel};
+use crate::kernel::{Kernel, Mixed};
+use crate::setup::{Contact, Law, Material, Precision, RollingModel};
 use std::f64::consts::PI;
 
 /// Elastic constants of a pair.
@@ -80,6 +80,14 @@ pub fn reach(contact: &Contact, elastic: Elastic, largest: f64) -> f64 {
 struct Pair<'a> {
     contact: &'a Contact,
     elastic: Elastic,
+    precision: Precision,
+}
+
+/// Whether a law has an effect that is offered in double precision only.
+pub fn is_rare(c: &Contact) -> bool {
+    let constant = c.rolling_resistance.is_some() && c.rolling_model == RollingModel::Constant;
+    let adheres = c.cohesion.is_some() || matches!(c.law, Law::Jkr { .. });
+    adheres || c.weakening.is_some() || c.twisting_resistance.is_some() || constant
 }
 
 /// The effects of a contact, composed; the only place that knows which compositions there are.
@@ -87,8 +95,8 @@ struct Pair<'a> {
 /// Each composition is compiled for every width of lanes, with and without the ledger. So that there are not too many, what has
 /// no memory and is rare is not a composition of its own: cohesion and the weakening of friction are a question that a kernel
 /// asks once for each group of contacts, and only kernels with something rare in them.
-pub fn compose(contact: &Contact, elastic: Elastic) -> Box<dyn Kernel> {
-    let pair = Pair { contact, elastic };
+pub fn compose(contact: &Contact, elastic: Elastic, precision: Precision) -> Box<dyn Kernel> {
+    let pair = Pair { contact, elastic, precision };
     let (damping_ratio, modulus) = (damping_ratio(contact.restitution), elastic.modulus);
     match contact.law {
         Law::Hooke { stiffness, .. } => pair.normal(Hooke { stiffness, damping_ratio }),
@@ -100,16 +108,23 @@ pub fn compose(contact: &Contact, elastic: Elastic) -> Box<dyn Kernel> {
 impl Pair<'_> {
     fn normal<N: Effect>(self, normal: N) -> Box<dyn Kernel> {
         let c = self.contact;
-        let constant = c.rolling_resistance.is_some() && c.rolling_model == RollingModel::Constant;
-        if c.cohesion.is_some() || c.weakening.is_some() || c.twisting_resistance.is_some() || constant {
+        if is_rare(c) {
             return self.rare((normal, c.cohesion.map(|energy_density| Cohesion { energy_density })));
         }
         match (c.sliding_friction, c.rolling_resistance) {
-            (None, _) => Box::new(normal),
-            (Some(friction), None) => Box::new((normal, self.sliding(friction))),
+            (None, _) => self.common(normal),
+            (Some(friction), None) => self.common((normal, self.sliding(friction))),
             (Some(friction), Some(resistance)) => {
-                Box::new((normal, (self.sliding(friction), RollingResistance { resistance })))
+                self.common((normal, (self.sliding(friction), RollingResistance { resistance })))
             }
+        }
+    }
+
+    /// What is offered in every precision.
+    fn common<E: Effect>(self, effects: E) -> Box<dyn Kernel> {
+        match self.precision {
+            Precision::Double => Box::new(effects),
+            Precision::Mixed => Box::new(Mixed(effects)),
         }
     }
 
@@ -143,5 +158,47 @@ impl Pair<'_> {
     fn sliding<C: Coefficient>(self, friction: C) -> SlidingFriction<C> {
         let stiffness_ratio = tangential_ratio(self.contact, self.elastic);
         SlidingFriction { friction, stiffness_ratio, damping_ratio: damping_ratio(self.contact.restitution) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::explain::parts;
+    use crate::setup::Weakening as Weakens;
+
+    /// Every contact that a scene can ask for.
+    fn contacts() -> Vec<Contact> {
+        let hooke = Law::Hooke { stiffness: 1e4, tangential_ratio: None };
+        let laws = [hooke, Law::Hertz, Law::Jkr { work_of_adhesion: 1.0 }];
+        let mut all: Vec<Contact> = laws.map(|law| Contact::new((0, 0), law, 0.5)).to_vec();
+        let mut also = |change: fn(&mut Contact)| {
+            let mut more = all.clone();
+            more.iter_mut().for_each(change);
+            all.extend(more);
+        };
+        also(|c| c.cohesion = Some(1e3).filter(|_| !matches!(c.law, Law::Jkr { .. })));
+        also(|c| c.sliding_friction = Some(0.5));
+        also(|c| c.weakening = c.sliding_friction.map(|mu| Weakens { dynamic: 0.5 * mu, speed: 0.1 }));
+        also(|c| c.rolling_resistance = c.sliding_friction);
+        also(|c| c.rolling_model = RollingModel::Constant);
+        also(|c| c.twisting_resistance = c.sliding_friction);
+        all
+    }
+
+    #[test]
+    fn kernels_take_the_memory_of_their_effects_and_no_more() {
+        let material = Material { name: "a".to_owned(), density: 1e3, young: 1e6, poisson: 0.3 };
+        for c in contacts() {
+            let kernel = compose(&c, Elastic::of(&material, &material), Precision::Double);
+            let bytes: usize = parts(&c).iter().map(|p| p.bytes).sum();
+            assert_eq!(8 * kernel.memory(), bytes, "{c:?}");
+            assert_eq!(kernel.rotates(), c.sliding_friction.is_some(), "{c:?}");
+            let couples = c.rolling_resistance.is_some() || c.twisting_resistance.is_some();
+            assert_eq!(kernel.couples(), couples, "{c:?}");
+            // Vectors change their sign when i and j change places, numbers do not.
+            let flips = (0..kernel.memory()).filter(|&k| kernel.flips(k)).count();
+            assert_eq!(flips, kernel.memory() / 3 * 3, "{c:?}");
+        }
     }
 }

@@ -18,7 +18,9 @@ impl Simulation {
         self.wrap();
         let mut before = std::mem::take(&mut self.contacts);
         // Freed before anything is listed: old and new together would be the most that a run ever takes.
+        let work = std::mem::take(&mut before.work);
         before.make_room(0, false, false);
+        before.work = work;
         let (search, order) = self.space_order();
         self.particles.select(&order);
         self.zones.reorder(&order);
@@ -30,6 +32,7 @@ impl Simulation {
         self.listed = self.steps;
         self.list_contacts(&search);
         self.recall(&before, &order);
+        self.recall_work(&before, &order);
         drop(before);
         self.make_room();
         self.out = false;
@@ -173,6 +176,22 @@ impl Simulation {
             pieces.into_par_iter().for_each(|(s, memory)| old.recall(now, s, memory));
         }
         self.contacts.memory = memory;
+    }
+
+    /// Gives each new contact the work that it has done. What contacts have done that are no longer listed is lost to records.
+    fn recall_work(&mut self, before: &Contacts, order: &[u32]) {
+        if before.work.is_empty() {
+            return;
+        }
+        let old = Remembered { kinds: &self.kinds, before, order };
+        let mut work = vec![0.0; self.contacts.i.len()];
+        for s in &self.contacts.segments {
+            for place in s.contacts() {
+                let found = old.find(s.kind, self.contacts.i[place], self.contacts.partner[place]);
+                work[place] = found.map_or(0.0, |(_, was, _)| before.work[was]);
+            }
+        }
+        self.contacts.work = work;
     }
 
     fn classes(&self, with: With) -> Classes {

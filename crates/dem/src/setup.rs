@@ -36,6 +36,8 @@ pub struct Setup {
     pub step: Step,
     /// Periodic extent (lowest, highest) [m] along x, y, z; `None` along an open axis.
     pub periodic: [Option<(f64, f64)>; 3],
+    /// In which precision contacts are computed.
+    pub precision: Precision,
     /// Neighbours are listed up to this gap [m]; `None` chooses.
     pub skin: Option<f64>,
     /// When particles at rest are passed over; `None`: never.
@@ -44,6 +46,16 @@ pub struct Setup {
     pub ledger: bool,
     /// When a run is stopped.
     pub guards: Guards,
+}
+
+/// In which precision contacts are computed; places, velocities and sums are always in double precision.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Precision {
+    /// Double precision.
+    #[default]
+    Double,
+    /// What happens in a contact in single precision.
+    Mixed,
 }
 
 /// How the time step is chosen.
@@ -263,8 +275,22 @@ pub struct Entry {
     pub time: f64,
     /// Which inlet.
     pub inlet: u32,
-    /// State at that time; the velocity is kept until the calculation plane.
+    /// State at that time; the velocity is kept until the calculation plane. Of a rigid clump: id of its first member, centre of
+    /// mass, and the sphere that holds it; it does not turn before the calculation plane.
     pub particle: Particle,
+    /// What makes it a rigid clump.
+    pub clump: Option<EntryClump>,
+}
+
+/// The shape of an entry that is a rigid clump.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct EntryClump {
+    /// Index of its shape.
+    pub shape: u32,
+    /// Size over that of the shape [–].
+    pub scale: f64,
+    /// From the frame that the shape was given in to space.
+    pub orientation: UnitQuaternion<f64>,
 }
 
 /// A particle that has passed a storage plane.

@@ -8,6 +8,7 @@ use crate::bodies::{Bodies, BodyState};
 use crate::contacts::{Contacts, Kind, With};
 use crate::energy::{Account, Energy};
 use crate::error::{Halt, SetupError};
+use crate::explain::needed;
 use crate::kernel::{FORCE, FORCE_AND_MOMENT};
 use crate::lane::{Row, Row4, Width};
 use crate::law::{Elastic, compose};
@@ -77,6 +78,8 @@ impl Simulation {
     /// As for [`Simulation::new`].
     pub fn with_width(setup: Setup, width: Width) -> Result<Simulation, SetupError> {
         crate::check::check(&setup)?;
+        let contacts = setup.contacts.iter().map(|c| needed(c).0).collect();
+        let setup = Setup { contacts, ..setup };
         let dt = time_step(&setup)?;
         let kinds = kinds(&setup)?;
         let mut particles = Particles::new(kinds.iter().any(|k| k.kernel.rotates()));
@@ -259,9 +262,7 @@ impl Simulation {
     /// When the state is beyond a guard.
     pub fn bodies(&mut self) -> Result<Vec<BodyState>, Halt> {
         self.ready()?;
-        let mut states = self.bodies.states(&self.particles, &self.all_loads(), &self.setup, self.dt);
-        states.iter_mut().for_each(|s| s.position = self.wrapped(s.position));
-        Ok(states)
+        Ok(self.bodies.states(self))
     }
 
     /// One time step.
@@ -282,6 +283,7 @@ impl Simulation {
         let found = self.pass(pass);
         if self.setup.ledger {
             self.account.add(&self.kinds, &self.contacts);
+            self.contacts.add_work();
         }
         if let Some(sleepers) = &mut self.sleepers {
             self.account.slept += sleepers.turn();
@@ -430,7 +432,11 @@ fn kinds(setup: &Setup) -> Result<Vec<Kind>, SetupError> {
     let mut list = Vec::new();
     let kind = |a: u16, b: u16, with: With| -> Result<Kind, SetupError> {
         let elastic = Elastic::of(&setup.materials[a as usize], &setup.materials[b as usize]);
-        Ok(Kind { kernel: compose(contact_between(setup, a, b)?, elastic), between: (a, b), with })
+        Ok(Kind {
+            kernel: compose(contact_between(setup, a, b)?, elastic, setup.precision),
+            between: (a, b),
+            with,
+        })
     };
     for &a in &present {
         for &b in present.iter().filter(|&&b| a <= b) {

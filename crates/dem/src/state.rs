@@ -29,6 +29,8 @@ pub struct State {
     listings: u64,
     /// Contact memory, by place.
     memory: Vec<f64>,
+    /// Sliding work of each contact that has not been recorded, by place.
+    work: Vec<f64>,
     /// Loads, couples and ledger, when they are those of this step.
     loads: [Vec<f64>; 3],
 }
@@ -51,6 +53,7 @@ pub struct StateView<'a> {
     account: Account,
     listings: u64,
     memory: &'a [f64],
+    work: &'a [f64],
     loads: [&'a [f64]; 3],
 }
 
@@ -73,6 +76,7 @@ impl StateView<'_> {
             account: self.account,
             listings: self.listings,
             memory: self.memory.to_vec(),
+            work: self.work.to_vec(),
             loads: self.loads.map(<[f64]>::to_vec),
         }
     }
@@ -109,6 +113,7 @@ impl Simulation {
             account: self.account,
             listings: self.listings,
             memory: &self.contacts.memory,
+            work: &self.contacts.work,
             loads: if self.current { [&c.loads, &c.couples, &c.ledger] } else { [&[]; 3] },
         }
     }
@@ -150,6 +155,9 @@ impl Simulation {
                 return Err(other("another number of contacts"));
             }
             sim.contacts.memory.copy_from_slice(&state.memory);
+            if state.work.len() == sim.contacts.work.len() {
+                sim.contacts.work = state.work;
+            }
         }
         sim.stale = state.stale;
         if state.current {

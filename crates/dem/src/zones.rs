@@ -31,6 +31,8 @@ struct Traveller {
     at: u32,
     since: f64,
     start: Particle,
+    /// What must be past the plane, at that time: the centre, or that of the whole clump [m].
+    centre: Vec3,
     way: Way,
 }
 
@@ -145,7 +147,10 @@ impl Zones {
         if let Some(&wrong) = numbers.into_iter().find(|x| !x.is_finite()) {
             return range(format!("inlet: state of particle {id}"), wrong, "", "the finite numbers");
         }
-        if !setup.entry_materials.contains(&material) {
+        if let Some(clump) = &entry.clump {
+            crate::bodies::check_entry(clump, id, setup)?;
+        }
+        if entry.clump.is_none() && !setup.entry_materials.contains(&material) {
             return range(
                 format!("inlet: material of particle {id}"),
                 material.into(),
@@ -156,7 +161,7 @@ impl Zones {
         if entry.inlet as usize >= self.inlets.len() {
             return range(format!("inlet of particle {id}"), entry.inlet as f64, "[–]", "the scene's inlets");
         }
-        if !(radius >= setup.smallest_entry && radius <= setup.largest_entry) {
+        if entry.clump.is_none() && !(radius >= setup.smallest_entry && radius <= setup.largest_entry) {
             return range(format!("inlet: radius of particle {id}"), radius, "m", "what the inlet announced");
         }
         let zone = &self.inlets[entry.inlet as usize];
@@ -169,8 +174,11 @@ impl Zones {
                 "above 0",
             );
         }
-        if !self.ids.insert(id) {
-            return Err(SetupError::IdTwice(id));
+        let members = entry.clump.map_or(1, |c| setup.clumps.shapes[c.shape as usize].spheres.len() as u32);
+        for id in (0..members).map(|k| id.wrapping_add(k)) {
+            if !self.ids.insert(id) {
+                return Err(SetupError::IdTwice(id));
+            }
         }
         self.latest = entry.time;
         self.pending.push_back(entry);
@@ -190,14 +198,25 @@ impl Simulation {
             let at = self.particles.len() as u32;
             let mut particle = e.particle;
             particle.position += particle.velocity * (now - e.time);
-            self.particles.push(&particle, &self.setup.materials);
-            if let Some(sleepers) = &mut self.sleepers {
-                sleepers.push();
+            let starts = match &e.clump {
+                None => {
+                    self.particles.push(&particle, &self.setup.materials);
+                    vec![e.particle]
+                }
+                Some(clump) => {
+                    self.bodies.enter(&e.particle, clump, now - e.time, &self.setup, &mut self.particles)
+                }
+            };
+            for (at, start) in (at..).zip(starts) {
+                self.zones.busy.push(true);
+                self.zones.gone.push(false);
+                if let Some(sleepers) = &mut self.sleepers {
+                    sleepers.push();
+                }
+                let way = Way::In(e.inlet);
+                let centre = e.particle.position;
+                self.zones.travellers.push(Traveller { at, since: e.time, start, centre, way });
             }
-            self.zones.busy.push(true);
-            self.zones.gone.push(false);
-            let way = Way::In(e.inlet);
-            self.zones.travellers.push(Traveller { at, since: e.time, start: e.particle, way });
         }
         self.stale = true;
     }
@@ -218,7 +237,9 @@ impl Simulation {
         let mut travellers = std::mem::take(&mut self.zones.travellers);
         travellers.retain(|t| {
             let place = t.start.position + t.start.velocity * (now - t.since);
+            let centre = t.centre + t.start.velocity * (now - t.since);
             self.place(t.at as usize, place, &t.start);
+            self.bodies.carry(t.at as usize, centre);
             match t.way {
                 Way::Out(o) => {
                     let zone = self.zones.outlets[o as usize];
@@ -230,7 +251,7 @@ impl Simulation {
                 }
                 Way::In(i) => {
                     let inside =
-                        now < t.since || self.zones.inlets[i as usize].plane.signed_distance(&place) < 0.0;
+                        now < t.since || self.zones.inlets[i as usize].plane.signed_distance(&centre) < 0.0;
                     if !inside {
                         self.release(t.at as usize, place, t.start.velocity);
                     }
@@ -266,6 +287,7 @@ impl Simulation {
     fn release(&mut self, k: usize, place: Vec3, velocity: Vec3) {
         self.zones.busy[k] = false;
         self.fresh.push(k as u32);
+        self.bodies.release(k);
         self.particles.acceleration[k] = Row4::default();
         if let Some(turning) = self.particles.turning.get_mut(k) {
             *turning = Row4::default();
@@ -298,7 +320,8 @@ impl Simulation {
             }
             let crossing = self.crossing(k, outlet as u32, past);
             let way = Way::Out(outlet as u32);
-            let traveller = Traveller { at: k as u32, since: crossing.time, start: crossing.particle, way };
+            let (start, since) = (crossing.particle, crossing.time);
+            let traveller = Traveller { at: k as u32, since, start, centre: start.position, way };
             let after = self.time() - crossing.time;
             self.zones.busy[k] = true;
             if let Some(sleepers) = &mut self.sleepers {

@@ -178,9 +178,12 @@ mod tests {
 
     #[test]
     fn two_balls_share_a_lens() {
-        let (exact, other) = (lens(0.6, 0.5, 0.4), Vec3::new(0.6, 0.0, 0.0));
-        let counted = by_brute_force(&Vec3::zeros(), 0.5, |p| (p - other).norm() <= 0.4);
-        assert!((exact - counted).abs() < 2e-3 * volume(0.5), "{exact} {counted}");
+        for (distance, r) in [(0.6, 0.4), (0.5, 0.2)] {
+            let other = Vec3::new(distance, 0.0, 0.0);
+            let counted = by_brute_force(&Vec3::zeros(), 0.5, |p| (p - other).norm() <= r);
+            let exact = lens(distance, 0.5, r);
+            assert!((exact - counted).abs() < 2e-4 * volume(0.5), "{exact} {counted}");
+        }
         assert_eq!((lens(1.0, 0.5, 0.4), lens(0.05, 0.5, 0.4)), (0.0, volume(0.4)));
     }
 }

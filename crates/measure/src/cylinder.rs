@@ -107,11 +107,21 @@ mod tests {
         let direction = Vec3::new(1.0, -2.0, 0.5).normalize();
         let (start, end) = (centre - direction * 2.0, centre + direction * 2.0);
         let ring = volume(radius) - in_cylinder(&centre, radius, &start, &end, bore);
-        let height = (radius * radius - bore * bore) as f64;
-        assert!((ring / volume(height.sqrt()) - 1.0).abs() < 1e-10, "{ring}");
+        let half: f64 = radius * radius - bore * bore;
+        assert!((ring / volume(half.sqrt()) - 1.0).abs() < 1e-10, "{ring}");
     }
 
-    /// Cylinders side by side do not fill space, but a half ball cut by a cylinder's mirror images must add up.
+    #[test]
+    fn two_discs_share_what_points_count() {
+        assert!((shared(1.0, 1.0, 1.0) - (2.0 * PI / 3.0 - 0.75f64.sqrt())).abs() < 1e-14);
+        let n = 1000;
+        let at = |k: usize| (k as f64 + 0.5) / n as f64 - 0.5;
+        let points = (0..n * n).map(|k| (at(k % n), at(k / n)));
+        let both = points.filter(|(x, y)| x * x + y * y <= 0.25 && (x - 0.4).powi(2) + y * y <= 0.09);
+        let counted = both.count() as f64 / (n * n) as f64;
+        assert!((shared(0.5, 0.3, 0.4) - counted).abs() < 1e-4, "{counted}");
+    }
+
     #[test]
     fn off_the_axis_it_agrees_with_a_fine_sum_of_slices() {
         for (off, wide) in [(0.4, 0.2), (0.1, 0.3), (0.6, 0.4), (0.5, 0.5), (0.05, 0.06)] {

@@ -57,7 +57,7 @@ pub enum MeasureError {
         Shown(*time), Shown(fractions[0]), Shown(fractions[1]), Shown(*height), Shown(*bin)
     )]
     SmallHeap { time: f64, part: String, found: usize, fractions: [f64; 2], height: f64, bin: f64 },
-    #[error("{what} = {} {unit}: {cure}", Shown(*value))]
+    #[error("{what} = {}: {cure}", format!("{} {unit}", Shown(*value)).trim_end())]
     Setting { what: &'static str, value: f64, unit: &'static str, cure: &'static str },
     #[error("{what}: {count} cells are more than {most}: give fewer bins, or a larger --cell")]
     Cells { what: &'static str, count: f64, most: f64 },

@@ -2,7 +2,8 @@
 //!
 //! Where an outlet of the run lies in the plane, its recorded passages are counted: exact in time. Else a grain passes
 //! when its centre is on the other side in the next frame; when and where follows from its path between the frames
-//! (see [`crate::path`]). Grains that come or go between two frames (inlets, outlets) are not judged there.
+//! (see [`crate::path`]). Grains that come or go between two frames (inlets, outlets) cannot be judged there: those that
+//! would have passed the plane at constant velocity are told as `unjudged`.
 
 use crate::observer::{NO_FRAMES, Observer, SLACK};
 use crate::path::Before;
@@ -83,7 +84,7 @@ pub struct Flow {
     reach: (f64, f64),
     total: Span,
     flows: Vec<f64>,
-    appeared: u64,
+    unjudged: u64,
 }
 
 impl Flow {
@@ -111,7 +112,7 @@ impl Flow {
             reach: (f64::INFINITY, f64::NEG_INFINITY),
             total: Span::default(),
             flows: Vec::new(),
-            appeared: 0,
+            unjudged: 0,
         })
     }
 
@@ -142,10 +143,14 @@ impl Flow {
         let masses = frame.masses()?;
         let plane = self.options.plane;
         let beyond = |p: &Vec3| plane.signed_distance(p) >= 0.0;
+        let length = frame.time - self.before.time().unwrap_or(frame.time);
+        let passing = |(x, v): &(Vec3, Vec3)| beyond(x) != beyond(&(x + v * length));
+        self.unjudged += self.before.vanished(frame).filter(passing).count() as u64;
         let mut found = Vec::new();
         for (row, mass) in masses.iter().enumerate() {
             let Some((path, other)) = self.before.paths(run, frame, row) else {
-                self.appeared += 1;
+                let place = frame.position[row];
+                self.unjudged += u64::from(beyond(&place) != beyond(&(place - frame.velocity[row] * length)));
                 continue;
             };
             for path in [Some(path), other].into_iter().flatten() {
@@ -287,9 +292,14 @@ impl Observer for Flow {
             .with("mass", "kg", t.mass[0] - t.mass[1])
             .with("from", "s", t.from)
             .with("to", "s", t.to)
-            .with("appeared", "1", self.appeared as f64)
+            .with("unjudged", "1", self.unjudged as f64)
             .note(if self.outlet.is_some() { "from recorded crossings" } else { "from frames, by id" });
-        Ok(summary)
+        let unjudged = format!(
+            "{} grains near the plane vanished or appeared between frames and are not counted: set [output] every to \
+             less, or measure at the outlet's own plane",
+            self.unjudged
+        );
+        Ok(if self.unjudged > 0 { summary.note(unjudged) } else { summary })
     }
 
     fn chart(&self, rows: &[Row]) -> Chart {

@@ -9,7 +9,7 @@
 
 use crate::{Frame, Run};
 use geom::Vec3;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// The way of a grain between two frames.
 #[derive(Debug, Clone, Copy)]
@@ -76,6 +76,12 @@ impl Before {
         let passed = (new.0 - old.0 - way).amax() > 1e-6 * way.amax().max(new.0.amax());
         let other = passed.then(|| Path::new(times, old, (old.0 + way, new.1)));
         Some((if passed { path } else { Path::new(times, old, new) }, other))
+    }
+
+    /// Place [m] and velocity [m/s] of the grains that are not in the next frame any more, in no order.
+    pub fn vanished(&self, frame: &Frame) -> impl Iterator<Item = (Vec3, Vec3)> + '_ {
+        let here: HashSet<u64> = frame.id.iter().copied().collect();
+        self.states.iter().filter(move |(id, _)| !here.contains(id)).map(|(_, state)| *state)
     }
 
     /// Takes the next frame in the place of this one.

@@ -76,6 +76,7 @@ impl Residence {
                 (None, true) => {
                     let mass = frame.mass.get(row).copied().unwrap_or(f64::NAN);
                     let since = if first { None } else { change() };
+                    self.unknown += u64::from(since.is_none());
                     self.inside.insert(*id, Stay { since, mass });
                 }
                 (Some(stay), true) => {
@@ -90,7 +91,7 @@ impl Residence {
         left.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         for (time, id, stay) in left {
             match stay.since {
-                None => self.unknown += 1,
+                None => {}
                 Some(since) => {
                     self.stays.push(time - since);
                     rows.push(vec![id as f64, since, time, time - since, stay.mass]);

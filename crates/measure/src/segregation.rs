@@ -7,9 +7,9 @@
 //! M = (σ₀² − σ²) / (σ₀² − σᵣ²)       σ² = Σ n_c (p_c − p)² / N      σ₀² = p (1 − p)      σᵣ² = p (1 − p)(C − 1)/(N − 1)
 //! ```
 //!
-//! with n_c grains in cell c of C cells that hold any, N in all. Cells weigh by their grains, as in Chandratilleke et
-//! al. (2012), Powder Technology 221; σᵣ² is then exactly the mean of σ² when labels are dealt at random, whatever the
-//! n_c are. M depends on the size of the cells, which is told: 3 mean diameters unless given.
+//! with n_c grains in cell c of C cells that hold any, N in all. Deviation from Lacey, whose samples are equal: cells
+//! weigh by their grains, and σᵣ² is the exact mean of σ² when the kinds are dealt at random (the hypergeometric
+//! variance p (1 − p)(N − n_c)/(n_c (N − 1)), summed), whatever the n_c are. M depends on the size of the cells, which is told: 3 mean diameters unless given.
 //!
 //! The difference of the centres of mass of the kinds along an axis, over half of the bed's height,
 //! S = (z_A − z_B) / (H/2), H = √12 · deviation of z (mass-weighted): 0 mixed, 1 all of A above all of B.

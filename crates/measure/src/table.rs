@@ -4,6 +4,9 @@ use crate::MeasureError;
 use geom::Vec3;
 use stream::Table;
 
+/// No component of a vector is as large as this: squares of it still are numbers.
+const FAR: f64 = 1e100;
+
 /// A message of points, where it came from.
 pub(crate) struct Columns<'a> {
     pub topic: &'a str,
@@ -41,7 +44,11 @@ impl Columns<'_> {
 
     /// Three columns as vectors.
     pub(crate) fn vectors(&self, columns: [&str; 3]) -> Result<Vec<Vec3>, MeasureError> {
-        let [x, y, z] = columns.map(|c| self.numbers(c));
+        let [x, y, z] = columns.map(|c| {
+            let values = self.numbers(c)?;
+            self.check(c, &values, |v| v.abs() < FAR, "too large")?;
+            Ok(values)
+        });
         Ok(x?.into_iter().zip(y?).zip(z?).map(|((x, y), z)| Vec3::new(x, y, z)).collect())
     }
 

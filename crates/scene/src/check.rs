@@ -49,14 +49,14 @@ impl Check<'_> {
         Err(self.wrong(key, format!("{value} {unit}").trim_end(), "is outside the range", &cure))
     }
 
-    fn finite(&self, key: &str, value: &[f64], unit: &str) -> Checked {
+    pub(crate) fn finite(&self, key: &str, value: &[f64], unit: &str) -> Checked {
         if value.iter().all(|v| v.is_finite()) {
             return Ok(());
         }
         Err(self.wrong(key, format!("{value:?} {unit}"), "must be finite", "give numbers"))
     }
 
-    fn diameter(&self, key: &str, d: Diameter) -> Checked {
+    pub(crate) fn diameter(&self, key: &str, d: Diameter) -> Checked {
         self.positive(key, d.low, "m")?;
         self.positive(key, d.high, "m")?;
         if d.low > d.high {
@@ -111,6 +111,7 @@ impl Check<'_> {
         self.within("first_id", f64::from(m.first_id), 0.0, 4e9, "")?;
         self.materials(m)?;
         self.contacts(m)?;
+        self.clumps(m)?;
         self.sources(m)?;
         for (i, w) in m.wall.iter().enumerate() {
             self.wall(&format!("wall.{i}"), w)?;
@@ -154,7 +155,7 @@ impl Check<'_> {
     fn sources(&self, m: &Model) -> Checked {
         for (i, f) in m.fill.iter().enumerate() {
             let key = |k: &str| format!("fill.{i}.{k}");
-            self.diameter(&key("diameter"), f.diameter)?;
+            self.grains(&format!("fill.{i}"), &f.material, f.diameter, (f.clump.is_some(), f.scale))?;
             self.positive_if(&key("mass"), f.mass, "kg")?;
             if f.count == Some(0) {
                 return Err(self.wrong(&key("count"), "0", "no particle is asked for", "give at least 1"));
@@ -164,7 +165,7 @@ impl Check<'_> {
         }
         for (i, f) in m.insert.iter().enumerate() {
             let key = |k: &str| format!("insert.{i}.{k}");
-            self.diameter(&key("diameter"), f.diameter)?;
+            self.grains(&format!("insert.{i}"), &f.material, f.diameter, (f.clump.is_some(), f.scale))?;
             self.positive_if(&key("rate"), f.rate, "kg/s")?;
             self.positive_if(&key("rate_count"), f.rate_count, "1/s")?;
             let rates = [("rate", f.rate.is_some()), ("rate_count", f.rate_count.is_some())];

@@ -3,7 +3,7 @@
 use crate::run::RunError;
 use crate::schedule::Schedule;
 use crate::{Plan, Scene};
-use dem::setup::Setup;
+use dem::setup::{Precision, Setup};
 use dem::{Simulation, critical_step};
 use serde::Serialize;
 use std::fmt::Write;
@@ -41,6 +41,14 @@ pub struct Fields {
     pub steps: u64,
     /// Effects.
     pub effects: Vec<Effect>,
+    /// What the scene asks for and cannot matter: key and pair.
+    pub dropped: Vec<String>,
+    /// State of a particle [B].
+    pub bytes_per_particle: usize,
+    /// Everything that a listed contact takes [B], when there are some at the start.
+    pub bytes_per_listed_contact: Option<f64>,
+    /// Whether anything turns particles.
+    pub rotation: bool,
     /// Measured time of a step at the start [s], when it was measured.
     pub seconds_per_step: Option<f64>,
 }
@@ -54,7 +62,7 @@ pub struct Effect {
     pub why: String,
     /// Memory between steps [B] for each contact.
     pub bytes_per_contact: usize,
-    /// Measured share of a step, when it was measured: how much faster the scene is without it [–].
+    /// Measured share of a step, when it was measured: how much faster the scene is without it, negative where it is slower [–].
     pub share: Option<f64>,
 }
 
@@ -63,17 +71,20 @@ pub struct Effect {
 /// # Errors
 /// Whatever would keep the scene from running.
 pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained, RunError> {
-    let setup = plan.setup;
+    let mut setup = plan.setup;
+    let dropped = drop_idle(&mut setup);
     let limit = critical_step(&setup)?;
     let mut sim = Simulation::new(setup.clone())?;
     if let Err(halt) = sim.particles() {
         crate::run::stopped(scene, 0, halt)?;
     }
     let schedule = Schedule::new(scene, sim.dt())?;
+    let (bytes_per_particle, rotation) = (sim.bytes_per_particle(), sim.rotates());
+    let bytes_per_listed_contact = (sim.listed_contacts() > 0).then(|| sim.bytes_per_listed_contact());
     let whole = measure.then(|| time_step(sim)).flatten();
     let effects = effects(&setup).into_iter().map(|(mut effect, without)| {
         let less = without.filter(|_| measure).and_then(|s| Simulation::new(s).ok()).and_then(time_step);
-        effect.share = less.zip(whole).map(|(less, whole)| (1.0 - less / whole).max(0.0));
+        effect.share = less.zip(whole).map(|(less, whole)| 1.0 - less / whole);
         effect
     });
     let spheres = setup.walls.iter().map(|w| match &w.shape {
@@ -81,13 +92,17 @@ pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained, Ru
         _ => 0,
     });
     let fields = Fields {
-        particles: setup.particles.len(),
+        particles: setup.particles.len() + setup.clumps.members(),
         wall_spheres: spheres.sum(),
         dt: schedule.dt,
         critical_dt: limit.dt,
         limiting_pair: limit.pair,
         steps: schedule.last,
         effects: effects.collect(),
+        dropped,
+        bytes_per_particle,
+        bytes_per_listed_contact,
+        rotation,
         seconds_per_step: whole,
     };
     let summary = format!(
@@ -123,7 +138,28 @@ fn text(fields: &Fields) -> String {
         let share = e.share.map_or("–".to_owned(), |s| format!("{:.0} %", 100.0 * s));
         let _ = writeln!(out, "{:22} {:>10} {:>8}  {}", e.name, e.bytes_per_contact, share, e.why);
     }
+    let turns = if fields.rotation { "" } else { ", without rotation: nothing here turns a particle" };
+    let _ = writeln!(out, "\nmemory         {} B a particle{turns}", fields.bytes_per_particle);
+    if let Some(bytes) = fields.bytes_per_listed_contact {
+        let _ = writeln!(out, "               {bytes:.0} B a listed contact, lists and loads included");
+    }
+    for key in &fields.dropped {
+        let _ = writeln!(out, "dropped        {key}: 0 cannot matter, nothing of it is computed");
+    }
     out
+}
+
+/// Takes effects away that cannot matter, and says which.
+fn drop_idle(setup: &mut Setup) -> Vec<String> {
+    let name = |m: u16| setup.materials[m as usize].name.as_str();
+    let mut dropped = Vec::new();
+    let needed = setup.contacts.iter().map(|c| {
+        let (less, keys) = dem::needed(c);
+        dropped.extend(keys.iter().map(|k| format!("{k} ({}–{})", name(c.between.0), name(c.between.1))));
+        less
+    });
+    setup.contacts = needed.collect();
+    dropped
 }
 
 /// Every effect, and the setup without it where there is one.
@@ -136,9 +172,20 @@ fn effects(setup: &Setup) -> Vec<(Effect, Option<Setup>)> {
         }
     };
     let named = |there: bool, key: &str| if there { key.to_owned() } else { String::new() };
+    let (body, member) = Simulation::bytes_of_clump();
+    let clumps = setup.clumps.shapes.iter().map(|s| format!("'{}' of {}", s.name, s.spheres.len()));
+    let clumps = clumps.collect::<Vec<_>>().join(", ");
+    let why = format!("[[clump]] {clumps}: {body} B a body, {member} B a member");
+    add("clump", if clumps.is_empty() { clumps } else { why }, 0, None);
     add("gravity", named(setup.gravity.norm() > 0.0, "gravity"), 0, None);
     let ledger = Setup { ledger: false, ..setup.clone() };
-    add("energy", named(setup.ledger, "output.energy"), 0, Some(ledger));
+    add("energy", named(setup.ledger, "output.energy or output.contacts"), 0, Some(ledger));
+    let clumps = setup.clumps.shapes.len();
+    add("clumps", if clumps > 0 { format!("{clumps} [[clump]]") } else { String::new() }, 0, None);
+    let awake = Setup { sleep: None, ..setup.clone() };
+    add("sleep", named(setup.sleep.is_some(), "sleep"), 0, Some(awake));
+    let double = Setup { precision: Precision::Double, ..setup.clone() };
+    add("mixed precision", named(setup.precision == Precision::Mixed, "precision"), 0, Some(double));
     let zones = |n: usize, key: &str| if n > 0 { format!("{n} [[{key}]]") } else { String::new() };
     add("outlet", zones(setup.outlets.len(), "outlet"), 0, None);
     add("inlet", zones(setup.inlets.len(), "inlet or insert"), 0, None);

@@ -4,12 +4,13 @@
 //! are free behind it. Seen from the moving particles, the places of one after the other are random and none
 //! touches another, because the distance along the velocity v of two that come Δt apart is v Δt.
 
+use crate::bodies::orientation;
 use crate::check::Check;
 use crate::error::SceneError;
 use crate::fill::{diameter, generator, unit, volume};
 use crate::model::{Diameter, Insert};
 use crate::room::{bounds, holds};
-use dem::setup::{Entry, Particle, Zone};
+use dem::setup::{ClumpShape, Entry, EntryClump, Particle, Zone};
 use geom::{Plane, Shape, Shown, Vec3};
 use rand_pcg::Pcg64Mcg;
 use std::collections::VecDeque;
@@ -24,8 +25,7 @@ pub(crate) struct Faucet {
     key: String,
     section: Section,
     velocity: Vec3,
-    diameter: Diameter,
-    material: (u16, f64),
+    grains: Poured,
     rate: Rate,
     until: f64,
     time: f64,
@@ -34,6 +34,37 @@ pub(crate) struct Faucet {
     inlet: u32,
     random: Pcg64Mcg,
     recent: VecDeque<(Vec3, f64)>,
+}
+
+/// What comes out: spheres, or clumps as the spheres that hold them.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Poured {
+    /// Of the spheres [m].
+    diameter: Diameter,
+    material: u16,
+    /// Mass over that of the sphere [kg/m³].
+    density: f64,
+    /// Shape, and the diameter of the sphere that holds it at scale 1 [m].
+    clump: Option<(u32, f64)>,
+    /// Ids that each takes.
+    ids: u32,
+}
+
+impl Poured {
+    pub(crate) fn spheres(diameter: Diameter, (material, density): (u16, f64)) -> Poured {
+        Poured { diameter, material, density, clump: None, ids: 1 }
+    }
+
+    pub(crate) fn clumps(shape: u32, clump: &ClumpShape, scale: Diameter, density: f64) -> Poured {
+        let size = 2.0 * clump.reach();
+        Poured {
+            diameter: Diameter { low: scale.low * size, high: scale.high * size },
+            material: clump.material,
+            density: clump.mass(1.0, density) / volume(clump.reach()),
+            clump: Some((shape, size)),
+            ids: clump.spheres.len() as u32,
+        }
+    }
 }
 
 /// The shape as seen along the velocity.
@@ -95,7 +126,7 @@ impl Faucet {
         index: usize,
         entry: &Insert,
         shape: Shape,
-        material: (u16, f64),
+        grains: Poured,
         ids: (u32, u32),
     ) -> Result<(Faucet, Zone), SceneError> {
         let key = |k: &str| format!("insert.{index}.{k}");
@@ -109,7 +140,7 @@ impl Faucet {
             let why = "has no end: only box, sphere and cylinder (without '!') can be a faucet";
             return Err(check.wrong(&key("shape"), &entry.shape, why, "use one of these"));
         };
-        let (thickness, largest) = (section.size(0), entry.diameter.high);
+        let (thickness, largest) = (section.size(0), grains.diameter.high);
         if thickness <= largest {
             let why = format!(
                 "is {} m thick along the velocity, and the largest diameter is {} m",
@@ -127,8 +158,7 @@ impl Faucet {
             key: format!("insert.{index}"),
             section,
             velocity,
-            diameter: entry.diameter,
-            material,
+            grains,
             rate,
             until: entry.until.unwrap_or(f64::INFINITY),
             time: entry.from,
@@ -145,16 +175,16 @@ impl Faucet {
 
     /// Refuses a rate that needs more room than the cross-section has.
     fn check_rate(&self, check: &Check, index: usize) -> Result<(), SceneError> {
-        let radius = self.diameter.high / 2.0;
+        let radius = self.grains.diameter.high / 2.0;
         let mut random = generator(0, 3, index as u64);
         let inside = (0..10_000).filter(|_| self.section.candidate(radius, &mut random).is_some()).count()
             as f64
             / 1e4;
         // The section that spheres fill is wider than that of their centres by their radius.
         let area = inside * self.section.size(1) * self.section.size(2);
-        let mean = volume(self.diameter.low / 2.0) + volume(radius);
+        let mean = volume(self.grains.diameter.low / 2.0) + volume(radius);
         let (flow, written) = match self.rate {
-            Rate::Mass(rate) => (rate / self.material.1, format!("{rate} kg/s")),
+            Rate::Mass(rate) => (rate / self.grains.density, format!("{rate} kg/s")),
             Rate::Count(rate) => (rate * mean / 2.0, format!("{rate} 1/s")),
         };
         let fraction = flow / (area * self.velocity.norm());
@@ -191,12 +221,12 @@ impl Faucet {
     pub(crate) fn next(&mut self) -> Result<Option<Entry>, SceneError> {
         let Some(time) = self.next_time() else { return Ok(None) };
         let mut random = self.random.clone();
-        let radius = diameter(self.diameter, &mut random) / 2.0;
+        let radius = diameter(self.grains.diameter, &mut random) / 2.0;
         let axis = self.section.frame[0];
         let behind = axis * (-self.velocity.norm() * time);
         let reach = self.velocity.norm() * time;
         // Those further ahead than the largest diameter touch nothing that comes from now on.
-        while self.recent.front().is_some_and(|(p, _)| p.dot(&axis) + reach > self.diameter.high) {
+        while self.recent.front().is_some_and(|(p, _)| p.dot(&axis) + reach > self.grains.diameter.high) {
             self.recent.pop_front();
         }
         let found = (0..TRIES).find_map(|_| {
@@ -217,16 +247,21 @@ impl Faucet {
         };
         self.recent.push_back((across + behind, radius));
         let step = match self.rate {
-            Rate::Mass(rate) => volume(radius) * self.material.1 / rate,
+            Rate::Mass(rate) => volume(radius) * self.grains.density / rate,
             Rate::Count(rate) => 1.0 / rate,
         };
         self.time += step;
         let id = self.first_id.wrapping_add(self.count);
-        self.count += 1;
+        self.count += self.grains.ids;
+        let clump = self.grains.clump.map(|(shape, size)| EntryClump {
+            shape,
+            scale: 2.0 * radius / size,
+            orientation: orientation(&mut self.random),
+        });
         let position = across + axis * self.section.ranges[0].0;
         let (velocity, spin) = (self.velocity, Vec3::zeros());
-        let particle = Particle { id, material: self.material.0, radius, position, velocity, spin };
-        Ok(Some(Entry { time, inlet: self.inlet, particle }))
+        let particle = Particle { id, material: self.grains.material, radius, position, velocity, spin };
+        Ok(Some(Entry { time, inlet: self.inlet, particle, clump }))
     }
 }
 
@@ -247,6 +282,8 @@ mod tests {
         let shape = "cylinder:0,0,1,0,0,1.03,0.05";
         let entry = Insert {
             material: "m".into(),
+            clump: None,
+            scale: None,
             shape: shape.into(),
             diameter: Diameter { low: 0.01, high: 0.02 },
             velocity: [0.0, 0.0, -1.0],
@@ -256,8 +293,8 @@ mod tests {
             until: Some(1.0),
             seed: 0,
         };
-        let made =
-            Faucet::new(&Check { text: &text }, 0, &entry, shape.parse().unwrap(), (0, 1000.0), (0, 0));
+        let grains = Poured::spheres(entry.diameter, (0, 1000.0));
+        let made = Faucet::new(&Check { text: &text }, 0, &entry, shape.parse().unwrap(), grains, (0, 0));
         made.map(|(faucet, zone)| {
             assert!((zone.length - 0.03).abs() < 1e-12 && (zone.plane.point.z - 1.0).abs() < 1e-12);
             faucet

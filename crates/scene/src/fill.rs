@@ -50,7 +50,7 @@ pub(crate) fn volume(radius: f64) -> f64 {
     4.0 / 3.0 * PI * radius * radius * radius
 }
 
-/// Adds the particles of a fill to those that are there.
+/// The particles of a fill; `taken` are all spheres that are placed: centre, radius [m].
 ///
 /// # Errors
 /// A shape without end or without room, with what did fit.
@@ -61,8 +61,8 @@ pub(crate) fn fill(
     shape: &Shape,
     material: (u16, f64),
     first_id: u32,
-    particles: &mut Vec<Particle>,
-) -> Result<(), SceneError> {
+    taken: &[(Vec3, f64)],
+) -> Result<Vec<Particle>, SceneError> {
     let key = |k: &str| format!("fill.{index}.{k}");
     let Some((low, high)) = bounds(shape) else {
         let why = "cannot be filled: only box, sphere and cylinder (without '!') can";
@@ -75,16 +75,12 @@ pub(crate) fn fill(
     };
     let mut random = generator(fill.seed, 1, index as u64);
     let radii = radii(check, &key("mass"), fill, material.1, &mut random)?;
-    let largest = particles.iter().map(|p| p.radius).fold(fill.diameter.high / 2.0, f64::max);
-    let mut room = Occupied::new(low, high, largest);
-    let near = |p: &&Particle| {
-        (0..3).all(|a| p.position[a] > low[a] - 2.0 * largest && p.position[a] < high[a] + 2.0 * largest)
-    };
-    particles.iter().filter(near).for_each(|p| room.take(p.position, p.radius));
+    let mut room = Place::new(shape, (low, high), fill.diameter.high / 2.0, taken);
     let wanted: f64 = radii.iter().map(|r| volume(*r)).sum();
     let mut placed = 0.0;
+    let mut particles = Vec::with_capacity(radii.len());
     for (n, &radius) in radii.iter().enumerate() {
-        let Some(position) = place(shape, low, high, radius, &room, &mut random) else {
+        let Some(position) = room.find(radius, &mut random) else {
             let (fits, of) = (placed * material.1, wanted * material.1);
             let why = format!(
                 "only {n} of {} particles ({fits:.4} of {of:.4} kg) fit without touching",
@@ -94,7 +90,6 @@ pub(crate) fn fill(
                 "make the shape larger (random places fill about a third of it), or pour with [[insert]]";
             return Err(check.wrong(&key("shape"), &fill.shape, &why, cure));
         };
-        room.take(position, radius);
         placed += volume(radius);
         let velocity = Vec3::from(fill.velocity);
         let id = first_id.wrapping_add(n as u32);
@@ -107,7 +102,7 @@ pub(crate) fn fill(
             spin: Vec3::zeros(),
         });
     }
-    Ok(())
+    Ok(particles)
 }
 
 /// The radii, largest first; as many as come nearest to the mass.
@@ -148,22 +143,42 @@ fn radii(
     Ok(radii)
 }
 
-fn place(
-    shape: &Shape,
+/// Room in a shape that spheres take one after the other.
+pub(crate) struct Place<'a> {
+    shape: &'a Shape,
     low: Vec3,
     high: Vec3,
-    radius: f64,
-    room: &Occupied,
-    random: &mut Pcg64Mcg,
-) -> Option<Vec3> {
-    let (low, size) = (low.add_scalar(radius), (high - low).add_scalar(-2.0 * radius));
-    if size.min() < 0.0 {
-        return None;
+    room: Occupied,
+}
+
+impl<'a> Place<'a> {
+    /// A shape between two corners, what is `taken` in it, and the largest radius that is to come [m].
+    pub(crate) fn new(
+        shape: &'a Shape,
+        (low, high): (Vec3, Vec3),
+        largest: f64,
+        taken: &[(Vec3, f64)],
+    ) -> Place<'a> {
+        let largest = taken.iter().map(|s| s.1).fold(largest, f64::max);
+        let mut room = Occupied::new(low, high, largest);
+        let near = |p: &Vec3| (0..3).all(|a| p[a] > low[a] - 2.0 * largest && p[a] < high[a] + 2.0 * largest);
+        taken.iter().filter(|s| near(&s.0)).for_each(|s| room.take(s.0, s.1));
+        Place { shape, low, high, room }
     }
-    (0..TRIES).find_map(|_| {
-        let at = low + Vec3::new(unit(random), unit(random), unit(random)).component_mul(&size);
-        (holds(shape, &at, radius) && room.is_free(&at, radius)).then_some(at)
-    })
+
+    /// A random place for one more sphere, that it takes; `None` when there is none.
+    pub(crate) fn find(&mut self, radius: f64, random: &mut Pcg64Mcg) -> Option<Vec3> {
+        let (low, size) = (self.low.add_scalar(radius), (self.high - self.low).add_scalar(-2.0 * radius));
+        if size.min() < 0.0 {
+            return None;
+        }
+        let found = (0..TRIES).find_map(|_| {
+            let at = low + Vec3::new(unit(random), unit(random), unit(random)).component_mul(&size);
+            (holds(self.shape, &at, radius) && self.room.is_free(&at, radius)).then_some(at)
+        })?;
+        self.room.take(found, radius);
+        Some(found)
+    }
 }
 
 #[cfg(test)]
@@ -175,6 +190,8 @@ mod tests {
         let text = Text::new("s", String::new());
         let entry = Fill {
             material: "m".into(),
+            clump: None,
+            scale: None,
             shape: shape.into(),
             diameter: Diameter { low: 0.01, high: 0.02 },
             mass: Some(mass),
@@ -182,10 +199,8 @@ mod tests {
             velocity: [0.0; 3],
             seed,
         };
-        let mut particles = Vec::new();
         let solid = shape.parse().unwrap();
-        fill(&Check { text: &text }, 0, &entry, &solid, (0, 1000.0), 7, &mut particles)?;
-        Ok(particles)
+        fill(&Check { text: &text }, 0, &entry, &solid, (0, 1000.0), 7, &[])
     }
 
     #[test]

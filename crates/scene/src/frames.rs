@@ -2,9 +2,10 @@
 
 use crate::crossings::Builder;
 use crate::model::Precision;
-use dem::Simulation;
-use dem::setup::{Particle, Setup, Wall, WallShape};
+use dem::setup::{ClumpShape, Clumps, Particle, Setup, Wall, WallShape};
+use dem::{BodyState, ContactRecord, Simulation};
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 use stream::{Table, Values};
 
 fn numbers(precision: Precision, values: impl Iterator<Item = f64>) -> Values {
@@ -14,10 +15,10 @@ fn numbers(precision: Precision, values: impl Iterator<Item = f64>) -> Values {
     }
 }
 
-/// The table of the topic `/particles`.
-pub fn particles(rows: &[Particle], precision: Precision) -> Table {
+/// The table of the topic `/particles`; with clumps in the scene, the body of each row, too (its own id for a free sphere).
+pub fn particles(rows: &[Particle], precision: Precision, bodies: Option<&[BodyState]>) -> Table {
     let one = |of: &dyn Fn(&Particle) -> f64| numbers(precision, rows.iter().map(of));
-    Builder::new(rows.len())
+    let table = Builder::new(rows.len())
         .with("x", one(&|p| p.position.x))
         .with("y", one(&|p| p.position.y))
         .with("z", one(&|p| p.position.z))
@@ -29,7 +30,70 @@ pub fn particles(rows: &[Particle], precision: Precision) -> Table {
         .with("wy", one(&|p| p.spin.y))
         .with("wz", one(&|p| p.spin.z))
         .with("id", Values::U32(rows.iter().map(|p| p.id).collect()))
-        .with("material", Values::U16(rows.iter().map(|p| p.material).collect()))
+        .with("material", Values::U16(rows.iter().map(|p| p.material).collect()));
+    let Some(bodies) = bodies else { return table.0 };
+    let body = |p: &Particle| {
+        let before = bodies.partition_point(|b| b.id <= p.id);
+        bodies[..before].last().filter(|b| b.has(p.id)).map_or(p.id, |b| b.id)
+    };
+    table.with("body", Values::U32(rows.iter().map(body).collect())).0
+}
+
+/// The table of the topic `/bodies`: a row for each rigid clump, at its centre of mass; the quaternion turns the frame that its shape was
+/// given in.
+pub fn bodies(rows: &[BodyState]) -> Table {
+    let turn = |of: &dyn Fn(&BodyState) -> f64| Values::F64(rows.iter().map(of).collect());
+    Builder::new(rows.len())
+        .vectors(["x", "y", "z"], rows, |b| b.position)
+        .with("qw", turn(&|b| b.orientation.w))
+        .with("qx", turn(&|b| b.orientation.i))
+        .with("qy", turn(&|b| b.orientation.j))
+        .with("qz", turn(&|b| b.orientation.k))
+        .vectors(["vx", "vy", "vz"], rows, |b| b.velocity)
+        .vectors(["wx", "wy", "wz"], rows, |b| b.spin)
+        .f64("mass", rows.iter().map(|b| b.mass))
+        .f64("scale", rows.iter().map(|b| b.scale))
+        .with("id", Values::U32(rows.iter().map(|b| b.id).collect()))
+        .with("members", Values::U32(rows.iter().map(|b| b.members).collect()))
+        .with("clump", Values::U16(rows.iter().map(|b| b.shape as u16).collect()))
+        .0
+}
+
+/// The record `clumps`: each shape by its index. Spheres and centre of mass in the frame that it was given in, principal moments of inertia of
+/// density 1.
+pub(crate) fn clumps(clumps: &Clumps) -> BTreeMap<String, String> {
+    let one = |s: &ClumpShape| {
+        let sphere = |(c, r): &(geom::Vec3, f64)| {
+            let c = s.centre + s.frame * c;
+            [c.x, c.y, c.z, *r]
+        };
+        let centre = [s.centre.x, s.centre.y, s.centre.z];
+        json!({
+            "name": s.name, "material": s.material, "volume": s.volume, "inertia": s.inertia, "centre": centre,
+            "spheres": s.spheres.iter().map(sphere).collect::<Vec<_>>(),
+        })
+    };
+    clumps.shapes.iter().enumerate().map(|(k, s)| (k.to_string(), one(s).to_string())).collect()
+}
+
+/// The table of the topic `/contacts`.
+pub(crate) fn contacts(rows: &[ContactRecord], precision: Precision) -> Table {
+    let one = |of: &dyn Fn(&ContactRecord) -> f64| numbers(precision, rows.iter().map(of));
+    Builder::new(rows.len())
+        .with("x", one(&|c| c.point.x))
+        .with("y", one(&|c| c.point.y))
+        .with("z", one(&|c| c.point.z))
+        .with("nx", one(&|c| c.normal.x))
+        .with("ny", one(&|c| c.normal.y))
+        .with("nz", one(&|c| c.normal.z))
+        .with("fx", one(&|c| c.force.x))
+        .with("fy", one(&|c| c.force.y))
+        .with("fz", one(&|c| c.force.z))
+        .with("overlap", one(&|c| c.overlap))
+        .with("id_i", Values::U32(rows.iter().map(|c| c.i).collect()))
+        .with("id_j", Values::U32(rows.iter().map(|c| c.j).collect()))
+        .with("kind", Values::U16(rows.iter().map(|c| u16::from(c.wall)).collect()))
+        .with("work", one(&|c| c.work))
         .0
 }
 

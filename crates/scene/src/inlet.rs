@@ -123,7 +123,7 @@ impl InletStream {
     fn entry(&self, passage: Passage) -> Entry {
         let mut particle = passage.particle;
         particle.material = self.to_scene[particle.material as usize];
-        Entry { time: passage.time, inlet: self.inlet, particle }
+        Entry { time: passage.time, inlet: self.inlet, particle, clump: None }
     }
 
     fn take(&mut self, event: Event) -> Result<(), SceneError> {

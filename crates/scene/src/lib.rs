@@ -1,7 +1,9 @@
 //! The TOML scene: its keys, its checks, its defaults; what it calls for, which engine that makes, and the run.
 
+mod bodies;
 mod check;
 pub mod checkpoint;
+mod clumps;
 mod columns;
 mod contact_check;
 mod contacts;

@@ -9,6 +9,9 @@ impl Draft<'_> {
     pub(crate) fn meeting(&mut self, mut laws: Vec<setup::Contact>) -> Vec<setup::Contact> {
         let mut grains: Vec<u16> = self.particles.iter().map(|p| p.material).collect();
         grains.extend(&self.entry_materials);
+        let shapes =
+            self.clumps.bodies.iter().map(|b| b.shape).chain(self.clumps.entries.iter().map(|e| e.0));
+        grains.extend(shapes.map(|s| self.clumps.shapes[s as usize].material));
         grains.sort_unstable();
         grains.dedup();
         let of = |laws: &[setup::Contact], a: u16, b: u16| {

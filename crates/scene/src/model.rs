@@ -12,6 +12,9 @@ pub struct Model {
     /// Id of the first particle that the scene itself makes; particles of an inlet keep theirs.
     #[serde(default)]
     pub first_id: u32,
+    /// In which precision contacts are computed.
+    #[serde(default)]
+    pub precision: Arithmetic,
     /// Time.
     #[serde(default)]
     pub time: Time,
@@ -35,6 +38,12 @@ pub struct Model {
     /// Laws between materials.
     #[serde(default)]
     pub contact: Vec<Contact>,
+    /// Shapes of rigid clumps.
+    #[serde(default)]
+    pub clump: Vec<Clump>,
+    /// Rigid clumps at t = 0.
+    #[serde(default)]
+    pub body: Vec<Body>,
     /// Shapes filled with particles at t = 0.
     #[serde(default)]
     pub fill: Vec<Fill>,
@@ -53,6 +62,17 @@ pub struct Model {
     /// Zones that recorded particles enter by.
     #[serde(default)]
     pub inlet: Vec<Inlet>,
+}
+
+/// In which precision contacts are computed; places and sums are always double.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Arithmetic {
+    /// Double.
+    #[default]
+    F64,
+    /// Single in contacts.
+    Mixed,
 }
 
 /// `[time]`
@@ -100,6 +120,9 @@ pub struct Output {
     /// Whether the energy ledger is kept and written.
     #[serde(default)]
     pub energy: bool,
+    /// Whether contacts are written with each frame.
+    #[serde(default)]
+    pub contacts: bool,
     /// Type of the numbers in frames.
     #[serde(default)]
     pub precision: Precision,
@@ -107,7 +130,7 @@ pub struct Output {
 
 impl Default for Output {
     fn default() -> Output {
-        Output { every: None, checkpoint: None, energy: false, precision: Precision::F64 }
+        Output { every: None, checkpoint: None, energy: false, contacts: false, precision: Precision::F64 }
     }
 }
 
@@ -286,7 +309,7 @@ pub struct Weakening {
 }
 
 /// One diameter or a range [m].
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Diameter {
     /// Smallest [m].
     pub low: f64,
@@ -294,15 +317,84 @@ pub struct Diameter {
     pub high: f64,
 }
 
+/// `[[clump]]`: `spheres`, or `mesh` with `vertex_radius`.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Clump {
+    /// Name, that others call it by.
+    pub name: String,
+    /// Material.
+    pub material: String,
+    /// x, y, z, radius [m] of each sphere.
+    pub spheres: Option<Vec<[f64; 4]>>,
+    /// What the mass of spheres is.
+    #[serde(default)]
+    pub mass: ClumpMass,
+    /// A closed surface (PLY): the body; a sphere on each of its vertices.
+    pub mesh: Option<String>,
+    /// Radius of the spheres on the vertices of `mesh`, before `scale` [m].
+    pub vertex_radius: Option<f64>,
+    /// Lengths are multiplied by this [–].
+    #[serde(default = "one")]
+    pub scale: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// Mass, centre and inertia of a clump of spheres.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ClumpMass {
+    /// Of the union.
+    #[default]
+    Union,
+    /// Of the sum: where spheres overlap, twice.
+    Sum,
+}
+
+/// `[[body]]`: one rigid clump.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Body {
+    /// Name of its `[[clump]]`.
+    pub clump: String,
+    /// Centre of mass [m].
+    pub position: [f64; 3],
+    /// Orientation: w, x, y, z.
+    #[serde(default = "upright")]
+    pub quaternion: [f64; 4],
+    /// Velocity of the centre of mass [m/s].
+    #[serde(default)]
+    pub velocity: [f64; 3],
+    /// Angular velocity [rad/s].
+    #[serde(default)]
+    pub spin: [f64; 3],
+    /// Size over that of the clump [–].
+    #[serde(default = "one")]
+    pub scale: f64,
+}
+
+fn upright() -> [f64; 4] {
+    [1.0, 0.0, 0.0, 0.0]
+}
+
 /// `[[fill]]`
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fill {
-    /// Material.
+    /// Material, unless there is a `clump`.
+    #[serde(default)]
     pub material: String,
+    /// Name of a `[[clump]]`: bodies in the place of spheres.
+    pub clump: Option<String>,
+    /// Sizes of bodies over that of the clump, uniform in the range [–].
+    pub scale: Option<Diameter>,
     /// Where; spheres lie wholly inside.
     pub shape: String,
-    /// Diameters, uniform in the range [m].
+    /// Diameters, uniform in the range [m], unless there is a `clump`.
+    #[serde(default)]
     pub diameter: Diameter,
     /// Mass [kg]; this or `count`.
     pub mass: Option<f64>,
@@ -324,17 +416,25 @@ pub struct Particles {
     pub source: String,
     /// Material of all; needed unless the file is a run, which names its own.
     pub material: Option<String>,
+    /// Name of a `[[clump]]`: a body for each row.
+    pub clump: Option<String>,
 }
 
 /// `[[insert]]`
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Insert {
-    /// Material.
+    /// Material, unless there is a `clump`.
+    #[serde(default)]
     pub material: String,
+    /// Name of a `[[clump]]`: bodies in the place of spheres.
+    pub clump: Option<String>,
+    /// Sizes of bodies over that of the clump, uniform in the range [–].
+    pub scale: Option<Diameter>,
     /// Cross-section, thicker along the velocity than the largest diameter.
     pub shape: String,
     /// Diameters, uniform in the range [m].
+    #[serde(default)]
     pub diameter: Diameter,
     /// Velocity [m/s]; particles keep it until they leave the shape.
     pub velocity: [f64; 3],

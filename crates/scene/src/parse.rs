@@ -8,9 +8,6 @@ use crate::text::Text;
 const NOT_YET: &[(&str, &str)] = &[
     ("bond", "use 'contact' laws without bonds"),
     ("bonds", "use 'contact' laws without bonds"),
-    ("clump", "use spheres"),
-    ("clumps", "use spheres"),
-    ("polyhedron", "use spheres"),
     ("servo", "move the wall by 'motion'"),
     ("sleep", "leave it out: every particle is moved at every step"),
     ("drag", "leave it out"),

@@ -29,29 +29,42 @@ pub(crate) struct ParticleFile {
 /// Reads particles; the format is told by content.
 ///
 /// # Errors
-/// A file of another kind, columns that are missing or wrong.
+/// A file of another kind, columns that are missing or wrong; a run with clumps.
 pub(crate) fn read(path: &Path) -> Result<ParticleFile, SceneError> {
     let name = path.display().to_string();
-    let bytes = std::fs::read(path).map_err(|source| SceneError::Read { name: name.clone(), source })?;
-    let run = bytes.starts_with(b"\x89MCAP");
-    let (table, materials) = if bytes.starts_with(b"ply") {
-        let content = |e: stream::ply::PlyError| SceneError::Content {
-            name: name.clone(),
-            wanted: "particles",
-            source: e.into(),
-        };
-        let ply = stream::ply::parse(&bytes).map_err(content)?;
-        let vertex = ply.elements.into_iter().find(|e| e.name == "vertex");
-        let none = || SceneError::file(&name, "has no element 'vertex'", "give particles as vertices");
-        (vertex.ok_or_else(none)?.table, Vec::new())
-    } else if run {
-        last_frame(&name, &bytes)?
-    } else {
-        (csv(&name, &bytes)?, Vec::new())
-    };
+    let (table, materials, run) = table(path)?;
+    if run && table.get("body").is_some() {
+        let why = "is a run with clumps, and a frame does not hold their shapes";
+        return Err(SceneError::file(&name, why, "go on with dem-run --resume, or place them with [[body]]"));
+    }
     let file = from_table(&name, &table, materials)?;
     // A run has columns of its own that nobody wrote by hand.
     Ok(ParticleFile { note: file.note.filter(|_| !run), ..file })
+}
+
+/// The columns of a file, the materials that it names, and whether it is a run.
+///
+/// # Errors
+/// A file of another kind.
+pub(crate) fn table(path: &Path) -> Result<(Table, Vec<MaterialInfo>, bool), SceneError> {
+    let name = path.display().to_string();
+    let bytes = std::fs::read(path).map_err(|source| SceneError::Read { name: name.clone(), source })?;
+    if bytes.starts_with(b"\x89MCAP") {
+        let (table, materials) = last_frame(&name, &bytes)?;
+        return Ok((table, materials, true));
+    }
+    if !bytes.starts_with(b"ply") {
+        return Ok((csv(&name, &bytes)?, Vec::new(), false));
+    }
+    let content = |e: stream::ply::PlyError| SceneError::Content {
+        name: name.clone(),
+        wanted: "particles",
+        source: e.into(),
+    };
+    let ply = stream::ply::parse(&bytes).map_err(content)?;
+    let vertex = ply.elements.into_iter().find(|e| e.name == "vertex");
+    let none = || SceneError::file(&name, "has no element 'vertex'", "give particles as vertices");
+    Ok((vertex.ok_or_else(none)?.table, Vec::new(), false))
 }
 
 fn from_table(name: &str, table: &Table, materials: Vec<MaterialInfo>) -> Result<ParticleFile, SceneError> {

@@ -7,7 +7,7 @@ use crate::faucet::Faucet;
 use crate::inlet::InletStream;
 use crate::input::Input;
 use crate::material_info::MaterialInfo;
-use crate::model::{Model, OrAuto};
+use crate::model::{Arithmetic, Model, OrAuto};
 use crate::wall_file::WallFile;
 use crate::{Scene, contacts, fill, particle_file, walls};
 use dem::setup::{self, Guards, Particle, Setup, Step, Zone};
@@ -43,6 +43,7 @@ pub(crate) struct Draft<'a> {
     pub scene: &'a Scene,
     pub materials: Vec<setup::Material>,
     pub particles: Vec<Particle>,
+    pub clumps: setup::Clumps,
     pub walls: Vec<setup::Wall>,
     /// What wall files say of a material.
     pub wall_infos: Vec<(u16, MaterialInfo)>,
@@ -50,6 +51,8 @@ pub(crate) struct Draft<'a> {
     pub inlets: Vec<Zone>,
     pub entry_materials: Vec<u16>,
     pub entry_sizes: Option<Sizes>,
+    /// The like without members of clumps.
+    pub sphere_sizes: Option<Sizes>,
     pub feeds: Feeds,
     pub notes: Vec<String>,
     pub inputs: Vec<(String, String)>,
@@ -73,6 +76,7 @@ impl Scene {
                 Input::Inlet(stream) => streams.push(*stream),
             }
         }
+        draft.shapes()?;
         draft.particles()?;
         walls::add(&mut draft, &self.model.wall, wall_files)?;
         draft.inlets(streams)?;
@@ -103,12 +107,14 @@ impl<'a> Draft<'a> {
             scene,
             materials: scene.model.material.iter().map(material).collect(),
             particles: Vec::new(),
+            clumps: setup::Clumps::default(),
             walls: Vec::new(),
             wall_infos: Vec::new(),
             outlets: Vec::new(),
             inlets: Vec::new(),
             entry_materials: Vec::new(),
             entry_sizes: None,
+            sphere_sizes: None,
             feeds: Feeds { faucets: Vec::new(), streams: Vec::new() },
             notes: Vec::new(),
             inputs: vec![("scene".to_owned(), crate::sha256(&scene.text.toml))],
@@ -175,11 +181,18 @@ impl<'a> Draft<'a> {
     }
 
     pub(crate) fn next_id(&self) -> u32 {
-        self.particles.iter().map(|p| p.id.saturating_add(1)).max().unwrap_or(0).max(self.model().first_id)
+        let members = |b: &setup::Body| self.clumps.shapes[b.shape as usize].spheres.len() as u32;
+        let bodies = self.clumps.bodies.iter().map(|b| b.id.saturating_add(members(b)));
+        let particles = self.particles.iter().map(|p| p.id.saturating_add(1));
+        particles.chain(bodies).max().unwrap_or(0).max(self.model().first_id)
     }
 
     fn particles(&mut self) -> Result<(), SceneError> {
         for (i, entry) in self.model().particles.iter().enumerate() {
+            if let Some(clump) = &entry.clump {
+                self.body_file(&format!("particles.{i}"), &entry.source, clump)?;
+                continue;
+            }
             let file = particle_file::read(&self.path(&entry.source))?;
             self.inputs.push(("particles".to_owned(), file.hash.clone()));
             self.notes.extend(file.note.clone());
@@ -206,18 +219,27 @@ impl<'a> Draft<'a> {
                 self.particles.push(p);
             }
         }
+        self.bodies()?;
         for (i, entry) in self.model().fill.iter().enumerate() {
-            let material = self.grain(&format!("fill.{i}.material"), &entry.material)?;
             let shape = self.shape(&format!("fill.{i}.shape"), &entry.shape)?;
-            let first = self.next_id();
-            fill::fill(&self.check, i, entry, &shape, material, first, &mut self.particles)?;
+            if let Some(clump) = &entry.clump {
+                self.fill_bodies(i, entry, clump, &shape)?;
+                continue;
+            }
+            let material = self.grain(&format!("fill.{i}.material"), &entry.material)?;
+            let (first, taken) = (self.next_id(), self.taken());
+            self.particles.extend(fill::fill(&self.check, i, entry, &shape, material, first, &taken)?);
         }
         Ok(())
     }
 
     pub(crate) fn sizes(&self) -> Option<Sizes> {
         let own = self.particles.iter().map(|p| Some(Sizes { smallest: p.radius, largest: p.radius }));
-        own.fold(self.entry_sizes, Sizes::union)
+        let members = self.clumps.bodies.iter().map(|b| {
+            let (least, most) = self.clumps.shapes[b.shape as usize].radii();
+            Some(Sizes { smallest: least * b.scale, largest: most * b.scale })
+        });
+        own.chain(members).fold(self.entry_sizes, Sizes::union)
     }
 
     fn finish(mut self) -> Result<Plan, SceneError> {
@@ -230,14 +252,14 @@ impl<'a> Draft<'a> {
         self.materials.iter_mut().filter(|m| m.density == 0.0).for_each(|m| m.density = NO_DENSITY);
         self.entry_materials.sort_unstable();
         self.entry_materials.dedup();
-        let entries = self.entry_sizes;
+        let entries = self.sphere_sizes;
         let setup = Setup {
             gravity: Vec3::from(model.gravity),
             periodic: self.periodic()?,
             materials: self.materials,
             contacts,
             particles: self.particles,
-            clumps: setup::Clumps::default(),
+            clumps: self.clumps,
             walls: self.walls,
             outlets: self.outlets,
             inlets: self.inlets,
@@ -248,9 +270,14 @@ impl<'a> Draft<'a> {
                 OrAuto::Auto => Step::Auto(model.time.safety),
                 OrAuto::Given(dt) => Step::Fixed(dt),
             },
+            precision: match model.precision {
+                Arithmetic::F64 => dem::setup::Precision::Double,
+                Arithmetic::Mixed => dem::setup::Precision::Mixed,
+            },
             skin: model.neighbours.skin,
             sleep: model.sleep.map(|s| dem::setup::Sleep { speed: s.speed, time: s.time, wake: s.wake }),
-            ledger: model.output.energy,
+            // Contacts are written with the work of sliding, which the ledger knows.
+            ledger: model.output.energy || model.output.contacts,
             guards: Guards {
                 overlap: model.guards.overlap.unwrap_or(Guards::default().overlap),
                 motion: model.guards.motion.unwrap_or(Guards::default().motion),

@@ -19,6 +19,10 @@ use thiserror::Error;
 
 /// Topic of frames.
 pub const PARTICLES: &str = "/particles";
+/// Topic of rigid clumps.
+pub const BODIES: &str = "/bodies";
+/// Topic of contacts.
+pub const CONTACTS: &str = "/contacts";
 /// Topic of wall spheres.
 pub const WALLS: &str = "/walls";
 /// Topic of planes, meshes and motions of walls.
@@ -27,6 +31,8 @@ pub const SURFACES: &str = "/surfaces";
 pub const ENERGY: &str = "/energy";
 /// Topic of what happened.
 pub const LOG: &str = "/log";
+/// Metadata record with the shapes of clumps: JSON by index, the column `clump` of [`BODIES`].
+pub const CLUMPS: &str = "clumps";
 /// Metadata record with the outlets of a run.
 pub const OUTLETS: &str = "outlets";
 
@@ -109,7 +115,9 @@ struct Run<W: Write> {
     walls: Vec<WallHead>,
     moving: bool,
     outlets: bool,
+    clumps: bool,
     energy: bool,
+    contacts: bool,
     precision: Precision,
     crossings: Vec<Crossing>,
     outcome: Outcome,
@@ -198,6 +206,8 @@ impl<W: Write> Run<W> {
         let outlets: Record =
             plan.setup.outlets.iter().enumerate().map(|(i, z)| (i.to_string(), json(z))).collect();
         let moving = spheres_move(&plan.setup.walls);
+        let shapes = frames::clumps(&plan.setup.clumps);
+        let clumps = !shapes.is_empty();
         let sim = match resume {
             Some(saved) => Simulation::resume(plan.setup, saved.state)?,
             None => Simulation::new(plan.setup)?,
@@ -215,6 +225,9 @@ impl<W: Write> Run<W> {
         for (name, record) in records(scene, &schedule, &sim, materials, plan.sizes, &outlets) {
             writer.metadata(name, record)?;
         }
+        if clumps {
+            writer.metadata(CLUMPS, shapes)?;
+        }
         let mut run = Run {
             outcome: Outcome { dt: sim.dt(), ..Outcome::default() },
             sim,
@@ -226,7 +239,9 @@ impl<W: Write> Run<W> {
             walls,
             moving,
             outlets: !outlets.is_empty(),
+            clumps,
             energy: scene.model.output.energy,
+            contacts: scene.model.output.contacts,
             precision: scene.model.output.precision,
             crossings: Vec::new(),
         };
@@ -297,7 +312,22 @@ impl<W: Write> Run<W> {
         {
             self.writer.points(WALLS, now, FRAME, &table)?;
         }
-        self.writer.points(PARTICLES, now, FRAME, &frames::particles(&particles, self.precision))?;
+        let bodies = match self.clumps.then(|| self.sim.bodies()).transpose() {
+            Ok(bodies) => bodies,
+            Err(halt) => return Ok(Err(halt)),
+        };
+        let table = frames::particles(&particles, self.precision, bodies.as_deref());
+        self.writer.points(PARTICLES, now, FRAME, &table)?;
+        if let Some(bodies) = bodies {
+            self.writer.points(BODIES, now, FRAME, &frames::bodies(&bodies))?;
+        }
+        if self.contacts {
+            let contacts = match self.sim.record_contacts() {
+                Ok(contacts) => contacts,
+                Err(halt) => return Ok(Err(halt)),
+            };
+            self.writer.points(CONTACTS, now, FRAME, &frames::contacts(&contacts, self.precision))?;
+        }
         self.outcome.frames += 1;
         if self.energy {
             let energy = match self.sim.energy() {

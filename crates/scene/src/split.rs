@@ -41,6 +41,10 @@ const OWN_IDS: i64 = 2_000_000_000;
 /// # Errors
 /// Particles on both sides of the plane, a length that is too short, files that cannot be read.
 pub fn split(scene: &Scene, cut: &Cut) -> Result<(String, Vec<String>), SceneError> {
+    if let Some(clump) = scene.model.clump.first() {
+        let why = format!("has clumps ('{}'), and a storage plane cannot record them", clump.name);
+        return Err(SceneError::file(&scene.text.name, why, "use spheres, or run the plant undivided"));
+    }
     let cutting = Cutting { scene, cut, largest: largest(scene)? };
     cutting.check_length()?;
     let mut document = scene.text.document()?;

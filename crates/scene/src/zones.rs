@@ -2,10 +2,10 @@
 
 use crate::crossings::Sizes;
 use crate::error::SceneError;
-use crate::faucet::Faucet;
+use crate::faucet::{Faucet, Poured};
 use crate::inlet::InletStream;
 use crate::input::Input;
-use crate::model::OrAuto;
+use crate::model::{Diameter, Insert, OrAuto};
 use crate::plan::Draft;
 use crate::walls;
 use dem::setup::Zone;
@@ -110,6 +110,7 @@ impl Draft<'_> {
             stream.to_scene.push(material);
         }
         self.entry_sizes = Sizes::union(self.entry_sizes, Some(stream.sizes));
+        self.sphere_sizes = Sizes::union(self.sphere_sizes, Some(stream.sizes));
         self.inlets.push(zone);
         self.feeds.streams.push(stream);
         Ok(())
@@ -118,19 +119,37 @@ impl Draft<'_> {
     pub(crate) fn faucets(&mut self) -> Result<(), SceneError> {
         let mut first = self.next_id();
         for (i, entry) in self.model().insert.iter().enumerate() {
-            let material = self.grain(&format!("insert.{i}.material"), &entry.material)?;
             let shape = self.shape(&format!("insert.{i}.shape"), &entry.shape)?;
             let ids = (first, self.inlets.len() as u32);
-            let (faucet, zone) = Faucet::new(&self.check, i, entry, shape, material, ids)?;
+            let grains = self.poured(i, entry)?;
+            let (faucet, zone) = Faucet::new(&self.check, i, entry, shape, grains, ids)?;
             // Room for the ids of each faucet: they would have to give this many to meet.
             first = first.saturating_add(200_000_000);
-            let sizes = Sizes { smallest: entry.diameter.low / 2.0, largest: entry.diameter.high / 2.0 };
-            self.entry_sizes = Sizes::union(self.entry_sizes, Some(sizes));
-            self.entry_materials.push(material.0);
             self.inlets.push(zone);
             self.feeds.faucets.push(faucet);
         }
         Ok(())
+    }
+
+    /// What a faucet pours; the engine is told of it.
+    fn poured(&mut self, i: usize, entry: &Insert) -> Result<Poured, SceneError> {
+        let Some(name) = &entry.clump else {
+            let (material, density) = self.grain(&format!("insert.{i}.material"), &entry.material)?;
+            let sizes = Sizes { smallest: entry.diameter.low / 2.0, largest: entry.diameter.high / 2.0 };
+            self.entry_sizes = Sizes::union(self.entry_sizes, Some(sizes));
+            self.sphere_sizes = Sizes::union(self.sphere_sizes, Some(sizes));
+            self.entry_materials.push(material);
+            return Ok(Poured::spheres(entry.diameter, (material, density)));
+        };
+        let shape = self.clump(&format!("insert.{i}.clump"), name)?;
+        let clump = &self.clumps.shapes[shape as usize];
+        let scale = entry.scale.unwrap_or(Diameter { low: 1.0, high: 1.0 });
+        let (least, most) = clump.radii();
+        let sizes = Sizes { smallest: least * scale.low, largest: most * scale.high };
+        let grains = Poured::clumps(shape, clump, scale, self.materials[clump.material as usize].density);
+        self.entry_sizes = Sizes::union(self.entry_sizes, Some(sizes));
+        self.clumps.entries.push((shape, scale.low, scale.high));
+        Ok(grains)
     }
 
     pub(crate) fn outlets(&mut self) -> Result<(), SceneError> {

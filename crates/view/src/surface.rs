@@ -5,7 +5,7 @@ use geom::{Plane, mesh::TriMesh};
 use serde_json::Value;
 
 /// A wall that is a plane or a mesh.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Surface {
     /// Name, as shown.
     pub name: String,
@@ -16,7 +16,7 @@ pub struct Surface {
 }
 
 /// The shape of a wall.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum SurfaceShape {
     /// Unbounded; a part of it around everything else is shown.
     Plane(Plane),

@@ -22,7 +22,7 @@ use view::{Camera, Map, PictureOptions, picture};
 /// Show runs, walls and clouds together: an HTML page (no network needed), a picture, a film, files for ParaView
 #[derive(Parser)]
 struct Args {
-    /// Runs and walls (MCAP), meshes (PLY), clouds (PLY, LAS, E57, PCD, XYZ), all shown together; - or none: stdin
+    /// Runs and walls (MCAP), clouds (PLY, LAS, E57, PCD, XYZ), meshes (PLY), shown together; - or none: stdin
     #[arg(value_name = "INPUT")]
     inputs: Vec<Source>,
     /// Write to FILE (appears when whole) instead of HTML to stdout: .html, .png, .gif, .mp4 (needs ffmpeg), .vtp
@@ -38,7 +38,7 @@ struct Args {
     /// Colour map: viridis or turbo
     #[arg(long, value_name = "NAME", value_parser = formats::map, default_value = "viridis")]
     map: Map,
-    /// Time to show [s]; HTML: show it first, paused; PNG, VTP: the last frame not after it [default: the last with grains in it]
+    /// Time to show [s]; HTML: show it first, paused; PNG, VTP: the frame nearest to it [default: the last with grains in it]
     #[arg(long, value_name = "S", value_parser = formats::seconds)]
     time: Option<f64>,
     /// Where the eye is: iso, top, bottom, front, back, left, right; a side: x, -x, y, -y, z, -z; azimuth/elevation in

@@ -13,7 +13,8 @@ struct Layer {
     motion: Motion,
 }
 
-/// The last state of each layer that is not after a time.
+/// The state of each layer that is nearest to a time: a frame is written at the end of the step in which its time
+/// comes, so the one meant is a little late.
 pub struct Moment {
     until: f64,
     layers: Vec<Layer>,
@@ -75,7 +76,10 @@ impl Show for Moment {
     }
 
     fn surface(&mut self, surface: Surface) {
-        self.surfaces.push(surface);
+        // Runs of two stages both have the walls near the cut.
+        if !self.surfaces.contains(&surface) {
+            self.surfaces.push(surface);
+        }
     }
 
     fn push(&mut self, layer: usize, time: f64, table: Table) -> Result<(), ViewError> {
@@ -84,8 +88,9 @@ impl Show for Moment {
         if self.until.is_infinite() && table.rows() == 0 && shown.is_some() {
             return Ok(());
         }
-        // A hair of slack: 0.3 s is stored in nanoseconds.
-        if shown.is_none() || time <= self.until + 1e-9 {
+        let far = |time: f64| (time - self.until).abs();
+        let nearer = |(before, _): &(f64, Table)| self.until.is_infinite() || far(time) < far(*before);
+        if shown.as_ref().is_none_or(nearer) {
             *shown = Some((time, table));
         }
         Ok(())

@@ -2,7 +2,7 @@
 
 use crate::check::{finite, within};
 use crate::error::SetupError;
-use crate::setup::{Body, ClumpShape, Setup, WallShape};
+use crate::setup::{Body, ClumpShape, EntryClump, Setup, WallShape};
 use std::collections::HashSet;
 
 /// Checks shapes and bodies.
@@ -11,6 +11,10 @@ pub fn check(setup: &Setup) -> Result<(), SetupError> {
     clumps.shapes.iter().try_for_each(|s| shape(s, setup))?;
     if let Some((first, ..)) = clumps.scales().next().filter(|_| !setup.outlets.is_empty()) {
         return Err(SetupError::ClumpOutlet(first.name.clone()));
+    }
+    for &(index, low, high) in &clumps.entries {
+        let known = (index as usize) < clumps.shapes.len() && 0.0 < low && low <= high && high.is_finite();
+        within("inlet: scale of clumps", low, "[–]", known, "0 < smallest ≤ largest")?;
     }
     if let Some((first, ..)) = clumps.scales().next().filter(|_| setup.sleep.is_some()) {
         return Err(SetupError::ClumpSleep(first.name.clone()));
@@ -29,6 +33,17 @@ pub fn check(setup: &Setup) -> Result<(), SetupError> {
         }
     }
     Ok(())
+}
+
+/// Checks the shape of an entry.
+pub fn check_entry(clump: &EntryClump, id: u32, setup: &Setup) -> Result<(), SetupError> {
+    let what = format!("inlet: clump {id}");
+    let announced = |e: &&(u32, f64, f64)| e.0 == clump.shape && e.1 <= clump.scale && clump.scale <= e.2;
+    let known = (clump.shape as usize) < setup.clumps.shapes.len();
+    let known = known && setup.clumps.entries.iter().any(|e| announced(&e));
+    within(&what, clump.shape.into(), "[–]", known, "the clumps and scales that the inlet announced")?;
+    let length = clump.orientation.norm();
+    within(&what, length, "[–]", (length - 1.0).abs() < 1e-9, "quaternions of length 1")
 }
 
 fn shape(shape: &ClumpShape, setup: &Setup) -> Result<(), SetupError> {

@@ -18,9 +18,6 @@
 use crate::lane::{Lane, V};
 use std::ops::{Add, Sub};
 
-/// Smallest square that is divided by.
-const TINY: f64 = 1e-300;
-
 /// What a spring is stretched by: a vector, or a number.
 pub trait Stretch<R: Lane>: Copy + Add<Output = Self> + Sub<Output = Self> {
     /// None.
@@ -113,7 +110,7 @@ impl<R: Lane> CappedSpring<R> {
         let slides = size.gt(self.cap * self.cap);
         if R::any(slides) {
             let one = R::splat(1.0);
-            let shrink = |square: R| (self.cap / square.max(R::splat(TINY)).sqrt()).min(one);
+            let shrink = |square: R| (self.cap / square.max(R::splat(R::TINY)).sqrt()).min(one);
             let pull = stretched.times(self.stiffness);
             kept = X::choose(slides, stretched.times(shrink(pull.with(pull))), stretched);
             force = X::choose(slides, force.times(shrink(size)), force);
@@ -133,5 +130,5 @@ impl<R: Lane> CappedSpring<R> {
 pub fn turned<R: Lane>(spring: V<R>, normal: V<R>) -> V<R> {
     let flat = spring - normal.scale(spring.dot(normal));
     let (before, after) = (spring.dot(spring), flat.dot(flat));
-    flat.scale((before / after.max(R::splat(TINY))).sqrt())
+    flat.scale((before / after.max(R::splat(R::TINY))).sqrt())
 }

@@ -27,7 +27,8 @@ impl Effect for Hertz {
     fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, _: &mut (), load: &mut Load<R>) {
         let overlap = contact.overlap.max(R::splat(0.0));
         let s = R::splat(2.0 * self.modulus) * (contact.radius * overlap).sqrt();
-        let c = R::splat(self.damping_ratio * (5.0f64 / 6.0).sqrt()) * (s * contact.mass).sqrt();
+        load.impedance = (s * contact.mass).sqrt();
+        let c = R::splat(self.damping_ratio * (5.0f64 / 6.0).sqrt()) * load.impedance;
         let elastic = R::splat(2.0 / 3.0) * s * overlap;
         let damping = c * contact.approach;
         load.normal = load.normal + (elastic + damping);
@@ -35,7 +36,7 @@ impl Effect for Hertz {
         load.stiffness = s;
         // S ∝ √δ; the overlap a step ago follows from the approach.
         let before = (overlap - contact.approach * dt).max(R::splat(0.0));
-        load.stiffness_before = (before / overlap.max(R::splat(1e-300))).sqrt();
+        load.stiffness_before = (before / overlap.max(R::splat(R::TINY))).sqrt();
         load.elastic = load.elastic + R::splat(0.4) * elastic * overlap;
         load.dissipated[0] = load.dissipated[0] + damping * contact.approach * dt;
     }

@@ -26,7 +26,8 @@ impl Effect for Hooke {
     #[inline(always)]
     fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, _: &mut (), load: &mut Load<R>) {
         let k = R::splat(self.stiffness);
-        let c = R::splat(self.damping_ratio) * (k * contact.mass).sqrt();
+        load.impedance = (k * contact.mass).sqrt();
+        let c = R::splat(self.damping_ratio) * load.impedance;
         let damping = c * contact.approach;
         load.normal = load.normal + (k * contact.overlap + damping);
         load.pressing = load.normal;

@@ -19,7 +19,8 @@
 //! A cycle of making and breaking takes W = 4π w a_c² (0.1 + 0.15 · 4^(4/3)) = 7.09 (w⁵ R*⁴/E*²)^(1/3) (Thornton & Ning (1998),
 //! Powder Technology 99, doi:10.1016/S0032-5910(98)00099-0), besides the dashpot: with e = 1 a grain rebounds at √(v² − 2W/m*), and
 //! sticks below √(2W/m*). e is the restitution of the same contact without adhesion. E is counted from the break, and the ledger
-//! books all of W when contact is made.
+//! books all of W when contact is made. On a triangle mesh each triangle is a contact of its own: a grain that rolls over a seam
+//! while it is pulled comes free there, and the ledger books W again.
 
 use super::{Contact, Effect, Load};
 use crate::lane::Lane;
@@ -92,7 +93,8 @@ impl Effect for Jkr {
         let pull = number(PI * self.work_of_adhesion) * r;
         let elastic = pull * cube * (cube / number(6.0) - number(1.0));
         let s = number(2.0 * self.modulus) * last * y * y;
-        let c = number(self.damping_ratio * (5.0f64 / 6.0).sqrt()) * (s * contact.mass).sqrt();
+        load.impedance = (s * contact.mass).sqrt();
+        let c = number(self.damping_ratio * (5.0f64 / 6.0).sqrt()) * load.impedance;
         let damping = c * contact.approach;
         load.normal = load.normal + (elastic + damping);
         load.pressing = load.normal + number(3.0) * pull;

@@ -34,13 +34,15 @@ impl Effect for RollingResistance {
         let n = contact.normal;
         let rolling = contact.spin - n.scale(contact.spin.dot(n));
         let arm = R::splat(self.resistance) * contact.radius;
-        let stiffness = (R::splat(2.25) * load.stiffness * arm * arm).max(R::splat(1e-150));
-        let inertia = R::splat(1.4) * contact.mass * contact.radius * contact.radius;
+        let stiffness = (R::splat(2.25) * load.stiffness * arm * arm).max(R::splat(R::TINY));
         let spring = CappedSpring {
             stiffness,
             before: load.stiffness_before,
-            damping: R::splat(2.0 * ETA) * (stiffness * inertia).sqrt(),
-            pace: R::splat(0.25) * stiffness / inertia,
+            // √(k_r I_r) = √(2.25 S (μ_r R*)² 7/5 m* R*²), and the frequency k_r/I_r, without R*.
+            damping: R::splat(2.0 * ETA * (2.25f64 * 1.4).sqrt()) * arm * contact.radius * load.impedance,
+            pace: R::splat(0.25 * 2.25 / 1.4 * self.resistance * self.resistance)
+                * load.stiffness
+                * contact.inverse_mass,
             cap: arm * load.pressing.max(R::splat(0.0)),
         };
         *theta = turned(*theta, n);

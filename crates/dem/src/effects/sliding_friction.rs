@@ -47,12 +47,12 @@ impl<C: Coefficient> Effect for SlidingFriction<C> {
     #[inline(always)]
     fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, xi: &mut V<R>, load: &mut Load<R>) {
         // A stiffness of 0 at δ = 0 (Hertz) would be divided by; nothing holds there in any case.
-        let stiffness = (R::splat(self.stiffness_ratio) * load.stiffness).max(R::splat(1e-150));
+        let stiffness = (R::splat(self.stiffness_ratio) * load.stiffness).max(R::splat(R::TINY));
         let spring = CappedSpring {
             stiffness,
             before: load.stiffness_before,
-            damping: R::splat(self.damping_ratio) * (stiffness * contact.mass).sqrt(),
-            pace: R::splat(5.0) * stiffness / contact.mass,
+            damping: R::splat(self.damping_ratio * self.stiffness_ratio.sqrt()) * load.impedance,
+            pace: R::splat(5.0) * stiffness * contact.inverse_mass,
             cap: self.friction.of(contact) * load.pressing.max(R::splat(0.0)),
         };
         *xi = turned(*xi, contact.normal);

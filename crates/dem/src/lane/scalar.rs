@@ -5,7 +5,22 @@ use std::ops::{Add, Mul, Sub};
 
 impl Lane for f64 {
     const WIDTH: usize = 1;
+    const TINY: f64 = 1e-300;
     type Mask = bool;
+    type Wide = f64;
+
+    #[inline(always)]
+    fn narrow(wide: f64) -> f64 {
+        wide
+    }
+    #[inline(always)]
+    fn widen(self) -> f64 {
+        self
+    }
+    #[inline(always)]
+    fn overlap(_: f64, reach: f64, distance: f64) -> f64 {
+        reach - distance
+    }
 
     #[inline(always)]
     fn splat(x: f64) -> f64 {

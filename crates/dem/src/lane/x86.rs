@@ -11,11 +11,11 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Four doubles.
 #[derive(Clone, Copy)]
-pub struct X4(__m256d);
+pub struct X4(pub(super) __m256d);
 
 /// Eight doubles.
 #[derive(Clone, Copy)]
-pub struct X8(__m512d);
+pub struct X8(pub(super) __m512d);
 
 macro_rules! operators {
     ($t:ident, $add:ident, $sub:ident, $mul:ident, $div:ident, $set:ident) => {
@@ -116,7 +116,22 @@ fn transpose8(r: [__m512d; 8]) -> [__m512d; 8] {
 
 impl Lane for X4 {
     const WIDTH: usize = 4;
+    const TINY: f64 = 1e-300;
     type Mask = __m256d;
+    type Wide = X4;
+
+    #[inline(always)]
+    fn narrow(wide: X4) -> X4 {
+        wide
+    }
+    #[inline(always)]
+    fn widen(self) -> X4 {
+        self
+    }
+    #[inline(always)]
+    fn overlap(_: X4, reach: X4, distance: X4) -> X4 {
+        reach - distance
+    }
 
     #[inline(always)]
     fn splat(x: f64) -> X4 {
@@ -207,7 +222,22 @@ impl Lane for X4 {
 
 impl Lane for X8 {
     const WIDTH: usize = 8;
+    const TINY: f64 = 1e-300;
     type Mask = __mmask8;
+    type Wide = X8;
+
+    #[inline(always)]
+    fn narrow(wide: X8) -> X8 {
+        wide
+    }
+    #[inline(always)]
+    fn widen(self) -> X8 {
+        self
+    }
+    #[inline(always)]
+    fn overlap(_: X8, reach: X8, distance: X8) -> X8 {
+        reach - distance
+    }
 
     #[inline(always)]
     fn splat(x: f64) -> X8 {

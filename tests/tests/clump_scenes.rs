@@ -1,0 +1,196 @@
+//! Scenes with rigid clumps, as a user runs them.
+
+use grainpipe_tests::tools::{succeed, tool};
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::path::Path;
+use stream::Table;
+use stream::mcap::{Event, Reader};
+use tempfile::tempdir;
+
+/// A cube of 20 mm, its centre at (1, 2, 3) mm.
+const CUBE: &str =
+    "ply\nformat ascii 1.0\nelement vertex 8\nproperty double x\nproperty double y\nproperty double z
+element face 6\nproperty list uchar int vertex_indices\nend_header
+-0.009 -0.008 -0.007\n0.011 -0.008 -0.007\n-0.009 0.012 -0.007\n0.011 0.012 -0.007
+-0.009 -0.008 0.013\n0.011 -0.008 0.013\n-0.009 0.012 0.013\n0.011 0.012 0.013
+4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n";
+
+const SCENE: &str = r#"gravity = [0, 0, -9.81]
+[time]
+until = 0.4
+[output]
+every = 0.1
+checkpoint = 0.2
+[[material]]
+name = "stone"
+density = 2500
+young = 5e7
+poisson = 0.25
+[[contact]]
+between = ["*", "*"]
+restitution = 0.3
+sliding_friction = 0.5
+[[clump]]
+name = "cube"
+material = "stone"
+mesh = "cube.ply"
+vertex_radius = 0.004
+[[clump]]
+name = "pair"
+material = "stone"
+spheres = [[0, 0, 0, 0.01], [0.012, 0, 0, 0.008]]
+[[body]]
+clump = "cube"
+position = [0, 0, 0.1]
+quaternion = [2, 0, 0, 2]
+spin = [0, 0, 3]
+[[particles]]
+source = "pairs.csv"
+clump = "pair"
+[[fill]]
+clump = "pair"
+scale = [0.7, 1.1]
+shape = "box:-0.1,-0.1,0.15,0.1,0.1,0.3"
+count = 9
+[[fill]]
+material = "stone"
+shape = "box:-0.1,-0.1,0.15,0.1,0.1,0.3"
+diameter = [0.01, 0.015]
+count = 20
+[[insert]]
+clump = "cube"
+scale = [0.5, 0.8]
+shape = "cylinder:0,0,0.4,0,0,0.45,0.05"
+velocity = [0, 0, -1]
+rate_count = 40
+until = 0.3
+[[wall]]
+plane = "0,0,0,0,0,1"
+material = "stone"
+"#;
+
+fn folder(scene: &str) -> tempfile::TempDir {
+    let folder = tempdir().expect("a folder");
+    let file = |name: &str, text: &str| fs::write(folder.path().join(name), text).expect("can be written");
+    file("s.toml", scene);
+    file("cube.ply", CUBE);
+    file("pairs.csv", "x,y,z,qw,qz,scale,vz\n0.05,0,0.05,1,0,1,-1\n-0.05,0,0.05,1,1,1.5,0\n");
+    folder
+}
+
+/// Frames of a topic, and the record of a name.
+fn read(run: &Path, topic: &str, record: &str) -> (Vec<Table>, BTreeMap<String, String>) {
+    let (mut tables, mut found) = (Vec::new(), BTreeMap::new());
+    for event in Reader::new(File::open(run).expect("the run")) {
+        match event.expect("whole") {
+            Event::Points { topic: t, table, .. } if t == topic => tables.push(table),
+            Event::Metadata { name, map } if name == record => found = map,
+            _ => {}
+        }
+    }
+    (tables, found)
+}
+
+fn column(table: &Table, name: &str) -> Vec<f64> {
+    table.get(name).unwrap_or_else(|| panic!("column {name}")).to_f64()
+}
+
+/// Bodies, their members and free spheres, in frames that hang together; a resumed run writes the same last frame.
+#[test]
+fn clumps_from_body_file_fill_and_faucet() {
+    let folder = folder(SCENE);
+    let run = folder.path().join("run.mcap");
+    succeed(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap"]);
+    let (frames, clumps) = read(&run, "/particles", "clumps");
+    let (bodies, _) = read(&run, "/bodies", "clumps");
+    assert_eq!((frames.len(), bodies.len(), clumps.len()), (5, 5, 2));
+    assert!(clumps["0"].contains("\"cube\"") && clumps["0"].contains("\"volume\":"), "{clumps:?}");
+
+    let (first, last) = (&bodies[0], &bodies[4]);
+    // One [[body]], two of the file, nine of the fill; the faucet brings one each 25 ms.
+    assert_eq!(column(first, "id").len(), 13, "the faucet's first is on its plane at t = 0");
+    assert_eq!(column(last, "id").len(), 12 + 12);
+    let mass = 2500.0 * 8e-6;
+    let cube = column(first, "clump").iter().position(|&c| c == 0.0).expect("the [[body]]");
+    assert!((column(first, "mass")[cube] / mass - 1.0).abs() < 1e-12);
+    assert!(
+        (column(first, "z")[cube] - 0.1).abs() < 1e-12
+            && (column(first, "qz")[cube] - 0.5f64.sqrt()).abs() < 1e-12
+    );
+    assert!((column(first, "wz")[cube] - 3.0).abs() < 1e-12);
+
+    let members: f64 = column(last, "members").iter().sum();
+    let (id, body) = (column(&frames[4], "id"), column(&frames[4], "body"));
+    assert_eq!(id.len() as f64, members + 20.0, "twenty spheres");
+    assert_eq!(
+        id.iter().zip(&body).filter(|(i, b)| i == b).count(),
+        24 + 20,
+        "a body bears the id of its first sphere"
+    );
+    // Members keep their distance from the centre.
+    let (x, z) = (column(&frames[4], "z"), column(last, "z"));
+    let ids = column(last, "id");
+    for (k, b) in body.iter().enumerate().filter(|(k, b)| id[*k] != **b) {
+        let at = ids.iter().position(|i| i == b).expect("its body");
+        assert!((x[k] - z[at]).abs() < 0.03, "member {} of {b}", id[k]);
+    }
+    // Nothing has sunk into the floor.
+    assert!(x.iter().zip(column(&frames[4], "radius")).all(|(z, r)| *z > 0.8 * r));
+
+    succeed(folder.path(), "dem-run", &["s.toml", "--until", "0.2", "-o", "half.mcap"]);
+    succeed(folder.path(), "dem-run", &["s.toml", "--resume", "half.mcap", "-o", "rest.mcap"]);
+    for topic in ["/particles", "/bodies"] {
+        let (whole, rest) = (read(&run, topic, "").0, read(&folder.path().join("rest.mcap"), topic, "").0);
+        assert_eq!(whole.last(), rest.last(), "{topic} of the resumed run");
+    }
+    let done = succeed(folder.path(), "dem-run", &["s.toml", "--explain"]);
+    let text = String::from_utf8_lossy(&done.stdout).into_owned();
+    assert!(text.contains("[[clump]] 'cube' of 8, 'pair' of 2") && text.contains("B a body"), "{text}");
+}
+
+#[test]
+fn wrong_clumps_say_where_what_and_what_to_do() {
+    let cases: &[(&str, &str, &[&str])] = &[
+        ("[[clump]]", "[[clumps]]", &["did you mean 'clump'?"]),
+        ("vertex_radius", "vertexradius", &["did you mean 'vertex_radius'?"]),
+        ("vertex_radius = 0.004", "", &["clump.0", "vertex_radius goes with mesh"]),
+        ("vertex_radius = 0.004", "vertex_radius = -1", &["clump.0.vertex_radius = -1 m"]),
+        ("name = \"pair\"", "name = \"cube\"", &["clump.1.name", "differently"]),
+        ("[0.012, 0, 0, 0.008]", "[0.03, 0, 0, 0.008]", &["clump.1.spheres", "2 parts that do not overlap"]),
+        ("[0.012, 0, 0, 0.008]", "[0.012, 0, 0, -1]", &["clump.1.spheres.1 = -1 m"]),
+        (
+            "clump = \"cube\"\nposition",
+            "clump = \"cub\"\nposition",
+            &["body.0.clump", "did you mean 'cube'?"],
+        ),
+        ("quaternion = [2, 0, 0, 2]", "quaternion = [0, 0, 0, 0]", &["body.0.quaternion", "[1, 0, 0, 0]"]),
+        ("scale = [0.7, 1.1]", "diameter = 0.01", &["fill.0.diameter", "a clump has its own"]),
+        ("diameter = [0.01, 0.015]", "", &["fill.1", "diameter is missing"]),
+        ("diameter = [0.01, 0.015]", "diameter = 0.01\nscale = 2", &["fill.1.scale", "only clumps"]),
+        ("count = 9", "count = 900", &["fill.0.shape", "bounding spheres"]),
+        ("0.45,0.05\"", "0.41,0.05\"", &["insert.0.shape", "thick"]),
+        (
+            "[[wall]]",
+            "[[outlet]]\nplane = \"0,0,-1,0,0,-1\"\n[[wall]]",
+            &["storage plane", "the scene has '"],
+        ),
+    ];
+    for (from, to, parts) in cases {
+        assert!(SCENE.contains(from), "{from}");
+        let folder = folder(&SCENE.replacen(from, to, 1));
+        let done = tool(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap"]);
+        assert_eq!(done.code, 1, "{to}: {}", done.stderr);
+        for part in *parts {
+            assert!(done.stderr.contains(part), "{to}: wanted '{part}' in: {}", done.stderr);
+        }
+    }
+    let folder = folder(SCENE);
+    fs::write(folder.path().join("cube.ply"), CUBE.replace("face 6", "face 5").replace("4 1 3 7 5\n", ""))
+        .expect("can be written");
+    let open = tool(folder.path(), "dem-run", &["s.toml", "--check"]);
+    assert!(open.stderr.contains("clump.0.mesh") && open.stderr.contains("not closed"), "{}", open.stderr);
+    let cut = ["s.toml", "--at", "0,0,0.2,0,0,-1", "--keep", "upstream"];
+    let split = tool(folder.path(), "stage-split", &cut);
+    assert!(split.stderr.contains("cannot record them"), "{}", split.stderr);
+}

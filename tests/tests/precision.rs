@@ -1,0 +1,71 @@
+//! Mixed precision: the laws hold to single precision, at the origin and far from it, and its error is what is said of it.
+
+use dem::setup::*;
+use dem::{Setup, SetupError, Simulation};
+use geom::Vec3;
+use grainpipe_tests::setups::{HOOKE, LAWS, empty, grain, particles, plane, run_until, with_friction};
+
+fn simulation(setup: Setup, precision: Precision) -> Simulation {
+    Simulation::new(Setup { precision, ..setup }).expect("sound")
+}
+
+/// Two grains that meet obliquely, far from the origin or at it.
+fn impact(law: Law, at: Vec3) -> Setup {
+    let mut setup = with_friction(empty(law, 0.7), 0.3);
+    setup.contacts.iter_mut().for_each(|c| c.rolling_resistance = Some(0.1));
+    let towards = Vec3::new(1.0, 0.3, -0.2);
+    setup.particles = vec![
+        Particle { velocity: towards, spin: Vec3::new(3.0, -5.0, 8.0), ..grain(0, at) },
+        grain(1, at + Vec3::new(0.021, 0.004, 0.001)),
+    ];
+    setup
+}
+
+#[test]
+fn an_impact_differs_by_no_more_than_single_precision() {
+    for law in LAWS {
+        for at in [Vec3::zeros(), Vec3::new(1e6, -1e6, 0.0)] {
+            let end = |precision| {
+                let mut sim = simulation(impact(law, at), precision);
+                run_until(&mut sim, 0.02);
+                particles(&mut sim)
+            };
+            let (double, mixed) = (end(Precision::Double), end(Precision::Mixed));
+            let momentum: Vec3 = mixed.iter().map(|p| p.velocity).sum();
+            assert!((momentum - Vec3::new(1.0, 0.3, -0.2)).norm() < 1e-14, "{law:?}: momentum {momentum:?}");
+            for (a, b) in double.iter().zip(&mixed) {
+                let (v, w) = ((a.velocity - b.velocity).norm(), (a.spin - b.spin).norm() * 0.01);
+                assert!(v < 2e-6 && w < 2e-6, "{law:?}: velocity differs by {v} m/s, spin by {w} m/s");
+                assert_ne!(a.velocity, b.velocity, "{law:?}: mixed precision is computed in double");
+            }
+        }
+    }
+}
+
+/// The overlap under weight, mg/k, is a ten-thousandth of the radius and smaller than the last digit of the distance in single
+/// precision would allow to a thousandth: it is right to a millionth.
+#[test]
+fn a_grain_at_rest_overlaps_by_its_weight_over_the_stiffness() {
+    for precision in [Precision::Double, Precision::Mixed] {
+        let mut setup = with_friction(empty(HOOKE, 0.2), 0.5);
+        setup.gravity.z = -9.81;
+        setup.walls = vec![plane(Vec3::z())];
+        setup.particles = vec![grain(0, Vec3::new(0.3, 0.2, 0.01))];
+        let mut sim = simulation(setup, precision);
+        run_until(&mut sim, 1.0);
+        let weight = dem::mass(0.01, 2500.0) * 9.81;
+        let overlap = 0.01 - particles(&mut sim)[0].position.z;
+        assert!((overlap * 1e4 / weight - 1.0).abs() < 1e-6, "{precision:?}: {overlap} m");
+    }
+}
+
+#[test]
+fn effects_that_are_not_offered_are_refused_by_name() {
+    let mut setup = with_friction(empty(HOOKE, 0.5), 0.5);
+    setup.contacts[0].twisting_resistance = Some(0.1);
+    setup.particles = vec![grain(0, Vec3::zeros())];
+    setup.precision = Precision::Mixed;
+    let error = Simulation::new(setup).err().expect("refused");
+    assert!(matches!(error, SetupError::MixedWithout(_)));
+    assert!(error.to_string().contains("twisting") && error.to_string().contains("grain–grain"), "{error}");
+}
