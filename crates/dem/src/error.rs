@@ -93,6 +93,9 @@ pub enum SetupError {
     /// An effect that is computed in double precision only.
     #[error("precision: \"mixed\" has no {0}: leave the key out for double precision, or that effect")]
     MixedWithout(String),
+    /// Particles that the fluid does not act on.
+    #[error("drag: not available yet with {0}: leave out one of them")]
+    DragWith(&'static str),
     /// Sleep in a scene with clumps.
     #[error("sleep: clumps (the scene has '{0}') do not sleep: leave out [sleep], or use spheres")]
     ClumpSleep(String),
@@ -111,7 +114,9 @@ pub enum SetupError {
         limit: f64,
     },
     /// A rotating plane, whose speed has no bound.
-    #[error("wall '{0}': a plane cannot rotate: use a mesh or wall spheres")]
+    #[error(
+        "wall '{0}': an unbounded plane cannot turn but about its own normal: use a mesh or wall spheres, or rotate.about along the normal"
+    )]
     TurningPlane(String),
     /// A saved state of another setup.
     #[error("resume: the saved state does not fit this scene: {0}")]

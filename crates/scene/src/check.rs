@@ -1,7 +1,7 @@
 //! Values that a key may have.
 
 use crate::error::{SceneError, ValueError, nearest};
-use crate::model::{Diameter, Model, OrAuto, Wall};
+use crate::model::{Diameter, Drag, DragLaw, Model, OrAuto, Wall};
 use crate::text::Text;
 use std::fmt::Display;
 
@@ -106,6 +106,7 @@ impl Check<'_> {
         self.positive_if("output.every", m.output.every, "s")?;
         self.positive_if("output.checkpoint", m.output.checkpoint, "s")?;
         self.positive_if("neighbours.skin", m.neighbours.skin, "m")?;
+        m.drag.as_ref().map_or(Ok(()), |d| self.drag(d))?;
         self.positive_if("guards.overlap", m.guards.overlap, "")?;
         self.positive_if("guards.motion", m.guards.motion, "")?;
         self.within("first_id", f64::from(m.first_id), 0.0, 4e9, "")?;
@@ -123,6 +124,17 @@ impl Check<'_> {
             self.length(&format!("inlet.{i}.length"), o.length)?;
         }
         Ok(())
+    }
+
+    fn drag(&self, d: &Drag) -> Checked {
+        self.positive("drag.viscosity", d.viscosity, "Pa·s")?;
+        self.positive_if("drag.density", d.density, "kg/m³")?;
+        if d.density.is_none() && (d.buoyancy || d.law == DragLaw::SchillerNaumann) {
+            let why = "is missing, and \"schiller-naumann\" and buoyancy need it";
+            let cure = "add the density of the fluid [kg/m³], such as 1.2 for air or 1000 for water";
+            return Err(self.wrong("drag.density", "(nothing)", why, cure));
+        }
+        self.finite("drag.velocity", &d.velocity, "m/s")
     }
 
     fn materials(&self, m: &Model) -> Checked {

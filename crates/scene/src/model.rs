@@ -24,6 +24,8 @@ pub struct Model {
     /// Extent.
     #[serde(default)]
     pub domain: Domain,
+    /// The fluid around the particles; absent: none.
+    pub drag: Option<Drag>,
     /// Search for neighbours.
     #[serde(default)]
     pub neighbours: Neighbours,
@@ -188,6 +190,34 @@ pub enum Axis {
     X,
     Y,
     Z,
+}
+
+/// `[drag]`
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Drag {
+    /// How drag depends on speed.
+    pub law: DragLaw,
+    /// Viscosity of the fluid [Pa·s].
+    pub viscosity: f64,
+    /// Density of the fluid [kg/m³]; "stokes" without buoyancy needs none.
+    pub density: Option<f64>,
+    /// Velocity of the fluid [m/s].
+    #[serde(default)]
+    pub velocity: [f64; 3],
+    /// Whether particles are lighter by the fluid that they displace.
+    #[serde(default)]
+    pub buoyancy: bool,
+}
+
+/// Law of drag.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum DragLaw {
+    /// Slow.
+    Stokes,
+    /// Up to Re = 2·10⁵.
+    SchillerNaumann,
 }
 
 /// `[neighbours]`

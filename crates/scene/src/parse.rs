@@ -10,8 +10,6 @@ const NOT_YET: &[(&str, &str)] = &[
     ("bonds", "use 'contact' laws without bonds"),
     ("servo", "move the wall by 'motion'"),
     ("sleep", "leave it out: every particle is moved at every step"),
-    ("drag", "leave it out"),
-    ("buoyancy", "lower gravity by hand"),
     ("temperature", "leave it out"),
     ("wear", "leave it out"),
     ("roughness", "give it to wallgen --roughness"),
