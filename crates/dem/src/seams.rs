@@ -21,7 +21,7 @@ const LARGEST_PATCH: f64 = 0.1;
 /// Memory goes no farther than this share of the radius [–].
 const STRIDE: f64 = 0.25;
 /// Points farther than this share of the radius are no contacts, gaps that adhere included [–].
-const NEAR: f64 = 1.1;
+const NEAR: f64 = 1.02;
 
 /// The nearest point of one triangle, seen from the particle.
 #[derive(Debug, Clone, Copy)]
