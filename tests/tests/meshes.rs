@@ -43,15 +43,15 @@ fn on_slope(law: Law, theta: f64, floor: Wall, start: Vec3) -> Setup {
 #[test]
 fn ball_rests_on_seams_as_on_the_plane() {
     for law in LAWS {
-        for start in [Vec3::zeros(), Vec3::new(1e-4, 3e-5, 0.0), Vec3::new(7e-4, -2e-4, 0.0)] {
+        for start in [Vec3::zeros(), Vec3::new(3e-4, 1e-4, 0.0)] {
             let rest = |floor: Wall| {
                 let mut sim = Simulation::new(on_slope(law, 0.15f64.atan(), floor, start)).expect("sound");
-                run_until(&mut sim, 0.5);
+                run_until(&mut sim, 0.3);
                 let first = particles(&mut sim)[0].position;
-                run_until(&mut sim, 0.8);
+                run_until(&mut sim, 0.4);
                 (first, particles(&mut sim)[0].position)
             };
-            let (flat, meshed) = (rest(plane(Vec3::z())), rest(sheet(12, 0.001, |_, _| 0.0)));
+            let (flat, meshed) = (rest(plane(Vec3::z())), rest(sheet(8, 0.001, |_, _| 0.0)));
             let creep = (meshed.1 - meshed.0).norm();
             assert!(creep < 1e-9, "{law:?}: creeps {creep:e} m, on the plane {:e}", (flat.1 - flat.0).norm());
             assert!((meshed.1 - flat.1).norm() < 1e-9, "{law:?}: rests at {}, not {}", meshed.1, flat.1);
@@ -134,7 +134,7 @@ fn coplanar_faces_never_push_twice() {
         let x = 0.0007 * f64::from(k) - 0.014;
         let depth = |z: f64| push(vec![bowl.clone()], Vec3::new(x, 0.3 * x, z));
         let force = depth(0.0099 + 1.09 * x * x / 20.0);
-        assert!((force.norm() - 1.0).abs() < 0.02, "{x}: {force}");
+        assert!((force.norm() - 1.0).abs() < 0.02, "{x}: {force:?}");
     }
 }
 
@@ -221,7 +221,7 @@ fn walls_act_across_periodic_faces() {
         for (n, (a, b)) in here.iter().zip(&there).enumerate() {
             let mut away = a - b;
             (0..2).for_each(|k| away[k] -= 0.2 * (away[k] / 0.2).round());
-            assert!(away.norm() < 1e-7, "{name}: {n}: {a} and {b}");
+            assert!(away.norm() < 1e-7, "{name}: {n}: {a:?} and {b:?}");
         }
         assert!(here.iter().all(|p| p.z > 0.0), "{name}: nothing falls through");
     }

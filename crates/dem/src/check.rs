@@ -35,7 +35,7 @@ pub fn check(setup: &Setup) -> Result<(), SetupError> {
     within("neighbours.skin", skin, "m", skin > 0.0 && skin.is_finite(), "skin > 0")?;
     finite("gravity", &setup.gravity, "m/s²")?;
     setup.drag.map_or(Ok(()), |d| drag(&d))?;
-    let apart = [(setup.sleep.is_some(), "[sleep]"), (!setup.clumps.bodies.is_empty(), "clumps")];
+    let apart = [(setup.sleep.is_some(), "[sleep]"), (!setup.clumps.shapes.is_empty(), "clumps")];
     let with = apart.iter().find(|a| setup.drag.is_some() && a.0);
     with.map_or(Ok(()), |a| Err(SetupError::DragWith(a.1)))?;
     setup.sleep.map_or(Ok(()), |s| sleep(&s, &setup.gravity))

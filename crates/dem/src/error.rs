@@ -99,6 +99,18 @@ pub enum SetupError {
     /// Sleep in a scene with clumps.
     #[error("sleep: clumps (the scene has '{0}') do not sleep: leave out [sleep], or use spheres")]
     ClumpSleep(String),
+    /// An entry that no plane can hold.
+    #[error(
+        "inlet: particle {id} would become free {depth:.4e} m behind wall '{wall}': move the inlet's plane or the wall, or turn the wall's normal round"
+    )]
+    EntryBehindPlane {
+        /// Its id.
+        id: u32,
+        /// How far [m].
+        depth: f64,
+        /// The wall.
+        wall: String,
+    },
     /// A wall that a particle cannot see coming.
     #[error("wall '{wall}': {speed:.4e} m/s is {:.1} % of the smallest radius in a step of {dt:.4e} s (limit {:.1} %): shorten dt, or slow the wall", 100.0 * share, 100.0 * limit)]
     WallTooFast {

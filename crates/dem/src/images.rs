@@ -97,16 +97,18 @@ impl Simulation {
         pose.shifted(by, Vec3::zeros())
     }
 
-    /// Whole periods that each wall had travelled when neighbours were listed; none where nothing is periodic.
+    /// Whole periods that the middle of each wall was away from the box when neighbours were listed; none where nothing is
+    /// periodic.
     pub(crate) fn travelled(&self) -> Vec<Periods> {
         let period = self.period();
         if period == Vec3::zeros() {
             return Vec::new();
         }
+        let middle = Vec3::from(self.setup.periodic.map(|p| p.map_or(0.0, |(lo, hi)| 0.5 * (lo + hi))));
         let whole = |shift: f64, period: f64| if period > 0.0 { (shift / period).round() as i32 } else { 0 };
         let of = |w: usize| {
-            let shift = self.pose_listed(w).shift();
-            [0, 1, 2].map(|a| whole(shift[a], period[a]))
+            let away = self.pose_listed(w).place(&self.walls[w].centre()) - middle;
+            [0, 1, 2].map(|a| whole(away[a], period[a]))
         };
         (0..self.walls.len()).map(of).collect()
     }

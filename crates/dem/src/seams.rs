@@ -1,8 +1,8 @@
 //! A particle on the seams of a mesh: which of the nearest points of its triangles are contacts, and what they remember.
 //!
-//! Points inside a face count, deepest first; a point on an edge or at a corner counts where it does not lie on a
-//! triangle that counts already: a particle on a seam touches once, in a corner between two faces twice. Kremmer & Favier
-//! (2001), Int. J. Numer. Methods Eng. 51. Two points closer than the radius √(2 r δ) of the patch that the deeper one
+//! A contact is where the distance to the mesh has a local minimum: a point inside a face, or a point on an edge or at a corner
+//! that lies on no triangle which comes nearer elsewhere. So a particle on a seam touches once, in a corner between two
+//! faces twice. After Kremmer & Favier (2001), Int. J. Numer. Methods Eng. 51. Two points closer than the radius √(2 r δ) of the patch that the deeper one
 //! presses, or a tenth of r where that is less, are one contact, too: faces that are nearly in one plane never push
 //! twice.
 //!
@@ -70,14 +70,13 @@ pub fn count(near: &mut [Nearest], radius: f64) {
     }
     order.sort_by(|&a, &b| {
         let (p, q) = (&near[a], &near[b]);
-        q.face.cmp(&p.face).then(p.square.total_cmp(&q.square)).then(a.cmp(&b))
+        p.square.total_cmp(&q.square).then(a.cmp(&b))
     });
     for (n, &k) in order.iter().enumerate() {
         let mine = near[k];
-        let same = |m: &Nearest| {
-            (m.way - mine.way).norm_squared() <= m.patch(radius) || (!mine.face && m.holds(&mine.way))
-        };
-        near[k].counts = !order[..n].iter().any(|&m| near[m].counts && same(&near[m]));
+        let same = |m: &Nearest| m.counts && (m.way - mine.way).norm_squared() <= m.patch(radius);
+        let nearer = |m: &Nearest| !mine.face && m.square < mine.square && m.holds(&mine.way);
+        near[k].counts = !order[..n].iter().any(|&m| same(&near[m]) || nearer(&near[m]));
     }
 }
 

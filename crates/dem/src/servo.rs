@@ -9,7 +9,7 @@
 //! The servo mechanism of Cundall, as described for PFC (Itasca: G = α A / (k N Δt)), with the dashpots of the contacts in the
 //! gain: s changes P by N (k Δt + c) s' within a step, so that α < 1 is on the stable side of α = 2. A wall moved like this is a piston
 //! without mass in a dashpot of 1/G under the constant force F: passive, so it adds no energy but its work, which the ledger has.
-//! N is that of the step, at least 1; k is the slope of the law at the overlap limit, so that the real gain is lower.
+//! A wall that touches nothing moves at its speed limit. N is that of the step; k is the slope of the law at the overlap limit, so that the real gain is lower.
 //!
 //! P is summed in the order of the contact list: the same bits for any number of threads.
 
@@ -130,7 +130,8 @@ impl Simulation {
             let lack = servo.force - push.dot(&servo.direction);
             let gain = SHARE / (f64::from(count.max(1)) * self.answers[w]);
             let piston = &mut self.pistons[w];
-            piston.speed = (gain * lack).clamp(-servo.speed_limit, servo.speed_limit);
+            let speed = if count == 0 { lack.signum() * servo.speed_limit } else { gain * lack };
+            piston.speed = speed.clamp(-servo.speed_limit, servo.speed_limit);
             piston.way += piston.speed * self.dt;
         }
     }

@@ -105,9 +105,9 @@ impl Simulation {
         slow_enough(&setup, &walls, dt)?;
         let zones = Zones::new(&setup, &particles);
         let sleepers = setup.sleep.map(|s| Sleepers::new(s, dt, setup.gravity.norm(), particles.len()));
+        let (pistons, answers) = (crate::servo::pistons(&setup), crate::servo::answers(&setup, &kinds, dt));
         // They are in their columns now.
         let setup = Setup { particles: Vec::new(), clumps: setup.clumps.without_bodies(), ..setup };
-        let (pistons, answers) = (crate::servo::pistons(&setup), crate::servo::answers(&setup, &kinds, dt));
         Ok(Simulation {
             setup,
             dt,

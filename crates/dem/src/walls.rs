@@ -85,6 +85,14 @@ impl WallBody {
         self.motion.fastest(self.span)
     }
 
+    /// Its middle at t = 0 [m].
+    pub fn centre(&self) -> Vec3 {
+        match &self.surface {
+            Surface::Plane(plane) => plane.point,
+            _ => (self.bounds[0] + self.bounds[1]) * 0.5,
+        }
+    }
+
     /// Number of its spheres or triangles.
     pub fn parts(&self) -> u32 {
         match &self.surface {

@@ -12,7 +12,7 @@ use crate::error::SetupError;
 use crate::kernel::LEDGER;
 use crate::lane::Row4;
 use crate::particles::Particles;
-use crate::setup::{Crossing, Entry, Particle, Setup, Zone};
+use crate::setup::{Crossing, Entry, Particle, Setup, WallShape, Zone};
 use crate::simulation::Simulation;
 use geom::Vec3;
 use serde::{Deserialize, Serialize};
@@ -177,6 +177,7 @@ impl Zones {
                 "above 0",
             );
         }
+        free_in_front(&entry.particle, zone, setup)?;
         let members = entry.clump.map_or(1, |c| setup.clumps.shapes[c.shape as usize].spheres.len() as u32);
         for id in (0..members).map(|k| id.wrapping_add(k)) {
             if !self.ids.insert(id) {
@@ -187,6 +188,20 @@ impl Zones {
         self.pending.push_back(entry);
         Ok(())
     }
+}
+
+/// Refuses an entry that becomes free behind a plane at rest.
+fn free_in_front(p: &Particle, zone: &Zone, setup: &Setup) -> Result<(), SetupError> {
+    let rate = zone.plane.normal.dot(&p.velocity);
+    let free = p.position - p.velocity * (zone.plane.signed_distance(&p.position) / rate);
+    for wall in setup.walls.iter().filter(|w| !w.motion.moves()) {
+        let WallShape::Plane(plane) = &wall.shape else { continue };
+        let depth = -plane.signed_distance(&free);
+        if depth >= 0.0 {
+            return Err(SetupError::EntryBehindPlane { id: p.id, depth, wall: wall.name.clone() });
+        }
+    }
+    Ok(())
 }
 
 impl Simulation {

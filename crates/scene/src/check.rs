@@ -1,7 +1,7 @@
 //! Values that a key may have.
 
 use crate::error::{SceneError, ValueError, nearest};
-use crate::model::{Diameter, Drag, DragLaw, Model, OrAuto, Wall};
+use crate::model::{Diameter, Drag, DragLaw, Model, OrAuto, Servo, Wall};
 use crate::text::Text;
 use std::fmt::Display;
 
@@ -223,8 +223,14 @@ impl Check<'_> {
                 ));
             }
         }
+        w.servo.as_ref().map_or(Ok(()), |s| self.servo(entry, w, s))?;
         let Some(motion) = &w.motion else { return Ok(()) };
         let key = |k: &str| format!("{entry}.motion.{k}");
+        self.finite(&key("from"), &[motion.from], "s")?;
+        if motion.until.is_some_and(|u| !(u > motion.from)) {
+            let value = format!("{} s", motion.until.unwrap_or(0.0));
+            return Err(self.wrong(&key("until"), value, "is not after 'from'", "give a later time"));
+        }
         if let Some(r) = &motion.rotate {
             self.finite(&key("rotate.about"), &r.about, "")?;
             self.finite(&key("rotate.through"), &r.through, "m")?;
@@ -242,6 +248,30 @@ impl Check<'_> {
         if let Some(v) = &motion.vibrate {
             self.finite(&key("vibrate.amplitude"), &v.amplitude, "m")?;
             self.positive(&key("vibrate.frequency"), v.frequency, "Hz")?;
+        }
+        Ok(())
+    }
+
+    fn servo(&self, entry: &str, w: &Wall, s: &Servo) -> Checked {
+        let key = |k: &str| format!("{entry}.servo.{k}");
+        self.finite(&key("direction"), &s.direction, "")?;
+        if s.direction == [0.0; 3] {
+            return Err(self.wrong(&key("direction"), "[0, 0, 0]", "has no direction", "such as [0, 0, -1]"));
+        }
+        let of = [("force", s.force.is_some()), ("stress", s.stress.is_some())];
+        self.one_of(&format!("{entry}.servo"), &of)?;
+        self.finite(&key("force"), &[s.force.unwrap_or(0.0)], "N")?;
+        self.finite(&key("stress"), &[s.stress.unwrap_or(0.0)], "Pa")?;
+        self.positive_if(&key("area"), s.area, "m²")?;
+        if s.stress.is_some() != s.area.is_some() {
+            let why = "stress and area make a force together";
+            return Err(self.wrong(&key("area"), "(one of them)", why, "give both, or force [N] alone"));
+        }
+        self.positive(&key("speed_limit"), s.speed_limit, "m/s")?;
+        if w.cuboid.is_some() && w.faces.as_ref().is_none_or(|f| f.len() != 1) {
+            let why = "all faces of the box would follow one direction";
+            let cure = "give the face that moves a [[wall]] of its own: faces = [\"z+\"]";
+            return Err(self.wrong(&format!("{entry}.servo"), "(with a box)", why, cure));
         }
         Ok(())
     }

@@ -119,6 +119,9 @@ pub struct Output {
     pub every: Option<f64>,
     /// Time between checkpoints [s]; absent: one at the end.
     pub checkpoint: Option<f64>,
+    /// Whether the force on each wall is written with each frame; walls that follow a force always tell.
+    #[serde(default)]
+    pub wall_forces: bool,
     /// Whether the energy ledger is kept and written.
     #[serde(default)]
     pub energy: bool,
@@ -132,7 +135,14 @@ pub struct Output {
 
 impl Default for Output {
     fn default() -> Output {
-        Output { every: None, checkpoint: None, energy: false, contacts: false, precision: Precision::F64 }
+        Output {
+            every: None,
+            checkpoint: None,
+            energy: false,
+            contacts: false,
+            wall_forces: false,
+            precision: Precision::F64,
+        }
     }
 }
 
@@ -503,6 +513,8 @@ pub struct Wall {
     pub material: Option<String>,
     /// Motion; absent: at rest.
     pub motion: Option<Motion>,
+    /// A force that it follows besides; absent: none.
+    pub servo: Option<Servo>,
 }
 
 /// A face of a box.
@@ -533,6 +545,27 @@ pub struct Motion {
     pub translate: Option<[f64; 3]>,
     /// Vibration.
     pub vibrate: Option<Vibrate>,
+    /// When all of it starts [s].
+    #[serde(default)]
+    pub from: f64,
+    /// When it stops, where the wall is then [s]; absent: never.
+    pub until: Option<f64>,
+}
+
+/// A force that a wall follows.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Servo {
+    /// Which way the wall pushes.
+    pub direction: [f64; 3],
+    /// Force on the particles [N]; this or `stress`.
+    pub force: Option<f64>,
+    /// Stress [Pa] on `area`; this or `force`.
+    pub stress: Option<f64>,
+    /// Area that `stress` acts on [m²].
+    pub area: Option<f64>,
+    /// Largest speed [m/s].
+    pub speed_limit: f64,
 }
 
 /// A turn about a fixed axis.

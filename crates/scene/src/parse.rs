@@ -8,7 +8,6 @@ use crate::text::Text;
 const NOT_YET: &[(&str, &str)] = &[
     ("bond", "use 'contact' laws without bonds"),
     ("bonds", "use 'contact' laws without bonds"),
-    ("servo", "move the wall by 'motion'"),
     ("sleep", "leave it out: every particle is moved at every step"),
     ("temperature", "leave it out"),
     ("wear", "leave it out"),
