@@ -63,8 +63,7 @@ fn schiller_naumann_terminal_velocity() {
         let weight = (2500.0 - 1000.0) * 4.0 / 3.0 * PI * RADIUS.powi(3) * 9.81;
         let force = |v: f64| {
             let re = 1000.0 * v * 2.0 * RADIUS / viscosity;
-            let coefficient =
-                if re < 1000.0 { 24.0 / re * (1.0 + 0.15 * re.powf(0.687)) } else { 0.44 };
+            let coefficient = if re < 1000.0 { 24.0 / re * (1.0 + 0.15 * re.powf(0.687)) } else { 0.44 };
             0.5 * coefficient * 1000.0 * PI * RADIUS * RADIUS * v * v
         };
         let (mut low, mut high) = (1e-9, 10.0);
@@ -113,16 +112,22 @@ fn closing(setup: Setup, time: f64) -> (f64, dem::Energy) {
 /// Grains sink onto a floor in a fluid that flows: what the fluid takes and gives closes the ledger.
 #[test]
 fn ledger_closes_in_a_fluid() {
-    let drag = Drag {
-        velocity: Vec3::new(0.3, 0.0, 0.0),
-        buoyancy: true,
-        ..fluid(DragLaw::SchillerNaumann, 0.1)
-    };
+    let drag =
+        Drag { velocity: Vec3::new(0.3, 0.0, 0.0), buoyancy: true, ..fluid(DragLaw::SchillerNaumann, 0.1) };
     let mut setup = with_friction(sinking(drag), 0.4);
     setup.ledger = true;
     setup.walls = vec![plane(Vec3::z())];
     setup.particles = (0..40)
-        .map(|k| grain(k, Vec3::new(0.021 * (k % 4) as f64, 0.021 * (k / 4 % 3) as f64, 0.05 + 0.0211 * (k / 12) as f64)))
+        .map(|k| {
+            grain(
+                k,
+                Vec3::new(
+                    0.021 * (k % 4) as f64,
+                    0.021 * (k / 4 % 3) as f64,
+                    0.05 + 0.0211 * (k / 12) as f64,
+                ),
+            )
+        })
         .collect();
     let (error, e) = closing(setup, 0.5);
     assert!(e.drag.abs() > 1e-3, "{e:?}");
@@ -136,11 +141,15 @@ fn ledger_closes_with_inlet_and_outlet() {
     setup.ledger = true;
     setup.gravity = Vec3::new(2.0, 0.0, -9.81);
     setup.walls = vec![plane(Vec3::z())];
-    let zone = |x: f64, length: f64| Zone { plane: Plane { point: Vec3::new(x, 0.0, 0.0), normal: Vec3::x() }, length };
+    let zone = |x: f64, length: f64| Zone {
+        plane: Plane { point: Vec3::new(x, 0.0, 0.0), normal: Vec3::x() },
+        length,
+    };
     setup.inlets = vec![zone(0.05, 0.05)];
     setup.outlets = vec![zone(0.2, 0.03)];
     (setup.smallest_entry, setup.largest_entry, setup.entry_materials) = (0.01, 0.01, vec![0]);
-    setup.particles = vec![grain(1000, Vec3::new(0.12, 0.001, 0.0101)), grain(1001, Vec3::new(0.13, -0.001, 0.0303))];
+    setup.particles =
+        vec![grain(1000, Vec3::new(0.12, 0.001, 0.0101)), grain(1001, Vec3::new(0.13, -0.001, 0.0303))];
     let run = |mut setup: Setup, step: f64| {
         setup.step = Step::Fixed(step);
         let mut sim = Simulation::new(setup).expect("sound");
@@ -149,7 +158,8 @@ fn ledger_closes_with_inlet_and_outlet() {
             let mut p = grain(k, Vec3::new(0.0, 0.002 * f64::from(k % 3), 0.012 + 0.021 * f64::from(k % 2)));
             p.velocity = Vec3::new(0.6 + 0.1 * f64::from(k % 2), 0.0, 0.0);
             p.spin.y = 5.0;
-            sim.enter(Entry { time: 0.045 * f64::from(k / 2), inlet: 0, particle: p, clump: None }).expect("in time");
+            sim.enter(Entry { time: 0.045 * f64::from(k / 2), inlet: 0, particle: p, clump: None })
+                .expect("in time");
         }
         run_until(&mut sim, 0.9);
         let e = sim.energy().expect("sound");

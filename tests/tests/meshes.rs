@@ -35,6 +35,7 @@ fn on_slope(law: Law, theta: f64, floor: Wall, start: Vec3) -> Setup {
     setup.contacts.iter_mut().for_each(|c| c.rolling_resistance = Some(0.2));
     setup.gravity = Vec3::new(9.81 * theta.sin(), 0.0, -9.81 * theta.cos());
     setup.walls = vec![floor];
+    setup.step = Step::Auto(0.2);
     setup.particles = vec![grain(1, start + Vec3::new(0.0, 0.0, 0.01))];
     setup
 }
@@ -74,7 +75,12 @@ fn ball_rolls_over_seams_as_over_the_plane() {
             (particles(&mut sim)[0], e.translation + e.rotation, e.sliding)
         };
         let (flat, meshed) = (end(plane(Vec3::z())), end(sheet(100, 0.002, |_, _| 0.0)));
-        assert!((meshed.0.position - flat.0.position).norm() < 1e-9, "{law:?}: {} {}", meshed.0.position, flat.0.position);
+        assert!(
+            (meshed.0.position - flat.0.position).norm() < 1e-9,
+            "{law:?}: {} {}",
+            meshed.0.position,
+            flat.0.position
+        );
         assert!((meshed.1 / flat.1 - 1.0).abs() < 1e-9, "{law:?}: {} J instead of {}", meshed.1, flat.1);
         assert!((meshed.2 / flat.2 - 1.0).abs() < 1e-6, "{law:?}: {} J instead of {}", meshed.2, flat.2);
     }
@@ -107,7 +113,8 @@ fn edges_and_corners_push_once() {
     let k = 1e4;
     let tip = push(vec![pyramid.clone()], Vec3::new(0.0, 0.0, 0.0099));
     assert!((tip - Vec3::new(0.0, 0.0, k * 1e-4)).norm() < 1e-9, "{tip}");
-    let edge = push(vec![pyramid], Vec3::new(0.05, 0.0, -0.05) + Vec3::new(1.0, 0.0, 1.0).normalize() * 0.0099);
+    let edge =
+        push(vec![pyramid], Vec3::new(0.05, 0.0, -0.05) + Vec3::new(1.0, 0.0, 1.0).normalize() * 0.0099);
     assert!((edge.norm() / (k * 1e-4) - 1.0).abs() < 1e-9, "{edge}");
     // Floor and wall, each of two triangles.
     let corner = mesh(
@@ -124,7 +131,8 @@ fn coplanar_faces_never_push_twice() {
     let s = 0.1;
     let square = [[-s, -s, 0.0], [s, -s, 0.0], [s, s, 0.0], [-s, s, 0.0]];
     let twice = mesh(&square, &[[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3], [0, 1, 2]]);
-    for place in [Vec3::new(0.01, 0.03, 0.0099), Vec3::new(0.0, 0.0, 0.0099), Vec3::new(-0.02, -0.02, 0.0099)] {
+    for place in [Vec3::new(0.01, 0.03, 0.0099), Vec3::new(0.0, 0.0, 0.0099), Vec3::new(-0.02, -0.02, 0.0099)]
+    {
         let force = push(vec![twice.clone()], place);
         assert!((force - Vec3::new(0.0, 0.0, 1.0)).norm() < 1e-9, "{place}: {force}");
     }
@@ -145,7 +153,9 @@ fn many_triangles_are_found_quickly() {
     let mut setup = with_friction(empty(HOOKE, 0.5), 0.5);
     setup.gravity.z = -9.81;
     setup.particles = (0..400u32)
-        .map(|k| grain(k, Vec3::new(0.021 * f64::from(k % 20) - 0.2, 0.021 * f64::from(k / 20) - 0.2, 0.0099)))
+        .map(|k| {
+            grain(k, Vec3::new(0.021 * f64::from(k % 20) - 0.2, 0.021 * f64::from(k / 20) - 0.2, 0.0099))
+        })
         .collect();
     setup.walls = vec![floor];
     let mut sim = Simulation::new(setup).expect("sound");
@@ -186,9 +196,11 @@ fn across(wall: Wall, x: f64) -> Vec<Vec3> {
     for _ in 0..30 {
         let next = sim.time() + 0.02;
         run_until(&mut sim, next);
-        seen.extend(particles(&mut sim).iter().map(|p| {
-            Vec3::new((p.position.x - x).rem_euclid(0.2), p.position.y, p.position.z)
-        }));
+        seen.extend(
+            particles(&mut sim)
+                .iter()
+                .map(|p| Vec3::new((p.position.x - x).rem_euclid(0.2), p.position.y, p.position.z)),
+        );
     }
     seen
 }
@@ -198,7 +210,8 @@ fn across(wall: Wall, x: f64) -> Vec<Vec3> {
 #[test]
 fn walls_act_across_periodic_faces() {
     let spheres = |moves: bool| {
-        let at = |k: u32| Vec3::new(0.005 + 0.01 * f64::from(k % 20), 0.005 + 0.01 * f64::from(k / 20), -0.006);
+        let at =
+            |k: u32| Vec3::new(0.005 + 0.01 * f64::from(k % 20), 0.005 + 0.01 * f64::from(k / 20), -0.006);
         let mut wall = plane(Vec3::z());
         wall.shape = WallShape::Spheres((0..400).map(|k| (at(k), 0.008)).collect());
         if moves {
@@ -209,14 +222,19 @@ fn walls_act_across_periodic_faces() {
     };
     let s = 0.2;
     let floor = mesh(&[[0.0, 0.0, 0.0], [s, 0.0, 0.0], [s, s, 0.0], [0.0, s, 0.0]], &[[0, 1, 2], [0, 2, 3]]);
-    let fence = mesh(&[[0.19, -0.1, -0.1], [0.19, 0.3, -0.1], [0.21, 0.3, 0.1], [0.21, -0.1, 0.1]], &[[0, 1, 2], [0, 2, 3]]);
+    let fence = mesh(
+        &[[0.19, -0.1, -0.1], [0.19, 0.3, -0.1], [0.21, 0.3, 0.1], [0.21, -0.1, 0.1]],
+        &[[0, 1, 2], [0, 2, 3]],
+    );
     let both = {
         let (WallShape::Mesh(a), WallShape::Mesh(b)) = (&floor.shape, &fence.shape) else { unreachable!() };
         let vertices: Vec<Vec3> = a.vertices.iter().chain(&b.vertices).copied().collect();
         let faces = a.faces.iter().copied().chain(b.faces.iter().map(|f| f.map(|v| v + 4))).collect();
         Wall { shape: WallShape::Mesh(TriMesh::new(vertices, faces).expect("sound")), ..plane(Vec3::z()) }
     };
-    for (name, wall) in [("spheres", spheres(false)), ("conveyor", spheres(true)), ("floor", floor), ("fence", both)] {
+    for (name, wall) in
+        [("spheres", spheres(false)), ("conveyor", spheres(true)), ("floor", floor), ("fence", both)]
+    {
         let (here, there) = (across(wall.clone(), 0.0), across(wall, 0.113));
         for (n, (a, b)) in here.iter().zip(&there).enumerate() {
             let mut away = a - b;
@@ -232,7 +250,10 @@ fn walls_act_across_periodic_faces() {
 fn planes_have_images_where_they_cross_the_box() {
     let mut setup = empty(HOOKE, 0.5);
     setup.periodic = [Some((0.0, 0.2)), None, None];
-    setup.walls = vec![Wall { shape: WallShape::Plane(Plane { point: Vec3::zeros(), normal: Vec3::x() }), ..plane(Vec3::z()) }];
+    setup.walls = vec![Wall {
+        shape: WallShape::Plane(Plane { point: Vec3::zeros(), normal: Vec3::x() }),
+        ..plane(Vec3::z())
+    }];
     setup.particles = vec![grain(1, Vec3::new(0.2 - 0.0099, 0.0, 0.0))];
     let mut sim = Simulation::new(setup).expect("sound");
     let force = sim.wall_forces().expect("sound")[0].force;
