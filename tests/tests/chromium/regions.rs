@@ -9,6 +9,9 @@ use stream::{Table, Values};
 
 const POINTS: usize = 20_000;
 
+/// Height of a twentieth of the points [m], on which the lower end of a box will be typed.
+const LEVEL: f64 = 8.25;
+
 /// A cloud far from the origin, all of its places in 8-byte numbers; every tenth on a grid that drawn corners fall on.
 fn cloud(folder: &Path) {
     let mut state = 1u64;
@@ -21,7 +24,11 @@ fn cloud(folder: &Path) {
     for n in 0..POINTS {
         let place = [4.0 * random(), 3.0 * random(), 2.0 * random()];
         let at = |k: usize| if n % 10 == 0 { (place[k] * 1e4_f64).round() / 1e4 } else { place[k] };
-        places.push([0, 1, 2].map(|k| offset[k] + at(k)));
+        let mut place = [0, 1, 2].map(|k| offset[k] + at(k));
+        if n % 20 == 0 {
+            place[2] = LEVEL;
+        }
+        places.push(place);
     }
     let mut attributes = Table::default();
     attributes.push("number", Values::U32((0..POINTS as u32).collect())).expect("as many");

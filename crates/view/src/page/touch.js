@@ -1,6 +1,6 @@
 // One finger or the left button turns; two fingers, or the right button or Shift, move; pinch and wheel zoom.
 // A press that does not move picks.
-const CLICK = { pixels: 5, milliseconds: 500 };
+const STILL = 5;  // pixels
 
 function gestures() {
   const down = new Map();
@@ -12,17 +12,17 @@ function gestures() {
     if (run.pick && regions.down(e)) return;
     canvas.setPointerCapture(e.pointerId);
     down.set(e.pointerId, [e.clientX, e.clientY]);
-    press = down.size === 1 && e.button === 0 ? { x: e.clientX, y: e.clientY, at: e.timeStamp } : null;
+    press = down.size === 1 && e.button === 0 ? { x: e.clientX, y: e.clientY } : null;
   });
   canvas.addEventListener("pointerup", (e) => {
     down.delete(e.pointerId);
-    if (press && e.timeStamp - press.at < CLICK.milliseconds) pick(findAt(e.clientX, e.clientY));
+    if (press) pick(findAt(e.clientX, e.clientY));
     press = null;
   });
   canvas.addEventListener("pointercancel", (e) => { down.delete(e.pointerId); press = null; });
   canvas.addEventListener("pointermove", (e) => {
     if (!down.has(e.pointerId)) return;
-    if (press && Math.hypot(e.clientX - press.x, e.clientY - press.y) <= CLICK.pixels) return;
+    if (press && Math.hypot(e.clientX - press.x, e.clientY - press.y) <= STILL) return;
     press = null;
     const [before, wide] = [centre(), spread()];
     down.set(e.pointerId, [e.clientX, e.clientY]);
