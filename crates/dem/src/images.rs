@@ -107,7 +107,8 @@ impl Simulation {
         let middle = Vec3::from(self.setup.periodic.map(|p| p.map_or(0.0, |(lo, hi)| 0.5 * (lo + hi))));
         let whole = |shift: f64, period: f64| if period > 0.0 { (shift / period).round() as i32 } else { 0 };
         let of = |w: usize| {
-            let away = self.pose_listed(w).place(&self.walls[w].centre()) - middle;
+            let (point, home) = self.walls[w].counted_from(middle);
+            let away = self.pose_listed(w).place(&point) - home;
             [0, 1, 2].map(|a| whole(away[a], period[a]))
         };
         (0..self.walls.len()).map(of).collect()

@@ -85,11 +85,12 @@ impl WallBody {
         self.motion.fastest(self.span)
     }
 
-    /// Its middle at t = 0 [m].
-    pub fn centre(&self) -> Vec3 {
+    /// A point of the wall at t = 0, and where it is to be near [m]: its middle in the middle of the box, a plane where it
+    /// began, so that no more than must be is behind it.
+    pub fn counted_from(&self, middle: Vec3) -> (Vec3, Vec3) {
         match &self.surface {
-            Surface::Plane(plane) => plane.point,
-            _ => (self.bounds[0] + self.bounds[1]) * 0.5,
+            Surface::Plane(plane) => (plane.point, plane.point),
+            _ => ((self.bounds[0] + self.bounds[1]) * 0.5, middle),
         }
     }
 
