@@ -1,47 +1,179 @@
 #!/bin/bash
-# Times the chain from scan to walls and the engine on the bench pile; beside it LIGGGHTS, where it is installed, in turn.
-# usage: bench.sh OUT   (the tools on PATH)
+# Times the chain from scan to walls and the engine by effect and by size, beside what memory and arithmetic allow here.
+# usage: bench.sh OUT   (the tools on PATH)   environment: SIZES ("1000 10000 100000 1000000 5000000", none: ""), ROUNDS (3),
+# WORK (30: millions of particle-steps a timing), EFFECTS (yes or no), EXAMPLES (folder of the examples limits and tiles)
+# Without any of these the table goes to docs/cost.md as well.
 set -euo pipefail
+shopt -s inherit_errexit
 here=$(cd "$(dirname "$0")" && pwd)
 out=$(cd "$1" && pwd)
-pile=$here/scenes/pile.toml
+whole=$([ -z "${SIZES+x}${ROUNDS+x}${WORK+x}${EFFECTS+x}" ] && echo yes || echo no)
+sizes=${SIZES-1000 10000 100000 1000000 5000000} rounds=${ROUNDS:-3} work=${WORK:-30} effects=${EFFECTS:-yes}
+examples=${EXAMPLES:-$here/../target/release/examples}
+sample=$here/../sample-data/pile/pile50k.ply
+folder=$(mktemp -d "$out/bench.XXXXXX")
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
 
 now() { date +%s.%N; }
-since() { awk -v a="$1" -v b="$(now)" 'BEGIN { printf "%.2f", b - a }'; }
+field() { awk -F'[:,]' -v key="\"$2\"" '{ gsub(/ /, "", $1) } $1 == key { print $2 + 0; exit }' "$1"; }
+median() { sort -g | awk '{ a[NR] = $1 } END { print NR % 2 ? a[(NR + 1) / 2] : (a[NR / 2] + a[NR / 2 + 1]) / 2 }'; }
 
-echo "chain: 277 647 points -> wall spheres, one pipe"
-chute-scan --points 277647 -q -o "$out/bench.ply"
-for _ in 1 2 3; do
-    start=$(now)
-    cloud-crop -q "$out/bench.ply" --remove halfspace:0,0,0,-1,0,0 | cloud-fill -q | bluenoise-sample -q --spacing 0.005 \
-        | wallgen -q --roughness 0.001 -o "$out/bench.mcap"
-    echo "  $(since "$start") s"
-done
-
-# Steps of the whole run less those of a run of one step: reading, listing and writing are in both.
-ours() {
-    local reports=("$out/bench-long.json" "$out/bench-short.json")
-    dem-run "$pile" -q --threads "$1" -o "$out/bench.mcap" --report "${reports[0]}"
-    dem-run "$pile" -q --threads "$1" --until 1e-5 -o "$out/bench.mcap" --report "${reports[1]}"
-    awk -F'[:,]' '/"seconds"/ { s[n++] = $2 } END { printf "%.2f", 50000 * 999 / (s[0] - s[1]) / 1e6 }' "${reports[@]}"
+chain() {
+    chute-scan --points 277647 -q -o scan.ply
+    for ((k = 0; k < 3; k++)); do
+        local start; start=$(now)
+        cloud-crop -q scan.ply --remove halfspace:0,0,0,-1,0,0 | cloud-fill -q | bluenoise-sample -q --spacing 0.005 \
+            | wallgen -q --roughness 0.001 -o walls.mcap
+        awk -v a="$start" -v b="$(now)" 'BEGIN { print b - a }'
+    done | median
 }
 
-theirs() {
-    (cd "$out" && mpirun --allow-run-as-root -np "$1" liggghts -in "$here/peers/liggghts-pile.in" \
-        | awk '/Loop time/ { t = $4 } END { printf "%.2f", 50000 * 1000 / t / 1e6 }')
+# Steps that a timing takes: so much work, but 100 steps at least, several times the life of a neighbour list.
+steps_of() { awk -v n="$1" -v w="$work" 'BEGIN { s = int(w * 1e6 / n); print s < 100 ? 100 : s }'; }
+
+# Steps before a timing begins.
+warm=20
+
+# Millions of particle-steps a second of SCENE on THREADS: a long run less a short one, which has reading, first lists
+# and the last frame as well. What is written goes nowhere. Leaves long.json.
+speed() {
+    local scene=$1 threads=$2 grains=$3 steps; steps=$(steps_of "$3"); shift 3
+    local run=(dem-run "$scene" -q --threads "$threads" --set output.every=1e9 "$@")
+    "${run[@]}" --until "$(awk -v n=$((steps + warm)) 'BEGIN { print n * 1e-5 }')" --report long.json > /dev/null
+    "${run[@]}" --until "$(awk -v n="$warm" 'BEGIN { print n * 1e-5 }')" --report short.json > /dev/null
+    awk -v n="$steps" -v g="$grains" -v a="$(field long.json seconds)" -v b="$(field short.json seconds)" \
+        'BEGIN { printf "%.3f\n", g * n / (a - b) / 1e6 }'
 }
 
-echo "engine: bench pile, 50 000 spheres, 1000 steps, millions of particle-steps a second"
-command -v liggghts > /dev/null && python3 "$here/peers/pile_deck.py" "$here/../sample-data/pile/pile50k.ply" "$out/pile.liggghts"
-for threads in 1 2; do
-    for _ in 1 2 3; do
-        a=$(ours "$threads")
-        if command -v liggghts > /dev/null; then
-            b=$(theirs "$threads")
-            echo "  $threads core(s): dem-run $a, LIGGGHTS $b, ratio $(awk -v a="$a" -v b="$b" 'BEGIN { printf "%.2f", a / b }')"
-        else
-            echo "  $threads core(s): dem-run $a (LIGGGHTS is not installed)"
+# row NAME SCENE GRAINS TOUCHING LISTED KERNEL ROUNDS [--set KEY=VALUE]…: a line of the table, or why there is none.
+row() {
+    local name=$1 scene=$2 grains=$3 touching=$4 listed=$5 kernel=$6 times=$7; shift 7
+    if ! dem-run "$scene" --check -q "$@" --report check.json 2> refused; then
+        if grep -qE "unknown key|not available yet" refused; then
+            echo "$name is left out: dem-run does not know its key yet ($(sed -n 's/^dem-run: //p' refused | head -n 1))" | tee -a remarks >&2
+            return
         fi
+        cat refused >&2; return 1
+    fi
+    local memory rates=() threads k
+    memory=$(awk -F'[:,]' '/"bytes_per_contact"/ { sum += $2 } END { print sum + 0 }' check.json)
+    for threads in 1 2; do
+        for ((k = 0; k < times; k++)); do speed "$scene" "$threads" "$grains" "$@"; done > rates
+        rates+=("$(median < rates)")
     done
-done
-rm -f "$out"/bench* "$out/pile.liggghts"
+    local peak own
+    peak=$(awk -v p="$(field long.json peak_memory_bytes)" -v g="$grains" 'BEGIN { printf "%.0f", p / g }')
+    own=$(field long.json bytes_per_particle)
+    own=${own:-$(field check.json bytes_per_particle)}
+    listed=$(field long.json listed_contacts | awk -v g="$grains" -v l="$listed" '{ l = $1 / g } END { if (l > 0) printf "%.2f", l; else print "–" }')
+    local share=("–" "–" "–" "–")
+    for threads in 1 2; do
+        [ "$kernel" = - ] && continue
+        # Bandwidth and lanes were measured once; the kernel's needs follow from its contacts.
+        read -r -a limit < <("$examples/limits" "$threads" "$touching" "$listed" "limits-$threads" | awk -v k="$kernel" '$1 == k { print $5, $7 }')
+        share[$((threads - 1))]=$(awk -v r="${rates[$((threads - 1))]}" -v m="${limit[0]}" 'BEGIN { printf "%.0f %%", 100 * r / m }')
+        share[$((threads + 1))]=$(awk -v r="${rates[$((threads - 1))]}" -v m="${limit[1]}" 'BEGIN { printf "%.0f %%", 100 * r / m }')
+    done
+    echo "| $name | $grains | $touching | $listed | ${rates[0]} | ${rates[1]} | $memory | $peak | ${own:-–} | ${share[0]}, ${share[1]} | ${share[2]}, ${share[3]} |" | tee -a table
+    echo "$grains ${rates[0]}" > last
+}
+
+# The bench pile's scene on other grains: scene OUT PLY X Y periodic|walls
+scene() {
+    local walls=""
+    [ "$5" = walls ] && walls="s|^plane = .*|box = [0, 0, 0, $3, $4, 1]\nfaces = [\"x-\", \"x+\", \"y-\", \"y+\", \"z-\"]|; /^\\[domain\\]/d; /^periodic/d; /^low = /d; /^high = /d;"
+    sed "$walls s|^high = .*|high = [$3, $4, 0.504]|; s|^source = .*|source = \"$2\"|" "$here/scenes/pile.toml" > "$1"
+}
+
+# A floor of wall spheres 4 mm apart, 1 mm rough, their tops at z = 0, a little wider than the bed.
+floor() {
+    awk -v x="$1" -v y="$2" 'BEGIN {
+        p = 0.004; nx = int((x + 0.02) / p) + 1; ny = int((y + 0.02) / p) + 1
+        printf "ply\nformat ascii 1.0\nelement vertex %d\nproperty double x\nproperty double y\nproperty double z\nend_header\n", nx * ny
+        for (i = 0; i < nx; i++) for (j = 0; j < ny; j++) print -0.01 + p * i, -0.01 + p * j, -0.0025 }' > floor.ply
+    wallgen -q floor.ply --roughness 0.001 --radius uniform --facing 0,0,1 --material floor --young 5e6 --poisson 0.3 -o floor.mcap
+}
+
+by_effect() {
+    local grains x y kind touching listed rolling=(--set contact.0.rolling_resistance=0.1) twisting=(--set contact.0.twisting_resistance=0.1)
+    read -r grains x y kind touching listed < <("$examples/tiles" "$sample" 50000 pile.ply)
+    scene pile.toml pile.ply "$x" "$y" "$kind"
+    pile() { local name=$1 kernel=$2; shift 2; row "$name" pile.toml "$grains" "$touching" "$listed" "$kernel" "$rounds" "$@"; }
+    pile frictionless frictionless --set contact.0.sliding_friction=0
+    pile "+ sliding friction" friction
+    pile "+ rolling resistance" - "${rolling[@]}"
+    pile "+ twisting resistance" - "${rolling[@]}" "${twisting[@]}"
+    pile "+ cohesion" - "${rolling[@]}" "${twisting[@]}" --set contact.0.cohesion=sjkr --set contact.0.cohesion_energy_density=1e4
+    pile "sliding friction, mixed precision" - --set precision=mixed
+    read -r grains x y kind touching listed < <("$examples/tiles" "$sample" 10000 bodies.csv)
+    scene clumps.toml bodies.csv "$x" "$y" "$kind"
+    sed -i 's|^material = "grain"|clump = "four"|' clumps.toml
+    cat >> clumps.toml << 'END'
+[[clump]]
+name = "four"
+material = "grain"
+spheres = [[0.0004, 0.0004, 0.0004, 0.0013], [0.0004, -0.0004, -0.0004, 0.0013], [-0.0004, 0.0004, -0.0004, 0.0013], [-0.0004, -0.0004, 0.0004, 0.0013]]
+END
+    # Bodies are smaller than the grains whose places they take: they fall onto each other first.
+    warm=600 row "clumps of 4 spheres" clumps.toml $((4 * grains)) "–" 0 - "$rounds"
+    read -r grains x y kind touching listed < <("$examples/tiles" "$sample" 50000 bed.ply 0.012)
+    scene bed.toml bed.ply "$x" "$y" "$kind"
+    row "bed of three layers on a plane" bed.toml "$grains" "$touching" "$listed" - "$rounds"
+    floor "$x" "$y"
+    awk '/^\[\[wall\]\]/ { wall = 1 } wall && /^(material|plane) = / { next } { print } END { print "source = \"floor.mcap\"" }' bed.toml > spheres.toml
+    row "the same on $(grep -c . floor.ply | awk '{ print $1 - 7 }') wall spheres" spheres.toml "$grains" "$touching" "$listed" - "$rounds"
+}
+
+by_size() {
+    local size grains x y kind touching listed
+    for size in $sizes; do
+        read -r grains x y kind touching listed < <("$examples/tiles" "$sample" "$size" grains.ply)
+        scene size.toml grains.ply "$x" "$y" "$kind"
+        row "pile" size.toml "$grains" "$touching" "$listed" friction "$([ "$size" -lt 1000000 ] && echo "$rounds" || echo 1)"
+        cat last >> by-size
+    done
+}
+
+caption() {
+    echo "Millions of particle-steps a second, medians of $rounds rounds (of one from a million grains on): the bench pile of"
+    echo "\`make -C pipelines race\` (Hooke, Δt 10⁻⁵ s, the engine's own lists), copied side by side, or cut to a cube between walls below"
+    echo "50 000. A timing is a long run less a short one; frames and checkpoints are in neither. *Touching* and *listed* are pairs a grain"
+    echo "(listed within 0.6 mm where dem-run does not report its own); *memory* is of a contact between steps [bytes]; *peak* the most"
+    echo "resident memory of dem-run [bytes a grain], *own* what the engine says of itself. Rows with + add to the row above them."
+    echo
+    echo "The last columns are shares of what one part of the machine alone would allow, on one thread and on two. Measured in the same run:"
+    for threads in 1 2; do
+        awk -v t=$threads '$1 == "lanes" { w = $2 } $1 != "lanes" && NF == 3 { v[$1] = $2 } END {
+            printf "%s: triad %s GB/s, adds and multiplies %s, divisions %s, roots %s thousand millions a second (f64, %s lanes).\n",
+                t == 1 ? "one thread" : "two threads", v["bandwidth"], v["add_multiply"], v["divide"], v["root"], w }' "limits-$threads"
+    done
+    echo "Bytes and operations of a particle and a contact are counted in \`crates/dem/examples/limits.rs\`: everything that a step reads or"
+    echo "writes, once, as if no cache kept it from one step to the next; a share above 100 % of memory says that caches do."
+    awk '$1 > 5000 && !small { small = $2 } { large = $2; n = $1 } END {
+        if (small && n > 1e6) printf "\nA particle-step of %d grains costs %.2f times that of 10 000, on one thread.\n", n, small / large }' by-size
+    sed 's/^/- /' remarks
+}
+
+touch table remarks by-size
+echo "load before: $(cut -d' ' -f1 /proc/loadavg 2> /dev/null || echo unknown) (an idle machine is below 0.3)"
+for threads in 1 2; do "$examples/limits" $threads 2.4 4.3 > "limits-$threads"; done
+head='| scene | grains | touching | listed | 1 thread | 2 threads | memory | peak | own | of memory | of arithmetic |
+|---|---|---|---|---|---|---|---|---|---|---|'
+echo "$head"
+[ "$effects" = no ] || by_effect
+by_size
+echo
+caption | tee words
+echo
+seconds=$(chain)
+echo "Scan of 277 647 points to wall spheres, one pipe: $seconds s (median of 3)." | tee chain
+
+page=$here/../docs/cost.md
+if [ "$whole" = yes ] && [ -e "$page" ]; then
+    { echo "$head"; cat table; echo; cat words; echo; cat chain; } > new
+    awk '/<!-- bench begins -->/ { print; print ""; while ((getline line < "new") > 0) print line; print ""; skip = 1 }
+        /<!-- bench ends -->/ { skip = 0 } !skip' "$page" > page
+    cp page "$page"
+    echo "written to docs/cost.md"
+fi

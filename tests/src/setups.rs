@@ -10,6 +10,7 @@ pub fn empty(law: Law, restitution: f64) -> Setup {
     let contact = |between| Contact::new(between, law, restitution);
     Setup {
         gravity: Vec3::zeros(),
+        drag: None,
         materials: vec![material("grain"), material("wall")],
         contacts: vec![contact((0, 0)), contact((0, 1))],
         particles: vec![],

@@ -144,6 +144,32 @@ fn wrong_scenes_say_where_what_and_what_to_do() {
             "[[contact]]\nbetween = [\"*\", \"steel\"]\nrestitution = 0.1\n[[wall]]",
             &["contradiction", "sinter and steel"],
         ),
+        (
+            "[[fill]]",
+            "[drag]\nlaw = \"schiller-naumann\"\nviscosity = 1e-3\n[[fill]]",
+            &["drag.density", "1000 for water"],
+        ),
+        ("[[fill]]", "[drag]\nlaw = \"stoke\"\nviscosity = 1e-3\n[[fill]]", &["did you mean 'stokes'?"]),
+        (
+            "name = \"floor\"",
+            "servo = { direction = [0,0,1], stress = 10, speed_limit = 1 }",
+            &["wall.0.servo.area", "stress and area"],
+        ),
+        (
+            "name = \"floor\"",
+            "servo = { direction = [0,0,1], force = 10, stress = 1, area = 1, speed_limit = 1 }",
+            &["force and stress", "only one"],
+        ),
+        (
+            "name = \"floor\"",
+            "motion = { translate = [0,0,1], from = 2, until = 1 }",
+            &["wall.0.motion.until = 1 s", "not after"],
+        ),
+        (
+            "[[wall]]",
+            "[[insert]]\nmaterial = \"sinter\"\nshape = \"box:0,0,-0.2,0.1,0.1,-0.1\"\ndiameter = 0.01\nrate_count = 10\nvelocity = [0,0,-1]\n[[wall]]",
+            &["insert.0.shape", "0.19 m behind wall 'floor'", "normal"],
+        ),
     ];
     for (from, to, parts) in cases {
         let message = refused(from, to);

@@ -33,6 +33,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let count = particles.len();
     let setup = Setup {
+        drag: None,
         gravity: Vec3::new(0.0, 0.0, -9.81),
         materials: vec![material("grain"), material("floor")],
         contacts: vec![contact((0, 0)), contact((0, 1))],

@@ -3,7 +3,7 @@
 use crate::error::SetupError;
 use crate::law::{Elastic, is_rare, overlap_without_load};
 use crate::limit::radii_by_material;
-use crate::setup::{Contact, Law, Particle, Precision, Setup, Sleep, Step, WallShape};
+use crate::setup::{Contact, Drag, DragLaw, Law, Particle, Precision, Servo, Setup, Sleep, Step, WallShape};
 use geom::Vec3;
 use std::collections::HashSet;
 
@@ -34,7 +34,26 @@ pub fn check(setup: &Setup) -> Result<(), SetupError> {
     let skin = setup.skin.unwrap_or(1.0);
     within("neighbours.skin", skin, "m", skin > 0.0 && skin.is_finite(), "skin > 0")?;
     finite("gravity", &setup.gravity, "m/s²")?;
+    setup.drag.map_or(Ok(()), |d| drag(&d))?;
+    let apart = [(setup.sleep.is_some(), "[sleep]"), (!setup.clumps.shapes.is_empty(), "clumps")];
+    let with = apart.iter().find(|a| setup.drag.is_some() && a.0);
+    with.map_or(Ok(()), |a| Err(SetupError::DragWith(a.1)))?;
     setup.sleep.map_or(Ok(()), |s| sleep(&s, &setup.gravity))
+}
+
+fn drag(d: &Drag) -> Result<(), SetupError> {
+    let (mu, rho) = (d.viscosity, d.density);
+    within("drag.viscosity", mu, "Pa·s", mu > 0.0 && mu.is_finite(), "viscosity > 0")?;
+    within("drag.density", rho, "kg/m³", rho >= 0.0 && rho.is_finite(), "density ≥ 0")?;
+    let needed = d.buoyancy || d.law == DragLaw::SchillerNaumann;
+    within(
+        "drag.density",
+        rho,
+        "kg/m³",
+        rho > 0.0 || !needed,
+        "density > 0, which this law or buoyancy needs",
+    )?;
+    finite("drag.velocity", &d.velocity, "m/s")
 }
 
 /// Rare effects are compiled for double precision only.
@@ -211,7 +230,8 @@ fn walls(setup: &Setup) -> Result<(), SetupError> {
                     let depth = -plane.signed_distance(&p.position);
                     return Err(SetupError::BehindPlane { id: p.id, depth, wall: w.name.clone() });
                 }
-                if w.motion.turn != Vec3::zeros() {
+                // Only one that turns in itself, like a turntable, stays where it is known to be.
+                if w.motion.turn.cross(&plane.normal).norm() > 1e-12 * w.motion.turn.norm() {
                     return Err(SetupError::TurningPlane(w.name.clone()));
                 }
             }
@@ -221,6 +241,10 @@ fn walls(setup: &Setup) -> Result<(), SetupError> {
         finite(&at("rotation"), &w.motion.turn, "rad/s")?;
         finite(&at("rotation through"), &w.motion.through, "m")?;
         finite(&at("vibration"), &w.motion.amplitude, "m")?;
+        within(&at("motion.from"), w.motion.from, "s", w.motion.from.is_finite(), "the finite numbers")?;
+        let (from, until) = (w.motion.from, w.motion.until);
+        within(&at("motion.until"), until, "s", until > from, "times after motion.from")?;
+        w.motion.servo.map_or(Ok(()), |s| servo(&w.name, &s))?;
         within(
             &at("frequency"),
             w.motion.frequency,
@@ -230,6 +254,15 @@ fn walls(setup: &Setup) -> Result<(), SetupError> {
         )?;
     }
     Ok(())
+}
+
+fn servo(wall: &str, s: &Servo) -> Result<(), SetupError> {
+    let at = |key: &str| format!("wall '{wall}': servo.{key}");
+    let length = s.direction.norm();
+    within(&at("direction"), length, "[–]", (length - 1.0).abs() < 1e-9, "directions of length 1")?;
+    within(&at("force"), s.force, "N", s.force.is_finite(), "the finite numbers")?;
+    let v = s.speed_limit;
+    within(&at("speed_limit"), v, "m/s", v > 0.0 && v.is_finite(), "speed_limit > 0")
 }
 
 /// Of spheres, and of the spheres that hold whole clumps [m].

@@ -9,6 +9,7 @@ use crate::kernel::{Common, Kernel, LEDGER, Task};
 use crate::lane::{BLOCK, Row, Row4, Width};
 use crate::motion::Pose;
 use crate::particles::FAR;
+use crate::seams::Slots;
 use crate::sleep::runs;
 use crate::walls::WallBody;
 use geom::Vec3;
@@ -355,6 +356,8 @@ pub struct Scenery<'a> {
     pub kinds: &'a [Kind],
     pub walls: &'a [WallBody],
     pub poses: &'a [Pose],
+    /// Length of the box along periodic axes, 0 along others [m].
+    pub period: Vec3,
     pub width: Width,
     pub common: Common<'a>,
     /// Who sleeps, where the scene asks for it.
@@ -512,14 +515,18 @@ impl<'a> Part<'a> {
                 }
             }
             With::Wall(w) if lists.new || scenery.walls[w].renewed() => {
+                let columns = kind.kernel.memory();
+                let memory = s.memory - self.from.memory;
+                let memory = &mut self.memory[memory..memory + s.places.len() * columns];
+                let mut slots = Slots { memory, first: 0, columns };
                 let mut from = 0;
                 while from < s.len {
                     let to = from + i[from..].iter().take_while(|&&k| k == i[from]).count();
-                    let centre = &scenery.common.rows[i[from] as usize];
-                    let centre = Vec3::new(centre[0], centre[1], centre[2]);
+                    let row = &scenery.common.rows[i[from] as usize];
                     let rows = &mut self.rows[first + from..first + to];
                     let spins = part_mut(self.spins, first + from, to - from);
-                    scenery.walls[w].meet(&scenery.poses[w], centre, &partner[from..to], rows, spins);
+                    let pose = (&scenery.poses[w], &scenery.period);
+                    scenery.walls[w].meet(pose, row, &partner[from..to], (rows, spins), slots.from(from));
                     from = to;
                 }
             }

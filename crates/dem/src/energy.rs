@@ -8,7 +8,7 @@ use crate::particles::mass;
 use crate::setup::{Particle, Setup};
 use serde::{Deserialize, Serialize};
 
-/// Energy of one instant, and what has left since the start [J].
+/// Energy of one instant, of the particles that are free, and what has come and gone since the start [J].
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Energy {
     /// ½ m v².
@@ -31,11 +31,16 @@ pub struct Energy {
     pub walls: f64,
     /// Kinetic energy of particles that fell asleep.
     pub slept: f64,
+    /// Taken by the fluid.
+    pub drag: f64,
+    /// Brought by particles that became free at a calculation plane, and work of those before it.
+    pub entered: f64,
+    /// Taken along by particles that passed a storage plane, and work on those behind it.
+    pub left: f64,
 }
 
 impl Energy {
-    /// Everything that was there at the start: constant up to the integrator's error, as long as no particle
-    /// enters or leaves.
+    /// Everything that was there at the start: constant up to the integrator's error.
     pub fn balance(&self) -> f64 {
         self.translation
             + self.rotation
@@ -46,7 +51,10 @@ impl Energy {
             + self.rolling
             + self.twisting
             + self.slept
+            + self.drag
+            + self.left
             - self.walls
+            - self.entered
     }
 
     pub(crate) fn of(
@@ -62,14 +70,17 @@ impl Energy {
             twisting: account.dissipated[3],
             walls: account.walls,
             slept: account.slept,
+            drag: account.drag,
+            entered: account.entered,
+            left: account.left,
             elastic: contacts.ledger.chunks_exact(LEDGER).map(|row| row[0]).sum(),
             ..Energy::default()
         };
         for p in particles {
-            let m = mass(p.radius, setup.materials[p.material as usize].density);
-            e.translation += 0.5 * m * p.velocity.norm_squared();
-            e.rotation += 0.2 * m * p.radius * p.radius * p.spin.norm_squared();
-            e.potential -= m * setup.gravity.dot(&p.position);
+            let [translation, rotation, potential] = carried(p, setup);
+            e.translation += translation;
+            e.rotation += rotation;
+            e.potential += potential;
         }
         e
     }
@@ -84,12 +95,27 @@ impl Energy {
     }
 }
 
+/// Translation, rotation, potential of a particle [J]; what a fluid displaced lifts is no longer heavy.
+pub(crate) fn carried(p: &Particle, setup: &Setup) -> [f64; 3] {
+    let density = setup.materials[p.material as usize].density;
+    let m = mass(p.radius, density);
+    let heavy = 1.0 - setup.drag.map_or(0.0, |d| d.lift(density));
+    [
+        0.5 * m * p.velocity.norm_squared(),
+        0.2 * m * p.radius * p.radius * p.spin.norm_squared(),
+        -m * heavy * setup.gravity.dot(&p.position),
+    ]
+}
+
 /// Sums since the start [J].
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Account {
     dissipated: [f64; DISSIPATORS],
     walls: f64,
     pub(crate) slept: f64,
+    pub(crate) drag: f64,
+    pub(crate) entered: f64,
+    pub(crate) left: f64,
 }
 
 impl Account {

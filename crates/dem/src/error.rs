@@ -93,9 +93,24 @@ pub enum SetupError {
     /// An effect that is computed in double precision only.
     #[error("precision: \"mixed\" has no {0}: leave the key out for double precision, or that effect")]
     MixedWithout(String),
+    /// Particles that the fluid does not act on.
+    #[error("drag: not available yet with {0}: leave out one of them")]
+    DragWith(&'static str),
     /// Sleep in a scene with clumps.
     #[error("sleep: clumps (the scene has '{0}') do not sleep: leave out [sleep], or use spheres")]
     ClumpSleep(String),
+    /// An entry that no plane can hold.
+    #[error(
+        "inlet: particle {id} would become free {depth:.4e} m behind wall '{wall}': move the inlet's plane or the wall, or turn the wall's normal round"
+    )]
+    EntryBehindPlane {
+        /// Its id.
+        id: u32,
+        /// How far [m].
+        depth: f64,
+        /// The wall.
+        wall: String,
+    },
     /// A wall that a particle cannot see coming.
     #[error("wall '{wall}': {speed:.4e} m/s is {:.1} % of the smallest radius in a step of {dt:.4e} s (limit {:.1} %): shorten dt, or slow the wall", 100.0 * share, 100.0 * limit)]
     WallTooFast {
@@ -111,7 +126,9 @@ pub enum SetupError {
         limit: f64,
     },
     /// A rotating plane, whose speed has no bound.
-    #[error("wall '{0}': a plane cannot rotate: use a mesh or wall spheres")]
+    #[error(
+        "wall '{0}': an unbounded plane cannot turn but about its own normal: use a mesh or wall spheres, or rotate.about along the normal"
+    )]
     TurningPlane(String),
     /// A saved state of another setup.
     #[error("resume: the saved state does not fit this scene: {0}")]

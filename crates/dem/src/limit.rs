@@ -126,6 +126,17 @@ pub fn critical_step(setup: &Setup) -> Result<Limit, SetupError> {
             tighten(&mut limit, setup, a, Partner::Wall(wall))?;
         }
     }
+    if let Some((rate, radius)) = setup.drag.and_then(|d| d.fastest_rate(setup)) {
+        let with = 1.0 / (1.0 / limit.dt + rate);
+        if with < 0.9 * limit.dt {
+            limit.pair = format!(
+                "[drag] on radius {radius:.4e} m (relaxation time {:.4e} s); {}",
+                1.0 / rate,
+                limit.pair
+            );
+        }
+        limit.dt = with;
+    }
     Ok(limit)
 }
 

@@ -18,15 +18,20 @@ pub struct Pose {
 impl Motion {
     /// Whether the wall moves at all.
     pub fn moves(&self) -> bool {
-        self.velocity != Vec3::zeros() || self.turn != Vec3::zeros() || self.vibrates()
+        self.velocity != Vec3::zeros()
+            || self.turn != Vec3::zeros()
+            || self.vibrates()
+            || self.servo.is_some()
     }
 
     fn vibrates(&self) -> bool {
         self.amplitude != Vec3::zeros() && self.frequency != 0.0
     }
 
-    /// Place and velocity at `time` [s].
+    /// Place and velocity at `time` [s], without the servo.
     pub fn pose(&self, time: f64) -> Pose {
+        let runs = (self.from..self.until).contains(&time);
+        let time = time.max(self.from).min(self.until) - self.from;
         let angle = self.turn.norm() * time;
         let rotation = match Unit::try_new(self.turn, 0.0) {
             Some(axis) => turned(&axis, angle),
@@ -38,10 +43,11 @@ impl Motion {
             shift += self.amplitude * libm::sin(omega * time);
             velocity += self.amplitude * (omega * libm::cos(omega * time));
         }
-        Pose { rotation, through: self.through, shift, velocity, turn: self.turn }
+        let rate = if runs { 1.0 } else { 0.0 };
+        Pose { rotation, through: self.through, shift, velocity: velocity * rate, turn: self.turn * rate }
     }
 
-    /// Upper bound of the speed [m/s] of points no farther than `span` [m] from `through`.
+    /// Upper bound of the speed [m/s], without the servo, of points no farther than `span` [m] from `through`.
     pub fn fastest(&self, span: f64) -> f64 {
         let vibration = 2.0 * std::f64::consts::PI * self.frequency.abs() * self.amplitude.norm();
         self.velocity.norm()
@@ -58,6 +64,16 @@ fn turned(axis: &Unit<Vec3>, angle: f64) -> Matrix3<f64> {
 }
 
 impl Pose {
+    /// The like, shifted by `by` [m] and faster by `speed` [m/s].
+    pub fn shifted(self, by: Vec3, speed: Vec3) -> Pose {
+        Pose { shift: self.shift + by, velocity: self.velocity + speed, ..self }
+    }
+
+    /// How far the wall has been shifted [m], its turn apart.
+    pub fn shift(&self) -> Vec3 {
+        self.shift
+    }
+
     /// Where a point of the wall is that was at `home` [m] at t = 0.
     pub fn place(&self, home: &Vec3) -> Vec3 {
         self.through + self.rotation * (home - self.through) + self.shift

@@ -1,8 +1,10 @@
 //! Makes the lists anew: sorts the particles in space, finds pairs and walls near them, carries contact memory over.
 
 use crate::contacts::{Contacts, Kind, List, Segment, TILE, With};
+use crate::images::{Image, Periods};
 use crate::neighbours::{Pair, SKIN, Search, room};
 use crate::simulation::{Simulation, stride, wrapped};
+use crate::walls::WallBody;
 use geom::Vec3;
 use rayon::prelude::*;
 use std::collections::HashMap;
@@ -15,7 +17,9 @@ impl Simulation {
         if self.setup.skin.is_none() && !self.stale {
             self.skin = SKIN.next(self.skin, self.steps - self.listed, self.grain).max(self.reach);
         }
-        self.wrap();
+        let wraps = self.wrap();
+        let counted_back = std::mem::take(&mut self.counted_back);
+        self.pistons.iter_mut().for_each(|p| p.listed = p.way);
         let mut before = std::mem::take(&mut self.contacts);
         // Freed before anything is listed: old and new together would be the most that a run ever takes.
         let work = std::mem::take(&mut before.work);
@@ -31,8 +35,9 @@ impl Simulation {
         self.follow_fresh(&order);
         self.listed = self.steps;
         self.list_contacts(&search);
-        self.recall(&before, &order);
-        self.recall_work(&before, &order);
+        let moved = (&wraps[..], &counted_back[..]);
+        self.recall(&before, &order, moved);
+        self.recall_work(&before, &order, moved);
         drop(before);
         self.make_room();
         self.out = false;
@@ -48,16 +53,25 @@ impl Simulation {
         self.fresh = self.fresh.iter().filter_map(|k| place.get(k).copied()).collect();
     }
 
-    /// Particles that have left the box through a periodic face come back through the other.
-    fn wrap(&mut self) {
+    /// Particles that have left the box through a periodic face come back through the other. Returns by how many periods each
+    /// was moved; none where nothing is periodic.
+    fn wrap(&mut self) -> Vec<Periods> {
         if self.setup.periodic.iter().all(|p| p.is_none()) {
-            return;
+            return Vec::new();
         }
+        let before: Vec<Vec3> = (0..self.particles.len()).map(|k| self.particles.position(k)).collect();
         for k in (0..self.particles.len()).filter(|&k| !self.bodies.is_member(k)) {
             let p = wrapped(&self.setup.periodic, self.particles.position(k));
             self.particles.rows[k][..3].copy_from_slice(p.as_slice());
         }
         self.bodies.wrap(&mut self.particles, &self.setup.periodic);
+        let period = self.period();
+        let whole = |by: f64, period: f64| if period > 0.0 { (by / period).round() as i32 } else { 0 };
+        let moved = |(k, was): (usize, Vec3)| {
+            let by = self.particles.position(k) - was;
+            [0, 1, 2].map(|a| whole(by[a], period[a]))
+        };
+        before.into_iter().enumerate().map(moved).collect()
     }
 
     /// Gives each particle that stays its home and its room there, and sorts them.
@@ -88,9 +102,9 @@ impl Simulation {
     }
 
     fn list_contacts(&mut self, search: &Search) {
+        self.counted_back = self.travelled();
         let count = self.particles.len();
         let wide = search.wide_pairs();
-        let time = self.listed as f64 * self.dt;
         let class = self.classes(With::Particles);
         let tiles: Vec<Vec<List>> = (0..count.div_ceil(TILE))
             .into_par_iter()
@@ -103,7 +117,7 @@ impl Simulation {
                 for (i, j) in pairs {
                     lists[class.of(material(i), material(j))].push(i, j);
                 }
-                self.list_walls(range, time, &mut lists);
+                self.list_walls(range, &mut lists);
                 lists
             })
             .collect();
@@ -113,15 +127,20 @@ impl Simulation {
         }
     }
 
-    fn list_walls(&self, range: Range<usize>, time: f64, lists: &mut [List]) {
+    fn list_walls(&self, range: Range<usize>, lists: &mut [List]) {
         for (kind, list) in self.kinds.iter().zip(lists) {
             let With::Wall(w) = kind.with else { continue };
-            let (pose, moves) = (self.walls[w].motion.pose(time), self.wall_room(w));
+            let wall = &self.walls[w];
+            let (pose, moves) = (self.count_back(w, self.pose_listed(w)), self.wall_room(w));
+            let around = self.around(w, &pose);
             for k in range.clone().filter(|&k| self.particles.material[k] == kind.between.0) {
                 let home = &self.particles.home[k];
-                let place = pose.home(&Vec3::new(home[0], home[1], home[2]));
-                self.walls[w]
-                    .parts_near(place, self.particles.reach(k) + moves, |part| list.push(k as u32, part));
+                let (place, reach) = (Vec3::new(home[0], home[1], home[2]), self.particles.reach(k) + moves);
+                for (image, shift) in around.near(&place, reach) {
+                    let first = image.0 * wall.parts();
+                    let found = |part| list.push(k as u32, first + part);
+                    wall.parts_near(pose.home(&(place - shift)), reach, image.0 > 0, found);
+                }
             }
         }
     }
@@ -159,7 +178,7 @@ impl Simulation {
     }
 
     /// Gives each new contact the memory that it had; `order` tells each particle's old place.
-    fn recall(&mut self, before: &Contacts, order: &[u32]) {
+    fn recall(&mut self, before: &Contacts, order: &[u32], moved: Moved) {
         let kinds = &self.kinds;
         let mut memory = std::mem::take(&mut self.contacts.memory);
         if !memory.is_empty() && !before.memory.is_empty() {
@@ -172,18 +191,18 @@ impl Simulation {
                 rest = others;
                 pieces.push((s, mine));
             }
-            let old = Remembered { kinds, before, order };
+            let old = self.remembered(before, order, moved);
             pieces.into_par_iter().for_each(|(s, memory)| old.recall(now, s, memory));
         }
         self.contacts.memory = memory;
     }
 
     /// Gives each new contact the work that it has done. What contacts have done that are no longer listed is lost to records.
-    fn recall_work(&mut self, before: &Contacts, order: &[u32]) {
+    fn recall_work(&mut self, before: &Contacts, order: &[u32], moved: Moved) {
         if before.work.is_empty() {
             return;
         }
-        let old = Remembered { kinds: &self.kinds, before, order };
+        let old = self.remembered(before, order, moved);
         let mut work = vec![0.0; self.contacts.i.len()];
         for s in &self.contacts.segments {
             for place in s.contacts() {
@@ -192,6 +211,17 @@ impl Simulation {
             }
         }
         self.contacts.work = work;
+    }
+
+    fn remembered<'a>(
+        &'a self,
+        before: &'a Contacts,
+        order: &'a [u32],
+        (wraps, counted_back): Moved<'a>,
+    ) -> Remembered<'a> {
+        let back = |(now, was): (&Periods, &Periods)| [0, 1, 2].map(|a| was[a] - now[a]);
+        let back = self.counted_back.iter().zip(counted_back).map(back).collect();
+        Remembered { kinds: &self.kinds, walls: &self.walls, before, order, wraps, back }
     }
 
     fn classes(&self, with: With) -> Classes {
@@ -248,11 +278,19 @@ fn half_of_shifts(periodic: &[Option<(f64, f64)>; 3]) -> Vec<Vec3> {
     shifts
 }
 
+/// By how many periods particles were moved, by their old places, and how far walls were counted back before.
+type Moved<'a> = (&'a [Periods], &'a [Periods]);
+
 /// Lists and memory as they were before: what new contacts remember from.
 struct Remembered<'a> {
     kinds: &'a [Kind],
+    walls: &'a [WallBody],
     before: &'a Contacts,
     order: &'a [u32],
+    /// By how many periods each particle was moved, by its old place; or none.
+    wraps: &'a [Periods],
+    /// By how many periods less each wall is counted back; or none.
+    back: Vec<Periods>,
 }
 
 impl Remembered<'_> {
@@ -278,9 +316,12 @@ impl Remembered<'_> {
 
     /// Where a contact was: its segment and place, and whether its partners were the other way round.
     fn find(&self, kind: usize, i: u32, partner: u32) -> Option<(&Segment, usize, bool)> {
-        let wall = matches!(self.kinds[kind].with, With::Wall(_));
         let old = |k: u32| self.order[k as usize];
-        let (i, partner) = (old(i), if wall { partner } else { old(partner) });
+        let i = old(i);
+        let (wall, partner) = match self.kinds[kind].with {
+            With::Wall(w) => (true, self.part_before(w, i, partner)),
+            _ => (false, old(partner)),
+        };
         let range =
             *self.before.starts.get(i as usize)? as usize..*self.before.starts.get(i as usize + 1)? as usize;
         self.before.entries[range].iter().find_map(|&entry| {
@@ -295,5 +336,14 @@ impl Remembered<'_> {
             let same = if wall { segment.kind == kind } else { !matches!(with, With::Wall(_)) };
             same.then_some((segment, place, second))
         })
+    }
+
+    /// Part and image of a wall, as they were before a particle (by its old place) and the wall were moved by whole periods.
+    fn part_before(&self, wall: usize, particle: u32, partner: u32) -> u32 {
+        let (Some(wrap), Some(back)) = (self.wraps.get(particle as usize), self.back.get(wall)) else {
+            return partner;
+        };
+        let parts = self.walls[wall].parts();
+        Image(partner / parts).before(*wrap, *back).0 * parts + partner % parts
     }
 }

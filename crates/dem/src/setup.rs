@@ -5,6 +5,8 @@ use nalgebra::UnitQuaternion;
 use serde::{Deserialize, Serialize};
 
 pub use crate::bodies::ClumpShape;
+pub use crate::drag::{Drag, DragLaw};
+pub use crate::servo::Servo;
 pub use crate::sleep::Sleep;
 
 /// Everything that a run needs. SI units throughout.
@@ -12,6 +14,8 @@ pub use crate::sleep::Sleep;
 pub struct Setup {
     /// Acceleration of free fall [m/s²].
     pub gravity: Vec3,
+    /// The fluid around the particles; `None`: none.
+    pub drag: Option<Drag>,
     /// Materials, by index.
     pub materials: Vec<Material>,
     /// Laws of contact between pairs of materials; a pair that can meet must have one.
@@ -232,8 +236,10 @@ pub enum WallShape {
 /// Rigid motion: a turn about a fixed axis, then a shift.
 ///
 /// ```text
-/// x(t) = c + R(Ω t)(x₀ − c) + v t + a sin(2π f t) d
+/// x(t) = c + R(Ω τ)(x₀ − c) + v τ + a sin(2π f τ) d + s(t) e      τ = min(max(t, from), until) − from
 /// ```
+///
+/// s is the way of a servo, along its direction e.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Motion {
     /// v [m/s].
@@ -246,13 +252,28 @@ pub struct Motion {
     pub amplitude: Vec3,
     /// f [Hz].
     pub frequency: f64,
+    /// When it starts to move [s].
+    pub from: f64,
+    /// When it stops, where it is then [s]; ∞: never.
+    pub until: f64,
+    /// Whether it follows a force besides.
+    pub servo: Option<Servo>,
 }
 
 impl Motion {
     /// A wall at rest.
     pub fn still() -> Motion {
         let zero = Vec3::zeros();
-        Motion { velocity: zero, turn: zero, through: zero, amplitude: zero, frequency: 0.0 }
+        Motion {
+            velocity: zero,
+            turn: zero,
+            through: zero,
+            amplitude: zero,
+            frequency: 0.0,
+            from: 0.0,
+            until: f64::INFINITY,
+            servo: None,
+        }
     }
 }
 

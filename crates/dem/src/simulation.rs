@@ -9,17 +9,20 @@ use crate::contacts::{Contacts, Kind, With};
 use crate::energy::{Account, Energy};
 use crate::error::{Halt, SetupError};
 use crate::explain::needed;
+use crate::images::Periods;
 use crate::kernel::{FORCE, FORCE_AND_MOMENT};
 use crate::lane::{Row, Row4, Width};
 use crate::law::{Elastic, compose};
 use crate::limit::{contact_between, critical_step, largest_reach, radii_by_material};
 use crate::particles::Particles;
+use crate::servo::Piston;
 use crate::setup::{Entry, Particle, Setup, Step};
 use crate::sleep::Sleepers;
 use crate::sweep::Pass;
 use crate::walls::WallBody;
 use crate::zones::Zones;
 use geom::Vec3;
+use std::collections::BTreeSet;
 
 /// Steps that rooms are made for; chosen on the bench pile.
 const HORIZON: f64 = 100.0;
@@ -34,6 +37,12 @@ pub struct Simulation {
     pub(crate) width: Width,
     pub(crate) particles: Particles,
     pub(crate) walls: Vec<WallBody>,
+    /// Servos, by wall; empty where no wall follows a force.
+    pub(crate) pistons: Vec<Piston>,
+    /// What their gain is made of, by wall [N·s/m].
+    pub(crate) answers: Vec<f64>,
+    /// Whole periods that walls had travelled when neighbours were listed; empty where nothing is periodic.
+    pub(crate) counted_back: Vec<Periods>,
     pub(crate) kinds: Vec<Kind>,
     pub(crate) contacts: Contacts,
     /// Where the next step is written.
@@ -96,6 +105,7 @@ impl Simulation {
         slow_enough(&setup, &walls, dt)?;
         let zones = Zones::new(&setup, &particles);
         let sleepers = setup.sleep.map(|s| Sleepers::new(s, dt, setup.gravity.norm(), particles.len()));
+        let (pistons, answers) = (crate::servo::pistons(&setup), crate::servo::answers(&setup, &kinds, dt));
         // They are in their columns now.
         let setup = Setup { particles: Vec::new(), clumps: setup.clumps.without_bodies(), ..setup };
         Ok(Simulation {
@@ -106,6 +116,9 @@ impl Simulation {
             width,
             particles,
             walls,
+            pistons,
+            answers,
+            counted_back: Vec::new(),
             kinds,
             contacts: Contacts::default(),
             next_rows: Vec::new(),
@@ -168,7 +181,7 @@ impl Simulation {
 
     /// Wall spheres of a wall, as they are now: centre, radius [m], in the order they were given.
     pub fn wall_spheres(&self, wall: usize) -> Vec<(Vec3, f64)> {
-        self.walls[wall].spheres(self.time())
+        self.walls[wall].spheres(&self.pose(wall, self.time()))
     }
 
     /// Whether a wall moves.
@@ -210,11 +223,12 @@ impl Simulation {
             .map(|k| {
                 let row = &p.rows[k];
                 let free = !self.zones.travels(k);
+                let body = self.body_acceleration(row);
                 let (force, moment) = loads.on(k, p.rotates());
                 let (mut v, mut w) = (Vec3::new(row[4], row[5], row[6]), Vec3::zeros());
                 for a in 0..3 {
                     if free {
-                        v[a] += half * (force[a] * row[7] + self.setup.gravity[a] - p.acceleration[k][a]);
+                        v[a] += half * (force[a] * row[7] + body[a] - p.acceleration[k][a]);
                     }
                     if p.rotates() {
                         w[a] = p.spins[k][a];
@@ -248,6 +262,12 @@ impl Simulation {
     /// When the state is beyond a guard.
     pub fn energy(&mut self) -> Result<Energy, Halt> {
         let mut particles = self.particles()?;
+        if !self.zones.none() {
+            let all = 0..self.particles.len();
+            let travelling: BTreeSet<u32> =
+                all.filter(|&k| self.zones.travels(k)).map(|k| self.particles.id[k]).collect();
+            particles.retain(|p| !travelling.contains(&p.id));
+        }
         let bodies = self.bodies()?;
         let body_of = |id: u32| bodies[..bodies.partition_point(|b| b.id <= id)].last();
         particles.retain(|p| !body_of(p.id).is_some_and(|b| b.has(p.id)));
@@ -284,12 +304,14 @@ impl Simulation {
         if self.setup.ledger {
             self.account.add(&self.kinds, &self.contacts);
             self.contacts.add_work();
+            self.account_zones();
         }
         if let Some(sleepers) = &mut self.sleepers {
             self.account.slept += sleepers.turn();
         }
         let moved = self.move_bodies(found.moved);
-        self.out = moved.out;
+        self.drive_pistons();
+        self.out = moved.out | self.apply_drag();
         self.steps += 1;
         self.current = false;
         if !self.zones.none() {
@@ -326,7 +348,7 @@ impl Simulation {
     /// Whether a particle or a wall may have left the room that neighbours were listed for.
     fn lists_expired(&self) -> bool {
         let since = (self.steps - self.listed) as f64 * self.dt;
-        self.out || (0..self.walls.len()).any(|w| self.walls[w].fastest() * since > self.wall_room(w))
+        self.out || (0..self.walls.len()).any(|w| self.wall_way(w, since) > self.wall_room(w))
     }
 
     /// Particles without a past get the acceleration of this instant as that of the step before.
@@ -337,9 +359,9 @@ impl Simulation {
             let loads = self.all_loads();
             let (force, m) = loads.on(k, rotates);
             let row = self.particles.rows[k];
-            let mut a = Row4::default();
+            let (mut a, body) = (Row4::default(), self.body_acceleration(&row));
             for (axis, value) in a.iter_mut().enumerate().take(3) {
-                *value = force[axis] * row[7] + self.setup.gravity[axis];
+                *value = force[axis] * row[7] + body[axis];
             }
             self.particles.acceleration[k] = a;
             if rotates {

@@ -4,6 +4,7 @@ use crate::bodies::Bodies;
 use crate::energy::Account;
 use crate::error::SetupError;
 use crate::particles::Particles;
+use crate::servo::Piston;
 use crate::setup::{Setup, Step};
 use crate::simulation::Simulation;
 use crate::sleep::Sleepers;
@@ -25,6 +26,7 @@ pub struct State {
     zones: Zones,
     bodies: Bodies,
     sleepers: Option<Sleepers>,
+    pistons: Vec<Piston>,
     account: Account,
     listings: u64,
     /// Contact memory, by place.
@@ -50,6 +52,7 @@ pub struct StateView<'a> {
     zones: &'a Zones,
     bodies: &'a Bodies,
     sleepers: Option<&'a Sleepers>,
+    pistons: &'a [Piston],
     account: Account,
     listings: u64,
     memory: &'a [f64],
@@ -73,6 +76,7 @@ impl StateView<'_> {
             zones: self.zones.clone(),
             bodies: self.bodies.clone(),
             sleepers: self.sleepers.cloned(),
+            pistons: self.pistons.to_vec(),
             account: self.account,
             listings: self.listings,
             memory: self.memory.to_vec(),
@@ -110,6 +114,7 @@ impl Simulation {
             zones: &self.zones,
             bodies: &self.bodies,
             sleepers: self.sleepers.as_ref(),
+            pistons: &self.pistons,
             account: self.account,
             listings: self.listings,
             memory: &self.contacts.memory,
@@ -140,6 +145,10 @@ impl Simulation {
         (sim.particles, sim.zones, sim.account) = (state.particles, state.zones, state.account);
         sim.bodies = state.bodies;
         (sim.fresh, sim.listings, sim.sleepers) = (state.fresh, state.listings, state.sleepers);
+        if sim.pistons.len() != state.pistons.len() {
+            return Err(other("one has walls that follow a force and the other has not"));
+        }
+        sim.pistons = state.pistons;
         if state.listings > 0 {
             // Those who have left since were still there when neighbours were listed.
             for (k, home) in sim.zones.left.clone() {

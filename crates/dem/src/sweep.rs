@@ -67,7 +67,7 @@ struct Shared<'a> {
 impl Simulation {
     /// Computes loads, moves particles, or both.
     pub(crate) fn pass(&mut self, pass: Pass) -> Found {
-        let poses = self.poses();
+        let (poses, period) = (self.poses(), self.period());
         let stride = stride(self.particles.rotates());
         let Particles { rows, acceleration, spins, turning, home, .. } = &mut self.particles;
         let (dt, width, count) = (self.dt, self.width, acceleration.len());
@@ -76,7 +76,7 @@ impl Simulation {
         let beds = self.sleepers.as_mut().map(|s| s.beds(self.zones.busy()));
         let asleep = beds.as_ref().map(Beds::asleep);
         let (kinds, walls) = (&self.kinds, &self.walls);
-        let scenery = Scenery { kinds, walls, poses: &poses, width, common, asleep };
+        let scenery = Scenery { kinds, walls, poses: &poses, period, width, common, asleep };
         let columns = Columns {
             first: 0,
             rows: &rows[..count],
@@ -107,17 +107,17 @@ impl Simulation {
     /// Where walls are now.
     fn poses(&self) -> Vec<Pose> {
         let time = self.time();
-        self.walls.iter().map(|w| w.motion.pose(time)).collect()
+        (0..self.walls.len()).map(|w| self.pose_in_box(w, time)).collect()
     }
 
     /// Contact points of images and walls, without loads.
     pub(crate) fn find_contact_points(&mut self) {
-        let poses = self.poses();
+        let (poses, period) = (self.poses(), self.period());
         let stride = stride(self.particles.rotates());
         let Particles { rows, spins, .. } = &self.particles;
         let common = Common { dt: self.dt, overlap_limit: self.setup.guards.overlap, rows, spins, stride };
         let (kinds, walls, width) = (&self.kinds, &self.walls, self.width);
-        let scenery = Scenery { kinds, walls, poses: &poses, width, common, asleep: None };
+        let scenery = Scenery { kinds, walls, poses: &poses, period, width, common, asleep: None };
         let (lists, mut part) = self.contacts.parts(stride);
         for segment in part.segments {
             part.renew(segment, &lists, &scenery);

@@ -1,17 +1,16 @@
 //! Walls: a shape × a motion, yielding contact points that are rows like a particle's.
 //!
 //! A wall sphere is its centre and radius; a plane or a triangle is the point of it that is nearest to the particle, with radius
-//! 0. A wall has no mass of its own in a contact (1/m = 0, so m* = m_i).
+//! 0. A wall has no mass of its own in a contact (1/m = 0, so m* = m_i). Across a periodic face its images act: the partner
+//! of a contact tells part and image ([`crate::images`]).
 
+use crate::images::Image;
 use crate::lane::{Row, Row4};
 use crate::motion::Pose;
 use crate::particles::FAR;
+use crate::seams::{self, Nearest, Slots};
 use crate::setup::{Motion, Wall, WallShape};
-use geom::triangle::{Feature, closest_feature};
-use geom::{Grid, Plane, Vec3};
-
-/// Two points of a mesh closer than this share of the radius are one contact [–].
-const SAME_POINT: f64 = 1e-6;
+use geom::{Boxes, Grid, Plane, Vec3};
 
 /// A wall, ready to be met.
 #[derive(Debug, Clone)]
@@ -20,6 +19,8 @@ pub struct WallBody {
     pub motion: Motion,
     surface: Surface,
     span: f64,
+    /// Lowest and highest corner at t = 0 [m].
+    pub bounds: [Vec3; 2],
 }
 
 #[derive(Debug, Clone)]
@@ -33,11 +34,14 @@ enum Surface {
         original: Vec<u32>,
     },
     Plane(Plane),
-    Triangles(Vec<[Vec3; 3]>),
+    Triangles {
+        corners: Vec<[Vec3; 3]>,
+        boxes: Boxes,
+    },
 }
 
 impl WallBody {
-    /// Sorts wall spheres into their own grid, once.
+    /// Sorts wall spheres into their own grid and triangles into their tree, once.
     pub fn new(wall: &Wall) -> WallBody {
         let reach = |points: &mut dyn Iterator<Item = Vec3>| {
             points.map(|p| (p - wall.motion.through).norm()).fold(0.0, f64::max)
@@ -48,13 +52,17 @@ impl WallBody {
                 let span = reach(&mut spheres.iter().map(|s| s.0)) + largest;
                 (sorted_spheres(spheres, largest), span)
             }
+            // Only a plane that turns in itself may turn.
             WallShape::Plane(plane) => (Surface::Plane(*plane), 0.0),
             WallShape::Mesh(mesh) => {
                 let span = reach(&mut mesh.vertices.iter().copied());
-                (Surface::Triangles(mesh.triangles().collect()), span)
+                let corners: Vec<[Vec3; 3]> = mesh.triangles().collect();
+                let around = |t: &[Vec3; 3]| [t[0].inf(&t[1]).inf(&t[2]), t[0].sup(&t[1]).sup(&t[2])];
+                let boxes: Vec<[Vec3; 2]> = corners.iter().map(around).collect();
+                (Surface::Triangles { boxes: Boxes::new(&boxes), corners }, span)
             }
         };
-        WallBody { motion: wall.motion, surface, span }
+        WallBody { motion: wall.motion, bounds: bounds(&surface), surface, span }
     }
 
     /// Whether contact points must be found anew in each step.
@@ -69,13 +77,35 @@ impl WallBody {
 
     /// Upper bound of the speed of its surface [m/s].
     pub fn fastest(&self) -> f64 {
+        self.fastest_driven() + self.motion.servo.map_or(0.0, |s| s.speed_limit)
+    }
+
+    /// The like without the servo.
+    pub fn fastest_driven(&self) -> f64 {
         self.motion.fastest(self.span)
     }
 
-    /// Wall spheres now: centre and radius [m], in the order they were given.
-    pub fn spheres(&self, time: f64) -> Vec<(Vec3, f64)> {
+    /// A point of the wall at t = 0, and where it is to be near [m]: its middle in the middle of the box, a plane where it
+    /// began, so that no more than must be is behind it.
+    pub fn counted_from(&self, middle: Vec3) -> (Vec3, Vec3) {
+        match &self.surface {
+            Surface::Plane(plane) => (plane.point, plane.point),
+            _ => ((self.bounds[0] + self.bounds[1]) * 0.5, middle),
+        }
+    }
+
+    /// Number of its spheres or triangles.
+    pub fn parts(&self) -> u32 {
+        match &self.surface {
+            Surface::Spheres { centres, .. } => centres.len() as u32,
+            Surface::Plane(_) => 1,
+            Surface::Triangles { corners, .. } => corners.len() as u32,
+        }
+    }
+
+    /// Wall spheres: centre and radius [m], in the order they were given.
+    pub fn spheres(&self, pose: &Pose) -> Vec<(Vec3, f64)> {
         let Surface::Spheres { centres, radii, original, .. } = &self.surface else { return Vec::new() };
-        let pose = self.motion.pose(time);
         let mut out = vec![(Vec3::zeros(), 0.0); centres.len()];
         for (k, &o) in original.iter().enumerate() {
             out[o as usize] = (pose.place(&centres[k]), radii[k]);
@@ -83,8 +113,8 @@ impl WallBody {
         out
     }
 
-    /// Parts of the wall, as at t = 0, within `reach` [m] of `p`, in order.
-    pub fn parts_near(&self, p: Vec3, reach: f64, mut found: impl FnMut(u32)) {
+    /// Parts of the wall, as at t = 0, within `reach` [m] of `p`, in order; of an image of it when `image`.
+    pub fn parts_near(&self, p: Vec3, reach: f64, image: bool, mut found: impl FnMut(u32)) {
         match &self.surface {
             Surface::Spheres { centres, radii, grid, largest, .. } => {
                 for k in grid.runs_near(p, reach + largest).flatten() {
@@ -95,48 +125,65 @@ impl WallBody {
                 }
             }
             Surface::Plane(plane) => {
-                if plane.signed_distance(&p) < reach {
+                // Behind a plane is where it is to be noticed; behind its image is the next period.
+                let distance = plane.signed_distance(&p);
+                if distance < reach && (!image || distance > -reach) {
                     found(0);
                 }
             }
-            Surface::Triangles(triangles) => {
-                for (k, t) in triangles.iter().enumerate() {
-                    let (lo, hi) = (t[0].inf(&t[1]).inf(&t[2]), t[0].sup(&t[1]).sup(&t[2]));
-                    let outside = (0..3).any(|a| p[a] < lo[a] - reach || p[a] > hi[a] + reach);
-                    if !outside && (closest_feature(*t, p).0 - p).norm_squared() < reach * reach {
-                        found(k as u32);
+            Surface::Triangles { corners, boxes } => {
+                let mut near = Vec::new();
+                boxes.near(p, reach, |k| near.push(k));
+                near.sort_unstable();
+                for k in near {
+                    if Nearest::of(corners[k as usize], p).way.norm_squared() < reach * reach {
+                        found(k);
                     }
                 }
             }
         }
     }
 
-    /// Contact points of one particle at `centre` [m]: `parts` are all the parts it may touch.
-    pub fn meet(&self, pose: &Pose, centre: Vec3, parts: &[u32], rows: &mut [Row], spins: &mut [Row4]) {
-        let local = pose.home(&centre);
+    /// Contact points of one particle, whose place and radius are `row`: `partners` are all that it may touch.
+    pub fn meet(
+        &self,
+        (pose, period): (&Pose, &Vec3),
+        row: &Row,
+        partners: &[u32],
+        (rows, spins): (&mut [Row], &mut [Row4]),
+        mut slots: Slots,
+    ) {
+        let centre = Vec3::new(row[0], row[1], row[2]);
+        let count = self.parts();
+        let part = |k: usize| (partners[k] % count) as usize;
+        let shift = |k: usize| Image(partners[k] / count).shift(period);
         let mut put = |k: usize, place: Vec3, radius: f64| {
-            let v = pose.velocity(&place);
-            rows[k] = Row([place.x, place.y, place.z, radius, v.x, v.y, v.z, 0.0]);
+            let shift = shift(k);
+            let (v, p) = (pose.velocity(&place), place + shift);
+            rows[k] = Row([p.x, p.y, p.z, radius, v.x, v.y, v.z, 0.0]);
             if let Some(spin) = spins.get_mut(k) {
                 *spin = Row4([pose.turn.x, pose.turn.y, pose.turn.z, 0.0]);
             }
         };
         match &self.surface {
             Surface::Spheres { centres, radii, .. } => {
-                for (k, &part) in parts.iter().enumerate() {
-                    put(k, pose.place(&centres[part as usize]), radii[part as usize]);
-                }
+                (0..partners.len()).for_each(|k| put(k, pose.place(&centres[part(k)]), radii[part(k)]));
             }
             Surface::Plane(plane) => {
-                for k in 0..parts.len() {
-                    put(k, pose.place(&plane.project(&local)), 0.0);
+                for k in 0..partners.len() {
+                    put(k, pose.place(&plane.project(&pose.home(&(centre - shift(k))))), 0.0);
                 }
             }
-            Surface::Triangles(triangles) => {
-                let points = one_contact_each(triangles, local, parts);
-                for (k, point) in points.into_iter().enumerate() {
+            Surface::Triangles { corners, .. } => {
+                let local = |k: usize| pose.home(&(centre - shift(k)));
+                let mut near: Vec<Nearest> =
+                    (0..partners.len()).map(|k| Nearest::of(corners[part(k)], local(k))).collect();
+                seams::count(&mut near, row[3]);
+                slots.hand_over(&near, row[3]);
+                for (k, point) in near.iter().enumerate() {
                     // What is no contact of its own is put out of reach.
-                    put(k, point.map_or(Vec3::repeat(FAR[1][0]), |p| pose.place(&p)), 0.0);
+                    let far = Vec3::repeat(FAR[1][0]);
+                    put(k, if point.counts { pose.place(&(local(k) + point.way)) } else { far }, 0.0);
                 }
             }
         }
@@ -153,29 +200,18 @@ fn sorted_spheres(spheres: &[(Vec3, f64)], largest: f64) -> Surface {
     Surface::Spheres { centres, radii, grid, largest, original: order }
 }
 
-/// The nearest points of some triangles, without those that are the same contact again: a particle on the seam
-/// of two triangles touches once, in a corner between two faces twice.
-///
-/// Points inside a face come first; a point on an edge or at a corner counts only where it does not lie on a
-/// triangle that is in contact already. After Kremmer & Favier (2001), Int. J. Numer. Methods Eng. 51.
-fn one_contact_each(triangles: &[[Vec3; 3]], p: Vec3, parts: &[u32]) -> Vec<Option<Vec3>> {
-    let near: Vec<(Vec3, Feature)> =
-        parts.iter().map(|&t| closest_feature(triangles[t as usize], p)).collect();
-    let mut points: Vec<Option<Vec3>> =
-        near.iter().map(|&(point, feature)| (feature == Feature::Face).then_some(point)).collect();
-    let mut rest: Vec<usize> = (0..parts.len()).filter(|&k| points[k].is_none()).collect();
-    rest.sort_by(|&a, &b| {
-        (near[a].0 - p).norm_squared().total_cmp(&(near[b].0 - p).norm_squared()).then(a.cmp(&b))
-    });
-    for k in rest {
-        let point = near[k].0;
-        let tolerance = SAME_POINT * (point - p).norm();
-        let lies_on =
-            |m: usize| (closest_feature(triangles[parts[m] as usize], point).0 - point).norm() <= tolerance;
-        let covered = (0..parts.len()).any(|m| points[m].is_some() && lies_on(m));
-        if !covered {
-            points[k] = Some(point);
+/// Lowest and highest corner; a plane has none along the axes that lie in it, so that it has no image there.
+fn bounds(surface: &Surface) -> [Vec3; 2] {
+    match surface {
+        Surface::Spheres { centres, radii, .. } => {
+            let (lo, hi) = geom::grid::bounds(centres);
+            let largest = Vec3::repeat(radii.iter().copied().fold(0.0, f64::max));
+            [lo - largest, hi + largest]
         }
+        Surface::Plane(plane) => {
+            let across = plane.normal.map(|n| if n.abs() > 1e-9 { f64::INFINITY } else { f64::NAN });
+            [-across, across]
+        }
+        Surface::Triangles { boxes, .. } => boxes.bounds(),
     }
-    points
 }

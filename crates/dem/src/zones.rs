@@ -6,10 +6,13 @@
 //!
 //! A traveller's row is overwritten after each move, so that the move itself knows nothing of zones.
 
+use crate::contacts::With;
+use crate::energy::carried;
 use crate::error::SetupError;
+use crate::kernel::LEDGER;
 use crate::lane::Row4;
 use crate::particles::Particles;
-use crate::setup::{Crossing, Entry, Particle, Setup, Zone};
+use crate::setup::{Crossing, Entry, Particle, Setup, WallShape, Zone};
 use crate::simulation::Simulation;
 use geom::Vec3;
 use serde::{Deserialize, Serialize};
@@ -174,6 +177,7 @@ impl Zones {
                 "above 0",
             );
         }
+        free_in_front(&entry.particle, zone, setup)?;
         let members = entry.clump.map_or(1, |c| setup.clumps.shapes[c.shape as usize].spheres.len() as u32);
         for id in (0..members).map(|k| id.wrapping_add(k)) {
             if !self.ids.insert(id) {
@@ -186,7 +190,51 @@ impl Zones {
     }
 }
 
+/// Refuses an entry that becomes free behind a plane at rest.
+fn free_in_front(p: &Particle, zone: &Zone, setup: &Setup) -> Result<(), SetupError> {
+    let rate = zone.plane.normal.dot(&p.velocity);
+    let free = p.position - p.velocity * (zone.plane.signed_distance(&p.position) / rate);
+    for wall in setup.walls.iter().filter(|w| !w.motion.moves()) {
+        let WallShape::Plane(plane) = &wall.shape else { continue };
+        let depth = -plane.signed_distance(&free);
+        if depth >= 0.0 {
+            return Err(SetupError::EntryBehindPlane { id: p.id, depth, wall: wall.name.clone() });
+        }
+    }
+    Ok(())
+}
+
 impl Simulation {
+    /// The ledger of one step: what contacts do to travellers goes in or out, because nothing acts on them.
+    pub(crate) fn account_zones(&mut self) {
+        for t in &self.zones.travellers {
+            let work = self.power(t.at as usize, &t.start) * self.dt;
+            match t.way {
+                Way::In(_) => self.account.entered -= work,
+                Way::Out(_) => self.account.left += work,
+            }
+        }
+    }
+
+    /// Of the contacts of particle `k` on it [W], in the step before the last move.
+    fn power(&self, k: usize, state: &Particle) -> f64 {
+        let (force, moment) = self.all_loads().on(k, self.particles.rotates());
+        Vec3::from(force).dot(&state.velocity) + Vec3::from(moment).dot(&state.spin)
+    }
+
+    /// Elastic energy [J] of the contacts of particle `k` with those that have not left before it.
+    fn held(&self, k: usize) -> f64 {
+        let c = &self.contacts;
+        let entries = &c.entries[c.starts[k] as usize..c.starts[k + 1] as usize];
+        let of = |&entry: &u32| {
+            let (place, second) = ((entry >> 1) as usize, entry & 1 == 1);
+            let wall = matches!(self.kinds[c.segment_of(place).kind].with, With::Wall(_));
+            let other = if second { c.i[place] } else { c.partner[place] } as usize;
+            if !wall && self.zones.is_gone(other) { 0.0 } else { c.ledger[place * LEDGER] }
+        };
+        entries.iter().map(of).sum()
+    }
+
     /// Adds entries that are due, and those due soon, to the particles.
     pub(crate) fn admit(&mut self) {
         let now = self.time();
@@ -253,6 +301,10 @@ impl Simulation {
                     let inside =
                         now < t.since || self.zones.inlets[i as usize].plane.signed_distance(&centre) < 0.0;
                     if !inside {
+                        if self.setup.ledger {
+                            let free = Particle { position: place, ..t.start };
+                            self.account.entered += carried(&free, &self.setup).iter().sum::<f64>();
+                        }
                         self.release(t.at as usize, place, t.start.velocity);
                     }
                     inside
@@ -275,6 +327,9 @@ impl Simulation {
 
     /// Out of everyone's reach until the next listing drops it.
     fn exclude(&mut self, k: usize) {
+        if self.setup.ledger {
+            self.account.left += self.held(k);
+        }
         self.zones.left.push((k as u32, self.particles.home[k]));
         // Each to a place of its own: two at one place would overlap.
         let far = [-1e100 * (k + 1) as f64; 3];
@@ -323,6 +378,10 @@ impl Simulation {
             let (start, since) = (crossing.particle, crossing.time);
             let traveller = Traveller { at: k as u32, since, start, centre: start.position, way };
             let after = self.time() - crossing.time;
+            if self.setup.ledger {
+                let carried: f64 = carried(&crossing.particle, &self.setup).iter().sum();
+                self.account.left += carried + self.power(k, &crossing.particle) * after;
+            }
             self.zones.busy[k] = true;
             if let Some(sleepers) = &mut self.sleepers {
                 sleepers.rouse(k);

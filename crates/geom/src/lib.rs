@@ -1,5 +1,6 @@
 //! Geometry that every other crate stands on: vectors, the cell grid, shapes, planes, triangle meshes.
 
+mod boxes;
 pub mod grid;
 mod inside;
 pub mod mesh;
@@ -12,6 +13,7 @@ mod shown;
 pub mod triangle;
 mod union;
 
+pub use boxes::Boxes;
 pub use grid::Grid;
 pub use moments::Moments;
 pub use numbers::NumbersError;

@@ -1,7 +1,7 @@
 //! Values that a key may have.
 
 use crate::error::{SceneError, ValueError, nearest};
-use crate::model::{Diameter, Model, OrAuto, Wall};
+use crate::model::{Diameter, Drag, DragLaw, Model, OrAuto, Servo, Wall};
 use crate::text::Text;
 use std::fmt::Display;
 
@@ -106,6 +106,7 @@ impl Check<'_> {
         self.positive_if("output.every", m.output.every, "s")?;
         self.positive_if("output.checkpoint", m.output.checkpoint, "s")?;
         self.positive_if("neighbours.skin", m.neighbours.skin, "m")?;
+        m.drag.as_ref().map_or(Ok(()), |d| self.drag(d))?;
         self.positive_if("guards.overlap", m.guards.overlap, "")?;
         self.positive_if("guards.motion", m.guards.motion, "")?;
         self.within("first_id", f64::from(m.first_id), 0.0, 4e9, "")?;
@@ -123,6 +124,17 @@ impl Check<'_> {
             self.length(&format!("inlet.{i}.length"), o.length)?;
         }
         Ok(())
+    }
+
+    fn drag(&self, d: &Drag) -> Checked {
+        self.positive("drag.viscosity", d.viscosity, "Pa·s")?;
+        self.positive_if("drag.density", d.density, "kg/m³")?;
+        if d.density.is_none() && (d.buoyancy || d.law == DragLaw::SchillerNaumann) {
+            let why = "is missing, and \"schiller-naumann\" and buoyancy need it";
+            let cure = "add the density of the fluid [kg/m³], such as 1.2 for air or 1000 for water";
+            return Err(self.wrong("drag.density", "(nothing)", why, cure));
+        }
+        self.finite("drag.velocity", &d.velocity, "m/s")
     }
 
     fn materials(&self, m: &Model) -> Checked {
@@ -211,8 +223,14 @@ impl Check<'_> {
                 ));
             }
         }
+        w.servo.as_ref().map_or(Ok(()), |s| self.servo(entry, w, s))?;
         let Some(motion) = &w.motion else { return Ok(()) };
         let key = |k: &str| format!("{entry}.motion.{k}");
+        self.finite(&key("from"), &[motion.from], "s")?;
+        if motion.until.is_some_and(|u| !(u > motion.from)) {
+            let value = format!("{} s", motion.until.unwrap_or(0.0));
+            return Err(self.wrong(&key("until"), value, "is not after 'from'", "give a later time"));
+        }
         if let Some(r) = &motion.rotate {
             self.finite(&key("rotate.about"), &r.about, "")?;
             self.finite(&key("rotate.through"), &r.through, "m")?;
@@ -230,6 +248,30 @@ impl Check<'_> {
         if let Some(v) = &motion.vibrate {
             self.finite(&key("vibrate.amplitude"), &v.amplitude, "m")?;
             self.positive(&key("vibrate.frequency"), v.frequency, "Hz")?;
+        }
+        Ok(())
+    }
+
+    fn servo(&self, entry: &str, w: &Wall, s: &Servo) -> Checked {
+        let key = |k: &str| format!("{entry}.servo.{k}");
+        self.finite(&key("direction"), &s.direction, "")?;
+        if s.direction == [0.0; 3] {
+            return Err(self.wrong(&key("direction"), "[0, 0, 0]", "has no direction", "such as [0, 0, -1]"));
+        }
+        let of = [("force", s.force.is_some()), ("stress", s.stress.is_some())];
+        self.one_of(&format!("{entry}.servo"), &of)?;
+        self.finite(&key("force"), &[s.force.unwrap_or(0.0)], "N")?;
+        self.finite(&key("stress"), &[s.stress.unwrap_or(0.0)], "Pa")?;
+        self.positive_if(&key("area"), s.area, "m²")?;
+        if s.stress.is_some() != s.area.is_some() {
+            let why = "stress and area make a force together";
+            return Err(self.wrong(&key("area"), "(one of them)", why, "give both, or force [N] alone"));
+        }
+        self.positive(&key("speed_limit"), s.speed_limit, "m/s")?;
+        if w.cuboid.is_some() && w.faces.as_ref().is_none_or(|f| f.len() != 1) {
+            let why = "all faces of the box would follow one direction";
+            let cure = "give the face that moves a [[wall]] of its own: faces = [\"z+\"]";
+            return Err(self.wrong(&format!("{entry}.servo"), "(with a box)", why, cure));
         }
         Ok(())
     }

@@ -178,6 +178,9 @@ fn effects(setup: &Setup) -> Vec<(Effect, Option<Setup>)> {
     let why = format!("[[clump]] {clumps}: {body} B a body, {member} B a member");
     add("clump", if clumps.is_empty() { clumps } else { why }, 0, None);
     add("gravity", named(setup.gravity.norm() > 0.0, "gravity"), 0, None);
+    let dry = Setup { drag: None, ..setup.clone() };
+    let law = setup.drag.map(|d| format!("drag.law = {:?}", d.law).to_lowercase());
+    add("drag", law.unwrap_or_default(), 0, Some(dry));
     let ledger = Setup { ledger: false, ..setup.clone() };
     add("energy", named(setup.ledger, "output.energy or output.contacts"), 0, Some(ledger));
     let clumps = setup.clumps.shapes.len();

@@ -209,6 +209,15 @@ impl Faucet {
         Err(check.wrong(&format!("{}.{key}", self.key), written, &why, &cure))
     }
 
+    /// Lowest distance [m] of the centres that become free, from a plane.
+    pub(crate) fn lowest_over(&self, plane: &Plane) -> f64 {
+        let mut random = generator(0, 4, 0);
+        let end = self.section.frame[0] * self.section.ranges[0].1;
+        let places =
+            (0..2_000).filter_map(|_| self.section.candidate(self.grains.diameter.low / 2.0, &mut random));
+        places.map(|across| plane.signed_distance(&(across + end))).fold(f64::INFINITY, f64::min)
+    }
+
     /// Time of the next particle [s]; `None` when the faucet is closed for good.
     pub(crate) fn next_time(&self) -> Option<f64> {
         (self.time < self.until).then_some(self.time)

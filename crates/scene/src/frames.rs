@@ -3,7 +3,7 @@
 use crate::crossings::Builder;
 use crate::model::Precision;
 use dem::setup::{ClumpShape, Clumps, Particle, Setup, Wall, WallShape};
-use dem::{BodyState, ContactRecord, Simulation};
+use dem::{BodyState, ContactRecord, Simulation, WallForce};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use stream::{Table, Values};
@@ -116,15 +116,26 @@ pub(crate) fn wall_spheres(sim: &Simulation, walls: &[WallHead]) -> Option<Table
 
 /// What is kept of a wall when the engine has taken it.
 pub(crate) struct WallHead {
+    pub name: String,
     pub material: u16,
     pub spheres: bool,
 }
 
 /// The heads of a setup's walls.
 pub(crate) fn heads(setup: &Setup) -> Vec<WallHead> {
-    let head =
-        |w: &Wall| WallHead { material: w.material, spheres: matches!(w.shape, WallShape::Spheres(_)) };
+    let head = |w: &Wall| WallHead {
+        name: w.name.clone(),
+        material: w.material,
+        spheres: matches!(w.shape, WallShape::Spheres(_)),
+    };
     setup.walls.iter().map(head).collect()
+}
+
+/// The message of the topic `/wall_forces`: what acts on each wall now [N], and how far it was shifted [m].
+pub(crate) fn wall_forces(time: f64, forces: &[WallForce], walls: &[WallHead]) -> Value {
+    let vector = |v: &geom::Vec3| json!([v.x, v.y, v.z]);
+    let one = |(f, w): (&WallForce, &WallHead)| json!({"name": w.name, "force": vector(&f.force), "shift": vector(&f.shift), "contacts": f.contacts});
+    json!({"time": time, "walls": forces.iter().zip(walls).map(one).collect::<Vec<_>>()})
 }
 
 /// The message of the topic `/surfaces`: planes and meshes at t = 0, and the motion of every wall.
@@ -132,10 +143,19 @@ pub(crate) fn surfaces(walls: &[Wall]) -> Value {
     let vector = |v: &geom::Vec3| json!([v.x, v.y, v.z]);
     let one = |w: &Wall| {
         let m = &w.motion;
-        let motion = json!({
+        let mut motion = json!({
             "velocity": vector(&m.velocity), "turn": vector(&m.turn), "through": vector(&m.through),
             "amplitude": vector(&m.amplitude), "frequency": m.frequency,
         });
+        if (m.from, m.until) != (0.0, f64::INFINITY) {
+            motion["from"] = m.from.into();
+            // null: never.
+            motion["until"] = m.until.into();
+        }
+        if let Some(s) = m.servo {
+            motion["servo"] =
+                json!({"direction": vector(&s.direction), "force": s.force, "speed_limit": s.speed_limit});
+        }
         let shape = match &w.shape {
             WallShape::Spheres(s) => json!({"spheres": s.len()}),
             WallShape::Plane(p) => json!({"plane": {"point": vector(&p.point), "normal": vector(&p.normal)}}),

@@ -24,6 +24,8 @@ pub struct Model {
     /// Extent.
     #[serde(default)]
     pub domain: Domain,
+    /// The fluid around the particles; absent: none.
+    pub drag: Option<Drag>,
     /// Search for neighbours.
     #[serde(default)]
     pub neighbours: Neighbours,
@@ -117,6 +119,9 @@ pub struct Output {
     pub every: Option<f64>,
     /// Time between checkpoints [s]; absent: one at the end.
     pub checkpoint: Option<f64>,
+    /// Whether the force on each wall is written with each frame; walls that follow a force always tell.
+    #[serde(default)]
+    pub wall_forces: bool,
     /// Whether the energy ledger is kept and written.
     #[serde(default)]
     pub energy: bool,
@@ -130,7 +135,14 @@ pub struct Output {
 
 impl Default for Output {
     fn default() -> Output {
-        Output { every: None, checkpoint: None, energy: false, contacts: false, precision: Precision::F64 }
+        Output {
+            every: None,
+            checkpoint: None,
+            energy: false,
+            contacts: false,
+            wall_forces: false,
+            precision: Precision::F64,
+        }
     }
 }
 
@@ -188,6 +200,34 @@ pub enum Axis {
     X,
     Y,
     Z,
+}
+
+/// `[drag]`
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Drag {
+    /// How drag depends on speed.
+    pub law: DragLaw,
+    /// Viscosity of the fluid [Pa·s].
+    pub viscosity: f64,
+    /// Density of the fluid [kg/m³]; "stokes" without buoyancy needs none.
+    pub density: Option<f64>,
+    /// Velocity of the fluid [m/s].
+    #[serde(default)]
+    pub velocity: [f64; 3],
+    /// Whether particles are lighter by the fluid that they displace.
+    #[serde(default)]
+    pub buoyancy: bool,
+}
+
+/// Law of drag.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum DragLaw {
+    /// Slow.
+    Stokes,
+    /// Up to Re = 2·10⁵.
+    SchillerNaumann,
 }
 
 /// `[neighbours]`
@@ -473,6 +513,8 @@ pub struct Wall {
     pub material: Option<String>,
     /// Motion; absent: at rest.
     pub motion: Option<Motion>,
+    /// A force that it follows besides; absent: none.
+    pub servo: Option<Servo>,
 }
 
 /// A face of a box.
@@ -503,6 +545,27 @@ pub struct Motion {
     pub translate: Option<[f64; 3]>,
     /// Vibration.
     pub vibrate: Option<Vibrate>,
+    /// When all of it starts [s].
+    #[serde(default)]
+    pub from: f64,
+    /// When it stops, where the wall is then [s]; absent: never.
+    pub until: Option<f64>,
+}
+
+/// A force that a wall follows.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Servo {
+    /// Which way the wall pushes.
+    pub direction: [f64; 3],
+    /// Force on the particles [N]; this or `stress`.
+    pub force: Option<f64>,
+    /// Stress [Pa] on `area`; this or `force`.
+    pub stress: Option<f64>,
+    /// Area that `stress` acts on [m²].
+    pub area: Option<f64>,
+    /// Largest speed [m/s].
+    pub speed_limit: f64,
 }
 
 /// A turn about a fixed axis.

@@ -8,10 +8,7 @@ use crate::text::Text;
 const NOT_YET: &[(&str, &str)] = &[
     ("bond", "use 'contact' laws without bonds"),
     ("bonds", "use 'contact' laws without bonds"),
-    ("servo", "move the wall by 'motion'"),
     ("sleep", "leave it out: every particle is moved at every step"),
-    ("drag", "leave it out"),
-    ("buoyancy", "lower gravity by hand"),
     ("temperature", "leave it out"),
     ("wear", "leave it out"),
     ("roughness", "give it to wallgen --roughness"),

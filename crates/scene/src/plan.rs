@@ -7,7 +7,7 @@ use crate::faucet::Faucet;
 use crate::inlet::InletStream;
 use crate::input::Input;
 use crate::material_info::MaterialInfo;
-use crate::model::{Arithmetic, Model, OrAuto};
+use crate::model::{Arithmetic, DragLaw, Model, OrAuto};
 use crate::wall_file::WallFile;
 use crate::{Scene, contacts, fill, particle_file, walls};
 use dem::setup::{self, Guards, Particle, Setup, Step, Zone};
@@ -255,6 +255,7 @@ impl<'a> Draft<'a> {
         let entries = self.sphere_sizes;
         let setup = Setup {
             gravity: Vec3::from(model.gravity),
+            drag: model.drag.as_ref().map(drag),
             periodic: self.periodic()?,
             materials: self.materials,
             contacts,
@@ -284,5 +285,18 @@ impl<'a> Draft<'a> {
             },
         };
         Ok(Plan { setup, feeds: self.feeds, notes: self.notes, inputs: self.inputs, sizes })
+    }
+}
+
+fn drag(entry: &crate::model::Drag) -> setup::Drag {
+    setup::Drag {
+        law: match entry.law {
+            DragLaw::Stokes => setup::DragLaw::Stokes,
+            DragLaw::SchillerNaumann => setup::DragLaw::SchillerNaumann,
+        },
+        viscosity: entry.viscosity,
+        density: entry.density.unwrap_or(0.0),
+        velocity: Vec3::from(entry.velocity),
+        buoyancy: entry.buoyancy,
     }
 }

@@ -29,6 +29,8 @@ pub const WALLS: &str = "/walls";
 pub const SURFACES: &str = "/surfaces";
 /// Topic of the energy ledger.
 pub const ENERGY: &str = "/energy";
+/// Topic of the forces on walls.
+pub const WALL_FORCES: &str = "/wall_forces";
 /// Topic of what happened.
 pub const LOG: &str = "/log";
 /// Metadata record with the shapes of clumps: JSON by index, the column `clump` of [`BODIES`].
@@ -118,6 +120,7 @@ struct Run<W: Write> {
     clumps: bool,
     energy: bool,
     contacts: bool,
+    wall_forces: bool,
     precision: Precision,
     crossings: Vec<Crossing>,
     outcome: Outcome,
@@ -208,6 +211,8 @@ impl<W: Write> Run<W> {
         let moving = spheres_move(&plan.setup.walls);
         let shapes = frames::clumps(&plan.setup.clumps);
         let clumps = !shapes.is_empty();
+        let follows = plan.setup.walls.iter().any(|w| w.motion.servo.is_some());
+        let wall_forces = scene.model.output.wall_forces || follows;
         let sim = match resume {
             Some(saved) => Simulation::resume(plan.setup, saved.state)?,
             None => Simulation::new(plan.setup)?,
@@ -242,6 +247,7 @@ impl<W: Write> Run<W> {
             clumps,
             energy: scene.model.output.energy,
             contacts: scene.model.output.contacts,
+            wall_forces,
             precision: scene.model.output.precision,
             crossings: Vec::new(),
         };
@@ -329,6 +335,14 @@ impl<W: Write> Run<W> {
             self.writer.points(CONTACTS, now, FRAME, &frames::contacts(&contacts, self.precision))?;
         }
         self.outcome.frames += 1;
+        if self.wall_forces {
+            let forces = match self.sim.wall_forces() {
+                Ok(forces) => forces,
+                Err(halt) => return Ok(Err(halt)),
+            };
+            let message = frames::wall_forces(self.sim.time(), &forces, &self.walls);
+            self.writer.bytes(WALL_FORCES, "json", now, json(&message).as_bytes())?;
+        }
         if self.energy {
             let energy = match self.sim.energy() {
                 Ok(energy) => energy,
@@ -411,11 +425,7 @@ fn records(
 
 /// Whether wall spheres move, so that they are written with every frame.
 fn spheres_move(walls: &[dem::setup::Wall]) -> bool {
-    walls.iter().any(|w| {
-        let m = &w.motion;
-        matches!(w.shape, dem::setup::WallShape::Spheres(_))
-            && (m.velocity.norm() > 0.0 || m.turn.norm() > 0.0 || m.amplitude.norm() * m.frequency > 0.0)
-    })
+    walls.iter().any(|w| matches!(w.shape, dem::setup::WallShape::Spheres(_)) && w.motion.moves())
 }
 
 /// JSON of what always is JSON: structs of numbers and text.

@@ -2,7 +2,7 @@
 
 use crate::check::Check;
 use crate::error::SceneError;
-use crate::model::{Face, Motion, Wall};
+use crate::model::{Face, Motion, Servo, Wall};
 use crate::plan::Draft;
 use crate::wall_file::WallFile;
 use dem::setup::{self, WallShape};
@@ -21,7 +21,8 @@ pub(crate) fn add(draft: &mut Draft, entries: &[Wall], given: Vec<WallFile>) -> 
     for (i, entry) in entries.iter().enumerate() {
         let key = format!("wall.{i}");
         let name = entry.name.clone().unwrap_or_else(|| key.clone());
-        let motion = motion(entry.motion.as_ref());
+        let motion =
+            setup::Motion { servo: entry.servo.as_ref().map(servo), ..motion(entry.motion.as_ref()) };
         if entry.source.is_none() && entry.plane.is_none() && entry.mesh.is_none() && entry.cuboid.is_none() {
             let Some(file) = given.next() else {
                 let why = "waits for walls of the command line, and none were given";
@@ -81,6 +82,15 @@ fn spheres(
     file: WallFile,
 ) -> Result<(), SceneError> {
     draft.inputs.push(("walls".to_owned(), file.hash.clone()));
+    if motion.servo.is_some() && file.materials.len() > 1 {
+        let why = "its spheres are of several materials, each of which would follow the force by itself";
+        return Err(draft.check.wrong(
+            &format!("{name}: servo"),
+            &file.name,
+            why,
+            "use a file of one material",
+        ));
+    }
     motion.velocity += file.velocity;
     for (k, info) in file.materials.iter().enumerate() {
         let spheres: Vec<(Vec3, f64)> =
@@ -148,10 +158,20 @@ fn motion(entry: Option<&Motion>) -> setup::Motion {
         motion.turn = Vec3::from(r.about).normalize() * (r.rpm / 60.0 * TAU);
         motion.through = Vec3::from(r.through);
     }
+    (motion.from, motion.until) = (entry.from, entry.until.unwrap_or(f64::INFINITY));
     motion.velocity = Vec3::from(entry.translate.unwrap_or_default());
     if let Some(v) = &entry.vibrate {
         motion.amplitude = Vec3::from(v.amplitude);
         motion.frequency = v.frequency;
     }
     motion
+}
+
+fn servo(entry: &Servo) -> setup::Servo {
+    let stress = entry.stress.unwrap_or(0.0) * entry.area.unwrap_or(0.0);
+    setup::Servo {
+        direction: Vec3::from(entry.direction).normalize(),
+        force: entry.force.unwrap_or(stress),
+        speed_limit: entry.speed_limit,
+    }
 }

@@ -8,7 +8,7 @@ use crate::input::Input;
 use crate::model::{Diameter, Insert, OrAuto};
 use crate::plan::Draft;
 use crate::walls;
-use dem::setup::Zone;
+use dem::setup::{WallShape, Zone};
 use geom::Shown;
 
 impl Draft<'_> {
@@ -123,6 +123,7 @@ impl Draft<'_> {
             let ids = (first, self.inlets.len() as u32);
             let grains = self.poured(i, entry)?;
             let (faucet, zone) = Faucet::new(&self.check, i, entry, shape, grains, ids)?;
+            self.pours_in_front(&faucet, &format!("insert.{i}.shape"), &entry.shape)?;
             // Room for the ids of each faucet: they would have to give this many to meet.
             first = first.saturating_add(200_000_000);
             self.inlets.push(zone);
@@ -150,6 +151,26 @@ impl Draft<'_> {
         self.entry_sizes = Sizes::union(self.entry_sizes, Some(sizes));
         self.clumps.entries.push((shape, scale.low, scale.high));
         Ok(grains)
+    }
+
+    /// Refuses a faucet whose particles would become free behind a plane at rest.
+    fn pours_in_front(&self, faucet: &Faucet, key: &str, shape: &str) -> Result<(), SceneError> {
+        for wall in self.walls.iter().filter(|w| !w.motion.moves()) {
+            let WallShape::Plane(plane) = &wall.shape else { continue };
+            let lowest = faucet.lowest_over(plane);
+            if lowest <= 0.0 {
+                let why = format!(
+                    "particles would become free {} m behind wall '{}' (plane {})",
+                    Shown(-lowest),
+                    wall.name,
+                    crate::inlet::plane_text(plane)
+                );
+                let cure =
+                    "move the faucet to the side that the plane's normal points to, or turn the normal round";
+                return Err(self.check.wrong(key, format!("\"{shape}\""), &why, cure));
+            }
+        }
+        Ok(())
     }
 
     pub(crate) fn outlets(&mut self) -> Result<(), SceneError> {

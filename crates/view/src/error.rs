@@ -28,6 +28,23 @@ pub enum ViewError {
     /// Nothing at all to draw.
     #[error("nothing to show: no input has a sphere or a point in it")]
     Empty,
+    /// A page beyond its limit, though every frame but two is left out.
+    #[error(
+        "{name}: {count} spheres or points, {frames} of its frames: a page of {megabytes:.0} MB, and the limit is {limit} MB: \
+         give --max-mb {megabytes:.0} (a browser takes a few hundred), or show fewer: a part of the cloud, a picture"
+    )]
+    TooBig {
+        /// The layer.
+        name: String,
+        /// Spheres of its last frame.
+        count: usize,
+        /// Frames that cannot be left out.
+        frames: usize,
+        /// What the page would take, at least [MB].
+        megabytes: f64,
+        /// What it may take [MB].
+        limit: f64,
+    },
     /// A field to colour by that no layer has.
     #[error("colour: no field '{name}' here: choose one of {}", known.join(", "))]
     NoField {

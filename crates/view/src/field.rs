@@ -12,6 +12,11 @@ fn is_component(table: &Table, name: &str) -> bool {
         || VECTORS.iter().any(|(of, _)| of.contains(&name) && of.iter().all(|c| table.get(c).is_some()))
 }
 
+/// The field that is the length of the vector of which `name` is a component.
+pub fn length_of(name: &str) -> Option<&'static str> {
+    VECTORS.iter().find(|(of, _)| of.contains(&name)).map(|(_, length)| *length)
+}
+
 /// Names of the fields, lengths of vectors first; components of vectors only when `components`.
 pub fn names(table: &Table, components: bool) -> Vec<String> {
     let whole = |of: &[&str; 3]| of.iter().all(|c| table.get(c).is_some());

@@ -1,5 +1,7 @@
 //! A headless Chromium, spoken to through its debugging pipe: JSON messages that end in a zero byte.
 
+mod hand;
+
 use serde_json::{Value, json};
 use std::{
     io::{BufRead, BufReader, Write},

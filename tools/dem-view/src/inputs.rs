@@ -23,6 +23,10 @@ pub trait Show {
     fn surface(&mut self, surface: Surface);
     /// Adds a state of a layer.
     fn push(&mut self, layer: usize, time: f64, table: Table) -> Result<(), ViewError>;
+    /// Whether only the points of a cloud are wanted.
+    fn wants_points(&self) -> bool {
+        false
+    }
 }
 
 impl Show for Page {
@@ -40,6 +44,9 @@ impl Show for Page {
     }
     fn push(&mut self, layer: usize, time: f64, table: Table) -> Result<(), ViewError> {
         Page::push(self, layer, time, &table)
+    }
+    fn wants_points(&self) -> bool {
+        self.picks()
     }
 }
 
@@ -62,17 +69,22 @@ pub fn read_all(sources: &[Source], show: &mut impl Show) -> anyhow::Result<Vec<
         let is_mcap = head == MCAP;
         let whole = Cursor::new(head).chain(from);
         let name = short_name(source);
+        if is_mcap && show.wants_points() {
+            anyhow::bail!(
+                "{source}: --pick is for a cloud that cloud-crop reads, and this is MCAP, a run or walls: leave --pick out"
+            );
+        }
         let layers = if is_mcap { run::read(whole, &name, show) } else { scan(whole, &name, show) };
         found.extend(layers.with_context(|| source.to_string())?);
     }
     Ok(found)
 }
 
-/// A mesh, or a cloud; one whose points have a radius is a set of wall spheres, with a velocity of grains.
+/// A mesh, or a cloud; one whose points have a radius is a set of wall spheres, and of grains where each has an id.
 fn scan(mut from: impl Read, name: &str, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
     let mut bytes = Vec::new();
     from.read_to_end(&mut bytes).with_context(|| format!("{name}: cannot read"))?;
-    if has_faces(&bytes) {
+    if has_faces(&bytes) && !show.wants_points() {
         return mesh(&bytes, name, show);
     }
     let (cloud, dropped) = cloud::from_bytes(bytes)?.finite();
@@ -88,7 +100,7 @@ fn scan(mut from: impl Read, name: &str, show: &mut impl Show) -> anyhow::Result
         table.push(&column.name, column.values.clone())?;
     }
     let has = |column| table.get(column).is_some();
-    let role = match (has("radius"), has("vx")) {
+    let role = match (has("radius"), has("id")) {
         (true, true) => Role::Grains,
         (true, false) => Role::Walls,
         (false, _) => Role::Cloud,

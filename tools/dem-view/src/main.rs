@@ -5,6 +5,7 @@ mod formats;
 mod inputs;
 mod moment;
 mod mp4;
+mod page;
 mod paraview;
 mod run;
 mod series;
@@ -16,7 +17,7 @@ use formats::Format;
 use moment::Moment;
 use series::Span;
 use std::{io::Write, path::PathBuf, process::ExitCode};
-use view::{Camera, Map, Page, PageOptions, PictureOptions, picture};
+use view::{Camera, Map, PictureOptions, picture};
 
 /// Show runs, walls and clouds together: an HTML page (no network needed), a picture, a film, files for ParaView
 #[derive(Parser)]
@@ -65,16 +66,16 @@ struct Args {
     /// Leave out the nearer half of the walls in the picture
     #[arg(long)]
     cut: bool,
-    /// Leave out frames of the page, evenly, when it would be larger [MB]
+    /// Size of the page [MB]: components of vectors, then frames, evenly, are left out of a larger one; the rest is refused
     #[arg(long, value_name = "MB", value_parser = formats::megabytes, default_value = "60")]
     max_mb: f64,
-    /// Let each component of a vector be a field of the page too
+    /// Keep the components of vectors in a page that is too large, and leave out more frames
     #[arg(long)]
     components: bool,
     /// Title of the page [default: the inputs' names]
     #[arg(long)]
     title: Option<String>,
-    /// Page on which a region can be drawn (not available yet)
+    /// Page on which regions are drawn over one cloud, as --keep and --remove options for cloud-crop
     #[arg(long)]
     pick: bool,
 }
@@ -84,11 +85,6 @@ fn main() -> ExitCode {
 }
 
 fn show(mut args: Args) -> anyhow::Result<Report> {
-    if args.pick {
-        return Err(cli::usage(
-            "--pick: not available yet: give the shapes to cloud-crop with --keep and --remove",
-        ));
-    }
     if args.inputs.is_empty() {
         args.inputs.push(Source::Stdin);
     }
@@ -97,7 +93,7 @@ fn show(mut args: Args) -> anyhow::Result<Report> {
     let format = Format::of(&output)?;
     args.check(format)?;
     match format {
-        Format::Html => html(&args, &output),
+        Format::Html => page::html(&args, &output),
         Format::Png => png(&args, &output),
         Format::Gif | Format::Mp4 => film::film(&args, &output, format),
         Format::Vtp => paraview::vtp(&args, &output),
@@ -114,6 +110,9 @@ impl Args {
             return Err(cli::usage(format!(
                 "{name} is for a film or series (.gif, .mp4, .pvd): use --time for one moment"
             )));
+        }
+        if self.pick && format != Format::Html {
+            return Err(cli::usage("--pick makes a page: give a name in .html"));
         }
         if self.time.is_some() && format.is_series() {
             return Err(cli::usage("--time is for one moment: give a film or series its --from and --to"));
@@ -146,44 +145,6 @@ impl Args {
             cut: self.cut,
         }
     }
-}
-
-fn html(args: &Args, output: &Output) -> anyhow::Result<Report> {
-    let names: Vec<String> = args.inputs.iter().map(inputs::short_name).collect();
-    let mut page = Page::new(PageOptions {
-        title: args.title.clone().unwrap_or_else(|| names.join(" + ")),
-        colour: args.colour.clone(),
-        map: args.map,
-        range: args.range,
-        camera: args.camera,
-        time: args.time,
-        most_bytes: (args.max_mb * 1e6) as usize,
-        components: args.components,
-    });
-    let seen = inputs::read_all(&args.inputs, &mut page)?;
-    page.check()?;
-    let mut out = output.open_text()?;
-    page.write_checked(&mut out).with_context(|| output.name())?;
-    out.commit()?;
-    let kept = page.kept();
-    if kept.stride > 1 {
-        cli::warn(&format!(
-            "{} of {} frames are in the page, to keep it below {} MB: one of {}, and the last; --max-mb changes that",
-            kept.kept, kept.given, args.max_mb, kept.stride
-        ));
-    }
-    let frames = match kept.given {
-        0 => "nothing that moves".to_owned(),
-        given => format!("{} of {given} frames", kept.kept),
-    };
-    let summary = format!("{}: {frames}", output.name());
-    Ok(Report::new(summary)
-        .with("frames_given", kept.given)
-        .with("frames_kept", kept.kept)
-        .with("one_frame_of", kept.stride)
-        .with("position_error_m", kept.position_error)
-        .with("radius_error_m", kept.radius_error)
-        .with("layers", seen))
 }
 
 fn png(args: &Args, output: &Output) -> anyhow::Result<Report> {

@@ -1,12 +1,14 @@
 // Where the eye stands. Angles in radians; z is up; lengths in metres from the middle of everything.
 const dot3 = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const minus3 = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+const cross3 = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 const halfView = 0.2679;  // tangent of half the angle of view, along the shorter side
 
 const VIEWS = { iso: [0.62, -0.94, 0.62], front: [0, -1, 0], right: [1, 0, 0], top: [0, 0, 1],
                 back: [0, 1, 0], left: [-1, 0, 0], bottom: [0, 0, -1] };
 
 const camera = {
-  yaw: 0, pitch: 0, distance: 1, target: [0, 0, 0], flat: false,
+  yaw: 0, pitch: 0, distance: 1, target: [0, 0, 0], flat: false, rests: false,
 
   look(direction) {
     const [x, y, z] = direction;
@@ -26,27 +28,35 @@ const camera = {
     return this.target.map((t, k) => t - this.distance * forward[k]);
   },
 
-  // The point to look at and the least distance from which everything that stands out is seen in a window of this
-  // shape: |x - tx| <= hx (z + d) for all places.
+  // The point to look at and the least distance from which everything that stands out is seen in the part of the
+  // window that nothing covers: |x - tx| <= hx (z + d) for all places.
   fit(width, height) {
-    const short = Math.min(width, height);
-    const bar = clock.length > 1 ? 54 : 0;  // the player covers so many pixels at the bottom
-    const half = [0.86 * halfView * width / short, 0.88 * halfView * (height - bar) / short];
+    const everything = [...run.layers, ...run.surfaces];
+    const shown = everything.filter((l) => !state.hidden.has(l) && l.outline.length);
     const axes = this.axes();
-    const seen = run.outline.map((p) => axes.map((a) => dot3(a, p.map((c, k) => c - middle[k]))));
+    const seen = (shown.length ? shown : everything).flatMap((l) => l.outline).map((p) => axes.map((a) => dot3(a, minus3(p, middle))));
+    const ways = covered(width, height).map((edges) => ({ edges, ...this.within(edges, seen, width, height) }));
+    const best = ways.reduce((a, b) => (b.distance < a.distance ? b : a));
+    const [top, right, bottom, left] = best.edges;
+    this.target = [0, 1, 2].map((k) => axes.reduce((sum, a, n) => sum + a[k] * best.aim[n], 0));
+    this.distance = best.distance;
+    this.shift(0.5 * (left - right), 0.5 * (top - bottom), Math.min(width, height));
+  },
+
+  within([top, right, bottom, left], seen, width, height) {
+    const short = Math.min(width, height);
+    const half = [0.94 * halfView * (width - left - right) / short, 0.94 * halfView * (height - top - bottom) / short];
     const most = (of) => seen.reduce((m, p) => Math.max(m, of(p)), -Infinity);
     const lean = this.flat ? [0, 0] : half;
     const far = [0, 1].map((k) => most((p) => p[k] - lean[k] * p[2]));
     const low = [0, 1].map((k) => -most((p) => -p[k] - lean[k] * p[2]));
     const back = Math.max(...[0, 1].map((k) => (far[k] - low[k]) / (2 * half[k])));
     const depth = 0.5 * (most((p) => p[2]) - most((p) => -p[2]));
-    const aim = [0.5 * (far[0] + low[0]), 0.5 * (far[1] + low[1]), depth];
-    this.target = [0, 1, 2].map((k) => axes.reduce((sum, a, n) => sum + a[k] * aim[n], 0));
-    this.distance = Math.max(1e-9, back + (this.flat ? 0 : depth));
-    this.shift(0, -0.5 * bar, short);
+    return { aim: [0.5 * (far[0] + low[0]), 0.5 * (far[1] + low[1]), depth], distance: Math.max(1e-9, back + (this.flat ? 0 : depth)) };
   },
 
   turn(right, up) {
+    if (this.rests) return;
     this.yaw -= right;
     this.pitch = Math.max(-Math.PI / 2, Math.min(Math.PI / 2, this.pitch + up));
   },
@@ -76,3 +86,35 @@ const camera = {
     }
   },
 };
+
+// Pixels at the top, right, bottom and left of the window where text and controls stand: below the head, or beside it.
+function covered(width, height) {
+  const edge = (id, side, without) => (byId(id) && !byId(id).hidden ? byId(id).getBoundingClientRect()[side] : without);
+  const narrow = width <= 560 && height >= width;
+  const lowest = Math.min(...(narrow ? ["legend", "player", "region"] : ["player"]).map((id) => edge(id, "top", height)));
+  const right = Math.min(0.3 * width, narrow ? 0 : width - edge("legend", "left", width));
+  const bottom = Math.min(0.5 * height, Math.max(12, height - lowest));
+  const left = Math.min(0.5 * width, narrow ? 0 : edge("region", "right", 0));
+  const below = [Math.min(0.35 * height, edge("head", "bottom", 0) + 6), right, bottom, left];
+  const beside = [12, right, bottom, Math.min(0.5 * width, Math.max(left, edge("head", "right", 0) + 12))];
+  return [below, beside];
+}
+
+// The ray from the eye through a pixel of the window, and where a place is seen; relative to the middle.
+function rayAt(x, y) {
+  const [r, u, f] = camera.axes();
+  const pixel = 2 * halfView / Math.min(innerWidth, innerHeight);
+  const [a, b] = [pixel * (x - innerWidth / 2), pixel * (innerHeight / 2 - y)];
+  const eye = camera.eye();
+  if (camera.flat) return { from: eye.map((e, k) => e + camera.distance * (a * r[k] + b * u[k])), along: f, pixel };
+  const along = [0, 1, 2].map((k) => f[k] + a * r[k] + b * u[k]);
+  const length = Math.hypot(...along);
+  return { from: eye, along: along.map((c) => c / length), pixel };
+}
+
+function seenAt(place) {
+  const seen = camera.axes().map((a) => dot3(a, minus3(place, camera.eye())));
+  const depth = camera.flat ? camera.distance : seen[2];
+  const scale = Math.min(innerWidth, innerHeight) / (2 * halfView * depth);
+  return { x: innerWidth / 2 + seen[0] * scale, y: innerHeight / 2 - seen[1] * scale, scale, before: depth > 0 };
+}

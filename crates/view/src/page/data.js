@@ -3,14 +3,38 @@
 const byId = (id) => document.getElementById(id);
 const run = JSON.parse(byId("header").textContent);
 
-// The bytes of a packed column, unpacked when asked for: a long run need not fit in memory twice.
+// The bytes of a packed column, unpacked when asked for: a long run need not fit in memory twice. The last few stay.
+const unpacked = new Map();
 function bytes(number) {
-  const text = byId("b" + number).textContent;
+  const out = unpacked.get(number) || fromBase64(byId("b" + number).textContent);
+  unpacked.delete(number);
+  unpacked.set(number, out);
+  if (unpacked.size > 16) unpacked.delete(unpacked.keys().next().value);
+  return out;
+}
+
+function fromBase64(text) {
   if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
   const letters = atob(text);
   const out = new Uint8Array(letters.length);
   for (let i = 0; i < letters.length; i++) out[i] = letters.charCodeAt(i);
   return out;
+}
+
+// The packed numbers of a column.
+const NUMBERS = { 1: Uint8Array, 2: Uint16Array, 4: Uint32Array };
+const numbersOf = (number, width) => new NUMBERS[width](bytes(number).buffer);
+
+// The value of one row of a column [blob, lo, hi, bytes of a number], and the bound on its error.
+function valueAt([number, lo, hi, width], row) {
+  return number === null ? lo : lo + numbersOf(number, width)[row] / (256 ** width - 1) * (hi - lo);
+}
+const errorOf = ([number, lo, hi, width]) => (number === null ? 0 : (hi - lo) / (2 * (256 ** width - 1)));
+
+// The place of one row of a frame [m], before the layer is moved.
+function placeAt(frame, row) {
+  const q = numbersOf(frame.position, 2);
+  return [0, 1, 2].map((k) => frame.lo[k] + q[3 * row + k] / 65535 * (frame.hi[k] - frame.lo[k]));
 }
 
 // The layer that colours are about: grains, else a cloud, else walls.
@@ -40,7 +64,8 @@ const halfDiagonal = Math.max(1e-9, Math.hypot(...box.lo.map((lo, k) => 0.5 * (b
 // Colours by a name: what to show, in which range.
 const state = {
   frame: 0, playing: false, speed: 1, field: null, map: run.map, shown: [0, 1], ranges: {},
-  opacity: 0.2, cutAxis: -1, cutAt: 0.5, cutSide: 1, cutGrains: true, dot: 1, hidden: new Set(), dirty: true,
+  opacity: mainRole === "walls" ? 1 : 0.2, dot: 1, detail: "auto", hidden: new Set(), dirty: true,
+  cutAxis: -1, cutNormal: [0, 0, 1], cutAt: 0.5, cutSide: 1, cutThick: 0, cutGrains: true,
 };
 
 function fieldOf(layer, name) { return layer.fields.findIndex((f) => f.name === name); }

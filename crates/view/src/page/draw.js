@@ -1,85 +1,16 @@
-// Drawing: spheres on squares into a buffer of colour, normal and depth; then light, walls and smoothing in one pass.
-const canvas = byId("view");
-const gl = canvas.getContext("webgl2", { antialias: false, alpha: false, depth: false, powerPreference: "high-performance" });
-
-function program(name) {
-  const made = gl.createProgram();
-  for (const [kind, type] of [["vert", gl.VERTEX_SHADER], ["frag", gl.FRAGMENT_SHADER]]) {
-    const shader = gl.createShader(type);
-    gl.shaderSource(shader, byId(name + "-" + kind).textContent.trim());
-    gl.compileShader(shader);
-    if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS) && !gl.isContextLost()) throw new Error(name + "." + kind + ": " + gl.getShaderInfoLog(shader));
-    gl.attachShader(made, shader);
-  }
-  gl.linkProgram(made);
-  if (!gl.getProgramParameter(made, gl.LINK_STATUS) && !gl.isContextLost()) throw new Error(name + ": " + gl.getProgramInfoLog(made));
-  const places = {};
-  return { made, at: (u) => (u in places ? places[u] : (places[u] = gl.getUniformLocation(made, u))) };
-}
-
-function texture(width, height, inside, format, type) {
-  const made = gl.createTexture();
-  gl.bindTexture(gl.TEXTURE_2D, made);
-  gl.texImage2D(gl.TEXTURE_2D, 0, inside, width, height, 0, format, type, null);
-  for (const side of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, side, gl.NEAREST);
-  for (const side of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, side, gl.CLAMP_TO_EDGE);
-  return made;
-}
-
-class Target {
-  resize(width, height) {
-    if (this.width === width && this.height === height) return;
-    this.free();
-    [this.width, this.height] = [width, height];
-    this.colour = texture(width, height, gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE);
-    this.normal = texture(width, height, gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE);
-    this.depth = texture(width, height, gl.DEPTH_COMPONENT32F, gl.DEPTH_COMPONENT, gl.FLOAT);
-    this.buffer = gl.createFramebuffer();
-    gl.bindFramebuffer(gl.FRAMEBUFFER, this.buffer);
-    const parts = [[gl.COLOR_ATTACHMENT0, this.colour], [gl.COLOR_ATTACHMENT1, this.normal], [gl.DEPTH_ATTACHMENT, this.depth]];
-    for (const [place, part] of parts) gl.framebufferTexture2D(gl.FRAMEBUFFER, place, gl.TEXTURE_2D, part, 0);
-    gl.drawBuffers([gl.COLOR_ATTACHMENT0, gl.COLOR_ATTACHMENT1]);
-  }
-  free() {
-    for (const t of [this.colour, this.normal, this.depth]) if (t) gl.deleteTexture(t);
-    if (this.buffer) gl.deleteFramebuffer(this.buffer);
-  }
-  begin() {
-    gl.bindFramebuffer(gl.FRAMEBUFFER, this.buffer);
-    gl.viewport(0, 0, this.width, this.height);
-    gl.clearColor(0, 0, 0, 0);
-    gl.clearDepth(1);
-    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-  }
-}
-
-// The columns of a layer on the graphics card; a column that is there already is not sent again.
-class Buffers {
-  constructor(layer) {
-    this.layer = layer;
-    this.array = gl.createVertexArray();
-    this.columns = [0, 1, 2, 3, 4].map(() => ({ buffer: gl.createBuffer(), number: null }));
-  }
-  column(place, number, size, width) {
-    const column = this.columns[place];
-    if (number === null) { gl.disableVertexAttribArray(place); gl.vertexAttrib1f(place, 0); return; }
-    gl.bindBuffer(gl.ARRAY_BUFFER, column.buffer);
-    if (column.number !== number) {
-      gl.bufferData(gl.ARRAY_BUFFER, bytes(number), gl.DYNAMIC_DRAW);
-      column.number = number;
-    }
-    gl.enableVertexAttribArray(place);
-    gl.vertexAttribPointer(place, size, width === 1 ? gl.UNSIGNED_BYTE : gl.UNSIGNED_SHORT, true, 0, 0);
-    gl.vertexAttribDivisor(place, 1);
-  }
-}
+// Drawing: spheres, or dots where they are too many, into a buffer of colour, normal and depth; then light, walls and
+// smoothing in one pass.
+const FEW = 4e5;    // up to here all is drawn as spheres
+const MANY = 2e6;   // beyond, always as points
 
 const painter = {
-  solid: null, glass: null, quality: 2, drawn: 0,
+  solid: null, glass: null, drawn: 0, dots: false,
 
   start() {
-    this.ball = program("ball");
-    this.light = program("light");
+    this.balls = program("ball", "ball");
+    this.points = program("ball", "dot");
+    this.light = program("light", "light");
+    this.most = Math.min(256, gl.getParameter(gl.ALIASED_POINT_SIZE_RANGE)[1]);
     this.solid = new Target();
     this.glass = new Target();
     this.empty = gl.createVertexArray();
@@ -99,8 +30,22 @@ const painter = {
     this.mapShown = state.map;
   },
 
+  total() {
+    const shown = run.layers.filter((l) => !state.hidden.has(l));
+    return shown.reduce((sum, l) => sum + frameAt(l, clock[state.frame]).count, 0);
+  },
+
+  // Level of detail: points where spheres would be too many for the picture to follow the hand.
+  asDots(moving, slow) {
+    if (state.detail !== "auto") return state.detail === "points";
+    const total = this.total();
+    return total > MANY || (total > FEW && (moving || slow > 3)) || (total > 5e4 && moving && slow > 6);
+  },
+
   // Draws the scene as `state` and `camera` say; `quality` samples along each side of a pixel.
-  draw(quality) {
+  draw(quality, dots) {
+    this.dots = dots;
+    this.ball = dots ? this.points : this.balls;
     const [width, height] = [canvas.width, canvas.height];
     const size = [width * quality, height * quality];
     const walls = mainRole !== "walls" && state.opacity < 0.999;
@@ -114,11 +59,16 @@ const painter = {
     gl.enable(gl.DEPTH_TEST);
     gl.useProgram(this.ball.made);
     this.setMap();
-    this.setView(view);
+    this.setView(view, size);
     this.solid.begin();
-    for (const b of all) if (!isGlass(b)) this.spheres(b);
+    this.widen(size);
+    for (const b of all) if (!isGlass(b)) this.spheres(b, view);
+    gl.viewport(0, 0, ...size);
+    sheets.drawSolid(view);
+    gl.useProgram(this.ball.made);
     this.glass.begin();
-    for (const b of glass) this.spheres(b);
+    this.widen(size);
+    for (const b of glass) this.spheres(b, view);
     sheets.draw(view, size, glass.length > 0);
     this.compose(view, quality, glass.length > 0);
   },
@@ -132,6 +82,12 @@ const painter = {
     return { eye, focal, nearFar: [near, centre + 4 * halfDiagonal], clip: [2 * focal / width, 2 * focal / height] };
   },
 
+  // A point whose centre is outside of the picture is not drawn at all: the picture is made wider than its buffer.
+  widen([width, height]) {
+    const edge = 0.5 * this.most;
+    gl.viewport(-edge, -edge, width + 2 * edge, height + 2 * edge);
+  },
+
   setEye({ at }, view) {
     const [r, u, f] = camera.axes();
     gl.uniformMatrix3fv(at("turn"), false, [r[0], u[0], f[0], r[1], u[1], f[1], r[2], u[2], f[2]]);
@@ -141,55 +97,80 @@ const painter = {
     gl.uniform1f(at("flatView"), camera.flat ? 1 : 0);
   },
 
-  setView(view) {
+  setView(view, size) {
     const { at } = this.ball;
     this.setEye(this.ball, view);
+    gl.uniform2fv(at("focal"), view.clip.map((c, k) => c * size[k] / (size[k] + this.most)));
+    gl.uniform2fv(at("lens"), view.clip);
+    gl.uniform2fv(at("picture"), size);
+    gl.uniform1f(at("most"), this.most);
     gl.uniform1f(at("pixel"), 1 / view.focal);
+    gl.uniform3fv(at("markColour"), [0.9, 0.22, 0.18]);
     gl.uniform3fv(at("kinds[0]"), run.kinds.flat().map((c) => c / 255));
     gl.uniform3fv(at("plain"), run.wall.map((c) => c / 255));
     gl.uniform1i(at("map"), 0);
   },
 
-  spheres(buffers) {
+  spheres(buffers, view) {
     const { at } = this.ball;
     const layer = buffers.layer;
     const frame = frameAt(layer, clock[state.frame]);
+    const pose = poseOf(layer.motion, middle, clock[state.frame]);
+    const scale = layer.pointRadius ? state.dot : 1;
     gl.bindVertexArray(buffers.array);
-    buffers.column(0, frame.position, 3, 2);
-    buffers.column(1, frame.radius[0], 1, 2);
     gl.uniform3fv(at("boxLo"), frame.lo.map((lo, k) => lo - middle[k]));
     gl.uniform3fv(at("boxSize"), frame.hi.map((hi, k) => hi - frame.lo[k]));
-    const pose = poseOf(layer.motion, middle, clock[state.frame]);
     gl.uniformMatrix3fv(at("pose"), false, pose.turn);
     gl.uniform3fv(at("poseShift"), pose.shift);
-    gl.uniform3f(at("radiusOf"), frame.radius[1], frame.radius[2] - frame.radius[1], layer.pointRadius ? state.dot : 1);
-    this.colours(buffers, frame);
-    this.cut(layer);
-    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, frame.count);
+    gl.uniform3f(at("radiusOf"), frame.radius[1], frame.radius[2] - frame.radius[1], scale);
+    setCut(this.ball, layer.role === "grains" && !state.cutGrains ? null : cutOf());
+    this.columns(buffers, frame, 0);
+    gl.uniform1i(at("asPoints"), this.dots ? 2 : 1);
+    gl.drawArrays(gl.POINTS, 0, frame.count);
+    if (!this.dots && this.mayBeLarge(frame, pose, scale, view)) {
+      this.columns(buffers, frame, 1);
+      gl.uniform1i(at("asPoints"), 0);
+      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, frame.count);
+    }
     this.drawn += frame.count;
   },
 
-  colours(buffers, frame) {
+  // Whether any sphere of a frame may be seen larger than points can be: the nearest corner of its box decides.
+  mayBeLarge(frame, pose, scale, view) {
+    const radius = Math.max(frame.radius[2] * scale, 1e-30);
+    const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((n) => [0, 1, 2].map((k) => (n >> k & 1 ? frame.hi[k] : frame.lo[k]) - middle[k]));
+    const forward = camera.axes()[2];
+    const depth = (c) => dot3(forward, minus3([0, 1, 2].map((k) => dot3([pose.turn[k], pose.turn[3 + k], pose.turn[6 + k]], c) + pose.shift[k]), view.eye));
+    const nearest = camera.flat ? 1 : Math.min(...corners.map(depth)) - radius;
+    return nearest <= 0 || 3 * radius / nearest * view.focal + 2 > this.most;
+  },
+
+  columns(buffers, frame, each) {
+    buffers.column(0, frame.position, 3, 2, each);
+    buffers.column(1, frame.radius[0], 1, 2, each);
+    buffers.marks(each);
+    this.colours(buffers, frame, each);
+  },
+
+  colours(buffers, frame, each) {
     const { at } = this.ball;
     const layer = buffers.layer;
     const axis = ["x", "y", "z"].indexOf(state.field);
-    const own = state.field === "rgb" && hasColours(layer);
+    const main = layer.role === mainRole;
+    // A scan beside grains keeps the colours it came with.
+    const own = hasColours(layer) && (main ? state.field === "rgb" : layer.role === "cloud");
     const names = own ? ["red", "green", "blue"] : [state.field];
-    const coloured = layer.role === mainRole && (own || fieldOf(layer, state.field) >= 0);
+    const coloured = own || (main && fieldOf(layer, state.field) >= 0);
     for (let n = 0; n < 3; n++) {
-      const column = coloured && axis < 0 && names[n] ? frame.fields[fieldOf(layer, names[n])] : null;
-      buffers.column(2 + n, column ? column[0] : null, 1, column ? column[3] : 1);
+      const column = coloured && (own || axis < 0) && names[n] ? frame.fields[fieldOf(layer, names[n])] : null;
+      buffers.column(2 + n, column ? column[0] : null, 1, column ? column[3] : 1, each);
       gl.uniform2f(at(`valueOf[${n}]`), column ? column[1] : 0, column ? column[2] - column[1] : 0);
     }
     const about = own || !coloured ? null : describe(state.field);
     gl.uniform1i(at("mode"), !coloured ? 0 : own ? 3 : about.kinds ? 2 : 1);
-    gl.uniform1i(at("axis"), axis);
+    gl.uniform1i(at("axis"), own ? -1 : axis);
     const shift = axis < 0 ? 0 : middle[axis];
     gl.uniform2f(at("shown"), state.shown[0] - shift, state.shown[1] - shift);
-  },
-
-  cut(layer) {
-    gl.uniform4fv(this.ball.at("cut"), layer.role === "grains" && !state.cutGrains ? [0, 0, 0, 1] : cutPlane());
   },
 
   compose(view, quality, glass) {
@@ -212,20 +193,12 @@ const painter = {
     gl.uniform2f(at("focal"), view.focal, view.focal);
     gl.uniform1f(at("flatView"), camera.flat ? 1 : 0);
     gl.uniform1f(at("opacity"), glass ? state.opacity : 0);
-    gl.uniform1i(at("sheets"), sheets.shown().length ? 1 : 0);
+    gl.uniform1i(at("sheets"), sheets.glass().length ? 1 : 0);
     gl.uniform1f(at("reach"), 4 * typicalRadius());
     gl.uniform1i(at("samples"), quality);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   },
 };
-
-// What is shown: normal . place <= limit.
-function cutPlane() {
-  const k = state.cutAxis;
-  if (k < 0) return [0, 0, 0, 1];
-  const place = box.lo[k] + state.cutAt * (box.hi[k] - box.lo[k]) - middle[k];
-  return [...[0, 1, 2].map((n) => (n === k ? state.cutSide : 0)), state.cutSide * place];
-}
 
 function typicalRadius() {
   const layer = mainLayers[0];

@@ -43,12 +43,14 @@ function showLegend() {
   const bar = element("div");
   bar.className = "bar";
   const stops = run.maps[state.map].map(css);
-  bar.style.background = `linear-gradient(to top, ${stops.join(",")})`;
+  bar.style.setProperty("--stops", stops.join(","));
   const [lo, hi] = state.shown.map((v) => v * about.factor);
   const step = roundBelow((hi - lo) / 4);
   const decimals = Math.max(0, Math.min(9, -Math.floor(Math.log10(step))));
   for (let k = Math.ceil((lo - 1e-6 * step) / step); k * step <= hi + 1e-6 * step; k++) {
-    bar.append(element("span", number(k * step, decimals), { bottom: `${100 * (k * step - lo) / (hi - lo)}%` }));
+    const tick = element("span", number(k * step, decimals));
+    tick.style.setProperty("--at", `${100 * (k * step - lo) / (hi - lo)}%`);
+    bar.append(tick);
   }
   // A bar ends in a point where some values lie beyond it.
   const slack = 1e-6 * (state.shown[1] - state.shown[0]);
@@ -88,7 +90,10 @@ function showCounts() {
   const count = (role) => run.layers.filter((l) => l.role === role && !state.hidden.has(l))
     .reduce((sum, l) => sum + frameAt(l, clock[state.frame]).count, 0);
   const words = [["grains", "grains"], ["walls", "wall spheres"], ["cloud", "points"]];
-  byId("count").textContent = words.filter(([role]) => count(role)).map(([role, word]) => `${grouped(count(role))} ${count(role) === 1 ? word.slice(0, -1) : word}`).join(" · ");
+  const faces = run.surfaces.filter((s) => !s.normal && !state.hidden.has(s)).reduce((sum, s) => sum + s.faceCount, 0);
+  const meshes = faces ? [`${grouped(faces)} faces`] : [];
+  byId("count").textContent = [...words.filter(([role]) => count(role)).map(([role, word]) => `${grouped(count(role))} ${count(role) === 1 ? word.slice(0, -1) : word}`), ...meshes].join(" · ");
+  byId("drawn").textContent = painter.dots ? "drawn as points" : "";
   byId("clock").textContent = clock.length > 1 || clock[0] > 0 ? `t = ${clock[state.frame].toFixed(timeDecimals)} s` : "";
 }
 

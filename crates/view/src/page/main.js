@@ -1,11 +1,21 @@
 // Start, and what a test or a script may ask for.
+const megabytes = (n) => (n < 1e6 ? `${Math.max(1, Math.round(n / 1e3))} kB` : `${(n / 1e6).toFixed(n < 1e7 ? 1 : 0)} MB`);
+
+// A length to two digits.
+function short(metres) {
+  const [unit, factor] = [["m", 1], ["mm", 1e3], ["µm", 1e6], ["nm", 1e9]].find(([, f]) => metres * f >= 1) || ["nm", 1e9];
+  return `${Number((metres * factor).toPrecision(2))} ${unit}`;
+}
+
+// What the page is and is not: size, frames, and what packing costs.
 function notes() {
-  const kept = clock.length;
-  const parts = [];
-  if (run.stride > 1) parts.push(`To keep the page small, ${kept} of ${run.given} frames are in it: one of ${run.stride}, and the last.`);
+  const lines = [`Page of ${megabytes(run.bytes)}; limit ${megabytes(run.mostBytes)}.`];
+  if (run.given) lines.push(run.stride > 1 ? `${clock.length} of ${run.given} frames are in it: one of ${run.stride}, and the last.` : `All ${run.given} frames are in it.`);
+  if (run.lengthsOnly) lines.push("Components of vectors are left out.");
+  if (run.onePointOf > 1) lines.push(`One point of ${run.onePointOf} is in it.`);
   const error = Math.max(run.positionError, run.radiusError);
-  parts.push(`Positions in this page are exact to ${Number((error * 1e6).toPrecision(2))} µm.`);
-  byId("note").textContent = parts.join(" ");
+  if (run.layers.length) lines.push(`Positions and radii are within ${short(error)}, fields within 1/131 070 of their range in a frame; whole numbers are exact.`);
+  byId("note").textContent = lines.join(" ");
 }
 
 function fail(message) {
@@ -16,7 +26,7 @@ function fail(message) {
 
 // The picture as last drawn: how many pixels are not background, and a sum that changes when the picture does.
 function pixels() {
-  redraw(1);
+  redraw(1, painter.asDots(false, 0));
   const [w, h] = [canvas.width, canvas.height];
   const data = new Uint8Array(4 * w * h);
   gl.readPixels(0, 0, w, h, gl.RGBA, gl.UNSIGNED_BYTE, data);
@@ -30,10 +40,31 @@ function pixels() {
   return { width: w, height: h, covered, sum };
 }
 
+// Milliseconds that a frame takes, drawn `count` times one after the other while the eye turns.
+function measure(count, samples, dots) {
+  const one = new Uint8Array(4);
+  const wait = () => gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, one);
+  redraw(samples, dots);
+  wait();
+  const start = performance.now();
+  for (let n = 0; n < count; n++) { camera.turn(0.01, 0); redraw(samples, dots); wait(); }
+  return (performance.now() - start) / count;
+}
+
+// What was marked, in the words of `cloud-crop`.
+function drawnRegions() {
+  const files = regions.list.filter((r) => r.file).map((r) => [r.file, regions.json(r)]);
+  return { dropped: [...regions.marks.keys()].filter((i) => regions.marks[i]), options: regions.options(), files: Object.fromEntries(files) };
+}
+
 function expose() {
   window.grainpipe = {
     ready: true, error: null, show, pixels, frames: clock.length,
-    play: () => play(true), pause: () => play(false), colour: setField, look: lookFrom,
+    play: () => play(true), pause: () => play(false), colour: setField, look: lookFrom, measure, follow, slice: sliceAcross,
+    pickAt: (x, y) => { pick(findAt(x, y)); return window.grainpipe.picked; },
+    get picked() { return picked.hit && { id: picked.id, row: pickedRow(), place: pickedPlace()?.place, values: pickedValues() }; },
+    get points() { return painter.dots; },
+    get regions() { return run.pick ? drawnRegions() : null; },
     get frame() { return state.frame; },
     get playing() { return state.playing; },
     get drawn() { return painter.drawn; },
@@ -47,18 +78,21 @@ function start() {
   if (!gl) return fail("This view needs WebGL 2, which this browser does not offer. Try a current Firefox, Chrome, Edge or Safari, with graphics acceleration on.");
   try {
     fitCanvas();
-    camera.start(innerWidth, innerHeight);
     painter.start();
     sheets.start();
   } catch (problem) {
     return fail(`The graphics driver refused this page's drawing program: ${problem.message}`);
   }
-  choices();
-  wire();
-  notes();
   const moving = clock.length > 1;
   byId("player").hidden = !moving;
-  byId("ruler").style.bottom = moving ? "" : "24px";
+  document.body.classList.toggle("still", !moving);
+  choices();
+  if (run.pick) regions.start();
+  wire();
+  notes();
+  listKeys();
+  showCounts();
+  camera.start(innerWidth, innerHeight);
   byId("scrub").max = clock.length - 1;
   state.speed = naturalSpeed();
   byId("speed").value = state.speed;
@@ -66,7 +100,7 @@ function start() {
   show(Math.max(0, asked));
   expose();
   canvas.addEventListener("webglcontextlost", () => fail("The graphics card dropped this page: load it again."));
-  redraw(1);
+  redraw(1, painter.asDots(moving, 0));
   if (run.time === null && !matchMedia("(prefers-reduced-motion: reduce)").matches) play(moving);
   requestAnimationFrame(tick);
 }

@@ -1,8 +1,11 @@
 //! One self-contained HTML page that shows a run, its walls, and clouds; it asks for nothing over a network.
 //!
 //! Frames are packed as they come (positions as 16-bit numbers in a box of their own), so a run that does not fit
-//! in memory can be shown; when the page grows beyond its limit, every second frame is left out again.
+//! in memory can be shown; when the page grows beyond its limit, first the components of vectors are left out, of
+//! which the lengths stay, then every second frame, again and again; what is then still too big is refused.
 
+mod exact;
+mod fit;
 mod pack;
 mod panes;
 mod timeline;
@@ -11,6 +14,7 @@ mod write;
 use crate::{
     Camera, Map, Motion, Role, Surface, ViewError, field, outline::Outline, scale::Range, spheres::Spheres,
 };
+use exact::Exact;
 use pack::Packed;
 use stream::Table;
 use timeline::Timeline;
@@ -32,8 +36,10 @@ pub struct PageOptions {
     pub time: Option<f64>,
     /// Size the page should stay below [byte].
     pub most_bytes: usize,
-    /// Whether components of vectors are fields too.
+    /// Whether components of vectors stay, and frames are left out instead.
     pub components: bool,
+    /// Whether regions can be drawn on it: the file that `cloud-crop` is to be given.
+    pub pick: Option<String>,
 }
 
 impl Default for PageOptions {
@@ -47,6 +53,7 @@ impl Default for PageOptions {
             time: None,
             most_bytes: 60_000_000,
             components: false,
+            pick: None,
         }
     }
 }
@@ -64,6 +71,12 @@ pub struct Kept {
     pub position_error: f64,
     /// Bound on the error of a radius by packing [m].
     pub radius_error: f64,
+    /// Bound on the error of each field by packing, in its unit.
+    pub field_errors: Vec<(String, f64)>,
+    /// Whether components of vectors were left out.
+    pub lengths_only: bool,
+    /// One point of so many is on the page, where regions are drawn.
+    pub one_point_of: usize,
 }
 
 /// One thing shown: a file's grains, walls or cloud.
@@ -80,6 +93,8 @@ pub(crate) struct Layer {
     pub outline: Outline,
     /// How it moves besides.
     pub motion: Motion,
+    /// The positions to the last bit, where regions are drawn.
+    pub exact: Option<Exact>,
 }
 
 /// A field of a layer.
@@ -99,12 +114,20 @@ pub struct Page {
     surfaces: Vec<Surface>,
     given: usize,
     stride: usize,
+    lengths_only: bool,
+    one_point_of: usize,
 }
 
 impl Page {
     /// A page without anything in it.
     pub fn new(options: PageOptions) -> Page {
-        Page { options, layers: Vec::new(), surfaces: Vec::new(), given: 0, stride: 1 }
+        let (layers, surfaces) = (Vec::new(), Vec::new());
+        Page { options, layers, surfaces, given: 0, stride: 1, lengths_only: false, one_point_of: 1 }
+    }
+
+    /// Whether regions can be drawn on it.
+    pub fn picks(&self) -> bool {
+        self.options.pick.is_some()
     }
 
     /// Adds a layer; its number is for [`Page::push`].
@@ -118,6 +141,7 @@ impl Page {
             point_radius: 0.0,
             outline: Outline::default(),
             motion: Motion::default(),
+            exact: None,
         });
         self.layers.len() - 1
     }
@@ -140,24 +164,19 @@ impl Page {
     /// Adds what a layer looks like at `time` [s] and after; times of a layer must not fall.
     ///
     /// # Errors
-    /// A table without positions, or with a position that is not finite.
+    /// A table without positions, or with a position that is not finite; a page beyond its limit.
     pub fn push(&mut self, layer: usize, time: f64, table: &Table) -> Result<(), ViewError> {
-        let sorted = by_id(table);
-        let table = sorted.as_ref().unwrap_or(table);
+        let chosen = self.every_so_many(table).or_else(|| by_id(table));
+        let table = chosen.as_ref().unwrap_or(table);
+        let all_fields = self.options.components || !self.lengths_only;
         let layer = &mut self.layers[layer];
         let spheres = Spheres::of(table, &layer.name)?;
         let moving = layer.role == Role::Grains;
         if layer.frames.is_empty() {
-            let mut names = field::names(table, self.options.components);
-            let asked = self.options.colour.as_deref().map(field::canonical);
-            names.retain(|n| n != "radius" || spheres.sized);
-            names.extend(
-                asked.filter(|a| table.get(a).is_some() && !["x", "y", "z"].contains(a)).map(str::to_owned),
-            );
-            names.dedup();
-            layer.fields = new_fields(table, names);
+            layer.fields = new_fields(table, all_fields, spheres.sized, self.options.colour.as_deref());
             layer.point_radius =
                 if spheres.sized { 0.0 } else { spheres.radius.first().copied().unwrap_or(0.0) };
+            layer.exact = self.options.pick.as_ref().map(|_| Exact::of(&spheres.centre));
         }
         layer.outline.add_spheres(&spheres, layer.role != Role::Walls);
         let mut columns = Vec::new();
@@ -170,18 +189,7 @@ impl Page {
         let packed = Packed::new(time, &spheres, &columns, &layer.fields, layer.frames.last());
         layer.frames.push(packed, self.stride);
         self.given += usize::from(moving);
-        self.thin();
-        Ok(())
-    }
-
-    /// Leaves out every second frame while the page is too big.
-    fn thin(&mut self) {
-        while self.layers.iter().map(|l| l.frames.bytes()).sum::<usize>() > self.options.most_bytes / 4 * 3
-            && self.layers.iter().any(|l| l.frames.len() > 2)
-        {
-            self.stride *= 2;
-            self.layers.iter_mut().for_each(|l| l.frames.thin(self.stride));
-        }
+        self.fit()
     }
 
     /// What became of the frames so far.
@@ -190,17 +198,45 @@ impl Page {
         let error = |of: fn(&Packed) -> f64| {
             self.layers.iter().flat_map(|l| l.frames.iter()).map(of).fold(0.0, f64::max)
         };
+        let mut field_errors: Vec<(String, f64)> = Vec::new();
+        for (name, error) in self.layers.iter().flat_map(Layer::field_errors) {
+            match field_errors.iter_mut().find(|(known, _)| *known == name) {
+                Some((_, most)) => *most = most.max(error),
+                None => field_errors.push((name, error)),
+            }
+        }
         Kept {
             given: self.given,
             kept: grains.map(|l| l.frames.len()).sum(),
             stride: self.stride,
             position_error: error(Packed::position_error),
             radius_error: error(|p| p.radius.error()),
+            field_errors,
+            lengths_only: self.lengths_only,
+            one_point_of: self.one_point_of,
         }
     }
 }
 
-fn new_fields(table: &Table, names: Vec<String>) -> Vec<Field> {
+impl Layer {
+    /// Name and bound on the error by packing of each field.
+    fn field_errors(&self) -> impl Iterator<Item = (String, f64)> {
+        self.fields.iter().enumerate().map(|(n, field)| {
+            let of = self.frames.iter().filter_map(|f| f.fields.get(n));
+            (field.name.clone(), of.map(pack::Column::error).fold(0.0, f64::max))
+        })
+    }
+}
+
+/// The fields of a first table: all, or of vectors only the lengths; and the one `asked` for.
+fn new_fields(table: &Table, components: bool, sized: bool, asked: Option<&str>) -> Vec<Field> {
+    let mut names = field::names(table, components);
+    names.retain(|n| n != "radius" || sized);
+    let place = |name: &str| ["x", "y", "z"].contains(&name);
+    if let Some(asked) = asked.map(field::canonical).filter(|a| table.get(a).is_some() && !place(a)) {
+        names.retain(|n| n != asked);
+        names.push(asked.to_owned());
+    }
     let field = |name: String| Field {
         whole: field::is_whole(table, &name),
         name,

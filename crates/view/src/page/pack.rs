@@ -1,7 +1,8 @@
-//! Packing: numbers as 8 or 16 bits between the least and the greatest of a frame.
+//! Packing: numbers as 16 bits between the least and the greatest of a frame; whole numbers as 8, 16 or 32, exactly.
 //!
 //! ```text
-//! q = round((v − lo)/(hi − lo) · m)      v ≈ lo + q/m (hi − lo)      |error| ≤ (hi − lo)/(2 m),  m = 255 or 65 535
+//! q = round((v − lo)/(hi − lo) · m)      v ≈ lo + q/m (hi − lo)      |error| ≤ (hi − lo)/(2 m),  m = 65 535
+//! whole numbers: hi = lo + m, m = 255, 65 535 or 4 294 967 295, the least that holds them: error 0
 //! ```
 
 use super::Field;
@@ -19,7 +20,7 @@ const NO_RANGE: Range = Range { lo: 0.0, hi: 0.0 };
 pub(crate) struct Column {
     /// What 0 and the greatest number stand for.
     pub range: Range,
-    /// Bytes of a number: 1 or 2, little-endian.
+    /// Bytes of a number: 1, 2 or 4, little-endian.
     pub width: usize,
     /// The numbers; the same place in memory as the last frame's when they are the same.
     pub bytes: Arc<Vec<u8>>,
@@ -36,9 +37,10 @@ impl Column {
         Column { range, width, bytes: same.map_or_else(|| Arc::new(bytes), |l| Arc::clone(&l.bytes)) }
     }
 
-    /// Bound on the error of a number by packing, in its unit.
+    /// Bound on the error of a number by packing, in its unit; none for whole numbers, whose steps are 1.
     pub fn error(&self) -> f64 {
-        if self.range.hi > self.range.lo {
+        let steps_of_one = self.range.hi - self.range.lo == most(self.width);
+        if self.range.hi > self.range.lo && !steps_of_one {
             (self.range.hi - self.range.lo) / (2.0 * most(self.width))
         } else {
             0.0
@@ -46,14 +48,19 @@ impl Column {
     }
 }
 
+/// The greatest number of so many bytes.
 fn most(width: usize) -> f64 {
-    if width == 1 { 255.0 } else { 65_535.0 }
+    match width {
+        1 => 255.0,
+        2 => 65_535.0,
+        _ => 4_294_967_295.0,
+    }
 }
 
 fn quantise(value: f64, range: Range, width: usize, bytes: &mut Vec<u8>) {
     let share = if range.hi > range.lo && value.is_finite() { range.share(value) } else { 0.0 };
-    let number = (share * most(width)).round() as u16;
-    bytes.extend_from_slice(&number.to_le_bytes()[..width]);
+    let number = (share * most(width)).round() as u32;
+    bytes.extend(number.to_le_bytes().into_iter().take(width));
 }
 
 /// One layer at one time.
@@ -93,11 +100,10 @@ impl Packed {
         let pack = |n: usize| {
             let before = last.and_then(|l| l.fields.get(n));
             let all = Range::of(&columns[n]);
-            match fields[n].whole && all.hi - all.lo <= 65_535.0 {
-                true => {
-                    Column::new(&columns[n], whole(all), if all.hi - all.lo <= 255.0 { 1 } else { 2 }, before)
-                }
-                false => Column::new(&columns[n], all, 2, before),
+            let width = if fields[n].whole { width_of(all) } else { None };
+            match width {
+                Some(width) => Column::new(&columns[n], whole(all, width), width, before),
+                None => Column::new(&columns[n], all, 2, before),
             }
         };
         Packed {
@@ -125,10 +131,14 @@ impl Packed {
     }
 }
 
+/// Bytes that whole numbers of that range need.
+fn width_of(all: Range) -> Option<usize> {
+    [1, 2, 4].into_iter().find(|&width| all.hi - all.lo <= most(width))
+}
+
 /// A range of whole numbers in which each has a packed number of its own: steps of 1.
-fn whole(all: Range) -> Range {
-    let width = if all.hi - all.lo <= 255.0 { 255.0 } else { 65_535.0 };
-    if all.lo <= all.hi { Range { lo: all.lo, hi: all.lo + width } } else { all }
+fn whole(all: Range, width: usize) -> Range {
+    if all.lo <= all.hi { Range { lo: all.lo, hi: all.lo + most(width) } } else { all }
 }
 
 /// The last frame's range where it still fits, so that what rests keeps its bytes; else a slightly wider one.
@@ -186,9 +196,17 @@ mod tests {
 
     #[test]
     fn whole_numbers_come_back_exactly() {
-        let id: Vec<f64> = (0..40_000).map(|i| f64::from(i + 17)).collect();
-        let range = whole(Range::of(&id));
-        let column = Column::new(&id, range, 2, None);
-        assert!((0..id.len()).all(|i| (unpacked(&column.bytes, i, range) - id[i]).abs() < 1e-6));
+        for (step, width) in [(0.005, 1), (1.0, 2), (1e5, 4)] {
+            let id: Vec<f64> = (0..40_000).map(|i| (f64::from(i) * step).floor() + 17.0).collect();
+            assert_eq!(width_of(Range::of(&id)), Some(width));
+            let range = whole(Range::of(&id), width);
+            let column = Column::new(&id, range, width, None);
+            let number = |i: usize| {
+                let bytes = &column.bytes[width * i..width * (i + 1)];
+                bytes.iter().rev().fold(0.0, |sum, &b| 256.0 * sum + f64::from(b))
+            };
+            assert!((0..id.len()).all(|i| range.lo + number(i) == id[i]), "{width} bytes");
+            assert_eq!(column.error(), 0.0);
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! Thin walls in a page, packed once: where they are at t = 0, and how they move.
 
 use super::{Layer, Page};
-use crate::{Motion, Role, SurfaceShape, outline::Outline, scale::Range, sheet};
+use crate::{Motion, Role, Surface, SurfaceShape, outline::Outline, scale::Range, sheet};
 use geom::Vec3;
 use serde_json::{Value, json};
 use std::sync::Arc;
@@ -25,13 +25,15 @@ pub(super) struct Pane {
     pub ink: f32,
     /// Normal of a plane, which points to the grains.
     pub normal: Option<Vec3>,
+    /// Places that the camera must see to see it [m].
+    pub outline: Vec<Vec3>,
 }
 
 /// What depends on all layers and surfaces together.
 pub(super) struct Framed {
     pub panes: Vec<Pane>,
-    /// Places that the camera must see [m].
-    pub outline: Vec<Vec3>,
+    /// Places that the camera must see to see each layer [m].
+    pub outlines: Vec<Vec<Vec3>>,
     /// The box around everything [m].
     pub extent: [Range; 3],
 }
@@ -51,21 +53,33 @@ impl Page {
     pub(super) fn framed(&self) -> Framed {
         let times = self.times();
         let moments: Vec<f64> = times.iter().copied().step_by(times.len().div_ceil(MOMENTS)).collect();
-        let mut outline = Outline::default();
-        for layer in &self.layers {
-            add_moving(&mut outline, &layer.outline.places(), &layer.motion, &moments);
-        }
+        let on_its_way = |places: &[Vec3], motion: &Motion| {
+            let mut outline = Outline::default();
+            add_moving(&mut outline, places, motion, &moments);
+            outline.places()
+        };
+        let layers = self.layers.iter().map(|l| on_its_way(&l.outline.places(), &l.motion));
+        let outlines: Vec<Vec<Vec3>> = layers.collect();
+        let mut all: Vec<Vec3> = outlines.concat();
         let mut panes = Vec::new();
-        for sheet in sheet::sheets(&self.surfaces, sheet::box_of(&outline.places())) {
+        for sheet in sheet::sheets(&self.surfaces, sheet::box_of(&all)) {
+            let mut own = Outline::default();
             if sheet.whole {
-                let mut own = Outline::default();
                 own.add(&sheet.vertices);
-                add_moving(&mut outline, &own.places(), &sheet.surface.motion, &moments);
             }
-            panes.push(Pane::new(&sheet));
+            let outline = on_its_way(&own.places(), &sheet.surface.motion);
+            all.extend(&outline);
+            panes.push(Pane::new(&sheet, outline));
         }
-        let outline = outline.places();
-        Framed { panes, extent: sheet::box_of(&outline), outline }
+        Framed { panes, extent: sheet::box_of(&all), outlines }
+    }
+}
+
+/// Bytes that a surface takes, without its lines.
+pub(super) fn bytes(surface: &Surface) -> usize {
+    match &surface.shape {
+        SurfaceShape::Plane(_) => 0,
+        SurfaceShape::Mesh(mesh) => 12 * (mesh.vertices.len() + mesh.faces.len()),
     }
 }
 
@@ -79,13 +93,14 @@ fn add_moving(outline: &mut Outline, places: &[Vec3], motion: &Motion, moments: 
 }
 
 impl Pane {
-    fn new(sheet: &sheet::Sheet) -> Pane {
+    fn new(sheet: &sheet::Sheet, outline: Vec<Vec3>) -> Pane {
         let origin = sheet.vertices.first().copied().unwrap_or_default();
         let packed = |places: &mut dyn Iterator<Item = Vec3>| {
             let numbers = places.flat_map(|p| <[f64; 3]>::from(p - origin));
             Arc::new(numbers.flat_map(|c| (c as f32).to_le_bytes()).collect::<Vec<u8>>())
         };
         Pane {
+            outline,
             name: sheet.surface.name.clone(),
             motion: sheet.surface.motion,
             origin,

@@ -8,6 +8,7 @@ let lastChange = 0;
 function show(frame) {
   state.frame = Math.max(0, Math.min(clock.length - 1, frame));
   playTime = clock[state.frame];
+  keepUp();
   changed();
 }
 
@@ -42,40 +43,44 @@ function advance(now) {
   let frame = state.frame;
   if (clock[frame] > playTime) frame = 0;
   while (frame + 1 < clock.length && clock[frame + 1] <= playTime) frame++;
-  if (frame !== state.frame) { state.frame = frame; changed(); }
+  if (frame !== state.frame) { state.frame = frame; keepUp(); changed(); }
 }
 
-// Moving pictures are drawn plainly where the machine is slow, and again in full once they rest.
-function quality() {
-  const pixels = devicePixelRatio >= 1.5 ? 1 : 2;
+// Moving pictures are drawn plainly where the machine is slow, and again in full once they rest: samples along each
+// side of a pixel, and whether spheres become points.
+function fineness() {
   const moving = state.playing || performance.now() - lastChange < 150;
-  return moving && slow > 3 ? 1 : pixels;
+  const samples = (moving && slow > 3) || devicePixelRatio >= 1.5 ? 1 : 2;
+  return [samples, painter.asDots(moving, slow)];
 }
 
-let drawnQuality = 0;
+let drawn = [0, false];
 function tick(now) {
   if (state.playing) advance(now);
-  const wanted = quality();
-  if (state.dirty || wanted > drawnQuality) {
+  const [samples, dots] = fineness();
+  if (state.dirty || samples > drawn[0] || dots !== drawn[1]) {
     const gap = now - tick.last;
     if (state.dirty && gap < 1000) slow = Math.max(0, Math.min(8, slow + (gap > 45 ? 1 : -0.25)));
-    redraw(wanted);
+    redraw(samples, dots);
   }
   tick.last = now;
   requestAnimationFrame(tick);
 }
 tick.last = 0;
 
-function redraw(wanted) {
+function redraw(samples, dots) {
   fitCanvas();
-  painter.draw(wanted);
-  drawnQuality = wanted;
+  painter.draw(samples, dots);
+  drawn = [samples, dots];
   state.dirty = false;
   showRuler();
   showGnomon();
   showCounts();
+  showRing();
+  if (picked.hit) showCard();
+  if (run.pick) regions.outline();
   byId("scrub").value = state.frame;
-  byId("time").textContent = `frame ${state.frame + 1} / ${clock.length}`;
+  byId("time").textContent = `${state.frame + 1} / ${clock.length}`;
 }
 
 function fitCanvas() {

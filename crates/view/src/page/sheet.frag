@@ -7,14 +7,15 @@ uniform sampler2D solidDepth, glassDepth;
 uniform vec3 plain;
 uniform vec2 nearFar;
 uniform vec4 cut;
-uniform float flatView, width, hides, ink;   // ink: brightness of lines
+uniform float cutLeast, flatView, width, hides, ink;   // ink: brightness of lines
 uniform int glass;
 layout(location = 0) out vec4 behind;
 layout(location = 1) out vec4 before;
 
 void main() {
   vec3 slope = cross(dFdx(seen), dFdy(seen));
-  if (dot(cut.xyz, place) > cut.w) discard;
+  float along = dot(cut.xyz, place);
+  if (along > cut.w || along < cutLeast) discard;
   ivec2 at = ivec2(gl_FragCoord.xy);
   float depth = (seen.z - nearFar.x) / (nearFar.y - nearFar.x);
   if (depth >= texelFetch(solidDepth, at, 0).r) discard;

@@ -17,11 +17,18 @@ function poseOf(motion, origin, time) {
   return { turn, shift };
 }
 
+// The colour of a mesh, 0 to 1: that of a wall, tinted where there are several to tell apart.
+function tintOf(number, count) {
+  const tint = run.kinds[number % run.kinds.length];
+  return run.wall.map((c, k) => (count < 2 ? c : 0.6 * c + 0.4 * tint[k]) / 255);
+}
+
 const sheets = {
   target: null,
 
   start() {
-    this.program = program("sheet");
+    this.program = program("sheet", "sheet");
+    this.opaque = program("sheet", "mesh");
     this.target = new Target();
     this.parts = run.surfaces.map((surface) => ({ surface, faces: this.faces(surface), lines: this.lines(surface) }));
   },
@@ -55,8 +62,30 @@ const sheets = {
     return state.opacity > 0 ? this.parts.filter((p) => !state.hidden.has(p.surface)) : [];
   },
 
+  // Meshes hide what is behind them when walls are not to be seen through; planes, which go on for ever, never do.
+  isSolid: (part) => state.opacity > 0.999 && !part.surface.normal,
+  solid() { return this.shown().filter((p) => this.isSolid(p)); },
+  glass() { return this.shown().filter((p) => !this.isSolid(p)); },
+
+  drawSolid(view) {
+    const parts = this.solid();
+    if (!parts.length) return;
+    const { made, at } = this.opaque;
+    gl.useProgram(made);
+    painter.setEye(this.opaque, view);
+    setCut(this.opaque, cutOf());
+    gl.uniform1f(at("width"), 0);
+    const meshes = run.surfaces.filter((s) => !s.normal);
+    for (const part of parts) {
+      gl.uniform3fv(at("plain"), tintOf(meshes.indexOf(part.surface), meshes.length));
+      this.place(part, this.opaque);
+      gl.bindVertexArray(part.faces.array);
+      gl.drawElements(gl.TRIANGLES, part.faces.count, gl.UNSIGNED_INT, 0);
+    }
+  },
+
   draw(view, size, glass) {
-    const shown = this.shown();
+    const shown = this.glass();
     this.target.resize(...(shown.length ? size : [1, 1]));
     if (!shown.length) return;
     this.target.begin();
@@ -82,13 +111,18 @@ const sheets = {
     return dot3(turned, away) < 0 ? 2 : 0;
   },
 
-  drawPart({ surface, faces, lines }, width) {
-    const { at } = this.program;
+  place({ surface }, { at }) {
     const pose = poseOf(surface.motion, surface.origin, clock[state.frame]);
     gl.uniformMatrix3fv(at("pose"), false, pose.turn);
     gl.uniform3fv(at("poseShift"), pose.shift);
+  },
+
+  drawPart(part, width) {
+    const { surface, faces, lines } = part;
+    const { at } = this.program;
+    this.place(part, this.program);
     gl.uniform1f(at("width"), width);
-    gl.uniform1f(at("hides"), width ? surface.ink : state.opacity);
+    gl.uniform1f(at("hides"), width ? surface.ink : Math.min(state.opacity, surface.normal ? 0.3 : 1));
     gl.bindVertexArray((width ? lines : faces).array);
     if (width) gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, lines.count);
     else gl.drawElements(gl.TRIANGLES, faces.count, gl.UNSIGNED_INT, 0);
@@ -99,7 +133,7 @@ const sheets = {
     painter.setEye(this.program, view);
     gl.uniform2fv(at("size"), size);
     gl.uniform3fv(at("plain"), run.wall.map((c) => c / 255));
-    gl.uniform4fv(at("cut"), cutPlane());
+    setCut(this.program, cutOf());
     gl.uniform1f(at("ink"), paper()[0] < 0.5 ? 1.1 : 0.5);
     gl.uniform1i(at("glass"), glass ? 1 : 0);
     [["solidDepth", painter.solid.depth], ["glassDepth", painter.glass.depth]].forEach(([name, input], n) => {

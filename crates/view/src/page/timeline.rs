@@ -59,6 +59,15 @@ impl Timeline {
         self.count();
     }
 
+    /// Leaves out the fields that do not stay.
+    pub fn keep_fields(&mut self, stays: &[bool]) {
+        for (_, packed) in &mut self.frames {
+            let mut stays = stays.iter();
+            packed.fields.retain(|_| stays.next().copied().unwrap_or(true));
+        }
+        self.count();
+    }
+
     fn count(&mut self) {
         let all = self.frames.iter().flat_map(|(_, packed)| packed.blobs());
         let mut seen = HashSet::new();

@@ -7,31 +7,61 @@ use super::{
 };
 use crate::{Map, Role, ViewError, colour, field, scale, sheet};
 use base64::{Engine, engine::general_purpose::STANDARD};
+use geom::Vec3;
 use serde_json::{Value, json};
 use std::collections::HashMap;
 use std::io::{self, Write};
 use std::sync::Arc;
 
 const TEMPLATE: &str = include_str!("page.html");
+const REGION: &str = include_str!("region.html");
 const STYLE: &str = include_str!("page.css");
-const SCRIPT: [&str; 8] = [
+const SCRIPT: [&str; 14] = [
     include_str!("data.js"),
     include_str!("camera.js"),
+    include_str!("card.js"),
+    include_str!("gpu.js"),
     include_str!("draw.js"),
     include_str!("sheet.js"),
+    include_str!("cut.js"),
+    include_str!("find.js"),
     include_str!("legend.js"),
     include_str!("play.js"),
-    include_str!("controls.js"),
+    include_str!("panel.js"),
+    include_str!("keys.js"),
+    include_str!("touch.js"),
     include_str!("main.js"),
 ];
-const SHADERS: [(&str, &str); 6] = [
+/// What a page has besides on which regions are drawn.
+const REGIONS: [&str; 2] = [include_str!("shape.js"), include_str!("region.js")];
+const SHADERS: [(&str, &str); 8] = [
     ("ball-vert", include_str!("ball.vert")),
     ("ball-frag", include_str!("ball.frag")),
+    ("dot-frag", include_str!("dot.frag")),
     ("sheet-vert", include_str!("sheet.vert")),
     ("sheet-frag", include_str!("sheet.frag")),
+    ("mesh-frag", include_str!("mesh.frag")),
     ("light-vert", include_str!("light.vert")),
     ("light-frag", include_str!("light.frag")),
 ];
+
+/// Counts what passes.
+struct Counted<W> {
+    to: W,
+    bytes: u64,
+}
+
+impl<W: Write> Write for Counted<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.to.write(bytes)?;
+        self.bytes += written as u64;
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.to.flush()
+    }
+}
 
 /// Every column of bytes with a number, each place in memory once.
 #[derive(Default)]
@@ -72,7 +102,7 @@ impl Page {
     /// # Errors
     /// Nothing to show, or no layer has the field to colour by.
     pub fn check(&self) -> Result<(), ViewError> {
-        let layers: Vec<&Layer> = self.layers.iter().filter(is_shown).collect();
+        let layers: Vec<&Layer> = self.layers.iter().filter(|l| is_shown(l)).collect();
         if layers.is_empty() && self.surfaces.is_empty() {
             return Err(ViewError::Empty);
         }
@@ -87,14 +117,17 @@ impl Page {
         }
     }
 
-    /// Writes the page; [`Page::check`] first.
+    /// Writes the page, and says how many bytes it has; [`Page::check`] first.
     ///
     /// # Errors
     /// What the writer says.
-    pub fn write_checked(&self, out: &mut impl Write) -> io::Result<()> {
+    pub fn write_checked(&self, out: &mut impl Write) -> io::Result<u64> {
+        let out = &mut Counted { to: out, bytes: 0 };
         let framed = self.framed();
         let mut blobs = Blobs::default();
-        let header = self.header(&framed, &mut blobs);
+        let mut header = self.header(&framed, &mut blobs);
+        let script = self.script();
+        header["bytes"] = json!(page_size(&blobs, &header, &script));
         // `<` cannot end the script that the text stands in when it is written as an escape.
         let header = header.to_string().replace('<', "\\u003c");
         for (n, piece) in TEMPLATE.split("{{").enumerate() {
@@ -102,16 +135,24 @@ impl Page {
                 if n == 0 { ("", piece) } else { piece.split_once("}}").unwrap_or(("", piece)) };
             match slot {
                 "title" => out.write_all(escaped(&self.options.title).as_bytes())?,
+                "regions" if self.options.pick.is_some() => out.write_all(REGION.as_bytes())?,
                 "style" => out.write_all(STYLE.as_bytes())?,
                 "shaders" => shaders(out)?,
                 "header" => out.write_all(header.as_bytes())?,
                 "blobs" => write_blobs(&blobs, out)?,
-                "script" => SCRIPT.iter().try_for_each(|part| out.write_all(part.as_bytes()))?,
+                "script" => out.write_all(script.as_bytes())?,
                 _ => {}
             }
             out.write_all(rest.as_bytes())?;
         }
-        Ok(())
+        Ok(out.bytes)
+    }
+
+    fn script(&self) -> String {
+        let regions: &[&str] = if self.options.pick.is_some() { &REGIONS } else { &[] };
+        // The last part starts what the others define.
+        let (last, parts) = SCRIPT.split_last().unwrap_or((&"", &[]));
+        [parts, regions, &[*last]].concat().concat()
     }
 
     fn header<'a>(&'a self, framed: &'a Framed, blobs: &mut Blobs<'a>) -> Value {
@@ -121,6 +162,7 @@ impl Page {
         let kinds: Vec<_> = (0..colour::KIND_COUNT).map(colour::kind).collect();
         let map = Map::ALL.iter().find(|(_, m)| *m == self.options.map).map(|(name, _)| *name);
         let camera = &self.options.camera;
+        let with_outline = self.layers.iter().zip(&framed.outlines).filter(|(l, _)| is_shown(l));
         json!({
             "title": self.options.title,
             "maps": maps, "kinds": kinds, "wall": colour::WALL, "map": map,
@@ -133,19 +175,27 @@ impl Page {
                 "target": camera.target.map(|t| [t.x, t.y, t.z]),
             },
             "given": kept.given, "stride": kept.stride,
+            "lengthsOnly": kept.lengths_only, "mostBytes": self.options.most_bytes,
+            "pick": self.options.pick, "onePointOf": kept.one_point_of,
             "positionError": kept.position_error, "radiusError": kept.radius_error,
             "clock": self.times(),
-            "outline": framed.outline.iter().map(panes::triple).collect::<Vec<_>>(),
             "lo": framed.extent.map(|r| r.lo), "hi": framed.extent.map(|r| r.hi),
-            "layers": self.layers.iter().filter(is_shown).map(|l| layer(l, blobs)).collect::<Vec<_>>(),
+            "layers": with_outline.map(|(l, o)| layer(l, o, blobs)).collect::<Vec<_>>(),
             "surfaces": framed.panes.iter().map(|p| pane(p, blobs)).collect::<Vec<_>>(),
         })
     }
 }
 
 /// Whether the layer has anything in it, ever.
-fn is_shown(layer: &&Layer) -> bool {
+fn is_shown(layer: &Layer) -> bool {
     layer.frames.iter().any(|f| f.count > 0)
+}
+
+/// Bytes of the page, to a few.
+fn page_size(blobs: &Blobs, header: &Value, script: &str) -> usize {
+    let shaders: usize = SHADERS.iter().map(|(id, text)| id.len() + text.len() + 44).sum();
+    let packed: usize = blobs.list.iter().map(|b| b.len().div_ceil(3) * 4 + 45).sum();
+    TEMPLATE.len() + STYLE.len() + shaders + script.len() + packed + header.to_string().len()
 }
 
 fn pane<'a>(pane: &'a Pane, blobs: &mut Blobs<'a>) -> Value {
@@ -153,11 +203,12 @@ fn pane<'a>(pane: &'a Pane, blobs: &mut Blobs<'a>) -> Value {
     json!({
         "name": pane.name, "motion": panes::motion(&pane.motion), "origin": panes::triple(&pane.origin),
         "vertices": vertices, "faces": faces, "lines": lines, "ink": pane.ink,
-        "normal": pane.normal.as_ref().map(panes::triple),
+        "faceCount": pane.faces.len() / 12, "normal": pane.normal.as_ref().map(panes::triple),
+        "outline": pane.outline.iter().map(panes::triple).collect::<Vec<_>>(),
     })
 }
 
-fn layer<'a>(layer: &'a Layer, blobs: &mut Blobs<'a>) -> Value {
+fn layer<'a>(layer: &'a Layer, outline: &[Vec3], blobs: &mut Blobs<'a>) -> Value {
     let mut frames = Vec::new();
     for frame in layer.frames.iter() {
         frames.push(json!({
@@ -185,8 +236,10 @@ fn layer<'a>(layer: &'a Layer, blobs: &mut Blobs<'a>) -> Value {
         "main": layer.role == Role::Grains,
         "kinds": layer.kinds,
         "pointRadius": layer.point_radius,
+        "exact": layer.exact.as_ref().map(|e| json!([blobs.number(&e.bytes), e.width])),
         "motion": panes::motion(&layer.motion),
         "fields": fields.chain(axes).collect::<Vec<_>>(),
+        "outline": outline.iter().map(panes::triple).collect::<Vec<_>>(),
         "frames": frames,
     })
 }

@@ -1,0 +1,129 @@
+//! A particle on the seams of a mesh: which of the nearest points of its triangles are contacts, and what they remember.
+//!
+//! A contact is where the distance to the mesh has a local minimum: a point inside a face, or a point on an edge or at a corner
+//! that lies on no triangle which comes nearer elsewhere. So a particle on a seam touches once, in a corner between two
+//! faces twice. After Kremmer & Favier (2001), Int. J. Numer. Methods Eng. 51. Two points closer than the radius √(2 r δ) of the patch that the deeper one
+//! presses, or a tenth of r where that is less, are one contact, too: faces that are nearly in one plane never push
+//! twice.
+//!
+//! Memory belongs to a contact, not to a triangle: where a triangle no longer counts that did in the step before, and
+//! a neighbour counts that remembers nothing, the neighbour takes over (the nearest one, within a quarter of r: contact points
+//! move less in a step). The spring is turned into the new tangent plane by the effect itself.
+
+use crate::lane::BLOCK;
+use geom::Vec3;
+use geom::triangle::{Feature, closest_feature};
+
+/// Two points closer than this share of the distance are one contact [–].
+const SAME_POINT: f64 = 1e-6;
+/// Farther than this share of the radius no two points are one contact [–].
+const LARGEST_PATCH: f64 = 0.1;
+/// Memory goes no farther than this share of the radius [–].
+const STRIDE: f64 = 0.25;
+/// Points farther than this share of the radius are no contacts, gaps that adhere included [–].
+const NEAR: f64 = 1.02;
+
+/// The nearest point of one triangle, seen from the particle.
+#[derive(Debug, Clone, Copy)]
+pub struct Nearest {
+    triangle: [Vec3; 3],
+    centre: Vec3,
+    /// From the centre of the particle to the point [m].
+    pub way: Vec3,
+    square: f64,
+    face: bool,
+    /// Whether it is a contact.
+    pub counts: bool,
+}
+
+impl Nearest {
+    /// Of a triangle, to a particle at `centre` [m].
+    pub fn of(triangle: [Vec3; 3], centre: Vec3) -> Nearest {
+        let (point, feature) = closest_feature(triangle, centre);
+        let way = point - centre;
+        let face = feature == Feature::Face;
+        Nearest { triangle, centre, way, square: way.norm_squared(), face, counts: false }
+    }
+
+    /// Whether the like point of a particle lies on this triangle.
+    fn holds(&self, way: &Vec3) -> bool {
+        let place = self.centre + way;
+        let tolerance = SAME_POINT * way.norm();
+        (closest_feature(self.triangle, place).0 - place).norm_squared() <= tolerance * tolerance
+    }
+
+    /// Square of the distance within which another point is the same contact [m²].
+    fn patch(&self, radius: f64) -> f64 {
+        let distance = self.square.sqrt();
+        let pressed = (2.0 * radius * (radius - distance)).clamp(0.0, (LARGEST_PATCH * radius).powi(2));
+        pressed.max((SAME_POINT * distance).powi(2))
+    }
+}
+
+/// Says which of the nearest points of a particle of `radius` [m] are contacts.
+pub fn count(near: &mut [Nearest], radius: f64) {
+    let limit = (NEAR * radius).powi(2);
+    let mut order: Vec<usize> = (0..near.len()).filter(|&k| near[k].square <= limit).collect();
+    if let [only] = order[..] {
+        near[only].counts = true;
+        return;
+    }
+    order.sort_by(|&a, &b| {
+        let (p, q) = (&near[a], &near[b]);
+        p.square.total_cmp(&q.square).then(a.cmp(&b))
+    });
+    for (n, &k) in order.iter().enumerate() {
+        let mine = near[k];
+        let same = |m: &Nearest| m.counts && (m.way - mine.way).norm_squared() <= m.patch(radius);
+        let nearer = |m: &Nearest| !mine.face && m.square < mine.square && m.holds(&mine.way);
+        near[k].counts = !order[..n].iter().any(|&m| same(&near[m]) || nearer(&near[m]));
+    }
+}
+
+/// Contact memory of some places of one segment.
+pub struct Slots<'a> {
+    /// Of the whole segment, by block and column.
+    pub memory: &'a mut [f64],
+    /// First of the places.
+    pub first: usize,
+    /// Numbers of each contact.
+    pub columns: usize,
+}
+
+impl Slots<'_> {
+    /// The same from place `by` on.
+    pub fn from(&mut self, by: usize) -> Slots<'_> {
+        Slots { memory: self.memory, first: self.first + by, columns: self.columns }
+    }
+
+    fn at(&self, k: usize, column: usize) -> usize {
+        let place = self.first + k;
+        (place / BLOCK * self.columns + column) * BLOCK + place % BLOCK
+    }
+
+    fn empty(&self, k: usize) -> bool {
+        (0..self.columns).all(|c| self.memory[self.at(k, c)] == 0.0)
+    }
+
+    /// Gives the memory of points that no longer count to neighbours that remember nothing.
+    pub fn hand_over(&mut self, near: &[Nearest], radius: f64) {
+        if self.columns == 0 {
+            return;
+        }
+        for k in (0..near.len()).filter(|&k| !near[k].counts) {
+            if self.empty(k) {
+                continue;
+            }
+            let away = |m: usize| (near[m].way - near[k].way).norm_squared();
+            let free = (0..near.len()).filter(|&m| near[m].counts && self.empty(m));
+            let nearest = free.min_by(|&a, &b| away(a).total_cmp(&away(b)).then(a.cmp(&b)));
+            if let Some(m) = nearest.filter(|&m| away(m) <= (STRIDE * radius).powi(2)) {
+                for c in 0..self.columns {
+                    let (from, to) = (self.at(k, c), self.at(m, c));
+                    self.memory[to] = self.memory[from];
+                    self.memory[from] = 0.0;
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,163 @@
+//! Walls that follow a force: a piston that pushes along its direction until the contacts push back as much.
+//!
+//! ```text
+//! s' = G (F − P), |s'| ≤ speed limit        P: force of the wall on the particles along its direction
+//! G  = α / (N (k Δt + c)),  α = 1/2          N contacts that push, k and c the stiffest of them
+//! s_{n+1} = s_n + s'_{n+1} Δt                s'_{n+1} from the loads of step n
+//! ```
+//!
+//! The servo mechanism of Cundall, as described for PFC (Itasca: G = α A / (k N Δt)), with the dashpots of the contacts in the
+//! gain: s changes P by N (k Δt + c) s' within a step, so that α < 1 is on the stable side of α = 2. A wall moved like this is a piston
+//! without mass in a dashpot of 1/G under the constant force F: passive, so it adds no energy but its work, which the ledger has.
+//! A wall that touches nothing moves at its speed limit. N is that of the step; k is the slope of the law at the overlap limit, so that the real gain is lower.
+//!
+//! P is summed in the order of the contact list: the same bits for any number of threads.
+
+use crate::contacts::{Kind, With};
+use crate::effects::damping_ratio;
+use crate::error::Halt;
+use crate::law::Elastic;
+use crate::limit::{contact_between, radii_by_material};
+use crate::motion::Pose;
+use crate::particles::mass;
+use crate::setup::{Law, Setup};
+use crate::simulation::{Simulation, stride};
+use geom::Vec3;
+use serde::{Deserialize, Serialize};
+
+/// Share α of the gain at which one contact is answered in one step [–].
+const SHARE: f64 = 0.5;
+
+/// A force to be followed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Servo {
+    /// Which way the wall pushes [–].
+    pub direction: Vec3,
+    /// Force of the wall on the particles along `direction` [N].
+    pub force: f64,
+    /// Largest speed [m/s].
+    pub speed_limit: f64,
+}
+
+/// Where a servo is.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Piston {
+    /// Way since t = 0 along the direction [m].
+    pub way: f64,
+    /// Its rate [m/s].
+    pub speed: f64,
+    /// Way when neighbours were listed [m].
+    pub listed: f64,
+}
+
+/// What acts on a wall at one instant.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct WallForce {
+    /// Force of the particles on the wall [N].
+    pub force: Vec3,
+    /// How far the wall has been shifted since t = 0 [m], its turn apart.
+    pub shift: Vec3,
+    /// Number of contacts.
+    pub contacts: u32,
+}
+
+impl Simulation {
+    /// Whether a wall follows a force.
+    pub fn wall_follows(&self, wall: usize) -> bool {
+        self.walls[wall].motion.servo.is_some()
+    }
+
+    /// Force on each wall, and where it is.
+    ///
+    /// # Errors
+    /// When the state is beyond a guard.
+    pub fn wall_forces(&mut self) -> Result<Vec<WallForce>, Halt> {
+        self.ready()?;
+        let time = self.time();
+        let of = |w: usize| {
+            let (push, contacts) = self.push(w);
+            WallForce { force: -push, shift: self.pose(w, time).shift(), contacts }
+        };
+        Ok((0..self.walls.len()).map(of).collect())
+    }
+
+    /// Where a wall is at `time` [s], which is now.
+    pub(crate) fn pose(&self, wall: usize, time: f64) -> Pose {
+        let motion = &self.walls[wall].motion;
+        let pose = motion.pose(time);
+        match (motion.servo, self.pistons.get(wall)) {
+            (Some(servo), Some(p)) => pose.shifted(servo.direction * p.way, servo.direction * p.speed),
+            _ => pose,
+        }
+    }
+
+    /// Where a wall was when neighbours were listed.
+    pub(crate) fn pose_listed(&self, wall: usize) -> Pose {
+        let motion = &self.walls[wall].motion;
+        let pose = motion.pose(self.listed as f64 * self.dt);
+        match (motion.servo, self.pistons.get(wall)) {
+            (Some(servo), Some(p)) => pose.shifted(servo.direction * p.listed, Vec3::zeros()),
+            _ => pose,
+        }
+    }
+
+    /// How far a wall may have moved [m] in the time `since` [s] neighbours were listed.
+    pub(crate) fn wall_way(&self, wall: usize, since: f64) -> f64 {
+        let way = self.pistons.get(wall).map_or(0.0, |p| (p.way - p.listed).abs());
+        self.walls[wall].fastest_driven() * since + way
+    }
+
+    /// Force of a wall on the particles [N], and how many it pushes.
+    fn push(&self, wall: usize) -> (Vec3, u32) {
+        let (c, stride) = (&self.contacts, stride(self.particles.rotates()));
+        let (mut sum, mut count) = (Vec3::zeros(), 0);
+        for segment in c.segments.iter().filter(|s| self.kinds[s.kind].with == With::Wall(wall)) {
+            let places = segment.contacts();
+            for row in c.loads[places.start * stride..places.end * stride].chunks_exact(stride) {
+                let force = Vec3::new(row[0], row[1], row[2]);
+                count += u32::from(force != Vec3::zeros());
+                sum += force;
+            }
+        }
+        (sum, count)
+    }
+
+    /// Moves the servos to the next step, by the loads of this one.
+    pub(crate) fn drive_pistons(&mut self) {
+        for w in 0..self.pistons.len() {
+            let Some(servo) = self.walls[w].motion.servo else { continue };
+            let (push, count) = self.push(w);
+            let lack = servo.force - push.dot(&servo.direction);
+            let gain = SHARE / (f64::from(count.max(1)) * self.answers[w]);
+            let piston = &mut self.pistons[w];
+            let speed = if count == 0 { lack.signum() * servo.speed_limit } else { gain * lack };
+            piston.speed = speed.clamp(-servo.speed_limit, servo.speed_limit);
+            piston.way += piston.speed * self.dt;
+        }
+    }
+}
+
+/// A piston for each wall, or none where no wall follows a force.
+pub fn pistons(setup: &Setup) -> Vec<Piston> {
+    let any = setup.walls.iter().any(|w| w.motion.servo.is_some());
+    vec![Piston::default(); if any { setup.walls.len() } else { 0 }]
+}
+
+/// k Δt + c [N·s/m] of the stiffest contact with each wall.
+pub fn answers(setup: &Setup, kinds: &[Kind], dt: f64) -> Vec<f64> {
+    let radii = radii_by_material(setup);
+    let of = |kind: &Kind| {
+        let (a, b) = kind.between;
+        let contact = contact_between(setup, a, b).ok()?;
+        let (first, second) = (&setup.materials[a as usize], &setup.materials[b as usize]);
+        let radius = radii[a as usize].map_or(0.0, |r| r.1);
+        let stiffness = match contact.law {
+            Law::Hooke { stiffness, .. } => stiffness,
+            _ => 2.0 * Elastic::of(first, second).modulus * radius * setup.guards.overlap.sqrt(),
+        };
+        let m = mass(radius, first.density);
+        Some(stiffness * dt + damping_ratio(contact.restitution) * (stiffness * m).sqrt())
+    };
+    let wall = |w: usize| kinds.iter().filter(move |k| k.with == With::Wall(w));
+    (0..setup.walls.len()).map(|w| wall(w).filter_map(of).fold(f64::MIN_POSITIVE, f64::max)).collect()
+}

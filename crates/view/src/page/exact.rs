@@ -1,0 +1,47 @@
+//! Positions to the last bit, for a page on which regions are drawn: what it marks is what `cloud-crop` drops.
+
+use std::sync::Arc;
+
+/// Positions as 4-byte numbers where these hold every bit, else as 8-byte numbers.
+pub(crate) struct Exact {
+    /// Bytes of a coordinate: 4 or 8.
+    pub width: usize,
+    /// x, y, z of each, little-endian [m].
+    pub bytes: Arc<Vec<u8>>,
+}
+
+impl Exact {
+    /// Packs the positions.
+    pub fn of(centre: &[Vec<f64>; 3]) -> Exact {
+        let short = centre.iter().flatten().all(|&c| f64::from(c as f32) == c);
+        let width = if short { 4 } else { 8 };
+        let mut bytes = Vec::with_capacity(3 * width * centre[0].len());
+        for i in 0..centre[0].len() {
+            for axis in centre {
+                match short {
+                    true => bytes.extend_from_slice(&(axis[i] as f32).to_le_bytes()),
+                    false => bytes.extend_from_slice(&axis[i].to_le_bytes()),
+                }
+            }
+        }
+        Exact { width, bytes: Arc::new(bytes) }
+    }
+
+    /// How many bytes.
+    pub fn len(&self) -> usize {
+        self.bytes.len()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn four_bytes_are_enough_only_where_no_bit_is_lost() {
+        let at = |x: f64| Exact::of(&[vec![x], vec![0.5], vec![-3.0]]);
+        assert_eq!((at(0.25).width, at(0.25).len()), (4, 12));
+        assert_eq!((at(0.1).width, at(0.1).len()), (8, 24));
+        assert_eq!(at(0.1).bytes[..8], 0.1f64.to_le_bytes());
+    }
+}
