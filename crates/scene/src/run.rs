@@ -76,6 +76,12 @@ pub struct Outcome {
     pub entered: u64,
     /// Particles that passed a storage plane.
     pub crossings: u64,
+    /// Contacts listed at the end.
+    pub listed_contacts: usize,
+    /// Particles that sleep at the end.
+    pub asleep: usize,
+    /// Effects in force: name, pair, key.
+    pub effects: Vec<String>,
 }
 
 /// How a run is written.
@@ -175,6 +181,9 @@ pub fn run<W: Write>(
     run.outcome.steps = run.sim.steps() - first;
     run.outcome.time = run.sim.time();
     run.outcome.particles = run.sim.particle_count();
+    (run.outcome.listed_contacts, run.outcome.asleep) = (run.sim.listed_contacts(), run.sim.asleep());
+    let named = |e: &dem::EffectCost| format!("{} ({}–{}): {}", e.effect, e.between.0, e.between.1, e.because);
+    run.outcome.effects = run.sim.explain().iter().map(named).collect();
     run.outcome.entered = run.supply.given.iter().sum();
     let out = run.writer.finish()?;
     Ok((run.outcome, out))
