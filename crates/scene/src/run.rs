@@ -182,7 +182,8 @@ pub fn run<W: Write>(
     run.outcome.time = run.sim.time();
     run.outcome.particles = run.sim.particle_count();
     (run.outcome.listed_contacts, run.outcome.asleep) = (run.sim.listed_contacts(), run.sim.asleep());
-    let named = |e: &dem::EffectCost| format!("{} ({}–{}): {}", e.effect, e.between.0, e.between.1, e.because);
+    let named =
+        |e: &dem::EffectCost| format!("{} ({}–{}): {}", e.effect, e.between.0, e.between.1, e.because);
     run.outcome.effects = run.sim.explain().iter().map(named).collect();
     run.outcome.entered = run.supply.given.iter().sum();
     let out = run.writer.finish()?;
