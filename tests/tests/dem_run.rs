@@ -402,3 +402,42 @@ fn a_grain_that_starts_in_a_wall_is_refused_before_the_run() {
     refused(folder.path(), "dem-run s.toml --check", 1, &inside);
     refused(folder.path(), "dem-run s.toml --explain", 1, &inside);
 }
+
+#[test]
+fn progress_is_one_json_line_with_each_frame() {
+    let folder = folder(SCENE);
+    let done = tool(folder.path(), "dem-run", &["s.toml", "--progress", "-q", "-o", "run.mcap"]);
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let lines: Vec<serde_json::Value> =
+        done.stderr.lines().map(|l| serde_json::from_str(l).unwrap_or_else(|e| panic!("{e}: {l}"))).collect();
+    assert_eq!(lines.len(), 13, "one for each frame");
+    for (k, line) in lines.iter().enumerate() {
+        let number = |key: &str| line[key].as_f64().unwrap_or_else(|| panic!("{key} is missing in {line}"));
+        assert!((number("time") - 0.01 * k as f64).abs() < 1e-4 && (number("until") - 0.12).abs() < 1e-4);
+        assert!(number("kinetic") >= 0.0 && number("left") >= 0.0 && number("elapsed") >= 0.0);
+        assert!(number("particles") > 50.0 && (number("share") - k as f64 / 12.0).abs() < 1e-2);
+        assert!(k == 0 || number("particle_steps_per_second") > 1e3);
+    }
+    assert!(lines[12]["left"] == 0.0);
+}
+
+/// What contacts press on the floor is the weight of what lies on it, as dem-measure reads it from the run.
+#[test]
+fn recorded_contacts_carry_the_weight_of_the_bed() {
+    let folder = folder(SCENE);
+    let more = ["--set", "output.contacts=true", "--until", "1.2", "--set", "output.every=0.4"];
+    succeed(folder.path(), "dem-run", &[&["s.toml", "-o", "run.mcap"], &more[..]].concat());
+    let out = succeed(folder.path(), "dem-measure", &["run.mcap", "--wall-force", "all", "-q"]);
+    let text = String::from_utf8_lossy(&out.stdout).into_owned();
+    let (head, last) = (text.lines().next().unwrap_or(""), text.lines().last().unwrap_or(""));
+    let at = head
+        .split(',')
+        .position(|c| c.starts_with("fz"))
+        .unwrap_or_else(|| panic!("no force in {head}"));
+    let force: f64 = last.split(',').nth(at).and_then(|n| n.parse().ok()).unwrap_or_else(|| panic!("{text}"));
+    let frame = frames(&folder.path().join("run.mcap")).pop().unwrap().1;
+    let radii = frame.get("radius").unwrap().to_f64();
+    let volume = radii.iter().map(|r| 4.0 / 3.0 * std::f64::consts::PI * r.powi(3)).sum::<f64>();
+    let weight = volume * 3300.0 * 9.81;
+    assert!((force / weight + 1.0).abs() < 0.01, "{force} N on the floor, the bed weighs {weight} N");
+}

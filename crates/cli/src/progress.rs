@@ -29,6 +29,11 @@ impl Progress {
         self.0.set_position(done);
     }
 
+    /// Says where the work is.
+    pub fn say(&self, words: String) {
+        self.0.set_message(words);
+    }
+
     /// Says that `more` steps were done.
     pub fn add(&self, more: u64) {
         self.0.inc(more);

@@ -7,6 +7,7 @@ use crate::feeds::Supply;
 use crate::frames::{self, WallHead};
 use crate::material_info::{self, MATERIALS};
 use crate::model::Precision;
+use crate::moment::Moment;
 use crate::schedule::{Schedule, nanoseconds};
 use crate::{Plan, Scene, input::SCENE};
 use dem::setup::Crossing;
@@ -90,6 +91,8 @@ pub struct Settings {
     pub provenance: Provenance,
     /// How chunks are packed.
     pub compression: Compression,
+    /// Whether the energy of each frame is computed for who hears of progress.
+    pub watched: bool,
     /// Asked between steps: whether the run is to end here, with a checkpoint.
     pub stop: fn() -> bool,
 }
@@ -130,11 +133,14 @@ struct Run<W: Write> {
     precision: Precision,
     crossings: Vec<Crossing>,
     outcome: Outcome,
+    /// Kinetic energy and balance [J] of the frame that has just been written.
+    looked: Option<(f64, Option<f64>)>,
+    watched: bool,
 }
 
 /// Runs a scene to its end, or until a guard or a request stops it, and gives the output back.
 ///
-/// `progress` hears the share that is done.
+/// `progress` hears where the run is, every few steps and with each frame.
 ///
 /// # Errors
 /// What the engine refuses, an inlet that breaks off, output that cannot be written.
@@ -144,10 +150,11 @@ pub fn run<W: Write>(
     resume: Option<Checkpoint>,
     out: W,
     settings: Settings,
-    progress: &mut dyn FnMut(f64),
+    progress: &mut dyn FnMut(&Moment),
 ) -> Result<(Outcome, W), RunError> {
-    let stop = settings.stop;
+    let (stop, watched) = (settings.stop, settings.watched);
     let mut run = Run::start(scene, plan, resume, out, settings)?;
+    run.watched = watched;
     let first = run.sim.steps();
     let reason = loop {
         let step = run.sim.steps();
@@ -155,10 +162,11 @@ pub fn run<W: Write>(
             break Some(stopped(scene, step, halt)?);
         }
         if step >= run.schedule.last {
+            progress(&run.moment(first));
             break None;
         }
-        if step % 256 == 0 {
-            progress((step - first) as f64 / (run.schedule.last - first) as f64);
+        if step % 256 == 0 || run.looked.is_some() {
+            progress(&run.moment(first));
         }
         // After the frame: a run that is resumed does not write it again.
         if stop() {
@@ -260,9 +268,28 @@ impl<W: Write> Run<W> {
             wall_forces,
             precision: scene.model.output.precision,
             crossings: Vec::new(),
+            looked: None,
+            watched: false,
         };
         run.write_walls(&surfaces, &plan.notes)?;
         Ok(run)
+    }
+
+    /// Where the run is, that began at step `first`.
+    fn moment(&mut self, first: u64) -> Moment {
+        let (step, steps) = (self.sim.steps(), self.schedule.last);
+        let (kinetic, balance) = self.looked.take().unzip();
+        Moment {
+            time: self.sim.time(),
+            until: steps as f64 * self.schedule.dt,
+            step,
+            steps,
+            share: (step - first) as f64 / (steps - first).max(1) as f64,
+            particles: self.sim.particle_count(),
+            asleep: self.sim.asleep(),
+            kinetic,
+            balance: balance.flatten(),
+        }
     }
 
     fn now(&self) -> u64 {
@@ -353,11 +380,15 @@ impl<W: Write> Run<W> {
             let message = frames::wall_forces(self.sim.time(), &forces, &self.walls);
             self.writer.bytes(WALL_FORCES, "json", now, json(&message).as_bytes())?;
         }
-        if self.energy {
+        if self.energy || self.watched {
             let energy = match self.sim.energy() {
                 Ok(energy) => energy,
                 Err(halt) => return Ok(Err(halt)),
             };
+            self.looked = Some((energy.translation + energy.rotation, self.energy.then(|| energy.balance())));
+            if !self.energy {
+                return Ok(Ok(()));
+            }
             let mut message = serde_json::to_value(energy).unwrap_or_default();
             message["time"] = self.sim.time().into();
             message["balance"] = energy.balance().into();

@@ -1,5 +1,7 @@
 //! Runs a scene: particles, contacts and walls through time, written as a run MCAP.
 
+mod watch;
+
 use anyhow::Context;
 use clap::Parser;
 use cli::{Output, Report, Source, Stopped};
@@ -10,6 +12,7 @@ use std::io::{self, BufRead, BufReader};
 use std::path::Path;
 use std::process::ExitCode;
 use stream::mcap::Compression;
+use watch::Watch;
 
 /// Runs a DEM scene and writes a run MCAP (walls, frames, crossings, checkpoints)
 #[derive(Parser)]
@@ -35,6 +38,9 @@ struct Args {
     /// Go on from the last checkpoint of a run
     #[arg(long, value_name = "RUN.mcap")]
     resume: Option<Source>,
+    /// Write one JSON line on stderr with each frame: time, rate, particles, energy, time left
+    #[arg(long)]
+    progress: bool,
     #[command(flatten)]
     output: Output,
 }
@@ -133,15 +139,14 @@ fn explain(args: &Args, scene: &Scene, plan: Plan) -> anyhow::Result<Report> {
 fn simulate(args: &Args, scene: &Scene, plan: Plan, resume: Option<Checkpoint>) -> anyhow::Result<Report> {
     let out = args.output.open()?;
     let compression = if out.is_stream() { Compression::None } else { Compression::Zstd };
-    let settings =
-        Settings { provenance: cli::provenance(plan.inputs.clone()), compression, stop: cli::stop_requested };
+    let provenance = cli::provenance(plan.inputs.clone());
+    let settings = Settings { provenance, compression, watched: args.progress, stop: cli::stop_requested };
     cli::stop_in_order();
-    let bar = cli::Progress::new("run", 1000);
-    let (outcome, out) =
-        run(scene, plan, resume, out, settings, &mut |share| bar.set((1000.0 * share) as u64))
-            .map_err(|e| written(e, args))?;
+    let mut watch = Watch::new(args.progress);
+    let (outcome, out) = run(scene, plan, resume, out, settings, &mut |moment| watch.hear(moment))
+        .map_err(|e| written(e, args))?;
     out.commit()?;
-    drop(bar);
+    drop(watch);
     let summary = format!(
         "{} steps of {:.3e} s to {:.4} s, {} particles, {} frames",
         outcome.steps, outcome.dt, outcome.time, outcome.particles, outcome.frames

@@ -1,0 +1,26 @@
+//! Where a run is: for bars and for who watches a long one.
+
+use serde::Serialize;
+
+/// A run at one step.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Moment {
+    /// Simulated time [s].
+    pub time: f64,
+    /// Its end [s].
+    pub until: f64,
+    /// Steps done, those before a `--resume` included.
+    pub step: u64,
+    /// Steps at the end.
+    pub steps: u64,
+    /// Share of this run that is done [–].
+    pub share: f64,
+    /// Particles in the calculation.
+    pub particles: usize,
+    /// Of these, those that sleep.
+    pub asleep: usize,
+    /// Kinetic energy [J], where a frame has just been written.
+    pub kinetic: Option<f64>,
+    /// Balance of the energy ledger [J], where it is kept and a frame has just been written.
+    pub balance: Option<f64>,
+}

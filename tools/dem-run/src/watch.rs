@@ -1,0 +1,68 @@
+//! Tells how far a run is: a bar on a terminal, or a JSON line with each frame.
+
+use scene::Moment;
+use serde::Serialize;
+use std::time::Instant;
+
+/// Steps of the bar.
+const BAR: f64 = 1000.0;
+
+/// Who hears where the run is.
+pub struct Watch {
+    bar: Option<cli::Progress>,
+    start: Instant,
+    /// Share that was done when the first news came, and when.
+    first: Option<(u64, f64)>,
+    /// Step and time [s] of the line before.
+    before: (u64, f64),
+}
+
+/// One line: where the run is, how fast, and how long it will take from here at the pace so far.
+#[derive(Serialize)]
+struct Line<'a> {
+    #[serde(flatten)]
+    moment: &'a Moment,
+    /// Wall time since the start [s].
+    elapsed: f64,
+    /// Particle-steps a second since the line before.
+    particle_steps_per_second: f64,
+    /// Wall time left [s].
+    left: f64,
+}
+
+impl Watch {
+    /// A bar, or `lines`.
+    pub fn new(lines: bool) -> Watch {
+        let bar = (!lines).then(|| cli::Progress::new("run", BAR as u64));
+        Watch { bar, start: Instant::now(), first: None, before: (0, 0.0) }
+    }
+
+    /// News of the run.
+    pub fn hear(&mut self, moment: &Moment) {
+        let elapsed = self.start.elapsed().as_secs_f64();
+        let (step, since) = *self.first.get_or_insert((moment.step, elapsed));
+        if let Some(bar) = &self.bar {
+            bar.set((BAR * moment.share) as u64);
+            bar.say(format!(
+                "t = {:.4} of {:.4} s, {} particles",
+                moment.time, moment.until, moment.particles
+            ));
+            return;
+        }
+        if moment.kinetic.is_none() {
+            return;
+        }
+        let pace = (elapsed - since) / (moment.step - step).max(1) as f64;
+        let done = (moment.step - self.before.0.max(step)) as f64;
+        let line = Line {
+            moment,
+            elapsed,
+            particle_steps_per_second: done * moment.particles as f64 / (elapsed - self.before.1).max(1e-9),
+            left: pace * (moment.steps - moment.step) as f64,
+        };
+        self.before = (moment.step, elapsed);
+        if let Ok(line) = serde_json::to_string(&line) {
+            eprintln!("{line}");
+        }
+    }
+}
