@@ -295,7 +295,6 @@ fn options_that_cannot_be_meant() {
                 &["--from-mesh", "not available yet"],
             ),
             ("wallgen good.ply --roughness 0.001 --ascii", 2, &["--ascii", "no text form"]),
-            ("dem-view good.ply --pick", 2, &["--pick", "not available yet", "--keep"]),
             ("dem-view good.ply --colour speeed", 1, &["speeed"]),
             ("stage-split s.toml --at 0,0,0,0,0,0 --keep upstream", 2, &["--at", "normal"]),
             ("stage-split s.toml --at 0,0,0,0,0,-1", 2, &["--keep"]),

@@ -430,10 +430,8 @@ fn recorded_contacts_carry_the_weight_of_the_bed() {
     let out = succeed(folder.path(), "dem-measure", &["run.mcap", "--wall-force", "all", "-q"]);
     let text = String::from_utf8_lossy(&out.stdout).into_owned();
     let (head, last) = (text.lines().next().unwrap_or(""), text.lines().last().unwrap_or(""));
-    let at = head
-        .split(',')
-        .position(|c| c.starts_with("fz"))
-        .unwrap_or_else(|| panic!("no force in {head}"));
+    let at =
+        head.split(',').position(|c| c.starts_with("fz")).unwrap_or_else(|| panic!("no force in {head}"));
     let force: f64 = last.split(',').nth(at).and_then(|n| n.parse().ok()).unwrap_or_else(|| panic!("{text}"));
     let frame = frames(&folder.path().join("run.mcap")).pop().unwrap().1;
     let radii = frame.get("radius").unwrap().to_f64();

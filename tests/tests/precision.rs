@@ -2,7 +2,7 @@
 
 use dem::setup::*;
 use dem::{Setup, SetupError, Simulation};
-use geom::Vec3;
+use geom::{Vec3, mesh::TriMesh};
 use grainpipe_tests::setups::{HOOKE, LAWS, empty, grain, particles, plane, run_until, with_friction};
 
 fn simulation(setup: Setup, precision: Precision) -> Simulation {
@@ -57,6 +57,33 @@ fn a_grain_at_rest_overlaps_by_its_weight_over_the_stiffness() {
         let overlap = 0.01 - particles(&mut sim)[0].position.z;
         assert!((overlap * 1e4 / weight - 1.0).abs() < 1e-6, "{precision:?}: {overlap} m");
     }
+}
+
+/// Triangles that are no contacts are put far out of reach, which single precision cannot hold.
+#[test]
+fn a_grain_rests_on_a_mesh() {
+    let at = |x: f64, y: f64| Vec3::new(x, y, 0.0);
+    let vertices = vec![at(-1.0, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(-1.0, 1.0)];
+    let mesh = TriMesh { vertices, faces: vec![[0, 1, 2], [0, 2, 3]] };
+    let mut setup = with_friction(empty(HOOKE, 0.2), 0.5);
+    setup.contacts.iter_mut().for_each(|c| c.rolling_resistance = Some(0.1));
+    setup.gravity.z = -9.81;
+    setup.walls = vec![Wall { shape: WallShape::Mesh(mesh), ..plane(Vec3::z()) }];
+    setup.particles =
+        vec![Particle { velocity: Vec3::new(0.1, 0.0, 0.0), ..grain(0, Vec3::new(0.0, 0.0, 0.01)) }];
+    let mut sim = simulation(setup, Precision::Mixed);
+    run_until(&mut sim, 1.0);
+    let p = particles(&mut sim)[0];
+    assert!(p.velocity.norm() < 1e-6 && (p.position.z - 0.01).abs() < 1e-4, "{p:?}");
+}
+
+#[test]
+fn grains_too_fine_for_single_precision_are_refused() {
+    let mut setup = with_friction(empty(HOOKE, 0.2), 0.5);
+    setup.particles = vec![Particle { radius: 1e-6, ..grain(0, Vec3::zeros()) }];
+    setup.precision = Precision::Mixed;
+    let error = Simulation::new(setup).err().expect("refused").to_string();
+    assert!(error.contains("mixed") && error.contains("0.000001"), "{error}");
 }
 
 #[test]

@@ -127,6 +127,27 @@ fn sleep_is_the_same_for_every_width_and_thread_and_across_a_checkpoint() {
     assert!(end(resumed) == reference, "resumed");
 }
 
+/// A heap that sleeps goes on bit for bit when it is resumed, through the impact that wakes it.
+#[test]
+fn a_sleeping_heap_resumes_bit_for_bit() {
+    for law in LAWS {
+        let mut setup = sleepy(filling(law, 1));
+        setup.contacts.iter_mut().for_each(|c| c.rolling_resistance = Some(0.3));
+        let up = Vec3::new(0.0, 0.0, 1.2);
+        setup.particles.push(Particle { velocity: up, ..grain(9999, Vec3::new(0.085, 0.085, 0.3)) });
+        let mut whole = simulation(setup.clone());
+        run_until(&mut whole, 0.3);
+        assert!(whole.asleep() > 50, "{law:?}: {} sleep when the state is saved", whole.asleep());
+        let mut resumed = Simulation::resume(setup, whole.state().to_state()).expect("the same setup");
+        for end in [0.31, 0.45, 0.6] {
+            run_until(&mut whole, end);
+            run_until(&mut resumed, end);
+            let (a, b) = (particles(&mut whole), particles(&mut resumed));
+            assert!(a == b, "{law:?}: differs at {end} s");
+        }
+    }
+}
+
 /// A sleeper that is looked at goes on sleeping: its place does not change by a bit.
 #[test]
 fn looking_wakes_nobody() {

@@ -128,7 +128,7 @@ fn settings(browser: &mut Chromium) {
 /// A paddle that turns about z, shifts and shakes, in the JSON of a run.
 fn motion() -> serde_json::Value {
     json!({"velocity": [0.05, 0.0, -0.1], "turn": [0.0, 3.0, 25.0], "through": [0.05, 0.05, 0.0],
-           "amplitude": [0.0, 0.01, 0.0], "frequency": 7.0})
+           "amplitude": [0.0, 0.01, 0.0], "frequency": 7.0, "from": 0.01, "until": 0.06})
 }
 
 /// The page of the block, with a floor, and a paddle of mesh and one of wall spheres that move.

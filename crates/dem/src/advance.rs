@@ -58,7 +58,7 @@ impl Loads<'_> {
                 // The arms stand behind force and moment: the arm of i, then of j.
                 let arm = Q::all(row[second][3]);
                 sum.moment = sum.moment - arm * Q::read(&row[1]);
-                if !couples[1].is_empty() {
+                if !couples[own].is_empty() {
                     sum.moment = sum.moment + sign * Q::read(&couples[own][contact]);
                 }
             }

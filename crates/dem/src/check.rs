@@ -56,9 +56,24 @@ fn drag(d: &Drag) -> Result<(), SetupError> {
     finite("drag.velocity", &d.velocity, "m/s")
 }
 
+/// Radius below which the square of a couple is too small for single precision [m].
+const SMALLEST_MIXED: f64 = 1e-5;
+
 /// Rare effects are compiled for double precision only.
 fn precision(setup: &Setup) -> Result<(), SetupError> {
-    let rare = setup.contacts.iter().find(|c| setup.precision == Precision::Mixed && is_rare(c));
+    if setup.precision == Precision::Double {
+        return Ok(());
+    }
+    let smallest = radii_by_material(setup).iter().flatten().map(|r| r.0).fold(f64::INFINITY, f64::min);
+    let fine = smallest >= SMALLEST_MIXED;
+    within(
+        "precision \"mixed\": radius",
+        smallest,
+        "m",
+        fine,
+        "radius ≥ 1e-5 (leave the key out for double precision)",
+    )?;
+    let rare = setup.contacts.iter().find(|c| is_rare(c));
     rare.map_or(Ok(()), |c| {
         let name = |m: u16| setup.materials[m as usize].name.as_str();
         let what = "cohesion, JKR, twisting, weakening friction or constant rolling";

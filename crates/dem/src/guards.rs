@@ -51,7 +51,11 @@ pub fn motion(sim: &Simulation) -> Result<(), Halt> {
         let row = sim.particles.rows[k];
         let motion = (sim.particles.position(k) - sim.position_before(k)).norm();
         let share = motion / row[3];
-        if !(share <= limit) && worst.as_ref().is_none_or(|w| !(share <= w.0)) && !sim.zones.is_gone(k) {
+        if !(share <= limit)
+            && worst.as_ref().is_none_or(|w| !(share <= w.0))
+            && !sim.zones.is_gone(k)
+            && !sim.zones.travels(k)
+        {
             let (time, id, [x, y, z]) = (sim.time(), sim.particles.id[k], [row[0], row[1], row[2]]);
             worst = Some((share, Halt::Motion { time, id, x, y, z, motion, share, limit }));
         }

@@ -202,7 +202,7 @@ fn lanes<R: Lane, E: Effect, const KEEP: bool>(
     let overlap = R::overlap(gap, reach, distance);
     // The contact point divides the distance as the radii do: the whole of it on i's side at a flat wall.
     let share = distance * inverse_reach;
-    let (arm_i, arm_j) = (ri * share, rj * share);
+    let (mut arm_i, mut arm_j) = (ri * share, rj * share);
     let round = rj.gt(R::splat(0.0));
     let velocity = V::narrow(V::new(ui - uj, vi - vj, wi - wj));
     let along = velocity.dot(normal);
@@ -246,6 +246,8 @@ fn lanes<R: Lane, E: Effect, const KEEP: bool>(
     let force = V::select(touching, normal.scale(load.normal) + load.tangential, V::zero());
     if E::ROTATES {
         let moment = V::select(touching, normal.cross(load.tangential), V::zero());
+        // Partners that are put out of reach make them infinite, and 0 × ∞ would be summed.
+        (arm_i, arm_j) = (R::select(touching, arm_i, zero), R::select(touching, arm_j, zero));
         let row = [force.x, force.y, force.z, arm_i, moment.x, moment.y, moment.z, arm_j];
         R::store_rows(row, &mut task.loads[at * FORCE_AND_MOMENT..]);
     } else if common.stride == FORCE {

@@ -45,9 +45,10 @@ impl Choice {
 /// A pair of particles, i < j.
 pub type Pair = (u32, u32);
 
-/// Room of a particle [m]: a share of the skin, and the way that it goes in `horizon` [s] at `speed` [m/s] and under `gravity` [m/s²].
-pub fn room(skin: f64, horizon: f64, speed: f64, gravity: f64) -> f64 {
-    0.5 * skin + horizon * (speed + 0.5 * gravity * horizon)
+/// Room of a particle [m]: a share of the skin, and the `way` that it is expected to go, but no more than `most`: beyond, lists that
+/// hold longer would cost more than they save.
+pub fn room(skin: f64, way: f64, most: f64) -> f64 {
+    0.5 * skin + way.min(most)
 }
 
 /// Particles in space order, ready to be searched.

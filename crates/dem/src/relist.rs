@@ -82,7 +82,8 @@ impl Simulation {
         for &k in &stay {
             let row = &p.rows[k as usize];
             let speed = Vec3::new(row[4], row[5], row[6]).norm();
-            let room = room(self.skin, horizon, speed, gravity);
+            let way = horizon * (speed + 0.5 * gravity * horizon);
+            let room = room(self.skin, way, self.grain);
             p.home[k as usize].0 = [row[0], row[1], row[2], room];
         }
         let points: Vec<Vec3> = stay.iter().map(|&k| p.position(k as usize)).collect();
@@ -147,7 +148,7 @@ impl Simulation {
 
     /// How far a wall may move until lists are made anew [m].
     pub(crate) fn wall_room(&self, wall: usize) -> f64 {
-        room(self.skin, self.horizon * self.dt, self.walls[wall].fastest(), 0.0)
+        room(self.skin, self.horizon * self.dt * self.walls[wall].fastest(), self.grain)
     }
 
     /// Pairs across periodic faces: each once, by the half of all shifts whose first part that is not zero is positive.
@@ -206,7 +207,8 @@ impl Simulation {
         let mut work = vec![0.0; self.contacts.i.len()];
         for s in &self.contacts.segments {
             for place in s.contacts() {
-                let found = old.find(s.kind, self.contacts.i[place], self.contacts.partner[place]);
+                let holds = |_: &Segment, at: usize| before.work[at] != 0.0;
+                let found = old.find(s.kind, self.contacts.i[place], self.contacts.partner[place], holds);
                 work[place] = found.map_or(0.0, |(_, was, _)| before.work[was]);
             }
         }
@@ -302,7 +304,12 @@ impl Remembered<'_> {
             return;
         }
         for place in segment.contacts() {
-            let Some((old, from, swapped)) = self.find(segment.kind, now.i[place], now.partner[place]) else {
+            let before = self.before;
+            let holds = |old: &Segment, at: usize| {
+                (0..columns).any(|c| before.memory[before.memory_at(old, at, c, columns)] != 0.0)
+            };
+            let Some((old, from, swapped)) = self.find(segment.kind, now.i[place], now.partner[place], holds)
+            else {
                 continue;
             };
             let start = now.memory_at(segment, segment.places.start, 0, columns);
@@ -314,8 +321,15 @@ impl Remembered<'_> {
         }
     }
 
-    /// Where a contact was: its segment and place, and whether its partners were the other way round.
-    fn find(&self, kind: usize, i: u32, partner: u32) -> Option<(&Segment, usize, bool)> {
+    /// Where a contact was that `holds` something: its segment and place, and whether its partners were the other way round. In a
+    /// small periodic box two images of one particle may be listed with another; only one of them can touch it.
+    fn find(
+        &self,
+        kind: usize,
+        i: u32,
+        partner: u32,
+        holds: impl Fn(&Segment, usize) -> bool,
+    ) -> Option<(&Segment, usize, bool)> {
         let old = |k: u32| self.order[k as usize];
         let i = old(i);
         let (wall, partner) = match self.kinds[kind].with {
@@ -334,7 +348,7 @@ impl Remembered<'_> {
             // A pair may have become a pair across a periodic face, or stopped being one.
             let with = self.kinds[segment.kind].with;
             let same = if wall { segment.kind == kind } else { !matches!(with, With::Wall(_)) };
-            same.then_some((segment, place, second))
+            (same && holds(segment, place)).then_some((segment, place, second))
         })
     }
 

@@ -31,6 +31,8 @@ pub struct State {
     listings: u64,
     /// Contact memory, by place.
     memory: Vec<f64>,
+    /// Whether nothing has been computed of the lists.
+    new: bool,
     /// Sliding work of each contact that has not been recorded, by place.
     work: Vec<f64>,
     /// Loads, couples and ledger, when they are those of this step.
@@ -56,6 +58,7 @@ pub struct StateView<'a> {
     account: Account,
     listings: u64,
     memory: &'a [f64],
+    new: bool,
     work: &'a [f64],
     loads: [&'a [f64]; 3],
 }
@@ -80,6 +83,7 @@ impl StateView<'_> {
             account: self.account,
             listings: self.listings,
             memory: self.memory.to_vec(),
+            new: self.new,
             work: self.work.to_vec(),
             loads: self.loads.map(<[f64]>::to_vec),
         }
@@ -119,7 +123,13 @@ impl Simulation {
             listings: self.listings,
             memory: &self.contacts.memory,
             work: &self.contacts.work,
-            loads: if self.current { [&c.loads, &c.couples, &c.ledger] } else { [&[]; 3] },
+            new: c.new,
+            // Loads between sleepers are those of the step in which they fell asleep.
+            loads: if self.current || self.sleepers.is_some() {
+                [&c.loads, &c.couples, &c.ledger]
+            } else {
+                [&[]; 3]
+            },
         }
     }
 
@@ -169,7 +179,8 @@ impl Simulation {
             }
         }
         sim.stale = state.stale;
-        if state.current {
+        let [loads, ..] = &state.loads;
+        if state.current || !loads.is_empty() {
             let c = &mut sim.contacts;
             for (saved, now) in state.loads.iter().zip([&mut c.loads, &mut c.couples, &mut c.ledger]) {
                 if saved.len() != now.len() {
@@ -177,9 +188,10 @@ impl Simulation {
                 }
                 now.copy_from_slice(saved);
             }
-            sim.current = true;
-            // A crossing in this step asks where walls were touched.
+            sim.current = state.current;
+            // A crossing in this step asks where walls were touched, and so do sleepers on walls at rest.
             sim.find_contact_points();
+            sim.contacts.new = state.new;
         }
         Ok(sim)
     }

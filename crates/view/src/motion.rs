@@ -1,7 +1,7 @@
 //! Where a wall is that moves as one rigid body.
 //!
 //! ```text
-//! x(t) = c + R(Ω t)(x₀ − c) + v t + a sin(2π f t) d
+//! x(t) = c + R(Ω τ)(x₀ − c) + v τ + a sin(2π f τ) d,   τ = min(max(t, from), until) − from
 //! ```
 //!
 //! The engine has its own; this one is for showing what a run says about its walls.
@@ -24,13 +24,18 @@ pub struct Motion {
     pub amplitude: Vec3,
     /// f [Hz].
     pub frequency: f64,
+    /// When it starts to move [s].
+    pub start: f64,
+    /// When it stops, where it is then [s]; ∞: never.
+    pub stop: f64,
 }
 
 impl Default for Motion {
     /// At rest.
     fn default() -> Motion {
         let zero = Vec3::zeros();
-        Motion { velocity: zero, turn: zero, through: zero, amplitude: zero, frequency: 0.0 }
+        let (frequency, start, stop) = (0.0, 0.0, f64::INFINITY);
+        Motion { velocity: zero, turn: zero, through: zero, amplitude: zero, frequency, start, stop }
     }
 }
 
@@ -43,6 +48,8 @@ impl Motion {
             through: vector(&json["through"])?,
             amplitude: vector(&json["amplitude"])?,
             frequency: json["frequency"].as_f64()?,
+            start: json["from"].as_f64().unwrap_or(0.0),
+            stop: json["until"].as_f64().unwrap_or(f64::INFINITY),
         })
     }
 
@@ -54,12 +61,14 @@ impl Motion {
 
     /// Takes a point from where it is at t = 0 to where it is at `time` [s].
     pub fn to(&self, time: f64) -> impl Fn(Vec3) -> Vec3 {
+        let time = self.since(time);
         let (turned, through, shift) = (self.turned(time), self.through, self.shift(time));
         move |home| through + turned(home - through) + shift
     }
 
     /// Takes a point from where it is at `time` [s] to where it is at t = 0.
     pub fn from(&self, time: f64) -> impl Fn(Vec3) -> Vec3 {
+        let time = self.since(time);
         let (turned, through, shift) = (self.turned(-time), self.through, self.shift(time));
         move |place| through + turned(place - shift - through)
     }
@@ -72,6 +81,11 @@ impl Motion {
     /// A table of spheres that are at their places at `time` [s], as they are at t = 0.
     pub fn home(&self, placed: &Table, time: f64) -> Table {
         moved(placed, self.from(time))
+    }
+
+    /// τ: how long it has moved at `time` [s].
+    fn since(&self, time: f64) -> f64 {
+        time.max(self.start).min(self.stop) - self.start
     }
 
     /// v t + a sin(2π f t) d [m].
@@ -120,6 +134,7 @@ mod tests {
             through: Vec3::new(1.0, 0.0, 0.0),
             amplitude: Vec3::new(0.0, 0.0, 0.25),
             frequency: 0.25,
+            ..Motion::default()
         }
     }
 

@@ -129,5 +129,7 @@ pub(super) fn motion(motion: &Motion) -> Value {
     json!({
         "velocity": triple(&motion.velocity), "turn": triple(&motion.turn), "through": triple(&motion.through),
         "amplitude": triple(&motion.amplitude), "frequency": motion.frequency,
+        // null: never
+        "start": motion.start, "stop": motion.stop,
     })
 }

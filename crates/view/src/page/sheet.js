@@ -1,9 +1,10 @@
 // Thin walls: planes and meshes, sent to the graphics card once and moved there.
 
 // The turn (by columns) and shift that take a point relative to `origin` at t = 0 to one relative to `middle` at `time`:
-// x(t) = c + R(W t)(x0 - c) + v t + a sin(2 pi f t) d
-function poseOf(motion, origin, time) {
+// x(t) = c + R(W s)(x0 - c) + v s + a sin(2 pi f s) d, s: how long it has moved
+function poseOf(motion, origin, now) {
   if (!motion) return { turn: [1, 0, 0, 0, 1, 0, 0, 0, 1], shift: origin.map((o, k) => o - middle[k]) };
+  const time = Math.min(Math.max(now, motion.start), motion.stop ?? Infinity) - motion.start;
   const rate = Math.hypot(...motion.turn);
   const [x, y, z] = rate > 0 ? motion.turn.map((t) => t / rate) : [0, 0, 1];
   const [s, c] = [Math.sin(rate * time), Math.cos(rate * time)];
