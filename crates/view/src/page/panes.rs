@@ -130,6 +130,6 @@ pub(super) fn motion(motion: &Motion) -> Value {
         "velocity": triple(&motion.velocity), "turn": triple(&motion.turn), "through": triple(&motion.through),
         "amplitude": triple(&motion.amplitude), "frequency": motion.frequency,
         // null: never
-        "start": motion.start, "stop": motion.stop,
+        "from": motion.start, "until": motion.stop,
     })
 }

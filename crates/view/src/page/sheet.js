@@ -4,7 +4,7 @@
 // x(t) = c + R(W s)(x0 - c) + v s + a sin(2 pi f s) d, s: how long it has moved
 function poseOf(motion, origin, now) {
   if (!motion) return { turn: [1, 0, 0, 0, 1, 0, 0, 0, 1], shift: origin.map((o, k) => o - middle[k]) };
-  const time = Math.min(Math.max(now, motion.start), motion.stop ?? Infinity) - motion.start;
+  const time = Math.min(Math.max(now, motion.from), motion.until ?? Infinity) - motion.from;
   const rate = Math.hypot(...motion.turn);
   const [x, y, z] = rate > 0 ? motion.turn.map((t) => t / rate) : [0, 0, 1];
   const [s, c] = [Math.sin(rate * time), Math.cos(rate * time)];
