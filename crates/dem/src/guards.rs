@@ -3,7 +3,6 @@
 use crate::contacts::With;
 use crate::error::Halt;
 use crate::simulation::Simulation;
-use geom::Vec3;
 
 /// The deepest overlap, travellers among themselves left out; `Ok` when only those are too deep. Where particles have `moved`
 /// since loads were computed, they are looked for where they were.
@@ -20,13 +19,7 @@ pub fn overlap(sim: &Simulation, moved: bool) -> Result<(), Halt> {
             if sim.zones.travels(i) && (!pair || sim.zones.travels(partner)) {
                 continue;
             }
-            let (other, radius) = match with {
-                With::Particles => (place(partner), sim.particles.rows[partner][3]),
-                _ => {
-                    let row = sim.contacts.partner_row(segment, at);
-                    (Vec3::new(row[0], row[1], row[2]), row[3])
-                }
-            };
+            let (other, radius) = sim.partner(segment, at, place);
             let (here, mine) = (place(i), sim.particles.rows[i][3]);
             let overlap = mine + radius - (here - other).norm();
             let share = overlap / if radius == 0.0 { mine } else { mine.min(radius) };

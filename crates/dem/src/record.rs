@@ -1,6 +1,6 @@
 //! What contacts do at one instant, and the sliding work that they have done: for who looks at a run.
 
-use crate::contacts::{Contacts, Kind, With};
+use crate::contacts::{Contacts, Kind, Segment, With};
 use crate::error::Halt;
 use crate::kernel::LEDGER;
 use crate::simulation::{Simulation, stride};
@@ -55,7 +55,7 @@ impl Simulation {
                 let force = Vec3::new(row[0], row[1], row[2]);
                 let done = work.get_mut(place).map_or(0.0, std::mem::take);
                 if force != Vec3::zeros() || done != 0.0 {
-                    let (other, radius) = self.partner(kind, segment, place);
+                    let (other, radius) = self.partner(segment, place, |k| self.particles.position(k));
                     out.push(self.record(kind, place, (other, radius), (force, done)));
                 }
             }
@@ -64,11 +64,18 @@ impl Simulation {
         Ok(out)
     }
 
-    fn partner(&self, kind: &Kind, segment: &crate::contacts::Segment, place: usize) -> (Vec3, f64) {
-        let row = match kind.with {
-            With::Particles => &self.particles.rows[self.contacts.partner[place] as usize],
-            _ => self.contacts.partner_row(segment, place),
-        };
+    /// Where the second of a contact is, and its radius [m] (0 on a flat wall); `position` tells where particles are.
+    pub(crate) fn partner(
+        &self,
+        segment: &Segment,
+        place: usize,
+        position: impl Fn(usize) -> Vec3,
+    ) -> (Vec3, f64) {
+        if self.kinds[segment.kind].with == With::Particles {
+            let j = self.contacts.partner[place] as usize;
+            return (position(j), self.particles.rows[j][3]);
+        }
+        let row = self.contacts.partner_row(segment, place);
         (Vec3::new(row[0], row[1], row[2]), row[3])
     }
 

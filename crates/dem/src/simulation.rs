@@ -294,12 +294,13 @@ impl Simulation {
             Pass::Move
         } else {
             self.prepare();
-            if self.fresh.is_empty() { Pass::Step } else { Pass::Loads }
+            if self.fresh.is_empty() {
+                Pass::Step
+            } else {
+                self.ready()?;
+                Pass::Move
+            }
         };
-        if pass == Pass::Loads {
-            self.ready()?;
-        }
-        let pass = if pass == Pass::Loads { Pass::Move } else { pass };
         let found = self.pass(pass);
         if self.setup.ledger {
             self.account.add(&self.kinds, &self.contacts);

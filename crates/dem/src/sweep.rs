@@ -5,7 +5,7 @@
 //! rows of this instant, moves write the next ones. Threads take a region of tiles each; tiles that have contacts with an
 //! earlier region wait until all regions are done. No result depends on how tiles are divided.
 
-use crate::advance::{Columns, Computed, Drive, Loads, Moved, advance};
+use crate::advance::{Columns, Computed, Drive, Loads, Moved};
 use crate::contacts::{Lists, Part, Scenery, TILE};
 use crate::kernel::Common;
 use crate::lane::Width;
@@ -101,9 +101,7 @@ impl Simulation {
         }
         found
     }
-}
 
-impl Simulation {
     /// Where walls are now.
     fn poses(&self) -> Vec<Pose> {
         let time = self.time();
@@ -187,10 +185,7 @@ impl Shared<'_> {
     }
 
     fn advance(&self, columns: Columns, loads: &Loads) -> Moved {
-        match columns.beds {
-            None => advance(self.width, columns, loads, &self.drive),
-            Some(_) => advance_awake(self.width, columns, loads, &self.drive, &self.lists),
-        }
+        advance_awake(self.width, columns, loads, &self.drive, &self.lists)
     }
 
     /// Whether a tile has contacts with tiles before `first`.

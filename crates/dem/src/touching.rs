@@ -46,13 +46,7 @@ impl Simulation {
 
     fn normal(&self, segment: &Segment, place: usize) -> Vec3 {
         let i = self.position_before(self.contacts.i[place] as usize);
-        let j = match self.kinds[segment.kind].with {
-            With::Particles => self.position_before(self.contacts.partner[place] as usize),
-            _ => {
-                let row = self.contacts.partner_row(segment, place);
-                Vec3::new(row[0], row[1], row[2])
-            }
-        };
+        let (j, _) = self.partner(segment, place, |k| self.position_before(k));
         (i - j).try_normalize(0.0).unwrap_or_else(Vec3::zeros)
     }
 }
