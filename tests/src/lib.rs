@@ -1,5 +1,6 @@
 //! Laws, hard cases and whole pipelines, tested from outside.
 
+pub mod findings;
 pub mod normals;
 pub mod setups;
 pub mod tools;
