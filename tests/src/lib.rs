@@ -2,6 +2,8 @@
 
 pub mod findings;
 pub mod normals;
+pub mod page;
+pub mod plots;
 pub mod setups;
 pub mod tools;
 

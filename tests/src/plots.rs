@@ -1,0 +1,108 @@
+//! Draws orders of convergence and curves, a panel for each line of the page.
+
+use crate::page::{Line, Page};
+use kuva::backend::{raster::RasterBackend, svg::SvgBackend};
+use kuva::prelude::*;
+use kuva::render::render::Scene;
+use std::path::Path;
+
+/// Colours that can be told apart (Okabe & Ito 2008).
+const COLOURS: [&str; 8] =
+    ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#A6761D", "#7F7F7F"];
+/// Of a slope.
+const BLACK: &str = "#000000";
+/// Size of a panel [px].
+const PANEL: (f64, f64) = (560.0, 340.0);
+/// Panels side by side.
+const COLUMNS: usize = 2;
+/// Series that a panel shows at most: more cannot be told apart.
+const SERIES: usize = 8;
+
+/// Error over step, log–log, a panel for each line that has an order; dashed: the slope that is expected. `None` without any.
+///
+/// # Errors
+/// What cannot be drawn.
+pub fn orders(page: &Page, file: &Path, step: &str) -> Result<Option<Vec<u8>>, String> {
+    let panels: Vec<_> =
+        page.lines().filter(|l| !l.orders.is_empty()).map(|line| order_panel(line, step)).collect();
+    draw(panels, file)
+}
+
+/// A panel for each line that has curves. `None` without any.
+///
+/// # Errors
+/// What cannot be drawn.
+pub fn curves(page: &Page, file: &Path) -> Result<Option<Vec<u8>>, String> {
+    let panels: Vec<_> = page.lines().filter(|l| !l.curves.is_empty()).map(curve_panel).collect();
+    draw(panels, file)
+}
+
+type Drawn = (Vec<Plot>, Layout);
+
+fn draw(panels: Vec<Drawn>, file: &Path) -> Result<Option<Vec<u8>>, String> {
+    if panels.is_empty() {
+        return Ok(None);
+    }
+    let columns = COLUMNS.min(panels.len());
+    let rows = panels.len().div_ceil(columns);
+    let (plots, layouts): (Vec<_>, Vec<_>) = panels.into_iter().unzip();
+    let figure = Figure::new(rows, columns).with_plots(plots).with_layouts(layouts);
+    bytes(&figure.with_cell_size(PANEL.0, PANEL.1).with_keep_panel_legends().render(), file).map(Some)
+}
+
+fn bytes(scene: &Scene, file: &Path) -> Result<Vec<u8>, String> {
+    if file.extension().is_some_and(|e| e == "png") {
+        return RasterBackend::new().render_scene(scene).map_err(|why| format!("{}: {why}", file.display()));
+    }
+    Ok(SvgBackend::new().render_scene(scene).into_bytes())
+}
+
+fn series(points: &[(f64, f64)], colour: &str, name: &str, marked: bool) -> Vec<Plot> {
+    let line = LinePlot::new().with_data(points.to_vec()).with_color(colour).with_stroke_width(1.6);
+    let mut plots = vec![Plot::from(line.with_legend(name))];
+    if marked {
+        plots.push(Plot::from(
+            ScatterPlot::new().with_data(points.to_vec()).with_color(colour).with_size(2.5),
+        ));
+    }
+    plots
+}
+
+fn order_panel(line: &Line, step: &str) -> Drawn {
+    let mut plots = Vec::new();
+    for (k, order) in line.orders.iter().take(SERIES).enumerate() {
+        // A logarithm has no zero.
+        let points: Vec<(f64, f64)> =
+            order.points.iter().map(|p| (p.0, p.1.abs())).filter(|p| p.0 > 0.0 && p.1 > 0.0).collect();
+        plots.extend(series(&points, COLOURS[k % COLOURS.len()], &order.on, true));
+    }
+    plots.extend(slope(line));
+    let layout = Layout::auto_from_plots(&plots).with_log_scale().with_x_label(step).with_y_label("error");
+    (plots, layout.with_title(line.holds.clone()))
+}
+
+/// The slope that is expected, beside the first series.
+fn slope(line: &Line) -> Option<Plot> {
+    let order = line.orders.first()?;
+    let low = order.points.iter().map(|p| p.0).fold(f64::INFINITY, f64::min);
+    let high = order.points.iter().map(|p| p.0).fold(0.0, f64::max);
+    let top = order.points.iter().find(|p| p.0 == high)?.1.abs() * 2.0;
+    if !(low > 0.0 && top > 0.0) {
+        return None;
+    }
+    let guide = vec![(low, top * (low / high).powf(order.expected)), (high, top)];
+    let plot = LinePlot::new().with_data(guide).with_color(BLACK).with_stroke_width(1.0).with_dashed();
+    Some(Plot::from(plot.with_legend(format!("slope {}", order.expected))))
+}
+
+fn curve_panel(line: &Line) -> Drawn {
+    let mut plots = Vec::new();
+    for (k, curve) in line.curves.iter().take(SERIES).enumerate() {
+        plots.extend(series(&curve.points, COLOURS[k % COLOURS.len()], &curve.on, false));
+    }
+    let mut layout = Layout::auto_from_plots(&plots).with_title(line.holds.clone());
+    if let Some(first) = line.curves.first() {
+        layout = layout.with_x_label(first.x.clone()).with_y_label(first.y.clone());
+    }
+    (plots, layout)
+}
