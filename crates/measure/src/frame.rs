@@ -109,6 +109,8 @@ pub struct Contact {
     pub force: Vec3,
     /// Sliding work since the frame before [J].
     pub work: f64,
+    /// Overlap [m]; 0 where the run does not tell.
+    pub overlap: f64,
 }
 
 /// All contacts at one time.
@@ -131,7 +133,7 @@ impl Contacts {
         let normal = columns.vectors(["nx", "ny", "nz"])?;
         let force = columns.vectors(["fx", "fy", "fz"])?;
         let (i, j, kind) = (columns.whole("id_i")?, columns.whole("id_j")?, columns.whole("kind")?);
-        let work = columns.or_zero("work")?;
+        let (work, overlap) = (columns.or_zero("work")?, columns.or_zero("overlap")?);
         let row = |k: usize| Contact {
             grain: i[k],
             partner: if kind[k] == 0 { Partner::Grain(j[k]) } else { Partner::Wall(j[k]) },
@@ -139,6 +141,7 @@ impl Contacts {
             normal: normal[k],
             force: force[k],
             work: work[k],
+            overlap: overlap[k],
         };
         Ok(Contacts { time, rows: (0..point.len()).map(row).collect() })
     }

@@ -1,4 +1,5 @@
-//! Measures of runs: heap angle, flow, profiles, segregation, energy, contacts, porosity, wall force, residence.
+//! Measures of runs: heap angle, flow, profiles, segregation, energy, contacts, porosity, wall force, residence,
+//! impacts, bed height.
 //!
 //! Each measure stands alone: it takes a [`Frame`] (columns at one time) or a table of contacts and gives a typed
 //! result. An [`Observer`] does the same for a run that comes event by event (see [`Run::take`]), also while it is
@@ -6,6 +7,7 @@
 //! [`Summary`] by name, and what to draw. Nothing here reads files, prints or draws.
 
 pub mod ball;
+pub mod bed;
 pub mod coordination;
 pub mod cylinder;
 pub mod energy;
@@ -13,6 +15,7 @@ mod error;
 pub mod flow;
 pub mod forces;
 mod frame;
+pub mod impact;
 pub mod observer;
 pub mod path;
 pub mod porosity;

@@ -51,6 +51,12 @@ pub struct Args {
     /// How long grains stay in SHAPE
     #[arg(long, group = "measure", value_name = "SHAPE", value_parser = shape)]
     pub residence: Option<GivenShape>,
+    /// Impacts: contact time, deepest overlap, restitution
+    #[arg(long, group = "measure")]
+    pub impact: bool,
+    /// Height of a bed: the median of its surface
+    #[arg(long, group = "measure")]
+    pub bed_height: bool,
 
     /// The last frame not after S [s]
     #[arg(long, value_name = "S", help_heading = "Which frames")]
@@ -68,7 +74,7 @@ pub struct Args {
     #[arg(long, value_name = "S", conflicts_with_all = ["time", "last"], help_heading = "Which frames")]
     pub until: Option<f64>,
 
-    /// Up (default: against the scene's gravity, else z) [repose, segregation]
+    /// Up (default: against the scene's gravity, else z) [repose, segregation, bed-height]
     #[arg(long, value_name = "x,y,z", value_parser = vector, allow_hyphen_values = true, help_heading = "How")]
     pub up: Option<Vec3>,
     /// Sectors around the axis, or lanes from the wall (default 8) [repose]
@@ -80,7 +86,7 @@ pub struct Args {
     /// Width of the bins of the heap's profile [m] (default: a mean diameter) [repose]
     #[arg(long, value_name = "M", help_heading = "How")]
     pub bin: Option<f64>,
-    /// Height of the ground [m] (default: that of the lowest grains) [repose]
+    /// Height of the ground [m] (default: that of the lowest grains) [repose, bed-height]
     #[arg(long, value_name = "M", allow_hyphen_values = true, help_heading = "How")]
     pub ground: Option<f64>,
     /// The heap leans on a wall at this side: x- x+ y- y+ z- z+ [repose]
@@ -152,11 +158,11 @@ impl Args {
     /// Refuses options of other measures than the one that is asked for.
     pub fn check(&self, measure: &str) -> anyhow::Result<()> {
         let options: [(&str, bool, &[&str]); 17] = [
-            ("--up", self.up.is_some(), &["--repose", "--segregation"]),
+            ("--up", self.up.is_some(), &["--repose", "--segregation", "--bed-height"]),
             ("--sectors", self.sectors.is_some(), &["--repose"]),
             ("--fractions", self.fractions.is_some(), &["--repose"]),
             ("--bin", self.bin.is_some(), &["--repose"]),
-            ("--ground", self.ground.is_some(), &["--repose"]),
+            ("--ground", self.ground.is_some(), &["--repose", "--bed-height"]),
             ("--side", self.side.is_some(), &["--repose"]),
             ("--within", self.within.is_some(), &["--flow", "--profile"]),
             ("--span", self.span.is_some(), &["--flow"]),
@@ -176,7 +182,8 @@ impl Args {
                 return Err(usage(format!("{option}: is an option of {of}: leave it out with {measure}")));
             }
         }
-        let single = ["--flow", "--energy", "--residence", "--wall-force", "--wear"].contains(&measure);
+        let single =
+            ["--flow", "--energy", "--residence", "--wall-force", "--wear", "--impact"].contains(&measure);
         if single && (self.time.is_some() || self.last) {
             let option = if self.last { "--last" } else { "--time" };
             return Err(usage(format!(

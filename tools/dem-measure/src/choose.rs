@@ -4,10 +4,12 @@ use crate::args::{Args, Bins, GivenShape};
 use anyhow::{Context, anyhow};
 use cli::usage;
 use geom::{Vec3, shape::Solid};
+use measure::bed::BedHeight;
 use measure::coordination::ContactNumbers;
 use measure::energy::Energy;
 use measure::flow::{Flow, FlowOptions};
 use measure::forces::Forces;
+use measure::impact::Impacts;
 use measure::porosity::Porosity;
 use measure::profile::{Profile, ProfileOptions};
 use measure::region::Region;
@@ -55,6 +57,8 @@ pub fn observer(args: &Args) -> anyhow::Result<(&'static str, Box<dyn Observer>)
             Box::new(Wear::new(on_walls(args, given, between), args.cell).context(name)?)
         }
         (Args { residence: Some(given), .. }, _) => Box::new(Residence::new(given.shape.clone(), between)),
+        (_, "--impact") => Box::new(Impacts::new(between)),
+        (_, "--bed-height") => Box::new(PerFrame::new(BedHeight::new(args.up, args.ground), single)),
         _ => Box::new(ContactNumbers::new(series)),
     };
     Ok((name, observer))
@@ -73,6 +77,8 @@ fn name(args: &Args) -> &'static str {
         ("--wall-force", args.wall_force.is_some()),
         ("--wear", args.wear.is_some()),
         ("--residence", args.residence.is_some()),
+        ("--impact", args.impact),
+        ("--bed-height", args.bed_height),
     ];
     given.iter().find(|(_, given)| *given).map_or("--contacts", |(name, _)| name)
 }

@@ -1,4 +1,5 @@
-//! Measures a run: heap angle, flow, profiles, segregation, energy, contacts, porosity, wall force, wear, residence.
+//! Measures a run: heap angle, flow, profiles, segregation, energy, contacts, porosity, wall force, wear, residence,
+//! impacts, bed height.
 
 mod args;
 mod choose;

@@ -1,0 +1,58 @@
+//! Height of a bed: the median height of its surface over the ground.
+//!
+//! The surface is that of the heap angle (see [`crate::repose`]): the highest grain over each point of a grid of a quarter of
+//! a mean diameter; places without grains are left out. The median takes no notice of grains in the air.
+
+use crate::observer::OfFrame;
+use crate::repose::{Frame3, Surface};
+use crate::sheet::{Chart, Head, Row, Summary};
+use crate::statistics::quantile;
+use crate::{Frame, MeasureError, Run};
+use geom::Vec3;
+
+/// Measures the height of a bed in chosen frames.
+pub struct BedHeight {
+    up: Option<Vec3>,
+    ground: Option<f64>,
+    last: [f64; 4],
+}
+
+impl BedHeight {
+    /// Along `up` (`None`: against gravity, or z) over the `ground` [m] (`None`: the lowest grains').
+    pub fn new(up: Option<Vec3>, ground: Option<f64>) -> BedHeight {
+        BedHeight { up, ground, last: [f64::NAN; 4] }
+    }
+}
+
+impl OfFrame for BedHeight {
+    fn heads(&self) -> Vec<Head> {
+        Head::list(&[("time", "s"), ("height", "m"), ("tenth", "m"), ("nine_tenths", "m")])
+    }
+
+    fn measure(&mut self, run: &Run, frame: &Frame) -> Result<Vec<Row>, MeasureError> {
+        if frame.is_empty() {
+            return Err(MeasureError::NoGrains { time: frame.time });
+        }
+        let up = self.up.or(run.up).unwrap_or(Vec3::z());
+        let surface = Surface::new(frame, &Frame3::new(up), self.ground);
+        let mut heights: Vec<f64> = surface.points.iter().map(|p| p[2] - surface.ground).collect();
+        let [height, low, high] = [0.5, 0.1, 0.9].map(|share| quantile(&mut heights, share));
+        self.last = [frame.time, height, low, high];
+        Ok(vec![self.last.to_vec()])
+    }
+
+    fn end(&mut self) -> Result<(Vec<Row>, Summary), MeasureError> {
+        let [time, height, low, high] = self.last;
+        let summary = Summary::default()
+            .with("height", "m", height)
+            .with("tenth", "m", low)
+            .with("nine_tenths", "m", high)
+            .with("time", "s", time);
+        Ok((Vec::new(), summary))
+    }
+
+    fn chart(&self, rows: &[Row]) -> Chart {
+        let lines = [("median", 1), ("tenth", 2), ("nine tenths", 3)];
+        Chart::new("Height of the bed").columns(("time [s]", 0), "height [m]", &lines, rows)
+    }
+}

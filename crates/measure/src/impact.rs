@@ -1,0 +1,326 @@
+//! Impacts: how long a contact lasts, how deep it gets, and how fast what met parts again.
+//!
+//! ```text
+//! δ(t) = δ_k − n·(u(t) − u_k)      u = x_i − x_j (of a wall at rest, x_i); δ_k the recorded overlap, n its normal
+//! ```
+//!
+//! follows the overlap also into the frame before the contact and the frame after it, where nothing was recorded. Between
+//! frames δ is the cubic with the overlaps and speeds of both (see [`crate::path`]): its zeros are the start and the end,
+//! its highest point is the deepest overlap. Speeds along the normal are those of the last frame before and the first
+//! after the contact, without what gravity adds between that frame and the contact. Frames must be much closer than
+//! the contact lasts: `[output] every = "step"` writes one at every step. A wall is taken to be at rest.
+
+use crate::observer::{NO_CONTACTS, Observer};
+use crate::sheet::{Chart, Curve, Head, Look, Row, Summary};
+use crate::statistics::Mean;
+use crate::{Contact, Frame, MeasureError, Partner, Run, Seen};
+use geom::Vec3;
+use std::collections::{BTreeMap, HashMap};
+
+/// Two that touch: grain i, and j, and whether j is a wall.
+type Pair = (u64, u64, bool);
+
+/// A contact that goes on.
+#[derive(Debug, Clone, Copy)]
+struct Open {
+    /// When it began [s], and the speed before [m/s]; `None` when that was not seen.
+    start: Option<(f64, f64)>,
+    deepest: f64,
+    overlap: f64,
+    normal: Vec3,
+}
+
+/// Places and velocities at one time, by id.
+#[derive(Debug, Default)]
+struct Moment {
+    time: f64,
+    states: HashMap<u64, (Vec3, Vec3)>,
+}
+
+impl Moment {
+    fn of(frame: &Frame) -> Moment {
+        let states = frame.position.iter().copied().zip(frame.velocity.iter().copied());
+        Moment { time: frame.time, states: frame.id.iter().copied().zip(states).collect() }
+    }
+
+    /// Place and velocity of i seen from j.
+    fn between(&self, run: &Run, pair: Pair) -> Option<(Vec3, Vec3)> {
+        let (x, v) = *self.states.get(&pair.0)?;
+        if pair.2 {
+            return Some((x, v));
+        }
+        let (y, w) = *self.states.get(&pair.1)?;
+        Some((run.way(&y, &x), v - w))
+    }
+}
+
+/// An overlap between two frames.
+struct Cubic {
+    times: [f64; 2],
+    /// Overlaps [m], and what they would grow by at their speed [m].
+    ends: [f64; 2],
+    ways: [f64; 2],
+}
+
+impl Cubic {
+    fn at(&self, tau: f64) -> f64 {
+        let rest = 1.0 - tau;
+        self.ends[0] * (1.0 + 2.0 * tau) * rest * rest
+            + self.ways[0] * tau * rest * rest
+            + self.ends[1] * tau * tau * (3.0 - 2.0 * tau)
+            - self.ways[1] * tau * tau * rest
+    }
+
+    /// When it passes zero [s], which the ends must lie on both sides of; else the nearer end.
+    fn zero(&self) -> f64 {
+        let positive = self.ends[0] > 0.0;
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..50 {
+            let middle = 0.5 * (low + high);
+            *(if (self.at(middle) > 0.0) == positive { &mut low } else { &mut high }) = middle;
+        }
+        self.times[0] + high * (self.times[1] - self.times[0])
+    }
+
+    /// Its highest value, found by thirds where it rises at the start and falls at the end.
+    fn highest(&self) -> f64 {
+        let ends = self.ends[0].max(self.ends[1]);
+        if !(self.ways[0] > 0.0 && self.ways[1] < 0.0) {
+            return ends;
+        }
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..60 {
+            let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
+            if self.at(a) < self.at(b) {
+                low = a;
+            } else {
+                high = b;
+            }
+        }
+        self.at(0.5 * (low + high)).max(ends)
+    }
+}
+
+/// Watches contacts begin and end.
+pub struct Impacts {
+    between: (f64, f64),
+    /// The frame before, and that of the contacts that come next.
+    moments: [Option<Moment>; 2],
+    open: BTreeMap<Pair, Open>,
+    rows: [Vec<f64>; 3],
+    seen: u64,
+    /// Contacts whose start or end was not seen.
+    cut: u64,
+}
+
+impl Impacts {
+    /// Nothing seen yet; impacts that begin between two times [s] count.
+    pub fn new(between: (f64, f64)) -> Impacts {
+        Impacts {
+            between,
+            moments: [None, None],
+            open: BTreeMap::new(),
+            rows: Default::default(),
+            seen: 0,
+            cut: 0,
+        }
+    }
+
+    /// The overlap of a pair between the frame before and now, where it is or was `overlap` at one of them.
+    fn cubic(&self, run: &Run, pair: Pair, overlap: f64, now: bool, normal: &Vec3) -> Option<Cubic> {
+        let [before, after] = &self.moments;
+        let (before, after) = (before.as_ref()?, after.as_ref()?);
+        let (a, b) = (before.between(run, pair)?, after.between(run, pair)?);
+        let grown = -run.way(&a.0, &b.0).dot(normal);
+        let ends = if now { [overlap - grown, overlap] } else { [overlap, overlap + grown] };
+        let h = after.time - before.time;
+        let ways = [-a.1.dot(normal) * h, -b.1.dot(normal) * h];
+        Some(Cubic { times: [before.time, after.time], ends, ways })
+    }
+
+    /// A pair that touches now.
+    fn touches(&mut self, run: &Run, pair: Pair, contact: &Contact) {
+        let old = self.open.get(&pair).copied();
+        let cubic = self.cubic(run, pair, contact.overlap, true, &contact.normal);
+        let mut open = old.unwrap_or(Open {
+            start: None,
+            deepest: 0.0,
+            overlap: contact.overlap,
+            normal: contact.normal,
+        });
+        if let Some(cubic) = cubic {
+            let speed = cubic.ways[0] / (cubic.times[1] - cubic.times[0]);
+            open.start =
+                open.start.or((old.is_none() && cubic.ends[0] <= 0.0).then(|| (cubic.zero(), speed)));
+            open.deepest = open.deepest.max(cubic.highest());
+        }
+        (open.overlap, open.normal) = (contact.overlap, contact.normal);
+        open.deepest = open.deepest.max(contact.overlap);
+        self.open.insert(pair, open);
+    }
+
+    /// A pair that touched and does not now: its row, when all of the impact was seen.
+    fn parted(&mut self, run: &Run, pair: Pair, open: &Open) -> Option<Row> {
+        let cubic = self.cubic(run, pair, open.overlap, false, &open.normal);
+        let Some(((start, before), cubic)) = open.start.zip(cubic) else {
+            self.cut += 1;
+            return None;
+        };
+        if !(self.between.0 <= start && start <= self.between.1) {
+            return None;
+        }
+        let after = -cubic.ways[1] / (cubic.times[1] - cubic.times[0]);
+        let lasted = cubic.zero() - start;
+        let deepest = open.deepest.max(cubic.highest());
+        let restitution = after / before;
+        for (list, value) in self.rows.iter_mut().zip([lasted, deepest, restitution]) {
+            list.push(value);
+        }
+        let wall = f64::from(u8::from(pair.2));
+        Some(vec![start, lasted, deepest, before, after, restitution, pair.0 as f64, pair.1 as f64, wall])
+    }
+}
+
+impl Observer for Impacts {
+    fn heads(&self) -> Vec<Head> {
+        Head::list(&[
+            ("time", "s"),
+            ("contact_time", "s"),
+            ("overlap", "m"),
+            ("speed_before", "m/s"),
+            ("speed_after", "m/s"),
+            ("restitution", "1"),
+            ("id_i", "1"),
+            ("id_j", "1"),
+            ("kind", "1"),
+        ])
+    }
+
+    fn see(&mut self, run: &Run, seen: Seen, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+        let contacts = match seen {
+            Seen::Frame(frame) => {
+                self.moments = [self.moments[1].take(), Some(Moment::of(&frame))];
+                return Ok(());
+            }
+            Seen::Contacts(contacts) => contacts,
+            _ => return Ok(()),
+        };
+        self.seen += 1;
+        let mut now: BTreeMap<Pair, &Contact> = BTreeMap::new();
+        for contact in contacts.rows.iter().filter(|c| c.overlap > 0.0) {
+            let pair = match contact.partner {
+                Partner::Grain(j) => (contact.grain, j, false),
+                Partner::Wall(j) => (contact.grain, j, true),
+            };
+            // A grain may touch a wall of spheres or a mesh in several places: the deepest counts.
+            let deepest = now.entry(pair).or_insert(contact);
+            if contact.overlap > deepest.overlap {
+                *deepest = contact;
+            }
+        }
+        let over: Vec<(Pair, Open)> =
+            self.open.iter().filter(|(pair, _)| !now.contains_key(pair)).map(|(p, o)| (*p, *o)).collect();
+        for (pair, open) in over {
+            self.open.remove(&pair);
+            rows.extend(self.parted(run, pair, &open));
+        }
+        for (pair, contact) in now {
+            self.touches(run, pair, contact);
+        }
+        Ok(())
+    }
+
+    fn end(&mut self, _: &Run, _: &mut Vec<Row>) -> Result<Summary, MeasureError> {
+        if self.seen == 0 {
+            return Err(NO_CONTACTS);
+        }
+        if self.rows[0].is_empty() {
+            let cure =
+                "write frames during the contact ([output] every = \"step\"), and run until it is over";
+            return Err(MeasureError::Channel {
+                topic: crate::run::CONTACTS,
+                what: "impact that begins and ends",
+                cure,
+            });
+        }
+        let [time, overlap, restitution] = [0, 1, 2].map(|k| Mean::of(&self.rows[k]).mean);
+        let summary = Summary::default()
+            .with("contact_time", "s", time)
+            .with("overlap", "m", overlap)
+            .with("restitution", "1", restitution)
+            .with("largest_overlap", "m", self.rows[1].iter().copied().fold(0.0, f64::max))
+            .with("impacts", "1", self.rows[0].len() as f64);
+        let cut = self.cut + self.open.len() as u64;
+        let note = format!("{cut} contacts left out: their start or end was not seen");
+        Ok(if cut > 0 { summary.note(note) } else { summary })
+    }
+
+    fn chart(&self, rows: &[Row]) -> Chart {
+        let dots = |k: usize| {
+            let points = rows.iter().map(|r| [r[0], r[k]]).collect();
+            vec![Curve { name: String::new(), points, look: Look::Dots }]
+        };
+        Chart::new("Impacts").curves("time [s]", "restitution [1]", dots(5)).curves(
+            "time [s]",
+            "contact time [s]",
+            dots(1),
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Contacts;
+
+    /// A grain on a floor at z = 0 that follows a damped sine for half a period, δ = v/ω e^(−γt) sin ωt, in frames that do not
+    /// hit its ends: it parts at e = e^(−γπ/ω) of its speed, and is deepest at tan ωt = ω/γ.
+    #[test]
+    fn a_damped_half_sine_is_found_between_frames() {
+        let (omega, gamma, v) = (100.0, 20.0, 2.0);
+        let end = std::f64::consts::PI / omega;
+        let e = libm::exp(-gamma * end);
+        let sine = |t: f64| v / omega * libm::exp(-gamma * t) * libm::sin(omega * t);
+        let overlap = |t: f64| match t {
+            t if t < 0.0 => v * t,
+            t if t > end => -e * v * (t - end),
+            t => sine(t),
+        };
+        let speed = |t: f64| match t {
+            t if t < 0.0 => v,
+            t if t > end => -e * v,
+            t => v * libm::exp(-gamma * t) * libm::cos(omega * t) - gamma * sine(t),
+        };
+        let (run, mut impacts, mut rows) = (Run::default(), Impacts::new((-1.0, 1.0)), Vec::new());
+        for k in 0..60 {
+            let t = -0.0057 + 0.001 * f64::from(k);
+            let frame = Frame {
+                time: t,
+                id: vec![3],
+                position: vec![Vec3::new(0.0, 0.0, 0.1 - overlap(t))],
+                velocity: vec![Vec3::new(0.0, 0.0, -speed(t))],
+                ..Frame::default()
+            };
+            impacts.see(&run, Seen::Frame(frame), &mut rows).unwrap();
+            let contact = Contact {
+                grain: 3,
+                partner: Partner::Wall(0),
+                point: Vec3::zeros(),
+                normal: Vec3::z(),
+                force: Vec3::zeros(),
+                work: 0.0,
+                overlap: overlap(t),
+            };
+            let list = if overlap(t) > 0.0 { vec![contact] } else { Vec::new() };
+            impacts.see(&run, Seen::Contacts(Contacts { time: t, rows: list }), &mut rows).unwrap();
+        }
+        let summary = impacts.end(&run, &mut rows).unwrap();
+        let get = |name: &str| summary.get(name).unwrap();
+        assert_eq!(rows.len(), 1);
+        let deepest = sine(libm::atan(omega / gamma) / omega);
+        println!("{} {}", get("contact_time") / end - 1.0, get("overlap") / deepest - 1.0);
+        assert!((get("contact_time") / end - 1.0).abs() < 2e-4);
+        assert!((get("overlap") / deepest - 1.0).abs() < 1e-5);
+        assert!((get("restitution") - e).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,192 @@
+//! The command line.
+
+use anyhow::Context;
+use clap::Parser;
+use cli::usage;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+const NOTES: &str = "KEY: any key of the scene (as for dem-run --set; * is every entry of a list: material.*.young), or safety, dt, \
+    accuracy, stiffness (a factor on every young and stiffness), young, precision, skin, sleep, every, zone, threads. \
+    A KEY that stands as {KEY} in SCENE, an INPUT or --each is put there; {seed} is there, too.\n\
+    NAME: heap-angle, discharge-rate PLANE, wall-force SHAPE, peak-wall-force SHAPE, energy-error, contact-time, overlap, \
+    restitution, velocity-profile, packing-fraction SHAPE, bed-height, each with further options of dem-measure; or \
+    'VALUE of --MEASURE …': any value of its summary, or any of its columns as a profile.\n\
+    Points run one after another: other work on the machine, and --jobs, disturb the times.\n\
+    How it is judged, and examples: docs/accuracy.md.";
+
+/// Shows what accuracy costs in time: runs a scene over a grid of settings; CSV to stdout, a plot, a recommended setting
+#[derive(Parser, Debug)]
+#[command(after_help = NOTES)]
+pub struct Args {
+    /// The scene (TOML)
+    #[arg(value_name = "SCENE.toml")]
+    pub scene: String,
+    /// Walls and inlets of every point
+    #[arg(value_name = "INPUT")]
+    pub inputs: Vec<String>,
+    /// Values of a key; the grid is every combination (repeat)
+    #[arg(long, value_name = "KEY=A,B,C", required = true, allow_hyphen_values = true)]
+    pub vary: Vec<String>,
+    /// What is measured, by dem-measure
+    #[arg(long, value_name = "NAME", allow_hyphen_values = true)]
+    pub measure: String,
+    /// Change a key of the scene in every point (repeat)
+    #[arg(long, value_name = "KEY=VALUE", allow_hyphen_values = true)]
+    pub set: Vec<String>,
+    /// A shell line that makes one more input of each point, such as 'bluenoise-sample scan.ply --spacing {spacing} | wallgen …'
+    #[arg(long, value_name = "LINE")]
+    pub each: Option<String>,
+    /// The setting that errors are measured from (default: the finest of each key)
+    #[arg(long, value_name = "KEY=V", conflicts_with_all = ["exact", "laboratory"], help_heading = "Judging")]
+    pub reference: Vec<String>,
+    /// The right answer, in the unit of the measure
+    #[arg(long, value_name = "VALUE", conflicts_with = "laboratory", help_heading = "Judging")]
+    pub exact: Option<f64>,
+    /// A value from a laboratory, and the half width of its 95 % interval
+    #[arg(long, value_name = "VALUE[,U]", value_parser = laboratory, help_heading = "Judging")]
+    pub laboratory: Option<(f64, f64)>,
+    /// The setting in use of what the scene does not say, such as a {KEY} (repeat)
+    #[arg(long, value_name = "KEY=V", help_heading = "Judging")]
+    pub in_use: Vec<String>,
+    /// Recommend the fastest setting with no more error: a share (1%), or in the unit of the measure (default 1%)
+    #[arg(long = "for", value_name = "ERROR", value_parser = wanted, help_heading = "Judging")]
+    pub wanted: Option<Wanted>,
+    /// How a profile becomes one number
+    #[arg(long, value_enum, default_value_t = Norm::Rms, help_heading = "Judging")]
+    pub norm: Norm,
+    /// Seeds of each point: N runs with other random numbers; mean and 95 % interval
+    #[arg(long, value_name = "N", default_value_t = 1, help_heading = "Running")]
+    pub repeat: u64,
+    /// Run everything N times, in turn; the median time counts
+    #[arg(long, value_name = "N", default_value_t = 1, help_heading = "Running")]
+    pub rounds: u64,
+    /// What a run costs
+    #[arg(long, value_enum, default_value_t = Work::Seconds, help_heading = "Running")]
+    pub work: Work,
+    /// Points that run at the same time; they disturb each other's times
+    #[arg(long, value_name = "N", default_value = "1", help_heading = "Running")]
+    pub jobs: NonZeroUsize,
+    /// A folder for each point with its run and report; finished points there are used (default: beside the plot)
+    #[arg(long, value_name = "DIR", help_heading = "Running")]
+    pub dir: Option<PathBuf>,
+    /// Run nothing: write a script for each point that is not finished, and print a line to run each
+    #[arg(long, visible_alias = "dry-run", help_heading = "Running")]
+    pub print_commands: bool,
+    /// Also write the sentences to a file (Markdown)
+    #[arg(long, value_name = "FILE.md")]
+    pub words: Option<PathBuf>,
+    /// The plot: work over error
+    #[arg(id = "output", short = 'o', long = "output", value_name = "FILE.svg|png")]
+    pub plot: Option<PathBuf>,
+}
+
+/// What a run costs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Work {
+    /// Wall time for each simulated second
+    Seconds,
+    /// Steps for each simulated second: the same on every machine
+    Steps,
+    /// Instructions of the program for each simulated second; needs perf or valgrind
+    Instructions,
+}
+
+/// How a profile becomes one number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Norm {
+    /// Root of the mean of the squares
+    Rms,
+    /// The largest
+    Max,
+}
+
+/// An error that is good enough.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Wanted {
+    /// A share of the truth [–].
+    Share(f64),
+    /// In the unit of the measure.
+    Absolute(f64),
+}
+
+fn wanted(text: &str) -> Result<Wanted, String> {
+    let wrong = || "give a share such as 1%, or a number above 0 in the unit of the measure".to_owned();
+    let number =
+        |text: &str| text.trim().parse().ok().filter(|v: &f64| *v > 0.0 && v.is_finite()).ok_or_else(wrong);
+    match text.strip_suffix('%') {
+        Some(share) => Ok(Wanted::Share(number(share)? / 100.0)),
+        None => Ok(Wanted::Absolute(number(text)?)),
+    }
+}
+
+fn laboratory(text: &str) -> Result<(f64, f64), String> {
+    let (value, half) = text.split_once(',').unwrap_or((text, "0"));
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|v| v.is_finite());
+    match (number(value), number(half)) {
+        (Some(value), Some(half)) if half >= 0.0 => Ok((value, half)),
+        _ => Err("give a value, and the half width of its interval, such as 35.5,0.8".to_owned()),
+    }
+}
+
+/// `KEY=VALUE`
+pub fn pair(option: &str, text: &str) -> anyhow::Result<(String, String)> {
+    let (key, value) = text
+        .split_once('=')
+        .filter(|(key, value)| !key.trim().is_empty() && !value.trim().is_empty())
+        .ok_or_else(|| usage(format!("{option} {text}: write KEY=VALUE, such as safety=0.2")))?;
+    Ok((key.trim().to_owned(), value.trim().to_owned()))
+}
+
+/// Values between commas; those inside of brackets belong to the value.
+pub fn values(key: &str, text: &str) -> anyhow::Result<Vec<String>> {
+    let (mut depth, mut list) = (0i32, vec![String::new()]);
+    for c in text.chars() {
+        depth += i32::from(matches!(c, '[' | '{')) - i32::from(matches!(c, ']' | '}'));
+        match list.last_mut() {
+            Some(value) if c != ',' || depth > 0 => value.push(c),
+            _ => list.push(String::new()),
+        }
+    }
+    let list: Vec<String> = list.iter().map(|v| v.trim().to_owned()).collect();
+    if let Some(value) = list.iter().find(|v| v.is_empty()).or_else(|| list.iter().find(|v| twice(v, &list)))
+    {
+        let why =
+            if value.is_empty() { "one value is empty".into() } else { format!("{value} is there twice") };
+        return Err(usage(format!("--vary {key}={text}: {why}: leave it out")));
+    }
+    Ok(list)
+}
+
+fn twice(value: &str, list: &[String]) -> bool {
+    list.iter().filter(|v| *v == value).count() > 1
+}
+
+impl Args {
+    /// The folder of the points.
+    pub fn folder(&self) -> PathBuf {
+        let beside = || self.plot.clone().unwrap_or_else(|| "cost-curve".into()).with_extension("points");
+        self.dir.clone().unwrap_or_else(beside)
+    }
+
+    /// Refuses what would only fail after the runs.
+    ///
+    /// # Errors
+    /// Another picture than SVG and PNG, streams that can be read only once, counts of 0.
+    pub fn check(&self) -> anyhow::Result<()> {
+        if let Some(file) = &self.plot {
+            crate::plot::check_name(file)?;
+        }
+        if self.scene == "-" || self.inputs.iter().any(|i| i == "-") {
+            return Err(usage("-: every point reads its inputs again: give files"));
+        }
+        for (option, count) in [("--repeat", self.repeat), ("--rounds", self.rounds)] {
+            if !(1..=1000).contains(&count) {
+                return Err(usage(format!("{option} {count}: give a number from 1 to 1000")));
+            }
+        }
+        std::fs::create_dir_all(self.folder()).with_context(|| {
+            format!("{}: cannot make this folder: choose another --dir", self.folder().display())
+        })
+    }
+}

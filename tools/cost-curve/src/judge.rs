@@ -1,0 +1,212 @@
+//! From the runs to points with errors, and what they say.
+
+use crate::args::{Args, Norm, Wanted, Work};
+use crate::line::Counter;
+use crate::observe::Measure;
+use crate::sweep::Sweep;
+use crate::work::{self, Made};
+use anyhow::anyhow;
+use curve::{Choice, Error, Point, Sample, Truth, errors, front, percent, recommend, sentence};
+
+/// What is known of a point besides.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Cost {
+    /// Wall time for each simulated second, median over the runs [s/s].
+    pub seconds: f64,
+    /// Steps for each simulated second [1/s].
+    pub steps: f64,
+    /// Wall time of the line that made its input, median [s].
+    pub prepared: f64,
+}
+
+/// The curve.
+pub struct Judged {
+    /// The points, as in the grid.
+    pub points: Vec<Point>,
+    /// What they cost.
+    pub costs: Vec<Cost>,
+    /// Their errors.
+    pub errors: Vec<Option<Error>>,
+    /// Which of them nothing beats.
+    pub front: Vec<usize>,
+    /// What to take, when that was asked for in a unit that the errors have.
+    pub choice: Option<Choice>,
+    /// Error that is good enough, and whether it is a share.
+    pub wanted: (f64, bool),
+    /// Name and unit of the measure.
+    pub what: (String, String),
+    /// Points that are compared with, and in use.
+    pub marks: (Option<usize>, Option<usize>),
+    /// `time`, `steps`, `instructions`.
+    pub of: &'static str,
+}
+
+/// Reads and measures all runs and judges them.
+///
+/// # Errors
+/// No run came to its end, something that cannot be measured.
+pub fn judge(
+    args: &Args,
+    sweep: &Sweep,
+    measure: &Measure,
+    counter: Option<Counter>,
+) -> anyhow::Result<Judged> {
+    let grid = &sweep.grid;
+    let empty = |setting: &Vec<(String, String)>| Point {
+        setting: setting.clone(),
+        samples: Vec::new(),
+        failed: None,
+    };
+    let mut points: Vec<Point> = grid.settings.iter().map(empty).collect();
+    let (mut all, mut unit) = (vec![Vec::new(); points.len()], String::new());
+    for job in &sweep.jobs {
+        let point = &mut points[job.setting];
+        match work::read(job, args.work, counter)? {
+            Made::Failed(why) => point.failed = Some(why),
+            Made::Done { work, seconds, steps, prepared } => {
+                let (value, its) = measure.of(job, &sweep.tools)?;
+                unit = its;
+                point.samples.push(Sample { value, work, seed: job.repeat });
+                all[job.setting].push(Cost { seconds, steps, prepared });
+            }
+        }
+    }
+    // A setting that goes wrong with some seeds cannot be relied on.
+    points.iter_mut().filter(|p| p.failed.is_some()).for_each(|p| p.samples.clear());
+    let why = |k: usize| points[k].failed.clone().map(|why| anyhow!("{}: {why}", points[k].name()));
+    if let Some(error) = grid.reference.and_then(why) {
+        return Err(error.context("the reference cannot be run: give another --reference"));
+    }
+    if points.iter().all(|p| p.failed.is_some()) {
+        return Err(why(0).unwrap_or_else(|| anyhow!("nothing to run")).context("no point can be run"));
+    }
+    let truth = match (grid.reference, args.exact, args.laboratory) {
+        (Some(reference), ..) => Truth::Point(reference),
+        (_, Some(exact), _) => Truth::Value(exact, 0.0),
+        (.., laboratory) => laboratory.map_or(Truth::Value(f64::NAN, 0.0), |(v, u)| Truth::Value(v, u)),
+    };
+    let norm = if args.norm == Norm::Max { curve::Norm::Max } else { curve::Norm::Rms };
+    let errors = errors(&points, truth, norm);
+    let works: Vec<f64> = points.iter().map(Point::work).collect();
+    let relative = errors.iter().flatten().all(|e| e.relative);
+    let (wanted, share) = match args.wanted.unwrap_or(Wanted::Share(0.01)) {
+        Wanted::Share(share) => (share, true),
+        Wanted::Absolute(size) => (size, false),
+    };
+    if args.wanted.is_some() && share != relative {
+        return Err(cli::usage(format!(
+            "--for: the truth is {}, so errors are {}",
+            if relative { "not zero" } else { "zero" },
+            if relative {
+                "shares of it: give one such as 1%"
+            } else {
+                "in the unit of the measure: give one without %"
+            }
+        )));
+    }
+    Ok(Judged {
+        front: front(&works, &errors),
+        choice: (share == relative).then(|| recommend(&works, &errors, grid.reference, wanted)),
+        costs: all.iter().map(|runs| median(runs)).collect(),
+        wanted: (wanted, share),
+        what: (measure.name.clone(), unit),
+        marks: (grid.reference, grid.in_use.filter(|k| points[*k].failed.is_none())),
+        of: match args.work {
+            Work::Seconds => "time",
+            Work::Steps => "steps",
+            Work::Instructions => "instructions",
+        },
+        points,
+        errors,
+    })
+}
+
+fn median(runs: &[Cost]) -> Cost {
+    let of = |get: fn(&Cost) -> f64| {
+        let mut all: Vec<f64> = runs.iter().map(get).collect();
+        all.sort_by(f64::total_cmp);
+        all.get(all.len() / 2).copied().unwrap_or(f64::NAN)
+    };
+    Cost { seconds: of(|c| c.seconds), steps: of(|c| c.steps), prepared: of(|c| c.prepared) }
+}
+
+impl Judged {
+    /// What the sentences compare with: the setting in use, else the reference, else the one with the least error.
+    pub fn base(&self) -> Option<usize> {
+        let size = |k: &usize| self.errors[*k].map_or(f64::INFINITY, |e| e.size);
+        let known = (0..self.points.len()).filter(|k| self.errors[*k].is_some());
+        self.marks.1.or(self.marks.0).or_else(|| known.min_by(|a, b| size(a).total_cmp(&size(b))))
+    }
+
+    /// Everything in plain words, a line each.
+    pub fn words(&self) -> Vec<String> {
+        let mut lines = Vec::new();
+        let Some(base) = self.base() else { return lines };
+        let what = (self.what.0.as_str(), self.what.1.as_str());
+        let role = if self.marks.1 == Some(base) { "In use" } else { "Compared with" };
+        lines.push(format!("{role}: {}{}", self.points[base].name(), self.known(base)));
+        for (k, point) in self.points.iter().enumerate().filter(|(k, _)| *k != base) {
+            lines.push(match (&point.failed, &self.errors[k]) {
+                (Some(why), _) => {
+                    format!("{} cannot be run: {why}", curve::change(&self.points[base], point))
+                }
+                (None, Some(error)) => {
+                    sentence(&self.points[base], point, error, what, self.of) + self.mark(k)
+                }
+                (None, None) => format!("{} cannot be compared", curve::change(&self.points[base], point)),
+            });
+        }
+        lines.extend(self.advice());
+        lines
+    }
+
+    fn mark(&self, k: usize) -> &'static str {
+        if self.marks.0 == Some(k) { " (the reference)" } else { "" }
+    }
+
+    /// `, with an error of 0.3 % in heap angle`
+    fn known(&self, k: usize) -> String {
+        match (&self.errors[k], self.marks.0 == Some(k)) {
+            (_, true) => format!(", the reference for {}", self.what.0),
+            (Some(error), _) => format!(", with an error of {} in {}", self.size(error.size), self.what.0),
+            _ => String::new(),
+        }
+    }
+
+    fn size(&self, size: f64) -> String {
+        match (self.wanted.1, self.errors.iter().flatten().next().is_none_or(|e| e.relative)) {
+            (_, true) => percent(size),
+            _ if self.what.1 == "1" => geom::Shown(size).to_string(),
+            _ => format!("{} {}", geom::Shown(size), self.what.1),
+        }
+    }
+
+    /// The recommended setting.
+    pub fn advice(&self) -> Option<String> {
+        let (wanted, of) = (self.size(self.wanted.0), self.of);
+        let within = format!("within {wanted} in {}", self.what.0);
+        Some(match self.choice? {
+            Choice::Point(k) => {
+                let time = match self.base().filter(|base| *base != k) {
+                    Some(base) => {
+                        let time = curve::share_of_time(self.points[k].work(), self.points[base].work(), of);
+                        format!("; it {time}")
+                    }
+                    None => String::new(),
+                };
+                format!("Recommended, the least {of} {within}: {}{time}", self.points[k].name())
+            }
+            Choice::OnlyReference(k) => {
+                format!(
+                    "None but the reference ({}) is {within}: try settings between",
+                    self.points[k].name()
+                )
+            }
+            Choice::None(Some(k)) => {
+                let upper = self.errors[k].map_or(f64::NAN, |e| e.upper());
+                format!("None is {within}; nearest is {} with {}", self.points[k].name(), self.size(upper))
+            }
+            Choice::None(None) => format!("None is {within}"),
+        })
+    }
+}

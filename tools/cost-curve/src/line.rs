@@ -1,0 +1,166 @@
+//! The script that makes a point: an ordinary dem-run, and the line that makes its input.
+//!
+//! The last line of the script writes `made`: the stamp of the point and the exit code. A script that was killed leaves
+//! none, and is run again.
+
+use crate::args::Work;
+use crate::grid::Setting;
+use std::path::{Path, PathBuf};
+
+/// One run.
+#[derive(Debug, Clone)]
+pub struct Job {
+    /// Index of its setting.
+    pub setting: usize,
+    /// Which seed, from 0.
+    pub repeat: u64,
+    /// Its folder.
+    pub folder: PathBuf,
+    /// What it is made from: SHA-256 of scene, inputs, programs and options.
+    pub stamp: String,
+    /// What it is, for people.
+    pub name: String,
+    /// The scene's file.
+    pub scene: String,
+    /// Walls and inlets.
+    pub inputs: Vec<String>,
+    /// Overrides of the scene.
+    pub sets: Vec<String>,
+    /// `--threads`.
+    pub threads: Option<String>,
+    /// The shell line that makes one more input.
+    pub each: Option<String>,
+}
+
+/// Replaces {KEY} by its value; {seed} is the number of the repeat.
+pub fn fill(text: &str, setting: &Setting, repeat: u64) -> String {
+    let with = |text: String, (key, value): &(String, String)| text.replace(&format!("{{{key}}}"), value);
+    setting.iter().fold(text.replace("{seed}", &repeat.to_string()), with)
+}
+
+/// The first {…} that nothing fills.
+pub fn unfilled(text: &str) -> Option<&str> {
+    let start = text.find('{')?;
+    let end = start + text[start..].find('}')?;
+    let word =
+        |name: &str| !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || "._*".contains(c));
+    // What a shell makes of ${…} and of { …; } is not ours.
+    let own = word(&text[start + 1..end]) && !text[..start].ends_with('$');
+    if own { Some(&text[start..=end]) } else { unfilled(&text[end..]) }
+}
+
+/// A word that a shell takes as it is.
+pub fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "_-./=,:+@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
+}
+
+impl Job {
+    /// A file in its folder.
+    pub fn file(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+
+    fn path(&self, name: &str) -> String {
+        quoted(&self.file(name).display().to_string())
+    }
+
+    /// The line of dem-run.
+    pub fn dem_run(&self) -> String {
+        let mut words = vec!["dem-run".to_owned(), quoted(&self.scene)];
+        words.extend(self.inputs.iter().map(|i| quoted(i)));
+        words.extend(self.each.iter().map(|_| self.path("input")));
+        words.extend(self.sets.iter().map(|set| format!("--set {}", quoted(set))));
+        words.extend(self.threads.iter().map(|n| format!("--threads {}", quoted(n))));
+        words.push(format!("-q -o {} --report {}", self.path("run.mcap"), self.path("report.json")));
+        words.join(" ")
+    }
+
+    /// The whole script; `tools` is the folder of the programs.
+    pub fn script(&self, tools: &Path, here: &Path, work: Work, counter: Option<Counter>) -> String {
+        let (tools, here) = (quoted(&tools.display().to_string()), quoted(&here.display().to_string()));
+        let old =
+            ["made", "run.mcap", "report.json", "input", "instructions"].map(|f| self.path(f)).join(" ");
+        let mut lines = vec![
+            "#!/usr/bin/env bash".to_owned(),
+            format!("# cost-curve: {}", self.name),
+            "set -o pipefail".to_owned(),
+            format!("cd {here} && PATH={tools}:\"$PATH\" && export PATH || exit 1"),
+            format!("rm -f {old}; : > {}", self.path("begun")),
+        ];
+        let made = |code: &str| format!("echo {} {code} > {}", self.stamp, self.path("made"));
+        if let Some(each) = &self.each {
+            let (input, words) = (self.path("input"), self.path("words"));
+            lines.push(format!("{{ {each}\n}} > {input} 2> {words} || {{ {}; exit 1; }}", made("each")));
+        }
+        lines.push(format!(": > {}", self.path("prepared")));
+        let counted = match (work, counter) {
+            (Work::Instructions, Some(counter)) => counter.around(&self.path("instructions")),
+            _ => String::new(),
+        };
+        lines.push(format!("{counted}{} 2> {}", self.dem_run(), self.path("words")));
+        lines.push("code=$?".to_owned());
+        lines.push(format!("[ $code -ge 128 ] || {}", made("$code")));
+        lines.join("\n") + "\n"
+    }
+}
+
+/// What counts instructions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Counter {
+    /// The counters of the processor.
+    Perf,
+    /// A simulator, 50 times slower.
+    Valgrind,
+}
+
+impl Counter {
+    fn around(self, file: &str) -> String {
+        match self {
+            Counter::Perf => format!("perf stat -x, -e instructions:u -o {file} -- "),
+            Counter::Valgrind => {
+                format!("valgrind --tool=callgrind --callgrind-out-file=/dev/null --log-file={file} -- ")
+            }
+        }
+    }
+
+    /// The number in what it has written.
+    pub fn read(self, text: &str) -> Option<f64> {
+        match self {
+            Counter::Perf => {
+                text.lines().find(|l| l.contains("instructions"))?.split(',').next()?.parse().ok()
+            }
+            Counter::Valgrind => {
+                let line = text.lines().find(|l| l.contains("Collected :"))?;
+                line.rsplit(' ').next()?.parse().ok()
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn blanks_are_filled_and_what_is_left_is_found() {
+        let setting = vec![("spacing".to_owned(), "0.01".to_owned())];
+        let line = fill("a --spacing {spacing} --seed {seed} ${HOME} {zeta}", &setting, 2);
+        assert_eq!(line, "a --spacing 0.01 --seed 2 ${HOME} {zeta}");
+        assert_eq!(unfilled(&line), Some("{zeta}"));
+        assert_eq!(unfilled("awk '{print $1}' ${x} { a; }"), None);
+        assert_eq!((quoted("a=[0,1]"), quoted("it's")), ("'a=[0,1]'".to_owned(), "'it'\\''s'".to_owned()));
+    }
+
+    #[test]
+    fn counts_are_read() {
+        let perf = "# started\n\n123456,,instructions:u,1000,100.00,,\n";
+        assert_eq!(Counter::Perf.read(perf), Some(123456.0));
+        assert_eq!(Counter::Perf.read("<not supported>,,instructions:u"), None);
+        assert_eq!(Counter::Valgrind.read("==1== Collected : 789\n"), Some(789.0));
+    }
+}

@@ -1,0 +1,142 @@
+//! What is measured of a run: by dem-measure, a value of its summary or a column of its rows.
+
+use crate::line::Job;
+use anyhow::{Context, anyhow};
+use cli::usage;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Name, option of dem-measure, value.
+const KNOWN: [(&str, &str, &str); 11] = [
+    ("heap-angle", "--repose", "angle"),
+    ("discharge-rate", "--flow", "mass_flow"),
+    ("wall-force", "--wall-force", "mean_force"),
+    ("peak-wall-force", "--wall-force", "largest_force"),
+    ("energy-error", "--energy", "largest_relative"),
+    ("contact-time", "--impact", "contact_time"),
+    ("overlap", "--impact", "overlap"),
+    ("restitution", "--impact", "restitution"),
+    ("velocity-profile", "--profile", "speed"),
+    ("packing-fraction", "--porosity", "solid_fraction"),
+    ("bed-height", "--bed-height", "height"),
+];
+
+/// A measure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measure {
+    /// As it is called in sentences.
+    pub name: String,
+    /// Value of the summary, or column.
+    value: String,
+    /// Options of dem-measure.
+    options: Vec<String>,
+}
+
+/// What was measured of a run, and its unit.
+pub type Measured = (Vec<f64>, String);
+
+impl Measure {
+    /// From the text of `--measure`.
+    ///
+    /// # Errors
+    /// A name that is not known.
+    pub fn parse(text: &str) -> anyhow::Result<Measure> {
+        let own = |words: &str| words.split_whitespace().map(str::to_owned).collect::<Vec<String>>();
+        if let Some((value, options)) = text.split_once(" of ") {
+            let (value, options) = (value.trim().to_owned(), own(options));
+            return Ok(Measure { name: value.clone(), value, options });
+        }
+        let words = own(text);
+        let name = words.first().map_or("", String::as_str);
+        if let Some((name, option, value)) = KNOWN.iter().find(|known| known.0 == name) {
+            let options = [vec![(*option).to_owned()], words[1..].to_vec()].concat();
+            return Ok(Measure { name: name.replace('-', " "), value: (*value).to_owned(), options });
+        }
+        let near = KNOWN.iter().map(|k| (strsim::damerau_levenshtein(k.0, name), k.0)).min();
+        let hint = near.filter(|n| n.0 <= 3).map_or(String::new(), |n| format!("; did you mean '{}'?", n.1));
+        let names: Vec<&str> = KNOWN.iter().map(|k| k.0).collect();
+        Err(usage(format!(
+            "--measure {text}: is not known{hint}: give one of {}, or 'VALUE of --MEASURE …' of dem-measure",
+            names.join(", ")
+        )))
+    }
+
+    /// Measures a run, or takes what was measured of it before.
+    ///
+    /// # Errors
+    /// What dem-measure says, a value that it does not have, a value that is no number.
+    pub fn of(&self, job: &Job, tools: &Path) -> anyhow::Result<Measured> {
+        let key = stream::sha256(format!("{}\n{}", job.stamp, self.options.join("\n")).as_bytes());
+        let kept = job.file(&format!("measure-{:.12}.json", key));
+        let program = tools.join("dem-measure");
+        if !fresh(&kept, &job.file("run.mcap"), &program) {
+            let mut command = Command::new(&program);
+            command.arg(job.file("run.mcap")).args(&self.options).args(["--json", "-q", "-o"]).arg(&kept);
+            let done =
+                command.output().with_context(|| format!("{}: cannot be started", program.display()))?;
+            if !done.status.success() {
+                return Err(anyhow!("{}", String::from_utf8_lossy(&done.stderr).trim()));
+            }
+        }
+        let text = std::fs::read_to_string(&kept).with_context(|| kept.display().to_string())?;
+        let sheet: Value = serde_json::from_str(&text).with_context(|| kept.display().to_string())?;
+        self.find(&sheet).with_context(|| job.file("run.mcap").display().to_string())
+    }
+
+    fn find(&self, sheet: &Value) -> anyhow::Result<Measured> {
+        let no_number = || anyhow!("'{}' is no number in this run: measure something it has", self.value);
+        let unit = |head: &Value| head["unit"].as_str().unwrap_or("1").to_owned();
+        if let Some(found) = sheet["summary"].get(&self.value) {
+            return Ok((vec![found["value"].as_f64().ok_or_else(no_number)?], unit(found)));
+        }
+        let columns = sheet["columns"].as_array().map(Vec::as_slice).unwrap_or_default();
+        let Some(at) = columns.iter().position(|c| c["name"] == self.value.as_str()) else {
+            let summary = sheet["summary"].as_object().into_iter().flat_map(|s| s.keys().cloned());
+            let names = summary.chain(columns.iter().filter_map(|c| c["name"].as_str().map(str::to_owned)));
+            let names = names.collect::<Vec<_>>().join(", ");
+            return Err(usage(format!("{} has no '{}': it has {names}", self.options.join(" "), self.value)));
+        };
+        let rows = sheet["rows"].as_array().map(Vec::as_slice).unwrap_or_default();
+        // A cell of a profile that no grain is in has no number; it counts as 0 in every run alike.
+        let values: Vec<f64> = rows.iter().map(|row| row[at].as_f64().unwrap_or(0.0)).collect();
+        if values.is_empty() { Err(no_number()) } else { Ok((values, unit(&columns[at]))) }
+    }
+}
+
+/// Whether what was measured is younger than the run and the program.
+fn fresh(kept: &Path, run: &PathBuf, program: &Path) -> bool {
+    let time = |path: &Path| std::fs::metadata(path).and_then(|m| m.modified()).ok();
+    let kept = time(kept);
+    kept.is_some() && kept >= time(run) && kept >= time(program)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn names_stand_for_options_and_values() {
+        let m = Measure::parse("discharge-rate 0,0,0.6,0,0,-1 --from 0.2").unwrap();
+        assert_eq!(m.options, ["--flow", "0,0,0.6,0,0,-1", "--from", "0.2"]);
+        assert_eq!((m.name.as_str(), m.value.as_str()), ("discharge rate", "mass_flow"));
+        let m = Measure::parse("height of --repose --sectors 4").unwrap();
+        assert_eq!((m.value.as_str(), m.options.len()), ("height", 3));
+        let why = Measure::parse("heap-angel").unwrap_err().to_string();
+        assert!(why.contains("did you mean 'heap-angle'?"), "{why}");
+    }
+
+    #[test]
+    fn values_are_found_in_summary_and_columns() {
+        let sheet = json!({"columns": [{"name": "z", "unit": "m"}, {"name": "vx", "unit": "m/s"}],
+            "rows": [[0.1, 1.0], [0.2, null]], "summary": {"angle": {"value": 30.5, "unit": "deg"}, "bad": {"value": null}}});
+        let find = |value: &str| {
+            Measure { name: String::new(), value: value.into(), options: vec!["--x".into()] }.find(&sheet)
+        };
+        assert_eq!(find("angle").unwrap(), (vec![30.5], "deg".into()));
+        assert_eq!(find("vx").unwrap(), (vec![1.0, 0.0], "m/s".into()));
+        assert!(find("bad").unwrap_err().to_string().contains("no number"));
+        assert!(find("vz").unwrap_err().to_string().contains("it has angle, bad, z, vx"));
+    }
+}

@@ -1,0 +1,146 @@
+//! The work–precision diagram: error over work, both logarithmic, with the Pareto front and the setting in use.
+
+use crate::judge::Judged;
+use anyhow::anyhow;
+use cli::usage;
+use curve::Choice;
+use kuva::plot::scatter::MarkerShape;
+use kuva::prelude::*;
+use std::path::Path;
+use std::sync::Arc;
+
+/// Colours that can be told apart (Okabe & Ito 2008).
+const COLOURS: [&str; 6] = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"];
+const GREY: &str = "#999999";
+const BLACK: &str = "#000000";
+const SIZE: (f64, f64) = (760.0, 480.0);
+
+/// Refuses names that end in neither .svg nor .png, before the work is done.
+pub fn check_name(file: &Path) -> anyhow::Result<()> {
+    match ending(file).as_str() {
+        "svg" | "png" => Ok(()),
+        _ => Err(usage(format!("-o {}: the name must end in .svg or .png", file.display()))),
+    }
+}
+
+fn ending(file: &Path) -> String {
+    file.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
+}
+
+/// A point of the diagram: work, error, half width of the interval, name.
+struct Dot {
+    at: (f64, f64),
+    interval: f64,
+    label: String,
+    group: String,
+    index: usize,
+}
+
+/// Points with an error; what has none lies on the floor, where a logarithm has no room for 0.
+fn dots(judged: &Judged) -> Vec<Dot> {
+    let sizes = judged.errors.iter().flatten().map(|e| e.size).filter(|s| *s > 0.0);
+    let floor = sizes.fold(f64::INFINITY, f64::min) / 3.0;
+    let floor = if floor.is_finite() { floor } else { 1e-16 };
+    let dot = |(index, point): (usize, &curve::Point)| {
+        let error = judged.errors[index].filter(|_| judged.marks.0 != Some(index))?;
+        let (_, label) = point.setting.first()?;
+        let group =
+            point.setting.iter().skip(1).map(|(k, v)| format!("{k} {v}")).collect::<Vec<_>>().join(", ");
+        let interval = if error.interval.is_nan() { 0.0 } else { error.interval };
+        let zero = if error.size > 0.0 { "" } else { " (none)" };
+        let label = format!("{label}{zero}");
+        Some(Dot { at: (point.work(), error.size.max(floor)), interval, label, group, index })
+    };
+    judged.points.iter().enumerate().filter_map(dot).collect()
+}
+
+/// The bytes of the picture; the ending of the name chooses the format.
+pub fn draw(file: &Path, judged: &Judged, title: &str) -> anyhow::Result<Vec<u8>> {
+    let dots = dots(judged);
+    let mut plots = vec![line(&on_front(judged, &dots), GREY, "nothing beats these")];
+    let mut groups: Vec<&str> = Vec::new();
+    dots.iter().for_each(|d| {
+        if !groups.contains(&d.group.as_str()) {
+            groups.push(&d.group)
+        }
+    });
+    for (k, group) in groups.iter().enumerate() {
+        let own: Vec<&Dot> = dots.iter().filter(|d| d.group == **group).collect();
+        plots.push(scatter(&own, COLOURS[k % COLOURS.len()], group));
+    }
+    for (k, name, shape) in marked(judged) {
+        if let Some(dot) = dots.iter().find(|d| d.index == k) {
+            let ring = ScatterPlot::new().with_data(vec![dot.at]).with_color(BLACK).with_size(8.0);
+            plots.push(Plot::from(
+                ring.with_marker(shape)
+                    .with_marker_opacity(0.0)
+                    .with_marker_stroke_width(1.5)
+                    .with_legend(name),
+            ));
+        }
+    }
+    let works: Vec<f64> = dots.iter().map(|d| d.at.0).collect();
+    let (low, high) =
+        (works.iter().copied().fold(f64::INFINITY, f64::min), works.iter().copied().fold(0.0, f64::max));
+    if judged.choice.is_some() && low.is_finite() {
+        let level = vec![(low, judged.wanted.0), (high.max(low * 1.01), judged.wanted.0)];
+        let wanted = LinePlot::new().with_data(level).with_color(BLACK).with_dotted();
+        plots.push(Plot::from(wanted.with_legend(if judged.wanted.1 {
+            format!("{} wanted", curve::percent(judged.wanted.0))
+        } else {
+            "wanted".to_owned()
+        })));
+    }
+    let unit = if judged.wanted.1 { "%" } else { judged.what.1.as_str() };
+    let share = judged.wanted.1;
+    let tick = move |v: f64| geom::Shown(if share { 100.0 * v } else { v }).to_string();
+    let key = judged.points.first().and_then(|p| p.setting.first()).map_or("", |(k, _)| k.as_str());
+    let layout = Layout::auto_from_plots(&plots)
+        .with_width(SIZE.0)
+        .with_height(SIZE.1)
+        .with_log_scale()
+        .with_title(title.to_owned())
+        .with_x_label(match judged.of {
+            "time" => format!("wall time for a simulated second [s]; beside the points: {key}"),
+            of => format!("{of} for a simulated second; beside the points: {key}"),
+        })
+        .with_y_label(format!("error in {} [{unit}]", judged.what.0))
+        .with_x_tick_format(TickFormat::Custom(Arc::new(|v| geom::Shown(v).to_string())))
+        .with_y_tick_format(TickFormat::Custom(Arc::new(tick)));
+    if ending(file) == "svg" {
+        return Ok(kuva::render_to_svg(plots, layout).into_bytes());
+    }
+    kuva::render_to_raster(plots, layout, 1.0)
+        .map_err(|why| anyhow!("-o {}: cannot draw it: {why}", file.display()))
+}
+
+fn on_front(judged: &Judged, dots: &[Dot]) -> Vec<(f64, f64)> {
+    judged.front.iter().filter_map(|k| dots.iter().find(|d| d.index == *k)).map(|d| d.at).collect()
+}
+
+fn marked(judged: &Judged) -> Vec<(usize, &'static str, MarkerShape)> {
+    let recommended = match judged.choice {
+        Some(Choice::Point(k)) => Some((k, "recommended", MarkerShape::Diamond)),
+        _ => None,
+    };
+    judged.marks.1.map(|k| (k, "in use", MarkerShape::Circle)).into_iter().chain(recommended).collect()
+}
+
+fn line(points: &[(f64, f64)], colour: &str, name: &str) -> Plot {
+    let line =
+        LinePlot::new().with_data(points.to_vec()).with_color(colour).with_stroke_width(1.2).with_dashed();
+    Plot::from(if points.len() > 1 { line.with_legend(name) } else { line })
+}
+
+fn scatter(dots: &[&Dot], colour: &str, group: &str) -> Plot {
+    let plot = ScatterPlot::new()
+        .with_data(dots.iter().map(|d| d.at).collect::<Vec<_>>())
+        // An arm that reaches 0 has no end on a logarithm.
+        .with_y_err_asymmetric(
+            dots.iter().map(|d| (d.interval.min(0.7 * d.at.1), d.interval)).collect::<Vec<_>>(),
+        )
+        .with_color(colour)
+        .with_size(4.0)
+        .with_labels(dots.iter().map(|d| d.label.clone()).collect::<Vec<_>>());
+    Plot::from(if group.is_empty() { plot } else { plot.with_legend(group) })
+}
