@@ -187,7 +187,18 @@ impl Bodies {
 
     /// Whether a row is a member of a body.
     pub fn is_member(&self, k: usize) -> bool {
-        self.of.get(k).is_some_and(|&b| b != FREE)
+        self.body_of(k).is_some()
+    }
+
+    /// The body that a row is a member of.
+    fn body_of(&self, k: usize) -> Option<&Flight> {
+        self.of.get(k).and_then(|&b| self.flights.get(b as usize))
+    }
+
+    /// Mass [kg] of the body that row `k` is a member of: all of it for its first member, none for the others.
+    pub fn mass_at(&self, k: usize) -> Option<f64> {
+        let first = |f: &Flight| self.members.get(f.first as usize) == Some(&(k as u32));
+        self.body_of(k).map(|f| if first(f) { f.mass } else { 0.0 })
     }
 
     /// Follows the particles to their new places; `order` names the old ones of those that stay. Bodies stay or leave whole.

@@ -230,6 +230,11 @@ impl Contacts {
         self.segments.iter().map(|s| s.len).sum()
     }
 
+    /// Energy in their springs [J]; 0 without the ledger.
+    pub fn elastic(&self) -> f64 {
+        self.ledger.chunks_exact(LEDGER).map(|row| row[0]).sum()
+    }
+
     /// Room for what is computed of them: numbers of one load, whether there are couples, whether a ledger is kept.
     pub fn make_room(&mut self, stride: usize, couples: bool, ledger: bool) {
         let places = self.i.len();

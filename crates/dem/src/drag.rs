@@ -131,6 +131,12 @@ impl Simulation {
         self.setup.drag.map_or(gravity, |d| gravity + d.acceleration(row, &gravity))
     }
 
+    /// What the fluid takes from particle `k` [W].
+    pub(crate) fn drag_power(&self, k: usize) -> f64 {
+        let row = &self.particles.rows[k];
+        self.setup.drag.map_or(0.0, |d| -d.slowing(row).dot(&Vec3::new(row[4], row[5], row[6])) / row[7])
+    }
+
     /// After a move: what the fluid adds to it. Returns whether a particle has left its room.
     pub(crate) fn apply_drag(&mut self) -> bool {
         let Some(drag) = self.setup.drag else { return false };

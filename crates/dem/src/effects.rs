@@ -75,6 +75,8 @@ pub struct Load<R: Lane> {
     pub elastic: R,
     /// Energy dissipated in this step: by the normal law, sliding, rolling, twisting [J].
     pub dissipated: [R; DISSIPATORS],
+    /// Energy that the normal law loses at once, at this instant [J].
+    pub lost: R,
 }
 
 impl<R: Lane> Load<R> {
@@ -92,6 +94,7 @@ impl<R: Lane> Load<R> {
             couple: V::zero(),
             elastic: zero,
             dissipated: [zero; DISSIPATORS],
+            lost: zero,
         }
     }
 }

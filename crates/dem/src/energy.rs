@@ -1,9 +1,8 @@
 //! The energy ledger: each term by its own formula.
 
+use crate::account::Account;
 use crate::bodies::BodyState;
-use crate::contacts::{Contacts, Kind, With};
-use crate::effects::DISSIPATORS;
-use crate::kernel::LEDGER;
+use crate::contacts::Contacts;
 use crate::particles::mass;
 use crate::setup::{Particle, Setup};
 use serde::{Deserialize, Serialize};
@@ -37,10 +36,15 @@ pub struct Energy {
     pub entered: f64,
     /// Taken along by particles that passed a storage plane, and work on those behind it.
     pub left: f64,
+    /// Made (or taken, negative) by the finite time step: what contacts and fluid did to particles beyond what springs,
+    /// dissipators and walls account for. It falls with Δt as the integrator's error does.
+    pub integration: f64,
+    /// Half of what dissipators and fluid take and walls bring in the step that begins now: the other terms end with the last one.
+    pub half_step: f64,
 }
 
 impl Energy {
-    /// Everything that was there at the start: constant up to the integrator's error.
+    /// Everything that was there at the start: constant to rounding.
     pub fn balance(&self) -> f64 {
         self.translation
             + self.rotation
@@ -53,8 +57,16 @@ impl Energy {
             + self.slept
             + self.drag
             + self.left
+            + self.half_step
             - self.walls
             - self.entered
+            - self.integration
+    }
+
+    /// What has changed its form since the start, to compare [`Energy::integration`] with.
+    pub fn exchanged(&self) -> f64 {
+        let dissipated = self.normal + self.sliding + self.rolling + self.twisting;
+        dissipated + self.slept + self.drag.abs() + self.walls.abs()
     }
 
     pub(crate) fn of(
@@ -64,7 +76,7 @@ impl Energy {
         account: &Account,
     ) -> Energy {
         let mut e = Energy {
-            normal: account.dissipated[0],
+            normal: account.dissipated[0] + account.lost,
             sliding: account.dissipated[1],
             rolling: account.dissipated[2],
             twisting: account.dissipated[3],
@@ -73,7 +85,7 @@ impl Energy {
             drag: account.drag,
             entered: account.entered,
             left: account.left,
-            elastic: contacts.ledger.chunks_exact(LEDGER).map(|row| row[0]).sum(),
+            elastic: contacts.elastic(),
             ..Energy::default()
         };
         for p in particles {
@@ -99,7 +111,7 @@ impl Energy {
 pub(crate) fn carried(p: &Particle, setup: &Setup) -> [f64; 3] {
     let density = setup.materials[p.material as usize].density;
     let m = mass(p.radius, density);
-    let heavy = 1.0 - setup.drag.map_or(0.0, |d| d.lift(density));
+    let heavy = heavy(setup, density);
     [
         0.5 * m * p.velocity.norm_squared(),
         0.2 * m * p.radius * p.radius * p.spin.norm_squared(),
@@ -107,32 +119,7 @@ pub(crate) fn carried(p: &Particle, setup: &Setup) -> [f64; 3] {
     ]
 }
 
-/// Sums since the start [J].
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct Account {
-    dissipated: [f64; DISSIPATORS],
-    walls: f64,
-    pub(crate) slept: f64,
-    pub(crate) drag: f64,
-    pub(crate) entered: f64,
-    pub(crate) left: f64,
-}
-
-impl Account {
-    /// Adds one step's ledger, in its order.
-    pub fn add(&mut self, kinds: &[Kind], contacts: &Contacts) {
-        for segment in &contacts.segments {
-            let places = segment.contacts();
-            let rows = &contacts.ledger[places.start * LEDGER..places.end * LEDGER];
-            let wall = matches!(kinds[segment.kind].with, With::Wall(_));
-            for row in rows.chunks_exact(LEDGER) {
-                for (sum, part) in self.dissipated.iter_mut().zip(&row[1..=DISSIPATORS]) {
-                    *sum += part;
-                }
-                if wall {
-                    self.walls += row[1 + DISSIPATORS];
-                }
-            }
-        }
-    }
+/// Weight that the fluid leaves of a particle's own [–].
+pub(crate) fn heavy(setup: &Setup, density: f64) -> f64 {
+    1.0 - setup.drag.map_or(0.0, |d| d.lift(density))
 }

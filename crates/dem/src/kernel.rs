@@ -8,8 +8,10 @@ use crate::lane::{
     x86_single::{Y4, Y8},
 };
 
-/// Numbers of one contact in the energy ledger: elastic, dissipated (normal, sliding, rolling, twisting), wall work.
+/// Numbers of one contact in the energy ledger: elastic, dissipated (normal, sliding, rolling, twisting), wall work, lost at once.
 pub const LEDGER: usize = 8;
+/// Column of what is lost at once.
+pub const LOST: usize = 6;
 /// Numbers of one contact's load without rotation: force on i and a pad.
 pub const FORCE: usize = 4;
 /// With rotation: force on i, arm of i, n × F_t, arm of j.
@@ -264,12 +266,12 @@ fn lanes<R: Lane, E: Effect, const KEEP: bool>(
         let [a, b, c, d] = load.dissipated;
         // Work of j's surface on i; only walls' is added up.
         let surface = (surface.dot(force) + load.couple.dot(turning)) * R::splat(common.dt);
-        let row = [load.elastic, a, b, c, d, surface, zero, zero];
+        let row = [load.elastic, a, b, c, d, surface, load.lost, zero];
         let mut row = row.map(|x| R::select(touching, x, zero));
         if E::REACHES {
             // What a contact holds when it breaks is lost.
             let broken = R::select(was_held.gt(zero), load.elastic, zero);
-            row[1] = R::select(touching, row[1], broken);
+            row[LOST] = R::select(touching, row[LOST], broken);
         }
         R::store_rows(row, &mut task.ledger[at * LEDGER..]);
     }

@@ -3,6 +3,7 @@
 //! Signs: the unit normal n of a contact points from j to i, an overlap δ > 0 is contact, repulsion is
 //! positive. It knows nothing of files, TOML or the terminal.
 
+mod account;
 mod advance;
 mod aligned;
 mod bodies;
@@ -19,6 +20,7 @@ mod kernel;
 pub mod lane;
 mod law;
 mod limit;
+mod look;
 mod motion;
 mod neighbours;
 mod particles;

@@ -3,10 +3,10 @@
 //! One step: `ready` (lists still hold? contact points of walls, loads of all contacts at time n), then `advance`
 //! (gather, move to n + 1), then zones. Looking at a simulation calls `ready` and no more, so that output changes nothing.
 
+use crate::account::Account;
 use crate::advance::{Loads, Moved};
-use crate::bodies::{Bodies, BodyState};
+use crate::bodies::Bodies;
 use crate::contacts::{Contacts, Kind, With};
-use crate::energy::{Account, Energy};
 use crate::error::{Halt, SetupError};
 use crate::explain::needed;
 use crate::images::Periods;
@@ -22,7 +22,6 @@ use crate::sweep::Pass;
 use crate::walls::WallBody;
 use crate::zones::Zones;
 use geom::Vec3;
-use std::collections::BTreeSet;
 
 /// Steps that rooms are made for; chosen on the bench pile.
 const HORIZON: f64 = 100.0;
@@ -208,83 +207,6 @@ impl Simulation {
         self.zones.take_crossings()
     }
 
-    /// Particles in the calculation, by id, with velocities of this instant.
-    ///
-    /// # Errors
-    /// When the state is beyond a guard.
-    pub fn particles(&mut self) -> Result<Vec<Particle>, Halt> {
-        self.ready()?;
-        let half = 0.5 * self.dt;
-        let loads = self.all_loads();
-        let (p, time) = (&self.particles, self.time());
-        let members = self.bodies.member_states(p, &loads, &self.setup.gravity, self.dt);
-        let mut out: Vec<Particle> = (0..p.len())
-            .filter(|&k| !self.zones.is_hidden(k, time))
-            .map(|k| {
-                let row = &p.rows[k];
-                let free = !self.zones.travels(k);
-                let body = self.body_acceleration(row);
-                let (force, moment) = loads.on(k, p.rotates());
-                let (mut v, mut w) = (Vec3::new(row[4], row[5], row[6]), Vec3::zeros());
-                for a in 0..3 {
-                    if free {
-                        v[a] += half * (force[a] * row[7] + body[a] - p.acceleration[k][a]);
-                    }
-                    if p.rotates() {
-                        w[a] = p.spins[k][a];
-                        if free {
-                            let inverse_inertia = 2.5 * row[7] / (row[3] * row[3]);
-                            w[a] += half * (moment[a] * inverse_inertia - p.turning[k][a]);
-                        }
-                    }
-                }
-                if let Some(&Some(state)) = members.get(k) {
-                    (v, w) = state;
-                }
-                let (id, material) = (p.id[k], p.material[k]);
-                Particle {
-                    id,
-                    material,
-                    radius: row[3],
-                    position: self.wrapped(p.position(k)),
-                    velocity: v,
-                    spin: w,
-                }
-            })
-            .collect();
-        out.sort_by_key(|p| p.id);
-        Ok(out)
-    }
-
-    /// Energy of this instant [J]; elastic and dissipated parts only when the setup asked for the ledger.
-    ///
-    /// # Errors
-    /// When the state is beyond a guard.
-    pub fn energy(&mut self) -> Result<Energy, Halt> {
-        let mut particles = self.particles()?;
-        if !self.zones.none() {
-            let all = 0..self.particles.len();
-            let travelling: BTreeSet<u32> =
-                all.filter(|&k| self.zones.travels(k)).map(|k| self.particles.id[k]).collect();
-            particles.retain(|p| !travelling.contains(&p.id));
-        }
-        let bodies = self.bodies()?;
-        let body_of = |id: u32| bodies[..bodies.partition_point(|b| b.id <= id)].last();
-        particles.retain(|p| !body_of(p.id).is_some_and(|b| b.has(p.id)));
-        let mut energy = Energy::of(&particles, &self.setup, &self.contacts, &self.account);
-        bodies.iter().for_each(|b| energy.add_body(b, &self.setup));
-        Ok(energy)
-    }
-
-    /// Rigid clumps in the calculation, by id, with velocities of this instant.
-    ///
-    /// # Errors
-    /// When the state is beyond a guard.
-    pub fn bodies(&mut self) -> Result<Vec<BodyState>, Halt> {
-        self.ready()?;
-        Ok(self.bodies.states(self))
-    }
-
     /// One time step.
     ///
     /// # Errors
@@ -313,6 +235,9 @@ impl Simulation {
         let moved = self.move_bodies(found.moved);
         self.drive_pistons();
         self.out = moved.out | self.apply_drag();
+        if self.setup.ledger {
+            self.account_moves();
+        }
         self.steps += 1;
         self.current = false;
         if !self.zones.none() {
@@ -332,7 +257,10 @@ impl Simulation {
         self.prepare();
         let found = self.pass(Pass::Loads);
         self.current = true;
-        self.prime();
+        let fresh = self.prime();
+        if self.setup.ledger {
+            self.open_account(&fresh);
+        }
         if found.deep { crate::guards::overlap(self, false) } else { Ok(()) }
     }
 
@@ -352,10 +280,10 @@ impl Simulation {
         self.out || (0..self.walls.len()).any(|w| self.wall_way(w, since) > self.wall_room(w))
     }
 
-    /// Particles without a past get the acceleration of this instant as that of the step before.
-    fn prime(&mut self) {
-        for k in std::mem::take(&mut self.fresh) {
-            let k = k as usize;
+    /// Particles without a past get the acceleration of this instant as that of the step before; which they are.
+    fn prime(&mut self) -> Vec<u32> {
+        let fresh = std::mem::take(&mut self.fresh);
+        for k in fresh.iter().map(|&k| k as usize) {
             let rotates = self.particles.rotates();
             let loads = self.all_loads();
             let (force, m) = loads.on(k, rotates);
@@ -372,6 +300,7 @@ impl Simulation {
             }
         }
         self.bodies.prime(&self.particles, &self.setup.gravity);
+        fresh
     }
 
     /// After a move: rigid clumps take the loads of their members and put them in their places.

@@ -90,7 +90,17 @@ impl Sleepers {
         self.asleep.iter().filter(|&&a| a).count() - 2
     }
 
-    /// Ends a step: who sleeps from now on, and the kinetic energy [J] that those who fell asleep lost.
+    /// Whether a particle sleeps.
+    pub fn sleeps(&self, k: usize) -> bool {
+        self.asleep[k]
+    }
+
+    /// Whether a particle has fallen asleep in the last step.
+    pub fn fell(&self, k: usize) -> bool {
+        self.quiet[k] == self.steps
+    }
+
+    /// Ends a step: who sleeps from now on, and the energy [J] that those who fell asleep lost.
     pub fn turn(&mut self) -> f64 {
         let n = self.next.len();
         self.asleep[..n].copy_from_slice(&self.next);
@@ -153,7 +163,7 @@ pub fn advance_awake(
             let (_, rest) = columns.by_ref().split(first + run.start);
             let (awake, _) = rest.split(first + run.end);
             moved = moved.and(advance(width, awake, loads, drive));
-            run.for_each(|k| beds.watch(k, &mut columns, loads));
+            run.for_each(|k| beds.watch(k, &mut columns, loads, drive));
         }
     }
     moved
@@ -161,7 +171,7 @@ pub fn advance_awake(
 
 impl Beds<'_> {
     /// A particle that has just moved: whether it falls asleep.
-    fn watch(&mut self, k: usize, columns: &mut Columns, loads: &Loads) {
+    fn watch(&mut self, k: usize, columns: &mut Columns, loads: &Loads, drive: &Drive) {
         let row = columns.next[k];
         let spin = columns.next_spins.get(k).map_or(0.0, |w| length([w[0], w[1], w[2]]));
         let turning = columns.turning.get(k).map_or(0.0, |t| length([t[0], t[1], t[2]]));
@@ -177,9 +187,8 @@ impl Beds<'_> {
             return;
         }
         let (force, moment) = loads.on(here, !columns.spins.is_empty());
-        let (v, w) = (length([row[4], row[5], row[6]]), spin);
-        let kinetic = (0.5 * v * v + 0.2 * row[3] * row[3] * w * w) / row[7];
-        self.held[k] = Row([force[0], force[1], force[2], moment[0], moment[1], moment[2], kinetic, 0.0]);
+        let lost = lost(k, columns, drive);
+        self.held[k] = Row([force[0], force[1], force[2], moment[0], moment[1], moment[2], lost, 0.0]);
         rest(k, columns);
     }
 
@@ -211,6 +220,24 @@ impl Beds<'_> {
             }
         }
     }
+}
+
+/// What a particle that has just moved loses when it rests there [J]: its kinetic energy half a step ago, and what contacts did
+/// not add and its weight will not ([`crate::account`] leaves its last step out).
+fn lost(k: usize, columns: &Columns, drive: &Drive) -> f64 {
+    let (row, a, dt) = (columns.next[k], columns.acceleration[k], drive.dt);
+    let mut lost = 0.0;
+    for axis in 0..3 {
+        let (ahead, g) = (row[4 + axis], drive.gravity[axis]);
+        let (now, middle) = (ahead - a[axis] * dt, ahead - 0.5 * a[axis] * dt);
+        lost += (0.5 * middle * middle + 0.5 * g * middle * dt - (a[axis] - g) * now * dt) / row[7];
+        if let (Some(w), Some(t)) = (columns.next_spins.get(k), columns.turning.get(k)) {
+            let inertia = 0.4 * row[3] * row[3] / row[7];
+            let (now, middle) = (w[axis] - t[axis] * dt, w[axis] - 0.5 * t[axis] * dt);
+            lost += inertia * (0.5 * middle * middle - t[axis] * now * dt);
+        }
+    }
+    lost
 }
 
 /// Takes the velocity that a particle would have next.

@@ -1,7 +1,7 @@
 //! Checkpoints: the whole state of a run, so that a resumed one goes on bit for bit.
 
+use crate::account::Account;
 use crate::bodies::Bodies;
-use crate::energy::Account;
 use crate::error::SetupError;
 use crate::particles::Particles;
 use crate::servo::Piston;

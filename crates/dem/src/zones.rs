@@ -209,6 +209,7 @@ impl Simulation {
     pub(crate) fn account_zones(&mut self) {
         for t in &self.zones.travellers {
             let work = self.power(t.at as usize, &t.start) * self.dt;
+            self.account.passed += work;
             match t.way {
                 Way::In(_) => self.account.entered -= work,
                 Way::Out(_) => self.account.left += work,
@@ -303,7 +304,12 @@ impl Simulation {
                     if !inside {
                         if self.setup.ledger {
                             let free = Particle { position: place, ..t.start };
-                            self.account.entered += carried(&free, &self.setup).iter().sum::<f64>();
+                            // A clump does not turn on its way in.
+                            let (v, g) = (t.start.velocity, self.setup.gravity);
+                            self.account.entered += match self.bodies.mass_at(t.at as usize) {
+                                None => carried(&free, &self.setup).iter().sum::<f64>(),
+                                Some(mass) => mass * (0.5 * v.norm_squared() - g.dot(&centre)),
+                            };
                         }
                         self.release(t.at as usize, place, t.start.velocity);
                     }
@@ -328,7 +334,9 @@ impl Simulation {
     /// Out of everyone's reach until the next listing drops it.
     fn exclude(&mut self, k: usize) {
         if self.setup.ledger {
-            self.account.left += self.held(k);
+            let held = self.held(k);
+            self.account.left += held;
+            self.account.passed += held;
         }
         self.zones.left.push((k as u32, self.particles.home[k]));
         // Each to a place of its own: two at one place would overlap.
@@ -380,7 +388,9 @@ impl Simulation {
             let after = self.time() - crossing.time;
             if self.setup.ledger {
                 let carried: f64 = carried(&crossing.particle, &self.setup).iter().sum();
-                self.account.left += carried + self.power(k, &crossing.particle) * after;
+                let taken = carried + self.power(k, &crossing.particle) * after;
+                self.account.left += taken;
+                self.close_account(k, taken);
             }
             self.zones.busy[k] = true;
             if let Some(sleepers) = &mut self.sleepers {

@@ -1,6 +1,7 @@
 //! One body: its state, and its step.
 
 use super::turn;
+use crate::account::Driven;
 use crate::lane::Row4;
 use crate::particles::Particles;
 use geom::Vec3;
@@ -59,6 +60,18 @@ pub fn arm(row: &Row4) -> Vec3 {
 }
 
 impl Flight {
+    /// Driven by a force and a torque of contacts at a velocity and an angular velocity.
+    pub fn driven(
+        &self,
+        [force, moment]: [Vec3; 2],
+        (velocity, spin): (Vec3, Vec3),
+        gravity: &Vec3,
+    ) -> Driven {
+        let forces = [force, force + gravity * self.mass];
+        let (inverse_mass, inverse_inertia) = (1.0 / self.mass, 0.0);
+        Driven { inverse_mass, inverse_inertia, forces, moment, velocity, spin }
+    }
+
     /// Its members among all.
     pub fn range(&self) -> std::ops::Range<usize> {
         self.first as usize..(self.first + self.count) as usize

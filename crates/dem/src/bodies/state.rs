@@ -1,6 +1,7 @@
 //! Bodies at one instant, for those who look.
 
 use super::{Bodies, Flight, arm, quaternion, turn};
+use crate::account::Driven;
 use crate::advance::Loads;
 use crate::particles::Particles;
 use crate::simulation::Simulation;
@@ -39,11 +40,14 @@ impl BodyState {
     }
 }
 
-/// Velocity and angular velocity of a body, and its angular momentum.
+/// Velocity and angular velocity of a body, its angular momentum, and what contacts do to it.
+#[derive(Default)]
 struct Instant {
     velocity: Vec3,
     spin: Vec3,
     momentum: Vec3,
+    force: Vec3,
+    torque: Vec3,
 }
 
 impl Bodies {
@@ -52,7 +56,7 @@ impl Bodies {
         let (loads, time) = (sim.all_loads(), sim.time());
         let state = |f: &Flight| {
             let gravity = &sim.setup.gravity;
-            let Instant { velocity, spin, momentum } =
+            let Instant { velocity, spin, momentum, .. } =
                 self.instant(f, &sim.particles, &loads, gravity, sim.dt);
             let shape = &sim.setup.clumps.shapes[f.shape as usize];
             BodyState {
@@ -77,8 +81,8 @@ impl Bodies {
     fn instant(&self, f: &Flight, particles: &Particles, loads: &Loads, gravity: &Vec3, dt: f64) -> Instant {
         let (mut velocity, mut momentum) = (f.velocity, f.momentum);
         let turn = quaternion(&f.turn);
+        let (mut force, mut torque) = (Vec3::zeros(), Vec3::zeros());
         if !f.travels {
-            let (mut force, mut torque) = (Vec3::zeros(), Vec3::zeros());
             for &m in &self.members[f.range()] {
                 let (push, moment) = loads.on(m as usize, particles.rotates());
                 let push = Vec3::from(push);
@@ -88,7 +92,31 @@ impl Bodies {
             velocity += (force / f.mass + gravity - f.acceleration) * (0.5 * dt);
             momentum += (torque - f.torque) * (0.5 * dt);
         }
-        Instant { velocity, spin: turn::spin(&turn, &momentum, &f.inverse_inertia), momentum }
+        Instant { velocity, spin: turn::spin(&turn, &momentum, &f.inverse_inertia), momentum, force, torque }
+    }
+
+    /// What drives each body that is free, at this instant, and the row of its first member.
+    pub fn driven_now<'a>(
+        &'a self,
+        sim: &'a Simulation,
+        loads: &'a Loads,
+    ) -> impl Iterator<Item = (u32, Driven)> + 'a {
+        let gravity = &sim.setup.gravity;
+        self.flights.iter().filter(|f| !f.travels).map(move |f| {
+            let now = self.instant(f, &sim.particles, loads, gravity, sim.dt);
+            let driven = f.driven([now.force, now.torque], (now.velocity, now.spin), gravity);
+            (self.members[f.first as usize], driven)
+        })
+    }
+
+    /// What drove each body that is free in the last move.
+    pub fn last_driven<'a>(&'a self, gravity: &'a Vec3, dt: f64) -> impl Iterator<Item = Driven> + 'a {
+        self.flights.iter().filter(|f| !f.travels).map(move |f| {
+            let momentum = f.momentum - f.torque * dt;
+            let spin = turn::spin(&quaternion(&f.turn_before), &momentum, &f.inverse_inertia);
+            let force = (f.acceleration - gravity) * f.mass;
+            f.driven([force, f.torque], (f.velocity - f.acceleration * dt, spin), gravity)
+        })
     }
 
     /// Velocity and spin of each member at this instant: row, velocity, spin.

@@ -117,10 +117,12 @@ impl<R: Lane> CappedSpring<R> {
         }
         *spring = kept + rest;
         let spring_force = kept.times(self.stiffness);
+        // What is cut off slid under a force between that of the step before and that of now: also where the cap falls to nothing.
+        let middle = (kept + stretched - rate.times(dt)).times(R::splat(0.5) * self.stiffness);
         Outcome {
             force,
             elastic: R::splat(0.5) * spring_force.with(kept),
-            dissipated: lost + spring_force.with(stretched - kept) - (force + spring_force).with(rate) * dt,
+            dissipated: lost + middle.with(stretched - kept) - (force + spring_force).with(rate) * dt,
         }
     }
 }

@@ -105,8 +105,8 @@ impl Effect for Jkr {
         let stored =
             cube * y * (cube * (cube / number(60.0) - number(1.0 / 6.0)) + number(0.25)) - number(0.1);
         load.elastic = load.elastic + unit * stored;
-        load.dissipated[0] =
-            load.dissipated[0] + (damping * contact.approach * dt + number(CYCLE) * new * unit);
+        load.dissipated[0] = load.dissipated[0] + damping * contact.approach * dt;
+        load.lost = load.lost + number(CYCLE) * new * unit;
     }
 
     #[inline(always)]

@@ -1,0 +1,115 @@
+//! Looking at a simulation: particles, clumps and energy of this instant. Nothing that is looked at changes.
+
+use crate::account::Driven;
+use crate::advance::Loads;
+use crate::bodies::BodyState;
+use crate::energy::Energy;
+use crate::error::Halt;
+use crate::setup::Particle;
+use crate::simulation::Simulation;
+use geom::Vec3;
+use std::collections::BTreeSet;
+
+/// What a particle does at this instant.
+struct Instant {
+    velocity: Vec3,
+    spin: Vec3,
+    acceleration: [f64; 3],
+    turning: [f64; 3],
+}
+
+impl Simulation {
+    /// Particles in the calculation, by id, with velocities of this instant.
+    ///
+    /// # Errors
+    /// When the state is beyond a guard.
+    pub fn particles(&mut self) -> Result<Vec<Particle>, Halt> {
+        self.ready()?;
+        let loads = self.all_loads();
+        let (p, time) = (&self.particles, self.time());
+        let members = self.bodies.member_states(p, &loads, &self.setup.gravity, self.dt);
+        let state = |k: usize| {
+            let Instant { velocity, spin, .. } = self.instant(k, &loads);
+            let (velocity, spin) = members.get(k).copied().flatten().unwrap_or((velocity, spin));
+            Particle {
+                id: p.id[k],
+                material: p.material[k],
+                radius: p.rows[k][3],
+                position: self.wrapped(p.position(k)),
+                velocity,
+                spin,
+            }
+        };
+        let mut out: Vec<Particle> =
+            (0..p.len()).filter(|&k| !self.zones.is_hidden(k, time)).map(state).collect();
+        out.sort_by_key(|p| p.id);
+        Ok(out)
+    }
+
+    /// Corrects what was predicted for particle `k`, whose loads are those of this instant.
+    fn instant(&self, k: usize, loads: &Loads) -> Instant {
+        let p = &self.particles;
+        let row = &p.rows[k];
+        let (free, half) = (!self.zones.travels(k), 0.5 * self.dt);
+        let body = self.body_acceleration(row);
+        let (force, moment) = loads.on(k, p.rotates());
+        let mut at = Instant {
+            velocity: Vec3::new(row[4], row[5], row[6]),
+            spin: Vec3::zeros(),
+            acceleration: [0.0; 3],
+            turning: [0.0; 3],
+        };
+        for a in 0..3 {
+            at.acceleration[a] = force[a] * row[7] + body[a];
+            if free {
+                at.velocity[a] += half * (at.acceleration[a] - p.acceleration[k][a]);
+            }
+            if p.rotates() {
+                at.spin[a] = p.spins[k][a];
+                at.turning[a] = moment[a] * (2.5 * row[7] / (row[3] * row[3]));
+                if free {
+                    at.spin[a] += half * (at.turning[a] - p.turning[k][a]);
+                }
+            }
+        }
+        at
+    }
+
+    /// What drives particle `k` at this instant.
+    pub(crate) fn driven_now(&self, k: usize, loads: &Loads) -> Driven {
+        let Instant { velocity, spin, acceleration, turning } = self.instant(k, loads);
+        Driven { velocity, spin, ..self.driven(k, acceleration, turning) }
+    }
+
+    /// Energy of this instant [J]; elastic and dissipated parts only when the setup asked for the ledger.
+    ///
+    /// # Errors
+    /// When the state is beyond a guard.
+    pub fn energy(&mut self) -> Result<Energy, Halt> {
+        let (mut particles, mut bodies) = (self.particles()?, self.bodies()?);
+        if !self.zones.none() {
+            let all = 0..self.particles.len();
+            let travelling: BTreeSet<u32> =
+                all.filter(|&k| self.zones.travels(k)).map(|k| self.particles.id[k]).collect();
+            particles.retain(|p| !travelling.contains(&p.id));
+            bodies.retain(|b| !travelling.contains(&b.id));
+        }
+        let body_of = |id: u32| bodies[..bodies.partition_point(|b| b.id <= id)].last();
+        particles.retain(|p| !body_of(p.id).is_some_and(|b| b.has(p.id)));
+        let mut energy = Energy::of(&particles, &self.setup, &self.contacts, &self.account);
+        bodies.iter().for_each(|b| energy.add_body(b, &self.setup));
+        if self.setup.ledger {
+            self.close_step(&mut energy);
+        }
+        Ok(energy)
+    }
+
+    /// Rigid clumps in the calculation, by id, with velocities of this instant.
+    ///
+    /// # Errors
+    /// When the state is beyond a guard.
+    pub fn bodies(&mut self) -> Result<Vec<BodyState>, Halt> {
+        self.ready()?;
+        Ok(self.bodies.states(self))
+    }
+}

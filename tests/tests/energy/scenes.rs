@@ -1,0 +1,210 @@
+//! Small scenes, one for each way in which energy is exchanged.
+
+use dem::Setup;
+use dem::setup::*;
+use geom::mesh::TriMesh;
+use geom::{Moments, Plane, Vec3};
+use grainpipe_tests::normals::{NORMALS, Normal};
+use grainpipe_tests::setups::{grain, plane, with_friction};
+
+/// A scene and its name.
+pub struct Scene {
+    /// Name.
+    pub name: String,
+    /// What is simulated.
+    pub setup: Setup,
+    /// Who comes in at a calculation plane.
+    pub entries: Vec<Entry>,
+    /// How long [s].
+    pub until: f64,
+}
+
+/// Grains above the floor, none touching another.
+fn cloud(count: u32, lift: f64) -> Vec<Particle> {
+    let offset = |k: u32| 0.001 * f64::from((k * 7919) % 13);
+    let place = |k: u32| {
+        Vec3::new(
+            0.034 * f64::from(k % 4) + offset(k),
+            0.034 * f64::from(k / 4 % 3) + offset(k + 5),
+            lift + 0.034 * f64::from(k / 12),
+        )
+    };
+    (0..count).map(|k| Particle { spin: Vec3::new(3.0, -2.0, 5.0), ..grain(k, place(k)) }).collect()
+}
+
+/// Grains of one normal law fall on a floor, rub, roll and twist.
+pub fn poured(normal: &Normal) -> Setup {
+    let mut setup = with_friction(normal.setup(0.5), 0.3);
+    setup.contacts.iter_mut().for_each(|c| {
+        c.rolling_resistance = Some(0.05);
+        c.twisting_resistance = Some(0.05);
+    });
+    setup.gravity.z = -9.81;
+    setup.ledger = true;
+    setup.step = Step::Auto(0.2);
+    setup.walls = vec![plane(Vec3::z())];
+    setup.particles = cloud(24, 0.03);
+    setup
+}
+
+fn shaking(mut setup: Setup) -> Setup {
+    setup.walls[0].motion.amplitude = Vec3::new(0.001, 0.0, 0.002);
+    setup.walls[0].motion.frequency = 20.0;
+    setup
+}
+
+/// Wall spheres, side by side in a floor.
+fn pebbles() -> WallShape {
+    let place = |k: i32| Vec3::new(0.02 * f64::from(k % 12) - 0.05, 0.02 * f64::from(k / 12) - 0.05, -0.012);
+    WallShape::Spheres((0..144).map(|k| (place(k), 0.012)).collect())
+}
+
+/// Every scene at dt = auto of the default safety.
+pub fn all() -> Vec<Scene> {
+    let mut scenes = Vec::new();
+    let mut add =
+        |name: String, setup: Setup| scenes.push(Scene { name, setup, entries: vec![], until: 0.2 });
+    for normal in &NORMALS {
+        add(format!("{} on a still floor", normal.name), poured(normal));
+        add(format!("{} on a shaking floor", normal.name), shaking(poured(normal)));
+        let mut spheres = poured(normal);
+        spheres.walls[0].shape = pebbles();
+        add(format!("{} on a shaking wall of spheres", normal.name), shaking(spheres));
+    }
+    let hertz = &NORMALS[1];
+    let mut periodic = poured(hertz);
+    periodic.periodic = [Some((-0.01, 0.14)), Some((-0.01, 0.11)), None];
+    periodic.particles.iter_mut().for_each(|p| p.velocity = Vec3::new(0.8, -0.6, 0.0));
+    add("hertz, periodic".to_owned(), periodic);
+    let mut walls = poured(hertz);
+    let beside = Plane { point: Vec3::new(-0.02, 0.0, 0.0), normal: Vec3::x() };
+    walls.walls.push(Wall { shape: WallShape::Plane(beside), ..plane(Vec3::x()) });
+    walls.walls[1].motion.velocity = Vec3::new(0.2, 0.0, 0.0);
+    add("hertz, pushed by a plane".to_owned(), walls);
+    let mut constant = poured(hertz);
+    constant.contacts.iter_mut().for_each(|c| c.rolling_model = RollingModel::Constant);
+    add("hertz, constant rolling couple".to_owned(), constant);
+    let mut free = poured(hertz);
+    free.contacts = NORMALS[1].setup(0.5).contacts;
+    add("hertz, no friction".to_owned(), free);
+    let mut asleep = poured(hertz);
+    asleep.sleep = Some(Sleep { speed: 0.02, time: 0.01, wake: 0.3 });
+    add("hertz, sleep".to_owned(), Setup { particles: cloud(12, 0.011), ..asleep });
+    add("hertz, sinking in a fluid".to_owned(), in_fluid(poured(hertz)));
+    add("hertz, pressed by a servo".to_owned(), pressed(poured(hertz)));
+    let mut meshed = poured(hertz);
+    meshed.walls[0].shape = WallShape::Mesh(waves());
+    add("hertz on a shaking mesh".to_owned(), shaking(meshed));
+    for (name, shape) in [("dumbbells", dumbbell()), ("boomerangs", boomerang())] {
+        add(format!("hertz, {name}"), tumbling(poured(hertz), shape));
+    }
+    scenes.push(passing());
+    scenes.push(arriving());
+    scenes
+}
+
+fn in_fluid(mut setup: Setup) -> Setup {
+    let (law, velocity) = (DragLaw::SchillerNaumann, Vec3::new(0.3, 0.0, 0.1));
+    setup.drag = Some(Drag { law, viscosity: 1e-3, density: 1000.0, velocity, buoyancy: true });
+    setup
+}
+
+/// A lid that follows a force comes down on the grains.
+fn pressed(mut setup: Setup) -> Setup {
+    let lid = Plane { point: Vec3::new(0.0, 0.0, 0.075), normal: -Vec3::z() };
+    setup.walls.push(Wall { shape: WallShape::Plane(lid), ..plane(-Vec3::z()) });
+    setup.walls[1].motion.servo = Some(Servo { direction: -Vec3::z(), force: 5.0, speed_limit: 0.4 });
+    setup
+}
+
+/// A floor of triangles in waves.
+fn waves() -> TriMesh {
+    let n = 20u32;
+    let at = |i: u32, j: u32| {
+        let (x, y) = (0.01 * f64::from(i) - 0.05, 0.01 * f64::from(j) - 0.05);
+        Vec3::new(x, y, 0.004 * libm::sin(80.0 * x) * libm::cos(70.0 * y))
+    };
+    let vertices = (0..=n).flat_map(|j| (0..=n).map(move |i| at(i, j))).collect();
+    let corner = |i: u32, j: u32| j * (n + 1) + i;
+    let square = |i, j| {
+        let [a, b, c, d] = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
+        [[a, b, c], [a, c, d]]
+    };
+    let faces = (0..n).flat_map(|j| (0..n).flat_map(move |i| square(i, j))).collect();
+    TriMesh::new(vertices, faces).expect("sound")
+}
+
+/// Two spheres, 12 mm apart.
+fn dumbbell() -> ClumpShape {
+    let at = |x: f64| (Vec3::new(x, 0.0, 0.0), 0.01);
+    shape(&[at(-0.006), at(0.006)])
+}
+
+/// Three spheres, no two moments of inertia alike.
+fn boomerang() -> ClumpShape {
+    let at = |x: f64, y: f64, r: f64| (Vec3::new(x, y, 0.0), r);
+    shape(&[at(0.0, 0.0, 0.01), at(0.012, 0.0, 0.009), at(0.0, 0.01, 0.007)])
+}
+
+fn shape(spheres: &[(Vec3, f64)]) -> ClumpShape {
+    ClumpShape::new("clump", 0, spheres, &Moments::of_sum(spheres))
+}
+
+/// A clump in the place of each grain.
+fn tumbling(mut setup: Setup, shape: ClumpShape) -> Setup {
+    let orientation = nalgebra::UnitQuaternion::from_euler_angles(0.3, -0.8, 0.5);
+    let body = |(k, p): (u32, &Particle)| Body {
+        id: 10 * k,
+        shape: 0,
+        scale: 0.8,
+        position: p.position,
+        orientation,
+        velocity: p.velocity,
+        spin: p.spin,
+    };
+    let bodies = (0..).zip(&setup.particles).map(body).collect();
+    setup.clumps = Clumps { shapes: vec![shape], bodies, entries: vec![] };
+    setup.particles.clear();
+    setup
+}
+
+/// Grains come in through a calculation plane, slide over the floor among others, and leave through a storage plane.
+fn passing() -> Scene {
+    let mut setup = poured(&NORMALS[1]);
+    let zone = |x: f64, length: f64| Zone {
+        plane: Plane { point: Vec3::new(x, 0.0, 0.0), normal: Vec3::x() },
+        length,
+    };
+    (setup.inlets, setup.outlets) = (vec![zone(0.05, 0.05)], vec![zone(0.2, 0.03)]);
+    (setup.smallest_entry, setup.largest_entry, setup.entry_materials) = (0.01, 0.01, vec![0]);
+    setup.particles =
+        vec![grain(1000, Vec3::new(0.12, 0.001, 0.0101)), grain(1001, Vec3::new(0.13, -0.001, 0.0303))];
+    let entry = |k: u32| {
+        let position = Vec3::new(0.0, 0.002 * f64::from(k % 3), 0.012 + 0.021 * f64::from(k % 2));
+        let velocity = Vec3::new(0.6 + 0.1 * f64::from(k % 2), 0.0, 0.0);
+        let particle = Particle { velocity, spin: Vec3::new(0.0, 5.0, 0.0), ..grain(k, position) };
+        Entry { time: 0.045 * f64::from(k / 2), inlet: 0, particle, clump: None }
+    };
+    Scene {
+        name: "hertz, through two planes".to_owned(),
+        setup,
+        entries: (0..40).map(entry).collect(),
+        until: 0.7,
+    }
+}
+
+/// Clumps come in through a calculation plane and slide over the floor among grains.
+fn arriving() -> Scene {
+    let Scene { mut setup, entries, .. } = passing();
+    setup.outlets.clear();
+    setup.clumps = Clumps { shapes: vec![boomerang()], bodies: vec![], entries: vec![(0, 0.5, 1.0)] };
+    let orientation = nalgebra::UnitQuaternion::from_euler_angles(0.3, -0.8, 0.5);
+    let clump = |k: u32| EntryClump { shape: 0, scale: 0.5 + 0.1 * f64::from(k % 4), orientation };
+    let entry = |(k, e): (u32, Entry)| {
+        let position = e.particle.position + Vec3::new(0.0, 0.0, 0.01 + 0.02 * f64::from(k % 2));
+        let particle = Particle { id: 10 * k, spin: Vec3::zeros(), position, ..e.particle };
+        Entry { particle, clump: Some(clump(k)), ..e }
+    };
+    let entries = (0..).zip(entries).take(20).map(entry).collect();
+    Scene { name: "hertz, clumps through a plane".to_owned(), setup, entries, until: 0.6 }
+}
