@@ -31,6 +31,9 @@ pub fn check(setup: &Setup) -> Result<(), SetupError> {
         "0 < overlap ≤ 1",
     )?;
     within("guards.motion", setup.guards.motion, "[–]", setup.guards.motion > 0.0, "motion > 0")?;
+    let energy = setup.guards.energy;
+    let known = energy > 0.0 && (setup.ledger || energy == f64::INFINITY);
+    within("guards.energy", energy, "[–]", known, "energy > 0, and the energy ledger is kept")?;
     let skin = setup.skin.unwrap_or(1.0);
     within("neighbours.skin", skin, "m", skin > 0.0 && skin.is_finite(), "skin > 0")?;
     finite("gravity", &setup.gravity, "m/s²")?;

@@ -186,4 +186,19 @@ pub enum Halt {
         /// Allowed share [–].
         limit: f64,
     },
+    /// Energy came from nowhere.
+    #[error(
+        "t = {time:.6e} s: the time step has made {made:.3e} J, {:.2} % of the {of:.3e} J that were exchanged or move (limit {:.2} %): shorten dt (time.safety) or raise guards.energy",
+        100.0 * made / of, 100.0 * limit
+    )]
+    Energy {
+        /// When [s].
+        time: f64,
+        /// Energy made [J].
+        made: f64,
+        /// Energy exchanged and kinetic energy [J].
+        of: f64,
+        /// Allowed share [–].
+        limit: f64,
+    },
 }

@@ -36,6 +36,18 @@ pub fn overlap(sim: &Simulation, moved: bool) -> Result<(), Halt> {
     worst.map_or(Ok(()), |(_, halt)| Err(halt))
 }
 
+/// Steps between two looks at the energy that the step makes: a look takes about as long as a step.
+pub const ENERGY_EVERY: u64 = 50;
+
+/// Energy that the finite step has made, of what was exchanged and moves.
+pub fn energy(sim: &mut Simulation) -> Result<(), Halt> {
+    let (limit, time) = (sim.setup.guards.energy, sim.time());
+    let e = sim.energy()?;
+    let (made, of) = (e.integration, e.exchanged() + e.translation + e.rotation);
+    // Written so that NaN is caught.
+    if made <= limit * of { Ok(()) } else { Err(Halt::Energy { time, made, of, limit }) }
+}
+
 /// The particle that moved farthest, or the first that is not a number.
 pub fn motion(sim: &Simulation) -> Result<(), Halt> {
     let limit = sim.setup.guards.motion;

@@ -345,10 +345,13 @@ pub struct Guards {
     pub overlap: f64,
     /// Largest motion in one step, as a share of the radius [–].
     pub motion: f64,
+    /// Largest energy that the finite time step may make, as a share of what was exchanged and moves [–]; ∞: not looked at. It
+    /// needs the ledger.
+    pub energy: f64,
 }
 
 impl Default for Guards {
     fn default() -> Guards {
-        Guards { overlap: 0.25, motion: 0.25 }
+        Guards { overlap: 0.25, motion: 0.25, energy: f64::INFINITY }
     }
 }

@@ -246,7 +246,12 @@ impl Simulation {
         if found.deep {
             crate::guards::overlap(self, true)?;
         }
-        if moved.wild { crate::guards::motion(self) } else { Ok(()) }
+        if moved.wild {
+            crate::guards::motion(self)?;
+        }
+        let looks =
+            self.setup.guards.energy.is_finite() && self.steps.is_multiple_of(crate::guards::ENERGY_EVERY);
+        if looks { crate::guards::energy(self) } else { Ok(()) }
     }
 
     /// Brings lists and loads to this instant.

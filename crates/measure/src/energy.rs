@@ -1,12 +1,12 @@
 //! The energy ledger of a run, and how well it closes.
 //!
 //! ```text
-//! closure error = Σ Δ balance       balance = kinetic + potential + elastic + dissipated − work of walls
+//! closure error = Σ Δ balance       balance = kinetic + potential + elastic + dissipated − work of walls − integration
 //! ```
 //!
 //! over the intervals between ledgers in which no grain enters or leaves (by the ids of the frames): there the balance is
-//! constant but for the integrator's error. It is also given relative to what was exchanged so far: the largest change
-//! of any one term. Grains that travel through a zone at constant velocity gain or lose what gravity does to them there;
+//! constant to rounding. What the finite time step made is the term `integration`, the error of the run's energy. Both are given
+//! relative to what was exchanged so far, too: the largest change of any other term. Grains that travel through a zone at constant velocity gain or lose what gravity does to them there;
 //! the ledger cannot tell that from an error.
 
 use crate::observer::Observer;
@@ -18,6 +18,11 @@ use crate::{MeasureError, Run, Seen};
 const ORDER: [&str; 8] =
     ["translation", "rotation", "potential", "elastic", "normal", "sliding", "rolling", "walls"];
 
+/// What the finite time step made.
+const MADE: &str = "integration";
+/// What is under way at the instant of the ledger.
+const HALF: &str = "half_step";
+
 /// Number of grains, sum of their ids and of the squares of these: other grains give others.
 type Grains = (usize, u64, u64);
 
@@ -27,6 +32,8 @@ pub struct Energy {
     terms: Vec<String>,
     first: Option<Ledger>,
     exchanged: f64,
+    /// Largest that the step has made since the first ledger [J]; none in runs that do not tell.
+    made: Option<f64>,
     error: f64,
     worst: f64,
     last: f64,
@@ -45,6 +52,7 @@ impl Energy {
             terms: ORDER.map(str::to_owned).to_vec(),
             first: None,
             exchanged: 0.0,
+            made: None,
             error: 0.0,
             worst: 0.0,
             last: 0.0,
@@ -62,7 +70,11 @@ impl Energy {
         }
         let value = |l: &Ledger, term: &String| l.terms.get(term).copied().unwrap_or(0.0);
         if let Some(first) = &self.first {
-            for term in &self.terms {
+            let made = |l: &Ledger| l.terms.get(MADE).copied();
+            if let (Some(now), Some(then)) = (made(&ledger), made(first)) {
+                self.made = Some((now - then).abs().max(self.made.unwrap_or(0.0)));
+            }
+            for term in self.terms.iter().filter(|t| *t != MADE && *t != HALF) {
                 self.exchanged = self.exchanged.max((value(&ledger, term) - value(first, term)).abs());
             }
         }
@@ -114,6 +126,14 @@ impl Observer for Energy {
             .with("exchanged", "J", self.exchanged)
             .with("largest_relative", "1", self.worst / self.exchanged)
             .with("time", "s", self.last);
+        let summary = match self.made {
+            None => summary,
+            Some(made) => summary.with("largest_integration_error", "J", made).with(
+                "largest_integration_relative",
+                "1",
+                made / self.exchanged,
+            ),
+        };
         let note = format!("{} intervals left out of the closure: grains entered or left", self.left_out);
         Ok(if self.left_out > 0 { summary.note(note) } else { summary })
     }

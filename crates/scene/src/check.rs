@@ -109,6 +109,7 @@ impl Check<'_> {
         m.drag.as_ref().map_or(Ok(()), |d| self.drag(d))?;
         self.positive_if("guards.overlap", m.guards.overlap, "")?;
         self.positive_if("guards.motion", m.guards.motion, "")?;
+        self.positive_if("guards.energy", m.guards.energy, "")?;
         self.within("first_id", f64::from(m.first_id), 0.0, 4e9, "")?;
         self.materials(m)?;
         self.contacts(m)?;

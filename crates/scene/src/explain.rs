@@ -182,7 +182,7 @@ fn effects(setup: &Setup) -> Vec<(Effect, Option<Setup>)> {
     let law = setup.drag.map(|d| format!("drag.law = {:?}", d.law).to_lowercase());
     add("drag", law.unwrap_or_default(), 0, Some(dry));
     let ledger = Setup { ledger: false, ..setup.clone() };
-    add("energy", named(setup.ledger, "output.energy or output.contacts"), 0, Some(ledger));
+    add("energy", named(setup.ledger, "output.energy, output.contacts or guards.energy"), 0, Some(ledger));
     let clumps = setup.clumps.shapes.len();
     add("clumps", if clumps > 0 { format!("{clumps} [[clump]]") } else { String::new() }, 0, None);
     let awake = Setup { sleep: None, ..setup.clone() };

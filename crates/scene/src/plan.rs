@@ -278,10 +278,11 @@ impl<'a> Draft<'a> {
             skin: model.neighbours.skin,
             sleep: model.sleep.map(|s| dem::setup::Sleep { speed: s.speed, time: s.time, wake: s.wake }),
             // Contacts are written with the work of sliding, which the ledger knows.
-            ledger: model.output.energy || model.output.contacts,
+            ledger: model.output.energy || model.output.contacts || model.guards.energy.is_some(),
             guards: Guards {
                 overlap: model.guards.overlap.unwrap_or(Guards::default().overlap),
                 motion: model.guards.motion.unwrap_or(Guards::default().motion),
+                energy: model.guards.energy.unwrap_or(Guards::default().energy),
             },
         };
         Ok(Plan { setup, feeds: self.feeds, notes: self.notes, inputs: self.inputs, sizes })

@@ -2,5 +2,6 @@
 //! integrator's order.
 
 mod closing;
+mod guard;
 mod order;
 mod scenes;

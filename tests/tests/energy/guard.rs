@@ -1,0 +1,40 @@
+//! Energy without work stops a run.
+
+use crate::scenes::poured;
+use dem::setup::*;
+use dem::{Halt, Simulation};
+use grainpipe_tests::findings::{Case, case};
+use grainpipe_tests::normals::NORMALS;
+
+const STOPS: Case = case("Guards", "energy without work stops a run");
+
+/// Grains that bounce without loss, in a step that is allowed but coarse: what they gain is told, and the state is finite.
+#[test]
+fn energy_without_work_stops_a_run() {
+    let mut setup = poured(&NORMALS[0]);
+    let mut plain = NORMALS[0].setup(1.0);
+    std::mem::swap(&mut setup.contacts, &mut plain.contacts);
+    setup.step = Step::Auto(1.0);
+    let run = |energy: f64| {
+        let mut setup = setup.clone();
+        setup.guards.energy = energy;
+        let mut sim = Simulation::new(setup).expect("sound");
+        let halt = (0..20_000).find_map(|_| sim.step().err());
+        (halt, sim)
+    };
+    let (halt, mut sim) = run(0.01);
+    let halt = halt.expect("stopped");
+    assert!(matches!(halt, Halt::Energy { .. }), "{halt}");
+    STOPS.refused(
+        "hooke, e = 1, at the critical step",
+        &halt.to_string(),
+        &["guards.energy", "shorten dt", "J"],
+    );
+    assert!(sim.particles().expect("sound").iter().all(|p| p.velocity.norm().is_finite()));
+    assert!(run(1e3).0.is_none(), "a wide limit lets it run");
+    // A limit without the ledger that it needs.
+    setup.ledger = false;
+    setup.guards.energy = 0.01;
+    let error = Simulation::new(setup).err().expect("refused").to_string();
+    STOPS.refused("without a ledger", &error, &["guards.energy", "ledger"]);
+}
