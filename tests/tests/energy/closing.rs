@@ -22,7 +22,7 @@ fn the_ledger_closes_and_the_step_makes_little() {
             let of = e.exchanged() + e.translation;
             assert!(of > 1e-3, "{}: something happens: {e:?}", scene.name);
             CLOSES.within(&scene.name, (e.balance() - start) / of, "–", 1e-6);
-            MADE.within(&scene.name, e.integration / of, "–", 3e-3);
+            MADE.within(&scene.name, e.integration / of, "–", 1e-2);
         }
     }
 }

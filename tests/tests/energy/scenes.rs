@@ -41,7 +41,7 @@ pub fn poured(normal: &Normal) -> Setup {
     });
     setup.gravity.z = -9.81;
     setup.ledger = true;
-    setup.step = Step::Auto(0.2);
+    setup.step = Step::Auto(0.5);
     setup.walls = vec![plane(Vec3::z())];
     setup.particles = cloud(24, 0.03);
     setup
@@ -59,7 +59,7 @@ fn pebbles() -> WallShape {
     WallShape::Spheres((0..144).map(|k| (place(k), 0.012)).collect())
 }
 
-/// Every scene at dt = auto of the default safety.
+/// Every scene at dt = auto, of the safety that is the default.
 pub fn all() -> Vec<Scene> {
     let mut scenes = Vec::new();
     let mut add =
