@@ -11,7 +11,8 @@ const NOTES: &str = "KEY: any key of the scene (as for dem-run --set; * is every
     A KEY that stands as {KEY} in SCENE, an INPUT or --each is put there; {seed} is there, too.\n\
     NAME: heap-angle, discharge-rate PLANE, wall-force SHAPE, peak-wall-force SHAPE, energy-error, contact-time, overlap, \
     restitution, velocity-profile, packing-fraction SHAPE, bed-height, each with further options of dem-measure; or \
-    'VALUE of --MEASURE …': any value of its summary, or any of its columns as a profile.\n\
+    'VALUE of --MEASURE …': any value of its summary, or any of its columns as a profile \
+    ('each VALUE of …' where both have it).\n\
     Points run one after another: other work on the machine, and --jobs, disturb the times.\n\
     How it is judged, and examples: docs/accuracy.md.";
 

@@ -151,7 +151,8 @@ impl Judged {
                     format!("{} cannot be run: {why}", curve::change(&self.points[base], point))
                 }
                 (None, Some(error)) => {
-                    sentence(&self.points[base], point, error, what, self.of) + self.mark(k)
+                    sentence((&self.points[base], self.errors[base].as_ref()), (point, error), what, self.of)
+                        + self.mark(k)
                 }
                 (None, None) => format!("{} cannot be compared", curve::change(&self.points[base], point)),
             });

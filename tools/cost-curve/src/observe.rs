@@ -29,6 +29,8 @@ pub struct Measure {
     pub name: String,
     /// Value of the summary, or column.
     value: String,
+    /// Whether a column is meant, though the summary may have a value of that name.
+    each: bool,
     /// Options of dem-measure.
     options: Vec<String>,
 }
@@ -45,13 +47,22 @@ impl Measure {
         let own = |words: &str| words.split_whitespace().map(str::to_owned).collect::<Vec<String>>();
         if let Some((value, options)) = text.split_once(" of ") {
             let (value, options) = (value.trim().to_owned(), own(options));
-            return Ok(Measure { name: value.clone(), value, options });
+            let (value, each) = match value.strip_prefix("each ") {
+                Some(column) => (column.trim().to_owned(), true),
+                None => (value, false),
+            };
+            return Ok(Measure { name: value.replace('_', " "), value, each, options });
         }
         let words = own(text);
         let name = words.first().map_or("", String::as_str);
         if let Some((name, option, value)) = KNOWN.iter().find(|known| known.0 == name) {
             let options = [vec![(*option).to_owned()], words[1..].to_vec()].concat();
-            return Ok(Measure { name: name.replace('-', " "), value: (*value).to_owned(), options });
+            return Ok(Measure {
+                name: name.replace('-', " "),
+                value: (*value).to_owned(),
+                each: false,
+                options,
+            });
         }
         let near = KNOWN.iter().map(|k| (strsim::damerau_levenshtein(k.0, name), k.0)).min();
         let hint = near.filter(|n| n.0 <= 3).map_or(String::new(), |n| format!("; did you mean '{}'?", n.1));
@@ -87,7 +98,7 @@ impl Measure {
     fn find(&self, sheet: &Value) -> anyhow::Result<Measured> {
         let no_number = || anyhow!("'{}' is no number in this run: measure something it has", self.value);
         let unit = |head: &Value| head["unit"].as_str().unwrap_or("1").to_owned();
-        if let Some(found) = sheet["summary"].get(&self.value) {
+        if let Some(found) = sheet["summary"].get(&self.value).filter(|_| !self.each) {
             return Ok((vec![found["value"].as_f64().ok_or_else(no_number)?], unit(found)));
         }
         let columns = sheet["columns"].as_array().map(Vec::as_slice).unwrap_or_default();
@@ -132,7 +143,8 @@ mod tests {
         let sheet = json!({"columns": [{"name": "z", "unit": "m"}, {"name": "vx", "unit": "m/s"}],
             "rows": [[0.1, 1.0], [0.2, null]], "summary": {"angle": {"value": 30.5, "unit": "deg"}, "bad": {"value": null}}});
         let find = |value: &str| {
-            Measure { name: String::new(), value: value.into(), options: vec!["--x".into()] }.find(&sheet)
+            Measure { name: String::new(), value: value.into(), each: false, options: vec!["--x".into()] }
+                .find(&sheet)
         };
         assert_eq!(find("angle").unwrap(), (vec![30.5], "deg".into()));
         assert_eq!(find("vx").unwrap(), (vec![1.0, 0.0], "m/s".into()));
