@@ -11,6 +11,7 @@ use std::{
     path::{Path, PathBuf},
     str::FromStr,
 };
+use stream::mcap::{Event, McapError};
 
 /// A file or stdin. As a clap argument: `#[arg(value_name = "RUN.mcap", default_value = "-")] run: cli::Source`.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -93,6 +94,21 @@ impl Source {
             let at = e.utf8_error().valid_up_to();
             anyhow::anyhow!("{self}: byte {at}: this is not UTF-8 text: is it the right file?")
         })
+    }
+
+    /// An event of this stream; `None` where a file breaks off whose name says that it is unfinished: what is there is read, and a
+    /// warning tells that it is not all.
+    ///
+    /// # Errors
+    /// Those of the stream.
+    pub fn as_far_as_it_goes(&self, event: Result<Event, McapError>) -> Result<Option<Event>, McapError> {
+        match event {
+            Err(McapError::Truncated { messages, .. }) if self.path().is_some_and(crate::is_part) => {
+                crate::warn(&format!("{self}: the run did not end; this is what it wrote, {messages} messages"));
+                Ok(None)
+            }
+            other => other.map(Some),
+        }
     }
 
     /// The path, when it is a file.

@@ -25,6 +25,7 @@
 pub mod exit;
 mod input;
 mod output;
+mod part;
 mod progress;
 mod report;
 mod run;
@@ -33,6 +34,7 @@ mod signals;
 pub use exit::{Stopped, Usage, usage};
 pub use input::{Input, Source};
 pub use output::{CloudOutput, Output, OutputStream};
+pub use part::{Keep, is_part, parts_of};
 pub use progress::Progress;
 pub use report::Report;
 pub use run::{Common, Seed, arguments, provenance, quiet, run, warn};

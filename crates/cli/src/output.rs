@@ -1,6 +1,10 @@
 //! Outputs: stdout, or a file that appears under its name only when it is whole.
 
-use crate::{exit::usage, signals};
+use crate::{
+    exit::usage,
+    part::{Keep, Part},
+    signals,
+};
 use anyhow::Context;
 use std::{
     fs::{self, File},
@@ -8,7 +12,6 @@ use std::{
     path::{Path, PathBuf},
 };
 use stream::{mcap, ply::Encoding};
-use tempfile::NamedTempFile;
 
 /// Enough that a pipe is filled by one write.
 const BUFFER: usize = 1 << 18;
@@ -58,6 +61,18 @@ impl Output {
             return Err(usage("stdout is a terminal and this output is binary: use -o FILE, or pipe it on"));
         }
         self.open_text()
+    }
+
+    /// Opens a binary stream that takes long to write: a file is `NAME.part` until it is committed, in plain sight, and
+    /// stays so when the tool does not come to its end, once [`OutputStream::keeper`] says so.
+    ///
+    /// # Errors
+    /// As [`Output::open`].
+    pub fn open_long(&self) -> anyhow::Result<OutputStream> {
+        match self.path() {
+            Some(path) => OutputStream::beside(path, Part::plain),
+            None => self.open(),
+        }
     }
 
     /// Opens a stream for text, which a terminal may show.
@@ -121,8 +136,8 @@ pub struct OutputStream {
 enum Sink {
     /// Stdout, a device or a named pipe: bytes go out as they are written.
     Direct(File),
-    /// Beside the final name; removed on drop, also while a panic unwinds.
-    Pending { temp: NamedTempFile, path: PathBuf },
+    /// Beside the final name.
+    Pending { part: Part, path: PathBuf },
 }
 
 impl OutputStream {
@@ -145,6 +160,10 @@ impl OutputStream {
     /// # Errors
     /// A folder that is missing or cannot be written to.
     pub fn file(path: &Path) -> anyhow::Result<OutputStream> {
+        OutputStream::beside(path, Part::hidden)
+    }
+
+    fn beside(path: &Path, part: fn(&Path, &str) -> io::Result<Part>) -> anyhow::Result<OutputStream> {
         let name = path.display().to_string();
         let failed = || format!("{name}: cannot create it (is the folder there, and may you write to it?)");
         // A link stays a link: its target is replaced. Devices and named pipes are written to, not replaced.
@@ -159,13 +178,29 @@ impl OutputStream {
         }
         let folder = target.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let stem = target.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let temp = signals::removed_on_signal(|| beside(folder, &stem)).with_context(failed)?;
-        Ok(OutputStream::new(Sink::Pending { temp, path: target }, name))
+        let part = signals::removed_on_signal(|| part(folder, &stem)).with_context(failed)?;
+        Ok(OutputStream::new(Sink::Pending { part, path: target }, name))
     }
 
     /// The name that messages use.
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// What decides whether the file stays unfinished beside its name when it is not committed; at first it does not.
+    pub fn keeper(&self) -> Keep {
+        match self.sink.get_ref() {
+            Sink::Pending { part, .. } => part.keeper(),
+            Sink::Direct(_) => Keep::default(),
+        }
+    }
+
+    /// The unfinished file.
+    pub fn part(&self) -> Option<&Path> {
+        match self.sink.get_ref() {
+            Sink::Pending { part, .. } => part.path(),
+            Sink::Direct(_) => None,
+        }
     }
 
     /// Whether bytes go out as they are written, so that a reader may be waiting for them.
@@ -181,39 +216,24 @@ impl OutputStream {
         let name = self.name;
         let mut sink = self.sink.into_inner().map_err(|e| e.into_error()).with_context(|| name.clone())?;
         sink.flush().with_context(|| name.clone())?;
-        if let Sink::Pending { temp, path } = sink {
-            temp.persist(&path)
-                .map_err(|e| e.error)
-                .with_context(|| format!("{name}: cannot rename to it"))?;
+        if let Sink::Pending { part, path } = sink {
+            part.rename(&path).with_context(|| format!("{name}: cannot rename to it"))?;
         }
         Ok(())
     }
-}
-
-/// A temporary file in the same folder (a rename must not cross file systems) with ordinary permissions.
-fn beside(folder: &Path, stem: &str) -> io::Result<NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    let prefix = format!(".{stem}.");
-    builder.prefix(&prefix).suffix(".part");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
-    builder.tempfile_in(folder)
 }
 
 impl Write for Sink {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match self {
             Sink::Direct(file) => file.write(bytes),
-            Sink::Pending { temp, .. } => temp.write(bytes),
+            Sink::Pending { part, .. } => part.file()?.write(bytes),
         }
     }
     fn flush(&mut self) -> io::Result<()> {
         match self {
             Sink::Direct(file) => file.flush(),
-            Sink::Pending { temp, .. } => temp.flush(),
+            Sink::Pending { part, .. } => part.file()?.flush(),
         }
     }
 }

@@ -1,6 +1,7 @@
-//! Ctrl-C and termination: unfinished files are removed, then the signal does what it always does. A tool that asked
-//! for it is told first, and may end in order; a second signal ends it at once.
+//! Ctrl-C and termination: unfinished files that are not worth keeping are removed, then the signal does what it always
+//! does. A tool that asked for it is told first, and may end in order; a second signal ends it at once.
 
+use crate::part::{Keep, Part};
 use signal_hook::{
     consts::{SIGINT, SIGTERM, TERM_SIGNALS},
     iterator::Signals,
@@ -14,9 +15,8 @@ use std::{
         atomic::{AtomicBool, Ordering::SeqCst},
     },
 };
-use tempfile::NamedTempFile;
 
-static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+static UNFINISHED: Mutex<Vec<(PathBuf, Keep)>> = Mutex::new(Vec::new());
 static LISTEN: Once = Once::new();
 /// Whether the tool ends in order by itself.
 static ORDERLY: AtomicBool = AtomicBool::new(false);
@@ -37,13 +37,13 @@ pub fn stop_requested() -> bool {
 /// Creates a file that is removed when a signal ends the process. Once renamed, it is no longer there to be
 /// removed. A signal that arrives during the creation waits for it.
 pub(crate) fn removed_on_signal(
-    create: impl FnOnce() -> io::Result<NamedTempFile>,
-) -> io::Result<NamedTempFile> {
+    create: impl FnOnce() -> io::Result<Part>,
+) -> io::Result<Part> {
     LISTEN.call_once(listen);
     let mut unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
-    let file = create()?;
-    unfinished.push(file.path().to_owned());
-    Ok(file)
+    let part = create()?;
+    unfinished.extend(part.path().map(|path| (path.to_owned(), part.keeper())));
+    Ok(part)
 }
 
 fn listen() {
@@ -56,7 +56,7 @@ fn listen() {
                 continue;
             }
             let unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
-            for path in unfinished.iter() {
+            for (path, _) in unfinished.iter().filter(|(_, keep)| !keep.kept()) {
                 let _ = std::fs::remove_file(path);
             }
             // With the lock still held, so that no file is begun any more.

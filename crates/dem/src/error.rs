@@ -186,6 +186,67 @@ pub enum Halt {
         /// Allowed share [–].
         limit: f64,
     },
+    /// The state of a particle is not a number any more.
+    #[error(
+        "t = {time:.6e} s: particle {id} at ({x:.4e}, {y:.4e}, {z:.4e}) m: the force on it or its motion is beyond all numbers (NaN): \
+         its speed, spin or stiffness is far too large; look at what it started with, or shorten dt"
+    )]
+    NotANumber {
+        /// When [s].
+        time: f64,
+        /// Which particle.
+        id: u32,
+        /// Where it was last [m].
+        x: f64,
+        /// Where it was last [m].
+        y: f64,
+        /// Where it was last [m].
+        z: f64,
+    },
+    /// A grain has come back through an inlet, against the flow.
+    #[error(
+        "t = {time:.6e} s: particle {id} at ({x:.4e}, {y:.4e}, {z:.4e}) m came in by inlet {inlet} and has gone back through all of its \
+         zone, {behind:.3e} m behind the generation plane, where nothing of the plant is simulated: cut the plant farther upstream, or \
+         set guards.zones = false where grains get there by another way"
+    )]
+    CameBack {
+        /// When [s].
+        time: f64,
+        /// Which particle.
+        id: u32,
+        /// Its inlet.
+        inlet: u32,
+        /// Where [m].
+        x: f64,
+        /// Where [m].
+        y: f64,
+        /// Where [m].
+        z: f64,
+        /// How far behind the generation plane [m].
+        behind: f64,
+    },
+    /// A particle that is to come in is too fast for the time step.
+    #[error(
+        "t = {time:.6e} s: particle {id} comes in by inlet {inlet} at {speed:.4e} m/s, {:.1} % of its radius in one step of {dt:.3e} s \
+         (limit {:.1} %): shorten dt, or raise guards.motion",
+        100.0 * share, 100.0 * limit
+    )]
+    TooFast {
+        /// When [s].
+        time: f64,
+        /// Which particle.
+        id: u32,
+        /// Its inlet.
+        inlet: u32,
+        /// How fast [m/s].
+        speed: f64,
+        /// Time step [s].
+        dt: f64,
+        /// Way in one step over its radius [–].
+        share: f64,
+        /// Allowed share [–].
+        limit: f64,
+    },
     /// Energy came from nowhere.
     #[error(
         "t = {time:.6e} s: the time step has made {made:.3e} J, {:.2} % of the {of:.3e} J that were exchanged or move (limit {:.2} %): shorten dt (time.safety) or raise guards.energy",

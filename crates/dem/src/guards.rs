@@ -36,6 +36,12 @@ pub fn overlap(sim: &Simulation, moved: bool) -> Result<(), Halt> {
     worst.map_or(Ok(()), |(_, halt)| Err(halt))
 }
 
+/// The particle whose state is lost; where it was is what the next step will overwrite.
+fn not_a_number(sim: &Simulation, k: usize) -> Halt {
+    let [x, y, z] = sim.next_rows.get(k).map_or([f64::NAN; 3], |row| [row[0], row[1], row[2]]);
+    Halt::NotANumber { time: sim.time(), id: sim.particles.id[k], x, y, z }
+}
+
 /// Steps between two looks at the energy that the step makes: a look takes about as long as a step.
 pub const ENERGY_EVERY: u64 = 50;
 
@@ -54,6 +60,10 @@ pub fn motion(sim: &Simulation) -> Result<(), Halt> {
     let mut worst: Option<(f64, Halt)> = None;
     for k in 0..sim.particles.len() {
         let row = sim.particles.rows[k];
+        let finite = row[..3].iter().chain(&row[4..7]).all(|x| x.is_finite());
+        if !finite && !sim.zones.is_gone(k) {
+            return Err(not_a_number(sim, k));
+        }
         let motion = (sim.particles.position(k) - sim.position_before(k)).norm();
         let share = motion / row[3];
         if !(share <= limit)
@@ -66,4 +76,32 @@ pub fn motion(sim: &Simulation) -> Result<(), Halt> {
         }
     }
     worst.map_or(Ok(()), |(_, halt)| Err(halt))
+}
+
+impl Simulation {
+    /// Whether everything that moves is at a place and has a velocity: what a run can go on from.
+    pub fn is_finite(&self) -> bool {
+        let p = &self.particles;
+        let rows = p.rows.iter().all(|row| row.iter().all(|x| x.is_finite()));
+        let fours = [&p.spins, &p.acceleration, &p.turning];
+        rows && fours.iter().all(|column| column.iter().all(|q| q[..3].iter().all(|x| x.is_finite())))
+            && self.contacts.memory.iter().all(|x| x.is_finite())
+    }
+
+    /// Looks for grains that zones have lost: one that came in by a cut and has gone back through the whole zone, and one that
+    /// comes in too fast for the step. At no cost without inlets.
+    ///
+    /// # Errors
+    /// Such a grain.
+    pub fn look_back(&self) -> Result<(), Halt> {
+        self.zones.fast(self.time(), self.dt, self.setup.guards.motion)?;
+        for k in 0..if self.zones.cut() { self.particles.len() } else { 0 } {
+            let (place, id) = (self.particles.position(k), self.particles.id[k]);
+            if let Some((inlet, behind)) = self.zones.came_back(k, id, &place) {
+                let (time, [x, y, z]) = (self.time(), [place.x, place.y, place.z]);
+                return Err(Halt::CameBack { time, id, inlet, x, y, z, behind });
+            }
+        }
+        Ok(())
+    }
 }

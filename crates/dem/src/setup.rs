@@ -345,6 +345,8 @@ pub struct Guards {
     pub overlap: f64,
     /// Largest motion in one step, as a share of the radius [–].
     pub motion: f64,
+    /// How many inlets, from the first on, are cuts of a plant, behind which no grain may come back [–].
+    pub cuts: u32,
     /// Largest energy that the finite time step may make, as a share of what was exchanged and moves [–]; ∞: not looked at. It
     /// needs the ledger.
     pub energy: f64,
@@ -352,6 +354,6 @@ pub struct Guards {
 
 impl Default for Guards {
     fn default() -> Guards {
-        Guards { overlap: 0.25, motion: 0.25, energy: f64::INFINITY }
+        Guards { overlap: 0.25, motion: 0.25, energy: f64::INFINITY, cuts: 0 }
     }
 }

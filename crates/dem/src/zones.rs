@@ -8,7 +8,7 @@
 
 use crate::contacts::With;
 use crate::energy::carried;
-use crate::error::SetupError;
+use crate::error::{Halt, SetupError};
 use crate::kernel::LEDGER;
 use crate::lane::Row4;
 use crate::particles::Particles;
@@ -16,7 +16,7 @@ use crate::setup::{Crossing, Entry, Particle, Setup, WallShape, Zone};
 use crate::simulation::Simulation;
 use geom::Vec3;
 use serde::{Deserialize, Serialize};
-use std::collections::{BTreeSet, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 /// Steps ahead of their time at which entries are listed, so that not every one makes lists anew.
 pub const LOOK_AHEAD: u64 = 256;
@@ -57,6 +57,10 @@ pub struct Zones {
     busy: Vec<bool>,
     ids: BTreeSet<u32>,
     latest: f64,
+    /// Inlets, from the first on, that are cuts of a plant; a guard, which a resumed run may change.
+    pub(crate) cuts: u32,
+    /// Particles that have become free behind a cut, and which.
+    freed: BTreeMap<u32, u32>,
 }
 
 impl Zones {
@@ -78,6 +82,7 @@ impl Zones {
             busy: flags,
             ids,
             latest: f64::NEG_INFINITY,
+            cuts: setup.guards.cuts,
             ..Zones::default()
         }
     }
@@ -112,6 +117,35 @@ impl Zones {
     /// Whether each particle is in a zone; empty without zones.
     pub fn busy(&self) -> &[bool] {
         &self.busy
+    }
+
+    /// Whether grains are watched that came in by a cut.
+    pub fn cut(&self) -> bool {
+        !self.freed.is_empty()
+    }
+
+    /// The inlet of a free particle that is behind its generation plane again, and how far [m].
+    pub fn came_back(&self, k: usize, id: u32, place: &Vec3) -> Option<(u32, f64)> {
+        let behind = |z: &Zone| -z.plane.signed_distance(place) - z.length;
+        let cuts = &self.inlets[..(self.cuts as usize).min(self.inlets.len())];
+        if self.is_gone(k) || self.travels(k) || cuts.iter().all(|z| !(behind(z) > 0.0)) {
+            return None;
+        }
+        let &inlet = self.freed.get(&id)?;
+        Some((inlet, behind(&self.inlets[inlet as usize]))).filter(|found| found.1 > 0.0)
+    }
+
+    /// Refuses a particle on its way in that moves by more than `limit` of its radius in a step.
+    pub fn fast(&self, time: f64, dt: f64, limit: f64) -> Result<(), Halt> {
+        for t in &self.travellers {
+            let Way::In(inlet) = t.way else { continue };
+            let speed = t.start.velocity.norm();
+            let share = speed * dt / t.start.radius;
+            if !(share <= limit) {
+                return Err(Halt::TooFast { time, id: t.start.id, inlet, speed, dt, share, limit });
+            }
+        }
+        Ok(())
     }
 
     /// Crossings since the last call.
@@ -312,6 +346,9 @@ impl Simulation {
                             };
                         }
                         self.release(t.at as usize, place, t.start.velocity);
+                        if i < self.zones.cuts {
+                            self.zones.freed.insert(self.particles.id[t.at as usize], i);
+                        }
                     }
                     inside
                 }

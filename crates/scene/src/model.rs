@@ -246,6 +246,8 @@ pub struct Guards {
     pub overlap: Option<f64>,
     /// Largest motion in one step, as a share of the radius [–].
     pub motion: Option<f64>,
+    /// Whether a run stops when a grain of an [[inlet]] goes back through all of its zone; absent: it does.
+    pub zones: Option<bool>,
     /// Largest energy that the time step may make, as a share of what was exchanged and moves [–]; absent: not looked at.
     pub energy: Option<f64>,
 }

@@ -23,4 +23,13 @@ pub struct Moment {
     pub kinetic: Option<f64>,
     /// Balance of the energy ledger [J], where it is kept and a frame has just been written.
     pub balance: Option<f64>,
+    /// Frames that this run has written.
+    #[serde(skip)]
+    pub frames: u64,
+    /// Checkpoints that this run has written.
+    #[serde(skip)]
+    pub checkpoints: u64,
+    /// Time of the last frame or checkpoint [s].
+    #[serde(skip)]
+    pub saved: f64,
 }

@@ -282,6 +282,8 @@ impl<'a> Draft<'a> {
             guards: Guards {
                 overlap: model.guards.overlap.unwrap_or(Guards::default().overlap),
                 motion: model.guards.motion.unwrap_or(Guards::default().motion),
+                // [[inlet]]s come before faucets, whose grains may get anywhere.
+                cuts: if model.guards.zones == Some(false) { 0 } else { model.inlet.len() as u32 },
                 energy: model.guards.energy.unwrap_or(Guards::default().energy),
             },
         };

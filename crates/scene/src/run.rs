@@ -44,6 +44,9 @@ pub const SIGNAL: &str = "by a signal";
 
 const FRAME: &str = "world";
 
+/// Steps between looks for grains that zones have lost: no grain gets past the length of a zone in so few.
+const LOOK_BACK: u64 = 64;
+
 /// Why a run failed.
 #[derive(Debug, Error)]
 #[allow(missing_docs)]
@@ -67,6 +70,8 @@ pub struct Outcome {
     pub time: f64,
     /// Time step [s].
     pub dt: f64,
+    /// Which measured curve the time step relies on, when the scene asks for an accuracy.
+    pub chosen_by: Option<String>,
     /// Steps done in this run.
     pub steps: u64,
     /// Frames written.
@@ -136,6 +141,9 @@ struct Run<W: Write> {
     /// Kinetic energy and balance [J] of the frame that has just been written.
     looked: Option<(f64, Option<f64>)>,
     watched: bool,
+    /// What the feeds had given and the state when something was last written: a run whose numbers are lost goes on from there.
+    before: Option<(Vec<u64>, dem::State)>,
+    checkpoints: u64,
 }
 
 /// Runs a scene to its end, or until a guard or a request stops it, and gives the output back.
@@ -179,6 +187,7 @@ pub fn run<W: Write>(
         }
         let outcome = run.sim.step();
         run.crossings.append(&mut run.sim.take_crossings());
+        let outcome = outcome.and_then(|()| if step % LOOK_BACK == 0 { run.sim.look_back() } else { Ok(()) });
         if let Err(halt) = outcome {
             break Some(stopped(scene, step, halt)?);
         }
@@ -252,7 +261,7 @@ impl<W: Write> Run<W> {
             writer.metadata(CLUMPS, shapes)?;
         }
         let mut run = Run {
-            outcome: Outcome { dt: sim.dt(), ..Outcome::default() },
+            outcome: Outcome { dt: sim.dt(), chosen_by: plan.step, ..Outcome::default() },
             sim,
             supply,
             writer,
@@ -270,6 +279,8 @@ impl<W: Write> Run<W> {
             crossings: Vec::new(),
             looked: None,
             watched: false,
+            before: None,
+            checkpoints: 0,
         };
         run.write_walls(&surfaces, &plan.notes)?;
         Ok(run)
@@ -289,6 +300,9 @@ impl<W: Write> Run<W> {
             asleep: self.sim.asleep(),
             kinetic,
             balance: balance.flatten(),
+            frames: self.outcome.frames,
+            checkpoints: self.checkpoints,
+            saved: self.before.as_ref().map_or(0.0, |(_, state)| state.time()),
         }
     }
 
@@ -302,6 +316,9 @@ impl<W: Write> Run<W> {
             self.writer.points(WALLS, now, FRAME, &table)?;
         }
         self.writer.bytes(SURFACES, "json", now, json(surfaces).as_bytes())?;
+        if let Some(chosen) = self.outcome.chosen_by.clone() {
+            self.log("note", &chosen)?;
+        }
         for note in notes {
             self.log("note", note)?;
         }
@@ -326,6 +343,9 @@ impl<W: Write> Run<W> {
     fn look(&mut self, step: u64, first: u64) -> Result<Result<(), Halt>, RunError> {
         let resumed = step == first && step > 0;
         let (frame, checkpoint) = (self.schedule.is_frame(step), self.schedule.is_checkpoint(step));
+        if resumed || frame || checkpoint {
+            self.before = Some((self.supply.given.clone(), self.sim.state().to_state()));
+        }
         if resumed || !(frame || checkpoint) {
             return Ok(Ok(()));
         }
@@ -424,19 +444,44 @@ impl<W: Write> Run<W> {
             state: self.sim.state(),
         };
         let now = nanoseconds(self.sim.time());
-        let mut pieces = Pieces::new(&mut self.writer, now);
-        stream::state::encode_to(&checkpoint, &mut pieces)?;
-        Ok(pieces.finish()?)
+        save(&mut self.writer, now, &checkpoint)?;
+        self.checkpoints += 1;
+        Ok(())
     }
 
     /// The run is stopped: the file says why, and ends in a checkpoint.
     fn stop(&mut self, reason: String) -> Result<(), RunError> {
-        self.write_crossings()?;
+        match self.before.take() {
+            Some(before) if !self.sim.is_finite() => self.go_back(reason, before),
+            _ => {
+                self.write_crossings()?;
+                self.log("stopped", &reason)?;
+                self.write_checkpoint()?;
+                self.outcome.stopped = Some(reason);
+                Ok(())
+            }
+        }
+    }
+
+    /// A state without numbers is no use to anyone: the checkpoint is that of the last instant that was looked at. What has
+    /// crossed since then crosses again.
+    fn go_back(&mut self, reason: String, before: (Vec<u64>, dem::State)) -> Result<(), RunError> {
+        let (given, state) = before;
+        let time = state.time();
+        let reason = format!("{reason}; the checkpoint is of t = {time:.6e} s, before it");
         self.log("stopped", &reason)?;
-        self.write_checkpoint()?;
+        let (scene, inputs) = (self.scene.clone(), self.inputs.clone());
+        save(&mut self.writer, nanoseconds(time), &Checkpoint { scene, inputs, given, state })?;
         self.outcome.stopped = Some(reason);
         Ok(())
     }
+}
+
+/// Writes a checkpoint.
+fn save<W: Write>(writer: &mut Writer<W>, now: u64, checkpoint: &impl Serialize) -> Result<(), RunError> {
+    let mut pieces = Pieces::new(writer, now);
+    stream::state::encode_to(checkpoint, &mut pieces)?;
+    Ok(pieces.finish()?)
 }
 
 type Record = BTreeMap<String, String>;

@@ -20,7 +20,7 @@ use thiserror::Error;
 const MAGIC: &[u8; 8] = b"GRNSTATE";
 const VERSION: u32 = 1;
 const HEAD: usize = 8 + 4 + 8 + 32;
-/// No state is larger [B]; keeps a wrong length from taking all memory.
+/// No state is larger [B].
 const LIMIT: usize = 1 << 38;
 
 /// What is wrong with a state.
@@ -45,8 +45,18 @@ pub enum StateError {
     Encode(#[source] Box<bincode::error::EncodeError>),
 }
 
-fn layout() -> impl Config {
-    config::standard().with_fixed_int_encoding().with_limit::<LIMIT>()
+fn layout<const MOST: usize>() -> impl Config {
+    config::standard().with_fixed_int_encoding().with_limit::<MOST>()
+}
+
+/// Decodes a body. Its own size bounds what a length in it may claim; a limit is a constant, so that a few sizes must do.
+fn decode_body<T: DeserializeOwned>(body: &[u8]) -> Result<(T, usize), bincode::error::DecodeError> {
+    match body.len() {
+        0..0x10_0000 => bincode::serde::decode_from_slice(body, layout::<0x20_0000>()),
+        0x10_0000..0x400_0000 => bincode::serde::decode_from_slice(body, layout::<0x800_0000>()),
+        0x400_0000..0x1_0000_0000 => bincode::serde::decode_from_slice(body, layout::<0x2_0000_0000>()),
+        _ => bincode::serde::decode_from_slice(body, layout::<LIMIT>()),
+    }
 }
 
 /// Encodes a state.
@@ -66,14 +76,14 @@ pub fn encode(state: &impl Serialize) -> Result<Vec<u8>, StateError> {
 pub fn encode_to(state: &impl Serialize, out: &mut impl Write) -> Result<(), StateError> {
     let wrong = |e| StateError::Encode(Box::new(e));
     let mut sum = Sum { hash: Sha256::new(), length: 0 };
-    bincode::serde::encode_into_std_write(state, &mut sum, layout()).map_err(wrong)?;
+    bincode::serde::encode_into_std_write(state, &mut sum, layout::<LIMIT>()).map_err(wrong)?;
     let mut head = [0; HEAD];
     head[..8].copy_from_slice(MAGIC);
     head[8..12].copy_from_slice(&VERSION.to_le_bytes());
     head[12..20].copy_from_slice(&sum.length.to_le_bytes());
     head[20..].copy_from_slice(&sum.hash.finalize());
     out.write_all(&head).map_err(StateError::Write)?;
-    bincode::serde::encode_into_std_write(state, out, layout()).map_err(wrong)?;
+    bincode::serde::encode_into_std_write(state, out, layout::<LIMIT>()).map_err(wrong)?;
     Ok(())
 }
 
@@ -117,7 +127,7 @@ pub fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, StateError> {
         return Err(StateError::Hash);
     }
     let wrong = |e| StateError::Decode(Box::new(e));
-    let (state, read) = bincode::serde::decode_from_slice(body, layout()).map_err(wrong)?;
+    let (state, read) = decode_body(body).map_err(wrong)?;
     if read != body.len() {
         return Err(StateError::Length { found: body.len() as u64, expected: read as u64 });
     }

@@ -31,7 +31,8 @@ fn measure_run(args: Args) -> anyhow::Result<Report> {
     let (mut run, mut rows, mut kept): (Run, Vec<Row>, Vec<Row>) = Default::default();
     let progress = Progress::new("frames", 0);
     for event in Reader::new(source) {
-        let event = event.with_context(|| args.run.to_string())?;
+        let event = args.run.as_far_as_it_goes(event).with_context(|| args.run.to_string())?;
+        let Some(event) = event else { break };
         if let Some(seen) = run.take(event).with_context(place)? {
             progress.add(u64::from(matches!(seen, measure::Seen::Frame(_))));
             observer.see(&run, seen, &mut rows).with_context(place)?;

@@ -1,12 +1,14 @@
 //! Runs a scene: particles, contacts and walls through time, written as a run MCAP.
 
+mod parts;
 mod watch;
 
 use anyhow::Context;
 use clap::Parser;
 use cli::{Output, Report, Source, Stopped};
 use scene::run::{RunError, SIGNAL, Settings, run};
-use scene::{Checkpoint, Input, Plan, Scene};
+use parts::Saved;
+use scene::{Checkpoint, Input, Moment, Plan, Scene};
 use std::fs::File;
 use std::io::{self, BufRead, BufReader};
 use std::path::Path;
@@ -60,7 +62,8 @@ fn in_scene(error: anyhow::Error, scene: String) -> anyhow::Error {
 fn dem_run(args: Args) -> anyhow::Result<Report> {
     Source::one_stdin([&args.scene].into_iter().chain(&args.inputs).chain(&args.resume))?;
     let scene = read_scene(&args)?;
-    let resume = match &args.resume {
+    let resumed = args.resume.as_ref().map(parts::resumed).transpose()?;
+    let resume = match &resumed {
         Some(source) => Some(Checkpoint::last(&source.to_string(), source.open()?)?),
         None => None,
     };
@@ -75,6 +78,7 @@ fn dem_run(args: Args) -> anyhow::Result<Report> {
         return explain(&args, &scene, plan);
     }
     scene::run::ready(&scene, &plan)?;
+    parts::say(&args.output, resumed.as_ref());
     simulate(&args, &scene, plan, resume)
 }
 
@@ -137,16 +141,26 @@ fn explain(args: &Args, scene: &Scene, plan: Plan) -> anyhow::Result<Report> {
 }
 
 fn simulate(args: &Args, scene: &Scene, plan: Plan, resume: Option<Checkpoint>) -> anyhow::Result<Report> {
-    let out = args.output.open()?;
+    let out = args.output.open_long()?;
+    let (keep, part) = (out.keeper(), out.part().map(Path::to_owned));
     let compression = if out.is_stream() { Compression::None } else { Compression::Zstd };
     let provenance = cli::provenance(plan.inputs.clone());
     let settings = Settings { provenance, compression, watched: args.progress, stop: cli::stop_requested };
     cli::stop_in_order();
-    let mut watch = Watch::new(args.progress);
-    let (outcome, out) = run(scene, plan, resume, out, settings, &mut |moment| watch.hear(moment))
-        .map_err(|e| written(e, args))?;
-    out.commit()?;
+    let (mut watch, mut saved) = (Watch::new(args.progress), Saved::default());
+    let first = u64::from(resume.is_none());
+    // What is in the file before the first step can be had again at no cost.
+    let mut hear = |moment: &Moment| {
+        if moment.checkpoints > 0 || moment.frames > first {
+            keep.keep();
+            saved = Saved { time: moment.saved, resumes: moment.checkpoints > 0 };
+        }
+        watch.hear(moment);
+    };
+    let done = run(scene, plan, resume, out, settings, &mut hear).map_err(|e| written(e, args));
+    let done = done.and_then(|(outcome, out)| out.commit().map(|()| outcome));
     drop(watch);
+    let outcome = done.map_err(|e| parts::leaves(e, part.as_deref().filter(|_| keep.kept()), saved))?;
     let summary = format!(
         "{} steps of {:.3e} s to {:.4} s, {} particles, {} frames",
         outcome.steps, outcome.dt, outcome.time, outcome.particles, outcome.frames

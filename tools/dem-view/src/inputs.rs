@@ -74,7 +74,7 @@ pub fn read_all(sources: &[Source], show: &mut impl Show) -> anyhow::Result<Vec<
                 "{source}: --pick is for a cloud that cloud-crop reads, and this is MCAP, a run or walls: leave --pick out"
             );
         }
-        let layers = if is_mcap { run::read(whole, &name, show) } else { scan(whole, &name, show) };
+        let layers = if is_mcap { run::read(whole, source, show) } else { scan(whole, &name, show) };
         found.extend(layers.with_context(|| source.to_string())?);
     }
     Ok(found)

@@ -1,7 +1,8 @@
 //! Reads a run, or walls: grains and wall spheres over time, planes and meshes, and how walls move.
 
-use crate::inputs::Show;
+use crate::inputs::{Show, short_name};
 use anyhow::Context;
+use cli::Source;
 use serde_json::{Value, json};
 use std::{
     collections::{BTreeMap, HashMap},
@@ -30,7 +31,8 @@ struct Run<'a, S> {
 }
 
 /// Every `/particles`, `/walls` and `/surfaces` message; other topics are not for the eye.
-pub fn read(from: impl Read, name: &str, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
+pub fn read(from: impl Read, source: &Source, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
+    let name = &short_name(source)[..];
     let mut run = Run {
         name,
         show,
@@ -42,7 +44,8 @@ pub fn read(from: impl Read, name: &str, show: &mut impl Show) -> anyhow::Result
     };
     let mut others = Vec::new();
     for event in Reader::new(from) {
-        match event? {
+        let Some(event) = source.as_far_as_it_goes(event)? else { break };
+        match event {
             Event::Metadata { name, map } if name == "materials" => run.kinds = names(&map),
             Event::Points { topic, time_ns, table } => match topic.as_str() {
                 "/particles" => run.grains(time_ns as f64 / 1e9, table)?,

@@ -19,7 +19,26 @@ fn broken(what: impl ToString, point: Option<u64>) -> ReadError {
     ReadError::Broken { format: "PCD", what: what.to_string(), point }
 }
 
+/// LZF makes at most 264 bytes of 3.
+const LARGEST_RATIO: u64 = 88;
+
+/// Refuses packed data that are shorter than they claim, or claim to hold more than they can.
+fn unpackable(bytes: &[u8]) -> Result<(), ReadError> {
+    const LINE: &[u8] = b"DATA binary_compressed\n";
+    let Some(at) = bytes.windows(LINE.len()).position(|line| line == LINE) else { return Ok(()) };
+    let Some((sizes, data)) = bytes[at + LINE.len()..].split_first_chunk::<8>() else { return Ok(()) };
+    let [packed, whole] = [[0, 1, 2, 3], [4, 5, 6, 7]].map(|at| u64::from(u32::from_le_bytes(at.map(|k| sizes[k]))));
+    if packed > data.len() as u64 {
+        return Err(broken(format!("{packed} bytes promised, {} there: it is cut off", data.len()), None));
+    }
+    if whole > LARGEST_RATIO * packed {
+        return Err(broken(format!("{packed} packed bytes cannot hold {whole}"), None));
+    }
+    Ok(())
+}
+
 fn decode(bytes: &[u8]) -> Result<Cloud, ReadError> {
+    unpackable(bytes)?;
     let reader = DynReader::from_bytes(bytes).map_err(|e| broken(e, None))?;
     let fields = reader.meta().field_defs.fields.clone();
     let axis = |name: &str| fields.iter().position(|f| f.name == name && f.count == 1);
@@ -28,6 +47,10 @@ fn decode(bytes: &[u8]) -> Result<Cloud, ReadError> {
         return Err(broken(format!("no fields x, y, z; there are: {}", names.join(" ")), None));
     };
     let promised = reader.meta().num_points;
+    let values = fields.iter().map(|f| f.count).fold(0, u64::saturating_add);
+    if values > bytes.len() as u64 {
+        return Err(broken(format!("{values} values a point promised in a file of {} bytes", bytes.len()), None));
+    }
     let mut points = Vec::new();
     let mut columns: Vec<Vec<Values>> =
         fields.iter().map(|f| (0..f.count).map(|_| empty(f.kind)).collect()).collect();

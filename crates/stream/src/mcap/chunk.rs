@@ -14,7 +14,15 @@ pub(super) enum Wrong {
     Records,
     Compression,
     Unpack,
+    Large,
+    Text,
 }
+
+/// A chunk that unpacks to more than this [B] must also unpack to less than [`RATIO`] times its packed size: a few bytes can
+/// claim to hold any number of zeros. No chunk of measured numbers is packed as tightly.
+const FREE: u64 = 64 << 20;
+/// See [`FREE`].
+const RATIO: u64 = 2048;
 
 impl Wrong {
     pub fn text(&self) -> &'static str {
@@ -24,12 +32,17 @@ impl Wrong {
             Wrong::Records => "a record reaches over the end of its chunk",
             Wrong::Compression => "a chunk is packed in a way that is not known (known: none, zstd, lz4)",
             Wrong::Unpack => "a chunk cannot be unpacked: bytes were changed",
+            Wrong::Large => "a chunk claims to hold thousands of times its own size",
+            Wrong::Text => "a text reaches over the end of its record",
         }
     }
 }
 
 /// The records of a chunk, unpacked. Memory follows the packed bytes, not the size that the header claims.
 pub(super) fn unpack<'a>(header: &ChunkHeader, data: &'a [u8]) -> Result<Cow<'a, [u8]>, Wrong> {
+    if header.uncompressed_size > FREE && header.uncompressed_size / RATIO > data.len() as u64 {
+        return Err(Wrong::Large);
+    }
     let records = match header.compression.as_str() {
         "" => Cow::Borrowed(data),
         "zstd" => Cow::Owned(read(zstd::stream::read::Decoder::new(data), header)?),

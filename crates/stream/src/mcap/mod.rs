@@ -7,6 +7,7 @@
 //! input gives the same bytes.
 
 mod chunk;
+mod lengths;
 mod points;
 mod provenance;
 mod reader;

@@ -1,6 +1,6 @@
 //! Reads a stream event by event, also while it is still being written, in memory for one chunk.
 
-use super::{END_OF_STREAM, McapError, chunk, points};
+use super::{END_OF_STREAM, McapError, chunk, lengths, points};
 use crate::Table;
 use ::mcap::{
     McapError as Inner, parse_record,
@@ -144,6 +144,7 @@ impl<R: Read> Reader<R> {
     }
 
     fn chunk(&mut self, data: &[u8]) -> Result<(), McapError> {
+        lengths::check(op::CHUNK, data).map_err(|w| self.malformed(w.text()))?;
         let Record::Chunk { header, data } = parse_record(op::CHUNK, data).map_err(|e| self.explain(e))?
         else {
             return Ok(());
@@ -161,6 +162,7 @@ impl<R: Read> Reader<R> {
     }
 
     fn record(&mut self, opcode: u8, body: &[u8]) -> Result<(), McapError> {
+        lengths::check(opcode, body).map_err(|w| self.malformed(w.text()))?;
         match parse_record(opcode, body).map_err(|e| self.explain(e))? {
             Record::Schema { header, .. } => {
                 self.schemas.insert(header.id, header.name);

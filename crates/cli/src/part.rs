@@ -1,0 +1,139 @@
+//! Unfinished outputs: files beside the name that they will get.
+//!
+//! Most tools write to a hidden file that nobody is to see, and that is removed when the tool fails. What a long run has
+//! written is worth keeping: `NAME.part` is in plain sight, and stays when the run is killed or fails after a while. A
+//! part is locked as long as its tool lives, so that one that was left can be told from one that is being written.
+
+use std::{
+    fs::{self, File, TryLockError},
+    io,
+    path::{Path, PathBuf},
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering::SeqCst},
+    },
+};
+use tempfile::NamedTempFile;
+
+/// Ending of the names of unfinished outputs.
+const ENDING: &str = "part";
+/// Parts of one output at most: someone who has left more of them wants to know.
+const MOST: usize = 99;
+
+/// Whether an unfinished output is to stay when its tool does not come to its end.
+#[derive(Debug, Clone, Default)]
+pub struct Keep(Arc<AtomicBool>);
+
+impl Keep {
+    /// From now on it is worth keeping.
+    pub fn keep(&self) {
+        self.0.store(true, SeqCst);
+    }
+
+    /// Whether it is.
+    pub fn kept(&self) -> bool {
+        self.0.load(SeqCst)
+    }
+}
+
+/// An unfinished output: removed on drop, also while a panic unwinds, unless it is to be kept.
+#[derive(Debug)]
+pub(crate) struct Part {
+    /// `None` once it has its name.
+    temp: Option<NamedTempFile>,
+    keep: Keep,
+}
+
+impl Part {
+    /// A hidden file of a name that no other has.
+    pub(crate) fn hidden(folder: &Path, stem: &str) -> io::Result<Part> {
+        let prefix = format!(".{stem}.");
+        let temp = builder().prefix(&prefix).suffix(".part").tempfile_in(folder)?;
+        Ok(Part { temp: Some(temp), keep: Keep::default() })
+    }
+
+    /// `NAME.part`, or `NAME.2.part` and so on when there are parts already.
+    pub(crate) fn plain(folder: &Path, stem: &str) -> io::Result<Part> {
+        for number in 1..=MOST {
+            match builder().rand_bytes(0).prefix(&name(stem, number)).tempfile_in(folder) {
+                Err(e) if e.kind() == io::ErrorKind::AlreadyExists => {}
+                other => {
+                    let temp = other?;
+                    // Where a file system has no locks, a living part looks like one that was left: no more than a warning.
+                    let _ = temp.as_file().try_lock();
+                    return Ok(Part { temp: Some(temp), keep: Keep::default() });
+                }
+            }
+        }
+        Err(io::Error::other(format!("{MOST} unfinished outputs of this name are there: remove them")))
+    }
+
+    pub(crate) fn keeper(&self) -> Keep {
+        self.keep.clone()
+    }
+
+    pub(crate) fn path(&self) -> Option<&Path> {
+        self.temp.as_ref().map(NamedTempFile::path)
+    }
+
+    pub(crate) fn file(&mut self) -> io::Result<&mut File> {
+        let temp = self.temp.as_mut().ok_or(io::ErrorKind::NotConnected)?;
+        Ok(temp.as_file_mut())
+    }
+
+    /// Gives it its name. One that is worth keeping is on the disk before: a name must not survive what it names.
+    pub(crate) fn rename(mut self, path: &Path) -> io::Result<()> {
+        let temp = self.temp.take().ok_or(io::ErrorKind::NotConnected)?;
+        if self.keep.kept() {
+            temp.as_file().sync_all()?;
+        }
+        temp.persist(path).map_err(|mut e| {
+            e.file.disable_cleanup(self.keep.kept());
+            e.error
+        })?;
+        Ok(())
+    }
+}
+
+impl Drop for Part {
+    fn drop(&mut self) {
+        if let Some(temp) = &mut self.temp {
+            temp.disable_cleanup(self.keep.kept());
+        }
+    }
+}
+
+/// Ordinary permissions, which temporary files do not have.
+fn builder() -> tempfile::Builder<'static, 'static> {
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    builder
+}
+
+fn name(stem: &str, number: usize) -> String {
+    if number == 1 { format!("{stem}.{ENDING}") } else { format!("{stem}.{number}.{ENDING}") }
+}
+
+/// Parts of an output, and whether a living tool writes them; the others were left by killed ones.
+pub fn parts_of(output: &Path) -> Vec<(PathBuf, bool)> {
+    let Some(stem) = output.file_name() else { return Vec::new() };
+    let stem = stem.to_string_lossy();
+    let paths = (1..=MOST).map(|number| output.with_file_name(name(&stem, number)));
+    paths.filter(|path| path.is_file()).map(|path| (path.clone(), is_written(&path))).collect()
+}
+
+/// Whether a living tool writes this file.
+fn is_written(path: &Path) -> bool {
+    let Ok(file) = File::open(path) else { return false };
+    // A shared lock is given back at once, with the file.
+    matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock))
+}
+
+/// Whether this is the name of an unfinished output.
+pub fn is_part(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending == ENDING)
+}

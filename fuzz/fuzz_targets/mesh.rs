@@ -1,0 +1,7 @@
+//! Files of meshes, as scenes and shapes take them.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| {
+    let path = grainpipe_fuzz::file("mesh", data);
+    let _ = scene::mesh_file::read(&path).map(|mesh| (mesh.area(), geom::mesh::Inside::new(&mesh).is_ok()));
+});

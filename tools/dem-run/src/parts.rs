@@ -1,0 +1,61 @@
+//! Runs that did not come to their end: what they leave as `NAME.part`, and how it is found again.
+
+use cli::{Output, Source};
+use std::path::{Path, PathBuf};
+
+/// Says which parts of the output are there, but for the one that is resumed.
+pub fn say(output: &Output, resumed: Option<&Source>) {
+    let Some(path) = output.path() else { return };
+    let resumed = resumed.and_then(Source::path).and_then(|p| p.canonicalize().ok());
+    for (part, written) in cli::parts_of(path) {
+        if part.canonicalize().ok().is_some_and(|p| Some(p) == resumed) {
+            continue;
+        }
+        let (name, part) = (path.display(), part.display());
+        cli::warn(&if written {
+            format!("another dem-run is writing {name} ({part}): the later of the two to end will replace the other")
+        } else {
+            format!(
+                "{part} was left by a run that did not end: --resume {part} goes on from it, dem-view shows it; remove it when \
+                 you do not need it"
+            )
+        });
+    }
+}
+
+/// What `--resume FILE` means: the file, or, where there is none, the part that a run of this name has left.
+///
+/// # Errors
+/// Several parts.
+pub fn resumed(source: &Source) -> anyhow::Result<Source> {
+    let Some(path) = source.path().filter(|path| !path.exists()) else { return Ok(source.clone()) };
+    let parts: Vec<PathBuf> = cli::parts_of(path).into_iter().map(|part| part.0).collect();
+    match &parts[..] {
+        [] => Ok(source.clone()),
+        [part] => {
+            cli::warn(&format!("{source} is not there; going on from {}, which its run has left", part.display()));
+            Ok(Source::File(part.clone()))
+        }
+        _ => {
+            let names: Vec<String> = parts.iter().map(|part| part.display().to_string()).collect();
+            anyhow::bail!("--resume {source}: is not there, but {}: name one of them", names.join(", "))
+        }
+    }
+}
+
+/// How far the part of a run that failed is of use.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Saved {
+    /// Time of the last frame or checkpoint in it [s].
+    pub time: f64,
+    /// Whether it has a checkpoint of its own.
+    pub resumes: bool,
+}
+
+/// What a run that fails says of the part that it leaves.
+pub fn leaves(error: anyhow::Error, part: Option<&Path>, saved: Saved) -> anyhow::Error {
+    let Some(part) = part else { return error };
+    let (part, time) = (part.display(), geom::Shown(saved.time));
+    let use_of = if saved.resumes { format!("--resume {part} goes on from it") } else { "dem-view shows it".to_owned() };
+    error.context(format!("the run until t = {time} s is kept in {part} ({use_of})"))
+}
