@@ -8,11 +8,11 @@
 //! P [m] distance of the centres, r_i, r_j [m] radii, ζ [m] depth of the dent: from the line that touches both
 //! spheres on the flow side to the point where the spheres meet on that side. Japanese patent JP6939487B2. Valid for 0 < ζ ≤ P/2.
 //!
-//! Solved for ζ, (1) has a closed form: with a = (r_i − r_j)/P the tilt of the tangent, x = (P² + r_i² − r_j²)/2P and
-//! h = √(r_i² − x²) the meeting point,
+//! Solved for ζ, (1) has a closed form: with a = (r_i − r_j)/P the tilt of the tangent and S = r_i + r_j, r_i − a x − √(1 − a²) h is,
+//! for the meeting point x = (P² + r_i² − r_j²)/2P, h = √(r_i² − x²), without the difference of two near numbers,
 //!
 //! ```text
-//! ζ = r_i − a x − √(1 − a²) h
+//! ζ = (1 − a²) P² / 2 (S + √(S² − P²))
 //! ```
 //!
 //! Solved for one half chord t = √(2 r_j ζ − ζ²), the other one s being known, it is
@@ -54,11 +54,10 @@ pub fn dent(r_i: f64, r_j: f64, p: f64) -> f64 {
     // Without branches and with one root, so that the compiler does several pairs at once.
     let (sum, difference, per) = (r_i + r_j, r_i - r_j, 1.0 / p);
     let a = difference * per;
-    let x = 0.5 * (p + sum * a);
-    let square = (1.0 - a) * (1.0 + a) * ((r_i - x) * (r_i + x));
+    let square = (sum - p) * (sum + p);
     let root = if square > 0.0 { square } else { 0.0 }.sqrt();
-    let gap = if p > sum { p - sum } else { 0.0 };
-    let meeting = r_i - a * x - root + gap;
+    let (meets, gap) = if p > sum { (sum, p - sum) } else { (p, 0.0) };
+    let meeting = 0.5 * (1.0 - a) * (1.0 + a) * meets * (meets / (sum + root)) + gap;
     if a.abs() >= 1.0 { p * (1.0 - a.abs()) } else { meeting }
 }
 
@@ -176,6 +175,20 @@ mod tests {
             let zeta = dent(r_i, r_j, p);
             assert!(zeta > 0.0 && residual(r_i, r_j, zeta, p).abs() < 1e-9, "{r_i} {r_j} {p}: {zeta}");
             assert!((dent(r_j, r_i, p) - zeta).abs() < 1e-12, "the same from both sides");
+        }
+    }
+
+    #[test]
+    fn dents_are_exact_however_shallow() {
+        for share in [1e-300, 1e-100, 1e-15, 1e-9, 1e-4, 0.1, 0.5] {
+            let (p, zeta) = (0.01, 0.01 * share);
+            let r = radius(p, zeta).unwrap();
+            // Where √(S² − P²) is small, it is what is left of two near numbers.
+            let exact = if share < 0.4 { 1e-14 } else { 1e-7 };
+            if share >= 1e-15 {
+                assert!((dent(r, r, p) / zeta - 1.0).abs() < exact, "ζ/P = {share}: {}", dent(r, r, p));
+            }
+            assert!(dent(r, r, p) >= 0.0 && dent(r, r, p).is_finite(), "ζ/P = {share}");
         }
     }
 

@@ -8,11 +8,15 @@
 //! size passes between them (Apollonius' circle). The voids are the corners of the Voronoi cells of [`crate::star`];
 //! what is wider than the largest of these cannot be told from the wall's outline. Along the outline, three points may lie
 //! nearly in a row, and the sphere that touches them stands outside: a gap whose centre lies beyond an edge of the outline, or
-//! that opens to it as wide as the particle, is a notch of the rim and not a leak.
+//! that opens to it as wide as the particle, is a notch of the rim and not a leak. Where the centre lies beyond any edge of the three,
+//! the void goes on there and is wider: the three beyond it tell its width, or it is open to the rim.
 
 use geom::Vec3;
 use rayon::prelude::*;
 use serde::Serialize;
+
+/// A centre so little beyond a side, as a share, lies on it [–].
+const ON_SIDE: f64 = 1e-9;
 
 /// The widest gap of a wall.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -93,13 +97,19 @@ pub fn gap(centres: &[Vec3], radii: &[f64], triangle: &[u32; 3]) -> Option<Gap> 
         let both = [(-k1 - root) / k2, (-k1 + root) / k2];
         both.into_iter().filter(|&x| x > 0.0).fold(f64::INFINITY, f64::min)
     };
+    let (x, y) = (x0 + x1 * rho, y0 + y1 * rho);
+    // Place among the three by its shares of p, q, s; a right angle has its middle on the longest side.
+    let (of_s, of_q) = (y / height, (x - b * y / height) / a);
+    if of_s.min(of_q).min(1.0 - of_s - of_q) < -ON_SIDE {
+        return None;
+    }
     // No place between the points is farther from all three than the centre of their circle: beyond it, the sphere
     // touches the three from outside.
-    let y = (b * b + height * height - a * b) / (2.0 * height);
-    let circle = (0.25 * a * a + y * y).sqrt();
+    let middle = (b * b + height * height - a * b) / (2.0 * height);
+    let circle = (0.25 * a * a + middle * middle).sqrt();
     if rho + r0.min(r1).min(r2) > circle * (1.0 + 1e-9) {
         return None;
     }
-    let at = p + u * (x0 + x1 * rho) + v / height * (y0 + y1 * rho);
+    let at = p + u * x + v / height * y;
     (rho.is_finite() && rho > 0.0).then(|| Gap { diameter: 2.0 * rho, at: at.into() })
 }

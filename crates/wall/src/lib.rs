@@ -89,7 +89,9 @@ pub enum WallError {
         "points {first} and {second} at ({x}, {y}, {z}) m are the same place: sample the cloud first, e.g. with bluenoise-sample"
     )]
     Duplicate { first: u32, second: u32, x: f64, y: f64, z: f64 },
-    #[error("roughness {roughness} m: must be positive and at most half the distance of neighbours")]
+    #[error(
+        "roughness {roughness:?} m: must be positive, at most half the distance of neighbours, and not so small that the radius, their distance squared over 8 times the roughness, is no number"
+    )]
     NotPositive { roughness: f64 },
     #[error(
         "roughness {} m is more than half of the {which} {} m ({place}): no sphere has dents that deep; \

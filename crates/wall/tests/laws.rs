@@ -128,6 +128,39 @@ fn a_notch_of_the_rim_is_no_leak_and_a_hole_of_its_width_is() {
     assert!(leaks(corner + Vec3::new(0.05, 0.05, 0.0)) > 0);
 }
 
+/// Points that were eliminated leave a ragged rim, whose voids open outwards: no gap is reported there, and those inside are as
+/// wide as brute force finds them.
+#[test]
+fn no_gap_lies_beyond_the_rim_and_the_widest_inside_is_that_of_brute_force() {
+    let (side, big) = (0.15, 0.006);
+    let scan = shaken(180, 2.0 * side / 180.0, 0.01);
+    let amount = sampling::Amount::Count(900);
+    let wish = sampling::Wish { amount, method: sampling::Method::Eliminate, seed: 1 };
+    let kept = sampling::sample(&scan, None, &wish).unwrap().kept;
+    let points: Vec<Vec3> = kept.iter().map(|&k| scan[k as usize]).collect();
+    let stars = wall::star::stars(&points, 0.008);
+    let radii = vec![big; points.len()];
+    let (low, high) = points.iter().fold((points[0], points[0]), |(a, b), p| (a.inf(p), b.sup(p)));
+    let inside = |at: &[f64; 3]| (0..2).all(|k| at[k] > low[k] && at[k] < high[k]);
+    let gaps: Vec<_> = stars.triangles.iter().filter_map(|t| wall::leak::gap(&points, &radii, t)).collect();
+    let (widest, _) = wall::leak::widest(&points, &radii, &stars.triangles, &stars.outline, 0.002);
+    assert!(inside(&widest.unwrap().at), "{widest:?}");
+    let deep = |c: f64| (0.03..2.0 * side - 0.03).contains(&c);
+    let found =
+        gaps.iter().filter(|g| deep(g.at[0]) && deep(g.at[1])).map(|g| g.diameter).fold(0.0, f64::max);
+    let clear = |x: f64, y: f64| {
+        let nearest = points.iter().map(|p| (p.x - x).hypot(p.y - y)).fold(f64::INFINITY, f64::min);
+        2.0 * (nearest - big)
+    };
+    let step = 0.001;
+    let of = |k: u32| 0.03 + step * f64::from(k);
+    let steps = ((2.0 * side - 0.06) / step) as u32;
+    let brute = (0..steps).flat_map(|i| (0..steps).map(move |j| (i, j)));
+    let brute = brute.map(|(i, j)| clear(of(i), of(j))).fold(0.0, f64::max);
+    // A place of the grid is within half its diagonal of the best one.
+    assert!(brute <= found + 1e-12 && found - brute < 1.5 * step, "{found} m, by brute force {brute} m");
+}
+
 #[test]
 fn a_missing_sphere_is_found_as_the_widest_gap() {
     let mut points = lattice(12, 0.01);
