@@ -1,7 +1,7 @@
 //! Values that a key may have.
 
 use crate::error::{SceneError, ValueError, nearest};
-use crate::model::{Diameter, Drag, DragLaw, Model, OrAuto, Servo, Wall};
+use crate::model::{Diameter, Drag, DragLaw, Every, Model, OrAuto, Servo, Time, Wall};
 use crate::text::Text;
 use std::fmt::Display;
 
@@ -95,6 +95,21 @@ impl Check<'_> {
         }
     }
 
+    /// One of `accuracy`, `safety` and `dt` sets the step.
+    fn accuracy(&self, time: &Time) -> Checked {
+        let Some(accuracy) = time.accuracy else { return Ok(()) };
+        self.within("time.accuracy", accuracy.0, 1e-9, 1.0, "")?;
+        let shown = format!("{} %", geom::Shown(100.0 * accuracy.0));
+        let refuse = |other: String| {
+            Err(self.wrong("time.accuracy", &shown, &format!("{other} sets the step already"), "take one of them out"))
+        };
+        match (time.safety, time.dt) {
+            (Some(safety), _) => refuse(format!("safety = {safety}")),
+            (_, OrAuto::Given(dt)) => refuse(format!("dt = {dt} s")),
+            _ => Ok(()),
+        }
+    }
+
     /// Every value of a scene that can be judged by itself.
     pub(crate) fn model(&self, m: &Model) -> Checked {
         self.finite("gravity", &m.gravity, "m/s²")?;
@@ -102,8 +117,13 @@ impl Check<'_> {
         if let OrAuto::Given(dt) = m.time.dt {
             self.positive("time.dt", dt, "s")?;
         }
-        self.within("time.safety", m.time.safety, 1e-6, 1.0, "")?;
-        self.positive_if("output.every", m.output.every, "s")?;
+        if let Some(safety) = m.time.safety {
+            self.within("time.safety", safety, 1e-6, 1.0, "")?;
+        }
+        self.accuracy(&m.time)?;
+        if let Some(Every::Given(every)) = m.output.every {
+            self.positive("output.every", every, "s")?;
+        }
         self.positive_if("output.checkpoint", m.output.checkpoint, "s")?;
         self.positive_if("neighbours.skin", m.neighbours.skin, "m")?;
         m.drag.as_ref().map_or(Ok(()), |d| self.drag(d))?;

@@ -35,6 +35,8 @@ pub struct Fields {
     pub dt: f64,
     /// Critical time step [s].
     pub critical_dt: f64,
+    /// Which measured curve the time step relies on, when the scene asks for an accuracy.
+    pub chosen_by: Option<String>,
     /// The pair that limits it.
     pub limiting_pair: String,
     /// Steps of the run.
@@ -71,6 +73,7 @@ pub struct Effect {
 /// # Errors
 /// Whatever would keep the scene from running.
 pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained, RunError> {
+    let chosen = plan.step;
     let mut setup = plan.setup;
     let dropped = drop_idle(&mut setup);
     let limit = critical_step(&setup)?;
@@ -96,6 +99,7 @@ pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained, Ru
         wall_spheres: spheres.sum(),
         dt: schedule.dt,
         critical_dt: limit.dt,
+        chosen_by: chosen,
         limiting_pair: limit.pair,
         steps: schedule.last,
         effects: effects.collect(),
@@ -125,6 +129,9 @@ fn text(fields: &Fields) -> String {
         fields.dt / fields.critical_dt,
         fields.critical_dt
     );
+    if let Some(chosen) = &fields.chosen_by {
+        let _ = writeln!(out, "chosen by      {chosen}");
+    }
     let _ = writeln!(out, "limited by     {}", fields.limiting_pair);
     let _ = writeln!(out, "steps          {}", fields.steps);
     let _ = writeln!(out, "particles      {}, and {} wall spheres", fields.particles, fields.wall_spheres);

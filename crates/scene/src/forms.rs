@@ -1,6 +1,6 @@
 //! Values that may be written in two ways.
 
-use crate::model::{Diameter, Friction, OrAuto, Weakening};
+use crate::model::{Accuracy, Diameter, Every, Friction, OrAuto, Weakening};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 use std::fmt;
@@ -34,6 +34,63 @@ impl Visitor<'_> for OrAutoVisitor {
         } else {
             Err(E::invalid_value(serde::de::Unexpected::Str(v), &self))
         }
+    }
+}
+
+struct EveryVisitor;
+
+impl<'de> Deserialize<'de> for Every {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Every, D::Error> {
+        from.deserialize_any(EveryVisitor)
+    }
+}
+
+impl Visitor<'_> for EveryVisitor {
+    type Value = Every;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a time in seconds, such as 0.01, or \"step\"")
+    }
+
+    fn visit_f64<E: Error>(self, v: f64) -> Result<Every, E> {
+        Ok(Every::Given(v))
+    }
+
+    fn visit_i64<E: Error>(self, v: i64) -> Result<Every, E> {
+        Ok(Every::Given(v as f64))
+    }
+
+    fn visit_str<E: Error>(self, v: &str) -> Result<Every, E> {
+        if v == "step" { Ok(Every::Step) } else { Err(E::invalid_value(serde::de::Unexpected::Str(v), &self)) }
+    }
+}
+
+struct AccuracyVisitor;
+
+impl<'de> Deserialize<'de> for Accuracy {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Accuracy, D::Error> {
+        from.deserialize_any(AccuracyVisitor)
+    }
+}
+
+impl Visitor<'_> for AccuracyVisitor {
+    type Value = Accuracy;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a share such as \"1%\" or 0.01")
+    }
+
+    fn visit_f64<E: Error>(self, v: f64) -> Result<Accuracy, E> {
+        Ok(Accuracy(v))
+    }
+
+    fn visit_i64<E: Error>(self, v: i64) -> Result<Accuracy, E> {
+        Ok(Accuracy(v as f64))
+    }
+
+    fn visit_str<E: Error>(self, v: &str) -> Result<Accuracy, E> {
+        let share = v.trim().strip_suffix('%').and_then(|v| v.trim().parse::<f64>().ok());
+        share.map(|s| Accuracy(s / 100.0)).ok_or_else(|| E::invalid_value(serde::de::Unexpected::Str(v), &self))
     }
 }
 

@@ -1,5 +1,6 @@
 //! The TOML scene: its keys, its checks, its defaults; what it calls for, which engine that makes, and the run.
 
+pub mod accuracy;
 mod bodies;
 mod check;
 pub mod checkpoint;

@@ -86,19 +86,23 @@ pub struct Time {
     /// Step.
     #[serde(default)]
     pub dt: OrAuto,
-    /// Share of the critical step when `dt` is "auto" [–].
-    #[serde(default = "safety")]
-    pub safety: f64,
+    /// Share of the critical step when `dt` is "auto" [–]; absent: [`SAFETY`], or what `accuracy` needs.
+    pub safety: Option<f64>,
+    /// Largest error of an impact, for which the step is chosen [–].
+    pub accuracy: Option<Accuracy>,
 }
+
+/// Share of the critical step when the scene says nothing [–].
+pub const SAFETY: f64 = 0.5;
+
+/// A share: `"1%"`, or 0.01.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Accuracy(pub f64);
 
 impl Default for Time {
     fn default() -> Time {
-        Time { until: None, dt: OrAuto::Auto, safety: safety() }
+        Time { until: None, dt: OrAuto::Auto, safety: None, accuracy: None }
     }
-}
-
-fn safety() -> f64 {
-    0.5
 }
 
 /// A number, or "auto".
@@ -115,8 +119,8 @@ pub enum OrAuto {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Output {
-    /// Time between frames [s]; absent: a hundredth of the run.
-    pub every: Option<f64>,
+    /// Time between frames; absent: a hundredth of the run.
+    pub every: Option<Every>,
     /// Time between checkpoints [s]; absent: one at the end.
     pub checkpoint: Option<f64>,
     /// Whether the force on each wall is written with each frame; walls that follow a force always tell.
@@ -144,6 +148,15 @@ impl Default for Output {
             precision: Precision::F64,
         }
     }
+}
+
+/// Time between frames.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Every {
+    /// One at every step.
+    Step,
+    /// As given [s].
+    Given(f64),
 }
 
 /// Type of the numbers in frames; checkpoints and crossings are always exact.

@@ -18,6 +18,8 @@ use std::path::PathBuf;
 pub struct Plan {
     /// For the engine.
     pub setup: Setup,
+    /// Which measured curve the time step relies on, when the scene asks for an accuracy.
+    pub step: Option<String>,
     /// Faucets and inlet streams.
     pub(crate) feeds: Feeds,
     /// What was left out or overruled, for the user to know.
@@ -248,6 +250,7 @@ impl<'a> Draft<'a> {
         let largest = sizes.map_or(0.0, |s| s.largest);
         let contacts = contacts::resolve(&self.check, &model.contact, &self.materials, largest)?;
         let contacts = self.meeting(contacts);
+        let (safety, step) = crate::accuracy::choose(&self.check, &model.time, &contacts)?;
         // The engine wants a density of every material, also of walls, whose mass plays no part.
         self.materials.iter_mut().filter(|m| m.density == 0.0).for_each(|m| m.density = NO_DENSITY);
         self.entry_materials.sort_unstable();
@@ -268,7 +271,7 @@ impl<'a> Draft<'a> {
             smallest_entry: entries.map_or(0.0, |s| s.smallest),
             entry_materials: self.entry_materials,
             step: match model.time.dt {
-                OrAuto::Auto => Step::Auto(model.time.safety),
+                OrAuto::Auto => Step::Auto(safety),
                 OrAuto::Given(dt) => Step::Fixed(dt),
             },
             precision: match model.precision {
@@ -287,7 +290,7 @@ impl<'a> Draft<'a> {
                 energy: model.guards.energy.unwrap_or(Guards::default().energy),
             },
         };
-        Ok(Plan { setup, feeds: self.feeds, notes: self.notes, inputs: self.inputs, sizes })
+        Ok(Plan { setup, step, feeds: self.feeds, notes: self.notes, inputs: self.inputs, sizes })
     }
 }
 

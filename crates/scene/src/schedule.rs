@@ -3,6 +3,7 @@
 //! The time step is never changed to hit a time: frame k is the step nearest to k · every / Δt.
 
 use crate::error::SceneError;
+use crate::model::Every;
 use crate::scene::Scene;
 
 /// Steps of a run.
@@ -28,7 +29,11 @@ impl Schedule {
             return Err(check.wrong("time.until", "(nothing)", "the end of the run is missing", cure));
         };
         let output = &scene.model.output;
-        let every = output.every.unwrap_or((until / 100.0).max(dt));
+        let every = match output.every {
+            None => (until / 100.0).max(dt),
+            Some(Every::Step) => dt,
+            Some(Every::Given(every)) => every,
+        };
         for (key, value) in [("output.every", Some(every)), ("output.checkpoint", output.checkpoint)] {
             if value.is_some_and(|v| v < dt) {
                 let value = format!("{} s", value.unwrap_or(0.0));

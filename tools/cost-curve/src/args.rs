@@ -45,13 +45,13 @@ pub struct Args {
     #[arg(long, value_name = "VALUE", conflicts_with = "laboratory", help_heading = "Judging")]
     pub exact: Option<f64>,
     /// A value from a laboratory, and the half width of its 95 % interval
-    #[arg(long, value_name = "VALUE[,U]", value_parser = laboratory, help_heading = "Judging")]
+    #[arg(long, value_name = "VALUE[,U]", value_parser = laboratory, allow_hyphen_values = true, help_heading = "Judging")]
     pub laboratory: Option<(f64, f64)>,
     /// The setting in use of what the scene does not say, such as a {KEY} (repeat)
     #[arg(long, value_name = "KEY=V", help_heading = "Judging")]
     pub in_use: Vec<String>,
     /// Recommend the fastest setting with no more error: a share (1%), or in the unit of the measure (default 1%)
-    #[arg(long = "for", value_name = "ERROR", value_parser = wanted, help_heading = "Judging")]
+    #[arg(long = "for", value_name = "ERROR", value_parser = wanted, allow_hyphen_values = true, help_heading = "Judging")]
     pub wanted: Option<Wanted>,
     /// How a profile becomes one number
     #[arg(long, value_enum, default_value_t = Norm::Rms, help_heading = "Judging")]

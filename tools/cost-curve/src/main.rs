@@ -60,7 +60,8 @@ fn write(file: &Path, bytes: &[u8]) -> anyhow::Result<()> {
 
 fn print_commands(open: &[&Job], runs: usize) -> anyhow::Result<Report> {
     let line = |job: &&Job| {
-        let script = quoted(&job.file("run.sh").display().to_string());
+        let script = job.file("run.sh");
+        let script = quoted(&std::path::absolute(&script).unwrap_or(script).display().to_string());
         format!("bash {script}  # {}\n", job.dem_run())
     };
     write(Path::new("-"), open.iter().map(line).collect::<String>().as_bytes())?;

@@ -1,0 +1,144 @@
+//! The time step that an accuracy asks for: `accuracy = "1%"` in `[time]`.
+//!
+//! ```text
+//! ln safety = interpolated between the measured points (ln error, ln safety) of the law, at 0.9 of the error asked for
+//! ```
+//!
+//! The curve of each normal law was measured with this engine (`data/impact-error.csv` says how, and `make -C pipelines
+//! accuracy` measures it again): the largest error in the restitution of a head-on impact of two equal spheres, over where in
+//! a step the contact begins, over restitutions, and, where stiffness grows with depth, at an impact nearly as deep as
+//! the guard lets it be, over the share of the critical step. Gentler impacts last longer, and friction makes the critical step
+//! shorter: both are resolved better at the same share. The tenth is kept for what lies between the points. What many grains do together may need more or less: cost-curve
+//! measures that.
+
+use crate::check::Check;
+use crate::error::SceneError;
+use crate::model::{Accuracy, SAFETY, Time};
+use dem::setup::{Contact, Law};
+
+/// The measured curves.
+const CURVES: &str = include_str!("../data/impact-error.csv");
+/// Share of the error asked for that is aimed at: the curves were measured at some phases of a step, not at all.
+const AIM: f64 = 0.9;
+/// Where they are, for people.
+const FILE: &str = "crates/scene/data/impact-error.csv";
+
+/// A point of a curve: share of the critical step [–], error [–].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measured {
+    /// Share of the critical step [–].
+    pub safety: f64,
+    /// Largest error of the restitution at this share or a smaller one [–].
+    pub error: f64,
+}
+
+/// The measured curve of a law ("hooke", "hertz", "jkr"), from small steps to large ones.
+pub fn curve(law: &str) -> Vec<Measured> {
+    let mut points: Vec<Measured> = Vec::new();
+    for line in CURVES.lines() {
+        let mut cells = line.split(',');
+        if cells.next() != Some(law) {
+            continue;
+        }
+        let mut number = || cells.next().and_then(|cell| cell.trim().parse::<f64>().ok());
+        if let Some((safety, error)) = number().zip(number()) {
+            points.push(Measured { safety, error });
+        }
+    }
+    points.sort_by(|a, b| a.safety.total_cmp(&b.safety));
+    // A larger step may happen to do better; nobody can rely on that.
+    let mut worst = 0.0;
+    for point in &mut points {
+        worst = point.error.max(worst);
+        point.error = worst;
+    }
+    points
+}
+
+/// The largest share of the critical step whose error is not above `wanted`; `None` when no measured one is.
+pub fn safety(curve: &[Measured], wanted: f64) -> Option<f64> {
+    let good = curve.iter().rposition(|p| p.error <= wanted)?;
+    let (a, Some(b)) = (curve.get(good)?, curve.get(good + 1)) else { return curve.last().map(|p| p.safety) };
+    if a.error <= 0.0 {
+        return Some(a.safety);
+    }
+    let share = libm::log(wanted / a.error) / libm::log(b.error / a.error);
+    Some(a.safety * libm::exp(share * libm::log(b.safety / a.safety)))
+}
+
+/// The share of the critical step that a scene asks for, and on which curve it relies, when it asks for an accuracy.
+///
+/// # Errors
+/// An accuracy that no measured step reaches.
+pub(crate) fn choose(
+    check: &Check,
+    time: &Time,
+    contacts: &[Contact],
+) -> Result<(f64, Option<String>), SceneError> {
+    let Some(Accuracy(wanted)) = time.accuracy else { return Ok((time.safety.unwrap_or(SAFETY), None)) };
+    let mut best: Option<(f64, &str)> = None;
+    for law in laws(contacts) {
+        let measured = curve(law);
+        let Some(safety) = safety(&measured, AIM * wanted) else {
+            let (least, at) = measured.first().map_or((f64::NAN, f64::NAN), |p| (p.error / AIM, p.safety));
+            let why = format!(
+                "is less than any measured step reaches with law \"{law}\": {} at {at} of the critical step",
+                percent(least)
+            );
+            let cure = format!("ask for {} or more, or give time.safety below {at} instead", percent(least));
+            return Err(check.wrong("time.accuracy", percent(wanted), &why, &cure));
+        };
+        if best.is_none_or(|(least, _)| safety < least) {
+            best = Some((safety, law));
+        }
+    }
+    // Nothing ever touches: any step is as exact.
+    let Some((safety, law)) = best else { return Ok((SAFETY, None)) };
+    let text = format!(
+        "time.accuracy {}: safety {}, from the measured error of an impact with law \"{law}\" ({FILE})",
+        percent(wanted),
+        geom::Shown(safety)
+    );
+    Ok((safety, Some(text)))
+}
+
+fn percent(share: f64) -> String {
+    format!("{} %", geom::Shown(100.0 * share))
+}
+
+/// Names of the normal laws in force, each once.
+fn laws(contacts: &[Contact]) -> Vec<&'static str> {
+    let name = |c: &Contact| match c.law {
+        Law::Hertz => "hertz",
+        Law::Jkr { .. } => "jkr",
+        _ => "hooke",
+    };
+    let mut all: Vec<&str> = contacts.iter().map(name).collect();
+    all.sort_unstable();
+    all.dedup();
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn between_measured_points_it_is_interpolated() {
+        let point = |safety, error| Measured { safety, error };
+        let curve = [point(0.01, 1e-4), point(0.1, 1e-2), point(0.8, 0.3)];
+        assert!((safety(&curve, 1e-3).unwrap() - 0.1f64.powf(1.5)).abs() < 1e-12);
+        assert_eq!(safety(&curve, 1e-2), Some(0.1));
+        assert_eq!(safety(&curve, 0.5), Some(0.8));
+        assert_eq!(safety(&curve, 1e-5), None);
+    }
+
+    #[test]
+    fn every_law_has_a_curve_that_only_rises() {
+        for law in ["hooke", "hertz", "jkr"] {
+            let curve = curve(law);
+            assert!(curve.len() >= 5, "{law}: {curve:?}");
+            assert!(curve.windows(2).all(|w| w[0].safety < w[1].safety && w[0].error <= w[1].error));
+        }
+    }
+}

@@ -1,0 +1,354 @@
+//! cost-curve from outside: a small grid, an interrupted sweep, a changed scene, repeats, what is refused; and the step that an
+//! accuracy asks for.
+
+use grainpipe_tests::tools::{Done, program, succeed, tool};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::Duration;
+use tempfile::{TempDir, tempdir};
+
+/// A ball that falls 10 cm: z = z₀ − g t²/2 whatever the step; a ball that hits the floor: its speed depends on the step.
+const DROP: &str = r#"
+gravity = [0, 0, -9.81]
+[time]
+until = 0.16
+safety = 0.5
+[output]
+every = 0.02
+contacts = true
+[[material]]
+name = "stone"
+density = 2500
+young = 1e7
+poisson = 0.25
+[[contact]]
+between = ["*", "*"]
+law = "hooke"
+stiffness = 1e4
+restitution = 0.5
+[[particles]]
+source = "ball.csv"
+material = "stone"
+[[wall]]
+plane = "0,0,0,0,0,1"
+material = "stone"
+"#;
+
+const IMPACT: [&str; 6] = ["--set", "output.every=0.0004", "--measure", "restitution", "--exact", "0.5"];
+
+fn folder(scene: &str) -> TempDir {
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("s.toml"), scene).unwrap();
+    fs::write(folder.path().join("ball.csv"), "id,x,y,z,radius,vz\n0,0,0,0.055,0.005,-1\n").unwrap();
+    folder
+}
+
+fn curve(folder: &TempDir, options: &[&str]) -> Done {
+    succeed(folder.path(), "cost-curve", &[&["s.toml"], options].concat())
+}
+
+fn refused(folder: &TempDir, options: &[&str], code: i32) -> String {
+    let done = tool(folder.path(), "cost-curve", &[&["s.toml"], options].concat());
+    assert_eq!(done.code, code, "{options:?}: {}", done.stderr);
+    done.stderr
+}
+
+/// Cells of a column of the CSV; cells in quotes stay whole.
+fn column(done: &Done, name: &str) -> Vec<String> {
+    let text = String::from_utf8_lossy(&done.stdout).into_owned();
+    let cells = |line: &str| {
+        let (mut list, mut quoted) = (vec![String::new()], false);
+        for c in line.chars() {
+            match c {
+                '"' => quoted = !quoted,
+                ',' if !quoted => list.push(String::new()),
+                c => list.last_mut().unwrap().push(c),
+            }
+        }
+        list
+    };
+    let mut lines = text.lines();
+    let heads = cells(lines.next().unwrap());
+    let at = heads
+        .iter()
+        .position(|h| h.split(' ').next() == Some(name))
+        .unwrap_or_else(|| panic!("{name} in {heads:?}"));
+    lines.map(|line| cells(line)[at].clone()).collect()
+}
+
+fn numbers(done: &Done, name: &str) -> Vec<f64> {
+    column(done, name).iter().map(|cell| cell.parse().unwrap_or(f64::NAN)).collect()
+}
+
+#[test]
+fn a_small_grid_gives_errors_a_plot_words_and_a_recommended_setting() {
+    let folder = folder(DROP);
+    let files = ["-o", "x.svg", "--words", "w.md", "--report", "r.json", "--work", "steps"];
+    let done =
+        curve(&folder, &[&IMPACT[..], &["--vary", "safety=0.02,0.1,0.5", "--for", "3%"], &files].concat());
+    let errors = numbers(&done, "error");
+    assert!(errors[0] < errors[2] && errors[2] < 0.2, "{errors:?}");
+    let steps = numbers(&done, "steps_per_second");
+    assert!((steps[0] / steps[2] - 25.0).abs() < 0.1, "{steps:?}");
+    let marks = column(&done, "mark");
+    // The truth of the recommendation is worked out here again: the fewest steps with an error of at most 3 %.
+    let good = (0..3).rev().find(|k| errors[*k] <= 0.03).unwrap();
+    assert!(marks[good].contains("recommended") && marks[2].contains("in-use"), "{marks:?} {errors:?}");
+    assert!(fs::read_to_string(folder.path().join("x.svg")).unwrap().contains("<svg"));
+    let words = fs::read_to_string(folder.path().join("w.md")).unwrap();
+    assert!(
+        words.contains("safety ÷ 25 (0.02) leaves") && words.contains("takes 25 times the steps"),
+        "{words}"
+    );
+    let report: Value = serde_json::from_slice(&fs::read(folder.path().join("r.json")).unwrap()).unwrap();
+    assert_eq!((report["runs"].as_u64(), report["kept"].as_u64()), (Some(3), Some(0)));
+    assert_eq!(report["in_use"]["safety"], "0.5");
+    let again = curve(
+        &folder,
+        &[&IMPACT[..], &["--vary", "safety=0.02,0.1,0.5", "--work", "steps", "-o", "x.png"]].concat(),
+    );
+    assert!(again.stderr.contains("3 of them made before"), "{}", again.stderr);
+    assert_eq!(numbers(&again, "error"), errors);
+    assert!(fs::read(folder.path().join("x.png")).unwrap().starts_with(b"\x89PNG"));
+}
+
+#[test]
+fn finished_points_are_used_changed_ones_made_again_and_lines_can_be_spread() {
+    let folder = folder(DROP);
+    let vary = ["--vary", "safety=0.1,0.3,0.5", "--dir", "points"];
+    let options = [&IMPACT[..], &vary].concat();
+    let listed = curve(&folder, &[&options[..], &["--print-commands"]].concat());
+    let lines: Vec<String> = String::from_utf8_lossy(&listed.stdout).lines().map(str::to_owned).collect();
+    assert_eq!(lines.len(), 3);
+    assert!(lines[0].contains("# dem-run s.toml") && lines[0].contains("--set time.safety=0.1"), "{lines:?}");
+    // One point by another hand, one that was killed while it ran: its folder is there, and nothing says that it is whole.
+    let status = Command::new("bash").args(["-c", &lines[0]]).current_dir("/").status();
+    assert!(status.unwrap().success());
+    fs::write(folder.path().join("points/safety=0.3/run.mcap"), "half a run").unwrap();
+    let done = curve(&folder, &options);
+    assert!(done.stderr.contains("3 runs, 1 of them made before"), "{}", done.stderr);
+    // Another scene: nothing of it is taken.
+    fs::write(folder.path().join("s.toml"), DROP.replace("restitution = 0.5", "restitution = 0.6")).unwrap();
+    let done = curve(&folder, &options);
+    assert!(done.stderr.contains("3 of 3 runs there were made from another scene"), "{}", done.stderr);
+    assert!(done.stderr.contains("3 runs, 0 of them made before"), "{}", done.stderr);
+    // And other particles, though the scene is the same.
+    fs::write(folder.path().join("ball.csv"), "id,x,y,z,radius,vz\n0,0,0,0.056,0.005,-1\n").unwrap();
+    let done = curve(&folder, &options);
+    assert!(done.stderr.contains("3 of 3 runs there were made from another scene"), "{}", done.stderr);
+}
+
+#[test]
+fn an_interrupted_sweep_goes_on_from_where_it_was() {
+    let folder = folder(DROP);
+    let options =
+        [&["s.toml"], &IMPACT[..], &["--vary", "safety=0.1,0.3,0.5", "--rounds", "100", "-q"]].concat();
+    let mut command = Command::new(program("cost-curve"));
+    command.args(&options).current_dir(folder.path()).stdout(Stdio::null()).stderr(Stdio::piped());
+    let child = command.spawn().unwrap();
+    let first = folder.path().join("cost-curve.points/safety=0.1/made");
+    while !first.exists() {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    assert!(Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap().success());
+    let done: Done = child.wait_with_output().unwrap().into();
+    assert_eq!(done.code, 1, "{}", done.stderr);
+    assert!(
+        done.stderr.contains("of 300 runs were made: the same line goes on from there"),
+        "{}",
+        done.stderr
+    );
+    let options =
+        [&IMPACT[..], &["--vary", "safety=0.1,0.3,0.5", "--rounds", "2", "--report", "r.json"]].concat();
+    curve(&folder, &options);
+    let report: Value = serde_json::from_slice(&fs::read(folder.path().join("r.json")).unwrap()).unwrap();
+    assert!(report["kept"].as_u64() >= Some(1) && report["runs"] == 6, "{report}");
+}
+
+#[test]
+fn repeats_have_an_interval_and_blanks_are_filled_before_the_run() {
+    let scene = DROP
+        .replace("source = \"ball.csv\"", "source = \"ball-{n}.csv\"")
+        .replace("[[particles]]", "[[fill]]");
+    let fill = "shape = \"box:0,0,0.01,0.1,0.1,0.05\"\ndiameter = [0.004, 0.01]\ncount = 20\n";
+    let scene =
+        scene.replace("source = \"ball-{n}.csv\"\n", fill).replace("[output]\n", "[output]\nenergy = true\n");
+    let folder = folder(&scene);
+    let options = ["--vary", "safety=0.1,0.5", "--measure", "bed-height --ground 0", "--repeat", "3"];
+    let done = curve(&folder, &options);
+    let (intervals, seeds) = (numbers(&done, "value_interval"), numbers(&done, "seeds"));
+    assert_eq!(seeds, [3.0, 3.0]);
+    assert!(intervals.iter().all(|i| *i > 0.0), "other seeds, other heaps: {intervals:?}");
+    assert!(folder.path().join("cost-curve.points/safety=0.1,seed=2/run.mcap").exists());
+    // A line of the shell makes the input, here the scene's own particles as an input that names them.
+    fs::write(folder.path().join("a.csv"), "id,x,y,z,radius,vz\n0,0,0,0.055,0.005,-1\n").unwrap();
+    let done = tool(
+        folder.path(),
+        "cost-curve",
+        &[
+            "s.toml",
+            "--vary",
+            "count=1,2",
+            "--each",
+            "echo {count} {left}",
+            "--measure",
+            "bed-height",
+            "--exact",
+            "1",
+        ],
+    );
+    assert!(done.code == 2 && done.stderr.contains("nothing fills {left}: vary left"), "{}", done.stderr);
+    let options = [
+        "--vary",
+        "count=1,2",
+        "--each",
+        "echo {count} >&2; false",
+        "--measure",
+        "bed-height",
+        "--exact",
+        "1",
+    ];
+    let why = refused(&folder, &options, 1);
+    assert!(why.contains("no point can be run: count 1: --each: 1"), "{why}");
+}
+
+#[test]
+fn a_point_that_cannot_run_is_told_and_the_rest_is_judged() {
+    let folder = folder(DROP);
+    let vary = ["--vary", "dt=1e-5,1e-2", "--reference", "dt=1e-5"];
+    let done = curve(&folder, &[&IMPACT[..4], &vary].concat());
+    let (state, why) = (column(&done, "state"), column(&done, "why"));
+    assert_eq!(state[..2], ["done", "failed"], "{state:?}");
+    assert!(why[1].contains("0.01") || why[1].contains("1e-2") || why[1].contains("1.0000e-2"), "{why:?}");
+    assert!(done.stderr.contains("cannot be run: dem-run:"), "{}", done.stderr);
+}
+
+#[test]
+fn what_is_wrong_is_refused_before_anything_runs() {
+    let folder = folder(DROP);
+    let vary = ["--vary", "safety=0.1,0.5"];
+    let with = |more: &[&str]| refused(&folder, &[&vary[..], more].concat(), 2);
+    assert!(with(&["--measure", "heap-angel"]).contains("did you mean 'heap-angle'?"));
+    assert!(with(&["--measure", "restitution", "-o", "x.pdf"]).contains("must end in .svg or .png"));
+    assert!(with(&["--measure", "restitution", "--repeat", "3"]).contains("chance plays no part in s.toml"));
+    assert!(with(&["--measure", "restitution", "--for", "-1%"]).contains("give a share such as 1%"));
+    assert!(with(&["--measure", "restitution", "--laboratory", "a,b"]).contains("half width"));
+    assert!(with(&["--measure", "restitution", "--reference", "dt=1"]).contains("is not varied"));
+    let why = refused(&folder, &["--vary", "gravity=[0,0,-9],[0,0,-1]", "--measure", "restitution"], 2);
+    assert!(why.contains("say --reference gravity=[0,0,-9]"), "{why}");
+    let why =
+        refused(&folder, &["--vary", "time.saftey=0.1,0.5", "--measure", "restitution", "--exact", "1"], 1);
+    assert!(why.contains("unknown key 'saftey'; did you mean 'safety'?"), "{why}");
+    let why = refused(&folder, &["--vary", "safety=0.1,7", "--measure", "restitution"], 1);
+    assert!(why.contains("point safety=7") && why.contains("time.safety = 7"), "{why}");
+    let why = refused(
+        &folder,
+        &["--vary", "safety=0.5,0.6", "--measure", "angle of --impact", "--set", "output.every=4e-4"],
+        2,
+    );
+    assert!(why.contains("--impact has no 'angle': it has"), "{why}");
+    let why = refused(
+        &folder,
+        &[
+            "--vary",
+            "safety=0.5,0.6",
+            "--measure",
+            "restitution",
+            "--for",
+            "0.1",
+            "--set",
+            "output.every=4e-4",
+        ],
+        2,
+    );
+    assert!(why.contains("shares of it: give one such as 1%"), "{why}");
+}
+
+/// Pairs that meet head-on at 4.295 m/s, at other phases of a step than those that the curve was measured with.
+fn pairs(folder: &Path) {
+    let mut text = "id,x,y,z,radius,vx\n".to_owned();
+    for k in 0..60 {
+        let gap = 0.0003 + 0.002 * (0.1 + 0.754_877_666 * f64::from(k)).fract();
+        let (y, v) = (0.02 * f64::from(k), 4.295 / 2.0);
+        text += &format!(
+            "{},{:?},{y},0,0.005,{v}\n{},{:?},{y},0,0.005,{:?}\n",
+            2 * k,
+            -0.005 - gap / 2.0,
+            2 * k + 1,
+            0.005 + gap / 2.0,
+            -v
+        );
+    }
+    fs::write(folder.join("ball.csv"), text).unwrap();
+}
+
+/// Largest relative error of the restitution of those pairs, and the report of the run.
+fn impact_error(folder: &TempDir, accuracy: &str, restitution: f64) -> (f64, Value) {
+    pairs(folder.path());
+    let set = format!("time.accuracy={accuracy}");
+    let e = format!("contact.0.restitution={restitution}");
+    let arguments = ["s.toml", "--set", &set, "--set", &e, "-o", "run.mcap", "--report", "r.json"];
+    succeed(folder.path(), "dem-run", &arguments);
+    let done = succeed(folder.path(), "dem-measure", &["run.mcap", "--impact"]);
+    let found = numbers(&done, "restitution");
+    assert_eq!(found.len(), 60, "every pair meets once");
+    let worst = found.iter().map(|v| (v / restitution - 1.0).abs()).fold(0.0, f64::max);
+    (worst, serde_json::from_slice(&fs::read(folder.path().join("r.json")).unwrap()).unwrap())
+}
+
+/// The step that an accuracy asks for gives it, on the impact that its curve was measured with, at other phases.
+#[test]
+fn the_step_that_an_accuracy_picks_gives_it() {
+    let impact = DROP
+        .replace("gravity = [0, 0, -9.81]\n", "")
+        .replace("until = 0.16\nsafety = 0.5", "until = 0.0035")
+        .replace("every = 0.02", "every = \"step\"");
+    let impact = impact.split("[[wall]]").next().unwrap();
+    let hertz = impact.replace("law = \"hooke\"\nstiffness = 1e4\n", "");
+    for (law, scene) in [("hooke", impact), ("hertz", &hertz)] {
+        let folder = folder(scene);
+        for accuracy in [0.05, 0.01] {
+            for restitution in [0.1, 0.5, 0.9] {
+                let (error, report) = impact_error(&folder, &format!("{}%", 100.0 * accuracy), restitution);
+                println!("{law} {accuracy} e {restitution}: {error:.5}, {}", report["chosen_by"]);
+                assert!(error <= accuracy, "{law}, {accuracy}, e = {restitution}: {error}");
+                let why = report["chosen_by"].as_str().unwrap();
+                assert!(why.contains(law) && why.contains("impact-error.csv"), "{why}");
+            }
+        }
+        let (hit, _) = impact_error(&folder, "1%", 0.3);
+        assert!(hit > 0.003, "{law}: the step is not smaller than it needs to be: {hit}");
+    }
+}
+
+#[test]
+fn an_accuracy_is_explained_and_what_contradicts_it_is_refused() {
+    let folder = folder(&DROP.replace("safety = 0.5\n", "accuracy = \"2%\"\n"));
+    let done = succeed(folder.path(), "dem-run", &["s.toml", "--explain"]);
+    let text = String::from_utf8_lossy(&done.stdout).into_owned();
+    assert!(
+        text.contains("chosen by")
+            && text.contains("time.accuracy 2 %: safety 0.0")
+            && text.contains("hooke"),
+        "{text}"
+    );
+    let refuse = |set: &str| {
+        let done = tool(folder.path(), "dem-run", &["s.toml", "--set", set, "--check"]);
+        assert_eq!(done.code, 1, "{set}: {}", done.stderr);
+        done.stderr
+    };
+    let why = refuse("time.safety=0.2");
+    assert!(
+        why.contains("time.accuracy = 2 %: safety = 0.2 sets the step already; take one of them out"),
+        "{why}"
+    );
+    assert!(refuse("time.dt=1e-6").contains("dt = 0.000001 s sets the step already"));
+    assert!(
+        refuse("time.accuracy=\"0.0001%\"")
+            .contains("is less than any measured step reaches with law \"hooke\"")
+    );
+    assert!(refuse("time.accuracy=high").contains("expected a share such as \"1%\" or 0.01"));
+    assert!(refuse("time.accuracy=-1").contains("time.accuracy"));
+}
