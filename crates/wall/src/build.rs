@@ -13,7 +13,7 @@ const PRACTICAL: f64 = 0.8;
 const FAR_LARGER: f64 = 20.0;
 
 /// A length that is too large by less than this factor is meant to be equal.
-const ROUNDED: f64 = 1.0 + 1e-9;
+pub(crate) const ROUNDED: f64 = 1.0 + 1e-9;
 
 /// Wall spheres.
 #[derive(Debug, Clone, PartialEq)]

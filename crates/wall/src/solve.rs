@@ -12,6 +12,7 @@
 //! own and r̄, the one with the least sum. Visits go by colours (no two neighbours have one colour), so that
 //! points of a colour can be visited at once and the result does not depend on threads.
 
+use crate::build::ROUNDED;
 use crate::equation::{dent, partners};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -175,7 +176,7 @@ impl Changes {
         self.pairs_changed += (off > CHANGED * want) as usize;
         self.mean_change += off;
         self.largest_change = self.largest_change.max(off);
-        if p <= radii[i] + radii[j] && (radii[i] - radii[j]).abs() < p {
+        if p <= (radii[i] + radii[j]) * ROUNDED && (radii[i] - radii[j]).abs() < p {
             self.dents = [self.dents[0].min(dent), self.dents[1] + dent, self.dents[2].max(dent)];
         } else {
             self.pairs_apart += 1;
