@@ -1,0 +1,125 @@
+//! Clouds that are hardly one: each tool has a clear result, or a clear error.
+
+use grainpipe_tests::findings::{Case, case};
+use grainpipe_tests::tools::tool;
+use std::fs;
+use std::path::Path;
+use tempfile::tempdir;
+
+const CLEAR: Case = case(
+    "Walls of spheres",
+    "points that are double, on a line, in a plane, one, none, far off, in two close sheets: a result",
+);
+const REFUSED: Case =
+    case("Walls of spheres", "points that no wall can be made of: refused with place and reason");
+
+type Point = [f64; 3];
+
+fn surface(z: f64) -> Vec<Point> {
+    (0..400).map(|k| [0.01 * f64::from(k % 20), 0.01 * f64::from(k / 20), z]).collect()
+}
+
+/// Name and points of each cloud.
+fn clouds() -> Vec<(&'static str, Vec<Point>)> {
+    let with = |more: &[Point]| [surface(0.0), more.to_vec()].concat();
+    let line = |step: Point| (0..50).map(|k| step.map(|s| s * f64::from(k))).collect();
+    vec![
+        ("plane", surface(0.0)),
+        ("none", vec![]),
+        ("one", vec![[1.0, 2.0, 3.0]]),
+        ("two", vec![[0.0; 3], [0.01, 0.0, 0.0]]),
+        ("same", vec![[1.0, 2.0, 3.0]; 50]),
+        ("double", with(&surface(0.0)[..40])),
+        ("twice", with(&surface(0.0))),
+        ("line", line([0.01, 0.0, 0.0])),
+        ("tilted", line([0.01, 0.02, 0.005])),
+        ("nan", with(&[[f64::NAN, 0.0, 0.0]])),
+        ("inf", with(&[[0.0, f64::INFINITY, 0.0]])),
+        ("outlier", with(&[[1e9, 0.0, 0.0]])),
+        ("far", with(&[[1e300, 0.0, 0.0], [-1.7e308, 0.0, 0.0]])),
+        ("sheets", with(&surface(0.002))),
+    ]
+}
+
+/// Points that came out, or what was said.
+fn outcome(folder: &Path, words: &[&str]) -> Result<usize, String> {
+    let _ = fs::remove_file(folder.join("out.ply"));
+    let done = tool(folder, words[0], &[&words[1..], &["-o", "out.ply"]].concat());
+    assert!([0, 1].contains(&done.code), "{words:?}: {}", done.stderr);
+    assert!(!done.stderr.contains("panicked"), "{words:?}: {}", done.stderr);
+    if done.code != 0 {
+        assert!(!folder.join("out.ply").exists(), "{words:?} leaves a file");
+        return Err(done.stderr);
+    }
+    let bytes = fs::read(folder.join("out.ply")).unwrap();
+    let header = String::from_utf8_lossy(&bytes[..bytes.len().min(600)]).into_owned();
+    let count = header.lines().find_map(|l| l.strip_prefix("element vertex ")).expect("a count");
+    Ok(count.trim().parse().expect("a number"))
+}
+
+/// For each cloud: what cloud-crop, cloud-fill, bluenoise-sample by spacing and by count, and wallgen make of it, a number of points
+/// or words of the refusal.
+#[test]
+fn clouds_that_are_hardly_one() {
+    use std::ops::RangeInclusive;
+    type Expected = Result<RangeInclusive<usize>, &'static [&'static str]>;
+    let n = |n: usize| -> Expected { Ok(n..=n) };
+    let no = |words: &'static [&'static str]| -> Expected { Err(words) };
+    let empty: &[&str] = &["none.xyz", "nothing to read"];
+    let not_finite: &[&str] = &["point 400", "not finite", "cloud-crop"];
+    let too_far: &[&str] = &["point 400", "farther than", "cloud-crop"];
+    let table: [(&str, [Expected; 5]); 14] = [
+        ("plane", [n(400), n(400), Ok(200..=400), Ok(10..=10), n(400)]),
+        ("none", [no(empty), no(empty), no(empty), no(empty), no(empty)]),
+        ("one", [n(1), n(1), n(1), no(&["count 10", "only 1 points"]), no(&["1 points", "at least 2"])]),
+        ("two", [n(2), n(2), n(2), no(&["count 10", "only 2 points"]), n(2)]),
+        (
+            "same",
+            [n(50), n(50), n(1), no(&["count 10", "duplicates"]), no(&["same place", "bluenoise-sample"])],
+        ),
+        (
+            "double",
+            [
+                n(440),
+                n(440),
+                Ok(200..=400),
+                n(10),
+                no(&["points 0 and 400", "same place", "bluenoise-sample"]),
+            ],
+        ),
+        ("twice", [n(800), n(800), Ok(200..=400), n(10), no(&["same place", "bluenoise-sample"])]),
+        ("line", [n(50), n(50), Ok(30..=50), Ok(9..=10), n(50)]),
+        ("tilted", [n(50), n(50), n(50), Ok(9..=10), n(50)]),
+        ("nan", [n(400), n(400), no(not_finite), no(not_finite), no(not_finite)]),
+        ("inf", [n(400), n(400), no(not_finite), no(not_finite), no(not_finite)]),
+        ("outlier", [n(401), n(401), Ok(201..=401), n(10), n(401)]),
+        ("far", [n(402), n(402), no(too_far), no(too_far), no(too_far)]),
+        ("sheets", [n(800), n(800), Ok(200..=400), n(10), n(800)]),
+    ];
+    let folder = tempdir().unwrap();
+    let f = folder.path();
+    for ((name, points), (row, expected)) in clouds().into_iter().zip(table) {
+        assert_eq!(name, row);
+        let text: String = points.iter().map(|[x, y, z]| format!("{x:e} {y:e} {z:e}\n")).collect();
+        let file = format!("{name}.xyz");
+        fs::write(f.join(&file), text).unwrap();
+        let lines: [&[&str]; 5] = [
+            &["cloud-crop", &file],
+            &["cloud-fill", &file],
+            &["bluenoise-sample", &file, "--spacing", "0.01"],
+            &["bluenoise-sample", &file, "--count", "10"],
+            &["wallgen", &file, "--roughness", "0.001"],
+        ];
+        for (line, expected) in lines.iter().zip(expected) {
+            let on = line.join(" ");
+            match (outcome(f, line), expected) {
+                (Ok(found), Ok(range)) => {
+                    assert!(range.contains(&found), "{on}: {found} points, not {range:?}");
+                    CLEAR.within(&on, found as f64, "points", *range.end() as f64);
+                }
+                (Err(said), Err(words)) => REFUSED.refused(&on, &said, words),
+                (found, expected) => panic!("{on}: {found:?} instead of {expected:?}"),
+            }
+        }
+    }
+}
