@@ -76,32 +76,33 @@ fn turned(variant: &Variant, axis: Vec3, rate: f64, turns: f64) -> (f64, f64, u6
     (change, work, sim.steps() - begun)
 }
 
-/// About the axis of the cage, at three angles a step.
-fn turns_with_it(turns: f64, rates: &[f64]) {
-    for variant in variants() {
-        for &rate in rates {
-            let (change, work, steps) = turned(&variant, Vec3::z(), rate, turns);
-            let on = format!("{}, {rate} rad/s", variant.name());
-            if variant.mixed() {
-                MIXED.within(&on, change / steps as f64, "of the force a step", 1.2e-7);
-                continue;
-            }
-            TURNS.within(&on, change * 1000.0 / turns, "of the force", 1e-7);
-            WORK.within(&on, work * 1000.0 / turns, "of the energy in springs", 1e-7);
+/// About the axis of the cage, at some angle a step.
+fn turns_with_it(variants: &[Variant], turns: f64, rate: f64) {
+    for variant in variants {
+        let (change, work, steps) = turned(variant, Vec3::z(), rate, turns);
+        let on = format!("{}, {rate} rad/s", variant.name());
+        if variant.mixed() {
+            MIXED.within(&on, change / steps as f64, "of the force a step", 1.2e-7);
+            continue;
         }
+        TURNS.within(&on, change * 1000.0 / turns, "of the force", 1e-8);
+        WORK.within(&on, work * 1000.0 / turns, "of the energy in springs", 1e-7);
     }
 }
 
 #[test]
 fn a_loaded_grain_turns_with_its_partners() {
-    turns_with_it(10.0, &[20.0, 200.0]);
-    turns_with_it(300.0, &[1000.0]);
+    let all = variants();
+    turns_with_it(&all, 10.0, 20.0);
+    turns_with_it(&all, 100.0, 200.0);
+    turns_with_it(&all, 1000.0, 4000.0);
 }
 
 #[test]
 #[ignore = "long: a million turns for each law, run by make -C pipelines soak"]
 fn a_loaded_grain_turns_a_million_times_with_its_partners() {
-    turns_with_it(1e6, &[1000.0]);
+    let double: Vec<Variant> = variants().into_iter().filter(|v| !v.mixed()).collect();
+    turns_with_it(&double, 1e6, 4000.0);
 }
 
 #[test]

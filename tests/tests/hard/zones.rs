@@ -118,6 +118,6 @@ fn a_contact_astride_the_plane_goes_on() {
             }
         }
         assert!(handed.is_some(), "{}", variant.name());
-        ASTRIDE.within(&variant.name(), at_hand_over / others, "–", 1.5);
+        ASTRIDE.within(&variant.name(), at_hand_over / others, "–", 1.0);
     }
 }
