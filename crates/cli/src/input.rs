@@ -104,7 +104,9 @@ impl Source {
     pub fn as_far_as_it_goes(&self, event: Result<Event, McapError>) -> Result<Option<Event>, McapError> {
         match event {
             Err(McapError::Truncated { messages, .. }) if self.path().is_some_and(crate::is_part) => {
-                crate::warn(&format!("{self}: the run did not end; this is what it wrote, {messages} messages"));
+                crate::warn(&format!(
+                    "{self}: the run did not end; this is what it wrote, {messages} messages"
+                ));
                 Ok(None)
             }
             other => other.map(Some),

@@ -36,9 +36,7 @@ pub fn stop_requested() -> bool {
 
 /// Creates a file that is removed when a signal ends the process. Once renamed, it is no longer there to be
 /// removed. A signal that arrives during the creation waits for it.
-pub(crate) fn removed_on_signal(
-    create: impl FnOnce() -> io::Result<Part>,
-) -> io::Result<Part> {
+pub(crate) fn removed_on_signal(create: impl FnOnce() -> io::Result<Part>) -> io::Result<Part> {
     LISTEN.call_once(listen);
     let mut unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
     let part = create()?;

@@ -129,8 +129,8 @@ fn csv(name: &str, bytes: &[u8]) -> Result<Table, SceneError> {
     let mut lines = lines.filter(|(_, l)| !l.is_empty());
     let Some((_, head)) = lines.next() else { return Err(wrong("is empty".into())) };
     let names = split(head);
-    if names[0].parse::<f64>().is_ok() {
-        return Err(wrong("line 1: begins with a number, the line of names is missing".into()));
+    if names.first().is_none_or(|name| name.parse::<f64>().is_ok()) {
+        return Err(wrong("line 1: begins without a name, the line of names is missing".into()));
     }
     let mut columns: Vec<Vec<f64>> = vec![Vec::new(); names.len()];
     for (n, line) in lines {

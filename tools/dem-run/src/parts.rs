@@ -13,7 +13,9 @@ pub fn say(output: &Output, resumed: Option<&Source>) {
         }
         let (name, part) = (path.display(), part.display());
         cli::warn(&if written {
-            format!("another dem-run is writing {name} ({part}): the later of the two to end will replace the other")
+            format!(
+                "another dem-run is writing {name} ({part}): the later of the two to end will replace the other"
+            )
         } else {
             format!(
                 "{part} was left by a run that did not end: --resume {part} goes on from it, dem-view shows it; remove it when \
@@ -33,7 +35,10 @@ pub fn resumed(source: &Source) -> anyhow::Result<Source> {
     match &parts[..] {
         [] => Ok(source.clone()),
         [part] => {
-            cli::warn(&format!("{source} is not there; going on from {}, which its run has left", part.display()));
+            cli::warn(&format!(
+                "{source} is not there; going on from {}, which its run has left",
+                part.display()
+            ));
             Ok(Source::File(part.clone()))
         }
         _ => {
@@ -56,6 +61,10 @@ pub struct Saved {
 pub fn leaves(error: anyhow::Error, part: Option<&Path>, saved: Saved) -> anyhow::Error {
     let Some(part) = part else { return error };
     let (part, time) = (part.display(), geom::Shown(saved.time));
-    let use_of = if saved.resumes { format!("--resume {part} goes on from it") } else { "dem-view shows it".to_owned() };
+    let use_of = if saved.resumes {
+        format!("--resume {part} goes on from it")
+    } else {
+        "dem-view shows it".to_owned()
+    };
     error.context(format!("the run until t = {time} s is kept in {part} ({use_of})"))
 }

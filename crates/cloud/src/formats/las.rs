@@ -9,6 +9,10 @@ use stream::{Table, Values};
 
 /// Points decoded at once; a header that claims more than there are then costs no memory.
 const CHUNK: u64 = 1 << 20;
+/// Room for them at most [B]: a header may also claim large points.
+const ROOM: u64 = 1 << 26;
+/// Packed points of a byte of the file at most; scans have less than one.
+const DENSEST: u64 = 1000;
 
 pub(super) fn matches(bytes: &[u8]) -> bool {
     bytes.starts_with(b"LASF")
@@ -46,13 +50,23 @@ fn chunks(bytes: &[u8]) -> Result<(), ReadError> {
 
 fn decode(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
     chunks(&bytes)?;
+    let length = bytes.len() as u64;
     let mut reader = Reader::new(Cursor::new(bytes)).map_err(|e| broken(e, 0))?;
-    let promised = reader.header().number_of_points();
+    let (promised, format) = (reader.header().number_of_points(), reader.header().point_format());
+    let size = u64::from(format.len()).max(1);
+    let most = if format.is_compressed { DENSEST.saturating_mul(length) } else { length / size };
+    if promised > most {
+        return Err(broken(
+            format!("the header promises {promised} points in {length} bytes: it is cut off"),
+            0,
+        ));
+    }
+    let at_once = CHUNK.min(ROOM / size);
     let mut points: Vec<Vec3> = Vec::new();
     let mut columns: Vec<(&'static str, Values)> = Vec::new();
     while (points.len() as u64) < promised {
         let at = points.len() as u64;
-        let chunk = reader.read_points(CHUNK.min(promised - at)).map_err(|e| broken(e, at))?;
+        let chunk = reader.read_points(at_once.min(promised - at)).map_err(|e| broken(e, at))?;
         if chunk.is_empty() {
             let what = format!("the header promises {promised} points, the file ends before: it is cut off");
             return Err(broken(what, at));

@@ -22,12 +22,26 @@ fn broken(what: impl ToString, point: Option<u64>) -> ReadError {
 /// LZF makes at most 264 bytes of 3.
 const LARGEST_RATIO: u64 = 88;
 
+/// What stands behind the header of a packed file, whose last line is that of the word DATA.
+fn packed(bytes: &[u8]) -> Option<&[u8]> {
+    let mut rest = bytes;
+    while let Some(end) = rest.iter().position(|&byte| byte == b'\n') {
+        let line = rest[..end].split(|&byte| byte == b'#').next().unwrap_or_default();
+        let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+        rest = &rest[end + 1..];
+        if words.next().is_some_and(|word| word.eq_ignore_ascii_case(b"DATA")) {
+            return words.next().filter(|kind| kind.eq_ignore_ascii_case(b"binary_compressed")).map(|_| rest);
+        }
+    }
+    None
+}
+
 /// Refuses packed data that are shorter than they claim, or claim to hold more than they can.
 fn unpackable(bytes: &[u8]) -> Result<(), ReadError> {
-    const LINE: &[u8] = b"DATA binary_compressed\n";
-    let Some(at) = bytes.windows(LINE.len()).position(|line| line == LINE) else { return Ok(()) };
-    let Some((sizes, data)) = bytes[at + LINE.len()..].split_first_chunk::<8>() else { return Ok(()) };
-    let [packed, whole] = [[0, 1, 2, 3], [4, 5, 6, 7]].map(|at| u64::from(u32::from_le_bytes(at.map(|k| sizes[k]))));
+    let Some(data) = packed(bytes) else { return Ok(()) };
+    let Some((sizes, data)) = data.split_first_chunk::<8>() else { return Ok(()) };
+    let [packed, whole] =
+        [[0, 1, 2, 3], [4, 5, 6, 7]].map(|at| u64::from(u32::from_le_bytes(at.map(|k| sizes[k]))));
     if packed > data.len() as u64 {
         return Err(broken(format!("{packed} bytes promised, {} there: it is cut off", data.len()), None));
     }
@@ -49,7 +63,10 @@ fn decode(bytes: &[u8]) -> Result<Cloud, ReadError> {
     let promised = reader.meta().num_points;
     let values = fields.iter().map(|f| f.count).fold(0, u64::saturating_add);
     if values > bytes.len() as u64 {
-        return Err(broken(format!("{values} values a point promised in a file of {} bytes", bytes.len()), None));
+        return Err(broken(
+            format!("{values} values a point promised in a file of {} bytes", bytes.len()),
+            None,
+        ));
     }
     let mut points = Vec::new();
     let mut columns: Vec<Vec<Values>> =

@@ -1,0 +1,109 @@
+//! What fuzzing has found, kept: files that claim more than they hold are refused before anybody makes room for it.
+
+use crate::samples;
+use grainpipe_tests::findings::{Case, case};
+use std::error::Error;
+
+const CLAIMS: Case = case("Faults", "a file that claims more than it holds is refused, and takes no memory");
+
+/// An error and its causes.
+fn said(error: &dyn Error) -> String {
+    let (mut text, mut cause) = (error.to_string(), error.source());
+    while let Some(error) = cause {
+        text += &format!(": {error}");
+        cause = error.source();
+    }
+    text
+}
+
+fn cloud(bytes: Vec<u8>) -> String {
+    said(&cloud::from_bytes(bytes).expect_err("refused"))
+}
+
+fn sample(list: Vec<samples::Sample>, name: &str) -> Vec<u8> {
+    list.into_iter().find(|s| s.0 == name).expect("a sample").1
+}
+
+/// The place of a text.
+fn place(bytes: &[u8], text: &[u8]) -> usize {
+    bytes.windows(text.len()).position(|window| window == text).expect("it is there")
+}
+
+/// Its table of chunks claimed 4 294 967 295 of them, 69 GB.
+#[test]
+fn laz_with_too_many_chunks() {
+    let mut bytes = sample(samples::las(), "3.laz");
+    let number = |at: usize| bytes[at..at + 4].iter().rev().fold(0, |n, &b| (n << 8) | usize::from(b));
+    let table = number(number(96));
+    bytes[table + 4..table + 8].fill(0xff);
+    CLAIMS.refused("LAZ: chunks", &cloud(bytes), &["4294967295 chunks", "damaged"]);
+}
+
+#[test]
+fn pcd_that_unpacks_to_more_than_it_can_hold() {
+    let whole = sample(samples::pcd(), "packed.pcd");
+    let at = place(&whole, b"binary_compressed\n") + 18;
+    for (field, word) in [(at, "cut off"), (at + 4, "cannot hold")] {
+        let mut bytes = whole.clone();
+        bytes[field..field + 4].fill(0x7f);
+        CLAIMS.refused("PCD: sizes of packed data", &cloud(bytes), &["PCD", word]);
+    }
+    let text = String::from_utf8(sample(samples::pcd(), "ascii.pcd")).expect("text");
+    let text = text.replace("COUNT 1 1 1 1", "COUNT 1 1 1 4000000000");
+    CLAIMS.refused("PCD: values of a field", &cloud(text.into_bytes()), &["PCD"]);
+}
+
+/// Texts of metadata, channels and schemas, in and out of chunks.
+#[test]
+fn mcap_with_a_text_longer_than_its_record() {
+    let whole = sample(samples::mcap(), "walls.mcap");
+    for (text, before) in [(&b"provenance"[..], 4), (b"arguments", 4), (b"end_of_stream", 4)] {
+        let mut bytes = whole.clone();
+        let at = place(&bytes, text) - before;
+        bytes[at..at + 4].fill(0x7f);
+        let error = stream::mcap::Reader::new(&bytes[..]).find_map(Result::err).expect("refused");
+        CLAIMS.refused("MCAP: texts", &said(&error), &["a text reaches over the end of its record"]);
+    }
+}
+
+/// A few bytes of Zstandard that unpack to 256 MB of zeros.
+#[test]
+fn mcap_with_a_chunk_that_unpacks_without_end() {
+    let zeros = std::io::Read::take(std::io::repeat(0), 1 << 28);
+    let packed = zstd::stream::encode_all(zeros, 1).expect("packed");
+    let mut chunk = [0u64.to_le_bytes(), 0u64.to_le_bytes(), (1u64 << 28).to_le_bytes()].concat();
+    chunk.extend(0u32.to_le_bytes());
+    chunk.extend(4u32.to_le_bytes());
+    chunk.extend(b"zstd");
+    chunk.extend((packed.len() as u64).to_le_bytes());
+    chunk.extend(packed);
+    let walls = sample(samples::mcap(), "walls.mcap");
+    // Behind the magic stands the header record: opcode, length, content.
+    let header = 8 + 9 + u64::from_le_bytes(walls[9..17].try_into().expect("8 bytes")) as usize;
+    let mut bytes = walls[..header].to_vec();
+    bytes.push(6);
+    bytes.extend((chunk.len() as u64).to_le_bytes());
+    bytes.extend(chunk);
+    let error = stream::mcap::Reader::new(&bytes[..]).find_map(Result::err).expect("refused");
+    CLAIMS.refused("MCAP: a chunk of zeros", &said(&error), &["thousands of times its own size"]);
+}
+
+/// A text in a state that claimed 21 GB, behind a hash that is right.
+#[test]
+fn state_with_a_text_longer_than_itself() {
+    let state = stream::state::encode(&(5u64 << 32, 0u64)).expect("encoded");
+    let error = stream::state::decode::<String>(&state).expect_err("refused");
+    CLAIMS.refused("checkpoint: texts", &said(&error), &["state", "something else"]);
+}
+
+/// A first line of nothing but commas was a panic.
+#[test]
+fn particles_without_names() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("p.csv"), ",\n1,2\n").expect("written");
+    let toml = "[time]\nuntil = 1\n[[material]]\nname = \"a\"\ndensity = 1\nyoung = 1e7\npoisson = 0.2\n\
+                [[contact]]\nbetween = [\"*\", \"*\"]\nrestitution = 0.5\n[[particles]]\nmaterial = \"a\"\nsource = \"p.csv\"\n";
+    let scene = scene::Scene::new("s.toml", toml.to_owned(), &[], folder.path()).expect("sound");
+    let error = scene.plan(Vec::new()).err().expect("refused");
+    CLAIMS.refused("particles: a line without names", &said(&error), &["p.csv", "line of names"]);
+}

@@ -1,0 +1,205 @@
+//! A run that is killed loses nothing that it had written: earlier frames are there, and it goes on from its last checkpoint.
+
+use grainpipe_tests::findings::{Case, case};
+use grainpipe_tests::tools::{program, succeed, tool};
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+use stream::Table;
+use stream::mcap::{Event, Reader};
+use tempfile::{TempDir, tempdir};
+
+const FRAMES: Case = case("Faults", "killed at any moment: earlier frames are whole");
+const RESUMED: Case =
+    case("Faults", "killed at any moment: the resumed run ends bit for bit as the uninterrupted one");
+const LOOK: Case = case(
+    "Faults",
+    "killed at any moment: no output looks whole, and what is there can be viewed and measured",
+);
+
+/// Kills of the ordinary test; GRAINPIPE_KILLS=200 asks for more.
+const KILLS: u64 = 10;
+
+const SCENE: &str = r#"gravity = [0, 0, -9.81]
+[time]
+until = 0.24
+[output]
+every = 0.005
+checkpoint = 0.02
+energy = true
+[[material]]
+name = "sinter"
+density = 3300
+young = 1e7
+poisson = 0.25
+[[contact]]
+between = ["*", "*"]
+restitution = 0.5
+sliding_friction = 0.5
+rolling_resistance = 0.1
+[[fill]]
+material = "sinter"
+shape = "cylinder:0,0,0,0,0,0.1,0.04"
+diameter = [0.008, 0.012]
+mass = 0.25
+[[wall]]
+plane = "0,0,0,0,0,1"
+material = "sinter"
+"#;
+
+/// Everything of a run that can be read.
+struct Read {
+    frames: Vec<(u64, Table)>,
+    /// The last whole checkpoint: its pieces, one after the other.
+    checkpoint: Vec<u8>,
+    whole: bool,
+}
+
+fn read(path: &Path) -> Read {
+    let mut read = Read { frames: Vec::new(), checkpoint: Vec::new(), whole: true };
+    let mut pieces = Vec::new();
+    for event in Reader::new(fs::File::open(path).expect("the file is there")) {
+        match event {
+            Ok(Event::Points { topic, time_ns, table }) if topic == "/particles" => {
+                read.frames.push((time_ns, table))
+            }
+            Ok(Event::Bytes { topic, data, .. }) if topic == "/checkpoint" => {
+                pieces.extend_from_slice(&data[1..]);
+                if data[0] == 1 {
+                    read.checkpoint = std::mem::take(&mut pieces);
+                }
+            }
+            Ok(_) => {}
+            Err(error) => {
+                assert!(
+                    matches!(error, stream::mcap::McapError::Truncated { .. }),
+                    "cut, not damaged: {error}"
+                );
+                read.whole = false;
+            }
+        }
+    }
+    read
+}
+
+fn scene() -> TempDir {
+    let folder = tempdir().expect("a folder");
+    fs::write(folder.path().join("s.toml"), SCENE).expect("written");
+    folder
+}
+
+fn start(folder: &Path, arguments: &[&str]) -> Child {
+    let mut command = Command::new(program("dem-run"));
+    command.current_dir(folder).args(arguments).stdout(Stdio::null()).stderr(Stdio::null());
+    command.spawn().expect("it starts")
+}
+
+/// Kills a run with SIGKILL as soon as its unfinished output has `size` bytes; whether that was in time.
+fn kill_at(folder: &Path, mut run: Child, size: u64) -> bool {
+    let deadline = Instant::now() + Duration::from_secs(60);
+    let part = folder.join("run.mcap.part");
+    while fs::metadata(&part).map_or(0, |m| m.len()) < size {
+        assert!(Instant::now() < deadline, "the run gets nowhere");
+        if run.try_wait().expect("it can be asked").is_some() {
+            return false;
+        }
+        std::thread::yield_now();
+    }
+    run.kill().expect("it can be killed");
+    run.wait().expect("it has ended").code().is_none()
+}
+
+/// 200 times in `make -C pipelines soak`.
+#[test]
+fn a_run_that_is_killed_at_any_moment_loses_nothing_that_it_had_written() {
+    let kills = std::env::var("GRAINPIPE_KILLS").ok().and_then(|n| n.parse().ok()).unwrap_or(KILLS);
+    let folder = scene();
+    let (folder, path) = (folder.path(), |name: &str| folder.path().join(name));
+    succeed(folder, "dem-run", &["s.toml", "-q", "--threads", "1", "-o", "whole.mcap"]);
+    let size = fs::metadata(path("whole.mcap")).expect("whole").len();
+    let whole = read(&path("whole.mcap"));
+    let (mut killed, mut resumed, mut wrong, mut lost, mut looked) = (0u32, 0u32, 0u32, 0u32, 0u32);
+    let mut state = 1u64;
+    for kill in 0..kills {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        let run = start(folder, &["s.toml", "-q", "--threads", "1", "-o", "run.mcap"]);
+        if !kill_at(folder, run, (state >> 33) % size) {
+            fs::remove_file(path("run.mcap")).expect("it had ended");
+            continue;
+        }
+        killed += 1;
+        lost += u32::from(path("run.mcap").exists());
+        let part = read(&path("run.mcap.part"));
+        wrong += u32::from(part.whole || part.frames[..] != whole.frames[..part.frames.len()]);
+        if kill % 5 == 0 && !part.frames.is_empty() {
+            looked += looks(folder);
+        }
+        if !part.checkpoint.is_empty() {
+            resumed += 1;
+            wrong += u32::from(!goes_on(folder, &whole));
+        }
+        fs::remove_file(path("run.mcap.part")).expect("the part");
+    }
+    assert!(
+        2 * u64::from(killed) >= kills && resumed > 0 && looked > 0,
+        "{killed} killed, {resumed} resumed"
+    );
+    FRAMES.within(&format!("{killed} kills, frames that differ"), f64::from(wrong), "runs", 0.0);
+    RESUMED.within(&format!("{resumed} runs resumed, those that differ"), f64::from(wrong), "runs", 0.0);
+    LOOK.within("outputs under their final name", f64::from(lost), "files", 0.0);
+}
+
+/// Resumes by the name of the output that never came; whether all is as in the whole run.
+fn goes_on(folder: &Path, whole: &Read) -> bool {
+    let done =
+        succeed(folder, "dem-run", &["s.toml", "--resume", "run.mcap", "--threads", "1", "-o", "rest.mcap"]);
+    assert!(done.stderr.contains("going on from run.mcap.part"), "{}", done.stderr);
+    let rest = read(&folder.join("rest.mcap"));
+    let from = whole.frames.len() - rest.frames.len();
+    rest.whole && rest.frames[..] == whole.frames[from..] && rest.checkpoint == whole.checkpoint
+}
+
+/// What is there can be seen and measured.
+fn looks(folder: &Path) -> u32 {
+    let done = succeed(folder, "dem-measure", &["run.mcap.part", "--energy"]);
+    assert!(done.stderr.contains("the run did not end") && done.stdout.len() > 50, "{}", done.stderr);
+    let done = succeed(folder, "dem-view", &["run.mcap.part", "--size", "200x120", "-o", "x.png"]);
+    assert!(done.stderr.contains("the run did not end"), "{}", done.stderr);
+    1
+}
+
+/// The next start says what a killed run has left; a second part gets a name of its own; a living one is no leftover.
+#[test]
+fn what_a_killed_run_left_is_said_and_never_overwritten() {
+    let folder = scene();
+    let folder = folder.path();
+    assert!(kill_at(folder, start(folder, &["s.toml", "-o", "run.mcap"]), 20_000));
+    let left = fs::read(folder.join("run.mcap.part")).expect("left");
+    let done = succeed(folder, "dem-run", &["s.toml", "--until", "0.02", "-o", "run.mcap"]);
+    LOOK.refused(
+        "the next start",
+        &done.stderr,
+        &["run.mcap.part was left by a run that did not end", "--resume", "remove"],
+    );
+    assert!(
+        fs::read(folder.join("run.mcap.part")).expect("still there") == left
+            && folder.join("run.mcap").exists()
+    );
+    fs::remove_file(folder.join("run.mcap")).expect("whole");
+    fs::write(folder.join("run.mcap.2.part"), &left).expect("written");
+    let done = tool(folder, "dem-run", &["s.toml", "--resume", "run.mcap", "-o", "rest.mcap"]);
+    assert_eq!(done.code, 1);
+    LOOK.refused("two parts to resume from", &done.stderr, &["run.mcap.part, run.mcap.2.part", "name one"]);
+    fs::remove_file(folder.join("run.mcap.2.part")).expect("a copy");
+    fs::remove_file(folder.join("run.mcap.part")).expect("left");
+    let mut living = start(folder, &["s.toml", "--until", "100", "-o", "run.mcap"]);
+    let deadline = Instant::now() + Duration::from_secs(60);
+    while !folder.join("run.mcap.part").exists() && Instant::now() < deadline {
+        std::thread::yield_now();
+    }
+    let done = succeed(folder, "dem-run", &["s.toml", "--until", "0.02", "-o", "run.mcap"]);
+    living.kill().expect("it lives");
+    living.wait().expect("it has ended");
+    LOOK.refused("beside a run to the same name", &done.stderr, &["another dem-run is writing run.mcap"]);
+}
