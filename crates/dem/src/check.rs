@@ -114,6 +114,18 @@ pub(crate) fn finite(what: &str, v: &Vec3, unit: &'static str) -> Result<(), Set
     bad.map_or(Ok(()), |&x| within(what, x, unit, false, "the finite numbers"))
 }
 
+/// Share of its radius that a place is to be told to, or better.
+const DIGITS: f64 = 1e-6;
+
+/// Refuses a sphere so far away that its place has too few digits left: it would hang in the air.
+fn near(what: &str, place: &Vec3, radius: f64) -> Result<(), SetupError> {
+    let far = place.amax();
+    if far * f64::EPSILON <= DIGITS * radius {
+        return Ok(());
+    }
+    Err(SetupError::TooFar { what: what.to_owned(), far, radius })
+}
+
 fn materials(setup: &Setup) -> Result<(), SetupError> {
     for m in &setup.materials {
         let at = |key: &str| format!("material '{}': {key}", m.name);
@@ -220,6 +232,7 @@ fn particles(setup: &Setup) -> Result<(), SetupError> {
         let known = (p.material as usize) < setup.materials.len();
         within(&at("material"), p.material as f64, "[–]", known, "the scene's materials")?;
         finite(&at("position"), &p.position, "m")?;
+        near(&at("position"), &p.position, p.radius)?;
         finite(&at("velocity"), &p.velocity, "m/s")?;
         finite(&at("spin"), &p.spin, "rad/s")?;
         if !ids.insert(p.id) {
@@ -239,6 +252,7 @@ fn walls(setup: &Setup) -> Result<(), SetupError> {
                 for (centre, radius) in spheres {
                     finite(&at("sphere"), centre, "m")?;
                     within(&at("radius"), *radius, "m", *radius > 0.0 && radius.is_finite(), "radius > 0")?;
+                    near(&at("sphere"), centre, *radius)?;
                 }
             }
             WallShape::Plane(plane) => {

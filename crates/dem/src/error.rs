@@ -111,6 +111,19 @@ pub enum SetupError {
         /// The wall.
         wall: String,
     },
+    /// A place so far away that its last digit is coarse.
+    #[error(
+        "{what}: {far:.4e} m from the origin, its place is told to {:.1e} of its radius {radius:.4e} m, and a millionth is needed: shift the scene to the origin",
+        far * f64::EPSILON / radius
+    )]
+    TooFar {
+        /// What.
+        what: String,
+        /// Its largest coordinate [m].
+        far: f64,
+        /// Its radius [m].
+        radius: f64,
+    },
     /// A wall that a particle cannot see coming.
     #[error("wall '{wall}': {speed:.4e} m/s is {:.1} % of the smallest radius in a step of {dt:.4e} s (limit {:.1} %): shorten dt, or slow the wall", 100.0 * share, 100.0 * limit)]
     WallTooFast {

@@ -1,6 +1,7 @@
 //! 1000 km from the origin: the trajectory is that at the origin, to what the digits of a place there allow.
 
 use crate::variants::{Variant, run, simulation, variants};
+use dem::Simulation;
 use dem::setup::*;
 use geom::{Plane, Vec3, mesh::TriMesh};
 use grainpipe_tests::findings::{Case, case};
@@ -13,6 +14,11 @@ const PLACE: Case = case(
 const SPEED: Case = case(
     "Rest and extremes",
     "1000 km from the origin: grains bounce, slide and roll at the same speed as at the origin",
+);
+
+const REFUSED: Case = case(
+    "Rest and extremes",
+    "so far away that a place is told to less than a millionth of the radius: refused, naming the grain or the wall",
 );
 
 const DISTANCE: f64 = 1e6;
@@ -70,5 +76,34 @@ fn a_trajectory_far_from_the_origin_is_that_at_the_origin() {
             // A digit in a step, and what an overlap that is off by a digit makes of an impact.
             SPEED.within(&on, speed, "m/s", 1e-4);
         }
+    }
+}
+
+/// 45 000 km for a grain of 10 mm; as far as doubles go.
+#[test]
+fn too_far_is_refused() {
+    for variant in variants() {
+        for far in [5e7, -1e12, 1e300, 1.7e308] {
+            let mut setup = variant.smooth(0.5);
+            setup.particles = vec![grain(41, Vec3::zeros()), grain(42, Vec3::new(0.1, far, -far))];
+            let said = Simulation::new(setup.clone()).err().expect("refused").to_string();
+            REFUSED.refused(
+                &format!("{}, {far:e} m", variant.name()),
+                &said,
+                &["particle 42", "1.0000e-2 m", "shift"],
+            );
+            setup.particles.pop();
+            let spheres = vec![(Vec3::new(0.0, 0.1, 0.0), 0.01), (Vec3::new(-far, far, 0.0), 0.01)];
+            setup.walls = vec![Wall { shape: WallShape::Spheres(spheres), ..plane(Vec3::z()) }];
+            let said = Simulation::new(setup).err().expect("refused").to_string();
+            REFUSED.refused(
+                &format!("{}, wall, {far:e} m", variant.name()),
+                &said,
+                &["wall 'plane'", "1.0000e-2 m", "shift"],
+            );
+        }
+        let mut setup = variant.smooth(0.5);
+        setup.particles = vec![grain(41, Vec3::repeat(4e7)), grain(42, Vec3::repeat(-4e7))];
+        assert!(Simulation::new(setup).is_ok(), "{}: 40 000 km", variant.name());
     }
 }

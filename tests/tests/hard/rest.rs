@@ -90,7 +90,7 @@ fn rests(variant: &Variant, floor: Floor, steps: u64) {
         } else {
             SPEED.within(&on, speed, "m/s", 1e-12);
             SPIN.within(&on, spin, "rad/s", 1e-11);
-            CREEP.within(&on, way, "m", 1e-15);
+            CREEP.within(&on, way, "m", 1e-13);
         }
         let base = late[..3].iter().map(|p| p.position.z - far).fold(f64::INFINITY, f64::min);
         assert!(late[3].position.z - far > base + 0.005, "{on}: the heap stands");

@@ -93,16 +93,16 @@ fn turns_with_it(variants: &[Variant], turns: f64, rate: f64) {
 #[test]
 fn a_loaded_grain_turns_with_its_partners() {
     let all = variants();
-    turns_with_it(&all, 10.0, 20.0);
-    turns_with_it(&all, 100.0, 200.0);
-    turns_with_it(&all, 1000.0, 4000.0);
+    turns_with_it(&all, 3.0, 20.0);
+    turns_with_it(&all, 30.0, 200.0);
+    turns_with_it(&all, 500.0, 2500.0);
 }
 
 #[test]
 #[ignore = "long: a million turns for each law, run by make -C pipelines soak"]
 fn a_loaded_grain_turns_a_million_times_with_its_partners() {
     let double: Vec<Variant> = variants().into_iter().filter(|v| !v.mixed()).collect();
-    turns_with_it(&double, 1e6, 4000.0);
+    turns_with_it(&double, 1e6, 2500.0);
 }
 
 #[test]

@@ -95,7 +95,7 @@ fn a_contact_astride_the_plane_goes_on() {
         setup.particles = vec![moving(1, -0.0011, [1.0, 0.0, 0.0]), moving(2, -0.0211, [1.2, 0.02, 0.0])];
         let mut sim = simulation(setup);
         let (mut before, mut at_hand_over, mut others) = (Vec3::zeros(), 0.0f64, 0.0f64);
-        let mut handed = None;
+        let (mut handed, mut held) = (None, 0.0);
         for step in 0..4000u64 {
             run(&mut sim, 1);
             let records = sim.record_contacts().expect("fine");
@@ -103,7 +103,7 @@ fn a_contact_astride_the_plane_goes_on() {
             let force = records.iter().map(|c| if c.i == 2 { c.force } else { -c.force }).sum::<Vec3>();
             let jump = (force - before).norm();
             if !sim.take_crossings().is_empty() {
-                handed = Some(step);
+                (handed, held) = (Some(step), force.norm());
                 assert!(force.norm() > 0.1, "{}: the two touch: {force:?}", variant.name());
             }
             match handed {
@@ -118,6 +118,11 @@ fn a_contact_astride_the_plane_goes_on() {
             }
         }
         assert!(handed.is_some(), "{}", variant.name());
+        assert!(
+            held > 3.0 * others,
+            "{}: to let go would be seen: {held} N, steps of {others} N",
+            variant.name()
+        );
         ASTRIDE.within(&variant.name(), at_hand_over / others, "–", 1.0);
     }
 }
