@@ -12,7 +12,7 @@ pub fn quiet() {
 pub fn without_crcs(data: &[u8]) -> Vec<u8> {
     let mut bytes = data.to_vec();
     let mut at = 8;
-    while let Some(head) = bytes.get(at..at + 9) {
+    while let Some(head) = bytes.get(at..).and_then(|rest| rest.get(..9)) {
         let mut length = [0; 8];
         length.copy_from_slice(&head[1..]);
         let (opcode, length) = (head[0], usize::try_from(u64::from_le_bytes(length)).unwrap_or(usize::MAX));

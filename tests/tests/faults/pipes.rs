@@ -16,8 +16,8 @@ pub fn plant() -> TempDir {
         .map(|k| format!("{} {} 0\n", 0.01 * f64::from(k % 200), 0.01 * f64::from(k / 200)))
         .collect();
     write("cloud.xyz", cloud.as_bytes());
-    let scene = samples::SCENE.replace("count = 8", "count = 60").replace("every = 0.004", "every = 0.0005");
-    write("s.toml", scene.replace("0.03,0.03,0.06", "0.08,0.08,0.2").as_bytes());
+    let scene = samples::SCENE.replace("count = 3", "count = 60").replace("every = 0.004", "every = 0.0005");
+    write("s.toml", scene.replace("0.03,0.03,0.035", "0.08,0.08,0.2").as_bytes());
     write("plant.toml", samples::SCENE.as_bytes());
     succeed(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap"]);
     folder

@@ -11,10 +11,10 @@ pub type Sample = (&'static str, Vec<u8>);
 /// A scene with everything that a run can write, small: friction, an outlet, energy, contacts.
 pub const SCENE: &str = r#"gravity = [0, 0, -9.81]
 [time]
-until = 0.02
+until = 0.012
 [output]
 every = 0.004
-checkpoint = 0.008
+checkpoint = 0.004
 energy = true
 contacts = true
 [[material]]
@@ -29,9 +29,9 @@ sliding_friction = 0.5
 rolling_resistance = 0.1
 [[fill]]
 material = "sinter"
-shape = "box:0,0,0.001,0.03,0.03,0.06"
+shape = "box:0,0,0.0205,0.03,0.03,0.035"
 diameter = 0.01
-count = 8
+count = 3
 velocity = [0, 0, -1]
 [[wall]]
 plane = "0,0,-1,0,0,1"

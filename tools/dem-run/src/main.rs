@@ -142,7 +142,7 @@ fn explain(args: &Args, scene: &Scene, plan: Plan) -> anyhow::Result<Report> {
 
 fn simulate(args: &Args, scene: &Scene, plan: Plan, resume: Option<Checkpoint>) -> anyhow::Result<Report> {
     let out = args.output.open_long()?;
-    let (keep, part) = (out.keeper(), out.part().map(Path::to_owned));
+    let (keep, part) = (out.keeper(), parts::as_named(&args.output, out.part()));
     let compression = if out.is_stream() { Compression::None } else { Compression::Zstd };
     let provenance = cli::provenance(plan.inputs.clone());
     let settings = Settings { provenance, compression, watched: args.progress, stop: cli::stop_requested };

@@ -48,6 +48,11 @@ pub fn resumed(source: &Source) -> anyhow::Result<Source> {
     }
 }
 
+/// The path of a part as the user would write it.
+pub fn as_named(output: &Output, part: Option<&Path>) -> Option<PathBuf> {
+    Some(output.path()?.with_file_name(part?.file_name()?))
+}
+
 /// How far the part of a run that failed is of use.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Saved {
