@@ -1,10 +1,14 @@
 //! Laws, hard cases and whole pipelines, tested from outside.
 
+// Modules of set-ups name this crate as tests do.
+extern crate self as grainpipe_tests;
+
 pub mod findings;
 pub mod normals;
 pub mod page;
 pub mod plots;
 pub mod setups;
+pub mod sphere_walls;
 pub mod tools;
 
 use std::io::Write;

@@ -1,0 +1,151 @@
+//! The tilt up to which a wall of spheres holds a grain.
+//!
+//! A grain of radius r at rest lies in a pocket, on three spheres of radius R. Without friction it stays while the vertical through
+//! its centre passes between the three; as a rolling grain with any friction does, for over two spheres it rolls:
+//!
+//! ```text
+//! H = √((R + r)² − c²)            height of the grain's centre over the plane of the three, c their circle's radius
+//! tan α = s(u)/H                  s(u): way from the circle's middle to the side of the triangle, along the tilt u
+//! tan α ≤ c/H                     bound, for every u: the steepest slope that the grain's centre can meet
+//! ```
+//!
+//! A grain that cannot roll slides along the trough between two spheres at distance P, whose sides wedge it:
+//!
+//! ```text
+//! α = arctan(s/H) + arctan(μ/cos β),   sin β = P/2(R + r)              u square to the side
+//! ```
+
+use super::plates::still;
+use dem::Simulation;
+use dem::setup::*;
+use geom::Vec3;
+use grainpipe_tests::setups::{empty, grain};
+
+/// Tilts are tried in steps of this [rad].
+pub const TILT: f64 = 0.5 * std::f64::consts::PI / 180.0;
+/// Time at each tilt, in √(r/g).
+const WAIT: f64 = 6.0;
+/// Two surfaces as near as this touch, in grain radii.
+const TOUCH: f64 = 1e-3;
+/// How a grain is kept from rolling: μ_r [–], above μ r/R* of every wall here.
+const BLOCKED: f64 = 1.5;
+
+/// A grain on a wall, and how it may move.
+#[derive(Debug, Clone, Copy)]
+pub struct Grain {
+    /// Radius [m].
+    pub radius: f64,
+    /// μ [–]; `None`: no friction.
+    pub friction: Option<f64>,
+    /// Whether it is kept from rolling.
+    pub blocked: bool,
+}
+
+/// Tilt [rad] at which each grain leaves the pocket it has come to rest in; π/2 for one that never does. `places` [m] are where the
+/// grains come down, `azimuth` [rad] is the way down from x; tilts begin at `from` [rad]. Also where they rested.
+///
+/// # Panics
+/// When a guard trips.
+pub fn leaving_tilts(
+    spheres: &[(Vec3, f64)],
+    kind: Grain,
+    places: &[(f64, f64)],
+    (azimuth, from): (f64, f64),
+) -> Vec<(Vec3, f64)> {
+    // Down in its pocket by itself: what rubs could hold it up on the way.
+    let mut setup = laid(spheres, kind.radius, places);
+    let settled = rested(&setup, 60.0);
+    for contact in &mut setup.contacts {
+        contact.sliding_friction = kind.friction;
+        contact.rolling_resistance = kind.blocked.then_some(BLOCKED);
+    }
+    let mut left = vec![std::f64::consts::FRAC_PI_2; settled.len()];
+    let mut now = settled.clone();
+    let far = 0.5 * kind.radius.min(spheres[0].1);
+    let mut tilt = from;
+    while tilt < 80f64.to_radians() && left.iter().any(|&a| a > tilt) {
+        tilt += TILT;
+        let (sin, cos) = tilt.sin_cos();
+        setup.gravity = 9.81 * Vec3::new(sin * azimuth.cos(), sin * azimuth.sin(), -cos);
+        // Grains that have left are put back: they could push others.
+        let still_there = |k: &usize| left[*k] > tilt;
+        let there: Vec<usize> = (0..now.len()).filter(still_there).collect();
+        setup.particles = there.iter().map(|&k| now[k]).collect();
+        let after = rested(&setup, WAIT);
+        for (&k, p) in there.iter().zip(&after) {
+            now[k] = *p;
+            if (p.position - settled[k].position).norm() > far {
+                left[k] = tilt;
+            }
+        }
+    }
+    settled.iter().map(|p| p.position).zip(left).collect()
+}
+
+/// Grains a little above the wall.
+fn laid(spheres: &[(Vec3, f64)], radius: f64, places: &[(f64, f64)]) -> Setup {
+    let mut setup = empty(Law::Hooke { stiffness: 3e4, tangential_ratio: None }, 0.1);
+    setup.gravity = Vec3::new(0.0, 0.0, -9.81);
+    setup.walls = vec![still(spheres)];
+    setup.step = Step::Auto(0.3);
+    let down = |(k, &(x, y)): (usize, &(f64, f64))| {
+        let (z, _) = super::plates::touch(spheres, radius, x, y).expect("on the wall");
+        Particle { radius, ..grain(k as u32, Vec3::new(x, y, z + 0.01 * radius)) }
+    };
+    setup.particles = places.iter().enumerate().map(down).collect();
+    setup
+}
+
+/// The grains after a time [√(r/g)].
+fn rested(setup: &Setup, time: f64) -> Vec<Particle> {
+    let radius = setup.particles.first().map_or(1.0, |p| p.radius);
+    let mut sim = Simulation::new(setup.clone()).expect("sound");
+    while sim.time() < time * (radius / 9.81).sqrt() {
+        sim.step().expect("no guard");
+    }
+    sim.particles().expect("no guard")
+}
+
+/// Tilt [rad] at which a grain of radius `r` [m] leaves its pocket without friction, by the formula; `None` where no three spheres
+/// hold it. `at` is where it rests.
+pub fn closed_tilt(spheres: &[(Vec3, f64)], r: f64, at: Vec3, azimuth: f64) -> Option<f64> {
+    let (corners, height, foot) = support(spheres, r, at)?;
+    let way = Vec3::new(azimuth.cos(), azimuth.sin(), 0.0);
+    // Way to each side of what it rests on; the first that is met holds no longer.
+    let sides = (0..corners.len()).filter_map(|k| {
+        let (p, q) = (corners[k], corners[(k + 1) % corners.len()]);
+        let outward = (q - p).cross(&Vec3::z()).normalize();
+        let (gap, speed) = (outward.dot(&(p - foot)), outward.dot(&way));
+        (speed > 1e-9).then(|| gap / speed)
+    });
+    let s = sides.fold(f64::INFINITY, f64::min);
+    (s > 0.0 && s.is_finite()).then(|| (s / height).atan())
+}
+
+/// Centres of the spheres that a grain rests on, counterclockwise, its height above them, and its foot among them.
+fn support(spheres: &[(Vec3, f64)], r: f64, at: Vec3) -> Option<(Vec<Vec3>, f64, Vec3)> {
+    let touched = |s: &&(Vec3, f64)| (s.0 - at).norm() - s.1 - r < TOUCH * r;
+    let mut corners: Vec<Vec3> = spheres.iter().filter(touched).map(|s| s.0).collect();
+    let foot = Vec3::new(at.x, at.y, corners.first()?.z);
+    let angle = |c: &Vec3| (c.y - foot.y).atan2(c.x - foot.x);
+    corners.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
+    (corners.len() >= 3).then_some((corners, at.z - foot.z, foot))
+}
+
+/// Tilt [rad] at which a grain that cannot roll leaves a pocket of a square lattice of spacing `p` across a side, by the formula; spheres
+/// of radius `big`, the grain's radius `r` [m].
+pub fn blocked_tilt(p: f64, big: f64, r: f64, friction: f64) -> f64 {
+    let reach = big + r;
+    let height = (reach * reach - 0.5 * p * p).sqrt();
+    let wedge = (1.0 - (0.5 * p / reach).powi(2)).sqrt();
+    (0.5 * p / height).atan() + (friction / wedge).atan()
+}
+
+/// The largest arctan(c/H) [rad] of the pockets that grains of radius `r` [m] rest in.
+pub fn bound(spheres: &[(Vec3, f64)], r: f64, grains: &[(Vec3, f64)]) -> f64 {
+    let steepest = |(at, _): &(Vec3, f64)| {
+        let (corners, height, foot) = support(spheres, r, *at)?;
+        Some(((corners[0] - foot).xy().norm() / height).atan())
+    };
+    grains.iter().filter_map(steepest).fold(0.0, f64::max)
+}
