@@ -2,6 +2,7 @@
 
 use crate::point::{Error, Point};
 use geom::Shown;
+use measure::statistics::theil_sen;
 
 /// Time that differs by less than this share is "as long": two runs of one scene differ by as much.
 const SAME: f64 = 0.03;
@@ -51,6 +52,21 @@ pub fn change(from: &Point, to: &Point) -> String {
         });
     }
     if parts.is_empty() { to.name() } else { parts.join(" with ") }
+}
+
+/// How the error goes with the work: `The error goes as work to the power −1.0`, from the Theil–Sen line through the logarithms; `None`
+/// for fewer than four errors that are no chance, or work that hardly differs.
+pub fn order(points: &[Point], errors: &[Option<Error>], what: (&str, &str)) -> Option<String> {
+    let known = points.iter().zip(errors).filter_map(|(p, e)| Some((p.work(), e.as_ref()?)));
+    let known = known.filter(|(work, e)| *work > 0.0 && e.size > 0.0 && !e.within_chance());
+    let logs: Vec<[f64; 2]> = known.map(|(work, e)| [work.ln(), e.size.ln()]).collect();
+    let range = |pick: fn(f64, f64) -> f64, start| logs.iter().map(|p| p[0]).fold(start, pick);
+    if logs.len() < 4 || range(f64::max, f64::NEG_INFINITY) - range(f64::min, f64::INFINITY) < 1.0 {
+        return None;
+    }
+    let slope = theil_sen(&logs)?.slope;
+    let sign = if slope < 0.0 { "−" } else { "" };
+    Some(format!("The error in {} goes as the {} to the power {sign}{:.1}", what.0, what.1, slope.abs()))
 }
 
 /// Three digits of a ratio.
@@ -134,6 +150,16 @@ mod tests {
         assert_eq!(percent(3.456), "346 %");
         assert_eq!(share_of_time(1.02, 1.0, "time"), "takes as much time");
         assert_eq!(share_of_time(1.5, 1.0, "time"), "takes 50 % more time");
+    }
+
+    #[test]
+    fn the_order_of_a_method_is_seen() {
+        let points: Vec<Point> = [1.0, 2.0, 4.0, 8.0].map(|work| point("1", work)).to_vec();
+        let error = |work: f64| Some(Error { size: 0.1 / (work * work), interval: f64::NAN, relative: true });
+        let errors: Vec<Option<Error>> = points.iter().map(|p| error(p.work())).collect();
+        let said = order(&points, &errors, ("overlap", "steps"));
+        assert_eq!(said.as_deref(), Some("The error in overlap goes as the steps to the power −2.0"));
+        assert_eq!(order(&points[..3], &errors[..3], ("overlap", "steps")), None);
     }
 
     #[test]

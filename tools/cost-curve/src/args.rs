@@ -35,7 +35,8 @@ pub struct Args {
     /// Change a key of the scene in every point (repeat)
     #[arg(long, value_name = "KEY=VALUE", allow_hyphen_values = true)]
     pub set: Vec<String>,
-    /// A shell line that makes one more input of each point, such as 'bluenoise-sample scan.ply --spacing {spacing} | wallgen …'
+    /// A shell line that makes one more input of each point, such as 'bluenoise-sample scan.ply --spacing {spacing} | wallgen …';
+    /// what prints nothing gives none
     #[arg(long, value_name = "LINE")]
     pub each: Option<String>,
     /// The setting that errors are measured from (default: the finest of each key)

@@ -157,6 +157,9 @@ impl Judged {
                 (None, None) => format!("{} cannot be compared", curve::change(&self.points[base], point)),
             });
         }
+        if self.points.first().is_some_and(|p| p.setting.len() == 1) {
+            lines.extend(curve::order(&self.points, &self.errors, (&self.what.0, self.of)));
+        }
         lines.extend(self.advice());
         lines
     }

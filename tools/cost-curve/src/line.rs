@@ -27,7 +27,7 @@ pub struct Job {
     /// Overrides of the scene.
     pub sets: Vec<String>,
     /// `--threads`.
-    pub threads: Option<String>,
+    pub threads: String,
     /// The shell line that makes one more input.
     pub each: Option<String>,
 }
@@ -71,11 +71,16 @@ impl Job {
 
     /// The line of dem-run.
     pub fn dem_run(&self) -> String {
+        self.dem_run_with(&self.path("input"))
+    }
+
+    /// The line with its own input in other words.
+    fn dem_run_with(&self, input: &str) -> String {
         let mut words = vec!["dem-run".to_owned(), quoted(&self.scene)];
         words.extend(self.inputs.iter().map(|i| quoted(i)));
-        words.extend(self.each.iter().map(|_| self.path("input")));
+        words.extend(self.each.iter().map(|_| input.to_owned()));
         words.extend(self.sets.iter().map(|set| format!("--set {}", quoted(set))));
-        words.extend(self.threads.iter().map(|n| format!("--threads {}", quoted(n))));
+        words.push(format!("--threads {}", quoted(&self.threads)));
         words.push(format!("-q -o {} --report {}", self.path("run.mcap"), self.path("report.json")));
         words.join(" ")
     }
@@ -96,13 +101,16 @@ impl Job {
         if let Some(each) = &self.each {
             let (input, words) = (self.path("input"), self.path("words"));
             lines.push(format!("{{ {each}\n}} > {input} 2> {words} || {{ {}; exit 1; }}", made("each")));
+            // A line that prints nothing gives no input.
+            lines.push(format!("own=({input}); [ -s {input} ] || own=()"));
         }
         lines.push(format!(": > {}", self.path("prepared")));
         let counted = match (work, counter) {
             (Work::Instructions, Some(counter)) => counter.around(&self.path("instructions")),
             _ => String::new(),
         };
-        lines.push(format!("{counted}{} 2> {}", self.dem_run(), self.path("words")));
+        let line = self.dem_run_with("\"${own[@]}\"");
+        lines.push(format!("{counted}{line} 2> {}", self.path("words")));
         lines.push("code=$?".to_owned());
         lines.push(format!("[ $code -ge 128 ] || {}", made("$code")));
         lines.join("\n") + "\n"

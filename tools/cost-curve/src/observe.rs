@@ -13,7 +13,7 @@ const KNOWN: [(&str, &str, &str); 11] = [
     ("discharge-rate", "--flow", "mass_flow"),
     ("wall-force", "--wall-force", "mean_force"),
     ("peak-wall-force", "--wall-force", "largest_force"),
-    ("energy-error", "--energy", "largest_relative"),
+    ("energy-error", "--energy", "largest_integration_relative"),
     ("contact-time", "--impact", "contact_time"),
     ("overlap", "--impact", "overlap"),
     ("restitution", "--impact", "restitution"),

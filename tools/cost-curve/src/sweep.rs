@@ -137,6 +137,7 @@ fn job(
     }
     sets.extend(seeds(&values, repeat));
     let threads = grid.knobs.iter().zip(setting).find_map(|(k, (_, v))| k.threads(v).map(str::to_owned));
+    let threads = threads.unwrap_or(rayon::current_num_threads().to_string());
     let name = name(setting, repeat, args.repeat);
     let text = checked(&scene, &sets).with_context(|| format!("point {name}"))?.text.toml;
     let mut job = Job {
@@ -190,7 +191,7 @@ fn stamp(job: &Job, text: &str, tools: &Path, hashes: &mut Hashes) -> anyhow::Re
     }
     let line = job.each.clone().unwrap_or_default();
     all.push(hashes.of_words(line.split_whitespace(), &[Path::new(""), tools])?);
-    all.extend([line, job.threads.clone().unwrap_or_default()]);
+    all.extend([line, job.threads.clone()]);
     Ok(stream::sha256(all.join("\n").as_bytes()))
 }
 

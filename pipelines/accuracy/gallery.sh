@@ -1,0 +1,69 @@
+#!/usr/bin/env bash
+# Measures what accuracy costs, case by case, and writes docs/accuracy.md with a plot for each. Runs are kept in the folder $1; finished
+# ones are used again. The tools must be on the path.
+set -euo pipefail
+cd "$(dirname "$0")"
+mkdir -p "$1"
+OUT=$(cd "$1" && pwd)
+DOCS=$(cd ../../docs && pwd)
+
+# sweep NAME SCENE OPTIONS…: one curve, its plot, its words.
+sweep() {
+  local name=$1 scene=$2
+  shift 2
+  echo "accuracy: $name" >&2
+  cost-curve "$scene" "$@" --dir "$OUT/$name" -o "$DOCS/accuracy-$name.svg" --words "$OUT/$name.md" -q --threads 1 > "$OUT/$name.csv"
+}
+
+# One impact. Hooke, e = 0.5: c/2m* = ω ln(1/e)/√(π² + ln²e) = 841.9 /s at ω = 3908.8 /s, and t_c = 8.2307e-4 s.
+TC=$(awk 'BEGIN {pi = atan2(0, -1); m = 2500 * 4 / 3 * pi * 0.005^3 / 2; l = log(2); w = sqrt(1e4 / m)
+  g = w * l / sqrt(pi * pi + l * l); printf "%.9g", pi / sqrt(w * w - g * g)}')
+STEPS=safety=0.01,0.02,0.05,0.1,0.2,0.3,0.5,0.8
+sweep impact-hooke impact-hooke.toml --vary $STEPS --measure 'each restitution of --impact' --exact 0.5 --norm max --work steps
+sweep contact-time impact-hooke.toml --vary $STEPS --measure 'each contact_time of --impact' --exact "$TC" --norm max --work steps
+sweep impact-hertz impact-hertz.toml --vary $STEPS --measure 'each restitution of --impact' --exact 0.5 --norm max --work steps
+# Without damping the depth of a Hertz impact has a closed form, which impact-hertz.toml was laid out for: 1.125 mm.
+DEEP=$(awk 'BEGIN {pi = atan2(0, -1); m = 2500 * 4 / 3 * pi * 0.005^3 / 2; e = 1e7 / 2 / (1 - 0.0625)
+  printf "%.9g", exp(0.4 * log(15 * m * 4.295^2 / (16 * sqrt(0.0025) * e)))}')
+sweep impact-depth impact-hertz.toml --set contact.0.restitution=1 --vary $STEPS --measure 'each overlap of --impact' --exact "$DEEP" \
+  --norm max --work steps
+
+RATE='discharge-rate 0,0,0.6,0,0,-1 --from 0.2'
+sweep hopper-step hopper.toml --vary safety=0.1,0.25,0.5,0.8 --vary precision=f64,mixed --reference safety=0.1 --reference precision=f64 \
+  --measure "$RATE" --repeat 3 --for 3%
+sweep hopper-stiffness hopper.toml --vary stiffness=0.1,0.3,1,3 --measure "$RATE" --repeat 4 --for 3%
+
+sweep heap heap.toml --vary stiffness=0.2,1,4 --vary safety=0.2,0.8 --measure 'heap-angle --sectors 4' --repeat 4 --for 10%
+
+# A half pipe of wall spheres against the surface itself.
+mkdir -p out
+./halfpipe.sh mesh > out/halfpipe.ply
+./halfpipe.sh cloud > out/halfpipe.xyz
+SPEED='vx of --profile --axis x --bins 1 --within box:0.4,-0.06,-0.06,0.45,0.06,0.06 --mean --from 0.5'
+cost-curve halfpipe-mesh.toml --vary safety=0.5 --exact 1 --measure "$SPEED" --repeat 4 --dir "$OUT/halfpipe-mesh" -q \
+  > "$OUT/halfpipe-mesh.csv"
+TRUTH=$(awk -F, 'NR == 2 {print $4 "," $5}' "$OUT/halfpipe-mesh.csv")
+sweep halfpipe halfpipe.toml --vary roughness=0.00002,0.0001,0.0004 --vary spacing=0.003,0.006 --measure "$SPEED" --laboratory "$TRUTH" \
+  --repeat 4 --for 5% \
+  --each 'bluenoise-sample out/halfpipe.xyz --spacing {spacing} | wallgen --roughness {roughness} --radius uniform --place surface --facing 0,0,1 --material steel --smallest-particle 0.005'
+
+# The plant, cut at the hopper's mouth, against the plant in one piece.
+sed 's/mass = 0.15 .*/mass = 0.08/; s/young = 2e7/young = 1e7/; s/until = 1.0 /until = 0.7 /; s/every = 0.02 /every = 0.005 /;
+  s|\.\./\.\./sample-data|../../../sample-data|' ../scenes/plant.toml > out/plant-undivided.toml
+for length in 6 12; do
+  cut="stage-split out/plant-undivided.toml --at 0,0,0.6,0,0,-1 --length 0.0$(printf %02d $length) -q"
+  $cut --keep upstream -o out/up-divided-$length.toml
+  $cut --keep downstream -o out/plant-divided-$length.toml
+done
+sweep stages 'out/plant-{stage}.toml' --vary stage=undivided,divided-6,divided-12 --reference stage=undivided --in-use stage=undivided \
+  --measure 'vx of --profile --axis x --bins 1 --within box:0.1,-0.05,0.33,0.15,0.05,0.45 --mean --from 0' --repeat 4 --for 3% \
+  --each 'case {stage} in divided-*) dem-run out/up-{stage}.toml --set fill.0.seed={seed} --threads 1 -q | stage-replay -q;; esac'
+
+# The page: its text, with @words NAME@ replaced by what the program said of the numbers.
+while IFS= read -r line; do
+  case $line in
+    '@words '*) name=${line#@words }; cat "$OUT/${name%@}.md" ;;
+    *) printf '%s\n' "$line" ;;
+  esac
+done < page.md > "$DOCS/accuracy.md"
+echo "accuracy: $DOCS/accuracy.md" >&2
