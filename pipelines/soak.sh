@@ -7,3 +7,7 @@ tests() { cargo test -p grainpipe-tests --locked --quiet "$@"; }
 
 # A run killed with SIGKILL at 200 random moments: frames, what is left, and the resumed run.
 GRAINPIPE_KILLS=${KILLS:-200} tests --test faults kill
+
+# Ten million steps of heaps at rest and of grains pressed together at 0.95 of the critical step, a million turns of a loaded grain:
+# for every normal law (and in mixed precision where it is offered). About an hour.
+tests --test hard -- --ignored million
