@@ -1,18 +1,22 @@
-//! The largest stable time step.
+//! The largest stable time step. Derived in docs/time-step.md.
 //!
 //! ```text
-//! Δt(N, k) = 2/ω (√(1 + 4 ζ²) − 2 ζ),   ω² = N k/m*,  ζ = γ √N / 2
-//! Δt_crit  = min { Δt(4, S), Δt(20, k_t), √(m*/20 k_t), 0.188/μ_r √(m*/S), Δt(10, k_t) }
-//! S = k (Hooke), dF_n/dδ at the overlap limit (Hertz), 2 E* a there (JKR); all but the first where the scene asks for them
+//! Δt(A, B) = 2/(√(A + B²) + B)              the root of A Δt²/4 + B Δt = 1
+//! Δt_crit  = min { Δt(4 a_n + 16 a_t, 4 b_n + 8 b_t), 1/√(20 a_t),
+//!                  Δt(20 a_t + w A_r, 20 b_t + w B_r), Δt(w 20 a_t + A_r, w 20 b_t + B_r) }
+//! a_n = S/m*,  b_n = γ √a_n,  a_t = k_t/m*,  b_t = γ √a_t          γ: damping ratio of the pair
+//! A_r = s 10 a_t,  B_r = s (21.5 μ_r √a_n + 3.79 √a_t)             of rolling and twisting; s = (R*/r)² (½ + ½ r/r_larger)
+//! S = k (Hooke), dF_n/dδ at the overlap limit (Hertz), 2 E* a there (JKR);  w = |1/m_i − 1/m_j| m*;  r: the smaller radius
 //! ```
 //!
-//! Δt(N, k) is where the integrator of [`crate::advance`] turns unstable (an eigenvalue of −1: (ω Δt)²/4 + 2 ζ ω Δt = 1, the
-//! dashpot seeing the predicted velocity) for N contacts of stiffness k that pull at once. N = 4: Gershgorin's bound on a close
-//! packing, twelve contacts, a third of their stiffness along any axis, each against a neighbour that moves the other way.
-//! N = 20 = 40/7 × 7/2: the same packing with all grains turning one way, where translation and rotation both yield to a
-//! tangential force, 1/m + r²/I = 7/2 · 1/m. √(m*/20 k_t): up to there the tangential spring, whose rate is predicted as well, takes more energy than
-//! it makes without a dashpot. 0.188/μ_r: the dashpot of rolling resistance (spring). Δt(10, k_t), γ = 0.6: twisting, 4 × 5/2 k_t. Cohesion
-//! only softens a contact, and the constant couple of rolling limits itself.
+//! For rigid clumps 1/m* is that of their yielding in a_n and a_t, and b_n = γ √(S m*)/m*, b_t = γ √(k_t m*)/m* have m* of the whole
+//! bodies under the root. Effects that the scene does not ask for count 0. The integrator of [`crate::advance`] turns unstable by an eigenvalue of −1:
+//! A Δt²/4 + B Δt = 1, the dashpot seeing the predicted velocity. 4 and 8: twelve contacts, Σ n nᵀ = 4 and Σ (1 − n nᵀ) = 8,
+//! each against a neighbour that moves the other way; 16: a tangential spring that is late by half a step, the most there is, counts
+//! twice. 20 = 8 × 5/2: all grains turn the same way. 1/√(20 a_t): up to there the
+//! tangential spring, whose rate is predicted as well, takes more energy than it makes without a dashpot. Sliding resists
+//! ω_i + ω_j, rolling and twisting ω_i − ω_j: they add up for a grain beside a wall (w = 1), and only the greater counts between
+//! equals (w = 0). Cohesion only softens a contact, and the constant couple of rolling limits itself.
 
 use crate::bodies::Yielding;
 use crate::effects::{Jkr, damping_ratio};
@@ -20,11 +24,13 @@ use crate::error::SetupError;
 use crate::law::{Elastic, reach, tangential_ratio};
 use crate::particles::mass;
 use crate::setup::{Contact, Law, Material, RollingModel, Setup, Wall, WallShape};
+use crate::simulation::Simulation;
 
-/// Several contacts at once.
-const CONTACTS: f64 = 4.0;
-/// γ of the dashpot of twisting, 2 η [–].
-const TWISTING: f64 = 0.6;
+/// Σ n nᵀ of twelve contacts, and Σ (1 − n nᵀ) [–].
+const ALONG: f64 = 4.0;
+const ACROSS: f64 = 8.0;
+/// m r²/I of a sphere [–].
+const TURNS: f64 = 2.5;
 
 /// A critical step and what sets it.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,6 +85,8 @@ struct Grain {
     material: u16,
     /// Of the sphere that touches [m].
     radius: f64,
+    /// 1/m [1/kg].
+    inverse_mass: f64,
     /// 1/m to normal and to tangential forces [1/kg].
     yields: (f64, f64),
     name: Option<String>,
@@ -93,20 +101,21 @@ impl Grain {
     }
 }
 
-/// The smallest sphere of each material, and with clumps in the scene the largest, too: a small mass may be worse, or a large radius.
+/// The smallest and the largest sphere of each material: a small mass may be worse, or a large radius.
 fn grains(setup: &Setup) -> Vec<Grain> {
     let clumps = setup.clumps.yielding(&setup.materials);
     let mut grains = Vec::new();
     for (material, range) in (0u16..).zip(free_radii(setup)) {
         let Some((low, high)) = range else { continue };
-        for radius in if clumps.is_empty() { vec![low] } else { vec![low, high] } {
+        for radius in if low == high { vec![low] } else { vec![low, high] } {
             let inverse = 1.0 / mass(radius, setup.materials[material as usize].density);
-            grains.push(Grain { material, radius, yields: (inverse, inverse), name: None });
+            let yields = (inverse, inverse);
+            grains.push(Grain { material, radius, inverse_mass: inverse, yields, name: None });
         }
     }
     grains.extend(clumps.into_iter().map(|c| {
-        let Yielding { name, material, radius, normal, tangential } = c;
-        Grain { material, radius, yields: (normal, tangential), name: Some(name) }
+        let Yielding { name, material, radius, inverse_mass, normal, tangential } = c;
+        Grain { material, radius, inverse_mass, yields: (normal, tangential), name: Some(name) }
     }));
     grains
 }
@@ -162,11 +171,12 @@ enum Partner<'a> {
 
 fn tighten(limit: &mut Limit, setup: &Setup, a: &Grain, partner: Partner) -> Result<(), SetupError> {
     let (ra, (normal, tangential)) = (a.radius, a.yields);
-    let (other, yields, radius, smaller, what) = match partner {
+    let (other, yields, uneven, radius, (smaller, larger), what) = match &partner {
         Partner::Grain(b) => {
             let (rb, (n, t)) = (b.radius, b.yields);
             let yields = (normal + n, tangential + t);
-            (b.material, yields, ra * rb / (ra + rb), ra.min(rb), b.name(&setup.materials))
+            let sizes = (ra.min(rb), ra.max(rb));
+            (b.material, yields, (normal - n).abs(), ra * rb / (ra + rb), sizes, b.name(&setup.materials))
         }
         Partner::Wall(wall) => {
             let rb = match &wall.shape {
@@ -175,7 +185,9 @@ fn tighten(limit: &mut Limit, setup: &Setup, a: &Grain, partner: Partner) -> Res
             };
             let radius = if rb.is_finite() { ra * rb / (ra + rb) } else { ra };
             let what = format!("{} (wall '{}')", setup.materials[wall.material as usize].name, wall.name);
-            (wall.material, a.yields, radius, ra.min(rb), what)
+            // Wall spheres may lie within each other, so that there may be many however large they are.
+            let sizes = if rb.is_finite() { (ra.min(rb), ra.min(rb)) } else { (ra, rb) };
+            (wall.material, a.yields, normal, radius, sizes, what)
         }
     };
     let contact = contact_between(setup, a.material, other)?;
@@ -190,27 +202,71 @@ fn tighten(limit: &mut Limit, setup: &Setup, a: &Grain, partner: Partner) -> Res
             2.0 * elastic.modulus * last * Jkr::spread(setup.guards.overlap * smaller, radius, last).powi(2)
         }
     };
-    let gamma = damping_ratio(contact.restitution);
-    // K and C over m*, of several contacts at once; the predicted velocity doubles the dashpot's share.
-    let step = |count: f64, k: f64, gamma: f64, inverse_mass: f64| {
-        let (omega, zeta) = ((count * k * inverse_mass).sqrt(), 0.5 * gamma * count.sqrt());
-        2.0 / omega * ((1.0 + 4.0 * zeta * zeta).sqrt() - 2.0 * zeta)
+    let inverse_mass = a.inverse_mass + if let Partner::Grain(b) = partner { b.inverse_mass } else { 0.0 };
+    let between = Between {
+        stiffness,
+        tangential: tangential_ratio(contact, elastic) * stiffness,
+        yields,
+        mass: 1.0 / inverse_mass,
+        uneven: uneven / yields.0,
+        turning: (radius / smaller).powi(2) * (0.5 + 0.5 * smaller / larger),
     };
-    let mut dt = step(CONTACTS, stiffness, gamma, yields.0);
-    if contact.sliding_friction.is_some() {
-        // Twelve contacts of a close packing whose grains all turn the same way: 40/7 contacts of 7/2 k_t.
-        let k = tangential_ratio(contact, elastic) * stiffness;
-        dt = dt.min(step(20.0, k, gamma, yields.1)).min((20.0 * k * yields.1).sqrt().recip());
-        if contact.twisting_resistance.is_some() {
-            dt = dt.min(step(CONTACTS, 2.5 * k, TWISTING, yields.1));
-        }
-    }
-    let spring = contact.rolling_model == RollingModel::Spring;
-    if let Some(resistance) = contact.rolling_resistance.filter(|&r| spring && r > 0.0) {
-        dt = dt.min(0.188 / resistance * (stiffness * yields.0).sqrt().recip());
-    }
+    let dt = between.step(contact);
     if dt < limit.dt {
         *limit = Limit { dt, pair: format!("{} – {what}", a.name(&setup.materials)) };
     }
     Ok(())
+}
+
+/// What bounds the step of a pair.
+struct Between {
+    /// S and k_t [N/m].
+    stiffness: f64,
+    tangential: f64,
+    /// 1/m* to normal and to tangential forces [1/kg].
+    yields: (f64, f64),
+    /// m* that dashpots are made for [kg].
+    mass: f64,
+    /// w [–].
+    uneven: f64,
+    /// s [–].
+    turning: f64,
+}
+
+impl Between {
+    fn step(&self, contact: &Contact) -> f64 {
+        // The root of A Δt²/4 + B Δt = 1.
+        let root = |a: f64, b: f64| 2.0 / ((a + b * b).sqrt() + b);
+        let gamma = damping_ratio(contact.restitution);
+        let (along, across) = (self.stiffness * self.yields.0, self.tangential * self.yields.1);
+        let impedance = (self.stiffness * self.mass).sqrt();
+        let (pull, turn) = (impedance * self.yields.0, impedance * self.yields.1);
+        let rub = (self.tangential * self.mass).sqrt() * self.yields.1;
+        if contact.sliding_friction.is_none() {
+            return root(ALONG * along, ALONG * gamma * pull);
+        }
+        let moves = root(ALONG * along + 2.0 * ACROSS * across, gamma * (ALONG * pull + ACROSS * rub));
+        let slide = ACROSS * TURNS;
+        let (mut a, mut b) = (0.0, 0.0);
+        if contact.rolling_model == RollingModel::Spring {
+            // 8 × 5/2 c_r over its arm and √(S m*); one hundredth of it stands for the spring.
+            b += 21.5 * self.turning * contact.rolling_resistance.unwrap_or(0.0) * turn;
+        }
+        if contact.twisting_resistance.is_some() {
+            // 4 × 5/2 of k_w and c_w, η = 0.3.
+            a += ALONG * TURNS * self.turning * across;
+            b += ALONG * TURNS * 0.6 * 0.4f64.sqrt() * self.turning * rub;
+        }
+        let w = self.uneven;
+        let slides = root(slide * across + w * a, slide * gamma * rub + w * b);
+        let turns = root(w * slide * across + a, w * slide * gamma * rub + b);
+        moves.min(slides).min(turns).min((slide * across).sqrt().recip())
+    }
+}
+
+impl Simulation {
+    /// Goes on with a step [s] that nobody has checked: to find by trial where a run turns unstable.
+    pub fn set_step_unchecked(&mut self, dt: f64) {
+        self.dt = dt;
+    }
 }

@@ -12,6 +12,8 @@ pub struct Yielding {
     pub material: u16,
     /// Largest radius of its members [m].
     pub radius: f64,
+    /// 1/m of the body [1/kg].
+    pub inverse_mass: f64,
     /// 1/m of the sphere that yields as easily to normal forces [1/kg].
     pub normal: f64,
     /// The like for tangential forces [1/kg].
@@ -68,6 +70,7 @@ impl Clumps {
                     name: shape.name.clone(),
                     material: shape.material,
                     radius: shape.radii().1 * s,
+                    inverse_mass: 1.0 / shape.mass(s, density),
                     normal: normal * share,
                     tangential: tangential * share,
                 });

@@ -61,15 +61,14 @@ impl ClumpShape {
     /// ```text
     /// N = c Σ_k ( 1        −[r_k]        )      T = 2 c Σ_k ( 1        −[r_k]               )
     ///           ( [r_k]    r_k² − r_k r_kᵀ )               ( [r_k]    r_k² − r_k r_kᵀ + R_k² )
-    /// w_n = λ_max(M^−½ N M^−½)/4,   w_t = λ_max(M^−½ T M^−½)/20,   c = 2 + 2/n,   M = diag(m, m, m, I)
+    /// w_n = λ_max(M^−½ N M^−½)/4,   w_t = λ_max(M^−½ T M^−½)/20,   c = 4,   M = diag(m, m, m, I)
     /// ```
     ///
-    /// N and T are the stiffnesses of the body against contacts of stiffness 1 from all sides on all its n members, three c on each:
-    /// six on a member and six more, as many as a sphere of a close packing has where n = 1. One sphere: w_n = w_t = 1/m, the bounds
-    /// that [`crate::critical_step`] divides by 4 and 20.
+    /// N and T are the stiffnesses of the body against contacts of stiffness 1 from all sides on all its n members, three c on each,
+    /// as on a sphere of a close packing: across its axis a rod of spheres that touch has no fewer in a crystal. One sphere:
+    /// w_n = w_t = 1/m, the bounds that [`crate::critical_step`] divides by 4 and 20.
     pub fn yielding(&self) -> (f64, f64) {
-        let count = self.spheres.len() as f64;
-        let c = 2.0 + 2.0 / count;
+        let c = 4.0;
         let root = |x: f64| 1.0 / x.sqrt();
         let m = root(self.volume);
         let i = Matrix3::from_diagonal(&Vec3::from(self.inertia.map(root)));

@@ -1,14 +1,30 @@
 //! Sliding, rolling and twisting with every normal law, on a plane and on wall spheres.
 
+use crate::impacts::totals;
+use crate::simulation;
+use dem::Setup;
 use dem::setup::*;
-use dem::{Setup, Simulation, mass};
-use geom::Vec3;
+use geom::{Moments, Vec3};
+use grainpipe_tests::findings::{Case, case};
 use grainpipe_tests::normals::{NORMALS, SURFACES};
-use grainpipe_tests::setups::{particles, run_until};
+use grainpipe_tests::setups::{LAWS, empty, grain, particles, plane, run_until, with_friction};
+use nalgebra::UnitQuaternion;
 
-fn simulation(setup: Setup) -> Simulation {
-    Simulation::new(setup).expect("the setup is sound")
-}
+const PART: &str = "Friction and rolling";
+const SLIDES: Case = case(PART, "thrown ball slides: v = v₀ − μ p t (p = g; with adhesion (F_n + 2 F_po)/m)");
+const ROLLS: Case = case(PART, "thrown ball rolls from 2 v₀/7 μ p on, at 5/7 v₀, for all μ");
+const ROLLS_DOWN: Case = case(PART, "ball that sticks rolls down a slope: 5/7 g sin θ");
+const SLIDES_DOWN: Case = case(PART, "ball on tan θ > 7/2 μ slides: g (sin θ − μ cos θ)");
+const SLOWS: Case = case(PART, "rolling resistance: −v̇ = 5/7 μ_r p, both models");
+const HOLDS: Case = case(PART, "rolling resistance (spring): a ball stays on 0.9 μ_r p/g, does not on 1.1");
+const CREEPS: Case = case(PART, "rolling resistance (constant): creep on a slope falls as the step");
+const RESTS: Case = case(PART, "rolling resistance (constant): comes to rest on level ground");
+const TWISTS: Case = case(PART, "twisting resistance: −ω̇ = 5/2 μ_w p/r");
+const WEAKENS: Case = case(PART, "friction that weakens: slip s of ṡ = −7/2 μ(s) p");
+const MOMENTUM: Case = case(PART, "collision with all that rubs: Σ m v is kept, over that before");
+const SPIN: Case = case(PART, "collision with all that rubs: Σ x × m v + I ω is kept, over that before");
+const BLOCK_STAYS: Case = case(PART, "block on 0.9 μ stays where it came to rest");
+const BLOCK_SLIDES: Case = case(PART, "block on 1.1 μ slides: g (sin θ − μ cos θ)");
 
 /// Every normal law on every surface: a grain at rest, and what friction is capped by over its mass [m/s²].
 fn all(friction: f64, test: impl Fn(Setup, f64, &str)) {
@@ -30,23 +46,25 @@ fn tilt(setup: &mut Setup, theta: f64) {
     setup.gravity = Vec3::new(9.81 * theta.sin(), 0.0, -9.81 * theta.cos());
 }
 
-/// Slides until 2v₀/7μp, then rolls at 5/7 v₀; p is g, and with adhesion (F_n + 2F_po)/m.
+/// Slides until 2v₀/7μp, then rolls at 5/7 v₀, whatever μ is.
 #[test]
 fn thrown_ball() {
-    all(0.3, |mut setup, press, case| {
-        setup.particles[0].velocity.x = 1.0;
-        let mut sim = simulation(setup);
-        let rolls = 2.0 / (7.0 * 0.3 * press);
-        run_until(&mut sim, 0.5 * rolls);
-        let p = particles(&mut sim)[0];
-        let expected = 1.0 - 0.3 * press * sim.time();
-        assert!((p.velocity.x - expected).abs() < 2e-3, "{case} slides: {} not {expected}", p.velocity.x);
-        run_until(&mut sim, 1.5 * rolls);
-        let p = particles(&mut sim)[0];
-        // It rolls on r − δ.
-        assert!((p.velocity.x - 5.0 / 7.0).abs() < 4e-3, "{case} rolls: {}", p.velocity.x);
-        assert!((p.spin.y * 0.01 - p.velocity.x).abs() < 6e-3, "{case} rolls without sliding");
-    });
+    for mu in [0.1, 0.3, 0.8] {
+        all(mu, |mut setup, press, case| {
+            setup.particles[0].velocity.x = 1.0;
+            let mut sim = simulation(setup);
+            let rolls = 2.0 / (7.0 * mu * press);
+            run_until(&mut sim, 0.5 * rolls);
+            let p = particles(&mut sim)[0];
+            let on = format!("{case}, μ = {mu}");
+            SLIDES.within(&on, p.velocity.x - (1.0 - mu * press * sim.time()), "m/s of 1", 2e-3);
+            run_until(&mut sim, 1.5 * rolls);
+            let p = particles(&mut sim)[0];
+            // It rolls on r − δ.
+            ROLLS.within(&on, p.velocity.x - 5.0 / 7.0, "m/s of 5/7", 4e-3);
+            ROLLS.within(&format!("{on}, slip"), p.spin.y * 0.01 - p.velocity.x, "m/s of 5/7", 6e-3);
+        });
+    }
 }
 
 /// Rolls down a slope at 5/7 g sin θ while it sticks.
@@ -59,7 +77,7 @@ fn ball_rolls_down_a_slope() {
         run_until(&mut sim, 0.3);
         let expected = 5.0 / 7.0 * 9.81 * theta.sin() * sim.time();
         let v = particles(&mut sim)[0].velocity.x;
-        assert!((v / expected - 1.0).abs() < 5e-3, "{case}: {v} instead of {expected}");
+        ROLLS_DOWN.equals(case, v, "m/s", expected, 5e-3);
     });
 }
 
@@ -76,7 +94,7 @@ fn ball_slides_down_a_steep_slope() {
         run_until(&mut sim, 0.3);
         let expected = 9.81 * (theta.sin() - 0.1 * theta.cos()) * sim.time();
         let v = particles(&mut sim)[0].velocity.x;
-        assert!((v / expected - 1.0).abs() < 5e-3, "{case}: {v} instead of {expected}");
+        SLIDES_DOWN.equals(case, v, "m/s", expected, 5e-3);
     });
 }
 
@@ -91,7 +109,7 @@ fn rolling_ball_slows_down() {
             run_until(&mut sim, 0.2);
             let v = particles(&mut sim)[0].velocity.x;
             let expected = 0.5 - 5.0 / 7.0 * 0.1 * press * sim.time();
-            assert!((v - expected).abs() < 3e-3, "{case}, {model:?}: {v} m/s instead of {expected}");
+            SLOWS.within(&format!("{case}, {model:?}"), v - expected, "m/s of 0.5", 3e-3);
         });
     }
 }
@@ -109,8 +127,13 @@ fn slopes_and_rest_with_rolling_resistance() {
             let mut sim = simulation(setup);
             run_until(&mut sim, 0.5);
             let p = particles(&mut sim)[0];
-            let rests = p.position.x.abs() < 1e-3 && p.velocity.norm() < 1e-3;
-            assert_eq!(rests, stays, "{case} {share}: {p:?}");
+            // Hertz is softest at first touch: the spring may give a little before it holds.
+            if stays {
+                HOLDS.within(&format!("{case}, way"), p.position.x, "m", 1e-3);
+                HOLDS.within(&format!("{case}, speed"), p.velocity.norm(), "m/s", 1e-3);
+            } else {
+                assert!(p.velocity.x > 1e-3, "{case} {share}: {p:?}");
+            }
         }
         let creep = |safety: f64| {
             let mut setup = base.clone();
@@ -124,9 +147,12 @@ fn slopes_and_rest_with_rolling_resistance() {
             particles(&mut sim)[0].velocity.x
         };
         let (coarse, fine) = (creep(0.1), creep(0.05));
-        assert!(
-            fine > 0.0 && coarse < 2e-2 && (coarse / fine - 2.0).abs() < 0.1,
-            "{case}: {coarse}, {fine} m/s"
+        assert!(fine > 0.0 && coarse < 2e-2, "{case}: {coarse}, {fine} m/s");
+        CREEPS.within(
+            &format!("{case}, speed over half of that of twice the step, − 1"),
+            coarse / fine / 2.0 - 1.0,
+            "–",
+            0.05,
         );
         let mut setup = base.clone();
         each(&mut setup, |c| (c.rolling_resistance, c.rolling_model) = (Some(0.1), RollingModel::Constant));
@@ -134,7 +160,7 @@ fn slopes_and_rest_with_rolling_resistance() {
         let mut sim = simulation(setup);
         run_until(&mut sim, 1.0);
         let p = particles(&mut sim)[0];
-        assert!(p.velocity.norm() < 1e-9 && p.spin.norm() < 1e-7, "{case}: {p:?}");
+        RESTS.within(case, p.velocity.norm().max(0.01 * p.spin.norm()), "m/s", 1e-9);
     });
 }
 
@@ -149,7 +175,7 @@ fn twisting_stops_a_spinning_top() {
         run_until(&mut sim, 0.5 * 20.0 / slows);
         let p = particles(&mut sim)[0];
         let expected = 20.0 - slows * sim.time();
-        assert!((p.spin.z / expected - 1.0).abs() < 5e-3, "{case}: {} rad/s instead of {expected}", p.spin.z);
+        TWISTS.equals(case, p.spin.z, "rad/s", expected, 5e-3);
         run_until(&mut sim, 2.0 * 20.0 / slows);
         assert!(particles(&mut sim)[0].spin.norm() < 1e-6, "{case}: at rest");
     });
@@ -173,7 +199,8 @@ fn weakening_friction() {
         }
         let p = particles(&mut sim)[0];
         let got = p.velocity.x - 0.01 * p.spin.y;
-        assert!(slip > 0.05 && (got - slip).abs() < 3e-3, "{case}: {got} m/s instead of {slip}");
+        assert!(slip > 0.05);
+        WEAKENS.within(case, got - slip, "m/s of 1", 3e-3);
     });
 }
 
@@ -188,20 +215,11 @@ fn oblique_collision_conserves_momentum_and_angular_momentum() {
                 c.twisting_resistance = Some(0.05);
                 c.weakening = Some(Weakening { dynamic: 0.2, speed: 0.1 });
             });
-            let at = |x, y, z| grainpipe_tests::setups::grain(1, Vec3::new(x, y, z));
+            let at = |x, y, z| grain(1, Vec3::new(x, y, z));
             let (mut a, mut b) = (at(0.009, 0.004, -0.001), at(-0.009, -0.002, 0.002));
             (a.radius, a.velocity, a.spin) = (0.007, Vec3::new(-0.3, 0.05, 0.1), Vec3::new(10.0, -5.0, 3.0));
             (b.id, b.velocity, b.spin) = (2, Vec3::new(0.2, 0.0, 0.02), Vec3::new(0.0, 7.0, -20.0));
             setup.particles = vec![a, b];
-            let totals = |ps: &[Particle]| {
-                let mut sum = (Vec3::zeros(), Vec3::zeros());
-                for p in ps {
-                    let m = mass(p.radius, 2500.0);
-                    sum.0 += m * p.velocity;
-                    sum.1 += m * p.position.cross(&p.velocity) + 0.4 * m * p.radius * p.radius * p.spin;
-                }
-                sum
-            };
             let start = setup.particles.clone();
             let before = totals(&start);
             let mut sim = simulation(setup);
@@ -209,9 +227,54 @@ fn oblique_collision_conserves_momentum_and_angular_momentum() {
             let now = particles(&mut sim);
             assert!((now[0].spin - start[0].spin).norm() > 0.1, "they have touched");
             let after = totals(&now);
-            let (p, l) = ((after.0 - before.0).norm(), (after.1 - before.1).norm());
-            assert!(p < 1e-14 * before.0.norm().max(1e-3), "{}: {p:e}", normal.name);
-            assert!(l < 1e-6 * before.1.norm(), "{}: {l:e} of {:e}", normal.name, before.1.norm());
+            let on = format!("{}, {model:?}", normal.name);
+            MOMENTUM.within(&on, (after.0 - before.0).norm() / before.0.norm(), "–", 1e-14);
+            SPIN.within(&on, (after.1 - before.1).norm() / before.1.norm(), "–", 1e-11);
+        }
+    }
+}
+
+/// A cube of 20 mm with a sphere of 3 mm at every corner, on a slope.
+fn block(law: Law, mu: f64, tangent: f64) -> dem::Simulation {
+    let theta = tangent.atan();
+    let mut setup = with_friction(empty(law, 0.3), mu);
+    setup.gravity = Vec3::new(9.81 * theta.sin(), 0.0, -9.81 * theta.cos());
+    setup.walls = vec![plane(Vec3::z())];
+    setup.step = Step::Auto(0.3);
+    let side = |bit: usize, k: usize| if k >> bit & 1 == 1 { 0.01 } else { -0.01 };
+    let spheres: Vec<_> = (0..8).map(|k| (Vec3::new(side(0, k), side(1, k), side(2, k)), 0.003)).collect();
+    let shape = ClumpShape::new("cube", 0, &spheres, &Moments::of_sum(&spheres));
+    let one = Body {
+        id: 0,
+        shape: 0,
+        scale: 1.0,
+        position: Vec3::new(0.0, 0.0, 0.013),
+        orientation: UnitQuaternion::identity(),
+        velocity: Vec3::zeros(),
+        spin: Vec3::zeros(),
+    };
+    setup.clumps = Clumps { shapes: vec![shape], bodies: vec![one], entries: vec![] };
+    simulation(setup)
+}
+
+/// What cannot roll rests below arctan μ and slides above.
+#[test]
+fn block_on_a_slope() {
+    for (law, name) in LAWS.into_iter().zip(["hooke", "hertz"]) {
+        for mu in [0.2, 0.6] {
+            let on = format!("{name}, μ = {mu}");
+            let mut sim = block(law, mu, 0.9 * mu);
+            run_until(&mut sim, 1.0);
+            let rested = sim.bodies().expect("sound")[0];
+            run_until(&mut sim, 2.0);
+            let b = sim.bodies().expect("sound")[0];
+            BLOCK_STAYS.within(&on, (b.position - rested.position).norm(), "m in 1 s", 1e-9);
+            let mut sim = block(law, mu, 1.1 * mu);
+            run_until(&mut sim, 0.5);
+            let theta = f64::atan(1.1 * mu);
+            let expected = 9.81 * (theta.sin() - mu * theta.cos()) * sim.time();
+            let v = sim.bodies().expect("sound")[0].velocity.x;
+            BLOCK_SLIDES.equals(&on, v, "m/s", expected, 2e-2);
         }
     }
 }

@@ -1,0 +1,18 @@
+//! Laws with closed answers: one contact, friction and rolling, many grains; and the orders in which errors fall with the step.
+
+mod budget;
+mod hopper;
+mod impacts;
+mod mindlin;
+mod oblique;
+mod orders;
+mod rest;
+mod rubbing;
+mod squeezed;
+mod triaxial;
+
+use dem::{Setup, Simulation};
+
+fn simulation(setup: Setup) -> Simulation {
+    Simulation::new(setup).expect("the setup is sound")
+}

@@ -1,0 +1,7 @@
+//! The bound on the time step: safe for every configuration, and not wasteful for those that it is meant for.
+//! Derived in docs/time-step.md.
+
+mod crystals;
+mod few;
+mod refused;
+mod trial;
