@@ -68,10 +68,19 @@ impl Source {
                 Err(anyhow::anyhow!("{self}: is a folder: name a file in it"))
             }
             Source::File(path) => {
-                let file = File::open(path)
-                    .with_context(|| format!("{self}: cannot open it (check the path, '-' is stdin)"))?;
+                let file = File::open(path).with_context(|| self.missing(path))?;
                 Ok(Box::new(file))
             }
+        }
+    }
+
+    /// What to do about a file that cannot be opened.
+    fn missing(&self, path: &Path) -> String {
+        match crate::parts_of(path).pop() {
+            Some((part, _)) if !path.exists() => {
+                format!("{self}: its run has not ended; what it wrote is in {}", part.display())
+            }
+            _ => format!("{self}: cannot open it (check the path, '-' is stdin)"),
         }
     }
 

@@ -17,6 +17,7 @@ pub fn plant() -> TempDir {
         .collect();
     write("cloud.xyz", cloud.as_bytes());
     let scene = samples::SCENE.replace("count = 3", "count = 60").replace("every = 0.004", "every = 0.0005");
+    let scene = scene.replace("until = 0.012", "until = 0.04");
     write("s.toml", scene.replace("0.03,0.03,0.035", "0.08,0.08,0.2").as_bytes());
     write("plant.toml", samples::SCENE.as_bytes());
     succeed(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap"]);
