@@ -3,6 +3,7 @@
 use grainpipe_tests::findings::{Case, case};
 use grainpipe_tests::tools::tool;
 use std::fs;
+use std::ops::RangeInclusive;
 use std::path::Path;
 use tempfile::tempdir;
 
@@ -57,18 +58,17 @@ fn outcome(folder: &Path, words: &[&str]) -> Result<usize, String> {
     Ok(count.trim().parse().expect("a number"))
 }
 
-/// For each cloud: what cloud-crop, cloud-fill, bluenoise-sample by spacing and by count, and wallgen make of it, a number of points
-/// or words of the refusal.
-#[test]
-fn clouds_that_are_hardly_one() {
-    use std::ops::RangeInclusive;
-    type Expected = Result<RangeInclusive<usize>, &'static [&'static str]>;
+/// A number of points, or words of the refusal.
+type Expected = Result<RangeInclusive<usize>, &'static [&'static str]>;
+
+/// For each cloud: what cloud-crop, cloud-fill, bluenoise-sample by spacing and by count, and wallgen make of it.
+fn table() -> [(&'static str, [Expected; 5]); 14] {
     let n = |n: usize| -> Expected { Ok(n..=n) };
     let no = |words: &'static [&'static str]| -> Expected { Err(words) };
     let empty: &[&str] = &["none.xyz", "nothing to read"];
     let not_finite: &[&str] = &["point 400", "not finite", "cloud-crop"];
     let too_far: &[&str] = &["point 400", "farther than", "cloud-crop"];
-    let table: [(&str, [Expected; 5]); 14] = [
+    [
         ("plane", [n(400), n(400), Ok(200..=400), Ok(10..=10), n(400)]),
         ("none", [no(empty), no(empty), no(empty), no(empty), no(empty)]),
         ("one", [n(1), n(1), n(1), no(&["count 10", "only 1 points"]), no(&["1 points", "at least 2"])]),
@@ -95,10 +95,14 @@ fn clouds_that_are_hardly_one() {
         ("outlier", [n(401), n(401), Ok(201..=401), n(10), n(401)]),
         ("far", [n(402), n(402), no(too_far), no(too_far), no(too_far)]),
         ("sheets", [n(800), n(800), Ok(200..=400), n(10), n(800)]),
-    ];
+    ]
+}
+
+#[test]
+fn clouds_that_are_hardly_one() {
     let folder = tempdir().unwrap();
     let f = folder.path();
-    for ((name, points), (row, expected)) in clouds().into_iter().zip(table) {
+    for ((name, points), (row, expected)) in clouds().into_iter().zip(table()) {
         assert_eq!(name, row);
         let text: String = points.iter().map(|[x, y, z]| format!("{x:e} {y:e} {z:e}\n")).collect();
         let file = format!("{name}.xyz");

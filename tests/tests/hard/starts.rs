@@ -68,10 +68,13 @@ fn no_grain_and_one_grain() {
     }
 }
 
+/// Puts a number where it does not belong.
+type Spoil = fn(&mut Particle, f64);
+
 /// What is no number is refused before the first step, with the grain's id and the key.
 #[test]
 fn what_is_no_number_is_refused() {
-    let wrong: [(&str, fn(&mut Particle, f64)); 4] = [
+    let wrong: [(&str, Spoil); 4] = [
         ("position", |p, x| p.position.y = x),
         ("velocity", |p, x| p.velocity.z = x),
         ("spin", |p, x| p.spin.x = x),

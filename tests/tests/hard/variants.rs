@@ -33,6 +33,11 @@ impl Variant {
         self.precision == Precision::Mixed
     }
 
+    /// Whether grains adhere.
+    pub fn adheres(&self) -> bool {
+        self.normal.cohesion.is_some() || matches!(self.normal.law, Law::Jkr { .. })
+    }
+
     /// Two materials with this law for every pair, and nothing that rubs.
     pub fn smooth(&self, restitution: f64) -> Setup {
         Setup { precision: self.precision, ..self.normal.setup(restitution) }
