@@ -169,36 +169,34 @@ fn an_interrupted_sweep_goes_on_from_where_it_was() {
 
 #[test]
 fn repeats_have_an_interval_and_blanks_are_filled_before_the_run() {
-    let scene = DROP
-        .replace("source = \"ball.csv\"", "source = \"ball-{n}.csv\"")
-        .replace("[[particles]]", "[[fill]]");
-    let fill = "shape = \"box:0,0,0.01,0.1,0.1,0.05\"\ndiameter = [0.004, 0.01]\ncount = 20\n";
-    let scene =
-        scene.replace("source = \"ball-{n}.csv\"\n", fill).replace("[output]\n", "[output]\nenergy = true\n");
+    let fill = "[[fill]]\nmaterial = \"stone\"\nshape = \"box:0,0,0.01,0.1,0.1,0.05\"\ndiameter = [0.004, 0.01]\ncount = 20\n[[wall]]";
+    let (head, tail) = DROP.split_once("[[particles]]").unwrap();
+    let scene = format!("{head}{fill}{}", tail.split_once("[[wall]]").unwrap().1);
     let folder = folder(&scene);
-    let options = ["--vary", "safety=0.1,0.5", "--measure", "bed-height --ground 0", "--repeat", "3"];
+    let options = ["--vary", "safety=0.1,0.5", "--repeat", "3", "--work", "cpu"];
+    let options = [&options[..], &["--measure", "bed-height --ground 0"]].concat();
     let done = curve(&folder, &options);
     let (intervals, seeds) = (numbers(&done, "value_interval"), numbers(&done, "seeds"));
     assert_eq!(seeds, [3.0, 3.0]);
+    assert!(numbers(&done, "work").iter().all(|w| *w > 0.0 && *w < 1000.0), "processor time");
     assert!(intervals.iter().all(|i| *i > 0.0), "other seeds, other heaps: {intervals:?}");
     assert!(folder.path().join("cost-curve.points/safety=0.1,seed=2/run.mcap").exists());
-    // A line of the shell makes the input, here the scene's own particles as an input that names them.
-    fs::write(folder.path().join("a.csv"), "id,x,y,z,radius,vz\n0,0,0,0.055,0.005,-1\n").unwrap();
-    let done = tool(
-        folder.path(),
-        "cost-curve",
-        &[
-            "s.toml",
-            "--vary",
-            "count=1,2",
-            "--each",
-            "echo {count} {left}",
-            "--measure",
-            "bed-height",
-            "--exact",
-            "1",
-        ],
-    );
+    // The same runs, measured otherwise: a profile against that of the finest setting.
+    let profile =
+        ["--measure", "velocity-profile --bins 4 --within box:0,0,0,0.1,0.1,0.05 --mean", "--for", "300%"];
+    let done = curve(&folder, &[&options[..6], &profile].concat());
+    assert!(done.stderr.contains("6 runs, 6 of them made before"), "{}", done.stderr);
+    let (error, interval) = (numbers(&done, "error"), numbers(&done, "error_interval"));
+    assert!(error[0] == 0.0 && error[1] > 0.0 && interval[1] > 0.0, "{error:?} ± {interval:?}");
+    // A line of the shell makes the input; one that prints nothing gives none.
+    let height = ["--measure", "bed-height --ground 0", "--reference", "count=2"];
+    let done =
+        curve(&folder, &[&["--vary", "count=1,2", "--each", "echo {count} >&2"], &height[..]].concat());
+    assert_eq!(numbers(&done, "error"), [0.0, 0.0], "the same run");
+    assert!(numbers(&done, "prepare").iter().all(|s| *s > 0.0));
+    let blank =
+        ["--vary", "count=1,2", "--each", "echo {count} {left}", "--measure", "bed-height", "--exact", "1"];
+    let done = tool(folder.path(), "cost-curve", &[&["s.toml"], &blank[..]].concat());
     assert!(done.code == 2 && done.stderr.contains("nothing fills {left}: vary left"), "{}", done.stderr);
     let options = [
         "--vary",

@@ -9,4 +9,4 @@ mod words;
 pub use error::{Norm, Truth, errors};
 pub use front::{Choice, front, recommend};
 pub use point::{Error, Point, Sample};
-pub use words::{change, order, percent, sentence, share_of_time};
+pub use words::{amount, change, order, percent, sentence, share_of_time};

@@ -20,7 +20,7 @@ fn rounded(value: f64) -> String {
 }
 
 /// `0.31 % ± 0.1 %`, or with the unit of the measure where the truth is zero.
-fn size(error: &Error, unit: &str) -> String {
+pub fn amount(error: &Error, unit: &str) -> String {
     let one = |v: f64| match (error.relative, unit) {
         (true, _) => percent(v),
         (false, "1" | "") => rounded(v),
@@ -103,7 +103,7 @@ pub fn sentence(
         "{} {} {} in {} and {}",
         change(from, to),
         if less { "leaves" } else { "costs" },
-        size(error, what.1),
+        amount(error, what.1),
         what.0,
         share_of_time(work, before, of)
     )

@@ -56,3 +56,30 @@ impl OfFrame for BedHeight {
         Chart::new("Height of the bed").columns(("time [s]", 0), "height [m]", &lines, rows)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A square layer of equal balls of radius r on the ground: over the rays that meet a ball the surface is r + √(r² − ρ²) high, ρ uniform
+    /// in the disc, so that half of it lies above r (1 + √½).
+    #[test]
+    fn the_median_of_a_layer_of_balls_is_that_of_a_half_sphere() {
+        let r = 0.01;
+        let place = |k: i32| Vec3::new(0.0213 * f64::from(k % 40), 0.0217 * f64::from(k / 40), 0.3 + r);
+        let frame = Frame {
+            time: 1.0,
+            id: (0..1600).collect(),
+            position: (0..1600).map(place).collect(),
+            radius: vec![r; 1600],
+            ..Frame::default()
+        };
+        let mut bed = BedHeight::new(None, Some(0.3));
+        let rows = bed.measure(&Run::default(), &frame).unwrap();
+        let right = r * (1.0 + 0.5f64.sqrt());
+        println!("{} {right}", rows[0][1]);
+        assert!((rows[0][1] / right - 1.0).abs() < 0.01, "{} is not {right}", rows[0][1]);
+        let empty = Frame::default();
+        assert!(matches!(bed.measure(&Run::default(), &empty), Err(MeasureError::NoGrains { .. })));
+    }
+}

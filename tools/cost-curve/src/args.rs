@@ -88,6 +88,8 @@ pub struct Args {
 pub enum Work {
     /// Wall time for each simulated second
     Seconds,
+    /// Processor time for each simulated second: other work on the machine hardly disturbs it
+    Cpu,
     /// Steps for each simulated second: the same on every machine
     Steps,
     /// Instructions of the program for each simulated second; needs perf or valgrind

@@ -113,6 +113,7 @@ pub fn judge(
         marks: (grid.reference, grid.in_use.filter(|k| points[*k].failed.is_none())),
         of: match args.work {
             Work::Seconds => "time",
+            Work::Cpu => "processor time",
             Work::Steps => "steps",
             Work::Instructions => "instructions",
         },
@@ -172,7 +173,9 @@ impl Judged {
     fn known(&self, k: usize) -> String {
         match (&self.errors[k], self.marks.0 == Some(k)) {
             (_, true) => format!(", the reference for {}", self.what.0),
-            (Some(error), _) => format!(", with an error of {} in {}", self.size(error.size), self.what.0),
+            (Some(error), _) => {
+                format!(", with an error of {} in {}", curve::amount(error, &self.what.1), self.what.0)
+            }
             _ => String::new(),
         }
     }

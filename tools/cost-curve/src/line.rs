@@ -88,8 +88,9 @@ impl Job {
     /// The whole script; `tools` is the folder of the programs.
     pub fn script(&self, tools: &Path, here: &Path, work: Work, counter: Option<Counter>) -> String {
         let (tools, here) = (quoted(&tools.display().to_string()), quoted(&here.display().to_string()));
-        let old =
-            ["made", "run.mcap", "report.json", "input", "instructions"].map(|f| self.path(f)).join(" ");
+        let old = ["made", "run.mcap", "report.json", "input", "instructions", "cpu"]
+            .map(|f| self.path(f))
+            .join(" ");
         let mut lines = vec![
             "#!/usr/bin/env bash".to_owned(),
             format!("# cost-curve: {}", self.name),
@@ -110,7 +111,8 @@ impl Job {
             _ => String::new(),
         };
         let line = self.dem_run_with("\"${own[@]}\"");
-        lines.push(format!("{counted}{line} 2> {}", self.path("words")));
+        lines.push("TIMEFORMAT='%U %S'".to_owned());
+        lines.push(format!("{{ time {counted}{line} 2> {}; }} 2> {}", self.path("words"), self.path("cpu")));
         lines.push("code=$?".to_owned());
         lines.push(format!("[ $code -ge 128 ] || {}", made("$code")));
         lines.join("\n") + "\n"

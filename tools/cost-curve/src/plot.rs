@@ -102,6 +102,9 @@ pub fn draw(file: &Path, judged: &Judged, title: &str) -> anyhow::Result<Vec<u8>
         .with_title(title.to_owned())
         .with_x_label(match judged.of {
             "time" => format!("wall time for a simulated second [s]; beside the points: {key}"),
+            "processor time" => {
+                format!("processor time for a simulated second [s]; beside the points: {key}")
+            }
             of => format!("{of} for a simulated second; beside the points: {key}"),
         })
         .with_y_label(format!("error in {} [{unit}]", judged.what.0))

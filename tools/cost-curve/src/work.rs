@@ -169,6 +169,7 @@ pub fn read(job: &Job, work: Work, counter: Option<Counter>) -> anyhow::Result<M
     let time = number("time")?;
     let (seconds, steps) = (number("seconds")? / time, number("steps")? / time);
     let work = match (work, counter) {
+        (Work::Cpu, _) => cpu(job)? / time,
         (Work::Steps, _) => steps,
         (Work::Instructions, Some(counter)) => {
             let file = job.file("instructions");
@@ -178,6 +179,15 @@ pub fn read(job: &Job, work: Work, counter: Option<Counter>) -> anyhow::Result<M
         _ => seconds,
     };
     Ok(Made::Done { work, seconds, steps, prepared: prepared(job) })
+}
+
+/// Processor time of the run [s]: of the program, and of the system for it.
+fn cpu(job: &Job) -> anyhow::Result<f64> {
+    let file = job.file("cpu");
+    let text = std::fs::read_to_string(&file).with_context(|| file.display().to_string())?;
+    let parts: Option<Vec<f64>> =
+        text.split_whitespace().map(|part| part.replace(',', ".").parse().ok()).collect();
+    parts.map(|parts| parts.iter().sum()).ok_or_else(|| anyhow!("{}: holds no times: {text}", file.display()))
 }
 
 /// Wall time of the line that made the input [s].
