@@ -110,12 +110,12 @@ fn cools(steps: u64) {
 
 #[test]
 fn pressed_grains_below_the_critical_step_keep_their_energy() {
-    bounded(50_000);
+    bounded(30_000);
 }
 
 #[test]
 fn pressed_grains_below_the_critical_step_come_to_rest() {
-    cools(50_000);
+    cools(30_000);
 }
 
 #[test]
