@@ -85,6 +85,12 @@ pub fn provenance(inputs: Vec<(String, String)>) -> Provenance {
 /// Parses the arguments, runs `work`, reports, and turns every outcome into an exit code.
 pub fn run<A: clap::Parser>(name: &'static str, work: impl FnOnce(A) -> anyhow::Result<Report>) -> ExitCode {
     let start = Instant::now();
+    let print = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| {
+        if !cloud::formats::panics_become_errors() {
+            print(panic);
+        }
+    }));
     let matches = command::<A>(name).try_get_matches().unwrap_or_else(|e| refuse(name, &e));
     let (args, common) = match (A::from_arg_matches(&matches), Common::from_arg_matches(&matches)) {
         (Ok(args), Ok(common)) => (args, common),

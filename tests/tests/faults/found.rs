@@ -107,3 +107,26 @@ fn particles_without_names() {
     let error = scene.plan(Vec::new()).err().expect("refused");
     CLAIMS.refused("particles: a line without names", &said(&error), &["p.csv", "line of names"]);
 }
+
+/// Its reader gives up with a panic; what a user sees is one line.
+#[test]
+fn laz_that_its_reader_gives_up_on() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let whole = sample(samples::las(), "3.laz");
+    let mut quiet = 0u32;
+    for at in (200..whole.len()).step_by(40) {
+        let mut bytes = whole.clone();
+        bytes[at..(at + 4).min(whole.len())].fill(0xff);
+        std::fs::write(folder.path().join("x.laz"), bytes).expect("written");
+        let done = grainpipe_tests::tools::tool(folder.path(), "cloud-crop", &["x.laz", "-o", "x.ply"]);
+        quiet +=
+            u32::from(done.stderr.lines().count() == 1 && !done.stderr.contains("panicked") && done.code < 2);
+    }
+    let files = (200..whole.len()).step_by(40).count() as u32;
+    CLAIMS.within(
+        "LAZ: damaged, files that are told in more than a line",
+        f64::from(files - quiet),
+        "files",
+        0.0,
+    );
+}

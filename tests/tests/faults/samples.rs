@@ -113,8 +113,9 @@ pub fn e57() -> Vec<Sample> {
             Record::CARTESIAN_Y_F64,
             Record::CARTESIAN_Z_F64,
             Record::COLOR_RED_U8,
+            Record::COLOR_GREEN_U8,
+            Record::COLOR_BLUE_U8,
         ];
-        let prototype = [&prototype[..], &[Record::COLOR_GREEN_U8, Record::COLOR_BLUE_U8]].concat();
         let mut points = writer.add_pointcloud(&format!("scan {scan}"), prototype).expect("added");
         for (k, [x, y, z]) in (0..).zip(grid()) {
             let mut values: Vec<Value> = [x, y, z].into_iter().map(Value::Double).collect();

@@ -12,6 +12,7 @@ pub use ply::{read_mesh, to_ply, write_mesh, write_ply};
 
 use crate::Cloud;
 use std::io::Read;
+use std::sync::atomic::{AtomicUsize, Ordering::SeqCst};
 use stream::ply::PlyError;
 use stream::table::TableError;
 use thiserror::Error;
@@ -128,12 +129,23 @@ fn hint(bytes: &[u8]) -> &'static str {
     }
 }
 
-/// Runs a reader of another crate; a panic in it becomes an error.
+/// Readers of other crates that run now.
+static FOREIGN: AtomicUsize = AtomicUsize::new(0);
+
+/// Whether a panic is now most likely one of a reader of another crate, which becomes an error and need not be told.
+pub fn panics_become_errors() -> bool {
+    FOREIGN.load(SeqCst) > 0
+}
+
+/// Runs a reader of another crate; a panic in it, also in a thread that it started, becomes an error.
 fn catch(
     format: &'static str,
     read: impl FnOnce() -> Result<Cloud, ReadError> + std::panic::UnwindSafe,
 ) -> Result<Cloud, ReadError> {
-    std::panic::catch_unwind(read).unwrap_or_else(|_| {
+    FOREIGN.fetch_add(1, SeqCst);
+    let outcome = std::panic::catch_unwind(read);
+    FOREIGN.fetch_sub(1, SeqCst);
+    outcome.unwrap_or_else(|_| {
         let what = "the file is broken in a way its reader could not name: export it again".to_owned();
         Err(ReadError::Broken { format, what, point: None })
     })
