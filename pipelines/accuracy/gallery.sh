@@ -28,23 +28,23 @@ DEEP=$(awk 'BEGIN {pi = atan2(0, -1); m = 2500 * 4 / 3 * pi * 0.005^3 / 2; e = 1
 sweep impact-depth impact-hertz.toml --set contact.0.restitution=1 --vary $STEPS --measure 'each overlap of --impact' --exact "$DEEP" \
   --norm max --work steps
 
-RATE='discharge-rate 0,0,0.6,0,0,-1 --from 0.2'
-sweep hopper-step hopper.toml --vary safety=0.1,0.25,0.5,0.8 --vary precision=f64,mixed --reference safety=0.1 --reference precision=f64 \
-  --measure "$RATE" --repeat 3 --for 3%
-sweep hopper-stiffness hopper.toml --vary stiffness=0.1,0.3,1,3 --measure "$RATE" --repeat 4 --for 3%
+RATE='discharge-rate 0,0,0.6,0,0,-1 --from 0.2 --until 0.26'
+sweep hopper-step hopper.toml --vary safety=0.15,0.5,0.8 --vary precision=f64,mixed --reference safety=0.15 --reference precision=f64 \
+  --measure "$RATE" --repeat 3 --for 3% --work cpu
+sweep hopper-stiffness hopper.toml --vary stiffness=0.3,1,4,10 --measure "$RATE" --repeat 3 --for 3% --work cpu
 
-sweep heap heap.toml --vary stiffness=0.2,1,4 --vary safety=0.2,0.8 --measure 'heap-angle --sectors 4' --repeat 4 --for 10%
+sweep heap heap.toml --vary stiffness=1,4 --vary safety=0.3,0.8 --measure 'heap-angle --sectors 4' --repeat 8 --for 10% --work cpu
 
 # A half pipe of wall spheres against the surface itself.
 mkdir -p out
 ./halfpipe.sh mesh > out/halfpipe.ply
 ./halfpipe.sh cloud > out/halfpipe.xyz
-SPEED='vx of --profile --axis x --bins 1 --within box:0.4,-0.06,-0.06,0.45,0.06,0.06 --mean --from 0.5'
-cost-curve halfpipe-mesh.toml --vary safety=0.5 --exact 1 --measure "$SPEED" --repeat 4 --dir "$OUT/halfpipe-mesh" -q \
+SPEED='speed of --profile --axis x --bins 1 --within box:0.4,-0.06,-0.06,0.45,0.06,0.06 --mean --from 0.5'
+cost-curve halfpipe-mesh.toml --vary safety=0.5 --exact 1 --measure "$SPEED" --repeat 3 --dir "$OUT/halfpipe-mesh" -q \
   > "$OUT/halfpipe-mesh.csv"
 TRUTH=$(awk -F, 'NR == 2 {print $4 "," $5}' "$OUT/halfpipe-mesh.csv")
 sweep halfpipe halfpipe.toml --vary roughness=0.00002,0.0001,0.0004 --vary spacing=0.003,0.006 --measure "$SPEED" --laboratory "$TRUTH" \
-  --repeat 4 --for 5% \
+  --repeat 3 --for 5% --work cpu \
   --each 'bluenoise-sample out/halfpipe.xyz --spacing {spacing} | wallgen --roughness {roughness} --radius uniform --place surface --facing 0,0,1 --material steel --smallest-particle 0.005'
 
 # The plant, cut at the hopper's mouth, against the plant in one piece.
@@ -56,7 +56,7 @@ for length in 6 12; do
   $cut --keep downstream -o out/plant-divided-$length.toml
 done
 sweep stages 'out/plant-{stage}.toml' --vary stage=undivided,divided-6,divided-12 --reference stage=undivided --in-use stage=undivided \
-  --measure 'vx of --profile --axis x --bins 1 --within box:0.1,-0.05,0.33,0.15,0.05,0.45 --mean --from 0' --repeat 4 --for 3% \
+  --measure 'speed of --profile --axis x --bins 1 --within box:0.1,-0.05,0.33,0.15,0.05,0.45 --mean --from 0' --repeat 3 --for 3% --work cpu \
   --each 'case {stage} in divided-*) dem-run out/up-{stage}.toml --set fill.0.seed={seed} --threads 1 -q | stage-replay -q;; esac'
 
 # The page: its text, with @words NAME@ replaced by what the program said of the numbers.

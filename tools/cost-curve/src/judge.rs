@@ -151,9 +151,13 @@ impl Judged {
                 (Some(why), _) => {
                     format!("{} cannot be run: {why}", curve::change(&self.points[base], point))
                 }
+                (None, Some(_)) if self.marks.0 == Some(k) => {
+                    let time = curve::share_of_time(point.work(), self.points[base].work(), self.of);
+                    format!("{}, the reference, {time}", curve::change(&self.points[base], point))
+                }
                 (None, Some(error)) => {
-                    sentence((&self.points[base], self.errors[base].as_ref()), (point, error), what, self.of)
-                        + self.mark(k)
+                    let base = (&self.points[base], self.errors[base].as_ref());
+                    sentence(base, (point, error), what, self.of)
                 }
                 (None, None) => format!("{} cannot be compared", curve::change(&self.points[base], point)),
             });
@@ -163,10 +167,6 @@ impl Judged {
         }
         lines.extend(self.advice());
         lines
-    }
-
-    fn mark(&self, k: usize) -> &'static str {
-        if self.marks.0 == Some(k) { " (the reference)" } else { "" }
     }
 
     /// `, with an error of 0.3 % in heap angle`

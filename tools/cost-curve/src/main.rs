@@ -43,7 +43,11 @@ fn cost_curve(args: Args) -> anyhow::Result<Report> {
     }
     let words = judged.words();
     if let Some(file) = &args.words {
-        let list: String = words.iter().map(|line| format!("- {line}\n")).collect();
+        let bold = |line: &String| match Some(line) == judged.advice().as_ref() {
+            true => format!("- **{line}**\n"),
+            false => format!("- {line}\n"),
+        };
+        let list: String = words.iter().map(bold).collect();
         write(file, list.as_bytes())?;
     }
     if !cli::quiet() {

@@ -4,7 +4,7 @@ use crate::line::Job;
 use anyhow::{Context, anyhow};
 use cli::usage;
 use serde_json::Value;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 /// Name, option of dem-measure, value.
@@ -116,7 +116,7 @@ impl Measure {
 }
 
 /// Whether what was measured is younger than the run and the program.
-fn fresh(kept: &Path, run: &PathBuf, program: &Path) -> bool {
+fn fresh(kept: &Path, run: &Path, program: &Path) -> bool {
     let time = |path: &Path| std::fs::metadata(path).and_then(|m| m.modified()).ok();
     let kept = time(kept);
     kept.is_some() && kept >= time(run) && kept >= time(program)
