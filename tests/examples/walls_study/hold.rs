@@ -4,7 +4,7 @@ use crate::GRAIN;
 use crate::page::Page;
 use crate::picture::Panel;
 use grainpipe_tests::sphere_walls::chance::{Mean, mean, places};
-use grainpipe_tests::sphere_walls::holding::{Grain, leaving_tilts};
+use grainpipe_tests::sphere_walls::holding::{Grain, Tilting, leaving_tilts};
 use grainpipe_tests::sphere_walls::plates::{Layout, spheres};
 use rayon::prelude::*;
 use sampling::Method;
@@ -14,6 +14,10 @@ const SPACINGS: [f64; 3] = [0.5, 1.0, 2.0];
 const SHARES: [f64; 5] = [0.02, 0.05, 0.1, 0.2, 0.4];
 /// μ of the grain on the wall.
 const MU: f64 = 0.3;
+
+/// Down along 0.3 rad from a row, in steps of 2°.
+const TILTING: Tilting =
+    Tilting { azimuth: 0.3, from: 0.0, step: std::f64::consts::PI / 90.0, stiffness: 3e3 };
 
 /// One wall.
 struct Found {
@@ -73,21 +77,25 @@ pub fn study(page: &mut Page) -> Result<(), String> {
 
 fn one(method: Method, spacing: f64, share: f64) -> Found {
     let p = spacing * GRAIN;
-    let (mut blocked, mut free, mut gap, mut apart, mut radius) = (Vec::new(), Vec::new(), 0.0f64, 0.0, 0.0);
-    for seed in [1, 2] {
-        let (wall, report) = spheres(&Layout::Sampled(method, seed).points(p, 0.4), share * p, GRAIN);
-        let places = places(0.28, 0.06, 12);
-        for (friction, out) in [(Some(MU), &mut blocked), (None, &mut free)] {
-            let kind = Grain { radius: 0.5 * GRAIN, friction, blocked: friction.is_some() };
-            let left = leaving_tilts(&wall, kind, &places, (0.3, 0.0));
-            // One that fell through is held by nothing.
-            let held = left.iter().filter(|(at, _)| at.z > 0.0);
-            out.extend(held.map(|(_, tilt)| tilt.to_degrees()));
-        }
-        gap = gap.max(report.widest_gap.map_or(0.0, |g| g.diameter / GRAIN));
-        (apart, radius) = (report.spacing / GRAIN, wall[0].1 / GRAIN);
+    let (wall, report) = spheres(&Layout::Sampled(method, 1).points(p, 0.4), share * p, GRAIN);
+    let places = places(0.32, 0.06, 20);
+    let hold = |friction: Option<f64>| {
+        let kind = Grain { radius: 0.5 * GRAIN, friction, blocked: friction.is_some() };
+        let left = leaving_tilts(&wall, kind, &places, TILTING);
+        // One that fell through is held by nothing. It left somewhere within the step.
+        let held = left.iter().filter(|(at, _)| at.z > 0.0);
+        mean(&held.map(|(_, tilt)| (tilt - 0.5 * TILTING.step).to_degrees()).collect::<Vec<f64>>())
+    };
+    Found {
+        method,
+        spacing,
+        share,
+        radius: wall[0].1 / GRAIN,
+        blocked: hold(Some(MU)),
+        free: hold(None),
+        gap: report.widest_gap.map_or(0.0, |g| g.diameter / GRAIN),
+        apart: report.spacing / GRAIN,
     }
-    Found { method, spacing, share, radius, blocked: mean(&blocked), free: mean(&free), gap, apart }
 }
 
 fn picture(page: &mut Page, all: &[Found]) -> Result<(), String> {

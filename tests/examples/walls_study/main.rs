@@ -37,16 +37,17 @@ fn study(folder: &Path, file: &Path) -> Result<(), String> {
     std::fs::create_dir_all(folder).map_err(|why| format!("{}: {why}", folder.display()))?;
     let mut page = Page::new(folder, file);
     let parts: [(&str, fn(&mut Page) -> Result<(), String>); 6] = [
-        ("hold and leaks", hold::study),
         ("rebound", rebound::study),
         ("grazing", graze::study),
         ("leaks", fall::study),
         ("flow", flow::study),
         ("fill", mend::study),
+        ("hold", hold::study),
     ];
     for (name, part) in parts {
         eprintln!("walls_study: {name}");
         part(&mut page)?;
+        page.write()?;
     }
-    page.write()
+    Ok(())
 }

@@ -21,8 +21,6 @@ use dem::setup::*;
 use geom::Vec3;
 use grainpipe_tests::setups::{empty, grain};
 
-/// Tilts are tried in steps of this [rad].
-pub const TILT: f64 = 0.5 * std::f64::consts::PI / 180.0;
 /// Time at each tilt, in √(r/g).
 const WAIT: f64 = 6.0;
 /// Two surfaces as near as this touch, in grain radii.
@@ -41,8 +39,22 @@ pub struct Grain {
     pub blocked: bool,
 }
 
+/// How a wall is tilted.
+#[derive(Debug, Clone, Copy)]
+pub struct Tilting {
+    /// Way down, from x [rad].
+    pub azimuth: f64,
+    /// Where tilts begin [rad].
+    pub from: f64,
+    /// How much is added each time [rad].
+    pub step: f64,
+    /// Of the contacts [N/m]. The spring of friction is new at each tilt, and a grain gives way by μ F/k_t until it holds: soft
+    /// contacts are fast, and grains leave a little early.
+    pub stiffness: f64,
+}
+
 /// Tilt [rad] at which each grain leaves the pocket it has come to rest in; π/2 for one that never does. `places` [m] are where the
-/// grains come down, `azimuth` [rad] is the way down from x; tilts begin at `from` [rad]. Also where they rested.
+/// grains come down. Also where they rested.
 ///
 /// # Panics
 /// When a guard trips.
@@ -50,10 +62,10 @@ pub fn leaving_tilts(
     spheres: &[(Vec3, f64)],
     kind: Grain,
     places: &[(f64, f64)],
-    (azimuth, from): (f64, f64),
+    Tilting { azimuth, from, step, stiffness }: Tilting,
 ) -> Vec<(Vec3, f64)> {
     // Down in its pocket by itself: what rubs could hold it up on the way.
-    let mut setup = laid(spheres, kind.radius, places);
+    let mut setup = laid(spheres, kind.radius, stiffness, places);
     let settled = rested(&setup, 60.0);
     for contact in &mut setup.contacts {
         contact.sliding_friction = kind.friction;
@@ -64,7 +76,7 @@ pub fn leaving_tilts(
     let far = 0.5 * kind.radius.min(spheres[0].1);
     let mut tilt = from;
     while tilt < 80f64.to_radians() && left.iter().any(|&a| a > tilt) {
-        tilt += TILT;
+        tilt += step;
         let (sin, cos) = tilt.sin_cos();
         setup.gravity = 9.81 * Vec3::new(sin * azimuth.cos(), sin * azimuth.sin(), -cos);
         // Grains that have left are put back: they could push others.
@@ -83,16 +95,17 @@ pub fn leaving_tilts(
 }
 
 /// Grains a little above the wall.
-fn laid(spheres: &[(Vec3, f64)], radius: f64, places: &[(f64, f64)]) -> Setup {
-    let mut setup = empty(Law::Hooke { stiffness: 3e4, tangential_ratio: None }, 0.1);
+fn laid(spheres: &[(Vec3, f64)], radius: f64, stiffness: f64, places: &[(f64, f64)]) -> Setup {
+    let mut setup = empty(Law::Hooke { stiffness, tangential_ratio: None }, 0.1);
     setup.gravity = Vec3::new(0.0, 0.0, -9.81);
     setup.walls = vec![still(spheres)];
-    setup.step = Step::Auto(0.3);
+    setup.step = Step::Auto(0.7);
+    // Over an open gap nothing holds a grain: it is left out.
     let down = |(k, &(x, y)): (usize, &(f64, f64))| {
-        let (z, _) = super::plates::touch(spheres, radius, x, y).expect("on the wall");
-        Particle { radius, ..grain(k as u32, Vec3::new(x, y, z + 0.01 * radius)) }
+        let (z, _) = super::plates::touch(spheres, radius, x, y)?;
+        Some(Particle { radius, ..grain(k as u32, Vec3::new(x, y, z + 0.01 * radius)) })
     };
-    setup.particles = places.iter().enumerate().map(down).collect();
+    setup.particles = places.iter().enumerate().filter_map(down).collect();
     setup
 }
 

@@ -2,7 +2,7 @@
 
 use crate::of_walls;
 use crate::sphere_walls::chance::places;
-use crate::sphere_walls::holding::{Grain, TILT, blocked_tilt, bound, closed_tilt, leaving_tilts};
+use crate::sphere_walls::holding::{Grain, Tilting, blocked_tilt, bound, closed_tilt, leaving_tilts};
 use crate::sphere_walls::plates::{Layout, spheres};
 use grainpipe_tests::findings::Case;
 use sampling::Method;
@@ -13,6 +13,8 @@ const HOLDS: Case = of_walls("a grain rolls or slides out of its pocket at tan �
 const WEDGED: Case = of_walls("one that cannot roll slides out at arctan(s/H) + arctan(μ/cos β)");
 const BOUND: Case =
     of_walls("no grain without friction is held above tan α = c/H, the steepest slope of the wall");
+/// Step of tilt [rad].
+const TILT: f64 = 0.5 * std::f64::consts::PI / 180.0;
 /// Steps of tilt, in which a grain may be slow to leave.
 const LATE: f64 = 2.5 * TILT;
 
@@ -29,7 +31,12 @@ fn pockets_hold_up_to_their_tilt() {
         let rolling = matches!(layout, Layout::Sampled(..));
         for friction in [None, Some(0.5)].into_iter().take(1 + usize::from(rolling)) {
             let kind = Grain { radius: R, friction, blocked: false };
-            let left = leaving_tilts(&wall, kind, &places(0.3, 0.08, 9), (azimuth, 0.0));
+            let left = leaving_tilts(
+                &wall,
+                kind,
+                &places(0.3, 0.08, 9),
+                Tilting { azimuth, from: 0.0, step: TILT, stiffness: 3e4 },
+            );
             let tops =
                 left.iter().filter_map(|(at, tilt)| Some((tilt, closed_tilt(&wall, R, *at, azimuth)?)));
             let off: Vec<f64> = tops.map(|(found, closed)| found - closed).collect();
@@ -57,7 +64,12 @@ fn grains_that_cannot_roll_are_wedged() {
         let (wall, _) = spheres(&Layout::Square.points(P, 0.2), share * P, 2.0 * R);
         let kind = Grain { radius: R, friction: Some(mu), blocked: true };
         let closed = blocked_tilt(P, wall[0].1, R, mu);
-        let left = leaving_tilts(&wall, kind, &places(0.1, 0.04, 3), (0.0, 0.6 * closed));
+        let left = leaving_tilts(
+            &wall,
+            kind,
+            &places(0.1, 0.04, 3),
+            Tilting { azimuth: 0.0, from: 0.6 * closed, step: TILT, stiffness: 3e4 },
+        );
         let off = left.iter().map(|l| (l.1 - closed - 0.5 * LATE).abs()).fold(0.0, f64::max);
         let on = format!("square, ζ/P = {share}, μ = {mu}");
         WEDGED.within(&on, off.to_degrees(), "°", 0.5 * LATE.to_degrees());
