@@ -5,7 +5,8 @@
 # Restitution of 100 head-on impacts that begin anywhere in a step, each of 0.1, 0.3, 0.5, 0.7, 0.9 and 1: the worst counts. Hooke and
 # Hertz against the restitution asked for, JKR, whose adhesion takes its share, against steps of 0.002.
 set -euo pipefail
-OUT=$1
+mkdir -p "$1"
+OUT=$(cd "$1" && pwd)
 cd "$(dirname "$0")"
 STEPS=0.005,0.01,0.02,0.05,0.1,0.15,0.2,0.3,0.4,0.5,0.65,0.8
 echo "# Error of an impact over the share of the critical step: measured by pipelines/accuracy/table.sh with"
