@@ -3,7 +3,7 @@
 use super::{ReadError, catch};
 use crate::Cloud;
 use geom::Vec3;
-use las::{PointData, Reader};
+use las::{LazParallelism, PointData, Reader, ReaderOptions};
 use std::io::Cursor;
 use stream::{Table, Values};
 
@@ -11,6 +11,8 @@ use stream::{Table, Values};
 const CHUNK: u64 = 1 << 20;
 /// Room for them at most [B]: a header may also claim large points.
 const ROOM: u64 = 1 << 26;
+/// Files below this [B] are unpacked by one thread.
+const SMALL: u64 = 1 << 22;
 /// Packed points of a byte of the file at most; scans have less than one.
 const DENSEST: u64 = 1000;
 
@@ -51,7 +53,10 @@ fn chunks(bytes: &[u8]) -> Result<(), ReadError> {
 fn decode(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
     chunks(&bytes)?;
     let length = bytes.len() as u64;
-    let mut reader = Reader::new(Cursor::new(bytes)).map_err(|e| broken(e, 0))?;
+    // In parallel whole chunks are read, whose length the file claims: a small one is not to take gigabytes.
+    let parallel = if length < SMALL { LazParallelism::No } else { LazParallelism::Yes };
+    let options = ReaderOptions::default().with_laz_parallelism(parallel);
+    let mut reader = Reader::with_options(Cursor::new(bytes), options).map_err(|e| broken(e, 0))?;
     let (promised, format) = (reader.header().number_of_points(), reader.header().point_format());
     let size = u64::from(format.len()).max(1);
     let most = if format.is_compressed { DENSEST.saturating_mul(length) } else { length / size };
