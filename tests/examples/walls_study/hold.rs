@@ -137,7 +137,7 @@ fn words(page: &mut Page, all: &[Found]) {
         "A grain that cannot roll, μ = {MU}, rests in a pocket of the wall; the tilt at which it leaves is the wall's hold. On a plane that is \
          arctan μ = {bare:.1}°.\nA Poisson-disk wall holds {:.1}° at P = d/2, ζ = 0.02 P; {:.1}° at P = d, ζ = 0.1 P; {:.1}° at P = 2 d, ζ = 0.2 P. \
          What counts is the slope of the surface\nthat the grain's centre moves on, arcsin of (distance from a sphere's axis)/(R + r), which grows with ζ/P and with P/d. \
-         Between methods the hold differs by at most {spread:.1}°;\nthe intervals are in the table.",
+         Between methods the hold differs by at most {spread:.1}°;\nthe intervals are in the table. Tilts go in steps of 2°.",
         at(0.5, 0.02),
         at(1.0, 0.1),
         at(2.0, 0.2),
@@ -168,14 +168,16 @@ fn advice(page: &mut Page, all: &[Found], bare: f64) {
     let blue = |f: &&Found| f.method != Method::Grid;
     let tight: Vec<&Found> = all.iter().filter(blue).filter(|f| f.spacing <= 1.0 && f.share <= 0.1).collect();
     let gap = tight.iter().map(|f| f.gap).fold(0.0, f64::max);
-    let low: Vec<&&Found> = tight.iter().filter(|f| f.spacing == 0.5 && f.share <= 0.05).collect();
-    let extra = low.iter().map(|f| f.blocked.mean - bare).fold(f64::NEG_INFINITY, f64::max);
+    let low = tight.iter().filter(|f| f.share == SHARES[0]);
+    let extra = low.map(|f| f.blocked.mean - bare).fold(f64::NEG_INFINITY, f64::max);
+    let tightness =
+        if gap > 0.0 { format!("had a gap wider than {gap:.2} d") } else { "had any gap".to_owned() };
     page.advise(format!(
-        "**Spacing** P ≤ d, one smallest grain, and **roughness** ζ ≤ 0.1 P: no blue-noise wall here had a gap wider than {gap:.2} d. Give wallgen \
+        "**Spacing** P ≤ d, one smallest grain, and **roughness** ζ ≤ 0.1 P: no blue-noise wall here {tightness}. Give wallgen \
          `--smallest-particle d`: its widest gap is right to 1 %."
     ));
     page.advise(format!(
-        "**Where the wall is to be as smooth as its μ says**: P = d/2 and ζ ≤ 0.05 P add at most {extra:.1}° to arctan μ. **Where it is to be rough**, \
+        "**Where the wall is to be as smooth as its μ says**: P ≤ d and ζ = 0.02 P add at most {extra:.1}° to arctan μ. **Where it is to be rough**, \
          ζ is the knob: read the hold off the plot below."
     ));
 }
