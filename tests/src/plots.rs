@@ -68,6 +68,11 @@ fn series(points: &[(f64, f64)], colour: &str, name: &str, marked: bool) -> Vec<
     plots
 }
 
+/// What holds, as far as the first colon: panels are narrow.
+fn title(line: &Line) -> &str {
+    line.holds.split(": ").next().unwrap_or(&line.holds)
+}
+
 fn order_panel(line: &Line, step: &str) -> Drawn {
     let mut plots = Vec::new();
     for (k, order) in line.orders.iter().take(SERIES).enumerate() {
@@ -78,7 +83,7 @@ fn order_panel(line: &Line, step: &str) -> Drawn {
     }
     plots.extend(slope(line));
     let layout = Layout::auto_from_plots(&plots).with_log_scale().with_x_label(step).with_y_label("error");
-    (plots, layout.with_title(line.holds.clone()))
+    (plots, layout.with_title(title(line)))
 }
 
 /// The slope that is expected, beside the first series.
@@ -100,7 +105,7 @@ fn curve_panel(line: &Line) -> Drawn {
     for (k, curve) in line.curves.iter().take(SERIES).enumerate() {
         plots.extend(series(&curve.points, COLOURS[k % COLOURS.len()], &curve.on, false));
     }
-    let mut layout = Layout::auto_from_plots(&plots).with_title(line.holds.clone());
+    let mut layout = Layout::auto_from_plots(&plots).with_title(title(line));
     if let Some(first) = line.curves.first() {
         layout = layout.with_x_label(first.x.clone()).with_y_label(first.y.clone());
     }
