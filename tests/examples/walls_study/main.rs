@@ -18,6 +18,9 @@ use std::process::ExitCode;
 /// Diameter of the smallest grain here [m]; everything is told as a share of it.
 const GRAIN: f64 = 0.012;
 
+/// Adds a part to the page.
+type Study = fn(&mut Page) -> Result<(), String>;
+
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let [folder, file] = words.as_slice() else {
@@ -36,7 +39,7 @@ fn main() -> ExitCode {
 fn study(folder: &Path, file: &Path) -> Result<(), String> {
     std::fs::create_dir_all(folder).map_err(|why| format!("{}: {why}", folder.display()))?;
     let mut page = Page::new(folder, file);
-    let parts: [(&str, fn(&mut Page) -> Result<(), String>); 6] = [
+    let parts: [(&str, Study); 6] = [
         ("rebound", rebound::study),
         ("grazing", graze::study),
         ("leaks", fall::study),
