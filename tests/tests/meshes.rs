@@ -259,3 +259,29 @@ fn planes_have_images_where_they_cross_the_box() {
     let force = sim.wall_forces().expect("sound")[0].force;
     assert!((force.x - 1.0).abs() < 1e-9, "{force}");
 }
+
+/// A soft grain that adheres is pulled off a mesh where it is pulled off the plane: its contact lasts beyond a tenth of its radius.
+#[test]
+fn what_adheres_holds_on_a_mesh_as_on_the_plane() {
+    let path = |floor: Wall| {
+        let mut setup = empty(Law::Jkr { work_of_adhesion: 1.0 }, 0.9);
+        setup.materials.iter_mut().for_each(|m| m.young = 1e4);
+        setup.guards.overlap = 0.9;
+        setup.walls = vec![floor];
+        setup.particles = vec![grain(1, Vec3::new(0.0003, 0.0001, 0.0099))];
+        setup.particles[0].velocity.z = 0.3;
+        let mut sim = Simulation::new(setup).expect("sound");
+        let mut heights = Vec::new();
+        for k in 1..40 {
+            run_until(&mut sim, 1e-3 * f64::from(k));
+            heights.push(particles(&mut sim)[0].position.z);
+        }
+        heights
+    };
+    let (flat, meshed) = (path(plane(Vec3::z())), path(sheet(8, 0.05, |_, _| 0.0)));
+    let highest = flat.iter().fold(0.0f64, |a, b| a.max(*b));
+    assert!(highest > 0.0105, "the contact reaches over a gap: {highest} m");
+    for (a, b) in flat.iter().zip(&meshed) {
+        assert!((a - b).abs() < 1e-9, "{a} m on the plane, {b} m on the mesh");
+    }
+}

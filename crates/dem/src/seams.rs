@@ -20,7 +20,7 @@ const SAME_POINT: f64 = 1e-6;
 const LARGEST_PATCH: f64 = 0.1;
 /// Memory goes no farther than this share of the radius [–].
 const STRIDE: f64 = 0.25;
-/// Points farther than this share of the radius are no contacts, gaps that adhere included [–].
+/// Points farther than this share of the radius are no contacts where nothing adheres [–].
 const NEAR: f64 = 1.02;
 
 /// The nearest point of one triangle, seen from the particle.
@@ -60,9 +60,9 @@ impl Nearest {
     }
 }
 
-/// Says which of the nearest points of a particle of `radius` [m] are contacts.
-pub fn count(near: &mut [Nearest], radius: f64) {
-    let limit = (NEAR * radius).powi(2);
+/// Says which of the nearest points of a particle of `radius` [m] are contacts, where these act up to a gap of `reach` [m].
+pub fn count(near: &mut [Nearest], radius: f64, reach: f64) {
+    let limit = (NEAR * radius).max(radius + reach).powi(2);
     let mut order: Vec<usize> = (0..near.len()).filter(|&k| near[k].square <= limit).collect();
     if let [only] = order[..] {
         near[only].counts = true;

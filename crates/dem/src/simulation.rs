@@ -100,7 +100,7 @@ impl Simulation {
         let reach = largest_reach(&setup);
         let skin = setup.skin.unwrap_or(crate::neighbours::SKIN.start * grain).max(reach);
         let horizon = if setup.skin.is_some() { 0.0 } else { HORIZON };
-        let walls: Vec<WallBody> = setup.walls.iter().map(WallBody::new).collect();
+        let walls: Vec<WallBody> = setup.walls.iter().map(|w| WallBody::new(w, reach)).collect();
         slow_enough(&setup, &walls, dt)?;
         let zones = Zones::new(&setup, &particles);
         let sleepers = setup.sleep.map(|s| Sleepers::new(s, dt, setup.gravity.norm(), particles.len()));

@@ -19,6 +19,8 @@ pub struct WallBody {
     pub motion: Motion,
     surface: Surface,
     span: f64,
+    /// Largest gap at which a contact that was made still acts [m].
+    reach: f64,
     /// Lowest and highest corner at t = 0 [m].
     pub bounds: [Vec3; 2],
 }
@@ -41,28 +43,28 @@ enum Surface {
 }
 
 impl WallBody {
-    /// Sorts wall spheres into their own grid and triangles into their tree, once.
-    pub fn new(wall: &Wall) -> WallBody {
-        let reach = |points: &mut dyn Iterator<Item = Vec3>| {
+    /// Sorts wall spheres into their own grid and triangles into their tree, once; contacts act up to a gap of `reach` [m].
+    pub fn new(wall: &Wall, reach: f64) -> WallBody {
+        let farthest = |points: &mut dyn Iterator<Item = Vec3>| {
             points.map(|p| (p - wall.motion.through).norm()).fold(0.0, f64::max)
         };
         let (surface, span) = match &wall.shape {
             WallShape::Spheres(spheres) => {
                 let largest = spheres.iter().map(|s| s.1).fold(0.0, f64::max);
-                let span = reach(&mut spheres.iter().map(|s| s.0)) + largest;
+                let span = farthest(&mut spheres.iter().map(|s| s.0)) + largest;
                 (sorted_spheres(spheres, largest), span)
             }
             // Only a plane that turns in itself may turn.
             WallShape::Plane(plane) => (Surface::Plane(*plane), 0.0),
             WallShape::Mesh(mesh) => {
-                let span = reach(&mut mesh.vertices.iter().copied());
+                let span = farthest(&mut mesh.vertices.iter().copied());
                 let corners: Vec<[Vec3; 3]> = mesh.triangles().collect();
                 let around = |t: &[Vec3; 3]| [t[0].inf(&t[1]).inf(&t[2]), t[0].sup(&t[1]).sup(&t[2])];
                 let boxes: Vec<[Vec3; 2]> = corners.iter().map(around).collect();
                 (Surface::Triangles { boxes: Boxes::new(&boxes), corners }, span)
             }
         };
-        WallBody { motion: wall.motion, bounds: bounds(&surface), surface, span }
+        WallBody { motion: wall.motion, bounds: bounds(&surface), surface, span, reach }
     }
 
     /// Whether contact points must be found anew in each step.
@@ -178,7 +180,7 @@ impl WallBody {
                 let local = |k: usize| pose.home(&(centre - shift(k)));
                 let mut near: Vec<Nearest> =
                     (0..partners.len()).map(|k| Nearest::of(corners[part(k)], local(k))).collect();
-                seams::count(&mut near, row[3]);
+                seams::count(&mut near, row[3], self.reach);
                 slots.hand_over(&near, row[3]);
                 for (k, point) in near.iter().enumerate() {
                     // What is no contact of its own is put out of reach.
