@@ -11,8 +11,11 @@
 
 use crate::kernel::{FORCE, FORCE_AND_MOMENT};
 use crate::lane::scalar::Each;
-use crate::lane::{Four, Row, Row4, Width};
+use crate::lane::{Four, Row, Row4, Width, fetch};
 use crate::sleep::Beds;
+
+/// Entries between one whose load is asked for and the one that is added; chosen on the bench pile.
+const AHEAD: usize = 16;
 
 /// Loads and couples (four numbers a contact, or empty) of some contacts.
 pub type Computed<'a> = (&'a [f64], &'a [f64]);
@@ -47,7 +50,12 @@ impl Loads<'_> {
         let quarters = [self.images.0.as_chunks::<4>().0, self.own.0.as_chunks::<4>().0];
         let couples = [self.images.1.as_chunks::<4>().0, self.own.1.as_chunks::<4>().0];
         let stride = if SPIN { FORCE_AND_MOMENT / 4 } else { FORCE / 4 };
-        for &entry in &self.entries[self.starts[k] as usize..self.starts[k + 1] as usize] {
+        let mine = self.starts[k] as usize..self.starts[k + 1] as usize;
+        // Loads that were computed with another particle's come from far: those of the next particles are asked for.
+        for &entry in self.entries.get(mine.start + AHEAD..mine.end + AHEAD).unwrap_or_default() {
+            fetch(quarters[1], ((entry >> 1) as usize).wrapping_sub(self.first).wrapping_mul(stride));
+        }
+        for &entry in &self.entries[mine] {
             let (contact, second) = ((entry >> 1) as usize, (entry & 1) as usize);
             let sign = Q::all([1.0, -1.0][second]);
             let own = usize::from(contact >= self.first);

@@ -1,13 +1,15 @@
 //! The contact loop: the only one, for pairs and for walls, for every composition of effects and every width.
 
 use crate::effects::{Contact, Effect, Load, Memory};
-use crate::lane::{BLOCK, Lane, Row, Row4, V, Width};
+use crate::lane::{BLOCK, Lane, Row, Row4, V, Width, fetch};
 #[cfg(target_arch = "x86_64")]
 use crate::lane::{
     x86::{X4, X8},
     x86_single::{Y4, Y8},
 };
 
+/// Blocks between one whose rows are asked for and the one that is computed; chosen on the bench pile.
+const AHEAD: usize = 4;
 /// Numbers of one contact in the energy ledger: elastic, dissipated (normal, sliding, rolling, twisting), wall work, lost at once.
 pub const LEDGER: usize = 8;
 /// Column of what is lost at once.
@@ -160,6 +162,14 @@ mod simd {
 fn blocks<R: Lane, E: Effect, const KEEP: bool>(e: &E, common: Common, mut task: Task) -> bool {
     let mut too_deep = false;
     for block in 0..task.active.len() {
+        // Rows of partners come from far: they are asked for while other blocks are computed.
+        let soon = (block + AHEAD) * BLOCK;
+        for &j in task.j.get(soon..soon + BLOCK).unwrap_or_default() {
+            fetch(task.partners.0, j as usize);
+            if E::ROTATES {
+                fetch(task.partners.1, j as usize);
+            }
+        }
         let was_active = task.active[block];
         let mut active = false;
         for lane in (0..BLOCK).step_by(R::WIDTH) {

@@ -50,6 +50,15 @@ macro_rules! behaves_as {
 behaves_as!(Row, [f64; 8]);
 behaves_as!(Row4, [f64; 4]);
 
+/// Asks for an entry of a table that will soon be read, whether or not there is one; it changes nothing.
+#[inline(always)]
+pub fn fetch<T>(table: &[T], at: usize) {
+    #[cfg(target_arch = "x86_64")]
+    x86::fetch(table.as_ptr().wrapping_add(at));
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = (table, at);
+}
+
 /// `WIDTH` numbers that are computed at once.
 pub trait Lane:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>

@@ -9,6 +9,13 @@ use super::{Four, Lane, Row, Row4};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+/// Asks for the cache line of an address.
+#[inline(always)]
+pub(super) fn fetch<T>(at: *const T) {
+    // SAFETY: a hint, which reads nothing and may be given any address.
+    unsafe { _mm_prefetch::<_MM_HINT_T0>(at.cast()) }
+}
+
 /// Four doubles.
 #[derive(Clone, Copy)]
 pub struct X4(pub(super) __m256d);
