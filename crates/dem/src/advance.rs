@@ -43,40 +43,40 @@ pub struct Sum<Q> {
 }
 
 impl Loads<'_> {
-    /// Sum over the contacts of particle `k`, in the order of its entries.
+    /// Sum over the contacts of particle `k` of `radius` [m], in the order of its entries.
     #[inline(always)]
-    pub fn sum<Q: Four, const SPIN: bool>(&self, k: usize) -> Sum<Q> {
-        let mut sum = Sum { force: Q::all(0.0), moment: Q::all(0.0) };
-        let quarters = [self.images.0.as_chunks::<4>().0, self.own.0.as_chunks::<4>().0];
-        let couples = [self.images.1.as_chunks::<4>().0, self.own.1.as_chunks::<4>().0];
-        let stride = if SPIN { FORCE_AND_MOMENT / 4 } else { FORCE / 4 };
+    pub fn sum<Q: Four, const SPIN: bool>(&self, k: usize, radius: f64) -> Sum<Q> {
         let mine = self.starts[k] as usize..self.starts[k + 1] as usize;
+        let stride = if SPIN { FORCE_AND_MOMENT / 4 } else { FORCE / 4 };
+        let (own, own_couples) = (self.own.0.as_chunks::<4>().0, self.own.1.as_chunks::<4>().0);
         // Loads that were computed with another particle's come from far: those of the next particles are asked for.
         for &entry in self.entries.get(mine.start + AHEAD..mine.end + AHEAD).unwrap_or_default() {
-            fetch(quarters[1], ((entry >> 1) as usize).wrapping_sub(self.first).wrapping_mul(stride));
+            fetch(own, ((entry >> 1) as usize).wrapping_sub(self.first).wrapping_mul(stride));
         }
+        let none = Q::all(0.0);
+        let (mut force, mut twist, mut couple) = (none, none, none);
         for &entry in &self.entries[mine] {
-            let (contact, second) = ((entry >> 1) as usize, (entry & 1) as usize);
-            let sign = Q::all([1.0, -1.0][second]);
-            let own = usize::from(contact >= self.first);
-            let contact = contact - self.first * own;
-            let row = &quarters[own][contact * stride..(contact + 1) * stride];
-            sum.force = sum.force + sign * Q::read(&row[0]);
+            let (contact, second) = ((entry >> 1) as usize, entry & 1 == 1);
+            let (loads, couples, contact) = if contact < self.first {
+                (self.images.0.as_chunks::<4>().0, self.images.1.as_chunks::<4>().0, contact)
+            } else {
+                (own, own_couples, contact - self.first)
+            };
+            let row = &loads[contact * stride..][..stride];
+            force = force + Q::read(&row[0]).turned_if(second);
             if SPIN {
-                // The arms stand behind force and moment: the arm of i, then of j.
-                let arm = Q::all(row[second][3]);
-                sum.moment = sum.moment - arm * Q::read(&row[1]);
-                if !couples[own].is_empty() {
-                    sum.moment = sum.moment + sign * Q::read(&couples[own][contact]);
+                twist = twist + Q::read(&row[1]);
+                if !couples.is_empty() {
+                    couple = couple + Q::read(&couples[contact]).turned_if(second);
                 }
             }
         }
-        sum
+        Sum { force, moment: couple - Q::all(radius) * twist }
     }
 
-    /// Force [N] and moment [N·m] on particle `k`.
-    pub fn on(&self, k: usize, spin: bool) -> ([f64; 3], [f64; 3]) {
-        let sum = if spin { self.sum::<Each, true>(k) } else { self.sum::<Each, false>(k) };
+    /// Force [N] and moment [N·m] on particle `k` of `radius` [m].
+    pub fn on(&self, k: usize, radius: f64, spin: bool) -> ([f64; 3], [f64; 3]) {
+        let sum = if spin { self.sum::<Each, true>(k, radius) } else { self.sum::<Each, false>(k, radius) };
         let three = |q: Each| {
             let mut row = [0.0; 4];
             q.write(&mut row);
@@ -218,10 +218,10 @@ fn chunk<Q: Four, const SPIN: bool>(columns: Columns, loads: &Loads, drive: &Dri
     let (dt, half, square) = (Q::all(drive.dt), Q::all(0.5 * drive.dt), Q::all(0.5 * drive.dt * drive.dt));
     let mut moved = Moved::default();
     for k in 0..rows.len() {
-        let sum = loads.sum::<Q, SPIN>(first + k);
         let ([place, velocity], []) = rows[k].as_chunks::<4>() else { continue };
         let ([next_place, next_velocity], []) = next[k].as_chunks_mut::<4>() else { continue };
         let (radius, inverse_mass) = (place[3], velocity[3]);
+        let sum = loads.sum::<Q, SPIN>(first + k, radius);
         let new = (sum.force * Q::all(inverse_mass) + gravity) * three;
         let v = Q::read(velocity) + half * (new - Q::read(&acceleration[k]));
         let moves = (dt * v + square * new) * three;

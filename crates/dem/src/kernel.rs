@@ -16,7 +16,7 @@ pub const LEDGER: usize = 8;
 pub const LOST: usize = 6;
 /// Numbers of one contact's load without rotation: force on i and a pad.
 pub const FORCE: usize = 4;
-/// With rotation: force on i, arm of i, n × F_t, arm of j.
+/// With rotation: force on i, a pad, n × F_t times distance over reach (the moment on a particle of radius −1), a pad.
 pub const FORCE_AND_MOMENT: usize = 8;
 
 /// What all contacts share in one step.
@@ -214,7 +214,7 @@ fn lanes<R: Lane, E: Effect, const KEEP: bool>(
     let overlap = R::overlap(gap, reach, distance);
     // The contact point divides the distance as the radii do: the whole of it on i's side at a flat wall.
     let share = distance * inverse_reach;
-    let (mut arm_i, mut arm_j) = (ri * share, rj * share);
+    let (arm_i, arm_j) = (ri * share, rj * share);
     let round = rj.gt(R::splat(0.0));
     let velocity = V::narrow(V::new(ui - uj, vi - vj, wi - wj));
     let along = velocity.dot(normal);
@@ -257,10 +257,9 @@ fn lanes<R: Lane, E: Effect, const KEEP: bool>(
 
     let force = V::select(touching, normal.scale(load.normal) + load.tangential, V::zero());
     if E::ROTATES {
-        let moment = V::select(touching, normal.cross(load.tangential), V::zero());
-        // Partners that are put out of reach make them infinite, and 0 × ∞ would be summed.
-        (arm_i, arm_j) = (R::select(touching, arm_i, zero), R::select(touching, arm_j, zero));
-        let row = [force.x, force.y, force.z, arm_i, moment.x, moment.y, moment.z, arm_j];
+        // Of a particle of radius 1: each takes it times its own.
+        let moment = V::select(touching, normal.cross(load.tangential).scale(share), V::zero());
+        let row = [force.x, force.y, force.z, zero, moment.x, moment.y, moment.z, zero];
         R::store_rows(row, &mut task.loads[at * FORCE_AND_MOMENT..]);
     } else if common.stride == FORCE {
         R::store_rows4([force.x, force.y, force.z, zero], &mut task.loads[at * FORCE..]);

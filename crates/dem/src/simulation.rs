@@ -291,7 +291,7 @@ impl Simulation {
         for k in fresh.iter().map(|&k| k as usize) {
             let rotates = self.particles.rotates();
             let loads = self.all_loads();
-            let (force, m) = loads.on(k, rotates);
+            let (force, m) = loads.on(k, self.particles.rows[k][3], rotates);
             let row = self.particles.rows[k];
             let (mut a, body) = (Row4::default(), self.body_acceleration(&row));
             for (axis, value) in a.iter_mut().enumerate().take(3) {

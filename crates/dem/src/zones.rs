@@ -253,7 +253,7 @@ impl Simulation {
 
     /// Of the contacts of particle `k` on it [W], in the step before the last move.
     fn power(&self, k: usize, state: &Particle) -> f64 {
-        let (force, moment) = self.all_loads().on(k, self.particles.rotates());
+        let (force, moment) = self.all_loads().on(k, state.radius, self.particles.rotates());
         Vec3::from(force).dot(&state.velocity) + Vec3::from(moment).dot(&state.spin)
     }
 

@@ -84,7 +84,8 @@ impl Bodies {
         let (mut force, mut torque) = (Vec3::zeros(), Vec3::zeros());
         if !f.travels {
             for &m in &self.members[f.range()] {
-                let (push, moment) = loads.on(m as usize, particles.rotates());
+                let radius = particles.rows[m as usize][3];
+                let (push, moment) = loads.on(m as usize, radius, particles.rotates());
                 let push = Vec3::from(push);
                 force += push;
                 torque += (turn * arm(&self.arms[m as usize])).cross(&push) + Vec3::from(moment);
