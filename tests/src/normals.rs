@@ -46,6 +46,7 @@ pub fn still(overlap: f64, radius: f64, curvature: f64) -> Contact<f64> {
         approach: 0.0,
         slip: V::zero(),
         spin: V::zero(),
+        turn: 0.0,
     }
 }
 

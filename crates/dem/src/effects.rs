@@ -49,6 +49,8 @@ pub struct Contact<R: Lane> {
     pub slip: V<R>,
     /// ω_i − ω_j [rad/s].
     pub spin: V<R>,
+    /// How far the two turn together about n in a step, ½ (ω_i + ω_j)·n Δt [rad].
+    pub turn: R,
 }
 
 /// Kinds of dissipation that are told apart.

@@ -220,6 +220,7 @@ fn lanes<R: Lane, E: Effect, const KEEP: bool>(
     let along = velocity.dot(normal);
     let mut slip = velocity - normal.scale(along);
     let mut spin = V::zero();
+    let mut turn = R::splat(0.0);
     let (mut surface, mut turning) = (V::narrow(V::new(uj, vj, wj)), V::zero());
     if E::ROTATES {
         let [axi, ayi, azi, _] = R::rows4(common.spins, i);
@@ -228,6 +229,7 @@ fn lanes<R: Lane, E: Effect, const KEEP: bool>(
         slip = slip - (si.scale(arm_i) + sj.scale(arm_j)).cross(normal);
         surface = surface + sj.scale(arm_j).cross(normal);
         (spin, turning) = (si - sj, sj);
+        turn = (si + sj).dot(normal) * R::splat(0.5 * common.dt);
     }
     let radius = R::select(round, ri * rj * inverse_reach, ri);
     let columns = E::MEMORY * BLOCK;
@@ -250,6 +252,7 @@ fn lanes<R: Lane, E: Effect, const KEEP: bool>(
         approach: -along,
         slip,
         spin,
+        turn,
     };
     let mut load = Load::zero();
     effect.apply(&contact, R::splat(common.dt), &mut memory, &mut load);

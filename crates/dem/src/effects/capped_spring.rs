@@ -2,7 +2,8 @@
 //! tangent plane, twisting is a number, the angle about the normal.
 //!
 //! ```text
-//! ξ ← ξ − (ξ·n) n, length kept       the spring turns with the contact
+//! ξ ← ξ' + φ n × ξ',  ξ' = ξ − (ξ·n) n, length kept       the spring turns with the contact: its normal, and about it by
+//!                                                     φ = ½ (ω_i + ω_j)·n Δt, so that a pair that turns as one body keeps its force
 //! ξ ← ξ min(1, k_before/k)            a spring that stiffens keeps its force, one that softens its length
 //! ξ at t = ξ + (½ + p Δt²) v Δt        the rest of the step's way, (½ − p Δt²) v Δt, comes after: the midpoint rule, a little late,
 //!                                     because v is predicted, which alone would make energy, (ω Δt)⁴/8 a step; p = ω²/4
@@ -15,6 +16,7 @@
 //! neither makes energy: Mindlin & Deresiewicz (1953), J. Appl. Mech. 20; Thornton, Cummins & Cleary (2013), Powder
 //! Technology 233, doi:10.1016/j.powtec.2012.08.012.
 
+use super::Contact;
 use crate::lane::{Lane, V};
 use std::ops::{Add, Sub};
 
@@ -127,10 +129,12 @@ impl<R: Lane> CappedSpring<R> {
     }
 }
 
-/// The spring laid into the plane across `normal`, its length kept.
+/// The spring turned with its contact, its length kept.
 #[inline(always)]
-pub fn turned<R: Lane>(spring: V<R>, normal: V<R>) -> V<R> {
-    let flat = spring - normal.scale(spring.dot(normal));
-    let (before, after) = (spring.dot(spring), flat.dot(flat));
-    flat.scale((before / after.max(R::splat(R::TINY))).sqrt())
+pub fn turned<R: Lane>(spring: V<R>, contact: &Contact<R>) -> V<R> {
+    let n = contact.normal;
+    let flat = spring - n.scale(spring.dot(n));
+    let there = flat + n.cross(flat).scale(contact.turn);
+    let (before, after) = (spring.dot(spring), there.dot(there));
+    there.scale((before / after.max(R::splat(R::TINY))).sqrt())
 }

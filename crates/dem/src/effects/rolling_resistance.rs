@@ -45,7 +45,7 @@ impl Effect for RollingResistance {
                 * contact.inverse_mass,
             cap: arm * load.pressing.max(R::splat(0.0)),
         };
-        *theta = turned(*theta, n);
+        *theta = turned(*theta, contact);
         let pull = spring.pull(theta, rolling, dt);
         load.couple = load.couple + pull.force;
         load.elastic = load.elastic + pull.elastic;

@@ -57,7 +57,7 @@ impl<C: Coefficient> Effect for SlidingFriction<C> {
             pace: (R::splat(5.0) * stiffness).max(load.stiffness + stiffness) * contact.inverse_mass,
             cap: self.friction.of(contact) * load.pressing.max(R::splat(0.0)),
         };
-        *xi = turned(*xi, contact.normal);
+        *xi = turned(*xi, contact);
         let pull = spring.pull(xi, contact.slip, dt);
         load.tangential = load.tangential + pull.force;
         load.elastic = load.elastic + pull.elastic;
