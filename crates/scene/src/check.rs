@@ -101,7 +101,12 @@ impl Check<'_> {
         self.within("time.accuracy", accuracy.0, 1e-9, 1.0, "")?;
         let shown = format!("{} %", geom::Shown(100.0 * accuracy.0));
         let refuse = |other: String| {
-            Err(self.wrong("time.accuracy", &shown, &format!("{other} sets the step already"), "take one of them out"))
+            Err(self.wrong(
+                "time.accuracy",
+                &shown,
+                &format!("{other} sets the step already"),
+                "take one of them out",
+            ))
         };
         match (time.safety, time.dt) {
             (Some(safety), _) => refuse(format!("safety = {safety}")),

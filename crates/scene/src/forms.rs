@@ -61,7 +61,11 @@ impl Visitor<'_> for EveryVisitor {
     }
 
     fn visit_str<E: Error>(self, v: &str) -> Result<Every, E> {
-        if v == "step" { Ok(Every::Step) } else { Err(E::invalid_value(serde::de::Unexpected::Str(v), &self)) }
+        if v == "step" {
+            Ok(Every::Step)
+        } else {
+            Err(E::invalid_value(serde::de::Unexpected::Str(v), &self))
+        }
     }
 }
 
@@ -90,7 +94,9 @@ impl Visitor<'_> for AccuracyVisitor {
 
     fn visit_str<E: Error>(self, v: &str) -> Result<Accuracy, E> {
         let share = v.trim().strip_suffix('%').and_then(|v| v.trim().parse::<f64>().ok());
-        share.map(|s| Accuracy(s / 100.0)).ok_or_else(|| E::invalid_value(serde::de::Unexpected::Str(v), &self))
+        share
+            .map(|s| Accuracy(s / 100.0))
+            .ok_or_else(|| E::invalid_value(serde::de::Unexpected::Str(v), &self))
     }
 }
 
