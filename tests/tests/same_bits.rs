@@ -8,6 +8,11 @@ use grainpipe_tests::setups::{HOOKE, LAWS, empty, particles, plane, with_frictio
 
 /// Grains of three sizes that fall into a periodic, shaken trough of wall spheres.
 fn shaken_trough(law: Law) -> Setup {
+    filled_trough(law, 600)
+}
+
+/// The like with so many grains.
+fn filled_trough(law: Law, grains: u32) -> Setup {
     let mut setup = with_friction(empty(law, 0.4), 0.4);
     setup.contacts[0].rolling_resistance = Some(0.1);
     setup.gravity = Vec3::new(0.5, 0.0, -9.81);
@@ -20,7 +25,7 @@ fn shaken_trough(law: Law) -> Setup {
     floor.motion.amplitude = Vec3::new(0.0, 0.0, 0.002);
     floor.motion.frequency = 25.0;
     setup.walls = vec![floor];
-    setup.particles = (0..600u32)
+    setup.particles = (0..grains)
         .map(|k| Particle {
             id: k,
             material: 0,
@@ -81,9 +86,10 @@ fn every_width_of_lanes_in_mixed_precision() {
 
 #[test]
 fn every_number_of_threads() {
+    // More than the eight tiles of 256 below which one thread does it all.
     let with = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-        pool.install(|| bits(simulation(shaken_trough(Law::Hertz)), 1500))
+        pool.install(|| bits(simulation(filled_trough(Law::Hertz, 2600)), 700))
     };
     let one = with(1);
     for threads in [2, 3, 7] {

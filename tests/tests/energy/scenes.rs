@@ -122,7 +122,7 @@ fn waves() -> TriMesh {
     let n = 20u32;
     let at = |i: u32, j: u32| {
         let (x, y) = (0.01 * f64::from(i) - 0.05, 0.01 * f64::from(j) - 0.05);
-        Vec3::new(x, y, 0.004 * libm::sin(80.0 * x) * libm::cos(70.0 * y))
+        Vec3::new(x, y, 0.004 * (80.0 * x).sin() * (70.0 * y).cos())
     };
     let vertices = (0..=n).flat_map(|j| (0..=n).map(move |i| at(i, j))).collect();
     let corner = |i: u32, j: u32| j * (n + 1) + i;
