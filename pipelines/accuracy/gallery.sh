@@ -43,8 +43,16 @@ sweep hopper-stiffness hopper.toml --vary stiffness=0.3,1,4,10 --measure "$RATE"
 
 sweep heap heap.toml --vary stiffness=1,4 --vary safety=0.3,0.8 --measure 'heap-angle --sectors 4' --repeat 8 --for 10% --work cpu
 
-# A half pipe of wall spheres against the surface itself.
+# A box that fills while grains at rest in it sleep, or do not.
 mkdir -p out
+cp box.toml out/box-never.toml
+for speed in 0.001 0.005 0.02; do
+  { cat box.toml; printf '\n[sleep]\nspeed = %s  # m/s\n' $speed; } > out/box-$speed.toml
+done
+sweep sleep 'out/box-{sleepers}.toml' --vary sleepers=never,0.001,0.005,0.02 --reference sleepers=never --in-use sleepers=never \
+  --measure bed-height --repeat 3 --for 2% --work cpu
+
+# A half pipe of wall spheres against the surface itself.
 ./halfpipe.sh mesh > out/halfpipe.ply
 ./halfpipe.sh cloud > out/halfpipe.xyz
 SPEED='speed of --profile --axis x --bins 1 --within box:0.4,-0.06,-0.06,0.45,0.06,0.06 --mean --from 0.5'
