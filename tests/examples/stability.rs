@@ -29,7 +29,9 @@ fn write(findings: &str, file: &Path, title: &str, parts: &[String]) -> Result<(
     }
     let stem = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let beside = |what: &str| file.with_file_name(format!("{stem}-{what}.svg"));
-    let mut out = format!("# {title}\n\nWritten by `make -C pipelines {stem}` from what the tests found.\n");
+    let mut out = format!(
+        "# {title}\n\nWritten by `make -C pipelines {stem}` from what the tests found. Laws are tried in steps\nthat resolve them: what a coarser step costs is in [accuracy.md](accuracy.md), the default is 0.5 of the critical step.\n"
+    );
     let orders = plots::orders(&page, &beside("orders"), "step (over contact time or period)")?;
     let curves = plots::curves(&page, &beside("curves"))?;
     out += &page.tables();

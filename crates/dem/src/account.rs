@@ -41,6 +41,12 @@ pub struct Account {
     pub passed: f64,
     /// What the sums that make up the integration error were at the start.
     start: f64,
+    /// Whether it was opened: also in a run that is resumed with a ledger and had none before.
+    opened: bool,
+    /// Potential that particles lost when they came back through a periodic face.
+    wrapped: f64,
+    /// Most that the guard has seen in motion and springs together.
+    pub peak: f64,
 }
 
 /// A particle or a rigid clump at one instant: what moves it.
@@ -125,11 +131,10 @@ impl Simulation {
 
     /// Particles `fresh` begin their first step: its first half was before them. Loads are those of this instant.
     pub(crate) fn open_account(&mut self, fresh: &[u32]) {
-        if self.steps == 0 {
-            self.account.start = 0.0;
+        if !self.account.opened {
             let mut energy = Energy::default();
             self.close_step(&mut energy);
-            self.account.start = energy.integration;
+            (self.account.start, self.account.opened) = (energy.integration, true);
             return;
         }
         if fresh.is_empty() {
@@ -185,6 +190,31 @@ impl Simulation {
         let done = account.work + work + share + account.passed + account.lost + now.lost;
         energy.integration =
             done + account.gone() + energy.half_step + self.contacts.elastic() - account.start;
+        if self.setup.periodic.iter().any(Option::is_some) {
+            energy.potential = self.unwrapped_potential() + account.wrapped;
+        }
+    }
+
+    /// −m g·x of the particles where they are between two listings, which may be beyond a periodic face [J].
+    fn unwrapped_potential(&self) -> f64 {
+        let gravity = self.setup.gravity;
+        let inside =
+            |&k: &usize| !self.zones.travels(k) && !self.zones.is_gone(k) && !self.bodies.is_member(k);
+        let of = |k: usize| {
+            let density = self.setup.materials[self.particles.material[k] as usize].density;
+            -heavy(&self.setup, density) / self.particles.rows[k][7]
+                * gravity.dot(&self.particles.position(k))
+        };
+        (0..self.particles.len()).filter(inside).map(of).sum::<f64>() + self.bodies.potential(&gravity)
+    }
+
+    /// Brings particles back into the periodic box; what that does to their potential is booked.
+    pub(crate) fn wrap_accounted(&mut self, wrap: impl FnOnce(&mut Simulation)) {
+        let before = if self.setup.ledger { self.unwrapped_potential() } else { 0.0 };
+        wrap(self);
+        if self.setup.ledger {
+            self.account.wrapped += before - self.unwrapped_potential();
+        }
     }
 
     /// Whether forces drive a particle: it is free, awake, and no member of a rigid clump.

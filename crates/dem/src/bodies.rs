@@ -219,6 +219,11 @@ impl Bodies {
             order.iter().map(|&o| self.images.get(o as usize).copied().unwrap_or_default()).collect();
     }
 
+    /// −m g·x of those that are free [J].
+    pub fn potential(&self, gravity: &Vec3) -> f64 {
+        self.flights.iter().filter(|f| !f.travels).map(|f| -f.mass * gravity.dot(&f.place)).sum()
+    }
+
     /// Brings bodies, and each of their members, back into the periodic box.
     pub fn wrap(&mut self, particles: &mut Particles, periodic: &[Option<(f64, f64)>; 3]) {
         let periods = periods(periodic);

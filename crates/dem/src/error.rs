@@ -262,7 +262,7 @@ pub enum Halt {
     },
     /// Energy came from nowhere.
     #[error(
-        "t = {time:.6e} s: the time step has made {made:.3e} J, {:.2} % of the {of:.3e} J that were exchanged or move (limit {:.2} %): shorten dt (time.safety) or raise guards.energy",
+        "t = {time:.6e} s: the time step has made {made:.3e} J, {:.2} % of the {of:.3e} J that were exchanged or in motion and springs at most (limit {:.2} %): shorten dt (time.safety) or raise guards.energy",
         100.0 * made / of, 100.0 * limit
     )]
     Energy {

@@ -45,13 +45,20 @@ fn not_a_number(sim: &Simulation, k: usize) -> Halt {
 /// Steps between two looks at the energy that the step makes: a look takes about as long as a step.
 pub const ENERGY_EVERY: u64 = 50;
 
+/// Energy below this share of all is rounding.
+const ROUNDING: f64 = 1e-9;
+
 /// Energy that the finite step has made, of what was exchanged and moves.
 pub fn energy(sim: &mut Simulation) -> Result<(), Halt> {
     let (limit, time) = (sim.setup.guards.energy, sim.time());
     let e = sim.energy()?;
-    let (made, of) = (e.integration, e.exchanged() + e.translation + e.rotation);
-    // Written so that NaN is caught.
-    if made <= limit * of { Ok(()) } else { Err(Halt::Energy { time, made, of, limit }) }
+    // At the deepest point of an impact and at the top of a flight nothing moves: the most that was seen counts.
+    let peak = &mut sim.account.peak;
+    *peak = peak.max(e.translation + e.rotation + e.elastic.abs());
+    let (made, of) = (e.integration, e.exchanged() + *peak);
+    // Sums of places far from the origin have no more digits. Written so that NaN is caught.
+    let rounding = ROUNDING * (of + e.potential.abs());
+    if made <= limit * of + rounding { Ok(()) } else { Err(Halt::Energy { time, made, of, limit }) }
 }
 
 /// The particle that moved farthest, or the first that is not a number.

@@ -6,6 +6,7 @@
 //!                  Δt(20 a_t + w A_r, 20 b_t + w B_r), Δt(w 20 a_t + A_r, w 20 b_t + B_r) }
 //! a_n = S/m*,  b_n = γ √a_n,  a_t = k_t/m*,  b_t = γ √a_t          γ: damping ratio of the pair
 //! A_r = s 10 a_t,  B_r = s (21.5 μ_r √a_n + 3.79 √a_t)             of rolling and twisting; s = (R*/r)² (½ + ½ r/r_larger)
+//! 1/m* = c_i/m_i + c_j/m_j in a_n, a_t and w;  c = ((1 + q)/2)² for a sphere q times as large as the other, else 1
 //! S = k (Hooke), dF_n/dδ at the overlap limit (Hertz), 2 E* a there (JKR);  w = |1/m_i − 1/m_j| m*;  r: the smaller radius
 //! ```
 //!
@@ -13,7 +14,8 @@
 //! bodies under the root. Effects that the scene does not ask for count 0. The integrator of [`crate::advance`] turns unstable by an eigenvalue of −1:
 //! A Δt²/4 + B Δt = 1, the dashpot seeing the predicted velocity. 4 and 8: twelve contacts, Σ n nᵀ = 4 and Σ (1 − n nᵀ) = 8,
 //! each against a neighbour that moves the other way; 16: a tangential spring that is late by half a step, the most there is, counts
-//! twice. 20 = 8 × 5/2: all grains turn the same way. 1/√(20 a_t): up to there the
+//! twice. c: as many times twelve small ones touch a large one (3 (1 + q)² together), which may be the lighter; the largest eigenvalue of the whole is
+//! no more than those of both sides together. 20 = 8 × 5/2: all grains turn the same way. 1/√(20 a_t): up to there the
 //! tangential spring, whose rate is predicted as well, takes more energy than it makes without a dashpot. Sliding resists
 //! ω_i + ω_j, rolling and twisting ω_i − ω_j: they add up for a grain beside a wall (w = 1), and only the greater counts between
 //! equals (w = 0). Cohesion only softens a contact, and the constant couple of rolling limits itself.
@@ -174,9 +176,11 @@ fn tighten(limit: &mut Limit, setup: &Setup, a: &Grain, partner: Partner) -> Res
     let (other, yields, uneven, radius, (smaller, larger), what) = match &partner {
         Partner::Grain(b) => {
             let (rb, (n, t)) = (b.radius, b.yields);
-            let yields = (normal + n, tangential + t);
+            let (mine, its) = (crowd(ra, rb), crowd(rb, ra));
+            let yields = (mine * normal + its * n, mine * tangential + its * t);
             let sizes = (ra.min(rb), ra.max(rb));
-            (b.material, yields, (normal - n).abs(), ra * rb / (ra + rb), sizes, b.name(&setup.materials))
+            let uneven = (mine * normal - its * n).abs();
+            (b.material, yields, uneven, ra * rb / (ra + rb), sizes, b.name(&setup.materials))
         }
         Partner::Wall(wall) => {
             let rb = match &wall.shape {
@@ -216,6 +220,11 @@ fn tighten(limit: &mut Limit, setup: &Setup, a: &Grain, partner: Partner) -> Res
         *limit = Limit { dt, pair: format!("{} – {what}", a.name(&setup.materials)) };
     }
     Ok(())
+}
+
+/// How many times twelve grains of radius `other` [m] find place on one of radius `own` [m]; no fewer than once.
+fn crowd(own: f64, other: f64) -> f64 {
+    (0.5 * (1.0 + own / other)).powi(2).max(1.0)
 }
 
 /// What bounds the step of a pair.

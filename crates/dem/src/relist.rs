@@ -60,11 +60,13 @@ impl Simulation {
             return Vec::new();
         }
         let before: Vec<Vec3> = (0..self.particles.len()).map(|k| self.particles.position(k)).collect();
-        for k in (0..self.particles.len()).filter(|&k| !self.bodies.is_member(k)) {
-            let p = wrapped(&self.setup.periodic, self.particles.position(k));
-            self.particles.rows[k][..3].copy_from_slice(p.as_slice());
-        }
-        self.bodies.wrap(&mut self.particles, &self.setup.periodic);
+        self.wrap_accounted(|sim| {
+            for k in (0..sim.particles.len()).filter(|&k| !sim.bodies.is_member(k)) {
+                let p = wrapped(&sim.setup.periodic, sim.particles.position(k));
+                sim.particles.rows[k][..3].copy_from_slice(p.as_slice());
+            }
+            sim.bodies.wrap(&mut sim.particles, &sim.setup.periodic);
+        });
         let period = self.period();
         let whole = |by: f64, period: f64| if period > 0.0 { (by / period).round() as i32 } else { 0 };
         let moved = |(k, was): (usize, Vec3)| {

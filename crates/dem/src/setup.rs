@@ -347,7 +347,7 @@ pub struct Guards {
     pub motion: f64,
     /// How many inlets, from the first on, are cuts of a plant, behind which no grain may come back [–].
     pub cuts: u32,
-    /// Largest energy that the finite time step may make, as a share of what was exchanged and moves [–]; ∞: not looked at. It
+    /// Largest energy that the finite time step may make, as a share of what was exchanged and the most that moved or was in springs [–]; ∞: not looked at. It
     /// needs the ledger.
     pub energy: f64,
 }

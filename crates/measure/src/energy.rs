@@ -4,10 +4,9 @@
 //! closure error = Σ Δ balance       balance = kinetic + potential + elastic + dissipated − work of walls − integration
 //! ```
 //!
-//! over the intervals between ledgers in which no grain enters or leaves (by the ids of the frames): there the balance is
-//! constant to rounding. What the finite time step made is the term `integration`, the error of the run's energy. Both are given
-//! relative to what was exchanged so far, too: the largest change of any other term. Grains that travel through a zone at constant velocity gain or lose what gravity does to them there;
-//! the ledger cannot tell that from an error.
+//! over the intervals between ledgers; there the balance is constant to rounding. Ledgers without that term do not book who comes and
+//! goes either: of those only intervals in which no grain enters or leaves count (by the ids of the frames). What the finite time step made is the term `integration`, the error of the run's energy. Both are given
+//! relative to what was exchanged so far, too: the largest change of any other term.
 
 use crate::observer::Observer;
 use crate::run::Ledger;
@@ -79,7 +78,10 @@ impl Energy {
             }
         }
         match self.before.replace((ledger.balance, self.now)) {
-            Some((balance, grains)) if grains == self.now => self.error += ledger.balance - balance,
+            // A ledger that tells what the step made books who comes and goes, too.
+            Some((balance, grains)) if grains == self.now || self.made.is_some() => {
+                self.error += ledger.balance - balance
+            }
             Some(_) => self.left_out += 1,
             None => {}
         }

@@ -18,7 +18,7 @@ use std::io::Write;
 use thiserror::Error;
 
 const MAGIC: &[u8; 8] = b"GRNSTATE";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 const HEAD: usize = 8 + 4 + 8 + 32;
 /// No state is larger [B].
 const LIMIT: usize = 1 << 38;

@@ -75,7 +75,9 @@ pub fn all() -> Vec<Scene> {
     let mut periodic = poured(hertz);
     periodic.periodic = [Some((-0.01, 0.14)), Some((-0.01, 0.11)), None];
     periodic.particles.iter_mut().for_each(|p| p.velocity = Vec3::new(0.8, -0.6, 0.0));
-    add("hertz, periodic".to_owned(), periodic);
+    add("hertz, periodic".to_owned(), periodic.clone());
+    periodic.gravity.x = 4.0;
+    add("hertz, periodic, down a slope".to_owned(), periodic);
     let mut walls = poured(hertz);
     let beside = Plane { point: Vec3::new(-0.02, 0.0, 0.0), normal: Vec3::x() };
     walls.walls.push(Wall { shape: WallShape::Plane(beside), ..plane(Vec3::x()) });
@@ -89,13 +91,19 @@ pub fn all() -> Vec<Scene> {
     add("hertz, no friction".to_owned(), free);
     let mut asleep = poured(hertz);
     asleep.sleep = Some(Sleep { speed: 0.02, time: 0.01, wake: 0.3 });
-    add("hertz, sleep".to_owned(), Setup { particles: cloud(12, 0.011), ..asleep });
+    add("hertz, sleep".to_owned(), Setup { particles: cloud(12, 0.011), ..asleep.clone() });
+    asleep.sleep = Some(Sleep { speed: 0.05, time: 0.005, wake: 0.3 });
+    add("hertz, sleep and waking".to_owned(), asleep);
     add("hertz, sinking in a fluid".to_owned(), in_fluid(poured(hertz)));
     add("hertz, pressed by a servo".to_owned(), pressed(poured(hertz)));
     let mut meshed = poured(hertz);
     meshed.walls[0].shape = WallShape::Mesh(waves());
     add("hertz on a shaking mesh".to_owned(), shaking(meshed));
     for (name, shape) in [("dumbbells", dumbbell()), ("boomerangs", boomerang())] {
+        let mut slope = tumbling(poured(hertz), shape.clone());
+        slope.periodic = [Some((-0.02, 0.14)), Some((-0.02, 0.11)), None];
+        slope.gravity.x = 4.0;
+        add(format!("hertz, {name}, periodic, down a slope"), slope);
         add(format!("hertz, {name}"), tumbling(poured(hertz), shape));
     }
     scenes.push(passing());

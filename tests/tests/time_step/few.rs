@@ -85,6 +85,39 @@ fn sizes_of_one_to_ten() {
     }
 }
 
+/// A light bead among 200 small heavy balls, each held by a wall sphere behind it: far more than twelve contacts.
+#[test]
+fn a_light_bead_in_a_shell_of_heavy_balls() {
+    for (name, e) in [("bead in a shell of balls, hooke, e = 1", 1.0), ("the same, e = 0.5", 0.5)] {
+        let mut setup = empty(HOOKE, e);
+        setup.materials[0].density = 7800.0;
+        setup.materials.push(Material {
+            name: "bead".to_owned(),
+            density: 20.0,
+            ..setup.materials[0].clone()
+        });
+        setup.contacts.push(Contact::new((0, 2), HOOKE, e));
+        setup.contacts.push(Contact::new((1, 2), HOOKE, e));
+        setup.contacts.push(Contact::new((2, 2), HOOKE, e));
+        // So little pressed that nothing buckles within the trial.
+        let (ball, count) = (0.12 * R, 200u32);
+        let pressed = 1e-8 * ball;
+        setup.particles = vec![Particle { material: 2, ..grain(0, Vec3::zeros()) }];
+        let mut held = Vec::new();
+        for k in 0..count {
+            // Fibonacci's lattice on the sphere.
+            let z = 1.0 - (2.0 * f64::from(k) + 1.0) / f64::from(count);
+            let (sin, cos) = (f64::from(k) * PI * (3.0 - 5f64.sqrt())).sin_cos();
+            let out = Vec3::new(cos * (1.0 - z * z).sqrt(), sin * (1.0 - z * z).sqrt(), z);
+            setup.particles.push(Particle { radius: ball, ..grain(k + 1, out * (R + ball - pressed)) });
+            held.push((out * (R + 3.0 * ball - 2.0 * pressed), ball));
+        }
+        let shape = WallShape::Spheres(held);
+        setup.walls = vec![Wall { name: "shell".to_owned(), material: 1, shape, motion: Motion::still() }];
+        note(&Trial { name, setup, ways: ALL });
+    }
+}
+
 /// A grain wedged between two beds of wall spheres, in a hollow of three on each side.
 #[test]
 fn between_walls_of_spheres() {

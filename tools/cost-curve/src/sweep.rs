@@ -131,6 +131,11 @@ fn job(
             args.repeat
         )));
     }
+    if args.repeat == 1 && by_chance(&values) {
+        cli::warn(
+            "chance plays a part in this scene, and one seed does not tell how much: --repeat 3 gives intervals",
+        );
+    }
     let mut sets = args.set.clone();
     for (knob, (_, value)) in grid.knobs.iter().zip(setting).filter(|(_, (_, value))| value != AS_IT_IS) {
         sets.extend(knob.overrides(&values, value)?);

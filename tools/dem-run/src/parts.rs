@@ -18,8 +18,8 @@ pub fn say(output: &Output, resumed: Option<&Source>) {
             )
         } else {
             format!(
-                "{part} was left by a run that did not end: --resume {part} goes on from it, dem-view shows it; remove it when \
-                 you do not need it"
+                "{part} was left by a run that did not end: --resume {part} goes on from it, dem-view shows it; what it holds is in no \
+                 other file, a run that went on from it begins at its last checkpoint"
             )
         });
     }
@@ -31,7 +31,14 @@ pub fn say(output: &Output, resumed: Option<&Source>) {
 /// Several parts.
 pub fn resumed(source: &Source) -> anyhow::Result<Source> {
     let Some(path) = source.path().filter(|path| !path.exists()) else { return Ok(source.clone()) };
-    let parts: Vec<PathBuf> = cli::parts_of(path).into_iter().map(|part| part.0).collect();
+    let parts = cli::parts_of(path);
+    if let Some((part, _)) = parts.iter().find(|part| part.1) {
+        let part = part.display();
+        anyhow::bail!(
+            "--resume {source}: another dem-run is still writing {part}: wait for its end, or stop it"
+        );
+    }
+    let parts: Vec<PathBuf> = parts.into_iter().map(|part| part.0).collect();
     match &parts[..] {
         [] => Ok(source.clone()),
         [part] => {
