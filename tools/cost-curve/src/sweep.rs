@@ -132,9 +132,10 @@ fn job(
         )));
     }
     if args.repeat == 1 && by_chance(&values) {
-        cli::warn(
-            "chance plays a part in this scene, and one seed does not tell how much: --repeat 3 gives intervals",
-        );
+        static SAID: std::sync::Once = std::sync::Once::new();
+        SAID.call_once(|| {
+            cli::warn("chance plays a part in this scene, and one seed does not tell how much: --repeat 3 gives intervals")
+        });
     }
     let mut sets = args.set.clone();
     for (knob, (_, value)) in grid.knobs.iter().zip(setting).filter(|(_, (_, value))| value != AS_IT_IS) {
