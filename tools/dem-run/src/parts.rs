@@ -18,8 +18,8 @@ pub fn say(output: &Output, resumed: Option<&Source>) {
             )
         } else {
             format!(
-                "{part} was left by a run that did not end: --resume {part} goes on from it, dem-view shows it; what it holds is in no \
-                 other file, a run that went on from it begins at its last checkpoint"
+                "{part} was left by a run that did not end: --resume {part} goes on from it, dem-view shows it; a run that went on from it \
+                 begins at its last checkpoint, so remove it only when you do not need what is before"
             )
         });
     }
