@@ -1,9 +1,9 @@
 //! LAS and LAZ, by the `las` crate.
 
-use super::{ReadError, catch};
+use super::{ReadError, catch, laz};
 use crate::Cloud;
 use geom::Vec3;
-use las::{LazParallelism, PointData, Reader, ReaderOptions};
+use las::{Header, LazParallelism, PointData, Reader, ReaderOptions};
 use std::io::Cursor;
 use stream::{Table, Values};
 
@@ -28,33 +28,12 @@ fn broken(what: impl ToString, point: u64) -> ReadError {
     ReadError::Broken { format: "LAS/LAZ", what: what.to_string(), point: Some(point) }
 }
 
-/// Refuses the table of a LAZ file's chunks that claims more of them than the file has bytes: its reader would make room for
-/// them all. The header tells where points begin (byte 96) and whether they are packed (byte 104); there stands where the
-/// table is, or −1 when that stands in the last 8 bytes; the table begins with its version and its number of chunks.
-fn chunks(bytes: &[u8]) -> Result<(), ReadError> {
-    let read = |at: usize, size: usize| {
-        let bytes = bytes.get(at..at.checked_add(size)?)?;
-        Some(bytes.iter().rev().fold(0, |n, &byte| (n << 8) | u64::from(byte)))
-    };
-    let claimed = || {
-        let packed = read(104, 1)? & 0xc0 != 0;
-        let table = read(read(96, 4)? as usize, 8)?;
-        let table = if table == u64::MAX { read(bytes.len().checked_sub(8)?, 8)? } else { table };
-        read((table as usize).checked_add(4)?, 4).filter(|_| packed)
-    };
-    match claimed() {
-        Some(chunks) if chunks > bytes.len() as u64 => {
-            Err(broken(format!("{chunks} chunks of points are promised in {} bytes", bytes.len()), 0))
-        }
-        _ => Ok(()),
-    }
-}
-
 fn decode(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
-    chunks(&bytes)?;
+    laz::before_the_header(&bytes).map_err(|e| broken(e, 0))?;
+    let header = Header::new(Cursor::new(&bytes)).map_err(|e| broken(e, 0))?;
+    let whole = laz::before_the_points(&bytes, &header).map_err(|e| broken(e, 0))?;
     let length = bytes.len() as u64;
-    // In parallel whole chunks are read, whose length the file claims: a small one is not to take gigabytes.
-    let parallel = if length < SMALL { LazParallelism::No } else { LazParallelism::Yes };
+    let parallel = if whole && length >= SMALL { LazParallelism::Yes } else { LazParallelism::No };
     let options = ReaderOptions::default().with_laz_parallelism(parallel);
     let mut reader = Reader::with_options(Cursor::new(bytes), options).map_err(|e| broken(e, 0))?;
     let (promised, format) = (reader.header().number_of_points(), reader.header().point_format());

@@ -4,6 +4,7 @@
 
 mod e57;
 mod las;
+mod laz;
 mod pcd;
 mod ply;
 mod xyz;
