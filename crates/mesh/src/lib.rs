@@ -1,0 +1,103 @@
+//! Triangle meshes from files, told apart by their content, never by the ending of a name.
+//!
+//! ```text
+//! PLY            ASCII and binary; faces with more than three corners are cut into fans
+//! STL            ASCII and binary; vertices at equal places are made one
+//! OBJ            `v` and `f` lines; groups and objects become one mesh
+//! triangles      text, nine numbers a line: three corners [m]; a first line of words is passed over
+//! ```
+//!
+//! Lengths are taken as metres: none of these formats says its unit.
+
+mod obj;
+mod ply;
+mod stl;
+mod triangles;
+
+use geom::mesh::{MeshError, TriMesh};
+use stream::ply::PlyError;
+use thiserror::Error;
+
+/// Why bytes are no mesh.
+#[derive(Debug, Error)]
+#[allow(missing_docs)]
+pub enum MeshFileError {
+    #[error("nothing to read: the input has no byte; did the tool upstream fail?")]
+    Empty,
+    #[error(
+        "no mesh begins with {start}: give PLY, STL, OBJ, or text with nine numbers a line (a triangle's corners)"
+    )]
+    Unknown { start: String },
+    #[error("not a mesh")]
+    Ply(#[source] PlyError),
+    #[error("PLY: element 'vertex' has no property '{0}': a mesh needs x, y and z")]
+    NoPosition(&'static str),
+    #[error("the file has no element 'face' with a list 'vertex_indices': it is a cloud, not a mesh")]
+    NoFaces,
+    #[error("face {face}: {what}")]
+    Face { face: usize, what: String },
+    #[error(
+        "STL: the file promises {promised} triangles and holds {held}: it is cut off, write or copy it again"
+    )]
+    CutOff { promised: u64, held: u64 },
+    #[error("STL: {0}: export it again")]
+    Stl(String),
+    #[error("OBJ: {0}: export it again")]
+    Obj(String),
+    #[error("triangles: line {line}: {what}: '{text}'")]
+    Line { line: usize, what: &'static str, text: String },
+    #[error("{0}: repair the mesh")]
+    Mesh(#[from] MeshError),
+}
+
+/// One format.
+struct Format {
+    /// Whether these are its first bytes.
+    matches: fn(&[u8]) -> bool,
+    read: fn(&[u8]) -> Result<TriMesh, MeshFileError>,
+}
+
+/// Every format that a mesh is read from; what has no mark of its own comes last.
+const FORMATS: [Format; 4] = [
+    Format { matches: ply::matches, read: ply::read },
+    Format { matches: stl::matches, read: stl::read },
+    Format { matches: obj::matches, read: obj::read },
+    Format { matches: triangles::matches, read: triangles::read },
+];
+
+/// Reads a mesh that is in memory; lengths come as they are in the file [m].
+///
+/// # Errors
+/// Content that is no mesh, or is cut off, with its place; a mesh without a face.
+pub fn from_bytes(bytes: &[u8]) -> Result<TriMesh, MeshFileError> {
+    if bytes.is_empty() {
+        return Err(MeshFileError::Empty);
+    }
+    let Some(format) = FORMATS.iter().find(|f| (f.matches)(bytes)) else {
+        let start: String =
+            bytes.iter().take(12).flat_map(|b| std::ascii::escape_default(*b)).map(char::from).collect();
+        return Err(MeshFileError::Unknown { start: format!("'{start}'") });
+    };
+    let mesh = (format.read)(bytes)?;
+    if mesh.faces.is_empty() {
+        return Err(MeshError::Empty.into());
+    }
+    Ok(mesh)
+}
+
+/// Reads the file of a shape `mesh:FILE`, with the whole reason in one line.
+///
+/// # Errors
+/// As [`from_bytes`]; a file that cannot be read.
+pub fn load(file: &str) -> Result<TriMesh, String> {
+    let bytes = std::fs::read(file).map_err(|e| format!("cannot read the mesh: {e}"))?;
+    from_bytes(&bytes).map_err(|e| {
+        let cause = std::error::Error::source(&e).map(|c| format!(": {c}")).unwrap_or_default();
+        format!("{file}: {e}{cause}")
+    })
+}
+
+/// Lines of text, lossy, with their numbers from 1; line ends may be LF, CRLF or CR.
+fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, std::borrow::Cow<'_, str>)> {
+    (1..).zip(bytes.split(|&b| b == b'\n')).map(|(n, line)| (n, String::from_utf8_lossy(line)))
+}
