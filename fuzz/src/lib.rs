@@ -35,7 +35,7 @@ pub fn without_crcs(data: &[u8]) -> Vec<u8> {
 /// A checkpoint with `body`, under a head that is right for it.
 pub fn state_of(body: &[u8]) -> Vec<u8> {
     let mut bytes = b"GRNSTATE".to_vec();
-    bytes.extend(1u32.to_le_bytes());
+    bytes.extend(stream::state::VERSION.to_le_bytes());
     bytes.extend((body.len() as u64).to_le_bytes());
     bytes.extend(Sha256::digest(body));
     bytes.extend(body);

@@ -39,6 +39,51 @@ fn laz_with_too_many_chunks() {
     CLAIMS.refused("LAZ: chunks", &cloud(bytes), &["4294967295 chunks", "damaged"]);
 }
 
+/// A layer of a chunk claimed 4 GB, for each of the ten that format 7 has.
+#[test]
+fn laz_with_a_layer_longer_than_the_file() {
+    let whole = sample(samples::las(), "7.laz");
+    let points = whole[96..100].iter().rev().fold(0, |n, &b| (n << 8) | usize::from(b));
+    // The place of the table, a point of 36 bytes as it is, and how many there are stand before the lengths.
+    let lengths = points + 8 + 36 + 4;
+    for layer in 0..10 {
+        let mut bytes = whole.clone();
+        bytes[lengths + 4 * layer..][..4].fill(0xff);
+        CLAIMS.refused("LAZ: layers", &cloud(bytes), &["layers of 42949", "chunk 0", "damaged"]);
+    }
+}
+
+/// An extended record claimed 2⁶⁴ − 1 bytes: its reader ended the program.
+#[test]
+fn las_with_an_extended_record_longer_than_the_file() {
+    for name in ["7.las", "7.laz"] {
+        let mut bytes = sample(samples::las(), name);
+        let start = bytes.len() as u64;
+        bytes[235..243].copy_from_slice(&start.to_le_bytes());
+        bytes[243..247].copy_from_slice(&1u32.to_le_bytes());
+        bytes.extend([0; 60]);
+        let claim = start as usize + 20;
+        bytes[claim..claim + 8].fill(0xff);
+        CLAIMS.refused(
+            &format!("{name}: records"),
+            &cloud(bytes.clone()),
+            &["extended record", "there are 0", "damaged"],
+        );
+        bytes[claim..claim + 8].fill(0);
+        assert!(cloud::from_bytes(bytes).is_ok(), "{name}: an empty record is no fault");
+    }
+}
+
+/// Items of 65 535 bytes, of which each would have its own tables.
+#[test]
+fn laz_with_items_larger_than_its_points() {
+    let mut bytes = sample(samples::las(), "7.laz");
+    // Kind 11, colours of 6 bytes, version 3.
+    let at = place(&bytes, &[11, 0, 6, 0, 3, 0]);
+    bytes[at..at + 4].copy_from_slice(&[14, 0, 255, 255]);
+    CLAIMS.refused("LAZ: items", &cloud(bytes), &["65565 bytes", "points of 36 bytes", "damaged"]);
+}
+
 #[test]
 fn pcd_that_unpacks_to_more_than_it_can_hold() {
     let whole = sample(samples::pcd(), "packed.pcd");
