@@ -1,9 +1,12 @@
 //! Puts a wall together: neighbours, radii, placement, leak check.
 
 use crate::solve::Changes;
-use crate::star::{Stars, stars};
+use crate::pairs::{FURTHEST, Pairs, REACH, pairs};
+use crate::star::{SQUARE, Stars, stars};
 use crate::{Placement, Radius, Regions, Representative, WallError, Wish, equation, leak, normals, solve};
 use geom::{Shown, Vec3};
+use crate::sheets::{self, Sheets};
+use sampling::cells::Cells;
 use serde::Serialize;
 
 /// Wall sphere diameter over smallest particle diameter below which spheres cost more than they give [–].
@@ -47,6 +50,8 @@ pub struct WallReport {
     pub leaks: usize,
     /// Gaps wider than this [m] between three points cannot be told from the outline.
     pub gaps_up_to: f64,
+    /// Where two sheets of the surface are closer than the spacing; `None` when nowhere.
+    pub sheets: Option<Sheets>,
     /// What the user should know.
     pub warnings: Vec<String>,
 }
@@ -57,38 +62,58 @@ pub struct WallReport {
 /// Points or settings that make no wall; see [`WallError`].
 pub fn build(points: &[Vec3], regions: &Regions, wish: &Wish) -> Result<(Wall, WallReport), WallError> {
     check(points, wish)?;
-    let nearest = sampling::nearest::typical(points).ok_or(WallError::OnePlace(points.len()))?;
-    let stars = stars(points, nearest);
-    check_apart(points, &stars)?;
-    if stars.pairs.is_empty() {
-        return Err(WallError::NoPairs { reach: stars.largest });
+    let typical = sampling::nearest::typical(points).ok_or(WallError::OnePlace(points.len()))?;
+    // From here to the end points go by their place in the cells' order: neighbours lie side by side in memory.
+    let cells = Cells::new(points, REACH * typical);
+    let found = pairs(&cells, typical);
+    check_apart(points, &cells, &found)?;
+    if found.pairs.is_empty() {
+        return Err(WallError::NoPairs { reach: FURTHEST * typical });
     }
-    let region_of = regions.of(points);
-    let lengths: Vec<f64> =
-        stars.pairs.iter().map(|&(i, j)| (points[i as usize] - points[j as usize]).norm()).collect();
-    let spacing = representative(&lengths, wish.representative);
-    let zeta = roughness(regions, &region_of, wish)?;
-    let (radii, zeta_all) = radii(points, &stars, &lengths, spacing, zeta.as_deref(), wish)?;
-    let asked = zeta.unwrap_or_else(|| vec![zeta_all; points.len()]);
-    let changes = solve::changes(&stars.pairs, &lengths, &asked, &radii);
-    let centres = place(points, &stars, &radii, wish)?;
+    let wants_stars = wish.placement == Placement::Surface || wish.smallest_particle.is_some();
+    let stars = if wants_stars { stars(&cells, typical) } else { Stars::default() };
+    let region_of = regions.of(&cells.points);
+    let spacing = representative(&found.lengths, wish.representative);
+    let zeta = roughness(regions, &region_of, cells.order(), wish)?;
+    let (radii, zeta_all) = radii(&cells, &found, spacing, zeta.as_deref(), wish)?;
+    let asked = zeta.unwrap_or_else(|| vec![zeta_all; radii.len()]);
+    let changes = solve::changes(&found.pairs, &found.lengths, &asked, &radii);
+    let centres = place(&cells.points, &stars, &found.pairs, &radii, wish)?;
     let mut report = WallReport {
         spheres: radii.len(),
         spacing,
-        spacing_range: range(&lengths),
+        spacing_range: range(&found.lengths),
         roughness: zeta_all,
         radius_range: [range(&radii)[0], radii.iter().sum::<f64>() / radii.len() as f64, range(&radii)[1]],
         changes,
         widest_gap: None,
         leaks: 0,
-        gaps_up_to: stars.largest,
+        gaps_up_to: SQUARE * typical,
+        sheets: None,
         warnings: Vec::new(),
     };
+    if let Some(sheets) = sheets::closer_than(&cells.points, spacing) {
+        report.warnings.push(two_sheets(&sheets, spacing));
+        report.sheets = Some(sheets);
+    }
+    if let Some(largest) = wish.largest_particle {
+        check_largest(&mut report, largest);
+    }
     if let Some(particle) = wish.smallest_particle {
-        check_sizes(&mut report, particle, points, &radii)?;
+        check_sizes(&mut report, particle, &cells.points, &radii)?;
         check_particle(&mut report, particle, &centres, &radii, &stars);
     }
-    Ok((Wall { centres, radii, regions: region_of }, report))
+    let (centres, radii) = (by_index(&cells, &centres), by_index(&cells, &radii));
+    Ok((Wall { centres, radii, regions: by_index(&cells, &region_of) }, report))
+}
+
+/// Values by place in the order of the points.
+fn by_index<T: Copy + Default>(cells: &Cells, by_place: &[T]) -> Vec<T> {
+    let mut by_index = vec![T::default(); by_place.len()];
+    for (&i, value) in cells.order().iter().zip(by_place) {
+        by_index[i as usize] = *value;
+    }
+    by_index
 }
 
 fn check(points: &[Vec3], wish: &Wish) -> Result<(), WallError> {
@@ -104,40 +129,45 @@ fn check(points: &[Vec3], wish: &Wish) -> Result<(), WallError> {
         (Radius::Given(r), _, _) if !positive(r) => Err(WallError::BadRadius(r)),
         (_, Some(d), _) if !positive(d) => Err(WallError::BadParticle(d)),
         (_, _, Some(f)) if !positive(f.norm()) => Err(WallError::BadFacing { x: f.x, y: f.y, z: f.z }),
-        (_, _, None) if wish.placement == Placement::Surface => Err(WallError::NoFacing),
+        (_, _, None) if wish.placement == Placement::Surface && wish.flow_at.is_none() => Err(WallError::NoFacing),
         _ => Ok(()),
     }
 }
 
 /// Refuses two points at one place.
-fn check_apart(points: &[Vec3], stars: &Stars) -> Result<(), WallError> {
-    let Some(first) = stars.nearest.iter().position(|&d| d == 0.0) else { return Ok(()) };
-    let p = points[first];
-    let second = points.iter().rposition(|q| *q == p).unwrap_or(first) as u32;
-    Err(WallError::Duplicate { first: first as u32, second, x: p.x, y: p.y, z: p.z })
+fn check_apart(points: &[Vec3], cells: &Cells, found: &Pairs) -> Result<(), WallError> {
+    let at_once = found.nearest.iter().zip(cells.order()).filter(|(d, _)| **d == 0.0);
+    let Some(first) = at_once.map(|(_, &i)| i).min() else { return Ok(()) };
+    let p = points[first as usize];
+    let second = points.iter().rposition(|q| *q == p).unwrap_or(first as usize) as u32;
+    Err(WallError::Duplicate { first, second, x: p.x, y: p.y, z: p.z })
 }
 
 /// Roughness asked for at each point [m]; `None` when the radius is given instead.
-fn roughness(regions: &Regions, region_of: &[u16], wish: &Wish) -> Result<Option<Vec<f64>>, WallError> {
-    if matches!(wish.radius, Radius::Given(_)) && regions.surfaces.iter().all(|s| s.roughness.is_none()) {
+fn roughness(
+    regions: &Regions,
+    region_of: &[u16],
+    order: &[u32],
+    wish: &Wish,
+) -> Result<Option<Vec<f64>>, WallError> {
+    if matches!(wish.radius, Radius::Given(_)) && !regions.is_rough() {
         return Ok(None);
     }
-    let of = |&r: &u16| regions.surfaces[r as usize].roughness.ok_or(WallError::NoRoughness);
-    region_of.iter().map(of).collect::<Result<Vec<f64>, _>>().map(Some)
+    let of = |(&i, &r): (&u32, &u16)| regions.roughness(i as usize, r).ok_or(WallError::NoRoughness);
+    order.iter().zip(region_of).map(of).collect::<Result<Vec<f64>, _>>().map(Some)
 }
 
 /// Radii [m], and the representative roughness [m].
 fn radii(
-    points: &[Vec3],
-    stars: &Stars,
-    lengths: &[f64],
+    cells: &Cells,
+    found: &Pairs,
     spacing: f64,
     zeta: Option<&[f64]>,
     wish: &Wish,
 ) -> Result<(Vec<f64>, f64), WallError> {
     if let Radius::Given(radius) = wish.radius {
         let zeta = equation::dent(radius, radius, spacing);
-        return Ok((vec![radius; points.len()], zeta));
+        return Ok((vec![radius; cells.len()], zeta));
     }
     let zeta = zeta.ok_or(WallError::NoRoughness)?;
     let common = representative(zeta, wish.representative);
@@ -149,19 +179,19 @@ fn radii(
             .ok_or_else(|| too_rough(zeta, spacing, "representative spacing", place))
     };
     if wish.radius == Radius::Uniform {
-        return Ok((vec![even(common)?; points.len()], common));
+        return Ok((vec![even(common)?; cells.len()], common));
     }
     // The worst pair is named, so that one cure serves all.
     let want = |&(i, j): &(u32, u32)| 0.5 * (zeta[i as usize] + zeta[j as usize]);
-    let rough = stars.pairs.iter().zip(lengths).filter(|(pair, p)| want(pair) > 0.5 * **p * ROUNDED);
+    let rough = found.pairs.iter().zip(&found.lengths).filter(|(pair, p)| want(pair) > 0.5 * **p * ROUNDED);
     let worst = rough.max_by(|a, b| (want(a.0) / a.1).total_cmp(&(want(b.0) / b.1)));
     if let Some((pair, &p)) = worst {
-        let ((i, j), at) = (pair, points[pair.0 as usize]);
+        let ([i, j], at) = ([pair.0, pair.1].map(|p| cells.order()[p as usize]), cells.points[pair.0 as usize]);
         let place = format!("points {i} and {j} at ({:.4}, {:.4}, {:.4}) m", at.x, at.y, at.z);
         return Err(too_rough(want(pair), p, "spacing", place));
     }
     let start = zeta.iter().map(|&z| even(z)).collect::<Result<Vec<f64>, _>>()?;
-    Ok((solve::solve(&stars.pairs, lengths, zeta, &start), common))
+    Ok((solve::solve(&found.pairs, &found.lengths, zeta, &start), common))
 }
 
 fn too_rough(roughness: f64, spacing: f64, which: &'static str, place: String) -> WallError {
@@ -178,12 +208,19 @@ fn too_rough(roughness: f64, spacing: f64, which: &'static str, place: String) -
     }
 }
 
-fn place(points: &[Vec3], stars: &Stars, radii: &[f64], wish: &Wish) -> Result<Vec<Vec3>, WallError> {
+fn place(
+    points: &[Vec3],
+    stars: &Stars,
+    pairs: &[(u32, u32)],
+    radii: &[f64],
+    wish: &Wish,
+) -> Result<Vec<Vec3>, WallError> {
     if wish.placement == Placement::Centre {
         return Ok(points.to_vec());
     }
-    let facing = wish.facing.ok_or(WallError::NoFacing)?;
-    let normals = normals::oriented(&stars.normals, &stars.pairs, facing);
+    let towards = wish.facing.map(normals::Flow::Towards);
+    let flow = wish.flow_at.map(normals::Flow::At).or(towards).ok_or(WallError::NoFacing)?;
+    let normals = normals::oriented(points, &stars.normals, pairs, flow);
     Ok(points.iter().zip(&normals).zip(radii).map(|((p, n), r)| p - n * *r).collect())
 }
 
@@ -210,6 +247,31 @@ fn check_sizes(
         ));
     }
     Ok(())
+}
+
+fn two_sheets(sheets: &Sheets, spacing: f64) -> String {
+    let [x, y, z] = sheets.at.map(|c| format!("{c:.4}"));
+    format!(
+        "two sheets of the surface lie {} m apart, closer than the spacing of {} m, over {:.0} % of it, as at ({x}, {y}, {z}) m: \
+         their spheres fill each other's dents; use a spacing below {} m, or crop the sheet that no particle touches",
+        Shown(sheets.apart),
+        Shown(spacing),
+        (100.0 * sheets.share).max(1.0),
+        Shown(sheets.apart)
+    )
+}
+
+/// Warns of spheres larger than the largest particle [m]: a wall coarser than what flows over it.
+fn check_largest(report: &mut WallReport, particle: f64) {
+    let largest = 2.0 * report.radius_range[2];
+    if largest > particle * ROUNDED {
+        report.warnings.push(format!(
+            "wall spheres up to {} m in diameter are larger than the largest particle ({} m): use a smaller spacing or more \
+             roughness",
+            Shown(largest),
+            Shown(particle)
+        ));
+    }
 }
 
 fn check_particle(report: &mut WallReport, particle: f64, centres: &[Vec3], radii: &[f64], stars: &Stars) {

@@ -49,7 +49,7 @@ pub fn spacing(radius: f64, roughness: f64) -> Option<f64> {
 
 /// Depth of the dent [m] between any two spheres at distance `p` [m]. Goes on steadily where there is none, so that a solver
 /// can come back: below 0 when one sphere lies inside the other, above the deepest dent when they do not meet.
-#[inline]
+#[inline(always)]
 pub fn dent(r_i: f64, r_j: f64, p: f64) -> f64 {
     // Without branches and with one root, so that the compiler does several pairs at once.
     let (sum, difference, per) = (r_i + r_j, r_i - r_j, 1.0 / p);
@@ -67,70 +67,147 @@ pub fn residual(r_i: f64, r_j: f64, zeta: f64, p: f64) -> f64 {
     chord(r_i) + chord(r_j) - ((p - (r_i - r_j)) * (p + (r_i - r_j))).sqrt()
 }
 
-/// Radii [m] r_j between `within.0` and `within.1` that meet (1) beside `r_i`: the one on the far side of the least P of `r_i`, and
-/// the one on the near side. Where neither exists, `r_i` is too large for this pair.
-#[inline]
-pub fn partners(r_i: f64, zeta: f64, p: f64, within: (f64, f64)) -> [Option<f64>; 2] {
-    let half_chord = |r: f64| (zeta * (2.0 * r - zeta)).max(0.0).sqrt();
-    if 2.0 * r_i < zeta {
-        return [None, None];
-    }
-    let (s, lowest, highest) = (half_chord(r_i), half_chord(within.0), half_chord(within.1));
-    // Turning points of the left side: t (s − t) = 2ζ².
-    let turn = s * s - 8.0 * zeta * zeta;
-    let (most, least) =
-        if turn > 0.0 { (0.5 * (s - turn.sqrt()), 0.5 * (s + turn.sqrt())) } else { (0.0, 0.0) };
-    let radius = |t: f64| 0.5 * (t * t / zeta + zeta);
-    let half = Half { s, four: 4.0 * zeta * zeta, p };
-    // Two equal half chords are P.
-    let larger = half.root(p - s, least.max(lowest), highest).map(radius);
-    // Where the slope is steepest Newton's method cannot overshoot.
-    let steepest = ((s * s - 0.5 * half.four) / 3.0).max(0.0).sqrt();
-    let below = turn > 0.0 && lowest < least;
-    let smaller = below.then(|| half.root(steepest, least.min(highest), most.max(lowest)));
-    [larger, smaller.flatten().map(radius)]
+/// Spheres that are computed at once.
+pub const LANES: usize = 8;
+
+/// Neighbours, a column each.
+#[derive(Debug, Clone, Copy)]
+pub struct Beside<'a> {
+    /// Radii r_i [m].
+    pub radius: &'a [f64; LANES],
+    /// ζ [m] asked for beside each.
+    pub zeta: &'a [f64; LANES],
+    /// Distances P [m].
+    pub p: &'a [f64; LANES],
 }
 
-/// (1), squared, for one half chord: ((s + t)² (4ζ² + (s − t)²) = 4ζ² P².
+/// Adds to `radii`, for each of the first `count` neighbours, the radii [m] r_j between `within.0` and `within.1` that meet (1) beside it:
+/// the one on the far side of the least P of r_i, and the one on the near side. Where neither exists, r_i is too large for this pair.
+#[inline(always)]
+pub fn partners(others: Beside, count: usize, within: (f64, f64), radii: &mut Vec<f64>) {
+    let mut halves = [Half::default(); 2];
+    let [larger, smaller] = &mut halves;
+    for k in 0..LANES {
+        let (radius, zeta, p) = (others.radius[k], others.zeta[k], others.p[k]);
+        let half_chord = |r: f64| above_zero(zeta * (2.0 * r - zeta)).sqrt();
+        let (s, lowest, highest) = (half_chord(radius), half_chord(within.0), half_chord(within.1));
+        // Turning points of the left side: t (s − t) = 2ζ².
+        let turn = s * s - 8.0 * zeta * zeta;
+        let root = above_zero(turn).sqrt();
+        let most = if turn > 0.0 { 0.5 * (s - root) } else { 0.0 };
+        let least = if turn > 0.0 { 0.5 * (s + root) } else { 0.0 };
+        let four = 4.0 * zeta * zeta;
+        let fits = (2.0 * radius >= zeta) as u64;
+        // Two equal half chords are P.
+        larger.set(k, (s, four, p), p - s, (greater(least, lowest), highest));
+        larger.there[k] &= fits;
+        // Where the slope is steepest Newton's method cannot overshoot.
+        let steepest = above_zero((s * s - 0.5 * four) / 3.0).sqrt();
+        smaller.set(k, (s, four, p), steepest, (lesser(least, highest), greater(most, lowest)));
+        smaller.there[k] &= fits & (turn > 0.0) as u64 & (lowest < least) as u64;
+    }
+    let mut open = Half::default();
+    let (mut used, mut zetas) = (0, [1.0; LANES]);
+    for k in 0..count.min(LANES) {
+        for half in &halves {
+            if half.there[k] == 0 {
+                continue;
+            }
+            open.take(used, half, k);
+            zetas[used] = others.zeta[k];
+            used += 1;
+            if used == LANES {
+                open.find(used, &zetas, radii);
+                used = 0;
+            }
+        }
+    }
+    open.find(used, &zetas, radii);
+}
+
+#[inline(always)]
+fn above_zero(x: f64) -> f64 {
+    if x > 0.0 { x } else { 0.0 }
+}
+
+#[inline(always)]
+fn lesser(x: f64, y: f64) -> f64 {
+    if x < y { x } else { y }
+}
+
+#[inline(always)]
+fn greater(x: f64, y: f64) -> f64 {
+    if x > y { x } else { y }
+}
+
+/// (1), squared, for one half chord t, the other one being s: ((s + t)² (4ζ² + (s − t)²) = 4ζ² P². Several at once, each t between `low`,
+/// where the left side of (1) is at most P, and `high`, where it is at least P.
+#[derive(Clone, Copy, Default)]
 struct Half {
-    s: f64,
-    four: f64,
-    p: f64,
+    s: [f64; LANES],
+    /// 4ζ².
+    four: [f64; LANES],
+    /// 4ζ² P².
+    right: [f64; LANES],
+    low: [f64; LANES],
+    high: [f64; LANES],
+    t: [f64; LANES],
+    /// 1 where the root lies between the two.
+    there: [u64; LANES],
 }
 
 impl Half {
-    fn excess(&self, t: f64) -> f64 {
-        let (sum, difference) = (self.s + t, self.s - t);
-        sum * sum * (self.four + difference * difference) - self.four * self.p * self.p
+    #[inline(always)]
+    fn set(&mut self, k: usize, (s, four, p): (f64, f64, f64), start: f64, (below, above): (f64, f64)) {
+        (self.s[k], self.four[k], self.right[k]) = (s, four, four * p * p);
+        (self.low[k], self.high[k]) = (below, above);
+        self.t[k] = lesser(greater(start, lesser(below, above)), greater(below, above));
+        self.there[k] = (self.excess(k, below) <= 0.0) as u64 & (self.excess(k, above) >= 0.0) as u64;
     }
 
-    /// The half chord t from `below`, where the left side of (1) is at most P, to `above`, where it is at least P; `None` when they are
-    /// not. Newton's method from `start`, halving where it leaves the bracket.
-    fn root(&self, start: f64, below: f64, above: f64) -> Option<f64> {
-        if self.excess(below) > 0.0 || self.excess(above) < 0.0 {
-            return None;
-        }
-        let (mut low, mut high) = (below, above);
-        let mut t = start.clamp(below.min(above), below.max(above));
+    #[inline(always)]
+    fn excess(&self, k: usize, t: f64) -> f64 {
+        let (sum, difference) = (self.s[k] + t, self.s[k] - t);
+        sum * sum * (self.four[k] + difference * difference) - self.right[k]
+    }
+
+    /// Takes the lane `from` of another.
+    #[inline(always)]
+    fn take(&mut self, k: usize, other: &Half, from: usize) {
+        (self.s[k], self.four[k], self.right[k]) = (other.s[from], other.four[from], other.right[from]);
+        (self.low[k], self.high[k], self.t[k]) = (other.low[from], other.high[from], other.t[from]);
+    }
+
+    /// Newton's method in the first `used` lanes, halving where it leaves the bracket; adds the radii [m] to `radii`.
+    #[inline(always)]
+    fn find(&mut self, used: usize, zetas: &[f64; LANES], radii: &mut Vec<f64>) {
+        // A lane that has arrived waits for the others.
+        let mut open = [0u64; LANES];
+        open[..used].fill(1);
         for _ in 0..80 {
-            let f = self.excess(t);
-            if f > 0.0 {
-                high = t
-            } else {
-                low = t
+            if open.iter().sum::<u64>() == 0 {
+                break;
             }
-            let slope = 2.0 * (self.s + t) * (self.four - 2.0 * t * (self.s - t));
-            let newton = t - f / slope;
-            let inside = newton >= low.min(high) && newton <= low.max(high);
-            let next = if inside { newton } else { 0.5 * (low + high) };
-            // The error of a step of Newton's is about the square of the step.
-            let close = if inside { NEAR } else { 4.0 * f64::EPSILON };
-            if (next - t).abs() <= close * (self.s + t) {
-                return Some(next);
+            for k in 0..LANES {
+                let (s, four, t) = (self.s[k], self.four[k], self.t[k]);
+                let f = self.excess(k, t);
+                let high = if f > 0.0 { t } else { self.high[k] };
+                let low = if f > 0.0 { self.low[k] } else { t };
+                let slope = 2.0 * (s + t) * (four - 2.0 * t * (s - t));
+                let newton = t - f / slope;
+                let inside = (newton >= lesser(low, high)) & (newton <= greater(low, high));
+                let next = if inside { newton } else { 0.5 * (low + high) };
+                // The error of a step of Newton's is about the square of the step.
+                let close = if inside { NEAR } else { 4.0 * f64::EPSILON };
+                let goes_on = ((next - t).abs() > close * (s + t)) as u64;
+                self.t[k] = if open[k] != 0 { next } else { t };
+                (self.low[k], self.high[k]) = (low, high);
+                open[k] &= goes_on;
             }
-            t = next;
         }
-        Some(t)
+        let radius = |k: usize| 0.5 * (self.t[k] * self.t[k] / zetas[k] + zetas[k]);
+        let found: [f64; LANES] = std::array::from_fn(radius);
+        radii.extend_from_slice(&found[..used]);
     }
 }
 
@@ -198,7 +275,10 @@ mod tests {
         for r_i in [0.004, 0.006, 0.01, 0.02] {
             for p in [0.005, 0.006, 0.008, 0.012] {
                 for zeta in [0.0004, 0.001, 0.0024] {
-                    for r_j in partners(r_i, zeta, p, (zeta, 1.0)).into_iter().flatten() {
+                    let beside = Beside { radius: &[r_i; LANES], zeta: &[zeta; LANES], p: &[p; LANES] };
+                    let mut radii = Vec::new();
+                    partners(beside, 1, (zeta, 1.0), &mut radii);
+                    for r_j in radii {
                         found += 1;
                         let off = residual(r_i, r_j, zeta, p);
                         assert!(off.abs() < 1e-9 * p, "r_i {r_i} r_j {r_j} ζ {zeta} P {p}: {off}");

@@ -13,9 +13,11 @@
 //! points of a colour can be visited at once and the result does not depend on threads.
 
 use crate::build::ROUNDED;
-use crate::equation::{dent, partners};
+use crate::equation::{Beside, LANES, dent, partners};
+use multiversion::multiversion;
 use rayon::prelude::*;
 use serde::Serialize;
+use std::ops::Range;
 
 const MOST_SWEEPS: usize = 12;
 /// A sweep that gains less than this share is the last.
@@ -45,24 +47,42 @@ pub struct Changes {
     pub pairs_apart: usize,
 }
 
-/// Neighbours of each point with their distance [m] and the ζ [m] asked for.
+/// Neighbours of each point, a column each; behind the last, as many empty rows as there are lanes.
 struct Links {
     starts: Vec<u32>,
-    to: Vec<Link>,
-}
-
-#[derive(Clone, Copy, Default)]
-struct Link {
-    to: u32,
-    p: f64,
-    zeta: f64,
+    /// The other's number.
+    to: Vec<u32>,
+    /// Distance [m].
+    p: Vec<f64>,
+    /// ζ [m] asked for.
+    zeta: Vec<f64>,
 }
 
 impl Links {
-    fn of(&self, i: u32) -> &[Link] {
-        &self.to[self.starts[i as usize] as usize..self.starts[i as usize + 1] as usize]
+    fn of(&self, i: u32) -> Range<usize> {
+        self.starts[i as usize] as usize..self.starts[i as usize + 1] as usize
+    }
+
+    /// The rows from `row` on, as many as there are lanes.
+    #[inline(always)]
+    fn lanes(column: &[f64], row: usize) -> &[f64; LANES] {
+        column[row..].first_chunk().unwrap_or(&[1.0; LANES])
     }
 }
+
+/// What is known while radii are looked for.
+struct Sweep<'a> {
+    links: &'a Links,
+    zeta: &'a [f64],
+    even: &'a [f64],
+    radii: &'a [f64],
+    /// When (in steps of colours) a point was changed and visited: one whose neighbours stayed would choose the same again.
+    changed: &'a [u32],
+    visited: &'a [u32],
+}
+
+/// What a visit chose: the point, its radius [m] and its sum [m].
+type Choice = (u32, f64, f64);
 
 /// Radii [m] for pairs of points at distances `lengths` [m] with roughness `zeta` [m] each point, from the uniform ones `even` [m].
 pub fn solve(pairs: &[(u32, u32)], lengths: &[f64], zeta: &[f64], even: &[f64]) -> Vec<f64> {
@@ -70,25 +90,15 @@ pub fn solve(pairs: &[(u32, u32)], lengths: &[f64], zeta: &[f64], even: &[f64]) 
     let colours = colours(&links, even.len());
     let mut radii = even.to_vec();
     let mut cost = vec![0.0; even.len()];
-    // When (in steps of colours) a point was changed and visited: one whose neighbours stayed would choose the same again.
     let (mut changed, mut visited) = (vec![1u32; even.len()], vec![0u32; even.len()]);
     let (mut step, mut before) = (1, f64::INFINITY);
-    let (mut due, mut new): (Vec<u32>, Vec<(f64, f64)>) = Default::default();
     for _ in 0..MOST_SWEEPS {
         for colour in &colours {
             step += 1;
-            let stale =
-                |i: &u32| links.of(*i).iter().any(|link| changed[link.to as usize] > visited[*i as usize]);
-            due.clear();
-            due.extend(colour.iter().copied().filter(stale));
-            new.resize(due.len(), (0.0, 0.0));
-            new.par_chunks_mut(PART).zip(due.par_chunks(PART)).for_each(|(new, due)| {
-                let mut work = Visit::default();
-                for (new, &i) in new.iter_mut().zip(due) {
-                    *new = work.visit(links.of(i), &radii, i, zeta[i as usize], even[i as usize]);
-                }
-            });
-            for (&i, &(radius, sum)) in due.iter().zip(&new) {
+            let now =
+                Sweep { links: &links, zeta, even, radii: &radii, changed: &changed, visited: &visited };
+            let chosen: Vec<Vec<Choice>> = colour.par_chunks(PART).map(|part| visit_all(&now, part)).collect();
+            for (i, radius, sum) in chosen.into_iter().flatten() {
                 let i = i as usize;
                 visited[i] = step;
                 if radii[i] != radius {
@@ -106,44 +116,87 @@ pub fn solve(pairs: &[(u32, u32)], lengths: &[f64], zeta: &[f64], even: &[f64]) 
     radii
 }
 
+/// The choices of those points that may choose anew.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn visit_all(now: &Sweep, points: &[u32]) -> Vec<Choice> {
+    let mut visit = Visit::default();
+    let mut chosen = Vec::with_capacity(points.len());
+    for &i in points {
+        let links = now.links.of(i);
+        let visited = now.visited[i as usize];
+        if now.links.to[links.clone()].iter().any(|&to| now.changed[to as usize] > visited) {
+            let (radius, sum) = visit.choose(now, i, links);
+            chosen.push((i, radius, sum));
+        }
+    }
+    chosen
+}
+
 /// One point's choice; the memory is used again for the next.
 #[derive(Default)]
 struct Visit {
+    /// Radii to choose from [m], filled up to whole lanes.
     radii: Vec<f64>,
+    /// Their sums [m].
     sums: Vec<f64>,
+    /// Radii of the neighbours [m], and of nobody.
+    others: Vec<f64>,
 }
 
 impl Visit {
     /// The best radius of one point [m], and its sum [m].
-    fn visit(&mut self, links: &[Link], all: &[f64], i: u32, zeta: f64, even: f64) -> (f64, f64) {
-        let Visit { radii, sums } = self;
-        radii.clear();
-        radii.extend([all[i as usize], even]);
-        let within = (even / WIDEST, even * WIDEST);
-        for link in links {
-            let met = partners(all[link.to as usize], link.zeta, link.p, within);
-            radii.extend(met.into_iter().flatten());
-        }
-        sums.clear();
-        sums.resize(radii.len(), 0.0);
-        for link in links {
-            // One sphere inside the other is no wall: never chosen, whatever it saves elsewhere.
-            let (other, nested) = (all[link.to as usize], links.len() as f64 * link.p);
-            for (sum, &radius) in sums.iter_mut().zip(&*radii) {
-                let off = (dent(radius, other, link.p) - link.zeta).abs();
-                *sum += off + if (radius - other).abs() >= link.p { nested } else { 0.0 };
+    #[inline(always)]
+    fn choose(&mut self, now: &Sweep, i: u32, links: Range<usize>) -> (f64, f64) {
+        let (zeta, even) = (now.zeta[i as usize], now.even[i as usize]);
+        let count = self.candidates(now, i, links.clone());
+        let Visit { radii, sums, others } = self;
+        let rows = || now.links.p[links.clone()].iter().zip(&now.links.zeta[links.clone()]).zip(&*others);
+        for (radii, sums) in radii.chunks_exact(LANES).zip(sums.chunks_exact_mut(LANES)) {
+            let mut here = [0.0; LANES];
+            for ((&p, &zeta), &other) in rows() {
+                // One sphere inside the other is no wall: never chosen, whatever it saves elsewhere.
+                let nested = links.len() as f64 * p;
+                for k in 0..LANES {
+                    let off = (dent(radii[k], other, p) - zeta).abs();
+                    here[k] += off + if (radii[k] - other).abs() >= p { nested } else { 0.0 };
+                }
             }
+            sums.copy_from_slice(&here);
         }
         // The logarithm is dear, and adds: who has lost without it has lost.
         let equal = |radius: f64| EQUAL * zeta * libm::log(radius / even).abs();
         let mut best = (radii[0], sums[0] + equal(radii[0]));
-        for (&radius, &sum) in radii.iter().zip(&*sums).skip(1) {
+        for (&radius, &sum) in radii.iter().zip(&*sums).take(count).skip(1) {
             let bar = best.1 * (1.0 - 1e-12);
             if sum < bar && sum + equal(radius) < bar {
                 best = (radius, sum + equal(radius));
             }
         }
         best
+    }
+
+    /// Its own radius, the uniform one, and those that meet (1) with a neighbour; how many.
+    #[inline(always)]
+    fn candidates(&mut self, now: &Sweep, i: u32, links: Range<usize>) -> usize {
+        let even = now.even[i as usize];
+        let Visit { radii, sums, others } = self;
+        others.clear();
+        others.extend(now.links.to[links.clone()].iter().map(|&to| now.radii[to as usize]));
+        others.resize(links.len() + LANES, even);
+        radii.clear();
+        radii.extend([now.radii[i as usize], even]);
+        for first in (0..links.len()).step_by(LANES) {
+            let beside = Beside {
+                radius: Links::lanes(others, first),
+                zeta: Links::lanes(&now.links.zeta, links.start + first),
+                p: Links::lanes(&now.links.p, links.start + first),
+            };
+            partners(beside, links.len() - first, (even / WIDEST, even * WIDEST), radii);
+        }
+        let count = radii.len();
+        radii.resize(count.next_multiple_of(LANES), even);
+        sums.resize(radii.len(), 0.0);
+        count
     }
 }
 
@@ -206,15 +259,17 @@ fn links(pairs: &[(u32, u32)], lengths: &[f64], zeta: &[f64]) -> Links {
         starts[i + 1] += starts[i];
     }
     let mut next = starts.clone();
-    let mut to = vec![Link::default(); 2 * pairs.len()];
+    let rows = 2 * pairs.len() + LANES;
+    let mut links = Links { starts, to: vec![0; rows], p: vec![1.0; rows], zeta: vec![1.0; rows] };
     for (&(i, j), &p) in pairs.iter().zip(lengths) {
         let zeta = 0.5 * (zeta[i as usize] + zeta[j as usize]);
         for (a, b) in [(i, j), (j, i)] {
-            to[next[a as usize] as usize] = Link { to: b, p, zeta };
+            let row = next[a as usize] as usize;
+            (links.to[row], links.p[row], links.zeta[row]) = (b, p, zeta);
             next[a as usize] += 1;
         }
     }
-    Links { starts, to }
+    links
 }
 
 /// Each point, from the first, gets the lowest colour that no neighbour has.
@@ -222,7 +277,7 @@ fn colours(links: &Links, count: usize) -> Vec<Vec<u32>> {
     let mut colour = vec![u32::MAX; count];
     let mut sets: Vec<Vec<u32>> = Vec::new();
     for i in 0..count as u32 {
-        let taken = |c: u32| links.of(i).iter().any(|link| colour[link.to as usize] == c);
+        let taken = |c: u32| links.to[links.of(i)].iter().any(|&to| colour[to as usize] == c);
         let mine = (0..).find(|&c| !taken(c)).unwrap_or(0);
         colour[i as usize] = mine;
         if mine as usize == sets.len() {

@@ -1,9 +1,8 @@
-//! The star of each point: its normal, its neighbours, and the voids around it.
+//! The star of each point: its normal, and the voids around it.
 //!
 //! The points near by are laid onto the plane of least squares through them, and the point's Voronoi cell is cut out of a square by
 //! one bisector after the other, nearest first. Its sides give the neighbours, its corners the voids: a corner is as far from
-//! three points as from no other. Two neighbours are a *pair* when no other one lies in the ball whose diameter they are
-//! (Gabriel & Sokal 1969, doi:10.2307/2412323); on an even lattice these are the lattice's edges, without diagonals.
+//! three points as from no other. Points go by their place in the order of the cells.
 
 use geom::Vec3;
 use nalgebra::Matrix3;
@@ -12,33 +11,22 @@ use sampling::cells::Cells;
 use std::ops::Range;
 
 /// Half width of the first square, and so the largest void that is looked for, in nearest distances.
-const SQUARE: f64 = 3.0;
-/// Points within this many nearest distances are looked at first; more when the cell reaches far.
-const FIRST_REACH: f64 = 2.8;
+pub(crate) const SQUARE: f64 = 3.0;
 /// Points of the normal are at most this many.
 const FOR_NORMAL: usize = 24;
-/// A pair is at most this many times as far apart as the farther of its two nearest distances: longer ones reach across the outline.
-const LONGEST: f64 = 2.0;
 /// Points are worked on in parts of this many.
 const PART: usize = 512;
 /// Steps of Newton's method: two equal eigenvalues are reached by halves.
 const NEWTON: usize = 60;
-/// A point as near as this to the border of the ball counts as inside: on a square lattice there is no diagonal.
-const ON_BORDER: f64 = 1e-9;
-
 /// Stars of all points.
 #[derive(Debug, Clone, Default)]
 pub struct Stars {
     /// Unit normal of each point [–]; which of the two sides is chance. Zero where points lie on one line or at one place.
     pub normals: Vec<Vec3>,
-    /// Neighbours i < j of the Gabriel graph, ascending.
-    pub pairs: Vec<(u32, u32)>,
     /// Three points around a void, the first the lowest.
     pub triangles: Vec<[u32; 3]>,
     /// Edges of the wall's outline, lower index first, ascending: on one of their sides no void is found.
     pub outline: Vec<(u32, u32)>,
-    /// Distance from each point to the nearest other one [m]; infinite when none is near.
-    pub nearest: Vec<f64>,
     /// Largest circle through three points that is told from the outline of the wall [m].
     pub largest: f64,
 }
@@ -50,72 +38,58 @@ struct Corner {
     next: Option<u32>,
 }
 
-/// A point near by: its index, and where it is from the point in the middle [m].
+/// A point near by: its place in the order, and where it is from the point in the middle [m].
 #[derive(Clone, Copy)]
 struct Near {
     index: u32,
     to: Vec3,
 }
 
-/// Stars of points [m], all finite, whose nearest distance is about `nearest` [m].
-pub fn stars(points: &[Vec3], nearest: f64) -> Stars {
-    let cells = Cells::new(points, FIRST_REACH * nearest);
-    let places = cells.places();
-    let parts: Vec<Stars> = places
-        .par_chunks(PART)
-        .enumerate()
-        .map(|(part, places)| {
-            let mut stars = Stars::default();
-            let mut work = Work::default();
-            for (i, &place) in ((part * PART) as u32..).zip(places) {
-                star(&cells, place, i, nearest, &mut work, &mut stars);
+/// Stars of points whose nearest distance is typically `typical` [m]; the cells' width is looked over first, more when a star reaches far.
+pub fn stars(cells: &Cells, typical: f64) -> Stars {
+    let count = cells.len();
+    let parts: Vec<Stars> = (0..count.div_ceil(PART))
+        .into_par_iter()
+        .map(|part| {
+            let (mut stars, mut work) = (Stars::default(), Work::default());
+            for place in part * PART..count.min((part + 1) * PART) {
+                star(cells, place as u32, typical, &mut work, &mut stars);
             }
             stars
         })
         .collect();
-    let mut all = Stars { largest: SQUARE * nearest, ..Stars::default() };
-    all.normals.reserve_exact(points.len());
-    all.nearest.reserve_exact(points.len());
-    all.pairs.reserve_exact(parts.iter().map(|part| part.pairs.len()).sum());
+    let mut all = Stars { largest: SQUARE * typical, ..Stars::default() };
+    all.normals.reserve_exact(count);
     all.triangles.reserve_exact(parts.iter().map(|part| part.triangles.len()).sum());
     for part in parts {
         all.normals.extend(part.normals);
-        all.pairs.extend(part.pairs);
         all.triangles.extend(part.triangles);
         all.outline.extend(part.outline);
-        all.nearest.extend(part.nearest);
     }
     all.outline.sort_unstable();
     all.outline.dedup();
-    let Stars { pairs, nearest, .. } = &mut all;
-    pairs.retain(|&(i, j)| {
-        let (i, j) = (i as usize, j as usize);
-        (points[i] - points[j]).norm() <= LONGEST * nearest[i].max(nearest[j])
-    });
     all
 }
 
 /// Memory that is used again for every point.
 #[derive(Default)]
 struct Work {
-    /// Squared distance [m²] (its bits are in the order of the numbers), index, place.
-    found: Vec<(u64, u32, u32)>,
+    /// Squared distance [m²] (its bits are in the order of the numbers), place.
+    found: Vec<(u64, u32)>,
     near: Vec<Near>,
     cell: Vec<Corner>,
     kept: Vec<Corner>,
 }
 
-fn star(cells: &Cells, place: u32, i: u32, nearest: f64, work: &mut Work, part: &mut Stars) {
-    let mut reach = FIRST_REACH * nearest;
-    let furthest = 2.0 * SQUARE * nearest;
+fn star(cells: &Cells, place: u32, typical: f64, work: &mut Work, part: &mut Stars) {
+    let (mut reach, furthest) = (cells.width, 2.0 * SQUARE * typical);
     loop {
         neighbours(cells, place, reach, work);
         let (u, v, normal) = plane(&work.near);
-        let extent = voronoi(work, &u, &v, SQUARE * nearest);
+        let extent = voronoi(work, &u, &v, SQUARE * typical);
         if 2.0 * extent <= reach || reach >= furthest {
             part.normals.push(normal);
-            part.nearest.push(work.near.first().map_or(f64::INFINITY, |n| n.to.norm()));
-            return finish(i, &work.near, &work.cell, SQUARE * nearest, part);
+            return finish(place, &work.near, &work.cell, SQUARE * typical, part);
         }
         reach = (2.0 * extent).min(furthest);
     }
@@ -127,11 +101,10 @@ fn neighbours(cells: &Cells, place: u32, reach: f64, work: &mut Work) {
     let centre = cells.points[place as usize];
     found.clear();
     let mut look = |run: Range<usize>| {
-        let order = &cells.order()[run.clone()];
-        for ((other, point), &index) in (run.start as u32..).zip(&cells.points[run]).zip(order) {
+        for (other, point) in (run.start as u32..).zip(&cells.points[run]) {
             let square = (point - centre).norm_squared();
             if square <= reach * reach && other != place {
-                found.push((square.to_bits(), index, other));
+                found.push((square.to_bits(), other));
             }
         }
     };
@@ -141,7 +114,7 @@ fn neighbours(cells: &Cells, place: u32, reach: f64, work: &mut Work) {
     }
     found.sort_unstable();
     near.clear();
-    near.extend(found.iter().map(|&(_, index, p)| Near { index, to: cells.points[p as usize] - centre }));
+    near.extend(found.iter().map(|&(_, index)| Near { index, to: cells.points[index as usize] - centre }));
 }
 
 /// Two axes and the normal of the plane of least squares through the point and those nearest to it.
@@ -251,20 +224,6 @@ fn cut(cell: &[Corner], kept: &mut Vec<Corner>, beyond: impl Fn(&Corner) -> f64,
 }
 
 fn finish(i: u32, near: &[Near], cell: &[Corner], half: f64, part: &mut Stars) {
-    let sides = || cell.iter().filter_map(|c| c.next);
-    let in_ball = |a: u32, b: u32| {
-        let (p, q) = (near[a as usize].to, near[b as usize].to);
-        (q - 0.5 * p).norm_squared() < (0.25 + ON_BORDER) * p.norm_squared()
-    };
-    // Any point in the ball of i and j takes j's side away or is a neighbour itself, up to the bend of the sheet.
-    let first = part.pairs.len();
-    for a in sides() {
-        let j = near[a as usize].index;
-        if j > i && !sides().any(|b| b != a && in_ball(a, b)) {
-            part.pairs.push((i, j));
-        }
-    }
-    part.pairs[first..].sort_unstable();
     // A corner is a void when three points make it and it is not too far.
     let is_void = |k: usize| {
         let (before, [x, y]) = (cell[(k + cell.len() - 1) % cell.len()].next, cell[k].at);
