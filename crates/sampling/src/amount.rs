@@ -1,8 +1,12 @@
 //! Finds the spacing that leaves the count, or the density, that was asked for.
 
+use crate::beside::{Thrown, complete};
 use crate::cells::Cells;
+use crate::lattice::lattice;
+use crate::nearest::distances;
 use crate::poisson::poisson;
-use crate::{Amount, Sample, SampleError};
+use crate::tile::tiled;
+use crate::{Amount, Method, Sample, SampleError, Wish};
 use geom::Vec3;
 
 /// A count is met within this share.
@@ -13,45 +17,57 @@ const PACKING: f64 = 0.7;
 /// Local density is counted in a disk of this many spacings.
 const DENSITY_DISK: f64 = 3.0;
 
-/// Poisson-disk sample of the given amount.
-pub(crate) fn poisson_of(
+/// Counts below this are met exactly: there one point is half a percent.
+const FEW: usize = 200;
+
+/// Sample of the given amount by disks, or by a grid.
+pub(crate) fn sample_of(
     points: &[Vec3],
     forced: Option<&[bool]>,
-    amount: Amount,
-    seed: u64,
+    wish: &Wish,
 ) -> Result<Sample, SampleError> {
-    let throw = |cells: &Cells, spacing: f64| poisson(cells, spacing, seed, forced);
-    match amount {
-        Amount::Spacing(spacing) => {
-            Ok(Sample { kept: throw(&Cells::new(points, spacing), spacing), spacing, tries: 1 })
+    let throw = |cells: &Cells, spacing: f64| match wish.method {
+        Method::Grid => Thrown { kept: lattice(points, forced, spacing), beside: 0 },
+        Method::Tile => {
+            let kept = tiled(points, cells, spacing, wish.seed, forced);
+            complete(cells, spacing, wish.seed, kept, wish.distance)
         }
-        Amount::Count(count) => by_count(points, count, throw),
+        _ => complete(cells, spacing, wish.seed, poisson(cells, spacing, wish.seed, forced), wish.distance),
+    };
+    match wish.amount {
+        Amount::Spacing(spacing) => Ok(Sample::of(throw(&Cells::new(points, spacing), spacing), spacing, 1)),
+        Amount::Count(count) => by_count(points, forced, count, wish.method != Method::Grid, throw),
         Amount::Density(low, high) => Ok(by_density(points, low, high, throw)),
     }
 }
 
-/// Secant on log(count) against log(spacing), kept inside a bracket.
+/// Secant on log(count) against log(spacing), kept inside a bracket. A small count is met exactly (`exactly`): of a sample that
+/// has a point or two too many, the most crowded go.
 fn by_count(
     points: &[Vec3],
+    forced: Option<&[bool]>,
     count: usize,
-    throw: impl Fn(&Cells, f64) -> Vec<u32>,
+    exactly: bool,
+    throw: impl Fn(&Cells, f64) -> Thrown,
 ) -> Result<Sample, SampleError> {
+    let must = forced.map_or(0, |f| f.iter().filter(|&&f| f).count());
+    if must > count {
+        return Err(SampleError::TooManyForced { forced: must, count });
+    }
     let (mut cells, mut spacing) = first_guess(points, count);
     let goal = (count as f64).ln();
     let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
-    let mut best: Option<(f64, Sample)> = None;
+    let mut tried = Tried::default();
     let mut last: Option<(f64, f64)> = None;
     for tries in 1..=MOST_TRIES {
         if spacing > cells.width || spacing < 0.5 * cells.width {
             cells = Cells::new(points, 1.1 * spacing);
         }
-        let kept = throw(&cells, spacing);
-        let (x, y) = (spacing.ln(), (kept.len() as f64).ln() - goal);
-        let off = (kept.len() as f64 - count as f64).abs();
-        if best.as_ref().is_none_or(|(b, _)| off < *b) {
-            best = Some((off, Sample { kept, spacing, tries }));
-        }
-        if off <= COUNT_WITHIN * count as f64 {
+        let sample = Sample::of(throw(&cells, spacing), spacing, tries);
+        let found = sample.kept.len();
+        let (x, y) = (spacing.ln(), (found as f64).ln() - goal);
+        tried.add(sample, count);
+        if tried.is_near(count, exactly) {
             break;
         }
         if y > 0.0 {
@@ -66,7 +82,9 @@ fn by_count(
             _ => -2.0 * (1.0 - share).max(0.1),
         };
         last = Some((x, y));
-        let step = x - (y / slope).clamp(-1.5, 1.5);
+        // A small count aims a little above itself: what is too many can go, what is missing cannot come.
+        let aim = if exactly && count < FEW { 0.5 / count as f64 } else { 0.0 };
+        let step = x - ((y - aim) / slope).clamp(-1.5, 1.5);
         let inside = step > low && step < high;
         spacing = if inside {
             step
@@ -80,11 +98,66 @@ fn by_count(
             break;
         }
     }
-    let (off, sample) = best.ok_or(SampleError::Empty)?;
-    if off > 0.01 * count as f64 && off > 1.0 && sample.kept.len() < count && !low.is_finite() {
-        return Err(SampleError::Duplicates { asked: count, distinct: sample.kept.len() });
+    tried.best(points, forced, count, exactly)
+}
+
+/// The samples nearest to a count, from below and from above.
+#[derive(Default)]
+struct Tried {
+    below: Option<Sample>,
+    above: Option<Sample>,
+}
+
+impl Tried {
+    fn add(&mut self, sample: Sample, count: usize) {
+        let found = sample.kept.len();
+        if found <= count && self.below.as_ref().is_none_or(|s| s.kept.len() < found) {
+            self.below = Some(sample.clone());
+        }
+        if found >= count && self.above.as_ref().is_none_or(|s| s.kept.len() > found) {
+            self.above = Some(sample);
+        }
     }
-    Ok(sample)
+
+    /// Whether a sample is good enough to stop.
+    fn is_near(&self, count: usize, exactly: bool) -> bool {
+        let within = (COUNT_WITHIN * count as f64) as usize;
+        let off = |s: &Option<Sample>| s.as_ref().map_or(usize::MAX, |s| s.kept.len().abs_diff(count));
+        let crowded = if exactly && count < FEW { (count / 50).max(1) } else { 0 };
+        off(&self.below) <= within || off(&self.above) <= within.max(crowded)
+    }
+
+    fn best(
+        self,
+        points: &[Vec3],
+        forced: Option<&[bool]>,
+        count: usize,
+        exactly: bool,
+    ) -> Result<Sample, SampleError> {
+        let off = |s: &Sample| s.kept.len().abs_diff(count);
+        let near = |s: &Sample| 100 * off(s) <= count && (count >= FEW || off(s) == 0);
+        let closest = [&self.below, &self.above].into_iter().flatten().min_by_key(|s| off(s));
+        match (closest, self.above.as_ref()) {
+            (Some(sample), _) if near(sample) || !exactly => Ok(sample.clone()),
+            (_, Some(above)) => Ok(without_crowded(points, forced, above.clone(), count)),
+            (Some(below), None) if 100 * off(below) <= count => Ok(below.clone()),
+            (Some(below), None) => Err(SampleError::Duplicates { asked: count, distinct: below.kept.len() }),
+            (None, None) => Err(SampleError::Empty),
+        }
+    }
+}
+
+/// The sample without the points nearest to another one, until `count` are left; distances only grow.
+fn without_crowded(points: &[Vec3], forced: Option<&[bool]>, mut sample: Sample, count: usize) -> Sample {
+    while sample.kept.len() > count {
+        let kept: Vec<Vec3> = sample.kept.iter().map(|&i| points[i as usize]).collect();
+        let nearest = distances(&kept);
+        let free = (0..kept.len()).filter(|&k| forced.is_none_or(|f| !f[sample.kept[k] as usize]));
+        let nearer = |a: &usize, b: &usize| nearest[*a].total_cmp(&nearest[*b]).then(b.cmp(a));
+        let Some(worst) = free.min_by(nearer) else { break };
+        sample.kept.remove(worst);
+    }
+    sample
 }
 
 /// Area from the number of occupied cells, and the spacing that fills it.
@@ -103,16 +176,16 @@ fn first_guess(points: &[Vec3], count: usize) -> (Cells, f64) {
 }
 
 /// Aims at the middle (geometric mean) of the range; corrected by the density that came out.
-fn by_density(points: &[Vec3], low: f64, high: f64, throw: impl Fn(&Cells, f64) -> Vec<u32>) -> Sample {
+fn by_density(points: &[Vec3], low: f64, high: f64, throw: impl Fn(&Cells, f64) -> Thrown) -> Sample {
     let goal = (low * high).sqrt();
     let mut spacing = (PACKING / goal).sqrt();
     let mut tries = 1;
     loop {
-        let kept = throw(&Cells::new(points, spacing), spacing);
-        let chosen: Vec<Vec3> = kept.iter().map(|&i| points[i as usize]).collect();
+        let sample = Sample::of(throw(&Cells::new(points, spacing), spacing), spacing, tries);
+        let chosen: Vec<Vec3> = sample.kept.iter().map(|&i| points[i as usize]).collect();
         let density = median_density(&chosen, spacing);
         if (low..=high).contains(&density) || tries == 5 {
-            return Sample { kept, spacing, tries };
+            return sample;
         }
         spacing *= (density / goal).sqrt();
         tries += 1;

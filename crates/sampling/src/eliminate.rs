@@ -11,8 +11,10 @@
 
 use crate::cells::Cells;
 use crate::poisson::poisson;
+use crate::sheets::others;
 use crate::{Amount, Sample, SampleError, Wish, amount};
 use geom::Vec3;
+use rayon::prelude::*;
 use std::collections::BinaryHeap;
 
 /// r_max over r: √(1/(2√3 · 0.7)).
@@ -25,15 +27,11 @@ pub(crate) fn eliminate(
     forced: Option<&[bool]>,
     wish: &Wish,
 ) -> Result<Sample, SampleError> {
-    let start = amount::poisson_of(points, forced, wish.amount, wish.seed)?;
+    let start = amount::sample_of(points, forced, wish)?;
     let count = match wish.amount {
         Amount::Count(count) => count,
         _ => start.kept.len(),
     };
-    let must = forced.map_or(0, |f| f.iter().filter(|&&f| f).count());
-    if must > count {
-        return Err(SampleError::Forced { forced: must, there: count });
-    }
     let few = thinned(points, forced, start.spacing, wish.seed);
     // Duplicates and the like: thinning may leave too few.
     let all = if few.len() >= count { few } else { (0..points.len() as u32).collect() };
@@ -42,7 +40,9 @@ pub(crate) fn eliminate(
     let reach = 2.0 * RADIUS * start.spacing;
     let cells = Cells::new(&crowd, reach);
     let left = 1.0 - libm::pow(count as f64 / crowd.len() as f64, 1.5);
-    let alive = remove(&cells, forced.as_deref(), count, Weight { reach, least: reach * left * 0.65 });
+    let apart = if start.beside > 0 { Apart::new(points, &all, &cells, reach) } else { Apart::default() };
+    let weight = Weight { reach, least: reach * left * 0.65, apart };
+    let alive = remove(&cells, forced.as_deref(), count, &weight);
     let mut kept: Vec<u32> = (0..crowd.len())
         .filter(|&place| alive[place])
         .map(|place| all[cells.order()[place] as usize])
@@ -58,12 +58,40 @@ fn thinned(points: &[Vec3], forced: Option<&[bool]>, spacing: f64, seed: u64) ->
     poisson(&Cells::new(points, fine), fine, seed, forced)
 }
 
-#[derive(Clone, Copy)]
 struct Weight {
     /// 2 r_max [m].
     reach: f64,
     /// Nearer than this counts as this [m].
     least: f64,
+    apart: Apart,
+}
+
+/// Pairs of places of the crowd that lie on two sheets and do not crowd each other.
+#[derive(Default)]
+struct Apart(Vec<(u32, u32)>);
+
+impl Apart {
+    /// Judged in the whole cloud, of which the crowd has the indices `all`.
+    fn new(points: &[Vec3], all: &[u32], crowd: &Cells, reach: f64) -> Apart {
+        let cells = Cells::new(points, reach);
+        let place_of = cells.places();
+        let mut in_crowd = vec![u32::MAX; points.len()];
+        (0..).zip(crowd.order()).for_each(|(place, &k)| in_crowd[all[k as usize] as usize] = place);
+        let pairs = |(place, &k): (usize, &u32)| {
+            let found = others(&cells, place_of[all[k as usize] as usize], reach);
+            let theirs = found.into_iter().map(|p| in_crowd[cells.order()[p as usize] as usize]);
+            let theirs: Vec<u32> = theirs.filter(|&p| p != u32::MAX).collect();
+            theirs.into_iter().flat_map(move |other| [(place as u32, other), (other, place as u32)])
+        };
+        let mut apart: Vec<(u32, u32)> = crowd.order().par_iter().enumerate().flat_map_iter(pairs).collect();
+        apart.par_sort_unstable();
+        apart.dedup();
+        Apart(apart)
+    }
+
+    fn has(&self, a: u32, b: u32) -> bool {
+        !self.0.is_empty() && self.0.binary_search(&(a, b)).is_ok()
+    }
 }
 
 impl Weight {
@@ -75,11 +103,11 @@ impl Weight {
 }
 
 /// Heap with late updates: a weight only falls, so an entry that is out of date is too high and is pushed back.
-fn remove(cells: &Cells, forced: Option<&[bool]>, count: usize, weight: Weight) -> Vec<bool> {
+fn remove(cells: &Cells, forced: Option<&[bool]>, count: usize, weight: &Weight) -> Vec<bool> {
     let mut w: Vec<u64> = cells.map(|place| {
         let mut sum = 0;
         cells.each_near(place, weight.reach, |other, square| {
-            sum += if other == place { 0 } else { weight.of(square) }
+            sum += if other == place || weight.apart.has(place, other) { 0 } else { weight.of(square) }
         });
         sum
     });
@@ -97,7 +125,7 @@ fn remove(cells: &Cells, forced: Option<&[bool]>, count: usize, weight: Weight) 
         alive[place as usize] = false;
         left -= 1;
         cells.each_near(place, weight.reach, |other, square| {
-            if alive[other as usize] {
+            if alive[other as usize] && !weight.apart.has(place, other) {
                 w[other as usize] -= weight.of(square);
             }
         });

@@ -3,22 +3,11 @@
 //! Nodes are whole multiples of the spacing, so that clouds sampled apart fit together. A point belongs
 //! to the node it is nearest to; of the points of a node the nearest one is kept (the first in the file among equals).
 
-use crate::{Amount, Sample, SampleError};
 use geom::Vec3;
 use rayon::prelude::*;
 
-pub(crate) fn lattice(
-    points: &[Vec3],
-    forced: Option<&[bool]>,
-    amount: Amount,
-) -> Result<Sample, SampleError> {
-    let Amount::Spacing(spacing) = amount else {
-        return Err(SampleError::Unavailable {
-            method: "grid",
-            amount: "a count or a density",
-            instead: "--spacing",
-        });
-    };
+/// Indices of the kept points, ascending; `forced` ones are all kept. `spacing` [m] is the distance between nodes.
+pub(crate) fn lattice(points: &[Vec3], forced: Option<&[bool]>, spacing: f64) -> Vec<u32> {
     let is_forced = |i: u32| forced.is_some_and(|f| f[i as usize]);
     let mut near: Vec<([i64; 3], u64, u32)> = (0..points.len() as u32)
         .into_par_iter()
@@ -35,5 +24,5 @@ pub(crate) fn lattice(
     let mut kept: Vec<u32> = near.into_iter().map(|(_, _, i)| i).collect();
     kept.extend((0..points.len() as u32).filter(|&i| is_forced(i)));
     kept.sort_unstable();
-    Ok(Sample { kept, spacing, tries: 1 })
+    kept
 }

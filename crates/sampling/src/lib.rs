@@ -4,13 +4,15 @@
 //! poisson     maximal Poisson disk, loneliest point first        the default: distances at least the spacing
 //! eliminate   weighted sample elimination                        an exact count
 //! relax       Poisson disk, then Lloyd's relaxation on points    more even, less random
+//! tile        a pattern laid on patch by patch, seams closed     the pattern's evenness
 //! grid        the point nearest to each node of a cubic grid     equal intervals along x, y, z
 //! ```
 //!
-//! Every method picks input points and moves none, gives the same result for any number of threads, and uses space,
-//! not the surface: two sheets closer than the spacing are thinned as if they were one.
+//! Every method picks input points and moves none, and gives the same result for any number of threads. Distances are those
+//! along the surface where another sheet lies nearer than the spacing (all but the grid, which is one of space).
 
 mod amount;
+mod beside;
 pub mod cells;
 mod eliminate;
 mod lattice;
@@ -18,7 +20,10 @@ pub mod nearest;
 pub mod plot;
 mod poisson;
 mod relax;
+mod sheets;
 pub mod spectrum;
+mod tile;
+mod torus;
 
 use geom::Vec3;
 use serde::Serialize;
@@ -39,8 +44,21 @@ pub enum Method {
     Eliminate,
     /// Poisson disk, then relaxation.
     Relax,
+    /// A pattern made beforehand, laid onto the surface patch by patch, its seams closed.
+    Tile,
     /// The point nearest to each node of a cubic grid through the origin.
     Grid,
+}
+
+/// Which distances count.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Distance {
+    /// Along the surface, where another sheet is nearer than the spacing.
+    #[default]
+    Surface,
+    /// In space: what is near on another sheet is near.
+    Space,
 }
 
 /// How many points are wanted.
@@ -62,6 +80,8 @@ pub struct Wish {
     pub amount: Amount,
     /// How they are chosen.
     pub method: Method,
+    /// Which distances count.
+    pub distance: Distance,
     /// Seed of chance.
     pub seed: u64,
 }
@@ -75,6 +95,14 @@ pub struct Sample {
     pub spacing: f64,
     /// Samplings it took to find the spacing.
     pub tries: usize,
+    /// Points that are there because a nearer one lies on another sheet.
+    pub beside: usize,
+}
+
+impl Sample {
+    fn of(thrown: beside::Thrown, spacing: f64, tries: usize) -> Sample {
+        Sample { kept: thrown.kept, spacing, tries, beside: thrown.beside }
+    }
 }
 
 /// What sampling refuses.
@@ -99,10 +127,12 @@ pub enum SampleError {
         "count {asked}: {distinct} distinct points were found, the rest are duplicates; ask for at most that many"
     )]
     Duplicates { asked: usize, distinct: usize },
-    #[error("method {method} with {amount}: not available yet; use {instead}")]
-    Unavailable { method: &'static str, amount: &'static str, instead: &'static str },
-    #[error("{forced} points must be kept as they are, but only {there} points are in the cloud")]
-    Forced { forced: usize, there: usize },
+    #[error(
+        "{forced} points are to be kept as they are, which is more than the count {count}: ask for at least as many"
+    )]
+    TooManyForced { forced: usize, count: usize },
+    #[error("marks of {marks} points are given for a cloud of {there}")]
+    Forced { marks: usize, there: usize },
 }
 
 /// Chooses points of a cloud [m]; those with `forced` set are all kept, and count.
@@ -112,10 +142,9 @@ pub enum SampleError {
 pub fn sample(points: &[Vec3], forced: Option<&[bool]>, wish: &Wish) -> Result<Sample, SampleError> {
     check(points, forced, wish)?;
     match wish.method {
-        Method::Poisson => amount::poisson_of(points, forced, wish.amount, wish.seed),
+        Method::Poisson | Method::Tile | Method::Grid => amount::sample_of(points, forced, wish),
         Method::Relax => relax::relax(points, forced, wish),
         Method::Eliminate => eliminate::eliminate(points, forced, wish),
-        Method::Grid => lattice::lattice(points, forced, wish.amount),
     }
 }
 
@@ -128,7 +157,7 @@ fn check(points: &[Vec3], forced: Option<&[bool]>, wish: &Wish) -> Result<(), Sa
         return Err(SampleError::NotFinite { index, x: p.x, y: p.y, z: p.z });
     }
     if let Some(forced) = forced.filter(|f| f.len() != points.len()) {
-        return Err(SampleError::Forced { forced: forced.len(), there: points.len() });
+        return Err(SampleError::Forced { marks: forced.len(), there: points.len() });
     }
     if let Amount::Count(asked) = wish.amount
         && asked > points.len()
@@ -141,18 +170,11 @@ fn check(points: &[Vec3], forced: Option<&[bool]>, wish: &Wish) -> Result<(), Sa
 /// Checks what can be checked without the points.
 ///
 /// # Errors
-/// Lengths, counts and densities that are not positive; a method that does not take the amount.
+/// Lengths, counts and densities that are not positive.
 pub fn check_wish(wish: &Wish) -> Result<(), SampleError> {
     match wish.amount {
         Amount::Spacing(r) if !(r > 0.0 && r.is_finite()) => Err(SampleError::Spacing(r)),
         Amount::Count(0) => Err(SampleError::NoCount),
-        Amount::Count(_) | Amount::Density(..) if wish.method == Method::Grid => {
-            Err(SampleError::Unavailable {
-                method: "grid",
-                amount: "a count or a density",
-                instead: "--spacing",
-            })
-        }
         Amount::Density(low, high) if !(low > 0.0 && high >= low && high.is_finite()) => {
             Err(SampleError::Density { low, high })
         }

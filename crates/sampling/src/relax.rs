@@ -5,6 +5,7 @@
 //! snapping keeps every result an input point, and a move that would bring two nearer than the spacing is not made. Eight rounds: more bring out a lattice, and blue noise is lost.
 
 use crate::cells::Cells;
+use crate::sheets::others;
 use crate::{Sample, SampleError, Wish, amount};
 use geom::{Grid, Vec3};
 use rayon::prelude::*;
@@ -12,7 +13,7 @@ use rayon::prelude::*;
 const ROUNDS: usize = 8;
 
 pub(crate) fn relax(points: &[Vec3], forced: Option<&[bool]>, wish: &Wish) -> Result<Sample, SampleError> {
-    let mut sample = amount::poisson_of(points, forced, wish.amount, wish.seed)?;
+    let mut sample = amount::sample_of(points, forced, wish)?;
     let cells = Cells::new(points, sample.spacing);
     let mut weight = vec![0.0; points.len()];
     let counts = cells.map(|place| cells.count_near(place, sample.spacing, u32::MAX / 2));
@@ -23,6 +24,8 @@ pub(crate) fn relax(points: &[Vec3], forced: Option<&[bool]>, wish: &Wish) -> Re
     for (place, &i) in cells.order().iter().enumerate() {
         place_of[i as usize] = place as u32;
     }
+    let still = still(points.len(), forced, &sample, &cells, &place_of);
+    let forced = still.as_deref();
     for _ in 0..ROUNDS {
         let owner = owners(points, &sample.kept, sample.spacing);
         let middles = middles(points, &weight, &owner, sample.kept.len());
@@ -35,8 +38,26 @@ pub(crate) fn relax(points: &[Vec3], forced: Option<&[bool]>, wish: &Wish) -> Re
     Ok(sample)
 }
 
+/// Points that stay where they are: forced ones, and kept ones that have another sheet nearer than the spacing, whose shares would mix.
+fn still(
+    count: usize,
+    forced: Option<&[bool]>,
+    sample: &Sample,
+    cells: &Cells,
+    place_of: &[u32],
+) -> Option<Vec<bool>> {
+    if sample.beside == 0 {
+        return forced.map(<[bool]>::to_vec);
+    }
+    let mut still = forced.map_or_else(|| vec![false; count], <[bool]>::to_vec);
+    let is_beside = |i: &&u32| !others(cells, place_of[**i as usize], sample.spacing).is_empty();
+    let beside: Vec<u32> = sample.kept.par_iter().filter(is_beside).copied().collect();
+    beside.into_iter().for_each(|i| still[i as usize] = true);
+    Some(still)
+}
+
 /// Place in `kept` of the kept point nearest to each point.
-fn owners(points: &[Vec3], kept: &[u32], spacing: f64) -> Vec<u32> {
+pub(crate) fn owners(points: &[Vec3], kept: &[u32], spacing: f64) -> Vec<u32> {
     let chosen: Vec<Vec3> = kept.iter().map(|&i| points[i as usize]).collect();
     let grid = Grid::new(&chosen, spacing);
     let nearest = |p: &Vec3| {

@@ -1,7 +1,7 @@
 //! The command line.
 
 use cloud::Cloud;
-use sampling::{Amount, Method, Wish};
+use sampling::{Amount, Distance, Method, Wish};
 use std::path::PathBuf;
 
 /// Keep points of a cloud so that their distances are even and their spectrum is blue noise.
@@ -16,7 +16,7 @@ pub struct Args {
     /// Least distance between kept points (grid: distance between its nodes) [m]
     #[arg(long, value_name = "M")]
     spacing: Option<f64>,
-    /// Number of points to keep (within 1 %; eliminate: exactly)
+    /// Number of points to keep (within 1 %; below 200, and by eliminate, exactly)
     #[arg(long, value_name = "N")]
     count: Option<usize>,
     /// Lowest and highest number of kept points per area [1/m²]
@@ -25,6 +25,9 @@ pub struct Args {
     /// How points are chosen
     #[arg(long, value_enum, default_value = "poisson")]
     method: Choice,
+    /// Which distances count where two sheets are closer than the spacing (the grid's are those of space)
+    #[arg(long, value_enum, default_value = "surface")]
+    distance: Along,
     /// Keep all points whose property `filled` is 1
     #[arg(long)]
     keep_filled: bool,
@@ -45,10 +48,18 @@ enum Choice {
     Eliminate,
     /// Poisson disk, then relaxation
     Relax,
-    /// Tiles of precomputed samples (not available yet)
+    /// An even pattern laid on patch by patch, its seams closed by Poisson disk
     Tile,
     /// The point nearest to each node of a grid along x, y, z
     Grid,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum Along {
+    /// Along the surface: the far side of a thin plate is far
+    Surface,
+    /// In space: what is near on another sheet is near
+    Space,
 }
 
 impl Args {
@@ -59,7 +70,7 @@ impl Args {
             Choice::Eliminate => Method::Eliminate,
             Choice::Relax => Method::Relax,
             Choice::Grid => Method::Grid,
-            Choice::Tile => return Err(cli::usage("--method tile: not available yet; use --method poisson")),
+            Choice::Tile => Method::Tile,
         };
         let amount = match (self.spacing, self.count, self.density) {
             (Some(spacing), _, _) => Amount::Spacing(spacing),
@@ -67,7 +78,11 @@ impl Args {
             (_, _, Some((low, high))) => Amount::Density(low, high),
             _ => return Err(cli::usage("one of --spacing, --count, --density is needed")),
         };
-        let wish = Wish { amount, method, seed: self.seed.seed };
+        let distance = match self.distance {
+            Along::Surface => Distance::Surface,
+            Along::Space => Distance::Space,
+        };
+        let wish = Wish { amount, method, distance, seed: self.seed.seed };
         sampling::check_wish(&wish).map_err(|e| cli::usage(e.to_string()))?;
         Ok(wish)
     }

@@ -26,7 +26,10 @@ fn bluenoise_sample(args: Args) -> anyhow::Result<Report> {
     let forced = args.forced(&cloud);
     let chosen = sample(&cloud.points, forced.as_deref(), &wish).with_context(|| args.input.name())?;
     let kept = cloud.select(&chosen.kept);
+    let density = matches!(wish.amount, Amount::Density(..))
+        .then(|| sampling::median_density(&kept.points, chosen.spacing));
     warn(&wish.amount, cloud.points.len(), kept.points.len(), chosen.spacing);
+    missed(&wish.amount, kept.points.len(), density);
     args.output.write_cloud(&kept)?;
     let mut report = Report::new(format!(
         "{} of {} points, spacing {} m",
@@ -39,11 +42,13 @@ fn bluenoise_sample(args: Args) -> anyhow::Result<Report> {
     .with("kept_as_filled", forced.iter().flatten().filter(|&&f| f).count())
     .with("method", wish.method)
     .with("amount", wish.amount)
+    .with("distance", wish.distance)
+    .with("beside_another_sheet", chosen.beside)
     .with("seed", wish.seed)
     .with("spacing", chosen.spacing)
     .with("tries", chosen.tries);
-    if matches!(wish.amount, Amount::Density(..)) {
-        report = report.with("median_density", sampling::median_density(&kept.points, chosen.spacing));
+    if let Some(density) = density {
+        report = report.with("median_density", density);
     }
     if args.measured() {
         report = measures::measure(report, &cloud, &kept, args.plot.as_deref())?;
@@ -66,6 +71,24 @@ fn warn(amount: &Amount, before: usize, after: usize, spacing: f64) {
             "{after} of {before} points were kept: the spacing {spacing} m is about as wide as the cloud; \
              is the cloud in metres?"
         ));
+    }
+}
+
+/// Says when an amount was not met.
+fn missed(amount: &Amount, after: usize, density: Option<f64>) {
+    match (amount, density) {
+        (Amount::Count(count), _) if after != *count && 100 * after.abs_diff(*count) > *count => {
+            cli::warn(&format!(
+                "{after} points instead of {count}: the method has no sample nearer to it; --method eliminate meets a count exactly"
+            ));
+        }
+        (Amount::Density(low, high), Some(found)) if !(*low..=*high).contains(&found) => {
+            let [found, low, high] = [found, *low, *high].map(geom::Shown);
+            cli::warn(&format!(
+                "the median density is {found} points/m², not between {low} and {high}: the cloud is too thin, or the range too narrow"
+            ));
+        }
+        _ => {}
     }
 }
 
