@@ -155,6 +155,46 @@ fn a_periodic_face_is_no_way_back() {
     }
 }
 
+/// A grain that falls through a plane and drifts through a periodic face meanwhile passes once, wherever the face is passed.
+#[test]
+fn a_grain_passes_once_also_while_it_drifts_through_a_periodic_face() {
+    for start in [0.99, 0.97, 0.93] {
+        let at =
+            |x: f64, z: f64| Grain { velocity: Vec3::new(1.0, 0.0, -1.0), ..grain(0, [x, 0.5, z], 0.01) };
+        let mut made = Made::new("[domain]\nperiodic = [\"x\"]\nlow = [0, 0, 0]\nhigh = [1, 1, 1]\n");
+        made.frame(0.0, &[at(start, 0.55)]).frame(0.1, &[at(start - 0.9, 0.45)]);
+        let done = measure(&saved(made), &["--flow", "0,0,0.5,0,0,-1"]);
+        assert_eq!(
+            (column(&done, "forward")[0], column(&done, "backward")[0]),
+            (1.0, 0.0),
+            "from x = {start}"
+        );
+    }
+}
+
+/// Three grains on a floor: what goes through a plane is the weight above it, whichever of a pair the run calls i.
+#[test]
+fn the_force_through_a_plane_is_what_stands_before_it() {
+    let grains = at_rest([[0.0, 0.0, 0.01], [0.0, 0.0, 0.03], [0.0, 0.0, 0.05]], 0.01);
+    let touch = |i, j, wall, z, f: [f64; 3]| (i, j, wall, [0.0, 0.0, z], [0.0, 0.0, f[2].signum()], f, 0.0);
+    let mut made = Made::new("");
+    made.frame(0.0, &grains).contacts(
+        0.0,
+        &[
+            touch(0, 0, true, 0.0, [0.0, 0.0, 3.0]),
+            touch(0, 1, false, 0.02, [0.5, 0.0, -2.0]),
+            touch(2, 1, false, 0.04, [0.0, 0.0, 1.0]),
+        ],
+    );
+    let folder = saved(made);
+    for (z, normal, shear) in [("0.02", 2.0, 0.5), ("0.04", 1.0, 0.0), ("0.005", 0.0, 0.0)] {
+        let done = measure(&folder, &["--plane-force", &format!("0,0,{z},0,0,-1")]);
+        assert_eq!((column(&done, "normal")[0], column(&done, "shear")[0]), (normal, shear), "z = {z}");
+        let back = measure(&folder, &["--plane-force", &format!("0,0,{z},0,0,1")]);
+        assert_eq!(column(&back, "normal")[0], normal, "the other side presses as much, z = {z}");
+    }
+}
+
 /// Grains that are taken out, or come in, within the interval in which they pass cannot be seen to pass.
 #[test]
 fn grains_that_vanish_at_the_plane_are_told() {

@@ -157,7 +157,8 @@ impl Flow {
                 let (start, end) = (beyond(&path.at(0.0)), beyond(&path.at(1.0)));
                 if start != end {
                     let (time, place) = path.change(beyond);
-                    if self.wanted(&place) {
+                    // Of the two images of a way through a periodic face, the one that is in the box then.
+                    if (other.is_none() || run.in_box(&place)) && self.wanted(&place) {
                         found.push((time, end, *mass));
                     }
                 }

@@ -18,6 +18,7 @@ mod frame;
 pub mod impact;
 pub mod observer;
 pub mod path;
+pub mod plane_force;
 pub mod porosity;
 pub mod profile;
 pub mod region;

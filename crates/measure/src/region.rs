@@ -38,6 +38,7 @@ impl Region {
             Solid::Box(low, high) => (high - low).product(),
             Solid::Sphere(_, r) => ball::volume(*r),
             Solid::Cylinder(a, b, r) => PI * r * r * (b - a).norm(),
+            Solid::Cone(a, b, [ra, rb]) => PI / 3.0 * (ra * ra + ra * rb + rb * rb) * (b - a).norm(),
             Solid::Halfspace(_) => f64::INFINITY,
             Solid::Prism(_) | Solid::Mesh(_) => volume,
         };
@@ -63,7 +64,7 @@ impl Region {
             Solid::Sphere(middle, r) => exact(ball::lens((centre - middle).norm(), radius, *r)),
             Solid::Cylinder(a, b, r) => exact(cylinder::in_cylinder(centre, radius, a, b, *r)),
             Solid::Halfspace(plane) => exact(ball::behind(centre, radius, plane)),
-            solid @ (Solid::Prism(_) | Solid::Mesh(_)) => counted(solid, centre, radius),
+            solid @ (Solid::Cone(..) | Solid::Prism(_) | Solid::Mesh(_)) => counted(solid, centre, radius),
         };
         let whole = ball::volume(radius);
         if self.shape.outside { Part { volume: whole - inside.volume, ..inside } } else { inside }

@@ -156,6 +156,16 @@ impl Run {
         self.walls = walls.as_array().into_iter().flatten().enumerate().map(name).collect();
     }
 
+    /// Whether a place [m] lies in the periodic box, where there is one; on its faces, too.
+    pub fn in_box(&self, place: &Vec3) -> bool {
+        self.periodic.iter().zip(place.iter()).all(|(period, x)| {
+            period.is_none_or(|(low, high)| {
+                let slack = 1e-9 * (high - low);
+                (low - slack..=high + slack).contains(x)
+            })
+        })
+    }
+
     /// The shortest way from `a` to `b` [m], through periodic faces where that is shorter.
     pub fn way(&self, a: &Vec3, b: &Vec3) -> Vec3 {
         let mut way = b - a;

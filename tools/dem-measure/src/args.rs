@@ -45,6 +45,9 @@ pub struct Args {
     /// Force on walls, and sliding work, of the contacts in SHAPE over time
     #[arg(long, group = "measure", value_name = "SHAPE", value_parser = shape)]
     pub wall_force: Option<GivenShape>,
+    /// Force through PLANE, of the contacts between grains on its two sides, over time
+    #[arg(long, group = "measure", value_name = "PLANE", allow_hyphen_values = true)]
+    pub plane_force: Option<Plane>,
     /// Map of force and sliding work on walls in SHAPE: by wall sphere, or by --cell
     #[arg(long, group = "measure", value_name = "SHAPE", value_parser = shape)]
     pub wear: Option<GivenShape>,
@@ -183,7 +186,8 @@ impl Args {
             }
         }
         let single =
-            ["--flow", "--energy", "--residence", "--wall-force", "--wear", "--impact"].contains(&measure);
+            ["--flow", "--energy", "--residence", "--wall-force", "--plane-force", "--wear", "--impact"]
+                .contains(&measure);
         if single && (self.time.is_some() || self.last) {
             let option = if self.last { "--last" } else { "--time" };
             return Err(usage(format!(

@@ -10,6 +10,7 @@ use measure::energy::Energy;
 use measure::flow::{Flow, FlowOptions};
 use measure::forces::Forces;
 use measure::impact::Impacts;
+use measure::plane_force::PlaneForce;
 use measure::porosity::Porosity;
 use measure::profile::{Profile, ProfileOptions};
 use measure::region::Region;
@@ -53,6 +54,7 @@ pub fn observer(args: &Args) -> anyhow::Result<(&'static str, Box<dyn Observer>)
             ))
         }
         (Args { wall_force: Some(given), .. }, _) => Box::new(WallForce::new(on_walls(args, given, between))),
+        (Args { plane_force: Some(plane), .. }, _) => Box::new(PlaneForce::new(*plane, between)),
         (Args { wear: Some(given), .. }, _) => {
             Box::new(Wear::new(on_walls(args, given, between), args.cell).context(name)?)
         }
@@ -75,6 +77,7 @@ fn name(args: &Args) -> &'static str {
         ("--forces", args.forces),
         ("--porosity", args.porosity.is_some()),
         ("--wall-force", args.wall_force.is_some()),
+        ("--plane-force", args.plane_force.is_some()),
         ("--wear", args.wear.is_some()),
         ("--residence", args.residence.is_some()),
         ("--impact", args.impact),
