@@ -3,6 +3,7 @@
 use crate::contacts::{Contacts, Kind, Segment, With};
 use crate::error::Halt;
 use crate::kernel::LEDGER;
+use crate::particles::FAR;
 use crate::simulation::{Simulation, stride};
 use geom::Vec3;
 
@@ -12,9 +13,9 @@ const SLIDING: usize = 2;
 /// One contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactRecord {
-    /// Where the two touch [m]; divides the distance of the centres as the radii do.
+    /// Where the two touch [m]; divides the distance of the centres as the radii do. The centre of i where it has left a mesh.
     pub point: Vec3,
-    /// Unit normal from j to i.
+    /// Unit normal from j to i; zero where i has left a mesh.
     pub normal: Vec3,
     /// Force on i [N].
     pub force: Vec3,
@@ -88,8 +89,11 @@ impl Simulation {
     ) -> ContactRecord {
         let i = self.contacts.i[place] as usize;
         let (centre, mine) = (self.particles.position(i), self.particles.rows[i][3]);
-        let apart = centre - other;
-        let (distance, reach) = (apart.norm(), mine + radius);
+        // A mesh that the grain has left since has no point that is nearest to it: the contact is told at the grain's centre.
+        let gone = other.x.abs() >= FAR[0][0];
+        let apart = if gone { Vec3::zeros() } else { centre - other };
+        let reach = mine + radius;
+        let distance = if gone { 2.0 * reach } else { apart.norm() };
         let normal = apart.try_normalize(0.0).unwrap_or_else(Vec3::zeros);
         let (j, wall) = match kind.with {
             With::Wall(w) => (w as u32, true),
