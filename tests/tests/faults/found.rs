@@ -53,6 +53,27 @@ fn laz_with_a_layer_longer_than_the_file() {
     }
 }
 
+/// The time of its points is for ever one of another sequence: its reader called itself until the program was ended.
+#[test]
+fn laz_whose_times_have_no_end() {
+    let said = cloud(include_bytes!("times.laz").to_vec());
+    CLAIMS.refused("LAZ: times", &said, &["belongs to no sequence", "damaged"]);
+    // The like in layers, where an overwritten sector says the same.
+    let whole = sample(samples::las(), "7.laz");
+    let points = whole[96..100].iter().rev().fold(0, |n, &b| (n << 8) | usize::from(b));
+    let lengths = points + 8 + 36 + 4;
+    let length = |layer: usize| {
+        let at = lengths + 4 * layer;
+        whole[at..at + 4].iter().rev().fold(0, |n, &b| (n << 8) | usize::from(b))
+    };
+    let times = lengths + 4 * 10 + (0..8).map(length).sum::<usize>();
+    let mut bytes = whole[..times].to_vec();
+    bytes[lengths + 4 * 8..][..4].copy_from_slice(&4096u32.to_le_bytes());
+    bytes.extend([255; 4096]);
+    bytes.extend(&whole[times + length(8)..]);
+    CLAIMS.refused("LAZ: times in layers", &cloud(bytes), &["times of chunk 0", "damaged"]);
+}
+
 /// An extended record claimed 2⁶⁴ − 1 bytes: its reader ended the program.
 #[test]
 fn las_with_an_extended_record_longer_than_the_file() {

@@ -44,7 +44,7 @@ fn free_flight() {
     );
 }
 
-/// Rebound at e times the speed of approach, for both normal laws without adhesion (with it: effects_adhesion.rs), pair and plane;
+/// Rebound at e times the speed of approach, for both normal laws without adhesion (with it: adhesion.rs), pair and plane;
 /// tests 1 to 3 of Chung & Ooi (2011), Granular Matter 13, doi:10.1007/s10035-011-0277-0.
 #[test]
 fn restitution_as_asked() {
@@ -90,15 +90,15 @@ fn rebound(law: Law, e: f64, speed: f64, wall: bool) -> f64 {
 }
 
 /// A pair or a grain and a rigid plane of test 1 and 2 of Chung & Ooi: elastic constants, radius [m], speed of approach [m/s].
-struct Impact {
-    name: &'static str,
+pub struct Impact {
+    pub name: &'static str,
     material: (f64, f64, f64),
     radius: f64,
-    speed: f64,
-    plane: bool,
+    pub speed: f64,
+    pub plane: bool,
 }
 
-const IMPACTS: [Impact; 4] = [
+pub const IMPACTS: [Impact; 4] = [
     Impact { name: "glass, pair", material: (4.8e10, 0.20, 2800.0), radius: 0.01, speed: 20.0, plane: false },
     Impact {
         name: "limestone, pair",
@@ -124,8 +124,17 @@ const IMPACTS: [Impact; 4] = [
 ];
 
 impl Impact {
-    fn setup(&self) -> dem::Setup {
-        let mut setup = empty(Law::Hertz, 1.0);
+    /// E* [Pa], R* [m], m* [kg].
+    pub fn reduced(&self) -> (f64, f64, f64) {
+        let (young, poisson, density) = self.material;
+        let share = if self.plane { 1.0 } else { 0.5 };
+        let modulus = young / (1.0 - poisson * poisson) * share;
+        (modulus, share * self.radius, share * mass(self.radius, density))
+    }
+
+    /// One or two grains about to touch, without loss but by the law.
+    pub fn setup(&self, law: Law) -> dem::Setup {
+        let mut setup = empty(law, 1.0);
         let (young, poisson, density) = self.material;
         setup.materials[0] = Material { name: "stone".to_owned(), density, young, poisson };
         setup.materials[1].young = 1e30;
@@ -148,15 +157,12 @@ impl Impact {
 #[test]
 fn hertz_impact() {
     for impact in &IMPACTS {
-        let (young, poisson, density) = impact.material;
-        let (share, r, m) = if impact.plane { (1.0, 1.0, 1.0) } else { (0.5, 0.5, 0.5) };
-        let (modulus, r) = (young / (1.0 - poisson * poisson) * share, r * impact.radius);
-        let (m, v) = (m * mass(impact.radius, density), impact.speed);
+        let ((modulus, r, m), v) = (impact.reduced(), impact.speed);
         let overlap = (15.0 * m * v * v / (16.0 * r.sqrt() * modulus)).powf(0.4);
         let force = 4.0 / 3.0 * modulus * r.sqrt() * overlap.powf(1.5);
         // 2.868: 2 ∫ dx/√(1 − x^2.5) (15/16)^0.4.
         let duration = 2.868_265 * (m * m / (r * modulus * modulus * v)).powf(0.2);
-        let mut sim = simulation(impact.setup());
+        let mut sim = simulation(impact.setup(Law::Hertz));
         let (mut deepest, mut strongest, mut inside, mut before) = (0.0f64, 0.0f64, 0.0, None);
         while sim.time() < 1.3 * duration {
             sim.step().expect("within the guards");
@@ -167,7 +173,7 @@ fn hertz_impact() {
             };
             deepest = deepest.max(delta);
             let now = p[0].velocity.x;
-            let push = before.map_or(0.0, |b: f64| (now - b) / sim.dt() * mass(impact.radius, density));
+            let push = before.map_or(0.0, |b: f64| (now - b) / sim.dt() * mass(impact.radius, impact.material.2));
             strongest = strongest.max(push);
             before = Some(now);
             inside += if delta > 0.0 { sim.dt() } else { 0.0 };

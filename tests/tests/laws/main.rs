@@ -1,5 +1,6 @@
 //! Laws with closed answers: one contact, friction and rolling, many grains; and the orders in which errors fall with the step.
 
+mod adhesion;
 mod hopper;
 mod impacts;
 mod mindlin;

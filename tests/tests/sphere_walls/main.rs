@@ -3,6 +3,7 @@
 mod drift;
 mod filling;
 mod grazing;
+mod heap;
 mod holding;
 mod passing;
 mod rebound;

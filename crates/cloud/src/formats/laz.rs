@@ -1,4 +1,4 @@
-//! What a LAS or LAZ file claims to hold, held against its length before its reader makes room for it.
+//! What a LAS or LAZ file claims to hold, held against its length before its reader makes room for it, and a stack that holds it.
 //!
 //! ```text
 //! header   byte 25: minor version;  96: where points begin;  104: format of points, a high bit where they are packed
@@ -9,17 +9,74 @@
 //! chunk    of formats 6 to 10: a point as it is, 4 bytes number of points, 4 bytes length of each layer, the layers
 //! ```
 //!
+//! The reader calls itself once more whenever the time of a point belongs to another of four sequences, as often as the file says so
+//! ("look again" takes 2·10⁻⁴ bits once it is all that is said), until the stack is gone and the program ended. Whole files say so once
+//! in a row. Where points are packed one by one, [`Shallow`] ends it; layers are read out of reach: there a layer of times
+//! with a run of bytes 255 is refused, which says so to an end, and which nothing packed holds.
+//!
 //! ASPRS LAS 1.4 R15 (2019); Isenburg (2013), LASzip, Photogramm. Eng. Remote Sens. 79(2), doi:10.14358/PERS.79.2.209.
 
 use las::Header;
 use laz::LazItemType;
 use laz::laszip::ChunkTable;
-use std::io::Cursor;
+use std::io::{self, Cursor, Read, Seek, SeekFrom};
+use std::sync::Arc;
 
 /// Head of an extended record [B].
 const RECORD: usize = 60;
-/// Unpacked points of a chunk at most [B] for threads, which hold whole ones.
-const WHOLE: u64 = 1 << 28;
+/// Room for the stack of a thread that unpacks [B]; what is not used takes none.
+pub(super) const STACK: usize = 1 << 28;
+/// A stack deeper than this is not that of a whole file [B].
+const DEEP: usize = 1 << 24;
+/// Bytes 255 in a row that no layer of times has.
+const RUN: usize = 16;
+/// Which layer of a point holds its time, counted from 0.
+const TIMES: usize = 8;
+
+/// The bytes of a file, shared by the threads that read it.
+#[derive(Clone)]
+pub(super) struct Bytes(pub Arc<Vec<u8>>);
+
+impl AsRef<[u8]> for Bytes {
+    fn as_ref(&self) -> &[u8] {
+        &self.0
+    }
+}
+
+/// A source that is not read on from a stack that has become [`DEEP`].
+pub(super) struct Shallow {
+    from: Cursor<Bytes>,
+    base: usize,
+}
+
+impl Shallow {
+    /// To be made in the thread that reads.
+    pub(super) fn new(bytes: Bytes) -> Shallow {
+        Shallow { from: Cursor::new(bytes), base: here() }
+    }
+}
+
+/// Where the stack is now.
+#[inline(never)]
+fn here() -> usize {
+    let mark = 0u8;
+    std::hint::black_box(&raw const mark) as usize
+}
+
+impl Read for Shallow {
+    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+        if here().abs_diff(self.base) > DEEP {
+            return Err(io::Error::other("the time of a point belongs to no sequence"));
+        }
+        self.from.read(into)
+    }
+}
+
+impl Seek for Shallow {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        self.from.seek(to)
+    }
+}
 
 /// A number of `size` bytes, least first.
 fn number(bytes: &[u8], at: usize, size: usize) -> Option<u64> {
@@ -60,15 +117,15 @@ pub(super) fn before_the_header(bytes: &[u8]) -> Result<(), String> {
     }
 }
 
-/// Refuses packed points whose items do not make a point, and layers that are longer than the file. Says whether threads may read
-/// the chunks: each is where the table has it, and is not large.
+/// Refuses packed points whose items do not make a point, and layers that are longer than the file. Gives the first point of every
+/// chunk, where each is where the table has it; else only 0: then they can only be read one after the other.
 ///
 /// # Errors
 /// What is claimed.
-pub(super) fn before_the_points(bytes: &[u8], header: &Header) -> Result<bool, String> {
+pub(super) fn before_the_points(bytes: &[u8], header: &Header) -> Result<Vec<u64>, String> {
     let format = header.point_format();
     if !format.is_compressed {
-        return Ok(true);
+        return Ok(vec![0]);
     }
     let vlr = header.laz_vlr().map_err(|e| e.to_string())?;
     let size: u64 = vlr.items().iter().map(|item| u64::from(item.size())).sum();
@@ -82,39 +139,69 @@ pub(super) fn before_the_points(bytes: &[u8], header: &Header) -> Result<bool, S
     let mut source = Cursor::new(bytes);
     source.set_position(start);
     let table = ChunkTable::read_from(&mut source, &vlr).ok();
-    let counts = table.as_ref().map_or(&[][..], |t| t.as_ref());
-    let fixed = (!vlr.uses_variable_size_chunks()).then(|| u64::from(vlr.chunk_size()));
-    let layered = vlr.items().first().is_some_and(|item| item.version() > 2);
-    let mut whole = !counts.is_empty() && counts.iter().all(|c| c.point_count.saturating_mul(size) <= WHOLE);
-    let total = counts.iter().fold(0u64, |sum, c| sum.saturating_add(c.byte_count));
-    whole &= total <= bytes.len() as u64;
-    if !layered {
-        return Ok(whole);
+    let table = table.as_ref().map_or(&[][..], |t| t.as_ref());
+    let total = table.iter().fold(0u64, |sum, c| sum.saturating_add(c.byte_count));
+    let mut whole = total <= bytes.len() as u64;
+    if vlr.items().first().is_some_and(|item| item.version() > 2) {
+        let fixed = (!vlr.uses_variable_size_chunks()).then(|| u64::from(vlr.chunk_size()));
+        let points = |k: usize| fixed.or(table.get(k).map(|c| c.point_count)).filter(|&n| n > 0);
+        let head = Head { size: size as usize, items: vlr.items().iter().map(|i| i.item_type()).collect() };
+        // Chunks follow each other, whatever the table says. One that counts no point never ends.
+        let (mut at, mut left, mut k) = (start as usize + 8, header.number_of_points(), 0);
+        while left > 0
+            && let Some(length) = head.length(bytes, at, k)?
+        {
+            whole &= table.get(k).is_some_and(|c| c.byte_count == length as u64);
+            left = left.saturating_sub(points(k).unwrap_or(u64::MAX));
+            (at, k) = (at + length, k + 1);
+        }
     }
-    let layers: usize = vlr.items().iter().map(|item| layers(item.item_type())).sum();
-    // Chunks follow each other, whatever the table says.
-    let (mut at, mut left) = (start as usize + 8, header.number_of_points());
-    for k in 0.. {
-        let sizes = at + size as usize + 4;
-        let Some(lengths) = bytes.get(sizes..sizes + 4 * layers).filter(|_| left > 0) else { break };
-        let claimed: u64 = (0..layers).filter_map(|layer| number(lengths, 4 * layer, 4)).sum();
-        let there = (bytes.len() - sizes - 4 * layers) as u64;
+    let mut first = 0u64;
+    let firsts = table.iter().map(|c| {
+        let own = first;
+        first = first.saturating_add(c.point_count);
+        own
+    });
+    let firsts: Vec<u64> = firsts.take_while(|&f| f < header.number_of_points()).collect();
+    Ok(if whole && !firsts.is_empty() { firsts } else { vec![0] })
+}
+
+/// What stands at the head of a chunk of layers.
+struct Head {
+    /// Of a point [B].
+    size: usize,
+    items: Vec<LazItemType>,
+}
+
+impl Head {
+    /// Length [B] of chunk `k` at a place, its layers included; none where the file ends before them.
+    fn length(&self, bytes: &[u8], at: usize, k: usize) -> Result<Option<usize>, String> {
+        let layers: usize = self.items.iter().map(|&item| layers_of(item)).sum();
+        let head = self.size + 4 + 4 * layers;
+        let Some(lengths) = bytes.get(at + self.size + 4..at + head) else { return Ok(None) };
+        let lengths: Vec<u64> = (0..layers).filter_map(|layer| number(lengths, 4 * layer, 4)).collect();
+        let (claimed, there) = (lengths.iter().sum::<u64>(), (bytes.len() - at - head) as u64);
         if claimed > there {
             return Err(format!(
                 "layers of {claimed} bytes are promised in chunk {k}, where there are {there}"
             ));
         }
-        let end = sizes + 4 * layers + claimed as usize;
-        whole &= counts.get(k).is_some_and(|c| c.byte_count == (end - at) as u64);
-        // A chunk that counts no point never ends.
-        let points = fixed.or(counts.get(k).map(|c| c.point_count)).filter(|&n| n > 0);
-        (at, left) = (end, left.saturating_sub(points.unwrap_or(u64::MAX)));
+        // All lengths are within the file now.
+        if let Some(item) = self.items.iter().position(|i| *i == LazItemType::Point14) {
+            let before = self.items[..item].iter().map(|&i| layers_of(i)).sum::<usize>() + TIMES;
+            let from = at + head + lengths.iter().take(before).sum::<u64>() as usize;
+            let times =
+                bytes.get(from..from + lengths.get(before).map_or(0, |&l| l as usize)).unwrap_or_default();
+            if times.windows(RUN).any(|run| run.iter().all(|&byte| byte == 255)) {
+                return Err(format!("the times of chunk {k} are overwritten"));
+            }
+        }
+        Ok(Some(head + claimed as usize))
     }
-    Ok(whole)
 }
 
 /// Layers of an item.
-fn layers(item: LazItemType) -> usize {
+fn layers_of(item: LazItemType) -> usize {
     match item {
         LazItemType::Point14 => 9,
         LazItemType::RGBNIR14 => 2,

@@ -13,8 +13,8 @@ use std::{
     io::{self, Read},
 };
 
-/// Bytes asked for at a time; a claimed length is never asked for at once.
-const STEP: usize = 1 << 18;
+/// Bytes asked for at a time, the first and the most; a claimed length is never asked for at once.
+const STEP: (usize, usize) = (1 << 13, 1 << 18);
 /// No record is larger [B].
 const LIMIT: usize = 1 << 32;
 
@@ -132,8 +132,10 @@ impl<R: Read> Reader<R> {
     }
 
     fn fill(&mut self) -> Result<(), McapError> {
+        // As much as there was so far: a short stream is read in little memory, a long one in few steps.
+        let step = usize::try_from(self.byte).unwrap_or(STEP.1).clamp(STEP.0, STEP.1);
         let read = loop {
-            match self.source.read(self.records.insert(STEP)) {
+            match self.source.read(self.records.insert(step)) {
                 Err(e) if e.kind() == io::ErrorKind::Interrupted => {}
                 other => break other?,
             }
