@@ -1,0 +1,40 @@
+//! Stages, studied: `stages_study FOLDER PAGE.md` runs a small plant undivided and cut, in FOLDER, and writes what it found into the page, between
+//! the marks of its parts, and the plots beside it. The tools must be on the path; SEEDS=… gives the number of runs of each setting.
+//!
+//! Fidelity: every quantity of a cut run is compared with the undivided run of the same seed; the mean difference has Student's 95 % interval,
+//! and stands beside the deviation of the undivided runs between seeds. Cost: processor times.
+
+mod cost;
+mod fidelity;
+mod page;
+#[path = "../walls_study/picture.rs"]
+mod picture;
+mod plant;
+mod shell;
+
+use std::path::Path;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let [folder, file] = words.as_slice() else {
+        eprintln!("stages_study: usage: stages_study FOLDER PAGE.md");
+        return ExitCode::from(2);
+    };
+    match study(Path::new(folder), Path::new(file)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(why) => {
+            eprintln!("stages_study: {why}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn study(folder: &Path, file: &Path) -> Result<(), String> {
+    std::fs::create_dir_all(folder).map_err(|why| format!("{}: {why}", folder.display()))?;
+    let seeds = std::env::var("SEEDS").ok().and_then(|s| s.parse().ok()).filter(|n| *n >= 2).unwrap_or(5);
+    eprintln!("stages_study: fidelity, {seeds} seeds");
+    fidelity::study(folder, file, seeds)?;
+    eprintln!("stages_study: cost");
+    cost::study(folder, file)
+}
