@@ -9,7 +9,6 @@
 
 use crate::crop::Rules;
 use geom::Shape;
-use geom::mesh::TriMesh;
 use geom::shape::ShapeError;
 use serde::Deserialize;
 use std::path::Path;
@@ -67,7 +66,7 @@ pub fn add_regions(rules: &mut Rules, text: &str, folder: &Path) -> Result<usize
         if file.region[..i].iter().any(|r| r.name == region.name) {
             return Err(RegionsError::Twice(region.name.clone()));
         }
-        let shape = Shape::parse(&beside(&region.shape, folder), &load_mesh);
+        let shape = Shape::parse(&beside(&region.shape, folder), &mesh::load);
         let shape = shape.map_err(|source| RegionsError::Shape { name: region.name.clone(), source })?;
         let list = if region.action == Action::Keep { &mut rules.keep } else { &mut rules.remove };
         list.push(shape);
@@ -80,7 +79,7 @@ pub fn add_regions(rules: &mut Rules, text: &str, folder: &Path) -> Result<usize
 /// # Errors
 /// As [`Shape::parse`].
 pub fn shape(text: &str) -> Result<Shape, ShapeError> {
-    Shape::parse(text, &load_mesh)
+    Shape::parse(text, &mesh::load)
 }
 
 /// A shape's file, when it has a relative one, in `folder`.
@@ -90,17 +89,6 @@ fn beside(shape: &str, folder: &Path) -> String {
         Some((kind @ ("prism" | "mesh"), file)) => format!("{outside}{kind}:{}", folder.join(file).display()),
         _ => shape.to_owned(),
     }
-}
-
-fn load_mesh(file: &str) -> Result<TriMesh, String> {
-    let bytes = std::fs::read(file).map_err(|e| format!("cannot read the mesh: {e}"))?;
-    if !bytes.starts_with(b"ply") {
-        return Err(format!("{file}: is no PLY file: convert it"));
-    }
-    crate::read_mesh(&mut bytes.as_slice()).map_err(|e| {
-        let cause = std::error::Error::source(&e).map(|c| format!(": {c}")).unwrap_or_default();
-        format!("{e}{cause}")
-    })
 }
 
 #[cfg(test)]

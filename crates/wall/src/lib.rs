@@ -5,13 +5,17 @@
 
 pub mod attributes;
 mod build;
+pub mod drawn;
 pub mod equation;
 pub mod leak;
 pub mod normals;
+pub mod pairs;
 pub mod regions;
+pub mod sheets;
 pub mod solve;
 pub mod star;
 mod table;
+pub mod wear;
 mod write;
 
 pub use build::{Wall, WallReport, build};
@@ -67,8 +71,12 @@ pub struct Wish {
     pub placement: Placement,
     /// Direction in which the flow side lies; needed for [`Placement::Surface`].
     pub facing: Option<Vec3>,
+    /// A place in the flow [m], instead of a direction.
+    pub flow_at: Option<Vec3>,
     /// Diameter of the smallest particle [m]: checks gaps and sizes.
     pub smallest_particle: Option<f64>,
+    /// Diameter of the largest particle [m]: checks sizes.
+    pub largest_particle: Option<f64>,
 }
 
 /// What a wall refuses.
@@ -99,12 +107,22 @@ pub enum WallError {
         Shown(*roughness), Shown(*spacing), Shown(*most), Shown(*need)
     )]
     TooRough { roughness: f64, spacing: f64, which: &'static str, place: String, most: f64, need: f64 },
+    #[error("roughness {} m: must be positive and at most the radius of the spheres, {} m", Shown(*roughness), Shown(*radius))]
+    DeeperThanRadius { roughness: f64, radius: f64 },
+    #[error("the mesh has no triangle with an area: check the drawing")]
+    NoArea,
+    #[error(
+        "roughness and radius give a spacing of {} m: {count:.1e} spheres on {} m² are too many; is the mesh in millimetres? \
+         If not, use a larger radius or more roughness", Shown(*spacing), Shown(*area)
+    )]
+    TooManySpheres { spacing: f64, area: f64, count: f64 },
     #[error("radius {0} m: must be a positive length")]
     BadRadius(f64),
     #[error("a roughness is needed to find the radii: give one, or give the radius itself")]
     NoRoughness,
     #[error(
-        "placement on the surface needs the flow side: give the direction in which it lies, e.g. --facing 0,0,1"
+        "placement on the surface needs the flow side: give the direction in which it lies, e.g. --facing 0,0,1, or a place in the \
+         flow, --flow-at x,y,z"
     )]
     NoFacing,
     #[error("facing ({x}, {y}, {z}): has no direction")]

@@ -10,8 +10,12 @@
 //! friction = 0.4
 //! velocity = [0.1, 0, 0]
 //! ```
+//!
+//! With a section `[wear]` (see [`crate::wear`]) the roughness of points that no region with a roughness of its own holds comes from a
+//! table of wear and position.
 
 use crate::attributes::{AttributeError, Material, check_velocity};
+use crate::wear::{self, Wear, WearError, WearReport};
 use geom::{Vec3, mesh::TriMesh, shape::Shape};
 use rayon::prelude::*;
 use serde::Deserialize;
@@ -28,6 +32,8 @@ pub struct Surface {
     pub material: u16,
     /// Velocity [m/s].
     pub velocity: Vec3,
+    /// Whether a table of wear, where there is one, says the roughness instead.
+    pub worn: bool,
 }
 
 /// All regions: the first surface is that of the points in none of them.
@@ -38,6 +44,9 @@ pub struct Regions {
     /// Surfaces; number 0 is outside of all regions.
     pub surfaces: Vec<Surface>,
     shapes: Vec<Shape>,
+    wear: Option<Wear>,
+    /// Roughness of each point [m] by the table of wear.
+    worn: Vec<f64>,
 }
 
 /// Why a file is no table of regions.
@@ -46,10 +55,8 @@ pub struct Regions {
 pub enum RegionsError {
     #[error("{0}")]
     Toml(#[from] toml::de::Error),
-    #[error(
-        "wear: a table of roughness by wear and position is not available yet; use [[region]] with shape and roughness"
-    )]
-    Wear,
+    #[error(transparent)]
+    Wear(#[from] WearError),
     #[error("region {number} '{name}': {source}")]
     Shape { number: usize, name: String, source: Box<geom::shape::ShapeError> },
     #[error("{place}: roughness {value} m: must be positive")]
@@ -66,7 +73,7 @@ struct File {
     roughness: Option<f64>,
     #[serde(default)]
     region: Vec<Region>,
-    wear: Option<toml::Value>,
+    wear: Option<wear::Section>,
 }
 
 #[derive(Deserialize)]
@@ -93,11 +100,13 @@ impl Regions {
         material.check("material")?;
         check_velocity(&velocity, "velocity")?;
         check_roughness(roughness, "roughness")?;
-        let surface = Surface { name: String::new(), roughness, material: 0, velocity };
-        Ok(Regions { materials: vec![material], surfaces: vec![surface], shapes: Vec::new() })
+        let surface = Surface { name: String::new(), roughness, material: 0, velocity, worn: true };
+        let (materials, surfaces) = (vec![material], vec![surface]);
+        Ok(Regions { materials, surfaces, shapes: Vec::new(), wear: None, worn: Vec::new() })
     }
 
-    /// Regions of a TOML text, and what holds outside of them; `load` reads the file of a shape `mesh:FILE`.
+    /// Regions of a TOML text, and what holds outside of them; `load` reads the file of a shape `mesh:FILE`, and `read` the text of
+    /// a table of wear.
     ///
     /// # Errors
     /// Text that is no such table, shapes that cannot be read, values outside their ranges.
@@ -105,13 +114,12 @@ impl Regions {
         text: &str,
         material: Material,
         velocity: Vec3,
-        load: &dyn Fn(&str) -> Result<TriMesh, String>,
+        load: wear::Load<TriMesh>,
+        read: wear::Load<String>,
     ) -> Result<Regions, RegionsError> {
         let file: File = toml::from_str(text)?;
-        if file.wear.is_some() {
-            return Err(RegionsError::Wear);
-        }
         let mut regions = Regions::one(file.roughness, material, velocity)?;
+        regions.wear = file.wear.map(|section| Wear::new(section, read, load)).transpose()?;
         if file.region.len() >= u16::MAX as usize {
             return Err(RegionsError::TooMany);
         }
@@ -134,8 +142,8 @@ impl Regions {
         let velocity = region.velocity.map_or(outside.velocity, Vec3::from);
         check_velocity(&velocity, &place)?;
         let material = self.material(&region, &place)?;
-        let roughness = region.roughness.or(outside.roughness);
-        self.surfaces.push(Surface { name: region.name, roughness, material, velocity });
+        let (roughness, worn) = (region.roughness.or(outside.roughness), region.roughness.is_none());
+        self.surfaces.push(Surface { name: region.name, roughness, material, velocity, worn });
         Ok(())
     }
 
@@ -168,6 +176,39 @@ impl Regions {
                 Ok(self.materials.len() as u16 - 1)
             }
         }
+    }
+
+    /// Asks the table of wear, when there is one, for the roughness of each point [m]; `property` gives a column of the cloud.
+    ///
+    /// # Errors
+    /// No such property; points without a measurement when no roughness holds outside.
+    pub fn measure(
+        &mut self,
+        points: &[Vec3],
+        property: &dyn Fn(&str) -> Option<Vec<f64>>,
+    ) -> Result<Option<WearReport>, RegionsError> {
+        let Some(wear) = &self.wear else { return Ok(None) };
+        let (worn, report) = wear.roughness(points, property, self.surfaces[0].roughness)?;
+        self.worn = worn;
+        Ok(Some(report))
+    }
+
+    /// Roughness of a point in a region [m]: the region's own, the one by wear, or the one that holds outside.
+    pub fn roughness(&self, point: usize, region: u16) -> Option<f64> {
+        let surface = &self.surfaces[region as usize];
+        let worn = self.worn.get(point).copied().filter(|_| surface.worn);
+        worn.or(surface.roughness)
+    }
+
+    /// The least roughness of any region [m].
+    pub fn least_roughness(&self) -> Option<f64> {
+        let all = self.surfaces.iter().filter_map(|s| s.roughness);
+        all.reduce(f64::min)
+    }
+
+    /// Whether any point may have a roughness.
+    pub fn is_rough(&self) -> bool {
+        !self.worn.is_empty() || self.surfaces.iter().any(|s| s.roughness.is_some())
     }
 
     /// The surface of each point [m]: the first region that holds it, else 0.

@@ -27,8 +27,9 @@ impl Wall {
         let surface = |r: &u16| &regions.surfaces[*r as usize];
         let column = |f: &dyn Fn(&u16) -> f64| Values::F64(self.regions.iter().map(f).collect());
         table.replace("material", Values::U16(self.regions.iter().map(|r| surface(r).material).collect()))?;
-        if regions.surfaces.iter().any(|s| s.roughness.is_some()) {
-            table.replace("roughness", column(&|r| surface(r).roughness.unwrap_or(f64::NAN)))?;
+        if regions.is_rough() {
+            let of = |(i, &r): (usize, &u16)| regions.roughness(i, r).unwrap_or(f64::NAN);
+            table.replace("roughness", Values::F64(self.regions.iter().enumerate().map(of).collect()))?;
         }
         if regions.surfaces.len() > 1 {
             table.replace("region", Values::U16(self.regions.clone()))?;

@@ -234,7 +234,7 @@ fn regions_decide_roughness_material_and_velocity() {
     let text = "roughness = 0.0005\n[[region]]\nname = \"worn\"\nshape = \"box:-1,-1,-1,0.05,1,1\"\nroughness = 0.001\n\
                 friction = 0.4\nvelocity = [1, 0, 0]\n";
     let none = |_: &str| Err("no files here".to_owned());
-    let regions = Regions::parse(text, steel(), Vec3::zeros(), &none).unwrap();
+    let regions = Regions::parse(text, steel(), Vec3::zeros(), &none, &|_| Ok(String::new())).unwrap();
     let points = lattice(12, 0.01);
     let (wall, _) = build(&points, &regions, &with(Radius::Solve)).unwrap();
     let table = wall.table(&regions).unwrap();
@@ -255,7 +255,7 @@ fn regions_decide_roughness_material_and_velocity() {
         ("[[region]]\nshape = \"sphere:0,0,0,1\"\nfriction = -1", "friction"),
         ("roughness = -1", "roughness"),
     ] {
-        let error = Regions::parse(bad, steel(), Vec3::zeros(), &none).unwrap_err().to_string();
+        let error = Regions::parse(bad, steel(), Vec3::zeros(), &none, &|_| Ok(String::new())).unwrap_err().to_string();
         assert!(error.contains(says), "{bad}: {error}");
     }
 }

@@ -4,6 +4,7 @@ use anyhow::Context;
 use geom::Vec3;
 use std::path::{Path, PathBuf};
 use wall::attributes::Material;
+use wall::drawn::Drawing;
 use wall::{Placement, Radius, Regions, Representative, Wish};
 
 /// Turn the points of a surface into wall spheres (MCAP; PLY with -o FILE.ply).
@@ -14,7 +15,7 @@ pub struct Args {
     pub input: cli::Input,
     #[command(flatten)]
     pub output: cli::CloudOutput,
-    /// Depth of the dents between neighbouring spheres [m], or a table of regions (see the documentation of crate wall)
+    /// Depth of the dents between neighbouring spheres [m], or a table of regions and wear (docs/wall-input.md)
     #[arg(long, value_name = "M|FILE.toml", allow_hyphen_values = true)]
     roughness: Option<String>,
     /// Radii: solve (pair by pair), uniform, or a length [m]
@@ -23,15 +24,18 @@ pub struct Args {
     /// The neighbour distance that stands for all
     #[arg(long, value_enum, default_value = "mean")]
     representative: Middle,
-    /// What touches the point: the sphere's centre, or its surface on the flow side
-    #[arg(long, value_enum, default_value = "centre")]
-    place: Place,
+    /// What touches the point: the sphere's centre, or its surface on the flow side (default: centre; of a drawing: surface)
+    #[arg(long, value_enum)]
+    place: Option<Place>,
     /// Direction in which the flow side lies
     #[arg(long, value_name = "x,y,z", value_parser = vector, allow_hyphen_values = true)]
     facing: Option<Vec3>,
-    /// Spheres inside a surface mesh (not available yet)
+    /// A place in the flow [m], instead of a direction: for what is closed all around, and to say the side of a drawing
+    #[arg(long, value_name = "x,y,z", value_parser = vector, allow_hyphen_values = true, conflicts_with = "facing")]
+    flow_at: Option<Vec3>,
+    /// Drawn equipment instead of a cloud (PLY, STL, OBJ [m]): spheres of --radius M inside of it that touch its surface
     #[arg(long, value_name = "FILE")]
-    from_mesh: Option<PathBuf>,
+    pub from_mesh: Option<PathBuf>,
     /// Name of the material
     #[arg(long, value_name = "NAME", default_value = "wall")]
     material: String,
@@ -53,6 +57,9 @@ pub struct Args {
     /// Diameter of the smallest particle [m]: checks the wall's gaps and the spheres' sizes
     #[arg(long, value_name = "M")]
     smallest_particle: Option<f64>,
+    /// Diameter of the largest particle [m]: checks the spheres' sizes
+    #[arg(long, value_name = "M")]
+    largest_particle: Option<f64>,
 }
 
 #[derive(Clone, Copy, clap::ValueEnum)]
@@ -75,30 +82,57 @@ impl Args {
                 "--roughness: is needed to find the radii; add --roughness M, or give --radius M",
             ));
         }
-        if self.from_mesh.is_some() {
-            return Err(cli::usage(
-                "--from-mesh: not available yet; use a cloud of points of the surface instead",
-            ));
-        }
         if self.facing.is_some_and(|facing| facing.norm() == 0.0) {
             return Err(cli::usage("--facing 0,0,0: has no direction; give one, such as 0,0,1"));
         }
-        if let Some(diameter) = self.smallest_particle.filter(|d| !(*d > 0.0 && d.is_finite())) {
-            return Err(cli::usage(format!("--smallest-particle {diameter} m: must be a positive diameter")));
-        }
-        let placement = match self.place {
-            Place::Centre => Placement::Centre,
-            Place::Surface if self.facing.is_none() => {
-                return Err(cli::usage("--place surface: the flow side is needed; add --facing x,y,z"));
+        for (option, diameter) in [("smallest", self.smallest_particle), ("largest", self.largest_particle)] {
+            if let Some(diameter) = diameter.filter(|d| !(*d > 0.0 && d.is_finite())) {
+                return Err(cli::usage(format!("--{option}-particle {diameter} m: must be a positive diameter")));
             }
-            Place::Surface => Placement::Surface,
+        }
+        let has_flow = self.facing.or(self.flow_at).is_some();
+        let placement = match self.place {
+            // The spheres of a drawing are where they belong.
+            _ if self.from_mesh.is_some() => Placement::Centre,
+            Some(Place::Surface) if !has_flow => {
+                return Err(cli::usage(
+                    "--place surface: the flow side is needed; add --facing x,y,z, or --flow-at x,y,z",
+                ));
+            }
+            Some(Place::Surface) => Placement::Surface,
+            Some(Place::Centre) | None => Placement::Centre,
         };
         let representative = match self.representative {
             Middle::Mean => Representative::Mean,
             Middle::Median => Representative::Median,
         };
-        let (facing, smallest_particle) = (self.facing, self.smallest_particle);
-        Ok(Wish { radius: self.radius, representative, placement, facing, smallest_particle })
+        Ok(Wish {
+            radius: self.radius,
+            representative,
+            placement,
+            facing: self.facing,
+            flow_at: self.flow_at,
+            smallest_particle: self.smallest_particle,
+            largest_particle: self.largest_particle,
+        })
+    }
+
+    /// How the spheres of a drawing are placed.
+    pub fn drawing(&self, regions: &Regions) -> anyhow::Result<Drawing> {
+        let Radius::Given(radius) = self.radius else {
+            return Err(cli::usage("--from-mesh: spheres of one radius touch the drawing; add --radius M"));
+        };
+        if self.facing.is_some() {
+            return Err(cli::usage("--facing: a drawing has its own directions; give a place in the flow, --flow-at x,y,z"));
+        }
+        if self.input.cloud.path().is_some() {
+            return Err(cli::usage("--from-mesh: the drawing takes the place of the cloud; leave one of them out"));
+        }
+        let Some(roughness) = regions.least_roughness() else {
+            return Err(cli::usage("--from-mesh: the distance of the spheres follows from the roughness; add --roughness M"));
+        };
+        let centred = matches!(self.place, Some(Place::Centre));
+        Ok(Drawing { radius, roughness, flow_at: self.flow_at, centred })
     }
 
     /// Roughness, material and velocity, everywhere or by region.
@@ -120,14 +154,12 @@ impl Args {
         };
         let text =
             std::fs::read_to_string(path).with_context(|| format!("{}: cannot read", path.display()))?;
-        let load = |name: &str| {
-            let bytes = std::fs::read(name).map_err(|e| format!("cannot read the mesh: {e}"))?;
-            if !bytes.starts_with(b"ply") {
-                return Err(format!("{name}: is no PLY file: convert it"));
-            }
-            cloud::read_mesh(&mut bytes.as_slice()).map_err(|e| e.to_string())
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let read = |name: &str| {
+            let file = folder.join(name);
+            std::fs::read_to_string(&file).map_err(|e| format!("cannot read: {e}"))
         };
-        Regions::parse(&text, material, self.velocity, &load).with_context(|| path.display().to_string())
+        Regions::parse(&text, material, self.velocity, &mesh::load, &read).with_context(|| path.display().to_string())
     }
 
     /// Role and hash of the table of regions, for provenance.

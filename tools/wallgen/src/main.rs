@@ -1,6 +1,7 @@
 //! Turns the points of a surface into wall spheres.
 
 mod args;
+mod surface;
 
 use anyhow::Context;
 use args::Args;
@@ -8,6 +9,8 @@ use cli::Report;
 use geom::Shown;
 use std::process::ExitCode;
 use stream::Values;
+use surface::Surface;
+use wall::drawn::DrawnReport;
 use wall::{Radius, Regions, Wall, WallReport, Wish, build};
 
 fn main() -> ExitCode {
@@ -17,10 +20,12 @@ fn main() -> ExitCode {
 fn wallgen(args: Args) -> anyhow::Result<Report> {
     check_ending(&args.output.to)?;
     let wish = args.wish()?;
-    let regions = args.regions()?;
-    let (cloud, hash) = args.input.read_cloud_hashed()?;
-    cloud.check_reach().with_context(|| args.input.name())?;
-    let (wall, report) = build(&cloud.points, &regions, &wish).with_context(|| args.input.name())?;
+    let mut regions = args.regions()?;
+    let Surface { cloud, name, hash, drawn } = surface::read(&args, &regions)?;
+    cloud.check_reach().with_context(|| name.clone())?;
+    let property = |name: &str| cloud.attributes.get(name).map(|v| (0..v.len()).map(|i| v.get(i)).collect());
+    let wear = regions.measure(&cloud.points, &property).with_context(|| name.clone())?;
+    let (wall, report) = build(&cloud.points, &regions, &wish).with_context(|| name)?;
     if args.output.to.has_extension("ply") {
         args.output.write_cloud(&as_cloud(cloud, &wall, &regions)?)?;
     } else {
@@ -36,7 +41,9 @@ fn wallgen(args: Args) -> anyhow::Result<Report> {
         out.commit()?;
     }
     report.warnings.iter().for_each(|w| cli::warn(w));
-    Ok(summary(&report, &wish).with_all(&report).with("materials", &regions.materials))
+    let all = summary(&report, &wish, drawn.as_ref()).with_all(&report).with("materials", &regions.materials);
+    let all = if let Some(drawn) = &drawn { all.with("drawing", drawn) } else { all };
+    Ok(if let Some(wear) = &wear { all.with("wear", wear) } else { all })
 }
 
 /// The cloud with the spheres' columns in it; its other properties stay.
@@ -48,7 +55,7 @@ fn as_cloud(mut cloud: cloud::Cloud, wall: &Wall, regions: &Regions) -> anyhow::
     Ok(cloud)
 }
 
-fn summary(report: &WallReport, wish: &Wish) -> Report {
+fn summary(report: &WallReport, wish: &Wish, drawn: Option<&DrawnReport>) -> Report {
     let [least, mean, largest] = report.radius_range.map(Shown);
     let (spheres, spacing, changes) = (report.spheres, Shown(report.spacing), &report.changes);
     if wish.radius == Radius::Solve {
@@ -56,6 +63,16 @@ fn summary(report: &WallReport, wish: &Wish) -> Report {
             "{spheres} wall spheres, radius {least} to {largest} m (mean {mean}), spacing {spacing} m, \
              roughness changed on {} of {} pairs",
             changes.pairs_changed, changes.pairs
+        ));
+    }
+    if let Some(drawn) = drawn {
+        return Report::new(format!(
+            "{spheres} wall spheres of radius {mean} m under {} faces, spacing {spacing} m on average, {} stretches with {} corners, \
+             deepest dent {} m",
+            drawn.faces,
+            drawn.stretches,
+            drawn.corners,
+            Shown(drawn.deepest)
         ));
     }
     let [low, middle, high] = changes.dents.map(Shown);

@@ -51,8 +51,8 @@ pub enum ReadError {
     NoPosition,
     #[error("PLY: element '{element}' has x but no '{missing}': a point needs x, y and z")]
     HalfPosition { element: String, missing: &'static str },
-    #[error("PLY: face {face}: {what}")]
-    Face { face: usize, what: String },
+    #[error(transparent)]
+    Mesh(#[from] mesh::MeshFileError),
     #[error("{format}: {}{}", plain(.what), at_point(*.point))]
     Broken { format: &'static str, what: String, point: Option<u64> },
     #[error("XYZ/PTS: line {line}: {what}: '{text}'")]

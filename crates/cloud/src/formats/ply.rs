@@ -111,40 +111,12 @@ pub fn write_mesh(to: &mut impl Write, mesh: &TriMesh, encoding: Encoding) -> Re
     ply::write(to, &ply, encoding)
 }
 
-/// Reads a mesh from PLY; faces with more than three corners are cut into fans.
+/// Reads a mesh: PLY, STL, OBJ or a list of triangles, told apart by content.
 ///
 /// # Errors
 /// Content that is no mesh, with the face.
 pub fn read_mesh(from: &mut impl Read) -> Result<TriMesh, ReadError> {
-    let mut ply = ply::read(from).map_err(ReadError::Ply)?;
-    let vertex = ply.elements.iter().position(|e| e.name == "vertex").ok_or(ReadError::NoPosition)?;
-    let vertices = from_element(ply.elements.swap_remove(vertex), Vec::new())?.points;
-    let is_corners = |l: &&ListColumn| l.name == "vertex_indices" || l.name == "vertex_index";
-    let corners = ply.element("face").and_then(|f| f.lists.iter().find(is_corners));
-    let corners = corners.ok_or_else(|| ReadError::Face {
-        face: 0,
-        what: "the file has no element 'face' with a list 'vertex_indices': it is a cloud, not a mesh".into(),
-    })?;
-    let mut faces = Vec::with_capacity(corners.ends.len());
-    for face in 0..corners.ends.len() {
-        let row = corners.row(face);
-        if row.len() < 3 {
-            return Err(ReadError::Face {
-                face,
-                what: format!("{} corners; a face has at least 3", row.len()),
-            });
-        }
-        let corner = |i: usize| {
-            let v = corners.values.get(i);
-            if v >= 0.0 && v < vertices.len() as f64 && v.fract() == 0.0 {
-                return Ok(v as u32);
-            }
-            Err(ReadError::Face { face, what: format!("vertex {v} of {} is not there", vertices.len()) })
-        };
-        let first = corner(row.start)?;
-        for i in row.start + 1..row.end - 1 {
-            faces.push([first, corner(i)?, corner(i + 1)?]);
-        }
-    }
-    TriMesh::new(vertices, faces).map_err(|e| ReadError::Face { face: 0, what: e.to_string() })
+    let mut bytes = Vec::new();
+    from.read_to_end(&mut bytes).map_err(ReadError::Io)?;
+    Ok(mesh::from_bytes(&bytes)?)
 }

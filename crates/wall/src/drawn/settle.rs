@@ -1,0 +1,78 @@
+//! The place of a sphere inside the structure that touches the surface at a place, or next to it.
+//!
+//! ```text
+//! c ← p − r n;   while some face is nearer than r:   c ← q + r m
+//! ```
+//!
+//! q is the point nearest to c of the face that the sphere stands out of most, m the unit vector from q into the structure. Such
+//! projections onto one half-space after the other lead into their intersection (Bregman 1965, doi:10.1016/0041-5553(67)90040-7, theirs
+//! being the general case): the sphere comes to touch both faces of an edge, or the three of a corner.
+
+use super::sides::Surface;
+use super::{Candidate, Drawing};
+use geom::mesh::closest_point;
+use geom::{Boxes, Vec3};
+
+/// A sphere that stands out by less than this share of its radius does not.
+const TOUCH: f64 = 1e-6;
+/// Most projections.
+const STEPS: usize = 200;
+/// A sphere goes at most this many radii away from its place: in the edge of a wedge that is sharper it has no room.
+const FARTHEST: f64 = 4.0;
+
+pub(crate) struct Settle<'a> {
+    surface: &'a Surface,
+    boxes: Boxes,
+    radius: f64,
+    centred: bool,
+}
+
+impl<'a> Settle<'a> {
+    pub fn new(surface: &'a Surface, drawing: &Drawing) -> Settle<'a> {
+        let boxed = |tri: [Vec3; 3]| [tri[0].inf(&tri[1]).inf(&tri[2]), tri[0].sup(&tri[1]).sup(&tri[2])];
+        let boxes: Vec<[Vec3; 2]> = surface.mesh.triangles().map(boxed).collect();
+        Settle { surface, boxes: Boxes::new(&boxes), radius: drawing.radius, centred: drawing.centred }
+    }
+
+    pub fn candidate(&self, at: Vec3, normal: Vec3) -> Candidate {
+        if self.centred {
+            return Candidate { at, normal, centre: at, thin: false };
+        }
+        let first = at - normal * self.radius;
+        match self.settled(first).filter(|c| (c - at).norm() <= FARTHEST * self.radius) {
+            Some(centre) => Candidate { at, normal, centre, thin: false },
+            None => Candidate { at, normal, centre: first, thin: true },
+        }
+    }
+
+    fn settled(&self, mut centre: Vec3) -> Option<Vec3> {
+        for _ in 0..STEPS {
+            let Some(next) = self.pushed(centre) else { return Some(centre) };
+            centre = next;
+        }
+        None
+    }
+
+    /// Where the worst face pushes the sphere; none when no face does.
+    fn pushed(&self, centre: Vec3) -> Option<Vec3> {
+        let (mut most, mut to) = (TOUCH * self.radius, None);
+        self.boxes.near(centre, self.radius, |face| {
+            let q = closest_point(self.surface.mesh.triangle(face as usize), centre);
+            let (off, normal) = (centre - q, self.surface.normals[face as usize]);
+            let (distance, above) = (off.norm(), off.dot(&normal));
+            if distance >= self.radius {
+                return;
+            }
+            // Right above the face the centre is outside of the structure; beside it the edge is what it must keep away from.
+            let is_above = above >= 0.0 && above >= distance * (1.0 - 1e-9);
+            let (out, inwards) = match is_above {
+                true => (self.radius + distance, -normal),
+                false => (self.radius - distance, off / distance),
+            };
+            if out > most {
+                (most, to) = (out, Some(q + inwards * self.radius));
+            }
+        });
+        to
+    }
+}

@@ -1,0 +1,181 @@
+//! On which side of a drawn surface the flow is.
+//!
+//! Faces that share an edge are made to agree on a side, part by part. Then, a place in the flow being given, each part faces it:
+//! seen from there, its nearest face shows its front. Without such a place, a closed part is a body and the flow is around it, or in
+//! it when it lies in another closed part (a cavity); an open part faces the side from which most of its corners run
+//! anticlockwise, as drawn.
+
+use geom::Vec3;
+use geom::mesh::{TriMesh, area, closest_point};
+use std::collections::HashMap;
+
+/// A distance this little longer, as a share, is as near.
+const AS_NEAR: f64 = 1e-9;
+
+/// A mesh whose faces show the flow their front.
+pub(crate) struct Surface {
+    pub mesh: TriMesh,
+    /// Unit normal of each face, on the flow side.
+    pub normals: Vec<Vec3>,
+    /// Faces at each edge, lower vertex first, in order of the edges.
+    pub edges: Vec<((u32, u32), Vec<u32>)>,
+    pub area: f64,
+    pub parts: usize,
+    pub closed: usize,
+    pub turned: usize,
+    pub one_sided: usize,
+}
+
+impl Surface {
+    /// None when no face has an area.
+    pub fn new(mesh: &TriMesh, flow_at: Option<Vec3>) -> Option<Surface> {
+        let mut mesh = mesh.welded();
+        let (lo, hi) = geom::grid::bounds(&mesh.vertices);
+        let least = 1e-12 * (hi - lo).norm_squared();
+        let vertices = &mesh.vertices;
+        mesh.faces.retain(|f| area(f.map(|v| vertices[v as usize])) > least);
+        if mesh.faces.is_empty() {
+            return None;
+        }
+        let edges = edges(&mesh);
+        let (part_of, parts, one_sided) = agree(&mut mesh, &edges);
+        let (closed, turned) = turn(&mut mesh, &edges, &part_of, parts, flow_at);
+        let normal = |[a, b, c]: [Vec3; 3]| (b - a).cross(&(c - a)).normalize();
+        let (normals, area) = (mesh.triangles().map(normal).collect(), mesh.area());
+        Some(Surface { normals, edges, area, parts, closed, turned, one_sided, mesh })
+    }
+
+    /// About `count` places spread evenly over the faces, each with its normal: by area along the faces, and within a face by the
+    /// sequence of Roberts (2018) that fills a square evenly.
+    pub fn scattered(&self, count: usize) -> Vec<(Vec3, Vec3)> {
+        let each = self.area / count.max(1) as f64;
+        let mut places = Vec::with_capacity(count + self.mesh.faces.len());
+        // The share of a candidate that earlier faces left.
+        let (mut due, mut number) = (0.5, 0u64);
+        for (face, tri) in self.mesh.triangles().enumerate() {
+            due += area(tri) / each;
+            while due >= 1.0 {
+                due -= 1.0;
+                number += 1;
+                places.push((within(tri, number), self.normals[face]));
+            }
+        }
+        places
+    }
+}
+
+/// Place `number` of a triangle.
+fn within([a, b, c]: [Vec3; 3], number: u64) -> Vec3 {
+    let share = |step: f64| (0.5 + number as f64 * step).fract();
+    let (s, t) = (share(0.754_877_666_246_692_7), share(0.569_840_290_998_053_3));
+    let (s, t) = if s + t > 1.0 { (1.0 - s, 1.0 - t) } else { (s, t) };
+    a + (b - a) * s + (c - a) * t
+}
+
+fn edges(mesh: &TriMesh) -> Vec<((u32, u32), Vec<u32>)> {
+    let mut all: Vec<((u32, u32), u32)> = Vec::with_capacity(3 * mesh.faces.len());
+    for (face, &[a, b, c]) in (0..).zip(&mesh.faces) {
+        all.extend([(a, b), (b, c), (c, a)].map(|(u, v)| ((u.min(v), u.max(v)), face)));
+    }
+    all.sort_unstable();
+    all.chunk_by(|x, y| x.0 == y.0).map(|chunk| (chunk[0].0, chunk.iter().map(|x| x.1).collect())).collect()
+}
+
+fn runs(face: [u32; 3], (u, v): (u32, u32)) -> bool {
+    [(face[0], face[1]), (face[1], face[2]), (face[2], face[0])].contains(&(u, v))
+}
+
+/// Turns faces until neighbours agree: the part of each face, the number of parts, and of edges whose faces still do not.
+fn agree(mesh: &mut TriMesh, edges: &[((u32, u32), Vec<u32>)]) -> (Vec<u32>, usize, usize) {
+    let mut beside: Vec<Vec<(u32, (u32, u32))>> = vec![Vec::new(); mesh.faces.len()];
+    for (edge, faces) in edges {
+        if let [f, g] = faces[..] {
+            beside[f as usize].push((g, *edge));
+            beside[g as usize].push((f, *edge));
+        }
+    }
+    let (mut part_of, mut parts) = (vec![u32::MAX; mesh.faces.len()], 0);
+    for first in 0..mesh.faces.len() {
+        if part_of[first] != u32::MAX {
+            continue;
+        }
+        let (mut members, mut next, mut turned) = (vec![first as u32], 0, Vec::new());
+        part_of[first] = parts;
+        while let Some(&face) = members.get(next) {
+            next += 1;
+            for &(other, edge) in &beside[face as usize] {
+                if part_of[other as usize] == u32::MAX {
+                    part_of[other as usize] = parts;
+                    members.push(other);
+                    // Two faces agree when they run along their edge in opposite directions.
+                    if runs(mesh.faces[face as usize], edge) == runs(mesh.faces[other as usize], edge) {
+                        mesh.faces[other as usize].swap(1, 2);
+                        turned.push(other);
+                    }
+                }
+            }
+        }
+        // The side that most faces were drawn with.
+        if 2 * turned.len() > members.len() {
+            members.iter().for_each(|&face| mesh.faces[face as usize].swap(1, 2));
+        }
+        parts += 1;
+    }
+    let agrees = |&f: &u32, &g: &u32, edge| runs(mesh.faces[f as usize], edge) != runs(mesh.faces[g as usize], edge);
+    let wrong = edges.iter().filter(|(edge, faces)| matches!(&faces[..], [f, g] if !agrees(f, g, *edge))).count();
+    (part_of, parts as usize, wrong)
+}
+
+/// Turns whole parts to the flow; how many are closed, and how many were turned.
+fn turn(
+    mesh: &mut TriMesh,
+    edges: &[((u32, u32), Vec<u32>)],
+    part_of: &[u32],
+    parts: usize,
+    flow_at: Option<Vec3>,
+) -> (usize, usize) {
+    let mut open = vec![false; parts];
+    for (_, faces) in edges.iter().filter(|(_, faces)| faces.len() != 2) {
+        faces.iter().for_each(|&face| open[part_of[face as usize] as usize] = true);
+    }
+    let mut of: HashMap<u32, Vec<[u32; 3]>> = HashMap::new();
+    for (face, part) in mesh.faces.iter().zip(part_of) {
+        of.entry(*part).or_default().push(*face);
+    }
+    let alone = |part: usize| {
+        let faces = of.get(&(part as u32)).cloned().unwrap_or_default();
+        TriMesh { vertices: mesh.vertices.clone(), faces }
+    };
+    let pieces: Vec<TriMesh> = (0..parts).map(alone).collect();
+    let is_turned = |part: usize| match flow_at {
+        Some(place) => !faces_place(&pieces[part], place),
+        None if open[part] => false,
+        None => {
+            let (piece, inside) = (&pieces[part], pieces[part].volume() < 0.0);
+            let corner = piece.faces.first().map_or(Vec3::zeros(), |f| piece.vertices[f[0] as usize]);
+            let others = (0..parts).filter(|&other| other != part && !open[other]);
+            let is_cavity = others.filter(|&other| pieces[other].contains(&corner)).count() % 2 == 1;
+            inside != is_cavity
+        }
+    };
+    let turned: Vec<bool> = (0..parts).map(is_turned).collect();
+    for (face, part) in mesh.faces.iter_mut().zip(part_of).filter(|(_, part)| turned[**part as usize]) {
+        let _ = part;
+        face.swap(1, 2);
+    }
+    (open.iter().filter(|open| !**open).count(), turned.iter().filter(|turned| **turned).count())
+}
+
+/// Whether the faces nearest to a place show it their front.
+fn faces_place(piece: &TriMesh, place: Vec3) -> bool {
+    let near: Vec<(f64, Vec3, Vec3)> = piece
+        .triangles()
+        .map(|tri| {
+            let to = place - closest_point(tri, place);
+            (to.norm(), to, (tri[1] - tri[0]).cross(&(tri[2] - tri[0])).normalize())
+        })
+        .collect();
+    let least = near.iter().map(|n| n.0).fold(f64::INFINITY, f64::min);
+    // At an edge or a corner, its faces have a say together.
+    near.iter().filter(|n| n.0 <= least * (1.0 + AS_NEAR)).map(|n| n.1.dot(&n.2)).sum::<f64>() >= 0.0
+}
