@@ -7,6 +7,7 @@
 
 use crate::Vec3;
 use rayon::prelude::*;
+use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::OnceLock;
 
@@ -107,14 +108,16 @@ impl Grid {
     }
 
     /// The cells that hold points, in sorted order: keys (see [`Grid::key`]), the first sorted place of each, and one more.
-    pub fn filled(&self) -> (Vec<u64>, Vec<u32>) {
+    pub fn filled(&self) -> (Cow<'_, [u64]>, Cow<'_, [u32]>) {
         match &self.table {
-            Table::Sparse { keys, starts, .. } => (keys.clone(), starts.clone()),
+            Table::Sparse { keys, starts, .. } => (keys.into(), starts.into()),
             Table::Dense(all) => {
                 let holds = |&cell: &usize| all[cell] < all[cell + 1];
                 let cells: Vec<usize> = (0..all.len().saturating_sub(1)).filter(holds).collect();
-                let starts = cells.iter().map(|&c| all[c]).chain([self.order.len() as u32]).collect();
-                (cells.into_iter().map(|c| c as u64).collect(), starts)
+                let starts: Vec<u32> =
+                    cells.iter().map(|&c| all[c]).chain([self.order.len() as u32]).collect();
+                let keys: Vec<u64> = cells.into_iter().map(|c| c as u64).collect();
+                (keys.into(), starts.into())
             }
         }
     }

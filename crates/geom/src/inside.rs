@@ -2,6 +2,8 @@
 
 use crate::Vec3;
 use crate::mesh::{MeshError, TriMesh};
+use crate::tree::Tree;
+use std::sync::OnceLock;
 
 /// Faces of a closed mesh sorted into columns along x.
 ///
@@ -16,6 +18,8 @@ pub struct Inside {
     columns: [usize; 2],
     starts: Vec<u32>,
     faces: Vec<u32>,
+    /// Made when somebody asks for a distance.
+    tree: OnceLock<Tree>,
 }
 
 impl Inside {
@@ -35,8 +39,15 @@ impl Inside {
         let (lo, hi) = crate::grid::bounds(&mesh.vertices);
         let side = ((mesh.faces.len() as f64).sqrt().ceil() as usize).clamp(1, 1024);
         let columns = [side, side];
-        let mut inside =
-            Inside { mesh, lo, hi, columns, starts: vec![0; side * side + 1], faces: Vec::new() };
+        let mut inside = Inside {
+            mesh,
+            lo,
+            hi,
+            columns,
+            starts: vec![0; side * side + 1],
+            faces: Vec::new(),
+            tree: OnceLock::new(),
+        };
         inside.sort();
         Ok(inside)
     }
@@ -67,6 +78,11 @@ impl Inside {
             let share = (p[a] - self.lo[a]) / extent * self.columns[a - 1] as f64;
             (share as usize).min(self.columns[a - 1] - 1)
         })
+    }
+
+    /// Distance from `p` [m] to the surface [m].
+    pub(crate) fn distance(&self, p: &Vec3) -> f64 {
+        self.tree.get_or_init(|| Tree::new(&self.mesh)).distance(&self.mesh, p)
     }
 
     /// Whether `p` [m] is inside.

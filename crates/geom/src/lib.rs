@@ -6,10 +6,12 @@ mod inside;
 pub mod mesh;
 pub mod moments;
 mod numbers;
+mod outside;
 pub mod plane;
 pub mod prism;
 pub mod shape;
 mod shown;
+mod tree;
 pub mod triangle;
 mod union;
 

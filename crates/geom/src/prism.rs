@@ -72,6 +72,25 @@ impl Prism {
         Prism::new(&polygon, file.extrusion.into())
     }
 
+    /// Distance from `p` [m], which is outside, to the surface [m].
+    pub(crate) fn distance(&self, p: &Vec3) -> f64 {
+        let place = |q: &[f64; 2]| self.origin + self.axes[0] * q[0] + self.axes[1] * q[1];
+        let next = self.polygon.iter().cycle().skip(1);
+        let sides = self.polygon.iter().zip(next).flat_map(|(a, b)| {
+            let [a, b] = [place(a), place(b)];
+            let [c, d] = [a + self.extrusion, b + self.extrusion];
+            [[a, b, c], [b, d, c]]
+        });
+        let to_side = |tri| (crate::triangle::closest_point(tri, *p) - p).norm();
+        let side = sides.map(to_side).fold(f64::INFINITY, f64::min);
+        let from = p - self.origin;
+        let ends = [Vec3::zeros(), self.extrusion].map(|shift| {
+            let flat = self.axes.map(|a| a.dot(&(from - shift)));
+            if self.encloses(flat) { (from - shift).dot(&self.normal).abs() } else { f64::INFINITY }
+        });
+        side.min(ends[0]).min(ends[1])
+    }
+
     /// Whether `p` [m] is inside (even-odd rule for a polygon that crosses itself).
     pub fn contains(&self, p: &Vec3) -> bool {
         let from = p - self.origin;
@@ -79,7 +98,11 @@ impl Prism {
         if !(0.0..=1.0).contains(&t) {
             return false;
         }
-        let [x, y] = self.axes.map(|a| a.dot(&(from - self.extrusion * t)));
+        self.encloses(self.axes.map(|a| a.dot(&(from - self.extrusion * t))))
+    }
+
+    /// Whether a place in the plane of the polygon is in the polygon.
+    fn encloses(&self, [x, y]: [f64; 2]) -> bool {
         let next = self.polygon.iter().cycle().skip(1);
         let crossed = |(a, b): &(&[f64; 2], &[f64; 2])| {
             (a[1] > y) != (b[1] > y) && x < a[0] + (b[0] - a[0]) * ((y - a[1]) / (b[1] - a[1]))

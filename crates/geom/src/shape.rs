@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! box:x0,y0,z0,x1,y1,z1 | sphere:x,y,z,r | cylinder:x0,y0,z0,x1,y1,z1,r
-//! halfspace:px,py,pz,nx,ny,nz | prism:FILE.json | mesh:FILE        ! in front: outside
+//! cone:x0,y0,z0,x1,y1,z1,r0,r1 | halfspace:px,py,pz,nx,ny,nz | prism:FILE.json | mesh:FILE        ! in front: outside
 //! ```
 
 use crate::Vec3;
@@ -31,6 +31,8 @@ pub enum Solid {
     Sphere(Vec3, f64),
     /// Both ends of the axis [m] and radius [m].
     Cylinder(Vec3, Vec3, f64),
+    /// Both ends of the axis [m] and the radius at each [m]; one of them may be 0.
+    Cone(Vec3, Vec3, [f64; 2]),
     /// The side that the normal points to.
     Halfspace(Plane),
     /// A polygon and its extrusion.
@@ -45,7 +47,7 @@ pub enum Solid {
 pub enum ShapeError {
     #[error(
         "'{0}' is no shape: use box:x0,y0,z0,x1,y1,z1, sphere:x,y,z,r, cylinder:x0,y0,z0,x1,y1,z1,r, \
-         halfspace:px,py,pz,nx,ny,nz, prism:FILE.json or mesh:FILE, with ! in front for its outside"
+         cone:x0,y0,z0,x1,y1,z1,r0,r1, halfspace:px,py,pz,nx,ny,nz, prism:FILE.json or mesh:FILE, with ! in front for its outside"
     )]
     Kind(String),
     #[error("shape '{text}': {source}")]
@@ -124,6 +126,18 @@ impl Solid {
                 }
                 Solid::Cylinder(Vec3::new(x0, y0, z0), Vec3::new(x1, y1, z1), positive(r, whole)?)
             }
+            "cone" => {
+                let [x0, y0, z0, x1, y1, z1, r0, r1] = numbers(rest, offset).map_err(wrong)?;
+                if [x0, y0, z0] == [x1, y1, z1] {
+                    return Err(ShapeError::NoAxis { text: text() });
+                }
+                // A cone may end in a point, but not in two.
+                positive(r0.max(r1), whole)?;
+                for radius in [r0, r1].into_iter().filter(|r| *r != 0.0) {
+                    positive(radius, whole)?;
+                }
+                Solid::Cone(Vec3::new(x0, y0, z0), Vec3::new(x1, y1, z1), [r0, r1])
+            }
             "halfspace" => {
                 let [px, py, pz, nx, ny, nz] = numbers(rest, offset).map_err(wrong)?;
                 let plane = Plane::new(Vec3::new(px, py, pz), Vec3::new(nx, ny, nz));
@@ -154,6 +168,12 @@ impl Solid {
                 let share = from.dot(&axis) / axis.norm_squared();
                 (0.0..=1.0).contains(&share) && (from - axis * share).norm_squared() <= radius * radius
             }
+            Solid::Cone(start, end, [r0, r1]) => {
+                let (axis, from) = (end - start, p - start);
+                let share = from.dot(&axis) / axis.norm_squared();
+                let radius = r0 + (r1 - r0) * share;
+                (0.0..=1.0).contains(&share) && (from - axis * share).norm_squared() <= radius * radius
+            }
             Solid::Halfspace(plane) => plane.signed_distance(p) >= 0.0,
             Solid::Prism(prism) => prism.contains(p),
             Solid::Mesh(inside) => inside.contains(p),
@@ -181,6 +201,7 @@ mod tests {
             ("box:1,1,1,0,0,0", [0.5, 0.5, 1.0], [0.5, 0.5, 1.1]),
             ("sphere:1,0,0,0.5", [1.3, 0.3, 0.0], [1.4, 0.4, 0.0]),
             ("cylinder:0,0,0,0,0,2,1", [0.6, 0.6, 1.9], [0.6, 0.6, 2.1]),
+            ("cone:0,0,0,0,0,2,1,0", [0.45, 0.0, 1.0], [0.45, 0.0, 1.2]),
             ("halfspace:0,0,1,0,0,-2", [9.0, 9.0, 0.5], [0.0, 0.0, 1.5]),
         ] {
             for (place, expected) in [(inside, true), (outside, false)] {
@@ -210,6 +231,8 @@ mod tests {
             ("!sphere:0,0,nan,1", "'nan' at character 13"),
             ("sphere:0,0,0,-1", "radius -1 m must be positive"),
             ("cylinder:1,1,1,1,1,1,1", "same place"),
+            ("cone:0,0,0,0,0,1,0,0", "radius 0 m must be positive"),
+            ("cone:0,0,0,0,0,1,1,-1", "radius -1 m must be positive"),
             ("halfspace:0,0,0,0,0,0", "no length"),
             ("prism:/nowhere.json", "cannot read"),
         ] {

@@ -15,6 +15,11 @@ pub(crate) fn bounds(shape: &Shape) -> Option<(Vec3, Vec3)> {
             let reach = axis.map(|c| r * (1.0 - c * c).max(0.0).sqrt());
             Some((a.inf(b) - reach, a.sup(b) + reach))
         }
+        Solid::Cone(a, b, [ra, rb]) => {
+            let axis = (b - a).normalize();
+            let reach = |r: &f64| axis.map(|c| r * (1.0 - c * c).max(0.0).sqrt());
+            Some(((a - reach(ra)).inf(&(b - reach(rb))), (a + reach(ra)).sup(&(b + reach(rb)))))
+        }
         Solid::Halfspace(_) | Solid::Prism(_) | Solid::Mesh(_) => None,
     }
 }
@@ -31,6 +36,14 @@ pub(crate) fn holds(shape: &Shape, centre: &Vec3, radius: f64) -> bool {
             let along = (centre - a).dot(&(b - a)) / length;
             let out = (centre - a - (b - a) * (along / length)).norm();
             (radius..=length - radius).contains(&along) && out + radius <= *r
+        }
+        (Solid::Cone(a, b, [ra, rb]), false) => {
+            let length = (b - a).norm();
+            let along = (centre - a).dot(&(b - a)) / length;
+            let out = (centre - a - (b - a) * (along / length)).norm();
+            let slope = (rb - ra) / length;
+            let room = ra + slope * along - radius * (1.0 + slope * slope).sqrt();
+            (radius..=length - radius).contains(&along) && out <= room
         }
         _ => shape.contains(centre),
     }
