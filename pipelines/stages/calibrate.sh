@@ -1,0 +1,64 @@
+#!/usr/bin/env bash
+# Calibrates the rolling resistance between grains: calibrate.sh FOLDER PAGE.md runs the slice of the sinter box (sinter-slice.toml) for each value of ROLLING and
+# each seed, puts a line through the slopes of the heaps, solves it for ANGLE, and writes the part "calibration" of the page. Sliding friction stays as
+# the scene has it. Then runs the slice with the friction of the scene and other stiffnesses, for the part "stiffness".
+#
+# Environment: ROLLING="0.5 0.7 0.9", SEEDS="1 2 3", ANGLE=35.5 [deg], STIFFNESS="1250 2500 10000 40000" [N/m], JOBS=2. Runs that are there are used.
+set -euo pipefail
+mkdir -p "$1"
+OUT=$(cd "$1" && pwd) PAGE=$(cd "$(dirname "$2")" && pwd)/$(basename "$2")
+cd "$(dirname "$0")"
+ROLLING=${ROLLING:-0.5 0.7 0.9} SEEDS=${SEEDS:-1 2 3} ANGLE=${ANGLE:-35.5} STIFFNESS=${STIFFNESS:-1250 2500 10000 40000}
+
+# slope NAME SEED SETTINGS…: runs the slice unless that is done, and prints its slope [deg] with what the run took.
+slope() {
+  local name=$1 seed=$2 run=$OUT/$1-$2 own=()
+  shift 2
+  for k in 0 1 2 3 4; do own+=(--set "fill.$k.seed=$((10 * seed + k))"); done
+  [ -e "$run.mcap" ] || dem-run sinter-slice.toml "${own[@]}" "$@" --threads 1 -q --report "$run.json" -o "$run.mcap"
+  dem-measure "$run.mcap" --repose --side x+ --sectors 2 --ground 0 -q --report "$run.angle" > /dev/null
+  printf '%s %s %s %s\n' "$name" "$seed" "$(grep -o '"angle": [^,]*' "$run.angle" | cut -d' ' -f2)" \
+    "$(grep -o '"dt": [^,]*' "$run.json" | cut -d' ' -f2)" > "$run.slope"
+}
+export -f slope
+export OUT
+{
+  for roll in $ROLLING; do for seed in $SEEDS; do
+    printf '%s\n' "slope rolling-$roll $seed --set contact.0.rolling_resistance=$roll"
+  done; done
+  for k in $STIFFNESS; do for seed in $SEEDS; do
+    printf '%s\n' "slope stiffness-$k $seed --set contact.0.stiffness=$k --set contact.1.stiffness=$k"
+  done; done
+} | xargs -P "${JOBS:-2}" -I LINE bash -c 'set -e; LINE'
+
+# Student's t for 95 %, degrees of freedom 1 to 12.
+T='split("12.706 4.303 3.182 2.776 2.571 2.447 2.365 2.306 2.262 2.228 2.201 2.179", t, " ")'
+for roll in $ROLLING; do for seed in $SEEDS; do cat "$OUT/rolling-$roll-$seed.slope"; done; done \
+  | sed 's/^rolling-//' | awk -v angle="$ANGLE" '
+  {n++; x[n] = $1; y[n] = $3; sx += $1; sy += $3; sxx += $1 * $1; sxy += $1 * $3
+   if (!($1 in count)) order[++values] = $1
+   count[$1]++; sum[$1] += $3; squares[$1] += $3 * $3}
+  END {
+    '"$T"'
+    print "| rolling resistance | seeds | slope, mean and deviation between seeds |\n|---|---|---|"
+    for (i = 1; i <= values; i++) { v = order[i]; m = sum[v] / count[v]
+      printf "| %s | %d | %.1f° ± %.1f° |\n", v, count[v], m, sqrt((squares[v] - count[v] * m * m) / (count[v] > 1 ? count[v] - 1 : 1)) }
+    slope = (n * sxy - sx * sy) / (n * sxx - sx * sx); mean = sx / n; level = sy / n
+    for (i = 1; i <= n; i++) rest += (y[i] - level - slope * (x[i] - mean))^2
+    s = sqrt(rest / (n - 2)); at = mean + (angle - level) / slope
+    off = t[n - 2 > 12 ? 12 : n - 2] * s / (slope < 0 ? -slope : slope) * sqrt(1 / n + (at - mean)^2 / (sxx - sx * sx / n))
+    printf "\nThe line: %.1f° and %.1f° for each 0.1 more, at %.2f; it meets %.1f° at a **rolling resistance of %.2f ± %.2f** (95 %%, from the scatter of the runs about the line).\n", level, slope / 10, mean, angle, at, off
+  }' > "$OUT/calibration.md"
+for k in $STIFFNESS; do for seed in $SEEDS; do cat "$OUT/stiffness-$k-$seed.slope"; done; done | sed 's/^stiffness-//' | awk '
+  {if (!($1 in count)) order[++values] = $1
+   count[$1]++; sum[$1] += $3; squares[$1] += $3 * $3; dt[$1] = $4}
+  END {
+    '"$T"'
+    print "| stiffness [N/m] | step [s] | slope, mean and 95 % interval (Student) |\n|---|---|---|"
+    for (i = 1; i <= values; i++) { v = order[i]; n = count[v]; m = sum[v] / n
+      printf "| %s | %.2g | %.1f° ± %.1f° |\n", v, dt[v], m, t[n - 1] * sqrt((squares[v] - n * m * m) / (n - 1) / n) }
+  }' > "$OUT/stiffness.md"
+for part in calibration stiffness; do
+  ./section.sh "$PAGE" $part < "$OUT/$part.md"
+  cat "$OUT/$part.md"
+done
