@@ -31,6 +31,7 @@ impl Layout {
             Layout::Sampled(Method::Eliminate, _) => "eliminate",
             Layout::Sampled(Method::Relax, _) => "relax",
             Layout::Sampled(Method::Grid, _) => "grid",
+            Layout::Sampled(Method::Tile, _) => "tile",
         }
     }
 
