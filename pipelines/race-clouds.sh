@@ -1,0 +1,111 @@
+#!/bin/bash
+# The chain from scan to wall spheres, stage by stage and as one pipe, beside pymeshlab and Open3D on the same scans.
+# usage: race-clouds.sh OUT   (the tools on PATH)   environment: SIZES ("277647 2989048"; 50000000 wants 6 GB), ROUNDS (3),
+# LIMIT (6: memory that each tool may use [GB]), PEERS (folder of the virtual environment with pymeshlab and Open3D)
+# Without SIZES, ROUNDS and LIMIT the table goes to docs/cost.md as well.
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+out=$(cd "$1" && pwd)
+whole=$([ -z "${SIZES+x}${ROUNDS+x}${LIMIT+x}" ] && echo yes || echo no)
+sizes=${SIZES:-277647 2989048} rounds=${ROUNDS:-3} limit=${LIMIT:-6} peers=${PEERS:-$here/build/peers}
+folder=$(mktemp -d "$out/race-clouds.XXXXXX")
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+
+spacing=0.005 roughness=0.001
+stages=(cloud-crop cloud-fill bluenoise-sample wallgen)
+options_cloud_crop=(--remove halfspace:0,0,0,-1,0,0)
+options_cloud_fill=()
+options_bluenoise_sample=(--spacing $spacing)
+options_wallgen=(--roughness $roughness)
+
+now() { date +%s.%N; }
+median() { sort -g | awk '{ a[NR] = $1 } END { print NR % 2 ? a[(NR + 1) / 2] : (a[NR / 2] + a[NR / 2 + 1]) / 2 }'; }
+field() { awk -F'[:,]' -v key="\"$2\"" '{ gsub(/ /, "", $1) } $1 == key { print $2 + 0; exit }' "$1"; }
+
+# run TOOL INPUT OUTPUT: wall seconds, processor seconds; leaves report.json. A tool that wants more memory than the limit fails.
+run() {
+    local -n options=options_${1//-/_}
+    local TIMEFORMAT='%R %U %S'
+    { (ulimit -v $((limit * 1000 * 1000)); time "$1" -q "$2" "${options[@]}" -o "$3" --report report.json); } 2> log || { cat log >&2; return 1; }
+    awk 'END { print $1, $2 + $3 }' log
+}
+
+# The whole chain by one pipe, from a file [s].
+pipe() {
+    local start; start=$(now)
+    cloud-crop -q "$1" "${options_cloud_crop[@]}" | cloud-fill -q | bluenoise-sample -q "${options_bluenoise_sample[@]}" \
+        | wallgen -q "${options_wallgen[@]}" > walls.mcap
+    awk -v a="$start" -v b="$(now)" 'BEGIN { print b - a }'
+}
+
+# Tools that only start and stop, by the same pipe [s].
+starts() {
+    local start; start=$(now)
+    cloud-crop --version | cloud-fill --version | bluenoise-sample --version | wallgen --version > /dev/null
+    awk -v a="$start" -v b="$(now)" 'BEGIN { print b - a }'
+}
+
+repeat() { local k; for ((k = 0; k < rounds; k++)); do "$@"; done | median; }
+
+line() { echo "| $1 | $2 | $3 | $4 | $5 | $6 |" | tee -a table; }
+
+ours() {
+    local size=$1 input=scan.ply tool k
+    chute-scan --points "$size" -q -o scan.ply
+    for tool in "${stages[@]}"; do
+        for ((k = 0; k < rounds; k++)); do run "$tool" "$input" "$tool.ply"; done > times
+        # The spheres go on in their own format.
+        [ "$tool" = wallgen ] && for ((k = 0; k < rounds; k++)); do run wallgen "$input" walls.mcap; done > times
+        line "$size" "$tool" "$(cut -d' ' -f1 times | median)" "$(cut -d' ' -f2 times | median)" \
+            "$(awk -v b="$(field report.json peak_memory_bytes)" 'BEGIN { printf "%.2f", b / 1e9 }')" "$(came_out "$tool")"
+        input=$tool.ply
+    done
+    whole_pipe=$(repeat pipe scan.ply) start=$(repeat starts)
+    line "$size" "**the chain, one pipe**" "$(printf %.3f "$whole_pipe")" "–" "–" "$kept"
+    line "$size" "of that, starting four processes" "$(printf %.3f "$start")" "–" "–" "–"
+}
+
+came_out() {
+    case $1 in
+        wallgen) kept=$(field report.json spheres) && echo "$kept" ;;
+        bluenoise-sample) field report.json points_after ;;
+        *) field report.json points_out ;;
+    esac
+}
+
+peer() {
+    local size=$1 module=$2 what=$3 missing="is left out: make -C pipelines peers installs it"
+    if ! "$peers/bin/python" -c "import $module" 2> /dev/null; then echo "$module $missing" | tee -a remarks; return; fi
+    "$peers/bin/python" "$here/peers/cloud-peers.py" cloud-fill.ply "$kept" "$what" 2> /dev/null | grep '|' > peer || {
+        echo "$module failed on $size points" | tee -a remarks; return; }
+    while IFS='|' read -r name seconds count; do line "$size" "$name" "$seconds" "–" "–" "$count"; done < peer
+}
+
+touch table remarks
+echo "load before: $(cut -d' ' -f1 /proc/loadavg 2> /dev/null || echo unknown) (an idle machine is below 0.3)"
+head='| points | work | seconds | processor seconds | peak memory [GB] | points or faces out |
+|---|---|---|---|---|---|'
+echo "$head"
+for size in $sizes; do
+    ours "$size"
+    [ "$size" -gt 5000000 ] || peer "$size" pymeshlab thin
+    [ "$size" -gt 500000 ] || peer "$size" open3d surface
+done
+
+words() {
+    echo "Medians of $rounds rounds on $(nproc) cores; each tool reads and writes files here, and may use $limit GB. The scans are those of"
+    echo "\`chute-scan\`, thinned to $spacing m, with a roughness of $roughness m. pymeshlab thins to the number that came out of bluenoise-sample;"
+    echo "its time and Open3D's are of the step alone, without start and, but where it says so, reading."
+    sort -u remarks | sed 's/^/- /'
+}
+words | tee words
+
+page=$here/../docs/cost.md
+if [ "$whole" = yes ] && grep -q 'race-clouds begins' "$page"; then
+    { echo "$head"; cat table; echo; cat words; } > new
+    awk '/<!-- race-clouds begins -->/ { print; print ""; while ((getline line < "new") > 0) print line; print ""; skip = 1 }
+        /<!-- race-clouds ends -->/ { skip = 0 } !skip' "$page" > page
+    cp page "$page"
+    echo "written to docs/cost.md"
+fi
