@@ -173,7 +173,8 @@ fn hertz_impact() {
             };
             deepest = deepest.max(delta);
             let now = p[0].velocity.x;
-            let push = before.map_or(0.0, |b: f64| (now - b) / sim.dt() * mass(impact.radius, impact.material.2));
+            let push =
+                before.map_or(0.0, |b: f64| (now - b) / sim.dt() * mass(impact.radius, impact.material.2));
             strongest = strongest.max(push);
             before = Some(now);
             inside += if delta > 0.0 { sim.dt() } else { 0.0 };
