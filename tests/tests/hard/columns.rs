@@ -6,7 +6,7 @@ use dem::mass;
 use dem::setup::*;
 use geom::{Plane, Vec3};
 use grainpipe_tests::findings::{Case, case};
-use grainpipe_tests::setups::{HOOKE, empty, grain, plane, run_until, with_friction};
+use grainpipe_tests::setups::{grain, plane, run_until, with_friction};
 
 const COLUMN: Case =
     case("Rest and extremes", "a column of 200 spheres: each contact bears the weight above it");
@@ -64,8 +64,8 @@ fn each_contact_of_a_column_with_cohesion_or_in_mixed_precision_bears_what_is_ab
 const WIDTH: f64 = 0.1;
 
 /// A silo with square section, filled with so many layers of 25 grains; its base sinks a little, so that walls hold what they can.
-fn silo(law: Law, layers: u32) -> (f64, f64) {
-    let mut setup = with_friction(empty(law, 0.3), 0.5);
+fn silo(variant: &Variant, layers: u32) -> (f64, f64) {
+    let mut setup = with_friction(variant.smooth(0.3), 0.5);
     setup.contacts.iter_mut().for_each(|c| c.rolling_resistance = Some(0.1));
     setup.gravity.z = -9.81;
     setup.step = Step::Auto(0.8);
@@ -107,8 +107,9 @@ fn silo(law: Law, layers: u32) -> (f64, f64) {
 
 /// Janssen (1895): F = F∞ (1 − e^(−W/F∞)) on the base under a weight W, with one number F∞ = w A/(K μ U): w weight of a metre of
 /// fill, A and U area and circumference, K lateral over vertical stress.
-fn bears_by_its_walls(name: &str, law: Law) {
-    let points: Vec<(f64, f64)> = [2, 5, 10, 16, 24].map(|layers| silo(law, layers)).to_vec();
+fn bears_by_its_walls(variant: &Variant) {
+    let name = &variant.name();
+    let points: Vec<(f64, f64)> = [2, 5, 10, 16, 24].map(|layers| silo(variant, layers)).to_vec();
     let off = |most: f64| -> f64 {
         points.iter().map(|(w, f)| (f - most * (1.0 - (-w / most).exp())).powi(2)).sum()
     };
@@ -122,12 +123,25 @@ fn bears_by_its_walls(name: &str, law: Law) {
     assert!((0.15..0.7).contains(&lateral), "{name}: K = {lateral}");
 }
 
-#[test]
-fn a_tall_silo_bears_by_its_walls_with_the_linear_law() {
-    bears_by_its_walls("hooke", HOOKE);
+fn silos(wanted: impl Fn(&Variant) -> bool, holds: impl Fn(&Variant)) {
+    variants().iter().filter(|v| wanted(v)).for_each(holds);
 }
 
 #[test]
-fn a_tall_silo_bears_by_its_walls_with_hertzs_law() {
-    bears_by_its_walls("hertz", Law::Hertz);
+fn a_tall_silo_bears_by_its_walls() {
+    silos(|v| !v.adheres() && !v.mixed(), bears_by_its_walls);
+}
+
+#[test]
+fn a_tall_silo_bears_by_its_walls_in_mixed_precision() {
+    silos(|v| v.mixed(), bears_by_its_walls);
+}
+
+/// Janssen's curve is that of grains that do not adhere; what saturates it, friction at the walls, is there with adhesion, too.
+#[test]
+fn a_tall_silo_of_grains_that_adhere_saturates() {
+    silos(Variant::adheres, |variant| {
+        let [(w, f), (heaviest, largest)] = [16, 24].map(|layers| silo(variant, layers));
+        SATURATES.within(&variant.name(), (largest - f) / (heaviest - w), "of its weight", 0.3);
+    });
 }
