@@ -1,8 +1,10 @@
 //! Crop: which points stay.
 //!
-//! A point stays when it is in some `keep` (or none is given) and in no `remove`; of those, isolated points
-//! and small parts go when asked.
+//! A point stays when it is in some `keep` (or none is given) and in no `remove`; of those, what lies beyond the outer shape,
+//! isolated points and small parts go when asked.
 
+use crate::outer::{self, Beyond, Outer};
+use crate::regions::{Action, Region};
 use crate::{Cloud, largest, outliers};
 use geom::{Shape, Vec3};
 use rayon::prelude::*;
@@ -18,6 +20,10 @@ pub struct Rules {
     pub keep: Vec<Shape>,
     /// Remove the points of these shapes.
     pub remove: Vec<Shape>,
+    /// Named regions to keep and to remove; they count as the shapes above do.
+    pub regions: Vec<Region>,
+    /// Remove what lies beyond the outer shape, when one is described.
+    pub outer: Outer,
     /// Remove points far from their neighbours.
     pub outliers: Option<outliers::Outliers>,
     /// Keep only the largest part whose points are connected by steps of at most this [m].
@@ -25,7 +31,7 @@ pub struct Rules {
 }
 
 /// What was kept and why not.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Cropped {
     /// Points that came in.
     pub points_in: usize,
@@ -33,6 +39,12 @@ pub struct Cropped {
     pub not_finite: usize,
     /// Points that the shapes took away.
     pub outside_shapes: usize,
+    /// Points of each named region, whatever the other rules make of them.
+    pub regions: Vec<InRegion>,
+    /// Points beyond the outer shape.
+    pub beyond_outer: usize,
+    /// The parts that they make up, when an outer shape is described.
+    pub beyond: Option<Beyond>,
     /// Points far from their neighbours.
     pub outliers: usize,
     /// Points of smaller parts.
@@ -41,13 +53,26 @@ pub struct Cropped {
     pub points_out: usize,
 }
 
+/// Points of a named region.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct InRegion {
+    /// Its name.
+    pub name: String,
+    /// What is done with them.
+    pub action: Action,
+    /// How many.
+    pub points: usize,
+}
+
 /// The points that stay, in their order, with all their properties.
 pub fn crop(cloud: &Cloud, rules: &Rules) -> (Cloud, Cropped) {
     let points = &cloud.points;
     let is_finite = |p: &Vec3| p.x.is_finite() && p.y.is_finite() && p.z.is_finite();
+    let of = |action: Action| rules.regions.iter().filter(move |r| r.action == action).map(|r| &r.shape);
+    let keep: Vec<&Shape> = rules.keep.iter().chain(of(Action::Keep)).collect();
+    let remove: Vec<&Shape> = rules.remove.iter().chain(of(Action::Remove)).collect();
     let in_shapes = |p: &Vec3| {
-        (rules.keep.is_empty() || rules.keep.iter().any(|s| s.contains(p)))
-            && !rules.remove.iter().any(|s| s.contains(p))
+        (keep.is_empty() || keep.iter().any(|s| s.contains(p))) && !remove.iter().any(|s| s.contains(p))
     };
     let judged: Vec<(Vec<u32>, usize)> = points
         .par_chunks(CHUNK)
@@ -63,6 +88,14 @@ pub fn crop(cloud: &Cloud, rules: &Rules) -> (Cloud, Cropped) {
     let mut rows: Vec<u32> = judged.into_iter().flat_map(|(rows, _)| rows).collect();
     let mut report = Cropped { points_in: points.len(), not_finite, ..Cropped::default() };
     report.outside_shapes = points.len() - not_finite - rows.len();
+    report.regions = rules.regions.iter().map(|region| count(points, region)).collect();
+    if !rules.outer.shapes.is_empty() {
+        let some: Vec<Vec3> = rows.iter().map(|&r| points[r as usize]).collect();
+        let beyond = outer::beyond(&some, &rules.outer);
+        report.beyond_outer = beyond.rows.len();
+        rows = without(rows, &beyond.rows);
+        report.beyond = Some(beyond);
+    }
     if let Some(rule) = &rules.outliers {
         let before = rows.len();
         rows = refine(points, rows, |p| outliers::inliers(p, rule));
@@ -76,6 +109,18 @@ pub fn crop(cloud: &Cloud, rules: &Rules) -> (Cloud, Cropped) {
     report.points_out = rows.len();
     let all = rows.len() == points.len();
     (if all { cloud.clone() } else { cloud.select(&rows) }, report)
+}
+
+fn count(points: &[Vec3], region: &Region) -> InRegion {
+    let inside = points.par_iter().filter(|p| region.shape.contains(p)).count();
+    InRegion { name: region.name.clone(), action: region.action, points: inside }
+}
+
+/// The rows without those at the given ascending places.
+fn without(rows: Vec<u32>, places: &[u32]) -> Vec<u32> {
+    let mut gone = places.iter().copied().peekable();
+    let all = (0..).zip(rows);
+    all.filter_map(|(place, row): (u32, u32)| gone.next_if_eq(&place).is_none().then_some(row)).collect()
 }
 
 /// The rows that `choose` picks from the points of `rows`.

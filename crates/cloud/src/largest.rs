@@ -10,6 +10,15 @@ pub fn largest(points: &[Vec3], radius: f64) -> Vec<u32> {
     if points.is_empty() || !(radius > 0.0 && radius.is_finite()) {
         return Vec::new();
     }
+    most_common(&parts(points, radius))
+}
+
+/// For each of the finite `points` [m] the number of its part, below that of the points; a radius [m] that is not positive leaves
+/// each point alone.
+pub fn parts(points: &[Vec3], radius: f64) -> Vec<u32> {
+    if points.is_empty() || !(radius > 0.0 && radius.is_finite()) {
+        return (0..points.len() as u32).collect();
+    }
     // A little less, so that rounding cannot part the corners of a cell.
     let grid = Grid::new(points, radius / 3f64.sqrt() * (1.0 - 1e-9));
     let cells = Cells::new(points, &grid);
@@ -32,7 +41,7 @@ pub fn largest(points: &[Vec3], radius: f64) -> Vec<u32> {
     }
     let mut part_of = vec![0u32; points.len()];
     grid.order().iter().zip(&sorted_parts).for_each(|(&i, &part)| part_of[i as usize] = part);
-    most_common(&part_of)
+    part_of
 }
 
 /// Rows that hold the most common value.
@@ -157,7 +166,8 @@ mod tests {
         let mut points: Vec<Vec3> = (0..50).map(|i| Vec3::new(0.1 * i as f64, 0.0, 0.0)).collect();
         points.push(Vec3::new(1e9, 0.0, 0.0));
         assert_eq!(largest(&points, 0.11).len(), 50);
-        assert!(largest(&[], 1.0).is_empty());
+        assert!(largest(&[], 1.0).is_empty() && parts(&[], 1.0).is_empty());
+        assert_eq!(parts(&points[..3], 0.0), [0, 1, 2]);
         assert_eq!(largest(&[Vec3::zeros(); 9], 1.0).len(), 9);
     }
 }

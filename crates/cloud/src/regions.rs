@@ -1,16 +1,18 @@
 //! Named regions of a plant, kept in a file so that every scan of it is cropped alike.
 //!
 //! ```toml
+//! tolerance = 0.02                  # m, of the outer shape; 0 when absent
+//!
 //! [[region]]
 //! name = "mounting"
 //! shape = "box:-1,-1,-1,0,1,1"      # as on the command line; files are sought beside this one
-//! action = "remove"                 # or "keep"
+//! action = "remove"                 # or "keep", or "outer": a piece of the outer shape of the equipment
 //! ```
 
 use crate::crop::Rules;
 use geom::Shape;
 use geom::shape::ShapeError;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::path::Path;
 use thiserror::Error;
 
@@ -28,28 +30,49 @@ pub enum RegionsError {
     },
     #[error("two regions are called '{0}': give each its own name")]
     Twice(String),
+    #[error("region '{0}': an outer shape encloses the equipment: leave the ! in front of it out")]
+    OuterOutside(String),
+    #[error("tolerance {0} m: must be a length, 0 or more")]
+    Tolerance(f64),
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
+    tolerance: Option<f64>,
     #[serde(default)]
-    region: Vec<Region>,
+    region: Vec<Entry>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Region {
+struct Entry {
     name: String,
     shape: String,
     action: Action,
 }
 
-#[derive(Deserialize, PartialEq)]
+/// What is done with the points of a region.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "lowercase")]
-enum Action {
+pub enum Action {
+    /// They stay, and what is in no such region goes.
     Keep,
+    /// They go.
     Remove,
+    /// They belong to the equipment.
+    Outer,
+}
+
+/// A named part of the plant.
+#[derive(Debug, Clone)]
+pub struct Region {
+    /// Name.
+    pub name: String,
+    /// Where.
+    pub shape: Shape,
+    /// What is done with its points.
+    pub action: Action,
 }
 
 /// Adds the regions of a TOML `text` to the rules; files named in it are sought in `folder`.
@@ -62,14 +85,23 @@ pub fn add_regions(rules: &mut Rules, text: &str, folder: &Path) -> Result<usize
         let message = e.message().replace('`', "'");
         RegionsError::Toml { line: 1 + before.matches('\n').count(), message }
     })?;
+    if let Some(tolerance) = file.tolerance {
+        if !(tolerance >= 0.0 && tolerance.is_finite()) {
+            return Err(RegionsError::Tolerance(tolerance));
+        }
+        rules.outer.tolerance = tolerance;
+    }
     for (i, region) in file.region.iter().enumerate() {
         if file.region[..i].iter().any(|r| r.name == region.name) {
             return Err(RegionsError::Twice(region.name.clone()));
         }
         let shape = Shape::parse(&beside(&region.shape, folder), &mesh::load);
         let shape = shape.map_err(|source| RegionsError::Shape { name: region.name.clone(), source })?;
-        let list = if region.action == Action::Keep { &mut rules.keep } else { &mut rules.remove };
-        list.push(shape);
+        match region.action {
+            Action::Outer if shape.outside => return Err(RegionsError::OuterOutside(region.name.clone())),
+            Action::Outer => rules.outer.shapes.push(shape),
+            action => rules.regions.push(Region { name: region.name.clone(), shape, action }),
+        }
     }
     Ok(file.region.len())
 }
@@ -106,10 +138,18 @@ mod tests {
             [[region]]
             name = "bolt"
             shape = "sphere:0,0,0,0.1"
-            action = "remove""#;
+            action = "remove"
+            [[region]]
+            name = "all of it"
+            shape = "cone:0,0,0,0,0,1,1,0.5"
+            action = "outer""#;
         let mut rules = Rules::default();
-        assert_eq!(add_regions(&mut rules, text, Path::new(".")).unwrap(), 2);
-        assert!(rules.keep[0].contains(&Vec3::repeat(0.5)) && rules.remove[0].contains(&Vec3::zeros()));
+        let text = format!("tolerance = 0.01\n{text}");
+        assert_eq!(add_regions(&mut rules, &text, Path::new(".")).unwrap(), 3);
+        let [chute, bolt] = &rules.regions[..] else { panic!("{:?}", rules.regions) };
+        assert!(chute.shape.contains(&Vec3::repeat(0.5)) && chute.action == Action::Keep);
+        assert!(bolt.shape.contains(&Vec3::zeros()) && bolt.name == "bolt");
+        assert_eq!((rules.outer.shapes.len(), rules.outer.tolerance), (1, 0.01));
     }
 
     #[test]
@@ -118,6 +158,8 @@ mod tests {
             ("[[region]]\nname = 'a'\nshape = 'ball:1'\naction = 'keep'", "'a'"),
             ("[[region]]\nname = 'a'\nshape = 'sphere:0,0,0,1'\naction = 'drop'", "drop"),
             ("[[regoin]]", "regoin"),
+            ("tolerance = -1", "tolerance -1 m"),
+            ("[[region]]\nname = 'a'\nshape = '!sphere:0,0,0,1'\naction = 'outer'", "leave the !"),
             (
                 "[[region]]\nname = 'a'\nshape = 'sphere:0,0,0,1'\naction = 'keep'\n[[region]]\nname = 'a'\nshape = 'sphere:0,0,0,1'\naction = 'keep'",
                 "two regions",

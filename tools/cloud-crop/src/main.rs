@@ -1,5 +1,7 @@
 //! Keeps or removes the points of a cloud that lie inside given shapes.
 
+mod words;
+
 use anyhow::Context;
 use clap::Parser;
 use cli::Report;
@@ -10,8 +12,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 const SHAPES: &str = "SHAPE: box:x0,y0,z0,x1,y1,z1 | sphere:x,y,z,r | cylinder:x0,y0,z0,x1,y1,z1,r | \
-    halfspace:px,py,pz,nx,ny,nz (the side n points to) | prism:FILE.json | mesh:FILE; \
-    a ! in front means outside. All in metres.";
+    cone:x0,y0,z0,x1,y1,z1,r0,r1 | halfspace:px,py,pz,nx,ny,nz (the side n points to) | prism:FILE.json | mesh:FILE; \
+    a ! in front means outside. All in metres.\n\nWith --check: exit 0 when nothing is to be removed, 3 when there is a part beyond \
+    the outer shape.";
 
 /// Keep or remove points of a cloud by shapes, isolation and connectedness
 #[derive(Parser)]
@@ -30,6 +33,15 @@ struct Args {
     /// Named regions to keep and to remove
     #[arg(long, value_name = "FILE.toml")]
     regions: Option<PathBuf>,
+    /// Remove what lies beyond the outer shape of the equipment (repeat: it is all of them together), and tell which parts that are
+    #[arg(long, value_name = "SHAPE", value_parser = outer_shape)]
+    outer: Vec<Shape>,
+    /// How far beyond the outer shape a point may be and still belong to the equipment [m]
+    #[arg(long, value_name = "M", value_parser = not_negative)]
+    tolerance: Option<f64>,
+    /// Only tell whether there is a part beyond the outer shape: a line for each to stdout, no cloud
+    #[arg(long, conflicts_with_all = ["output", "ascii", "outliers", "largest"])]
+    check: bool,
     /// Remove points whose mean distance to K neighbours is SIGMA deviations above the mean
     #[arg(long, value_name = "K,SIGMA")]
     outliers: Option<Outliers>,
@@ -44,25 +56,60 @@ fn main() -> ExitCode {
 
 fn crop(args: Args) -> anyhow::Result<Report> {
     check_ending(&args.output.to)?;
-    let mut rules =
-        Rules { keep: args.keep, remove: args.remove, outliers: args.outliers, largest: args.largest };
+    let rules = rules(&args)?;
+    let cloud = args.input.read_cloud()?;
+    let (kept, counts) = cloud::crop(&cloud, &rules);
+    words::warn(&counts);
+    let mut report = Report::new(words::summary(&counts)).with_all(&counts);
+    report = report.with("tolerance", rules.outer.tolerance);
+    if args.check {
+        return words::checked(&counts, report);
+    }
+    words::parts(&counts);
+    args.output.write_cloud(&kept)?;
+    Ok(report)
+}
+
+fn rules(args: &Args) -> anyhow::Result<Rules> {
+    let mut rules = Rules {
+        keep: args.keep.clone(),
+        remove: args.remove.clone(),
+        outliers: args.outliers,
+        largest: args.largest,
+        ..Rules::default()
+    };
     if let Some(file) = &args.regions {
         let text =
             std::fs::read_to_string(file).with_context(|| format!("{}: cannot read", file.display()))?;
         let folder = file.parent().unwrap_or(Path::new(""));
         cloud::regions::add_regions(&mut rules, &text, folder).with_context(|| file.display().to_string())?;
     }
-    let cloud = args.input.read_cloud()?;
-    let (kept, counts) = cloud::crop(&cloud, &rules);
-    if counts.not_finite > 0 {
-        cli::warn(&format!("{} points without finite coordinates were dropped", counts.not_finite));
+    rules.outer.shapes.extend(args.outer.iter().cloned());
+    rules.outer.tolerance = args.tolerance.unwrap_or(rules.outer.tolerance);
+    if rules.outer.shapes.is_empty() && (args.check || args.tolerance.is_some()) {
+        let option = if args.check { "--check" } else { "--tolerance" };
+        return Err(cli::usage(format!(
+            "{option}: no outer shape is described: give --outer SHAPE, or --regions FILE.toml with action = \"outer\""
+        )));
     }
-    if counts.points_out == 0 && counts.points_in > 0 {
-        cli::warn("no point is left: check the shapes against the coordinates of the cloud");
+    Ok(rules)
+}
+
+fn outer_shape(text: &str) -> Result<Shape, String> {
+    match cloud::shape(text) {
+        Ok(shape) if shape.outside => {
+            Err("an outer shape encloses the equipment: leave the ! in front of it out".to_owned())
+        }
+        Ok(shape) => Ok(shape),
+        Err(why) => Err(why.to_string()),
     }
-    args.output.write_cloud(&kept)?;
-    let summary = format!("{} of {} points kept", counts.points_out, counts.points_in);
-    Ok(Report::new(summary).with_all(&counts))
+}
+
+fn not_negative(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value >= 0.0 && value.is_finite() => Ok(value),
+        _ => Err("give a length in metres, 0 or more".into()),
+    }
 }
 
 fn positive(text: &str) -> Result<f64, String> {

@@ -1,0 +1,86 @@
+//! What is told of a crop.
+
+use anyhow::Context;
+use cli::Report;
+use cloud::crop::Cropped;
+use cloud::outer::Part;
+use geom::Shown;
+use std::io::Write;
+
+/// Parts that are told one by one.
+const TOLD: usize = 8;
+
+/// What looks like a mistake.
+pub fn warn(counts: &Cropped) {
+    if counts.not_finite > 0 {
+        cli::warn(&format!("{} points without finite coordinates were dropped", counts.not_finite));
+    }
+    for region in counts.regions.iter().filter(|region| region.points == 0) {
+        cli::warn(&format!(
+            "region '{}' holds no point: check it against the coordinates of the cloud",
+            region.name
+        ));
+    }
+    if counts.points_out == 0 && counts.points_in > 0 {
+        cli::warn("no point is left: check the shapes against the coordinates of the cloud");
+    }
+}
+
+/// One line.
+pub fn summary(counts: &Cropped) -> String {
+    let kept = format!("{} of {} points kept", counts.points_out, counts.points_in);
+    match &counts.beyond {
+        Some(beyond) if counts.beyond_outer > 0 => {
+            let (parts, stray) = (beyond.parts.len(), beyond.stray);
+            let plural = if parts == 1 { "" } else { "s" };
+            format!(
+                "{kept}; beyond the outer shape: {} points, {parts} part{plural} and {stray} stray points",
+                counts.beyond_outer
+            )
+        }
+        Some(_) => format!("{kept}; nothing is beyond the outer shape"),
+        None => kept,
+    }
+}
+
+/// The parts that were removed, each in a line.
+pub fn parts(counts: &Cropped) {
+    let Some(beyond) = counts.beyond.as_ref().filter(|_| !cli::quiet()) else { return };
+    for (number, part) in (1..).zip(beyond.parts.iter().take(TOLD)) {
+        eprintln!("cloud-crop: part {number}: {}", told(part));
+    }
+    if beyond.parts.len() > TOLD {
+        eprintln!("cloud-crop: and {} smaller parts, see --report", beyond.parts.len() - TOLD);
+    }
+}
+
+fn told(part: &Part) -> String {
+    let place = |p: [f64; 3]| p.map(|c| Shown(c).to_string()).join(",");
+    let (low, high) = (place(part.low), place(part.high));
+    format!(
+        "{} points up to {} m beyond the outer shape, in box:{low},{high}",
+        part.points,
+        Shown(part.beyond)
+    )
+}
+
+/// The answer of `--check`: a table of the parts, and exit code 3 when there is one.
+pub fn checked(counts: &Cropped, report: Report) -> anyhow::Result<Report> {
+    let parts = counts.beyond.as_ref().map_or(&[][..], |beyond| &beyond.parts);
+    let mut table = String::from("part,points,x0,y0,z0,x1,y1,z1,beyond\n");
+    for (number, part) in (1..).zip(parts) {
+        let corners = part.low.into_iter().chain(part.high).map(|c| c.to_string());
+        let corners = corners.collect::<Vec<String>>().join(",");
+        table += &format!("{number},{},{corners},{}\n", part.points, part.beyond);
+    }
+    std::io::stdout().lock().write_all(table.as_bytes()).context("stdout")?;
+    match parts {
+        [] => Ok(report),
+        [first, ..] => {
+            let plural =
+                if parts.len() == 1 { "1 part is".to_owned() } else { format!("{} parts are", parts.len()) };
+            let reason = format!("{plural} beyond the outer shape; the largest: {}", told(first));
+            Err(cli::Stopped::error(reason, Some(report)))
+        }
+    }
+}
