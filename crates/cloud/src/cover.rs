@@ -4,8 +4,11 @@ use crate::holes::{CELLS, GROW, Hole};
 use crate::patch::ThinPlate;
 use crate::pivot::pivot;
 use crate::raster::Raster;
+use crate::volume;
 use geom::Vec3;
+use serde::Serialize;
 use std::collections::HashMap;
+use std::str::FromStr;
 
 /// Most places that a thin plate is fitted to: it costs their number cubed.
 const MOST_PLACES: usize = 250;
@@ -16,13 +19,38 @@ const RING: f64 = 3.0 * CELLS;
 /// Share of the open cells that a mesh must cover.
 const CLOSED: f64 = 0.95;
 
+/// How a hole is meshed.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Mesher {
+    /// A ball rolls over the hole; the surface of least bending.
+    #[default]
+    BallPivoting,
+    /// Signed distances that are diffused; the surface of a membrane.
+    Volumetric,
+}
+
+impl FromStr for Mesher {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Mesher, String> {
+        match text {
+            "ball-pivoting" => Ok(Mesher::BallPivoting),
+            "volumetric" => Ok(Mesher::Volumetric),
+            _ => Err(format!("'{text}' is not ball-pivoting or volumetric")),
+        }
+    }
+}
+
 /// A meshed hole.
 pub(crate) struct Cover {
     /// Cells that may get points.
     pub mask: Vec<bool>,
-    /// Corners: rows of the cloud and their local places [m].
+    /// Scanned points around the hole: rows of the cloud and their local places [m].
     pub corners: Vec<(u32, Vec3)>,
-    /// Triangles over `corners`.
+    /// Local places of the mesh's vertices [m].
+    pub places: Vec<Vec3>,
+    /// Triangles over `places`.
     pub faces: Vec<[u32; 3]>,
     /// Points per area of the surroundings [1/m²].
     pub density: f64,
@@ -38,7 +66,7 @@ pub(crate) struct FallsThrough;
 
 impl Cover {
     /// Meshes a hole with balls of the given radii [m]; with growing ones of its own when none is given.
-    pub fn new(hole: &Hole, balls: &[f64]) -> Result<Cover, FallsThrough> {
+    pub fn new(hole: &Hole, mesher: Mesher, balls: &[f64]) -> Result<Cover, FallsThrough> {
         let raster = &hole.raster;
         let mask = raster.grown(&hole.open, GROW);
         let ring = raster.grown(&hole.open, GROW + RING);
@@ -46,6 +74,9 @@ impl Cover {
         let around: Vec<(u32, Vec3)> = hole.around.iter().filter(in_ring).copied().collect();
         let density = density(hole, &mask, &ring, &around).ok_or(FallsThrough)?;
         let corners = thinned(raster, &around);
+        if mesher == Mesher::Volumetric {
+            return Ok(Cover::by_volume(hole, (mask, corners), &around, density));
+        }
         // The ball rolls over the patch laid flat, where neither curvature nor noise holds it up.
         let flat: Vec<Vec3> = corners.iter().map(|(_, p)| Vec3::new(p.x, p.y, 0.0)).collect();
         let own = own_balls(hole);
@@ -59,7 +90,34 @@ impl Cover {
         let covered = covered(hole, &flat, &faces);
         let heights = Heights::new(hole, &mask, &around);
         let ball = balls.iter().copied().fold(0.0, f64::max);
-        Ok(Cover { mask, corners, faces, density, ball, covered, heights })
+        let places = corners.iter().map(|c| c.1).collect();
+        Ok(Cover { mask, corners, places, faces, density, ball, covered, heights })
+    }
+
+    /// A mesh of two triangles a cell, at the heights where the diffused field is zero.
+    fn by_volume(
+        hole: &Hole,
+        (mask, corners): (Vec<bool>, Vec<(u32, Vec3)>),
+        around: &[(u32, Vec3)],
+        density: f64,
+    ) -> Cover {
+        let raster = &hole.raster;
+        let (first, side) = Heights::window(raster, &mask);
+        let nodes = volume::heights(hole, around, first, side);
+        let corner = |i: usize| i as f64 * raster.cell - raster.half;
+        let place = |n: usize| {
+            let (u, v) = (corner(first.0 + n % side.0), corner(first.1 + n / side.0));
+            Vec3::new(u, v, hole.surface.height(u, v) + nodes[n])
+        };
+        let places = (0..nodes.len()).map(place).collect();
+        let mut faces = Vec::new();
+        for cell in (0..raster.len()).filter(|&cell| mask[cell]) {
+            let n = (cell / raster.side - first.1) * side.0 + cell % raster.side - first.0;
+            let [a, b, c, d] = [n, n + 1, n + 1 + side.0, n + side.0].map(|n| n as u32);
+            faces.extend([[a, b, c], [a, c, d]]);
+        }
+        let heights = Heights { raster: *raster, first, side, nodes };
+        Cover { mask, corners, places, faces, density, ball: 0.0, covered: 1.0, heights }
     }
 
     /// Whether the mesh leaves no hole in the hole.
@@ -74,7 +132,7 @@ impl Cover {
 
     /// Local corners of a face, without height [m].
     pub fn triangle(&self, face: [u32; 3]) -> [Vec3; 3] {
-        face.map(|i| self.corners[i as usize].1)
+        face.map(|i| self.places[i as usize])
     }
 }
 
@@ -151,13 +209,7 @@ struct Heights {
 impl Heights {
     fn new(hole: &Hole, mask: &[bool], around: &[(u32, Vec3)]) -> Heights {
         let raster = hole.raster;
-        let (mut lo, mut hi) = ((usize::MAX, usize::MAX), (0, 0));
-        for cell in (0..raster.len()).filter(|&cell| mask[cell]) {
-            let (x, y) = (cell % raster.side, cell / raster.side);
-            lo = (lo.0.min(x), lo.1.min(y));
-            hi = (hi.0.max(x), hi.1.max(y));
-        }
-        let side = (hi.0 + 2 - lo.0.min(hi.0), hi.1 + 2 - lo.1.min(hi.1));
+        let (lo, side) = Heights::window(&raster, mask);
         let mut scale = raster.cell * CELLS;
         let mut places = means(hole, around, scale);
         while places.len() > MOST_PLACES {
@@ -168,6 +220,17 @@ impl Heights {
         let corner = |i: usize| i as f64 * raster.cell - raster.half;
         let node = |i: usize| plate.height(corner(lo.0 + i % side.0), corner(lo.1 + i / side.0));
         Heights { raster, first: lo, side, nodes: (0..side.0 * side.1).map(node).collect() }
+    }
+
+    /// The first cell of the window that holds the mask, and its nodes along u and v.
+    fn window(raster: &Raster, mask: &[bool]) -> ((usize, usize), (usize, usize)) {
+        let (mut lo, mut hi) = ((usize::MAX, usize::MAX), (0, 0));
+        for cell in (0..raster.len()).filter(|&cell| mask[cell]) {
+            let (x, y) = (cell % raster.side, cell / raster.side);
+            lo = (lo.0.min(x), lo.1.min(y));
+            hi = (hi.0.max(x), hi.1.max(y));
+        }
+        (lo, (hi.0 + 2 - lo.0.min(hi.0), hi.1 + 2 - lo.1.min(hi.1)))
     }
 
     /// Between the four nodes around a place.

@@ -167,7 +167,8 @@ struct Near {
 impl Near {
     /// Holds the scanned points around the mask.
     fn new(hole: &Hole, cover: &Cover, cell: f64) -> Near {
-        let places: Vec<Vec3> = cover.corners.iter().map(|(_, p)| *p).collect();
+        let corners = cover.corners.iter().map(|(_, p)| *p);
+        let places: Vec<Vec3> = corners.chain(cover.places.iter().copied()).collect();
         let (lo, hi) = geom::grid::bounds(&places);
         let extent = (hi - lo).map(|e| e.max(cell));
         // At most a few million cells.

@@ -1,6 +1,6 @@
 //! Fill: finds the holes of a cloud and puts points on the surface that spans them.
 
-use crate::cover::{Cover, FallsThrough};
+use crate::cover::{Cover, FallsThrough, Mesher};
 use crate::darts::{Method, PACKING, throw};
 use crate::holes::{Hole, Search, find};
 use crate::{Cloud, density};
@@ -31,6 +31,8 @@ pub struct Settings {
     pub max_hole: Option<f64>,
     /// How points are spread.
     pub method: Method,
+    /// How holes are meshed.
+    pub mesher: Mesher,
     /// Radii of the balls that mesh a hole [m], growing; fitted to each hole when empty.
     pub balls: Vec<f64>,
     /// Seed of the random numbers.
@@ -63,6 +65,8 @@ pub struct Report {
     pub max_hole: f64,
     /// How points were spread.
     pub method: Method,
+    /// How holes were meshed.
+    pub mesher: Mesher,
     /// The holes.
     pub holes: Vec<HoleReport>,
     /// Points added.
@@ -119,6 +123,7 @@ pub fn fill(cloud: Cloud, settings: &Settings) -> Result<Filled, FillError> {
     let max_hole = settings.max_hole.unwrap_or_else(|| WIDEST * diagonal(&cloud.points));
     let mut report =
         Report { points_in, not_finite, below, max_hole, method: settings.method, ..Report::default() };
+    report.mesher = settings.mesher;
     report.below_is_automatic = settings.below.is_none();
     let holes = match below {
         Some(below) if cloud.points.len() >= density::FEWEST => {
@@ -137,7 +142,7 @@ pub fn fill(cloud: Cloud, settings: &Settings) -> Result<Filled, FillError> {
     let mut mesh = TriMesh::default();
     for patch in &patches {
         let first = mesh.vertices.len() as u32;
-        mesh.vertices.extend(patch.corners.iter().map(|&row| cloud.points[row as usize]));
+        mesh.vertices.extend(&patch.vertices);
         mesh.faces.extend(patch.faces.iter().map(|face| face.map(|i| i + first)));
     }
     let cloud = extended(cloud, &patches);
@@ -152,8 +157,8 @@ struct Patch {
     points: Vec<Vec3>,
     /// A row near each point, for the other properties.
     like: Vec<u32>,
-    /// Rows that are corners of the mesh.
-    corners: Vec<u32>,
+    /// Vertices of the mesh [m].
+    vertices: Vec<Vec3>,
     faces: Vec<[u32; 3]>,
     report: HoleReport,
 }
@@ -170,8 +175,8 @@ impl Patch {
             added: 0,
             open: true,
         };
-        let Ok(cover) = Cover::new(hole, &settings.balls).map_err(|FallsThrough| ()) else {
-            return Patch { points: vec![], like: vec![], corners: vec![], faces: vec![], report };
+        let Ok(cover) = Cover::new(hole, settings.mesher, &settings.balls).map_err(|FallsThrough| ()) else {
+            return Patch { points: vec![], like: vec![], vertices: vec![], faces: vec![], report };
         };
         // Dense enough to be as dense as the surroundings: a grid fills its plane, a Poisson disk less of it.
         let packing = if settings.method == Method::Grid { 1.0 } else { PACKING };
@@ -193,7 +198,7 @@ impl Patch {
         Patch {
             like: local.iter().map(|p| nearest(p, &cover.corners)).collect(),
             points: local.iter().map(|p| hole.frame.world(p)).collect(),
-            corners: cover.corners.iter().map(|c| c.0).collect(),
+            vertices: cover.places.iter().map(|p| hole.frame.world(p)).collect(),
             faces: cover.faces,
             report,
         }

@@ -4,20 +4,23 @@
 //! threshold D [1/m²]   given, or a quarter of the density that only the sparsest 20th of the surface is below
 //! scale     c = 1/√D   a disc of c² has one point where the density is D
 //! 1. the surface ends where the cells of width c around a place leave a gap of 100° and more (`sheet`)
-//! 2. ends are linked to loops when they are near and look the same way: across a hole or a narrow strip they do not
+//! 2. ends are linked to loops when they are near and look the same way: across a hole or a narrow strip they do not;
+//!    what is linked wider than a hole may be is looked at in overlapping boxes, each of which a hole fits in
 //! 3. each loop's surroundings are laid flat: plane, and the quadratic over it (`patch`)
 //! 4. there, cells whose window of (2.5 c)² holds at most 6.25 c² D points are open; open cells that are not
-//!    joined to the outside are a hole
+//!    joined to the outside, but by a strait, are a hole (`enclosed`)
 //! ```
 //!
 //! Step 4 decides, so that the rim of the surface, and false ends of step 1, are no holes.
 
+use crate::enclosed;
 use crate::largest::Parts;
 use crate::patch::{Frame, Quadratic};
 use crate::raster::Raster;
 use crate::sheet::{End, NOWHERE, REACH, Sheet};
 use geom::{Grid, Shape, Vec3};
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 
 /// Cells of the patch a scale.
 pub(crate) const CELLS: f64 = 2.0;
@@ -65,27 +68,40 @@ pub(crate) fn find(points: &[Vec3], search: &Search) -> Vec<Hole> {
     let cell = 1.0 / search.below.sqrt();
     let sheet = Sheet::new(points, cell);
     let ends = sheet.ends();
-    let loops = if search.regions.is_empty() {
-        loops(&sheet, &ends, search.widest)
-    } else {
-        search.regions.iter().map(|shape| ends_of(&sheet, &ends, shape)).collect()
-    };
-    let patches: Vec<Patch> = loops
-        .into_iter()
-        .enumerate()
-        .filter_map(|(i, ends)| Patch::new(&sheet, ends, search.regions.get(i)))
-        .collect();
-    let rows = gather(&sheet, &patches);
-    let found: Vec<Vec<Hole>> = patches
-        .par_iter()
-        .zip(&rows)
-        .map(|(patch, rows)| patch.holes(points, &sheet, rows, search))
-        .collect();
-    once(found.into_iter().flatten().collect())
+    if !search.regions.is_empty() {
+        let inside = search.regions.iter().map(|shape| (ends_of(&sheet, &ends, shape), Some(shape)));
+        return once(look(points, &sheet, inside.collect(), search), Vec::new());
+    }
+    let (narrow, wide) = loops(&sheet, &ends, search.widest);
+    let whole = |loops: Vec<Vec<End>>| loops.into_iter().map(|ends| (ends, None)).collect();
+    let found = look(points, &sheet, whole(narrow), search);
+    // A box of many holes lies far from the surface: what is seen there is looked at again, each in a patch of its own.
+    let seen = look(points, &sheet, whole(wide), search);
+    let seen =
+        seen.iter().filter(|hole| !found.iter().any(|known| known.overlaps(hole) || hole.overlaps(known)));
+    let near: Vec<Vec<End>> = seen.map(|hole| hole.ends(&sheet, &ends)).collect();
+    let again = look(points, &sheet, whole(near), search);
+    once(found, again)
 }
 
-/// Ends in loops no wider than `widest`, by the number of their first place.
-fn loops(sheet: &Sheet, ends: &[End], widest: f64) -> Vec<Vec<End>> {
+/// The holes among groups of ends, each in its shape where there is one.
+fn look(
+    points: &[Vec3],
+    sheet: &Sheet,
+    groups: Vec<(Vec<End>, Option<&Shape>)>,
+    search: &Search,
+) -> Vec<Hole> {
+    let patch = |(ends, shape)| Patch::new(sheet, ends, shape);
+    let patches: Vec<Patch> = groups.into_iter().filter_map(patch).collect();
+    let rows = gather(sheet, &patches);
+    let holes = |(patch, rows): (&Patch, &Vec<u32>)| patch.holes(points, sheet, rows, search);
+    let found: Vec<Vec<Hole>> = patches.par_iter().zip(&rows).map(holes).collect();
+    found.into_iter().flatten().collect()
+}
+
+/// Ends in loops no wider than a hole of width `widest` [m] has, by the number of their first place; and what hangs together farther,
+/// in boxes.
+fn loops(sheet: &Sheet, ends: &[End], widest: f64) -> (Vec<Vec<End>>, Vec<Vec<End>>) {
     let places: Vec<Vec3> = ends.iter().map(|e| sheet.places[e.place as usize]).collect();
     let reach = REACH * sheet.cell;
     let grid = Grid::new(&places, reach);
@@ -104,9 +120,28 @@ fn loops(sheet: &Sheet, ends: &[End], widest: f64) -> Vec<Vec<End>> {
     let narrow = |group: &Vec<End>| {
         let places: Vec<Vec3> = group.iter().map(|e| sheet.places[e.place as usize]).collect();
         let (lo, hi) = geom::grid::bounds(&places);
-        group.len() >= FEWEST_ENDS && (hi - lo).norm() <= 2.0 * (widest + reach)
+        (hi - lo).norm() <= 2.0 * (widest + reach)
     };
-    groups.filter(narrow).collect()
+    let (loops, wide): (Vec<_>, Vec<_>) = groups.partition(narrow);
+    (loops, wide.into_iter().flat_map(|group| boxes(sheet, group, 2.0 * (widest + 2.0 * reach))).collect())
+}
+
+/// Ends in overlapping boxes of width `side` [m]: whatever is half as wide lies whole in one of them.
+fn boxes(sheet: &Sheet, group: Vec<End>, side: f64) -> Vec<Vec<End>> {
+    let mut boxes: BTreeMap<[i64; 4], Vec<End>> = BTreeMap::new();
+    for end in group {
+        for shift in 0..8i64 {
+            let half = |a: usize| 0.5 * (shift >> a & 1) as f64;
+            let place = sheet.places[end.place as usize];
+            let [x, y, z] = [0, 1, 2].map(|a| (place[a] / side + half(a)).floor() as i64);
+            boxes.entry([shift, x, y, z]).or_default().push(end);
+        }
+    }
+    let mut all: Vec<Vec<End>> = boxes.into_values().collect();
+    // A flat surface is cut in the same way by shifts across it.
+    all.sort_by_key(|ends| ends.iter().map(|e| e.place).collect::<Vec<u32>>());
+    all.dedup_by(|a, b| a.len() == b.len() && a.iter().zip(b.iter()).all(|(a, b)| a.place == b.place));
+    all
 }
 
 /// Ends in a shape, or looking into it.
@@ -156,10 +191,12 @@ impl<'a> Patch<'a> {
         let open = self.open(&raster, &around, &surface, search);
         around.retain(|(_, p)| off(p) <= tolerance);
         let fewest = if self.shape.is_some() { 1 } else { FEWEST_CELLS };
-        let mut parts = raster.parts(open);
-        parts.retain(|part| part.len() >= fewest);
-        parts.iter_mut().for_each(|part| part.sort_unstable());
-        parts.into_iter().filter_map(|part| self.hole(part, &raster, &surface, &around, search)).collect()
+        let parts = match self.shape {
+            None => enclosed::holes(&raster, open),
+            Some(_) => raster.parts(open).into_iter().map(sorted).collect(),
+        };
+        let parts = parts.into_iter().filter(|part| part.len() >= fewest);
+        parts.filter_map(|part| self.hole(part, &raster, &surface, &around, search)).collect()
     }
 
     /// The quadratic through the places around the ends.
@@ -173,7 +210,7 @@ impl<'a> Patch<'a> {
         Quadratic::fit(&places)
     }
 
-    /// The open cells that may be filled.
+    /// The open cells; in a shape, those that may be filled.
     fn open(
         &self,
         raster: &Raster,
@@ -187,13 +224,10 @@ impl<'a> Patch<'a> {
         let most = search.below * window * window;
         let mut open: Vec<bool> =
             raster.windows(&counts, WINDOW).into_iter().map(|count| f64::from(count) <= most).collect();
-        match self.shape {
-            None => raster.drop_outside(&mut open),
-            Some(shape) => {
-                for (cell, open) in open.iter_mut().enumerate().filter(|(_, open)| **open) {
-                    let (u, v) = raster.middle(cell);
-                    *open = shape.contains(&self.frame.world(&Vec3::new(u, v, surface.height(u, v))));
-                }
+        if let Some(shape) = self.shape {
+            for (cell, open) in open.iter_mut().enumerate().filter(|(_, open)| **open) {
+                let (u, v) = raster.middle(cell);
+                *open = shape.contains(&self.frame.world(&Vec3::new(u, v, surface.height(u, v))));
             }
         }
         open
@@ -231,6 +265,11 @@ impl<'a> Patch<'a> {
     }
 }
 
+fn sorted(mut cells: Vec<usize>) -> Vec<usize> {
+    cells.sort_unstable();
+    cells
+}
+
 /// Rows of the points near each patch.
 fn gather(sheet: &Sheet, patches: &[Patch]) -> Vec<Vec<u32>> {
     let near: Vec<Vec<u32>> = patches
@@ -257,11 +296,12 @@ fn gather(sheet: &Sheet, patches: &[Patch]) -> Vec<Vec<u32>> {
         .collect()
 }
 
-/// Each hole once: two patches may both see it, the smaller one better.
-fn once(mut holes: Vec<Hole>) -> Vec<Hole> {
+/// Each hole once: two patches may both see it, the smaller one better; and then those of `others` that are not among them.
+fn once(mut holes: Vec<Hole>, mut others: Vec<Hole>) -> Vec<Hole> {
     holes.sort_by(|a, b| a.raster.half.total_cmp(&b.raster.half));
+    others.sort_by(|a, b| a.raster.half.total_cmp(&b.raster.half));
     let mut kept: Vec<Hole> = Vec::new();
-    for hole in holes {
+    for hole in holes.into_iter().chain(others) {
         if !kept.iter().any(|other| other.overlaps(&hole)) {
             kept.push(hole);
         }
@@ -270,6 +310,13 @@ fn once(mut holes: Vec<Hole>) -> Vec<Hole> {
 }
 
 impl Hole {
+    /// The ends of the surface around it.
+    fn ends(&self, sheet: &Sheet, ends: &[End]) -> Vec<End> {
+        let reach = 0.5 * self.width + REACH * sheet.cell;
+        let near = |end: &&End| (sheet.places[end.place as usize] - self.centre).norm() <= reach;
+        ends.iter().filter(near).copied().collect()
+    }
+
     /// Area of the open cells, laid flat [m²].
     pub fn area(&self) -> f64 {
         self.open.len() as f64 * self.raster.cell * self.raster.cell

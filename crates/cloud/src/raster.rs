@@ -60,7 +60,7 @@ impl Raster {
     }
 
     /// Neighbours of a cell: four that share a side, or all eight.
-    fn beside(&self, cell: usize, corners: bool) -> impl Iterator<Item = usize> {
+    pub fn beside(&self, cell: usize, corners: bool) -> impl Iterator<Item = usize> {
         const STEPS: [(i64, i64); 8] = [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)];
         let (x, y, side) = ((cell % self.side) as i64, (cell / self.side) as i64, self.side as i64);
         STEPS[..if corners { 8 } else { 4 }].iter().filter_map(move |(dx, dy)| {
@@ -70,7 +70,7 @@ impl Raster {
     }
 
     /// The cells of `open` that are reached from `start` without leaving `open`; taken out of it.
-    fn flood(&self, open: &mut [bool], start: usize, corners: bool) -> Vec<usize> {
+    pub fn flood(&self, open: &mut [bool], start: usize, corners: bool) -> Vec<usize> {
         let mut reached = vec![start];
         open[start] = false;
         let mut next = 0;

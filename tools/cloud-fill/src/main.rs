@@ -2,8 +2,8 @@
 
 use clap::Parser;
 use cli::Report;
-use cloud::Method;
 use cloud::fill::Settings;
+use cloud::{Mesher, Method};
 use geom::Shape;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -37,6 +37,9 @@ struct Args {
     /// How added points are spread: blue-noise, random or grid
     #[arg(long, value_name = "METHOD", default_value = "blue-noise")]
     fill: Method,
+    /// How holes are meshed: ball-pivoting, or volumetric (signed distances, diffused)
+    #[arg(long, value_name = "METHOD", default_value = "ball-pivoting")]
+    method: Mesher,
     /// Radii of the balls that mesh a hole [m], growing (default: fitted to each hole)
     #[arg(long, value_name = "M,…", value_delimiter = ',', value_parser = positive)]
     ball: Vec<f64>,
@@ -61,6 +64,7 @@ fn fill(args: Args) -> anyhow::Result<Report> {
         regions: args.region,
         max_hole: args.max_hole,
         method: args.fill,
+        mesher: args.method,
         balls,
         seed: args.seed.seed,
     };
