@@ -123,11 +123,18 @@ mod tests {
             let told = closer_than(&two, 1.0).unwrap();
             assert!((told.apart / apart - 1.0).abs() < 0.25 && told.share > 0.3, "{apart}: {told:?}");
         }
-        assert_eq!(closer_than(&sheet(|_, _, chance| if chance < 0.5 { 0.0 } else { 1.6 }), 1.0), None, "wide enough");
+        assert_eq!(
+            closer_than(&sheet(|_, _, chance| if chance < 0.5 { 0.0 } else { 1.6 }), 1.0),
+            None,
+            "wide enough"
+        );
         assert_eq!(closer_than(&sheet(|_, _, _| 0.0), 1.0), None);
         assert_eq!(closer_than(&sheet(|_, _, chance| chance), 1.0), None, "rough");
         assert_eq!(closer_than(&sheet(|x, _, chance| (x - 15.0).abs() + 0.1 * chance), 1.0), None, "an edge");
-        assert_eq!(closer_than(&sheet(|x, _, chance| f64::from(u8::from(x > 15.0)) * 0.8 + 0.05 * chance), 1.0), None);
+        assert_eq!(
+            closer_than(&sheet(|x, _, chance| f64::from(u8::from(x > 15.0)) * 0.8 + 0.05 * chance), 1.0),
+            None
+        );
         assert_eq!(closer_than(&sheet(|x, y, _| 0.05 * (x * x - y * y)), 1.0), None, "bent");
     }
 }

@@ -28,7 +28,9 @@ use thiserror::Error;
 #[derive(Debug, Error, Clone, PartialEq)]
 #[allow(missing_docs)]
 pub enum WearError {
-    #[error("wear: give one of measured = \"PROPERTY\", drawing = \"MESH\", value = NUMBER; {given} are given")]
+    #[error(
+        "wear: give one of measured = \"PROPERTY\", drawing = \"MESH\", value = NUMBER; {given} are given"
+    )]
     Source { given: usize },
     #[error("wear: along = {along:?} has no direction: give one, such as [1, 0, 0]")]
     Along { along: [f64; 3] },
@@ -38,7 +40,9 @@ pub enum WearError {
     Line { file: String, line: usize, what: &'static str, text: String },
     #[error("wear: value {0}: must be finite")]
     Value(f64),
-    #[error("wear: the cloud has no property '{0}': name the one that holds the measurement; see the file's header")]
+    #[error(
+        "wear: the cloud has no property '{0}': name the one that holds the measurement; see the file's header"
+    )]
     NoProperty(String),
     #[error(
         "wear: point {point} has no measurement ({found}), and no roughness holds outside: give `roughness` in the same file"
@@ -150,7 +154,11 @@ impl Wear {
         Ok((all, report))
     }
 
-    fn measured(&self, points: &[Vec3], property: &dyn Fn(&str) -> Option<Vec<f64>>) -> Result<Vec<f64>, WearError> {
+    fn measured(
+        &self,
+        points: &[Vec3],
+        property: &dyn Fn(&str) -> Option<Vec<f64>>,
+    ) -> Result<Vec<f64>, WearError> {
         match &self.source {
             Source::Value(value) => Ok(vec![*value; points.len()]),
             Source::Property(name) => property(name)
@@ -213,7 +221,8 @@ fn distances(points: &[Vec3], mesh: &TriMesh) -> Vec<f64> {
 type Entries = (Vec<f64>, Vec<f64>, Vec<Vec<f64>>);
 
 fn parse(file: &str, text: &str) -> Result<Entries, WearError> {
-    let mut lines = (1..).zip(text.lines()).filter(|(_, l)| !l.trim().is_empty() && !l.trim_start().starts_with('#'));
+    let mut lines =
+        (1..).zip(text.lines()).filter(|(_, l)| !l.trim().is_empty() && !l.trim_start().starts_with('#'));
     let wrong = |line: usize, what: &'static str, text: &str| WearError::Line {
         file: file.to_owned(),
         line,
@@ -222,15 +231,20 @@ fn parse(file: &str, text: &str) -> Result<Entries, WearError> {
     };
     let numbers = |words: &str| words.split(',').map(|w| w.trim().parse().ok()).collect::<Option<Vec<f64>>>();
     let Some((line, head)) = lines.next() else {
-        return Err(WearError::File { file: file.to_owned(), why: "is empty: give positions and wears".to_owned() });
+        return Err(WearError::File {
+            file: file.to_owned(),
+            why: "is empty: give positions and wears".to_owned(),
+        });
     };
     let positions = head.split_once(',').and_then(|(_, rest)| numbers(rest)).filter(|p| ascends(p));
-    let positions = positions
-        .ok_or_else(|| wrong(line, "the first line is a word and then positions in m, ascending, not", head))?;
+    let positions = positions.ok_or_else(|| {
+        wrong(line, "the first line is a word and then positions in m, ascending, not", head)
+    })?;
     let (mut wears, mut roughness) = (Vec::new(), Vec::new());
     for (line, text) in lines {
         let row = numbers(text).filter(|row| row.len() == positions.len() + 1);
-        let row = row.ok_or_else(|| wrong(line, "a line is a wear and a roughness for each position, not", text))?;
+        let row =
+            row.ok_or_else(|| wrong(line, "a line is a wear and a roughness for each position, not", text))?;
         if !row[1..].iter().all(|&zeta| zeta > 0.0 && zeta.is_finite()) {
             return Err(wrong(line, "roughness must be positive, in m", text));
         }
@@ -241,7 +255,10 @@ fn parse(file: &str, text: &str) -> Result<Entries, WearError> {
         roughness.push(row[1..].to_vec());
     }
     if wears.is_empty() {
-        return Err(WearError::File { file: file.to_owned(), why: "has no line below the positions".to_owned() });
+        return Err(WearError::File {
+            file: file.to_owned(),
+            why: "has no line below the positions".to_owned(),
+        });
     }
     Ok((positions, wears, roughness))
 }
@@ -257,7 +274,9 @@ mod tests {
     const TABLE: &str = "wear, 0, 1, 3\n0, 1e-3, 2e-3, 2e-3\n\n# worn\n10, 3e-3, 4e-3, 8e-3\n";
 
     fn wear(source: &str) -> Result<Wear, WearError> {
-        let section = toml::from_str(&format!("table = 't.csv'\nalong = [2, 0, 0]\nfrom = [1, 0, 0]\n{source}")).unwrap();
+        let section =
+            toml::from_str(&format!("table = 't.csv'\nalong = [2, 0, 0]\nfrom = [1, 0, 0]\n{source}"))
+                .unwrap();
         let mesh = geom::mesh::cuboid(Vec3::new(-9.0, -9.0, -1.0), Vec3::new(9.0, 9.0, 0.0));
         Wear::new(section, &|_| Ok(TABLE.to_owned()), &|_| Ok(mesh.clone()))
     }

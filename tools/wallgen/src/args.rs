@@ -87,7 +87,9 @@ impl Args {
         }
         for (option, diameter) in [("smallest", self.smallest_particle), ("largest", self.largest_particle)] {
             if let Some(diameter) = diameter.filter(|d| !(*d > 0.0 && d.is_finite())) {
-                return Err(cli::usage(format!("--{option}-particle {diameter} m: must be a positive diameter")));
+                return Err(cli::usage(format!(
+                    "--{option}-particle {diameter} m: must be a positive diameter"
+                )));
             }
         }
         let has_flow = self.facing.or(self.flow_at).is_some();
@@ -123,13 +125,19 @@ impl Args {
             return Err(cli::usage("--from-mesh: spheres of one radius touch the drawing; add --radius M"));
         };
         if self.facing.is_some() {
-            return Err(cli::usage("--facing: a drawing has its own directions; give a place in the flow, --flow-at x,y,z"));
+            return Err(cli::usage(
+                "--facing: a drawing has its own directions; give a place in the flow, --flow-at x,y,z",
+            ));
         }
         if self.input.cloud.path().is_some() {
-            return Err(cli::usage("--from-mesh: the drawing takes the place of the cloud; leave one of them out"));
+            return Err(cli::usage(
+                "--from-mesh: the drawing takes the place of the cloud; leave one of them out",
+            ));
         }
         let Some(roughness) = regions.least_roughness() else {
-            return Err(cli::usage("--from-mesh: the distance of the spheres follows from the roughness; add --roughness M"));
+            return Err(cli::usage(
+                "--from-mesh: the distance of the spheres follows from the roughness; add --roughness M",
+            ));
         };
         let centred = matches!(self.place, Some(Place::Centre));
         Ok(Drawing { radius, roughness, flow_at: self.flow_at, centred })
@@ -159,7 +167,8 @@ impl Args {
             let file = folder.join(name);
             std::fs::read_to_string(&file).map_err(|e| format!("cannot read: {e}"))
         };
-        Regions::parse(&text, material, self.velocity, &mesh::load, &read).with_context(|| path.display().to_string())
+        Regions::parse(&text, material, self.velocity, &mesh::load, &read)
+            .with_context(|| path.display().to_string())
     }
 
     /// Role and hash of the table of regions, for provenance.

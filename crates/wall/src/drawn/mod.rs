@@ -103,7 +103,8 @@ pub fn place(mesh: &TriMesh, drawing: &Drawing) -> Result<Drawn, WallError> {
     if !(radius > 0.0 && radius.is_finite()) {
         return Err(WallError::BadRadius(radius));
     }
-    let spacing = equation::spacing(radius, roughness).ok_or(WallError::DeeperThanRadius { roughness, radius })?;
+    let spacing =
+        equation::spacing(radius, roughness).ok_or(WallError::DeeperThanRadius { roughness, radius })?;
     let surface = sides::Surface::new(mesh, drawing.flow_at).ok_or(WallError::NoArea)?;
     let wanted = CANDIDATES * surface.area / (spacing * spacing);
     if wanted > MOST {

@@ -121,8 +121,10 @@ fn agree(mesh: &mut TriMesh, edges: &[((u32, u32), Vec<u32>)]) -> (Vec<u32>, usi
         }
         parts += 1;
     }
-    let agrees = |&f: &u32, &g: &u32, edge| runs(mesh.faces[f as usize], edge) != runs(mesh.faces[g as usize], edge);
-    let wrong = edges.iter().filter(|(edge, faces)| matches!(&faces[..], [f, g] if !agrees(f, g, *edge))).count();
+    let agrees =
+        |&f: &u32, &g: &u32, edge| runs(mesh.faces[f as usize], edge) != runs(mesh.faces[g as usize], edge);
+    let wrong =
+        edges.iter().filter(|(edge, faces)| matches!(&faces[..], [f, g] if !agrees(f, g, *edge))).count();
     (part_of, parts as usize, wrong)
 }
 

@@ -27,7 +27,8 @@ struct Edge {
 }
 
 pub(crate) fn find(surface: &Surface, spacing: f64) -> Stretches {
-    let edges: Vec<Edge> = surface.edges.iter().filter_map(|(ends, faces)| crease(surface, *ends, faces)).collect();
+    let edges: Vec<Edge> =
+        surface.edges.iter().filter_map(|(ends, faces)| crease(surface, *ends, faces)).collect();
     let mut at: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
     for (number, edge) in edges.iter().enumerate() {
         edge.ends.iter().for_each(|&end| at.entry(end).or_default().push(number));
