@@ -124,7 +124,7 @@ fn jkr_without_adhesion_is_hertz() {
 /// A spring under its cap: the couple is k φ, and the energy ½ k φ²; over it, μ R* F_n.
 #[test]
 fn twisting_is_a_spring_under_a_cap() {
-    let twisting = dem::effects::TwistingResistance { resistance: 0.1, stiffness_ratio: 0.8 };
+    let twisting = dem::effects::TwistingResistance { resistance: 0.1, stiffness_ratio: 0.8, yielding: 1.0 };
     let normal = Hooke { stiffness: 1e4, damping_ratio: 0.0 };
     let twisted = |phi: f64| {
         let contact = still(1e-4, 0.01, 0.0);

@@ -81,6 +81,7 @@ struct Pair<'a> {
     contact: &'a Contact,
     elastic: Elastic,
     precision: Precision,
+    yielding: f64,
 }
 
 /// Whether a law has an effect that is offered in double precision only.
@@ -95,8 +96,10 @@ pub fn is_rare(c: &Contact) -> bool {
 /// Each composition is compiled for every width of lanes, with and without the ledger. So that there are not too many, what has
 /// no memory and is rare is not a composition of its own: cohesion and the weakening of friction are a question that a kernel
 /// asks once for each group of contacts, and only kernels with something rare in them.
-pub fn compose(contact: &Contact, elastic: Elastic, precision: Precision) -> Box<dyn Kernel> {
-    let pair = Pair { contact, elastic, precision };
+///
+/// `yielding`: how much easier the bodies of both materials yield than spheres of their mass [–].
+pub fn compose(contact: &Contact, elastic: Elastic, precision: Precision, yielding: f64) -> Box<dyn Kernel> {
+    let pair = Pair { contact, elastic, precision, yielding };
     let (damping_ratio, modulus) = (damping_ratio(contact.restitution), elastic.modulus);
     match contact.law {
         Law::Hooke { stiffness, .. } => pair.normal(Hooke { stiffness, damping_ratio }),
@@ -150,14 +153,18 @@ impl Pair<'_> {
     fn twisting<E: Effect>(self, so_far: E) -> Box<dyn Kernel> {
         let stiffness_ratio = tangential_ratio(self.contact, self.elastic);
         match self.contact.twisting_resistance {
-            Some(resistance) => Box::new((so_far, TwistingResistance { resistance, stiffness_ratio })),
+            Some(resistance) => {
+                let yielding = self.yielding;
+                Box::new((so_far, TwistingResistance { resistance, stiffness_ratio, yielding }))
+            }
             None => Box::new(so_far),
         }
     }
 
     fn sliding<C: Coefficient>(self, friction: C) -> SlidingFriction<C> {
         let stiffness_ratio = tangential_ratio(self.contact, self.elastic);
-        SlidingFriction { friction, stiffness_ratio, damping_ratio: damping_ratio(self.contact.restitution) }
+        let damping_ratio = damping_ratio(self.contact.restitution);
+        SlidingFriction { friction, stiffness_ratio, damping_ratio, yielding: self.yielding }
     }
 }
 
@@ -190,7 +197,7 @@ mod tests {
     fn kernels_take_the_memory_of_their_effects_and_no_more() {
         let material = Material { name: "a".to_owned(), density: 1e3, young: 1e6, poisson: 0.3 };
         for c in contacts() {
-            let kernel = compose(&c, Elastic::of(&material, &material), Precision::Double);
+            let kernel = compose(&c, Elastic::of(&material, &material), Precision::Double, 1.0);
             let bytes: usize = parts(&c).iter().map(|p| p.bytes).sum();
             assert_eq!(8 * kernel.memory(), bytes, "{c:?}");
             assert_eq!(kernel.rotates(), c.sliding_friction.is_some(), "{c:?}");

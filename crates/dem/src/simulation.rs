@@ -390,7 +390,7 @@ fn kinds(setup: &Setup) -> Result<Vec<Kind>, SetupError> {
     let kind = |a: u16, b: u16, with: With| -> Result<Kind, SetupError> {
         let elastic = Elastic::of(&setup.materials[a as usize], &setup.materials[b as usize]);
         Ok(Kind {
-            kernel: compose(contact_between(setup, a, b)?, elastic, setup.precision),
+            kernel: compose(contact_between(setup, a, b)?, elastic, setup.precision, setup.yielding(a, b)),
             between: (a, b),
             with,
         })

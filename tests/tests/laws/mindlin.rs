@@ -44,7 +44,8 @@ struct Dragged {
 impl Dragged {
     fn new() -> Dragged {
         let hertz = Hertz { modulus: MODULUS, damping_ratio: 0.0 };
-        let friction = SlidingFriction { friction: MU, stiffness_ratio: RATIO, damping_ratio: 0.0 };
+        let friction =
+            SlidingFriction { friction: MU, stiffness_ratio: RATIO, damping_ratio: 0.0, yielding: 1.0 };
         let nothing = vec![0.0; Rubbing::MEMORY * BLOCK];
         Dragged { law: (hertz, friction), memory: Memory::load(&nothing, 0) }
     }

@@ -131,6 +131,7 @@ fn clumps() {
     for (name, e, friction) in [
         ("crystal of dumbbells, hooke, e = 1", 1.0, None),
         ("crystal of dumbbells, hooke, e = 0.1", 0.1, None),
+        ("crystal of dumbbells, friction, e = 1", 1.0, Some(1.0)),
         ("crystal of dumbbells, friction, e = 0.9", 0.9, Some(1.0)),
         ("crystal of dumbbells, friction, e = 0.1", 0.1, Some(1.0)),
     ] {

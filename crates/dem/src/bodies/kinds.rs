@@ -1,7 +1,7 @@
 //! What the clumps of a setup are, seen from the rest of the engine.
 
 use super::ClumpShape;
-use crate::setup::{Clumps, Material};
+use crate::setup::{Clumps, Material, Setup};
 
 /// How easily a rigid clump gives way, for the critical step.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,6 +18,15 @@ pub struct Yielding {
     pub normal: f64,
     /// The like for tangential forces [1/kg].
     pub tangential: f64,
+}
+
+impl Setup {
+    /// How much easier the easiest body of two materials yields than a sphere of its mass [–]; 1 without clumps.
+    pub(crate) fn yielding(&self, a: u16, b: u16) -> f64 {
+        let clumps = self.clumps.yielding(&self.materials);
+        let own = clumps.iter().filter(|c| c.material == a || c.material == b);
+        own.map(|c| c.normal.max(c.tangential) / c.inverse_mass).fold(1.0, f64::max)
+    }
 }
 
 impl Clumps {

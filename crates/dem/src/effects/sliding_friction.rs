@@ -38,6 +38,8 @@ pub struct SlidingFriction<C = f64> {
     pub stiffness_ratio: f64,
     /// γ [–], as for the normal law.
     pub damping_ratio: f64,
+    /// How much easier than a sphere of its mass the easiest body yields: 1 for spheres, more for clumps [–].
+    pub yielding: f64,
 }
 
 impl<C: Coefficient> Effect for SlidingFriction<C> {
@@ -54,7 +56,9 @@ impl<C: Coefficient> Effect for SlidingFriction<C> {
             damping: R::splat(self.damping_ratio * self.stiffness_ratio.sqrt()) * load.impedance,
             // A quarter of the square of the fastest motion of a close packing: all grains turning the same way, 20 k_t/m*,
             // or layers against layers, 4 (S + k_t)/m*, which the spring would feed otherwise.
-            pace: (R::splat(5.0) * stiffness).max(load.stiffness + stiffness) * contact.inverse_mass,
+            // Clumps, which forces turn as well, are faster by what they yield.
+            pace: (R::splat(5.0) * stiffness).max(load.stiffness + stiffness)
+                * (R::splat(self.yielding) * contact.inverse_mass),
             cap: self.friction.of(contact) * load.pressing.max(R::splat(0.0)),
         };
         *xi = turned(*xi, contact);

@@ -24,6 +24,8 @@ pub struct TwistingResistance {
     pub resistance: f64,
     /// k_t/S [–], as for sliding.
     pub stiffness_ratio: f64,
+    /// As for sliding [–].
+    pub yielding: f64,
 }
 
 impl Effect for TwistingResistance {
@@ -40,7 +42,7 @@ impl Effect for TwistingResistance {
             stiffness,
             before: load.stiffness_before,
             damping: R::splat(2.0 * ETA) * (stiffness * inertia).sqrt(),
-            pace: R::splat(0.25) * stiffness / inertia,
+            pace: R::splat(0.25 * self.yielding) * stiffness / inertia,
             cap: R::splat(self.resistance) * contact.radius * load.pressing.max(R::splat(0.0)),
         };
         let pull = spring.pull(phi, contact.spin.dot(contact.normal), dt);
