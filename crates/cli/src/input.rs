@@ -62,6 +62,7 @@ impl Source {
             // Past the buffer of `std::io::Stdin`, which would cut every read into small ones.
             Source::Stdin => {
                 let stdin = io::stdin().as_fd().try_clone_to_owned().context("stdin: cannot open it")?;
+                crate::output::widen(&stdin);
                 Ok(Box::new(File::from(stdin)))
             }
             Source::File(path) if path.is_dir() => {
@@ -137,6 +138,16 @@ pub struct Input {
     /// Point cloud (PLY, LAS, LAZ, E57, PCD, XYZ, PTS; told apart by content), - for stdin
     #[arg(value_name = "CLOUD", default_value = "-", hide_default_value = true)]
     pub cloud: Source,
+    /// Multiply coordinates as they are read: 0.001 for a scan in millimetres
+    #[arg(long, value_name = "FACTOR", value_parser = factor)]
+    pub scale: Option<f64>,
+}
+
+fn factor(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
+        _ => Err("give a number above 0, such as 0.001 for millimetres".into()),
+    }
 }
 
 impl Input {
@@ -158,7 +169,8 @@ impl Input {
     /// # Errors
     /// As [`Source::open`]; content that is no cloud.
     pub fn read_cloud(&self) -> anyhow::Result<cloud::Cloud> {
-        cloud::read(self.open()?).with_context(|| self.name())
+        let cloud = cloud::read(self.open()?).with_context(|| self.name())?;
+        Ok(self.in_metres(cloud))
     }
 
     /// Reads the cloud, and its name and SHA-256 for [`crate::provenance`].
@@ -169,6 +181,21 @@ impl Input {
         let bytes = self.cloud.read_all()?;
         let hash = stream::sha256(&bytes);
         let cloud = cloud::from_bytes(bytes).with_context(|| self.name())?;
-        Ok((cloud, ("cloud".to_owned(), hash)))
+        Ok((self.in_metres(cloud), ("cloud".to_owned(), hash)))
+    }
+
+    /// Scales the cloud, or tells what looks wrong about its numbers; of a pipe, only the tool at its beginning tells.
+    fn in_metres(&self, mut cloud: cloud::Cloud) -> cloud::Cloud {
+        match self.scale {
+            Some(1.0) => {}
+            Some(factor) => cloud.scale(factor),
+            None if self.cloud == Source::Stdin => {}
+            None => {
+                for doubt in cloud::units::doubts(&cloud) {
+                    crate::warn(&format!("{}: {doubt}", self.name()));
+                }
+            }
+        }
+        cloud
     }
 }

@@ -24,6 +24,7 @@
 
 pub mod exit;
 mod input;
+mod memory;
 mod output;
 mod part;
 mod progress;

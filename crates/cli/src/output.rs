@@ -16,6 +16,18 @@ use stream::{mcap, ply::Encoding};
 /// Enough that a pipe is filled by one write.
 const BUFFER: usize = 1 << 18;
 
+/// What a pipe between two tools may hold [B]: as much as Linux lets anyone have.
+#[cfg(target_os = "linux")]
+const PIPE: usize = 1 << 20;
+
+/// Lets a pipe hold more than its 64 KiB, so that two tools wait for each other less often; anything else stays as it is.
+pub(crate) fn widen(stream: &impl std::os::fd::AsFd) {
+    #[cfg(target_os = "linux")]
+    let _ = rustix::pipe::fcntl_setpipe_size(stream, PIPE);
+    #[cfg(not(target_os = "linux"))]
+    let _ = stream;
+}
+
 /// Where a tool writes: flatten it into the tool's arguments.
 #[derive(Debug, Clone, Default, clap::Args)]
 pub struct Output {
@@ -152,6 +164,7 @@ impl OutputStream {
     pub fn stdout() -> anyhow::Result<OutputStream> {
         use std::os::fd::AsFd;
         let stdout = io::stdout().as_fd().try_clone_to_owned().context("stdout: cannot open")?;
+        widen(&stdout);
         Ok(OutputStream::new(Sink::Direct(stdout.into()), "stdout".to_owned()))
     }
 

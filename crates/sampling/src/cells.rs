@@ -12,10 +12,10 @@ use std::ops::Range;
 const PART: usize = 1024;
 
 /// The cells that hold points, sorted: the key of each, and its first place (and one more).
-struct Filled {
+struct Filled<'a> {
     dims: [i64; 3],
-    keys: Vec<u64>,
-    starts: Vec<u32>,
+    keys: &'a [u64],
+    starts: &'a [u32],
 }
 
 /// The surroundings of a cell that holds points.
@@ -47,14 +47,44 @@ impl Cells {
         let order = grid.order();
         let sorted: Vec<Vec3> = order.par_iter().map(|&i| points[i as usize]).collect();
         let (keys, starts) = grid.filled();
-        let filled = Filled { dims: grid.dims(), keys, starts };
+        let filled = Filled { dims: grid.dims(), keys: &keys, starts: &starts };
         let mut cell_of = vec![0; order.len()];
-        for (cell, run) in (0..).zip(filled.starts.windows(2)) {
+        for (cell, run) in (0..).zip(starts.windows(2)) {
             cell_of[run[0] as usize..run[1] as usize].fill(cell);
         }
-        let mut cells = vec![Cell { rows: [(0, 0); 9], used: 0 }; filled.keys.len()];
+        let mut cells = vec![Cell { rows: [(0, 0); 9], used: 0 }; keys.len()];
         cells.par_chunks_mut(PART).enumerate().for_each(|(part, cells)| filled.rows(part * PART, cells));
+        drop((keys, starts));
         Cells { points: sorted, width: grid.cell(), grid, cells, cell_of }
+    }
+
+    /// Cells that hold points in cubes of `wide` cells a side: the coordinates of each cube, and the runs of places of its cells; sorted
+    /// by cube.
+    pub fn cubes(&self, wide: i64) -> Vec<([i64; 3], Vec<Range<usize>>)> {
+        let (keys, starts) = self.grid.filled();
+        let filled = Filled { dims: self.grid.dims(), keys: &keys, starts: &starts };
+        let cubes = self.grid.dims().map(|n| n / wide + 1);
+        let mut by_cube: Vec<(u64, u32)> = (0..keys.len() as u32)
+            .into_par_iter()
+            .with_min_len(PART)
+            .map(|cell| {
+                let [x, y, z] = filled.at(cell as usize).map(|c| c / wide);
+                (((z * cubes[1] + y) * cubes[0] + x) as u64, cell)
+            })
+            .collect();
+        by_cube.par_sort_unstable();
+        let runs = |cube: &[(u64, u32)]| {
+            let (key, [nx, ny, _]) = (cube[0].0 as i64, cubes);
+            let run = |cell: usize| starts[cell] as usize..starts[cell + 1] as usize;
+            ([key % nx, key / nx % ny, key / nx / ny], cube.iter().map(|&(_, cell)| run(cell as usize)).collect())
+        };
+        by_cube.chunk_by(|a, b| a.0 == b.0).map(runs).collect()
+    }
+
+    /// Number of the cell that holds a place.
+    #[inline(always)]
+    pub(crate) fn cell(&self, place: u32) -> u32 {
+        self.cell_of[place as usize]
     }
 
     /// Index of the point at each place.
@@ -82,6 +112,7 @@ impl Cells {
     }
 
     /// Runs of places that hold every point within one cell width of the point at `place`.
+    #[inline(always)]
     pub fn runs(&self, place: u32) -> impl Iterator<Item = Range<usize>> + '_ {
         let cell = &self.cells[self.cell_of[place as usize] as usize];
         cell.rows[..cell.used as usize].iter().map(|&(a, b)| a as usize..b as usize)
@@ -89,12 +120,13 @@ impl Cells {
 
     /// Calls `f` with the place and the squared distance [m²] of each point nearer than `radius` [m]
     /// to the one at `place`; itself too.
+    #[inline(always)]
     pub fn each_near(&self, place: u32, radius: f64, mut f: impl FnMut(u32, f64)) {
         debug_assert!(radius <= self.width);
         let centre = self.points[place as usize];
         for run in self.runs(place) {
             for (other, point) in (run.start as u32..).zip(&self.points[run]) {
-                let square = (point - centre).norm_squared();
+                let square = apart(point, &centre);
                 if square < radius * radius {
                     f(other, square);
                 }
@@ -103,13 +135,14 @@ impl Cells {
     }
 
     /// Number of points nearer than `radius` [m] to the one at `place`, itself too; counting may stop past `enough`.
+    #[inline(always)]
     pub fn count_near(&self, place: u32, radius: f64, enough: u32) -> u32 {
         let centre = self.points[place as usize];
         let mut count = 0;
         for part in self.runs(place).flat_map(|run| self.points[run].chunks(enough.clamp(64, 4096) as usize))
         {
             // Without a branch: about half of the candidates are near, which cannot be predicted.
-            count += part.iter().map(|p| ((p - centre).norm_squared() < radius * radius) as u32).sum::<u32>();
+            count += part.iter().map(|p| (apart(p, &centre) < radius * radius) as u32).sum::<u32>();
             if count > enough {
                 break;
             }
@@ -128,7 +161,14 @@ impl Cells {
     }
 }
 
-impl Filled {
+/// Squared distance [m²].
+#[inline(always)]
+pub(crate) fn apart(p: &Vec3, q: &Vec3) -> f64 {
+    let (x, y, z) = (p.x - q.x, p.y - q.y, p.z - q.z);
+    x * x + y * y + z * z
+}
+
+impl Filled<'_> {
     /// Where a cell is.
     fn at(&self, cell: usize) -> [i64; 3] {
         let (key, [nx, ny, _]) = (self.keys[cell] as i64, self.dims);

@@ -11,20 +11,29 @@
 //! needs a larger r for the same count and leaves more even distances. Where the input is
 //! dense the count is capped, and the order is chance alone.
 //!
-//! Parallel with the same result for any number of threads: the points lie in blocks 16 r wide, blocks have
-//! eight colours, and blocks of one colour are too far apart to meet. Colours are served in
-//! turn, the blocks of a colour at the same time.
+//! Parallel with the same result for any number of threads: the points lie in blocks 16 cells wide (a cell is r or somewhat
+//! more), blocks have eight colours, and blocks of one colour are too far apart to meet. Colours are served in
+//! turn, the blocks of a colour at the same time. Of a block's points the first quarter in the order is sorted and thrown, then the
+//! first quarter of those that it left open, and so on: most points are covered before anyone asks for their rank.
 
-use crate::cells::Cells;
-use geom::Grid;
+use crate::cells::{Cells, apart};
+use multiversion::multiversion;
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU8, Ordering::Relaxed};
 
 /// More rivals than this are not told apart: the cost stays linear in the number of points.
-const RIVALS: u32 = 48;
-/// Width of a block in spacings; must be more than 2.
-const BLOCK: f64 = 16.0;
+const RIVALS: u64 = 48;
+/// Width of a block in cells; must be more than 2.
+const BLOCK: i64 = 16;
+/// Places are ranked in parts of this many.
+const PART: usize = 4096;
+/// Points that are compared at once.
+const LANES: usize = 8;
+/// Stands for no point: near nobody.
+const NOBODY: f64 = 1e150;
+/// So few are sorted at once.
+const FEW: usize = 64;
 
 const OPEN: u8 = 0;
 const KEPT: u8 = 1;
@@ -36,25 +45,65 @@ pub(crate) fn poisson(cells: &Cells, spacing: f64, seed: u64, forced: Option<&[b
     if let Some(forced) = forced {
         keep_forced(cells, spacing, forced, &state);
     }
-    let rank = cells.map(|place| rank(cells, place, spacing, seed));
-    let blocks = Grid::new(&cells.points, BLOCK * spacing);
-    for colour in colours(&blocks) {
-        colour.into_par_iter().for_each(|run| {
-            let mut block = blocks.order()[run].to_vec();
-            block.sort_unstable_by_key(|&place| (rank[place as usize], place));
-            throw(cells, spacing, &block, &state);
-        });
+    let mut rank = vec![0; cells.len()];
+    rank.par_chunks_mut(PART).enumerate().for_each(|(part, rank)| {
+        let first = part * PART;
+        ranks(cells, first as u32, spacing, rank);
+        for (rank, &index) in rank.iter_mut().zip(&cells.order()[first..]) {
+            *rank = *rank << 56 | chance(seed, index.into()) >> 8;
+        }
+    });
+    for colour in colours(cells) {
+        colour.into_par_iter().for_each(|block| throw(cells, spacing, &block, &rank, &state));
     }
-    let is_kept = |place: &usize| state[*place].load(Relaxed) == KEPT;
-    let mut kept: Vec<u32> = (0..cells.len()).filter(is_kept).map(|place| cells.order()[place]).collect();
-    kept.par_sort_unstable();
-    kept
+    drop(rank);
+    kept(cells, &state)
 }
 
-/// Few rivals first, then by chance.
-fn rank(cells: &Cells, place: u32, spacing: f64, seed: u64) -> u64 {
-    let rivals = cells.count_near(place, spacing, RIVALS).min(RIVALS);
-    (rivals as u64) << 56 | chance(seed, cells.order()[place as usize] as u64) >> 8
+/// Indices of the kept points, ascending.
+fn kept(cells: &Cells, state: &[AtomicU8]) -> Vec<u32> {
+    let mut is_kept = vec![false; cells.len()];
+    for (&index, state) in cells.order().iter().zip(state) {
+        is_kept[index as usize] = state.load(Relaxed) == KEPT;
+    }
+    (0..).zip(is_kept).filter(|(_, is_kept)| *is_kept).map(|(index, _)| index).collect()
+}
+
+/// Number of points nearer than `spacing` [m] to each place from `first` on. The points around a cell are laid side by side once for all
+/// of its own.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn ranks(cells: &Cells, first: u32, spacing: f64, rivals: &mut [u64]) {
+    let [mut xs, mut ys, mut zs]: [Vec<f64>; 3] = Default::default();
+    let mut around = u32::MAX;
+    for (place, rivals) in (first..).zip(rivals) {
+        if cells.cell(place) != around {
+            around = cells.cell(place);
+            [&mut xs, &mut ys, &mut zs].into_iter().for_each(Vec::clear);
+            let mine = |run: &Range<usize>| run.contains(&(place as usize));
+            // Its own row first: it has most of the near ones.
+            for run in cells.runs(place).filter(mine).chain(cells.runs(place).filter(|run| !mine(run))) {
+                let points = &cells.points[run];
+                xs.extend(points.iter().map(|p| p.x));
+                ys.extend(points.iter().map(|p| p.y));
+                zs.extend(points.iter().map(|p| p.z));
+            }
+            let whole = xs.len().next_multiple_of(LANES);
+            [&mut xs, &mut ys, &mut zs].into_iter().for_each(|column| column.resize(whole, NOBODY));
+        }
+        let p = cells.points[place as usize];
+        let mut count = [0u64; LANES];
+        let rows = xs.chunks_exact(LANES).zip(ys.chunks_exact(LANES)).zip(zs.chunks_exact(LANES));
+        for (row, ((xs, ys), zs)) in rows.enumerate() {
+            for k in 0..LANES {
+                let (x, y, z) = (xs[k] - p.x, ys[k] - p.y, zs[k] - p.z);
+                count[k] += (x * x + y * y + z * z < spacing * spacing) as u64;
+            }
+            if row % 8 == 7 && count.iter().sum::<u64>() >= RIVALS {
+                break;
+            }
+        }
+        *rivals = count.iter().sum::<u64>().min(RIVALS);
+    }
 }
 
 /// A number that depends on the seed and the point's index only (two rounds of splitmix64, Steele et al. 2014).
@@ -80,25 +129,52 @@ fn keep_forced(cells: &Cells, spacing: f64, forced: &[bool], state: &[AtomicU8])
     );
 }
 
-/// Keeps each point of the block that is still open, in the given order, and covers its neighbours.
-fn throw(cells: &Cells, spacing: f64, block: &[u32], state: &[AtomicU8]) {
-    for &place in block {
-        if state[place as usize].load(Relaxed) != OPEN {
-            continue;
+/// Keeps each point of the block that is still open, few rivals first, then by chance, and covers its neighbours.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn throw(cells: &Cells, spacing: f64, block: &[Range<usize>], rank: &[u64], state: &[AtomicU8]) {
+    let is_open = |place: u32| state[place as usize].load(Relaxed) == OPEN;
+    let places = block.iter().cloned().flatten().map(|place| (rank[place], place as u32));
+    let mut open: Vec<(u64, u32)> = places.filter(|&(_, place)| is_open(place)).collect();
+    while !open.is_empty() {
+        let first = if open.len() <= FEW { open.len() } else { (open.len() / 4).max(FEW) };
+        if first < open.len() {
+            open.select_nth_unstable(first);
         }
-        cells.each_near(place, spacing, |other, _| state[other as usize].store(COVERED, Relaxed));
-        state[place as usize].store(KEPT, Relaxed);
+        open[..first].sort_unstable();
+        for &(_, place) in &open[..first] {
+            if is_open(place) {
+                cover(cells, place, spacing, state);
+                state[place as usize].store(KEPT, Relaxed);
+            }
+        }
+        let mut number = 0;
+        open.retain(|&(_, place)| {
+            number += 1;
+            number > first && is_open(place)
+        });
     }
 }
 
-/// Runs of the blocks' order, by colour.
-fn colours(blocks: &Grid) -> [Vec<Range<usize>>; 8] {
-    let mut colours: [Vec<Range<usize>>; 8] = Default::default();
-    let ([nx, ny, _], (keys, starts)) = (blocks.dims().map(|n| n as u64), blocks.filled());
-    for (key, run) in keys.into_iter().zip(starts.windows(2)) {
-        let [x, y, z] = [key % nx, key / nx % ny, key / nx / ny];
+/// Covers what is nearer than `spacing` [m].
+#[inline(always)]
+fn cover(cells: &Cells, place: u32, spacing: f64, state: &[AtomicU8]) {
+    let centre = cells.points[place as usize];
+    for run in cells.runs(place) {
+        // Without a branch: which points are near cannot be predicted. Nobody else writes here while this block is served.
+        for (state, point) in state[run.clone()].iter().zip(&cells.points[run]) {
+            let is_near = apart(point, &centre) < spacing * spacing;
+            let before = state.load(Relaxed);
+            state.store(if is_near { COVERED } else { before }, Relaxed);
+        }
+    }
+}
+
+/// Runs of the blocks' places, by colour.
+fn colours(cells: &Cells) -> [Vec<Vec<Range<usize>>>; 8] {
+    let mut colours: [Vec<Vec<Range<usize>>>; 8] = Default::default();
+    for ([x, y, z], runs) in cells.cubes(BLOCK) {
         let colour = (x & 1) | (y & 1) << 1 | (z & 1) << 2;
-        colours[colour as usize].push(run[0] as usize..run[1] as usize);
+        colours[colour as usize].push(runs);
     }
     colours
 }
