@@ -129,19 +129,18 @@ impl Bodies {
         });
     }
 
-    /// Adds a body that moves by a prescribed motion for now, after `since` [s] on its way from `start`; gives the start of each member.
+    /// Adds a body that moves by a prescribed motion for now, from its state at the start, and now; gives the start of each member.
     pub fn enter(
         &mut self,
-        start: &Particle,
+        (start, now): (&Particle, &Particle),
         clump: &EntryClump,
-        since: f64,
         setup: &Setup,
         particles: &mut Particles,
     ) -> Vec<Particle> {
         let shape = &setup.clumps.shapes[clump.shape as usize];
         let EntryClump { shape: index, scale, orientation } = *clump;
-        let position = start.position + start.velocity * since;
-        let (id, velocity, spin) = (start.id, start.velocity, Vec3::zeros());
+        let Particle { id, position, velocity, .. } = *now;
+        let spin = Vec3::zeros();
         let body = Body { id, shape: index, scale, position, orientation, velocity, spin };
         self.push(&body, shape, &setup.materials, particles);
         if let Some(flight) = self.flights.last_mut() {
@@ -159,11 +158,12 @@ impl Bodies {
         shape.spheres.iter().enumerate().map(member).collect()
     }
 
-    /// Where the centre of row `k`'s body is that travels.
-    pub fn carry(&mut self, k: usize, centre: Vec3) {
+    /// Where the centre of row `k`'s body is that travels, and its velocity.
+    pub fn carry(&mut self, k: usize, centre: Vec3, velocity: Vec3) {
         if let Some(f) = self.of.get(k).and_then(|&b| self.flights.get_mut(b as usize)) {
             f.place = centre;
             f.place_before = centre;
+            f.velocity = velocity;
         }
     }
 

@@ -43,6 +43,17 @@ pub enum SetupError {
     /// Two particles of one id.
     #[error("particle id {0} is used twice: give each particle its own")]
     IdTwice(u32),
+    /// An entry whose id is in use.
+    #[error(
+        "inlet: particle id {id}, due at {time} s, is in the run already: give the particles of this scene other ids (first_id), or the \
+         replayed ones (stage-replay --first-id)"
+    )]
+    EntryTwice {
+        /// The id.
+        id: u32,
+        /// When it is due [s].
+        time: f64,
+    },
     /// A zone that lets particles act across it.
     #[error("zone of {length:.4e} m is not longer than the largest particle diameter {diameter:.4e} m: use at least {:.4e} m", 1.2 * diameter)]
     ZoneTooShort {

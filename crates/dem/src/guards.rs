@@ -4,19 +4,21 @@ use crate::contacts::With;
 use crate::error::Halt;
 use crate::simulation::Simulation;
 
-/// The deepest overlap, travellers among themselves left out; `Ok` when only those are too deep. Where particles have `moved`
+/// The deepest overlap, travellers and who has left among themselves left out; `Ok` when only those are too deep. Where particles have `moved`
 /// since loads were computed, they are looked for where they were.
 pub fn overlap(sim: &Simulation, moved: bool) -> Result<(), Halt> {
     let limit = sim.setup.guards.overlap;
     let place = |k: usize| if moved { sim.position_before(k) } else { sim.particles.position(k) };
     let time = sim.time() - if moved { sim.dt } else { 0.0 };
+    // Who has just left at the end of a zone travelled when loads were computed.
+    let passive = |k: usize| sim.zones.travels(k) || sim.zones.is_gone(k);
     let mut worst: Option<(f64, Halt)> = None;
     for segment in &sim.contacts.segments {
         let with = sim.kinds[segment.kind].with;
         for at in segment.contacts() {
             let (i, partner) = (sim.contacts.i[at] as usize, sim.contacts.partner[at] as usize);
             let pair = !matches!(with, With::Wall(_));
-            if sim.zones.travels(i) && (!pair || sim.zones.travels(partner)) {
+            if passive(i) && (!pair || passive(partner)) {
                 continue;
             }
             let (other, radius) = sim.partner(segment, at, place);
@@ -93,22 +95,5 @@ impl Simulation {
         let fours = [&p.spins, &p.acceleration, &p.turning];
         rows && fours.iter().all(|column| column.iter().all(|q| q[..3].iter().all(|x| x.is_finite())))
             && self.contacts.memory.iter().all(|x| x.is_finite())
-    }
-
-    /// Looks for grains that zones have lost: one that came in by a cut and has gone back through the whole zone, and one that
-    /// comes in too fast for the step. At no cost without inlets.
-    ///
-    /// # Errors
-    /// Such a grain.
-    pub fn look_back(&self) -> Result<(), Halt> {
-        self.zones.fast(self.time(), self.dt, self.setup.guards.motion)?;
-        for k in 0..if self.zones.cut() { self.particles.len() } else { 0 } {
-            let (place, id) = (self.particles.position(k), self.particles.id[k]);
-            if let Some((inlet, behind)) = self.zones.came_back(k, id, &place) {
-                let (time, [x, y, z]) = (self.time(), [place.x, place.y, place.z]);
-                return Err(Halt::CameBack { time, id, inlet, x, y, z, behind });
-            }
-        }
-        Ok(())
     }
 }

@@ -48,3 +48,4 @@ pub use servo::WallForce;
 pub use setup::Setup;
 pub use simulation::Simulation;
 pub use state::{State, StateView};
+pub use zones::Returned;

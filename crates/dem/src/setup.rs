@@ -1,5 +1,7 @@
 //! What a simulation is made of: plain data, checked and turned into an engine by [`crate::Simulation::new`].
 
+mod zone;
+
 use geom::{Plane, Vec3, mesh::TriMesh};
 use nalgebra::UnitQuaternion;
 use serde::{Deserialize, Serialize};
@@ -8,6 +10,7 @@ pub use crate::bodies::ClumpShape;
 pub use crate::drag::{Drag, DragLaw};
 pub use crate::servo::Servo;
 pub use crate::sleep::Sleep;
+pub use zone::{Crossing, Entry, EntryClump, Guide, PathSample, Sample, Touch, Zone, ZoneMotion, ZoneTest};
 
 /// Everything that a run needs. SI units throughout.
 #[derive(Debug, Clone)]
@@ -277,67 +280,6 @@ impl Motion {
     }
 }
 
-/// A plane with a region behind it in which particles move by a prescribed motion.
-///
-/// Outlet: `plane` is the storage plane, the exclusion plane lies `length` further along the normal.
-/// Inlet: `plane` is the calculation plane, the generation plane lies `length` before it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Zone {
-    /// The plane; its normal is the direction of flow.
-    pub plane: Plane,
-    /// L1 or L2 [m]; longer than the largest particle diameter.
-    pub length: f64,
-}
-
-/// A particle that will enter.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Entry {
-    /// When it is at `particle.position`, on the generation plane [s].
-    pub time: f64,
-    /// Which inlet.
-    pub inlet: u32,
-    /// State at that time; the velocity is kept until the calculation plane. Of a rigid clump: id of its first member, centre of
-    /// mass, and the sphere that holds it; it does not turn before the calculation plane.
-    pub particle: Particle,
-    /// What makes it a rigid clump.
-    pub clump: Option<EntryClump>,
-}
-
-/// The shape of an entry that is a rigid clump.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct EntryClump {
-    /// Index of its shape.
-    pub shape: u32,
-    /// Size over that of the shape [–].
-    pub scale: f64,
-    /// From the frame that the shape was given in to space.
-    pub orientation: UnitQuaternion<f64>,
-}
-
-/// A particle that has passed a storage plane.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Crossing {
-    /// Passage time, interpolated within the step [s].
-    pub time: f64,
-    /// Which outlet.
-    pub outlet: u32,
-    /// State at that time (position on the plane).
-    pub particle: Particle,
-    /// Partners in contact, by id (`None` for a wall), with the force on this particle [N]: normal, tangential.
-    pub touching: Vec<Touch>,
-}
-
-/// One contact of a crossing.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Touch {
-    /// Id of the other particle; `None` for a wall.
-    pub partner: Option<u32>,
-    /// Normal force on the crossing particle [N].
-    pub normal: Vec3,
-    /// Tangential force on the crossing particle [N].
-    pub tangential: Vec3,
-}
-
 /// When a run is stopped.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Guards {
@@ -345,8 +287,10 @@ pub struct Guards {
     pub overlap: f64,
     /// Largest motion in one step, as a share of the radius [–].
     pub motion: f64,
-    /// How many inlets, from the first on, are cuts of a plant, behind which no grain may come back [–].
+    /// How many inlets, from the first on, are cuts of a plant: grains that go back through them are counted [–].
     pub cuts: u32,
+    /// Whether a grain that goes back through the whole zone of a cut stops the run.
+    pub zones: bool,
     /// Largest energy that the finite time step may make, as a share of what was exchanged and the most that moved or was in springs [–]; ∞: not looked at. It
     /// needs the ledger.
     pub energy: f64,
@@ -354,6 +298,6 @@ pub struct Guards {
 
 impl Default for Guards {
     fn default() -> Guards {
-        Guards { overlap: 0.25, motion: 0.25, energy: f64::INFINITY, cuts: 0 }
+        Guards { overlap: 0.25, motion: 0.25, energy: f64::INFINITY, cuts: 0, zones: true }
     }
 }

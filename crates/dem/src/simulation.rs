@@ -16,7 +16,7 @@ use crate::law::{Elastic, compose};
 use crate::limit::{contact_between, critical_step, largest_reach, radii_by_material};
 use crate::particles::Particles;
 use crate::servo::Piston;
-use crate::setup::{Entry, Particle, Setup, Step};
+use crate::setup::{Particle, Setup, Step};
 use crate::sleep::Sleepers;
 use crate::sweep::Pass;
 use crate::walls::WallBody;
@@ -186,20 +186,6 @@ impl Simulation {
     /// Whether a wall moves.
     pub fn wall_moves(&self, wall: usize) -> bool {
         self.walls[wall].motion.moves()
-    }
-
-    /// Queues a particle that will enter; due when time() reaches `entry.time`.
-    ///
-    /// # Errors
-    /// An entry that comes after it was due, out of order, or outside what the setup announced.
-    pub fn enter(&mut self, entry: Entry) -> Result<(), SetupError> {
-        let now = self.time();
-        self.zones.enter(entry, now, &self.setup)
-    }
-
-    /// Entries due until time() + this [s] must have been given before the next step.
-    pub fn look_ahead(&self) -> f64 {
-        self.dt * crate::zones::LOOK_AHEAD as f64
     }
 
     /// Crossings of storage planes since the last call, in time order.

@@ -153,7 +153,6 @@ impl Simulation {
         }
         (sim.skin, sim.steps, sim.listed, sim.out) = (state.skin, state.steps, state.listed, state.out);
         (sim.particles, sim.zones, sim.account) = (state.particles, state.zones, state.account);
-        sim.zones.cuts = sim.setup.guards.cuts;
         sim.bodies = state.bodies;
         (sim.fresh, sim.listings, sim.sleepers) = (state.fresh, state.listings, state.sleepers);
         if sim.pistons.len() != state.pistons.len() {

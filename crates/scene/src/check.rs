@@ -145,6 +145,7 @@ impl Check<'_> {
         }
         for (i, o) in m.outlet.iter().enumerate() {
             self.length(&format!("outlet.{i}.length"), o.length)?;
+            self.positive_if(&format!("outlet.{i}.samples"), o.samples, "s")?;
         }
         for (i, o) in m.inlet.iter().enumerate() {
             self.length(&format!("inlet.{i}.length"), o.length)?;

@@ -99,7 +99,7 @@ impl Section {
     fn zone(&self) -> Zone {
         let end = self.frame[0] * self.ranges[0].1;
         let point = end + self.frame[1] * self.middle(1) + self.frame[2] * self.middle(2);
-        Zone { plane: Plane { point, normal: self.frame[0] }, length: self.size(0) }
+        Zone::new(Plane { point, normal: self.frame[0] }, self.size(0))
     }
 
     /// A place across the flow that holds a sphere.

@@ -2,22 +2,41 @@
 
 use crate::error::SceneError;
 use crate::plan::Feeds;
-use dem::setup::Entry;
+use dem::setup::{Entry, Guide};
+
+/// What a feed gives: a particle, or news of one that it gave.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Item {
+    Enter(Entry),
+    Guide { time: f64, id: u32, guide: Guide },
+}
+
+impl Item {
+    /// When it is due [s].
+    pub fn time(&self) -> f64 {
+        match self {
+            Item::Enter(entry) => entry.time,
+            Item::Guide { time, .. } => *time,
+        }
+    }
+}
 
 /// What comes in, and how much of it has.
 pub(crate) struct Supply {
     feeds: Feeds,
-    /// The next particle of each feed, when it is known.
-    next: Vec<Option<Entry>>,
-    /// How many particles each feed has given.
+    /// The next item of each feed, when it is known.
+    next: Vec<Option<Item>>,
+    /// How many items each feed has given.
     pub given: Vec<u64>,
+    /// How many of them are particles.
+    pub entered: u64,
 }
 
 impl Supply {
     /// A supply from the start; streams first, then faucets.
     pub(crate) fn new(feeds: Feeds) -> Supply {
         let count = feeds.streams.len() + feeds.faucets.len();
-        Supply { feeds, next: vec![None; count], given: vec![0; count] }
+        Supply { feeds, next: vec![None; count], given: vec![0; count], entered: 0 }
     }
 
     /// Passes over what a run had taken when it was saved.
@@ -27,7 +46,9 @@ impl Supply {
     pub(crate) fn skip(&mut self, given: &[u64]) -> Result<(), SceneError> {
         for (feed, &count) in given.iter().enumerate().take(self.given.len()) {
             for n in 0..count {
-                if self.fetch(feed, f64::INFINITY)?.is_none() {
+                let item = self.fetch(feed, f64::INFINITY)?;
+                self.entered += u64::from(matches!(item, Some(Item::Enter(_))));
+                if item.is_none() {
                     let why = format!("ends after {n} particles, and the saved run had taken {count}");
                     return Err(SceneError::file(
                         &format!("inlet {feed}"),
@@ -41,31 +62,36 @@ impl Supply {
         Ok(())
     }
 
-    fn fetch(&mut self, feed: usize, until: f64) -> Result<Option<Entry>, SceneError> {
+    fn fetch(&mut self, feed: usize, until: f64) -> Result<Option<Item>, SceneError> {
         let streams = self.feeds.streams.len();
         if feed < streams {
             return self.feeds.streams[feed].next_until(until);
         }
         let faucet = &mut self.feeds.faucets[feed - streams];
-        if faucet.next_time().is_some_and(|t| t <= until) { faucet.next() } else { Ok(None) }
+        if faucet.next_time().is_some_and(|t| t <= until) {
+            Ok(faucet.next()?.map(Item::Enter))
+        } else {
+            Ok(None)
+        }
     }
 
-    /// The next particle of all feeds whose time is at most `until` [s].
+    /// The next item of all feeds whose time is at most `until` [s].
     ///
     /// # Errors
     /// A stream that breaks off, a faucet without room.
-    pub(crate) fn next_until(&mut self, until: f64) -> Result<Option<Entry>, SceneError> {
+    pub(crate) fn next_until(&mut self, until: f64) -> Result<Option<Item>, SceneError> {
         for feed in 0..self.next.len() {
             if self.next[feed].is_none() {
                 self.next[feed] = self.fetch(feed, until)?;
             }
         }
-        let due = |e: &Option<Entry>| e.as_ref().filter(|e| e.time <= until).map(|e| e.time);
+        let due = |e: &Option<Item>| e.as_ref().map(Item::time).filter(|time| *time <= until);
         let times = self.next.iter().enumerate().filter_map(|(i, e)| due(e).map(|t| (t, i)));
         let Some((_, first)) = times.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))) else {
             return Ok(None);
         };
         self.given[first] += 1;
+        self.entered += u64::from(matches!(self.next[first], Some(Item::Enter(_))));
         Ok(self.next[first].take())
     }
 }

@@ -2,7 +2,8 @@
 
 use crate::crossings::{CROSSINGS, SIZES, Sizes, WATERMARK, topic};
 use crate::error::SceneError;
-use crate::inlet::{INLET, InletStream, Source, zone_from_map};
+use crate::gate::Gate;
+use crate::inlet::{INLET, InletStream, Source};
 use crate::material_info::{self, MATERIALS, MaterialInfo};
 use crate::wall_file::WallFile;
 use stream::mcap::{Event, McapError, Reader};
@@ -25,7 +26,7 @@ impl Input {
     /// A stream that breaks off, or holds neither walls nor crossings.
     pub fn open(name: &str, source: Source) -> Result<Input, SceneError> {
         let mut reader = Reader::new(source);
-        let (mut zone, mut sizes) = (None, None);
+        let (mut gate, mut sizes) = (None, None);
         let mut materials: Vec<MaterialInfo> = Vec::new();
         loop {
             let Some(event) = reader.next() else {
@@ -37,7 +38,7 @@ impl Input {
             };
             let event = event.map_err(|e| broken(name, e))?;
             let Event::Metadata { name: record, map } = &event else {
-                return Input::by_topic(name, reader, event, zone, sizes, materials);
+                return Input::by_topic(name, reader, event, gate, sizes, materials);
             };
             match record.as_str() {
                 MATERIALS => materials = material_info::from_map(name, map)?,
@@ -52,8 +53,8 @@ impl Input {
                 }
                 // The last record of an inlet: from here on, messages may come as late as a run upstream makes them.
                 INLET => {
-                    zone = Some(zone_from_map(name, INLET, map)?);
-                    return Input::inlet(name, reader, None, zone, sizes, materials);
+                    gate = Some(Gate::from_map(name, INLET, map)?);
+                    return Input::inlet(name, reader, None, gate, sizes, materials);
                 }
                 _ => {}
             }
@@ -64,12 +65,12 @@ impl Input {
         name: &str,
         mut reader: Reader<Source>,
         first: Event,
-        zone: Option<dem::setup::Zone>,
+        gate: Option<Gate>,
         sizes: Option<Sizes>,
         materials: Vec<MaterialInfo>,
     ) -> Result<Input, SceneError> {
         match (topic(&first).unwrap_or_default(), &first) {
-            (CROSSINGS | WATERMARK, _) => Input::inlet(name, reader, Some(first), zone, sizes, materials),
+            (CROSSINGS | WATERMARK, _) => Input::inlet(name, reader, Some(first), gate, sizes, materials),
             ("/walls", Event::Points { table, .. }) => {
                 let walls = WallFile::new(name, table, materials)?;
                 // To the end, where the record is that tells a whole stream from a broken one.
@@ -97,7 +98,7 @@ impl Input {
         name: &str,
         reader: Reader<Source>,
         first: Option<Event>,
-        zone: Option<dem::setup::Zone>,
+        gate: Option<Gate>,
         sizes: Option<Sizes>,
         materials: Vec<MaterialInfo>,
     ) -> Result<Input, SceneError> {
@@ -112,7 +113,7 @@ impl Input {
         if materials.is_empty() {
             return Err(missing(MATERIALS, "names of the materials"));
         }
-        Ok(Input::Inlet(Box::new(InletStream::new(name, reader, (zone, sizes), materials, first)?)))
+        Ok(Input::Inlet(Box::new(InletStream::new(name, reader, (gate, sizes), materials, first)?)))
     }
 }
 

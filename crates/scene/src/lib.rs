@@ -16,6 +16,7 @@ mod feeds;
 mod fill;
 mod forms;
 pub mod frames;
+pub mod gate;
 pub mod inlet;
 pub mod input;
 pub mod material_info;
@@ -24,9 +25,11 @@ pub mod mesh_file;
 pub mod model;
 mod moment;
 mod parse;
+pub mod paths;
 mod particle_file;
 mod plan;
 pub mod replay;
+pub mod returned;
 mod room;
 pub mod run;
 mod scene;
@@ -45,6 +48,8 @@ pub use plan::Plan;
 pub use scene::Scene;
 pub use text::Text;
 pub use wall_file::WallFile;
+
+pub use dem::setup::{ZoneMotion, ZoneTest};
 
 /// SHA-256 of a text, in hexadecimal digits.
 pub(crate) fn sha256(text: &str) -> String {

@@ -1,5 +1,6 @@
 //! The keys of a scene, as they are written.
 
+use dem::setup::{ZoneMotion, ZoneTest};
 use serde::Deserialize;
 
 /// A scene; see CLI.md of the project for an example. SI units.
@@ -616,6 +617,16 @@ pub struct Outlet {
     /// L1 [m]; "auto" is 1.2 times the largest diameter.
     #[serde(default)]
     pub length: OrAuto,
+    /// Motion in the zone.
+    #[serde(default)]
+    pub motion: ZoneMotion,
+    /// What of a grain passes the planes.
+    #[serde(default)]
+    pub test: ZoneTest,
+    /// Time between samples of paths, with motion "recorded" [s]; absent: ten steps.
+    pub samples: Option<f64>,
+    /// What the stage upstream was cut from (stage-split): goes into the record.
+    pub plant: Option<String>,
 }
 
 /// `[[inlet]]`
@@ -627,6 +638,12 @@ pub struct Inlet {
     /// L2 [m]; "auto" is what the recorded stream was written with.
     #[serde(default)]
     pub length: OrAuto,
+    /// Motion in the zone; absent: that of the stream.
+    pub motion: Option<ZoneMotion>,
+    /// What of a grain passes the planes; absent: that of the stream.
+    pub test: Option<ZoneTest>,
+    /// What the stage upstream was cut from (stage-split): a record of another one is refused.
+    pub plant: Option<String>,
     /// Inlet MCAP; absent: given on the command line.
     pub source: Option<String>,
 }

@@ -286,7 +286,8 @@ impl<'a> Draft<'a> {
                 overlap: model.guards.overlap.unwrap_or(Guards::default().overlap),
                 motion: model.guards.motion.unwrap_or(Guards::default().motion),
                 // [[inlet]]s come before faucets, whose grains may get anywhere.
-                cuts: if model.guards.zones == Some(false) { 0 } else { model.inlet.len() as u32 },
+                cuts: model.inlet.len() as u32,
+                zones: model.guards.zones != Some(false),
                 energy: model.guards.energy.unwrap_or(Guards::default().energy),
             },
         };

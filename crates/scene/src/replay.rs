@@ -1,16 +1,31 @@
 //! From the crossings of a run to an inlet stream, also while the run is still being written (SYSTEMS B4).
 
-use crate::crossings::{self, CROSSINGS, Passage, SIZES, Sizes, WATERMARK, Watermark};
+mod copies;
+mod frame;
+mod head;
+mod order;
+mod start;
+
+pub use copies::Copies;
+pub use frame::Frame;
+
+use crate::crossings::{self, CROSSINGS, Passage, SIZES, WATERMARK, Watermark};
 use crate::error::SceneError;
-use crate::inlet::{INLET, Source, zone_to_map};
+use crate::inlet::{INLET, Source};
 use crate::material_info::MATERIALS;
-use crate::run::{LOG, OUTLETS, RunError};
+use crate::paths::{self, PATHS, Waypoint};
+use crate::run::{LOG, RunError};
 use crate::schedule::nanoseconds;
-use dem::setup::Zone;
+use copies::Merge;
+use dem::setup::ZoneMotion;
 use geom::{Plane, Shown};
+use head::Head;
+use order::{Generated, Order};
 use serde::{Deserialize, Serialize};
+use start::Starts;
 use std::collections::BTreeMap;
 use std::io::Write;
+use stream::Table;
 use stream::mcap::{Compression, Event, Provenance, Reader, Writer};
 
 /// What is replayed, and where.
@@ -30,18 +45,73 @@ pub struct Replay {
     pub outlet: u16,
     /// Where intervals and places are those that were recorded.
     pub intervals: Intervals,
+    /// Motion in the zone; absent: that of the run.
+    pub motion: Option<ZoneMotion>,
+    /// T of [`Intervals::Both`] [s]; absent: what the first one needs for the length of the zone.
+    pub ahead: Option<f64>,
+    /// The record seen from elsewhere; absent: as it was.
+    pub frame: Option<Frame>,
+    /// Superposed copies.
+    pub copies: Copies,
+    /// How often the record is replayed, one after the other; 0 is once. Then it is held in memory.
+    pub repeat: u32,
+    /// Time between the starts of replays [s]; absent: how long the record is.
+    pub period: Option<f64>,
+    /// Ids are given anew from here; absent: only where there are several of one.
+    pub first_id: Option<u32>,
 }
 
 /// Where the recorded intervals and in-plane places are kept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Intervals {
     /// On the generation plane, as in the source document: the faster ones then catch up in the zone, so that
-    /// grains of a dense flow may overlap when they are released.
+    /// grains of a dense flow may overlap when they are released. In free fall a particle that slowed down to nothing within the
+    /// zone, going back, starts where it did: at its apex.
     #[default]
     Generation,
-    /// On the calculation plane too: every particle is generated the same time T before it arrives, v T before its
-    /// recorded place; T is what the first one needs for the length of the zone.
+    /// On the calculation plane too: every particle is generated the same time T before it arrives, as far back on its path as it
+    /// was then; in free fall no earlier than at its apex.
     Both,
+}
+
+/// Name of the metadata record that says what was made of the record.
+pub const REPLAY: &str = "replay";
+
+impl Replay {
+    /// Whether what happens at a recorded time [s] is replayed.
+    fn holds(&self, time: f64) -> bool {
+        self.from.is_none_or(|from| time >= from) && self.until.is_none_or(|until| time < until)
+    }
+
+    /// What of it does not go with recorded paths.
+    fn off_path(&self) -> Option<&'static str> {
+        let asked = [
+            (self.at.is_some(), "--at"),
+            (self.length.is_some(), "--length"),
+            (self.ahead.is_some(), "--ahead"),
+            (self.copies.count > 1, "--copies"),
+            (self.repeat > 1, "--repeat"),
+            (self.first_id.is_some(), "--first-id"),
+        ];
+        asked.iter().find(|a| a.0).map(|a| a.1)
+    }
+
+    /// The record [`REPLAY`].
+    fn to_map(&self) -> BTreeMap<String, String> {
+        let (copies, shift) = (&self.copies, self.copies.shift);
+        let mut map = BTreeMap::from([
+            ("copies".to_owned(), copies.count.to_string()),
+            ("replays".to_owned(), self.repeat.max(1).to_string()),
+        ]);
+        if copies.count > 1 {
+            let what =
+                "superposed copies of one record: a rate is scaled, the flow is not that of such a rate";
+            map.insert("note".to_owned(), what.to_owned());
+            map.insert("copy_shift".to_owned(), format!("{},{},{}", shift.x, shift.y, shift.z));
+            map.insert("copy_delay".to_owned(), copies.delay.to_string());
+        }
+        map
+    }
 }
 
 /// What was done.
@@ -51,14 +121,18 @@ pub struct Replayed {
     pub particles: u64,
     /// Recorded time that became 0 [s].
     pub start: f64,
-    /// Passage time of the last one, from the new 0 [s].
+    /// When the last one is generated, from the new 0 [s].
     pub last: f64,
-}
-
-struct Head {
-    materials: BTreeMap<String, String>,
-    sizes: Sizes,
-    zone: Zone,
+    /// T of [`Intervals::Both`] [s].
+    pub ahead: Option<f64>,
+    /// Superposed copies of each recorded particle: above 1 a rate is scaled, and not a flow.
+    pub copies: u32,
+    /// Replays, one after the other.
+    pub replays: u32,
+    /// Time between their starts [s].
+    pub period: Option<f64>,
+    /// Particles that are generated nearer to the calculation plane than the largest diameter: they appear among what is there.
+    pub near: u64,
 }
 
 /// Passes the crossings of a run on as an inlet stream, each as soon as it is read.
@@ -90,18 +164,23 @@ pub fn replay<W: Write>(
     {
         provenance.inputs.push(("scene of the run".to_owned(), crate::sha256(scene)));
     }
-    let head = head(name, records, what)?;
+    let head = head::head(name, records, what)?;
     let mut writer = Writer::compressed(out, &provenance, compression)?;
     writer.metadata(MATERIALS, head.materials.clone())?;
     writer.metadata(SIZES, head.sizes.to_map())?;
-    writer.metadata(INLET, zone_to_map(&head.zone))?;
+    writer.metadata(REPLAY, what.to_map())?;
+    // The last record: from it on, messages may come as late as a run upstream makes them.
+    writer.metadata(INLET, head.gate.to_map())?;
     let start = if what.keep_times { Some(0.0) } else { what.from };
     let mut passing = Passing {
         name,
         what,
-        head,
         start,
-        ahead: None,
+        starts: Starts::new(&head, what),
+        order: Order::default(),
+        merge: Merge::new(what, head.gate.zone, head.gate.gravity.unwrap_or_default(), head.sizes.largest),
+        held: Vec::new(),
+        head,
         done: Replayed::default(),
         known: 0.0,
         stopped: None,
@@ -122,49 +201,16 @@ pub fn replay<W: Write>(
         let cure = "go on with dem-run --resume, or take what lies before the stop with --until";
         return Err(SceneError::file(name, why, cure).into());
     }
+    passing.again(&mut writer)?;
+    passing.send(f64::INFINITY, &mut writer)?;
     // The reader downstream may go on; whether the run is whole still matters.
     let out = writer.finish()?;
     for event in events {
         event.map_err(broken)?;
     }
     passing.done.start = passing.start.unwrap_or(0.0);
+    passing.done.ahead = passing.starts.ahead();
     Ok((passing.done, out))
-}
-
-fn head(
-    name: &str,
-    mut records: BTreeMap<String, BTreeMap<String, String>>,
-    what: &Replay,
-) -> Result<Head, SceneError> {
-    let no_run = |record: &str| {
-        let why = format!("has no record '{record}' before its first message");
-        SceneError::file(name, why, "give a run that dem-run wrote")
-    };
-    if !records.contains_key(crate::input::SCENE) {
-        return Err(no_run(crate::input::SCENE));
-    }
-    let Some(outlets) = records.remove(OUTLETS) else {
-        let why = "is a run without [[outlet]], so that nothing was recorded";
-        return Err(SceneError::file(name, why, "make its scene with stage-split --keep upstream"));
-    };
-    let Some(json) = outlets.get(&what.outlet.to_string()) else {
-        let why = format!("has {} outlets, none with index {}", outlets.len(), what.outlet);
-        return Err(SceneError::file(name, why, "--outlet 0 is the first"));
-    };
-    let wrong = |e| SceneError::file(name, format!("record '{OUTLETS}': {e}"), "run dem-run again");
-    let recorded: Zone = serde_json::from_str(json).map_err(wrong)?;
-    let sizes = Sizes::from_map(name, &records.remove(SIZES).ok_or_else(|| no_run(SIZES))?)?;
-    let zone =
-        Zone { plane: what.at.unwrap_or(recorded.plane), length: what.length.unwrap_or(recorded.length) };
-    if zone.length.is_nan() || zone.length <= 2.0 * sizes.largest {
-        let why = format!(
-            "--length {} m is not above the largest diameter, {} m",
-            Shown(zone.length),
-            Shown(2.0 * sizes.largest)
-        );
-        return Err(SceneError::file(name, why, format!("use at least {} m", Shown(2.4 * sizes.largest))));
-    }
-    Ok(Head { materials: records.remove(MATERIALS).ok_or_else(|| no_run(MATERIALS))?, sizes, zone })
 }
 
 struct Passing<'a> {
@@ -172,8 +218,11 @@ struct Passing<'a> {
     what: &'a Replay,
     head: Head,
     start: Option<f64>,
-    /// T of [`Intervals::Both`] [s].
-    ahead: Option<f64>,
+    starts: Starts,
+    order: Order,
+    merge: Merge,
+    /// The record, where it is replayed more than once.
+    held: Vec<Passage>,
     done: Replayed,
     /// Watermark of the run [s].
     known: f64,
@@ -195,16 +244,20 @@ impl Passing<'_> {
         match event {
             Event::Points { topic, table, .. } if topic == CROSSINGS => {
                 let rows = crossings::from_table(self.name, &table, self.head.materials.len())?;
-                let rows: Vec<Passage> = rows.into_iter().filter_map(|row| self.moved(row)).collect();
-                if let Some(last) = rows.last() {
-                    self.done.particles += rows.len() as u64;
-                    self.done.last = last.time;
-                    writer.points(CROSSINGS, nanoseconds(last.time), "world", &crossings::to_table(&rows))?;
+                for row in rows {
+                    self.known = self.known.max(row.time);
+                    self.take(row)?;
                 }
+                self.send(self.bound(), writer)?;
+                Ok(false)
+            }
+            Event::Points { topic, table, .. } if topic == PATHS && self.recorded() => {
+                self.take_paths(&table, writer)?;
                 Ok(false)
             }
             Event::Bytes { topic, data, .. } if topic == WATERMARK => {
-                self.known = Watermark::read(self.name, &data)?.until;
+                self.known = self.known.max(Watermark::read(self.name, &data)?.until);
+                self.send(self.bound(), writer)?;
                 // Before the first passage there is no 0 to count from.
                 if let Some(until) = self.start.map(|start| self.known - start).filter(|t| *t >= 0.0) {
                     writer.bytes(WATERMARK, "json", nanoseconds(until), &Watermark { until }.to_json())?;
@@ -221,27 +274,105 @@ impl Passing<'_> {
         }
     }
 
-    /// A passage as it enters: on the generation plane, in the new time.
-    fn moved(&mut self, mut row: Passage) -> Option<Passage> {
-        let early = self.what.from.is_some_and(|from| row.time < from);
-        let late = self.what.until.is_some_and(|until| row.time >= until);
-        if row.outlet != self.what.outlet || early || late {
-            return None;
+    /// Nothing that has not been read is generated before this time [s].
+    fn bound(&self) -> f64 {
+        self.start.map_or(f64::NEG_INFINITY, |start| self.known - start)
+    }
+
+    /// A passage of the record, where it belongs to what is replayed.
+    fn take(&mut self, mut row: Passage) -> Result<(), SceneError> {
+        if row.outlet != self.what.outlet || !self.what.holds(row.time) {
+            return Ok(());
         }
-        let zone = self.head.zone;
-        row.particle.position = match self.what.intervals {
-            Intervals::Generation => {
-                let point = zone.plane.point - zone.plane.normal * zone.length;
-                Plane { point, ..zone.plane }.project(&row.particle.position)
-            }
-            Intervals::Both => {
-                let velocity = row.particle.velocity;
-                let ahead = *self.ahead.get_or_insert(zone.length / velocity.dot(&zone.plane.normal));
-                zone.plane.project(&row.particle.position) - velocity * ahead
-            }
-        };
+        if let Some(frame) = &self.what.frame {
+            frame.particle(&mut row.particle);
+        }
         row.time -= *self.start.get_or_insert(row.time);
         row.outlet = 0;
-        Some(row)
+        if self.what.repeat > 1 {
+            self.held.push(row);
+        }
+        self.enter(row)
+    }
+
+    fn recorded(&self) -> bool {
+        self.head.gate.zone.motion == ZoneMotion::Recorded
+    }
+
+    /// Passes on where grains are on their way.
+    fn take_paths<W: Write>(&mut self, table: &Table, writer: &mut Writer<W>) -> Result<(), RunError> {
+        let mut rows = paths::from_table(self.name, table, self.head.materials.len())?;
+        rows.retain(|r| self.what.outlet == r.passage.outlet && self.what.holds(r.passage.time));
+        for Waypoint { passage, .. } in &mut rows {
+            if let Some(frame) = &self.what.frame {
+                frame.particle(&mut passage.particle);
+            }
+            passage.time -= *self.start.get_or_insert(passage.time);
+            passage.outlet = 0;
+        }
+        if let Some(last) = rows.last() {
+            writer.points(PATHS, nanoseconds(last.passage.time), "world", &paths::to_table(&rows))?;
+        }
+        Ok(())
+    }
+
+    /// A passage as it enters, with its copies.
+    fn enter(&mut self, row: Passage) -> Result<(), SceneError> {
+        if self.recorded() {
+            self.order.put(Generated { row, copy: 0 });
+            return Ok(());
+        }
+        for (copy, mut row) in self.what.copies.of(row) {
+            row.time += self.starts.place(self.name, &mut row)?;
+            let past = self.head.gate.zone.past(&row.particle.position, row.particle.radius);
+            self.done.near += u64::from(-past <= 2.0 * self.head.sizes.largest);
+            self.order.put(Generated { row, copy });
+        }
+        Ok(())
+    }
+
+    /// Replays the record again, as often as is asked for.
+    fn again<W: Write>(&mut self, writer: &mut Writer<W>) -> Result<(), RunError> {
+        (self.done.copies, self.done.replays) = (self.what.copies.count, self.what.repeat.max(1));
+        let (Some(first), Some(last)) = (self.held.first(), self.held.last()) else { return Ok(()) };
+        let end = self.what.until.map_or(self.known, |until| until.min(self.known));
+        let period = self.what.period.unwrap_or(end - self.start.unwrap_or(0.0));
+        if period < last.time - first.time {
+            let why = format!(
+                "--period {} s is shorter than the record, {} s from the first grain to the last",
+                Shown(period),
+                Shown(last.time - first.time)
+            );
+            return Err(SceneError::file(
+                self.name,
+                why,
+                "use a longer one, or superpose copies (--copies with --copy-delay)",
+            )
+            .into());
+        }
+        self.done.period = Some(period);
+        let held = std::mem::take(&mut self.held);
+        for replay in 1..self.what.repeat {
+            for row in &held {
+                let time = row.time + period * f64::from(replay);
+                self.enter(Passage { time, ..*row })?;
+                self.send(time, writer)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes what is generated at a time or before.
+    fn send<W: Write>(&mut self, bound: f64, writer: &mut Writer<W>) -> Result<(), RunError> {
+        let mut rows = Vec::new();
+        while let Some(one) = self.order.next_until(bound) {
+            rows.push(self.merge.pass(self.name, one)?);
+        }
+        if let Some(last) = rows.last() {
+            self.done.particles += rows.len() as u64;
+            self.done.last = last.time;
+            writer.points(CROSSINGS, nanoseconds(last.time), "world", &crossings::to_table(&rows))?;
+        }
+        Ok(())
     }
 }

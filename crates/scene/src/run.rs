@@ -3,14 +3,16 @@
 use crate::checkpoint::{Checkpoint, Pieces};
 use crate::crossings::{self, CROSSINGS, Passage, SIZES, TOUCHES, WATERMARK, Watermark};
 use crate::error::SceneError;
-use crate::feeds::Supply;
+use crate::feeds::{Item, Supply};
 use crate::frames::{self, WallHead};
+use crate::gate::Gate;
 use crate::material_info::{self, MATERIALS};
 use crate::model::Precision;
 use crate::moment::Moment;
+use crate::paths::{self, PATHS, Waypoint};
 use crate::schedule::{Schedule, nanoseconds};
 use crate::{Plan, Scene, input::SCENE};
-use dem::setup::Crossing;
+use dem::setup::{Crossing, ZoneMotion};
 use dem::{Halt, SetupError, Simulation};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -43,6 +45,9 @@ pub const OUTLETS: &str = "outlets";
 pub const SIGNAL: &str = "by a signal";
 
 const FRAME: &str = "world";
+
+/// Samples of paths that are held before they are written.
+const SAMPLES_HELD: usize = 4096;
 
 /// Steps between looks for grains that zones have lost: no grain gets past the length of a zone in so few.
 const LOOK_BACK: u64 = 64;
@@ -82,6 +87,8 @@ pub struct Outcome {
     pub entered: u64,
     /// Particles that passed a storage plane.
     pub crossings: u64,
+    /// Particles that went back through planes.
+    pub returned: dem::Returned,
     /// Contacts listed at the end.
     pub listed_contacts: usize,
     /// Particles that sleep at the end.
@@ -137,6 +144,9 @@ struct Run<W: Write> {
     wall_forces: bool,
     precision: Precision,
     crossings: Vec<Crossing>,
+    /// Steps between samples of paths, where any are recorded.
+    sampling: Option<u64>,
+    paths: Vec<Waypoint>,
     outcome: Outcome,
     /// Kinetic energy and balance [J] of the frame that has just been written.
     looked: Option<(f64, Option<f64>)>,
@@ -166,6 +176,9 @@ pub fn run<W: Write>(
     let first = run.sim.steps();
     let reason = loop {
         let step = run.sim.steps();
+        if step == 0 || step > first {
+            run.sample(step)?;
+        }
         if let Err(halt) = run.look(step, first)? {
             break Some(stopped(scene, step, halt)?);
         }
@@ -202,7 +215,11 @@ pub fn run<W: Write>(
     let named =
         |e: &dem::EffectCost| format!("{} ({}–{}): {}", e.effect, e.between.0, e.between.1, e.because);
     run.outcome.effects = run.sim.explain().iter().map(named).collect();
-    run.outcome.entered = run.supply.given.iter().sum();
+    run.outcome.entered = run.supply.entered;
+    run.outcome.returned = run.sim.returned().clone();
+    for note in crate::returned::words(&run.outcome.returned) {
+        run.log("note", &note)?;
+    }
     let out = run.writer.finish()?;
     Ok((run.outcome, out))
 }
@@ -233,8 +250,12 @@ impl<W: Write> Run<W> {
         let walls = frames::heads(&plan.setup);
         let surfaces = frames::surfaces(&plan.setup.walls);
         let materials = material_info::to_map(&plan.setup.materials);
-        let outlets: Record =
-            plan.setup.outlets.iter().enumerate().map(|(i, z)| (i.to_string(), json(z))).collect();
+        let gate = |(i, zone): (usize, &dem::setup::Zone)| {
+            let plant = scene.model.outlet.get(i).and_then(|o| o.plant.clone());
+            let gate = Gate { zone: *zone, gravity: Some(plan.setup.gravity), plant };
+            (i.to_string(), json(&gate))
+        };
+        let outlets: Record = plan.setup.outlets.iter().enumerate().map(gate).collect();
         let moving = spheres_move(&plan.setup.walls);
         let shapes = frames::clumps(&plan.setup.clumps);
         let clumps = !shapes.is_empty();
@@ -253,6 +274,7 @@ impl<W: Write> Run<W> {
             );
             return Err(SceneError::file("--resume", why, "give a later --until").into());
         }
+        let sampling = sampling(scene, sim.dt())?;
         let mut writer = Writer::compressed(out, &settings.provenance, settings.compression)?;
         for (name, record) in records(scene, &schedule, &sim, materials, plan.sizes, &outlets) {
             writer.metadata(name, record)?;
@@ -277,6 +299,8 @@ impl<W: Write> Run<W> {
             wall_forces,
             precision: scene.model.output.precision,
             crossings: Vec::new(),
+            sampling,
+            paths: Vec::new(),
             looked: None,
             watched: false,
             before: None,
@@ -333,8 +357,11 @@ impl<W: Write> Run<W> {
     /// Everything that enters before the next step must know of it.
     fn feed(&mut self) -> Result<(), RunError> {
         let horizon = self.sim.time() + self.sim.look_ahead();
-        while let Some(entry) = self.supply.next_until(horizon)? {
-            self.sim.enter(entry)?;
+        while let Some(item) = self.supply.next_until(horizon)? {
+            match item {
+                Item::Enter(entry) => self.sim.enter(entry)?,
+                Item::Guide { id, guide, .. } => self.sim.guide(id, guide)?,
+            }
         }
         Ok(())
     }
@@ -417,10 +444,31 @@ impl<W: Write> Run<W> {
         Ok(Ok(()))
     }
 
+    /// Notes where grains are on their way to storage planes of recorded motion.
+    fn sample(&mut self, step: u64) -> Result<(), RunError> {
+        if self.sampling.is_some_and(|every| step.is_multiple_of(every)) {
+            let time = self.sim.time();
+            self.paths.extend(self.sim.sample_paths().iter().map(|s| Waypoint::new(time, s)));
+            if self.paths.len() >= SAMPLES_HELD {
+                self.write_paths()?;
+            }
+        }
+        Ok(())
+    }
+
+    fn write_paths(&mut self) -> Result<(), RunError> {
+        let rows = std::mem::take(&mut self.paths);
+        if !rows.is_empty() {
+            self.writer.points(PATHS, self.now(), FRAME, &paths::to_table(&rows))?;
+        }
+        Ok(())
+    }
+
     fn write_crossings(&mut self) -> Result<(), RunError> {
         if !self.outlets {
             return Ok(());
         }
+        self.write_paths()?;
         let now = self.now();
         let crossings = std::mem::take(&mut self.crossings);
         if !crossings.is_empty() {
@@ -507,6 +555,24 @@ fn records(
         records.push((OUTLETS, outlets.clone()));
     }
     records
+}
+
+/// Steps between samples of paths, where an outlet records them.
+fn sampling(scene: &Scene, dt: f64) -> Result<Option<u64>, SceneError> {
+    let mut least = None;
+    for (i, outlet) in scene.model.outlet.iter().enumerate().filter(|(_, o)| o.motion == ZoneMotion::Recorded) {
+        let steps = outlet.samples.map_or(paths::STEPS, |time| (time / dt).round().max(1.0));
+        if steps > paths::MOST_STEPS {
+            let check = crate::check::Check { text: &scene.text };
+            let most = geom::Shown(paths::MOST_STEPS * dt);
+            let value = format!("{} s", geom::Shown(outlet.samples.unwrap_or(0.0)));
+            let (why, cure) = (format!("is more than {} steps", paths::MOST_STEPS), format!("use at most {most} s"));
+            return Err(check.wrong(&format!("outlet.{i}.samples"), value, &why, &cure));
+        }
+        let steps = steps as u64;
+        least = Some(least.map_or(steps, |other: u64| other.min(steps)));
+    }
+    Ok(least)
 }
 
 /// Whether wall spheres move, so that they are written with every frame.

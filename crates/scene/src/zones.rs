@@ -3,6 +3,7 @@
 use crate::crossings::Sizes;
 use crate::error::SceneError;
 use crate::faucet::{Faucet, Poured};
+use crate::gate::Gate;
 use crate::inlet::InletStream;
 use crate::input::Input;
 use crate::model::{Diameter, Insert, OrAuto};
@@ -30,15 +31,22 @@ impl Draft<'_> {
                 })?,
             };
             let plane = walls::plane(&self.check, &format!("{key}.plane"), &entry.plane)?;
-            let recorded = stream.zone.map(|z| z.length);
+            let recorded = stream.gate.as_ref().map(|g| g.zone);
             let length = match (entry.length, recorded) {
                 (OrAuto::Given(length), _) => length,
-                (OrAuto::Auto, Some(length)) => length,
+                (OrAuto::Auto, Some(zone)) => zone.length,
                 (OrAuto::Auto, None) => 2.4 * stream.sizes.largest,
             };
-            let zone = Zone { plane, length };
-            if let Some(recorded) = stream.zone {
-                self.same_zone(&key, &zone, &recorded, &stream.name)?;
+            let zone = Zone {
+                plane,
+                length,
+                motion: entry.motion.or(recorded.map(|z| z.motion)).unwrap_or_default(),
+                test: entry.test.or(recorded.map(|z| z.test)).unwrap_or_default(),
+            };
+            if let Some(gate) = &stream.gate {
+                let given =
+                    Gate { zone, gravity: Some(self.model().gravity.into()), plant: entry.plant.clone() };
+                given.fits(&self.check, &key, gate, &stream.name)?;
             }
             self.feed(stream, zone)?;
         }
@@ -55,33 +63,6 @@ impl Draft<'_> {
             format!("{} inlets are given, and {wanted} [[inlet]] without source wait for one", streams.len())
         };
         Err(SceneError::file(&left.name, why, "add [[inlet]] plane = \"…\" to the scene, or leave it out"))
-    }
-
-    fn same_zone(&self, key: &str, scene: &Zone, stream: &Zone, name: &str) -> Result<(), SceneError> {
-        let size = stream.length;
-        let apart = stream.plane.signed_distance(&scene.plane.point).abs();
-        let turned = (scene.plane.normal - stream.plane.normal).norm();
-        if apart > 1e-6 * size.max(apart) && apart > 1e-3 * size || turned > 1e-6 {
-            let value = crate::inlet::plane_text(&scene.plane);
-            let why = format!("{name} was made for the plane {}", crate::inlet::plane_text(&stream.plane));
-            return Err(self.check.wrong(
-                &format!("{key}.plane"),
-                value,
-                &why,
-                "run stage-replay with --at this plane",
-            ));
-        }
-        if (scene.length - stream.length).abs() > 1e-9 * size {
-            let why = format!("{name} was made for a length of {} m", stream.length);
-            let cure = "run stage-replay with this --length, or use length = \"auto\"";
-            return Err(self.check.wrong(
-                &format!("{key}.length"),
-                format!("{} m", scene.length),
-                &why,
-                cure,
-            ));
-        }
-        Ok(())
     }
 
     fn open_inlet(&self, source: &str) -> Result<InletStream, SceneError> {
@@ -191,7 +172,7 @@ impl Draft<'_> {
                     &cure,
                 ));
             }
-            self.outlets.push(Zone { plane, length });
+            self.outlets.push(Zone { plane, length, motion: entry.motion, test: entry.test });
         }
         Ok(())
     }

@@ -80,7 +80,7 @@ fn run() -> Vec<Vec<u8>> {
     let bytes = Shared::default();
     let mut writer = Writer::new(bytes.clone(), &Provenance::default()).unwrap();
     let one = |value: String| BTreeMap::from([("0".to_owned(), value)]);
-    let zone = Zone { plane: "0,0,0,0,0,-1".parse().unwrap(), length: 0.03 };
+    let zone = Zone::new("0,0,0,0,0,-1".parse().unwrap(), 0.03);
     writer.metadata("scene", BTreeMap::from([("toml".to_owned(), String::new())])).unwrap();
     writer.metadata("materials", one(r#"{"name":"m","density":1000.0}"#.into())).unwrap();
     writer.metadata(SIZES, Sizes { smallest: 0.01, largest: 0.01 }.to_map()).unwrap();

@@ -181,7 +181,7 @@ fn scenes() -> Vec<(&'static str, Setup)> {
     let mut cut = base(hertz);
     // Just behind a layer of grains.
     let away = Plane { point: Vec3::new(0.0, 0.091, 0.0), normal: Vec3::y() };
-    cut.outlets = vec![Zone { plane: away, length: 0.03 }];
+    cut.outlets = vec![Zone::new(away, 0.03)];
     let mut all = vec![("sleep", sleepy), ("fluid", wet), ("servo", pressed), ("zone", cut)];
     all.push(("ledger in mixed precision", base(mixed)));
     all.push(("clumps", clumps(hertz)));

@@ -21,7 +21,7 @@ const ASTRIDE: Case = case(
 );
 
 fn zone(x: f64, length: f64) -> Zone {
-    Zone { plane: Plane { point: Vec3::new(x, 0.0, 0.0), normal: Vec3::x() }, length }
+    Zone::new(Plane { point: Vec3::new(x, 0.0, 0.0), normal: Vec3::x() }, length)
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! A plant cut in two: the stages are scenes, crossings keep their intervals, and pipes change no byte.
 
+mod motions;
+
 use grainpipe_tests::tools::{line, succeed, tool};
 use scene::crossings::{Passage, from_table};
 use std::fs;
@@ -77,10 +79,6 @@ fn both_stages_can_run_and_keep_their_comments() {
     );
     let through = split(&["--at", "0,0,0.07,0,0,-1"]);
     assert!(through.code == 1 && through.stderr.contains("fill.0 lies on both sides"), "{}", through.stderr);
-    for later in [["--motion", "ballistic"], ["--motion", "recorded"], ["--test", "lowest"]] {
-        let done = split(&[&["--at", AT], &later[..]].concat());
-        assert!(done.code == 2 && done.stderr.contains("not available yet"), "{}", done.stderr);
-    }
     assert_eq!(split(&["--at", "0,0,0"]).code, 2);
 }
 
@@ -213,8 +211,6 @@ fn an_inlet_that_breaks_off_is_an_error_and_leaves_nothing() {
     succeed(folder.path(), "dem-run", &["plant.toml", "-o", "plant.mcap", "--until", "0.02"]);
     let none = tool(folder.path(), "stage-replay", &["plant.mcap", "-o", "x.mcap"]);
     assert!(none.code == 1 && none.stderr.contains("without [[outlet]]"), "{}", none.stderr);
-    let later = tool(folder.path(), "stage-replay", &["up.mcap", "--move", "ballistic", "-o", "x.mcap"]);
-    assert!(later.code == 2 && later.stderr.contains("not available yet"), "{}", later.stderr);
 }
 
 /// The source document's condition: a zone that is not longer than the largest particle lets two stages touch.

@@ -1,0 +1,197 @@
+//! Planes with regions in which particles move by a prescribed motion, and what passes them.
+
+use super::Particle;
+use geom::{Plane, Vec3};
+use nalgebra::UnitQuaternion;
+use serde::{Deserialize, Serialize};
+
+/// A plane with a region behind it in which particles move by a prescribed motion.
+///
+/// Outlet: `plane` is the storage plane, the exclusion plane lies `length` further along the normal.
+/// Inlet: `plane` is the calculation plane, the generation plane lies `length` before it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Zone {
+    /// The plane; its normal is the direction of flow.
+    pub plane: Plane,
+    /// L1 or L2 [m]; longer than the largest particle diameter.
+    pub length: f64,
+    /// The prescribed motion.
+    #[serde(default)]
+    pub motion: ZoneMotion,
+    /// What of a particle must be past a plane for it to have passed.
+    #[serde(default)]
+    pub test: ZoneTest,
+}
+
+/// How particles move in a zone, τ [s] after they were at x₀ with the velocity v₀.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ZoneMotion {
+    /// x = x₀ + v₀ τ.
+    #[default]
+    Constant,
+    /// x = x₀ + v₀ τ + ½ g τ²: free fall, without the fluid.
+    Ballistic,
+    /// Outlet: constant, and the paths of particles are recorded that come near the storage plane. Inlet: along these paths.
+    Recorded,
+}
+
+/// What of a particle is tested against the planes of a zone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ZoneTest {
+    /// Its centre; of a rigid clump, the centre of mass.
+    #[default]
+    Centre,
+    /// The point of its surface that is foremost along the plane's normal: where the flow goes down, its lowest point.
+    Lowest,
+}
+
+impl ZoneMotion {
+    /// All there are.
+    pub const ALL: [ZoneMotion; 3] = [ZoneMotion::Constant, ZoneMotion::Ballistic, ZoneMotion::Recorded];
+
+    /// Its name in scenes and records.
+    pub fn name(self) -> &'static str {
+        match self {
+            ZoneMotion::Constant => "constant",
+            ZoneMotion::Ballistic => "ballistic",
+            ZoneMotion::Recorded => "recorded",
+        }
+    }
+}
+
+impl ZoneTest {
+    /// All there are.
+    pub const ALL: [ZoneTest; 2] = [ZoneTest::Centre, ZoneTest::Lowest];
+
+    /// Its name in scenes and records.
+    pub fn name(self) -> &'static str {
+        match self {
+            ZoneTest::Centre => "centre",
+            ZoneTest::Lowest => "lowest",
+        }
+    }
+}
+
+impl Zone {
+    /// A zone of constant velocity in which centres are tested.
+    pub fn new(plane: Plane, length: f64) -> Zone {
+        Zone { plane, length, motion: ZoneMotion::Constant, test: ZoneTest::Centre }
+    }
+
+    /// What is tested of a sphere lies this far before its centre [m].
+    pub fn lead(&self, radius: f64) -> f64 {
+        match self.test {
+            ZoneTest::Centre => 0.0,
+            ZoneTest::Lowest => radius,
+        }
+    }
+
+    /// How far what is tested of a sphere is past the plane [m].
+    pub fn past(&self, centre: &Vec3, radius: f64) -> f64 {
+        self.plane.signed_distance(centre) + self.lead(radius)
+    }
+
+    /// Acceleration [m/s²] of what moves in it.
+    pub fn acceleration(&self, gravity: &Vec3) -> Vec3 {
+        match self.motion {
+            ZoneMotion::Constant | ZoneMotion::Recorded => Vec3::zeros(),
+            ZoneMotion::Ballistic => *gravity,
+        }
+    }
+
+    /// Time [s] that it takes from `past` [m] (below 0) to the plane, with a velocity [m/s]; `None`: it never gets there.
+    pub fn arrives_after(&self, past: f64, velocity: &Vec3, gravity: &Vec3) -> Option<f64> {
+        let (v, a) = (velocity.dot(&self.plane.normal), self.acceleration(gravity).dot(&self.plane.normal));
+        let way = (-past).max(0.0);
+        // ½ a τ² + v τ = way, the first time; written so that nothing cancels.
+        let root = (v * v + 2.0 * a * way).sqrt();
+        let time = if v >= 0.0 { 2.0 * way / (v + root) } else { (root - v) / a };
+        (time >= 0.0 && time.is_finite() && (v > 0.0 || a > 0.0)).then_some(time)
+    }
+}
+
+/// A particle that will enter.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Entry {
+    /// When it is at `particle.position`, on the generation plane [s].
+    pub time: f64,
+    /// Which inlet.
+    pub inlet: u32,
+    /// State at that time; from it, the zone's motion leads to the calculation plane. Of a rigid clump: id of its first member, centre of
+    /// mass, and the sphere that holds it; it does not turn before the calculation plane.
+    pub particle: Particle,
+    /// What makes it a rigid clump.
+    pub clump: Option<EntryClump>,
+}
+
+/// The shape of an entry that is a rigid clump.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct EntryClump {
+    /// Index of its shape.
+    pub shape: u32,
+    /// Size over that of the shape [–].
+    pub scale: f64,
+    /// From the frame that the shape was given in to space.
+    pub orientation: UnitQuaternion<f64>,
+}
+
+/// State of a particle at a time of its path.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Sample {
+    /// [s].
+    pub time: f64,
+    /// Centre [m].
+    pub position: Vec3,
+    /// [m/s].
+    pub velocity: Vec3,
+    /// [rad/s].
+    pub spin: Vec3,
+}
+
+/// News of a particle on its way in along a recorded path, that begins with its [`Entry`].
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum Guide {
+    /// It is there then.
+    At(Sample),
+    /// It is there then, and free from then on.
+    Free(Sample),
+    /// It goes back upstream: it is out of the calculation after the sample before.
+    Gone,
+}
+
+/// A particle near a storage plane, now.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct PathSample {
+    /// Which outlet.
+    pub outlet: u32,
+    /// Its state.
+    pub particle: Particle,
+    /// Whether it has gone back upstream, out of reach of the plane.
+    pub gone: bool,
+}
+
+/// A particle that has passed a storage plane.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Crossing {
+    /// Passage time, interpolated within the step [s].
+    pub time: f64,
+    /// Which outlet.
+    pub outlet: u32,
+    /// State at that time (what is tested of it lies on the plane).
+    pub particle: Particle,
+    /// Partners in contact, by id (`None` for a wall), with the force on this particle [N]: normal, tangential.
+    pub touching: Vec<Touch>,
+}
+
+/// One contact of a crossing.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Touch {
+    /// Id of the other particle; `None` for a wall.
+    pub partner: Option<u32>,
+    /// Normal force on the crossing particle [N].
+    pub normal: Vec3,
+    /// Tangential force on the crossing particle [N].
+    pub tangential: Vec3,
+}

@@ -1,0 +1,80 @@
+//! What a run says of itself before its first message: what an inlet stream needs of it.
+
+use super::Replay;
+use crate::crossings::{SIZES, Sizes};
+use crate::error::SceneError;
+use crate::gate::Gate;
+use crate::material_info::MATERIALS;
+use crate::run::OUTLETS;
+use dem::setup::{Zone, ZoneMotion};
+use geom::Shown;
+use std::collections::BTreeMap;
+
+pub struct Head {
+    pub materials: BTreeMap<String, String>,
+    pub sizes: Sizes,
+    /// Where grains come in.
+    pub gate: Gate,
+}
+
+/// From the metadata of a run.
+pub fn head(
+    name: &str,
+    mut records: BTreeMap<String, BTreeMap<String, String>>,
+    what: &Replay,
+) -> Result<Head, SceneError> {
+    let no_run = |record: &str| {
+        let why = format!("has no record '{record}' before its first message");
+        SceneError::file(name, why, "give a run that dem-run wrote")
+    };
+    if !records.contains_key(crate::input::SCENE) {
+        return Err(no_run(crate::input::SCENE));
+    }
+    let Some(outlets) = records.remove(OUTLETS) else {
+        let why = "is a run without [[outlet]], so that nothing was recorded";
+        return Err(SceneError::file(name, why, "make its scene with stage-split --keep upstream"));
+    };
+    let Some(json) = outlets.get(&what.outlet.to_string()) else {
+        let why = format!("has {} outlets, none with index {}", outlets.len(), what.outlet);
+        return Err(SceneError::file(name, why, "--outlet 0 is the first"));
+    };
+    let wrong = |e| SceneError::file(name, format!("record '{OUTLETS}': {e}"), "run dem-run again");
+    let recorded: Gate = serde_json::from_str(json).map_err(wrong)?;
+    let sizes = Sizes::from_map(name, &records.remove(SIZES).ok_or_else(|| no_run(SIZES))?)?;
+    let zone = Zone {
+        plane: what
+            .at
+            .unwrap_or_else(|| what.frame.map_or(recorded.zone.plane, |f| f.plane(&recorded.zone.plane))),
+        length: what.length.unwrap_or(recorded.zone.length),
+        motion: what.motion.unwrap_or(recorded.zone.motion),
+        test: recorded.zone.test,
+    };
+    if zone.motion == ZoneMotion::Recorded {
+        if recorded.zone.motion != ZoneMotion::Recorded {
+            let why = "has no paths, which --move recorded follows";
+            return Err(SceneError::file(
+                name,
+                why,
+                "run the stage upstream with motion = \"recorded\" in its [[outlet]]",
+            ));
+        }
+        if let Some(option) = what.off_path() {
+            let why = format!("{option} does not go with recorded paths");
+            return Err(SceneError::file(name, why, "leave it out, or use --move constant or ballistic"));
+        }
+    }
+    if zone.motion == ZoneMotion::Ballistic && recorded.gravity.is_none() {
+        let why = "does not tell its gravity, which --move ballistic needs";
+        return Err(SceneError::file(name, why, "run the stage upstream again with this version"));
+    }
+    if zone.length.is_nan() || zone.length <= 2.0 * sizes.largest {
+        let why = format!(
+            "--length {} m is not above the largest diameter, {} m",
+            Shown(zone.length),
+            Shown(2.0 * sizes.largest)
+        );
+        return Err(SceneError::file(name, why, format!("use at least {} m", Shown(2.4 * sizes.largest))));
+    }
+    let materials = records.remove(MATERIALS).ok_or_else(|| no_run(MATERIALS))?;
+    Ok(Head { materials, sizes, gate: Gate { zone, ..recorded } })
+}

@@ -1,0 +1,83 @@
+//! Where on its path a particle is generated, so that the zone's motion brings it to the calculation plane as it was recorded.
+//!
+//! ```text
+//! x₀ = x − v τ + ½ g τ²      v₀ = v − g τ          τ before it arrives; g only in free fall
+//! v τ − ½ g τ² = L           τ = 2 L / (v + √(v² − 2 g L))        to the generation plane; v, g along the normal
+//! τ_apex = v/g               where a falling particle did not move along the normal: no path leads there from farther back
+//! ```
+
+use super::head::Head;
+use super::{Intervals, Replay};
+use crate::crossings::Passage;
+use crate::error::SceneError;
+use dem::setup::Zone;
+use geom::{Shown, Vec3};
+
+/// Places passages on their paths.
+pub struct Starts {
+    zone: Zone,
+    /// Of the motion in the zone [m/s²].
+    acceleration: Vec3,
+    intervals: Intervals,
+    ahead: Option<f64>,
+}
+
+impl Starts {
+    pub fn new(head: &Head, what: &Replay) -> Starts {
+        let zone = head.gate.zone;
+        let acceleration = zone.acceleration(&head.gate.gravity.unwrap_or_default());
+        Starts { zone, acceleration, intervals: what.intervals, ahead: what.ahead }
+    }
+
+    /// T of [`Intervals::Both`] [s], when it is known.
+    pub fn ahead(&self) -> Option<f64> {
+        self.ahead.filter(|_| self.intervals == Intervals::Both)
+    }
+
+    /// Gives a passage the state in which it is generated, and tells how much later that is than for those that are generated
+    /// with the full T [s].
+    pub fn place(&mut self, name: &str, row: &mut Passage) -> Result<f64, SceneError> {
+        let (plane, particle) = (self.zone.plane, &mut row.particle);
+        let speed = particle.velocity.dot(&plane.normal);
+        if !(speed > 0.0) {
+            let why = format!(
+                "particle {} passes at {} s with {} m/s along the normal of the calculation plane",
+                particle.id,
+                Shown(row.time),
+                Shown(speed)
+            );
+            return Err(SceneError::file(
+                name,
+                why,
+                "give --at a normal that points with the flow, or turn the record (--turn)",
+            ));
+        }
+        let passes = plane.project(&particle.position) - plane.normal * self.zone.lead(particle.radius);
+        let pull = self.acceleration.dot(&plane.normal);
+        let apex = if pull > 0.0 { speed / pull } else { f64::INFINITY };
+        let whole = self.back_to(self.zone.length, speed, pull).unwrap_or(apex);
+        let (position, before, waits) = match self.intervals {
+            Intervals::Generation => {
+                let depth = self.zone.length.min(speed * whole - 0.5 * pull * whole * whole);
+                // Over the whole length without rounding.
+                let depth = if whole < apex { self.zone.length } else { depth };
+                (passes - plane.normal * depth, whole, 0.0)
+            }
+            Intervals::Both => {
+                let ahead = *self.ahead.get_or_insert(whole);
+                let before = ahead.min(apex);
+                let back = particle.velocity * before - self.acceleration * (0.5 * before * before);
+                (passes - back, before, ahead - before)
+            }
+        };
+        particle.position = position;
+        particle.velocity -= self.acceleration * before;
+        Ok(waits)
+    }
+
+    /// τ back to a depth before the plane [s].
+    fn back_to(&self, depth: f64, speed: f64, pull: f64) -> Option<f64> {
+        let square = speed * speed - 2.0 * pull * depth;
+        (square >= 0.0).then(|| 2.0 * depth / (speed + square.sqrt()))
+    }
+}

@@ -1,0 +1,152 @@
+//! The command line.
+
+use clap::{Parser, ValueEnum};
+use cli::{Output, Source, usage};
+use geom::{Plane, Vec3};
+use scene::ZoneMotion;
+use scene::replay::{Copies, Frame, Intervals, Replay};
+
+/// Turns the crossings of a run into an inlet MCAP, also while the run is still being written
+#[derive(Parser)]
+pub struct Args {
+    /// The run (MCAP), - for stdin
+    #[arg(value_name = "RUN.mcap", default_value = "-", hide_default_value = true)]
+    pub run: Source,
+    /// Calculation plane, px,py,pz,nx,ny,nz (default: the storage plane of the run)
+    #[arg(long, value_name = "PLANE", allow_hyphen_values = true)]
+    at: Option<Plane>,
+    /// Length of the zone before it [m] (default: that of the run)
+    #[arg(long, value_name = "M")]
+    length: Option<f64>,
+    /// Leave out what passes before S; S becomes time 0 [s]
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    from: Option<f64>,
+    /// Leave out what passes at S or later [s]
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    until: Option<f64>,
+    /// Keep the recorded times (default: the first passage becomes time 0)
+    #[arg(long, conflicts_with = "from")]
+    keep_times: bool,
+    /// Index of the storage plane
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    outlet: u16,
+    /// Where recorded intervals are kept; "both" lets grains of a dense flow in without overlap
+    #[arg(long, value_enum, default_value = "both")]
+    intervals: Keep,
+    /// Motion in the zone (default: that of the run)
+    #[arg(long = "move", value_enum)]
+    motion: Option<Motion>,
+    /// With intervals both: how long before it arrives each grain is generated [s] (default: what the first needs for the zone)
+    #[arg(long, value_name = "S", value_parser = span)]
+    ahead: Option<f64>,
+    /// Turn the record by this angle about --axis: places, velocities, spins, and the plane unless --at is given
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = number)]
+    turn_deg: Option<f64>,
+    /// Axis of --turn-deg: a point [m] and a direction
+    #[arg(long, value_name = "PX,PY,PZ,AX,AY,AZ", allow_hyphen_values = true, default_value = "0,0,0,0,0,1")]
+    axis: Plane,
+    /// Shift the record, after it was turned [m]
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = vector)]
+    shift: Option<Vec3>,
+    /// Replay the record so many times, one after the other; it is held in memory
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    repeat: u32,
+    /// Time between the starts of two replays [s] (default: how long the record is)
+    #[arg(long, value_name = "S", value_parser = span, requires = "repeat")]
+    period: Option<f64>,
+    /// Superpose so many copies of each grain: scales the rate, and is said so in the file; needs --copy-shift or --copy-delay
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    copies: u32,
+    /// Copy k comes in this much beside the record, times k [m]
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = vector, requires = "copies")]
+    copy_shift: Option<Vec3>,
+    /// Copy k comes in this much later, times k [s]
+    #[arg(long, value_name = "S", value_parser = span, requires = "copies")]
+    copy_delay: Option<f64>,
+    /// Give grains new ids from N on, in the order in which they enter (default: only where there are several of one, from 0)
+    #[arg(long, value_name = "N")]
+    first_id: Option<u32>,
+    #[command(flatten)]
+    pub output: Output,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Keep {
+    Generation,
+    Both,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Motion {
+    /// With the velocity at the plane
+    Constant,
+    /// In free fall
+    Ballistic,
+    /// Along the paths that grains took in the stage upstream
+    Recorded,
+}
+
+impl Args {
+    /// What is asked for.
+    ///
+    /// # Errors
+    /// Options that do not go together.
+    pub fn what(&self) -> anyhow::Result<Replay> {
+        if let (Some(from), Some(until)) = (self.from, self.until)
+            && until <= from
+        {
+            return Err(usage(format!("--until {until} s is not after --from {from} s: give a later end")));
+        }
+        if self.copies > 1 && self.copy_shift.is_none() && self.copy_delay.is_none() {
+            let why = "superposed copies would lie in each other: give --copy-shift X,Y,Z (beside each other) or --copy-delay S";
+            return Err(usage(format!("--copies {}: {why}", self.copies)));
+        }
+        let turned = self.turn_deg.is_some() || self.shift.is_some();
+        let (angle, shift) = (self.turn_deg.unwrap_or(0.0).to_radians(), self.shift.unwrap_or_default());
+        Ok(Replay {
+            at: self.at,
+            length: self.length,
+            from: self.from,
+            until: self.until,
+            keep_times: self.keep_times,
+            outlet: self.outlet,
+            intervals: match self.intervals {
+                Keep::Generation => Intervals::Generation,
+                Keep::Both => Intervals::Both,
+            },
+            motion: self.motion.map(|motion| match motion {
+                Motion::Constant => ZoneMotion::Constant,
+                Motion::Ballistic => ZoneMotion::Ballistic,
+                Motion::Recorded => ZoneMotion::Recorded,
+            }),
+            ahead: self.ahead,
+            frame: turned.then(|| Frame::new(&self.axis, angle, shift)),
+            copies: Copies {
+                count: self.copies,
+                shift: self.copy_shift.unwrap_or_default(),
+                delay: self.copy_delay.unwrap_or(0.0),
+            },
+            repeat: self.repeat,
+            period: self.period,
+            first_id: self.first_id,
+        })
+    }
+}
+
+fn number(text: &str) -> Result<f64, String> {
+    text.parse::<f64>().ok().filter(|v| v.is_finite()).ok_or_else(|| "give a number, such as 90".into())
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    number(text).map_err(|_| "give a time in seconds, such as 0.5".into())
+}
+
+fn span(text: &str) -> Result<f64, String> {
+    number(text).ok().filter(|s| *s > 0.0).ok_or_else(|| "give seconds above 0, such as 0.01".into())
+}
+
+fn vector(text: &str) -> Result<Vec3, String> {
+    let numbers: Result<Vec<f64>, String> = text.split(',').map(number).collect();
+    let three = numbers.ok().and_then(|n| <[f64; 3]>::try_from(n).ok());
+    three.map(Vec3::from).ok_or_else(|| "give three lengths in metres, such as 0.1,0,0".into())
+}

@@ -1,0 +1,79 @@
+//! The command line.
+
+use clap::{Parser, ValueEnum};
+use cli::{Output, Source};
+use geom::Plane;
+use scene::split::{Cut, Stage};
+use scene::{ZoneMotion, ZoneTest};
+use std::path::Path;
+
+/// Cuts a scene at a plane and writes the scene of one stage
+#[derive(Parser)]
+pub struct Args {
+    /// The scene (TOML), - for stdin
+    #[arg(value_name = "SCENE.toml", default_value = "-", hide_default_value = true)]
+    pub scene: Source,
+    /// The plane, px,py,pz,nx,ny,nz, its normal in the direction of flow
+    #[arg(long, value_name = "PLANE", allow_hyphen_values = true)]
+    at: Plane,
+    /// The stage that is written
+    #[arg(long, value_enum)]
+    keep: Keep,
+    /// Length of the zone behind the plane [m] (default: 1.2 times the largest diameter)
+    #[arg(long, value_name = "M")]
+    length: Option<f64>,
+    /// Motion in the zone
+    #[arg(long, value_enum, default_value = "constant")]
+    motion: Motion,
+    /// What of a grain passes the planes: its centre, or the point of its surface that is foremost along the plane's normal
+    #[arg(long, value_enum, default_value = "centre")]
+    test: Test,
+    #[command(flatten)]
+    pub output: Output,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Keep {
+    Upstream,
+    Downstream,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Motion {
+    /// With the velocity at the plane
+    Constant,
+    /// In free fall
+    Ballistic,
+    /// Along the paths that grains took in the stage upstream
+    Recorded,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Test {
+    Centre,
+    Lowest,
+}
+
+impl Args {
+    /// The cut that is asked for.
+    pub fn cut(&self) -> Cut {
+        Cut {
+            plane: self.at,
+            keep: match self.keep {
+                Keep::Upstream => Stage::Upstream,
+                Keep::Downstream => Stage::Downstream,
+            },
+            length: self.length,
+            motion: match self.motion {
+                Motion::Constant => ZoneMotion::Constant,
+                Motion::Ballistic => ZoneMotion::Ballistic,
+                Motion::Recorded => ZoneMotion::Recorded,
+            },
+            test: match self.test {
+                Test::Centre => ZoneTest::Centre,
+                Test::Lowest => ZoneTest::Lowest,
+            },
+            folder: self.output.path().and_then(Path::parent).unwrap_or(Path::new("")).to_owned(),
+        }
+    }
+}
