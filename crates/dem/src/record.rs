@@ -52,6 +52,12 @@ impl Simulation {
         for segment in &self.contacts.segments {
             let kind = &self.kinds[segment.kind];
             for place in segment.contacts() {
+                // Who has left at the end of a zone is in the lists until they are made anew.
+                let pair = !matches!(kind.with, With::Wall(_));
+                let gone = |k: u32| self.zones.is_gone(k as usize);
+                if gone(self.contacts.i[place]) || pair && gone(self.contacts.partner[place]) {
+                    continue;
+                }
                 let row = &self.contacts.loads[place * stride..][..3];
                 let force = Vec3::new(row[0], row[1], row[2]);
                 let done = work.get_mut(place).map_or(0.0, std::mem::take);
