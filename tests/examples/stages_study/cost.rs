@@ -47,7 +47,7 @@ pub fn study(folder: &Path, page: &Path) -> Result<(), String> {
         let size = |name: &str| std::fs::metadata(folder.join(name)).map_or(0, |m| m.len());
         record = (size("up.mcap"), size("in.mcap"));
     }
-    put(page, "cost", &text(upstream, &times, record))
+    put(folder, page, "cost", &text(upstream, &times, record))
 }
 
 fn text(upstream: f64, times: &[Vec<f64>; 3], record: (u64, u64)) -> String {

@@ -1,11 +1,13 @@
 //! Stages, studied: `stages_study FOLDER PAGE.md` runs a small plant undivided and cut, in FOLDER, and writes what it found into the page, between
-//! the marks of its parts, and the plots beside it. The tools must be on the path; SEEDS=… gives the number of runs of each setting.
+//! the marks of its parts, and the plots beside it. The tools must be on the path; SEEDS=… gives the number of runs of each setting, QUICK=1 leaves out all but each cut and motion once.
+//! What was measured of a run is kept in FOLDER, so that a study that was stopped goes on.
 //!
 //! Fidelity: every quantity of a cut run is compared with the undivided run of the same seed; the mean difference has Student's 95 % interval,
 //! and stands beside the deviation of the undivided runs between seeds. Cost: processor times.
 
 mod cost;
 mod fidelity;
+mod kept;
 mod page;
 #[path = "../walls_study/picture.rs"]
 mod picture;

@@ -1,23 +1,22 @@
-//! The parts of the page that programs write: each stands between `<!-- begin NAME -->` and `<!-- end NAME -->`.
+//! The parts of the page that programs write.
 
+use crate::plant::scenes;
+use crate::shell::line;
 use std::path::Path;
 
-/// Puts a text between the marks of a part.
+/// Puts a text between the marks of a part (pipelines/stages/section.sh); it stays in the folder as NAME.md, too.
 ///
 /// # Errors
 /// A page that cannot be read or written, or lacks the marks.
-pub fn put(page: &Path, name: &str, text: &str) -> Result<(), String> {
-    let told = |why: std::io::Error| format!("{}: {why}", page.display());
-    let old = std::fs::read_to_string(page).map_err(told)?;
-    let [begin, end] = ["begin", "end"].map(|word| format!("<!-- {word} {name} -->"));
-    let (Some(from), Some(to)) = (old.find(&begin), old.find(&end)) else {
-        return Err(format!(
-            "{}: has no '{begin}' … '{end}': put them where the part belongs",
-            page.display()
-        ));
+pub fn put(folder: &Path, page: &Path, name: &str, text: &str) -> Result<(), String> {
+    let told = |path: &Path| {
+        let path = path.to_owned();
+        move |why: std::io::Error| format!("{}: {why}", path.display())
     };
-    let new = format!("{}\n{}\n{}", &old[..from + begin.len()], text.trim_end(), &old[to..]);
-    std::fs::write(page, new).map_err(told)
+    let file = folder.join(format!("{name}.md"));
+    std::fs::write(&file, text.trim()).map_err(told(&file))?;
+    let [page, file] = [page, &file].map(|path| path.canonicalize().map_err(told(path)));
+    line(&scenes(), &format!("./section.sh '{}' {name} < '{}'", page?.display(), file?.display())).map(|_| ())
 }
 
 /// A table in Markdown.
