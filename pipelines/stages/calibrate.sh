@@ -1,21 +1,24 @@
 #!/usr/bin/env bash
 # Calibrates the rolling resistance between grains: calibrate.sh FOLDER PAGE.md runs the slice of the sinter box (sinter-slice.toml) for each value of ROLLING and
 # each seed, puts a line through the slopes of the heaps, solves it for ANGLE, and writes the part "calibration" of the page. Sliding friction stays as
-# the scene has it. Then runs the slice with the friction of the scene and other stiffnesses, for the part "stiffness".
+# the scene has it. Then runs the small plant (small.toml) with other stiffnesses, for the part "stiffness".
 #
-# Environment: ROLLING="0.5 0.7 0.9", SEEDS="1 2 3", ANGLE=35.5 [deg], STIFFNESS="1250 2500 10000 40000" [N/m], JOBS=2. Runs that are there are used.
+# Environment: ROLLING="0.7 0.8 0.9", SEEDS="1 2 3", ANGLE=35.5 [deg], STIFFNESS="2500 10000 40000 160000" [N/m], MORE="1 2 3 4 5" the seeds of those,
+# JOBS=2. Runs that are there are used: take another folder for another scene.
 set -euo pipefail
 mkdir -p "$1"
 OUT=$(cd "$1" && pwd) PAGE=$(cd "$(dirname "$2")" && pwd)/$(basename "$2")
 cd "$(dirname "$0")"
-ROLLING=${ROLLING:-0.5 0.7 0.9} SEEDS=${SEEDS:-1 2 3} ANGLE=${ANGLE:-35.5} STIFFNESS=${STIFFNESS:-1250 2500 10000 40000}
+ROLLING=${ROLLING:-0.7 0.8 0.9} SEEDS=${SEEDS:-1 2 3} ANGLE=${ANGLE:-35.5}
+STIFFNESS=${STIFFNESS:-2500 10000 40000 160000} MORE=${MORE:-1 2 3 4 5}
 
-# slope NAME SEED SETTINGS…: runs the slice unless that is done, and prints its slope [deg] with what the run took.
+# slope NAME SEED SCENE SETTINGS…: runs a scene unless that is done, and keeps its slope [deg] and step [s].
 slope() {
-  local name=$1 seed=$2 run=$OUT/$1-$2 own=()
-  shift 2
-  for k in 0 1 2 3 4; do own+=(--set "fill.$k.seed=$((10 * seed + k))"); done
-  [ -e "$run.mcap" ] || dem-run sinter-slice.toml "${own[@]}" "$@" --threads 1 -q --report "$run.json" -o "$run.mcap"
+  local name=$1 seed=$2 scene=$3 run=$OUT/$1-$2 own=() fills
+  shift 3
+  fills=$(grep -c '^\[\[fill\]\]' "$scene")
+  for ((k = 0; k < fills; k++)); do own+=(--set "fill.$k.seed=$((10 * seed + k))"); done
+  [ -e "$run.mcap" ] || dem-run "$scene" "${own[@]}" "$@" --threads 1 -q --report "$run.json" -o "$run.mcap"
   dem-measure "$run.mcap" --repose --side x+ --sectors 2 --ground 0 -q --report "$run.angle" > /dev/null
   printf '%s %s %s %s\n' "$name" "$seed" "$(grep -o '"angle": [^,]*' "$run.angle" | cut -d' ' -f2)" \
     "$(grep -o '"dt": [^,]*' "$run.json" | cut -d' ' -f2)" > "$run.slope"
@@ -24,10 +27,10 @@ export -f slope
 export OUT
 {
   for roll in $ROLLING; do for seed in $SEEDS; do
-    printf '%s\n' "slope rolling-$roll $seed --set contact.0.rolling_resistance=$roll"
+    printf '%s\n' "slope rolling-$roll $seed sinter-slice.toml --set contact.0.rolling_resistance=$roll"
   done; done
-  for k in $STIFFNESS; do for seed in $SEEDS; do
-    printf '%s\n' "slope stiffness-$k $seed --set contact.0.stiffness=$k --set contact.1.stiffness=$k"
+  for k in $STIFFNESS; do for seed in $MORE; do
+    printf '%s\n' "slope stiffness-$k $seed small.toml --set output.contacts=false --set contact.0.stiffness=$k --set contact.1.stiffness=$k"
   done; done
 } | xargs -P "${JOBS:-2}" -I LINE bash -c 'set -e; LINE'
 
@@ -49,7 +52,7 @@ for roll in $ROLLING; do for seed in $SEEDS; do cat "$OUT/rolling-$roll-$seed.sl
     off = t[n - 2 > 12 ? 12 : n - 2] * s / (slope < 0 ? -slope : slope) * sqrt(1 / n + (at - mean)^2 / (sxx - sx * sx / n))
     printf "\nThe line: %.1f° and %.1f° for each 0.1 more, at %.2f; it meets %.1f° at a **rolling resistance of %.2f ± %.2f** (95 %%, from the scatter of the runs about the line).\n", level, slope / 10, mean, angle, at, off
   }' > "$OUT/calibration.md"
-for k in $STIFFNESS; do for seed in $SEEDS; do cat "$OUT/stiffness-$k-$seed.slope"; done; done | sed 's/^stiffness-//' | awk '
+for k in $STIFFNESS; do for seed in $MORE; do cat "$OUT/stiffness-$k-$seed.slope"; done; done | sed 's/^stiffness-//' | awk '
   {if (!($1 in count)) order[++values] = $1
    count[$1]++; sum[$1] += $3; squares[$1] += $3 * $3; dt[$1] = $4}
   END {
