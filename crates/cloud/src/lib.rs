@@ -17,6 +17,7 @@ pub mod points;
 mod raster;
 pub mod regions;
 mod sheet;
+pub mod units;
 mod volume;
 
 pub use cover::Mesher;

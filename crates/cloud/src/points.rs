@@ -46,6 +46,13 @@ impl Cloud {
         found.map_or(Ok(()), |index| Err(TooFar { index, at: self.points[index] }))
     }
 
+    /// Multiplies every coordinate, as from millimetres to metres; they are 8-byte numbers from then on, and a comment says so.
+    pub fn scale(&mut self, factor: f64) {
+        self.points.iter_mut().for_each(|p| *p *= factor);
+        self.double = true;
+        self.comments.push(format!("coordinates were multiplied by {factor}"));
+    }
+
     /// The given points with their properties, in that order.
     pub fn select(&self, rows: &[u32]) -> Cloud {
         Cloud {

@@ -1,0 +1,128 @@
+//! Units of a scan: what looks like millimetres, and coordinates that their numbers are too short for.
+
+use crate::Cloud;
+use geom::Vec3;
+use std::fmt;
+
+/// Points that stand for all.
+const SOME: usize = 4096;
+/// Share of the points at either end of an axis that does not count: far outliers.
+const ENDS: f64 = 0.05;
+/// Equipment is hardly wider [m] …
+const WIDE: f64 = 50.0;
+/// … with points as far apart [m].
+const SPARSE: f64 = 0.1;
+/// Share of the spacing that a coordinate may be off.
+const EXACT: f64 = 0.01;
+
+/// What looks wrong about the numbers of a cloud.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Doubt {
+    /// As wide [m] as a plant in millimetres, its points as far apart [m].
+    Millimetres {
+        /// Width along the longest axis [m].
+        width: f64,
+        /// Mean distance of points [m].
+        spacing: f64,
+    },
+    /// Coordinates in 4-byte numbers that are only exact to a share of the spacing that can be seen.
+    Short {
+        /// Largest coordinate [m].
+        largest: f64,
+        /// Distance between neighbouring numbers there [m].
+        step: f64,
+        /// Mean distance of points [m].
+        spacing: f64,
+    },
+}
+
+impl fmt::Display for Doubt {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // Rough numbers: they are estimates.
+        let rough = |value: f64| geom::Shown(format!("{value:.1e}").parse().unwrap_or(value));
+        match self {
+            Doubt::Millimetres { width, spacing } => write!(
+                f,
+                "the cloud is about {} m wide and its points are {} m apart: if it is in millimetres, read it with \
+                 --scale 0.001, and with --scale 1 if it is in metres",
+                rough(*width),
+                rough(*spacing)
+            ),
+            Doubt::Short { largest, step, spacing } => write!(
+                f,
+                "coordinates up to {} m stand in 4-byte numbers, which are {} m apart there, and the points are {} m apart: \
+                 export the scan with 8-byte numbers (double), or with its origin near the equipment",
+                rough(*largest),
+                rough(*step),
+                rough(*spacing)
+            ),
+        }
+    }
+}
+
+/// What looks wrong, if anything.
+pub fn doubts(cloud: &Cloud) -> Vec<Doubt> {
+    let Some((sides, largest)) = survey(&cloud.points) else { return Vec::new() };
+    let count = cloud.points.len() as f64;
+    let spacing = (sides[2] * sides[1].max(sides[2] / count) / count).sqrt();
+    let mut found = Vec::new();
+    if sides[2] > WIDE && spacing > SPARSE {
+        found.push(Doubt::Millimetres { width: sides[2], spacing });
+    }
+    let step = largest * f64::from(f32::EPSILON);
+    if !cloud.double && step > EXACT * spacing && spacing > 0.0 {
+        found.push(Doubt::Short { largest, step, spacing });
+    }
+    found
+}
+
+/// Lengths of the box around most points, ascending, and the largest coordinate among these [m].
+fn survey(points: &[Vec3]) -> Option<([f64; 3], f64)> {
+    let step = points.len().div_ceil(SOME).max(1);
+    let is_finite = |p: &&Vec3| p.iter().all(|c| c.is_finite());
+    let some: Vec<&Vec3> = points.iter().step_by(step).filter(is_finite).collect();
+    if some.len() < 10 {
+        return None;
+    }
+    let ends = |axis: usize| {
+        let mut values: Vec<f64> = some.iter().map(|p| p[axis]).collect();
+        values.sort_by(f64::total_cmp);
+        let off = (ENDS * values.len() as f64) as usize;
+        (values[off], values[values.len() - 1 - off])
+    };
+    let ends = [0, 1, 2].map(ends);
+    let mut sides = ends.map(|(low, high)| high - low);
+    sides.sort_by(f64::total_cmp);
+    let largest = ends.iter().map(|(low, high)| low.abs().max(high.abs())).fold(0.0, f64::max);
+    Some((sides, largest))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A sheet of 100 × 100 points `step` [m] apart, its corner at `x`.
+    fn sheet(step: f64, x: f64, double: bool) -> Cloud {
+        let place = |k: i32| Vec3::new(x + step * f64::from(k % 100), step * f64::from(k / 100), 0.0);
+        Cloud { points: (0..10_000).map(place).collect(), double, ..Cloud::default() }
+    }
+
+    #[test]
+    fn millimetres_are_told_and_metres_are_not() {
+        assert_eq!(doubts(&sheet(0.002, 0.0, false)), []);
+        assert!(matches!(doubts(&sheet(2.0, 0.0, true))[..], [Doubt::Millimetres { .. }]));
+        let said = doubts(&sheet(2.0, 0.0, true))[0].to_string();
+        assert!(said.contains("about 180 m wide") && said.contains("--scale 0.001"), "{said}");
+        let mut far = sheet(0.002, 0.0, false);
+        far.points.push(Vec3::repeat(1e9));
+        assert_eq!(doubts(&far), [], "an outlier is no plant");
+        assert_eq!(doubts(&Cloud::default()), []);
+    }
+
+    #[test]
+    fn map_coordinates_in_short_numbers_are_told() {
+        assert!(matches!(doubts(&sheet(0.002, 637_000.0, false))[..], [Doubt::Short { .. }]));
+        assert_eq!(doubts(&sheet(0.002, 637_000.0, true)), []);
+        assert_eq!(doubts(&sheet(0.002, 40.0, false)), []);
+    }
+}
