@@ -75,3 +75,63 @@ fn wrong_use_and_wrong_input_say_what_and_where() {
         assert!(said.contains(part) && output.stdout.is_empty(), "{args:?}: {said}");
     }
 }
+
+/// The scan of the chute, and its hull as a tube with a cone at its end; what is beyond it is the mounting.
+#[test]
+fn a_part_beyond_the_outer_shape_is_found_and_removed() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("plant.toml");
+    let region = |name: &str, shape: &str, action: &str| {
+        format!("[[region]]\nname = \"{name}\"\nshape = \"{shape}\"\naction = \"{action}\"\n")
+    };
+    let hull = region("hull", "halfspace:0,0,0,0.766,0,-0.643", "outer");
+    let bolt = region("bolt", "sphere:9,9,9,0.1", "remove");
+    std::fs::write(&file, format!("tolerance = 0.01\n{hull}{bolt}")).unwrap();
+    let regions = ["--regions", file.to_str().unwrap()];
+    let check = crop(&[&[CHUTE, "--check"][..], &regions[..]].concat(), b"");
+    let said = String::from_utf8_lossy(&check.stderr).into_owned();
+    assert_eq!(check.status.code(), Some(3), "{said}");
+    assert!(said.contains("beyond the outer shape") && said.contains("'bolt' holds no point"), "{said}");
+    let table = String::from_utf8(check.stdout).unwrap();
+    let rows: Vec<&str> = table.lines().collect();
+    assert!(rows[0] == "part,points,x0,y0,z0,x1,y1,z1,beyond" && rows.len() >= 2, "{table}");
+    let points: usize = rows[1].split(',').nth(1).unwrap().parse().unwrap();
+    assert!(points > 5000, "{table}");
+    let done = crop(&[&[CHUTE][..], &regions[..]].concat(), b"");
+    assert_eq!(done.status.code(), Some(0));
+    let kept = cloud::from_bytes(done.stdout).unwrap();
+    assert!(kept.points.len() <= 75_000 - points);
+    assert!(kept.points.iter().all(|p| 0.766 * p.x - 0.643 * p.z > -0.0101));
+    // What is left passes.
+    std::fs::write(folder.path().join("kept.ply"), {
+        let mut bytes = Vec::new();
+        cloud::write_ply(&mut bytes, &kept, Default::default()).unwrap();
+        bytes
+    })
+    .unwrap();
+    let again = folder.path().join("kept.ply");
+    let check = crop(&[&[again.to_str().unwrap(), "--check"][..], &regions[..]].concat(), b"");
+    assert_eq!(check.status.code(), Some(0));
+    assert_eq!(String::from_utf8_lossy(&check.stdout).lines().count(), 1);
+    for words in [&["--check"][..], &["--tolerance", "0.1"], &["--outer", "!sphere:0,0,0,1"]] {
+        assert_eq!(crop(&[&[CHUTE][..], words].concat(), b"").status.code(), Some(2), "{words:?}");
+    }
+}
+
+#[test]
+fn a_scan_in_millimetres_is_told_and_scaled() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("mm.xyz");
+    let row = |k: u32| format!("{}.125 {} {}\n", 4 * (k % 50), 4 * (k / 50), k % 3);
+    std::fs::write(&file, (0..2500).map(row).collect::<String>()).unwrap();
+    let file = file.to_str().unwrap();
+    let plain = crop(&[file], b"");
+    let said = String::from_utf8_lossy(&plain.stderr).into_owned();
+    assert!(plain.status.code() == Some(0) && said.contains("--scale 0.001"), "{said}");
+    for (factor, x) in [("0.001", 4.125 * 0.001), ("1", 4.125)] {
+        let scaled = crop(&[file, "--scale", factor], b"");
+        assert!(!String::from_utf8_lossy(&scaled.stderr).contains("warning"));
+        assert_eq!(cloud::from_bytes(scaled.stdout).unwrap().points[1].x, x);
+    }
+    assert_eq!(crop(&[file, "--scale", "-1"], b"").status.code(), Some(2));
+}
