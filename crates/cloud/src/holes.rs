@@ -35,6 +35,8 @@ pub(crate) const GROW: f64 = 2.5;
 /// Points this far off the surface of a patch, as a share of its radius, still cover it: a stone that rises out of
 /// its shadow is no hole in the ground. A wall scanned from both sides must be thicker, or cropped to one side.
 const COVERS: f64 = 0.5;
+/// Points of a cell that are looked at in a box of many holes: there only whether something is there counts, and the box holds many cells.
+const ENOUGH: usize = 6;
 /// Most cells of one patch.
 const MOST_CELLS: f64 = 16e6;
 
@@ -70,30 +72,31 @@ pub(crate) fn find(points: &[Vec3], search: &Search) -> Vec<Hole> {
     let ends = sheet.ends();
     if !search.regions.is_empty() {
         let inside = search.regions.iter().map(|shape| (ends_of(&sheet, &ends, shape), Some(shape)));
-        return once(look(points, &sheet, inside.collect(), search), Vec::new());
+        return once(look(points, &sheet, inside.collect(), search, usize::MAX), Vec::new());
     }
     let (narrow, wide) = loops(&sheet, &ends, search.widest);
     let whole = |loops: Vec<Vec<End>>| loops.into_iter().map(|ends| (ends, None)).collect();
-    let found = look(points, &sheet, whole(narrow), search);
+    let found = look(points, &sheet, whole(narrow), search, usize::MAX);
     // A box of many holes lies far from the surface: what is seen there is looked at again, each in a patch of its own.
-    let seen = look(points, &sheet, whole(wide), search);
+    let seen = look(points, &sheet, whole(wide), search, ENOUGH);
     let seen =
         seen.iter().filter(|hole| !found.iter().any(|known| known.overlaps(hole) || hole.overlaps(known)));
     let near: Vec<Vec<End>> = seen.map(|hole| hole.ends(&sheet, &ends)).collect();
-    let again = look(points, &sheet, whole(near), search);
+    let again = look(points, &sheet, whole(near), search, usize::MAX);
     once(found, again)
 }
 
-/// The holes among groups of ends, each in its shape where there is one.
+/// The holes among groups of ends, each in its shape where there is one, by at most about `enough` points of each cell.
 fn look(
     points: &[Vec3],
     sheet: &Sheet,
     groups: Vec<(Vec<End>, Option<&Shape>)>,
     search: &Search,
+    enough: usize,
 ) -> Vec<Hole> {
     let patch = |(ends, shape)| Patch::new(sheet, ends, shape);
     let patches: Vec<Patch> = groups.into_iter().filter_map(patch).collect();
-    let rows = gather(sheet, &patches);
+    let rows = gather(sheet, &patches, enough);
     let holes = |(patch, rows): (&Patch, &Vec<u32>)| patch.holes(points, sheet, rows, search);
     let found: Vec<Vec<Hole>> = patches.par_iter().zip(&rows).map(holes).collect();
     found.into_iter().flatten().collect()
@@ -270,8 +273,8 @@ fn sorted(mut cells: Vec<usize>) -> Vec<usize> {
     cells
 }
 
-/// Rows of the points near each patch.
-fn gather(sheet: &Sheet, patches: &[Patch]) -> Vec<Vec<u32>> {
+/// Rows of the points near each patch, at most about `enough` of each cell, spread over the rows.
+fn gather(sheet: &Sheet, patches: &[Patch], enough: usize) -> Vec<Vec<u32>> {
     let near: Vec<Vec<u32>> = patches
         .par_iter()
         .map(|p| sheet.grid.within(&sheet.places, p.frame.origin, p.radius * 1.5).collect())
@@ -291,9 +294,11 @@ fn gather(sheet: &Sheet, patches: &[Patch]) -> Vec<Vec<u32>> {
             rows[slot[place as usize] as usize].push(row);
         }
     }
-    near.iter()
-        .map(|places| places.iter().flat_map(|&p| rows[slot[p as usize] as usize].iter().copied()).collect())
-        .collect()
+    let some = |place: &u32| {
+        let rows = &rows[slot[*place as usize] as usize];
+        rows.iter().copied().step_by(rows.len().div_ceil(enough).max(1))
+    };
+    near.iter().map(|places| places.iter().flat_map(some).collect()).collect()
 }
 
 /// Each hole once: two patches may both see it, the smaller one better; and then those of `others` that are not among them.

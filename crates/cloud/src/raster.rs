@@ -22,8 +22,9 @@ impl Raster {
 
     /// The cell that holds a place.
     pub fn at(&self, u: f64, v: f64) -> Option<usize> {
-        let [x, y] = [u, v].map(|c| ((c + self.half) / self.cell).floor());
+        let [x, y] = [u, v].map(|c| (c + self.half) / self.cell);
         let inside = |c: f64| c >= 0.0 && c < self.side as f64;
+        // Above zero, to cut the fraction off is to round down.
         (inside(x) && inside(y)).then(|| y as usize * self.side + x as usize)
     }
 

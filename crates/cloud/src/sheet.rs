@@ -147,7 +147,8 @@ fn middle(points: &[Vec3]) -> Vec3 {
 
 /// 21 bits an axis; `u64::MAX` for places too far away.
 fn key(cells: Vec3) -> u64 {
-    let shifted = cells.map(|c| (c + SPAN / 2.0).floor());
+    // From zero on, to cut the fraction off is to round down.
+    let shifted = cells.map(|c| c + SPAN / 2.0);
     if !shifted.iter().all(|c| (0.0..SPAN).contains(c)) {
         return u64::MAX;
     }

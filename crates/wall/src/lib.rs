@@ -1,6 +1,6 @@
 //! From points on a surface to wall spheres: roughness, radii by equation (1), placement, attributes, leak check.
 //!
-//! One sphere for each point. Neighbours are the pairs of the Gabriel graph (see [`star`]); the radii follow from
+//! One sphere for each point. Neighbours are the pairs of the Gabriel graph (see [`pairs`]); the radii follow from
 //! their distances P and the roughness ζ (see [`equation`]).
 
 pub mod attributes;

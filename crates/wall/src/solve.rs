@@ -21,7 +21,7 @@ use std::ops::Range;
 
 const MOST_SWEEPS: usize = 12;
 /// A sweep that gains less than this share is the last.
-const WORTH: f64 = 0.03;
+const WORTH: f64 = 0.02;
 const EQUAL: f64 = 0.05;
 /// Radii stay within this factor of r̄: beyond it contact search and time step pay for roughness nobody sees.
 const WIDEST: f64 = 2.0;
