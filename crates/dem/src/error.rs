@@ -187,6 +187,35 @@ pub enum Halt {
         /// Allowed share [–].
         limit: f64,
     },
+    /// A particle comes in on top of another.
+    #[error(
+        "t = {time:.6e} s: particle {id} comes in by inlet {inlet} at ({x:.4e}, {y:.4e}, {z:.4e}) m on top of {partner}: they overlap by \
+         {overlap:.3e} m, {:.1} % of the smaller radius (limit {:.1} %): keep its zone free at the start, let slow grains start farther \
+         back (stage-replay --ahead), cut where nothing piles up to the plane, or raise guards.overlap",
+        100.0 * share, 100.0 * limit
+    )]
+    InletOverlap {
+        /// When [s].
+        time: f64,
+        /// Which particle.
+        id: u32,
+        /// Its inlet.
+        inlet: u32,
+        /// What it overlaps.
+        partner: String,
+        /// Where [m].
+        x: f64,
+        /// Where [m].
+        y: f64,
+        /// Where [m].
+        z: f64,
+        /// By how much [m].
+        overlap: f64,
+        /// Over the smaller radius [–].
+        share: f64,
+        /// Allowed share [–].
+        limit: f64,
+    },
     /// A particle moved too far in one step, or its state is not a number.
     #[error(
         "t = {time:.6e} s: particle {id} at ({x:.4e}, {y:.4e}, {z:.4e}) m moves {motion:.3e} m in one step, {:.1} % of its radius (limit {:.1} %): shorten dt or raise guards.motion",

@@ -26,12 +26,22 @@ pub fn overlap(sim: &Simulation, moved: bool) -> Result<(), Halt> {
             let overlap = mine + radius - (here - other).norm();
             let share = overlap / if radius == 0.0 { mine } else { mine.min(radius) };
             if share > limit && worst.as_ref().is_none_or(|w| share > w.0) {
+                // Of a pair, the one that comes in is named first.
+                let (one, other) =
+                    if pair && sim.zones.on_its_way(partner).is_some() { (partner, i) } else { (i, partner) };
                 let partner = match with {
                     With::Wall(w) => format!("wall '{}'", sim.setup.walls[w].name),
-                    _ => format!("particle {}", sim.particles.id[partner]),
+                    _ => format!("particle {}", sim.particles.id[other]),
                 };
-                let (id, [x, y, z]) = (sim.particles.id[i], [here.x, here.y, here.z]);
-                worst = Some((share, Halt::Overlap { time, id, partner, x, y, z, overlap, share, limit }));
+                let here = place(one);
+                let (id, [x, y, z]) = (sim.particles.id[one], [here.x, here.y, here.z]);
+                let halt = match sim.zones.on_its_way(one) {
+                    Some(inlet) => {
+                        Halt::InletOverlap { time, id, inlet, partner, x, y, z, overlap, share, limit }
+                    }
+                    None => Halt::Overlap { time, id, partner, x, y, z, overlap, share, limit },
+                };
+                worst = Some((share, halt));
             }
         }
     }

@@ -104,6 +104,12 @@ impl Zones {
         self.busy.get(k) == Some(&true)
     }
 
+    /// The inlet that particle `k` comes in by, while it is on its way.
+    pub fn on_its_way(&self, k: usize) -> Option<u32> {
+        let found = self.travellers.iter().find(|t| self.travels(k) && t.at as usize == k)?;
+        if let travel::Way::In(inlet) = found.way { Some(inlet) } else { None }
+    }
+
     /// Whether each particle is in a zone; empty without zones.
     pub fn busy(&self) -> &[bool] {
         &self.busy

@@ -97,6 +97,7 @@ fn stage(scene: &Scene, cut: &Cut) -> Result<(String, Vec<String>), SceneError> 
         let why = "no grains start upstream of the plane: does its normal point with the flow?";
         return Err(SceneError::file(&scene.text.name, why, "turn the plane or move it"));
     }
+    cutting.clear_of_walls()?;
     cutting.walls(&mut document, &mut found);
     cutting.rebase(&mut document);
     cutting.add_zone(&mut document)?;

@@ -1,6 +1,9 @@
 //! A plant cut in two: the stages are scenes, crossings keep their intervals, and pipes change no byte.
 
+mod live;
 mod motions;
+mod paths;
+mod replays;
 
 use grainpipe_tests::tools::{line, succeed, tool};
 use scene::crossings::{Passage, from_table};

@@ -3,6 +3,8 @@
 mod ballistic;
 mod left;
 mod lowest;
+mod path;
+mod together;
 
 use dem::Simulation;
 use dem::setup::*;

@@ -2,14 +2,52 @@
 
 use super::sides::Range;
 use super::{Cutting, Found, Stage, remove};
+use crate::error::SceneError;
 use crate::input::Input;
 use crate::mesh_file;
-use crate::model::Wall;
-use geom::Vec3;
+use crate::model::{Face, Wall};
+use geom::{Plane, Shown, Vec3};
 use std::fs::File;
 use toml_edit::DocumentMut;
 
+/// Cosine beyond which a wall is parallel to the cut [–].
+const PARALLEL: f64 = 0.99;
+
 impl Cutting<'_> {
+    /// Refuses a plane that lies behind an unbounded wall at rest, or whose zone reaches through one.
+    pub fn clear_of_walls(&self) -> Result<(), SceneError> {
+        let length = self.cut.length.unwrap_or(1.2 * self.largest);
+        for (i, wall) in self.scene.model.wall.iter().enumerate().filter(|(_, w)| w.motion.is_none()) {
+            for plane in planes(wall) {
+                let along = plane.normal.dot(&self.cut.plane.normal);
+                let before = plane.signed_distance(&self.cut.plane.point);
+                let name = wall_name(i, wall);
+                let refuse =
+                    |why: String, cure: String| Err(SceneError::file(&self.scene.text.name, why, cure));
+                if along.abs() > PARALLEL && before <= 0.0 {
+                    let why =
+                        format!("the plane lies {} m behind {name}, where no grain gets", Shown(-before));
+                    return refuse(
+                        why,
+                        "move the plane to the side that the wall's normal points to".to_owned(),
+                    );
+                }
+                if along < -PARALLEL && before < length {
+                    let why = format!(
+                        "{name} lies {} m behind the plane, within its zone of {} m: grains that rest on it would never leave the zone",
+                        Shown(before),
+                        Shown(length)
+                    );
+                    return refuse(
+                        why,
+                        format!("move the plane at least {} m upstream", Shown(length - before)),
+                    );
+                }
+            }
+        }
+        Ok(())
+    }
+
     /// Walls at rest that no particle of the stage can reach.
     pub fn walls(&self, document: &mut DocumentMut, found: &mut Found) {
         for (i, wall) in self.scene.model.wall.iter().enumerate().rev() {
@@ -40,6 +78,20 @@ impl Cutting<'_> {
             _ => None,
         }
     }
+}
+
+/// The unbounded planes of a wall; what cannot be read is refused where it is used.
+fn planes(wall: &Wall) -> Vec<Plane> {
+    let plane = wall.plane.as_ref().and_then(|text| text.parse().ok());
+    let face = |(k, face): (usize, Face)| {
+        let b = wall.cuboid.filter(|_| wall.faces.as_ref().is_none_or(|some| some.contains(&face)))?;
+        let mut normal = Vec3::zeros();
+        normal[k / 2] = if k % 2 == 0 { 1.0 } else { -1.0 };
+        let corner = if k % 2 == 0 { [b[0], b[1], b[2]] } else { [b[3], b[4], b[5]] };
+        Some(Plane { point: Vec3::from(corner), normal })
+    };
+    let faces = [Face::LowX, Face::HighX, Face::LowY, Face::HighY, Face::LowZ, Face::HighZ];
+    plane.into_iter().chain(faces.into_iter().enumerate().filter_map(face)).collect()
 }
 
 /// A wall as its author calls it.

@@ -1,0 +1,140 @@
+//! Recorded paths: sampled upstream, followed downstream.
+
+use super::{flight, zone};
+use dem::setup::*;
+use dem::{Setup, Simulation};
+use geom::Vec3;
+use grainpipe_tests::setups::{HOOKE, empty, grain, particles, run_until};
+use std::collections::BTreeMap;
+
+fn recorded(x: f64, length: f64) -> Zone {
+    Zone { motion: ZoneMotion::Recorded, ..zone(x, length) }
+}
+
+/// A fast grain hits a slow one just before the storage plane of x = 0.1 m.
+fn two() -> Setup {
+    let mut setup = flight();
+    setup.outlets = vec![recorded(0.1, 0.03)];
+    let moving = |id, x: f64, v: f64| Particle {
+        velocity: Vec3::new(v, 0.0, 0.5),
+        ..grain(id, Vec3::new(x, 0.0, 0.0))
+    };
+    setup.particles = vec![moving(1, 0.0, 1.0), moving(2, 0.06, 0.4)];
+    setup
+}
+
+/// What a stage upstream tells: for each grain its samples, and how its path ends.
+type Told = BTreeMap<u32, (Vec<(f64, Particle)>, Guide)>;
+
+fn tell(setup: Setup, until: f64, every: u64) -> Told {
+    let mut sim = Simulation::new(setup).expect("sound");
+    let mut told = Told::new();
+    while sim.time() < until {
+        if sim.steps().is_multiple_of(every) {
+            let time = sim.time();
+            for s in sim.sample_paths() {
+                let path = told.entry(s.particle.id).or_insert((Vec::new(), Guide::Gone));
+                if !s.gone {
+                    path.0.push((time, s.particle));
+                }
+            }
+        }
+        sim.step().expect("within the guards");
+        for c in sim.take_crossings() {
+            let end = Guide::Free(sample(c.time, &c.particle));
+            told.get_mut(&c.particle.id).expect("it was on its way").1 = end;
+        }
+    }
+    told
+}
+
+fn sample(time: f64, p: &Particle) -> Sample {
+    Sample { time, position: p.position, velocity: p.velocity, spin: p.spin }
+}
+
+fn downstream(told: &Told) -> Simulation {
+    let mut setup = empty(HOOKE, 0.5);
+    (setup.step, setup.gravity) = (Step::Fixed(1e-4), Vec3::new(0.0, 0.0, -9.81));
+    setup.inlets = vec![recorded(0.1, 0.03)];
+    (setup.smallest_entry, setup.largest_entry, setup.entry_materials) = (0.01, 0.01, vec![0]);
+    let mut sim = Simulation::new(setup).expect("sound");
+    let mut paths: Vec<_> = told.values().collect();
+    paths.sort_by(|a, b| a.0[0].0.total_cmp(&b.0[0].0));
+    for (samples, end) in paths {
+        let (time, particle) = samples[0];
+        sim.enter(Entry { time, inlet: 0, particle, clump: None }).expect("in order");
+        for (time, p) in &samples[1..] {
+            sim.guide(p.id, Guide::At(sample(*time, p))).expect("in order");
+        }
+        sim.guide(particle.id, *end).expect("its end");
+    }
+    sim
+}
+
+/// In the zone and behind it grains are where those of the undivided run are, though they have hit each other in the zone.
+#[test]
+fn grains_follow_what_they_did_upstream() {
+    let told = tell(two(), 0.3, 5);
+    assert!(told.values().all(|t| t.0.len() > 4 && matches!(t.1, Guide::Free(_))));
+    let mut down = downstream(&told);
+    let mut whole = Simulation::new(Setup { outlets: vec![], ..two() }).expect("sound");
+    let (mut both, mut worst) = (0, 0.0f64);
+    for step in 1..30 {
+        let until = 0.01 * f64::from(step);
+        run_until(&mut whole, until);
+        run_until(&mut down, until);
+        for p in particles(&mut down) {
+            let all = particles(&mut whole);
+            let there = all.iter().find(|q| q.id == p.id).expect("it is there, too");
+            worst = worst.max((p.position - there.position).norm());
+            both += 1;
+        }
+    }
+    assert!(both > 30, "{both} grains compared");
+    // Within a sample of the impact the path is smoothed, by a share of what grains overlap.
+    assert!(worst < 2e-6, "{worst} m apart");
+    assert_eq!(down.particle_count(), 2);
+}
+
+/// One that turns round before the plane is out downstream as soon as it is out of the samples.
+#[test]
+fn a_grain_that_goes_back_leaves_the_stage_downstream() {
+    let mut setup = two();
+    setup.gravity = Vec3::new(-9.81, 0.0, 0.0);
+    setup.particles.truncate(1);
+    // v²/2g: it turns at 0.09 m.
+    setup.particles[0].velocity = Vec3::new((2.0f64 * 9.81 * 0.09).sqrt(), 0.0, 0.0);
+    let told = tell(setup, 0.4, 5);
+    assert!(told[&1].1 == Guide::Gone && told[&1].0.len() > 5);
+    let (first, last) = (told[&1].0[0].0, told[&1].0.last().expect("some").0);
+    let mut down = downstream(&told);
+    run_until(&mut down, 0.5 * (first + last));
+    assert_eq!(down.particle_count(), 1);
+    run_until(&mut down, last + 2e-3);
+    assert_eq!(down.particle_count(), 0);
+    // The same grain may come again.
+    let again =
+        Entry { time: last + 0.1, inlet: 0, particle: grain(1, Vec3::new(0.08, 0.0, 0.0)), clump: None };
+    down.enter(again).expect("its id is free again");
+}
+
+/// Paths are part of the state.
+#[test]
+fn paths_resume_exactly() {
+    let told = tell(two(), 0.3, 5);
+    let mut whole = downstream(&told);
+    let mut parts = downstream(&told);
+    let setup = || {
+        let mut setup = empty(HOOKE, 0.5);
+        (setup.step, setup.gravity) = (Step::Fixed(1e-4), Vec3::new(0.0, 0.0, -9.81));
+        setup.inlets = vec![recorded(0.1, 0.03)];
+        (setup.smallest_entry, setup.largest_entry, setup.entry_materials) = (0.01, 0.01, vec![0]);
+        setup
+    };
+    for until in [0.08, 0.09, 0.1, 0.11, 0.2] {
+        run_until(&mut whole, until);
+        run_until(&mut parts, until);
+        parts = Simulation::resume(setup(), parts.state().to_state()).expect("the same setup");
+        assert_eq!(particles(&mut whole), particles(&mut parts), "{until} s");
+    }
+}
