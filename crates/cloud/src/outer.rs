@@ -119,7 +119,7 @@ mod tests {
         assert_eq!((found.parts.len(), found.stray), (1, 1), "{found:?}");
         let arm = found.parts[0];
         assert!((500..=580).contains(&arm.points) && (arm.beyond - 0.29).abs() < 0.04, "{arm:?}");
-        assert!(arm.low[0] > 0.5 && arm.high[0] < 0.8 && (arm.middle[2] - 1.0).abs() < 1e-9, "{arm:?}");
+        assert!(arm.low[0] >= 0.5 && arm.high[0] < 0.8 && (arm.middle[2] - 1.0).abs() < 1e-9, "{arm:?}");
         assert_eq!(found.rows.len(), arm.points + 1);
     }
 
