@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 /// Largest diameter [m].
 pub const GRAIN: f64 = 0.005;
 /// Stiffness of the scene [N/m].
-const STIFFNESS: f64 = 2500.0;
+const STIFFNESS: f64 = 1000.0;
 /// When grains pass every cut steadily [s].
 const STEADY: &str = "--from 0.15 --until 0.4";
 
@@ -35,7 +35,7 @@ pub const CUTS: [Cut; 5] = [
         plane: "0,0,0.22,0,0,-1",
         before: "-0.02,-0.008,0.22,0.02,0.008,0.228",
     },
-    Cut { says: "at the mouth", plane: "0,0,0.21,0,0,-1", before: "-0.012,-0.008,0.21,0.012,0.008,0.218" },
+    Cut { says: "at the mouth", plane: "0,0,0.21,0,0,-1", before: "-0.015,-0.008,0.21,0.015,0.008,0.218" },
     Cut { says: "2 d below the mouth", plane: "0,0,0.2,0,0,-1", before: "-0.02,-0.008,0.2,0.02,0.008,0.208" },
     Cut {
         says: "across the chute",
