@@ -22,7 +22,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 /// Candidates for a sphere's place in a square of side P.
-const CANDIDATES: f64 = 16.0;
+const CANDIDATES: f64 = 10.0;
 /// Most candidates.
 const MOST: f64 = 2e7;
 /// Darts lie at least this share of P apart at first.
@@ -110,8 +110,8 @@ pub fn place(mesh: &TriMesh, drawing: &Drawing) -> Result<Drawn, WallError> {
     if wanted > MOST {
         return Err(WallError::TooManySpheres { spacing, area: surface.area, count: wanted / CANDIDATES });
     }
-    let stretches = stretches::find(&surface, spacing);
     let settle = settle::Settle::new(&surface, drawing);
+    let stretches = stretches::find(&surface, spacing, &|at, normal| settle.candidate(at, normal).centre);
     let on_faces = surface.scattered(wanted as usize);
     let with_centre = |&(at, normal): &(Vec3, Vec3)| settle.candidate(at, normal);
     let on_stretches: Vec<Candidate> = stretches.places.par_iter().map(with_centre).collect();

@@ -15,8 +15,8 @@ use geom::{Boxes, Vec3};
 
 /// A sphere that stands out by less than this share of its radius does not.
 const TOUCH: f64 = 1e-6;
-/// Most projections.
-const STEPS: usize = 200;
+/// Most projections; and after how many the way to go must have become shorter by half, or there is no room.
+const STEPS: (usize, usize) = (200, 8);
 /// A sphere goes at most this many radii away from its place: in the edge of a wedge that is sharper it has no room.
 const FARTHEST: f64 = 4.0;
 
@@ -46,8 +46,16 @@ impl<'a> Settle<'a> {
     }
 
     fn settled(&self, mut centre: Vec3) -> Option<Vec3> {
-        for _ in 0..STEPS {
+        let mut before = f64::INFINITY;
+        for step in 0..STEPS.0 {
             let Some(next) = self.pushed(centre) else { return Some(centre) };
+            if step % STEPS.1 == 0 {
+                let now = (next - centre).norm();
+                if now > 0.5 * before {
+                    return None;
+                }
+                before = now;
+            }
             centre = next;
         }
         None
@@ -63,8 +71,8 @@ impl<'a> Settle<'a> {
             if distance >= self.radius {
                 return;
             }
-            // Right above the face the centre is outside of the structure; beside it the edge is what it must keep away from.
-            let is_above = above >= 0.0 && above >= distance * (1.0 - 1e-9);
+            // On the face and right above it the centre is outside of the structure; beside it, it must keep away from the edge.
+            let is_above = distance <= TOUCH * self.radius || above >= distance * (1.0 - 1e-9);
             let (out, inwards) = match is_above {
                 true => (self.radius + distance, -normal),
                 false => (self.radius - distance, off / distance),

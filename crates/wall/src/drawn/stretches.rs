@@ -26,7 +26,9 @@ struct Edge {
     faces: Vec<u32>,
 }
 
-pub(crate) fn find(surface: &Surface, spacing: f64) -> Stretches {
+/// The stretches of a surface. `centre` gives the sphere of a place and a normal: where those of the ends stand off from the ends (in a
+/// corner), the others stand between them.
+pub(crate) fn find(surface: &Surface, spacing: f64, centre: &dyn Fn(Vec3, Vec3) -> Vec3) -> Stretches {
     let edges: Vec<Edge> =
         surface.edges.iter().filter_map(|(ends, faces)| crease(surface, *ends, faces)).collect();
     let mut at: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
@@ -62,7 +64,16 @@ pub(crate) fn find(surface: &Surface, spacing: f64) -> Stretches {
             (edge, vertex) = (next, other(&edges[next], vertex));
         }
         let closed = vertex == from && !is_corner(from);
-        between(&mut places, surface, &edges, &chain, (closed, spacing));
+        let inset = |(number, from): (usize, u32)| {
+            let (edge, a) = (&edges[number], place(from));
+            let off = |&f: &u32| (centre(a, surface.normals[f as usize]) - a).dot(&along(edge, from));
+            edge.faces.iter().map(off).fold(0.0, f64::max)
+        };
+        let insets = match (closed, chain.last()) {
+            (false, Some(&(last, _))) => (inset((first, from)), inset((last, vertex))),
+            _ => (0.0, 0.0),
+        };
+        between(&mut places, surface, &edges, &chain, (closed, spacing, insets));
         count += 1;
     }
     Stretches { places, count, corners: corners.len() }
@@ -86,17 +97,18 @@ fn between(
     surface: &Surface,
     edges: &[Edge],
     chain: &[(usize, u32)],
-    (closed, spacing): (bool, f64),
+    (closed, spacing, (head, tail)): (bool, f64, (f64, f64)),
 ) {
     let place = |v: u32| surface.mesh.vertices[v as usize];
     let length = |&(e, _): &(usize, u32)| (place(edges[e].ends[1]) - place(edges[e].ends[0])).norm();
     let whole: f64 = chain.iter().map(length).sum();
+    let left = (whole - head - tail).max(0.0);
     // A stretch that is a whole number of spacings long has no further part by rounding.
-    let parts = (whole / spacing * (1.0 - 1e-9)).ceil().max(1.0) as usize;
+    let parts = (left / spacing * (1.0 - 1e-9)).ceil().max(1.0) as usize;
     let first = usize::from(!closed);
     let (mut edge, mut before) = (0, 0.0);
     for k in first..parts {
-        let goal = whole * k as f64 / parts as f64;
+        let goal = head + left * k as f64 / parts as f64;
         while edge + 1 < chain.len() && before + length(&chain[edge]) < goal {
             before += length(&chain[edge]);
             edge += 1;
