@@ -1,5 +1,6 @@
 //! Stages, studied: `stages_study FOLDER PAGE.md` runs a small plant undivided and cut, in FOLDER, and writes what it found into the page, between
-//! the marks of its parts, and the plots beside it. The tools must be on the path; SEEDS=… gives the number of runs of each setting, QUICK=1 leaves out all but each cut and motion once.
+//! the marks of its parts, and the plots beside it. The tools must be on the path; SEEDS=… gives the number of runs of each setting, QUICK=1 leaves out
+//! all but each cut and motion once, and a third word chooses one part.
 //! What was measured of a run is kept in FOLDER, so that a study that was stopped goes on.
 //!
 //! Fidelity: every quantity of a cut run is compared with the undivided run of the same seed; the mean difference has Student's 95 % interval,
@@ -19,11 +20,17 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
-    let [folder, file] = words.as_slice() else {
-        eprintln!("stages_study: usage: stages_study FOLDER PAGE.md");
-        return ExitCode::from(2);
+    let (folder, file, part) = match words.as_slice() {
+        [folder, file] => (folder, file, None),
+        [folder, file, part] if ["fidelity", "cost"].contains(&part.as_str()) => {
+            (folder, file, Some(part.as_str()))
+        }
+        _ => {
+            eprintln!("stages_study: usage: stages_study FOLDER PAGE.md [fidelity|cost]");
+            return ExitCode::from(2);
+        }
     };
-    match study(Path::new(folder), Path::new(file)) {
+    match study(Path::new(folder), Path::new(file), part) {
         Ok(()) => ExitCode::SUCCESS,
         Err(why) => {
             eprintln!("stages_study: {why}");
@@ -32,11 +39,16 @@ fn main() -> ExitCode {
     }
 }
 
-fn study(folder: &Path, file: &Path) -> Result<(), String> {
+fn study(folder: &Path, file: &Path, part: Option<&str>) -> Result<(), String> {
     std::fs::create_dir_all(folder).map_err(|why| format!("{}: {why}", folder.display()))?;
     let seeds = std::env::var("SEEDS").ok().and_then(|s| s.parse().ok()).filter(|n| *n >= 2).unwrap_or(5);
-    eprintln!("stages_study: fidelity, {seeds} seeds");
-    fidelity::study(folder, file, seeds)?;
-    eprintln!("stages_study: cost");
-    cost::study(folder, file)
+    if part.is_none_or(|p| p == "fidelity") {
+        eprintln!("stages_study: fidelity, {seeds} seeds");
+        fidelity::study(folder, file, seeds)?;
+    }
+    if part.is_none_or(|p| p == "cost") {
+        eprintln!("stages_study: cost");
+        cost::study(folder, file)?;
+    }
+    Ok(())
 }
