@@ -4,9 +4,11 @@
 extern crate self as grainpipe_tests;
 
 pub mod findings;
+pub mod layout;
 pub mod normals;
 pub mod page;
 pub mod plots;
+pub mod scenes;
 pub mod setups;
 pub mod sphere_walls;
 pub mod tools;

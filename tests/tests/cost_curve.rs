@@ -1,48 +1,34 @@
 //! cost-curve from outside: a small grid, an interrupted sweep, a changed scene, repeats, what is refused; and the step that an
 //! accuracy asks for.
 
+use grainpipe_tests::scenes::{Head, folder};
 use grainpipe_tests::tools::{Done, program, succeed, tool};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
-use tempfile::{TempDir, tempdir};
+use tempfile::TempDir;
 
 /// A ball that falls 10 cm: z = z₀ − g t²/2 whatever the step; a ball that hits the floor: its speed depends on the step.
-const DROP: &str = r#"
-gravity = [0, 0, -9.81]
-[time]
-until = 0.16
-safety = 0.5
-[output]
-every = 0.02
-contacts = true
-[[material]]
-name = "stone"
-density = 2500
-young = 1e7
-poisson = 0.25
-[[contact]]
-between = ["*", "*"]
-law = "hooke"
-stiffness = 1e4
-restitution = 0.5
-[[particles]]
-source = "ball.csv"
-material = "stone"
-[[wall]]
-plane = "0,0,0,0,0,1"
-material = "stone"
-"#;
+const DROP: Head = Head {
+    time: "until = 0.16\nsafety = 0.5",
+    output: "every = 0.02\ncontacts = true",
+    material: "stone",
+    density: 2500.0,
+    young: 1e7,
+    contact: "law = \"hooke\"\nstiffness = 1e4\nrestitution = 0.5",
+};
+
+fn dropped() -> String {
+    let ball = "[[particles]]\nsource = \"ball.csv\"\nmaterial = \"stone\"\n";
+    format!("{}{ball}{}", DROP.toml(), DROP.floor())
+}
 
 const IMPACT: [&str; 6] = ["--set", "output.every=0.0004", "--measure", "restitution", "--exact", "0.5"];
 
-fn folder(scene: &str) -> TempDir {
-    let folder = tempdir().unwrap();
-    fs::write(folder.path().join("s.toml"), scene).unwrap();
-    fs::write(folder.path().join("ball.csv"), "id,x,y,z,radius,vz\n0,0,0,0.055,0.005,-1\n").unwrap();
-    folder
+fn with(scene: &str) -> TempDir {
+    folder(&[("s.toml", scene), ("ball.csv", "id,x,y,z,radius,vz\n0,0,0,0.055,0.005,-1\n")])
 }
 
 fn curve(folder: &TempDir, options: &[&str]) -> Done {
@@ -84,7 +70,7 @@ fn numbers(done: &Done, name: &str) -> Vec<f64> {
 
 #[test]
 fn a_small_grid_gives_errors_a_plot_words_and_a_recommended_setting() {
-    let folder = folder(DROP);
+    let folder = with(&dropped());
     let files = ["-o", "x.svg", "--words", "w.md", "--report", "r.json", "--work", "steps"];
     let done =
         curve(&folder, &[&IMPACT[..], &["--vary", "safety=0.02,0.1,0.5", "--for", "3%"], &files].concat());
@@ -116,7 +102,7 @@ fn a_small_grid_gives_errors_a_plot_words_and_a_recommended_setting() {
 
 #[test]
 fn finished_points_are_used_changed_ones_made_again_and_lines_can_be_spread() {
-    let folder = folder(DROP);
+    let folder = with(&dropped());
     let vary = ["--vary", "safety=0.1,0.3,0.5", "--dir", "points"];
     let options = [&IMPACT[..], &vary].concat();
     let listed = curve(&folder, &[&options[..], &["--print-commands"]].concat());
@@ -130,7 +116,8 @@ fn finished_points_are_used_changed_ones_made_again_and_lines_can_be_spread() {
     let done = curve(&folder, &options);
     assert!(done.stderr.contains("3 runs, 1 of them made before"), "{}", done.stderr);
     // Another scene: nothing of it is taken.
-    fs::write(folder.path().join("s.toml"), DROP.replace("restitution = 0.5", "restitution = 0.6")).unwrap();
+    fs::write(folder.path().join("s.toml"), dropped().replace("restitution = 0.5", "restitution = 0.6"))
+        .unwrap();
     let done = curve(&folder, &options);
     assert!(done.stderr.contains("3 of 3 runs there were made from another scene"), "{}", done.stderr);
     assert!(done.stderr.contains("3 runs, 0 of them made before"), "{}", done.stderr);
@@ -142,7 +129,7 @@ fn finished_points_are_used_changed_ones_made_again_and_lines_can_be_spread() {
 
 #[test]
 fn an_interrupted_sweep_goes_on_from_where_it_was() {
-    let folder = folder(DROP);
+    let folder = with(&dropped());
     let options =
         [&["s.toml"], &IMPACT[..], &["--vary", "safety=0.1,0.3,0.5", "--rounds", "100", "-q"]].concat();
     let mut command = Command::new(program("cost-curve"));
@@ -170,9 +157,10 @@ fn an_interrupted_sweep_goes_on_from_where_it_was() {
 #[test]
 fn repeats_have_an_interval_and_blanks_are_filled_before_the_run() {
     let fill = "[[fill]]\nmaterial = \"stone\"\nshape = \"box:0,0,0.01,0.1,0.1,0.05\"\ndiameter = [0.004, 0.01]\ncount = 20\n[[wall]]";
-    let (head, tail) = DROP.split_once("[[particles]]").unwrap();
+    let whole = dropped();
+    let (head, tail) = whole.split_once("[[particles]]").unwrap();
     let scene = format!("{head}{fill}{}", tail.split_once("[[wall]]").unwrap().1);
-    let folder = folder(&scene);
+    let folder = with(&scene);
     let options = ["--vary", "safety=0.1,0.5", "--repeat", "3", "--work", "cpu"];
     let options = [&options[..], &["--measure", "bed-height --ground 0"]].concat();
     let done = curve(&folder, &options);
@@ -214,7 +202,7 @@ fn repeats_have_an_interval_and_blanks_are_filled_before_the_run() {
 
 #[test]
 fn a_point_that_cannot_run_is_told_and_the_rest_is_judged() {
-    let folder = folder(DROP);
+    let folder = with(&dropped());
     let vary = ["--vary", "dt=1e-5,1e-2", "--reference", "dt=1e-5"];
     let done = curve(&folder, &[&IMPACT[..4], &vary].concat());
     let (state, why) = (column(&done, "state"), column(&done, "why"));
@@ -225,7 +213,7 @@ fn a_point_that_cannot_run_is_told_and_the_rest_is_judged() {
 
 #[test]
 fn what_is_wrong_is_refused_before_anything_runs() {
-    let folder = folder(DROP);
+    let folder = with(&dropped());
     let vary = ["--vary", "safety=0.1,0.5"];
     let with = |more: &[&str]| refused(&folder, &[&vary[..], more].concat(), 2);
     assert!(with(&["--measure", "heap-angel"]).contains("did you mean 'heap-angle'?"));
@@ -299,14 +287,14 @@ fn impact_error(folder: &TempDir, accuracy: &str, restitution: f64) -> (f64, Val
 /// The step that an accuracy asks for gives it, on the impact that its curve was measured with, at other phases.
 #[test]
 fn the_step_that_an_accuracy_picks_gives_it() {
-    let impact = DROP
+    let impact = dropped()
         .replace("gravity = [0, 0, -9.81]\n", "")
         .replace("until = 0.16\nsafety = 0.5", "until = 0.0035")
         .replace("every = 0.02", "every = \"step\"");
     let impact = impact.split("[[wall]]").next().unwrap();
     let hertz = impact.replace("law = \"hooke\"\nstiffness = 1e4\n", "");
     for (law, scene) in [("hooke", impact), ("hertz", &hertz)] {
-        let folder = folder(scene);
+        let folder = with(scene);
         for accuracy in [0.05, 0.01] {
             for restitution in [0.1, 0.5, 0.9] {
                 let (error, report) = impact_error(&folder, &format!("{}%", 100.0 * accuracy), restitution);
@@ -323,7 +311,7 @@ fn the_step_that_an_accuracy_picks_gives_it() {
 
 #[test]
 fn an_accuracy_is_explained_and_what_contradicts_it_is_refused() {
-    let folder = folder(&DROP.replace("safety = 0.5\n", "accuracy = \"2%\"\n"));
+    let folder = with(&dropped().replace("safety = 0.5\n", "accuracy = \"2%\"\n"));
     let done = succeed(folder.path(), "dem-run", &["s.toml", "--explain"]);
     let text = String::from_utf8_lossy(&done.stdout).into_owned();
     assert!(

@@ -1,42 +1,28 @@
 //! A run is exact, resumes bit for bit, and what stops it leaves a file that can be read.
 
+use grainpipe_tests::scenes::{Head, RUBS, folder};
 use grainpipe_tests::tools::{line, program, succeed, tool};
 use std::fs;
 use std::path::Path;
 use stream::Table;
 use stream::mcap::{Event, Reader};
-use tempfile::{TempDir, tempdir};
+use tempfile::TempDir;
 
-const SCENE: &str = r#"gravity = [0, 0, -9.81]
-[time]
-until = 0.12
-[output]
-every = 0.01
-checkpoint = 0.04
-[[material]]
-name = "sinter"
-density = 3300
-young = 2e7
-poisson = 0.25
-[[contact]]
-between = ["*", "*"]
-restitution = 0.5
-sliding_friction = 0.5
-rolling_resistance = 0.1
-[[fill]]
-material = "sinter"
-shape = "cylinder:0,0,0,0,0,0.1,0.04"
-diameter = [0.008, 0.012]
-mass = 0.2
-[[wall]]
-plane = "0,0,0,0,0,1"
-material = "sinter"
-"#;
+const HEAD: Head = Head {
+    time: "until = 0.12",
+    output: "every = 0.01\ncheckpoint = 0.04",
+    material: "sinter",
+    density: 3300.0,
+    young: 2e7,
+    contact: RUBS,
+};
 
-fn folder(scene: &str) -> TempDir {
-    let folder = tempdir().unwrap();
-    fs::write(folder.path().join("s.toml"), scene).unwrap();
-    folder
+fn poured() -> String {
+    HEAD.poured(0.2)
+}
+
+fn with(scene: &str) -> TempDir {
+    folder(&[("s.toml", scene)])
 }
 
 /// Everything of a run that can be read, and whether its end is there.
@@ -69,7 +55,7 @@ fn checkpoints(path: &Path) -> Vec<Vec<u8>> {
 
 #[test]
 fn a_run_has_its_frames_scene_and_end() {
-    let folder = folder(SCENE);
+    let folder = with(&poured());
     succeed(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap"]);
     let (events, whole) = events(&folder.path().join("run.mcap"));
     assert!(whole);
@@ -82,12 +68,12 @@ fn a_run_has_its_frames_scene_and_end() {
         Event::Metadata { name, map } if name == "scene" => map.get("toml"),
         _ => None,
     });
-    assert_eq!(scene.map(String::as_str), Some(SCENE));
+    assert_eq!(scene.map(String::as_str), Some(&*poured()));
 }
 
 #[test]
 fn threads_change_no_byte() {
-    let folder = folder(SCENE);
+    let folder = with(&poured());
     for threads in ["1", "2", "3"] {
         succeed(folder.path(), "dem-run", &["s.toml", "-o", threads, "--threads", threads]);
     }
@@ -97,7 +83,7 @@ fn threads_change_no_byte() {
 
 #[test]
 fn a_resumed_run_goes_on_as_if_it_had_never_stopped() {
-    let folder = folder(SCENE);
+    let folder = with(&poured());
     let path = |name: &str| folder.path().join(name);
     succeed(folder.path(), "dem-run", &["s.toml", "-o", "whole.mcap"]);
     succeed(folder.path(), "dem-run", &["s.toml", "--until", "0.055", "-o", "part.mcap"]);
@@ -110,7 +96,7 @@ fn a_resumed_run_goes_on_as_if_it_had_never_stopped() {
 
 #[test]
 fn a_killed_run_is_refused_as_input_and_resumes_from_its_last_checkpoint() {
-    let folder = folder(SCENE);
+    let folder = with(&poured());
     let path = |name: &str| folder.path().join(name);
     succeed(folder.path(), "dem-run", &["s.toml", "-o", "whole.mcap"]);
     let done = line(folder.path(), "dem-run s.toml | head -c 9000 > /dev/null");
@@ -128,7 +114,7 @@ fn a_killed_run_is_refused_as_input_and_resumes_from_its_last_checkpoint() {
 
 #[test]
 fn another_scene_or_a_damaged_run_is_not_resumed() {
-    let folder = folder(SCENE);
+    let folder = with(&poured());
     succeed(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap", "--until", "0.05"]);
     let resume = |run: &str, set: &str| {
         tool(folder.path(), "dem-run", &["s.toml", "--resume", run, "--set", set, "-o", "x.mcap"])
@@ -154,7 +140,7 @@ fn another_scene_or_a_damaged_run_is_not_resumed() {
 
 #[test]
 fn a_guard_ends_the_run_with_code_3_a_reason_and_a_checkpoint() {
-    let folder = folder(SCENE);
+    let folder = with(&poured());
     let done = tool(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap", "--set", "guards.overlap=0.01"]);
     assert_eq!(done.code, 3, "{}", done.stderr);
     assert!(done.stderr.contains("overlaps") && done.stderr.contains("guards.overlap"), "{}", done.stderr);
@@ -174,10 +160,10 @@ fn a_guard_ends_the_run_with_code_3_a_reason_and_a_checkpoint() {
 
 #[test]
 fn walls_that_move_are_written_with_every_frame() {
-    let scene = SCENE.replace("plane = \"0,0,0,0,0,1\"\nmaterial = \"sinter\"", "");
+    let scene = poured().replace("plane = \"0,0,0,0,0,1\"\nmaterial = \"sinter\"", "");
     let scene =
         format!("{scene}motion = {{ rotate = {{ about = [0,0,1], through = [0,0,0], rpm = 60 }} }}\n");
-    let folder = folder(&scene.replace("until = 0.12", "until = 0.05"));
+    let folder = with(&scene.replace("until = 0.12", "until = 0.05"));
     write_walls(&folder.path().join("walls.mcap"));
     succeed(folder.path(), "dem-run", &["s.toml", "walls.mcap", "-o", "run.mcap"]);
     succeed(folder.path(), "dem-run", &["s.toml", "walls.mcap", "-o", "again.mcap"]);
@@ -225,12 +211,12 @@ fn write_walls(path: &Path) {
 /// A faucet gives its rate into a box, and a run resumed in the middle of it gives the same.
 #[test]
 fn a_faucet_pours_at_its_rate_and_resumes() {
-    let scene = SCENE
+    let scene = poured()
         .replace("[[fill]]", "[[insert]]")
         .replace("mass = 0.2", "rate = 2\nvelocity = [0, 0, -1]\nuntil = 0.1");
     let scene = scene.replace("cylinder:0,0,0,0,0,0.1,0.04", "cylinder:0,0,0.1,0,0,0.12,0.04");
     let scene = scene.replace("plane = \"0,0,0,0,0,1\"", "box = [-0.06, -0.06, 0, 0.06, 0.06, 1]");
-    let folder = folder(&scene.replace("every = 0.01", "every = 0.02"));
+    let folder = with(&scene.replace("every = 0.01", "every = 0.02"));
     succeed(folder.path(), "dem-run", &["s.toml", "-o", "whole.mcap"]);
     succeed(folder.path(), "dem-run", &["s.toml", "-o", "part.mcap", "--until", "0.05"]);
     succeed(folder.path(), "dem-run", &["s.toml", "--resume", "part.mcap", "-o", "rest.mcap"]);
@@ -245,7 +231,7 @@ fn a_faucet_pours_at_its_rate_and_resumes() {
 /// Energy is written when it is asked for, and nothing of the motion changes by asking.
 #[test]
 fn the_ledger_is_written_and_changes_nothing() {
-    let folder = folder(SCENE);
+    let folder = with(&poured());
     succeed(folder.path(), "dem-run", &["s.toml", "-o", "without.mcap"]);
     succeed(folder.path(), "dem-run", &["s.toml", "-o", "with.mcap", "--set", "output.energy=true"]);
     let path = |name: &str| folder.path().join(name);
@@ -272,8 +258,8 @@ fn long_run(folder: &Path) -> std::process::Child {
     command.stderr(std::process::Stdio::piped()).spawn().unwrap()
 }
 
-/// The hidden file of a run, once it holds some frames and checkpoints.
-fn hidden_file(folder: &Path) -> std::path::PathBuf {
+/// The unfinished file of a run, once it holds some frames and checkpoints.
+fn unfinished(folder: &Path) -> std::path::PathBuf {
     let start = std::time::Instant::now();
     loop {
         let mut files = fs::read_dir(folder).unwrap().map(|e| e.unwrap().path());
@@ -293,11 +279,11 @@ fn send(signal: &str, child: &std::process::Child) {
 
 #[test]
 fn a_signal_ends_the_run_with_code_3_and_a_checkpoint_to_go_on_from() {
-    let folder = folder(SCENE);
+    let folder = with(&poured());
     let path = |name: &str| folder.path().join(name);
     for signal in ["-INT", "-TERM"] {
         let child = long_run(folder.path());
-        let part = hidden_file(folder.path());
+        let part = unfinished(folder.path());
         send(signal, &child);
         let done = child.wait_with_output().unwrap();
         let said = String::from_utf8_lossy(&done.stderr);
@@ -321,10 +307,10 @@ fn a_signal_ends_the_run_with_code_3_and_a_checkpoint_to_go_on_from() {
 }
 
 #[test]
-fn a_killed_run_leaves_a_hidden_file_that_is_resumed() {
-    let folder = folder(SCENE);
+fn a_killed_run_leaves_a_part_that_is_resumed() {
+    let folder = with(&poured());
     let child = long_run(folder.path());
-    let part = hidden_file(folder.path());
+    let part = unfinished(folder.path());
     send("-KILL", &child);
     child.wait_with_output().unwrap();
     let part = part.file_name().unwrap().to_str().unwrap();
@@ -345,8 +331,8 @@ fn a_run_that_was_stopped_gives_no_stage_downstream_that_looks_whole() {
     let outlet = "[[outlet]]\nplane = \"0,0,-0.05,0,0,-1\"\nlength = 0.03\n";
     // A slope that only the outermost grains meet before they pass the outlet.
     let slope = "plane = \"0.04,0,-0.046,-1,0,1\"";
-    let falling = SCENE.replace("plane = \"0,0,0,0,0,1\"", slope) + outlet;
-    let folder = folder(&falling.replace("until = 0.12", "until = 0.4"));
+    let falling = poured().replace("plane = \"0,0,0,0,0,1\"", slope) + outlet;
+    let folder = with(&falling.replace("until = 0.12", "until = 0.4"));
     let strict = "dem-run s.toml --set guards.overlap=0.001";
     assert_eq!(line(folder.path(), &format!("{strict} -o up.mcap")).code, 3);
     let why = ["up.mcap: the run was stopped at t = 1.1", "guards.overlap", "--until"];
@@ -360,34 +346,35 @@ fn a_run_that_was_stopped_gives_no_stage_downstream_that_looks_whole() {
 
 #[test]
 fn an_output_that_is_also_an_input_is_refused() {
-    let folder = folder(SCENE);
+    let folder = with(&poured());
     let also = ["-o s.toml is also an input: choose another name"];
     refused(folder.path(), "dem-run s.toml -o s.toml", 2, &also);
     refused(folder.path(), "dem-run ./s.toml --check -o s.toml", 2, &also);
     fs::write(folder.path().join("a.xyz"), "0 0 0\n1 0 0\n0 1 0\n").unwrap();
     std::os::unix::fs::symlink("a.xyz", folder.path().join("b.xyz")).unwrap();
     refused(folder.path(), "cloud-crop a.xyz -o b.xyz", 2, &["-o b.xyz is also an input"]);
-    assert_eq!(fs::read_to_string(folder.path().join("s.toml")).unwrap(), SCENE);
+    assert_eq!(fs::read_to_string(folder.path().join("s.toml")).unwrap(), poured());
 }
 
 #[test]
 fn an_input_that_is_given_twice_or_that_nothing_waits_for_is_refused() {
-    let scene = SCENE.replace("plane = \"0,0,0,0,0,1\"\nmaterial = \"sinter\"", "");
-    let folder = folder(&scene);
+    let scene = poured().replace("plane = \"0,0,0,0,0,1\"\nmaterial = \"sinter\"", "");
+    let folder = with(&scene);
     write_walls(&folder.path().join("fl.mcap"));
     refused(folder.path(), "dem-run s.toml fl.mcap fl.mcap -o x.mcap", 1, &["fl.mcap: is given twice"]);
     refused(folder.path(), "cat fl.mcap | dem-run s.toml fl.mcap - -o x.mcap", 1, &["stdin: is given twice"]);
     fs::copy(folder.path().join("fl.mcap"), folder.path().join("copy.mcap")).unwrap();
     refused(folder.path(), "dem-run s.toml fl.mcap copy.mcap -o x.mcap", 1, &["copy.mcap: is given twice"]);
     let outlet = "[[outlet]]\nplane = \"0,0,-0.05,0,0,-1\"\nlength = 0.03\n";
-    let up = SCENE.replace("plane = \"0,0,0,0,0,1\"", "plane = \"0,0,-9,0,0,1\"") + outlet;
+    let up = poured().replace("plane = \"0,0,0,0,0,1\"", "plane = \"0,0,-9,0,0,1\"") + outlet;
     let up = up.replace("until = 0.12", "until = 0.2");
     fs::write(folder.path().join("up.toml"), up).unwrap();
     succeed(folder.path(), "dem-run", &["up.toml", "-o", "up.mcap"]);
     succeed(folder.path(), "stage-replay", &["up.mcap", "-o", "in.mcap"]);
     succeed(folder.path(), "stage-replay", &["up.mcap", "--until", "0.15", "-o", "in2.mcap"]);
     refused(folder.path(), "dem-run up.toml in.mcap -o x.mcap", 1, &["in.mcap: the scene has no [[inlet]]"]);
-    let down = &SCENE[..SCENE.find("[[fill]]").unwrap()];
+    let whole = poured();
+    let down = &whole[..whole.find("[[fill]]").unwrap()];
     let down = format!("{down}[[inlet]]\nplane = \"0,0,-0.05,0,0,-1\"\n");
     fs::write(folder.path().join("down.toml"), down).unwrap();
     let both = ["in2.mcap: 2 inlets are given, and 1 [[inlet]]"];
@@ -396,7 +383,7 @@ fn an_input_that_is_given_twice_or_that_nothing_waits_for_is_refused() {
 
 #[test]
 fn a_grain_that_starts_in_a_wall_is_refused_before_the_run() {
-    let folder = folder(&SCENE.replace("plane = \"0,0,0,0,0,1\"", "plane = \"0,0,0.003,0,0,1\""));
+    let folder = with(&poured().replace("plane = \"0,0,0,0,0,1\"", "plane = \"0,0,0.003,0,0,1\""));
     let inside = ["s.toml: particle ", " starts inside wall '", "(overlap ", "m): move it"];
     refused(folder.path(), "dem-run s.toml -o x.mcap", 1, &inside);
     refused(folder.path(), "dem-run s.toml --check", 1, &inside);
@@ -405,7 +392,7 @@ fn a_grain_that_starts_in_a_wall_is_refused_before_the_run() {
 
 #[test]
 fn progress_is_one_json_line_with_each_frame() {
-    let folder = folder(SCENE);
+    let folder = with(&poured());
     let done = tool(folder.path(), "dem-run", &["s.toml", "--progress", "-q", "-o", "run.mcap"]);
     assert_eq!(done.code, 0, "{}", done.stderr);
     let lines: Vec<serde_json::Value> =
@@ -424,7 +411,7 @@ fn progress_is_one_json_line_with_each_frame() {
 /// What contacts press on the floor is the weight of what lies on it, as dem-measure reads it from the run.
 #[test]
 fn recorded_contacts_carry_the_weight_of_the_bed() {
-    let folder = folder(SCENE);
+    let folder = with(&poured());
     let more = ["--set", "output.contacts=true", "--until", "1.2", "--set", "output.every=0.4"];
     succeed(folder.path(), "dem-run", &[&["s.toml", "-o", "run.mcap"], &more[..]].concat());
     let out = succeed(folder.path(), "dem-measure", &["run.mcap", "--wall-force", "all", "-q"]);

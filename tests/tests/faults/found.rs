@@ -71,6 +71,9 @@ fn laz_whose_times_have_no_end() {
     bytes[lengths + 4 * 8..][..4].copy_from_slice(&4096u32.to_le_bytes());
     bytes.extend([255; 4096]);
     bytes.extend(&whole[times + length(8)..]);
+    let table = u64::from_le_bytes(whole[points..points + 8].try_into().expect("8 bytes"));
+    let table = table + 4096 - length(8) as u64;
+    bytes[points..points + 8].copy_from_slice(&table.to_le_bytes());
     CLAIMS.refused("LAZ: times in layers", &cloud(bytes), &["times of chunk 0", "damaged"]);
 }
 
@@ -88,7 +91,7 @@ fn las_with_an_extended_record_longer_than_the_file() {
         CLAIMS.refused(
             &format!("{name}: records"),
             &cloud(bytes.clone()),
-            &["extended record", "there are 0", "damaged"],
+            &["extended record", "0 are left", "damaged"],
         );
         bytes[claim..claim + 8].fill(0);
         assert!(cloud::from_bytes(bytes).is_ok(), "{name}: an empty record is no fault");
@@ -185,8 +188,9 @@ fn laz_that_its_reader_gives_up_on() {
         bytes[at..(at + 4).min(whole.len())].fill(0xff);
         std::fs::write(folder.path().join("x.laz"), bytes).expect("written");
         let done = grainpipe_tests::tools::tool(folder.path(), "cloud-crop", &["x.laz", "-o", "x.ply"]);
-        quiet +=
-            u32::from(done.stderr.lines().count() == 1 && !done.stderr.contains("panicked") && done.code < 2);
+        // What can be read all the same may be warned of besides.
+        let short = done.code == 0 || done.stderr.lines().count() == 1;
+        quiet += u32::from(short && !done.stderr.contains("panicked") && done.code < 2);
     }
     let files = (200..whole.len()).step_by(40).count() as u32;
     CLAIMS.within(

@@ -1,6 +1,7 @@
 //! A run that is killed loses nothing that it had written: earlier frames are there, and it goes on from its last checkpoint.
 
 use grainpipe_tests::findings::{Case, case};
+use grainpipe_tests::scenes::{Head, RUBS, folder};
 use grainpipe_tests::tools::{program, succeed, tool};
 use std::fs;
 use std::path::Path;
@@ -8,7 +9,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 use stream::Table;
 use stream::mcap::{Event, Reader};
-use tempfile::{TempDir, tempdir};
+use tempfile::TempDir;
 
 const FRAMES: Case = case("Faults", "killed at any moment: earlier frames are whole");
 const RESUMED: Case =
@@ -21,32 +22,14 @@ const LOOK: Case = case(
 /// Kills of the ordinary test; GRAINPIPE_KILLS=200 asks for more.
 const KILLS: u64 = 10;
 
-const SCENE: &str = r#"gravity = [0, 0, -9.81]
-[time]
-until = 0.24
-[output]
-every = 0.005
-checkpoint = 0.02
-energy = true
-[[material]]
-name = "sinter"
-density = 3300
-young = 1e7
-poisson = 0.25
-[[contact]]
-between = ["*", "*"]
-restitution = 0.5
-sliding_friction = 0.5
-rolling_resistance = 0.1
-[[fill]]
-material = "sinter"
-shape = "cylinder:0,0,0,0,0,0.1,0.04"
-diameter = [0.008, 0.012]
-mass = 0.25
-[[wall]]
-plane = "0,0,0,0,0,1"
-material = "sinter"
-"#;
+const HEAD: Head = Head {
+    time: "until = 0.24",
+    output: "every = 0.005\ncheckpoint = 0.02\nenergy = true",
+    material: "sinter",
+    density: 3300.0,
+    young: 1e7,
+    contact: RUBS,
+};
 
 /// Everything of a run that can be read.
 struct Read {
@@ -84,9 +67,7 @@ fn read(path: &Path) -> Read {
 }
 
 fn scene() -> TempDir {
-    let folder = tempdir().expect("a folder");
-    fs::write(folder.path().join("s.toml"), SCENE).expect("written");
-    folder
+    folder(&[("s.toml", HEAD.poured(0.25))])
 }
 
 fn start(folder: &Path, arguments: &[&str]) -> Child {

@@ -2,24 +2,22 @@
 
 use crate::samples;
 use grainpipe_tests::findings::{Case, case};
+use grainpipe_tests::scenes::folder;
 use grainpipe_tests::tools::{line, succeed};
-use std::fs;
-use tempfile::{TempDir, tempdir};
+use tempfile::TempDir;
 
 const CLOSED: Case = case("Faults", "the reader closes the pipe: every tool ends quietly with code 0");
 
 /// A folder with a cloud of 40 000 points, walls, and a run whose output is longer than a pipe holds.
 pub fn plant() -> TempDir {
-    let folder = tempdir().expect("a folder");
-    let write = |name: &str, bytes: &[u8]| fs::write(folder.path().join(name), bytes).expect("written");
     let cloud: String = (0..40_000)
         .map(|k| format!("{} {} 0\n", 0.01 * f64::from(k % 200), 0.01 * f64::from(k / 200)))
         .collect();
-    write("cloud.xyz", cloud.as_bytes());
-    let scene = samples::SCENE.replace("count = 3", "count = 60").replace("every = 0.004", "every = 0.0005");
+    let scene =
+        samples::scene().replace("count = 3", "count = 60").replace("every = 0.004", "every = 0.0005");
     let scene = scene.replace("until = 0.012", "until = 0.04");
-    write("s.toml", scene.replace("0.03,0.03,0.035", "0.08,0.08,0.2").as_bytes());
-    write("plant.toml", samples::SCENE.as_bytes());
+    let scene = scene.replace("0.03,0.03,0.035", "0.08,0.08,0.2");
+    let folder = folder(&[("cloud.xyz", cloud), ("s.toml", scene), ("plant.toml", samples::scene())]);
     succeed(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap"]);
     folder
 }

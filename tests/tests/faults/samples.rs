@@ -1,5 +1,6 @@
 //! Small whole files of every format that a tool reads: what faults are put into, and what fuzzing begins with.
 
+use grainpipe_tests::scenes::{Head, RUBS};
 use std::io::Cursor;
 use std::path::Path;
 use stream::mcap::{Compression, Provenance};
@@ -9,25 +10,20 @@ use stream::{Table, Values};
 pub type Sample = (&'static str, Vec<u8>);
 
 /// A scene with everything that a run can write, small: friction, an outlet, energy, contacts.
-pub const SCENE: &str = r#"gravity = [0, 0, -9.81]
-[time]
-until = 0.012
-[output]
-every = 0.004
-checkpoint = 0.004
-energy = true
-contacts = true
-[[material]]
-name = "sinter"
-density = 3300
-young = 2e6
-poisson = 0.25
-[[contact]]
-between = ["*", "*"]
-restitution = 0.5
-sliding_friction = 0.5
-rolling_resistance = 0.1
-[[fill]]
+pub fn scene() -> String {
+    let head = Head {
+        time: "until = 0.012",
+        output: "every = 0.004\ncheckpoint = 0.004\nenergy = true\ncontacts = true",
+        material: "sinter",
+        density: 3300.0,
+        young: 2e6,
+        contact: RUBS,
+    };
+    head.toml() + FALLING
+}
+
+/// Three grains fall towards a floor, through a storage plane.
+const FALLING: &str = r#"[[fill]]
 material = "sinter"
 shape = "box:0,0,0.0205,0.03,0.03,0.035"
 diameter = 0.01
@@ -166,7 +162,7 @@ pub fn xyz() -> Vec<Sample> {
 
 /// Walls, a run with crossings and checkpoints, packed and not, and the inlet that is made of it.
 pub fn mcap() -> Vec<Sample> {
-    let run = |how| run(how, SCENE);
+    let run = |how| run(how, &scene());
     let plain = run(Compression::None);
     let mut walls = stream::mcap::Writer::new(Vec::new(), &Provenance::default()).expect("opened");
     walls.points("/walls", 0, "world", &spheres()).expect("written");
@@ -216,7 +212,7 @@ pub fn texts() -> Vec<Sample> {
                  material = \"liner\"\nfriction = 0.4\nvelocity = [0.1, 0, 0]\n";
     let prism = r#"{"polygon": [[0,0,0],[1,0,0],[0,1,0]], "extrusion": [0,0,2]}"#;
     vec![
-        ("scene.toml", format!("contact.0.restitution=0.3\n{SCENE}").into_bytes()),
+        ("scene.toml", format!("contact.0.restitution=0.3\n{}", scene()).into_bytes()),
         ("regions.toml", regions.into()),
         ("roughness.toml", rough.into()),
         ("prism.json", prism.into()),

@@ -5,10 +5,9 @@ use dem::Simulation;
 use dem::setup::*;
 use geom::{Plane, Vec3, mesh::TriMesh};
 use grainpipe_tests::findings::{Case, case};
+use grainpipe_tests::scenes::{Head, folder};
 use grainpipe_tests::setups::{grain, particles};
 use grainpipe_tests::tools::{line, succeed, tool};
-use std::fs;
-use tempfile::tempdir;
 
 const WEDGED: Case = case(
     "Rest and extremes",
@@ -111,22 +110,17 @@ fn an_arch_stands_and_a_jam_that_is_pressed_on_stops() {
     }
 }
 
-const SCENE: &str = r#"gravity = [0, 0, -9.81]
-[time]
-until = 0.1
-[output]
-every = 0.005
-[[material]]
-name = "stone"
-density = 2500
-young = 1e7
-poisson = 0.25
-[[contact]]
-between = ["*", "*"]
-LAW
-restitution = 0.5
-sliding_friction = 0.5
-[[particles]]
+const HEAD: Head = Head {
+    time: "until = 0.1",
+    output: "every = 0.005",
+    material: "stone",
+    density: 2500.0,
+    young: 1e7,
+    contact: "LAW\nrestitution = 0.5\nsliding_friction = 0.5",
+};
+
+/// A grain between a floor and a plane that comes down.
+const CLOSING: &str = r#"[[particles]]
 source = "one.csv"
 material = "stone"
 [[wall]]
@@ -153,14 +147,11 @@ fn dem_run_says_why_it_stops_with_code_3() {
             if precision == "mixed" && !["hooke", "hertz"].contains(&name) {
                 continue;
             }
-            let folder = tempdir().unwrap();
+            let scene = HEAD.toml().replace("LAW", law) + CLOSING;
+            let scene = format!("precision = \"{precision}\"\n{scene}");
+            let folder =
+                folder(&[("one.csv", "id,x,y,z,radius\n7,0,0,0.0101,0.01\n"), ("s.toml", scene.as_str())]);
             let f = folder.path();
-            fs::write(f.join("one.csv"), "id,x,y,z,radius\n7,0,0,0.0101,0.01\n").unwrap();
-            fs::write(
-                f.join("s.toml"),
-                format!("precision = \"{precision}\"\n{}", SCENE.replace("LAW", law)),
-            )
-            .unwrap();
             let done = tool(f, "dem-run", &["s.toml", "-o", "run.mcap", "--threads", "1"]);
             assert_eq!(done.code, 3, "{}", done.stderr);
             EXIT.refused(

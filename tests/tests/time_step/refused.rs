@@ -4,9 +4,9 @@ use dem::setup::*;
 use dem::{Simulation, critical_step, mass};
 use geom::Vec3;
 use grainpipe_tests::findings::{Case, case};
+use grainpipe_tests::scenes::{Head, folder, write};
 use grainpipe_tests::setups::{LAWS, empty, grain, plane, with_friction};
 use grainpipe_tests::tools::tool;
-use tempfile::tempdir;
 
 const REFUSED: Case = case("Time step", "1.05 of the critical step is refused, naming the pair");
 
@@ -33,40 +33,33 @@ fn by_the_engine() {
     }
 }
 
-const SCENE: &str = r#"[time]
-until = 0.001
-dt = DT
-[[material]]
-name = "stone"
-density = 2500
-young = 1e7
-poisson = 0.25
-[[contact]]
-between = ["stone", "stone"]
-law = "hooke"
-stiffness = 1e4
-restitution = 1
-[[particles]]
-source = "grains.csv"
-material = "stone"
-"#;
+/// Three grains that fly freely, in a step that is given.
+fn scene(dt: f64) -> String {
+    let head = Head {
+        time: "until = 0.001\ndt = DT",
+        output: "every = 0.001",
+        material: "stone",
+        density: 2500.0,
+        young: 1e7,
+        contact: "law = \"hooke\"\nstiffness = 1e4\nrestitution = 1",
+    };
+    let grains = "[[particles]]\nsource = \"grains.csv\"\nmaterial = \"stone\"\n";
+    head.toml().replace("DT", &format!("{dt:e}")) + grains
+}
 
 /// Without damping and friction: 1/√(k/m*), of the smaller grains.
 #[test]
 fn by_the_tool() {
-    let folder = tempdir().expect("a folder");
-    let path = |name: &str| folder.path().join(name);
     let csv = "id,x,y,z,radius\n1,0,0,0,0.01\n2,0.05,0,0,0.004\n3,0.1,0,0,0.004\n";
-    std::fs::write(path("grains.csv"), csv).expect("written");
+    let folder = folder(&[("grains.csv", csv)]);
     let critical = (0.5 * mass(0.004, 2500.0) / 1e4).sqrt();
     let run = |share: f64| {
-        std::fs::write(path("s.toml"), SCENE.replace("DT", &format!("{:e}", share * critical)))
-            .expect("written");
+        write(folder.path(), "s.toml", scene(share * critical));
         tool(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap"])
     };
     let done = run(1.05);
     assert_eq!(done.code, 1, "{}", done.stderr);
-    assert!(!path("run.mcap").exists());
+    assert!(!folder.path().join("run.mcap").exists());
     let words = ["time.dt", "above the critical step", "stone (radius 4.0000e-3 m)", "dt = \"auto\""];
     REFUSED.refused("dem-run", &done.stderr, &words);
     let done = run(0.999);

@@ -99,7 +99,7 @@ pub(super) fn before_the_header(bytes: &[u8]) -> Result<(), String> {
     if let Some((claimed, there)) = record()
         && claimed > there
     {
-        return Err(format!("an extended record of {claimed} bytes is promised where there are {there}"));
+        return Err(format!("an extended record of {claimed} bytes is promised where {there} are left"));
     }
     let chunks = || {
         let packed = number(bytes, 104, 1)? & 0xc0 != 0;
@@ -183,7 +183,7 @@ impl Head {
         let (claimed, there) = (lengths.iter().sum::<u64>(), (bytes.len() - at - head) as u64);
         if claimed > there {
             return Err(format!(
-                "layers of {claimed} bytes are promised in chunk {k}, where there are {there}"
+                "layers of {claimed} bytes are promised in chunk {k}, where {there} are left"
             ));
         }
         // All lengths are within the file now.

@@ -1,0 +1,65 @@
+//! Small scenes as a user writes them, and the folders that hold them.
+
+use std::path::Path;
+use tempfile::TempDir;
+
+/// What every scene begins with: one material, and its law of contact for all pairs.
+#[derive(Debug, Clone, Copy)]
+pub struct Head {
+    /// Lines of `[time]`.
+    pub time: &'static str,
+    /// Lines of `[output]`.
+    pub output: &'static str,
+    /// Name of the material.
+    pub material: &'static str,
+    /// Its density [kg/m³].
+    pub density: f64,
+    /// Its Young's modulus [Pa].
+    pub young: f64,
+    /// Lines of `[[contact]]` besides its materials.
+    pub contact: &'static str,
+}
+
+impl Head {
+    /// As text, gravity included; what there is to simulate comes behind it.
+    pub fn toml(&self) -> String {
+        let Head { time, output, material, density, young, contact } = self;
+        format!(
+            "gravity = [0, 0, -9.81]\n[time]\n{time}\n[output]\n{output}\n[[material]]\nname = \"{material}\"\n\
+             density = {density}\nyoung = {young:e}\npoisson = 0.25\n[[contact]]\nbetween = [\"*\", \"*\"]\n{contact}\n"
+        )
+    }
+
+    /// With grains poured into a cylinder over a floor, of so much mass [kg].
+    pub fn poured(&self, mass: f64) -> String {
+        let material = self.material;
+        let fill = "shape = \"cylinder:0,0,0,0,0,0.1,0.04\"\ndiameter = [0.008, 0.012]";
+        format!("{}[[fill]]\nmaterial = \"{material}\"\n{fill}\nmass = {mass}\n{}", self.toml(), self.floor())
+    }
+
+    /// A floor at z = 0.
+    pub fn floor(&self) -> String {
+        format!("[[wall]]\nplane = \"0,0,0,0,0,1\"\nmaterial = \"{}\"\n", self.material)
+    }
+}
+
+/// What rubs and rolls.
+pub const RUBS: &str = "restitution = 0.5\nsliding_friction = 0.5\nrolling_resistance = 0.1";
+
+/// A folder of its own with these files; it goes when it is dropped.
+///
+/// # Panics
+/// When it cannot be written.
+pub fn folder<T: AsRef<[u8]>>(files: &[(&str, T)]) -> TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    files.iter().for_each(|(name, content)| write(folder.path(), name, content));
+    folder
+}
+
+/// Writes a file into a folder.
+///
+/// # Panics
+/// When it cannot be written.
+pub fn write(folder: &Path, name: &str, content: impl AsRef<[u8]>) {
+    std::fs::write(folder.join(name), content).expect("a file can be written");
+}
