@@ -96,9 +96,11 @@ fn look(
 ) -> Vec<Hole> {
     let patch = |(ends, shape)| Patch::new(sheet, ends, shape);
     let patches: Vec<Patch> = groups.into_iter().filter_map(patch).collect();
-    let rows = gather(sheet, &patches, enough);
-    let holes = |(patch, rows): (&Patch, &Vec<u32>)| patch.holes(points, sheet, rows, search);
-    let found: Vec<Vec<Hole>> = patches.par_iter().zip(&rows).map(holes).collect();
+    let near = |p: &Patch| sheet.grid.within(&sheet.places, p.frame.origin, p.radius * 1.5).collect();
+    let near: Vec<Vec<u32>> = patches.par_iter().map(near).collect();
+    let rows = Rows::new(sheet, &near, enough);
+    let holes = |(patch, near): (&Patch, &Vec<u32>)| patch.holes(points, sheet, rows.of(near), search);
+    let found: Vec<Vec<Hole>> = patches.par_iter().zip(&near).map(holes).collect();
     found.into_iter().flatten().collect()
 }
 
@@ -183,12 +185,18 @@ impl<'a> Patch<'a> {
         })
     }
 
-    fn holes(&self, points: &[Vec3], sheet: &Sheet, rows: &[u32], search: &Search) -> Vec<Hole> {
+    fn holes(
+        &self,
+        points: &[Vec3],
+        sheet: &Sheet,
+        rows: impl Iterator<Item = u32>,
+        search: &Search,
+    ) -> Vec<Hole> {
         let Some(surface) = self.surface(sheet) else { return Vec::new() };
         let tolerance = (3.0 * surface.rms).max(1.5 * sheet.cell);
         let off = |p: &Vec3| (p.z - surface.height(p.x, p.y)).abs();
         let raster = Raster::new(self.radius, sheet.cell / CELLS);
-        let local = rows.iter().map(|&r| (r, self.frame.local(&points[r as usize])));
+        let local = rows.map(|r| (r, self.frame.local(&points[r as usize])));
         let near = |p: &Vec3| raster.at(p.x, p.y).is_some() && off(p) <= tolerance.max(COVERS * self.radius);
         let mut around: Vec<(u32, Vec3)> = local.filter(|(_, p)| near(p)).collect();
         let open = self.open(&raster, &around, &surface, search);
@@ -273,32 +281,44 @@ fn sorted(mut cells: Vec<usize>) -> Vec<usize> {
     cells
 }
 
-/// Rows of the points near each patch, at most about `enough` of each cell, spread over the rows.
-fn gather(sheet: &Sheet, patches: &[Patch], enough: usize) -> Vec<Vec<u32>> {
-    let near: Vec<Vec<u32>> = patches
-        .par_iter()
-        .map(|p| sheet.grid.within(&sheet.places, p.frame.origin, p.radius * 1.5).collect())
-        .collect();
-    // Only the cells that some patch wants are listed with their points.
-    let mut slot = vec![NOWHERE; sheet.places.len()];
-    let mut slots = 0;
-    for &place in near.iter().flatten() {
-        if slot[place as usize] == NOWHERE {
-            slot[place as usize] = slots;
-            slots += 1;
+/// Which points lie in which cells, for those cells that some patch wants.
+struct Rows {
+    /// Place of each cell among the lists, or [`NOWHERE`].
+    slot: Vec<u32>,
+    lists: Vec<Vec<u32>>,
+    /// So many of each cell are given, about.
+    enough: usize,
+}
+
+impl Rows {
+    /// Lists the points of the cells that are `near` some patch.
+    fn new(sheet: &Sheet, near: &[Vec<u32>], enough: usize) -> Rows {
+        let mut slot = vec![NOWHERE; sheet.places.len()];
+        let mut slots = 0;
+        for &place in near.iter().flatten() {
+            if slot[place as usize] == NOWHERE {
+                slot[place as usize] = slots;
+                slots += 1;
+            }
         }
-    }
-    let mut rows: Vec<Vec<u32>> = vec![Vec::new(); slots as usize];
-    for (row, &place) in (0u32..).zip(&sheet.cell_of) {
-        if place != NOWHERE && slot[place as usize] != NOWHERE {
-            rows[slot[place as usize] as usize].push(row);
+        let mut lists: Vec<Vec<u32>> = vec![Vec::new(); slots as usize];
+        if slots > 0 {
+            for (row, &place) in (0u32..).zip(&sheet.cell_of) {
+                if place != NOWHERE && slot[place as usize] != NOWHERE {
+                    lists[slot[place as usize] as usize].push(row);
+                }
+            }
         }
+        Rows { slot, lists, enough }
     }
-    let some = |place: &u32| {
-        let rows = &rows[slot[*place as usize] as usize];
-        rows.iter().copied().step_by(rows.len().div_ceil(enough).max(1))
-    };
-    near.iter().map(|places| places.iter().flat_map(some).collect()).collect()
+
+    /// Rows of the points of the given cells, at most about `enough` of each, spread over its rows.
+    fn of<'a>(&'a self, cells: &'a [u32]) -> impl Iterator<Item = u32> + 'a {
+        cells.iter().flat_map(move |&cell| {
+            let rows = &self.lists[self.slot[cell as usize] as usize];
+            rows.iter().copied().step_by(rows.len().div_ceil(self.enough).max(1))
+        })
+    }
 }
 
 /// Each hole once: two patches may both see it, the smaller one better; and then those of `others` that are not among them.
