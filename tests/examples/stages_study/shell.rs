@@ -24,7 +24,9 @@ pub fn line(folder: &Path, line: &str) -> Result<Vec<u8>, String> {
 /// # Errors
 /// As [`line`].
 pub fn timed(folder: &Path, what: &str) -> Result<f64, String> {
-    let out = line(folder, &format!("TIMEFORMAT='%U %S'; {{ time {{ {what}; }} 2> words; }} 2>&1"))?;
+    let told = "{ tail -n 1 words >&2; exit 1; }";
+    let out =
+        line(folder, &format!("TIMEFORMAT='%U %S'; {{ time {{ {what}; }} 2> words; }} 2>&1 || {told}"))?;
     let text = String::from_utf8_lossy(&out);
     let last = text.lines().last().unwrap_or_default();
     Ok(last.split_whitespace().filter_map(|t| t.parse::<f64>().ok()).sum())
