@@ -61,6 +61,7 @@ ours() {
             "$(awk -v b="$(field report.json peak_memory_bytes)" 'BEGIN { printf "%.2f", b / 1e9 }')" "$(came_out "$tool")"
         input=$tool.ply
     done
+    kept=$(field report.json spheres)
     whole_pipe=$(repeat pipe scan.ply) start=$(repeat starts)
     line "$size" "**the chain, one pipe**" "$(printf %.3f "$whole_pipe")" "–" "–" "$kept"
     line "$size" "of that, starting four processes" "$(printf %.3f "$start")" "–" "–" "–"
@@ -68,7 +69,7 @@ ours() {
 
 came_out() {
     case $1 in
-        wallgen) kept=$(field report.json spheres) && echo "$kept" ;;
+        wallgen) field report.json spheres ;;
         bluenoise-sample) field report.json points_after ;;
         *) field report.json points_out ;;
     esac
