@@ -114,7 +114,7 @@ fn a_plane_whose_zone_reaches_through_a_wall_is_refused() {
 fn an_inlet_on_top_of_what_is_there_stops_the_run() {
     let folder = plant();
     let down = fs::read_to_string(folder.path().join("down.toml")).unwrap();
-    let heap = "\n[[fill]]\nmaterial = \"sinter\"\nshape = \"cylinder:0,0,-0.02,0,0,0.012,0.04\"\ndiameter = 0.01\ncount = 60\n";
+    let heap = "\n[[fill]]\nmaterial = \"sinter\"\nshape = \"cylinder:0,0,-0.02,0,0,0.02,0.04\"\ndiameter = 0.01\ncount = 80\n";
     fs::write(
         folder.path().join("full.toml"),
         format!("first_id = 2000000000\n{}{heap}", down.replace("[0, 0, -9.81]", "[0, 0, -0.001]")),

@@ -40,10 +40,10 @@ fn paths_lead_on_to_where_the_undivided_plant_has_its_grains() {
     let folder = plant();
     let done = line(
         folder.path(),
-        "dem-run up.toml -o up.mcap && stage-replay up.mcap --keep-times -o in.mcap \
-         && dem-run down.toml in.mcap --until 0.14 -o after.mcap \
-         && dem-run up.toml | stage-replay --keep-times | dem-run down.toml - --until 0.14 -o piped.mcap \
-         && dem-run plant.toml --until 0.14 -o whole.mcap",
+        "dt='--set time.dt=4e-6'; dem-run up.toml $dt -o up.mcap && stage-replay up.mcap --keep-times -o in.mcap \
+         && dem-run down.toml in.mcap $dt --until 0.14 -o after.mcap \
+         && dem-run up.toml $dt | stage-replay --keep-times | dem-run down.toml - $dt --until 0.14 -o piped.mcap \
+         && dem-run plant.toml $dt --until 0.14 -o whole.mcap",
     );
     assert_eq!(done.code, 0, "{}", done.stderr);
     let bytes = |name: &str| fs::read(folder.path().join(name)).unwrap();

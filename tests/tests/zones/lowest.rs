@@ -14,7 +14,7 @@ fn lowest(x: f64, length: f64) -> Zone {
 #[test]
 fn the_foremost_point_passes_storage_and_exclusion_plane() {
     let mut setup = empty(HOOKE, 0.5);
-    setup.step = Step::Fixed(1e-4);
+    setup.step = Step::Fixed(5e-5);
     setup.outlets = vec![lowest(0.1, 0.03)];
     let ball = |id, radius: f64| Particle {
         radius,

@@ -134,7 +134,7 @@ impl Simulation {
     fn add(&mut self, e: &Entry, now: f64) {
         let zone = self.zones.inlets[e.inlet as usize];
         let flow = match self.zones.paths.get(&e.particle.id) {
-            Some(path) => path.flow(now, &e.particle.position),
+            Some(path) => path.flow(now, &e.particle.position, &self.setup.gravity),
             None => Flow::after(now - e.time, &e.particle, zone.acceleration(&self.setup.gravity)),
         };
         let (position, velocity) = (e.particle.position + flow.shift, flow.velocity);

@@ -63,16 +63,20 @@ impl Path {
         }
     }
 
-    /// State at `now` [s], shifts counted from `origin`; before its first sample it waits there, out of everyone's sight.
-    pub fn flow(&self, now: f64, origin: &Vec3) -> Flow {
+    /// State at `now` [s], shifts counted from `origin`; before its first sample it waits there, out of everyone's sight. From its
+    /// release within a step to the end of that step it falls freely.
+    pub fn flow(&self, now: f64, origin: &Vec3, gravity: &Vec3) -> Flow {
         let still = Vec3::zeros();
         let Some(a) = self.samples.front() else {
             return Flow { shift: still, velocity: still, acceleration: still, spin: still };
         };
         let from = a.position - origin;
         let Some(b) = self.samples.get(1).filter(|_| now > a.time) else {
-            let shift = from + a.velocity * (now - a.time).max(0.0);
-            return Flow { shift, velocity: a.velocity, acceleration: still, spin: a.spin };
+            let pull = if self.end == End::Free { *gravity } else { still };
+            let tau = (now - a.time).max(0.0);
+            let (shift, velocity) =
+                (from + a.velocity * tau + pull * (0.5 * tau * tau), a.velocity + pull * tau);
+            return Flow { shift, velocity, acceleration: pull, spin: a.spin };
         };
         let h = b.time - a.time;
         let s = (now - a.time) / h;

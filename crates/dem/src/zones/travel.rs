@@ -54,7 +54,7 @@ impl Traveller {
     /// At `time` [s].
     pub fn flow(&self, time: f64, zones: &Zones, setup: &Setup) -> Flow {
         if let (Way::In(_), Some(path)) = (self.way, zones.paths.get(&self.start.id)) {
-            return path.flow(time, &self.start.position);
+            return path.flow(time, &self.start.position, &setup.gravity);
         }
         let a = self.zone(zones).acceleration(&setup.gravity);
         Flow::after(time - self.since, &self.start, a)
