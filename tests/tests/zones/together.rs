@@ -99,3 +99,31 @@ fn a_moving_wall_in_the_zone_does_not_touch_what_travels() {
     let p = sim.particles().expect("fine")[0];
     assert!((p.position - Vec3::new(sim.time() - 0.012, 0.0, 0.0)).norm() < 1e-12, "{}", p.position);
 }
+
+/// An entry that appears on top of a free grain stops the run, which names the one that comes in, its inlet and what to do.
+#[test]
+fn an_entry_on_top_of_a_free_grain_stops_the_run() {
+    let mut setup = empty(HOOKE, 0.5);
+    setup.step = Step::Fixed(1e-4);
+    setup.inlets = vec![zone(0.0, 0.03)];
+    (setup.smallest_entry, setup.largest_entry, setup.entry_materials) = (0.01, 0.01, vec![0]);
+    setup.particles = vec![grain(1, Vec3::new(-0.02, 0.0, 0.0))];
+    let mut sim = Simulation::new(setup).expect("sound");
+    let particle = Particle { velocity: Vec3::x(), ..grain(5, Vec3::new(-0.03, 0.0, 0.0)) };
+    sim.enter(Entry { time: 0.001, inlet: 0, particle, clump: None }).expect("in time");
+    let mut said = None;
+    while said.is_none() && sim.time() < 0.01 {
+        said = sim.step().err().map(|halt| halt.to_string());
+    }
+    let said = said.expect("the run stops");
+    let words = [
+        "particle 5 comes in by inlet 0",
+        "on top of particle 1",
+        "1.000e-2 m",
+        "100.0 %",
+        "stage-replay --ahead",
+    ];
+    for word in words {
+        assert!(said.contains(word), "'{word}' is not in {said}");
+    }
+}
