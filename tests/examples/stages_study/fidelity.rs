@@ -34,7 +34,8 @@ impl Runs {
 /// # Errors
 /// Undivided runs that fail, files that cannot be written.
 pub fn study(folder: &Path, page: &Path, seeds: usize) -> Result<(), String> {
-    let settings = settings(std::env::var_os("QUICK").is_some());
+    let quick = std::env::var_os("QUICK").is_some();
+    let settings = settings(quick);
     let jobs: Vec<(usize, u64)> =
         (0..settings.len()).flat_map(|s| (0..seeds as u64).map(move |seed| (s, seed))).collect();
     let done: Vec<_> = jobs.par_iter().map(|(s, seed)| seen(folder, &settings[*s], *seed)).collect();
@@ -50,6 +51,9 @@ pub fn study(folder: &Path, page: &Path, seeds: usize) -> Result<(), String> {
         "Each line: mean difference from the undivided runs of the same {seeds} seeds, ± its 95 % interval (Student), bold where that does not \
          reach zero.\nThe first line of each table has the undivided runs themselves: mean, ± the deviation of one run between seeds.\n"
     );
+    if quick {
+        text += "Quick form (QUICK=1): the shortest zone, and neither other stiffness nor other steps. `make -C pipelines stages-study` runs all.\n";
+    }
     for at in 0..CUTS.len() {
         text += &section(&all, at, seeds);
     }
@@ -161,7 +165,8 @@ fn mean_curve(
     let curves: Vec<&Vec<(f64, f64)>> = (0..seeds).filter_map(|s| Some(of(runs.seen(at, s)?))).collect();
     let shortest = curves.iter().map(|c| c.len()).min().unwrap_or(0);
     let mean = |k: usize| curves.iter().map(|c| c[k].1).sum::<f64>() / curves.len() as f64;
-    (0..shortest).map(|k| (curves[0][k].0, mean(k))).collect()
+    // A hundred points of a curve are more than can be seen.
+    (0..shortest).step_by(shortest / 30 + 1).map(|k| (curves[0][k].0, mean(k))).collect()
 }
 
 fn pictures(all: &[Runs], page: &Path, seeds: usize) -> Result<(), String> {
