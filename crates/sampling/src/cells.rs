@@ -76,7 +76,10 @@ impl Cells {
         let runs = |cube: &[(u64, u32)]| {
             let (key, [nx, ny, _]) = (cube[0].0 as i64, cubes);
             let run = |cell: usize| starts[cell] as usize..starts[cell + 1] as usize;
-            ([key % nx, key / nx % ny, key / nx / ny], cube.iter().map(|&(_, cell)| run(cell as usize)).collect())
+            (
+                [key % nx, key / nx % ny, key / nx / ny],
+                cube.iter().map(|&(_, cell)| run(cell as usize)).collect(),
+            )
         };
         by_cube.chunk_by(|a, b| a.0 == b.0).map(runs).collect()
     }

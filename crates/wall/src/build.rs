@@ -1,11 +1,11 @@
 //! Puts a wall together: neighbours, radii, placement, leak check.
 
-use crate::solve::Changes;
 use crate::pairs::{FURTHEST, Pairs, REACH, pairs};
+use crate::sheets::{self, Sheets};
+use crate::solve::Changes;
 use crate::star::{SQUARE, Stars, stars};
 use crate::{Placement, Radius, Regions, Representative, WallError, Wish, equation, leak, normals, solve};
 use geom::{Shown, Vec3};
-use crate::sheets::{self, Sheets};
 use sampling::cells::Cells;
 use serde::Serialize;
 
@@ -129,7 +129,9 @@ fn check(points: &[Vec3], wish: &Wish) -> Result<(), WallError> {
         (Radius::Given(r), _, _) if !positive(r) => Err(WallError::BadRadius(r)),
         (_, Some(d), _) if !positive(d) => Err(WallError::BadParticle(d)),
         (_, _, Some(f)) if !positive(f.norm()) => Err(WallError::BadFacing { x: f.x, y: f.y, z: f.z }),
-        (_, _, None) if wish.placement == Placement::Surface && wish.flow_at.is_none() => Err(WallError::NoFacing),
+        (_, _, None) if wish.placement == Placement::Surface && wish.flow_at.is_none() => {
+            Err(WallError::NoFacing)
+        }
         _ => Ok(()),
     }
 }
@@ -186,7 +188,8 @@ fn radii(
     let rough = found.pairs.iter().zip(&found.lengths).filter(|(pair, p)| want(pair) > 0.5 * **p * ROUNDED);
     let worst = rough.max_by(|a, b| (want(a.0) / a.1).total_cmp(&(want(b.0) / b.1)));
     if let Some((pair, &p)) = worst {
-        let ([i, j], at) = ([pair.0, pair.1].map(|p| cells.order()[p as usize]), cells.points[pair.0 as usize]);
+        let ([i, j], at) =
+            ([pair.0, pair.1].map(|p| cells.order()[p as usize]), cells.points[pair.0 as usize]);
         let place = format!("points {i} and {j} at ({:.4}, {:.4}, {:.4}) m", at.x, at.y, at.z);
         return Err(too_rough(want(pair), p, "spacing", place));
     }

@@ -58,7 +58,8 @@ pub fn pairs(cells: &Cells, typical: f64) -> Pairs {
     parts.iter().for_each(|part| all.nearest.extend(&part.nearest));
     // From above: what the lower one did not see, because it looks less far.
     let unseen = |link: &&Link| link.square > LONGEST * LONGEST * all.nearest[link.to as usize];
-    let mut late: Vec<Link> = parts.iter().flat_map(|part| part.down.iter().filter(unseen)).copied().collect();
+    let mut late: Vec<Link> =
+        parts.iter().flat_map(|part| part.down.iter().filter(unseen)).copied().collect();
     late.iter_mut().for_each(|link| (link.from, link.to) = (link.to, link.from));
     late.par_sort_unstable_by_key(|link| (link.from, link.to));
     let mut late = late.into_iter().peekable();

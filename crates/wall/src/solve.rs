@@ -97,7 +97,8 @@ pub fn solve(pairs: &[(u32, u32)], lengths: &[f64], zeta: &[f64], even: &[f64]) 
             step += 1;
             let now =
                 Sweep { links: &links, zeta, even, radii: &radii, changed: &changed, visited: &visited };
-            let chosen: Vec<Vec<Choice>> = colour.par_chunks(PART).map(|part| visit_all(&now, part)).collect();
+            let chosen: Vec<Vec<Choice>> =
+                colour.par_chunks(PART).map(|part| visit_all(&now, part)).collect();
             for (i, radius, sum) in chosen.into_iter().flatten() {
                 let i = i as usize;
                 visited[i] = step;
