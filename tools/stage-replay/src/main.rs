@@ -24,11 +24,14 @@ fn stage_replay(args: Args) -> anyhow::Result<Report> {
         cli::warn("nothing passed the storage plane");
     }
     if done.near > 0 {
+        let cure = match done.ahead {
+            Some(ahead) => format!("give a longer --ahead (now {} s)", geom::Shown(ahead)),
+            None => "use --intervals both with a longer --ahead".to_owned(),
+        };
         cli::warn(&format!(
             "{} grains are so slow that they are generated less than the largest diameter before the calculation plane, among what \
-             is there: give a longer --ahead (now {} s), or cut where grains are faster",
-            done.near,
-            geom::Shown(done.ahead.unwrap_or(0.0))
+             is there: {cure}, or cut where grains are faster",
+            done.near
         ));
     }
     if done.copies > 1 {
