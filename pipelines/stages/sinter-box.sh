@@ -36,7 +36,7 @@ value() { tr -d ' \n' < "$1" | grep -o "\"$2\":{\"unit\":\"[^\"]*\",\"value\":[^
 dem-measure downstream.mcap --repose --side x+ --sectors 8 --ground 0 --json --plot slope.png -q > slope.json
 dem-measure downstream.mcap --flow=0,0,0.35,0,0,-1 --json -q > into.json
 dem-measure upstream.mcap --flow=$CUT --from 0.3 --until 0.9 --json -q > flow.json
-dem-view downstream.mcap --camera -60/18 --size 900x700 -o box.png -q
+dem-view upstream.mcap downstream.mcap --time 1.2 --camera -60/18 --size 640x720 -o box.png -q
 cp box.png "$(dirname "$PAGE")/stages-sinter-box.png"
 awk -v angle="$(value slope.json angle)" -v off="$(value slope.json angle_interval)" -v height="$(value slope.json height)" \
   -v into="$(value into.json mass)" -v flow="$(value flow.json mass_flow)" -v steps="$(number up.json steps)" -v dt="$(number up.json dt)" \

@@ -57,7 +57,7 @@ pub fn study(folder: &Path, page: &Path, seeds: usize) -> Result<(), String> {
     for at in 0..CUTS.len() {
         text += &section(&all, at, seeds);
     }
-    pictures(&all, page, seeds)?;
+    pictures(&all, (folder, page), seeds)?;
     put(folder, page, "fidelity", &text)
 }
 
@@ -169,7 +169,7 @@ fn mean_curve(
     (0..shortest).step_by(shortest / 30 + 1).map(|k| (curves[0][k].0, mean(k))).collect()
 }
 
-fn pictures(all: &[Runs], page: &Path, seeds: usize) -> Result<(), String> {
+fn pictures(all: &[Runs], (folder, page): (&Path, &Path), seeds: usize) -> Result<(), String> {
     let shown = |at: usize| -> Vec<(String, &Runs)> {
         let wanted = |r: &&Runs| match r.setting.cut {
             None => r.setting == PLAIN,
@@ -201,9 +201,11 @@ fn pictures(all: &[Runs], page: &Path, seeds: usize) -> Result<(), String> {
         profiles.push(Panel { title, axes, lines, closed: Vec::new(), from_zero: false });
     }
     for (name, columns, panels) in [("stages-flow.svg", 2, flows), ("stages-profile.svg", 3, profiles)] {
-        let file = page.with_file_name(name);
-        std::fs::write(&file, draw(name, columns, &panels)?)
-            .map_err(|why| format!("{}: {why}", file.display()))?;
+        let png = name.replace(".svg", ".png");
+        for (file, name) in [(page.with_file_name(name), name), (folder.join(&png), png.as_str())] {
+            let told = |why: std::io::Error| format!("{}: {why}", file.display());
+            std::fs::write(&file, draw(name, columns, &panels)?).map_err(told)?;
+        }
     }
     Ok(())
 }
