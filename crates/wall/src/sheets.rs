@@ -20,7 +20,7 @@ const SOME: usize = 2048;
 /// Neighbourhood, in spacings.
 const REACH: f64 = 2.5;
 /// Fewest neighbours, and of each sheet.
-const FEWEST: (usize, usize) = (8, 3);
+const FEWEST: (usize, usize) = (12, 4);
 /// Most of the variance that a split in two sheets leaves [–].
 const LEFT: f64 = 0.1;
 /// Least distance of two sheets, in spacings.
@@ -28,7 +28,7 @@ const APART: f64 = 0.1;
 /// Largest distance of the middles of the two along the plane, in spacings.
 const BESIDE: f64 = 0.8;
 /// Least share of the points that is told.
-const TOLD: f64 = 0.005;
+const TOLD: f64 = 0.02;
 
 /// Two sheets.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

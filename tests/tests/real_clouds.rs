@@ -1,0 +1,148 @@
+//! Real scans and real drawings go through the chain: fill, sample, walls; counts, spacing, coverage and leaks are checked.
+//!
+//! Samples of two of the scans are in the repository. With `GRAINPIPE_DATA=FOLDER` the whole files are read from `FOLDER/clouds` and
+//! `FOLDER/walls`: those of the README of sample-data, from where it says.
+
+use cloud::fill::Settings;
+use geom::{Grid, Vec3};
+use sampling::{Amount, Method, Wish as Sampling};
+use std::path::{Path, PathBuf};
+use wall::attributes::Material;
+use wall::drawn::{Drawing, place};
+use wall::{Radius, Regions, Wish, build};
+
+struct Chain {
+    file: PathBuf,
+    spacing: f64,
+    zeta: f64,
+    max_hole: f64,
+    /// Points in, and the most and least that filling adds.
+    points: usize,
+    added: (usize, usize),
+    spheres: (usize, usize),
+    /// Every scanned point is within this distance of a sphere's surface [m], but for this share.
+    cover: (f64, f64),
+}
+
+fn sample(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../sample-data").join(name)
+}
+
+fn regions(zeta: f64) -> Regions {
+    Regions::one(Some(zeta), Material { name: "rock".into(), ..Material::default() }, Vec3::zeros()).unwrap()
+}
+
+/// Distance from a place to the nearest sphere's surface [m]; infinite beyond `reach`.
+fn nearest(grid: &Grid, centres: &[Vec3], radius: f64, p: &Vec3, reach: f64) -> f64 {
+    let off = |i: u32| ((centres[i as usize] - p).norm() - radius).abs();
+    grid.within(centres, *p, radius + reach).map(off).fold(f64::INFINITY, f64::min)
+}
+
+fn goes_through(chain: &Chain) {
+    let name = chain.file.display();
+    let scan = cloud::from_bytes(std::fs::read(&chain.file).unwrap()).unwrap();
+    assert_eq!(scan.points.len(), chain.points, "{name}");
+    let scanned = scan.points.clone();
+    let filled =
+        cloud::fill(scan, &Settings { max_hole: Some(chain.max_hole), ..Settings::default() }).unwrap();
+    let (low, high) = chain.added;
+    assert!((low..=high).contains(&filled.report.added), "{name}: {} added", filled.report.added);
+    let (amount, distance) = (Amount::Spacing(chain.spacing), sampling::Distance::default());
+    let wish = Sampling { amount, method: Method::Poisson, distance, seed: 0 };
+    let kept = sampling::sample(&filled.cloud.points, None, &wish).unwrap().kept;
+    let points: Vec<Vec3> = kept.iter().map(|&i| filled.cloud.points[i as usize]).collect();
+    let nearest_ones = sampling::nearest_distances(&points).unwrap();
+    assert!(nearest_ones.min >= chain.spacing * (1.0 - 1e-9), "{name}: {nearest_ones:?}");
+    let (low, high) = chain.spheres;
+    assert!((low..=high).contains(&points.len()), "{name}: {} spheres", points.len());
+    let wish =
+        Wish { radius: Radius::Uniform, smallest_particle: Some(2.0 * chain.spacing), ..Wish::default() };
+    let (wall, report) = build(&points, &regions(chain.zeta), &wish).unwrap();
+    let ratio = report.spacing / chain.spacing;
+    assert!((1.0..1.5).contains(&ratio), "{name}: neighbours {ratio} spacings apart");
+    let (grid, radius) = (Grid::new(&wall.centres, 2.0 * chain.spacing), wall.radii[0]);
+    let (reach, share) = chain.cover;
+    let far = |p: &&Vec3| nearest(&grid, &wall.centres, radius, p, reach) > reach;
+    let uncovered = scanned.iter().filter(far).count() as f64 / scanned.len() as f64;
+    assert!(uncovered <= share, "{name}: {uncovered} of the scan is farther than {reach} m from the wall");
+    // What passes is no wider than the void that is told from an outline.
+    let widest = report.widest_gap.map_or(0.0, |gap| gap.diameter);
+    assert!(widest <= 2.0 * report.gaps_up_to, "{name}: {widest} m");
+    println!(
+        "{name}: {} added, {} spheres, r {radius}, uncovered {uncovered}, widest {widest}",
+        filled.report.added,
+        points.len()
+    );
+}
+
+#[test]
+fn the_samples_go_through() {
+    let boulders = Chain {
+        file: sample("boulders/boulders.ply"),
+        spacing: 0.03,
+        zeta: 0.005,
+        max_hole: 0.6,
+        points: 25748,
+        added: (1_200, 1_800),
+        spheres: (7_000, 7_800),
+        cover: (0.04, 0.0),
+    };
+    goes_through(&boulders);
+}
+
+#[test]
+fn whole_scans_go_through() {
+    let Some(folder) = std::env::var_os("GRAINPIPE_DATA").map(PathBuf::from) else {
+        return eprintln!("skipped: GRAINPIPE_DATA names no folder of the whole scans");
+    };
+    let chain = |file: &str, spacing: f64, points, added, spheres| Chain {
+        file: folder.join("clouds").join(file),
+        spacing,
+        zeta: spacing / 6.0,
+        max_hole: 20.0 * spacing,
+        points,
+        added,
+        spheres,
+        cover: (2.0 * spacing, 0.0),
+    };
+    goes_through(&chain("Otira_1cm_grains.ply", 0.03, 100_769, (7_000, 10_000), (27_000, 32_000)));
+    goes_through(&chain("stonepile2_depthcam_120k.ply", 0.01, 120_000, (1_500, 2_100), (11_000, 12_500)));
+    goes_through(&chain("autzen_trim.laz", 8.0, 110_000, (450, 700), (6_500, 7_500)));
+}
+
+#[test]
+fn drawings_go_through() {
+    let Some(folder) = std::env::var_os("GRAINPIPE_DATA").map(PathBuf::from) else {
+        return eprintln!("skipped: GRAINPIPE_DATA names no folder of the drawings");
+    };
+    for (file, radius, faces) in [
+        ("deme_cone.obj", 0.05, 112),
+        ("deme_funnel.obj", 10.0, 532),
+        ("deme_hourglass.obj", 1.0, 1280),
+        ("deme_internal_mixer.obj", 0.04, 2892),
+        ("deme_silo.obj", 1.0, 717),
+        ("dosta_penetration_walls.txt", 0.003, 56),
+    ] {
+        let bytes = std::fs::read(folder.join("walls").join(file)).unwrap();
+        let mesh = cloud::read_mesh(&mut bytes.as_slice()).unwrap();
+        let zeta = radius / 6.0;
+        let drawn =
+            place(&mesh, &Drawing { radius, roughness: zeta, flow_at: None, centred: false }).unwrap();
+        assert!(
+            drawn.report.faces <= faces && drawn.report.faces * 10 > faces * 9,
+            "{file}: {:?}",
+            drawn.report
+        );
+        let wish = Wish { radius: Radius::Given(radius), ..Wish::default() };
+        let (_, report) = build(&drawn.centres, &regions(zeta), &wish).unwrap();
+        let ratio = report.spacing / drawn.report.spacing_asked;
+        assert!((0.8..1.1).contains(&ratio), "{file}: {ratio}");
+        // Every place of the drawing is within a diameter of a sphere.
+        assert!(drawn.report.deepest < 2.0 * radius, "{file}: {:?}", drawn.report);
+        println!(
+            "{file}: {} spheres, deepest {} r, ratio {ratio}",
+            drawn.centres.len(),
+            drawn.report.deepest / radius
+        );
+    }
+}
