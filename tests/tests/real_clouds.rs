@@ -1,7 +1,8 @@
 //! Real scans and real drawings go through the chain: fill, sample, walls; counts, spacing, coverage and leaks are checked.
 //!
-//! Samples of two of the scans are in the repository. With `GRAINPIPE_DATA=FOLDER` the whole files are read from `FOLDER/clouds` and
-//! `FOLDER/walls`: those of the README of sample-data, from where it says.
+//! A part of one of the scans is in the repository. With `GRAINPIPE_DATA=FOLDER` whole files are read from `FOLDER/clouds` (Otira_1cm_grains.ply
+//! of g3point_python, BSD-3; stonepile2_depthcam_120k.ply of augmented-stacking, MIT; autzen_trim.laz of laspy's tests, BSD-2) and from
+//! `FOLDER/walls` (deme_*.obj of DEM-Engine, BSD-3; dosta_penetration_walls.txt of MercuryDPM, BSD-3); without it they are left out.
 
 use cloud::fill::Settings;
 use geom::{Grid, Vec3};
