@@ -1,4 +1,4 @@
-//! Gathers each particle's loads in a fixed order and moves it: velocity Verlet with predicted velocities.
+//! Moves each particle by the sum of its loads: velocity Verlet with predicted velocities.
 //!
 //! ```text
 //! v_n     = v*_n + (a_n − a_{n−1}) Δt/2          a_n from forces at (x_n, v*_n)
@@ -9,82 +9,10 @@
 //! Velocity Verlet: Swope et al. (1982), J. Chem. Phys. 76; positions and velocities of one instant in the force:
 //! Vyas, Ottino, Lueptow & Umbanhowar (2024), arXiv:2410.14798. Rotation in the same way, I = 2/5 m r².
 
-use crate::kernel::{FORCE, FORCE_AND_MOMENT};
 use crate::lane::scalar::Each;
-use crate::lane::{Four, Row, Row4, Width, fetch};
+use crate::lane::{Four, Row, Row4, Width};
 use crate::sleep::Beds;
-
-/// Entries between one whose load is asked for and the one that is added; chosen on the bench pile.
-const AHEAD: usize = 16;
-
-/// Loads and couples (four numbers a contact, or empty) of some contacts.
-pub type Computed<'a> = (&'a [f64], &'a [f64]);
-
-/// Loads of contacts and who they belong to.
-#[derive(Clone, Copy)]
-pub struct Loads<'a> {
-    /// Of the first contacts, by place: [`FORCE_AND_MOMENT`] numbers each, or [`FORCE`] without rotation.
-    pub images: Computed<'a>,
-    /// Of the contacts from place `first` on.
-    pub own: Computed<'a>,
-    /// Where `own` begins.
-    pub first: usize,
-    /// First entry of each particle, and one more.
-    pub starts: &'a [u32],
-    /// Contact × 2, + 1 where the particle is j.
-    pub entries: &'a [u32],
-}
-
-/// Force [N] and moment [N·m]; the fourth number of each means nothing.
-#[derive(Clone, Copy)]
-pub struct Sum<Q> {
-    pub force: Q,
-    pub moment: Q,
-}
-
-impl Loads<'_> {
-    /// Sum over the contacts of particle `k` of `radius` [m], in the order of its entries.
-    #[inline(always)]
-    pub fn sum<Q: Four, const SPIN: bool>(&self, k: usize, radius: f64) -> Sum<Q> {
-        let mine = self.starts[k] as usize..self.starts[k + 1] as usize;
-        let stride = if SPIN { FORCE_AND_MOMENT / 4 } else { FORCE / 4 };
-        let (own, own_couples) = (self.own.0.as_chunks::<4>().0, self.own.1.as_chunks::<4>().0);
-        // Loads that were computed with another particle's come from far: those of the next particles are asked for.
-        for &entry in self.entries.get(mine.start + AHEAD..mine.end + AHEAD).unwrap_or_default() {
-            fetch(own, ((entry >> 1) as usize).wrapping_sub(self.first).wrapping_mul(stride));
-        }
-        let none = Q::all(0.0);
-        let (mut force, mut twist, mut couple) = (none, none, none);
-        for &entry in &self.entries[mine] {
-            let (contact, second) = ((entry >> 1) as usize, entry & 1 == 1);
-            let (loads, couples, contact) = if contact < self.first {
-                (self.images.0.as_chunks::<4>().0, self.images.1.as_chunks::<4>().0, contact)
-            } else {
-                (own, own_couples, contact - self.first)
-            };
-            let row = &loads[contact * stride..][..stride];
-            force = force + Q::read(&row[0]).turned_if(second);
-            if SPIN {
-                twist = twist + Q::read(&row[1]);
-                if !couples.is_empty() {
-                    couple = couple + Q::read(&couples[contact]).turned_if(second);
-                }
-            }
-        }
-        Sum { force, moment: couple - Q::all(radius) * twist }
-    }
-
-    /// Force [N] and moment [N·m] on particle `k` of `radius` [m].
-    pub fn on(&self, k: usize, radius: f64, spin: bool) -> ([f64; 3], [f64; 3]) {
-        let sum = if spin { self.sum::<Each, true>(k, radius) } else { self.sum::<Each, false>(k, radius) };
-        let three = |q: Each| {
-            let mut row = [0.0; 4];
-            q.write(&mut row);
-            [row[0], row[1], row[2]]
-        };
-        (three(sum.force), three(sum.moment))
-    }
-}
+use crate::sums::Sums;
 
 /// Columns of some particles.
 pub struct Columns<'a> {
@@ -102,6 +30,8 @@ pub struct Columns<'a> {
     pub turning: &'a mut [Row4],
     /// Where they were listed, and their rooms.
     pub home: &'a [Row4],
+    /// Loads on them.
+    pub sums: Sums<'a>,
     /// Who sleeps, where the scene asks for it.
     pub beds: Option<Beds<'a>>,
 }
@@ -118,6 +48,7 @@ impl<'a> Columns<'a> {
             acceleration: self.acceleration,
             turning: self.turning,
             home: self.home,
+            sums: self.sums.by_ref(),
             beds: self.beds.as_mut().map(Beds::by_ref),
         }
     }
@@ -134,8 +65,9 @@ impl<'a> Columns<'a> {
         let (turning, turning2) = self.turning.split_at_mut(turn);
         let (home, home2) = self.home.split_at(n);
         let first = self.first;
+        let (sums, sums2) = self.sums.split(n);
         let (beds, beds2) = self.beds.map(|b| b.split(n)).unzip();
-        let one = Columns { first, rows, spins, next, next_spins, acceleration, turning, home, beds };
+        let one = Columns { first, rows, spins, next, next_spins, acceleration, turning, home, sums, beds };
         let two = Columns {
             first: first + n,
             rows: rows2,
@@ -145,6 +77,7 @@ impl<'a> Columns<'a> {
             acceleration: acceleration2,
             turning: turning2,
             home: home2,
+            sums: sums2,
             beds: beds2,
         };
         (one, two)
@@ -176,18 +109,18 @@ pub struct Drive {
 }
 
 /// Moves particles by one step, computing with lanes of `width`; all widths give the same bits.
-pub fn advance(width: Width, columns: Columns, loads: &Loads, drive: &Drive) -> Moved {
+pub fn advance(width: Width, columns: Columns, drive: &Drive) -> Moved {
     match columns.spins.is_empty() {
-        false => dispatch::<true>(width, columns, loads, drive),
-        true => dispatch::<false>(width, columns, loads, drive),
+        false => dispatch::<true>(width, columns, drive),
+        true => dispatch::<false>(width, columns, drive),
     }
 }
 
-fn dispatch<const SPIN: bool>(width: Width, columns: Columns, loads: &Loads, drive: &Drive) -> Moved {
+fn dispatch<const SPIN: bool>(width: Width, columns: Columns, drive: &Drive) -> Moved {
     match width {
         #[cfg(target_arch = "x86_64")]
-        Width::Avx2 | Width::Avx512 => simd::avx2::<SPIN>(columns, loads, drive),
-        _ => chunk::<Each, SPIN>(columns, loads, drive),
+        Width::Avx2 | Width::Avx512 => simd::avx2::<SPIN>(columns, drive),
+        _ => chunk::<Each, SPIN>(columns, drive),
     }
 }
 
@@ -198,19 +131,20 @@ mod simd {
     use super::*;
     use crate::lane::x86::X4;
 
-    pub fn avx2<const SPIN: bool>(columns: Columns, loads: &Loads, drive: &Drive) -> Moved {
+    pub fn avx2<const SPIN: bool>(columns: Columns, drive: &Drive) -> Moved {
         #[target_feature(enable = "avx2")]
-        fn inner<const SPIN: bool>(columns: Columns, loads: &Loads, drive: &Drive) -> Moved {
-            chunk::<X4, SPIN>(columns, loads, drive)
+        fn inner<const SPIN: bool>(columns: Columns, drive: &Drive) -> Moved {
+            chunk::<X4, SPIN>(columns, drive)
         }
         // SAFETY: these widths are only made where the processor has AVX2.
-        unsafe { inner::<SPIN>(columns, loads, drive) }
+        unsafe { inner::<SPIN>(columns, drive) }
     }
 }
 
 #[inline(always)]
-fn chunk<Q: Four, const SPIN: bool>(columns: Columns, loads: &Loads, drive: &Drive) -> Moved {
-    let Columns { first, rows, spins, next, next_spins, acceleration, turning, home, .. } = columns;
+fn chunk<Q: Four, const SPIN: bool>(columns: Columns, drive: &Drive) -> Moved {
+    let Columns { rows, spins, next, next_spins, acceleration, turning, home, sums, .. } = columns;
+    let loads = sums.seen();
     let [gx, gy, gz] = drive.gravity;
     let gravity = Q::read(&[gx, gy, gz, 0.0]);
     // Rows hold radius and 1/m in the fourth place, which must not move.
@@ -221,7 +155,7 @@ fn chunk<Q: Four, const SPIN: bool>(columns: Columns, loads: &Loads, drive: &Dri
         let ([place, velocity], []) = rows[k].as_chunks::<4>() else { continue };
         let ([next_place, next_velocity], []) = next[k].as_chunks_mut::<4>() else { continue };
         let (radius, inverse_mass) = (place[3], velocity[3]);
-        let sum = loads.sum::<Q, SPIN>(first + k, radius);
+        let sum = loads.sum::<Q, SPIN>(k, radius);
         let new = (sum.force * Q::all(inverse_mass) + gravity) * three;
         let v = Q::read(velocity) + half * (new - Q::read(&acceleration[k]));
         let moves = (dt * v + square * new) * three;

@@ -5,18 +5,26 @@
 //! segment: whole blocks, one task of the contact loop. Images across periodic faces come first, before all tiles.
 
 use crate::aligned::Aligned;
-use crate::kernel::{Common, Kernel, LEDGER, Task};
-use crate::lane::{BLOCK, Row, Row4, Width};
-use crate::motion::Pose;
+use crate::kernel::{Kernel, LEDGER};
+use crate::lane::{BLOCK, Row, Row4};
+use crate::part::{At, Lists, Part};
 use crate::particles::FAR;
-use crate::seams::Slots;
-use crate::sleep::runs;
+use crate::sums::{Arrival, COUPLE, Loads, Sums};
 use crate::walls::WallBody;
 use geom::Vec3;
 use std::ops::Range;
 
-/// Particles of a tile.
-pub const TILE: usize = 256;
+/// Particles of a tile. Contacts within a tile add to their particles at once, and loads between two tiles are kept until it is the other's
+/// turn: the larger tiles are, the fewer are kept. But what a tile computes is to be in the cache when it moves, and threads share tiles
+/// out, so that there must be some for each. A function of the number of particles alone: the order of sums depends on it.
+pub fn tile(particles: usize) -> usize {
+    (particles / TILES).next_multiple_of(LEAST_TILE).clamp(LEAST_TILE, LARGEST_TILE)
+}
+
+const TILES: usize = 24;
+const LEAST_TILE: usize = 64;
+/// Chosen on the bench pile; smaller ones cost more than larger ones.
+const LARGEST_TILE: usize = 2048;
 
 /// Whom the particles of a kind of contact meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,7 +49,7 @@ pub struct Kind {
 
 /// What may disturb a sleeper.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Met {
+pub enum Met {
     Particles,
     StillWall,
     MovingWall,
@@ -56,8 +64,12 @@ pub struct Segment {
     pub places: Range<usize>,
     /// How many of them are contacts.
     pub len: usize,
-    memory: usize,
-    rows: usize,
+    /// Whether the second of each is a particle of a later tile.
+    pub later: bool,
+    /// Where its memory, its contact points and its kept loads begin.
+    pub memory: usize,
+    pub rows: usize,
+    pub kept: usize,
 }
 
 impl Segment {
@@ -72,6 +84,8 @@ impl Segment {
 pub struct Contacts {
     /// In order of their places.
     pub segments: Vec<Segment>,
+    /// Particles of a tile.
+    tile: usize,
     /// First segment of each tile, and one more.
     pub tiles: Vec<usize>,
     /// First particle of each contact.
@@ -85,10 +99,18 @@ pub struct Contacts {
     /// Contact memory.
     pub memory: Aligned,
     active: Vec<bool>,
-    /// Forces and moments.
+    /// Force and moment of each contact, where somebody looks at them; else none.
     pub loads: Aligned,
     /// Couples, or none.
     pub couples: Aligned,
+    /// Of loads and couples, by particle.
+    sums: (Aligned, Aligned),
+    /// Loads and couples that are kept for other tiles.
+    kept: (Aligned, Aligned),
+    /// What arrives at each tile, in the order of the places it comes from.
+    arrivals: Vec<Arrival>,
+    /// First arrival of each tile, and one more.
+    arriving: Vec<u32>,
     /// Energy of each contact, or none.
     pub ledger: Aligned,
     /// Sliding work of each contact since it was asked for [J], or none.
@@ -126,14 +148,15 @@ impl List {
 }
 
 impl Contacts {
-    /// Contacts of `images`, then of each tile, a list for every kind; of so many particles.
-    pub fn new(kinds: &[Kind], images: &[List], tiles: &[Vec<List>], particles: usize) -> Contacts {
-        let mut new = Contacts { new: true, ..Contacts::default() };
-        let most: usize = images.iter().chain(tiles.iter().flatten()).map(|l| l.i.len() + BLOCK).sum();
+    /// Contacts of `images`, then of each tile, lists for every kind: with particles of the tile, and of later ones. Of so many particles.
+    pub fn new(kinds: &[Kind], images: &[List], tiles: &[Vec<[List; 2]>], particles: usize) -> Contacts {
+        let mut new = Contacts { new: true, tile: tile(particles), ..Contacts::default() };
+        let lists = images.iter().chain(tiles.iter().flatten().flatten());
+        let most: usize = lists.map(|l| l.i.len() + BLOCK).sum();
         new.i.reserve(most);
         new.partner.reserve(most);
-        let (mut memory, mut rows) = (0, 0);
-        let mut put = |kind: usize, list: &List, new: &mut Contacts| {
+        let (mut memory, mut rows, mut kept) = (0, 0, 0);
+        let mut put = |kind: usize, later: bool, list: &List, new: &mut Contacts| {
             let len = list.i.len();
             if len == 0 {
                 return;
@@ -149,14 +172,19 @@ impl Contacts {
                 new.shift.resize(places.end, Vec3::zeros());
             }
             let padded = places.len();
-            new.segments.push(Segment { kind, places, len, memory, rows });
+            let with = kinds[kind].with;
+            new.segments.push(Segment { kind, places, len, later, memory, rows, kept });
             memory += padded * kinds[kind].kernel.memory();
-            rows += if kinds[kind].with == With::Particles { 0 } else { padded };
+            rows += if with == With::Particles { 0 } else { padded };
+            kept += if later || with == With::Images { padded } else { 0 };
         };
-        images.iter().enumerate().for_each(|(kind, list)| put(kind, list, &mut new));
+        images.iter().enumerate().for_each(|(kind, list)| put(kind, false, list, &mut new));
         for tile in tiles {
             new.tiles.push(new.segments.len());
-            tile.iter().enumerate().for_each(|(kind, list)| put(kind, list, &mut new));
+            for (kind, [here, later]) in tile.iter().enumerate() {
+                put(kind, false, here, &mut new);
+                put(kind, true, later, &mut new);
+            }
         }
         new.tiles.push(new.segments.len());
         let turns = kinds.iter().any(|k| k.kernel.rotates());
@@ -167,17 +195,46 @@ impl Contacts {
         let largest = new.segments.iter().filter(|s| kinds[s.kind].with != With::Particles);
         new.count = (0..largest.map(|s| s.places.len()).max().unwrap_or(0) as u32).collect();
         new.index(kinds, particles);
-        new.find_lowest(kinds);
+        new.find_arrivals(kinds);
         new
     }
 
-    fn find_lowest(&mut self, kinds: &[Kind]) {
-        self.lowest = (0..self.tiles.len() as u32 - 1).collect();
-        let pairs = |s: &&Segment| kinds[s.kind].with == With::Particles;
-        for place in self.segments.iter().filter(pairs).flat_map(Segment::contacts) {
-            let from = self.i[place] / TILE as u32;
-            let lowest = &mut self.lowest[self.partner[place] as usize / TILE];
-            *lowest = from.min(*lowest);
+    /// What arrives at each tile, and the first tile that it comes from.
+    fn find_arrivals(&mut self, kinds: &[Kind]) {
+        let tiles = self.tiles.len() - 1;
+        let images = |s: &Segment| kinds[s.kind].with == With::Images;
+        let (mut lowest, mut starts): (Vec<u32>, _) = ((0..tiles as u32).collect(), vec![0; tiles + 1]);
+        self.for_kept(images, |_, from, tile, _| {
+            starts[tile + 1] += 1;
+            lowest[tile] = from.map_or(lowest[tile], |from| from.min(lowest[tile]));
+        });
+        (0..tiles).for_each(|tile| starts[tile + 1] += starts[tile]);
+        let mut next = starts.clone();
+        let mut arrivals = vec![Arrival { from: 0, particle: 0 }; starts[tiles] as usize];
+        self.for_kept(images, |from, _, tile, particle| {
+            arrivals[next[tile] as usize] = Arrival { from, particle };
+            next[tile] += 1;
+        });
+        (self.arrivals, self.arriving, self.lowest) = (arrivals, starts, lowest);
+    }
+
+    /// Each load that is kept, in the order of their places: place among them × 2, + 1 for the second particle of a contact; the tile that it
+    /// comes from, if any; where it goes, and to whom.
+    fn for_kept(
+        &self,
+        images: impl Fn(&Segment) -> bool,
+        mut each: impl FnMut(u32, Option<u32>, usize, u32),
+    ) {
+        for s in self.segments.iter().filter(|s| s.later || images(s)) {
+            for place in s.contacts() {
+                let kept = 2 * (s.kept + place - s.places.start) as u32;
+                let (i, j) = (self.i[place], self.partner[place]);
+                if !s.later {
+                    each(kept, None, i as usize / self.tile, i);
+                }
+                let from = s.later.then_some(i / self.tile as u32);
+                each(kept + 1, from, j as usize / self.tile, j);
+            }
         }
     }
 
@@ -237,11 +294,26 @@ impl Contacts {
 
     /// Room for what is computed of them: numbers of one load, whether there are couples, whether a ledger is kept.
     pub fn make_room(&mut self, stride: usize, couples: bool, ledger: bool) {
-        let places = self.i.len();
-        self.loads = Aligned::zeros(places * stride);
-        self.couples = Aligned::zeros(if couples { places * 4 } else { 0 });
+        let (places, particles) = (self.i.len(), self.starts.len().saturating_sub(1));
+        let kept = self.segments.last().map_or(0, |s| s.kept + s.places.len());
+        let some = |couples: bool, n: usize| Aligned::zeros(if couples { n * COUPLE } else { 0 });
+        self.sums = (Aligned::zeros(particles * stride), some(couples, particles));
+        self.kept = (Aligned::zeros(kept * stride), some(couples, kept));
+        (self.loads, self.couples) = Default::default();
         self.ledger = Aligned::zeros(if ledger { places * LEDGER } else { 0 });
         self.work.resize(if ledger { places } else { 0 }, 0.0);
+    }
+
+    /// Room for the load and couple of each contact, or none.
+    pub fn keep_each(&mut self, keep: bool, stride: usize) {
+        let places = if keep { self.i.len() } else { 0 };
+        let couples = if self.sums.1.is_empty() { 0 } else { places };
+        (self.loads, self.couples) = (Aligned::zeros(places * stride), Aligned::zeros(couples * COUPLE));
+    }
+
+    /// Sums of the loads on all particles.
+    pub fn sums(&self) -> Loads<'_> {
+        Loads { first: 0, sums: (&self.sums.0, &self.sums.1) }
     }
 
     /// The segment that a place belongs to.
@@ -270,15 +342,18 @@ impl Contacts {
             + size_of_val(&self.spins[..])
             + size_of_val(&self.active[..])
             + size_of_val(&self.entries[..])
-            + 8 * (self.work.len()
-                + self.memory.len()
-                + self.loads.len()
-                + self.couples.len()
-                + self.ledger.len())
+            + size_of_val(&self.arrivals[..])
+            + size_of_val(&self.memory[..])
+            + size_of_val(&self.kept.0[..])
+            + size_of_val(&self.kept.1[..])
+            + size_of_val(&self.loads[..])
+            + size_of_val(&self.couples[..])
+            + size_of_val(&self.ledger[..])
+            + size_of_val(&self.work[..])
     }
 
     /// Everything, to be computed; `stride`: numbers of one load.
-    pub fn parts(&mut self, stride: usize) -> (Lists<'_>, Part<'_>) {
+    pub fn parts(&mut self, stride: usize) -> (Lists<'_>, Part<'_>, Sums<'_>) {
         let lists = Lists {
             i: &self.i,
             partner: &self.partner,
@@ -288,8 +363,11 @@ impl Contacts {
             new: self.new,
             tiles: &self.tiles,
             lowest: &self.lowest,
+            tile: self.tile,
             starts: &self.starts,
             entries: &self.entries,
+            arrivals: &self.arrivals,
+            arriving: &self.arriving,
         };
         let part = Part {
             segments: &self.segments,
@@ -299,262 +377,11 @@ impl Contacts {
             spins: &mut self.spins,
             memory: &mut self.memory,
             active: &mut self.active,
-            loads: &mut self.loads,
-            couples: &mut self.couples,
+            kept: (&mut self.kept.0, &mut self.kept.1),
+            each: (&mut self.loads, &mut self.couples),
             ledger: &mut self.ledger,
         };
-        (lists, part)
+        let sums = Sums { first: 0, stride, loads: &mut self.sums.0, couples: &mut self.sums.1 };
+        (lists, part, sums)
     }
-}
-
-/// What all parts read.
-#[derive(Clone, Copy)]
-pub struct Lists<'a> {
-    i: &'a [u32],
-    partner: &'a [u32],
-    shift: &'a [Vec3],
-    count: &'a [u32],
-    met: &'a [Met],
-    new: bool,
-    /// First segment of each tile, and one more.
-    pub tiles: &'a [usize],
-    /// For each tile, the first that has a contact with it.
-    pub lowest: &'a [u32],
-    /// First entry of each particle, and one more.
-    pub starts: &'a [u32],
-    /// Place × 2, + 1 where the particle is the second.
-    pub entries: &'a [u32],
-}
-
-impl Lists<'_> {
-    /// Whether a particle has a contact that may have changed while it slept.
-    pub fn stirred(&self, particle: usize, asleep: &[bool]) -> bool {
-        let entries = self.starts[particle] as usize..self.starts[particle + 1] as usize;
-        self.new
-            || self.entries[entries].iter().any(|&entry| {
-                let (place, second) = ((entry >> 1) as usize, entry & 1 == 1);
-                match self.met[place / BLOCK] {
-                    Met::Particles => {
-                        !asleep[if second { self.i[place] } else { self.partner[place] } as usize]
-                    }
-                    Met::StillWall => false,
-                    Met::MovingWall => true,
-                }
-            })
-    }
-
-    /// Whether all contacts of a block are between sleepers, or of sleepers with a wall at rest.
-    fn rests(&self, block: usize, asleep: &[bool]) -> bool {
-        let all = |of: &[u32]| of[block * BLOCK..(block + 1) * BLOCK].iter().all(|&k| asleep[k as usize]);
-        !self.new
-            && match self.met[block] {
-                Met::Particles => all(self.i) && all(self.partner),
-                Met::StillWall => all(self.i),
-                Met::MovingWall => false,
-            }
-    }
-}
-
-/// What a contact needs besides the lists.
-#[derive(Clone, Copy)]
-pub struct Scenery<'a> {
-    pub kinds: &'a [Kind],
-    pub walls: &'a [WallBody],
-    pub poses: &'a [Pose],
-    /// Length of the box along periodic axes, 0 along others [m].
-    pub period: Vec3,
-    pub width: Width,
-    pub common: Common<'a>,
-    /// Who sleeps, where the scene asks for it.
-    pub asleep: Option<&'a [bool]>,
-}
-
-/// Where a part begins.
-#[derive(Debug, Clone, Copy, Default)]
-struct At {
-    place: usize,
-    row: usize,
-    memory: usize,
-}
-
-/// Some segments that follow each other, with their part of everything that is computed.
-pub struct Part<'a> {
-    pub segments: &'a [Segment],
-    stride: usize,
-    from: At,
-    rows: &'a mut [Row],
-    spins: &'a mut [Row4],
-    memory: &'a mut [f64],
-    active: &'a mut [bool],
-    loads: &'a mut [f64],
-    couples: &'a mut [f64],
-    ledger: &'a mut [f64],
-}
-
-impl<'a> Part<'a> {
-    /// The same, for a while.
-    pub fn by_ref(&mut self) -> Part<'_> {
-        Part {
-            segments: self.segments,
-            stride: self.stride,
-            from: self.from,
-            rows: self.rows,
-            spins: self.spins,
-            memory: self.memory,
-            active: self.active,
-            loads: self.loads,
-            couples: self.couples,
-            ledger: self.ledger,
-        }
-    }
-
-    /// The first `count` segments, and the others.
-    pub fn split(self, count: usize) -> (Part<'a>, Part<'a>) {
-        let Part { segments, stride, from, rows, spins, memory, active, loads, couples, ledger } = self;
-        let (first, second) = segments.split_at(count);
-        let all = At {
-            place: from.place + active.len() * BLOCK,
-            row: from.row + rows.len(),
-            memory: from.memory + memory.len(),
-        };
-        let to = second.first().map_or(all, |s| At { place: s.places.start, row: s.rows, memory: s.memory });
-        let places = to.place - from.place;
-        let (rows, rows2) = rows.split_at_mut(to.row - from.row);
-        let (spins, spins2) = split(spins, to.row - from.row);
-        let (memory, memory2) = memory.split_at_mut(to.memory - from.memory);
-        let (active, active2) = active.split_at_mut(places / BLOCK);
-        let (loads, loads2) = loads.split_at_mut(places * stride);
-        let (couples, couples2) = split(couples, places * 4);
-        let (ledger, ledger2) = split(ledger, places * LEDGER);
-        let one = Part { segments: first, stride, from, rows, spins, memory, active, loads, couples, ledger };
-        let two = Part {
-            segments: second,
-            stride,
-            from: to,
-            rows: rows2,
-            spins: spins2,
-            memory: memory2,
-            active: active2,
-            loads: loads2,
-            couples: couples2,
-            ledger: ledger2,
-        };
-        (one, two)
-    }
-
-    /// Contact points and loads of segment `k` of this part; true when an overlap passes the limit.
-    pub fn compute(&mut self, k: usize, lists: &Lists, scenery: &Scenery) -> bool {
-        let s = &self.segments[k];
-        self.renew(s, lists, scenery);
-        let Some(asleep) = scenery.asleep else {
-            return self.compute_places(s, s.places.clone(), lists, scenery);
-        };
-        let blocks = s.places.start / BLOCK..s.places.end / BLOCK;
-        let rests: Vec<bool> = blocks.map(|b| lists.rests(b, asleep)).collect();
-        let mut deep = false;
-        for run in runs(&rests) {
-            let places = s.places.start + run.start * BLOCK..s.places.start + run.end * BLOCK;
-            if rests[run.start] {
-                self.forget_ledger(places);
-            } else {
-                deep |= self.compute_places(s, places, lists, scenery);
-            }
-        }
-        deep
-    }
-
-    /// What is passed over loses no energy.
-    fn forget_ledger(&mut self, places: Range<usize>) {
-        let first = places.start - self.from.place;
-        for row in part_mut(self.ledger, first * LEDGER, places.len() * LEDGER).chunks_exact_mut(LEDGER) {
-            row[1..].fill(0.0);
-        }
-    }
-
-    fn compute_places(
-        &mut self,
-        s: &Segment,
-        places: Range<usize>,
-        lists: &Lists,
-        scenery: &Scenery,
-    ) -> bool {
-        let kind = &scenery.kinds[s.kind];
-        let (first, n) = (places.start - self.from.place, places.len());
-        let columns = kind.kernel.memory();
-        let within = places.start - s.places.start;
-        let (row, memory) = (s.rows - self.from.row + within, s.memory - self.from.memory + within * columns);
-        let (partners, j) = match kind.with {
-            With::Particles => ((scenery.common.rows, scenery.common.spins), &lists.partner[places.clone()]),
-            _ => ((&self.rows[row..row + n], part(self.spins, row, n)), &lists.count[..n]),
-        };
-        let task = Task {
-            partners,
-            i: &lists.i[places],
-            j,
-            memory: &mut self.memory[memory..memory + n * columns],
-            active: &mut self.active[first / BLOCK..(first + n) / BLOCK],
-            loads: &mut self.loads[first * self.stride..(first + n) * self.stride],
-            couples: part_mut(self.couples, first * 4, n * 4),
-            ledger: part_mut(self.ledger, first * LEDGER, n * LEDGER),
-        };
-        kind.kernel.run(scenery.width, scenery.common, task)
-    }
-
-    /// Finds the contact points of images and walls as they are now.
-    pub fn renew(&mut self, s: &Segment, lists: &Lists, scenery: &Scenery) {
-        let kind = &scenery.kinds[s.kind];
-        let first = s.rows - self.from.row;
-        let (i, partner) = (&lists.i[s.contacts()], &lists.partner[s.contacts()]);
-        match kind.with {
-            With::Particles => {}
-            With::Images => {
-                for (k, (&j, shift)) in partner.iter().zip(&lists.shift[s.contacts()]).enumerate() {
-                    let mut row = scenery.common.rows[j as usize];
-                    for a in 0..3 {
-                        row[a] += shift[a];
-                    }
-                    self.rows[first + k] = row;
-                    if let Some(spin) = self.spins.get_mut(first + k) {
-                        *spin = scenery.common.spins[j as usize];
-                    }
-                }
-            }
-            With::Wall(w) if lists.new || scenery.walls[w].renewed() => {
-                let columns = kind.kernel.memory();
-                let memory = s.memory - self.from.memory;
-                let memory = &mut self.memory[memory..memory + s.places.len() * columns];
-                let mut slots = Slots { memory, first: 0, columns };
-                let mut from = 0;
-                while from < s.len {
-                    let to = from + i[from..].iter().take_while(|&&k| k == i[from]).count();
-                    let row = &scenery.common.rows[i[from] as usize];
-                    let rows = &mut self.rows[first + from..first + to];
-                    let spins = part_mut(self.spins, first + from, to - from);
-                    let pose = (&scenery.poses[w], &scenery.period);
-                    scenery.walls[w].meet(pose, row, &partner[from..to], (rows, spins), slots.from(from));
-                    from = to;
-                }
-            }
-            With::Wall(_) => {}
-        }
-    }
-
-    /// Loads and couples of this part, and the place of the first.
-    pub fn loads(&self) -> (usize, &[f64], &[f64]) {
-        (self.from.place, self.loads, self.couples)
-    }
-}
-
-/// Some of a column, or none of a column that does not exist.
-fn part<T>(of: &[T], from: usize, n: usize) -> &[T] {
-    if of.is_empty() { &[] } else { &of[from..from + n] }
-}
-
-fn part_mut<T>(of: &mut [T], from: usize, n: usize) -> &mut [T] {
-    if of.is_empty() { &mut [] } else { &mut of[from..from + n] }
-}
-
-fn split<T>(of: &mut [T], at: usize) -> (&mut [T], &mut [T]) {
-    let at = at.min(of.len());
-    of.split_at_mut(at)
 }

@@ -16,7 +16,6 @@
 //! Stable step: that scheme, on v' = −λ v, needs λ Δt ≤ 1; with contacts, 1/Δt ≥ 1/Δt_contacts + λ is on the safe side, because
 //! (ω Δt)²/4 + 2 ζ ω Δt + λ Δt ≤ 1 follows from it (see [`crate::limit`]).
 
-use crate::contacts::TILE;
 use crate::lane::Row;
 use crate::limit::radii_by_material;
 use crate::particles::mass;
@@ -27,6 +26,8 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
+/// Particles of one task.
+const CHUNK: usize = 256;
 /// Re from which the drag coefficient is constant [–].
 const TURBULENT: f64 = 1000.0;
 /// That coefficient [–].
@@ -143,13 +144,13 @@ impl Simulation {
         let (dt, gravity, zones) = (self.dt, self.setup.gravity, &self.zones);
         let (p, before) = (&mut self.particles, &self.next_rows);
         let count = p.len();
-        let rows = p.rows[..count].par_chunks_mut(TILE).zip(p.acceleration.par_chunks_mut(TILE));
-        let tiles = rows.zip(before[..count].par_chunks(TILE)).zip(p.home.par_chunks(TILE)).enumerate();
+        let rows = p.rows[..count].par_chunks_mut(CHUNK).zip(p.acceleration.par_chunks_mut(CHUNK));
+        let tiles = rows.zip(before[..count].par_chunks(CHUNK)).zip(p.home.par_chunks(CHUNK)).enumerate();
         let done: Vec<(f64, bool)> = tiles
             .map(|(tile, (((rows, accelerations), before), home))| {
                 let (mut taken, mut out) = (0.0, false);
                 for k in 0..rows.len() {
-                    let at = tile * TILE + k;
+                    let at = tile * CHUNK + k;
                     if zones.travels(at) || zones.is_gone(at) {
                         continue;
                     }

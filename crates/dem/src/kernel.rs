@@ -7,6 +7,7 @@ use crate::lane::{
     x86::{X4, X8},
     x86_single::{Y4, Y8},
 };
+use crate::sums::{COUPLE, FORCE, FORCE_AND_MOMENT, Sums};
 
 /// Blocks between one whose rows are asked for and the one that is computed; chosen on the bench pile.
 const AHEAD: usize = 4;
@@ -14,10 +15,6 @@ const AHEAD: usize = 4;
 pub const LEDGER: usize = 8;
 /// Column of what is lost at once.
 pub const LOST: usize = 6;
-/// Numbers of one contact's load without rotation: force on i and a pad.
-pub const FORCE: usize = 4;
-/// With rotation: force on i, a pad, n × F_t times distance over reach (the moment on a particle of radius −1), a pad.
-pub const FORCE_AND_MOMENT: usize = 8;
 
 /// What all contacts share in one step.
 #[derive(Clone, Copy)]
@@ -46,10 +43,14 @@ pub struct Task<'a> {
     pub memory: &'a mut [f64],
     /// Whether a block's loads or memory are not all zero.
     pub active: &'a mut [bool],
-    /// Loads, `stride` numbers a contact.
-    pub loads: &'a mut [f64],
-    /// Couples, four numbers a contact; empty when no effect of the scene makes one.
-    pub couples: &'a mut [f64],
+    /// Sums of the tile that the contacts belong to; empty for images.
+    pub sums: Sums<'a>,
+    /// Whether the second of each contact is in that tile, too.
+    pub both: bool,
+    /// Loads (`stride` numbers a contact) and couples ([`COUPLE`]) that are kept for other tiles, or empty.
+    pub kept: (&'a mut [f64], &'a mut [f64]),
+    /// Loads and couples of each contact, for who looks at them; or empty.
+    pub each: (&'a mut [f64], &'a mut [f64]),
     /// Ledger, [`LEDGER`] numbers a contact; empty when it is not kept.
     pub ledger: &'a mut [f64],
 }
@@ -161,6 +162,7 @@ mod simd {
 #[inline(always)]
 fn blocks<R: Lane, E: Effect, const KEEP: bool>(e: &E, common: Common, mut task: Task) -> bool {
     let mut too_deep = false;
+    let mut hand = Hand { loads: [0.0; BLOCK * FORCE_AND_MOMENT], couples: [0.0; BLOCK * COUPLE] };
     for block in 0..task.active.len() {
         // Rows of partners come from far: they are asked for while other blocks are computed.
         let soon = (block + AHEAD) * BLOCK;
@@ -173,7 +175,8 @@ fn blocks<R: Lane, E: Effect, const KEEP: bool>(e: &E, common: Common, mut task:
         let was_active = task.active[block];
         let mut active = false;
         for lane in (0..BLOCK).step_by(R::WIDTH) {
-            let (touches, deep) = lanes::<R, E, KEEP>(e, &common, &mut task, block, lane, was_active);
+            let (touches, deep) =
+                lanes::<R, E, KEEP>(e, &common, &mut task, &mut hand, (block, lane, was_active));
             active |= touches;
             too_deep |= deep;
         }
@@ -188,9 +191,8 @@ fn lanes<R: Lane, E: Effect, const KEEP: bool>(
     effect: &E,
     common: &Common,
     task: &mut Task,
-    block: usize,
-    lane: usize,
-    was_active: bool,
+    hand: &mut Hand,
+    (block, lane, was_active): (usize, usize, bool),
 ) -> (bool, bool) {
     let at = block * BLOCK + lane;
     let (i, j) = (&task.i[at..at + R::WIDTH], &task.j[at..at + R::WIDTH]);
@@ -259,20 +261,23 @@ fn lanes<R: Lane, E: Effect, const KEEP: bool>(
     memory.keep(touching).store(stored, lane);
 
     let force = V::select(touching, normal.scale(load.normal) + load.tangential, V::zero());
+    if E::COUPLES {
+        let c = V::select(touching, load.couple, V::zero());
+        R::store_rows4([c.x, c.y, c.z, zero], &mut hand.couples);
+    }
     if E::ROTATES {
         // Of a particle of radius 1: each takes it times its own.
         let moment = V::select(touching, normal.cross(load.tangential).scale(share), V::zero());
         let row = [force.x, force.y, force.z, zero, moment.x, moment.y, moment.z, zero];
-        R::store_rows(row, &mut task.loads[at * FORCE_AND_MOMENT..]);
+        R::store_rows(row, &mut hand.loads);
+        hand.over::<FORCE_AND_MOMENT>(task, at, R::WIDTH, E::COUPLES);
     } else if common.stride == FORCE {
-        R::store_rows4([force.x, force.y, force.z, zero], &mut task.loads[at * FORCE..]);
+        R::store_rows4([force.x, force.y, force.z, zero], &mut hand.loads);
+        hand.over::<FORCE>(task, at, R::WIDTH, false);
     } else {
         let row = [force.x, force.y, force.z, zero, zero, zero, zero, zero];
-        R::store_rows(row, &mut task.loads[at * FORCE_AND_MOMENT..]);
-    }
-    if E::COUPLES {
-        let c = V::select(touching, load.couple, V::zero());
-        R::store_rows4([c.x, c.y, c.z, zero], &mut task.couples[at * 4..]);
+        R::store_rows(row, &mut hand.loads);
+        hand.over::<FORCE_AND_MOMENT>(task, at, R::WIDTH, false);
     }
     if KEEP {
         let [a, b, c, d] = load.dissipated;
@@ -292,4 +297,34 @@ fn lanes<R: Lane, E: Effect, const KEEP: bool>(
     // A contact that has just broken stays in the ledger for one step.
     let active = R::any(touching) || (E::REACHES && KEEP && R::any(was_held.gt(zero)));
     (active, R::any(deep))
+}
+
+/// What some contacts have just been found to do.
+#[repr(align(64))]
+struct Hand {
+    loads: [f64; BLOCK * FORCE_AND_MOMENT],
+    couples: [f64; BLOCK * COUPLE],
+}
+
+impl Hand {
+    /// Hands the loads (of `N` numbers) of `width` contacts from place `at` on to their particles, and to who wants to see them.
+    #[inline(always)]
+    fn over<const N: usize>(&self, task: &mut Task, at: usize, width: usize, couples: bool) {
+        let pairs = (&task.i[at..at + width], &task.j[at..at + width]);
+        let loads = &self.loads[..width * N];
+        let couples = if couples { &self.couples[..width * COUPLE] } else { &[] };
+        task.sums.take::<N>(pairs, task.both, (loads, couples));
+        keep(task.kept.0, at * N, loads);
+        keep(task.kept.1, at * COUPLE, couples);
+        keep(task.each.0, at * N, loads);
+        keep(task.each.1, at * COUPLE, couples);
+    }
+}
+
+/// Copies to a column, if there is one.
+#[inline(always)]
+fn keep(column: &mut [f64], at: usize, rows: &[f64]) {
+    if !column.is_empty() {
+        column[at..at + rows.len()].copy_from_slice(rows);
+    }
 }

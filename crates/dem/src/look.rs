@@ -1,12 +1,12 @@
 //! Looking at a simulation: particles, clumps and energy of this instant. Nothing that is looked at changes.
 
 use crate::account::Driven;
-use crate::advance::Loads;
 use crate::bodies::BodyState;
 use crate::energy::Energy;
 use crate::error::Halt;
 use crate::setup::Particle;
 use crate::simulation::Simulation;
+use crate::sums::Loads;
 use geom::Vec3;
 use std::collections::BTreeSet;
 

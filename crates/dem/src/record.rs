@@ -4,7 +4,8 @@ use crate::contacts::{Contacts, Kind, Segment, With};
 use crate::error::Halt;
 use crate::kernel::LEDGER;
 use crate::particles::FAR;
-use crate::simulation::{Simulation, stride};
+use crate::simulation::Simulation;
+use crate::sums::stride;
 use geom::Vec3;
 
 /// Column of the ledger with what sliding dissipated in a step.

@@ -1,9 +1,10 @@
 //! Makes the lists anew: sorts the particles in space, finds pairs and walls near them, carries contact memory over.
 
-use crate::contacts::{Contacts, Kind, List, Segment, TILE, With};
+use crate::contacts::{Contacts, Kind, List, Segment, With, tile};
 use crate::images::{Image, Periods};
 use crate::neighbours::{Pair, SKIN, Search, room};
-use crate::simulation::{Simulation, stride, wrapped};
+use crate::simulation::{Simulation, wrapped};
+use crate::sums::stride;
 use crate::walls::WallBody;
 use geom::Vec3;
 use rayon::prelude::*;
@@ -109,16 +110,18 @@ impl Simulation {
         let count = self.particles.len();
         let wide = search.wide_pairs();
         let class = self.classes(With::Particles);
-        let tiles: Vec<Vec<List>> = (0..count.div_ceil(TILE))
+        let tile = tile(count);
+        let tiles: Vec<Vec<[List; 2]>> = (0..count.div_ceil(tile))
             .into_par_iter()
-            .map(|tile| {
-                let range = tile * TILE..((tile + 1) * TILE).min(count);
-                let mut lists = vec![List::default(); self.kinds.len()];
+            .map(|t| {
+                let range = t * tile..((t + 1) * tile).min(count);
+                let mut lists = vec![<[List; 2]>::default(); self.kinds.len()];
                 let material = |k: u32| self.particles.material[k as usize];
                 let mut pairs = pairs(search, &wide, &range);
                 self.bodies.drop_own(&mut pairs, |p| *p);
                 for (i, j) in pairs {
-                    lists[class.of(material(i), material(j))].push(i, j);
+                    lists[class.of(material(i), material(j))][usize::from(j as usize >= range.end)]
+                        .push(i, j);
                 }
                 self.list_walls(range, &mut lists);
                 lists
@@ -130,8 +133,8 @@ impl Simulation {
         }
     }
 
-    fn list_walls(&self, range: Range<usize>, lists: &mut [List]) {
-        for (kind, list) in self.kinds.iter().zip(lists) {
+    fn list_walls(&self, range: Range<usize>, lists: &mut [[List; 2]]) {
+        for (kind, [list, _]) in self.kinds.iter().zip(lists) {
             let With::Wall(w) = kind.with else { continue };
             let wall = &self.walls[w];
             let (pose, moves) = (self.count_back(w, self.pose_listed(w)), self.wall_room(w));
@@ -176,6 +179,7 @@ impl Simulation {
     pub(crate) fn make_room(&mut self) {
         let couples = self.kinds.iter().any(|k| k.kernel.couples());
         self.contacts.make_room(stride(self.particles.rotates()), couples, self.setup.ledger);
+        self.contacts.keep_each(self.keeps_each(), stride(self.particles.rotates()));
         self.next_rows.clone_from(&self.particles.rows);
         self.next_spins.clone_from(&self.particles.spins);
     }

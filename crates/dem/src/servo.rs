@@ -21,7 +21,8 @@ use crate::limit::{contact_between, radii_by_material};
 use crate::motion::Pose;
 use crate::particles::mass;
 use crate::setup::{Law, Setup};
-use crate::simulation::{Simulation, stride};
+use crate::simulation::Simulation;
+use crate::sums::stride;
 use geom::Vec3;
 use serde::{Deserialize, Serialize};
 

@@ -4,13 +4,12 @@
 //! (gather, move to n + 1), then zones. Looking at a simulation calls `ready` and no more, so that output changes nothing.
 
 use crate::account::Account;
-use crate::advance::{Loads, Moved};
+use crate::advance::Moved;
 use crate::bodies::Bodies;
 use crate::contacts::{Contacts, Kind, With};
 use crate::error::{Halt, SetupError};
 use crate::explain::needed;
 use crate::images::Periods;
-use crate::kernel::{FORCE, FORCE_AND_MOMENT};
 use crate::lane::{Row, Row4, Width};
 use crate::law::{Elastic, compose};
 use crate::limit::{contact_between, critical_step, largest_reach, radii_by_material};
@@ -18,6 +17,7 @@ use crate::particles::Particles;
 use crate::servo::Piston;
 use crate::setup::{Particle, Setup, Step};
 use crate::sleep::Sleepers;
+use crate::sums::Loads;
 use crate::sweep::Pass;
 use crate::walls::WallBody;
 use crate::zones::Zones;
@@ -303,14 +303,12 @@ impl Simulation {
     }
 
     pub(crate) fn all_loads(&self) -> Loads<'_> {
-        let c = &self.contacts;
-        Loads {
-            images: (&[], &[]),
-            own: (&c.loads, &c.couples),
-            first: 0,
-            starts: &c.starts,
-            entries: &c.entries,
-        }
+        self.contacts.sums()
+    }
+
+    /// Whether the load of each contact is wanted in each step: by servos, planes of zones, and sleepers.
+    pub(crate) fn keeps_each(&self) -> bool {
+        !self.pistons.is_empty() || !self.zones.none() || self.sleepers.is_some()
     }
 
     pub(crate) fn wrapped(&self, p: Vec3) -> Vec3 {
@@ -326,11 +324,6 @@ pub(crate) fn wrapped(periodic: &[Option<(f64, f64)>; 3], mut p: Vec3) -> Vec3 {
         }
     }
     p
-}
-
-/// Numbers of one load.
-pub(crate) fn stride(rotates: bool) -> usize {
-    if rotates { FORCE_AND_MOMENT } else { FORCE }
 }
 
 fn time_step(setup: &Setup) -> Result<f64, SetupError> {

@@ -7,9 +7,9 @@
 //!
 //! Sleeping changes results: by what a bed would still have crept, and by disturbances too weak to wake it.
 
-use crate::advance::{Columns, Drive, Loads, Moved, advance};
-use crate::contacts::Lists;
+use crate::advance::{Columns, Drive, Moved, advance};
 use crate::lane::{Row, Width};
+use crate::part::Lists;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
@@ -145,25 +145,19 @@ impl<'a> Beds<'a> {
 }
 
 /// Moves those that are awake, and looks after the others.
-pub fn advance_awake(
-    width: Width,
-    mut columns: Columns,
-    loads: &Loads,
-    drive: &Drive,
-    lists: &Lists,
-) -> Moved {
+pub fn advance_awake(width: Width, mut columns: Columns, drive: &Drive, lists: &Lists) -> Moved {
     let mut moved = Moved::default();
-    let Some(mut beds) = columns.beds.take() else { return advance(width, columns, loads, drive) };
+    let Some(mut beds) = columns.beds.take() else { return advance(width, columns, drive) };
     let first = columns.first;
     let sleeps = &beds.asleep[first..first + columns.rows.len()];
     for run in runs(sleeps) {
         if sleeps[run.start] {
-            run.for_each(|k| beds.hold(k, &mut columns, loads, drive, lists));
+            run.for_each(|k| beds.hold(k, &mut columns, drive, lists));
         } else {
             let (_, rest) = columns.by_ref().split(first + run.start);
             let (awake, _) = rest.split(first + run.end);
-            moved = moved.and(advance(width, awake, loads, drive));
-            run.for_each(|k| beds.watch(k, &mut columns, loads, drive));
+            moved = moved.and(advance(width, awake, drive));
+            run.for_each(|k| beds.watch(k, &mut columns, drive));
         }
     }
     moved
@@ -171,7 +165,7 @@ pub fn advance_awake(
 
 impl Beds<'_> {
     /// A particle that has just moved: whether it falls asleep.
-    fn watch(&mut self, k: usize, columns: &mut Columns, loads: &Loads, drive: &Drive) {
+    fn watch(&mut self, k: usize, columns: &mut Columns, drive: &Drive) {
         let row = columns.next[k];
         let spin = columns.next_spins.get(k).map_or(0.0, |w| length([w[0], w[1], w[2]]));
         let turning = columns.turning.get(k).map_or(0.0, |t| length([t[0], t[1], t[2]]));
@@ -186,14 +180,14 @@ impl Beds<'_> {
         if !self.next[k] {
             return;
         }
-        let (force, moment) = loads.on(here, row[3], !columns.spins.is_empty());
+        let (force, moment) = columns.sums.seen().on(here, row[3], !columns.spins.is_empty());
         let lost = lost(k, columns, drive);
         self.held[k] = Row([force[0], force[1], force[2], moment[0], moment[1], moment[2], lost, 0.0]);
         rest(k, columns);
     }
 
     /// A sleeper: whether it wakes.
-    fn hold(&mut self, k: usize, columns: &mut Columns, loads: &Loads, drive: &Drive, lists: &Lists) {
+    fn hold(&mut self, k: usize, columns: &mut Columns, drive: &Drive, lists: &Lists) {
         columns.next[k] = columns.rows[k];
         if let Some(spin) = columns.next_spins.get_mut(k) {
             *spin = columns.spins[k];
@@ -205,7 +199,7 @@ impl Beds<'_> {
             return;
         }
         let row = columns.rows[k];
-        let (force, moment) = loads.on(here, row[3], !columns.spins.is_empty());
+        let (force, moment) = columns.sums.seen().on(here, row[3], !columns.spins.is_empty());
         let held = self.held[k];
         let push = length([force[0] - held[0], force[1] - held[1], force[2] - held[2]]) * row[7];
         let twist = length([moment[0] - held[3], moment[1] - held[4], moment[2] - held[5]]) * row[7] / row[3];

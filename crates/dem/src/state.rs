@@ -8,6 +8,8 @@ use crate::servo::Piston;
 use crate::setup::{Setup, Step};
 use crate::simulation::Simulation;
 use crate::sleep::Sleepers;
+use crate::sums::stride;
+use crate::sweep::Pass;
 use crate::zones::Zones;
 use serde::{Deserialize, Serialize};
 
@@ -181,6 +183,7 @@ impl Simulation {
         sim.stale = state.stale;
         let [loads, ..] = &state.loads;
         if state.current || !loads.is_empty() {
+            sim.contacts.keep_each(true, stride(sim.particles.rotates()));
             let c = &mut sim.contacts;
             for (saved, now) in state.loads.iter().zip([&mut c.loads, &mut c.couples, &mut c.ledger]) {
                 if saved.len() != now.len() {
@@ -188,6 +191,7 @@ impl Simulation {
                 }
                 now.copy_from_slice(saved);
             }
+            sim.pass(Pass::Recall);
             sim.current = state.current;
             // A crossing in this step asks where walls were touched, and so do sleepers on walls at rest.
             sim.find_contact_points();

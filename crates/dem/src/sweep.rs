@@ -2,24 +2,25 @@
 //!
 //! A contact belongs to the tile of its first particle, and its second comes later in space order: when the loads of a tile are
 //! computed, its particles have all their loads, and move while those are still in the cache. The contact loop reads the
-//! rows of this instant, moves write the next ones. Threads take a region of tiles each; tiles that have contacts with an
-//! earlier region wait until all regions are done. No result depends on how tiles are divided.
+//! rows of this instant, moves write the next ones. Threads take a region of tiles each; tiles that have contacts
+//! with an earlier region wait until all regions are done. No result depends on how tiles are divided.
 
-use crate::advance::{Columns, Computed, Drive, Loads, Moved};
-use crate::contacts::{Lists, Part, Scenery, TILE};
+use crate::advance::{Columns, Drive, Moved};
 use crate::kernel::Common;
 use crate::lane::Width;
 use crate::motion::Pose;
+use crate::part::{Lists, Part, Scenery};
 use crate::particles::Particles;
-use crate::simulation::{Simulation, stride};
+use crate::simulation::Simulation;
 use crate::sleep::{Beds, advance_awake};
+use crate::sums::{Computed, Kept, Sums, stride};
 use rayon::prelude::*;
 use std::ops::Range;
 
 /// Regions for each thread, so that threads of unequal pace end together.
 const REGIONS: usize = 4;
-/// Tiles below which one thread is faster than several.
-const FEW_TILES: usize = 8;
+/// Particles below which one thread is faster than several.
+const FEW: usize = 2048;
 
 /// What a pass is to do.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,6 +31,8 @@ pub enum Pass {
     Move,
     /// Both at once.
     Step,
+    /// Sums of loads that were computed before.
+    Recall,
 }
 
 /// What a pass found.
@@ -69,6 +72,9 @@ impl Simulation {
     pub(crate) fn pass(&mut self, pass: Pass) -> Found {
         let (poses, period) = (self.poses(), self.period());
         let stride = stride(self.particles.rotates());
+        if matches!(pass, Pass::Loads | Pass::Step) && !self.keeps_each() {
+            self.contacts.keep_each(pass == Pass::Loads, stride);
+        }
         let Particles { rows, acceleration, spins, turning, home, .. } = &mut self.particles;
         let (dt, width, count) = (self.dt, self.width, acceleration.len());
         let rotating = if spins.is_empty() { 0 } else { count };
@@ -77,6 +83,7 @@ impl Simulation {
         let asleep = beds.as_ref().map(Beds::asleep);
         let (kinds, walls) = (&self.kinds, &self.walls);
         let scenery = Scenery { kinds, walls, poses: &poses, period, width, common, asleep };
+        let (lists, part, sums) = self.contacts.parts(stride);
         let columns = Columns {
             first: 0,
             rows: &rows[..count],
@@ -86,16 +93,16 @@ impl Simulation {
             acceleration,
             turning,
             home,
+            sums,
             beds,
         };
         let g = self.setup.gravity;
         let drive = Drive { dt, gravity: [g.x, g.y, g.z], motion_limit: self.setup.guards.motion };
-        let (lists, part) = self.contacts.parts(stride);
         let found = Shared { pass, width, lists, scenery, drive }.run(part, columns);
-        if pass != Pass::Move {
+        if matches!(pass, Pass::Loads | Pass::Step) {
             self.contacts.new = false;
         }
-        if pass != Pass::Loads {
+        if matches!(pass, Pass::Move | Pass::Step) {
             std::mem::swap(&mut self.particles.rows, &mut self.next_rows);
             std::mem::swap(&mut self.particles.spins, &mut self.next_spins);
         }
@@ -116,7 +123,7 @@ impl Simulation {
         let common = Common { dt: self.dt, overlap_limit: self.setup.guards.overlap, rows, spins, stride };
         let (kinds, walls, width) = (&self.kinds, &self.walls, self.width);
         let scenery = Scenery { kinds, walls, poses: &poses, period, width, common, asleep: None };
-        let (lists, mut part) = self.contacts.parts(stride);
+        let (lists, mut part, _) = self.contacts.parts(stride);
         for segment in part.segments {
             part.renew(segment, &lists, &scenery);
         }
@@ -127,20 +134,17 @@ impl Shared<'_> {
     fn run(&self, part: Part, mut columns: Columns) -> Found {
         let (mut images, mut own) = part.split(self.lists.tiles[0]);
         let mut found = Found { deep: self.compute_images(images.by_ref()), ..Found::default() };
-        let (_, loads, couples) = images.loads();
-        let images = (loads, couples);
+        let (_, images) = images.kept();
         let ranges = self.ranges();
         if self.pass != Pass::Move {
-            let regions = divide(&ranges, self.lists.tiles, own.by_ref(), columns.by_ref());
+            let regions =
+                divide(&ranges, (self.lists.tiles, self.lists.tile), own.by_ref(), columns.by_ref());
             found = all(regions, found, |r| self.region(r, images));
         }
-        if self.pass != Pass::Loads {
-            let late = self.late(&ranges, columns);
-            let (first, loads, couples) = own.loads();
-            let loads = self.loads(images, (loads, couples), first);
-            found = all(late, found, |c| Found { moved: self.advance(c, &loads), deep: false });
-        }
-        found
+        let late = self.late(&ranges, columns);
+        let (first, own) = own.kept();
+        let kept = Kept { images, own, first };
+        all(late, found, |c| self.finish(c, &kept))
     }
 
     fn compute_images(&self, mut images: Part) -> bool {
@@ -153,39 +157,56 @@ impl Shared<'_> {
             parts.push(first);
             images = rest;
         }
-        let compute = |mut p: Part| p.compute(0, &self.lists, &self.scenery);
+        let compute = |mut p: Part| self.compute(&mut p, 0, &mut Sums::default());
         parts.into_par_iter().map(compute).reduce(|| false, |a, b| a | b)
+    }
+
+    fn compute(&self, part: &mut Part, segment: usize, sums: &mut Sums) -> bool {
+        if self.pass == Pass::Recall {
+            part.recall_all(segment, &self.lists, &self.scenery, sums);
+            return false;
+        }
+        part.compute(segment, &self.lists, &self.scenery, sums)
     }
 
     /// The tiles of each region.
     fn ranges(&self) -> Vec<Range<usize>> {
         let tiles = self.lists.lowest.len();
-        let threads = if tiles < FEW_TILES { 1 } else { rayon::current_num_threads() };
+        let threads = if tiles * self.lists.tile < FEW { 1 } else { rayon::current_num_threads() };
         let count = if threads > 1 { threads * REGIONS } else { 1 };
         (0..count).map(|r| tiles * r / count..tiles * (r + 1) / count).filter(|r| !r.is_empty()).collect()
     }
 
-    /// Loads of all tiles of a region, and the move of those that no earlier region touches.
+    /// Loads of all tiles of a region, and the rest for those that no earlier region touches.
     fn region(&self, region: Region, images: Computed) -> Found {
         let Region { tiles, mut part, columns: mut rest } = region;
         let (mut found, from) = (Found::default(), self.lists.tiles[tiles.start]);
         for tile in tiles.clone() {
-            for segment in self.lists.tiles[tile]..self.lists.tiles[tile + 1] {
-                found.deep |= part.compute(segment - from, &self.lists, &self.scenery);
-            }
-            let (columns, others) = rest.split((tile + 1) * TILE);
+            let (mut columns, others) = rest.split((tile + 1) * self.lists.tile);
             rest = others;
-            if self.pass == Pass::Step && !self.waits(tile, tiles.start) {
-                let (first, loads, couples) = part.loads();
-                let loads = self.loads(images, (loads, couples), first);
-                found.moved = found.moved.and(self.advance(columns, &loads));
+            columns.sums.clear();
+            for segment in self.lists.tiles[tile]..self.lists.tiles[tile + 1] {
+                found.deep |= self.compute(&mut part, segment - from, &mut columns.sums);
+            }
+            if !self.waits(tile, tiles.start) {
+                let (first, own) = part.kept();
+                found = found.and(self.finish(columns, &Kept { images, own, first }));
             }
         }
         found
     }
 
-    fn advance(&self, columns: Columns, loads: &Loads) -> Moved {
-        advance_awake(self.width, columns, loads, &self.drive, &self.lists)
+    /// Of one tile, whose own contacts are computed: adds what arrives from elsewhere, and moves.
+    fn finish(&self, mut columns: Columns, kept: &Kept) -> Found {
+        if self.pass != Pass::Move {
+            let tile = columns.first / self.lists.tile;
+            let arriving = self.lists.arriving[tile] as usize..self.lists.arriving[tile + 1] as usize;
+            columns.sums.collect(&self.lists.arrivals[arriving], kept);
+        }
+        if matches!(self.pass, Pass::Loads | Pass::Recall) {
+            return Found::default();
+        }
+        Found { moved: advance_awake(self.width, columns, &self.drive, &self.lists), deep: false }
     }
 
     /// Whether a tile has contacts with tiles before `first`.
@@ -198,7 +219,7 @@ impl Shared<'_> {
         let mut late = Vec::new();
         for range in ranges {
             for tile in range.clone() {
-                let (columns, others) = rest.split((tile + 1) * TILE);
+                let (columns, others) = rest.split((tile + 1) * self.lists.tile);
                 rest = others;
                 if self.pass == Pass::Move || self.waits(tile, range.start) {
                     late.push(columns);
@@ -207,22 +228,18 @@ impl Shared<'_> {
         }
         late
     }
-
-    fn loads<'a>(&'a self, images: Computed<'a>, own: Computed<'a>, first: usize) -> Loads<'a> {
-        Loads { images, own, first, starts: self.lists.starts, entries: self.lists.entries }
-    }
 }
 
 fn divide<'a>(
     ranges: &[Range<usize>],
-    segments: &[usize],
+    (segments, tile): (&[usize], usize),
     mut part: Part<'a>,
     mut columns: Columns<'a>,
 ) -> Vec<Region<'a>> {
     let mut regions = Vec::with_capacity(ranges.len());
     for tiles in ranges {
         let (first, others) = part.split(segments[tiles.end] - segments[tiles.start]);
-        let (mine, rest) = columns.split(tiles.end * TILE);
+        let (mine, rest) = columns.split(tiles.end * tile);
         (part, columns) = (others, rest);
         regions.push(Region { tiles: tiles.clone(), part: first, columns: mine });
     }

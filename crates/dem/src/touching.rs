@@ -2,7 +2,8 @@
 
 use crate::contacts::{Segment, With};
 use crate::setup::Touch;
-use crate::simulation::{Simulation, stride};
+use crate::simulation::Simulation;
+use crate::sums::stride;
 use geom::Vec3;
 
 impl Simulation {

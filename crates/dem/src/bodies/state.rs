@@ -2,9 +2,9 @@
 
 use super::{Bodies, Flight, arm, quaternion, turn};
 use crate::account::Driven;
-use crate::advance::Loads;
 use crate::particles::Particles;
 use crate::simulation::Simulation;
+use crate::sums::Loads;
 use geom::Vec3;
 use nalgebra::UnitQuaternion;
 
