@@ -18,14 +18,8 @@ use crate::sums::Sums;
 pub struct Columns<'a> {
     /// Number of the first.
     pub first: usize,
-    /// As they are.
-    pub rows: &'a [Row],
-    /// As they are.
-    pub spins: &'a [Row4],
-    /// As they will be.
-    pub next: &'a mut [Row],
-    /// As they will be.
-    pub next_spins: &'a mut [Row4],
+    pub rows: &'a mut [Row],
+    pub spins: &'a mut [Row4],
     pub acceleration: &'a mut [Row4],
     pub turning: &'a mut [Row4],
     /// Where they were listed, and their rooms.
@@ -43,8 +37,6 @@ impl<'a> Columns<'a> {
             first: self.first,
             rows: self.rows,
             spins: self.spins,
-            next: self.next,
-            next_spins: self.next_spins,
             acceleration: self.acceleration,
             turning: self.turning,
             home: self.home,
@@ -57,23 +49,19 @@ impl<'a> Columns<'a> {
     pub fn split(self, to: usize) -> (Columns<'a>, Columns<'a>) {
         let n = (to - self.first).min(self.rows.len());
         let turn = n.min(self.spins.len());
-        let (rows, rows2) = self.rows.split_at(n);
-        let (spins, spins2) = self.spins.split_at(turn);
-        let (next, next2) = self.next.split_at_mut(n);
-        let (next_spins, next_spins2) = self.next_spins.split_at_mut(turn);
+        let (rows, rows2) = self.rows.split_at_mut(n);
+        let (spins, spins2) = self.spins.split_at_mut(turn);
         let (acceleration, acceleration2) = self.acceleration.split_at_mut(n);
         let (turning, turning2) = self.turning.split_at_mut(turn);
         let (home, home2) = self.home.split_at(n);
         let first = self.first;
         let (sums, sums2) = self.sums.split(n);
         let (beds, beds2) = self.beds.map(|b| b.split(n)).unzip();
-        let one = Columns { first, rows, spins, next, next_spins, acceleration, turning, home, sums, beds };
+        let one = Columns { first, rows, spins, acceleration, turning, home, sums, beds };
         let two = Columns {
             first: first + n,
             rows: rows2,
             spins: spins2,
-            next: next2,
-            next_spins: next_spins2,
             acceleration: acceleration2,
             turning: turning2,
             home: home2,
@@ -143,7 +131,7 @@ mod simd {
 
 #[inline(always)]
 fn chunk<Q: Four, const SPIN: bool>(columns: Columns, drive: &Drive) -> Moved {
-    let Columns { rows, spins, next, next_spins, acceleration, turning, home, sums, .. } = columns;
+    let Columns { rows, spins, acceleration, turning, home, sums, .. } = columns;
     let loads = sums.seen();
     let [gx, gy, gz] = drive.gravity;
     let gravity = Q::read(&[gx, gy, gz, 0.0]);
@@ -152,16 +140,15 @@ fn chunk<Q: Four, const SPIN: bool>(columns: Columns, drive: &Drive) -> Moved {
     let (dt, half, square) = (Q::all(drive.dt), Q::all(0.5 * drive.dt), Q::all(0.5 * drive.dt * drive.dt));
     let mut moved = Moved::default();
     for k in 0..rows.len() {
-        let ([place, velocity], []) = rows[k].as_chunks::<4>() else { continue };
-        let ([next_place, next_velocity], []) = next[k].as_chunks_mut::<4>() else { continue };
+        let ([place, velocity], []) = rows[k].as_chunks_mut::<4>() else { continue };
         let (radius, inverse_mass) = (place[3], velocity[3]);
         let sum = loads.sum::<Q, SPIN>(k, radius);
         let new = (sum.force * Q::all(inverse_mass) + gravity) * three;
         let v = Q::read(velocity) + half * (new - Q::read(&acceleration[k]));
         let moves = (dt * v + square * new) * three;
         let there = Q::read(place) + moves;
-        there.write(next_place);
-        (v + dt * new).write(next_velocity);
+        there.write(place);
+        (v + dt * new).write(velocity);
         new.write(&mut acceleration[k]);
         let limit = drive.motion_limit * radius;
         // Written so that NaN is caught.
@@ -171,7 +158,7 @@ fn chunk<Q: Four, const SPIN: bool>(columns: Columns, drive: &Drive) -> Moved {
         if SPIN {
             let new = sum.moment * Q::all(2.5 * inverse_mass / (radius * radius)) * three;
             let w = Q::read(&spins[k]) + half * (new - Q::read(&turning[k]));
-            (w + dt * new).write(&mut next_spins[k]);
+            (w + dt * new).write(&mut spins[k]);
             new.write(&mut turning[k]);
         }
     }

@@ -119,8 +119,6 @@ pub struct Contacts {
     pub starts: Vec<u32>,
     /// Place × 2, + 1 where the particle is the second.
     pub entries: Vec<u32>,
-    /// For each tile, the first that has a contact with it.
-    lowest: Vec<u32>,
     count: Vec<u32>,
     /// Whom the contacts of each block meet; only where particles sleep.
     met: Vec<Met>,
@@ -199,41 +197,32 @@ impl Contacts {
         new
     }
 
-    /// What arrives at each tile, and the first tile that it comes from.
+    /// What arrives at each tile.
     fn find_arrivals(&mut self, kinds: &[Kind]) {
         let tiles = self.tiles.len() - 1;
-        let images = |s: &Segment| kinds[s.kind].with == With::Images;
-        let (mut lowest, mut starts): (Vec<u32>, _) = ((0..tiles as u32).collect(), vec![0; tiles + 1]);
-        self.for_kept(images, |_, from, tile, _| {
-            starts[tile + 1] += 1;
-            lowest[tile] = from.map_or(lowest[tile], |from| from.min(lowest[tile]));
-        });
+        let mut starts = vec![0; tiles + 1];
+        self.for_kept(kinds, |_, particle| starts[particle as usize / self.tile + 1] += 1);
         (0..tiles).for_each(|tile| starts[tile + 1] += starts[tile]);
         let mut next = starts.clone();
         let mut arrivals = vec![Arrival { from: 0, particle: 0 }; starts[tiles] as usize];
-        self.for_kept(images, |from, _, tile, particle| {
-            arrivals[next[tile] as usize] = Arrival { from, particle };
-            next[tile] += 1;
+        self.for_kept(kinds, |from, particle| {
+            let at = &mut next[particle as usize / self.tile];
+            arrivals[*at as usize] = Arrival { from, particle };
+            *at += 1;
         });
-        (self.arrivals, self.arriving, self.lowest) = (arrivals, starts, lowest);
+        (self.arrivals, self.arriving) = (arrivals, starts);
     }
 
-    /// Each load that is kept, in the order of their places: place among them × 2, + 1 for the second particle of a contact; the tile that it
-    /// comes from, if any; where it goes, and to whom.
-    fn for_kept(
-        &self,
-        images: impl Fn(&Segment) -> bool,
-        mut each: impl FnMut(u32, Option<u32>, usize, u32),
-    ) {
-        for s in self.segments.iter().filter(|s| s.later || images(s)) {
-            for place in s.contacts() {
+    /// Each load that is kept, in the order of their places: place among them × 2, + 1 for the second particle of a contact; and to whom it goes.
+    fn for_kept(&self, kinds: &[Kind], mut each: impl FnMut(u32, u32)) {
+        for s in &self.segments {
+            let image = kinds[s.kind].with == With::Images;
+            for place in if image || s.later { s.contacts() } else { 0..0 } {
                 let kept = 2 * (s.kept + place - s.places.start) as u32;
-                let (i, j) = (self.i[place], self.partner[place]);
-                if !s.later {
-                    each(kept, None, i as usize / self.tile, i);
+                if image {
+                    each(kept, self.i[place]);
                 }
-                let from = s.later.then_some(i / self.tile as u32);
-                each(kept + 1, from, j as usize / self.tile, j);
+                each(kept + 1, self.partner[place]);
             }
         }
     }
@@ -362,7 +351,6 @@ impl Contacts {
             met: &self.met,
             new: self.new,
             tiles: &self.tiles,
-            lowest: &self.lowest,
             tile: self.tile,
             starts: &self.starts,
             entries: &self.entries,

@@ -142,7 +142,7 @@ impl Simulation {
     pub(crate) fn apply_drag(&mut self) -> bool {
         let Some(drag) = self.setup.drag else { return false };
         let (dt, gravity, zones) = (self.dt, self.setup.gravity, &self.zones);
-        let (p, before) = (&mut self.particles, &self.next_rows);
+        let (p, before) = (&mut self.particles, &self.before);
         let count = p.len();
         let rows = p.rows[..count].par_chunks_mut(CHUNK).zip(p.acceleration.par_chunks_mut(CHUNK));
         let tiles = rows.zip(before[..count].par_chunks(CHUNK)).zip(p.home.par_chunks(CHUNK)).enumerate();

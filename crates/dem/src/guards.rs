@@ -2,6 +2,7 @@
 
 use crate::contacts::With;
 use crate::error::Halt;
+use crate::lane::Row4;
 use crate::simulation::Simulation;
 
 /// The deepest overlap, travellers and who has left among themselves left out; `Ok` when only those are too deep. Where particles have `moved`
@@ -48,9 +49,9 @@ pub fn overlap(sim: &Simulation, moved: bool) -> Result<(), Halt> {
     worst.map_or(Ok(()), |(_, halt)| Err(halt))
 }
 
-/// The particle whose state is lost; where it was is what the next step will overwrite.
+/// The particle whose state is lost: where it was listed, from where it has gone less than its room.
 fn not_a_number(sim: &Simulation, k: usize) -> Halt {
-    let [x, y, z] = sim.next_rows.get(k).map_or([f64::NAN; 3], |row| [row[0], row[1], row[2]]);
+    let Row4([x, y, z, _]) = sim.particles.home[k];
     Halt::NotANumber { time: sim.time(), id: sim.particles.id[k], x, y, z }
 }
 

@@ -23,8 +23,6 @@ pub struct Lists<'a> {
     pub new: bool,
     /// First segment of each tile, and one more.
     pub tiles: &'a [usize],
-    /// For each tile, the first that has a contact with it.
-    pub lowest: &'a [u32],
     /// Particles of a tile.
     pub tile: usize,
     /// First entry of each particle, and one more.
@@ -38,6 +36,11 @@ pub struct Lists<'a> {
 }
 
 impl Lists<'_> {
+    /// What arrives at a tile.
+    pub fn arriving(&self, tile: usize) -> &[Arrival] {
+        &self.arrivals[self.arriving[tile] as usize..self.arriving[tile + 1] as usize]
+    }
+
     /// Whether a particle has a contact that may have changed while it slept.
     pub fn stirred(&self, particle: usize, asleep: &[bool]) -> bool {
         let entries = self.starts[particle] as usize..self.starts[particle + 1] as usize;
@@ -106,22 +109,6 @@ pub struct Part<'a> {
 }
 
 impl<'a> Part<'a> {
-    /// The same, for a while.
-    pub fn by_ref(&mut self) -> Part<'_> {
-        Part {
-            segments: self.segments,
-            stride: self.stride,
-            from: self.from,
-            rows: self.rows,
-            spins: self.spins,
-            memory: self.memory,
-            active: self.active,
-            kept: (self.kept.0, self.kept.1),
-            each: (self.each.0, self.each.1),
-            ledger: self.ledger,
-        }
-    }
-
     /// The first `count` segments, and the others.
     pub fn split(self, count: usize) -> (Part<'a>, Part<'a>) {
         let Part { segments, stride, from, rows, spins, memory, active, kept, each, ledger } = self;
@@ -284,9 +271,9 @@ impl<'a> Part<'a> {
         }
     }
 
-    /// Loads and couples that are kept, and the place of the first.
-    pub fn kept(&self) -> (usize, Computed<'_>) {
-        (self.from.kept, (self.kept.0, self.kept.1))
+    /// Loads and couples that are kept for other tiles.
+    pub fn kept(&self) -> Computed<'_> {
+        (self.kept.0, self.kept.1)
     }
 }
 

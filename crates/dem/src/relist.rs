@@ -175,13 +175,11 @@ impl Simulation {
         lists
     }
 
-    /// Room for the loads of all listed contacts, and for the next rows; made last, when old lists are gone.
+    /// Room for the loads of all listed contacts; made last, when old lists are gone.
     pub(crate) fn make_room(&mut self) {
         let couples = self.kinds.iter().any(|k| k.kernel.couples());
         self.contacts.make_room(stride(self.particles.rotates()), couples, self.setup.ledger);
         self.contacts.keep_each(self.keeps_each(), stride(self.particles.rotates()));
-        self.next_rows.clone_from(&self.particles.rows);
-        self.next_spins.clone_from(&self.particles.spins);
     }
 
     /// Gives each new contact the memory that it had; `order` tells each particle's old place.

@@ -44,9 +44,8 @@ pub struct Simulation {
     pub(crate) counted_back: Vec<Periods>,
     pub(crate) kinds: Vec<Kind>,
     pub(crate) contacts: Contacts,
-    /// Where the next step is written.
-    pub(crate) next_rows: Vec<Row>,
-    pub(crate) next_spins: Vec<Row4>,
+    /// Particles as they were before the move; only where a fluid drags them.
+    pub(crate) before: Vec<Row>,
     /// Steps that the rooms of particles are made for; 0 where the setup gives the skin.
     pub(crate) horizon: f64,
     /// Mean radius [m].
@@ -120,8 +119,7 @@ impl Simulation {
             counted_back: Vec::new(),
             kinds,
             contacts: Contacts::default(),
-            next_rows: Vec::new(),
-            next_spins: Vec::new(),
+            before: Vec::new(),
             horizon,
             grain,
             steps: 0,

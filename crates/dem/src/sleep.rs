@@ -127,11 +127,6 @@ impl<'a> Beds<'a> {
         Beds { quiet: self.quiet, next: self.next, held: self.held, ..*self }
     }
 
-    /// Whether each particle of all, and the two that fill up blocks, sleeps in this step.
-    pub fn asleep(&self) -> &'a [bool] {
-        self.asleep
-    }
-
     /// The first `n`, and the others.
     pub fn split(self, n: usize) -> (Beds<'a>, Beds<'a>) {
         let Beds { quiet, next, held, asleep, busy, steps, speed, wake } = self;
@@ -166,8 +161,8 @@ pub fn advance_awake(width: Width, mut columns: Columns, drive: &Drive, lists: &
 impl Beds<'_> {
     /// A particle that has just moved: whether it falls asleep.
     fn watch(&mut self, k: usize, columns: &mut Columns, drive: &Drive) {
-        let row = columns.next[k];
-        let spin = columns.next_spins.get(k).map_or(0.0, |w| length([w[0], w[1], w[2]]));
+        let row = columns.rows[k];
+        let spin = columns.spins.get(k).map_or(0.0, |w| length([w[0], w[1], w[2]]));
         let turning = columns.turning.get(k).map_or(0.0, |t| length([t[0], t[1], t[2]]));
         let a = columns.acceleration[k];
         let here = columns.first + k;
@@ -188,10 +183,6 @@ impl Beds<'_> {
 
     /// A sleeper: whether it wakes.
     fn hold(&mut self, k: usize, columns: &mut Columns, drive: &Drive, lists: &Lists) {
-        columns.next[k] = columns.rows[k];
-        if let Some(spin) = columns.next_spins.get_mut(k) {
-            *spin = columns.spins[k];
-        }
         self.quiet[k] = self.steps.saturating_add(1);
         self.next[k] = true;
         let here = columns.first + k;
@@ -219,13 +210,13 @@ impl Beds<'_> {
 /// What a particle that has just moved loses when it rests there [J]: its kinetic energy half a step ago, and what contacts did
 /// not add and its weight will not ([`crate::account`] leaves its last step out).
 fn lost(k: usize, columns: &Columns, drive: &Drive) -> f64 {
-    let (row, a, dt) = (columns.next[k], columns.acceleration[k], drive.dt);
+    let (row, a, dt) = (columns.rows[k], columns.acceleration[k], drive.dt);
     let mut lost = 0.0;
     for axis in 0..3 {
         let (ahead, g) = (row[4 + axis], drive.gravity[axis]);
         let (now, middle) = (ahead - a[axis] * dt, ahead - 0.5 * a[axis] * dt);
         lost += (0.5 * middle * middle + 0.5 * g * middle * dt - (a[axis] - g) * now * dt) / row[7];
-        if let (Some(w), Some(t)) = (columns.next_spins.get(k), columns.turning.get(k)) {
+        if let (Some(w), Some(t)) = (columns.spins.get(k), columns.turning.get(k)) {
             let inertia = 0.4 * row[3] * row[3] / row[7];
             let (now, middle) = (w[axis] - t[axis] * dt, w[axis] - 0.5 * t[axis] * dt);
             lost += inertia * (0.5 * middle * middle - t[axis] * now * dt);
@@ -236,8 +227,8 @@ fn lost(k: usize, columns: &Columns, drive: &Drive) -> f64 {
 
 /// Takes the velocity that a particle would have next.
 fn rest(k: usize, columns: &mut Columns) {
-    columns.next[k][4..7].fill(0.0);
-    if let Some(spin) = columns.next_spins.get_mut(k) {
+    columns.rows[k][4..7].fill(0.0);
+    if let Some(spin) = columns.spins.get_mut(k) {
         spin[..3].fill(0.0);
     }
 }

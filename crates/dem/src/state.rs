@@ -191,10 +191,10 @@ impl Simulation {
                 }
                 now.copy_from_slice(saved);
             }
-            sim.pass(Pass::Recall);
             sim.current = state.current;
             // A crossing in this step asks where walls were touched, and so do sleepers on walls at rest.
             sim.find_contact_points();
+            sim.pass(Pass::Recall);
             sim.contacts.new = state.new;
         }
         Ok(sim)

@@ -60,14 +60,6 @@ pub struct Arrival {
     pub particle: u32,
 }
 
-/// Loads that were kept: of images, and of contacts from place `first` on.
-#[derive(Clone, Copy)]
-pub struct Kept<'a> {
-    pub images: Computed<'a>,
-    pub own: Computed<'a>,
-    pub first: usize,
-}
-
 /// Sums of some particles, as they are being made.
 #[derive(Default)]
 pub struct Sums<'a> {
@@ -87,10 +79,10 @@ impl<'a> Sums<'a> {
         Sums { first: self.first, stride: self.stride, loads: self.loads, couples: self.couples }
     }
 
-    /// The first `n` particles, and the others.
+    /// The first `n` particles, if there are so many, and the others.
     pub fn split(self, n: usize) -> (Sums<'a>, Sums<'a>) {
         let Sums { first, stride, loads, couples } = self;
-        let (loads, loads2) = loads.split_at_mut(n * stride);
+        let (loads, loads2) = loads.split_at_mut((n * stride).min(loads.len()));
         let (couples, couples2) = couples.split_at_mut((n * COUPLE).min(couples.len()));
         let two = Sums { first: first + n, stride, loads: loads2, couples: couples2 };
         (Sums { first, stride, loads, couples }, two)
@@ -123,24 +115,20 @@ impl<'a> Sums<'a> {
     }
 
     /// Adds what arrives from elsewhere.
-    pub fn collect(&mut self, arrivals: &[Arrival], kept: &Kept) {
+    pub fn collect(&mut self, arrivals: &[Arrival], kept: Computed) {
         match self.stride {
             FORCE => self.collect_rows::<FORCE>(arrivals, kept),
             _ => self.collect_rows::<FORCE_AND_MOMENT>(arrivals, kept),
         }
     }
 
-    fn collect_rows<const N: usize>(&mut self, arrivals: &[Arrival], kept: &Kept) {
-        let own = kept.own.0.as_chunks::<N>().0;
+    fn collect_rows<const N: usize>(&mut self, arrivals: &[Arrival], kept: Computed) {
+        let (loads, couples) = kept;
         for (n, &Arrival { from, particle }) in arrivals.iter().enumerate() {
             if let Some(soon) = arrivals.get(n + AHEAD) {
-                fetch(own, ((soon.from >> 1) as usize).wrapping_sub(kept.first));
+                fetch(loads.as_chunks::<N>().0, (soon.from >> 1) as usize);
             }
             let (place, second) = ((from >> 1) as usize, from & 1 == 1);
-            let ((loads, couples), place) = match place.checked_sub(kept.first) {
-                Some(place) => (kept.own, place),
-                None => (kept.images, place),
-            };
             let at = particle as usize - self.first;
             let load = loads.get(place * N..).unwrap_or_default();
             let couple = couples.get(place * COUPLE..).unwrap_or_default();

@@ -1,24 +1,16 @@
-//! One pass over the tiles: loads of their contacts, and, behind them, the move of their particles.
-//!
-//! A contact belongs to the tile of its first particle, and its second comes later in space order: when the loads of a tile are
-//! computed, its particles have all their loads, and move while those are still in the cache. The contact loop reads the
-//! rows of this instant, moves write the next ones. Threads take a region of tiles each; tiles that have contacts
-//! with an earlier region wait until all regions are done. No result depends on how tiles are divided.
+//! One pass over the tiles, in two halves: the loads of their contacts, which read all particles; then, for each tile, the loads that arrive
+//! from others, and the move of its particles. Tiles are shared out to threads; no result depends on how.
 
 use crate::advance::{Columns, Drive, Moved};
 use crate::kernel::Common;
-use crate::lane::Width;
 use crate::motion::Pose;
 use crate::part::{Lists, Part, Scenery};
 use crate::particles::Particles;
 use crate::simulation::Simulation;
-use crate::sleep::{Beds, advance_awake};
-use crate::sums::{Computed, Kept, Sums, stride};
+use crate::sleep::advance_awake;
+use crate::sums::{Sums, stride};
 use rayon::prelude::*;
-use std::ops::Range;
 
-/// Regions for each thread, so that threads of unequal pace end together.
-const REGIONS: usize = 4;
 /// Particles below which one thread is faster than several.
 const FEW: usize = 2048;
 
@@ -44,69 +36,120 @@ pub struct Found {
     pub moved: Moved,
 }
 
-impl Found {
-    fn and(self, o: Found) -> Found {
-        Found { deep: self.deep | o.deep, moved: self.moved.and(o.moved) }
-    }
-}
-
-/// Some tiles, with all that is written for them.
-struct Region<'a> {
-    tiles: Range<usize>,
-    part: Part<'a>,
-    columns: Columns<'a>,
-}
-
-/// What all regions read.
-#[derive(Clone, Copy)]
-struct Shared<'a> {
-    pass: Pass,
-    width: Width,
-    lists: Lists<'a>,
-    scenery: Scenery<'a>,
-    drive: Drive,
-}
-
 impl Simulation {
     /// Computes loads, moves particles, or both.
     pub(crate) fn pass(&mut self, pass: Pass) -> Found {
-        let (poses, period) = (self.poses(), self.period());
-        let stride = stride(self.particles.rotates());
-        if matches!(pass, Pass::Loads | Pass::Step) && !self.keeps_each() {
-            self.contacts.keep_each(pass == Pass::Loads, stride);
+        let deep = match pass {
+            Pass::Move => false,
+            Pass::Recall => self.add_again(),
+            Pass::Loads | Pass::Step => self.compute(pass == Pass::Loads),
+        };
+        let moved = match pass {
+            Pass::Loads | Pass::Recall => {
+                self.collect();
+                Moved::default()
+            }
+            Pass::Move | Pass::Step => self.finish(pass == Pass::Step),
+        };
+        Found { deep, moved }
+    }
+
+    /// Loads of all contacts, and their sums within tiles; whether an overlap passes its limit. `looks`: the load of each contact is kept.
+    fn compute(&mut self, looks: bool) -> bool {
+        if !self.keeps_each() {
+            self.contacts.keep_each(looks, stride(self.particles.rotates()));
+        }
+        let deep = self.for_segments(|part, k, (lists, scenery), sums| part.compute(k, lists, scenery, sums));
+        self.contacts.new = false;
+        deep
+    }
+
+    /// Sums within tiles of loads that were computed before.
+    fn add_again(&mut self) -> bool {
+        self.for_segments(|part, k, (lists, scenery), sums| {
+            part.recall_all(k, lists, scenery, sums);
+            false
+        })
+    }
+
+    /// Does something with each segment, images first, and the sums of its tile; whether any says so.
+    fn for_segments(
+        &mut self,
+        each: impl Fn(&mut Part, usize, (&Lists, &Scenery), &mut Sums) -> bool + Sync,
+    ) -> bool {
+        let poses = self.poses();
+        let (period, stride, many) =
+            (self.period(), stride(self.particles.rotates()), self.particles.len() >= FEW);
+        let Particles { rows, spins, .. } = &self.particles;
+        let spins = if self.particles.rotates() { &spins[..] } else { &[] };
+        let common = Common { dt: self.dt, overlap_limit: self.setup.guards.overlap, rows, spins, stride };
+        let asleep = self.sleepers.as_ref().map(|s| &s.asleep[..]);
+        let (kinds, walls, width) = (&self.kinds, &self.walls, self.width);
+        let scenery = Scenery { kinds, walls, poses: &poses, period, width, common, asleep };
+        let (lists, part, mut sums) = self.contacts.parts(stride);
+        let (mut images, mut rest) = part.split(lists.tiles[0]);
+        let mut items = Vec::with_capacity(images.segments.len() + lists.tiles.len());
+        while !images.segments.is_empty() {
+            let (one, others) = images.split(1);
+            images = others;
+            items.push((one, Sums::default()));
+        }
+        for segments in lists.tiles.windows(2) {
+            let (one, others) = rest.split(segments[1] - segments[0]);
+            let (mine, next) = sums.split(lists.tile);
+            (rest, sums) = (others, next);
+            items.push((one, mine));
+        }
+        share(many, items, |(mut part, mut sums)| {
+            sums.clear();
+            (0..part.segments.len())
+                .fold(false, |any, k| any | each(&mut part, k, (&lists, &scenery), &mut sums))
+        })
+        .into_iter()
+        .any(|found| found)
+    }
+
+    /// Adds what arrives at each tile from others.
+    fn collect(&mut self) {
+        let many = self.particles.len() >= FEW;
+        let (lists, part, mut sums) = self.contacts.parts(stride(self.particles.rotates()));
+        let mut items = Vec::with_capacity(lists.tiles.len());
+        for tile in 0..lists.tiles.len() - 1 {
+            let (mine, others) = sums.split(lists.tile);
+            sums = others;
+            items.push((tile, mine));
+        }
+        share(many, items, |(tile, mut sums)| sums.collect(lists.arriving(tile), part.kept()));
+    }
+
+    /// The like, unless it has been done, and the move.
+    fn finish(&mut self, collect: bool) -> Moved {
+        if self.setup.drag.is_some() {
+            self.before.clone_from(&self.particles.rows);
         }
         let Particles { rows, acceleration, spins, turning, home, .. } = &mut self.particles;
-        let (dt, width, count) = (self.dt, self.width, acceleration.len());
-        let rotating = if spins.is_empty() { 0 } else { count };
-        let common = Common { dt, overlap_limit: self.setup.guards.overlap, rows, spins, stride };
+        let (count, many) = (acceleration.len(), acceleration.len() >= FEW);
+        let (lists, part, sums) = self.contacts.parts(stride(!spins.is_empty()));
+        let (rows, rotating) = (&mut rows[..count], if spins.is_empty() { 0 } else { count });
+        let spins = &mut spins[..rotating];
         let beds = self.sleepers.as_mut().map(|s| s.beds(self.zones.busy()));
-        let asleep = beds.as_ref().map(Beds::asleep);
-        let (kinds, walls) = (&self.kinds, &self.walls);
-        let scenery = Scenery { kinds, walls, poses: &poses, period, width, common, asleep };
-        let (lists, part, sums) = self.contacts.parts(stride);
-        let columns = Columns {
-            first: 0,
-            rows: &rows[..count],
-            spins: &spins[..rotating],
-            next: &mut self.next_rows[..count],
-            next_spins: &mut self.next_spins[..rotating],
-            acceleration,
-            turning,
-            home,
-            sums,
-            beds,
-        };
+        let mut columns = Columns { first: 0, rows, spins, acceleration, turning, home, sums, beds };
+        let mut items = Vec::with_capacity(lists.tiles.len());
+        for tile in 0..lists.tiles.len() - 1 {
+            let (mine, others) = columns.split((tile + 1) * lists.tile);
+            columns = others;
+            items.push((tile, mine));
+        }
         let g = self.setup.gravity;
-        let drive = Drive { dt, gravity: [g.x, g.y, g.z], motion_limit: self.setup.guards.motion };
-        let found = Shared { pass, width, lists, scenery, drive }.run(part, columns);
-        if matches!(pass, Pass::Loads | Pass::Step) {
-            self.contacts.new = false;
-        }
-        if matches!(pass, Pass::Move | Pass::Step) {
-            std::mem::swap(&mut self.particles.rows, &mut self.next_rows);
-            std::mem::swap(&mut self.particles.spins, &mut self.next_spins);
-        }
-        found
+        let (dt, motion_limit, width) = (self.dt, self.setup.guards.motion, self.width);
+        let drive = Drive { dt, gravity: [g.x, g.y, g.z], motion_limit };
+        let moved = share(many, items, |(tile, mut columns)| {
+            if collect {
+                columns.sums.collect(lists.arriving(tile), part.kept());
+            }
+            advance_awake(width, columns, &drive, &lists)
+        });
+        moved.into_iter().fold(Moved::default(), Moved::and)
     }
 
     /// Where walls are now.
@@ -117,139 +160,14 @@ impl Simulation {
 
     /// Contact points of images and walls, without loads.
     pub(crate) fn find_contact_points(&mut self) {
-        let (poses, period) = (self.poses(), self.period());
-        let stride = stride(self.particles.rotates());
-        let Particles { rows, spins, .. } = &self.particles;
-        let common = Common { dt: self.dt, overlap_limit: self.setup.guards.overlap, rows, spins, stride };
-        let (kinds, walls, width) = (&self.kinds, &self.walls, self.width);
-        let scenery = Scenery { kinds, walls, poses: &poses, period, width, common, asleep: None };
-        let (lists, mut part, _) = self.contacts.parts(stride);
-        for segment in part.segments {
-            part.renew(segment, &lists, &scenery);
-        }
+        self.for_segments(|part, k, (lists, scenery), _| {
+            part.renew(&part.segments[k], lists, scenery);
+            false
+        });
     }
 }
 
-impl Shared<'_> {
-    fn run(&self, part: Part, mut columns: Columns) -> Found {
-        let (mut images, mut own) = part.split(self.lists.tiles[0]);
-        let mut found = Found { deep: self.compute_images(images.by_ref()), ..Found::default() };
-        let (_, images) = images.kept();
-        let ranges = self.ranges();
-        if self.pass != Pass::Move {
-            let regions =
-                divide(&ranges, (self.lists.tiles, self.lists.tile), own.by_ref(), columns.by_ref());
-            found = all(regions, found, |r| self.region(r, images));
-        }
-        let late = self.late(&ranges, columns);
-        let (first, own) = own.kept();
-        let kept = Kept { images, own, first };
-        all(late, found, |c| self.finish(c, &kept))
-    }
-
-    fn compute_images(&self, mut images: Part) -> bool {
-        if self.pass == Pass::Move {
-            return false;
-        }
-        let mut parts = Vec::new();
-        while !images.segments.is_empty() {
-            let (first, rest) = images.split(1);
-            parts.push(first);
-            images = rest;
-        }
-        let compute = |mut p: Part| self.compute(&mut p, 0, &mut Sums::default());
-        parts.into_par_iter().map(compute).reduce(|| false, |a, b| a | b)
-    }
-
-    fn compute(&self, part: &mut Part, segment: usize, sums: &mut Sums) -> bool {
-        if self.pass == Pass::Recall {
-            part.recall_all(segment, &self.lists, &self.scenery, sums);
-            return false;
-        }
-        part.compute(segment, &self.lists, &self.scenery, sums)
-    }
-
-    /// The tiles of each region.
-    fn ranges(&self) -> Vec<Range<usize>> {
-        let tiles = self.lists.lowest.len();
-        let threads = if tiles * self.lists.tile < FEW { 1 } else { rayon::current_num_threads() };
-        let count = if threads > 1 { threads * REGIONS } else { 1 };
-        (0..count).map(|r| tiles * r / count..tiles * (r + 1) / count).filter(|r| !r.is_empty()).collect()
-    }
-
-    /// Loads of all tiles of a region, and the rest for those that no earlier region touches.
-    fn region(&self, region: Region, images: Computed) -> Found {
-        let Region { tiles, mut part, columns: mut rest } = region;
-        let (mut found, from) = (Found::default(), self.lists.tiles[tiles.start]);
-        for tile in tiles.clone() {
-            let (mut columns, others) = rest.split((tile + 1) * self.lists.tile);
-            rest = others;
-            columns.sums.clear();
-            for segment in self.lists.tiles[tile]..self.lists.tiles[tile + 1] {
-                found.deep |= self.compute(&mut part, segment - from, &mut columns.sums);
-            }
-            if !self.waits(tile, tiles.start) {
-                let (first, own) = part.kept();
-                found = found.and(self.finish(columns, &Kept { images, own, first }));
-            }
-        }
-        found
-    }
-
-    /// Of one tile, whose own contacts are computed: adds what arrives from elsewhere, and moves.
-    fn finish(&self, mut columns: Columns, kept: &Kept) -> Found {
-        if self.pass != Pass::Move {
-            let tile = columns.first / self.lists.tile;
-            let arriving = self.lists.arriving[tile] as usize..self.lists.arriving[tile + 1] as usize;
-            columns.sums.collect(&self.lists.arrivals[arriving], kept);
-        }
-        if matches!(self.pass, Pass::Loads | Pass::Recall) {
-            return Found::default();
-        }
-        Found { moved: advance_awake(self.width, columns, &self.drive, &self.lists), deep: false }
-    }
-
-    /// Whether a tile has contacts with tiles before `first`.
-    fn waits(&self, tile: usize, first: usize) -> bool {
-        (self.lists.lowest[tile] as usize) < first
-    }
-
-    /// Columns of the tiles that have not moved in their regions.
-    fn late<'a>(&self, ranges: &[Range<usize>], mut rest: Columns<'a>) -> Vec<Columns<'a>> {
-        let mut late = Vec::new();
-        for range in ranges {
-            for tile in range.clone() {
-                let (columns, others) = rest.split((tile + 1) * self.lists.tile);
-                rest = others;
-                if self.pass == Pass::Move || self.waits(tile, range.start) {
-                    late.push(columns);
-                }
-            }
-        }
-        late
-    }
-}
-
-fn divide<'a>(
-    ranges: &[Range<usize>],
-    (segments, tile): (&[usize], usize),
-    mut part: Part<'a>,
-    mut columns: Columns<'a>,
-) -> Vec<Region<'a>> {
-    let mut regions = Vec::with_capacity(ranges.len());
-    for tiles in ranges {
-        let (first, others) = part.split(segments[tiles.end] - segments[tiles.start]);
-        let (mine, rest) = columns.split(tiles.end * tile);
-        (part, columns) = (others, rest);
-        regions.push(Region { tiles: tiles.clone(), part: first, columns: mine });
-    }
-    regions
-}
-
-/// Does all of something, on all threads where there are several.
-fn all<T: Send>(items: Vec<T>, found: Found, run: impl Fn(T) -> Found + Sync + Send) -> Found {
-    if items.len() < 2 {
-        return items.into_iter().map(run).fold(found, Found::and);
-    }
-    found.and(items.into_par_iter().map(run).reduce(Found::default, Found::and))
+/// Does something with all items, on all threads where there are many.
+fn share<T: Send, R: Send>(many: bool, items: Vec<T>, run: impl Fn(T) -> R + Sync + Send) -> Vec<R> {
+    if many { items.into_par_iter().map(run).collect() } else { items.into_iter().map(run).collect() }
 }
