@@ -7,6 +7,7 @@ use crate::effects::{
 use crate::lane::{Row, Row4};
 use crate::setup::{Contact, Law, RollingModel};
 use crate::simulation::Simulation;
+use crate::sums::{COUPLE, stride};
 use serde::Serialize;
 use std::mem::size_of;
 
@@ -145,8 +146,11 @@ impl Simulation {
 
     /// State of one particle [bytes], without its share of contacts.
     pub fn bytes_per_particle(&self) -> usize {
-        let rotation = if self.particles.rotates() { 3 * size_of::<Row4>() } else { 0 };
-        let state = 2 * size_of::<Row>() + 2 * size_of::<Row4>();
+        let rotates = self.particles.rotates();
+        let rotation = if rotates { 2 * size_of::<Row4>() } else { 0 };
+        let couples = if self.kinds.iter().any(|k| k.kernel.couples()) { COUPLE } else { 0 };
+        let sums = (stride(rotates) + couples) * size_of::<f64>();
+        let state = size_of::<Row>() + 2 * size_of::<Row4>() + sums;
         let sleep = if self.sleepers.is_some() { size_of::<Row>() + size_of::<u32>() + 2 } else { 0 };
         state + rotation + sleep + size_of::<u32>() + size_of::<u16>() + size_of::<u32>()
     }
