@@ -215,8 +215,8 @@ impl<'a> Part<'a> {
             With::Particles => ((scenery.common.rows, scenery.common.spins), &lists.partner[places.clone()]),
             _ => ((&self.rows[row..row + n], part(self.spins, row, n)), &lists.count[..n]),
         };
-        let (kept, kept_n) =
-            (s.kept - self.from.kept + within, if s.later || kind.with == With::Images { n } else { 0 });
+        let keeps = s.later || kind.with == With::Images;
+        let (kept, kept_n) = if keeps { (s.kept - self.from.kept + within, n) } else { (0, 0) };
         let task = Task {
             partners,
             i: &lists.i[places],
