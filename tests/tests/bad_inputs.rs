@@ -301,7 +301,11 @@ fn options_that_cannot_be_meant() {
             ),
             ("wallgen --roughness 0.001 --from-mesh mesh.obj", 2, &["--from-mesh", "add --radius M"]),
             ("wallgen --radius 0.01 --from-mesh mesh.obj", 2, &["--from-mesh", "add --roughness M"]),
-            ("wallgen --radius 0.01 --roughness 0.02 --from-mesh mesh.obj", 1, &["0.02 m", "at most the radius"]),
+            (
+                "wallgen --radius 0.01 --roughness 0.02 --from-mesh mesh.obj",
+                1,
+                &["0.02 m", "at most the radius"],
+            ),
             ("wallgen --radius 1e-9 --roughness 1e-12 --from-mesh mesh.obj", 1, &["too many", "millimetres"]),
             (
                 "wallgen --radius 0.01 --roughness 0.001 --from-mesh missing.stl",

@@ -140,7 +140,8 @@ fn ledger_closes_with_inlet_and_outlet() {
     setup.ledger = true;
     setup.gravity = Vec3::new(2.0, 0.0, -9.81);
     setup.walls = vec![plane(Vec3::z())];
-    let zone = |x: f64, length: f64| Zone::new(Plane { point: Vec3::new(x, 0.0, 0.0), normal: Vec3::x() }, length);
+    let zone =
+        |x: f64, length: f64| Zone::new(Plane { point: Vec3::new(x, 0.0, 0.0), normal: Vec3::x() }, length);
     setup.inlets = vec![zone(0.05, 0.05)];
     setup.outlets = vec![zone(0.2, 0.03)];
     (setup.smallest_entry, setup.largest_entry, setup.entry_materials) = (0.01, 0.01, vec![0]);

@@ -560,13 +560,15 @@ fn records(
 /// Steps between samples of paths, where an outlet records them.
 fn sampling(scene: &Scene, dt: f64) -> Result<Option<u64>, SceneError> {
     let mut least = None;
-    for (i, outlet) in scene.model.outlet.iter().enumerate().filter(|(_, o)| o.motion == ZoneMotion::Recorded) {
+    for (i, outlet) in scene.model.outlet.iter().enumerate().filter(|(_, o)| o.motion == ZoneMotion::Recorded)
+    {
         let steps = outlet.samples.map_or(paths::STEPS, |time| (time / dt).round().max(1.0));
         if steps > paths::MOST_STEPS {
             let check = crate::check::Check { text: &scene.text };
             let most = geom::Shown(paths::MOST_STEPS * dt);
             let value = format!("{} s", geom::Shown(outlet.samples.unwrap_or(0.0)));
-            let (why, cure) = (format!("is more than {} steps", paths::MOST_STEPS), format!("use at most {most} s"));
+            let (why, cure) =
+                (format!("is more than {} steps", paths::MOST_STEPS), format!("use at most {most} s"));
             return Err(check.wrong(&format!("outlet.{i}.samples"), value, &why, &cure));
         }
         let steps = steps as u64;

@@ -146,7 +146,12 @@ fn no_gap_lies_beyond_the_rim_and_the_widest_inside_is_that_of_brute_force() {
     let (side, big) = (0.15, 0.006);
     let scan = shaken(180, 2.0 * side / 180.0, 0.01);
     let amount = sampling::Amount::Count(900);
-    let wish = sampling::Wish { amount, method: sampling::Method::Eliminate, distance: sampling::Distance::Surface, seed: 1 };
+    let wish = sampling::Wish {
+        amount,
+        method: sampling::Method::Eliminate,
+        distance: sampling::Distance::Surface,
+        seed: 1,
+    };
     let kept = sampling::sample(&scan, None, &wish).unwrap().kept;
     let points: Vec<Vec3> = kept.iter().map(|&k| scan[k as usize]).collect();
     let cells = Cells::new(&points, wall::pairs::REACH * 0.008);
@@ -255,7 +260,9 @@ fn regions_decide_roughness_material_and_velocity() {
         ("[[region]]\nshape = \"sphere:0,0,0,1\"\nfriction = -1", "friction"),
         ("roughness = -1", "roughness"),
     ] {
-        let error = Regions::parse(bad, steel(), Vec3::zeros(), &none, &|_| Ok(String::new())).unwrap_err().to_string();
+        let error = Regions::parse(bad, steel(), Vec3::zeros(), &none, &|_| Ok(String::new()))
+            .unwrap_err()
+            .to_string();
         assert!(error.contains(says), "{bad}: {error}");
     }
 }

@@ -179,7 +179,8 @@ fn tumbling(mut setup: Setup, shape: ClumpShape) -> Setup {
 /// Grains come in through a calculation plane, slide over the floor among others, and leave through a storage plane.
 fn passing() -> Scene {
     let mut setup = poured(&NORMALS[1]);
-    let zone = |x: f64, length: f64| Zone::new(Plane { point: Vec3::new(x, 0.0, 0.0), normal: Vec3::x() }, length);
+    let zone =
+        |x: f64, length: f64| Zone::new(Plane { point: Vec3::new(x, 0.0, 0.0), normal: Vec3::x() }, length);
     (setup.inlets, setup.outlets) = (vec![zone(0.05, 0.05)], vec![zone(0.2, 0.03)]);
     (setup.smallest_entry, setup.largest_entry, setup.entry_materials) = (0.01, 0.01, vec![0]);
     setup.particles =
