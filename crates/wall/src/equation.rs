@@ -188,7 +188,7 @@ impl Half {
             if open.iter().sum::<u64>() == 0 {
                 break;
             }
-            for k in 0..LANES {
+            for (k, open) in open.iter_mut().enumerate() {
                 let (s, four, t) = (self.s[k], self.four[k], self.t[k]);
                 let f = self.excess(k, t);
                 let high = if f > 0.0 { t } else { self.high[k] };
@@ -200,9 +200,9 @@ impl Half {
                 // The error of a step of Newton's is about the square of the step.
                 let close = if inside { NEAR } else { 4.0 * f64::EPSILON };
                 let goes_on = ((next - t).abs() > close * (s + t)) as u64;
-                self.t[k] = if open[k] != 0 { next } else { t };
+                self.t[k] = if *open != 0 { next } else { t };
                 (self.low[k], self.high[k]) = (low, high);
-                open[k] &= goes_on;
+                *open &= goes_on;
             }
         }
         let radius = |k: usize| 0.5 * (self.t[k] * self.t[k] / zetas[k] + zetas[k]);

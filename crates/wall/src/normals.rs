@@ -36,14 +36,25 @@ impl Flow {
 }
 
 /// A step of the tree: the most alike first, then the lowest indices.
-#[derive(PartialEq, PartialOrd)]
 struct Step {
     alike: f64,
     to: Reverse<u32>,
     from: Reverse<u32>,
 }
 
+impl PartialEq for Step {
+    fn eq(&self, other: &Step) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
 impl Eq for Step {}
+
+impl PartialOrd for Step {
+    fn partial_cmp(&self, other: &Step) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
 
 impl Ord for Step {
     fn cmp(&self, other: &Step) -> std::cmp::Ordering {
