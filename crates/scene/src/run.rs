@@ -91,6 +91,8 @@ pub struct Outcome {
     pub returned: dem::Returned,
     /// Contacts listed at the end.
     pub listed_contacts: usize,
+    /// How often neighbours were listed.
+    pub listings: u64,
     /// Particles that sleep at the end.
     pub asleep: usize,
     /// Effects in force: name, pair, key.
@@ -212,6 +214,7 @@ pub fn run<W: Write>(
     run.outcome.time = run.sim.time();
     run.outcome.particles = run.sim.particle_count();
     (run.outcome.listed_contacts, run.outcome.asleep) = (run.sim.listed_contacts(), run.sim.asleep());
+    run.outcome.listings = run.sim.listings();
     let named =
         |e: &dem::EffectCost| format!("{} ({}–{}): {}", e.effect, e.between.0, e.between.1, e.because);
     run.outcome.effects = run.sim.explain().iter().map(named).collect();
