@@ -25,6 +25,16 @@ impl Aligned {
     }
 }
 
+impl Aligned {
+    /// `len` zeros, in the same place where there are so many.
+    pub fn clear(&mut self, len: usize) {
+        match self.len == len {
+            true => self.fill(0.0),
+            false => *self = Aligned::zeros(len),
+        }
+    }
+}
+
 impl Deref for Aligned {
     type Target = [f64];
     fn deref(&self) -> &[f64] {

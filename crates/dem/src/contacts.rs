@@ -103,6 +103,8 @@ pub struct Contacts {
     pub loads: Aligned,
     /// Couples, or none.
     pub couples: Aligned,
+    /// Whether these are kept now.
+    keeps: bool,
     /// Of loads and couples, by particle.
     sums: (Aligned, Aligned),
     /// Loads and couples that are kept for other tiles.
@@ -288,16 +290,21 @@ impl Contacts {
         let some = |couples: bool, n: usize| Aligned::zeros(if couples { n * COUPLE } else { 0 });
         self.sums = (Aligned::zeros(particles * stride), some(couples, particles));
         self.kept = (Aligned::zeros(kept * stride), some(couples, kept));
-        (self.loads, self.couples) = Default::default();
+        (self.loads, self.couples, self.keeps) = Default::default();
         self.ledger = Aligned::zeros(if ledger { places * LEDGER } else { 0 });
         self.work.resize(if ledger { places } else { 0 }, 0.0);
     }
 
-    /// Room for the load and couple of each contact, or none.
+    /// Whether the load and couple of each contact are kept from now on. Where they were not, all begin at 0: blocks in which nothing touches
+    /// are not computed.
     pub fn keep_each(&mut self, keep: bool, stride: usize) {
-        let places = if keep { self.i.len() } else { 0 };
-        let couples = if self.sums.1.is_empty() { 0 } else { places };
-        (self.loads, self.couples) = (Aligned::zeros(places * stride), Aligned::zeros(couples * COUPLE));
+        if keep && !self.keeps {
+            let places = self.i.len();
+            let couples = if self.sums.1.is_empty() { 0 } else { places };
+            self.loads.clear(places * stride);
+            self.couples.clear(couples * COUPLE);
+        }
+        self.keeps = keep;
     }
 
     /// Sums of the loads on all particles.
@@ -366,7 +373,7 @@ impl Contacts {
             memory: &mut self.memory,
             active: &mut self.active,
             kept: (&mut self.kept.0, &mut self.kept.1),
-            each: (&mut self.loads, &mut self.couples),
+            each: if self.keeps { (&mut self.loads, &mut self.couples) } else { Default::default() },
             ledger: &mut self.ledger,
         };
         let sums = Sums { first: 0, stride, loads: &mut self.sums.0, couples: &mut self.sums.1 };

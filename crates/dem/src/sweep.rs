@@ -56,12 +56,8 @@ impl Simulation {
 
     /// Loads of all contacts, and their sums within tiles; whether an overlap passes its limit. `looks`: the load of each contact is kept.
     fn compute(&mut self, looks: bool) -> bool {
-        if !self.keeps_each() {
-            self.contacts.keep_each(looks, stride(self.particles.rotates()));
-        }
-        let deep = self.for_segments(|part, k, (lists, scenery), sums| part.compute(k, lists, scenery, sums));
-        self.contacts.new = false;
-        deep
+        self.contacts.keep_each(looks || self.keeps_each(), stride(self.particles.rotates()));
+        self.for_segments(|part, k, (lists, scenery), sums| part.compute(k, lists, scenery, sums))
     }
 
     /// Sums within tiles of loads that were computed before.
@@ -149,6 +145,8 @@ impl Simulation {
             }
             advance_awake(width, columns, &drive, &lists)
         });
+        // Until now: sleepers are looked at after each listing.
+        self.contacts.new = false;
         moved.into_iter().fold(Moved::default(), Moved::and)
     }
 

@@ -207,6 +207,10 @@ pub fn run<W: Write>(
             break Some(stopped(scene, step, halt)?);
         }
     };
+    run.outcome.returned = run.sim.returned().clone();
+    for note in crate::returned::words(&run.outcome.returned) {
+        run.log("note", &note)?;
+    }
     if let Some(reason) = reason {
         run.stop(reason)?;
     }
@@ -219,10 +223,6 @@ pub fn run<W: Write>(
         |e: &dem::EffectCost| format!("{} ({}–{}): {}", e.effect, e.between.0, e.between.1, e.because);
     run.outcome.effects = run.sim.explain().iter().map(named).collect();
     run.outcome.entered = run.supply.entered;
-    run.outcome.returned = run.sim.returned().clone();
-    for note in crate::returned::words(&run.outcome.returned) {
-        run.log("note", &note)?;
-    }
     let out = run.writer.finish()?;
     Ok((run.outcome, out))
 }

@@ -111,13 +111,11 @@ impl<R: Lane> CappedSpring<R> {
         let size = force.with(force);
         let slides = size.gt(self.cap * self.cap);
         if R::any(slides) {
-            let (one, tiny) = (R::splat(1.0), R::splat(R::TINY));
+            let one = R::splat(1.0);
+            let shrink = |square: R| (self.cap / square.max(R::splat(R::TINY)).sqrt()).min(one);
             let pull = stretched.times(self.stiffness);
-            let (pull, whole) = (pull.with(pull).max(tiny).sqrt(), size.max(tiny).sqrt());
-            // One division for both.
-            let inverse = self.cap / (pull * whole);
-            kept = X::choose(slides, stretched.times((inverse * whole).min(one)), stretched);
-            force = X::choose(slides, force.times((inverse * pull).min(one)), force);
+            kept = X::choose(slides, stretched.times(shrink(pull.with(pull))), stretched);
+            force = X::choose(slides, force.times(shrink(size)), force);
         }
         *spring = kept + rest;
         let spring_force = kept.times(self.stiffness);
@@ -138,7 +136,5 @@ pub fn turned<R: Lane>(spring: V<R>, contact: &Contact<R>) -> V<R> {
     let flat = spring - n.scale(spring.dot(n));
     let there = flat + n.cross(flat).scale(contact.turn);
     let (before, after) = (spring.dot(spring), there.dot(there));
-    // √(before/after), which is near 1, but for a share of (1 − before/after)³/32; a root would take longer than all of this.
-    let three = R::splat(3.0);
-    there.scale((three * before + after) / (before + three * after).max(R::splat(R::TINY)))
+    there.scale((before / after.max(R::splat(R::TINY))).sqrt())
 }
