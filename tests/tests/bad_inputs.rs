@@ -269,11 +269,7 @@ fn options_that_cannot_be_meant() {
             ("bluenoise-sample good.ply --spacing 12mm", 2, &["--spacing", "12mm", "no number", "SI units"]),
             ("bluenoise-sample good.ply --count 0", 2, &["count 0"]),
             ("bluenoise-sample good.ply --density 500,20", 2, &["density 500,20", "lower one first"]),
-            (
-                "bluenoise-sample good.ply --spacing 0.01 --method tile",
-                2,
-                &["--method tile", "not available yet", "poisson"],
-            ),
+            ("bluenoise-sample good.ply --density 500 --method tile", 2, &["--density", "LO,HI"]),
             (
                 "bluenoise-sample good.ply --spacing 0.01 --method blue",
                 2,
@@ -490,7 +486,7 @@ fn stages_and_resumed_runs_that_do_not_fit() {
             ("stage-replay up-long.mcap", 1, &["up-long.mcap", "bytes follow the end"]),
             ("stage-replay up-twice.mcap", 1, &["up-twice.mcap", "cat"]),
             ("stage-replay up.mcap --length 0.01", 1, &["0.01", "largest diameter", "at least"]),
-            ("stage-replay up.mcap --move ballistic", 2, &["not available yet", "--move constant"]),
+            ("stage-replay up.mcap --move free", 2, &["--move", "'free'", "ballistic"]),
             ("stage-replay up.mcap --outlet 3", 1, &["outlet", "3"]),
             (
                 "stage-split plant.toml --at 0,0,0,0,0,-1 --keep upstream --length 0.01",
@@ -504,9 +500,9 @@ fn stages_and_resumed_runs_that_do_not_fit() {
             ),
             ("stage-split plant.toml --at 0,0,0.04,0,0,-1 --keep upstream", 1, &["fill.0", "both sides"]),
             (
-                "stage-split plant.toml --at 0,0,0,0,0,-1 --keep upstream --motion ballistic",
+                "stage-split plant.toml --at 0,0,0,0,0,-1 --keep upstream --motion free",
                 2,
-                &["not available yet", "constant"],
+                &["--motion", "'free'", "ballistic"],
             ),
             ("dem-run down.toml", 1, &["waits for an inlet", "stage-replay"]),
             ("dem-run down.toml up.mcap", 1, &["up.mcap", "stage-replay"]),

@@ -16,7 +16,7 @@ pub struct Args {
     /// Least distance between kept points (grid: distance between its nodes) [m]
     #[arg(long, value_name = "M")]
     spacing: Option<f64>,
-    /// Number of points to keep (within 1 %; below 200, and by eliminate, exactly)
+    /// Number of points to keep (within 1 %; below 200, and by eliminate, exactly; grid: the nearest it has)
     #[arg(long, value_name = "N")]
     count: Option<usize>,
     /// Lowest and highest number of kept points per area [1/m²]
