@@ -1,6 +1,7 @@
 //! Storage, exclusion, generation and calculation planes, at the engine.
 
 mod ballistic;
+mod faces;
 mod left;
 mod lowest;
 mod path;

@@ -114,8 +114,14 @@ impl Simulation {
         stays
     }
 
-    /// Puts particle `k` in its place in a flow.
-    pub(super) fn place(&mut self, k: usize, place: Vec3, flow: &Flow) {
+    /// Puts particle `k` in its place in a flow: the one of its images that is nearest to where it was listed.
+    pub(super) fn place(&mut self, k: usize, mut place: Vec3, flow: &Flow) {
+        let home = self.particles.home[k];
+        for (axis, range) in self.setup.periodic.iter().enumerate() {
+            if let Some((lo, hi)) = range {
+                place[axis] += (hi - lo) * ((home[axis] - place[axis]) / (hi - lo)).round();
+            }
+        }
         let (v, a, spin) = (flow.velocity, flow.acceleration, flow.spin);
         let row = &mut self.particles.rows[k];
         (row[0], row[1], row[2], row[4], row[5], row[6]) = (place.x, place.y, place.z, v.x, v.y, v.z);
@@ -126,8 +132,7 @@ impl Simulation {
         if let Some(turning) = self.particles.turning.get_mut(k) {
             *turning = Row4::default();
         }
-        let h = self.particles.home[k];
-        self.out |= (place - Vec3::new(h[0], h[1], h[2])).norm() > h[3];
+        self.out |= (place - Vec3::new(home[0], home[1], home[2])).norm() > home[3];
     }
 
     /// Out of everyone's reach until the next listing drops it.
@@ -150,8 +155,8 @@ impl Simulation {
     fn let_in(&mut self, t: &Traveller, inlet: u32, centre: Vec3, flow: &Flow) {
         let k = t.at as usize;
         if self.setup.ledger {
-            let free =
-                Particle { position: t.start.position + flow.shift, velocity: flow.velocity, ..t.start };
+            let Flow { velocity, spin, .. } = *flow;
+            let free = Particle { position: self.particles.position(k), velocity, spin, ..t.start };
             // A clump does not turn on its way in.
             self.account.entered += match self.bodies.mass_at(k) {
                 None => carried(&free, &self.setup).iter().sum::<f64>(),
