@@ -2,8 +2,8 @@
 
 use crate::beside::{Thrown, complete};
 use crate::cells::Cells;
+use crate::eliminate::uncrowded;
 use crate::lattice::lattice;
-use crate::nearest::distances;
 use crate::poisson::poisson;
 use crate::tile::tiled;
 use crate::{Amount, Method, Sample, SampleError, Wish};
@@ -147,17 +147,13 @@ impl Tried {
     }
 }
 
-/// The sample without the points nearest to another one, until `count` are left; distances only grow.
-fn without_crowded(points: &[Vec3], forced: Option<&[bool]>, mut sample: Sample, count: usize) -> Sample {
-    while sample.kept.len() > count {
-        let kept: Vec<Vec3> = sample.kept.iter().map(|&i| points[i as usize]).collect();
-        let nearest = distances(&kept);
-        let free = (0..kept.len()).filter(|&k| forced.is_none_or(|f| !f[sample.kept[k] as usize]));
-        let nearer = |a: &usize, b: &usize| nearest[*a].total_cmp(&nearest[*b]).then(b.cmp(a));
-        let Some(worst) = free.min_by(nearer) else { break };
-        sample.kept.remove(worst);
-    }
-    sample
+/// The sample without its most crowded points: `count` are left.
+fn without_crowded(points: &[Vec3], forced: Option<&[bool]>, sample: Sample, count: usize) -> Sample {
+    // The spacing of a sample that has no more than are wanted.
+    let wider = sample.spacing * (sample.kept.len() as f64 / count as f64).sqrt();
+    let like = Sample { spacing: wider, ..sample };
+    let kept = uncrowded(points, forced, &like.kept, count, &like);
+    Sample { kept, spacing: sample.spacing, ..like }
 }
 
 /// Area from the number of occupied cells, and the spacing that fills it.

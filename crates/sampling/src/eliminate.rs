@@ -35,20 +35,30 @@ pub(crate) fn eliminate(
     let few = thinned(points, forced, start.spacing, wish.seed);
     // Duplicates and the like: thinning may leave too few.
     let all = if few.len() >= count { few } else { (0..points.len() as u32).collect() };
+    let kept = uncrowded(points, forced, &all, count, &start);
+    Ok(Sample { kept, ..start })
+}
+
+/// `count` of the points `all` without the most crowded ones, ascending; `like` has about the spacing of so many.
+pub(crate) fn uncrowded(
+    points: &[Vec3],
+    forced: Option<&[bool]>,
+    all: &[u32],
+    count: usize,
+    like: &Sample,
+) -> Vec<u32> {
     let crowd: Vec<Vec3> = all.iter().map(|&i| points[i as usize]).collect();
     let forced: Option<Vec<bool>> = forced.map(|f| all.iter().map(|&i| f[i as usize]).collect());
-    let reach = 2.0 * RADIUS * start.spacing;
+    let reach = 2.0 * RADIUS * like.spacing;
     let cells = Cells::new(&crowd, reach);
     let left = 1.0 - libm::pow(count as f64 / crowd.len() as f64, 1.5);
-    let apart = if start.beside > 0 { Apart::new(points, &all, &cells, reach) } else { Apart::default() };
+    let apart = if like.beside > 0 { Apart::new(points, all, &cells, reach) } else { Apart::default() };
     let weight = Weight { reach, least: reach * left * 0.65, apart };
     let alive = remove(&cells, forced.as_deref(), count, &weight);
-    let mut kept: Vec<u32> = (0..crowd.len())
-        .filter(|&place| alive[place])
-        .map(|place| all[cells.order()[place] as usize])
-        .collect();
+    let alive = (0..crowd.len()).filter(|&place| alive[place]);
+    let mut kept: Vec<u32> = alive.map(|place| all[cells.order()[place] as usize]).collect();
     kept.sort_unstable();
-    Ok(Sample { kept, ..start })
+    kept
 }
 
 /// A crowd of about ten times as many points as are wanted, or fewer: more change nothing but the time,

@@ -279,6 +279,26 @@ fn counts_of_thin_plates_and_of_few_points_are_met() {
     }
 }
 
+/// No spacing leaves seven tenths of a lattice; those that go are many, and go from everywhere.
+#[test]
+fn counts_between_the_samples_of_a_lattice_are_met_without_holes() {
+    let (side, count) = (200, 28_000);
+    let points: Vec<Vec3> =
+        (0..side * side).map(|k| Vec3::new(f64::from(k % side), f64::from(k / side), 0.0)).collect();
+    let kept = sample(&points, None, &wish(Amount::Count(count), Method::Poisson)).unwrap().kept;
+    assert_eq!(kept.len(), count);
+    let mut near = vec![false; points.len()];
+    for p in pick(&points, &kept) {
+        for (dx, dy) in [(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)] {
+            let (x, y) = (p.x as i32 + dx, p.y as i32 + dy);
+            if (0..side).contains(&x) && (0..side).contains(&y) {
+                near[(y * side + x) as usize] = true;
+            }
+        }
+    }
+    assert!(near.iter().all(|&near| near), "a hole");
+}
+
 #[test]
 fn filled_points_are_kept_as_they_are() {
     let points = sheet(5000, 3);
