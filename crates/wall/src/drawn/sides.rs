@@ -140,15 +140,9 @@ fn turn(
     for (_, faces) in edges.iter().filter(|(_, faces)| faces.len() != 2) {
         faces.iter().for_each(|&face| open[part_of[face as usize] as usize] = true);
     }
-    let mut of: HashMap<u32, Vec<[u32; 3]>> = HashMap::new();
-    for (face, part) in mesh.faces.iter().zip(part_of) {
-        of.entry(*part).or_default().push(*face);
-    }
-    let alone = |part: usize| {
-        let faces = of.get(&(part as u32)).cloned().unwrap_or_default();
-        TriMesh { vertices: mesh.vertices.clone(), faces }
-    };
-    let pieces: Vec<TriMesh> = (0..parts).map(alone).collect();
+    let pieces = pieces(mesh, part_of, parts);
+    let boxes: Vec<(Vec3, Vec3)> = pieces.iter().map(|piece| geom::grid::bounds(&piece.vertices)).collect();
+    let is_within = |p: &Vec3, (lo, hi): &(Vec3, Vec3)| (0..3).all(|a| lo[a] <= p[a] && p[a] <= hi[a]);
     let is_turned = |part: usize| match flow_at {
         Some(place) => !faces_place(&pieces[part], place),
         None if open[part] => false,
@@ -156,7 +150,9 @@ fn turn(
             let (piece, inside) = (&pieces[part], pieces[part].volume() < 0.0);
             let corner = piece.faces.first().map_or(Vec3::zeros(), |f| piece.vertices[f[0] as usize]);
             let others = (0..parts).filter(|&other| other != part && !open[other]);
-            let is_cavity = others.filter(|&other| pieces[other].contains(&corner)).count() % 2 == 1;
+            let around =
+                |&other: &usize| is_within(&corner, &boxes[other]) && pieces[other].contains(&corner);
+            let is_cavity = others.filter(around).count() % 2 == 1;
             inside != is_cavity
         }
     };
@@ -166,6 +162,23 @@ fn turn(
         face.swap(1, 2);
     }
     (open.iter().filter(|open| !**open).count(), turned.iter().filter(|turned| **turned).count())
+}
+
+/// The parts, each with its own vertices alone.
+fn pieces(mesh: &TriMesh, part_of: &[u32], parts: usize) -> Vec<TriMesh> {
+    let mut pieces = vec![TriMesh::default(); parts];
+    let mut numbers: Vec<HashMap<u32, u32>> = vec![HashMap::new(); parts];
+    for (face, &part) in mesh.faces.iter().zip(part_of) {
+        let (piece, number) = (&mut pieces[part as usize], &mut numbers[part as usize]);
+        let face = face.map(|v| {
+            *number.entry(v).or_insert_with(|| {
+                piece.vertices.push(mesh.vertices[v as usize]);
+                piece.vertices.len() as u32 - 1
+            })
+        });
+        piece.faces.push(face);
+    }
+    pieces
 }
 
 /// Whether the faces nearest to a place show it their front.
@@ -180,4 +193,49 @@ fn faces_place(piece: &TriMesh, place: Vec3) -> bool {
     let least = near.iter().map(|n| n.0).fold(f64::INFINITY, f64::min);
     // At an edge or a corner, its faces have a say together.
     near.iter().filter(|n| n.0 <= least * (1.0 + AS_NEAR)).map(|n| n.1.dot(&n.2)).sum::<f64>() >= 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use geom::mesh::cuboid;
+
+    fn joined(meshes: impl IntoIterator<Item = TriMesh>) -> TriMesh {
+        meshes.into_iter().fold(TriMesh::default(), |mut all, mesh| {
+            let first = all.vertices.len() as u32;
+            all.vertices.extend(mesh.vertices);
+            all.faces.extend(mesh.faces.iter().map(|face| face.map(|v| v + first)));
+            all
+        })
+    }
+
+    #[test]
+    fn a_part_holds_only_its_own_vertices() {
+        let corner = |k: u32| Vec3::new(2.0 * f64::from(k % 100), 2.0 * f64::from(k / 100), 0.0);
+        let tri = |k| TriMesh {
+            vertices: [Vec3::zeros(), Vec3::x(), Vec3::y()].map(|v| v + corner(k)).to_vec(),
+            faces: vec![[0, 1, 2]],
+        };
+        let mesh = joined((0..4000).map(tri));
+        let part_of: Vec<u32> = (0..4000).collect();
+        let pieces = pieces(&mesh, &part_of, 4000);
+        for (k, piece) in pieces.iter().enumerate() {
+            assert_eq!(piece.vertices.len(), 3);
+            assert_eq!(piece.triangle(0), mesh.triangle(k));
+        }
+        let surface = Surface::new(&mesh, None).unwrap();
+        assert_eq!((surface.parts, surface.closed, surface.turned), (4000, 0, 0));
+    }
+
+    /// Bodies stay as drawn, and what lies in one of them is a cavity.
+    #[test]
+    fn many_closed_parts() {
+        let at = |k: u32| Vec3::new(2.0 * f64::from(k % 40), 2.0 * f64::from(k / 40), 0.0);
+        let body = |k| cuboid(at(k), at(k) + Vec3::repeat(1.0));
+        let hollow =
+            (0..2000).step_by(10).map(|k| cuboid(at(k) + Vec3::repeat(0.3), at(k) + Vec3::repeat(0.6)));
+        let mesh = joined((0..2000).map(body).chain(hollow));
+        let surface = Surface::new(&mesh, None).unwrap();
+        assert_eq!((surface.parts, surface.closed, surface.turned), (2200, 2200, 200));
+    }
 }
