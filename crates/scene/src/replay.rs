@@ -258,11 +258,7 @@ impl Passing<'_> {
             Event::Bytes { topic, data, .. } if topic == WATERMARK => {
                 self.known = self.known.max(Watermark::read(self.name, &data)?.until);
                 self.send(self.bound(), writer)?;
-                // Before the first passage there is no 0 to count from.
-                if let Some(until) = self.start.map(|start| self.known - start).filter(|t| *t >= 0.0) {
-                    writer.bytes(WATERMARK, "json", nanoseconds(until), &Watermark { until }.to_json())?;
-                }
-                writer.flush_chunk()?;
+                self.promise(self.bound(), writer)?;
                 Ok(self.what.until.is_some_and(|until| self.known > until))
             }
             Event::Bytes { topic, data, .. } if topic == LOG => {
@@ -274,9 +270,23 @@ impl Passing<'_> {
         }
     }
 
-    /// Nothing that has not been read is generated before this time [s].
+    /// Nothing that has not been read is generated before this time [s]; nor is anything of the next replay.
     fn bound(&self) -> f64 {
-        self.start.map_or(f64::NEG_INFINITY, |start| self.known - start)
+        let known = self.what.until.map_or(self.known, |until| until.min(self.known));
+        let next = match (self.held.first(), self.what.period) {
+            (Some(first), Some(period)) => begins(first, period, 1),
+            _ => f64::INFINITY,
+        };
+        self.start.map_or(f64::NEG_INFINITY, |start| next.min(known - start))
+    }
+
+    /// Tells that nothing follows that is generated before `until` [s].
+    fn promise<W: Write>(&self, until: f64, writer: &mut Writer<W>) -> Result<(), RunError> {
+        // Before the first passage there is no 0 to count from.
+        if until >= 0.0 {
+            writer.bytes(WATERMARK, "json", nanoseconds(until), &Watermark { until }.to_json())?;
+        }
+        Ok(writer.flush_chunk()?)
     }
 
     /// A passage of the record, where it belongs to what is replayed.
@@ -353,8 +363,11 @@ impl Passing<'_> {
         self.done.period = Some(period);
         let held = std::mem::take(&mut self.held);
         for replay in 1..self.what.repeat {
+            let start = begins(&held[0], period, replay);
+            self.send(start, writer)?;
+            self.promise(start, writer)?;
             for row in &held {
-                let time = row.time + period * f64::from(replay);
+                let time = begins(row, period, replay);
                 self.enter(Passage { time, ..*row })?;
                 self.send(time, writer)?;
             }
@@ -375,4 +388,9 @@ impl Passing<'_> {
         }
         Ok(())
     }
+}
+
+/// When a passage of the record enters in a replay of it [s].
+fn begins(row: &Passage, period: f64, replay: u32) -> f64 {
+    row.time + period * f64::from(replay)
 }

@@ -68,6 +68,28 @@ fn a_record_replayed_three_times() {
     assert_eq!(ids[3].particle.id, 1_000_003);
 }
 
+/// What follows is not promised away: the stage downstream takes the grains of every replay, also where the run went on long after its
+/// last grain, and where part of it is replayed with the period that this part has.
+#[test]
+fn a_stage_downstream_takes_all_replays() {
+    let folder = plant();
+    succeed(folder.path(), "dem-run", &["up.toml", "--until", "0.9", "-o", "up.mcap"]);
+    let all = passages(&folder.path().join("up.mcap"));
+    let (first, last) = (all[0].time, all[all.len() - 1].time);
+    assert!(last < 0.5, "the last one passes at {last} s");
+    let period = format!("--period={}", last - first + 0.01);
+    let until = format!("--until={}", last + 0.01);
+    for options in [["--repeat=2", &period], ["--repeat=2", &until]] {
+        let rows = replay(folder.path(), &options);
+        let end = (rows[rows.len() - 1].time + 0.1).to_string();
+        let run = ["down.toml", "in.mcap", "--until", &end, "--report", "r.json", "-o", "down.mcap"];
+        succeed(folder.path(), "dem-run", &run);
+        let report = std::fs::read_to_string(folder.path().join("r.json")).unwrap();
+        let report: serde_json::Value = serde_json::from_str(&report).unwrap();
+        assert_eq!((rows.len(), report["entered"].as_u64()), (2 * all.len(), Some(2 * all.len() as u64)));
+    }
+}
+
 /// Superposed copies: beside each other they come in together, in each other they are refused; the file says what they are.
 #[test]
 fn superposed_copies_scale_the_rate() {
