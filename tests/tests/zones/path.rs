@@ -4,7 +4,7 @@ use super::{flight, zone};
 use dem::setup::*;
 use dem::{Setup, Simulation};
 use geom::Vec3;
-use grainpipe_tests::setups::{HOOKE, empty, grain, particles, run_until};
+use grainpipe_tests::setups::{HOOKE, empty, grain, particles, plane, run_until, with_friction};
 use std::collections::BTreeMap;
 
 fn recorded(x: f64, length: f64) -> Zone {
@@ -56,6 +56,11 @@ fn downstream(told: &Told) -> Simulation {
     let mut setup = empty(HOOKE, 0.5);
     (setup.step, setup.gravity) = (Step::Fixed(1e-4), Vec3::new(0.0, 0.0, -9.81));
     setup.inlets = vec![recorded(0.1, 0.03)];
+    guided(setup, told)
+}
+
+/// A stage downstream that is told all at once.
+fn guided(mut setup: Setup, told: &Told) -> Simulation {
     (setup.smallest_entry, setup.largest_entry, setup.entry_materials) = (0.01, 0.01, vec![0]);
     let mut sim = Simulation::new(setup).expect("sound");
     let mut paths: Vec<_> = told.values().collect();
@@ -116,6 +121,28 @@ fn a_grain_that_goes_back_leaves_the_stage_downstream() {
     let again =
         Entry { time: last + 0.1, inlet: 0, particle: grain(1, Vec3::new(0.08, 0.0, 0.0)), clump: None };
     down.enter(again).expect("its id is free again");
+}
+
+/// Grains roll along a plane, faster and faster, also in the zone: with them comes the energy of the spin that they are released with.
+#[test]
+fn the_ledger_closes_with_grains_that_turn_on_their_way_in() {
+    let mut setup = with_friction(empty(HOOKE, 0.5), 0.5);
+    (setup.step, setup.gravity, setup.ledger) = (Step::Fixed(2e-5), Vec3::new(4.0, 0.0, -9.0), true);
+    setup.walls = vec![plane(Vec3::z())];
+    let mut up = setup.clone();
+    up.outlets = vec![recorded(0.3, 0.2)];
+    up.particles = (0..4).map(|k| grain(k, Vec3::new(-0.03 * f64::from(k), 0.0, 0.01))).collect();
+    let told = tell(up, 0.6, 10);
+    assert!(told.len() == 4 && told.values().all(|t| matches!(t.1, Guide::Free(s) if s.spin.y > 50.0)));
+    setup.inlets = vec![recorded(0.3, 0.2)];
+    let mut down = guided(setup, &told);
+    let start = down.energy().expect("sound").balance();
+    run_until(&mut down, 0.7);
+    let e = down.energy().expect("sound");
+    assert_eq!(down.particle_count(), 4);
+    // What the plane is pressed in by at the release is not told.
+    let open = (e.balance() - start).abs() / e.translation;
+    assert!(e.entered > 1e-3 && open < 2e-3, "{open} of {e:?}");
 }
 
 /// Paths are part of the state.
