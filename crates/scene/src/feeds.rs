@@ -39,6 +39,12 @@ impl Supply {
         Supply { feeds, next: vec![None; count], given: vec![0; count], entered: 0 }
     }
 
+    /// Longest time between samples of recorded paths [s]; 0 without any.
+    pub(crate) fn samples(&self) -> f64 {
+        let gates = self.feeds.streams.iter().filter_map(|s| s.gate.as_ref());
+        gates.filter_map(|gate| gate.samples).fold(0.0, f64::max)
+    }
+
     /// Passes over what a run had taken when it was saved.
     ///
     /// # Errors

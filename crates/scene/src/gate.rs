@@ -21,6 +21,9 @@ pub struct Gate {
     /// What the stage upstream was cut from; see [`crate::split`].
     #[serde(default)]
     pub plant: Option<String>,
+    /// Time between samples of recorded paths [s].
+    #[serde(default)]
+    pub samples: Option<f64>,
 }
 
 impl Gate {
@@ -35,6 +38,7 @@ impl Gate {
         ]);
         map.extend(self.gravity.map(|g| ("gravity".to_owned(), format!("{},{},{}", g.x, g.y, g.z))));
         map.extend(self.plant.clone().map(|plant| ("plant".to_owned(), plant)));
+        map.extend(self.samples.map(|time| ("samples".to_owned(), time.to_string())));
         map
     }
 
@@ -67,7 +71,11 @@ impl Gate {
             }
         };
         let zone = Zone { plane, length, motion, test };
-        Ok(Gate { zone, gravity, plant: map.get("plant").cloned() })
+        let samples = match map.get("samples") {
+            None => None,
+            Some(_) => Some(crossings::number(stream, record, map, "samples")?),
+        };
+        Ok(Gate { zone, gravity, plant: map.get("plant").cloned(), samples })
     }
 
     /// Refuses a stream that was made for another gate than this one, of the entry `key` of a scene.

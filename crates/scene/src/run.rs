@@ -253,12 +253,7 @@ impl<W: Write> Run<W> {
         let walls = frames::heads(&plan.setup);
         let surfaces = frames::surfaces(&plan.setup.walls);
         let materials = material_info::to_map(&plan.setup.materials);
-        let gate = |(i, zone): (usize, &dem::setup::Zone)| {
-            let plant = scene.model.outlet.get(i).and_then(|o| o.plant.clone());
-            let gate = Gate { zone: *zone, gravity: Some(plan.setup.gravity), plant };
-            (i.to_string(), json(&gate))
-        };
-        let outlets: Record = plan.setup.outlets.iter().enumerate().map(gate).collect();
+        let (zones, gravity) = (plan.setup.outlets.clone(), plan.setup.gravity);
         let moving = spheres_move(&plan.setup.walls);
         let shapes = frames::clumps(&plan.setup.clumps);
         let clumps = !shapes.is_empty();
@@ -278,6 +273,14 @@ impl<W: Write> Run<W> {
             return Err(SceneError::file("--resume", why, "give a later --until").into());
         }
         let sampling = sampling(scene, sim.dt())?;
+        let every = sampling.map(|steps| steps as f64 * sim.dt());
+        let gate = |(i, zone): (usize, &dem::setup::Zone)| {
+            let plant = scene.model.outlet.get(i).and_then(|o| o.plant.clone());
+            let samples = every.filter(|_| zone.motion == ZoneMotion::Recorded);
+            let gate = Gate { zone: *zone, gravity: Some(gravity), plant, samples };
+            (i.to_string(), json(&gate))
+        };
+        let outlets: Record = zones.iter().enumerate().map(gate).collect();
         let mut writer = Writer::compressed(out, &settings.provenance, settings.compression)?;
         for (name, record) in records(scene, &schedule, &sim, materials, plan.sizes, &outlets) {
             writer.metadata(name, record)?;
@@ -359,7 +362,8 @@ impl<W: Write> Run<W> {
 
     /// Everything that enters before the next step must know of it.
     fn feed(&mut self) -> Result<(), RunError> {
-        let horizon = self.sim.time() + self.sim.look_ahead();
+        // Where grains follow recorded paths, the next sample of each must be known.
+        let horizon = self.sim.time() + self.sim.look_ahead() + self.supply.samples();
         while let Some(item) = self.supply.next_until(horizon)? {
             match item {
                 Item::Enter(entry) => self.sim.enter(entry)?,

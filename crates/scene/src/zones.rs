@@ -44,8 +44,8 @@ impl Draft<'_> {
                 test: entry.test.or(recorded.map(|z| z.test)).unwrap_or_default(),
             };
             if let Some(gate) = &stream.gate {
-                let given =
-                    Gate { zone, gravity: Some(self.model().gravity.into()), plant: entry.plant.clone() };
+                let (gravity, plant) = (Some(self.model().gravity.into()), entry.plant.clone());
+                let given = Gate { zone, gravity, plant, samples: None };
                 given.fits(&self.check, &key, gate, &stream.name)?;
             }
             self.feed(stream, zone)?;

@@ -63,6 +63,29 @@ fn paths_lead_on_to_where_the_undivided_plant_has_its_grains() {
     assert!(median < 1e-6 && most < 1e-3, "{median} m, {most} m apart");
 }
 
+/// Samples that are farther apart than a run reads ahead (256 of its steps): grains are between them all the same, not on a straight line
+/// on from the last one.
+#[test]
+fn a_small_step_downstream_follows_the_same_paths() {
+    let folder = plant();
+    let done = line(
+        folder.path(),
+        "dem-run up.toml --set time.dt=4e-6 --set outlet.0.samples=4e-4 -o up.mcap \
+         && stage-replay up.mcap --keep-times -o in.mcap \
+         && dem-run down.toml in.mcap --set time.dt=4e-6 --until 0.06 -o large.mcap \
+         && dem-run down.toml in.mcap --set time.dt=1e-6 --until 0.06 -o small.mcap",
+    );
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let (large, small) =
+        (places(&folder.path().join("large.mcap")), places(&folder.path().join("small.mcap")));
+    assert!(large.len() > 3 && large.keys().eq(small.keys()), "{} grains, {}", large.len(), small.len());
+    assert!(large.values().all(|p| p[2] > 0.0), "in the zone");
+    for (id, p) in &large {
+        let apart = (0..3).map(|a| (p[a] - small[id][a]).abs()).fold(0.0, f64::max);
+        assert!(apart < 1e-11, "grain {id} is {apart} m apart");
+    }
+}
+
 #[test]
 fn what_does_not_go_with_paths_is_refused() {
     let folder = plant();
