@@ -78,6 +78,15 @@ fn matches(entry: &Contact, a: &str, b: &str) -> Option<usize> {
     hit.then(|| [p, q].iter().filter(|s| s.as_str() != "*").count())
 }
 
+/// Which entry holds between two materials: the first of the most specific ones.
+pub(crate) fn most_specific(entries: &[Contact], a: &str, b: &str) -> Option<usize> {
+    let mut best: Option<(usize, usize)> = None;
+    for (i, entry) in entries.iter().enumerate() {
+        best = best.max(matches(entry, a, b).map(|rank| (rank, usize::MAX - i)));
+    }
+    best.map(|(_, i)| usize::MAX - i)
+}
+
 fn best<'e>(
     check: &Check,
     entries: &'e [Contact],

@@ -1,6 +1,7 @@
 //! A scene cut in two at a plane: the stage upstream records, the stage downstream lets in (SYSTEMS B1–B7).
 
 mod files;
+mod mark;
 mod sides;
 mod sources;
 mod walls;
@@ -66,7 +67,8 @@ pub fn split(scene: &Scene, cut: &Cut) -> Result<(String, Vec<String>), SceneErr
     let (text, gone) = stage(scene, cut)?;
     // Both stages carry the mark of the one upstream: a record of another one is refused.
     let upstream = Cut { keep: Stage::Upstream, folder: scene.folder.clone(), ..cut.clone() };
-    let plant = mark(&stage(scene, &upstream)?.0);
+    let before = Scene::new(&scene.text.name, stage(scene, &upstream)?.0, &[], &scene.folder)?;
+    let plant = Cutting { scene: &before, cut: &upstream, largest: largest(&before)? }.mark()?;
     let mut document = Text::new(&scene.text.name, text).document()?;
     let kind = cut.keep.zone();
     let tables = document.get_mut(kind).and_then(Item::as_array_of_tables_mut);
@@ -74,15 +76,6 @@ pub fn split(scene: &Scene, cut: &Cut) -> Result<(String, Vec<String>), SceneErr
         zone.insert("plant", value(plant));
     }
     Ok((document.to_string(), gone))
-}
-
-/// What a stage upstream is, whatever its end and its output: the beginning of a hash of its keys and values.
-fn mark(text: &str) -> String {
-    let mut table: toml::Table = toml::from_str(text).unwrap_or_default();
-    ["time", "output", "guards", "neighbours", "precision"].iter().for_each(|key| drop(table.remove(*key)));
-    let mut mark = crate::sha256(&toml::Value::Table(table).to_string());
-    mark.truncate(16);
-    mark
 }
 
 /// The scene of one stage, but for its mark.

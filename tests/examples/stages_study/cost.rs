@@ -38,8 +38,6 @@ pub fn study(folder: &Path, page: &Path) -> Result<(), String> {
                 ),
             )?;
         }
-        // The record is that of another plant, up to the mouth the same.
-        line(folder, "sed -i '/^plant = /d' downstream.toml")?;
         if k == 0 {
             upstream = timed(folder, &format!("dem-run upstream.toml {quiet} -o up.mcap"))?;
         }

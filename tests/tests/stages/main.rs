@@ -1,6 +1,7 @@
 //! A plant cut in two: the stages are scenes, crossings keep their intervals, and pipes change no byte.
 
 mod live;
+mod marks;
 mod motions;
 mod paths;
 mod replays;

@@ -1,0 +1,142 @@
+//! The mark of a plant: what its flow through the cut surely depends on, so that a record is refused where it does not belong.
+//!
+//! It takes, of the stage upstream: gravity, domain and drag; the grains, and the walls that have an end and begin before the cut, files
+//! by what is in them; their materials, and the contacts of its grains. Everything else is left out, unbounded walls among it, though it may
+//! matter: no variant of what lies behind the cut may be refused.
+
+use super::Cutting;
+use super::sides::Range;
+use crate::contacts::most_specific;
+use crate::error::SceneError;
+use crate::input::Input;
+use crate::model::Wall;
+use crate::{mesh_file, particle_file};
+use geom::Vec3;
+use std::collections::BTreeSet;
+use std::fs::File;
+use toml::{Table, Value};
+
+/// What a mark is made of.
+#[derive(Default)]
+struct Kept {
+    table: Table,
+    /// Materials of grains, and of walls.
+    grains: BTreeSet<String>,
+    walls: BTreeSet<String>,
+}
+
+/// A wall that has an end.
+pub struct Bounded {
+    pub range: Range,
+    /// SHA-256 of its shape.
+    hash: String,
+    /// Materials that its file names.
+    materials: Vec<String>,
+}
+
+impl Cutting<'_> {
+    /// The beginning of a hash, of a scene that is a stage upstream.
+    pub fn mark(&self) -> Result<String, SceneError> {
+        let all: Table = toml::from_str(&self.scene.text.toml).unwrap_or_default();
+        let mut kept = Kept::default();
+        for key in ["gravity", "domain", "drag", "fill", "insert"] {
+            kept.table.extend(all.get(key).map(|value| (key.to_owned(), value.clone())));
+        }
+        self.mark_grains(&all, &mut kept)?;
+        self.mark_walls(&all, &mut kept);
+        self.mark_materials(&all, &mut kept);
+        let mut mark = crate::sha256(&Value::Table(kept.table).to_string());
+        mark.truncate(16);
+        Ok(mark)
+    }
+
+    /// Where grains come from; of an inlet its place, and the mark that it has itself.
+    fn mark_grains(&self, all: &Table, kept: &mut Kept) -> Result<(), SceneError> {
+        let m = &self.scene.model;
+        kept.grains.extend(m.fill.iter().map(|f| f.material.clone()));
+        kept.grains.extend(m.insert.iter().map(|f| f.material.clone()));
+        let mut files = entries(all, "particles");
+        for (entry, table) in m.particles.iter().zip(&mut files) {
+            let file = particle_file::read(&self.scene.folder.join(&entry.source))?;
+            kept.grains.extend(entry.material.clone());
+            kept.grains.extend(file.materials.into_iter().map(|m| m.name));
+            table.insert("source".to_owned(), file.hash.into());
+        }
+        kept.put("particles", files);
+        let mut inlets = entries(all, "inlet");
+        inlets.iter_mut().for_each(|table| table.retain(|key, _| key == "plane" || key == "plant"));
+        kept.put("inlet", inlets);
+        Ok(())
+    }
+
+    fn mark_walls(&self, all: &Table, kept: &mut Kept) {
+        let mut walls = Vec::new();
+        for (wall, mut table) in self.scene.model.wall.iter().zip(entries(all, "wall")) {
+            let begins = |b: &Bounded| b.range.0 <= self.largest / 2.0;
+            let Some(bounded) = self.bounded(wall).filter(begins) else { continue };
+            kept.walls.extend(bounded.materials);
+            kept.walls.extend(wall.material.clone());
+            ["name", "mesh", "source"].iter().for_each(|key| drop(table.remove(*key)));
+            table.insert("shape".to_owned(), bounded.hash.into());
+            walls.push(table);
+        }
+        kept.put("wall", walls);
+    }
+
+    /// Materials that something kept is of, and what holds between its grains, and between grains and its walls.
+    fn mark_materials(&self, all: &Table, kept: &mut Kept) {
+        let named = |t: &Table| {
+            let name = t.get("name").and_then(Value::as_str).unwrap_or_default();
+            kept.grains.contains(name) || kept.walls.contains(name)
+        };
+        let materials = entries(all, "material").into_iter().filter(named).collect();
+        let (tables, mut contacts) = (entries(all, "contact"), Vec::new());
+        for a in &kept.grains {
+            for b in kept.grains.union(&kept.walls) {
+                let in_force = most_specific(&self.scene.model.contact, a, b).and_then(|i| tables.get(i));
+                if let Some(mut table) = in_force.cloned() {
+                    table.insert("between".to_owned(), vec![a.clone(), b.clone()].into());
+                    contacts.push(table);
+                }
+            }
+        }
+        kept.put("material", materials);
+        kept.put("contact", contacts);
+    }
+
+    /// A wall that has an end and whose file can be read now.
+    pub fn bounded(&self, wall: &Wall) -> Option<Bounded> {
+        if let Some(file) = &wall.mesh {
+            let path = self.scene.folder.join(file);
+            let mesh = mesh_file::read(&path).ok()?;
+            let range = self.of_points(mesh.vertices.iter().map(|v| (*v, 0.0)));
+            let hash = stream::sha256(&std::fs::read(&path).ok()?);
+            return Some(Bounded { range, hash, materials: Vec::new() });
+        }
+        let path = self.scene.folder.join(wall.source.as_ref()?);
+        let file = File::open(&path).ok()?;
+        match Input::open(&path.display().to_string(), Box::new(file)).ok()? {
+            Input::Walls(walls) if walls.velocity == Vec3::zeros() => Some(Bounded {
+                range: self.of_points(walls.spheres.iter().map(|s| (s.0, s.1))),
+                hash: walls.hash.clone(),
+                materials: walls.materials.iter().map(|m| m.name.clone()).collect(),
+            }),
+            _ => None,
+        }
+    }
+}
+
+impl Kept {
+    fn put(&mut self, key: &str, tables: Vec<Table>) {
+        if !tables.is_empty() {
+            let tables = tables.into_iter().map(Value::Table).collect();
+            self.table.insert(key.to_owned(), Value::Array(tables));
+        }
+    }
+}
+
+/// The entries of a list of a scene.
+fn entries(all: &Table, key: &str) -> Vec<Table> {
+    let list = all.get(key).and_then(Value::as_array).map_or(&[][..], Vec::as_slice);
+    list.iter().filter_map(Value::as_table).cloned().collect()
+}
