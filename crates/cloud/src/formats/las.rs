@@ -49,7 +49,12 @@ fn decode(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
     let bytes = Bytes(Arc::new(bytes));
     let parts: Vec<_> = shares(&firsts, promised, threads as u64)
         .windows(2)
-        .map(|w| Part { from: w[0], to: w[1], at_once: CHUNK.min(ROOM / size / threads as u64).max(1) })
+        .map(|w| Part {
+            from: w[0],
+            to: w[1],
+            promised,
+            at_once: CHUNK.min(ROOM / size / threads as u64).max(1),
+        })
         .collect();
     let read = |part: &Part| part.read(bytes.clone());
     let parts: Vec<Result<Rows, ReadError>> = std::thread::scope(|scope| {
@@ -84,6 +89,8 @@ fn shares(firsts: &[u64], promised: u64, threads: u64) -> Vec<u64> {
 struct Part {
     from: u64,
     to: u64,
+    /// Points of the whole file.
+    promised: u64,
     at_once: u64,
 }
 
@@ -116,8 +123,9 @@ impl Part {
             }
             let chunk = reader.read_points(self.at_once.min(self.to - at)).map_err(|e| broken(e, at))?;
             if chunk.is_empty() {
+                let promised = self.promised;
                 let what =
-                    format!("the header promises {} points, the file ends before: it is cut off", self.to);
+                    format!("the header promises {promised} points, the file ends before: it is cut off");
                 return Err(broken(what, at));
             }
             let points =

@@ -84,6 +84,14 @@ fn number(bytes: &[u8], at: usize, size: usize) -> Option<u64> {
     Some(bytes.iter().rev().fold(0, |n, &byte| (n << 8) | u64::from(byte)))
 }
 
+/// Where the table of chunks is.
+fn table_at(bytes: &[u8]) -> Option<u64> {
+    let points = number(bytes, 96, 4)?;
+    let behind = |at: &u64| *at as i64 > points as i64;
+    let table = number(bytes, points as usize, 8).filter(behind);
+    table.or_else(|| number(bytes, bytes.len().checked_sub(8)?, 8).filter(behind))
+}
+
 /// Refuses an extended record that is longer than the file, and a table of more chunks than the file has bytes.
 ///
 /// # Errors
@@ -103,11 +111,7 @@ pub(super) fn before_the_header(bytes: &[u8]) -> Result<(), String> {
     }
     let chunks = || {
         let packed = number(bytes, 104, 1)? & 0xc0 != 0;
-        let points = number(bytes, 96, 4)?;
-        let behind = |at: &u64| *at as i64 > points as i64;
-        let table = number(bytes, points as usize, 8).filter(behind);
-        let table = table.or_else(|| number(bytes, length.checked_sub(8)?, 8).filter(behind))?;
-        number(bytes, (table as usize).checked_add(4)?, 4).filter(|_| packed)
+        number(bytes, (table_at(bytes)? as usize).checked_add(4)?, 4).filter(|_| packed)
     };
     match chunks() {
         Some(chunks) if chunks > length as u64 => {
@@ -141,12 +145,14 @@ pub(super) fn before_the_points(bytes: &[u8], header: &Header) -> Result<Vec<u64
     let table = ChunkTable::read_from(&mut source, &vlr).ok();
     let table = table.as_ref().map_or(&[][..], |t| t.as_ref());
     let total = table.iter().fold(0u64, |sum, c| sum.saturating_add(c.byte_count));
-    let mut whole = total <= bytes.len() as u64;
+    // Chunks of points packed one by one do not tell their length: those of the table must end where it begins.
+    let mut whole = start.checked_add(8).and_then(|first| first.checked_add(total)) == table_at(bytes);
     if vlr.items().first().is_some_and(|item| item.version() > 2) {
         let fixed = (!vlr.uses_variable_size_chunks()).then(|| u64::from(vlr.chunk_size()));
         let points = |k: usize| fixed.or(table.get(k).map(|c| c.point_count)).filter(|&n| n > 0);
         let head = Head { size: size as usize, items: vlr.items().iter().map(|i| i.item_type()).collect() };
         // Chunks follow each other, whatever the table says. One that counts no point never ends.
+        whole = true;
         let (mut at, mut left, mut k) = (start as usize + 8, header.number_of_points(), 0);
         while left > 0
             && let Some(length) = head.length(bytes, at, k)?
@@ -156,13 +162,16 @@ pub(super) fn before_the_points(bytes: &[u8], header: &Header) -> Result<Vec<u64
             (at, k) = (at + length, k + 1);
         }
     }
-    let mut first = 0u64;
-    let firsts = table.iter().map(|c| {
-        let own = first;
-        first = first.saturating_add(c.point_count);
-        own
-    });
-    let firsts: Vec<u64> = firsts.take_while(|&f| f < header.number_of_points()).collect();
+    let (mut first, mut firsts) = (0u64, Vec::new());
+    for chunk in table {
+        if first >= header.number_of_points() {
+            break;
+        }
+        // The reader looks for a point as if all chunks before had as many as its own.
+        whole &= first.checked_rem(chunk.point_count) == Some(0);
+        firsts.push(first);
+        first = first.saturating_add(chunk.point_count);
+    }
     Ok(if whole && !firsts.is_empty() { firsts } else { vec![0] })
 }
 
@@ -207,5 +216,40 @@ fn layers_of(item: LazItemType) -> usize {
         LazItemType::RGBNIR14 => 2,
         LazItemType::Byte14(count) => usize::from(count),
         _ => 1,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Points of format 1, packed in chunks of 50 000.
+    fn packed(points: u32) -> Vec<u8> {
+        let mut builder = las::Builder::from((1, 2));
+        builder.point_format = las::point::Format::new(1).unwrap();
+        builder.point_format.is_compressed = true;
+        let header = builder.into_header().unwrap();
+        let mut writer = las::Writer::new(Cursor::new(Vec::new()), header).unwrap();
+        for k in 0..points {
+            let x = f64::from(k.wrapping_mul(2_654_435_769) >> 16);
+            let point = las::Point { x, gps_time: Some(f64::from(k)), ..las::Point::default() };
+            writer.write_point(point).unwrap();
+        }
+        writer.into_inner().unwrap().into_inner()
+    }
+
+    fn firsts(bytes: &[u8]) -> Vec<u64> {
+        before_the_points(bytes, &Header::new(Cursor::new(bytes)).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn chunks_that_do_not_end_at_their_table_are_read_one_after_the_other() {
+        let mut bytes = packed(120_000);
+        assert_eq!(firsts(&bytes), [0, 50_000, 100_000]);
+        let table = table_at(&bytes).unwrap();
+        bytes.splice(table as usize..table as usize, [0; 16]);
+        let start = number(&bytes, 96, 4).unwrap() as usize;
+        bytes[start..start + 8].copy_from_slice(&(table + 16).to_le_bytes());
+        assert_eq!(firsts(&bytes), [0]);
     }
 }
