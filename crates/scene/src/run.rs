@@ -148,6 +148,8 @@ struct Run<W: Write> {
     crossings: Vec<Crossing>,
     /// Steps between samples of paths, where any are recorded.
     sampling: Option<u64>,
+    /// After how many steps they were sampled last, or saved.
+    sampled: Option<u64>,
     paths: Vec<Waypoint>,
     outcome: Outcome,
     /// Kinetic energy and balance [J] of the frame that has just been written.
@@ -178,9 +180,7 @@ pub fn run<W: Write>(
     let first = run.sim.steps();
     let reason = loop {
         let step = run.sim.steps();
-        if step == 0 || step > first {
-            run.sample(step)?;
-        }
+        run.sample()?;
         if let Err(halt) = run.look(step, first)? {
             break Some(stopped(scene, step, halt)?);
         }
@@ -273,6 +273,7 @@ impl<W: Write> Run<W> {
             return Err(SceneError::file("--resume", why, "give a later --until").into());
         }
         let sampling = sampling(scene, sim.dt())?;
+        let sampled = Some(sim.steps()).filter(|step| *step > 0);
         let every = sampling.map(|steps| steps as f64 * sim.dt());
         let gate = |(i, zone): (usize, &dem::setup::Zone)| {
             let plant = scene.model.outlet.get(i).and_then(|o| o.plant.clone());
@@ -306,6 +307,7 @@ impl<W: Write> Run<W> {
             precision: scene.model.output.precision,
             crossings: Vec::new(),
             sampling,
+            sampled,
             paths: Vec::new(),
             looked: None,
             watched: false,
@@ -452,8 +454,10 @@ impl<W: Write> Run<W> {
     }
 
     /// Notes where grains are on their way to storage planes of recorded motion.
-    fn sample(&mut self, step: u64) -> Result<(), RunError> {
-        if self.sampling.is_some_and(|every| step.is_multiple_of(every)) {
+    fn sample(&mut self) -> Result<(), RunError> {
+        let step = self.sim.steps();
+        let new = self.sampled.replace(step) != Some(step);
+        if new && self.sampling.is_some_and(|every| step.is_multiple_of(every)) {
             let time = self.sim.time();
             self.paths.extend(self.sim.sample_paths().iter().map(|s| Waypoint::new(time, s)));
             if self.paths.len() >= SAMPLES_HELD {
@@ -509,6 +513,8 @@ impl<W: Write> Run<W> {
         match self.before.take() {
             Some(before) if !self.sim.is_finite() => self.go_back(reason, before),
             _ => {
+                // What is saved was looked at: the run that goes on does not look again.
+                self.sample()?;
                 self.write_crossings()?;
                 self.log("stopped", &reason)?;
                 self.write_checkpoint()?;

@@ -86,6 +86,35 @@ fn a_small_step_downstream_follows_the_same_paths() {
     }
 }
 
+/// Rows of the paths of a run.
+fn samples(path: &Path) -> usize {
+    let rows = |event: Event| match event {
+        Event::Points { topic, table, .. } if topic == "/crossings/paths" => table.rows(),
+        _ => 0,
+    };
+    Reader::new(fs::File::open(path).unwrap()).map(|e| rows(e.unwrap())).sum()
+}
+
+/// A run that a guard stops between two frames and the one that goes on from it have all samples between them.
+#[test]
+fn no_sample_is_lost_where_a_guard_stopped_the_run() {
+    let folder = plant();
+    let all = "--set time.dt=4e-6 --set outlet.0.samples=4e-6 --until 0.08";
+    let done = line(folder.path(), &format!("dem-run up.toml {all} --set guards.motion=6e-4 -o part.mcap"));
+    assert!(done.code == 3 && done.stderr.contains("in one step"), "{}", done.stderr);
+    let done = line(
+        folder.path(),
+        &format!(
+            "dem-run up.toml {all} -o whole.mcap && dem-run up.toml {all} --resume part.mcap -o rest.mcap"
+        ),
+    );
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let [whole, part, rest] =
+        ["whole", "part", "rest"].map(|n| samples(&folder.path().join(format!("{n}.mcap"))));
+    assert!(part > 1000 && rest > 1000, "{part} and {rest}");
+    assert_eq!(part + rest, whole);
+}
+
 #[test]
 fn what_does_not_go_with_paths_is_refused() {
     let folder = plant();
