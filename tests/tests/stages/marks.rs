@@ -52,7 +52,7 @@ plane = "0,0,-0.5,0,0,1"
 material = "liner"
 "#;
 
-/// A triangle, its lowest corner at `low` [m].
+/// A triangle 0.05 m high, its lowest corner at `low` [m].
 fn triangle(path: &Path, low: f64) {
     let text = format!(
         "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n\
@@ -78,7 +78,7 @@ fn a_mark_tells_another_upstream_stage_and_no_other_downstream_one() {
     for (file, low) in [("hopper.ply", 0.05), ("hopper2.ply", 0.051), ("copy.ply", 0.05)] {
         triangle(&folder.join(file), low);
     }
-    for (file, low) in [("chute.ply", -0.2), ("chute2.ply", -0.3)] {
+    for (file, low) in [("chute.ply", -0.2), ("chute2.ply", -0.05)] {
         triangle(&folder.join(file), low);
     }
     let first = mark(folder, PLANT, "upstream");

@@ -1,8 +1,8 @@
 //! The mark of a plant: what its flow through the cut surely depends on, so that a record is refused where it does not belong.
 //!
-//! It takes, of the stage upstream: gravity, domain and drag; the grains, and the walls that have an end and begin before the cut, files
-//! by what is in them; their materials, and the contacts of its grains. Everything else is left out, unbounded walls among it, though it may
-//! matter: no variant of what lies behind the cut may be refused.
+//! It takes, of the stage upstream: gravity, domain and drag; the grains, and the walls that have an end and begin more than half a grain
+//! before the cut, files by what is in them; their materials, and the contacts of its grains. Everything else is left out, unbounded walls
+//! among it, though it may matter: no variant of what lies behind the cut may be refused.
 
 use super::Cutting;
 use super::sides::Range;
@@ -72,8 +72,9 @@ impl Cutting<'_> {
     fn mark_walls(&self, all: &Table, kept: &mut Kept) {
         let mut walls = Vec::new();
         for (wall, mut table) in self.scene.model.wall.iter().zip(entries(all, "wall")) {
-            let begins = |b: &Bounded| b.range.0 <= self.largest / 2.0;
-            let Some(bounded) = self.bounded(wall).filter(begins) else { continue };
+            // One that reaches up to the cut, or hardly beyond it, is of the stage downstream.
+            let before = |b: &Bounded| b.range.0 < -self.largest / 2.0;
+            let Some(bounded) = self.bounded(wall).filter(before) else { continue };
             kept.walls.extend(bounded.materials);
             kept.walls.extend(wall.material.clone());
             ["name", "mesh", "source"].iter().for_each(|key| drop(table.remove(*key)));
