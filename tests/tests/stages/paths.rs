@@ -70,10 +70,12 @@ fn a_small_step_downstream_follows_the_same_paths() {
     let folder = plant();
     let done = line(
         folder.path(),
-        "dem-run up.toml --set time.dt=4e-6 --set outlet.0.samples=4e-4 -o up.mcap \
+        // The last frame is a quarter of the way from one sample to the next.
+        "frame='--set output.every=0.030052 --until 0.060104'; \
+         dem-run up.toml --set time.dt=4e-6 --set outlet.0.samples=4e-4 -o up.mcap \
          && stage-replay up.mcap --keep-times -o in.mcap \
-         && dem-run down.toml in.mcap --set time.dt=4e-6 --until 0.06 -o large.mcap \
-         && dem-run down.toml in.mcap --set time.dt=1e-6 --until 0.06 -o small.mcap",
+         && dem-run down.toml in.mcap --set time.dt=4e-6 $frame -o large.mcap \
+         && dem-run down.toml in.mcap --set time.dt=1e-6 $frame -o small.mcap",
     );
     assert_eq!(done.code, 0, "{}", done.stderr);
     let (large, small) =
