@@ -191,7 +191,11 @@ fn a_killed_upstream_stage_fails_every_later_one_and_leaves_nothing() {
     for (name, child) in [("stage-replay", replay), ("dem-run", down)] {
         let done = Done::from(child.wait_with_output().unwrap());
         assert!(done.code == 1 && done.stderr.contains("truncated"), "{name}: {} {}", done.code, done.stderr);
-        assert!(done.stderr.contains(&format!("{name}: ")) && done.stderr.contains("stdin: "), "{}", done.stderr);
+        assert!(
+            done.stderr.contains(&format!("{name}: ")) && done.stderr.contains("stdin: "),
+            "{}",
+            done.stderr
+        );
     }
     assert!(in_time, "the output was not begun within a minute");
     let left: Vec<_> = fs::read_dir(folder.path()).unwrap().map(|e| e.unwrap().file_name()).collect();
