@@ -25,8 +25,8 @@ pub struct Args {
     /// How points are chosen
     #[arg(long, value_enum, default_value = "poisson")]
     method: Choice,
-    /// Which distances count where two sheets are closer than the spacing (the grid's are those of space)
-    #[arg(long, value_enum, default_value = "surface")]
+    /// Which distances count where two sheets are closer than the spacing: of space, or along the surface, so that the sides of a thin plate do not thin each other (slower; wants noise well below the spacing of the scan; the grid's are those of space)
+    #[arg(long, value_enum, default_value = "space")]
     distance: Along,
     /// Keep all points whose property `filled` is 1
     #[arg(long)]
