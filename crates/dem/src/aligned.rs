@@ -23,9 +23,7 @@ impl Aligned {
         let first = room.as_ptr().align_offset(LINE * size_of::<f64>()).min(LINE);
         Aligned { room, first, len }
     }
-}
 
-impl Aligned {
     /// `len` zeros, in the same place where there are so many.
     pub fn clear(&mut self, len: usize) {
         match self.len == len {

@@ -117,8 +117,6 @@ pub trait Four: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Se
     fn write(self, to: &mut [f64; 4]);
     /// The same number four times.
     fn all(x: f64) -> Self;
-    /// The opposite where `yes`.
-    fn turned_if(self, yes: bool) -> Self;
 }
 
 /// A vector of lanes.

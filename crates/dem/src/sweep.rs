@@ -44,13 +44,7 @@ impl Simulation {
             Pass::Recall => self.add_again(),
             Pass::Loads | Pass::Step => self.compute(pass == Pass::Loads),
         };
-        let moved = match pass {
-            Pass::Loads | Pass::Recall => {
-                self.collect();
-                Moved::default()
-            }
-            Pass::Move | Pass::Step => self.finish(pass == Pass::Step),
-        };
+        let moved = self.finish(pass != Pass::Move, matches!(pass, Pass::Move | Pass::Step));
         Found { deep, moved }
     }
 
@@ -105,22 +99,9 @@ impl Simulation {
         .any(|found| found)
     }
 
-    /// Adds what arrives at each tile from others.
-    fn collect(&mut self) {
-        let many = self.particles.len() >= FEW;
-        let (lists, part, mut sums) = self.contacts.parts(stride(self.particles.rotates()));
-        let mut items = Vec::with_capacity(lists.tiles.len());
-        for tile in 0..lists.tiles.len() - 1 {
-            let (mine, others) = sums.split(lists.tile);
-            sums = others;
-            items.push((tile, mine));
-        }
-        share(many, items, |(tile, mut sums)| sums.collect(lists.arriving(tile), part.kept()));
-    }
-
-    /// The like, unless it has been done, and the move.
-    fn finish(&mut self, collect: bool) -> Moved {
-        if self.setup.drag.is_some() {
+    /// Second half: adds what arrives at each tile from others, and moves its particles, where that is to be done.
+    fn finish(&mut self, collects: bool, moves: bool) -> Moved {
+        if moves && self.setup.drag.is_some() {
             self.before.clone_from(&self.particles.rows);
         }
         let Particles { rows, acceleration, spins, turning, home, .. } = &mut self.particles;
@@ -140,13 +121,15 @@ impl Simulation {
         let (dt, motion_limit, width) = (self.dt, self.setup.guards.motion, self.width);
         let drive = Drive { dt, gravity: [g.x, g.y, g.z], motion_limit };
         let moved = share(many, items, |(tile, mut columns)| {
-            if collect {
+            if collects {
                 columns.sums.collect(lists.arriving(tile), part.kept());
             }
-            advance_awake(width, columns, &drive, &lists)
+            if moves { advance_awake(width, columns, &drive, &lists) } else { Moved::default() }
         });
-        // Until now: sleepers are looked at after each listing.
-        self.contacts.new = false;
+        if moves {
+            // Until now: sleepers are looked at after each listing.
+            self.contacts.new = false;
+        }
         moved.into_iter().fold(Moved::default(), Moved::and)
     }
 

@@ -97,10 +97,6 @@ impl Four for Each {
     fn all(x: f64) -> Each {
         Each([x; 4])
     }
-    #[inline(always)]
-    fn turned_if(self, yes: bool) -> Each {
-        if yes { Each(self.0.map(|x| -x)) } else { self }
-    }
 }
 
 macro_rules! each {

@@ -339,11 +339,4 @@ impl Four for X4 {
     fn all(x: f64) -> X4 {
         X4::splat(x)
     }
-    #[inline(always)]
-    fn turned_if(self, yes: bool) -> X4 {
-        // SAFETY: see the module's head. The sign bit, by arithmetic: a branch would be guessed wrong every other time.
-        let sign = unsafe { _mm256_castsi256_pd(_mm256_set1_epi64x((yes as i64) << 63)) };
-        // SAFETY: as above.
-        unsafe { self.flip(sign) }
-    }
 }
