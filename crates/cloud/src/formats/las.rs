@@ -1,12 +1,13 @@
 //! LAS and LAZ, by the `las` crate.
 
-use super::laz::{self, Bytes, STACK, Shallow};
+use super::laz::{self, Bytes, Chunk, STACK, Shallow};
 use super::{ReadError, catch};
 use crate::Cloud;
 use geom::Vec3;
 use las::{Header, LazParallelism, PointData, Reader, ReaderOptions};
 use std::io::Cursor;
 use std::sync::Arc;
+use std::sync::atomic::Ordering;
 use std::thread::ScopedJoinHandle;
 use stream::{Table, Values};
 
@@ -34,7 +35,7 @@ fn broken(what: impl ToString, point: u64) -> ReadError {
 fn decode(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
     laz::before_the_header(&bytes).map_err(|e| broken(e, 0))?;
     let header = Header::new(Cursor::new(&bytes)).map_err(|e| broken(e, 0))?;
-    let firsts = laz::before_the_points(&bytes, &header).map_err(|e| broken(e, 0))?;
+    let chunks = laz::before_the_points(&bytes, &header).map_err(|e| broken(e, 0))?;
     let length = bytes.len() as u64;
     let (promised, format) = (header.number_of_points(), header.point_format());
     let size = u64::from(format.len()).max(1);
@@ -46,29 +47,12 @@ fn decode(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
         ));
     }
     let threads = if length < SMALL { 1 } else { rayon::current_num_threads().max(1) };
-    let bytes = Bytes(Arc::new(bytes));
-    let parts: Vec<_> = shares(&firsts, promised, threads as u64)
-        .windows(2)
-        .map(|w| Part {
-            from: w[0],
-            to: w[1],
-            promised,
-            at_once: CHUNK.min(ROOM / size / threads as u64).max(1),
-        })
-        .collect();
-    let read = |part: &Part| part.read(bytes.clone());
-    let parts: Vec<Result<Rows, ReadError>> = std::thread::scope(|scope| {
-        let spawn =
-            |part| std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, move || read(part));
-        let running: Vec<_> = parts.iter().map(spawn).collect();
-        let outcome = |thread: std::io::Result<ScopedJoinHandle<_>>| match thread {
-            Ok(thread) => thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
-            Err(why) => Err(ReadError::Io(why)),
-        };
-        running.into_iter().map(outcome).collect()
-    });
-    let mut all = Rows::default();
-    parts.into_iter().try_for_each(|part| part.map(|rows| all.append(rows)))?;
+    let file = File { bytes: Bytes(Arc::new(bytes)), promised, size };
+    let all = match file.read(&shares(&chunks, promised, threads as u64))? {
+        Some(all) => all,
+        // Read one after the other there is no question where chunks begin.
+        None => file.read(&[Chunk::default()])?.unwrap_or_default(),
+    };
     let mut attributes = Table::with_rows(all.points.len());
     for (name, values) in all.columns {
         attributes.push(name, values).map_err(|source| ReadError::Table { format: "LAS/LAZ", source })?;
@@ -76,21 +60,59 @@ fn decode(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
     Ok(Cloud { points: all.points, attributes, double: true, ..Cloud::default() })
 }
 
-/// Bounds of the shares of so many threads, at chunks that begin with these points.
-fn shares(firsts: &[u64], promised: u64, threads: u64) -> Vec<u64> {
-    let near = |share: u64| firsts.partition_point(|&first| first < promised / threads * share);
-    let mut bounds: Vec<u64> = (0..threads).filter_map(|t| firsts.get(near(t)).copied()).collect();
-    bounds.push(promised);
-    bounds.dedup();
-    bounds
+/// Where the shares of so many threads begin: at chunks.
+fn shares(chunks: &[Chunk], promised: u64, threads: u64) -> Vec<Chunk> {
+    let near = |share: u64| chunks.partition_point(|c| c.first < promised / threads * share);
+    let mut starts: Vec<Chunk> = (0..threads).filter_map(|t| chunks.get(near(t)).copied()).collect();
+    starts.dedup();
+    starts
+}
+
+/// A file that is read.
+struct File {
+    bytes: Bytes,
+    /// Points of the whole file.
+    promised: u64,
+    /// Of a point [B].
+    size: u64,
+}
+
+impl File {
+    /// Reads every share by a thread of its own. None where one did not end at the byte at which the next began, which the table of
+    /// chunks has wrong then: what was read from there, and what became of it, says nothing.
+    fn read(&self, starts: &[Chunk]) -> Result<Option<Rows>, ReadError> {
+        let at_once = CHUNK.min(ROOM / self.size / starts.len().max(1) as u64).max(1);
+        let ends = starts.iter().skip(1).map(|c| c.first).chain([self.promised]);
+        let parts: Vec<Part> = starts
+            .iter()
+            .zip(ends)
+            .map(|(start, to)| Part { file: self, from: start.first, to, at_once })
+            .collect();
+        let read: Vec<_> = std::thread::scope(|scope| {
+            let spawn = |part| {
+                std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, move || Part::read(part))
+            };
+            let running: Vec<_> = parts.iter().map(spawn).collect();
+            running.into_iter().map(|thread| thread.map(ScopedJoinHandle::join)).collect()
+        });
+        let mut all = Rows::default();
+        for (k, part) in read.into_iter().enumerate() {
+            let part = part.map_err(ReadError::Io)?;
+            let (rows, end) = part.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
+            all.append(rows);
+            if starts.get(k + 1).is_some_and(|next| next.at != end) {
+                return Ok(None);
+            }
+        }
+        Ok(Some(all))
+    }
 }
 
 /// Points that one thread reads.
-struct Part {
+struct Part<'a> {
+    file: &'a File,
     from: u64,
     to: u64,
-    /// Points of the whole file.
-    promised: u64,
     at_once: u64,
 }
 
@@ -108,10 +130,13 @@ impl Rows {
     }
 }
 
-impl Part {
-    fn read(&self, bytes: Bytes) -> Result<Rows, ReadError> {
+impl Part<'_> {
+    /// Its points, and the byte behind them.
+    fn read(&self) -> Result<(Rows, u64), ReadError> {
         let options = ReaderOptions::default().with_laz_parallelism(LazParallelism::No);
-        let mut reader = Reader::with_options(Shallow::new(bytes), options).map_err(|e| broken(e, 0))?;
+        let source = Shallow::new(self.file.bytes.clone());
+        let place = source.place();
+        let mut reader = Reader::with_options(source, options).map_err(|e| broken(e, 0))?;
         if self.from > 0 {
             reader.seek(self.from).map_err(|e| broken(e, self.from))?;
         }
@@ -119,11 +144,11 @@ impl Part {
         loop {
             let at = self.from + rows.points.len() as u64;
             if at >= self.to {
-                return Ok(rows);
+                return Ok((rows, place.load(Ordering::Relaxed)));
             }
             let chunk = reader.read_points(self.at_once.min(self.to - at)).map_err(|e| broken(e, at))?;
             if chunk.is_empty() {
-                let promised = self.promised;
+                let promised = self.file.promised;
                 let what =
                     format!("the header promises {promised} points, the file ends before: it is cut off");
                 return Err(broken(what, at));
@@ -175,5 +200,37 @@ fn append(all: &mut Vec<(&'static str, Values)>, chunk: Vec<(&'static str, Value
             (Values::F64(a), Values::F64(b)) => a.extend(b),
             _ => {}
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::laz::tests::packed;
+    use super::*;
+
+    /// Points of three chunks, by as many threads.
+    fn in_three(bytes: Vec<u8>) -> (File, Vec<Chunk>) {
+        let header = Header::new(Cursor::new(&bytes)).unwrap();
+        let chunks = laz::before_the_points(&bytes, &header).unwrap();
+        let (promised, size) = (header.number_of_points(), u64::from(header.point_format().len()));
+        let starts = shares(&chunks, promised, 3);
+        (File { bytes: Bytes(Arc::new(bytes)), promised, size }, starts)
+    }
+
+    #[test]
+    fn chunks_that_begin_elsewhere_than_the_table_says_are_read_one_after_the_other() {
+        let bytes = packed(120_000);
+        let (file, starts) = in_three(bytes.clone());
+        assert_eq!(starts.iter().map(|c| c.first).collect::<Vec<_>>(), [0, 50_000, 100_000]);
+        let whole = file.read(&starts).unwrap().expect("a sound table is believed").points;
+        // The lengths of the first and the last chunk, exchanged: all end where the table begins all the same.
+        let swapped = laz::tests::with_lengths(&bytes, [2, 1, 0]);
+        assert_ne!(swapped, bytes);
+        let (file, starts) = in_three(swapped.clone());
+        assert_eq!(starts.len(), 3, "nothing is seen before points are read");
+        assert!(file.read(&starts).unwrap().is_none(), "what is read from wrong places is not believed");
+        let mut large = swapped;
+        large.resize(large.len().max(SMALL as usize), 0);
+        assert!(decode(large).unwrap().points == whole);
     }
 }

@@ -21,6 +21,7 @@ use laz::LazItemType;
 use laz::laszip::ChunkTable;
 use std::io::{self, Cursor, Read, Seek, SeekFrom};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Head of an extended record [B].
 const RECORD: usize = 60;
@@ -43,16 +44,26 @@ impl AsRef<[u8]> for Bytes {
     }
 }
 
-/// A source that is not read on from a stack that has become [`DEEP`].
+/// A source that is not read on from a stack that has become [`DEEP`], and that tells how far it has been read.
 pub(super) struct Shallow {
     from: Cursor<Bytes>,
     base: usize,
+    place: Arc<AtomicU64>,
 }
 
 impl Shallow {
     /// To be made in the thread that reads.
     pub(super) fn new(bytes: Bytes) -> Shallow {
-        Shallow { from: Cursor::new(bytes), base: here() }
+        Shallow { from: Cursor::new(bytes), base: here(), place: Arc::default() }
+    }
+
+    /// Where it is read next, in bytes of the file, also while a reader owns it.
+    pub(super) fn place(&self) -> Arc<AtomicU64> {
+        self.place.clone()
+    }
+
+    fn at(&self) {
+        self.place.store(self.from.position(), Ordering::Relaxed);
     }
 }
 
@@ -68,13 +79,17 @@ impl Read for Shallow {
         if here().abs_diff(self.base) > DEEP {
             return Err(io::Error::other("the time of a point belongs to no sequence"));
         }
-        self.from.read(into)
+        let read = self.from.read(into);
+        self.at();
+        read
     }
 }
 
 impl Seek for Shallow {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
-        self.from.seek(to)
+        let place = self.from.seek(to);
+        self.at();
+        place
     }
 }
 
@@ -121,15 +136,25 @@ pub(super) fn before_the_header(bytes: &[u8]) -> Result<(), String> {
     }
 }
 
-/// Refuses packed points whose items do not make a point, and layers that are longer than the file. Gives the first point of every
-/// chunk, where each is where the table has it; else only 0: then they can only be read one after the other.
+/// Where a chunk begins, by the table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Chunk {
+    /// Its first point.
+    pub(super) first: u64,
+    /// Its first byte in the file.
+    pub(super) at: u64,
+}
+
+/// Refuses packed points whose items do not make a point, and layers that are longer than the file. Gives the chunks, where they may be
+/// where the table has them; else only the first: then points can only be read one after the other. Chunks of points packed one by one
+/// do not tell their lengths: whether one ends where the next begins is seen when it has been read.
 ///
 /// # Errors
 /// What is claimed.
-pub(super) fn before_the_points(bytes: &[u8], header: &Header) -> Result<Vec<u64>, String> {
+pub(super) fn before_the_points(bytes: &[u8], header: &Header) -> Result<Vec<Chunk>, String> {
     let format = header.point_format();
     if !format.is_compressed {
-        return Ok(vec![0]);
+        return Ok(vec![Chunk::default()]);
     }
     let vlr = header.laz_vlr().map_err(|e| e.to_string())?;
     let size: u64 = vlr.items().iter().map(|item| u64::from(item.size())).sum();
@@ -162,17 +187,20 @@ pub(super) fn before_the_points(bytes: &[u8], header: &Header) -> Result<Vec<u64
             (at, k) = (at + length, k + 1);
         }
     }
-    let (mut first, mut firsts) = (0u64, Vec::new());
+    let (mut next, mut chunks) = (Chunk { first: 0, at: start.saturating_add(8) }, Vec::new());
     for chunk in table {
-        if first >= header.number_of_points() {
+        if next.first >= header.number_of_points() {
             break;
         }
         // The reader looks for a point as if all chunks before had as many as its own.
-        whole &= first.checked_rem(chunk.point_count) == Some(0);
-        firsts.push(first);
-        first = first.saturating_add(chunk.point_count);
+        whole &= next.first.checked_rem(chunk.point_count) == Some(0);
+        chunks.push(next);
+        next = Chunk {
+            first: next.first.saturating_add(chunk.point_count),
+            at: next.at.saturating_add(chunk.byte_count),
+        };
     }
-    Ok(if whole && !firsts.is_empty() { firsts } else { vec![0] })
+    Ok(if whole && !chunks.is_empty() { chunks } else { vec![Chunk::default()] })
 }
 
 /// What stands at the head of a chunk of layers.
@@ -220,11 +248,24 @@ fn layers_of(item: LazItemType) -> usize {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
+    /// The file with the lengths of its chunks in another order in its table.
+    pub(in super::super) fn with_lengths(bytes: &[u8], order: [usize; 3]) -> Vec<u8> {
+        let vlr = Header::new(Cursor::new(bytes)).unwrap().laz_vlr().unwrap();
+        let mut source = Cursor::new(bytes);
+        source.set_position(number(bytes, 96, 4).unwrap());
+        let table = ChunkTable::read_from(&mut source, &vlr).unwrap();
+        let mut new = ChunkTable::with_capacity(order.len());
+        order.iter().for_each(|&k| new.push(table[k]));
+        let mut out = bytes[..table_at(bytes).unwrap() as usize].to_vec();
+        new.write_to(&mut out, &vlr).unwrap();
+        out
+    }
+
     /// Points of format 1, packed in chunks of 50 000.
-    fn packed(points: u32) -> Vec<u8> {
+    pub(in super::super) fn packed(points: u32) -> Vec<u8> {
         let mut builder = las::Builder::from((1, 2));
         builder.point_format = las::point::Format::new(1).unwrap();
         builder.point_format.is_compressed = true;
@@ -238,8 +279,12 @@ mod tests {
         writer.into_inner().unwrap().into_inner()
     }
 
-    fn firsts(bytes: &[u8]) -> Vec<u64> {
+    fn chunks(bytes: &[u8]) -> Vec<Chunk> {
         before_the_points(bytes, &Header::new(Cursor::new(bytes)).unwrap()).unwrap()
+    }
+
+    fn firsts(bytes: &[u8]) -> Vec<u64> {
+        chunks(bytes).iter().map(|c| c.first).collect()
     }
 
     #[test]
