@@ -156,13 +156,16 @@ fn refuse(name: &str, error: &clap::Error) -> ! {
     std::process::exit(i32::from(exit::USAGE))
 }
 
+/// The calling thread is one of them, so that no work is handed to others and back. It follows that threads which a tool starts itself
+/// must not wait for work of this pool while the main thread waits for them.
 fn set_threads(common: &Common) -> anyhow::Result<()> {
-    let Some(threads) = common.threads else { return Ok(()) };
-    if threads.get() > MOST_THREADS {
+    let threads = common.threads.map_or(0, NonZeroUsize::get);
+    if threads > MOST_THREADS {
         return Err(exit::usage(format!("--threads {threads}: give at most {MOST_THREADS}")));
     }
     rayon::ThreadPoolBuilder::new()
-        .num_threads(threads.get())
+        .num_threads(threads)
+        .use_current_thread()
         .build_global()
         .with_context(|| format!("--threads {threads}: cannot start them"))
 }

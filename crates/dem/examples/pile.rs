@@ -13,7 +13,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let args: Vec<String> = std::env::args().collect();
     let steps: u64 = args[2].parse()?;
     if let Some(threads) = args.get(3) {
-        rayon::ThreadPoolBuilder::new().num_threads(threads.parse()?).build_global()?;
+        rayon::ThreadPoolBuilder::new().num_threads(threads.parse()?).use_current_thread().build_global()?;
     }
     let mut particles = Vec::new();
     for line in std::fs::read_to_string(&args[1])?.lines().skip(1) {

@@ -50,7 +50,7 @@ impl Simulation {
 
     /// Loads of all contacts, and their sums within tiles; whether an overlap passes its limit. `looks`: the load of each contact is kept.
     fn compute(&mut self, looks: bool) -> bool {
-        self.contacts.keep_each(looks || self.keeps_each(), stride(self.particles.rotates()));
+        self.contacts.keep_each(looks && self.records || self.keeps_each(), stride(self.particles.rotates()));
         self.for_segments(|part, k, (lists, scenery), sums| part.compute(k, lists, scenery, sums))
     }
 
@@ -148,7 +148,7 @@ impl Simulation {
     }
 }
 
-/// Does something with all items, on all threads where there are many.
+/// Does something with all items, on all threads where there are many: one item at a time, so that all end together.
 fn share<T: Send, R: Send>(many: bool, items: Vec<T>, run: impl Fn(T) -> R + Sync + Send) -> Vec<R> {
-    if many { items.into_par_iter().map(run).collect() } else { items.into_iter().map(run).collect() }
+    if many { items.into_par_iter().with_max_len(1).map(run).collect() } else { items.into_iter().map(run).collect() }
 }
