@@ -1,7 +1,8 @@
 #!/bin/bash
 # The chain from scan to wall spheres, stage by stage and as one pipe, beside pymeshlab and Open3D on the same scans.
-# usage: race-clouds.sh OUT   (the tools on PATH)   environment: SIZES ("277647 2989048"; 50000000 wants 6 GB), ROUNDS (3),
-# LIMIT (6: memory that each tool may use [GB]), PEERS (folder of the virtual environment with pymeshlab and Open3D)
+# usage: race-clouds.sh OUT   (the tools on PATH)   environment: SIZES ("277647 2989048"; above 5000000, such as 50000000, by one pipe
+# alone, from a file of 14 bytes a point), ROUNDS (3), LIMIT (6: memory that each tool may use [GB]), PEERS (folder of the virtual
+# environment with pymeshlab and Open3D)
 # Without SIZES, ROUNDS and LIMIT the table goes to docs/cost.md as well.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
@@ -16,7 +17,7 @@ spacing=0.005 roughness=0.001
 stages=(cloud-crop cloud-fill bluenoise-sample wallgen)
 options_cloud_crop=(--remove halfspace:0,0,0,-1,0,0)
 options_cloud_fill=()
-options_bluenoise_sample=(--spacing $spacing)
+options_bluenoise_sample=(--spacing $spacing --no-measures)
 options_wallgen=(--roughness $roughness)
 
 now() { date +%s.%N; }
@@ -29,6 +30,46 @@ run() {
     local TIMEFORMAT='%R %U %S'
     { (ulimit -v $((limit * 1000 * 1000)); time "$1" -q "$2" "${options[@]}" -o "$3" --report report.json); } 2> log || { cat log >&2; return 1; }
     awk 'END { print $1, $2 + $3 }' log
+}
+
+# The same by one pipe, from a file; each tool leaves its times in TOOL.time and its report in TOOL.json, and the most memory that all had
+# together is in `memory` [GB].
+large() {
+    local size=$1 tool pipe TIMEFORMAT='%R %U %S'
+    chute-scan --points "$size" -q -o scan.ply
+    local start; start=$(now)
+    stage cloud-crop scan.ply | stage cloud-fill | stage bluenoise-sample | stage wallgen > walls.mcap &
+    pipe=$!
+    echo 0 > memory
+    while kill -0 $pipe 2> /dev/null; do
+        together >> memory
+        sleep 0.05
+    done
+    wait $pipe
+    whole_pipe=$(awk -v a="$start" -v b="$(now)" 'BEGIN { print b - a }')
+    for tool in "${stages[@]}"; do
+        cp $tool.json report.json
+        line "$size" "$tool, in the pipe" "$(awk 'END { print $1 }' $tool.time)" "$(awk 'END { print $2 + $3 }' $tool.time)" \
+            "$(awk -v b="$(field report.json peak_memory_bytes)" 'BEGIN { printf "%.2f", b / 1e9 }')" "$(came_out "$tool")"
+    done
+    line "$size" "**the chain, one pipe**" "$(printf %.3f "$whole_pipe")" "–" "$(sort -g memory | tail -1)" "$(field report.json spheres)"
+}
+
+# A tool of the pipe.
+stage() {
+    local -n options=options_${1//-/_}
+    { (ulimit -v $((limit * 1000 * 1000)); time "$1" -q ${2:+"$2"} "${options[@]}" --report "$1.json"); } 2> "$1.time"
+}
+
+# Memory that the tools of this folder have now, together [GB].
+together() {
+    local status total=0 kib
+    for status in /proc/[0-9]*; do
+        [ "$status/cwd" -ef . ] || continue
+        kib=$(awk '/^RssAnon:/ { print $2 }' "$status/status" 2> /dev/null) || continue
+        total=$((total + ${kib:-0}))
+    done
+    awk -v k=$total 'BEGIN { printf "%.2f\n", k * 1024 / 1e9 }'
 }
 
 # The whole chain by one pipe, from a file [s].
@@ -89,8 +130,9 @@ head='| points | work | seconds | processor seconds | peak memory [GB] | points 
 |---|---|---|---|---|---|'
 echo "$head"
 for size in $sizes; do
+    if [ "$size" -gt 5000000 ]; then large "$size"; continue; fi
     ours "$size"
-    [ "$size" -gt 5000000 ] || peer "$size" pymeshlab thin
+    peer "$size" pymeshlab thin
     [ "$size" -gt 500000 ] || peer "$size" open3d surface
 done
 

@@ -173,15 +173,23 @@ impl Input {
         Ok(self.in_metres(cloud))
     }
 
+    /// Reads the rest of a cloud whose beginning was looked at.
+    ///
+    /// # Errors
+    /// As [`Input::read_cloud`].
+    pub fn go_on(&self, opened: stream::ply::Opened<impl Read>) -> anyhow::Result<cloud::Cloud> {
+        let cloud = cloud::formats::go_on(opened).with_context(|| self.name())?;
+        Ok(self.in_metres(cloud))
+    }
+
     /// Reads the cloud, and its name and SHA-256 for [`crate::provenance`].
     ///
     /// # Errors
     /// As [`Input::read_cloud`].
     pub fn read_cloud_hashed(&self) -> anyhow::Result<(cloud::Cloud, (String, String))> {
-        let bytes = self.cloud.read_all()?;
-        let hash = stream::sha256(&bytes);
-        let cloud = cloud::from_bytes(bytes).with_context(|| self.name())?;
-        Ok((self.in_metres(cloud), ("cloud".to_owned(), hash)))
+        let mut from = stream::Hashed::new(self.open()?);
+        let cloud = cloud::read(&mut from).with_context(|| self.name())?;
+        Ok((self.in_metres(cloud), ("cloud".to_owned(), from.sha256())))
     }
 
     /// Scales the cloud, or tells what looks wrong about its numbers; of a pipe, only the tool at its beginning tells.
@@ -190,12 +198,15 @@ impl Input {
             Some(1.0) => {}
             Some(factor) => cloud.scale(factor),
             None if self.cloud == Source::Stdin => {}
-            None => {
-                for doubt in cloud::units::doubts(&cloud) {
-                    crate::warn(&format!("{}: {doubt}", self.name()));
-                }
-            }
+            None => self.tell(&cloud::units::doubts(&cloud)),
         }
         cloud
+    }
+
+    /// Tells what looks wrong about the numbers of a cloud; nothing where the scale is given, or another tool has told it.
+    pub fn tell(&self, doubts: &[cloud::units::Doubt]) {
+        if self.scale.is_none() && self.cloud != Source::Stdin {
+            doubts.iter().for_each(|doubt| crate::warn(&format!("{}: {doubt}", self.name())));
+        }
     }
 }

@@ -4,6 +4,7 @@
 //! isolated points and small parts go when asked.
 
 use crate::outer::{self, Beyond, Outer};
+use crate::points::{TooFar, check_reach};
 use crate::regions::{Action, Region};
 use crate::{Cloud, largest, outliers};
 use geom::{Shape, Vec3};
@@ -64,16 +65,50 @@ pub struct InRegion {
     pub points: usize,
 }
 
+impl Cropped {
+    /// Nothing counted yet.
+    pub(crate) fn of(rules: &Rules) -> Cropped {
+        let none = |r: &Region| InRegion { name: r.name.clone(), action: r.action, points: 0 };
+        Cropped { regions: rules.regions.iter().map(none).collect(), ..Cropped::default() }
+    }
+
+    /// Adds what shapes alone count in a part of the cloud.
+    pub(crate) fn add(&mut self, part: &Cropped) {
+        self.not_finite += part.not_finite;
+        self.regions.iter_mut().zip(&part.regions).for_each(|(all, part)| all.points += part.points);
+    }
+}
+
+/// Shapes that a point is in, or not.
+pub(crate) struct Judge<'a> {
+    keep: Vec<&'a Shape>,
+    remove: Vec<&'a Shape>,
+}
+
+impl Judge<'_> {
+    pub fn new(rules: &Rules) -> Judge<'_> {
+        let of = |action: Action| rules.regions.iter().filter(move |r| r.action == action).map(|r| &r.shape);
+        Judge {
+            keep: rules.keep.iter().chain(of(Action::Keep)).collect(),
+            remove: rules.remove.iter().chain(of(Action::Remove)).collect(),
+        }
+    }
+
+    /// Whether a point [m] stays, as far as shapes say.
+    pub fn stays(&self, p: &Vec3) -> bool {
+        (self.keep.is_empty() || self.keep.iter().any(|s| s.contains(p)))
+            && !self.remove.iter().any(|s| s.contains(p))
+    }
+}
+
 /// The points that stay, in their order, with all their properties.
-pub fn crop(cloud: &Cloud, rules: &Rules) -> (Cloud, Cropped) {
+///
+/// # Errors
+/// A point farther away than distances to others can be computed with, where a rule asks for them and no shape has taken it away.
+pub fn crop(cloud: &Cloud, rules: &Rules) -> Result<(Cloud, Cropped), TooFar> {
     let points = &cloud.points;
     let is_finite = |p: &Vec3| p.x.is_finite() && p.y.is_finite() && p.z.is_finite();
-    let of = |action: Action| rules.regions.iter().filter(move |r| r.action == action).map(|r| &r.shape);
-    let keep: Vec<&Shape> = rules.keep.iter().chain(of(Action::Keep)).collect();
-    let remove: Vec<&Shape> = rules.remove.iter().chain(of(Action::Remove)).collect();
-    let in_shapes = |p: &Vec3| {
-        (keep.is_empty() || keep.iter().any(|s| s.contains(p))) && !remove.iter().any(|s| s.contains(p))
-    };
+    let judge = Judge::new(rules);
     let judged: Vec<(Vec<u32>, usize)> = points
         .par_chunks(CHUNK)
         .enumerate()
@@ -81,7 +116,7 @@ pub fn crop(cloud: &Cloud, rules: &Rules) -> (Cloud, Cropped) {
             let first = (chunk * CHUNK) as u32;
             let finite = (first..).zip(points).filter(|(_, p)| is_finite(p));
             let bad = points.len() - finite.clone().count();
-            (finite.filter(|(_, p)| in_shapes(p)).map(|(i, _)| i).collect(), bad)
+            (finite.filter(|(_, p)| judge.stays(p)).map(|(i, _)| i).collect(), bad)
         })
         .collect();
     let not_finite = judged.iter().map(|(_, bad)| bad).sum();
@@ -96,6 +131,9 @@ pub fn crop(cloud: &Cloud, rules: &Rules) -> (Cloud, Cropped) {
         rows = without(rows, &beyond.rows);
         report.beyond = Some(beyond);
     }
+    if rules.outliers.is_some() || rules.largest.is_some() {
+        check_reach(rows.iter().map(|&r| (r as usize, &points[r as usize])))?;
+    }
     if let Some(rule) = &rules.outliers {
         let before = rows.len();
         rows = refine(points, rows, |p| outliers::inliers(p, rule));
@@ -108,7 +146,7 @@ pub fn crop(cloud: &Cloud, rules: &Rules) -> (Cloud, Cropped) {
     }
     report.points_out = rows.len();
     let all = rows.len() == points.len();
-    (if all { cloud.clone() } else { cloud.select(&rows) }, report)
+    Ok((if all { cloud.clone() } else { cloud.select(&rows) }, report))
 }
 
 fn count(points: &[Vec3], region: &Region) -> InRegion {
@@ -147,10 +185,10 @@ mod tests {
             remove: vec![shape("sphere:2,0,0,0.5")],
             ..Rules::default()
         };
-        let (kept, report) = crop(&cloud, &rules);
+        let (kept, report) = crop(&cloud, &rules).unwrap();
         assert_eq!(kept.attributes.get("id"), Some(&Values::I32(vec![0, 1, 3, 7, 8, 9])));
         assert_eq!((report.not_finite, report.outside_shapes, report.points_out), (1, 4, 6));
-        let (none, _) = crop(&Cloud::default(), &rules);
+        let (none, _) = crop(&Cloud::default(), &rules).unwrap();
         assert!(none.points.is_empty());
     }
 }

@@ -18,20 +18,15 @@ const MOUTH: f64 = 0.2;
 
 /// The holes among the `open` cells, each a list of cells in order.
 pub(crate) fn holes(raster: &Raster, mut open: Vec<bool>) -> Vec<Vec<usize>> {
-    let solid: Vec<usize> = (0..open.len()).filter(|&cell| !open[cell]).collect();
-    let narrow = raster.grown(&solid, STRAIT);
+    // A disc that reaches a cell from within does so from the border as well.
+    let narrow = raster.grown(&raster.border(&open, false), STRAIT);
     let mut wide: Vec<bool> = open.iter().zip(&narrow).map(|(open, narrow)| *open && !narrow).collect();
-    let last = raster.side - 1;
-    let rim =
-        (0..raster.side).flat_map(|i| [i, last * raster.side + i, i * raster.side, i * raster.side + last]);
-    let mut reached = Vec::new();
-    for cell in rim {
-        if wide[cell] {
-            reached.extend(raster.flood(&mut wide, cell, false));
-        }
-    }
-    let near = raster.grown(&reached, STRAIT + 0.5);
-    let outside: Vec<bool> = open.iter().zip(&near).map(|(open, near)| *open && *near).collect();
+    let before = wide.clone();
+    raster.drop_outside(&mut wide);
+    let reached: Vec<bool> = before.iter().zip(&wide).map(|(before, wide)| before & !wide).collect();
+    let near = raster.grown(&raster.border(&reached, true), STRAIT + 0.5);
+    let near = near.iter().zip(&reached).map(|(near, reached)| near | reached);
+    let outside: Vec<bool> = open.iter().zip(near).map(|(open, near)| open & near).collect();
     open.iter_mut().zip(&outside).for_each(|(open, outside)| *open &= !outside);
     raster.drop_outside(&mut open);
     let mut parts = raster.parts(open.clone());

@@ -14,10 +14,11 @@
 //! Step 4 decides, so that the rim of the surface, and false ends of step 1, are no holes.
 
 use crate::enclosed;
+use crate::few::Few;
 use crate::largest::Parts;
 use crate::patch::{Frame, Quadratic};
 use crate::raster::Raster;
-use crate::sheet::{End, NOWHERE, REACH, Sheet};
+use crate::sheet::{End, REACH, Sheet};
 use geom::{Grid, Shape, Vec3};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -35,8 +36,6 @@ pub(crate) const GROW: f64 = 2.5;
 /// Points this far off the surface of a patch, as a share of its radius, still cover it: a stone that rises out of
 /// its shadow is no hole in the ground. A wall scanned from both sides must be thicker, or cropped to one side.
 const COVERS: f64 = 0.5;
-/// Points of a cell that are looked at in a box of many holes: there only whether something is there counts, and the box holds many cells.
-const ENOUGH: usize = 6;
 /// Most cells of one patch.
 const MOST_CELLS: f64 = 16e6;
 
@@ -72,35 +71,46 @@ pub(crate) fn find(points: &[Vec3], search: &Search) -> Vec<Hole> {
     let ends = sheet.ends();
     if !search.regions.is_empty() {
         let inside = search.regions.iter().map(|shape| (ends_of(&sheet, &ends, shape), Some(shape)));
-        return once(look(points, &sheet, inside.collect(), search, usize::MAX), Vec::new());
+        return once(look(points, &sheet, inside.collect(), search), Vec::new());
     }
     let (narrow, wide) = loops(&sheet, &ends, search.widest);
     let whole = |loops: Vec<Vec<End>>| loops.into_iter().map(|ends| (ends, None)).collect();
-    let found = look(points, &sheet, whole(narrow), search, usize::MAX);
+    let found = look(points, &sheet, whole(narrow), search);
     // A box of many holes lies far from the surface: what is seen there is looked at again, each in a patch of its own.
-    let seen = look(points, &sheet, whole(wide), search, ENOUGH);
+    let seen = look_over(points, &sheet, wide, search);
     let seen =
         seen.iter().filter(|hole| !found.iter().any(|known| known.overlaps(hole) || hole.overlaps(known)));
     let near: Vec<Vec<End>> = seen.map(|hole| hole.ends(&sheet, &ends)).collect();
-    let again = look(points, &sheet, whole(near), search, usize::MAX);
+    let again = look(points, &sheet, whole(near), search);
     once(found, again)
 }
 
-/// The holes among groups of ends, each in its shape where there is one, by at most about `enough` points of each cell.
+/// The holes among groups of ends in boxes, by a few points of each cell, and without their surroundings.
+fn look_over(points: &[Vec3], sheet: &Sheet, boxes: Vec<Vec<End>>, search: &Search) -> Vec<Hole> {
+    if boxes.is_empty() {
+        return Vec::new();
+    }
+    let few = Few::new(points, sheet);
+    let holes = |ends| Patch::new(sheet, ends, None).map(|patch| patch.holes_of(&few, sheet, search));
+    let found: Vec<Option<Vec<Hole>>> = boxes.into_par_iter().map(holes).collect();
+    found.into_iter().flatten().flatten().collect()
+}
+
+/// The holes among groups of ends, each in its shape where there is one.
 fn look(
     points: &[Vec3],
     sheet: &Sheet,
     groups: Vec<(Vec<End>, Option<&Shape>)>,
     search: &Search,
-    enough: usize,
 ) -> Vec<Hole> {
     let patch = |(ends, shape)| Patch::new(sheet, ends, shape);
     let patches: Vec<Patch> = groups.into_iter().filter_map(patch).collect();
-    let near = |p: &Patch| sheet.grid.within(&sheet.places, p.frame.origin, p.radius * 1.5).collect();
-    let near: Vec<Vec<u32>> = patches.par_iter().map(near).collect();
-    let rows = Rows::new(sheet, &near, enough);
-    let holes = |(patch, near): (&Patch, &Vec<u32>)| patch.holes(points, sheet, rows.of(near), search);
-    let found: Vec<Vec<Hole>> = patches.par_iter().zip(&near).map(holes).collect();
+    let near = |p: &Patch| sheet.cells.grid.within(&sheet.places, p.frame.origin, p.radius * 1.5);
+    let holes = |patch: &Patch| {
+        let rows = near(patch).flat_map(|cell| sheet.rows(cell).iter().copied());
+        patch.holes(points, sheet, rows, search)
+    };
+    let found: Vec<Vec<Hole>> = patches.par_iter().map(holes).collect();
     found.into_iter().flatten().collect()
 }
 
@@ -193,13 +203,15 @@ impl<'a> Patch<'a> {
         search: &Search,
     ) -> Vec<Hole> {
         let Some(surface) = self.surface(sheet) else { return Vec::new() };
-        let tolerance = (3.0 * surface.rms).max(1.5 * sheet.cell);
+        let tolerance = self.tolerance(&surface, sheet);
         let off = |p: &Vec3| (p.z - surface.height(p.x, p.y)).abs();
         let raster = Raster::new(self.radius, sheet.cell / CELLS);
         let local = rows.map(|r| (r, self.frame.local(&points[r as usize])));
         let near = |p: &Vec3| raster.at(p.x, p.y).is_some() && off(p) <= tolerance.max(COVERS * self.radius);
         let mut around: Vec<(u32, Vec3)> = local.filter(|(_, p)| near(p)).collect();
-        let open = self.open(&raster, &around, &surface, search);
+        let mut counts = vec![0u32; raster.len()];
+        around.iter().filter_map(|(_, p)| raster.at(p.x, p.y)).for_each(|cell| counts[cell] += 1);
+        let open = self.open(&raster, &counts, &surface, search);
         around.retain(|(_, p)| off(p) <= tolerance);
         let fewest = if self.shape.is_some() { 1 } else { FEWEST_CELLS };
         let parts = match self.shape {
@@ -210,10 +222,26 @@ impl<'a> Patch<'a> {
         parts.filter_map(|part| self.hole(part, &raster, &surface, &around, search)).collect()
     }
 
+    /// The same by a few points of each cell; the holes are told without what is around them.
+    fn holes_of(&self, few: &Few, sheet: &Sheet, search: &Search) -> Vec<Hole> {
+        let Some(surface) = self.surface(sheet) else { return Vec::new() };
+        let covers = self.tolerance(&surface, sheet).max(COVERS * self.radius);
+        let raster = Raster::new(self.radius, sheet.cell / CELLS);
+        let counts = few.counts(sheet, (&self.frame, self.radius * 1.5), &raster, &surface, covers);
+        let parts = enclosed::holes(&raster, self.open(&raster, &counts, &surface, search));
+        let parts = parts.into_iter().filter(|part| part.len() >= FEWEST_CELLS);
+        parts.filter_map(|part| self.hole(part, &raster, &surface, &[], search)).collect()
+    }
+
+    /// How far off the surface a point still belongs to it [m].
+    fn tolerance(&self, surface: &Quadratic, sheet: &Sheet) -> f64 {
+        (3.0 * surface.rms).max(1.5 * sheet.cell)
+    }
+
     /// The quadratic through the places around the ends.
     fn surface(&self, sheet: &Sheet) -> Option<Quadratic> {
         let reach = REACH * sheet.cell;
-        let near = |e: &End| sheet.grid.within(&sheet.places, sheet.places[e.place as usize], reach);
+        let near = |e: &End| sheet.cells.grid.within(&sheet.places, sheet.places[e.place as usize], reach);
         let mut near: Vec<u32> = self.ends.iter().flat_map(near).collect();
         near.sort_unstable();
         near.dedup();
@@ -222,19 +250,11 @@ impl<'a> Patch<'a> {
     }
 
     /// The open cells; in a shape, those that may be filled.
-    fn open(
-        &self,
-        raster: &Raster,
-        around: &[(u32, Vec3)],
-        surface: &Quadratic,
-        search: &Search,
-    ) -> Vec<bool> {
-        let mut counts = vec![0u32; raster.len()];
-        around.iter().filter_map(|(_, p)| raster.at(p.x, p.y)).for_each(|cell| counts[cell] += 1);
+    fn open(&self, raster: &Raster, counts: &[u32], surface: &Quadratic, search: &Search) -> Vec<bool> {
         let window = (2 * WINDOW + 1) as f64 * raster.cell;
         let most = search.below * window * window;
         let mut open: Vec<bool> =
-            raster.windows(&counts, WINDOW).into_iter().map(|count| f64::from(count) <= most).collect();
+            raster.windows(counts, WINDOW).into_iter().map(|count| f64::from(count) <= most).collect();
         if let Some(shape) = self.shape {
             for (cell, open) in open.iter_mut().enumerate().filter(|(_, open)| **open) {
                 let (u, v) = raster.middle(cell);
@@ -279,46 +299,6 @@ impl<'a> Patch<'a> {
 fn sorted(mut cells: Vec<usize>) -> Vec<usize> {
     cells.sort_unstable();
     cells
-}
-
-/// Which points lie in which cells, for those cells that some patch wants.
-struct Rows {
-    /// Place of each cell among the lists, or [`NOWHERE`].
-    slot: Vec<u32>,
-    lists: Vec<Vec<u32>>,
-    /// So many of each cell are given, about.
-    enough: usize,
-}
-
-impl Rows {
-    /// Lists the points of the cells that are `near` some patch.
-    fn new(sheet: &Sheet, near: &[Vec<u32>], enough: usize) -> Rows {
-        let mut slot = vec![NOWHERE; sheet.places.len()];
-        let mut slots = 0;
-        for &place in near.iter().flatten() {
-            if slot[place as usize] == NOWHERE {
-                slot[place as usize] = slots;
-                slots += 1;
-            }
-        }
-        let mut lists: Vec<Vec<u32>> = vec![Vec::new(); slots as usize];
-        if slots > 0 {
-            for (row, &place) in (0u32..).zip(&sheet.cell_of) {
-                if place != NOWHERE && slot[place as usize] != NOWHERE {
-                    lists[slot[place as usize] as usize].push(row);
-                }
-            }
-        }
-        Rows { slot, lists, enough }
-    }
-
-    /// Rows of the points of the given cells, at most about `enough` of each, spread over its rows.
-    fn of<'a>(&'a self, cells: &'a [u32]) -> impl Iterator<Item = u32> + 'a {
-        cells.iter().flat_map(move |&cell| {
-            let rows = &self.lists[self.slot[cell as usize] as usize];
-            rows.iter().copied().step_by(rows.len().div_ceil(self.enough).max(1))
-        })
-    }
 }
 
 /// Each hole once: two patches may both see it, the smaller one better; and then those of `others` that are not among them.

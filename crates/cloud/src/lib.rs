@@ -2,9 +2,11 @@
 
 mod cover;
 pub mod crop;
+pub mod crop_rows;
 mod darts;
 pub mod density;
 mod enclosed;
+mod few;
 pub mod fill;
 pub mod formats;
 mod holes;
@@ -17,6 +19,7 @@ pub mod points;
 mod raster;
 pub mod regions;
 mod sheet;
+mod surrounded;
 pub mod units;
 mod volume;
 

@@ -77,6 +77,11 @@ impl Quadratic {
         self.coefficients.dot(&terms(u / self.scale, v / self.scale))
     }
 
+    /// c₀ to c₅, and the length [m] that u and v are divided by.
+    pub fn parts(&self) -> ([f64; 6], f64) {
+        (self.coefficients.into(), self.scale)
+    }
+
     /// Area of the surface over an area of the plane [–].
     pub fn stretch(&self, u: f64, v: f64) -> f64 {
         let (c, u, v) = (&self.coefficients, u / self.scale, v / self.scale);

@@ -35,15 +35,20 @@ pub struct TooFar {
     pub at: Vec3,
 }
 
+/// Refuses points, with their rows, so far away that their distances cannot be computed with.
+pub(crate) fn check_reach<'a>(points: impl IntoIterator<Item = (usize, &'a Vec3)>) -> Result<(), TooFar> {
+    let far = |p: &Vec3| p.iter().any(|c| c.is_finite() && c.abs() > FARTHEST);
+    let found = points.into_iter().find(|(_, p)| far(p));
+    found.map_or(Ok(()), |(index, at)| Err(TooFar { index, at: *at }))
+}
+
 impl Cloud {
     /// Refuses points so far away that their distances cannot be computed with.
     ///
     /// # Errors
     /// The first of them.
     pub fn check_reach(&self) -> Result<(), TooFar> {
-        let far = |p: &Vec3| p.iter().any(|c| c.is_finite() && c.abs() > FARTHEST);
-        let found = self.points.iter().position(far);
-        found.map_or(Ok(()), |index| Err(TooFar { index, at: self.points[index] }))
+        check_reach((0..).zip(&self.points))
     }
 
     /// Multiplies every coordinate, as from millimetres to metres; they are 8-byte numbers from then on, and a comment says so.

@@ -60,6 +60,26 @@ impl Raster {
         sums
     }
 
+    /// The cells that are as `wanted` in `map` and share a side with one that is not.
+    pub fn border(&self, map: &[bool], wanted: bool) -> Vec<usize> {
+        let differs = |cell: usize, other: usize| map[cell] == wanted && map[other] != wanted;
+        let mut border = Vec::new();
+        for y in 0..self.side {
+            let row = y * self.side;
+            for cell in row..row + self.side {
+                if map[cell] == wanted
+                    && (cell > row && differs(cell, cell - 1)
+                        || cell + 1 < row + self.side && differs(cell, cell + 1)
+                        || y > 0 && differs(cell, cell - self.side)
+                        || y + 1 < self.side && differs(cell, cell + self.side))
+                {
+                    border.push(cell);
+                }
+            }
+        }
+        border
+    }
+
     /// Neighbours of a cell: four that share a side, or all eight.
     pub fn beside(&self, cell: usize, corners: bool) -> impl Iterator<Item = usize> {
         const STEPS: [(i64, i64); 8] = [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)];

@@ -1,33 +1,32 @@
 //! The surface at a coarse scale: one place a cell, its normal, and where the surface ends.
 
-use geom::{Grid, Vec3};
+use crate::surrounded::surrounded;
+use geom::{Cells, Vec3};
 use nalgebra::{Matrix3, SymmetricEigen};
 use rayon::prelude::*;
-use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
-use std::hash::{BuildHasherDefault, Hasher};
+use std::ops::Range;
 
 /// Neighbourhood of a place, in cells.
 pub(crate) const REACH: f64 = 2.5;
 /// A place whose neighbours leave a gap this wide is at an end of the surface [rad].
 const GAP: f64 = 100.0 * PI / 180.0;
-/// cos 99°, without its sign [–].
-const SURELY: f64 = 0.156;
 /// Cells along an axis that a key can tell apart.
 const SPAN: f64 = (1u64 << 21) as f64;
-/// No cell: the point is too far from the rest to belong to any surface.
-pub(crate) const NOWHERE: u32 = u32::MAX;
-
 /// A coarse picture of a cloud.
 pub(crate) struct Sheet {
     /// Width of a cell [m].
     pub cell: f64,
     /// Mean of the points of each cell [m].
     pub places: Vec<Vec3>,
-    /// The cell of each point, or [`NOWHERE`].
-    pub cell_of: Vec<u32>,
-    /// Over `places`, with cells of `REACH * cell`.
-    pub grid: Grid,
+    /// Rows of the points by cell, and where those of each cell are among them; points too far from the rest to belong to any surface
+    /// are in none.
+    rows: Vec<u32>,
+    runs: Vec<Range<u32>>,
+    /// A place in the middle of most points [m].
+    pub middle: Vec3,
+    /// The places sorted into cells of `REACH * cell`.
+    pub cells: Cells,
 }
 
 /// A place where the surface ends.
@@ -43,37 +42,41 @@ pub(crate) struct End {
 
 impl Sheet {
     pub fn new(points: &[Vec3], cell: f64) -> Sheet {
-        let origin = middle(points);
-        let mut number: HashMap<u64, u32, BuildHasherDefault<Mix>> = HashMap::default();
-        let mut sums: Vec<(Vec3, u32)> = Vec::new();
-        let keys: Vec<u64> = points.par_iter().map(|p| key((p - origin) / cell)).collect();
-        let assign = |(key, p): (&u64, &Vec3)| {
-            if *key == u64::MAX {
-                return NOWHERE;
-            }
-            let n = *number.entry(*key).or_insert_with(|| {
-                sums.push((Vec3::zeros(), 0));
-                sums.len() as u32 - 1
-            });
-            let (sum, count) = &mut sums[n as usize];
-            *sum += p - origin;
-            *count += 1;
-            n
+        let middle = middle(points);
+        let (mut rows, starts) = by_cell(points, cell, &middle);
+        // Cells are numbered as the rows meet them.
+        let runs = starts.par_windows(2).map(|run| run[0]..run[1]);
+        let mut runs: Vec<(u32, Range<u32>)> = runs.map(|run| (rows[run.start as usize], run)).collect();
+        runs.par_sort_unstable_by_key(|(first, _)| *first);
+        let runs: Vec<Range<u32>> = runs.into_iter().map(|(_, run)| run).collect();
+        let mean = |run: &Range<u32>| {
+            let rows = &rows[run.start as usize..run.end as usize];
+            middle + rows.iter().map(|&row| points[row as usize] - middle).sum::<Vec3>() / rows.len() as f64
         };
-        let cell_of = keys.iter().zip(points).map(assign).collect();
-        let places: Vec<Vec3> = sums.iter().map(|(sum, count)| origin + sum / f64::from(*count)).collect();
-        let grid = Grid::new(&places, REACH * cell);
-        Sheet { cell, places, cell_of, grid }
+        let places: Vec<Vec3> = runs.par_iter().map(mean).collect();
+        rows.shrink_to_fit();
+        let cells = Cells::new(&places, REACH * cell);
+        Sheet { cell, places, rows, runs, middle, cells }
+    }
+
+    /// Rows of the points of a cell, ascending.
+    pub fn rows(&self, place: u32) -> &[u32] {
+        let Range { start, end } = self.runs[place as usize];
+        &self.rows[start as usize..end as usize]
     }
 
     /// The places where the surface ends, in order.
     pub fn ends(&self) -> Vec<End> {
-        (0..self.places.len() as u32).into_par_iter().filter_map(|i| self.end(i)).collect()
+        let surrounded = surrounded(&self.cells, REACH * self.cell);
+        let others = self.cells.order().iter().zip(surrounded).filter(|(_, surrounded)| !surrounded);
+        let mut others: Vec<u32> = others.map(|(&i, _)| i).collect();
+        others.sort_unstable();
+        others.into_par_iter().filter_map(|i| self.end(i)).collect()
     }
 
     fn end(&self, place: u32) -> Option<End> {
         let centre = self.places[place as usize];
-        let near = self.grid.within(&self.places, centre, REACH * self.cell).filter(|&j| j != place);
+        let near = self.cells.grid.within(&self.places, centre, REACH * self.cell).filter(|&j| j != place);
         let offsets: Vec<Vec3> = near.map(|j| self.places[j as usize] - centre).collect();
         if offsets.len() < 3 {
             return None;
@@ -81,9 +84,6 @@ impl Sheet {
         let normal = normal(&offsets)?;
         let u = normal.cross(&Vec3::ith(normal.iamin(), 1.0)).normalize();
         let v = normal.cross(&u);
-        if is_surrounded(offsets.iter().map(|o| [o.dot(&u), o.dot(&v)])) {
-            return None;
-        }
         let mut angles: Vec<f64> = offsets.iter().map(|o| libm::atan2(o.dot(&v), o.dot(&u))).collect();
         angles.sort_by(f64::total_cmp);
         let (mut gap, mut middle) = (angles[0] + TAU - angles[angles.len() - 1], angles[0]);
@@ -97,27 +97,6 @@ impl Sheet {
         let free = u * libm::cos(middle) + v * libm::sin(middle);
         (gap >= GAP).then_some(End { place, normal, free })
     }
-}
-
-/// Whether directions in the plane surely leave no gap of 100°: most places are inside the surface, and this needs no angles.
-fn is_surrounded(directions: impl Iterator<Item = [f64; 2]>) -> bool {
-    // x/(|x| + |y|) turns with the angle.
-    let turn = |[x, y]: [f64; 2]| {
-        let share = x / (x.abs() + y.abs());
-        if y >= 0.0 { 1.0 - share } else { 3.0 + share }
-    };
-    let mut around: Vec<(f64, [f64; 2])> = directions.map(|d| (turn(d), d)).collect();
-    around.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-    // Half a turn is 2: directions within one leave the other half open.
-    let spread = around.last().map_or(0.0, |last| last.0 - around[0].0);
-    let narrow = |&[ax, ay]: &[f64; 2], &[bx, by]: &[f64; 2]| {
-        let (sine, cosine) = (ax * by - ay * bx, ax * bx + ay * by);
-        let lengths = (ax * ax + ay * ay) * (bx * bx + by * by);
-        // Somewhat less than 100°, so that rounding decides nothing.
-        sine >= 0.0 && (cosine >= 0.0 || cosine * cosine < SURELY * SURELY * lengths)
-    };
-    let next = around.iter().cycle().skip(1);
-    spread > 2.0 && around.iter().zip(next).all(|((turn, a), (_, b))| turn.is_finite() && narrow(a, b))
 }
 
 /// Direction of least spread of vectors around their mean; none when they spread along one line only.
@@ -145,29 +124,53 @@ fn middle(points: &[Vec3]) -> Vec3 {
     }))
 }
 
-/// 21 bits an axis; `u64::MAX` for places too far away.
-fn key(cells: Vec3) -> u64 {
-    // From zero on, to cut the fraction off is to round down.
-    let shifted = cells.map(|c| c + SPAN / 2.0);
-    if !shifted.iter().all(|c| (0.0..SPAN).contains(c)) {
-        return u64::MAX;
+/// Rows sorted by the cell that they lie in, within a cell as they come, and the first place of each cell and one more.
+fn by_cell(points: &[Vec3], width: f64, middle: &Vec3) -> (Vec<u32>, Vec<u32>) {
+    let cell = |p: &Vec3| {
+        // From zero on, to cut the fraction off is to round down.
+        let shifted = (p - middle) / width + Vec3::repeat(SPAN / 2.0);
+        shifted
+            .iter()
+            .all(|c| (0.0..SPAN).contains(c))
+            .then(|| [shifted.x as u64, shifted.y as u64, shifted.z as u64])
+    };
+    let none = ([u64::MAX; 3], [0; 3]);
+    let both = |a: ([u64; 3], [u64; 3]), b: ([u64; 3], [u64; 3])| {
+        ([0, 1, 2].map(|k| a.0[k].min(b.0[k])), [0, 1, 2].map(|k| a.1[k].max(b.1[k])))
+    };
+    let (lo, hi) =
+        points.par_iter().filter_map(cell).fold(|| none, |all, c| both(all, (c, c))).reduce(|| none, both);
+    let dims = [0, 1, 2].map(|k| (hi[k] + 1).saturating_sub(lo[k]));
+    let cells = dims[0] as u128 * dims[1] as u128 * dims[2] as u128;
+    // A place that is nowhere comes last.
+    let key = |p: &Vec3| {
+        let number = |[x, y, z]: [u64; 3]| ((z - lo[2]) * dims[1] + y - lo[1]) * dims[0] + x - lo[0];
+        cell(p).map_or(cells as u64, number)
+    };
+    if cells < u128::from(u32::MAX) {
+        let items = points.par_iter().enumerate().map(|(row, p)| key(p) << 32 | row as u64).collect();
+        let sorted = geom::grid::sorted(items, cells as u64);
+        return runs(&sorted, |&both| (both >> 32, both as u32), cells as u64);
     }
-    (shifted.z as u64) << 42 | (shifted.y as u64) << 21 | shifted.x as u64
+    let mut items: Vec<(u64, u32)> =
+        points.par_iter().enumerate().map(|(row, p)| (key(p), row as u32)).collect();
+    items.par_sort_unstable();
+    runs(&items, |&both| both, cells as u64)
 }
 
-/// Mixes a key (Fibonacci hashing); keys here are not chosen by an enemy.
-#[derive(Default)]
-struct Mix(u64);
-
-impl Hasher for Mix {
-    fn finish(&self) -> u64 {
-        self.0
-    }
-    fn write(&mut self, _: &[u8]) {}
-    fn write_u64(&mut self, key: u64) {
-        let mixed = key.wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        self.0 = mixed ^ (mixed >> 29);
-    }
+/// Rows, and the first place of each cell and one more, from what is sorted; `split` gives the key and the row.
+fn runs<T: Sync>(
+    sorted: &[T],
+    split: impl Fn(&T) -> (u64, u32) + Sync,
+    nowhere: u64,
+) -> (Vec<u32>, Vec<u32>) {
+    let count = sorted.partition_point(|both| split(both).0 < nowhere);
+    let mut starts: Vec<u32> = (0..count as u32)
+        .into_par_iter()
+        .filter(|&k| k == 0 || split(&sorted[k as usize]).0 != split(&sorted[k as usize - 1]).0)
+        .collect();
+    starts.push(count as u32);
+    (sorted[..count].par_iter().map(|both| split(both).1).collect(), starts)
 }
 
 #[cfg(test)]

@@ -62,25 +62,54 @@ impl fmt::Display for Doubt {
 
 /// What looks wrong, if anything.
 pub fn doubts(cloud: &Cloud) -> Vec<Doubt> {
-    let Some((sides, largest)) = survey(&cloud.points) else { return Vec::new() };
-    let count = cloud.points.len() as f64;
+    let mut survey = Survey::new(cloud.points.len());
+    survey.add(cloud.points.len(), |row| cloud.points[row]);
+    survey.doubts(cloud.double)
+}
+
+/// Points that stand for all, of a cloud that comes in parts.
+pub struct Survey {
+    step: usize,
+    count: usize,
+    some: Vec<Vec3>,
+}
+
+impl Survey {
+    /// Of a cloud of `count` points.
+    pub fn new(count: usize) -> Survey {
+        Survey { step: count.div_ceil(SOME).max(1), count: 0, some: Vec::new() }
+    }
+
+    /// Takes notice of the next `count` points.
+    pub fn add(&mut self, count: usize, point: impl Fn(usize) -> Vec3) {
+        let first = self.count.next_multiple_of(self.step) - self.count;
+        self.some
+            .extend((first..count).step_by(self.step).map(point).filter(|p| p.iter().all(|c| c.is_finite())));
+        self.count += count;
+    }
+
+    /// What looks wrong, if anything; `double` coordinates have 8 bytes.
+    pub fn doubts(&self, double: bool) -> Vec<Doubt> {
+        look(&self.some, self.count as f64, double)
+    }
+}
+
+fn look(some: &[Vec3], count: f64, double: bool) -> Vec<Doubt> {
+    let Some((sides, largest)) = survey(some) else { return Vec::new() };
     let spacing = (sides[2] * sides[1].max(sides[2] / count) / count).sqrt();
     let mut found = Vec::new();
     if sides[2] > WIDE && spacing > SPARSE {
         found.push(Doubt::Millimetres { width: sides[2], spacing });
     }
     let step = largest * f64::from(f32::EPSILON);
-    if !cloud.double && step > EXACT * spacing && spacing > 0.0 {
+    if !double && step > EXACT * spacing && spacing > 0.0 {
         found.push(Doubt::Short { largest, step, spacing });
     }
     found
 }
 
 /// Lengths of the box around most points, ascending, and the largest coordinate among these [m].
-fn survey(points: &[Vec3]) -> Option<([f64; 3], f64)> {
-    let step = points.len().div_ceil(SOME).max(1);
-    let is_finite = |p: &&Vec3| p.iter().all(|c| c.is_finite());
-    let some: Vec<&Vec3> = points.iter().step_by(step).filter(is_finite).collect();
+fn survey(some: &[Vec3]) -> Option<([f64; 3], f64)> {
     if some.len() < 10 {
         return None;
     }

@@ -4,7 +4,7 @@
 //! all points of a cell, and walking positions that lie side by side in memory, is several times faster
 //! than asking the grid point by point.
 
-use geom::{Grid, Vec3};
+use crate::{Grid, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -86,7 +86,7 @@ impl Cells {
 
     /// Number of the cell that holds a place.
     #[inline(always)]
-    pub(crate) fn cell(&self, place: u32) -> u32 {
+    pub fn cell(&self, place: u32) -> u32 {
         self.cell_of[place as usize]
     }
 
@@ -166,7 +166,7 @@ impl Cells {
 
 /// Squared distance [m²].
 #[inline(always)]
-pub(crate) fn apart(p: &Vec3, q: &Vec3) -> f64 {
+pub fn apart(p: &Vec3, q: &Vec3) -> f64 {
     let (x, y, z) = (p.x - q.x, p.y - q.y, p.z - q.z);
     x * x + y * y + z * z
 }

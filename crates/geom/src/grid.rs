@@ -16,7 +16,7 @@ const CELLS_PER_AXIS: f64 = 2_000_000.0;
 /// A dense table may have this many cells for each point.
 const DENSE_CELLS_PER_POINT: f64 = 8.0;
 const EMPTY: u32 = u32::MAX;
-/// Bits of a key that one pass of the sort looks at.
+/// Bits of a key that one pass of the sort looks at, at most.
 const DIGIT: u32 = 11;
 
 /// Points sorted into cubic cells.
@@ -63,7 +63,7 @@ impl Grid {
             grid.fill_dense(&keys, cells as usize);
         } else if cells < f64::from(u32::MAX) {
             let keys = points.par_iter().enumerate().map(|(i, p)| key(p) << 32 | i as u64).collect();
-            let sorted = sorted(keys, u64::BITS - (cells as u64).leading_zeros());
+            let sorted = sorted(keys, cells as u64);
             grid.fill_sparse(&sorted, |&both| (both >> 32, both as u32));
         } else {
             let mut keys: Vec<(u64, u32)> =
@@ -209,11 +209,14 @@ pub fn bounds(points: &[Vec3]) -> (Vec3, Vec3) {
         .reduce(none, |a, b| (a.0.inf(&b.0), a.1.sup(&b.1)))
 }
 
-/// Sorts by the upper 32 bits, of which `bits` are in use, keeping the order of equals (least significant digit first).
-fn sorted(mut items: Vec<u64>, bits: u32) -> Vec<u64> {
+/// Sorts by the upper 32 bits, which are at most `most`, keeping the order of equals (least significant digit first).
+pub fn sorted(mut items: Vec<u64>, most: u64) -> Vec<u64> {
+    let bits = u64::BITS - most.leading_zeros();
+    // As few bits at a time as the passes allow: fewer places to write to stay in the cache.
+    let digit = bits.div_ceil(bits.div_ceil(DIGIT).max(1)).max(1);
     let mut other = vec![0; items.len()];
-    for shift in (32..32 + bits).step_by(DIGIT as usize) {
-        let digit = |item: u64| (item >> shift) as usize & ((1 << DIGIT) - 1);
+    for shift in (32..32 + bits).step_by(digit as usize) {
+        let digit = |item: u64| (item >> shift) as usize & ((1 << digit) - 1);
         let mut next = [0u32; 1 << DIGIT];
         items.iter().for_each(|&item| next[digit(item)] += 1);
         let mut sum = 0;

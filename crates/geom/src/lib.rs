@@ -1,6 +1,7 @@
 //! Geometry that every other crate stands on: vectors, the cell grid, shapes, planes, triangle meshes.
 
 mod boxes;
+pub mod cells;
 pub mod grid;
 mod inside;
 pub mod mesh;
@@ -11,17 +12,20 @@ pub mod plane;
 pub mod prism;
 pub mod shape;
 mod shown;
+mod spread;
 mod tree;
 pub mod triangle;
 mod union;
 
 pub use boxes::Boxes;
+pub use cells::Cells;
 pub use grid::Grid;
 pub use moments::Moments;
 pub use numbers::NumbersError;
 pub use plane::Plane;
 pub use shape::Shape;
 pub use shown::Shown;
+pub use spread::least_axis;
 
 /// A point or vector of three `f64` [m, m/s, …].
 pub type Vec3 = nalgebra::Vector3<f64>;

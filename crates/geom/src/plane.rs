@@ -41,6 +41,7 @@ impl Plane {
     }
 
     /// Distance from the plane [m], positive on the side of the normal.
+    #[inline]
     pub fn signed_distance(&self, p: &Vec3) -> f64 {
         (p - self.point).dot(&self.normal)
     }

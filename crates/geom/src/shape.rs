@@ -70,6 +70,7 @@ pub enum ShapeError {
 
 impl Shape {
     /// Whether `p` [m] belongs to the shape; a place that is not finite belongs to none.
+    #[inline]
     pub fn contains(&self, p: &Vec3) -> bool {
         p.iter().all(|c| c.is_finite()) && self.solid.contains(p) != self.outside
     }
@@ -159,6 +160,7 @@ impl Solid {
     }
 
     /// Whether `p` [m] is in the solid or on its surface.
+    #[inline]
     pub fn contains(&self, p: &Vec3) -> bool {
         match self {
             Solid::Box(lo, hi) => (0..3).all(|a| lo[a] <= p[a] && p[a] <= hi[a]),

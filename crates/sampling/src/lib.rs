@@ -13,7 +13,6 @@
 
 mod amount;
 mod beside;
-pub mod cells;
 mod eliminate;
 mod lattice;
 pub mod nearest;
@@ -30,6 +29,7 @@ use serde::Serialize;
 use thiserror::Error;
 
 pub use amount::median_density;
+pub use geom::cells;
 pub use nearest::{NearestDistances, nearest_distances};
 pub use spectrum::{Spectrum, spectrum};
 

@@ -8,11 +8,43 @@ pub mod state;
 pub mod table;
 
 pub use kind::Kind;
+pub use rows::Fill;
 pub use table::{Column, Table, Values};
 
 use sha2::{Digest, Sha256};
+use std::io::{self, Read};
 
 /// SHA-256 of bytes, in hexadecimal digits.
 pub fn sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+    digits(Sha256::digest(bytes).as_slice())
+}
+
+fn digits(hash: &[u8]) -> String {
+    hash.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// A stream whose SHA-256 is taken as it is read.
+pub struct Hashed<R> {
+    from: R,
+    hash: Sha256,
+}
+
+impl<R> Hashed<R> {
+    /// Nothing is read yet.
+    pub fn new(from: R) -> Hashed<R> {
+        Hashed { from, hash: Sha256::new() }
+    }
+
+    /// SHA-256 of what was read, in hexadecimal digits.
+    pub fn sha256(self) -> String {
+        digits(self.hash.finalize().as_slice())
+    }
+}
+
+impl<R: Read> Read for Hashed<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let count = self.from.read(buffer)?;
+        self.hash.update(&buffer[..count]);
+        Ok(count)
+    }
 }

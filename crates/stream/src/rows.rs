@@ -58,18 +58,55 @@ pub(crate) fn stride(columns: &[&Values]) -> usize {
 
 /// Fills `out`, which holds whole rows, with the rows from `first` on.
 pub(crate) fn pack<const BIG: bool>(columns: &[&Values], first: usize, out: &mut [u8]) {
-    let stride = stride(columns);
-    if stride == 0 {
-        return;
-    }
-    out.par_chunks_mut(CHUNK * stride).enumerate().for_each(|(chunk, out)| {
-        let first = first + chunk * CHUNK;
+    in_chunks(stride(columns), first, out, |first, out, stride| {
         let mut offset = 0;
         for column in columns {
-            let rows = out.chunks_exact_mut(stride);
-            each!(column, v => for (row, x) in rows.zip(&v[first..]) {
-                x.put::<BIG>(&mut row[offset..]);
-            });
+            put::<BIG>(column, first, out, (stride, offset));
+            offset += column.kind().size();
+        }
+    });
+}
+
+/// Fills the column at `offset` of rows that are `stride` bytes wide with the values from `first` on.
+fn put<const BIG: bool>(column: &Values, first: usize, rows: &mut [u8], (stride, offset): (usize, usize)) {
+    let rows = rows.chunks_exact_mut(stride);
+    each!(column, v => for (row, x) in rows.zip(&v[first..]) {
+        x.put::<BIG>(&mut row[offset..]);
+    });
+}
+
+/// Calls `fill` with the first row of each part of `out`, the part and the `stride` [B]; in parallel.
+fn in_chunks(stride: usize, first: usize, out: &mut [u8], fill: impl Fn(usize, &mut [u8], usize) + Sync) {
+    if stride > 0 {
+        let parts = out.par_chunks_mut(CHUNK * stride).enumerate();
+        parts.for_each(|(chunk, out)| fill(first + chunk * CHUNK, out, stride));
+    }
+}
+
+/// Numbers that can be written as a column of little-endian rows, wherever they are kept.
+pub trait Fill: Sync {
+    /// Their type.
+    fn kind(&self) -> Kind;
+    /// Fills a column of `rows` with the numbers from `first` on; `place` is the width of a row and where in it the column begins [B].
+    fn fill(&self, first: usize, rows: &mut [u8], place: (usize, usize));
+}
+
+impl Fill for Values {
+    fn kind(&self) -> Kind {
+        self.kind()
+    }
+    fn fill(&self, first: usize, rows: &mut [u8], place: (usize, usize)) {
+        put::<false>(self, first, rows, place);
+    }
+}
+
+/// As [`pack`], little-endian, from wherever the columns are kept.
+pub(crate) fn pack_from(columns: &[&dyn Fill], first: usize, out: &mut [u8]) {
+    let stride = columns.iter().map(|c| c.kind().size()).sum();
+    in_chunks(stride, first, out, |first, out, stride| {
+        let mut offset = 0;
+        for column in columns {
+            column.fill(first, out, (stride, offset));
             offset += column.kind().size();
         }
     });

@@ -4,7 +4,7 @@
 //! one bisector after the other, nearest first. Its sides give the neighbours, its corners the voids: a corner is as far from
 //! three points as from no other. Points go by their place in the order of the cells.
 
-use geom::Vec3;
+use geom::{Vec3, least_axis};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 use sampling::cells::Cells;
@@ -16,8 +16,6 @@ pub(crate) const SQUARE: f64 = 3.0;
 const FOR_NORMAL: usize = 24;
 /// Points are worked on in parts of this many.
 const PART: usize = 512;
-/// Steps of Newton's method: two equal eigenvalues are reached by halves.
-const NEWTON: usize = 60;
 /// Stars of all points.
 #[derive(Debug, Clone, Default)]
 pub struct Stars {
@@ -147,35 +145,6 @@ fn across(axis: &Vec3) -> Vec3 {
     let mut other = Vec3::zeros();
     other[axis.abs().imin()] = 1.0;
     axis.cross(&other).normalize()
-}
-
-/// Direction of least spread; `None` when there is none, the points lying on a line.
-///
-/// The least eigenvalue is the first zero of the characteristic polynomial, which Newton's method reaches from below without
-/// passing it; of a sheet it is near 0, and few steps do. The general solver takes ten times as long.
-fn least_axis(spread: &Matrix3<f64>) -> Option<Vec3> {
-    let scale = spread.amax();
-    if scale.is_nan() || scale <= 0.0 {
-        return None;
-    }
-    let a = spread / scale;
-    let pair = |i: usize, j: usize| a[(i, i)] * a[(j, j)] - a[(i, j)] * a[(i, j)];
-    let (trace, minors, determinant) = (a.trace(), pair(0, 1) + pair(1, 2) + pair(2, 0), a.determinant());
-    let mut least = 0.0;
-    for _ in 0..NEWTON {
-        let value = determinant - least * (minors - least * (trace - least));
-        let slope = minors - least * (2.0 * trace - 3.0 * least);
-        let step = value / slope;
-        if step.is_nan() || step <= 1e-15 {
-            break;
-        }
-        least += step;
-    }
-    let m = a - Matrix3::identity() * least;
-    let row = |k: usize| m.row(k).transpose();
-    let crosses = [row(0).cross(&row(1)), row(1).cross(&row(2)), row(2).cross(&row(0))];
-    let longest = crosses.into_iter().max_by(|x, y| x.norm_squared().total_cmp(&y.norm_squared()))?;
-    (longest.norm() > 1e-10).then(|| longest.normalize())
 }
 
 /// The Voronoi cell in the plane, around the origin; how far its furthest corner is [m].

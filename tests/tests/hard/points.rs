@@ -61,25 +61,46 @@ fn outcome(folder: &Path, words: &[&str]) -> Result<usize, String> {
 /// A number of points, or words of the refusal.
 type Expected = Result<RangeInclusive<usize>, &'static [&'static str]>;
 
-/// For each cloud: what cloud-crop, cloud-fill, bluenoise-sample by spacing and by count, and wallgen make of it.
-fn table() -> [(&'static str, [Expected; 5]); 14] {
+/// For each cloud: what cloud-crop, alone and by distances, cloud-fill, bluenoise-sample by spacing and by count, and wallgen make of it.
+fn table() -> [(&'static str, [Expected; 7]); 14] {
     let n = |n: usize| -> Expected { Ok(n..=n) };
     let no = |words: &'static [&'static str]| -> Expected { Err(words) };
     let empty: &[&str] = &["none.xyz", "nothing to read"];
     let not_finite: &[&str] = &["point 400", "not finite", "cloud-crop"];
     let too_far: &[&str] = &["point 400", "farther than", "cloud-crop"];
     [
-        ("plane", [n(400), n(400), Ok(200..=400), n(10), n(400)]),
-        ("none", [no(empty), no(empty), no(empty), no(empty), no(empty)]),
-        ("one", [n(1), n(1), n(1), no(&["count 10", "only 1 points"]), no(&["1 points", "at least 2"])]),
-        ("two", [n(2), n(2), n(2), no(&["count 10", "only 2 points"]), n(2)]),
+        ("plane", [n(400), n(400), n(400), n(400), Ok(200..=400), n(10), n(400)]),
+        ("none", [no(empty), no(empty), no(empty), no(empty), no(empty), no(empty), no(empty)]),
+        (
+            "one",
+            [
+                n(1),
+                n(1),
+                n(1),
+                n(1),
+                n(1),
+                no(&["count 10", "only 1 points"]),
+                no(&["1 points", "at least 2"]),
+            ],
+        ),
+        ("two", [n(2), n(2), n(2), n(2), n(2), no(&["count 10", "only 2 points"]), n(2)]),
         (
             "same",
-            [n(50), n(50), n(1), no(&["count 10", "duplicates"]), no(&["same place", "bluenoise-sample"])],
+            [
+                n(50),
+                n(50),
+                n(50),
+                n(50),
+                n(1),
+                no(&["count 10", "duplicates"]),
+                no(&["same place", "bluenoise-sample"]),
+            ],
         ),
         (
             "double",
             [
+                n(440),
+                n(440),
                 n(440),
                 n(440),
                 Ok(200..=400),
@@ -87,14 +108,17 @@ fn table() -> [(&'static str, [Expected; 5]); 14] {
                 no(&["points 0 and 400", "same place", "bluenoise-sample"]),
             ],
         ),
-        ("twice", [n(800), n(800), Ok(200..=400), n(10), no(&["same place", "bluenoise-sample"])]),
-        ("line", [n(50), n(50), Ok(30..=50), n(10), n(50)]),
-        ("tilted", [n(50), n(50), n(50), n(10), n(50)]),
-        ("nan", [n(400), n(400), no(not_finite), no(not_finite), no(not_finite)]),
-        ("inf", [n(400), n(400), no(not_finite), no(not_finite), no(not_finite)]),
-        ("outlier", [n(401), n(401), Ok(201..=401), n(10), n(401)]),
-        ("far", [n(402), n(402), no(too_far), no(too_far), no(too_far)]),
-        ("sheets", [n(800), n(800), Ok(200..=400), n(10), n(800)]),
+        (
+            "twice",
+            [n(800), n(800), n(800), n(800), Ok(200..=400), n(10), no(&["same place", "bluenoise-sample"])],
+        ),
+        ("line", [n(50), n(50), n(50), n(50), Ok(30..=50), n(10), n(50)]),
+        ("tilted", [n(50), n(50), n(50), n(50), n(50), n(10), n(50)]),
+        ("nan", [n(400), n(400), n(400), n(400), no(not_finite), no(not_finite), no(not_finite)]),
+        ("inf", [n(400), n(400), n(400), n(400), no(not_finite), no(not_finite), no(not_finite)]),
+        ("outlier", [n(401), n(400), n(400), n(401), Ok(201..=401), n(10), n(401)]),
+        ("far", [n(402), no(too_far), no(too_far), n(402), no(too_far), no(too_far), no(too_far)]),
+        ("sheets", [n(800), n(800), n(800), n(800), Ok(200..=400), n(10), n(800)]),
     ]
 }
 
@@ -107,8 +131,10 @@ fn clouds_that_are_hardly_one() {
         let text: String = points.iter().map(|[x, y, z]| format!("{x:e} {y:e} {z:e}\n")).collect();
         let file = format!("{name}.xyz");
         fs::write(f.join(&file), text).unwrap();
-        let lines: [&[&str]; 5] = [
+        let lines: [&[&str]; 7] = [
             &["cloud-crop", &file],
+            &["cloud-crop", &file, "--largest", "0.05"],
+            &["cloud-crop", &file, "--outliers", "6,20"],
             &["cloud-fill", &file],
             &["bluenoise-sample", &file, "--spacing", "0.01"],
             &["bluenoise-sample", &file, "--count", "10"],

@@ -34,6 +34,9 @@ pub struct Args {
     /// Draw the spectrum and the anisotropy (FILE.svg or FILE.png)
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
+    /// Leave nearest distances and spectrum out of the report: measuring takes longer than sampling
+    #[arg(long)]
+    no_measures: bool,
     #[command(flatten)]
     seed: cli::Seed,
     #[command(flatten)]
@@ -95,7 +98,7 @@ impl Args {
 
     /// Whether somebody will see the measures: they take longer than the sampling.
     pub fn measured(&self) -> bool {
-        self.common.report.is_some() || self.plot.is_some()
+        (self.common.report.is_some() && !self.no_measures) || self.plot.is_some()
     }
 }
 

@@ -6,10 +6,13 @@ use anyhow::Context;
 use clap::Parser;
 use cli::Report;
 use cloud::crop::Rules;
+use cloud::crop_rows;
 use cloud::outliers::Outliers;
 use geom::Shape;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use stream::ply::{Blocks, Opened};
 
 const SHAPES: &str = "SHAPE: box:x0,y0,z0,x1,y1,z1 | sphere:x,y,z,r | cylinder:x0,y0,z0,x1,y1,z1,r | \
     cone:x0,y0,z0,x1,y1,z1,r0,r1 | halfspace:px,py,pz,nx,ny,nz (the side n points to) | prism:FILE.json | mesh:FILE; \
@@ -57,8 +60,15 @@ fn main() -> ExitCode {
 fn crop(args: Args) -> anyhow::Result<Report> {
     check_ending(&args.output.to)?;
     let rules = rules(&args)?;
-    let cloud = args.input.read_cloud()?;
-    let (kept, counts) = cloud::crop(&cloud, &rules);
+    let opened = Opened::new(args.input.open()?).with_context(|| args.input.name())?;
+    let opened = match opened {
+        Opened::Blocks(blocks) if !args.check && args.is_plain() && crop_rows::can(&blocks, &rules) => {
+            return rows(&args, blocks, &rules);
+        }
+        other => other,
+    };
+    let cloud = args.input.go_on(opened)?;
+    let (kept, counts) = cloud::crop(&cloud, &rules).with_context(|| args.input.name())?;
     words::warn(&counts);
     let mut report = Report::new(words::summary(&counts)).with_all(&counts);
     report = report.with("tolerance", rules.outer.tolerance);
@@ -68,6 +78,24 @@ fn crop(args: Args) -> anyhow::Result<Report> {
     words::parts(&counts);
     args.output.write_cloud(&kept)?;
     Ok(report)
+}
+
+/// The same for a plain PLY, row by row.
+fn rows(args: &Args, blocks: Blocks<impl Read>, rules: &Rules) -> anyhow::Result<Report> {
+    let (kept, counts) = crop_rows::crop_rows(blocks, rules).with_context(|| args.input.name())?;
+    args.input.tell(&kept.doubts);
+    words::warn(&counts);
+    let mut out = args.output.to.open()?;
+    kept.write(&mut out).with_context(|| format!("{}: cannot write", args.output.to.name()))?;
+    out.commit()?;
+    Ok(Report::new(words::summary(&counts)).with_all(&counts).with("tolerance", rules.outer.tolerance))
+}
+
+impl Args {
+    /// Whether rows go out as they came in.
+    fn is_plain(&self) -> bool {
+        !self.output.ascii && self.input.scale.is_none_or(|scale| scale == 1.0)
+    }
 }
 
 fn rules(args: &Args) -> anyhow::Result<Rules> {

@@ -10,7 +10,7 @@ fn fill(args: &[&str]) -> Output {
     let mounting = cloud::shape("halfspace:0,0,0,-0.766,0,0.643").unwrap();
     let rules = cloud::crop::Rules { remove: vec![mounting], ..Default::default() };
     let mut file = tempfile::NamedTempFile::new().unwrap();
-    cloud::write_ply(&mut file, &cloud::crop(&whole, &rules).0, Default::default()).unwrap();
+    cloud::write_ply(&mut file, &cloud::crop(&whole, &rules).unwrap().0, Default::default()).unwrap();
     Command::new(env!("CARGO_BIN_EXE_cloud-fill")).arg(file.path()).args(args).output().unwrap()
 }
 

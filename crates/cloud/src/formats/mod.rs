@@ -18,6 +18,9 @@ use stream::ply::PlyError;
 use stream::table::TableError;
 use thiserror::Error;
 
+/// Points are numbered by 4 bytes.
+pub(crate) const MOST: usize = u32::MAX as usize;
+
 /// One format.
 struct Format {
     name: &'static str,
@@ -88,10 +91,26 @@ fn plain(what: &str) -> String {
 ///
 /// # Errors
 /// Content that is no cloud, or is cut off, with its place.
-pub fn read(mut from: impl Read) -> Result<Cloud, ReadError> {
-    let mut bytes = Vec::new();
-    from.read_to_end(&mut bytes).map_err(ReadError::Io)?;
-    from_bytes(bytes)
+pub fn read(from: impl Read) -> Result<Cloud, ReadError> {
+    go_on(stream::ply::Opened::new(from).map_err(ReadError::Io)?)
+}
+
+/// Reads the rest of a cloud whose beginning was looked at.
+///
+/// # Errors
+/// As [`read`].
+pub fn go_on(opened: stream::ply::Opened<impl Read>) -> Result<Cloud, ReadError> {
+    match ply::stream(opened)? {
+        Ok(cloud) => few_enough(cloud),
+        Err(bytes) => from_bytes(bytes),
+    }
+}
+
+fn few_enough(cloud: Cloud) -> Result<Cloud, ReadError> {
+    match cloud.points.len() {
+        0..MOST => Ok(cloud),
+        points => Err(ReadError::TooMany { points: points as u64 }),
+    }
 }
 
 /// Reads a cloud that is in memory.
@@ -107,11 +126,7 @@ pub fn from_bytes(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
             bytes.iter().take(12).flat_map(|b| std::ascii::escape_default(*b)).map(char::from).collect();
         return Err(ReadError::Unknown { start: format!("'{start}'"), hint: hint(&bytes) });
     };
-    let cloud = (format.read)(bytes)?;
-    if cloud.points.len() >= u32::MAX as usize {
-        return Err(ReadError::TooMany { points: cloud.points.len() as u64 });
-    }
-    Ok(cloud)
+    few_enough((format.read)(bytes)?)
 }
 
 /// The name of the format that `bytes` begin with.

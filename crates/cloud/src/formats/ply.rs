@@ -5,8 +5,8 @@ use crate::Cloud;
 use geom::Vec3;
 use geom::mesh::TriMesh;
 use std::io::{Read, Write};
-use stream::ply::{self, Element, Encoding, Kind, ListColumn, Ply, PlyError};
-use stream::{Table, Values};
+use stream::ply::{self, Blocks, Element, Encoding, Kind, ListColumn, Opened, Ply, PlyError, number_at};
+use stream::{Fill, Table, Values};
 
 pub(super) fn matches(bytes: &[u8]) -> bool {
     bytes.starts_with(b"ply") && matches!(bytes.get(3), Some(b'\n' | b'\r' | b' ') | None)
@@ -22,6 +22,66 @@ pub(super) fn read(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
     let Ply { comments, mut elements, .. } = ply;
     let element = elements.swap_remove(at);
     from_element(element, comments)
+}
+
+/// Reads a cloud that may be a plain binary PLY; whatever is none comes back, whole.
+pub(super) fn stream<R: Read>(opened: Opened<R>) -> Result<Result<Cloud, Vec<u8>>, ReadError> {
+    match opened {
+        Opened::Blocks(blocks) if positions(&blocks).is_some() => from_blocks(blocks).map(Ok),
+        Opened::Blocks(blocks) => rest(blocks.into_parts()),
+        Opened::Other(bytes, from) => rest((bytes, from)),
+    }
+}
+
+fn rest<R: Read>((mut bytes, mut from): (Vec<u8>, R)) -> Result<Result<Cloud, Vec<u8>>, ReadError> {
+    from.read_to_end(&mut bytes).map_err(ReadError::Io)?;
+    Ok(Err(bytes))
+}
+
+/// Which properties are x, y and z; none when one is missing.
+fn positions<R>(blocks: &Blocks<R>) -> Option<[usize; 3]> {
+    let at = |axis: &str| blocks.properties.iter().position(|(name, _, _)| name == axis);
+    Some([at("x")?, at("y")?, at("z")?])
+}
+
+/// Points and columns, block by block.
+fn from_blocks<R: Read>(mut blocks: Blocks<R>) -> Result<Cloud, ReadError> {
+    let Some(at) = positions(&blocks) else { return Err(ReadError::NoPosition) };
+    let stride = blocks.stride;
+    let axes = at.map(|k| (blocks.properties[k].1, blocks.properties[k].2));
+    let others: Vec<usize> = (0..blocks.properties.len()).filter(|k| !at.contains(k)).collect();
+    let mut columns: Vec<Values> = others.iter().map(|&k| blocks.properties[k].1.empty()).collect();
+    let places: Vec<usize> = others.iter().map(|&k| blocks.properties[k].2).collect();
+    let mut points = Vec::new();
+    while let Some(rows) = blocks.next_rows().map_err(ReadError::Ply)? {
+        extend(&mut points, rows, stride, axes);
+        columns.iter_mut().zip(&places).for_each(|(c, &place)| c.extend_from_rows(rows, stride, place));
+    }
+    let mut attributes = Table::with_rows(points.len());
+    for (k, values) in others.into_iter().zip(columns) {
+        let table = |source| ReadError::Table { format: "PLY", source };
+        attributes.push(&blocks.properties[k].0, values).map_err(table)?;
+    }
+    let double = axes.iter().any(|(kind, _)| *kind != Kind::F32);
+    let comments = std::mem::take(&mut blocks.comments);
+    Ok(Cloud { points, attributes, double, position_column: at[0], comments })
+}
+
+/// Adds the points of whole rows of `stride` bytes; types and places of x, y and z.
+fn extend(points: &mut Vec<Vec3>, rows: &[u8], stride: usize, axes: [(Kind, usize); 3]) {
+    let rows = rows.chunks_exact(stride);
+    let [(_, x), (_, y), (_, z)] = axes;
+    let long = |row: &[u8], at: usize| number_at(&row[at..], Kind::F64);
+    let short = |row: &[u8], at: usize| number_at(&row[at..], Kind::F32);
+    match axes.map(|(kind, _)| kind) {
+        [Kind::F32, Kind::F32, Kind::F32] => {
+            points.extend(rows.map(|row| Vec3::new(short(row, x), short(row, y), short(row, z))));
+        }
+        [Kind::F64, Kind::F64, Kind::F64] => {
+            points.extend(rows.map(|row| Vec3::new(long(row, x), long(row, y), long(row, z))));
+        }
+        _ => points.extend(rows.map(|row| Vec3::from(axes.map(|(kind, at)| number_at(&row[at..], kind))))),
+    }
 }
 
 fn from_element(element: Element, mut comments: Vec<String>) -> Result<Cloud, ReadError> {
@@ -83,7 +143,39 @@ pub fn to_ply(cloud: &Cloud) -> Ply {
 /// # Errors
 /// A stream that takes no more.
 pub fn write_ply(to: &mut impl Write, cloud: &Cloud, encoding: Encoding) -> Result<(), PlyError> {
-    ply::write(to, &to_ply(cloud), encoding)
+    if encoding != Encoding::BinaryLittleEndian {
+        return ply::write(to, &to_ply(cloud), encoding);
+    }
+    let place = cloud.position_column.min(cloud.attributes.columns().len());
+    let axes = [0, 1, 2].map(|axis| Axis { cloud, axis });
+    let positions = ["x", "y", "z"].into_iter().zip(axes.iter().map(|axis| axis as &dyn Fill));
+    let attributes = cloud.attributes.columns().iter().map(|c| (&*c.name, &c.values as &dyn Fill));
+    let mut columns: Vec<(&str, &dyn Fill)> = attributes.collect();
+    columns.splice(place..place, positions);
+    ply::write_columns(to, &cloud.comments, ("vertex", cloud.points.len()), &columns)
+}
+
+/// One coordinate of all points, as a column.
+struct Axis<'a> {
+    cloud: &'a Cloud,
+    axis: usize,
+}
+
+impl Fill for Axis<'_> {
+    fn kind(&self) -> Kind {
+        if self.cloud.double { Kind::F64 } else { Kind::F32 }
+    }
+
+    fn fill(&self, first: usize, rows: &mut [u8], (stride, offset): (usize, usize)) {
+        let rows = rows.chunks_exact_mut(stride).map(|row| &mut row[offset..]);
+        let values = self.cloud.points[first..].iter().map(|p| p[self.axis]);
+        match self.cloud.double {
+            true => rows.zip(values).for_each(|(row, v)| row[..8].copy_from_slice(&v.to_le_bytes())),
+            false => {
+                rows.zip(values).for_each(|(row, v)| row[..4].copy_from_slice(&(v as f32).to_le_bytes()))
+            }
+        }
+    }
 }
 
 /// Writes a mesh as PLY, coordinates as `double`.

@@ -9,13 +9,15 @@
 
 mod ascii;
 mod binary;
+mod blocks;
 mod header;
 #[cfg(test)]
 mod tests;
 mod text;
 mod write;
 
-pub use write::write;
+pub use blocks::{Blocks, Opened, number_at};
+pub use write::{write, write_columns, write_rows};
 
 pub use crate::kind::Kind;
 use crate::{Table, Values};

@@ -1,16 +1,16 @@
 //! Writes a PLY; binary rows of one width are packed in bulk.
 
-use super::{Element, Encoding, ListColumn, Ply, PlyError};
+use super::{Element, Encoding, Kind, ListColumn, Ply, PlyError};
 use crate::{
     Values,
     kind::of_kind,
-    rows::{self, Number},
+    rows::{self, Fill, Number},
     table::each,
 };
 use std::io::Write;
 
 /// Bytes packed before they are written.
-const BATCH: usize = 1 << 22;
+const BATCH: usize = 1 << 20;
 
 /// Writes a whole PLY stream, with LF line ends.
 ///
@@ -79,7 +79,62 @@ fn check(element: &Element) -> Result<(), PlyError> {
     Ok(())
 }
 
-fn header(ply: &Ply, encoding: Encoding) -> String {
+/// Writes a binary, little-endian PLY of one element without lists, its columns from wherever they are kept.
+///
+/// # Errors
+/// A write that fails; names with blanks.
+pub fn write_columns(
+    out: &mut impl Write,
+    comments: &[String],
+    (element, rows): (&str, usize),
+    columns: &[(&str, &dyn Fill)],
+) -> Result<(), PlyError> {
+    let properties: Vec<(&str, Kind)> = columns.iter().map(|(name, column)| (*name, column.kind())).collect();
+    out.write_all(head(comments, (element, rows as u64), &properties)?.as_bytes())?;
+    let columns: Vec<&dyn Fill> = columns.iter().map(|(_, column)| *column).collect();
+    let stride = columns.iter().map(|c| c.kind().size()).sum::<usize>().max(1);
+    in_batches(out, rows, stride, |first, buffer| rows::pack_from(&columns, first, buffer))?;
+    Ok(out.flush()?)
+}
+
+/// Writes a binary, little-endian PLY of one element without lists, from its rows.
+///
+/// # Errors
+/// A write that fails; names with blanks.
+pub fn write_rows(
+    out: &mut impl Write,
+    comments: &[String],
+    (element, rows): (&str, &[u8]),
+    properties: &[(&str, Kind)],
+) -> Result<(), PlyError> {
+    let stride = properties.iter().map(|(_, kind)| kind.size()).sum::<usize>().max(1);
+    out.write_all(head(comments, (element, (rows.len() / stride) as u64), properties)?.as_bytes())?;
+    out.write_all(rows)?;
+    Ok(out.flush()?)
+}
+
+/// The header of a binary, little-endian PLY of one element without lists.
+fn head(
+    comments: &[String],
+    (element, rows): (&str, u64),
+    properties: &[(&str, Kind)],
+) -> Result<String, PlyError> {
+    let wrong = |name: &&str| name.is_empty() || !name.bytes().all(|b| b.is_ascii_graphic());
+    if let Some(name) = properties.iter().map(|(name, _)| *name).chain([element]).find(wrong) {
+        return Err(PlyError::Name { element: element.to_owned(), name: name.to_owned() });
+    }
+    if properties.is_empty() && rows > 0 {
+        return Err(PlyError::Empty { element: element.to_owned(), rows });
+    }
+    let mut text = first_lines(Encoding::BinaryLittleEndian, comments, &[]);
+    text += &format!("element {element} {rows}\n");
+    for (name, kind) in properties {
+        text += &format!("property {} {name}\n", kind.word());
+    }
+    Ok(text + "end_header\n")
+}
+
+fn first_lines(encoding: Encoding, comments: &[String], obj_info: &[String]) -> String {
     let format = match encoding {
         Encoding::Ascii => "ascii",
         Encoding::BinaryLittleEndian => "binary_little_endian",
@@ -87,11 +142,16 @@ fn header(ply: &Ply, encoding: Encoding) -> String {
     };
     let mut text = format!("ply\nformat {format} 1.0\n");
     // A line break inside a comment would end it; it becomes a second comment.
-    for (word, lines) in [("comment", &ply.comments), ("obj_info", &ply.obj_info)] {
+    for (word, lines) in [("comment", comments), ("obj_info", obj_info)] {
         for line in lines.iter().flat_map(|line| line.split(['\n', '\r'])) {
             text += &format!("{word} {line}\n");
         }
     }
+    text
+}
+
+fn header(ply: &Ply, encoding: Encoding) -> String {
+    let mut text = first_lines(encoding, &ply.comments, &ply.obj_info);
     for element in &ply.elements {
         text += &format!("element {} {}\n", element.name, element.table.rows());
         for property in properties(element) {
@@ -112,12 +172,21 @@ fn binary<const BIG: bool>(out: &mut impl Write, element: &Element) -> Result<()
     }
     let columns: Vec<&Values> = element.table.columns().iter().map(|c| &c.values).collect();
     let stride = rows::stride(&columns).max(1);
+    in_batches(out, element.table.rows(), stride, |first, buffer| rows::pack::<BIG>(&columns, first, buffer))
+}
+
+/// Writes `rows` rows of `stride` bytes, some at a time; `pack` fills a buffer with those from a first one on.
+fn in_batches(
+    out: &mut impl Write,
+    rows: usize,
+    stride: usize,
+    pack: impl Fn(usize, &mut [u8]),
+) -> Result<(), PlyError> {
     let batch = (BATCH / stride).max(1);
-    let mut buffer = vec![0; batch.min(element.table.rows()) * stride];
-    for first in (0..element.table.rows()).step_by(batch) {
-        let count = batch.min(element.table.rows() - first);
-        let buffer = &mut buffer[..count * stride];
-        rows::pack::<BIG>(&columns, first, buffer);
+    let mut buffer = vec![0; batch.min(rows) * stride];
+    for first in (0..rows).step_by(batch) {
+        let buffer = &mut buffer[..batch.min(rows - first) * stride];
+        pack(first, buffer);
         out.write_all(buffer)?;
     }
     Ok(())

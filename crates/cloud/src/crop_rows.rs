@@ -1,0 +1,152 @@
+//! Crop of a plain binary PLY as its rows come: shapes judge each point by itself, so that only the rows that stay are kept, as they are.
+
+use crate::crop::{Cropped, Judge, Rules};
+use crate::formats::ReadError;
+use crate::units::{self, Doubt};
+use geom::Vec3;
+use rayon::prelude::*;
+use std::io::{Read, Write};
+use stream::Kind;
+use stream::ply::{self, Blocks, PlyError, number_at};
+
+/// Rows judged by one task.
+const CHUNK: usize = 1 << 12;
+
+/// The rows that stay, and what a header says about them.
+pub struct Kept {
+    comments: Vec<String>,
+    properties: Vec<(String, Kind)>,
+    rows: Vec<u8>,
+    /// What looks wrong about the numbers of the whole cloud.
+    pub doubts: Vec<Doubt>,
+}
+
+/// Where x, y and z are: side by side, all of one type with a point in it.
+fn positions<R>(blocks: &Blocks<R>) -> Option<(Kind, usize)> {
+    let x = blocks.properties.iter().position(|(name, _, _)| name == "x")?;
+    let (kind, at) = (blocks.properties[x].1, blocks.properties[x].2);
+    let follows = |step: usize, axis: &str| {
+        blocks.properties.get(x + step).is_some_and(|(name, other, _)| name == axis && *other == kind)
+    };
+    (matches!(kind, Kind::F32 | Kind::F64) && follows(1, "y") && follows(2, "z")).then_some((kind, at))
+}
+
+/// Whether [`crop_rows`] can do what the rules ask for.
+pub fn can<R>(blocks: &Blocks<R>, rules: &Rules) -> bool {
+    let shapes_alone = rules.outer.shapes.is_empty() && rules.outliers.is_none() && rules.largest.is_none();
+    shapes_alone && positions(blocks).is_some()
+}
+
+/// The rows that stay; the same as [`crate::crop`] leaves.
+///
+/// # Errors
+/// A stream that is cut off, or goes on after its last row.
+pub fn crop_rows<R: Read>(mut blocks: Blocks<R>, rules: &Rules) -> Result<(Kept, Cropped), ReadError> {
+    let Some((kind, at)) = positions(&blocks) else { return Err(ReadError::NoPosition) };
+    let (stride, size) = (blocks.stride, kind.size());
+    let point = move |row: &[u8]| Vec3::from([0, 1, 2].map(|a| number_at(&row[at + a * size..], kind)));
+    let judge = Judge::new(rules);
+    let mut report = Cropped::of(rules);
+    let mut survey = units::Survey::new(usize::try_from(blocks.rows).unwrap_or(usize::MAX));
+    let mut kept = Vec::new();
+    while let Some(rows) = blocks.next_rows().map_err(ReadError::Ply)? {
+        survey.add(rows.len() / stride, |row| point(&rows[row * stride..]));
+        report.points_in += rows.len() / stride;
+        let judged: Vec<(Vec<u8>, Cropped)> =
+            rows.par_chunks(CHUNK * stride).map(|rows| judge.rows(rows, stride, point, rules)).collect();
+        for (rows, part) in judged {
+            kept.extend_from_slice(&rows);
+            report.add(&part);
+        }
+    }
+    if report.points_in >= crate::formats::MOST {
+        return Err(ReadError::TooMany { points: report.points_in as u64 });
+    }
+    report.points_out = kept.len() / stride;
+    report.outside_shapes = report.points_in - report.not_finite - report.points_out;
+    let properties = blocks.properties.iter().map(|(name, kind, _)| (name.clone(), *kind)).collect();
+    let (doubts, comments) = (survey.doubts(kind == Kind::F64), std::mem::take(&mut blocks.comments));
+    Ok((Kept { comments, properties, rows: kept, doubts }, report))
+}
+
+impl Kept {
+    /// Writes them as PLY.
+    ///
+    /// # Errors
+    /// A stream that takes no more.
+    pub fn write(&self, to: &mut impl Write) -> Result<(), PlyError> {
+        let properties: Vec<(&str, Kind)> =
+            self.properties.iter().map(|(name, kind)| (&**name, *kind)).collect();
+        ply::write_rows(to, &self.comments, ("vertex", &self.rows), &properties)
+    }
+}
+
+impl Judge<'_> {
+    /// The rows that stay, and counts of the others.
+    fn rows(
+        &self,
+        rows: &[u8],
+        stride: usize,
+        point: impl Fn(&[u8]) -> Vec3,
+        rules: &Rules,
+    ) -> (Vec<u8>, Cropped) {
+        let (mut kept, mut part) = (Vec::with_capacity(rows.len()), Cropped::of(rules));
+        for row in rows.chunks_exact(stride) {
+            let p = point(row);
+            part.regions
+                .iter_mut()
+                .zip(&rules.regions)
+                .for_each(|(n, r)| n.points += r.shape.contains(&p) as usize);
+            if !p.iter().all(|c| c.is_finite()) {
+                part.not_finite += 1;
+            } else if self.stays(&p) {
+                kept.extend_from_slice(row);
+            }
+        }
+        (kept, part)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Cloud, crop};
+    use stream::ply::{Encoding, Opened};
+    use stream::{Table, Values};
+
+    /// Row by row the same bytes and counts come out as from the whole cloud, for either type of number and with the position anywhere.
+    #[test]
+    fn rows_are_cropped_as_the_whole_cloud_is() {
+        for (double, position_column) in [(false, 0), (true, 1), (false, 2)] {
+            let place = |i: i32| Vec3::new(f64::from(i % 97), f64::from(i / 97), f64::from(i % 7)) / 8.0;
+            let mut points: Vec<Vec3> = (0..60_000).map(place).collect();
+            points[77].y = f64::NAN;
+            let mut attributes = Table::with_rows(points.len());
+            attributes.push("id", Values::I32((0..60_000).collect())).unwrap();
+            attributes.push("tone", Values::U8((0..60_000).map(|i| i as u8).collect())).unwrap();
+            let comments = vec!["a scan".to_owned()];
+            let cloud = Cloud { points, attributes, double, position_column, comments };
+            let rules = Rules {
+                remove: vec!["sphere:6,30,0,5".parse().unwrap()],
+                keep: vec!["box:0,0,0,11,60,0.5".parse().unwrap()],
+                ..Rules::default()
+            };
+            let written = |cloud: &Cloud| {
+                let mut bytes = Vec::new();
+                crate::write_ply(&mut bytes, cloud, Encoding::default()).unwrap();
+                bytes
+            };
+            let (whole, counts) = crop(&cloud, &rules).unwrap();
+            let bytes = written(&cloud);
+            let Ok(Opened::Blocks(blocks)) = Opened::new(&bytes[..]) else { panic!("plain") };
+            assert!(can(&blocks, &rules));
+            let (kept, same) = crop_rows(blocks, &rules).unwrap();
+            let mut out = Vec::new();
+            kept.write(&mut out).unwrap();
+            assert_eq!(counts, same);
+            assert!(counts.points_out > 1000 && counts.not_finite == 1);
+            assert!(out == written(&whole));
+            assert_eq!(kept.doubts, units::doubts(&cloud));
+        }
+    }
+}
