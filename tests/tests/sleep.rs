@@ -95,6 +95,47 @@ fn a_sleeper_that_loses_its_support_falls() {
     assert!((z - free).abs() < 1e-3, "fell to {z} m, freely to {free} m");
 }
 
+/// A sleeper whose neighbour is thrown out of reach within one step wakes: lists are made anew in that step, and nobody in them would
+/// tell it that its load is gone.
+#[test]
+fn a_sleeper_whose_neighbour_is_no_longer_listed_wakes() {
+    let mut setup = sleepy(empty(HOOKE, 0.1));
+    setup.gravity.z = -9.81;
+    // Lists hold only what touches.
+    setup.skin = Some(1e-7);
+    setup.step = Step::Auto(0.9);
+    (setup.guards.overlap, setup.guards.motion) = (0.9, 0.5);
+    let edge = |k: u32| {
+        let (sin, cos) = (2.0 * std::f64::consts::FRAC_PI_3 * f64::from(k)).sin_cos();
+        Vec3::new(0.006 * cos, 0.006 * sin, 0.0)
+    };
+    let shape =
+        WallShape::Mesh(geom::mesh::TriMesh { vertices: (0..3).map(edge).collect(), faces: vec![[0, 1, 2]] });
+    setup.walls = vec![Wall { shape, ..plane(Vec3::z()) }];
+    setup.particles = vec![grain(0, Vec3::new(0.0, 0.0, 0.01)), grain(1, Vec3::new(0.0, 0.0, 0.03))];
+    let mut pair = simulation(setup.clone());
+    run_until(&mut pair, 0.3);
+    assert_eq!(pair.asleep(), 2, "both sleep before");
+    // Another comes from aside and below, 2 mm in a step, and hits the upper one at t = 0.3 s.
+    let (sin, cos) = 15f64.to_radians().sin_cos();
+    let (v, t) = (Vec3::new(cos, 0.0, sin) * (2e-3 / pair.dt()), 0.3);
+    let hits = Vec3::new(-cos, 0.0, -sin) * 0.02 + Vec3::new(0.0, 0.0, 0.03);
+    let gravity = Vec3::new(0.0, 0.0, -9.81);
+    let third = Particle { velocity: v - gravity * t, ..grain(2, hits - v * t + gravity * (0.5 * t * t)) };
+    setup.particles.push(third);
+    let mut sim = simulation(setup);
+    run_until(&mut sim, 0.299);
+    assert_eq!(sim.asleep(), 2, "both sleep until it comes");
+    // Ten steps later the third has not yet come near the lower one.
+    run_until(&mut sim, 0.301);
+    let all = particles(&mut sim);
+    assert!(
+        all[1].position.z > 0.0305 && all[2].position.z > 0.025,
+        "the upper one was thrown away: {all:?}"
+    );
+    assert_eq!(sim.asleep(), 0, "the lower one is awake, for its load is gone");
+}
+
 #[test]
 fn sleep_is_the_same_for_every_width_and_thread_and_across_a_checkpoint() {
     let end = |mut sim: Simulation| {
