@@ -13,7 +13,7 @@ const MADE: Case = case("Energy", "what the finite step makes, relative to what 
 #[test]
 fn the_ledger_closes_and_the_step_makes_little() {
     for scene in all() {
-        let mut sim = Simulation::new(scene.setup).expect("the setup is sound");
+        let mut sim = Simulation::new(scene.setup).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
         scene.entries.into_iter().for_each(|e| sim.enter(e).expect("in time"));
         let start = sim.energy().expect("sound").balance();
         for share in [0.37, 0.61, 1.0] {

@@ -5,3 +5,4 @@ mod closing;
 mod guard;
 mod order;
 mod scenes;
+mod terms;
