@@ -86,6 +86,21 @@ pub fn all() -> Vec<Scene> {
     let mut constant = poured(hertz);
     constant.contacts.iter_mut().for_each(|c| c.rolling_model = RollingModel::Constant);
     add("hertz, constant rolling couple".to_owned(), constant);
+    for normal in &NORMALS {
+        let mut weakens = poured(normal);
+        let weakening = Some(Weakening { dynamic: 0.1, speed: 0.1 });
+        weakens.contacts.iter_mut().for_each(|c| c.weakening = weakening);
+        add(format!("{}, friction that weakens", normal.name), weakens);
+    }
+    for normal in &NORMALS[..2] {
+        let mut mixed = shaking(poured(normal));
+        mixed.precision = Precision::Mixed;
+        mixed.contacts.iter_mut().for_each(|c| c.twisting_resistance = None);
+        add(format!("{} on a shaking floor, mixed precision", normal.name), mixed.clone());
+        (mixed.walls[0].shape, mixed.periodic) =
+            (pebbles(), [Some((-0.01, 0.14)), Some((-0.01, 0.11)), None]);
+        add(format!("{} on a shaking wall of spheres, periodic, mixed precision", normal.name), mixed);
+    }
     let mut free = poured(hertz);
     free.contacts = NORMALS[1].setup(0.5).contacts;
     add("hertz, no friction".to_owned(), free);
