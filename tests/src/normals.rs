@@ -6,6 +6,7 @@ use dem::lane::V;
 use dem::setup::*;
 use dem::{Setup, mass};
 use geom::Vec3;
+use std::f64::consts::PI;
 
 /// A normal law, and what adheres.
 #[derive(Debug, Clone, Copy)]
@@ -76,6 +77,37 @@ impl Normal {
             Law::Hertz => load((Hertz { modulus, damping_ratio }, cohesion), contact),
             Law::Jkr { work_of_adhesion } => load(Jkr { modulus, work_of_adhesion, damping_ratio }, contact),
         }
+    }
+
+    /// Force at rest [N] of a sphere of radius r [m] on another, or on a flat wall, by the formulas of the sources and not by the
+    /// engine's: k δ; 4/3 E* √R* δ^(3/2); of JKR through its own radius of contact, δ = a²/R* − √(2π w a/E*); less C times the area of the
+    /// circle in which the surfaces meet.
+    pub fn force(&self, overlap: f64, r: f64, other: Option<f64>) -> f64 {
+        let radius = other.map_or(r, |s| r * s / (r + s));
+        let elastic = match self.law {
+            Law::Hooke { stiffness, .. } => stiffness * overlap,
+            Law::Hertz => 4.0 / 3.0 * MODULUS * radius.sqrt() * overlap.powf(1.5),
+            Law::Jkr { work_of_adhesion: w } => {
+                let at = |a: f64| a * a / radius - (2.0 * PI * w * a / MODULUS).sqrt() - overlap;
+                // δ grows with a from the radius at which the pull is strongest under a given force on.
+                let (mut low, mut high) = ((9.0 * PI * w * radius * radius / (8.0 * MODULUS)).cbrt(), r);
+                for _ in 0..200 {
+                    let a = 0.5 * (low + high);
+                    if at(a) < 0.0 { low = a } else { high = a }
+                }
+                4.0 * MODULUS * high.powi(3) / (3.0 * radius) - (8.0 * PI * w * MODULUS * high.powi(3)).sqrt()
+            }
+        };
+        // Where two spheres meet: the plane at x from the one's centre. On a wall: a cap as high as the overlap.
+        let square = match other {
+            None => overlap * (2.0 * r - overlap),
+            Some(s) => {
+                let d = r + s - overlap;
+                let x = (d * d + r * r - s * s) / (2.0 * d);
+                r * r - x * x
+            }
+        };
+        elastic - self.cohesion.unwrap_or(0.0) * PI * square
     }
 
     /// Overlap [m] at which a grain of 10 mm on a flat wall bears a force [N], and what friction is capped by there [N].
