@@ -21,16 +21,20 @@ mod pass;
 mod shape;
 mod state;
 mod turn;
+mod whole;
 
 pub(crate) use check::{check, check_entry};
+pub(crate) use flight::quaternion;
 pub use kinds::Yielding;
 pub use shape::ClumpShape;
 pub use state::BodyState;
+pub(crate) use turn::spun;
+pub(crate) use whole::starts;
 
 use crate::lane::Row4;
 use crate::particles::Particles;
 use crate::setup::{Body, EntryClump, Material, Particle, Setup};
-use flight::{Flight, arm, quaternion};
+use flight::{Flight, arm};
 use geom::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -129,49 +133,25 @@ impl Bodies {
         });
     }
 
-    /// Adds a body that moves by a prescribed motion for now, from its state at the start, and now; gives the start of each member.
+    /// Adds a body that moves by a prescribed motion for now, from its state at the start, its place and velocity now, and how long it has
+    /// turned [s]; gives the start of each member, and the principal axes then.
     pub fn enter(
         &mut self,
-        (start, now): (&Particle, &Particle),
+        (start, now, turned): (&Particle, &Particle, f64),
         clump: &EntryClump,
         setup: &Setup,
         particles: &mut Particles,
-    ) -> Vec<Particle> {
+    ) -> (Vec<Particle>, [f64; 4]) {
         let shape = &setup.clumps.shapes[clump.shape as usize];
         let EntryClump { shape: index, scale, orientation } = *clump;
-        let Particle { id, position, velocity, .. } = *now;
-        let spin = Vec3::zeros();
+        let Particle { id, position, velocity, spin, .. } = *now;
+        let orientation = turn::spun(&(spin * turned)) * orientation;
         let body = Body { id, shape: index, scale, position, orientation, velocity, spin };
         self.push(&body, shape, &setup.materials, particles);
         if let Some(flight) = self.flights.last_mut() {
             flight.travels = true;
         }
-        let turn = orientation * shape.frame;
-        let member = |(k, (centre, radius)): (usize, &(Vec3, f64))| Particle {
-            id: id.wrapping_add(k as u32),
-            radius: radius * scale,
-            position: start.position + turn * (centre * scale),
-            spin,
-            material: shape.material,
-            ..*start
-        };
-        shape.spheres.iter().enumerate().map(member).collect()
-    }
-
-    /// Where the centre of row `k`'s body is that travels, and its velocity.
-    pub fn carry(&mut self, k: usize, centre: Vec3, velocity: Vec3) {
-        if let Some(f) = self.of.get(k).and_then(|&b| self.flights.get_mut(b as usize)) {
-            f.place = centre;
-            f.place_before = centre;
-            f.velocity = velocity;
-        }
-    }
-
-    /// The body of row `k` is free from now on.
-    pub fn release(&mut self, k: usize) {
-        if let Some(f) = self.of.get(k).and_then(|&b| self.flights.get_mut(b as usize)) {
-            (f.travels, f.fresh) = (false, true);
-        }
+        starts(start, clump, setup)
     }
 
     /// Takes the pairs of one body's own members out of a list.
@@ -195,12 +175,6 @@ impl Bodies {
         self.of.get(k).and_then(|&b| self.flights.get(b as usize))
     }
 
-    /// Mass [kg] of the body that row `k` is a member of: all of it for its first member, none for the others.
-    pub fn mass_at(&self, k: usize) -> Option<f64> {
-        let first = |f: &Flight| self.members.get(f.first as usize) == Some(&(k as u32));
-        self.body_of(k).map(|f| if first(f) { f.mass } else { 0.0 })
-    }
-
     /// Follows the particles to their new places; `order` names the old ones of those that stay. Bodies stay or leave whole.
     pub fn reorder(&mut self, order: &[u32]) {
         if self.none() {
@@ -210,6 +184,7 @@ impl Bodies {
         for (n, &o) in order.iter().enumerate() {
             new[o as usize] = n as u32;
         }
+        self.keep(&new);
         self.members.iter_mut().for_each(|m| *m = new[*m as usize]);
         let before = std::mem::take(&mut self.of);
         let old = |o: &u32| before.get(*o as usize).copied().unwrap_or(FREE);

@@ -323,6 +323,15 @@ impl Contacts {
         segment.memory + (k / BLOCK * columns + column) * BLOCK + k % BLOCK
     }
 
+    /// Gives one contact its memory, in the order of its kind's columns.
+    pub fn give_memory(&mut self, segment: &Segment, place: usize, columns: &[f64]) {
+        for (c, number) in columns.iter().enumerate() {
+            let at = self.memory_at(segment, place, c, columns.len());
+            self.memory[at] = *number;
+        }
+        self.active[place / BLOCK] = true;
+    }
+
     /// Contact point of an image or a wall when loads were computed: place, radius (0 on a flat wall) [m].
     pub fn partner_row(&self, segment: &Segment, place: usize) -> &Row {
         &self.rows[segment.rows + place - segment.places.start]

@@ -98,7 +98,8 @@ pub enum SetupError {
     },
     /// A storage plane in a scene with clumps.
     #[error(
-        "outlet: a storage plane cannot record clumps (the scene has '{0}'): leave out the [[outlet]], or use spheres"
+        "outlet: of clumps (the scene has '{0}') only centres are tested, and no paths are recorded: use test = \"centre\" and motion = \
+         \"constant\" or \"ballistic\" in [[outlet]]"
     )]
     ClumpOutlet(String),
     /// An effect that is computed in double precision only.

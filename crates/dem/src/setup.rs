@@ -10,7 +10,10 @@ pub use crate::bodies::ClumpShape;
 pub use crate::drag::{Drag, DragLaw};
 pub use crate::servo::Servo;
 pub use crate::sleep::Sleep;
-pub use zone::{Crossing, Entry, EntryClump, Guide, PathSample, Sample, Touch, Zone, ZoneMotion, ZoneTest};
+pub use zone::{
+    Crossing, Entry, EntryClump, Guide, Memory, PathSample, Sample, Springs, Touch, Zone, ZoneMotion,
+    ZoneTest,
+};
 
 /// Everything that a run needs. SI units throughout.
 #[derive(Debug, Clone)]

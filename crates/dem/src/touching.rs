@@ -40,7 +40,9 @@ impl Simulation {
                 _ => Some(c.partner[place]),
             };
             let partner = partner.map(|p| self.particles.id[p as usize]);
-            Some(Touch { partner, normal: along, tangential: force - along })
+            let springs = self.springs(segment, place, second);
+            let id = self.particles.id[k];
+            Some(Touch { id, partner, normal: along, tangential: force - along, springs })
         };
         c.entries[from as usize..to as usize].iter().filter_map(of).collect()
     }

@@ -10,12 +10,14 @@ mod account;
 mod cross;
 mod enter;
 mod lost;
+mod memory;
 mod path;
 mod travel;
+mod whole;
 
 use crate::lane::Row4;
 use crate::particles::Particles;
-use crate::setup::{Crossing, Entry, Setup, Zone};
+use crate::setup::{Crossing, Entry, Setup, Springs, Zone};
 use crate::simulation::Simulation;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
@@ -45,6 +47,8 @@ pub struct Zones {
     ids: BTreeSet<u32>,
     /// Recorded paths of those on their way in, by id.
     paths: BTreeMap<u32, path::Path>,
+    /// What contacts are to remember once the first of two is free, by its id and that of the other.
+    memories: BTreeMap<(u32, u32), Springs>,
     /// For each outlet, those whose paths were sampled last.
     sampled: Vec<BTreeSet<u32>>,
     latest: f64,
@@ -57,7 +61,8 @@ impl Zones {
     pub fn new(setup: &Setup, particles: &Particles) -> Zones {
         let past = |zone: &Zone| {
             let there = setup.particles.iter().filter(|p| zone.past(&p.position, p.radius) >= 0.0);
-            there.map(|p| p.id).collect()
+            let bodies = setup.clumps.bodies.iter().filter(|b| zone.past(&b.position, 0.0) >= 0.0);
+            there.map(|p| p.id).chain(bodies.map(|b| b.id)).collect()
         };
         let ids =
             if setup.inlets.is_empty() { BTreeSet::new() } else { particles.id.iter().copied().collect() };
@@ -118,6 +123,22 @@ impl Zones {
     /// Crossings since the last call.
     pub fn take_crossings(&mut self) -> Vec<Crossing> {
         std::mem::take(&mut self.crossings)
+    }
+
+    /// Whether a particle is to come in, or is on its way in.
+    fn comes(&self, id: u32, setup: &Setup) -> bool {
+        let members = |e: &Entry| e.clump.map_or(1, |c| enter::members(&c, setup));
+        self.pending.iter().any(|e| id.wrapping_sub(e.particle.id) < members(e))
+            || self.travellers.iter().any(|t| t.start.id == id && matches!(t.way, travel::Way::In(_)))
+    }
+
+    /// What contacts of a particle were told to remember, by their other particle; forgotten here.
+    fn told(&mut self, id: u32) -> Vec<(u32, Springs)> {
+        let told: Vec<_> = self.memories.range((id, 0)..=(id, u32::MAX)).map(|(k, s)| (k.1, *s)).collect();
+        for (partner, _) in &told {
+            self.memories.remove(&(id, *partner));
+        }
+        told
     }
 
     /// Follows the particles to their new places; `order` names the old ones of those that stay.

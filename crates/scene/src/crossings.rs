@@ -1,11 +1,16 @@
 //! Crossings as tables: what passes a storage plane, and what enters through an inlet.
 //!
 //! Topic `/crossings` holds particles in the order of their passage times; `/crossings/watermark` says "nothing
-//! more before t"; `/crossings/touches` has one row for each contact a particle had when it passed.
+//! more before t"; `/crossings/touches` ([`crate::touches`]) has one row for each contact a particle had when it passed.
+//!
+//! A rigid clump is one row: id of its first member, centre of mass, radius of the sphere that holds it; `clump` is its shape's index in the
+//! record `clumps`, 65535 for a sphere; `scale`, the quaternion that turns the frame its shape was given in, and its `mass` follow. Tables in
+//! which all are spheres have none of these columns.
 
 use crate::columns::Columns;
 use crate::error::SceneError;
-use dem::setup::{Crossing, Particle};
+use dem::setup::{Crossing, EntryClump, Particle};
+use nalgebra::{Quaternion, UnitQuaternion};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use stream::{Table, Values, mcap::Event};
@@ -14,10 +19,8 @@ use stream::{Table, Values, mcap::Event};
 pub const CROSSINGS: &str = "/crossings";
 /// Topic of the promises.
 pub const WATERMARK: &str = "/crossings/watermark";
-/// Topic of the contacts.
-pub const TOUCHES: &str = "/crossings/touches";
-/// Partner of a touch with a wall.
-pub const WALL: u32 = u32::MAX;
+/// `clump` of a sphere.
+pub const SPHERE: u16 = u16::MAX;
 
 /// Nothing more comes before this time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -55,15 +58,20 @@ pub struct Passage {
     pub particle: Particle,
     /// Number of contacts.
     pub contacts: u16,
+    /// What makes it a rigid clump, and its mass [kg].
+    pub clump: Option<(EntryClump, f64)>,
 }
 
-impl From<&Crossing> for Passage {
-    fn from(c: &Crossing) -> Passage {
+impl Passage {
+    /// Of a crossing in a run whose clumps have these masses at scale 1 [kg].
+    pub fn new(c: &Crossing, masses: &[f64]) -> Passage {
+        let mass = |e: &EntryClump| masses.get(e.shape as usize).map_or(f64::NAN, |m| m * e.scale.powi(3));
         Passage {
             time: c.time,
             outlet: c.outlet as u16,
             particle: c.particle,
             contacts: c.touching.len() as u16,
+            clump: c.clump.map(|e| (e, mass(&e))),
         }
     }
 }
@@ -97,7 +105,7 @@ impl Builder {
 
 /// The table of the topic `/crossings`.
 pub fn to_table(rows: &[Passage]) -> Table {
-    Builder::new(rows.len())
+    let table = Builder::new(rows.len())
         .vectors(["x", "y", "z"], rows, |r| r.particle.position)
         .f64("time", rows.iter().map(|r| r.time))
         .vectors(["vx", "vy", "vz"], rows, |r| r.particle.velocity)
@@ -106,8 +114,48 @@ pub fn to_table(rows: &[Passage]) -> Table {
         .with("id", Values::U32(rows.iter().map(|r| r.particle.id).collect()))
         .with("material", Values::U16(rows.iter().map(|r| r.particle.material).collect()))
         .with("outlet", Values::U16(rows.iter().map(|r| r.outlet).collect()))
-        .with("contacts", Values::U16(rows.iter().map(|r| r.contacts).collect()))
+        .with("contacts", Values::U16(rows.iter().map(|r| r.contacts).collect()));
+    if rows.iter().all(|r| r.clump.is_none()) {
+        return table.0;
+    }
+    let of = |pick: fn(&EntryClump) -> f64, none: f64| {
+        rows.iter().map(move |r| r.clump.as_ref().map_or(none, |c| pick(&c.0)))
+    };
+    let shape = |r: &Passage| r.clump.map_or(SPHERE, |c| c.0.shape as u16);
+    table
+        .with("clump", Values::U16(rows.iter().map(shape).collect()))
+        .f64("scale", of(|c| c.scale, 1.0))
+        .f64("qw", of(|c| c.orientation.w, 1.0))
+        .f64("qx", of(|c| c.orientation.i, 0.0))
+        .f64("qy", of(|c| c.orientation.j, 0.0))
+        .f64("qz", of(|c| c.orientation.k, 0.0))
+        .f64("mass", rows.iter().map(|r| r.clump.map_or(0.0, |c| c.1)))
         .0
+}
+
+/// The clumps among the rows of a table.
+fn clumps(columns: &Columns) -> Result<Vec<Option<(EntryClump, f64)>>, SceneError> {
+    let rows = columns.table.rows();
+    let Some(shapes) = columns.indices("clump", f64::from(SPHERE))? else { return Ok(vec![None; rows]) };
+    let (scales, masses) = (columns.numbers("scale")?, columns.numbers("mass")?);
+    let (real, vector) = (columns.numbers("qw")?, columns.vectors(["qx", "qy", "qz"])?);
+    let mut all = vec![None; rows];
+    for (k, one) in all.iter_mut().enumerate().filter(|(k, _)| shapes[*k] != u32::from(SPHERE)) {
+        let q = Quaternion::new(real[k], vector[k].x, vector[k].y, vector[k].z);
+        if !((q.norm() - 1.0).abs() < 1e-9 && scales[k] > 0.0 && masses[k] > 0.0) {
+            let why = format!(
+                "row {k}: a clump of scale {}, mass {} kg and a quaternion of length {}",
+                scales[k],
+                masses[k],
+                q.norm()
+            );
+            return Err(SceneError::file(columns.name, why, "run stage-replay again"));
+        }
+        // As it was written: to normalize it again would change its last digits.
+        let orientation = UnitQuaternion::new_unchecked(q);
+        *one = Some((EntryClump { shape: shapes[k], scale: scales[k], orientation }, masses[k]));
+    }
+    Ok(all)
 }
 
 /// The passages of a table.
@@ -131,6 +179,7 @@ pub fn from_table(stream: &str, table: &Table, materials: usize) -> Result<Vec<P
     let material = need("material", materials as f64 - 1.0)?;
     let outlets = columns.indices("outlet", f64::from(u16::MAX))?;
     let contacts = columns.indices("contacts", f64::from(u16::MAX))?;
+    let clumps = clumps(&columns)?;
     let row = |i: usize| Passage {
         time: times[i],
         outlet: outlets.as_ref().map_or(0, |o| o[i] as u16),
@@ -143,21 +192,9 @@ pub fn from_table(stream: &str, table: &Table, materials: usize) -> Result<Vec<P
             spin: spins[i],
         },
         contacts: contacts.as_ref().map_or(0, |c| c[i] as u16),
+        clump: clumps[i],
     };
     Ok((0..times.len()).map(row).collect())
-}
-
-/// The table of the topic `/crossings/touches`: a row for each contact; x y z is where the particle was.
-pub(crate) fn touches(crossings: &[Crossing]) -> Table {
-    let rows: Vec<_> = crossings.iter().flat_map(|c| c.touching.iter().map(move |t| (c, t))).collect();
-    Builder::new(rows.len())
-        .vectors(["x", "y", "z"], &rows, |r| r.0.particle.position)
-        .f64("time", rows.iter().map(|r| r.0.time))
-        .with("id", Values::U32(rows.iter().map(|r| r.0.particle.id).collect()))
-        .with("partner", Values::U32(rows.iter().map(|r| r.1.partner.unwrap_or(WALL)).collect()))
-        .vectors(["fnx", "fny", "fnz"], &rows, |r| r.1.normal)
-        .vectors(["ftx", "fty", "ftz"], &rows, |r| r.1.tangential)
-        .0
 }
 
 /// Radii [m] of all particles that a stream can bring, and their materials: the metadata record `sizes`.
@@ -171,6 +208,8 @@ pub struct Sizes {
 
 /// Name of the metadata record.
 pub const SIZES: &str = "sizes";
+/// Key of it that is there where no spheres are among them, only clumps.
+pub(crate) const ONLY_CLUMPS: &str = "only_clumps";
 
 impl Sizes {
     /// The record.

@@ -2,13 +2,14 @@
 
 use crate::error::SceneError;
 use crate::plan::Feeds;
-use dem::setup::{Entry, Guide};
+use dem::setup::{Entry, Guide, Memory};
 
 /// What a feed gives: a particle, or news of one that it gave.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Item {
     Enter(Entry),
     Guide { time: f64, id: u32, guide: Guide },
+    Remember { time: f64, memory: Memory },
 }
 
 impl Item {
@@ -16,7 +17,7 @@ impl Item {
     pub fn time(&self) -> f64 {
         match self {
             Item::Enter(entry) => entry.time,
-            Item::Guide { time, .. } => *time,
+            Item::Guide { time, .. } | Item::Remember { time, .. } => *time,
         }
     }
 }

@@ -60,9 +60,13 @@ pub fn bodies(rows: &[BodyState]) -> Table {
 }
 
 /// The record `clumps`: each shape by its index. Spheres and centre of mass in the frame that it was given in, principal moments of inertia of
-/// density 1.
+/// density 1; the range of scales that there may be, where there may be any.
 pub(crate) fn clumps(clumps: &Clumps) -> BTreeMap<String, String> {
-    let one = |s: &ClumpShape| {
+    let one = |k: usize, s: &ClumpShape| {
+        let own = || clumps.scales_of(k as u32);
+        let range = own().fold(None, |range: Option<(f64, f64)>, (low, high)| {
+            Some(range.map_or((low, high), |r| (r.0.min(low), r.1.max(high))))
+        });
         let sphere = |(c, r): &(geom::Vec3, f64)| {
             let c = s.centre + s.frame * c;
             [c.x, c.y, c.z, *r]
@@ -70,10 +74,10 @@ pub(crate) fn clumps(clumps: &Clumps) -> BTreeMap<String, String> {
         let centre = [s.centre.x, s.centre.y, s.centre.z];
         json!({
             "name": s.name, "material": s.material, "volume": s.volume, "inertia": s.inertia, "centre": centre,
-            "spheres": s.spheres.iter().map(sphere).collect::<Vec<_>>(),
+            "spheres": s.spheres.iter().map(sphere).collect::<Vec<_>>(), "scales": range,
         })
     };
-    clumps.shapes.iter().enumerate().map(|(k, s)| (k.to_string(), one(s).to_string())).collect()
+    clumps.shapes.iter().enumerate().map(|(k, s)| (k.to_string(), one(k, s).to_string())).collect()
 }
 
 /// The table of the topic `/contacts`.

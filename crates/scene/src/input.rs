@@ -1,15 +1,28 @@
 //! Streams that a run is given: walls or an inlet, told apart by what they hold.
 
-use crate::crossings::{CROSSINGS, SIZES, Sizes, WATERMARK, topic};
+use crate::clump_info::{self, ClumpInfo};
+use crate::crossings::{CROSSINGS, ONLY_CLUMPS, SIZES, Sizes, WATERMARK, topic};
 use crate::error::SceneError;
 use crate::gate::Gate;
 use crate::inlet::{INLET, InletStream, Source};
 use crate::material_info::{self, MATERIALS, MaterialInfo};
+use crate::run::CLUMPS;
+use crate::touches::TOUCHES;
 use crate::wall_file::WallFile;
 use stream::mcap::{Event, McapError, Reader};
 
 /// Metadata record that every run has.
 pub const SCENE: &str = "scene";
+
+/// What a stream says of itself before its first message.
+#[derive(Default)]
+pub(crate) struct Said {
+    pub gate: Option<Gate>,
+    pub sizes: Option<Sizes>,
+    pub only_clumps: bool,
+    pub materials: Vec<MaterialInfo>,
+    pub clumps: Vec<ClumpInfo>,
+}
 
 /// A stream, as far as it had to be read to know what it is.
 pub enum Input {
@@ -26,8 +39,7 @@ impl Input {
     /// A stream that breaks off, or holds neither walls nor crossings.
     pub fn open(name: &str, source: Source) -> Result<Input, SceneError> {
         let mut reader = Reader::new(source);
-        let (mut gate, mut sizes) = (None, None);
-        let mut materials: Vec<MaterialInfo> = Vec::new();
+        let mut said = Said::default();
         loop {
             let Some(event) = reader.next() else {
                 return Err(SceneError::file(
@@ -38,11 +50,15 @@ impl Input {
             };
             let event = event.map_err(|e| broken(name, e))?;
             let Event::Metadata { name: record, map } = &event else {
-                return Input::by_topic(name, reader, event, gate, sizes, materials);
+                return Input::by_topic(name, reader, event, said);
             };
             match record.as_str() {
-                MATERIALS => materials = material_info::from_map(name, map)?,
-                SIZES => sizes = Some(Sizes::from_map(name, map)?),
+                MATERIALS => said.materials = material_info::from_map(name, map)?,
+                CLUMPS => said.clumps = clump_info::from_map(name, map)?,
+                SIZES => {
+                    said.only_clumps = map.contains_key(ONLY_CLUMPS);
+                    said.sizes = Some(Sizes::from_map(name, map)?);
+                }
                 SCENE => {
                     let why = "is a run, neither walls nor an inlet";
                     return Err(SceneError::file(
@@ -53,8 +69,8 @@ impl Input {
                 }
                 // The last record of an inlet: from here on, messages may come as late as a run upstream makes them.
                 INLET => {
-                    gate = Some(Gate::from_map(name, INLET, map)?);
-                    return Input::inlet(name, reader, None, gate, sizes, materials);
+                    said.gate = Some(Gate::from_map(name, INLET, map)?);
+                    return Input::inlet(name, reader, None, said);
                 }
                 _ => {}
             }
@@ -65,14 +81,12 @@ impl Input {
         name: &str,
         mut reader: Reader<Source>,
         first: Event,
-        gate: Option<Gate>,
-        sizes: Option<Sizes>,
-        materials: Vec<MaterialInfo>,
+        said: Said,
     ) -> Result<Input, SceneError> {
         match (topic(&first).unwrap_or_default(), &first) {
-            (CROSSINGS | WATERMARK, _) => Input::inlet(name, reader, Some(first), gate, sizes, materials),
+            (CROSSINGS | WATERMARK | TOUCHES, _) => Input::inlet(name, reader, Some(first), said),
             ("/walls", Event::Points { table, .. }) => {
-                let walls = WallFile::new(name, table, materials)?;
+                let walls = WallFile::new(name, table, said.materials)?;
                 // To the end, where the record is that tells a whole stream from a broken one.
                 for event in reader.by_ref() {
                     let event = event.map_err(|e| broken(name, e))?;
@@ -98,9 +112,7 @@ impl Input {
         name: &str,
         reader: Reader<Source>,
         first: Option<Event>,
-        gate: Option<Gate>,
-        sizes: Option<Sizes>,
-        materials: Vec<MaterialInfo>,
+        said: Said,
     ) -> Result<Input, SceneError> {
         let missing = |record: &str, what: &str| {
             SceneError::file(
@@ -109,11 +121,11 @@ impl Input {
                 "write it with stage-replay",
             )
         };
-        let sizes = sizes.ok_or_else(|| missing(SIZES, "range of the radii"))?;
-        if materials.is_empty() {
+        let sizes = said.sizes.ok_or_else(|| missing(SIZES, "range of the radii"))?;
+        if said.materials.is_empty() {
             return Err(missing(MATERIALS, "names of the materials"));
         }
-        Ok(Input::Inlet(Box::new(InletStream::new(name, reader, (gate, sizes), materials, first)?)))
+        Ok(Input::Inlet(Box::new(InletStream::new(name, reader, sizes, said, first)?)))
     }
 }
 

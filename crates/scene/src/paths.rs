@@ -30,7 +30,13 @@ pub struct Waypoint {
 impl Waypoint {
     /// A sample at a time [s].
     pub(crate) fn new(time: f64, sample: &PathSample) -> Waypoint {
-        let passage = Passage { time, outlet: sample.outlet as u16, particle: sample.particle, contacts: 0 };
+        let passage = Passage {
+            time,
+            outlet: sample.outlet as u16,
+            particle: sample.particle,
+            contacts: 0,
+            clump: None,
+        };
         Waypoint { passage, gone: sample.gone }
     }
 }

@@ -87,6 +87,16 @@ impl Scene {
         draft.finish()
     }
 
+    /// Radius of the sphere that holds each clump at scale 1 [m], in the order of the scene.
+    ///
+    /// # Errors
+    /// A shape that is none.
+    pub(crate) fn clump_reaches(&self) -> Result<Vec<f64>, SceneError> {
+        let mut draft = Draft::new(self);
+        draft.shapes()?;
+        Ok(draft.clumps.shapes.iter().map(setup::ClumpShape::reach).collect())
+    }
+
     /// [`Scene::plan`], for those who only want the engine's part.
     ///
     /// # Errors
@@ -242,6 +252,15 @@ impl<'a> Draft<'a> {
             Some(Sizes { smallest: least * b.scale, largest: most * b.scale })
         });
         own.chain(members).fold(self.entry_sizes, Sizes::union)
+    }
+
+    /// Radius of the sphere that holds the widest clump [m]; 0 without any.
+    pub(crate) fn widest_clump(&self) -> f64 {
+        let shapes = self.clumps.shapes.iter().zip(0u32..);
+        let one = |(s, k): (&setup::ClumpShape, u32)| {
+            self.clumps.scales_of(k).map(|scale| scale.1).fold(0.0, f64::max) * s.reach()
+        };
+        shapes.map(one).fold(0.0, f64::max)
     }
 
     fn finish(mut self) -> Result<Plan, SceneError> {

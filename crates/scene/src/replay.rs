@@ -4,6 +4,7 @@ mod copies;
 mod frame;
 mod head;
 mod order;
+mod recall;
 mod start;
 
 pub use copies::Copies;
@@ -14,17 +15,20 @@ use crate::error::SceneError;
 use crate::inlet::{INLET, Source};
 use crate::material_info::MATERIALS;
 use crate::paths::{self, PATHS, Waypoint};
-use crate::run::{LOG, RunError};
+use crate::run::{CLUMPS, LOG, RunError};
 use crate::schedule::nanoseconds;
+use crate::touches::{self, TOUCHES, Touching};
 use copies::Merge;
-use dem::setup::ZoneMotion;
+use dem::setup::{Memory, ZoneMotion};
 use geom::{Plane, Shown};
 use head::Head;
 use order::{Generated, Order};
+use recall::Recall;
 use serde::{Deserialize, Serialize};
 use start::Starts;
 use std::collections::BTreeMap;
 use std::io::Write;
+use std::rc::Rc;
 use stream::Table;
 use stream::mcap::{Compression, Event, Provenance, Reader, Writer};
 
@@ -167,7 +171,10 @@ pub fn replay<W: Write>(
     let head = head::head(name, records, what)?;
     let mut writer = Writer::compressed(out, &provenance, compression)?;
     writer.metadata(MATERIALS, head.materials.clone())?;
-    writer.metadata(SIZES, head.sizes.to_map())?;
+    writer.metadata(SIZES, head.sizes_record.clone())?;
+    if !head.clumps_record.is_empty() {
+        writer.metadata(CLUMPS, head.clumps_record.clone())?;
+    }
     writer.metadata(REPLAY, what.to_map())?;
     // The last record: from it on, messages may come as late as a run upstream makes them.
     writer.metadata(INLET, head.gate.to_map())?;
@@ -178,8 +185,10 @@ pub fn replay<W: Write>(
         start,
         starts: Starts::new(&head, what),
         order: Order::default(),
-        merge: Merge::new(what, head.gate.zone, head.gate.gravity.unwrap_or_default(), head.sizes.largest),
+        merge: Merge::new(what, head.gate.zone, head.gate.gravity.unwrap_or_default(), head.widest),
         held: Vec::new(),
+        touches: BTreeMap::new(),
+        recall: Recall::default(),
         head,
         done: Replayed::default(),
         known: 0.0,
@@ -222,7 +231,10 @@ struct Passing<'a> {
     order: Order,
     merge: Merge,
     /// The record, where it is replayed more than once.
-    held: Vec<Passage>,
+    held: Vec<(Passage, Rc<[Memory]>)>,
+    /// What contacts remember of those that pass in the rows that come next, by their id.
+    touches: BTreeMap<u32, Vec<Memory>>,
+    recall: Recall,
     done: Replayed,
     /// Watermark of the run [s].
     known: f64,
@@ -242,12 +254,20 @@ impl Passing<'_> {
     /// Passes an event on; whether nothing more can follow.
     fn pass<W: Write>(&mut self, event: Event, writer: &mut Writer<W>) -> Result<bool, RunError> {
         match event {
+            Event::Points { topic, table, .. } if topic == TOUCHES => {
+                for Touching { memory, .. } in touches::from_table(self.name, &table)? {
+                    self.touches.entry(memory.id).or_default().push(memory);
+                }
+                Ok(false)
+            }
             Event::Points { topic, table, .. } if topic == CROSSINGS => {
                 let rows = crossings::from_table(self.name, &table, self.head.materials.len())?;
                 for row in rows {
                     self.known = self.known.max(row.time);
                     self.take(row)?;
                 }
+                // Of rows of other outlets and times.
+                self.touches.clear();
                 self.send(self.bound(), writer)?;
                 Ok(false)
             }
@@ -274,7 +294,7 @@ impl Passing<'_> {
     fn bound(&self) -> f64 {
         let known = self.what.until.map_or(self.known, |until| until.min(self.known));
         let next = match (self.held.first(), self.what.period) {
-            (Some(first), Some(period)) => begins(first, period, 1),
+            (Some((first, _)), Some(period)) => begins(first, period, 1),
             _ => f64::INFINITY,
         };
         self.start.map_or(f64::NEG_INFINITY, |start| next.min(known - start))
@@ -294,15 +314,32 @@ impl Passing<'_> {
         if row.outlet != self.what.outlet || !self.what.holds(row.time) {
             return Ok(());
         }
+        let touches = self.touches_of(&row);
         if let Some(frame) = &self.what.frame {
-            frame.particle(&mut row.particle);
+            frame.passage(&mut row);
         }
         row.time -= *self.start.get_or_insert(row.time);
         row.outlet = 0;
         if self.what.repeat > 1 {
-            self.held.push(row);
+            self.held.push((row, touches.clone()));
         }
-        self.enter(row)
+        self.enter(row, touches, 0)
+    }
+
+    /// What the contacts of a passage remember.
+    fn touches_of(&mut self, row: &Passage) -> Rc<[Memory]> {
+        let first = row.particle.id;
+        let ids = (0..self.members(row)).map(|k| first.wrapping_add(k));
+        let mut all: Vec<Memory> = ids.filter_map(|id| self.touches.remove(&id)).flatten().collect();
+        if let Some(frame) = &self.what.frame {
+            all.iter_mut().for_each(|m| m.springs = frame.springs(&m.springs));
+        }
+        all.into()
+    }
+
+    /// Number of spheres of a passage.
+    fn members(&self, row: &Passage) -> u32 {
+        row.clump.map_or(1, |(c, _)| self.head.members.get(c.shape as usize).copied().unwrap_or(1))
     }
 
     fn recorded(&self) -> bool {
@@ -315,7 +352,7 @@ impl Passing<'_> {
         rows.retain(|r| self.what.outlet == r.passage.outlet && self.what.holds(r.passage.time));
         for Waypoint { passage, .. } in &mut rows {
             if let Some(frame) = &self.what.frame {
-                frame.particle(&mut passage.particle);
+                frame.passage(passage);
             }
             passage.time -= *self.start.get_or_insert(passage.time);
             passage.outlet = 0;
@@ -327,16 +364,16 @@ impl Passing<'_> {
     }
 
     /// A passage as it enters, with its copies.
-    fn enter(&mut self, row: Passage) -> Result<(), SceneError> {
+    fn enter(&mut self, row: Passage, touches: Rc<[Memory]>, replay: u32) -> Result<(), SceneError> {
         if self.recorded() {
-            self.order.put(Generated { row, copy: 0 });
+            self.order.put(Generated { row, copy: (0, 0), touches });
             return Ok(());
         }
         for (copy, mut row) in self.what.copies.of(row) {
             row.time += self.starts.place(self.name, &mut row)?;
             let past = self.head.gate.zone.past(&row.particle.position, row.particle.radius);
-            self.done.near += u64::from(-past <= 2.0 * self.head.sizes.largest);
-            self.order.put(Generated { row, copy });
+            self.done.near += u64::from(-past <= 2.0 * self.head.widest);
+            self.order.put(Generated { row, copy: (copy, replay), touches: touches.clone() });
         }
         Ok(())
     }
@@ -344,7 +381,9 @@ impl Passing<'_> {
     /// Replays the record again, as often as is asked for.
     fn again<W: Write>(&mut self, writer: &mut Writer<W>) -> Result<(), RunError> {
         (self.done.copies, self.done.replays) = (self.what.copies.count, self.what.repeat.max(1));
-        let (Some(first), Some(last)) = (self.held.first(), self.held.last()) else { return Ok(()) };
+        let (Some((first, _)), Some((last, _))) = (self.held.first(), self.held.last()) else {
+            return Ok(());
+        };
         let end = self.what.until.map_or(self.known, |until| until.min(self.known));
         let period = self.what.period.unwrap_or(end - self.start.unwrap_or(0.0));
         if period < last.time - first.time {
@@ -363,12 +402,12 @@ impl Passing<'_> {
         self.done.period = Some(period);
         let held = std::mem::take(&mut self.held);
         for replay in 1..self.what.repeat {
-            let start = begins(&held[0], period, replay);
+            let start = begins(&held[0].0, period, replay);
             self.send(start, writer)?;
             self.promise(start, writer)?;
-            for row in &held {
+            for (row, touches) in &held {
                 let time = begins(row, period, replay);
-                self.enter(Passage { time, ..*row })?;
+                self.enter(Passage { time, ..*row }, touches.clone(), replay)?;
                 self.send(time, writer)?;
             }
         }
@@ -377,9 +416,15 @@ impl Passing<'_> {
 
     /// Writes what is generated at a time or before.
     fn send<W: Write>(&mut self, bound: f64, writer: &mut Writer<W>) -> Result<(), RunError> {
-        let mut rows = Vec::new();
+        let (mut rows, mut told) = (Vec::new(), Vec::new());
         while let Some(one) = self.order.next_until(bound) {
-            rows.push(self.merge.pass(self.name, one)?);
+            let members = self.members(&one.row);
+            let row = self.merge.pass(self.name, one.clone(), members)?;
+            told.extend(self.recall.with(&one, &row, (members, self.recorded())));
+            rows.push(row);
+        }
+        if let Some(last) = told.last() {
+            writer.points(TOUCHES, nanoseconds(last.time), "world", &touches::to_table(&told))?;
         }
         if let Some(last) = rows.last() {
             self.done.particles += rows.len() as u64;

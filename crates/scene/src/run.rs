@@ -1,7 +1,7 @@
 //! The run: steps, frames, crossings, checkpoints.
 
 use crate::checkpoint::{Checkpoint, Pieces};
-use crate::crossings::{self, CROSSINGS, Passage, SIZES, TOUCHES, WATERMARK, Watermark};
+use crate::crossings::{self, CROSSINGS, ONLY_CLUMPS, Passage, SIZES, WATERMARK, Watermark};
 use crate::error::SceneError;
 use crate::feeds::{Item, Supply};
 use crate::frames::{self, WallHead};
@@ -11,6 +11,7 @@ use crate::model::Precision;
 use crate::moment::Moment;
 use crate::paths::{self, PATHS, Waypoint};
 use crate::schedule::{Schedule, nanoseconds};
+use crate::touches::{self, TOUCHES};
 use crate::{Plan, Scene, input::SCENE};
 use dem::setup::{Crossing, ZoneMotion};
 use dem::{Halt, SetupError, Simulation};
@@ -141,6 +142,8 @@ struct Run<W: Write> {
     moving: bool,
     outlets: bool,
     clumps: bool,
+    /// Masses of clumps at scale 1 [kg].
+    masses: Vec<f64>,
     energy: bool,
     contacts: bool,
     wall_forces: bool,
@@ -257,6 +260,9 @@ impl<W: Write> Run<W> {
         let moving = spheres_move(&plan.setup.walls);
         let shapes = frames::clumps(&plan.setup.clumps);
         let clumps = !shapes.is_empty();
+        let only_clumps = clumps && plan.setup.particles.is_empty() && plan.setup.entry_materials.is_empty();
+        let density = |m: u16| plan.setup.materials[m as usize].density;
+        let masses = plan.setup.clumps.shapes.iter().map(|s| s.mass(1.0, density(s.material))).collect();
         let follows = plan.setup.walls.iter().any(|w| w.motion.servo.is_some());
         let wall_forces = scene.model.output.wall_forces || follows;
         let sim = match resume {
@@ -283,7 +289,10 @@ impl<W: Write> Run<W> {
         };
         let outlets: Record = zones.iter().enumerate().map(gate).collect();
         let mut writer = Writer::compressed(out, &settings.provenance, settings.compression)?;
-        for (name, record) in records(scene, &schedule, &sim, materials, plan.sizes, &outlets) {
+        for (name, mut record) in records(scene, &schedule, &sim, materials, plan.sizes, &outlets) {
+            if name == SIZES && only_clumps {
+                record.insert(ONLY_CLUMPS.to_owned(), "true".to_owned());
+            }
             writer.metadata(name, record)?;
         }
         if clumps {
@@ -301,6 +310,7 @@ impl<W: Write> Run<W> {
             moving,
             outlets: !outlets.is_empty(),
             clumps,
+            masses,
             energy: scene.model.output.energy,
             contacts: scene.model.output.contacts,
             wall_forces,
@@ -370,6 +380,7 @@ impl<W: Write> Run<W> {
             match item {
                 Item::Enter(entry) => self.sim.enter(entry)?,
                 Item::Guide { id, guide, .. } => self.sim.guide(id, guide)?,
+                Item::Remember { memory, .. } => self.sim.remember(memory),
             }
         }
         Ok(())
@@ -483,12 +494,13 @@ impl<W: Write> Run<W> {
         let now = self.now();
         let crossings = std::mem::take(&mut self.crossings);
         if !crossings.is_empty() {
-            let rows: Vec<Passage> = crossings.iter().map(Passage::from).collect();
-            self.writer.points(CROSSINGS, now, FRAME, &crossings::to_table(&rows))?;
-            let touches = crossings::touches(&crossings);
+            // Contacts first: who passes rows on has them then.
+            let touches = touches::of_crossings(&crossings);
             if touches.rows() > 0 {
                 self.writer.points(TOUCHES, now, FRAME, &touches)?;
             }
+            let rows: Vec<Passage> = crossings.iter().map(|c| Passage::new(c, &self.masses)).collect();
+            self.writer.points(CROSSINGS, now, FRAME, &crossings::to_table(&rows))?;
             self.outcome.crossings += rows.len() as u64;
         }
         let watermark = Watermark { until: self.sim.time() };

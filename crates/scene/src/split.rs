@@ -1,5 +1,6 @@
 //! A scene cut in two at a plane: the stage upstream records, the stage downstream lets in (SYSTEMS B1–B7).
 
+mod column;
 mod files;
 mod mark;
 mod sides;
@@ -60,9 +61,14 @@ const OWN_IDS: i64 = 2_000_000_000;
 /// # Errors
 /// Particles on both sides of the plane, a length that is too short, files that cannot be read.
 pub fn split(scene: &Scene, cut: &Cut) -> Result<(String, Vec<String>), SceneError> {
-    if let Some(clump) = scene.model.clump.first() {
-        let why = format!("has clumps ('{}'), and a storage plane cannot record them", clump.name);
-        return Err(SceneError::file(&scene.text.name, why, "use spheres, or run the plant undivided"));
+    let unfit = cut.motion == ZoneMotion::Recorded || cut.test == ZoneTest::Lowest;
+    if let Some(clump) = scene.model.clump.first().filter(|_| unfit) {
+        let why = format!(
+            "has clumps ('{}'): of them only centres are tested, and no paths are recorded",
+            clump.name
+        );
+        let cure = "use --test centre, and --motion constant or ballistic";
+        return Err(SceneError::file(&scene.text.name, why, cure));
     }
     let (text, gone) = stage(scene, cut)?;
     // Both stages carry the mark of the one upstream: a record of another one is refused.
@@ -97,14 +103,29 @@ fn stage(scene: &Scene, cut: &Cut) -> Result<(String, Vec<String>), SceneError> 
     Ok((document.to_string(), found.names()))
 }
 
-/// Largest diameter that the scene itself tells [m]; 0 when its particles come from an inlet alone.
+/// Largest diameter that the scene itself tells [m], of clumps that of the sphere which holds them; 0 when its particles come from an inlet
+/// alone.
 fn largest(scene: &Scene) -> Result<f64, SceneError> {
     let m = &scene.model;
     let ranges = m.fill.iter().map(|f| f.diameter).chain(m.insert.iter().map(|f| f.diameter));
     let mut largest = ranges.map(|d: Diameter| d.high).fold(0.0, f64::max);
-    for entry in &m.particles {
+    for entry in m.particles.iter().filter(|p| p.clump.is_none()) {
         let file = particle_file::read(&scene.folder.join(&entry.source))?;
         largest = file.particles.iter().map(|p| 2.0 * p.radius).fold(largest, f64::max);
+    }
+    let reaches = if m.clump.is_empty() { Vec::new() } else { scene.clump_reaches()? };
+    for (clump, reach) in m.clump.iter().zip(reaches) {
+        let high = |scale: Option<Diameter>| scale.map_or(1.0, |s| s.high);
+        let fills = m.fill.iter().map(|f| (f.clump.as_deref(), high(f.scale)));
+        let faucets = m.insert.iter().map(|f| (f.clump.as_deref(), high(f.scale)));
+        let bodies = m.body.iter().map(|b| (Some(b.clump.as_str()), b.scale));
+        let mut files = Vec::new();
+        for entry in &m.particles {
+            files.push((entry.clump.as_deref(), sources::largest_scale(scene, entry)?));
+        }
+        let own =
+            fills.chain(faucets).chain(bodies).chain(files).filter(|(name, _)| *name == Some(&clump.name));
+        largest = own.map(|(_, scale)| 2.0 * reach * scale).fold(largest, f64::max);
     }
     Ok(largest)
 }

@@ -85,13 +85,17 @@ impl Draft<'_> {
         // All that a stream names must fit, because which it brings is known only when it has brought them.
         for info in stream.materials.clone() {
             let material = self.material_of(&name, &info)?;
-            if self.materials[material as usize].density > 0.0 {
+            if self.materials[material as usize].density > 0.0 && !stream.only_clumps {
                 self.entry_materials.push(material);
             }
             stream.to_scene.push(material);
         }
+        let clumps = stream.clumps.clone();
+        stream.to_shapes = self.clumps_of(&name, &clumps)?;
         self.entry_sizes = Sizes::union(self.entry_sizes, Some(stream.sizes));
-        self.sphere_sizes = Sizes::union(self.sphere_sizes, Some(stream.sizes));
+        if !stream.only_clumps {
+            self.sphere_sizes = Sizes::union(self.sphere_sizes, Some(stream.sizes));
+        }
         self.inlets.push(zone);
         self.feeds.streams.push(stream);
         Ok(())
@@ -155,7 +159,7 @@ impl Draft<'_> {
     }
 
     pub(crate) fn outlets(&mut self) -> Result<(), SceneError> {
-        let largest = self.sizes().map_or(0.0, |s| 2.0 * s.largest);
+        let largest = 2.0 * self.sizes().map_or(0.0, |s| s.largest).max(self.widest_clump());
         for (i, entry) in self.model().outlet.iter().enumerate() {
             let plane = walls::plane(&self.check, &format!("outlet.{i}.plane"), &entry.plane)?;
             let length = match entry.length {

@@ -1,9 +1,11 @@
 //! Storage, exclusion, generation and calculation planes, at the engine.
 
 mod ballistic;
+mod clumps;
 mod faces;
 mod left;
 mod lowest;
+mod memory;
 mod path;
 mod together;
 

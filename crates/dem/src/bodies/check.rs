@@ -2,14 +2,15 @@
 
 use crate::check::{finite, within};
 use crate::error::SetupError;
-use crate::setup::{Body, ClumpShape, EntryClump, Setup, WallShape};
+use crate::setup::{Body, ClumpShape, EntryClump, Setup, WallShape, Zone, ZoneMotion, ZoneTest};
 use std::collections::HashSet;
 
 /// Checks shapes and bodies.
 pub fn check(setup: &Setup) -> Result<(), SetupError> {
     let clumps = &setup.clumps;
     clumps.shapes.iter().try_for_each(|s| shape(s, setup))?;
-    if let Some((first, ..)) = clumps.scales().next().filter(|_| !setup.outlets.is_empty()) {
+    let unfit = |z: &Zone| z.motion == ZoneMotion::Recorded || z.test == ZoneTest::Lowest;
+    if let Some((first, ..)) = clumps.scales().next().filter(|_| setup.outlets.iter().any(unfit)) {
         return Err(SetupError::ClumpOutlet(first.name.clone()));
     }
     for &(index, low, high) in &clumps.entries {

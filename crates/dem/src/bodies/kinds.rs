@@ -88,6 +88,14 @@ impl Clumps {
         list
     }
 
+    /// Smallest and largest scale of each body of a shape, and of those that inlets bring.
+    pub fn scales_of(&self, shape: u32) -> impl Iterator<Item = (f64, f64)> + '_ {
+        let own = self.bodies.iter().map(|b| (b.shape, b.scale, b.scale));
+        own.chain(self.entries.iter().copied())
+            .filter(move |s| s.0 == shape)
+            .map(|(_, low, high)| (low, high))
+    }
+
     /// Shape, smallest and largest scale of all bodies, those that inlets bring included.
     pub(crate) fn scales(&self) -> impl Iterator<Item = (&ClumpShape, f64, f64)> + '_ {
         let own = self.bodies.iter().map(|b| (b.shape, b.scale, b.scale));

@@ -39,7 +39,7 @@ pub fn turned(q: &UnitQuaternion<f64>, momentum: &Vec3, inverse: &[f64; 3], dt: 
 }
 
 /// The turn about a vector by its length [rad], with sine and cosine that are the same on every platform.
-fn spun(v: &Vec3) -> UnitQuaternion<f64> {
+pub fn spun(v: &Vec3) -> UnitQuaternion<f64> {
     let angle = v.norm();
     let share = if angle > 0.0 { libm::sin(0.5 * angle) / angle } else { 0.5 };
     let vector = v * share;

@@ -120,13 +120,13 @@ pub struct Entry {
     /// Which inlet.
     pub inlet: u32,
     /// State at that time; from it, the zone's motion leads to the calculation plane. Of a rigid clump: id of its first member, centre of
-    /// mass, and the sphere that holds it; it does not turn before the calculation plane.
+    /// mass, the sphere that holds it, and the angular velocity that it keeps up to the calculation plane.
     pub particle: Particle,
     /// What makes it a rigid clump.
     pub clump: Option<EntryClump>,
 }
 
-/// The shape of an entry that is a rigid clump.
+/// The shape of an entry or a crossing that is a rigid clump.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct EntryClump {
     /// Index of its shape.
@@ -135,6 +135,25 @@ pub struct EntryClump {
     pub scale: f64,
     /// From the frame that the shape was given in to space.
     pub orientation: UnitQuaternion<f64>,
+}
+
+impl EntryClump {
+    /// Turned about a vector by its length [rad].
+    pub fn turned(&self, by: &Vec3) -> EntryClump {
+        EntryClump { orientation: crate::bodies::spun(by) * self.orientation, ..*self }
+    }
+}
+
+impl Springs {
+    /// Whether it is nothing.
+    pub fn is_zero(&self) -> bool {
+        *self == Springs::default()
+    }
+
+    /// Seen from a frame that is turned.
+    pub fn seen(&self, turn: &UnitQuaternion<f64>) -> Springs {
+        Springs { sliding: turn * self.sliding, rolling: turn * self.rolling, ..*self }
+    }
 }
 
 /// State of a particle at a time of its path.
@@ -179,19 +198,50 @@ pub struct Crossing {
     pub time: f64,
     /// Which outlet.
     pub outlet: u32,
-    /// State at that time (what is tested of it lies on the plane).
+    /// State at that time (what is tested of it lies on the plane). Of a rigid clump: id of its first member, centre of mass, and the
+    /// sphere that holds it.
     pub particle: Particle,
-    /// Partners in contact, by id (`None` for a wall), with the force on this particle [N]: normal, tangential.
+    /// What makes it a rigid clump.
+    pub clump: Option<EntryClump>,
+    /// Its contacts, or those of all members.
     pub touching: Vec<Touch>,
 }
 
 /// One contact of a crossing.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Touch {
+    /// Id of the particle that crosses, or of its member.
+    pub id: u32,
     /// Id of the other particle; `None` for a wall.
     pub partner: Option<u32>,
     /// Normal force on the crossing particle [N].
     pub normal: Vec3,
     /// Tangential force on the crossing particle [N].
     pub tangential: Vec3,
+    /// What the contact remembers.
+    pub springs: Springs,
+}
+
+/// What a contact remembers between steps, as its first particle sees it; 0 where no effect keeps it.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Springs {
+    /// Spring of sliding friction [m].
+    pub sliding: Vec3,
+    /// Spring of rolling resistance [rad].
+    pub rolling: Vec3,
+    /// Spring of twisting resistance [rad].
+    pub twisting: f64,
+    /// What a normal law keeps that lasts beyond touching (JKR: see [`crate::effects::Jkr`]).
+    pub normal: f64,
+}
+
+/// What the contact of two that come in has to remember once the first of them is free.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Memory {
+    /// Id of the one that is free first.
+    pub id: u32,
+    /// Id of the other.
+    pub partner: u32,
+    /// As `id` sees it.
+    pub springs: Springs,
 }

@@ -29,6 +29,13 @@ impl Simulation {
         Vec3::from(force).dot(&state.velocity) + Vec3::from(moment).dot(&state.spin)
     }
 
+    /// The like of particle `k`, or of a member of the clump that moves like this about its centre.
+    pub(super) fn power_about(&self, k: usize, whole: &Particle) -> f64 {
+        let r = self.bodies.arm_at(k);
+        let velocity = whole.velocity + whole.spin.cross(&r);
+        self.power(k, &Particle { radius: self.particles.rows[k][3], velocity, ..*whole })
+    }
+
     /// Elastic energy [J] of the contacts of particle `k` with those that have not left before it.
     pub(super) fn held(&self, k: usize) -> f64 {
         let c = &self.contacts;

@@ -7,9 +7,9 @@
 //! b = 2 d / (v + √(v² − 2 a d))
 //! ```
 
-use super::travel::{Flow, Traveller, Way};
+use super::travel::{Traveller, Way};
 use crate::energy::carried;
-use crate::setup::{Crossing, Particle};
+use crate::setup::{Crossing, Particle, Touch};
 use crate::simulation::Simulation;
 use geom::Vec3;
 
@@ -36,7 +36,8 @@ impl Simulation {
     fn look_at(&mut self, outlet: usize, found: &mut Vec<(usize, Crossing)>) {
         let zone = self.zones.outlets[outlet];
         for k in 0..self.particles.len() {
-            let past = zone.past(&self.particles.position(k), self.particles.rows[k][3]);
+            let Some((place, radius)) = self.tested(k) else { continue };
+            let past = zone.past(&place, radius);
             if past < 0.0 {
                 let beyond = &mut self.zones.beyond[outlet];
                 if !beyond.is_empty() && !self.zones.gone[k] && beyond.remove(&self.particles.id[k]) {
@@ -58,52 +59,96 @@ impl Simulation {
         }
     }
 
-    /// Particle `k` moves by the motion of the zone from its passage on.
+    /// Particle `k`, and all members of its clump, move by the motion of the zone from its passage on.
     fn hand_over(&mut self, k: usize, crossing: Crossing) {
-        let (start, since) = (crossing.particle, crossing.time);
+        let since = crossing.time;
         let zone = self.zones.outlets[crossing.outlet as usize];
         let after = self.time() - since;
         if self.setup.ledger {
-            let carried: f64 = carried(&start, &self.setup).iter().sum();
-            let taken = carried + self.power(k, &start) * after;
-            self.account.left += taken;
-            self.close_account(k, taken);
+            self.account_crossing(k, &crossing, after);
         }
-        self.zones.busy[k] = true;
-        if let Some(sleepers) = &mut self.sleepers {
-            sleepers.rouse(k);
+        let (starts, turn) = match &crossing.clump {
+            None => (vec![crossing.particle], None),
+            Some(clump) => {
+                let (starts, turn) = crate::bodies::starts(&crossing.particle, clump, &self.setup);
+                (starts, Some(turn))
+            }
+        };
+        let (centre, lead) = (crossing.particle.position, zone.lead(crossing.particle.radius));
+        for (at, start) in self.together(k).into_iter().zip(starts) {
+            let k = at as usize;
+            self.zones.busy[k] = true;
+            if let Some(sleepers) = &mut self.sleepers {
+                sleepers.rouse(k);
+            }
+            self.bodies.take(k);
+            let way = Way::Out(crossing.outlet);
+            let traveller = Traveller { at, since, start, centre, lead, turn, way };
+            self.carry_on(&traveller, self.time());
+            self.zones.travellers.push(traveller);
         }
-        let flow = Flow::after(after, &start, zone.acceleration(&self.setup.gravity));
-        self.place(k, start.position + flow.shift, &flow);
-        let (centre, lead) = (start.position, zone.lead(start.radius));
-        let way = Way::Out(crossing.outlet);
-        self.zones.travellers.push(Traveller { at: k as u32, since, start, centre, lead, way });
         self.zones.crossings.push(crossing);
+    }
+
+    /// What leaves the ledger with a crossing, `after` [s] before the end of the step.
+    fn account_crossing(&mut self, k: usize, crossing: &Crossing, after: f64) {
+        let start = &crossing.particle;
+        let carried: f64 = match &crossing.clump {
+            None => carried(start, &self.setup).iter().sum(),
+            Some(clump) => self.bodies.energy_of(k, start, clump, &self.setup),
+        };
+        let power: f64 = self.together(k).iter().map(|&m| self.power_about(m as usize, start)).sum();
+        let taken = carried + power * after;
+        self.account.left += taken;
+        match self.bodies.energy_before_half(k, &self.setup.gravity, self.dt) {
+            None => self.close_account(k, taken),
+            Some(energy) => self.account.passed += taken - energy,
+        }
     }
 
     /// State of particle `k` when what is tested of it was on the plane that it is `past` [m] of now.
     fn crossing(&self, k: usize, outlet: u32, past: f64) -> Crossing {
-        let p = &self.particles;
-        let (row, a) = (&p.rows[k], p.acceleration[k]);
         let zone = &self.zones.outlets[outlet as usize];
-        let (velocity, a) = (Vec3::new(row[4], row[5], row[6]), Vec3::new(a[0], a[1], a[2]));
+        let (velocity, acceleration) = self.motion_of(k);
         // Past the plane at the start of the step already, but not with the flow: it passes now.
-        let late = zone.past(&self.position_before(k), row[3]) >= 0.0;
+        let (before, radius) = self.tested_before(k);
+        let late = zone.past(&before, radius) >= 0.0;
         let back = if late {
             0.0
         } else {
-            since_passage(past, velocity.dot(&zone.plane.normal), a.dot(&zone.plane.normal))
+            since_passage(past, velocity.dot(&zone.plane.normal), acceleration.dot(&zone.plane.normal))
         };
         let back = if back.is_finite() { back.clamp(0.0, self.dt) } else { 0.0 };
+        // A passage belongs to its step: rounding must not put it before a sample that was taken when the step began.
+        let began = self.steps.saturating_sub(1) as f64 * self.dt;
+        let time = (self.time() - back).max(began);
+        let mut touching: Vec<Touch> = Vec::new();
+        self.together(k).iter().for_each(|&m| touching.extend(self.touching(m as usize)));
+        let (particle, clump) = match self.bodies.state_back(k, back, self.dt, &self.setup) {
+            None => (self.sphere_back(k, back), None),
+            Some((particle, clump)) => (particle, Some(clump)),
+        };
+        Crossing { time, outlet, particle, clump, touching }
+    }
+
+    /// Velocity and acceleration of what is tested in the name of particle `k`.
+    fn motion_of(&self, k: usize) -> (Vec3, Vec3) {
+        let (row, a) = (&self.particles.rows[k], self.particles.acceleration[k]);
+        let own = (Vec3::new(row[4], row[5], row[6]), Vec3::new(a[0], a[1], a[2]));
+        self.bodies.motion_at(k).unwrap_or(own)
+    }
+
+    /// State of a sphere a time `back` [s] before the end of the step.
+    fn sphere_back(&self, k: usize, back: f64) -> Particle {
+        let p = &self.particles;
+        let (velocity, a) = self.motion_of(k);
         let spin = match (p.spins.get(k), p.turning.get(k)) {
             (Some(w), Some(t)) => Vec3::new(w[0] - t[0] * back, w[1] - t[1] * back, w[2] - t[2] * back),
             _ => Vec3::zeros(),
         };
         let position = p.position(k) - velocity * back + a * (0.5 * back * back);
         let velocity = velocity - a * back;
-        let particle =
-            Particle { id: p.id[k], material: p.material[k], radius: row[3], position, velocity, spin };
-        Crossing { time: self.time() - back, outlet, particle, touching: self.touching(k) }
+        Particle { id: p.id[k], material: p.material[k], radius: p.rows[k][3], position, velocity, spin }
     }
 }
 

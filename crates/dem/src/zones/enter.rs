@@ -20,6 +20,10 @@ impl Zones {
         let Some(zone) = self.inlets.get(entry.inlet as usize) else {
             return range(format!("inlet of particle {id}"), entry.inlet.into(), "[–]", "the scene's inlets");
         };
+        if let Some(clump) = entry.clump.filter(|_| zone.motion == ZoneMotion::Recorded) {
+            let name = setup.clumps.shapes[clump.shape as usize].name.clone();
+            return Err(SetupError::ClumpOutlet(name));
+        }
         let path = match zone.motion {
             ZoneMotion::Recorded => Some(Path::new(entry.time, &entry.particle)),
             _ => {
@@ -27,7 +31,7 @@ impl Zones {
                 None
             }
         };
-        let members = entry.clump.map_or(1, |c| setup.clumps.shapes[c.shape as usize].spheres.len() as u32);
+        let members = entry.clump.map_or(1, |c| members(&c, setup));
         for id in (0..members).map(|k| id.wrapping_add(k)) {
             if !self.ids.insert(id) {
                 return Err(SetupError::EntryTwice { id, time: entry.time });
@@ -38,6 +42,11 @@ impl Zones {
         self.pending.push_back(entry);
         Ok(())
     }
+}
+
+/// Number of spheres of a clump.
+pub(super) fn members(clump: &EntryClump, setup: &Setup) -> u32 {
+    setup.clumps.shapes.get(clump.shape as usize).map_or(1, |s| s.spheres.len() as u32)
 }
 
 fn range(what: String, value: f64, unit: &'static str, range: &'static str) -> Result<(), SetupError> {
@@ -138,14 +147,18 @@ impl Simulation {
             None => Flow::after(now - e.time, &e.particle, zone.acceleration(&self.setup.gravity)),
         };
         let (position, velocity) = (e.particle.position + flow.shift, flow.velocity);
-        let now = Particle { position, velocity, ..e.particle };
+        let present = Particle { position, velocity, ..e.particle };
         let at = self.particles.len() as u32;
-        let starts = match &e.clump {
+        let (starts, turn) = match &e.clump {
             None => {
-                self.particles.push(&now, &self.setup.materials);
-                vec![e.particle]
+                self.particles.push(&present, &self.setup.materials);
+                (vec![e.particle], None)
             }
-            Some(clump) => self.bodies.enter((&e.particle, &now), clump, &self.setup, &mut self.particles),
+            Some(clump) => {
+                let states = (&e.particle, &present, (now - e.time).max(0.0));
+                let (starts, turn) = self.bodies.enter(states, clump, &self.setup, &mut self.particles);
+                (starts, Some(turn))
+            }
         };
         let (centre, lead) = (e.particle.position, lead(&e.particle, e.clump.as_ref(), &zone, &self.setup));
         for (at, start) in (at..).zip(starts) {
@@ -156,7 +169,7 @@ impl Simulation {
                 sleepers.push();
             }
             let way = Way::In(e.inlet);
-            self.zones.travellers.push(Traveller { at, since: e.time, start, centre, lead, way });
+            self.zones.travellers.push(Traveller { at, since: e.time, start, centre, lead, turn, way });
         }
     }
 }

@@ -122,8 +122,8 @@ impl Simulation {
         self.zones.fast(time, self.dt, &self.setup)?;
         let mut found = None;
         for k in 0..if self.zones.lost.any { self.particles.len() } else { 0 } {
-            let place = self.particles.position(k);
-            let Some((inlet, behind)) = self.zones.came_back(k, &place, self.particles.rows[k][3]) else {
+            let Some((place, radius)) = self.tested(k) else { continue };
+            let Some((inlet, behind)) = self.zones.came_back(k, &place, radius) else {
                 continue;
             };
             if behind > 0.0 && self.setup.guards.zones && found.is_none() {

@@ -2,6 +2,7 @@
 
 use super::Zones;
 use super::path::Stage;
+use crate::bodies::{quaternion, spun};
 use crate::energy::carried;
 use crate::lane::Row4;
 use crate::setup::{Particle, Setup, Zone};
@@ -16,16 +17,19 @@ pub enum Way {
     In(u32),
 }
 
-/// A particle in a zone: x(t) = x₀ + v₀ τ + ½ a τ², τ = t − t₀.
+/// A particle in a zone: x(t) = x₀ + v₀ τ + ½ a τ², τ = t − t₀. A member of a clump turns about its centre with the spin that it began with.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Traveller {
     pub at: u32,
     pub since: f64,
+    /// Its state then; of a member of a clump, with the velocity of the centre.
     pub start: Particle,
     /// What must be past the plane, at that time: the centre, or that of the whole clump [m].
     pub centre: Vec3,
     /// And how far before it the point lies that is tested [m].
     pub lead: f64,
+    /// Principal axes of the clump to space at that time.
+    pub turn: Option<[f64; 4]>,
     pub way: Way,
 }
 
@@ -48,11 +52,39 @@ impl Flow {
         let shift = velocity * tau + acceleration * (0.5 * tau * tau);
         Flow { shift, velocity: velocity + acceleration * tau, acceleration, spin }
     }
+
+    /// Of a point that was this far from the centre [m] before the clump turned for `tau` [s].
+    fn about(self, arm: &Vec3, tau: f64) -> Flow {
+        if self.spin == Vec3::zeros() || tau < 0.0 {
+            return self;
+        }
+        let (r, spin) = (spun(&(self.spin * tau)) * arm, self.spin);
+        let (around, inwards) = (spin.cross(&r), spin.cross(&spin.cross(&r)));
+        Flow {
+            shift: self.shift + (r - arm),
+            velocity: self.velocity + around,
+            acceleration: self.acceleration + inwards,
+            spin,
+        }
+    }
 }
 
 impl Traveller {
     /// At `time` [s].
     pub fn flow(&self, time: f64, zones: &Zones, setup: &Setup) -> Flow {
+        self.own(self.centre_flow(time, zones, setup), time)
+    }
+
+    /// Its own flow, where that of the centre is known.
+    fn own(&self, centre: Flow, time: f64) -> Flow {
+        match self.turn {
+            None => centre,
+            Some(_) => centre.about(&(self.start.position - self.centre), time - self.since),
+        }
+    }
+
+    /// Of its centre, at `time` [s].
+    fn centre_flow(&self, time: f64, zones: &Zones, setup: &Setup) -> Flow {
         if let (Way::In(_), Some(path)) = (self.way, zones.paths.get(&self.start.id)) {
             return path.flow(time, &self.start.position, &setup.gravity);
         }
@@ -74,10 +106,7 @@ impl Simulation {
         let mut travellers = std::mem::take(&mut self.zones.travellers);
         travellers.retain(|t| {
             let stage = self.zones.paths.get_mut(&t.start.id).map(|path| path.follow(now));
-            let flow = t.flow(now, &self.zones, &self.setup);
-            let centre = t.centre + flow.shift;
-            self.place(t.at as usize, t.start.position + flow.shift, &flow);
-            self.bodies.carry(t.at as usize, centre, flow.velocity);
+            let (centre, flow) = self.carry_on(t, now);
             let zone = *t.zone(&self.zones);
             let past = zone.plane.signed_distance(&centre) + t.lead;
             match (t.way, stage) {
@@ -86,6 +115,7 @@ impl Simulation {
                 (Way::In(_), Some(Stage::Gone)) => {
                     self.zones.paths.remove(&t.start.id);
                     self.zones.ids.remove(&t.start.id);
+                    self.zones.told(t.start.id);
                     self.exclude(t.at as usize);
                     false
                 }
@@ -100,13 +130,25 @@ impl Simulation {
         self.zones.travellers = travellers;
     }
 
+    /// Puts a traveller where it is at a time [s]; where its centre is then, and how that flows.
+    pub(super) fn carry_on(&mut self, t: &Traveller, time: f64) -> (Vec3, Flow) {
+        let flow = t.centre_flow(time, &self.zones, &self.setup);
+        let (centre, own) = (t.centre + flow.shift, t.own(flow, time));
+        self.place(t.at as usize, t.start.position + own.shift, &own);
+        if let Some(turn) = &t.turn {
+            let turned = spun(&(flow.spin * (time - t.since).max(0.0))) * quaternion(turn);
+            self.bodies.carry(t.at as usize, centre, flow.velocity, (turned, flow.spin));
+        }
+        (centre, flow)
+    }
+
     /// Whether a particle that is `past` a storage plane stays in its zone; otherwise it is out of the calculation.
     fn stays_behind(&mut self, t: &Traveller, outlet: u32, (zone, past): (&Zone, f64), flow: &Flow) -> bool {
         // One that falls back has been recorded all the same.
         let back = past < 0.0 && !(flow.velocity.dot(&zone.plane.normal) > 0.0);
         let stays = past < zone.length && !back;
         if !stays {
-            if back {
+            if back && self.tested(t.at as usize).is_some() {
                 self.zones.lost.fell_back(outlet);
             }
             self.exclude(t.at as usize);
@@ -151,25 +193,34 @@ impl Simulation {
         self.zones.gone[k] = true;
     }
 
-    /// Past the calculation plane.
+    /// Past the calculation plane, in the flow of its centre.
     fn let_in(&mut self, t: &Traveller, inlet: u32, centre: Vec3, flow: &Flow) {
         let k = t.at as usize;
+        let zone = &self.zones.inlets[inlet as usize];
+        let since = (zone.plane.signed_distance(&centre) + t.lead) / flow.velocity.dot(&zone.plane.normal);
+        self.bodies.release(k, if since.is_finite() { since.clamp(0.0, self.dt) } else { 0.0 });
         if self.setup.ledger {
             let Flow { velocity, spin, .. } = *flow;
             let free = Particle { position: self.particles.position(k), velocity, spin, ..t.start };
-            // A clump does not turn on its way in.
-            self.account.entered += match self.bodies.mass_at(k) {
+            self.account.entered += match self.bodies.energy_at(k, &self.setup.gravity) {
                 None => carried(&free, &self.setup).iter().sum::<f64>(),
-                Some(mass) => mass * (0.5 * flow.velocity.norm_squared() - self.setup.gravity.dot(&centre)),
+                Some(energy) => energy,
             };
         }
         self.zones.busy[k] = false;
         self.fresh.push(k as u32);
-        self.bodies.release(k);
+        self.recollect(k);
+        if self.tested(k).is_none() {
+            return;
+        }
         // What passes a storage plane in this very step crosses it.
-        let before = self.position_before(k);
+        let before = match t.turn {
+            None => self.position_before(k),
+            Some(_) => centre - (flow.velocity - flow.acceleration * (0.5 * self.dt)) * self.dt,
+        };
         for (zone, beyond) in self.zones.outlets.iter().zip(&mut self.zones.beyond) {
-            if zone.past(&before, t.start.radius) >= 0.0 {
+            let radius = if t.turn.is_some() { 0.0 } else { t.start.radius };
+            if zone.past(&before, radius) >= 0.0 {
                 beyond.insert(self.particles.id[k]);
             }
         }

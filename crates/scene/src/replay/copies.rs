@@ -69,8 +69,8 @@ impl Merge {
         }
     }
 
-    /// A passage as it is written.
-    pub fn pass(&mut self, name: &str, one: Generated) -> Result<Passage, SceneError> {
+    /// A passage as it is written; `members` is the number of its spheres.
+    pub fn pass(&mut self, name: &str, one: Generated, members: u32) -> Result<Passage, SceneError> {
         if self.several {
             self.beside(name, &one)?;
             self.recent.push_back(one.clone());
@@ -78,7 +78,7 @@ impl Merge {
         let mut row = one.row;
         if let Some(next) = &mut self.renumber {
             row.particle.id = *next;
-            *next = next.checked_add(1).filter(|id| *id < u32::MAX).ok_or_else(|| {
+            *next = next.checked_add(members).filter(|id| *id < u32::MAX).ok_or_else(|| {
                 SceneError::file(
                     name,
                     "there are more grains than ids (4294967294)",
@@ -102,15 +102,15 @@ impl Merge {
         while self.recent.front().is_some_and(gone) {
             self.recent.pop_front();
         }
-        for other in self.recent.iter().filter(|o| o.copy != one.copy) {
+        for other in self.recent.iter().filter(|o| o.copy.0 != one.copy.0) {
             let a = &other.row.particle;
             let overlap = a.radius + b.radius - (at(other) - b.position).norm();
             if overlap > OVERLAP * a.radius.min(b.radius) {
                 let why = format!(
                     "copy {} of particle {} overlaps copy {} of particle {} by {} m when it comes in, at {} s",
-                    one.copy,
+                    one.copy.0,
                     b.id,
-                    other.copy,
+                    other.copy.0,
                     a.id,
                     Shown(overlap),
                     Shown(now)

@@ -1,10 +1,11 @@
 //! A record seen from elsewhere: turned about an axis, then shifted.
 //!
 //! ```text
-//! x ← p + R (x − p) + s      v ← R v      ω ← R ω
+//! x ← p + R (x − p) + s      v ← R v      ω ← R ω      and so the springs of contacts, and the axes of clumps
 //! ```
 
-use dem::setup::Particle;
+use crate::crossings::Passage;
+use dem::setup::{Particle, Springs};
 use geom::{Plane, Vec3};
 use nalgebra::{UnitQuaternion, UnitVector3};
 
@@ -33,6 +34,19 @@ impl Frame {
     /// A plane.
     pub fn plane(&self, plane: &Plane) -> Plane {
         Plane { point: self.point(&plane.point), normal: self.turn * plane.normal }
+    }
+
+    /// A passage.
+    pub fn passage(&self, row: &mut Passage) {
+        self.particle(&mut row.particle);
+        if let Some((clump, _)) = &mut row.clump {
+            clump.orientation = self.turn * clump.orientation;
+        }
+    }
+
+    /// What a contact remembers.
+    pub fn springs(&self, springs: &Springs) -> Springs {
+        springs.seen(&self.turn)
     }
 
     /// A particle.

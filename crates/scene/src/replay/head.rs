@@ -1,18 +1,26 @@
 //! What a run says of itself before its first message: what an inlet stream needs of it.
 
 use super::Replay;
+use crate::clump_info::{self, ClumpInfo};
 use crate::crossings::{SIZES, Sizes};
 use crate::error::SceneError;
 use crate::gate::Gate;
 use crate::material_info::MATERIALS;
-use crate::run::OUTLETS;
+use crate::run::{CLUMPS, OUTLETS};
 use dem::setup::{Zone, ZoneMotion};
 use geom::Shown;
 use std::collections::BTreeMap;
 
 pub struct Head {
     pub materials: BTreeMap<String, String>,
-    pub sizes: Sizes,
+    /// The record of the sizes, as it is passed on.
+    pub sizes_record: BTreeMap<String, String>,
+    /// Radius of the widest that may come [m], of clumps that of the sphere which holds them.
+    pub widest: f64,
+    /// Shapes of clumps: the record, or an empty one.
+    pub clumps_record: BTreeMap<String, String>,
+    /// How many spheres each has.
+    pub members: Vec<u32>,
     /// Where grains come in.
     pub gate: Gate,
 }
@@ -40,7 +48,12 @@ pub fn head(
     };
     let wrong = |e| SceneError::file(name, format!("record '{OUTLETS}': {e}"), "run dem-run again");
     let recorded: Gate = serde_json::from_str(json).map_err(wrong)?;
-    let sizes = Sizes::from_map(name, &records.remove(SIZES).ok_or_else(|| no_run(SIZES))?)?;
+    let sizes_record = records.remove(SIZES).ok_or_else(|| no_run(SIZES))?;
+    let sizes = Sizes::from_map(name, &sizes_record)?;
+    let clumps_record = records.remove(CLUMPS).unwrap_or_default();
+    let clumps = clump_info::from_map(name, &clumps_record)?;
+    let widest = clumps.iter().map(ClumpInfo::reach).fold(sizes.largest, f64::max);
+    let members = clumps.iter().map(|c| c.spheres.len() as u32).collect();
     let zone = Zone {
         plane: what
             .at
@@ -67,14 +80,15 @@ pub fn head(
         let why = "does not tell its gravity, which --move ballistic needs";
         return Err(SceneError::file(name, why, "run the stage upstream again with this version"));
     }
-    if zone.length.is_nan() || zone.length <= 2.0 * sizes.largest {
+    if zone.length.is_nan() || zone.length <= 2.0 * widest {
         let why = format!(
             "--length {} m is not above the largest diameter, {} m",
             Shown(zone.length),
-            Shown(2.0 * sizes.largest)
+            Shown(2.0 * widest)
         );
-        return Err(SceneError::file(name, why, format!("use at least {} m", Shown(2.4 * sizes.largest))));
+        return Err(SceneError::file(name, why, format!("use at least {} m", Shown(2.4 * widest))));
     }
     let materials = records.remove(MATERIALS).ok_or_else(|| no_run(MATERIALS))?;
-    Ok(Head { materials, sizes, gate: Gate { zone, ..recorded } })
+    let gate = Gate { zone, ..recorded };
+    Ok(Head { materials, sizes_record, widest, clumps_record, members, gate })
 }

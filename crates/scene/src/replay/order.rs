@@ -1,15 +1,18 @@
 //! Keeps passages in the order in which they are generated.
 
 use crate::crossings::Passage;
+use dem::setup::Memory;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::collections::binary_heap::PeekMut;
+use std::rc::Rc;
 
-/// A passage that is generated, and which copy of it.
+/// A passage that is generated, which copy of it, and what its contacts remembered.
 #[derive(Clone)]
 pub struct Generated {
     pub row: Passage,
-    pub copy: u32,
+    pub copy: (u32, u32),
+    pub touches: Rc<[Memory]>,
 }
 
 /// Passages that wait for those that may be generated before them; no more than pass in the time that one may wait.

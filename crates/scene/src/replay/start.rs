@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! x₀ = x − v τ + ½ g τ²      v₀ = v − g τ          τ before it arrives; g only in free fall
+//! R₀ = turn(−ω τ) R                                  of a clump
 //! v τ − ½ g τ² = L           τ = 2 L / (v + √(v² − 2 g L))        to the generation plane; v, g along the normal
 //! τ_apex = v/g               where a falling particle did not move along the normal: no path leads there from farther back
 //! ```
@@ -72,6 +73,9 @@ impl Starts {
         };
         particle.position = position;
         particle.velocity -= self.acceleration * before;
+        if let Some((clump, _)) = &mut row.clump {
+            *clump = clump.turned(&(particle.spin * -before));
+        }
         Ok(waits)
     }
 

@@ -7,9 +7,12 @@ use toml_edit::{DocumentMut, Item, value};
 impl Cutting<'_> {
     /// Files of the scene, as seen from the folder of the new one.
     pub fn rebase(&self, document: &mut DocumentMut) {
-        for (table, keys) in
-            [("wall", &["source", "mesh"][..]), ("particles", &["source"]), ("inlet", &["source"])]
-        {
+        for (table, keys) in [
+            ("wall", &["source", "mesh"][..]),
+            ("clump", &["mesh"]),
+            ("particles", &["source"]),
+            ("inlet", &["source"]),
+        ] {
             let Some(tables) = document.get_mut(table).and_then(Item::as_array_of_tables_mut) else {
                 continue;
             };

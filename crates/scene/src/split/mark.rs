@@ -1,13 +1,16 @@
 //! The mark of a plant: what its flow through the cut surely depends on, so that a record is refused where it does not belong.
 //!
-//! It takes, of the stage upstream: gravity, domain and drag; the grains, and the walls that have an end and begin more than half a grain
-//! before the cut, files by what is in them; their materials, and the contacts of its grains. Everything else is left out, unbounded walls
-//! among it, though it may matter: no variant of what lies behind the cut may be refused.
+//! It takes, of the stage upstream: gravity, domain and drag; the grains and their clumps; the walls that have an end and begin more than half a
+//! grain before the cut, files by what is in them; unbounded planes that come nearer than a grain to the column in which grains start, as far
+//! as half a grain before the cut ([`super::column`]); their materials, and the contacts of its grains. Everything else is left out, planes
+//! far from that column among it, though it may matter: no variant of what lies behind the cut may be refused.
 
 use super::Cutting;
 use super::sides::Range;
+use super::walls::planes;
 use crate::contacts::most_specific;
 use crate::error::SceneError;
+use crate::inlet::plane_text;
 use crate::input::Input;
 use crate::model::Wall;
 use crate::{mesh_file, particle_file};
@@ -39,7 +42,7 @@ impl Cutting<'_> {
     pub fn mark(&self) -> Result<String, SceneError> {
         let all: Table = toml::from_str(&self.scene.text.toml).unwrap_or_default();
         let mut kept = Kept::default();
-        for key in ["gravity", "domain", "drag", "fill", "insert"] {
+        for key in ["gravity", "domain", "drag", "fill", "insert", "body"] {
             kept.table.extend(all.get(key).map(|value| (key.to_owned(), value.clone())));
         }
         self.mark_grains(&all, &mut kept)?;
@@ -55,8 +58,14 @@ impl Cutting<'_> {
         let m = &self.scene.model;
         kept.grains.extend(m.fill.iter().map(|f| f.material.clone()));
         kept.grains.extend(m.insert.iter().map(|f| f.material.clone()));
+        self.mark_clumps(all, kept)?;
         let mut files = entries(all, "particles");
         for (entry, table) in m.particles.iter().zip(&mut files) {
+            if entry.clump.is_some() {
+                let (columns, ..) = particle_file::table(&self.scene.folder.join(&entry.source))?;
+                table.insert("source".to_owned(), crate::wall_file::hash(&columns).into());
+                continue;
+            }
             let file = particle_file::read(&self.scene.folder.join(&entry.source))?;
             kept.grains.extend(entry.material.clone());
             kept.grains.extend(file.materials.into_iter().map(|m| m.name));
@@ -69,9 +78,38 @@ impl Cutting<'_> {
         Ok(())
     }
 
+    /// Shapes of clumps, meshes by what is in them.
+    fn mark_clumps(&self, all: &Table, kept: &mut Kept) -> Result<(), SceneError> {
+        let mut clumps = entries(all, "clump");
+        for (clump, table) in self.scene.model.clump.iter().zip(&mut clumps) {
+            kept.grains.insert(clump.material.clone());
+            if let Some(file) = &clump.mesh {
+                let path = self.scene.folder.join(file);
+                let name = path.display().to_string();
+                let bytes = std::fs::read(&path).map_err(|source| SceneError::Read { name, source })?;
+                table.insert("mesh".to_owned(), stream::sha256(&bytes).into());
+            }
+        }
+        kept.put("clump", clumps);
+        Ok(())
+    }
+
     fn mark_walls(&self, all: &Table, kept: &mut Kept) {
         let mut walls = Vec::new();
+        let column = self.column();
         for (wall, mut table) in self.scene.model.wall.iter().zip(entries(all, "wall")) {
+            let near: Vec<Value> = planes(wall)
+                .iter()
+                .filter(|plane| column.as_ref().is_some_and(|c| c.meets(plane, self.largest)))
+                .map(|plane| plane_text(plane).into())
+                .collect();
+            if !near.is_empty() {
+                kept.walls.extend(wall.material.clone());
+                ["name", "plane", "box", "faces"].iter().for_each(|key| drop(table.remove(*key)));
+                table.insert("planes".to_owned(), Value::Array(near));
+                walls.push(table);
+                continue;
+            }
             // One that reaches up to the cut, or hardly beyond it, is of the stage downstream.
             let before = |b: &Bounded| b.range.0 < -self.largest / 2.0;
             let Some(bounded) = self.bounded(wall).filter(before) else { continue };

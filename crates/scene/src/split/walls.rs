@@ -64,7 +64,7 @@ impl Cutting<'_> {
 }
 
 /// The unbounded planes of a wall; what cannot be read is refused where it is used.
-fn planes(wall: &Wall) -> Vec<Plane> {
+pub fn planes(wall: &Wall) -> Vec<Plane> {
     let plane = wall.plane.as_ref().and_then(|text| text.parse().ok());
     let face = |(k, face): (usize, Face)| {
         let b = wall.cuboid.filter(|_| wall.faces.as_ref().is_none_or(|some| some.contains(&face)))?;

@@ -1,0 +1,163 @@
+//! Rigid clumps pass planes as one: their centre is tested, they keep their spin in zones, and come in as they were recorded.
+
+use super::zone;
+use dem::setup::*;
+use dem::{BodyState, SetupError, Simulation};
+use geom::{Moments, Vec3};
+use grainpipe_tests::setups::{HOOKE, empty, grain, run_until};
+use nalgebra::UnitQuaternion;
+
+/// Three spheres that are in one line in no frame.
+fn hook() -> ClumpShape {
+    let at = |x: f64, y: f64, z: f64| Vec3::new(x, y, z);
+    let spheres = [(at(0.0, 0.0, 0.0), 0.006), (at(0.01, 0.0, 0.0), 0.005), (at(0.012, 0.008, 0.002), 0.004)];
+    ClumpShape::new("hook", 0, &spheres, &Moments::of_union(&spheres).expect("spheres that touch"))
+}
+
+const LENGTH: f64 = 0.06;
+
+fn setup() -> Setup {
+    let mut setup = empty(HOOKE, 0.5);
+    setup.step = Step::Fixed(5e-5);
+    setup.clumps.shapes = vec![hook()];
+    setup
+}
+
+fn body(id: u32, x: f64) -> Body {
+    let orientation = UnitQuaternion::from_euler_angles(0.3, -0.8, 0.5);
+    let (position, velocity) = (Vec3::new(x, 0.0, 0.0), Vec3::new(1.0, 0.1, -0.2));
+    Body { id, shape: 0, scale: 1.0, position, orientation, velocity, spin: Vec3::new(20.0, -35.0, 10.0) }
+}
+
+/// A clump that flies through the storage plane of x = 0.10003 m.
+fn upstream() -> Setup {
+    let mut setup = setup();
+    setup.outlets = vec![zone(0.100_03, LENGTH)];
+    setup.clumps.bodies = vec![body(7, 0.0)];
+    setup
+}
+
+fn state(sim: &mut Simulation) -> BodyState {
+    sim.bodies().expect("within the guards")[0]
+}
+
+/// The only crossing until a time.
+fn crossing(sim: &mut Simulation, until: f64) -> Crossing {
+    run_until(sim, until);
+    let mut found = sim.take_crossings();
+    assert_eq!(found.len(), 1, "one row for the whole clump");
+    found.remove(0)
+}
+
+#[test]
+fn a_clump_is_recorded_when_its_centre_passes() {
+    let mut sim = Simulation::new(upstream()).expect("sound");
+    let c = crossing(&mut sim, 0.13);
+    assert!((c.time - 0.100_03).abs() < 1e-12, "{}", c.time);
+    let p = c.particle;
+    assert_eq!((p.id, p.radius), (7, hook().reach()));
+    assert!((p.position - p.velocity * c.time).norm() < 1e-12, "{}", p.position);
+    // Nothing turns it but itself: a run without the plane has these axes and this spin.
+    let mut whole = Simulation::new(Setup { outlets: vec![], ..upstream() }).expect("sound");
+    run_until(&mut whole, 0.1 - 1e-9);
+    let (before, clump) = (state(&mut whole), c.clump.expect("a clump"));
+    let turned = before.orientation.angle_to(&clump.orientation);
+    // Its spin changes on the way, with L that stays.
+    let miss = turned - 3e-5 * before.spin.norm();
+    assert!(miss.abs() < 1e-6, "turned on by {turned}, {miss} too much");
+    assert!((p.spin - before.spin).norm() < 3e-3 * before.spin.norm(), "{} after {}", p.spin, before.spin);
+}
+
+#[test]
+fn a_clump_keeps_its_form_and_spin_in_the_zone_and_leaves_it_whole() {
+    let mut sim = Simulation::new(upstream()).expect("sound");
+    let c = crossing(&mut sim, 0.13);
+    let members = sim.particles().expect("within the guards");
+    assert_eq!(members.len(), 3);
+    let centre = c.particle.position + c.particle.velocity * (sim.time() - c.time);
+    let turn = UnitQuaternion::from_scaled_axis(c.particle.spin * (sim.time() - c.time))
+        * c.clump.expect("a clump").orientation;
+    let shape = hook();
+    for (m, (place, _)) in members.iter().zip(&shape.spheres) {
+        let r = turn * (shape.frame * place);
+        let miss = (m.position - centre - r).norm();
+        assert!(miss < 1e-12, "{miss} m");
+        let velocity = c.particle.velocity + c.particle.spin.cross(&r);
+        let miss = (m.velocity - velocity).norm() + (m.spin - c.particle.spin).norm();
+        assert!(miss < 1e-10, "{miss} m/s and rad/s");
+    }
+    let body = state(&mut sim);
+    let miss = (body.position - centre).norm() + 1e-5 * body.orientation.angle_to(&turn);
+    assert!(miss < 1e-12, "{miss}");
+    assert!((body.spin - c.particle.spin).norm() < 1e-10, "{}", body.spin);
+    run_until(&mut sim, 0.17);
+    assert!(sim.particle_count() == 0 && sim.bodies().expect("fine").is_empty(), "all of it has left");
+}
+
+/// One leaves, one stays, and another comes: rows, bodies and members stay together, also after lists were made anew and after a resume.
+#[test]
+fn who_stays_is_who_it_was() {
+    let mut setup = upstream();
+    setup.clumps.bodies = vec![body(7, 0.0), body(20, -0.3), body(30, -0.8)];
+    setup.clumps.bodies[1].velocity = Vec3::new(0.3, 0.0, 0.0);
+    setup.particles = vec![grain(50, Vec3::new(-0.2, 0.1, 0.0))];
+    setup.skin = Some(0.002);
+    let mut sim = Simulation::new(setup.clone()).expect("sound");
+    run_until(&mut sim, 0.2);
+    let saved = sim.state().to_state();
+    let mut again = Simulation::resume(setup, saved).expect("its own state");
+    run_until(&mut sim, 0.4);
+    run_until(&mut again, 0.4);
+    let (one, other) = (sim.bodies().expect("fine"), again.bodies().expect("fine"));
+    assert_eq!(one, other, "the same bits");
+    let ids: Vec<u32> = one.iter().map(|b| b.id).collect();
+    assert_eq!(ids, [20, 30]);
+    assert!(
+        (one[0].position - Vec3::new(-0.3 + 0.3 * sim.time(), 0.0, 0.0)).norm() < 1e-9,
+        "{}",
+        one[0].position
+    );
+    let members = sim.particles().expect("fine");
+    assert_eq!(members.iter().map(|p| p.id).collect::<Vec<_>>(), [20, 21, 22, 30, 31, 32, 50]);
+}
+
+/// Replayed as it was recorded, a clump flies on as in the undivided run.
+#[test]
+fn a_clump_comes_in_as_it_was_recorded() {
+    let mut sim = Simulation::new(upstream()).expect("sound");
+    let c = crossing(&mut sim, 0.13);
+    let ahead = LENGTH / c.particle.velocity.x;
+    let mut setup = setup();
+    setup.inlets = vec![zone(0.100_03, LENGTH)];
+    setup.clumps.entries = vec![(0, 1.0, 1.0)];
+    let mut down = Simulation::new(setup).expect("sound");
+    let particle = Particle { position: c.particle.position - c.particle.velocity * ahead, ..c.particle };
+    let clump = c.clump.map(|clump| clump.turned(&(c.particle.spin * -ahead)));
+    down.enter(Entry { time: c.time - ahead, inlet: 0, particle, clump }).expect("in time");
+    let mut whole = Simulation::new(Setup { outlets: vec![], ..upstream() }).expect("sound");
+    for until in [0.1003, 0.2, 0.5] {
+        run_until(&mut down, until);
+        run_until(&mut whole, until);
+        let (a, b) = (state(&mut down), state(&mut whole));
+        assert!((a.position - b.position).norm() < 1e-9, "{}", a.position - b.position);
+        // Within the step of its passage it turns at a constant rate, not with a constant angular momentum.
+        let apart = a.orientation.angle_to(&b.orientation);
+        assert!(apart < 1e-4 * (0.1 + until), "{apart} rad apart at {until} s");
+        let miss = (a.angular_momentum - b.angular_momentum).norm() / b.angular_momentum.norm();
+        assert!(miss < 1e-5, "{miss} of the angular momentum at {until} s");
+    }
+}
+
+#[test]
+fn what_planes_cannot_do_with_clumps_is_refused() {
+    for change in [|z: &mut Zone| z.test = ZoneTest::Lowest, |z: &mut Zone| z.motion = ZoneMotion::Recorded] {
+        let mut setup = upstream();
+        change(&mut setup.outlets[0]);
+        let refused = Simulation::new(setup).err().expect("refused");
+        assert!(matches!(refused, SetupError::ClumpOutlet(_)), "{refused}");
+    }
+    let mut short = upstream();
+    short.outlets[0].length = 0.02;
+    let refused = Simulation::new(short).err().expect("refused");
+    assert!(matches!(refused, SetupError::ZoneTooShort { .. }), "{refused}");
+}

@@ -1,0 +1,115 @@
+//! What contacts remember goes through a cut: the spring of friction is downstream what it was upstream.
+
+use super::{flight, zone};
+use dem::setup::*;
+use dem::{ContactRecord, Simulation};
+use geom::Vec3;
+use grainpipe_tests::setups::{HOOKE, empty, grain, with_friction};
+
+/// Rubs, rolls and twists.
+fn rough(setup: Setup) -> Setup {
+    let mut setup = with_friction(setup, 0.5);
+    setup.contacts.iter_mut().for_each(|c| {
+        c.rolling_resistance = Some(0.3);
+        c.twisting_resistance = Some(0.3);
+    });
+    (setup.gravity, setup.step) = (Vec3::zeros(), Step::Fixed(2e-5));
+    setup
+}
+
+/// Two grains that press each other on their way to the storage plane, one rubbing along the other; the one behind has the lower id where `swapped`.
+fn pair(swapped: bool) -> Setup {
+    let mut setup = rough(flight());
+    let (ahead, behind) = if swapped { (8, 7) } else { (7, 8) };
+    setup.particles =
+        vec![grain(ahead, Vec3::new(0.099, 0.0, 0.0)), grain(behind, Vec3::new(0.079_2, 0.001, 0.0))];
+    setup.particles.iter_mut().for_each(|p| p.velocity.x = 1.0);
+    setup.particles[0].velocity.y = 0.02;
+    setup.particles[1].spin = Vec3::new(3.0, 2.0, 1.0);
+    setup
+}
+
+fn contact(sim: &mut Simulation) -> ContactRecord {
+    let found: Vec<ContactRecord> =
+        sim.record_contacts().expect("fine").into_iter().filter(|c| c.force != Vec3::zeros()).collect();
+    assert_eq!(found.len(), 1, "they touch");
+    found[0]
+}
+
+/// The first grain has just passed: its crossing, the one behind it, the contact; and the end of the step.
+fn passed(swapped: bool) -> (Crossing, Particle, ContactRecord, f64) {
+    let mut sim = Simulation::new(pair(swapped)).expect("sound");
+    loop {
+        sim.step().expect("within the guards");
+        if let Some(crossing) = sim.take_crossings().pop() {
+            let behind = if swapped { 7 } else { 8 };
+            let all = sim.particles().expect("fine");
+            let other = *all.iter().find(|p| p.id == behind).expect("it is there");
+            return (crossing, other, contact(&mut sim), sim.time());
+        }
+    }
+}
+
+/// Force between the two when the first is free downstream, told what its contact remembers, or not.
+fn downstream(crossing: &Crossing, other: &Particle, now: f64, told: bool) -> ContactRecord {
+    let mut setup = rough(empty(HOOKE, 0.5));
+    setup.inlets = vec![zone(0.100_03, 0.03)];
+    (setup.smallest_entry, setup.largest_entry, setup.entry_materials) = (0.01, 0.01, vec![0]);
+    setup.guards.motion = 1.0;
+    let mut sim = Simulation::new(setup).expect("sound");
+    let ahead = 0.0005;
+    for (time, p) in [(crossing.time, &crossing.particle), (now, other)] {
+        let particle = Particle { position: p.position - p.velocity * ahead, ..*p };
+        sim.enter(Entry { time: time - ahead, inlet: 0, particle, clump: None }).expect("in order");
+    }
+    if told {
+        for touch in &crossing.touching {
+            let partner = touch.partner.expect("a grain");
+            sim.remember(Memory { id: touch.id, partner, springs: touch.springs });
+        }
+    }
+    while sim.time() < now - 1e-9 {
+        sim.step().expect("within the guards");
+    }
+    contact(&mut sim)
+}
+
+#[test]
+fn a_contact_goes_on_with_its_springs() {
+    for swapped in [false, true] {
+        let (crossing, other, upstream, now) = passed(swapped);
+        let [touch] = &crossing.touching[..] else { panic!("{} contacts", crossing.touching.len()) };
+        assert_eq!((touch.id, touch.partner), (crossing.particle.id, Some(other.id)));
+        assert!(
+            touch.springs.sliding.norm() > 1e-7 && touch.springs.rolling.norm() > 1e-5,
+            "{:?}",
+            touch.springs
+        );
+        assert!(touch.springs.twisting.abs() > 1e-5, "{:?}", touch.springs);
+        // On the one that passes.
+        let along = |c: &ContactRecord| {
+            let force = if c.i == crossing.particle.id { c.force } else { -c.force };
+            force - c.normal * force.dot(&c.normal)
+        };
+        let with = downstream(&crossing, &other, now, true);
+        let without = downstream(&crossing, &other, now, false);
+        let size = along(&upstream).norm();
+        let (near, far) =
+            ((along(&with) - along(&upstream)).norm(), (along(&without) - along(&upstream)).norm());
+        // Upstream the first is pushed on from its passage to the end of the step, which the dashpots feel; downstream it is not.
+        assert!(near < 0.02 * size && far > size, "{near} N and {far} N of {size} N apart");
+    }
+}
+
+/// Nothing is kept of a grain that is free already, or never was announced.
+#[test]
+fn memory_that_comes_too_late_is_of_no_effect() {
+    let (crossing, ..) = passed(false);
+    let mut setup = rough(empty(HOOKE, 0.5));
+    setup.inlets = vec![zone(0.100_03, 0.03)];
+    (setup.smallest_entry, setup.largest_entry, setup.entry_materials) = (0.01, 0.01, vec![0]);
+    let mut sim = Simulation::new(setup).expect("sound");
+    let empty = format!("{:?}", sim.state());
+    sim.remember(Memory { id: 7, partner: 8, springs: crossing.touching[0].springs });
+    assert_eq!(format!("{:?}", sim.state()), empty);
+}
