@@ -95,6 +95,7 @@ impl Judge<'_> {
     }
 
     /// Whether a point [m] stays, as far as shapes say.
+    #[inline]
     pub fn stays(&self, p: &Vec3) -> bool {
         (self.keep.is_empty() || self.keep.iter().any(|s| s.contains(p)))
             && !self.remove.iter().any(|s| s.contains(p))

@@ -97,7 +97,7 @@ impl Judge<'_> {
                 .iter_mut()
                 .zip(&rules.regions)
                 .for_each(|(n, r)| n.points += r.shape.contains(&p) as usize);
-            if !p.iter().all(|c| c.is_finite()) {
+            if !(p.x.is_finite() && p.y.is_finite() && p.z.is_finite()) {
                 part.not_finite += 1;
             } else if self.stays(&p) {
                 kept.extend_from_slice(row);

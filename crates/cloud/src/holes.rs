@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! threshold D [1/m²]   given, or a quarter of the density that only the sparsest 20th of the surface is below
-//! scale     c = 1/√D   a disc of c² has one point where the density is D
+//! scale     c = 1/√D   a disc of c² has one point where the density is D; wider where the noise is
 //! 1. the surface ends where the cells of width c around a place leave a gap of 100° and more (`sheet`)
 //! 2. ends are linked to loops when they are near and look the same way: across a hole or a narrow strip they do not;
 //!    what is linked wider than a hole may be is looked at in overlapping boxes, each of which a hole fits in
@@ -66,8 +66,7 @@ pub(crate) struct Hole {
 
 /// The holes of a cloud of finite points, in the order of their first ends.
 pub(crate) fn find(points: &[Vec3], search: &Search) -> Vec<Hole> {
-    let cell = 1.0 / search.below.sqrt();
-    let sheet = Sheet::new(points, cell);
+    let sheet = Sheet::of_surface(points, 1.0 / search.below.sqrt());
     let ends = sheet.ends();
     if !search.regions.is_empty() {
         let inside = search.regions.iter().map(|shape| (ends_of(&sheet, &ends, shape), Some(shape)));

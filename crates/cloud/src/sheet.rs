@@ -11,6 +11,16 @@ use std::ops::Range;
 pub(crate) const REACH: f64 = 2.5;
 /// A place whose neighbours leave a gap this wide is at an end of the surface [rad].
 const GAP: f64 = 100.0 * PI / 180.0;
+/// Spread across the surface, as a share of that along it, above which noise hides where it ends [–].
+const THICK: f64 = 0.2;
+/// Then cells are made wider by this.
+const WIDER: f64 = 1.5;
+/// So many times at most.
+const MOST_WIDER: usize = 8;
+/// Places whose surroundings stand for all.
+const SOME: usize = 1000;
+/// Fewest neighbours of these.
+const FEWEST: usize = 12;
 /// Cells along an axis that a key can tell apart.
 const SPAN: f64 = (1u64 << 21) as f64;
 /// A coarse picture of a cloud.
@@ -59,6 +69,40 @@ impl Sheet {
         Sheet { cell, places, rows, runs, middle, cells }
     }
 
+    /// A coarse picture of cells at least `cell` [m] wide, and wider where the noise of the points makes the surface thicker than that: there
+    /// neighbours lie all around a place, and nothing has an end.
+    pub fn of_surface(points: &[Vec3], cell: f64) -> Sheet {
+        let mut sheet = Sheet::new(points, cell);
+        for _ in 0..MOST_WIDER {
+            if sheet.flatness().is_none_or(|flatness| flatness < THICK) {
+                break;
+            }
+            sheet = Sheet::new(points, sheet.cell * WIDER);
+        }
+        sheet
+    }
+
+    /// Median of the least of the three spreads of a place's neighbours, as a share of the second: 0 of a plane, 1 of a ball. None for a few places.
+    fn flatness(&self) -> Option<f64> {
+        let some: Vec<u32> =
+            (0..self.places.len() as u32).step_by(self.places.len().div_ceil(SOME).max(1)).collect();
+        let share = |&place: &u32| {
+            let offsets = self.offsets(place);
+            let [least, second, _] = spreads(&offsets)?.0;
+            (offsets.len() >= FEWEST && second > 0.0).then(|| least.max(0.0) / second)
+        };
+        let mut shares: Vec<f64> = some.par_iter().filter_map(share).collect();
+        let middle = shares.len() / 2;
+        (shares.len() >= SOME / 10).then(|| *shares.select_nth_unstable_by(middle, f64::total_cmp).1)
+    }
+
+    /// From a place to those near by [m].
+    fn offsets(&self, place: u32) -> Vec<Vec3> {
+        let centre = self.places[place as usize];
+        let near = self.cells.grid.within(&self.places, centre, REACH * self.cell).filter(|&j| j != place);
+        near.map(|j| self.places[j as usize] - centre).collect()
+    }
+
     /// Rows of the points of a cell, ascending.
     pub fn rows(&self, place: u32) -> &[u32] {
         let Range { start, end } = self.runs[place as usize];
@@ -75,9 +119,7 @@ impl Sheet {
     }
 
     fn end(&self, place: u32) -> Option<End> {
-        let centre = self.places[place as usize];
-        let near = self.cells.grid.within(&self.places, centre, REACH * self.cell).filter(|&j| j != place);
-        let offsets: Vec<Vec3> = near.map(|j| self.places[j as usize] - centre).collect();
+        let offsets = self.offsets(place);
         if offsets.len() < 3 {
             return None;
         }
@@ -101,6 +143,13 @@ impl Sheet {
 
 /// Direction of least spread of vectors around their mean; none when they spread along one line only.
 pub(crate) fn normal(offsets: &[Vec3]) -> Option<Vec3> {
+    let ([least, second, most], axis) = spreads(offsets)?;
+    let is_flat = second > 1e-3 * most && least.is_finite();
+    is_flat.then(|| axis.normalize())
+}
+
+/// Spreads of vectors, and of zero, around their mean, ascending [m²], and the direction of the least; none for no vectors.
+fn spreads(offsets: &[Vec3]) -> Option<([f64; 3], Vec3)> {
     let mean = offsets.iter().sum::<Vec3>() / (offsets.len() + 1) as f64;
     let mut spread: Matrix3<f64> = mean * mean.transpose();
     for o in offsets {
@@ -109,9 +158,8 @@ pub(crate) fn normal(offsets: &[Vec3]) -> Option<Vec3> {
     let eigen = SymmetricEigen::new(spread);
     let mut order = [0, 1, 2];
     order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
-    let [least, second, most] = order.map(|i| eigen.eigenvalues[i]);
-    let is_flat = second > 1e-3 * most && least.is_finite();
-    is_flat.then(|| eigen.eigenvectors.column(order[0]).normalize())
+    let values = order.map(|i| eigen.eigenvalues[i]);
+    (!offsets.is_empty()).then(|| (values, eigen.eigenvectors.column(order[0]).into()))
 }
 
 /// A place in the middle of most points: the median of a few hundred along each axis.
@@ -188,6 +236,31 @@ mod tests {
             let p = sheet.places[end.place as usize] - Vec3::new(0.5, 0.5, 0.0);
             assert!(p.amax() > 0.45 && p.dot(&end.free) > 0.0 && end.normal.z.abs() > 0.99);
         }
+    }
+
+    /// Noise of half a cell: cells as wide as asked for lie in layers, and nothing ends; wider ones show the rim, and it alone.
+    #[test]
+    fn a_thick_sheet_is_looked_at_by_wider_cells() {
+        let chance = |i: u32| {
+            f64::from(i.wrapping_mul(2654435769) ^ (i >> 3).wrapping_mul(2246822519)) / f64::from(u32::MAX)
+        };
+        let noise = |i: u32| 0.012 * ((0..6).map(|k| chance(6 * i + k)).sum::<f64>() - 3.0);
+        let place = |i: u32| Vec3::new(f64::from(i % 400) / 400.0, f64::from(i / 400) / 400.0, noise(i));
+        let points: Vec<Vec3> = (0..160_000).map(place).collect();
+        let asked = Sheet::new(&points, 0.012);
+        assert!(asked.flatness().unwrap() > THICK, "{:?}", asked.flatness());
+        let sheet = Sheet::of_surface(&points, 0.012);
+        assert!(sheet.cell > 0.012 && sheet.flatness().unwrap() < THICK);
+        let ends = sheet.ends();
+        let at_rim = |end: &&End| {
+            let p = sheet.places[end.place as usize] - Vec3::new(0.5, 0.5, 0.0);
+            p.xy().amax() > 0.4
+        };
+        assert!(
+            ends.len() > 50 && ends.iter().filter(at_rim).count() * 10 > ends.len() * 9,
+            "{}",
+            ends.len()
+        );
     }
 
     #[test]

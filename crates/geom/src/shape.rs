@@ -72,7 +72,7 @@ impl Shape {
     /// Whether `p` [m] belongs to the shape; a place that is not finite belongs to none.
     #[inline]
     pub fn contains(&self, p: &Vec3) -> bool {
-        p.iter().all(|c| c.is_finite()) && self.solid.contains(p) != self.outside
+        p.x.is_finite() && p.y.is_finite() && p.z.is_finite() && self.solid.contains(p) != self.outside
     }
 
     /// Reads a shape; `load` reads the file of a `mesh:`.
@@ -165,22 +165,21 @@ impl Solid {
         match self {
             Solid::Box(lo, hi) => (0..3).all(|a| lo[a] <= p[a] && p[a] <= hi[a]),
             Solid::Sphere(centre, radius) => (p - centre).norm_squared() <= radius * radius,
-            Solid::Cylinder(start, end, radius) => {
-                let (axis, from) = (end - start, p - start);
-                let share = from.dot(&axis) / axis.norm_squared();
-                (0.0..=1.0).contains(&share) && (from - axis * share).norm_squared() <= radius * radius
-            }
-            Solid::Cone(start, end, [r0, r1]) => {
-                let (axis, from) = (end - start, p - start);
-                let share = from.dot(&axis) / axis.norm_squared();
-                let radius = r0 + (r1 - r0) * share;
-                (0.0..=1.0).contains(&share) && (from - axis * share).norm_squared() <= radius * radius
-            }
+            Solid::Cylinder(start, end, radius) => is_in_cone(p, start, end, [*radius; 2]),
+            Solid::Cone(start, end, radii) => is_in_cone(p, start, end, *radii),
             Solid::Halfspace(plane) => plane.signed_distance(p) >= 0.0,
             Solid::Prism(prism) => prism.contains(p),
             Solid::Mesh(inside) => inside.contains(p),
         }
     }
+}
+
+/// Both ends of the axis [m] and the radius at each [m].
+fn is_in_cone(p: &Vec3, start: &Vec3, end: &Vec3, [r0, r1]: [f64; 2]) -> bool {
+    let (axis, from) = (end - start, p - start);
+    let share = from.dot(&axis) / axis.norm_squared();
+    let radius = r0 + (r1 - r0) * share;
+    (0.0..=1.0).contains(&share) && (from - axis * share).norm_squared() <= radius * radius
 }
 
 fn positive(radius: f64, text: &str) -> Result<f64, ShapeError> {

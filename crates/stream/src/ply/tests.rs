@@ -237,3 +237,64 @@ proptest! {
         let _ = parse(&bytes);
     }
 }
+
+/// Gives a few bytes at a time, as a pipe may.
+struct Drops<'a>(&'a [u8]);
+
+impl Read for Drops<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        let count = buffer.len().min(997).min(self.0.len());
+        buffer[..count].copy_from_slice(&self.0[..count]);
+        self.0 = &self.0[count..];
+        Ok(count)
+    }
+}
+
+/// Columns of a plain file, read in blocks.
+fn in_blocks(bytes: &[u8]) -> Result<Vec<Vec<f64>>, PlyError> {
+    let Opened::Blocks(mut blocks) = Opened::new(Drops(bytes)).unwrap() else { panic!("a plain file") };
+    let mut columns: Vec<Values> = blocks.properties.iter().map(|(_, kind, _)| kind.empty()).collect();
+    let places: Vec<usize> = blocks.properties.iter().map(|(_, _, place)| *place).collect();
+    let stride = blocks.stride;
+    while let Some(rows) = blocks.next_rows()? {
+        assert!(!rows.is_empty() && rows.len().is_multiple_of(stride));
+        columns.iter_mut().zip(&places).for_each(|(c, &place)| c.extend_from_rows(rows, stride, place));
+    }
+    Ok(columns.iter().map(Values::to_f64).collect())
+}
+
+#[test]
+fn blocks_give_what_the_whole_file_gives_and_refuse_what_it_refuses() {
+    let count = 50_000;
+    let mut table = Table::default();
+    table.push("x", Values::F32((0..count).map(|i| i as f32 / 7.0).collect())).unwrap();
+    table.push("tone", Values::U8((0..count).map(|i| i as u8).collect())).unwrap();
+    table.push("t", Values::F64((0..count).map(|i| f64::from(i) / 3.0).collect())).unwrap();
+    let wanted: Vec<Vec<f64>> = table.columns().iter().map(|c| c.values.to_f64()).collect();
+    let element = Element { name: "vertex".into(), table, lists: Vec::new() };
+    let ply = Ply { comments: vec!["a scan".into()], elements: vec![element], ..Ply::default() };
+    let whole = bytes(&ply, Encoding::BinaryLittleEndian);
+    assert_eq!(in_blocks(&whole).unwrap(), wanted);
+    let cut = &whole[..whole.len() - 5];
+    let longer = [&whole[..], &[0; 3000]].concat();
+    for wrong in [cut, &longer] {
+        let said = in_blocks(wrong).unwrap_err().to_string();
+        assert_eq!(said, parse(wrong).unwrap_err().to_string());
+    }
+    let columns = ply.elements[0].table.columns();
+    let columns: Vec<(&str, &dyn crate::Fill)> =
+        columns.iter().map(|c| (&*c.name, &c.values as &dyn crate::Fill)).collect();
+    let mut written = Vec::new();
+    write_columns(&mut written, &ply.comments, ("vertex", count as usize), &columns).unwrap();
+    assert!(written == whole, "columns are written as tables are");
+}
+
+#[test]
+fn whatever_is_no_plain_file_comes_back_as_it_was() {
+    for encoding in ALL {
+        let whole = bytes(&mesh(), encoding);
+        let Opened::Other(mut begin, mut rest) = Opened::new(Drops(&whole)).unwrap() else { panic!("lists") };
+        rest.read_to_end(&mut begin).unwrap();
+        assert!(begin == whole);
+    }
+}
