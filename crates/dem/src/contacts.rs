@@ -9,6 +9,7 @@ use crate::kernel::{Kernel, LEDGER};
 use crate::lane::{BLOCK, Row, Row4};
 use crate::part::{At, Lists, Part};
 use crate::particles::FAR;
+use crate::sleep::Still;
 use crate::sums::{Arrival, COUPLE, Loads, Sums};
 use crate::walls::WallBody;
 use geom::Vec3;
@@ -124,6 +125,8 @@ pub struct Contacts {
     count: Vec<u32>,
     /// Whom the contacts of each block meet; only where particles sleep.
     met: Vec<Met>,
+    /// What rests in each tile; only where particles sleep.
+    stills: Vec<Still>,
     /// Whether contact points of walls at rest are to be found.
     pub new: bool,
 }
@@ -240,6 +243,30 @@ impl Contacts {
         }
     }
 
+    /// Notes which tiles meet.
+    pub fn note_tiles(&mut self, kinds: &[Kind]) {
+        let tile = |particle: u32| (particle as usize / self.tile) as u32;
+        let mut near: Vec<Vec<u32>> = (0..self.tiles.len() as u32 - 1).map(|t| vec![t]).collect();
+        for s in self.segments.iter().filter(|s| !matches!(kinds[s.kind].with, With::Wall(_))) {
+            for (a, b) in s.contacts().map(|place| (tile(self.i[place]), tile(self.partner[place]))) {
+                if a != b && near[a as usize].last() != Some(&b) {
+                    near[a as usize].push(b);
+                    near[b as usize].push(a);
+                }
+            }
+        }
+        for near in &mut near {
+            near.sort_unstable();
+            near.dedup();
+        }
+        self.stills = near.into_iter().map(Still::beside).collect();
+    }
+
+    /// Particles of a tile.
+    pub fn tile(&self) -> usize {
+        self.tile
+    }
+
     /// For each particle, its contacts in the order of their places.
     fn index(&mut self, kinds: &[Kind], particles: usize) {
         self.starts = vec![0; particles + 1];
@@ -307,6 +334,28 @@ impl Contacts {
         self.keeps = keep;
     }
 
+    /// Whether the load and couple of each contact are kept.
+    pub fn keeps(&self) -> bool {
+        self.keeps
+    }
+
+    /// Puts loads, couples and ledger of each contact, or sums by particle, as they were saved; false where there are other numbers of them.
+    pub fn put_loads(&mut self, each: &[Vec<f64>; 3], sums: &[Vec<f64>; 2]) -> bool {
+        let Contacts { loads, couples, ledger, keeps, .. } = self;
+        let (mine, sums_mine) = ([loads, couples], [&mut self.sums.0, &mut self.sums.1]);
+        let pairs: Vec<(&Vec<f64>, &mut Aligned)> = match keeps {
+            true => each.iter().zip(mine.into_iter().chain([ledger])).collect(),
+            false => sums.iter().zip(sums_mine).chain([(&each[2], ledger)]).collect(),
+        };
+        for (saved, now) in pairs {
+            if saved.len() != now.len() {
+                return false;
+            }
+            now.copy_from_slice(saved);
+        }
+        true
+    }
+
     /// Sums of the loads on all particles.
     pub fn sums(&self) -> Loads<'_> {
         Loads { first: 0, sums: (&self.sums.0, &self.sums.1) }
@@ -358,7 +407,7 @@ impl Contacts {
     }
 
     /// Everything, to be computed; `stride`: numbers of one load.
-    pub fn parts(&mut self, stride: usize) -> (Lists<'_>, Part<'_>, Sums<'_>) {
+    pub fn parts(&mut self, stride: usize) -> (Lists<'_>, Part<'_>, Sums<'_>, &mut [Still]) {
         let lists = Lists {
             i: &self.i,
             partner: &self.partner,
@@ -386,6 +435,6 @@ impl Contacts {
             ledger: &mut self.ledger,
         };
         let sums = Sums { first: 0, stride, loads: &mut self.sums.0, couples: &mut self.sums.1 };
-        (lists, part, sums)
+        (lists, part, sums, &mut self.stills)
     }
 }

@@ -257,6 +257,14 @@ pub enum Halt {
         /// Where it was last [m].
         z: f64,
     },
+    /// Contacts or forces on walls are asked for that the run was told not to keep.
+    #[error(
+        "t = {time:.6e} s: the load of each contact is asked for, which this run does not keep: record_loads(true) before its steps"
+    )]
+    NotKept {
+        /// When [s].
+        time: f64,
+    },
     /// A grain has come back through an inlet, against the flow.
     #[error(
         "t = {time:.6e} s: particle {id} at ({x:.4e}, {y:.4e}, {z:.4e}) m came in by inlet {inlet} and has gone back through all of its \

@@ -151,7 +151,7 @@ impl Simulation {
         let couples = if self.kinds.iter().any(|k| k.kernel.couples()) { COUPLE } else { 0 };
         let sums = (stride(rotates) + couples) * size_of::<f64>();
         let state = size_of::<Row>() + 2 * size_of::<Row4>() + sums;
-        let sleep = if self.sleepers.is_some() { size_of::<Row>() + size_of::<u32>() + 2 } else { 0 };
+        let sleep = if self.sleepers.is_some() { size_of::<Row>() + size_of::<u32>() + 2 + sums } else { 0 };
         state + rotation + sleep + size_of::<u32>() + size_of::<u16>() + size_of::<u32>()
     }
 

@@ -5,7 +5,7 @@ use crate::kernel::{Common, LEDGER, Task};
 use crate::lane::{BLOCK, Row, Row4, Width};
 use crate::motion::Pose;
 use crate::seams::Slots;
-use crate::sleep::runs;
+use crate::sleep::Known;
 use crate::sums::{Arrival, COUPLE, Computed, FORCE, FORCE_AND_MOMENT, Sums};
 use crate::walls::WallBody;
 use geom::Vec3;
@@ -58,7 +58,7 @@ impl Lists<'_> {
     }
 
     /// Whether all contacts of a block are between sleepers, or of sleepers with a wall at rest.
-    fn rests(&self, block: usize, asleep: &[bool]) -> bool {
+    pub fn rests(&self, block: usize, asleep: &[bool]) -> bool {
         let all = |of: &[u32]| of[block * BLOCK..(block + 1) * BLOCK].iter().all(|&k| asleep[k as usize]);
         !self.new
             && match self.met[block] {
@@ -80,7 +80,7 @@ pub struct Scenery<'a> {
     pub width: Width,
     pub common: Common<'a>,
     /// Who sleeps, where the scene asks for it.
-    pub asleep: Option<&'a [bool]>,
+    pub known: Option<Known<'a>>,
 }
 
 /// Where a part begins.
@@ -146,29 +146,14 @@ impl<'a> Part<'a> {
     }
 
     /// Contact points and loads of segment `k` of this part, added to the `sums` of its tile; true when an overlap passes the limit.
-    pub fn compute(&mut self, k: usize, lists: &Lists, scenery: &Scenery, sums: &mut Sums) -> bool {
+    pub fn compute(&mut self, k: usize, (lists, scenery): Seen, sums: &mut Sums) -> bool {
         let s = &self.segments[k];
         self.renew(s, lists, scenery);
-        let Some(asleep) = scenery.asleep else {
-            return self.compute_places(s, s.places.clone(), (lists, scenery), sums);
-        };
-        let blocks = s.places.start / BLOCK..s.places.end / BLOCK;
-        let rests: Vec<bool> = blocks.map(|b| lists.rests(b, asleep)).collect();
-        let mut deep = false;
-        for run in runs(&rests) {
-            let places = s.places.start + run.start * BLOCK..s.places.start + run.end * BLOCK;
-            if rests[run.start] {
-                self.recall(s, places.clone(), (lists, scenery), sums);
-                self.forget_ledger(places);
-            } else {
-                deep |= self.compute_places(s, places, (lists, scenery), sums);
-            }
-        }
-        deep
+        self.compute_places(s, s.places.clone(), (lists, scenery), sums)
     }
 
-    /// Adds loads that were computed before: those of contacts `places` of a segment, or all of segment `k`.
-    fn recall(&mut self, s: &Segment, places: Range<usize>, (lists, scenery): Seen, sums: &mut Sums) {
+    /// Adds loads that were computed before: those of contacts `places` of a segment.
+    pub fn recall(&mut self, s: &Segment, places: Range<usize>, (lists, scenery): Seen, sums: &mut Sums) {
         let both = scenery.kinds[s.kind].with == With::Particles && !s.later;
         let (first, n) = (places.start - self.from.place, places.len());
         let pairs = (&lists.i[places.clone()], &lists.partner[places.clone()]);
@@ -185,21 +170,16 @@ impl<'a> Part<'a> {
         }
     }
 
-    /// The like of all of segment `k`.
-    pub fn recall_all(&mut self, k: usize, lists: &Lists, scenery: &Scenery, sums: &mut Sums) {
-        let s = &self.segments[k];
-        self.recall(s, s.places.clone(), (lists, scenery), sums);
-    }
-
     /// What is passed over loses no energy.
-    fn forget_ledger(&mut self, places: Range<usize>) {
+    pub fn forget_ledger(&mut self, places: Range<usize>) {
         let first = places.start - self.from.place;
         for row in part_mut(self.ledger, first * LEDGER, places.len() * LEDGER).chunks_exact_mut(LEDGER) {
             row[1..].fill(0.0);
         }
     }
 
-    fn compute_places(
+    /// Loads of contacts `places` of a segment, whose contact points are found.
+    pub fn compute_places(
         &mut self,
         s: &Segment,
         places: Range<usize>,
@@ -278,7 +258,7 @@ impl<'a> Part<'a> {
 }
 
 /// What a contact needs besides its own.
-type Seen<'a> = (&'a Lists<'a>, &'a Scenery<'a>);
+pub type Seen<'a> = (&'a Lists<'a>, &'a Scenery<'a>);
 
 /// Some of a column, or none of a column that does not exist.
 fn part<T>(of: &[T], from: usize, n: usize) -> &[T] {

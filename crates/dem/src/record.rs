@@ -44,9 +44,9 @@ impl Simulation {
     /// All contacts that carry a force, or have done work since the last call, in the order of the lists.
     ///
     /// # Errors
-    /// When the state is beyond a guard.
+    /// When the state is beyond a guard, or loads are not kept ([`Simulation::record_loads`]).
     pub fn record_contacts(&mut self) -> Result<Vec<ContactRecord>, Halt> {
-        self.ready()?;
+        self.ready_to_record()?;
         let stride = stride(self.particles.rotates());
         let mut work = std::mem::take(&mut self.contacts.work);
         let mut out = Vec::new();
@@ -70,6 +70,12 @@ impl Simulation {
         }
         self.contacts.work = work;
         Ok(out)
+    }
+
+    /// Brings the load of each contact to this instant.
+    pub(crate) fn ready_to_record(&mut self) -> Result<(), Halt> {
+        self.ready()?;
+        if self.contacts.keeps() { Ok(()) } else { Err(Halt::NotKept { time: self.time() }) }
     }
 
     /// Where the second of a contact is, and its radius [m] (0 on a flat wall); `position` tells where particles are.

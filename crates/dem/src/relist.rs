@@ -130,6 +130,7 @@ impl Simulation {
         self.contacts = Contacts::new(&self.kinds, &self.list_images(search), &tiles, count);
         if self.sleepers.is_some() {
             self.contacts.note_walls(&self.kinds, &self.walls);
+            self.contacts.note_tiles(&self.kinds);
         }
     }
 

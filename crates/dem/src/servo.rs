@@ -71,9 +71,9 @@ impl Simulation {
     /// Force on each wall, and where it is.
     ///
     /// # Errors
-    /// When the state is beyond a guard.
+    /// When the state is beyond a guard, or loads are not kept ([`Simulation::record_loads`]).
     pub fn wall_forces(&mut self) -> Result<Vec<WallForce>, Halt> {
-        self.ready()?;
+        self.ready_to_record()?;
         let time = self.time();
         let of = |w: usize| {
             let (push, contacts) = self.push(w);

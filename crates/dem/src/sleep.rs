@@ -3,7 +3,8 @@
 //! A particle falls asleep when, for a time, |v| + r|ω| has been below a speed and its residual acceleration |F/m + g| and r²|M|/I below a
 //! share of g. Its velocity is then zero, and the force on it is kept. It wakes when the force on it differs from that
 //! by more than the share of its weight, or the moment by the share of weight × radius. Loads between two sleepers, or of a sleeper on a
-//! wall at rest, are those of the step in which they fell asleep: whole blocks of them are passed over.
+//! wall at rest, are those of the step in which they fell asleep: whole blocks of them are passed over,
+//! and their sum is kept for each tile ([`Still`]) until somebody in or beside it falls asleep or wakes.
 //!
 //! Sleeping changes results: by what a bed would still have crept, and by disturbances too weak to wake it.
 
@@ -12,6 +13,9 @@ use crate::lane::{Row, Width};
 use crate::part::Lists;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
+pub use still::{Known, Still};
+
+mod still;
 
 /// When particles sleep.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -38,6 +42,11 @@ pub struct Sleepers {
     speed: f64,
     /// Acceleration that wakes [m/s²].
     wake: f64,
+    /// Steps that were ended, and for each tile the last of them in which somebody fell asleep or woke.
+    #[serde(skip)]
+    turns: u64,
+    #[serde(skip)]
+    changed: Vec<u64>,
 }
 
 /// The like, of some particles.
@@ -65,6 +74,8 @@ impl Sleepers {
             steps,
             speed: rule.speed,
             wake: rule.wake * gravity,
+            turns: 0,
+            changed: Vec::new(),
         };
         (0..particles).for_each(|_| new.push());
         new
@@ -100,24 +111,42 @@ impl Sleepers {
         self.quiet[k] == self.steps
     }
 
-    /// Ends a step: who sleeps from now on, and the energy [J] that those who fell asleep lost.
-    pub fn turn(&mut self) -> f64 {
-        let n = self.next.len();
-        self.asleep[..n].copy_from_slice(&self.next);
-        let fell = self.quiet.iter().zip(&self.held).filter(|(q, _)| **q == self.steps);
-        fell.map(|(_, held)| held[6]).sum()
+    /// Ends a step: who sleeps from now on, and the energy [J] that those who fell asleep lost; particles of a `tile`.
+    pub fn turn(&mut self, tile: usize) -> f64 {
+        self.turns += 1;
+        self.changed.resize(self.next.len().div_ceil(tile), self.turns);
+        let mut lost = 0.0;
+        for (t, next) in self.next.chunks(tile).enumerate() {
+            let here = t * tile..t * tile + next.len();
+            if self.asleep[here.clone()] == *next {
+                continue;
+            }
+            self.asleep[here.clone()].copy_from_slice(next);
+            self.changed[t] = self.turns;
+            let fell =
+                self.quiet[here.clone()].iter().zip(&self.held[here]).filter(|(q, _)| **q == self.steps);
+            lost += fell.map(|(_, held)| held[6]).sum::<f64>();
+        }
+        lost
+    }
+
+    /// What stands now, for [`Still`].
+    pub fn known(&self) -> Known<'_> {
+        Known { asleep: &self.asleep, turns: self.turns, changed: &self.changed }
     }
 
     /// Everyone, with `busy` (or none) to be kept awake.
     pub fn beds<'a>(&'a mut self, busy: &'a [bool]) -> Beds<'a> {
         self.next.resize(self.quiet.len(), false);
-        let Sleepers { quiet, next, held, asleep, steps, speed, wake } = self;
+        let Sleepers { quiet, next, held, asleep, steps, speed, wake, .. } = self;
         Beds { quiet, next, held, asleep, busy, steps: *steps, speed: *speed, wake: *wake }
     }
 
     /// Wakes a particle.
     pub fn rouse(&mut self, k: usize) {
         (self.quiet[k], self.asleep[k]) = (0, false);
+        self.turns += 1;
+        self.changed.fill(self.turns);
     }
 }
 
@@ -139,20 +168,34 @@ impl<'a> Beds<'a> {
     }
 }
 
-/// Moves those that are awake, and looks after the others.
-pub fn advance_awake(width: Width, mut columns: Columns, drive: &Drive, lists: &Lists) -> Moved {
+/// Moves those of a tile that are awake, and looks after the others: all of them, where what is `still` has just been found.
+pub fn advance_awake(
+    width: Width,
+    mut columns: Columns,
+    drive: &Drive,
+    lists: &Lists,
+    still: Option<&Still>,
+) -> Moved {
     let mut moved = Moved::default();
     let Some(mut beds) = columns.beds.take() else { return advance(width, columns, drive) };
     let first = columns.first;
     let sleeps = &beds.asleep[first..first + columns.rows.len()];
+    let mut wake = |run: Range<usize>, columns: &mut Columns, beds: &mut Beds| {
+        let (_, rest) = columns.by_ref().split(first + run.start);
+        let (awake, _) = rest.split(first + run.end);
+        moved = moved.and(advance(width, awake, drive));
+        run.for_each(|k| beds.watch(k, columns, drive));
+    };
+    if let Some(still) = still.filter(|s| s.goes_on()) {
+        still.awake.iter().for_each(|run| wake(run.clone(), &mut columns, &mut beds));
+        still.stirred.iter().for_each(|&k| beds.feel(k as usize, &mut columns, drive));
+        return moved;
+    }
     for run in runs(sleeps) {
         if sleeps[run.start] {
             run.for_each(|k| beds.hold(k, &mut columns, drive, lists));
         } else {
-            let (_, rest) = columns.by_ref().split(first + run.start);
-            let (awake, _) = rest.split(first + run.end);
-            moved = moved.and(advance(width, awake, drive));
-            run.for_each(|k| beds.watch(k, &mut columns, drive));
+            wake(run, &mut columns, &mut beds);
         }
     }
     moved
@@ -185,10 +228,14 @@ impl Beds<'_> {
     fn hold(&mut self, k: usize, columns: &mut Columns, drive: &Drive, lists: &Lists) {
         self.quiet[k] = self.steps.saturating_add(1);
         self.next[k] = true;
-        let here = columns.first + k;
-        if !lists.stirred(here, self.asleep) {
-            return;
+        if lists.stirred(columns.first + k, self.asleep) {
+            self.feel(k, columns, drive);
         }
+    }
+
+    /// A sleeper that something may have stirred: whether it wakes.
+    fn feel(&mut self, k: usize, columns: &mut Columns, drive: &Drive) {
+        let here = columns.first + k;
         let row = columns.rows[k];
         let (force, moment) = columns.sums.seen().on(here, row[3], !columns.spins.is_empty());
         let held = self.held[k];

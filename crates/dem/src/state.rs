@@ -37,8 +37,10 @@ pub struct State {
     new: bool,
     /// Sliding work of each contact that has not been recorded, by place.
     work: Vec<f64>,
-    /// Loads, couples and ledger, when they are those of this step.
+    /// Loads, couples and ledger of each contact, when they are those of this step and kept.
     loads: [Vec<f64>; 3],
+    /// Sums of loads and couples by particle, when they are those of this step and loads are not kept.
+    sums: [Vec<f64>; 2],
 }
 
 /// The like, borrowed from a simulation; serialized, it is a [`State`].
@@ -63,6 +65,7 @@ pub struct StateView<'a> {
     new: bool,
     work: &'a [f64],
     loads: [&'a [f64]; 3],
+    sums: [&'a [f64]; 2],
 }
 
 impl StateView<'_> {
@@ -88,6 +91,7 @@ impl StateView<'_> {
             new: self.new,
             work: self.work.to_vec(),
             loads: self.loads.map(<[f64]>::to_vec),
+            sums: self.sums.map(<[f64]>::to_vec),
         }
     }
 }
@@ -107,6 +111,7 @@ impl Simulation {
     /// The state of this instant.
     pub fn state(&self) -> StateView<'_> {
         let c = &self.contacts;
+        let sums = c.sums().sums;
         StateView {
             dt: self.dt,
             skin: self.skin,
@@ -127,11 +132,12 @@ impl Simulation {
             work: &self.contacts.work,
             new: c.new,
             // Loads between sleepers are those of the step in which they fell asleep.
-            loads: if self.current || self.sleepers.is_some() {
-                [&c.loads, &c.couples, &c.ledger]
-            } else {
-                [&[]; 3]
+            loads: match (self.current || self.sleepers.is_some(), c.keeps()) {
+                (true, true) => [&c.loads, &c.couples, &c.ledger],
+                (true, false) => [&[], &[], &c.ledger],
+                (false, _) => [&[]; 3],
             },
+            sums: if self.current && !c.keeps() { [sums.0, sums.1] } else { [&[]; 2] },
         }
     }
 
@@ -183,19 +189,18 @@ impl Simulation {
         sim.stale = state.stale;
         let [loads, ..] = &state.loads;
         if state.current || !loads.is_empty() {
-            sim.contacts.keep_each(true, stride(sim.particles.rotates()));
-            let c = &mut sim.contacts;
-            for (saved, now) in state.loads.iter().zip([&mut c.loads, &mut c.couples, &mut c.ledger]) {
-                if saved.len() != now.len() {
-                    return Err(other("another number of loads"));
-                }
-                now.copy_from_slice(saved);
-            }
-            sim.current = state.current;
+            let kept = !loads.is_empty();
+            sim.contacts.keep_each(kept, stride(sim.particles.rotates()));
             // A crossing in this step asks where walls were touched, and so do sleepers on walls at rest.
             sim.find_contact_points();
-            sim.pass(Pass::Recall);
+            if !sim.contacts.put_loads(&state.loads, &state.sums) {
+                return Err(other("another number of loads"));
+            }
+            sim.current = state.current;
             sim.contacts.new = state.new;
+            if kept {
+                sim.pass(Pass::Recall);
+            }
         }
         Ok(sim)
     }

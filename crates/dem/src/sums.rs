@@ -94,6 +94,17 @@ impl<'a> Sums<'a> {
         self.couples.fill(0.0);
     }
 
+    /// Number of particles.
+    pub fn len(&self) -> usize {
+        self.loads.len().checked_div(self.stride).unwrap_or(0)
+    }
+
+    /// Begins with these.
+    pub fn put(&mut self, (loads, couples): &(Vec<f64>, Vec<f64>)) {
+        self.loads.copy_from_slice(loads);
+        self.couples.copy_from_slice(couples);
+    }
+
     /// Adds the loads (of `N` numbers) and couples (or none) of contacts between particles i and j: to i, and if `both` to j; to none
     /// that is not of these.
     #[inline(always)]

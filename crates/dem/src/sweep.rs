@@ -4,10 +4,10 @@
 use crate::advance::{Columns, Drive, Moved};
 use crate::kernel::Common;
 use crate::motion::Pose;
-use crate::part::{Lists, Part, Scenery};
+use crate::part::{Part, Scenery, Seen};
 use crate::particles::Particles;
 use crate::simulation::Simulation;
-use crate::sleep::advance_awake;
+use crate::sleep::{Sleepers, Still, advance_awake};
 use crate::sums::{Sums, stride};
 use rayon::prelude::*;
 
@@ -51,21 +51,33 @@ impl Simulation {
     /// Loads of all contacts, and their sums within tiles; whether an overlap passes its limit. `looks`: the load of each contact is kept.
     fn compute(&mut self, looks: bool) -> bool {
         self.contacts.keep_each(looks && self.records || self.keeps_each(), stride(self.particles.rotates()));
-        self.for_segments(|part, k, (lists, scenery), sums| part.compute(k, lists, scenery, sums))
+        self.for_tiles(|part, still, seen, sums| match still {
+            Some(still) => still.compute(part, seen, sums),
+            None => {
+                sums.clear();
+                (0..part.segments.len()).fold(false, |any, k| any | part.compute(k, seen, sums))
+            }
+        })
     }
 
     /// Sums within tiles of loads that were computed before.
     fn add_again(&mut self) -> bool {
-        self.for_segments(|part, k, (lists, scenery), sums| {
-            part.recall_all(k, lists, scenery, sums);
+        self.for_tiles(|part, still, seen, sums| {
+            match still {
+                Some(still) => still.recall(part, seen, sums),
+                None => {
+                    sums.clear();
+                    part.segments.iter().for_each(|s| part.recall(s, s.places.clone(), seen, sums));
+                }
+            }
             false
         })
     }
 
-    /// Does something with each segment, images first, and the sums of its tile; whether any says so.
-    fn for_segments(
+    /// Does something with each segment of images, and with each tile, what rests there, and its sums; whether any says so.
+    fn for_tiles(
         &mut self,
-        each: impl Fn(&mut Part, usize, (&Lists, &Scenery), &mut Sums) -> bool + Sync,
+        each: impl Fn(&mut Part, Option<&mut Still>, Seen, &mut Sums) -> bool + Sync,
     ) -> bool {
         let poses = self.poses();
         let (period, stride, many) =
@@ -73,30 +85,26 @@ impl Simulation {
         let Particles { rows, spins, .. } = &self.particles;
         let spins = if self.particles.rotates() { &spins[..] } else { &[] };
         let common = Common { dt: self.dt, overlap_limit: self.setup.guards.overlap, rows, spins, stride };
-        let asleep = self.sleepers.as_ref().map(|s| &s.asleep[..]);
+        let known = self.sleepers.as_ref().map(Sleepers::known);
         let (kinds, walls, width) = (&self.kinds, &self.walls, self.width);
-        let scenery = Scenery { kinds, walls, poses: &poses, period, width, common, asleep };
-        let (lists, part, mut sums) = self.contacts.parts(stride);
+        let scenery = Scenery { kinds, walls, poses: &poses, period, width, common, known };
+        let (lists, part, mut sums, stills) = self.contacts.parts(stride);
         let (mut images, mut rest) = part.split(lists.tiles[0]);
         let mut items = Vec::with_capacity(images.segments.len() + lists.tiles.len());
         while !images.segments.is_empty() {
             let (one, others) = images.split(1);
             images = others;
-            items.push((one, Sums::default()));
+            items.push((one, None, Sums::default()));
         }
+        let mut stills = stills.iter_mut();
         for segments in lists.tiles.windows(2) {
             let (one, others) = rest.split(segments[1] - segments[0]);
             let (mine, next) = sums.split(lists.tile);
             (rest, sums) = (others, next);
-            items.push((one, mine));
+            items.push((one, stills.next(), mine));
         }
-        share(many, items, |(mut part, mut sums)| {
-            sums.clear();
-            (0..part.segments.len())
-                .fold(false, |any, k| any | each(&mut part, k, (&lists, &scenery), &mut sums))
-        })
-        .into_iter()
-        .any(|found| found)
+        let run = |(mut part, still, mut sums)| each(&mut part, still, (&lists, &scenery), &mut sums);
+        share(many, items, run).into_iter().any(|found| found)
     }
 
     /// Second half: adds what arrives at each tile from others, and moves its particles, where that is to be done.
@@ -106,7 +114,7 @@ impl Simulation {
         }
         let Particles { rows, acceleration, spins, turning, home, .. } = &mut self.particles;
         let (count, many) = (acceleration.len(), acceleration.len() >= FEW);
-        let (lists, part, sums) = self.contacts.parts(stride(!spins.is_empty()));
+        let (lists, part, sums, stills) = self.contacts.parts(stride(!spins.is_empty()));
         let (rows, rotating) = (&mut rows[..count], if spins.is_empty() { 0 } else { count });
         let spins = &mut spins[..rotating];
         let beds = self.sleepers.as_mut().map(|s| s.beds(self.zones.busy()));
@@ -124,7 +132,11 @@ impl Simulation {
             if collects {
                 columns.sums.collect(lists.arriving(tile), part.kept());
             }
-            if moves { advance_awake(width, columns, &drive, &lists) } else { Moved::default() }
+            if moves {
+                advance_awake(width, columns, &drive, &lists, stills.get(tile))
+            } else {
+                Moved::default()
+            }
         });
         if moves {
             // Until now: sleepers are looked at after each listing.
@@ -141,8 +153,8 @@ impl Simulation {
 
     /// Contact points of images and walls, without loads.
     pub(crate) fn find_contact_points(&mut self) {
-        self.for_segments(|part, k, (lists, scenery), _| {
-            part.renew(&part.segments[k], lists, scenery);
+        self.for_tiles(|part, _, (lists, scenery), _| {
+            part.segments.iter().for_each(|s| part.renew(s, lists, scenery));
             false
         });
     }
@@ -150,5 +162,9 @@ impl Simulation {
 
 /// Does something with all items, on all threads where there are many: one item at a time, so that all end together.
 fn share<T: Send, R: Send>(many: bool, items: Vec<T>, run: impl Fn(T) -> R + Sync + Send) -> Vec<R> {
-    if many { items.into_par_iter().with_max_len(1).map(run).collect() } else { items.into_iter().map(run).collect() }
+    if many {
+        items.into_par_iter().with_max_len(1).map(run).collect()
+    } else {
+        items.into_iter().map(run).collect()
+    }
 }

@@ -47,6 +47,9 @@ pub const SIGNAL: &str = "by a signal";
 
 const FRAME: &str = "world";
 
+/// Particles up to which a run holds the state of the last instant that was looked at, to go back to: twice its memory. A larger run goes
+/// back to the last checkpoint in its file.
+const HELD: usize = 500_000;
 /// Samples of paths that are held before they are written.
 const SAMPLES_HELD: usize = 4096;
 
@@ -160,6 +163,8 @@ struct Run<W: Write> {
     watched: bool,
     /// What the feeds had given and the state when something was last written: a run whose numbers are lost goes on from there.
     before: Option<(Vec<u64>, dem::State)>,
+    /// When that was, whether or not it is held [s].
+    looked_at: f64,
     checkpoints: u64,
 }
 
@@ -265,10 +270,12 @@ impl<W: Write> Run<W> {
         let masses = plan.setup.clumps.shapes.iter().map(|s| s.mass(1.0, density(s.material))).collect();
         let follows = plan.setup.walls.iter().any(|w| w.motion.servo.is_some());
         let wall_forces = scene.model.output.wall_forces || follows;
-        let sim = match resume {
+        let recorded = scene.model.output.contacts || wall_forces;
+        let mut sim = match resume {
             Some(saved) => Simulation::resume(plan.setup, saved.state)?,
             None => Simulation::new(plan.setup)?,
         };
+        sim.record_loads(recorded);
         let schedule = Schedule::new(scene, sim.dt())?;
         if sim.steps() >= schedule.last {
             let why = format!(
@@ -322,6 +329,7 @@ impl<W: Write> Run<W> {
             looked: None,
             watched: false,
             before: None,
+            looked_at: 0.0,
             checkpoints: 0,
         };
         run.write_walls(&surfaces, &plan.notes)?;
@@ -344,7 +352,7 @@ impl<W: Write> Run<W> {
             balance: balance.flatten(),
             frames: self.outcome.frames,
             checkpoints: self.checkpoints,
-            saved: self.before.as_ref().map_or(0.0, |(_, state)| state.time()),
+            saved: self.looked_at,
         }
     }
 
@@ -391,7 +399,9 @@ impl<W: Write> Run<W> {
         let resumed = step == first && step > 0;
         let (frame, checkpoint) = (self.schedule.is_frame(step), self.schedule.is_checkpoint(step));
         if resumed || frame || checkpoint {
-            self.before = Some((self.supply.given.clone(), self.sim.state().to_state()));
+            self.looked_at = self.sim.time();
+            let held = self.sim.particle_count() <= HELD;
+            self.before = held.then(|| (self.supply.given.clone(), self.sim.state().to_state()));
         }
         if resumed || !(frame || checkpoint) {
             return Ok(Ok(()));
@@ -427,6 +437,8 @@ impl<W: Write> Run<W> {
             Err(halt) => return Ok(Err(halt)),
         };
         let table = frames::particles(&particles, self.precision, bodies.as_deref());
+        // A large run has little room for both.
+        drop(particles);
         self.writer.points(PARTICLES, now, FRAME, &table)?;
         if let Some(bodies) = bodies {
             self.writer.points(BODIES, now, FRAME, &frames::bodies(&bodies))?;
@@ -524,6 +536,14 @@ impl<W: Write> Run<W> {
     fn stop(&mut self, reason: String) -> Result<(), RunError> {
         match self.before.take() {
             Some(before) if !self.sim.is_finite() => self.go_back(reason, before),
+            None if !self.sim.is_finite() => {
+                let reason = format!(
+                    "{reason}; nothing can go on from here: --resume goes on from the checkpoint before it (output.checkpoint)"
+                );
+                self.log("stopped", &reason)?;
+                self.outcome.stopped = Some(reason);
+                Ok(())
+            }
             _ => {
                 // What is saved was looked at: the run that goes on does not look again.
                 self.sample()?;
