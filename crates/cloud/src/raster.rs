@@ -62,20 +62,17 @@ impl Raster {
 
     /// The cells that are as `wanted` in `map` and share a side with one that is not.
     pub fn border(&self, map: &[bool], wanted: bool) -> Vec<usize> {
-        let differs = |cell: usize, other: usize| map[cell] == wanted && map[other] != wanted;
         let mut border = Vec::new();
         for y in 0..self.side {
             let row = y * self.side;
-            for cell in row..row + self.side {
-                if map[cell] == wanted
-                    && (cell > row && differs(cell, cell - 1)
-                        || cell + 1 < row + self.side && differs(cell, cell + 1)
-                        || y > 0 && differs(cell, cell - self.side)
-                        || y + 1 < self.side && differs(cell, cell + self.side))
-                {
-                    border.push(cell);
-                }
-            }
+            let ends = |&cell: &usize| {
+                map[cell] == wanted
+                    && (cell > row && map[cell - 1] != wanted
+                        || cell + 1 < row + self.side && map[cell + 1] != wanted
+                        || y > 0 && map[cell - self.side] != wanted
+                        || y + 1 < self.side && map[cell + self.side] != wanted)
+            };
+            border.extend((row..row + self.side).filter(ends));
         }
         border
     }

@@ -103,11 +103,11 @@ impl Near {
     fn spread(&self) -> Matrix3<f64> {
         let mut sums = [[0.0; LANES]; 9];
         for first in (0..self.count.next_multiple_of(LANES)).step_by(LANES) {
-            for k in 0..LANES {
+            (0..LANES).for_each(|k| {
                 let (x, y, z) = (self.x[first + k], self.y[first + k], self.z[first + k]);
                 let terms = [x, y, z, x * x, x * y, x * z, y * y, y * z, z * z];
                 (0..9).for_each(|term| sums[term][k] += terms[term]);
-            }
+            });
         }
         let [x, y, z, xx, xy, xz, yy, yz, zz] = sums.map(|lanes| lanes.iter().sum::<f64>());
         let count = self.count as f64 + 1.0;
