@@ -2,7 +2,7 @@
 //!
 //! A part of one of the scans is in the repository. With `GRAINPIPE_DATA=FOLDER` whole files are read from `FOLDER/clouds` (Otira_1cm_grains.ply
 //! of g3point_python, BSD-3; stonepile2_depthcam_120k.ply of augmented-stacking, MIT; autzen_trim.laz of laspy's tests, BSD-2) and from
-//! `FOLDER/walls` (deme_*.obj of DEM-Engine, BSD-3; dosta_penetration_walls.txt of MercuryDPM, BSD-3); without it they are left out.
+//! `FOLDER/walls` (deme_*.obj of DEM-Engine, BSD-3; dosta_*walls*.txt of MercuryDPM, BSD-3); without it they are left out.
 
 use cloud::fill::Settings;
 use geom::{Grid, Vec3};
@@ -123,6 +123,7 @@ fn drawings_go_through() {
         ("deme_internal_mixer.obj", 0.04, 2892),
         ("deme_silo.obj", 1.0, 717),
         ("dosta_penetration_walls.txt", 0.003, 56),
+        ("dosta_silo_walls_large_orifice.txt", 0.003, 7632),
     ] {
         let bytes = std::fs::read(folder.join("walls").join(file)).unwrap();
         let mesh = cloud::read_mesh(&mut bytes.as_slice()).unwrap();

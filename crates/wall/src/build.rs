@@ -2,7 +2,7 @@
 
 use crate::pairs::{FURTHEST, Pairs, REACH, pairs};
 use crate::sheets::{self, Sheets};
-use crate::solve::Changes;
+use crate::solve::{Changed, Changes};
 use crate::star::{SQUARE, Stars, stars};
 use crate::{Placement, Radius, Regions, Representative, WallError, Wish, equation, leak, normals, solve};
 use geom::{Shown, Vec3};
@@ -44,6 +44,9 @@ pub struct WallReport {
     pub radius_range: [f64; 3],
     /// How far the dents are from those asked for.
     pub changes: Changes,
+    /// The pairs of which `changes` tells, where they were asked for.
+    #[serde(skip)]
+    pub changed: Vec<Changed>,
     /// The widest gap; `None` when not asked for or when there is none.
     pub widest_gap: Option<leak::Gap>,
     /// Gaps that the smallest particle passes.
@@ -70,7 +73,7 @@ pub fn build(points: &[Vec3], regions: &Regions, wish: &Wish) -> Result<(Wall, W
     if found.pairs.is_empty() {
         return Err(WallError::NoPairs { reach: FURTHEST * typical });
     }
-    let wants_stars = wish.placement == Placement::Surface || wish.smallest_particle.is_some();
+    let wants_stars = wish.placement == Placement::Surface || wish.smallest_particle.is_some() || wish.gaps;
     let stars = if wants_stars { stars(&cells, typical) } else { Stars::default() };
     let region_of = regions.of(&cells.points);
     let spacing = representative(&found.lengths, wish.representative);
@@ -86,6 +89,7 @@ pub fn build(points: &[Vec3], regions: &Regions, wish: &Wish) -> Result<(Wall, W
         roughness: zeta_all,
         radius_range: [range(&radii)[0], radii.iter().sum::<f64>() / radii.len() as f64, range(&radii)[1]],
         changes,
+        changed: if wish.list_changes { list(&cells, &found, &asked, &radii) } else { Vec::new() },
         widest_gap: None,
         leaks: 0,
         gaps_up_to: SQUARE * typical,
@@ -102,9 +106,26 @@ pub fn build(points: &[Vec3], regions: &Regions, wish: &Wish) -> Result<(Wall, W
     if let Some(particle) = wish.smallest_particle {
         check_sizes(&mut report, particle, &cells.points, &radii)?;
         check_particle(&mut report, particle, &centres, &radii, &stars);
+    } else if wish.gaps {
+        // No particle: what is wider than can be told from the outline is no gap.
+        let limit = report.gaps_up_to;
+        (report.widest_gap, _) = leak::widest(&centres, &radii, &stars.triangles, &stars.outline, limit);
     }
     let (centres, radii) = (by_index(&cells, &centres), by_index(&cells, &radii));
     Ok((Wall { centres, radii, regions: by_index(&cells, &region_of) }, report))
+}
+
+/// The pairs whose ζ was changed, by the numbers that their points came in with.
+fn list(cells: &Cells, found: &Pairs, asked: &[f64], radii: &[f64]) -> Vec<Changed> {
+    let of = |(k, asked, made): (usize, f64, f64)| {
+        let (i, j) = found.pairs[k];
+        let [a, b] = [i, j].map(|place| cells.order()[place as usize]);
+        let at = (cells.points[i as usize] + cells.points[j as usize]) * 0.5;
+        Changed { points: [a.min(b), a.max(b)], at: at.into(), distance: found.lengths[k], asked, made }
+    };
+    let mut all: Vec<Changed> = solve::changed(&found.pairs, &found.lengths, asked, radii).map(of).collect();
+    all.sort_unstable_by_key(|c| c.points);
+    all
 }
 
 /// Values by place in the order of the points.

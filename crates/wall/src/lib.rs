@@ -77,6 +77,10 @@ pub struct Wish {
     pub smallest_particle: Option<f64>,
     /// Diameter of the largest particle [m]: checks sizes.
     pub largest_particle: Option<f64>,
+    /// Whether the widest gap is looked for where no smallest particle is given.
+    pub gaps: bool,
+    /// Whether the report lists the pairs whose ζ was changed.
+    pub list_changes: bool,
 }
 
 /// What a wall refuses.

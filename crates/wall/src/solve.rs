@@ -47,6 +47,21 @@ pub struct Changes {
     pub pairs_apart: usize,
 }
 
+/// A pair whose ζ is not what was asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Changed {
+    /// Numbers of the two points, in the order that they came in.
+    pub points: [u32; 2],
+    /// Middle between the two [m].
+    pub at: [f64; 3],
+    /// Distance of the two [m].
+    pub distance: f64,
+    /// ζ that was asked for [m].
+    pub asked: f64,
+    /// ζ that the radii make [m]; more than half the distance of spheres that do not meet.
+    pub made: f64,
+}
+
 /// Neighbours of each point, a column each; behind the last, as many empty rows as there are lanes.
 struct Links {
     starts: Vec<u32>,
@@ -219,6 +234,21 @@ pub fn changes(pairs: &[(u32, u32)], lengths: &[f64], zeta: &[f64], radii: &[f64
     all.mean_change /= all.pairs.max(1) as f64;
     all.dents = if met > 0 { [all.dents[0], all.dents[1] / met as f64, all.dents[2]] } else { [0.0; 3] };
     all
+}
+
+/// The pairs that count as changed: place in `pairs`, ζ asked for and made [m].
+pub fn changed<'a>(
+    pairs: &'a [(u32, u32)],
+    lengths: &'a [f64],
+    zeta: &'a [f64],
+    radii: &'a [f64],
+) -> impl Iterator<Item = (usize, f64, f64)> + 'a {
+    let both = move |(k, (&(i, j), &p)): (usize, (&(u32, u32), &f64))| {
+        let (i, j) = (i as usize, j as usize);
+        (k, 0.5 * (zeta[i] + zeta[j]), dent(radii[i], radii[j], p))
+    };
+    let all = pairs.iter().zip(lengths).enumerate().map(both);
+    all.filter(|(_, asked, made)| (made - asked).abs() > CHANGED * asked)
 }
 
 impl Changes {

@@ -101,6 +101,23 @@ fn a_place_in_the_flow_puts_the_spheres_on_its_other_side_however_the_faces_are_
     assert_eq!(again.centres.len(), inside.centres.len());
 }
 
+/// A cone upside down with a lid, whose rim is a wedge of 45° of many short edges: no sphere stands beside it.
+#[test]
+fn spheres_at_a_sharp_rim_are_inside() {
+    let n = 28u32;
+    let rim = |k: u32| {
+        let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / f64::from(n)).sin_cos();
+        Vec3::new(cos, sin, 1.0)
+    };
+    let vertices: Vec<Vec3> = (0..n).map(rim).chain([Vec3::zeros(), Vec3::z()]).collect();
+    let sides = (0..n).flat_map(|k| [[(k + 1) % n, k, n], [k, (k + 1) % n, n + 1]]).collect();
+    let mesh = TriMesh::new(vertices, sides).unwrap();
+    let drawing = Drawing { radius: 0.05, roughness: 0.05 / 6.0, flow_at: None, centred: false };
+    let drawn = place(&mesh, &drawing).unwrap();
+    let beside = drawn.centres.iter().filter(|c| c.xy().norm() > c.z || c.z > 1.0).count();
+    assert_eq!(beside, 0, "of {} spheres", drawn.centres.len());
+}
+
 #[test]
 fn an_open_sheet_and_a_thin_plate_touch_from_behind() {
     let corner = [Vec3::zeros(), Vec3::x(), Vec3::new(1.0, 1.0, 0.0), Vec3::y()];

@@ -60,6 +60,12 @@ pub struct Args {
     /// Diameter of the largest particle [m]: checks the spheres' sizes
     #[arg(long, value_name = "M")]
     largest_particle: Option<f64>,
+    /// Tell the largest sphere that passes through the wall, and where (--smallest-particle does so, too)
+    #[arg(long)]
+    pub gaps: bool,
+    /// Write the pairs of neighbours whose roughness is not the one asked for: point_i,point_j,x,y,z,distance,asked,made [m]
+    #[arg(long, value_name = "FILE.csv")]
+    pub changes: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, clap::ValueEnum)]
@@ -116,6 +122,8 @@ impl Args {
             flow_at: self.flow_at,
             smallest_particle: self.smallest_particle,
             largest_particle: self.largest_particle,
+            gaps: self.gaps,
+            list_changes: self.changes.is_some(),
         })
     }
 

@@ -1,6 +1,7 @@
 //! Turns the points of a surface into wall spheres.
 
 mod args;
+mod changes;
 mod surface;
 
 use anyhow::Context;
@@ -40,8 +41,12 @@ fn wallgen(args: Args) -> anyhow::Result<Report> {
         .with_context(|| args.output.to.name())?;
         out.commit()?;
     }
+    if let Some(path) = &args.changes {
+        changes::write(path, &report.changed)?;
+    }
     report.warnings.iter().for_each(|w| cli::warn(w));
-    let all = summary(&report, &wish, drawn.as_ref()).with_all(&report).with("materials", &regions.materials);
+    let words = summary(&report, &wish, drawn.as_ref()) + &passes(&report, &wish);
+    let all = Report::new(words).with_all(&report).with("materials", &regions.materials);
     let all = if let Some(drawn) = &drawn { all.with("drawing", drawn) } else { all };
     Ok(if let Some(wear) = &wear { all.with("wear", wear) } else { all })
 }
@@ -55,25 +60,41 @@ fn as_cloud(mut cloud: cloud::Cloud, wall: &Wall, regions: &Regions) -> anyhow::
     Ok(cloud)
 }
 
-fn summary(report: &WallReport, wish: &Wish, drawn: Option<&DrawnReport>) -> Report {
+/// What the check of gaps has found, where it was asked for.
+fn passes(report: &WallReport, wish: &Wish) -> String {
+    let limit = Shown(report.gaps_up_to);
+    match report.widest_gap {
+        _ if !wish.gaps => String::new(),
+        None => format!("; nothing passes (gaps wider than {limit} m count as outline)"),
+        Some(gap) => {
+            let [x, y, z] = gap.at.map(|c| format!("{c:.4}"));
+            let widest = Shown(gap.diameter);
+            format!(
+                "; the largest sphere that passes: {widest} m at ({x}, {y}, {z}) m (gaps wider than {limit} m count as outline)"
+            )
+        }
+    }
+}
+
+fn summary(report: &WallReport, wish: &Wish, drawn: Option<&DrawnReport>) -> String {
     let [least, mean, largest] = report.radius_range.map(Shown);
     let (spheres, spacing, changes) = (report.spheres, Shown(report.spacing), &report.changes);
     if wish.radius == Radius::Solve {
-        return Report::new(format!(
+        return format!(
             "{spheres} wall spheres, radius {least} to {largest} m (mean {mean}), spacing {spacing} m, \
              roughness changed on {} of {} pairs",
             changes.pairs_changed, changes.pairs
-        ));
+        );
     }
     if let Some(drawn) = drawn {
-        return Report::new(format!(
+        return format!(
             "{spheres} wall spheres of radius {mean} m under {} faces, spacing {spacing} m on average, {} stretches with {} corners, \
              deepest dent {} m",
             drawn.faces,
             drawn.stretches,
             drawn.corners,
             Shown(drawn.deepest)
-        ));
+        );
     }
     let [low, middle, high] = changes.dents.map(Shown);
     let asked = match wish.radius {
@@ -84,10 +105,10 @@ fn summary(report: &WallReport, wish: &Wish, drawn: Option<&DrawnReport>) -> Rep
         0 => String::new(),
         apart => format!("; {apart} of {} pairs are too far apart to meet", changes.pairs),
     };
-    Report::new(format!(
+    format!(
         "{spheres} wall spheres of radius {mean} m, spacing {spacing} m, \
          dents {low} to {high} m (mean {middle}){asked}{apart}"
-    ))
+    )
 }
 
 /// Refuses a name that promises another format than MCAP or PLY.

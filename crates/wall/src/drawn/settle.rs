@@ -63,24 +63,58 @@ impl<'a> Settle<'a> {
 
     /// Where the worst face pushes the sphere; none when no face does.
     fn pushed(&self, centre: Vec3) -> Option<Vec3> {
+        let near = self.near(centre);
         let (mut most, mut to) = (TOUCH * self.radius, None);
-        self.boxes.near(centre, self.radius, |face| {
-            let q = closest_point(self.surface.mesh.triangle(face as usize), centre);
-            let (off, normal) = (centre - q, self.surface.normals[face as usize]);
-            let (distance, above) = (off.norm(), off.dot(&normal));
-            if distance >= self.radius {
-                return;
-            }
-            // On the face and right above it the centre is outside of the structure; beside it, it must keep away from the edge.
+        for face in &near {
+            let Face { q, off, distance, above, normal } = *face;
+            // On the face and right above it the centre is outside of the structure, as it is beyond an edge that stands out;
+            // beside the face, it must keep away from the edge.
             let is_above = distance <= TOUCH * self.radius || above >= distance * (1.0 - 1e-9);
-            let (out, inwards) = match is_above {
-                true => (self.radius + distance, -normal),
-                false => (self.radius - distance, off / distance),
+            let (out, inwards) = if is_above {
+                (self.radius + distance, -normal)
+            } else if self.is_beyond(&near, q) {
+                (self.radius + distance, -off / distance)
+            } else {
+                (self.radius - distance, off / distance)
             };
             if out > most {
                 (most, to) = (out, Some(q + inwards * self.radius));
             }
-        });
+        }
         to
     }
+
+    /// The faces nearer than the radius, in their order.
+    fn near(&self, centre: Vec3) -> Vec<Face> {
+        let mut near = Vec::new();
+        self.boxes.near(centre, self.radius, |face| {
+            let q = closest_point(self.surface.mesh.triangle(face as usize), centre);
+            let (off, normal) = (centre - q, self.surface.normals[face as usize]);
+            let (distance, above) = (off.norm(), off.dot(&normal));
+            if distance < self.radius {
+                near.push(Face { q, off, distance, above, normal });
+            }
+        });
+        near
+    }
+
+    /// Whether a place is above all faces that meet at the point of an edge or a corner which is nearest to it. The rim of an open sheet
+    /// has one face.
+    fn is_beyond(&self, near: &[Face], q: Vec3) -> bool {
+        let meet = near.iter().filter(|f| (f.q - q).norm() <= TOUCH * self.radius);
+        meet.clone().count() > 1 && meet.into_iter().all(|f| f.above > 0.0)
+    }
+}
+
+/// A face near a centre.
+#[derive(Clone, Copy)]
+struct Face {
+    /// Its point that is nearest to the centre [m].
+    q: Vec3,
+    /// From there to the centre [m].
+    off: Vec3,
+    distance: f64,
+    /// How far the centre is above its plane [m].
+    above: f64,
+    normal: Vec3,
 }

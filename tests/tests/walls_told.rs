@@ -1,0 +1,88 @@
+//! What wallgen tells of a wall besides its spheres: the pairs whose roughness it changed, and the widest gap.
+
+use grainpipe_tests::scenes::folder;
+use grainpipe_tests::tools::tool;
+
+/// A grid of points [m], every second row closer, and a point left out.
+fn cloud() -> String {
+    let y = [0.0, 0.01, 0.018, 0.028, 0.036, 0.046, 0.054];
+    let place = |k: usize| (0.01 * (k % 8) as f64, y[k / 8]);
+    let kept = (0..56).filter(|&k| k != 27).map(place);
+    kept.map(|(x, y)| format!("{x} {y} 0\n")).collect()
+}
+
+#[test]
+fn changes_lists_the_pairs_whose_roughness_is_not_the_one_asked_for() {
+    let folder = folder(&[("cloud.xyz", cloud())]);
+    let wallgen = |more: &[&str]| {
+        let words = [
+            &[
+                "cloud.xyz",
+                "--roughness",
+                "0.001",
+                "-o",
+                "w.mcap",
+                "--report",
+                "w.json",
+                "--changes",
+                "c.csv",
+            ],
+            more,
+        ];
+        let done = tool(folder.path(), "wallgen", &words.concat());
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        let report = std::fs::read_to_string(folder.path().join("w.json")).expect("a report");
+        let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
+        let csv = std::fs::read_to_string(folder.path().join("c.csv")).expect("a list");
+        (csv, report)
+    };
+    for radius in ["solve", "uniform"] {
+        let (csv, report) = wallgen(&["--radius", radius]);
+        let mut lines = csv.lines();
+        assert_eq!(lines.next(), Some("point_i,point_j,x,y,z,distance,asked,made"));
+        let rows: Vec<Vec<f64>> =
+            lines.map(|l| l.split(',').map(|n| n.parse().expect("a number")).collect()).collect();
+        assert_eq!(
+            Some(rows.len() as u64),
+            report["changes"]["pairs_changed"].as_u64(),
+            "{radius}: {report}"
+        );
+        assert!(!rows.is_empty());
+        let points: Vec<Vec<f64>> =
+            cloud().lines().map(|l| l.split(' ').map(|n| n.parse().expect("a number")).collect()).collect();
+        let largest = rows.iter().map(|r| (r[7] - r[6]).abs()).fold(0.0, f64::max);
+        let told = report["changes"]["largest_change"].as_f64().expect("a number");
+        assert!((largest - told).abs() < 1e-12, "{radius}: {largest} m in the list, {told} m in the report");
+        for row in rows {
+            let (a, b) = (&points[row[0] as usize], &points[row[1] as usize]);
+            let apart = (a[0] - b[0]).hypot(a[1] - b[1]);
+            assert!(
+                (apart - row[5]).abs() < 1e-12 && (0.5 * (a[0] + b[0]) - row[2]).abs() < 1e-12,
+                "{row:?}"
+            );
+            assert_eq!(row[6], 0.001);
+        }
+    }
+}
+
+/// Four points of a lattice around one that is missing: the widest sphere touches them in its middle.
+#[test]
+fn gaps_tells_the_largest_sphere_that_passes_without_a_particle() {
+    let even: String = (0..81).filter(|&k| k != 40).map(|k| format!("{} {} 0\n", k % 9, k / 9)).collect();
+    let folder = folder(&[("cloud.xyz", even)]);
+    let words = ["cloud.xyz", "--radius", "0.6", "-o", "w.mcap", "--report", "w.json"];
+    let done = tool(folder.path(), "wallgen", &[&words[..], &["--gaps"]].concat());
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    assert!(
+        done.stderr.contains("largest sphere that passes")
+            && done.stderr.contains("(4.0000, 4.0000, 0.0000)"),
+        "{}",
+        done.stderr
+    );
+    let report = std::fs::read_to_string(folder.path().join("w.json")).expect("a report");
+    let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
+    let widest = report["widest_gap"]["diameter"].as_f64().expect("a gap");
+    assert!((widest - 2.0 * (1.0 - 0.6)).abs() < 1e-9, "{widest}");
+    let plain = tool(folder.path(), "wallgen", &words);
+    assert!(plain.code == 0 && !plain.stderr.contains("passes"), "not asked for: {}", plain.stderr);
+}
