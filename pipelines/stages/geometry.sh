@@ -8,13 +8,14 @@
 #   mouth=0.04  width of the mouth [m], not scaled: grains must pass
 #   low=-0.08 high=0.08  from where to where along y [m]
 #   tilt=40     of the chute [deg]
+#   shaft=0.35  height of the hopper's shaft [m], scaled
 set -euo pipefail
 part=$1
 shift
 awk -v part="$part" -v words="$*" '
 function plate(x0, z0, x1, z1) { x[n] = x0; z[n] = z0; x[n + 1] = x1; z[n + 1] = z1; n += 2 }
 BEGIN {
-  scale = 1; mouth = 0.04; low = -0.08; high = 0.08; tilt = 40
+  scale = 1; mouth = 0.04; low = -0.08; high = 0.08; tilt = 40; shaft = 0.35
   count = split(words, word, " ")
   for (i = 1; i <= count; i++) {
     split(word[i], pair, "=")
@@ -23,12 +24,13 @@ BEGIN {
     else if (pair[1] == "low") low = pair[2]
     else if (pair[1] == "high") high = pair[2]
     else if (pair[1] == "tilt") tilt = pair[2]
-    else { print "geometry.sh: no key " pair[1] ": use scale, mouth, low, high or tilt" > "/dev/stderr"; exit 2 }
+    else if (pair[1] == "shaft") shaft = pair[2]
+    else { print "geometry.sh: no key " pair[1] ": use scale, mouth, low, high, tilt or shaft" > "/dev/stderr"; exit 2 }
   }
   n = 0; half = mouth / 2; s = scale; slope = atan2(0, -1) / 180 * tilt
   if (part == "hopper") {
     # A spout of 10 mm, walls of 60 degrees, a shaft.
-    side = 0.12 * s; foot = 0.6 * s + 0.01; knee = foot + (side - half) * sqrt(3); top = knee + 0.35 * s
+    side = 0.12 * s; foot = 0.6 * s + 0.01; knee = foot + (side - half) * sqrt(3); top = knee + shaft * s
     for (sign = -1; sign <= 1; sign += 2) {
       plate(sign * half, 0.6 * s, sign * half, foot)
       plate(sign * half, foot, sign * side, knee)

@@ -2,6 +2,7 @@
 # The sinter box in full, cut at the hopper's mouth: sinter-box.sh FOLDER PAGE.md runs both stages at once through a pipe, keeps the record, measures the
 # slope, and writes the part "sinter-box" of the page and its picture. The tools must be on the path.
 #
+# Both stages use THREADS threads each (2): in the beginning nearly all grains are upstream, in the end nearly all downstream.
 # What is there already is used: a record that is whole, and a downstream run that was stopped, which goes on from its last checkpoint.
 set -euo pipefail
 mkdir -p "$1"
@@ -11,6 +12,7 @@ SCENE=sinter-box.toml
 CUT=0,0,0.6,0,0,-1
 LENGTH=0.006
 TIMEFORMAT='%R %U %S'
+THREADS=${THREADS:-2}
 
 for keep in upstream downstream; do
   stage-split $SCENE --at=$CUT --length $LENGTH --keep $keep -o "$OUT/$keep.toml" -q
@@ -22,11 +24,11 @@ elif [ -e upstream.mcap ]; then
   echo "sinter-box: replaying the record that is there" >&2
   on=()
   [ -e downstream.mcap.part ] && on=(--resume downstream.mcap)
-  { time stage-replay upstream.mcap --keep-times -q | dem-run downstream.toml - "${on[@]}" --threads 2 -q --report down.json -o downstream.mcap; } 2>> times
+  { time stage-replay upstream.mcap --keep-times -q | dem-run downstream.toml - "${on[@]}" --threads "$THREADS" -q --report down.json -o downstream.mcap; } 2>> times
 else
   rm -f times
-  { time { dem-run upstream.toml --threads 1 -q --report up.json | tee upstream.new | stage-replay --keep-times -q \
-    | dem-run downstream.toml - --threads 1 -q --report down.json -o downstream.mcap; }; } 2>> times
+  { time { dem-run upstream.toml --threads "$THREADS" -q --report up.json | tee upstream.new | stage-replay --keep-times -q \
+    | dem-run downstream.toml - --threads "$THREADS" -q --report down.json -o downstream.mcap; }; } 2>> times
   mv upstream.new upstream.mcap
 fi
 
