@@ -173,12 +173,15 @@ impl Passage {
         let (times, radius) = (columns.numbers("time")?, columns.positive("radius")?);
         let (id, material) = (columns.whole("id")?, columns.or_zero("material")?);
         let outlet = columns.or_zero("outlet")?;
+        // The mass of a clump is written; that of a sphere follows from its radius.
+        let written = columns.or_zero("mass")?;
+        let of_sphere = |k: usize| mass(material[k] as u16, radius[k], densities);
         let row = |k: usize| Passage {
             time: times[k],
             outlet: outlet[k] as usize,
             position: position[k],
             id: id[k],
-            mass: mass(material[k] as u16, radius[k], densities),
+            mass: if written[k] > 0.0 { written[k] } else { of_sphere(k) },
         };
         Ok((0..position.len()).map(row).collect())
     }

@@ -10,11 +10,10 @@ use super::sides::Range;
 use super::walls::planes;
 use crate::contacts::most_specific;
 use crate::error::SceneError;
-use crate::inlet::plane_text;
 use crate::input::Input;
 use crate::model::Wall;
 use crate::{mesh_file, particle_file};
-use geom::Vec3;
+use geom::{Plane, Vec3};
 use std::collections::BTreeSet;
 use std::fs::File;
 use toml::{Table, Value};
@@ -101,7 +100,7 @@ impl Cutting<'_> {
             let near: Vec<Value> = planes(wall)
                 .iter()
                 .filter(|plane| column.as_ref().is_some_and(|c| c.meets(plane, self.largest)))
-                .map(|plane| plane_text(plane).into())
+                .map(|plane| place(plane).into())
                 .collect();
             if !near.is_empty() {
                 kept.walls.extend(wall.material.clone());
@@ -172,6 +171,12 @@ impl Kept {
             self.table.insert(key.to_owned(), Value::Array(tables));
         }
     }
+}
+
+/// Where a plane is, whichever of its points it was given by: two sides of a box may have a corner in common that is far from both.
+fn place(plane: &Plane) -> String {
+    let n = plane.normal;
+    format!("{},{},{} at {}", n.x, n.y, n.z, n.dot(&plane.point))
 }
 
 /// The entries of a list of a scene.
