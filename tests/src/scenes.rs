@@ -46,6 +46,27 @@ impl Head {
 /// What rubs and rolls.
 pub const RUBS: &str = "restitution = 0.5\nsliding_friction = 0.5\nrolling_resistance = 0.1";
 
+/// Sinter as plants have it that are cut in stages.
+pub const SINTER: Head = Head {
+    time: "until = 0.3",
+    output: "every = 0.02\ncheckpoint = 0.1",
+    material: "sinter",
+    density: 3300.0,
+    young: 5e7,
+    contact: "restitution = 0.5\nsliding_friction = 0.5",
+};
+
+/// Grains of it that fall through the plane z = 0.
+pub const ABOVE: &str = "[[fill]]
+material = \"sinter\"
+shape = \"cylinder:0,0,0.02,0,0,0.12,0.04\"
+diameter = [0.008, 0.012]
+mass = 0.15
+";
+
+/// The plane that such a plant is cut at.
+pub const AT: &str = "0,0,0,0,0,-1";
+
 /// A folder of its own with these files; it goes when it is dropped.
 ///
 /// # Panics

@@ -19,17 +19,28 @@ pub fn line(folder: &Path, line: &str) -> Result<Vec<u8>, String> {
     Err(words.lines().rfind(|l| !l.trim().is_empty()).unwrap_or("failed without a word").to_owned())
 }
 
-/// Runs a line and gives its processor time [s], user and system together.
+/// What a line took.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Took {
+    /// On the clock [s].
+    pub wall: f64,
+    /// Of processors, user and system together [s].
+    pub processor: f64,
+}
+
+/// Runs a line and tells what it took.
 ///
 /// # Errors
 /// As [`line`].
-pub fn timed(folder: &Path, what: &str) -> Result<f64, String> {
+pub fn timed(folder: &Path, what: &str) -> Result<Took, String> {
     let told = "{ tail -n 1 words >&2; exit 1; }";
     let out =
-        line(folder, &format!("TIMEFORMAT='%U %S'; {{ time {{ {what}; }} 2> words; }} 2>&1 || {told}"))?;
+        line(folder, &format!("TIMEFORMAT='%R %U %S'; {{ time {{ {what}; }} 2> words; }} 2>&1 || {told}"))?;
     let text = String::from_utf8_lossy(&out);
     let last = text.lines().last().unwrap_or_default();
-    Ok(last.split_whitespace().filter_map(|t| t.parse::<f64>().ok()).sum())
+    let numbers: Vec<f64> = last.split_whitespace().filter_map(|t| t.parse().ok()).collect();
+    let [wall, user, system] = numbers[..] else { return Err(format!("time said '{last}'")) };
+    Ok(Took { wall, processor: user + system })
 }
 
 /// What dem-measure says of a run, as JSON.

@@ -1,6 +1,7 @@
 //! Stages at once: a middle stage, an upstream that dies, ids that clash, records that are cut short.
 
-use super::{AT, PLANT, passages, plant};
+use super::{passages, plant, text};
+use grainpipe_tests::scenes::AT;
 use grainpipe_tests::tools::{line, succeed, tool};
 use std::fs;
 use tempfile::tempdir;
@@ -9,7 +10,7 @@ use tempfile::tempdir;
 #[test]
 fn three_stages_give_the_same_bytes_at_once() {
     let folder = tempdir().unwrap();
-    let text = PLANT.replace("0,0,-0.1,0,0,1", "0,0,-0.2,0,0,1").replace("until = 0.3", "until = 0.25");
+    let text = text().replace("0,0,-0.1,0,0,1", "0,0,-0.2,0,0,1").replace("until = 0.3", "until = 0.25");
     fs::write(folder.path().join("plant.toml"), text).unwrap();
     let split = |from: &str, at: &str, keep: &str, to: &str| {
         succeed(

@@ -1,11 +1,13 @@
 //! A plant cut in two: the stages are scenes, crossings keep their intervals, and pipes change no byte.
 
+mod clumps;
 mod live;
 mod marks;
 mod motions;
 mod paths;
 mod replays;
 
+use grainpipe_tests::scenes::{ABOVE, AT, SINTER};
 use grainpipe_tests::tools::{line, succeed, tool};
 use scene::crossings::{Passage, from_table};
 use std::fs;
@@ -14,37 +16,16 @@ use stream::mcap::{Event, Reader};
 use tempfile::{TempDir, tempdir};
 
 /// Grains fall through the plane z = 0 onto a floor.
-const PLANT: &str = r#"gravity = [0, 0, -9.81]
-[time]
-until = 0.3
-[output]
-every = 0.02
-checkpoint = 0.1
-[[material]]
-name = "sinter" # softened
-density = 3300
-young = 5e7
-poisson = 0.25
-[[contact]]
-between = ["*", "*"]
-restitution = 0.5
-sliding_friction = 0.5
-[[fill]]
-material = "sinter"
-shape = "cylinder:0,0,0.02,0,0,0.12,0.04"
-diameter = [0.008, 0.012]
-mass = 0.15
-[[wall]]
-name = "floor"
-plane = "0,0,-0.1,0,0,1"
-material = "sinter"
-"#;
-const AT: &str = "0,0,0,0,0,-1";
+fn text() -> String {
+    let floor =
+        "[[wall]]\nname = \"floor\" # at the bottom\nplane = \"0,0,-0.1,0,0,1\"\nmaterial = \"sinter\"\n";
+    SINTER.toml() + ABOVE + floor
+}
 
 /// A folder with the plant and both of its stages.
 fn plant() -> TempDir {
     let folder = tempdir().unwrap();
-    fs::write(folder.path().join("plant.toml"), PLANT).unwrap();
+    fs::write(folder.path().join("plant.toml"), text()).unwrap();
     for (keep, file) in [("upstream", "up.toml"), ("downstream", "down.toml")] {
         succeed(folder.path(), "stage-split", &["plant.toml", "--at", AT, "--keep", keep, "-o", file]);
     }
@@ -67,7 +48,7 @@ fn passages(path: &Path) -> Vec<Passage> {
 fn both_stages_can_run_and_keep_their_comments() {
     let folder = plant();
     let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
-    assert!(read("up.toml").contains("# softened") && read("up.toml").contains("[[outlet]]"));
+    assert!(read("down.toml").contains("# at the bottom") && read("up.toml").contains("[[outlet]]"));
     assert!(!read("down.toml").contains("[[fill]]") && read("down.toml").contains("[[inlet]]"));
     succeed(folder.path(), "dem-run", &["up.toml", "--check"]);
     let done = tool(folder.path(), "dem-run", &["down.toml", "--check"]);

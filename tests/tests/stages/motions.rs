@@ -1,8 +1,9 @@
 //! Free fall in the zones, and the foremost point as what passes: from the cut to the stage downstream.
 
-use super::{AT, PLANT, passages};
+use super::{passages, text};
 use dem::setup::Particle;
 use geom::Vec3;
+use grainpipe_tests::scenes::AT;
 use grainpipe_tests::tools::{line, succeed, tool};
 use scene::crossings::Passage;
 use std::fs;
@@ -13,7 +14,7 @@ const GRAVITY: Vec3 = Vec3::new(0.0, 0.0, -9.81);
 /// Both stages with options of the cut, the upstream one done.
 fn stages(cut: &[&str]) -> TempDir {
     let folder = tempdir().unwrap();
-    fs::write(folder.path().join("plant.toml"), PLANT).unwrap();
+    fs::write(folder.path().join("plant.toml"), text()).unwrap();
     for (keep, file) in [("upstream", "up.toml"), ("downstream", "down.toml")] {
         let split = ["plant.toml", "--at", AT, "--keep", keep, "-o", file];
         succeed(folder.path(), "stage-split", &[&split, cut].concat());
@@ -130,10 +131,11 @@ fn a_record_of_another_plant_is_refused_and_another_chute_is_not() {
         tool(folder.path(), "dem-run", &["other-down.toml", "in.mcap", "-o", "x.mcap"])
     };
     let lower = format!(
-        "{PLANT}[[fill]]\nmaterial = \"sinter\"\nshape = \"box:-0.05,-0.05,-0.09,0.05,0.05,-0.05\"\ndiameter = 0.01\ncount = 3\n"
+        "{}[[fill]]\nmaterial = \"sinter\"\nshape = \"box:-0.05,-0.05,-0.09,0.05,0.05,-0.05\"\ndiameter = 0.01\ncount = 3\n",
+        text()
     );
     let done = cut(lower);
     assert_eq!(done.code, 0, "another downstream part: {}", done.stderr);
-    let done = cut(PLANT.replace("mass = 0.15", "mass = 0.14"));
+    let done = cut(text().replace("mass = 0.15", "mass = 0.14"));
     assert!(done.code == 1 && done.stderr.contains("inlet.0.plant"), "{}", done.stderr);
 }

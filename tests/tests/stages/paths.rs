@@ -1,6 +1,7 @@
 //! Recorded paths from the cut to the stage downstream.
 
-use super::{AT, PLANT};
+use super::text;
+use grainpipe_tests::scenes::AT;
 use grainpipe_tests::tools::{line, succeed, tool};
 use std::collections::BTreeMap;
 use std::fs;
@@ -10,7 +11,7 @@ use tempfile::{TempDir, tempdir};
 
 fn plant() -> TempDir {
     let folder = tempdir().unwrap();
-    fs::write(folder.path().join("plant.toml"), PLANT).unwrap();
+    fs::write(folder.path().join("plant.toml"), text()).unwrap();
     for (keep, file) in [("upstream", "up.toml"), ("downstream", "down.toml")] {
         let cut = ["plant.toml", "--at", AT, "--keep", keep, "--motion", "recorded", "-o", file];
         succeed(folder.path(), "stage-split", &cut);
