@@ -123,6 +123,7 @@ pub fn all() -> Vec<Scene> {
     }
     scenes.push(passing());
     scenes.push(arriving());
+    scenes.push(leaving());
     scenes
 }
 
@@ -228,4 +229,13 @@ fn arriving() -> Scene {
     };
     let entries = (0..).zip(entries).take(20).map(entry).collect();
     Scene { name: "hertz, clumps through a plane".to_owned(), setup, entries, until: 0.6 }
+}
+
+/// The like, turning on their way in, and out again through a storage plane.
+fn leaving() -> Scene {
+    let Scene { mut setup, mut entries, .. } = arriving();
+    setup.outlets = passing().setup.outlets;
+    setup.outlets.iter_mut().for_each(|o| o.length = 0.05);
+    entries.iter_mut().for_each(|e| e.particle.spin = Vec3::new(4.0, 9.0, -6.0));
+    Scene { name: "hertz, clumps through two planes".to_owned(), setup, entries, until: 0.7 }
 }
