@@ -172,8 +172,8 @@ fn wrong_clumps_say_where_what_and_what_to_do() {
         ("0.45,0.05\"", "0.41,0.05\"", &["insert.0.shape", "thick"]),
         (
             "[[wall]]",
-            "[[outlet]]\nplane = \"0,0,-1,0,0,-1\"\n[[wall]]",
-            &["storage plane", "the scene has '"],
+            "[[outlet]]\nplane = \"0,0,-1,0,0,-1\"\ntest = \"lowest\"\n[[wall]]",
+            &["only centres are tested", "the scene has '"],
         ),
     ];
     for (from, to, parts) in cases {
@@ -190,7 +190,4 @@ fn wrong_clumps_say_where_what_and_what_to_do() {
         .expect("can be written");
     let open = tool(folder.path(), "dem-run", &["s.toml", "--check"]);
     assert!(open.stderr.contains("clump.0.mesh") && open.stderr.contains("not closed"), "{}", open.stderr);
-    let cut = ["s.toml", "--at", "0,0,0.2,0,0,-1", "--keep", "upstream"];
-    let split = tool(folder.path(), "stage-split", &cut);
-    assert!(split.stderr.contains("cannot record them"), "{}", split.stderr);
 }

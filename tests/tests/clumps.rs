@@ -489,7 +489,8 @@ fn wrong_clumps_are_refused() {
     refused(&|s| s.clumps.shapes[0].spheres.clear(), "spheres");
     refused(&|s| s.periodic[0] = Some((0.0, 0.05)), "period of");
     let plane = geom::Plane { point: Vec3::new(0.0, 0.0, -1.0), normal: -Vec3::z() };
-    refused(&|s| s.outlets = vec![Zone::new(plane, 0.2)], "storage plane");
+    let lowest = Zone { test: ZoneTest::Lowest, ..Zone::new(plane, 0.2) };
+    refused(&|s| s.outlets = vec![lowest], "only centres are tested");
 }
 
 /// Without clumps there is nothing of them: not a byte in the checkpoint beyond four empty lists.

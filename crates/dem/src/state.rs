@@ -189,7 +189,8 @@ impl Simulation {
         sim.stale = state.stale;
         let [loads, ..] = &state.loads;
         if state.current || !loads.is_empty() {
-            let kept = !loads.is_empty();
+            // Where nobody meets anybody, loads that are kept are none, either.
+            let kept = state.sums.iter().all(Vec::is_empty);
             sim.contacts.keep_each(kept, stride(sim.particles.rotates()));
             // A crossing in this step asks where walls were touched, and so do sleepers on walls at rest.
             sim.find_contact_points();

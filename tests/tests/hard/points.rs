@@ -134,7 +134,7 @@ fn clouds_that_are_hardly_one() {
         let lines: [&[&str]; 7] = [
             &["cloud-crop", &file],
             &["cloud-crop", &file, "--largest", "0.05"],
-            &["cloud-crop", &file, "--outliers", "6,20"],
+            &["cloud-crop", &file, "--outliers", "6,10"],
             &["cloud-fill", &file],
             &["bluenoise-sample", &file, "--spacing", "0.01"],
             &["bluenoise-sample", &file, "--count", "10"],

@@ -194,7 +194,7 @@ fn what_contacts_remember_is_recorded_and_replayed() {
     for motion in ["constant", "recorded"] {
         let [recorded, told, turned] = stages(motion);
         assert!(
-            told.len() > 5 && told.len() <= recorded.len(),
+            told.len() > 1 && told.len() <= recorded.len(),
             "{motion}: {} of {}",
             told.len(),
             recorded.len()
@@ -217,7 +217,8 @@ fn what_contacts_remember_is_recorded_and_replayed() {
     let (twice, path) = (touches(&folder.path().join("twice.mcap")), folder.path().join("twice.mcap"));
     let ids: Vec<u32> = passages(&path).iter().map(|p| p.particle.id).collect();
     assert!(
-        twice.len() > 10
+        twice.len() > 3
+            && twice.len().is_multiple_of(2)
             && twice.iter().all(|t| ids.contains(&t.memory.id) && ids.contains(&t.memory.partner))
     );
 }
