@@ -1,26 +1,16 @@
 //! Filling is checked against surfaces that are known.
 
+mod random;
+
 use cloud::fill::{FillError, Filled, Settings};
 use cloud::{Cloud, Method};
 use geom::Vec3;
+use random::Random;
 use stream::{Table, Values};
 
 /// Fills, where nothing is to be refused.
 fn fill(cloud: Cloud, settings: &Settings) -> Filled {
     cloud::fill(cloud, settings).unwrap()
-}
-
-/// Numbers of a small congruential generator, uniform in 0 … 1.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-    fn normal(&mut self) -> f64 {
-        (0..12).map(|_| self.next()).sum::<f64>() - 6.0
-    }
 }
 
 const RADIUS: f64 = 0.4;

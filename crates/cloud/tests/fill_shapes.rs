@@ -1,26 +1,17 @@
 //! Filling where a surface is no smooth sheet: thin plates, edges, sheets that meet, open borders; with noise of a third of the spacing.
 //! Each scan has one hole that is to be closed, and nothing is added anywhere else.
 
+mod random;
+
 use cloud::Cloud;
 use cloud::fill::{Filled, Settings};
 use geom::Vec3;
+use random::Random;
 use stream::Table;
 
 /// Mean spacing of the scans [m], and their noise.
 const SPACING: f64 = 0.02;
 const NOISE: f64 = SPACING / 3.0;
-
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-    fn normal(&mut self) -> f64 {
-        (0..12).map(|_| self.next()).sum::<f64>() - 6.0
-    }
-}
 
 /// A flat piece: corner, sides [m].
 #[derive(Clone, Copy)]

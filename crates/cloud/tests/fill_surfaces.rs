@@ -1,21 +1,12 @@
 //! Filling bent surfaces scanned with noise of a third of the spacing: the hole is closed, within the noise, and nothing is added outside.
 
+mod random;
+
 use cloud::fill::{Filled, Settings};
 use cloud::{Cloud, Mesher};
 use geom::Vec3;
+use random::Random;
 use stream::Table;
-
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-    fn normal(&mut self) -> f64 {
-        (0..12).map(|_| self.next()).sum::<f64>() - 6.0
-    }
-}
 
 /// A surface with a hole.
 struct Scan {
