@@ -64,10 +64,13 @@ impl Still {
         } else {
             self.find(known, part, seen, sums);
         }
-        let mut deep = false;
+        let (mut deep, mut renewed) = (false, None);
         for (k, places) in &self.busy {
             let s = &part.segments[*k];
-            part.renew(s, lists, scenery);
+            // A segment may have several runs that do not rest: its contact points are found once.
+            if renewed.replace(*k) != Some(*k) {
+                part.renew(s, lists, scenery);
+            }
             deep |= part.compute_places(s, places.clone(), seen, sums);
         }
         deep
