@@ -85,6 +85,8 @@ impl Segment {
 pub struct Contacts {
     /// In order of their places.
     pub segments: Vec<Segment>,
+    /// How many particles there are.
+    particles: usize,
     /// Particles of a tile.
     tile: usize,
     /// First segment of each tile, and one more.
@@ -118,9 +120,9 @@ pub struct Contacts {
     pub ledger: Aligned,
     /// Sliding work of each contact since it was asked for [J], or none.
     pub work: Vec<f64>,
-    /// First entry of each particle, and one more.
+    /// First entry of each particle, and one more; none before [`Contacts::index`].
     pub starts: Vec<u32>,
-    /// Place × 2, + 1 where the particle is the second.
+    /// Place × 2, + 1 where the particle is the second; none before [`Contacts::index`].
     pub entries: Vec<u32>,
     count: Vec<u32>,
     /// Whom the contacts of each block meet; only where particles sleep.
@@ -153,7 +155,7 @@ impl List {
 impl Contacts {
     /// Contacts of `images`, then of each tile, lists for every kind: with particles of the tile, and of later ones. Of so many particles.
     pub fn new(kinds: &[Kind], images: &[List], tiles: &[Vec<[List; 2]>], particles: usize) -> Contacts {
-        let mut new = Contacts { new: true, tile: tile(particles), ..Contacts::default() };
+        let mut new = Contacts { new: true, particles, tile: tile(particles), ..Contacts::default() };
         let lists = images.iter().chain(tiles.iter().flatten().flatten());
         let most: usize = lists.map(|l| l.i.len() + BLOCK).sum();
         new.i.reserve(most);
@@ -197,7 +199,6 @@ impl Contacts {
         new.active = vec![true; new.i.len() / BLOCK];
         let largest = new.segments.iter().filter(|s| kinds[s.kind].with != With::Particles);
         new.count = (0..largest.map(|s| s.places.len()).max().unwrap_or(0) as u32).collect();
-        new.index(kinds, particles);
         new.find_arrivals(kinds);
         new
     }
@@ -267,8 +268,9 @@ impl Contacts {
         self.tile
     }
 
-    /// For each particle, its contacts in the order of their places.
-    fn index(&mut self, kinds: &[Kind], particles: usize) {
+    /// For each particle, its contacts in the order of their places: for who asks by particle, and not otherwise.
+    pub fn index(&mut self, kinds: &[Kind]) {
+        let particles = self.particles;
         self.starts = vec![0; particles + 1];
         for s in &self.segments {
             let both = !matches!(kinds[s.kind].with, With::Wall(_));
@@ -312,7 +314,7 @@ impl Contacts {
 
     /// Room for what is computed of them: numbers of one load, whether there are couples, whether a ledger is kept.
     pub fn make_room(&mut self, stride: usize, couples: bool, ledger: bool) {
-        let (places, particles) = (self.i.len(), self.starts.len().saturating_sub(1));
+        let (places, particles) = (self.i.len(), self.particles);
         let kept = self.segments.last().map_or(0, |s| s.kept + s.places.len());
         let some = |couples: bool, n: usize| Aligned::zeros(if couples { n * COUPLE } else { 0 });
         self.sums = (Aligned::zeros(particles * stride), some(couples, particles));

@@ -8,7 +8,6 @@ use crate::sums::stride;
 use crate::walls::WallBody;
 use geom::Vec3;
 use rayon::prelude::*;
-use std::collections::HashMap;
 use std::ops::Range;
 
 impl Simulation {
@@ -26,6 +25,10 @@ impl Simulation {
         let work = std::mem::take(&mut before.work);
         before.make_room(0, false, false);
         before.work = work;
+        let remembers = !before.memory.is_empty() || !before.work.is_empty();
+        if remembers && before.starts.is_empty() {
+            before.index(&self.kinds);
+        }
         let (search, order) = self.space_order();
         self.particles.select(&order);
         self.zones.reorder(&order);
@@ -50,8 +53,14 @@ impl Simulation {
         if self.fresh.is_empty() {
             return;
         }
-        let place: HashMap<u32, u32> = order.iter().zip(0u32..).map(|(&o, n)| (o, n)).collect();
-        self.fresh = self.fresh.iter().filter_map(|k| place.get(k).copied()).collect();
+        let mut is_fresh = vec![false; order.iter().max().map_or(0, |&last| last as usize + 1)];
+        for &k in &self.fresh {
+            if let Some(flag) = is_fresh.get_mut(k as usize) {
+                *flag = true;
+            }
+        }
+        self.fresh =
+            (0..).zip(order).filter(|&(_, &was)| is_fresh[was as usize]).map(|(now, _)| now).collect();
     }
 
     /// Particles that have left the box through a periodic face come back through the other. Returns by how many periods each
@@ -128,6 +137,9 @@ impl Simulation {
             })
             .collect();
         self.contacts = Contacts::new(&self.kinds, &self.list_images(search), &tiles, count);
+        if self.sleepers.is_some() || !self.zones.none() {
+            self.contacts.index(&self.kinds);
+        }
         if self.sleepers.is_some() {
             self.contacts.note_walls(&self.kinds, &self.walls);
             self.contacts.note_tiles(&self.kinds);

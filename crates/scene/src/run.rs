@@ -363,7 +363,7 @@ impl<W: Write> Run<W> {
     fn write_walls(&mut self, surfaces: &serde_json::Value, notes: &[String]) -> Result<(), RunError> {
         let now = self.now();
         if let Some(table) = frames::wall_spheres(&self.sim, &self.walls) {
-            self.writer.points(WALLS, now, FRAME, &table)?;
+            self.writer.points(WALLS, now, FRAME, table)?;
         }
         self.writer.bytes(SURFACES, "json", now, json(surfaces).as_bytes())?;
         if let Some(chosen) = self.outcome.chosen_by.clone() {
@@ -430,7 +430,7 @@ impl<W: Write> Run<W> {
             && self.sim.steps() > 0
             && let Some(table) = frames::wall_spheres(&self.sim, &self.walls)
         {
-            self.writer.points(WALLS, now, FRAME, &table)?;
+            self.writer.points(WALLS, now, FRAME, table)?;
         }
         let bodies = match self.clumps.then(|| self.sim.bodies()).transpose() {
             Ok(bodies) => bodies,
@@ -439,16 +439,16 @@ impl<W: Write> Run<W> {
         let table = frames::particles(&particles, self.precision, bodies.as_deref());
         // A large run has little room for both.
         drop(particles);
-        self.writer.points(PARTICLES, now, FRAME, &table)?;
+        self.writer.points(PARTICLES, now, FRAME, table)?;
         if let Some(bodies) = bodies {
-            self.writer.points(BODIES, now, FRAME, &frames::bodies(&bodies))?;
+            self.writer.points(BODIES, now, FRAME, frames::bodies(&bodies))?;
         }
         if self.contacts {
             let contacts = match self.sim.record_contacts() {
                 Ok(contacts) => contacts,
                 Err(halt) => return Ok(Err(halt)),
             };
-            self.writer.points(CONTACTS, now, FRAME, &frames::contacts(&contacts, self.precision))?;
+            self.writer.points(CONTACTS, now, FRAME, frames::contacts(&contacts, self.precision))?;
         }
         self.outcome.frames += 1;
         if self.wall_forces {

@@ -7,6 +7,7 @@
 //! input gives the same bytes.
 
 mod chunk;
+mod held;
 mod lengths;
 mod points;
 mod provenance;

@@ -1,9 +1,10 @@
 //! Writes a stream that is whole only when it was finished.
 
+use super::held::{Held, KEPT};
 use super::{END_OF_STREAM, McapError, PROVENANCE, Provenance, points};
 use crate::Table;
-use ::mcap::{WriteOptions, records, write::NoSeek};
-use std::{collections::BTreeMap, io::Write};
+use ::mcap::{WriteOptions, records};
+use std::{borrow::Borrow, collections::BTreeMap, io::Write};
 
 /// Name of the writer in the header; free of versions, so that bytes do not depend on them.
 const LIBRARY: &str = "grainpipe";
@@ -24,10 +25,10 @@ pub enum Compression {
 ///
 /// Dropping it without [`Writer::finish`] leaves a stream that every reader refuses as truncated.
 pub struct Writer<W: Write> {
-    inner: Option<::mcap::Writer<NoSeek<W>>>,
+    inner: Option<::mcap::Writer<Held<W>>>,
     /// Id and next sequence number, by schema or encoding and topic.
     channels: BTreeMap<String, (u16, u32)>,
-    /// Memory of the last message, used again.
+    /// Memory of the last message, used again unless it was large.
     message: Vec<u8>,
     /// Bytes in the open chunk.
     open: u64,
@@ -57,9 +58,8 @@ impl<W: Write> Writer<W> {
             .compression_level(1)
             // With threads, bytes would depend on their number.
             .compression_threads(0)
-            .chunk_size(None)
-            .disable_seeking(true);
-        let inner = options.create(NoSeek::new(out)).map_err(McapError::writing)?;
+            .chunk_size(None);
+        let inner = options.create(Held::new(out)).map_err(McapError::writing)?;
         let mut writer = Writer {
             inner: Some(inner),
             channels: BTreeMap::new(),
@@ -71,7 +71,7 @@ impl<W: Write> Writer<W> {
         Ok(writer)
     }
 
-    fn inner(&mut self) -> Result<&mut ::mcap::Writer<NoSeek<W>>, McapError> {
+    fn inner(&mut self) -> Result<&mut ::mcap::Writer<Held<W>>, McapError> {
         // Only `finish`, which takes the writer away, empties it.
         self.inner.as_mut().ok_or_else(|| McapError::Io(std::io::ErrorKind::NotConnected.into()))
     }
@@ -86,7 +86,8 @@ impl<W: Write> Writer<W> {
         self.flush_chunk()
     }
 
-    /// Writes a table as one `foxglove.PointCloud` at `time_ns` [ns] of simulated time.
+    /// Writes a table as one `foxglove.PointCloud` at `time_ns` [ns] of simulated time. A table that is given away is gone before the message is
+    /// packed: a large run has little room for both.
     ///
     /// # Errors
     /// A write that fails; a table of 2 GiB or more.
@@ -95,11 +96,12 @@ impl<W: Write> Writer<W> {
         topic: &str,
         time_ns: u64,
         frame_id: &str,
-        table: &Table,
+        table: impl Borrow<Table>,
     ) -> Result<(), McapError> {
         let mut message = std::mem::take(&mut self.message);
         let wrong = |what| McapError::Points { topic: topic.to_owned(), time_ns, what };
-        points::encode(table, time_ns, frame_id, &mut message).map_err(wrong)?;
+        points::encode(table.borrow(), time_ns, frame_id, &mut message).map_err(wrong)?;
+        drop(table);
         let channel = format!("foxglove.PointCloud {topic}");
         if !self.channels.contains_key(&channel) {
             let schema = points::schema().ok_or_else(|| wrong("it has no schema".to_owned()))?;
@@ -108,7 +110,9 @@ impl<W: Write> Writer<W> {
             self.add_channel(&channel, schema.map_err(McapError::writing)?, topic, "protobuf")?;
         }
         self.send(&channel, time_ns, &message)?;
-        self.message = message;
+        if message.capacity() <= KEPT {
+            self.message = message;
+        }
         Ok(())
     }
 
@@ -165,9 +169,9 @@ impl<W: Write> Writer<W> {
         self.inner()?.finish().map_err(McapError::writing)?;
         let inner =
             self.inner.take().ok_or_else(|| McapError::Io(std::io::ErrorKind::NotConnected.into()))?;
-        let mut out = inner.into_inner().into_inner();
-        out.flush()?;
-        Ok(out)
+        let mut held = inner.into_inner();
+        held.flush()?;
+        Ok(held.into_inner())
     }
 }
 
