@@ -31,6 +31,18 @@ pub const NORMALS: [Normal; 5] = [
     Normal { name: "hertz with cohesion", law: Law::Hertz, cohesion: Some(5e4) },
 ];
 
+/// Every normal law, and once more in single precision where it is offered in that.
+pub fn precisions() -> impl Iterator<Item = (Normal, Precision)> {
+    let double = NORMALS.into_iter().map(|n| (n, Precision::Double));
+    double.chain(NORMALS.into_iter().filter(|n| !n.adheres()).map(|n| (n, Precision::Mixed)))
+}
+
+/// What a law in a precision is called.
+pub fn name_of(normal: &Normal, precision: Precision) -> String {
+    let mixed = if precision == Precision::Mixed { ", mixed precision" } else { "" };
+    format!("{}{mixed}", normal.name)
+}
+
 /// E* of the materials of [`empty`] [Pa].
 pub const MODULUS: f64 = 1e7 / (1.0 - 0.25 * 0.25) / 2.0;
 
@@ -61,6 +73,11 @@ pub fn load<E: Effect>(effect: E, contact: &Contact<f64>) -> Load<f64> {
 }
 
 impl Normal {
+    /// Whether grains adhere; that is offered in double precision only.
+    pub fn adheres(&self) -> bool {
+        self.cohesion.is_some() || matches!(self.law, Law::Jkr { .. })
+    }
+
     /// Two materials with this law and restitution for every pair.
     pub fn setup(&self, restitution: f64) -> Setup {
         let mut setup = empty(self.law, restitution);

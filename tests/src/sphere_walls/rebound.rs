@@ -36,7 +36,21 @@ pub struct Impact {
 ///
 /// # Panics
 /// When a guard trips, or a place is beside the wall.
-pub fn impacts(spheres: &[(Vec3, f64)], e: f64, r: f64, (width, count): (f64, usize)) -> Vec<Impact> {
+pub fn impacts(spheres: &[(Vec3, f64)], e: f64, r: f64, field: (f64, usize)) -> Vec<Impact> {
+    impacts_in(Precision::Double, spheres, e, r, field)
+}
+
+/// The like in any precision.
+///
+/// # Panics
+/// As [`impacts`].
+pub fn impacts_in(
+    precision: Precision,
+    spheres: &[(Vec3, f64)],
+    e: f64,
+    r: f64,
+    (width, count): (f64, usize),
+) -> Vec<Impact> {
     let (mut starts, mut expected) = (Vec::new(), Vec::new());
     for (x, y) in places(width, 4.0 * r, count) {
         let (z, hit) = touch(spheres, r, x, y).expect("on the wall");
@@ -45,7 +59,8 @@ pub fn impacts(spheres: &[(Vec3, f64)], e: f64, r: f64, (width, count): (f64, us
         expected.push(((1.0 + e) * (1.0 - sine) - 1.0, z - centre.z - radius - r));
         starts.push(Vec3::new(x, y, z + 1e-7));
     }
-    let after = rebounded(spheres, e, r, &starts, &vec![-Vec3::z() * SPEED; starts.len()]);
+    let down = vec![-Vec3::z() * SPEED; starts.len()];
+    let after = rebounded(precision, spheres, (e, r), &starts, &down);
     let one = |((v, start), (closed, height)): ((&Vec3, &Vec3), (f64, f64))| {
         let deep = |s: &&(Vec3, f64)| (s.0 - start).norm() < s.1 + r + 2.0 * SPEED * contact(r);
         let double = spheres.iter().filter(deep).count() > 1;
@@ -55,8 +70,15 @@ pub fn impacts(spheres: &[(Vec3, f64)], e: f64, r: f64, (width, count): (f64, us
 }
 
 /// Velocities [m/s] of grains of radius `r` [m] after they have hit the wall.
-fn rebounded(spheres: &[(Vec3, f64)], e: f64, r: f64, starts: &[Vec3], velocities: &[Vec3]) -> Vec<Vec3> {
+fn rebounded(
+    precision: Precision,
+    spheres: &[(Vec3, f64)],
+    (e, r): (f64, f64),
+    starts: &[Vec3],
+    velocities: &[Vec3],
+) -> Vec<Vec3> {
     let mut setup = empty(Law::Hooke { stiffness: STIFFNESS, tangential_ratio: None }, e);
+    setup.precision = precision;
     setup.walls = vec![still(spheres)];
     setup.step = Step::Auto(0.01);
     let one = |(k, (from, velocity)): (usize, (&Vec3, &Vec3))| Particle {
@@ -106,7 +128,8 @@ pub fn on_a_pipe(
         .collect();
     let starts: Vec<Vec3> =
         ways.iter().map(|(axis, out)| axis + out * meets(spheres, r, axis, out)).collect();
-    let after = rebounded(spheres, e, r, &starts, &ways.iter().map(|w| w.1 * SPEED).collect::<Vec<Vec3>>());
+    let speeds: Vec<Vec3> = ways.iter().map(|w| w.1 * SPEED).collect();
+    let after = rebounded(Precision::Double, spheres, (e, r), &starts, &speeds);
     for (velocity, (_, out)) in after.iter().zip(&ways) {
         inward.push(-velocity.dot(out) / SPEED);
     }

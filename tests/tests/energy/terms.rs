@@ -16,7 +16,7 @@ use dem::setup::*;
 use dem::{Energy, Setup, Simulation, mass};
 use geom::Vec3;
 use grainpipe_tests::findings::{Case, case};
-use grainpipe_tests::normals::{MODULUS, NORMALS, Normal, Surface, WORK};
+use grainpipe_tests::normals::{MODULUS, NORMALS, Normal, Surface, WORK, name_of, precisions};
 use grainpipe_tests::setups::{grain, plane};
 use std::f64::consts::PI;
 
@@ -76,15 +76,8 @@ impl Alone {
     }
 }
 
-/// Every normal law, and where it is offered in single precision.
-fn precisions() -> impl Iterator<Item = (Normal, Precision)> {
-    let plain = |n: &Normal| n.cohesion.is_none() && !matches!(n.law, Law::Jkr { .. });
-    let double = NORMALS.into_iter().map(|n| (n, Precision::Double));
-    double.chain(NORMALS.into_iter().filter(plain).map(|n| (n, Precision::Mixed)))
-}
-
 fn name(what: &str, normal: &Normal, precision: Precision) -> String {
-    format!("{what}, {}{}", normal.name, if precision == Precision::Mixed { ", mixed precision" } else { "" })
+    format!("{what}, {}", name_of(normal, precision))
 }
 
 /// A grain at rest on a floor, which stays as deep in it: nothing is lost by the normal law, whatever the restitution is. Below 1 the

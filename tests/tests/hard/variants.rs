@@ -3,7 +3,7 @@
 use dem::setup::*;
 use dem::{Setup, Simulation};
 use geom::Vec3;
-use grainpipe_tests::normals::{NORMALS, Normal};
+use grainpipe_tests::normals::{Normal, name_of, precisions};
 
 /// A normal law in a precision.
 #[derive(Debug, Clone, Copy)]
@@ -16,16 +16,13 @@ pub struct Variant {
 
 /// All of them; what adheres is offered in double precision only.
 pub fn variants() -> Vec<Variant> {
-    let of = |precision| move |&normal: &Normal| Variant { normal, precision };
-    let plain = NORMALS.iter().filter(|n| n.cohesion.is_none() && !matches!(n.law, Law::Jkr { .. }));
-    NORMALS.iter().map(of(Precision::Double)).chain(plain.map(of(Precision::Mixed))).collect()
+    precisions().map(|(normal, precision)| Variant { normal, precision }).collect()
 }
 
 impl Variant {
     /// For messages.
     pub fn name(&self) -> String {
-        let mixed = if self.mixed() { ", mixed precision" } else { "" };
-        format!("{}{mixed}", self.normal.name)
+        name_of(&self.normal, self.precision)
     }
 
     /// Whether contacts are computed in single precision.
@@ -35,7 +32,7 @@ impl Variant {
 
     /// Whether grains adhere.
     pub fn adheres(&self) -> bool {
-        self.normal.cohesion.is_some() || matches!(self.normal.law, Law::Jkr { .. })
+        self.normal.adheres()
     }
 
     /// Two materials with this law for every pair, and nothing that rubs.

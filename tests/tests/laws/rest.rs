@@ -5,10 +5,33 @@ use dem::mass;
 use dem::setup::*;
 use geom::Vec3;
 use grainpipe_tests::findings::{Case, case};
-use grainpipe_tests::normals::{NORMALS, SURFACES, Surface};
+use grainpipe_tests::normals::{NORMALS, SURFACES, Surface, name_of, precisions};
 use grainpipe_tests::setups::{grain, particles, run_until};
 
 const COLUMN: Case = case("Many grains", "column of 10 at rest: force in the n-th contact = weight above it");
+
+const ON_A_SPHERE: Case =
+    case("One contact", "grain at rest on a wall sphere: force by its overlap = weight");
+
+/// A wall sphere is round: R* is r s/(r + s), and what adheres is the circle in which both meet.
+#[test]
+fn a_grain_on_top_of_a_wall_sphere() {
+    let weight = mass(0.01, 2500.0) * 9.81;
+    for (normal, precision) in precisions() {
+        for s in [0.005, 0.02, 0.1] {
+            let mut setup = normal.setup(0.1);
+            (setup.precision, setup.gravity.z, setup.step) = (precision, -9.81, Step::Auto(0.8));
+            let shape = WallShape::Spheres(vec![(Vec3::new(0.0, 0.0, -s), s)]);
+            setup.walls = vec![Wall { shape, ..Surface::Plane.wall() }];
+            setup.particles = vec![grain(0, Vec3::new(0.0, 0.0, 0.01))];
+            let mut sim = simulation(setup);
+            run_until(&mut sim, 2.0);
+            let found = normal.force(0.01 - particles(&mut sim)[0].position.z, 0.01, Some(s));
+            let limit = if precision == Precision::Mixed { 1e-5 } else { 1e-9 };
+            ON_A_SPHERE.equals(&format!("{}, {s} m", name_of(&normal, precision)), found, "N", weight, limit);
+        }
+    }
+}
 
 /// The force that the overlap stands for, by the formulas of the sources, is the weight above, for every normal law, on a plane and on a wall sphere.
 #[test]

@@ -3,7 +3,8 @@
 use crate::of_walls;
 use crate::sphere_walls::chance::mean;
 use crate::sphere_walls::plates::{Layout, spheres};
-use crate::sphere_walls::rebound::{impacts, on_a_pipe, on_a_square_lattice};
+use crate::sphere_walls::rebound::{impacts, impacts_in, on_a_pipe, on_a_square_lattice};
+use dem::setup::Precision;
 use grainpipe_tests::findings::Case;
 use sampling::Method;
 
@@ -19,14 +20,15 @@ const PIPE: Case =
 
 #[test]
 fn each_grain_rebounds_by_the_tilt_of_the_sphere_it_hits() {
-    for e in [0.3, 0.9] {
+    let precisions = [(Precision::Double, ""), (Precision::Mixed, ", mixed precision")];
+    for (e, (precision, told)) in [0.3, 0.9].into_iter().flat_map(|e| precisions.map(|p| (e, p))) {
         for share in [0.05, 0.2, 0.5] {
             let (wall, _) = spheres(&Layout::Sampled(Method::Poisson, 1).points(P, 0.6), share * P, 2.0 * R);
-            let all = impacts(&wall, e, R, (0.5, 150));
+            let all = impacts_in(precision, &wall, e, R, (0.5, 150));
             let single = all.iter().filter(|i| !i.double);
             let off = single.map(|i| (i.upward - i.closed).abs()).fold(0.0, f64::max);
             assert!(all.iter().filter(|i| i.double).count() < all.len() / 20);
-            EACH.within(&format!("e = {e}, ζ/P = {share}"), off, "of the speed", 1e-3);
+            EACH.within(&format!("e = {e}, ζ/P = {share}{told}"), off, "of the speed", 1e-3);
         }
     }
 }
