@@ -358,7 +358,7 @@ impl Passing<'_> {
             passage.outlet = 0;
         }
         if let Some(last) = rows.last() {
-            writer.points(PATHS, nanoseconds(last.passage.time), "world", &paths::to_table(&rows))?;
+            writer.points(PATHS, nanoseconds(last.passage.time), "world", paths::to_table(&rows))?;
         }
         Ok(())
     }
@@ -424,12 +424,12 @@ impl Passing<'_> {
             rows.push(row);
         }
         if let Some(last) = told.last() {
-            writer.points(TOUCHES, nanoseconds(last.time), "world", &touches::to_table(&told))?;
+            writer.points(TOUCHES, nanoseconds(last.time), "world", touches::to_table(&told))?;
         }
         if let Some(last) = rows.last() {
             self.done.particles += rows.len() as u64;
             self.done.last = last.time;
-            writer.points(CROSSINGS, nanoseconds(last.time), "world", &crossings::to_table(&rows))?;
+            writer.points(CROSSINGS, nanoseconds(last.time), "world", crossings::to_table(&rows))?;
         }
         Ok(())
     }

@@ -493,7 +493,7 @@ impl<W: Write> Run<W> {
     fn write_paths(&mut self) -> Result<(), RunError> {
         let rows = std::mem::take(&mut self.paths);
         if !rows.is_empty() {
-            self.writer.points(PATHS, self.now(), FRAME, &paths::to_table(&rows))?;
+            self.writer.points(PATHS, self.now(), FRAME, paths::to_table(&rows))?;
         }
         Ok(())
     }
@@ -512,7 +512,7 @@ impl<W: Write> Run<W> {
                 self.writer.points(TOUCHES, now, FRAME, &touches)?;
             }
             let rows: Vec<Passage> = crossings.iter().map(|c| Passage::new(c, &self.masses)).collect();
-            self.writer.points(CROSSINGS, now, FRAME, &crossings::to_table(&rows))?;
+            self.writer.points(CROSSINGS, now, FRAME, crossings::to_table(&rows))?;
             self.outcome.crossings += rows.len() as u64;
         }
         let watermark = Watermark { until: self.sim.time() };
