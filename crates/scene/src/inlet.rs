@@ -308,8 +308,8 @@ mod tests {
         writer.metadata(INLET, gate.to_map()).unwrap();
         let way = |&time: &f64| Waypoint { passage: passage(time), gone: false };
         let ways: Vec<Waypoint> = samples.iter().map(way).collect();
-        writer.points(PATHS, 0, "world", &paths::to_table(&ways)).unwrap();
-        writer.points(CROSSINGS, 0, "world", &crossings::to_table(&[passage(passes)])).unwrap();
+        writer.points(PATHS, 0, "world", paths::to_table(&ways)).unwrap();
+        writer.points(CROSSINGS, 0, "world", crossings::to_table(&[passage(passes)])).unwrap();
         let bytes = writer.finish().unwrap();
         match Input::open("in", Box::new(std::io::Cursor::new(bytes))).unwrap() {
             Input::Inlet(stream) => *stream,

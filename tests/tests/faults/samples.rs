@@ -165,7 +165,7 @@ pub fn mcap() -> Vec<Sample> {
     let run = |how| run(how, &scene());
     let plain = run(Compression::None);
     let mut walls = stream::mcap::Writer::new(Vec::new(), &Provenance::default()).expect("opened");
-    walls.points("/walls", 0, "world", &spheres()).expect("written");
+    walls.points("/walls", 0, "world", spheres()).expect("written");
     vec![
         ("walls.mcap", walls.finish().expect("whole")),
         ("inlet.mcap", inlet(&plain)),
