@@ -36,7 +36,7 @@ fn begin<W: Write>(out: W, how: Compression) -> Writer<W> {
     let mut writer = Writer::compressed(out, &provenance(), how).unwrap();
     writer.metadata("materials", one("0", r#"{"name":"steel"}"#)).unwrap();
     for frame in 0..3 {
-        writer.points("/particles", frame * 20_000_000, "world", &table(40)).unwrap();
+        writer.points("/particles", frame * 20_000_000, "world", table(40)).unwrap();
         writer.bytes("/energy", "json", frame * 20_000_000, b"{\"kinetic\":1}").unwrap();
         writer.flush_chunk().unwrap();
     }
@@ -207,7 +207,7 @@ fn a_stream_is_read_while_it_is_written() {
     });
     let mut writer = Writer::new(write_end, &provenance()).unwrap();
     for time in 0..5 {
-        writer.points("/particles", time, "world", &table(3)).unwrap();
+        writer.points("/particles", time, "world", table(3)).unwrap();
         assert!(see.try_recv().is_err(), "nothing before the flush");
         writer.flush_chunk().unwrap();
         assert_eq!(see.recv_timeout(std::time::Duration::from_secs(20)).unwrap(), time);
