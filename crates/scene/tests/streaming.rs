@@ -86,7 +86,7 @@ fn run() -> Vec<Vec<u8>> {
     writer.metadata(SIZES, Sizes { smallest: 0.01, largest: 0.01 }.to_map()).unwrap();
     writer.metadata("outlets", one(serde_json::to_string(&zone).unwrap())).unwrap();
     let mut tell = |rows: &[Passage], until: f64| {
-        writer.points(CROSSINGS, 0, "world", &to_table(rows)).unwrap();
+        writer.points(CROSSINGS, 0, "world", to_table(rows)).unwrap();
         writer.bytes(WATERMARK, "json", 0, &Watermark { until }.to_json()).unwrap();
         writer.flush_chunk().unwrap();
     };

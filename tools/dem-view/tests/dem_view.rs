@@ -28,7 +28,7 @@ fn run() -> Vec<u8> {
     let mut writer = Writer::new(Vec::new(), &Provenance::default()).expect("begun");
     let materials = BTreeMap::from([("1".to_owned(), "{\"name\":\"coke\"}".to_owned())]);
     writer.metadata("materials", materials).expect("written");
-    writer.points("/walls", 0, "world", &spheres(-1.0, 0.0)).expect("written");
+    writer.points("/walls", 0, "world", spheres(-1.0, 0.0)).expect("written");
     for k in 0..5u32 {
         let frame = spheres(-0.1 * f64::from(k), f64::from(k));
         writer.points("/particles", u64::from(k) * 100_000_000, "world", &frame).expect("written");
@@ -118,7 +118,7 @@ fn turning(frames: u32) -> Vec<u8> {
         if k == 0 {
             writer.bytes("/surfaces", "json", time, surfaces.as_bytes()).expect("written");
         }
-        writer.points("/particles", time, "world", &spheres(0.0, 0.0)).expect("written");
+        writer.points("/particles", time, "world", spheres(0.0, 0.0)).expect("written");
     }
     writer.finish().expect("finished")
 }

@@ -37,7 +37,7 @@ fn folder() -> tempfile::TempDir {
         }
         table
     };
-    writer.points("/walls", 0, "world", &table(1, -0.8, true)).expect("written");
+    writer.points("/walls", 0, "world", table(1, -0.8, true)).expect("written");
     writer.bytes("/surfaces", "json", 0, surfaces.as_bytes()).expect("written");
     for k in 0..=10u32 {
         let frame = table(if k == 0 { 0 } else { 2 }, -0.05 * f64::from(k), false);
