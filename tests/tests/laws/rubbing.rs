@@ -167,8 +167,8 @@ fn slopes_and_rest_with_rolling_resistance() {
         };
         for safety in [0.1, 0.05] {
             let (speed, height, dt) = creep(safety);
-            // The dashpot bears the moment of the weight, β 2/5 m r² ω/Δt = m g sin θ s; its arm s is r − δ on a plane, and r (1 − δ/R) on a
-            // sphere of radius R.
+            // The dashpot bears the moment of the weight, β 2/5 m r² ω/Δt = m g sin θ s; its arm s is r − δ on a plane, and on a
+            // sphere of radius R r (1 − δ/(r + R)), which is r on one of 10 km.
             let arm = if case.contains("Sphere") { 1.0 } else { height / 0.01 };
             let expected = 2.5 * 8.0 * 9.81 * 0.05f64.sin() * dt * arm * arm;
             CREEPS.equals(&format!("{case}, {safety} of the critical step"), speed, "m/s", expected, 1e-3);
