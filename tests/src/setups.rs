@@ -16,6 +16,7 @@ pub fn empty(law: Law, restitution: f64) -> Setup {
         particles: vec![],
         walls: vec![],
         clumps: Clumps::default(),
+        bonds: vec![],
         outlets: vec![],
         inlets: vec![],
         largest_entry: 0.0,
@@ -36,6 +37,27 @@ pub const HOOKE: Law = Law::Hooke { stiffness: 1e4, tangential_ratio: None };
 
 /// Both normal laws.
 pub const LAWS: [Law; 2] = [HOOKE, Law::Hertz];
+
+/// Elastic bonds between two materials, up to a gap of 2 mm, that never break.
+pub fn bond(between: (u16, u16)) -> Bond {
+    Bond {
+        between,
+        gap: 0.002,
+        radius_ratio: 1.0,
+        young: 1e7,
+        shear_modulus: 4e6,
+        tensile_strength: f64::INFINITY,
+        shear_strength: f64::INFINITY,
+        damping: 0.0,
+    }
+}
+
+/// A lattice of so many grains of radius 10 mm along each axis, 1 mm open between them, around a place.
+pub fn lattice([x, y, z]: [u32; 3], centre: Vec3) -> Vec<Particle> {
+    let half = Vec3::new(f64::from(x - 1), f64::from(y - 1), f64::from(z - 1)) * 0.5;
+    let at = |k: u32| Vec3::new(f64::from(k % x), f64::from(k / x % y), f64::from(k / x / y));
+    (0..x * y * z).map(|k| grain(k, centre + (at(k) - half) * 0.021)).collect()
+}
 
 /// A grain of radius 10 mm at rest.
 pub fn grain(id: u32, position: Vec3) -> Particle {

@@ -426,3 +426,81 @@ fn recorded_contacts_carry_the_weight_of_the_bed() {
     let weight = volume * 3300.0 * 9.81;
     assert!((force / weight + 1.0).abs() < 0.01, "{force} N on the floor, the bed weighs {weight} N");
 }
+
+/// A row of bonded grains, one end of which is let fall: what a scene says of bonds.
+fn bonded(bond: &str) -> TempDir {
+    let head = HEAD.toml();
+    let rows: String = (0..6).map(|k| format!("{k},{},0,0.05,0.01\n", 0.02 * f64::from(k))).collect();
+    let scene = format!(
+        "{head}{}[[particles]]\nsource = \"row.csv\"\nmaterial = \"sinter\"\n[[bond]]\nbetween = [\"sinter\", \"sinter\"]\n{bond}\n",
+        HEAD.floor()
+    );
+    folder(&[("s.toml", &scene), ("row.csv", &format!("id,x,y,z,radius\n{rows}"))])
+}
+
+const BOND: &str = "gap = 1e-6\nyoung = 1e7\npoisson = 0.25";
+
+#[test]
+fn bonds_are_written_with_each_frame_broken_ones_as_well() {
+    for (strength, breaks) in [("", false), ("\ntensile_strength = 2e3\nshear_strength = 2e3", true)] {
+        let folder = bonded(&format!("{BOND}{strength}"));
+        let more = ["--set", "output.energy=true", "--set", "gravity=[3, 0, -9.81]"];
+        succeed(folder.path(), "dem-run", &[&["s.toml", "-o", "run.mcap"], &more[..]].concat());
+        let tables: Vec<Table> = events(&folder.path().join("run.mcap"))
+            .0
+            .into_iter()
+            .filter_map(|event| match event {
+                Event::Points { topic, table, .. } if topic == "/bonds" => Some(table),
+                _ => None,
+            })
+            .collect();
+        assert_eq!(tables.len(), 13, "one for each frame");
+        let (first, last) = (&tables[0], &tables[12]);
+        let column = |t: &Table, name: &str| t.get(name).unwrap_or_else(|| panic!("no {name}")).to_f64();
+        assert_eq!(column(first, "id_i"), [0.0, 1.0, 2.0, 3.0, 4.0]);
+        assert_eq!(column(first, "id_j"), [1.0, 2.0, 3.0, 4.0, 5.0]);
+        assert!(column(first, "broken").iter().all(|&b| b == 0.0));
+        let broken = column(last, "broken");
+        assert_eq!(broken.contains(&1.0), breaks, "{broken:?}");
+        for (k, at) in column(last, "broken_at").into_iter().enumerate() {
+            assert_eq!(at > 0.0, broken[k] == 1.0);
+            let force = column(last, "fx")[k].hypot(column(last, "fz")[k]);
+            assert_eq!(force == 0.0, broken[k] == 1.0, "a broken bond bears nothing");
+        }
+    }
+}
+
+#[test]
+fn bonds_that_nobody_has_or_that_are_not_followed_are_refused() {
+    let says = |bond: &str, more: &str, parts: &[&str]| {
+        let folder = bonded(bond);
+        let scene = fs::read_to_string(folder.path().join("s.toml")).unwrap() + more;
+        fs::write(folder.path().join("s.toml"), scene).unwrap();
+        let done = tool(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap"]);
+        let text = done.stderr;
+        assert_eq!(done.code, 1, "{text}");
+        parts.iter().for_each(|part| assert!(text.contains(part), "'{part}' is not in {text}"));
+        assert!(!folder.path().join("run.mcap").exists());
+    };
+    let with = |from: &str, to: &str| BOND.replace(from, to);
+    says(&with("1e-6", "-1"), "", &["bond.0.gap", "-1 m", "0 to 100 m"]);
+    says(&with("young = 1e7", "young = 0"), "", &["bond.0.young", "0 Pa", "above 0"]);
+    says(&with("0.25", "0.7"), "", &["bond.0.poisson", "0.7"]);
+    says(&format!("{BOND}\ntensile_strength = -3"), "", &["bond.0.tensile_strength", "-3 Pa"]);
+    says(&format!("{BOND}\nradius = 2"), "", &["unknown key 'radius'", "radius_ratio"]);
+    let sleep = "[sleep]\nspeed = 0.01\n";
+    says(BOND, sleep, &["bond: not available yet with [sleep]", "leave out one of them"]);
+    let outlet = "[[outlet]]\nplane = \"0,0,0.02,0,0,-1\"\n";
+    says(BOND, outlet, &["bond: not available yet with [[outlet]]"]);
+    let again = format!("[[bond]]\nbetween = [\"sinter\", \"sinter\"]\n{BOND}\n");
+    says(BOND, &again, &["bond.1.between", "bond.0 is between these two materials already"]);
+    let stone = "[[material]]\nname = \"stone\"\nyoung = 1e7\npoisson = 0.25\ndensity = 2000\n";
+    let nobody = format!("{stone}[[bond]]\nbetween = [\"stone\", \"sinter\"]\n{BOND}\n");
+    says(BOND, &nobody, &["bond sinter–stone", "no two particles", "gap of 1.0000e-6 m", "larger gap"]);
+    let any = format!("[[bond]]\nbetween = [\"*\", \"sinter\"]\n{BOND}\n");
+    says(BOND, &any, &["bond.1.between.0", "named materials"]);
+    let folder = bonded(BOND);
+    let done = succeed(folder.path(), "dem-run", &["s.toml", "--explain"]);
+    let text = String::from_utf8_lossy(&done.stdout) + &*done.stderr;
+    assert!(text.contains("[[bond]] sinter–sinter") && text.contains("the bonds of particle"), "{text}");
+}

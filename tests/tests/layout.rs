@@ -74,6 +74,19 @@ velocity = [0, 0, -1]
 rate_count = 50
 "#;
 
+/// Bonded grains.
+const BONDED: &str = r#"[[bond]]
+between = ["stone", "stone"]
+gap = 0.02
+young = 1e6
+poisson = 0.25
+[[fill]]
+material = "stone"
+shape = "box:-0.02,-0.02,0,0.02,0.02,0.03"
+diameter = 0.01
+count = 5
+"#;
+
 /// The layout of the last checkpoint of a run.
 fn written(scene: &str) -> String {
     let scene =
@@ -93,12 +106,17 @@ fn lines(text: &str) -> String {
 #[test]
 fn the_layout_of_checkpoints_is_that_of_their_version() {
     let mut all = String::new();
-    for (name, scene) in [("flow", FLOW), ("asleep", ASLEEP), ("clumps", CLUMPS)] {
+    for (name, scene) in [("flow", FLOW), ("asleep", ASLEEP), ("clumps", CLUMPS), ("bonded", BONDED)] {
         all += &format!("# {name}\n{}\n", lines(&written(scene)));
     }
-    for filled in
-        ["travellers: [Traveller", "pistons: [Piston", "memory: [\nf64", "flights: [Flight", "?Sleepers"]
-    {
+    for filled in [
+        "travellers: [Traveller",
+        "pistons: [Piston",
+        "memory: [\nf64",
+        "flights: [Flight",
+        "ties: [Tie",
+        "?Sleepers",
+    ] {
         let flat = all.replace('\n', " ").replace("[ ", "[");
         assert!(flat.contains(&filled.replace('\n', "")), "the scenes have {filled}: {all}");
     }

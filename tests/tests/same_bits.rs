@@ -4,7 +4,7 @@ use dem::lane::Width;
 use dem::setup::*;
 use dem::{Setup, Simulation};
 use geom::Vec3;
-use grainpipe_tests::setups::{HOOKE, LAWS, empty, particles, plane, with_friction};
+use grainpipe_tests::setups::{HOOKE, LAWS, bond, empty, lattice, particles, plane, with_friction};
 
 /// Grains of three sizes that fall into a periodic, shaken trough of wall spheres.
 fn shaken_trough(law: Law) -> Setup {
@@ -130,6 +130,49 @@ fn resumed_run_equals_the_uninterrupted_one() {
         let resumed =
             Simulation::resume(shaken_trough(Law::Hertz), first.state().to_state()).expect("the same setup");
         assert!(bits(resumed, 800) == bits(first, 800), "looked at: {looked}");
+    }
+}
+
+/// A bonded block that falls on wall spheres and breaks.
+fn block(edge: u32) -> Setup {
+    let mut setup = shaken_trough(Law::Hertz);
+    setup.periodic = [Some((0.0, 0.3)), Some((0.0, 0.3)), None];
+    setup.bonds = vec![Bond { tensile_strength: 2e3, shear_strength: 2e3, damping: 0.2, ..bond((0, 0)) }];
+    let centre = Vec3::new(0.15, 0.15, 0.008 + 0.0105 * f64::from(edge));
+    setup.particles = lattice([edge; 3], centre);
+    setup.particles.iter_mut().for_each(|p| p.velocity = Vec3::new(0.3, 0.1, -1.0));
+    setup
+}
+
+#[test]
+fn bonds_for_any_number_of_threads_order_and_after_a_checkpoint() {
+    let with = |threads, setup: Setup| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        pool.install(|| bits(simulation(setup), 400))
+    };
+    let one = with(1, block(14));
+    for threads in [2, 3, 7] {
+        assert!(with(threads, block(14)) == one, "{threads} threads");
+    }
+    let mut shuffled = block(14);
+    shuffled.particles.reverse();
+    shuffled.particles.rotate_left(217);
+    assert!(with(2, shuffled) == one, "another order");
+    for looked in [false, true] {
+        let mut first = simulation(block(5));
+        let mut steps = 0;
+        while first.bond_count()[1] < 10 {
+            first.step().expect("within the guards");
+            steps += 1;
+            assert!(steps < 20_000, "it does not break");
+        }
+        if looked {
+            particles(&mut first);
+        }
+        let broken = first.bond_count()[1];
+        let resumed = Simulation::resume(block(5), first.state().to_state()).expect("the same setup");
+        assert_eq!(resumed.bond_count()[1], broken);
+        assert!(bits(resumed, 300) == bits(first, 300), "looked at: {looked}");
     }
 }
 

@@ -40,6 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         particles,
         walls: vec![floor],
         clumps: Clumps::default(),
+        bonds: vec![],
         outlets: vec![],
         inlets: vec![],
         largest_entry: 0.0,

@@ -8,6 +8,7 @@
 //!
 //! Sums run in the order of particles and contacts: they are the same for any number of threads.
 
+use crate::bonds::Bonds;
 use crate::contacts::{Contacts, Kind, With};
 use crate::effects::DISSIPATORS;
 use crate::energy::{Energy, carried, heavy};
@@ -27,6 +28,10 @@ pub struct Account {
     pub lost: f64,
     /// Work of walls.
     pub walls: f64,
+    /// By dashpots of bonds.
+    bonds: f64,
+    /// With bonds that broke.
+    broken: f64,
     /// Of those that fell asleep.
     pub slept: f64,
     /// Taken by the fluid.
@@ -98,9 +103,21 @@ impl Account {
         }
     }
 
+    /// Adds what bonds take in a step of `dt` [s].
+    pub fn add_bonds(&mut self, bonds: &Bonds, dt: f64) {
+        let [power, lost] = bonds.dissipated();
+        self.bonds += power * dt;
+        self.broken += lost;
+    }
+
+    /// What has gone for good by bonds.
+    pub fn by_bonds(&self) -> f64 {
+        self.bonds + self.broken
+    }
+
     /// What has gone, less what walls brought.
     fn gone(&self) -> f64 {
-        self.dissipated.iter().sum::<f64>() + self.drag - self.walls
+        self.dissipated.iter().sum::<f64>() + self.bonds + self.drag - self.walls
     }
 }
 
@@ -177,6 +194,7 @@ impl Simulation {
     pub(crate) fn close_step(&self, energy: &mut Energy) {
         let mut now = Account::default();
         now.add(&self.kinds, &self.contacts);
+        now.add_bonds(&self.bonds, self.dt);
         let loads = self.all_loads();
         let free = (0..self.particles.len()).filter(|&k| self.is_driven(k));
         let bodies = self.bodies.driven_now(self, &loads).map(|(_, d)| d);
@@ -185,11 +203,13 @@ impl Simulation {
         now.drag = free.map(|k| self.drag_power(k)).sum::<f64>() * self.dt;
         let (work, share) = self.half(power, share);
         energy.normal += now.lost;
+        energy.bonds += now.broken;
         energy.half_step = 0.5 * now.gone();
-        let account = &self.account;
-        let done = account.work + work + share + account.passed + account.lost + now.lost;
+        let (account, lost) = (&self.account, |a: &Account| a.lost + a.broken);
+        let done = account.work + work + share + account.passed + lost(account) + lost(&now);
         energy.integration =
-            done + account.gone() + energy.half_step + self.contacts.elastic() - account.start;
+            done + account.gone() + energy.half_step + self.contacts.elastic() + self.bonds.elastic()
+                - account.start;
         if self.setup.periodic.iter().any(Option::is_some) {
             energy.potential = self.unwrapped_potential() + account.wrapped;
         }

@@ -236,7 +236,7 @@ impl Bodies {
 }
 
 /// Periods along x, y, z [m]; 0 along an open axis.
-fn periods(periodic: &[Option<(f64, f64)>; 3]) -> Vec3 {
+pub(crate) fn periods(periodic: &[Option<(f64, f64)>; 3]) -> Vec3 {
     Vec3::from(periodic.map(|p| p.map_or(0.0, |(lo, hi)| hi - lo)))
 }
 

@@ -14,6 +14,7 @@ pub fn check(setup: &Setup) -> Result<(), SetupError> {
     precision(setup)?;
     particles(setup)?;
     crate::bodies::check(setup)?;
+    crate::bonds::check(setup)?;
     walls(setup)?;
     zones(setup)?;
     periodic(setup)?;

@@ -2,6 +2,7 @@
 
 use crate::account::Account;
 use crate::bodies::BodyState;
+use crate::bonds::Bonds;
 use crate::contacts::Contacts;
 use crate::particles::mass;
 use crate::setup::{Particle, Setup};
@@ -16,7 +17,7 @@ pub struct Energy {
     pub rotation: f64,
     /// −m g·x, from the origin.
     pub potential: f64,
-    /// In the springs of contacts; negative where cohesion binds.
+    /// In the springs of contacts and bonds; negative where cohesion binds.
     pub elastic: f64,
     /// Dissipated by the normal law: its dashpot, and what it takes to part grains that adhere.
     pub normal: f64,
@@ -26,6 +27,8 @@ pub struct Energy {
     pub rolling: f64,
     /// Dissipated by twisting resistance, dashpot included.
     pub twisting: f64,
+    /// Dissipated by dashpots of bonds, and with bonds that broke.
+    pub bonds: f64,
     /// Work of moving walls on particles.
     pub walls: f64,
     /// Kinetic energy of particles that fell asleep.
@@ -54,6 +57,7 @@ impl Energy {
             + self.sliding
             + self.rolling
             + self.twisting
+            + self.bonds
             + self.slept
             + self.drag
             + self.left
@@ -65,14 +69,14 @@ impl Energy {
 
     /// What has changed its form since the start, to compare [`Energy::integration`] with.
     pub fn exchanged(&self) -> f64 {
-        let dissipated = self.normal + self.sliding + self.rolling + self.twisting;
+        let dissipated = self.normal + self.sliding + self.rolling + self.twisting + self.bonds;
         dissipated + self.slept + self.drag.abs() + self.walls.abs()
     }
 
     pub(crate) fn of(
         particles: &[Particle],
         setup: &Setup,
-        contacts: &Contacts,
+        (contacts, bonds): (&Contacts, &Bonds),
         account: &Account,
     ) -> Energy {
         let mut e = Energy {
@@ -80,12 +84,13 @@ impl Energy {
             sliding: account.dissipated[1],
             rolling: account.dissipated[2],
             twisting: account.dissipated[3],
+            bonds: account.by_bonds(),
             walls: account.walls,
             slept: account.slept,
             drag: account.drag,
             entered: account.entered,
             left: account.left,
-            elastic: contacts.elastic(),
+            elastic: if setup.ledger { contacts.elastic() + bonds.elastic() } else { 0.0 },
             ..Energy::default()
         };
         for p in particles {

@@ -108,6 +108,25 @@ pub enum SetupError {
     /// Particles that the fluid does not act on.
     #[error("drag: not available yet with {0}: leave out one of them")]
     DragWith(&'static str),
+    /// What bonds are not followed through.
+    #[error("bond: not available yet with {0}: leave out one of them")]
+    BondWith(&'static str),
+    /// A bond that has no direction.
+    #[error("bond: particles {} and {} have one centre: move one of them", ids[0], ids[1])]
+    BondOfNoLength {
+        /// Who.
+        ids: [u32; 2],
+    },
+    /// A bond that nobody has.
+    #[error(
+        "bond {between}: no two particles of these materials are within a gap of {gap:.4e} m at the start: give a larger gap, or leave it out"
+    )]
+    BondOfNobody {
+        /// Materials.
+        between: String,
+        /// Gap [m].
+        gap: f64,
+    },
     /// Sleep in a scene with clumps.
     #[error("sleep: clumps (the scene has '{0}') do not sleep: leave out [sleep], or use spheres")]
     ClumpSleep(String),

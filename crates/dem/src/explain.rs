@@ -148,7 +148,7 @@ impl Simulation {
     pub fn bytes_per_particle(&self) -> usize {
         let rotates = self.particles.rotates();
         let rotation = if rotates { 2 * size_of::<Row4>() } else { 0 };
-        let couples = if self.kinds.iter().any(|k| k.kernel.couples()) { COUPLE } else { 0 };
+        let couples = if self.couples() { COUPLE } else { 0 };
         let sums = (stride(rotates) + couples) * size_of::<f64>();
         let state = size_of::<Row>() + 2 * size_of::<Row4>() + sums;
         let sleep = if self.sleepers.is_some() { size_of::<Row>() + size_of::<u32>() + 2 + sums } else { 0 };
@@ -163,6 +163,11 @@ impl Simulation {
     /// Memory that rigid clumps take beyond that of their members' rows [bytes].
     pub fn bytes_of_clumps(&self) -> usize {
         self.bodies.all_bytes()
+    }
+
+    /// Memory that bonds take, with what they keep of their particles [bytes].
+    pub fn bytes_of_bonds(&self) -> usize {
+        self.bonds.bytes()
     }
 
     /// Everything that one listed contact takes in a kind of interaction, averaged over all listed now [bytes].

@@ -7,6 +7,7 @@ mod account;
 mod advance;
 mod aligned;
 mod bodies;
+mod bonds;
 mod check;
 mod contacts;
 mod drag;
@@ -40,6 +41,7 @@ mod walls;
 mod zones;
 
 pub use bodies::BodyState;
+pub use bonds::BondState;
 pub use energy::Energy;
 pub use error::{Halt, SetupError};
 pub use explain::{EffectCost, Part, needed, parts};

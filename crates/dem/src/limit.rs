@@ -137,6 +137,7 @@ pub fn critical_step(setup: &Setup) -> Result<Limit, SetupError> {
             tighten(&mut limit, setup, a, Partner::Wall(wall))?;
         }
     }
+    crate::bonds::tighten(&mut limit, setup)?;
     if let Some((rate, radius)) = setup.drag.and_then(|d| d.fastest_rate(setup)) {
         let with = 1.0 / (1.0 / limit.dt + rate);
         if with < 0.9 * limit.dt {

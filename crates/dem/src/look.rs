@@ -97,7 +97,7 @@ impl Simulation {
         }
         let body_of = |id: u32| bodies[..bodies.partition_point(|b| b.id <= id)].last();
         particles.retain(|p| !body_of(p.id).is_some_and(|b| b.has(p.id)));
-        let mut energy = Energy::of(&particles, &self.setup, &self.contacts, &self.account);
+        let mut energy = Energy::of(&particles, &self.setup, (&self.contacts, &self.bonds), &self.account);
         bodies.iter().for_each(|b| energy.add_body(b, &self.setup));
         if self.setup.ledger {
             self.close_step(&mut energy);

@@ -33,6 +33,7 @@ impl Simulation {
         self.particles.select(&order);
         self.zones.reorder(&order);
         self.bodies.reorder(&order);
+        self.bonds.reorder(&order);
         if let Some(sleepers) = &mut self.sleepers {
             sleepers.select(&order);
         }
@@ -190,7 +191,7 @@ impl Simulation {
 
     /// Room for the loads of all listed contacts; made last, when old lists are gone.
     pub(crate) fn make_room(&mut self) {
-        let couples = self.kinds.iter().any(|k| k.kernel.couples());
+        let couples = self.couples();
         self.contacts.make_room(stride(self.particles.rotates()), couples, self.setup.ledger);
         self.contacts.keep_each(self.keeps_each(), stride(self.particles.rotates()));
     }
@@ -256,7 +257,7 @@ impl Simulation {
 }
 
 /// Pairs whose first is in `range`; `wide` are those of the whole search with wide particles.
-fn pairs(search: &Search, wide: &[Pair], range: &Range<usize>) -> Vec<Pair> {
+pub(crate) fn pairs(search: &Search, wide: &[Pair], range: &Range<usize>) -> Vec<Pair> {
     let mut found = Vec::with_capacity(4 * range.len());
     search.common_pairs(range.clone(), &mut found);
     let at = |k: usize| wide.partition_point(|p| (p.0 as usize) < k);
@@ -280,7 +281,7 @@ impl Classes {
     }
 }
 
-fn half_of_shifts(periodic: &[Option<(f64, f64)>; 3]) -> Vec<Vec3> {
+pub(crate) fn half_of_shifts(periodic: &[Option<(f64, f64)>; 3]) -> Vec<Vec3> {
     let period = periodic.map(|p| p.map(|(lo, hi)| hi - lo));
     let choices = period.map(|p| if p.is_some() { vec![-1.0, 0.0, 1.0] } else { vec![0.0] });
     let mut shifts = Vec::new();

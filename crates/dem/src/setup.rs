@@ -1,5 +1,6 @@
 //! What a simulation is made of: plain data, checked and turned into an engine by [`crate::Simulation::new`].
 
+mod bond;
 mod zone;
 
 use geom::{Plane, Vec3, mesh::TriMesh};
@@ -10,6 +11,7 @@ pub use crate::bodies::ClumpShape;
 pub use crate::drag::{Drag, DragLaw};
 pub use crate::servo::Servo;
 pub use crate::sleep::Sleep;
+pub use bond::Bond;
 pub use zone::{
     Crossing, Entry, EntryClump, Guide, Memory, PathSample, Sample, Springs, Touch, Zone, ZoneMotion,
     ZoneTest,
@@ -30,6 +32,8 @@ pub struct Setup {
     pub particles: Vec<Particle>,
     /// Rigid clumps; empty where the scene has none.
     pub clumps: Clumps,
+    /// Bonds between particles that are close at t = 0; empty where the scene has none.
+    pub bonds: Vec<Bond>,
     /// Walls: they act on particles and are not moved by them.
     pub walls: Vec<Wall>,
     /// Storage planes with their zones (SYSTEMS B1–B3).

@@ -6,6 +6,7 @@
 use crate::account::Account;
 use crate::advance::Moved;
 use crate::bodies::Bodies;
+use crate::bonds::Bonds;
 use crate::contacts::{Contacts, Kind, With};
 use crate::error::{Halt, SetupError};
 use crate::explain::needed;
@@ -63,6 +64,7 @@ pub struct Simulation {
     pub(crate) fresh: Vec<u32>,
     pub(crate) zones: Zones,
     pub(crate) bodies: Bodies,
+    pub(crate) bonds: Bonds,
     /// Who sleeps, where the setup asks for it.
     pub(crate) sleepers: Option<Sleepers>,
     pub(crate) account: Account,
@@ -91,11 +93,13 @@ impl Simulation {
         let setup = Setup { contacts, ..setup };
         let dt = time_step(&setup)?;
         let kinds = kinds(&setup)?;
-        let mut particles = Particles::new(kinds.iter().any(|k| k.kernel.rotates()));
+        let mut particles =
+            Particles::new(kinds.iter().any(|k| k.kernel.rotates()) || !setup.bonds.is_empty());
         let mut sorted: Vec<&Particle> = setup.particles.iter().collect();
         sorted.sort_unstable_by_key(|p| p.id);
         sorted.into_iter().for_each(|p| particles.push(p, &setup.materials));
         let bodies = Bodies::new(&setup, &mut particles);
+        let bonds = Bonds::new(&setup, &particles)?;
         let fresh = (0..particles.len() as u32).collect();
         let grain = mean_radius(&setup);
         let reach = largest_reach(&setup);
@@ -133,6 +137,7 @@ impl Simulation {
             sleepers,
             zones,
             bodies,
+            bonds,
             account: Account::default(),
             listings: 0,
             records: true,
@@ -219,6 +224,7 @@ impl Simulation {
         let found = self.pass(pass);
         if self.setup.ledger {
             self.account.add(&self.kinds, &self.contacts);
+            self.account.add_bonds(&self.bonds, self.dt);
             self.contacts.add_work();
             self.account_zones();
         }
@@ -316,6 +322,11 @@ impl Simulation {
     /// Whether the load of each contact is wanted in each step: by servos, planes of zones, and sleepers.
     pub(crate) fn keeps_each(&self) -> bool {
         !self.pistons.is_empty() || !self.zones.none() || self.sleepers.is_some()
+    }
+
+    /// Whether anything makes couples.
+    pub(crate) fn couples(&self) -> bool {
+        !self.bonds.none() || self.kinds.iter().any(|k| k.kernel.couples())
     }
 
     pub(crate) fn wrapped(&self, p: Vec3) -> Vec3 {

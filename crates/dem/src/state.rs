@@ -2,6 +2,7 @@
 
 use crate::account::Account;
 use crate::bodies::Bodies;
+use crate::bonds::Bonds;
 use crate::error::SetupError;
 use crate::particles::Particles;
 use crate::servo::Piston;
@@ -27,6 +28,7 @@ pub struct State {
     particles: Particles,
     zones: Zones,
     bodies: Bodies,
+    bonds: Bonds,
     sleepers: Option<Sleepers>,
     pistons: Vec<Piston>,
     account: Account,
@@ -57,6 +59,7 @@ pub struct StateView<'a> {
     particles: &'a Particles,
     zones: &'a Zones,
     bodies: &'a Bodies,
+    bonds: &'a Bonds,
     sleepers: Option<&'a Sleepers>,
     pistons: &'a [Piston],
     account: Account,
@@ -83,6 +86,7 @@ impl StateView<'_> {
             particles: self.particles.clone(),
             zones: self.zones.clone(),
             bodies: self.bodies.clone(),
+            bonds: self.bonds.clone(),
             sleepers: self.sleepers.cloned(),
             pistons: self.pistons.to_vec(),
             account: self.account,
@@ -124,6 +128,7 @@ impl Simulation {
             particles: &self.particles,
             zones: &self.zones,
             bodies: &self.bodies,
+            bonds: &self.bonds,
             sleepers: self.sleepers.as_ref(),
             pistons: &self.pistons,
             account: self.account,
@@ -161,7 +166,11 @@ impl Simulation {
         }
         (sim.skin, sim.steps, sim.listed, sim.out) = (state.skin, state.steps, state.listed, state.out);
         (sim.particles, sim.zones, sim.account) = (state.particles, state.zones, state.account);
-        sim.bodies = state.bodies;
+        if sim.bonds.count()[0] != state.bonds.count()[0] {
+            return Err(other("another number of bonds"));
+        }
+        (sim.bodies, sim.bonds) = (state.bodies, state.bonds);
+        sim.bonds.index();
         (sim.fresh, sim.listings, sim.sleepers) = (state.fresh, state.listings, state.sleepers);
         if sim.pistons.len() != state.pistons.len() {
             return Err(other("one has walls that follow a force and the other has not"));

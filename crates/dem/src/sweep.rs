@@ -44,6 +44,9 @@ impl Simulation {
             Pass::Recall => self.add_again(),
             Pass::Loads | Pass::Step => self.compute(pass == Pass::Loads),
         };
+        if matches!(pass, Pass::Loads | Pass::Step) {
+            self.pull_bonds();
+        }
         let moved = self.finish(pass != Pass::Move, matches!(pass, Pass::Move | Pass::Step));
         Found { deep, moved }
     }
@@ -125,12 +128,13 @@ impl Simulation {
             columns = others;
             items.push((tile, mine));
         }
-        let g = self.setup.gravity;
+        let (g, bonds) = (self.setup.gravity, &self.bonds);
         let (dt, motion_limit, width) = (self.dt, self.setup.guards.motion, self.width);
         let drive = Drive { dt, gravity: [g.x, g.y, g.z], motion_limit };
         let moved = share(many, items, |(tile, mut columns)| {
             if collects {
                 columns.sums.collect(lists.arriving(tile), part.kept());
+                bonds.add(&mut columns.sums);
             }
             if moves {
                 advance_awake(width, columns, &drive, &lists, stills.get(tile))

@@ -138,6 +138,7 @@ impl Check<'_> {
         self.within("first_id", f64::from(m.first_id), 0.0, 4e9, "")?;
         self.materials(m)?;
         self.contacts(m)?;
+        self.bonds(m)?;
         self.clumps(m)?;
         self.sources(m)?;
         for (i, w) in m.wall.iter().enumerate() {

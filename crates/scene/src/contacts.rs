@@ -58,7 +58,12 @@ fn contact(entry: &Contact, between: (u16, u16), law: setup::Law) -> setup::Cont
     }
 }
 
-fn known(check: &Check, key: &str, name: &str, materials: &[setup::Material]) -> Result<(), SceneError> {
+pub(crate) fn known(
+    check: &Check,
+    key: &str,
+    name: &str,
+    materials: &[setup::Material],
+) -> Result<(), SceneError> {
     let names = || materials.iter().map(|m| m.name.as_str());
     if name == "*" || names().any(|m| m == name) {
         return Ok(());

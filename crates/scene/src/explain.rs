@@ -184,6 +184,12 @@ fn effects(setup: &Setup) -> Vec<(Effect, Option<Setup>)> {
     let clumps = clumps.collect::<Vec<_>>().join(", ");
     let why = format!("[[clump]] {clumps}: {body} B a body, {member} B a member");
     add("clump", if clumps.is_empty() { clumps } else { why }, 0, None);
+    let name = |m: u16| setup.materials[m as usize].name.as_str();
+    let bonds = setup.bonds.iter().map(|b| format!("{}–{}", name(b.between.0), name(b.between.1)));
+    let bonds = bonds.collect::<Vec<_>>().join(", ");
+    let why = format!("[[bond]] {bonds}");
+    let loose = Setup { bonds: Vec::new(), ..setup.clone() };
+    add("bond", if bonds.is_empty() { bonds } else { why }, 0, Some(loose));
     add("gravity", named(setup.gravity.norm() > 0.0, "gravity"), 0, None);
     let dry = Setup { drag: None, ..setup.clone() };
     let law = setup.drag.map(|d| format!("drag.law = {:?}", d.law).to_lowercase());

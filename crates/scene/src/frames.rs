@@ -3,7 +3,7 @@
 use crate::crossings::Builder;
 use crate::model::Precision;
 use dem::setup::{ClumpShape, Clumps, Particle, Setup, Wall, WallShape};
-use dem::{BodyState, ContactRecord, Simulation, WallForce};
+use dem::{BodyState, BondState, ContactRecord, Simulation, WallForce};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use stream::{Table, Values};
@@ -98,6 +98,31 @@ pub(crate) fn contacts(rows: &[ContactRecord], precision: Precision) -> Table {
         .with("id_j", Values::U32(rows.iter().map(|c| c.j).collect()))
         .with("kind", Values::U16(rows.iter().map(|c| u16::from(c.wall)).collect()))
         .with("work", one(&|c| c.work))
+        .0
+}
+
+/// The table of the topic `/bonds`: a row for each bond that there was at the start, half-way between its particles.
+pub(crate) fn bonds(rows: &[BondState], precision: Precision) -> Table {
+    let one = |of: &dyn Fn(&BondState) -> f64| numbers(precision, rows.iter().map(of));
+    Builder::new(rows.len())
+        .with("x", one(&|b| b.middle.x))
+        .with("y", one(&|b| b.middle.y))
+        .with("z", one(&|b| b.middle.z))
+        .with("fx", one(&|b| b.force.x))
+        .with("fy", one(&|b| b.force.y))
+        .with("fz", one(&|b| b.force.z))
+        .with("mx_i", one(&|b| b.moments[0].x))
+        .with("my_i", one(&|b| b.moments[0].y))
+        .with("mz_i", one(&|b| b.moments[0].z))
+        .with("mx_j", one(&|b| b.moments[1].x))
+        .with("my_j", one(&|b| b.moments[1].y))
+        .with("mz_j", one(&|b| b.moments[1].z))
+        .with("tension", one(&|b| b.stress[0]))
+        .with("shear", one(&|b| b.stress[1]))
+        .with("id_i", Values::U32(rows.iter().map(|b| b.ids[0]).collect()))
+        .with("id_j", Values::U32(rows.iter().map(|b| b.ids[1]).collect()))
+        .with("broken", Values::U8(rows.iter().map(|b| u8::from(b.broken.is_some())).collect()))
+        .with("broken_at", Values::F64(rows.iter().map(|b| b.broken.unwrap_or(0.0)).collect()))
         .0
 }
 

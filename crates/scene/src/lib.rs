@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 mod bodies;
+mod bonds;
 mod check;
 pub mod checkpoint;
 mod clump_info;

@@ -41,6 +41,9 @@ pub struct Model {
     /// Laws between materials.
     #[serde(default)]
     pub contact: Vec<Contact>,
+    /// Bonds between particles that are close at t = 0.
+    #[serde(default)]
+    pub bond: Vec<Bond>,
     /// Shapes of rigid clumps.
     #[serde(default)]
     pub clump: Vec<Clump>,
@@ -311,6 +314,28 @@ pub struct Contact {
     pub rolling_model: Option<RollingModel>,
     /// μ_w [–]; absent: none.
     pub twisting_resistance: Option<f64>,
+}
+
+/// `[[bond]]`
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Bond {
+    /// Two names of materials.
+    pub between: [String; 2],
+    /// Largest gap between two surfaces at t = 0 that is bonded [m].
+    pub gap: f64,
+    /// Radius of a bond over the smaller of both particles' [–]; absent: 1.
+    pub radius_ratio: Option<f64>,
+    /// Young's modulus of bonds [Pa].
+    pub young: f64,
+    /// Their Poisson's ratio [–], for the shear modulus.
+    pub poisson: f64,
+    /// Tension at the rim that breaks one [Pa]; absent: none does.
+    pub tensile_strength: Option<f64>,
+    /// Shear that breaks one [Pa]; absent: none does.
+    pub shear_strength: Option<f64>,
+    /// γ of dashpots beside the springs [–]; absent: none.
+    pub damping: Option<f64>,
 }
 
 /// Normal law of a contact.

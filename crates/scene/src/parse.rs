@@ -6,8 +6,6 @@ use crate::text::Text;
 
 /// What scenes will say one day, and what to do until then.
 const NOT_YET: &[(&str, &str)] = &[
-    ("bond", "use 'contact' laws without bonds"),
-    ("bonds", "use 'contact' laws without bonds"),
     ("sleep", "leave it out: every particle is moved at every step"),
     ("temperature", "leave it out"),
     ("wear", "leave it out"),
@@ -106,7 +104,7 @@ mod tests {
 
     #[test]
     fn later_features_are_refused_by_name() {
-        let message = refused("[time]\n[[bond]]\nstrength = 1");
-        assert!(message.contains("not available yet: 'bond'"), "{message}");
+        let message = refused("[time]\n[temperature]\nstart = 1");
+        assert!(message.contains("not available yet: 'temperature'"), "{message}");
     }
 }

@@ -9,7 +9,7 @@ use crate::input::Input;
 use crate::material_info::MaterialInfo;
 use crate::model::{Arithmetic, DragLaw, Model, OrAuto};
 use crate::wall_file::WallFile;
-use crate::{Scene, contacts, fill, particle_file, walls};
+use crate::{Scene, bonds, contacts, fill, particle_file, walls};
 use dem::setup::{self, Guards, Particle, Setup, Step, Zone};
 use geom::{Shape, Vec3};
 use std::path::PathBuf;
@@ -269,6 +269,7 @@ impl<'a> Draft<'a> {
         let largest = sizes.map_or(0.0, |s| s.largest);
         let contacts = contacts::resolve(&self.check, &model.contact, &self.materials, largest)?;
         let contacts = self.meeting(contacts);
+        let bonds = bonds::resolve(&self.check, &model.bond, &self.materials)?;
         let (safety, step) = crate::accuracy::choose(&self.check, &model.time, &contacts)?;
         // The engine wants a density of every material, also of walls, whose mass plays no part.
         self.materials.iter_mut().filter(|m| m.density == 0.0).for_each(|m| m.density = NO_DENSITY);
@@ -283,6 +284,7 @@ impl<'a> Draft<'a> {
             contacts,
             particles: self.particles,
             clumps: self.clumps,
+            bonds,
             walls: self.walls,
             outlets: self.outlets,
             inlets: self.inlets,

@@ -25,6 +25,8 @@ use thiserror::Error;
 pub const PARTICLES: &str = "/particles";
 /// Topic of rigid clumps.
 pub const BODIES: &str = "/bodies";
+/// Topic of bonds.
+pub const BONDS: &str = "/bonds";
 /// Topic of contacts.
 pub const CONTACTS: &str = "/contacts";
 /// Topic of wall spheres.
@@ -97,6 +99,8 @@ pub struct Outcome {
     pub listed_contacts: usize,
     /// How often neighbours were listed.
     pub listings: u64,
+    /// Bonds at the start, and those that broke until the end.
+    pub bonds: [usize; 2],
     /// Particles that sleep at the end.
     pub asleep: usize,
     /// Effects in force: name, pair, key.
@@ -226,7 +230,7 @@ pub fn run<W: Write>(
     run.outcome.time = run.sim.time();
     run.outcome.particles = run.sim.particle_count();
     (run.outcome.listed_contacts, run.outcome.asleep) = (run.sim.listed_contacts(), run.sim.asleep());
-    run.outcome.listings = run.sim.listings();
+    (run.outcome.listings, run.outcome.bonds) = (run.sim.listings(), run.sim.bond_count());
     let named =
         |e: &dem::EffectCost| format!("{} ({}–{}): {}", e.effect, e.between.0, e.between.1, e.because);
     run.outcome.effects = run.sim.explain().iter().map(named).collect();
@@ -442,6 +446,13 @@ impl<W: Write> Run<W> {
         self.writer.points(PARTICLES, now, FRAME, table)?;
         if let Some(bodies) = bodies {
             self.writer.points(BODIES, now, FRAME, frames::bodies(&bodies))?;
+        }
+        if self.sim.bond_count()[0] > 0 {
+            let bonds = match self.sim.bonds() {
+                Ok(bonds) => bonds,
+                Err(halt) => return Ok(Err(halt)),
+            };
+            self.writer.points(BONDS, now, FRAME, frames::bonds(&bonds, self.precision))?;
         }
         if self.contacts {
             let contacts = match self.sim.record_contacts() {

@@ -3,8 +3,7 @@
 //! Topic `/crossings/touches`, written before the rows of `/crossings` that it belongs to. A row for each contact that a particle had when it
 //! passed: `id` (of a clump: of the member), `partner` (4294967295: a wall), force on it `fn` and `ft` [N]; x y z is where the particle was.
 //! What the contact remembers follows, as `id` sees it: the springs of sliding friction [m], rolling and twisting resistance [rad], and what
-//! the normal law keeps (`held`, JKR: a_c [m]); 0 where no effect keeps it. Bonds are to follow here, a column for each number of their state,
-//! when there are any.
+//! the normal law keeps (`held`, JKR: a_c [m]); 0 where no effect keeps it.
 //!
 //! In an inlet stream a row says what the contact of two that come in has to remember once `id` is free.
 

@@ -13,6 +13,7 @@ const MADE: Case = case("Energy", "what the finite step makes, relative to what 
 #[test]
 fn the_ledger_closes_and_the_step_makes_little() {
     for scene in all() {
+        let bonded = !scene.setup.bonds.is_empty();
         let mut sim = Simulation::new(scene.setup).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
         scene.entries.into_iter().for_each(|e| sim.enter(e).expect("in time"));
         let start = sim.energy().expect("sound").balance();
@@ -21,6 +22,7 @@ fn the_ledger_closes_and_the_step_makes_little() {
             let e = sim.energy().expect("sound");
             let of = e.exchanged() + e.translation;
             assert!(of > 1e-3, "{}: something happens: {e:?}", scene.name);
+            assert_eq!(bonded, e.bonds > 0.0, "{}: {e:?}, {:?} bonds", scene.name, sim.bond_count());
             CLOSES.within(&scene.name, (e.balance() - start) / of, "–", 1e-6);
             MADE.within(&scene.name, e.integration / of, "–", 1e-2);
         }

@@ -6,7 +6,7 @@ use dem::{Setup, Simulation};
 use geom::Vec3;
 use grainpipe_tests::findings::{Case, case};
 use grainpipe_tests::normals::{NORMALS, Normal};
-use grainpipe_tests::setups::run_until;
+use grainpipe_tests::setups::{bond, lattice, run_until};
 
 const ORDER: Case =
     case("Energy", "what the finite step makes, relative to what was exchanged, falls with the step");
@@ -38,6 +38,32 @@ fn made(setup: &Setup, safety: f64) -> f64 {
         (e.integration / e.exchanged().max(e.translation)).powi(2)
     };
     ((0..phases).map(of).sum::<f64>() / f64::from(phases)).sqrt()
+}
+
+/// Two bonded grains that swing against each other in every way, without loss: the largest change of energy.
+#[test]
+fn what_the_step_makes_of_a_bond_falls_with_its_square() {
+    let made = |safety: f64| {
+        let mut setup = poured(&NORMALS[0]);
+        (setup.gravity, setup.walls) = (Vec3::zeros(), vec![]);
+        (setup.bonds, setup.particles) = (vec![bond((0, 0))], lattice([2, 1, 1], Vec3::zeros()));
+        for (p, sign) in setup.particles.iter_mut().zip([1.0, -1.0]) {
+            p.velocity = Vec3::new(0.3, 0.2, 0.1) * sign * 0.03;
+            p.spin = Vec3::new(0.5, -0.2, 0.4) * sign + Vec3::new(0.3, 0.2, 0.1);
+        }
+        setup.step = Step::Auto(safety);
+        let mut sim = Simulation::new(setup).expect("the setup is sound");
+        let of = |sim: &mut Simulation| sim.energy().expect("sound");
+        let start = of(&mut sim).translation;
+        let mut most = 0.0f64;
+        for _ in 0..(1000.0 / safety) as u64 {
+            sim.step().expect("no guard trips");
+            most = most.max((of(&mut sim).integration / start).abs());
+        }
+        most
+    };
+    let points = [0.4, 0.2, 0.1, 0.05].map(|safety| (safety, made(safety)));
+    ORDER.order("a bonded pair, elastic", &points, 2.0, 0.3);
 }
 
 /// Hooke's force has no jump but that of its dashpot; friction on a Hertzian contact sets in with a stiffness that rises from nothing,

@@ -5,7 +5,7 @@ use dem::setup::*;
 use geom::mesh::TriMesh;
 use geom::{Moments, Plane, Vec3};
 use grainpipe_tests::normals::{NORMALS, Normal};
-use grainpipe_tests::setups::{grain, plane, with_friction};
+use grainpipe_tests::setups::{bond, grain, lattice, plane, with_friction};
 
 /// A scene and its name.
 pub struct Scene {
@@ -101,6 +101,14 @@ pub fn all() -> Vec<Scene> {
             (pebbles(), [Some((-0.01, 0.14)), Some((-0.01, 0.11)), None]);
         add(format!("{} on a shaking wall of spheres, periodic, mixed precision", normal.name), mixed);
     }
+    for normal in &NORMALS {
+        add(format!("{}, bonded grains", normal.name), bonded(poured(normal), 0.5, f64::INFINITY));
+        add(format!("{}, bonds that break", normal.name), bonded(poured(normal), 0.2, 2e3));
+    }
+    let mut across = bonded(poured(hertz), 0.0, 5e3);
+    across.periodic = [Some((-0.05, 0.05)), Some((-0.05, 0.05)), None];
+    across.particles.iter_mut().for_each(|p| p.velocity = Vec3::new(2.0, -1.0, 0.0));
+    add("hertz, bonds across a periodic face".to_owned(), across);
     let mut free = poured(hertz);
     free.contacts = NORMALS[1].setup(0.5).contacts;
     add("hertz, no friction".to_owned(), free);
@@ -125,6 +133,21 @@ pub fn all() -> Vec<Scene> {
     scenes.push(arriving());
     scenes.push(leaving());
     scenes
+}
+
+/// A bonded block that turns and falls on an edge, with bonds of this damping and strength [Pa].
+fn bonded(mut setup: Setup, damping: f64, strength: f64) -> Setup {
+    let strong = Bond { tensile_strength: strength, shear_strength: strength, ..bond((0, 0)) };
+    setup.bonds = vec![Bond { damping, ..strong }];
+    setup.particles = lattice([2, 2, 3], Vec3::new(0.0, 0.0, 0.045));
+    let turn = nalgebra::UnitQuaternion::from_euler_angles(0.4, 0.5, 0.1);
+    let centre = Vec3::new(0.0, 0.0, 0.045);
+    for p in &mut setup.particles {
+        p.position = centre + turn * (p.position - centre);
+        p.spin = Vec3::new(0.0, 3.0, 1.0);
+        p.velocity = p.spin.cross(&(p.position - centre)) - Vec3::z() * 0.2;
+    }
+    setup
 }
 
 fn in_fluid(mut setup: Setup) -> Setup {

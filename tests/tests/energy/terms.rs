@@ -9,6 +9,7 @@
 //! thrown ball, until it rolls    sliding = ½ m v² · ⅖ r²/(a² + ⅖ r²)         whatever μ is or depends on; a: radius less the overlap
 //! rolling ball, until it rests   rolling = ½ m v² + ½ I ω²,   top: twisting = ½ I ω²,   grain in a fluid: drag = ½ m v²
 //! floor that turns a grain       walls = ½ I Ω² + twisting,   twisting = ½ I Ω²    slips as much as the grain turns
+//! bonded pair, damped    bonds = ½ m/2 v²,   pair that is torn apart    bonds = A L σ_c²/2 E
 //! piston, e = 1              walls = 2 m V²                              a grain at rest leaves at 2 V
 //! ```
 
@@ -17,7 +18,7 @@ use dem::{Energy, Setup, Simulation, mass};
 use geom::Vec3;
 use grainpipe_tests::findings::{Case, case};
 use grainpipe_tests::normals::{MODULUS, NORMALS, Normal, Surface, WORK, name_of, precisions};
-use grainpipe_tests::setups::{grain, plane};
+use grainpipe_tests::setups::{bond, grain, lattice, plane};
 use std::f64::consts::PI;
 
 const ALONE: Case = case(
@@ -189,6 +190,27 @@ fn twisting() {
         ALONE.equals(&name_of("floor that turns, twisting"), end.twisting, "J", answer, LIMIT);
         ALONE.equals(&name_of("floor that turns, walls"), end.walls, "J", 2.0 * answer, LIMIT);
     }
+}
+
+/// Two bonded grains whose swing dies away, and two that tear their bond.
+#[test]
+fn bonds() {
+    let (speed, m) = (0.02, mass_of_grain());
+    let pair = |bond: Bond| {
+        let mut setup = NORMALS[0].setup(1.0);
+        (setup.bonds, setup.particles) = (vec![bond], lattice([2, 1, 1], Vec3::zeros()));
+        setup.particles.iter_mut().zip([-0.5, 0.5]).for_each(|(p, s)| p.velocity.x = s * speed);
+        setup
+    };
+    let answer = 0.25 * m * speed * speed;
+    let setup = pair(Bond { damping: 0.3, ..bond((0, 0)) });
+    let damped = Alone { name: "bonded pair, damped".to_owned(), setup, until: 0.03, step: 5e-4 };
+    damped.holds(|e| e.bonds, answer);
+    let strength = 1e3;
+    let setup = pair(Bond { tensile_strength: strength, ..bond((0, 0)) });
+    // A force that ends within a step is wrong by half of the step.
+    let torn = Alone { name: "bonded pair, torn apart".to_owned(), setup, until: 0.005, step: 1e-4 };
+    torn.holds(|e| e.bonds, PI * R * R * 0.021 * strength * strength / 2e7);
 }
 
 /// A belt takes a grain along; a piston throws one.

@@ -9,7 +9,7 @@ use dem::Simulation;
 use dem::setup::*;
 use geom::Vec3;
 use grainpipe_tests::findings::{Case, case};
-use grainpipe_tests::setups::grain;
+use grainpipe_tests::setups::{bond, grain, lattice, particles};
 use std::f64::consts::PI;
 
 const TURNS: Case = case(
@@ -30,6 +30,11 @@ const ANY: Case = case(
 );
 
 const SQUEEZE: f64 = 5e-5;
+
+const BOND: Case =
+    case("Rest and extremes", "a bonded rod that turns rigidly: what its bonds bear stays as it was");
+const SPIN: Case =
+    case("Rest and extremes", "a bonded rod that turns rigidly: its energy of motion stays as it was");
 
 /// The cage turns about `axis` [rad/s], wall B a little later than wall A, so that it is loaded.
 fn cage(variant: &Variant, axis: Vec3, lag: f64) -> Simulation {
@@ -115,4 +120,40 @@ fn a_loaded_grain_turns_with_its_partners_about_any_axis() {
         }
         ANY.within(&variant.name(), change, "of the force", 1e-6);
     }
+}
+
+/// A rod of three grains that turns: drawn out by its own weight, and by nothing else, however often it has turned.
+fn rod_turns(variant: &Variant, axis: Vec3, turns: f64) {
+    let mut setup = variant.rough(0.5, 0.5);
+    setup.bonds = vec![Bond { damping: 0.5, ..bond((0, 0)) }];
+    setup.step = Step::Auto(0.5);
+    setup.particles = lattice([3, 1, 1], Vec3::zeros());
+    let spin = axis * 20.0;
+    setup.particles.iter_mut().for_each(|p| (p.spin, p.velocity) = (spin, spin.cross(&p.position)));
+    let mut sim = simulation(setup);
+    // Until it has been drawn out.
+    run(&mut sim, 10_000);
+    let stress =
+        |sim: &mut Simulation| sim.bonds().expect("fine").iter().map(|b| b.stress).collect::<Vec<_>>();
+    let motion = |sim: &mut Simulation| {
+        particles(sim).iter().map(|p| p.velocity.norm_squared() + p.spin.norm_squared() * 1e-4).sum::<f64>()
+    };
+    let (first, before) = (stress(&mut sim), motion(&mut sim));
+    let until = sim.time() + turns * 2.0 * PI / 20.0;
+    while sim.time() < until {
+        sim.step().expect("within the guards");
+    }
+    let pairs = first.into_iter().zip(stress(&mut sim));
+    let change = pairs.map(|(a, b)| (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) / a[0]).fold(0.0, f64::max);
+    let on = format!("{}, about {:.1} {:.1} {:.1}, {turns} turns", variant.name(), axis.x, axis.y, axis.z);
+    BOND.within(&on, change, "of the stress", 1e-8);
+    SPIN.within(&on, motion(&mut sim) / before - 1.0, "of it", 1e-9);
+}
+
+#[test]
+fn a_bonded_rod_turns_as_one() {
+    for variant in variants() {
+        rod_turns(&variant, Vec3::z(), 10.0);
+    }
+    rod_turns(&variants()[0], Vec3::new(0.0, 1.0, 1.0).normalize(), 100.0);
 }

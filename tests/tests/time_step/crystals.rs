@@ -5,7 +5,7 @@ use crate::trial::{ALL, Trial};
 use dem::setup::*;
 use dem::{Setup, mass};
 use geom::{Moments, Vec3};
-use grainpipe_tests::setups::{HOOKE, empty, grain, with_friction};
+use grainpipe_tests::setups::{HOOKE, bond, empty, grain, with_friction};
 use nalgebra::UnitQuaternion;
 use std::f64::consts::SQRT_2;
 
@@ -111,6 +111,33 @@ fn in_a_fluid() {
         });
         Trial { name, setup, ways: ALL }.meant();
     }
+}
+
+/// Bonds between grains that do not touch, and the bound is that of bonds; bonds beside contacts as stiff as they are.
+#[test]
+fn bonded() {
+    let loose = |e| {
+        let mut setup = crystal(SOFT, e, 1e-2);
+        let (places, period) = places(2, -0.05);
+        setup.periodic = [Some((0.0, period)); 3];
+        setup.particles.iter_mut().zip(places).for_each(|(p, place)| p.position = place);
+        setup
+    };
+    let stiff = Bond { young: 1e9, shear_modulus: 4e8, gap: 1e-3, ..bond((0, 0)) };
+    for (name, bond) in [
+        ("bonded crystal", stiff.clone()),
+        ("bonded crystal, damping 0.5", Bond { damping: 0.5, ..stiff.clone() }),
+        ("bonded crystal, damping 2", Bond { damping: 2.0, ..stiff.clone() }),
+        ("bonded crystal, thick bonds", Bond { radius_ratio: 2.5, ..stiff.clone() }),
+        ("bonded crystal, thin bonds", Bond { radius_ratio: 0.2, ..stiff.clone() }),
+        ("bonded crystal, soft in shear", Bond { shear_modulus: 1e7, ..stiff.clone() }),
+    ] {
+        let setup = Setup { bonds: vec![bond], ..loose(1.0) };
+        Trial { name, setup, ways: ALL }.meant();
+    }
+    let mut both = with_friction(crystal(HOOKE, 1.0, 1e-2), 1.0);
+    both.bonds = vec![Bond { young: 6e5, shear_modulus: 2.4e5, ..bond((0, 0)) }];
+    Trial { name: "bonded crystal, contacts as stiff as bonds", setup: both, ways: ALL }.meant();
 }
 
 /// One light grain in a crystal of heavy ones, and one that is stiff among soft ones.

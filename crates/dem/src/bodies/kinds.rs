@@ -20,9 +20,17 @@ pub struct Yielding {
     pub tangential: f64,
 }
 
+/// Beyond any [–]; a number of single precision, also times 1/m.
+const AT_ONCE: f64 = 1e12;
+
 impl Setup {
-    /// How much easier the easiest body of two materials yields than a sphere of its mass [–]; 1 without clumps.
+    /// How much easier the easiest body of two materials yields than a sphere of its mass [–]; 1 without clumps. Where bonds set the pace, which know
+    /// nothing of the stiffness of contacts, so much that tangential springs are always late by half a step.
     pub(crate) fn yielding(&self, a: u16, b: u16) -> f64 {
+        let is_bonded = |m: u16| self.bonds.iter().any(|bond| bond.between.0 == m || bond.between.1 == m);
+        if is_bonded(a) || is_bonded(b) {
+            return AT_ONCE;
+        }
         let clumps = self.clumps.yielding(&self.materials);
         let own = clumps.iter().filter(|c| c.material == a || c.material == b);
         own.map(|c| c.normal.max(c.tangential) / c.inverse_mass).fold(1.0, f64::max)

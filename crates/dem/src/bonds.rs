@@ -1,0 +1,286 @@
+//! Bonds: elastic beams between the centres of particles that were close at the start, until they break.
+//!
+//! A pass of its own over a list of its own: what bonds do is added to the sums of contacts, particle by particle in the order of the bonds, so that it depends
+//! on no thread. Contacts know nothing of bonds; two that are bonded may touch, and then both act. Bonds are computed in double
+//! precision always. [`beam`] has the law. It needs to know how each end has turned since it was bonded:
+//!
+//! ```text
+//! q ← exp(ω_{n−½} Δt) q,   ω_{n−½} = w*_n − α_{n−1} Δt/2          what [`crate::advance`] has turned it by
+//! ```
+//!
+//! Places and turns of one instant in the springs, velocities predicted for it in the dashpots: with springs alone that is velocity Verlet, which makes no energy
+//! on the whole. A bond breaks by the stress of an instant, before it acts in it:
+//!
+//! ```text
+//! σ = F_n/A + |M| r/I > σ_c   or   τ = |F_t|/A + |M_t| r/J > τ_c          F_n: tension; M at the worse end; A = π r², I = π r⁴/4, J = 2 I
+//! ```
+//!
+//! Potyondy & Cundall (2004), Int. J. Rock Mech. Min. Sci. 41, doi:10.1016/j.ijrmms.2004.09.011, have the strengths and springs by increments; turns of
+//! both ends instead, so that nothing is lost by rounding or order: Wang (2009), Acta Geotech. 4, doi:10.1007/s11440-008-0072-1. Beam in a frame that turns along:
+//! Crisfield (1990), Comput. Methods Appl. Mech. Eng. 81, doi:10.1016/0045-7825(90)90106-V.
+
+mod beam;
+mod find;
+mod limit;
+
+pub(crate) use find::check;
+pub(crate) use limit::tighten;
+
+use crate::error::SetupError;
+use crate::particles::Particles;
+use crate::setup::Setup;
+use crate::simulation::Simulation;
+use crate::sums::{COUPLE, Sums};
+use beam::{Beam, Ends, Pull};
+use geom::Vec3;
+use nalgebra::UnitQuaternion;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// Bonds, or particles, of one task.
+const CHUNK: usize = 256;
+
+/// A bond between two particles.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+struct Tie {
+    /// Rows of i and j; i has the lower id.
+    ends: [u32; 2],
+    beam: Beam,
+    /// σ_c and τ_c [Pa].
+    strength: [f64; 2],
+    /// When it broke [s]; infinite while it is whole.
+    broken: f64,
+}
+
+impl Tie {
+    fn is_whole(&self) -> bool {
+        self.broken == f64::INFINITY
+    }
+}
+
+/// A bond at one instant, for who looks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BondState {
+    /// Ids of both particles, the lower first.
+    pub ids: [u32; 2],
+    /// Half-way between both centres [m].
+    pub middle: Vec3,
+    /// Length L at rest, and radius r of the beam [m].
+    pub size: [f64; 2],
+    /// When it broke [s]; `None` while it is whole.
+    pub broken: Option<f64>,
+    /// Force on the first [N], and moments on both about their centres [N·m].
+    pub force: Vec3,
+    /// See there.
+    pub moments: [Vec3; 2],
+    /// Largest tension σ and shear τ [Pa]; of a broken one, those that broke it.
+    pub stress: [f64; 2],
+}
+
+/// All bonds of a simulation.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub struct Bonds {
+    /// By ids.
+    ties: Vec<Tie>,
+    /// What each does at this instant.
+    pulls: Vec<Pull>,
+    /// How each particle has turned, by row; empty without bonds.
+    turns: Vec<UnitQuaternion<f64>>,
+    /// Step that turns are those of.
+    turned: u64,
+    /// Energy of those that broke at this instant [J].
+    lost: f64,
+    /// First entry of each particle, and one more.
+    #[serde(skip)]
+    starts: Vec<u32>,
+    /// Bond × 2, + 1 where the particle is j; in the order of the bonds.
+    #[serde(skip)]
+    entries: Vec<u32>,
+}
+
+impl Bonds {
+    /// Bonds of a setup at t = 0, whose particles are sorted by id.
+    ///
+    /// # Errors
+    /// Two centres at one place; a law for which there is no pair.
+    pub fn new(setup: &Setup, particles: &Particles) -> Result<Bonds, SetupError> {
+        let mut bonds = Bonds::default();
+        if setup.bonds.is_empty() {
+            return Ok(bonds);
+        }
+        bonds.ties = find::ties(setup)?;
+        bonds.pulls = vec![Pull::default(); bonds.ties.len()];
+        bonds.turns = vec![UnitQuaternion::identity(); particles.len()];
+        bonds.index();
+        Ok(bonds)
+    }
+
+    /// Whether there is none.
+    pub fn none(&self) -> bool {
+        self.ties.is_empty()
+    }
+
+    /// How many there are, and how many have broken.
+    pub fn count(&self) -> [usize; 2] {
+        [self.ties.len(), self.ties.iter().filter(|t| !t.is_whole()).count()]
+    }
+
+    /// Memory that bonds take [bytes].
+    pub fn bytes(&self) -> usize {
+        use std::mem::size_of_val;
+        size_of_val(&self.ties[..])
+            + size_of_val(&self.pulls[..])
+            + size_of_val(&self.turns[..])
+            + size_of_val(&self.starts[..])
+            + size_of_val(&self.entries[..])
+    }
+
+    /// Elastic energy of this instant [J].
+    pub fn elastic(&self) -> f64 {
+        self.pulls.iter().map(|p| p.elastic).sum()
+    }
+
+    /// Power of all dashpots [W], and energy of bonds that broke [J], at this instant.
+    pub fn dissipated(&self) -> [f64; 2] {
+        [self.pulls.iter().map(|p| p.power).sum(), self.lost]
+    }
+
+    /// Follows the particles to their new places; `order` names the old ones. Nobody leaves where there are bonds.
+    pub fn reorder(&mut self, order: &[u32]) {
+        if self.none() {
+            return;
+        }
+        let mut new = vec![0; order.len()];
+        for (now, &was) in (0u32..).zip(order) {
+            new[was as usize] = now;
+        }
+        for tie in &mut self.ties {
+            tie.ends = tie.ends.map(|k| new[k as usize]);
+        }
+        self.turns = order.iter().map(|&was| self.turns[was as usize]).collect();
+        self.index();
+    }
+
+    /// Who has which bonds.
+    pub fn index(&mut self) {
+        let mut starts = vec![0; self.turns.len() + 1];
+        let ends = || self.ties.iter().flat_map(|t| t.ends);
+        ends().for_each(|k| starts[k as usize + 1] += 1);
+        (1..starts.len()).for_each(|k| starts[k] += starts[k - 1]);
+        let mut next = starts.clone();
+        self.entries = vec![0; 2 * self.ties.len()];
+        for (entry, k) in (0..).zip(ends()) {
+            self.entries[next[k as usize] as usize] = entry;
+            next[k as usize] += 1;
+        }
+        self.starts = starts;
+    }
+
+    /// Turns all particles by what they have turned in the last step of `dt` [s].
+    fn turn(&mut self, particles: &Particles, dt: f64) {
+        let rows = particles.spins.par_chunks(CHUNK).zip(particles.turning.par_chunks(CHUNK));
+        self.turns.par_chunks_mut(CHUNK).zip(rows).for_each(|(turns, (spins, turning))| {
+            for ((turn, w), a) in turns.iter_mut().zip(spins).zip(turning) {
+                let by = [0, 1, 2].map(|axis| (w[axis] - 0.5 * dt * a[axis]) * dt);
+                let q = crate::bodies::spun(&Vec3::from(by)).into_inner() * turn.quaternion();
+                *turn = UnitQuaternion::new_unchecked(q / q.norm());
+            }
+        });
+    }
+
+    /// What all bonds do, at a time [s]; those that break do nothing any more.
+    fn pull(&mut self, particles: &Particles, period: &Vec3, time: f64) {
+        let (ties, turns) = (&self.ties, &self.turns);
+        let pulls = self.pulls.par_chunks_mut(CHUNK).zip(ties.par_chunks(CHUNK));
+        pulls.for_each(|(pulls, ties)| {
+            for (pull, tie) in pulls.iter_mut().zip(ties).filter(|(_, tie)| tie.is_whole()) {
+                let [i, j] = tie.ends.map(|k| k as usize);
+                let row = |k: usize| &particles.rows[k];
+                let velocity = |k: usize| Vec3::new(row(k)[4], row(k)[5], row(k)[6]);
+                let spin =
+                    |k: usize| Vec3::new(particles.spins[k][0], particles.spins[k][1], particles.spins[k][2]);
+                let ends = Ends {
+                    arm: nearest(particles.position(i) - particles.position(j), period),
+                    velocity: velocity(i) - velocity(j),
+                    spin: [spin(i), spin(j)],
+                    turn: [turns[i], turns[j]],
+                };
+                *pull = tie.beam.pull(&ends);
+            }
+        });
+        self.lost = 0.0;
+        for (pull, tie) in self.pulls.iter_mut().zip(&mut self.ties).filter(|(_, tie)| tie.is_whole()) {
+            if pull.stress.iter().zip(tie.strength).any(|(&now, most)| now > most) {
+                tie.broken = time;
+                self.lost += pull.elastic;
+                *pull = Pull { stress: pull.stress, ..Pull::default() };
+            }
+        }
+    }
+
+    /// Adds what bonds do to some particles.
+    pub fn add(&self, sums: &mut Sums) {
+        for at in 0..if self.none() { 0 } else { sums.len() } {
+            let k = sums.first + at;
+            for &entry in &self.entries[self.starts[k] as usize..self.starts[k + 1] as usize] {
+                let (pull, second) = (&self.pulls[(entry >> 1) as usize], entry & 1 == 1);
+                for axis in 0..3 {
+                    let force = if second { -pull.force[axis] } else { pull.force[axis] };
+                    sums.loads[at * sums.stride + axis] += force;
+                    sums.couples[at * COUPLE + axis] += pull.moment[usize::from(second)][axis];
+                }
+            }
+        }
+    }
+}
+
+/// From one centre to another, by the nearest image; a period of 0 is none.
+fn nearest(arm: Vec3, period: &Vec3) -> Vec3 {
+    let back = |axis: usize| {
+        if period[axis] > 0.0 { period[axis] * (arm[axis] / period[axis]).round() } else { 0.0 }
+    };
+    arm - Vec3::new(back(0), back(1), back(2))
+}
+
+impl Simulation {
+    /// Brings bonds to this instant.
+    pub(crate) fn pull_bonds(&mut self) {
+        if self.bonds.none() {
+            return;
+        }
+        let (period, time) = (self.period(), self.time());
+        if self.steps > self.bonds.turned {
+            self.bonds.turn(&self.particles, self.dt);
+            self.bonds.turned = self.steps;
+        }
+        self.bonds.pull(&self.particles, &Vec3::from(period), time);
+    }
+
+    /// Bonds of this instant, broken ones as well, by ids.
+    ///
+    /// # Errors
+    /// When the state is beyond a guard.
+    pub fn bonds(&mut self) -> Result<Vec<BondState>, crate::error::Halt> {
+        self.ready()?;
+        let (p, period) = (&self.particles, Vec3::from(self.period()));
+        let middle = |[i, j]: [u32; 2]| {
+            let from = p.position(j as usize);
+            self.wrapped(from + nearest(p.position(i as usize) - from, &period) * 0.5)
+        };
+        let state = |(tie, pull): (&Tie, &Pull)| BondState {
+            ids: tie.ends.map(|k| p.id[k as usize]),
+            middle: middle(tie.ends),
+            size: [tie.beam.length, tie.beam.radius],
+            broken: (!tie.is_whole()).then_some(tie.broken),
+            force: pull.force.into(),
+            moments: pull.moment.map(Into::into),
+            stress: pull.stress,
+        };
+        Ok(self.bonds.ties.iter().zip(&self.bonds.pulls).map(state).collect())
+    }
+
+    /// How many bonds there were at the start, and how many have broken.
+    pub fn bond_count(&self) -> [usize; 2] {
+        self.bonds.count()
+    }
+}

@@ -1,0 +1,116 @@
+//! What bonds leave of the time step. Derived in docs/time-step.md.
+//!
+//! ```text
+//! g:  along u (n, 0), twist (0, n), bending (0, e), shear (±e, −L/2 n × e)          for both e across n; springs E A/L, G J/L, E I/L, 12 E I/L³
+//! λ = max over particles of the largest eigenvalue of Σ_bonds Σ_g k (1 + ε) M^(−½) g gᵀ M^(−½),   ε = (g_jᵀ M_j⁻¹ g_j)/(g_iᵀ M_i⁻¹ g_i)
+//! λ (Δt²/4 + t Δt) = 1,  t: dashpots over springs;   1/Δt ≥ 1/Δt_contacts + 1/Δt_bonds
+//! ```
+
+use super::Tie;
+use super::beam::Beam;
+use super::find::ties;
+use crate::error::SetupError;
+use crate::limit::Limit;
+use crate::particles::mass;
+use crate::setup::{Material, Particle, Setup};
+use geom::Vec3;
+use nalgebra::{Matrix6, Vector6};
+
+/// A motion of one end that a spring resists.
+struct Motion {
+    /// Stiffness [N/m or N·m/rad].
+    stiffness: f64,
+    /// Of i and of j.
+    ends: [Vector6<f64>; 2],
+}
+
+/// Motions that a beam resists, each by itself; turns are told times the length, so that all are in metres.
+fn motions(beam: &Beam) -> [Motion; 6] {
+    let n = beam.axis;
+    let side = (if n.x.abs() < 0.6 { Vec3::x() } else { Vec3::y() }).cross(&n).normalize();
+    let across = [side, n.cross(&side)];
+    let [along, bend, twist] = beam.stiffness();
+    let motion = |stiffness: f64, push: Vec3, turns: [Vec3; 2]| {
+        let end = |sign: f64, turn: Vec3| {
+            let u = push * sign;
+            Vector6::new(u.x, u.y, u.z, turn.x, turn.y, turn.z)
+        };
+        Motion { stiffness, ends: [end(1.0, turns[0]), end(-1.0, turns[1])] }
+    };
+    let shear = 12.0 * bend / (beam.length * beam.length);
+    let still = Vec3::zeros();
+    let sheared = across.map(|e| motion(shear, e, [n.cross(&e) * (-0.5 * beam.length); 2]));
+    let bent = across.map(|e| motion(bend, still, [e, -e]));
+    let ([s, t], [b, c]) = (sheared, bent);
+    [motion(along, n, [still; 2]), motion(twist, still, [n, -n]), s, t, b, c]
+}
+
+/// 1/m and 1/I of a particle.
+fn inverse(particle: &Particle, materials: &[Material]) -> Vector6<f64> {
+    let m = mass(particle.radius, materials[particle.material as usize].density);
+    let (push, turn) = (1.0 / m, 2.5 / (m * particle.radius * particle.radius));
+    Vector6::new(push, push, push, turn, turn, turn)
+}
+
+/// The largest frequency of two bonded particles alone [rad/s], of the motions that a beam resists one by one.
+pub fn frequency(beam: &Beam, ends: [&Particle; 2], materials: &[Material]) -> f64 {
+    let inverse = ends.map(|p| inverse(p, materials));
+    let square = |m: &Motion| {
+        let of = |e: usize| m.ends[e].component_mul(&m.ends[e]).dot(&inverse[e]);
+        m.stiffness * (of(0) + of(1))
+    };
+    motions(beam).iter().map(square).fold(0.0, f64::max).sqrt()
+}
+
+/// Makes a limit so low that bonds are stable as well.
+///
+/// # Errors
+/// Bonds that are refused.
+pub fn tighten(limit: &mut Limit, setup: &Setup) -> Result<(), SetupError> {
+    if setup.bonds.is_empty() {
+        return Ok(());
+    }
+    let ties = ties(setup)?;
+    let mut sorted: Vec<&Particle> = setup.particles.iter().collect();
+    sorted.sort_unstable_by_key(|p| p.id);
+    let mut blocks = vec![Matrix6::zeros(); sorted.len()];
+    for tie in &ties {
+        add(&mut blocks, tie, tie.ends.map(|k| inverse(sorted[k as usize], &setup.materials)));
+    }
+    let largest = |block: &Matrix6<f64>| block.symmetric_eigenvalues().max();
+    let all = blocks.iter().map(largest).enumerate();
+    let Some((worst, square)) = all.max_by(|a, b| a.1.total_cmp(&b.1)) else { return Ok(()) };
+    let lag = ties.iter().map(|t| t.beam.lag).fold(0.0, f64::max);
+    let alone = root(square, square * lag);
+    let with = 1.0 / (1.0 / limit.dt + 1.0 / alone);
+    if with < 0.9 * limit.dt {
+        let p = sorted[worst];
+        let name = &setup.materials[p.material as usize].name;
+        let rest = if limit.dt.is_finite() { format!("; {}", limit.pair) } else { String::new() };
+        limit.pair = format!(
+            "the bonds of particle {} ({name}, radius {:.4e} m, alone {alone:.4e} s){rest}",
+            p.id, p.radius
+        );
+    }
+    limit.dt = with;
+    Ok(())
+}
+
+/// The root of A Δt²/4 + B Δt = 1.
+fn root(a: f64, b: f64) -> f64 {
+    2.0 / ((a + b * b).sqrt() + b)
+}
+
+fn add(blocks: &mut [Matrix6<f64>], tie: &Tie, inverse: [Vector6<f64>; 2]) {
+    for motion in motions(&tie.beam) {
+        let scaled = [0, 1].map(|e| motion.ends[e].component_mul(&inverse[e].map(f64::sqrt)));
+        let sum: f64 = scaled.iter().map(|g| g.norm_squared()).sum();
+        for e in 0..2 {
+            let own = scaled[e].norm_squared();
+            if own > 0.0 {
+                blocks[tie.ends[e] as usize] +=
+                    scaled[e] * scaled[e].transpose() * (motion.stiffness * sum / own);
+            }
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! What a `[[bond]]` asks of the engine.
+
+use crate::check::{Check, Checked};
+use crate::contacts::known;
+use crate::error::SceneError;
+use crate::model::{Bond, Model};
+use dem::setup::{self, Material};
+
+impl Check<'_> {
+    pub(crate) fn bonds(&self, m: &Model) -> Checked {
+        for (i, b) in m.bond.iter().enumerate() {
+            let key = |k: &str| format!("bond.{i}.{k}");
+            self.within(&key("gap"), b.gap, 0.0, 100.0, "m")?;
+            self.positive_if(&key("radius_ratio"), b.radius_ratio, "")?;
+            self.positive(&key("young"), b.young, "Pa")?;
+            self.within(&key("poisson"), b.poisson, -0.99, 0.5, "")?;
+            self.positive_if(&key("tensile_strength"), b.tensile_strength, "Pa")?;
+            self.positive_if(&key("shear_strength"), b.shear_strength, "Pa")?;
+            self.within(&key("damping"), b.damping.unwrap_or(0.0), 0.0, 2.0, "")?;
+        }
+        Ok(())
+    }
+}
+
+/// Bonds of a scene, whose materials are known by name.
+///
+/// # Errors
+/// An unknown material, "*", or two entries for one pair.
+pub(crate) fn resolve(
+    check: &Check,
+    entries: &[Bond],
+    materials: &[Material],
+) -> Result<Vec<setup::Bond>, SceneError> {
+    let mut found: Vec<setup::Bond> = Vec::new();
+    for (i, b) in entries.iter().enumerate() {
+        let mut between = [0; 2];
+        for (k, name) in b.between.iter().enumerate() {
+            let key = format!("bond.{i}.between.{k}");
+            known(check, &key, name, materials)?;
+            let Some(at) = materials.iter().position(|m| m.name == *name) else {
+                let why = "bonds are made between named materials";
+                return Err(check.wrong(&key, format!("\"{name}\""), why, "name one"));
+            };
+            between[k] = at as u16;
+        }
+        let between = (between[0].min(between[1]), between[0].max(between[1]));
+        if let Some(first) = found.iter().position(|f| f.between == between) {
+            let why = format!("bond.{first} is between these two materials already");
+            let value = format!("{:?}", b.between);
+            return Err(check.wrong(&format!("bond.{i}.between"), value, &why, "take one of them out"));
+        }
+        found.push(setup::Bond {
+            between,
+            gap: b.gap,
+            radius_ratio: b.radius_ratio.unwrap_or(1.0),
+            young: b.young,
+            shear_modulus: 0.5 * b.young / (1.0 + b.poisson),
+            tensile_strength: b.tensile_strength.unwrap_or(f64::INFINITY),
+            shear_strength: b.shear_strength.unwrap_or(f64::INFINITY),
+            damping: b.damping.unwrap_or(0.0),
+        });
+    }
+    Ok(found)
+}
