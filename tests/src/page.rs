@@ -7,10 +7,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 /// Parts in the order of the page; others follow by name.
-const PARTS: [&str; 10] = [
+const PARTS: [&str; 11] = [
     "One contact",
     "Friction and rolling",
     "Many grains",
+    "Bonds",
     "Time step",
     "Energy",
     "Rest and extremes",

@@ -492,6 +492,12 @@ fn bonds_that_nobody_has_or_that_are_not_followed_are_refused() {
     says(BOND, sleep, &["bond: not available yet with [sleep]", "leave out one of them"]);
     let outlet = "[[outlet]]\nplane = \"0,0,0.02,0,0,-1\"\n";
     says(BOND, outlet, &["bond: not available yet with [[outlet]]"]);
+    let narrow = "[domain]\nperiodic = [\"y\"]\nlow = [0, -0.04, 0]\nhigh = [0, 0.04, 0]\n";
+    says(
+        &with("1e-6", "0.02"),
+        narrow,
+        &["period of 8.0000e-2 m along y is too small", "at least 9.0000e-2 m"],
+    );
     let again = format!("[[bond]]\nbetween = [\"sinter\", \"sinter\"]\n{BOND}\n");
     says(BOND, &again, &["bond.1.between", "bond.0 is between these two materials already"]);
     let stone = "[[material]]\nname = \"stone\"\nyoung = 1e7\npoisson = 0.25\ndensity = 2000\n";
@@ -502,5 +508,6 @@ fn bonds_that_nobody_has_or_that_are_not_followed_are_refused() {
     let folder = bonded(BOND);
     let done = succeed(folder.path(), "dem-run", &["s.toml", "--explain"]);
     let text = String::from_utf8_lossy(&done.stdout) + &*done.stderr;
-    assert!(text.contains("[[bond]] sinter–sinter") && text.contains("the bonds of particle"), "{text}");
+    assert!(text.contains("[[bond]] sinter–sinter") && text.contains("B a bond, 5 bonds"), "{text}");
+    assert!(text.contains("the bonds of particle"), "{text}");
 }

@@ -315,7 +315,9 @@ fn zones(setup: &Setup) -> Result<(), SetupError> {
 }
 
 fn periodic(setup: &Setup) -> Result<(), SetupError> {
-    let least = 5.0 * largest_radius(setup);
+    // The nearest image of whom a particle is bonded to is to be one.
+    let bonded = setup.bonds.iter().map(|b| b.gap).fold(0.0, f64::max);
+    let least = 5.0 * largest_radius(setup) + 2.0 * bonded;
     for (axis, range) in ['x', 'y', 'z'].into_iter().zip(&setup.periodic) {
         if let Some((lo, hi)) = *range
             && !(hi - lo >= least)

@@ -49,6 +49,10 @@ pub struct Fields {
     pub bytes_per_particle: usize,
     /// Everything that a listed contact takes [B], when there are some at the start.
     pub bytes_per_listed_contact: Option<f64>,
+    /// Bonds at t = 0.
+    pub bonds: usize,
+    /// What one takes [B], with what is kept of its particles; when there are some.
+    pub bytes_per_bond: Option<f64>,
     /// Whether anything turns particles.
     pub rotation: bool,
     /// Measured time of a step at the start [s], when it was measured.
@@ -83,6 +87,8 @@ pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained, Ru
     }
     let schedule = Schedule::new(scene, sim.dt())?;
     let (bytes_per_particle, rotation) = (sim.bytes_per_particle(), sim.rotates());
+    let bonds = sim.bond_count()[0];
+    let bytes_per_bond = (bonds > 0).then(|| sim.bytes_of_bonds() as f64 / bonds as f64);
     let bytes_per_listed_contact = (sim.listed_contacts() > 0).then(|| sim.bytes_per_listed_contact());
     let whole = measure.then(|| time_step(sim)).flatten();
     let effects = effects(&setup).into_iter().map(|(mut effect, without)| {
@@ -106,6 +112,8 @@ pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained, Ru
         dropped,
         bytes_per_particle,
         bytes_per_listed_contact,
+        bonds,
+        bytes_per_bond,
         rotation,
         seconds_per_step: whole,
     };
@@ -149,6 +157,9 @@ fn text(fields: &Fields) -> String {
     let _ = writeln!(out, "\nmemory         {} B a particle{turns}", fields.bytes_per_particle);
     if let Some(bytes) = fields.bytes_per_listed_contact {
         let _ = writeln!(out, "               {bytes:.0} B a listed contact, lists and loads included");
+    }
+    if let Some(bytes) = fields.bytes_per_bond {
+        let _ = writeln!(out, "               {bytes:.0} B a bond, {} bonds", fields.bonds);
     }
     for key in &fields.dropped {
         let _ = writeln!(out, "dropped        {key}: 0 cannot matter, nothing of it is computed");

@@ -5,7 +5,7 @@ use dem::Simulation;
 use dem::setup::*;
 use geom::{Plane, Vec3, mesh::TriMesh};
 use grainpipe_tests::findings::{Case, case};
-use grainpipe_tests::setups::{grain, particles, plane};
+use grainpipe_tests::setups::{bond, grain, lattice, particles, plane};
 
 const SPEED: Case = case("Rest and extremes", "a heap at rest: speeds fall to rounding and stay");
 const SPIN: Case = case("Rest and extremes", "a heap at rest: spins fall to rounding and stay");
@@ -19,6 +19,9 @@ const FAR: Case = case(
     "a heap at rest 1000 km away: nothing goes as far in a step as the last digit of its place",
 );
 const FAR_CREEP: Case = case("Rest and extremes", "a heap at rest 1000 km away does not creep");
+
+const BLOCK: Case = case("Rest and extremes", "a bonded block at rest: speeds fall to rounding and stay");
+const BLOCK_CREEP: Case = case("Rest and extremes", "a bonded block at rest does not creep");
 
 /// Last digit of a place 1000 km away [m].
 const DIGIT: f64 = 1.2e-10;
@@ -109,5 +112,31 @@ fn a_heap_at_rest_neither_creeps_nor_heats() {
 fn a_heap_at_rest_over_ten_million_steps() {
     for variant in variants() {
         FLOORS.iter().for_each(|&floor| rests(&variant, floor, 10_000_000));
+    }
+}
+
+/// A bonded block that was set down on its edge stands.
+#[test]
+fn a_bonded_block_at_rest_neither_creeps_nor_heats() {
+    for variant in variants() {
+        let mut setup = variant.rough(0.3, 0.6);
+        setup.gravity.z = -9.81;
+        setup.step = Step::Auto(0.9);
+        setup.walls = vec![plane(Vec3::z())];
+        setup.bonds = vec![Bond { damping: 0.5, ..bond((0, 0)) }];
+        setup.particles = lattice([3, 2, 3], Vec3::new(0.0, 0.0, 0.032));
+        let mut sim = simulation(setup);
+        run(&mut sim, 45_000);
+        let early = particles(&mut sim);
+        run(&mut sim, 20_000);
+        let late = particles(&mut sim);
+        let (on, way) = (variant.name(), farthest(&early, &late));
+        if variant.mixed() {
+            MIXED.within(&format!("bonded block, {on}"), way / 20_000.0, "m a step", 5e-12);
+        } else {
+            BLOCK.within(&on, fastest(&late).0, "m/s", 1e-12);
+            BLOCK_CREEP.within(&on, way, "m", 1e-13);
+        }
+        assert_eq!(sim.bond_count(), [33, 0], "{on}");
     }
 }
