@@ -31,10 +31,10 @@ use crate::particles::Particles;
 use crate::setup::Setup;
 use crate::simulation::Simulation;
 use crate::sums::{COUPLE, Sums};
+use crate::sweep::{FEW, share};
 use beam::{Beam, Ends, Pull};
 use geom::Vec3;
 use nalgebra::UnitQuaternion;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// Bonds, or particles, of one task.
@@ -178,8 +178,9 @@ impl Bonds {
 
     /// Turns all particles by what they have turned in the last step of `dt` [s].
     fn turn(&mut self, particles: &Particles, dt: f64) {
-        let rows = particles.spins.par_chunks(CHUNK).zip(particles.turning.par_chunks(CHUNK));
-        self.turns.par_chunks_mut(CHUNK).zip(rows).for_each(|(turns, (spins, turning))| {
+        let many = self.turns.len() >= FEW;
+        let rows = particles.spins.chunks(CHUNK).zip(particles.turning.chunks(CHUNK));
+        share(many, self.turns.chunks_mut(CHUNK).zip(rows).collect(), |(turns, (spins, turning))| {
             for ((turn, w), a) in turns.iter_mut().zip(spins).zip(turning) {
                 let by = [0, 1, 2].map(|axis| (w[axis] - 0.5 * dt * a[axis]) * dt);
                 let q = crate::bodies::spun(&Vec3::from(by)).into_inner() * turn.quaternion();
@@ -191,8 +192,8 @@ impl Bonds {
     /// What all bonds do, at a time [s]; those that break do nothing any more.
     fn pull(&mut self, particles: &Particles, period: &Vec3, time: f64) {
         let (ties, turns) = (&self.ties, &self.turns);
-        let pulls = self.pulls.par_chunks_mut(CHUNK).zip(ties.par_chunks(CHUNK));
-        pulls.for_each(|(pulls, ties)| {
+        let pulls = self.pulls.chunks_mut(CHUNK).zip(ties.chunks(CHUNK));
+        share(ties.len() >= FEW / 4, pulls.collect(), |(pulls, ties)| {
             for (pull, tie) in pulls.iter_mut().zip(ties).filter(|(_, tie)| tie.is_whole()) {
                 let [i, j] = tie.ends.map(|k| k as usize);
                 let row = |k: usize| &particles.rows[k];

@@ -21,8 +21,8 @@ use crate::limit::radii_by_material;
 use crate::particles::mass;
 use crate::setup::Setup;
 use crate::simulation::Simulation;
+use crate::sweep::{FEW, share};
 use geom::Vec3;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -144,10 +144,10 @@ impl Simulation {
         let (dt, gravity, zones) = (self.dt, self.setup.gravity, &self.zones);
         let (p, before) = (&mut self.particles, &self.before);
         let count = p.len();
-        let rows = p.rows[..count].par_chunks_mut(CHUNK).zip(p.acceleration.par_chunks_mut(CHUNK));
-        let tiles = rows.zip(before[..count].par_chunks(CHUNK)).zip(p.home.par_chunks(CHUNK)).enumerate();
-        let done: Vec<(f64, bool)> = tiles
-            .map(|(tile, (((rows, accelerations), before), home))| {
+        let rows = p.rows[..count].chunks_mut(CHUNK).zip(p.acceleration.chunks_mut(CHUNK));
+        let tiles = rows.zip(before[..count].chunks(CHUNK)).zip(p.home.chunks(CHUNK)).enumerate();
+        let done: Vec<(f64, bool)> =
+            share(count >= FEW, tiles.collect(), |(tile, (((rows, accelerations), before), home))| {
                 let (mut taken, mut out) = (0.0, false);
                 for k in 0..rows.len() {
                     let at = tile * CHUNK + k;
@@ -167,8 +167,7 @@ impl Simulation {
                     taken -= drag.slowing(was).dot(&Vec3::new(was[4], was[5], was[6])) * dt / was[7];
                 }
                 (taken, out)
-            })
-            .collect();
+            });
         if self.setup.ledger {
             done.iter().for_each(|d| self.account.drag += d.0);
         }

@@ -5,10 +5,13 @@ use crate::images::{Image, Periods};
 use crate::neighbours::{Pair, SKIN, Search, room};
 use crate::simulation::{Simulation, wrapped};
 use crate::sums::stride;
+use crate::sweep::share;
 use crate::walls::WallBody;
 use geom::Vec3;
-use rayon::prelude::*;
 use std::ops::Range;
+
+/// Particles below which one thread lists faster than several: handing over takes some ten microseconds.
+const LISTED_FEW: usize = 256;
 
 impl Simulation {
     /// Sorts, lists, and remembers.
@@ -121,22 +124,18 @@ impl Simulation {
         let wide = search.wide_pairs();
         let class = self.classes(With::Particles);
         let tile = tile(count);
-        let tiles: Vec<Vec<[List; 2]>> = (0..count.div_ceil(tile))
-            .into_par_iter()
-            .map(|t| {
-                let range = t * tile..((t + 1) * tile).min(count);
-                let mut lists = vec![<[List; 2]>::default(); self.kinds.len()];
-                let material = |k: u32| self.particles.material[k as usize];
-                let mut pairs = pairs(search, &wide, &range);
-                self.bodies.drop_own(&mut pairs, |p| *p);
-                for (i, j) in pairs {
-                    lists[class.of(material(i), material(j))][usize::from(j as usize >= range.end)]
-                        .push(i, j);
-                }
-                self.list_walls(range, &mut lists);
-                lists
-            })
-            .collect();
+        let tiles = share(count >= LISTED_FEW, (0..count.div_ceil(tile)).collect(), |t| {
+            let range = t * tile..((t + 1) * tile).min(count);
+            let mut lists = vec![<[List; 2]>::default(); self.kinds.len()];
+            let material = |k: u32| self.particles.material[k as usize];
+            let mut pairs = pairs(search, &wide, &range);
+            self.bodies.drop_own(&mut pairs, |p| *p);
+            for (i, j) in pairs {
+                lists[class.of(material(i), material(j))][usize::from(j as usize >= range.end)].push(i, j);
+            }
+            self.list_walls(range, &mut lists);
+            lists
+        });
         self.contacts = Contacts::new(&self.kinds, &self.list_images(search), &tiles, count);
         if self.sleepers.is_some() || !self.zones.none() {
             self.contacts.index(&self.kinds);
@@ -211,7 +210,7 @@ impl Simulation {
                 pieces.push((s, mine));
             }
             let old = self.remembered(before, order, moved);
-            pieces.into_par_iter().for_each(|(s, memory)| old.recall(now, s, memory));
+            share(self.particles.len() >= LISTED_FEW, pieces, |(s, memory)| old.recall(now, s, memory));
         }
         self.contacts.memory = memory;
     }

@@ -12,7 +12,7 @@ use crate::sums::{Sums, stride};
 use rayon::prelude::*;
 
 /// Particles below which one thread is faster than several.
-const FEW: usize = 2048;
+pub(crate) const FEW: usize = 2048;
 
 /// What a pass is to do.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -165,7 +165,11 @@ impl Simulation {
 }
 
 /// Does something with all items, on all threads where there are many: one item at a time, so that all end together.
-fn share<T: Send, R: Send>(many: bool, items: Vec<T>, run: impl Fn(T) -> R + Sync + Send) -> Vec<R> {
+pub(crate) fn share<T: Send, R: Send>(
+    many: bool,
+    items: Vec<T>,
+    run: impl Fn(T) -> R + Sync + Send,
+) -> Vec<R> {
     if many {
         items.into_par_iter().with_max_len(1).map(run).collect()
     } else {

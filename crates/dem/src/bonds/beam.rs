@@ -149,12 +149,35 @@ fn twisted(turn: &[UnitQuaternion<f64>; 2], axis: &Vec3) -> (f64, Vec3) {
     let s = v.dot(axis);
     let square = (w * w + s * s).max(f64::MIN_POSITIVE);
     let gradient = (axis * (w * w) + axis.cross(&v) * w + v * s) / square;
-    (2.0 * libm::atan2(s, w), turn[0] * gradient)
+    (2.0 * angle_of(s, w), turn[0] * gradient)
+}
+
+/// atan(s/w) for w ≥ 0: for small angles its series, to the last digit.
+fn angle_of(s: f64, w: f64) -> f64 {
+    let x = s / w;
+    let square = x * x;
+    if square < 1e-4 {
+        let rest = square * (0.2 - square * (1.0 / 7.0 - square * (1.0 / 9.0)));
+        return x * (1.0 - square * (1.0 / 3.0 - rest));
+    }
+    libm::atan2(s, w)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_series_goes_on_as_the_angle() {
+        for x in [0.0, 1e-9, 1e-4, -3e-3, 0.009_999_9, 0.010_000_1, -0.3, 2.0] {
+            assert!((angle_of(x, 1.0) - f64::atan(x)).abs() <= 2.0 * f64::EPSILON * f64::atan(x).abs());
+        }
+        for x in [1e-9, 1e-4, 3e-3, 0.019_999_9, 0.020_000_1, 0.3] {
+            let q = turn(x, 0.0, 0.0);
+            assert!((q.i - (0.5 * x).sin()).abs() <= 2.0 * f64::EPSILON * q.i, "{x}");
+            assert!((q.w - (0.5 * x).cos()).abs() <= f64::EPSILON, "{x}");
+        }
+    }
 
     fn beam() -> Beam {
         let axis = Vec3::new(2.0, -1.0, 0.5).normalize();
