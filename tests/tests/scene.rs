@@ -74,7 +74,11 @@ fn wrong_scenes_say_where_what_and_what_to_do() {
         ("[time]", "[time]\ndt = 1", &["above the critical step", "sinter"]),
         ("until = 0.01", "", &["time.until", "--until"]),
         ("until = 0.01", "until = 0.01\nsteps = 4", &["unknown key 'steps'"]),
-        ("[[wall]]", "[[bond]]\nstrength = 1\n[[wall]]", &["unknown key 'strength'", "did you mean 'shear_strength'"]),
+        (
+            "[[wall]]",
+            "[[bond]]\nstrength = 1\n[[wall]]",
+            &["unknown key 'strength'", "did you mean 'shear_strength'"],
+        ),
         ("restitution = 0.5", "restitution = 0.5\ncohesion = \"sjk\"", &["did you mean 'sjkr'?"]),
         (
             "restitution = 0.5",
