@@ -37,12 +37,17 @@ fn events(path: &Path) -> (Vec<Event>, bool) {
     (events, true)
 }
 
-fn frames(path: &Path) -> Vec<(u64, Table)> {
+/// The tables of a topic, with their times.
+fn tables(path: &Path, of: &str) -> Vec<(u64, Table)> {
     let pick = |event| match event {
-        Event::Points { topic, time_ns, table } if topic == "/particles" => Some((time_ns, table)),
+        Event::Points { topic, time_ns, table } if topic == of => Some((time_ns, table)),
         _ => None,
     };
     events(path).0.into_iter().filter_map(pick).collect()
+}
+
+fn frames(path: &Path) -> Vec<(u64, Table)> {
+    tables(path, "/particles")
 }
 
 fn checkpoints(path: &Path) -> Vec<Vec<u8>> {
@@ -171,17 +176,10 @@ fn walls_that_move_are_written_with_every_frame() {
     assert_eq!(piped.code, 0, "{}", piped.stderr);
     let bytes = |name: &str| fs::read(folder.path().join(name)).unwrap();
     assert!(bytes("run.mcap") == bytes("again.mcap") && bytes("run.mcap") == bytes("piped.mcap"));
-    let walls: Vec<Table> = events(&folder.path().join("run.mcap"))
-        .0
-        .into_iter()
-        .filter_map(|e| match e {
-            Event::Points { topic, table, .. } if topic == "/walls" => Some(table),
-            _ => None,
-        })
-        .collect();
+    let walls = tables(&folder.path().join("run.mcap"), "/walls");
     assert_eq!(walls.len(), 6);
     let place = |t: &Table| (t.get("x").unwrap().get(0), t.get("y").unwrap().get(0));
-    let (before, after) = (place(&walls[0]), place(&walls[5]));
+    let (before, after) = (place(&walls[0].1), place(&walls[5].1));
     let turned = after.1.atan2(after.0) - before.1.atan2(before.0);
     assert!((turned - 0.05 * 60.0 / 60.0 * std::f64::consts::TAU).abs() < 1e-3, "{turned} rad in 0.05 s");
     let cut = &fs::read(folder.path().join("walls.mcap")).unwrap()[..2000];
@@ -427,7 +425,7 @@ fn recorded_contacts_carry_the_weight_of_the_bed() {
     assert!((force / weight + 1.0).abs() < 0.01, "{force} N on the floor, the bed weighs {weight} N");
 }
 
-/// A row of bonded grains, one end of which is let fall: what a scene says of bonds.
+/// A row of bonded grains over a floor, and what a scene says of its bonds.
 fn bonded(bond: &str) -> TempDir {
     let head = HEAD.toml();
     let rows: String = (0..6).map(|k| format!("{k},{},0,0.05,0.01\n", 0.02 * f64::from(k))).collect();
@@ -446,16 +444,9 @@ fn bonds_are_written_with_each_frame_broken_ones_as_well() {
         let folder = bonded(&format!("{BOND}{strength}"));
         let more = ["--set", "output.energy=true", "--set", "gravity=[3, 0, -9.81]"];
         succeed(folder.path(), "dem-run", &[&["s.toml", "-o", "run.mcap"], &more[..]].concat());
-        let tables: Vec<Table> = events(&folder.path().join("run.mcap"))
-            .0
-            .into_iter()
-            .filter_map(|event| match event {
-                Event::Points { topic, table, .. } if topic == "/bonds" => Some(table),
-                _ => None,
-            })
-            .collect();
+        let tables = tables(&folder.path().join("run.mcap"), "/bonds");
         assert_eq!(tables.len(), 13, "one for each frame");
-        let (first, last) = (&tables[0], &tables[12]);
+        let (first, last) = (&tables[0].1, &tables[12].1);
         let column = |t: &Table, name: &str| t.get(name).unwrap_or_else(|| panic!("no {name}")).to_f64();
         assert_eq!(column(first, "id_i"), [0.0, 1.0, 2.0, 3.0, 4.0]);
         assert_eq!(column(first, "id_j"), [1.0, 2.0, 3.0, 4.0, 5.0]);

@@ -254,7 +254,7 @@ impl Simulation {
             self.bonds.turn(&self.particles, self.dt);
             self.bonds.turned = self.steps;
         }
-        self.bonds.pull(&self.particles, &Vec3::from(period), time);
+        self.bonds.pull(&self.particles, &period, time);
     }
 
     /// Bonds of this instant, broken ones as well, by ids.
@@ -263,7 +263,7 @@ impl Simulation {
     /// When the state is beyond a guard.
     pub fn bonds(&mut self) -> Result<Vec<BondState>, crate::error::Halt> {
         self.ready()?;
-        let (p, period) = (&self.particles, Vec3::from(self.period()));
+        let (p, period) = (&self.particles, self.period());
         let middle = |[i, j]: [u32; 2]| {
             let from = p.position(j as usize);
             self.wrapped(from + nearest(p.position(i as usize) - from, &period) * 0.5)

@@ -81,7 +81,7 @@ impl Around {
 impl Simulation {
     /// Length of the box along periodic axes [m], 0 along others.
     pub(crate) fn period(&self) -> Vec3 {
-        Vec3::from(self.setup.periodic.map(|p| p.map_or(0.0, |(lo, hi)| hi - lo)))
+        crate::bodies::periods(&self.setup.periodic)
     }
 
     /// Where a wall is now, counted back into the box.

@@ -243,10 +243,13 @@ struct Between {
     turning: f64,
 }
 
+/// The root of A Δt²/4 + B Δt = 1.
+pub(crate) fn root(a: f64, b: f64) -> f64 {
+    2.0 / ((a + b * b).sqrt() + b)
+}
+
 impl Between {
     fn step(&self, contact: &Contact) -> f64 {
-        // The root of A Δt²/4 + B Δt = 1.
-        let root = |a: f64, b: f64| 2.0 / ((a + b * b).sqrt() + b);
         let gamma = damping_ratio(contact.restitution);
         let (along, across) = (self.stiffness * self.yields.0, self.tangential * self.yields.1);
         let impedance = (self.stiffness * self.mass).sqrt();

@@ -62,14 +62,14 @@ pub fn ties(setup: &Setup) -> Result<Vec<Tie>, SetupError> {
     let reach: Vec<f64> = sorted.iter().map(|p| (p.radius + 0.5 * gap) * (1.0 + 1e-6)).collect();
     let points: Vec<Vec3> = sorted.iter().map(|p| p.position).collect();
     let mut used = vec![false; setup.bonds.len()];
-    let mut ties = Vec::new();
+    let (mut ties, period) = (Vec::new(), periods(&setup.periodic));
     for [i, j] in near(setup, &points, &reach) {
         let (a, b) = (sorted[i as usize], sorted[j as usize]);
         let is_of =
             |law: &Bond| law.between == (a.material, b.material) || law.between == (b.material, a.material);
         let Some(n) = setup.bonds.iter().position(is_of) else { continue };
         let law = &setup.bonds[n];
-        let arm = nearest(a.position - b.position, &periods(&setup.periodic));
+        let arm = nearest(a.position - b.position, &period);
         let length = arm.norm();
         // Places are told to so many digits.
         let digits = 4.0 * f64::EPSILON * (a.position.amax() + b.position.amax() + length);

@@ -10,7 +10,7 @@ use super::Tie;
 use super::beam::Beam;
 use super::find::ties;
 use crate::error::SetupError;
-use crate::limit::Limit;
+use crate::limit::{Limit, root};
 use crate::particles::mass;
 use crate::setup::{Material, Particle, Setup};
 use geom::Vec3;
@@ -94,11 +94,6 @@ pub fn tighten(limit: &mut Limit, setup: &Setup) -> Result<(), SetupError> {
     }
     limit.dt = with;
     Ok(())
-}
-
-/// The root of A Δt²/4 + B Δt = 1.
-fn root(a: f64, b: f64) -> f64 {
-    2.0 / ((a + b * b).sqrt() + b)
 }
 
 fn add(blocks: &mut [Matrix6<f64>], tie: &Tie, inverse: [Vector6<f64>; 2]) {
