@@ -16,6 +16,7 @@ libfuzzer_sys::fuzz_target!(|data: &[u8]| {
     // Also "auto" lengths; fills are not placed: a fill of a million grains takes its time, which is no fault.
     for keep in [Stage::Upstream, Stage::Downstream] {
         let plane = Plane { point: Vec3::zeros(), normal: -Vec3::z() };
-        let _ = split(&scene, &Cut { plane, keep, length: None, folder: "/nowhere".into() });
+        let cut = Cut { plane, keep, length: None, motion: Default::default(), test: Default::default(), folder: "/nowhere".into() };
+        let _ = split(&scene, &cut);
     }
 });

@@ -14,9 +14,11 @@ LENGTH=0.006
 TIMEFORMAT='%R %U %S'
 THREADS=${THREADS:-2}
 
+# Along recorded paths: in the mouth the fast pass the slow, and at constant velocity one in some thousands comes in through another.
 for keep in upstream downstream; do
-  stage-split $SCENE --at=$CUT --length $LENGTH --keep $keep -o "$OUT/$keep.toml" -q
+  stage-split $SCENE --at=$CUT --length $LENGTH --motion recorded --keep $keep -o "$OUT/$keep.toml" -q
 done
+SAMPLES=outlet.0.samples=2e-4 # s
 cd "$OUT"
 if [ -e downstream.mcap ] && [ -e upstream.mcap ]; then
   echo "sinter-box: both runs are there: measured only (make clean runs them again)" >&2
@@ -27,7 +29,7 @@ elif [ -e upstream.mcap ]; then
   { time stage-replay upstream.mcap --keep-times -q | dem-run downstream.toml - "${on[@]}" --threads "$THREADS" -q --report down.json -o downstream.mcap; } 2>> times
 else
   rm -f times
-  { time { dem-run upstream.toml --threads "$THREADS" -q --report up.json | tee upstream.new | stage-replay --keep-times -q \
+  { time { dem-run upstream.toml --set $SAMPLES --threads "$THREADS" -q --report up.json | tee upstream.new | stage-replay --keep-times -q \
     | dem-run downstream.toml - --threads "$THREADS" -q --report down.json -o downstream.mcap; }; } 2>> times
   mv upstream.new upstream.mcap
 fi

@@ -17,6 +17,7 @@ pub fn empty(law: Law, restitution: f64) -> Setup {
         walls: vec![],
         clumps: Clumps::default(),
         bonds: vec![],
+        entry_bonds: None,
         outlets: vec![],
         inlets: vec![],
         largest_entry: 0.0,

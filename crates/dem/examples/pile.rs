@@ -41,6 +41,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         walls: vec![floor],
         clumps: Clumps::default(),
         bonds: vec![],
+        entry_bonds: None,
         outlets: vec![],
         inlets: vec![],
         largest_entry: 0.0,

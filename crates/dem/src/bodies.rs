@@ -28,7 +28,7 @@ pub(crate) use flight::quaternion;
 pub use kinds::Yielding;
 pub use shape::ClumpShape;
 pub use state::BodyState;
-pub(crate) use turn::spun;
+pub use turn::spun;
 pub(crate) use whole::starts;
 
 use crate::lane::Row4;

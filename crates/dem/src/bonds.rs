@@ -20,15 +20,17 @@
 //! Crisfield (1990), Comput. Methods Appl. Mech. Eng. 81, doi:10.1016/0045-7825(90)90106-V.
 
 mod beam;
+mod cut;
 mod find;
 mod limit;
 
 pub(crate) use find::check;
+pub use limit::entries;
 pub(crate) use limit::tighten;
 
 use crate::error::SetupError;
 use crate::particles::Particles;
-use crate::setup::Setup;
+use crate::setup::{Link, Setup};
 use crate::simulation::Simulation;
 use crate::sums::{COUPLE, Sums};
 use crate::sweep::{FEW, share};
@@ -48,13 +50,30 @@ struct Tie {
     beam: Beam,
     /// σ_c and τ_c [Pa].
     strength: [f64; 2],
-    /// When it broke [s]; infinite while it is whole.
+    /// When it broke [s]; infinite while it is whole, `GONE` after one of both has left.
     broken: f64,
 }
+
+/// Time at which a bond broke that did not break.
+const GONE: f64 = f64::NEG_INFINITY;
 
 impl Tie {
     fn is_whole(&self) -> bool {
         self.broken == f64::INFINITY
+    }
+
+    /// Of both particles now.
+    fn ends(&self, particles: &Particles, turns: &[UnitQuaternion<f64>], period: &Vec3) -> Ends {
+        let [i, j] = self.ends.map(|k| k as usize);
+        let three = |row: &[f64]| Vec3::new(row[0], row[1], row[2]);
+        let velocity = |k: usize| three(&particles.rows[k][4..7]);
+        let spin = |k: usize| three(&particles.spins[k][..3]);
+        Ends {
+            arm: nearest(particles.position(i) - particles.position(j), period),
+            velocity: velocity(i) - velocity(j),
+            spin: [spin(i), spin(j)],
+            turn: [turns[i], turns[j]],
+        }
     }
 }
 
@@ -80,20 +99,24 @@ pub struct BondState {
 /// All bonds of a simulation.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Bonds {
-    /// By ids.
+    /// Whether the scene has any, or may get them.
+    on: bool,
+    /// By rows.
     ties: Vec<Tie>,
     /// What each does at this instant.
     pulls: Vec<Pull>,
-    /// How each particle has turned, by row; empty without bonds.
+    /// How each particle has turned, by row; empty where there are none.
     turns: Vec<UnitQuaternion<f64>>,
-    /// Step that turns are those of.
-    turned: u64,
     /// Energy of those that broke at this instant [J].
     lost: f64,
+    /// Of those that have left: how many, and how many of them were broken.
+    left: [usize; 2],
+    /// Of two that come in, one of whom is not here yet.
+    waiting: Vec<Link>,
     /// First entry of each particle, and one more.
     #[serde(skip)]
     starts: Vec<u32>,
-    /// Bond × 2, + 1 where the particle is j; in the order of the bonds.
+    /// Bond × 2, + 1 where the particle is j; by the id of the other.
     #[serde(skip)]
     entries: Vec<u32>,
 }
@@ -104,25 +127,26 @@ impl Bonds {
     /// # Errors
     /// Two centres at one place; a law for which there is no pair.
     pub fn new(setup: &Setup, particles: &Particles) -> Result<Bonds, SetupError> {
-        let mut bonds = Bonds::default();
-        if setup.bonds.is_empty() {
+        let mut bonds = Bonds { on: !setup.bonds.is_empty(), ..Bonds::default() };
+        if bonds.none() {
             return Ok(bonds);
         }
         bonds.ties = find::ties(setup)?;
         bonds.pulls = vec![Pull::default(); bonds.ties.len()];
         bonds.turns = vec![UnitQuaternion::identity(); particles.len()];
-        bonds.index();
+        bonds.index(&particles.id);
         Ok(bonds)
     }
 
-    /// Whether there is none.
+    /// Whether there is none, and never will be.
     pub fn none(&self) -> bool {
-        self.ties.is_empty()
+        !self.on
     }
 
-    /// How many there are, and how many have broken.
+    /// How many there were, of those that have left as well, and how many of them broke.
     pub fn count(&self) -> [usize; 2] {
-        [self.ties.len(), self.ties.iter().filter(|t| !t.is_whole()).count()]
+        let broken = self.ties.iter().filter(|t| t.broken.is_finite()).count();
+        [self.ties.len() + self.left[0], broken + self.left[1]]
     }
 
     /// Memory that bonds take [bytes].
@@ -145,24 +169,31 @@ impl Bonds {
         [self.pulls.iter().map(|p| p.power).sum(), self.lost]
     }
 
-    /// Follows the particles to their new places; `order` names the old ones. Nobody leaves where there are bonds.
-    pub fn reorder(&mut self, order: &[u32]) {
+    /// Follows the particles to their new places; `order` names the old ones of those that stay, `ids` are those of the new. Bonds lie in the
+    /// order of their particles, which are then fetched from near each other.
+    pub fn reorder(&mut self, order: &[u32], ids: &[u32]) {
         if self.none() {
             return;
         }
-        let mut new = vec![0; order.len()];
+        let mut new = vec![u32::MAX; self.turns.len()];
         for (now, &was) in (0u32..).zip(order) {
             new[was as usize] = now;
         }
-        for tie in &mut self.ties {
-            tie.ends = tie.ends.map(|k| new[k as usize]);
-        }
+        let count = self.count();
+        self.ties.iter_mut().for_each(|tie| tie.ends = tie.ends.map(|k| new[k as usize]));
+        let (ties, pulls) = (std::mem::take(&mut self.ties), std::mem::take(&mut self.pulls));
+        let mut kept: Vec<(Tie, Pull)> = ties.into_iter().zip(pulls).collect();
+        kept.retain(|(tie, _)| !tie.ends.contains(&u32::MAX));
+        kept.sort_unstable_by_key(|(tie, _)| (tie.ends[0].min(tie.ends[1]), tie.ends[0].max(tie.ends[1])));
+        (self.ties, self.pulls) = kept.into_iter().unzip();
+        let here = self.count();
+        self.left = [0, 1].map(|n| self.left[n] + count[n] - here[n]);
         self.turns = order.iter().map(|&was| self.turns[was as usize]).collect();
-        self.index();
+        self.index(ids);
     }
 
     /// Who has which bonds.
-    pub fn index(&mut self) {
+    pub fn index(&mut self, ids: &[u32]) {
         let mut starts = vec![0; self.turns.len() + 1];
         let ends = || self.ties.iter().flat_map(|t| t.ends);
         ends().for_each(|k| starts[k as usize + 1] += 1);
@@ -173,11 +204,17 @@ impl Bonds {
             self.entries[next[k as usize] as usize] = entry;
             next[k as usize] += 1;
         }
+        // Sums do not depend on the order of rows.
+        let ties = &self.ties;
+        let other = |&entry: &u32| ids[ties[(entry >> 1) as usize].ends[1 - (entry & 1) as usize] as usize];
+        for pair in starts.windows(2) {
+            self.entries[pair[0] as usize..pair[1] as usize].sort_unstable_by_key(other);
+        }
         self.starts = starts;
     }
 
-    /// Turns all particles by what they have turned in the last step of `dt` [s].
-    fn turn(&mut self, particles: &Particles, dt: f64) {
+    /// Turns all particles by what they have turned in the step of `dt` [s] that has just been made.
+    pub fn turn(&mut self, particles: &Particles, dt: f64) {
         let many = self.turns.len() >= FEW;
         let rows = particles.spins.chunks(CHUNK).zip(particles.turning.chunks(CHUNK));
         share(many, self.turns.chunks_mut(CHUNK).zip(rows).collect(), |(turns, (spins, turning))| {
@@ -189,29 +226,19 @@ impl Bonds {
         });
     }
 
-    /// What all bonds do, at a time [s]; those that break do nothing any more.
-    fn pull(&mut self, particles: &Particles, period: &Vec3, time: f64) {
+    /// What all bonds do, at a time [s]; those that break do nothing any more. None breaks while both of its particles travel (`busy`), which feel nothing.
+    fn pull(&mut self, particles: &Particles, period: &Vec3, (time, busy): (f64, &[bool])) {
         let (ties, turns) = (&self.ties, &self.turns);
         let pulls = self.pulls.chunks_mut(CHUNK).zip(ties.chunks(CHUNK));
         share(ties.len() >= FEW / 4, pulls.collect(), |(pulls, ties)| {
             for (pull, tie) in pulls.iter_mut().zip(ties).filter(|(_, tie)| tie.is_whole()) {
-                let [i, j] = tie.ends.map(|k| k as usize);
-                let row = |k: usize| &particles.rows[k];
-                let velocity = |k: usize| Vec3::new(row(k)[4], row(k)[5], row(k)[6]);
-                let spin =
-                    |k: usize| Vec3::new(particles.spins[k][0], particles.spins[k][1], particles.spins[k][2]);
-                let ends = Ends {
-                    arm: nearest(particles.position(i) - particles.position(j), period),
-                    velocity: velocity(i) - velocity(j),
-                    spin: [spin(i), spin(j)],
-                    turn: [turns[i], turns[j]],
-                };
-                *pull = tie.beam.pull(&ends);
+                *pull = tie.beam.pull(&tie.ends(particles, turns, period));
             }
         });
         self.lost = 0.0;
         for (pull, tie) in self.pulls.iter_mut().zip(&mut self.ties).filter(|(_, tie)| tie.is_whole()) {
-            if pull.stress.iter().zip(tie.strength).any(|(&now, most)| now > most) {
+            let travel = tie.ends.iter().all(|&k| busy.get(k as usize) == Some(&true));
+            if !travel && pull.stress.iter().zip(tie.strength).any(|(&now, most)| now > most) {
                 tie.broken = time;
                 self.lost += pull.elastic;
                 *pull = Pull { stress: pull.stress, ..Pull::default() };
@@ -250,11 +277,7 @@ impl Simulation {
             return;
         }
         let (period, time) = (self.period(), self.time());
-        if self.steps > self.bonds.turned {
-            self.bonds.turn(&self.particles, self.dt);
-            self.bonds.turned = self.steps;
-        }
-        self.bonds.pull(&self.particles, &period, time);
+        self.bonds.pull(&self.particles, &period, (time, self.zones.busy()));
     }
 
     /// Bonds of this instant, broken ones as well, by ids.
@@ -272,15 +295,18 @@ impl Simulation {
             ids: tie.ends.map(|k| p.id[k as usize]),
             middle: middle(tie.ends),
             size: [tie.beam.length, tie.beam.radius],
-            broken: (!tie.is_whole()).then_some(tie.broken),
+            broken: tie.broken.is_finite().then_some(tie.broken),
             force: pull.force.into(),
             moments: pull.moment.map(Into::into),
             stress: pull.stress,
         };
-        Ok(self.bonds.ties.iter().zip(&self.bonds.pulls).map(state).collect())
+        let here = self.bonds.ties.iter().zip(&self.bonds.pulls).filter(|(tie, _)| tie.broken != GONE);
+        let mut all: Vec<BondState> = here.map(state).collect();
+        all.sort_unstable_by_key(|b| b.ids);
+        Ok(all)
     }
 
-    /// How many bonds there were at the start, and how many have broken.
+    /// How many bonds there were at the start or have come in, and how many of them have broken.
     pub fn bond_count(&self) -> [usize; 2] {
         self.bonds.count()
     }

@@ -306,9 +306,15 @@ fn largest_radius(setup: &Setup) -> f64 {
 
 fn zones(setup: &Setup) -> Result<(), SetupError> {
     let diameter = 2.0 * largest_radius(setup);
+    let gap = setup.bonds.iter().map(|b| b.gap).fold(0.0, f64::max);
+    let own = if setup.bonds.is_empty() || setup.particles.is_empty() { 0.0 } else { diameter + gap };
+    let longest = setup.entry_bonds.map_or(own, |b| own.max(b.longest));
     for z in setup.outlets.iter().chain(&setup.inlets) {
         if !(z.length > diameter) {
             return Err(SetupError::ZoneTooShort { length: z.length, diameter });
+        }
+        if !(z.length > longest) {
+            return Err(SetupError::ZoneShorterThanBond { length: z.length, longest });
         }
     }
     Ok(())

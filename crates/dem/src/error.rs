@@ -54,6 +54,14 @@ pub enum SetupError {
         /// When it is due [s].
         time: f64,
     },
+    /// A zone that ends before both ends of a bond are past its plane.
+    #[error("zone of {length:.4e} m is not longer than a bond may be at rest, {longest:.4e} m: use at least {:.4e} m, or a smaller gap in [[bond]]", 1.2 * longest)]
+    ZoneShorterThanBond {
+        /// L [m].
+        length: f64,
+        /// Length of a bond at rest [m].
+        longest: f64,
+    },
     /// A zone that lets particles act across it.
     #[error("zone of {length:.4e} m is not longer than the largest particle diameter {diameter:.4e} m: use at least {:.4e} m", 1.2 * diameter)]
     ZoneTooShort {

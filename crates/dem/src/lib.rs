@@ -40,8 +40,8 @@ mod touching;
 mod walls;
 mod zones;
 
-pub use bodies::BodyState;
-pub use bonds::BondState;
+pub use bodies::{BodyState, spun};
+pub use bonds::{BondState, entries as bonds_of};
 pub use energy::Energy;
 pub use error::{Halt, SetupError};
 pub use explain::{EffectCost, Part, needed, parts};

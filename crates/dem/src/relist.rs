@@ -36,7 +36,7 @@ impl Simulation {
         self.particles.select(&order);
         self.zones.reorder(&order);
         self.bodies.reorder(&order);
-        self.bonds.reorder(&order);
+        self.bonds.reorder(&order, &self.particles.id);
         if let Some(sleepers) = &mut self.sleepers {
             sleepers.select(&order);
         }

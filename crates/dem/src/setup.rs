@@ -13,7 +13,7 @@ pub use crate::servo::Servo;
 pub use crate::sleep::Sleep;
 pub use bond::Bond;
 pub use zone::{
-    Crossing, Entry, EntryClump, Guide, Memory, PathSample, Sample, Springs, Touch, Zone, ZoneMotion,
+    Crossing, Entry, EntryBonds, EntryClump, Guide, Link, Memory, PathSample, Sample, Springs, Touch, Zone, ZoneMotion,
     ZoneTest,
 };
 
@@ -34,6 +34,8 @@ pub struct Setup {
     pub clumps: Clumps,
     /// Bonds between particles that are close at t = 0; empty where the scene has none.
     pub bonds: Vec<Bond>,
+    /// Bonds that inlets may bring, of which `bonds` is not empty then; `None`: they bring none.
+    pub entry_bonds: Option<EntryBonds>,
     /// Walls: they act on particles and are not moved by them.
     pub walls: Vec<Wall>,
     /// Storage planes with their zones (SYSTEMS B1–B3).

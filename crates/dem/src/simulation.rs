@@ -239,6 +239,7 @@ impl Simulation {
         }
         self.steps += 1;
         self.current = false;
+        self.bonds.turn(&self.particles, self.dt);
         if !self.zones.none() {
             self.move_zones();
         }
@@ -272,6 +273,7 @@ impl Simulation {
     fn prepare(&mut self) {
         if !self.zones.none() {
             self.admit();
+            self.admit_bonds();
         }
         if self.stale || self.lists_expired() {
             self.relist();

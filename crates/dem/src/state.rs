@@ -166,11 +166,11 @@ impl Simulation {
         }
         (sim.skin, sim.steps, sim.listed, sim.out) = (state.skin, state.steps, state.listed, state.out);
         (sim.particles, sim.zones, sim.account) = (state.particles, state.zones, state.account);
-        if sim.bonds.count()[0] != state.bonds.count()[0] {
+        if sim.bonds.none() != state.bonds.none() || sim.bonds.count()[0] > state.bonds.count()[0] {
             return Err(other("another number of bonds"));
         }
         (sim.bodies, sim.bonds) = (state.bodies, state.bonds);
-        sim.bonds.index();
+        sim.bonds.index(&sim.particles.id);
         (sim.fresh, sim.listings, sim.sleepers) = (state.fresh, state.listings, state.sleepers);
         if sim.pistons.len() != state.pistons.len() {
             return Err(other("one has walls that follow a force and the other has not"));

@@ -132,6 +132,11 @@ impl Zones {
             || self.travellers.iter().any(|t| t.start.id == id && matches!(t.way, travel::Way::In(_)))
     }
 
+    /// Whether one is to come in later.
+    pub(crate) fn waits(&self, id: u32) -> bool {
+        self.pending.iter().any(|e| e.particle.id == id)
+    }
+
     /// What contacts of a particle were told to remember, by their other particle; forgotten here.
     fn told(&mut self, id: u32) -> Vec<(u32, Springs)> {
         let told: Vec<_> = self.memories.range((id, 0)..=(id, u32::MAX)).map(|(k, s)| (k.1, *s)).collect();

@@ -5,7 +5,7 @@
 //!
 //! A rigid clump is one row: id of its first member, centre of mass, radius of the sphere that holds it; `clump` is its shape's index in the
 //! record `clumps`, 65535 for a sphere; `scale`, the quaternion that turns the frame its shape was given in, and its `mass` follow. Tables in
-//! which all are spheres have none of these columns.
+//! which all are spheres have none of these columns; where spheres may be bonded ([`crate::links`]), the quaternion alone says how each has turned.
 
 use crate::columns::Columns;
 use crate::error::SceneError;
@@ -60,6 +60,8 @@ pub struct Passage {
     pub contacts: u16,
     /// What makes it a rigid clump, and its mass [kg].
     pub clump: Option<(EntryClump, f64)>,
+    /// How a sphere has turned that may be bonded.
+    pub turn: Option<UnitQuaternion<f64>>,
 }
 
 impl Passage {
@@ -72,6 +74,7 @@ impl Passage {
             particle: c.particle,
             contacts: c.touching.len() as u16,
             clump: c.clump.map(|e| (e, mass(&e))),
+            turn: c.turn,
         }
     }
 }
@@ -115,45 +118,51 @@ pub fn to_table(rows: &[Passage]) -> Table {
         .with("material", Values::U16(rows.iter().map(|r| r.particle.material).collect()))
         .with("outlet", Values::U16(rows.iter().map(|r| r.outlet).collect()))
         .with("contacts", Values::U16(rows.iter().map(|r| r.contacts).collect()));
-    if rows.iter().all(|r| r.clump.is_none()) {
-        return table.0;
-    }
-    let of = |pick: fn(&EntryClump) -> f64, none: f64| {
-        rows.iter().map(move |r| r.clump.as_ref().map_or(none, |c| pick(&c.0)))
+    let turned = |table: Builder| {
+        let of = |pick: fn(&UnitQuaternion<f64>) -> f64| {
+            rows.iter().map(move |r| pick(&r.clump.map_or(r.turn.unwrap_or_default(), |c| c.0.orientation)))
+        };
+        table.f64("qw", of(|q| q.w)).f64("qx", of(|q| q.i)).f64("qy", of(|q| q.j)).f64("qz", of(|q| q.k))
     };
+    if rows.iter().all(|r| r.clump.is_none()) {
+        return if rows.iter().all(|r| r.turn.is_none()) { table.0 } else { turned(table).0 };
+    }
     let shape = |r: &Passage| r.clump.map_or(SPHERE, |c| c.0.shape as u16);
-    table
+    let table = table
         .with("clump", Values::U16(rows.iter().map(shape).collect()))
-        .f64("scale", of(|c| c.scale, 1.0))
-        .f64("qw", of(|c| c.orientation.w, 1.0))
-        .f64("qx", of(|c| c.orientation.i, 0.0))
-        .f64("qy", of(|c| c.orientation.j, 0.0))
-        .f64("qz", of(|c| c.orientation.k, 0.0))
-        .f64("mass", rows.iter().map(|r| r.clump.map_or(0.0, |c| c.1)))
-        .0
+        .f64("scale", rows.iter().map(|r| r.clump.map_or(1.0, |c| c.0.scale)));
+    turned(table).f64("mass", rows.iter().map(|r| r.clump.map_or(0.0, |c| c.1))).0
 }
 
-/// The clumps among the rows of a table.
-fn clumps(columns: &Columns) -> Result<Vec<Option<(EntryClump, f64)>>, SceneError> {
+/// What makes a row a clump, and its mass [kg]; how a sphere has turned.
+type Turned = (Option<(EntryClump, f64)>, Option<UnitQuaternion<f64>>);
+
+/// The clumps among the rows of a table, and how all have turned where it tells.
+fn turned(columns: &Columns) -> Result<Vec<Turned>, SceneError> {
     let rows = columns.table.rows();
-    let Some(shapes) = columns.indices("clump", f64::from(SPHERE))? else { return Ok(vec![None; rows]) };
-    let (scales, masses) = (columns.numbers("scale")?, columns.numbers("mass")?);
+    if columns.table.get("qw").is_none() {
+        return Ok(vec![(None, None); rows]);
+    }
     let (real, vector) = (columns.numbers("qw")?, columns.vectors(["qx", "qy", "qz"])?);
-    let mut all = vec![None; rows];
-    for (k, one) in all.iter_mut().enumerate().filter(|(k, _)| shapes[*k] != u32::from(SPHERE)) {
-        let q = Quaternion::new(real[k], vector[k].x, vector[k].y, vector[k].z);
-        if !((q.norm() - 1.0).abs() < 1e-9 && scales[k] > 0.0 && masses[k] > 0.0) {
-            let why = format!(
-                "row {k}: a clump of scale {}, mass {} kg and a quaternion of length {}",
-                scales[k],
-                masses[k],
-                q.norm()
-            );
-            return Err(SceneError::file(columns.name, why, "run stage-replay again"));
+    let wrong = |why: String| Err(SceneError::file(columns.name, why, "run stage-replay again"));
+    let mut all = Vec::with_capacity(rows);
+    for (row, (w, v)) in real.iter().zip(&vector).enumerate() {
+        let q = Quaternion::new(*w, v.x, v.y, v.z);
+        if !((q.norm() - 1.0).abs() < 1e-9) {
+            return wrong(format!("row {row}: a quaternion of length {}", q.norm()));
         }
         // As it was written: to normalize it again would change its last digits.
-        let orientation = UnitQuaternion::new_unchecked(q);
-        *one = Some((EntryClump { shape: shapes[k], scale: scales[k], orientation }, masses[k]));
+        all.push((None, Some(UnitQuaternion::new_unchecked(q))));
+    }
+    let Some(shapes) = columns.indices("clump", f64::from(SPHERE))? else { return Ok(all) };
+    let (scales, masses) = (columns.numbers("scale")?, columns.numbers("mass")?);
+    for (row, one) in all.iter_mut().enumerate().filter(|(row, _)| shapes[*row] != u32::from(SPHERE)) {
+        let (shape, scale, mass) = (shapes[row], scales[row], masses[row]);
+        if !(scale > 0.0 && mass > 0.0) {
+            return wrong(format!("row {row}: a clump of scale {scale} and mass {mass} kg"));
+        }
+        let orientation = one.1.take().unwrap_or_default();
+        one.0 = Some((EntryClump { shape, scale, orientation }, mass));
     }
     Ok(all)
 }
@@ -179,7 +188,7 @@ pub fn from_table(stream: &str, table: &Table, materials: usize) -> Result<Vec<P
     let material = need("material", materials as f64 - 1.0)?;
     let outlets = columns.indices("outlet", f64::from(u16::MAX))?;
     let contacts = columns.indices("contacts", f64::from(u16::MAX))?;
-    let clumps = clumps(&columns)?;
+    let turned = turned(&columns)?;
     let row = |i: usize| Passage {
         time: times[i],
         outlet: outlets.as_ref().map_or(0, |o| o[i] as u16),
@@ -192,7 +201,8 @@ pub fn from_table(stream: &str, table: &Table, materials: usize) -> Result<Vec<P
             spin: spins[i],
         },
         contacts: contacts.as_ref().map_or(0, |c| c[i] as u16),
-        clump: clumps[i],
+        clump: turned[i].0,
+        turn: turned[i].1,
     };
     Ok((0..times.len()).map(row).collect())
 }

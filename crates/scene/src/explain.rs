@@ -199,7 +199,7 @@ fn effects(setup: &Setup) -> Vec<(Effect, Option<Setup>)> {
     let bonds = setup.bonds.iter().map(|b| format!("{}–{}", name(b.between.0), name(b.between.1)));
     let bonds = bonds.collect::<Vec<_>>().join(", ");
     let why = format!("[[bond]] {bonds}");
-    let loose = Setup { bonds: Vec::new(), ..setup.clone() };
+    let loose = Setup { bonds: Vec::new(), entry_bonds: None, ..setup.clone() };
     add("bond", if bonds.is_empty() { bonds } else { why }, 0, Some(loose));
     add("gravity", named(setup.gravity.norm() > 0.0, "gravity"), 0, None);
     let dry = Setup { drag: None, ..setup.clone() };

@@ -270,7 +270,7 @@ impl Faucet {
         let position = across + axis * self.section.ranges[0].0;
         let (velocity, spin) = (self.velocity, Vec3::zeros());
         let particle = Particle { id, material: self.grains.material, radius, position, velocity, spin };
-        Ok(Some(Entry { time, inlet: self.inlet, particle, clump }))
+        Ok(Some(Entry { time, inlet: self.inlet, particle, clump, turn: None }))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::error::SceneError;
 use crate::plan::Feeds;
-use dem::setup::{Entry, Guide, Memory};
+use dem::setup::{Entry, Guide, Link, Memory};
 
 /// What a feed gives: a particle, or news of one that it gave.
 #[derive(Debug, Clone, Copy)]
@@ -10,6 +10,7 @@ pub(crate) enum Item {
     Enter(Entry),
     Guide { time: f64, id: u32, guide: Guide },
     Remember { time: f64, memory: Memory },
+    Link { time: f64, link: Link },
 }
 
 impl Item {
@@ -17,7 +18,7 @@ impl Item {
     pub fn time(&self) -> f64 {
         match self {
             Item::Enter(entry) => entry.time,
-            Item::Guide { time, .. } | Item::Remember { time, .. } => *time,
+            Item::Guide { time, .. } | Item::Remember { time, .. } | Item::Link { time, .. } => *time,
         }
     }
 }

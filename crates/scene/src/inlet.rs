@@ -6,10 +6,11 @@ use crate::error::SceneError;
 use crate::feeds::Item;
 use crate::gate::Gate;
 use crate::input::Said;
+use crate::links::{self, BONDS, LINKS, Linking};
 use crate::material_info::MaterialInfo;
 use crate::paths::{self, PATHS, Waypoint};
 use crate::touches::{self, TOUCHES, Touching};
-use dem::setup::{Entry, EntryClump, Guide, Sample, ZoneMotion};
+use dem::setup::{Entry, EntryBonds, EntryClump, Guide, Sample, ZoneMotion};
 use geom::{Plane, Shown};
 use std::collections::{BTreeMap, VecDeque};
 use std::io::Read;
@@ -41,6 +42,8 @@ pub struct InletStream {
     pub materials: Vec<MaterialInfo>,
     /// What it says of its clumps, by index.
     pub(crate) clumps: Vec<ClumpInfo>,
+    /// The bonds it can bring.
+    pub(crate) bonds: Option<EntryBonds>,
     /// Material of the scene for each of the stream's.
     pub(crate) to_scene: Vec<u16>,
     /// Clump of the scene for each of the stream's.
@@ -50,6 +53,8 @@ pub struct InletStream {
     pending: VecDeque<Passage>,
     /// What contacts of those that come have to remember.
     touches: VecDeque<Touching>,
+    /// Which of those that come are bonded.
+    links: VecDeque<Linking>,
     /// All passages before this time have been read [s].
     known: f64,
     last: f64,
@@ -75,7 +80,7 @@ impl InletStream {
         name: &str,
         reader: Reader<Source>,
         sizes: Sizes,
-        Said { gate, materials, clumps, only_clumps, .. }: Said,
+        Said { gate, materials, clumps, only_clumps, bonds, .. }: Said,
         first: Option<Event>,
     ) -> Result<InletStream, SceneError> {
         let mut stream = InletStream {
@@ -87,10 +92,12 @@ impl InletStream {
             to_shapes: (0..clumps.len() as u32).collect(),
             materials,
             clumps,
+            bonds,
             inlet: 0,
             reader,
             pending: VecDeque::new(),
             touches: VecDeque::new(),
+            links: VecDeque::new(),
             known: f64::NEG_INFINITY,
             last: f64::NEG_INFINITY,
             paths: Paths::default(),
@@ -162,6 +169,9 @@ impl InletStream {
             while let Some(t) = self.touches.pop_front_if(|t| t.time <= time) {
                 self.paths.made.push_back(Item::Remember { time, memory: t.memory });
             }
+            while let Some(l) = self.links.pop_front_if(|l| l.time <= time) {
+                self.paths.made.push_back(Item::Link { time, link: l.link });
+            }
             if self.recorded() {
                 self.paths.passed.insert(id, time);
                 self.paths.made.push_back(Item::Guide { time, id, guide: Guide::Free(sample(&passage)) });
@@ -198,7 +208,8 @@ impl InletStream {
         let mut particle = passage.particle;
         particle.material = self.to_scene[particle.material as usize];
         let shape = |c: EntryClump| EntryClump { shape: self.to_shapes[c.shape as usize], ..c };
-        Entry { time: passage.time, inlet: self.inlet, particle, clump: passage.clump.map(|c| shape(c.0)) }
+        let clump = passage.clump.map(|c| shape(c.0));
+        Entry { time: passage.time, inlet: self.inlet, particle, clump, turn: passage.turn }
     }
 
     fn take(&mut self, event: Event) -> Result<(), SceneError> {
@@ -212,6 +223,13 @@ impl InletStream {
             }
             Event::Points { topic, table, .. } if topic == TOUCHES => {
                 self.touches.extend(touches::from_table(&self.name, &table)?);
+            }
+            Event::Points { topic, table, .. } if topic == LINKS => {
+                if self.bonds.is_none() {
+                    let why = format!("has bonds ({LINKS}), which no record '{BONDS}' announces");
+                    return Err(SceneError::file(&self.name, why, "write the stream again"));
+                }
+                self.links.extend(links::from_table(&self.name, &table)?);
             }
             Event::Points { topic, table, .. } if topic == PATHS && self.recorded() => {
                 for way in paths::from_table(&self.name, &table, self.materials.len())? {
@@ -278,7 +296,8 @@ impl InletStream {
 
 fn sample(passage: &Passage) -> Sample {
     let p = &passage.particle;
-    Sample { time: passage.time, position: p.position, velocity: p.velocity, spin: p.spin }
+    let (time, turn) = (passage.time, passage.turn);
+    Sample { time, position: p.position, velocity: p.velocity, spin: p.spin, turn }
 }
 
 #[cfg(test)]
@@ -293,7 +312,7 @@ mod tests {
     fn passage(time: f64) -> Passage {
         let (position, velocity) = (Vec3::new(0.0, 0.0, 0.01 - time), Vec3::new(0.0, 0.0, -1.0));
         let particle = Particle { id: 1, material: 0, radius: 0.01, position, velocity, spin: Vec3::zeros() };
-        Passage { time, outlet: 0, particle, contacts: 0, clump: None }
+        Passage { time, outlet: 0, particle, contacts: 0, clump: None, turn: None }
     }
 
     /// Samples and one passage of a grain along a recorded path.
@@ -328,6 +347,7 @@ mod tests {
                 Item::Guide { guide: Guide::Free(_), .. } => 'F',
                 Item::Guide { guide: Guide::Gone, .. } => 'G',
                 Item::Remember { .. } => 'R',
+                Item::Link { .. } => 'L',
             });
         }
         found

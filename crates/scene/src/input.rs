@@ -5,10 +5,12 @@ use crate::crossings::{CROSSINGS, ONLY_CLUMPS, SIZES, Sizes, WATERMARK, topic};
 use crate::error::SceneError;
 use crate::gate::Gate;
 use crate::inlet::{INLET, InletStream, Source};
+use crate::links::{self, BONDS, LINKS};
 use crate::material_info::{self, MATERIALS, MaterialInfo};
 use crate::run::CLUMPS;
 use crate::touches::TOUCHES;
 use crate::wall_file::WallFile;
+use dem::setup::EntryBonds;
 use stream::mcap::{Event, McapError, Reader};
 
 /// Metadata record that every run has.
@@ -22,6 +24,7 @@ pub(crate) struct Said {
     pub only_clumps: bool,
     pub materials: Vec<MaterialInfo>,
     pub clumps: Vec<ClumpInfo>,
+    pub bonds: Option<EntryBonds>,
 }
 
 /// A stream, as far as it had to be read to know what it is.
@@ -59,6 +62,7 @@ impl Input {
                     said.only_clumps = map.contains_key(ONLY_CLUMPS);
                     said.sizes = Some(Sizes::from_map(name, map)?);
                 }
+                BONDS => said.bonds = Some(links::from_map(name, map)?),
                 SCENE => {
                     let why = "is a run, neither walls nor an inlet";
                     return Err(SceneError::file(
@@ -84,7 +88,7 @@ impl Input {
         said: Said,
     ) -> Result<Input, SceneError> {
         match (topic(&first).unwrap_or_default(), &first) {
-            (CROSSINGS | WATERMARK | TOUCHES, _) => Input::inlet(name, reader, Some(first), said),
+            (CROSSINGS | WATERMARK | TOUCHES | LINKS, _) => Input::inlet(name, reader, Some(first), said),
             ("/walls", Event::Points { table, .. }) => {
                 let walls = WallFile::new(name, table, said.materials)?;
                 // To the end, where the record is that tells a whole stream from a broken one.

@@ -20,6 +20,7 @@ mod forms;
 pub mod frames;
 pub mod gate;
 pub mod inlet;
+pub mod links;
 pub mod input;
 pub mod material_info;
 mod meeting;

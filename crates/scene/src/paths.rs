@@ -36,6 +36,7 @@ impl Waypoint {
             particle: sample.particle,
             contacts: 0,
             clump: None,
+            turn: sample.turn,
         };
         Waypoint { passage, gone: sample.gone }
     }

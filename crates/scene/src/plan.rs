@@ -10,7 +10,7 @@ use crate::material_info::MaterialInfo;
 use crate::model::{Arithmetic, DragLaw, Model, OrAuto};
 use crate::wall_file::WallFile;
 use crate::{Scene, bonds, contacts, fill, particle_file, walls};
-use dem::setup::{self, Guards, Particle, Setup, Step, Zone};
+use dem::setup::{self, EntryBonds, Guards, Particle, Setup, Step, Zone};
 use geom::{Shape, Vec3};
 use std::path::PathBuf;
 
@@ -52,6 +52,8 @@ pub(crate) struct Draft<'a> {
     pub outlets: Vec<Zone>,
     pub inlets: Vec<Zone>,
     pub entry_materials: Vec<u16>,
+    /// Bonds that inlets may bring.
+    pub entry_bonds: Option<EntryBonds>,
     pub entry_sizes: Option<Sizes>,
     /// The like without members of clumps.
     pub sphere_sizes: Option<Sizes>,
@@ -125,6 +127,7 @@ impl<'a> Draft<'a> {
             outlets: Vec::new(),
             inlets: Vec::new(),
             entry_materials: Vec::new(),
+            entry_bonds: None,
             entry_sizes: None,
             sphere_sizes: None,
             feeds: Feeds { faucets: Vec::new(), streams: Vec::new() },
@@ -285,6 +288,7 @@ impl<'a> Draft<'a> {
             particles: self.particles,
             clumps: self.clumps,
             bonds,
+            entry_bonds: self.entry_bonds,
             walls: self.walls,
             outlets: self.outlets,
             inlets: self.inlets,

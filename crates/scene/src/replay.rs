@@ -13,22 +13,22 @@ pub use frame::Frame;
 use crate::crossings::{self, CROSSINGS, Passage, SIZES, WATERMARK, Watermark};
 use crate::error::SceneError;
 use crate::inlet::{INLET, Source};
+use crate::links::{self, BONDS, LINKS, Linking};
 use crate::material_info::MATERIALS;
 use crate::paths::{self, PATHS, Waypoint};
 use crate::run::{CLUMPS, LOG, RunError};
 use crate::schedule::nanoseconds;
 use crate::touches::{self, TOUCHES, Touching};
 use copies::Merge;
-use dem::setup::{Memory, ZoneMotion};
+use dem::setup::{Link, Memory, ZoneMotion};
 use geom::{Plane, Shown};
 use head::Head;
-use order::{Generated, Order};
+use order::{Generated, Known, Order};
 use recall::Recall;
 use serde::{Deserialize, Serialize};
 use start::Starts;
 use std::collections::BTreeMap;
 use std::io::Write;
-use std::rc::Rc;
 use stream::Table;
 use stream::mcap::{Compression, Event, Provenance, Reader, Writer};
 
@@ -175,6 +175,9 @@ pub fn replay<W: Write>(
     if !head.clumps_record.is_empty() {
         writer.metadata(CLUMPS, head.clumps_record.clone())?;
     }
+    if !head.bonds_record.is_empty() {
+        writer.metadata(BONDS, head.bonds_record.clone())?;
+    }
     writer.metadata(REPLAY, what.to_map())?;
     // The last record: from it on, messages may come as late as a run upstream makes them.
     writer.metadata(INLET, head.gate.to_map())?;
@@ -188,6 +191,7 @@ pub fn replay<W: Write>(
         merge: Merge::new(what, head.gate.zone, head.gate.gravity.unwrap_or_default(), head.widest),
         held: Vec::new(),
         touches: BTreeMap::new(),
+        links: BTreeMap::new(),
         recall: Recall::default(),
         head,
         done: Replayed::default(),
@@ -231,9 +235,11 @@ struct Passing<'a> {
     order: Order,
     merge: Merge,
     /// The record, where it is replayed more than once.
-    held: Vec<(Passage, Rc<[Memory]>)>,
+    held: Vec<(Passage, Known)>,
     /// What contacts remember of those that pass in the rows that come next, by their id.
     touches: BTreeMap<u32, Vec<Memory>>,
+    /// And their bonds.
+    links: BTreeMap<u32, Vec<Link>>,
     recall: Recall,
     done: Replayed,
     /// Watermark of the run [s].
@@ -260,6 +266,12 @@ impl Passing<'_> {
                 }
                 Ok(false)
             }
+            Event::Points { topic, table, .. } if topic == LINKS => {
+                for Linking { link, .. } in links::from_table(self.name, &table)? {
+                    self.links.entry(link.id).or_default().push(link);
+                }
+                Ok(false)
+            }
             Event::Points { topic, table, .. } if topic == CROSSINGS => {
                 let rows = crossings::from_table(self.name, &table, self.head.materials.len())?;
                 for row in rows {
@@ -268,6 +280,7 @@ impl Passing<'_> {
                 }
                 // Of rows of other outlets and times.
                 self.touches.clear();
+                self.links.clear();
                 self.send(self.bound(), writer)?;
                 Ok(false)
             }
@@ -314,27 +327,29 @@ impl Passing<'_> {
         if row.outlet != self.what.outlet || !self.what.holds(row.time) {
             return Ok(());
         }
-        let touches = self.touches_of(&row);
+        let known = self.known_of(&row);
         if let Some(frame) = &self.what.frame {
             frame.passage(&mut row);
         }
         row.time -= *self.start.get_or_insert(row.time);
         row.outlet = 0;
         if self.what.repeat > 1 {
-            self.held.push((row, touches.clone()));
+            self.held.push((row, known.clone()));
         }
-        self.enter(row, touches, 0)
+        self.enter(row, known, 0)
     }
 
-    /// What the contacts of a passage remember.
-    fn touches_of(&mut self, row: &Passage) -> Rc<[Memory]> {
+    /// What a passage knows of others.
+    fn known_of(&mut self, row: &Passage) -> Known {
         let first = row.particle.id;
         let ids = (0..self.members(row)).map(|k| first.wrapping_add(k));
         let mut all: Vec<Memory> = ids.filter_map(|id| self.touches.remove(&id)).flatten().collect();
         if let Some(frame) = &self.what.frame {
             all.iter_mut().for_each(|m| m.springs = frame.springs(&m.springs));
         }
-        all.into()
+        // Bonds are told in a frame that turns with their grains.
+        let links = self.links.remove(&first).unwrap_or_default();
+        Known { touches: all.into(), links: links.into() }
     }
 
     /// Number of spheres of a passage.
@@ -364,16 +379,16 @@ impl Passing<'_> {
     }
 
     /// A passage as it enters, with its copies.
-    fn enter(&mut self, row: Passage, touches: Rc<[Memory]>, replay: u32) -> Result<(), SceneError> {
+    fn enter(&mut self, row: Passage, known: Known, replay: u32) -> Result<(), SceneError> {
         if self.recorded() {
-            self.order.put(Generated { row, copy: (0, 0), touches });
+            self.order.put(Generated { row, copy: (0, 0), known });
             return Ok(());
         }
         for (copy, mut row) in self.what.copies.of(row) {
             row.time += self.starts.place(self.name, &mut row)?;
             let past = self.head.gate.zone.past(&row.particle.position, row.particle.radius);
             self.done.near += u64::from(-past <= 2.0 * self.head.widest);
-            self.order.put(Generated { row, copy: (copy, replay), touches: touches.clone() });
+            self.order.put(Generated { row, copy: (copy, replay), known: known.clone() });
         }
         Ok(())
     }
@@ -405,9 +420,9 @@ impl Passing<'_> {
             let start = begins(&held[0].0, period, replay);
             self.send(start, writer)?;
             self.promise(start, writer)?;
-            for (row, touches) in &held {
+            for (row, known) in &held {
                 let time = begins(row, period, replay);
-                self.enter(Passage { time, ..*row }, touches.clone(), replay)?;
+                self.enter(Passage { time, ..*row }, known.clone(), replay)?;
                 self.send(time, writer)?;
             }
         }
@@ -416,15 +431,20 @@ impl Passing<'_> {
 
     /// Writes what is generated at a time or before.
     fn send<W: Write>(&mut self, bound: f64, writer: &mut Writer<W>) -> Result<(), RunError> {
-        let (mut rows, mut told) = (Vec::new(), Vec::new());
+        let (mut rows, mut told, mut bonded) = (Vec::new(), Vec::new(), Vec::new());
         while let Some(one) = self.order.next_until(bound) {
             let members = self.members(&one.row);
             let row = self.merge.pass(self.name, one.clone(), members)?;
-            told.extend(self.recall.with(&one, &row, (members, self.recorded())));
+            let (touches, links) = self.recall.with(&one, &row, (members, self.recorded()));
+            told.extend(touches);
+            bonded.extend(links);
             rows.push(row);
         }
         if let Some(last) = told.last() {
             writer.points(TOUCHES, nanoseconds(last.time), "world", touches::to_table(&told))?;
+        }
+        if let Some(last) = bonded.last() {
+            writer.points(LINKS, nanoseconds(last.time), "world", links::to_table(&bonded))?;
         }
         if let Some(last) = rows.last() {
             self.done.particles += rows.len() as u64;

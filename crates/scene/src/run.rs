@@ -11,6 +11,7 @@ use crate::model::Precision;
 use crate::moment::Moment;
 use crate::paths::{self, PATHS, Waypoint};
 use crate::schedule::{Schedule, nanoseconds};
+use crate::links::{self, LINKS};
 use crate::touches::{self, TOUCHES};
 use crate::{Plan, Scene, input::SCENE};
 use dem::setup::{Crossing, ZoneMotion};
@@ -275,6 +276,8 @@ impl<W: Write> Run<W> {
         let follows = plan.setup.walls.iter().any(|w| w.motion.servo.is_some());
         let wall_forces = scene.model.output.wall_forces || follows;
         let recorded = scene.model.output.contacts || wall_forces;
+        // What a stage downstream has to know of them.
+        let bonds = if zones.is_empty() { None } else { dem::bonds_of(&plan.setup)? };
         let mut sim = match resume {
             Some(saved) => Simulation::resume(plan.setup, saved.state)?,
             None => Simulation::new(plan.setup)?,
@@ -308,6 +311,9 @@ impl<W: Write> Run<W> {
         }
         if clumps {
             writer.metadata(CLUMPS, shapes)?;
+        }
+        if let Some(bonds) = bonds {
+            writer.metadata(links::BONDS, links::to_map(&bonds))?;
         }
         let mut run = Run {
             outcome: Outcome { dt: sim.dt(), chosen_by: plan.step, ..Outcome::default() },
@@ -393,6 +399,7 @@ impl<W: Write> Run<W> {
                 Item::Enter(entry) => self.sim.enter(entry)?,
                 Item::Guide { id, guide, .. } => self.sim.guide(id, guide)?,
                 Item::Remember { memory, .. } => self.sim.remember(memory),
+                Item::Link { link, .. } => self.sim.link(link),
             }
         }
         Ok(())
@@ -521,6 +528,10 @@ impl<W: Write> Run<W> {
             let touches = touches::of_crossings(&crossings);
             if touches.rows() > 0 {
                 self.writer.points(TOUCHES, now, FRAME, &touches)?;
+            }
+            let links = links::of_crossings(&crossings);
+            if !links.is_empty() {
+                self.writer.points(LINKS, now, FRAME, links::to_table(&links))?;
             }
             let rows: Vec<Passage> = crossings.iter().map(|c| Passage::new(c, &self.masses)).collect();
             self.writer.points(CROSSINGS, now, FRAME, crossings::to_table(&rows))?;

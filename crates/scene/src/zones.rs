@@ -9,7 +9,7 @@ use crate::input::Input;
 use crate::model::{Diameter, Insert, OrAuto};
 use crate::plan::Draft;
 use crate::walls;
-use dem::setup::{WallShape, Zone};
+use dem::setup::{EntryBonds, WallShape, Zone};
 use geom::Shown;
 
 impl Draft<'_> {
@@ -92,6 +92,11 @@ impl Draft<'_> {
         }
         let clumps = stream.clumps.clone();
         stream.to_shapes = self.clumps_of(&name, &clumps)?;
+        if stream.bonds.is_some() && self.model().bond.is_empty() {
+            let why = "brings bonds, and the scene has no [[bond]]";
+            return Err(SceneError::file(&name, why, "add the [[bond]]s of the stage upstream to this one"));
+        }
+        self.entry_bonds = EntryBonds::union(self.entry_bonds, stream.bonds);
         self.entry_sizes = Sizes::union(self.entry_sizes, Some(stream.sizes));
         if !stream.only_clumps {
             self.sphere_sizes = Sizes::union(self.sphere_sizes, Some(stream.sizes));

@@ -72,7 +72,7 @@ fn passage(time: f64, id: u32) -> Passage {
         velocity: Vec3::new(0.0, 0.0, -1.0),
         spin: zero,
     };
-    Passage { time, outlet: 0, particle, contacts: 0, clump: None }
+    Passage { time, outlet: 0, particle, contacts: 0, clump: None, turn: None }
 }
 
 /// A run with two crossings until 1 s and one until 2 s, as the parts that were flushed.

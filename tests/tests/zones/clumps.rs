@@ -133,7 +133,7 @@ fn a_clump_comes_in_as_it_was_recorded() {
     let mut down = Simulation::new(setup).expect("sound");
     let particle = Particle { position: c.particle.position - c.particle.velocity * ahead, ..c.particle };
     let clump = c.clump.map(|clump| clump.turned(&(c.particle.spin * -ahead)));
-    down.enter(Entry { time: c.time - ahead, inlet: 0, particle, clump }).expect("in time");
+    down.enter(Entry { time: c.time - ahead, inlet: 0, particle, clump, turn: None }).expect("in time");
     let mut whole = Simulation::new(Setup { outlets: vec![], ..upstream() }).expect("sound");
     for until in [0.1003, 0.2, 0.5] {
         run_until(&mut down, until);

@@ -1,6 +1,7 @@
 //! Storage, exclusion, generation and calculation planes, at the engine.
 
 mod ballistic;
+mod bonds;
 mod clumps;
 mod faces;
 mod left;
@@ -115,7 +116,7 @@ fn entry_becomes_free_at_the_calculation_plane() {
     let mut sim = Simulation::new(setup.clone()).expect("sound");
     let mut p = grain(3, Vec3::zeros());
     p.velocity.x = 1.0;
-    sim.enter(Entry { time: 0.020_05, inlet: 0, particle: p, clump: None }).expect("in time");
+    sim.enter(Entry { time: 0.020_05, inlet: 0, particle: p, clump: None, turn: None }).expect("in time");
     while sim.time() < 0.0199 {
         sim.step().expect("free");
     }
@@ -137,7 +138,7 @@ fn entry_becomes_free_at_the_calculation_plane() {
     let p = particles(&mut sim)[0];
     assert!((p.position.z + 0.5 * 9.81 * fall * fall).abs() < 1e-11, "{} after {fall} s", p.position.z);
     assert!((p.velocity.z + 9.81 * fall).abs() < 1e-11);
-    let late = sim.enter(Entry { time: 0.01, inlet: 0, particle: grain(4, Vec3::zeros()), clump: None });
+    let late = sim.enter(Entry { time: 0.01, inlet: 0, particle: grain(4, Vec3::zeros()), clump: None, turn: None });
     assert!(late.expect_err("too late").to_string().contains("time order"));
 }
 

@@ -49,7 +49,7 @@ fn tell(setup: Setup, until: f64, every: u64) -> Told {
 }
 
 fn sample(time: f64, p: &Particle) -> Sample {
-    Sample { time, position: p.position, velocity: p.velocity, spin: p.spin }
+    Sample { time, position: p.position, velocity: p.velocity, spin: p.spin, turn: None }
 }
 
 fn downstream(told: &Told) -> Simulation {
@@ -67,7 +67,7 @@ fn guided(mut setup: Setup, told: &Told) -> Simulation {
     paths.sort_by(|a, b| a.0[0].0.total_cmp(&b.0[0].0));
     for (samples, end) in paths {
         let (time, particle) = samples[0];
-        sim.enter(Entry { time, inlet: 0, particle, clump: None }).expect("in order");
+        sim.enter(Entry { time, inlet: 0, particle, clump: None, turn: None }).expect("in order");
         for (time, p) in &samples[1..] {
             sim.guide(p.id, Guide::At(sample(*time, p))).expect("in order");
         }
@@ -119,7 +119,7 @@ fn a_grain_that_goes_back_leaves_the_stage_downstream() {
     assert_eq!(down.particle_count(), 0);
     // The same grain may come again.
     let again =
-        Entry { time: last + 0.1, inlet: 0, particle: grain(1, Vec3::new(0.08, 0.0, 0.0)), clump: None };
+        Entry { time: last + 0.1, inlet: 0, particle: grain(1, Vec3::new(0.08, 0.0, 0.0)), clump: None, turn: None };
     down.enter(again).expect("its id is free again");
 }
 

@@ -39,8 +39,6 @@ pub fn check(setup: &Setup) -> Result<(), SetupError> {
     let apart = [
         (!setup.clumps.shapes.is_empty(), "clumps"),
         (setup.sleep.is_some(), "[sleep]"),
-        (!setup.outlets.is_empty(), "[[outlet]]"),
-        (!setup.inlets.is_empty(), "[[inlet]] or [[insert]]"),
     ];
     match apart.iter().find(|a| a.0) {
         Some(with) if !setup.bonds.is_empty() => Err(SetupError::BondWith(with.1)),
@@ -87,7 +85,8 @@ pub fn ties(setup: &Setup) -> Result<Vec<Tie>, SetupError> {
         let strength = [law.tensile_strength, law.shear_strength];
         ties.push(Tie { ends: [i, j], beam, strength, broken: f64::INFINITY });
     }
-    match used.iter().position(|used| !used) {
+    // Where others come in, those of a rule may be among them.
+    match used.iter().position(|used| !used).filter(|_| setup.inlets.is_empty()) {
         Some(n) => {
             let law = &setup.bonds[n];
             Err(SetupError::BondOfNobody { between: name(setup, law), gap: law.gap })

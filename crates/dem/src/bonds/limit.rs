@@ -12,7 +12,7 @@ use super::find::ties;
 use crate::error::SetupError;
 use crate::limit::{Limit, root};
 use crate::particles::mass;
-use crate::setup::{Material, Particle, Setup};
+use crate::setup::{EntryBonds, Material, Particle, Setup};
 use geom::Vec3;
 use nalgebra::{Matrix6, Vector6};
 
@@ -62,15 +62,9 @@ pub fn frequency(beam: &Beam, ends: [&Particle; 2], materials: &[Material]) -> f
     motions(beam).iter().map(square).fold(0.0, f64::max).sqrt()
 }
 
-/// Makes a limit so low that bonds are stable as well.
-///
-/// # Errors
-/// Bonds that are refused.
-pub fn tighten(limit: &mut Limit, setup: &Setup) -> Result<(), SetupError> {
-    if setup.bonds.is_empty() {
-        return Ok(());
-    }
-    let ties = ties(setup)?;
+/// Who bounds the step of bonds that are there at the start, and to what [s]; `None`: there are none.
+fn own(setup: &Setup) -> Result<Option<(f64, &Particle)>, SetupError> {
+    let ties = if setup.bonds.is_empty() { Vec::new() } else { ties(setup)? };
     let mut sorted: Vec<&Particle> = setup.particles.iter().collect();
     sorted.sort_unstable_by_key(|p| p.id);
     let mut blocks = vec![Matrix6::zeros(); sorted.len()];
@@ -78,19 +72,42 @@ pub fn tighten(limit: &mut Limit, setup: &Setup) -> Result<(), SetupError> {
         add(&mut blocks, tie, tie.ends.map(|k| inverse(sorted[k as usize], &setup.materials)));
     }
     let largest = |block: &Matrix6<f64>| block.symmetric_eigenvalues().max();
-    let all = blocks.iter().map(largest).enumerate();
-    let Some((worst, square)) = all.max_by(|a, b| a.1.total_cmp(&b.1)) else { return Ok(()) };
+    let all = blocks.iter().map(largest).zip(sorted);
+    let Some((square, worst)) = all.max_by(|a, b| a.0.total_cmp(&b.0)) else { return Ok(None) };
     let lag = ties.iter().map(|t| t.beam.lag).fold(0.0, f64::max);
-    let alone = root(square, square * lag);
+    Ok((!ties.is_empty()).then_some((root(square, square * lag), worst)))
+}
+
+/// What a stage downstream has to know of the bonds of a setup.
+///
+/// # Errors
+/// Bonds that are refused.
+pub fn entries(setup: &Setup) -> Result<Option<EntryBonds>, SetupError> {
+    let gap = setup.bonds.iter().map(|b| b.gap).fold(0.0, f64::max);
+    let largest = setup.particles.iter().map(|p| p.radius).fold(0.0, f64::max);
+    let mine = own(setup)?.map(|(step, _)| EntryBonds { step, longest: 2.0 * largest + gap });
+    Ok(EntryBonds::union(mine, setup.entry_bonds))
+}
+
+/// Makes a limit so low that bonds are stable as well.
+///
+/// # Errors
+/// Bonds that are refused.
+pub fn tighten(limit: &mut Limit, setup: &Setup) -> Result<(), SetupError> {
+    let (own, coming) = (own(setup)?, setup.entry_bonds.map_or(f64::INFINITY, |b| b.step));
+    let alone = own.map_or(coming, |(step, _)| step.min(coming));
     let with = 1.0 / (1.0 / limit.dt + 1.0 / alone);
     if with < 0.9 * limit.dt {
-        let p = sorted[worst];
-        let name = &setup.materials[p.material as usize].name;
         let rest = if limit.dt.is_finite() { format!("; {}", limit.pair) } else { String::new() };
-        limit.pair = format!(
-            "the bonds of particle {} ({name}, radius {:.4e} m, alone {alone:.4e} s){rest}",
-            p.id, p.radius
-        );
+        let whose = match own.filter(|(step, _)| *step == alone) {
+            None => "that come in".to_owned(),
+            Some((_, p)) => {
+                let name = &setup.materials[p.material as usize].name;
+                format!("of particle {} ({name}, radius {:.4e} m", p.id, p.radius)
+            }
+        };
+        let joint = if whose.contains('(') { ", " } else { " (" };
+        limit.pair = format!("the bonds {whose}{joint}alone {alone:.4e} s){rest}");
     }
     limit.dt = with;
     Ok(())

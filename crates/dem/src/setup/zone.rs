@@ -124,6 +124,8 @@ pub struct Entry {
     pub particle: Particle,
     /// What makes it a rigid clump.
     pub clump: Option<EntryClump>,
+    /// Of a sphere that may be bonded: how it has turned by then since that was so; `None`: not at all.
+    pub turn: Option<UnitQuaternion<f64>>,
 }
 
 /// The shape of an entry or a crossing that is a rigid clump.
@@ -167,6 +169,8 @@ pub struct Sample {
     pub velocity: Vec3,
     /// [rad/s].
     pub spin: Vec3,
+    /// As in [`Entry`].
+    pub turn: Option<UnitQuaternion<f64>>,
 }
 
 /// News of a particle on its way in along a recorded path, that begins with its [`Entry`].
@@ -187,6 +191,8 @@ pub struct PathSample {
     pub outlet: u32,
     /// Its state.
     pub particle: Particle,
+    /// How it has turned, where there are bonds.
+    pub turn: Option<UnitQuaternion<f64>>,
     /// Whether it has gone back upstream, out of reach of the plane.
     pub gone: bool,
 }
@@ -203,8 +209,52 @@ pub struct Crossing {
     pub particle: Particle,
     /// What makes it a rigid clump.
     pub clump: Option<EntryClump>,
+    /// How it has turned by then, where there are bonds.
+    pub turn: Option<UnitQuaternion<f64>>,
     /// Its contacts, or those of all members.
     pub touching: Vec<Touch>,
+    /// Its bonds that are whole.
+    pub links: Vec<Link>,
+}
+
+/// A bond of one that crosses, or of two that come in.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Link {
+    /// Id of the particle that crosses, or of one that comes in.
+    pub id: u32,
+    /// Id of the other.
+    pub partner: u32,
+    /// Direction from `partner` to `id` when they were bonded; how both have turned is counted from then.
+    pub axis: Vec3,
+    /// Length L and radius r at rest [m].
+    pub size: [f64; 2],
+    /// E and G [Pa].
+    pub moduli: [f64; 2],
+    /// Dashpots over springs [s].
+    pub lag: f64,
+    /// σ_c and τ_c [Pa]; infinite: it never breaks.
+    pub strength: [f64; 2],
+}
+
+/// What bonds inlets may bring.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct EntryBonds {
+    /// Critical step of those bonds alone [s].
+    pub step: f64,
+    /// Length of the longest at rest [m].
+    pub longest: f64,
+}
+
+impl EntryBonds {
+    /// What holds for both.
+    pub fn union(a: Option<EntryBonds>, b: Option<EntryBonds>) -> Option<EntryBonds> {
+        match (a, b) {
+            (Some(a), Some(b)) => {
+                Some(EntryBonds { step: a.step.min(b.step), longest: a.longest.max(b.longest) })
+            }
+            _ => a.or(b),
+        }
+    }
 }
 
 /// One contact of a crossing.

@@ -12,6 +12,7 @@ use crate::energy::carried;
 use crate::setup::{Crossing, Particle, Touch};
 use crate::simulation::Simulation;
 use geom::Vec3;
+use nalgebra::UnitQuaternion;
 
 impl Simulation {
     pub(super) fn find_crossings(&mut self) {
@@ -83,7 +84,8 @@ impl Simulation {
             }
             self.bodies.take(k);
             let way = Way::Out(crossing.outlet);
-            let traveller = Traveller { at, since, start, centre, lead, turn, way };
+            let turned = crossing.turn;
+            let traveller = Traveller { at, since, start, centre, lead, turn, turned, way };
             self.carry_on(&traveller, self.time());
             self.zones.travellers.push(traveller);
         }
@@ -128,7 +130,9 @@ impl Simulation {
             None => (self.sphere_back(k, back), None),
             Some((particle, clump)) => (particle, Some(clump)),
         };
-        Crossing { time, outlet, particle, clump, touching }
+        let turn = self.turn_back(k, back);
+        let links = self.bonds.links(k, &self.particles.id);
+        Crossing { time, outlet, particle, clump, turn, touching, links }
     }
 
     /// Velocity and acceleration of what is tested in the name of particle `k`.
@@ -136,6 +140,14 @@ impl Simulation {
         let (row, a) = (&self.particles.rows[k], self.particles.acceleration[k]);
         let own = (Vec3::new(row[4], row[5], row[6]), Vec3::new(a[0], a[1], a[2]));
         self.bodies.motion_at(k).unwrap_or(own)
+    }
+
+    /// How particle `k` had turned a time `back` [s] before the end of the step.
+    fn turn_back(&self, k: usize, back: f64) -> Option<UnitQuaternion<f64>> {
+        let turn = self.bonds.turn_of(k)?;
+        let (w, a) = (&self.particles.spins[k], &self.particles.turning[k]);
+        let by = [0, 1, 2].map(|axis| (0.5 * self.dt * a[axis] - w[axis]) * back);
+        Some(crate::bodies::spun(&Vec3::from(by)) * turn)
     }
 
     /// State of a sphere a time `back` [s] before the end of the step.

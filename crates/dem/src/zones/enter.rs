@@ -25,7 +25,7 @@ impl Zones {
             return Err(SetupError::ClumpOutlet(name));
         }
         let path = match zone.motion {
-            ZoneMotion::Recorded => Some(Path::new(entry.time, &entry.particle)),
+            ZoneMotion::Recorded => Some(Path::new(&entry)),
             _ => {
                 arrives(&entry, zone, setup)?;
                 None
@@ -168,8 +168,11 @@ impl Simulation {
             if let Some(sleepers) = &mut self.sleepers {
                 sleepers.push();
             }
-            let way = Way::In(e.inlet);
-            self.zones.travellers.push(Traveller { at, since: e.time, start, centre, lead, turn, way });
+            let (way, turned) = (Way::In(e.inlet), e.turn);
+            let traveller = Traveller { at, since: e.time, start, centre, lead, turn, turned, way };
+            let now_turned = traveller.has_turned(now, &flow, &self.zones);
+            self.bonds.push(Some(now_turned));
+            self.zones.travellers.push(traveller);
         }
     }
 }

@@ -9,14 +9,24 @@
 use super::Zones;
 use super::travel::Flow;
 use crate::error::SetupError;
-use crate::setup::{Guide, Particle, PathSample, Sample, Setup};
+use crate::bodies::spun;
+use crate::setup::{Entry, Guide, Particle, PathSample, Sample, Setup};
 use crate::simulation::Simulation;
 use geom::Vec3;
+use nalgebra::UnitQuaternion;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeSet, VecDeque};
 
 /// Samples begin this much farther from the plane than the zone is long, so that the first of them is before the zone.
 const EARLY: f64 = 1.25;
+
+/// Vector of the turn that leads from one orientation to another [rad], the short way.
+fn between(from: &UnitQuaternion<f64>, to: &UnitQuaternion<f64>) -> Vec3 {
+    let q = to * from.inverse();
+    let (w, v) = if q.w < 0.0 { (-q.w, -q.imag()) } else { (q.w, q.imag()) };
+    let sine = v.norm();
+    if sine > 0.0 { v * (2.0 * libm::atan2(sine, w) / sine) } else { v }
+}
 
 /// How a path ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -45,8 +55,9 @@ pub enum Stage {
 }
 
 impl Path {
-    pub fn new(time: f64, p: &Particle) -> Path {
-        let first = Sample { time, position: p.position, velocity: p.velocity, spin: p.spin };
+    pub fn new(entry: &Entry) -> Path {
+        let (p, Entry { time, turn, .. }) = (&entry.particle, *entry);
+        let first = Sample { time, position: p.position, velocity: p.velocity, spin: p.spin, turn };
         Path { samples: VecDeque::from([first]), end: End::Open }
     }
 
@@ -60,6 +71,17 @@ impl Path {
             _ if self.samples.back().is_some_and(|last| last.time > now) => Stage::Inside,
             End::Free => Stage::Free,
             End::Gone => Stage::Gone,
+        }
+    }
+
+    /// How who follows it has turned by `now` [s]: evenly between two samples.
+    pub fn turned(&self, now: f64) -> UnitQuaternion<f64> {
+        let Some(a) = self.samples.front() else { return UnitQuaternion::identity() };
+        let first = a.turn.unwrap_or_default();
+        let tau = (now - a.time).max(0.0);
+        match self.samples.get(1) {
+            None => spun(&(a.spin * tau)) * first,
+            Some(b) => spun(&(between(&first, &b.turn.unwrap_or_default()) * (tau / (b.time - a.time)))) * first,
         }
     }
 
@@ -178,7 +200,7 @@ impl Simulation {
             let velocity = Vec3::new(row[4], row[5], row[6]);
             let (material, radius) = (self.particles.material[k], row[3]);
             let particle = Particle { id, material, radius, position, velocity, spin };
-            out.push(PathSample { outlet: outlet as u32, particle, gone: false });
+            out.push(PathSample { outlet: outlet as u32, particle, turn: self.bonds.turn_of(k), gone: false });
         }
         out[first..].sort_unstable_by_key(|s| s.particle.id);
         let now: BTreeSet<u32> = out[first..].iter().map(|s| s.particle.id).collect();
@@ -197,7 +219,7 @@ impl Simulation {
             let velocity = Vec3::new(row[4], row[5], row[6]);
             let (material, radius, spin) = (self.particles.material[k], row[3], Vec3::zeros());
             let particle = Particle { id, material, radius, position, velocity, spin };
-            out.push(PathSample { outlet: outlet as u32, particle, gone: true });
+            out.push(PathSample { outlet: outlet as u32, particle, turn: None, gone: true });
         }
     }
 }

@@ -8,6 +8,7 @@ use crate::lane::Row4;
 use crate::setup::{Particle, Setup, Zone};
 use crate::simulation::Simulation;
 use geom::Vec3;
+use nalgebra::UnitQuaternion;
 use serde::{Deserialize, Serialize};
 
 /// Which zone a traveller is in.
@@ -30,6 +31,8 @@ pub struct Traveller {
     pub lead: f64,
     /// Principal axes of the clump to space at that time.
     pub turn: Option<[f64; 4]>,
+    /// How a sphere had turned by then that may be bonded.
+    pub turned: Option<UnitQuaternion<f64>>,
     pub way: Way,
 }
 
@@ -92,6 +95,14 @@ impl Traveller {
         Flow::after(time - self.since, &self.start, a)
     }
 
+    /// How it has turned by `time` [s], in the flow of then.
+    pub fn has_turned(&self, time: f64, flow: &Flow, zones: &Zones) -> UnitQuaternion<f64> {
+        if let (Way::In(_), Some(path)) = (self.way, zones.paths.get(&self.start.id)) {
+            return path.turned(time);
+        }
+        spun(&(flow.spin * (time - self.since))) * self.turned.unwrap_or_default()
+    }
+
     pub fn zone<'a>(&self, zones: &'a Zones) -> &'a Zone {
         match self.way {
             Way::Out(o) => &zones.outlets[o as usize],
@@ -135,6 +146,9 @@ impl Simulation {
         let flow = t.centre_flow(time, &self.zones, &self.setup);
         let (centre, own) = (t.centre + flow.shift, t.own(flow, time));
         self.place(t.at as usize, t.start.position + own.shift, &own);
+        if !self.bonds.none() {
+            self.bonds.put_turn(t.at as usize, t.has_turned(time, &flow, &self.zones));
+        }
         if let Some(turn) = &t.turn {
             let turned = spun(&(flow.spin * (time - t.since).max(0.0))) * quaternion(turn);
             self.bodies.carry(t.at as usize, centre, flow.velocity, (turned, flow.spin));
@@ -180,10 +194,11 @@ impl Simulation {
     /// Out of everyone's reach until the next listing drops it.
     fn exclude(&mut self, k: usize) {
         if self.setup.ledger {
-            let held = self.held(k);
+            let held = self.held(k) + self.bonds.held(k);
             self.account.left += held;
             self.account.passed += held;
         }
+        self.bonds.leave(k);
         self.zones.left.push((k as u32, self.particles.home[k]));
         // Each to a place of its own: two at one place would overlap.
         let far = [-1e100 * (k + 1) as f64; 3];

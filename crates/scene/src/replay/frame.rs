@@ -42,6 +42,7 @@ impl Frame {
         if let Some((clump, _)) = &mut row.clump {
             clump.orientation = self.turn * clump.orientation;
         }
+        row.turn = row.turn.map(|turn| self.turn * turn);
     }
 
     /// What a contact remembers.

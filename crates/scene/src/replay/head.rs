@@ -5,6 +5,7 @@ use crate::clump_info::{self, ClumpInfo};
 use crate::crossings::{SIZES, Sizes};
 use crate::error::SceneError;
 use crate::gate::Gate;
+use crate::links::BONDS;
 use crate::material_info::MATERIALS;
 use crate::run::{CLUMPS, OUTLETS};
 use dem::setup::{Zone, ZoneMotion};
@@ -21,6 +22,8 @@ pub struct Head {
     pub clumps_record: BTreeMap<String, String>,
     /// How many spheres each has.
     pub members: Vec<u32>,
+    /// What bonds may come: the record, or an empty one.
+    pub bonds_record: BTreeMap<String, String>,
     /// Where grains come in.
     pub gate: Gate,
 }
@@ -89,6 +92,7 @@ pub fn head(
         return Err(SceneError::file(name, why, format!("use at least {} m", Shown(2.4 * widest))));
     }
     let materials = records.remove(MATERIALS).ok_or_else(|| no_run(MATERIALS))?;
+    let bonds_record = records.remove(BONDS).unwrap_or_default();
     let gate = Gate { zone, ..recorded };
-    Ok(Head { materials, sizes_record, widest, clumps_record, members, gate })
+    Ok(Head { materials, sizes_record, widest, clumps_record, members, bonds_record, gate })
 }

@@ -1,18 +1,27 @@
 //! Keeps passages in the order in which they are generated.
 
 use crate::crossings::Passage;
-use dem::setup::Memory;
+use dem::setup::{Link, Memory};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::collections::binary_heap::PeekMut;
 use std::rc::Rc;
 
-/// A passage that is generated, which copy of it, and what its contacts remembered.
+/// A passage that is generated, which copy of it, and what it knows of others.
 #[derive(Clone)]
 pub struct Generated {
     pub row: Passage,
     pub copy: (u32, u32),
+    pub known: Known,
+}
+
+/// What a passage knows of others.
+#[derive(Clone)]
+pub struct Known {
+    /// What its contacts remember.
     pub touches: Rc<[Memory]>,
+    /// Its bonds.
+    pub links: Rc<[Link]>,
 }
 
 /// Passages that wait for those that may be generated before them; no more than pass in the time that one may wait.

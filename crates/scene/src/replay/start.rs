@@ -76,6 +76,7 @@ impl Starts {
         if let Some((clump, _)) = &mut row.clump {
             *clump = clump.turned(&(particle.spin * -before));
         }
+        row.turn = row.turn.map(|turn| dem::spun(&(particle.spin * -before)) * turn);
         Ok(waits)
     }
 
