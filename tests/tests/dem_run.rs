@@ -481,8 +481,6 @@ fn bonds_that_nobody_has_or_that_are_not_followed_are_refused() {
     says(&format!("{BOND}\nradius = 2"), "", &["unknown key 'radius'", "radius_ratio"]);
     let sleep = "[sleep]\nspeed = 0.01\n";
     says(BOND, sleep, &["bond: not available yet with [sleep]", "leave out one of them"]);
-    let outlet = "[[outlet]]\nplane = \"0,0,0.02,0,0,-1\"\n";
-    says(BOND, outlet, &["bond: not available yet with [[outlet]]"]);
     let narrow = "[domain]\nperiodic = [\"y\"]\nlow = [0, -0.04, 0]\nhigh = [0, 0.04, 0]\n";
     says(
         &with("1e-6", "0.02"),

@@ -154,8 +154,14 @@ fn ledger_closes_with_inlet_and_outlet() {
             let mut p = grain(k, Vec3::new(0.0, 0.002 * f64::from(k % 3), 0.012 + 0.021 * f64::from(k % 2)));
             p.velocity = Vec3::new(0.6 + 0.1 * f64::from(k % 2), 0.0, 0.0);
             p.spin.y = 5.0;
-            sim.enter(Entry { time: 0.045 * f64::from(k / 2), inlet: 0, particle: p, clump: None, turn: None })
-                .expect("in time");
+            sim.enter(Entry {
+                time: 0.045 * f64::from(k / 2),
+                inlet: 0,
+                particle: p,
+                clump: None,
+                turn: None,
+            })
+            .expect("in time");
         }
         run_until(&mut sim, 0.9);
         let e = sim.energy().expect("sound");

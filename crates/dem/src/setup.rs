@@ -13,8 +13,8 @@ pub use crate::servo::Servo;
 pub use crate::sleep::Sleep;
 pub use bond::Bond;
 pub use zone::{
-    Crossing, Entry, EntryBonds, EntryClump, Guide, Link, Memory, PathSample, Sample, Springs, Touch, Zone, ZoneMotion,
-    ZoneTest,
+    Crossing, Entry, EntryBonds, EntryClump, Guide, Link, Memory, PathSample, Sample, Springs, Touch, Zone,
+    ZoneMotion, ZoneTest,
 };
 
 /// Everything that a run needs. SI units throughout.

@@ -1,7 +1,7 @@
 //! Bonds of what passes a storage plane, as a table: with whom, and all that makes the beam.
 //!
 //! Topic `/crossings/bonds`, written before the rows of `/crossings` that it belongs to. A row for each bond that was whole when a particle passed: `id`,
-//! `partner`, the direction from `partner` to `id` when they were bonded (`axisx`…), `length` and `radius` of the beam [m], `young` and `shear_modulus` [Pa], `lag`
+//! `partner`, the direction from `partner` to `id` when they were bonded (`axisx`…), `length` and `radius` of the beam [m], the springs `stretching` [N/m], `bending` and `torsion` [N·m/rad], `lag`
 //! (dashpots over springs [s]), `tensile_strength` and `shear_strength` [Pa] (infinite: it never breaks); x y z is where the particle was. How particles have
 //! turned since they were bonded is in their own rows. The record `bonds` says what all of them ask of a time step.
 //!
@@ -52,8 +52,9 @@ pub fn to_table(rows: &[Linking]) -> Table {
         .vectors(["axisx", "axisy", "axisz"], rows, |r| r.link.axis)
         .f64("length", number(|l| l.size[0]))
         .f64("radius", number(|l| l.size[1]))
-        .f64("young", number(|l| l.moduli[0]))
-        .f64("shear_modulus", number(|l| l.moduli[1]))
+        .f64("stretching", number(|l| l.springs[0]))
+        .f64("bending", number(|l| l.springs[1]))
+        .f64("torsion", number(|l| l.springs[2]))
         .f64("lag", number(|l| l.lag))
         .f64("tensile_strength", number(|l| l.strength[0]))
         .f64("shear_strength", number(|l| l.strength[1]))
@@ -74,9 +75,8 @@ pub fn from_table(stream: &str, table: &Table) -> Result<Vec<Linking>, SceneErro
     let (ids, partners) = (need("id")?, need("partner")?);
     let (times, places) = (columns.numbers("time")?, columns.vectors(["x", "y", "z"])?);
     let axes = columns.vectors(["axisx", "axisy", "axisz"])?;
-    let numbers = ["length", "radius", "young", "shear_modulus", "lag"].map(|c| columns.numbers(c));
-    let [length, radius, young, shear, lag] = numbers;
-    let (length, radius, young, shear, lag) = (length?, radius?, young?, shear?, lag?);
+    let (length, radius, lag) = (columns.numbers("length")?, columns.numbers("radius")?, columns.numbers("lag")?);
+    let springs = columns.vectors(["stretching", "bending", "torsion"])?;
     let strength = |column: &str| {
         // Infinite ones never break.
         let found = columns.optional(column).filter(|all| all.iter().all(|s| *s > 0.0));
@@ -90,26 +90,24 @@ pub fn from_table(stream: &str, table: &Table) -> Result<Vec<Linking>, SceneErro
             partner: partners[k],
             axis: axes[k],
             size: [length[k], radius[k]],
-            moduli: [young[k], shear[k]],
+            springs: springs[k].into(),
             lag: lag[k],
             strength: [tension[k], shears[k]],
         };
         let sound = (link.axis.norm() - 1.0).abs() < 1e-9
-            && link.size.iter().chain(&link.moduli).all(|x| *x > 0.0)
+            && link.size.iter().chain(&link.springs).all(|x| *x > 0.0)
             && link.lag >= 0.0
             && link.id != link.partner;
         if sound {
             return Ok(Linking { time: times[k], place: places[k], link });
         }
         let why = format!(
-            "row {k} of {LINKS}: a bond of {} and {} with an axis of length {}, {} m long, radius {} m, moduli {} and {} Pa, lag {} s",
+            "row {k} of {LINKS}: a bond of {} and {} with an axis of length {}, length and radius {:?} m, springs {:?}, lag {} s",
             link.id,
             link.partner,
             link.axis.norm(),
-            link.size[0],
-            link.size[1],
-            link.moduli[0],
-            link.moduli[1],
+            link.size,
+            link.springs,
             link.lag
         );
         Err(SceneError::file(stream, why, cure))

@@ -1,5 +1,6 @@
 //! A plant cut in two: the stages are scenes, crossings keep their intervals, and pipes change no byte.
 
+mod bonds;
 mod clumps;
 mod live;
 mod marks;
@@ -7,11 +8,12 @@ mod motions;
 mod paths;
 mod replays;
 
-use grainpipe_tests::scenes::{ABOVE, AT, SINTER};
+use grainpipe_tests::scenes::{ABOVE, AT, SINTER, folder, write};
 use grainpipe_tests::tools::{line, succeed, tool};
 use scene::crossings::{Passage, from_table};
 use std::fs;
 use std::path::Path;
+use stream::Table;
 use stream::mcap::{Event, Reader};
 use tempfile::{TempDir, tempdir};
 
@@ -24,10 +26,16 @@ fn text() -> String {
 
 /// A folder with the plant and both of its stages.
 fn plant() -> TempDir {
-    let folder = tempdir().unwrap();
-    fs::write(folder.path().join("plant.toml"), text()).unwrap();
+    plant_of(&text(), &[], &[])
+}
+
+/// The like of any plant, with files that it names, and options of the cut.
+fn plant_of(text: &str, files: &[(&str, &str)], options: &[&str]) -> TempDir {
+    let folder = folder(files);
+    write(folder.path(), "plant.toml", text);
     for (keep, file) in [("upstream", "up.toml"), ("downstream", "down.toml")] {
-        succeed(folder.path(), "stage-split", &["plant.toml", "--at", AT, "--keep", keep, "-o", file]);
+        let cut = ["plant.toml", "--at", AT, "--keep", keep, "-o", file];
+        succeed(folder.path(), "stage-split", &[&cut, options].concat());
     }
     folder
 }
@@ -42,6 +50,15 @@ fn passages(path: &Path) -> Vec<Passage> {
         }
     }
     all
+}
+
+/// The last table of a topic.
+fn last_of(path: &Path, of: &str) -> Option<Table> {
+    let pick = |e: Event| match e {
+        Event::Points { topic, table, .. } if topic == of => Some(table),
+        _ => None,
+    };
+    Reader::new(fs::File::open(path).unwrap()).filter_map(|e| pick(e.unwrap())).last()
 }
 
 #[test]
@@ -160,13 +177,7 @@ fn a_downstream_run_resumes_in_the_middle_of_its_inlet() {
          && dem-run down.toml in.mcap --resume part.mcap -o rest.mcap",
     );
     assert_eq!(done.code, 0, "{}", done.stderr);
-    let last = |name: &str| {
-        let pick = |e: Event| match e {
-            Event::Points { topic, table, .. } if topic == "/particles" => Some(table),
-            _ => None,
-        };
-        Reader::new(fs::File::open(folder.path().join(name)).unwrap()).filter_map(|e| pick(e.unwrap())).last()
-    };
+    let last = |name: &str| last_of(&folder.path().join(name), "/particles");
     assert!(last("whole.mcap").is_some() && last("whole.mcap") == last("rest.mcap"));
 }
 

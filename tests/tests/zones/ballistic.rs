@@ -42,7 +42,8 @@ fn an_entry_in_free_fall_never_notices_the_calculation_plane() {
     let mut sim = Simulation::new(setup).expect("sound");
     // At its apex, where it does not move along the normal.
     let start = Particle { velocity: Vec3::new(0.3, 0.0, 0.0), ..grain(3, Vec3::new(0.0, 0.0, -0.06)) };
-    sim.enter(Entry { time: 0.010_05, inlet: 0, particle: start, clump: None, turn: None }).expect("it falls");
+    sim.enter(Entry { time: 0.010_05, inlet: 0, particle: start, clump: None, turn: None })
+        .expect("it falls");
     for until in [0.05, 0.09, 0.1, 0.11, 0.2] {
         run_until(&mut sim, until);
         let (p, t) = (particles(&mut sim)[0], sim.time() - 0.010_05);

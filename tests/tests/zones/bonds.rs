@@ -64,7 +64,8 @@ fn along_paths(setup: &Setup, until: f64) -> (Vec<News>, Simulation) {
         sim.step().expect("within the guards");
         for c in sim.take_crossings() {
             let (p, turn) = (c.particle, c.turn);
-            let sample = Sample { time: c.time, position: p.position, velocity: p.velocity, spin: p.spin, turn };
+            let sample =
+                Sample { time: c.time, position: p.position, velocity: p.velocity, spin: p.spin, turn };
             told.extend(c.links.into_iter().map(News::Bonded));
             told.push(News::Is(p.id, Guide::Free(sample)));
         }
@@ -95,7 +96,16 @@ fn below(up: &Setup) -> Setup {
     let entry_bonds = dem::bonds_of(up).expect("sound");
     let (particles, inlets, entry_materials) = (vec![], up.outlets.clone(), vec![0]);
     let (smallest_entry, largest_entry, outlets) = (0.01, 0.01, vec![]);
-    Setup { particles, inlets, outlets, smallest_entry, largest_entry, entry_materials, entry_bonds, ..up.clone() }
+    Setup {
+        particles,
+        inlets,
+        outlets,
+        smallest_entry,
+        largest_entry,
+        entry_materials,
+        entry_bonds,
+        ..up.clone()
+    }
 }
 
 /// A stage downstream that is told all at once.
@@ -235,7 +245,11 @@ fn what_is_announced_bounds_step_and_zone() {
     assert_eq!(dt(up.clone()), dt(below(&up)));
     let short = |setup: Setup, plane: f64| {
         let zones = vec![zone(plane, 0.0212)];
-        let setup = if setup.inlets.is_empty() { Setup { outlets: zones, ..setup } } else { Setup { inlets: zones, ..setup } };
+        let setup = if setup.inlets.is_empty() {
+            Setup { outlets: zones, ..setup }
+        } else {
+            Setup { inlets: zones, ..setup }
+        };
         Simulation::new(setup).err().expect("refused").to_string()
     };
     let wanted = "zone of 2.1200e-2 m is not longer than a bond may be at rest, 2.2000e-2 m";

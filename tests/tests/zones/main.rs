@@ -138,7 +138,8 @@ fn entry_becomes_free_at_the_calculation_plane() {
     let p = particles(&mut sim)[0];
     assert!((p.position.z + 0.5 * 9.81 * fall * fall).abs() < 1e-11, "{} after {fall} s", p.position.z);
     assert!((p.velocity.z + 9.81 * fall).abs() < 1e-11);
-    let late = sim.enter(Entry { time: 0.01, inlet: 0, particle: grain(4, Vec3::zeros()), clump: None, turn: None });
+    let late =
+        sim.enter(Entry { time: 0.01, inlet: 0, particle: grain(4, Vec3::zeros()), clump: None, turn: None });
     assert!(late.expect_err("too late").to_string().contains("time order"));
 }
 

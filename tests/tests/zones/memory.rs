@@ -60,7 +60,8 @@ fn downstream(crossing: &Crossing, other: &Particle, now: f64, told: bool) -> Co
     let ahead = 0.0005;
     for (time, p) in [(crossing.time, &crossing.particle), (now, other)] {
         let particle = Particle { position: p.position - p.velocity * ahead, ..*p };
-        sim.enter(Entry { time: time - ahead, inlet: 0, particle, clump: None, turn: None }).expect("in order");
+        sim.enter(Entry { time: time - ahead, inlet: 0, particle, clump: None, turn: None })
+            .expect("in order");
     }
     if told {
         for touch in &crossing.touching {

@@ -118,8 +118,13 @@ fn a_grain_that_goes_back_leaves_the_stage_downstream() {
     run_until(&mut down, last + 2e-3);
     assert_eq!(down.particle_count(), 0);
     // The same grain may come again.
-    let again =
-        Entry { time: last + 0.1, inlet: 0, particle: grain(1, Vec3::new(0.08, 0.0, 0.0)), clump: None, turn: None };
+    let again = Entry {
+        time: last + 0.1,
+        inlet: 0,
+        particle: grain(1, Vec3::new(0.08, 0.0, 0.0)),
+        clump: None,
+        turn: None,
+    };
     down.enter(again).expect("its id is free again");
 }
 

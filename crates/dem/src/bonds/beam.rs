@@ -32,7 +32,7 @@ pub struct Pull {
     pub stress: [f64; 2],
 }
 
-/// A beam: its size and what it is made of.
+/// A beam: its size, its springs, and what makes stress of what they bear.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Beam {
     /// Direction from j to i when it was made.
@@ -41,27 +41,27 @@ pub struct Beam {
     pub length: f64,
     /// r [m].
     pub radius: f64,
-    /// E and G [Pa].
-    pub moduli: [f64; 2],
+    /// E A/L [N/m], E I/L and G J/L [N·m/rad]: against length, bending and twist.
+    pub springs: [f64; 3],
     /// Dashpots over springs [s].
     pub lag: f64,
+    /// 1/A [1/m²] and r/I [1/m³], so that no step divides.
+    shares: [f64; 2],
 }
 
 impl Beam {
-    /// A = π r² [m²].
-    pub fn area(&self) -> f64 {
-        PI * self.radius * self.radius
+    /// Of a round section A = π r², I = π r⁴/4, J = 2 I.
+    pub fn new(axis: Vec3, [length, radius]: [f64; 2], springs: [f64; 3], lag: f64) -> Beam {
+        let area = PI * radius * radius;
+        Beam { axis, length, radius, springs, lag, shares: [1.0 / area, 4.0 / (area * radius)] }
     }
 
-    /// I = π r⁴/4 [m⁴]; J is twice that.
-    pub fn inertia(&self) -> f64 {
-        0.25 * self.area() * self.radius * self.radius
-    }
-
-    /// E A/L [N/m], E I/L and G J/L [N·m/rad]: against length, bending and twist.
-    pub fn stiffness(&self) -> [f64; 3] {
-        let ([young, shear], i) = (self.moduli, self.inertia());
-        [young * self.area(), young * i, shear * 2.0 * i].map(|k| k / self.length)
+    /// Of a size L, r [m] and moduli E, G [Pa], without dashpots.
+    pub fn of_moduli(axis: Vec3, [length, radius]: [f64; 2], [young, shear]: [f64; 2]) -> Beam {
+        let area = PI * radius * radius;
+        let inertia = 0.25 * area * radius * radius;
+        let springs = [young * area, young * inertia, shear * 2.0 * inertia].map(|k| k / length);
+        Beam::new(axis, [length, radius], springs, 0.0)
     }
 
     /// What it does.
@@ -75,15 +75,16 @@ impl Beam {
     /// whole does nothing, however often, and momentum and angular momentum are kept to rounding. Dashpots are the same beam fed by rates.
     pub fn pull(&self, ends: &Ends) -> Pull {
         let distance = ends.arm.norm();
-        let n = ends.arm / distance;
+        let per_distance = 1.0 / distance;
+        let n = ends.arm * per_distance;
         let t = [0, 1].map(|e| ends.turn[e] * self.axis);
-        let [along, bend, twist] = self.stiffness();
+        let [along, bend, twist] = self.springs;
         let stretch = along * (distance - self.length);
         let bend = 2.0 * bend;
         // Of a_i² + a_i·a_j + a_j² by n: how the line of the centres is turned back.
         let c = t.map(|t| n.dot(&t));
         let slope = t[0] * (2.0 * c[0] + c[1]) + t[1] * (2.0 * c[1] + c[0]);
-        let across = (slope - n * n.dot(&slope)) * (bend / distance);
+        let across = (slope - n * n.dot(&slope)) * (bend * per_distance);
         let moment =
             |own: usize, other: usize| t[own].cross(&(n * (2.0 * c[own] + c[other]) - t[other])) * bend;
         let (angle, about) = twisted(&ends.turn, &self.axis);
@@ -94,11 +95,11 @@ impl Beam {
             + bend * (ends_turned[0] + mixed + ends_turned[1])
             + 0.5 * twist * angle * angle;
         let bending = [moment(0, 1), moment(1, 0)];
-        let stress = self.stress(stretch, &bending, twist * angle, distance);
+        let stress = self.stress(stretch, &bending, twist * angle, per_distance);
         let mut pull = Pull { elastic, stress, ..Pull::default() };
         let (mut force, mut moments) = (across - n * stretch, [bending[0] - torque, bending[1] + torque]);
         if self.lag > 0.0 {
-            let slow = self.slow(ends, &n, distance);
+            let slow = self.slow(ends, &n, per_distance);
             force += slow.0;
             moments = [0, 1].map(|e| moments[e] + slow.1[e]);
             pull.power = slow.2;
@@ -109,16 +110,16 @@ impl Beam {
     }
 
     /// Force and moments of the dashpots, and the power that they take.
-    fn slow(&self, ends: &Ends, n: &Vec3, distance: f64) -> (Vec3, [Vec3; 2], f64) {
-        let [along, bend, twist] = self.stiffness().map(|k| k * self.lag);
-        let line = n.cross(&ends.velocity) / distance;
+    fn slow(&self, ends: &Ends, n: &Vec3, per_distance: f64) -> (Vec3, [Vec3; 2], f64) {
+        let [along, bend, twist] = self.springs.map(|k| k * self.lag);
+        let line = n.cross(&ends.velocity) * per_distance;
         let across = |w: &Vec3| w - n * n.dot(w);
         let rate = ends.spin.map(|w| across(&w) - line);
         let stretching = n.dot(&ends.velocity);
         let twisting = n.dot(&(ends.spin[0] - ends.spin[1]));
         let bent = [rate[0] * 2.0 + rate[1], rate[1] * 2.0 + rate[0]].map(|m| m * (-2.0 * bend));
         let torque = n * (twist * twisting);
-        let force = n.cross(&(bent[0] + bent[1])) / distance - n * (along * stretching);
+        let force = n.cross(&(bent[0] + bent[1])) * per_distance - n * (along * stretching);
         let power = along * stretching * stretching + twist * twisting * twisting
             - bent[0].dot(&rate[0])
             - bent[1].dot(&rate[1]);
@@ -126,11 +127,11 @@ impl Beam {
     }
 
     /// σ = F_n/A + |M| r/I at the worse end, τ = |F_t|/A + |M_t| r/J.
-    fn stress(&self, stretch: f64, bending: &[Vec3; 2], torque: f64, distance: f64) -> [f64; 2] {
-        let (a, i, r) = (self.area(), self.inertia(), self.radius);
-        let most = bending[0].norm().max(bending[1].norm());
-        let shear = (bending[0] + bending[1]).norm() / distance;
-        [stretch / a + most * r / i, shear / a + torque.abs() * r / (2.0 * i)]
+    fn stress(&self, stretch: f64, bending: &[Vec3; 2], torque: f64, per_distance: f64) -> [f64; 2] {
+        let [per_area, rim] = self.shares;
+        let most = bending[0].norm_squared().max(bending[1].norm_squared()).sqrt();
+        let shear = (bending[0] + bending[1]).norm() * per_distance;
+        [stretch * per_area + most * rim, shear * per_area + torque.abs() * 0.5 * rim]
     }
 }
 
@@ -181,7 +182,7 @@ mod tests {
 
     fn beam() -> Beam {
         let axis = Vec3::new(2.0, -1.0, 0.5).normalize();
-        Beam { axis, length: 0.02, radius: 0.004, moduli: [3e6, 1e6], lag: 0.0 }
+        Beam::of_moduli(axis, [0.02, 0.004], [3e6, 1e6])
     }
 
     fn turn(x: f64, y: f64, z: f64) -> UnitQuaternion<f64> {

@@ -59,22 +59,21 @@ impl Bonds {
                 partner: ids[if second { i } else { j } as usize],
                 axis: if second { -beam.axis } else { beam.axis },
                 size: [beam.length, beam.radius],
-                moduli: beam.moduli,
+                springs: beam.springs,
                 lag: beam.lag,
                 strength,
             }
         };
         self.whole(k).map(link).collect()
     }
-
 }
 
 impl Tie {
     /// Of two that come in.
     fn new(link: &Link, rows: [u32; 2]) -> Tie {
-        let Link { id, partner, axis, size: [length, radius], moduli, lag, strength } = *link;
+        let Link { id, partner, axis, size, springs, lag, strength } = *link;
         let (ends, axis) = if id < partner { (rows, axis) } else { ([rows[1], rows[0]], -axis) };
-        Tie { ends, beam: Beam { axis, length, radius, moduli, lag }, strength, broken: f64::INFINITY }
+        Tie { ends, beam: Beam::new(axis, size, springs, lag), strength, broken: f64::INFINITY }
     }
 }
 
@@ -94,7 +93,9 @@ impl Simulation {
         }
         let waiting = std::mem::take(&mut self.bonds.waiting);
         let wanted: BTreeSet<u32> = waiting.iter().flat_map(|l| [l.id, l.partner]).collect();
-        let here = (0u32..).zip(&self.particles.id).filter(|&(k, id)| wanted.contains(id) && !self.zones.is_gone(k as usize));
+        let here = (0u32..)
+            .zip(&self.particles.id)
+            .filter(|&(k, id)| wanted.contains(id) && !self.zones.is_gone(k as usize));
         let rows: BTreeMap<u32, u32> = here.map(|(k, &id)| (id, k)).collect();
         let period = self.period();
         let mut known: BTreeSet<[u32; 2]> = self.bonds.ties.iter().map(|tie| tie.ends).collect();
@@ -108,7 +109,11 @@ impl Simulation {
                     self.bonds.ties.push(tie);
                     self.bonds.pulls.push(Pull::default());
                 }
-            } else if [link.id, link.partner].iter().zip(ends).all(|(&id, row)| row.is_some() || self.zones.waits(id)) {
+            } else if [link.id, link.partner]
+                .iter()
+                .zip(ends)
+                .all(|(&id, row)| row.is_some() || self.zones.waits(id))
+            {
                 self.bonds.waiting.push(link);
             }
         }

@@ -36,10 +36,7 @@ pub fn check(setup: &Setup) -> Result<(), SetupError> {
         }
         within(&at("damping"), damping, "[–]", (0.0..=2.0).contains(&damping), "0 ≤ damping ≤ 2")?;
     }
-    let apart = [
-        (!setup.clumps.shapes.is_empty(), "clumps"),
-        (setup.sleep.is_some(), "[sleep]"),
-    ];
+    let apart = [(!setup.clumps.shapes.is_empty(), "clumps"), (setup.sleep.is_some(), "[sleep]")];
     match apart.iter().find(|a| a.0) {
         Some(with) if !setup.bonds.is_empty() => Err(SetupError::BondWith(with.1)),
         _ => Ok(()),
@@ -79,8 +76,7 @@ pub fn ties(setup: &Setup) -> Result<Vec<Tie>, SetupError> {
         }
         used[n] = true;
         let radius = law.radius_ratio * a.radius.min(b.radius);
-        let mut beam =
-            Beam { axis: arm / length, length, radius, moduli: [law.young, law.shear_modulus], lag: 0.0 };
+        let mut beam = Beam::of_moduli(arm / length, [length, radius], [law.young, law.shear_modulus]);
         beam.lag = law.damping / limit::frequency(&beam, [a, b], &setup.materials);
         let strength = [law.tensile_strength, law.shear_strength];
         ties.push(Tie { ends: [i, j], beam, strength, broken: f64::INFINITY });

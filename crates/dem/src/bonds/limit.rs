@@ -29,7 +29,7 @@ fn motions(beam: &Beam) -> [Motion; 6] {
     let n = beam.axis;
     let side = (if n.x.abs() < 0.6 { Vec3::x() } else { Vec3::y() }).cross(&n).normalize();
     let across = [side, n.cross(&side)];
-    let [along, bend, twist] = beam.stiffness();
+    let [along, bend, twist] = beam.springs;
     let motion = |stiffness: f64, push: Vec3, turns: [Vec3; 2]| {
         let end = |sign: f64, turn: Vec3| {
             let u = push * sign;

@@ -228,8 +228,8 @@ pub struct Link {
     pub axis: Vec3,
     /// Length L and radius r at rest [m].
     pub size: [f64; 2],
-    /// E and G [Pa].
-    pub moduli: [f64; 2],
+    /// E A/L [N/m], E I/L and G J/L [N·m/rad].
+    pub springs: [f64; 3],
     /// Dashpots over springs [s].
     pub lag: f64,
     /// σ_c and τ_c [Pa]; infinite: it never breaks.

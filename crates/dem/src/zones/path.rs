@@ -8,8 +8,8 @@
 
 use super::Zones;
 use super::travel::Flow;
-use crate::error::SetupError;
 use crate::bodies::spun;
+use crate::error::SetupError;
 use crate::setup::{Entry, Guide, Particle, PathSample, Sample, Setup};
 use crate::simulation::Simulation;
 use geom::Vec3;
@@ -81,7 +81,9 @@ impl Path {
         let tau = (now - a.time).max(0.0);
         match self.samples.get(1) {
             None => spun(&(a.spin * tau)) * first,
-            Some(b) => spun(&(between(&first, &b.turn.unwrap_or_default()) * (tau / (b.time - a.time)))) * first,
+            Some(b) => {
+                spun(&(between(&first, &b.turn.unwrap_or_default()) * (tau / (b.time - a.time)))) * first
+            }
         }
     }
 
@@ -200,7 +202,12 @@ impl Simulation {
             let velocity = Vec3::new(row[4], row[5], row[6]);
             let (material, radius) = (self.particles.material[k], row[3]);
             let particle = Particle { id, material, radius, position, velocity, spin };
-            out.push(PathSample { outlet: outlet as u32, particle, turn: self.bonds.turn_of(k), gone: false });
+            out.push(PathSample {
+                outlet: outlet as u32,
+                particle,
+                turn: self.bonds.turn_of(k),
+                gone: false,
+            });
         }
         out[first..].sort_unstable_by_key(|s| s.particle.id);
         let now: BTreeSet<u32> = out[first..].iter().map(|s| s.particle.id).collect();
