@@ -25,7 +25,7 @@ fn corpora() -> Vec<(&'static str, Vec<Sample>)> {
         ("pcd", samples::pcd()),
         ("xyz", samples::xyz()),
         ("checkpoint", vec![("body", body(&of(&["run.mcap"])))]),
-        ("replay", of(&["run.mcap"])),
+        ("replay", of(&["run.mcap", "bonded.mcap"])),
         ("measures", of(&["run.mcap"])),
         ("scene", texts(&["scene.toml"])),
         ("regions", texts(&["regions", "roughness", "prism"])),

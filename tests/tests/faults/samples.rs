@@ -22,6 +22,12 @@ pub fn scene() -> String {
     head.toml() + FALLING
 }
 
+/// The like, with grains that are bonded.
+fn bonded() -> String {
+    let bond = "[[bond]]\nbetween = [\"sinter\", \"sinter\"]\ngap = 0.015\nyoung = 1e6\npoisson = 0.25\n";
+    scene().replace("\"auto\"", "0.03") + bond
+}
+
 /// Three grains fall towards a floor, through a storage plane.
 const FALLING: &str = r#"[[fill]]
 material = "sinter"
@@ -163,13 +169,15 @@ pub fn xyz() -> Vec<Sample> {
 /// Walls, a run with crossings and checkpoints, packed and not, and the inlet that is made of it.
 pub fn mcap() -> Vec<Sample> {
     let run = |how| run(how, &scene());
-    let plain = run(Compression::None);
+    let (plain, bonded) = (run(Compression::None), self::run(Compression::None, &bonded()));
     let mut walls = stream::mcap::Writer::new(Vec::new(), &Provenance::default()).expect("opened");
     walls.points("/walls", 0, "world", spheres()).expect("written");
     vec![
         ("walls.mcap", walls.finish().expect("whole")),
         ("inlet.mcap", inlet(&plain)),
         ("run.mcap", plain),
+        ("bonded-inlet.mcap", inlet(&bonded)),
+        ("bonded.mcap", bonded),
         ("packed.mcap", run(Compression::Zstd)),
     ]
 }
