@@ -106,8 +106,7 @@ pub enum SetupError {
     },
     /// A storage plane in a scene with clumps.
     #[error(
-        "outlet: of clumps (the scene has '{0}') only centres are tested, and no paths are recorded: use test = \"centre\" and motion = \
-         \"constant\" or \"ballistic\" in [[outlet]]"
+        "outlet: of clumps (the scene has '{0}') only centres are tested: use test = \"centre\" in [[outlet]]"
     )]
     ClumpOutlet(String),
     /// An effect that is computed in double precision only.

@@ -67,16 +67,21 @@ pub struct Passage {
 impl Passage {
     /// Of a crossing in a run whose clumps have these masses at scale 1 [kg].
     pub fn new(c: &Crossing, masses: &[f64]) -> Passage {
-        let mass = |e: &EntryClump| masses.get(e.shape as usize).map_or(f64::NAN, |m| m * e.scale.powi(3));
         Passage {
             time: c.time,
             outlet: c.outlet as u16,
             particle: c.particle,
             contacts: c.touching.len() as u16,
-            clump: c.clump.map(|e| (e, mass(&e))),
+            clump: with_mass(c.clump, masses),
             turn: c.turn,
         }
     }
+}
+
+/// A clump and its mass [kg], of shapes that have these masses at scale 1 [kg].
+pub(crate) fn with_mass(clump: Option<EntryClump>, masses: &[f64]) -> Option<(EntryClump, f64)> {
+    let mass = |e: &EntryClump| masses.get(e.shape as usize).map_or(f64::NAN, |m| m * e.scale.powi(3));
+    clump.map(|e| (e, mass(&e)))
 }
 
 /// Builds a table column by column; names are given once, so that no two are equal.

@@ -234,6 +234,7 @@ impl InletStream {
             Event::Points { topic, table, .. } if topic == PATHS && self.recorded() => {
                 for way in paths::from_table(&self.name, &table, self.materials.len())? {
                     self.in_time(&way.passage, self.paths.last)?;
+                    self.announced(&way.passage)?;
                     self.paths.last = way.passage.time;
                     self.paths.waypoints.push_back(way);
                 }
@@ -248,6 +249,11 @@ impl InletStream {
 
     fn check(&self, passage: &Passage) -> Result<(), SceneError> {
         self.in_time(passage, self.last)?;
+        self.announced(passage)
+    }
+
+    /// Refuses what the records do not announce.
+    fn announced(&self, passage: &Passage) -> Result<(), SceneError> {
         let id = passage.particle.id;
         if let Some((clump, _)) = passage.clump {
             let scales = self.clumps.get(clump.shape as usize).and_then(|info| info.scales);
@@ -296,7 +302,7 @@ impl InletStream {
 
 fn sample(passage: &Passage) -> Sample {
     let p = &passage.particle;
-    let (time, turn) = (passage.time, passage.turn);
+    let (time, turn) = (passage.time, passage.turn.or(passage.clump.map(|c| c.0.orientation)));
     Sample { time, position: p.position, velocity: p.velocity, spin: p.spin, turn }
 }
 

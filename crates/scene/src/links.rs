@@ -75,7 +75,8 @@ pub fn from_table(stream: &str, table: &Table) -> Result<Vec<Linking>, SceneErro
     let (ids, partners) = (need("id")?, need("partner")?);
     let (times, places) = (columns.numbers("time")?, columns.vectors(["x", "y", "z"])?);
     let axes = columns.vectors(["axisx", "axisy", "axisz"])?;
-    let (length, radius, lag) = (columns.numbers("length")?, columns.numbers("radius")?, columns.numbers("lag")?);
+    let (length, radius, lag) =
+        (columns.numbers("length")?, columns.numbers("radius")?, columns.numbers("lag")?);
     let springs = columns.vectors(["stretching", "bending", "torsion"])?;
     let strength = |column: &str| {
         // Infinite ones never break.

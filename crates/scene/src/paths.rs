@@ -28,14 +28,14 @@ pub struct Waypoint {
 }
 
 impl Waypoint {
-    /// A sample at a time [s].
-    pub(crate) fn new(time: f64, sample: &PathSample) -> Waypoint {
+    /// A sample at a time [s], in a run whose clumps have these masses at scale 1 [kg].
+    pub(crate) fn new(time: f64, sample: &PathSample, masses: &[f64]) -> Waypoint {
         let passage = Passage {
             time,
             outlet: sample.outlet as u16,
             particle: sample.particle,
             contacts: 0,
-            clump: None,
+            clump: crossings::with_mass(sample.clump, masses),
             turn: sample.turn,
         };
         Waypoint { passage, gone: sample.gone }

@@ -500,7 +500,7 @@ impl<W: Write> Run<W> {
         let new = self.sampled.replace(step) != Some(step);
         if new && self.sampling.is_some_and(|every| step.is_multiple_of(every)) {
             let time = self.sim.time();
-            self.paths.extend(self.sim.sample_paths().iter().map(|s| Waypoint::new(time, s)));
+            self.paths.extend(self.sim.sample_paths().iter().map(|s| Waypoint::new(time, s, &self.masses)));
             if self.paths.len() >= SAMPLES_HELD {
                 self.write_paths()?;
             }

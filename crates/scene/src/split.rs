@@ -61,13 +61,10 @@ const OWN_IDS: i64 = 2_000_000_000;
 /// # Errors
 /// Particles on both sides of the plane, a length that is too short, files that cannot be read.
 pub fn split(scene: &Scene, cut: &Cut) -> Result<(String, Vec<String>), SceneError> {
-    let unfit = cut.motion == ZoneMotion::Recorded || cut.test == ZoneTest::Lowest;
+    let unfit = cut.test == ZoneTest::Lowest;
     if let Some(clump) = scene.model.clump.first().filter(|_| unfit) {
-        let why = format!(
-            "has clumps ('{}'): of them only centres are tested, and no paths are recorded",
-            clump.name
-        );
-        let cure = "use --test centre, and --motion constant or ballistic";
+        let why = format!("has clumps ('{}'): of them only centres are tested", clump.name);
+        let cure = "use --test centre";
         return Err(SceneError::file(&scene.text.name, why, cure));
     }
     let (text, gone) = stage(scene, cut)?;

@@ -128,6 +128,37 @@ fn a_grain_that_goes_back_leaves_the_stage_downstream() {
     down.enter(again).expect("its id is free again");
 }
 
+/// One that is out of the samples for a moment, and seen again before the stage downstream has come to that: it goes on.
+#[test]
+fn a_grain_that_is_seen_again_goes_on() {
+    let told = tell(two(), 0.3, 5);
+    let (samples, end) = &told[&1];
+    let (mut whole, mut again) = (downstream(&BTreeMap::new()), downstream(&BTreeMap::new()));
+    let enter = |sim: &mut Simulation, (time, particle): (f64, Particle)| {
+        sim.enter(Entry { time, inlet: 0, particle, clump: None, turn: None }).expect("in order");
+    };
+    for (k, &(time, p)) in samples.iter().enumerate() {
+        if k == 0 {
+            [&mut whole, &mut again].into_iter().for_each(|sim| enter(sim, (time, p)));
+            continue;
+        }
+        whole.guide(1, Guide::At(sample(time, &p))).expect("in order");
+        if k == 3 {
+            again.guide(1, Guide::Gone).expect("in order");
+            enter(&mut again, (time, p));
+        } else {
+            again.guide(1, Guide::At(sample(time, &p))).expect("in order");
+        }
+    }
+    [&mut whole, &mut again].into_iter().for_each(|sim| sim.guide(1, *end).expect("its end"));
+    for until in [0.05, 0.09, 0.2] {
+        run_until(&mut whole, until);
+        run_until(&mut again, until);
+        assert_eq!(particles(&mut whole), particles(&mut again), "{until} s");
+    }
+    assert_eq!(whole.particle_count(), 1);
+}
+
 /// Grains roll along a plane, faster and faster, also in the zone: with them comes the energy of the spin that they are released with.
 #[test]
 fn the_ledger_closes_with_grains_that_turn_on_their_way_in() {

@@ -2,14 +2,14 @@
 
 use crate::check::{finite, within};
 use crate::error::SetupError;
-use crate::setup::{Body, ClumpShape, EntryClump, Setup, WallShape, Zone, ZoneMotion, ZoneTest};
+use crate::setup::{Body, ClumpShape, EntryClump, Setup, WallShape, Zone, ZoneTest};
 use std::collections::HashSet;
 
 /// Checks shapes and bodies.
 pub fn check(setup: &Setup) -> Result<(), SetupError> {
     let clumps = &setup.clumps;
     clumps.shapes.iter().try_for_each(|s| shape(s, setup))?;
-    let unfit = |z: &Zone| z.motion == ZoneMotion::Recorded || z.test == ZoneTest::Lowest;
+    let unfit = |z: &Zone| z.test == ZoneTest::Lowest;
     if let Some((first, ..)) = clumps.scales().next().filter(|_| setup.outlets.iter().any(unfit)) {
         return Err(SetupError::ClumpOutlet(first.name.clone()));
     }

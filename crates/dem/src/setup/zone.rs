@@ -169,8 +169,17 @@ pub struct Sample {
     pub velocity: Vec3,
     /// [rad/s].
     pub spin: Vec3,
-    /// As in [`Entry`].
+    /// As in [`Entry`]; of a rigid clump, its orientation.
     pub turn: Option<UnitQuaternion<f64>>,
+}
+
+impl Sample {
+    /// Of an entry.
+    pub fn of(entry: &Entry) -> Sample {
+        let (p, time) = (&entry.particle, entry.time);
+        let turn = entry.turn.or(entry.clump.map(|c| c.orientation));
+        Sample { time, position: p.position, velocity: p.velocity, spin: p.spin, turn }
+    }
 }
 
 /// News of a particle on its way in along a recorded path, that begins with its [`Entry`].
@@ -191,7 +200,9 @@ pub struct PathSample {
     pub outlet: u32,
     /// Its state.
     pub particle: Particle,
-    /// How it has turned, where there are bonds.
+    /// What makes it a rigid clump.
+    pub clump: Option<EntryClump>,
+    /// How a sphere has turned, where there are bonds.
     pub turn: Option<UnitQuaternion<f64>>,
     /// Whether it has gone back upstream, out of reach of the plane.
     pub gone: bool,

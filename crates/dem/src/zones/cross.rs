@@ -84,8 +84,8 @@ impl Simulation {
             }
             self.bodies.take(k);
             let way = Way::Out(crossing.outlet);
-            let turned = crossing.turn;
-            let traveller = Traveller { at, since, start, centre, lead, turn, turned, way };
+            let (turned, whose) = (crossing.turn, crossing.particle.id);
+            let traveller = Traveller { at, since, start, whose, centre, lead, turn, turned, way };
             self.carry_on(&traveller, self.time());
             self.zones.travellers.push(traveller);
         }
@@ -151,7 +151,7 @@ impl Simulation {
     }
 
     /// State of a sphere a time `back` [s] before the end of the step.
-    fn sphere_back(&self, k: usize, back: f64) -> Particle {
+    pub(super) fn sphere_back(&self, k: usize, back: f64) -> Particle {
         let p = &self.particles;
         let (velocity, a) = self.motion_of(k);
         let spin = match (p.spins.get(k), p.turning.get(k)) {

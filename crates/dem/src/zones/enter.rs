@@ -17,17 +17,18 @@ impl Zones {
             return Err(SetupError::EntryLate { id, time: entry.time, now: before });
         }
         announced(&entry, setup)?;
-        let Some(zone) = self.inlets.get(entry.inlet as usize) else {
+        let Some(zone) = self.inlets.get(entry.inlet as usize).copied() else {
             return range(format!("inlet of particle {id}"), entry.inlet.into(), "[–]", "the scene's inlets");
         };
-        if let Some(clump) = entry.clump.filter(|_| zone.motion == ZoneMotion::Recorded) {
-            let name = setup.clumps.shapes[clump.shape as usize].name.clone();
-            return Err(SetupError::ClumpOutlet(name));
+        // Seen again before it was out of sight: entries come ahead of their time.
+        if zone.motion == ZoneMotion::Recorded && self.comes_back(&entry, setup)? {
+            self.latest = entry.time;
+            return Ok(());
         }
         let path = match zone.motion {
             ZoneMotion::Recorded => Some(Path::new(&entry)),
             _ => {
-                arrives(&entry, zone, setup)?;
+                arrives(&entry, &zone, setup)?;
                 None
             }
         };
@@ -168,8 +169,9 @@ impl Simulation {
             if let Some(sleepers) = &mut self.sleepers {
                 sleepers.push();
             }
-            let (way, turned) = (Way::In(e.inlet), e.turn);
-            let traveller = Traveller { at, since: e.time, start, centre, lead, turn, turned, way };
+            let (way, turned) = (Way::In(e.inlet), e.turn.or(e.clump.map(|c| c.orientation)));
+            let whose = e.particle.id;
+            let traveller = Traveller { at, since: e.time, start, whose, centre, lead, turn, turned, way };
             let now_turned = traveller.has_turned(now, &flow, &self.zones);
             self.bonds.push(Some(now_turned));
             self.zones.travellers.push(traveller);

@@ -10,7 +10,7 @@ use super::Zones;
 use super::travel::Flow;
 use crate::bodies::spun;
 use crate::error::SetupError;
-use crate::setup::{Entry, Guide, Particle, PathSample, Sample, Setup};
+use crate::setup::{Entry, Guide, PathSample, Sample, Setup};
 use crate::simulation::Simulation;
 use geom::Vec3;
 use nalgebra::UnitQuaternion;
@@ -56,9 +56,7 @@ pub enum Stage {
 
 impl Path {
     pub fn new(entry: &Entry) -> Path {
-        let (p, Entry { time, turn, .. }) = (&entry.particle, *entry);
-        let first = Sample { time, position: p.position, velocity: p.velocity, spin: p.spin, turn };
-        Path { samples: VecDeque::from([first]), end: End::Open }
+        Path { samples: VecDeque::from([Sample::of(entry)]), end: End::Open }
     }
 
     /// Forgets what is past; where the traveller is then.
@@ -84,6 +82,15 @@ impl Path {
             Some(b) => {
                 spun(&(between(&first, &b.turn.unwrap_or_default()) * (tau / (b.time - a.time)))) * first
             }
+        }
+    }
+
+    /// Angular velocity at which it turns then [rad/s].
+    pub fn rate(&self, now: f64) -> Vec3 {
+        let Some(a) = self.samples.front() else { return Vec3::zeros() };
+        match self.samples.get(1).filter(|_| now > a.time) {
+            None => a.spin,
+            Some(b) => between(&a.turn.unwrap_or_default(), &b.turn.unwrap_or_default()) / (b.time - a.time),
         }
     }
 
@@ -116,6 +123,17 @@ impl Path {
 }
 
 impl Zones {
+    /// Whether an entry only goes on with a path that was said to end, and has not come to that yet.
+    pub fn comes_back(&mut self, entry: &Entry, setup: &Setup) -> Result<bool, SetupError> {
+        let p = &entry.particle;
+        let Some(path) = self.paths.get_mut(&p.id).filter(|path| path.end == End::Gone) else {
+            return Ok(false);
+        };
+        path.end = End::Open;
+        self.guide(p.id, Guide::At(Sample::of(entry)), setup)?;
+        Ok(true)
+    }
+
     /// Takes news of a path.
     pub fn guide(&mut self, id: u32, guide: Guide, setup: &Setup) -> Result<(), SetupError> {
         let wrong = |what: &str, value: f64, range: &'static str| {
@@ -188,26 +206,16 @@ impl Simulation {
         let zone = self.zones.outlets[outlet];
         let first = out.len();
         for k in 0..self.particles.len() {
-            let (position, row) = (self.particles.position(k), &self.particles.rows[k]);
-            let near = zone.past(&position, row[3]) >= -EARLY * zone.length;
+            let Some((place, radius)) = self.tested(k) else { continue };
             let id = self.particles.id[k];
-            if !near
+            if !(zone.past(&place, radius) >= -EARLY * zone.length)
                 || self.zones.is_gone(k)
                 || self.zones.travels(k)
                 || self.zones.beyond[outlet].contains(&id)
             {
                 continue;
             }
-            let spin = self.particles.spins.get(k).map_or(Vec3::zeros(), |w| Vec3::new(w[0], w[1], w[2]));
-            let velocity = Vec3::new(row[4], row[5], row[6]);
-            let (material, radius) = (self.particles.material[k], row[3]);
-            let particle = Particle { id, material, radius, position, velocity, spin };
-            out.push(PathSample {
-                outlet: outlet as u32,
-                particle,
-                turn: self.bonds.turn_of(k),
-                gone: false,
-            });
+            out.push(self.sample(k, outlet as u32, false));
         }
         out[first..].sort_unstable_by_key(|s| s.particle.id);
         let now: BTreeSet<u32> = out[first..].iter().map(|s| s.particle.id).collect();
@@ -221,12 +229,17 @@ impl Simulation {
         let mut ids: Vec<(u32, usize)> =
             (0..self.particles.len()).filter(gone).map(|k| (self.particles.id[k], k)).collect();
         ids.sort_unstable();
-        for (id, k) in ids {
-            let (position, row) = (self.particles.position(k), &self.particles.rows[k]);
-            let velocity = Vec3::new(row[4], row[5], row[6]);
-            let (material, radius, spin) = (self.particles.material[k], row[3], Vec3::zeros());
-            let particle = Particle { id, material, radius, position, velocity, spin };
-            out.push(PathSample { outlet: outlet as u32, particle, turn: None, gone: true });
+        for (_, k) in ids {
+            out.push(self.sample(k, outlet as u32, true));
         }
+    }
+
+    /// Where particle `k`, or the clump that it is the first member of, is now.
+    fn sample(&self, k: usize, outlet: u32, gone: bool) -> PathSample {
+        let (particle, clump) = match self.bodies.state_back(k, 0.0, self.dt, &self.setup) {
+            None => (self.sphere_back(k, 0.0), None),
+            Some((particle, clump)) => (particle, Some(clump)),
+        };
+        PathSample { outlet, particle, clump, turn: self.bonds.turn_of(k), gone }
     }
 }

@@ -1,7 +1,7 @@
 //! Prescribed motion, in closed form from the state at one time: no drift, and the same bits after a resume.
 
 use super::Zones;
-use super::path::Stage;
+use super::path::{Path, Stage};
 use crate::bodies::{quaternion, spun};
 use crate::energy::carried;
 use crate::lane::Row4;
@@ -25,13 +25,15 @@ pub struct Traveller {
     pub since: f64,
     /// Its state then; of a member of a clump, with the velocity of the centre.
     pub start: Particle,
+    /// Id of what passes: its own, or that of the first member of its clump.
+    pub whose: u32,
     /// What must be past the plane, at that time: the centre, or that of the whole clump [m].
     pub centre: Vec3,
     /// And how far before it the point lies that is tested [m].
     pub lead: f64,
     /// Principal axes of the clump to space at that time.
     pub turn: Option<[f64; 4]>,
-    /// How a sphere had turned by then that may be bonded.
+    /// How a sphere had turned by then that may be bonded; orientation of the clump that comes in.
     pub turned: Option<UnitQuaternion<f64>>,
     pub way: Way,
 }
@@ -61,8 +63,13 @@ impl Flow {
         if self.spin == Vec3::zeros() || tau < 0.0 {
             return self;
         }
-        let (r, spin) = (spun(&(self.spin * tau)) * arm, self.spin);
-        let (around, inwards) = (spin.cross(&r), spin.cross(&spin.cross(&r)));
+        self.around(arm, &(spun(&(self.spin * tau)) * arm))
+    }
+
+    /// Of a point that was at `arm` from the centre [m], and is at `r`.
+    fn around(self, arm: &Vec3, r: &Vec3) -> Flow {
+        let spin = self.spin;
+        let (around, inwards) = (spin.cross(r), spin.cross(&spin.cross(r)));
         Flow {
             shift: self.shift + (r - arm),
             velocity: self.velocity + around,
@@ -75,21 +82,40 @@ impl Flow {
 impl Traveller {
     /// At `time` [s].
     pub fn flow(&self, time: f64, zones: &Zones, setup: &Setup) -> Flow {
-        self.own(self.centre_flow(time, zones, setup), time)
+        self.own(self.centre_flow(time, zones, setup), time, zones)
+    }
+
+    /// The path that it follows.
+    fn path<'a>(&self, zones: &'a Zones) -> Option<&'a Path> {
+        if let Way::In(_) = self.way { zones.paths.get(&self.whose) } else { None }
     }
 
     /// Its own flow, where that of the centre is known.
-    fn own(&self, centre: Flow, time: f64) -> Flow {
-        match self.turn {
-            None => centre,
-            Some(_) => centre.about(&(self.start.position - self.centre), time - self.since),
+    fn own(&self, centre: Flow, time: f64, zones: &Zones) -> Flow {
+        if self.turn.is_none() {
+            return centre;
+        }
+        let arm = self.start.position - self.centre;
+        match self.path(zones) {
+            Some(_) => centre.around(&arm, &(self.turned_since(time, &centre, zones) * arm)),
+            None => centre.about(&arm, time - self.since),
+        }
+    }
+
+    /// By how much it has turned since it began.
+    fn turned_since(&self, time: f64, flow: &Flow, zones: &Zones) -> UnitQuaternion<f64> {
+        match self.path(zones) {
+            Some(path) => path.turned(time) * self.turned.unwrap_or_default().inverse(),
+            None => spun(&(flow.spin * (time - self.since).max(0.0))),
         }
     }
 
     /// Of its centre, at `time` [s].
     fn centre_flow(&self, time: f64, zones: &Zones, setup: &Setup) -> Flow {
-        if let (Way::In(_), Some(path)) = (self.way, zones.paths.get(&self.start.id)) {
-            return path.flow(time, &self.start.position, &setup.gravity);
+        if let Some(path) = self.path(zones) {
+            let flow = path.flow(time, &self.centre, &setup.gravity);
+            // What is rigid moves as it turns.
+            return if self.turn.is_some() { Flow { spin: path.rate(time), ..flow } } else { flow };
         }
         let a = self.zone(zones).acceleration(&setup.gravity);
         Flow::after(time - self.since, &self.start, a)
@@ -97,7 +123,7 @@ impl Traveller {
 
     /// How it has turned by `time` [s], in the flow of then.
     pub fn has_turned(&self, time: f64, flow: &Flow, zones: &Zones) -> UnitQuaternion<f64> {
-        if let (Way::In(_), Some(path)) = (self.way, zones.paths.get(&self.start.id)) {
+        if let Some(path) = self.path(zones) {
             return path.turned(time);
         }
         spun(&(flow.spin * (time - self.since))) * self.turned.unwrap_or_default()
@@ -115,8 +141,10 @@ impl Simulation {
     pub(super) fn move_travellers(&mut self) {
         let now = self.time();
         let mut travellers = std::mem::take(&mut self.zones.travellers);
+        // All members of a clump follow one path.
+        let mut ended = Vec::new();
         travellers.retain(|t| {
-            let stage = self.zones.paths.get_mut(&t.start.id).map(|path| path.follow(now));
+            let stage = self.zones.paths.get_mut(&t.whose).map(|path| path.follow(now));
             let (centre, flow) = self.carry_on(t, now);
             let zone = *t.zone(&self.zones);
             let past = zone.plane.signed_distance(&centre) + t.lead;
@@ -124,7 +152,7 @@ impl Simulation {
                 (Way::Out(o), _) => self.stays_behind(t, o, (&zone, past), &flow),
                 (Way::In(_), Some(Stage::Inside)) => true,
                 (Way::In(_), Some(Stage::Gone)) => {
-                    self.zones.paths.remove(&t.start.id);
+                    ended.push(t.whose);
                     self.zones.ids.remove(&t.start.id);
                     self.zones.told(t.start.id);
                     self.exclude(t.at as usize);
@@ -132,25 +160,26 @@ impl Simulation {
                 }
                 (Way::In(_), None) if now < t.since || past < 0.0 => true,
                 (Way::In(i), _) => {
-                    self.zones.paths.remove(&t.start.id);
+                    ended.push(t.whose);
                     self.let_in(t, i, centre, &flow);
                     false
                 }
             }
         });
+        ended.iter().for_each(|id| drop(self.zones.paths.remove(id)));
         self.zones.travellers = travellers;
     }
 
     /// Puts a traveller where it is at a time [s]; where its centre is then, and how that flows.
     pub(super) fn carry_on(&mut self, t: &Traveller, time: f64) -> (Vec3, Flow) {
         let flow = t.centre_flow(time, &self.zones, &self.setup);
-        let (centre, own) = (t.centre + flow.shift, t.own(flow, time));
+        let (centre, own) = (t.centre + flow.shift, t.own(flow, time, &self.zones));
         self.place(t.at as usize, t.start.position + own.shift, &own);
         if !self.bonds.none() {
             self.bonds.put_turn(t.at as usize, t.has_turned(time, &flow, &self.zones));
         }
         if let Some(turn) = &t.turn {
-            let turned = spun(&(flow.spin * (time - t.since).max(0.0))) * quaternion(turn);
+            let turned = t.turned_since(time, &flow, &self.zones) * quaternion(turn);
             self.bodies.carry(t.at as usize, centre, flow.velocity, (turned, flow.spin));
         }
         (centre, flow)
