@@ -25,7 +25,7 @@ fn slope(folder: &Path, run: &str) -> f64 {
 /// 600 grains, three seeds: the slope with the friction of the full box, cut at the mouth with zones of 1.2 d.
 ///
 /// A heap of 15 grains in height is flatter than the full one, which is 50 high: undivided it has 31.8°, the mean of eight seeds with a deviation of
-/// 2.7° from one to the next. The mean of three is allowed 4°, two and a half of its own deviations; with next to no rolling resistance the heap has 9°.
+/// 2.7° from one to the next. The mean of three is allowed 4°, two and a half of its own deviations; with next to no rolling resistance the heap has less than 10°.
 #[test]
 fn the_small_box_in_stages_has_the_slope_of_the_small_box() {
     let place = folder();
