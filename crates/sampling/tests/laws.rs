@@ -254,6 +254,28 @@ fn a_sharp_edge_thins_across_itself() {
     }
 }
 
+/// Noise of a third of the scan's own spacing leaves one sheet one sheet: nobody is kept as if on another one, but for a few.
+#[test]
+fn a_noisy_sheet_is_one_sheet() {
+    let (count, mut next) = (40_000, uniform(5));
+    let scan = libm::sqrt(1.0 / f64::from(count));
+    for share in [0.1, 1.0 / 3.0] {
+        let mut off = || share * scan * (next() + next() + next() + next() - 2.0) * 3f64.sqrt();
+        let noise: Vec<Vec3> = (0..count).map(|_| Vec3::new(off(), off(), off())).collect();
+        let points: Vec<Vec3> = noise.iter().map(|n| Vec3::new(next(), next(), 0.0) + n).collect();
+        let on_surface = wish(Amount::Spacing(0.06), Method::Poisson);
+        let made = sample(&points, None, &on_surface).unwrap();
+        let space = sample(&points, None, &Wish { distance: Distance::Space, ..on_surface }).unwrap();
+        let (kept, more) = (made.kept.len(), made.kept.len().abs_diff(space.kept.len()));
+        assert!(space.kept.len() > 150, "{}", space.kept.len());
+        assert!(
+            made.beside * 50 <= kept && more * 50 <= kept,
+            "{share}: {} beside, {more} more, of {kept}",
+            made.beside
+        );
+    }
+}
+
 #[test]
 fn rows_of_a_scanner_are_one_sheet() {
     // Points 1 mm apart in rows 8 mm apart, on a bent surface.
