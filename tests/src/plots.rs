@@ -13,6 +13,8 @@ const COLOURS: [&str; 8] =
 const BLACK: &str = "#000000";
 /// Size of a panel [px].
 const PANEL: (f64, f64) = (560.0, 340.0);
+/// Letters of a title in one row of a panel.
+const TITLE: usize = 52;
 /// Panels side by side.
 const COLUMNS: usize = 2;
 /// Series that a panel shows at most: more cannot be told apart.
@@ -45,7 +47,8 @@ fn draw(panels: Vec<Drawn>, file: &Path) -> Result<Option<Vec<u8>>, String> {
     }
     let columns = COLUMNS.min(panels.len());
     let rows = panels.len().div_ceil(columns);
-    let (plots, layouts): (Vec<_>, Vec<_>) = panels.into_iter().unzip();
+    let wrapped = |(plots, layout): Drawn| (plots, layout.with_title_wrap(TITLE));
+    let (plots, layouts): (Vec<_>, Vec<_>) = panels.into_iter().map(wrapped).unzip();
     let figure = Figure::new(rows, columns).with_plots(plots).with_layouts(layouts);
     bytes(&figure.with_cell_size(PANEL.0, PANEL.1).with_keep_panel_legends().render(), file).map(Some)
 }

@@ -1,4 +1,4 @@
-//! The sinter box, scaled down and softened: in stages it makes the slope that the plant makes undivided, and the friction is the calibrated one.
+//! The sinter box, scaled down and softened: in stages it makes the slope that the plant makes undivided, and all its forms have one friction.
 //!
 //! The full case is `make -C pipelines sinter-box`; what it found is in docs/stages.md.
 

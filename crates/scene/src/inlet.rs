@@ -174,7 +174,7 @@ impl InletStream {
             }
             if self.recorded() {
                 self.paths.passed.insert(id, time);
-                self.paths.made.push_back(Item::Guide { time, id, guide: Guide::Free(sample(&passage)) });
+                self.paths.made.push_back(Item::Guide { time, id, guide: Guide::Free(self.sample(passage)) });
             }
             return;
         }
@@ -192,7 +192,7 @@ impl InletStream {
             (None, false) => self.paths.made.push_back(Item::Enter(self.entry(passage))),
             (Some(_), true) => self.paths.made.push_back(Item::Guide { time, id, guide: Guide::Gone }),
             (Some(_), false) => {
-                self.paths.made.push_back(Item::Guide { time, id, guide: Guide::At(sample(&passage)) });
+                self.paths.made.push_back(Item::Guide { time, id, guide: Guide::At(self.sample(passage)) });
             }
         }
     }
@@ -210,6 +210,10 @@ impl InletStream {
         let shape = |c: EntryClump| EntryClump { shape: self.to_shapes[c.shape as usize], ..c };
         let clump = passage.clump.map(|c| shape(c.0));
         Entry { time: passage.time, inlet: self.inlet, particle, clump, turn: passage.turn }
+    }
+
+    fn sample(&self, passage: Passage) -> Sample {
+        Sample::of(&self.entry(passage))
     }
 
     fn take(&mut self, event: Event) -> Result<(), SceneError> {
@@ -298,12 +302,6 @@ impl InletStream {
         }
         Ok(())
     }
-}
-
-fn sample(passage: &Passage) -> Sample {
-    let p = &passage.particle;
-    let (time, turn) = (passage.time, passage.turn.or(passage.clump.map(|c| c.0.orientation)));
-    Sample { time, position: p.position, velocity: p.velocity, spin: p.spin, turn }
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@
 
 use super::travel::{Traveller, Way};
 use crate::energy::carried;
-use crate::setup::{Crossing, Particle, Touch};
+use crate::setup::{Crossing, EntryClump, Particle, Touch};
 use crate::simulation::Simulation;
 use geom::Vec3;
 use nalgebra::UnitQuaternion;
@@ -126,10 +126,7 @@ impl Simulation {
         let time = (self.time() - back).max(began);
         let mut touching: Vec<Touch> = Vec::new();
         self.together(k).iter().for_each(|&m| touching.extend(self.touching(m as usize)));
-        let (particle, clump) = match self.bodies.state_back(k, back, self.dt, &self.setup) {
-            None => (self.sphere_back(k, back), None),
-            Some((particle, clump)) => (particle, Some(clump)),
-        };
+        let (particle, clump) = self.state_back(k, back);
         let turn = self.turn_back(k, back);
         let links = self.bonds.links(k, &self.particles.id);
         Crossing { time, outlet, particle, clump, turn, touching, links }
@@ -150,8 +147,16 @@ impl Simulation {
         Some(crate::bodies::spun(&Vec3::from(by)) * turn)
     }
 
+    /// State of particle `k`, or of the clump that it is a member of, a time `back` [s] before the end of the step.
+    pub(super) fn state_back(&self, k: usize, back: f64) -> (Particle, Option<EntryClump>) {
+        match self.bodies.state_back(k, back, self.dt, &self.setup) {
+            None => (self.sphere_back(k, back), None),
+            Some((particle, clump)) => (particle, Some(clump)),
+        }
+    }
+
     /// State of a sphere a time `back` [s] before the end of the step.
-    pub(super) fn sphere_back(&self, k: usize, back: f64) -> Particle {
+    fn sphere_back(&self, k: usize, back: f64) -> Particle {
         let p = &self.particles;
         let (velocity, a) = self.motion_of(k);
         let spin = match (p.spins.get(k), p.turning.get(k)) {

@@ -236,10 +236,7 @@ impl Simulation {
 
     /// Where particle `k`, or the clump that it is the first member of, is now.
     fn sample(&self, k: usize, outlet: u32, gone: bool) -> PathSample {
-        let (particle, clump) = match self.bodies.state_back(k, 0.0, self.dt, &self.setup) {
-            None => (self.sphere_back(k, 0.0), None),
-            Some((particle, clump)) => (particle, Some(clump)),
-        };
+        let (particle, clump) = self.state_back(k, 0.0);
         PathSample { outlet, particle, clump, turn: self.bonds.turn_of(k), gone }
     }
 }
