@@ -132,6 +132,13 @@ by_size() {
     for size in $sizes; do
         read -r grains x y kind touching listed < <("$examples/tiles" "$sample" "$size" grains.ply)
         scene size.toml grains.ply "$x" "$y" "$kind"
+        # A cube that was cut out springs apart, and half of its contacts open within some hundred steps: it settles between its walls first.
+        if [ "$kind" = walls ]; then
+            dem-run size.toml -q --set contact.0.restitution=0.5 --set time.dt=auto --set output.contacts=true --set output.every=0.2 \
+                --until 0.2 -o settled.mcap
+            touching=$(dem-measure settled.mcap --contacts --last -q | awk -F, 'END { printf "%.3f", $3 / $2 }')
+            sed -i 's|^source = .*|source = "settled.mcap"|' size.toml
+        fi
         row "pile" size.toml "$grains" "$touching" "$listed" friction "$([ "$size" -lt 1000000 ] && echo "$rounds" || echo 1)"
         cat last >> by-size
     done
@@ -139,7 +146,7 @@ by_size() {
 
 caption() {
     echo "Millions of particle-steps a second, medians of $rounds rounds (of one from a million grains on): the bench pile of"
-    echo "\`make -C pipelines race\` (Hooke, Δt 10⁻⁵ s, the engine's own lists), copied side by side, or cut to a cube between walls below"
+    echo "\`make -C pipelines race\` (Hooke, Δt 10⁻⁵ s, the engine's own lists), copied side by side, or cut to a cube that settles between walls below"
     echo "50 000. A timing is a long run less a short one; frames and checkpoints are in neither. *Touching* and *listed* are pairs a grain"
     echo "(listed within 0.6 mm where dem-run does not report its own); *memory* is of a contact between steps [bytes]; *peak* the most"
     echo "resident memory of dem-run [bytes a grain], *own* what the engine says of itself. Rows with + add to the row above them."
@@ -153,7 +160,7 @@ caption() {
     echo "Bytes and operations of a particle and a contact are counted in \`crates/dem/examples/limits.rs\`: everything that a step reads or"
     echo "writes, once, as if no cache kept it from one step to the next; a share above 100 % of memory says that caches do."
     awk '$1 > 5000 && !small { small = $2 } { large = $2; n = $1 } END {
-        if (small && n > 1e6) printf "\nA particle-step of %d grains costs %.2f times that of 10 000, on one thread.\n", n, small / large }' by-size
+        if (small && n >= 1e6) printf "\nA particle-step of %d grains costs %.2f times that of 10 000, on one thread.\n", n, small / large }' by-size
     sed 's/^/- /' remarks
 }
 

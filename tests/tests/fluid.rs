@@ -2,8 +2,9 @@
 
 use dem::setup::*;
 use dem::{Setup, Simulation, critical_step, mass};
-use geom::{Plane, Vec3};
+use geom::{Moments, Plane, Vec3};
 use grainpipe_tests::setups::{HOOKE, empty, grain, particles, plane, run_until, with_friction};
+use nalgebra::UnitQuaternion;
 use std::f64::consts::PI;
 
 const RADIUS: f64 = 0.01;
@@ -101,6 +102,65 @@ fn relaxation_time_bounds_the_step() {
     assert!(particles(&mut sim)[0].velocity.norm() < 1e-6);
 }
 
+/// A clump of so many spheres of 10 mm in a row along x, that do not overlap.
+fn row(spheres: u32) -> ClumpShape {
+    let at = |k: u32| (Vec3::new(2.0 * RADIUS * f64::from(k), 0.0, 0.0), RADIUS);
+    let spheres: Vec<(Vec3, f64)> = (0..spheres).map(at).collect();
+    ClumpShape::new("row", 0, &spheres, &Moments::of_sum(&spheres))
+}
+
+fn body(id: u32, position: Vec3) -> Body {
+    let (velocity, spin) = (Vec3::zeros(), Vec3::zeros());
+    Body { id, shape: 0, scale: 1.0, position, orientation: UnitQuaternion::identity(), velocity, spin }
+}
+
+/// A clump of one sphere is that sphere, with either law, sinking or rising.
+#[test]
+fn a_clump_of_one_sphere_sinks_as_the_sphere() {
+    for (law, viscosity, density) in [
+        (DragLaw::Stokes, 50.0, 1000.0),
+        (DragLaw::SchillerNaumann, 0.01, 1000.0),
+        (DragLaw::Stokes, 50.0, 4000.0),
+    ] {
+        let drag =
+            Drag { density, buoyancy: true, velocity: Vec3::new(0.2, 0.0, 0.0), ..fluid(law, viscosity) };
+        let mut free = sinking(drag);
+        free.step = Step::Fixed(1e-4);
+        let mut whole = Setup { particles: Vec::new(), ..free.clone() };
+        whole.clumps =
+            Clumps { shapes: vec![row(1)], bodies: vec![body(1, Vec3::zeros())], ..Clumps::default() };
+        let [free, whole] = [free, whole].map(|setup| {
+            let mut sim = Simulation::new(setup).expect("sound");
+            run_until(&mut sim, 0.3);
+            particles(&mut sim)[0]
+        });
+        assert!((free.velocity - whole.velocity).norm() < 1e-12 * free.velocity.norm(), "{free:?} {whole:?}");
+        assert!((free.position - whole.position).norm() < 1e-12, "{free:?} {whole:?}");
+        assert!(free.velocity.z * (density - 2500.0) > 0.0 && free.velocity.x > 0.0, "{free:?}");
+    }
+}
+
+/// v∞ = g τ (1 − ρ_f/ρ), τ = m / 6πμR with R of a sphere of its volume, whichever way it lies.
+#[test]
+fn a_clump_sinks_as_a_sphere_of_its_volume() {
+    let drag = Drag { buoyancy: true, ..fluid(DragLaw::Stokes, 50.0) };
+    let (volume, density) = (3.0 * mass(RADIUS, 1.0), 2500.0);
+    let radius = (0.75 / PI * volume).cbrt();
+    let tau = volume * density / (6.0 * PI * 50.0 * radius);
+    for turn in [0.0, 0.7] {
+        let mut setup = Setup { particles: Vec::new(), ..sinking(drag) };
+        let orientation = UnitQuaternion::from_scaled_axis(Vec3::new(0.0, turn, 0.3));
+        let bodies = vec![Body { orientation, ..body(1, Vec3::zeros()) }];
+        setup.clumps = Clumps { shapes: vec![row(3)], bodies, ..Clumps::default() };
+        setup.step = Step::Auto(0.01);
+        let mut sim = Simulation::new(setup).expect("sound");
+        run_until(&mut sim, 2.0 * tau);
+        let (v, t) = (sim.bodies().expect("sound")[0].velocity.z, sim.time());
+        let expected = -9.81 * tau * (1.0 - 1000.0 / density) * -(-t / tau).exp_m1();
+        assert!((v / expected - 1.0).abs() < 2e-5, "{v} m/s instead of {expected}");
+    }
+}
+
 fn closing(setup: Setup, time: f64) -> (f64, dem::Energy) {
     let mut sim = Simulation::new(setup).expect("sound");
     run_until(&mut sim, time);
@@ -128,9 +188,17 @@ fn ledger_closes_in_a_fluid() {
             )
         })
         .collect();
-    let (error, e) = closing(setup, 0.5);
-    assert!(e.drag.abs() > 1e-3, "{e:?}");
-    assert!(error.abs() < 3e-3 * (e.drag.abs() + e.normal + e.sliding), "{error:e} of {e:?}");
+    let mut clumps = Setup { particles: setup.particles.split_off(20), ..setup.clone() };
+    let bodies = (0..8).map(|k| Body {
+        spin: Vec3::new(3.0, f64::from(k), 1.0),
+        ..body(100 + 3 * k, Vec3::new(0.02, 0.03 * f64::from(k), 0.15))
+    });
+    clumps.clumps = Clumps { shapes: vec![row(3)], bodies: bodies.collect(), ..Clumps::default() };
+    for setup in [setup, clumps] {
+        let (error, e) = closing(setup, 0.5);
+        assert!(e.drag.abs() > 1e-3, "{e:?}");
+        assert!(error.abs() < 1e-5 * (e.drag.abs() + e.normal + e.sliding), "{error:e} of {e:?}");
+    }
 }
 
 /// Grains come through a calculation plane, fall on a shelf, rub each other, and leave through a storage plane.

@@ -86,17 +86,18 @@ impl Cells {
                 if dz == 0 && dy < 0 {
                     continue;
                 }
-                let run = grid.row(x - 2..x + 3, y + dy, z + dz);
-                let mut place = run.start;
-                while place < run.end {
-                    let other = self.of_place[place] as usize;
-                    if other > cell
-                        && parts.root(cell as u32) != parts.root(other as u32)
-                        && self.touch(points, grid, [cell, other], radius)
-                    {
-                        parts.join(cell as u32, other as u32);
+                for run in grid.row(x - 2..x + 3, y + dy, z + dz) {
+                    let mut place = run.start;
+                    while place < run.end {
+                        let other = self.of_place[place] as usize;
+                        if other > cell
+                            && parts.root(cell as u32) != parts.root(other as u32)
+                            && self.touch(points, grid, [cell, other], radius)
+                        {
+                            parts.join(cell as u32, other as u32);
+                        }
+                        place = self.starts[other + 1];
                     }
-                    place = self.starts[other + 1];
                 }
             }
         }

@@ -142,7 +142,7 @@ impl Simulation {
             let spin = back(three(spin), three(turning));
             work += Driven { velocity, spin, ..self.driven(k, three(a), three(turning)) }.power();
         }
-        work += self.bodies.last_driven(&self.setup.gravity, self.dt).map(|d| d.power()).sum::<f64>();
+        work += self.bodies.last_driven(&self.setup, self.dt).map(|d| d.power()).sum::<f64>();
         self.account.work += work * self.dt;
     }
 
@@ -200,7 +200,8 @@ impl Simulation {
         let bodies = self.bodies.driven_now(self, &loads).map(|(_, d)| d);
         let driven = free.clone().map(|k| self.driven_now(k, &loads)).chain(bodies);
         let (power, share) = driven.fold((0.0, 0.0), |(p, s), d| (p + d.power(), s + d.step_share()));
-        now.drag = free.map(|k| self.drag_power(k)).sum::<f64>() * self.dt;
+        let drag = free.map(|k| self.drag_power(k)).sum::<f64>() + self.bodies.drag_power(&self.setup);
+        now.drag = drag * self.dt;
         let (work, share) = self.half(power, share);
         energy.normal += now.lost;
         energy.bonds += now.broken;
@@ -225,7 +226,7 @@ impl Simulation {
             -heavy(&self.setup, density) / self.particles.rows[k][7]
                 * gravity.dot(&self.particles.position(k))
         };
-        (0..self.particles.len()).filter(inside).map(of).sum::<f64>() + self.bodies.potential(&gravity)
+        (0..self.particles.len()).filter(inside).map(of).sum::<f64>() + self.bodies.potential(&self.setup)
     }
 
     /// Brings particles back into the periodic box; what that does to their potential is booked.

@@ -194,9 +194,9 @@ impl Bodies {
             order.iter().map(|&o| self.images.get(o as usize).copied().unwrap_or_default()).collect();
     }
 
-    /// −m g·x of those that are free [J].
-    pub fn potential(&self, gravity: &Vec3) -> f64 {
-        self.flights.iter().filter(|f| !f.travels).map(|f| -f.mass * gravity.dot(&f.place)).sum()
+    /// −m g·x of those that are free [J]; what a fluid displaced lifts is no longer heavy.
+    pub fn potential(&self, setup: &Setup) -> f64 {
+        self.flights.iter().filter(|f| !f.travels).map(|f| -f.mass * f.weight(setup).dot(&f.place)).sum()
     }
 
     /// Brings bodies, and each of their members, back into the periodic box.

@@ -6,6 +6,7 @@ use crate::limit::radii_by_material;
 use crate::setup::{Contact, Drag, DragLaw, Law, Particle, Precision, Servo, Setup, Sleep, Step, WallShape};
 use geom::Vec3;
 use std::collections::HashSet;
+use std::fmt::{Display, Formatter};
 
 /// Checks every number of a setup that would make a run meaningless.
 pub fn check(setup: &Setup) -> Result<(), SetupError> {
@@ -39,9 +40,9 @@ pub fn check(setup: &Setup) -> Result<(), SetupError> {
     within("neighbours.skin", skin, "m", skin > 0.0 && skin.is_finite(), "skin > 0")?;
     finite("gravity", &setup.gravity, "m/s²")?;
     setup.drag.map_or(Ok(()), |d| drag(&d))?;
-    let apart = [(setup.sleep.is_some(), "[sleep]"), (!setup.clumps.shapes.is_empty(), "clumps")];
-    let with = apart.iter().find(|a| setup.drag.is_some() && a.0);
-    with.map_or(Ok(()), |a| Err(SetupError::DragWith(a.1)))?;
+    if setup.drag.is_some() && setup.sleep.is_some() {
+        return Err(SetupError::DragAndSleep);
+    }
     setup.sleep.map_or(Ok(()), |s| sleep(&s, &setup.gravity))
 }
 
@@ -100,17 +101,26 @@ fn sleep(s: &Sleep, gravity: &Vec3) -> Result<(), SetupError> {
     )
 }
 
+/// Where a number stands: "particle 7: radius". Put into words only when it is refused: a large scene has millions of them.
+struct Key<N>(&'static str, N, &'static str);
+
+impl<N: Display> Display for Key<N> {
+    fn fmt(&self, f: &mut Formatter) -> std::fmt::Result {
+        write!(f, "{} {}: {}", self.0, self.1, self.2)
+    }
+}
+
 pub(crate) fn within(
-    what: &str,
+    what: impl Display,
     value: f64,
     unit: &'static str,
     ok: bool,
     range: &'static str,
 ) -> Result<(), SetupError> {
-    if ok { Ok(()) } else { Err(SetupError::Range { what: what.to_owned(), value, unit, range }) }
+    if ok { Ok(()) } else { Err(SetupError::Range { what: what.to_string(), value, unit, range }) }
 }
 
-pub(crate) fn finite(what: &str, v: &Vec3, unit: &'static str) -> Result<(), SetupError> {
+pub(crate) fn finite(what: impl Display, v: &Vec3, unit: &'static str) -> Result<(), SetupError> {
     let bad = v.iter().find(|x| !x.is_finite());
     bad.map_or(Ok(()), |&x| within(what, x, unit, false, "the finite numbers"))
 }
@@ -119,20 +129,20 @@ pub(crate) fn finite(what: &str, v: &Vec3, unit: &'static str) -> Result<(), Set
 const DIGITS: f64 = 1e-6;
 
 /// Refuses a sphere so far away that its place has too few digits left: it would hang in the air.
-fn near(what: &str, place: &Vec3, radius: f64) -> Result<(), SetupError> {
+fn near(what: impl Display, place: &Vec3, radius: f64) -> Result<(), SetupError> {
     let far = place.amax();
     if far * f64::EPSILON <= DIGITS * radius {
         return Ok(());
     }
-    Err(SetupError::TooFar { what: what.to_owned(), far, radius })
+    Err(SetupError::TooFar { what: what.to_string(), far, radius })
 }
 
 fn materials(setup: &Setup) -> Result<(), SetupError> {
     for m in &setup.materials {
         let at = |key: &str| format!("material '{}': {key}", m.name);
-        within(&at("density"), m.density, "kg/m³", m.density > 0.0 && m.density.is_finite(), "density > 0")?;
-        within(&at("young"), m.young, "Pa", m.young > 0.0 && m.young.is_finite(), "young > 0")?;
-        within(&at("poisson"), m.poisson, "[–]", m.poisson > -1.0 && m.poisson <= 0.5, "−1 < poisson ≤ 0.5")?;
+        within(at("density"), m.density, "kg/m³", m.density > 0.0 && m.density.is_finite(), "density > 0")?;
+        within(at("young"), m.young, "Pa", m.young > 0.0 && m.young.is_finite(), "young > 0")?;
+        within(at("poisson"), m.poisson, "[–]", m.poisson > -1.0 && m.poisson <= 0.5, "−1 < poisson ≤ 0.5")?;
     }
     Ok(())
 }
@@ -145,7 +155,7 @@ fn contacts(setup: &Setup) -> Result<(), SetupError> {
         let name = |m: u16| setup.materials[m as usize].name.as_str();
         let at = format!("contact {}–{}", name(c.between.0), name(c.between.1));
         let e = c.restitution;
-        within(&format!("{at}: restitution"), e, "[–]", (0.0..=1.0).contains(&e), "0 ≤ restitution ≤ 1")?;
+        within(format!("{at}: restitution"), e, "[–]", (0.0..=1.0).contains(&e), "0 ≤ restitution ≤ 1")?;
         normal_law(&at, c)?;
         friction(&at, c)?;
         bound_grains(&at, c, setup)?;
@@ -155,7 +165,7 @@ fn contacts(setup: &Setup) -> Result<(), SetupError> {
 
 fn normal_law(at: &str, c: &Contact) -> Result<(), SetupError> {
     let positive = |key: &str, value: f64, unit, range| {
-        within(&format!("{at}: {key}"), value, unit, value > 0.0 && value.is_finite(), range)
+        within(format!("{at}: {key}"), value, unit, value > 0.0 && value.is_finite(), range)
     };
     match c.law {
         Law::Hooke { stiffness, tangential_ratio } => {
@@ -170,7 +180,7 @@ fn normal_law(at: &str, c: &Contact) -> Result<(), SetupError> {
     let Some(density) = c.cohesion else { return Ok(()) };
     positive("cohesion_energy_density", density, "J/m³", "cohesion_energy_density > 0")?;
     let adheres = matches!(c.law, Law::Jkr { .. });
-    within(&format!("{at}: cohesion"), density, "J/m³", !adheres, "law = \"jkr\", which has work_of_adhesion")
+    within(format!("{at}: cohesion"), density, "J/m³", !adheres, "law = \"jkr\", which has work_of_adhesion")
 }
 
 fn friction(at: &str, c: &Contact) -> Result<(), SetupError> {
@@ -182,11 +192,11 @@ fn friction(at: &str, c: &Contact) -> Result<(), SetupError> {
     ];
     for (key, value, range) in ranges {
         let value = value.unwrap_or(0.0);
-        within(&format!("{at}: {key}"), value, "[–]", value >= 0.0 && value.is_finite(), range)?;
+        within(format!("{at}: {key}"), value, "[–]", value >= 0.0 && value.is_finite(), range)?;
     }
     let speed = c.weakening.map_or(1.0, |w| w.speed);
     within(
-        &format!("{at}: sliding_friction.speed"),
+        format!("{at}: sliding_friction.speed"),
         speed,
         "m/s",
         speed > 0.0 && speed.is_finite(),
@@ -197,11 +207,11 @@ fn friction(at: &str, c: &Contact) -> Result<(), SetupError> {
     for (key, value) in turning {
         let turns = value.is_none() || c.sliding_friction.is_some();
         let range = "scenes with sliding_friction (nothing else turns a particle)";
-        within(&format!("{at}: {key}"), value.unwrap_or(0.0), "[–]", turns, range)?;
+        within(format!("{at}: {key}"), value.unwrap_or(0.0), "[–]", turns, range)?;
     }
     let slides = c.weakening.is_none() || c.sliding_friction.is_some();
     within(
-        &format!("{at}: sliding_friction.speed"),
+        format!("{at}: sliding_friction.speed"),
         speed,
         "m/s",
         slides,
@@ -222,20 +232,20 @@ fn bound_grains(at: &str, c: &Contact, setup: &Setup) -> Result<(), SetupError> 
         _ => ("cohesion_energy_density", c.cohesion.unwrap_or(0.0), "J/m³"),
     };
     let range = "what the stiffness bears: grains without load would overlap by more than guards.overlap";
-    within(&format!("{at}: {key}"), value, unit, share < setup.guards.overlap, range)
+    within(format!("{at}: {key}"), value, unit, share < setup.guards.overlap, range)
 }
 
 fn particles(setup: &Setup) -> Result<(), SetupError> {
     let mut ids = HashSet::with_capacity(setup.particles.len());
     for p in &setup.particles {
-        let at = |key: &str| format!("particle {}: {key}", p.id);
-        within(&at("radius"), p.radius, "m", p.radius > 0.0 && p.radius.is_finite(), "radius > 0")?;
+        let at = |key| Key("particle", p.id, key);
+        within(at("radius"), p.radius, "m", p.radius > 0.0 && p.radius.is_finite(), "radius > 0")?;
         let known = (p.material as usize) < setup.materials.len();
-        within(&at("material"), p.material as f64, "[–]", known, "the scene's materials")?;
-        finite(&at("position"), &p.position, "m")?;
-        near(&at("position"), &p.position, p.radius)?;
-        finite(&at("velocity"), &p.velocity, "m/s")?;
-        finite(&at("spin"), &p.spin, "rad/s")?;
+        within(at("material"), p.material as f64, "[–]", known, "the scene's materials")?;
+        finite(at("position"), &p.position, "m")?;
+        near(at("position"), &p.position, p.radius)?;
+        finite(at("velocity"), &p.velocity, "m/s")?;
+        finite(at("spin"), &p.spin, "rad/s")?;
         if !ids.insert(p.id) {
             return Err(SetupError::IdTwice(p.id));
         }
@@ -245,19 +255,20 @@ fn particles(setup: &Setup) -> Result<(), SetupError> {
 
 fn walls(setup: &Setup) -> Result<(), SetupError> {
     for w in &setup.walls {
-        let at = |key: &str| format!("wall '{}': {key}", w.name);
+        let name = format!("'{}'", w.name);
+        let at = |key| Key("wall", &name, key);
         let known = (w.material as usize) < setup.materials.len();
-        within(&at("material"), w.material as f64, "[–]", known, "the scene's materials")?;
+        within(at("material"), w.material as f64, "[–]", known, "the scene's materials")?;
         match &w.shape {
             WallShape::Spheres(spheres) => {
                 for (centre, radius) in spheres {
-                    finite(&at("sphere"), centre, "m")?;
-                    within(&at("radius"), *radius, "m", *radius > 0.0 && radius.is_finite(), "radius > 0")?;
-                    near(&at("sphere"), centre, *radius)?;
+                    finite(at("sphere"), centre, "m")?;
+                    within(at("radius"), *radius, "m", *radius > 0.0 && radius.is_finite(), "radius > 0")?;
+                    near(at("sphere"), centre, *radius)?;
                 }
             }
             WallShape::Plane(plane) => {
-                finite(&at("plane"), &plane.point, "m")?;
+                finite(at("plane"), &plane.point, "m")?;
                 let behind = |p: &&Particle| plane.signed_distance(&p.position) <= 0.0;
                 if let Some(p) = setup.particles.iter().find(behind) {
                     let depth = -plane.signed_distance(&p.position);
@@ -268,18 +279,18 @@ fn walls(setup: &Setup) -> Result<(), SetupError> {
                     return Err(SetupError::TurningPlane(w.name.clone()));
                 }
             }
-            WallShape::Mesh(mesh) => mesh.vertices.iter().try_for_each(|v| finite(&at("vertex"), v, "m"))?,
+            WallShape::Mesh(mesh) => mesh.vertices.iter().try_for_each(|v| finite(at("vertex"), v, "m"))?,
         }
-        finite(&at("velocity"), &w.motion.velocity, "m/s")?;
-        finite(&at("rotation"), &w.motion.turn, "rad/s")?;
-        finite(&at("rotation through"), &w.motion.through, "m")?;
-        finite(&at("vibration"), &w.motion.amplitude, "m")?;
-        within(&at("motion.from"), w.motion.from, "s", w.motion.from.is_finite(), "the finite numbers")?;
+        finite(at("velocity"), &w.motion.velocity, "m/s")?;
+        finite(at("rotation"), &w.motion.turn, "rad/s")?;
+        finite(at("rotation through"), &w.motion.through, "m")?;
+        finite(at("vibration"), &w.motion.amplitude, "m")?;
+        within(at("motion.from"), w.motion.from, "s", w.motion.from.is_finite(), "the finite numbers")?;
         let (from, until) = (w.motion.from, w.motion.until);
-        within(&at("motion.until"), until, "s", until > from, "times after motion.from")?;
+        within(at("motion.until"), until, "s", until > from, "times after motion.from")?;
         w.motion.servo.map_or(Ok(()), |s| servo(&w.name, &s))?;
         within(
-            &at("frequency"),
+            at("frequency"),
             w.motion.frequency,
             "Hz",
             w.motion.frequency.is_finite(),
@@ -292,10 +303,10 @@ fn walls(setup: &Setup) -> Result<(), SetupError> {
 fn servo(wall: &str, s: &Servo) -> Result<(), SetupError> {
     let at = |key: &str| format!("wall '{wall}': servo.{key}");
     let length = s.direction.norm();
-    within(&at("direction"), length, "[–]", (length - 1.0).abs() < 1e-9, "directions of length 1")?;
-    within(&at("force"), s.force, "N", s.force.is_finite(), "the finite numbers")?;
+    within(at("direction"), length, "[–]", (length - 1.0).abs() < 1e-9, "directions of length 1")?;
+    within(at("force"), s.force, "N", s.force.is_finite(), "the finite numbers")?;
     let v = s.speed_limit;
-    within(&at("speed_limit"), v, "m/s", v > 0.0 && v.is_finite(), "speed_limit > 0")
+    within(at("speed_limit"), v, "m/s", v > 0.0 && v.is_finite(), "speed_limit > 0")
 }
 
 /// Of spheres, and of the spheres that hold whole clumps [m].

@@ -10,8 +10,9 @@
 //!
 //! Stokes (1851), Trans. Camb. Phil. Soc. 9; Schiller & Naumann (1933), Z. Ver. Dtsch. Ing. 77; w is the predicted velocity of the
 //! instant, as for contacts. The last line is what an acceleration a adds to the move of [`crate::advance`]: a pass behind it, so
-//! that a scene without a fluid runs the same code as ever. Left out: the mass of fluid that moves along, the couple of
-//! the fluid on a particle that spins, and what particles do to the fluid and through it to each other.
+//! that a scene without a fluid runs the same code as ever. On a rigid clump it acts as on a sphere of its volume at its centre
+//! ([`crate::bodies`]). Left out: the shape of a clump, the mass of fluid that moves along, the couple of the fluid on a particle that
+//! spins, and what particles do to the fluid and through it to each other.
 //!
 //! Stable step: that scheme, on v' = −λ v, needs λ Δt ≤ 1; with contacts, 1/Δt ≥ 1/Δt_contacts + λ is on the safe side, because
 //! (ω Δt)²/4 + 2 ζ ω Δt + λ Δt ≤ 1 follows from it (see [`crate::limit`]).
@@ -79,7 +80,7 @@ impl Drag {
     }
 
     /// Acceleration by drag alone [m/s²], of a particle's row.
-    fn slowing(&self, row: &Row) -> Vec3 {
+    pub(crate) fn slowing(&self, row: &Row) -> Vec3 {
         let w = Vec3::new(row[4], row[5], row[6]) - self.velocity;
         w * -self.rate(row[3], row[7], w.norm())
     }
@@ -98,8 +99,9 @@ impl Drag {
     /// Largest d|F|/d|w| / m [1/s] that is to be expected: at the speeds of the start, and of a fall without end after Stokes.
     pub fn fastest_rate(&self, setup: &Setup) -> Option<(f64, f64)> {
         let relative = |v: &Vec3| (v - self.velocity).norm();
-        let start =
-            setup.particles.iter().map(|p| relative(&p.velocity)).fold(self.velocity.norm(), f64::max);
+        let bodies = setup.clumps.bodies.iter().map(|b| &b.velocity);
+        let all = setup.particles.iter().map(|p| &p.velocity).chain(bodies);
+        let start = all.map(relative).fold(self.velocity.norm(), f64::max);
         let materials = radii_by_material(setup).into_iter().zip(&setup.materials);
         let ranges =
             materials.filter_map(|(r, m)| r.map(|(low, high)| [(low, m.density), (high, m.density)]));
@@ -126,10 +128,11 @@ impl Drag {
 }
 
 impl Simulation {
-    /// Acceleration [m/s²] of a particle's row besides that of its contacts.
-    pub(crate) fn body_acceleration(&self, row: &Row) -> Vec3 {
-        let gravity = self.setup.gravity;
-        self.setup.drag.map_or(gravity, |d| gravity + d.acceleration(row, &gravity))
+    /// Acceleration [m/s²] of particle `k` besides that of its contacts; a fluid acts on clumps as a whole.
+    pub(crate) fn body_acceleration(&self, k: usize) -> Vec3 {
+        let (gravity, row) = (self.setup.gravity, &self.particles.rows[k]);
+        let drag = self.setup.drag.filter(|_| !self.bodies.is_member(k));
+        drag.map_or(gravity, |d| gravity + d.acceleration(row, &gravity))
     }
 
     /// What the fluid takes from particle `k` [W].
@@ -141,7 +144,7 @@ impl Simulation {
     /// After a move: what the fluid adds to it. Returns whether a particle has left its room.
     pub(crate) fn apply_drag(&mut self) -> bool {
         let Some(drag) = self.setup.drag else { return false };
-        let (dt, gravity, zones) = (self.dt, self.setup.gravity, &self.zones);
+        let (dt, gravity, zones, bodies) = (self.dt, self.setup.gravity, &self.zones, &self.bodies);
         let (p, before) = (&mut self.particles, &self.before);
         let count = p.len();
         let rows = p.rows[..count].chunks_mut(CHUNK).zip(p.acceleration.chunks_mut(CHUNK));
@@ -151,7 +154,7 @@ impl Simulation {
                 let (mut taken, mut out) = (0.0, false);
                 for k in 0..rows.len() {
                     let at = tile * CHUNK + k;
-                    if zones.travels(at) || zones.is_gone(at) {
+                    if zones.travels(at) || zones.is_gone(at) || bodies.is_member(at) {
                         continue;
                     }
                     let (row, was) = (&mut rows[k], &before[k]);

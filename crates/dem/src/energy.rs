@@ -106,9 +106,11 @@ impl Energy {
 impl Energy {
     /// Adds a rigid clump: ½ m v², ½ ω·L, −m g·x.
     pub(crate) fn add_body(&mut self, body: &BodyState, setup: &Setup) {
+        let material = setup.clumps.shapes[body.shape as usize].material;
+        let heavy = heavy(setup, setup.materials[material as usize].density);
         self.translation += 0.5 * body.mass * body.velocity.norm_squared();
         self.rotation += 0.5 * body.spin.dot(&body.angular_momentum);
-        self.potential -= body.mass * setup.gravity.dot(&body.position);
+        self.potential -= body.mass * heavy * setup.gravity.dot(&body.position);
     }
 }
 

@@ -113,8 +113,8 @@ pub enum SetupError {
     #[error("precision: \"mixed\" has no {0}: leave the key out for double precision, or that effect")]
     MixedWithout(String),
     /// Particles that the fluid does not act on.
-    #[error("drag: not available yet with {0}: leave out one of them")]
-    DragWith(&'static str),
+    #[error("drag: not available yet with [sleep]: leave out one of them")]
+    DragAndSleep,
     /// What bonds are not followed through.
     #[error("bond: not available yet with {0}: leave out one of them")]
     BondWith(&'static str),

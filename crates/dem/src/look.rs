@@ -27,7 +27,7 @@ impl Simulation {
         self.ready()?;
         let loads = self.all_loads();
         let (p, time) = (&self.particles, self.time());
-        let members = self.bodies.member_states(p, &loads, &self.setup.gravity, self.dt);
+        let members = self.bodies.member_states(p, &loads, &self.setup, self.dt);
         let state = |k: usize| {
             let Instant { velocity, spin, .. } = self.instant(k, &loads);
             let (velocity, spin) = members.get(k).copied().flatten().unwrap_or((velocity, spin));
@@ -52,7 +52,7 @@ impl Simulation {
         let p = &self.particles;
         let row = &p.rows[k];
         let (free, half) = (!self.zones.travels(k), 0.5 * self.dt);
-        let body = self.body_acceleration(row);
+        let body = self.body_acceleration(k);
         let (force, moment) = loads.on(k, row[3], p.rotates());
         let mut at = Instant {
             velocity: Vec3::new(row[4], row[5], row[6]),

@@ -5,8 +5,10 @@
 //! do not make the whole list anew, and slow ones are listed with few partners.
 //!
 //! Verlet (1967), Phys. Rev. 159; a room for each particle instead of one skin for all. The list is a function of places and
-//! rooms alone. Particles are sorted along the shortest side of their box first, so that partners are close in memory.
+//! rooms alone. Particles are sorted by blocks of about a tile, so that few partners are of another tile, and in these along the shortest
+//! side of their box first.
 
+use crate::contacts::tile;
 use geom::{Grid, Vec3, grid::bounds};
 use std::ops::Range;
 
@@ -73,7 +75,7 @@ impl Search {
         let along = |p: &Vec3| Vec3::new(p[axes[0]], p[axes[1]], p[axes[2]]);
         let cell = (2.0 * common_reach(reach)).max(f64::MIN_POSITIVE);
         let points: Vec<Vec3> = points.iter().map(along).collect();
-        let grid = Grid::new(&points, cell);
+        let grid = Grid::in_blocks(&points, cell, tile(points.len()));
         let order = grid.order();
         let places = order.iter().map(|&k| points[k as usize]).collect();
         let reach: Vec<f64> = order.iter().map(|&k| reach[k as usize]).collect();
@@ -92,21 +94,17 @@ impl Search {
     /// Pairs whose first is in `range`, both common, by first and second.
     pub fn common_pairs(&self, range: Range<usize>, found: &mut Vec<Pair>) {
         let mut cell = [-1; 3];
-        let mut runs: [Range<usize>; 5] = Default::default();
+        let mut runs: Vec<Range<usize>> = Vec::new();
         for i in range {
             let (p, reach) = (self.places[i], self.common[i]);
             let here = self.grid.cell_of(&p);
             if here != cell {
                 let [x, y, z] = here;
-                let row = |x, dy, dz| self.grid.row(x, y + dy, z + dz);
-                let three = x - 1..x + 2;
-                runs = [
-                    row(x..x + 2, 0, 0),
-                    row(three.clone(), 1, 0),
-                    row(three.clone(), -1, 1),
-                    row(three.clone(), 0, 1),
-                    row(three, 1, 1),
-                ];
+                let rows = (z - 1..z + 2).flat_map(|z| (y - 1..y + 2).map(move |y| (y, z)));
+                runs.clear();
+                // Pairs with what comes before are found from there.
+                runs.extend(rows.flat_map(|(y, z)| self.grid.row(x - 1..x + 2, y, z)).filter(|r| r.end > i));
+                runs.sort_unstable_by_key(|r| r.start);
                 cell = here;
             }
             for run in &runs {

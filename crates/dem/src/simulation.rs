@@ -294,7 +294,7 @@ impl Simulation {
             let loads = self.all_loads();
             let (force, m) = loads.on(k, self.particles.rows[k][3], rotates);
             let row = self.particles.rows[k];
-            let (mut a, body) = (Row4::default(), self.body_acceleration(&row));
+            let (mut a, body) = (Row4::default(), self.body_acceleration(k));
             for (axis, value) in a.iter_mut().enumerate().take(3) {
                 *value = force[axis] * row[7] + body[axis];
             }
@@ -305,7 +305,7 @@ impl Simulation {
                     [m[0] * inverse_inertia, m[1] * inverse_inertia, m[2] * inverse_inertia, 0.0];
             }
         }
-        self.bodies.prime(&self.particles, &self.setup.gravity);
+        self.bodies.prime(&self.particles, &self.setup);
         fresh
     }
 
@@ -313,6 +313,9 @@ impl Simulation {
     fn move_bodies(&mut self, moved: Moved) -> Moved {
         if self.bodies.none() {
             return moved;
+        }
+        if self.setup.ledger {
+            self.account.drag += self.bodies.drag_power(&self.setup) * self.dt;
         }
         moved.and(self.bodies.advance(&mut self.particles, &self.setup, self.dt))
     }

@@ -1,7 +1,8 @@
 //! The cell grid: finds points near a place. The only neighbour search with a fixed radius in the project.
 //!
 //! Points are sorted by cell, x fastest, so that the points of neighbouring cells along x are one
-//! contiguous run, and within a cell by their index, so that the order depends on nothing else.
+//! contiguous run, and within a cell by their index, so that the order depends on nothing else. Where all neighbours shall lie
+//! close in memory, and not those along x alone ([`Grid::in_blocks`]), cells are sorted by blocks first, and a run ends where its block does.
 //! Cells are looked up in a dense table where the box is well filled (a bed of grains) and in a hash
 //! table where it is mostly empty (a scanned surface); both give the same order.
 
@@ -25,6 +26,10 @@ pub struct Grid {
     origin: Vec3,
     cell: f64,
     dims: [i64; 3],
+    /// Cells of a block, and how many blocks there are: one of all cells, or several of one size, the last of which may reach
+    /// beyond the cells.
+    block: [i64; 3],
+    blocks: [i64; 3],
     order: Vec<u32>,
     table: Table,
 }
@@ -44,6 +49,18 @@ impl Grid {
     /// # Panics
     /// When `cell` is not positive, or a coordinate is not finite.
     pub fn new(points: &[Vec3], cell: f64) -> Grid {
+        Grid::sorted(points, cell, None)
+    }
+
+    /// The like, sorted by blocks of cells, as cubic as the box allows, that would hold so many points each if they were spread evenly.
+    ///
+    /// # Panics
+    /// As [`Grid::new`].
+    pub fn in_blocks(points: &[Vec3], cell: f64, points_of_a_block: usize) -> Grid {
+        Grid::sorted(points, cell, Some(points_of_a_block))
+    }
+
+    fn sorted(points: &[Vec3], cell: f64, points_of_a_block: Option<usize>) -> Grid {
         assert!(cell > 0.0 && cell.is_finite(), "cell size must be positive, got {cell} m");
         assert!(points.len() < u32::MAX as usize, "more than 2^32 points in one grid");
         let (lo, hi) = bounds(points);
@@ -51,12 +68,20 @@ impl Grid {
         assert!(extent.iter().all(|e| e.is_finite()), "coordinates must be finite");
         let cell = cell.max(extent.max() / CELLS_PER_AXIS);
         let dims = [0, 1, 2].map(|a| (extent[a] / cell).floor() as i64 + 1);
-        let mut grid = Grid { origin: lo, cell, dims, order: Vec::new(), table: Table::Dense(Vec::new()) };
+        let (block, blocks) = (dims, [1; 3]);
+        let (order, table) = (Vec::new(), Table::Dense(Vec::new()));
+        let mut grid = Grid { origin: lo, cell, dims, block, blocks, order, table };
         if points.is_empty() {
-            (grid.dims, grid.origin) = ([0; 3], Vec3::zeros());
+            (grid.dims, grid.block, grid.origin) = ([0; 3], [1; 3], Vec3::zeros());
             return grid;
         }
         let cells = dims.iter().map(|&d| d as f64).product::<f64>();
+        // Blocks may reach beyond the last cells: their numbers must fit as well.
+        if let Some(points_of_a_block) = points_of_a_block.filter(|_| 8.0 * cells < i64::MAX as f64) {
+            grid.block = block_of(dims, points_of_a_block as f64 * cells / points.len() as f64);
+            grid.blocks = [0, 1, 2].map(|a| (dims[a] as u64).div_ceil(grid.block[a] as u64) as i64);
+        }
+        let cells = (0..3).map(|a| (grid.block[a] * grid.blocks[a]) as f64).product::<f64>();
         let key = |p: &Vec3| grid.key(grid.cell_of(p));
         if cells <= DENSE_CELLS_PER_POINT * points.len() as f64 + 1024.0 {
             let keys: Vec<u64> = points.par_iter().map(key).collect();
@@ -122,7 +147,7 @@ impl Grid {
         }
     }
 
-    /// Point indices in sorted order: by cell (z slowest, x fastest), then by index.
+    /// Point indices in sorted order: by block, by cell (z slowest, x fastest), then by index.
     pub fn order(&self) -> &[u32] {
         &self.order
     }
@@ -142,19 +167,33 @@ impl Grid {
         self.dims
     }
 
-    /// Number of a cell in sorted order: z slowest, x fastest.
+    /// Number of a cell in sorted order: by block, in each z slowest, x fastest.
     pub fn key(&self, [x, y, z]: [i64; 3]) -> u64 {
-        ((z * self.dims[1] + y) * self.dims[0] + x) as u64
+        let number = |[x, y, z]: [i64; 3], of: [i64; 3]| (z * of[1] + y) * of[0] + x;
+        if self.blocks == [1; 3] {
+            return number([x, y, z], self.block) as u64;
+        }
+        let b = self.block;
+        let before = number([x / b[0], y / b[1], z / b[2]], self.blocks) * (b[0] * b[1] * b[2]);
+        (before + number([x % b[0], y % b[1], z % b[2]], b)) as u64
     }
 
-    /// Sorted places of the points in the cells `x` of row (`y`, `z`): one contiguous run, perhaps empty.
-    pub fn row(&self, x: Range<i64>, y: i64, z: i64) -> Range<usize> {
-        let (x0, x1) = (x.start.max(0), x.end.min(self.dims[0]));
-        if x0 >= x1 || y < 0 || z < 0 || y >= self.dims[1] || z >= self.dims[2] {
-            return 0..0;
-        }
-        let first = self.key([x0, y, z]);
-        let count = (x1 - x0) as u64;
+    /// Sorted places of the points in the cells `x` of row (`y`, `z`): one contiguous run for each block, perhaps empty.
+    pub fn row(&self, x: Range<i64>, y: i64, z: i64) -> impl Iterator<Item = Range<usize>> + use<'_> {
+        let inside = y >= 0 && z >= 0 && y < self.dims[1] && z < self.dims[2];
+        let (mut from, to) = (x.start.max(0), if inside { x.end.min(self.dims[0]) } else { 0 });
+        std::iter::from_fn(move || {
+            let start = from;
+            let whole = self.blocks[0] == 1;
+            from = if whole { to } else { to.min((start / self.block[0] + 1) * self.block[0]) };
+            (start < to).then(|| self.run(start..from, y, z))
+        })
+    }
+
+    /// Sorted places of the points in the cells `x` of row (`y`, `z`), which are of one block.
+    fn run(&self, x: Range<i64>, y: i64, z: i64) -> Range<usize> {
+        let first = self.key([x.start, y, z]);
+        let count = (x.end - x.start) as u64;
         match &self.table {
             Table::Dense(starts) => {
                 starts[first as usize] as usize..starts[(first + count) as usize] as usize
@@ -172,7 +211,7 @@ impl Grid {
         }
     }
 
-    /// Runs of sorted places of all cells that a ball of `radius` [m] around `centre` touches, in sorted order.
+    /// Runs of sorted places of all cells that a ball of `radius` [m] around `centre` touches, in sorted order where there are no blocks.
     /// Their points are candidates: the caller compares distances.
     pub fn runs_near(&self, centre: Vec3, radius: f64) -> impl Iterator<Item = Range<usize>> + '_ {
         let empty = self.order.is_empty();
@@ -183,7 +222,7 @@ impl Grid {
         let (lo, hi) = ([0, 1, 2].map(|a| low(a).max(0)), [0, 1, 2].map(|a| high(a).min(self.dims[a] - 1)));
         let rows = if empty { 0..0 } else { lo[2]..hi[2] + 1 };
         rows.flat_map(move |z| (lo[1]..hi[1] + 1).map(move |y| (y, z)))
-            .map(move |(y, z)| self.row(lo[0]..hi[0] + 1, y, z))
+            .flat_map(move |(y, z)| self.row(lo[0]..hi[0] + 1, y, z))
             .filter(|run| !run.is_empty())
     }
 
@@ -198,6 +237,20 @@ impl Grid {
             .flat_map(|run| self.order[run].iter().copied())
             .filter(move |&i| (points[i as usize] - centre).norm_squared() <= radius * radius)
     }
+}
+
+/// Cells along each axis of blocks of about so many cells: as cubic as the box allows, and so that blocks fill it.
+fn block_of(dims: [i64; 3], cells: f64) -> [i64; 3] {
+    let mut axes = [0, 1, 2];
+    axes.sort_by_key(|&a| dims[a]);
+    let (mut block, mut rest) = ([1; 3], cells.max(1.0));
+    for (axis, root) in axes.into_iter().zip([3.0, 2.0, 1.0]) {
+        let wished = (rest.powf(1.0 / root).round()).clamp(1.0, dims[axis] as f64);
+        let count = (dims[axis] as f64 / wished).ceil();
+        block[axis] = (dims[axis] as f64 / count).ceil() as i64;
+        rest /= block[axis] as f64;
+    }
+    block
 }
 
 /// Lowest and highest coordinates [m]; (∞, −∞) for no points.
@@ -276,17 +329,24 @@ mod tests {
         (0..count).map(|_| Vec3::new(spread[0] * next(), spread[1] * next(), spread[2] * next())).collect()
     }
 
+    /// A grid of rows, and grids of small and of large blocks.
+    fn kinds(points: &[Vec3], cell: f64) -> Vec<Grid> {
+        let blocks = [1, 20, 10_000].map(|n| Grid::in_blocks(points, cell, n));
+        [Grid::new(points, cell)].into_iter().chain(blocks).collect()
+    }
+
     #[test]
     fn within_finds_what_brute_force_finds_in_dense_and_sparse_grids() {
         for spread in [[1.0, 1.0, 1.0], [1.0, 1.0, 1e-9], [1.0, 0.0, 0.0], [400.0, 400.0, 400.0]] {
             let points = scatter(600, spread);
             for (cell, radius) in [(0.1, 0.1), (0.05, 0.13), (0.3, 0.1), (0.01, 0.02)] {
-                let grid = Grid::new(&points, cell);
-                for &centre in points.iter().step_by(37).chain(&[Vec3::new(-5.0, 0.5, 0.5)]) {
-                    let mut found: Vec<u32> = grid.within(&points, centre, radius).collect();
-                    found.sort();
-                    let near = |i: &u32| (points[*i as usize] - centre).norm() <= radius;
-                    assert_eq!(found, (0..600).filter(near).collect::<Vec<u32>>());
+                for grid in kinds(&points, cell) {
+                    for &centre in points.iter().step_by(37).chain(&[Vec3::new(-5.0, 0.5, 0.5)]) {
+                        let mut found: Vec<u32> = grid.within(&points, centre, radius).collect();
+                        found.sort();
+                        let near = |i: &u32| (points[*i as usize] - centre).norm() <= radius;
+                        assert_eq!(found, (0..600).filter(near).collect::<Vec<u32>>());
+                    }
                 }
             }
         }
@@ -296,17 +356,32 @@ mod tests {
     fn order_is_a_permutation_sorted_by_cell_then_index() {
         for spread in [[1.0; 3], [90.0; 3]] {
             let points = scatter(500, spread);
-            let grid = Grid::new(&points, 0.2);
-            let keys: Vec<_> =
-                grid.order().iter().map(|&i| (grid.key(grid.cell_of(&points[i as usize])), i)).collect();
-            assert!(keys.is_sorted());
-            assert_eq!(keys.len(), 500);
+            for grid in kinds(&points, 0.2) {
+                let keys: Vec<_> =
+                    grid.order().iter().map(|&i| (grid.key(grid.cell_of(&points[i as usize])), i)).collect();
+                assert!(keys.is_sorted());
+                assert_eq!(keys.len(), 500);
+            }
         }
+    }
+
+    /// Of a block's points, fewer have a neighbour elsewhere than of a slab's.
+    #[test]
+    fn blocks_are_cubes_that_fill_the_box() {
+        assert_eq!(block_of([40, 40, 40], 1000.0), [10, 10, 10]);
+        assert_eq!(block_of([2, 40, 40], 200.0), [2, 10, 10]);
+        assert_eq!(block_of([40, 1, 3], 12.0), [4, 1, 3]);
+        // 21 cells are three times seven, not twice ten and one.
+        assert_eq!(block_of([21, 21, 21], 1000.0), [7, 11, 11]);
+        assert_eq!(block_of([5, 5, 5], 0.01), [1, 1, 1]);
+        assert_eq!(block_of([5, 6, 7], 1e9), [5, 6, 7]);
     }
 
     #[test]
     fn no_point_and_one_point() {
-        assert_eq!(Grid::new(&[], 1.0).within(&[], Vec3::zeros(), 1.0).count(), 0);
+        for none in kinds(&[], 1.0) {
+            assert_eq!(none.within(&[], Vec3::zeros(), 1.0).count(), 0);
+        }
         let one = [Vec3::new(1e9, 0.0, 0.0)];
         assert_eq!(Grid::new(&one, 1.0).within(&one, one[0], 0.0).count(), 1);
     }

@@ -50,22 +50,22 @@ pub fn check_entry(clump: &EntryClump, id: u32, setup: &Setup) -> Result<(), Set
 fn shape(shape: &ClumpShape, setup: &Setup) -> Result<(), SetupError> {
     let at = |key: &str| format!("clump '{}': {key}", shape.name);
     let known = (shape.material as usize) < setup.materials.len();
-    within(&at("material"), shape.material.into(), "[–]", known, "the scene's materials")?;
+    within(at("material"), shape.material.into(), "[–]", known, "the scene's materials")?;
     let count = shape.spheres.len();
-    within(&at("spheres"), count as f64, "[–]", (1..=1_000_000).contains(&count), "1 to 1000000 spheres")?;
+    within(at("spheres"), count as f64, "[–]", (1..=1_000_000).contains(&count), "1 to 1000000 spheres")?;
     for (centre, radius) in &shape.spheres {
-        finite(&at("sphere"), centre, "m")?;
-        within(&at("radius"), *radius, "m", *radius > 0.0 && radius.is_finite(), "radius > 0")?;
+        finite(at("sphere"), centre, "m")?;
+        within(at("radius"), *radius, "m", *radius > 0.0 && radius.is_finite(), "radius > 0")?;
     }
     let volume = shape.volume;
-    within(&at("volume"), volume, "m³", volume > 0.0 && volume.is_finite(), "volume > 0")?;
+    within(at("volume"), volume, "m³", volume > 0.0 && volume.is_finite(), "volume > 0")?;
     let [a, b, c] = shape.inertia;
     for moment in [a, b, c] {
-        within(&at("inertia"), moment, "m⁵", moment > 0.0 && moment.is_finite(), "inertia > 0")?;
+        within(at("inertia"), moment, "m⁵", moment > 0.0 && moment.is_finite(), "inertia > 0")?;
     }
     // Of a body, no moment is larger than the two others together.
     let excess = 2.0 * a.max(b).max(c) - (a + b + c);
-    within(&at("inertia"), excess, "m⁵", excess <= 1e-9 * (a + b + c), "what a body can have")
+    within(at("inertia"), excess, "m⁵", excess <= 1e-9 * (a + b + c), "what a body can have")
 }
 
 fn body<'a>(body: &Body, setup: &'a Setup) -> Result<&'a ClumpShape, SetupError> {
@@ -76,12 +76,12 @@ fn body<'a>(body: &Body, setup: &'a Setup) -> Result<&'a ClumpShape, SetupError>
             what: at("shape"), value, unit: "[–]", range: "the scene's clumps"
         });
     };
-    within(&at("scale"), body.scale, "[–]", body.scale > 0.0 && body.scale.is_finite(), "scale > 0")?;
-    finite(&at("position"), &body.position, "m")?;
-    finite(&at("velocity"), &body.velocity, "m/s")?;
-    finite(&at("spin"), &body.spin, "rad/s")?;
+    within(at("scale"), body.scale, "[–]", body.scale > 0.0 && body.scale.is_finite(), "scale > 0")?;
+    finite(at("position"), &body.position, "m")?;
+    finite(at("velocity"), &body.velocity, "m/s")?;
+    finite(at("spin"), &body.spin, "rad/s")?;
     let length = body.orientation.norm();
-    within(&at("orientation"), length, "[–]", (length - 1.0).abs() < 1e-9, "quaternions of length 1")?;
+    within(at("orientation"), length, "[–]", (length - 1.0).abs() < 1e-9, "quaternions of length 1")?;
     for wall in &setup.walls {
         let WallShape::Plane(plane) = &wall.shape else { continue };
         for (centre, _) in &shape.spheres {

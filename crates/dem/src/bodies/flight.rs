@@ -2,11 +2,14 @@
 
 use super::turn;
 use crate::account::Driven;
-use crate::lane::Row4;
+use crate::energy::heavy;
+use crate::lane::{Row, Row4};
 use crate::particles::Particles;
+use crate::setup::Setup;
 use geom::Vec3;
 use nalgebra::{Quaternion, UnitQuaternion};
 use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
 
 /// One body: its state at the step, velocities predicted for it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -60,16 +63,43 @@ pub fn arm(row: &Row4) -> Vec3 {
 }
 
 impl Flight {
-    /// Driven by a force and a torque of contacts at a velocity and an angular velocity.
+    /// Driven by a force of contacts and fluid, and a torque, at a velocity and an angular velocity.
     pub fn driven(
         &self,
         [force, moment]: [Vec3; 2],
         (velocity, spin): (Vec3, Vec3),
-        gravity: &Vec3,
+        setup: &Setup,
     ) -> Driven {
-        let forces = [force, force + gravity * self.mass];
+        let forces = [force, force + self.weight(setup) * self.mass];
         let (inverse_mass, inverse_inertia) = (1.0 / self.mass, 0.0);
         Driven { inverse_mass, inverse_inertia, forces, moment, velocity, spin }
+    }
+
+    /// Of what it is made of [kg/m³].
+    fn density(&self, setup: &Setup) -> f64 {
+        setup.materials[setup.clumps.shapes[self.shape as usize].material as usize].density
+    }
+
+    /// Free fall, less what the fluid that it displaces lifts [m/s²].
+    pub fn weight(&self, setup: &Setup) -> Vec3 {
+        setup.gravity * heavy(setup, self.density(setup))
+    }
+
+    /// What a fluid meets: a sphere of its volume at its centre.
+    fn ball(&self, setup: &Setup) -> Row {
+        let (p, v) = (self.place, self.velocity);
+        let radius = libm::cbrt(0.75 / PI * self.mass / self.density(setup));
+        Row([p.x, p.y, p.z, radius, v.x, v.y, v.z, 1.0 / self.mass])
+    }
+
+    /// Acceleration by the fluid [m/s²].
+    pub fn fluid(&self, setup: &Setup) -> Vec3 {
+        setup.drag.map_or_else(Vec3::zeros, |d| d.acceleration(&self.ball(setup), &setup.gravity))
+    }
+
+    /// Drag alone [N].
+    pub fn drag(&self, setup: &Setup) -> Vec3 {
+        setup.drag.map_or_else(Vec3::zeros, |d| d.slowing(&self.ball(setup)) * self.mass)
     }
 
     /// Its members among all.

@@ -19,7 +19,7 @@ impl Bodies {
         let advance = |chunk: &mut [Flight]| {
             for f in chunk.iter_mut().filter(|f| !f.travels) {
                 let (a, torque) = f.gathered(members, arms, seen, &setup.gravity);
-                f.advance(a, torque, dt);
+                f.advance(a + f.fluid(setup), torque, dt);
             }
         };
         match self.flights.len() > CHUNK {
@@ -30,10 +30,11 @@ impl Bodies {
     }
 
     /// Bodies without a past get the acceleration and the torque of this instant as those of the step before.
-    pub fn prime(&mut self, particles: &Particles, gravity: &Vec3) {
+    pub fn prime(&mut self, particles: &Particles, setup: &Setup) {
         let (members, arms) = (&self.members, &self.arms);
         for f in self.flights.iter_mut().filter(|f| f.fresh && !f.travels) {
-            (f.acceleration, f.torque) = f.gathered(members, arms, particles, gravity);
+            let (a, torque) = f.gathered(members, arms, particles, &setup.gravity);
+            (f.acceleration, f.torque) = (a + f.fluid(setup), torque);
             f.fresh = false;
         }
     }

@@ -3,6 +3,7 @@
 use super::{Bodies, Flight, arm, quaternion, turn};
 use crate::account::Driven;
 use crate::particles::Particles;
+use crate::setup::Setup;
 use crate::simulation::Simulation;
 use crate::sums::Loads;
 use geom::Vec3;
@@ -55,9 +56,8 @@ impl Bodies {
     pub fn states(&self, sim: &Simulation) -> Vec<BodyState> {
         let (loads, time) = (sim.all_loads(), sim.time());
         let state = |f: &Flight| {
-            let gravity = &sim.setup.gravity;
             let Instant { velocity, spin, momentum, .. } =
-                self.instant(f, &sim.particles, &loads, gravity, sim.dt);
+                self.instant(f, &sim.particles, &loads, &sim.setup, sim.dt);
             let shape = &sim.setup.clumps.shapes[f.shape as usize];
             BodyState {
                 id: f.id,
@@ -78,7 +78,7 @@ impl Bodies {
         states
     }
 
-    fn instant(&self, f: &Flight, particles: &Particles, loads: &Loads, gravity: &Vec3, dt: f64) -> Instant {
+    fn instant(&self, f: &Flight, particles: &Particles, loads: &Loads, setup: &Setup, dt: f64) -> Instant {
         let (mut velocity, mut momentum) = (f.velocity, f.momentum);
         let turn = quaternion(&f.turn);
         let (mut force, mut torque) = (Vec3::zeros(), Vec3::zeros());
@@ -90,7 +90,8 @@ impl Bodies {
                 force += push;
                 torque += (turn * arm(&self.arms[m as usize])).cross(&push) + Vec3::from(moment);
             }
-            velocity += (force / f.mass + gravity - f.acceleration) * (0.5 * dt);
+            let a = force / f.mass + setup.gravity + f.fluid(setup);
+            velocity += (a - f.acceleration) * (0.5 * dt);
             momentum += (torque - f.torque) * (0.5 * dt);
         }
         Instant { velocity, spin: turn::spin(&turn, &momentum, &f.inverse_inertia), momentum, force, torque }
@@ -102,22 +103,28 @@ impl Bodies {
         sim: &'a Simulation,
         loads: &'a Loads,
     ) -> impl Iterator<Item = (u32, Driven)> + 'a {
-        let gravity = &sim.setup.gravity;
         self.flights.iter().filter(|f| !f.travels).map(move |f| {
-            let now = self.instant(f, &sim.particles, loads, gravity, sim.dt);
-            let driven = f.driven([now.force, now.torque], (now.velocity, now.spin), gravity);
+            let now = self.instant(f, &sim.particles, loads, &sim.setup, sim.dt);
+            let force = now.force + f.drag(&sim.setup);
+            let driven = f.driven([force, now.torque], (now.velocity, now.spin), &sim.setup);
             (self.members[f.first as usize], driven)
         })
     }
 
     /// What drove each body that is free in the last move.
-    pub fn last_driven<'a>(&'a self, gravity: &'a Vec3, dt: f64) -> impl Iterator<Item = Driven> + 'a {
+    pub fn last_driven<'a>(&'a self, setup: &'a Setup, dt: f64) -> impl Iterator<Item = Driven> + 'a {
         self.flights.iter().filter(|f| !f.travels).map(move |f| {
             let momentum = f.momentum - f.torque * dt;
             let spin = turn::spin(&quaternion(&f.turn_before), &momentum, &f.inverse_inertia);
-            let force = (f.acceleration - gravity) * f.mass;
-            f.driven([force, f.torque], (f.velocity - f.acceleration * dt, spin), gravity)
+            let force = (f.acceleration - f.weight(setup)) * f.mass;
+            f.driven([force, f.torque], (f.velocity - f.acceleration * dt, spin), setup)
         })
+    }
+
+    /// What a fluid takes from those that are free, at the velocities predicted for them [W].
+    pub fn drag_power(&self, setup: &Setup) -> f64 {
+        let free = self.flights.iter().filter(|f| setup.drag.is_some() && !f.travels);
+        free.map(|f| -f.drag(setup).dot(&f.velocity)).sum()
     }
 
     /// Velocity and spin of each member at this instant: row, velocity, spin.
@@ -125,12 +132,12 @@ impl Bodies {
         &self,
         particles: &Particles,
         loads: &Loads,
-        gravity: &Vec3,
+        setup: &Setup,
         dt: f64,
     ) -> Vec<Option<(Vec3, Vec3)>> {
         let mut out = vec![None; particles.len()];
         for f in &self.flights {
-            let Instant { velocity, spin, .. } = self.instant(f, particles, loads, gravity, dt);
+            let Instant { velocity, spin, .. } = self.instant(f, particles, loads, setup, dt);
             for &m in &self.members[f.range()] {
                 let r = quaternion(&f.turn) * arm(&self.arms[m as usize]);
                 out[m as usize] = Some((velocity + spin.cross(&r), spin));

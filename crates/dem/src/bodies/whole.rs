@@ -22,9 +22,9 @@ pub fn starts(whole: &Particle, clump: &EntryClump, setup: &Setup) -> (Vec<Parti
     (shape.spheres.iter().enumerate().map(member).collect(), turn.into_inner().coords.into())
 }
 
-/// ½ m v² + ½ ω·L − m g·x [J].
-fn energy(mass: f64, place: &Vec3, velocity: &Vec3, [spin, momentum]: [&Vec3; 2], gravity: &Vec3) -> f64 {
-    mass * (0.5 * velocity.norm_squared() - gravity.dot(place)) + 0.5 * spin.dot(momentum)
+/// ½ m v² + ½ ω·L − m g·x [J], g the `weight` over the mass [m/s²].
+fn energy(mass: f64, place: &Vec3, velocity: &Vec3, [spin, momentum]: [&Vec3; 2], weight: &Vec3) -> f64 {
+    mass * (0.5 * velocity.norm_squared() - weight.dot(place)) + 0.5 * spin.dot(momentum)
 }
 
 impl Bodies {
@@ -80,23 +80,24 @@ impl Bodies {
         let Some(f) = self.body_of(k).filter(|f| self.is_first(f, k)) else { return 0.0 };
         let turn = clump.orientation * setup.clumps.shapes[f.shape as usize].frame;
         let momentum = turn::momentum(&turn, &whole.spin, &f.inverse_inertia);
-        energy(f.mass, &whole.position, &whole.velocity, [&whole.spin, &momentum], &setup.gravity)
+        energy(f.mass, &whole.position, &whole.velocity, [&whole.spin, &momentum], &f.weight(setup))
     }
 
     /// The like as it is now.
-    pub fn energy_at(&self, k: usize, gravity: &Vec3) -> Option<f64> {
+    pub fn energy_at(&self, k: usize, setup: &Setup) -> Option<f64> {
         let f = self.body_of(k)?;
-        let now = || energy(f.mass, &f.place, &f.velocity, [&f.spin, &f.momentum], gravity);
+        let now = || energy(f.mass, &f.place, &f.velocity, [&f.spin, &f.momentum], &f.weight(setup));
         Some(if self.is_first(f, k) { now() } else { 0.0 })
     }
 
     /// The like in the middle of the last step.
-    pub fn energy_before_half(&self, k: usize, gravity: &Vec3, dt: f64) -> Option<f64> {
+    pub fn energy_before_half(&self, k: usize, setup: &Setup, dt: f64) -> Option<f64> {
         let f = self.body_of(k)?;
         let (velocity, momentum) =
             (f.velocity - f.acceleration * (0.5 * dt), f.momentum - f.torque * (0.5 * dt));
         let spin = turn::spin(&f.turn_back(0.5), &momentum, &f.inverse_inertia);
-        Some(energy(f.mass, &((f.place + f.place_before) * 0.5), &velocity, [&spin, &momentum], gravity))
+        let middle = (f.place + f.place_before) * 0.5;
+        Some(energy(f.mass, &middle, &velocity, [&spin, &momentum], &f.weight(setup)))
     }
 
     /// The body of row `k` moves by a prescribed motion from now on.

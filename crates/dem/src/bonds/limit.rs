@@ -64,18 +64,27 @@ pub fn frequency(beam: &Beam, ends: [&Particle; 2], materials: &[Material]) -> f
 
 /// Who bounds the step of bonds that are there at the start, and to what [s]; `None`: there are none.
 fn own(setup: &Setup) -> Result<Option<(f64, &Particle)>, SetupError> {
-    let ties = if setup.bonds.is_empty() { Vec::new() } else { ties(setup)? };
+    if setup.bonds.is_empty() {
+        return Ok(None);
+    }
+    let ties = ties(setup)?;
     let mut sorted: Vec<&Particle> = setup.particles.iter().collect();
     sorted.sort_unstable_by_key(|p| p.id);
-    let mut blocks = vec![Matrix6::zeros(); sorted.len()];
+    // A block of 36 numbers for each end of a bond, and none for the grains beside them.
+    let mut bonded: Vec<u32> = ties.iter().flat_map(|t| t.ends).collect();
+    bonded.sort_unstable();
+    bonded.dedup();
+    let mut blocks = vec![Matrix6::zeros(); bonded.len()];
     for tie in &ties {
-        add(&mut blocks, tie, tie.ends.map(|k| inverse(sorted[k as usize], &setup.materials)));
+        let inverse = tie.ends.map(|k| inverse(sorted[k as usize], &setup.materials));
+        let places = tie.ends.map(|k| bonded.partition_point(|&b| b < k));
+        add(&mut blocks, (tie, places), inverse);
     }
     let largest = |block: &Matrix6<f64>| block.symmetric_eigenvalues().max();
-    let all = blocks.iter().map(largest).zip(sorted);
+    let all = blocks.iter().map(largest).zip(bonded);
     let Some((square, worst)) = all.max_by(|a, b| a.0.total_cmp(&b.0)) else { return Ok(None) };
     let lag = ties.iter().map(|t| t.beam.lag).fold(0.0, f64::max);
-    Ok((!ties.is_empty()).then_some((root(square, square * lag), worst)))
+    Ok(Some((root(square, square * lag), sorted[worst as usize])))
 }
 
 /// What a stage downstream has to know of the bonds of a setup.
@@ -113,15 +122,15 @@ pub fn tighten(limit: &mut Limit, setup: &Setup) -> Result<(), SetupError> {
     Ok(())
 }
 
-fn add(blocks: &mut [Matrix6<f64>], tie: &Tie, inverse: [Vector6<f64>; 2]) {
+/// Adds a bond to the blocks of its ends, which are at these places.
+fn add(blocks: &mut [Matrix6<f64>], (tie, places): (&Tie, [usize; 2]), inverse: [Vector6<f64>; 2]) {
     for motion in motions(&tie.beam) {
         let scaled = [0, 1].map(|e| motion.ends[e].component_mul(&inverse[e].map(f64::sqrt)));
         let sum: f64 = scaled.iter().map(|g| g.norm_squared()).sum();
         for e in 0..2 {
             let own = scaled[e].norm_squared();
             if own > 0.0 {
-                blocks[tie.ends[e] as usize] +=
-                    scaled[e] * scaled[e].transpose() * (motion.stiffness * sum / own);
+                blocks[places[e]] += scaled[e] * scaled[e].transpose() * (motion.stiffness * sum / own);
             }
         }
     }

@@ -102,7 +102,7 @@ impl Simulation {
         let power: f64 = self.together(k).iter().map(|&m| self.power_about(m as usize, start)).sum();
         let taken = carried + power * after;
         self.account.left += taken;
-        match self.bodies.energy_before_half(k, &self.setup.gravity, self.dt) {
+        match self.bodies.energy_before_half(k, &self.setup, self.dt) {
             None => self.close_account(k, taken),
             Some(energy) => self.account.passed += taken - energy,
         }

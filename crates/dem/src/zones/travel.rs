@@ -246,7 +246,7 @@ impl Simulation {
         if self.setup.ledger {
             let Flow { velocity, spin, .. } = *flow;
             let free = Particle { position: self.particles.position(k), velocity, spin, ..t.start };
-            self.account.entered += match self.bodies.energy_at(k, &self.setup.gravity) {
+            self.account.entered += match self.bodies.energy_at(k, &self.setup) {
                 None => carried(&free, &self.setup).iter().sum::<f64>(),
                 Some(energy) => energy,
             };
