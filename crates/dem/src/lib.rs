@@ -33,6 +33,7 @@ mod servo;
 pub mod setup;
 mod simulation;
 mod sleep;
+mod start;
 mod state;
 mod sums;
 mod sweep;

@@ -7,17 +7,17 @@ use crate::account::Account;
 use crate::advance::Moved;
 use crate::bodies::Bodies;
 use crate::bonds::Bonds;
-use crate::contacts::{Contacts, Kind, With};
+use crate::contacts::{Contacts, Kind};
 use crate::error::{Halt, SetupError};
 use crate::explain::needed;
 use crate::images::Periods;
 use crate::lane::{Row, Row4, Width};
-use crate::law::{Elastic, compose};
-use crate::limit::{contact_between, critical_step, largest_reach, radii_by_material};
+use crate::limit::largest_reach;
 use crate::particles::Particles;
 use crate::servo::Piston;
-use crate::setup::{Particle, Setup, Step};
+use crate::setup::{Particle, Setup};
 use crate::sleep::Sleepers;
+use crate::start::{kinds, mean_radius, slow_enough, time_step};
 use crate::sums::Loads;
 use crate::sweep::Pass;
 use crate::walls::WallBody;
@@ -347,66 +347,4 @@ pub(crate) fn wrapped(periodic: &[Option<(f64, f64)>; 3], mut p: Vec3) -> Vec3 {
         }
     }
     p
-}
-
-fn time_step(setup: &Setup) -> Result<f64, SetupError> {
-    let limit = critical_step(setup)?;
-    match setup.step {
-        Step::Auto(_) if limit.dt.is_infinite() => Err(SetupError::NoStep),
-        Step::Auto(share) => Ok(share * limit.dt),
-        Step::Fixed(dt) if dt > limit.dt => {
-            Err(SetupError::StepTooLarge { dt, critical: limit.dt, pair: limit.pair })
-        }
-        Step::Fixed(dt) => Ok(dt),
-    }
-}
-
-/// A wall must not pass a particle within a few steps.
-fn slow_enough(setup: &Setup, walls: &[WallBody], dt: f64) -> Result<(), SetupError> {
-    let smallest = radii_by_material(setup).iter().flatten().map(|r| r.0).fold(f64::INFINITY, f64::min);
-    for (body, wall) in walls.iter().zip(&setup.walls) {
-        let (speed, limit) = (body.fastest(), setup.guards.motion);
-        let share = speed * dt / smallest;
-        if share > limit {
-            return Err(SetupError::WallTooFast { wall: wall.name.clone(), speed, dt, share, limit });
-        }
-    }
-    Ok(())
-}
-
-/// Mean radius of the particles, or of those that will enter [m].
-fn mean_radius(setup: &Setup) -> f64 {
-    let members = setup.clumps.member_radii();
-    let radii = || setup.particles.iter().map(|p| p.radius).chain(members.iter().copied());
-    let count = radii().count() as f64;
-    let mean = radii().sum::<f64>() / count;
-    if count > 0.0 { mean } else { 0.5 * (setup.smallest_entry + setup.largest_entry).max(1e-30) }
-}
-
-/// One kind for each pair of materials that particles have, and for each wall and material.
-fn kinds(setup: &Setup) -> Result<Vec<Kind>, SetupError> {
-    let present: Vec<u16> =
-        (0u16..).zip(radii_by_material(setup)).filter(|(_, r)| r.is_some()).map(|(m, _)| m).collect();
-    let periodic = setup.periodic.iter().any(|p| p.is_some());
-    let mut list = Vec::new();
-    let kind = |a: u16, b: u16, with: With| -> Result<Kind, SetupError> {
-        let elastic = Elastic::of(&setup.materials[a as usize], &setup.materials[b as usize]);
-        Ok(Kind {
-            kernel: compose(contact_between(setup, a, b)?, elastic, setup.precision, setup.yielding(a, b)),
-            between: (a, b),
-            with,
-        })
-    };
-    for &a in &present {
-        for &b in present.iter().filter(|&&b| a <= b) {
-            list.push(kind(a, b, With::Particles)?);
-            if periodic {
-                list.push(kind(a, b, With::Images)?);
-            }
-        }
-        for (w, wall) in setup.walls.iter().enumerate() {
-            list.push(kind(a, wall.material, With::Wall(w))?);
-        }
-    }
-    Ok(list)
 }

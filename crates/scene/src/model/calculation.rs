@@ -1,0 +1,199 @@
+//! How a scene is calculated and written, and what surrounds its grains.
+
+use serde::Deserialize;
+
+/// In which precision contacts are computed; places and sums are always double.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Arithmetic {
+    /// Double.
+    #[default]
+    F64,
+    /// Single in contacts.
+    Mixed,
+}
+
+/// `[time]`
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Time {
+    /// End of the run [s]; may come from `--until`.
+    pub until: Option<f64>,
+    /// Step.
+    #[serde(default)]
+    pub dt: OrAuto,
+    /// Share of the critical step when `dt` is "auto" [–]; absent: [`SAFETY`], or what `accuracy` needs.
+    pub safety: Option<f64>,
+    /// Largest error of an impact, for which the step is chosen [–].
+    pub accuracy: Option<Accuracy>,
+}
+
+/// A share: `"1%"`, or 0.01.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Accuracy(pub f64);
+
+impl Default for Time {
+    fn default() -> Time {
+        Time { until: None, dt: OrAuto::Auto, safety: None, accuracy: None }
+    }
+}
+
+/// A number, or "auto".
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum OrAuto {
+    /// Chosen by the program.
+    #[default]
+    Auto,
+    /// As given.
+    Given(f64),
+}
+
+/// `[output]`
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Output {
+    /// Time between frames; absent: a hundredth of the run.
+    pub every: Option<Every>,
+    /// Time between checkpoints [s]; absent: one at the end.
+    pub checkpoint: Option<f64>,
+    /// Whether the force on each wall is written with each frame; walls that follow a force always tell.
+    #[serde(default)]
+    pub wall_forces: bool,
+    /// Whether the energy ledger is kept and written.
+    #[serde(default)]
+    pub energy: bool,
+    /// Whether contacts are written with each frame.
+    #[serde(default)]
+    pub contacts: bool,
+    /// Type of the numbers in frames.
+    #[serde(default)]
+    pub precision: Precision,
+}
+
+impl Default for Output {
+    fn default() -> Output {
+        Output {
+            every: None,
+            checkpoint: None,
+            energy: false,
+            contacts: false,
+            wall_forces: false,
+            precision: Precision::F64,
+        }
+    }
+}
+
+/// Time between frames.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Every {
+    /// One at every step.
+    Step,
+    /// As given [s].
+    Given(f64),
+}
+
+/// Type of the numbers in frames; checkpoints and crossings are always exact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Precision {
+    /// Double.
+    #[default]
+    F64,
+    /// Single.
+    F32,
+}
+
+/// `[sleep]`
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Sleep {
+    /// Speed of the surface below which a particle is at rest [m/s].
+    pub speed: f64,
+    /// How long it must have been at rest [s].
+    #[serde(default = "sleep_time")]
+    pub time: f64,
+    /// Force that wakes it, over its weight [–].
+    #[serde(default = "sleep_wake")]
+    pub wake: f64,
+}
+
+fn sleep_time() -> f64 {
+    0.02
+}
+
+fn sleep_wake() -> f64 {
+    0.1
+}
+
+/// `[domain]`
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Domain {
+    /// Periodic axes.
+    #[serde(default)]
+    pub periodic: Vec<Axis>,
+    /// Lowest corner [m].
+    pub low: Option<[f64; 3]>,
+    /// Highest corner [m].
+    pub high: Option<[f64; 3]>,
+}
+
+/// An axis of space.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[allow(missing_docs)]
+pub enum Axis {
+    X,
+    Y,
+    Z,
+}
+
+/// `[drag]`
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Drag {
+    /// How drag depends on speed.
+    pub law: DragLaw,
+    /// Viscosity of the fluid [Pa·s].
+    pub viscosity: f64,
+    /// Density of the fluid [kg/m³]; "stokes" without buoyancy needs none.
+    pub density: Option<f64>,
+    /// Velocity of the fluid [m/s].
+    #[serde(default)]
+    pub velocity: [f64; 3],
+    /// Whether particles are lighter by the fluid that they displace.
+    #[serde(default)]
+    pub buoyancy: bool,
+}
+
+/// Law of drag.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum DragLaw {
+    /// Slow.
+    Stokes,
+    /// Up to Re = 2·10⁵.
+    SchillerNaumann,
+}
+
+/// `[neighbours]`
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Neighbours {
+    /// Neighbours are listed up to this gap [m]; absent: chosen.
+    pub skin: Option<f64>,
+}
+
+/// `[guards]`
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Guards {
+    /// Largest overlap, as a share of the smaller radius [–].
+    pub overlap: Option<f64>,
+    /// Largest motion in one step, as a share of the radius [–].
+    pub motion: Option<f64>,
+    /// Whether a run stops when a grain of an [[inlet]] goes back through all of its zone; absent: it does.
+    pub zones: Option<bool>,
+    /// Largest energy that the time step may make, as a share of what was exchanged and moves [–]; absent: not looked at.
+    pub energy: Option<f64>,
+}

@@ -1,0 +1,189 @@
+//! Grains: where they are, come from, and leave.
+
+use super::OrAuto;
+use dem::setup::{ZoneMotion, ZoneTest};
+use serde::Deserialize;
+
+/// One diameter or a range [m].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Diameter {
+    /// Smallest [m].
+    pub low: f64,
+    /// Largest [m].
+    pub high: f64,
+}
+
+/// `[[clump]]`: `spheres`, or `mesh` with `vertex_radius`.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Clump {
+    /// Name, that others call it by.
+    pub name: String,
+    /// Material.
+    pub material: String,
+    /// x, y, z, radius [m] of each sphere.
+    pub spheres: Option<Vec<[f64; 4]>>,
+    /// What the mass of spheres is.
+    #[serde(default)]
+    pub mass: ClumpMass,
+    /// A closed surface (PLY): the body; a sphere on each of its vertices.
+    pub mesh: Option<String>,
+    /// Radius of the spheres on the vertices of `mesh`, before `scale` [m].
+    pub vertex_radius: Option<f64>,
+    /// Lengths are multiplied by this [–].
+    #[serde(default = "one")]
+    pub scale: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// Mass, centre and inertia of a clump of spheres.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ClumpMass {
+    /// Of the union.
+    #[default]
+    Union,
+    /// Of the sum: where spheres overlap, twice.
+    Sum,
+}
+
+/// `[[body]]`: one rigid clump.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Body {
+    /// Name of its `[[clump]]`.
+    pub clump: String,
+    /// Centre of mass [m].
+    pub position: [f64; 3],
+    /// Orientation: w, x, y, z.
+    #[serde(default = "upright")]
+    pub quaternion: [f64; 4],
+    /// Velocity of the centre of mass [m/s].
+    #[serde(default)]
+    pub velocity: [f64; 3],
+    /// Angular velocity [rad/s].
+    #[serde(default)]
+    pub spin: [f64; 3],
+    /// Size over that of the clump [–].
+    #[serde(default = "one")]
+    pub scale: f64,
+}
+
+fn upright() -> [f64; 4] {
+    [1.0, 0.0, 0.0, 0.0]
+}
+
+/// `[[fill]]`
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Fill {
+    /// Material, unless there is a `clump`.
+    #[serde(default)]
+    pub material: String,
+    /// Name of a `[[clump]]`: bodies in the place of spheres.
+    pub clump: Option<String>,
+    /// Sizes of bodies over that of the clump, uniform in the range [–].
+    pub scale: Option<Diameter>,
+    /// Where; spheres lie wholly inside.
+    pub shape: String,
+    /// Diameters, uniform in the range [m], unless there is a `clump`.
+    #[serde(default)]
+    pub diameter: Diameter,
+    /// Mass [kg]; this or `count`.
+    pub mass: Option<f64>,
+    /// Number; this or `mass`.
+    pub count: Option<u64>,
+    /// Velocity at t = 0 [m/s].
+    #[serde(default)]
+    pub velocity: [f64; 3],
+    /// Seed of the random numbers.
+    #[serde(default)]
+    pub seed: u64,
+}
+
+/// `[[particles]]`
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Particles {
+    /// CSV, PLY or run MCAP (its last frame).
+    pub source: String,
+    /// Material of all; needed unless the file is a run, which names its own.
+    pub material: Option<String>,
+    /// Name of a `[[clump]]`: a body for each row.
+    pub clump: Option<String>,
+}
+
+/// `[[insert]]`
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Insert {
+    /// Material, unless there is a `clump`.
+    #[serde(default)]
+    pub material: String,
+    /// Name of a `[[clump]]`: bodies in the place of spheres.
+    pub clump: Option<String>,
+    /// Sizes of bodies over that of the clump, uniform in the range [–].
+    pub scale: Option<Diameter>,
+    /// Cross-section, thicker along the velocity than the largest diameter.
+    pub shape: String,
+    /// Diameters, uniform in the range [m].
+    #[serde(default)]
+    pub diameter: Diameter,
+    /// Velocity [m/s]; particles keep it until they leave the shape.
+    pub velocity: [f64; 3],
+    /// Rate [kg/s]; this or `rate_count`.
+    pub rate: Option<f64>,
+    /// Rate [1/s]; this or `rate`.
+    pub rate_count: Option<f64>,
+    /// When it opens [s].
+    #[serde(default)]
+    pub from: f64,
+    /// When it closes [s]; absent: never.
+    pub until: Option<f64>,
+    /// Seed of the random numbers.
+    #[serde(default)]
+    pub seed: u64,
+}
+
+/// `[[outlet]]`
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Outlet {
+    /// Storage plane, its normal in the direction of flow.
+    pub plane: String,
+    /// L1 [m]; "auto" is 1.2 times the largest diameter.
+    #[serde(default)]
+    pub length: OrAuto,
+    /// Motion in the zone.
+    #[serde(default)]
+    pub motion: ZoneMotion,
+    /// What of a grain passes the planes.
+    #[serde(default)]
+    pub test: ZoneTest,
+    /// Time between samples of paths, with motion "recorded" [s]; absent: ten steps.
+    pub samples: Option<f64>,
+    /// What the stage upstream was cut from (stage-split): goes into the record.
+    pub plant: Option<String>,
+}
+
+/// `[[inlet]]`
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Inlet {
+    /// Calculation plane, its normal in the direction of flow.
+    pub plane: String,
+    /// L2 [m]; "auto" is what the recorded stream was written with.
+    #[serde(default)]
+    pub length: OrAuto,
+    /// Motion in the zone; absent: that of the stream.
+    pub motion: Option<ZoneMotion>,
+    /// What of a grain passes the planes; absent: that of the stream.
+    pub test: Option<ZoneTest>,
+    /// What the stage upstream was cut from (stage-split): a record of another one is refused.
+    pub plant: Option<String>,
+    /// Inlet MCAP; absent: given on the command line.
+    pub source: Option<String>,
+}

@@ -1,0 +1,101 @@
+//! Walls and how they move.
+
+use serde::Deserialize;
+
+/// `[[wall]]`: one of `source`, `plane`, `mesh`, `box`, or none for walls of the command line.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Wall {
+    /// Name, for messages.
+    pub name: Option<String>,
+    /// Wall spheres: a walls MCAP.
+    pub source: Option<String>,
+    /// Unbounded plane; its normal points to the particles.
+    pub plane: Option<String>,
+    /// Triangles: a PLY file.
+    pub mesh: Option<String>,
+    /// Planes that look inward: lowest, highest corner [m].
+    #[serde(rename = "box")]
+    pub cuboid: Option<[f64; 6]>,
+    /// Which faces of the box there are; absent: all six.
+    pub faces: Option<Vec<Face>>,
+    /// Material; walls of an MCAP name their own.
+    pub material: Option<String>,
+    /// Motion; absent: at rest.
+    pub motion: Option<Motion>,
+    /// A force that it follows besides; absent: none.
+    pub servo: Option<Servo>,
+}
+
+/// A face of a box.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[allow(missing_docs)]
+pub enum Face {
+    #[serde(rename = "x-")]
+    LowX,
+    #[serde(rename = "x+")]
+    HighX,
+    #[serde(rename = "y-")]
+    LowY,
+    #[serde(rename = "y+")]
+    HighY,
+    #[serde(rename = "z-")]
+    LowZ,
+    #[serde(rename = "z+")]
+    HighZ,
+}
+
+/// Motion of a wall.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Motion {
+    /// Turn.
+    pub rotate: Option<Rotate>,
+    /// Shift [m/s].
+    pub translate: Option<[f64; 3]>,
+    /// Vibration.
+    pub vibrate: Option<Vibrate>,
+    /// When all of it starts [s].
+    #[serde(default)]
+    pub from: f64,
+    /// When it stops, where the wall is then [s]; absent: never.
+    pub until: Option<f64>,
+}
+
+/// A force that a wall follows.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Servo {
+    /// Which way the wall pushes.
+    pub direction: [f64; 3],
+    /// Force on the particles [N]; this or `stress`.
+    pub force: Option<f64>,
+    /// Stress [Pa] on `area`; this or `force`.
+    pub stress: Option<f64>,
+    /// Area that `stress` acts on [m²].
+    pub area: Option<f64>,
+    /// Largest speed [m/s].
+    pub speed_limit: f64,
+}
+
+/// A turn about a fixed axis.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Rotate {
+    /// Direction of the axis, right-handed.
+    pub about: [f64; 3],
+    /// A point of the axis [m].
+    pub through: [f64; 3],
+    /// Turns per minute.
+    pub rpm: f64,
+}
+
+/// A harmonic vibration.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Vibrate {
+    /// Amplitude and direction [m].
+    pub amplitude: [f64; 3],
+    /// Frequency [Hz].
+    pub frequency: f64,
+}
