@@ -175,8 +175,8 @@ impl<R: Lane> Memory<R> for V<R> {
     const COLUMNS: usize = 3;
     #[inline(always)]
     fn load(block: &[f64], lane: usize) -> V<R> {
-        let column = |c: usize| <R as Lane>::load(&block[c * BLOCK + lane..]);
-        V::new(column(0), column(1), column(2))
+        let (x, y, z) = (&block[lane..], &block[BLOCK + lane..], &block[2 * BLOCK + lane..]);
+        V::new(R::load(x), R::load(y), R::load(z))
     }
     #[inline(always)]
     fn store(self, block: &mut [f64], lane: usize) {

@@ -4,6 +4,7 @@ use crate::effects::{Contact, Effect, Load, Memory};
 use crate::lane::{BLOCK, Lane, Row, Row4, V, Width, fetch};
 #[cfg(target_arch = "x86_64")]
 use crate::lane::{
+    two::Two,
     x86::{X4, X8},
     x86_single::{Y4, Y8},
 };
@@ -129,7 +130,7 @@ fn dispatch<E: Effect, const KEEP: bool>(effect: &E, width: Width, common: Commo
         #[cfg(target_arch = "x86_64")]
         Width::Avx512 => simd::avx512::<X8, E, KEEP>(effect, common, task),
         #[cfg(target_arch = "x86_64")]
-        Width::Avx2 => simd::avx2::<X4, E, KEEP>(effect, common, task),
+        Width::Avx2 => simd::avx2::<Two<X4>, E, KEEP>(effect, common, task),
         _ => blocks::<f64, E, KEEP>(effect, common, task),
     }
 }
@@ -284,7 +285,16 @@ fn lanes<R: Lane, E: Effect, const KEEP: bool>(
         // Work of j's surface on i; only walls' is added up.
         let surface = (surface.dot(force) + load.couple.dot(turning)) * R::splat(common.dt);
         let row = [load.elastic, a, b, c, d, surface, load.lost, zero];
-        let mut row = row.map(|x| R::select(touching, x, zero));
+        let mut row = [
+            R::select(touching, row[0], zero),
+            R::select(touching, row[1], zero),
+            R::select(touching, row[2], zero),
+            R::select(touching, row[3], zero),
+            R::select(touching, row[4], zero),
+            R::select(touching, row[5], zero),
+            R::select(touching, row[6], zero),
+            zero,
+        ];
         if E::REACHES {
             // What a contact holds when it breaks is lost.
             let broken = R::select(was_held.gt(zero), load.elastic, zero);

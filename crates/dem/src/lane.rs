@@ -5,9 +5,13 @@
 //!
 //! Only operations that IEEE 754 rounds the same way everywhere: +, −, ×, ÷, √, comparison. No fused
 //! multiply-add and no reassociation, so a wide lane equals the scalar one bit for bit.
+//!
+//! What computes with lanes is inlined into the loop that is compiled for wide registers, always: functions say so, and closures cannot.
+//! One that is not inlined calls a function for each operation, and takes several times as long.
 
 pub mod scalar;
 pub mod single;
+pub mod two;
 #[cfg(target_arch = "x86_64")]
 pub mod x86;
 #[cfg(target_arch = "x86_64")]

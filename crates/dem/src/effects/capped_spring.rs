@@ -95,6 +95,12 @@ pub struct Outcome<R: Lane, X> {
 }
 
 impl<R: Lane> CappedSpring<R> {
+    /// What the cap leaves of a force of this square [–].
+    #[inline(always)]
+    fn share(&self, square: R) -> R {
+        (self.cap / square.max(R::splat(R::TINY)).sqrt()).min(R::splat(1.0))
+    }
+
     /// Moves the spring by `rate` over `dt`, and gives its force.
     #[inline(always)]
     pub fn pull<X: Stretch<R>>(&self, spring: &mut X, rate: X, dt: R) -> Outcome<R, X> {
@@ -111,11 +117,9 @@ impl<R: Lane> CappedSpring<R> {
         let size = force.with(force);
         let slides = size.gt(self.cap * self.cap);
         if R::any(slides) {
-            let one = R::splat(1.0);
-            let shrink = |square: R| (self.cap / square.max(R::splat(R::TINY)).sqrt()).min(one);
             let pull = stretched.times(self.stiffness);
-            kept = X::choose(slides, stretched.times(shrink(pull.with(pull))), stretched);
-            force = X::choose(slides, force.times(shrink(size)), force);
+            kept = X::choose(slides, stretched.times(self.share(pull.with(pull))), stretched);
+            force = X::choose(slides, force.times(self.share(size)), force);
         }
         *spring = kept + rest;
         let spring_force = kept.times(self.stiffness);

@@ -1,52 +1,79 @@
-//! Four and eight contacts at a time in single precision, between rows in double precision, by AVX2 and AVX-512.
+//! Eight contacts at a time in single precision, between rows in double precision, by AVX2 and AVX-512.
 //!
 //! Safety of this file: as for [`super::x86`]; nothing here reads or writes memory but through the wide types.
 #![allow(unsafe_code)]
 
+use super::two::Two;
 use super::x86::{X4, X8};
 use super::{Lane, Row, Row4};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Four floats.
+/// Eight floats beside two times four doubles.
 #[derive(Clone, Copy)]
-pub struct Y4(__m128);
+pub struct Y4(__m256);
 
-/// Eight floats.
+/// Eight floats beside eight doubles.
 #[derive(Clone, Copy)]
 pub struct Y8(__m256);
 
+type X4x2 = Two<X4>;
+
+#[inline(always)]
+unsafe fn narrow4(wide: X4x2) -> __m256 {
+    // SAFETY: see the module's head.
+    unsafe { _mm256_set_m128(_mm256_cvtpd_ps(wide.1.0), _mm256_cvtpd_ps(wide.0.0)) }
+}
+
+#[inline(always)]
+unsafe fn widen4(y: __m256) -> X4x2 {
+    // SAFETY: see the module's head.
+    let half = |h| X4(unsafe { _mm256_cvtps_pd(h) });
+    // SAFETY: see the module's head.
+    unsafe { Two(half(_mm256_castps256_ps128(y)), half(_mm256_extractf128_ps::<1>(y))) }
+}
+
+#[inline(always)]
+unsafe fn narrow8(wide: X8) -> __m256 {
+    // SAFETY: see the module's head.
+    unsafe { _mm512_cvtpd_ps(wide.0) }
+}
+
+#[inline(always)]
+unsafe fn widen8(y: __m256) -> X8 {
+    // SAFETY: see the module's head.
+    X8(unsafe { _mm512_cvtps_pd(y) })
+}
+
 macro_rules! single {
-    ($t:ident, $wide:ident, $width:literal, $mask:ty, $add:ident, $sub:ident, $mul:ident, $div:ident, $set:ident,
-     $sqrt:ident, $min:ident, $max:ident, $xor:ident, $and:ident, $cmp:ident, $blend:ident, $movemask:ident,
-     $narrow:ident, $widen:ident) => {
-        single!(@ $t, Add, add, $add);
-        single!(@ $t, Sub, sub, $sub);
-        single!(@ $t, Mul, mul, $mul);
-        single!(@ $t, Div, div, $div);
+    ($t:ident, $wide:ident, $narrow:ident, $widen:ident) => {
+        single!(@ $t, Add, add, _mm256_add_ps);
+        single!(@ $t, Sub, sub, _mm256_sub_ps);
+        single!(@ $t, Mul, mul, _mm256_mul_ps);
+        single!(@ $t, Div, div, _mm256_div_ps);
         impl Neg for $t {
             type Output = $t;
             #[inline(always)]
             fn neg(self) -> $t {
                 // SAFETY: see the module's head. Flips the sign bit, as scalar negation does.
-                $t(unsafe { $xor(self.0, $set(-0.0)) })
+                $t(unsafe { _mm256_xor_ps(self.0, _mm256_set1_ps(-0.0)) })
             }
         }
         impl Lane for $t {
-            const WIDTH: usize = $width;
+            const WIDTH: usize = 8;
             const TINY: f64 = f32::TINY;
-            type Mask = $mask;
+            type Mask = __m256;
             type Wide = $wide;
 
             #[inline(always)]
             fn narrow(wide: $wide) -> $t {
                 // SAFETY: see the module's head.
-                $t(unsafe { $narrow(wide.0) })
+                $t(unsafe { $narrow(wide) })
             }
             #[inline(always)]
             fn widen(self) -> $wide {
                 // SAFETY: see the module's head.
-                $wide(unsafe { $widen(self.0) })
+                unsafe { $widen(self.0) }
             }
             #[inline(always)]
             fn overlap(gap: $t, reach: $t, distance: $t) -> $t {
@@ -55,7 +82,7 @@ macro_rules! single {
             #[inline(always)]
             fn splat(x: f64) -> $t {
                 // SAFETY: see the module's head.
-                $t(unsafe { $set(x as f32) })
+                $t(unsafe { _mm256_set1_ps(x as f32) })
             }
             #[inline(always)]
             fn load(from: &[f64]) -> $t {
@@ -68,53 +95,61 @@ macro_rules! single {
             #[inline(always)]
             fn sqrt(self) -> $t {
                 // SAFETY: see the module's head.
-                $t(unsafe { $sqrt(self.0) })
+                $t(unsafe { _mm256_sqrt_ps(self.0) })
             }
             #[inline(always)]
             fn min(self, o: $t) -> $t {
                 // SAFETY: see the module's head.
-                $t(unsafe { $min(self.0, o.0) })
+                $t(unsafe { _mm256_min_ps(self.0, o.0) })
             }
             #[inline(always)]
             fn max(self, o: $t) -> $t {
                 // SAFETY: see the module's head.
-                $t(unsafe { $max(self.0, o.0) })
+                $t(unsafe { _mm256_max_ps(self.0, o.0) })
             }
             #[inline(always)]
-            fn gt(self, o: $t) -> $mask {
+            fn gt(self, o: $t) -> __m256 {
                 // SAFETY: see the module's head.
-                unsafe { $cmp::<_CMP_GT_OQ>(self.0, o.0) }
+                unsafe { _mm256_cmp_ps::<_CMP_GT_OQ>(self.0, o.0) }
             }
             #[inline(always)]
-            fn select(mask: $mask, yes: $t, no: $t) -> $t {
+            fn select(mask: __m256, yes: $t, no: $t) -> $t {
                 // SAFETY: see the module's head.
-                $t(unsafe { $blend(no.0, yes.0, mask) })
+                $t(unsafe { _mm256_blendv_ps(no.0, yes.0, mask) })
             }
             #[inline(always)]
-            fn both(a: $mask, b: $mask) -> $mask {
+            fn both(a: __m256, b: __m256) -> __m256 {
                 // SAFETY: see the module's head.
-                unsafe { $and(a, b) }
+                unsafe { _mm256_and_ps(a, b) }
             }
             #[inline(always)]
-            fn any(mask: $mask) -> bool {
+            fn any(mask: __m256) -> bool {
                 // SAFETY: see the module's head.
-                unsafe { $movemask(mask) != 0 }
+                unsafe { _mm256_movemask_ps(mask) != 0 }
             }
             #[inline(always)]
             fn rows(table: &[Row], index: &[u32]) -> [$t; 8] {
-                $wide::rows(table, index).map($t::narrow)
+                let c = $wide::rows(table, index);
+                let n = $t::narrow;
+                [n(c[0]), n(c[1]), n(c[2]), n(c[3]), n(c[4]), n(c[5]), n(c[6]), n(c[7])]
             }
             #[inline(always)]
             fn rows4(table: &[Row4], index: &[u32]) -> [$t; 4] {
-                $wide::rows4(table, index).map($t::narrow)
+                let c = $wide::rows4(table, index);
+                let n = $t::narrow;
+                [n(c[0]), n(c[1]), n(c[2]), n(c[3])]
             }
             #[inline(always)]
             fn store_rows(columns: [$t; 8], to: &mut [f64]) {
-                $wide::store_rows(columns.map($t::widen), to);
+                let [a, b, c, d, e, f, g, h] = columns;
+                let w = $t::widen;
+                $wide::store_rows([w(a), w(b), w(c), w(d), w(e), w(f), w(g), w(h)], to);
             }
             #[inline(always)]
             fn store_rows4(columns: [$t; 4], to: &mut [f64]) {
-                $wide::store_rows4(columns.map($t::widen), to);
+                let [a, b, c, d] = columns;
+                let w = $t::widen;
+                $wide::store_rows4([w(a), w(b), w(c), w(d)], to);
             }
         }
     };
@@ -130,45 +165,5 @@ macro_rules! single {
     };
 }
 
-single!(
-    Y4,
-    X4,
-    4,
-    __m128,
-    _mm_add_ps,
-    _mm_sub_ps,
-    _mm_mul_ps,
-    _mm_div_ps,
-    _mm_set1_ps,
-    _mm_sqrt_ps,
-    _mm_min_ps,
-    _mm_max_ps,
-    _mm_xor_ps,
-    _mm_and_ps,
-    _mm_cmp_ps,
-    _mm_blendv_ps,
-    _mm_movemask_ps,
-    _mm256_cvtpd_ps,
-    _mm256_cvtps_pd
-);
-single!(
-    Y8,
-    X8,
-    8,
-    __m256,
-    _mm256_add_ps,
-    _mm256_sub_ps,
-    _mm256_mul_ps,
-    _mm256_div_ps,
-    _mm256_set1_ps,
-    _mm256_sqrt_ps,
-    _mm256_min_ps,
-    _mm256_max_ps,
-    _mm256_xor_ps,
-    _mm256_and_ps,
-    _mm256_cmp_ps,
-    _mm256_blendv_ps,
-    _mm256_movemask_ps,
-    _mm512_cvtpd_ps,
-    _mm512_cvtps_pd
-);
+single!(Y4, X4x2, narrow4, widen4);
+single!(Y8, X8, narrow8, widen8);
