@@ -150,3 +150,19 @@ fn absent_effects_cost_no_instruction() {
         "instructions: frictionless {least}, friction {more}, rolling {most}; friction of 0: {apart} apart"
     );
 }
+
+/// A closure or a function that is not inlined into the loop of wide registers calls a function for each operation of its lanes, and takes
+/// several times as long, with the same result.
+#[cfg(target_arch = "x86_64")]
+#[test]
+fn nothing_that_computes_with_lanes_is_out_of_line() {
+    let Ok(symbols) = Command::new("nm").arg(tools::program("dem-run")).output() else {
+        skip("nm");
+        return;
+    };
+    let symbols = String::from_utf8_lossy(&symbols.stdout);
+    assert!(symbols.contains("kernel4simd"), "nm lists the symbols of dem-run");
+    let called: Vec<&str> =
+        symbols.lines().filter(|s| s.contains("core_arch") && s.contains("_mm")).collect();
+    assert!(called.is_empty(), "out of line: {called:#?}");
+}
