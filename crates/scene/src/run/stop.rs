@@ -47,7 +47,7 @@ impl<W: Write> Run<W> {
 
     /// A state without numbers is no use to anyone: the checkpoint is that of the last instant that was looked at. What has
     /// crossed since then crosses again.
-    pub(super) fn go_back(&mut self, reason: String, before: (Vec<u64>, dem::State)) -> Result<(), RunError> {
+    fn go_back(&mut self, reason: String, before: (Vec<u64>, dem::State)) -> Result<(), RunError> {
         let (given, state) = before;
         let time = state.time();
         let reason = format!("{reason}; the checkpoint is of t = {time:.6e} s, before it");

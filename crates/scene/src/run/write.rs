@@ -141,7 +141,7 @@ impl<W: Write> Run<W> {
         Ok(())
     }
 
-    pub(super) fn write_paths(&mut self) -> Result<(), RunError> {
+    fn write_paths(&mut self) -> Result<(), RunError> {
         let rows = std::mem::take(&mut self.paths);
         if !rows.is_empty() {
             self.writer.points(PATHS, self.now(), FRAME, paths::to_table(&rows))?;
