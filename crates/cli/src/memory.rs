@@ -3,7 +3,8 @@
 //! A cloud lies in a few blocks of megabytes that are filled once. On pages of 4 KiB the kernel hands these out one by one, and that costs
 //! more time than a tool's own work. On Linux a block of 1 MiB and more therefore begins at a multiple of 2 MiB and asks for
 //! huge pages; where there are none it has small ones, and everything else is as the system's allocator does it. A block that grows
-//! takes its pages along: nothing is copied.
+//! takes its pages along: nothing is copied. A block that is given back is kept for the next one, because the first touch of a page is
+//! dear, above all in a virtual machine; what is kept makes room before anything new is asked for, so that no tool ever takes more by it.
 #![allow(unsafe_code)]
 
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -14,6 +15,9 @@ const LARGE: usize = 1 << 20;
 /// Size of a huge page [B].
 #[cfg(target_os = "linux")]
 const PAGE: usize = 2 << 20;
+/// Most that is kept of what was given back [B].
+#[cfg(target_os = "linux")]
+const KEPT: usize = 256 << 20;
 
 /// The allocator of every tool.
 struct Memory;
@@ -35,7 +39,7 @@ fn is_large(_: &Layout) -> bool {
 unsafe impl GlobalAlloc for Memory {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         match is_large(&layout) {
-            true => pages::map(layout.size()),
+            true => pages::take(layout.size(), false),
             // SAFETY: the caller's promises are those that `System` wants.
             false => unsafe { System.alloc(layout) },
         }
@@ -43,8 +47,7 @@ unsafe impl GlobalAlloc for Memory {
 
     unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
         match is_large(&layout) {
-            // New pages are zero.
-            true => pages::map(layout.size()),
+            true => pages::take(layout.size(), true),
             // SAFETY: as above.
             false => unsafe { System.alloc_zeroed(layout) },
         }
@@ -52,8 +55,8 @@ unsafe impl GlobalAlloc for Memory {
 
     unsafe fn dealloc(&self, block: *mut u8, layout: Layout) {
         match is_large(&layout) {
-            // SAFETY: `alloc` mapped it with this size.
-            true => unsafe { pages::unmap(block, layout.size()) },
+            // SAFETY: `alloc` made it with this size, and nobody uses it any more.
+            true => unsafe { pages::give_back(block, layout.size()) },
             // SAFETY: as above.
             false => unsafe { System.dealloc(block, layout) },
         }
@@ -89,10 +92,102 @@ unsafe impl GlobalAlloc for Memory {
 
 #[cfg(target_os = "linux")]
 mod pages {
-    use super::PAGE;
+    use super::{KEPT, PAGE};
     use rustix::mm::{Advice, MapFlags, MremapFlags, ProtFlags};
     use rustix::mm::{madvise, mmap_anonymous, mremap, mremap_fixed, munmap};
-    use std::ptr::null_mut;
+    use std::ptr::{null_mut, with_exposed_provenance_mut};
+    use std::sync::{Mutex, MutexGuard, PoisonError};
+
+    /// Blocks that were given back, as address and size [B].
+    pub(super) struct Spare {
+        blocks: [(usize, usize); 32],
+        count: usize,
+        /// All together [B].
+        bytes: usize,
+    }
+
+    static SPARE: Mutex<Spare> = Mutex::new(Spare::NONE);
+
+    fn spare() -> MutexGuard<'static, Spare> {
+        SPARE.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    impl Spare {
+        /// Nothing is kept.
+        pub const NONE: Spare = Spare { blocks: [(0, 0); 32], count: 0, bytes: 0 };
+
+        /// So many bytes of the smallest block that has them; what is left of it stays.
+        pub fn take(&mut self, size: usize) -> Option<usize> {
+            let fits = (0..self.count).filter(|&k| self.blocks[k].1 >= size);
+            let best = fits.min_by_key(|&k| self.blocks[k].1)?;
+            let (start, whole) = self.blocks[best];
+            self.bytes -= size;
+            if whole > size {
+                self.blocks[best] = (start + size, whole - size);
+            } else {
+                self.drop_entry(best);
+            }
+            Some(start)
+        }
+
+        /// Whether a block is kept.
+        pub fn keep(&mut self, start: usize, size: usize) -> bool {
+            let fits = self.count < self.blocks.len() && self.bytes + size <= KEPT;
+            if fits {
+                self.blocks[self.count] = (start, size);
+                self.count += 1;
+                self.bytes += size;
+            }
+            fits
+        }
+
+        /// A block to be unmapped.
+        pub fn pop(&mut self) -> Option<(usize, usize)> {
+            let last = *self.blocks[..self.count].last()?;
+            self.bytes -= last.1;
+            self.count -= 1;
+            Some(last)
+        }
+
+        fn drop_entry(&mut self, k: usize) {
+            self.count -= 1;
+            self.blocks[k] = self.blocks[self.count];
+        }
+    }
+
+    /// A block for `size` bytes, zero where that is asked for; null when there is no memory.
+    pub fn take(size: usize, zero: bool) -> *mut u8 {
+        let all = whole(size);
+        let found = spare().take(all);
+        if let Some(start) = found {
+            let block = with_exposed_provenance_mut::<u8>(start);
+            if zero {
+                // SAFETY: the block is nobody's, and this long.
+                unsafe { block.write_bytes(0, size) };
+            }
+            return block;
+        }
+        // What is kept makes room.
+        let mut freed = 0;
+        while freed < all {
+            let Some((start, size)) = spare().pop() else { break };
+            freed += size;
+            // SAFETY: nobody has this block any more.
+            unsafe { unmap(with_exposed_provenance_mut(start), size) };
+        }
+        map(size)
+    }
+
+    /// Takes a block back, for the next one or for the system.
+    ///
+    /// # Safety
+    /// [`take`] or [`resize`] made it with this size, and nobody uses it any more.
+    pub unsafe fn give_back(block: *mut u8, size: usize) {
+        if !spare().keep(block.expose_provenance(), whole(size)) {
+            // SAFETY: promised by the caller.
+            unsafe { unmap(block, size) };
+        }
+    }
 
     /// Whole pages [B].
     pub fn whole(size: usize) -> usize {
@@ -160,13 +255,13 @@ mod pages {
     pub fn whole(size: usize) -> usize {
         size
     }
-    pub fn map(_: usize) -> *mut u8 {
-        std::ptr::null_mut()
-    }
     pub unsafe fn resize(_: *mut u8, _: usize, _: usize) -> *mut u8 {
         std::ptr::null_mut()
     }
-    pub unsafe fn unmap(_: *mut u8, _: usize) {}
+    pub fn take(_: usize, _: bool) -> *mut u8 {
+        std::ptr::null_mut()
+    }
+    pub unsafe fn give_back(_: *mut u8, _: usize) {}
 }
 
 #[cfg(test)]
@@ -191,6 +286,32 @@ mod tests {
                 );
                 assert!(block.iter().copied().eq(numbers(count)));
             }
+        }
+    }
+
+    /// What was given back is taken again, the smallest that fits first, and split; no more than a limit is kept.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn blocks_that_were_given_back_are_taken_again() {
+        let mut spare = pages::Spare::NONE;
+        assert!(spare.keep(1000 * PAGE, 6 * PAGE) && spare.keep(2000 * PAGE, 3 * PAGE));
+        assert_eq!(spare.take(7 * PAGE), None);
+        assert_eq!(spare.take(2 * PAGE), Some(2000 * PAGE));
+        assert_eq!(spare.take(PAGE), Some(2002 * PAGE));
+        assert_eq!(spare.take(2 * PAGE), Some(1000 * PAGE));
+        assert_eq!(spare.pop(), Some((1002 * PAGE, 4 * PAGE)));
+        assert_eq!((spare.pop(), spare.take(PAGE)), (None, None));
+        assert!(spare.keep(0, KEPT) && !spare.keep(KEPT, PAGE));
+    }
+
+    /// Zeros are zeros, also where something else was before.
+    #[test]
+    fn what_is_used_again_is_zero_where_that_is_asked_for() {
+        for _ in 0..3 {
+            let used = vec![7u8; 46 << 20];
+            assert!(used.iter().all(|&byte| byte == 7));
+            drop(used);
+            assert!(vec![0u8; 46 << 20].iter().all(|&byte| byte == 0));
         }
     }
 

@@ -1,7 +1,7 @@
 //! The contact loop: the only one, for pairs and for walls, for every composition of effects and every width.
 
 use crate::effects::{Contact, Effect, Load, Memory};
-use crate::lane::{BLOCK, Lane, Row, Row4, V, Width, fetch};
+use crate::lane::{BLOCK, Lane, Places, Row, Row4, V, Width, fetch};
 #[cfg(target_arch = "x86_64")]
 use crate::lane::{
     two::Two,
@@ -197,6 +197,10 @@ fn lanes<R: Lane, E: Effect, const KEEP: bool>(
 ) -> (bool, bool) {
     let at = block * BLOCK + lane;
     let (i, j) = (&task.i[at..at + R::WIDTH], &task.j[at..at + R::WIDTH]);
+    let rows =
+        |table: (&[Row], &[Row4])| if E::ROTATES { table.0.len().min(table.1.len()) } else { table.0.len() };
+    let (i, j) =
+        (Places::within(i, rows((common.rows, common.spins))), Places::within(j, rows(task.partners)));
     let [xi, yi, zi, ri, ui, vi, wi, inverse_mi] = R::Wide::rows(common.rows, i);
     let [xj, yj, zj, rj, uj, vj, wj, inverse_mj] = R::Wide::rows(task.partners.0, j);
     let (apart, reach) = (V::new(xi - xj, yi - yj, zi - zj), ri + rj);

@@ -63,6 +63,34 @@ pub fn fetch<T>(table: &[T], at: usize) {
     let _ = (table, at);
 }
 
+/// Which rows of a table are read: all of them within it, which is looked at once for several tables of as many rows.
+#[derive(Clone, Copy)]
+pub struct Places<'a> {
+    of: &'a [u32],
+    /// All are below this.
+    rows: usize,
+}
+
+impl<'a> Places<'a> {
+    /// Places in tables of so many rows.
+    ///
+    /// # Panics
+    /// Where one lies beyond.
+    #[inline(always)]
+    pub fn within(of: &'a [u32], rows: usize) -> Places<'a> {
+        let end = rows.min(u32::MAX as usize) as u32;
+        // Without a branch for each.
+        assert!(of.iter().fold(true, |all, &k| all & (k < end)));
+        Places { of, rows }
+    }
+
+    /// Those from number `first` on.
+    #[inline(always)]
+    pub fn from(self, first: usize) -> Places<'a> {
+        Places { of: &self.of[first..], ..self }
+    }
+}
+
 /// `WIDTH` numbers that are computed at once.
 pub trait Lane:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
@@ -103,10 +131,10 @@ pub trait Lane:
     fn both(a: Self::Mask, b: Self::Mask) -> Self::Mask;
     /// Whether any lane holds.
     fn any(mask: Self::Mask) -> bool;
-    /// Columns of the rows named by the first `WIDTH` of `index`.
-    fn rows(table: &[Row], index: &[u32]) -> [Self; 8];
+    /// Columns of the rows at the first `WIDTH` places.
+    fn rows(table: &[Row], places: Places) -> [Self; 8];
     /// The like for rows of four.
-    fn rows4(table: &[Row4], index: &[u32]) -> [Self; 4];
+    fn rows4(table: &[Row4], places: Places) -> [Self; 4];
     /// Writes columns as `WIDTH` rows of eight.
     fn store_rows(columns: [Self; 8], to: &mut [f64]);
     /// Writes columns as `WIDTH` rows of four.

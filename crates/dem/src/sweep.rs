@@ -1,8 +1,12 @@
 //! One pass over the tiles, in two halves: the loads of their contacts, which read all particles; then, for each tile, the loads that arrive
 //! from others, and the move of its particles. Tiles are shared out to threads; no result depends on how.
+//!
+//! A tile's contacts are with its own particles and with those of later tiles. So one thread alone takes both halves of a tile at once: who
+//! still reads its particles comes before it, and what it computes is in the cache when it moves.
 
-use crate::advance::{Columns, Drive, Moved};
+use crate::advance::{Columns, Drive, Moved, advance};
 use crate::kernel::Common;
+use crate::lane::{Row, Row4};
 use crate::motion::Pose;
 use crate::part::{Part, Scenery, Seen};
 use crate::particles::Particles;
@@ -10,6 +14,7 @@ use crate::simulation::Simulation;
 use crate::sleep::{Sleepers, Still, advance_awake};
 use crate::sums::{Sums, stride};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Particles below which one thread is faster than several.
 pub(crate) const FEW: usize = 2048;
@@ -39,6 +44,9 @@ pub struct Found {
 impl Simulation {
     /// Computes loads, moves particles, or both.
     pub(crate) fn pass(&mut self, pass: Pass) -> Found {
+        if pass == Pass::Step && self.goes_in_turn() {
+            return self.step_in_turn();
+        }
         let deep = match pass {
             Pass::Move => false,
             Pass::Recall => self.add_again(),
@@ -110,11 +118,73 @@ impl Simulation {
         share(many, items, run).into_iter().any(|found| found)
     }
 
-    /// Second half: adds what arrives at each tile from others, and moves its particles, where that is to be done.
-    fn finish(&mut self, collects: bool, moves: bool) -> Moved {
-        if moves && self.setup.drag.is_some() {
+    /// Whether tiles are stepped one after the other: one thread, and nothing that is to be done between the halves.
+    fn goes_in_turn(&self) -> bool {
+        let alone = self.particles.len() < FEW || rayon::current_num_threads() == 1;
+        alone && self.bonds.none() && self.sleepers.is_none()
+    }
+
+    /// Both halves of each tile at once.
+    fn step_in_turn(&mut self) -> Found {
+        let stride = stride(self.particles.rotates());
+        self.contacts.keep_each(self.keeps_each(), stride);
+        self.note_rows();
+        let (poses, period, drive) = (self.poses(), self.period(), self.drive());
+        let Particles { rows, spins, acceleration, turning, home, .. } = &mut self.particles;
+        let (kinds, walls, width) = (&self.kinds, &self.walls, self.width);
+        let (lists, mut part, mut sums, _) = self.contacts.parts(stride);
+        let mut found = Found::default();
+        let compute =
+            |segments: Range<usize>, rows: &[Row], spins: &[Row4], part: &mut Part, sums: &mut Sums| {
+                let common =
+                    Common { dt: self.dt, overlap_limit: self.setup.guards.overlap, rows, spins, stride };
+                let scenery = Scenery { kinds, walls, poses: &poses, period, width, common, known: None };
+                segments.fold(false, |any, k| any | part.compute(k, (&lists, &scenery), sums))
+            };
+        found.deep |= compute(0..lists.tiles[0], rows, spins, &mut part, &mut Sums::default());
+        for (tile, segments) in lists.tiles.windows(2).enumerate() {
+            let (mut mine, others) = sums.split(lists.tile);
+            sums = others;
+            mine.clear();
+            found.deep |= compute(segments[0]..segments[1], rows, spins, &mut part, &mut mine);
+            mine.collect(lists.arriving(tile), part.kept());
+            let (first, count) = (mine.first, mine.len());
+            let (all, turn) =
+                (first..first + count, if spins.is_empty() { 0..0 } else { first..first + count });
+            let columns = Columns {
+                first,
+                rows: &mut rows[all.clone()],
+                spins: &mut spins[turn.clone()],
+                acceleration: &mut acceleration[all.clone()],
+                turning: &mut turning[turn],
+                home: &home[all],
+                sums: mine,
+                beds: None,
+            };
+            found.moved = found.moved.and(advance(width, columns, &drive));
+        }
+        self.contacts.new = false;
+        found
+    }
+
+    /// Notes where particles are before they move; a fluid asks for that.
+    fn note_rows(&mut self) {
+        if self.setup.drag.is_some() {
             self.before.clone_from(&self.particles.rows);
         }
+    }
+
+    fn drive(&self) -> Drive {
+        let g = self.setup.gravity;
+        Drive { dt: self.dt, gravity: [g.x, g.y, g.z], motion_limit: self.setup.guards.motion }
+    }
+
+    /// Second half: adds what arrives at each tile from others, and moves its particles, where that is to be done.
+    fn finish(&mut self, collects: bool, moves: bool) -> Moved {
+        if moves {
+            self.note_rows();
+        }
+        let drive = self.drive();
         let Particles { rows, acceleration, spins, turning, home, .. } = &mut self.particles;
         let (count, many) = (acceleration.len(), acceleration.len() >= FEW);
         let (lists, part, sums, stills) = self.contacts.parts(stride(!spins.is_empty()));
@@ -128,9 +198,7 @@ impl Simulation {
             columns = others;
             items.push((tile, mine));
         }
-        let (g, bonds) = (self.setup.gravity, &self.bonds);
-        let (dt, motion_limit, width) = (self.dt, self.setup.guards.motion, self.width);
-        let drive = Drive { dt, gravity: [g.x, g.y, g.z], motion_limit };
+        let (bonds, width) = (&self.bonds, self.width);
         let moved = share(many, items, |(tile, mut columns)| {
             if collects {
                 columns.sums.collect(lists.arriving(tile), part.kept());

@@ -1,6 +1,6 @@
 //! One contact at a time: what the wide lanes must equal.
 
-use super::{Four, Lane, Row, Row4};
+use super::{Four, Lane, Places, Row, Row4};
 use std::ops::{Add, Mul, Sub};
 
 impl Lane for f64 {
@@ -63,12 +63,12 @@ impl Lane for f64 {
         mask
     }
     #[inline(always)]
-    fn rows(table: &[Row], index: &[u32]) -> [f64; 8] {
-        table[index[0] as usize].0
+    fn rows(table: &[Row], places: Places) -> [f64; 8] {
+        table[places.of[0] as usize].0
     }
     #[inline(always)]
-    fn rows4(table: &[Row4], index: &[u32]) -> [f64; 4] {
-        table[index[0] as usize].0
+    fn rows4(table: &[Row4], places: Places) -> [f64; 4] {
+        table[places.of[0] as usize].0
     }
     #[inline(always)]
     fn store_rows(columns: [f64; 8], to: &mut [f64]) {

@@ -1,6 +1,6 @@
 //! One contact at a time in single precision: what the wide lanes of single precision must equal.
 
-use super::{Lane, Row, Row4};
+use super::{Lane, Places, Row, Row4};
 
 impl Lane for f32 {
     const WIDTH: usize = 1;
@@ -61,12 +61,12 @@ impl Lane for f32 {
         mask
     }
     #[inline(always)]
-    fn rows(table: &[Row], index: &[u32]) -> [f32; 8] {
-        f64::rows(table, index).map(f32::narrow)
+    fn rows(table: &[Row], places: Places) -> [f32; 8] {
+        f64::rows(table, places).map(f32::narrow)
     }
     #[inline(always)]
-    fn rows4(table: &[Row4], index: &[u32]) -> [f32; 4] {
-        f64::rows4(table, index).map(f32::narrow)
+    fn rows4(table: &[Row4], places: Places) -> [f32; 4] {
+        f64::rows4(table, places).map(f32::narrow)
     }
     #[inline(always)]
     fn store_rows(columns: [f32; 8], to: &mut [f64]) {

@@ -5,7 +5,7 @@
 //! index, as in scalar code. All functions are inlined into those kernels.
 #![allow(unsafe_code)]
 
-use super::{Four, Lane, Row, Row4};
+use super::{Four, Lane, Places, Row, Row4};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -68,6 +68,13 @@ impl X8 {
         // SAFETY: see the module's head.
         X8(unsafe { _mm512_xor_pd(self.0, sign) })
     }
+}
+
+/// The first `N` places, and the start of a table that they lie in.
+#[inline(always)]
+fn first<'a, const N: usize, T>(table: &'a [T], places: Places<'a>) -> (&'a [u32], *const T) {
+    assert!(places.rows <= table.len());
+    (&places.of[..N], table.as_ptr())
 }
 
 #[inline(always)]
@@ -193,20 +200,20 @@ impl Lane for X4 {
         unsafe { _mm256_movemask_pd(mask) != 0 }
     }
     #[inline(always)]
-    fn rows(table: &[Row], index: &[u32]) -> [X4; 8] {
-        let half = |k: usize, at: usize| {
-            let row = &table[index[k] as usize];
-            // SAFETY: the row has eight numbers and `at` is 0 or 4.
-            unsafe { _mm256_loadu_pd(row.as_ptr().add(at)) }
-        };
+    fn rows(table: &[Row], places: Places) -> [X4; 8] {
+        let (of, table) = first::<4, Row>(table, places);
+        // SAFETY: the row is one of the table, has eight numbers, and `at` is 0 or 4.
+        let half =
+            |k: usize, at: usize| unsafe { _mm256_loadu_pd(table.add(of[k] as usize).cast::<f64>().add(at)) };
         let a = transpose4([half(0, 0), half(1, 0), half(2, 0), half(3, 0)]);
         let b = transpose4([half(0, 4), half(1, 4), half(2, 4), half(3, 4)]);
         [X4(a[0]), X4(a[1]), X4(a[2]), X4(a[3]), X4(b[0]), X4(b[1]), X4(b[2]), X4(b[3])]
     }
     #[inline(always)]
-    fn rows4(table: &[Row4], index: &[u32]) -> [X4; 4] {
-        // SAFETY: the row has four numbers.
-        let row = |k: usize| unsafe { _mm256_loadu_pd(table[index[k] as usize].as_ptr()) };
+    fn rows4(table: &[Row4], places: Places) -> [X4; 4] {
+        let (of, table) = first::<4, Row4>(table, places);
+        // SAFETY: the row is one of the table, and has four numbers.
+        let row = |k: usize| unsafe { _mm256_loadu_pd(table.add(of[k] as usize).cast()) };
         transpose4([row(0), row(1), row(2), row(3)]).map(X4)
     }
     #[inline(always)]
@@ -297,14 +304,15 @@ impl Lane for X8 {
         mask != 0
     }
     #[inline(always)]
-    fn rows(table: &[Row], index: &[u32]) -> [X8; 8] {
-        // SAFETY: the row has eight numbers.
-        let row = |k: usize| unsafe { _mm512_loadu_pd(table[index[k] as usize].as_ptr()) };
+    fn rows(table: &[Row], places: Places) -> [X8; 8] {
+        let (of, table) = first::<8, Row>(table, places);
+        // SAFETY: the row is one of the table, and has eight numbers.
+        let row = |k: usize| unsafe { _mm512_loadu_pd(table.add(of[k] as usize).cast()) };
         transpose8([row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7)]).map(X8)
     }
     #[inline(always)]
-    fn rows4(table: &[Row4], index: &[u32]) -> [X8; 4] {
-        let (a, b) = (X4::rows4(table, index), X4::rows4(table, &index[4..]));
+    fn rows4(table: &[Row4], places: Places) -> [X8; 4] {
+        let (a, b) = (X4::rows4(table, places), X4::rows4(table, places.from(4)));
         // SAFETY: see the module's head.
         let join = |k: usize| unsafe { X8(_mm512_insertf64x4::<1>(_mm512_castpd256_pd512(a[k].0), b[k].0)) };
         [join(0), join(1), join(2), join(3)]
