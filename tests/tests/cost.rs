@@ -138,7 +138,8 @@ fn absent_effects_cost_no_instruction() {
     // Made once, before any step: what a law is composed of.
     let setup = 100;
     assert_eq!(without.at(SPRING), 0, "{without:?}");
-    assert!(friction.at(SPRING) > 10_000, "{friction:?}");
+    // Blocks in which nothing touches are passed over.
+    assert!(friction.at(SPRING) > 5_000, "{friction:?}");
     assert!(2 * rolling.at(SPRING) > 3 * friction.at(SPRING), "{friction:?} {rolling:?}");
     let (least, more, most) = (without.engine(), friction.engine(), rolling.engine());
     // A quarter more at least: slip, spring, cap, couple of forces and rotation, beside lists and the move, which both have.

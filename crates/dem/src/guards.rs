@@ -4,17 +4,18 @@ use crate::contacts::With;
 use crate::error::Halt;
 use crate::lane::Row4;
 use crate::simulation::Simulation;
+use std::ops::Range;
 
-/// The deepest overlap, travellers and who has left among themselves left out; `Ok` when only those are too deep. Where particles have `moved`
-/// since loads were computed, they are looked for where they were.
-pub fn overlap(sim: &Simulation, moved: bool) -> Result<(), Halt> {
+/// The deepest overlap in those segments, travellers and who has left among themselves left out; `Ok` when only those are too deep. Where particles
+/// have `moved` since loads were computed, they are looked for where they were.
+pub fn overlap(sim: &Simulation, segments: &[Range<usize>], moved: bool) -> Result<(), Halt> {
     let limit = sim.setup.guards.overlap;
     let place = |k: usize| if moved { sim.position_before(k) } else { sim.particles.position(k) };
     let time = sim.time() - if moved { sim.dt } else { 0.0 };
     // Who has just left at the end of a zone travelled when loads were computed.
     let passive = |k: usize| sim.zones.travels(k) || sim.zones.is_gone(k);
     let mut worst: Option<(f64, Halt)> = None;
-    for segment in &sim.contacts.segments {
+    for segment in segments.iter().flat_map(|range| &sim.contacts.segments[range.clone()]) {
         let with = sim.kinds[segment.kind].with;
         for at in segment.contacts() {
             let (i, partner) = (sim.contacts.i[at] as usize, sim.contacts.partner[at] as usize);

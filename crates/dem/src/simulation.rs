@@ -243,9 +243,7 @@ impl Simulation {
         if !self.zones.none() {
             self.move_zones();
         }
-        if found.deep {
-            crate::guards::overlap(self, true)?;
-        }
+        crate::guards::overlap(self, &found.deep, true)?;
         if moved.wild {
             crate::guards::motion(self)?;
         }
@@ -266,7 +264,7 @@ impl Simulation {
         if self.setup.ledger {
             self.open_account(&fresh);
         }
-        if found.deep { crate::guards::overlap(self, false) } else { Ok(()) }
+        crate::guards::overlap(self, &found.deep, false)
     }
 
     /// Brings lists to this instant.

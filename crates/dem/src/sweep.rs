@@ -33,10 +33,10 @@ pub enum Pass {
 }
 
 /// What a pass found.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Default)]
 pub struct Found {
-    /// Whether an overlap passes its limit.
-    pub deep: bool,
+    /// Segments in which an overlap passes its limit.
+    pub deep: Vec<Range<usize>>,
     /// Of the particles that moved.
     pub moved: Moved,
 }
@@ -48,7 +48,7 @@ impl Simulation {
             return self.step_in_turn();
         }
         let deep = match pass {
-            Pass::Move => false,
+            Pass::Move => Vec::new(),
             Pass::Recall => self.add_again(),
             Pass::Loads | Pass::Step => self.compute(pass == Pass::Loads),
         };
@@ -59,8 +59,9 @@ impl Simulation {
         Found { deep, moved }
     }
 
-    /// Loads of all contacts, and their sums within tiles; whether an overlap passes its limit. `looks`: the load of each contact is kept.
-    fn compute(&mut self, looks: bool) -> bool {
+    /// Loads of all contacts, and their sums within tiles; the segments in which an overlap passes its limit. `looks`: the load of each contact
+    /// is kept.
+    fn compute(&mut self, looks: bool) -> Vec<Range<usize>> {
         self.contacts.keep_each(looks && self.records || self.keeps_each(), stride(self.particles.rotates()));
         self.for_tiles(|part, still, seen, sums| match still {
             Some(still) => still.compute(part, seen, sums),
@@ -72,7 +73,7 @@ impl Simulation {
     }
 
     /// Sums within tiles of loads that were computed before.
-    fn add_again(&mut self) -> bool {
+    fn add_again(&mut self) -> Vec<Range<usize>> {
         self.for_tiles(|part, still, seen, sums| {
             match still {
                 Some(still) => still.recall(part, seen, sums),
@@ -85,11 +86,11 @@ impl Simulation {
         })
     }
 
-    /// Does something with each segment of images, and with each tile, what rests there, and its sums; whether any says so.
+    /// Does something with each segment of images, and with each tile, what rests there, and its sums; the segments of those that say so.
     fn for_tiles(
         &mut self,
         each: impl Fn(&mut Part, Option<&mut Still>, Seen, &mut Sums) -> bool + Sync,
-    ) -> bool {
+    ) -> Vec<Range<usize>> {
         let poses = self.poses();
         let (period, stride, many) =
             (self.period(), stride(self.particles.rotates()), self.particles.len() >= FEW);
@@ -115,7 +116,10 @@ impl Simulation {
             items.push((one, stills.next(), mine));
         }
         let run = |(mut part, still, mut sums)| each(&mut part, still, (&lists, &scenery), &mut sums);
-        share(many, items, run).into_iter().any(|found| found)
+        let said = share(many, items, run);
+        let tiles = lists.tiles.windows(2).map(|s| s[0]..s[1]);
+        let segments = (0..lists.tiles[0]).map(|image| image..image + 1).chain(tiles);
+        segments.zip(said).filter(|(_, said)| *said).map(|(segments, _)| segments).collect()
     }
 
     /// Whether tiles are stepped one after the other: one thread, and nothing that is to be done between the halves.
@@ -139,14 +143,16 @@ impl Simulation {
                 let common =
                     Common { dt: self.dt, overlap_limit: self.setup.guards.overlap, rows, spins, stride };
                 let scenery = Scenery { kinds, walls, poses: &poses, period, width, common, known: None };
-                segments.fold(false, |any, k| any | part.compute(k, (&lists, &scenery), sums))
+                let deep =
+                    segments.clone().fold(false, |any, k| any | part.compute(k, (&lists, &scenery), sums));
+                deep.then_some(segments)
             };
-        found.deep |= compute(0..lists.tiles[0], rows, spins, &mut part, &mut Sums::default());
+        found.deep.extend(compute(0..lists.tiles[0], rows, spins, &mut part, &mut Sums::default()));
         for (tile, segments) in lists.tiles.windows(2).enumerate() {
             let (mut mine, others) = sums.split(lists.tile);
             sums = others;
             mine.clear();
-            found.deep |= compute(segments[0]..segments[1], rows, spins, &mut part, &mut mine);
+            found.deep.extend(compute(segments[0]..segments[1], rows, spins, &mut part, &mut mine));
             mine.collect(lists.arriving(tile), part.kept());
             let (first, count) = (mine.first, mine.len());
             let (all, turn) =

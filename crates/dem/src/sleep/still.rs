@@ -31,7 +31,7 @@ pub struct Still {
     goes_on: bool,
     /// Segments and places of contacts that do not rest.
     busy: Vec<(usize, Range<usize>)>,
-    /// Sums of the loads and couples of the others.
+    /// Sums of the loads and couples of the others; none where there are no others.
     rest: (Vec<f64>, Vec<f64>),
     /// Particles of the tile that are awake, counted from its first.
     pub awake: Vec<Range<usize>>,
@@ -60,7 +60,7 @@ impl Still {
         };
         self.goes_on = self.holds(&known);
         if self.goes_on {
-            sums.put(&self.rest);
+            if self.rest.0.is_empty() { sums.clear() } else { sums.put(&self.rest) }
         } else {
             self.find(known, part, seen, sums);
         }
@@ -101,12 +101,14 @@ impl Still {
         self.found = Some(known.turns);
         self.busy.clear();
         sums.clear();
+        let mut some = false;
         for (k, s) in part.segments.iter().enumerate() {
             let rests: Vec<bool> =
                 (s.places.start / BLOCK..s.places.end / BLOCK).map(|b| lists.rests(b, asleep)).collect();
             for run in runs(&rests) {
                 let places = s.places.start + run.start * BLOCK..s.places.start + run.end * BLOCK;
                 if rests[run.start] {
+                    some = true;
                     part.recall(s, places.clone(), seen, sums);
                     part.forget_ledger(places);
                 } else {
@@ -115,9 +117,11 @@ impl Still {
             }
         }
         self.rest.0.clear();
-        self.rest.0.extend_from_slice(sums.loads);
         self.rest.1.clear();
-        self.rest.1.extend_from_slice(sums.couples);
+        if some {
+            self.rest.0.extend_from_slice(sums.loads);
+            self.rest.1.extend_from_slice(sums.couples);
+        }
         let sleeps = &asleep[sums.first..sums.first + sums.len()];
         self.awake = runs(sleeps).filter(|run| !sleeps[run.start]).collect();
         let stirred = |k: &u32| sleeps[*k as usize] && lists.stirred(sums.first + *k as usize, asleep);
