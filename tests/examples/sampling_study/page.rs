@@ -12,10 +12,11 @@ bluenoise-sample scan.ply --spacing 0.012 -o even.ply                       # no
 bluenoise-sample scan.ply --count 100000 --method eliminate -o even.ply     # exactly so many\n\
 bluenoise-sample scan.ply --density 5000,7000 -o even.ply                   # points per m²\n\
 bluenoise-sample scan.ply --spacing 0.012 --plot spectrum.svg --report even.json -o even.ply   # … and its measures\n\
+bluenoise-sample scan.ply --spacing 0.012 --no-measures --report count.json -o even.ply        # a report without them: no time for measuring\n\
 ```\n\n\
 | method | what it does | take it for |\n|---|---|---|\n\
 | `poisson` | Poisson disk, the loneliest point first | the default: a guarantee both ways, and quick |\n\
-| `eliminate` | removes the most crowded point again and again (Yuksel 2015) | an exact count |\n\
+| `eliminate` | removes the most crowded point again and again (after Yuksel 2015) | an exact count |\n\
 | `relax` | Poisson disk, then each point moves to the middle of its share (Lloyd) | the least unevenness of large extent |\n\
 | `tile` | an even pattern laid on patch by patch, seams closed by Poisson disk | dense scans: a pattern that was made beforehand; fewer points for the same spacing where the scan is coarse |\n\
 | `grid` | the point nearest to each node of a grid along x, y, z | flows with one direction |\n\n\
@@ -26,11 +27,12 @@ pub const LEGEND: &str = "Variation: standard deviation over mean of the nearest
 below ν = ½ and no sharp peak. Anisotropy: 1 when directions differ by chance only. Processor time of one core, the least of two; by count it \
 takes several\nsamplings to find the spacing.";
 
-pub const TAIL: &str = "## Which distance\n\nDistances are those along the surface where another sheet lies nearer than the spacing, such as the far side of a thin plate: within a spacing, \
-points that are only\nconnected by ways more than 1.5 spacings long, and that lie off the plane of this sheet, do not thin it. Nothing but the points is needed for that: no normals. \
+pub const TAIL: &str = "## Which distance\n\nWith `--distance surface` distances are those along the surface where another sheet lies nearer than the spacing, such as the far side of a thin plate \
+(the default is `space`, which is\nquicker and bears more noise): within a spacing, points that are only\nconnected by ways more than 1.5 spacings long, and that lie off the plane of this sheet, do not thin it. Nothing but the points is needed for that: no normals. \
 Around a\nright-angled edge both sides thin each other as ever. Sheets are told apart where they are at least 1.7 times as far apart as the scan's own points (and a twentieth \
-of the\nspacing), and where the spacing is at least five times that of the scan; otherwise they are thinned as one. `--distance space` asks for the plain \
-distance. The grid is one of space.\n\nSurfaces that are one sheet everywhere are sampled bit for bit as in space, and cost nothing to speak of on top.";
+of the\nspacing), and where the spacing is at least five times that of the scan; otherwise they are thinned as one. The grid is one of space.\n\n\
+Surfaces that are one sheet everywhere are sampled bit for bit as in space. Noise of about the spacing of the scan makes one sheet look like many: \
+take `space` there.";
 
 /// What is written when all is known.
 #[derive(Default)]
