@@ -30,9 +30,10 @@ fn seen<'a>(parts: &[(Role, &'a Table)], colour: &str) -> Image {
     picture::draw(&parts, &[], &options).expect("drawn")
 }
 
-/// The pixel column that a direction `x` over `distance` falls on: 9 % at the right are the colour bar's.
+/// The pixel column that a direction `x` over `distance` falls on: 8.5 heights of the smallest capitals at the right are the
+/// colour bar's.
 fn column(slope: f64) -> f64 {
-    0.5 * 0.91 * 600.0 + slope * 200.0 / 0.2679
+    0.5 * (600.0 - 8.5 * 7.0) + slope * 200.0 / 0.2679
 }
 
 fn is_paper(image: &Image, x: f64) -> bool {

@@ -1,7 +1,7 @@
 //! What makes a picture readable: colour bar, scale bar, time, count and axes.
 
 use super::{
-    Image, PictureOptions,
+    Image, PictureOptions, font,
     ink::{Anchor, Pen},
     key::Key,
     lens::Lens,
@@ -11,9 +11,14 @@ use crate::{Role, colour, scale};
 
 const INK: [u8; 3] = [0x22, 0x26, 0x2b];
 
+/// Height of capitals in a picture of so many pixels [pixel].
+pub fn text_height(width: u32, height: u32) -> f64 {
+    (f64::from(height.min(width)) / 62.0).max(7.0)
+}
+
 /// Adds all of it.
 pub fn add(image: &mut Image, painted: &Painted, lens: &Lens, options: &PictureOptions) {
-    let text = (f64::from(image.height.min(image.width)) / 62.0).max(7.0);
+    let text = text_height(image.width, image.height);
     let [w, h] = [f64::from(image.width), f64::from(image.height)];
     let mut pen = Pen { image, colour: INK };
     match &painted.key {
@@ -64,9 +69,12 @@ fn number(value: f64, decimals: usize) -> String {
 fn bar(pen: &mut Pen, [w, h]: [f64; 2], text: f64, key: &Key) {
     let Key::Bar { field, unit, range, beyond, map } = key else { return };
     let (unit, factor) = scale::readable(unit, range.lo.abs().max(range.hi.abs()));
-    let (top, bottom) = ((0.22 * h).round(), (0.74 * h).round());
+    // In small pictures the axes, too, want their place.
+    let (top, bottom) = ((0.22 * h).round(), (0.74 * h).min(h - 10.5 * text).round());
     let width = (1.5 * text).round();
-    let left = (w - 0.078 * w).round();
+    let (ticks, decimals) = scale::ticks(scale::Range { lo: range.lo * factor, hi: range.hi * factor }, 6);
+    let labels: Vec<String> = ticks.iter().map(|&tick| number(tick, decimals)).collect();
+    let left = (w - (0.078 * w).max(width + 2.15 * text + widest(&labels, text))).round();
     for y in (top - width) as i64..(bottom + width) as i64 {
         let middle = y as f64 + 0.5;
         let over = (top - middle).max(middle - bottom).max(0.0);
@@ -78,20 +86,24 @@ fn bar(pen: &mut Pen, [w, h]: [f64; 2], text: f64, key: &Key) {
         pen.fill([left + inset, y as f64, left + width - inset, y as f64 + 1.0]);
     }
     pen.colour = INK;
-    let (ticks, decimals) = scale::ticks(scale::Range { lo: range.lo * factor, hi: range.hi * factor }, 6);
-    for tick in ticks {
+    for (tick, label) in ticks.into_iter().zip(&labels) {
         let y = bottom - (bottom - top) * range.share(tick / factor);
         pen.strokes(&[[[left + width, y], [left + width + 0.4 * text, y]]], (0.09 * text).max(1.0));
-        pen.text([left + width + 1.25 * text, y + 0.5 * text], text, Anchor::Left, &number(tick, decimals));
+        pen.text([left + width + 1.25 * text, y + 0.5 * text], text, Anchor::Left, label);
     }
     let title = if unit.is_empty() { field.clone() } else { format!("{field} [{unit}]") };
     pen.text([w - 0.9 * text, top - width - 1.3 * text], text, Anchor::Right, &title);
 }
 
+/// Width of the longest of some labels [pixel].
+fn widest(labels: &[String], height: f64) -> f64 {
+    labels.iter().map(|label| font::lay_out(label).1 * height / font::CAPITAL).fold(0.0, f64::max)
+}
+
 /// A patch and a name for each kind.
 fn kinds(pen: &mut Pen, [w, h]: [f64; 2], text: f64, field: &str, names: &[String]) {
     let top = 0.3 * h;
-    let left = w - 0.085 * w;
+    let left = w - (0.085 * w).max(2.8 * text + widest(names, text));
     pen.text([left, top - 1.4 * text], text, Anchor::Left, field);
     for (n, name) in names.iter().enumerate() {
         let y = top + 2.2 * text * n as f64;
@@ -141,6 +153,23 @@ fn gnomon(pen: &mut Pen, [x, y]: [f64; 2], text: f64, lens: &Lens) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// In a small picture, too: nothing is written over its right edge.
+    #[test]
+    fn the_labels_of_the_bar_stay_in_the_picture() {
+        for size in [[340, 210], [640, 720], [1920, 1080]] {
+            let [width, height] = size;
+            let mut image = Image { width, height, rgba: vec![255; 4 * (width * height) as usize] };
+            let range = scale::Range { lo: -11.8, hi: -10.7 };
+            let (field, unit) = ("z".to_owned(), "m");
+            let key = Key::Bar { field, unit, range, beyond: [true; 2], map: crate::Map::default() };
+            let mut pen = Pen { image: &mut image, colour: INK };
+            bar(&mut pen, size.map(f64::from), text_height(width, height), &key);
+            let inked = |x: u32| (0..height).any(|y| image.pixel(x, y) != [255; 4]);
+            let last = (0..width).rfind(|&x| inked(x)).unwrap();
+            assert!(last < width - 2, "{size:?}: ink in column {last}");
+        }
+    }
 
     #[test]
     fn numbers_are_printed_for_readers() {

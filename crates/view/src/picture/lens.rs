@@ -1,6 +1,6 @@
 //! The eye: from metres to samples of the picture.
 
-use super::{PictureOptions, paint::Painted};
+use super::{PictureOptions, furniture::text_height, paint::Painted};
 use crate::{camera, scale::Range};
 use geom::Vec3;
 
@@ -10,8 +10,9 @@ pub const SAMPLES: usize = 2;
 /// Half the height of the view, as the tangent of its angle.
 const HALF_VIEW: f64 = 0.2679;
 
-/// Share of the width kept free at the right for the colour bar.
+/// Share of the width kept free at the right for the colour bar, and that in heights of capitals: the larger of the two.
 const BAR_SHARE: f64 = 0.09;
+const BAR_TEXT: f64 = 8.5;
 
 /// Distance of a far lens, in radii of what it sees [–].
 const FAR: f64 = 50.0;
@@ -39,7 +40,8 @@ impl Lens {
         let (target, towards_eye) = options.camera.aimed(painted.middle());
         let axes = camera::axes(towards_eye);
         let focal = 0.5 * h / HALF_VIEW;
-        let free = [w * (1.0 - BAR_SHARE), h];
+        let bar = BAR_TEXT * text_height(options.width, options.height) * SAMPLES as f64;
+        let free = [w - bar.max(BAR_SHARE * w), h];
         let centre = [0.5 * free[0], 0.49 * h];
         let (target, distance) = match (options.camera.eye, options.camera.target) {
             (Some(eye), _) => (target, (eye - target).norm()),
