@@ -14,7 +14,8 @@ LENGTH=0.006
 TIMEFORMAT='%R %U %S'
 THREADS=${THREADS:-2}
 
-# Along recorded paths: in the mouth the fast pass the slow, and at constant velocity one in some thousands comes in through another.
+# Along recorded paths: in the mouth the fast pass the slow, and where each goes back on its own parabola one in some thousands comes in through another.
+# Behind the plane grains fall: at constant velocity the slow ones dam up the mouth.
 for keep in upstream downstream; do
   stage-split $SCENE --at=$CUT --length $LENGTH --motion recorded --keep $keep -o "$OUT/$keep.toml" -q
 done

@@ -181,6 +181,23 @@ fn the_ledger_closes_with_grains_that_turn_on_their_way_in() {
     assert!(e.entered > 1e-3 && open < 2e-3, "{open} of {e:?}");
 }
 
+/// Behind the storage plane grains fall, as they would in the plant: those that pass slowly are out of the way of the next.
+#[test]
+fn grains_fall_behind_the_plane() {
+    let mut setup = two();
+    setup.gravity = Vec3::new(9.81, 0.0, 0.0);
+    setup.particles.truncate(1);
+    let start = setup.particles[0];
+    setup.particles[0].velocity = Vec3::zeros();
+    let mut sim = Simulation::new(setup).expect("sound");
+    let fallen = |s: f64| (2.0 * s / 9.81).sqrt();
+    run_until(&mut sim, fallen(0.12 - start.position.x));
+    assert_eq!(sim.take_crossings().len(), 1);
+    let there = particles(&mut sim)[0].position.x;
+    let expected = start.position.x + 0.5 * 9.81 * sim.time().powi(2);
+    assert!((there - expected).abs() < 1e-9, "{there} m instead of {expected} m");
+}
+
 /// Paths are part of the state.
 #[test]
 fn paths_resume_exactly() {

@@ -32,7 +32,7 @@ pub enum ZoneMotion {
     Constant,
     /// x = x₀ + v₀ τ + ½ g τ²: free fall, without the fluid.
     Ballistic,
-    /// Outlet: constant, and the paths of particles are recorded that come near the storage plane. Inlet: along these paths.
+    /// Outlet: ballistic, and the paths of particles are recorded that come near the storage plane. Inlet: along these paths.
     Recorded,
 }
 
@@ -93,11 +93,11 @@ impl Zone {
         self.plane.signed_distance(centre) + self.lead(radius)
     }
 
-    /// Acceleration [m/s²] of what moves in it.
+    /// Acceleration [m/s²] of what moves in it, unless it follows a path.
     pub fn acceleration(&self, gravity: &Vec3) -> Vec3 {
         match self.motion {
-            ZoneMotion::Constant | ZoneMotion::Recorded => Vec3::zeros(),
-            ZoneMotion::Ballistic => *gravity,
+            ZoneMotion::Constant => Vec3::zeros(),
+            ZoneMotion::Ballistic | ZoneMotion::Recorded => *gravity,
         }
     }
 
