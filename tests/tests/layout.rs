@@ -92,8 +92,8 @@ fn written(scene: &str) -> String {
     let scene =
         scene::Scene::new("s.toml", HEAD.toml() + &HEAD.floor() + scene, &[], Path::new("")).expect("sound");
     let plan = scene.plan(Vec::new()).expect("whole");
-    let (provenance, compression) = (Provenance::default(), Compression::None);
-    let settings = scene::run::Settings { provenance, compression, watched: false, stop: || false };
+    let (provenance, how) = (Provenance::default(), Compression::None.into());
+    let settings = scene::run::Settings { provenance, how, watched: false, stop: || false };
     let (_, run) = scene::run::run(&scene, plan, None, Vec::new(), settings, &mut |_| ()).expect("it runs");
     layout(&scene::Checkpoint::last("run", &run[..]).expect("there is one")).expect("it has a layout")
 }

@@ -8,7 +8,7 @@ use crate::{
 use anyhow::Context;
 use std::{
     fs::{self, File},
-    io::{self, BufWriter, IsTerminal, Write},
+    io::{self, BufWriter, IsTerminal, Seek, SeekFrom, Write},
     path::{Path, PathBuf},
 };
 use stream::{mcap, ply::Encoding};
@@ -105,8 +105,7 @@ impl Output {
     /// As [`Output::open`]; a write that fails.
     pub fn open_mcap(&self, inputs: Vec<(String, String)>) -> anyhow::Result<mcap::Writer<OutputStream>> {
         let out = self.open()?;
-        let how = if out.is_stream() { mcap::Compression::None } else { mcap::Compression::Zstd };
-        let provenance = crate::provenance(inputs);
+        let (provenance, how) = (crate::provenance(inputs), out.how());
         mcap::Writer::compressed(out, &provenance, how)
             .with_context(|| format!("{}: cannot write", self.name()))
     }
@@ -221,6 +220,16 @@ impl OutputStream {
         matches!(self.sink.get_ref(), Sink::Direct(_))
     }
 
+    /// How an MCAP stream is written to it: packed, in place, in a file; not packed to a reader that waits.
+    pub fn how(&self) -> mcap::How<OutputStream> {
+        match self.is_stream() {
+            true => mcap::Compression::None.into(),
+            false => {
+                mcap::How { compression: mcap::Compression::Zstd, seeks: Some(|out, to| out.sink.seek(to)) }
+            }
+        }
+    }
+
     /// Flushes, and gives a file its name.
     ///
     /// # Errors
@@ -247,6 +256,15 @@ impl Write for Sink {
         match self {
             Sink::Direct(file) => file.flush(),
             Sink::Pending { part, .. } => part.file()?.flush(),
+        }
+    }
+}
+
+impl Seek for Sink {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        match self {
+            Sink::Direct(file) => file.seek(to),
+            Sink::Pending { part, .. } => part.file()?.seek(to),
         }
     }
 }

@@ -47,6 +47,7 @@ pub use energy::Energy;
 pub use error::{Halt, SetupError};
 pub use explain::{EffectCost, Part, needed, parts};
 pub use limit::{Limit, critical_step};
+pub use look::Snapshot;
 pub use particles::mass;
 pub use record::ContactRecord;
 pub use servo::WallForce;

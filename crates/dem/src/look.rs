@@ -18,33 +18,69 @@ struct Instant {
     turning: [f64; 3],
 }
 
+/// All particles at one instant, by id.
+pub struct Snapshot<'a> {
+    sim: &'a Simulation,
+    loads: Loads<'a>,
+    /// Velocity and spin of those that are members of clumps.
+    members: Vec<Option<(Vec3, Vec3)>>,
+    order: Vec<u32>,
+}
+
+impl Snapshot<'_> {
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.order.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.order.is_empty()
+    }
+
+    /// State of the one after `n` others.
+    ///
+    /// # Panics
+    /// Where there are not so many.
+    pub fn particle(&self, n: usize) -> Particle {
+        let (k, p) = (self.order[n] as usize, &self.sim.particles);
+        let Instant { velocity, spin, .. } = self.sim.instant(k, &self.loads);
+        let (velocity, spin) = self.members.get(k).copied().flatten().unwrap_or((velocity, spin));
+        Particle {
+            id: p.id[k],
+            material: p.material[k],
+            radius: p.rows[k][3],
+            position: self.sim.wrapped(p.position(k)),
+            velocity,
+            spin,
+        }
+    }
+}
+
 impl Simulation {
     /// Particles in the calculation, by id, with velocities of this instant.
     ///
     /// # Errors
     /// When the state is beyond a guard.
     pub fn particles(&mut self) -> Result<Vec<Particle>, Halt> {
+        let seen = self.snapshot()?;
+        Ok((0..seen.len()).map(|n| seen.particle(n)).collect())
+    }
+
+    /// The same, without a list of them: each is made when it is asked for.
+    ///
+    /// # Errors
+    /// When the state is beyond a guard.
+    pub fn snapshot(&mut self) -> Result<Snapshot<'_>, Halt> {
         self.ready()?;
-        let loads = self.all_loads();
         let (p, time) = (&self.particles, self.time());
+        let loads = self.all_loads();
         let members = self.bodies.member_states(p, &loads, &self.setup, self.dt);
-        let state = |k: usize| {
-            let Instant { velocity, spin, .. } = self.instant(k, &loads);
-            let (velocity, spin) = members.get(k).copied().flatten().unwrap_or((velocity, spin));
-            Particle {
-                id: p.id[k],
-                material: p.material[k],
-                radius: p.rows[k][3],
-                position: self.wrapped(p.position(k)),
-                velocity,
-                spin,
-            }
-        };
         // All at once: a list that grows takes twice its length, beside the largest state there is.
-        let mut out = Vec::with_capacity(p.len());
-        out.extend((0..p.len()).filter(|&k| !self.zones.is_hidden(k, time)).map(state));
-        out.sort_unstable_by_key(|p: &Particle| p.id);
-        Ok(out)
+        let mut order = Vec::with_capacity(p.len());
+        order.extend((0..p.len() as u32).filter(|&k| !self.zones.is_hidden(k as usize, time)));
+        order.sort_unstable_by_key(|&k| p.id[k as usize]);
+        Ok(Snapshot { sim: self, loads, members, order })
     }
 
     /// Corrects what was predicted for particle `k`, whose loads are those of this instant.

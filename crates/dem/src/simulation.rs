@@ -252,8 +252,11 @@ impl Simulation {
         if looks { crate::guards::energy(self) } else { Ok(()) }
     }
 
-    /// Brings lists and loads to this instant.
-    pub(crate) fn ready(&mut self) -> Result<(), Halt> {
+    /// Brings lists and loads to this instant, as looking at anything does.
+    ///
+    /// # Errors
+    /// When the state is beyond a guard.
+    pub fn ready(&mut self) -> Result<(), Halt> {
         if self.current {
             return Ok(());
         }

@@ -3,10 +3,10 @@
 use crate::crossings::Builder;
 use crate::model::Precision;
 use dem::setup::{ClumpShape, Clumps, Particle, Setup, Wall, WallShape};
-use dem::{BodyState, BondState, ContactRecord, Simulation, WallForce};
+use dem::{BodyState, BondState, ContactRecord, Simulation, Snapshot, WallForce};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
-use stream::{Table, Values};
+use stream::{Kind, Line, Rows, Table, Values};
 
 fn numbers(precision: Precision, values: impl Iterator<Item = f64>) -> Values {
     match precision {
@@ -15,28 +15,52 @@ fn numbers(precision: Precision, values: impl Iterator<Item = f64>) -> Values {
     }
 }
 
-/// The table of the topic `/particles`; with clumps in the scene, the body of each row, too (its own id for a free sphere).
-pub fn particles(rows: &[Particle], precision: Precision, bodies: Option<&[BodyState]>) -> Table {
-    let one = |of: &dyn Fn(&Particle) -> f64| numbers(precision, rows.iter().map(of));
-    let table = Builder::new(rows.len())
-        .with("x", one(&|p| p.position.x))
-        .with("y", one(&|p| p.position.y))
-        .with("z", one(&|p| p.position.z))
-        .with("radius", one(&|p| p.radius))
-        .with("vx", one(&|p| p.velocity.x))
-        .with("vy", one(&|p| p.velocity.y))
-        .with("vz", one(&|p| p.velocity.z))
-        .with("wx", one(&|p| p.spin.x))
-        .with("wy", one(&|p| p.spin.y))
-        .with("wz", one(&|p| p.spin.z))
-        .with("id", Values::U32(rows.iter().map(|p| p.id).collect()))
-        .with("material", Values::U16(rows.iter().map(|p| p.material).collect()));
-    let Some(bodies) = bodies else { return table.0 };
-    let body = |p: &Particle| {
-        let before = bodies.partition_point(|b| b.id <= p.id);
-        bodies[..before].last().filter(|b| b.has(p.id)).map_or(p.id, |b| b.id)
-    };
-    table.with("body", Values::U32(rows.iter().map(body).collect())).0
+/// The rows of the topic `/particles`; with clumps in the scene, the body of each row, too (its own id for a free sphere).
+pub struct ParticleRows<'a> {
+    /// Who they are.
+    pub all: Snapshot<'a>,
+    /// Of places and velocities.
+    pub precision: Precision,
+    /// Clumps by id, where the scene has any.
+    pub bodies: Option<&'a [BodyState]>,
+}
+
+/// Numbers of a particle that are written in the precision asked for, in the order of [`measured`].
+const MEASURED: [&str; 10] = ["x", "y", "z", "radius", "vx", "vy", "vz", "wx", "wy", "wz"];
+
+fn measured(p: &Particle) -> [f64; 10] {
+    let Particle { position: x, velocity: v, spin: w, radius, .. } = p;
+    [x.x, x.y, x.z, *radius, v.x, v.y, v.z, w.x, w.y, w.z]
+}
+
+impl Rows for ParticleRows<'_> {
+    fn fields(&self) -> Vec<(&str, Kind)> {
+        let kind = match self.precision {
+            Precision::F64 => Kind::F64,
+            Precision::F32 => Kind::F32,
+        };
+        let whole = [("id", Kind::U32), ("material", Kind::U16)];
+        let body = self.bodies.map(|_| ("body", Kind::U32));
+        MEASURED.into_iter().map(|name| (name, kind)).chain(whole).chain(body).collect()
+    }
+
+    fn count(&self) -> usize {
+        self.all.len()
+    }
+
+    fn put(&self, n: usize, row: &mut Line) {
+        let p = self.all.particle(n);
+        match self.precision {
+            Precision::F64 => measured(&p).into_iter().for_each(|x| row.put(x)),
+            Precision::F32 => measured(&p).into_iter().for_each(|x| row.put(x as f32)),
+        }
+        row.put(p.id);
+        row.put(p.material);
+        if let Some(bodies) = self.bodies {
+            let before = bodies.partition_point(|b| b.id <= p.id);
+            row.put(bodies[..before].last().filter(|b| b.has(p.id)).map_or(p.id, |b| b.id));
+        }
+    }
 }
 
 /// The table of the topic `/bodies`: a row for each rigid clump, at its centre of mass; the quaternion turns the frame that its shape was

@@ -23,7 +23,7 @@ use pass::Passing;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::io::Write;
-use stream::mcap::{Compression, Event, Provenance, Reader, Writer};
+use stream::mcap::{Event, How, Provenance, Reader, Writer};
 
 /// What is replayed, and where.
 #[derive(Debug, Clone, Default)]
@@ -141,7 +141,7 @@ pub fn replay<W: Write>(
     source: Source,
     what: &Replay,
     out: W,
-    (mut provenance, compression): (Provenance, Compression),
+    (mut provenance, how): (Provenance, How<W>),
 ) -> Result<(Replayed, W), RunError> {
     let mut reader = Reader::new(source);
     let broken = |e: stream::mcap::McapError| SceneError::Content {
@@ -162,7 +162,7 @@ pub fn replay<W: Write>(
         provenance.inputs.push(("scene of the run".to_owned(), crate::sha256(scene)));
     }
     let head = head::head(name, records, what)?;
-    let mut writer = Writer::compressed(out, &provenance, compression)?;
+    let mut writer = Writer::compressed(out, &provenance, how)?;
     writer.metadata(MATERIALS, head.materials.clone())?;
     writer.metadata(SIZES, head.sizes_record.clone())?;
     if !head.clumps_record.is_empty() {

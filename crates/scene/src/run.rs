@@ -17,7 +17,7 @@ use dem::setup::Crossing;
 use dem::{Halt, SetupError, Simulation};
 use serde::Serialize;
 use std::io::Write;
-use stream::mcap::{Compression, McapError, Provenance, Writer};
+use stream::mcap::{How, McapError, Provenance, Writer};
 use thiserror::Error;
 use write::Ended;
 
@@ -108,11 +108,11 @@ pub struct Outcome {
 }
 
 /// How a run is written.
-pub struct Settings {
+pub struct Settings<W> {
     /// What made it.
     pub provenance: Provenance,
-    /// How chunks are packed.
-    pub compression: Compression,
+    /// How its file is written.
+    pub how: How<W>,
     /// Whether the energy of each frame is computed for who hears of progress.
     pub watched: bool,
     /// Asked between steps: whether the run is to end here, with a checkpoint.
@@ -183,7 +183,7 @@ pub fn run<W: Write>(
     plan: Plan,
     resume: Option<Checkpoint>,
     out: W,
-    settings: Settings,
+    settings: Settings<W>,
     progress: &mut dyn FnMut(&Moment),
 ) -> Result<(Outcome, W), RunError> {
     let (stop, watched) = (settings.stop, settings.watched);

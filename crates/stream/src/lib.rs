@@ -8,7 +8,7 @@ pub mod state;
 pub mod table;
 
 pub use kind::Kind;
-pub use rows::Fill;
+pub use rows::{Fill, Line, Rows};
 pub use table::{Column, Table, Values};
 
 use sha2::{Digest, Sha256};

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 const CHUNK: usize = 2048;
 
 /// A number with a fixed layout.
-pub(crate) trait Number: Copy + Default + Send + Sync {
+pub trait Number: Copy + Default + Send + Sync {
     /// From the first bytes of a slice that is long enough.
     fn get<const BIG: bool>(bytes: &[u8]) -> Self;
     /// To the first bytes of a slice that is long enough.
@@ -49,6 +49,41 @@ pub(crate) fn column<const BIG: bool>(bytes: &[u8], stride: usize, offset: usize
         .with_min_len(CHUNK)
         .map(|row| T::get::<BIG>(&row[offset..]))
         .collect()))
+}
+
+/// Rows that are made while they are packed: nobody holds them as columns.
+pub trait Rows: Sync {
+    /// Names and types of the numbers of a row, in order.
+    fn fields(&self) -> Vec<(&str, Kind)>;
+    /// How many rows there are.
+    fn count(&self) -> usize;
+    /// Puts the numbers of the row after `n` others, in that order.
+    fn put(&self, n: usize, row: &mut Line);
+}
+
+/// What is left of a row that numbers are put into.
+pub struct Line<'a>(&'a mut [u8]);
+
+impl Line<'_> {
+    /// Puts the next number.
+    ///
+    /// # Panics
+    /// When the row is full.
+    #[inline(always)]
+    pub fn put<T: Number>(&mut self, x: T) {
+        let (own, rest) = std::mem::take(&mut self.0).split_at_mut(size_of::<T>());
+        x.put::<false>(own);
+        self.0 = rest;
+    }
+}
+
+/// Fills `out`, which holds whole rows of `stride` bytes.
+pub(crate) fn pack_rows(rows: &impl Rows, stride: usize, out: &mut [u8]) {
+    in_chunks(stride, 0, out, |first, out, stride| {
+        for (n, row) in (first..).zip(out.chunks_exact_mut(stride)) {
+            rows.put(n, &mut Line(row));
+        }
+    });
 }
 
 /// Bytes of one row of `columns`.

@@ -57,7 +57,7 @@ fn read(path: &Path) -> Read {
             Err(error) => {
                 assert!(
                     matches!(error, stream::mcap::McapError::Truncated { .. }),
-                    "cut, not damaged: {error}"
+                    "cut, not damaged: {error:?}"
                 );
                 read.whole = false;
             }

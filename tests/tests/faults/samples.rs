@@ -188,7 +188,7 @@ pub fn run(how: Compression, scene: &str) -> Vec<u8> {
     let plan = scene.plan(Vec::new()).expect("whole");
     let settings = scene::run::Settings {
         provenance: Provenance::default(),
-        compression: how,
+        how: how.into(),
         watched: false,
         stop: || false,
     };
@@ -198,7 +198,8 @@ pub fn run(how: Compression, scene: &str) -> Vec<u8> {
 /// The inlet of a run.
 pub fn inlet(run: &[u8]) -> Vec<u8> {
     let what = scene::replay::Replay::default();
-    let (source, how) = (Box::new(Cursor::new(run.to_vec())), (Provenance::default(), Compression::None));
+    let (source, how) =
+        (Box::new(Cursor::new(run.to_vec())), (Provenance::default(), Compression::None.into()));
     scene::replay::replay("run", source, &what, Vec::new(), how).expect("a run with an outlet").1
 }
 

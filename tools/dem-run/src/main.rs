@@ -13,7 +13,6 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader};
 use std::path::Path;
 use std::process::ExitCode;
-use stream::mcap::Compression;
 use watch::Watch;
 
 /// Runs a DEM scene and writes a run MCAP (walls, frames, crossings, checkpoints)
@@ -143,9 +142,8 @@ fn explain(args: &Args, scene: &Scene, plan: Plan) -> anyhow::Result<Report> {
 fn simulate(args: &Args, scene: &Scene, plan: Plan, resume: Option<Checkpoint>) -> anyhow::Result<Report> {
     let out = args.output.open_long()?;
     let (keep, part) = (out.keeper(), parts::as_named(&args.output, out.part()));
-    let compression = if out.is_stream() { Compression::None } else { Compression::Zstd };
-    let provenance = cli::provenance(plan.inputs.clone());
-    let settings = Settings { provenance, compression, watched: args.progress, stop: cli::stop_requested };
+    let (provenance, how) = (cli::provenance(plan.inputs.clone()), out.how());
+    let settings = Settings { provenance, how, watched: args.progress, stop: cli::stop_requested };
     cli::stop_in_order();
     let (mut watch, mut saved) = (Watch::new(args.progress), Saved::default());
     let first = u64::from(resume.is_none());

@@ -6,7 +6,6 @@ use args::Args;
 use cli::Report;
 use scene::replay::replay;
 use std::process::ExitCode;
-use stream::mcap::Compression;
 
 fn main() -> ExitCode {
     cli::run("stage-replay", stage_replay)
@@ -16,8 +15,7 @@ fn stage_replay(args: Args) -> anyhow::Result<Report> {
     let what = args.what()?;
     let source = args.run.open()?;
     let out = args.output.open()?;
-    let compression = if out.is_stream() { Compression::None } else { Compression::Zstd };
-    let written = (cli::provenance(Vec::new()), compression);
+    let written = (cli::provenance(Vec::new()), out.how());
     let (done, out) = replay(&args.run.to_string(), source, &what, out, written)?;
     out.commit()?;
     if done.particles == 0 {

@@ -127,7 +127,7 @@ impl Bodies {
         free.map(|f| -f.drag(setup).dot(&f.velocity)).sum()
     }
 
-    /// Velocity and spin of each member at this instant: row, velocity, spin.
+    /// Velocity and spin of each member at this instant, by particle; empty without clumps.
     pub fn member_states(
         &self,
         particles: &Particles,
@@ -135,6 +135,9 @@ impl Bodies {
         setup: &Setup,
         dt: f64,
     ) -> Vec<Option<(Vec3, Vec3)>> {
+        if self.flights.is_empty() {
+            return Vec::new();
+        }
         let mut out = vec![None; particles.len()];
         for f in &self.flights {
             let Instant { velocity, spin, .. } = self.instant(f, particles, loads, setup, dt);

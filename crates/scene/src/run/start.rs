@@ -26,7 +26,7 @@ impl<W: Write> Run<W> {
         plan: Plan,
         resume: Option<Checkpoint>,
         out: W,
-        settings: Settings,
+        settings: Settings<W>,
     ) -> Result<Run<W>, RunError> {
         let mut supply = Supply::new(plan.feeds);
         if let Some(saved) = &resume {
@@ -72,7 +72,7 @@ impl<W: Write> Run<W> {
             (i.to_string(), json(&gate))
         };
         let outlets: Record = zones.iter().enumerate().map(gate).collect();
-        let mut writer = Writer::compressed(out, &settings.provenance, settings.compression)?;
+        let mut writer = Writer::compressed(out, &settings.provenance, settings.how)?;
         for (name, mut record) in records(scene, &schedule, &sim, materials, plan.sizes, &outlets) {
             if name == SIZES && only_clumps {
                 record.insert(ONLY_CLUMPS.to_owned(), "true".to_owned());

@@ -5,7 +5,7 @@ use super::{
     WALL_FORCES, WALLS, json,
 };
 use crate::crossings::{self, CROSSINGS, Passage, WATERMARK, Watermark};
-use crate::frames;
+use crate::frames::{self, ParticleRows};
 use crate::links::{self, LINKS};
 use crate::paths::{self, PATHS, Waypoint};
 use crate::touches::{self, TOUCHES};
@@ -78,7 +78,7 @@ impl<W: Write> Run<W> {
     fn write_frame(&mut self) -> Result<(), Ended> {
         // What enters now belongs to this instant.
         self.feed()?;
-        let particles = self.sim.particles()?;
+        self.sim.ready()?;
         let now = self.now();
         if self.moving
             && self.sim.steps() > 0
@@ -87,10 +87,9 @@ impl<W: Write> Run<W> {
             self.writer.points(WALLS, now, FRAME, table)?;
         }
         let bodies = self.clumps.then(|| self.sim.bodies()).transpose()?;
-        let table = frames::particles(&particles, self.precision, bodies.as_deref());
-        // A large run has little room for both.
-        drop(particles);
-        self.writer.points(PARTICLES, now, FRAME, table)?;
+        let (all, precision) = (self.sim.snapshot()?, self.precision);
+        let rows = ParticleRows { all, precision, bodies: bodies.as_deref() };
+        self.writer.rows(PARTICLES, now, FRAME, &rows)?;
         if let Some(bodies) = bodies {
             self.writer.points(BODIES, now, FRAME, frames::bodies(&bodies))?;
         }

@@ -5,10 +5,14 @@ use std::io::{self, Seek, SeekFrom, Write};
 /// Memory that is kept from one chunk to the next [B]; that of a larger one is given back.
 pub(super) const KEPT: usize = 1 << 20;
 
-/// An output that may be sought in, as far back as it was last flushed: the head of a chunk tells its length and its checksum, and a pipe
-/// takes no byte twice.
+/// Goes to a place in an output and tells how far it is from the start [B], as [`Seek::seek`] does.
+pub type Seeks<W> = fn(&mut W, SeekFrom) -> io::Result<u64>;
+
+/// An output that may be sought in, as far back as it was last flushed: the head of a chunk tells its length and its checksum. A pipe takes no byte
+/// twice, so that what goes there waits in memory; a file is changed where it is.
 pub(super) struct Held<W> {
     out: W,
+    seeks: Option<Seeks<W>>,
     held: Vec<u8>,
     /// Bytes that were sent on: where what is held begins.
     sent: u64,
@@ -17,8 +21,8 @@ pub(super) struct Held<W> {
 }
 
 impl<W: Write> Held<W> {
-    pub fn new(out: W) -> Held<W> {
-        Held { out, held: Vec::new(), sent: 0, at: 0 }
+    pub fn new(out: W, seeks: Option<Seeks<W>>) -> Held<W> {
+        Held { out, seeks, held: Vec::new(), sent: 0, at: 0 }
     }
 
     /// The output, without what was not flushed.
@@ -29,6 +33,9 @@ impl<W: Write> Held<W> {
 
 impl<W: Write> Write for Held<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if self.seeks.is_some() {
+            return self.out.write(bytes);
+        }
         let over = bytes.len().min(self.held.len() - self.at);
         self.held[self.at..self.at + over].copy_from_slice(&bytes[..over]);
         self.held.extend_from_slice(&bytes[over..]);
@@ -50,6 +57,9 @@ impl<W: Write> Write for Held<W> {
 
 impl<W> Seek for Held<W> {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        if let Some(seek) = self.seeks {
+            return seek(&mut self.out, to);
+        }
         let end = self.sent + self.held.len() as u64;
         let place = match to {
             SeekFrom::Start(place) => Some(place),
@@ -69,7 +79,7 @@ mod tests {
 
     #[test]
     fn what_is_held_may_be_changed_and_what_was_sent_on_may_not() {
-        let mut held = Held::new(Vec::new());
+        let mut held = Held::new(Vec::new(), None);
         held.write_all(b"first").unwrap();
         held.flush().unwrap();
         held.write_all(b"----, then more").unwrap();
@@ -87,7 +97,7 @@ mod tests {
     /// Several times the largest frame would lie idle between two frames.
     #[test]
     fn no_memory_of_a_large_chunk_is_kept() {
-        let mut held = Held::new(io::sink());
+        let mut held = Held::new(io::sink(), None);
         held.write_all(&vec![1; 3 * KEPT]).unwrap();
         held.flush().unwrap();
         assert!(held.held.capacity() <= KEPT);

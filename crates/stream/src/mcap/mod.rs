@@ -16,9 +16,10 @@ mod reader;
 mod tests;
 mod writer;
 
+pub use held::Seeks;
 pub use provenance::{PROVENANCE, Provenance};
 pub use reader::{Event, Reader};
-pub use writer::{Compression, Writer};
+pub use writer::{Compression, How, Writer};
 
 use std::io;
 use thiserror::Error;

@@ -1,8 +1,8 @@
 //! Tables as `foxglove.PointCloud` messages.
 
 use crate::{
-    Kind, Table, Values,
-    rows::{column, pack, stride},
+    Kind, Rows, Table, Values,
+    rows::{column, pack, pack_rows},
 };
 use foxglove::messages::packed_element_field::NumericType;
 use foxglove::messages::{PackedElementField, PointCloud, Pose, Quaternion, Timestamp, Vector3};
@@ -39,9 +39,15 @@ fn kind(numeric: NumericType) -> Option<Kind> {
     })
 }
 
+/// What is around the rows of a message.
+pub(super) struct Head<'a> {
+    pub fields: Vec<(&'a str, Kind)>,
+    pub rows: usize,
+    pub time_ns: u64,
+    pub frame_id: &'a str,
+}
+
 /// Encodes a table into `message`, whose memory is used again.
-///
-/// The few small fields go through prost; the rows are packed behind them in place, without a copy.
 pub(super) fn encode(
     table: &Table,
     time_ns: u64,
@@ -49,40 +55,65 @@ pub(super) fn encode(
     message: &mut Vec<u8>,
 ) -> Result<(), String> {
     let columns: Vec<&Values> = table.columns().iter().map(|c| &c.values).collect();
-    let stride = stride(&columns);
-    let mut offset = 0;
-    let fields = table.columns().iter().map(|column| {
-        let kind = column.values.kind();
-        let field = PackedElementField { name: column.name.clone(), offset, r#type: numeric(kind) as i32 };
-        offset += kind.size() as u32;
-        field
-    });
-    let head = PointCloud {
-        timestamp: Some(Timestamp::new((time_ns / 1_000_000_000) as u32, (time_ns % 1_000_000_000) as u32)),
-        frame_id: frame_id.to_owned(),
-        pose: Some(Pose {
-            position: Some(Vector3::default()),
-            orientation: Some(Quaternion { x: 0.0, y: 0.0, z: 0.0, w: 1.0 }),
-        }),
-        point_stride: stride as u32,
-        fields: fields.collect(),
-        data: Default::default(),
-    };
-    let size = table.rows() * stride;
-    // A protobuf message is smaller than 2 GiB.
-    if size > i32::MAX as usize - 65536 {
-        return Err(format!("{} rows of {stride} bytes do not fit one message (2 GiB)", table.rows()));
+    let fields = table.columns().iter().map(|c| (&*c.name, c.values.kind())).collect();
+    let head = Head { fields, rows: table.rows(), time_ns, frame_id };
+    head.encode(message, |_, out| pack::<false>(&columns, 0, out))
+}
+
+/// Encodes rows that nobody holds.
+pub(super) fn encode_rows(
+    rows: &impl Rows,
+    time_ns: u64,
+    frame_id: &str,
+    message: &mut Vec<u8>,
+) -> Result<(), String> {
+    let head = Head { fields: rows.fields(), rows: rows.count(), time_ns, frame_id };
+    head.encode(message, |stride, out| pack_rows(rows, stride, out))
+}
+
+impl Head<'_> {
+    /// The few small fields go through prost; `fill` packs the rows of a width [B] behind them in place, without a copy.
+    fn encode(self, message: &mut Vec<u8>, fill: impl FnOnce(usize, &mut [u8])) -> Result<(), String> {
+        let Head { fields, rows, time_ns, frame_id } = self;
+        let mut stride = 0;
+        let fields = fields.into_iter().map(|(name, kind)| {
+            let offset = stride as u32;
+            stride += kind.size();
+            PackedElementField { name: name.to_owned(), offset, r#type: numeric(kind) as i32 }
+        });
+        let fields = fields.collect();
+        let head = PointCloud {
+            timestamp: Some(Timestamp::new(
+                (time_ns / 1_000_000_000) as u32,
+                (time_ns % 1_000_000_000) as u32,
+            )),
+            frame_id: frame_id.to_owned(),
+            pose: Some(Pose {
+                position: Some(Vector3::default()),
+                orientation: Some(Quaternion { x: 0.0, y: 0.0, z: 0.0, w: 1.0 }),
+            }),
+            point_stride: stride as u32,
+            fields,
+            data: Default::default(),
+        };
+        let size = rows * stride;
+        // A protobuf message is smaller than 2 GiB.
+        if size > i32::MAX as usize - 65536 {
+            return Err(format!("{rows} rows of {stride} bytes do not fit one message (2 GiB)"));
+        }
+        message.clear();
+        // Room for all at once: a list that grows takes twice its length.
+        message.reserve_exact(head.encoded_len() + 16 + size);
+        head.encode(message).map_err(|e| e.to_string())?;
+        if size > 0 {
+            message.push(DATA_TAG);
+            prost::encoding::encode_varint(size as u64, message);
+            let start = message.len();
+            message.resize(start + size, 0);
+            fill(stride, &mut message[start..]);
+        }
+        Ok(())
     }
-    message.clear();
-    head.encode(message).map_err(|e| e.to_string())?;
-    if size > 0 {
-        message.push(DATA_TAG);
-        prost::encoding::encode_varint(size as u64, message);
-        let start = message.len();
-        message.resize(start + size, 0);
-        pack::<false>(&columns, 0, &mut message[start..]);
-    }
-    Ok(())
 }
 
 /// Decodes a message.

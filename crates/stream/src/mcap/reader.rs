@@ -238,7 +238,10 @@ impl<R: Read> Reader<R> {
     fn explain(&self, error: Inner) -> McapError {
         match error {
             Inner::UnexpectedEof if self.byte == 0 => McapError::Empty,
-            Inner::UnexpectedEof => self.truncated(),
+            // The head of a chunk tells no length before the chunk is whole.
+            Inner::RecordTooLarge { opcode: op::CHUNK, len: u64::MAX }
+            | Inner::BadChunkLength { header: u64::MAX, .. }
+            | Inner::UnexpectedEof => self.truncated(),
             Inner::BadMagic if self.messages == 0 && !self.ended => McapError::Magic,
             Inner::BytesAfterEndMagic => McapError::Trailing { byte: self.byte },
             Inner::Io(e) => McapError::Io(e),

@@ -1,8 +1,10 @@
 use super::*;
-use crate::{Table, Values};
+use crate::{Kind, Line, Rows, Table, Values};
 use std::{
+    cell::RefCell,
     collections::BTreeMap,
     io::{self, Read, Write},
+    rc::Rc,
     sync::mpsc,
 };
 
@@ -32,7 +34,7 @@ fn one(key: &str, value: &str) -> BTreeMap<String, String> {
     BTreeMap::from([(key.to_owned(), value.to_owned())])
 }
 
-fn begin<W: Write>(out: W, how: Compression) -> Writer<W> {
+fn begin<W: Write>(out: W, how: impl Into<How<W>>) -> Writer<W> {
     let mut writer = Writer::compressed(out, &provenance(), how).unwrap();
     writer.metadata("materials", one("0", r#"{"name":"steel"}"#)).unwrap();
     for frame in 0..3 {
@@ -158,6 +160,94 @@ fn bytes_after_the_end_are_refused() {
         read(&[&stream(Compression::Zstd)[..], b"\n"].concat()),
         Err(McapError::Trailing { .. })
     ));
+}
+
+/// A file, and all that it was while it was written.
+#[derive(Clone, Default)]
+struct Seen(Rc<RefCell<(io::Cursor<Vec<u8>>, Vec<Vec<u8>>)>>);
+
+impl Seen {
+    fn seek(&mut self, to: io::SeekFrom) -> io::Result<u64> {
+        io::Seek::seek(&mut self.0.borrow_mut().0, to)
+    }
+}
+
+impl Write for Seen {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let (file, states) = &mut *self.0.borrow_mut();
+        let written = file.write(bytes);
+        states.push(file.get_ref().clone());
+        written
+    }
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// A file is written in place, with the bytes that a pipe gets. Whatever is there of it when its writer is killed is read as a stream that was cut.
+#[test]
+fn a_file_is_written_in_place_with_the_bytes_of_a_pipe() {
+    for compression in [Compression::None, Compression::Zstd] {
+        let file = Seen::default();
+        begin(file.clone(), How { compression, seeks: Some(Seen::seek) }).finish().unwrap();
+        let (file, states) = &*file.0.borrow();
+        let all = read(&stream(compression)).unwrap();
+        assert_eq!(file.get_ref(), &stream(compression));
+        let mut most = 0;
+        for state in &states[..states.len() - 1] {
+            let mut events: Vec<_> = Reader::new(&state[..]).collect();
+            let last = events.pop().unwrap();
+            assert!(matches!(last, Err(McapError::Truncated { .. })), "{compression:?}: {last:?}");
+            let whole: Vec<Event> = events.into_iter().map(Result::unwrap).collect();
+            assert!(all.starts_with(&whole) && whole.len() >= most);
+            most = whole.len();
+        }
+        assert_eq!(most, all.len());
+    }
+}
+
+/// What is written goes to a file at once: a chunk is not held beside its message.
+#[test]
+fn nothing_is_held_of_what_goes_to_a_file() {
+    let file = Seen::default();
+    let how = How { compression: Compression::None, seeks: Some(Seen::seek as Seeks<Seen>) };
+    let mut writer = begin(file.clone(), how);
+    let before = file.0.borrow().0.get_ref().len();
+    writer.bytes("/energy", "json", 60_000_000, &[b' '; 500_000]).unwrap();
+    assert!(file.0.borrow().0.get_ref().len() >= before + 500_000);
+}
+
+/// Rows that nobody holds, as the same table.
+#[test]
+fn rows_are_written_as_their_table_is() {
+    struct Own;
+    impl Rows for Own {
+        fn fields(&self) -> Vec<(&str, Kind)> {
+            vec![("x", Kind::F64), ("id", Kind::U32), ("r", Kind::F32), ("m", Kind::U16)]
+        }
+        fn count(&self) -> usize {
+            5000
+        }
+        fn put(&self, n: usize, row: &mut Line) {
+            row.put(n as f64 / 3.0);
+            row.put(n as u32);
+            row.put(n as f32);
+            row.put(n as u16);
+        }
+    }
+    let all = 0..5000;
+    let mut table = Table::default();
+    table.push("x", Values::F64(all.clone().map(|n| f64::from(n) / 3.0).collect())).unwrap();
+    table.push("id", Values::U32(all.clone().map(|n| n as u32).collect())).unwrap();
+    table.push("r", Values::F32(all.clone().map(|n| n as f32).collect())).unwrap();
+    table.push("m", Values::U16(all.map(|n| n as u16).collect())).unwrap();
+    let with = |write: &dyn Fn(&mut Writer<Vec<u8>>)| {
+        let mut writer = Writer::new(Vec::new(), &provenance()).unwrap();
+        write(&mut writer);
+        writer.finish().unwrap()
+    };
+    let rows = with(&|w| w.rows("/particles", 7, "world", &Own).unwrap());
+    assert_eq!(rows, with(&|w| w.points("/particles", 7, "world", &table).unwrap()));
 }
 
 /// Hazard 4: viewers refuse files without a summary.

@@ -1,8 +1,8 @@
 //! Writes a stream that is whole only when it was finished.
 
-use super::held::{Held, KEPT};
+use super::held::{Held, KEPT, Seeks};
 use super::{END_OF_STREAM, McapError, PROVENANCE, Provenance, points};
-use crate::Table;
+use crate::{Rows, Table};
 use ::mcap::{WriteOptions, records};
 use std::{borrow::Borrow, collections::BTreeMap, io::Write};
 
@@ -19,6 +19,22 @@ pub enum Compression {
     None,
     /// Zstandard at level 1: for files that stay.
     Zstd,
+}
+
+/// How a stream is written.
+#[derive(Debug)]
+pub struct How<W> {
+    /// How chunks are packed.
+    pub compression: Compression,
+    /// How the output goes back in itself, which a file can: what is written goes there at once. What goes to any other output waits in memory
+    /// until its chunk is whole.
+    pub seeks: Option<Seeks<W>>,
+}
+
+impl<W> From<Compression> for How<W> {
+    fn from(compression: Compression) -> How<W> {
+        How { compression, seeks: None }
+    }
 }
 
 /// Writes an MCAP stream to a file or a pipe; the bytes are the same for both.
@@ -48,10 +64,15 @@ impl<W: Write> Writer<W> {
     ///
     /// # Errors
     /// A write that fails.
-    pub fn compressed(out: W, provenance: &Provenance, how: Compression) -> Result<Writer<W>, McapError> {
+    pub fn compressed(
+        out: W,
+        provenance: &Provenance,
+        how: impl Into<How<W>>,
+    ) -> Result<Writer<W>, McapError> {
+        let How { compression, seeks } = how.into();
         let options = WriteOptions::new()
             .library(LIBRARY)
-            .compression(match how {
+            .compression(match compression {
                 Compression::None => None,
                 Compression::Zstd => Some(::mcap::Compression::Zstd),
             })
@@ -59,7 +80,7 @@ impl<W: Write> Writer<W> {
             // With threads, bytes would depend on their number.
             .compression_threads(0)
             .chunk_size(None);
-        let inner = options.create(Held::new(out)).map_err(McapError::writing)?;
+        let inner = options.create(Held::new(out, seeks)).map_err(McapError::writing)?;
         let mut writer = Writer {
             inner: Some(inner),
             channels: BTreeMap::new(),
@@ -98,10 +119,36 @@ impl<W: Write> Writer<W> {
         frame_id: &str,
         table: impl Borrow<Table>,
     ) -> Result<(), McapError> {
+        self.cloud(topic, time_ns, |message| {
+            let encoded = points::encode(table.borrow(), time_ns, frame_id, message);
+            drop(table);
+            encoded
+        })
+    }
+
+    /// Writes rows that are made while they are packed, as [`Writer::points`] writes a table of them.
+    ///
+    /// # Errors
+    /// As for a table.
+    pub fn rows(
+        &mut self,
+        topic: &str,
+        time_ns: u64,
+        frame_id: &str,
+        rows: &impl Rows,
+    ) -> Result<(), McapError> {
+        self.cloud(topic, time_ns, |message| points::encode_rows(rows, time_ns, frame_id, message))
+    }
+
+    fn cloud(
+        &mut self,
+        topic: &str,
+        time_ns: u64,
+        encode: impl FnOnce(&mut Vec<u8>) -> Result<(), String>,
+    ) -> Result<(), McapError> {
         let mut message = std::mem::take(&mut self.message);
         let wrong = |what| McapError::Points { topic: topic.to_owned(), time_ns, what };
-        points::encode(table.borrow(), time_ns, frame_id, &mut message).map_err(wrong)?;
-        drop(table);
+        encode(&mut message).map_err(wrong)?;
         let channel = format!("foxglove.PointCloud {topic}");
         if !self.channels.contains_key(&channel) {
             let schema = points::schema().ok_or_else(|| wrong("it has no schema".to_owned()))?;
