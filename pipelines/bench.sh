@@ -106,6 +106,7 @@ by_effect() {
     pile "+ twisting resistance" - "${rolling[@]}" "${twisting[@]}"
     pile "+ cohesion" - "${rolling[@]}" "${twisting[@]}" --set contact.0.cohesion=sjkr --set contact.0.cohesion_energy_density=1e4
     pile "sliding friction, mixed precision" - --set precision=mixed
+    pile "sliding friction, single precision" - --set precision=f32
     { cat pile.toml; printf '[[bond]]\nbetween = ["grain", "grain"]\ngap = 0\nyoung = 1e6\npoisson = 0.25\n'; } > bonded.toml
     row "sliding friction, a bond at every contact" bonded.toml "$grains" "$touching" "$listed" - "$rounds"
     read -r grains x y kind touching listed < <("$examples/tiles" "$sample" 10000 bodies.csv)

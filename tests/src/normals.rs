@@ -31,16 +31,21 @@ pub const NORMALS: [Normal; 5] = [
     Normal { name: "hertz with cohesion", law: Law::Hertz, cohesion: Some(5e4) },
 ];
 
-/// Every normal law, and once more in single precision where it is offered in that.
+/// Every normal law, and again in mixed and in single precision where it is offered in these.
 pub fn precisions() -> impl Iterator<Item = (Normal, Precision)> {
     let double = NORMALS.into_iter().map(|n| (n, Precision::Double));
-    double.chain(NORMALS.into_iter().filter(|n| !n.adheres()).map(|n| (n, Precision::Mixed)))
+    let narrow = [Precision::Mixed, Precision::Single];
+    double.chain(NORMALS.into_iter().filter(|n| !n.adheres()).flat_map(move |n| narrow.map(|p| (n, p))))
 }
 
 /// What a law in a precision is called.
 pub fn name_of(normal: &Normal, precision: Precision) -> String {
-    let mixed = if precision == Precision::Mixed { ", mixed precision" } else { "" };
-    format!("{}{mixed}", normal.name)
+    let precision = match precision {
+        Precision::Double => "",
+        Precision::Mixed => ", mixed precision",
+        Precision::Single => ", single precision",
+    };
+    format!("{}{precision}", normal.name)
 }
 
 /// E* of the materials of [`empty`] [Pa].

@@ -1,9 +1,11 @@
-//! Mixed precision: the laws hold to single precision, at the origin and far from it, and its error is what is said of it.
+//! Mixed and single precision: the laws hold to single precision, at the origin and far from it, and its error is what is said of it.
 
 use dem::setup::*;
 use dem::{Setup, SetupError, Simulation};
 use geom::{Vec3, mesh::TriMesh};
 use grainpipe_tests::setups::{HOOKE, LAWS, empty, grain, particles, plane, run_until, with_friction};
+
+const NARROW: [Precision; 2] = [Precision::Mixed, Precision::Single];
 
 fn simulation(setup: Setup, precision: Precision) -> Simulation {
     Simulation::new(Setup { precision, ..setup }).expect("sound")
@@ -30,13 +32,19 @@ fn an_impact_differs_by_no_more_than_single_precision() {
                 run_until(&mut sim, 0.02);
                 particles(&mut sim)
             };
-            let (double, mixed) = (end(Precision::Double), end(Precision::Mixed));
-            let momentum: Vec3 = mixed.iter().map(|p| p.velocity).sum();
-            assert!((momentum - Vec3::new(1.0, 0.3, -0.2)).norm() < 1e-14, "{law:?}: momentum {momentum:?}");
-            for (a, b) in double.iter().zip(&mixed) {
-                let (v, w) = ((a.velocity - b.velocity).norm(), (a.spin - b.spin).norm() * 0.01);
-                assert!(v < 2e-6 && w < 2e-6, "{law:?}: velocity differs by {v} m/s, spin by {w} m/s");
-                assert_ne!(a.velocity, b.velocity, "{law:?}: mixed precision is computed in double");
+            let double = end(Precision::Double);
+            for precision in NARROW {
+                let narrow = end(precision);
+                let momentum: Vec3 = narrow.iter().map(|p| p.velocity).sum();
+                assert!(
+                    (momentum - Vec3::new(1.0, 0.3, -0.2)).norm() < 1e-14,
+                    "{law:?}: momentum {momentum:?}"
+                );
+                for (a, b) in double.iter().zip(&narrow) {
+                    let (v, w) = ((a.velocity - b.velocity).norm(), (a.spin - b.spin).norm() * 0.01);
+                    assert!(v < 2e-6 && w < 2e-6, "{law:?}: velocity differs by {v} m/s, spin by {w} m/s");
+                    assert_ne!(a.velocity, b.velocity, "{law:?}: {precision:?} is computed in double");
+                }
             }
         }
     }
@@ -46,7 +54,7 @@ fn an_impact_differs_by_no_more_than_single_precision() {
 /// precision would allow to a thousandth: it is right to a millionth.
 #[test]
 fn a_grain_at_rest_overlaps_by_its_weight_over_the_stiffness() {
-    for precision in [Precision::Double, Precision::Mixed] {
+    for precision in [Precision::Double, Precision::Mixed, Precision::Single] {
         let mut setup = with_friction(empty(HOOKE, 0.2), 0.5);
         setup.gravity.z = -9.81;
         setup.walls = vec![plane(Vec3::z())];
@@ -57,6 +65,24 @@ fn a_grain_at_rest_overlaps_by_its_weight_over_the_stiffness() {
         let overlap = 0.01 - particles(&mut sim)[0].position.z;
         assert!((overlap * 1e4 / weight - 1.0).abs() < 1e-6, "{precision:?}: {overlap} m");
     }
+}
+
+/// The sum of three loads, each rounded to single precision, is rounded again only where sums are kept so.
+#[test]
+fn sums_are_rounded_in_single_precision() {
+    let end = |precision| {
+        let mut setup = empty(HOOKE, 0.7);
+        let around =
+            [Vec3::new(0.0196, 0.0, 0.0), Vec3::new(-0.0111, 0.0163, 0.0), Vec3::new(0.0, -0.007, 0.0181)];
+        setup.particles = (1..).zip(around).map(|(id, at)| grain(id, at)).collect();
+        setup.particles.push(grain(0, Vec3::zeros()));
+        let mut sim = simulation(setup, precision);
+        sim.step().expect("within the guards");
+        particles(&mut sim)[0].position
+    };
+    let (mixed, single) = (end(Precision::Mixed), end(Precision::Single));
+    let apart = (mixed - single).norm() / mixed.norm();
+    assert!(apart > 1e-9 && apart < 1e-6, "{apart}");
 }
 
 /// Triangles that are no contacts are put far out of reach, which single precision cannot hold.
@@ -71,19 +97,22 @@ fn a_grain_rests_on_a_mesh() {
     setup.walls = vec![Wall { shape: WallShape::Mesh(mesh), ..plane(Vec3::z()) }];
     setup.particles =
         vec![Particle { velocity: Vec3::new(0.1, 0.0, 0.0), ..grain(0, Vec3::new(0.0, 0.0, 0.01)) }];
-    let mut sim = simulation(setup, Precision::Mixed);
-    run_until(&mut sim, 1.0);
-    let p = particles(&mut sim)[0];
-    assert!(p.velocity.norm() < 1e-6 && (p.position.z - 0.01).abs() < 1e-4, "{p:?}");
+    for precision in NARROW {
+        let mut sim = simulation(setup.clone(), precision);
+        run_until(&mut sim, 1.0);
+        let p = particles(&mut sim)[0];
+        assert!(p.velocity.norm() < 1e-6 && (p.position.z - 0.01).abs() < 1e-4, "{precision:?}: {p:?}");
+    }
 }
 
 #[test]
 fn grains_too_fine_for_single_precision_are_refused() {
     let mut setup = with_friction(empty(HOOKE, 0.2), 0.5);
     setup.particles = vec![Particle { radius: 1e-6, ..grain(0, Vec3::zeros()) }];
-    setup.precision = Precision::Mixed;
-    let error = Simulation::new(setup).err().expect("refused").to_string();
-    assert!(error.contains("mixed") && error.contains("0.000001"), "{error}");
+    for precision in NARROW {
+        let error = Simulation::new(Setup { precision, ..setup.clone() }).err().expect("refused").to_string();
+        assert!(error.contains(precision.name()) && error.contains("0.000001"), "{error}");
+    }
 }
 
 #[test]
@@ -91,8 +120,11 @@ fn effects_that_are_not_offered_are_refused_by_name() {
     let mut setup = with_friction(empty(HOOKE, 0.5), 0.5);
     setup.contacts[0].twisting_resistance = Some(0.1);
     setup.particles = vec![grain(0, Vec3::zeros())];
-    setup.precision = Precision::Mixed;
-    let error = Simulation::new(setup).err().expect("refused");
-    assert!(matches!(error, SetupError::MixedWithout(_)));
-    assert!(error.to_string().contains("twisting") && error.to_string().contains("grain–grain"), "{error}");
+    for precision in NARROW {
+        let error = Simulation::new(Setup { precision, ..setup.clone() }).err().expect("refused");
+        assert!(matches!(error, SetupError::PrecisionWithout { .. }));
+        let text = error.to_string();
+        assert!(text.contains("twisting") && text.contains("grain–grain"), "{text}");
+        assert!(text.contains(precision.name()), "{text}");
+    }
 }

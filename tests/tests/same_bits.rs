@@ -70,17 +70,20 @@ fn every_width_of_lanes() {
     }
 }
 
-/// Mixed precision has the same bits for every width as well, and other ones than double precision.
+/// Mixed and single precision have the same bits for every width as well, and other ones than double precision.
 #[test]
-fn every_width_of_lanes_in_mixed_precision() {
+fn every_width_of_lanes_in_every_precision() {
     for law in LAWS {
-        let mixed = || Setup { precision: Precision::Mixed, ..shaken_trough(law) };
-        let of = |width| bits(Simulation::with_width(mixed(), width).expect("sound"), 1500);
-        let all: Vec<_> = Width::available().into_iter().map(|width| (width, of(width))).collect();
-        for (width, got) in &all {
-            assert!(*got == all[0].1, "{law:?}: {width:?} differs from {:?}", all[0].0);
+        let double = bits(simulation(shaken_trough(law)), 1500);
+        for precision in [Precision::Mixed, Precision::Single] {
+            let narrow = || Setup { precision, ..shaken_trough(law) };
+            let of = |width| bits(Simulation::with_width(narrow(), width).expect("sound"), 1500);
+            let all: Vec<_> = Width::available().into_iter().map(|width| (width, of(width))).collect();
+            for (width, got) in &all {
+                assert!(*got == all[0].1, "{law:?}, {precision:?}: {width:?} differs from {:?}", all[0].0);
+            }
+            assert!(all[0].1 != double, "{law:?}: {precision:?} is as exact as double");
         }
-        assert!(all[0].1 != bits(simulation(shaken_trough(law)), 1500), "mixed is as exact as double");
     }
 }
 

@@ -24,8 +24,8 @@ fn slope(folder: &Path, run: &str) -> f64 {
 
 /// 600 grains, three seeds: the slope with the friction of the full box, cut as that one is: at the mouth with zones of 1.2 d, along recorded paths.
 ///
-/// A heap of 15 grains in height is flatter than the full one, which is 50 high: undivided it has 27.6°, the mean of eight seeds with a deviation of
-/// 2.1° from one to the next. The mean of three is allowed 3°, two and a half of its own deviations; with next to no rolling resistance the heap has less than 10°.
+/// A heap of 15 grains in height is flatter than the full one, which is 50 high: undivided it has 30.5°, the mean of twelve seeds with a deviation of
+/// 2.6° from one to the next. The mean of three is allowed 4°, two and a half of its own deviations; with next to no rolling resistance the heap has less than 10°.
 #[test]
 fn the_small_box_in_stages_has_the_slope_of_the_small_box() {
     let place = folder();
@@ -51,7 +51,7 @@ fn the_small_box_in_stages_has_the_slope_of_the_small_box() {
         })
         .collect();
     let mean = angles.iter().sum::<f64>() / 3.0;
-    assert!((mean - 27.6).abs() < 3.0, "{mean}° of {angles:?}");
+    assert!((mean - 30.5).abs() < 4.0, "{mean}° of {angles:?}");
 }
 
 /// What is stated is what is run: friction, restitution and stiffness ratio of the full box, its slice and the small plant are the same.

@@ -11,6 +11,7 @@
 
 use crate::lane::scalar::Each;
 use crate::lane::{Four, Row, Row4, Width};
+use crate::number::Number;
 use crate::sleep::Beds;
 use crate::sums::Sums;
 
@@ -98,17 +99,19 @@ pub struct Drive {
 
 /// Moves particles by one step, computing with lanes of `width`; all widths give the same bits.
 pub fn advance(width: Width, columns: Columns, drive: &Drive) -> Moved {
-    match columns.spins.is_empty() {
-        false => dispatch::<true>(width, columns, drive),
-        true => dispatch::<false>(width, columns, drive),
+    match (columns.sums.form.single, columns.spins.is_empty()) {
+        (false, false) => dispatch::<f64, true>(width, columns, drive),
+        (false, true) => dispatch::<f64, false>(width, columns, drive),
+        (true, false) => dispatch::<f32, true>(width, columns, drive),
+        (true, true) => dispatch::<f32, false>(width, columns, drive),
     }
 }
 
-fn dispatch<const SPIN: bool>(width: Width, columns: Columns, drive: &Drive) -> Moved {
+fn dispatch<T: Number, const SPIN: bool>(width: Width, columns: Columns, drive: &Drive) -> Moved {
     match width {
         #[cfg(target_arch = "x86_64")]
-        Width::Avx2 | Width::Avx512 => simd::avx2::<SPIN>(columns, drive),
-        _ => chunk::<Each, SPIN>(columns, drive),
+        Width::Avx2 | Width::Avx512 => simd::avx2::<T, SPIN>(columns, drive),
+        _ => chunk::<T, Each, SPIN>(columns, drive),
     }
 }
 
@@ -119,18 +122,18 @@ mod simd {
     use super::*;
     use crate::lane::x86::X4;
 
-    pub fn avx2<const SPIN: bool>(columns: Columns, drive: &Drive) -> Moved {
+    pub fn avx2<T: Number, const SPIN: bool>(columns: Columns, drive: &Drive) -> Moved {
         #[target_feature(enable = "avx2")]
-        fn inner<const SPIN: bool>(columns: Columns, drive: &Drive) -> Moved {
-            chunk::<X4, SPIN>(columns, drive)
+        fn inner<T: Number, const SPIN: bool>(columns: Columns, drive: &Drive) -> Moved {
+            chunk::<T, X4, SPIN>(columns, drive)
         }
         // SAFETY: these widths are only made where the processor has AVX2.
-        unsafe { inner::<SPIN>(columns, drive) }
+        unsafe { inner::<T, SPIN>(columns, drive) }
     }
 }
 
 #[inline(always)]
-fn chunk<Q: Four, const SPIN: bool>(columns: Columns, drive: &Drive) -> Moved {
+fn chunk<T: Number, Q: Four, const SPIN: bool>(columns: Columns, drive: &Drive) -> Moved {
     let Columns { rows, spins, acceleration, turning, home, sums, .. } = columns;
     let loads = sums.seen();
     let [gx, gy, gz] = drive.gravity;
@@ -142,7 +145,7 @@ fn chunk<Q: Four, const SPIN: bool>(columns: Columns, drive: &Drive) -> Moved {
     for k in 0..rows.len() {
         let ([place, velocity], []) = rows[k].as_chunks_mut::<4>() else { continue };
         let (radius, inverse_mass) = (place[3], velocity[3]);
-        let sum = loads.sum::<Q, SPIN>(k, radius);
+        let sum = loads.sum::<T, Q, SPIN>(k, radius);
         let new = (sum.force * Q::all(inverse_mass) + gravity) * three;
         let v = Q::read(velocity) + half * (new - Q::read(&acceleration[k]));
         let moves = (dt * v + square * new) * three;

@@ -32,7 +32,7 @@ use crate::error::SetupError;
 use crate::particles::Particles;
 use crate::setup::{Link, Setup};
 use crate::simulation::Simulation;
-use crate::sums::{COUPLE, Sums};
+use crate::sums::Sums;
 use crate::sweep::{FEW, share};
 use beam::{Beam, Ends, Pull};
 use geom::Vec3;
@@ -252,11 +252,8 @@ impl Bonds {
             let k = sums.first + at;
             for &entry in &self.entries[self.starts[k] as usize..self.starts[k + 1] as usize] {
                 let (pull, second) = (&self.pulls[(entry >> 1) as usize], entry & 1 == 1);
-                for axis in 0..3 {
-                    let force = if second { -pull.force[axis] } else { pull.force[axis] };
-                    sums.loads[at * sums.stride + axis] += force;
-                    sums.couples[at * COUPLE + axis] += pull.moment[usize::from(second)][axis];
-                }
+                let force = pull.force.map(|f| if second { -f } else { f });
+                sums.add(at, force, pull.moment[usize::from(second)]);
             }
         }
     }

@@ -62,7 +62,7 @@ fn drag(d: &Drag) -> Result<(), SetupError> {
 }
 
 /// Radius below which the square of a couple is too small for single precision [m].
-const SMALLEST_MIXED: f64 = 1e-5;
+const SMALLEST_NARROW: f64 = 1e-5;
 
 /// Rare effects are compiled for double precision only.
 fn precision(setup: &Setup) -> Result<(), SetupError> {
@@ -70,9 +70,9 @@ fn precision(setup: &Setup) -> Result<(), SetupError> {
         return Ok(());
     }
     let smallest = radii_by_material(setup).iter().flatten().map(|r| r.0).fold(f64::INFINITY, f64::min);
-    let fine = smallest >= SMALLEST_MIXED;
+    let fine = smallest >= SMALLEST_NARROW;
     within(
-        "precision \"mixed\": radius",
+        format!("precision \"{}\": radius", setup.precision.name()),
         smallest,
         "m",
         fine,
@@ -82,7 +82,8 @@ fn precision(setup: &Setup) -> Result<(), SetupError> {
     rare.map_or(Ok(()), |c| {
         let name = |m: u16| setup.materials[m as usize].name.as_str();
         let what = "cohesion, JKR, twisting, weakening friction or constant rolling";
-        Err(SetupError::MixedWithout(format!("{what} ({}–{})", name(c.between.0), name(c.between.1))))
+        let what = format!("{what} ({}–{})", name(c.between.0), name(c.between.1));
+        Err(SetupError::PrecisionWithout { precision: setup.precision.name(), what })
     })
 }
 

@@ -11,9 +11,10 @@ pub use list::List;
 use crate::aligned::Aligned;
 use crate::kernel::{Kernel, LEDGER};
 use crate::lane::{BLOCK, Row, Row4};
+use crate::number::Form;
 use crate::part::{At, Lists, Part};
 use crate::sleep::Still;
-use crate::sums::{Arrival, COUPLE, Loads, Sums};
+use crate::sums::{Arrival, Loads, Sums};
 use geom::Vec3;
 use std::ops::Range;
 
@@ -87,6 +88,8 @@ impl Segment {
 pub struct Contacts {
     /// In order of their places.
     pub segments: Vec<Segment>,
+    /// How what is computed is kept.
+    pub form: Form,
     /// How many particles there are.
     particles: usize,
     /// Particles of a tile.
@@ -151,26 +154,33 @@ impl Contacts {
         self.ledger.chunks_exact(LEDGER).map(|row| row[0]).sum()
     }
 
-    /// Room for what is computed of them: numbers of one load, whether there are couples, whether a ledger is kept.
-    pub fn make_room(&mut self, stride: usize, couples: bool, ledger: bool) {
-        let (places, particles) = (self.i.len(), self.particles);
+    /// Room for what is computed of them: whether there are couples, whether a ledger is kept.
+    pub fn make_room(&mut self, couples: bool, ledger: bool) {
+        let (places, particles, load, couple) =
+            (self.i.len(), self.particles, self.form.load(), self.form.couple());
         let kept = self.segments.last().map_or(0, |s| s.kept + s.places.len());
-        let some = |couples: bool, n: usize| Aligned::zeros(if couples { n * COUPLE } else { 0 });
-        self.sums = (Aligned::zeros(particles * stride), some(couples, particles));
-        self.kept = (Aligned::zeros(kept * stride), some(couples, kept));
+        let some = |couples: bool, n: usize| Aligned::zeros(if couples { n * couple } else { 0 });
+        self.sums = (Aligned::zeros(particles * load), some(couples, particles));
+        self.kept = (Aligned::zeros(kept * load), some(couples, kept));
         (self.loads, self.couples, self.keeps) = Default::default();
         self.ledger = Aligned::zeros(if ledger { places * LEDGER } else { 0 });
         self.work.resize(if ledger { places } else { 0 }, 0.0);
     }
 
+    /// Gives the room back.
+    pub fn free_room(&mut self) {
+        (self.sums, self.kept, self.ledger) = Default::default();
+        (self.loads, self.couples, self.keeps) = Default::default();
+    }
+
     /// Whether the load and couple of each contact are kept from now on. Where they were not, all begin at 0: blocks in which nothing touches
     /// are not computed.
-    pub fn keep_each(&mut self, keep: bool, stride: usize) {
+    pub fn keep_each(&mut self, keep: bool) {
         if keep && !self.keeps {
             let places = self.i.len();
             let couples = if self.sums.1.is_empty() { 0 } else { places };
-            self.loads.clear(places * stride);
-            self.couples.clear(couples * COUPLE);
+            self.loads.clear(places * self.form.load());
+            self.couples.clear(couples * self.form.couple());
         }
         self.keeps = keep;
     }
@@ -199,7 +209,7 @@ impl Contacts {
 
     /// Sums of the loads on all particles.
     pub fn sums(&self) -> Loads<'_> {
-        Loads { first: 0, sums: (&self.sums.0, &self.sums.1) }
+        Loads { first: 0, form: self.form, sums: (&self.sums.0, &self.sums.1) }
     }
 
     /// The segment that a place belongs to.
@@ -207,19 +217,24 @@ impl Contacts {
         &self.segments[self.segments.partition_point(|s| s.places.start <= place) - 1]
     }
 
-    /// Where number `column` of so many in the memory of contact `place` is.
-    pub fn memory_at(&self, segment: &Segment, place: usize, column: usize, columns: usize) -> usize {
-        let k = place - segment.places.start;
-        segment.memory + (k / BLOCK * columns + column) * BLOCK + k % BLOCK
+    /// Number `column` of so many in the memory of contact `place`.
+    pub fn remembered(&self, segment: &Segment, place: usize, column: usize, columns: usize) -> f64 {
+        let at = self.form.memory_at(segment.memory, place - segment.places.start, column, columns);
+        self.form.get(&self.memory, at)
     }
 
     /// Gives one contact its memory, in the order of its kind's columns.
     pub fn give_memory(&mut self, segment: &Segment, place: usize, columns: &[f64]) {
         for (c, number) in columns.iter().enumerate() {
-            let at = self.memory_at(segment, place, c, columns.len());
-            self.memory[at] = *number;
+            let at = self.form.memory_at(segment.memory, place - segment.places.start, c, columns.len());
+            self.form.put(&mut self.memory, at, *number);
         }
         self.active[place / BLOCK] = true;
+    }
+
+    /// Force on the first particle of contact `place` [N], where each is kept.
+    pub fn force(&self, place: usize) -> Vec3 {
+        self.form.force(&self.loads, place)
     }
 
     /// Contact point of an image or a wall when loads were computed: place, radius (0 on a flat wall) [m].
@@ -247,8 +262,8 @@ impl Contacts {
             + size_of_val(&self.work[..])
     }
 
-    /// Everything, to be computed; `stride`: numbers of one load.
-    pub fn parts(&mut self, stride: usize) -> (Lists<'_>, Part<'_>, Sums<'_>, &mut [Still]) {
+    /// Everything, to be computed.
+    pub fn parts(&mut self) -> (Lists<'_>, Part<'_>, Sums<'_>, &mut [Still]) {
         let lists = Lists {
             i: &self.i,
             partner: &self.partner,
@@ -265,7 +280,7 @@ impl Contacts {
         };
         let part = Part {
             segments: &self.segments,
-            stride,
+            form: self.form,
             from: At::default(),
             rows: &mut self.rows,
             spins: &mut self.spins,
@@ -275,7 +290,7 @@ impl Contacts {
             each: if self.keeps { (&mut self.loads, &mut self.couples) } else { Default::default() },
             ledger: &mut self.ledger,
         };
-        let sums = Sums { first: 0, stride, loads: &mut self.sums.0, couples: &mut self.sums.1 };
+        let sums = Sums { first: 0, form: self.form, loads: &mut self.sums.0, couples: &mut self.sums.1 };
         (lists, part, sums, &mut self.stills)
     }
 }

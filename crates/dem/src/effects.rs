@@ -25,6 +25,7 @@ pub use twisting_resistance::TwistingResistance;
 pub use weakening::{Friction, Weakening};
 
 use crate::lane::{BLOCK, Lane, V};
+use crate::number::Number;
 
 /// What effects know of a contact; i is pushed along the normal.
 #[derive(Clone, Copy)]
@@ -129,9 +130,9 @@ pub trait Memory<R: Lane>: Copy {
     /// Numbers for each contact.
     const COLUMNS: usize;
     /// Reads the lanes from `lane` on in a block of columns, [`BLOCK`] apart.
-    fn load(block: &[f64], lane: usize) -> Self;
+    fn load<T: Number>(block: &[T], lane: usize) -> Self;
     /// Writes them.
-    fn store(self, block: &mut [f64], lane: usize);
+    fn store<T: Number>(self, block: &mut [T], lane: usize);
     /// Forgets where the mask does not hold.
     fn keep(self, mask: R::Mask) -> Self;
     /// Whether a column changes its sign when i and j change places, as vectors do.
@@ -141,9 +142,9 @@ pub trait Memory<R: Lane>: Copy {
 impl<R: Lane> Memory<R> for () {
     const COLUMNS: usize = 0;
     #[inline(always)]
-    fn load(_: &[f64], _: usize) {}
+    fn load<T: Number>(_: &[T], _: usize) {}
     #[inline(always)]
-    fn store(self, _: &mut [f64], _: usize) {}
+    fn store<T: Number>(self, _: &mut [T], _: usize) {}
     #[inline(always)]
     fn keep(self, _: R::Mask) {}
     fn flips(_: usize) -> bool {
@@ -155,12 +156,12 @@ impl<R: Lane> Memory<R> for () {
 impl<R: Lane> Memory<R> for R {
     const COLUMNS: usize = 1;
     #[inline(always)]
-    fn load(block: &[f64], lane: usize) -> R {
-        <R as Lane>::load(&block[lane..])
+    fn load<T: Number>(block: &[T], lane: usize) -> R {
+        T::load(&block[lane..])
     }
     #[inline(always)]
-    fn store(self, block: &mut [f64], lane: usize) {
-        Lane::store(self, &mut block[lane..]);
+    fn store<T: Number>(self, block: &mut [T], lane: usize) {
+        T::store(self, &mut block[lane..]);
     }
     #[inline(always)]
     fn keep(self, mask: R::Mask) -> R {
@@ -174,15 +175,15 @@ impl<R: Lane> Memory<R> for R {
 impl<R: Lane> Memory<R> for V<R> {
     const COLUMNS: usize = 3;
     #[inline(always)]
-    fn load(block: &[f64], lane: usize) -> V<R> {
+    fn load<T: Number>(block: &[T], lane: usize) -> V<R> {
         let (x, y, z) = (&block[lane..], &block[BLOCK + lane..], &block[2 * BLOCK + lane..]);
-        V::new(R::load(x), R::load(y), R::load(z))
+        V::new(T::load(x), T::load(y), T::load(z))
     }
     #[inline(always)]
-    fn store(self, block: &mut [f64], lane: usize) {
-        Lane::store(self.x, &mut block[lane..]);
-        Lane::store(self.y, &mut block[BLOCK + lane..]);
-        Lane::store(self.z, &mut block[2 * BLOCK + lane..]);
+    fn store<T: Number>(self, block: &mut [T], lane: usize) {
+        T::store(self.x, &mut block[lane..]);
+        T::store(self.y, &mut block[BLOCK + lane..]);
+        T::store(self.z, &mut block[2 * BLOCK + lane..]);
     }
     #[inline(always)]
     fn keep(self, mask: R::Mask) -> V<R> {
@@ -196,11 +197,11 @@ impl<R: Lane> Memory<R> for V<R> {
 impl<R: Lane, A: Memory<R>, B: Memory<R>> Memory<R> for (A, B) {
     const COLUMNS: usize = A::COLUMNS + B::COLUMNS;
     #[inline(always)]
-    fn load(block: &[f64], lane: usize) -> (A, B) {
+    fn load<T: Number>(block: &[T], lane: usize) -> (A, B) {
         (A::load(block, lane), B::load(&block[A::COLUMNS * BLOCK..], lane))
     }
     #[inline(always)]
-    fn store(self, block: &mut [f64], lane: usize) {
+    fn store<T: Number>(self, block: &mut [T], lane: usize) {
         self.0.store(block, lane);
         self.1.store(&mut block[A::COLUMNS * BLOCK..], lane);
     }

@@ -110,8 +110,15 @@ pub enum SetupError {
     )]
     ClumpOutlet(String),
     /// An effect that is computed in double precision only.
-    #[error("precision: \"mixed\" has no {0}: leave the key out for double precision, or that effect")]
-    MixedWithout(String),
+    #[error(
+        "precision: \"{precision}\" has no {what}: leave the key out for double precision, or that effect"
+    )]
+    PrecisionWithout {
+        /// The precision asked for.
+        precision: &'static str,
+        /// The effect, and between what.
+        what: String,
+    },
     /// Particles that the fluid does not act on.
     #[error("drag: not available yet with [sleep]: leave out one of them")]
     DragAndSleep,

@@ -7,7 +7,6 @@ use crate::effects::{
 use crate::lane::{Row, Row4};
 use crate::setup::{Contact, Law, RollingModel};
 use crate::simulation::Simulation;
-use crate::sums::{COUPLE, stride};
 use serde::Serialize;
 use std::mem::size_of;
 
@@ -139,7 +138,7 @@ impl Simulation {
             effect: part.effect,
             between: between.clone(),
             because: part.because,
-            bytes_per_contact: part.bytes,
+            bytes_per_contact: if self.form().single { part.bytes / 2 } else { part.bytes },
         };
         parts(c).into_iter().map(cost).collect()
     }
@@ -148,8 +147,9 @@ impl Simulation {
     pub fn bytes_per_particle(&self) -> usize {
         let rotates = self.particles.rotates();
         let rotation = if rotates { 2 * size_of::<Row4>() } else { 0 };
-        let couples = if self.couples() { COUPLE } else { 0 };
-        let sums = (stride(rotates) + couples) * size_of::<f64>();
+        let form = self.form();
+        let couples = if self.couples() { form.couple() } else { 0 };
+        let sums = (form.load() + couples) * size_of::<f64>();
         let state = size_of::<Row>() + 2 * size_of::<Row4>() + sums;
         let sleep = if self.sleepers.is_some() { size_of::<Row>() + size_of::<u32>() + 2 + sums } else { 0 };
         state + rotation + sleep + size_of::<u32>() + size_of::<u16>() + size_of::<u32>()

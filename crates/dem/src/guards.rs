@@ -106,6 +106,6 @@ impl Simulation {
         let rows = p.rows.iter().all(|row| row.iter().all(|x| x.is_finite()));
         let fours = [&p.spins, &p.acceleration, &p.turning];
         rows && fours.iter().all(|column| column.iter().all(|q| q[..3].iter().all(|x| x.is_finite())))
-            && self.contacts.memory.iter().all(|x| x.is_finite())
+            && self.contacts.form.are_finite(&self.contacts.memory)
     }
 }

@@ -8,7 +8,9 @@ use crate::lane::{
     x86::{X4, X8},
     x86_single::{Y4, Y8},
 };
-use crate::sums::{COUPLE, FORCE, FORCE_AND_MOMENT, Sums};
+use crate::number::{COUPLE, FORCE, FORCE_AND_MOMENT, Form, Number};
+use crate::sums::Sums;
+use std::marker::PhantomData;
 
 /// Blocks between one whose rows are asked for and the one that is computed; chosen on the bench pile.
 const AHEAD: usize = 4;
@@ -28,8 +30,8 @@ pub struct Common<'a> {
     pub rows: &'a [Row],
     /// Particle spins; empty without rotation.
     pub spins: &'a [Row4],
-    /// Numbers of one load.
-    pub stride: usize,
+    /// How loads and memory are kept.
+    pub form: Form,
 }
 
 /// Some blocks of one interaction.
@@ -40,7 +42,7 @@ pub struct Task<'a> {
     pub i: &'a [u32],
     /// Its partner.
     pub j: &'a [u32],
-    /// Contact memory, by block and column.
+    /// Words of contact memory, by block and column.
     pub memory: &'a mut [f64],
     /// Whether a block's loads or memory are not all zero.
     pub active: &'a mut [bool],
@@ -48,9 +50,9 @@ pub struct Task<'a> {
     pub sums: Sums<'a>,
     /// Whether the second of each contact is in that tile, too.
     pub both: bool,
-    /// Loads (`stride` numbers a contact) and couples ([`COUPLE`]) that are kept for other tiles, or empty.
+    /// Words of loads and couples that are kept for other tiles, or empty.
     pub kept: (&'a mut [f64], &'a mut [f64]),
-    /// Loads and couples of each contact, for who looks at them; or empty.
+    /// The like of each contact, for who looks at them; or empty.
     pub each: (&'a mut [f64], &'a mut [f64]),
     /// Ledger, [`LEDGER`] numbers a contact; empty when it is not kept.
     pub ledger: &'a mut [f64],
@@ -59,7 +61,7 @@ pub struct Task<'a> {
 /// A composition of effects, as the engine sees it.
 pub trait Kernel: Send + Sync {
     /// Numbers of memory for each contact.
-    fn memory(&self) -> usize;
+    fn columns(&self) -> usize;
     /// Whether number `column` of memory changes its sign when i and j are the other way round.
     fn flips(&self, column: usize) -> bool;
     /// Whether it turns particles.
@@ -71,7 +73,7 @@ pub trait Kernel: Send + Sync {
 }
 
 impl<E: Effect> Kernel for E {
-    fn memory(&self) -> usize {
+    fn columns(&self) -> usize {
         E::MEMORY
     }
     fn flips(&self, column: usize) -> bool {
@@ -91,12 +93,20 @@ impl<E: Effect> Kernel for E {
     }
 }
 
-/// A composition of effects computed in single precision; places and all sums stay in double precision.
-pub struct Mixed<E>(pub E);
+/// A composition of effects computed in single precision, between places and velocities in double precision. What it remembers and its loads
+/// are kept as `T`.
+pub struct Narrow<E, T>(pub E, PhantomData<T>);
 
-impl<E: Effect> Kernel for Mixed<E> {
-    fn memory(&self) -> usize {
-        self.0.memory()
+impl<E, T> Narrow<E, T> {
+    /// The composition.
+    pub fn new(effects: E) -> Narrow<E, T> {
+        Narrow(effects, PhantomData)
+    }
+}
+
+impl<E: Effect, T: Number> Kernel for Narrow<E, T> {
+    fn columns(&self) -> usize {
+        self.0.columns()
     }
     fn flips(&self, column: usize) -> bool {
         self.0.flips(column)
@@ -109,29 +119,34 @@ impl<E: Effect> Kernel for Mixed<E> {
     }
     fn run(&self, width: Width, common: Common, task: Task) -> bool {
         match task.ledger.is_empty() {
-            true => dispatch_mixed::<E, false>(&self.0, width, common, task),
-            false => dispatch_mixed::<E, true>(&self.0, width, common, task),
+            true => dispatch_narrow::<E, T, false>(&self.0, width, common, task),
+            false => dispatch_narrow::<E, T, true>(&self.0, width, common, task),
         }
     }
 }
 
-fn dispatch_mixed<E: Effect, const KEEP: bool>(e: &E, width: Width, common: Common, task: Task) -> bool {
+fn dispatch_narrow<E: Effect, T: Number, const KEEP: bool>(
+    e: &E,
+    width: Width,
+    common: Common,
+    task: Task,
+) -> bool {
     match width {
         #[cfg(target_arch = "x86_64")]
-        Width::Avx512 => simd::avx512::<Y8, E, KEEP>(e, common, task),
+        Width::Avx512 => simd::avx512::<Y8, E, T, KEEP>(e, common, task),
         #[cfg(target_arch = "x86_64")]
-        Width::Avx2 => simd::avx2::<Y4, E, KEEP>(e, common, task),
-        _ => blocks::<f32, E, KEEP>(e, common, task),
+        Width::Avx2 => simd::avx2::<Y4, E, T, KEEP>(e, common, task),
+        _ => blocks::<f32, E, T, KEEP>(e, common, task),
     }
 }
 
 fn dispatch<E: Effect, const KEEP: bool>(effect: &E, width: Width, common: Common, task: Task) -> bool {
     match width {
         #[cfg(target_arch = "x86_64")]
-        Width::Avx512 => simd::avx512::<X8, E, KEEP>(effect, common, task),
+        Width::Avx512 => simd::avx512::<X8, E, f64, KEEP>(effect, common, task),
         #[cfg(target_arch = "x86_64")]
-        Width::Avx2 => simd::avx2::<Two<X4>, E, KEEP>(effect, common, task),
-        _ => blocks::<f64, E, KEEP>(effect, common, task),
+        Width::Avx2 => simd::avx2::<Two<X4>, E, f64, KEEP>(effect, common, task),
+        _ => blocks::<f64, E, f64, KEEP>(effect, common, task),
     }
 }
 
@@ -141,29 +156,34 @@ mod simd {
     #![allow(unsafe_code)]
     use super::*;
 
-    pub fn avx512<R: Lane, E: Effect, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
+    pub fn avx512<R: Lane, E: Effect, T: Number, const KEEP: bool>(
+        e: &E,
+        common: Common,
+        task: Task,
+    ) -> bool {
         #[target_feature(enable = "avx512f,avx512dq,avx2")]
-        fn inner<R: Lane, E: Effect, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
-            blocks::<R, E, KEEP>(e, common, task)
+        fn inner<R: Lane, E: Effect, T: Number, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
+            blocks::<R, E, T, KEEP>(e, common, task)
         }
         // SAFETY: `Width::Avx512` is only made where the processor has these features.
-        unsafe { inner::<R, E, KEEP>(e, common, task) }
+        unsafe { inner::<R, E, T, KEEP>(e, common, task) }
     }
 
-    pub fn avx2<R: Lane, E: Effect, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
+    pub fn avx2<R: Lane, E: Effect, T: Number, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
         #[target_feature(enable = "avx2")]
-        fn inner<R: Lane, E: Effect, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
-            blocks::<R, E, KEEP>(e, common, task)
+        fn inner<R: Lane, E: Effect, T: Number, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
+            blocks::<R, E, T, KEEP>(e, common, task)
         }
         // SAFETY: `Width::Avx2` is only made where the processor has these features.
-        unsafe { inner::<R, E, KEEP>(e, common, task) }
+        unsafe { inner::<R, E, T, KEEP>(e, common, task) }
     }
 }
 
 #[inline(always)]
-fn blocks<R: Lane, E: Effect, const KEEP: bool>(e: &E, common: Common, mut task: Task) -> bool {
+fn blocks<R: Lane, E: Effect, T: Number, const KEEP: bool>(e: &E, common: Common, mut task: Task) -> bool {
     let mut too_deep = false;
-    let mut hand = Hand { loads: [0.0; BLOCK * FORCE_AND_MOMENT], couples: [0.0; BLOCK * COUPLE] };
+    let mut hand: Hand<T> =
+        Hand { loads: [T::default(); BLOCK * FORCE_AND_MOMENT], couples: [T::default(); BLOCK * COUPLE] };
     for block in 0..task.active.len() {
         // Rows of partners come from far: they are asked for while other blocks are computed.
         let soon = (block + AHEAD) * BLOCK;
@@ -177,7 +197,7 @@ fn blocks<R: Lane, E: Effect, const KEEP: bool>(e: &E, common: Common, mut task:
         let mut active = false;
         for lane in (0..BLOCK).step_by(R::WIDTH) {
             let (touches, deep) =
-                lanes::<R, E, KEEP>(e, &common, &mut task, &mut hand, (block, lane, was_active));
+                lanes::<R, E, T, KEEP>(e, &common, &mut task, &mut hand, (block, lane, was_active));
             active |= touches;
             too_deep |= deep;
         }
@@ -188,11 +208,11 @@ fn blocks<R: Lane, E: Effect, const KEEP: bool>(e: &E, common: Common, mut task:
 
 /// `WIDTH` contacts; whether any touches, and whether any overlap passes the limit.
 #[inline(always)]
-fn lanes<R: Lane, E: Effect, const KEEP: bool>(
+fn lanes<R: Lane, E: Effect, T: Number, const KEEP: bool>(
     effect: &E,
     common: &Common,
     task: &mut Task,
-    hand: &mut Hand,
+    hand: &mut Hand<T>,
     (block, lane, was_active): (usize, usize, bool),
 ) -> (bool, bool) {
     let at = block * BLOCK + lane;
@@ -239,8 +259,8 @@ fn lanes<R: Lane, E: Effect, const KEEP: bool>(
         turn = (si + sj).dot(normal) * R::splat(0.5 * common.dt);
     }
     let radius = R::select(round, ri * rj * inverse_reach, ri);
-    let columns = E::MEMORY * BLOCK;
-    let stored = &mut task.memory[block * columns..(block + 1) * columns];
+    let words = E::MEMORY.div_ceil(T::IN_A_WORD) * BLOCK;
+    let stored = T::of_mut(&mut task.memory[block * words..(block + 1) * words]);
     let mut memory = <E::Memory<R> as Memory<R>>::load(stored, lane);
     let zero = R::splat(0.0);
     let mut was_held = zero;
@@ -268,20 +288,20 @@ fn lanes<R: Lane, E: Effect, const KEEP: bool>(
     let force = V::select(touching, normal.scale(load.normal) + load.tangential, V::zero());
     if E::COUPLES {
         let c = V::select(touching, load.couple, V::zero());
-        R::store_rows4([c.x, c.y, c.z, zero], &mut hand.couples);
+        T::store_rows4([c.x, c.y, c.z, zero], &mut hand.couples);
     }
     if E::ROTATES {
         // Of a particle of radius 1: each takes it times its own.
         let moment = V::select(touching, normal.cross(load.tangential).scale(share), V::zero());
         let row = [force.x, force.y, force.z, zero, moment.x, moment.y, moment.z, zero];
-        R::store_rows(row, &mut hand.loads);
+        T::store_rows(row, &mut hand.loads);
         hand.over::<FORCE_AND_MOMENT>(task, at, R::WIDTH, E::COUPLES);
-    } else if common.stride == FORCE {
-        R::store_rows4([force.x, force.y, force.z, zero], &mut hand.loads);
+    } else if !common.form.rotates {
+        T::store_rows4([force.x, force.y, force.z, zero], &mut hand.loads);
         hand.over::<FORCE>(task, at, R::WIDTH, false);
     } else {
         let row = [force.x, force.y, force.z, zero, zero, zero, zero, zero];
-        R::store_rows(row, &mut hand.loads);
+        T::store_rows(row, &mut hand.loads);
         hand.over::<FORCE_AND_MOMENT>(task, at, R::WIDTH, false);
     }
     if KEEP {
@@ -315,19 +335,19 @@ fn lanes<R: Lane, E: Effect, const KEEP: bool>(
 
 /// What some contacts have just been found to do.
 #[repr(align(64))]
-struct Hand {
-    loads: [f64; BLOCK * FORCE_AND_MOMENT],
-    couples: [f64; BLOCK * COUPLE],
+struct Hand<T> {
+    loads: [T; BLOCK * FORCE_AND_MOMENT],
+    couples: [T; BLOCK * COUPLE],
 }
 
-impl Hand {
+impl<T: Number> Hand<T> {
     /// Hands the loads (of `N` numbers) of `width` contacts from place `at` on to their particles, and to who wants to see them.
     #[inline(always)]
     fn over<const N: usize>(&self, task: &mut Task, at: usize, width: usize, couples: bool) {
         let pairs = (&task.i[at..at + width], &task.j[at..at + width]);
         let loads = &self.loads[..width * N];
         let couples = if couples { &self.couples[..width * COUPLE] } else { &[] };
-        task.sums.take::<N>(pairs, task.both, (loads, couples));
+        task.sums.take::<T, N>(pairs, task.both, (loads, couples));
         keep(task.kept.0, at * N, loads);
         keep(task.kept.1, at * COUPLE, couples);
         keep(task.each.0, at * N, loads);
@@ -337,8 +357,8 @@ impl Hand {
 
 /// Copies to a column, if there is one.
 #[inline(always)]
-fn keep(column: &mut [f64], at: usize, rows: &[f64]) {
+fn keep<T: Number>(column: &mut [f64], at: usize, rows: &[T]) {
     if !column.is_empty() {
-        column[at..at + rows.len()].copy_from_slice(rows);
+        T::of_mut(column)[at..at + rows.len()].copy_from_slice(rows);
     }
 }

@@ -139,6 +139,40 @@ pub trait Lane:
     fn store_rows(columns: [Self; 8], to: &mut [f64]);
     /// Writes columns as `WIDTH` rows of four.
     fn store_rows4(columns: [Self; 4], to: &mut [f64]);
+
+    /// As [`Lane::load`], from single precision.
+    #[inline(always)]
+    fn load_single(from: &[f32]) -> Self {
+        let mut wide = [0.0; BLOCK];
+        wide.iter_mut().zip(&from[..Self::WIDTH]).for_each(|(w, x)| *w = f64::from(*x));
+        Self::load(&wide)
+    }
+    /// As [`Lane::store`], rounded to single precision.
+    #[inline(always)]
+    fn store_single(self, to: &mut [f32]) {
+        let mut wide = [0.0; BLOCK];
+        self.store(&mut wide);
+        round(&wide[..Self::WIDTH], to);
+    }
+    /// As [`Lane::store_rows`], rounded to single precision.
+    #[inline(always)]
+    fn store_rows_single(columns: [Self; 8], to: &mut [f32]) {
+        let mut wide = [0.0; 8 * BLOCK];
+        Self::store_rows(columns, &mut wide);
+        round(&wide[..8 * Self::WIDTH], to);
+    }
+    /// As [`Lane::store_rows4`], rounded to single precision.
+    #[inline(always)]
+    fn store_rows4_single(columns: [Self; 4], to: &mut [f32]) {
+        let mut wide = [0.0; 4 * BLOCK];
+        Self::store_rows4(columns, &mut wide);
+        round(&wide[..4 * Self::WIDTH], to);
+    }
+}
+
+#[inline(always)]
+fn round(from: &[f64], to: &mut [f32]) {
+    to[..from.len()].iter_mut().zip(from).for_each(|(x, w)| *x = *w as f32);
 }
 
 /// Four numbers of one particle that are computed at once.

@@ -4,7 +4,7 @@ use crate::effects::{
     Coefficient, Cohesion, ConstantRolling, Effect, Friction, Hertz, Hooke, Jkr, RollingResistance,
     SlidingFriction, TwistingResistance, Weakening, damping_ratio,
 };
-use crate::kernel::{Kernel, Mixed};
+use crate::kernel::{Kernel, Narrow};
 use crate::setup::{Contact, Law, Material, Precision, RollingModel};
 use std::f64::consts::PI;
 
@@ -127,7 +127,8 @@ impl Pair<'_> {
     fn common<E: Effect>(self, effects: E) -> Box<dyn Kernel> {
         match self.precision {
             Precision::Double => Box::new(effects),
-            Precision::Mixed => Box::new(Mixed(effects)),
+            Precision::Mixed => Box::new(Narrow::<E, f64>::new(effects)),
+            Precision::Single => Box::new(Narrow::<E, f32>::new(effects)),
         }
     }
 
@@ -199,13 +200,13 @@ mod tests {
         for c in contacts() {
             let kernel = compose(&c, Elastic::of(&material, &material), Precision::Double, 1.0);
             let bytes: usize = parts(&c).iter().map(|p| p.bytes).sum();
-            assert_eq!(8 * kernel.memory(), bytes, "{c:?}");
+            assert_eq!(8 * kernel.columns(), bytes, "{c:?}");
             assert_eq!(kernel.rotates(), c.sliding_friction.is_some(), "{c:?}");
             let couples = c.rolling_resistance.is_some() || c.twisting_resistance.is_some();
             assert_eq!(kernel.couples(), couples, "{c:?}");
             // Vectors change their sign when i and j change places, numbers do not.
-            let flips = (0..kernel.memory()).filter(|&k| kernel.flips(k)).count();
-            assert_eq!(flips, kernel.memory() / 3 * 3, "{c:?}");
+            let flips = (0..kernel.columns()).filter(|&k| kernel.flips(k)).count();
+            assert_eq!(flips, kernel.columns() / 3 * 3, "{c:?}");
         }
     }
 }

@@ -24,6 +24,7 @@ mod limit;
 mod look;
 mod motion;
 mod neighbours;
+mod number;
 mod part;
 mod particles;
 mod record;

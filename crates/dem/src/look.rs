@@ -89,7 +89,7 @@ impl Simulation {
         let row = &p.rows[k];
         let (free, half) = (!self.zones.travels(k), 0.5 * self.dt);
         let body = self.body_acceleration(k);
-        let (force, moment) = loads.on(k, row[3], p.rotates());
+        let (force, moment) = loads.on(k, row[3]);
         let mut at = Instant {
             velocity: Vec3::new(row[4], row[5], row[6]),
             spin: Vec3::zeros(),

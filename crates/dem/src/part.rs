@@ -4,9 +4,10 @@ use crate::contacts::{Kind, Met, Segment, With};
 use crate::kernel::{Common, LEDGER, Task};
 use crate::lane::{BLOCK, Row, Row4, Width};
 use crate::motion::Pose;
+use crate::number::Form;
 use crate::seams::Slots;
 use crate::sleep::Known;
-use crate::sums::{Arrival, COUPLE, Computed, FORCE, FORCE_AND_MOMENT, Sums};
+use crate::sums::{Arrival, Computed, Sums};
 use crate::walls::WallBody;
 use geom::Vec3;
 use std::ops::Range;
@@ -95,7 +96,7 @@ pub struct At {
 /// Some segments that follow each other, with their part of everything that is computed.
 pub struct Part<'a> {
     pub segments: &'a [Segment],
-    pub stride: usize,
+    pub form: Form,
     pub from: At,
     pub rows: &'a mut [Row],
     pub spins: &'a mut [Row4],
@@ -111,13 +112,13 @@ pub struct Part<'a> {
 impl<'a> Part<'a> {
     /// The first `count` segments, and the others.
     pub fn split(self, count: usize) -> (Part<'a>, Part<'a>) {
-        let Part { segments, stride, from, rows, spins, memory, active, kept, each, ledger } = self;
+        let Part { segments, form, from, rows, spins, memory, active, kept, each, ledger } = self;
         let (first, second) = segments.split_at(count);
         let all = At {
             place: from.place + active.len() * BLOCK,
             row: from.row + rows.len(),
             memory: from.memory + memory.len(),
-            kept: from.kept + kept.0.len() / stride,
+            kept: from.kept + kept.0.len() / form.load(),
         };
         let of = |s: &Segment| At { place: s.places.start, row: s.rows, memory: s.memory, kept: s.kept };
         let to = second.first().map_or(all, of);
@@ -126,13 +127,13 @@ impl<'a> Part<'a> {
         let (spins, spins2) = split(spins, to.row - from.row);
         let (memory, memory2) = memory.split_at_mut(to.memory - from.memory);
         let (active, active2) = active.split_at_mut(places / BLOCK);
-        let (kept, kept2) = split_both(kept, to.kept - from.kept, stride);
-        let (each, each2) = split_both(each, places, stride);
+        let (kept, kept2) = split_both(kept, to.kept - from.kept, form);
+        let (each, each2) = split_both(each, places, form);
         let (ledger, ledger2) = split(ledger, places * LEDGER);
-        let one = Part { segments: first, stride, from, rows, spins, memory, active, kept, each, ledger };
+        let one = Part { segments: first, form, from, rows, spins, memory, active, kept, each, ledger };
         let two = Part {
             segments: second,
-            stride,
+            form,
             from: to,
             rows: rows2,
             spins: spins2,
@@ -157,16 +158,14 @@ impl<'a> Part<'a> {
         let both = scenery.kinds[s.kind].with == With::Particles && !s.later;
         let (first, n) = (places.start - self.from.place, places.len());
         let pairs = (&lists.i[places.clone()], &lists.partner[places.clone()]);
-        let loads = part(self.each.0, first * self.stride, n * self.stride);
-        let couples = part(self.each.1, first * COUPLE, n * COUPLE);
-        match self.stride {
-            FORCE => sums.take::<FORCE>(pairs, both, (loads, couples)),
-            _ => sums.take::<FORCE_AND_MOMENT>(pairs, both, (loads, couples)),
-        }
+        let (load, couple) = (self.form.load(), self.form.couple());
+        let loads = part(self.each.0, first * load, n * load);
+        let couples = part(self.each.1, first * couple, n * couple);
+        sums.take_again(pairs, both, (loads, couples));
         if s.later || scenery.kinds[s.kind].with == With::Images {
             let kept = s.kept - self.from.kept + places.start - s.places.start;
-            self.kept.0[kept * self.stride..][..loads.len()].copy_from_slice(loads);
-            part_mut(self.kept.1, kept * COUPLE, n * COUPLE).copy_from_slice(couples);
+            self.kept.0[kept * load..][..loads.len()].copy_from_slice(loads);
+            part_mut(self.kept.1, kept * couple, n * couple).copy_from_slice(couples);
         }
     }
 
@@ -188,9 +187,9 @@ impl<'a> Part<'a> {
     ) -> bool {
         let kind = &scenery.kinds[s.kind];
         let (first, n) = (places.start - self.from.place, places.len());
-        let columns = kind.kernel.memory();
+        let words = self.form.memory(kind.kernel.columns());
         let within = places.start - s.places.start;
-        let (row, memory) = (s.rows - self.from.row + within, s.memory - self.from.memory + within * columns);
+        let (row, memory) = (s.rows - self.from.row + within, s.memory - self.from.memory + within * words);
         let (partners, j) = match kind.with {
             With::Particles => ((scenery.common.rows, scenery.common.spins), &lists.partner[places.clone()]),
             _ => ((&self.rows[row..row + n], part(self.spins, row, n)), &lists.count[..n]),
@@ -201,12 +200,12 @@ impl<'a> Part<'a> {
             partners,
             i: &lists.i[places],
             j,
-            memory: &mut self.memory[memory..memory + n * columns],
+            memory: &mut self.memory[memory..memory + n * words],
             active: &mut self.active[first / BLOCK..(first + n) / BLOCK],
             sums: sums.by_ref(),
             both: kind.with == With::Particles && !s.later,
-            kept: some(&mut self.kept, kept, kept_n, self.stride),
-            each: some(&mut self.each, first, n, self.stride),
+            kept: some(&mut self.kept, kept, kept_n, self.form),
+            each: some(&mut self.each, first, n, self.form),
             ledger: part_mut(self.ledger, first * LEDGER, n * LEDGER),
         };
         kind.kernel.run(scenery.width, scenery.common, task)
@@ -232,10 +231,10 @@ impl<'a> Part<'a> {
                 }
             }
             With::Wall(w) if lists.new || scenery.walls[w].renewed() => {
-                let columns = kind.kernel.memory();
+                let (form, columns) = (self.form, kind.kernel.columns());
                 let memory = s.memory - self.from.memory;
-                let memory = &mut self.memory[memory..memory + s.places.len() * columns];
-                let mut slots = Slots { memory, first: 0, columns };
+                let memory = &mut self.memory[memory..memory + s.places.len() * form.memory(columns)];
+                let mut slots = Slots { memory, form, first: 0, columns };
                 let mut from = 0;
                 while from < s.len {
                     let to = from + i[from..].iter().take_while(|&&k| k == i[from]).count();
@@ -274,16 +273,17 @@ fn some<'a>(
     of: &'a mut (&mut [f64], &mut [f64]),
     from: usize,
     n: usize,
-    stride: usize,
+    form: Form,
 ) -> (&'a mut [f64], &'a mut [f64]) {
-    (part_mut(of.0, from * stride, n * stride), part_mut(of.1, from * COUPLE, n * COUPLE))
+    let (load, couple) = (form.load(), form.couple());
+    (part_mut(of.0, from * load, n * load), part_mut(of.1, from * couple, n * couple))
 }
 
 type Both<'a> = (&'a mut [f64], &'a mut [f64]);
 
-fn split_both<'a>((loads, couples): Both<'a>, n: usize, stride: usize) -> (Both<'a>, Both<'a>) {
-    let (loads, loads2) = split(loads, n * stride);
-    let (couples, couples2) = split(couples, n * COUPLE);
+fn split_both<'a>((loads, couples): Both<'a>, n: usize, form: Form) -> (Both<'a>, Both<'a>) {
+    let (loads, loads2) = split(loads, n * form.load());
+    let (couples, couples2) = split(couples, n * form.couple());
     ((loads, couples), (loads2, couples2))
 }
 

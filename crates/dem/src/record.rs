@@ -5,7 +5,6 @@ use crate::error::Halt;
 use crate::kernel::LEDGER;
 use crate::particles::FAR;
 use crate::simulation::Simulation;
-use crate::sums::stride;
 use geom::Vec3;
 
 /// Column of the ledger with what sliding dissipated in a step.
@@ -47,7 +46,6 @@ impl Simulation {
     /// When the state is beyond a guard, or loads are not kept ([`Simulation::record_loads`]).
     pub fn record_contacts(&mut self) -> Result<Vec<ContactRecord>, Halt> {
         self.ready_to_record()?;
-        let stride = stride(self.particles.rotates());
         let mut work = std::mem::take(&mut self.contacts.work);
         let mut out = Vec::new();
         for segment in &self.contacts.segments {
@@ -59,8 +57,7 @@ impl Simulation {
                 if gone(self.contacts.i[place]) || pair && gone(self.contacts.partner[place]) {
                     continue;
                 }
-                let row = &self.contacts.loads[place * stride..][..3];
-                let force = Vec3::new(row[0], row[1], row[2]);
+                let force = self.contacts.force(place);
                 let done = work.get_mut(place).map_or(0.0, std::mem::take);
                 if force != Vec3::zeros() || done != 0.0 {
                     let (other, radius) = self.partner(segment, place, |k| self.particles.position(k));

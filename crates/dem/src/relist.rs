@@ -4,7 +4,6 @@ use crate::contacts::{Contacts, Kind, List, Segment, With, tile};
 use crate::images::{Image, Periods};
 use crate::neighbours::{Pair, SKIN, Search, room};
 use crate::simulation::{Simulation, wrapped};
-use crate::sums::stride;
 use crate::sweep::share;
 use crate::walls::WallBody;
 use geom::Vec3;
@@ -25,9 +24,7 @@ impl Simulation {
         self.pistons.iter_mut().for_each(|p| p.listed = p.way);
         let mut before = std::mem::take(&mut self.contacts);
         // Freed before anything is listed: old and new together would be the most that a run ever takes.
-        let work = std::mem::take(&mut before.work);
-        before.make_room(0, false, false);
-        before.work = work;
+        before.free_room();
         let remembers = !before.memory.is_empty() || !before.work.is_empty();
         if remembers && before.starts.is_empty() {
             before.index(&self.kinds);
@@ -138,7 +135,7 @@ impl Simulation {
             self.list_walls(range, &mut lists);
             lists
         });
-        self.contacts = Contacts::new(&self.kinds, &self.list_images(search), &tiles, count);
+        self.contacts = Contacts::new(&self.kinds, &self.list_images(search), &tiles, (count, self.form()));
         if self.sleepers.is_some() || !self.zones.none() {
             self.contacts.index(&self.kinds);
         }
@@ -202,8 +199,8 @@ impl Simulation {
     /// Room for the loads of all listed contacts; made last, when old lists are gone.
     pub(crate) fn make_room(&mut self) {
         let couples = self.couples();
-        self.contacts.make_room(stride(self.particles.rotates()), couples, self.setup.ledger);
-        self.contacts.keep_each(self.keeps_each(), stride(self.particles.rotates()));
+        self.contacts.make_room(couples, self.setup.ledger);
+        self.contacts.keep_each(self.keeps_each());
     }
 
     /// Gives each new contact the memory that it had; `order` tells each particle's old place.
@@ -215,8 +212,8 @@ impl Simulation {
             let mut rest = &mut memory[..];
             let mut pieces = Vec::with_capacity(now.segments.len());
             for s in &now.segments {
-                let columns = kinds[s.kind].kernel.memory();
-                let (mine, others) = rest.split_at_mut(s.places.len() * columns);
+                let words = now.form.memory(kinds[s.kind].kernel.columns());
+                let (mine, others) = rest.split_at_mut(s.places.len() * words);
                 rest = others;
                 pieces.push((s, mine));
             }
@@ -327,24 +324,23 @@ impl Remembered<'_> {
     /// Fills the memory of one segment. A contact whose two partners have changed places remembers the opposite.
     fn recall(&self, now: &Contacts, segment: &Segment, memory: &mut [f64]) {
         let kernel = &self.kinds[segment.kind].kernel;
-        let columns = kernel.memory();
+        let columns = kernel.columns();
         if columns == 0 {
             return;
         }
         for place in segment.contacts() {
             let before = self.before;
             let holds = |old: &Segment, at: usize| {
-                (0..columns).any(|c| before.memory[before.memory_at(old, at, c, columns)] != 0.0)
+                (0..columns).any(|c| before.remembered(old, at, c, columns) != 0.0)
             };
             let Some((old, from, swapped)) = self.find(segment.kind, now.i[place], now.partner[place], holds)
             else {
                 continue;
             };
-            let start = now.memory_at(segment, segment.places.start, 0, columns);
             for c in 0..columns {
-                let was = self.before.memory[self.before.memory_at(old, from, c, columns)];
-                let turned = swapped && kernel.flips(c);
-                memory[now.memory_at(segment, place, c, columns) - start] = if turned { -was } else { was };
+                let was = before.remembered(old, from, c, columns);
+                let at = now.form.memory_at(0, place - segment.places.start, c, columns);
+                now.form.put(memory, at, if swapped && kernel.flips(c) { -was } else { was });
             }
         }
     }

@@ -10,7 +10,7 @@
 //! a neighbour counts that remembers nothing, the neighbour takes over (the nearest one, within a quarter of r: contact points
 //! move less in a step). The spring is turned into the new tangent plane by the effect itself.
 
-use crate::lane::BLOCK;
+use crate::number::Form;
 use geom::Vec3;
 use geom::triangle::{Feature, closest_feature};
 
@@ -84,6 +84,8 @@ pub fn count(near: &mut [Nearest], radius: f64, reach: f64) {
 pub struct Slots<'a> {
     /// Of the whole segment, by block and column.
     pub memory: &'a mut [f64],
+    /// How it is kept.
+    pub form: Form,
     /// First of the places.
     pub first: usize,
     /// Numbers of each contact.
@@ -93,16 +95,15 @@ pub struct Slots<'a> {
 impl Slots<'_> {
     /// The same from place `by` on.
     pub fn from(&mut self, by: usize) -> Slots<'_> {
-        Slots { memory: self.memory, first: self.first + by, columns: self.columns }
+        Slots { memory: self.memory, form: self.form, first: self.first + by, columns: self.columns }
     }
 
     fn at(&self, k: usize, column: usize) -> usize {
-        let place = self.first + k;
-        (place / BLOCK * self.columns + column) * BLOCK + place % BLOCK
+        self.form.memory_at(0, self.first + k, column, self.columns)
     }
 
     fn empty(&self, k: usize) -> bool {
-        (0..self.columns).all(|c| self.memory[self.at(k, c)] == 0.0)
+        (0..self.columns).all(|c| self.form.get(self.memory, self.at(k, c)) == 0.0)
     }
 
     /// Gives the memory of points that no longer count to neighbours that remember nothing.
@@ -120,8 +121,9 @@ impl Slots<'_> {
             if let Some(m) = nearest.filter(|&m| away(m) <= (STRIDE * radius).powi(2)) {
                 for c in 0..self.columns {
                     let (from, to) = (self.at(k, c), self.at(m, c));
-                    self.memory[to] = self.memory[from];
-                    self.memory[from] = 0.0;
+                    let x = self.form.get(self.memory, from);
+                    self.form.put(self.memory, to, x);
+                    self.form.put(self.memory, from, 0.0);
                 }
             }
         }

@@ -22,7 +22,6 @@ use crate::motion::Pose;
 use crate::particles::mass;
 use crate::setup::{Law, Setup};
 use crate::simulation::Simulation;
-use crate::sums::stride;
 use geom::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -110,12 +109,10 @@ impl Simulation {
 
     /// Force of a wall on the particles [N], and how many it pushes.
     fn push(&self, wall: usize) -> (Vec3, u32) {
-        let (c, stride) = (&self.contacts, stride(self.particles.rotates()));
+        let c = &self.contacts;
         let (mut sum, mut count) = (Vec3::zeros(), 0);
         for segment in c.segments.iter().filter(|s| self.kinds[s.kind].with == With::Wall(wall)) {
-            let places = segment.contacts();
-            for row in c.loads[places.start * stride..places.end * stride].chunks_exact(stride) {
-                let force = Vec3::new(row[0], row[1], row[2]);
+            for force in segment.contacts().map(|place| c.force(place)) {
                 count += u32::from(force != Vec3::zeros());
                 sum += force;
             }

@@ -64,14 +64,28 @@ pub struct Setup {
     pub guards: Guards,
 }
 
-/// In which precision contacts are computed; places, velocities and sums are always in double precision.
+/// In which precision contacts are computed; places and velocities are always in double precision. Within a plant of metres a place in single
+/// precision would be coarser than the overlap of two grains at rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Precision {
     /// Double precision.
     #[default]
     Double,
-    /// What happens in a contact in single precision.
+    /// What happens in a contact in single precision; what it remembers, and the sums of loads, in double precision.
     Mixed,
+    /// All of that in single precision.
+    Single,
+}
+
+impl Precision {
+    /// Its name in scenes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Precision::Double => "f64",
+            Precision::Mixed => "mixed",
+            Precision::Single => "f32",
+        }
+    }
 }
 
 /// How the time step is chosen.

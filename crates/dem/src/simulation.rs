@@ -13,9 +13,10 @@ use crate::explain::needed;
 use crate::images::Periods;
 use crate::lane::{Row, Row4, Width};
 use crate::limit::largest_reach;
+use crate::number::Form;
 use crate::particles::Particles;
 use crate::servo::Piston;
-use crate::setup::{Particle, Setup};
+use crate::setup::{Particle, Precision, Setup};
 use crate::sleep::Sleepers;
 use crate::start::{kinds, mean_radius, slow_enough, time_step};
 use crate::sums::Loads;
@@ -293,7 +294,7 @@ impl Simulation {
         for k in fresh.iter().map(|&k| k as usize) {
             let rotates = self.particles.rotates();
             let loads = self.all_loads();
-            let (force, m) = loads.on(k, self.particles.rows[k][3], rotates);
+            let (force, m) = loads.on(k, self.particles.rows[k][3]);
             let row = self.particles.rows[k];
             let (mut a, body) = (Row4::default(), self.body_acceleration(k));
             for (axis, value) in a.iter_mut().enumerate().take(3) {
@@ -328,6 +329,11 @@ impl Simulation {
     /// Whether the load of each contact is wanted in each step: by servos, planes of zones, and sleepers.
     pub(crate) fn keeps_each(&self) -> bool {
         !self.pistons.is_empty() || !self.zones.none() || self.sleepers.is_some()
+    }
+
+    /// How what is computed of contacts is kept.
+    pub(crate) fn form(&self) -> Form {
+        Form { rotates: self.particles.rotates(), single: self.setup.precision == Precision::Single }
     }
 
     /// Whether anything makes couples.

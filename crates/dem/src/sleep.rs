@@ -218,7 +218,7 @@ impl Beds<'_> {
         if !self.next[k] {
             return;
         }
-        let (force, moment) = columns.sums.seen().on(here, row[3], !columns.spins.is_empty());
+        let (force, moment) = columns.sums.seen().on(here, row[3]);
         let lost = lost(k, columns, drive);
         self.held[k] = Row([force[0], force[1], force[2], moment[0], moment[1], moment[2], lost, 0.0]);
         rest(k, columns);
@@ -237,7 +237,7 @@ impl Beds<'_> {
     fn feel(&mut self, k: usize, columns: &mut Columns, drive: &Drive) {
         let here = columns.first + k;
         let row = columns.rows[k];
-        let (force, moment) = columns.sums.seen().on(here, row[3], !columns.spins.is_empty());
+        let (force, moment) = columns.sums.seen().on(here, row[3]);
         let held = self.held[k];
         let push = length([force[0] - held[0], force[1] - held[1], force[2] - held[2]]) * row[7];
         let twist = length([moment[0] - held[3], moment[1] - held[4], moment[2] - held[5]]) * row[7] / row[3];

@@ -9,7 +9,6 @@ use crate::servo::Piston;
 use crate::setup::{Setup, Step};
 use crate::simulation::Simulation;
 use crate::sleep::Sleepers;
-use crate::sums::stride;
 use crate::sweep::Pass;
 use crate::zones::Zones;
 use serde::{Deserialize, Serialize};
@@ -200,7 +199,7 @@ impl Simulation {
         if state.current || !loads.is_empty() {
             // Where nobody meets anybody, loads that are kept are none, either.
             let kept = state.sums.iter().all(Vec::is_empty);
-            sim.contacts.keep_each(kept, stride(sim.particles.rotates()));
+            sim.contacts.keep_each(kept);
             // A crossing in this step asks where walls were touched, and so do sleepers on walls at rest.
             sim.find_contact_points();
             if !sim.contacts.put_loads(&state.loads, &state.sums) {

@@ -7,25 +7,14 @@
 
 use crate::lane::scalar::Each;
 use crate::lane::{Four, fetch};
-
-/// Numbers of a load without rotation: force on i and a pad.
-pub const FORCE: usize = 4;
-/// With rotation: force on i, a pad, n × F_t times distance over reach (the moment on a particle of radius −1), a pad.
-pub const FORCE_AND_MOMENT: usize = 8;
-/// Numbers of a couple: on i, and a pad.
-pub const COUPLE: usize = 4;
+use crate::number::{COUPLE, FORCE, FORCE_AND_MOMENT, Form, Number};
 
 /// Arrivals between one whose load is asked for and the one that is added; chosen on the bench pile.
 const AHEAD: usize = 24;
 
-/// Numbers of one load.
-pub fn stride(rotates: bool) -> usize {
-    if rotates { FORCE_AND_MOMENT } else { FORCE }
-}
-
 /// Adds a load of `N` numbers to a sum; to none that does not exist.
 #[inline(always)]
-fn add<const N: usize>(sums: &mut [f64], at: usize, load: &[f64]) {
+fn add<T: Number, const N: usize>(sums: &mut [T], at: usize, load: &[T]) {
     let (Some(sum), Some(load)) = (sums.as_chunks_mut::<N>().0.get_mut(at), load.first_chunk::<N>()) else {
         return;
     };
@@ -36,7 +25,7 @@ fn add<const N: usize>(sums: &mut [f64], at: usize, load: &[f64]) {
 
 /// Adds what a contact does to its second particle: the opposite force or couple, the same moment of radius −1.
 #[inline(always)]
-fn add_opposite<const N: usize>(sums: &mut [f64], at: usize, load: &[f64]) {
+fn add_opposite<T: Number, const N: usize>(sums: &mut [T], at: usize, load: &[T]) {
     let (Some(sum), Some(load)) = (sums.as_chunks_mut::<N>().0.get_mut(at), load.first_chunk::<N>()) else {
         return;
     };
@@ -48,7 +37,7 @@ fn add_opposite<const N: usize>(sums: &mut [f64], at: usize, load: &[f64]) {
     }
 }
 
-/// Loads and couples (empty where no effect makes any) of some contacts, or sums of some particles.
+/// Words of the loads and couples (empty where no effect makes any) of some contacts, or of the sums of some particles.
 pub type Computed<'a> = (&'a [f64], &'a [f64]);
 
 /// A load that arrives at a tile from elsewhere.
@@ -65,27 +54,27 @@ pub struct Arrival {
 pub struct Sums<'a> {
     /// Number of the first particle.
     pub first: usize,
-    /// Numbers of one load.
-    pub stride: usize,
-    /// Of loads, `stride` numbers a particle.
+    /// How they are kept.
+    pub form: Form,
+    /// Words of loads.
     pub loads: &'a mut [f64],
-    /// Of couples, [`COUPLE`] numbers a particle; empty where no effect makes any.
+    /// Words of couples; empty where no effect makes any.
     pub couples: &'a mut [f64],
 }
 
 impl<'a> Sums<'a> {
     /// The same, for a while.
     pub fn by_ref(&mut self) -> Sums<'_> {
-        Sums { first: self.first, stride: self.stride, loads: self.loads, couples: self.couples }
+        Sums { first: self.first, form: self.form, loads: self.loads, couples: self.couples }
     }
 
     /// The first `n` particles, if there are so many, and the others.
     pub fn split(self, n: usize) -> (Sums<'a>, Sums<'a>) {
-        let Sums { first, stride, loads, couples } = self;
-        let (loads, loads2) = loads.split_at_mut((n * stride).min(loads.len()));
-        let (couples, couples2) = couples.split_at_mut((n * COUPLE).min(couples.len()));
-        let two = Sums { first: first + n, stride, loads: loads2, couples: couples2 };
-        (Sums { first, stride, loads, couples }, two)
+        let Sums { first, form, loads, couples } = self;
+        let (loads, loads2) = loads.split_at_mut((n * form.load()).min(loads.len()));
+        let (couples, couples2) = couples.split_at_mut((n * form.couple()).min(couples.len()));
+        let two = Sums { first: first + n, form, loads: loads2, couples: couples2 };
+        (Sums { first, form, loads, couples }, two)
     }
 
     /// Begins anew.
@@ -96,7 +85,7 @@ impl<'a> Sums<'a> {
 
     /// Number of particles.
     pub fn len(&self) -> usize {
-        self.loads.len().checked_div(self.stride).unwrap_or(0)
+        self.loads.len() / self.form.load()
     }
 
     /// Begins with these.
@@ -108,33 +97,54 @@ impl<'a> Sums<'a> {
     /// Adds the loads (of `N` numbers) and couples (or none) of contacts between particles i and j: to i, and if `both` to j; to none
     /// that is not of these.
     #[inline(always)]
-    pub fn take<const N: usize>(&mut self, (i, j): (&[u32], &[u32]), both: bool, (loads, couples): Computed) {
+    pub fn take<T: Number, const N: usize>(
+        &mut self,
+        (i, j): (&[u32], &[u32]),
+        both: bool,
+        (loads, couples): (&[T], &[T]),
+    ) {
         let first = self.first as u32;
         let at = |k: u32| k.wrapping_sub(first) as usize;
+        let sums = T::of_mut(self.loads);
         for ((&i, &j), load) in i.iter().zip(j).zip(loads.as_chunks::<N>().0) {
-            add::<N>(self.loads, at(i), load);
+            add::<T, N>(sums, at(i), load);
             if both {
-                add_opposite::<N>(self.loads, at(j), load);
+                add_opposite::<T, N>(sums, at(j), load);
             }
         }
+        let sums = T::of_mut(self.couples);
         for ((&i, &j), couple) in i.iter().zip(j).zip(couples.as_chunks::<COUPLE>().0) {
-            add::<COUPLE>(self.couples, at(i), couple);
+            add::<T, COUPLE>(sums, at(i), couple);
             if both {
-                add_opposite::<COUPLE>(self.couples, at(j), couple);
+                add_opposite::<T, COUPLE>(sums, at(j), couple);
             }
+        }
+    }
+
+    /// Adds what was computed before.
+    pub fn take_again(&mut self, pairs: (&[u32], &[u32]), both: bool, (loads, couples): Computed) {
+        let (double, single) = ((loads, couples), (f32::of(loads), f32::of(couples)));
+        match (self.form.single, self.form.rotates) {
+            (false, false) => self.take::<f64, FORCE>(pairs, both, double),
+            (false, true) => self.take::<f64, FORCE_AND_MOMENT>(pairs, both, double),
+            (true, false) => self.take::<f32, FORCE>(pairs, both, single),
+            (true, true) => self.take::<f32, FORCE_AND_MOMENT>(pairs, both, single),
         }
     }
 
     /// Adds what arrives from elsewhere.
     pub fn collect(&mut self, arrivals: &[Arrival], kept: Computed) {
-        match self.stride {
-            FORCE => self.collect_rows::<FORCE>(arrivals, kept),
-            _ => self.collect_rows::<FORCE_AND_MOMENT>(arrivals, kept),
+        match (self.form.single, self.form.rotates) {
+            (false, false) => self.collect_rows::<f64, FORCE>(arrivals, kept),
+            (false, true) => self.collect_rows::<f64, FORCE_AND_MOMENT>(arrivals, kept),
+            (true, false) => self.collect_rows::<f32, FORCE>(arrivals, kept),
+            (true, true) => self.collect_rows::<f32, FORCE_AND_MOMENT>(arrivals, kept),
         }
     }
 
-    fn collect_rows<const N: usize>(&mut self, arrivals: &[Arrival], kept: Computed) {
-        let (loads, couples) = kept;
+    fn collect_rows<T: Number, const N: usize>(&mut self, arrivals: &[Arrival], kept: Computed) {
+        let (loads, couples) = (T::of(kept.0), T::of(kept.1));
+        let (sums, sums2) = (T::of_mut(self.loads), T::of_mut(self.couples));
         for (n, &Arrival { from, particle }) in arrivals.iter().enumerate() {
             if let Some(soon) = arrivals.get(n + AHEAD) {
                 fetch(loads.as_chunks::<N>().0, (soon.from >> 1) as usize);
@@ -144,18 +154,29 @@ impl<'a> Sums<'a> {
             let load = loads.get(place * N..).unwrap_or_default();
             let couple = couples.get(place * COUPLE..).unwrap_or_default();
             if second {
-                add_opposite::<N>(self.loads, at, load);
-                add_opposite::<COUPLE>(self.couples, at, couple);
+                add_opposite::<T, N>(sums, at, load);
+                add_opposite::<T, COUPLE>(sums2, at, couple);
             } else {
-                add::<N>(self.loads, at, load);
-                add::<COUPLE>(self.couples, at, couple);
+                add::<T, N>(sums, at, load);
+                add::<T, COUPLE>(sums2, at, couple);
             }
+        }
+    }
+
+    /// Adds to the force [N] and couple [N·m] on the particle after `k` others of these.
+    pub fn add(&mut self, k: usize, force: [f64; 3], couple: [f64; 3]) {
+        let form = self.form;
+        for (words, size, by) in
+            [(&mut *self.loads, form.load(), force), (&mut *self.couples, form.couple(), couple)]
+        {
+            let own = &mut words[k * size..(k + 1) * size];
+            (0..3).for_each(|axis| form.put(own, axis, form.get(own, axis) + by[axis]));
         }
     }
 
     /// As they are.
     pub fn seen(&self) -> Loads<'_> {
-        Loads { first: self.first, sums: (self.loads, self.couples) }
+        Loads { first: self.first, form: self.form, sums: (self.loads, self.couples) }
     }
 }
 
@@ -164,6 +185,8 @@ impl<'a> Sums<'a> {
 pub struct Loads<'a> {
     /// Number of the first particle.
     pub first: usize,
+    /// How they are kept.
+    pub form: Form,
     /// Sums.
     pub sums: Computed<'a>,
 }
@@ -178,19 +201,25 @@ pub struct Sum<Q> {
 impl Loads<'_> {
     /// On the particle after `k` others of `radius` [m].
     #[inline(always)]
-    pub fn sum<Q: Four, const SPIN: bool>(&self, k: usize, radius: f64) -> Sum<Q> {
-        let (sums, couples) = (self.sums.0.as_chunks::<4>().0, self.sums.1.as_chunks::<4>().0);
+    pub fn sum<T: Number, Q: Four, const SPIN: bool>(&self, k: usize, radius: f64) -> Sum<Q> {
+        let (sums, couples) = (T::of(self.sums.0).as_chunks::<4>().0, T::of(self.sums.1).as_chunks::<4>().0);
+        let read = |row: &[T; 4]| Q::read(&row.map(T::wide));
         if !SPIN {
-            return Sum { force: Q::read(&sums[k]), moment: Q::all(0.0) };
+            return Sum { force: read(&sums[k]), moment: Q::all(0.0) };
         }
-        let couple = couples.get(k).map_or(Q::all(0.0), Q::read);
-        Sum { force: Q::read(&sums[2 * k]), moment: couple - Q::all(radius) * Q::read(&sums[2 * k + 1]) }
+        let couple = couples.get(k).map_or(Q::all(0.0), read);
+        Sum { force: read(&sums[2 * k]), moment: couple - Q::all(radius) * read(&sums[2 * k + 1]) }
     }
 
     /// Force [N] and moment [N·m] on particle number `k` of `radius` [m].
-    pub fn on(&self, k: usize, radius: f64, spin: bool) -> ([f64; 3], [f64; 3]) {
+    pub fn on(&self, k: usize, radius: f64) -> ([f64; 3], [f64; 3]) {
         let at = k - self.first;
-        let sum = if spin { self.sum::<Each, true>(at, radius) } else { self.sum::<Each, false>(at, radius) };
+        let sum = match (self.form.single, self.form.rotates) {
+            (false, false) => self.sum::<f64, Each, false>(at, radius),
+            (false, true) => self.sum::<f64, Each, true>(at, radius),
+            (true, false) => self.sum::<f32, Each, false>(at, radius),
+            (true, true) => self.sum::<f32, Each, true>(at, radius),
+        };
         let three = |q: Each| {
             let mut row = [0.0; 4];
             q.write(&mut row);

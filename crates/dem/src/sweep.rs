@@ -12,7 +12,7 @@ use crate::part::{Part, Scenery, Seen};
 use crate::particles::Particles;
 use crate::simulation::Simulation;
 use crate::sleep::{Sleepers, Still, advance_awake};
-use crate::sums::{Sums, stride};
+use crate::sums::Sums;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -62,7 +62,7 @@ impl Simulation {
     /// Loads of all contacts, and their sums within tiles; the segments in which an overlap passes its limit. `looks`: the load of each contact
     /// is kept.
     fn compute(&mut self, looks: bool) -> Vec<Range<usize>> {
-        self.contacts.keep_each(looks && self.records || self.keeps_each(), stride(self.particles.rotates()));
+        self.contacts.keep_each(looks && self.records || self.keeps_each());
         self.for_tiles(|part, still, seen, sums| match still {
             Some(still) => still.compute(part, seen, sums),
             None => {
@@ -92,15 +92,14 @@ impl Simulation {
         each: impl Fn(&mut Part, Option<&mut Still>, Seen, &mut Sums) -> bool + Sync,
     ) -> Vec<Range<usize>> {
         let poses = self.poses();
-        let (period, stride, many) =
-            (self.period(), stride(self.particles.rotates()), self.particles.len() >= FEW);
+        let (period, form, many) = (self.period(), self.contacts.form, self.particles.len() >= FEW);
         let Particles { rows, spins, .. } = &self.particles;
         let spins = if self.particles.rotates() { &spins[..] } else { &[] };
-        let common = Common { dt: self.dt, overlap_limit: self.setup.guards.overlap, rows, spins, stride };
+        let common = Common { dt: self.dt, overlap_limit: self.setup.guards.overlap, rows, spins, form };
         let known = self.sleepers.as_ref().map(Sleepers::known);
         let (kinds, walls, width) = (&self.kinds, &self.walls, self.width);
         let scenery = Scenery { kinds, walls, poses: &poses, period, width, common, known };
-        let (lists, part, mut sums, stills) = self.contacts.parts(stride);
+        let (lists, part, mut sums, stills) = self.contacts.parts();
         let (mut images, mut rest) = part.split(lists.tiles[0]);
         let mut items = Vec::with_capacity(images.segments.len() + lists.tiles.len());
         while !images.segments.is_empty() {
@@ -130,18 +129,18 @@ impl Simulation {
 
     /// Both halves of each tile at once.
     fn step_in_turn(&mut self) -> Found {
-        let stride = stride(self.particles.rotates());
-        self.contacts.keep_each(self.keeps_each(), stride);
+        let form = self.contacts.form;
+        self.contacts.keep_each(self.keeps_each());
         self.note_rows();
         let (poses, period, drive) = (self.poses(), self.period(), self.drive());
         let Particles { rows, spins, acceleration, turning, home, .. } = &mut self.particles;
         let (kinds, walls, width) = (&self.kinds, &self.walls, self.width);
-        let (lists, mut part, mut sums, _) = self.contacts.parts(stride);
+        let (lists, mut part, mut sums, _) = self.contacts.parts();
         let mut found = Found::default();
         let compute =
             |segments: Range<usize>, rows: &[Row], spins: &[Row4], part: &mut Part, sums: &mut Sums| {
                 let common =
-                    Common { dt: self.dt, overlap_limit: self.setup.guards.overlap, rows, spins, stride };
+                    Common { dt: self.dt, overlap_limit: self.setup.guards.overlap, rows, spins, form };
                 let scenery = Scenery { kinds, walls, poses: &poses, period, width, common, known: None };
                 let deep =
                     segments.clone().fold(false, |any, k| any | part.compute(k, (&lists, &scenery), sums));
@@ -193,7 +192,7 @@ impl Simulation {
         let drive = self.drive();
         let Particles { rows, acceleration, spins, turning, home, .. } = &mut self.particles;
         let (count, many) = (acceleration.len(), acceleration.len() >= FEW);
-        let (lists, part, sums, stills) = self.contacts.parts(stride(!spins.is_empty()));
+        let (lists, part, sums, stills) = self.contacts.parts();
         let (rows, rotating) = (&mut rows[..count], if spins.is_empty() { 0 } else { count });
         let spins = &mut spins[..rotating];
         let beds = self.sleepers.as_mut().map(|s| s.beds(self.zones.busy()));

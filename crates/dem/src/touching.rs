@@ -3,7 +3,6 @@
 use crate::contacts::{Segment, With};
 use crate::setup::Touch;
 use crate::simulation::Simulation;
-use crate::sums::stride;
 use geom::Vec3;
 
 impl Simulation {
@@ -22,11 +21,9 @@ impl Simulation {
         let (Some(&from), Some(&to)) = (c.starts.get(k), c.starts.get(k + 1)) else {
             return Vec::new();
         };
-        let stride = stride(self.particles.rotates());
         let of = |&entry: &u32| {
             let (place, second) = ((entry >> 1) as usize, entry & 1 == 1);
-            let row = &c.loads[place * stride..(place + 1) * stride];
-            let force = Vec3::new(row[0], row[1], row[2]);
+            let force = c.force(place);
             if force == Vec3::zeros() {
                 return None;
             }

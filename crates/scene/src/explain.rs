@@ -212,7 +212,8 @@ fn effects(setup: &Setup) -> Vec<(Effect, Option<Setup>)> {
     let awake = Setup { sleep: None, ..setup.clone() };
     add("sleep", named(setup.sleep.is_some(), "sleep"), 0, Some(awake));
     let double = Setup { precision: Precision::Double, ..setup.clone() };
-    add("mixed precision", named(setup.precision == Precision::Mixed, "precision"), 0, Some(double));
+    add("mixed precision", named(setup.precision == Precision::Mixed, "precision"), 0, Some(double.clone()));
+    add("single precision", named(setup.precision == Precision::Single, "precision"), 0, Some(double));
     let zones = |n: usize, key: &str| if n > 0 { format!("{n} [[{key}]]") } else { String::new() };
     add("outlet", zones(setup.outlets.len(), "outlet"), 0, None);
     add("inlet", zones(setup.inlets.len(), "inlet or insert"), 0, None);

@@ -302,6 +302,7 @@ impl<'a> Draft<'a> {
             precision: match model.precision {
                 Arithmetic::F64 => dem::setup::Precision::Double,
                 Arithmetic::Mixed => dem::setup::Precision::Mixed,
+                Arithmetic::F32 => dem::setup::Precision::Single,
             },
             skin: model.neighbours.skin,
             sleep: model.sleep.map(|s| dem::setup::Sleep { speed: s.speed, time: s.time, wake: s.wake }),

@@ -132,7 +132,7 @@ fn sliding() {
     let (speed, m) = (0.3, mass_of_grain());
     for (normal, precision) in precisions() {
         for weakens in [false, true] {
-            if weakens && precision == Precision::Mixed {
+            if weakens && precision != Precision::Double {
                 continue;
             }
             let mut setup = resting(&normal, precision, 0.5, 0.3);
@@ -156,7 +156,7 @@ fn rolling() {
     let (speed, m) = (0.3, mass_of_grain());
     for model in [RollingModel::Spring, RollingModel::Constant] {
         for (normal, precision) in precisions() {
-            if model == RollingModel::Constant && precision == Precision::Mixed {
+            if model == RollingModel::Constant && precision != Precision::Double {
                 continue;
             }
             let mut setup = resting(&normal, precision, 0.9, 1.0);
@@ -255,7 +255,7 @@ fn drag() {
 fn springs() {
     let m = mass_of_grain();
     for (normal, precision) in precisions() {
-        let mixed = precision == Precision::Mixed;
+        let mixed = precision != Precision::Double;
         for kind in ["sliding", "rolling", "twisting"] {
             if kind == "twisting" && mixed {
                 continue;

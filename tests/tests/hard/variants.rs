@@ -27,7 +27,7 @@ impl Variant {
 
     /// Whether contacts are computed in single precision.
     pub fn mixed(&self) -> bool {
-        self.precision == Precision::Mixed
+        self.precision != Precision::Double
     }
 
     /// Whether grains adhere.

@@ -27,7 +27,7 @@ fn a_grain_on_top_of_a_wall_sphere() {
             let mut sim = simulation(setup);
             run_until(&mut sim, 2.0);
             let found = normal.force(0.01 - particles(&mut sim)[0].position.z, 0.01, Some(s));
-            let limit = if precision == Precision::Mixed { 1e-5 } else { 1e-9 };
+            let limit = if precision != Precision::Double { 1e-5 } else { 1e-9 };
             ON_A_SPHERE.equals(&format!("{}, {s} m", name_of(&normal, precision)), found, "N", weight, limit);
         }
     }

@@ -85,7 +85,7 @@ impl Bodies {
         if !f.travels {
             for &m in &self.members[f.range()] {
                 let radius = particles.rows[m as usize][3];
-                let (push, moment) = loads.on(m as usize, radius, particles.rotates());
+                let (push, moment) = loads.on(m as usize, radius);
                 let push = Vec3::from(push);
                 force += push;
                 torque += (turn * arm(&self.arms[m as usize])).cross(&push) + Vec3::from(moment);

@@ -3,6 +3,7 @@
 use super::{Contacts, Kind, Met, Segment, With, tile};
 use crate::aligned::Aligned;
 use crate::lane::{BLOCK, Row4};
+use crate::number::Form;
 use crate::particles::FAR;
 use crate::sleep::Still;
 use crate::sums::Arrival;
@@ -30,8 +31,13 @@ impl List {
 
 impl Contacts {
     /// Contacts of `images`, then of each tile, lists for every kind: with particles of the tile, and of later ones. Of so many particles.
-    pub fn new(kinds: &[Kind], images: &[List], tiles: &[Vec<[List; 2]>], particles: usize) -> Contacts {
-        let mut new = Contacts { new: true, particles, tile: tile(particles), ..Contacts::default() };
+    pub fn new(
+        kinds: &[Kind],
+        images: &[List],
+        tiles: &[Vec<[List; 2]>],
+        (particles, form): (usize, Form),
+    ) -> Contacts {
+        let mut new = Contacts { new: true, form, particles, tile: tile(particles), ..Contacts::default() };
         let lists = images.iter().chain(tiles.iter().flatten().flatten());
         let most: usize = lists.map(|l| l.i.len() + BLOCK).sum();
         new.i.reserve(most);
@@ -55,7 +61,7 @@ impl Contacts {
             let padded = places.len();
             let with = kinds[kind].with;
             new.segments.push(Segment { kind, places, len, later, memory, rows, kept });
-            memory += padded * kinds[kind].kernel.memory();
+            memory += padded * form.memory(kinds[kind].kernel.columns());
             rows += if with == With::Particles { 0 } else { padded };
             kept += if later || with == With::Images { padded } else { 0 };
         };

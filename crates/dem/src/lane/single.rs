@@ -76,4 +76,20 @@ impl Lane for f32 {
     fn store_rows4(columns: [f32; 4], to: &mut [f64]) {
         f64::store_rows4(columns.map(f64::from), to);
     }
+    #[inline(always)]
+    fn load_single(from: &[f32]) -> f32 {
+        from[0]
+    }
+    #[inline(always)]
+    fn store_single(self, to: &mut [f32]) {
+        to[0] = self;
+    }
+    #[inline(always)]
+    fn store_rows_single(columns: [f32; 8], to: &mut [f32]) {
+        to[..8].copy_from_slice(&columns);
+    }
+    #[inline(always)]
+    fn store_rows4_single(columns: [f32; 4], to: &mut [f32]) {
+        to[..4].copy_from_slice(&columns);
+    }
 }

@@ -45,6 +45,22 @@ unsafe fn widen8(y: __m256) -> X8 {
     X8(unsafe { _mm512_cvtps_pd(y) })
 }
 
+/// Rows of four from four columns: the first holds rows 0 and 4, and so on.
+#[inline(always)]
+unsafe fn quads([a, b, c, d]: [__m256; 4]) -> [__m256; 4] {
+    // SAFETY: see the module's head.
+    unsafe {
+        let (ab, cd) = (_mm256_unpacklo_ps(a, b), _mm256_unpacklo_ps(c, d));
+        let (ab2, cd2) = (_mm256_unpackhi_ps(a, b), _mm256_unpackhi_ps(c, d));
+        [
+            _mm256_shuffle_ps::<0x44>(ab, cd),
+            _mm256_shuffle_ps::<0xEE>(ab, cd),
+            _mm256_shuffle_ps::<0x44>(ab2, cd2),
+            _mm256_shuffle_ps::<0xEE>(ab2, cd2),
+        ]
+    }
+}
+
 macro_rules! single {
     ($t:ident, $wide:ident, $narrow:ident, $widen:ident) => {
         single!(@ $t, Add, add, _mm256_add_ps);
@@ -150,6 +166,55 @@ macro_rules! single {
                 let [a, b, c, d] = columns;
                 let w = $t::widen;
                 $wide::store_rows4([w(a), w(b), w(c), w(d)], to);
+            }
+            #[inline(always)]
+            fn load_single(from: &[f32]) -> $t {
+                let from = &from[..8];
+                // SAFETY: see the module's head; eight floats are there.
+                $t(unsafe { _mm256_loadu_ps(from.as_ptr()) })
+            }
+            #[inline(always)]
+            fn store_single(self, to: &mut [f32]) {
+                let to = &mut to[..8];
+                // SAFETY: see the module's head; there is room for eight floats.
+                unsafe { _mm256_storeu_ps(to.as_mut_ptr(), self.0) }
+            }
+            #[inline(always)]
+            fn store_rows_single(columns: [$t; 8], to: &mut [f32]) {
+                let [a, b, c, d, e, f, g, h] = columns;
+                // SAFETY: see the module's head.
+                let (low, high) =
+                    unsafe { (quads([a.0, b.0, c.0, d.0]), quads([e.0, f.0, g.0, h.0])) };
+                for (k, row) in to[..64].as_chunks_mut::<8>().0.iter_mut().enumerate() {
+                    let (l, h) = (low[k % 4], high[k % 4]);
+                    // SAFETY: see the module's head; a row is eight floats.
+                    unsafe {
+                        let both = if k < 4 {
+                            _mm256_permute2f128_ps::<0x20>(l, h)
+                        } else {
+                            _mm256_permute2f128_ps::<0x31>(l, h)
+                        };
+                        _mm256_storeu_ps(row.as_mut_ptr(), both);
+                    }
+                }
+            }
+            #[inline(always)]
+            fn store_rows4_single(columns: [$t; 4], to: &mut [f32]) {
+                let [a, b, c, d] = columns;
+                // SAFETY: see the module's head.
+                let q = unsafe { quads([a.0, b.0, c.0, d.0]) };
+                for (k, rows) in to[..32].as_chunks_mut::<8>().0.iter_mut().enumerate() {
+                    let (one, next) = (q[k % 2 * 2], q[k % 2 * 2 + 1]);
+                    // SAFETY: see the module's head; two rows are eight floats.
+                    unsafe {
+                        let both = if k < 2 {
+                            _mm256_permute2f128_ps::<0x20>(one, next)
+                        } else {
+                            _mm256_permute2f128_ps::<0x31>(one, next)
+                        };
+                        _mm256_storeu_ps(rows.as_mut_ptr(), both);
+                    }
+                }
             }
         }
     };

@@ -25,7 +25,7 @@ impl Simulation {
 
     /// Of the contacts of particle `k` on it [W], in the step before the last move.
     pub(super) fn power(&self, k: usize, state: &Particle) -> f64 {
-        let (force, moment) = self.all_loads().on(k, state.radius, self.particles.rotates());
+        let (force, moment) = self.all_loads().on(k, state.radius);
         Vec3::from(force).dot(&state.velocity) + Vec3::from(moment).dot(&state.spin)
     }
 

@@ -22,9 +22,9 @@ impl Simulation {
     /// What contact `place` remembers, as its first particle sees it, or its second.
     pub(crate) fn springs(&self, segment: &Segment, place: usize, second: bool) -> Springs {
         let kernel = &self.kinds[segment.kind].kernel;
-        let columns = kernel.memory();
+        let columns = kernel.columns();
         let number = |c: usize| {
-            let n = self.contacts.memory[self.contacts.memory_at(segment, place, c, columns)];
+            let n = self.contacts.remembered(segment, place, c, columns);
             if second && kernel.flips(c) { -n } else { n }
         };
         let mut springs = Springs::default();
@@ -39,7 +39,7 @@ impl Simulation {
 
     /// The columns of a kind of contact, in the kernel's order.
     fn columns(&self, segment: &Segment, springs: &Springs) -> Vec<f64> {
-        let mut columns = vec![0.0; self.kinds[segment.kind].kernel.memory()];
+        let mut columns = vec![0.0; self.kinds[segment.kind].kernel.columns()];
         self.for_columns(segment, |at, field| match field {
             Field::Sliding => columns[at..at + 3].copy_from_slice(springs.sliding.as_slice()),
             Field::Rolling => columns[at..at + 3].copy_from_slice(springs.rolling.as_slice()),

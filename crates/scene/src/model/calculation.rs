@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-/// In which precision contacts are computed; places and sums are always double.
+/// In which precision contacts are computed; places and velocities are always double.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Arithmetic {
@@ -11,6 +11,8 @@ pub enum Arithmetic {
     F64,
     /// Single in contacts.
     Mixed,
+    /// Single in contacts, what they remember, and sums of loads.
+    F32,
 }
 
 /// `[time]`
