@@ -164,7 +164,10 @@ fn bytes_after_the_end_are_refused() {
 
 /// A file, and all that it was while it was written.
 #[derive(Clone, Default)]
-struct Seen(Rc<RefCell<(io::Cursor<Vec<u8>>, Vec<Vec<u8>>)>>);
+struct Seen(Rc<RefCell<Written>>);
+
+/// The file, and what it was after each write.
+type Written = (io::Cursor<Vec<u8>>, Vec<Vec<u8>>);
 
 impl Seen {
     fn seek(&mut self, to: io::SeekFrom) -> io::Result<u64> {
