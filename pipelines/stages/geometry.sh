@@ -5,7 +5,7 @@
 #   geometry.sh hopper|chute|box [KEY=VALUE …] > PART.ply
 #
 #   scale=1     of the section: 1 is a box of 360 mm and a mouth at a height of 600 mm
-#   mouth=0.04  width of the mouth [m], not scaled: grains must pass
+#   mouth=0.034 width of the mouth [m], not scaled: grains must pass
 #   low=-0.08 high=0.08  from where to where along y [m]
 #   tilt=40     of the chute [deg]
 #   shaft=0.35  height of the hopper's shaft [m], scaled
@@ -15,7 +15,7 @@ shift
 awk -v part="$part" -v words="$*" '
 function plate(x0, z0, x1, z1) { x[n] = x0; z[n] = z0; x[n + 1] = x1; z[n + 1] = z1; n += 2 }
 BEGIN {
-  scale = 1; mouth = 0.04; low = -0.08; high = 0.08; tilt = 40; shaft = 0.35
+  scale = 1; mouth = 0.034; low = -0.08; high = 0.08; tilt = 40; shaft = 0.35
   count = split(words, word, " ")
   for (i = 1; i <= count; i++) {
     split(word[i], pair, "=")

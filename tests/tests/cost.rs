@@ -143,7 +143,10 @@ fn absent_effects_cost_no_instruction() {
     assert!(2 * rolling.at(SPRING) > 3 * friction.at(SPRING), "{friction:?} {rolling:?}");
     let (least, more, most) = (without.engine(), friction.engine(), rolling.engine());
     // A quarter more at least: slip, spring, cap, couple of forces and rotation, beside lists and the move, which both have.
-    assert!((least as f64) < 0.8 * more as f64, "frictionless {least}, with friction {more}");
+    assert!(
+        (least as f64) < 0.8 * more as f64,
+        "frictionless {least}, with friction {more}: {without:?} {friction:?}"
+    );
     assert!(more < most, "with friction {more}, and with rolling resistance {most}");
     let apart = nothing.engine().abs_diff(least);
     assert!(apart <= setup, "friction of 0 costs {apart} instructions");

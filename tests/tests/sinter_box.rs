@@ -75,7 +75,7 @@ fn all_forms_of_the_box_have_the_same_friction() {
 /// The surfaces are those that the scenes say they were drawn with.
 #[test]
 fn the_surfaces_are_drawn_by_their_script() {
-    let forms = [("", ""), ("slice-", "low=-0.008 high=0.008")];
+    let forms = [("", ""), ("slice-", "low=-0.024 high=0.024")];
     let small = ("small-", "scale=0.35 mouth=0.03 low=-0.008 high=0.008");
     for (prefix, settings) in forms.into_iter().chain([small]) {
         for part in ["hopper", "chute", "box"] {

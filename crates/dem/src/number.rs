@@ -99,30 +99,35 @@ pub struct Form {
 }
 
 impl Form {
-    /// How many numbers a word holds.
-    fn in_a_word(self) -> usize {
-        if self.single { f32::IN_A_WORD } else { f64::IN_A_WORD }
+    /// Words of so many numbers.
+    #[inline(always)]
+    fn words(self, numbers: usize) -> usize {
+        let single = usize::from(self.single);
+        (numbers + single) >> single
     }
 
     /// Words of a load.
+    #[inline(always)]
     pub fn load(self) -> usize {
-        (if self.rotates { FORCE_AND_MOMENT } else { FORCE }) / self.in_a_word()
+        self.words(if self.rotates { FORCE_AND_MOMENT } else { FORCE })
     }
 
     /// Words of a couple.
+    #[inline(always)]
     pub fn couple(self) -> usize {
-        COUPLE / self.in_a_word()
+        self.words(COUPLE)
     }
 
     /// Words of the memory of one contact that has so many columns.
+    #[inline(always)]
     pub fn memory(self, columns: usize) -> usize {
-        columns.div_ceil(self.in_a_word())
+        self.words(columns)
     }
 
     /// Which of the numbers behind `first` words is column `column` of the memory of the contact after `k` others, with so many columns.
     pub fn memory_at(self, first: usize, k: usize, column: usize, columns: usize) -> usize {
         let block = first + k / BLOCK * BLOCK * self.memory(columns);
-        block * self.in_a_word() + column * BLOCK + k % BLOCK
+        (block << usize::from(self.single)) + column * BLOCK + k % BLOCK
     }
 
     /// Number `at` of some words.
@@ -139,7 +144,7 @@ impl Form {
 
     /// The first three numbers of load `place`.
     pub fn force(self, loads: &[f64], place: usize) -> geom::Vec3 {
-        let first = place * self.load() * self.in_a_word();
+        let first = place * if self.rotates { FORCE_AND_MOMENT } else { FORCE };
         geom::Vec3::new(self.get(loads, first), self.get(loads, first + 1), self.get(loads, first + 2))
     }
 
