@@ -203,7 +203,7 @@ impl Loads<'_> {
     #[inline(always)]
     pub fn sum<T: Number, Q: Four, const SPIN: bool>(&self, k: usize, radius: f64) -> Sum<Q> {
         let (sums, couples) = (T::of(self.sums.0).as_chunks::<4>().0, T::of(self.sums.1).as_chunks::<4>().0);
-        let read = |row: &[T; 4]| Q::read(&row.map(T::wide));
+        let read = |row: &[T; 4]| Q::read(&[row[0].wide(), row[1].wide(), row[2].wide(), row[3].wide()]);
         if !SPIN {
             return Sum { force: read(&sums[k]), moment: Q::all(0.0) };
         }
