@@ -3,10 +3,10 @@
 //! All are kept in columns of words of eight bytes, so that one kind of column does for both precisions: a word holds one number, or two.
 
 use crate::lane::{BLOCK, Lane};
-use std::ops::{AddAssign, Neg, SubAssign};
+use std::ops::{AddAssign, SubAssign};
 
 /// A number as it is kept.
-pub trait Number: Copy + Default + AddAssign + SubAssign + Neg<Output = Self> + Send + Sync {
+pub trait Number: Copy + Default + AddAssign + SubAssign + Send + Sync {
     /// How many a word holds.
     const IN_A_WORD: usize;
     /// In double precision.
@@ -106,10 +106,16 @@ impl Form {
         (numbers + single) >> single
     }
 
+    /// Numbers of a load.
+    #[inline(always)]
+    fn of_a_load(self) -> usize {
+        if self.rotates { FORCE_AND_MOMENT } else { FORCE }
+    }
+
     /// Words of a load.
     #[inline(always)]
     pub fn load(self) -> usize {
-        self.words(if self.rotates { FORCE_AND_MOMENT } else { FORCE })
+        self.words(self.of_a_load())
     }
 
     /// Words of a couple.
@@ -144,7 +150,7 @@ impl Form {
 
     /// The first three numbers of load `place`.
     pub fn force(self, loads: &[f64], place: usize) -> geom::Vec3 {
-        let first = place * if self.rotates { FORCE_AND_MOMENT } else { FORCE };
+        let first = place * self.of_a_load();
         geom::Vec3::new(self.get(loads, first), self.get(loads, first + 1), self.get(loads, first + 2))
     }
 

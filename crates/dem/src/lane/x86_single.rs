@@ -61,6 +61,13 @@ unsafe fn quads([a, b, c, d]: [__m256; 4]) -> [__m256; 4] {
     }
 }
 
+/// The lower halves of both, or the upper ones.
+#[inline(always)]
+unsafe fn halves(a: __m256, b: __m256, upper: bool) -> __m256 {
+    // SAFETY: see the module's head.
+    unsafe { if upper { _mm256_permute2f128_ps::<0x31>(a, b) } else { _mm256_permute2f128_ps::<0x20>(a, b) } }
+}
+
 macro_rules! single {
     ($t:ident, $wide:ident, $narrow:ident, $widen:ident) => {
         single!(@ $t, Add, add, _mm256_add_ps);
@@ -189,12 +196,7 @@ macro_rules! single {
                     let (l, h) = (low[k % 4], high[k % 4]);
                     // SAFETY: see the module's head; a row is eight floats.
                     unsafe {
-                        let both = if k < 4 {
-                            _mm256_permute2f128_ps::<0x20>(l, h)
-                        } else {
-                            _mm256_permute2f128_ps::<0x31>(l, h)
-                        };
-                        _mm256_storeu_ps(row.as_mut_ptr(), both);
+                        _mm256_storeu_ps(row.as_mut_ptr(), halves(l, h, k >= 4));
                     }
                 }
             }
@@ -207,12 +209,7 @@ macro_rules! single {
                     let (one, next) = (q[k % 2 * 2], q[k % 2 * 2 + 1]);
                     // SAFETY: see the module's head; two rows are eight floats.
                     unsafe {
-                        let both = if k < 2 {
-                            _mm256_permute2f128_ps::<0x20>(one, next)
-                        } else {
-                            _mm256_permute2f128_ps::<0x31>(one, next)
-                        };
-                        _mm256_storeu_ps(rows.as_mut_ptr(), both);
+                        _mm256_storeu_ps(rows.as_mut_ptr(), halves(one, next, k >= 2));
                     }
                 }
             }
