@@ -11,6 +11,8 @@ OUT=$(cd "$1" && pwd) PAGE=$(cd "$(dirname "$2")" && pwd)/$(basename "$2")
 cd "$(dirname "$0")"
 ROLLING=${ROLLING-0.4 0.6 0.8 1.0} SEEDS=${SEEDS:-1} ANGLE=${ANGLE:-35.5}
 STIFFNESS=${STIFFNESS-1000 2500 10000 40000} MORE=${MORE-1 2 3 4 5}
+runs=$(($(wc -w <<< "$ROLLING") * $(wc -w <<< "$SEEDS")))
+[ "$runs" -ge 3 ] || { echo "calibrate: ROLLING=\"$ROLLING\" SEEDS=\"$SEEDS\" make $runs runs: a line with an interval wants three or more" >&2; exit 2; }
 
 # slope NAME SEED SCENE SETTINGS…: runs a scene unless that is done, and keeps its slope [deg] and step [s].
 slope() {

@@ -77,8 +77,9 @@ impl Simulation {
         let loads = self.all_loads();
         let members = self.bodies.member_states(p, &loads, &self.setup, self.dt);
         // All at once: a list that grows takes twice its length, beside the largest state there is.
-        let mut order = Vec::with_capacity(p.len());
-        order.extend((0..p.len() as u32).filter(|&k| !self.zones.is_hidden(k as usize, time)));
+        let (hidden, mut order) = (self.zones.hidden(time), Vec::with_capacity(p.len()));
+        order.extend((0..p.len() as u32).filter(|&k| !hidden(k as usize)));
+        drop(hidden);
         order.sort_unstable_by_key(|&k| p.id[k as usize]);
         Ok(Snapshot { sim: self, loads, members, order })
     }

@@ -139,6 +139,7 @@ impl Simulation {
         if self.sleepers.is_some() || !self.zones.none() {
             self.contacts.index(&self.kinds);
         }
+        self.note_near();
         if self.sleepers.is_some() {
             self.contacts.note_walls(&self.kinds, &self.walls);
             self.contacts.note_tiles(&self.kinds);

@@ -188,7 +188,8 @@ impl Simulation {
 
     /// Number of particles in the calculation.
     pub fn particle_count(&self) -> usize {
-        self.particles.len() - self.zones.hidden(self.time())
+        let hidden = self.zones.hidden(self.time());
+        (0..self.particles.len()).filter(|&k| !hidden(k)).count()
     }
 
     /// Wall spheres of a wall, as they are now: centre, radius [m], in the order they were given.

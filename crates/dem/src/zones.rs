@@ -38,6 +38,9 @@ pub struct Zones {
     beyond: Vec<BTreeSet<u32>>,
     pending: VecDeque<Entry>,
     crossings: Vec<Crossing>,
+    /// For each outlet, who may be past its plane, or come back through it, until lists are made anew.
+    #[serde(skip)]
+    near: Vec<Vec<u32>>,
     /// Whether a particle is out of the calculation and waits for the next listing.
     gone: Vec<bool>,
     /// Those, and where they were when neighbours were listed.
@@ -87,16 +90,10 @@ impl Zones {
         self.outlets.is_empty() && self.inlets.is_empty()
     }
 
-    /// Number of particles that are listed and not in the calculation.
-    pub fn hidden(&self, time: f64) -> usize {
-        let early = self.travellers.iter().filter(|t| t.since > time).count();
-        early + self.gone.iter().filter(|&&g| g).count()
-    }
-
-    /// Whether particle `k` is listed and not in the calculation.
-    pub fn is_hidden(&self, k: usize, time: f64) -> bool {
-        self.is_gone(k)
-            || (self.travels(k) && self.travellers.iter().any(|t| t.at as usize == k && t.since > time))
+    /// Whether a particle is listed and not in the calculation: past an exclusion plane, or its time to come in is yet to come.
+    pub fn hidden(&self, time: f64) -> impl Fn(usize) -> bool + '_ {
+        let early: BTreeSet<u32> = self.travellers.iter().filter(|t| t.since > time).map(|t| t.at).collect();
+        move |k| self.is_gone(k) || early.contains(&(k as u32))
     }
 
     /// Whether particle `k` has passed an exclusion plane.

@@ -72,7 +72,8 @@ impl Bodies {
                 angular_momentum: momentum,
             }
         };
-        let seen = |f: &&Flight| !sim.zones.is_hidden(self.members[f.first as usize] as usize, time);
+        let hidden = sim.zones.hidden(time);
+        let seen = |f: &&Flight| !hidden(self.members[f.first as usize] as usize);
         let mut states: Vec<BodyState> = self.flights.iter().filter(seen).map(state).collect();
         states.sort_by_key(|s| s.id);
         states

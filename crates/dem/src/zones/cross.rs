@@ -9,10 +9,19 @@
 
 use super::travel::{Traveller, Way};
 use crate::energy::carried;
-use crate::setup::{Crossing, EntryClump, Particle, Touch};
+use crate::setup::{Crossing, EntryClump, Particle, Touch, Zone};
 use crate::simulation::Simulation;
 use geom::Vec3;
 use nalgebra::UnitQuaternion;
+use std::collections::BTreeSet;
+
+/// What a particle has to do with a storage plane.
+enum Passage {
+    /// It is so far past it [m], and free.
+    Past(f64),
+    /// It was past it without a crossing, and has come back.
+    Back,
+}
 
 impl Simulation {
     pub(super) fn find_crossings(&mut self) {
@@ -33,30 +42,62 @@ impl Simulation {
             .sort_by(|a, b| a.time.total_cmp(&b.time).then(a.particle.id.cmp(&b.particle.id)));
     }
 
+    /// Notes who may pass a storage plane, or come back through it, before lists are made anew: nobody else's room reaches it. Where what is tested
+    /// is the centre of a clump, rooms of its members say nothing.
+    pub(crate) fn note_near(&mut self) {
+        let p = &self.particles;
+        let near = |(zone, beyond): (&Zone, &BTreeSet<u32>)| {
+            let stays = |k: usize| {
+                let (home, room) = (Vec3::new(p.home[k][0], p.home[k][1], p.home[k][2]), p.home[k][3]);
+                let past = zone.past(&home, p.rows[k][3]);
+                !self.bodies.is_member(k) && (past < -room || (past > room && beyond.contains(&p.id[k])))
+            };
+            (0..p.len() as u32).filter(|&k| !stays(k as usize)).collect()
+        };
+        self.zones.near = self.zones.outlets.iter().zip(&self.zones.beyond).map(near).collect();
+    }
+
     /// Finds who has passed one plane.
     fn look_at(&mut self, outlet: usize, found: &mut Vec<(usize, Crossing)>) {
-        let zone = self.zones.outlets[outlet];
-        for k in 0..self.particles.len() {
-            let Some((place, radius)) = self.tested(k) else { continue };
-            let past = zone.past(&place, radius);
-            if past < 0.0 {
-                let beyond = &mut self.zones.beyond[outlet];
-                if !beyond.is_empty() && !self.zones.gone[k] && beyond.remove(&self.particles.id[k]) {
+        let near = std::mem::take(&mut self.zones.near[outlet]);
+        let all = || 0..self.particles.len() as u32;
+        debug_assert!(
+            self.out || all().all(|k| self.passage(outlet, k as usize).is_none() || near.contains(&k))
+        );
+        // Whoever has just left their room may be anywhere.
+        let looked_at = if self.out { all().collect() } else { Vec::new() };
+        for &k in if self.out { &looked_at } else { &near } {
+            let k = k as usize;
+            match self.passage(outlet, k) {
+                None => {}
+                Some(Passage::Back) => {
+                    self.zones.beyond[outlet].remove(&self.particles.id[k]);
                     self.zones.lost.came_upstream(outlet);
                 }
-                continue;
+                Some(Passage::Past(past)) => {
+                    let crossing = self.crossing(k, outlet as u32, past);
+                    // One that does not move with the flow has not passed yet: carried on by its velocity, it would never leave.
+                    if crossing.particle.velocity.dot(&self.zones.outlets[outlet].plane.normal) > 0.0 {
+                        found.push((k, crossing));
+                    }
+                }
             }
-            if self.zones.busy[k]
-                || self.zones.gone[k]
-                || self.zones.beyond[outlet].contains(&self.particles.id[k])
-            {
-                continue;
-            }
-            let crossing = self.crossing(k, outlet as u32, past);
-            // One that does not move with the flow has not passed yet: carried on by its velocity, it would never leave.
-            if crossing.particle.velocity.dot(&zone.plane.normal) > 0.0 {
-                found.push((k, crossing));
-            }
+        }
+        self.zones.near[outlet] = near;
+    }
+
+    /// What particle `k` has to do with a storage plane now.
+    fn passage(&self, outlet: usize, k: usize) -> Option<Passage> {
+        let (zones, id) = (&self.zones, self.particles.id[k]);
+        if zones.gone[k] {
+            return None;
+        }
+        let (place, radius) = self.tested(k)?;
+        let past = zones.outlets[outlet].past(&place, radius);
+        let beyond = &zones.beyond[outlet];
+        match past < 0.0 {
+            true => beyond.contains(&id).then_some(Passage::Back),
+            false => (!zones.busy[k] && !beyond.contains(&id)).then_some(Passage::Past(past)),
         }
     }
 
