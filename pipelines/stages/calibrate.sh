@@ -3,13 +3,13 @@
 # each seed, puts a line through the slopes of the heaps, solves it for ANGLE, and writes the part "calibration" of the page. Sliding friction stays as
 # the scene has it. Then runs the small plant (small.toml) with other stiffnesses, for the part "stiffness".
 #
-# Environment: ROLLING="0.4 0.6 0.8 1.0", SEEDS="1", ANGLE=35.5 [deg], STIFFNESS="1000 2500 10000 40000" [N/m], MORE="1 2 3 4 5" the seeds of those,
+# Environment: ROLLING="0.4 0.6 1.0", SEEDS="1", ANGLE=35.5 [deg], STIFFNESS="1000 2500 10000 40000" [N/m], MORE="1 2 3 4 5" the seeds of those,
 # JOBS=2. Runs that are there are used: take another folder for another scene.
 set -euo pipefail
 mkdir -p "$1"
 OUT=$(cd "$1" && pwd) PAGE=$(cd "$(dirname "$2")" && pwd)/$(basename "$2")
 cd "$(dirname "$0")"
-ROLLING=${ROLLING-0.4 0.6 0.8 1.0} SEEDS=${SEEDS:-1} ANGLE=${ANGLE:-35.5}
+ROLLING=${ROLLING-0.4 0.6 1.0} SEEDS=${SEEDS:-1} ANGLE=${ANGLE:-35.5}
 STIFFNESS=${STIFFNESS-1000 2500 10000 40000} MORE=${MORE-1 2 3 4 5}
 runs=$(($(wc -w <<< "$ROLLING") * $(wc -w <<< "$SEEDS")))
 [ "$runs" -ge 3 ] || { echo "calibrate: ROLLING=\"$ROLLING\" SEEDS=\"$SEEDS\" make $runs runs: a line with an interval wants three or more" >&2; exit 2; }

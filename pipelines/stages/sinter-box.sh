@@ -38,11 +38,12 @@ fi
 # number FILE KEY: a number of a report, or of the JSON of a measure.
 number() { tr -d ' \n' < "$1" | grep -o "\"$2\":[^,}]*" | head -1 | cut -d: -f2; }
 value() { tr -d ' \n' < "$1" | grep -o "\"$2\":{\"unit\":\"[^\"]*\",\"value\":[^}]*" | head -1 | sed 's/.*"value"://'; }
-dem-measure downstream.mcap --repose --side x+ --sectors 8 --ground 0 --json --plot slope.png -q > slope.json
+dem-measure downstream.mcap --repose --side x+ --sectors 8 --ground 0 --json --plot slope.svg -q > slope.json
 dem-measure downstream.mcap --flow=0,0,0.35,0,0,-1 --json -q > into.json
 dem-measure upstream.mcap --flow=$CUT --from 0.3 --until 0.9 --json -q > flow.json
 dem-view upstream.mcap downstream.mcap --time 1.2 --camera -60/18 --size 640x720 -o box.png -q
 cp box.png "$(dirname "$PAGE")/stages-sinter-box.png"
+cp slope.svg "$(dirname "$PAGE")/stages-sinter-slope.svg"
 awk -v angle="$(value slope.json angle)" -v off="$(value slope.json angle_interval)" -v height="$(value slope.json height)" \
   -v into="$(value into.json mass)" -v flow="$(value flow.json mass_flow)" -v steps="$(number up.json steps)" -v dt="$(number up.json dt)" \
   -v mu="$(awk '/sliding_friction/ {print $3; exit}' upstream.toml)" -v roll="$(awk '/rolling_resistance/ {print $3; exit}' upstream.toml)" '
@@ -51,11 +52,11 @@ awk -v angle="$(value slope.json angle)" -v off="$(value slope.json angle_interv
     printf "| | |\n|---|---|\n"
     printf "| **slope of the heap** | **%.1f° ± %.1f°** (mean of eight lanes, 95 %% interval); experiment 35.5°, analysis of the source 35.9° |\n", angle, off
     printf "| friction between grains, sliding and rolling | %s, %s |\n", mu, roll
-    printf "| height of the heap at the wall | %.0f mm |\n| mass that came into the box | %.2f kg |\n", 1000 * height, into
+    printf "| height of the heap | %.0f mm |\n| mass that came into the box | %.2f kg |\n", 1000 * height, into
     printf "| flow at the mouth | %.1f kg/s |\n| step | %.3g s, %d steps in each stage |\n", flow, dt, steps
     printf "| run time of both stages | %.0f s of processor time; %.0f s on the clock of a machine with other work on it |\n", cpu, wall
   }' times > box.md
-printf '\n![Sinter in the box](stages-sinter-box.png)\n' >> box.md
+printf '\n![Slope of the heap, lane by lane](stages-sinter-slope.svg)\n\n![Sinter in the box](stages-sinter-box.png)\n' >> box.md
 cd "$OLDPWD"
 ./section.sh "$PAGE" sinter-box < "$OUT/box.md"
 cat "$OUT/box.md"
