@@ -496,7 +496,7 @@ fn stages_and_resumed_runs_that_do_not_fit() {
             (
                 "stage-split plant.toml --at 0,0,0.1,0,0,-1 --keep upstream",
                 1,
-                &["no grains start upstream of the plane: does its normal point with the flow?"],
+                &["no grains start upstream of the plane: its normal is to point with the flow"],
             ),
             ("stage-split plant.toml --at 0,0,0.04,0,0,-1 --keep upstream", 1, &["fill.0", "both sides"]),
             (

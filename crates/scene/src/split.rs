@@ -90,7 +90,7 @@ fn stage(scene: &Scene, cut: &Cut) -> Result<(String, Vec<String>), SceneError> 
     cutting.sources(&mut document, &mut found)?;
     cutting.zones(&mut document, &mut found)?;
     if !found.upstream {
-        let why = "no grains start upstream of the plane: does its normal point with the flow?";
+        let why = "no grains start upstream of the plane: its normal is to point with the flow";
         return Err(SceneError::file(&scene.text.name, why, "turn the plane or move it"));
     }
     cutting.clear_of_walls()?;
