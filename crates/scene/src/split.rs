@@ -301,7 +301,7 @@ material = "m"
     fn a_plane_that_looks_the_wrong_way_is_refused() {
         for keep in [Stage::Upstream, Stage::Downstream] {
             let message = cut(keep, "0,0,5,0,0,-1", None).unwrap_err().to_string();
-            assert!(message.contains("no grains start upstream of the plane: does its normal"), "{message}");
+            assert!(message.contains("its normal is to point with the flow"), "{message}");
         }
     }
 }
