@@ -72,6 +72,8 @@ impl<R: Lane> Stretch<R> for V<R> {
 
 /// The spring and dashpot at one instant.
 pub struct CappedSpring<R: Lane> {
+    /// Where there is a contact: what comes of it elsewhere is not looked at.
+    pub touching: R::Mask,
     /// k, spring.
     pub stiffness: R,
     /// k of the step before over k [–].
@@ -115,7 +117,7 @@ impl<R: Lane> CappedSpring<R> {
         let mut force = X::none() - stretched.times(self.stiffness) - dashpot;
         let mut kept = stretched;
         let size = force.with(force);
-        let slides = size.gt(self.cap * self.cap);
+        let slides = R::both(self.touching, size.gt(self.cap * self.cap));
         if R::any(slides) {
             let pull = stretched.times(self.stiffness);
             kept = X::choose(slides, stretched.times(self.share(pull.with(pull))), stretched);

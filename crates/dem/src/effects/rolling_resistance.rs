@@ -36,6 +36,7 @@ impl Effect for RollingResistance {
         let arm = R::splat(self.resistance) * contact.radius;
         let stiffness = (R::splat(2.25) * load.stiffness * arm * arm).max(R::splat(R::TINY));
         let spring = CappedSpring {
+            touching: contact.touching,
             stiffness,
             before: load.stiffness_before,
             // √(k_r I_r) = √(2.25 S (μ_r R*)² 7/5 m* R*²), and the frequency k_r/I_r, without R*.

@@ -51,6 +51,7 @@ impl<C: Coefficient> Effect for SlidingFriction<C> {
         // A stiffness of 0 at δ = 0 (Hertz) would be divided by; nothing holds there in any case.
         let stiffness = (R::splat(self.stiffness_ratio) * load.stiffness).max(R::splat(R::TINY));
         let spring = CappedSpring {
+            touching: contact.touching,
             stiffness,
             before: load.stiffness_before,
             damping: R::splat(self.damping_ratio * self.stiffness_ratio.sqrt()) * load.impedance,

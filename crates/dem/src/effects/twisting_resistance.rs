@@ -39,6 +39,7 @@ impl Effect for TwistingResistance {
         let stiffness = (R::splat(self.stiffness_ratio) * load.stiffness * square).max(R::splat(1e-150));
         let inertia = R::splat(0.4) * contact.mass * square;
         let spring = CappedSpring {
+            touching: contact.touching,
             stiffness,
             before: load.stiffness_before,
             damping: R::splat(2.0 * ETA) * (stiffness * inertia).sqrt(),
