@@ -16,6 +16,7 @@ use crate::kernel::{LEDGER, LOST};
 use crate::lane::Row4;
 use crate::setup::Particle;
 use crate::simulation::Simulation;
+use crate::zones::Zones;
 use geom::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -85,20 +86,26 @@ impl Driven {
 }
 
 impl Account {
-    /// Adds one step's ledger, in its order.
-    pub fn add(&mut self, kinds: &[Kind], contacts: &Contacts) {
+    /// Adds one step's ledger, in its order. What a contact that acts on nobody took or brought is part of the work on those that travel, and goes where that goes.
+    pub fn add(&mut self, kinds: &[Kind], contacts: &Contacts, zones: &Zones) {
         for segment in &contacts.segments {
             let places = segment.contacts();
             let rows = &contacts.ledger[places.start * LEDGER..places.end * LEDGER];
             let wall = matches!(kinds[segment.kind].with, With::Wall(_));
-            for row in rows.chunks_exact(LEDGER) {
-                for (sum, part) in self.dissipated.iter_mut().zip(&row[1..=DISSIPATORS]) {
-                    *sum += part;
+            for (place, row) in places.zip(rows.chunks_exact(LEDGER)) {
+                let (dissipated, surface) =
+                    (&row[1..=DISSIPATORS], if wall { row[1 + DISSIPATORS] } else { 0.0 });
+                if zones.idles(contacts.i[place], (!wall).then(|| contacts.partner[place])) {
+                    let gone = dissipated.iter().sum::<f64>() - surface;
+                    self.left += gone;
+                    self.passed += gone;
+                } else {
+                    for (sum, part) in self.dissipated.iter_mut().zip(dissipated) {
+                        *sum += part;
+                    }
+                    self.walls += surface;
                 }
                 self.lost += row[LOST];
-                if wall {
-                    self.walls += row[1 + DISSIPATORS];
-                }
             }
         }
     }
@@ -193,7 +200,7 @@ impl Simulation {
     /// Brings the ledger to this instant, whose loads are known: what is lost at once is gone, of all else half is done.
     pub(crate) fn close_step(&self, energy: &mut Energy) {
         let mut now = Account::default();
-        now.add(&self.kinds, &self.contacts);
+        now.add(&self.kinds, &self.contacts, &self.zones);
         now.add_bonds(&self.bonds, self.dt);
         let loads = self.all_loads();
         let free = (0..self.particles.len()).filter(|&k| self.is_driven(k));

@@ -12,15 +12,13 @@ pub fn overlap(sim: &Simulation, segments: &[Range<usize>], moved: bool) -> Resu
     let limit = sim.setup.guards.overlap;
     let place = |k: usize| if moved { sim.position_before(k) } else { sim.particles.position(k) };
     let time = sim.time() - if moved { sim.dt } else { 0.0 };
-    // Who has just left at the end of a zone travelled when loads were computed.
-    let passive = |k: usize| sim.zones.travels(k) || sim.zones.is_gone(k);
     let mut worst: Option<(f64, Halt)> = None;
     for segment in segments.iter().flat_map(|range| &sim.contacts.segments[range.clone()]) {
         let with = sim.kinds[segment.kind].with;
         for at in segment.contacts() {
             let (i, partner) = (sim.contacts.i[at] as usize, sim.contacts.partner[at] as usize);
             let pair = !matches!(with, With::Wall(_));
-            if passive(i) && (!pair || passive(partner)) {
+            if sim.idles(with, at) {
                 continue;
             }
             let (other, radius) = sim.partner(segment, at, place);

@@ -137,6 +137,9 @@ impl Simulation {
         let mut energy = Energy::of(&particles, &self.setup, (&self.contacts, &self.bonds), &self.account);
         bodies.iter().for_each(|b| energy.add_body(b, &self.setup));
         if self.setup.ledger {
+            let held = self.held_by_idle();
+            energy.elastic -= held;
+            energy.left += held;
             self.close_step(&mut energy);
         }
         Ok(energy)

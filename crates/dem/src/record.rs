@@ -54,7 +54,8 @@ impl Simulation {
                 // Who has left at the end of a zone is in the lists until they are made anew.
                 let pair = !matches!(kind.with, With::Wall(_));
                 let gone = |k: u32| self.zones.is_gone(k as usize);
-                if gone(self.contacts.i[place]) || pair && gone(self.contacts.partner[place]) {
+                let left = gone(self.contacts.i[place]) || pair && gone(self.contacts.partner[place]);
+                if left || self.idles(kind.with, place) {
                     continue;
                 }
                 let force = self.contacts.force(place);
@@ -67,6 +68,12 @@ impl Simulation {
         }
         self.contacts.work = work;
         Ok(out)
+    }
+
+    /// Whether contact `place`, of those with these, acts on nobody ([`crate::zones::Zones::idles`]).
+    pub(crate) fn idles(&self, with: With, place: usize) -> bool {
+        let pair = !matches!(with, With::Wall(_));
+        self.zones.idles(self.contacts.i[place], pair.then(|| self.contacts.partner[place]))
     }
 
     /// Brings the load of each contact to this instant.

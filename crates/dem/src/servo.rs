@@ -107,12 +107,13 @@ impl Simulation {
         self.walls[wall].fastest_driven() * since + way
     }
 
-    /// Force of a wall on the particles [N], and how many it pushes.
+    /// Force of a wall on the particles [N], and how many it pushes: those in zones feel nothing, and push no wall.
     fn push(&self, wall: usize) -> (Vec3, u32) {
         let c = &self.contacts;
         let (mut sum, mut count) = (Vec3::zeros(), 0);
         for segment in c.segments.iter().filter(|s| self.kinds[s.kind].with == With::Wall(wall)) {
-            for force in segment.contacts().map(|place| c.force(place)) {
+            let acts = |place: &usize| !self.zones.idles(c.i[*place], None);
+            for force in segment.contacts().filter(acts).map(|place| c.force(place)) {
                 count += u32::from(force != Vec3::zeros());
                 sum += force;
             }

@@ -225,7 +225,7 @@ impl Simulation {
         };
         let found = self.pass(pass);
         if self.setup.ledger {
-            self.account.add(&self.kinds, &self.contacts);
+            self.account.add(&self.kinds, &self.contacts, &self.zones);
             self.account.add_bonds(&self.bonds, self.dt);
             self.contacts.add_work();
             self.account_zones();

@@ -108,6 +108,11 @@ impl State {
     pub fn time(&self) -> f64 {
         self.steps as f64 * self.dt
     }
+
+    /// Entries due until [`State::time`] + this [s] had been given.
+    pub fn look_ahead(&self) -> f64 {
+        self.dt * crate::zones::LOOK_AHEAD as f64
+    }
 }
 
 impl Simulation {

@@ -3,6 +3,7 @@
 use crate::error::SceneError;
 use crate::plan::Feeds;
 use dem::setup::{Entry, Guide, Link, Memory};
+use geom::Shown;
 
 /// What a feed gives: a particle, or news of one that it gave.
 #[derive(Debug, Clone, Copy)]
@@ -47,23 +48,46 @@ impl Supply {
         gates.filter_map(|gate| gate.samples).fold(0.0, f64::max)
     }
 
-    /// Passes over what a run had taken when it was saved.
+    /// What is said of streams that ended while grains still came in, long before the run does, at `end` [s]: from then on nothing comes.
+    pub(crate) fn ended(&self, end: f64) -> Vec<String> {
+        let early = self.feeds.streams.iter().filter_map(|s| s.ended().map(|told| (s, told)));
+        let early = early.filter(|(_, told)| *told < end * (1.0 - 1e-6));
+        early
+            .map(|(stream, told)| {
+                format!(
+                    "{}: the record ends at t = {} s while grains still came in, and this run at {} s: nothing came in after it; \
+                     let the stage upstream run longer, or end this one there (--until)",
+                    stream.name,
+                    Shown(told),
+                    Shown(end)
+                )
+            })
+            .collect()
+    }
+
+    /// Passes over what a run had taken when it was saved: nothing that is due after `horizon` [s].
     ///
     /// # Errors
-    /// A feed that has less.
-    pub(crate) fn skip(&mut self, given: &[u64]) -> Result<(), SceneError> {
+    /// A feed that has less, or others.
+    pub(crate) fn skip(&mut self, given: &[u64], horizon: f64) -> Result<(), SceneError> {
         for (feed, &count) in given.iter().enumerate().take(self.given.len()) {
             for n in 0..count {
                 let item = self.fetch(feed, f64::INFINITY)?;
                 self.entered += u64::from(matches!(item, Some(Item::Enter(_))));
-                if item.is_none() {
-                    let why = format!("ends after {n} particles, and the saved run had taken {count}");
-                    return Err(SceneError::file(
-                        &format!("inlet {feed}"),
-                        why,
-                        "give the same inlet as then",
-                    ));
-                }
+                let why = match item.as_ref().map(Item::time) {
+                    None => format!("ends after {n} particles, and the saved run had taken {count}"),
+                    Some(due) if due > horizon => format!(
+                        "{count} particles had come in when the run was saved, and number {} of these is due at {} s, later than that",
+                        n + 1,
+                        Shown(due)
+                    ),
+                    Some(_) => continue,
+                };
+                return Err(SceneError::file(
+                    &format!("inlet {feed}"),
+                    why,
+                    "give the same inlet as then, from its beginning",
+                ));
             }
             self.given[feed] = count;
         }

@@ -22,6 +22,9 @@ pub type Source = Box<dyn Read + Send>;
 /// Name of the metadata record that an inlet stream has.
 pub const INLET: &str = "inlet";
 
+/// Grains that come in after this share of a record came until its end.
+const STILL: f64 = 0.9;
+
 /// A plane as the command line writes it.
 pub fn plane_text(plane: &Plane) -> String {
     let (p, n) = (plane.point, plane.normal);
@@ -57,6 +60,8 @@ pub struct InletStream {
     links: VecDeque<Linking>,
     /// All passages before this time have been read [s].
     known: f64,
+    /// What the stream itself says of that: it does not say ∞ at its end [s].
+    told: f64,
     last: f64,
     paths: Paths,
 }
@@ -99,6 +104,7 @@ impl InletStream {
             touches: VecDeque::new(),
             links: VecDeque::new(),
             known: f64::NEG_INFINITY,
+            told: f64::NEG_INFINITY,
             last: f64::NEG_INFINITY,
             paths: Paths::default(),
         };
@@ -151,6 +157,12 @@ impl InletStream {
                 }
             }
         }
+    }
+
+    /// Up to when the stream told what comes in [s], where it has ended, and the last grains came in shortly before.
+    pub(crate) fn ended(&self) -> Option<f64> {
+        let last = self.last.max(self.paths.last);
+        (self.known == f64::INFINITY && last > STILL * self.told).then_some(self.told)
     }
 
     fn recorded(&self) -> bool {
@@ -244,7 +256,8 @@ impl InletStream {
                 }
             }
             Event::Bytes { topic, data, .. } if topic == WATERMARK => {
-                self.known = self.known.max(Watermark::read(&self.name, &data)?.until);
+                self.told = self.told.max(Watermark::read(&self.name, &data)?.until);
+                self.known = self.known.max(self.told);
             }
             _ => {}
         }

@@ -4,6 +4,7 @@ mod copies;
 mod frame;
 mod head;
 mod order;
+mod part;
 mod pass;
 mod recall;
 mod start;
@@ -23,7 +24,7 @@ use pass::Passing;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::io::Write;
-use stream::mcap::{Event, How, Provenance, Reader, Writer};
+use stream::mcap::{How, Provenance, Writer};
 
 /// What is replayed, and where.
 #[derive(Debug, Clone, Default)]
@@ -130,38 +131,33 @@ pub struct Replayed {
     pub period: Option<f64>,
     /// Particles that are generated nearer to the calculation plane than the largest diameter: they appear among what is there.
     pub near: u64,
+    /// Particles that are generated more than [`FAR`] lengths of the zone before the calculation plane.
+    pub far: u64,
+    /// How far before it the farthest is generated [m].
+    pub farthest: f64,
+    /// Along recorded paths: particles that are in the inner half of the zone when what is replayed begins.
+    pub amid: u64,
 }
 
-/// Passes the crossings of a run on as an inlet stream, each as soon as it is read.
+/// Lengths of a zone before its calculation plane from which on a particle comes in oddly far away [–].
+pub const FAR: f64 = 10.0;
+
+/// Passes the crossings of a run on as an inlet stream, each as soon as it is read. A run that was stopped and gone on with is several files
+/// (`parts`, with their names), in the order of their times: of each counts what lies before the next begins.
 ///
 /// # Errors
-/// A stream that is no run with an outlet, breaks off, or was stopped before its end; a length that is too short.
+/// A stream that is no run with an outlet, breaks off, or was stopped before its end; a run that begins later than what is asked for, or
+/// parts that do not follow each other; a length that is too short.
 pub fn replay<W: Write>(
-    name: &str,
-    source: Source,
+    parts: Vec<(String, Source)>,
     what: &Replay,
     out: W,
     (mut provenance, how): (Provenance, How<W>),
 ) -> Result<(Replayed, W), RunError> {
-    let mut reader = Reader::new(source);
-    let broken = |e: stream::mcap::McapError| SceneError::Content {
-        name: name.into(),
-        wanted: "a run",
-        source: e.into(),
-    };
-    let mut records = BTreeMap::new();
-    let first = loop {
-        match reader.next().transpose().map_err(broken)? {
-            Some(Event::Metadata { name, map }) => drop(records.insert(name, map)),
-            other => break other,
-        }
-    };
-    if let Some(scene) =
-        records.get(crate::input::SCENE).and_then(|r: &BTreeMap<String, String>| r.get("toml"))
-    {
-        provenance.inputs.push(("scene of the run".to_owned(), crate::sha256(scene)));
-    }
-    let head = head::head(name, records, what)?;
+    let mut parts = part::open(parts, what)?;
+    provenance.inputs.extend(parts.iter().filter_map(|p| p.scene.clone()));
+    let name = parts[0].name.clone();
+    let head = parts[0].head.take().ok_or_else(|| SceneError::file(&name, "is no run", "give a run"))?;
     let mut writer = Writer::compressed(out, &provenance, how)?;
     writer.metadata(MATERIALS, head.materials.clone())?;
     writer.metadata(SIZES, head.sizes_record.clone())?;
@@ -175,13 +171,20 @@ pub fn replay<W: Write>(
     // The last record: from it on, messages may come as late as a run upstream makes them.
     writer.metadata(INLET, head.gate.to_map())?;
     let start = if what.keep_times { Some(0.0) } else { what.from };
-    let mut passing = Passing::new(name, what, head, start);
-    let mut events = first.map(Ok).into_iter().chain(reader.by_ref());
-    for event in events.by_ref() {
-        if passing.pass(event.map_err(broken)?, &mut writer)? {
-            break;
+    let mut passing = Passing::new(what, head, start);
+    for k in 0..parts.len() {
+        let limit = parts.get(k + 1).map_or(f64::INFINITY, |next| next.begins);
+        passing.begin(&parts[k].name, limit);
+        while let Some(event) = parts[k].next().transpose()? {
+            if passing.pass(event, &mut writer)? {
+                break;
+            }
+        }
+        if k + 1 < parts.len() && !passing.over() {
+            return Err(parts[k].gap(&parts[k + 1], passing.known()).into());
         }
     }
+    let name = parts[parts.len() - 1].name.clone();
     if let Some(stop) = passing.stopped {
         // What was recorded is passed on, but the stream has no end: what is downstream must not look whole.
         writer.flush_chunk()?;
@@ -189,15 +192,17 @@ pub fn replay<W: Write>(
         let said = stop.text.starts_with("t = ");
         let time = if said { String::new() } else { format!("t = {} s: ", Shown(stop.time)) };
         let why = format!("the run was stopped at {time}{}", stop.text);
-        let cure = "go on with dem-run --resume, or take what lies before the stop with --until";
-        return Err(SceneError::file(name, why, cure).into());
+        let cure =
+            "go on with dem-run --resume and give both runs, or take what lies before the stop with --until";
+        return Err(SceneError::file(&name, why, cure).into());
     }
     passing.again(&mut writer)?;
     passing.send(f64::INFINITY, &mut writer)?;
+    passing.promise_end(&mut writer)?;
     // The reader downstream may go on; whether the run is whole still matters.
     let out = writer.finish()?;
-    for event in events {
-        event.map_err(broken)?;
+    if let Some(last) = parts.last_mut() {
+        while last.next().transpose()?.is_some() {}
     }
     passing.done.start = passing.start.unwrap_or(0.0);
     passing.done.ahead = passing.starts.ahead();

@@ -95,6 +95,8 @@ pub struct Outcome {
     pub crossings: u64,
     /// Particles that went back through planes.
     pub returned: dem::Returned,
+    /// What is to be said of records that ended before the run.
+    pub inflow: Vec<String>,
     /// Contacts listed at the end.
     pub listed_contacts: usize,
     /// How often neighbours were listed.
@@ -222,7 +224,9 @@ pub fn run<W: Write>(
         }
     };
     run.outcome.returned = run.sim.returned().clone();
-    for note in crate::returned::words(&run.outcome.returned) {
+    run.outcome.inflow = run.supply.ended(run.sim.time());
+    let notes = [crate::returned::words(&run.outcome.returned), run.outcome.inflow.clone()].concat();
+    for note in notes {
         run.log("note", &note)?;
     }
     if let Some(reason) = reason {

@@ -9,7 +9,7 @@ mod walls;
 
 use crate::error::SceneError;
 use crate::inlet::plane_text;
-use crate::model::Diameter;
+use crate::model::{Axis, Diameter};
 use crate::text::Text;
 use crate::{Scene, particle_file};
 use dem::setup::{ZoneMotion, ZoneTest};
@@ -54,7 +54,7 @@ pub struct Cut {
 }
 
 /// The first id of particles that a downstream stage makes itself, out of reach of those that come in.
-const OWN_IDS: i64 = 2_000_000_000;
+const OWN_IDS: u32 = 2_000_000_000;
 
 /// Cuts a scene; the text of the stage, with the comments of what it keeps, and what was left out.
 ///
@@ -85,6 +85,7 @@ pub fn split(scene: &Scene, cut: &Cut) -> Result<(String, Vec<String>), SceneErr
 fn stage(scene: &Scene, cut: &Cut) -> Result<(String, Vec<String>), SceneError> {
     let cutting = Cutting { scene, cut, largest: largest(scene)? };
     cutting.check_length()?;
+    cutting.check_periodic()?;
     let mut document = scene.text.document()?;
     let mut found = Found::default();
     cutting.sources(&mut document, &mut found)?;
@@ -174,13 +175,35 @@ impl Cutting<'_> {
         Ok(())
     }
 
+    /// Across a periodic face a grain would come back from behind.
+    fn check_periodic(&self) -> Result<(), SceneError> {
+        for axis in &self.scene.model.domain.periodic {
+            let (name, along) = match axis {
+                Axis::X => ("x", self.cut.plane.normal.x),
+                Axis::Y => ("y", self.cut.plane.normal.y),
+                Axis::Z => ("z", self.cut.plane.normal.z),
+            };
+            if along.abs() > 1e-9 {
+                let why = format!(
+                    "the plane's normal has {name} = {}, and the domain is periodic along {name}: a grain that passes would come back from upstream",
+                    Shown(along)
+                );
+                return Err(SceneError::file(
+                    &self.scene.text.name,
+                    why,
+                    "cut along a direction that is not periodic",
+                ));
+            }
+        }
+        Ok(())
+    }
+
     fn check_length(&self) -> Result<(), SceneError> {
         match self.cut.length {
-            Some(length) if length.is_nan() || length <= self.largest => {
-                let why = format!(
-                    "--length {length} m is not above the largest diameter, {} m",
-                    Shown(self.largest)
-                );
+            Some(length) if !length.is_finite() || length <= self.largest => {
+                let place =
+                    if length == f64::INFINITY { "has no end" } else { "is not above the largest diameter" };
+                let why = format!("--length {length} m {place}, {} m", Shown(self.largest));
                 Err(SceneError::file(
                     &self.scene.text.name,
                     why,

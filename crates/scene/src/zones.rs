@@ -6,6 +6,7 @@ use crate::faucet::{Faucet, Poured};
 use crate::gate::Gate;
 use crate::inlet::InletStream;
 use crate::input::Input;
+use crate::material_info::MaterialInfo;
 use crate::model::{Diameter, Insert, OrAuto};
 use crate::plan::Draft;
 use crate::walls;
@@ -85,6 +86,7 @@ impl Draft<'_> {
         // All that a stream names must fit, because which it brings is known only when it has brought them.
         for info in stream.materials.clone() {
             let material = self.material_of(&name, &info)?;
+            self.as_heavy(&name, &info, material)?;
             if self.materials[material as usize].density > 0.0 && !stream.only_clumps {
                 self.entry_materials.push(material);
             }
@@ -104,6 +106,22 @@ impl Draft<'_> {
         self.inlets.push(zone);
         self.feeds.streams.push(stream);
         Ok(())
+    }
+
+    /// Refuses a stream whose grains would change their mass on the way in.
+    fn as_heavy(&self, stream: &str, info: &MaterialInfo, material: u16) -> Result<(), SceneError> {
+        let here = self.materials[material as usize].density;
+        match info.density {
+            Some(there) if here > 0.0 && there > 0.0 && (here - there).abs() > 1e-9 * there => {
+                let at = self.model().material.iter().position(|m| m.name == info.name);
+                let key = at.map_or("material".to_owned(), |k| format!("material.{k}.density"));
+                let why = format!("the grains of '{}' in {stream} have {} kg/m³", info.name, Shown(there));
+                let cure =
+                    "use the density of the stage upstream, or another name for what is denser or lighter";
+                Err(self.check.wrong(&key, format!("{} kg/m³", Shown(here)), &why, cure))
+            }
+            _ => Ok(()),
+        }
     }
 
     pub(crate) fn faucets(&mut self) -> Result<(), SceneError> {

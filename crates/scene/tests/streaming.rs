@@ -103,7 +103,8 @@ fn crossings_and_watermarks_are_passed_on_at_once() {
     let (out, between) = (Shared::default(), Arc::new(Mutex::new(None)));
     let source = Halting { parts: run(), out: out.clone(), between: between.clone() };
     let how = (Provenance::default(), Compression::None.into());
-    let (done, _) = replay("run", Box::new(source), &Replay::default(), out.clone(), how).unwrap();
+    let (done, _) =
+        replay(vec![("run".into(), Box::new(source))], &Replay::default(), out.clone(), how).unwrap();
     assert_eq!(
         *between.lock().unwrap(),
         Some((2, 0.5)),
@@ -118,7 +119,7 @@ fn a_run_that_breaks_off_is_an_error_after_what_it_told_was_passed_on() {
     let out = Shared::default();
     let source = Halting { parts: run()[..1].to_vec(), out: out.clone(), between: Default::default() };
     let how = (Provenance::default(), Compression::None.into());
-    let failed = replay("run", Box::new(source), &Replay::default(), out.clone(), how);
+    let failed = replay(vec![("run".into(), Box::new(source))], &Replay::default(), out.clone(), how);
     assert!(failed.is_err());
     assert_eq!(out.seen(), (2, 0.5));
     let whole = Reader::new(out.0.lock().unwrap().as_slice()).all(|e| e.is_ok());

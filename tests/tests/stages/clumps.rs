@@ -12,6 +12,7 @@ use tempfile::{TempDir, tempdir};
 /// Clumps and spheres fall through the plane z = 0 onto a floor.
 const CLUMPS: &str = r#"[guards]
 overlap = 1
+zones = false
 [[clump]]
 name = "pair"
 material = "sinter"

@@ -4,6 +4,7 @@ mod ballistic;
 mod bonds;
 mod clumps;
 mod faces;
+mod idle;
 mod left;
 mod lowest;
 mod memory;

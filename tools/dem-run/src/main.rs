@@ -159,7 +159,7 @@ fn simulate(args: &Args, scene: &Scene, plan: Plan, resume: Option<Checkpoint>) 
     let done = done.and_then(|(outcome, out)| out.commit().map(|()| outcome));
     drop(watch);
     let outcome = done.map_err(|e| parts::leaves(e, part.as_deref().filter(|_| keep.kept()), saved))?;
-    scene::returned::words(&outcome.returned).iter().for_each(|note| cli::warn(note));
+    scene::returned::words(&outcome.returned).iter().chain(&outcome.inflow).for_each(|note| cli::warn(note));
     let summary = format!(
         "{} steps of {:.3e} s to {:.4} s, {} particles, {} frames",
         outcome.steps, outcome.dt, outcome.time, outcome.particles, outcome.frames

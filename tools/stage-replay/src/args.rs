@@ -9,9 +9,9 @@ use scene::replay::{Copies, Frame, Intervals, Replay};
 /// Turns the crossings of a run into an inlet MCAP, also while the run is still being written
 #[derive(Parser)]
 pub struct Args {
-    /// The run (MCAP), - for stdin
+    /// The run (MCAP), - for stdin; of one that was stopped and gone on with all files, in the order of their times
     #[arg(value_name = "RUN.mcap", default_value = "-", hide_default_value = true)]
-    pub run: Source,
+    pub runs: Vec<Source>,
     /// Calculation plane, px,py,pz,nx,ny,nz (default: the storage plane of the run)
     #[arg(long, value_name = "PLANE", allow_hyphen_values = true)]
     at: Option<Plane>,
@@ -24,7 +24,7 @@ pub struct Args {
     /// Leave out what passes at S or later [s]
     #[arg(long, value_name = "S", value_parser = seconds)]
     until: Option<f64>,
-    /// Keep the recorded times (default: the first passage becomes time 0)
+    /// Grains arrive at the recorded times (default: the first comes in at time 0)
     #[arg(long, conflicts_with = "from")]
     keep_times: bool,
     /// Index of the storage plane

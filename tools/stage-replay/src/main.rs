@@ -13,10 +13,13 @@ fn main() -> ExitCode {
 
 fn stage_replay(args: Args) -> anyhow::Result<Report> {
     let what = args.what()?;
-    let source = args.run.open()?;
+    let mut parts = Vec::new();
+    for run in &args.runs {
+        parts.push((run.to_string(), run.open()?));
+    }
     let out = args.output.open()?;
     let written = (cli::provenance(Vec::new()), out.how());
-    let (done, out) = replay(&args.run.to_string(), source, &what, out, written)?;
+    let (done, out) = replay(parts, &what, out, written)?;
     out.commit()?;
     if done.particles == 0 {
         cli::warn("nothing passed the storage plane");
@@ -30,6 +33,21 @@ fn stage_replay(args: Args) -> anyhow::Result<Report> {
             "{} grains are so slow that they are generated less than the largest diameter before the calculation plane, among what \
              is there: {cure}, or cut where grains are faster",
             done.near
+        ));
+    }
+    if let (1.., Some(ahead)) = (done.far, done.ahead) {
+        cli::warn(&format!(
+            "{} grains come in up to {} m before the calculation plane, many lengths of the zone, and {} s before they arrive: so long does \
+             the first grain take for the zone, which is slow; give a shorter --ahead",
+            done.far,
+            geom::Shown(done.farthest),
+            geom::Shown(ahead)
+        ));
+    }
+    if done.amid > 0 {
+        cli::warn(&format!(
+            "{} grains are amid the zone when what is replayed begins, and appear there among others: begin with --from when nothing passes",
+            done.amid
         ));
     }
     if done.copies > 1 {

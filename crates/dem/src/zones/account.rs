@@ -1,7 +1,7 @@
 //! The ledger of zones: what contacts do to travellers goes in or out, because nothing acts on them.
 
 use super::travel::Way;
-use crate::contacts::With;
+use crate::contacts::{Segment, With};
 use crate::kernel::LEDGER;
 use crate::setup::Particle;
 use crate::simulation::Simulation;
@@ -34,6 +34,19 @@ impl Simulation {
         let r = self.bodies.arm_at(k);
         let velocity = whole.velocity + whole.spin.cross(&r);
         self.power(k, &Particle { radius: self.particles.rows[k][3], velocity, ..*whole })
+    }
+
+    /// Elastic energy [J] of the contacts that act on nobody.
+    pub(crate) fn held_by_idle(&self) -> f64 {
+        if self.zones.none() {
+            return 0.0;
+        }
+        let c = &self.contacts;
+        let of = |s: &Segment| -> f64 {
+            let idle = |place: &usize| self.idles(self.kinds[s.kind].with, *place);
+            s.contacts().filter(idle).map(|place| c.ledger[place * LEDGER]).sum()
+        };
+        c.segments.iter().map(of).sum()
     }
 
     /// Elastic energy [J] of the contacts of particle `k` with those that have not left before it.

@@ -5,6 +5,7 @@ use crate::clump_info::{self, ClumpInfo};
 use crate::crossings::{SIZES, Sizes};
 use crate::error::SceneError;
 use crate::gate::Gate;
+use crate::inlet::INLET;
 use crate::links::BONDS;
 use crate::material_info::MATERIALS;
 use crate::run::{CLUMPS, OUTLETS};
@@ -38,6 +39,10 @@ pub fn head(
         let why = format!("has no record '{record}' before its first message");
         SceneError::file(name, why, "give a run that dem-run wrote")
     };
+    if records.contains_key(INLET) {
+        let why = "is an inlet already, that stage-replay made";
+        return Err(SceneError::file(name, why, "give it to dem-run, or give the run that it was made of"));
+    }
     if !records.contains_key(crate::input::SCENE) {
         return Err(no_run(crate::input::SCENE));
     }

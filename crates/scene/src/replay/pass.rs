@@ -5,7 +5,7 @@ use super::head::Head;
 use super::order::{Generated, Known, Order};
 use super::recall::Recall;
 use super::start::Starts;
-use super::{Replay, Replayed};
+use super::{FAR, Replay, Replayed};
 use crate::crossings::{self, CROSSINGS, Passage, WATERMARK, Watermark};
 use crate::error::SceneError;
 use crate::links::{self, LINKS, Linking};
@@ -23,7 +23,10 @@ use stream::mcap::{Event, Writer};
 
 /// The record as it passes.
 pub(super) struct Passing<'a> {
-    name: &'a str,
+    /// Of the part that is read.
+    name: String,
+    /// What is later belongs to the next part [s].
+    limit: f64,
     what: &'a Replay,
     head: Head,
     /// Time of the record at which the stream begins [s], once that is known.
@@ -41,6 +44,8 @@ pub(super) struct Passing<'a> {
     pub(super) done: Replayed,
     /// Watermark of the run [s].
     known: f64,
+    /// Whether who is amid the zone at the beginning was looked for.
+    amid_seen: bool,
     /// The run's word that it did not come to its end.
     pub(super) stopped: Option<Logged>,
 }
@@ -56,9 +61,10 @@ pub(super) struct Logged {
 
 impl<'a> Passing<'a> {
     /// Nothing has passed yet; `start` is where the stream begins in the record [s], or the first passage.
-    pub(super) fn new(name: &'a str, what: &'a Replay, head: Head, start: Option<f64>) -> Passing<'a> {
+    pub(super) fn new(what: &'a Replay, head: Head, start: Option<f64>) -> Passing<'a> {
         Passing {
-            name,
+            name: String::new(),
+            limit: f64::INFINITY,
             what,
             start,
             starts: Starts::new(&head, what),
@@ -71,46 +77,66 @@ impl<'a> Passing<'a> {
             head,
             done: Replayed::default(),
             known: 0.0,
+            amid_seen: false,
             stopped: None,
         }
     }
 
-    /// Passes an event on; whether nothing more can follow.
+    /// The next part begins, of which all counts that is no later than `limit` [s].
+    pub(super) fn begin(&mut self, name: &str, limit: f64) {
+        (self.name, self.limit, self.stopped) = (name.to_owned(), limit, None);
+    }
+
+    /// Whether all of a part that counts was read.
+    pub(super) fn over(&self) -> bool {
+        self.known >= self.limit
+    }
+
+    /// Up to when the record is known [s].
+    pub(super) fn known(&self) -> f64 {
+        self.known
+    }
+
+    fn know(&mut self, time: f64) {
+        self.known = self.known.max(time.min(self.limit));
+    }
+
+    /// Passes an event on; whether nothing more of this part counts.
     pub(super) fn pass<W: Write>(&mut self, event: Event, writer: &mut Writer<W>) -> Result<bool, RunError> {
         match event {
             Event::Points { topic, table, .. } if topic == TOUCHES => {
-                for Touching { memory, .. } in touches::from_table(self.name, &table)? {
+                for Touching { memory, .. } in touches::from_table(&self.name, &table)? {
                     self.touches.entry(memory.id).or_default().push(memory);
                 }
                 Ok(false)
             }
             Event::Points { topic, table, .. } if topic == LINKS => {
-                for Linking { link, .. } in links::from_table(self.name, &table)? {
+                for Linking { link, .. } in links::from_table(&self.name, &table)? {
                     self.links.entry(link.id).or_default().push(link);
                 }
                 Ok(false)
             }
             Event::Points { topic, table, .. } if topic == CROSSINGS => {
-                let rows = crossings::from_table(self.name, &table, self.head.materials.len())?;
+                let rows = crossings::from_table(&self.name, &table, self.head.materials.len())?;
                 for row in rows {
-                    self.known = self.known.max(row.time);
+                    self.know(row.time);
                     self.take(row)?;
                 }
                 // Of rows of other outlets and times.
                 self.touches.clear();
                 self.links.clear();
                 self.send(self.bound(), writer)?;
-                Ok(false)
+                Ok(self.over())
             }
             Event::Points { topic, table, .. } if topic == PATHS && self.recorded() => {
                 self.take_paths(&table, writer)?;
                 Ok(false)
             }
             Event::Bytes { topic, data, .. } if topic == WATERMARK => {
-                self.known = self.known.max(Watermark::read(self.name, &data)?.until);
+                self.know(Watermark::read(&self.name, &data)?.until);
                 self.send(self.bound(), writer)?;
                 self.promise(self.bound(), writer)?;
-                Ok(self.what.until.is_some_and(|until| self.known > until))
+                Ok(self.over() || self.what.until.is_some_and(|until| self.known > until))
             }
             Event::Bytes { topic, data, .. } if topic == LOG => {
                 let logged = serde_json::from_slice::<Logged>(&data).ok();
@@ -128,7 +154,15 @@ impl<'a> Passing<'a> {
             (Some((first, _)), Some(period)) => begins(first, period, 1),
             _ => f64::INFINITY,
         };
-        self.start.map_or(f64::NEG_INFINITY, |start| next.min(known - start))
+        self.start.map_or(f64::NEG_INFINITY, |start| next.min(known - start)) - self.starts.lead()
+    }
+
+    /// Tells that nothing follows the record, which reaches so far.
+    pub(super) fn promise_end<W: Write>(&mut self, writer: &mut Writer<W>) -> Result<(), RunError> {
+        let later = self.done.period.map_or(0.0, |period| period * f64::from(self.what.repeat.max(1) - 1));
+        let known = self.what.until.map_or(self.known, |until| until.min(self.known));
+        let end = self.start.map_or(f64::NEG_INFINITY, |start| known - start) + later - self.starts.lead();
+        self.promise(end.max(self.done.last), writer)
     }
 
     /// Tells that nothing follows that is generated before `until` [s].
@@ -142,7 +176,7 @@ impl<'a> Passing<'a> {
 
     /// A passage of the record, where it belongs to what is replayed.
     fn take(&mut self, mut row: Passage) -> Result<(), SceneError> {
-        if row.outlet != self.what.outlet || !self.what.holds(row.time) {
+        if row.outlet != self.what.outlet || row.time > self.limit || !self.what.holds(row.time) {
             return Ok(());
         }
         let known = self.known_of(&row);
@@ -181,8 +215,10 @@ impl<'a> Passing<'a> {
 
     /// Passes on where grains are on their way.
     fn take_paths<W: Write>(&mut self, table: &Table, writer: &mut Writer<W>) -> Result<(), RunError> {
-        let mut rows = paths::from_table(self.name, table, self.head.materials.len())?;
-        rows.retain(|r| self.what.outlet == r.passage.outlet && self.what.holds(r.passage.time));
+        let mut rows = paths::from_table(&self.name, table, self.head.materials.len())?;
+        let counts = |time: f64| time <= self.limit && self.what.holds(time);
+        rows.retain(|r| self.what.outlet == r.passage.outlet && counts(r.passage.time));
+        self.look_amid(&rows);
         for Waypoint { passage, .. } in &mut rows {
             if let Some(frame) = &self.what.frame {
                 frame.passage(passage);
@@ -196,6 +232,22 @@ impl<'a> Passing<'a> {
         Ok(())
     }
 
+    /// Who is well within the zone when what is replayed begins appears there among others.
+    fn look_amid(&mut self, rows: &[Waypoint]) {
+        let zone = &self.head.gate.zone;
+        let Some(begins) = self.what.from.filter(|_| !self.amid_seen) else { return };
+        for Waypoint { passage, gone } in rows {
+            if passage.time > begins + self.head.gate.samples.unwrap_or(0.0) {
+                self.amid_seen = true;
+                return;
+            }
+            let place =
+                self.what.frame.map_or(passage.particle.position, |f| f.point(&passage.particle.position));
+            let past = zone.past(&place, passage.particle.radius);
+            self.done.amid += u64::from(!gone && past > -0.5 * zone.length && past < 0.0);
+        }
+    }
+
     /// A passage as it enters, with its copies.
     fn enter(&mut self, row: Passage, known: Known, replay: u32) -> Result<(), SceneError> {
         if self.recorded() {
@@ -203,9 +255,11 @@ impl<'a> Passing<'a> {
             return Ok(());
         }
         for (copy, mut row) in self.what.copies.of(row) {
-            row.time += self.starts.place(self.name, &mut row)?;
+            row.time += self.starts.place(&self.name, &mut row)?;
             let past = self.head.gate.zone.past(&row.particle.position, row.particle.radius);
             self.done.near += u64::from(-past <= 2.0 * self.head.widest);
+            self.done.far += u64::from(-past > FAR * self.head.gate.zone.length);
+            self.done.farthest = self.done.farthest.max(-past);
             self.order.put(Generated { row, copy: (copy, replay), known: known.clone() });
         }
         Ok(())
@@ -226,7 +280,7 @@ impl<'a> Passing<'a> {
                 Shown(last.time - first.time)
             );
             return Err(SceneError::file(
-                self.name,
+                &self.name,
                 why,
                 "use a longer one, or superpose copies (--copies with --copy-delay)",
             )
@@ -236,12 +290,13 @@ impl<'a> Passing<'a> {
         let held = std::mem::take(&mut self.held);
         for replay in 1..self.what.repeat {
             let start = begins(&held[0].0, period, replay);
-            self.send(start, writer)?;
-            self.promise(start, writer)?;
+            let lead = self.starts.lead();
+            self.send(start - lead, writer)?;
+            self.promise(start - lead, writer)?;
             for (row, known) in &held {
                 let time = begins(row, period, replay);
                 self.enter(Passage { time, ..*row }, known.clone(), replay)?;
-                self.send(time, writer)?;
+                self.send(time - lead, writer)?;
             }
         }
         Ok(())
@@ -252,7 +307,7 @@ impl<'a> Passing<'a> {
         let (mut rows, mut told, mut bonded) = (Vec::new(), Vec::new(), Vec::new());
         while let Some(one) = self.order.next_until(bound) {
             let members = self.members(&one.row);
-            let row = self.merge.pass(self.name, one.clone(), members)?;
+            let row = self.merge.pass(&self.name, one.clone(), members)?;
             let (touches, links) = self.recall.with(&one, &row, (members, self.recorded()));
             told.extend(touches);
             bonded.extend(links);

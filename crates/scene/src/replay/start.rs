@@ -11,7 +11,7 @@ use super::head::Head;
 use super::{Intervals, Replay};
 use crate::crossings::Passage;
 use crate::error::SceneError;
-use dem::setup::Zone;
+use dem::setup::{Zone, ZoneMotion};
 use geom::{Shown, Vec3};
 
 /// Places passages on their paths.
@@ -21,13 +21,17 @@ pub struct Starts {
     acceleration: Vec3,
     intervals: Intervals,
     ahead: Option<f64>,
+    /// Whether grains arrive at the times that were recorded.
+    kept: bool,
 }
 
 impl Starts {
     pub fn new(head: &Head, what: &Replay) -> Starts {
         let zone = head.gate.zone;
         let acceleration = zone.acceleration(&head.gate.gravity.unwrap_or_default());
-        Starts { zone, acceleration, intervals: what.intervals, ahead: what.ahead }
+        let kept =
+            what.keep_times && what.intervals == Intervals::Both && zone.motion != ZoneMotion::Recorded;
+        Starts { zone, acceleration, intervals: what.intervals, ahead: what.ahead, kept }
     }
 
     /// T of [`Intervals::Both`] [s], when it is known.
@@ -35,8 +39,13 @@ impl Starts {
         self.ahead.filter(|_| self.intervals == Intervals::Both)
     }
 
-    /// Gives a passage the state in which it is generated, and tells how much later that is than for those that are generated
-    /// with the full T [s].
+    /// How long before its passage a grain is generated at most, where it arrives at the time that was recorded [s]; ∞ while that is unknown.
+    pub fn lead(&self) -> f64 {
+        if self.kept { self.ahead.unwrap_or(f64::INFINITY) } else { 0.0 }
+    }
+
+    /// Gives a passage the state in which it is generated, and tells how much later than its passage that is [s], in a stream whose time is
+    /// later by T unless times are kept. Then it is earlier, and no earlier than 0: who passes before T is generated on its way.
     pub fn place(&mut self, name: &str, row: &mut Passage) -> Result<f64, SceneError> {
         let (plane, particle) = (self.zone.plane, &mut row.particle);
         let speed = particle.velocity.dot(&plane.normal);
@@ -50,7 +59,7 @@ impl Starts {
             return Err(SceneError::file(
                 name,
                 why,
-                "give --at a normal that points with the flow, or turn the record (--turn)",
+                "give --at a normal that points with the flow, or turn the record (--turn-deg)",
             ));
         }
         let passes = plane.project(&particle.position) - plane.normal * self.zone.lead(particle.radius);
@@ -66,9 +75,9 @@ impl Starts {
             }
             Intervals::Both => {
                 let ahead = *self.ahead.get_or_insert(whole);
-                let before = ahead.min(apex);
+                let before = ahead.min(apex).min(if self.kept { row.time.max(0.0) } else { f64::INFINITY });
                 let back = particle.velocity * before - self.acceleration * (0.5 * before * before);
-                (passes - back, before, ahead - before)
+                (passes - back, before, if self.kept { -before } else { ahead - before })
             }
         };
         particle.position = position;

@@ -31,7 +31,8 @@ impl<W: Write> Run<W> {
         let mut supply = Supply::new(plan.feeds);
         if let Some(saved) = &resume {
             saved.fits(&scene.text.toml, &plan.inputs)?;
-            supply.skip(&saved.given)?;
+            let samples = supply.samples();
+            supply.skip(&saved.given, saved.state.time() + saved.state.look_ahead() + samples)?;
         }
         let walls = frames::heads(&plan.setup);
         let surfaces = frames::surfaces(&plan.setup.walls);

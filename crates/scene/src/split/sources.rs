@@ -34,11 +34,27 @@ pub fn largest_scale(scene: &Scene, entry: &Particles) -> Result<f64, SceneError
     }
 }
 
+/// One more than the ids that a file names; 0 where it names none.
+fn after_ids(scene: &Scene, entry: &Particles) -> Result<u32, SceneError> {
+    if entry.clump.is_some() {
+        return Ok(0);
+    }
+    let file = particle_file::read(&scene.folder.join(&entry.source))?;
+    let last = file.particles.iter().map(|p| p.id.saturating_add(1)).max().unwrap_or(0);
+    Ok(if file.has_ids { last } else { 0 })
+}
+
+/// The first id of particles that a stage downstream makes itself, out of reach of those that come in: of a plant that begins there already, because it is such a
+/// stage, halfway to the last.
+fn own_ids(first: u32) -> i64 {
+    if first < OWN_IDS { i64::from(OWN_IDS) } else { i64::from(first + (u32::MAX - first) / 2) }
+}
+
 impl Cutting<'_> {
     /// Fills, inserts, particle files and single clumps of the other stage.
     pub fn sources(&self, document: &mut DocumentMut, found: &mut Found) -> Result<(), SceneError> {
         let m = &self.scene.model;
-        let mut kept = 0;
+        let (mut kept, mut taken) = (0, 0);
         let shapes = [
             ("fill", m.fill.iter().map(|f| f.shape.as_str()).collect::<Vec<_>>()),
             ("insert", m.insert.iter().map(|f| f.shape.as_str()).collect()),
@@ -62,6 +78,7 @@ impl Cutting<'_> {
             if self.keeps(&name, range)? {
                 kept += 1;
             } else {
+                taken = taken.max(after_ids(self.scene, entry)?);
                 remove(document, "particles", i, name, found);
             }
         }
@@ -75,8 +92,13 @@ impl Cutting<'_> {
                 remove(document, "body", i, name, found);
             }
         }
-        if kept > 0 && self.cut.keep == Stage::Downstream && m.first_id == 0 {
-            document.insert("first_id", value(OWN_IDS));
+        match self.cut.keep {
+            Stage::Downstream if kept > 0 => drop(document.insert("first_id", value(own_ids(m.first_id)))),
+            // In the plant those of a fill or a faucet follow the ones of its files, which may stay downstream.
+            Stage::Upstream if taken > m.first_id => {
+                drop(document.insert("first_id", value(i64::from(taken))))
+            }
+            _ => {}
         }
         Ok(())
     }
@@ -93,6 +115,15 @@ impl Cutting<'_> {
             };
             let plane: Plane = plane.parse().map_err(wrong)?;
             let distance = self.cut.plane.signed_distance(&plane.point);
+            if key == "outlet"
+                && self.cut.keep == Stage::Upstream
+                && distance <= 0.0
+                && plane.normal.dot(&self.cut.plane.normal) > 0.99
+            {
+                let why = format!("{name} is a cut upstream of this one: no grain gets here");
+                let cure = "cut the stage downstream of it, which has an [[inlet]] there";
+                return Err(SceneError::file(&self.scene.text.name, why, cure));
+            }
             found.upstream |= key == "inlet" && distance <= 0.0;
             if !self.keeps(&name, (distance, distance))? {
                 remove(document, key, i, name, found);

@@ -36,7 +36,10 @@ impl Cutting<'_> {
                     );
                     return refuse(
                         why,
-                        format!("move the plane at least {} m upstream", Shown(length - before)),
+                        format!(
+                            "move the plane at least {} m upstream, or use a shorter --length",
+                            Shown(length - before)
+                        ),
                     );
                 }
             }

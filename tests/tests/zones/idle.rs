@@ -1,0 +1,94 @@
+//! Who travels acts on grains that are free, and on nothing else: not on walls, not on those that travel beside it.
+
+use super::*;
+use dem::Energy;
+use grainpipe_tests::setups::{plane, run_until};
+
+/// A grain slides along a floor at 1 m/s through a storage plane, and would fall through the floor in the zone behind it.
+fn slide() -> Setup {
+    let mut setup = with_friction(empty(HOOKE, 0.5), 0.5);
+    setup.step = Step::Fixed(1e-5);
+    setup.gravity = Vec3::new(0.0, 0.0, -9.81);
+    setup.ledger = true;
+    setup.walls = vec![plane(Vec3::z())];
+    setup.outlets = vec![Zone { motion: ZoneMotion::Ballistic, ..zone(0.05, 0.03) }];
+    setup.particles = vec![grain(0, Vec3::new(0.0, 0.0, 0.01))];
+    setup.particles[0].velocity.x = 1.0;
+    setup
+}
+
+/// Largest force of the grain on the floor [N] after `from` [s], the ledger at the end.
+fn pushed(setup: Setup, from: f64, until: f64) -> (f64, u32, Energy) {
+    let mut sim = Simulation::new(setup).expect("sound");
+    let (mut most, mut contacts) = (0.0f64, 0);
+    while sim.time() < until {
+        sim.step().expect("no guard looks at who travels");
+        if sim.time() > from {
+            let floor = sim.wall_forces().expect("loads are kept")[0];
+            (most, contacts) = (most.max(floor.force.norm()), contacts.max(floor.contacts));
+        }
+    }
+    (most, contacts, sim.energy().expect("ready"))
+}
+
+#[test]
+fn nobody_who_travels_pushes_a_wall_or_stands_in_the_ledger() {
+    let passes = 0.062;
+    let whole = Setup { outlets: vec![], ..slide() };
+    let (_, _, whole) = pushed(whole, passes, 0.08);
+    let (force, contacts, cut) = pushed(slide(), passes, 0.08);
+    assert_eq!((force, contacts), (0.0, 0), "it travels over the floor, and through it");
+    for (what, cut, whole) in [
+        ("sliding", cut.sliding, whole.sliding),
+        ("normal", cut.normal, whole.normal),
+        ("elastic", cut.elastic, 0.0),
+    ] {
+        assert!(cut >= 0.0 && cut <= whole + 1e-12, "{what}: {cut} J, undivided {whole} J");
+    }
+    let start = dem::mass(0.01, 2500.0) * (0.5 + 9.81 * 0.01);
+    let taken = start - cut.sliding - cut.normal;
+    assert!((cut.left - taken).abs() < 0.02 * start, "it takes along what it had: {} of {taken} J", cut.left);
+    // On its way it presses the spring of the floor by its radius; the finite step makes a share of that.
+    let pressed = 0.5 * 1e4 * 0.01 * 0.01;
+    assert!(cut.integration.abs() < 1e-3 * pressed, "{} J", cut.integration);
+    assert!((cut.balance() - start).abs() < 1e-9, "{} J", cut.balance());
+}
+
+/// The same on the way in: a path that leads back below the floor.
+#[test]
+fn nobody_on_the_way_in_pushes_a_wall() {
+    let mut setup = slide();
+    (setup.outlets, setup.particles) = (vec![], vec![]);
+    setup.inlets = vec![Zone { motion: ZoneMotion::Ballistic, ..zone(0.05, 0.03) }];
+    (setup.smallest_entry, setup.largest_entry, setup.entry_materials) = (0.01, 0.01, vec![0]);
+    let mut sim = Simulation::new(setup).expect("sound");
+    let back = 0.03;
+    let mut start = grain(0, Vec3::new(0.05 - back, 0.0, 0.01 - 0.5 * 9.81 * back * back));
+    start.velocity = Vec3::new(1.0, 0.0, 9.81 * back);
+    sim.enter(Entry { time: 1e-5, inlet: 0, particle: start, clump: None, turn: None }).expect("announced");
+    while sim.time() < 0.02 {
+        sim.step().expect("no guard looks at who travels");
+        let floor = sim.wall_forces().expect("loads are kept")[0];
+        assert_eq!((floor.force, floor.contacts), (Vec3::zeros(), 0), "at {} s", sim.time());
+    }
+    let e = sim.energy().expect("ready");
+    assert_eq!((e.sliding, e.normal, e.elastic.abs() < 1e-15), (0.0, 0.0, true), "{e:?}");
+}
+
+/// A lid that follows a force is held by a grain at rest; another one passes below the floor of its zone, and does not move it.
+#[test]
+fn a_servo_does_not_feel_who_travels() {
+    let of = |outlets: Vec<Zone>| {
+        let mut setup = slide();
+        setup.walls[0].motion.servo = Some(Servo { direction: Vec3::z(), force: 0.15, speed_limit: 0.05 });
+        setup.outlets = outlets;
+        setup.particles.push(grain(1, Vec3::new(-0.1, 0.05, 0.01)));
+        let mut sim = Simulation::new(setup).expect("sound");
+        run_until(&mut sim, 0.075);
+        let shift = sim.wall_forces().expect("loads are kept")[0].shift.z;
+        (shift, particles(&mut sim).iter().find(|p| p.id == 1).map(|p| p.position.z))
+    };
+    let ((cut, rest), (alone, _)) = (of(slide().outlets), of(vec![]));
+    assert!((cut - alone).abs() < 3e-4, "{cut} m, undivided {alone} m");
+    assert!(rest.is_some_and(|z| (z - 0.01 - cut).abs() < 1e-4), "{rest:?}");
+}
