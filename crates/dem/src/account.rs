@@ -91,11 +91,12 @@ impl Account {
         for segment in &contacts.segments {
             let places = segment.contacts();
             let rows = &contacts.ledger[places.start * LEDGER..places.end * LEDGER];
-            let wall = matches!(kinds[segment.kind].with, With::Wall(_));
+            let with = kinds[segment.kind].with;
+            let wall = matches!(with, With::Wall(_));
             for (place, row) in places.zip(rows.chunks_exact(LEDGER)) {
                 let (dissipated, surface) =
                     (&row[1..=DISSIPATORS], if wall { row[1 + DISSIPATORS] } else { 0.0 });
-                if zones.idles(contacts.i[place], (!wall).then(|| contacts.partner[place])) {
+                if zones.idles(contacts.ends(with, place)) {
                     let gone = dissipated.iter().sum::<f64>() - surface;
                     self.left += gone;
                     self.passed += gone;

@@ -212,6 +212,12 @@ impl Contacts {
         Loads { first: 0, form: self.form, sums: (&self.sums.0, &self.sums.1) }
     }
 
+    /// The particle of a contact, and the other one where it is not with a wall.
+    pub fn ends(&self, with: With, place: usize) -> (u32, Option<u32>) {
+        let pair = !matches!(with, With::Wall(_));
+        (self.i[place], pair.then(|| self.partner[place]))
+    }
+
     /// The segment that a place belongs to.
     pub fn segment_of(&self, place: usize) -> &Segment {
         &self.segments[self.segments.partition_point(|s| s.places.start <= place) - 1]

@@ -52,10 +52,9 @@ impl Simulation {
             let kind = &self.kinds[segment.kind];
             for place in segment.contacts() {
                 // Who has left at the end of a zone is in the lists until they are made anew.
-                let pair = !matches!(kind.with, With::Wall(_));
+                let (i, other) = self.contacts.ends(kind.with, place);
                 let gone = |k: u32| self.zones.is_gone(k as usize);
-                let left = gone(self.contacts.i[place]) || pair && gone(self.contacts.partner[place]);
-                if left || self.idles(kind.with, place) {
+                if gone(i) || other.is_some_and(gone) || self.idles(kind.with, place) {
                     continue;
                 }
                 let force = self.contacts.force(place);
@@ -72,8 +71,7 @@ impl Simulation {
 
     /// Whether contact `place`, of those with these, acts on nobody ([`crate::zones::Zones::idles`]).
     pub(crate) fn idles(&self, with: With, place: usize) -> bool {
-        let pair = !matches!(with, With::Wall(_));
-        self.zones.idles(self.contacts.i[place], pair.then(|| self.contacts.partner[place]))
+        self.zones.idles(self.contacts.ends(with, place))
     }
 
     /// Brings the load of each contact to this instant.

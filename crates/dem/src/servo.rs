@@ -112,7 +112,7 @@ impl Simulation {
         let c = &self.contacts;
         let (mut sum, mut count) = (Vec3::zeros(), 0);
         for segment in c.segments.iter().filter(|s| self.kinds[s.kind].with == With::Wall(wall)) {
-            let acts = |place: &usize| !self.zones.idles(c.i[*place], None);
+            let acts = |place: &usize| !self.idles(With::Wall(wall), *place);
             for force in segment.contacts().filter(acts).map(|place| c.force(place)) {
                 count += u32::from(force != Vec3::zeros());
                 sum += force;

@@ -106,9 +106,9 @@ impl Zones {
         self.busy.get(k) == Some(&true)
     }
 
-    /// Whether a contact of particle `i`, with another or with a wall (`None`), acts on nobody: those in zones act on others and on nothing else. Who
+    /// Whether a contact of a particle, with another or with a wall (`None`), acts on nobody: those in zones act on others and on nothing else. Who
     /// has just left at the end of a zone travelled when loads were computed.
-    pub fn idles(&self, i: u32, other: Option<u32>) -> bool {
+    pub fn idles(&self, (i, other): (u32, Option<u32>)) -> bool {
         let passive = |k: u32| self.travels(k as usize) || self.is_gone(k as usize);
         passive(i) && other.is_none_or(passive)
     }
