@@ -41,7 +41,7 @@ impl Coordination {
         let rows: HashMap<u64, usize> = frame.id.iter().enumerate().map(|(row, id)| (*id, row)).collect();
         let (mut of_grains, mut of_walls) = (vec![0; frame.len()], vec![0; frame.len()]);
         let mut seen = HashSet::new();
-        for contact in &contacts.rows {
+        for contact in contacts.acting() {
             let (i, wall, j) = match contact.partner {
                 Partner::Grain(j) => (contact.grain.min(j), false, contact.grain.max(j)),
                 Partner::Wall(j) => (contact.grain, true, j),

@@ -42,7 +42,7 @@ impl Distribution {
 
 /// Normal and tangential magnitudes [N] of the contacts that are wanted.
 pub fn magnitudes(contacts: &Contacts, walls: bool) -> [Vec<f64>; 2] {
-    let wanted = contacts.rows.iter().filter(|c| matches!(c.partner, Partner::Wall(_)) == walls);
+    let wanted = contacts.acting().filter(|c| matches!(c.partner, Partner::Wall(_)) == walls);
     wanted
         .map(|c| {
             let normal = c.force.dot(&c.normal);

@@ -113,16 +113,28 @@ pub struct Contact {
     pub overlap: f64,
 }
 
-/// All contacts at one time.
+impl Contact {
+    /// Whether it is one at this time: a row without force tells the work of a contact that has ended since the frame before.
+    pub fn acts(&self) -> bool {
+        self.force != Vec3::zeros()
+    }
+}
+
+/// All contacts at one time, and those that have ended since the frame before and did work.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Contacts {
     /// Time [s].
     pub time: f64,
-    /// The contacts, in the order of the message.
+    /// The rows, in the order of the message.
     pub rows: Vec<Contact>,
 }
 
 impl Contacts {
+    /// The contacts of this time; who sums work takes all `rows`.
+    pub fn acting(&self) -> impl Iterator<Item = &Contact> {
+        self.rows.iter().filter(|c| c.acts())
+    }
+
     /// Contacts from the table of a message: x y z, nx ny nz, fx fy fz, id_i, id_j, kind (0 pair, 1 wall), work.
     ///
     /// # Errors

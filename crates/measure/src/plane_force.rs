@@ -52,8 +52,7 @@ impl PlaneForce {
             return;
         }
         let (count, force) = contacts
-            .rows
-            .iter()
+            .acting()
             .filter_map(|c| self.on_behind(c))
             .fold((0.0, Vec3::zeros()), |(count, sum), force| (count + 1.0, sum + force));
         let normal = force.dot(&self.plane.normal);

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! with the force F_i on grain i of each contact with a wall, as the run records it, and the sliding work w since
-//! the frame before.
+//! the frame before, also that of contacts which have ended since.
 
 use crate::observer::{NO_CONTACTS, Observer};
 use crate::sheet::{Chart, Head, Row, Summary};
@@ -25,7 +25,7 @@ pub struct OnWalls {
 }
 
 impl OnWalls {
-    /// The contacts that are wanted.
+    /// The rows that are wanted, with those of contacts that have ended.
     ///
     /// # Errors
     /// A wall that the run does not name.
@@ -109,12 +109,12 @@ impl Observer for WallForce {
         }
         let (mut count, mut force, mut normal, mut work) = (0u64, Vec3::zeros(), 0.0, 0.0);
         for c in self.what.of(run, &contacts)? {
-            count += 1;
+            self.touched = true;
+            count += u64::from(c.acts());
             force -= c.force;
             normal += c.force.dot(&c.normal);
             work += c.work;
         }
-        self.touched |= count > 0;
         self.work += work;
         self.sum += force;
         self.magnitudes.push(force.norm());

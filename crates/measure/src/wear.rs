@@ -102,7 +102,7 @@ impl Wear {
         borne.normal += normal;
         borne.now += normal;
         borne.work += contact.work;
-        borne.contacts += 1;
+        borne.contacts += u64::from(contact.acts());
     }
 
     fn row(&self, place: Vec3, size: f64, area: f64, b: &Borne) -> Row {
