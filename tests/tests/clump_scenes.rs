@@ -146,7 +146,7 @@ fn clumps_from_body_file_fill_and_faucet() {
     }
     let done = succeed(folder.path(), "dem-run", &["s.toml", "--explain"]);
     let text = String::from_utf8_lossy(&done.stdout).into_owned();
-    assert!(text.contains("[[clump]] 'cube' of 8, 'pair' of 2") && text.contains("B a body"), "{text}");
+    assert!(text.contains("clump.0 'cube' of 8, clump.1 'pair' of 2") && text.contains("B a body"), "{text}");
 }
 
 #[test]

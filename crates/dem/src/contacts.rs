@@ -248,26 +248,6 @@ impl Contacts {
         &self.rows[segment.rows + place - segment.places.start]
     }
 
-    /// Memory that lists, contact points and what is computed take [bytes].
-    pub fn bytes(&self) -> usize {
-        use std::mem::size_of_val;
-        size_of_val(&self.i[..])
-            + size_of_val(&self.partner[..])
-            + size_of_val(&self.shift[..])
-            + size_of_val(&self.rows[..])
-            + size_of_val(&self.spins[..])
-            + size_of_val(&self.active[..])
-            + size_of_val(&self.entries[..])
-            + size_of_val(&self.arrivals[..])
-            + size_of_val(&self.memory[..])
-            + size_of_val(&self.kept.0[..])
-            + size_of_val(&self.kept.1[..])
-            + size_of_val(&self.loads[..])
-            + size_of_val(&self.couples[..])
-            + size_of_val(&self.ledger[..])
-            + size_of_val(&self.work[..])
-    }
-
     /// Everything, to be computed.
     pub fn parts(&mut self) -> (Lists<'_>, Part<'_>, Sums<'_>, &mut [Still]) {
         let lists = Lists {

@@ -4,6 +4,7 @@ use crate::effects::{
     Cohesion, ConstantRolling, Effect, Hertz, Hooke, Jkr, RollingResistance, SlidingFriction,
     TwistingResistance, Weakening,
 };
+use crate::kernel::LEDGER;
 use crate::lane::{Row, Row4};
 use crate::setup::{Contact, Law, RollingModel};
 use crate::simulation::Simulation;
@@ -34,6 +35,19 @@ pub struct Part {
     pub bytes: usize,
     /// The contact without it; `None` for the normal law.
     pub without: Option<Contact>,
+}
+
+/// What a listed contact takes without what its effects remember [bytes].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct ContactBytes {
+    /// Its place in the lists.
+    pub listed: usize,
+    /// The contact point on a wall, or across a periodic face; none between two particles.
+    pub point: usize,
+    /// Its load, where that is kept: between two tiles, or for who looks at each.
+    pub load: usize,
+    /// Its energies; 0 without the ledger.
+    pub ledger: usize,
 }
 
 /// The effects of a contact, in the order in which they act.
@@ -72,7 +86,7 @@ fn sliding(c: &Contact) -> Option<Part> {
     let (because, numbers) = match c.weakening {
         None => (format!("sliding_friction = {mu}"), SlidingFriction::<f64>::MEMORY),
         Some(w) => (
-            format!("sliding_friction = {mu} at rest, {} far above {} m/s", w.dynamic, w.speed),
+            format!("sliding_friction = {{ static = {mu}, dynamic = {}, speed = {} }}", w.dynamic, w.speed),
             SlidingFriction::<Weakening>::MEMORY,
         ),
     };
@@ -112,6 +126,9 @@ pub fn needed(c: &Contact) -> (Contact, Vec<&'static str>) {
     drop_zero(&mut less.cohesion, "cohesion");
     drop_zero(&mut less.rolling_resistance, "rolling_resistance");
     drop_zero(&mut less.twisting_resistance, "twisting_resistance");
+    if less.sliding_friction == Some(0.0) && less.weakening.is_some_and(|w| w.dynamic == 0.0) {
+        less.weakening = None;
+    }
     // Rolling and twisting resistance turn particles, which is computed with friction, though it be 0.
     let turns = less.rolling_resistance.is_some() || less.twisting_resistance.is_some();
     if less.weakening.is_none() && !turns {
@@ -170,9 +187,16 @@ impl Simulation {
         self.bonds.bytes()
     }
 
-    /// Everything that one listed contact takes in a kind of interaction, averaged over all listed now [bytes].
-    pub fn bytes_per_listed_contact(&self) -> f64 {
-        self.contacts.bytes() as f64 / self.listed_contacts().max(1) as f64
+    /// What a listed contact takes without what its effects remember.
+    pub fn bytes_of_contact(&self) -> ContactBytes {
+        let form = self.form();
+        let words = form.load() + if self.couples() { form.couple() } else { 0 };
+        ContactBytes {
+            listed: 2 * size_of::<u32>(),
+            point: size_of::<Row>() + if self.particles.rotates() { size_of::<Row4>() } else { 0 },
+            load: words * size_of::<f64>(),
+            ledger: if self.setup.ledger { (LEDGER + 1) * size_of::<f64>() } else { 0 },
+        }
     }
 
     /// Whether particles turn in this scene.

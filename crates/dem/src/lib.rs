@@ -46,7 +46,7 @@ pub use bodies::{BodyState, spun};
 pub use bonds::{BondState, entries as bonds_of};
 pub use energy::Energy;
 pub use error::{Halt, SetupError};
-pub use explain::{EffectCost, Part, needed, parts};
+pub use explain::{ContactBytes, EffectCost, Part, needed, parts};
 pub use limit::{Limit, critical_step};
 pub use look::Snapshot;
 pub use particles::mass;

@@ -2,7 +2,7 @@
 
 use crate::check::Check;
 use crate::error::{SceneError, nearest};
-use crate::model::{Contact, Friction, Law, RollingModel};
+use crate::model::{Contact, Friction, Law, RollingModel, Weakening};
 use dem::setup;
 
 /// One law for every pair that some entry of the scene matches. `largest` is the largest particle radius [m].
@@ -40,6 +40,7 @@ fn contact(entry: &Contact, between: (u16, u16), law: setup::Law) -> setup::Cont
     let (sliding_friction, weakening) = match entry.sliding_friction {
         None => (None, None),
         Some(Friction::Constant(mu)) => (positive(Some(mu)), None),
+        Some(Friction::Weakening(w)) if w.at_rest == 0.0 && w.dynamic == 0.0 => (None, None),
         Some(Friction::Weakening(w)) => {
             (Some(w.at_rest), Some(setup::Weakening { dynamic: w.dynamic, speed: w.speed }))
         }
@@ -56,6 +57,36 @@ fn contact(entry: &Contact, between: (u16, u16), law: setup::Law) -> setup::Cont
         twisting_resistance: positive(entry.twisting_resistance),
         ..setup::Contact::new(between, law, entry.restitution)
     }
+}
+
+/// What an entry asks for and its contact does not have: key with value, and why.
+pub(crate) fn dropped(entry: &Contact, kept: &setup::Contact) -> Vec<(String, &'static str)> {
+    const NOTHING: &str = "does nothing, and nothing of it is computed";
+    let mut found = Vec::new();
+    if entry.law == Law::Jkr && kept.law == setup::Law::Hertz {
+        let why = "law = \"jkr\" that does not adhere is \"hertz\", which is computed in its place";
+        found.push(("work_of_adhesion = 0".to_owned(), why));
+    }
+    match entry.sliding_friction.filter(|_| kept.sliding_friction.is_none()) {
+        None => {}
+        Some(Friction::Constant(mu)) => found.push((format!("sliding_friction = {mu}"), NOTHING)),
+        Some(Friction::Weakening(w)) => {
+            let Weakening { at_rest, dynamic, speed } = w;
+            let table = format!("{{ static = {at_rest}, dynamic = {dynamic}, speed = {speed} }}");
+            found.push((format!("sliding_friction = {table}"), NOTHING));
+        }
+    }
+    for (key, asked, kept) in [
+        ("cohesion_energy_density", entry.cohesion_energy_density, kept.cohesion),
+        ("rolling_resistance", entry.rolling_resistance, kept.rolling_resistance),
+        ("twisting_resistance", entry.twisting_resistance, kept.twisting_resistance),
+    ] {
+        if let (Some(value), None) = (asked, kept) {
+            let why = if value > 0.0 { "without sliding_friction nothing turns" } else { NOTHING };
+            found.push((format!("{key} = {value}"), why));
+        }
+    }
+    found
 }
 
 pub(crate) fn known(
@@ -173,6 +204,41 @@ mod tests {
         let material =
             |name: &str| setup::Material { name: name.into(), density: 1e3, young: 1e6, poisson: 0.3 };
         resolve(&Check { text: &text }, entries, &[material("sinter"), material("steel")], 0.01)
+    }
+
+    /// Every coefficient of 0 leaves the engine and is told, and one that is not stays and is not.
+    #[test]
+    fn what_does_nothing_is_dropped_and_told() {
+        let weakening =
+            |at_rest, dynamic| Some(Friction::Weakening(Weakening { at_rest, dynamic, speed: 1.0 }));
+        let of = |value: f64| Contact {
+            law: Law::Jkr,
+            work_of_adhesion: Some(value),
+            sliding_friction: Some(Friction::Constant(value)),
+            rolling_resistance: Some(value),
+            twisting_resistance: Some(value),
+            ..entry("*", "*", 0.1)
+        };
+        let told = |entry: Contact| {
+            let kept = solved(std::slice::from_ref(&entry)).unwrap().swap_remove(0);
+            let keys = dropped(&entry, &kept).into_iter().map(|(key, _)| key).collect::<Vec<_>>();
+            (kept, keys.join(", "))
+        };
+        let (kept, keys) = told(of(0.0));
+        assert_eq!(kept, setup::Contact::new((0, 0), setup::Law::Hertz, 0.1));
+        let all =
+            "work_of_adhesion = 0, sliding_friction = 0, rolling_resistance = 0, twisting_resistance = 0";
+        assert_eq!(keys, all);
+        assert_eq!(told(of(0.5)).1, "");
+        let cohesion = Some(crate::model::Cohesion::Sjkr);
+        let sticky = Contact { cohesion, cohesion_energy_density: Some(0.0), ..entry("*", "*", 0.1) };
+        assert_eq!(told(sticky).1, "cohesion_energy_density = 0");
+        let rubs = |friction| told(Contact { sliding_friction: friction, ..entry("*", "*", 0.1) });
+        let (kept, keys) = rubs(weakening(0.0, 0.0));
+        assert_eq!((kept.sliding_friction, kept.weakening), (None, None));
+        assert_eq!(keys, "sliding_friction = { static = 0, dynamic = 0, speed = 1 }");
+        let (kept, keys) = rubs(weakening(0.0, 0.2));
+        assert!(kept.sliding_friction == Some(0.0) && kept.weakening.is_some() && keys.is_empty());
     }
 
     #[test]

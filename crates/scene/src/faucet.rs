@@ -223,6 +223,27 @@ impl Faucet {
         (self.time < self.until).then_some(self.time)
     }
 
+    /// Its name in messages.
+    pub(crate) fn key(&self) -> &str {
+        &self.key
+    }
+
+    /// Particles that come until a time [s] since t = 0, members of clumps by themselves, and how many of them are there on average over it.
+    pub(crate) fn expected(&self, end: f64) -> (f64, f64) {
+        let Diameter { low, high } = self.grains.diameter;
+        // The mean of d³ of diameters that are uniform between both.
+        let mean = volume(0.5) * 0.25 * (low + high) * (low * low + high * high);
+        let each = match self.rate {
+            Rate::Mass(rate) => rate / (mean * self.grains.density),
+            Rate::Count(rate) => rate,
+        };
+        let open = (self.until.min(end) - self.time).max(0.0);
+        let rate = each * f64::from(self.grains.ids);
+        // It grows while it is open and stays behind that.
+        let after = end - self.time - open;
+        (rate * open, if open > 0.0 { rate * open * (0.5 * open + after) / end } else { 0.0 })
+    }
+
     /// The next particle.
     ///
     /// # Errors
@@ -313,6 +334,7 @@ mod tests {
     #[test]
     fn a_faucet_gives_its_rate_and_nothing_overlaps_on_the_way() {
         let mut faucet = faucet(0.8).unwrap();
+        let closed = faucet.clone();
         let mut all: Vec<Entry> = Vec::new();
         while let Some(entry) = faucet.next().unwrap() {
             assert!((entry.particle.position.z - 1.03).abs() < 1e-12);
@@ -320,6 +342,10 @@ mod tests {
         }
         let mass: f64 = all.iter().map(|e| 1000.0 * volume(e.particle.radius)).sum();
         assert!((mass - 0.8).abs() < 0.01, "{mass} kg in 1 s");
+        let (expected, there) = closed.expected(2.0);
+        assert!((all.len() as f64 / expected - 1.0).abs() < 0.1, "{} of {expected}", all.len());
+        // Open in the first half of the time: half of them in it, all of them behind it.
+        assert!((there / expected - 0.75).abs() < 1e-12, "{there} of {expected} on average");
         for (i, a) in all.iter().enumerate() {
             for b in &all[..i] {
                 assert!(a.time >= b.time);

@@ -1,0 +1,109 @@
+//! A short run of a scene, to see what a step takes.
+
+use crate::error::SceneError;
+use crate::feeds::{Item, Supply};
+use crate::plan::Feeds;
+use dem::Simulation;
+use dem::setup::Setup;
+use serde::Serialize;
+use std::time::Instant;
+
+/// Time that a scene runs before it is measured [s], so that grains come in, fall and touch.
+const AHEAD: f64 = 0.5;
+/// Time that a measurement takes at least [s].
+const MEASURE: f64 = 0.15;
+/// Steps that a measurement takes at most.
+const MOST: u32 = 500;
+
+/// What was measured.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Calibration {
+    /// Steps before.
+    pub steps: u64,
+    /// Simulated time then [s].
+    pub time: f64,
+    /// Particles then.
+    pub particles: usize,
+    /// Contacts that carry a force then.
+    pub touching: usize,
+    /// Time of a step [s].
+    pub seconds_per_step: f64,
+}
+
+impl Calibration {
+    /// Of a setup with its faucets, after at most so many steps.
+    ///
+    /// # Errors
+    /// Why nothing can be told: a guard stops it, no particle is there.
+    pub(super) fn new(setup: Setup, feeds: &Feeds, most: u64) -> Result<Calibration, String> {
+        let mut trial = Trial::new(setup, feeds)?;
+        let start = Instant::now();
+        while trial.sim.steps() < most && start.elapsed().as_secs_f64() < AHEAD {
+            trial.step()?;
+        }
+        trial.measured()
+    }
+
+    /// Time of a step [s] of another setup after as many steps; `None` where it does not get so far in twice the time.
+    pub(super) fn compared(&self, setup: Setup, feeds: &Feeds) -> Option<f64> {
+        let mut trial = Trial::new(setup, feeds).ok()?;
+        let start = Instant::now();
+        while trial.sim.steps() < self.steps {
+            trial.step().ok()?;
+            if start.elapsed().as_secs_f64() > 2.0 * AHEAD {
+                return None;
+            }
+        }
+        Some(trial.measured().ok()?.seconds_per_step)
+    }
+}
+
+struct Trial {
+    sim: Simulation,
+    supply: Supply,
+}
+
+impl Trial {
+    fn new(setup: Setup, feeds: &Feeds) -> Result<Trial, String> {
+        let mut sim = Simulation::new(setup).map_err(|e| e.to_string())?;
+        sim.record_loads(true);
+        // A stream may wait for another program: it is left alone.
+        let supply = Supply::new(Feeds { faucets: feeds.faucets.clone(), streams: Vec::new() });
+        Ok(Trial { sim, supply })
+    }
+
+    fn step(&mut self) -> Result<(), String> {
+        let told = |e: SceneError| e.to_string();
+        while let Some(item) =
+            self.supply.next_until(self.sim.time() + self.sim.look_ahead()).map_err(told)?
+        {
+            if let Item::Enter(entry) = item {
+                self.sim.enter(entry).map_err(|e| e.to_string())?;
+            }
+        }
+        self.sim.step().map_err(|halt| halt.to_string())?;
+        drop(self.sim.take_crossings());
+        Ok(())
+    }
+
+    fn measured(mut self) -> Result<Calibration, String> {
+        let (steps, time) = (self.sim.steps(), self.sim.time());
+        let particles = self.sim.particle_count();
+        if particles == 0 {
+            return Err("no particle is there".to_owned());
+        }
+        let touching = self.sim.record_contacts().map_err(|halt| halt.to_string())?;
+        let touching = touching.iter().filter(|c| c.force != geom::Vec3::zeros()).count();
+        self.step()?;
+        let (start, mut done) = (Instant::now(), 0);
+        loop {
+            self.step()?;
+            done += 1;
+            let passed = start.elapsed().as_secs_f64();
+            if (passed > MEASURE && done >= 10) || done == MOST {
+                let seconds_per_step = passed / f64::from(done);
+                return Ok(Calibration { steps, time, particles, touching, seconds_per_step });
+            }
+        }
+    }
+}

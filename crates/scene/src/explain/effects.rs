@@ -1,0 +1,121 @@
+//! The effects of a scene, and the scene without each.
+
+use super::keys;
+use crate::Scene;
+use crate::model::DragLaw;
+use dem::Simulation;
+use dem::setup::{Precision, Setup};
+use serde::Serialize;
+
+/// One effect of a scene.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Effect {
+    /// Its name.
+    pub name: String,
+    /// Which keys call for it.
+    pub why: String,
+    /// Memory between steps [B] for each contact.
+    pub bytes_per_contact: usize,
+    /// Measured share of a step, when it was measured: how much faster the scene is without it, negative where it is slower [–].
+    pub share: Option<f64>,
+}
+
+/// An effect, and what is needed to measure it.
+pub(super) struct Asked {
+    pub effect: Effect,
+    /// The setup without it, where there is one.
+    pub without: Option<Setup>,
+    /// Whether it acts in contacts alone.
+    pub in_contacts: bool,
+}
+
+/// A key with its value, and the pairs of materials that it calls for an effect between.
+type Call = (String, Vec<String>);
+
+/// Every effect.
+pub(super) fn effects(scene: &Scene, setup: &Setup) -> Vec<Asked> {
+    let model = &scene.model;
+    let mut found = of_contacts(scene, setup);
+    let mut add = |name: &str, why: String, without: Option<Setup>| {
+        if !why.is_empty() {
+            let effect = Effect { name: name.into(), why, bytes_per_contact: 0, share: None };
+            found.push(Asked { effect, without, in_contacts: false });
+        }
+    };
+    let named = |there: bool, key: String| if there { key } else { String::new() };
+    add("clump", clumps(setup), None);
+    let bonds = setup.bonds.iter().enumerate();
+    let bonds = bonds.map(|(k, b)| format!("bond.{k} ({})", keys::pair(setup, b.between)));
+    let loose = Setup { bonds: Vec::new(), entry_bonds: None, ..setup.clone() };
+    add("bond", bonds.collect::<Vec<_>>().join(", "), Some(loose));
+    let gravity = format!("gravity = {:?}", model.gravity);
+    add("gravity", named(setup.gravity.norm() > 0.0, gravity), None);
+    let law = model.drag.as_ref().map(|d| match d.law {
+        DragLaw::Stokes => "drag.law = \"stokes\"".to_owned(),
+        DragLaw::SchillerNaumann => "drag.law = \"schiller-naumann\"".to_owned(),
+    });
+    add("drag", law.unwrap_or_default(), Some(Setup { drag: None, ..setup.clone() }));
+    add("energy", keys::ledger(scene), Some(Setup { ledger: false, ..setup.clone() }));
+    let sleep = setup.sleep.map(|s| format!("sleep.speed = {}", s.speed));
+    add("sleep", sleep.unwrap_or_default(), Some(Setup { sleep: None, ..setup.clone() }));
+    let precision = format!("precision = \"{}\"", setup.precision.name());
+    let double = Setup { precision: Precision::Double, ..setup.clone() };
+    let single = setup.precision == Precision::Single;
+    let reduced = named(setup.precision != Precision::Double, precision);
+    add(if single { "single precision" } else { "mixed precision" }, reduced, Some(double));
+    let axes: Vec<String> =
+        model.domain.periodic.iter().map(|a| format!("\"{a:?}\"").to_lowercase()).collect();
+    add("periodic domain", named(!axes.is_empty(), format!("domain.periodic = [{}]", axes.join(", "))), None);
+    add("outlet", keys::numbered("outlet", setup.outlets.len()), None);
+    add("inlet", keys::numbered("inlet", model.inlet.len()), None);
+    add("insert", keys::numbered("insert", model.insert.len()), None);
+    add("wall motion", keys::motions(scene, setup, false), None);
+    add("servo", keys::motions(scene, setup, true), None);
+    found
+}
+
+fn clumps(setup: &Setup) -> String {
+    let shapes = setup.clumps.shapes.iter().enumerate();
+    let shapes = shapes.map(|(k, s)| format!("clump.{k} '{}' of {}", s.name, s.spheres.len()));
+    let shapes = shapes.collect::<Vec<_>>().join(", ");
+    let (body, member) = Simulation::bytes_of_clump();
+    if shapes.is_empty() { shapes } else { format!("{shapes}: {body} B a body, {member} B a member") }
+}
+
+/// Effects of contact, each once, with the keys and pairs that call for it.
+fn of_contacts(scene: &Scene, setup: &Setup) -> Vec<Asked> {
+    let mut found: Vec<(Asked, Vec<Call>)> = Vec::new();
+    for (place, c) in setup.contacts.iter().enumerate() {
+        let from =
+            keys::entry(scene, setup, c).map_or("wall file: ".to_owned(), |at| format!("contact.{at}."));
+        for part in dem::parts(c) {
+            let weakens = part.effect == "sliding_friction" && c.weakening.is_some();
+            let name = if weakens { "weakening friction" } else { part.effect };
+            // A single holds half of a double.
+            let bytes = if setup.precision == Precision::Single { part.bytes / 2 } else { part.bytes };
+            let at = found.iter().position(|(asked, _)| asked.effect.name == name).unwrap_or_else(|| {
+                let (name, why) = (name.to_owned(), String::new());
+                let effect = Effect { name, why, bytes_per_contact: 0, share: None };
+                let without = part.without.is_some().then(|| setup.clone());
+                found.push((Asked { effect, without, in_contacts: true }, Vec::new()));
+                found.len() - 1
+            });
+            let (asked, calls) = &mut found[at];
+            asked.effect.bytes_per_contact = asked.effect.bytes_per_contact.max(bytes);
+            if let (Some(less), Some(c)) = (&mut asked.without, part.without) {
+                less.contacts[place] = c;
+            }
+            let (key, pair) = (format!("{from}{}", part.because), keys::pair(setup, c.between));
+            match calls.iter_mut().find(|(known, _)| *known == key) {
+                Some((_, pairs)) => pairs.push(pair),
+                None => calls.push((key, vec![pair])),
+            }
+        }
+    }
+    let told = |(mut asked, calls): (Asked, Vec<Call>)| {
+        let calls = calls.into_iter().map(|(key, pairs)| format!("{key} ({})", pairs.join(", ")));
+        asked.effect.why = calls.collect::<Vec<_>>().join("; ");
+        asked
+    };
+    found.into_iter().map(told).collect()
+}

@@ -1,0 +1,88 @@
+//! Which keys of a scene call for what its engine does, and which are dropped.
+
+use crate::model::{Output, Wall};
+use crate::{Scene, contacts};
+use dem::setup::{self, Motion, Setup};
+
+/// Names of the two materials of a contact or a bond.
+pub(super) fn pair(setup: &Setup, between: (u16, u16)) -> String {
+    let name = |m: u16| setup.materials[m as usize].name.as_str();
+    format!("{}–{}", name(between.0), name(between.1))
+}
+
+/// The entry that a contact comes from; `None`: a wall file says it.
+pub(super) fn entry(scene: &Scene, setup: &Setup, c: &setup::Contact) -> Option<usize> {
+    let name = |m: u16| setup.materials[m as usize].name.as_str();
+    contacts::most_specific(&scene.model.contact, name(c.between.0), name(c.between.1))
+}
+
+/// What a scene asks for and cannot matter: key and pairs, and why.
+pub(super) fn dropped(scene: &Scene, setup: &Setup) -> Vec<String> {
+    let mut found: Vec<(String, Vec<String>, &str)> = Vec::new();
+    for c in &setup.contacts {
+        let Some(at) = entry(scene, setup, c) else { continue };
+        for (key, why) in contacts::dropped(&scene.model.contact[at], c) {
+            let key = format!("contact.{at}.{key}");
+            match found.iter_mut().find(|(known, _, because)| *known == key && *because == why) {
+                Some((_, pairs, _)) => pairs.push(pair(setup, c.between)),
+                None => found.push((key, vec![pair(setup, c.between)], why)),
+            }
+        }
+    }
+    let contacts = found.into_iter().map(|(key, pairs, why)| format!("{key} ({}): {why}", pairs.join(", ")));
+    let used = |i: usize| setup.contacts.iter().any(|c| entry(scene, setup, c) == Some(i));
+    let idle = (0..scene.model.contact.len()).filter(|i| !used(*i));
+    let idle = idle.map(|i| format!("contact.{i}: holds for no two materials that can meet"));
+    let still = setup.walls.iter().filter(|w| !w.motion.moves()).filter_map(|w| wall(scene, w));
+    let mut still: Vec<String> = still
+        .filter(|(_, entry)| entry.motion.is_some())
+        .map(|(at, _)| format!("wall.{at}.motion: moves nothing"))
+        .collect();
+    still.dedup();
+    contacts.chain(idle).chain(still).collect()
+}
+
+/// The entry that a wall comes from, with its number; `None`: a wall of the command line alone.
+fn wall<'s>(scene: &'s Scene, wall: &setup::Wall) -> Option<(usize, &'s Wall)> {
+    let comes = |(at, entry): &(usize, &Wall)| {
+        let own = entry.name.clone().unwrap_or_else(|| format!("wall.{at}"));
+        // A box has a wall for each face, a file one for each material: their names go on behind a blank.
+        wall.name.strip_prefix(&own).is_some_and(|rest| rest.is_empty() || rest.starts_with(' '))
+    };
+    scene.model.wall.iter().enumerate().find(comes)
+}
+
+/// Keys of the walls that move by themselves, or that follow a force.
+pub(super) fn motions(scene: &Scene, setup: &Setup, servo: bool) -> String {
+    let own = |m: &Motion| Motion { servo: None, ..*m }.moves();
+    let moving = setup.walls.iter().filter(|w| if servo { w.motion.servo.is_some() } else { own(&w.motion) });
+    let mut keys: Vec<String> = moving
+        .map(|w| match wall(scene, w) {
+            Some((at, entry)) if servo || entry.motion.is_some() => {
+                let name = entry.name.as_ref().map_or(String::new(), |name| format!(" ({name})"));
+                format!("wall.{at}.{}{name}", if servo { "servo" } else { "motion" })
+            }
+            _ => format!("the wall file of {}", w.name),
+        })
+        .collect();
+    keys.dedup();
+    keys.join(", ")
+}
+
+/// Keys that call for the energy ledger.
+pub(super) fn ledger(scene: &Scene) -> String {
+    let Output { energy, contacts, .. } = scene.model.output;
+    let guard = scene.model.guards.energy.map(|share| format!("guards.energy = {share}"));
+    let energy = energy.then(|| "output.energy = true".to_owned());
+    // The work of sliding is known to the ledger alone.
+    let contacts = contacts.then(|| "output.contacts = true".to_owned());
+    [energy, contacts, guard].into_iter().flatten().collect::<Vec<_>>().join(", ")
+}
+
+/// Keys of so many entries.
+pub(super) fn numbered(key: &str, count: usize) -> String {
+    match count {
+        0..=3 => (0..count).map(|k| format!("{key}.{k}")).collect::<Vec<_>>().join(", "),
+        _ => format!("{key}.0 to {key}.{}", count - 1),
+    }
+}
