@@ -121,6 +121,18 @@ fn every_width_of_lanes() {
     }
 }
 
+/// Friction that is 0 at rest and far above its speed is 0 at every speed, whatever this is.
+#[test]
+fn friction_that_is_nothing_at_every_speed_is_left_out() {
+    let mut contact = Contact::new((0, 0), Law::Hertz, 0.5);
+    contact.sliding_friction = Some(0.0);
+    contact.weakening = Some(Weakening { dynamic: 0.0, speed: 1.0 });
+    let (less, keys) = dem::needed(&contact);
+    assert_eq!((less.sliding_friction, less.weakening, keys), (None, None, vec!["sliding_friction"]));
+    contact.weakening = Some(Weakening { dynamic: 0.2, speed: 1.0 });
+    assert_eq!(dem::needed(&contact).0, contact);
+}
+
 /// Memory is what the effects of a scene ask for, and nothing else: JKR remembers that it was made, sliding and rolling their
 /// springs, twisting its angle.
 #[test]
