@@ -1,9 +1,9 @@
-//! Ctrl-C and termination: unfinished files that are not worth keeping are removed, then the signal does what it always
+//! Ctrl-C, termination and a lost terminal: unfinished files that are not worth keeping are removed, then the signal does what it always
 //! does. A tool that asked for it is told first, and may end in order; a second signal ends it at once.
 
 use crate::part::{Keep, Part};
 use signal_hook::{
-    consts::{SIGINT, SIGTERM, TERM_SIGNALS},
+    consts::{SIGHUP, SIGINT, SIGTERM, TERM_SIGNALS},
     iterator::Signals,
     low_level::emulate_default_handler,
 };
@@ -23,7 +23,7 @@ static ORDERLY: AtomicBool = AtomicBool::new(false);
 /// Whether a signal asked it to.
 static STOP: AtomicBool = AtomicBool::new(false);
 
-/// From now on, the first SIGINT or SIGTERM only makes [`stop_requested`] true.
+/// From now on, the first SIGINT, SIGTERM or SIGHUP only makes [`stop_requested`] true.
 pub fn stop_in_order() {
     ORDERLY.store(true, SeqCst);
     LISTEN.call_once(listen);
@@ -44,12 +44,21 @@ pub(crate) fn removed_on_signal(create: impl FnOnce() -> io::Result<Part>) -> io
     Ok(part)
 }
 
+/// Whether a lost terminal is not to end the tool, as `nohup` has it; where the system does not tell, it is taken as so.
+fn hangup_is_ignored() -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    mask.is_none_or(|mask| mask >> (SIGHUP - 1) & 1 == 1)
+}
+
 fn listen() {
     // Without a listener a signal leaves the hidden file behind, which harms nobody.
-    let Ok(mut signals) = Signals::new(TERM_SIGNALS) else { return };
+    let hangup = Some(SIGHUP).filter(|_| !hangup_is_ignored());
+    let Ok(mut signals) = Signals::new(TERM_SIGNALS.iter().copied().chain(hangup)) else { return };
     std::thread::spawn(move || {
         for signal in signals.forever() {
-            let polite = signal == SIGINT || signal == SIGTERM;
+            let polite = [SIGINT, SIGTERM, SIGHUP].contains(&signal);
             if polite && ORDERLY.load(SeqCst) && !STOP.swap(true, SeqCst) {
                 continue;
             }
