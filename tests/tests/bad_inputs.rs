@@ -452,7 +452,7 @@ fn scenes_that_cannot_run() {
             (
                 "dem-run s.toml --set gravity=[0,0]",
                 1,
-                &["s.toml with --set:1:", "number of values: 2", "list of 3"],
+                &["s.toml with --set gravity=[0,0]: ", "number of values: 2", "list of 3"],
             ),
             ("dem-run s.toml --set material.0.name=\"\"", 1, &["material.0.name = \"\"", "is no name"]),
             ("dem-run s.toml --set guards.overlap=0", 1, &["guards.overlap = 0: must"]),

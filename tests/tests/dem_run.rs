@@ -126,7 +126,8 @@ fn another_scene_or_a_damaged_run_is_not_resumed() {
     };
     for (set, part) in [
         ("contact.0.restitution=0.4", "contact.0.restitution was 0.5, now 0.4"),
-        ("fill.0.seed=1", "fill.0.seed is new"),
+        ("fill.0.seed=1", "fill.0.seed = 1 is new"),
+        ("time.dt=1e-6", "time.dt = "),
         ("time.until=0.02", "give a later --until"),
     ] {
         let done = resume("run.mcap", set);
@@ -279,7 +280,7 @@ fn send(signal: &str, child: &std::process::Child) {
 fn a_signal_ends_the_run_with_code_3_and_a_checkpoint_to_go_on_from() {
     let folder = with(&poured());
     let path = |name: &str| folder.path().join(name);
-    for signal in ["-INT", "-TERM"] {
+    for signal in ["-INT", "-HUP", "-TERM"] {
         let child = long_run(folder.path());
         let part = unfinished(folder.path());
         send(signal, &child);

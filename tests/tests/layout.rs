@@ -50,7 +50,7 @@ servo = { direction = [1, 0, 0], force = 1, speed_limit = 0.1 }
 const ASLEEP: &str = r#"[sleep]
 speed = 1
 time = 1e-4
-wake = 5
+wake = 0.5
 [[fill]]
 material = "stone"
 shape = "box:-0.02,-0.02,0,0.02,0.02,0.03"
@@ -91,7 +91,9 @@ count = 5
 fn written(scene: &str) -> String {
     let scene =
         scene::Scene::new("s.toml", HEAD.toml() + &HEAD.floor() + scene, &[], Path::new("")).expect("sound");
-    let plan = scene.plan(Vec::new()).expect("whole");
+    let mut plan = scene.plan(Vec::new()).expect("whole");
+    // Beyond what a scene may say: they sleep as they fall.
+    plan.setup.sleep.iter_mut().for_each(|sleep| sleep.wake *= 10.0);
     let (provenance, how) = (Provenance::default(), Compression::None.into());
     let settings = scene::run::Settings { provenance, how, watched: false, stop: || false };
     let (_, run) = scene::run::run(&scene, plan, None, Vec::new(), settings, &mut |_| ()).expect("it runs");

@@ -71,6 +71,42 @@ fn wrong_scenes_say_where_what_and_what_to_do() {
         ("plane = \"0,0,-0.01,0,0,1\"", "source = \"no.mcap\"", &["no.mcap: cannot read the file"]),
         ("plane = \"0,0,-0.01,0,0,1\"\n", "", &["waits for walls of the command line"]),
         ("0,0,-0.01,0,0,1", "0,0,-0.01,0,0,0", &["wall.0.plane", "no length"]),
+        (
+            "until = 0.01",
+            "until = 0.01\ndt = 1e-6\nsafety = 0.1",
+            &["time.safety = 0.1", "dt = 0.000001 s sets the step"],
+        ),
+        (
+            "name = \"floor\"",
+            "motion = {}",
+            &["s.toml:23:10: wall.0.motion", "add rotate, translate or vibrate"],
+        ),
+        (
+            "name = \"floor\"",
+            "servo = { direction = [0,0,1], force = -10, speed_limit = 1 }",
+            &["wall.0.servo.force = -10 N", "turn the direction round"],
+        ),
+        (
+            "sliding_friction = 0.5",
+            "sliding_friction = { static = 0.2, dynamic = 0.5, speed = 1 }",
+            &["contact.0.sliding_friction.dynamic = 0.5", "static = 0.2", "swap them"],
+        ),
+        (
+            "sliding_friction = 0.5",
+            "rolling_resistance = 0.1",
+            &["s.toml:16:22: contact.0.rolling_resistance = 0.1", "add sliding_friction"],
+        ),
+        (
+            "sliding_friction = 0.5",
+            "sliding_friction = 0\ntwisting_resistance = 0.2",
+            &["contact.0.twisting_resistance = 0.2", "take twisting_resistance out"],
+        ),
+        (
+            "[[fill]]",
+            "[[contact]]\nbetween = [\"sinter\", \"sinter\"]\nrestitution = 0.5\nrolling_resistance = 0.1\n[[fill]]",
+            &["contact.1.rolling_resistance = 0.1", "add sliding_friction"],
+        ),
+        ("[[fill]]", "[sleep]\nspeed = 1e-3\nwake = 1\n[[fill]]", &["sleep.wake = 1", "free fall", "0.1"]),
         ("[time]", "[time]\ndt = 1", &["above the critical step", "sinter"]),
         ("until = 0.01", "", &["time.until", "--until"]),
         ("until = 0.01", "until = 0.01\nsteps = 4", &["unknown key 'steps'"]),
@@ -191,15 +227,26 @@ fn overrides_change_one_key_and_wrong_ones_are_refused() {
     assert_eq!(check("contact.0.restitution=0.3").code, 0);
     assert_eq!(check("time.dt=1e-6").code, 0);
     assert_eq!(check("contact.0.law=hertz").code, 0);
-    for (set, part) in [
-        ("time.dt", "'=' is missing"),
-        ("contact.4.restitution=1", "'contact' has entries 0 to 0, no 4"),
-        ("contact.0.restitutio=1", "did you mean 'restitution'?"),
-        ("fill.0.diameter.9=1", "no 9"),
-        ("contact.0.restitution=7", "contact.0.restitution = 7"),
+    for (set, code, part) in [
+        ("time.dt", 2, "'=' is missing"),
+        ("=1", 2, "a part of the key is empty"),
+        ("contact.4.restitution=1", 2, "'contact' has entries 0 to 0, no 4"),
+        ("contact.0.restitutio=1", 1, "did you mean 'restitution'?"),
+        ("fill.0.diameter.9=1", 2, "no 9"),
+        (
+            "material.0.young=1",
+            1,
+            "material 'sinter' has young = 1 Pa, which makes the step so long: give it in Pa (1 MPa is 1e6",
+        ),
+        (
+            "contact.0.restitution=7",
+            1,
+            "s.toml with --set contact.0.restitution=7: contact.0.restitution = 7",
+        ),
+        ("time=3", 1, "s.toml with --set time=3: wrong kind of value: integer '3', expected a table"),
     ] {
         let done = check(set);
-        assert!(done.code == 1 && done.stderr.contains(part), "{set}: {}", done.stderr);
+        assert!(done.code == code && done.stderr.contains(part), "{set}: {}", done.stderr);
     }
 }
 
@@ -243,6 +290,78 @@ fn particles_come_from_csv_and_walls_name_their_own_material() {
     fs::write(folder.path().join("p.csv"), "id,x,y,z,radius\n7,0,0,0.1,0.01\n7,0.05,0,0.1,0.01\n").unwrap();
     let done = tool(folder.path(), "dem-run", &["s.toml", "-o", "run2.mcap"]);
     assert!(done.code == 1 && done.stderr.contains("id 7 is used twice"), "{}", done.stderr);
+}
+
+/// Everyday files of spreadsheets, and what is told of files and numbers that can be meant but hardly are.
+#[test]
+fn doubtful_particles_and_materials_are_told() {
+    let folder = tempdir().unwrap();
+    let from_file = SCENE.replace(
+        "shape = \"box:0,0,0,0.1,0.1,0.1\"\ndiameter = [0.01, 0.02]\ncount = 5",
+        "source = \"p.csv\"",
+    );
+    let from_file = from_file.replace("[[fill]]", "[[particles]]");
+    let check = |scene: &str, csv: &str| {
+        fs::write(folder.path().join("s.toml"), scene).unwrap();
+        fs::write(folder.path().join("p.csv"), csv).unwrap();
+        let done = tool(folder.path(), "dem-run", &["s.toml", "--check"]);
+        (done.code, done.stderr)
+    };
+    let one = "x,y,z,radius\n0,0,0.1,0.01\n";
+    let told = |scene: &str, csv: &str, code: i32, parts: &[&str]| {
+        let (found, said) = check(scene, csv);
+        let all = parts.iter().all(|part| said.contains(part));
+        assert!(found == code && all, "{csv}: {found}: wanted {parts:?} in: {said}");
+        assert_eq!(said.contains("warning"), code == 0 && !parts.is_empty(), "{said}");
+    };
+    told(&from_file, one, 0, &[]);
+    told(&from_file, &format!("\u{feff}{one}"), 0, &[]);
+    let (code, said) = check(&from_file, "x,y,z,radius\n");
+    assert!(code == 1 && said.contains("p.csv: holds no particle"), "{said}");
+    told(&from_file, "X,Y,Z,Radius\n0,0,0.1,0.01\n", 1, &["'X' is there: did you mean 'x'?"]);
+    told(&from_file, "x,y,z,radius,VX\n0,0,0.1,0.01,1\n", 0, &["'VX' is not used", "did you mean vx?"]);
+    let contradicts = ["row 0: radius 0.01 m and diameter 0.01 m contradict each other"];
+    told(&from_file, "x,y,z,radius,diameter\n0,0,0.1,0.01,0.01\n", 1, &contradicts);
+    told(&from_file, "x,y,z,radius,diameter\n0,0,0.1,0.01,0.02\n", 0, &[]);
+    let spin = "x,y,z,radius,wy\n0,0,0.1,0.01,50\n";
+    told(&from_file, spin, 0, &[]);
+    let smooth = from_file.replace("sliding_friction = 0.5\n", "");
+    told(&smooth, spin, 0, &["p.csv: the spins", "not kept", "sliding_friction"]);
+    let deep = "id,x,y,z,radius\n4,0,0,0.1,0.01\n9,0.0185,0,0.1,0.01\n";
+    told(
+        &from_file,
+        deep,
+        0,
+        &["particles 4 and 9 overlap by 1.500e-3 m", "15.0 % of the smaller radius", "[[fill]]"],
+    );
+    told(&from_file, &deep.replace("0.0185", "0.01995"), 0, &[]);
+    told(
+        &from_file,
+        "x,y,z,radius\n0,0,-0.001,0.01\n",
+        0,
+        &["particle 0 and wall 'floor' overlap by 1.000e-3 m"],
+    );
+    told(
+        &from_file.replace("until = 0.01", "until = 1"),
+        "x,y,z,radius\n0,0,30,10\n",
+        0,
+        &["particle 0: radius = 10 m", "metres", "10 mm are 0.01"],
+    );
+    for (from, to, parts) in [
+        (
+            "density = 3300",
+            "density = 3.3",
+            ["s.toml:6:11: material.0.density = 3.3 kg/m³", "if g/cm³ are meant, write 3300"],
+        ),
+        (
+            "density = 3300",
+            "density = 3.3e6",
+            ["material.0.density = 3300000 kg/m³", "if g/m³ are meant, write 3300"],
+        ),
+        ("young = 2e8", "young = 2e13", ["material.1.young", "stiffer than diamond"]),
+    ] {
+        told(&from_file.replace(from, to), one, 0, &parts);
+    }
 }
 
 /// Every effect of contact: its key reaches the engine, and `--explain` says what it takes.

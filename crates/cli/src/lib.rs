@@ -22,6 +22,7 @@
 //!
 //! `-q`, `--threads` and `--report` are added to every tool by [`run`]; exit codes are in [`exit`].
 
+mod clash;
 pub mod exit;
 mod input;
 mod memory;
@@ -32,6 +33,7 @@ mod report;
 mod run;
 mod signals;
 
+pub use clash::also_reads;
 pub use exit::{Stopped, Usage, usage};
 pub use input::{Input, Source};
 pub use output::{CloudOutput, Output, OutputStream};

@@ -2,6 +2,7 @@
 
 use crate::{
     Report, Source, Stopped,
+    clash::{self, OUTPUTS},
     exit::{self, code, one_line, reader_closed_the_pipe},
     output::OutputStream,
 };
@@ -98,7 +99,7 @@ pub fn run<A: clap::Parser>(name: &'static str, work: impl FnOnce(A) -> anyhow::
     };
     let arguments = canonical(&command::<A>(name), &matches);
     let _ = INVOCATION.set(Invocation { tool: name, arguments, quiet: common.quiet });
-    let outcome = not_an_input(&command::<A>(name), &matches)
+    let outcome = clash::refuse(&command::<A>(name), &matches)
         .and_then(|()| set_threads(&common))
         .and_then(|()| work(args));
     let (report, error) = match outcome {
@@ -170,39 +171,20 @@ fn set_threads(common: &Common) -> anyhow::Result<()> {
         .with_context(|| format!("--threads {threads}: cannot start them"))
 }
 
-/// Refuses an output that would replace what the same call reads.
-fn not_an_input(command: &Command, matches: &ArgMatches) -> anyhow::Result<()> {
-    let mut inputs = Vec::new();
-    for argument in command.get_arguments() {
-        let sources = matches.try_get_many::<Source>(argument.get_id().as_str()).ok().flatten();
-        inputs.extend(sources.into_iter().flatten().filter_map(Source::path).filter_map(real));
-    }
-    for (id, flag) in [("output", "-o"), ("report", "--report")] {
-        let Some(path) = matches.try_get_one::<PathBuf>(id).ok().flatten() else { continue };
-        if real(path).is_some_and(|path| inputs.contains(&path)) {
-            return Err(exit::usage(format!(
-                "{flag} {} is also an input: choose another name",
-                path.display()
-            )));
-        }
-    }
-    Ok(())
-}
-
-/// The one name of a file; devices and pipes are not replaced by an output and have none.
-fn real(path: &Path) -> Option<PathBuf> {
-    path.canonicalize().ok().filter(|path| path.is_file())
+/// Whether an option changes nothing in the result.
+fn is_silent(id: &str) -> bool {
+    ["quiet", "threads", "progress", "help", "version"].contains(&id)
+        || OUTPUTS.iter().any(|output| output.0 == id)
 }
 
 /// See [`arguments`].
 fn canonical(command: &Command, matches: &ArgMatches) -> Vec<String> {
-    let silent = ["quiet", "threads", "report", "output", "help", "version"];
     let mut list = Vec::new();
     for argument in command.get_arguments() {
         let id = argument.get_id().as_str();
         let given = matches!(matches.try_contains_id(id), Ok(true))
             && matches.value_source(id) == Some(ValueSource::CommandLine);
-        if !given || silent.contains(&id) || matches.try_get_many::<Source>(id).is_ok() {
+        if !given || is_silent(id) || matches.try_get_many::<Source>(id).is_ok() {
             continue;
         }
         let prefix = argument.get_long().map(|long| format!("--{long}")).unwrap_or_default();

@@ -79,6 +79,9 @@ impl Draft<'_> {
         let ids = columns.indices("id", f64::from(u32::MAX - 1))?;
         self.inputs.push(("particles".to_owned(), crate::wall_file::hash(&table)));
         self.notes.extend(columns.unused(&KNOWN));
+        if positions.is_empty() {
+            self.notes.push(format!("{name}: holds no clump: it has names of columns and no row"));
+        }
         let (first, members) = (self.next_id(), self.clumps.shapes[shape as usize].spheres.len() as u32);
         for k in 0..positions.len() {
             let q = vector[k];

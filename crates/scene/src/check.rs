@@ -1,7 +1,7 @@
 //! Values that a key may have.
 
 use crate::error::{SceneError, ValueError, nearest};
-use crate::model::{Diameter, Drag, DragLaw, Every, Model, OrAuto, Servo, Time, Wall};
+use crate::model::{Diameter, Drag, DragLaw, Every, Model, OrAuto, Servo, Sleep, Time, Wall};
 use crate::text::Text;
 use std::fmt::Display;
 
@@ -95,8 +95,13 @@ impl Check<'_> {
         }
     }
 
-    /// One of `accuracy`, `safety` and `dt` sets the step.
+    /// One of `accuracy`, `safety` and `dt` sets the step; an override of `dt` stands in the place of a `safety` of the file.
     fn accuracy(&self, time: &Time) -> Checked {
+        let overruled = self.text.set_by("time.dt").is_some() && self.text.set_by("time.safety").is_none();
+        if let (Some(safety), OrAuto::Given(dt), false) = (time.safety, time.dt, overruled) {
+            let why = format!("dt = {dt} s sets the step already");
+            return Err(self.wrong("time.safety", safety, &why, "take one of them out"));
+        }
         let Some(accuracy) = time.accuracy else { return Ok(()) };
         self.within("time.accuracy", accuracy.0, 1e-9, 1.0, "")?;
         let shown = format!("{} %", geom::Shown(100.0 * accuracy.0));
@@ -136,6 +141,7 @@ impl Check<'_> {
         self.positive_if("guards.motion", m.guards.motion, "")?;
         self.positive_if("guards.energy", m.guards.energy, "")?;
         self.within("first_id", f64::from(m.first_id), 0.0, 4e9, "")?;
+        m.sleep.as_ref().map_or(Ok(()), |s| self.sleep(s))?;
         self.materials(m)?;
         self.contacts(m)?;
         self.bonds(m)?;
@@ -152,6 +158,16 @@ impl Check<'_> {
             self.length(&format!("inlet.{i}.length"), o.length)?;
         }
         Ok(())
+    }
+
+    fn sleep(&self, s: &Sleep) -> Checked {
+        self.positive("sleep.speed", s.speed, "m/s")?;
+        self.positive("sleep.time", s.time, "s")?;
+        if s.wake > 0.0 && s.wake < 1.0 {
+            return Ok(());
+        }
+        let why = "is outside 0 to 1, both left out: from 1 on, a grain in free fall counts as one at rest";
+        Err(self.wrong("sleep.wake", s.wake, why, "give a share of the weight, such as 0.1"))
     }
 
     fn drag(&self, d: &Drag) -> Checked {
@@ -254,6 +270,11 @@ impl Check<'_> {
         w.servo.as_ref().map_or(Ok(()), |s| self.servo(entry, w, s))?;
         let Some(motion) = &w.motion else { return Ok(()) };
         let key = |k: &str| format!("{entry}.motion.{k}");
+        if motion.rotate.is_none() && motion.translate.is_none() && motion.vibrate.is_none() {
+            let why = "says of no motion what it is";
+            let cure = "add rotate, translate or vibrate, or take it out";
+            return Err(self.wrong(&format!("{entry}.motion"), "{ }", why, cure));
+        }
         self.finite(&key("from"), &[motion.from], "s")?;
         if motion.until.is_some_and(|u| !(u > motion.from)) {
             let value = format!("{} s", motion.until.unwrap_or(0.0));
@@ -290,6 +311,13 @@ impl Check<'_> {
         self.one_of(&format!("{entry}.servo"), &of)?;
         self.finite(&key("force"), &[s.force.unwrap_or(0.0)], "N")?;
         self.finite(&key("stress"), &[s.stress.unwrap_or(0.0)], "Pa")?;
+        for (k, value, unit) in [("force", s.force, "N"), ("stress", s.stress, "Pa")] {
+            if let Some(value) = value.filter(|value| *value < 0.0) {
+                let why = "pulls, and a wall only pushes";
+                let cure = "give it without the sign, and turn the direction round";
+                return Err(self.wrong(&key(k), format!("{value} {unit}"), why, cure));
+            }
+        }
         self.positive_if(&key("area"), s.area, "m²")?;
         if s.stress.is_some() != s.area.is_some() {
             let why = "stress and area make a force together";

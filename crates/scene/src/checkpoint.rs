@@ -110,7 +110,7 @@ impl Checkpoint {
     /// What differs.
     pub(crate) fn fits(&self, scene: &str, inputs: &[(String, String)]) -> Result<(), SceneError> {
         let refuse = |what: String| {
-            let cure = "resume with the scene and inputs of the saved run (only time.until, [output] and [guards] may change)";
+            let cure = "resume with the scene and inputs of the saved run (only time.until, [guards], and every, checkpoint and precision of [output] may change)";
             Err(SceneError::file("--resume", format!("the saved run differs: {what}"), cure))
         };
         let table = |text: &str| {
@@ -144,6 +144,14 @@ impl Checkpoint {
     }
 }
 
+/// The first key of a value, with what it is set to.
+fn leaf(key: String, value: &toml::Value) -> String {
+    match value.as_table().and_then(|table| table.iter().next()) {
+        Some((k, inner)) => leaf(format!("{key}.{k}"), inner),
+        None => format!("{key} = {value}"),
+    }
+}
+
 /// The first key whose values differ.
 fn difference(key: &str, saved: &toml::Value, now: &toml::Value) -> Option<String> {
     use toml::Value::{Array, Table};
@@ -153,8 +161,8 @@ fn difference(key: &str, saved: &toml::Value, now: &toml::Value) -> Option<Strin
             let keys = a.keys().chain(b.keys().filter(|k| !a.contains_key(*k)));
             keys.into_iter().find_map(|k| match (a.get(k), b.get(k)) {
                 (Some(x), Some(y)) => difference(&join(k), x, y),
-                (Some(_), None) => Some(format!("{} is gone", join(k))),
-                _ => Some(format!("{} is new", join(k))),
+                (Some(x), None) => Some(format!("{} is gone", leaf(join(k), x))),
+                (None, y) => y.map(|y| format!("{} is new", leaf(join(k), y))),
             })
         }
         (Array(a), Array(b)) if a.len() == b.len() => {

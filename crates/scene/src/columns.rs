@@ -4,6 +4,9 @@ use crate::error::SceneError;
 use geom::Vec3;
 use stream::Table;
 
+/// Digits that a file may have rounded a diameter to, as a share.
+const ROUNDED: f64 = 1e-3;
+
 /// A table and the stream it came from.
 pub(crate) struct Columns<'a> {
     pub name: &'a str,
@@ -20,7 +23,13 @@ impl Columns<'_> {
     pub(crate) fn numbers(&self, column: &str) -> Result<Vec<f64>, SceneError> {
         let Some(values) = self.optional(column) else {
             let has: Vec<&str> = self.table.columns().iter().map(|c| c.name.as_str()).collect();
-            let why = format!("the column '{column}' is missing");
+            let other = has.iter().find(|name| name.eq_ignore_ascii_case(column));
+            let why = match other {
+                Some(other) => format!(
+                    "the column '{column}' is missing, and '{other}' is there: did you mean '{column}'?"
+                ),
+                None => format!("the column '{column}' is missing"),
+            };
             return Err(SceneError::file(self.name, why, format!("it has {}", has.join(", "))));
         };
         match values.iter().position(|v| !v.is_finite()) {
@@ -60,20 +69,38 @@ impl Columns<'_> {
             1 => format!("column {} is not used", unused[0]),
             _ => format!("columns {} are not used", unused.join(", ")),
         };
-        Some(format!("{}: {what}; known: {}", self.name, known.join(" ")))
+        let names = self.table.columns().iter().map(|c| c.name.as_str()).filter(|n| !known.contains(n));
+        let meant: Vec<&str> =
+            names.flat_map(|n| known.iter().find(|k| k.eq_ignore_ascii_case(n))).copied().collect();
+        let hint =
+            if meant.is_empty() { String::new() } else { format!("; did you mean {}?", meant.join(" ")) };
+        Some(format!("{}: {what}; known: {}{hint}", self.name, known.join(" ")))
     }
 
     /// The column `radius`, or half of `diameter`; above zero.
     pub(crate) fn radii(&self) -> Result<Vec<f64>, SceneError> {
         let radii = match (self.table.get("radius"), self.optional("diameter")) {
             (None, Some(d)) => d.iter().map(|d| d / 2.0).collect(),
-            _ => self.numbers("radius")?,
+            (_, diameters) => self.of_diameters(self.numbers("radius")?, diameters)?,
         };
         match radii.iter().position(|r| !(*r > 0.0 && r.is_finite())) {
             None => Ok(radii),
             Some(row) => {
                 let why = format!("row {row}: radius {} m must be above 0", radii[row]);
                 Err(SceneError::file(self.name, why, "take the row out, or write the file again"))
+            }
+        }
+    }
+
+    /// Radii beside a column of diameters, which must be twice as large.
+    fn of_diameters(&self, radii: Vec<f64>, diameters: Option<Vec<f64>>) -> Result<Vec<f64>, SceneError> {
+        let both = || radii.iter().zip(diameters.iter().flatten());
+        match both().position(|(r, d)| !((2.0 * r - d).abs() <= ROUNDED * d.abs())) {
+            None => Ok(radii),
+            Some(row) => {
+                let (r, d) = (radii[row], diameters.iter().flatten().nth(row).copied().unwrap_or(f64::NAN));
+                let why = format!("row {row}: radius {r} m and diameter {d} m contradict each other");
+                Err(SceneError::file(self.name, why, "leave one of the columns out"))
             }
         }
     }

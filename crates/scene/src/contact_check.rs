@@ -89,9 +89,9 @@ impl Check<'_> {
 
     fn resistances(&self, at: &str, c: &Contact) -> Checked {
         let key = |k: &str| format!("{at}.{k}");
-        for (name, value) in
-            [("rolling_resistance", c.rolling_resistance), ("twisting_resistance", c.twisting_resistance)]
-        {
+        let turning =
+            [("rolling_resistance", c.rolling_resistance), ("twisting_resistance", c.twisting_resistance)];
+        for (name, value) in turning {
             self.within(&key(name), value.unwrap_or(0.0), 0.0, 1e3, "")?;
         }
         match c.sliding_friction {
@@ -101,6 +101,23 @@ impl Check<'_> {
                 self.within(&key("sliding_friction.static"), w.at_rest, 0.0, 1e3, "")?;
                 self.within(&key("sliding_friction.dynamic"), w.dynamic, 0.0, 1e3, "")?;
                 self.positive(&key("sliding_friction.speed"), w.speed, "m/s")?;
+                if w.dynamic > w.at_rest {
+                    let why = format!("is above static = {}: friction weakens with speed", w.at_rest);
+                    let cure = "swap them, or give one number for both";
+                    return Err(self.wrong(&key("sliding_friction.dynamic"), w.dynamic, &why, cure));
+                }
+            }
+        }
+        let rubs = match c.sliding_friction {
+            None => false,
+            Some(Friction::Constant(mu)) => mu > 0.0,
+            Some(Friction::Weakening(w)) => w.at_rest > 0.0,
+        };
+        for (name, value) in turning {
+            if let Some(value) = value.filter(|value| *value > 0.0 && !rubs) {
+                let why = "acts on grains that turn, and nothing turns them without sliding_friction";
+                let cure = format!("add sliding_friction, such as 0.5, or take {name} out");
+                return Err(self.wrong(&key(name), value, why, &cure));
             }
         }
         if c.rolling_model.is_some() && c.rolling_resistance.is_none() {

@@ -62,6 +62,28 @@ pub struct ValueError {
 }
 
 impl SceneError {
+    /// The same about another place.
+    pub(crate) fn at(mut self, there: Place) -> SceneError {
+        match &mut self {
+            SceneError::Syntax { place, .. }
+            | SceneError::UnknownKey { place, .. }
+            | SceneError::NotYet { place, .. } => {
+                *place = there;
+            }
+            _ => {}
+        }
+        self
+    }
+
+    /// Its words without the place.
+    pub(crate) fn without_place(&self) -> String {
+        match self {
+            SceneError::Syntax { message, .. } => message.clone(),
+            SceneError::UnknownKey { key, hint, .. } => format!("{key}{hint}"),
+            other => other.to_string(),
+        }
+    }
+
     /// A file that holds something else than wanted.
     pub(crate) fn file(name: &str, why: impl Into<String>, cure: impl Into<String>) -> SceneError {
         SceneError::File { name: name.to_owned(), why: why.into(), cure: cure.into() }

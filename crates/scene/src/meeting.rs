@@ -48,16 +48,6 @@ impl Draft<'_> {
             let (a, b) = l.between;
             (grain(a) && (grain(b) || walls.contains(&b))) || (grain(b) && walls.contains(&a))
         });
-        // Nothing turns where nothing rubs.
-        if laws.iter().all(|l| l.sliding_friction.is_none()) {
-            let couples = |l: &setup::Contact| [l.rolling_resistance, l.twisting_resistance];
-            for (at, key) in ["rolling_resistance", "twisting_resistance"].into_iter().enumerate() {
-                if laws.iter().any(|l| couples(l)[at].is_some()) {
-                    self.notes.push(format!("{key} is left out: without sliding_friction nothing turns"));
-                }
-            }
-            laws.iter_mut().for_each(|l| (l.rolling_resistance, l.twisting_resistance) = (None, None));
-        }
         laws
     }
 

@@ -1,6 +1,7 @@
 //! From text to keys, with errors that name the place and the nearest known key.
 
 use crate::error::{SceneError, nearest};
+use crate::missing::missing;
 use crate::model::Model;
 use crate::text::Text;
 
@@ -18,9 +19,22 @@ const NOT_YET: &[(&str, &str)] = &[
 /// # Errors
 /// Anything that is no TOML, an unknown key, a value of the wrong type.
 pub(crate) fn parse(text: &Text) -> Result<Model, SceneError> {
+    if text.toml.lines().all(|line| line.trim().is_empty() || line.trim_start().starts_with('#')) {
+        let message =
+            "there is nothing in it: a scene has at least [time], a [[material]] and grains".to_owned();
+        return Err(SceneError::Syntax { place: text.at(None), message });
+    }
     toml::from_str::<Model>(&text.toml).map_err(|e| {
-        let place = text.at(e.span().map(|s| s.start));
+        let start = e.span().map(|s| s.start);
+        let place = text.at(start);
         let message = e.message().trim();
+        if let Some(key) = message.strip_prefix("missing field `").and_then(|rest| rest.strip_suffix('`')) {
+            return SceneError::Syntax { place, message: missing(text, key, start) };
+        }
+        let word = e.span().and_then(|s| text.toml.get(s)).unwrap_or_default().trim();
+        if let Some(message) = written_once(message, word, text.line(start)) {
+            return SceneError::Syntax { place, message };
+        }
         match message.strip_prefix("unknown field `").and_then(|rest| rest.split_once('`')) {
             Some((key, rest)) => unknown_key(place, key, rest),
             None => {
@@ -29,6 +43,17 @@ pub(crate) fn parse(text: &Text) -> Result<Model, SceneError> {
             }
         }
     })
+}
+
+/// Keys and tables that are there twice, and lists of tables that are written as a table; `word` is what the error is about.
+fn written_once(message: &str, word: &str, line: &str) -> Option<String> {
+    if message.starts_with("duplicate key") {
+        return Some(format!("'{word}' is there twice: leave one of them out"));
+    }
+    let list = message.starts_with("invalid type: map, expected a sequence");
+    let head = line.trim().strip_prefix('[').filter(|head| list && !head.starts_with('['))?;
+    let name = head.split(']').next().unwrap_or_default().trim();
+    Some(format!("[{name}] is one of a list: write it as [[{name}]]"))
 }
 
 fn unknown_key(place: crate::error::Place, key: &str, expected: &str) -> SceneError {
@@ -51,6 +76,7 @@ fn plain(message: &str) -> String {
             "f64" => "a number, such as 0.5",
             "u8" | "u16" | "u32" | "u64" | "usize" => "a whole number from 0",
             "i64" => "a whole number",
+            "struct" => "a table: name one of its keys, such as time.until",
             "a" if kind.starts_with("a sequence") => "a list, such as [0, 0, 1]",
             _ => kind,
         };
@@ -100,6 +126,35 @@ mod tests {
         let message = refused("[time]\n[[contact]]\nbetween=[\"*\",\"*\"]\nrestitution=1\nlaw=\"herz\"");
         assert!(message.contains("did you mean 'hertz'?"), "{message}");
         assert!(refused("[time\n").starts_with("s.toml:1:"));
+    }
+
+    #[test]
+    fn everyday_mistakes_name_the_cure() {
+        assert_eq!(
+            refused("# all\n\n"),
+            "s.toml: there is nothing in it: a scene has at least [time], a [[material]] and grains"
+        );
+        let contact = "between = [\"*\", \"*\"]\nrestitution = 1\n";
+        let message = refused(&format!("[time]\nuntil = 1\n[contact]\n{contact}"));
+        assert!(
+            message.starts_with("s.toml:3:1: ") && message.ends_with("write it as [[contact]]"),
+            "{message}"
+        );
+        assert!(
+            refused("time = 3").contains("expected a table: name one of its keys"),
+            "{}",
+            refused("time = 3")
+        );
+        let message = refused(&format!("[[contact]]\n{contact}[[contact]]\nbetween = [\"*\", \"*\"]\n"));
+        let wanted = "s.toml:4:1: contact.1: 'restitution' is missing: add it, such as restitution = 0.5";
+        assert_eq!(message, wanted);
+        let message = refused("[[wall]]\nmotion = { rotate = { about = [0,0,1], rpm = 1 } }\n");
+        assert!(
+            message.contains("wall.0.motion.rotate: 'through' is missing") && message.contains("(m)"),
+            "{message}"
+        );
+        let message = refused("[time]\nuntil = 1\nuntil = 2\n");
+        assert!(message.starts_with("s.toml:3:1: 'until' is there twice"), "{message}");
     }
 
     #[test]

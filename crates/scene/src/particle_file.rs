@@ -88,7 +88,9 @@ fn from_table(name: &str, table: &Table, materials: Vec<MaterialInfo>) -> Result
         spin: spins[i],
     };
     let particles = (0..positions.len()).map(particle).collect();
-    let (hash, note) = (crate::wall_file::hash(table), columns.unused(&KNOWN));
+    let empty = || Some(format!("{name}: holds no particle: it has names of columns and no row"));
+    let note = if table.rows() == 0 { empty() } else { columns.unused(&KNOWN) };
+    let hash = crate::wall_file::hash(table);
     Ok(ParticleFile { particles, has_ids: ids.is_some(), materials, hash, note })
 }
 
@@ -117,7 +119,8 @@ fn csv(name: &str, bytes: &[u8]) -> Result<Table, SceneError> {
     let wrong = |why: String| {
         SceneError::file(name, why, "wanted: a line of names such as id,x,y,z,radius, then numbers")
     };
-    let text = std::str::from_utf8(bytes);
+    // Spreadsheets mark UTF-8 with three bytes in front.
+    let text = std::str::from_utf8(bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes));
     let text = text.map_err(|e| wrong(format!("byte {}: is no text, PLY or MCAP", e.valid_up_to())))?;
     let split = |line: &str| -> Vec<String> {
         line.split(|c: char| c == ',' || c == ';' || c.is_whitespace())

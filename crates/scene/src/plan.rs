@@ -58,6 +58,7 @@ pub(crate) struct Draft<'a> {
     /// The like without members of clumps.
     pub sphere_sizes: Option<Sizes>,
     pub feeds: Feeds,
+    pub read: crate::doubts::Read,
     pub notes: Vec<String>,
     pub inputs: Vec<(String, String)>,
 }
@@ -131,6 +132,7 @@ impl<'a> Draft<'a> {
             entry_sizes: None,
             sphere_sizes: None,
             feeds: Feeds { faucets: Vec::new(), streams: Vec::new() },
+            read: crate::doubts::Read::default(),
             notes: Vec::new(),
             inputs: vec![("scene".to_owned(), crate::sha256(&scene.text.toml))],
         }
@@ -211,6 +213,7 @@ impl<'a> Draft<'a> {
             let file = particle_file::read(&self.path(&entry.source))?;
             self.inputs.push(("particles".to_owned(), file.hash.clone()));
             self.notes.extend(file.note.clone());
+            self.read.file(&entry.source, &file, self.particles.len());
             let key = format!("particles.{i}.material");
             let materials: Vec<u16> = match (&entry.material, &file.materials[..]) {
                 (Some(name), _) => vec![self.grain(&key, name)?.0],
@@ -272,6 +275,7 @@ impl<'a> Draft<'a> {
         let largest = sizes.map_or(0.0, |s| s.largest);
         let contacts = contacts::resolve(&self.check, &model.contact, &self.materials, largest)?;
         let contacts = self.meeting(contacts);
+        self.doubts(&contacts);
         let bonds = bonds::resolve(&self.check, &model.bond, &self.materials)?;
         let (safety, step) = crate::accuracy::choose(&self.check, &model.time, &contacts)?;
         // The engine wants a density of every material, also of walls, whose mass plays no part.

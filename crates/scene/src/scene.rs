@@ -24,15 +24,39 @@ impl Scene {
     /// # Errors
     /// What is wrong, with line and column, key, value, unit and cure.
     pub fn new(name: &str, toml: String, overrides: &[String], folder: &Path) -> Result<Scene, SceneError> {
-        let mut text = Text::new(name, toml);
+        let mut text = Text::new(name, toml.clone());
         if !overrides.is_empty() {
             // Errors of the file itself are told with the places of the file itself.
             parse(&text)?;
             text.set(overrides)?;
-            text.name = format!("{name} with --set");
         }
-        let model = parse(&text)?;
+        let model = parse(&text).map_err(|error| blame(error, name, &toml, overrides))?;
         Check { text: &text }.model(&model)?;
         Ok(Scene { text, model, folder: folder.to_owned() })
+    }
+
+    /// Every file that the scene names; whether it is there is not looked at. Shapes that can be filled name none.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let m = &self.model;
+        let particles = m.particles.iter().map(|p| p.source.as_str());
+        let walls = m.wall.iter().flat_map(|w| w.source.iter().chain(&w.mesh)).map(String::as_str);
+        let clumps = m.clump.iter().filter_map(|c| c.mesh.as_deref());
+        let inlets = m.inlet.iter().filter_map(|i| i.source.as_deref());
+        particles.chain(walls).chain(clumps).chain(inlets).map(|f| self.folder.join(f)).collect()
+    }
+}
+
+/// What the file itself is not wrong about is told with the overrides that are: the reader does not see the changed text.
+fn blame(error: SceneError, name: &str, toml: &str, overrides: &[String]) -> SceneError {
+    let alone = |text: &&String| {
+        let mut changed = Text::new(name, toml.to_owned());
+        changed.set(std::slice::from_ref(*text)).is_ok()
+            && parse(&changed).is_err_and(|other| other.without_place() == error.without_place())
+    };
+    let guilty: Vec<&str> = overrides.iter().filter(alone).map(String::as_str).collect();
+    let all: Vec<&str> = overrides.iter().map(String::as_str).collect();
+    match overrides {
+        [] => error,
+        _ => error.at(Text::new(name, String::new()).changes(if guilty.is_empty() { &all } else { &guilty })),
     }
 }

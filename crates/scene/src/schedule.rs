@@ -48,7 +48,7 @@ impl Schedule {
         let last = nearest(until, dt);
         if last == 0 {
             let why = format!("is less than half the time step, {dt:.4e} s");
-            return Err(check.wrong("time.until", format!("{until} s"), &why, "run longer"));
+            return Err(check.wrong("time.until", format!("{until} s"), &why, &longer(scene)));
         }
         Ok(Schedule { dt, last, every, checkpoint: output.checkpoint })
     }
@@ -67,6 +67,18 @@ impl Schedule {
         let k = (step as f64 * self.dt / every).round();
         // Rounding may move the nearest multiple by one.
         [k - 1.0, k, k + 1.0].iter().any(|k| *k >= 0.0 && nearest(k * every, self.dt) == step)
+    }
+}
+
+/// What to do about a step that is too long for the run: it may be of a modulus in another unit.
+fn longer(scene: &Scene) -> String {
+    let softest = scene.model.material.iter().min_by(|a, b| a.young.total_cmp(&b.young));
+    match softest.filter(|m| m.young < crate::doubts::SOFT) {
+        Some(m) => format!(
+            "material '{}' has young = {} Pa, which makes the step so long: give it in Pa (1 MPa is 1e6, 1 GPa is 1e9)",
+            m.name, m.young
+        ),
+        None => "run longer".to_owned(),
     }
 }
 

@@ -10,12 +10,14 @@ pub struct Text {
     pub name: String,
     /// What it holds.
     pub toml: String,
+    /// What it held before it was changed, and the changes.
+    changed: Option<(String, Vec<String>)>,
 }
 
 impl Text {
     /// A scene's text under the name of its file.
     pub fn new(name: &str, toml: String) -> Text {
-        Text { name: name.to_owned(), toml }
+        Text { name: name.to_owned(), toml, changed: None }
     }
 
     /// Changes values: each override is `KEY=VALUE`, the key dotted with indices for lists
@@ -36,8 +38,37 @@ impl Text {
             let path: Vec<&str> = key.trim().split('.').collect();
             put(document.as_table_mut(), &path, parse_value(value.trim())).map_err(refuse)?;
         }
-        self.toml = document.to_string();
+        let written = std::mem::replace(&mut self.toml, document.to_string());
+        self.changed = Some((written, overrides.to_vec()));
         Ok(())
+    }
+
+    /// The override that a key's value comes from, or that leads to or through it.
+    pub(crate) fn set_by(&self, key: &str) -> Option<&str> {
+        let leads = |to: &str, key: &str| {
+            key.strip_prefix(to).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+        };
+        let names = |text: &&String| {
+            let to = text.split('=').next().unwrap_or_default().trim();
+            // Of a whole entry, something else may be wrong than what was changed in it.
+            leads(to, key) || (leads(key, to) && !key.ends_with(|c: char| c.is_ascii_digit()))
+        };
+        self.changed
+            .iter()
+            .flat_map(|(_, overrides)| overrides.iter().rev().find(names))
+            .map(String::as_str)
+            .next()
+    }
+
+    /// The text before its changes; `None` where there are none.
+    pub(crate) fn written(&self) -> Option<Text> {
+        self.changed.as_ref().map(|(toml, _)| Text::new(&self.name, toml.clone()))
+    }
+
+    /// What a reader has to look at who sees only the file: the changes.
+    pub(crate) fn changes(&self, overrides: &[&str]) -> Place {
+        let list: String = overrides.iter().map(|text| format!(" --set {text}")).collect();
+        Place { file: format!("{} with{list}", self.name), at: None }
     }
 
     /// The text as a document that can be edited.
@@ -61,8 +92,22 @@ impl Text {
         Place { file: self.name.clone(), at }
     }
 
+    /// The line that holds a byte.
+    pub(crate) fn line(&self, offset: Option<usize>) -> &str {
+        let at = self.toml.floor_char_boundary(offset.unwrap_or(self.toml.len()));
+        let (before, after) = self.toml.split_at(at);
+        let start = before.rfind('\n').map_or(0, |i| i + 1);
+        &self.toml[start..at + after.find('\n').unwrap_or(after.len())]
+    }
+
     /// Where the value of a dotted key stands; its nearest written parent when it is not written.
     pub(crate) fn place(&self, key: &str) -> Place {
+        if let Some(text) = self.set_by(key) {
+            return self.changes(&[text]);
+        }
+        if let Some(written) = self.written() {
+            return written.place(key);
+        }
         let Ok(document) = toml_edit::Document::parse(self.toml.as_str()) else { return self.at(None) };
         let mut item: &Item = document.as_item();
         let mut found = None;

@@ -98,7 +98,9 @@ fn read(file: &str, sets: &[String]) -> anyhow::Result<Value> {
 fn checked(file: &str, sets: &[String]) -> anyhow::Result<Scene> {
     let text =
         std::fs::read_to_string(file).with_context(|| format!("{file}: cannot open it (check the path)"))?;
-    Ok(Scene::new(file, text, sets, Path::new(file).parent().unwrap_or(Path::new("")))?)
+    let scene = Scene::new(file, text, sets, Path::new(file).parent().unwrap_or(Path::new("")))?;
+    cli::also_reads(scene.files())?;
+    Ok(scene)
 }
 
 fn job(

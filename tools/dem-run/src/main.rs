@@ -8,12 +8,15 @@ use clap::Parser;
 use cli::{Output, Report, Source, Stopped};
 use parts::Saved;
 use scene::run::{RunError, SIGNAL, Settings, run};
-use scene::{Checkpoint, Input, Moment, Plan, Scene};
+use scene::{Checkpoint, Input, Moment, Plan, Scene, SceneError};
 use std::fs::File;
-use std::io::{self, BufRead, BufReader};
+use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 use std::process::ExitCode;
 use watch::Watch;
+
+/// What an MCAP file begins with.
+const MCAP: [u8; 5] = *b"\x89MCAP";
 
 /// Runs a DEM scene and writes a run MCAP (walls, frames, crossings, checkpoints)
 #[derive(Parser)]
@@ -61,6 +64,10 @@ fn in_scene(error: anyhow::Error, scene: String) -> anyhow::Error {
 fn dem_run(args: Args) -> anyhow::Result<Report> {
     Source::one_stdin([&args.scene].into_iter().chain(&args.inputs).chain(&args.resume))?;
     let scene = read_scene(&args)?;
+    cli::also_reads(scene.files())?;
+    if args.explain {
+        no_run(&args.output)?;
+    }
     let resumed = args.resume.as_ref().map(parts::resumed).transpose()?;
     let resume = match &resumed {
         Some(source) => Some(Checkpoint::last(&source.to_string(), source.open()?)?),
@@ -79,6 +86,20 @@ fn dem_run(args: Args) -> anyhow::Result<Report> {
     scene::run::ready(&scene, &plan)?;
     parts::say(&args.output, resumed.as_ref());
     simulate(&args, &scene, plan, resume)
+}
+
+/// Refuses to put the words of `--explain` where a run is, or will be looked for.
+fn no_run(output: &Output) -> anyhow::Result<()> {
+    let Some(path) = output.path() else { return Ok(()) };
+    let mut head = [0; MCAP.len()];
+    let holds = File::open(path).and_then(|mut file| file.read_exact(&mut head)).is_ok() && head == MCAP;
+    if !holds && !output.has_extension("mcap") {
+        return Ok(());
+    }
+    let (path, what) = (path.display(), if holds { "holds a run" } else { "is the name of a run" });
+    Err(cli::usage(format!(
+        "-o {path} {what}, and --explain writes text: leave -o out, or choose another name, such as FILE.txt"
+    )))
 }
 
 /// Refuses a file that is given twice, also under two names.
@@ -126,7 +147,11 @@ fn read_scene(args: &Args) -> anyhow::Result<Scene> {
     let mut overrides = args.set.clone();
     overrides.extend(args.until.map(|s| format!("time.until={s:?}")));
     let folder = args.scene.path().and_then(Path::parent).unwrap_or(Path::new(""));
-    Ok(Scene::new(&args.scene.to_string(), args.scene.read_text()?, &overrides, folder)?)
+    let scene = Scene::new(&args.scene.to_string(), args.scene.read_text()?, &overrides, folder);
+    scene.map_err(|error| match error {
+        SceneError::Override { .. } => cli::usage(error.to_string()),
+        other => other.into(),
+    })
 }
 
 fn explain(args: &Args, scene: &Scene, plan: Plan) -> anyhow::Result<Report> {

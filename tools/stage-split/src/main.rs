@@ -18,6 +18,7 @@ fn main() -> ExitCode {
 fn stage_split(args: Args) -> anyhow::Result<Report> {
     let folder = args.scene.path().and_then(Path::parent).unwrap_or(Path::new("")).to_owned();
     let scene = Scene::new(&args.scene.to_string(), args.scene.read_text()?, &[], &folder)?;
+    cli::also_reads(scene.files())?;
     let (text, gone) = split(&scene, &args.cut())?;
     let mut out = args.output.open_text()?;
     out.write_all(text.as_bytes()).context("cannot write the scene")?;

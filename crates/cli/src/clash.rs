@@ -1,0 +1,114 @@
+//! Outputs that would replace what the same call reads, or each other.
+
+use crate::{Source, exit::usage};
+use clap::{Arg, ArgMatches, Command};
+use std::{
+    path::{Path, PathBuf},
+    sync::OnceLock,
+};
+
+/// Options that name a file to write, in any tool: id and flag. None of them changes the result.
+pub(crate) const OUTPUTS: [(&str, &str); 6] = [
+    ("output", "-o"),
+    ("report", "--report"),
+    ("plot", "--plot"),
+    ("changes", "--changes"),
+    ("mesh", "--mesh"),
+    ("words", "--words"),
+];
+
+/// A file that the running tool will write.
+struct Named {
+    flag: &'static str,
+    path: PathBuf,
+    /// Its one name.
+    file: PathBuf,
+}
+
+static WRITTEN: OnceLock<Vec<Named>> = OnceLock::new();
+
+/// Refuses an output of the command line that is also one of its inputs, or another output.
+///
+/// # Errors
+/// Wrong usage.
+pub(crate) fn refuse(command: &Command, matches: &ArgMatches) -> anyhow::Result<()> {
+    let outputs = outputs(matches);
+    for (n, later) in outputs.iter().enumerate() {
+        if let Some(earlier) = outputs[..n].iter().find(|earlier| earlier.file == later.file) {
+            let (flag, path) = (later.flag, later.path.display());
+            return Err(usage(format!("{flag} {path} is also {}: choose another name", earlier.flag)));
+        }
+    }
+    let outputs = WRITTEN.get_or_init(|| outputs);
+    against(outputs, command.get_arguments().flat_map(|argument| read_by(argument, matches)))
+}
+
+/// Refuses an output of the command line that is one of `files`, which the tool is about to read: those that a scene names.
+///
+/// # Errors
+/// Wrong usage.
+pub fn also_reads(files: impl IntoIterator<Item = PathBuf>) -> anyhow::Result<()> {
+    WRITTEN.get().map_or(Ok(()), |outputs| against(outputs, files))
+}
+
+fn against(outputs: &[Named], inputs: impl IntoIterator<Item = PathBuf>) -> anyhow::Result<()> {
+    if outputs.is_empty() {
+        return Ok(());
+    }
+    for input in inputs {
+        let Some(file) = real(&input) else { continue };
+        if let Some(Named { flag, path, .. }) = outputs.iter().find(|output| output.file == file) {
+            let known = path.file_name() == input.file_name();
+            let (path, input) = (path.display(), input.display());
+            let also = if known { String::new() } else { format!(" ({input})") };
+            return Err(usage(format!("{flag} {path} is also an input{also}: choose another name")));
+        }
+    }
+    Ok(())
+}
+
+fn outputs(matches: &ArgMatches) -> Vec<Named> {
+    let named = |&(id, flag): &(&str, &'static str)| {
+        let path = matches.try_get_one::<PathBuf>(id).ok().flatten()?.clone();
+        let file = if flag == "-o" && path == Path::new("-") { None } else { written(&path) };
+        file.map(|file| Named { flag, path, file })
+    };
+    OUTPUTS.iter().filter_map(named).collect()
+}
+
+/// The files that an argument names for reading; what is none does no harm.
+fn read_by(argument: &Arg, matches: &ArgMatches) -> Vec<PathBuf> {
+    let id = argument.get_id().as_str();
+    if OUTPUTS.iter().any(|output| output.0 == id) {
+        return Vec::new();
+    }
+    let values = matches.try_get_raw(id).ok().flatten().into_iter().flatten();
+    let whole = argument.is_positional()
+        || matches!(matches.try_get_many::<Source>(id), Ok(Some(_)))
+        || argument.get_value_names().is_some_and(|names| names.iter().any(|name| name.contains("FILE")));
+    let path = |value: &std::ffi::OsStr| match whole {
+        true => Some(PathBuf::from(value)),
+        false => in_shape(value.to_str()?).map(PathBuf::from),
+    };
+    values.filter_map(path).collect()
+}
+
+/// The file of a SHAPE such as `!mesh:stone.ply`.
+fn in_shape(text: &str) -> Option<&str> {
+    let (kind, file) = text.trim_start_matches('!').split_once(':')?;
+    matches!(kind, "mesh" | "prism").then_some(file)
+}
+
+/// The one name of a file; devices and pipes are not replaced by an output and have none.
+fn real(path: &Path) -> Option<PathBuf> {
+    path.canonicalize().ok().filter(|path| path.is_file())
+}
+
+/// The like of a file that need not be there yet.
+fn written(path: &Path) -> Option<PathBuf> {
+    if path.exists() {
+        return real(path);
+    }
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    Some(folder.canonicalize().ok()?.join(path.file_name()?))
+}
