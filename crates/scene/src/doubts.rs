@@ -60,7 +60,7 @@ impl Draft<'_> {
         let deep = self.deepest().filter(|deep| deep.share > DEEP && deep.share <= most);
         self.notes.extend(deep.map(|Deep { who, overlap, share }| {
             format!(
-                "{who} overlap by {overlap:.3e} m at the start, {:.1} % of the smaller radius, and will spring apart: move them apart, make \
+                "{who} overlap by {overlap:.3e} m at the start, {:.1} % of the smaller radius, and spring apart where nothing presses on them: move them apart, make \
                  them smaller, let [[fill]] place them, or let them settle in a run of its own with much damping",
                 100.0 * share
             )
