@@ -1,7 +1,7 @@
 //! Contact effects: each is one file, written once for any lane, and composed by type.
 //!
 //! `(A, B)` applies A, then B; its memory is A's and B's. `()` is no effect, no code, no memory. The scene
-//! picks the composition once, outside the time loop ([`crate::interaction`]).
+//! picks the composition once, outside the time loop (`law::compose`).
 
 mod capped_spring;
 mod cohesion;

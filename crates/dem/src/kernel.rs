@@ -291,7 +291,7 @@ fn lanes<R: Lane, E: Effect, T: Number, const KEEP: bool>(
         T::store_rows4([c.x, c.y, c.z, zero], &mut hand.couples);
     }
     if E::ROTATES {
-        // Of a particle of radius 1: each takes it times its own.
+        // Of a particle of radius −1: each takes it times minus its own.
         let moment = V::select(touching, normal.cross(load.tangential).scale(share), V::zero());
         let row = [force.x, force.y, force.z, zero, moment.x, moment.y, moment.z, zero];
         T::store_rows(row, &mut hand.loads);

@@ -234,7 +234,9 @@ impl<'a> Part<'a> {
                 let (form, columns) = (self.form, kind.kernel.columns());
                 let memory = s.memory - self.from.memory;
                 let memory = &mut self.memory[memory..memory + s.places.len() * form.memory(columns)];
-                let mut slots = Slots { memory, form, first: 0, columns };
+                let active = (s.places.start - self.from.place) / BLOCK;
+                let active = &mut self.active[active..active + s.places.len() / BLOCK];
+                let mut slots = Slots { memory, active, form, first: 0, columns };
                 let mut from = 0;
                 while from < s.len {
                     let to = from + i[from..].iter().take_while(|&&k| k == i[from]).count();

@@ -11,6 +11,19 @@ pub const FAR: [Row; 2] = [
     Row([-1e150, -1e150, -1e150, 0.0, 0.0, 0.0, 0.0, 1.0]),
 ];
 
+/// How far away those are put that are out of the calculation [m]: no wall and no grain of a scene gets there.
+const AWAY: f64 = 1e100;
+
+/// Where row `k` waits until the next listing drops it: each in a place of its own, because two at one place would overlap.
+pub fn away(k: usize) -> [f64; 3] {
+    [-AWAY * (k + 1) as f64; 3]
+}
+
+/// Whether a row is out of the calculation. Its distance from a plane may be any number, also 0: it is not to be asked for.
+pub fn is_away(row: &Row) -> bool {
+    row[0] <= -AWAY
+}
+
 /// Columns, one entry a particle; `rows` and `spins` have two more ([`FAR`]).
 ///
 /// Positions are those of the step; velocities and spins are predicted for it from the acceleration of the step

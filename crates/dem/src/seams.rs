@@ -10,6 +10,7 @@
 //! a neighbour counts that remembers nothing, the neighbour takes over (the nearest one, within a quarter of r: contact points
 //! move less in a step). The spring is turned into the new tangent plane by the effect itself.
 
+use crate::lane::BLOCK;
 use crate::number::Form;
 use geom::Vec3;
 use geom::triangle::{Feature, closest_feature};
@@ -84,6 +85,8 @@ pub fn count(near: &mut [Nearest], radius: f64, reach: f64) {
 pub struct Slots<'a> {
     /// Of the whole segment, by block and column.
     pub memory: &'a mut [f64],
+    /// Whether each block of it may hold any.
+    pub active: &'a mut [bool],
     /// How it is kept.
     pub form: Form,
     /// First of the places.
@@ -95,7 +98,8 @@ pub struct Slots<'a> {
 impl Slots<'_> {
     /// The same from place `by` on.
     pub fn from(&mut self, by: usize) -> Slots<'_> {
-        Slots { memory: self.memory, form: self.form, first: self.first + by, columns: self.columns }
+        let Slots { memory, active, form, first, columns } = self;
+        Slots { memory, active, form: *form, first: *first + by, columns: *columns }
     }
 
     fn at(&self, k: usize, column: usize) -> usize {
@@ -125,7 +129,31 @@ impl Slots<'_> {
                     self.form.put(self.memory, to, x);
                     self.form.put(self.memory, from, 0.0);
                 }
+                // Or a block in which nothing touches is passed over, by as many contacts as are computed at once.
+                self.active[(self.first + m) / BLOCK] = true;
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is handed to a contact in a block that was passed over is computed from then on, all of the block.
+    #[test]
+    fn a_block_that_is_given_memory_is_active() {
+        let triangle = [Vec3::zeros(), Vec3::x(), Vec3::y()];
+        let form = Form::default();
+        let (mut memory, mut active) = (vec![0.0; 2 * BLOCK], [true, false]);
+        let at = |k: usize| form.memory_at(0, k, 0, 1);
+        form.put(&mut memory, at(7), 3.0);
+        // The grain's triangles are the last of one block and the first of the next.
+        let mut near = [Nearest::of(triangle, Vec3::new(0.2, 0.2, 1.0)); 2];
+        near[1].counts = true;
+        let mut slots = Slots { memory: &mut memory, active: &mut active, form, first: 0, columns: 1 };
+        slots.from(7).hand_over(&near, 1.0);
+        assert_eq!((form.get(&memory, at(7)), form.get(&memory, at(8))), (0.0, 3.0));
+        assert_eq!(active, [true, true]);
     }
 }

@@ -1,6 +1,6 @@
 //! Sleep: particles at rest are held where they are, and nothing of them is computed, until they are disturbed.
 //!
-//! A particle falls asleep when, for a time, |v| + r|ω| has been below a speed and its residual acceleration |F/m + g| and r²|M|/I below a
+//! A particle falls asleep when, for a time, |v| + r|ω| has been below a speed and its residual acceleration |F/m + g| and r|M|/I below a
 //! share of g. Its velocity is then zero, and the force on it is kept. It wakes when the force on it differs from that
 //! by more than the share of its weight, or the moment by the share of weight × radius. Loads between two sleepers, or of a sleeper on a
 //! wall at rest, are those of the step in which they fell asleep: whole blocks of them are passed over,

@@ -7,7 +7,7 @@
 use crate::images::Image;
 use crate::lane::{Row, Row4};
 use crate::motion::Pose;
-use crate::particles::FAR;
+use crate::particles::{FAR, is_away};
 use crate::seams::{self, Nearest, Slots};
 use crate::setup::{Motion, Wall, WallShape};
 use geom::{Boxes, Grid, Plane, Vec3};
@@ -155,6 +155,11 @@ impl WallBody {
         (rows, spins): (&mut [Row], &mut [Row4]),
         mut slots: Slots,
     ) {
+        if is_away(row) {
+            rows.fill(FAR[0]);
+            spins.fill(Row4::default());
+            return;
+        }
         let centre = Vec3::new(row[0], row[1], row[2]);
         let count = self.parts();
         let part = |k: usize| (partners[k] % count) as usize;
@@ -215,5 +220,46 @@ fn bounds(surface: &Surface) -> [Vec3; 2] {
             [-across, across]
         }
         Surface::Triangles { boxes, .. } => boxes.bounds(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::Form;
+    use crate::particles::away;
+
+    /// Who is out of the calculation touches no shape of wall, whichever way it looks.
+    #[test]
+    fn no_wall_is_met_far_away() {
+        let plane = |normal: Vec3| {
+            WallShape::Plane(Plane { point: Vec3::new(0.1, 0.2, 0.3), normal: normal.normalize() })
+        };
+        let corners = [Vec3::zeros(), Vec3::x(), Vec3::y()];
+        let mesh = geom::mesh::TriMesh::new(corners.to_vec(), vec![[0, 1, 2]]).expect("sound");
+        let shapes = [
+            plane(Vec3::new(-1.0, 0.0, 1.0)),
+            plane(Vec3::new(1.0, -1.0, 0.0)),
+            plane(Vec3::new(1.0, 1.0, -2.0)),
+            plane(Vec3::new(1.0, 1.0, 1.0)),
+            WallShape::Mesh(mesh),
+            WallShape::Spheres(vec![(Vec3::zeros(), 1.0)]),
+        ];
+        for shape in shapes {
+            let wall = Wall { name: "w".to_owned(), material: 0, shape, motion: Motion::still() };
+            let body = WallBody::new(&wall, 0.0);
+            for k in [0, 1, 2, 1_000_000] {
+                let [x, y, z] = away(k);
+                let row = Row([x, y, z, 0.01, 0.0, 0.0, 0.0, 1.0]);
+                let mut found = [Row::default()];
+                let memory = &mut [];
+                let active = &mut [];
+                let slots = Slots { memory, active, form: Form::default(), first: 0, columns: 0 };
+                let pose = wall.motion.pose(0.0);
+                body.meet((&pose, &Vec3::zeros()), &row, &[0], (&mut found, &mut []), slots);
+                let square: f64 = (0..3).map(|a| (found[0][a] - row[a]).powi(2)).sum();
+                assert!(square.is_finite() && square > 1e200, "{:?}, row {k}: {square}", wall.shape);
+            }
+        }
     }
 }

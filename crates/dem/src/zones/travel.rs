@@ -5,6 +5,7 @@ use super::path::{Path, Stage};
 use crate::bodies::{quaternion, spun};
 use crate::energy::carried;
 use crate::lane::Row4;
+use crate::particles::away;
 use crate::setup::{Particle, Setup, Zone};
 use crate::simulation::Simulation;
 use geom::Vec3;
@@ -229,8 +230,7 @@ impl Simulation {
         }
         self.bonds.leave(k);
         self.zones.left.push((k as u32, self.particles.home[k]));
-        // Each to a place of its own: two at one place would overlap.
-        let far = [-1e100 * (k + 1) as f64; 3];
+        let far = away(k);
         self.particles.rows[k][..3].copy_from_slice(&far);
         self.particles.home[k][..3].copy_from_slice(&far);
         self.zones.busy[k] = false;
