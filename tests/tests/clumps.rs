@@ -464,6 +464,33 @@ fn stable_just_below_the_critical_step() {
     }
 }
 
+/// Rolling resistance of constant size brings a rod of many spheres to rest: all its contacts together never turn its rolling round.
+#[test]
+fn constant_rolling_ends_on_a_rod() {
+    let mut setup = with_friction(empty(HOOKE, 0.5), 0.5);
+    setup.gravity.z = -9.81;
+    setup.ledger = true;
+    setup.step = Step::Auto(0.5);
+    setup.contacts.iter_mut().for_each(|c| {
+        (c.rolling_resistance, c.rolling_model) = (Some(0.2), RollingModel::Constant);
+    });
+    setup.walls = vec![plane(Vec3::z())];
+    let spheres: Vec<(Vec3, f64)> =
+        (0..16).map(|k| (Vec3::new(0.012 * f64::from(k), 0.0, 0.0), 0.01)).collect();
+    let rolling = Vec3::new(0.0, -0.03, 0.0);
+    let rod =
+        Body { velocity: rolling, spin: Vec3::new(3.0, 0.0, 0.0), ..body(1, Vec3::new(0.0, 0.0, 0.00999)) };
+    setup.clumps = Clumps { shapes: vec![shape(&spheres)], bodies: vec![rod], entries: vec![] };
+    let mut sim = simulation(setup);
+    run_until(&mut sim, 1.0);
+    let before = energy(&mut sim);
+    run_until(&mut sim, 1.2);
+    let after = energy(&mut sim);
+    let taken = after.rolling - before.rolling;
+    println!("{taken:e} J in 0.2 s, {:e} J in motion", after.rotation + after.translation);
+    assert!(taken < 1e-12 && after.rotation < 1e-15, "it goes on: {before:?} {after:?}");
+}
+
 /// What cannot be a body, or does not fit the scene, is refused by name.
 #[test]
 fn wrong_clumps_are_refused() {
@@ -484,6 +511,7 @@ fn wrong_clumps_are_refused() {
     refused(&|s| s.clumps.bodies[0].spin.x = f64::NAN, "spin");
     refused(&|s| s.clumps.bodies[0].shape = 3, "shape");
     refused(&|s| s.clumps.bodies[0].position.z = 0.005, "behind wall");
+    refused(&|s| s.clumps.bodies[0].position.x = 1e13, "shift the scene to the origin");
     refused(&|s| s.particles = vec![grain(12, Vec3::new(0.0, 0.0, 0.5))], "id 12 is used twice");
     refused(&|s| s.clumps.shapes[0].volume = 0.0, "volume");
     refused(&|s| s.clumps.shapes[0].spheres.clear(), "spheres");

@@ -142,11 +142,12 @@ fn twisting_is_a_spring_under_a_cap() {
     assert!((twisted(1.0).couple.z + 0.1 * 0.01 * 1.0).abs() < 1e-15, "the cap is μ R* F_n");
 }
 
-/// Rolling of constant size: μ_r R* F_n whatever the speed, but never more than takes an eighth of the rolling in a step.
+/// Rolling of constant size: μ_r R* F_n whatever the speed, but never more than takes an eighth of the rolling in a step; less of a body that yields
+/// more easily.
 #[test]
 fn constant_rolling_has_one_size_and_never_turns_rolling_round() {
-    let rolling = dem::effects::ConstantRolling { resistance: 0.1 };
-    let couple = |spin: f64| {
+    let couple = |spin: f64, yielding: f64| {
+        let rolling = dem::effects::ConstantRolling { resistance: 0.1, yielding };
         let mut contact = still(1e-4, 0.01, 0.0);
         contact.spin = V::new(spin, 0.0, 7.0);
         let mut load = load(Hooke { stiffness: 1e4, damping_ratio: 0.0 }, &contact);
@@ -155,10 +156,12 @@ fn constant_rolling_has_one_size_and_never_turns_rolling_round() {
         load.couple
     };
     for spin in [1000.0, 1e4, -1e6] {
-        assert!((couple(spin).x + 1e-3 * spin.signum()).abs() < 1e-15, "{}", couple(spin).x);
-        assert_eq!(couple(spin).z, 0.0, "twisting is none of its business");
+        let couple = couple(spin, 1.0);
+        assert!((couple.x + 1e-3 * spin.signum()).abs() < 1e-15, "{}", couple.x);
+        assert_eq!(couple.z, 0.0, "twisting is none of its business");
     }
     let most = 0.125 * 0.4 * 0.01 * 1e-4 / 1e-6;
-    assert!((couple(1e-3).x + most * 1e-3).abs() < 1e-15);
-    assert_eq!(couple(0.0).x, 0.0);
+    assert!((couple(1e-3, 1.0).x + most * 1e-3).abs() < 1e-15);
+    assert!((couple(1e-3, 16.0).x + most / 16.0 * 1e-3).abs() < 1e-15);
+    assert_eq!(couple(0.0, 1.0).x, 0.0);
 }

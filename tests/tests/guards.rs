@@ -127,6 +127,30 @@ fn overlap() {
     exact(folder.path(), "overlap", &["--set", "guards.overlap=0.9"]);
 }
 
+/// The cure that a message names works: a step that was sound when the run began stays the step of the run, also where
+/// one that begins with the raised guard would need a shorter one.
+#[test]
+fn overlap_raised_beyond_the_step() {
+    for (step, on) in [("safety = 0.95", "overlap, dt = \"auto\""), ("dt = 1e-4", "overlap, dt given")] {
+        let folder = scene(COLLISION, "");
+        fs::write(
+            folder.path().join("s.toml"),
+            HEAD.replace("dt = 1e-5", step).replace("every = 0.002", "every = 0.005"),
+        )
+        .expect("written");
+        stopped(
+            folder.path(),
+            on,
+            &["--set", "guards.overlap=0.01"],
+            &["particle 1", "raise guards.overlap"],
+        );
+        let done = resumed(folder.path(), &["--set", "guards.overlap=0.9"]);
+        assert_eq!(done.code, 0, "{on}: {}", done.stderr);
+        let end = read(&folder.path().join("rest.mcap")).frames.last().map(|f| f.0);
+        assert_eq!(end, Some(20_000_000), "{on}: to its end");
+    }
+}
+
 /// A grain that falls freely until it is too fast for its step.
 #[test]
 fn motion_in_one_step() {

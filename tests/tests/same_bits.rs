@@ -193,3 +193,13 @@ fn absent_effects_cost_nothing() {
         simulation(with_friction(smooth, 0.5)).bytes_per_particle()
     );
 }
+
+/// Only widths that the machine has are computed with; others would be instructions that it does not know.
+#[test]
+fn a_width_that_the_machine_lacks_is_refused() {
+    for width in [Width::Scalar, Width::Avx2, Width::Avx512] {
+        let setup = Setup { step: Step::Fixed(1e-5), ..empty(HOOKE, 0.5) };
+        let made = Simulation::with_width(setup, width);
+        assert_eq!(made.is_ok(), Width::available().contains(&width), "{width:?}");
+    }
+}

@@ -199,3 +199,41 @@ fn turntable_takes_grains_along() {
     assert!((p.velocity.norm() - p.position.xy().norm()).abs() < 2e-3, "{p:?}");
     assert!(p.position.y > 0.03, "{p:?}");
 }
+
+/// A lid on a clump whose spheres are far lighter than the whole: dashpots are made for the mass of the whole, and so is the gain. The lid comes to rest
+/// at its force.
+#[test]
+fn pressure_on_a_clump_is_held() {
+    for law in LAWS {
+        let mut setup = press(law, 2.0);
+        setup.particles.clear();
+        let half = Vec3::repeat(0.01);
+        let mesh = geom::mesh::cuboid(-half, half);
+        let spheres: Vec<(Vec3, f64)> = mesh.vertices.iter().map(|v| (*v, 0.001)).collect();
+        let moments = geom::Moments::of_mesh(&mesh).expect("closed");
+        let position = Vec3::new(0.05, 0.05, 0.011);
+        let (orientation, zero) = (Default::default(), Vec3::zeros());
+        let body = Body { id: 1, shape: 0, scale: 1.0, position, orientation, velocity: zero, spin: zero };
+        let shape = ClumpShape::new("die", 0, &spheres, &moments);
+        setup.clumps = Clumps { shapes: vec![shape], bodies: vec![body], entries: vec![] };
+        let lid = WallShape::Plane(Plane { point: Vec3::new(0.0, 0.0, 0.0221), normal: -Vec3::z() });
+        setup.walls[5].shape = lid;
+        let mut sim = Simulation::new(setup).expect("sound");
+        run_until(&mut sim, 0.2);
+        for _ in 0..100 {
+            sim.step().expect("within the guards");
+            let lid = sim.wall_forces().expect("sound")[5];
+            assert!((lid.force.z / 2.0 - 1.0).abs() < 0.01, "{law:?}: {lid:?}");
+        }
+    }
+}
+
+/// A wall that is to press with no force, and touches nothing, stays where it is.
+#[test]
+fn no_force_no_way() {
+    let mut setup = press(HOOKE, 0.0);
+    setup.particles.truncate(1);
+    let mut sim = Simulation::new(setup).expect("sound");
+    run_until(&mut sim, 0.01);
+    assert_eq!(sim.wall_forces().expect("sound")[5].shift, Vec3::zeros());
+}

@@ -25,7 +25,7 @@ mod whole;
 
 pub(crate) use check::{check, check_entry};
 pub(crate) use flight::quaternion;
-pub use kinds::Yielding;
+pub use kinds::{Ease, Yielding};
 pub use shape::ClumpShape;
 pub use state::BodyState;
 pub use turn::spun;

@@ -2,7 +2,7 @@
 
 use crate::error::SetupError;
 use crate::law::{Elastic, is_rare, overlap_without_load};
-use crate::limit::radii_by_material;
+use crate::limit::{largest_reach, radii_by_material};
 use crate::setup::{Contact, Drag, DragLaw, Law, Particle, Precision, Servo, Setup, Sleep, Step, WallShape};
 use geom::Vec3;
 use std::collections::HashSet;
@@ -11,6 +11,7 @@ use std::fmt::{Display, Formatter};
 /// Checks every number of a setup that would make a run meaningless.
 pub fn check(setup: &Setup) -> Result<(), SetupError> {
     materials(setup)?;
+    indices(setup)?;
     contacts(setup)?;
     precision(setup)?;
     particles(setup)?;
@@ -103,9 +104,9 @@ fn sleep(s: &Sleep, gravity: &Vec3) -> Result<(), SetupError> {
 }
 
 /// Where a number stands: "particle 7: radius". Put into words only when it is refused: a large scene has millions of them.
-struct Key<N>(&'static str, N, &'static str);
+struct Key<N, K = &'static str>(&'static str, N, K);
 
-impl<N: Display> Display for Key<N> {
+impl<N: Display, K: Display> Display for Key<N, K> {
     fn fmt(&self, f: &mut Formatter) -> std::fmt::Result {
         write!(f, "{} {}: {}", self.0, self.1, self.2)
     }
@@ -130,7 +131,7 @@ pub(crate) fn finite(what: impl Display, v: &Vec3, unit: &'static str) -> Result
 const DIGITS: f64 = 1e-6;
 
 /// Refuses a sphere so far away that its place has too few digits left: it would hang in the air.
-fn near(what: impl Display, place: &Vec3, radius: f64) -> Result<(), SetupError> {
+pub(crate) fn near(what: impl Display, place: &Vec3, radius: f64) -> Result<(), SetupError> {
     let far = place.amax();
     if far * f64::EPSILON <= DIGITS * radius {
         return Ok(());
@@ -148,11 +149,29 @@ fn materials(setup: &Setup) -> Result<(), SetupError> {
     Ok(())
 }
 
+/// Refuses numbers of materials that there are not: everything else looks them up.
+pub(crate) fn indices(setup: &Setup) -> Result<(), SetupError> {
+    fn known(setup: &Setup, what: impl Display, material: u16) -> Result<(), SetupError> {
+        let known = (material as usize) < setup.materials.len();
+        within(what, material.into(), "[–]", known, "the scene's materials")
+    }
+    for c in &setup.contacts {
+        known(setup, "contact: between", c.between.0.max(c.between.1))?;
+    }
+    for p in &setup.particles {
+        known(setup, Key("particle", p.id, "material"), p.material)?;
+    }
+    for shape in &setup.clumps.shapes {
+        known(setup, Key("clump", format_args!("'{}'", shape.name), "material"), shape.material)?;
+    }
+    for wall in &setup.walls {
+        known(setup, Key("wall", format_args!("'{}'", wall.name), "material"), wall.material)?;
+    }
+    setup.entry_materials.iter().try_for_each(|&m| known(setup, "inlet: material", m))
+}
+
 fn contacts(setup: &Setup) -> Result<(), SetupError> {
     for c in &setup.contacts {
-        let last = c.between.0.max(c.between.1);
-        let known = (last as usize) < setup.materials.len();
-        within("contact: between", last.into(), "[–]", known, "the scene's materials")?;
         let name = |m: u16| setup.materials[m as usize].name.as_str();
         let at = format!("contact {}–{}", name(c.between.0), name(c.between.1));
         let e = c.restitution;
@@ -241,8 +260,6 @@ fn particles(setup: &Setup) -> Result<(), SetupError> {
     for p in &setup.particles {
         let at = |key| Key("particle", p.id, key);
         within(at("radius"), p.radius, "m", p.radius > 0.0 && p.radius.is_finite(), "radius > 0")?;
-        let known = (p.material as usize) < setup.materials.len();
-        within(at("material"), p.material as f64, "[–]", known, "the scene's materials")?;
         finite(at("position"), &p.position, "m")?;
         near(at("position"), &p.position, p.radius)?;
         finite(at("velocity"), &p.velocity, "m/s")?;
@@ -258,8 +275,6 @@ fn walls(setup: &Setup) -> Result<(), SetupError> {
     for w in &setup.walls {
         let name = format!("'{}'", w.name);
         let at = |key| Key("wall", &name, key);
-        let known = (w.material as usize) < setup.materials.len();
-        within(at("material"), w.material as f64, "[–]", known, "the scene's materials")?;
         match &w.shape {
             WallShape::Spheres(spheres) => {
                 for (centre, radius) in spheres {
@@ -335,12 +350,21 @@ fn zones(setup: &Setup) -> Result<(), SetupError> {
 fn periodic(setup: &Setup) -> Result<(), SetupError> {
     // The nearest image of whom a particle is bonded to is to be one.
     let bonded = setup.bonds.iter().map(|b| b.gap).fold(0.0, f64::max);
-    let least = 5.0 * largest_radius(setup) + 2.0 * bonded;
+    let diameter = 2.0 * largest_radius(setup);
+    let least = 2.5 * diameter + 2.0 * bonded;
     for (axis, range) in ['x', 'y', 'z'].into_iter().zip(&setup.periodic) {
-        if let Some((lo, hi)) = *range
-            && !(hi - lo >= least)
-        {
-            return Err(SetupError::PeriodTooSmall { axis, period: hi - lo, least });
+        let Some((lo, hi)) = *range else { continue };
+        for (end, place) in [("low", lo), ("high", hi)] {
+            within(Key("domain", end, axis), place, "m", place.is_finite(), "the finite numbers")?;
+        }
+        let period = hi - lo;
+        if !(period >= least) {
+            return Err(SetupError::PeriodTooSmall { axis, period, least });
+        }
+        // Or lists would need images two periods away, and a particle would be listed with its own.
+        let skin = setup.skin.map_or(0.0, |skin| skin.max(largest_reach(setup)));
+        if !(period >= diameter + skin) {
+            return Err(SetupError::PeriodBelowSkin { axis, period, skin, most: period - diameter });
         }
     }
     Ok(())

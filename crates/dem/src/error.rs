@@ -1,5 +1,6 @@
 //! What the engine refuses, and what stops it.
 
+use crate::lane::Width;
 use thiserror::Error;
 
 /// Why a setup cannot run.
@@ -82,6 +83,24 @@ pub enum SetupError {
         /// Least [m].
         least: f64,
     },
+    /// A skin with which a particle is listed with itself.
+    #[error(
+        "neighbours.skin: {skin:.4e} m and the largest diameter are more than the period of {period:.4e} m along {axis}: use at most {most:.4e} m, \
+         or leave the key out"
+    )]
+    PeriodBelowSkin {
+        /// x, y or z.
+        axis: char,
+        /// The period [m].
+        period: f64,
+        /// The skin [m].
+        skin: f64,
+        /// The largest skin [m].
+        most: f64,
+    },
+    /// Lanes that this machine does not have.
+    #[error("lanes: this machine cannot compute with {0:?}: use one of Width::available()")]
+    NoWidth(Width),
     /// An entry out of order or later than it is due.
     #[error("inlet: particle {id} is due at {time} s, before {now} s: crossings must come in time order")]
     EntryLate {
@@ -289,6 +308,19 @@ pub enum Halt {
         y: f64,
         /// Where it was last [m].
         z: f64,
+    },
+    /// A wall that follows a force has no place any more.
+    #[error(
+        "t = {time:.6e} s: wall '{wall}', which follows a force, has no place any more (NaN): the force of the particles on it was \
+         {push:e} N; look at the stiffness of its contacts, or shorten dt"
+    )]
+    WallNotANumber {
+        /// When [s].
+        time: f64,
+        /// Which wall.
+        wall: String,
+        /// Along the direction of its servo [N].
+        push: f64,
     },
     /// Contacts or forces on walls are asked for that the run was told not to keep.
     #[error(

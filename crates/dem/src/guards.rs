@@ -3,6 +3,7 @@
 use crate::contacts::With;
 use crate::error::Halt;
 use crate::lane::Row4;
+use crate::servo::Piston;
 use crate::simulation::Simulation;
 use std::ops::Range;
 
@@ -105,5 +106,6 @@ impl Simulation {
         let fours = [&p.spins, &p.acceleration, &p.turning];
         rows && fours.iter().all(|column| column.iter().all(|q| q[..3].iter().all(|x| x.is_finite())))
             && self.contacts.form.are_finite(&self.contacts.memory)
+            && self.pistons.iter().all(Piston::is_finite)
     }
 }

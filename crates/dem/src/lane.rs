@@ -9,13 +9,13 @@
 //! What computes with lanes is inlined into the loop that is compiled for wide registers, always: functions say so, and closures cannot.
 //! One that is not inlined calls a function for each operation, and takes several times as long.
 
-pub mod scalar;
-pub mod single;
-pub mod two;
+pub(crate) mod scalar;
+pub(crate) mod single;
+pub(crate) mod two;
 #[cfg(target_arch = "x86_64")]
-pub mod x86;
+pub(crate) mod x86;
 #[cfg(target_arch = "x86_64")]
-pub mod x86_single;
+pub(crate) mod x86_single;
 
 use serde::{Deserialize, Serialize};
 use std::ops::{Add, Deref, DerefMut, Div, Mul, Neg, Sub};
@@ -106,8 +106,6 @@ pub trait Lane:
 
     /// Rounded to the precision of this lane.
     fn narrow(wide: Self::Wide) -> Self;
-    /// In double precision.
-    fn widen(self) -> Self::Wide;
     /// r_i + r_j − distance, where `gap` is (r_i + r_j)² − distance² in double precision, and `reach` r_i + r_j.
     fn overlap(gap: Self, reach: Self, distance: Self) -> Self;
 

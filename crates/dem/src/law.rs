@@ -1,5 +1,6 @@
 //! From material constants to the composition of effects that a pair of materials calls for.
 
+use crate::bodies::Ease;
 use crate::effects::{
     Coefficient, Cohesion, ConstantRolling, Effect, Friction, Hertz, Hooke, Jkr, RollingResistance,
     SlidingFriction, TwistingResistance, Weakening, damping_ratio,
@@ -75,13 +76,30 @@ pub fn reach(contact: &Contact, elastic: Elastic, largest: f64) -> f64 {
     }
 }
 
+/// Largest stiffness of a contact [N/m] up to an overlap that is a share of the `smaller` radius [m]; `radius` is R* [m].
+///
+/// ```text
+/// S = k (Hooke), dF_n/dδ there (Hertz), 2 E* a there (JKR)
+/// ```
+pub fn stiffest(contact: &Contact, elastic: Elastic, radius: f64, smaller: f64, share: f64) -> f64 {
+    match contact.law {
+        Law::Hooke { stiffness, .. } => stiffness,
+        Law::Hertz => 2.0 * elastic.modulus * (radius * share * smaller).sqrt(),
+        Law::Jkr { work_of_adhesion } => {
+            let law = Jkr { modulus: elastic.modulus, work_of_adhesion, damping_ratio: 0.0 };
+            let last = law.last_radius(radius);
+            2.0 * elastic.modulus * last * Jkr::spread(share * smaller, radius, last).powi(2)
+        }
+    }
+}
+
 /// A contact's numbers, and what follows from its two materials.
 #[derive(Clone, Copy)]
 struct Pair<'a> {
     contact: &'a Contact,
     elastic: Elastic,
     precision: Precision,
-    yielding: f64,
+    ease: Ease,
 }
 
 /// Whether a law has an effect that is offered in double precision only.
@@ -97,9 +115,9 @@ pub fn is_rare(c: &Contact) -> bool {
 /// no memory and is rare is not a composition of its own: cohesion and the weakening of friction are a question that a kernel
 /// asks once for each group of contacts, and only kernels with something rare in them.
 ///
-/// `yielding`: how much easier the bodies of both materials yield than spheres of their mass [–].
-pub fn compose(contact: &Contact, elastic: Elastic, precision: Precision, yielding: f64) -> Box<dyn Kernel> {
-    let pair = Pair { contact, elastic, precision, yielding };
+/// `ease`: how much easier the bodies of both materials yield than spheres of their mass.
+pub fn compose(contact: &Contact, elastic: Elastic, precision: Precision, ease: Ease) -> Box<dyn Kernel> {
+    let pair = Pair { contact, elastic, precision, ease };
     let (damping_ratio, modulus) = (damping_ratio(contact.restitution), elastic.modulus);
     match contact.law {
         Law::Hooke { stiffness, .. } => pair.normal(Hooke { stiffness, damping_ratio }),
@@ -146,7 +164,7 @@ impl Pair<'_> {
                 self.twisting((rubbing, RollingResistance { resistance }))
             }
             (Some(resistance), RollingModel::Constant) => {
-                self.twisting((rubbing, ConstantRolling { resistance }))
+                self.twisting((rubbing, ConstantRolling { resistance, yielding: self.ease.bodies }))
             }
         }
     }
@@ -155,7 +173,7 @@ impl Pair<'_> {
         let stiffness_ratio = tangential_ratio(self.contact, self.elastic);
         match self.contact.twisting_resistance {
             Some(resistance) => {
-                let yielding = self.yielding;
+                let yielding = self.ease.springs;
                 Box::new((so_far, TwistingResistance { resistance, stiffness_ratio, yielding }))
             }
             None => Box::new(so_far),
@@ -165,7 +183,7 @@ impl Pair<'_> {
     fn sliding<C: Coefficient>(self, friction: C) -> SlidingFriction<C> {
         let stiffness_ratio = tangential_ratio(self.contact, self.elastic);
         let damping_ratio = damping_ratio(self.contact.restitution);
-        SlidingFriction { friction, stiffness_ratio, damping_ratio, yielding: self.yielding }
+        SlidingFriction { friction, stiffness_ratio, damping_ratio, yielding: self.ease.springs }
     }
 }
 
@@ -197,8 +215,9 @@ mod tests {
     #[test]
     fn kernels_take_the_memory_of_their_effects_and_no_more() {
         let material = Material { name: "a".to_owned(), density: 1e3, young: 1e6, poisson: 0.3 };
+        let ease = Ease { bodies: 1.0, springs: 1.0 };
         for c in contacts() {
-            let kernel = compose(&c, Elastic::of(&material, &material), Precision::Double, 1.0);
+            let kernel = compose(&c, Elastic::of(&material, &material), Precision::Double, ease);
             let bytes: usize = parts(&c).iter().map(|p| p.bytes).sum();
             assert_eq!(8 * kernel.columns(), bytes, "{c:?}");
             assert_eq!(kernel.rotates(), c.sliding_friction.is_some(), "{c:?}");

@@ -10,6 +10,7 @@ mod bodies;
 mod bonds;
 mod check;
 mod contacts;
+mod crowd;
 mod drag;
 pub mod effects;
 mod energy;

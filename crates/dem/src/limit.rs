@@ -18,18 +18,21 @@
 //! no more than those of both sides together. 20 = 8 × 5/2: all grains turn the same way. 1/√(20 a_t): up to there the
 //! tangential spring, whose rate is predicted as well, takes more energy than it makes without a dashpot. Sliding resists
 //! ω_i + ω_j, rolling and twisting ω_i − ω_j: they add up for a grain beside a wall (w = 1), and only the greater counts between
-//! equals (w = 0). Cohesion only softens a contact, and the constant couple of rolling limits itself.
+//! equals (w = 0). Cohesion only softens a contact, and the constant couple of rolling limits
+//! itself ([`crate::effects::ConstantRolling`]). On a wall of spheres that lie deep within each other N push one way at once, Σ n nᵀ = N
+//! ([`crate::crowd`]): where N > 4, all numbers of contacts count N/4 times.
 
 use crate::bodies::Yielding;
-use crate::effects::{Jkr, damping_ratio};
+use crate::crowd::{crowd_on, met, rounding};
+use crate::effects::damping_ratio;
 use crate::error::SetupError;
-use crate::law::{Elastic, reach, tangential_ratio};
+use crate::law::{Elastic, reach, stiffest, tangential_ratio};
 use crate::particles::mass;
-use crate::setup::{Contact, Law, Material, RollingModel, Setup, Wall, WallShape};
+use crate::setup::{Contact, Material, RollingModel, Setup, Wall};
 use crate::simulation::Simulation;
 
 /// Σ n nᵀ of twelve contacts, and Σ (1 − n nᵀ) [–].
-const ALONG: f64 = 4.0;
+pub const ALONG: f64 = 4.0;
 const ACROSS: f64 = 8.0;
 /// m r²/I of a sphere [–].
 const TURNS: f64 = 2.5;
@@ -83,12 +86,12 @@ fn free_radii(setup: &Setup) -> Vec<Option<(f64, f64)>> {
 }
 
 /// Grains that can meet others: a sphere, or a rigid clump with the mass by which it yields.
-struct Grain {
-    material: u16,
+pub struct Grain {
+    pub material: u16,
     /// Of the sphere that touches [m].
-    radius: f64,
+    pub radius: f64,
     /// 1/m [1/kg].
-    inverse_mass: f64,
+    pub inverse_mass: f64,
     /// 1/m to normal and to tangential forces [1/kg].
     yields: (f64, f64),
     name: Option<String>,
@@ -104,7 +107,7 @@ impl Grain {
 }
 
 /// The smallest and the largest sphere of each material: a small mass may be worse, or a large radius.
-fn grains(setup: &Setup) -> Vec<Grain> {
+pub fn grains(setup: &Setup) -> Vec<Grain> {
     let clumps = setup.clumps.yielding(&setup.materials);
     let mut grains = Vec::new();
     for (material, range) in (0u16..).zip(free_radii(setup)) {
@@ -125,8 +128,9 @@ fn grains(setup: &Setup) -> Vec<Grain> {
 /// The critical step of a setup: over every pair of grains that can meet, walls included.
 ///
 /// # Errors
-/// A pair without a law of contact.
+/// A pair without a law of contact, a material that is none.
 pub fn critical_step(setup: &Setup) -> Result<Limit, SetupError> {
+    crate::check::indices(setup)?;
     let grains = grains(setup);
     let mut limit = Limit { dt: f64::INFINITY, pair: "no contact can occur".to_owned() };
     for (k, a) in grains.iter().enumerate() {
@@ -174,39 +178,34 @@ enum Partner<'a> {
 
 fn tighten(limit: &mut Limit, setup: &Setup, a: &Grain, partner: Partner) -> Result<(), SetupError> {
     let (ra, (normal, tangential)) = (a.radius, a.yields);
-    let (other, yields, uneven, radius, (smaller, larger), what) = match &partner {
+    let (other, yields, uneven, radius, (smaller, larger), what, dense) = match &partner {
         Partner::Grain(b) => {
             let (rb, (n, t)) = (b.radius, b.yields);
             let (mine, its) = (crowd(ra, rb), crowd(rb, ra));
             let yields = (mine * normal + its * n, mine * tangential + its * t);
             let sizes = (ra.min(rb), ra.max(rb));
             let uneven = (mine * normal - its * n).abs();
-            (b.material, yields, uneven, ra * rb / (ra + rb), sizes, b.name(&setup.materials))
+            (b.material, yields, uneven, ra * rb / (ra + rb), sizes, b.name(&setup.materials), 1.0)
         }
         Partner::Wall(wall) => {
-            let rb = match &wall.shape {
-                WallShape::Spheres(spheres) => spheres.iter().map(|s| s.1).fold(0.0, f64::max),
-                _ => f64::INFINITY,
+            let (rb, (radius, smaller)) = (rounding(wall), met(wall, ra));
+            let material = &setup.materials[wall.material as usize].name;
+            let dense = crowd_on(wall, ra, setup.guards.overlap);
+            let many = if dense > 1.0 {
+                format!(", {} of its spheres at once", ALONG * dense)
+            } else {
+                String::new()
             };
-            let radius = if rb.is_finite() { ra * rb / (ra + rb) } else { ra };
-            let what = format!("{} (wall '{}')", setup.materials[wall.material as usize].name, wall.name);
+            let what = format!("{material} (wall '{}'{many})", wall.name);
             // Wall spheres may lie within each other, so that there may be many however large they are.
-            let sizes = if rb.is_finite() { (ra.min(rb), ra.min(rb)) } else { (ra, rb) };
-            (wall.material, a.yields, normal, radius, sizes, what)
+            let sizes = if rb.is_finite() { (smaller, smaller) } else { (ra, rb) };
+            (wall.material, a.yields, normal, radius, sizes, what, dense)
         }
     };
     let contact = contact_between(setup, a.material, other)?;
     let (first, second) = (&setup.materials[a.material as usize], &setup.materials[other as usize]);
     let elastic = Elastic::of(first, second);
-    let stiffness = match contact.law {
-        Law::Hooke { stiffness, .. } => stiffness,
-        Law::Hertz => 2.0 * elastic.modulus * (radius * setup.guards.overlap * smaller).sqrt(),
-        Law::Jkr { work_of_adhesion } => {
-            let law = Jkr { modulus: elastic.modulus, work_of_adhesion, damping_ratio: 0.0 };
-            let last = law.last_radius(radius);
-            2.0 * elastic.modulus * last * Jkr::spread(setup.guards.overlap * smaller, radius, last).powi(2)
-        }
-    };
+    let stiffness = stiffest(contact, elastic, radius, smaller, setup.guards.overlap);
     let inverse_mass = a.inverse_mass + if let Partner::Grain(b) = partner { b.inverse_mass } else { 0.0 };
     let between = Between {
         stiffness,
@@ -215,6 +214,7 @@ fn tighten(limit: &mut Limit, setup: &Setup, a: &Grain, partner: Partner) -> Res
         mass: 1.0 / inverse_mass,
         uneven: uneven / yields.0,
         turning: (radius / smaller).powi(2) * (0.5 + 0.5 * smaller / larger),
+        dense,
     };
     let dt = between.step(contact);
     if dt < limit.dt {
@@ -241,6 +241,8 @@ struct Between {
     uneven: f64,
     /// s [–].
     turning: f64,
+    /// N/4, at least 1 [–].
+    dense: f64,
 }
 
 /// The root of A Δt²/4 + B Δt = 1.
@@ -255,20 +257,22 @@ impl Between {
         let impedance = (self.stiffness * self.mass).sqrt();
         let (pull, turn) = (impedance * self.yields.0, impedance * self.yields.1);
         let rub = (self.tangential * self.mass).sqrt() * self.yields.1;
+        let (straight, sideways) = (ALONG * self.dense, ACROSS * self.dense);
         if contact.sliding_friction.is_none() {
-            return root(ALONG * along, ALONG * gamma * pull);
+            return root(straight * along, straight * gamma * pull);
         }
-        let moves = root(ALONG * along + 2.0 * ACROSS * across, gamma * (ALONG * pull + ACROSS * rub));
-        let slide = ACROSS * TURNS;
+        let moves =
+            root(straight * along + 2.0 * sideways * across, gamma * (straight * pull + sideways * rub));
+        let slide = sideways * TURNS;
         let (mut a, mut b) = (0.0, 0.0);
         if contact.rolling_model == RollingModel::Spring {
             // 8 × 5/2 c_r over its arm and √(S m*); one hundredth of it stands for the spring.
-            b += 21.5 * self.turning * contact.rolling_resistance.unwrap_or(0.0) * turn;
+            b += 21.5 * self.dense * self.turning * contact.rolling_resistance.unwrap_or(0.0) * turn;
         }
         if contact.twisting_resistance.is_some() {
             // 4 × 5/2 of k_w and c_w, η = 0.3.
-            a += ALONG * TURNS * self.turning * across;
-            b += ALONG * TURNS * 0.6 * 0.4f64.sqrt() * self.turning * rub;
+            a += straight * TURNS * self.turning * across;
+            b += straight * TURNS * 0.6 * 0.4f64.sqrt() * self.turning * rub;
         }
         let w = self.uneven;
         let slides = root(slide * across + w * a, slide * gamma * rub + w * b);

@@ -7,20 +7,21 @@
 //! ```
 //!
 //! The servo mechanism of Cundall, as described for PFC (Itasca: G = α A / (k N Δt)), with the dashpots of the contacts in the
-//! gain: s changes P by N (k Δt + c) s' within a step, so that α < 1 is on the stable side of α = 2. A wall moved like this is a piston
+//! gain. Loads see s and s' of the step before: s'_{n+1} = G (F − K s_n − C s'_n) with K = N k, C = N c turns unstable by an eigenvalue of −1, where
+//! s = s' Δt/2, at G (K Δt/2 + C) = 1: at α = 2 for springs alone, at α = 1 for dashpots alone; α = ½ is half of the least. A wall moved like this is a piston
 //! without mass in a dashpot of 1/G under the constant force F: passive, so it adds no energy but its work, which the ledger has.
-//! A wall that touches nothing moves at its speed limit. N is that of the step; k is the slope of the law at the overlap limit, so that the real gain is lower.
+//! A wall that touches nothing moves at its speed limit, and stays where its force is 0. N is that of the step; k is the slope of the law at the overlap limit, so that the real gain is lower.
 //!
 //! P is summed in the order of the contact list: the same bits for any number of threads.
 
-use crate::contacts::{Kind, With};
+use crate::contacts::With;
+use crate::crowd::met;
 use crate::effects::damping_ratio;
 use crate::error::Halt;
-use crate::law::Elastic;
-use crate::limit::{contact_between, radii_by_material};
+use crate::law::{Elastic, stiffest};
+use crate::limit::{Grain, contact_between, grains};
 use crate::motion::Pose;
-use crate::particles::mass;
-use crate::setup::{Law, Setup};
+use crate::setup::{Setup, Wall};
 use crate::simulation::Simulation;
 use geom::Vec3;
 use serde::{Deserialize, Serialize};
@@ -48,6 +49,13 @@ pub struct Piston {
     pub speed: f64,
     /// Way when neighbours were listed [m].
     pub listed: f64,
+}
+
+impl Piston {
+    /// Whether it is anywhere.
+    pub fn is_finite(&self) -> bool {
+        self.way.is_finite() && self.speed.is_finite()
+    }
 }
 
 /// What acts on a wall at one instant.
@@ -121,18 +129,28 @@ impl Simulation {
         (sum, count)
     }
 
-    /// Moves the servos to the next step, by the loads of this one.
-    pub(crate) fn drive_pistons(&mut self) {
+    /// Moves the servos to the next step, by the loads of this one; an error where a wall is lost by that.
+    pub(crate) fn drive_pistons(&mut self) -> Result<(), Halt> {
+        let mut lost = None;
         for w in 0..self.pistons.len() {
             let Some(servo) = self.walls[w].motion.servo else { continue };
             let (push, count) = self.push(w);
             let lack = servo.force - push.dot(&servo.direction);
             let gain = SHARE / (f64::from(count.max(1)) * self.answers[w]);
             let piston = &mut self.pistons[w];
-            let speed = if count == 0 { lack.signum() * servo.speed_limit } else { gain * lack };
+            let free = if lack == 0.0 { 0.0 } else { lack.signum() * servo.speed_limit };
+            let speed = if count == 0 { free } else { gain * lack };
             piston.speed = speed.clamp(-servo.speed_limit, servo.speed_limit);
             piston.way += piston.speed * self.dt;
+            if !piston.is_finite() {
+                lost = lost.or(Some((w, servo.force - lack)));
+            }
         }
+        let time = self.time() + self.dt;
+        lost.map_or(Ok(()), |(w, push)| {
+            let wall = self.setup.walls[w].name.clone();
+            Err(Halt::WallNotANumber { time, wall, push })
+        })
     }
 }
 
@@ -142,21 +160,19 @@ pub fn pistons(setup: &Setup) -> Vec<Piston> {
     vec![Piston::default(); if any { setup.walls.len() } else { 0 }]
 }
 
-/// k Δt + c [N·s/m] of the stiffest contact with each wall.
-pub fn answers(setup: &Setup, kinds: &[Kind], dt: f64) -> Vec<f64> {
-    let radii = radii_by_material(setup);
-    let of = |kind: &Kind| {
-        let (a, b) = kind.between;
-        let contact = contact_between(setup, a, b).ok()?;
-        let (first, second) = (&setup.materials[a as usize], &setup.materials[b as usize]);
-        let radius = radii[a as usize].map_or(0.0, |r| r.1);
-        let stiffness = match contact.law {
-            Law::Hooke { stiffness, .. } => stiffness,
-            _ => 2.0 * Elastic::of(first, second).modulus * radius * setup.guards.overlap.sqrt(),
-        };
-        let m = mass(radius, first.density);
-        Some(stiffness * dt + damping_ratio(contact.restitution) * (stiffness * m).sqrt())
+/// k Δt + c [N·s/m] of the stiffest contact with each wall that follows a force; of a clump with the mass of the whole body, as contacts have it.
+pub fn answers(setup: &Setup, dt: f64) -> Vec<f64> {
+    let grains = grains(setup);
+    let of = |wall: &Wall, grain: &Grain| {
+        let contact = contact_between(setup, grain.material, wall.material).ok()?;
+        let [first, second] = [grain.material, wall.material].map(|m| &setup.materials[m as usize]);
+        let (radius, smaller) = met(wall, grain.radius);
+        let k = stiffest(contact, Elastic::of(first, second), radius, smaller, setup.guards.overlap);
+        Some(k * dt + damping_ratio(contact.restitution) * (k / grain.inverse_mass).sqrt())
     };
-    let wall = |w: usize| kinds.iter().filter(move |k| k.with == With::Wall(w));
-    (0..setup.walls.len()).map(|w| wall(w).filter_map(of).fold(f64::MIN_POSITIVE, f64::max)).collect()
+    let largest = |wall: &Wall| match wall.motion.servo {
+        Some(_) => grains.iter().filter_map(|g| of(wall, g)).fold(f64::MIN_POSITIVE, f64::max),
+        None => 1.0,
+    };
+    setup.walls.iter().map(largest).collect()
 }

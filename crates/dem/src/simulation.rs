@@ -87,12 +87,21 @@ impl Simulation {
     /// The like with lanes of a given width; all widths give the same bits.
     ///
     /// # Errors
-    /// As for [`Simulation::new`].
+    /// As for [`Simulation::new`], and a width that this machine does not have.
     pub fn with_width(setup: Setup, width: Width) -> Result<Simulation, SetupError> {
+        Simulation::build(setup, width, None)
+    }
+
+    /// The like with the step [s] of a run that goes on, which was checked when that began; or with the one that the setup asks for.
+    pub(crate) fn build(setup: Setup, width: Width, begun: Option<f64>) -> Result<Simulation, SetupError> {
+        // What computes with wide lanes relies on it.
+        if !Width::available().contains(&width) {
+            return Err(SetupError::NoWidth(width));
+        }
         crate::check::check(&setup)?;
         let contacts = setup.contacts.iter().map(|c| needed(c).0).collect();
         let setup = Setup { contacts, ..setup };
-        let dt = time_step(&setup)?;
+        let dt = begun.map_or_else(|| time_step(&setup), Ok)?;
         let kinds = kinds(&setup)?;
         let mut particles =
             Particles::new(kinds.iter().any(|k| k.kernel.rotates()) || !setup.bonds.is_empty());
@@ -110,7 +119,7 @@ impl Simulation {
         slow_enough(&setup, &walls, dt)?;
         let zones = Zones::new(&setup, &particles);
         let sleepers = setup.sleep.map(|s| Sleepers::new(s, dt, setup.gravity.norm(), particles.len()));
-        let (pistons, answers) = (crate::servo::pistons(&setup), crate::servo::answers(&setup, &kinds, dt));
+        let (pistons, answers) = (crate::servo::pistons(&setup), crate::servo::answers(&setup, dt));
         // They are in their columns now.
         let setup = Setup { particles: Vec::new(), clumps: setup.clumps.without_bodies(), ..setup };
         Ok(Simulation {
@@ -234,7 +243,7 @@ impl Simulation {
             self.account.slept += sleepers.turn(self.contacts.tile());
         }
         let moved = self.move_bodies(found.moved);
-        self.drive_pistons();
+        let driven = self.drive_pistons();
         self.out = moved.out | self.apply_drag();
         if self.setup.ledger {
             self.account_moves();
@@ -249,6 +258,7 @@ impl Simulation {
         if moved.wild {
             crate::guards::motion(self)?;
         }
+        driven?;
         let looks =
             self.setup.guards.energy.is_finite() && self.steps.is_multiple_of(crate::guards::ENERGY_EVERY);
         if looks { crate::guards::energy(self) } else { Ok(()) }
@@ -286,7 +296,8 @@ impl Simulation {
     /// Whether a particle or a wall may have left the room that neighbours were listed for.
     fn lists_expired(&self) -> bool {
         let since = (self.steps - self.listed) as f64 * self.dt;
-        self.out || (0..self.walls.len()).any(|w| self.wall_way(w, since) > self.wall_room(w))
+        // Written so that NaN is caught.
+        self.out || !(0..self.walls.len()).all(|w| self.wall_way(w, since) <= self.wall_room(w))
     }
 
     /// Particles without a past get the acceleration of this instant as that of the step before; which they are.

@@ -4,6 +4,7 @@ use crate::account::Account;
 use crate::bodies::Bodies;
 use crate::bonds::Bonds;
 use crate::error::SetupError;
+use crate::lane::Width;
 use crate::particles::Particles;
 use crate::servo::Piston;
 use crate::setup::{Setup, Step};
@@ -104,6 +105,10 @@ impl State {
     pub fn steps(&self) -> u64 {
         self.steps
     }
+    /// Δt [s].
+    pub fn dt(&self) -> f64 {
+        self.dt
+    }
     /// Steps × Δt [s].
     pub fn time(&self) -> f64 {
         self.steps as f64 * self.dt
@@ -155,13 +160,13 @@ impl Simulation {
     /// # Errors
     /// A setup that cannot run, or a state of another one.
     pub fn resume(setup: Setup, state: State) -> Result<Simulation, SetupError> {
-        // "auto" goes on with the step it began with, also where a guard that enters the critical step has changed.
-        let step = if let Step::Auto(_) = setup.step { Step::Fixed(state.dt) } else { setup.step };
-        let mut sim = Simulation::new(Setup { step, ..setup })?;
         let other = |what: &str| SetupError::OtherState(what.to_owned());
-        if sim.dt != state.dt {
-            return Err(other(&format!("time step {} s, saved {} s", sim.dt, state.dt)));
+        let asked = if let Step::Fixed(dt) = setup.step { dt } else { state.dt };
+        if asked != state.dt || !(asked > 0.0 && asked.is_finite()) {
+            return Err(other(&format!("time step {asked} s, saved {} s", state.dt)));
         }
+        // It goes on with the step it began with, also where a guard that enters the critical step has changed.
+        let mut sim = Simulation::build(setup, Width::best(), Some(state.dt))?;
         if sim.sleepers.is_some() != state.sleepers.is_some() {
             return Err(other("one has particles that sleep and the other has not"));
         }

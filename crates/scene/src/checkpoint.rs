@@ -99,6 +99,11 @@ impl Checkpoint {
         Ok(stream::state::decode(&data)?)
     }
 
+    /// Step of the run [s].
+    pub fn dt(&self) -> f64 {
+        self.state.dt()
+    }
+
     /// Time of the checkpoint [s].
     pub fn time(&self) -> f64 {
         self.state.time()

@@ -13,7 +13,7 @@ use crate::moment::Moment;
 use crate::paths::Waypoint;
 use crate::schedule::{Schedule, nanoseconds};
 use crate::{Plan, Scene};
-use dem::setup::Crossing;
+use dem::setup::{Crossing, Step};
 use dem::{Halt, SetupError, Simulation};
 use serde::Serialize;
 use std::io::Write;
@@ -125,14 +125,16 @@ pub struct Settings<W> {
 ///
 /// # Errors
 /// What the engine refuses, an end that is missing.
-pub fn ready(scene: &Scene, plan: &Plan) -> Result<(), RunError> {
+pub fn ready(scene: &Scene, plan: &Plan, resume: Option<&Checkpoint>) -> Result<(), RunError> {
     let limit = dem::critical_step(&plan.setup)?;
-    let dt = match plan.setup.step {
-        dem::setup::Step::Auto(share) => share * limit.dt,
-        dem::setup::Step::Fixed(dt) if dt > limit.dt => {
+    let dt = match (resume, plan.setup.step) {
+        // It was checked when the run began; a guard that has changed since says nothing of it.
+        (Some(checkpoint), _) => checkpoint.dt(),
+        (None, Step::Auto(share)) => share * limit.dt,
+        (None, Step::Fixed(dt)) if dt > limit.dt => {
             return Err(SetupError::StepTooLarge { dt, critical: limit.dt, pair: limit.pair }.into());
         }
-        dem::setup::Step::Fixed(dt) => dt,
+        (None, Step::Fixed(dt)) => dt,
     };
     if dt.is_finite() {
         Schedule::new(scene, dt)?;

@@ -12,6 +12,11 @@ const ACROSS: Case =
 const ACROSS_SPIN: Case =
     case("Rest and extremes", "spins are the same in the middle of a periodic box and across its face");
 
+const SHORT: Case = case(
+    "Rest and extremes",
+    "a periodic box shorter than a diameter and the skin, or without an end: refused",
+);
+
 /// Steps of a trial: the contact lasts for most of them.
 const STEPS: u64 = 400;
 /// Way of the pair in a trial [m]: through the face and on.
@@ -58,5 +63,31 @@ fn a_contact_is_the_same_across_a_periodic_face() {
                 assert!(a.spin.norm() > 0.01 * scale, "{on}: they rub");
             }
         }
+    }
+}
+
+/// A skin with which a grain would be listed with its own image is refused, as is a box without an end.
+#[test]
+fn a_period_below_the_skin_is_refused() {
+    let said = |period: f64, skin: Option<f64>| {
+        let mut setup = variants()[0].smooth(1.0);
+        setup.periodic = [Some((0.0, period)), None, None];
+        setup.skin = skin;
+        setup.particles = vec![grain(0, Vec3::new(0.01, 0.0, 0.0)), grain(1, Vec3::new(0.04, 0.0, 0.0))];
+        dem::Simulation::new(setup).err().map(|e| e.to_string())
+    };
+    for skin in [0.081, 1.0] {
+        let said = said(0.1, Some(skin)).expect("refused");
+        let skin = format!("{skin:.4e} m");
+        SHORT.refused(
+            &skin,
+            &said,
+            &["neighbours.skin", &skin, "1.0000e-1 m along x", "at most 8.0000e-2 m"],
+        );
+    }
+    assert_eq!((said(0.1, Some(0.08)), said(0.1, None)), (None, None));
+    for skin in [None, Some(0.01)] {
+        let said = said(f64::INFINITY, skin).expect("refused");
+        SHORT.refused("a period without an end", &said, &["domain high: x", "inf m"]);
     }
 }

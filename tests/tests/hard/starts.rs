@@ -96,3 +96,29 @@ fn what_is_no_number_is_refused() {
         }
     }
 }
+
+/// Numbers of materials that there are not are refused, by the critical step as well, whoever has them.
+#[test]
+fn materials_that_are_none_are_refused() {
+    let wrong: [(&str, fn(&mut dem::Setup)); 5] = [
+        ("particle 41: material", |s| s.particles[0].material = 9),
+        ("wall 'plane': material", |s| s.walls[0].material = 9),
+        ("contact: between", |s| s.contacts[0].between.1 = 9),
+        ("inlet: material", |s| (s.entry_materials, s.largest_entry) = (vec![9], 0.01)),
+        ("clump 'ball': material", |s| {
+            let spheres = [(Vec3::zeros(), 0.01)];
+            let shape = ClumpShape::new("ball", 9, &spheres, &geom::Moments::of_sum(&spheres));
+            s.clumps = Clumps { shapes: vec![shape], bodies: vec![], entries: vec![(0, 1.0, 1.0)] };
+        }),
+    ];
+    for (what, spoil) in wrong {
+        let mut setup = variants()[0].rough(0.5, 0.5);
+        setup.particles = vec![grain(41, Vec3::new(0.0, 0.0, 0.1))];
+        setup.walls = vec![plane(Vec3::z())];
+        spoil(&mut setup);
+        let of_step = dem::critical_step(&setup).err().expect("refused").to_string();
+        let error = dem::Simulation::new(setup).err().expect("refused").to_string();
+        assert_eq!(of_step, error);
+        HUGE.refused(what, &error, &[what, "9", "the scene's materials"]);
+    }
+}

@@ -2,6 +2,7 @@
 //! Derived in docs/time-step.md.
 
 mod crystals;
+mod dense;
 mod few;
 mod refused;
 mod trial;

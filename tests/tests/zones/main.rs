@@ -142,6 +142,10 @@ fn entry_becomes_free_at_the_calculation_plane() {
     let late =
         sim.enter(Entry { time: 0.01, inlet: 0, particle: grain(4, Vec3::zeros()), clump: None, turn: None });
     assert!(late.expect_err("too late").to_string().contains("time order"));
+    let away = Particle { velocity: Vec3::x(), ..grain(5, Vec3::new(-1e13, 0.0, 0.0)) };
+    let far = sim.enter(Entry { time: 0.13, inlet: 0, particle: away, clump: None, turn: None });
+    let far = far.expect_err("too far").to_string();
+    assert!(far.contains("particle 5") && far.contains("shift the scene to the origin"), "{far}");
 }
 
 #[test]

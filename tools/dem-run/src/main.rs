@@ -83,7 +83,7 @@ fn dem_run(args: Args) -> anyhow::Result<Report> {
     if args.explain || args.check {
         return explain(&args, &scene, plan);
     }
-    scene::run::ready(&scene, &plan)?;
+    scene::run::ready(&scene, &plan, resume.as_ref())?;
     parts::say(&args.output, resumed.as_ref());
     simulate(&args, &scene, plan, resume)
 }

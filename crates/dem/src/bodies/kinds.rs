@@ -23,17 +23,24 @@ pub struct Yielding {
 /// Beyond any [–]; a number of single precision, also times 1/m.
 const AT_ONCE: f64 = 1e12;
 
+/// How much easier the easiest body of two materials yields to all its contacts than a sphere of its mass to twelve [–].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ease {
+    /// To contacts alone; 1 without clumps, and walls of spheres that lie deep within each other.
+    pub bodies: f64,
+    /// The like for the pace of tangential springs. Where bonds set it, which know nothing of the stiffness of contacts, so much that the springs are always late by
+    /// half a step.
+    pub springs: f64,
+}
+
 impl Setup {
-    /// How much easier the easiest body of two materials yields than a sphere of its mass [–]; 1 without clumps. Where bonds set the pace, which know
-    /// nothing of the stiffness of contacts, so much that tangential springs are always late by half a step.
-    pub(crate) fn yielding(&self, a: u16, b: u16) -> f64 {
-        let is_bonded = |m: u16| self.bonds.iter().any(|bond| bond.between.0 == m || bond.between.1 == m);
-        if is_bonded(a) || is_bonded(b) {
-            return AT_ONCE;
-        }
+    /// Of two materials, where so many times the contacts of a close packing push at once.
+    pub(crate) fn ease(&self, a: u16, b: u16, crowd: f64) -> Ease {
         let clumps = self.clumps.yielding(&self.materials);
         let own = clumps.iter().filter(|c| c.material == a || c.material == b);
-        own.map(|c| c.normal.max(c.tangential) / c.inverse_mass).fold(1.0, f64::max)
+        let bodies = crowd * own.map(|c| c.normal.max(c.tangential) / c.inverse_mass).fold(1.0, f64::max);
+        let is_bonded = |m: u16| self.bonds.iter().any(|bond| bond.between.0 == m || bond.between.1 == m);
+        Ease { bodies, springs: if is_bonded(a) || is_bonded(b) { AT_ONCE } else { bodies } }
     }
 }
 

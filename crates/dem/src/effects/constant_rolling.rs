@@ -2,21 +2,23 @@
 //!
 //! ```text
 //! M = −μ_r R* F_n ω_r/|ω_r|,   ω_r = (ω_i − ω_j) − its part along n
-//! |M| ≤ β I_r |ω_r| / Δt,      I_r = 2/5 m* R*²,  β = 1/8
+//! |M| ≤ β/y I_r |ω_r| / Δt,    I_r = 2/5 m* R*²,  β = 1/8
 //! ```
 //!
 //! Zhou, Wright, Yang, Xu & Yu (1999), Physica A 269, doi:10.1016/S0378-4371(99)00183-1; model A of Ai, Chen, Rotter & Ooi
 //! (2011), Powder Technology 206, doi:10.1016/j.powtec.2010.09.030. Deviation, the second line: a couple of constant size would turn
-//! round at every step of a grain at rest. It never takes more than the share β of the rolling in one step; below
-//! |ω_r| = μ_r R* F_n Δt/β I_r it is a dashpot, which never makes energy, and ω_r decays to zero instead of jittering. I_r is
+//! round at every step of a grain at rest. It never takes more than the share β/y of the rolling in one step; below
+//! |ω_r| = y μ_r R* F_n Δt/β I_r it is a dashpot, which never makes energy, and ω_r decays to zero instead of jittering. I_r is
 //! at most the inertia against relative rolling, a quarter of it for equal spheres, so that twelve contacts at
-//! once, or three of a wall and nine others, stay below the whole rolling. What it cannot do: hold a grain on a slope, where it creeps at the
+//! once, or three of a wall and nine others, stay below the whole rolling. A clump has as many on
+//! each of its spheres, and y says how much easier it yields to them all than a sphere of its mass: no less than the number of its spheres; 1 for
+//! spheres. Wall spheres so close that more than four push at once count in y, too. What it cannot do: hold a grain on a slope, where it creeps at the
 //! speed at which the dashpot bears the moment, ∝ Δt; the spring model holds it.
 
 use super::{Contact, Effect, Load};
 use crate::lane::Lane;
 
-/// β, the share of the rolling that one contact may take in one step [–].
+/// β, the share of the rolling that one contact of a sphere may take in one step [–].
 const SHARE: f64 = 0.125;
 
 /// A couple of constant size.
@@ -24,6 +26,8 @@ const SHARE: f64 = 0.125;
 pub struct ConstantRolling {
     /// μ_r [–].
     pub resistance: f64,
+    /// y: how much easier the easiest body yields than a sphere of its mass [–].
+    pub yielding: f64,
 }
 
 impl Effect for ConstantRolling {
@@ -38,7 +42,8 @@ impl Effect for ConstantRolling {
         let square = rolling.dot(rolling);
         let cap = R::splat(self.resistance) * contact.radius * load.pressing.max(R::splat(0.0));
         let inertia = R::splat(0.4) * contact.mass * contact.radius * contact.radius;
-        let dashpot = (cap / square.max(R::splat(1e-300)).sqrt()).min(R::splat(SHARE) * inertia / dt);
+        let dashpot =
+            (cap / square.max(R::splat(1e-300)).sqrt()).min(R::splat(SHARE / self.yielding) * inertia / dt);
         load.couple = load.couple - rolling.scale(dashpot);
         load.dissipated[2] = load.dissipated[2] + dashpot * square * dt;
     }

@@ -14,10 +14,6 @@ impl Lane for f64 {
         wide
     }
     #[inline(always)]
-    fn widen(self) -> f64 {
-        self
-    }
-    #[inline(always)]
     fn overlap(_: f64, reach: f64, distance: f64) -> f64 {
         reach - distance
     }

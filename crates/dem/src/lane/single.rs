@@ -13,10 +13,6 @@ impl Lane for f32 {
         wide as f32
     }
     #[inline(always)]
-    fn widen(self) -> f64 {
-        f64::from(self)
-    }
-    #[inline(always)]
     fn overlap(gap: f32, reach: f32, distance: f32) -> f32 {
         gap / (reach + distance)
     }

@@ -45,10 +45,6 @@ impl<R: Lane> Lane for Two<R> {
         Two(R::narrow(wide.0), R::narrow(wide.1))
     }
     #[inline(always)]
-    fn widen(self) -> Two<R::Wide> {
-        Two(self.0.widen(), self.1.widen())
-    }
-    #[inline(always)]
     fn overlap(gap: Two<R>, reach: Two<R>, distance: Two<R>) -> Two<R> {
         Two(R::overlap(gap.0, reach.0, distance.0), R::overlap(gap.1, reach.1, distance.1))
     }

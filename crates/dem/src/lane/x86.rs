@@ -139,10 +139,6 @@ impl Lane for X4 {
         wide
     }
     #[inline(always)]
-    fn widen(self) -> X4 {
-        self
-    }
-    #[inline(always)]
     fn overlap(_: X4, reach: X4, distance: X4) -> X4 {
         reach - distance
     }
@@ -243,10 +239,6 @@ impl Lane for X8 {
     #[inline(always)]
     fn narrow(wide: X8) -> X8 {
         wide
-    }
-    #[inline(always)]
-    fn widen(self) -> X8 {
-        self
     }
     #[inline(always)]
     fn overlap(_: X8, reach: X8, distance: X8) -> X8 {

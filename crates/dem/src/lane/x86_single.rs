@@ -82,6 +82,14 @@ macro_rules! single {
                 $t(unsafe { _mm256_xor_ps(self.0, _mm256_set1_ps(-0.0)) })
             }
         }
+        impl $t {
+            /// In double precision.
+            #[inline(always)]
+            fn widen(self) -> $wide {
+                // SAFETY: see the module's head.
+                unsafe { $widen(self.0) }
+            }
+        }
         impl Lane for $t {
             const WIDTH: usize = 8;
             const TINY: f64 = f32::TINY;
@@ -92,11 +100,6 @@ macro_rules! single {
             fn narrow(wide: $wide) -> $t {
                 // SAFETY: see the module's head.
                 $t(unsafe { $narrow(wide) })
-            }
-            #[inline(always)]
-            fn widen(self) -> $wide {
-                // SAFETY: see the module's head.
-                unsafe { $widen(self.0) }
             }
             #[inline(always)]
             fn overlap(gap: $t, reach: $t, distance: $t) -> $t {

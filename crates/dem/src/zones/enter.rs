@@ -3,6 +3,7 @@
 use super::path::Path;
 use super::travel::{Flow, Traveller, Way};
 use super::{LOOK_AHEAD, Zones};
+use crate::check::near;
 use crate::error::SetupError;
 use crate::setup::{Entry, EntryClump, Particle, Setup, WallShape, Zone, ZoneMotion};
 use crate::simulation::Simulation;
@@ -62,7 +63,7 @@ fn announced(entry: &Entry, setup: &Setup) -> Result<(), SetupError> {
         return range(format!("inlet: state of particle {id}"), wrong, "", "the finite numbers");
     }
     if let Some(clump) = &entry.clump {
-        return crate::bodies::check_entry(clump, id, setup);
+        return crate::bodies::check_entry(clump, &entry.particle, setup);
     }
     if !setup.entry_materials.contains(&material) {
         let value = material.into();
@@ -71,7 +72,7 @@ fn announced(entry: &Entry, setup: &Setup) -> Result<(), SetupError> {
     if !(radius >= setup.smallest_entry && radius <= setup.largest_entry) {
         return range(format!("inlet: radius of particle {id}"), radius, "m", "what the inlet announced");
     }
-    Ok(())
+    near(format_args!("inlet: position of particle {id}"), &position, radius)
 }
 
 /// Refuses an entry that never gets to the calculation plane, or becomes free behind a plane at rest.
