@@ -11,7 +11,7 @@
 
 use crate::lane::scalar::Each;
 use crate::lane::{Four, Row, Row4, Width};
-use crate::number::Number;
+use crate::number::{Number, as_kept};
 use crate::sleep::Beds;
 use crate::sums::Sums;
 
@@ -99,12 +99,7 @@ pub struct Drive {
 
 /// Moves particles by one step, computing with lanes of `width`; all widths give the same bits.
 pub fn advance(width: Width, columns: Columns, drive: &Drive) -> Moved {
-    match (columns.sums.form.single, columns.spins.is_empty()) {
-        (false, false) => dispatch::<f64, true>(width, columns, drive),
-        (false, true) => dispatch::<f64, false>(width, columns, drive),
-        (true, false) => dispatch::<f32, true>(width, columns, drive),
-        (true, true) => dispatch::<f32, false>(width, columns, drive),
-    }
+    as_kept!(columns.sums.form, T, ROTATES => dispatch::<T, ROTATES>(width, columns, drive))
 }
 
 fn dispatch<T: Number, const SPIN: bool>(width: Width, columns: Columns, drive: &Drive) -> Moved {

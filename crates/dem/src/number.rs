@@ -98,6 +98,28 @@ pub struct Form {
     pub single: bool,
 }
 
+/// Calls what is made for the numbers `$T` of a form, and for whether its loads have moments: `$ROTATES`.
+macro_rules! as_kept {
+    ($form:expr, $T:ident, $ROTATES:ident => $call:expr) => {
+        $crate::number::as_kept!(@ $form, $T, $ROTATES => $call; (false, false, f64), (false, true, f64), (true, false, f32), (true, true, f32))
+    };
+    (@ $form:expr, $T:ident, $ROTATES:ident => $call:expr; $(($single:literal, $rotates:literal, $number:ty)),*) => {
+        match ($form.single, $form.rotates) {
+            $(($single, $rotates) => {
+                type $T = $number;
+                const $ROTATES: bool = $rotates;
+                $call
+            })*
+        }
+    };
+}
+pub(crate) use as_kept;
+
+/// Numbers of a load, with or without a moment.
+pub const fn of_a_load(rotates: bool) -> usize {
+    if rotates { FORCE_AND_MOMENT } else { FORCE }
+}
+
 impl Form {
     /// Words of so many numbers.
     #[inline(always)]
@@ -106,16 +128,10 @@ impl Form {
         (numbers + single) >> single
     }
 
-    /// Numbers of a load.
-    #[inline(always)]
-    fn of_a_load(self) -> usize {
-        if self.rotates { FORCE_AND_MOMENT } else { FORCE }
-    }
-
     /// Words of a load.
     #[inline(always)]
     pub fn load(self) -> usize {
-        self.words(self.of_a_load())
+        self.words(of_a_load(self.rotates))
     }
 
     /// Words of a couple.
@@ -150,7 +166,7 @@ impl Form {
 
     /// The first three numbers of load `place`.
     pub fn force(self, loads: &[f64], place: usize) -> geom::Vec3 {
-        let first = place * self.of_a_load();
+        let first = place * of_a_load(self.rotates);
         geom::Vec3::new(self.get(loads, first), self.get(loads, first + 1), self.get(loads, first + 2))
     }
 

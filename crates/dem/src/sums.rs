@@ -7,7 +7,7 @@
 
 use crate::lane::scalar::Each;
 use crate::lane::{Four, fetch};
-use crate::number::{COUPLE, FORCE, FORCE_AND_MOMENT, Form, Number};
+use crate::number::{COUPLE, FORCE, Form, Number, as_kept, of_a_load};
 
 /// Arrivals between one whose load is asked for and the one that is added; chosen on the bench pile.
 const AHEAD: usize = 24;
@@ -123,23 +123,14 @@ impl<'a> Sums<'a> {
 
     /// Adds what was computed before.
     pub fn take_again(&mut self, pairs: (&[u32], &[u32]), both: bool, (loads, couples): Computed) {
-        let (double, single) = ((loads, couples), (f32::of(loads), f32::of(couples)));
-        match (self.form.single, self.form.rotates) {
-            (false, false) => self.take::<f64, FORCE>(pairs, both, double),
-            (false, true) => self.take::<f64, FORCE_AND_MOMENT>(pairs, both, double),
-            (true, false) => self.take::<f32, FORCE>(pairs, both, single),
-            (true, true) => self.take::<f32, FORCE_AND_MOMENT>(pairs, both, single),
-        }
+        as_kept!(self.form, T, ROTATES => {
+            self.take::<T, { of_a_load(ROTATES) }>(pairs, both, (T::of(loads), T::of(couples)));
+        });
     }
 
     /// Adds what arrives from elsewhere.
     pub fn collect(&mut self, arrivals: &[Arrival], kept: Computed) {
-        match (self.form.single, self.form.rotates) {
-            (false, false) => self.collect_rows::<f64, FORCE>(arrivals, kept),
-            (false, true) => self.collect_rows::<f64, FORCE_AND_MOMENT>(arrivals, kept),
-            (true, false) => self.collect_rows::<f32, FORCE>(arrivals, kept),
-            (true, true) => self.collect_rows::<f32, FORCE_AND_MOMENT>(arrivals, kept),
-        }
+        as_kept!(self.form, T, ROTATES => self.collect_rows::<T, { of_a_load(ROTATES) }>(arrivals, kept));
     }
 
     fn collect_rows<T: Number, const N: usize>(&mut self, arrivals: &[Arrival], kept: Computed) {
@@ -214,12 +205,7 @@ impl Loads<'_> {
     /// Force [N] and moment [N·m] on particle number `k` of `radius` [m].
     pub fn on(&self, k: usize, radius: f64) -> ([f64; 3], [f64; 3]) {
         let at = k - self.first;
-        let sum = match (self.form.single, self.form.rotates) {
-            (false, false) => self.sum::<f64, Each, false>(at, radius),
-            (false, true) => self.sum::<f64, Each, true>(at, radius),
-            (true, false) => self.sum::<f32, Each, false>(at, radius),
-            (true, true) => self.sum::<f32, Each, true>(at, radius),
-        };
+        let sum = as_kept!(self.form, T, ROTATES => self.sum::<T, Each, ROTATES>(at, radius));
         let three = |q: Each| {
             let mut row = [0.0; 4];
             q.write(&mut row);
