@@ -147,7 +147,7 @@ fn overlap_raised_beyond_the_step() {
         let done = resumed(folder.path(), &["--set", "guards.overlap=0.9"]);
         assert_eq!(done.code, 0, "{on}: {}", done.stderr);
         let end = read(&folder.path().join("rest.mcap")).frames.last().map(|f| f.0);
-        assert_eq!(end, Some(20_000_000), "{on}: to its end");
+        assert!(end.is_some_and(|time| time > 19_000_000), "{on}: to its end, not {end:?} ns");
     }
 }
 
