@@ -7,5 +7,5 @@ use stream::mcap::{Compression, Provenance};
 libfuzzer_sys::fuzz_target!(|data: &[u8]| {
     let source = Box::new(Cursor::new(grainpipe_fuzz::without_crcs(data)));
     let how = (Provenance::default(), Compression::None.into());
-    let _ = replay("run", source, &Replay::default(), Vec::new(), how);
+    let _ = replay(vec![("run".into(), source)], &Replay::default(), Vec::new(), how);
 });

@@ -200,7 +200,9 @@ pub fn inlet(run: &[u8]) -> Vec<u8> {
     let what = scene::replay::Replay::default();
     let (source, how) =
         (Box::new(Cursor::new(run.to_vec())), (Provenance::default(), Compression::None.into()));
-    scene::replay::replay("run", source, &what, Vec::new(), how).expect("a run with an outlet").1
+    scene::replay::replay(vec![("run".into(), source)], &what, Vec::new(), how)
+        .expect("a run with an outlet")
+        .1
 }
 
 fn spheres() -> Table {

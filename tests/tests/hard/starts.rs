@@ -100,7 +100,8 @@ fn what_is_no_number_is_refused() {
 /// Numbers of materials that there are not are refused, by the critical step as well, whoever has them.
 #[test]
 fn materials_that_are_none_are_refused() {
-    let wrong: [(&str, fn(&mut dem::Setup)); 5] = [
+    type Spoil = fn(&mut dem::Setup);
+    let wrong: [(&str, Spoil); 5] = [
         ("particle 41: material", |s| s.particles[0].material = 9),
         ("wall 'plane': material", |s| s.walls[0].material = 9),
         ("contact: between", |s| s.contacts[0].between.1 = 9),
@@ -116,7 +117,7 @@ fn materials_that_are_none_are_refused() {
         setup.particles = vec![grain(41, Vec3::new(0.0, 0.0, 0.1))];
         setup.walls = vec![plane(Vec3::z())];
         spoil(&mut setup);
-        let of_step = dem::critical_step(&setup).err().expect("refused").to_string();
+        let of_step = dem::critical_step(&setup).expect_err("refused").to_string();
         let error = dem::Simulation::new(setup).err().expect("refused").to_string();
         assert_eq!(of_step, error);
         HUGE.refused(what, &error, &[what, "9", "the scene's materials"]);
