@@ -251,7 +251,9 @@ fn the_ledger_is_written_and_changes_nothing() {
 
 /// Starts a run that takes minutes.
 fn long_run(folder: &Path) -> std::process::Child {
-    let mut command = std::process::Command::new(program("dem-run"));
+    // Under nohup, whose children ignore a lost terminal, this one does not.
+    let mut command = std::process::Command::new("env");
+    command.arg("--default-signal=HUP").arg(program("dem-run"));
     command.current_dir(folder).args(["s.toml", "--until", "1000", "-o", "run.mcap"]);
     command.args(["--set", "output.every=0.01", "--set", "output.checkpoint=0.01"]);
     command.stderr(std::process::Stdio::piped()).spawn().unwrap()

@@ -12,14 +12,10 @@ mod start;
 pub use copies::Copies;
 pub use frame::Frame;
 
-use crate::crossings::SIZES;
-use crate::error::SceneError;
-use crate::inlet::{INLET, Source};
-use crate::links::BONDS;
-use crate::material_info::MATERIALS;
-use crate::run::{CLUMPS, RunError};
+use crate::inlet::Source;
+use crate::run::RunError;
 use dem::setup::ZoneMotion;
-use geom::{Plane, Shown};
+use geom::Plane;
 use pass::Passing;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -154,22 +150,10 @@ pub fn replay<W: Write>(
     out: W,
     (mut provenance, how): (Provenance, How<W>),
 ) -> Result<(Replayed, W), RunError> {
-    let mut parts = part::open(parts, what)?;
+    let (mut parts, head) = part::open(parts, what)?;
     provenance.inputs.extend(parts.iter().filter_map(|p| p.scene.clone()));
-    let name = parts[0].name.clone();
-    let head = parts[0].head.take().ok_or_else(|| SceneError::file(&name, "is no run", "give a run"))?;
     let mut writer = Writer::compressed(out, &provenance, how)?;
-    writer.metadata(MATERIALS, head.materials.clone())?;
-    writer.metadata(SIZES, head.sizes_record.clone())?;
-    if !head.clumps_record.is_empty() {
-        writer.metadata(CLUMPS, head.clumps_record.clone())?;
-    }
-    if !head.bonds_record.is_empty() {
-        writer.metadata(BONDS, head.bonds_record.clone())?;
-    }
-    writer.metadata(REPLAY, what.to_map())?;
-    // The last record: from it on, messages may come as late as a run upstream makes them.
-    writer.metadata(INLET, head.gate.to_map())?;
+    head.write(what, &mut writer)?;
     let start = if what.keep_times { Some(0.0) } else { what.from };
     let mut passing = Passing::new(what, head, start);
     for k in 0..parts.len() {
@@ -180,21 +164,17 @@ pub fn replay<W: Write>(
                 break;
             }
         }
+        if what.until.is_some_and(|until| passing.known() > until) {
+            break;
+        }
         if k + 1 < parts.len() && !passing.over() {
             return Err(parts[k].gap(&parts[k + 1], passing.known()).into());
         }
     }
-    let name = parts[parts.len() - 1].name.clone();
-    if let Some(stop) = passing.stopped {
+    if let (Some(stop), Some(last)) = (&passing.stopped, parts.last()) {
         // What was recorded is passed on, but the stream has no end: what is downstream must not look whole.
         writer.flush_chunk()?;
-        // A guard says the time itself.
-        let said = stop.text.starts_with("t = ");
-        let time = if said { String::new() } else { format!("t = {} s: ", Shown(stop.time)) };
-        let why = format!("the run was stopped at {time}{}", stop.text);
-        let cure =
-            "go on with dem-run --resume and give both runs, or take what lies before the stop with --until";
-        return Err(SceneError::file(&name, why, cure).into());
+        return Err(stop.told(&last.name).into());
     }
     passing.again(&mut writer)?;
     passing.send(f64::INFINITY, &mut writer)?;

@@ -57,6 +57,12 @@ fn a_part_of_a_record_is_not_taken_for_all_of_it() {
         assert!(done.code == 1 && done.stderr.contains(wanted), "{arguments:?}: {}", done.stderr);
         assert!(!folder.path().join("x.mcap").exists());
     }
+    let early = tool(
+        folder.path(),
+        "stage-replay",
+        &["one.mcap", "three.mcap", "--until", "0.09", "-o", "early.mcap"],
+    );
+    assert_eq!(early.code, 0, "what was asked for is in the first: {}", early.stderr);
     let alone = tool(folder.path(), "stage-replay", &["two.mcap", "--from", "0.1", "-o", "part.mcap"]);
     assert_eq!(alone.code, 0, "{}", alone.stderr);
 }

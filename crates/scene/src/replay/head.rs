@@ -1,6 +1,6 @@
 //! What a run says of itself before its first message: what an inlet stream needs of it.
 
-use super::Replay;
+use super::{REPLAY, Replay};
 use crate::clump_info::{self, ClumpInfo};
 use crate::crossings::{SIZES, Sizes};
 use crate::error::SceneError;
@@ -12,6 +12,8 @@ use crate::run::{CLUMPS, OUTLETS};
 use dem::setup::{Zone, ZoneMotion};
 use geom::Shown;
 use std::collections::BTreeMap;
+use std::io::Write;
+use stream::mcap::{McapError, Writer};
 
 pub struct Head {
     pub materials: BTreeMap<String, String>,
@@ -27,6 +29,23 @@ pub struct Head {
     pub bonds_record: BTreeMap<String, String>,
     /// Where grains come in.
     pub gate: Gate,
+}
+
+impl Head {
+    /// Writes what a stream says of itself.
+    pub fn write<W: Write>(&self, what: &Replay, writer: &mut Writer<W>) -> Result<(), McapError> {
+        writer.metadata(MATERIALS, self.materials.clone())?;
+        writer.metadata(SIZES, self.sizes_record.clone())?;
+        if !self.clumps_record.is_empty() {
+            writer.metadata(CLUMPS, self.clumps_record.clone())?;
+        }
+        if !self.bonds_record.is_empty() {
+            writer.metadata(BONDS, self.bonds_record.clone())?;
+        }
+        writer.metadata(REPLAY, what.to_map())?;
+        // The last record: from it on, messages may come as late as a run upstream makes them.
+        writer.metadata(INLET, self.gate.to_map())
+    }
 }
 
 /// From the metadata of a run.

@@ -13,8 +13,6 @@ pub struct Part {
     pub name: String,
     reader: Reader<Source>,
     first: Option<Event>,
-    /// What it says of itself; taken once.
-    pub head: Option<Head>,
     /// When it begins [s]: above 0 where it goes on from another run.
     pub begins: f64,
     /// Its scene, for who wants to know where a stream comes from.
@@ -25,24 +23,22 @@ pub struct Part {
 ///
 /// # Errors
 /// A stream that is no run with an outlet; one that begins after what is asked for, or not after the one before, or has another outlet.
-pub fn open(files: Vec<(String, Source)>, what: &Replay) -> Result<Vec<Part>, SceneError> {
-    let mut parts = Vec::new();
+pub fn open(files: Vec<(String, Source)>, what: &Replay) -> Result<(Vec<Part>, Head), SceneError> {
+    let (mut parts, mut heads) = (Vec::new(), Vec::new());
     for (name, source) in files {
-        parts.push(Part::open(name, source, what)?);
+        let (part, head) = Part::open(name, source, what)?;
+        parts.push(part);
+        heads.push(head);
     }
-    let from = what.from.unwrap_or(0.0);
-    match parts.first() {
-        // What a message tells is rounded to some digits.
-        Some(first) if first.begins > from * (1.0 + 1e-4) => {
-            let begins = Shown(first.begins);
-            let why = format!(
-                "begins at {begins} s, where it goes on from another run: what passed before is recorded there"
-            );
-            let cure = format!("give that run before this one, or --from {begins} to replay this part alone");
-            return Err(SceneError::file(&first.name, why, cure));
-        }
-        Some(_) => {}
-        None => return Err(SceneError::file("stage-replay", "no run is given", "give one")),
+    // What a message tells is rounded to some digits.
+    let from = what.from.unwrap_or(0.0) * (1.0 + 1e-4);
+    if let Some(first) = parts.first().filter(|first| first.begins > from) {
+        let begins = Shown(first.begins);
+        let why = format!(
+            "begins at {begins} s, where it goes on from another run: what passed before is recorded there"
+        );
+        let cure = format!("give that run before this one, or --from {begins} to replay this part alone");
+        return Err(SceneError::file(&first.name, why, cure));
     }
     for two in parts.windows(2) {
         if !(two[1].begins > two[0].begins) {
@@ -54,17 +50,20 @@ pub fn open(files: Vec<(String, Source)>, what: &Replay) -> Result<Vec<Part>, Sc
             );
             return Err(SceneError::file(&two[1].name, why, "give a run first, then what goes on from it"));
         }
-        let gate = |p: &Part| p.head.as_ref().map(|h| (h.gate.clone(), h.materials.clone()));
-        if gate(&two[0]) != gate(&two[1]) {
-            let why = format!("has another outlet, or other materials, than {}", two[0].name);
-            return Err(SceneError::file(&two[1].name, why, "give runs of one scene"));
+    }
+    for (part, two) in parts.iter().skip(1).zip(heads.windows(2)) {
+        if two[0].gate != two[1].gate || two[0].materials != two[1].materials {
+            let why = "has another outlet, or other materials, than the run that is given before it";
+            return Err(SceneError::file(&part.name, why, "give runs of one scene"));
         }
     }
-    Ok(parts)
+    let none = || SceneError::file("stage-replay", "no run is given", "give one");
+    let head = heads.into_iter().next().ok_or_else(none)?;
+    Ok((parts, head))
 }
 
 impl Part {
-    fn open(name: String, source: Source, what: &Replay) -> Result<Part, SceneError> {
+    fn open(name: String, source: Source, what: &Replay) -> Result<(Part, Head), SceneError> {
         let mut reader = Reader::new(source);
         let mut records: BTreeMap<String, BTreeMap<String, String>> = BTreeMap::new();
         let first = loop {
@@ -77,8 +76,8 @@ impl Part {
         let scene = text.map(|toml| ("scene of the run".to_owned(), crate::sha256(toml)));
         let start = records.get("time").and_then(|r| r.get("start"));
         let begins = start.and_then(|s| s.parse().ok()).unwrap_or(0.0);
-        let head = Some(head(&name, records, what)?);
-        Ok(Part { name, reader, first, head, begins, scene })
+        let head = head(&name, records, what)?;
+        Ok((Part { name, reader, first, begins, scene }, head))
     }
 
     /// What it has next.

@@ -54,9 +54,22 @@ pub(super) struct Passing<'a> {
 #[derive(Deserialize)]
 pub(super) struct Logged {
     /// [s].
-    pub time: f64,
+    time: f64,
     kind: String,
-    pub text: String,
+    text: String,
+}
+
+impl Logged {
+    /// That a run did not come to its end.
+    pub(super) fn told(&self, run: &str) -> SceneError {
+        // A guard says the time itself.
+        let said = self.text.starts_with("t = ");
+        let time = if said { String::new() } else { format!("t = {} s: ", Shown(self.time)) };
+        let why = format!("the run was stopped at {time}{}", self.text);
+        let cure =
+            "go on with dem-run --resume and give both runs, or take what lies before the stop with --until";
+        SceneError::file(run, why, cure)
+    }
 }
 
 impl<'a> Passing<'a> {
