@@ -122,7 +122,8 @@ fn run(folder: &Path, setting: &Setting, seed: u64) -> Result<Vec<Found>, String
                 line(&own, &format!("stage-split {scene} {zone} --keep {keep} -o {keep}.toml -q"))?;
             }
             line(&own, &format!("dem-run upstream.toml {common} --set fill.0.seed={seed} -o up.mcap"))?;
-            line(&own, "stage-replay up.mcap --keep-times -o in.mcap -q")?;
+            // Grains arrive T late, some milliseconds: all that is measured is of steady flow, or of the end.
+            line(&own, "stage-replay up.mcap --from 0 -o in.mcap -q")?;
             let done = line(&own, &format!("dem-run downstream.toml in.mcap {common} -o down.mcap"));
             let mut found = see(&own, cut, "up.mcap", "down.mcap");
             if let Err(why) = done {

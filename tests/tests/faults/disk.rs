@@ -17,7 +17,7 @@ const COMMANDS: [&str; 9] = [
     "wallgen cloud.xyz --roughness 0.001 --radius uniform",
     "dem-run s.toml",
     "stage-replay run.mcap",
-    "stage-split plant.toml --at 0,0,0,0,0,-1 --keep upstream",
+    "stage-split plant.toml --at 0,0,0.0204,0,0,-1 --keep upstream",
     "dem-measure run.mcap --energy",
     "dem-view run.mcap",
 ];

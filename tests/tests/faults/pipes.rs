@@ -33,7 +33,7 @@ fn a_closed_pipe_ends_every_tool_quietly() {
         "wallgen cloud.xyz --roughness 0.001 --radius uniform",
         "dem-run s.toml",
         "stage-replay run.mcap",
-        "stage-split plant.toml --at 0,0,0,0,0,-1 --keep upstream",
+        "stage-split plant.toml --at 0,0,0.0204,0,0,-1 --keep upstream",
         "dem-measure run.mcap --energy",
         "dem-measure run.mcap --contacts",
         "dem-view run.mcap",
