@@ -82,8 +82,7 @@ pub(crate) fn dropped(entry: &Contact, kept: &setup::Contact) -> Vec<(String, &'
         ("twisting_resistance", entry.twisting_resistance, kept.twisting_resistance),
     ] {
         if let (Some(value), None) = (asked, kept) {
-            let why = if value > 0.0 { "without sliding_friction nothing turns" } else { NOTHING };
-            found.push((format!("{key} = {value}"), why));
+            found.push((format!("{key} = {value}"), NOTHING));
         }
     }
     found
