@@ -37,7 +37,7 @@ sweep impact-depth impact-hertz.toml --set contact.0.restitution=1 --vary $STEPS
   --norm max --work steps
 
 RATE='discharge-rate 0,0,0.6,0,0,-1 --from 0.2 --until 0.26'
-sweep hopper-step hopper.toml --vary safety=0.15,0.5,0.8 --vary precision=f64,mixed,f32 --reference safety=0.15 --reference precision=f64 \
+sweep hopper-step hopper.toml --vary safety=0.15,0.5,0.8 --vary precision=f64,mixed --reference safety=0.15 --reference precision=f64 \
   --measure "$RATE" --repeat 3 --for 3% --work cpu
 sweep hopper-stiffness hopper.toml --vary stiffness=0.3,1,4,10 --measure "$RATE" --repeat 3 --for 3% --work cpu
 
