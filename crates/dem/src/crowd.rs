@@ -9,7 +9,7 @@
 //! overlap of δ R*/(r + R), a quarter of the limit for equal radii.
 
 use crate::limit::ALONG;
-use crate::setup::{Wall, WallShape};
+use crate::setup::{Setup, Wall, WallShape};
 use crate::sweep::share;
 use geom::{Grid, Vec3};
 
@@ -30,9 +30,31 @@ pub fn met(wall: &Wall, r: f64) -> (f64, f64) {
     (if other.is_finite() { r * other / (r + other) } else { r }, r.min(other))
 }
 
+/// The walls of a setup, and how many times the four of a close packing they push the largest grain: most walls do so once, and are counted once.
+pub struct Crowds<'a> {
+    setup: &'a Setup,
+    largest: f64,
+    most: Vec<f64>,
+}
+
+impl<'a> Crowds<'a> {
+    /// Of grains up to this radius [m]: the larger, the more push it.
+    pub fn new(setup: &'a Setup, largest: f64) -> Crowds<'a> {
+        let most = setup.walls.iter().map(|wall| crowd_on(wall, largest, setup.guards.overlap));
+        Crowds { setup, largest, most: most.collect() }
+    }
+
+    /// How many times the four of a close packing push a sphere of radius `r` [m] one way on wall `w`; no fewer than once.
+    pub fn on(&self, w: usize, r: f64) -> f64 {
+        let Setup { walls, guards, .. } = self.setup;
+        let known = self.most[w] == 1.0 || r >= self.largest;
+        if known { self.most[w] } else { crowd_on(&walls[w], r, guards.overlap) }
+    }
+}
+
 /// How many times the four of a close packing push a sphere of radius `r` [m] one way on a wall, up to an overlap that is such a share
 /// of the smaller radius; no fewer than once.
-pub fn crowd_on(wall: &Wall, r: f64, overlap: f64) -> f64 {
+fn crowd_on(wall: &Wall, r: f64, overlap: f64) -> f64 {
     let WallShape::Spheres(spheres) = &wall.shape else { return 1.0 };
     let (radius, smaller) = met(wall, r);
     let centres: Vec<Vec3> = spheres.iter().map(|s| s.0).collect();

@@ -23,7 +23,7 @@
 //! ([`crate::crowd`]): where N > 4, all numbers of contacts count N/4 times.
 
 use crate::bodies::Yielding;
-use crate::crowd::{crowd_on, met, rounding};
+use crate::crowd::{Crowds, met, rounding};
 use crate::effects::damping_ratio;
 use crate::error::SetupError;
 use crate::law::{Elastic, reach, stiffest, tangential_ratio};
@@ -125,6 +125,11 @@ pub fn grains(setup: &Setup) -> Vec<Grain> {
     grains
 }
 
+/// Largest radius of some grains [m].
+pub fn largest(grains: &[Grain]) -> f64 {
+    grains.iter().map(|g| g.radius).fold(0.0, f64::max)
+}
+
 /// The critical step of a setup: over every pair of grains that can meet, walls included.
 ///
 /// # Errors
@@ -132,13 +137,14 @@ pub fn grains(setup: &Setup) -> Vec<Grain> {
 pub fn critical_step(setup: &Setup) -> Result<Limit, SetupError> {
     crate::check::indices(setup)?;
     let grains = grains(setup);
+    let crowds = Crowds::new(setup, largest(&grains));
     let mut limit = Limit { dt: f64::INFINITY, pair: "no contact can occur".to_owned() };
     for (k, a) in grains.iter().enumerate() {
         for b in &grains[k..] {
             tighten(&mut limit, setup, a, Partner::Grain(b))?;
         }
-        for wall in &setup.walls {
-            tighten(&mut limit, setup, a, Partner::Wall(wall))?;
+        for (w, wall) in setup.walls.iter().enumerate() {
+            tighten(&mut limit, setup, a, Partner::Wall(wall, crowds.on(w, a.radius)))?;
         }
     }
     crate::bonds::tighten(&mut limit, setup)?;
@@ -173,7 +179,8 @@ pub fn largest_reach(setup: &Setup) -> f64 {
 
 enum Partner<'a> {
     Grain(&'a Grain),
-    Wall(&'a Wall),
+    /// And how many times the four of a close packing push there.
+    Wall(&'a Wall, f64),
 }
 
 fn tighten(limit: &mut Limit, setup: &Setup, a: &Grain, partner: Partner) -> Result<(), SetupError> {
@@ -187,19 +194,18 @@ fn tighten(limit: &mut Limit, setup: &Setup, a: &Grain, partner: Partner) -> Res
             let uneven = (mine * normal - its * n).abs();
             (b.material, yields, uneven, ra * rb / (ra + rb), sizes, b.name(&setup.materials), 1.0)
         }
-        Partner::Wall(wall) => {
+        Partner::Wall(wall, dense) => {
             let (rb, (radius, smaller)) = (rounding(wall), met(wall, ra));
             let material = &setup.materials[wall.material as usize].name;
-            let dense = crowd_on(wall, ra, setup.guards.overlap);
-            let many = if dense > 1.0 {
-                format!(", {} of its spheres at once", ALONG * dense)
+            let many = if *dense > 1.0 {
+                format!(", {} of its spheres at once", ALONG * *dense)
             } else {
                 String::new()
             };
             let what = format!("{material} (wall '{}'{many})", wall.name);
             // Wall spheres may lie within each other, so that there may be many however large they are.
             let sizes = if rb.is_finite() { (smaller, smaller) } else { (ra, rb) };
-            (wall.material, a.yields, normal, radius, sizes, what, dense)
+            (wall.material, a.yields, normal, radius, sizes, what, *dense)
         }
     };
     let contact = contact_between(setup, a.material, other)?;

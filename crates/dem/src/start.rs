@@ -1,10 +1,10 @@
 //! What a simulation begins with: its step, its kinds of contact.
 
 use crate::contacts::{Kind, With};
-use crate::crowd::crowd_on;
+use crate::crowd::Crowds;
 use crate::error::SetupError;
 use crate::law::{Elastic, compose};
-use crate::limit::{contact_between, critical_step, grains, radii_by_material};
+use crate::limit::{contact_between, critical_step, grains, largest, radii_by_material};
 use crate::setup::{Setup, Step};
 use crate::walls::WallBody;
 
@@ -50,10 +50,11 @@ pub fn kinds(setup: &Setup) -> Result<Vec<Kind>, SetupError> {
     let periodic = setup.periodic.iter().any(|p| p.is_some());
     let mut list = Vec::new();
     let grains = grains(setup);
+    let crowds = Crowds::new(setup, largest(&grains));
     let crowd = |a: u16, with: With| {
         let With::Wall(w) = with else { return 1.0 };
         let own = grains.iter().filter(|g| g.material == a);
-        own.map(|g| crowd_on(&setup.walls[w], g.radius, setup.guards.overlap)).fold(1.0, f64::max)
+        own.map(|g| crowds.on(w, g.radius)).fold(1.0, f64::max)
     };
     let kind = |a: u16, b: u16, with: With| -> Result<Kind, SetupError> {
         let elastic = Elastic::of(&setup.materials[a as usize], &setup.materials[b as usize]);
