@@ -164,7 +164,7 @@ pub fn replay<W: Write>(
                 break;
             }
         }
-        if what.until.is_some_and(|until| passing.known() > until) {
+        if passing.enough() {
             break;
         }
         if k + 1 < parts.len() && !passing.over() {

@@ -110,6 +110,16 @@ impl<'a> Passing<'a> {
         self.known
     }
 
+    /// The like of what is replayed [s].
+    fn reached(&self) -> f64 {
+        self.what.until.map_or(self.known, |until| until.min(self.known))
+    }
+
+    /// Whether all that is replayed was read.
+    pub(super) fn enough(&self) -> bool {
+        self.what.until.is_some_and(|until| self.known > until)
+    }
+
     fn know(&mut self, time: f64) {
         self.known = self.known.max(time.min(self.limit));
     }
@@ -149,7 +159,7 @@ impl<'a> Passing<'a> {
                 self.know(Watermark::read(&self.name, &data)?.until);
                 self.send(self.bound(), writer)?;
                 self.promise(self.bound(), writer)?;
-                Ok(self.over() || self.what.until.is_some_and(|until| self.known > until))
+                Ok(self.over() || self.enough())
             }
             Event::Bytes { topic, data, .. } if topic == LOG => {
                 let logged = serde_json::from_slice::<Logged>(&data).ok();
@@ -162,7 +172,7 @@ impl<'a> Passing<'a> {
 
     /// Nothing that has not been read is generated before this time [s]; nor is anything of the next replay.
     fn bound(&self) -> f64 {
-        let known = self.what.until.map_or(self.known, |until| until.min(self.known));
+        let known = self.reached();
         let next = match (self.held.first(), self.what.period) {
             (Some((first, _)), Some(period)) => begins(first, period, 1),
             _ => f64::INFINITY,
@@ -173,7 +183,7 @@ impl<'a> Passing<'a> {
     /// Tells that nothing follows the record, which reaches so far.
     pub(super) fn promise_end<W: Write>(&mut self, writer: &mut Writer<W>) -> Result<(), RunError> {
         let later = self.done.period.map_or(0.0, |period| period * f64::from(self.what.repeat.max(1) - 1));
-        let known = self.what.until.map_or(self.known, |until| until.min(self.known));
+        let known = self.reached();
         let end = self.start.map_or(f64::NEG_INFINITY, |start| known - start) + later - self.starts.lead();
         self.promise(end.max(self.done.last), writer)
     }
@@ -284,7 +294,7 @@ impl<'a> Passing<'a> {
         let (Some((first, _)), Some((last, _))) = (self.held.first(), self.held.last()) else {
             return Ok(());
         };
-        let end = self.what.until.map_or(self.known, |until| until.min(self.known));
+        let end = self.reached();
         let period = self.what.period.unwrap_or(end - self.start.unwrap_or(0.0));
         if period < last.time - first.time {
             let why = format!(

@@ -78,7 +78,9 @@ impl Cutting<'_> {
             if self.keeps(&name, range)? {
                 kept += 1;
             } else {
-                taken = taken.max(after_ids(self.scene, entry)?);
+                if self.cut.keep == Stage::Upstream {
+                    taken = taken.max(after_ids(self.scene, entry)?);
+                }
                 remove(document, "particles", i, name, found);
             }
         }
@@ -95,9 +97,7 @@ impl Cutting<'_> {
         match self.cut.keep {
             Stage::Downstream if kept > 0 => drop(document.insert("first_id", value(own_ids(m.first_id)))),
             // In the plant those of a fill or a faucet follow the ones of its files, which may stay downstream.
-            Stage::Upstream if taken > m.first_id => {
-                drop(document.insert("first_id", value(i64::from(taken))))
-            }
+            _ if taken > m.first_id => drop(document.insert("first_id", value(i64::from(taken)))),
             _ => {}
         }
         Ok(())
