@@ -3,16 +3,62 @@
 use dem::setup::*;
 use geom::{Plane, Vec3};
 
+/// A normal law with the numbers of its own.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Law {
+    /// Linear spring and dashpot: k_n [N/m], and k_t/k_n [–] where it is not Mindlin's.
+    Hooke {
+        /// k_n [N/m].
+        stiffness: f64,
+        /// k_t/k_n [–].
+        tangential_ratio: Option<f64>,
+    },
+    /// Elastic spheres.
+    Hertz,
+    /// Elastic spheres that adhere.
+    Jkr {
+        /// w [J/m²].
+        work_of_adhesion: f64,
+    },
+}
+
+/// A contact law between two materials.
+pub fn contact(between: (u16, u16), law: Law, restitution: f64) -> ContactLaw {
+    let of = |name| ContactLaw::new(between, name).with("restitution", restitution);
+    match law {
+        Law::Hooke { stiffness, tangential_ratio } => {
+            let mut law = of("hooke").with("stiffness", stiffness);
+            law.set("tangential_ratio", tangential_ratio);
+            law
+        }
+        Law::Hertz => of("hertz"),
+        Law::Jkr { work_of_adhesion } => of("jkr").with("work_of_adhesion", work_of_adhesion),
+    }
+}
+
+/// Gives a law sliding friction that weakens: static, dynamic [–], speed [m/s].
+pub fn weaken(law: &mut ContactLaw, [at_rest, dynamic, speed]: [f64; 3]) {
+    law.remove("sliding_friction");
+    law.set("sliding_friction.static", at_rest);
+    law.set("sliding_friction.dynamic", dynamic);
+    law.set("sliding_friction.speed", speed);
+}
+
+/// Gives a law a model of rolling resistance.
+pub fn rolling(law: &mut ContactLaw, resistance: f64, model: &'static str) {
+    law.set("rolling_resistance", resistance);
+    law.choose("rolling_model", model);
+}
+
 /// Materials 0 (grain) and 1 (wall) with one law for all pairs, no particle, no wall, no gravity.
 pub fn empty(law: Law, restitution: f64) -> Setup {
     let material =
         |name: &str| Material { name: name.to_owned(), density: 2500.0, young: 1e7, poisson: 0.25 };
-    let contact = |between| Contact::new(between, law, restitution);
     Setup {
         gravity: Vec3::zeros(),
         drag: None,
         materials: vec![material("grain"), material("wall")],
-        contacts: vec![contact((0, 0)), contact((0, 1))],
+        contacts: vec![contact((0, 0), law, restitution), contact((0, 1), law, restitution)],
         particles: vec![],
         walls: vec![],
         clumps: Clumps::default(),
@@ -73,7 +119,7 @@ pub fn plane(normal: Vec3) -> Wall {
 
 /// Gives every pair sliding friction μ.
 pub fn with_friction(mut setup: Setup, friction: f64) -> Setup {
-    setup.contacts.iter_mut().for_each(|c| c.sliding_friction = Some(friction));
+    setup.contacts.iter_mut().for_each(|c| c.set("sliding_friction", friction));
     setup
 }
 

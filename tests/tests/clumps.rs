@@ -4,7 +4,9 @@ use dem::lane::Width;
 use dem::setup::*;
 use dem::{BodyState, Energy, Setup, Simulation};
 use geom::{Moments, Vec3};
-use grainpipe_tests::setups::{HOOKE, LAWS, empty, grain, particles, plane, run_until, with_friction};
+use grainpipe_tests::setups::{
+    HOOKE, LAWS, Law, empty, grain, particles, plane, rolling, run_until, with_friction,
+};
 use nalgebra::{Rotation3, Unit, UnitQuaternion};
 
 const DENSITY: f64 = 2500.0;
@@ -165,7 +167,7 @@ fn clump_of_one_sphere_is_a_sphere() {
     for law in LAWS {
         let path = |clump: bool| {
             let mut setup = with_friction(empty(law, 0.6), 0.4);
-            setup.contacts.iter_mut().for_each(|c| c.rolling_resistance = Some(0.1));
+            setup.contacts.iter_mut().for_each(|c| c.set("rolling_resistance", 0.1));
             setup.gravity.z = -9.81;
             setup.walls = vec![plane(Vec3::z())];
             let other = grain(5, Vec3::new(0.013, 0.002, 0.0098));
@@ -299,7 +301,7 @@ fn cube_rests_on_its_face_and_slides_above_the_angle_of_friction() {
 fn collision_conserves_momentum_and_angular_momentum() {
     for law in LAWS {
         let mut setup = with_friction(empty(law, 0.6), 0.4);
-        setup.contacts[0].rolling_resistance = Some(0.1);
+        setup.contacts[0].set("rolling_resistance", 0.1);
         let mut first = body(0, Vec3::new(-0.05, 0.002, 0.001));
         (first.velocity, first.spin) = (Vec3::new(0.6, 0.0, 0.05), Vec3::new(10.0, -4.0, 15.0));
         let mut second = body(10, Vec3::new(0.02, -0.003, 0.0));
@@ -328,7 +330,7 @@ fn collision_conserves_momentum_and_angular_momentum() {
 /// Clumps of three kinds and spheres, thrown into a periodic, shaken trough of wall spheres.
 fn trough(law: Law, count: u32) -> Setup {
     let mut setup = with_friction(empty(law, 0.4), 0.4);
-    setup.contacts.iter_mut().for_each(|c| c.rolling_resistance = Some(0.05));
+    setup.contacts.iter_mut().for_each(|c| c.set("rolling_resistance", 0.05));
     setup.gravity = Vec3::new(0.5, 0.0, -9.81);
     setup.periodic = [Some((0.0, 0.3)), Some((0.0, 0.3)), None];
     setup.step = Step::Auto(0.3);
@@ -472,7 +474,7 @@ fn constant_rolling_ends_on_a_rod() {
     setup.ledger = true;
     setup.step = Step::Auto(0.5);
     setup.contacts.iter_mut().for_each(|c| {
-        (c.rolling_resistance, c.rolling_model) = (Some(0.2), RollingModel::Constant);
+        rolling(c, 0.2, "constant");
     });
     setup.walls = vec![plane(Vec3::z())];
     let spheres: Vec<(Vec3, f64)> =

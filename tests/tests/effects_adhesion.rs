@@ -4,7 +4,7 @@ use dem::setup::*;
 use dem::{Setup, Simulation, mass};
 use geom::Vec3;
 use grainpipe_tests::normals::{MODULUS, NORMALS, Normal, SURFACES, Surface, WORK, still};
-use grainpipe_tests::setups::{grain, particles, run_until};
+use grainpipe_tests::setups::{Law, grain, particles, run_until};
 use std::f64::consts::PI;
 
 const JKR: Normal = NORMALS[2];

@@ -5,45 +5,43 @@ use dem::setup::*;
 use dem::{Setup, Simulation};
 use geom::Vec3;
 use grainpipe_tests::normals::{NORMALS, Normal};
-use grainpipe_tests::setups::{grain, particles, plane, run_until};
+use grainpipe_tests::setups::{Law, contact, grain, particles, plane, rolling, run_until, weaken};
 
 /// What rubs: a name, the change it makes, and the bytes of memory that it takes.
-type Rubbing = (&'static str, fn(&mut Contact), &'static [usize]);
+type Rubbing = (&'static str, fn(&mut ContactLaw), &'static [usize]);
 
 const RUBBING: [Rubbing; 8] = [
     ("nothing", |_| (), &[]),
-    ("sliding", |c| c.sliding_friction = Some(0.3), &[24]),
-    ("weakening", weaken, &[24]),
-    ("rolling", |c| (c.sliding_friction, c.rolling_resistance) = (Some(0.3), Some(0.05)), &[24, 24]),
+    ("sliding", |c| c.set("sliding_friction", 0.3), &[24]),
+    ("weakening", weakening, &[24]),
+    ("rolling", |c| rub(c, &["rolling_resistance"]), &[24, 24]),
     ("constant rolling", constant, &[24, 0]),
-    ("twisting", |c| (c.sliding_friction, c.twisting_resistance) = (Some(0.3), Some(0.05)), &[24, 8]),
-    (
-        "rolling and twisting",
-        |c| {
-            (c.sliding_friction, c.rolling_resistance, c.twisting_resistance) =
-                (Some(0.3), Some(0.05), Some(0.05));
-        },
-        &[24, 24, 8],
-    ),
+    ("twisting", |c| rub(c, &["twisting_resistance"]), &[24, 8]),
+    ("rolling and twisting", |c| rub(c, &["rolling_resistance", "twisting_resistance"]), &[24, 24, 8]),
     (
         "all that has no memory",
         |c| {
-            weaken(c);
             constant(c);
-            c.sliding_friction = Some(0.5);
-            c.twisting_resistance = Some(0.05);
+            weakening(c);
+            c.set("twisting_resistance", 0.05);
         },
         &[24, 0, 8],
     ),
 ];
 
-fn weaken(c: &mut Contact) {
-    (c.sliding_friction, c.weakening) = (Some(0.5), Some(Weakening { dynamic: 0.2, speed: 0.1 }));
+/// Sliding friction, and resistances to turning.
+fn rub(c: &mut ContactLaw, resistances: &[&'static str]) {
+    c.set("sliding_friction", 0.3);
+    resistances.iter().for_each(|key| c.set(key, 0.05));
 }
 
-fn constant(c: &mut Contact) {
-    (c.sliding_friction, c.rolling_resistance) = (Some(0.3), Some(0.05));
-    c.rolling_model = RollingModel::Constant;
+fn weakening(c: &mut ContactLaw) {
+    weaken(c, [0.5, 0.2, 0.1]);
+}
+
+fn constant(c: &mut ContactLaw) {
+    rub(c, &[]);
+    rolling(c, 0.05, "constant");
 }
 
 /// Grains dropped onto a shaking floor, their sizes unequal.
@@ -124,13 +122,14 @@ fn every_width_of_lanes() {
 /// Friction that is 0 at rest and far above its speed is 0 at every speed, whatever this is.
 #[test]
 fn friction_that_is_nothing_at_every_speed_is_left_out() {
-    let mut contact = Contact::new((0, 0), Law::Hertz, 0.5);
-    contact.sliding_friction = Some(0.0);
-    contact.weakening = Some(Weakening { dynamic: 0.0, speed: 1.0 });
-    let (less, keys) = dem::needed(&contact);
-    assert_eq!((less.sliding_friction, less.weakening, keys), (None, None, vec!["sliding_friction"]));
-    contact.weakening = Some(Weakening { dynamic: 0.2, speed: 1.0 });
-    assert_eq!(dem::needed(&contact).0, contact);
+    let mut law = contact((0, 0), Law::Hertz, 0.5);
+    weaken(&mut law, [0.0, 0.0, 1.0]);
+    let (less, dropped) = dem::effects::needed(&law);
+    assert_eq!(less, contact((0, 0), Law::Hertz, 0.5));
+    let wanted = "sliding_friction.static = 0, sliding_friction.dynamic = 0, sliding_friction.speed = 1 m/s";
+    assert_eq!(dropped.iter().map(|d| d.numbers.as_str()).collect::<Vec<_>>(), [wanted]);
+    weaken(&mut law, [0.0, 0.2, 1.0]);
+    assert_eq!(dem::effects::needed(&law), (law, vec![]));
 }
 
 /// Memory is what the effects of a scene ask for, and nothing else: JKR remembers that it was made, sliding and rolling their
@@ -165,7 +164,7 @@ fn piles_come_to_rest() {
             let mut setup = drop(normal, rubbing, 12);
             setup.walls[0].motion = Motion::still();
             setup.step = Step::Auto(0.95);
-            setup.contacts.iter_mut().for_each(|c| c.restitution = 0.2);
+            setup.contacts.iter_mut().for_each(|c| c.set("restitution", 0.2));
             let mut sim = Simulation::new(setup).expect("sound");
             let mut kinetic = |time: f64| {
                 run_until(&mut sim, time);

@@ -3,7 +3,7 @@
 use dem::setup::*;
 use dem::{Setup, Simulation};
 use geom::{Plane, Vec3, mesh::TriMesh};
-use grainpipe_tests::setups::{HOOKE, LAWS, empty, grain, particles, plane, run_until, with_friction};
+use grainpipe_tests::setups::{HOOKE, LAWS, Law, empty, grain, particles, plane, run_until, with_friction};
 
 /// A sheet of `n` × `n` squares of two triangles around the origin, its points moved along their plane at random, and lifted.
 fn sheet(n: u32, cell: f64, lift: impl Fn(f64, f64) -> f64) -> Wall {
@@ -32,7 +32,7 @@ fn sheet(n: u32, cell: f64, lift: impl Fn(f64, f64) -> f64) -> Wall {
 /// A ball on a slope of angle θ, tilted gravity instead of a tilted wall.
 fn on_slope(law: Law, theta: f64, floor: Wall, start: Vec3) -> Setup {
     let mut setup = with_friction(empty(law, 0.3), 0.5);
-    setup.contacts.iter_mut().for_each(|c| c.rolling_resistance = Some(0.2));
+    setup.contacts.iter_mut().for_each(|c| c.set("rolling_resistance", 0.2));
     setup.gravity = Vec3::new(9.81 * theta.sin(), 0.0, -9.81 * theta.cos());
     setup.walls = vec![floor];
     setup.step = Step::Auto(0.2);
@@ -66,7 +66,7 @@ fn ball_rolls_over_seams_as_over_the_plane() {
     for law in LAWS {
         let end = |floor: Wall| {
             let mut setup = on_slope(law, 0.0, floor, Vec3::zeros());
-            setup.contacts.iter_mut().for_each(|c| c.rolling_resistance = None);
+            setup.contacts.iter_mut().for_each(|c| c.remove("rolling_resistance"));
             setup.ledger = true;
             setup.particles[0].velocity = Vec3::new(0.3, 0.07, 0.0);
             let mut sim = Simulation::new(setup).expect("sound");
@@ -171,7 +171,7 @@ fn many_triangles_are_found_quickly() {
 /// A setup in a box of 0.2 m along x, periodic, and the same moved by `shift`, wrapped.
 fn across(wall: Wall, x: f64) -> Vec<Vec3> {
     let mut setup = with_friction(empty(Law::Hertz, 0.5), 0.5);
-    setup.contacts.iter_mut().for_each(|c| c.rolling_resistance = Some(0.1));
+    setup.contacts.iter_mut().for_each(|c| c.set("rolling_resistance", 0.1));
     setup.gravity = Vec3::new(1.0, 0.3, -9.81);
     setup.periodic = [Some((0.0, 0.2)), Some((0.0, 0.2)), None];
     setup.step = Step::Fixed(4e-5);

@@ -3,7 +3,7 @@
 use dem::setup::*;
 use dem::{Setup, SetupError, Simulation};
 use geom::{Vec3, mesh::TriMesh};
-use grainpipe_tests::setups::{HOOKE, LAWS, empty, grain, particles, plane, run_until, with_friction};
+use grainpipe_tests::setups::{HOOKE, LAWS, Law, empty, grain, particles, plane, run_until, with_friction};
 
 const NARROW: [Precision; 2] = [Precision::Mixed, Precision::Single];
 
@@ -14,7 +14,7 @@ fn simulation(setup: Setup, precision: Precision) -> Simulation {
 /// Two grains that meet obliquely, far from the origin or at it.
 fn impact(law: Law, at: Vec3) -> Setup {
     let mut setup = with_friction(empty(law, 0.7), 0.3);
-    setup.contacts.iter_mut().for_each(|c| c.rolling_resistance = Some(0.1));
+    setup.contacts.iter_mut().for_each(|c| c.set("rolling_resistance", 0.1));
     let towards = Vec3::new(1.0, 0.3, -0.2);
     setup.particles = vec![
         Particle { velocity: towards, spin: Vec3::new(3.0, -5.0, 8.0), ..grain(0, at) },
@@ -92,7 +92,7 @@ fn a_grain_rests_on_a_mesh() {
     let vertices = vec![at(-1.0, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(-1.0, 1.0)];
     let mesh = TriMesh { vertices, faces: vec![[0, 1, 2], [0, 2, 3]] };
     let mut setup = with_friction(empty(HOOKE, 0.2), 0.5);
-    setup.contacts.iter_mut().for_each(|c| c.rolling_resistance = Some(0.1));
+    setup.contacts.iter_mut().for_each(|c| c.set("rolling_resistance", 0.1));
     setup.gravity.z = -9.81;
     setup.walls = vec![Wall { shape: WallShape::Mesh(mesh), ..plane(Vec3::z()) }];
     setup.particles =
@@ -118,7 +118,7 @@ fn grains_too_fine_for_single_precision_are_refused() {
 #[test]
 fn effects_that_are_not_offered_are_refused_by_name() {
     let mut setup = with_friction(empty(HOOKE, 0.5), 0.5);
-    setup.contacts[0].twisting_resistance = Some(0.1);
+    setup.contacts[0].set("twisting_resistance", 0.1);
     setup.particles = vec![grain(0, Vec3::zeros())];
     for precision in NARROW {
         let error = Simulation::new(Setup { precision, ..setup.clone() }).err().expect("refused");

@@ -4,7 +4,7 @@ use dem::lane::Width;
 use dem::setup::*;
 use dem::{Setup, Simulation};
 use geom::Vec3;
-use grainpipe_tests::setups::{HOOKE, LAWS, bond, empty, lattice, particles, plane, with_friction};
+use grainpipe_tests::setups::{HOOKE, LAWS, Law, bond, empty, lattice, particles, plane, with_friction};
 
 /// Grains of three sizes that fall into a periodic, shaken trough of wall spheres.
 fn shaken_trough(law: Law) -> Setup {
@@ -14,7 +14,7 @@ fn shaken_trough(law: Law) -> Setup {
 /// The like with so many grains.
 fn filled_trough(law: Law, grains: u32) -> Setup {
     let mut setup = with_friction(empty(law, 0.4), 0.4);
-    setup.contacts[0].rolling_resistance = Some(0.1);
+    setup.contacts[0].set("rolling_resistance", 0.1);
     setup.gravity = Vec3::new(0.5, 0.0, -9.81);
     setup.periodic = [Some((0.0, 0.2)), Some((0.0, 0.2)), None];
     setup.step = Step::Auto(0.2);

@@ -4,7 +4,7 @@ use dem::lane::Width;
 use dem::setup::*;
 use dem::{Halt, Setup, Simulation};
 use geom::{Plane, Vec3, mesh::TriMesh};
-use grainpipe_tests::setups::{HOOKE, LAWS, empty, grain, particles, plane, run_until, with_friction};
+use grainpipe_tests::setups::{HOOKE, LAWS, Law, empty, grain, particles, plane, run_until, with_friction};
 
 const SIDE: f64 = 0.1;
 
@@ -188,7 +188,7 @@ fn motions_start_and_stop() {
 #[test]
 fn turntable_takes_grains_along() {
     let mut setup = with_friction(empty(HOOKE, 0.5), 0.8);
-    setup.contacts.iter_mut().for_each(|c| c.rolling_resistance = Some(0.3));
+    setup.contacts.iter_mut().for_each(|c| c.set("rolling_resistance", 0.3));
     setup.gravity.z = -9.81;
     setup.walls = vec![plane(Vec3::z())];
     setup.walls[0].motion.turn = Vec3::new(0.0, 0.0, 1.0);

@@ -4,7 +4,7 @@ use dem::lane::Width;
 use dem::setup::*;
 use dem::{Setup, Simulation};
 use geom::Vec3;
-use grainpipe_tests::setups::{HOOKE, LAWS, empty, grain, particles, plane, run_until, with_friction};
+use grainpipe_tests::setups::{HOOKE, LAWS, Law, empty, grain, particles, plane, run_until, with_friction};
 
 /// Grains of radius 10 mm that fall on a floor, 8 × 8 in layers, in a periodic box.
 fn filling(law: Law, layers: u32) -> Setup {
@@ -58,7 +58,7 @@ fn a_heap_at_rest_sleeps_where_it_would_lie_awake() {
 fn an_impact_wakes_those_that_it_reaches() {
     let mut setup = sleepy(filling(Law::Hooke { stiffness: 1e5, tangential_ratio: None }, 1));
     setup.guards.overlap = 0.5;
-    setup.contacts.iter_mut().for_each(|c| c.rolling_resistance = Some(0.3));
+    setup.contacts.iter_mut().for_each(|c| c.set("rolling_resistance", 0.3));
     // Thrown up, it is back at t = 1.22 s with 6.4 m/s.
     let (start, up) = (Vec3::new(0.085, 0.085, 0.5), Vec3::new(0.0, 0.0, 5.6));
     setup.particles.push(Particle { velocity: up, ..grain(9999, start) });
@@ -173,7 +173,7 @@ fn sleep_is_the_same_for_every_width_and_thread_and_across_a_checkpoint() {
 fn a_sleeping_heap_resumes_bit_for_bit() {
     for law in LAWS {
         let mut setup = sleepy(filling(law, 1));
-        setup.contacts.iter_mut().for_each(|c| c.rolling_resistance = Some(0.3));
+        setup.contacts.iter_mut().for_each(|c| c.set("rolling_resistance", 0.3));
         let up = Vec3::new(0.0, 0.0, 1.2);
         setup.particles.push(Particle { velocity: up, ..grain(9999, Vec3::new(0.085, 0.085, 0.3)) });
         let mut whole = simulation(setup.clone());

@@ -23,8 +23,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         particles.push(Particle { id: c[0] as u32, material: 0, radius: c[4], position, velocity, spin });
     }
     let material = |name: &str| Material { name: name.to_owned(), density: 3300.0, young: 5e6, poisson: 0.3 };
-    let law = Law::Hooke { stiffness: 1e4, tangential_ratio: Some(2.0 / 7.0) };
-    let contact = |between| Contact { sliding_friction: Some(0.5), ..Contact::new(between, law, 0.9977) };
+    let contact = |between| {
+        let law = ContactLaw::new(between, "hooke").with("restitution", 0.9977).with("sliding_friction", 0.5);
+        law.with("stiffness", 1e4).with("tangential_ratio", 2.0 / 7.0)
+    };
     let floor = Wall {
         name: "floor".to_owned(),
         material: 1,

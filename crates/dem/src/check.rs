@@ -1,9 +1,9 @@
 //! What is refused before a run starts.
 
+use crate::effects::{Contradiction, Description, Elastic, Key as NumberKey, Slot, active};
 use crate::error::SetupError;
-use crate::law::{Elastic, is_rare, overlap_without_load};
-use crate::limit::{largest_reach, radii_by_material};
-use crate::setup::{Contact, Drag, DragLaw, Law, Particle, Precision, Servo, Setup, Sleep, Step, WallShape};
+use crate::limit::{largest_reach, normal, radii_by_material};
+use crate::setup::{ContactLaw, Drag, DragLaw, Particle, Precision, Servo, Setup, Sleep, Step, WallShape};
 use geom::Vec3;
 use std::collections::HashSet;
 use std::fmt::{Display, Formatter};
@@ -79,11 +79,11 @@ fn precision(setup: &Setup) -> Result<(), SetupError> {
         fine,
         "radius ≥ 1e-5 (leave the key out for double precision)",
     )?;
-    let rare = setup.contacts.iter().find(|c| is_rare(c));
-    rare.map_or(Ok(()), |c| {
+    let rare = |c: &&ContactLaw| active(c).any(|d| !d.every_precision);
+    setup.contacts.iter().find(rare).map_or(Ok(()), |c| {
         let name = |m: u16| setup.materials[m as usize].name.as_str();
-        let what = "cohesion, JKR, twisting, weakening friction or constant rolling";
-        let what = format!("{what} ({}–{})", name(c.between.0), name(c.between.1));
+        let names: Vec<&str> = active(c).filter(|d| !d.every_precision).map(|d| d.name).collect();
+        let what = format!("{} ({}–{})", names.join(", "), name(c.between.0), name(c.between.1));
         Err(SetupError::PrecisionWithout { precision: setup.precision.name(), what })
     })
 }
@@ -117,9 +117,13 @@ pub(crate) fn within(
     value: f64,
     unit: &'static str,
     ok: bool,
-    range: &'static str,
+    range: &str,
 ) -> Result<(), SetupError> {
-    if ok { Ok(()) } else { Err(SetupError::Range { what: what.to_string(), value, unit, range }) }
+    if ok {
+        Ok(())
+    } else {
+        Err(SetupError::Range { what: what.to_string(), value, unit, range: range.to_owned() })
+    }
 }
 
 pub(crate) fn finite(what: impl Display, v: &Vec3, unit: &'static str) -> Result<(), SetupError> {
@@ -174,85 +178,63 @@ fn contacts(setup: &Setup) -> Result<(), SetupError> {
     for c in &setup.contacts {
         let name = |m: u16| setup.materials[m as usize].name.as_str();
         let at = format!("contact {}–{}", name(c.between.0), name(c.between.1));
-        let e = c.restitution;
-        within(format!("{at}: restitution"), e, "[–]", (0.0..=1.0).contains(&e), "0 ≤ restitution ≤ 1")?;
-        normal_law(&at, c)?;
-        friction(&at, c)?;
+        effects(&at, c)?;
         bound_grains(&at, c, setup)?;
     }
     Ok(())
 }
 
-fn normal_law(at: &str, c: &Contact) -> Result<(), SetupError> {
-    let positive = |key: &str, value: f64, unit, range| {
-        within(format!("{at}: {key}"), value, unit, value > 0.0 && value.is_finite(), range)
+/// Every number that the effects of a law take, and none that they do not.
+fn effects(at: &str, law: &ContactLaw) -> Result<(), SetupError> {
+    let asked: Vec<&Description> = active(law).collect();
+    let has = |slot: Slot| asked.iter().any(|d| d.slot == slot);
+    let value = |key: &str| law.number(key).unwrap_or(f64::NAN);
+    let refuse = |key: &str, unit, range: String| {
+        Err(SetupError::Range { what: format!("{at}: {key}"), value: value(key), unit, range })
     };
-    match c.law {
-        Law::Hooke { stiffness, tangential_ratio } => {
-            positive("stiffness", stiffness, "N/m", "stiffness > 0")?;
-            positive("tangential_ratio", tangential_ratio.unwrap_or(1.0), "[–]", "tangential_ratio > 0")?;
+    if !has(Slot::Normal) {
+        return refuse("law", "", "the normal laws that there are".to_owned());
+    }
+    for d in &asked {
+        let given = |key: &&NumberKey| key.required || law.number(key.name).is_some();
+        if let Some(key) = d.keys.iter().filter(given).find(|key| !key.range.holds(value(key.name))) {
+            return refuse(key.name, key.unit, key.range.to_string());
         }
-        Law::Hertz => {}
-        Law::Jkr { work_of_adhesion } => {
-            positive("work_of_adhesion", work_of_adhesion, "J/m²", "work_of_adhesion > 0")?;
+        let first = d.keys.first().map_or(("", ""), |key| (key.name, key.unit));
+        if let Some(slot) = d.needs.filter(|slot| !has(*slot)) {
+            let range = format!("laws with {} (nothing else turns a particle)", slot.key());
+            return refuse(first.0, first.1, range);
+        }
+        if let Some((_, why)) = d.excludes.filter(|(slot, _)| has(*slot)) {
+            return refuse(first.0, first.1, format!("laws without cohesion: {why}"));
+        }
+        if let Some(Contradiction { key, why, .. }) = (d.contradiction)(law) {
+            return refuse(key, "", format!("what the law allows: it {why}"));
         }
     }
-    let Some(density) = c.cohesion else { return Ok(()) };
-    positive("cohesion_energy_density", density, "J/m³", "cohesion_energy_density > 0")?;
-    let adheres = matches!(c.law, Law::Jkr { .. });
-    within(format!("{at}: cohesion"), density, "J/m³", !adheres, "law = \"jkr\", which has work_of_adhesion")
-}
-
-fn friction(at: &str, c: &Contact) -> Result<(), SetupError> {
-    let ranges = [
-        ("sliding_friction", c.sliding_friction, "sliding_friction ≥ 0"),
-        ("rolling_resistance", c.rolling_resistance, "rolling_resistance ≥ 0"),
-        ("twisting_resistance", c.twisting_resistance, "twisting_resistance ≥ 0"),
-        ("sliding_friction.dynamic", c.weakening.map(|w| w.dynamic), "dynamic ≥ 0"),
-    ];
-    for (key, value, range) in ranges {
-        let value = value.unwrap_or(0.0);
-        within(format!("{at}: {key}"), value, "[–]", value >= 0.0 && value.is_finite(), range)?;
+    let used = |key: &str| asked.iter().any(|d| d.keys.iter().any(|k| k.name == key));
+    match law.numbers().find(|(key, _)| !used(key)) {
+        Some((key, _)) => refuse(key, "", "numbers that this law takes".to_owned()),
+        None => Ok(()),
     }
-    let speed = c.weakening.map_or(1.0, |w| w.speed);
-    within(
-        format!("{at}: sliding_friction.speed"),
-        speed,
-        "m/s",
-        speed > 0.0 && speed.is_finite(),
-        "speed > 0",
-    )?;
-    let turning =
-        [("rolling_resistance", c.rolling_resistance), ("twisting_resistance", c.twisting_resistance)];
-    for (key, value) in turning {
-        let turns = value.is_none() || c.sliding_friction.is_some();
-        let range = "scenes with sliding_friction (nothing else turns a particle)";
-        within(format!("{at}: {key}"), value.unwrap_or(0.0), "[–]", turns, range)?;
-    }
-    let slides = c.weakening.is_none() || c.sliding_friction.is_some();
-    within(
-        format!("{at}: sliding_friction.speed"),
-        speed,
-        "m/s",
-        slides,
-        "scenes with sliding_friction.static",
-    )
 }
 
 /// Cohesion that would pull grains into each other, beyond the guard, without any load.
-fn bound_grains(at: &str, c: &Contact, setup: &Setup) -> Result<(), SetupError> {
+fn bound_grains(at: &str, c: &ContactLaw, setup: &Setup) -> Result<(), SetupError> {
     let sizes = radii_by_material(setup);
     let both = [c.between.0, c.between.1].map(|m| sizes[m as usize]);
     let Some(smallest) = both.iter().flatten().map(|r| r.0).reduce(f64::min) else { return Ok(()) };
     let largest = both.iter().flatten().map(|r| r.1).fold(0.0, f64::max);
     let elastic = Elastic::of(&setup.materials[c.between.0 as usize], &setup.materials[c.between.1 as usize]);
-    let share = overlap_without_load(c, elastic, smallest, largest);
-    let (key, value, unit) = match c.law {
-        Law::Jkr { work_of_adhesion } => ("work_of_adhesion", work_of_adhesion, "J/m²"),
-        _ => ("cohesion_energy_density", c.cohesion.unwrap_or(0.0), "J/m³"),
-    };
+    let density = c.number("cohesion_energy_density").unwrap_or(0.0);
+    let share = normal(c).map_or(0.0, |law| (law.unloaded_overlap)(c, elastic, density, [smallest, largest]));
+    let pulls = active(c)
+        .filter(|d| d.slot <= Slot::Cohesion)
+        .flat_map(|d| d.keys)
+        .find(|key| key.unit.starts_with('J'));
+    let (key, unit) = pulls.map_or(("law", ""), |key| (key.name, key.unit));
     let range = "what the stiffness bears: grains without load would overlap by more than guards.overlap";
-    within(format!("{at}: {key}"), value, unit, share < setup.guards.overlap, range)
+    within(format!("{at}: {key}"), c.number(key).unwrap_or(0.0), unit, share < setup.guards.overlap, range)
 }
 
 fn particles(setup: &Setup) -> Result<(), SetupError> {

@@ -8,7 +8,7 @@
 //! packing has 4. A grain pressed by the whole of δ into such a wall would touch more of them, up to (r + R)/R* times as many, the outermost lightly: N is that of an
 //! overlap of δ R*/(r + R), a quarter of the limit for equal radii.
 
-use crate::limit::ALONG;
+use crate::effects::ALONG;
 use crate::setup::{Setup, Wall, WallShape};
 use crate::sweep::share;
 use geom::{Grid, Vec3};

@@ -1,14 +1,19 @@
 //! Contact effects: each is one file, written once for any lane, and composed by type.
 //!
-//! `(A, B)` applies A, then B; its memory is A's and B's. `()` is no effect, no code, no memory. The scene
-//! picks the composition once, outside the time loop (`law::compose`).
+//! A file holds the formula ([`Effect`]), how a contact law asks for it ([`ContactEffect`]) and what the rest of the program needs to
+//! know of it ([`Description`]). `registry.rs` lists the files, a line each. `(A, B)` applies A, then B; its history is A's and
+//! B's. `()` is no effect, no code, no history. A scene's composition is chosen once, outside the time loop ([`registry::compose`]).
 
 mod capped_spring;
 mod cohesion;
 mod constant_rolling;
+mod describe;
 mod hertz;
+mod history;
 mod hooke;
 mod jkr;
+mod pair;
+mod registry;
 mod rolling_resistance;
 mod sliding_friction;
 mod twisting_resistance;
@@ -16,16 +21,19 @@ mod weakening;
 
 pub use cohesion::Cohesion;
 pub use constant_rolling::ConstantRolling;
+pub use describe::*;
 pub use hertz::Hertz;
-pub use hooke::Hooke;
+pub use history::{ContactHistory, Memory, RECORDED};
+pub use hooke::{Hooke, RESTITUTION};
 pub use jkr::Jkr;
+pub use pair::{Elastic, Meeting, Pair, damping_ratio, tangential_ratio};
+pub use registry::{DESCRIPTIONS, Dropped, active, compose, keys, models, needed, without};
 pub use rolling_resistance::RollingResistance;
 pub use sliding_friction::{Coefficient, SlidingFriction};
 pub use twisting_resistance::TwistingResistance;
 pub use weakening::{Friction, Weakening};
 
-use crate::lane::{BLOCK, Lane, V};
-use crate::number::Number;
+use crate::lane::{Lane, V};
 
 /// What effects know of a contact; i is pushed along the normal.
 #[derive(Clone, Copy)]
@@ -53,9 +61,6 @@ pub struct Contact<R: Lane> {
     /// How far the two turn together about n in a step, ½ (ω_i + ω_j)·n Δt [rad].
     pub turn: R,
 }
-
-/// Kinds of dissipation that are told apart.
-pub const DISSIPATORS: usize = 4;
 
 /// What effects make of it.
 #[derive(Clone, Copy)]
@@ -102,6 +107,14 @@ impl<R: Lane> Load<R> {
     }
 }
 
+/// How contact laws ask for an effect.
+pub trait ContactEffect: Effect {
+    /// What the program knows of it: one description, or one for each way of asking.
+    const DESCRIPTIONS: &'static [&'static Description];
+    /// The effect of a pair; `None` where its law does not ask for it.
+    fn of(pair: &Pair) -> Option<Self>;
+}
+
 /// An effect of contact.
 pub trait Effect: Copy + Send + Sync + 'static {
     /// Memory of one contact between steps.
@@ -122,95 +135,6 @@ pub trait Effect: Copy + Send + Sync + 'static {
     #[inline(always)]
     fn reach<R: Lane>(&self, _radius: R, _memory: &Self::Memory<R>) -> R {
         R::splat(0.0)
-    }
-}
-
-/// Memory that is stored as columns of numbers.
-pub trait Memory<R: Lane>: Copy {
-    /// Numbers for each contact.
-    const COLUMNS: usize;
-    /// Reads the lanes from `lane` on in a block of columns, [`BLOCK`] apart.
-    fn load<T: Number>(block: &[T], lane: usize) -> Self;
-    /// Writes them.
-    fn store<T: Number>(self, block: &mut [T], lane: usize);
-    /// Forgets where the mask does not hold.
-    fn keep(self, mask: R::Mask) -> Self;
-    /// Whether a column changes its sign when i and j change places, as vectors do.
-    fn flips(column: usize) -> bool;
-}
-
-impl<R: Lane> Memory<R> for () {
-    const COLUMNS: usize = 0;
-    #[inline(always)]
-    fn load<T: Number>(_: &[T], _: usize) {}
-    #[inline(always)]
-    fn store<T: Number>(self, _: &mut [T], _: usize) {}
-    #[inline(always)]
-    fn keep(self, _: R::Mask) {}
-    fn flips(_: usize) -> bool {
-        false
-    }
-}
-
-/// A number is the same seen from i and from j.
-impl<R: Lane> Memory<R> for R {
-    const COLUMNS: usize = 1;
-    #[inline(always)]
-    fn load<T: Number>(block: &[T], lane: usize) -> R {
-        T::load(&block[lane..])
-    }
-    #[inline(always)]
-    fn store<T: Number>(self, block: &mut [T], lane: usize) {
-        T::store(self, &mut block[lane..]);
-    }
-    #[inline(always)]
-    fn keep(self, mask: R::Mask) -> R {
-        R::select(mask, self, R::splat(0.0))
-    }
-    fn flips(_: usize) -> bool {
-        false
-    }
-}
-
-impl<R: Lane> Memory<R> for V<R> {
-    const COLUMNS: usize = 3;
-    #[inline(always)]
-    fn load<T: Number>(block: &[T], lane: usize) -> V<R> {
-        let (x, y, z) = (&block[lane..], &block[BLOCK + lane..], &block[2 * BLOCK + lane..]);
-        V::new(T::load(x), T::load(y), T::load(z))
-    }
-    #[inline(always)]
-    fn store<T: Number>(self, block: &mut [T], lane: usize) {
-        T::store(self.x, &mut block[lane..]);
-        T::store(self.y, &mut block[BLOCK + lane..]);
-        T::store(self.z, &mut block[2 * BLOCK + lane..]);
-    }
-    #[inline(always)]
-    fn keep(self, mask: R::Mask) -> V<R> {
-        V::select(mask, self, V::zero())
-    }
-    fn flips(_: usize) -> bool {
-        true
-    }
-}
-
-impl<R: Lane, A: Memory<R>, B: Memory<R>> Memory<R> for (A, B) {
-    const COLUMNS: usize = A::COLUMNS + B::COLUMNS;
-    #[inline(always)]
-    fn load<T: Number>(block: &[T], lane: usize) -> (A, B) {
-        (A::load(block, lane), B::load(&block[A::COLUMNS * BLOCK..], lane))
-    }
-    #[inline(always)]
-    fn store<T: Number>(self, block: &mut [T], lane: usize) {
-        self.0.store(block, lane);
-        self.1.store(&mut block[A::COLUMNS * BLOCK..], lane);
-    }
-    #[inline(always)]
-    fn keep(self, mask: R::Mask) -> (A, B) {
-        (self.0.keep(mask), self.1.keep(mask))
-    }
-    fn flips(column: usize) -> bool {
-        if column < A::COLUMNS { A::flips(column) } else { B::flips(column - A::COLUMNS) }
     }
 }
 
@@ -257,19 +181,4 @@ impl<A: Effect, B: Effect> Effect for (A, B) {
             (false, _) => self.1.reach(radius, &memory.1),
         }
     }
-}
-
-/// Damping ratio of a linear oscillator that rebounds with restitution `e` when it is let go at δ = 0:
-///
-/// ```text
-/// γ = −2 ln e / √(π² + ln² e),   c = γ √(k m*)         γ → 2 (critical) for e → 0
-/// ```
-///
-/// Exact, by inversion of e = exp(−c t_c / 2m*), t_c = π / √(k/m* − (c/2m*)²).
-pub fn damping_ratio(restitution: f64) -> f64 {
-    if restitution <= 0.0 {
-        return 2.0;
-    }
-    let ln = libm::log(restitution);
-    -2.0 * ln / (std::f64::consts::PI * std::f64::consts::PI + ln * ln).sqrt()
 }

@@ -39,7 +39,7 @@ pub enum SetupError {
         /// Its unit.
         unit: &'static str,
         /// What is allowed.
-        range: &'static str,
+        range: String,
     },
     /// Two particles of one id.
     #[error("particle id {0} is used twice: give each particle its own")]

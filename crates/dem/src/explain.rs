@@ -1,12 +1,9 @@
 //! What a run computes, and what each part takes.
 
-use crate::effects::{
-    Cohesion, ConstantRolling, Effect, Hertz, Hooke, Jkr, RollingResistance, SlidingFriction,
-    TwistingResistance, Weakening,
-};
+use crate::effects::{Description, active};
 use crate::kernel::LEDGER;
 use crate::lane::{Row, Row4};
-use crate::setup::{Contact, Law, RollingModel};
+use crate::setup::ContactLaw;
 use crate::simulation::Simulation;
 use serde::Serialize;
 use std::mem::size_of;
@@ -24,19 +21,6 @@ pub struct EffectCost {
     pub bytes_per_contact: usize,
 }
 
-/// An effect of one contact.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Part {
-    /// Name, as in the scene.
-    pub effect: &'static str,
-    /// The key that calls for it, with its value.
-    pub because: String,
-    /// Contact memory [bytes].
-    pub bytes: usize,
-    /// The contact without it; `None` for the normal law.
-    pub without: Option<Contact>,
-}
-
 /// What a listed contact takes without what its effects remember [bytes].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct ContactBytes {
@@ -50,93 +34,6 @@ pub struct ContactBytes {
     pub ledger: usize,
 }
 
-/// The effects of a contact, in the order in which they act.
-pub fn parts(c: &Contact) -> Vec<Part> {
-    let part = |effect, because: String, numbers: usize| Part {
-        effect,
-        because,
-        bytes: numbers * size_of::<f64>(),
-        without: None,
-    };
-    let normal = match c.law {
-        Law::Hooke { stiffness, .. } => {
-            part("hooke", format!("law = \"hooke\", {stiffness:e} N/m"), Hooke::MEMORY)
-        }
-        Law::Hertz => part("hertz", "law = \"hertz\"".to_owned(), Hertz::MEMORY),
-        Law::Jkr { work_of_adhesion: w } => part("jkr", format!("law = \"jkr\", {w:e} J/m²"), Jkr::MEMORY),
-    };
-    let cohesion = c.cohesion.map(|density| {
-        let without = Some(Contact { cohesion: None, ..c.clone() });
-        Part {
-            without,
-            ..part("cohesion", format!("cohesion = \"sjkr\", {density:e} J/m³"), Cohesion::MEMORY)
-        }
-    });
-    let twisting = c.twisting_resistance.map(|mu| {
-        let without = Some(Contact { twisting_resistance: None, ..c.clone() });
-        let because = format!("twisting_resistance = {mu}");
-        Part { without, ..part("twisting_resistance", because, TwistingResistance::MEMORY) }
-    });
-    let rest = [cohesion, sliding(c), rolling(c), twisting];
-    std::iter::once(normal).chain(rest.into_iter().flatten()).collect()
-}
-
-fn sliding(c: &Contact) -> Option<Part> {
-    let mu = c.sliding_friction?;
-    let (because, numbers) = match c.weakening {
-        None => (format!("sliding_friction = {mu}"), SlidingFriction::<f64>::MEMORY),
-        Some(w) => (
-            format!("sliding_friction = {{ static = {mu}, dynamic = {}, speed = {} }}", w.dynamic, w.speed),
-            SlidingFriction::<Weakening>::MEMORY,
-        ),
-    };
-    // Nothing turns without it.
-    let without = Contact {
-        sliding_friction: None,
-        weakening: None,
-        rolling_resistance: None,
-        twisting_resistance: None,
-        ..c.clone()
-    };
-    let bytes = numbers * size_of::<f64>();
-    Some(Part { effect: "sliding_friction", because, bytes, without: Some(without) })
-}
-
-fn rolling(c: &Contact) -> Option<Part> {
-    let mu = c.rolling_resistance?;
-    let (model, numbers) = match c.rolling_model {
-        RollingModel::Spring => ("spring", RollingResistance::MEMORY),
-        RollingModel::Constant => ("constant", ConstantRolling::MEMORY),
-    };
-    let because = format!("rolling_resistance = {mu}, rolling_model = \"{model}\"");
-    let without = Some(Contact { rolling_resistance: None, ..c.clone() });
-    Some(Part { effect: "rolling_resistance", because, bytes: numbers * size_of::<f64>(), without })
-}
-
-/// The contact without effects that cannot matter (a coefficient of 0), and their keys.
-pub fn needed(c: &Contact) -> (Contact, Vec<&'static str>) {
-    let mut less = c.clone();
-    let mut dropped = Vec::new();
-    let mut drop_zero = |value: &mut Option<f64>, key| {
-        if *value == Some(0.0) {
-            *value = None;
-            dropped.push(key);
-        }
-    };
-    drop_zero(&mut less.cohesion, "cohesion");
-    drop_zero(&mut less.rolling_resistance, "rolling_resistance");
-    drop_zero(&mut less.twisting_resistance, "twisting_resistance");
-    if less.sliding_friction == Some(0.0) && less.weakening.is_some_and(|w| w.dynamic == 0.0) {
-        less.weakening = None;
-    }
-    // Rolling and twisting resistance turn particles, which is computed with friction, though it be 0.
-    let turns = less.rolling_resistance.is_some() || less.twisting_resistance.is_some();
-    if less.weakening.is_none() && !turns {
-        drop_zero(&mut less.sliding_friction, "sliding_friction");
-    }
-    (less, dropped)
-}
-
 impl Simulation {
     /// Effects in force, by pair of materials that can meet.
     pub fn explain(&self) -> Vec<EffectCost> {
@@ -144,20 +41,22 @@ impl Simulation {
         pairs.sort_unstable();
         pairs.dedup();
         let contacts = &self.setup.contacts;
-        let meets = |c: &&Contact| pairs.contains(&c.between) || pairs.contains(&(c.between.1, c.between.0));
+        let meets =
+            |c: &&ContactLaw| pairs.contains(&c.between) || pairs.contains(&(c.between.1, c.between.0));
         contacts.iter().filter(meets).flat_map(|c| self.effects_of(c)).collect()
     }
 
-    fn effects_of(&self, c: &Contact) -> Vec<EffectCost> {
+    fn effects_of(&self, law: &ContactLaw) -> Vec<EffectCost> {
         let name = |m: u16| self.setup.materials[m as usize].name.clone();
-        let between = (name(c.between.0), name(c.between.1));
-        let cost = |part: Part| EffectCost {
-            effect: part.effect,
+        let between = (name(law.between.0), name(law.between.1));
+        let number = if self.form().single { size_of::<f32>() } else { size_of::<f64>() };
+        let cost = |effect: &Description| EffectCost {
+            effect: effect.name,
             between: between.clone(),
-            because: part.because,
-            bytes_per_contact: if self.form().single { part.bytes / 2 } else { part.bytes },
+            because: effect.because(law),
+            bytes_per_contact: number * effect.columns(),
         };
-        parts(c).into_iter().map(cost).collect()
+        active(law).map(cost).collect()
     }
 
     /// State of one particle [bytes], without its share of contacts.

@@ -24,18 +24,16 @@
 
 use crate::bodies::Yielding;
 use crate::crowd::{Crowds, met, rounding};
-use crate::effects::damping_ratio;
+use crate::effects::{
+    ALONG, Elastic, Meeting, NormalLaw, Slot, TURNS, TurningPair, active, damping_ratio, tangential_ratio,
+};
 use crate::error::SetupError;
-use crate::law::{Elastic, reach, stiffest, tangential_ratio};
 use crate::particles::mass;
-use crate::setup::{Contact, Material, RollingModel, Setup, Wall};
+use crate::setup::{ContactLaw, Material, Setup, Wall};
 use crate::simulation::Simulation;
 
-/// Σ n nᵀ of twelve contacts, and Σ (1 − n nᵀ) [–].
-pub const ALONG: f64 = 4.0;
+/// Σ (1 − n nᵀ) of the twelve contacts of a close packing [–].
 const ACROSS: f64 = 8.0;
-/// m r²/I of a sphere [–].
-const TURNS: f64 = 2.5;
 
 /// A critical step and what sets it.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,8 +48,8 @@ pub struct Limit {
 ///
 /// # Errors
 /// When the setup has none for them.
-pub fn contact_between(setup: &Setup, a: u16, b: u16) -> Result<&Contact, SetupError> {
-    let matches = |c: &&Contact| c.between == (a, b) || c.between == (b, a);
+pub fn contact_between(setup: &Setup, a: u16, b: u16) -> Result<&ContactLaw, SetupError> {
+    let matches = |c: &&ContactLaw| c.between == (a, b) || c.between == (b, a);
     setup.contacts.iter().find(matches).ok_or_else(|| {
         let name = |m: u16| setup.materials[m as usize].name.clone();
         SetupError::NoContact { a: name(a), b: name(b) }
@@ -165,16 +163,23 @@ pub fn critical_step(setup: &Setup) -> Result<Limit, SetupError> {
 /// Largest gap at which any contact of a setup that was made still acts [m]: the skin is to be no less.
 pub fn largest_reach(setup: &Setup) -> f64 {
     let radii = radii_by_material(setup);
-    let of = |c: &Contact| {
+    let of = |c: &ContactLaw| {
         let (a, b) = (c.between.0 as usize, c.between.1 as usize);
         let largest = [radii[a], radii[b]].iter().flatten().map(|r| r.1).fold(0.0, f64::max);
-        if largest > 0.0 {
-            reach(c, Elastic::of(&setup.materials[a], &setup.materials[b]), largest)
-        } else {
-            0.0
-        }
+        let elastic = Elastic::of(&setup.materials[a], &setup.materials[b]);
+        if largest > 0.0 { normal(c).map_or(0.0, |law| (law.reach)(c, elastic, largest)) } else { 0.0 }
     };
     setup.contacts.iter().map(of).fold(0.0, f64::max)
+}
+
+/// What is known of the normal law of a contact; `None` where it names none that there is.
+pub(crate) fn normal(law: &ContactLaw) -> Option<NormalLaw> {
+    active(law).find_map(|d| d.normal)
+}
+
+/// Largest stiffness of a contact up to an overlap [N/m].
+pub(crate) fn stiffest(law: &ContactLaw, elastic: Elastic, at: Meeting) -> f64 {
+    normal(law).map_or(f64::NAN, |known| (known.stiffest)(law, elastic, at))
 }
 
 enum Partner<'a> {
@@ -211,7 +216,7 @@ fn tighten(limit: &mut Limit, setup: &Setup, a: &Grain, partner: Partner) -> Res
     let contact = contact_between(setup, a.material, other)?;
     let (first, second) = (&setup.materials[a.material as usize], &setup.materials[other as usize]);
     let elastic = Elastic::of(first, second);
-    let stiffness = stiffest(contact, elastic, radius, smaller, setup.guards.overlap);
+    let stiffness = stiffest(contact, elastic, Meeting { radius, smaller, share: setup.guards.overlap });
     let inverse_mass = a.inverse_mass + if let Partner::Grain(b) = partner { b.inverse_mass } else { 0.0 };
     let between = Between {
         stiffness,
@@ -257,28 +262,30 @@ pub(crate) fn root(a: f64, b: f64) -> f64 {
 }
 
 impl Between {
-    fn step(&self, contact: &Contact) -> f64 {
-        let gamma = damping_ratio(contact.restitution);
+    fn step(&self, contact: &ContactLaw) -> f64 {
+        let gamma = damping_ratio(contact.number("restitution").unwrap_or(f64::NAN));
         let (along, across) = (self.stiffness * self.yields.0, self.tangential * self.yields.1);
         let impedance = (self.stiffness * self.mass).sqrt();
         let (pull, turn) = (impedance * self.yields.0, impedance * self.yields.1);
         let rub = (self.tangential * self.mass).sqrt() * self.yields.1;
         let (straight, sideways) = (ALONG * self.dense, ACROSS * self.dense);
-        if contact.sliding_friction.is_none() {
+        if !active(contact).any(|d| d.slot == Slot::Sliding) {
             return root(straight * along, straight * gamma * pull);
         }
         let moves =
             root(straight * along + 2.0 * sideways * across, gamma * (straight * pull + sideways * rub));
         let slide = sideways * TURNS;
+        let pair = TurningPair {
+            dense: self.dense,
+            share: self.turning,
+            tangential: across,
+            impedance: turn,
+            tangential_impedance: rub,
+        };
         let (mut a, mut b) = (0.0, 0.0);
-        if contact.rolling_model == RollingModel::Spring {
-            // 8 × 5/2 c_r over its arm and √(S m*); one hundredth of it stands for the spring.
-            b += 21.5 * self.dense * self.turning * contact.rolling_resistance.unwrap_or(0.0) * turn;
-        }
-        if contact.twisting_resistance.is_some() {
-            // 4 × 5/2 of k_w and c_w, η = 0.3.
-            a += straight * TURNS * self.turning * across;
-            b += straight * TURNS * 0.6 * 0.4f64.sqrt() * self.turning * rub;
+        for resists in active(contact).filter_map(|d| d.turning) {
+            let more = resists(contact, &pair);
+            (a, b) = (a + more.stiffness, b + more.damping);
         }
         let w = self.uneven;
         let slides = root(slide * across + w * a, slide * gamma * rub + w * b);

@@ -16,10 +16,9 @@
 
 use crate::contacts::With;
 use crate::crowd::met;
-use crate::effects::damping_ratio;
+use crate::effects::{Elastic, Meeting, damping_ratio};
 use crate::error::Halt;
-use crate::law::{Elastic, stiffest};
-use crate::limit::{Grain, contact_between, grains};
+use crate::limit::{Grain, contact_between, grains, stiffest};
 use crate::motion::Pose;
 use crate::setup::{Setup, Wall};
 use crate::simulation::Simulation;
@@ -167,8 +166,10 @@ pub fn answers(setup: &Setup, dt: f64) -> Vec<f64> {
         let contact = contact_between(setup, grain.material, wall.material).ok()?;
         let [first, second] = [grain.material, wall.material].map(|m| &setup.materials[m as usize]);
         let (radius, smaller) = met(wall, grain.radius);
-        let k = stiffest(contact, Elastic::of(first, second), radius, smaller, setup.guards.overlap);
-        Some(k * dt + damping_ratio(contact.restitution) * (k / grain.inverse_mass).sqrt())
+        let at = Meeting { radius, smaller, share: setup.guards.overlap };
+        let k = stiffest(contact, Elastic::of(first, second), at);
+        let gamma = damping_ratio(contact.number("restitution").unwrap_or(f64::NAN));
+        Some(k * dt + gamma * (k / grain.inverse_mass).sqrt())
     };
     let largest = |wall: &Wall| match wall.motion.servo {
         Some(_) => grains.iter().filter_map(|g| of(wall, g)).fold(f64::MIN_POSITIVE, f64::max),

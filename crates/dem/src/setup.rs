@@ -1,6 +1,7 @@
 //! What a simulation is made of: plain data, checked and turned into an engine by [`crate::Simulation::new`].
 
 mod bond;
+mod contact;
 mod zone;
 
 use geom::{Plane, Vec3, mesh::TriMesh};
@@ -9,11 +10,13 @@ use serde::{Deserialize, Serialize};
 
 pub use crate::bodies::ClumpShape;
 pub use crate::drag::{Drag, DragLaw};
+pub use crate::effects::ContactHistory;
 pub use crate::servo::Servo;
 pub use crate::sleep::Sleep;
 pub use bond::Bond;
+pub use contact::ContactLaw;
 pub use zone::{
-    Crossing, Entry, EntryBonds, EntryClump, Guide, Link, Memory, PathSample, Sample, Springs, Touch, Zone,
+    Crossing, Entry, EntryBonds, EntryClump, Guide, Link, Memory, PathSample, Sample, Touch, Zone,
     ZoneMotion, ZoneTest,
 };
 
@@ -27,7 +30,7 @@ pub struct Setup {
     /// Materials, by index.
     pub materials: Vec<Material>,
     /// Laws of contact between pairs of materials; a pair that can meet must have one.
-    pub contacts: Vec<Contact>,
+    pub contacts: Vec<ContactLaw>,
     /// Particles at t = 0.
     pub particles: Vec<Particle>,
     /// Rigid clumps; empty where the scene has none.
@@ -108,84 +111,6 @@ pub struct Material {
     pub young: f64,
     /// Poisson's ratio [–].
     pub poisson: f64,
-}
-
-/// The law between two materials. An absent effect takes no memory and no time.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Contact {
-    /// The two materials, by index, in any order.
-    pub between: (u16, u16),
-    /// Normal law.
-    pub law: Law,
-    /// Restitution e of a head-on impact [–], 0…1; with cohesion, that of the same contact without it.
-    pub restitution: f64,
-    /// Cohesion energy density C of Hooke or Hertz [J/m³].
-    pub cohesion: Option<f64>,
-    /// Sliding friction μ [–].
-    pub sliding_friction: Option<f64>,
-    /// How friction weakens with the speed of sliding; `sliding_friction` is then that at rest.
-    pub weakening: Option<Weakening>,
-    /// Rolling resistance μ_r [–].
-    pub rolling_resistance: Option<f64>,
-    /// Its model.
-    pub rolling_model: RollingModel,
-    /// Twisting resistance μ_w [–].
-    pub twisting_resistance: Option<f64>,
-}
-
-impl Contact {
-    /// A normal law and nothing else.
-    pub fn new(between: (u16, u16), law: Law, restitution: f64) -> Contact {
-        Contact {
-            between,
-            law,
-            restitution,
-            cohesion: None,
-            sliding_friction: None,
-            weakening: None,
-            rolling_resistance: None,
-            rolling_model: RollingModel::Spring,
-            twisting_resistance: None,
-        }
-    }
-}
-
-/// Friction that weakens with the speed of sliding: see [`crate::effects::Weakening`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Weakening {
-    /// μ_d, far above the speed [–].
-    pub dynamic: f64,
-    /// v_c, at which it is half-way [m/s].
-    pub speed: f64,
-}
-
-/// Model of rolling resistance.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum RollingModel {
-    /// A spring and dashpot, capped: holds a grain on a slope.
-    #[default]
-    Spring,
-    /// A couple of constant size, without memory: slows rolling, holds nothing.
-    Constant,
-}
-
-/// Normal law.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub enum Law {
-    /// Linear spring and dashpot.
-    Hooke {
-        /// Normal stiffness k_n [N/m].
-        stiffness: f64,
-        /// Tangential over normal stiffness k_t/k_n [–]; `None`: Mindlin's 4 G*/E* from Poisson's ratios.
-        tangential_ratio: Option<f64>,
-    },
-    /// Hertz's law, with Mindlin's tangential stiffness, from the elastic constants.
-    Hertz,
-    /// Hertz's law of spheres that adhere (Johnson, Kendall and Roberts).
-    Jkr {
-        /// Energy w to part a square metre of contact [J/m²].
-        work_of_adhesion: f64,
-    },
 }
 
 /// A sphere.

@@ -2,8 +2,8 @@
 
 use crate::contacts::{Kind, With};
 use crate::crowd::Crowds;
+use crate::effects::{Elastic, Pair, compose};
 use crate::error::SetupError;
-use crate::law::{Elastic, compose};
 use crate::limit::{contact_between, critical_step, grains, largest, radii_by_material};
 use crate::setup::{Setup, Step};
 use crate::walls::WallBody;
@@ -60,10 +60,8 @@ pub fn kinds(setup: &Setup) -> Result<Vec<Kind>, SetupError> {
         let elastic = Elastic::of(&setup.materials[a as usize], &setup.materials[b as usize]);
         Ok(Kind {
             kernel: compose(
-                contact_between(setup, a, b)?,
-                elastic,
+                &Pair { law: contact_between(setup, a, b)?, elastic, ease: setup.ease(a, b, crowd(a, with)) },
                 setup.precision,
-                setup.ease(a, b, crowd(a, with)),
             ),
             between: (a, b),
             with,

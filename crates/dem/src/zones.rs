@@ -17,7 +17,7 @@ mod whole;
 
 use crate::lane::Row4;
 use crate::particles::Particles;
-use crate::setup::{Crossing, Entry, Setup, Springs, Zone};
+use crate::setup::{ContactHistory, Crossing, Entry, Setup, Zone};
 use crate::simulation::Simulation;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
@@ -51,7 +51,7 @@ pub struct Zones {
     /// Recorded paths of those on their way in, by id.
     paths: BTreeMap<u32, path::Path>,
     /// What contacts are to remember once the first of two is free, by its id and that of the other.
-    memories: BTreeMap<(u32, u32), Springs>,
+    memories: BTreeMap<(u32, u32), ContactHistory>,
     /// For each outlet, those whose paths were sampled last.
     sampled: Vec<BTreeSet<u32>>,
     latest: f64,
@@ -142,7 +142,7 @@ impl Zones {
     }
 
     /// What contacts of a particle were told to remember, by their other particle; forgotten here.
-    fn told(&mut self, id: u32) -> Vec<(u32, Springs)> {
+    fn told(&mut self, id: u32) -> Vec<(u32, ContactHistory)> {
         let told: Vec<_> = self.memories.range((id, 0)..=(id, u32::MAX)).map(|(k, s)| (k.1, *s)).collect();
         for (partner, _) in &told {
             self.memories.remove(&(id, *partner));

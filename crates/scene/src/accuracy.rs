@@ -14,7 +14,8 @@
 use crate::check::Check;
 use crate::error::SceneError;
 use crate::model::{Accuracy, SAFETY, Time};
-use dem::setup::{Contact, Law};
+use dem::effects::{Slot, active};
+use dem::setup::ContactLaw;
 
 /// The measured curves.
 const CURVES: &str = include_str!("../data/impact-error.csv");
@@ -73,12 +74,17 @@ pub fn safety(curve: &[Measured], wanted: f64) -> Option<f64> {
 pub(crate) fn choose(
     check: &Check,
     time: &Time,
-    contacts: &[Contact],
+    contacts: &[ContactLaw],
 ) -> Result<(f64, Option<String>), SceneError> {
     let Some(Accuracy(wanted)) = time.accuracy else { return Ok((time.safety.unwrap_or(SAFETY), None)) };
     let mut best: Option<(f64, &str)> = None;
     for law in laws(contacts) {
         let measured = curve(law);
+        if measured.is_empty() {
+            let why = format!("was not measured for law = \"{law}\"");
+            let cure = "give time.safety instead, and measure with cost-curve what it costs";
+            return Err(check.wrong("time.accuracy", percent(wanted), &why, cure));
+        }
         let Some(safety) = safety(&measured, AIM * wanted) else {
             let (least, at) = measured.first().map_or((f64::NAN, f64::NAN), |p| (p.error / AIM, p.safety));
             let why = format!(
@@ -107,13 +113,9 @@ fn percent(share: f64) -> String {
 }
 
 /// Names of the normal laws in force, each once.
-fn laws(contacts: &[Contact]) -> Vec<&'static str> {
-    let name = |c: &Contact| match c.law {
-        Law::Hertz => "hertz",
-        Law::Jkr { .. } => "jkr",
-        _ => "hooke",
-    };
-    let mut all: Vec<&str> = contacts.iter().map(name).collect();
+fn laws(contacts: &[ContactLaw]) -> Vec<&'static str> {
+    let name = |law: &ContactLaw| active(law).find(|d| d.slot == Slot::Normal).map(|d| d.name);
+    let mut all: Vec<&str> = contacts.iter().filter_map(name).collect();
     all.sort_unstable();
     all.dedup();
     all

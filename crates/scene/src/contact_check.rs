@@ -1,134 +1,143 @@
-//! What a `[[contact]]` is refused for: numbers out of range, keys that contradict each other.
+//! What a `[[contact]]` is refused for: numbers out of range, keys that no effect takes, effects that lack or contradict each other.
 
 use crate::check::{Check, Checked};
-use crate::model::{Contact, Friction, Law, Model};
+use crate::model::{Contact, Model};
+use dem::effects::{DESCRIPTIONS, Description, Slot, active};
 
 impl Check<'_> {
     pub(crate) fn contacts(&self, m: &Model) -> Checked {
         for (i, c) in m.contact.iter().enumerate() {
-            let at = format!("contact.{i}");
-            self.within(&format!("{at}.restitution"), c.restitution, 0.0, 1.0, "")?;
-            self.normal_law(&at, c)?;
-            self.cohesion(&at, c)?;
-            self.resistances(&at, c)?;
+            let entry = Entry { check: self, at: format!("contact.{i}"), contact: c };
+            entry.stiffness()?;
+            entry.foreign()?;
+            active(&c.law).try_for_each(|effect| entry.effect(effect))?;
         }
         Ok(())
     }
+}
 
-    /// Keys of one normal law are refused with another.
-    fn normal_law(&self, at: &str, c: &Contact) -> Checked {
-        let key = |k: &str| format!("{at}.{k}");
-        self.positive_if(&key("stiffness"), c.stiffness, "N/m")?;
-        self.positive_if(&key("characteristic_velocity"), c.characteristic_velocity, "m/s")?;
-        self.positive_if(&key("tangential_ratio"), c.tangential_ratio, "")?;
-        self.within(&key("work_of_adhesion"), c.work_of_adhesion.unwrap_or(0.0), 0.0, 1e9, "J/m²")?;
-        let linear = [
-            ("stiffness", c.stiffness.is_some()),
-            ("characteristic_velocity", c.characteristic_velocity.is_some()),
-        ];
-        let foreign = |given: &[(&str, bool)], why: &str, cure: &str| match given.iter().find(|k| k.1) {
-            Some((k, _)) => Err(self.wrong(&key(k), "(given)", why, cure)),
-            None => Ok(()),
+/// One `[[contact]]`.
+struct Entry<'a> {
+    check: &'a Check<'a>,
+    at: String,
+    contact: &'a Contact,
+}
+
+impl Entry<'_> {
+    fn wrong(&self, key: &str, value: &str, why: &str, cure: &str) -> Checked {
+        Err(self.check.wrong(&format!("{}.{key}", self.at), value, why, cure))
+    }
+
+    /// Linear laws take a stiffness, or the speed that it follows from.
+    fn stiffness(&self) -> Checked {
+        let (law, speed) = (&self.contact.law, self.contact.characteristic_velocity);
+        self.check.positive_if(&format!("{}.characteristic_velocity", self.at), speed, "m/s")?;
+        let linear = |d: &Description| d.keys.iter().any(|key| key.name == "stiffness");
+        if active(law).any(linear) {
+            let given = [
+                ("stiffness", law.number("stiffness").is_some()),
+                ("characteristic_velocity", speed.is_some()),
+            ];
+            return self.check.one_of(&self.at, &given);
+        }
+        if speed.is_none() {
+            return Ok(());
+        }
+        let laws: Vec<String> = DESCRIPTIONS.iter().filter(|d| linear(d)).map(|d| asks(d)).collect();
+        let cure = format!("take it out, or use {}", laws.join(" or "));
+        self.wrong(
+            "characteristic_velocity",
+            "(given)",
+            "this law takes its stiffness from young and poisson",
+            &cure,
+        )
+    }
+
+    /// Keys that none of the effects takes that the others ask for.
+    fn foreign(&self) -> Checked {
+        let law = &self.contact.law;
+        let numbers = law.numbers().map(|(key, _)| key).filter(|key| !takes(active(law), key));
+        let model = |d: &Description| d.model.map(|m| m.key);
+        let models =
+            law.models().map(|(key, _)| key).filter(|key| !active(law).any(|d| model(d) == Some(key)));
+        let Some(key) = numbers.chain(models).next() else { return Ok(()) };
+        // Of the effects that take it, those that the same value of the key asks for.
+        let owners = DESCRIPTIONS.iter().filter(|d| {
+            d.model.is_some_and(|m| law.model(key) == Some(m.value)) || takes(std::iter::once(**d), key)
+        });
+        let lacks = |d: &&Description| {
+            let numbers = d.keys.iter().filter(|k| k.required && law.number(k.name).is_none());
+            let numbers =
+                numbers.map(|k| format!("{} = {} {}", k.name, k.example, k.unit).trim_end().to_owned());
+            let model = d.model.filter(|m| !m.default && law.model(m.key) != Some(m.value));
+            model
+                .map(|m| format!("{} = \"{}\"", m.key, m.value))
+                .into_iter()
+                .chain(numbers)
+                .collect::<Vec<_>>()
+                .join(" and ")
         };
-        if c.law == Law::Hooke {
-            self.one_of(at, &linear)?;
-        } else {
-            let why = "law = \"hertz\" and \"jkr\" take their stiffness from young and poisson";
-            let also = [linear[0], linear[1], ("tangential_ratio", c.tangential_ratio.is_some())];
-            foreign(&also, why, "take it out, or use law = \"hooke\"")?;
-        }
-        if c.law != Law::Jkr {
-            let why = "only law = \"jkr\" has a work of adhesion";
-            let given = [("work_of_adhesion", c.work_of_adhesion.is_some())];
-            return foreign(
-                &given,
-                why,
-                "use law = \"jkr\", or cohesion = \"sjkr\" with cohesion_energy_density",
-            );
-        }
-        if c.work_of_adhesion.is_none() {
-            let why = "law = \"jkr\" needs the energy to part a square metre of contact";
-            let cure =
-                "add work_of_adhesion in J/m²: twice the surface energy where both are of one material";
-            return Err(self.wrong(&key("work_of_adhesion"), "(absent)", why, cure));
-        }
-        Ok(())
+        let mut cures: Vec<String> = owners.map(|d| lacks(d)).filter(|cure| !cure.is_empty()).collect();
+        cures.dedup();
+        let cure = format!("add {}, or take {key} out", cures.join(", or "));
+        self.wrong(key, "(given)", "nothing in this [[contact]] uses it", &cure)
     }
 
-    fn cohesion(&self, at: &str, c: &Contact) -> Checked {
-        let key = |k: &str| format!("{at}.{k}");
-        self.within(
-            &key("cohesion_energy_density"),
-            c.cohesion_energy_density.unwrap_or(0.0),
-            0.0,
-            1e15,
-            "J/m³",
-        )?;
-        match (c.cohesion, c.cohesion_energy_density) {
-            (Some(_), _) if c.law == Law::Jkr => Err(self.wrong(
-                &key("cohesion"),
-                "\"sjkr\"",
-                "law = \"jkr\" adheres by itself",
-                "take cohesion out, or use law = \"hertz\"",
-            )),
-            (Some(_), None) => Err(self.wrong(
-                &key("cohesion_energy_density"),
-                "(absent)",
-                "cohesion = \"sjkr\" needs it",
-                "add cohesion_energy_density in J/m³",
-            )),
-            (None, Some(_)) => Err(self.wrong(
-                &key("cohesion_energy_density"),
-                "(given)",
-                "no cohesion is asked for",
-                "add cohesion = \"sjkr\", or take it out",
-            )),
-            _ => Ok(()),
-        }
-    }
-
-    fn resistances(&self, at: &str, c: &Contact) -> Checked {
-        let key = |k: &str| format!("{at}.{k}");
-        let turning =
-            [("rolling_resistance", c.rolling_resistance), ("twisting_resistance", c.twisting_resistance)];
-        for (name, value) in turning {
-            self.within(&key(name), value.unwrap_or(0.0), 0.0, 1e3, "")?;
-        }
-        match c.sliding_friction {
-            None => {}
-            Some(Friction::Constant(mu)) => self.within(&key("sliding_friction"), mu, 0.0, 1e3, "")?,
-            Some(Friction::Weakening(w)) => {
-                self.within(&key("sliding_friction.static"), w.at_rest, 0.0, 1e3, "")?;
-                self.within(&key("sliding_friction.dynamic"), w.dynamic, 0.0, 1e3, "")?;
-                self.positive(&key("sliding_friction.speed"), w.speed, "m/s")?;
-                if w.dynamic > w.at_rest {
-                    let why = format!("is above static = {}: friction weakens with speed", w.at_rest);
-                    let cure = "swap them, or give one number for both";
-                    return Err(self.wrong(&key("sliding_friction.dynamic"), w.dynamic, &why, cure));
+    fn effect(&self, effect: &Description) -> Checked {
+        let law = &self.contact.law;
+        for key in effect.keys {
+            let Some(value) = law.number(key.name) else {
+                if key.required && key.name != "stiffness" {
+                    let why = format!("{} needs it ({})", asks(effect), key.doc);
+                    let unit = if key.unit.is_empty() { String::new() } else { format!(" in {}", key.unit) };
+                    let cure = format!("add {} = {}{unit}", key.name, key.example);
+                    return self.wrong(key.name, "(absent)", &why, &cure);
                 }
+                continue;
+            };
+            if !key.range.holds(value) {
+                let value = format!("{value} {}", key.unit);
+                return self.wrong(
+                    key.name,
+                    value.trim_end(),
+                    "is outside the range",
+                    &format!("give {}", key.range),
+                );
             }
         }
-        let rubs = match c.sliding_friction {
-            None => false,
-            Some(Friction::Constant(mu)) => mu > 0.0,
-            Some(Friction::Weakening(w)) => w.at_rest > 0.0,
-        };
-        for (name, value) in turning {
-            if let Some(value) = value.filter(|value| *value > 0.0 && !rubs) {
-                let why = "acts on grains that turn, and nothing turns them without sliding_friction";
-                let cure = format!("add sliding_friction, such as 0.5, or take {name} out");
-                return Err(self.wrong(&key(name), value, why, &cure));
-            }
+        if let Some(wrong) = (effect.contradiction)(law) {
+            let value = law.number(wrong.key).unwrap_or(f64::NAN).to_string();
+            return self.wrong(wrong.key, &value, &wrong.why, wrong.cure);
         }
-        if c.rolling_model.is_some() && c.rolling_resistance.is_none() {
-            let why = "a model of rolling resistance without rolling resistance";
-            return Err(self.wrong(
-                &key("rolling_model"),
-                "(given)",
-                why,
-                "add rolling_resistance, or take it out",
-            ));
+        if let Some((slot, why)) = effect.excludes.filter(|(slot, _)| active(law).any(|d| d.slot == *slot)) {
+            let value = law.model(slot.key()).map_or(String::new(), |model| format!("\"{model}\""));
+            let cure = format!("take {} out, or use another law", slot.key());
+            return self.wrong(slot.key(), &value, why, &cure);
         }
-        Ok(())
+        self.needs(effect)
     }
+
+    /// An effect without the one that it needs, or with one that does nothing.
+    fn needs(&self, effect: &Description) -> Checked {
+        let law = &self.contact.law;
+        let works = |slot: Slot| {
+            active(law).any(|d| d.slot == slot && law.number(slot.key()) != Some(0.0) && !(d.idle)(law))
+        };
+        let Some(slot) = effect.needs.filter(|slot| !works(*slot) && !(effect.idle)(law)) else {
+            return Ok(());
+        };
+        let key = effect.slot.key();
+        let value = law.number(key).unwrap_or(f64::NAN).to_string();
+        let why = format!("acts on grains that turn, and nothing turns them without {}", slot.key());
+        self.wrong(key, &value, &why, &format!("add {}, such as 0.5, or take {key} out", slot.key()))
+    }
+}
+
+fn takes(mut effects: impl Iterator<Item = &'static Description>, key: &str) -> bool {
+    effects.any(|d| d.keys.iter().any(|k| k.name == key))
+}
+
+/// What asks for an effect.
+fn asks(effect: &Description) -> String {
+    effect.model.map_or(effect.name.to_owned(), |m| format!("{} = \"{}\"", m.key, m.value))
 }

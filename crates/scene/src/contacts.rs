@@ -2,8 +2,9 @@
 
 use crate::check::Check;
 use crate::error::{SceneError, nearest};
-use crate::model::{Contact, Friction, Law, RollingModel, Weakening};
-use dem::setup;
+use crate::model::Contact;
+use dem::effects::{Elastic, active, needed};
+use dem::setup::{self, ContactLaw};
 
 /// One law for every pair that some entry of the scene matches. `largest` is the largest particle radius [m].
 ///
@@ -14,7 +15,7 @@ pub(crate) fn resolve(
     entries: &[Contact],
     materials: &[setup::Material],
     largest: f64,
-) -> Result<Vec<setup::Contact>, SceneError> {
+) -> Result<Vec<ContactLaw>, SceneError> {
     for (i, entry) in entries.iter().enumerate() {
         for (k, name) in entry.between.iter().enumerate() {
             known(check, &format!("contact.{i}.between.{k}"), name, materials)?;
@@ -24,68 +25,28 @@ pub(crate) fn resolve(
     for a in 0..materials.len() {
         for b in a..materials.len() {
             let Some(entry) = best(check, entries, &materials[a].name, &materials[b].name)? else { continue };
-            found.push(contact(
-                entry,
-                (a as u16, b as u16),
-                law(entry, &materials[a], &materials[b], largest),
-            ));
+            let mut law = entry.law.clone();
+            law.between = (a as u16, b as u16);
+            let linear = active(&law).any(|d| d.keys.iter().any(|key| key.name == STIFFNESS));
+            if linear && law.number(STIFFNESS).is_none() {
+                law.set(STIFFNESS, stiffness(entry, &materials[a], &materials[b], largest));
+            }
+            found.push(needed(&law).0);
         }
     }
     Ok(found)
 }
 
-/// What an entry asks for; an effect that does nothing is absent.
-fn contact(entry: &Contact, between: (u16, u16), law: setup::Law) -> setup::Contact {
-    let positive = |x: Option<f64>| x.filter(|x| *x > 0.0);
-    let (sliding_friction, weakening) = match entry.sliding_friction {
-        None => (None, None),
-        Some(Friction::Constant(mu)) => (positive(Some(mu)), None),
-        Some(Friction::Weakening(w)) if w.at_rest == 0.0 && w.dynamic == 0.0 => (None, None),
-        Some(Friction::Weakening(w)) => {
-            (Some(w.at_rest), Some(setup::Weakening { dynamic: w.dynamic, speed: w.speed }))
-        }
-    };
-    setup::Contact {
-        cohesion: positive(entry.cohesion_energy_density.filter(|_| entry.cohesion.is_some())),
-        sliding_friction,
-        weakening,
-        rolling_resistance: positive(entry.rolling_resistance),
-        rolling_model: match entry.rolling_model {
-            Some(RollingModel::Constant) => setup::RollingModel::Constant,
-            Some(RollingModel::Spring) | None => setup::RollingModel::Spring,
-        },
-        twisting_resistance: positive(entry.twisting_resistance),
-        ..setup::Contact::new(between, law, entry.restitution)
-    }
-}
+/// k_n of linear laws.
+const STIFFNESS: &str = "stiffness";
 
 /// What an entry asks for and its contact does not have: key with value, and why.
-pub(crate) fn dropped(entry: &Contact, kept: &setup::Contact) -> Vec<(String, &'static str)> {
-    const NOTHING: &str = "does nothing, and nothing of it is computed";
-    let mut found = Vec::new();
-    if entry.law == Law::Jkr && kept.law == setup::Law::Hertz {
-        let why = "law = \"jkr\" that does not adhere is \"hertz\", which is computed in its place";
-        found.push(("work_of_adhesion = 0".to_owned(), why));
-    }
-    match entry.sliding_friction.filter(|_| kept.sliding_friction.is_none()) {
-        None => {}
-        Some(Friction::Constant(mu)) => found.push((format!("sliding_friction = {mu}"), NOTHING)),
-        Some(Friction::Weakening(w)) => {
-            let Weakening { at_rest, dynamic, speed } = w;
-            let table = format!("{{ static = {at_rest}, dynamic = {dynamic}, speed = {speed} }}");
-            found.push((format!("sliding_friction = {table}"), NOTHING));
-        }
-    }
-    for (key, asked, kept) in [
-        ("cohesion_energy_density", entry.cohesion_energy_density, kept.cohesion),
-        ("rolling_resistance", entry.rolling_resistance, kept.rolling_resistance),
-        ("twisting_resistance", entry.twisting_resistance, kept.twisting_resistance),
-    ] {
-        if let (Some(value), None) = (asked, kept) {
-            found.push((format!("{key} = {value}"), NOTHING));
-        }
-    }
-    found
+pub(crate) fn dropped(entry: &Contact) -> Vec<(String, String)> {
+    let why = |instead: Option<&str>| match instead {
+        None => "has no effect, and is not computed".to_owned(),
+        Some(other) => format!("has no effect: \"{other}\" is computed instead"),
+    };
+    needed(&entry.law).1.into_iter().map(|d| (d.numbers, why(d.instead))).collect()
 }
 
 pub(crate) fn known(
@@ -156,23 +117,11 @@ fn best<'e>(
 ///
 /// The stiffness that stores as much at Hertz's deepest overlap for the characteristic speed v, for a pair of
 /// the largest particles (E* of the pair of materials, the density of the heavier).
-fn law(entry: &Contact, a: &setup::Material, b: &setup::Material, largest: f64) -> setup::Law {
-    match (entry.law, entry.work_of_adhesion) {
-        (Law::Hooke, _) => {}
-        (Law::Jkr, Some(work_of_adhesion)) if work_of_adhesion > 0.0 => {
-            return setup::Law::Jkr { work_of_adhesion };
-        }
-        _ => return setup::Law::Hertz,
-    }
-    let stiffness = entry.stiffness.unwrap_or_else(|| {
-        let v = entry.characteristic_velocity.unwrap_or(1.0);
-        let modulus =
-            1.0 / ((1.0 - a.poisson * a.poisson) / a.young + (1.0 - b.poisson * b.poisson) / b.young);
-        let mass = 4.0 / 3.0 * std::f64::consts::PI * largest.powi(3) * a.density.max(b.density) / 2.0;
-        let stem = (largest / 2.0).sqrt() * modulus;
-        16.0 / 15.0 * stem * libm::pow(15.0 * mass * v * v / (16.0 * stem), 0.2)
-    });
-    setup::Law::Hooke { stiffness, tangential_ratio: entry.tangential_ratio }
+fn stiffness(entry: &Contact, a: &setup::Material, b: &setup::Material, largest: f64) -> f64 {
+    let v = entry.characteristic_velocity.unwrap_or(1.0);
+    let mass = 4.0 / 3.0 * std::f64::consts::PI * largest.powi(3) * a.density.max(b.density) / 2.0;
+    let stem = (largest / 2.0).sqrt() * Elastic::of(a, b).modulus;
+    16.0 / 15.0 * stem * libm::pow(15.0 * mass * v * v / (16.0 * stem), 0.2)
 }
 
 #[cfg(test)]
@@ -181,70 +130,42 @@ mod tests {
     use crate::text::Text;
 
     fn entry(a: &str, b: &str, restitution: f64) -> Contact {
-        Contact {
-            between: [a.into(), b.into()],
-            law: Law::Hertz,
-            stiffness: None,
-            characteristic_velocity: None,
-            tangential_ratio: None,
-            restitution,
-            work_of_adhesion: None,
-            cohesion: None,
-            cohesion_energy_density: None,
-            sliding_friction: None,
-            rolling_resistance: None,
-            rolling_model: None,
-            twisting_resistance: None,
-        }
+        let law = ContactLaw::new((0, 0), "hertz").with("restitution", restitution);
+        Contact { between: [a.into(), b.into()], law, characteristic_velocity: None }
     }
 
-    fn solved(entries: &[Contact]) -> Result<Vec<setup::Contact>, SceneError> {
+    fn solved(entries: &[Contact]) -> Result<Vec<ContactLaw>, SceneError> {
         let text = Text::new("s", String::new());
         let material =
             |name: &str| setup::Material { name: name.into(), density: 1e3, young: 1e6, poisson: 0.3 };
         resolve(&Check { text: &text }, entries, &[material("sinter"), material("steel")], 0.01)
     }
 
-    /// Every coefficient of 0 leaves the engine and is told, and one that is not stays and is not.
+    /// Every coefficient of 0 leaves the engine, and `--explain` lists it.
     #[test]
-    fn what_does_nothing_is_dropped_and_told() {
-        let weakening =
-            |at_rest, dynamic| Some(Friction::Weakening(Weakening { at_rest, dynamic, speed: 1.0 }));
-        let of = |value: f64| Contact {
-            law: Law::Jkr,
-            work_of_adhesion: Some(value),
-            sliding_friction: Some(Friction::Constant(value)),
-            rolling_resistance: Some(value),
-            twisting_resistance: Some(value),
-            ..entry("*", "*", 0.1)
-        };
-        let told = |entry: Contact| {
-            let kept = solved(std::slice::from_ref(&entry)).unwrap().swap_remove(0);
-            let keys = dropped(&entry, &kept).into_iter().map(|(key, _)| key).collect::<Vec<_>>();
-            (kept, keys.join(", "))
-        };
-        let (kept, keys) = told(of(0.0));
-        assert_eq!(kept, setup::Contact::new((0, 0), setup::Law::Hertz, 0.1));
-        let all =
-            "work_of_adhesion = 0, sliding_friction = 0, rolling_resistance = 0, twisting_resistance = 0";
+    fn what_does_nothing_is_dropped() {
+        let mut nothing = entry("*", "*", 0.1);
+        nothing.law.choose("law", "jkr");
+        for key in ["work_of_adhesion", "sliding_friction", "rolling_resistance", "twisting_resistance"] {
+            nothing.law.set(key, 0.0);
+        }
+        let kept = solved(std::slice::from_ref(&nothing)).unwrap().swap_remove(0);
+        assert_eq!(kept, ContactLaw::new((0, 0), "hertz").with("restitution", 0.1));
+        let keys: Vec<String> = dropped(&nothing).into_iter().map(|(key, _)| key).collect();
+        let all = [
+            "work_of_adhesion = 0 J/m²",
+            "sliding_friction = 0",
+            "rolling_resistance = 0",
+            "twisting_resistance = 0",
+        ];
         assert_eq!(keys, all);
-        assert_eq!(told(of(0.5)).1, "");
-        let cohesion = Some(crate::model::Cohesion::Sjkr);
-        let sticky = Contact { cohesion, cohesion_energy_density: Some(0.0), ..entry("*", "*", 0.1) };
-        assert_eq!(told(sticky).1, "cohesion_energy_density = 0");
-        let rubs = |friction| told(Contact { sliding_friction: friction, ..entry("*", "*", 0.1) });
-        let (kept, keys) = rubs(weakening(0.0, 0.0));
-        assert_eq!((kept.sliding_friction, kept.weakening), (None, None));
-        assert_eq!(keys, "sliding_friction = { static = 0, dynamic = 0, speed = 1 }");
-        let (kept, keys) = rubs(weakening(0.0, 0.2));
-        assert!(kept.sliding_friction == Some(0.0) && kept.weakening.is_some() && keys.is_empty());
     }
 
     #[test]
     fn the_most_specific_entry_holds() {
         let found =
             solved(&[entry("*", "*", 0.1), entry("steel", "*", 0.2), entry("steel", "sinter", 0.3)]).unwrap();
-        let e = |a, b| found.iter().find(|c| c.between == (a, b)).unwrap().restitution;
+        let e = |a, b| found.iter().find(|c| c.between == (a, b)).unwrap().number("restitution").unwrap();
         assert_eq!((e(0, 0), e(0, 1), e(1, 1)), (0.1, 0.3, 0.2));
     }
 

@@ -2,7 +2,8 @@
 
 use crate::particle_file::ParticleFile;
 use crate::plan::Draft;
-use dem::setup::{Contact, WallShape};
+use dem::effects::{Slot, active};
+use dem::setup::{ContactLaw, WallShape};
 use geom::{Shown, Vec3, grid};
 use std::ops::Range;
 
@@ -51,7 +52,7 @@ struct Deep {
 
 impl Draft<'_> {
     /// Tells of everything; `contacts` are the laws in force.
-    pub(crate) fn doubts(&mut self, contacts: &[Contact]) {
+    pub(crate) fn doubts(&mut self, contacts: &[ContactLaw]) {
         self.units();
         self.sizes_on_earth();
         self.lost_spins(contacts);
@@ -113,9 +114,9 @@ impl Draft<'_> {
     }
 
     /// Spins that nothing turns are not kept.
-    fn lost_spins(&mut self, contacts: &[Contact]) {
+    fn lost_spins(&mut self, contacts: &[ContactLaw]) {
         let turns = !self.scene.model.bond.is_empty()
-            || contacts.iter().any(|c| c.sliding_friction.is_some_and(|mu| mu > 0.0));
+            || contacts.iter().any(|c| active(c).any(|d| d.slot == Slot::Sliding && !(d.idle)(c)));
         if !turns && !self.read.spinning.is_empty() {
             let files = self.read.spinning.join(", ");
             self.notes.push(format!(

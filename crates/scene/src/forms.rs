@@ -1,8 +1,7 @@
 //! Values that may be written in two ways.
 
-use crate::model::{Accuracy, Diameter, Every, Friction, OrAuto, Weakening};
-use serde::de::value::MapAccessDeserializer;
-use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor};
+use crate::model::{Accuracy, Diameter, Every, OrAuto};
+use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
 use std::fmt;
 
 struct OrAutoVisitor;
@@ -131,33 +130,5 @@ impl<'de> Visitor<'de> for DiameterVisitor {
             None => Ok(Diameter { low, high }),
             Some(_) => Err(missing(3)),
         }
-    }
-}
-
-struct FrictionVisitor;
-
-impl<'de> Deserialize<'de> for Friction {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Friction, D::Error> {
-        from.deserialize_any(FrictionVisitor)
-    }
-}
-
-impl<'de> Visitor<'de> for FrictionVisitor {
-    type Value = Friction;
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("a number, such as 0.5, or { static = 0.6, dynamic = 0.4, speed = 0.01 }")
-    }
-
-    fn visit_f64<E: Error>(self, v: f64) -> Result<Friction, E> {
-        Ok(Friction::Constant(v))
-    }
-
-    fn visit_i64<E: Error>(self, v: i64) -> Result<Friction, E> {
-        Ok(Friction::Constant(v as f64))
-    }
-
-    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Friction, A::Error> {
-        Weakening::deserialize(MapAccessDeserializer::new(map)).map(Friction::Weakening)
     }
 }

@@ -4,9 +4,14 @@ use crate::error::SceneError;
 use crate::plan::Draft;
 use dem::setup;
 
+/// μ at rest.
+fn friction(law: &setup::ContactLaw) -> Option<f64> {
+    law.number("sliding_friction").or(law.number("sliding_friction.static"))
+}
+
 impl Draft<'_> {
     /// The laws of pairs that can meet; what wall files say fills in where the scene is silent.
-    pub(crate) fn meeting(&mut self, mut laws: Vec<setup::Contact>) -> Vec<setup::Contact> {
+    pub(crate) fn meeting(&mut self, mut laws: Vec<setup::ContactLaw>) -> Vec<setup::ContactLaw> {
         let mut grains: Vec<u16> = self.particles.iter().map(|p| p.material).collect();
         grains.extend(&self.entry_materials);
         let shapes =
@@ -14,25 +19,24 @@ impl Draft<'_> {
         grains.extend(shapes.map(|s| self.clumps.shapes[s as usize].material));
         grains.sort_unstable();
         grains.dedup();
-        let of = |laws: &[setup::Contact], a: u16, b: u16| {
+        let of = |laws: &[setup::ContactLaw], a: u16, b: u16| {
             laws.iter().position(|l| l.between == (a, b) || l.between == (b, a))
         };
         for (wall, info) in &self.wall_infos {
             for &grain in &grains {
                 match (of(&laws, grain, *wall), info.restitution) {
-                    (None, Some(restitution)) => laws.push(setup::Contact {
-                        sliding_friction: info.friction.filter(|mu| *mu > 0.0),
-                        ..setup::Contact::new(
-                            (grain.min(*wall), grain.max(*wall)),
-                            setup::Law::Hertz,
-                            restitution,
-                        )
-                    }),
-                    (Some(at), _)
-                        if info.friction.is_some() && info.friction != laws[at].sliding_friction =>
-                    {
+                    (None, Some(restitution)) => {
+                        let mut law = setup::ContactLaw::new((grain.min(*wall), grain.max(*wall)), "hertz");
+                        law.set("restitution", restitution);
+                        info.friction
+                            .filter(|mu| *mu > 0.0)
+                            .into_iter()
+                            .for_each(|mu| law.set("sliding_friction", mu));
+                        laws.push(law);
+                    }
+                    (Some(at), _) if info.friction.is_some() && info.friction != friction(&laws[at]) => {
                         let (a, b) = (&self.materials[grain as usize].name, &info.name);
-                        let scene = laws[at].sliding_friction.unwrap_or(0.0);
+                        let scene = friction(&laws[at]).unwrap_or(0.0);
                         let file = info.friction.unwrap_or(0.0);
                         self.notes.push(format!(
                             "{a}–{b}: sliding_friction {scene} of the scene, not {file} of the wall file"

@@ -2,6 +2,7 @@
 
 mod calculation;
 mod contact;
+mod contact_keys;
 mod grains;
 mod wall;
 

@@ -10,7 +10,8 @@
 use crate::columns::Columns;
 use crate::crossings::Builder;
 use crate::error::SceneError;
-use dem::setup::{Crossing, Memory, Springs, Touch};
+use dem::effects::{ContactHistory, Field, Kind};
+use dem::setup::{Crossing, Memory, Touch};
 use stream::{Table, Values};
 
 /// Topic of the contacts.
@@ -51,13 +52,22 @@ pub fn to_table(rows: &[Touching]) -> Table {
     springs(table, rows, |r| r.memory.springs)
 }
 
-fn springs<T>(table: Builder, rows: &[T], of: impl Fn(&T) -> Springs) -> Table {
-    table
-        .vectors(["slidingx", "slidingy", "slidingz"], rows, |r| of(r).sliding)
-        .vectors(["rollingx", "rollingy", "rollingz"], rows, |r| of(r).rolling)
-        .f64("twisting", rows.iter().map(|r| of(r).twisting))
-        .f64("held", rows.iter().map(|r| of(r).normal))
+fn springs<T>(table: Builder, rows: &[T], of: impl Fn(&T) -> ContactHistory) -> Table {
+    let column = |at: usize| rows.iter().map(|r| of(r).numbers()[at]).collect::<Vec<_>>();
+    names()
+        .into_iter()
+        .enumerate()
+        .fold(table, |table, (at, name)| table.f64(&name, column(at).into_iter()))
         .0
+}
+
+/// Columns of what a contact keeps.
+fn names() -> Vec<String> {
+    let of = |(field, _): (&Field, _)| match field.kind {
+        Kind::Scalar => vec![field.name.to_owned()],
+        Kind::Vector => ["x", "y", "z"].map(|axis| format!("{}{axis}", field.name)).to_vec(),
+    };
+    ContactHistory::fields().into_iter().flat_map(of).collect()
 }
 
 /// Contacts between particles that remember something. Of a table that older versions wrote, without memory, none.
@@ -77,12 +87,10 @@ pub fn from_table(stream: &str, table: &Table) -> Result<Vec<Touching>, SceneErr
         })
     };
     let (ids, partners) = (need("id")?, need("partner")?);
-    let sliding = columns.vectors(["slidingx", "slidingy", "slidingz"])?;
-    let rolling = columns.vectors(["rollingx", "rollingy", "rollingz"])?;
-    let (twisting, held) = (columns.numbers("twisting")?, columns.numbers("held")?);
+    let kept = names().iter().map(|name| columns.numbers(name)).collect::<Result<Vec<_>, _>>()?;
     let row = |k: usize| {
-        let springs =
-            Springs { sliding: sliding[k], rolling: rolling[k], twisting: twisting[k], normal: held[k] };
+        let mut springs = ContactHistory::default();
+        springs.numbers_mut().iter_mut().zip(&kept).for_each(|(number, column)| *number = column[k]);
         Touching { time: times[k], memory: Memory { id: ids[k], partner: partners[k], springs } }
     };
     Ok((0..times.len())

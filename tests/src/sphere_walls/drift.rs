@@ -16,7 +16,7 @@ use super::plates::{still, touch};
 use dem::Simulation;
 use dem::setup::*;
 use geom::Vec3;
-use grainpipe_tests::setups::{empty, grain};
+use grainpipe_tests::setups::{Law, empty, grain};
 use rayon::prelude::*;
 
 /// How grains run.
@@ -56,7 +56,7 @@ pub fn runs(spheres: &[(Vec3, f64)], slope: Slope, azimuths: &[f64]) -> Vec<Run>
 
 fn run(spheres: &[(Vec3, f64)], slope: Slope, azimuth: f64) -> Run {
     let mut setup = empty(Law::Hooke { stiffness: 2e3, tangential_ratio: None }, slope.restitution);
-    setup.contacts.iter_mut().for_each(|c| c.sliding_friction = Some(slope.friction));
+    setup.contacts.iter_mut().for_each(|c| c.set("sliding_friction", slope.friction));
     let (sin, cos) = slope.tilt.sin_cos();
     let (down, aside) =
         (Vec3::new(azimuth.cos(), azimuth.sin(), 0.0), Vec3::new(-azimuth.sin(), azimuth.cos(), 0.0));

@@ -19,7 +19,7 @@ use super::plates::still;
 use dem::Simulation;
 use dem::setup::*;
 use geom::Vec3;
-use grainpipe_tests::setups::{empty, grain};
+use grainpipe_tests::setups::{Law, empty, grain};
 
 /// Time at each tilt, in √(r/g).
 const WAIT: f64 = 6.0;
@@ -68,8 +68,8 @@ pub fn leaving_tilts(
     let mut setup = laid(spheres, kind.radius, stiffness, places);
     let settled = rested(&setup, 60.0);
     for contact in &mut setup.contacts {
-        contact.sliding_friction = kind.friction;
-        contact.rolling_resistance = kind.blocked.then_some(BLOCKED);
+        contact.set("sliding_friction", kind.friction);
+        contact.set("rolling_resistance", kind.blocked.then_some(BLOCKED));
     }
     let mut left = vec![std::f64::consts::FRAC_PI_2; settled.len()];
     let mut now = settled.clone();

@@ -10,7 +10,7 @@ use super::plates::{still, touch};
 use dem::Simulation;
 use dem::setup::*;
 use geom::Vec3;
-use grainpipe_tests::setups::{empty, grain};
+use grainpipe_tests::setups::{Law, empty, grain};
 
 /// Speed that grains come down with, at most [m/s].
 const FALL: f64 = 0.3;

@@ -12,7 +12,7 @@ use super::plates::{still, touch};
 use dem::Simulation;
 use dem::setup::*;
 use geom::Vec3;
-use grainpipe_tests::setups::{empty, grain};
+use grainpipe_tests::setups::{Law, empty, grain};
 
 /// Speed of impact [m/s].
 const SPEED: f64 = 0.5;

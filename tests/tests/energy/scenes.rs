@@ -36,8 +36,8 @@ fn cloud(count: u32, lift: f64) -> Vec<Particle> {
 pub fn poured(normal: &Normal) -> Setup {
     let mut setup = with_friction(normal.setup(0.5), 0.3);
     setup.contacts.iter_mut().for_each(|c| {
-        c.rolling_resistance = Some(0.05);
-        c.twisting_resistance = Some(0.05);
+        c.set("rolling_resistance", 0.05);
+        c.set("twisting_resistance", 0.05);
     });
     setup.gravity.z = -9.81;
     setup.ledger = true;
@@ -84,18 +84,17 @@ pub fn all() -> Vec<Scene> {
     walls.walls[1].motion.velocity = Vec3::new(0.2, 0.0, 0.0);
     add("hertz, pushed by a plane".to_owned(), walls);
     let mut constant = poured(hertz);
-    constant.contacts.iter_mut().for_each(|c| c.rolling_model = RollingModel::Constant);
+    constant.contacts.iter_mut().for_each(|c| c.choose("rolling_model", "constant"));
     add("hertz, constant rolling couple".to_owned(), constant);
     for normal in &NORMALS {
         let mut weakens = poured(normal);
-        let weakening = Some(Weakening { dynamic: 0.1, speed: 0.1 });
-        weakens.contacts.iter_mut().for_each(|c| c.weakening = weakening);
+        weakens.contacts.iter_mut().for_each(|c| grainpipe_tests::setups::weaken(c, [0.3, 0.1, 0.1]));
         add(format!("{}, friction that weakens", normal.name), weakens);
     }
     for normal in &NORMALS[..2] {
         let mut mixed = shaking(poured(normal));
         mixed.precision = Precision::Mixed;
-        mixed.contacts.iter_mut().for_each(|c| c.twisting_resistance = None);
+        mixed.contacts.iter_mut().for_each(|c| c.remove("twisting_resistance"));
         add(format!("{} on a shaking floor, mixed precision", normal.name), mixed.clone());
         (mixed.walls[0].shape, mixed.periodic) =
             (pebbles(), [Some((-0.01, 0.14)), Some((-0.01, 0.11)), None]);

@@ -18,7 +18,7 @@ use dem::{Energy, Setup, Simulation, mass};
 use geom::Vec3;
 use grainpipe_tests::findings::{Case, case};
 use grainpipe_tests::normals::{MODULUS, NORMALS, Normal, Surface, WORK, name_of, precisions};
-use grainpipe_tests::setups::{bond, grain, lattice, plane};
+use grainpipe_tests::setups::{Law, bond, grain, lattice, plane};
 use std::f64::consts::PI;
 
 const ALONE: Case = case(
@@ -86,7 +86,7 @@ fn name(what: &str, normal: &Normal, precision: Precision) -> String {
 fn resting(normal: &Normal, precision: Precision, friction: f64, restitution: f64) -> Setup {
     let (mut setup, _) = normal.resting(restitution, Surface::Plane);
     setup.precision = precision;
-    setup.contacts.iter_mut().for_each(|c| c.sliding_friction = Some(friction));
+    setup.contacts.iter_mut().for_each(|c| c.set("sliding_friction", friction));
     setup
 }
 
@@ -137,8 +137,7 @@ fn sliding() {
             }
             let mut setup = resting(&normal, precision, 0.5, 0.3);
             if weakens {
-                let weakening = Some(Weakening { dynamic: 0.2, speed: 0.05 });
-                setup.contacts.iter_mut().for_each(|c| c.weakening = weakening);
+                setup.contacts.iter_mut().for_each(|c| grainpipe_tests::setups::weaken(c, [0.3, 0.2, 0.05]));
             }
             setup.particles[0].velocity.x = speed;
             let (a, turns) = (arm(&normal), 0.4 * R * R);
@@ -154,14 +153,14 @@ fn sliding() {
 #[test]
 fn rolling() {
     let (speed, m) = (0.3, mass_of_grain());
-    for model in [RollingModel::Spring, RollingModel::Constant] {
+    for model in ["spring", "constant"] {
         for (normal, precision) in precisions() {
-            if model == RollingModel::Constant && precision != Precision::Double {
+            if model == "constant" && precision != Precision::Double {
                 continue;
             }
             let mut setup = resting(&normal, precision, 0.9, 1.0);
             for c in &mut setup.contacts {
-                (c.rolling_resistance, c.rolling_model) = (Some(0.5), model);
+                grainpipe_tests::setups::rolling(c, 0.5, model);
             }
             let spin = speed / arm(&normal);
             (setup.particles[0].velocity.x, setup.particles[0].spin.y) = (speed, spin);
@@ -178,7 +177,7 @@ fn twisting() {
     let speed = 20.0;
     for normal in NORMALS {
         let mut setup = resting(&normal, Precision::Double, 0.5, 1.0);
-        setup.contacts.iter_mut().for_each(|c| c.twisting_resistance = Some(0.1));
+        setup.contacts.iter_mut().for_each(|c| c.set("twisting_resistance", 0.1));
         let answer = half_inertia() * speed * speed;
         let mut floor = setup.clone();
         setup.particles[0].spin.z = speed;
@@ -273,8 +272,8 @@ fn springs() {
                 }
             };
             for c in &mut setup.contacts {
-                c.rolling_resistance = Some(0.9).filter(|_| kind == "rolling");
-                c.twisting_resistance = Some(0.9).filter(|_| kind == "twisting");
+                c.set("rolling_resistance", Some(0.9).filter(|_| kind == "rolling"));
+                c.set("twisting_resistance", Some(0.9).filter(|_| kind == "twisting"));
             }
             let name = name(&format!("swings on the spring of {kind}"), &normal, precision);
             Alone { name, setup, until: 0.02, step: 0.005 }.makes_nothing(answer);

@@ -7,7 +7,7 @@ use dem::setup::*;
 use dem::{Setup, Simulation};
 use geom::{Moments, Plane, Vec3, mesh::TriMesh};
 use grainpipe_tests::findings::{Case, case};
-use grainpipe_tests::setups::{grain, plane};
+use grainpipe_tests::setups::{grain, plane, weaken};
 use nalgebra::UnitQuaternion;
 
 const WIDTHS: Case = case(
@@ -22,30 +22,38 @@ const SCENES: Case = case(
 
 /// What rubs: sliding, then with rolling, twisting, weakening.
 fn effects(variant: &Variant) -> Vec<(&'static str, Setup)> {
-    let with = |change: fn(&mut Contact)| {
+    let with = |change: fn(&mut ContactLaw)| {
         let mut setup = variant.smooth(0.4);
         setup.contacts.iter_mut().for_each(change);
         setup
     };
     let mut all = vec![
         ("smooth", with(|_| ())),
-        ("sliding", with(|c| c.sliding_friction = Some(0.4))),
-        ("rolling", with(|c| (c.sliding_friction, c.rolling_resistance) = (Some(0.4), Some(0.1)))),
+        ("sliding", with(|c| c.set("sliding_friction", 0.4))),
+        (
+            "rolling",
+            with(|c| {
+                c.set("sliding_friction", 0.4);
+                c.set("rolling_resistance", 0.1);
+            }),
+        ),
     ];
     if !variant.mixed() {
         all.push((
             "twisting",
             with(|c| {
-                (c.sliding_friction, c.rolling_resistance) = (Some(0.4), Some(0.1));
-                c.twisting_resistance = Some(0.1);
+                c.set("sliding_friction", 0.4);
+                c.set("rolling_resistance", 0.1);
+                c.set("twisting_resistance", 0.1);
             }),
         ));
         all.push((
             "weakening, constant rolling",
             with(|c| {
-                (c.sliding_friction, c.rolling_resistance) = (Some(0.4), Some(0.1));
-                c.rolling_model = RollingModel::Constant;
-                c.weakening = Some(Weakening { dynamic: 0.2, speed: 0.1 });
+                c.set("sliding_friction", 0.4);
+                c.set("rolling_resistance", 0.1);
+                c.choose("rolling_model", "constant");
+                weaken(c, [0.4, 0.2, 0.1]);
             }),
         ));
     }

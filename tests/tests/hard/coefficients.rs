@@ -20,8 +20,8 @@ const ELASTIC: Case = case("Rest and extremes", "e = 1: 100 bounces lose no ener
 fn thrown(variant: &Variant, friction: f64) -> Particle {
     let (mut setup, _) = variant.normal.resting(0.5, Surface::Plane);
     setup.precision = variant.precision;
-    setup.contacts[0].sliding_friction = Some(0.5);
-    setup.contacts[1].sliding_friction = Some(friction);
+    setup.contacts[0].set("sliding_friction", 0.5);
+    setup.contacts[1].set("sliding_friction", friction);
     setup.step = Step::Auto(0.2);
     setup.particles[0].velocity.x = 1.0;
     setup.particles[0].spin.z = 5.0;

@@ -21,9 +21,7 @@ const COUNT: u32 = 200;
 fn column(variant: &Variant) -> Simulation {
     let mut setup = with_friction(variant.smooth(0.3), 0.5);
     for c in &mut setup.contacts {
-        if let Law::Hooke { stiffness, .. } = &mut c.law {
-            *stiffness = 1e5;
-        }
+        c.set("stiffness", c.number("stiffness").map(|_| 1e5));
     }
     setup.gravity.z = -9.81;
     setup.step = Step::Auto(0.9);
@@ -66,7 +64,7 @@ const WIDTH: f64 = 0.1;
 /// A silo with square section, filled with so many layers of 25 grains; its base sinks a little, so that walls hold what they can.
 fn silo(variant: &Variant, layers: u32) -> (f64, f64) {
     let mut setup = with_friction(variant.smooth(0.3), 0.5);
-    setup.contacts.iter_mut().for_each(|c| c.rolling_resistance = Some(0.1));
+    setup.contacts.iter_mut().for_each(|c| c.set("rolling_resistance", 0.1));
     setup.gravity.z = -9.81;
     setup.step = Step::Auto(0.8);
     let place = |k: u32| {

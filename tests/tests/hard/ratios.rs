@@ -5,7 +5,7 @@ use dem::setup::*;
 use dem::{critical_step, mass};
 use geom::{Vec3, mesh::TriMesh};
 use grainpipe_tests::findings::{Case, case};
-use grainpipe_tests::setups::{grain, particles, plane, run_until};
+use grainpipe_tests::setups::{Law, contact, grain, particles, plane, run_until};
 
 const MOMENTUM: Case =
     case("Rest and extremes", "size ratio 1:100, mass ratio 1:10⁶: momentum is kept in an impact");
@@ -27,9 +27,7 @@ fn stiffened(setup: Setup, factor: f64) -> Setup {
     let mut setup = setup;
     setup.materials.iter_mut().for_each(|m| m.young *= factor);
     for c in &mut setup.contacts {
-        if let Law::Hooke { stiffness, .. } = &mut c.law {
-            *stiffness *= factor;
-        }
+        c.set("stiffness", c.number("stiffness").map(|k| k * factor));
     }
     setup
 }
@@ -135,9 +133,9 @@ fn soft_and_stiff_in_one_scene() {
             other => other,
         };
         setup.contacts = vec![
-            Contact::new((0, 0), law(1e3), 0.5),
-            Contact::new((1, 1), law(1e9), 0.5),
-            Contact::new((0, 1), law(1e3), 0.5),
+            contact((0, 0), law(1e3), 0.5),
+            contact((1, 1), law(1e9), 0.5),
+            contact((0, 1), law(1e3), 0.5),
         ];
         let at = |id: u32, material, x: f64, v: f64| Particle {
             material,

@@ -113,9 +113,7 @@ fn stiff(variant: &Variant, restitution: f64, young: f64) -> Setup {
     let mut setup = variant.smooth(restitution);
     setup.materials.iter_mut().for_each(|m| m.young = young);
     for c in &mut setup.contacts {
-        if let Law::Hooke { stiffness, .. } = &mut c.law {
-            *stiffness = 1e4 * young / 1e7;
-        }
+        c.set("stiffness", c.number("stiffness").map(|_| 1e4 * young / 1e7));
     }
     setup
 }

@@ -5,7 +5,7 @@ use dem::setup::*;
 use dem::{Simulation, critical_step};
 use geom::{Plane, Vec3};
 use grainpipe_tests::findings::{Case, case};
-use grainpipe_tests::setups::{grain, plane};
+use grainpipe_tests::setups::{Law, grain, plane};
 
 const BOUNDED: Case = case(
     "Time step",

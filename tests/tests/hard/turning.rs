@@ -48,7 +48,8 @@ const SPIN: Case =
 fn cage(variant: &Variant, axis: Vec3, lag: f64) -> Simulation {
     let mut setup = variant.rough(0.3, 50.0);
     for c in &mut setup.contacts {
-        (c.rolling_resistance, c.twisting_resistance) = (None, None);
+        c.set("rolling_resistance", None);
+        c.set("twisting_resistance", None);
     }
     setup.step = Step::Auto(0.5);
     setup.ledger = true;

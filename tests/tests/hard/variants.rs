@@ -44,9 +44,9 @@ impl Variant {
     pub fn rough(&self, restitution: f64, friction: f64) -> Setup {
         let mut setup = self.smooth(restitution);
         for c in &mut setup.contacts {
-            c.sliding_friction = Some(friction);
-            c.rolling_resistance = Some(0.3);
-            c.twisting_resistance = Some(0.2).filter(|_| !self.mixed());
+            c.set("sliding_friction", friction);
+            c.set("rolling_resistance", 0.3);
+            c.set("twisting_resistance", Some(0.2).filter(|_| !self.mixed()));
         }
         setup
     }

@@ -16,7 +16,7 @@ use dem::{Simulation, mass};
 use geom::Vec3;
 use grainpipe_tests::findings::{Case, case};
 use grainpipe_tests::normals::{MODULUS, NORMALS, SURFACES};
-use grainpipe_tests::setups::{HOOKE, empty, grain, particles, plane};
+use grainpipe_tests::setups::{HOOKE, Law, empty, grain, particles, plane};
 use std::f64::consts::PI;
 
 const REBOUND: Case = case("One contact", "JKR, e = 1: rebound at √(v² − 2W/m*) (Thornton & Ning)");
@@ -136,7 +136,7 @@ fn restitution_of_a_linear_spring_that_cohesion_weakens() {
     let (k, m, cohesion) = (1e4, mass(0.01, 2500.0), 5e4);
     for e in [0.9f64, 0.6, 0.3] {
         let mut setup = empty(HOOKE, e);
-        setup.contacts.iter_mut().for_each(|c| c.cohesion = Some(cohesion));
+        setup.contacts.iter_mut().for_each(|c| c.set("cohesion_energy_density", cohesion));
         setup.step = Step::Auto(0.002);
         setup.walls = vec![plane(Vec3::z())];
         let velocity = Vec3::new(0.0, 0.0, -0.01);

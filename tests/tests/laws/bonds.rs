@@ -6,7 +6,7 @@ use dem::setup::*;
 use dem::{Setup, Simulation};
 use geom::Vec3;
 use grainpipe_tests::findings::{Case, case};
-use grainpipe_tests::setups::{HOOKE, bond, empty, grain, particles, run_until};
+use grainpipe_tests::setups::{HOOKE, bond, contact, empty, grain, particles, run_until};
 use std::f64::consts::PI;
 
 const BAR: Case = case("Bonds", "bar of n spheres, force F on each: its end moves by Σ F x/E A");
@@ -32,7 +32,7 @@ const INERTIA: f64 = 0.25 * PI * R * R * R * R;
 /// Spheres at these places of a lattice, the first one heavy, in a wind that pushes each with so much force [N]; its rate of drag [1/s].
 fn held(places: &[[i32; 2]], force: Vec3, rate: f64) -> Setup {
     let mut setup = empty(HOOKE, 0.5);
-    setup.contacts.push(Contact::new((1, 1), HOOKE, 0.5));
+    setup.contacts.push(contact((1, 1), HOOKE, 0.5));
     setup.materials[1].density = 1e20;
     let mass = dem::mass(R, setup.materials[0].density);
     let velocity = force / (rate * mass);

@@ -5,7 +5,7 @@ use dem::setup::*;
 use dem::{Setup, Simulation};
 use geom::{Vec3, mesh::TriMesh};
 use grainpipe_tests::findings::{Case, case};
-use grainpipe_tests::setups::{empty, grain, particles, run_until, with_friction};
+use grainpipe_tests::setups::{Law, empty, grain, particles, run_until, with_friction};
 use std::f64::consts::PI;
 
 const BEVERLOO: Case =

@@ -5,7 +5,7 @@ use dem::setup::*;
 use dem::{Simulation, mass};
 use geom::Vec3;
 use grainpipe_tests::findings::{Case, case};
-use grainpipe_tests::setups::{HOOKE, LAWS, empty, grain, particles, plane, run_until, with_friction};
+use grainpipe_tests::setups::{HOOKE, LAWS, Law, empty, grain, particles, plane, run_until, with_friction};
 use std::f64::consts::PI;
 
 const PART: &str = "One contact";
@@ -322,7 +322,7 @@ fn galilean_invariance() {
 fn seen_at(law: Law, speed: f64) -> (Vec<[Vec3; 3]>, u64) {
     let mut setup = with_friction(empty(law, 0.7), 0.4);
     setup.materials.iter_mut().for_each(|m| m.young = 1e4);
-    setup.contacts.iter_mut().for_each(|c| c.rolling_resistance = Some(0.2));
+    setup.contacts.iter_mut().for_each(|c| c.set("rolling_resistance", 0.2));
     setup.skin = Some(0.001);
     // A grain that stays holds the grid in place.
     setup.particles = vec![grain(9, Vec3::new(-0.5, 0.3, 0.0))];

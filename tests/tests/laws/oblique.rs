@@ -16,7 +16,7 @@ use dem::setup::*;
 use dem::{Setup, mass};
 use geom::Vec3;
 use grainpipe_tests::findings::{Case, case};
-use grainpipe_tests::setups::{empty, grain, particles, plane, with_friction};
+use grainpipe_tests::setups::{Law, empty, grain, particles, plane, with_friction};
 use std::f64::consts::PI;
 
 const ANGLES: Case =

@@ -17,7 +17,7 @@ use dem::{Setup, Simulation, mass};
 use geom::Vec3;
 use grainpipe_tests::findings::{Case, case};
 use grainpipe_tests::normals::{MODULUS, WORK};
-use grainpipe_tests::setups::{HOOKE, empty, grain, particles, plane, run_until, with_friction};
+use grainpipe_tests::setups::{HOOKE, Law, empty, grain, particles, plane, run_until, with_friction};
 use std::f64::consts::PI;
 
 const ELASTIC: Case = case("One contact", "error of an elastic impact: v′ over v, by step");

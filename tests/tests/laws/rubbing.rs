@@ -7,7 +7,9 @@ use dem::setup::*;
 use geom::{Moments, Vec3};
 use grainpipe_tests::findings::{Case, case};
 use grainpipe_tests::normals::{NORMALS, SURFACES, name_of, precisions};
-use grainpipe_tests::setups::{LAWS, empty, grain, particles, plane, run_until, with_friction};
+use grainpipe_tests::setups::{
+    LAWS, Law, empty, grain, particles, plane, rolling, run_until, weaken, with_friction,
+};
 use nalgebra::UnitQuaternion;
 
 const PART: &str = "Friction and rolling";
@@ -33,7 +35,7 @@ fn all(friction: f64, test: impl Fn(Setup, f64, &str)) {
         for surface in SURFACES {
             let (mut setup, press) = normal.resting(0.5, surface);
             setup.precision = precision;
-            setup.contacts.iter_mut().for_each(|c| c.sliding_friction = Some(friction));
+            setup.contacts.iter_mut().for_each(|c| c.set("sliding_friction", friction));
             test(setup, press, &format!("{} on {surface:?}", name_of(&normal, precision)));
         }
     }
@@ -48,7 +50,7 @@ fn all_double(friction: f64, test: impl Fn(Setup, f64, &str)) {
     });
 }
 
-fn each(setup: &mut Setup, change: impl Fn(&mut Contact)) {
+fn each(setup: &mut Setup, change: impl Fn(&mut ContactLaw)) {
     setup.contacts.iter_mut().for_each(change);
 }
 
@@ -112,13 +114,13 @@ fn ball_slides_down_a_steep_slope() {
 /// Both models of rolling resistance slow a rolling ball down by (5/7) μ_r p.
 #[test]
 fn rolling_ball_slows_down() {
-    for model in [RollingModel::Spring, RollingModel::Constant] {
-        let offered = |s: &Setup| model == RollingModel::Spring || s.precision == Precision::Double;
+    for model in ["spring", "constant"] {
+        let offered = |s: &Setup| model == "spring" || s.precision == Precision::Double;
         all(0.6, |mut setup, press, case| {
             if !offered(&setup) {
                 return;
             }
-            each(&mut setup, |c| (c.rolling_resistance, c.rolling_model) = (Some(0.1), model));
+            each(&mut setup, |c| rolling(c, 0.1, model));
             (setup.particles[0].velocity.x, setup.particles[0].spin.y) = (0.5, 50.0);
             let mut sim = simulation(setup);
             run_until(&mut sim, 0.2);
@@ -136,7 +138,7 @@ fn slopes_and_rest_with_rolling_resistance() {
     all(0.6, |base, press, case| {
         for (share, stays) in [(0.9, true), (1.1, false)] {
             let mut setup = base.clone();
-            each(&mut setup, |c| c.rolling_resistance = Some(0.1));
+            each(&mut setup, |c| c.set("rolling_resistance", 0.1));
             // Pressed by more than its weight, it holds on steeper slopes.
             tilt(&mut setup, (share * 0.1 * press / 9.81).atan());
             let mut sim = simulation(setup);
@@ -156,7 +158,7 @@ fn slopes_and_rest_with_rolling_resistance() {
         let creep = |safety: f64| {
             let mut setup = base.clone();
             each(&mut setup, |c| {
-                (c.rolling_resistance, c.rolling_model) = (Some(0.1), RollingModel::Constant);
+                rolling(c, 0.1, "constant");
             });
             tilt(&mut setup, 0.05);
             setup.step = Step::Auto(safety);
@@ -174,7 +176,7 @@ fn slopes_and_rest_with_rolling_resistance() {
             CREEPS.equals(&format!("{case}, {safety} of the critical step"), speed, "m/s", expected, 1e-3);
         }
         let mut setup = base.clone();
-        each(&mut setup, |c| (c.rolling_resistance, c.rolling_model) = (Some(0.1), RollingModel::Constant));
+        each(&mut setup, |c| rolling(c, 0.1, "constant"));
         (setup.particles[0].velocity.x, setup.particles[0].spin.y) = (0.05, 5.0);
         let mut sim = simulation(setup);
         run_until(&mut sim, 1.0);
@@ -187,7 +189,7 @@ fn slopes_and_rest_with_rolling_resistance() {
 #[test]
 fn twisting_stops_a_spinning_top() {
     all_double(0.3, |mut setup, press, case| {
-        each(&mut setup, |c| c.twisting_resistance = Some(0.02));
+        each(&mut setup, |c| c.set("twisting_resistance", 0.02));
         setup.particles[0].spin = Vec3::new(0.0, 0.0, 20.0);
         let mut sim = simulation(setup);
         let slows = 2.5 * 0.02 * press / 0.01;
@@ -205,7 +207,7 @@ fn twisting_stops_a_spinning_top() {
 fn weakening_friction() {
     let (at_rest, dynamic, speed) = (0.6, 0.1, 0.3);
     all_double(at_rest, |mut setup, press, case| {
-        each(&mut setup, |c| c.weakening = Some(Weakening { dynamic, speed }));
+        each(&mut setup, |c| weaken(c, [at_rest, dynamic, speed]));
         setup.particles[0].velocity.x = 1.0;
         let mut sim = simulation(setup);
         let rate = |s: f64| -3.5 * press * (dynamic + (at_rest - dynamic) / (1.0 + s * s / (speed * speed)));
@@ -227,12 +229,13 @@ fn weakening_friction() {
 #[test]
 fn oblique_collision_conserves_momentum_and_angular_momentum() {
     for normal in NORMALS {
-        for model in [RollingModel::Spring, RollingModel::Constant] {
+        for model in ["spring", "constant"] {
             let mut setup = normal.setup(0.6);
             each(&mut setup, |c| {
-                (c.sliding_friction, c.rolling_resistance, c.rolling_model) = (Some(0.4), Some(0.1), model);
-                c.twisting_resistance = Some(0.05);
-                c.weakening = Some(Weakening { dynamic: 0.2, speed: 0.1 });
+                c.set("sliding_friction", 0.4);
+                rolling(c, 0.1, model);
+                c.set("twisting_resistance", 0.05);
+                weaken(c, [0.4, 0.2, 0.1]);
             });
             let at = |x, y, z| grain(1, Vec3::new(x, y, z));
             let (mut a, mut b) = (at(0.009, 0.004, -0.001), at(-0.009, -0.002, 0.002));

@@ -11,7 +11,7 @@ use dem::setup::*;
 use dem::{Setup, mass};
 use geom::{Plane, Vec3};
 use grainpipe_tests::findings::{Case, case};
-use grainpipe_tests::setups::{HOOKE, empty, grain, particles, plane};
+use grainpipe_tests::setups::{HOOKE, Law, contact, empty, grain, particles, plane};
 use std::f64::consts::PI;
 
 const SQUEEZED: Case = case(
@@ -33,7 +33,7 @@ struct Pile {
 impl Pile {
     fn setup(&self, dt: f64) -> Setup {
         let mut setup = empty(self.law, self.e);
-        setup.contacts.push(Contact::new((1, 1), self.law, self.e));
+        setup.contacts.push(contact((1, 1), self.law, self.e));
         setup.materials.iter_mut().zip(DENSITIES).for_each(|(m, d)| m.density = d);
         setup.gravity.z = -9.81;
         setup.step = Step::Fixed(dt);

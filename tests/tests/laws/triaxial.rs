@@ -13,7 +13,7 @@ use dem::setup::*;
 use dem::{Setup, Simulation};
 use geom::{Plane, Vec3};
 use grainpipe_tests::findings::{Case, case};
-use grainpipe_tests::setups::{LAWS, empty, grain, run_until, with_friction};
+use grainpipe_tests::setups::{LAWS, Law, empty, grain, run_until, with_friction};
 
 const RATIO: Case = case("Many grains", "FCC array of stiff spheres, triaxial: σ₁/σ₃ = 2 (1 + μ)/(1 − μ)");
 const R: f64 = 0.01;
@@ -28,7 +28,7 @@ fn array(law: Law, mu: f64) -> Setup {
     };
     let mut setup = with_friction(empty(law, 0.1), mu);
     setup.materials.iter_mut().for_each(|m| m.young = 1e10);
-    setup.contacts[1].sliding_friction = None;
+    setup.contacts[1].remove("sliding_friction");
     setup.step = Step::Auto(0.5);
     // A hair more than a diameter: compressed, the spheres of a layer do not touch.
     let side = 2.0 * R * (1.0 + 1e-6);

@@ -3,9 +3,9 @@
 use crate::of_walls;
 use crate::sphere_walls::grazing::{Impact, Target, graze};
 use crate::sphere_walls::plates::{Layout, spheres};
-use dem::setup::Law;
 use grainpipe_tests::findings::Case;
 use grainpipe_tests::normals::{NORMALS, Normal};
+use grainpipe_tests::setups::Law;
 use sampling::Method;
 
 const RUBS: Case =

@@ -11,7 +11,7 @@ use dem::Simulation;
 use dem::setup::*;
 use geom::Vec3;
 use grainpipe_tests::findings::Case;
-use grainpipe_tests::setups::{empty, grain, plane, with_friction};
+use grainpipe_tests::setups::{Law, empty, grain, plane, with_friction};
 use sampling::Method;
 
 const P: f64 = 0.01;
@@ -27,8 +27,8 @@ const STANDS: Case = of_walls(
 /// rest [m].
 fn spread((wall, top): (Wall, f64), friction: f64, seed: u64) -> f64 {
     let mut setup = with_friction(empty(Law::Hooke { stiffness: 2e3, tangential_ratio: None }, 0.3), 0.5);
-    setup.contacts.iter_mut().for_each(|c| c.rolling_resistance = Some(0.2));
-    setup.contacts[1].sliding_friction = Some(friction);
+    setup.contacts.iter_mut().for_each(|c| c.set("rolling_resistance", 0.2));
+    setup.contacts[1].set("sliding_friction", friction);
     setup.gravity.z = -9.81;
     setup.step = Step::Auto(0.8);
     setup.walls = vec![wall];

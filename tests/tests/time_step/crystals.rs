@@ -5,7 +5,7 @@ use crate::trial::{ALL, Trial};
 use dem::setup::*;
 use dem::{Setup, mass};
 use geom::{Moments, Vec3};
-use grainpipe_tests::setups::{HOOKE, bond, empty, grain, with_friction};
+use grainpipe_tests::setups::{HOOKE, Law, bond, contact, empty, grain, with_friction};
 use nalgebra::UnitQuaternion;
 use std::f64::consts::SQRT_2;
 
@@ -40,7 +40,7 @@ fn cubes(count: u32, law: Law, e: f64, overlap: f64) -> Setup {
     setup
 }
 
-fn each(mut setup: Setup, change: impl Fn(&mut Contact)) -> Setup {
+fn each(mut setup: Setup, change: impl Fn(&mut ContactLaw)) -> Setup {
     setup.contacts.iter_mut().for_each(change);
     setup
 }
@@ -61,7 +61,7 @@ fn pushing() {
         Trial { name, setup: crystal(law, e, 1e-2), ways: ALL }.meant();
     }
     let mut mixed = crystal(HOOKE, 0.1, 1e-2);
-    mixed.contacts.iter_mut().for_each(|c| c.cohesion = Some(1e4));
+    mixed.contacts.iter_mut().for_each(|c| c.set("cohesion_energy_density", 1e4));
     Trial { name: "crystal, hooke with cohesion, e = 0.1", setup: mixed, ways: ALL }.meant();
 }
 
@@ -88,8 +88,8 @@ fn rolling_and_twisting() {
         ("crystal, rolling 1 and twisting, e = 0.9", 0.9, 1.0, Some(1.0)),
     ] {
         let setup = each(with_friction(crystal(HOOKE, e, 1e-2), 1.0), |c| {
-            c.rolling_resistance = Some(rolling).filter(|&r| r > 0.0);
-            c.twisting_resistance = twisting;
+            c.set("rolling_resistance", Some(rolling).filter(|&r| r > 0.0));
+            c.set("twisting_resistance", twisting);
         });
         Trial { name, setup, ways: ALL }.meant();
     }
@@ -144,7 +144,7 @@ fn bonded() {
 #[test]
 fn one_grain_is_different() {
     let mut setup = crystal(HOOKE, 1.0, 1e-2);
-    setup.contacts.push(Contact::new((1, 1), HOOKE, 1.0));
+    setup.contacts.push(contact((1, 1), HOOKE, 1.0));
     (setup.materials[0].density, setup.materials[1].density) = (2.5, 2500.0);
     setup.particles[1..].iter_mut().for_each(|p| p.material = 1);
     Trial { name: "light grain among heavy ones, 1 : 1000", setup: setup.clone(), ways: ALL }.meant();
@@ -181,7 +181,7 @@ fn clumps() {
         };
         setup.clumps = Clumps { shapes: vec![shape], bodies: firsts.map(body).collect(), entries: vec![] };
         setup.particles = vec![];
-        setup.contacts.iter_mut().for_each(|c| c.sliding_friction = friction);
+        setup.contacts.iter_mut().for_each(|c| c.set("sliding_friction", friction));
         Trial { name, setup, ways: ALL }.meant();
     }
 }

@@ -4,7 +4,7 @@ use dem::setup::*;
 use dem::{Setup, Simulation, critical_step, mass};
 use geom::Vec3;
 use grainpipe_tests::findings::{Case, case};
-use grainpipe_tests::setups::{empty, grain, with_friction};
+use grainpipe_tests::setups::{Law, empty, grain, with_friction};
 
 const MADE: Case = case(
     "Time step",

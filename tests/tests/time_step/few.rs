@@ -5,7 +5,7 @@ use dem::setup::*;
 use dem::{Setup, mass};
 use geom::{Plane, Vec3};
 use grainpipe_tests::findings::{Case, case};
-use grainpipe_tests::setups::{HOOKE, empty, grain, with_friction};
+use grainpipe_tests::setups::{HOOKE, Law, contact, empty, grain, with_friction};
 use std::f64::consts::{PI, SQRT_2};
 
 const LINE: Case = case(
@@ -105,9 +105,9 @@ fn a_light_bead_in_a_shell_of_heavy_balls() {
             density: 20.0,
             ..setup.materials[0].clone()
         });
-        setup.contacts.push(Contact::new((0, 2), HOOKE, e));
-        setup.contacts.push(Contact::new((1, 2), HOOKE, e));
-        setup.contacts.push(Contact::new((2, 2), HOOKE, e));
+        setup.contacts.push(contact((0, 2), HOOKE, e));
+        setup.contacts.push(contact((1, 2), HOOKE, e));
+        setup.contacts.push(contact((2, 2), HOOKE, e));
         // So little pressed that nothing buckles within the trial.
         let (ball, count) = (0.12 * R, 200u32);
         let pressed = 1e-8 * ball;
@@ -136,7 +136,7 @@ fn between_walls_of_spheres() {
         ("grain in hollows of wall spheres, rolling resistance 0.5, e = 0.3", 0.3, true, Some(0.5)),
     ] {
         let mut setup = if friction { with_friction(empty(HOOKE, e), 1.0) } else { empty(HOOKE, e) };
-        setup.contacts.iter_mut().for_each(|c| c.rolling_resistance = rolling);
+        setup.contacts.iter_mut().for_each(|c| c.set("rolling_resistance", rolling));
         let (side, reach) = (R, 0.99 * 2.0 * R);
         let height = (reach * reach - side * side / 3.0).sqrt();
         let mut spheres = Vec::new();
@@ -165,8 +165,8 @@ fn cage_of_wall_spheres() {
         ("cage of twelve wall spheres, 4 times as stiff, rolling 1, e = 1", 1.0, Some(1.0), 4.0),
     ] {
         let mut setup = with_friction(empty(HOOKE, e), 1.0);
-        setup.contacts[1].law = Law::Hooke { stiffness: wall * 1e4, tangential_ratio: None };
-        setup.contacts.iter_mut().for_each(|c| c.rolling_resistance = rolling);
+        setup.contacts[1].set("stiffness", wall * 1e4);
+        setup.contacts.iter_mut().for_each(|c| c.set("rolling_resistance", rolling));
         let d = 0.995 * 2.0 * R / 2f64.sqrt();
         let mut spheres = Vec::new();
         for (a, b) in [(d, d), (d, -d), (-d, d), (-d, -d)] {

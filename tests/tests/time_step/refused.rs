@@ -5,7 +5,7 @@ use dem::{Simulation, critical_step, mass};
 use geom::Vec3;
 use grainpipe_tests::findings::{Case, case};
 use grainpipe_tests::scenes::{Head, folder, write};
-use grainpipe_tests::setups::{LAWS, empty, grain, plane, with_friction};
+use grainpipe_tests::setups::{LAWS, contact, empty, grain, plane, with_friction};
 use grainpipe_tests::tools::tool;
 
 const REFUSED: Case = case("Time step", "1.05 of the critical step is refused, naming the pair");
@@ -15,7 +15,7 @@ fn by_the_engine() {
     for law in LAWS {
         for friction in [false, true] {
             let mut setup = empty(law, 0.5);
-            setup.contacts.push(Contact::new((1, 1), law, 0.5));
+            setup.contacts.push(contact((1, 1), law, 0.5));
             setup.walls = vec![plane(Vec3::z())];
             let small = Particle { radius: 0.001, material: 1, ..grain(2, Vec3::new(0.0, 0.0, 0.1)) };
             setup.particles = vec![grain(1, Vec3::new(0.0, 0.0, 0.01)), small];

@@ -86,7 +86,10 @@ fn body<'a>(body: &Body, setup: &'a Setup) -> Result<&'a ClumpShape, SetupError>
     let Some(shape) = setup.clumps.shapes.get(body.shape as usize) else {
         let value = body.shape.into();
         return Err(SetupError::Range {
-            what: at("shape"), value, unit: "[–]", range: "the scene's clumps"
+            what: at("shape"),
+            value,
+            unit: "[–]",
+            range: "the scene's clumps".to_owned(),
         });
     };
     within(at("scale"), body.scale, "[–]", body.scale > 0.0 && body.scale.is_finite(), "scale > 0")?;

@@ -14,15 +14,47 @@
 //! friction (as LIGGGHTS without `tangential_reduce`): grains rub by what presses them together.
 //! Comes after the normal law, before friction.
 
-use super::{Contact, Effect, Load};
+use super::describe::{Description, Key, Model, Range, Slot};
+use super::pair::Pair;
+use super::{Contact, ContactEffect, Effect, Load};
 use crate::lane::Lane;
 use std::f64::consts::PI;
+
+/// C.
+pub const ENERGY_DENSITY: Key = Key {
+    name: "cohesion_energy_density",
+    unit: "J/m³",
+    range: Range::UpTo(1e15),
+    required: true,
+    example: "1e4",
+    doc: "C: pull over the area of contact",
+};
+
+/// What the program knows of it.
+pub const DESCRIPTION: Description = Description {
+    name: "cohesion",
+    doc: "a pull of `cohesion_energy_density` × the area of contact",
+    slot: Slot::Cohesion,
+    model: Some(Model { key: "cohesion", value: "sjkr", default: false }),
+    keys: &[ENERGY_DENSITY],
+    idle: |law| law.number("cohesion_energy_density") == Some(0.0),
+    ..Description::PLAIN
+};
 
 /// A pull proportional to the area of contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cohesion {
     /// C [J/m³].
     pub energy_density: f64,
+}
+
+impl ContactEffect for Cohesion {
+    const DESCRIPTIONS: &'static [&'static Description] = &[&DESCRIPTION];
+
+    fn of(pair: &Pair) -> Option<Cohesion> {
+        let energy_density = pair.number("cohesion_energy_density");
+        DESCRIPTION.asked_for(pair.law).then_some(Cohesion { energy_density })
+    }
 }
 
 impl Effect for Cohesion {

@@ -15,8 +15,26 @@
 //! spheres. Wall spheres so close that more than four push at once count in y, too. What it cannot do: hold a grain on a slope, where it creeps at the
 //! speed at which the dashpot bears the moment, ∝ Δt; the spring model holds it.
 
-use super::{Contact, Effect, Load};
+use super::describe::{Description, Model, Slot};
+use super::pair::Pair;
+use super::rolling_resistance::COEFFICIENT;
+use super::{Contact, ContactEffect, Effect, Load};
 use crate::lane::Lane;
+
+/// What the program knows of it.
+pub const DESCRIPTION: Description = Description {
+    name: "constant rolling",
+    doc: "a torque of one size against rolling: a particle creeps on a slope",
+    slot: Slot::Rolling,
+    model: Some(Model { key: "rolling_model", value: "constant", default: false }),
+    keys: &[COEFFICIENT],
+    needs: Some(Slot::Sliding),
+    idle: |law| law.number("rolling_resistance") == Some(0.0),
+    ..Description::PLAIN
+};
+
+/// Its entry of the energy ledger.
+const LEDGER: usize = DESCRIPTION.slot.ledger();
 
 /// β, the share of the rolling that one contact of a sphere may take in one step [–].
 const SHARE: f64 = 0.125;
@@ -28,6 +46,15 @@ pub struct ConstantRolling {
     pub resistance: f64,
     /// y: how much easier the easiest body yields than a sphere of its mass [–].
     pub yielding: f64,
+}
+
+impl ContactEffect for ConstantRolling {
+    const DESCRIPTIONS: &'static [&'static Description] = &[&DESCRIPTION];
+
+    fn of(pair: &Pair) -> Option<ConstantRolling> {
+        let (resistance, yielding) = (pair.number("rolling_resistance"), pair.ease.bodies);
+        DESCRIPTION.asked_for(pair.law).then_some(ConstantRolling { resistance, yielding })
+    }
 }
 
 impl Effect for ConstantRolling {
@@ -45,6 +72,6 @@ impl Effect for ConstantRolling {
         let dashpot =
             (cap / square.max(R::splat(1e-300)).sqrt()).min(R::splat(SHARE / self.yielding) * inertia / dt);
         load.couple = load.couple - rolling.scale(dashpot);
-        load.dissipated[2] = load.dissipated[2] + dashpot * square * dt;
+        load.dissipated[LEDGER] = load.dissipated[LEDGER] + dashpot * square * dt;
     }
 }

@@ -8,8 +8,38 @@
 //! doi:10.1016/0032-5910(92)88030-L; γ from e is exact for contact until δ = 0, not Tsuji's polynomial: Antypov &
 //! Elliott (2011), EPL 94, doi:10.1209/0295-5075/94/50004.
 
-use super::{Contact, Effect, Load};
+use super::describe::{Description, Model, NormalLaw, Slot};
+use super::hooke::RESTITUTION;
+use super::pair::{Elastic, Meeting, Pair};
+use super::{Contact, ContactEffect, Effect, Load};
 use crate::lane::Lane;
+use crate::setup::ContactLaw;
+use std::f64::consts::PI;
+
+/// What the program knows of it.
+pub const DESCRIPTION: Description = Description {
+    name: "hertz",
+    doc: "elastic spheres, Hertz–Mindlin, from young and poisson",
+    slot: Slot::Normal,
+    model: Some(Model { key: "law", value: "hertz", default: true }),
+    keys: &[RESTITUTION],
+    every_precision: true,
+    normal: Some(NormalLaw { stiffest, reach: |_, _, _| 0.0, unloaded_overlap }),
+    ..Description::PLAIN
+};
+
+/// Its entry of the energy ledger.
+const LEDGER: usize = DESCRIPTION.slot.ledger();
+
+/// dF_n/dδ.
+fn stiffest(_: &ContactLaw, elastic: Elastic, at: Meeting) -> f64 {
+    2.0 * elastic.modulus * (at.radius * at.share * at.smaller).sqrt()
+}
+
+/// (9π²/4) (C/E*)².
+fn unloaded_overlap(_: &ContactLaw, elastic: Elastic, density: f64, _: [f64; 2]) -> f64 {
+    2.25 * (PI * density / elastic.modulus).powi(2)
+}
 
 /// Hertz's law with a dashpot.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,6 +48,15 @@ pub struct Hertz {
     pub modulus: f64,
     /// γ [–], as for [`super::Hooke`].
     pub damping_ratio: f64,
+}
+
+impl ContactEffect for Hertz {
+    const DESCRIPTIONS: &'static [&'static Description] = &[&DESCRIPTION];
+
+    fn of(pair: &Pair) -> Option<Hertz> {
+        let (modulus, damping_ratio) = (pair.elastic.modulus, pair.damping_ratio());
+        DESCRIPTION.asked_for(pair.law).then_some(Hertz { modulus, damping_ratio })
+    }
 }
 
 impl Effect for Hertz {
@@ -38,6 +77,6 @@ impl Effect for Hertz {
         let before = (overlap - contact.approach * dt).max(R::splat(0.0));
         load.stiffness_before = (before / overlap.max(R::splat(R::TINY))).sqrt();
         load.elastic = load.elastic + R::splat(0.4) * elastic * overlap;
-        load.dissipated[0] = load.dissipated[0] + damping * contact.approach * dt;
+        load.dissipated[LEDGER] = load.dissipated[LEDGER] + damping * contact.approach * dt;
     }
 }

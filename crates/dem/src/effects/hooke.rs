@@ -8,8 +8,66 @@
 //! [`super::damping_ratio`]. The contact lasts until δ = 0, so that e comes out exactly; the force may pull a little
 //! in its last moment.
 
-use super::{Contact, Effect, Load};
+use super::describe::{Description, Key, Model, NormalLaw, Range, Slot};
+use super::pair::{Elastic, Meeting, Pair};
+use super::{Contact, ContactEffect, Effect, Load};
 use crate::lane::Lane;
+use crate::setup::ContactLaw;
+use std::f64::consts::PI;
+
+/// e of every normal law.
+pub const RESTITUTION: Key = Key {
+    name: "restitution",
+    unit: "",
+    range: Range::UpTo(1.0),
+    required: true,
+    example: "0.5",
+    doc: "e of a head-on impact; with cohesion or JKR that of the same contact without adhesion",
+};
+/// k of linear laws.
+pub const STIFFNESS: Key = Key {
+    name: "stiffness",
+    unit: "N/m",
+    range: Range::Positive,
+    required: true,
+    example: "1e5",
+    doc: "k_n, or `characteristic_velocity` [m/s], the speed of an impact that is as deep as with \"hertz\"",
+};
+/// k_t/k of linear laws.
+pub const TANGENTIAL_RATIO: Key = Key {
+    name: "tangential_ratio",
+    unit: "",
+    range: Range::Positive,
+    required: false,
+    example: "0.8",
+    doc: "k_t/k_n; absent: 4 G*/E* of the materials (Mindlin)",
+};
+
+/// What the program knows of it.
+pub const DESCRIPTION: Description = Description {
+    name: "hooke",
+    doc: "linear spring and dashpot",
+    slot: Slot::Normal,
+    model: Some(Model { key: "law", value: "hooke", default: false }),
+    keys: &[STIFFNESS, TANGENTIAL_RATIO, RESTITUTION],
+    every_precision: true,
+    normal: Some(NormalLaw { stiffest, reach: |_, _, _| 0.0, unloaded_overlap }),
+    ..Description::PLAIN
+};
+
+/// Its entry of the energy ledger.
+const LEDGER: usize = DESCRIPTION.slot.ledger();
+
+/// S = k.
+fn stiffest(law: &ContactLaw, _: Elastic, _: Meeting) -> f64 {
+    law.number("stiffness").unwrap_or(f64::NAN)
+}
+
+/// 0 as long as C < k/2πR*: the pull grows as the spring does.
+pub fn unloaded_overlap(law: &ContactLaw, _: Elastic, density: f64, [_, largest]: [f64; 2]) -> f64 {
+    let stiffness = law.number("stiffness").unwrap_or(f64::NAN);
+    if density < stiffness / (2.0 * PI * largest) || density == 0.0 { 0.0 } else { f64::INFINITY }
+}
 
 /// Linear spring and dashpot.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,6 +76,15 @@ pub struct Hooke {
     pub stiffness: f64,
     /// γ [–].
     pub damping_ratio: f64,
+}
+
+impl ContactEffect for Hooke {
+    const DESCRIPTIONS: &'static [&'static Description] = &[&DESCRIPTION];
+
+    fn of(pair: &Pair) -> Option<Hooke> {
+        let damping_ratio = pair.damping_ratio();
+        DESCRIPTION.asked_for(pair.law).then(|| Hooke { stiffness: pair.number("stiffness"), damping_ratio })
+    }
 }
 
 impl Effect for Hooke {
@@ -34,6 +101,6 @@ impl Effect for Hooke {
         load.stiffness = k;
         load.stiffness_before = R::splat(1.0);
         load.elastic = load.elastic + R::splat(0.5) * k * contact.overlap * contact.overlap;
-        load.dissipated[0] = load.dissipated[0] + damping * contact.approach * dt;
+        load.dissipated[LEDGER] = load.dissipated[LEDGER] + damping * contact.approach * dt;
     }
 }

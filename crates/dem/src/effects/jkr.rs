@@ -22,9 +22,68 @@
 //! books all of W when contact is made. On a triangle mesh each triangle is a contact of its own: a grain that rolls over a seam
 //! while it is pulled comes free there, and the ledger books W again.
 
-use super::{Contact, Effect, Load};
+use super::describe::{Description, Field, Key, Kind, Model, NormalLaw, Range, Slot};
+use super::hooke::RESTITUTION;
+use super::pair::{Elastic, Meeting, Pair};
+use super::{Contact, ContactEffect, Effect, Load};
 use crate::lane::Lane;
+use crate::setup::ContactLaw;
 use std::f64::consts::PI;
+
+const WORK_OF_ADHESION: Key = Key {
+    name: "work_of_adhesion",
+    unit: "J/m²",
+    range: Range::UpTo(1e9),
+    required: true,
+    example: "0.1",
+    doc: "w: energy that parts a square metre of contact, twice the surface energy where both are of one material",
+};
+
+/// What the program knows of it.
+pub const DESCRIPTION: Description = Description {
+    name: "jkr",
+    doc: "elastic spheres that adhere: Johnson, Kendall and Roberts",
+    slot: Slot::Normal,
+    model: Some(Model { key: "law", value: "jkr", default: false }),
+    keys: &[WORK_OF_ADHESION, RESTITUTION],
+    history: &[Field {
+        name: "held",
+        kind: Kind::Scalar,
+        unit: "m",
+        doc: "a_c, the radius of contact at the break, once contact is made",
+    }],
+    excludes: Some((Slot::Cohesion, "law = \"jkr\" adheres by itself")),
+    idle: |law| law.number("work_of_adhesion") == Some(0.0),
+    instead: Some("hertz"),
+    normal: Some(NormalLaw { stiffest, reach, unloaded_overlap }),
+    ..Description::PLAIN
+};
+
+/// Its entry of the energy ledger.
+const LEDGER: usize = DESCRIPTION.slot.ledger();
+
+fn undamped(law: &ContactLaw, elastic: Elastic) -> Jkr {
+    let work_of_adhesion = law.number("work_of_adhesion").unwrap_or(f64::NAN);
+    Jkr { modulus: elastic.modulus, work_of_adhesion, damping_ratio: 0.0 }
+}
+
+/// 2 E* a.
+fn stiffest(law: &ContactLaw, elastic: Elastic, at: Meeting) -> f64 {
+    let last = undamped(law, elastic).last_radius(at.radius);
+    2.0 * elastic.modulus * last * Jkr::spread(at.overlap(), at.radius, last).powi(2)
+}
+
+/// δ_c.
+fn reach(law: &ContactLaw, elastic: Elastic, radius: f64) -> f64 {
+    Jkr::last_gap(radius, undamped(law, elastic).last_radius(radius))
+}
+
+/// 2·6^(1/3) (π w/8E* r)^(2/3).
+fn unloaded_overlap(law: &ContactLaw, elastic: Elastic, _: f64, [smallest, _]: [f64; 2]) -> f64 {
+    let work_of_adhesion = law.number("work_of_adhesion").unwrap_or(f64::NAN);
+    let root = libm::cbrt(PI * work_of_adhesion / (8.0 * elastic.modulus * smallest));
+    2.0 * libm::cbrt(6.0) * root * root
+}
 
 /// Steps of Newton: 7 % → 0.7 % → 5e-5 → 4e-9 → rounding.
 const NEWTON: usize = 4;
@@ -75,6 +134,15 @@ impl Jkr {
     }
 }
 
+impl ContactEffect for Jkr {
+    const DESCRIPTIONS: &'static [&'static Description] = &[&DESCRIPTION];
+
+    fn of(pair: &Pair) -> Option<Jkr> {
+        let damping_ratio = pair.damping_ratio();
+        DESCRIPTION.asked_for(pair.law).then(|| Jkr { damping_ratio, ..undamped(pair.law, pair.elastic) })
+    }
+}
+
 impl Effect for Jkr {
     /// a_c [m]; 0 where no contact is made.
     type Memory<R: Lane> = R;
@@ -105,7 +173,7 @@ impl Effect for Jkr {
         let stored =
             cube * y * (cube * (cube / number(60.0) - number(1.0 / 6.0)) + number(0.25)) - number(0.1);
         load.elastic = load.elastic + unit * stored;
-        load.dissipated[0] = load.dissipated[0] + damping * contact.approach * dt;
+        load.dissipated[LEDGER] = load.dissipated[LEDGER] + damping * contact.approach * dt;
         load.lost = load.lost + number(CYCLE) * new * unit;
     }
 

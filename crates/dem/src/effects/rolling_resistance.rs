@@ -11,8 +11,45 @@
 //! M never exceeds the cap.
 
 use super::capped_spring::{CappedSpring, turned};
-use super::{Contact, Effect, Load};
+use super::describe::{Description, Field, Key, Kind, Model, Range, Slot, Turning, TurningPair};
+use super::pair::Pair;
+use super::{Contact, ContactEffect, Effect, Load};
 use crate::lane::{Lane, V};
+use crate::setup::ContactLaw;
+
+/// μ_r.
+pub const COEFFICIENT: Key = Key {
+    name: "rolling_resistance",
+    unit: "",
+    range: Range::UpTo(1e3),
+    required: true,
+    example: "0.1",
+    doc: "μ_r: caps the torque by μ_r R* F_n",
+};
+
+/// What the program knows of it.
+pub const DESCRIPTION: Description = Description {
+    name: "rolling_resistance",
+    doc: "a spring and dashpot against rolling, under a cap: holds a particle on a slope",
+    slot: Slot::Rolling,
+    model: Some(Model { key: "rolling_model", value: "spring", default: true }),
+    keys: &[COEFFICIENT],
+    history: &[Field { name: "rolling", kind: Kind::Vector, unit: "rad", doc: "θ, the spring" }],
+    needs: Some(Slot::Sliding),
+    every_precision: true,
+    idle: |law| law.number("rolling_resistance") == Some(0.0),
+    turning: Some(turning),
+    ..Description::PLAIN
+};
+
+/// Its entry of the energy ledger.
+const LEDGER: usize = DESCRIPTION.slot.ledger();
+
+/// 8 × 5/2 c_r over its arm and √(S m*); one hundredth of it stands for the spring.
+fn turning(law: &ContactLaw, pair: &TurningPair) -> Turning {
+    let resistance = law.number("rolling_resistance").unwrap_or(0.0);
+    Turning { stiffness: 0.0, damping: 21.5 * pair.dense * pair.share * resistance * pair.impedance }
+}
 
 /// Share of critical damping [–].
 const ETA: f64 = 0.3;
@@ -22,6 +59,15 @@ const ETA: f64 = 0.3;
 pub struct RollingResistance {
     /// μ_r [–].
     pub resistance: f64,
+}
+
+impl ContactEffect for RollingResistance {
+    const DESCRIPTIONS: &'static [&'static Description] = &[&DESCRIPTION];
+
+    fn of(pair: &Pair) -> Option<RollingResistance> {
+        let resistance = pair.number("rolling_resistance");
+        DESCRIPTION.asked_for(pair.law).then_some(RollingResistance { resistance })
+    }
 }
 
 impl Effect for RollingResistance {
@@ -50,6 +96,6 @@ impl Effect for RollingResistance {
         let pull = spring.pull(theta, rolling, dt);
         load.couple = load.couple + pull.force;
         load.elastic = load.elastic + pull.elastic;
-        load.dissipated[2] = load.dissipated[2] + pull.dissipated;
+        load.dissipated[LEDGER] = load.dissipated[LEDGER] + pull.dissipated;
     }
 }

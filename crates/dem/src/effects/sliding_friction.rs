@@ -13,8 +13,36 @@
 //! pulls, nothing holds. Comes after every effect that changes F_n.
 
 use super::capped_spring::{CappedSpring, turned};
-use super::{Contact, Effect, Load};
+use super::describe::{Description, Field, Key, Kind, Range, Slot};
+use super::pair::{Pair, tangential_ratio};
+use super::weakening::{self, Friction};
+use super::{Contact, ContactEffect, Effect, Load};
 use crate::lane::{Lane, V};
+
+/// ξ.
+pub const SPRING: Field = Field { name: "sliding", kind: Kind::Vector, unit: "m", doc: "ξ, the spring" };
+
+/// What the program knows of it.
+pub const DESCRIPTION: Description = Description {
+    name: "sliding_friction",
+    doc: "tangential spring and dashpot under Coulomb's cap",
+    slot: Slot::Sliding,
+    keys: &[Key {
+        name: "sliding_friction",
+        unit: "",
+        range: Range::UpTo(1e3),
+        required: true,
+        example: "0.5",
+        doc: "μ: caps the tangential force by what presses",
+    }],
+    history: &[SPRING],
+    every_precision: true,
+    idle: |law| law.number("sliding_friction") == Some(0.0),
+    ..Description::PLAIN
+};
+
+/// Its entry of the energy ledger.
+const LEDGER: usize = DESCRIPTION.slot.ledger();
 
 /// What μ is: a number, or a function of the state of the contact.
 pub trait Coefficient: Copy + Send + Sync + 'static {
@@ -42,6 +70,32 @@ pub struct SlidingFriction<C = f64> {
     pub yielding: f64,
 }
 
+impl<C: Coefficient> SlidingFriction<C> {
+    fn new(pair: &Pair, friction: C) -> SlidingFriction<C> {
+        let stiffness_ratio = tangential_ratio(pair.law, pair.elastic);
+        let (damping_ratio, yielding) = (pair.damping_ratio(), pair.ease.springs);
+        SlidingFriction { friction, stiffness_ratio, damping_ratio, yielding }
+    }
+}
+
+/// The same at every speed.
+impl ContactEffect for SlidingFriction<f64> {
+    const DESCRIPTIONS: &'static [&'static Description] = &[&DESCRIPTION];
+
+    fn of(pair: &Pair) -> Option<SlidingFriction<f64>> {
+        DESCRIPTION.asked_for(pair.law).then(|| SlidingFriction::new(pair, pair.number("sliding_friction")))
+    }
+}
+
+/// The same at every speed, or weaker with speed.
+impl ContactEffect for SlidingFriction<Friction> {
+    const DESCRIPTIONS: &'static [&'static Description] = &[&DESCRIPTION, &weakening::DESCRIPTION];
+
+    fn of(pair: &Pair) -> Option<SlidingFriction<Friction>> {
+        Some(SlidingFriction::new(pair, Friction::of(pair)?))
+    }
+}
+
 impl<C: Coefficient> Effect for SlidingFriction<C> {
     type Memory<R: Lane> = V<R>;
     const ROTATES: bool = true;
@@ -66,6 +120,6 @@ impl<C: Coefficient> Effect for SlidingFriction<C> {
         let pull = spring.pull(xi, contact.slip, dt);
         load.tangential = load.tangential + pull.force;
         load.elastic = load.elastic + pull.elastic;
-        load.dissipated[1] = load.dissipated[1] + pull.dissipated;
+        load.dissipated[LEDGER] = load.dissipated[LEDGER] + pull.dissipated;
     }
 }

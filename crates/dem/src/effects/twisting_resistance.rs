@@ -11,8 +11,43 @@
 //! with the contact by itself, and is the same seen from i and from j.
 
 use super::capped_spring::CappedSpring;
-use super::{Contact, Effect, Load};
+use super::describe::{ALONG, Description, Field, Key, Kind, Range, Slot, TURNS, Turning, TurningPair};
+use super::pair::{Pair, tangential_ratio};
+use super::{Contact, ContactEffect, Effect, Load};
 use crate::lane::Lane;
+use crate::setup::ContactLaw;
+
+/// What the program knows of it.
+pub const DESCRIPTION: Description = Description {
+    name: "twisting_resistance",
+    doc: "a spring and dashpot about the normal, under a cap",
+    slot: Slot::Twisting,
+    keys: &[Key {
+        name: "twisting_resistance",
+        unit: "",
+        range: Range::UpTo(1e3),
+        required: true,
+        example: "0.05",
+        doc: "μ_w: caps the torque by μ_w R* F_n",
+    }],
+    history: &[Field { name: "twisting", kind: Kind::Scalar, unit: "rad", doc: "φ, the angle" }],
+    needs: Some(Slot::Sliding),
+    idle: |law| law.number("twisting_resistance") == Some(0.0),
+    turning: Some(turning),
+    ..Description::PLAIN
+};
+
+/// Its entry of the energy ledger.
+const LEDGER: usize = DESCRIPTION.slot.ledger();
+
+/// 4 × 5/2 of k_w and c_w, η = 0.3.
+fn turning(_: &ContactLaw, pair: &TurningPair) -> Turning {
+    let straight = ALONG * pair.dense;
+    Turning {
+        stiffness: straight * TURNS * pair.share * pair.tangential,
+        damping: straight * TURNS * 0.6 * 0.4f64.sqrt() * pair.share * pair.tangential_impedance,
+    }
+}
 
 /// Share of critical damping [–].
 const ETA: f64 = 0.3;
@@ -26,6 +61,20 @@ pub struct TwistingResistance {
     pub stiffness_ratio: f64,
     /// As for sliding [–].
     pub yielding: f64,
+}
+
+impl ContactEffect for TwistingResistance {
+    const DESCRIPTIONS: &'static [&'static Description] = &[&DESCRIPTION];
+
+    fn of(pair: &Pair) -> Option<TwistingResistance> {
+        let stiffness_ratio = tangential_ratio(pair.law, pair.elastic);
+        let (resistance, yielding) = (pair.number("twisting_resistance"), pair.ease.springs);
+        DESCRIPTION.asked_for(pair.law).then_some(TwistingResistance {
+            resistance,
+            stiffness_ratio,
+            yielding,
+        })
+    }
 }
 
 impl Effect for TwistingResistance {
@@ -49,6 +98,6 @@ impl Effect for TwistingResistance {
         let pull = spring.pull(phi, contact.spin.dot(contact.normal), dt);
         load.couple = load.couple + contact.normal.scale(pull.force);
         load.elastic = load.elastic + pull.elastic;
-        load.dissipated[3] = load.dissipated[3] + pull.dissipated;
+        load.dissipated[LEDGER] = load.dissipated[LEDGER] + pull.dissipated;
     }
 }

@@ -7,8 +7,61 @@
 //!
 //! Hess & Soom (1990), J. Tribology 112(1), doi:10.1115/1.2920220, without the viscous term.
 
+use super::describe::{Contradiction, Description, Key, Range, Slot};
+use super::pair::Pair;
+use super::sliding_friction::SPRING;
 use super::{Coefficient, Contact};
 use crate::lane::Lane;
+use crate::setup::ContactLaw;
+
+/// What the program knows of it.
+pub const DESCRIPTION: Description = Description {
+    name: "weakening friction",
+    doc: "sliding friction μ_d + (μ_s − μ_d)/(1 + (v/v_c)²), of `{ static, dynamic, speed }`",
+    slot: Slot::Sliding,
+    keys: &[
+        Key {
+            name: "sliding_friction.static",
+            unit: "",
+            range: Range::UpTo(1e3),
+            required: true,
+            example: "0.6",
+            doc: "μ_s, at rest",
+        },
+        Key {
+            name: "sliding_friction.dynamic",
+            unit: "",
+            range: Range::UpTo(1e3),
+            required: true,
+            example: "0.4",
+            doc: "μ_d, far above the speed",
+        },
+        Key {
+            name: "sliding_friction.speed",
+            unit: "m/s",
+            range: Range::Positive,
+            required: true,
+            example: "0.01",
+            doc: "v_c, where friction is half-way",
+        },
+    ],
+    history: &[SPRING],
+    idle: |law| {
+        ["sliding_friction.static", "sliding_friction.dynamic"].iter().all(|k| law.number(k) == Some(0.0))
+    },
+    contradiction,
+    ..Description::PLAIN
+};
+
+fn contradiction(law: &ContactLaw) -> Option<Contradiction> {
+    let [at_rest, sliding] =
+        ["sliding_friction.static", "sliding_friction.dynamic"].map(|key| law.number(key));
+    (sliding > at_rest).then(|| Contradiction {
+        key: "sliding_friction.dynamic",
+        why: format!("is above static = {}: friction weakens with speed", at_rest.unwrap_or(0.0)),
+        cure: "swap them, or give one number for both",
+    })
+}
 
 /// μ(v).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,6 +89,19 @@ pub enum Friction {
     Constant(f64),
     /// μ(v).
     Weakening(Weakening),
+}
+
+impl Friction {
+    /// Of a pair; `None` where its law asks for neither.
+    pub fn of(pair: &Pair) -> Option<Friction> {
+        let number = |key: &str| pair.law.number(key);
+        if let Some(constant) = number("sliding_friction") {
+            return Some(Friction::Constant(constant));
+        }
+        let [at_rest, sliding, speed] =
+            ["static", "dynamic", "speed"].map(|key| number(&format!("sliding_friction.{key}")));
+        Some(Friction::Weakening(Weakening { at_rest: at_rest?, sliding: sliding?, speed: speed? }))
+    }
 }
 
 impl Coefficient for Friction {

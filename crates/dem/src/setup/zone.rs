@@ -1,6 +1,7 @@
 //! Planes with regions in which particles move by a prescribed motion, and what passes them.
 
 use super::Particle;
+use crate::effects::ContactHistory;
 use geom::{Plane, Vec3};
 use nalgebra::UnitQuaternion;
 use serde::{Deserialize, Serialize};
@@ -146,18 +147,6 @@ impl EntryClump {
     }
 }
 
-impl Springs {
-    /// Whether it is nothing.
-    pub fn is_zero(&self) -> bool {
-        *self == Springs::default()
-    }
-
-    /// Seen from a frame that is turned.
-    pub fn seen(&self, turn: &UnitQuaternion<f64>) -> Springs {
-        Springs { sliding: turn * self.sliding, rolling: turn * self.rolling, ..*self }
-    }
-}
-
 /// State of a particle at a time of its path.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Sample {
@@ -280,20 +269,7 @@ pub struct Touch {
     /// Tangential force on the crossing particle [N].
     pub tangential: Vec3,
     /// What the contact remembers.
-    pub springs: Springs,
-}
-
-/// What a contact remembers between steps, as its first particle sees it; 0 where no effect keeps it.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct Springs {
-    /// Spring of sliding friction [m].
-    pub sliding: Vec3,
-    /// Spring of rolling resistance [rad].
-    pub rolling: Vec3,
-    /// Spring of twisting resistance [rad].
-    pub twisting: f64,
-    /// What a normal law keeps that lasts beyond touching (JKR: see [`crate::effects::Jkr`]).
-    pub normal: f64,
+    pub springs: ContactHistory,
 }
 
 /// What the contact of two that come in has to remember once the first of them is free.
@@ -304,5 +280,5 @@ pub struct Memory {
     /// Id of the other.
     pub partner: u32,
     /// As `id` sees it.
-    pub springs: Springs,
+    pub springs: ContactHistory,
 }

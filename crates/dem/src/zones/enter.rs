@@ -52,7 +52,7 @@ pub(super) fn members(clump: &EntryClump, setup: &Setup) -> u32 {
 }
 
 fn range(what: String, value: f64, unit: &'static str, range: &'static str) -> Result<(), SetupError> {
-    Err(SetupError::Range { what, value, unit, range })
+    Err(SetupError::Range { what, value, unit, range: range.to_owned() })
 }
 
 /// Refuses what the inlet did not announce.

@@ -4,11 +4,10 @@
 //! free behind the calculation plane, and the partner still on its way in; from then on the contact goes on by itself.
 
 use crate::contacts::{Segment, With};
-use crate::explain::parts;
 use crate::limit::contact_between;
-use crate::setup::{Memory, Springs};
+use crate::setup::{ContactHistory, Memory};
 use crate::simulation::Simulation;
-use geom::Vec3;
+use std::ops::Range;
 
 impl Simulation {
     /// Says what a contact is to remember of two that come in: before the first of them is free, or it is of no effect.
@@ -19,51 +18,36 @@ impl Simulation {
         }
     }
 
-    /// What contact `place` remembers, as its first particle sees it, or its second.
-    pub(crate) fn springs(&self, segment: &Segment, place: usize, second: bool) -> Springs {
+    /// History of contact `place`, as its first particle sees it, or its second.
+    pub(crate) fn springs(&self, segment: &Segment, place: usize, second: bool) -> ContactHistory {
         let kernel = &self.kinds[segment.kind].kernel;
         let columns = kernel.columns();
         let number = |c: usize| {
             let n = self.contacts.remembered(segment, place, c, columns);
             if second && kernel.flips(c) { -n } else { n }
         };
-        let mut springs = Springs::default();
-        self.for_columns(segment, |at, field| match field {
-            Field::Sliding => springs.sliding = Vec3::new(number(at), number(at + 1), number(at + 2)),
-            Field::Rolling => springs.rolling = Vec3::new(number(at), number(at + 1), number(at + 2)),
-            Field::Twisting => springs.twisting = number(at),
-            Field::Normal => springs.normal = number(at),
-        });
-        springs
+        let mut history = ContactHistory::default();
+        for (listed, recorded) in self.history_places(segment) {
+            for (from, to) in listed.zip(recorded) {
+                history.numbers_mut()[to] = number(from);
+            }
+        }
+        history
     }
 
     /// The columns of a kind of contact, in the kernel's order.
-    fn columns(&self, segment: &Segment, springs: &Springs) -> Vec<f64> {
+    fn columns(&self, segment: &Segment, history: &ContactHistory) -> Vec<f64> {
         let mut columns = vec![0.0; self.kinds[segment.kind].kernel.columns()];
-        self.for_columns(segment, |at, field| match field {
-            Field::Sliding => columns[at..at + 3].copy_from_slice(springs.sliding.as_slice()),
-            Field::Rolling => columns[at..at + 3].copy_from_slice(springs.rolling.as_slice()),
-            Field::Twisting => columns[at] = springs.twisting,
-            Field::Normal => columns[at] = springs.normal,
-        });
+        for (listed, recorded) in self.history_places(segment) {
+            columns[listed].copy_from_slice(&history.numbers()[recorded]);
+        }
         columns
     }
 
-    /// First column of each effect that has a memory.
-    fn for_columns(&self, segment: &Segment, mut each: impl FnMut(usize, Field)) {
+    /// Where each field of a kind of contact lies: in the lists, and in a record.
+    fn history_places(&self, segment: &Segment) -> Vec<(Range<usize>, Range<usize>)> {
         let (a, b) = self.kinds[segment.kind].between;
-        let Ok(contact) = contact_between(&self.setup, a, b) else { return };
-        let mut at = 0;
-        for part in parts(contact).iter().filter(|p| p.bytes > 0) {
-            let field = match part.effect {
-                "sliding_friction" => Field::Sliding,
-                "rolling_resistance" => Field::Rolling,
-                "twisting_resistance" => Field::Twisting,
-                _ => Field::Normal,
-            };
-            each(at, field);
-            at += part.bytes / size_of::<f64>();
-        }
+        contact_between(&self.setup, a, b).map_or_else(|_| Vec::new(), ContactHistory::places)
     }
 
     /// Particle `k` is free from now on: its contacts with those on their way in remember what they were told.
@@ -91,12 +75,4 @@ impl Simulation {
             !wall && self.particles.id[other] == partner && self.zones.travels(other)
         })
     }
-}
-
-/// What a column of memory is.
-enum Field {
-    Sliding,
-    Rolling,
-    Twisting,
-    Normal,
 }

@@ -141,7 +141,7 @@ impl Zones {
                 what: format!("inlet: path of particle {id}: {what}"),
                 value,
                 unit: "s",
-                range,
+                range: range.to_owned(),
             })
         };
         let Some(path) = self.paths.get_mut(&id).filter(|p| p.end == End::Open) else {

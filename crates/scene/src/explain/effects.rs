@@ -4,6 +4,7 @@ use super::keys;
 use crate::Scene;
 use crate::model::DragLaw;
 use dem::Simulation;
+use dem::effects::{active, without};
 use dem::setup::{Precision, Setup};
 use serde::Serialize;
 
@@ -88,24 +89,24 @@ fn of_contacts(scene: &Scene, setup: &Setup) -> Vec<Asked> {
     for (place, c) in setup.contacts.iter().enumerate() {
         let from =
             keys::entry(scene, setup, c).map_or("wall file: ".to_owned(), |at| format!("contact.{at}."));
-        for part in dem::parts(c) {
-            let weakens = part.effect == "sliding_friction" && c.weakening.is_some();
-            let name = if weakens { "weakening friction" } else { part.effect };
-            // A single holds half of a double.
-            let bytes = if setup.precision == Precision::Single { part.bytes / 2 } else { part.bytes };
+        for effect in active(c) {
+            let name = effect.name;
+            let number =
+                if setup.precision == Precision::Single { size_of::<f32>() } else { size_of::<f64>() };
+            let (bytes, less) = (number * effect.columns(), without(c, effect));
             let at = found.iter().position(|(asked, _)| asked.effect.name == name).unwrap_or_else(|| {
                 let (name, why) = (name.to_owned(), String::new());
                 let effect = Effect { name, why, bytes_per_contact: 0, share: None };
-                let without = part.without.is_some().then(|| setup.clone());
+                let without = less.is_some().then(|| setup.clone());
                 found.push((Asked { effect, without, in_contacts: true }, Vec::new()));
                 found.len() - 1
             });
             let (asked, calls) = &mut found[at];
             asked.effect.bytes_per_contact = asked.effect.bytes_per_contact.max(bytes);
-            if let (Some(less), Some(c)) = (&mut asked.without, part.without) {
-                less.contacts[place] = c;
+            if let (Some(setup), Some(less)) = (&mut asked.without, less) {
+                setup.contacts[place] = less;
             }
-            let (key, pair) = (format!("{from}{}", part.because), keys::pair(setup, c.between));
+            let (key, pair) = (format!("{from}{}", effect.because(c)), keys::pair(setup, c.between));
             match calls.iter_mut().find(|(known, _)| *known == key) {
                 Some((_, pairs)) => pairs.push(pair),
                 None => calls.push((key, vec![pair])),

@@ -11,17 +11,17 @@ pub(super) fn pair(setup: &Setup, between: (u16, u16)) -> String {
 }
 
 /// The entry that a contact comes from; `None`: a wall file says it.
-pub(super) fn entry(scene: &Scene, setup: &Setup, c: &setup::Contact) -> Option<usize> {
+pub(super) fn entry(scene: &Scene, setup: &Setup, c: &setup::ContactLaw) -> Option<usize> {
     let name = |m: u16| setup.materials[m as usize].name.as_str();
     contacts::most_specific(&scene.model.contact, name(c.between.0), name(c.between.1))
 }
 
 /// What a scene asks for and cannot matter: key and pairs, and why.
 pub(super) fn dropped(scene: &Scene, setup: &Setup) -> Vec<String> {
-    let mut found: Vec<(String, Vec<String>, &str)> = Vec::new();
+    let mut found: Vec<(String, Vec<String>, String)> = Vec::new();
     for c in &setup.contacts {
         let Some(at) = entry(scene, setup, c) else { continue };
-        for (key, why) in contacts::dropped(&scene.model.contact[at], c) {
+        for (key, why) in contacts::dropped(&scene.model.contact[at]) {
             let key = format!("contact.{at}.{key}");
             match found.iter_mut().find(|(known, _, because)| *known == key && *because == why) {
                 Some((_, pairs, _)) => pairs.push(pair(setup, c.between)),

@@ -5,7 +5,7 @@
 //! ```
 
 use crate::crossings::Passage;
-use dem::setup::{Particle, Springs};
+use dem::setup::{ContactHistory, Particle};
 use geom::{Plane, Vec3};
 use nalgebra::{UnitQuaternion, UnitVector3};
 
@@ -46,7 +46,7 @@ impl Frame {
     }
 
     /// What a contact remembers.
-    pub fn springs(&self, springs: &Springs) -> Springs {
+    pub fn springs(&self, springs: &ContactHistory) -> ContactHistory {
         springs.seen(&self.turn)
     }
 

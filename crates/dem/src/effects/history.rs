@@ -1,0 +1,203 @@
+//! What a contact keeps from step to step: as lanes while an effect computes, as columns in lists, as named fields in records.
+
+use super::describe::{Description, Field, Kind};
+use super::registry::{DESCRIPTIONS, active};
+use crate::lane::{BLOCK, Lane, V};
+use crate::number::Number;
+use crate::setup::ContactLaw;
+use geom::Vec3;
+use nalgebra::UnitQuaternion;
+use serde::{Deserialize, Serialize};
+use std::ops::Range;
+
+/// History that is stored as columns of numbers.
+pub trait Memory<R: Lane>: Copy {
+    /// Numbers for each contact.
+    const COLUMNS: usize;
+    /// Reads the lanes from `lane` on in a block of columns, [`BLOCK`] apart.
+    fn load<T: Number>(block: &[T], lane: usize) -> Self;
+    /// Writes them.
+    fn store<T: Number>(self, block: &mut [T], lane: usize);
+    /// Sets it to 0 where the mask does not hold.
+    fn keep(self, mask: R::Mask) -> Self;
+    /// Whether a column changes its sign when i and j change places, as vectors do.
+    fn flips(column: usize) -> bool;
+}
+
+impl<R: Lane> Memory<R> for () {
+    const COLUMNS: usize = 0;
+    #[inline(always)]
+    fn load<T: Number>(_: &[T], _: usize) {}
+    #[inline(always)]
+    fn store<T: Number>(self, _: &mut [T], _: usize) {}
+    #[inline(always)]
+    fn keep(self, _: R::Mask) {}
+    fn flips(_: usize) -> bool {
+        false
+    }
+}
+
+/// A number is the same seen from i and from j.
+impl<R: Lane> Memory<R> for R {
+    const COLUMNS: usize = 1;
+    #[inline(always)]
+    fn load<T: Number>(block: &[T], lane: usize) -> R {
+        T::load(&block[lane..])
+    }
+    #[inline(always)]
+    fn store<T: Number>(self, block: &mut [T], lane: usize) {
+        T::store(self, &mut block[lane..]);
+    }
+    #[inline(always)]
+    fn keep(self, mask: R::Mask) -> R {
+        R::select(mask, self, R::splat(0.0))
+    }
+    fn flips(_: usize) -> bool {
+        false
+    }
+}
+
+impl<R: Lane> Memory<R> for V<R> {
+    const COLUMNS: usize = 3;
+    #[inline(always)]
+    fn load<T: Number>(block: &[T], lane: usize) -> V<R> {
+        let (x, y, z) = (&block[lane..], &block[BLOCK + lane..], &block[2 * BLOCK + lane..]);
+        V::new(T::load(x), T::load(y), T::load(z))
+    }
+    #[inline(always)]
+    fn store<T: Number>(self, block: &mut [T], lane: usize) {
+        T::store(self.x, &mut block[lane..]);
+        T::store(self.y, &mut block[BLOCK + lane..]);
+        T::store(self.z, &mut block[2 * BLOCK + lane..]);
+    }
+    #[inline(always)]
+    fn keep(self, mask: R::Mask) -> V<R> {
+        V::select(mask, self, V::zero())
+    }
+    fn flips(_: usize) -> bool {
+        true
+    }
+}
+
+impl<R: Lane, A: Memory<R>, B: Memory<R>> Memory<R> for (A, B) {
+    const COLUMNS: usize = A::COLUMNS + B::COLUMNS;
+    #[inline(always)]
+    fn load<T: Number>(block: &[T], lane: usize) -> (A, B) {
+        (A::load(block, lane), B::load(&block[A::COLUMNS * BLOCK..], lane))
+    }
+    #[inline(always)]
+    fn store<T: Number>(self, block: &mut [T], lane: usize) {
+        self.0.store(block, lane);
+        self.1.store(&mut block[A::COLUMNS * BLOCK..], lane);
+    }
+    #[inline(always)]
+    fn keep(self, mask: R::Mask) -> (A, B) {
+        (self.0.keep(mask), self.1.keep(mask))
+    }
+    fn flips(column: usize) -> bool {
+        if column < A::COLUMNS { A::flips(column) } else { B::flips(column - A::COLUMNS) }
+    }
+}
+
+/// Numbers of all fields that there are, each once.
+pub const RECORDED: usize = {
+    let (mut sum, mut d) = (0, 0);
+    while d < DESCRIPTIONS.len() {
+        let mut f = 0;
+        while f < DESCRIPTIONS[d].history.len() {
+            if is_first(d, f) {
+                sum += DESCRIPTIONS[d].history[f].kind.columns();
+            }
+            f += 1;
+        }
+        d += 1;
+    }
+    sum
+};
+
+/// Whether no earlier effect has a field of this name.
+const fn is_first(d: usize, f: usize) -> bool {
+    let (name, mut e) = (DESCRIPTIONS[d].history[f].name.as_bytes(), 0);
+    while e < d {
+        let mut g = 0;
+        while g < DESCRIPTIONS[e].history.len() {
+            if is_same(DESCRIPTIONS[e].history[g].name.as_bytes(), name) {
+                return false;
+            }
+            g += 1;
+        }
+        e += 1;
+    }
+    true
+}
+
+const fn is_same(a: &[u8], b: &[u8]) -> bool {
+    let mut k = 0;
+    while k < a.len() && k < b.len() && a[k] == b[k] {
+        k += 1;
+    }
+    k == a.len() && k == b.len()
+}
+
+/// History of one contact by name, as its first particle sees it; 0 where no effect keeps it. Stages record it.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct ContactHistory([f64; RECORDED]);
+
+impl ContactHistory {
+    /// Every field that some effect keeps, with its columns in a record: those of resistances first, as records have them.
+    pub fn fields() -> Vec<(&'static Field, Range<usize>)> {
+        let normal = |d: &&&Description| d.normal.is_some();
+        let all = DESCRIPTIONS.iter().filter(|d| !normal(d)).chain(DESCRIPTIONS.iter().filter(normal));
+        let mut found: Vec<(&Field, Range<usize>)> = Vec::new();
+        for field in all.flat_map(|d| d.history) {
+            if found.iter().all(|(known, _)| known.name != field.name) {
+                let from = found.last().map_or(0, |(_, columns)| columns.end);
+                found.push((field, from..from + field.kind.columns()));
+            }
+        }
+        found
+    }
+
+    /// Where each field of a contact law lies: its columns in the lists, and in a record.
+    pub(crate) fn places(law: &ContactLaw) -> Vec<(Range<usize>, Range<usize>)> {
+        let (all, mut from) = (ContactHistory::fields(), 0);
+        let mut place = |field: &Field| {
+            let listed = from..from + field.kind.columns();
+            from = listed.end;
+            let recorded = all.iter().find(|(known, _)| known.name == field.name);
+            (listed, recorded.map_or(0..0, |(_, columns)| columns.clone()))
+        };
+        active(law).flat_map(|d| d.history).map(&mut place).collect()
+    }
+
+    /// The numbers of a field; empty where there is none of this name.
+    pub fn get(&self, name: &str) -> &[f64] {
+        let fields = ContactHistory::fields();
+        fields.iter().find(|(field, _)| field.name == name).map_or(&[], |(_, at)| &self.0[at.clone()])
+    }
+
+    /// All numbers, in the order of [`ContactHistory::fields`].
+    pub fn numbers(&self) -> &[f64; RECORDED] {
+        &self.0
+    }
+
+    /// The like, to be written.
+    pub fn numbers_mut(&mut self) -> &mut [f64; RECORDED] {
+        &mut self.0
+    }
+
+    /// Whether it is nothing.
+    pub fn is_zero(&self) -> bool {
+        self.0 == [0.0; RECORDED]
+    }
+
+    /// Seen from a frame that is turned.
+    pub fn seen(&self, turn: &UnitQuaternion<f64>) -> ContactHistory {
+        let mut seen = *self;
+        for (_, at) in ContactHistory::fields().into_iter().filter(|(field, _)| field.kind == Kind::Vector) {
+            let turned = turn * Vec3::from_column_slice(&self.0[at.clone()]);
+            seen.0[at].copy_from_slice(turned.as_slice());
+        }
+        seen
+    }
+}

@@ -1,0 +1,88 @@
+//! What effects are made of: the numbers of a contact law, and what follows from its two materials.
+
+use crate::bodies::Ease;
+use crate::setup::{ContactLaw, Material};
+
+/// Elastic constants of a pair.
+///
+/// ```text
+/// 1/E* = (1 − ν_i²)/E_i + (1 − ν_j²)/E_j,   1/G* = (2 − ν_i)/G_i + (2 − ν_j)/G_j,   G = E / 2(1 + ν)
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Elastic {
+    /// E* [Pa].
+    pub modulus: f64,
+    /// Tangential over normal stiffness at the same overlap, 4 G*/E* [–].
+    pub tangential_ratio: f64,
+}
+
+impl Elastic {
+    /// Constants of two materials in contact.
+    pub fn of(a: &Material, b: &Material) -> Elastic {
+        let compliance = |m: &Material| (1.0 - m.poisson * m.poisson) / m.young;
+        let shear = |m: &Material| 2.0 * (1.0 + m.poisson) * (2.0 - m.poisson) / m.young;
+        let modulus = 1.0 / (compliance(a) + compliance(b));
+        Elastic { modulus, tangential_ratio: 4.0 / (shear(a) + shear(b)) / modulus }
+    }
+}
+
+/// How deep two bodies may meet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Meeting {
+    /// R* [m].
+    pub radius: f64,
+    /// The smaller radius [m].
+    pub smaller: f64,
+    /// Largest overlap over the smaller radius [–].
+    pub share: f64,
+}
+
+impl Meeting {
+    /// That overlap [m].
+    pub fn overlap(&self) -> f64 {
+        self.share * self.smaller
+    }
+}
+
+/// A contact law, and what follows from its two materials.
+#[derive(Debug, Clone, Copy)]
+pub struct Pair<'a> {
+    /// The law.
+    pub law: &'a ContactLaw,
+    /// Constants of the materials.
+    pub elastic: Elastic,
+    /// How much easier the bodies of both materials yield than spheres of their mass.
+    pub ease: Ease,
+}
+
+impl Pair<'_> {
+    /// A number of the law; NaN, which checks refuse, where it is absent.
+    pub fn number(&self, key: &str) -> f64 {
+        self.law.number(key).unwrap_or(f64::NAN)
+    }
+
+    /// γ of the normal law and of sliding [–].
+    pub fn damping_ratio(&self) -> f64 {
+        damping_ratio(self.number("restitution"))
+    }
+}
+
+/// k_t over the normal law's stiffness [–].
+pub fn tangential_ratio(law: &ContactLaw, elastic: Elastic) -> f64 {
+    law.number("tangential_ratio").unwrap_or(elastic.tangential_ratio)
+}
+
+/// Damping ratio of a linear oscillator that rebounds with restitution `e` when it is let go at δ = 0:
+///
+/// ```text
+/// γ = −2 ln e / √(π² + ln² e),   c = γ √(k m*)         γ → 2 (critical) for e → 0
+/// ```
+///
+/// Exact, by inversion of e = exp(−c t_c / 2m*), t_c = π / √(k/m* − (c/2m*)²).
+pub fn damping_ratio(restitution: f64) -> f64 {
+    if restitution <= 0.0 {
+        return 2.0;
+    }
+    let ln = libm::log(restitution);
+    -2.0 * ln / (std::f64::consts::PI * std::f64::consts::PI + ln * ln).sqrt()
+}
