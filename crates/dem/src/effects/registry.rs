@@ -4,12 +4,13 @@
 //! that most scenes use are compiled in every precision; all others in double precision only, where cohesion and the weakening of
 //! friction, which keep nothing, are not compositions of their own but a question that is asked once for each group of contacts.
 
+use super::cohesion::Cohesion;
 use super::describe::{Description, Key, Slot};
 use super::pair::Pair;
-use super::{
-    Cohesion, ConstantRolling, ContactEffect, Effect, Friction, Hertz, Hooke, Jkr, RollingResistance,
-    SlidingFriction, TwistingResistance,
-};
+use super::rolling_resistance::RollingResistance;
+use super::sliding_friction::SlidingFriction;
+use super::weakening::Friction;
+use super::{ContactEffect, Effect};
 use crate::kernel::{Kernel, Narrow};
 use crate::setup::{ContactLaw, Precision};
 
@@ -50,11 +51,11 @@ macro_rules! effects {
 }
 
 effects! {
-    every precision: Hooke, Hertz;
-    double precision: Jkr;
+    every precision: super::hooke::Hooke, super::hertz::Hertz;
+    double precision: super::jkr::Jkr;
     sliding: SlidingFriction<Friction>;
-    rolling: RollingResistance, ConstantRolling;
-    twisting: TwistingResistance;
+    rolling: RollingResistance, super::constant_rolling::ConstantRolling;
+    twisting: super::twisting_resistance::TwistingResistance;
 }
 
 /// Every effect there is, in the order in which they act.
