@@ -1,6 +1,6 @@
 //! Every normal law there is, with and without cohesion, and every surface a grain can meet: what laws are tried on.
 
-use crate::setups::{HOOKE, Law, empty, grain, plane};
+use crate::setups::{HOOKE, Law, empty, grain, plane, sticky};
 use dem::effects::{Cohesion, Contact, Effect, Hertz, Hooke, Jkr, Load};
 use dem::lane::V;
 use dem::setup::*;
@@ -86,10 +86,9 @@ impl Normal {
     /// Two materials with this law and restitution for every pair.
     pub fn setup(&self, restitution: f64) -> Setup {
         let mut setup = empty(self.law, restitution);
-        setup.contacts.iter_mut().for_each(|c| {
-            c.set("cohesion_energy_density", self.cohesion);
-            self.cohesion.iter().for_each(|_| c.choose("cohesion", "sjkr"));
-        });
+        if let Some(density) = self.cohesion {
+            setup.contacts.iter_mut().for_each(|c| sticky(c, density));
+        }
         setup
     }
 

@@ -44,6 +44,12 @@ pub fn weaken(law: &mut ContactLaw, [at_rest, dynamic, speed]: [f64; 3]) {
     law.set("sliding_friction.speed", speed);
 }
 
+/// Gives a law cohesion [J/m³].
+pub fn sticky(law: &mut ContactLaw, energy_density: f64) {
+    law.choose("cohesion", "sjkr");
+    law.set("cohesion_energy_density", energy_density);
+}
+
 /// Gives a law a model of rolling resistance.
 pub fn rolling(law: &mut ContactLaw, resistance: f64, model: &'static str) {
     law.set("rolling_resistance", resistance);

@@ -16,6 +16,7 @@ mod pair;
 mod registry;
 mod rolling_resistance;
 mod sliding_friction;
+mod table;
 mod twisting_resistance;
 mod weakening;
 
@@ -30,6 +31,7 @@ pub use pair::{Elastic, Meeting, Pair, damping_ratio, tangential_ratio};
 pub use registry::{DESCRIPTIONS, Dropped, active, compose, keys, models, needed, without};
 pub use rolling_resistance::RollingResistance;
 pub use sliding_friction::{Coefficient, SlidingFriction};
+pub use table::tables;
 pub use twisting_resistance::TwistingResistance;
 pub use weakening::{Friction, Weakening};
 

@@ -136,7 +136,7 @@ fn restitution_of_a_linear_spring_that_cohesion_weakens() {
     let (k, m, cohesion) = (1e4, mass(0.01, 2500.0), 5e4);
     for e in [0.9f64, 0.6, 0.3] {
         let mut setup = empty(HOOKE, e);
-        setup.contacts.iter_mut().for_each(|c| c.set("cohesion_energy_density", cohesion));
+        setup.contacts.iter_mut().for_each(|c| grainpipe_tests::setups::sticky(c, cohesion));
         setup.step = Step::Auto(0.002);
         setup.walls = vec![plane(Vec3::z())];
         let velocity = Vec3::new(0.0, 0.0, -0.01);

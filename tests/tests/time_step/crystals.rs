@@ -61,7 +61,7 @@ fn pushing() {
         Trial { name, setup: crystal(law, e, 1e-2), ways: ALL }.meant();
     }
     let mut mixed = crystal(HOOKE, 0.1, 1e-2);
-    mixed.contacts.iter_mut().for_each(|c| c.set("cohesion_energy_density", 1e4));
+    mixed.contacts.iter_mut().for_each(|c| grainpipe_tests::setups::sticky(c, 1e4));
     Trial { name: "crystal, hooke with cohesion, e = 0.1", setup: mixed, ways: ALL }.meant();
 }
 

@@ -33,7 +33,7 @@ pub const ENERGY_DENSITY: Key = Key {
 /// What the program knows of it.
 pub const DESCRIPTION: Description = Description {
     name: "cohesion",
-    doc: "a pull of `cohesion_energy_density` × the area of contact",
+    doc: "a pull of `cohesion_energy_density` × the area of contact, added to the normal law",
     slot: Slot::Cohesion,
     model: Some(Model { key: "cohesion", value: "sjkr", default: false }),
     keys: &[ENERGY_DENSITY],

@@ -76,7 +76,7 @@ impl Display for Range {
     fn fmt(&self, f: &mut Formatter) -> std::fmt::Result {
         match self {
             Range::Positive => write!(f, "numbers above 0"),
-            Range::UpTo(most) => write!(f, "0 to {most}"),
+            Range::UpTo(most) => write!(f, "0 to {}", geom::Shown(*most)),
             Range::AboveZeroUpTo(most) => write!(f, "above 0, up to {most}"),
         }
     }

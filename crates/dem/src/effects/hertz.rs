@@ -19,7 +19,7 @@ use std::f64::consts::PI;
 /// What the program knows of it.
 pub const DESCRIPTION: Description = Description {
     name: "hertz",
-    doc: "elastic spheres, Hertz–Mindlin, from young and poisson",
+    doc: "elastic spheres (Hertz–Mindlin), from `young` and `poisson`; the default",
     slot: Slot::Normal,
     model: Some(Model { key: "law", value: "hertz", default: true }),
     keys: &[RESTITUTION],

@@ -22,7 +22,7 @@ pub const RESTITUTION: Key = Key {
     range: Range::UpTo(1.0),
     required: true,
     example: "0.5",
-    doc: "e of a head-on impact; with cohesion or JKR that of the same contact without adhesion",
+    doc: "e of a head-on impact; with cohesion or \"jkr\" that of the same contact without adhesion, whose cost comes on top",
 };
 /// k of linear laws.
 pub const STIFFNESS: Key = Key {
@@ -31,7 +31,7 @@ pub const STIFFNESS: Key = Key {
     range: Range::Positive,
     required: true,
     example: "1e5",
-    doc: "k_n, or `characteristic_velocity` [m/s], the speed of an impact that is as deep as with \"hertz\"",
+    doc: "k_n; instead `characteristic_velocity` [m/s]: the speed at which two of the largest grains store as much as with \"hertz\" (default 1)",
 };
 /// k_t/k of linear laws.
 pub const TANGENTIAL_RATIO: Key = Key {

@@ -42,7 +42,7 @@ const WORK_OF_ADHESION: Key = Key {
 /// What the program knows of it.
 pub const DESCRIPTION: Description = Description {
     name: "jkr",
-    doc: "elastic spheres that adhere: Johnson, Kendall and Roberts",
+    doc: "elastic spheres that adhere (Johnson, Kendall, Roberts): contact is made at touch and breaks at a gap; strongest pull 3/2 π w R*",
     slot: Slot::Normal,
     model: Some(Model { key: "law", value: "jkr", default: false }),
     keys: &[WORK_OF_ADHESION, RESTITUTION],

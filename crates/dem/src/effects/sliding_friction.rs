@@ -33,7 +33,7 @@ pub const DESCRIPTION: Description = Description {
         range: Range::UpTo(1e3),
         required: true,
         example: "0.5",
-        doc: "μ: caps the tangential force by what presses",
+        doc: "μ: caps the tangential force at μ × what presses, F_n without the pull of cohesion (\"jkr\": F_n + 2 × the strongest pull)",
     }],
     history: &[SPRING],
     every_precision: true,
