@@ -18,6 +18,7 @@ mod rolling_resistance;
 mod sliding_friction;
 mod table;
 mod twisting_resistance;
+mod walton_braun;
 mod weakening;
 
 pub use cohesion::Cohesion;

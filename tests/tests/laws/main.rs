@@ -11,6 +11,7 @@ mod rest;
 mod rubbing;
 mod squeezed;
 mod triaxial;
+mod yielding;
 
 use dem::{Setup, Simulation};
 

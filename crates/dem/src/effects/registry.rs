@@ -52,7 +52,7 @@ macro_rules! effects {
 
 effects! {
     every precision: super::hooke::Hooke, super::hertz::Hertz;
-    double precision: super::jkr::Jkr;
+    double precision: super::jkr::Jkr, super::walton_braun::WaltonBraun;
     sliding: SlidingFriction<Friction>;
     rolling: RollingResistance, super::constant_rolling::ConstantRolling;
     twisting: super::twisting_resistance::TwistingResistance;

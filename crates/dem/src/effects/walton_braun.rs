@@ -1,0 +1,82 @@
+//! Walton and Braun's law (`law = "walton_braun"`): a linear spring that yields as it is loaded and unloads along a steeper line.
+//!
+//! ```text
+//! loading:    F_n = k₁ δ                        up to the largest overlap so far, δ_max
+//! unloading:  F_n = k₂ (δ − δ₀) ≥ 0,            δ₀ = (1 − k₁/k₂) δ_max; reloading goes back along the same line
+//! k₂ = k₁/e²                                    so that an impact rebounds with e at every speed
+//! E = F_n²/2k₂,   plastic work W = ½ k₁ (1 − k₁/k₂) δ_max²
+//! ```
+//!
+//! Walton & Braun (1986), J. Rheology 30, doi:10.1122/1.549893. S, which the time step, friction and resistances take, is k₂: a
+//! contact at rest moves along that line. The flattened spot is forgotten when the spheres part. It has no dashpot: along the line of
+//! unloading nothing is lost, and small vibrations last; W is lost at once, as δ_max grows.
+
+use super::describe::{Description, Field, Key, Kind, Model, NormalLaw, Range, Slot};
+use super::hooke::{RESTITUTION, STIFFNESS, TANGENTIAL_RATIO, unloaded_overlap};
+use super::pair::Pair;
+use super::{Contact, ContactEffect, Effect, Load};
+use crate::lane::Lane;
+use crate::setup::ContactLaw;
+
+/// What the program knows of it.
+pub const DESCRIPTION: Description = Description {
+    name: "walton_braun",
+    doc: "linear spring that yields (ores, moist bulk): loads with `stiffness` k, unloads with k/e², so that e is the same at every speed; no dashpot",
+    slot: Slot::Normal,
+    model: Some(Model { key: "law", value: "walton_braun", default: false }),
+    keys: &[STIFFNESS, TANGENTIAL_RATIO, Key { range: Range::AboveZeroUpTo(1.0), ..RESTITUTION }],
+    history: &[Field {
+        name: "held",
+        kind: Kind::Scalar,
+        unit: "m",
+        doc: "δ_max, the largest overlap so far",
+    }],
+    normal: Some(NormalLaw { stiffest: |law, _, _| unloading(law), reach: |_, _, _| 0.0, unloaded_overlap }),
+    ..Description::PLAIN
+};
+
+/// k₂ [N/m].
+fn unloading(law: &ContactLaw) -> f64 {
+    let [k, e] = ["stiffness", "restitution"].map(|key| law.number(key).unwrap_or(f64::NAN));
+    k / (e * e)
+}
+
+/// A spring that yields.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WaltonBraun {
+    /// k₁ [N/m].
+    pub loading: f64,
+    /// k₂ [N/m].
+    pub unloading: f64,
+}
+
+impl ContactEffect for WaltonBraun {
+    const DESCRIPTIONS: &'static [&'static Description] = &[&DESCRIPTION];
+
+    fn of(pair: &Pair) -> Option<WaltonBraun> {
+        let law = WaltonBraun { loading: pair.number("stiffness"), unloading: unloading(pair.law) };
+        DESCRIPTION.asked_for(pair.law).then_some(law)
+    }
+}
+
+impl Effect for WaltonBraun {
+    /// δ_max [m].
+    type Memory<R: Lane> = R;
+
+    #[inline(always)]
+    fn apply<R: Lane>(&self, contact: &Contact<R>, _: R, deepest: &mut R, load: &mut Load<R>) {
+        let (number, before) = (R::splat, *deepest);
+        *deepest = before.max(contact.overlap);
+        let yielded = number(1.0 - self.loading / self.unloading);
+        let spring = (contact.overlap - yielded * *deepest).max(number(0.0));
+        let force = number(self.unloading) * spring;
+        load.normal = load.normal + force;
+        load.pressing = load.normal;
+        load.stiffness = number(self.unloading);
+        load.stiffness_before = number(1.0);
+        load.impedance = (load.stiffness * contact.mass).sqrt();
+        load.elastic = load.elastic + number(0.5) * force * spring;
+        let plastic = number(0.5 * self.loading) * yielded;
+        load.lost = load.lost + plastic * (*deepest * *deepest - before * before);
+    }
+}
