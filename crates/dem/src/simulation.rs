@@ -3,26 +3,35 @@
 //! One step: `ready` (lists still hold? contact points of walls, loads of all contacts at time n), then `advance`
 //! (gather, move to n + 1), then zones. Looking at a simulation calls `ready` and no more, so that output changes nothing.
 
-use crate::account::Account;
-use crate::advance::Moved;
-use crate::bodies::Bodies;
-use crate::bonds::Bonds;
-use crate::contacts::{Contacts, Kind};
 use crate::effects::needed;
-use crate::error::{Halt, SetupError};
-use crate::images::Periods;
-use crate::lane::{Row, Row4, Width};
-use crate::limit::largest_reach;
-use crate::number::Form;
-use crate::particles::Particles;
-use crate::servo::Piston;
-use crate::setup::{Particle, Precision, Setup};
-use crate::sleep::Sleepers;
-use crate::start::{kinds, mean_radius, slow_enough, time_step};
-use crate::sums::Loads;
-use crate::sweep::Pass;
+use crate::forces::sweep::Pass;
+use crate::kernel::sums::Loads;
+use crate::model::error::Halt;
+use crate::model::error::SetupError;
+use crate::model::limit::largest_reach;
+use crate::model::start::kinds;
+use crate::model::start::mean_radius;
+use crate::model::start::slow_enough;
+use crate::model::start::time_step;
+use crate::neighbours::contacts::Contacts;
+use crate::neighbours::contacts::Kind;
+use crate::passes::integrate::Moved;
+use crate::passes::servo::Piston;
+use crate::passes::sleep::Sleepers;
+use crate::setup::Particle;
+use crate::setup::Precision;
+use crate::setup::Setup;
+use crate::simd::Row;
+use crate::simd::Row4;
+use crate::simd::Width;
+use crate::simd::number::Form;
+use crate::state::bonds::Bonds;
+use crate::state::clumps::Bodies;
+use crate::state::ledger::Account;
+use crate::state::particles::Particles;
+use crate::state::zones::Zones;
 use crate::walls::WallBody;
-use crate::zones::Zones;
+use crate::walls::images::Periods;
 use geom::Vec3;
 
 /// Steps that rooms are made for; chosen on the bench pile.
@@ -98,7 +107,7 @@ impl Simulation {
         if !Width::available().contains(&width) {
             return Err(SetupError::NoWidth(width));
         }
-        crate::check::check(&setup)?;
+        crate::model::check::check(&setup)?;
         let contacts = setup.contacts.iter().map(|c| needed(c).0).collect();
         let setup = Setup { contacts, ..setup };
         let dt = begun.map_or_else(|| time_step(&setup), Ok)?;
@@ -113,13 +122,14 @@ impl Simulation {
         let fresh = (0..particles.len() as u32).collect();
         let grain = mean_radius(&setup);
         let reach = largest_reach(&setup);
-        let skin = setup.skin.unwrap_or(crate::neighbours::SKIN.start * grain).max(reach);
+        let skin = setup.skin.unwrap_or(crate::space::search::SKIN.start * grain).max(reach);
         let horizon = if setup.skin.is_some() { 0.0 } else { HORIZON };
         let walls: Vec<WallBody> = setup.walls.iter().map(|w| WallBody::new(w, reach)).collect();
         slow_enough(&setup, &walls, dt)?;
         let zones = Zones::new(&setup, &particles);
         let sleepers = setup.sleep.map(|s| Sleepers::new(s, dt, setup.gravity.norm(), particles.len()));
-        let (pistons, answers) = (crate::servo::pistons(&setup), crate::servo::answers(&setup, dt));
+        let (pistons, answers) =
+            (crate::passes::servo::pistons(&setup), crate::passes::servo::answers(&setup, dt));
         // They are in their columns now.
         let setup = Setup { particles: Vec::new(), clumps: setup.clumps.without_bodies(), ..setup };
         Ok(Simulation {
@@ -254,14 +264,14 @@ impl Simulation {
         if !self.zones.none() {
             self.move_zones();
         }
-        crate::guards::overlap(self, &found.deep, true)?;
+        crate::observe::guards::overlap(self, &found.deep, true)?;
         if moved.wild {
-            crate::guards::motion(self)?;
+            crate::observe::guards::motion(self)?;
         }
         driven?;
-        let looks =
-            self.setup.guards.energy.is_finite() && self.steps.is_multiple_of(crate::guards::ENERGY_EVERY);
-        if looks { crate::guards::energy(self) } else { Ok(()) }
+        let looks = self.setup.guards.energy.is_finite()
+            && self.steps.is_multiple_of(crate::observe::guards::ENERGY_EVERY);
+        if looks { crate::observe::guards::energy(self) } else { Ok(()) }
     }
 
     /// Brings lists and loads to this instant, as looking at anything does.
@@ -279,7 +289,7 @@ impl Simulation {
         if self.setup.ledger {
             self.open_account(&fresh);
         }
-        crate::guards::overlap(self, &found.deep, false)
+        crate::observe::guards::overlap(self, &found.deep, false)
     }
 
     /// Brings lists to this instant.

@@ -17,7 +17,7 @@
 //! Technology 233, doi:10.1016/j.powtec.2012.08.012.
 
 use super::Contact;
-use crate::lane::{Lane, V};
+use crate::simd::{Lane, V};
 use std::ops::{Add, Sub};
 
 /// What a spring is stretched by: a vector, or a number.

@@ -17,7 +17,7 @@
 use super::describe::{Description, Key, Model, Range, Slot};
 use super::pair::Pair;
 use super::{Contact, ContactEffect, Effect, Load};
-use crate::lane::Lane;
+use crate::simd::Lane;
 use std::f64::consts::PI;
 
 /// C.

@@ -19,7 +19,7 @@ use super::describe::{Description, Model, Slot};
 use super::pair::Pair;
 use super::rolling_resistance::COEFFICIENT;
 use super::{Contact, ContactEffect, Effect, Load};
-use crate::lane::Lane;
+use crate::simd::Lane;
 
 /// What the program knows of it.
 pub const DESCRIPTION: Description = Description {

@@ -12,8 +12,8 @@ use super::describe::{Description, Model, NormalLaw, Slot};
 use super::hooke::RESTITUTION;
 use super::pair::{Elastic, Meeting, Pair};
 use super::{Contact, ContactEffect, Effect, Load};
-use crate::lane::Lane;
 use crate::setup::ContactLaw;
+use crate::simd::Lane;
 use std::f64::consts::PI;
 
 /// What the program knows of it.

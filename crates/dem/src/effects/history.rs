@@ -2,9 +2,9 @@
 
 use super::describe::{Description, Field, Kind};
 use super::registry::{DESCRIPTIONS, active};
-use crate::lane::{BLOCK, Lane, V};
-use crate::number::Number;
 use crate::setup::ContactLaw;
+use crate::simd::number::Number;
+use crate::simd::{BLOCK, Lane, V};
 use geom::Vec3;
 use nalgebra::UnitQuaternion;
 use serde::{Deserialize, Serialize};

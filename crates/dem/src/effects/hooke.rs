@@ -11,8 +11,8 @@
 use super::describe::{Description, Key, Model, NormalLaw, Range, Slot};
 use super::pair::{Elastic, Meeting, Pair};
 use super::{Contact, ContactEffect, Effect, Load};
-use crate::lane::Lane;
 use crate::setup::ContactLaw;
+use crate::simd::Lane;
 use std::f64::consts::PI;
 
 /// e of every normal law.

@@ -26,8 +26,8 @@ use super::describe::{Description, Field, Key, Kind, Model, NormalLaw, Range, Sl
 use super::hooke::RESTITUTION;
 use super::pair::{Elastic, Meeting, Pair};
 use super::{Contact, ContactEffect, Effect, Load};
-use crate::lane::Lane;
 use crate::setup::ContactLaw;
+use crate::simd::Lane;
 use std::f64::consts::PI;
 
 const WORK_OF_ADHESION: Key = Key {

@@ -1,6 +1,6 @@
 //! What effects are made of: the numbers of a contact law, and what follows from its two materials.
 
-use crate::bodies::Ease;
+use crate::setup::clumps::Ease;
 use crate::setup::{ContactLaw, Material};
 
 /// Elastic constants of a pair.

@@ -181,9 +181,9 @@ pub fn needed(law: &ContactLaw) -> (ContactLaw, Vec<Dropped>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bodies::Ease;
     use crate::effects::{Elastic, Kind};
     use crate::setup::Material;
+    use crate::setup::clumps::Ease;
 
     /// Every law that a scene can ask for: each normal law with each choice of effects for the other slots.
     fn laws() -> Vec<ContactLaw> {

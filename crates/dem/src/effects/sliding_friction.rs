@@ -17,7 +17,7 @@ use super::describe::{Description, Field, Key, Kind, Range, Slot};
 use super::pair::{Pair, tangential_ratio};
 use super::weakening::{self, Friction};
 use super::{Contact, ContactEffect, Effect, Load};
-use crate::lane::{Lane, V};
+use crate::simd::{Lane, V};
 
 /// ξ.
 pub const SPRING: Field = Field { name: "sliding", kind: Kind::Vector, unit: "m", doc: "ξ, the spring" };

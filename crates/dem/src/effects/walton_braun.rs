@@ -15,8 +15,8 @@ use super::describe::{Description, Field, Key, Kind, Model, NormalLaw, Range, Sl
 use super::hooke::{RESTITUTION, STIFFNESS, TANGENTIAL_RATIO, unloaded_overlap};
 use super::pair::Pair;
 use super::{Contact, ContactEffect, Effect, Load};
-use crate::lane::Lane;
 use crate::setup::ContactLaw;
+use crate::simd::Lane;
 
 /// What the program knows of it.
 pub const DESCRIPTION: Description = Description {

@@ -11,8 +11,8 @@ use super::describe::{Contradiction, Description, Key, Range, Slot};
 use super::pair::Pair;
 use super::sliding_friction::SPRING;
 use super::{Coefficient, Contact};
-use crate::lane::Lane;
 use crate::setup::ContactLaw;
+use crate::simd::Lane;
 
 /// What the program knows of it.
 pub const DESCRIPTION: Description = Description {

@@ -1,10 +1,12 @@
 //! Planes with regions in which particles move by a prescribed motion, and what passes them.
 
-use super::Particle;
 use crate::effects::ContactHistory;
-use geom::{Plane, Vec3};
+use crate::setup::Particle;
+use geom::Plane;
+use geom::Vec3;
 use nalgebra::UnitQuaternion;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
+use serde::Serialize;
 
 /// A plane with a region behind it in which particles move by a prescribed motion.
 ///
@@ -143,7 +145,7 @@ pub struct EntryClump {
 impl EntryClump {
     /// Turned about a vector by its length [rad].
     pub fn turned(&self, by: &Vec3) -> EntryClump {
-        EntryClump { orientation: crate::bodies::spun(by) * self.orientation, ..*self }
+        EntryClump { orientation: crate::space::rotation::spun(by) * self.orientation, ..*self }
     }
 }
 

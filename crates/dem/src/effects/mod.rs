@@ -1,0 +1,204 @@
+//! Contact effects: each is one file, written once for any lane, and composed by type.
+//!
+//! A file holds the formula ([`Effect`]), how a contact law asks for it ([`ContactEffect`]) and what the rest of the program needs to
+//! know of it ([`Description`]). `registry.rs` lists the files, a line each. `(A, B)` applies A, then B; its history is A's and
+//! B's. `()` is no effect, no code, no history. A scene's composition is chosen once, outside the time loop ([`registry::compose`]).
+
+mod capped_spring;
+mod cohesion;
+mod constant_rolling;
+mod describe;
+mod hertz;
+mod history;
+mod hooke;
+mod jkr;
+mod pair;
+mod registry;
+mod rolling_resistance;
+mod sliding_friction;
+mod table;
+mod twisting_resistance;
+mod walton_braun;
+mod weakening;
+
+pub use cohesion::Cohesion;
+pub use constant_rolling::ConstantRolling;
+pub use describe::*;
+pub use hertz::Hertz;
+pub use history::ContactHistory;
+pub use history::Memory;
+pub use history::RECORDED;
+pub use hooke::Hooke;
+pub use hooke::RESTITUTION;
+pub use jkr::Jkr;
+pub use pair::Elastic;
+pub use pair::Meeting;
+pub use pair::Pair;
+pub use pair::damping_ratio;
+pub use pair::tangential_ratio;
+pub use registry::DESCRIPTIONS;
+pub use registry::Dropped;
+pub use registry::active;
+pub use registry::compose;
+pub use registry::keys;
+pub use registry::models;
+pub use registry::needed;
+pub use registry::without;
+pub use rolling_resistance::RollingResistance;
+pub use sliding_friction::Coefficient;
+pub use sliding_friction::SlidingFriction;
+pub use table::tables;
+pub use twisting_resistance::TwistingResistance;
+pub use weakening::Friction;
+pub use weakening::Weakening;
+
+use crate::simd::Lane;
+use crate::simd::V;
+
+/// What effects know of a contact; i is pushed along the normal.
+#[derive(Clone, Copy)]
+pub struct Contact<R: Lane> {
+    /// Where the two act on each other: they touch, or a contact that was made lasts ([`Effect::reach`]).
+    pub touching: R::Mask,
+    /// n, from j to i [–].
+    pub normal: V<R>,
+    /// δ, positive in contact [m].
+    pub overlap: R,
+    /// R* [m].
+    pub radius: R,
+    /// 1/(r_i + r_j), 0 at a flat wall [1/m].
+    pub curvature: R,
+    /// m* [kg].
+    pub mass: R,
+    /// 1/m* [1/kg].
+    pub inverse_mass: R,
+    /// Rate at which the overlap grows, −v·n [m/s].
+    pub approach: R,
+    /// v_t: velocity of i's surface relative to j's at the contact, in the tangent plane [m/s].
+    pub slip: V<R>,
+    /// ω_i − ω_j [rad/s].
+    pub spin: V<R>,
+    /// How far the two turn together about n in a step, ½ (ω_i + ω_j)·n Δt [rad].
+    pub turn: R,
+}
+
+/// What effects make of it.
+#[derive(Clone, Copy)]
+pub struct Load<R: Lane> {
+    /// F_n [N], repulsion positive.
+    pub normal: R,
+    /// What caps friction, rolling and twisting resistance [N]: F_n without the pull of cohesion.
+    pub pressing: R,
+    /// ∂F_n/∂δ, without damping [N/m].
+    pub stiffness: R,
+    /// The same a step ago, over the one now [–].
+    pub stiffness_before: R,
+    /// √(∂F_n/∂δ m*): what all dashpots are a share of, and the root of a contact that is taken once [N·s/m].
+    pub impedance: R,
+    /// F_t on i [N].
+    pub tangential: V<R>,
+    /// Couple on i [N·m]; j gets its opposite.
+    pub couple: V<R>,
+    /// Elastic energy in the contact [J].
+    pub elastic: R,
+    /// Energy dissipated in this step: by the normal law, sliding, rolling, twisting [J].
+    pub dissipated: [R; DISSIPATORS],
+    /// Energy that the normal law loses at once, at this instant [J].
+    pub lost: R,
+}
+
+impl<R: Lane> Load<R> {
+    /// No load.
+    #[inline(always)]
+    pub fn zero() -> Load<R> {
+        let zero = R::splat(0.0);
+        Load {
+            normal: zero,
+            pressing: zero,
+            stiffness: zero,
+            stiffness_before: zero,
+            impedance: zero,
+            tangential: V::zero(),
+            couple: V::zero(),
+            elastic: zero,
+            dissipated: [zero; DISSIPATORS],
+            lost: zero,
+        }
+    }
+}
+
+/// How contact laws ask for an effect.
+pub trait ContactEffect: Effect {
+    /// What the program knows of it: one description, or one for each way of asking.
+    const DESCRIPTIONS: &'static [&'static Description];
+    /// The effect of a pair; `None` where its law does not ask for it.
+    fn of(pair: &Pair) -> Option<Self>;
+}
+
+/// An effect of contact.
+pub trait Effect: Copy + Send + Sync + 'static {
+    /// Memory of one contact between steps.
+    type Memory<R: Lane>: Memory<R>;
+    /// Numbers of memory for each contact.
+    const MEMORY: usize = <Self::Memory<f64> as Memory<f64>>::COLUMNS;
+    /// Whether it turns particles: without any such effect there is no rotation at all.
+    const ROTATES: bool = false;
+    /// Whether it makes a couple besides the moment of the tangential force.
+    const COUPLES: bool = false;
+    /// Whether a contact that was made lasts beyond touching.
+    const REACHES: bool = false;
+
+    /// Adds to the load; `dt` [s].
+    fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, memory: &mut Self::Memory<R>, load: &mut Load<R>);
+
+    /// Gap up to which the contact still acts [m]: 0 where none was made; `radius` is R* [m].
+    #[inline(always)]
+    fn reach<R: Lane>(&self, _radius: R, _memory: &Self::Memory<R>) -> R {
+        R::splat(0.0)
+    }
+}
+
+impl Effect for () {
+    type Memory<R: Lane> = ();
+    #[inline(always)]
+    fn apply<R: Lane>(&self, _: &Contact<R>, _: R, _: &mut (), _: &mut Load<R>) {}
+}
+
+/// An effect that may be absent at run time: for what is rare and has no memory, so that there need not be a composition with it
+/// and one without. Absent, it costs a question for each group of contacts.
+impl<E: Effect> Effect for Option<E> {
+    type Memory<R: Lane> = E::Memory<R>;
+    const ROTATES: bool = E::ROTATES;
+    const COUPLES: bool = E::COUPLES;
+    const REACHES: bool = E::REACHES;
+    #[inline(always)]
+    fn apply<R: Lane>(&self, c: &Contact<R>, dt: R, memory: &mut Self::Memory<R>, load: &mut Load<R>) {
+        if let Some(effect) = self {
+            effect.apply(c, dt, memory, load);
+        }
+    }
+    #[inline(always)]
+    fn reach<R: Lane>(&self, radius: R, memory: &Self::Memory<R>) -> R {
+        self.map_or(R::splat(0.0), |effect| effect.reach(radius, memory))
+    }
+}
+
+impl<A: Effect, B: Effect> Effect for (A, B) {
+    type Memory<R: Lane> = (A::Memory<R>, B::Memory<R>);
+    const ROTATES: bool = A::ROTATES || B::ROTATES;
+    const COUPLES: bool = A::COUPLES || B::COUPLES;
+    const REACHES: bool = A::REACHES || B::REACHES;
+    #[inline(always)]
+    fn apply<R: Lane>(&self, c: &Contact<R>, dt: R, memory: &mut Self::Memory<R>, load: &mut Load<R>) {
+        self.0.apply(c, dt, &mut memory.0, load);
+        self.1.apply(c, dt, &mut memory.1, load);
+    }
+    #[inline(always)]
+    fn reach<R: Lane>(&self, radius: R, memory: &Self::Memory<R>) -> R {
+        match (A::REACHES, B::REACHES) {
+            (true, true) => self.0.reach(radius, &memory.0).max(self.1.reach(radius, &memory.1)),
+            (true, false) => self.0.reach(radius, &memory.0),
+            (false, _) => self.1.reach(radius, &memory.1),
+        }
+    }
+}

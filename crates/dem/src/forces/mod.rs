@@ -1,0 +1,5 @@
+//! Forces.
+
+pub mod resting;
+pub mod sweep;
+pub mod tile;

@@ -1,0 +1,131 @@
+//! What of a tile rests: found once, and again only when somebody in the tile or beside it has fallen asleep or woken.
+//!
+//! The sum of the loads of contacts that rest is kept for each particle; other contacts are added to it, in the order of their places. So
+//! the order of a sum depends on the lists and on who sleeps, and on nothing else.
+
+use crate::forces::tile::Part;
+use crate::forces::tile::Seen;
+use crate::kernel::sums::Sums;
+use crate::passes::sleep::runs;
+use crate::simd::BLOCK;
+use std::ops::Range;
+
+/// Who sleeps, and since when that is so.
+#[derive(Clone, Copy)]
+pub struct Known<'a> {
+    /// Whether each particle, and the two that fill up blocks, sleeps in this step.
+    pub asleep: &'a [bool],
+    /// Steps that were ended.
+    pub turns: u64,
+    /// For each tile, the last of them in which somebody fell asleep or woke.
+    pub changed: &'a [u64],
+}
+
+/// What of a tile rests.
+#[derive(Debug, Default)]
+pub struct Still {
+    /// The tile itself, and those that it has contacts with.
+    near: Vec<u32>,
+    /// Steps that had been ended when it was found.
+    found: Option<u64>,
+    /// Whether it was found before this step.
+    goes_on: bool,
+    /// Segments and places of contacts that do not rest.
+    busy: Vec<(usize, Range<usize>)>,
+    /// Sums of the loads and couples of the others; none where there are no others.
+    rest: (Vec<f64>, Vec<f64>),
+    /// Particles of the tile that are awake, counted from its first.
+    pub awake: Vec<Range<usize>>,
+    /// Sleepers that touch or may touch somebody who is not asleep, counted likewise.
+    pub stirred: Vec<u32>,
+}
+
+impl Still {
+    /// Nothing yet, of a tile that has contacts with these.
+    pub fn beside(near: Vec<u32>) -> Still {
+        Still { near, ..Still::default() }
+    }
+
+    /// Whether what rests is what rested a step before.
+    pub fn goes_on(&self) -> bool {
+        self.goes_on
+    }
+
+    /// Loads of the contacts of a tile, and their sums; true when an overlap passes the limit.
+    pub fn compute(&mut self, part: &mut Part, seen: Seen, sums: &mut Sums) -> bool {
+        let (lists, scenery) = seen;
+        let Some(known) = scenery.known.filter(|_| !lists.new) else {
+            (self.found, self.goes_on) = (None, false);
+            sums.clear();
+            return (0..part.segments.len()).fold(false, |any, k| any | part.compute(k, seen, sums));
+        };
+        self.goes_on = self.holds(&known);
+        if self.goes_on {
+            if self.rest.0.is_empty() { sums.clear() } else { sums.put(&self.rest) }
+        } else {
+            self.find(known, part, seen, sums);
+        }
+        let (mut deep, mut renewed) = (false, None);
+        for (k, places) in &self.busy {
+            let s = &part.segments[*k];
+            // A segment may have several runs that do not rest: its contact points are found once.
+            if renewed.replace(*k) != Some(*k) {
+                part.renew(s, lists, scenery);
+            }
+            deep |= part.compute_places(s, places.clone(), seen, sums);
+        }
+        deep
+    }
+
+    /// Adds loads that were computed before, in the same order.
+    pub fn recall(&mut self, part: &mut Part, seen: Seen, sums: &mut Sums) {
+        match seen.1.known.filter(|_| !seen.0.new) {
+            Some(known) => self.find(known, part, seen, sums),
+            None => {
+                sums.clear();
+                self.busy = part.segments.iter().map(|s| s.places.clone()).enumerate().collect();
+            }
+        }
+        for (k, places) in &self.busy {
+            part.recall(&part.segments[*k], places.clone(), seen, sums);
+        }
+        (self.found, self.goes_on) = (None, false);
+    }
+
+    fn holds(&self, known: &Known) -> bool {
+        let since = |found: u64| move |&t: &u32| known.changed.get(t as usize).is_some_and(|&c| c <= found);
+        self.found.is_some_and(|found| self.near.iter().all(since(found)))
+    }
+
+    fn find(&mut self, known: Known, part: &mut Part, seen: Seen, sums: &mut Sums) {
+        let (lists, asleep) = (seen.0, known.asleep);
+        self.found = Some(known.turns);
+        self.busy.clear();
+        sums.clear();
+        let mut some = false;
+        for (k, s) in part.segments.iter().enumerate() {
+            let rests: Vec<bool> =
+                (s.places.start / BLOCK..s.places.end / BLOCK).map(|b| lists.rests(b, asleep)).collect();
+            for run in runs(&rests) {
+                let places = s.places.start + run.start * BLOCK..s.places.start + run.end * BLOCK;
+                if rests[run.start] {
+                    some = true;
+                    part.recall(s, places.clone(), seen, sums);
+                    part.forget_ledger(places);
+                } else {
+                    self.busy.push((k, places));
+                }
+            }
+        }
+        self.rest.0.clear();
+        self.rest.1.clear();
+        if some {
+            self.rest.0.extend_from_slice(sums.loads);
+            self.rest.1.extend_from_slice(sums.couples);
+        }
+        let sleeps = &asleep[sums.first..sums.first + sums.len()];
+        self.awake = runs(sleeps).filter(|run| !sleeps[run.start]).collect();
+        let stirred = |k: &u32| sleeps[*k as usize] && lists.stirred(sums.first + *k as usize, asleep);
+        self.stirred = (0..sleeps.len() as u32).filter(stirred).collect();
+    }
+}

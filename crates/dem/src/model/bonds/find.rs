@@ -1,0 +1,112 @@
+//! Who is bonded, and which bonds are refused.
+
+use crate::model::bonds::beam::Beam;
+use crate::model::bonds::limit;
+use crate::model::check::within;
+use crate::model::error::SetupError;
+use crate::neighbours::rebuild::half_of_shifts;
+use crate::neighbours::rebuild::pairs;
+use crate::setup::Bond;
+use crate::setup::Particle;
+use crate::setup::Setup;
+use crate::space::search::Search;
+use crate::state::bonds::Tie;
+use crate::state::bonds::nearest;
+use crate::state::clumps::periods;
+use geom::Vec3;
+
+/// Refuses numbers that make no beam, and scenes in which bonds are not followed.
+pub fn check(setup: &Setup) -> Result<(), SetupError> {
+    for bond in &setup.bonds {
+        let last = bond.between.0.max(bond.between.1);
+        within(
+            "bond: between",
+            last.into(),
+            "[–]",
+            (last as usize) < setup.materials.len(),
+            "the scene's materials",
+        )?;
+        let at = |key: &str| format!("bond {}: {key}", name(setup, bond));
+        let positive =
+            |key: &str, x: f64, unit, range| within(at(key), x, unit, x > 0.0 && x.is_finite(), range);
+        let (gap, damping) = (bond.gap, bond.damping);
+        within(at("gap"), gap, "m", gap >= 0.0 && gap.is_finite(), "gap ≥ 0")?;
+        positive("radius_ratio", bond.radius_ratio, "[–]", "radius_ratio > 0")?;
+        positive("young", bond.young, "Pa", "young > 0")?;
+        positive("shear_modulus", bond.shear_modulus, "Pa", "shear_modulus > 0")?;
+        let strengths =
+            [("tensile_strength", bond.tensile_strength), ("shear_strength", bond.shear_strength)];
+        for (key, x) in strengths {
+            within(at(key), x, "Pa", x > 0.0, "strengths > 0")?;
+        }
+        within(at("damping"), damping, "[–]", (0.0..=2.0).contains(&damping), "0 ≤ damping ≤ 2")?;
+    }
+    let apart = [(!setup.clumps.shapes.is_empty(), "clumps"), (setup.sleep.is_some(), "[sleep]")];
+    match apart.iter().find(|a| a.0) {
+        Some(with) if !setup.bonds.is_empty() => Err(SetupError::BondWith(with.1)),
+        _ => Ok(()),
+    }
+}
+
+fn name(setup: &Setup, bond: &Bond) -> String {
+    let name = |m: u16| setup.materials[m as usize].name.as_str();
+    format!("{}–{}", name(bond.between.0), name(bond.between.1))
+}
+
+/// All bonds at t = 0, by ids; their ends are places in the list of particles by id.
+pub fn ties(setup: &Setup) -> Result<Vec<Tie>, SetupError> {
+    let mut sorted: Vec<&Particle> = setup.particles.iter().collect();
+    sorted.sort_unstable_by_key(|p| p.id);
+    let gap = setup.bonds.iter().map(|b| b.gap).fold(0.0, f64::max);
+    // What lies within rounding of a gap is left to the test of each pair.
+    let reach: Vec<f64> = sorted.iter().map(|p| (p.radius + 0.5 * gap) * (1.0 + 1e-6)).collect();
+    let points: Vec<Vec3> = sorted.iter().map(|p| p.position).collect();
+    let mut used = vec![false; setup.bonds.len()];
+    let (mut ties, period) = (Vec::new(), periods(&setup.periodic));
+    for [i, j] in near(setup, &points, &reach) {
+        let (a, b) = (sorted[i as usize], sorted[j as usize]);
+        let is_of =
+            |law: &Bond| law.between == (a.material, b.material) || law.between == (b.material, a.material);
+        let Some(n) = setup.bonds.iter().position(is_of) else { continue };
+        let law = &setup.bonds[n];
+        let arm = nearest(a.position - b.position, &period);
+        let length = arm.norm();
+        // Places are told to so many digits.
+        let digits = 4.0 * f64::EPSILON * (a.position.amax() + b.position.amax() + length);
+        if length > a.radius + b.radius + law.gap + digits {
+            continue;
+        }
+        if length <= 0.0 {
+            return Err(SetupError::BondOfNoLength { ids: [a.id, b.id] });
+        }
+        used[n] = true;
+        let radius = law.radius_ratio * a.radius.min(b.radius);
+        let mut beam = Beam::of_moduli(arm / length, [length, radius], [law.young, law.shear_modulus]);
+        beam.lag = law.damping / limit::frequency(&beam, [a, b], &setup.materials);
+        let strength = [law.tensile_strength, law.shear_strength];
+        ties.push(Tie { ends: [i, j], beam, strength, broken: f64::INFINITY });
+    }
+    // Where others come in, those of a rule may be among them.
+    match used.iter().position(|used| !used).filter(|_| setup.inlets.is_empty()) {
+        Some(n) => {
+            let law = &setup.bonds[n];
+            Err(SetupError::BondOfNobody { between: name(setup, law), gap: law.gap })
+        }
+        None => Ok(ties),
+    }
+}
+
+/// Pairs of places in the list that may be near enough, by both; each once.
+fn near(setup: &Setup, points: &[Vec3], reach: &[f64]) -> Vec<[u32; 2]> {
+    let search = Search::new(points, reach);
+    let mut found = pairs(&search, &search.wide_pairs(), &(0..points.len()));
+    let mut images = Vec::new();
+    half_of_shifts(&setup.periodic).iter().for_each(|shift| search.shifted_pairs(shift, &mut images));
+    found.extend(images.into_iter().map(|(i, j, _)| (i, j)));
+    let place = |k: u32| search.order()[k as usize];
+    let both = |(i, j)| [place(i).min(place(j)), place(i).max(place(j))];
+    let mut found: Vec<[u32; 2]> = found.into_iter().map(both).collect();
+    found.sort_unstable();
+    found.dedup();
+    found
+}

@@ -1,0 +1,5 @@
+//! Bonds.
+
+pub mod beam;
+pub mod find;
+pub mod limit;

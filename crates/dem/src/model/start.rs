@@ -1,0 +1,90 @@
+//! What a simulation begins with: its step, its kinds of contact.
+
+use crate::effects::Elastic;
+use crate::effects::Pair;
+use crate::effects::compose;
+use crate::model::crowd::Crowds;
+use crate::model::error::SetupError;
+use crate::model::limit::contact_between;
+use crate::model::limit::critical_step;
+use crate::model::limit::grains;
+use crate::model::limit::largest;
+use crate::model::limit::radii_by_material;
+use crate::neighbours::contacts::Kind;
+use crate::neighbours::contacts::With;
+use crate::setup::Setup;
+use crate::setup::Step;
+use crate::walls::WallBody;
+
+/// The step [s] that a setup asks for.
+pub fn time_step(setup: &Setup) -> Result<f64, SetupError> {
+    let limit = critical_step(setup)?;
+    match setup.step {
+        Step::Auto(_) if limit.dt.is_infinite() => Err(SetupError::NoStep),
+        Step::Auto(share) => Ok(share * limit.dt),
+        Step::Fixed(dt) if dt > limit.dt => {
+            Err(SetupError::StepTooLarge { dt, critical: limit.dt, pair: limit.pair })
+        }
+        Step::Fixed(dt) => Ok(dt),
+    }
+}
+
+/// A wall must not pass a particle within a few steps.
+pub fn slow_enough(setup: &Setup, walls: &[WallBody], dt: f64) -> Result<(), SetupError> {
+    let smallest = radii_by_material(setup).iter().flatten().map(|r| r.0).fold(f64::INFINITY, f64::min);
+    for (body, wall) in walls.iter().zip(&setup.walls) {
+        let (speed, limit) = (body.fastest(), setup.guards.motion);
+        let share = speed * dt / smallest;
+        if share > limit {
+            return Err(SetupError::WallTooFast { wall: wall.name.clone(), speed, dt, share, limit });
+        }
+    }
+    Ok(())
+}
+
+/// Mean radius of the particles, or of those that will enter [m].
+pub fn mean_radius(setup: &Setup) -> f64 {
+    let members = setup.clumps.member_radii();
+    let radii = || setup.particles.iter().map(|p| p.radius).chain(members.iter().copied());
+    let count = radii().count() as f64;
+    let mean = radii().sum::<f64>() / count;
+    if count > 0.0 { mean } else { 0.5 * (setup.smallest_entry + setup.largest_entry).max(1e-30) }
+}
+
+/// One kind for each pair of materials that particles have, and for each wall and material.
+pub fn kinds(setup: &Setup) -> Result<Vec<Kind>, SetupError> {
+    let present: Vec<u16> =
+        (0u16..).zip(radii_by_material(setup)).filter(|(_, r)| r.is_some()).map(|(m, _)| m).collect();
+    let periodic = setup.periodic.iter().any(|p| p.is_some());
+    let mut list = Vec::new();
+    let grains = grains(setup);
+    let crowds = Crowds::new(setup, largest(&grains));
+    let crowd = |a: u16, with: With| {
+        let With::Wall(w) = with else { return 1.0 };
+        let own = grains.iter().filter(|g| g.material == a);
+        own.map(|g| crowds.on(w, g.radius)).fold(1.0, f64::max)
+    };
+    let kind = |a: u16, b: u16, with: With| -> Result<Kind, SetupError> {
+        let elastic = Elastic::of(&setup.materials[a as usize], &setup.materials[b as usize]);
+        Ok(Kind {
+            kernel: compose(
+                &Pair { law: contact_between(setup, a, b)?, elastic, ease: setup.ease(a, b, crowd(a, with)) },
+                setup.precision,
+            ),
+            between: (a, b),
+            with,
+        })
+    };
+    for &a in &present {
+        for &b in present.iter().filter(|&&b| a <= b) {
+            list.push(kind(a, b, With::Particles)?);
+            if periodic {
+                list.push(kind(a, b, With::Images)?);
+            }
+        }
+        for (w, wall) in setup.walls.iter().enumerate() {
+            list.push(kind(a, wall.material, With::Wall(w))?);
+        }
+    }
+    Ok(list)
+}

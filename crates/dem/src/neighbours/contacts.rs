@@ -1,0 +1,285 @@
+//! All listed contacts, in the order of the tiles of particles that they belong to.
+//!
+//! A kind of contact is a pair of materials that particles have, or a wall and a material. Each has its own composition of
+//! effects, so that a frictionless pair takes no memory even where another has friction. Contacts of one kind in one tile are a
+//! segment: whole blocks, one task of the contact loop. Images across periodic faces come first, before all tiles.
+
+use crate::forces::resting::Still;
+use crate::forces::tile::At;
+use crate::forces::tile::Lists;
+use crate::forces::tile::Part;
+use crate::kernel::Kernel;
+use crate::kernel::LEDGER;
+use crate::kernel::sums::Arrival;
+use crate::kernel::sums::Loads;
+use crate::kernel::sums::Sums;
+use crate::simd::BLOCK;
+use crate::simd::Row;
+use crate::simd::Row4;
+use crate::simd::aligned::Aligned;
+use crate::simd::number::Form;
+use geom::Vec3;
+use std::ops::Range;
+
+/// Particles of a tile. Contacts within a tile add to their particles at once, and loads between two tiles are kept until it is the other's
+/// turn: the larger tiles are, the fewer are kept. But what a tile computes is to be in the cache when it moves, and threads share tiles
+/// out, so that there must be some for each. A function of the number of particles alone: the order of sums depends on it.
+pub fn tile(particles: usize) -> usize {
+    (particles / TILES).next_multiple_of(LEAST_TILE).clamp(LEAST_TILE, LARGEST_TILE)
+}
+
+const TILES: usize = 24;
+const LEAST_TILE: usize = 64;
+/// Chosen on the bench pile; smaller ones cost more than larger ones.
+const LARGEST_TILE: usize = 2048;
+
+/// Whom the particles of a kind of contact meet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum With {
+    /// Each other.
+    Particles,
+    /// Each other across a periodic face.
+    Images,
+    /// The wall of this number.
+    Wall(usize),
+}
+
+/// Contacts that share a law.
+pub struct Kind {
+    /// The law.
+    pub kernel: Box<dyn Kernel>,
+    /// Materials, lower first; of the particle, then of the wall.
+    pub between: (u16, u16),
+    /// Whom they meet.
+    pub with: With,
+}
+
+/// What may disturb a sleeper.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Met {
+    Particles,
+    StillWall,
+    MovingWall,
+}
+
+/// Contacts of one kind in one tile.
+#[derive(Debug, Clone)]
+pub struct Segment {
+    /// Which kind.
+    pub kind: usize,
+    /// Places of its contacts, whole blocks.
+    pub places: Range<usize>,
+    /// How many of them are contacts.
+    pub len: usize,
+    /// Whether the second of each is a particle of a later tile.
+    pub later: bool,
+    /// Where its memory, its contact points and its kept loads begin.
+    pub memory: usize,
+    pub rows: usize,
+    pub kept: usize,
+}
+
+impl Segment {
+    /// Places that hold contacts.
+    pub fn contacts(&self) -> Range<usize> {
+        self.places.start..self.places.start + self.len
+    }
+}
+
+/// The lists, and what was computed of them.
+#[derive(Default)]
+pub struct Contacts {
+    /// In order of their places.
+    pub segments: Vec<Segment>,
+    /// How what is computed is kept.
+    pub form: Form,
+    /// How many particles there are.
+    pub(crate) particles: usize,
+    /// Particles of a tile.
+    pub(crate) tile: usize,
+    /// First segment of each tile, and one more.
+    pub tiles: Vec<usize>,
+    /// First particle of each contact.
+    pub i: Vec<u32>,
+    /// Second particle, or part of the wall.
+    pub partner: Vec<u32>,
+    /// Shift of an image [m], by place.
+    pub(crate) shift: Vec<Vec3>,
+    pub(crate) rows: Vec<Row>,
+    pub(crate) spins: Vec<Row4>,
+    /// Contact memory.
+    pub memory: Aligned,
+    pub(crate) active: Vec<bool>,
+    /// Force and moment of each contact, where somebody looks at them; else none.
+    pub loads: Aligned,
+    /// Couples, or none.
+    pub couples: Aligned,
+    /// Whether these are kept now.
+    pub(crate) keeps: bool,
+    /// Of loads and couples, by particle.
+    pub(crate) sums: (Aligned, Aligned),
+    /// Loads and couples that are kept for other tiles.
+    pub(crate) kept: (Aligned, Aligned),
+    /// What arrives at each tile, in the order of the places it comes from.
+    pub(crate) arrivals: Vec<Arrival>,
+    /// First arrival of each tile, and one more.
+    pub(crate) arriving: Vec<u32>,
+    /// Energy of each contact, or none.
+    pub ledger: Aligned,
+    /// Sliding work of each contact since it was asked for [J], or none.
+    pub work: Vec<f64>,
+    /// First entry of each particle, and one more; none before [`Contacts::index`].
+    pub starts: Vec<u32>,
+    /// Place × 2, + 1 where the particle is the second; none before [`Contacts::index`].
+    pub entries: Vec<u32>,
+    pub(crate) count: Vec<u32>,
+    /// Whom the contacts of each block meet; only where particles sleep.
+    pub(crate) met: Vec<Met>,
+    /// What rests in each tile; only where particles sleep.
+    pub(crate) stills: Vec<Still>,
+    /// Whether contact points of walls at rest are to be found.
+    pub new: bool,
+}
+
+impl Contacts {
+    /// Particles of a tile.
+    pub fn tile(&self) -> usize {
+        self.tile
+    }
+
+    /// Number of contacts.
+    pub fn len(&self) -> usize {
+        self.segments.iter().map(|s| s.len).sum()
+    }
+
+    /// Energy in their springs [J]; 0 without the ledger.
+    pub fn elastic(&self) -> f64 {
+        self.ledger.chunks_exact(LEDGER).map(|row| row[0]).sum()
+    }
+
+    /// Room for what is computed of them: whether there are couples, whether a ledger is kept.
+    pub fn make_room(&mut self, couples: bool, ledger: bool) {
+        let (places, particles, load, couple) =
+            (self.i.len(), self.particles, self.form.load(), self.form.couple());
+        let kept = self.segments.last().map_or(0, |s| s.kept + s.places.len());
+        let some = |couples: bool, n: usize| Aligned::zeros(if couples { n * couple } else { 0 });
+        self.sums = (Aligned::zeros(particles * load), some(couples, particles));
+        self.kept = (Aligned::zeros(kept * load), some(couples, kept));
+        (self.loads, self.couples, self.keeps) = Default::default();
+        self.ledger = Aligned::zeros(if ledger { places * LEDGER } else { 0 });
+        self.work.resize(if ledger { places } else { 0 }, 0.0);
+    }
+
+    /// Gives the room back.
+    pub fn free_room(&mut self) {
+        (self.sums, self.kept, self.ledger) = Default::default();
+        (self.loads, self.couples, self.keeps) = Default::default();
+    }
+
+    /// Whether the load and couple of each contact are kept from now on. Where they were not, all begin at 0: blocks in which nothing touches
+    /// are not computed.
+    pub fn keep_each(&mut self, keep: bool) {
+        if keep && !self.keeps {
+            let places = self.i.len();
+            let couples = if self.sums.1.is_empty() { 0 } else { places };
+            self.loads.clear(places * self.form.load());
+            self.couples.clear(couples * self.form.couple());
+        }
+        self.keeps = keep;
+    }
+
+    /// Whether the load and couple of each contact are kept.
+    pub fn keeps(&self) -> bool {
+        self.keeps
+    }
+
+    /// Puts loads, couples and ledger of each contact, or sums by particle, as they were saved; false where there are other numbers of them.
+    pub fn put_loads(&mut self, each: &[Vec<f64>; 3], sums: &[Vec<f64>; 2]) -> bool {
+        let Contacts { loads, couples, ledger, keeps, .. } = self;
+        let (mine, sums_mine) = ([loads, couples], [&mut self.sums.0, &mut self.sums.1]);
+        let pairs: Vec<(&Vec<f64>, &mut Aligned)> = match keeps {
+            true => each.iter().zip(mine.into_iter().chain([ledger])).collect(),
+            false => sums.iter().zip(sums_mine).chain([(&each[2], ledger)]).collect(),
+        };
+        for (saved, now) in pairs {
+            if saved.len() != now.len() {
+                return false;
+            }
+            now.copy_from_slice(saved);
+        }
+        true
+    }
+
+    /// Sums of the loads on all particles.
+    pub fn sums(&self) -> Loads<'_> {
+        Loads { first: 0, form: self.form, sums: (&self.sums.0, &self.sums.1) }
+    }
+
+    /// The particle of a contact, and the other one where it is not with a wall.
+    pub fn ends(&self, with: With, place: usize) -> (u32, Option<u32>) {
+        let pair = !matches!(with, With::Wall(_));
+        (self.i[place], pair.then(|| self.partner[place]))
+    }
+
+    /// The segment that a place belongs to.
+    pub fn segment_of(&self, place: usize) -> &Segment {
+        &self.segments[self.segments.partition_point(|s| s.places.start <= place) - 1]
+    }
+
+    /// Number `column` of so many in the memory of contact `place`.
+    pub fn remembered(&self, segment: &Segment, place: usize, column: usize, columns: usize) -> f64 {
+        let at = self.form.memory_at(segment.memory, place - segment.places.start, column, columns);
+        self.form.get(&self.memory, at)
+    }
+
+    /// Gives one contact its memory, in the order of its kind's columns.
+    pub fn give_memory(&mut self, segment: &Segment, place: usize, columns: &[f64]) {
+        for (c, number) in columns.iter().enumerate() {
+            let at = self.form.memory_at(segment.memory, place - segment.places.start, c, columns.len());
+            self.form.put(&mut self.memory, at, *number);
+        }
+        self.active[place / BLOCK] = true;
+    }
+
+    /// Force on the first particle of contact `place` [N], where each is kept.
+    pub fn force(&self, place: usize) -> Vec3 {
+        self.form.force(&self.loads, place)
+    }
+
+    /// Contact point of an image or a wall when loads were computed: place, radius (0 on a flat wall) [m].
+    pub fn partner_row(&self, segment: &Segment, place: usize) -> &Row {
+        &self.rows[segment.rows + place - segment.places.start]
+    }
+
+    /// Everything, to be computed.
+    pub fn parts(&mut self) -> (Lists<'_>, Part<'_>, Sums<'_>, &mut [Still]) {
+        let lists = Lists {
+            i: &self.i,
+            partner: &self.partner,
+            shift: &self.shift,
+            count: &self.count,
+            met: &self.met,
+            new: self.new,
+            tiles: &self.tiles,
+            tile: self.tile,
+            starts: &self.starts,
+            entries: &self.entries,
+            arrivals: &self.arrivals,
+            arriving: &self.arriving,
+        };
+        let part = Part {
+            segments: &self.segments,
+            form: self.form,
+            from: At::default(),
+            rows: &mut self.rows,
+            spins: &mut self.spins,
+            memory: &mut self.memory,
+            active: &mut self.active,
+            kept: (&mut self.kept.0, &mut self.kept.1),
+            each: if self.keeps { (&mut self.loads, &mut self.couples) } else { Default::default() },
+            ledger: &mut self.ledger,
+        };
+        let sums = Sums { first: 0, form: self.form, loads: &mut self.sums.0, couples: &mut self.sums.1 };
+        (lists, part, sums, &mut self.stills)
+    }
+}

@@ -1,0 +1,5 @@
+//! Lists.
+
+pub mod contacts;
+pub mod list;
+pub mod rebuild;

@@ -1,0 +1,398 @@
+//! Makes the lists anew: sorts the particles in space, finds pairs and walls near them, carries contact memory over.
+
+use crate::forces::sweep::share;
+use crate::neighbours::contacts::Contacts;
+use crate::neighbours::contacts::Kind;
+use crate::neighbours::contacts::Segment;
+use crate::neighbours::contacts::With;
+use crate::neighbours::contacts::tile;
+use crate::neighbours::list::List;
+use crate::simulation::Simulation;
+use crate::simulation::wrapped;
+use crate::space::search::Pair;
+use crate::space::search::SKIN;
+use crate::space::search::Search;
+use crate::space::search::room;
+use crate::walls::WallBody;
+use crate::walls::images::Image;
+use crate::walls::images::Periods;
+use geom::Vec3;
+use std::ops::Range;
+
+/// Particles below which one thread lists faster than several: handing over takes some ten microseconds.
+const LISTED_FEW: usize = 256;
+
+impl Simulation {
+    /// Sorts, lists, and remembers.
+    pub(crate) fn relist(&mut self) {
+        // Lists that are stale for another reason say nothing of the skin.
+        if self.setup.skin.is_none() && !self.stale {
+            self.skin = SKIN.next(self.skin, self.steps - self.listed, self.grain).max(self.reach);
+        }
+        let wraps = self.wrap();
+        let counted_back = std::mem::take(&mut self.counted_back);
+        self.pistons.iter_mut().for_each(|p| p.listed = p.way);
+        let mut before = std::mem::take(&mut self.contacts);
+        // Freed before anything is listed: old and new together would be the most that a run ever takes.
+        before.free_room();
+        let remembers = !before.memory.is_empty() || !before.work.is_empty();
+        if remembers && before.starts.is_empty() {
+            before.index(&self.kinds);
+        }
+        let (search, order) = self.space_order();
+        self.particles.select(&order);
+        self.zones.reorder(&order);
+        self.bodies.reorder(&order);
+        self.bonds.reorder(&order, &self.particles.id);
+        if let Some(sleepers) = &mut self.sleepers {
+            sleepers.select(&order);
+        }
+        self.follow_fresh(&order);
+        self.listed = self.steps;
+        self.list_contacts(&search);
+        let moved = (&wraps[..], &counted_back[..]);
+        self.recall(&before, &order, moved);
+        self.recall_work(&before, &order, moved);
+        drop(before);
+        self.make_room();
+        self.out = false;
+        self.stale = false;
+        self.listings += 1;
+    }
+
+    fn follow_fresh(&mut self, order: &[u32]) {
+        if self.fresh.is_empty() {
+            return;
+        }
+        let mut is_fresh = vec![false; order.iter().max().map_or(0, |&last| last as usize + 1)];
+        for &k in &self.fresh {
+            if let Some(flag) = is_fresh.get_mut(k as usize) {
+                *flag = true;
+            }
+        }
+        self.fresh =
+            (0..).zip(order).filter(|&(_, &was)| is_fresh[was as usize]).map(|(now, _)| now).collect();
+    }
+
+    /// Particles that have left the box through a periodic face come back through the other. Returns by how many periods each
+    /// was moved; none where nothing is periodic.
+    fn wrap(&mut self) -> Vec<Periods> {
+        if self.setup.periodic.iter().all(|p| p.is_none()) {
+            return Vec::new();
+        }
+        let before: Vec<Vec3> = (0..self.particles.len()).map(|k| self.particles.position(k)).collect();
+        self.wrap_accounted(|sim| {
+            for k in (0..sim.particles.len()).filter(|&k| !sim.bodies.is_member(k)) {
+                let p = wrapped(&sim.setup.periodic, sim.particles.position(k));
+                sim.particles.rows[k][..3].copy_from_slice(p.as_slice());
+            }
+            sim.bodies.wrap(&mut sim.particles, &sim.setup.periodic);
+        });
+        let period = self.period();
+        let whole = |by: f64, period: f64| if period > 0.0 { (by / period).round() as i32 } else { 0 };
+        let moved = |(k, was): (usize, Vec3)| {
+            let by = self.particles.position(k) - was;
+            [0, 1, 2].map(|a| whole(by[a], period[a]))
+        };
+        before.into_iter().enumerate().map(moved).collect()
+    }
+
+    /// Gives each particle that stays its home and its room there, and sorts them.
+    fn space_order(&mut self) -> (Search, Vec<u32>) {
+        let (horizon, gravity) = (self.horizon * self.dt, self.setup.gravity.norm());
+        let p = &mut self.particles;
+        let stay: Vec<u32> = (0..p.len() as u32).filter(|&k| !self.zones.is_gone(k as usize)).collect();
+        for &k in &stay {
+            let row = &p.rows[k as usize];
+            let speed = Vec3::new(row[4], row[5], row[6]).norm();
+            let way = horizon * (speed + 0.5 * gravity * horizon);
+            let room = room(self.skin, way, self.grain);
+            p.home[k as usize].0 = [row[0], row[1], row[2], room];
+        }
+        let points: Vec<Vec3> = stay.iter().map(|&k| p.position(k as usize)).collect();
+        let reach: Vec<f64> = stay.iter().map(|&k| p.reach(k as usize)).collect();
+        let search = Search::new(&points, &reach);
+        let order = search.order().iter().map(|&k| stay[k as usize]).collect();
+        (search, order)
+    }
+
+    /// Lists all contacts of the particles where they were listed: a function of those places and rooms, of the step of
+    /// listing, and of nothing else, so that a resumed run has the same lists.
+    pub(crate) fn list_again(&mut self) {
+        let p = &self.particles;
+        let points: Vec<Vec3> = p.home.iter().map(|h| Vec3::new(h[0], h[1], h[2])).collect();
+        let reach: Vec<f64> = (0..p.len()).map(|k| p.reach(k)).collect();
+        self.list_contacts(&Search::new(&points, &reach));
+    }
+
+    fn list_contacts(&mut self, search: &Search) {
+        self.counted_back = self.travelled();
+        let count = self.particles.len();
+        let wide = search.wide_pairs();
+        let class = self.classes(With::Particles);
+        let tile = tile(count);
+        let tiles = share(count >= LISTED_FEW, (0..count.div_ceil(tile)).collect(), |t| {
+            let range = t * tile..((t + 1) * tile).min(count);
+            let mut lists = vec![<[List; 2]>::default(); self.kinds.len()];
+            let material = |k: u32| self.particles.material[k as usize];
+            let mut pairs = pairs(search, &wide, &range);
+            self.bodies.drop_own(&mut pairs, |p| *p);
+            // Those that touch go first: a block of others is passed over as long as none of them comes to touch.
+            let (touching, apart): (Vec<_>, Vec<_>) = pairs.into_iter().partition(|p| self.touched(p));
+            for (i, j) in touching.into_iter().chain(apart) {
+                lists[class.of(material(i), material(j))][usize::from(j as usize >= range.end)].push(i, j);
+            }
+            self.list_walls(range, &mut lists);
+            lists
+        });
+        self.contacts = Contacts::new(&self.kinds, &self.list_images(search), &tiles, (count, self.form()));
+        if self.sleepers.is_some() || !self.zones.none() {
+            self.contacts.index(&self.kinds);
+        }
+        self.note_near();
+        if self.sleepers.is_some() {
+            self.contacts.note_walls(&self.kinds, &self.walls);
+            self.contacts.note_tiles(&self.kinds);
+        }
+    }
+
+    /// Whether two particles touched where they were listed.
+    fn touched(&self, &(i, j): &Pair) -> bool {
+        let p = &self.particles;
+        let [a, b] = [i, j].map(|k| (&p.home[k as usize], p.rows[k as usize][3]));
+        let square: f64 = (0..3).map(|x| (a.0[x] - b.0[x]) * (a.0[x] - b.0[x])).sum();
+        let reach = a.1 + b.1;
+        square < reach * reach
+    }
+
+    fn list_walls(&self, range: Range<usize>, lists: &mut [[List; 2]]) {
+        for (kind, [list, _]) in self.kinds.iter().zip(lists) {
+            let With::Wall(w) = kind.with else { continue };
+            let wall = &self.walls[w];
+            let (pose, moves) = (self.count_back(w, self.pose_listed(w)), self.wall_room(w));
+            let around = self.around(w, &pose);
+            for k in range.clone().filter(|&k| self.particles.material[k] == kind.between.0) {
+                let home = &self.particles.home[k];
+                let (place, reach) = (Vec3::new(home[0], home[1], home[2]), self.particles.reach(k) + moves);
+                for (image, shift) in around.near(&place, reach) {
+                    let first = image.0 * wall.parts();
+                    let found = |part| list.push(k as u32, first + part);
+                    wall.parts_near(pose.home(&(place - shift)), reach, image.0 > 0, found);
+                }
+            }
+        }
+    }
+
+    /// How far a wall may move until lists are made anew [m].
+    pub(crate) fn wall_room(&self, wall: usize) -> f64 {
+        room(self.skin, self.horizon * self.dt * self.walls[wall].fastest(), self.grain)
+    }
+
+    /// Pairs across periodic faces: each once, by the half of all shifts whose first part that is not zero is positive.
+    fn list_images(&self, search: &Search) -> Vec<List> {
+        let mut found = Vec::new();
+        for shift in half_of_shifts(&self.setup.periodic) {
+            search.shifted_pairs(&shift, &mut found);
+        }
+        self.bodies.drop_own(&mut found, |f| (f.0, f.1));
+        found.sort_by_key(|f| (f.0, f.1));
+        let class = self.classes(With::Images);
+        let mut lists = vec![List::default(); self.kinds.len()];
+        let material = |k: u32| self.particles.material[k as usize];
+        for (i, j, shift) in found {
+            let list = &mut lists[class.of(material(i), material(j))];
+            list.push(i, j);
+            list.shift.push(shift);
+        }
+        lists
+    }
+
+    /// Room for the loads of all listed contacts; made last, when old lists are gone.
+    pub(crate) fn make_room(&mut self) {
+        let couples = self.couples();
+        self.contacts.make_room(couples, self.setup.ledger);
+        self.contacts.keep_each(self.keeps_each());
+    }
+
+    /// Gives each new contact the memory that it had; `order` tells each particle's old place.
+    fn recall(&mut self, before: &Contacts, order: &[u32], moved: Moved) {
+        let kinds = &self.kinds;
+        let mut memory = std::mem::take(&mut self.contacts.memory);
+        if !memory.is_empty() && !before.memory.is_empty() {
+            let now = &self.contacts;
+            let mut rest = &mut memory[..];
+            let mut pieces = Vec::with_capacity(now.segments.len());
+            for s in &now.segments {
+                let words = now.form.memory(kinds[s.kind].kernel.columns());
+                let (mine, others) = rest.split_at_mut(s.places.len() * words);
+                rest = others;
+                pieces.push((s, mine));
+            }
+            let old = self.remembered(before, order, moved);
+            share(self.particles.len() >= LISTED_FEW, pieces, |(s, memory)| old.recall(now, s, memory));
+        }
+        self.contacts.memory = memory;
+    }
+
+    /// Gives each new contact the work that it has done. What contacts have done that are no longer listed is lost to records.
+    fn recall_work(&mut self, before: &Contacts, order: &[u32], moved: Moved) {
+        if before.work.is_empty() {
+            return;
+        }
+        let old = self.remembered(before, order, moved);
+        let mut work = vec![0.0; self.contacts.i.len()];
+        for s in &self.contacts.segments {
+            for place in s.contacts() {
+                let holds = |_: &Segment, at: usize| before.work[at] != 0.0;
+                let found = old.find(s.kind, self.contacts.i[place], self.contacts.partner[place], holds);
+                work[place] = found.map_or(0.0, |(_, was, _)| before.work[was]);
+            }
+        }
+        self.contacts.work = work;
+    }
+
+    fn remembered<'a>(
+        &'a self,
+        before: &'a Contacts,
+        order: &'a [u32],
+        (wraps, counted_back): Moved<'a>,
+    ) -> Remembered<'a> {
+        let back = |(now, was): (&Periods, &Periods)| [0, 1, 2].map(|a| was[a] - now[a]);
+        let back = self.counted_back.iter().zip(counted_back).map(back).collect();
+        Remembered { kinds: &self.kinds, walls: &self.walls, before, order, wraps, back }
+    }
+
+    fn classes(&self, with: With) -> Classes {
+        let materials = self.setup.materials.len();
+        let mut at = vec![usize::MAX; materials * materials];
+        for (k, i) in self.kinds.iter().enumerate().filter(|(_, i)| i.with == with) {
+            let (a, b) = (i.between.0 as usize, i.between.1 as usize);
+            at[a * materials + b] = k;
+            at[b * materials + a] = k;
+        }
+        Classes { materials, at }
+    }
+}
+
+/// Pairs whose first is in `range`; `wide` are those of the whole search with wide particles.
+pub(crate) fn pairs(search: &Search, wide: &[Pair], range: &Range<usize>) -> Vec<Pair> {
+    let mut found = Vec::with_capacity(4 * range.len());
+    search.common_pairs(range.clone(), &mut found);
+    let at = |k: usize| wide.partition_point(|p| (p.0 as usize) < k);
+    let wide = &wide[at(range.start)..at(range.end)];
+    if !wide.is_empty() {
+        found.extend(wide);
+        found.sort_unstable();
+    }
+    found
+}
+
+/// Which kind two materials belong to.
+struct Classes {
+    materials: usize,
+    at: Vec<usize>,
+}
+
+impl Classes {
+    fn of(&self, a: u16, b: u16) -> usize {
+        self.at[a as usize * self.materials + b as usize]
+    }
+}
+
+pub(crate) fn half_of_shifts(periodic: &[Option<(f64, f64)>; 3]) -> Vec<Vec3> {
+    let period = periodic.map(|p| p.map(|(lo, hi)| hi - lo));
+    let choices = period.map(|p| if p.is_some() { vec![-1.0, 0.0, 1.0] } else { vec![0.0] });
+    let mut shifts = Vec::new();
+    for &x in &choices[0] {
+        for &y in &choices[1] {
+            for &z in &choices[2] {
+                if [x, y, z].into_iter().find(|&s| s != 0.0) == Some(1.0) {
+                    let of = |a: usize, s: f64| s * period[a].unwrap_or(0.0);
+                    shifts.push(Vec3::new(of(0, x), of(1, y), of(2, z)));
+                }
+            }
+        }
+    }
+    shifts
+}
+
+/// By how many periods particles were moved, by their old places, and how far walls were counted back before.
+type Moved<'a> = (&'a [Periods], &'a [Periods]);
+
+/// Lists and memory as they were before: what new contacts remember from.
+struct Remembered<'a> {
+    kinds: &'a [Kind],
+    walls: &'a [WallBody],
+    before: &'a Contacts,
+    order: &'a [u32],
+    /// By how many periods each particle was moved, by its old place; or none.
+    wraps: &'a [Periods],
+    /// By how many periods less each wall is counted back; or none.
+    back: Vec<Periods>,
+}
+
+impl Remembered<'_> {
+    /// Fills the memory of one segment. A contact whose two partners have changed places remembers the opposite.
+    fn recall(&self, now: &Contacts, segment: &Segment, memory: &mut [f64]) {
+        let kernel = &self.kinds[segment.kind].kernel;
+        let columns = kernel.columns();
+        if columns == 0 {
+            return;
+        }
+        for place in segment.contacts() {
+            let before = self.before;
+            let holds = |old: &Segment, at: usize| {
+                (0..columns).any(|c| before.remembered(old, at, c, columns) != 0.0)
+            };
+            let Some((old, from, swapped)) = self.find(segment.kind, now.i[place], now.partner[place], holds)
+            else {
+                continue;
+            };
+            for c in 0..columns {
+                let was = before.remembered(old, from, c, columns);
+                let at = now.form.memory_at(0, place - segment.places.start, c, columns);
+                now.form.put(memory, at, if swapped && kernel.flips(c) { -was } else { was });
+            }
+        }
+    }
+
+    /// Where a contact was that `holds` something: its segment and place, and whether its partners were the other way round. In a
+    /// small periodic box two images of one particle may be listed with another; only one of them can touch it.
+    fn find(
+        &self,
+        kind: usize,
+        i: u32,
+        partner: u32,
+        holds: impl Fn(&Segment, usize) -> bool,
+    ) -> Option<(&Segment, usize, bool)> {
+        let old = |k: u32| self.order[k as usize];
+        let i = old(i);
+        let (wall, partner) = match self.kinds[kind].with {
+            With::Wall(w) => (true, self.part_before(w, i, partner)),
+            _ => (false, old(partner)),
+        };
+        let range =
+            *self.before.starts.get(i as usize)? as usize..*self.before.starts.get(i as usize + 1)? as usize;
+        self.before.entries[range].iter().find_map(|&entry| {
+            let (place, second) = ((entry >> 1) as usize, entry & 1 == 1);
+            let other = if second { self.before.i[place] } else { self.before.partner[place] };
+            if other != partner {
+                return None;
+            }
+            let segment = self.before.segment_of(place);
+            // A pair may have become a pair across a periodic face, or stopped being one.
+            let with = self.kinds[segment.kind].with;
+            let same = if wall { segment.kind == kind } else { !matches!(with, With::Wall(_)) };
+            (same && holds(segment, place)).then_some((segment, place, second))
+        })
+    }
+
+    /// Part and image of a wall, as they were before a particle (by its old place) and the wall were moved by whole periods.
+    fn part_before(&self, wall: usize, particle: u32, partner: u32) -> u32 {
+        let (Some(wrap), Some(back)) = (self.wraps.get(particle as usize), self.back.get(wall)) else {
+            return partner;
+        };
+        let parts = self.walls[wall].parts();
+        Image(partner / parts).before(*wrap, *back).0 * parts + partner % parts
+    }
+}

@@ -1,0 +1,134 @@
+//! The energy ledger: each term by its own formula.
+
+use crate::neighbours::contacts::Contacts;
+use crate::observe::clumps::BodyState;
+use crate::setup::Particle;
+use crate::setup::Setup;
+use crate::state::bonds::Bonds;
+use crate::state::ledger::Account;
+use crate::state::particles::mass;
+use serde::Deserialize;
+use serde::Serialize;
+
+/// Energy of one instant, of the particles that are free, and what has come and gone since the start [J].
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Energy {
+    /// ½ m v².
+    pub translation: f64,
+    /// ½ I ω².
+    pub rotation: f64,
+    /// −m g·x, from the origin.
+    pub potential: f64,
+    /// In the springs of contacts and bonds; negative where cohesion binds.
+    pub elastic: f64,
+    /// Dissipated by the normal law: its dashpot, and what it takes to part grains that adhere.
+    pub normal: f64,
+    /// Dissipated by sliding friction, dashpot included.
+    pub sliding: f64,
+    /// Dissipated by rolling resistance, dashpot included.
+    pub rolling: f64,
+    /// Dissipated by twisting resistance, dashpot included.
+    pub twisting: f64,
+    /// Dissipated by dashpots of bonds, and with bonds that broke.
+    pub bonds: f64,
+    /// Work of moving walls on particles.
+    pub walls: f64,
+    /// Kinetic energy of particles that fell asleep.
+    pub slept: f64,
+    /// Taken by the fluid.
+    pub drag: f64,
+    /// Brought by particles that became free at a calculation plane, and work of those before it.
+    pub entered: f64,
+    /// Taken along by particles that passed a storage plane, and work on those behind it.
+    pub left: f64,
+    /// Made (or taken, negative) by the finite time step: what contacts and fluid did to particles beyond what springs,
+    /// dissipators and walls account for. It falls with Δt as the integrator's error does.
+    pub integration: f64,
+    /// Half of what dissipators and fluid take and walls bring in the step that begins now: the other terms end with the last one.
+    pub half_step: f64,
+}
+
+impl Energy {
+    /// Everything that was there at the start: constant to rounding.
+    pub fn balance(&self) -> f64 {
+        self.translation
+            + self.rotation
+            + self.potential
+            + self.elastic
+            + self.normal
+            + self.sliding
+            + self.rolling
+            + self.twisting
+            + self.bonds
+            + self.slept
+            + self.drag
+            + self.left
+            + self.half_step
+            - self.walls
+            - self.entered
+            - self.integration
+    }
+
+    /// What has changed its form since the start, to compare [`Energy::integration`] with.
+    pub fn exchanged(&self) -> f64 {
+        let dissipated = self.normal + self.sliding + self.rolling + self.twisting + self.bonds;
+        dissipated + self.slept + self.drag.abs() + self.walls.abs()
+    }
+
+    pub(crate) fn of(
+        particles: &[Particle],
+        setup: &Setup,
+        (contacts, bonds): (&Contacts, &Bonds),
+        account: &Account,
+    ) -> Energy {
+        let mut e = Energy {
+            normal: account.dissipated[0] + account.lost,
+            sliding: account.dissipated[1],
+            rolling: account.dissipated[2],
+            twisting: account.dissipated[3],
+            bonds: account.by_bonds(),
+            walls: account.walls,
+            slept: account.slept,
+            drag: account.drag,
+            entered: account.entered,
+            left: account.left,
+            elastic: if setup.ledger { contacts.elastic() + bonds.elastic() } else { 0.0 },
+            ..Energy::default()
+        };
+        for p in particles {
+            let [translation, rotation, potential] = carried(p, setup);
+            e.translation += translation;
+            e.rotation += rotation;
+            e.potential += potential;
+        }
+        e
+    }
+}
+
+impl Energy {
+    /// Adds a rigid clump: ½ m v², ½ ω·L, −m g·x.
+    pub(crate) fn add_body(&mut self, body: &BodyState, setup: &Setup) {
+        let material = setup.clumps.shapes[body.shape as usize].material;
+        let heavy = heavy(setup, setup.materials[material as usize].density);
+        self.translation += 0.5 * body.mass * body.velocity.norm_squared();
+        self.rotation += 0.5 * body.spin.dot(&body.angular_momentum);
+        self.potential -= body.mass * heavy * setup.gravity.dot(&body.position);
+    }
+}
+
+/// Translation, rotation, potential of a particle [J]; what a fluid displaced lifts is no longer heavy.
+pub(crate) fn carried(p: &Particle, setup: &Setup) -> [f64; 3] {
+    let density = setup.materials[p.material as usize].density;
+    let m = mass(p.radius, density);
+    let heavy = heavy(setup, density);
+    [
+        0.5 * m * p.velocity.norm_squared(),
+        0.2 * m * p.radius * p.radius * p.spin.norm_squared(),
+        -m * heavy * setup.gravity.dot(&p.position),
+    ]
+}
+
+/// Weight that the fluid leaves of a particle's own [–].
+pub(crate) fn heavy(setup: &Setup, density: f64) -> f64 {
+    1.0 - setup.drag.map_or(0.0, |d| d.lift(density))
+}

@@ -1,0 +1,9 @@
+//! Looking.
+
+pub mod clumps;
+pub mod energy;
+pub mod explain;
+pub mod guards;
+pub mod record;
+pub mod snapshot;
+pub mod touching;

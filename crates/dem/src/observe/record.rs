@@ -1,0 +1,132 @@
+//! What contacts do at one instant, and the sliding work that they have done: for who looks at a run.
+
+use crate::kernel::LEDGER;
+use crate::model::error::Halt;
+use crate::neighbours::contacts::Contacts;
+use crate::neighbours::contacts::Kind;
+use crate::neighbours::contacts::Segment;
+use crate::neighbours::contacts::With;
+use crate::simulation::Simulation;
+use crate::state::particles::FAR;
+use geom::Vec3;
+
+/// Column of the ledger with what sliding dissipated in a step.
+const SLIDING: usize = 2;
+
+/// One contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactRecord {
+    /// Where the two touch [m]; divides the distance of the centres as the radii do. The centre of i where it has left a mesh.
+    pub point: Vec3,
+    /// Unit normal from j to i; zero where i has left a mesh.
+    pub normal: Vec3,
+    /// Force on i [N].
+    pub force: Vec3,
+    /// Overlap [m]; negative where the two no longer touch.
+    pub overlap: f64,
+    /// Id of particle i.
+    pub i: u32,
+    /// Id of particle j, or the number of the wall.
+    pub j: u32,
+    /// Whether j is a wall.
+    pub wall: bool,
+    /// What sliding has dissipated in this contact since contacts were recorded last [J]; 0 without the ledger.
+    pub work: f64,
+}
+
+impl Contacts {
+    /// Adds the sliding work of one step; the ledger has been computed.
+    pub fn add_work(&mut self) {
+        let sliding = self.ledger.chunks_exact(LEDGER).map(|row| row[SLIDING]);
+        self.work.iter_mut().zip(sliding).for_each(|(work, step)| *work += step);
+    }
+}
+
+impl Simulation {
+    /// All contacts that carry a force, or have done work since the last call, in the order of the lists.
+    ///
+    /// # Errors
+    /// When the state is beyond a guard, or loads are not kept ([`Simulation::record_loads`]).
+    pub fn record_contacts(&mut self) -> Result<Vec<ContactRecord>, Halt> {
+        self.ready_to_record()?;
+        let mut work = std::mem::take(&mut self.contacts.work);
+        let mut out = Vec::new();
+        for segment in &self.contacts.segments {
+            let kind = &self.kinds[segment.kind];
+            for place in segment.contacts() {
+                // Who has left at the end of a zone is in the lists until they are made anew.
+                let (i, other) = self.contacts.ends(kind.with, place);
+                let gone = |k: u32| self.zones.is_gone(k as usize);
+                if gone(i) || other.is_some_and(gone) || self.idles(kind.with, place) {
+                    continue;
+                }
+                let force = self.contacts.force(place);
+                let done = work.get_mut(place).map_or(0.0, std::mem::take);
+                if force != Vec3::zeros() || done != 0.0 {
+                    let (other, radius) = self.partner(segment, place, |k| self.particles.position(k));
+                    out.push(self.record(kind, place, (other, radius), (force, done)));
+                }
+            }
+        }
+        self.contacts.work = work;
+        Ok(out)
+    }
+
+    /// Whether contact `place`, of those with these, acts on nobody ([`crate::state::zones::Zones::idles`]).
+    pub(crate) fn idles(&self, with: With, place: usize) -> bool {
+        self.zones.idles(self.contacts.ends(with, place))
+    }
+
+    /// Brings the load of each contact to this instant.
+    pub(crate) fn ready_to_record(&mut self) -> Result<(), Halt> {
+        self.ready()?;
+        if self.contacts.keeps() { Ok(()) } else { Err(Halt::NotKept { time: self.time() }) }
+    }
+
+    /// Where the second of a contact is, and its radius [m] (0 on a flat wall); `position` tells where particles are.
+    pub(crate) fn partner(
+        &self,
+        segment: &Segment,
+        place: usize,
+        position: impl Fn(usize) -> Vec3,
+    ) -> (Vec3, f64) {
+        if self.kinds[segment.kind].with == With::Particles {
+            let j = self.contacts.partner[place] as usize;
+            return (position(j), self.particles.rows[j][3]);
+        }
+        let row = self.contacts.partner_row(segment, place);
+        (Vec3::new(row[0], row[1], row[2]), row[3])
+    }
+
+    fn record(
+        &self,
+        kind: &Kind,
+        place: usize,
+        (other, radius): (Vec3, f64),
+        (force, work): (Vec3, f64),
+    ) -> ContactRecord {
+        let i = self.contacts.i[place] as usize;
+        let (centre, mine) = (self.particles.position(i), self.particles.rows[i][3]);
+        // A mesh that the grain has left since has no point that is nearest to it: the contact is told at the grain's centre.
+        let gone = other.x.abs() >= FAR[0][0];
+        let apart = if gone { Vec3::zeros() } else { centre - other };
+        let reach = mine + radius;
+        let distance = if gone { 2.0 * reach } else { apart.norm() };
+        let normal = apart.try_normalize(0.0).unwrap_or_else(Vec3::zeros);
+        let (j, wall) = match kind.with {
+            With::Wall(w) => (w as u32, true),
+            _ => (self.particles.id[self.contacts.partner[place] as usize], false),
+        };
+        let point = self.wrapped(centre - normal * (mine * distance / reach));
+        ContactRecord {
+            point,
+            normal,
+            force,
+            overlap: reach - distance,
+            i: self.particles.id[i],
+            j,
+            wall,
+            work,
+        }
+    }
+}

@@ -1,0 +1,3 @@
+//! Bonds.
+
+pub mod zones;

@@ -1,0 +1,128 @@
+//! Bonds of those that come and go: told with each of two that pass a storage plane, made anew where both come in.
+//!
+//! A bond needs to know how both ends have turned since they were bonded, and nothing else: a traveller turns by its zone's motion, in closed form. It
+//! acts on the first of both that is free while the other is still on its way, as contacts do.
+
+use crate::model::bonds::beam::Beam;
+use crate::model::bonds::beam::Pull;
+use crate::setup::Link;
+use crate::simulation::Simulation;
+use crate::state::bonds::Bonds;
+use crate::state::bonds::GONE;
+use crate::state::bonds::Tie;
+use nalgebra::UnitQuaternion;
+use std::collections::BTreeMap;
+use std::collections::BTreeSet;
+
+impl Bonds {
+    /// One comes in at the end of the list, turned like this; `None`: not at all.
+    pub fn push(&mut self, turn: Option<UnitQuaternion<f64>>) {
+        if self.on {
+            self.turns.push(turn.unwrap_or_default());
+        }
+    }
+
+    /// How particle `k` has turned; `None` where there are no bonds.
+    pub fn turn_of(&self, k: usize) -> Option<UnitQuaternion<f64>> {
+        self.on.then(|| self.turns[k])
+    }
+
+    /// Particle `k` is moved by something else, and has turned like this.
+    pub fn put_turn(&mut self, k: usize, turn: UnitQuaternion<f64>) {
+        if self.on {
+            self.turns[k] = turn;
+        }
+    }
+
+    /// Places among the bonds of particle `k`, of those that are whole.
+    fn whole(&self, k: usize) -> impl Iterator<Item = usize> {
+        let of = if self.on { self.starts[k] as usize..self.starts[k + 1] as usize } else { 0..0 };
+        self.entries[of].iter().map(|&entry| (entry >> 1) as usize).filter(|&n| self.ties[n].is_whole())
+    }
+
+    /// Elastic energy of the bonds of particle `k` [J].
+    pub fn held(&self, k: usize) -> f64 {
+        self.whole(k).map(|n| self.pulls[n].elastic).sum()
+    }
+
+    /// Particle `k` leaves: its bonds are no more.
+    pub fn leave(&mut self, k: usize) {
+        let mine: Vec<usize> = self.whole(k).collect();
+        for n in mine {
+            (self.ties[n].broken, self.pulls[n]) = (GONE, Pull::default());
+        }
+    }
+
+    /// Whole bonds of particle `k`, by the ids of the others.
+    pub fn links(&self, k: usize, ids: &[u32]) -> Vec<Link> {
+        let link = |n: usize| {
+            let Tie { ends: [i, j], beam, strength, .. } = self.ties[n];
+            let second = j as usize == k;
+            Link {
+                id: ids[k],
+                partner: ids[if second { i } else { j } as usize],
+                axis: if second { -beam.axis } else { beam.axis },
+                size: [beam.length, beam.radius],
+                springs: beam.springs,
+                lag: beam.lag,
+                strength,
+            }
+        };
+        self.whole(k).map(link).collect()
+    }
+}
+
+impl Tie {
+    /// Of two that come in.
+    fn new(link: &Link, rows: [u32; 2]) -> Tie {
+        let Link { id, partner, axis, size, springs, lag, strength } = *link;
+        let (ends, axis) = if id < partner { (rows, axis) } else { ([rows[1], rows[0]], -axis) };
+        Tie { ends, beam: Beam::new(axis, size, springs, lag), strength, broken: f64::INFINITY }
+    }
+}
+
+impl Simulation {
+    /// Says that two are bonded that come in, before the first of them is free; of no effect where it is known, or where there are no bonds.
+    pub fn link(&mut self, link: Link) {
+        if self.bonds.on {
+            self.bonds.waiting.push(link);
+            self.stale = true;
+        }
+    }
+
+    /// Makes bonds of those that are here now; those of which one has gone are forgotten.
+    pub(crate) fn admit_bonds(&mut self) {
+        if self.bonds.waiting.is_empty() {
+            return;
+        }
+        let waiting = std::mem::take(&mut self.bonds.waiting);
+        let wanted: BTreeSet<u32> = waiting.iter().flat_map(|l| [l.id, l.partner]).collect();
+        let here = (0u32..)
+            .zip(&self.particles.id)
+            .filter(|&(k, id)| wanted.contains(id) && !self.zones.is_gone(k as usize));
+        let rows: BTreeMap<u32, u32> = here.map(|(k, &id)| (id, k)).collect();
+        let period = self.period();
+        let mut known: BTreeSet<[u32; 2]> = self.bonds.ties.iter().map(|tie| tie.ends).collect();
+        let mut energy = 0.0;
+        for link in waiting {
+            let ends = [link.id, link.partner].map(|id| rows.get(&id).copied());
+            if let [Some(a), Some(b)] = ends {
+                let tie = Tie::new(&link, [a, b]);
+                if known.insert(tie.ends) {
+                    energy += tie.beam.pull(&tie.ends(&self.particles, &self.bonds.turns, &period)).elastic;
+                    self.bonds.ties.push(tie);
+                    self.bonds.pulls.push(Pull::default());
+                }
+            } else if [link.id, link.partner]
+                .iter()
+                .zip(ends)
+                .all(|(&id, row)| row.is_some() || self.zones.waits(id))
+            {
+                self.bonds.waiting.push(link);
+            }
+        }
+        self.account.entered += energy;
+        self.account.passed -= energy;
+        self.bonds.index(&self.particles.id);
+    }
+}

@@ -1,0 +1,4 @@
+//! Clumps.
+
+pub mod advance;
+pub mod zones;

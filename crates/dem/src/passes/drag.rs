@@ -1,0 +1,181 @@
+//! A fluid at uniform velocity: its drag on every particle, and its lift.
+//!
+//! ```text
+//! F = −6 π μ r w                                  "stokes", w = v − u
+//! F = −6 π μ r w (1 + 0.15 Re^0.687)              "schiller-naumann", Re = 2 r ρ_f |w| / μ < 1000
+//! F = −½ · 0.44 ρ_f π r² |w| w                     from there on
+//! F_b = −ρ_f V g                                  buoyancy
+//! v* ← v* + 3/2 a Δt,  x ← x + a Δt²,  a_n ← a_n + a
+//! ```
+//!
+//! Stokes (1851), Trans. Camb. Phil. Soc. 9; Schiller & Naumann (1933), Z. Ver. Dtsch. Ing. 77; w is the predicted velocity of the
+//! instant, as for contacts. The last line is what an acceleration a adds to the move of [`crate::advance`]: a pass behind it, so
+//! that a scene without a fluid runs the same code as ever. On a rigid clump it acts as on a sphere of its volume at its centre
+//! ([`crate::bodies`]). Left out: the shape of a clump, the mass of fluid that moves along, the couple of the fluid on a particle that
+//! spins, and what particles do to the fluid and through it to each other.
+//!
+//! Stable step: that scheme, on v' = −λ v, needs λ Δt ≤ 1; with contacts, 1/Δt ≥ 1/Δt_contacts + λ is on the safe side, because
+//! (ω Δt)²/4 + 2 ζ ω Δt + λ Δt ≤ 1 follows from it (see [`crate::limit`]).
+
+use crate::forces::sweep::FEW;
+use crate::forces::sweep::share;
+use crate::model::limit::radii_by_material;
+use crate::setup::Setup;
+use crate::simd::Row;
+use crate::simulation::Simulation;
+use crate::state::particles::mass;
+use geom::Vec3;
+use serde::Deserialize;
+use serde::Serialize;
+use std::f64::consts::PI;
+
+/// Particles of one task.
+const CHUNK: usize = 256;
+/// Re from which the drag coefficient is constant [–].
+const TURBULENT: f64 = 1000.0;
+/// That coefficient [–].
+const NEWTON: f64 = 0.44;
+
+/// How drag depends on speed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum DragLaw {
+    /// Slow, Re ≪ 1.
+    Stokes,
+    /// Re up to 2·10⁵.
+    SchillerNaumann,
+}
+
+/// A fluid.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Drag {
+    /// How drag depends on speed.
+    pub law: DragLaw,
+    /// μ [Pa·s].
+    pub viscosity: f64,
+    /// ρ_f [kg/m³].
+    pub density: f64,
+    /// u [m/s].
+    pub velocity: Vec3,
+    /// Whether it lifts particles by the weight of what they displace.
+    pub buoyancy: bool,
+}
+
+impl Drag {
+    /// Rate λ = |F| / (m |w|) of a sphere at a relative speed [m/s]: 1/s.
+    fn rate(&self, radius: f64, inverse_mass: f64, speed: f64) -> f64 {
+        6.0 * PI * self.viscosity * radius * inverse_mass * self.factor(radius, speed)
+    }
+
+    /// Drag over that of Stokes [–].
+    fn factor(&self, radius: f64, speed: f64) -> f64 {
+        match self.law {
+            DragLaw::Stokes => 1.0,
+            DragLaw::SchillerNaumann => {
+                let re = self.reynolds(radius, speed);
+                if re < TURBULENT { 1.0 + 0.15 * libm::pow(re, 0.687) } else { NEWTON * re / 24.0 }
+            }
+        }
+    }
+
+    fn reynolds(&self, radius: f64, speed: f64) -> f64 {
+        2.0 * radius * self.density * speed / self.viscosity
+    }
+
+    /// Acceleration by drag alone [m/s²], of a particle's row.
+    pub(crate) fn slowing(&self, row: &Row) -> Vec3 {
+        let w = Vec3::new(row[4], row[5], row[6]) - self.velocity;
+        w * -self.rate(row[3], row[7], w.norm())
+    }
+
+    /// Weight of the fluid that particles displace over their own, of one density [–].
+    pub fn lift(&self, density: f64) -> f64 {
+        if self.buoyancy { self.density / density } else { 0.0 }
+    }
+
+    /// Acceleration by the fluid [m/s²], of a particle's row.
+    pub fn acceleration(&self, row: &Row, gravity: &Vec3) -> Vec3 {
+        let lift = self.lift(1.0) * mass(row[3], 1.0) * row[7];
+        self.slowing(row) - gravity * lift
+    }
+
+    /// Largest d|F|/d|w| / m [1/s] that is to be expected: at the speeds of the start, and of a fall without end after Stokes.
+    pub fn fastest_rate(&self, setup: &Setup) -> Option<(f64, f64)> {
+        let relative = |v: &Vec3| (v - self.velocity).norm();
+        let bodies = setup.clumps.bodies.iter().map(|b| &b.velocity);
+        let all = setup.particles.iter().map(|p| &p.velocity).chain(bodies);
+        let start = all.map(relative).fold(self.velocity.norm(), f64::max);
+        let materials = radii_by_material(setup).into_iter().zip(&setup.materials);
+        let ranges =
+            materials.filter_map(|(r, m)| r.map(|(low, high)| [(low, m.density), (high, m.density)]));
+        let all = ranges.flatten().map(|(radius, density)| {
+            let inverse_mass = 1.0 / mass(radius, density);
+            let slow = 6.0 * PI * self.viscosity * radius * inverse_mass;
+            let speed = start.max(setup.gravity.norm() / slow);
+            (self.slope(radius, speed) * slow, radius)
+        });
+        all.max_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    /// d(factor · |w|)/d|w| [–].
+    fn slope(&self, radius: f64, speed: f64) -> f64 {
+        match self.law {
+            DragLaw::Stokes => 1.0,
+            DragLaw::SchillerNaumann => {
+                let re = self.reynolds(radius, speed);
+                let low = 1.0 + 0.15 * 1.687 * libm::pow(re.min(TURBULENT), 0.687);
+                low.max(if re > TURBULENT { NEWTON * re / 12.0 } else { 0.0 })
+            }
+        }
+    }
+}
+
+impl Simulation {
+    /// Acceleration [m/s²] of particle `k` besides that of its contacts; a fluid acts on clumps as a whole.
+    pub(crate) fn body_acceleration(&self, k: usize) -> Vec3 {
+        let (gravity, row) = (self.setup.gravity, &self.particles.rows[k]);
+        let drag = self.setup.drag.filter(|_| !self.bodies.is_member(k));
+        drag.map_or(gravity, |d| gravity + d.acceleration(row, &gravity))
+    }
+
+    /// What the fluid takes from particle `k` [W].
+    pub(crate) fn drag_power(&self, k: usize) -> f64 {
+        let row = &self.particles.rows[k];
+        self.setup.drag.map_or(0.0, |d| -d.slowing(row).dot(&Vec3::new(row[4], row[5], row[6])) / row[7])
+    }
+
+    /// After a move: what the fluid adds to it. Returns whether a particle has left its room.
+    pub(crate) fn apply_drag(&mut self) -> bool {
+        let Some(drag) = self.setup.drag else { return false };
+        let (dt, gravity, zones, bodies) = (self.dt, self.setup.gravity, &self.zones, &self.bodies);
+        let (p, before) = (&mut self.particles, &self.before);
+        let count = p.len();
+        let rows = p.rows[..count].chunks_mut(CHUNK).zip(p.acceleration.chunks_mut(CHUNK));
+        let tiles = rows.zip(before[..count].chunks(CHUNK)).zip(p.home.chunks(CHUNK)).enumerate();
+        let done: Vec<(f64, bool)> =
+            share(count >= FEW, tiles.collect(), |(tile, (((rows, accelerations), before), home))| {
+                let (mut taken, mut out) = (0.0, false);
+                for k in 0..rows.len() {
+                    let at = tile * CHUNK + k;
+                    if zones.travels(at) || zones.is_gone(at) || bodies.is_member(at) {
+                        continue;
+                    }
+                    let (row, was) = (&mut rows[k], &before[k]);
+                    let a = drag.acceleration(was, &gravity);
+                    let mut away = 0.0;
+                    for axis in 0..3 {
+                        row[axis] += dt * dt * a[axis];
+                        row[4 + axis] += 1.5 * dt * a[axis];
+                        accelerations[k][axis] += a[axis];
+                        away += (row[axis] - home[k][axis]) * (row[axis] - home[k][axis]);
+                    }
+                    out |= away > home[k][3] * home[k][3];
+                    taken -= drag.slowing(was).dot(&Vec3::new(was[4], was[5], was[6])) * dt / was[7];
+                }
+                (taken, out)
+            });
+        if self.setup.ledger {
+            done.iter().for_each(|d| self.account.drag += d.0);
+        }
+        done.iter().any(|d| d.1)
+    }
+}

@@ -1,0 +1,9 @@
+//! Passes.
+
+pub mod bonds;
+pub mod clumps;
+pub mod drag;
+pub mod integrate;
+pub mod servo;
+pub mod sleep;
+pub mod zones;

@@ -1,0 +1,300 @@
+//! Sleep: particles at rest are held where they are, and nothing of them is computed, until they are disturbed.
+//!
+//! A particle falls asleep when, for a time, |v| + r|ω| has been below a speed and its residual acceleration |F/m + g| and r|M|/I below a
+//! share of g. Its velocity is then zero, and the force on it is kept. It wakes when the force on it differs from that
+//! by more than the share of its weight, or the moment by the share of weight × radius. Loads between two sleepers, or of a sleeper on a
+//! wall at rest, are those of the step in which they fell asleep: whole blocks of them are passed over,
+//! and their sum is kept for each tile ([`Still`]) until somebody in or beside it falls asleep or wakes.
+//!
+//! Sleeping changes results: by what a bed would still have crept, and by disturbances too weak to wake it.
+
+use crate::forces::resting::{Known, Still};
+use crate::forces::tile::Lists;
+use crate::passes::integrate::Columns;
+use crate::passes::integrate::Drive;
+use crate::passes::integrate::Moved;
+use crate::passes::integrate::advance;
+use crate::simd::Row;
+use crate::simd::Width;
+use serde::Deserialize;
+use serde::Serialize;
+use std::ops::Range;
+
+/// When particles sleep.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Sleep {
+    /// Speed of the surface, |v| + r|ω|, below which a particle is at rest [m/s].
+    pub speed: f64,
+    /// How long it must have been [s].
+    pub time: f64,
+    /// Force that wakes it, over its weight [–].
+    pub wake: f64,
+}
+
+/// Who sleeps.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Sleepers {
+    /// Steps that each particle has been at rest; those that sleep have reached `steps`.
+    pub(crate) quiet: Vec<u32>,
+    /// Whether each particle, and the two that fill up blocks, sleeps in this step.
+    pub asleep: Vec<bool>,
+    pub(crate) next: Vec<bool>,
+    /// Force, moment on each when it fell asleep, and the kinetic energy that it lost [N, N·m, J].
+    pub(crate) held: Vec<Row>,
+    pub(crate) steps: u32,
+    pub(crate) speed: f64,
+    /// Acceleration that wakes [m/s²].
+    pub(crate) wake: f64,
+    /// Steps that were ended, and for each tile the last of them in which somebody fell asleep or woke.
+    #[serde(skip)]
+    pub(crate) turns: u64,
+    #[serde(skip)]
+    pub(crate) changed: Vec<u64>,
+}
+
+/// The like, of some particles.
+pub struct Beds<'a> {
+    pub(crate) quiet: &'a mut [u32],
+    pub(crate) next: &'a mut [bool],
+    pub(crate) held: &'a mut [Row],
+    pub(crate) asleep: &'a [bool],
+    /// Who must stay awake.
+    pub(crate) busy: &'a [bool],
+    pub(crate) steps: u32,
+    pub(crate) speed: f64,
+    pub(crate) wake: f64,
+}
+
+impl Sleepers {
+    /// All awake.
+    pub fn new(rule: Sleep, dt: f64, gravity: f64, particles: usize) -> Sleepers {
+        let steps = (rule.time / dt).ceil().clamp(1.0, f64::from(u32::MAX)) as u32;
+        let mut new = Sleepers {
+            quiet: Vec::new(),
+            asleep: vec![true; 2],
+            next: Vec::new(),
+            held: Vec::new(),
+            steps,
+            speed: rule.speed,
+            wake: rule.wake * gravity,
+            turns: 0,
+            changed: Vec::new(),
+        };
+        (0..particles).for_each(|_| new.push());
+        new
+    }
+
+    /// One more particle, awake.
+    pub fn push(&mut self) {
+        self.asleep.insert(self.quiet.len(), false);
+        self.quiet.push(0);
+        self.held.push(Row::default());
+    }
+
+    /// Takes the particles named by `order`.
+    pub fn select(&mut self, order: &[u32]) {
+        let of = |k: &u32| *k as usize;
+        self.quiet = order.iter().map(|k| self.quiet[of(k)]).collect();
+        self.held = order.iter().map(|k| self.held[of(k)]).collect();
+        self.asleep = order.iter().map(|k| self.asleep[of(k)]).chain([true; 2]).collect();
+    }
+
+    /// Number of sleepers.
+    pub fn count(&self) -> usize {
+        self.asleep.iter().filter(|&&a| a).count() - 2
+    }
+
+    /// Whether a particle sleeps.
+    pub fn sleeps(&self, k: usize) -> bool {
+        self.asleep[k]
+    }
+
+    /// Whether a particle has fallen asleep in the last step.
+    pub fn fell(&self, k: usize) -> bool {
+        self.quiet[k] == self.steps
+    }
+
+    /// Ends a step: who sleeps from now on, and the energy [J] that those who fell asleep lost; particles of a `tile`.
+    pub fn turn(&mut self, tile: usize) -> f64 {
+        self.turns += 1;
+        self.changed.resize(self.next.len().div_ceil(tile), self.turns);
+        let mut lost = 0.0;
+        for (t, next) in self.next.chunks(tile).enumerate() {
+            let here = t * tile..t * tile + next.len();
+            if self.asleep[here.clone()] == *next {
+                continue;
+            }
+            self.asleep[here.clone()].copy_from_slice(next);
+            self.changed[t] = self.turns;
+            let fell =
+                self.quiet[here.clone()].iter().zip(&self.held[here]).filter(|(q, _)| **q == self.steps);
+            lost += fell.map(|(_, held)| held[6]).sum::<f64>();
+        }
+        lost
+    }
+
+    /// What stands now, for [`Still`].
+    pub fn known(&self) -> Known<'_> {
+        Known { asleep: &self.asleep, turns: self.turns, changed: &self.changed }
+    }
+
+    /// Everyone, with `busy` (or none) to be kept awake.
+    pub fn beds<'a>(&'a mut self, busy: &'a [bool]) -> Beds<'a> {
+        self.next.resize(self.quiet.len(), false);
+        let Sleepers { quiet, next, held, asleep, steps, speed, wake, .. } = self;
+        Beds { quiet, next, held, asleep, busy, steps: *steps, speed: *speed, wake: *wake }
+    }
+
+    /// Wakes a particle.
+    pub fn rouse(&mut self, k: usize) {
+        (self.quiet[k], self.asleep[k]) = (0, false);
+        self.turns += 1;
+        self.changed.fill(self.turns);
+    }
+}
+
+impl<'a> Beds<'a> {
+    /// The same, for a while.
+    pub fn by_ref(&mut self) -> Beds<'_> {
+        Beds { quiet: self.quiet, next: self.next, held: self.held, ..*self }
+    }
+
+    /// The first `n`, and the others.
+    pub fn split(self, n: usize) -> (Beds<'a>, Beds<'a>) {
+        let Beds { quiet, next, held, asleep, busy, steps, speed, wake } = self;
+        let (quiet, quiet2) = quiet.split_at_mut(n);
+        let (next, next2) = next.split_at_mut(n);
+        let (held, held2) = held.split_at_mut(n);
+        let one = Beds { quiet, next, held, asleep, busy, steps, speed, wake };
+        let two = Beds { quiet: quiet2, next: next2, held: held2, asleep, busy, steps, speed, wake };
+        (one, two)
+    }
+}
+
+/// Moves those of a tile that are awake, and looks after the others: all of them, where what is `still` has just been found.
+pub fn advance_awake(
+    width: Width,
+    mut columns: Columns,
+    drive: &Drive,
+    lists: &Lists,
+    still: Option<&Still>,
+) -> Moved {
+    let mut moved = Moved::default();
+    let Some(mut beds) = columns.beds.take() else { return advance(width, columns, drive) };
+    let first = columns.first;
+    let sleeps = &beds.asleep[first..first + columns.rows.len()];
+    let mut wake = |run: Range<usize>, columns: &mut Columns, beds: &mut Beds| {
+        let (_, rest) = columns.by_ref().split(first + run.start);
+        let (awake, _) = rest.split(first + run.end);
+        moved = moved.and(advance(width, awake, drive));
+        run.for_each(|k| beds.watch(k, columns, drive));
+    };
+    if let Some(still) = still.filter(|s| s.goes_on()) {
+        still.awake.iter().for_each(|run| wake(run.clone(), &mut columns, &mut beds));
+        still.stirred.iter().for_each(|&k| beds.feel(k as usize, &mut columns, drive));
+        return moved;
+    }
+    for run in runs(sleeps) {
+        if sleeps[run.start] {
+            run.for_each(|k| beds.hold(k, &mut columns, drive, lists));
+        } else {
+            wake(run, &mut columns, &mut beds);
+        }
+    }
+    moved
+}
+
+impl Beds<'_> {
+    /// A particle that has just moved: whether it falls asleep.
+    fn watch(&mut self, k: usize, columns: &mut Columns, drive: &Drive) {
+        let row = columns.rows[k];
+        let spin = columns.spins.get(k).map_or(0.0, |w| length([w[0], w[1], w[2]]));
+        let turning = columns.turning.get(k).map_or(0.0, |t| length([t[0], t[1], t[2]]));
+        let a = columns.acceleration[k];
+        let here = columns.first + k;
+        let still = length([row[4], row[5], row[6]]) + row[3] * spin < self.speed
+            && length([a[0], a[1], a[2]]) < self.wake
+            && turning * row[3] < self.wake
+            && self.busy.get(here) != Some(&true);
+        self.quiet[k] = if still { self.quiet[k] + 1 } else { 0 };
+        self.next[k] = self.quiet[k] >= self.steps;
+        if !self.next[k] {
+            return;
+        }
+        let (force, moment) = columns.sums.seen().on(here, row[3]);
+        let lost = lost(k, columns, drive);
+        self.held[k] = Row([force[0], force[1], force[2], moment[0], moment[1], moment[2], lost, 0.0]);
+        rest(k, columns);
+    }
+
+    /// A sleeper: whether it wakes.
+    fn hold(&mut self, k: usize, columns: &mut Columns, drive: &Drive, lists: &Lists) {
+        self.quiet[k] = self.steps.saturating_add(1);
+        self.next[k] = true;
+        if lists.stirred(columns.first + k, self.asleep) {
+            self.feel(k, columns, drive);
+        }
+    }
+
+    /// A sleeper that something may have stirred: whether it wakes.
+    fn feel(&mut self, k: usize, columns: &mut Columns, drive: &Drive) {
+        let here = columns.first + k;
+        let row = columns.rows[k];
+        let (force, moment) = columns.sums.seen().on(here, row[3]);
+        let held = self.held[k];
+        let push = length([force[0] - held[0], force[1] - held[1], force[2] - held[2]]) * row[7];
+        let twist = length([moment[0] - held[3], moment[1] - held[4], moment[2] - held[5]]) * row[7] / row[3];
+        if push > self.wake || twist > self.wake || push.is_nan() {
+            (self.quiet[k], self.next[k]) = (0, false);
+            let inverse_inertia = 2.5 * row[7] / (row[3] * row[3]);
+            for a in 0..3 {
+                columns.acceleration[k][a] = force[a] * row[7] + drive.gravity[a];
+                if let Some(turning) = columns.turning.get_mut(k) {
+                    turning[a] = moment[a] * inverse_inertia;
+                }
+            }
+        }
+    }
+}
+
+/// What a particle that has just moved loses when it rests there [J]: its kinetic energy half a step ago, and what contacts did
+/// not add and its weight will not ([`crate::account`] leaves its last step out).
+fn lost(k: usize, columns: &Columns, drive: &Drive) -> f64 {
+    let (row, a, dt) = (columns.rows[k], columns.acceleration[k], drive.dt);
+    let mut lost = 0.0;
+    for axis in 0..3 {
+        let (ahead, g) = (row[4 + axis], drive.gravity[axis]);
+        let (now, middle) = (ahead - a[axis] * dt, ahead - 0.5 * a[axis] * dt);
+        lost += (0.5 * middle * middle + 0.5 * g * middle * dt - (a[axis] - g) * now * dt) / row[7];
+        if let (Some(w), Some(t)) = (columns.spins.get(k), columns.turning.get(k)) {
+            let inertia = 0.4 * row[3] * row[3] / row[7];
+            let (now, middle) = (w[axis] - t[axis] * dt, w[axis] - 0.5 * t[axis] * dt);
+            lost += inertia * (0.5 * middle * middle - t[axis] * now * dt);
+        }
+    }
+    lost
+}
+
+/// Takes the velocity that a particle would have next.
+fn rest(k: usize, columns: &mut Columns) {
+    columns.rows[k][4..7].fill(0.0);
+    if let Some(spin) = columns.spins.get_mut(k) {
+        spin[..3].fill(0.0);
+    }
+}
+
+fn length(v: [f64; 3]) -> f64 {
+    (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
+}
+
+/// Runs of equal flags.
+pub fn runs(flags: &[bool]) -> impl Iterator<Item = Range<usize>> + '_ {
+    let mut from = 0;
+    std::iter::from_fn(move || {
+        let first = *flags.get(from)?;
+        let to = from + flags[from..].iter().take_while(|&&f| f == first).count();
+        let run = from..to;
+        from = to;
+        Some(run)
+    })
+}

@@ -1,0 +1,190 @@
+//! Entries: checked when they are queued, added to the particles when they are due.
+
+use crate::model::check::near;
+use crate::model::error::SetupError;
+use crate::passes::zones::travel::Flow;
+use crate::passes::zones::travel::Traveller;
+use crate::passes::zones::travel::Way;
+use crate::setup::Entry;
+use crate::setup::EntryClump;
+use crate::setup::Particle;
+use crate::setup::Setup;
+use crate::setup::WallShape;
+use crate::setup::Zone;
+use crate::setup::ZoneMotion;
+use crate::simulation::Simulation;
+use crate::state::path::Path;
+use crate::state::zones::LOOK_AHEAD;
+use crate::state::zones::Zones;
+use geom::Vec3;
+
+impl Zones {
+    /// Queues an entry.
+    pub fn enter(&mut self, entry: Entry, now: f64, setup: &Setup) -> Result<(), SetupError> {
+        let id = entry.particle.id;
+        let before = now.max(self.latest);
+        if entry.time < before {
+            return Err(SetupError::EntryLate { id, time: entry.time, now: before });
+        }
+        announced(&entry, setup)?;
+        let Some(zone) = self.inlets.get(entry.inlet as usize).copied() else {
+            return range(format!("inlet of particle {id}"), entry.inlet.into(), "[–]", "the scene's inlets");
+        };
+        // Seen again before it was out of sight: entries come ahead of their time.
+        if zone.motion == ZoneMotion::Recorded && self.comes_back(&entry, setup)? {
+            self.latest = entry.time;
+            return Ok(());
+        }
+        let path = match zone.motion {
+            ZoneMotion::Recorded => Some(Path::new(&entry)),
+            _ => {
+                arrives(&entry, &zone, setup)?;
+                None
+            }
+        };
+        let members = entry.clump.map_or(1, |c| members(&c, setup));
+        for id in (0..members).map(|k| id.wrapping_add(k)) {
+            if !self.ids.insert(id) {
+                return Err(SetupError::EntryTwice { id, time: entry.time });
+            }
+        }
+        self.paths.extend(path.map(|path| (id, path)));
+        self.latest = entry.time;
+        self.pending.push_back(entry);
+        Ok(())
+    }
+}
+
+/// Number of spheres of a clump.
+pub(crate) fn members(clump: &EntryClump, setup: &Setup) -> u32 {
+    setup.clumps.shapes.get(clump.shape as usize).map_or(1, |s| s.spheres.len() as u32)
+}
+
+fn range(what: String, value: f64, unit: &'static str, range: &'static str) -> Result<(), SetupError> {
+    Err(SetupError::Range { what, value, unit, range: range.to_owned() })
+}
+
+/// Refuses what the inlet did not announce.
+fn announced(entry: &Entry, setup: &Setup) -> Result<(), SetupError> {
+    let Particle { id, radius, position, velocity, spin, material } = entry.particle;
+    let numbers = position.iter().chain(&velocity).chain(&spin).chain([&entry.time]);
+    if let Some(&wrong) = numbers.into_iter().find(|x| !x.is_finite()) {
+        return range(format!("inlet: state of particle {id}"), wrong, "", "the finite numbers");
+    }
+    if let Some(clump) = &entry.clump {
+        return crate::model::clumps::check_entry(clump, &entry.particle, setup);
+    }
+    if !setup.entry_materials.contains(&material) {
+        let value = material.into();
+        return range(format!("inlet: material of particle {id}"), value, "[–]", "what the inlet announced");
+    }
+    if !(radius >= setup.smallest_entry && radius <= setup.largest_entry) {
+        return range(format!("inlet: radius of particle {id}"), radius, "m", "what the inlet announced");
+    }
+    near(format_args!("inlet: position of particle {id}"), &position, radius)
+}
+
+/// Refuses an entry that never gets to the calculation plane, or becomes free behind a plane at rest.
+fn arrives(entry: &Entry, zone: &Zone, setup: &Setup) -> Result<(), SetupError> {
+    let p = &entry.particle;
+    let past = zone.plane.signed_distance(&p.position) + lead(p, entry.clump.as_ref(), zone, setup);
+    let Some(time) = zone.arrives_after(past, &p.velocity, &setup.gravity) else {
+        let speed = zone.plane.normal.dot(&p.velocity);
+        let what = format!("inlet: velocity of particle {} along the flow", p.id);
+        return range(
+            what,
+            speed,
+            "m/s",
+            "what brings it to the calculation plane: above 0, or in free fall",
+        );
+    };
+    let flow = Flow::after(time, p, zone.acceleration(&setup.gravity));
+    let free = p.position + flow.shift;
+    for wall in setup.walls.iter().filter(|w| !w.motion.moves()) {
+        let WallShape::Plane(plane) = &wall.shape else { continue };
+        let depth = -plane.signed_distance(&free);
+        if depth >= 0.0 {
+            return Err(SetupError::EntryBehindPlane { id: p.id, depth, wall: wall.name.clone() });
+        }
+    }
+    Ok(())
+}
+
+/// How far before the centre of an entry the point lies that is tested [m].
+fn lead(p: &Particle, clump: Option<&EntryClump>, zone: &Zone, setup: &Setup) -> f64 {
+    let Some(EntryClump { shape, scale, orientation }) = clump else { return zone.lead(p.radius) };
+    let shape = &setup.clumps.shapes[*shape as usize];
+    let (turn, normal) = (orientation * shape.frame, zone.plane.normal);
+    // Of spheres, so that the centre is tested where it is asked for.
+    let of = |(centre, radius): &(Vec3, f64)| match zone.lead(radius * scale) {
+        0.0 => 0.0,
+        radius => normal.dot(&(turn * (centre * *scale))) + radius,
+    };
+    shape.spheres.iter().map(of).fold(f64::NEG_INFINITY, f64::max)
+}
+
+impl Simulation {
+    /// Queues a particle that will enter; due when time() reaches `entry.time`.
+    ///
+    /// # Errors
+    /// An entry that comes after it was due, out of order, or outside what the setup announced.
+    pub fn enter(&mut self, entry: Entry) -> Result<(), SetupError> {
+        let now = self.time();
+        self.zones.enter(entry, now, &self.setup)
+    }
+
+    /// Entries due until time() + this [s] must have been given before the next step.
+    pub fn look_ahead(&self) -> f64 {
+        self.dt * LOOK_AHEAD as f64
+    }
+
+    /// Adds entries that are due, and those due soon, to the particles.
+    pub(crate) fn admit(&mut self) {
+        let now = self.time();
+        if self.zones.pending.front().is_none_or(|e| e.time > now) {
+            return;
+        }
+        let horizon = now + self.look_ahead();
+        while let Some(e) = self.zones.pending.pop_front_if(|e| e.time <= horizon) {
+            self.add(&e, now);
+        }
+        self.stale = true;
+    }
+
+    fn add(&mut self, e: &Entry, now: f64) {
+        let zone = self.zones.inlets[e.inlet as usize];
+        let flow = match self.zones.paths.get(&e.particle.id) {
+            Some(path) => path.flow(now, &e.particle.position, &self.setup.gravity),
+            None => Flow::after(now - e.time, &e.particle, zone.acceleration(&self.setup.gravity)),
+        };
+        let (position, velocity) = (e.particle.position + flow.shift, flow.velocity);
+        let present = Particle { position, velocity, ..e.particle };
+        let at = self.particles.len() as u32;
+        let (starts, turn) = match &e.clump {
+            None => {
+                self.particles.push(&present, &self.setup.materials);
+                (vec![e.particle], None)
+            }
+            Some(clump) => {
+                let states = (&e.particle, &present, (now - e.time).max(0.0));
+                let (starts, turn) = self.bodies.enter(states, clump, &self.setup, &mut self.particles);
+                (starts, Some(turn))
+            }
+        };
+        let (centre, lead) = (e.particle.position, lead(&e.particle, e.clump.as_ref(), &zone, &self.setup));
+        for (at, start) in (at..).zip(starts) {
+            self.zones.busy.push(true);
+            self.zones.gone.push(false);
+            self.zones.lost.push();
+            if let Some(sleepers) = &mut self.sleepers {
+                sleepers.push();
+            }
+            let (way, turned) = (Way::In(e.inlet), e.turn.or(e.clump.map(|c| c.orientation)));
+            let whose = e.particle.id;
+            let traveller = Traveller { at, since: e.time, start, whose, centre, lead, turn, turned, way };
+            let now_turned = traveller.has_turned(now, &flow, &self.zones);
+            self.bonds.push(Some(now_turned));
+            self.zones.travellers.push(traveller);
+        }
+    }
+}

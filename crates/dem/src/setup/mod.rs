@@ -1,0 +1,267 @@
+//! What a simulation is made of: plain data, checked and turned into an engine by [`crate::Simulation::new`].
+
+pub mod clump_shape;
+pub mod clumps;
+
+mod bond;
+mod contact;
+mod zone;
+
+use geom::Plane;
+use geom::Vec3;
+use geom::mesh::TriMesh;
+use nalgebra::UnitQuaternion;
+use serde::Deserialize;
+use serde::Serialize;
+
+pub use crate::effects::ContactHistory;
+pub use crate::passes::drag::Drag;
+pub use crate::passes::drag::DragLaw;
+pub use crate::passes::servo::Servo;
+pub use crate::passes::sleep::Sleep;
+pub use crate::setup::clump_shape::ClumpShape;
+pub use bond::Bond;
+pub use contact::ContactLaw;
+pub use zone::Crossing;
+pub use zone::Entry;
+pub use zone::EntryBonds;
+pub use zone::EntryClump;
+pub use zone::Guide;
+pub use zone::Link;
+pub use zone::Memory;
+pub use zone::PathSample;
+pub use zone::Sample;
+pub use zone::Touch;
+pub use zone::Zone;
+pub use zone::ZoneMotion;
+pub use zone::ZoneTest;
+
+/// Everything that a run needs. SI units throughout.
+#[derive(Debug, Clone)]
+pub struct Setup {
+    /// Acceleration of free fall [m/s²].
+    pub gravity: Vec3,
+    /// The fluid around the particles; `None`: none.
+    pub drag: Option<Drag>,
+    /// Materials, by index.
+    pub materials: Vec<Material>,
+    /// Laws of contact between pairs of materials; a pair that can meet must have one.
+    pub contacts: Vec<ContactLaw>,
+    /// Particles at t = 0.
+    pub particles: Vec<Particle>,
+    /// Rigid clumps; empty where the scene has none.
+    pub clumps: Clumps,
+    /// Bonds between particles that are close at t = 0; empty where the scene has none.
+    pub bonds: Vec<Bond>,
+    /// Bonds that inlets may bring, of which `bonds` is not empty then; `None`: they bring none.
+    pub entry_bonds: Option<EntryBonds>,
+    /// Walls: they act on particles and are not moved by them.
+    pub walls: Vec<Wall>,
+    /// Storage planes with their zones (SYSTEMS B1–B3).
+    pub outlets: Vec<Zone>,
+    /// Zones that particles enter by (SYSTEMS B4, B5); `Entry::inlet` is an index of this list.
+    pub inlets: Vec<Zone>,
+    /// Largest radius [m] that inlets will bring; 0 when there is none.
+    pub largest_entry: f64,
+    /// Smallest radius [m] that inlets will bring; 0 when there is none.
+    pub smallest_entry: f64,
+    /// Materials that inlets will bring.
+    pub entry_materials: Vec<u16>,
+    /// Time step [s], or the share of the critical one.
+    pub step: Step,
+    /// Periodic extent (lowest, highest) [m] along x, y, z; `None` along an open axis.
+    pub periodic: [Option<(f64, f64)>; 3],
+    /// In which precision contacts are computed.
+    pub precision: Precision,
+    /// Neighbours are listed up to this gap [m]; `None` chooses.
+    pub skin: Option<f64>,
+    /// When particles at rest are passed over; `None`: never.
+    pub sleep: Option<Sleep>,
+    /// Whether the energy ledger is kept (it costs time).
+    pub ledger: bool,
+    /// When a run is stopped.
+    pub guards: Guards,
+}
+
+/// In which precision contacts are computed; places and velocities are always in double precision. Within a plant of metres a place in single
+/// precision would be coarser than the overlap of two grains at rest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Precision {
+    /// Double precision.
+    #[default]
+    Double,
+    /// What happens in a contact in single precision; what it remembers, and the sums of loads, in double precision.
+    Mixed,
+    /// All of that in single precision.
+    Single,
+}
+
+impl Precision {
+    /// Its name in scenes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Precision::Double => "f64",
+            Precision::Mixed => "mixed",
+            Precision::Single => "f32",
+        }
+    }
+}
+
+/// How the time step is chosen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Step {
+    /// This share of the critical step [–].
+    Auto(f64),
+    /// This step [s]; refused when above the critical one.
+    Fixed(f64),
+}
+
+/// Elastic constants and density.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Material {
+    /// Name, for messages.
+    pub name: String,
+    /// Density [kg/m³]; of no effect for walls.
+    pub density: f64,
+    /// Young's modulus [Pa].
+    pub young: f64,
+    /// Poisson's ratio [–].
+    pub poisson: f64,
+}
+
+/// A sphere.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Particle {
+    /// Unique number.
+    pub id: u32,
+    /// Index of its material.
+    pub material: u16,
+    /// Radius [m].
+    pub radius: f64,
+    /// Centre [m].
+    pub position: Vec3,
+    /// Velocity of the centre [m/s].
+    pub velocity: Vec3,
+    /// Angular velocity [rad/s].
+    pub spin: Vec3,
+}
+
+/// Rigid clumps: their shapes, and the bodies of these shapes at t = 0.
+#[derive(Debug, Clone, Default)]
+pub struct Clumps {
+    /// Shapes.
+    pub shapes: Vec<ClumpShape>,
+    /// Bodies at t = 0.
+    pub bodies: Vec<Body>,
+    /// Shape, smallest and largest scale [–] of the bodies that inlets will bring.
+    pub entries: Vec<(u32, f64, f64)>,
+}
+
+/// A rigid clump. Its members have the ids from `id` on, one each.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Body {
+    /// Id of its first member.
+    pub id: u32,
+    /// Index of its shape.
+    pub shape: u32,
+    /// Size over that of the shape [–].
+    pub scale: f64,
+    /// Centre of mass [m].
+    pub position: Vec3,
+    /// From the frame that the shape was given in to space.
+    pub orientation: UnitQuaternion<f64>,
+    /// Velocity of the centre of mass [m/s].
+    pub velocity: Vec3,
+    /// Angular velocity [rad/s].
+    pub spin: Vec3,
+}
+
+/// A wall: a shape that moves as one rigid body.
+#[derive(Debug, Clone)]
+pub struct Wall {
+    /// Name, for messages and reports.
+    pub name: String,
+    /// Index of its material.
+    pub material: u16,
+    /// Where its surface is at t = 0.
+    pub shape: WallShape,
+    /// How it moves.
+    pub motion: Motion,
+}
+
+/// The surface of a wall.
+#[derive(Debug, Clone)]
+pub enum WallShape {
+    /// Wall spheres: centre [m], radius [m].
+    Spheres(Vec<(Vec3, f64)>),
+    /// An unbounded plane; particles are on the side that the normal points to.
+    Plane(Plane),
+    /// Triangles; both sides act.
+    Mesh(TriMesh),
+}
+
+/// Rigid motion: a turn about a fixed axis, then a shift.
+///
+/// ```text
+/// x(t) = c + R(Ω τ)(x₀ − c) + v τ + a sin(2π f τ) d + s(t) e      τ = min(max(t, from), until) − from
+/// ```
+///
+/// s is the way of a servo, along its direction e.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Motion {
+    /// v [m/s].
+    pub velocity: Vec3,
+    /// Ω, axis times rate [rad/s].
+    pub turn: Vec3,
+    /// c, a point of the axis [m].
+    pub through: Vec3,
+    /// a d, amplitude and direction of the vibration [m].
+    pub amplitude: Vec3,
+    /// f [Hz].
+    pub frequency: f64,
+    /// When it starts to move [s].
+    pub from: f64,
+    /// When it stops, where it is then [s]; ∞: never.
+    pub until: f64,
+    /// Whether it follows a force besides.
+    pub servo: Option<Servo>,
+}
+
+impl Motion {
+    /// A wall at rest.
+    pub fn still() -> Motion {
+        let zero = Vec3::zeros();
+        Motion {
+            velocity: zero,
+            turn: zero,
+            through: zero,
+            amplitude: zero,
+            frequency: 0.0,
+            from: 0.0,
+            until: f64::INFINITY,
+            servo: None,
+        }
+    }
+}
+
+/// When a run is stopped.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Guards {
+    /// Largest overlap, as a share of the smaller radius [–].
+    pub overlap: f64,
+    /// Largest motion in one step, as a share of the radius [–].
+    pub motion: f64,
+    /// How many inlets, from the first on, are cuts of a plant: grains that go back through them are counted [–].
+    pub cuts: u32,
+    /// Whether a grain that goes back through the whole zone of a cut stops the run.
+    pub zones: bool,
+    /// Largest energy that the finite time step may make, as a share of what was exchanged and the most that moved or was in springs [–]; ∞: not looked at. It
+    /// needs the ledger.
+    pub energy: f64,
+}
+
+impl Default for Guards {
+    fn default() -> Guards {
+        Guards { overlap: 0.25, motion: 0.25, energy: f64::INFINITY, cuts: 0, zones: true }
+    }
+}

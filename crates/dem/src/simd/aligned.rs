@@ -1,0 +1,48 @@
+//! Numbers in whole cache lines.
+
+use std::ops::Deref;
+use std::ops::DerefMut;
+
+/// Numbers of a cache line.
+const LINE: usize = 8;
+
+/// Zeros at first, beginning at the start of a cache line.
+#[derive(Debug, Default)]
+pub struct Aligned {
+    room: Vec<f64>,
+    first: usize,
+    len: usize,
+}
+
+impl Aligned {
+    /// `len` zeros.
+    pub fn zeros(len: usize) -> Aligned {
+        if len == 0 {
+            return Aligned::default();
+        }
+        let room = vec![0.0; len + LINE];
+        let first = room.as_ptr().align_offset(LINE * size_of::<f64>()).min(LINE);
+        Aligned { room, first, len }
+    }
+
+    /// `len` zeros, in the same place where there are so many.
+    pub fn clear(&mut self, len: usize) {
+        match self.len == len {
+            true => self.fill(0.0),
+            false => *self = Aligned::zeros(len),
+        }
+    }
+}
+
+impl Deref for Aligned {
+    type Target = [f64];
+    fn deref(&self) -> &[f64] {
+        &self.room[self.first..self.first + self.len]
+    }
+}
+
+impl DerefMut for Aligned {
+    fn deref_mut(&mut self) -> &mut [f64] {
+        &mut self.room[self.first..self.first + self.len]
+    }
+}

@@ -1,0 +1,4 @@
+//! Space.
+
+pub mod rotation;
+pub mod search;

@@ -1,0 +1,167 @@
+//! Who may touch whom until a particle leaves its room: the Verlet list.
+//!
+//! Every particle has a room, a ball around the place where it was listed; two are listed when they could touch without
+//! leaving their rooms: |x_i − x_j| < R_i + R_j, R = r + room. A fast particle gets a larger room ([`room`]), so that a few fast ones
+//! do not make the whole list anew, and slow ones are listed with few partners.
+//!
+//! Verlet (1967), Phys. Rev. 159; a room for each particle instead of one skin for all. The list is a function of places and
+//! rooms alone. Particles are sorted by blocks of about a tile, so that few partners are of another tile, and in these along the shortest
+//! side of their box first.
+
+use crate::neighbours::contacts::tile;
+use geom::Grid;
+use geom::Vec3;
+use geom::grid::bounds;
+use std::ops::Range;
+
+/// Share of the particles that cells are made for; what reaches farther than half a cell is searched one by one.
+const COMMON: f64 = 0.98;
+
+/// How the skin is chosen: least, first and largest over the mean radius, and the steps that lists should hold.
+pub const SKIN: Choice = Choice { least: 0.02, start: 0.05, most: 0.6, steps: 32..96 };
+
+/// See [`SKIN`].
+pub struct Choice {
+    /// Smallest skin over the mean radius [–].
+    pub least: f64,
+    /// Skin at the start over the mean radius [–].
+    pub start: f64,
+    /// Largest skin over the mean radius [–].
+    pub most: f64,
+    /// Lists that hold shorter want a larger skin, and longer a smaller.
+    pub steps: Range<u64>,
+}
+
+impl Choice {
+    /// The skin [m] after lists have held for so many steps with `skin`, for grains of mean radius `grain` [m].
+    pub fn next(&self, skin: f64, held: u64, grain: f64) -> f64 {
+        let factor = if held < self.steps.start {
+            1.3
+        } else if held > self.steps.end {
+            0.9
+        } else {
+            1.0
+        };
+        (skin * factor).clamp(self.least * grain, self.most * grain)
+    }
+}
+
+/// A pair of particles, i < j.
+pub type Pair = (u32, u32);
+
+/// Room of a particle [m]: a share of the skin, and the `way` that it is expected to go, but no more than `most`: beyond, lists that
+/// hold longer would cost more than they save.
+pub fn room(skin: f64, way: f64, most: f64) -> f64 {
+    0.5 * skin + way.min(most)
+}
+
+/// Particles in space order, ready to be searched.
+pub struct Search {
+    grid: Grid,
+    axes: [usize; 3],
+    /// In the grid's order, and along its axes.
+    places: Vec<Vec3>,
+    reach: Vec<f64>,
+    /// `reach` of common particles, −∞ of wide ones: nothing is closer than that.
+    common: Vec<f64>,
+    wide: Vec<u32>,
+    largest: f64,
+}
+
+impl Search {
+    /// Sorts `points` [m] that reach so far [m].
+    pub fn new(points: &[Vec3], reach: &[f64]) -> Search {
+        let (lo, hi) = bounds(points);
+        let mut axes = [0, 1, 2];
+        axes.sort_by(|&a, &b| (hi[a] - lo[a]).total_cmp(&(hi[b] - lo[b])).then(a.cmp(&b)));
+        let along = |p: &Vec3| Vec3::new(p[axes[0]], p[axes[1]], p[axes[2]]);
+        let cell = (2.0 * common_reach(reach)).max(f64::MIN_POSITIVE);
+        let points: Vec<Vec3> = points.iter().map(along).collect();
+        let grid = Grid::in_blocks(&points, cell, tile(points.len()));
+        let order = grid.order();
+        let places = order.iter().map(|&k| points[k as usize]).collect();
+        let reach: Vec<f64> = order.iter().map(|&k| reach[k as usize]).collect();
+        let is_wide = |r: f64| 2.0 * r > grid.cell();
+        let wide = (0u32..).zip(&reach).filter(|&(_, &r)| is_wide(r)).map(|(k, _)| k).collect();
+        let common = reach.iter().map(|&r| if is_wide(r) { f64::NEG_INFINITY } else { r }).collect();
+        let largest = reach.iter().copied().fold(0.0, f64::max);
+        Search { axes, places, reach, common, wide, largest, grid }
+    }
+
+    /// The points in space order.
+    pub fn order(&self) -> &[u32] {
+        self.grid.order()
+    }
+
+    /// Pairs whose first is in `range`, both common, by first and second.
+    pub fn common_pairs(&self, range: Range<usize>, found: &mut Vec<Pair>) {
+        let mut cell = [-1; 3];
+        let mut runs: Vec<Range<usize>> = Vec::new();
+        for i in range {
+            let (p, reach) = (self.places[i], self.common[i]);
+            let here = self.grid.cell_of(&p);
+            if here != cell {
+                let [x, y, z] = here;
+                let rows = (z - 1..z + 2).flat_map(|z| (y - 1..y + 2).map(move |y| (y, z)));
+                runs.clear();
+                // Pairs with what comes before are found from there.
+                runs.extend(rows.flat_map(|(y, z)| self.grid.row(x - 1..x + 2, y, z)).filter(|r| r.end > i));
+                runs.sort_unstable_by_key(|r| r.start);
+                cell = here;
+            }
+            for run in &runs {
+                for j in run.start.max(i + 1)..run.end.max(i + 1) {
+                    let close = reach + self.common[j];
+                    if (self.places[j] - p).norm_squared() < close * close && close > 0.0 {
+                        found.push((i as u32, j as u32));
+                    }
+                }
+            }
+        }
+    }
+
+    /// Pairs with a wide particle, by first and second.
+    pub fn wide_pairs(&self) -> Vec<Pair> {
+        let mut found = Vec::new();
+        for &w in &self.wide {
+            let (p, reach) = (self.places[w as usize], self.reach[w as usize]);
+            for j in self.grid.runs_near(p, reach + self.largest).flatten() {
+                let close = reach + self.reach[j];
+                let once = j != w as usize && (self.common[j] > 0.0 || j > w as usize);
+                if once && (self.places[j] - p).norm_squared() < close * close {
+                    found.push((w.min(j as u32), w.max(j as u32)));
+                }
+            }
+        }
+        found.sort_unstable();
+        found
+    }
+
+    /// Pairs whose second is a particle shifted by `shift` [m], by first.
+    pub fn shifted_pairs(&self, shift: &Vec3, found: &mut Vec<(u32, u32, Vec3)>) {
+        let along = Vec3::from(self.axes.map(|a| shift[a]));
+        let (lo, hi) = bounds(&self.places);
+        for (i, p) in self.places.iter().enumerate() {
+            let (place, far) = (p - along, self.reach[i] + self.largest);
+            if (0..3).any(|a| place[a] < lo[a] - far || place[a] > hi[a] + far) {
+                continue;
+            }
+            for j in self.grid.runs_near(place, far).flatten() {
+                let close = self.reach[i] + self.reach[j];
+                if (self.places[j] - place).norm_squared() < close * close {
+                    found.push((i as u32, j as u32, *shift));
+                }
+            }
+        }
+    }
+}
+
+/// The reach [m] that no more than a few particles surpass.
+fn common_reach(reach: &[f64]) -> f64 {
+    if reach.is_empty() {
+        return 1.0;
+    }
+    let mut sorted = reach.to_vec();
+    let at = ((reach.len() - 1) as f64 * COMMON) as usize;
+    *sorted.select_nth_unstable_by(at, f64::total_cmp).1
+}

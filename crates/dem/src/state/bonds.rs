@@ -1,0 +1,307 @@
+//! Bonds: elastic beams between the centres of particles that were close at the start, until they break.
+//!
+//! A pass of its own over a list of its own: what bonds do is added to the sums of contacts, particle by particle in the order of the bonds, so that it depends
+//! on no thread. Contacts know nothing of bonds; two that are bonded may touch, and then both act. Bonds are computed in double
+//! precision always. [`beam`] has the law. It needs to know how each end has turned since it was bonded:
+//!
+//! ```text
+//! q ← exp(ω_{n−½} Δt) q,   ω_{n−½} = w*_n − α_{n−1} Δt/2          what [`crate::advance`] has turned it by
+//! ```
+//!
+//! Places and turns of one instant in the springs, velocities predicted for it in the dashpots: with springs alone that is velocity Verlet, which makes no energy
+//! on the whole. A bond breaks by the stress of an instant, before it acts in it:
+//!
+//! ```text
+//! σ = F_n/A + |M| r/I > σ_c   or   τ = |F_t|/A + |M_t| r/J > τ_c          F_n: tension; M at the worse end; A = π r², I = π r⁴/4, J = 2 I
+//! ```
+//!
+//! Potyondy & Cundall (2004), Int. J. Rock Mech. Min. Sci. 41, doi:10.1016/j.ijrmms.2004.09.011, have the strengths and springs by increments; turns of
+//! both ends instead, so that nothing is lost by rounding or order: Wang (2009), Acta Geotech. 4, doi:10.1007/s11440-008-0072-1. Beam in a frame that turns along:
+//! Crisfield (1990), Comput. Methods Appl. Mech. Eng. 81, doi:10.1016/0045-7825(90)90106-V.
+
+use crate::forces::sweep::FEW;
+use crate::forces::sweep::share;
+use crate::kernel::sums::Sums;
+use crate::model::bonds::beam::Beam;
+use crate::model::bonds::beam::Ends;
+use crate::model::bonds::beam::Pull;
+use crate::model::bonds::find;
+use crate::model::error::SetupError;
+use crate::setup::Link;
+use crate::setup::Setup;
+use crate::simulation::Simulation;
+use crate::state::particles::Particles;
+use geom::Vec3;
+use nalgebra::UnitQuaternion;
+use serde::Deserialize;
+use serde::Serialize;
+
+/// Bonds, or particles, of one task.
+pub(crate) const CHUNK: usize = 256;
+
+/// A bond between two particles.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+pub(crate) struct Tie {
+    /// Rows of i and j; i has the lower id.
+    pub(crate) ends: [u32; 2],
+    pub(crate) beam: Beam,
+    /// σ_c and τ_c [Pa].
+    pub(crate) strength: [f64; 2],
+    /// When it broke [s]; infinite while it is whole, `GONE` after one of both has left.
+    pub(crate) broken: f64,
+}
+
+/// Time at which a bond broke that did not break.
+pub(crate) const GONE: f64 = f64::NEG_INFINITY;
+
+impl Tie {
+    pub(crate) fn is_whole(&self) -> bool {
+        self.broken == f64::INFINITY
+    }
+
+    /// Of both particles now.
+    pub(crate) fn ends(&self, particles: &Particles, turns: &[UnitQuaternion<f64>], period: &Vec3) -> Ends {
+        let [i, j] = self.ends.map(|k| k as usize);
+        let three = |row: &[f64]| Vec3::new(row[0], row[1], row[2]);
+        let velocity = |k: usize| three(&particles.rows[k][4..7]);
+        let spin = |k: usize| three(&particles.spins[k][..3]);
+        Ends {
+            arm: nearest(particles.position(i) - particles.position(j), period),
+            velocity: velocity(i) - velocity(j),
+            spin: [spin(i), spin(j)],
+            turn: [turns[i], turns[j]],
+        }
+    }
+}
+
+/// A bond at one instant, for who looks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BondState {
+    /// Ids of both particles, the lower first.
+    pub ids: [u32; 2],
+    /// Half-way between both centres [m].
+    pub middle: Vec3,
+    /// Length L at rest, and radius r of the beam [m].
+    pub size: [f64; 2],
+    /// When it broke [s]; `None` while it is whole.
+    pub broken: Option<f64>,
+    /// Force on the first [N], and moments on both about their centres [N·m].
+    pub force: Vec3,
+    /// See there.
+    pub moments: [Vec3; 2],
+    /// Largest tension σ and shear τ [Pa]; of a broken one, those that broke it.
+    pub stress: [f64; 2],
+}
+
+/// All bonds of a simulation.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub struct Bonds {
+    /// Whether the scene has any, or may get them.
+    pub(crate) on: bool,
+    /// By rows.
+    pub(crate) ties: Vec<Tie>,
+    /// What each does at this instant.
+    pub(crate) pulls: Vec<Pull>,
+    /// How each particle has turned, by row; empty where there are none.
+    pub(crate) turns: Vec<UnitQuaternion<f64>>,
+    /// Energy of those that broke at this instant [J].
+    pub(crate) lost: f64,
+    /// Of those that have left: how many, and how many of them were broken.
+    pub(crate) left: [usize; 2],
+    /// Of two that come in, one of whom is not here yet.
+    pub(crate) waiting: Vec<Link>,
+    /// First entry of each particle, and one more.
+    #[serde(skip)]
+    pub(crate) starts: Vec<u32>,
+    /// Bond × 2, + 1 where the particle is j; by the id of the other.
+    #[serde(skip)]
+    pub(crate) entries: Vec<u32>,
+}
+
+impl Bonds {
+    /// Bonds of a setup at t = 0, whose particles are sorted by id.
+    ///
+    /// # Errors
+    /// Two centres at one place; a law for which there is no pair.
+    pub fn new(setup: &Setup, particles: &Particles) -> Result<Bonds, SetupError> {
+        let mut bonds = Bonds { on: !setup.bonds.is_empty(), ..Bonds::default() };
+        if bonds.none() {
+            return Ok(bonds);
+        }
+        bonds.ties = find::ties(setup)?;
+        bonds.pulls = vec![Pull::default(); bonds.ties.len()];
+        bonds.turns = vec![UnitQuaternion::identity(); particles.len()];
+        bonds.index(&particles.id);
+        Ok(bonds)
+    }
+
+    /// Whether there is none, and never will be.
+    pub fn none(&self) -> bool {
+        !self.on
+    }
+
+    /// How many there were, of those that have left as well, and how many of them broke.
+    pub fn count(&self) -> [usize; 2] {
+        let broken = self.ties.iter().filter(|t| t.broken.is_finite()).count();
+        [self.ties.len() + self.left[0], broken + self.left[1]]
+    }
+
+    /// Memory that bonds take [bytes].
+    pub fn bytes(&self) -> usize {
+        use std::mem::size_of_val;
+        size_of_val(&self.ties[..])
+            + size_of_val(&self.pulls[..])
+            + size_of_val(&self.turns[..])
+            + size_of_val(&self.starts[..])
+            + size_of_val(&self.entries[..])
+    }
+
+    /// Elastic energy of this instant [J].
+    pub fn elastic(&self) -> f64 {
+        self.pulls.iter().map(|p| p.elastic).sum()
+    }
+
+    /// Power of all dashpots [W], and energy of bonds that broke [J], at this instant.
+    pub fn dissipated(&self) -> [f64; 2] {
+        [self.pulls.iter().map(|p| p.power).sum(), self.lost]
+    }
+
+    /// Follows the particles to their new places; `order` names the old ones of those that stay, `ids` are those of the new. Bonds lie in the
+    /// order of their particles, which are then fetched from near each other.
+    pub fn reorder(&mut self, order: &[u32], ids: &[u32]) {
+        if self.none() {
+            return;
+        }
+        let mut new = vec![u32::MAX; self.turns.len()];
+        for (now, &was) in (0u32..).zip(order) {
+            new[was as usize] = now;
+        }
+        let count = self.count();
+        self.ties.iter_mut().for_each(|tie| tie.ends = tie.ends.map(|k| new[k as usize]));
+        let (ties, pulls) = (std::mem::take(&mut self.ties), std::mem::take(&mut self.pulls));
+        let mut kept: Vec<(Tie, Pull)> = ties.into_iter().zip(pulls).collect();
+        kept.retain(|(tie, _)| !tie.ends.contains(&u32::MAX));
+        kept.sort_unstable_by_key(|(tie, _)| (tie.ends[0].min(tie.ends[1]), tie.ends[0].max(tie.ends[1])));
+        (self.ties, self.pulls) = kept.into_iter().unzip();
+        let here = self.count();
+        self.left = [0, 1].map(|n| self.left[n] + count[n] - here[n]);
+        self.turns = order.iter().map(|&was| self.turns[was as usize]).collect();
+        self.index(ids);
+    }
+
+    /// Who has which bonds.
+    pub fn index(&mut self, ids: &[u32]) {
+        let mut starts = vec![0; self.turns.len() + 1];
+        let ends = || self.ties.iter().flat_map(|t| t.ends);
+        ends().for_each(|k| starts[k as usize + 1] += 1);
+        (1..starts.len()).for_each(|k| starts[k] += starts[k - 1]);
+        let mut next = starts.clone();
+        self.entries = vec![0; 2 * self.ties.len()];
+        for (entry, k) in (0..).zip(ends()) {
+            self.entries[next[k as usize] as usize] = entry;
+            next[k as usize] += 1;
+        }
+        // Sums do not depend on the order of rows.
+        let ties = &self.ties;
+        let other = |&entry: &u32| ids[ties[(entry >> 1) as usize].ends[1 - (entry & 1) as usize] as usize];
+        for pair in starts.windows(2) {
+            self.entries[pair[0] as usize..pair[1] as usize].sort_unstable_by_key(other);
+        }
+        self.starts = starts;
+    }
+
+    /// Turns all particles by what they have turned in the step of `dt` [s] that has just been made.
+    pub fn turn(&mut self, particles: &Particles, dt: f64) {
+        let many = self.turns.len() >= FEW;
+        let rows = particles.spins.chunks(CHUNK).zip(particles.turning.chunks(CHUNK));
+        share(many, self.turns.chunks_mut(CHUNK).zip(rows).collect(), |(turns, (spins, turning))| {
+            for ((turn, w), a) in turns.iter_mut().zip(spins).zip(turning) {
+                let by = [0, 1, 2].map(|axis| (w[axis] - 0.5 * dt * a[axis]) * dt);
+                let q = crate::space::rotation::spun(&Vec3::from(by)).into_inner() * turn.quaternion();
+                *turn = UnitQuaternion::new_unchecked(q / q.norm());
+            }
+        });
+    }
+
+    /// What all bonds do, at a time [s]; those that break do nothing any more. None breaks while both of its particles travel (`busy`), which feel nothing.
+    fn pull(&mut self, particles: &Particles, period: &Vec3, (time, busy): (f64, &[bool])) {
+        let (ties, turns) = (&self.ties, &self.turns);
+        let pulls = self.pulls.chunks_mut(CHUNK).zip(ties.chunks(CHUNK));
+        share(ties.len() >= FEW / 4, pulls.collect(), |(pulls, ties)| {
+            for (pull, tie) in pulls.iter_mut().zip(ties).filter(|(_, tie)| tie.is_whole()) {
+                *pull = tie.beam.pull(&tie.ends(particles, turns, period));
+            }
+        });
+        self.lost = 0.0;
+        for (pull, tie) in self.pulls.iter_mut().zip(&mut self.ties).filter(|(_, tie)| tie.is_whole()) {
+            let travel = tie.ends.iter().all(|&k| busy.get(k as usize) == Some(&true));
+            if !travel && pull.stress.iter().zip(tie.strength).any(|(&now, most)| now > most) {
+                tie.broken = time;
+                self.lost += pull.elastic;
+                *pull = Pull { stress: pull.stress, ..Pull::default() };
+            }
+        }
+    }
+
+    /// Adds what bonds do to some particles.
+    pub fn add(&self, sums: &mut Sums) {
+        for at in 0..if self.none() { 0 } else { sums.len() } {
+            let k = sums.first + at;
+            for &entry in &self.entries[self.starts[k] as usize..self.starts[k + 1] as usize] {
+                let (pull, second) = (&self.pulls[(entry >> 1) as usize], entry & 1 == 1);
+                let force = pull.force.map(|f| if second { -f } else { f });
+                sums.add(at, force, pull.moment[usize::from(second)]);
+            }
+        }
+    }
+}
+
+/// From one centre to another, by the nearest image; a period of 0 is none.
+pub(crate) fn nearest(arm: Vec3, period: &Vec3) -> Vec3 {
+    let back = |axis: usize| {
+        if period[axis] > 0.0 { period[axis] * (arm[axis] / period[axis]).round() } else { 0.0 }
+    };
+    arm - Vec3::new(back(0), back(1), back(2))
+}
+
+impl Simulation {
+    /// Brings bonds to this instant.
+    pub(crate) fn pull_bonds(&mut self) {
+        if self.bonds.none() {
+            return;
+        }
+        let (period, time) = (self.period(), self.time());
+        self.bonds.pull(&self.particles, &period, (time, self.zones.busy()));
+    }
+
+    /// Bonds of this instant, broken ones as well, by ids.
+    ///
+    /// # Errors
+    /// When the state is beyond a guard.
+    pub fn bonds(&mut self) -> Result<Vec<BondState>, crate::model::error::Halt> {
+        self.ready()?;
+        let (p, period) = (&self.particles, self.period());
+        let middle = |[i, j]: [u32; 2]| {
+            let from = p.position(j as usize);
+            self.wrapped(from + nearest(p.position(i as usize) - from, &period) * 0.5)
+        };
+        let state = |(tie, pull): (&Tie, &Pull)| BondState {
+            ids: tie.ends.map(|k| p.id[k as usize]),
+            middle: middle(tie.ends),
+            size: [tie.beam.length, tie.beam.radius],
+            broken: tie.broken.is_finite().then_some(tie.broken),
+            force: pull.force.into(),
+            moments: pull.moment.map(Into::into),
+            stress: pull.stress,
+        };
+        let here = self.bonds.ties.iter().zip(&self.bonds.pulls).filter(|(tie, _)| tie.broken != GONE);
+        let mut all: Vec<BondState> = here.map(state).collect();
+        all.sort_unstable_by_key(|b| b.ids);
+        Ok(all)
+    }
+
+    /// How many bonds there were at the start or have come in, and how many of them have broken.
+    pub fn bond_count(&self) -> [usize; 2] {
+        self.bonds.count()
+    }
+}

@@ -1,0 +1,126 @@
+//! The particles' columns, in space order.
+
+use crate::setup::Material;
+use crate::setup::Particle;
+use crate::simd::Row;
+use crate::simd::Row4;
+use geom::Vec3;
+use serde::Deserialize;
+use serde::Serialize;
+
+/// Two rows that nothing ever touches: what the unused places of a block point to.
+pub const FAR: [Row; 2] = [
+    Row([1e150, 1e150, 1e150, 0.0, 0.0, 0.0, 0.0, 1.0]),
+    Row([-1e150, -1e150, -1e150, 0.0, 0.0, 0.0, 0.0, 1.0]),
+];
+
+/// How far away those are put that are out of the calculation [m]: no wall and no grain of a scene gets there.
+const AWAY: f64 = 1e100;
+
+/// Where row `k` waits until the next listing drops it: each in a place of its own, because two at one place would overlap.
+pub fn away(k: usize) -> [f64; 3] {
+    [-AWAY * (k + 1) as f64; 3]
+}
+
+/// Whether a row is out of the calculation. Its distance from a plane may be any number, also 0: it is not to be asked for.
+pub fn is_away(row: &Row) -> bool {
+    row[0] <= -AWAY
+}
+
+/// Columns, one entry a particle; `rows` and `spins` have two more ([`FAR`]).
+///
+/// Positions are those of the step; velocities and spins are predicted for it from the acceleration of the step
+/// before, so that forces use positions and velocities of one instant ([`crate::advance`]).
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Particles {
+    /// x, y, z, radius [m], predicted velocity [m/s], 1/m [1/kg].
+    pub rows: Vec<Row>,
+    /// Acceleration of the step before [m/s²].
+    pub acceleration: Vec<Row4>,
+    /// Predicted angular velocity [rad/s]; empty without rotation.
+    pub spins: Vec<Row4>,
+    /// Angular acceleration of the step before [rad/s²]; empty without rotation.
+    pub turning: Vec<Row4>,
+    /// Unique number.
+    pub id: Vec<u32>,
+    /// Material.
+    pub material: Vec<u16>,
+    /// Where the particle was when neighbours were listed, and its room around that place [m].
+    pub home: Vec<Row4>,
+}
+
+impl Particles {
+    /// No particles; with or without columns for rotation.
+    pub fn new(rotates: bool) -> Particles {
+        Particles {
+            rows: FAR.to_vec(),
+            acceleration: Vec::new(),
+            spins: if rotates { vec![Row4::default(); 2] } else { Vec::new() },
+            turning: Vec::new(),
+            id: Vec::new(),
+            material: Vec::new(),
+            home: Vec::new(),
+        }
+    }
+
+    /// Number of particles.
+    pub fn len(&self) -> usize {
+        self.id.len()
+    }
+
+    /// Whether they have angular velocities.
+    pub fn rotates(&self) -> bool {
+        !self.spins.is_empty()
+    }
+
+    /// Adds a particle at the end.
+    pub fn push(&mut self, particle: &Particle, materials: &[Material]) {
+        let at = self.len();
+        let Particle { position: p, velocity: v, spin: w, radius, material, .. } = *particle;
+        let row =
+            [p.x, p.y, p.z, radius, v.x, v.y, v.z, 1.0 / mass(radius, materials[material as usize].density)];
+        self.rows.insert(at, Row(row));
+        self.acceleration.push(Row4::default());
+        if self.rotates() {
+            self.spins.insert(at, Row4([w.x, w.y, w.z, 0.0]));
+            self.turning.push(Row4::default());
+        }
+        self.id.push(particle.id);
+        self.material.push(material);
+        self.home.push(Row4([p.x, p.y, p.z, 0.0]));
+    }
+
+    /// Takes the particles named by `order`, and leaves the others.
+    pub fn select(&mut self, order: &[u32]) {
+        fn pick<T: Copy>(from: &mut Vec<T>, order: &[u32], tail: usize) {
+            let end = from.len() - tail;
+            let picked = order.iter().map(|&k| from[k as usize]).chain(from[end..].iter().copied()).collect();
+            *from = picked;
+        }
+        pick(&mut self.rows, order, 2);
+        pick(&mut self.acceleration, order, 0);
+        if self.rotates() {
+            pick(&mut self.spins, order, 2);
+            pick(&mut self.turning, order, 0);
+        }
+        pick(&mut self.id, order, 0);
+        pick(&mut self.material, order, 0);
+        pick(&mut self.home, order, 0);
+    }
+
+    /// How far the surface of particle `k` may come from its home [m].
+    pub fn reach(&self, k: usize) -> f64 {
+        self.rows[k][3] + self.home[k][3]
+    }
+
+    /// Centre of particle `k` [m].
+    pub fn position(&self, k: usize) -> Vec3 {
+        let r = &self.rows[k];
+        Vec3::new(r[0], r[1], r[2])
+    }
+}
+
+/// Mass of a sphere [kg] of `radius` [m] and `density` [kg/m³].
+pub fn mass(radius: f64, density: f64) -> f64 {
+    4.0 / 3.0 * std::f64::consts::PI * radius * radius * radius * density
+}

@@ -1,0 +1,248 @@
+//! Recorded paths: what a stage upstream writes of particles that come near its storage plane, and how a traveller follows it.
+//!
+//! ```text
+//! x(s) = (2s³ − 3s² + 1) x₀ + (s³ − 2s² + s) h v₀ + (3s² − 2s³) x₁ + (s³ − s²) h v₁        s = (t − t₀)/h, h = t₁ − t₀
+//! ```
+//!
+//! Cubic Hermite interpolation: places and velocities of the samples are met, and free flight between them is exact.
+
+use crate::model::error::SetupError;
+use crate::passes::zones::travel::Flow;
+use crate::setup::Entry;
+use crate::setup::Guide;
+use crate::setup::PathSample;
+use crate::setup::Sample;
+use crate::setup::Setup;
+use crate::simulation::Simulation;
+use crate::space::rotation::spun;
+use crate::state::zones::Zones;
+use geom::Vec3;
+use nalgebra::UnitQuaternion;
+use serde::Deserialize;
+use serde::Serialize;
+use std::collections::BTreeSet;
+use std::collections::VecDeque;
+
+/// Samples begin this much farther from the plane than the zone is long, so that the first of them is before the zone.
+const EARLY: f64 = 1.25;
+
+/// Vector of the turn that leads from one orientation to another [rad], the short way.
+fn between(from: &UnitQuaternion<f64>, to: &UnitQuaternion<f64>) -> Vec3 {
+    let q = to * from.inverse();
+    let (w, v) = if q.w < 0.0 { (-q.w, -q.imag()) } else { (q.w, q.imag()) };
+    let sine = v.norm();
+    if sine > 0.0 { v * (2.0 * libm::atan2(sine, w) / sine) } else { v }
+}
+
+/// How a path ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+enum End {
+    /// It is not known yet.
+    Open,
+    /// At the calculation plane.
+    Free,
+    /// It leads back upstream.
+    Gone,
+}
+
+/// A path, from the sample that is in force on.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Path {
+    pub(crate) samples: VecDeque<Sample>,
+    pub(crate) end: End,
+}
+
+/// Where a traveller on a path is.
+#[derive(PartialEq, Eq)]
+pub enum Stage {
+    Inside,
+    Free,
+    Gone,
+}
+
+impl Path {
+    pub fn new(entry: &Entry) -> Path {
+        Path { samples: VecDeque::from([Sample::of(entry)]), end: End::Open }
+    }
+
+    /// Forgets what is past; where the traveller is then.
+    pub fn follow(&mut self, now: f64) -> Stage {
+        while self.samples.get(1).is_some_and(|s| s.time <= now) {
+            self.samples.pop_front();
+        }
+        match self.end {
+            End::Open => Stage::Inside,
+            _ if self.samples.back().is_some_and(|last| last.time > now) => Stage::Inside,
+            End::Free => Stage::Free,
+            End::Gone => Stage::Gone,
+        }
+    }
+
+    /// How who follows it has turned by `now` [s]: evenly between two samples.
+    pub fn turned(&self, now: f64) -> UnitQuaternion<f64> {
+        let Some(a) = self.samples.front() else { return UnitQuaternion::identity() };
+        let first = a.turn.unwrap_or_default();
+        let tau = (now - a.time).max(0.0);
+        match self.samples.get(1) {
+            None => spun(&(a.spin * tau)) * first,
+            Some(b) => {
+                spun(&(between(&first, &b.turn.unwrap_or_default()) * (tau / (b.time - a.time)))) * first
+            }
+        }
+    }
+
+    /// Angular velocity at which it turns then [rad/s].
+    pub fn rate(&self, now: f64) -> Vec3 {
+        let Some(a) = self.samples.front() else { return Vec3::zeros() };
+        match self.samples.get(1).filter(|_| now > a.time) {
+            None => a.spin,
+            Some(b) => between(&a.turn.unwrap_or_default(), &b.turn.unwrap_or_default()) / (b.time - a.time),
+        }
+    }
+
+    /// State at `now` [s], shifts counted from `origin`; before its first sample it waits there, out of everyone's sight. From its
+    /// release within a step to the end of that step it falls freely.
+    pub fn flow(&self, now: f64, origin: &Vec3, gravity: &Vec3) -> Flow {
+        let still = Vec3::zeros();
+        let Some(a) = self.samples.front() else {
+            return Flow { shift: still, velocity: still, acceleration: still, spin: still };
+        };
+        let from = a.position - origin;
+        let Some(b) = self.samples.get(1).filter(|_| now > a.time) else {
+            let pull = if self.end == End::Free { *gravity } else { still };
+            let tau = (now - a.time).max(0.0);
+            let (shift, velocity) =
+                (from + a.velocity * tau + pull * (0.5 * tau * tau), a.velocity + pull * tau);
+            return Flow { shift, velocity, acceleration: pull, spin: a.spin };
+        };
+        let h = b.time - a.time;
+        let s = (now - a.time) / h;
+        let (way, v0, v1) = (b.position - a.position, a.velocity, b.velocity);
+        let shift = from
+            + way * (s * s * (3.0 - 2.0 * s))
+            + (v0 * (s * (s - 1.0) * (s - 1.0)) + v1 * (s * s * (s - 1.0))) * h;
+        let velocity =
+            way * (6.0 * s * (1.0 - s) / h) + v0 * ((3.0 * s - 1.0) * (s - 1.0)) + v1 * (s * (3.0 * s - 2.0));
+        let acceleration = (way * ((6.0 - 12.0 * s) / h) + v0 * (6.0 * s - 4.0) + v1 * (6.0 * s - 2.0)) / h;
+        Flow { shift, velocity, acceleration, spin: a.spin + (b.spin - a.spin) * s }
+    }
+}
+
+impl Zones {
+    /// Whether an entry only goes on with a path that was said to end, and has not come to that yet.
+    pub fn comes_back(&mut self, entry: &Entry, setup: &Setup) -> Result<bool, SetupError> {
+        let p = &entry.particle;
+        let Some(path) = self.paths.get_mut(&p.id).filter(|path| path.end == End::Gone) else {
+            return Ok(false);
+        };
+        path.end = End::Open;
+        self.guide(p.id, Guide::At(Sample::of(entry)), setup)?;
+        Ok(true)
+    }
+
+    /// Takes news of a path.
+    pub fn guide(&mut self, id: u32, guide: Guide, setup: &Setup) -> Result<(), SetupError> {
+        let wrong = |what: &str, value: f64, range: &'static str| {
+            Err(SetupError::Range {
+                what: format!("inlet: path of particle {id}: {what}"),
+                value,
+                unit: "s",
+                range: range.to_owned(),
+            })
+        };
+        let Some(path) = self.paths.get_mut(&id).filter(|p| p.end == End::Open) else {
+            return wrong("news", f64::NAN, "the particles that are on their way in");
+        };
+        let mut add = |mut sample: Sample| {
+            let last = path.samples.back().copied().unwrap_or(sample);
+            if !(sample.time >= last.time)
+                || !sample.position.iter().chain(&sample.velocity).all(|x| x.is_finite())
+            {
+                return wrong("time", sample.time, "times after the sample before, with finite states");
+            }
+            // The way to the next sample is the short one, also through a periodic face.
+            for (axis, range) in setup.periodic.iter().enumerate() {
+                if let Some((lo, hi)) = range {
+                    let period = hi - lo;
+                    sample.position[axis] -=
+                        period * ((sample.position[axis] - last.position[axis]) / period).round();
+                }
+            }
+            if sample.time == last.time {
+                path.samples.pop_back();
+            }
+            path.samples.push_back(sample);
+            Ok(())
+        };
+        match guide {
+            Guide::At(sample) => add(sample)?,
+            Guide::Free(sample) => {
+                add(sample)?;
+                path.end = End::Free;
+            }
+            Guide::Gone => path.end = End::Gone,
+        }
+        Ok(())
+    }
+}
+
+impl Simulation {
+    /// Says where a particle goes that was queued for an inlet of recorded motion. What is told must reach beyond time() +
+    /// [`Simulation::look_ahead`] before the next step.
+    ///
+    /// # Errors
+    /// A particle that is not on its way in, samples out of order.
+    pub fn guide(&mut self, id: u32, guide: Guide) -> Result<(), SetupError> {
+        self.zones.guide(id, guide, &self.setup)
+    }
+
+    /// Where free particles near a storage plane of recorded motion are now, and which have gone back upstream since they were
+    /// sampled last, by outlet and id.
+    pub fn sample_paths(&mut self) -> Vec<PathSample> {
+        let mut out = Vec::new();
+        for outlet in 0..self.zones.outlets.len() {
+            if self.zones.outlets[outlet].motion == crate::setup::ZoneMotion::Recorded {
+                self.sample_paths_of(outlet, &mut out);
+            }
+        }
+        out
+    }
+
+    fn sample_paths_of(&mut self, outlet: usize, out: &mut Vec<PathSample>) {
+        let zone = self.zones.outlets[outlet];
+        let first = out.len();
+        for k in 0..self.particles.len() {
+            let Some((place, radius)) = self.tested(k) else { continue };
+            let id = self.particles.id[k];
+            if !(zone.past(&place, radius) >= -EARLY * zone.length)
+                || self.zones.is_gone(k)
+                || self.zones.travels(k)
+                || self.zones.beyond[outlet].contains(&id)
+            {
+                continue;
+            }
+            out.push(self.sample(k, outlet as u32, false));
+        }
+        out[first..].sort_unstable_by_key(|s| s.particle.id);
+        let now: BTreeSet<u32> = out[first..].iter().map(|s| s.particle.id).collect();
+        let before = std::mem::replace(&mut self.zones.sampled[outlet], now);
+        let now = &self.zones.sampled[outlet];
+        // Those that are not free any more have passed: their crossing ends the path.
+        let gone = |k: &usize| {
+            let id = &self.particles.id[*k];
+            before.contains(id) && !now.contains(id) && !self.zones.travels(*k) && !self.zones.is_gone(*k)
+        };
+        let mut ids: Vec<(u32, usize)> =
+            (0..self.particles.len()).filter(gone).map(|k| (self.particles.id[k], k)).collect();
+        ids.sort_unstable();
+        for (_, k) in ids {
+            out.push(self.sample(k, outlet as u32, true));
+        }
+    }
+
+    /// Where particle `k`, or the clump that it is the first member of, is now.
+    fn sample(&self, k: usize, outlet: u32, gone: bool) -> PathSample {
+        let (particle, clump) = self.state_back(k, 0.0);
+        PathSample { outlet, particle, clump, turn: self.bonds.turn_of(k), gone }
+    }
+}

@@ -1,0 +1,142 @@
+//! Particles that go back through a plane, against the flow: what is there is not simulated by this stage.
+
+use crate::model::error::Halt;
+use crate::passes::zones::travel::Way;
+use crate::setup::Setup;
+use crate::simulation::Simulation;
+use crate::state::zones::Zones;
+use geom::Vec3;
+use serde::Deserialize;
+use serde::Serialize;
+
+/// Where a free particle came from.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+struct Origin {
+    /// Its inlet + 1; 0 when it came by none that is watched.
+    pub(crate) inlet: u32,
+    /// Whether it was seen behind the calculation plane.
+    pub(crate) behind: bool,
+}
+
+/// How many particles went back.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Returned {
+    /// For each watched inlet: particles that were seen behind its calculation plane again.
+    pub inlets: Vec<u64>,
+    /// For each outlet: free particles that came upstream through its storage plane.
+    pub outlets: Vec<u64>,
+    /// For each outlet: particles that were recorded, and fell back through the plane in the zone.
+    pub fallen: Vec<u64>,
+}
+
+/// Who came from where.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub struct Lost {
+    /// Of each particle; empty where no inlet is watched.
+    pub(crate) origins: Vec<Origin>,
+    /// Whether any is.
+    pub(crate) any: bool,
+    pub(crate) returned: Returned,
+}
+
+impl Lost {
+    pub fn new(setup: &Setup, particles: usize) -> Lost {
+        let watched = (setup.guards.cuts as usize).min(setup.inlets.len());
+        let none = |count: usize| vec![0; count];
+        let outlets = setup.outlets.len();
+        let returned = Returned { inlets: none(watched), outlets: none(outlets), fallen: none(outlets) };
+        let origins = if watched > 0 { vec![Origin::default(); particles] } else { Vec::new() };
+        Lost { origins, any: false, returned }
+    }
+
+    /// A particle is added at the end.
+    pub fn push(&mut self) {
+        if !self.returned.inlets.is_empty() {
+            self.origins.push(Origin::default());
+        }
+    }
+
+    pub fn reorder(&mut self, order: &[u32]) {
+        if !self.returned.inlets.is_empty() {
+            self.origins = order.iter().map(|&o| self.origins[o as usize]).collect();
+        }
+    }
+
+    /// Particle `k` is free behind an inlet.
+    pub fn freed(&mut self, k: usize, inlet: u32) {
+        if (inlet as usize) < self.returned.inlets.len() {
+            self.origins[k] = Origin { inlet: inlet + 1, behind: false };
+            self.any = true;
+        }
+    }
+
+    pub fn fell_back(&mut self, outlet: u32) {
+        self.returned.fallen[outlet as usize] += 1;
+    }
+
+    pub fn came_upstream(&mut self, outlet: usize) {
+        self.returned.outlets[outlet] += 1;
+    }
+}
+
+impl Zones {
+    /// Refuses a particle on its way in that moves by more than the guard's share of its radius in a step.
+    fn fast(&self, time: f64, dt: f64, setup: &Setup) -> Result<(), Halt> {
+        let limit = setup.guards.motion;
+        for t in &self.travellers {
+            let Way::In(inlet) = t.way else { continue };
+            let speed = t.flow(time, self, setup).velocity.norm();
+            let share = speed * dt / t.start.radius;
+            if !(share <= limit) {
+                return Err(Halt::TooFast { time, id: t.start.id, inlet, speed, dt, share, limit });
+            }
+        }
+        Ok(())
+    }
+
+    /// How far a free particle is behind the calculation plane that it came by, less the length of the zone: above 0 it is behind
+    /// the generation plane; and its inlet. Counts those that come back.
+    fn came_back(&mut self, k: usize, place: &Vec3, radius: f64) -> Option<(u32, f64)> {
+        let origin = self.lost.origins[k];
+        if origin.inlet == 0 || self.gone[k] || self.busy[k] {
+            return None;
+        }
+        let inlet = origin.inlet - 1;
+        let zone = &self.inlets[inlet as usize];
+        let past = zone.past(place, radius);
+        if (past < 0.0) != origin.behind {
+            self.lost.origins[k].behind = past < 0.0;
+            self.lost.returned.inlets[inlet as usize] += u64::from(past < 0.0);
+        }
+        Some((inlet, -past - zone.length))
+    }
+}
+
+impl Simulation {
+    /// Looks for grains that zones have lost: one that came in by a cut and has gone back through the whole zone, and one that
+    /// comes in too fast for the step. Those behind a calculation plane again are counted. At no cost without inlets.
+    ///
+    /// # Errors
+    /// Such a grain.
+    pub fn look_back(&mut self) -> Result<(), Halt> {
+        let time = self.time();
+        self.zones.fast(time, self.dt, &self.setup)?;
+        let mut found = None;
+        for k in 0..if self.zones.lost.any { self.particles.len() } else { 0 } {
+            let Some((place, radius)) = self.tested(k) else { continue };
+            let Some((inlet, behind)) = self.zones.came_back(k, &place, radius) else {
+                continue;
+            };
+            if behind > 0.0 && self.setup.guards.zones && found.is_none() {
+                let (id, [x, y, z]) = (self.particles.id[k], [place.x, place.y, place.z]);
+                found = Some(Halt::CameBack { time, id, inlet, x, y, z, behind });
+            }
+        }
+        found.map_or(Ok(()), Err)
+    }
+
+    /// How many particles went back through planes so far.
+    pub fn returned(&self) -> &Returned {
+        &self.zones.lost.returned
+    }
+}

@@ -1,0 +1,130 @@
+//! Walls across periodic faces: each acts with all its images, one period away along every periodic axis.
+//!
+//! A wall that travels is counted back into the box by whole periods, those of the step of listing: a conveyor may run
+//! for ever. A plane has images along the axes that cross it; it is the same in all others. Which image a contact belongs
+//! to stands in its partner: number of the part + image × parts. When a particle comes back through the other face, or a wall is
+//! counted back, the same contact has another image ([`Image::before`]).
+
+use crate::simulation::Simulation;
+use crate::walls::motion::Pose;
+use geom::Vec3;
+
+/// An image: a digit of base 3 for each axis, 0, 1 or 2 = −1 periods.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Image(pub u32);
+
+/// Whole periods along x, y, z.
+pub type Periods = [i32; 3];
+
+impl Image {
+    fn of(periods: Periods) -> Image {
+        let [x, y, z] = periods.map(|n| n.rem_euclid(3) as u32);
+        Image(x + 3 * y + 9 * z)
+    }
+
+    fn periods(self) -> Periods {
+        let digit = |d: u32| [0, 1, -1][(d % 3) as usize];
+        [digit(self.0), digit(self.0 / 3), digit(self.0 / 9)]
+    }
+
+    /// Where the image is, away from the wall [m].
+    pub fn shift(self, period: &Vec3) -> Vec3 {
+        if self.0 == 0 {
+            return Vec3::zeros();
+        }
+        let n = self.periods();
+        Vec3::new(n[0] as f64 * period.x, n[1] as f64 * period.y, n[2] as f64 * period.z)
+    }
+
+    /// Which image this was before a particle was moved, and its wall counted back, by so many periods more.
+    pub fn before(self, particle: Periods, wall: Periods) -> Image {
+        let now = self.periods();
+        Image::of([0, 1, 2].map(|a| now[a] - particle[a] + wall[a]))
+    }
+}
+
+/// Which images of a wall particles may touch.
+pub struct Around {
+    period: Vec3,
+    lo: Vec3,
+    hi: Vec3,
+}
+
+impl Around {
+    /// Images near a particle at `p` that reaches so far [m]; the wall itself first.
+    pub fn near(&self, p: &Vec3, reach: f64) -> impl Iterator<Item = (Image, Vec3)> {
+        let mut digits = [(1, [0, 0, 0]); 3];
+        for a in 0..3 {
+            // Written so that NaN, a plane along this axis, has none.
+            if self.period[a] > 0.0 {
+                let (count, list) = &mut digits[a];
+                if p[a] + reach > self.lo[a] + self.period[a] {
+                    list[*count] = 1;
+                    *count += 1;
+                }
+                if p[a] - reach < self.hi[a] - self.period[a] {
+                    list[*count] = -1;
+                    *count += 1;
+                }
+            }
+        }
+        let period = self.period;
+        let [x, y, z] = digits;
+        let all = (0..z.0).flat_map(move |k| (0..y.0).flat_map(move |j| (0..x.0).map(move |i| (i, j, k))));
+        all.map(move |(i, j, k)| {
+            let image = Image::of([x.1[i], y.1[j], z.1[k]]);
+            (image, image.shift(&period))
+        })
+    }
+}
+
+impl Simulation {
+    /// Length of the box along periodic axes [m], 0 along others.
+    pub(crate) fn period(&self) -> Vec3 {
+        crate::state::clumps::periods(&self.setup.periodic)
+    }
+
+    /// Where a wall is now, counted back into the box.
+    pub(crate) fn pose_in_box(&self, wall: usize, time: f64) -> Pose {
+        self.count_back(wall, self.pose(wall, time))
+    }
+
+    /// A pose of a wall, counted back into the box.
+    pub(crate) fn count_back(&self, wall: usize, pose: Pose) -> Pose {
+        let Some(back) = self.counted_back.get(wall).filter(|n| **n != [0; 3]) else { return pose };
+        let period = self.period();
+        let by = Vec3::from([0, 1, 2].map(|a| -f64::from(back[a]) * period[a]));
+        pose.shifted(by, Vec3::zeros())
+    }
+
+    /// Whole periods that the middle of each wall was away from the box when neighbours were listed; none where nothing is
+    /// periodic.
+    pub(crate) fn travelled(&self) -> Vec<Periods> {
+        let period = self.period();
+        if period == Vec3::zeros() {
+            return Vec::new();
+        }
+        let middle = Vec3::from(self.setup.periodic.map(|p| p.map_or(0.0, |(lo, hi)| 0.5 * (lo + hi))));
+        let whole = |shift: f64, period: f64| if period > 0.0 { (shift / period).round() as i32 } else { 0 };
+        let of = |w: usize| {
+            let (point, home) = self.walls[w].counted_from(middle);
+            let away = self.pose_listed(w).place(&point) - home;
+            [0, 1, 2].map(|a| whole(away[a], period[a]))
+        };
+        (0..self.walls.len()).map(of).collect()
+    }
+
+    /// Where the images of a wall may be met.
+    pub(crate) fn around(&self, wall: usize, pose: &Pose) -> Around {
+        let [lo, hi] = self.walls[wall].bounds;
+        let period = self.period();
+        if !lo.iter().all(|x| x.is_finite()) {
+            return Around { period, lo, hi };
+        }
+        let corner = |k: usize| {
+            pose.place(&Vec3::from([0, 1, 2].map(|a| if k >> a & 1 == 1 { hi[a] } else { lo[a] })))
+        };
+        let (lo, hi) = (1..8).map(corner).fold((corner(0), corner(0)), |(l, h), c| (l.inf(&c), h.sup(&c)));
+        Around { period, lo, hi }
+    }
+}

@@ -1,0 +1,277 @@
+//! Walls: a shape × a motion, yielding contact points that are rows like a particle's.
+//!
+//! A wall sphere is its centre and radius; a plane or a triangle is the point of it that is nearest to the particle, with radius
+//! 0. A wall has no mass of its own in a contact (1/m = 0, so m* = m_i). Across a periodic face its images act: the partner
+//! of a contact tells part and image ([`crate::images`]).
+
+pub(crate) mod images;
+pub(crate) mod motion;
+pub(crate) mod seams;
+
+use crate::setup::Motion;
+use crate::setup::Wall;
+use crate::setup::WallShape;
+use crate::simd::Row;
+use crate::simd::Row4;
+use crate::state::particles::FAR;
+use crate::state::particles::is_away;
+use crate::walls::images::Image;
+use crate::walls::motion::Pose;
+use crate::walls::seams::Nearest;
+use crate::walls::seams::Slots;
+use geom::Boxes;
+use geom::Grid;
+use geom::Plane;
+use geom::Vec3;
+
+/// A wall, ready to be met.
+#[derive(Debug, Clone)]
+pub struct WallBody {
+    /// Motion.
+    pub motion: Motion,
+    surface: Surface,
+    span: f64,
+    /// Largest gap at which a contact that was made still acts [m].
+    reach: f64,
+    /// Lowest and highest corner at t = 0 [m].
+    pub bounds: [Vec3; 2],
+}
+
+#[derive(Debug, Clone)]
+enum Surface {
+    /// In the grid's sorted order.
+    Spheres {
+        centres: Vec<Vec3>,
+        radii: Vec<f64>,
+        grid: Grid,
+        largest: f64,
+        original: Vec<u32>,
+    },
+    Plane(Plane),
+    Triangles {
+        corners: Vec<[Vec3; 3]>,
+        boxes: Boxes,
+    },
+}
+
+impl WallBody {
+    /// Sorts wall spheres into their own grid and triangles into their tree, once; contacts act up to a gap of `reach` [m].
+    pub fn new(wall: &Wall, reach: f64) -> WallBody {
+        let farthest = |points: &mut dyn Iterator<Item = Vec3>| {
+            points.map(|p| (p - wall.motion.through).norm()).fold(0.0, f64::max)
+        };
+        let (surface, span) = match &wall.shape {
+            WallShape::Spheres(spheres) => {
+                let largest = spheres.iter().map(|s| s.1).fold(0.0, f64::max);
+                let span = farthest(&mut spheres.iter().map(|s| s.0)) + largest;
+                (sorted_spheres(spheres, largest), span)
+            }
+            // Only a plane that turns in itself may turn.
+            WallShape::Plane(plane) => (Surface::Plane(*plane), 0.0),
+            WallShape::Mesh(mesh) => {
+                let span = farthest(&mut mesh.vertices.iter().copied());
+                let corners: Vec<[Vec3; 3]> = mesh.triangles().collect();
+                let around = |t: &[Vec3; 3]| [t[0].inf(&t[1]).inf(&t[2]), t[0].sup(&t[1]).sup(&t[2])];
+                let boxes: Vec<[Vec3; 2]> = corners.iter().map(around).collect();
+                (Surface::Triangles { boxes: Boxes::new(&boxes), corners }, span)
+            }
+        };
+        WallBody { motion: wall.motion, bounds: bounds(&surface), surface, span, reach }
+    }
+
+    /// Whether contact points must be found anew in each step.
+    pub fn renewed(&self) -> bool {
+        self.flat() || self.motion.moves()
+    }
+
+    /// Whether its contact points belong to a flat surface.
+    pub fn flat(&self) -> bool {
+        !matches!(self.surface, Surface::Spheres { .. })
+    }
+
+    /// Upper bound of the speed of its surface [m/s].
+    pub fn fastest(&self) -> f64 {
+        self.fastest_driven() + self.motion.servo.map_or(0.0, |s| s.speed_limit)
+    }
+
+    /// The like without the servo.
+    pub fn fastest_driven(&self) -> f64 {
+        self.motion.fastest(self.span)
+    }
+
+    /// A point of the wall at t = 0, and where it is to be near [m]: its middle in the middle of the box, a plane where it
+    /// began, so that no more than must be is behind it.
+    pub fn counted_from(&self, middle: Vec3) -> (Vec3, Vec3) {
+        match &self.surface {
+            Surface::Plane(plane) => (plane.point, plane.point),
+            _ => ((self.bounds[0] + self.bounds[1]) * 0.5, middle),
+        }
+    }
+
+    /// Number of its spheres or triangles.
+    pub fn parts(&self) -> u32 {
+        match &self.surface {
+            Surface::Spheres { centres, .. } => centres.len() as u32,
+            Surface::Plane(_) => 1,
+            Surface::Triangles { corners, .. } => corners.len() as u32,
+        }
+    }
+
+    /// Wall spheres: centre and radius [m], in the order they were given.
+    pub fn spheres(&self, pose: &Pose) -> Vec<(Vec3, f64)> {
+        let Surface::Spheres { centres, radii, original, .. } = &self.surface else { return Vec::new() };
+        let mut out = vec![(Vec3::zeros(), 0.0); centres.len()];
+        for (k, &o) in original.iter().enumerate() {
+            out[o as usize] = (pose.place(&centres[k]), radii[k]);
+        }
+        out
+    }
+
+    /// Parts of the wall, as at t = 0, within `reach` [m] of `p`, in order; of an image of it when `image`.
+    pub fn parts_near(&self, p: Vec3, reach: f64, image: bool, mut found: impl FnMut(u32)) {
+        match &self.surface {
+            Surface::Spheres { centres, radii, grid, largest, .. } => {
+                for k in grid.runs_near(p, reach + largest).flatten() {
+                    let close = reach + radii[k];
+                    if (centres[k] - p).norm_squared() < close * close {
+                        found(k as u32);
+                    }
+                }
+            }
+            Surface::Plane(plane) => {
+                // Behind a plane is where it is to be noticed; behind its image is the next period.
+                let distance = plane.signed_distance(&p);
+                if distance < reach && (!image || distance > -reach) {
+                    found(0);
+                }
+            }
+            Surface::Triangles { corners, boxes } => {
+                let mut near = Vec::new();
+                boxes.near(p, reach, |k| near.push(k));
+                near.sort_unstable();
+                for k in near {
+                    if Nearest::of(corners[k as usize], p).way.norm_squared() < reach * reach {
+                        found(k);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Contact points of one particle, whose place and radius are `row`: `partners` are all that it may touch.
+    pub fn meet(
+        &self,
+        (pose, period): (&Pose, &Vec3),
+        row: &Row,
+        partners: &[u32],
+        (rows, spins): (&mut [Row], &mut [Row4]),
+        mut slots: Slots,
+    ) {
+        if is_away(row) {
+            rows.fill(FAR[0]);
+            spins.fill(Row4::default());
+            return;
+        }
+        let centre = Vec3::new(row[0], row[1], row[2]);
+        let count = self.parts();
+        let part = |k: usize| (partners[k] % count) as usize;
+        let shift = |k: usize| Image(partners[k] / count).shift(period);
+        let mut put = |k: usize, place: Vec3, radius: f64| {
+            let shift = shift(k);
+            let (v, p) = (pose.velocity(&place), place + shift);
+            rows[k] = Row([p.x, p.y, p.z, radius, v.x, v.y, v.z, 0.0]);
+            if let Some(spin) = spins.get_mut(k) {
+                *spin = Row4([pose.turn.x, pose.turn.y, pose.turn.z, 0.0]);
+            }
+        };
+        match &self.surface {
+            Surface::Spheres { centres, radii, .. } => {
+                (0..partners.len()).for_each(|k| put(k, pose.place(&centres[part(k)]), radii[part(k)]));
+            }
+            Surface::Plane(plane) => {
+                for k in 0..partners.len() {
+                    put(k, pose.place(&plane.project(&pose.home(&(centre - shift(k))))), 0.0);
+                }
+            }
+            Surface::Triangles { corners, .. } => {
+                let local = |k: usize| pose.home(&(centre - shift(k)));
+                let mut near: Vec<Nearest> =
+                    (0..partners.len()).map(|k| Nearest::of(corners[part(k)], local(k))).collect();
+                seams::count(&mut near, row[3], self.reach);
+                slots.hand_over(&near, row[3]);
+                for (k, point) in near.iter().enumerate() {
+                    // What is no contact of its own is put out of reach.
+                    let far = Vec3::repeat(FAR[1][0]);
+                    put(k, if point.counts { pose.place(&(local(k) + point.way)) } else { far }, 0.0);
+                }
+            }
+        }
+    }
+}
+
+fn sorted_spheres(spheres: &[(Vec3, f64)], largest: f64) -> Surface {
+    let centres: Vec<Vec3> = spheres.iter().map(|s| s.0).collect();
+    let cell = if largest > 0.0 { 2.0 * largest } else { 1.0 };
+    let order = Grid::new(&centres, cell).order().to_vec();
+    let centres: Vec<Vec3> = order.iter().map(|&k| centres[k as usize]).collect();
+    let grid = Grid::new(&centres, cell);
+    let radii = order.iter().map(|&k| spheres[k as usize].1).collect();
+    Surface::Spheres { centres, radii, grid, largest, original: order }
+}
+
+/// Lowest and highest corner; a plane has none along the axes that lie in it, so that it has no image there.
+fn bounds(surface: &Surface) -> [Vec3; 2] {
+    match surface {
+        Surface::Spheres { centres, radii, .. } => {
+            let (lo, hi) = geom::grid::bounds(centres);
+            let largest = Vec3::repeat(radii.iter().copied().fold(0.0, f64::max));
+            [lo - largest, hi + largest]
+        }
+        Surface::Plane(plane) => {
+            let across = plane.normal.map(|n| if n.abs() > 1e-9 { f64::INFINITY } else { f64::NAN });
+            [-across, across]
+        }
+        Surface::Triangles { boxes, .. } => boxes.bounds(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simd::number::Form;
+    use crate::state::particles::away;
+
+    /// Who is out of the calculation touches no shape of wall, whichever way it looks.
+    #[test]
+    fn no_wall_is_met_far_away() {
+        let plane = |normal: Vec3| {
+            WallShape::Plane(Plane { point: Vec3::new(0.1, 0.2, 0.3), normal: normal.normalize() })
+        };
+        let corners = [Vec3::zeros(), Vec3::x(), Vec3::y()];
+        let mesh = geom::mesh::TriMesh::new(corners.to_vec(), vec![[0, 1, 2]]).expect("sound");
+        let shapes = [
+            plane(Vec3::new(-1.0, 0.0, 1.0)),
+            plane(Vec3::new(1.0, -1.0, 0.0)),
+            plane(Vec3::new(1.0, 1.0, -2.0)),
+            plane(Vec3::new(1.0, 1.0, 1.0)),
+            WallShape::Mesh(mesh),
+            WallShape::Spheres(vec![(Vec3::zeros(), 1.0)]),
+        ];
+        for shape in shapes {
+            let wall = Wall { name: "w".to_owned(), material: 0, shape, motion: Motion::still() };
+            let body = WallBody::new(&wall, 0.0);
+            for k in [0, 1, 2, 1_000_000] {
+                let [x, y, z] = away(k);
+                let row = Row([x, y, z, 0.01, 0.0, 0.0, 0.0, 1.0]);
+                let mut found = [Row::default()];
+                let memory = &mut [];
+                let active = &mut [];
+                let slots = Slots { memory, active, form: Form::default(), first: 0, columns: 0 };
+                let pose = wall.motion.pose(0.0);
+                body.meet((&pose, &Vec3::zeros()), &row, &[0], (&mut found, &mut []), slots);
+                let square: f64 = (0..3).map(|a| (found[0][a] - row[a]).powi(2)).sum();
+                assert!(square.is_finite() && square > 1e200, "{:?}, row {k}: {square}", wall.shape);
+            }
+        }
+    }
+}

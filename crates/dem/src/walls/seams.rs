@@ -1,0 +1,160 @@
+//! A particle on the seams of a mesh: which of the nearest points of its triangles are contacts, and what they remember.
+//!
+//! A contact is where the distance to the mesh has a local minimum: a point inside a face, or a point on an edge or at a corner
+//! that lies on no triangle which comes nearer elsewhere. So a particle on a seam touches once, in a corner between two
+//! faces twice. After Kremmer & Favier (2001), Int. J. Numer. Methods Eng. 51. Two points closer than the radius √(2 r δ) of the patch that the deeper one
+//! presses, or a tenth of r where that is less, are one contact, too: faces that are nearly in one plane never push
+//! twice.
+//!
+//! Memory belongs to a contact, not to a triangle: where a triangle no longer counts that did in the step before, and
+//! a neighbour counts that remembers nothing, the neighbour takes over (the nearest one, within a quarter of r: contact points
+//! move less in a step). The spring is turned into the new tangent plane by the effect itself.
+
+use crate::simd::BLOCK;
+use crate::simd::number::Form;
+use geom::Vec3;
+use geom::triangle::Feature;
+use geom::triangle::closest_feature;
+
+/// Two points closer than this share of the distance are one contact [–].
+const SAME_POINT: f64 = 1e-6;
+/// Farther than this share of the radius no two points are one contact [–].
+const LARGEST_PATCH: f64 = 0.1;
+/// Memory goes no farther than this share of the radius [–].
+const STRIDE: f64 = 0.25;
+/// Points farther than this share of the radius are no contacts where nothing adheres [–].
+const NEAR: f64 = 1.02;
+
+/// The nearest point of one triangle, seen from the particle.
+#[derive(Debug, Clone, Copy)]
+pub struct Nearest {
+    triangle: [Vec3; 3],
+    centre: Vec3,
+    /// From the centre of the particle to the point [m].
+    pub way: Vec3,
+    square: f64,
+    face: bool,
+    /// Whether it is a contact.
+    pub counts: bool,
+}
+
+impl Nearest {
+    /// Of a triangle, to a particle at `centre` [m].
+    pub fn of(triangle: [Vec3; 3], centre: Vec3) -> Nearest {
+        let (point, feature) = closest_feature(triangle, centre);
+        let way = point - centre;
+        let face = feature == Feature::Face;
+        Nearest { triangle, centre, way, square: way.norm_squared(), face, counts: false }
+    }
+
+    /// Whether the like point of a particle lies on this triangle.
+    fn holds(&self, way: &Vec3) -> bool {
+        let place = self.centre + way;
+        let tolerance = SAME_POINT * way.norm();
+        (closest_feature(self.triangle, place).0 - place).norm_squared() <= tolerance * tolerance
+    }
+
+    /// Square of the distance within which another point is the same contact [m²].
+    fn patch(&self, radius: f64) -> f64 {
+        let distance = self.square.sqrt();
+        let pressed = (2.0 * radius * (radius - distance)).clamp(0.0, (LARGEST_PATCH * radius).powi(2));
+        pressed.max((SAME_POINT * distance).powi(2))
+    }
+}
+
+/// Says which of the nearest points of a particle of `radius` [m] are contacts, where these act up to a gap of `reach` [m].
+pub fn count(near: &mut [Nearest], radius: f64, reach: f64) {
+    let limit = (NEAR * radius).max(radius + reach).powi(2);
+    let mut order: Vec<usize> = (0..near.len()).filter(|&k| near[k].square <= limit).collect();
+    if let [only] = order[..] {
+        near[only].counts = true;
+        return;
+    }
+    order.sort_by(|&a, &b| {
+        let (p, q) = (&near[a], &near[b]);
+        p.square.total_cmp(&q.square).then(a.cmp(&b))
+    });
+    for (n, &k) in order.iter().enumerate() {
+        let mine = near[k];
+        let same = |m: &Nearest| m.counts && (m.way - mine.way).norm_squared() <= m.patch(radius);
+        let nearer = |m: &Nearest| !mine.face && m.square < mine.square && m.holds(&mine.way);
+        near[k].counts = !order[..n].iter().any(|&m| same(&near[m]) || nearer(&near[m]));
+    }
+}
+
+/// Contact memory of some places of one segment.
+pub struct Slots<'a> {
+    /// Of the whole segment, by block and column.
+    pub memory: &'a mut [f64],
+    /// Whether each block of it may hold any.
+    pub active: &'a mut [bool],
+    /// How it is kept.
+    pub form: Form,
+    /// First of the places.
+    pub first: usize,
+    /// Numbers of each contact.
+    pub columns: usize,
+}
+
+impl Slots<'_> {
+    /// The same from place `by` on.
+    pub fn from(&mut self, by: usize) -> Slots<'_> {
+        let Slots { memory, active, form, first, columns } = self;
+        Slots { memory, active, form: *form, first: *first + by, columns: *columns }
+    }
+
+    fn at(&self, k: usize, column: usize) -> usize {
+        self.form.memory_at(0, self.first + k, column, self.columns)
+    }
+
+    fn empty(&self, k: usize) -> bool {
+        (0..self.columns).all(|c| self.form.get(self.memory, self.at(k, c)) == 0.0)
+    }
+
+    /// Gives the memory of points that no longer count to neighbours that remember nothing.
+    pub fn hand_over(&mut self, near: &[Nearest], radius: f64) {
+        if self.columns == 0 {
+            return;
+        }
+        for k in (0..near.len()).filter(|&k| !near[k].counts) {
+            if self.empty(k) {
+                continue;
+            }
+            let away = |m: usize| (near[m].way - near[k].way).norm_squared();
+            let free = (0..near.len()).filter(|&m| near[m].counts && self.empty(m));
+            let nearest = free.min_by(|&a, &b| away(a).total_cmp(&away(b)).then(a.cmp(&b)));
+            if let Some(m) = nearest.filter(|&m| away(m) <= (STRIDE * radius).powi(2)) {
+                for c in 0..self.columns {
+                    let (from, to) = (self.at(k, c), self.at(m, c));
+                    let x = self.form.get(self.memory, from);
+                    self.form.put(self.memory, to, x);
+                    self.form.put(self.memory, from, 0.0);
+                }
+                // Or a block in which nothing touches is passed over, by as many contacts as are computed at once.
+                self.active[(self.first + m) / BLOCK] = true;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is handed to a contact in a block that was passed over is computed from then on, all of the block.
+    #[test]
+    fn a_block_that_is_given_memory_is_active() {
+        let triangle = [Vec3::zeros(), Vec3::x(), Vec3::y()];
+        let form = Form::default();
+        let (mut memory, mut active) = (vec![0.0; 2 * BLOCK], [true, false]);
+        let at = |k: usize| form.memory_at(0, k, 0, 1);
+        form.put(&mut memory, at(7), 3.0);
+        // The grain's triangles are the last of one block and the first of the next.
+        let mut near = [Nearest::of(triangle, Vec3::new(0.2, 0.2, 1.0)); 2];
+        near[1].counts = true;
+        let mut slots = Slots { memory: &mut memory, active: &mut active, form, first: 0, columns: 1 };
+        slots.from(7).hand_over(&near, 1.0);
+        assert_eq!((form.get(&memory, at(7)), form.get(&memory, at(8))), (0.0, 3.0));
+        assert_eq!(active, [true, true]);
+    }
+}
