@@ -52,8 +52,7 @@ pub use twisting_resistance::TwistingResistance;
 pub use weakening::Friction;
 pub use weakening::Weakening;
 
-use crate::simd::Lane;
-use crate::simd::V;
+use crate::simd::{Lane, V};
 
 /// What effects know of a contact; i is pushed along the normal.
 #[derive(Clone, Copy)]

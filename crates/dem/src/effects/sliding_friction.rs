@@ -15,8 +15,8 @@
 use super::capped_spring::{CappedSpring, turned};
 use super::describe::{Description, Field, Key, Kind, Range, Slot};
 use super::pair::{Pair, tangential_ratio};
-use super::weakening::{self, Friction};
-use super::{Contact, ContactEffect, Effect, Load};
+use super::weakening::Friction;
+use super::{Contact, ContactEffect, Effect, Load, weakening};
 use crate::simd::{Lane, V};
 
 /// ξ.

@@ -3,23 +3,12 @@
 //! The sum of the loads of contacts that rest is kept for each particle; other contacts are added to it, in the order of their places. So
 //! the order of a sum depends on the lists and on who sleeps, and on nothing else.
 
-use crate::forces::tile::Part;
-use crate::forces::tile::Seen;
+use crate::forces::tile::{Part, Seen};
 use crate::kernel::sums::Sums;
 use crate::passes::sleep::runs;
 use crate::simd::BLOCK;
+use crate::state::sleepers::Known;
 use std::ops::Range;
-
-/// Who sleeps, and since when that is so.
-#[derive(Clone, Copy)]
-pub struct Known<'a> {
-    /// Whether each particle, and the two that fill up blocks, sleeps in this step.
-    pub asleep: &'a [bool],
-    /// Steps that were ended.
-    pub turns: u64,
-    /// For each tile, the last of them in which somebody fell asleep or woke.
-    pub changed: &'a [u64],
-}
 
 /// What of a tile rests.
 #[derive(Debug, Default)]

@@ -1,21 +1,12 @@
 //! Tiles of the lists, with what is computed for them: what a thread works on.
 
-use crate::forces::resting::Known;
-use crate::kernel::Common;
-use crate::kernel::LEDGER;
-use crate::kernel::Task;
-use crate::kernel::sums::Arrival;
-use crate::kernel::sums::Computed;
-use crate::kernel::sums::Sums;
-use crate::neighbours::contacts::Kind;
-use crate::neighbours::contacts::Met;
-use crate::neighbours::contacts::Segment;
-use crate::neighbours::contacts::With;
-use crate::simd::BLOCK;
-use crate::simd::Row;
-use crate::simd::Row4;
-use crate::simd::Width;
+use crate::kernel::sums::{Arrival, Computed, Sums};
+use crate::kernel::{Common, LEDGER, Task};
+use crate::model::kind::{Kind, With};
+use crate::neighbours::contacts::{Met, Segment};
 use crate::simd::number::Form;
+use crate::simd::{BLOCK, Row, Row4, Width};
+use crate::state::sleepers::Known;
 use crate::walls::WallBody;
 use crate::walls::motion::Pose;
 use crate::walls::seams::Slots;

@@ -2,24 +2,12 @@
 
 pub(crate) mod sums;
 
-use crate::effects::Contact;
-use crate::effects::Effect;
-use crate::effects::Load;
-use crate::effects::Memory;
+use crate::effects::{Contact, Effect, Load, Memory};
 use crate::kernel::sums::Sums;
-use crate::simd::BLOCK;
-use crate::simd::Lane;
-use crate::simd::Places;
-use crate::simd::Row;
-use crate::simd::Row4;
-use crate::simd::V;
-use crate::simd::Width;
-use crate::simd::fetch;
-use crate::simd::number::COUPLE;
-use crate::simd::number::FORCE;
-use crate::simd::number::FORCE_AND_MOMENT;
-use crate::simd::number::Form;
-use crate::simd::number::Number;
+use crate::simd::number::{COUPLE, FORCE, FORCE_AND_MOMENT, Form, Number};
+use crate::simd::{BLOCK, Lane, Places, Row, Row4, V, Width, fetch};
+use std::marker::PhantomData;
+
 #[cfg(target_arch = "x86_64")]
 use crate::simd::two::Two;
 #[cfg(target_arch = "x86_64")]
@@ -30,7 +18,6 @@ use crate::simd::x86::X8;
 use crate::simd::x86_single::Y4;
 #[cfg(target_arch = "x86_64")]
 use crate::simd::x86_single::Y8;
-use std::marker::PhantomData;
 
 /// Blocks between one whose rows are asked for and the one that is computed; chosen on the bench pile.
 const AHEAD: usize = 4;

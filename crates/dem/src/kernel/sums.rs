@@ -5,15 +5,9 @@
 //! tile has its turn: of images across periodic faces, and of earlier tiles. The order depends on the lists alone, so that no sum depends
 //! on threads.
 
-use crate::simd::Four;
-use crate::simd::fetch;
-use crate::simd::number::COUPLE;
-use crate::simd::number::FORCE;
-use crate::simd::number::Form;
-use crate::simd::number::Number;
-use crate::simd::number::as_kept;
-use crate::simd::number::of_a_load;
+use crate::simd::number::{COUPLE, FORCE, Form, Number, as_kept, of_a_load};
 use crate::simd::scalar::Each;
+use crate::simd::{Four, fetch};
 
 /// Arrivals between one whose load is asked for and the one that is added; chosen on the bench pile.
 const AHEAD: usize = 24;

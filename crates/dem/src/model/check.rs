@@ -1,29 +1,12 @@
 //! What is refused before a run starts.
 
-use crate::effects::Contradiction;
-use crate::effects::Description;
-use crate::effects::Elastic;
-use crate::effects::Key as NumberKey;
-use crate::effects::Slot;
-use crate::effects::active;
+use crate::effects::{Contradiction, Description, Elastic, Key as NumberKey, Slot, active};
 use crate::model::error::SetupError;
-use crate::model::limit::largest_reach;
-use crate::model::limit::normal;
-use crate::model::limit::radii_by_material;
-use crate::setup::ContactLaw;
-use crate::setup::Drag;
-use crate::setup::DragLaw;
-use crate::setup::Particle;
-use crate::setup::Precision;
-use crate::setup::Servo;
-use crate::setup::Setup;
-use crate::setup::Sleep;
-use crate::setup::Step;
-use crate::setup::WallShape;
+use crate::model::limit::{largest_reach, normal, radii_by_material};
+use crate::setup::{ContactLaw, Drag, DragLaw, Particle, Precision, Servo, Setup, Sleep, Step, WallShape};
 use geom::Vec3;
 use std::collections::HashSet;
-use std::fmt::Display;
-use std::fmt::Formatter;
+use std::fmt::{Display, Formatter};
 
 /// Checks every number of a setup that would make a run meaningless.
 pub fn check(setup: &Setup) -> Result<(), SetupError> {

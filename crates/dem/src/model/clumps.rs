@@ -1,17 +1,8 @@
 //! Clumps that are refused before a run starts.
 
-use crate::model::check::finite;
-use crate::model::check::near;
-use crate::model::check::within;
+use crate::model::check::{finite, near, within};
 use crate::model::error::SetupError;
-use crate::setup::Body;
-use crate::setup::ClumpShape;
-use crate::setup::EntryClump;
-use crate::setup::Particle;
-use crate::setup::Setup;
-use crate::setup::WallShape;
-use crate::setup::Zone;
-use crate::setup::ZoneTest;
+use crate::setup::{Body, ClumpShape, EntryClump, Particle, Setup, WallShape, Zone, ZoneTest};
 use geom::Vec3;
 use nalgebra::UnitQuaternion;
 use std::collections::HashSet;

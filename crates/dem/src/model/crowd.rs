@@ -10,11 +10,8 @@
 
 use crate::effects::ALONG;
 use crate::forces::sweep::share;
-use crate::setup::Setup;
-use crate::setup::Wall;
-use crate::setup::WallShape;
-use geom::Grid;
-use geom::Vec3;
+use crate::setup::{Setup, Wall, WallShape};
+use geom::{Grid, Vec3};
 
 /// Centres that one thread counts the neighbours of.
 const TOGETHER: usize = 4096;

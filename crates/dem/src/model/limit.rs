@@ -22,26 +22,13 @@
 //! itself ([`crate::effects::ConstantRolling`]). On a wall of spheres that lie deep within each other N push one way at once, Σ n nᵀ = N
 //! ([`crate::crowd`]): where N > 4, all numbers of contacts count N/4 times.
 
-use crate::effects::ALONG;
-use crate::effects::Elastic;
-use crate::effects::Meeting;
-use crate::effects::NormalLaw;
-use crate::effects::Slot;
-use crate::effects::TURNS;
-use crate::effects::TurningPair;
-use crate::effects::active;
-use crate::effects::damping_ratio;
-use crate::effects::tangential_ratio;
-use crate::model::crowd::Crowds;
-use crate::model::crowd::met;
-use crate::model::crowd::rounding;
+use crate::effects::{
+    ALONG, Elastic, Meeting, NormalLaw, Slot, TURNS, TurningPair, active, damping_ratio, tangential_ratio,
+};
+use crate::model::crowd::{Crowds, met, rounding};
 use crate::model::error::SetupError;
-use crate::setup::ContactLaw;
-use crate::setup::Material;
-use crate::setup::Setup;
-use crate::setup::Wall;
 use crate::setup::clumps::Yielding;
-use crate::simulation::Simulation;
+use crate::setup::{ContactLaw, Material, Setup, Wall};
 use crate::state::particles::mass;
 
 /// Σ (1 − n nᵀ) of the twelve contacts of a close packing [–].
@@ -303,12 +290,5 @@ impl Between {
         let slides = root(slide * across + w * a, slide * gamma * rub + w * b);
         let turns = root(w * slide * across + a, w * slide * gamma * rub + b);
         moves.min(slides).min(turns).min((slide * across).sqrt().recip())
-    }
-}
-
-impl Simulation {
-    /// Goes on with a step [s] that nobody has checked: to find by trial where a run turns unstable.
-    pub fn set_step_unchecked(&mut self, dt: f64) {
-        self.dt = dt;
     }
 }

@@ -1,9 +1,101 @@
-//! What is resolved once.
+//! What is fixed while a simulation runs: resolved once from a setup, read by everything, changed by nothing.
+//!
+//! `check` refuses numbers without meaning, `limit` bounds the time step (with `crowd` for dense walls and `bonds`), `start` makes
+//! the kinds of contact, each with its composition of effects. Uses setup, effects, walls and kernel.
 
 pub mod bonds;
 pub mod check;
 pub mod clumps;
 pub mod crowd;
 pub mod error;
+pub mod kind;
 pub mod limit;
 pub mod start;
+
+use crate::effects::needed;
+use crate::model::error::SetupError;
+use crate::model::kind::Kind;
+use crate::model::limit::largest_reach;
+use crate::model::start::{kinds, mean_radius, servo_gains, slow_enough, time_step};
+use crate::setup::{Precision, Setup};
+use crate::simd::Width;
+use crate::simd::number::Form;
+use crate::space::search::SKIN;
+use crate::walls::WallBody;
+use geom::Vec3;
+
+/// Steps that margins are made for; chosen on the bench pile.
+const HORIZON: f64 = 100.0;
+
+/// What is fixed while a simulation runs.
+pub struct Model {
+    /// The setup, without the particles and clumps that it begins with.
+    pub setup: Setup,
+    /// Time step [s].
+    pub dt: f64,
+    /// Largest gap at which a contact that was made still acts [m]; the skin is no less.
+    pub reach: f64,
+    /// Skin at the start [m].
+    pub skin: f64,
+    /// Lanes that contacts are computed with.
+    pub width: Width,
+    /// Walls as at t = 0.
+    pub walls: Vec<WallBody>,
+    /// What the gain of each servo is made of, by wall [N·s/m].
+    pub servo_gains: Vec<f64>,
+    /// Kinds of contact.
+    pub kinds: Vec<Kind>,
+    /// Steps that the margins of particles are made for; 0 where the setup gives the skin.
+    pub horizon: f64,
+    /// Mean radius [m].
+    pub mean_radius: f64,
+    /// Whether particles turn.
+    pub rotates: bool,
+}
+
+impl Model {
+    /// Checks a setup and resolves it, with the time step `begun` [s] of a run that is resumed, or with the one that the setup asks for.
+    ///
+    /// # Errors
+    /// Everything that would make the run wrong or unstable.
+    pub fn new(setup: Setup, width: Width, begun: Option<f64>) -> Result<Model, SetupError> {
+        // Wide lanes are unsafe without it.
+        if !Width::available().contains(&width) {
+            return Err(SetupError::NoWidth(width));
+        }
+        check::check(&setup)?;
+        let contacts = setup.contacts.iter().map(|c| needed(c).0).collect();
+        let setup = Setup { contacts, ..setup };
+        let dt = begun.map_or_else(|| time_step(&setup), Ok)?;
+        let kinds = kinds(&setup)?;
+        let mean_radius = mean_radius(&setup);
+        let reach = largest_reach(&setup);
+        let skin = setup.skin.unwrap_or(SKIN.start * mean_radius).max(reach);
+        let horizon = if setup.skin.is_some() { 0.0 } else { HORIZON };
+        let walls: Vec<WallBody> = setup.walls.iter().map(|w| WallBody::new(w, reach)).collect();
+        slow_enough(&setup, &walls, dt)?;
+        let servo_gains = servo_gains(&setup, dt);
+        let rotates = kinds.iter().any(|k| k.kernel.rotates()) || !setup.bonds.is_empty();
+        Ok(Model { setup, dt, reach, skin, width, walls, servo_gains, kinds, horizon, mean_radius, rotates })
+    }
+
+    /// How what is computed of contacts is kept.
+    pub fn form(&self) -> Form {
+        Form { rotates: self.rotates, single: self.setup.precision == Precision::Single }
+    }
+
+    /// Length of the box along periodic axes [m], 0 along others.
+    pub fn period(&self) -> Vec3 {
+        crate::state::clumps::periods(&self.setup.periodic)
+    }
+
+    /// A position, brought back into the periodic box.
+    pub fn wrapped(&self, mut p: Vec3) -> Vec3 {
+        for a in 0..3 {
+            if let Some((lo, hi)) = self.setup.periodic[a] {
+                p[a] -= (hi - lo) * ((p[a] - lo) / (hi - lo)).floor();
+            }
+        }
+        p
+    }
+}

@@ -1,19 +1,13 @@
 //! What a simulation begins with: its step, its kinds of contact.
 
-use crate::effects::Elastic;
-use crate::effects::Pair;
-use crate::effects::compose;
-use crate::model::crowd::Crowds;
+use crate::effects::{Elastic, Meeting, Pair, compose, damping_ratio};
+use crate::model::crowd::{Crowds, met};
 use crate::model::error::SetupError;
-use crate::model::limit::contact_between;
-use crate::model::limit::critical_step;
-use crate::model::limit::grains;
-use crate::model::limit::largest;
-use crate::model::limit::radii_by_material;
-use crate::neighbours::contacts::Kind;
-use crate::neighbours::contacts::With;
-use crate::setup::Setup;
-use crate::setup::Step;
+use crate::model::kind::{Kind, With};
+use crate::model::limit::{
+    Grain, contact_between, critical_step, grains, largest, radii_by_material, stiffest,
+};
+use crate::setup::{Setup, Step, Wall};
 use crate::walls::WallBody;
 
 /// The step [s] that a setup asks for.
@@ -87,4 +81,23 @@ pub fn kinds(setup: &Setup) -> Result<Vec<Kind>, SetupError> {
         }
     }
     Ok(list)
+}
+
+/// k Δt + c [N·s/m] of the stiffest contact with each wall that follows a force; of a clump with the mass of the whole body, as contacts have it.
+pub fn servo_gains(setup: &Setup, dt: f64) -> Vec<f64> {
+    let grains = grains(setup);
+    let of = |wall: &Wall, grain: &Grain| {
+        let contact = contact_between(setup, grain.material, wall.material).ok()?;
+        let [first, second] = [grain.material, wall.material].map(|m| &setup.materials[m as usize]);
+        let (radius, smaller) = met(wall, grain.radius);
+        let at = Meeting { radius, smaller, share: setup.guards.overlap };
+        let k = stiffest(contact, Elastic::of(first, second), at);
+        let gamma = damping_ratio(contact.number("restitution").unwrap_or(f64::NAN));
+        Some(k * dt + gamma * (k / grain.inverse_mass).sqrt())
+    };
+    let largest = |wall: &Wall| match wall.motion.servo {
+        Some(_) => grains.iter().filter_map(|g| of(wall, g)).fold(f64::MIN_POSITIVE, f64::max),
+        None => 1.0,
+    };
+    setup.walls.iter().map(largest).collect()
 }

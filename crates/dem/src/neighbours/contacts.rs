@@ -5,19 +5,13 @@
 //! segment: whole blocks, one task of the contact loop. Images across periodic faces come first, before all tiles.
 
 use crate::forces::resting::Still;
-use crate::forces::tile::At;
-use crate::forces::tile::Lists;
-use crate::forces::tile::Part;
-use crate::kernel::Kernel;
+use crate::forces::tile::{At, Lists, Part};
 use crate::kernel::LEDGER;
-use crate::kernel::sums::Arrival;
-use crate::kernel::sums::Loads;
-use crate::kernel::sums::Sums;
-use crate::simd::BLOCK;
-use crate::simd::Row;
-use crate::simd::Row4;
+use crate::kernel::sums::{Arrival, Loads, Sums};
+use crate::model::kind::With;
 use crate::simd::aligned::Aligned;
 use crate::simd::number::Form;
+use crate::simd::{BLOCK, Row, Row4};
 use geom::Vec3;
 use std::ops::Range;
 
@@ -32,27 +26,6 @@ const TILES: usize = 24;
 const LEAST_TILE: usize = 64;
 /// Chosen on the bench pile; smaller ones cost more than larger ones.
 const LARGEST_TILE: usize = 2048;
-
-/// Whom the particles of a kind of contact meet.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum With {
-    /// Each other.
-    Particles,
-    /// Each other across a periodic face.
-    Images,
-    /// The wall of this number.
-    Wall(usize),
-}
-
-/// Contacts that share a law.
-pub struct Kind {
-    /// The law.
-    pub kernel: Box<dyn Kernel>,
-    /// Materials, lower first; of the particle, then of the wall.
-    pub between: (u16, u16),
-    /// Whom they meet.
-    pub with: With,
-}
 
 /// What may disturb a sleeper.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,16 +2,11 @@
 
 use crate::forces::resting::Still;
 use crate::kernel::sums::Arrival;
-use crate::neighbours::contacts::Contacts;
-use crate::neighbours::contacts::Kind;
-use crate::neighbours::contacts::Met;
-use crate::neighbours::contacts::Segment;
-use crate::neighbours::contacts::With;
-use crate::neighbours::contacts::tile;
-use crate::simd::BLOCK;
-use crate::simd::Row4;
+use crate::model::kind::{Kind, With};
+use crate::neighbours::contacts::{Contacts, Met, Segment, tile};
 use crate::simd::aligned::Aligned;
 use crate::simd::number::Form;
+use crate::simd::{BLOCK, Row4};
 use crate::state::particles::FAR;
 use crate::walls::WallBody;
 use geom::Vec3;

@@ -1,278 +1,24 @@
 //! Makes the lists anew: sorts the particles in space, finds pairs and walls near them, carries contact memory over.
 
 use crate::forces::sweep::share;
-use crate::neighbours::contacts::Contacts;
-use crate::neighbours::contacts::Kind;
-use crate::neighbours::contacts::Segment;
-use crate::neighbours::contacts::With;
-use crate::neighbours::contacts::tile;
+use crate::model::Model;
+use crate::model::kind::{Kind, With};
+use crate::neighbours::NeighbourLists;
+use crate::neighbours::contacts::{Contacts, Segment, tile};
 use crate::neighbours::list::List;
-use crate::simulation::Simulation;
-use crate::simulation::wrapped;
-use crate::space::search::Pair;
-use crate::space::search::SKIN;
-use crate::space::search::Search;
-use crate::space::search::room;
+use crate::neighbours::poses::{around, count_back, pose_listed, travelled, wall_way};
+use crate::setup::Zone;
+use crate::space::search::{Pair, SKIN, Search, room};
+use crate::state::State;
+use crate::state::ledger::wrap_accounted;
 use crate::walls::WallBody;
-use crate::walls::images::Image;
-use crate::walls::images::Periods;
+use crate::walls::images::{Image, Periods};
 use geom::Vec3;
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// Particles below which one thread lists faster than several: handing over takes some ten microseconds.
 const LISTED_FEW: usize = 256;
-
-impl Simulation {
-    /// Sorts, lists, and remembers.
-    pub(crate) fn relist(&mut self) {
-        // Lists that are stale for another reason say nothing of the skin.
-        if self.setup.skin.is_none() && !self.stale {
-            self.skin = SKIN.next(self.skin, self.steps - self.listed, self.grain).max(self.reach);
-        }
-        let wraps = self.wrap();
-        let counted_back = std::mem::take(&mut self.counted_back);
-        self.pistons.iter_mut().for_each(|p| p.listed = p.way);
-        let mut before = std::mem::take(&mut self.contacts);
-        // Freed before anything is listed: old and new together would be the most that a run ever takes.
-        before.free_room();
-        let remembers = !before.memory.is_empty() || !before.work.is_empty();
-        if remembers && before.starts.is_empty() {
-            before.index(&self.kinds);
-        }
-        let (search, order) = self.space_order();
-        self.particles.select(&order);
-        self.zones.reorder(&order);
-        self.bodies.reorder(&order);
-        self.bonds.reorder(&order, &self.particles.id);
-        if let Some(sleepers) = &mut self.sleepers {
-            sleepers.select(&order);
-        }
-        self.follow_fresh(&order);
-        self.listed = self.steps;
-        self.list_contacts(&search);
-        let moved = (&wraps[..], &counted_back[..]);
-        self.recall(&before, &order, moved);
-        self.recall_work(&before, &order, moved);
-        drop(before);
-        self.make_room();
-        self.out = false;
-        self.stale = false;
-        self.listings += 1;
-    }
-
-    fn follow_fresh(&mut self, order: &[u32]) {
-        if self.fresh.is_empty() {
-            return;
-        }
-        let mut is_fresh = vec![false; order.iter().max().map_or(0, |&last| last as usize + 1)];
-        for &k in &self.fresh {
-            if let Some(flag) = is_fresh.get_mut(k as usize) {
-                *flag = true;
-            }
-        }
-        self.fresh =
-            (0..).zip(order).filter(|&(_, &was)| is_fresh[was as usize]).map(|(now, _)| now).collect();
-    }
-
-    /// Particles that have left the box through a periodic face come back through the other. Returns by how many periods each
-    /// was moved; none where nothing is periodic.
-    fn wrap(&mut self) -> Vec<Periods> {
-        if self.setup.periodic.iter().all(|p| p.is_none()) {
-            return Vec::new();
-        }
-        let before: Vec<Vec3> = (0..self.particles.len()).map(|k| self.particles.position(k)).collect();
-        self.wrap_accounted(|sim| {
-            for k in (0..sim.particles.len()).filter(|&k| !sim.bodies.is_member(k)) {
-                let p = wrapped(&sim.setup.periodic, sim.particles.position(k));
-                sim.particles.rows[k][..3].copy_from_slice(p.as_slice());
-            }
-            sim.bodies.wrap(&mut sim.particles, &sim.setup.periodic);
-        });
-        let period = self.period();
-        let whole = |by: f64, period: f64| if period > 0.0 { (by / period).round() as i32 } else { 0 };
-        let moved = |(k, was): (usize, Vec3)| {
-            let by = self.particles.position(k) - was;
-            [0, 1, 2].map(|a| whole(by[a], period[a]))
-        };
-        before.into_iter().enumerate().map(moved).collect()
-    }
-
-    /// Gives each particle that stays its home and its room there, and sorts them.
-    fn space_order(&mut self) -> (Search, Vec<u32>) {
-        let (horizon, gravity) = (self.horizon * self.dt, self.setup.gravity.norm());
-        let p = &mut self.particles;
-        let stay: Vec<u32> = (0..p.len() as u32).filter(|&k| !self.zones.is_gone(k as usize)).collect();
-        for &k in &stay {
-            let row = &p.rows[k as usize];
-            let speed = Vec3::new(row[4], row[5], row[6]).norm();
-            let way = horizon * (speed + 0.5 * gravity * horizon);
-            let room = room(self.skin, way, self.grain);
-            p.home[k as usize].0 = [row[0], row[1], row[2], room];
-        }
-        let points: Vec<Vec3> = stay.iter().map(|&k| p.position(k as usize)).collect();
-        let reach: Vec<f64> = stay.iter().map(|&k| p.reach(k as usize)).collect();
-        let search = Search::new(&points, &reach);
-        let order = search.order().iter().map(|&k| stay[k as usize]).collect();
-        (search, order)
-    }
-
-    /// Lists all contacts of the particles where they were listed: a function of those places and rooms, of the step of
-    /// listing, and of nothing else, so that a resumed run has the same lists.
-    pub(crate) fn list_again(&mut self) {
-        let p = &self.particles;
-        let points: Vec<Vec3> = p.home.iter().map(|h| Vec3::new(h[0], h[1], h[2])).collect();
-        let reach: Vec<f64> = (0..p.len()).map(|k| p.reach(k)).collect();
-        self.list_contacts(&Search::new(&points, &reach));
-    }
-
-    fn list_contacts(&mut self, search: &Search) {
-        self.counted_back = self.travelled();
-        let count = self.particles.len();
-        let wide = search.wide_pairs();
-        let class = self.classes(With::Particles);
-        let tile = tile(count);
-        let tiles = share(count >= LISTED_FEW, (0..count.div_ceil(tile)).collect(), |t| {
-            let range = t * tile..((t + 1) * tile).min(count);
-            let mut lists = vec![<[List; 2]>::default(); self.kinds.len()];
-            let material = |k: u32| self.particles.material[k as usize];
-            let mut pairs = pairs(search, &wide, &range);
-            self.bodies.drop_own(&mut pairs, |p| *p);
-            // Those that touch go first: a block of others is passed over as long as none of them comes to touch.
-            let (touching, apart): (Vec<_>, Vec<_>) = pairs.into_iter().partition(|p| self.touched(p));
-            for (i, j) in touching.into_iter().chain(apart) {
-                lists[class.of(material(i), material(j))][usize::from(j as usize >= range.end)].push(i, j);
-            }
-            self.list_walls(range, &mut lists);
-            lists
-        });
-        self.contacts = Contacts::new(&self.kinds, &self.list_images(search), &tiles, (count, self.form()));
-        if self.sleepers.is_some() || !self.zones.none() {
-            self.contacts.index(&self.kinds);
-        }
-        self.note_near();
-        if self.sleepers.is_some() {
-            self.contacts.note_walls(&self.kinds, &self.walls);
-            self.contacts.note_tiles(&self.kinds);
-        }
-    }
-
-    /// Whether two particles touched where they were listed.
-    fn touched(&self, &(i, j): &Pair) -> bool {
-        let p = &self.particles;
-        let [a, b] = [i, j].map(|k| (&p.home[k as usize], p.rows[k as usize][3]));
-        let square: f64 = (0..3).map(|x| (a.0[x] - b.0[x]) * (a.0[x] - b.0[x])).sum();
-        let reach = a.1 + b.1;
-        square < reach * reach
-    }
-
-    fn list_walls(&self, range: Range<usize>, lists: &mut [[List; 2]]) {
-        for (kind, [list, _]) in self.kinds.iter().zip(lists) {
-            let With::Wall(w) = kind.with else { continue };
-            let wall = &self.walls[w];
-            let (pose, moves) = (self.count_back(w, self.pose_listed(w)), self.wall_room(w));
-            let around = self.around(w, &pose);
-            for k in range.clone().filter(|&k| self.particles.material[k] == kind.between.0) {
-                let home = &self.particles.home[k];
-                let (place, reach) = (Vec3::new(home[0], home[1], home[2]), self.particles.reach(k) + moves);
-                for (image, shift) in around.near(&place, reach) {
-                    let first = image.0 * wall.parts();
-                    let found = |part| list.push(k as u32, first + part);
-                    wall.parts_near(pose.home(&(place - shift)), reach, image.0 > 0, found);
-                }
-            }
-        }
-    }
-
-    /// How far a wall may move until lists are made anew [m].
-    pub(crate) fn wall_room(&self, wall: usize) -> f64 {
-        room(self.skin, self.horizon * self.dt * self.walls[wall].fastest(), self.grain)
-    }
-
-    /// Pairs across periodic faces: each once, by the half of all shifts whose first part that is not zero is positive.
-    fn list_images(&self, search: &Search) -> Vec<List> {
-        let mut found = Vec::new();
-        for shift in half_of_shifts(&self.setup.periodic) {
-            search.shifted_pairs(&shift, &mut found);
-        }
-        self.bodies.drop_own(&mut found, |f| (f.0, f.1));
-        found.sort_by_key(|f| (f.0, f.1));
-        let class = self.classes(With::Images);
-        let mut lists = vec![List::default(); self.kinds.len()];
-        let material = |k: u32| self.particles.material[k as usize];
-        for (i, j, shift) in found {
-            let list = &mut lists[class.of(material(i), material(j))];
-            list.push(i, j);
-            list.shift.push(shift);
-        }
-        lists
-    }
-
-    /// Room for the loads of all listed contacts; made last, when old lists are gone.
-    pub(crate) fn make_room(&mut self) {
-        let couples = self.couples();
-        self.contacts.make_room(couples, self.setup.ledger);
-        self.contacts.keep_each(self.keeps_each());
-    }
-
-    /// Gives each new contact the memory that it had; `order` tells each particle's old place.
-    fn recall(&mut self, before: &Contacts, order: &[u32], moved: Moved) {
-        let kinds = &self.kinds;
-        let mut memory = std::mem::take(&mut self.contacts.memory);
-        if !memory.is_empty() && !before.memory.is_empty() {
-            let now = &self.contacts;
-            let mut rest = &mut memory[..];
-            let mut pieces = Vec::with_capacity(now.segments.len());
-            for s in &now.segments {
-                let words = now.form.memory(kinds[s.kind].kernel.columns());
-                let (mine, others) = rest.split_at_mut(s.places.len() * words);
-                rest = others;
-                pieces.push((s, mine));
-            }
-            let old = self.remembered(before, order, moved);
-            share(self.particles.len() >= LISTED_FEW, pieces, |(s, memory)| old.recall(now, s, memory));
-        }
-        self.contacts.memory = memory;
-    }
-
-    /// Gives each new contact the work that it has done. What contacts have done that are no longer listed is lost to records.
-    fn recall_work(&mut self, before: &Contacts, order: &[u32], moved: Moved) {
-        if before.work.is_empty() {
-            return;
-        }
-        let old = self.remembered(before, order, moved);
-        let mut work = vec![0.0; self.contacts.i.len()];
-        for s in &self.contacts.segments {
-            for place in s.contacts() {
-                let holds = |_: &Segment, at: usize| before.work[at] != 0.0;
-                let found = old.find(s.kind, self.contacts.i[place], self.contacts.partner[place], holds);
-                work[place] = found.map_or(0.0, |(_, was, _)| before.work[was]);
-            }
-        }
-        self.contacts.work = work;
-    }
-
-    fn remembered<'a>(
-        &'a self,
-        before: &'a Contacts,
-        order: &'a [u32],
-        (wraps, counted_back): Moved<'a>,
-    ) -> Remembered<'a> {
-        let back = |(now, was): (&Periods, &Periods)| [0, 1, 2].map(|a| was[a] - now[a]);
-        let back = self.counted_back.iter().zip(counted_back).map(back).collect();
-        Remembered { kinds: &self.kinds, walls: &self.walls, before, order, wraps, back }
-    }
-
-    fn classes(&self, with: With) -> Classes {
-        let materials = self.setup.materials.len();
-        let mut at = vec![usize::MAX; materials * materials];
-        for (k, i) in self.kinds.iter().enumerate().filter(|(_, i)| i.with == with) {
-            let (a, b) = (i.between.0 as usize, i.between.1 as usize);
-            at[a * materials + b] = k;
-            at[b * materials + a] = k;
-        }
-        Classes { materials, at }
-    }
-}
 
 /// Pairs whose first is in `range`; `wide` are those of the whole search with wide particles.
 pub(crate) fn pairs(search: &Search, wide: &[Pair], range: &Range<usize>) -> Vec<Pair> {
@@ -314,6 +60,18 @@ pub(crate) fn half_of_shifts(periodic: &[Option<(f64, f64)>; 3]) -> Vec<Vec3> {
         }
     }
     shifts
+}
+
+fn remembered<'a>(
+    model: &'a Model,
+    now: &[Periods],
+    before: &'a Contacts,
+    order: &'a [u32],
+    (wraps, counted_back): Moved<'a>,
+) -> Remembered<'a> {
+    let back = |(now, was): (&Periods, &Periods)| [0, 1, 2].map(|a| was[a] - now[a]);
+    let back = now.iter().zip(counted_back).map(back).collect();
+    Remembered { kinds: &model.kinds, walls: &model.walls, before, order, wraps, back }
 }
 
 /// By how many periods particles were moved, by their old places, and how far walls were counted back before.
@@ -395,4 +153,289 @@ impl Remembered<'_> {
         let parts = self.walls[wall].parts();
         Image(partner / parts).before(*wrap, *back).0 * parts + partner % parts
     }
+}
+
+/// Sorts, lists, and remembers.
+pub fn rebuild(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
+    // Lists that are stale for another reason say nothing of the skin.
+    if model.setup.skin.is_none() && !state.stale {
+        state.skin = SKIN.next(state.skin, state.steps - state.listed, model.mean_radius).max(model.reach);
+    }
+    let wraps = wrap(model, state);
+    let counted_back = std::mem::take(&mut lists.counted_back);
+    state.servos.iter_mut().for_each(|p| p.listed = p.way);
+    let mut before = std::mem::take(&mut lists.contacts);
+    // Freed before anything is listed: old and new together would be the most that a run ever takes.
+    before.free_room();
+    let remembers = !before.memory.is_empty() || !before.work.is_empty();
+    if remembers && before.starts.is_empty() {
+        before.index(&model.kinds);
+    }
+    let (search, order) = space_order(model, state);
+    state.particles.select(&order);
+    state.zones.reorder(&order);
+    state.bodies.reorder(&order);
+    state.bonds.reorder(&order, &state.particles.id);
+    if let Some(sleepers) = &mut state.sleepers {
+        sleepers.select(&order);
+    }
+    follow_fresh(state, &order);
+    state.listed = state.steps;
+    list_contacts(model, state, lists, &search);
+    let moved = (&wraps[..], &counted_back[..]);
+    recall(model, state, lists, &before, &order, moved);
+    recall_work(model, lists, &before, &order, moved);
+    drop(before);
+    make_room(model, state, lists);
+    state.out = false;
+    state.stale = false;
+    state.listings += 1;
+}
+
+fn follow_fresh(state: &mut State, order: &[u32]) {
+    if state.fresh.is_empty() {
+        return;
+    }
+    let mut is_fresh = vec![false; order.iter().max().map_or(0, |&last| last as usize + 1)];
+    for &k in &state.fresh {
+        if let Some(flag) = is_fresh.get_mut(k as usize) {
+            *flag = true;
+        }
+    }
+    state.fresh = (0..).zip(order).filter(|&(_, &was)| is_fresh[was as usize]).map(|(now, _)| now).collect();
+}
+
+/// Particles that have left the box through a periodic face come back through the other. Returns by how many periods each
+/// was moved; none where nothing is periodic.
+fn wrap(model: &Model, state: &mut State) -> Vec<Periods> {
+    if model.setup.periodic.iter().all(|p| p.is_none()) {
+        return Vec::new();
+    }
+    let before: Vec<Vec3> = (0..state.particles.len()).map(|k| state.particles.position(k)).collect();
+    wrap_accounted(model, state, |state| {
+        for k in (0..state.particles.len()).filter(|&k| !state.bodies.is_member(k)) {
+            let p = model.wrapped(state.particles.position(k));
+            state.particles.rows[k][..3].copy_from_slice(p.as_slice());
+        }
+        state.bodies.wrap(&mut state.particles, &model.setup.periodic);
+    });
+    let period = model.period();
+    let whole = |by: f64, period: f64| if period > 0.0 { (by / period).round() as i32 } else { 0 };
+    let moved = |(k, was): (usize, Vec3)| {
+        let by = state.particles.position(k) - was;
+        [0, 1, 2].map(|a| whole(by[a], period[a]))
+    };
+    before.into_iter().enumerate().map(moved).collect()
+}
+
+/// Gives each particle that stays its home and its room there, and sorts them.
+fn space_order(model: &Model, state: &mut State) -> (Search, Vec<u32>) {
+    let (horizon, gravity) = (model.horizon * model.dt, model.setup.gravity.norm());
+    let p = &mut state.particles;
+    let stay: Vec<u32> = (0..p.len() as u32).filter(|&k| !state.zones.is_gone(k as usize)).collect();
+    for &k in &stay {
+        let row = &p.rows[k as usize];
+        let speed = Vec3::new(row[4], row[5], row[6]).norm();
+        let way = horizon * (speed + 0.5 * gravity * horizon);
+        let room = room(state.skin, way, model.mean_radius);
+        p.home[k as usize].0 = [row[0], row[1], row[2], room];
+    }
+    let points: Vec<Vec3> = stay.iter().map(|&k| p.position(k as usize)).collect();
+    let reach: Vec<f64> = stay.iter().map(|&k| p.reach(k as usize)).collect();
+    let search = Search::new(&points, &reach);
+    let order = search.order().iter().map(|&k| stay[k as usize]).collect();
+    (search, order)
+}
+
+/// Lists all contacts of the particles where they were listed: a function of those positions and margins, of the step of
+/// listing, and of nothing else, so that a resumed run has the same lists.
+pub fn list_again(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
+    // Particles that have left since were still there when neighbours were listed.
+    for (k, home) in state.zones.left.clone() {
+        state.particles.home[k as usize] = home;
+    }
+    let p = &state.particles;
+    let points: Vec<Vec3> = p.home.iter().map(|h| Vec3::new(h[0], h[1], h[2])).collect();
+    let reach: Vec<f64> = (0..p.len()).map(|k| p.reach(k)).collect();
+    list_contacts(model, state, lists, &Search::new(&points, &reach));
+    make_room(model, state, lists);
+    for (k, _) in state.zones.left.clone() {
+        let row = state.particles.rows[k as usize];
+        state.particles.home[k as usize].0 = [row[0], row[1], row[2], 0.0];
+    }
+}
+
+fn list_contacts(model: &Model, state: &mut State, lists: &mut NeighbourLists, search: &Search) {
+    lists.counted_back = travelled(model, state);
+    let count = state.particles.len();
+    let wide = search.wide_pairs();
+    let class = classes(model, With::Particles);
+    let tile = tile(count);
+    let tiles = share(count >= LISTED_FEW, (0..count.div_ceil(tile)).collect(), |t| {
+        let range = t * tile..((t + 1) * tile).min(count);
+        let mut found = vec![<[List; 2]>::default(); model.kinds.len()];
+        let material = |k: u32| state.particles.material[k as usize];
+        let mut pairs = pairs(search, &wide, &range);
+        state.bodies.drop_own(&mut pairs, |p| *p);
+        // Those that touch go first: a block of others is passed over as long as none of them comes to touch.
+        let (touching, apart): (Vec<_>, Vec<_>) = pairs.into_iter().partition(|p| touched(state, p));
+        for (i, j) in touching.into_iter().chain(apart) {
+            found[class.of(material(i), material(j))][usize::from(j as usize >= range.end)].push(i, j);
+        }
+        list_walls(model, state, lists, range, &mut found);
+        found
+    });
+    lists.contacts =
+        Contacts::new(&model.kinds, &list_images(model, state, search), &tiles, (count, model.form()));
+    if state.sleepers.is_some() || !state.zones.none() {
+        lists.contacts.index(&model.kinds);
+    }
+    note_near(state);
+    if state.sleepers.is_some() {
+        lists.contacts.note_walls(&model.kinds, &model.walls);
+        lists.contacts.note_tiles(&model.kinds);
+    }
+}
+
+/// Whether two particles touched where they were listed.
+fn touched(state: &State, &(i, j): &Pair) -> bool {
+    let p = &state.particles;
+    let [a, b] = [i, j].map(|k| (&p.home[k as usize], p.rows[k as usize][3]));
+    let square: f64 = (0..3).map(|x| (a.0[x] - b.0[x]) * (a.0[x] - b.0[x])).sum();
+    let reach = a.1 + b.1;
+    square < reach * reach
+}
+
+fn list_walls(
+    model: &Model,
+    state: &State,
+    lists: &NeighbourLists,
+    range: Range<usize>,
+    found: &mut [[List; 2]],
+) {
+    for (kind, [list, _]) in model.kinds.iter().zip(found) {
+        let With::Wall(w) = kind.with else { continue };
+        let wall = &model.walls[w];
+        let (pose, moves) =
+            (count_back(model, lists, w, pose_listed(model, state, w)), wall_room(model, state, w));
+        let around = around(model, w, &pose);
+        for k in range.clone().filter(|&k| state.particles.material[k] == kind.between.0) {
+            let home = &state.particles.home[k];
+            let (place, reach) = (Vec3::new(home[0], home[1], home[2]), state.particles.reach(k) + moves);
+            for (image, shift) in around.near(&place, reach) {
+                let first = image.0 * wall.parts();
+                let add = |part| list.push(k as u32, first + part);
+                wall.parts_near(pose.home(&(place - shift)), reach, image.0 > 0, add);
+            }
+        }
+    }
+}
+
+/// How far a wall may move until lists are made anew [m].
+pub fn wall_room(model: &Model, state: &State, wall: usize) -> f64 {
+    room(state.skin, model.horizon * model.dt * model.walls[wall].fastest(), model.mean_radius)
+}
+
+/// Pairs across periodic faces: each once, by the half of all shifts whose first part that is not zero is positive.
+fn list_images(model: &Model, state: &State, search: &Search) -> Vec<List> {
+    let mut found = Vec::new();
+    for shift in half_of_shifts(&model.setup.periodic) {
+        search.shifted_pairs(&shift, &mut found);
+    }
+    state.bodies.drop_own(&mut found, |f| (f.0, f.1));
+    found.sort_by_key(|f| (f.0, f.1));
+    let class = classes(model, With::Images);
+    let mut lists = vec![List::default(); model.kinds.len()];
+    let material = |k: u32| state.particles.material[k as usize];
+    for (i, j, shift) in found {
+        let list = &mut lists[class.of(material(i), material(j))];
+        list.push(i, j);
+        list.shift.push(shift);
+    }
+    lists
+}
+
+/// Room for the loads of all listed contacts; made last, when old lists are gone.
+pub fn make_room(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
+    let couples = state.couples(model);
+    lists.contacts.make_room(couples, model.setup.ledger);
+    lists.contacts.keep_each(state.keeps_each());
+}
+
+/// Gives each new contact the memory that it had; `order` tells each particle's old place.
+fn recall(
+    model: &Model,
+    state: &mut State,
+    lists: &mut NeighbourLists,
+    before: &Contacts,
+    order: &[u32],
+    moved: Moved,
+) {
+    let kinds = &model.kinds;
+    let mut memory = std::mem::take(&mut lists.contacts.memory);
+    if !memory.is_empty() && !before.memory.is_empty() {
+        let now = &lists.contacts;
+        let mut rest = &mut memory[..];
+        let mut pieces = Vec::with_capacity(now.segments.len());
+        for s in &now.segments {
+            let words = now.form.memory(kinds[s.kind].kernel.columns());
+            let (mine, others) = rest.split_at_mut(s.places.len() * words);
+            rest = others;
+            pieces.push((s, mine));
+        }
+        let old = remembered(model, &lists.counted_back, before, order, moved);
+        share(state.particles.len() >= LISTED_FEW, pieces, |(s, memory)| old.recall(now, s, memory));
+    }
+    lists.contacts.memory = memory;
+}
+
+/// Gives each new contact the work that it has done. What contacts have done that are no longer listed is lost to records.
+fn recall_work(model: &Model, lists: &mut NeighbourLists, before: &Contacts, order: &[u32], moved: Moved) {
+    if before.work.is_empty() {
+        return;
+    }
+    let old = remembered(model, &lists.counted_back, before, order, moved);
+    let mut work = vec![0.0; lists.contacts.i.len()];
+    for s in &lists.contacts.segments {
+        for place in s.contacts() {
+            let holds = |_: &Segment, at: usize| before.work[at] != 0.0;
+            let found = old.find(s.kind, lists.contacts.i[place], lists.contacts.partner[place], holds);
+            work[place] = found.map_or(0.0, |(_, was, _)| before.work[was]);
+        }
+    }
+    lists.contacts.work = work;
+}
+
+fn classes(model: &Model, with: With) -> Classes {
+    let materials = model.setup.materials.len();
+    let mut at = vec![usize::MAX; materials * materials];
+    for (k, i) in model.kinds.iter().enumerate().filter(|(_, i)| i.with == with) {
+        let (a, b) = (i.between.0 as usize, i.between.1 as usize);
+        at[a * materials + b] = k;
+        at[b * materials + a] = k;
+    }
+    Classes { materials, at }
+}
+
+/// Whether lists must be rebuilt: they are outdated, or a particle or a wall may have left its margin.
+pub fn is_due(model: &Model, state: &State) -> bool {
+    let since = (state.steps - state.listed) as f64 * model.dt;
+    // Written so that NaN is caught.
+    let holds = |w: usize| wall_way(model, state, w, since) <= wall_room(model, state, w);
+    state.stale || state.out || !(0..model.walls.len()).all(holds)
+}
+
+/// Notes who may pass a storage plane, or come back through it, before lists are made anew: nobody else's room reaches it. Where what is tested
+/// is the centre of a clump, rooms of its members say nothing.
+fn note_near(state: &mut State) {
+    let p = &state.particles;
+    let near = |(zone, beyond): (&Zone, &BTreeSet<u32>)| {
+        let stays = |k: usize| {
+            let (home, room) = (Vec3::new(p.home[k][0], p.home[k][1], p.home[k][2]), p.home[k][3]);
+            let past = zone.past(&home, p.rows[k][3]);
+            !state.bodies.is_member(k) && (past < -room || (past > room && beyond.contains(&p.id[k])))
+        };
+        (0..p.len() as u32).filter(|&k| !stays(k as usize)).collect()
+    };
+    state.zones.near = state.zones.outlets.iter().zip(&state.zones.beyond).map(near).collect();
 }

@@ -1,12 +1,12 @@
 //! Bodies at one instant, for those who look.
 
 use crate::kernel::sums::Loads;
+use crate::model::Model;
+use crate::neighbours::NeighbourLists;
 use crate::setup::Setup;
-use crate::simulation::Simulation;
 use crate::space::rotation;
-use crate::state::clump::Flight;
-use crate::state::clump::arm;
-use crate::state::clump::quaternion;
+use crate::state::State;
+use crate::state::clump::{Flight, arm, quaternion};
 use crate::state::clumps::Bodies;
 use crate::state::ledger::Driven;
 use crate::state::particles::Particles;
@@ -57,28 +57,27 @@ struct Instant {
 
 impl Bodies {
     /// The bodies in the calculation with velocities of this instant, by id.
-    pub fn states(&self, sim: &Simulation) -> Vec<BodyState> {
-        let (loads, time) = (sim.all_loads(), sim.time());
-        let state = |f: &Flight| {
+    pub fn states(&self, model: &Model, state: &State, lists: &NeighbourLists) -> Vec<BodyState> {
+        let (loads, hidden) = (lists.contacts.sums(), state.zones.hidden(state.time()));
+        let of = |f: &Flight| {
             let Instant { velocity, spin, momentum, .. } =
-                self.instant(f, &sim.particles, &loads, &sim.setup, sim.dt);
-            let shape = &sim.setup.clumps.shapes[f.shape as usize];
+                self.instant(f, &state.particles, &loads, &model.setup, model.dt);
+            let shape = &model.setup.clumps.shapes[f.shape as usize];
             BodyState {
                 id: f.id,
                 shape: f.shape,
                 members: f.count,
                 scale: f.scale,
                 mass: f.mass,
-                position: sim.wrapped(f.place),
+                position: model.wrapped(f.place),
                 orientation: quaternion(&f.turn) * shape.frame.inverse(),
                 velocity,
                 spin,
                 angular_momentum: momentum,
             }
         };
-        let hidden = sim.zones.hidden(time);
         let seen = |f: &&Flight| !hidden(self.members[f.first as usize] as usize);
-        let mut states: Vec<BodyState> = self.flights.iter().filter(seen).map(state).collect();
+        let mut states: Vec<BodyState> = self.flights.iter().filter(seen).map(of).collect();
         states.sort_by_key(|s| s.id);
         states
     }
@@ -111,13 +110,14 @@ impl Bodies {
     /// What drives each body that is free, at this instant, and the row of its first member.
     pub fn driven_now<'a>(
         &'a self,
-        sim: &'a Simulation,
+        model: &'a Model,
+        state: &'a State,
         loads: &'a Loads,
     ) -> impl Iterator<Item = (u32, Driven)> + 'a {
         self.flights.iter().filter(|f| !f.travels).map(move |f| {
-            let now = self.instant(f, &sim.particles, loads, &sim.setup, sim.dt);
-            let force = now.force + f.drag(&sim.setup);
-            let driven = f.driven([force, now.torque], (now.velocity, now.spin), &sim.setup);
+            let now = self.instant(f, &state.particles, loads, &model.setup, model.dt);
+            let force = now.force + f.drag(&model.setup);
+            let driven = f.driven([force, now.torque], (now.velocity, now.spin), &model.setup);
             (self.members[f.first as usize], driven)
         })
     }

@@ -2,13 +2,10 @@
 
 use crate::neighbours::contacts::Contacts;
 use crate::observe::clumps::BodyState;
-use crate::setup::Particle;
-use crate::setup::Setup;
+use crate::setup::{Particle, Setup};
 use crate::state::bonds::Bonds;
-use crate::state::ledger::Account;
-use crate::state::particles::mass;
-use serde::Deserialize;
-use serde::Serialize;
+use crate::state::ledger::{Account, carried, heavy};
+use serde::{Deserialize, Serialize};
 
 /// Energy of one instant, of the particles that are free, and what has come and gone since the start [J].
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
@@ -114,21 +111,4 @@ impl Energy {
         self.rotation += 0.5 * body.spin.dot(&body.angular_momentum);
         self.potential -= body.mass * heavy * setup.gravity.dot(&body.position);
     }
-}
-
-/// Translation, rotation, potential of a particle [J]; what a fluid displaced lifts is no longer heavy.
-pub(crate) fn carried(p: &Particle, setup: &Setup) -> [f64; 3] {
-    let density = setup.materials[p.material as usize].density;
-    let m = mass(p.radius, density);
-    let heavy = heavy(setup, density);
-    [
-        0.5 * m * p.velocity.norm_squared(),
-        0.2 * m * p.radius * p.radius * p.spin.norm_squared(),
-        -m * heavy * setup.gravity.dot(&p.position),
-    ]
-}
-
-/// Weight that the fluid leaves of a particle's own [–].
-pub(crate) fn heavy(setup: &Setup, density: f64) -> f64 {
-    1.0 - setup.drag.map_or(0.0, |d| d.lift(density))
 }

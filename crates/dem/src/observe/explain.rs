@@ -1,12 +1,11 @@
 //! What a run computes, and what each part takes.
 
-use crate::effects::Description;
-use crate::effects::active;
+use crate::effects::{Description, active};
 use crate::kernel::LEDGER;
+use crate::model::Model;
 use crate::setup::ContactLaw;
-use crate::simd::Row;
-use crate::simd::Row4;
-use crate::simulation::Simulation;
+use crate::simd::{Row, Row4};
+use crate::state::State;
 use serde::Serialize;
 use std::mem::size_of;
 
@@ -36,72 +35,49 @@ pub struct ContactBytes {
     pub ledger: usize,
 }
 
-impl Simulation {
-    /// Effects in force, by pair of materials that can meet.
-    pub fn explain(&self) -> Vec<EffectCost> {
-        let mut pairs: Vec<(u16, u16)> = self.kinds.iter().map(|k| k.between).collect();
-        pairs.sort_unstable();
-        pairs.dedup();
-        let contacts = &self.setup.contacts;
-        let meets =
-            |c: &&ContactLaw| pairs.contains(&c.between) || pairs.contains(&(c.between.1, c.between.0));
-        contacts.iter().filter(meets).flat_map(|c| self.effects_of(c)).collect()
-    }
+/// Effects in force, by pair of materials that can meet.
+pub fn effects(model: &Model) -> Vec<EffectCost> {
+    let mut pairs: Vec<(u16, u16)> = model.kinds.iter().map(|k| k.between).collect();
+    pairs.sort_unstable();
+    pairs.dedup();
+    let contacts = &model.setup.contacts;
+    let meets = |c: &&ContactLaw| pairs.contains(&c.between) || pairs.contains(&(c.between.1, c.between.0));
+    contacts.iter().filter(meets).flat_map(|c| effects_of(model, c)).collect()
+}
 
-    fn effects_of(&self, law: &ContactLaw) -> Vec<EffectCost> {
-        let name = |m: u16| self.setup.materials[m as usize].name.clone();
-        let between = (name(law.between.0), name(law.between.1));
-        let number = if self.form().single { size_of::<f32>() } else { size_of::<f64>() };
-        let cost = |effect: &Description| EffectCost {
-            effect: effect.name,
-            between: between.clone(),
-            because: effect.because(law),
-            bytes_per_contact: number * effect.columns(),
-        };
-        active(law).map(cost).collect()
-    }
+fn effects_of(model: &Model, law: &ContactLaw) -> Vec<EffectCost> {
+    let name = |m: u16| model.setup.materials[m as usize].name.clone();
+    let between = (name(law.between.0), name(law.between.1));
+    let number = if model.form().single { size_of::<f32>() } else { size_of::<f64>() };
+    let cost = |effect: &Description| EffectCost {
+        effect: effect.name,
+        between: between.clone(),
+        because: effect.because(law),
+        bytes_per_contact: number * effect.columns(),
+    };
+    active(law).map(cost).collect()
+}
 
-    /// State of one particle [bytes], without its share of contacts.
-    pub fn bytes_per_particle(&self) -> usize {
-        let rotates = self.particles.rotates();
-        let rotation = if rotates { 2 * size_of::<Row4>() } else { 0 };
-        let form = self.form();
-        let couples = if self.couples() { form.couple() } else { 0 };
-        let sums = (form.load() + couples) * size_of::<f64>();
-        let state = size_of::<Row>() + 2 * size_of::<Row4>() + sums;
-        let sleep = if self.sleepers.is_some() { size_of::<Row>() + size_of::<u32>() + 2 + sums } else { 0 };
-        state + rotation + sleep + size_of::<u32>() + size_of::<u16>() + size_of::<u32>()
-    }
+/// State of one particle [bytes], without its share of contacts.
+pub fn bytes_per_particle(model: &Model, state: &State) -> usize {
+    let rotates = state.particles.rotates();
+    let rotation = if rotates { 2 * size_of::<Row4>() } else { 0 };
+    let form = model.form();
+    let couples = if state.couples(model) { form.couple() } else { 0 };
+    let sums = (form.load() + couples) * size_of::<f64>();
+    let own = size_of::<Row>() + 2 * size_of::<Row4>() + sums;
+    let sleep = if state.sleepers.is_some() { size_of::<Row>() + size_of::<u32>() + 2 + sums } else { 0 };
+    own + rotation + sleep + size_of::<u32>() + size_of::<u16>() + size_of::<u32>()
+}
 
-    /// Memory of a rigid clump, and of each of its members beyond that of a particle [bytes].
-    pub fn bytes_of_clump() -> (usize, usize) {
-        crate::state::clumps::Bodies::bytes()
-    }
-
-    /// Memory that rigid clumps take beyond that of their members' rows [bytes].
-    pub fn bytes_of_clumps(&self) -> usize {
-        self.bodies.all_bytes()
-    }
-
-    /// Memory that bonds take, with what they keep of their particles [bytes].
-    pub fn bytes_of_bonds(&self) -> usize {
-        self.bonds.bytes()
-    }
-
-    /// What a listed contact takes without what its effects remember.
-    pub fn bytes_of_contact(&self) -> ContactBytes {
-        let form = self.form();
-        let words = form.load() + if self.couples() { form.couple() } else { 0 };
-        ContactBytes {
-            listed: 2 * size_of::<u32>(),
-            point: size_of::<Row>() + if self.particles.rotates() { size_of::<Row4>() } else { 0 },
-            load: words * size_of::<f64>(),
-            ledger: if self.setup.ledger { (LEDGER + 1) * size_of::<f64>() } else { 0 },
-        }
-    }
-
-    /// Whether particles turn in this scene.
-    pub fn rotates(&self) -> bool {
-        self.particles.rotates()
+/// What a listed contact takes without what its effects remember.
+pub fn bytes_of_contact(model: &Model, state: &State) -> ContactBytes {
+    let form = model.form();
+    let words = form.load() + if state.couples(model) { form.couple() } else { 0 };
+    ContactBytes {
+        listed: 2 * size_of::<u32>(),
+        point: size_of::<Row>() + if state.particles.rotates() { size_of::<Row4>() } else { 0 },
+        load: words * size_of::<f64>(),
+        ledger: if model.setup.ledger { (LEDGER + 1) * size_of::<f64>() } else { 0 },
     }
 }

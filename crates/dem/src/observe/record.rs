@@ -1,12 +1,11 @@
 //! What contacts do at one instant, and the sliding work that they have done: for who looks at a run.
 
 use crate::kernel::LEDGER;
-use crate::model::error::Halt;
-use crate::neighbours::contacts::Contacts;
-use crate::neighbours::contacts::Kind;
-use crate::neighbours::contacts::Segment;
-use crate::neighbours::contacts::With;
-use crate::simulation::Simulation;
+use crate::model::Model;
+use crate::model::kind::{Kind, With};
+use crate::neighbours::NeighbourLists;
+use crate::neighbours::contacts::{Contacts, Segment};
+use crate::state::State;
 use crate::state::particles::FAR;
 use geom::Vec3;
 
@@ -42,91 +41,75 @@ impl Contacts {
     }
 }
 
-impl Simulation {
-    /// All contacts that carry a force, or have done work since the last call, in the order of the lists.
-    ///
-    /// # Errors
-    /// When the state is beyond a guard, or loads are not kept ([`Simulation::record_loads`]).
-    pub fn record_contacts(&mut self) -> Result<Vec<ContactRecord>, Halt> {
-        self.ready_to_record()?;
-        let mut work = std::mem::take(&mut self.contacts.work);
-        let mut out = Vec::new();
-        for segment in &self.contacts.segments {
-            let kind = &self.kinds[segment.kind];
-            for place in segment.contacts() {
-                // Who has left at the end of a zone is in the lists until they are made anew.
-                let (i, other) = self.contacts.ends(kind.with, place);
-                let gone = |k: u32| self.zones.is_gone(k as usize);
-                if gone(i) || other.is_some_and(gone) || self.idles(kind.with, place) {
-                    continue;
-                }
-                let force = self.contacts.force(place);
-                let done = work.get_mut(place).map_or(0.0, std::mem::take);
-                if force != Vec3::zeros() || done != 0.0 {
-                    let (other, radius) = self.partner(segment, place, |k| self.particles.position(k));
-                    out.push(self.record(kind, place, (other, radius), (force, done)));
-                }
+/// All contacts that carry a force, or have done work since the last call, in the order of the lists.
+pub fn record_contacts(model: &Model, state: &State, lists: &mut NeighbourLists) -> Vec<ContactRecord> {
+    let mut work = std::mem::take(&mut lists.contacts.work);
+    let mut out = Vec::new();
+    for segment in &lists.contacts.segments {
+        let kind = &model.kinds[segment.kind];
+        for place in segment.contacts() {
+            // Who has left at the end of a zone is in the lists until they are made anew.
+            let (i, other) = lists.contacts.ends(kind.with, place);
+            let gone = |k: u32| state.zones.is_gone(k as usize);
+            if gone(i) || other.is_some_and(gone) || idles(state, lists, kind.with, place) {
+                continue;
+            }
+            let force = lists.contacts.force(place);
+            let done = work.get_mut(place).map_or(0.0, std::mem::take);
+            if force != Vec3::zeros() || done != 0.0 {
+                let (other, radius) =
+                    partner(model, state, lists, segment, place, |k| state.particles.position(k));
+                out.push(record(model, state, lists, kind, place, (other, radius), (force, done)));
             }
         }
-        self.contacts.work = work;
-        Ok(out)
     }
+    lists.contacts.work = work;
+    out
+}
 
-    /// Whether contact `place`, of those with these, acts on nobody ([`crate::state::zones::Zones::idles`]).
-    pub(crate) fn idles(&self, with: With, place: usize) -> bool {
-        self.zones.idles(self.contacts.ends(with, place))
-    }
+/// Whether contact `place`, of those with these, acts on nobody ([`crate::state::zones::Zones::idles`]).
+pub fn idles(state: &State, lists: &NeighbourLists, with: With, place: usize) -> bool {
+    state.zones.idles(lists.contacts.ends(with, place))
+}
 
-    /// Brings the load of each contact to this instant.
-    pub(crate) fn ready_to_record(&mut self) -> Result<(), Halt> {
-        self.ready()?;
-        if self.contacts.keeps() { Ok(()) } else { Err(Halt::NotKept { time: self.time() }) }
+/// Where the second of a contact is, and its radius [m] (0 on a flat wall); `position` tells where particles are.
+pub fn partner(
+    model: &Model,
+    state: &State,
+    lists: &NeighbourLists,
+    segment: &Segment,
+    place: usize,
+    position: impl Fn(usize) -> Vec3,
+) -> (Vec3, f64) {
+    if model.kinds[segment.kind].with == With::Particles {
+        let j = lists.contacts.partner[place] as usize;
+        return (position(j), state.particles.rows[j][3]);
     }
+    let row = lists.contacts.partner_row(segment, place);
+    (Vec3::new(row[0], row[1], row[2]), row[3])
+}
 
-    /// Where the second of a contact is, and its radius [m] (0 on a flat wall); `position` tells where particles are.
-    pub(crate) fn partner(
-        &self,
-        segment: &Segment,
-        place: usize,
-        position: impl Fn(usize) -> Vec3,
-    ) -> (Vec3, f64) {
-        if self.kinds[segment.kind].with == With::Particles {
-            let j = self.contacts.partner[place] as usize;
-            return (position(j), self.particles.rows[j][3]);
-        }
-        let row = self.contacts.partner_row(segment, place);
-        (Vec3::new(row[0], row[1], row[2]), row[3])
-    }
-
-    fn record(
-        &self,
-        kind: &Kind,
-        place: usize,
-        (other, radius): (Vec3, f64),
-        (force, work): (Vec3, f64),
-    ) -> ContactRecord {
-        let i = self.contacts.i[place] as usize;
-        let (centre, mine) = (self.particles.position(i), self.particles.rows[i][3]);
-        // A mesh that the grain has left since has no point that is nearest to it: the contact is told at the grain's centre.
-        let gone = other.x.abs() >= FAR[0][0];
-        let apart = if gone { Vec3::zeros() } else { centre - other };
-        let reach = mine + radius;
-        let distance = if gone { 2.0 * reach } else { apart.norm() };
-        let normal = apart.try_normalize(0.0).unwrap_or_else(Vec3::zeros);
-        let (j, wall) = match kind.with {
-            With::Wall(w) => (w as u32, true),
-            _ => (self.particles.id[self.contacts.partner[place] as usize], false),
-        };
-        let point = self.wrapped(centre - normal * (mine * distance / reach));
-        ContactRecord {
-            point,
-            normal,
-            force,
-            overlap: reach - distance,
-            i: self.particles.id[i],
-            j,
-            wall,
-            work,
-        }
-    }
+fn record(
+    model: &Model,
+    state: &State,
+    lists: &NeighbourLists,
+    kind: &Kind,
+    place: usize,
+    (other, radius): (Vec3, f64),
+    (force, work): (Vec3, f64),
+) -> ContactRecord {
+    let i = lists.contacts.i[place] as usize;
+    let (centre, mine) = (state.particles.position(i), state.particles.rows[i][3]);
+    // A mesh that the grain has left since has no point that is nearest to it: the contact is told at the grain's centre.
+    let gone = other.x.abs() >= FAR[0][0];
+    let apart = if gone { Vec3::zeros() } else { centre - other };
+    let reach = mine + radius;
+    let distance = if gone { 2.0 * reach } else { apart.norm() };
+    let normal = apart.try_normalize(0.0).unwrap_or_else(Vec3::zeros);
+    let (j, wall) = match kind.with {
+        With::Wall(w) => (w as u32, true),
+        _ => (state.particles.id[lists.contacts.partner[place] as usize], false),
+    };
+    let point = model.wrapped(centre - normal * (mine * distance / reach));
+    ContactRecord { point, normal, force, overlap: reach - distance, i: state.particles.id[i], j, wall, work }
 }

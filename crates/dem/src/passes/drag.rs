@@ -17,16 +17,16 @@
 //! Stable step: that scheme, on v' = −λ v, needs λ Δt ≤ 1; with contacts, 1/Δt ≥ 1/Δt_contacts + λ is on the safe side, because
 //! (ω Δt)²/4 + 2 ζ ω Δt + λ Δt ≤ 1 follows from it (see [`crate::limit`]).
 
-use crate::forces::sweep::FEW;
-use crate::forces::sweep::share;
+use crate::forces::sweep::{FEW, share};
+use crate::model::Model;
 use crate::model::limit::radii_by_material;
+use crate::neighbours::NeighbourLists;
 use crate::setup::Setup;
 use crate::simd::Row;
-use crate::simulation::Simulation;
+use crate::state::State;
 use crate::state::particles::mass;
 use geom::Vec3;
-use serde::Deserialize;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 /// Particles of one task.
@@ -129,53 +129,51 @@ impl Drag {
     }
 }
 
-impl Simulation {
-    /// Acceleration [m/s²] of particle `k` besides that of its contacts; a fluid acts on clumps as a whole.
-    pub(crate) fn body_acceleration(&self, k: usize) -> Vec3 {
-        let (gravity, row) = (self.setup.gravity, &self.particles.rows[k]);
-        let drag = self.setup.drag.filter(|_| !self.bodies.is_member(k));
-        drag.map_or(gravity, |d| gravity + d.acceleration(row, &gravity))
-    }
+/// Acceleration [m/s²] of particle `k` besides that of its contacts; a fluid acts on clumps as a whole.
+pub fn body_acceleration(model: &Model, state: &State, k: usize) -> Vec3 {
+    let (gravity, row) = (model.setup.gravity, &state.particles.rows[k]);
+    let drag = model.setup.drag.filter(|_| !state.bodies.is_member(k));
+    drag.map_or(gravity, |d| gravity + d.acceleration(row, &gravity))
+}
 
-    /// What the fluid takes from particle `k` [W].
-    pub(crate) fn drag_power(&self, k: usize) -> f64 {
-        let row = &self.particles.rows[k];
-        self.setup.drag.map_or(0.0, |d| -d.slowing(row).dot(&Vec3::new(row[4], row[5], row[6])) / row[7])
-    }
+/// What the fluid takes from particle `k` [W].
+pub fn drag_power(model: &Model, state: &State, k: usize) -> f64 {
+    let row = &state.particles.rows[k];
+    model.setup.drag.map_or(0.0, |d| -d.slowing(row).dot(&Vec3::new(row[4], row[5], row[6])) / row[7])
+}
 
-    /// After a move: what the fluid adds to it. Returns whether a particle has left its room.
-    pub(crate) fn apply_drag(&mut self) -> bool {
-        let Some(drag) = self.setup.drag else { return false };
-        let (dt, gravity, zones, bodies) = (self.dt, self.setup.gravity, &self.zones, &self.bodies);
-        let (p, before) = (&mut self.particles, &self.before);
-        let count = p.len();
-        let rows = p.rows[..count].chunks_mut(CHUNK).zip(p.acceleration.chunks_mut(CHUNK));
-        let tiles = rows.zip(before[..count].chunks(CHUNK)).zip(p.home.chunks(CHUNK)).enumerate();
-        let done: Vec<(f64, bool)> =
-            share(count >= FEW, tiles.collect(), |(tile, (((rows, accelerations), before), home))| {
-                let (mut taken, mut out) = (0.0, false);
-                for k in 0..rows.len() {
-                    let at = tile * CHUNK + k;
-                    if zones.travels(at) || zones.is_gone(at) || bodies.is_member(at) {
-                        continue;
-                    }
-                    let (row, was) = (&mut rows[k], &before[k]);
-                    let a = drag.acceleration(was, &gravity);
-                    let mut away = 0.0;
-                    for axis in 0..3 {
-                        row[axis] += dt * dt * a[axis];
-                        row[4 + axis] += 1.5 * dt * a[axis];
-                        accelerations[k][axis] += a[axis];
-                        away += (row[axis] - home[k][axis]) * (row[axis] - home[k][axis]);
-                    }
-                    out |= away > home[k][3] * home[k][3];
-                    taken -= drag.slowing(was).dot(&Vec3::new(was[4], was[5], was[6])) * dt / was[7];
+/// After a move: what the fluid adds to it. Returns whether a particle has left its room.
+pub fn apply(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> bool {
+    let Some(drag) = model.setup.drag else { return false };
+    let (dt, gravity, zones, bodies) = (model.dt, model.setup.gravity, &state.zones, &state.bodies);
+    let (p, before) = (&mut state.particles, &lists.before);
+    let count = p.len();
+    let rows = p.rows[..count].chunks_mut(CHUNK).zip(p.acceleration.chunks_mut(CHUNK));
+    let tiles = rows.zip(before[..count].chunks(CHUNK)).zip(p.home.chunks(CHUNK)).enumerate();
+    let done: Vec<(f64, bool)> =
+        share(count >= FEW, tiles.collect(), |(tile, (((rows, accelerations), before), home))| {
+            let (mut taken, mut out) = (0.0, false);
+            for k in 0..rows.len() {
+                let at = tile * CHUNK + k;
+                if zones.travels(at) || zones.is_gone(at) || bodies.is_member(at) {
+                    continue;
                 }
-                (taken, out)
-            });
-        if self.setup.ledger {
-            done.iter().for_each(|d| self.account.drag += d.0);
-        }
-        done.iter().any(|d| d.1)
+                let (row, was) = (&mut rows[k], &before[k]);
+                let a = drag.acceleration(was, &gravity);
+                let mut away = 0.0;
+                for axis in 0..3 {
+                    row[axis] += dt * dt * a[axis];
+                    row[4 + axis] += 1.5 * dt * a[axis];
+                    accelerations[k][axis] += a[axis];
+                    away += (row[axis] - home[k][axis]) * (row[axis] - home[k][axis]);
+                }
+                out |= away > home[k][3] * home[k][3];
+                taken -= drag.slowing(was).dot(&Vec3::new(was[4], was[5], was[6])) * dt / was[7];
+            }
+            (taken, out)
+        });
+    if model.setup.ledger {
+        done.iter().for_each(|d| state.account.drag += d.0);
     }
+    done.iter().any(|d| d.1)
 }

@@ -10,14 +10,10 @@
 //! Vyas, Ottino, Lueptow & Umbanhowar (2024), arXiv:2410.14798. Rotation in the same way, I = 2/5 m r².
 
 use crate::kernel::sums::Sums;
-use crate::passes::sleep::Beds;
-use crate::simd::Four;
-use crate::simd::Row;
-use crate::simd::Row4;
-use crate::simd::Width;
-use crate::simd::number::Number;
-use crate::simd::number::as_kept;
+use crate::simd::number::{Number, as_kept};
 use crate::simd::scalar::Each;
+use crate::simd::{Four, Row, Row4, Width};
+use crate::state::sleepers::Beds;
 
 /// Columns of some particles.
 pub struct Columns<'a> {

@@ -4,6 +4,8 @@ pub mod bonds;
 pub mod clumps;
 pub mod drag;
 pub mod integrate;
+pub mod ledger;
 pub mod servo;
 pub mod sleep;
+pub mod start;
 pub mod zones;

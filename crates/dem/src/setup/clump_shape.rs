@@ -4,12 +4,8 @@
 //! from the other two last (the third, as [`crate::space::rotation`] wants it). A body is a shape × scale s: lengths × s, mass × s³,
 //! moments of inertia × s⁵.
 
-use geom::Moments;
-use geom::Vec3;
-use nalgebra::Matrix3;
-use nalgebra::Matrix6;
-use nalgebra::Rotation3;
-use nalgebra::UnitQuaternion;
+use geom::{Moments, Vec3};
+use nalgebra::{Matrix3, Matrix6, Rotation3, UnitQuaternion};
 
 /// Moments of inertia closer than this are the same [–]: what the quadrature of a union leaves.
 const SAME: f64 = 1e-8;

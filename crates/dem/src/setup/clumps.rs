@@ -1,9 +1,7 @@
 //! What the clumps of a setup are, seen from the rest of the engine.
 
-use crate::setup::Clumps;
-use crate::setup::Material;
-use crate::setup::Setup;
 use crate::setup::clump_shape::ClumpShape;
+use crate::setup::{Clumps, Material, Setup};
 
 /// How easily a rigid clump gives way, for the critical step.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,11 +45,6 @@ impl Setup {
 }
 
 impl Clumps {
-    /// Shapes and entries, for when the bodies are in their columns.
-    pub(crate) fn without_bodies(self) -> Clumps {
-        Clumps { bodies: Vec::new(), ..self }
-    }
-
     /// Number of members of all bodies at t = 0.
     pub fn members(&self) -> usize {
         self.bodies.iter().filter_map(|b| self.shapes.get(b.shape as usize)).map(|s| s.spheres.len()).sum()

@@ -7,19 +7,17 @@ mod bond;
 mod contact;
 mod zone;
 
-use geom::Plane;
-use geom::Vec3;
 use geom::mesh::TriMesh;
+use geom::{Plane, Vec3};
 use nalgebra::UnitQuaternion;
-use serde::Deserialize;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 pub use crate::effects::ContactHistory;
 pub use crate::passes::drag::Drag;
 pub use crate::passes::drag::DragLaw;
-pub use crate::passes::servo::Servo;
-pub use crate::passes::sleep::Sleep;
 pub use crate::setup::clump_shape::ClumpShape;
+pub use crate::state::sleepers::Sleep;
+pub use crate::walls::servo::Servo;
 pub use bond::Bond;
 pub use contact::ContactLaw;
 pub use zone::Crossing;

@@ -2,11 +2,9 @@
 
 use crate::effects::ContactHistory;
 use crate::setup::Particle;
-use geom::Plane;
-use geom::Vec3;
+use geom::{Plane, Vec3};
 use nalgebra::UnitQuaternion;
-use serde::Deserialize;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// A plane with a region behind it in which particles move by a prescribed motion.
 ///

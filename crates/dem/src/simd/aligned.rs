@@ -1,7 +1,6 @@
 //! Numbers in whole cache lines.
 
-use std::ops::Deref;
-use std::ops::DerefMut;
+use std::ops::{Deref, DerefMut};
 
 /// Numbers of a cache line.
 const LINE: usize = 8;

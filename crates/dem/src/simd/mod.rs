@@ -21,15 +21,8 @@ pub(crate) mod x86;
 #[cfg(target_arch = "x86_64")]
 pub(crate) mod x86_single;
 
-use serde::Deserialize;
-use serde::Serialize;
-use std::ops::Add;
-use std::ops::Deref;
-use std::ops::DerefMut;
-use std::ops::Div;
-use std::ops::Mul;
-use std::ops::Neg;
-use std::ops::Sub;
+use serde::{Deserialize, Serialize};
+use std::ops::{Add, Deref, DerefMut, Div, Mul, Neg, Sub};
 
 /// Contacts are stored in blocks of this many, whatever the width of the lanes that compute them.
 pub const BLOCK: usize = 8;

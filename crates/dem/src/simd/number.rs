@@ -2,10 +2,8 @@
 //!
 //! All are kept in columns of words of eight bytes, so that one kind of column does for both precisions: a word holds one number, or two.
 
-use crate::simd::BLOCK;
-use crate::simd::Lane;
-use std::ops::AddAssign;
-use std::ops::SubAssign;
+use crate::simd::{BLOCK, Lane};
+use std::ops::{AddAssign, SubAssign};
 
 /// A number as it is kept.
 pub trait Number: Copy + Default + AddAssign + SubAssign + Send + Sync {

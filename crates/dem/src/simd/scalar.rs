@@ -1,13 +1,7 @@
 //! One contact at a time: what the wide lanes must equal.
 
-use crate::simd::Four;
-use crate::simd::Lane;
-use crate::simd::Places;
-use crate::simd::Row;
-use crate::simd::Row4;
-use std::ops::Add;
-use std::ops::Mul;
-use std::ops::Sub;
+use crate::simd::{Four, Lane, Places, Row, Row4};
+use std::ops::{Add, Mul, Sub};
 
 impl Lane for f64 {
     const WIDTH: usize = 1;

@@ -1,9 +1,6 @@
 //! One contact at a time in single precision: what the wide lanes of single precision must equal.
 
-use crate::simd::Lane;
-use crate::simd::Places;
-use crate::simd::Row;
-use crate::simd::Row4;
+use crate::simd::{Lane, Places, Row, Row4};
 
 impl Lane for f32 {
     const WIDTH: usize = 1;

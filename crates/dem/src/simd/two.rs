@@ -3,15 +3,8 @@
 //! A contact is one long chain of roots and divisions, each of which waits for the one before: a processor computes two chains
 //! in hardly more time than one. Eight contacts as one lane need registers that not every processor has.
 
-use crate::simd::Lane;
-use crate::simd::Places;
-use crate::simd::Row;
-use crate::simd::Row4;
-use std::ops::Add;
-use std::ops::Div;
-use std::ops::Mul;
-use std::ops::Neg;
-use std::ops::Sub;
+use crate::simd::{Lane, Places, Row, Row4};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// The first contacts, and as many more.
 #[derive(Clone, Copy)]

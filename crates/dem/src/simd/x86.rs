@@ -6,16 +6,10 @@
 #![allow(unsafe_code)]
 
 use crate::simd::Four;
-use crate::simd::Lane;
-use crate::simd::Places;
-use crate::simd::Row;
-use crate::simd::Row4;
+
+use crate::simd::{Lane, Places, Row, Row4};
 use std::arch::x86_64::*;
-use std::ops::Add;
-use std::ops::Div;
-use std::ops::Mul;
-use std::ops::Neg;
-use std::ops::Sub;
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Asks for the cache line of an address.
 #[inline(always)]

@@ -4,18 +4,12 @@
 #![allow(unsafe_code)]
 
 use crate::simd::Lane;
-use crate::simd::Places;
-use crate::simd::Row;
-use crate::simd::Row4;
+
 use crate::simd::two::Two;
-use crate::simd::x86::X4;
-use crate::simd::x86::X8;
+use crate::simd::x86::{X4, X8};
+use crate::simd::{Places, Row, Row4};
 use std::arch::x86_64::*;
-use std::ops::Add;
-use std::ops::Div;
-use std::ops::Mul;
-use std::ops::Neg;
-use std::ops::Sub;
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Eight floats beside two times four doubles.
 #[derive(Clone, Copy)]

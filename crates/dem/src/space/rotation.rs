@@ -11,8 +11,7 @@
 //! Fassò (2003), J. Comput. Phys. 189, doi:10.1016/S0021-9991(03)00234-8.
 
 use geom::Vec3;
-use nalgebra::Quaternion;
-use nalgebra::UnitQuaternion;
+use nalgebra::{Quaternion, UnitQuaternion};
 
 /// The turn after `dt` [s] of a body with turn `q` (its axes to space), angular momentum `momentum` in space [kg·m²/s], and
 /// 1/I along its axes [1/(kg·m²)].

@@ -9,9 +9,8 @@
 //! side of their box first.
 
 use crate::neighbours::contacts::tile;
-use geom::Grid;
-use geom::Vec3;
 use geom::grid::bounds;
+use geom::{Grid, Vec3};
 use std::ops::Range;
 
 /// Share of the particles that cells are made for; what reaches farther than half a cell is searched one by one.

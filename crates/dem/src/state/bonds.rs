@@ -19,22 +19,16 @@
 //! both ends instead, so that nothing is lost by rounding or order: Wang (2009), Acta Geotech. 4, doi:10.1007/s11440-008-0072-1. Beam in a frame that turns along:
 //! Crisfield (1990), Comput. Methods Appl. Mech. Eng. 81, doi:10.1016/0045-7825(90)90106-V.
 
-use crate::forces::sweep::FEW;
-use crate::forces::sweep::share;
+use crate::forces::sweep::{FEW, share};
 use crate::kernel::sums::Sums;
-use crate::model::bonds::beam::Beam;
-use crate::model::bonds::beam::Ends;
-use crate::model::bonds::beam::Pull;
+use crate::model::bonds::beam::{Beam, Ends, Pull};
 use crate::model::bonds::find;
 use crate::model::error::SetupError;
-use crate::setup::Link;
-use crate::setup::Setup;
-use crate::simulation::Simulation;
+use crate::setup::{Link, Setup};
 use crate::state::particles::Particles;
 use geom::Vec3;
 use nalgebra::UnitQuaternion;
-use serde::Deserialize;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Bonds, or particles, of one task.
 pub(crate) const CHUNK: usize = 256;
@@ -224,7 +218,7 @@ impl Bonds {
     }
 
     /// What all bonds do, at a time [s]; those that break do nothing any more. None breaks while both of its particles travel (`busy`), which feel nothing.
-    fn pull(&mut self, particles: &Particles, period: &Vec3, (time, busy): (f64, &[bool])) {
+    pub(crate) fn pull(&mut self, particles: &Particles, period: &Vec3, (time, busy): (f64, &[bool])) {
         let (ties, turns) = (&self.ties, &self.turns);
         let pulls = self.pulls.chunks_mut(CHUNK).zip(ties.chunks(CHUNK));
         share(ties.len() >= FEW / 4, pulls.collect(), |(pulls, ties)| {
@@ -262,46 +256,4 @@ pub(crate) fn nearest(arm: Vec3, period: &Vec3) -> Vec3 {
         if period[axis] > 0.0 { period[axis] * (arm[axis] / period[axis]).round() } else { 0.0 }
     };
     arm - Vec3::new(back(0), back(1), back(2))
-}
-
-impl Simulation {
-    /// Brings bonds to this instant.
-    pub(crate) fn pull_bonds(&mut self) {
-        if self.bonds.none() {
-            return;
-        }
-        let (period, time) = (self.period(), self.time());
-        self.bonds.pull(&self.particles, &period, (time, self.zones.busy()));
-    }
-
-    /// Bonds of this instant, broken ones as well, by ids.
-    ///
-    /// # Errors
-    /// When the state is beyond a guard.
-    pub fn bonds(&mut self) -> Result<Vec<BondState>, crate::model::error::Halt> {
-        self.ready()?;
-        let (p, period) = (&self.particles, self.period());
-        let middle = |[i, j]: [u32; 2]| {
-            let from = p.position(j as usize);
-            self.wrapped(from + nearest(p.position(i as usize) - from, &period) * 0.5)
-        };
-        let state = |(tie, pull): (&Tie, &Pull)| BondState {
-            ids: tie.ends.map(|k| p.id[k as usize]),
-            middle: middle(tie.ends),
-            size: [tie.beam.length, tie.beam.radius],
-            broken: tie.broken.is_finite().then_some(tie.broken),
-            force: pull.force.into(),
-            moments: pull.moment.map(Into::into),
-            stress: pull.stress,
-        };
-        let here = self.bonds.ties.iter().zip(&self.bonds.pulls).filter(|(tie, _)| tie.broken != GONE);
-        let mut all: Vec<BondState> = here.map(state).collect();
-        all.sort_unstable_by_key(|b| b.ids);
-        Ok(all)
-    }
-
-    /// How many bonds there were at the start or have come in, and how many of them have broken.
-    pub fn bond_count(&self) -> [usize; 2] {
-        self.bonds.count()
-    }
 }

@@ -1,17 +1,13 @@
 //! One body: its state, and its step.
 
-use crate::observe::energy::heavy;
 use crate::setup::Setup;
-use crate::simd::Row;
-use crate::simd::Row4;
+use crate::simd::{Row, Row4};
 use crate::space::rotation;
-use crate::state::ledger::Driven;
+use crate::state::ledger::{Driven, heavy};
 use crate::state::particles::Particles;
 use geom::Vec3;
-use nalgebra::Quaternion;
-use nalgebra::UnitQuaternion;
-use serde::Deserialize;
-use serde::Serialize;
+use nalgebra::{Quaternion, UnitQuaternion};
+use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 /// One body: its state at the step, velocities predicted for it.

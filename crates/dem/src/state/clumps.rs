@@ -15,21 +15,13 @@
 //! 107, doi:10.1063/1.474310. Members of one body never form a contact: such pairs are left out of the lists.
 
 use crate::passes::clumps::zones::starts;
-use crate::setup::Body;
-use crate::setup::ClumpShape;
-use crate::setup::EntryClump;
-use crate::setup::Material;
-use crate::setup::Particle;
-use crate::setup::Setup;
+use crate::setup::{Body, ClumpShape, EntryClump, Material, Particle, Setup};
 use crate::simd::Row4;
 use crate::space::rotation;
-use crate::state::clump::Flight;
-use crate::state::clump::arm;
-use crate::state::clump::quaternion;
+use crate::state::clump::{Flight, arm, quaternion};
 use crate::state::particles::Particles;
 use geom::Vec3;
-use serde::Deserialize;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Who belongs to no body.
 pub(crate) const FREE: u32 = u32::MAX;

@@ -1,12 +1,9 @@
 //! The particles' columns, in space order.
 
-use crate::setup::Material;
-use crate::setup::Particle;
-use crate::simd::Row;
-use crate::simd::Row4;
+use crate::setup::{Material, Particle};
+use crate::simd::{Row, Row4};
 use geom::Vec3;
-use serde::Deserialize;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Two rows that nothing ever touches: what the unused places of a block point to.
 pub const FAR: [Row; 2] = [

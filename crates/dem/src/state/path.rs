@@ -7,24 +7,17 @@
 //! Cubic Hermite interpolation: places and velocities of the samples are met, and free flight between them is exact.
 
 use crate::model::error::SetupError;
-use crate::passes::zones::travel::Flow;
-use crate::setup::Entry;
-use crate::setup::Guide;
-use crate::setup::PathSample;
-use crate::setup::Sample;
-use crate::setup::Setup;
-use crate::simulation::Simulation;
+use crate::setup::{Entry, Guide, Sample, Setup};
 use crate::space::rotation::spun;
+use crate::state::zone_particle::Flow;
 use crate::state::zones::Zones;
 use geom::Vec3;
 use nalgebra::UnitQuaternion;
-use serde::Deserialize;
-use serde::Serialize;
-use std::collections::BTreeSet;
+use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
 /// Samples begin this much farther from the plane than the zone is long, so that the first of them is before the zone.
-const EARLY: f64 = 1.25;
+pub(crate) const EARLY: f64 = 1.25;
 
 /// Vector of the turn that leads from one orientation to another [rad], the short way.
 fn between(from: &UnitQuaternion<f64>, to: &UnitQuaternion<f64>) -> Vec3 {
@@ -36,7 +29,7 @@ fn between(from: &UnitQuaternion<f64>, to: &UnitQuaternion<f64>) -> Vec3 {
 
 /// How a path ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-enum End {
+pub(crate) enum End {
     /// It is not known yet.
     Open,
     /// At the calculation plane.
@@ -183,66 +176,5 @@ impl Zones {
             Guide::Gone => path.end = End::Gone,
         }
         Ok(())
-    }
-}
-
-impl Simulation {
-    /// Says where a particle goes that was queued for an inlet of recorded motion. What is told must reach beyond time() +
-    /// [`Simulation::look_ahead`] before the next step.
-    ///
-    /// # Errors
-    /// A particle that is not on its way in, samples out of order.
-    pub fn guide(&mut self, id: u32, guide: Guide) -> Result<(), SetupError> {
-        self.zones.guide(id, guide, &self.setup)
-    }
-
-    /// Where free particles near a storage plane of recorded motion are now, and which have gone back upstream since they were
-    /// sampled last, by outlet and id.
-    pub fn sample_paths(&mut self) -> Vec<PathSample> {
-        let mut out = Vec::new();
-        for outlet in 0..self.zones.outlets.len() {
-            if self.zones.outlets[outlet].motion == crate::setup::ZoneMotion::Recorded {
-                self.sample_paths_of(outlet, &mut out);
-            }
-        }
-        out
-    }
-
-    fn sample_paths_of(&mut self, outlet: usize, out: &mut Vec<PathSample>) {
-        let zone = self.zones.outlets[outlet];
-        let first = out.len();
-        for k in 0..self.particles.len() {
-            let Some((place, radius)) = self.tested(k) else { continue };
-            let id = self.particles.id[k];
-            if !(zone.past(&place, radius) >= -EARLY * zone.length)
-                || self.zones.is_gone(k)
-                || self.zones.travels(k)
-                || self.zones.beyond[outlet].contains(&id)
-            {
-                continue;
-            }
-            out.push(self.sample(k, outlet as u32, false));
-        }
-        out[first..].sort_unstable_by_key(|s| s.particle.id);
-        let now: BTreeSet<u32> = out[first..].iter().map(|s| s.particle.id).collect();
-        let before = std::mem::replace(&mut self.zones.sampled[outlet], now);
-        let now = &self.zones.sampled[outlet];
-        // Those that are not free any more have passed: their crossing ends the path.
-        let gone = |k: &usize| {
-            let id = &self.particles.id[*k];
-            before.contains(id) && !now.contains(id) && !self.zones.travels(*k) && !self.zones.is_gone(*k)
-        };
-        let mut ids: Vec<(u32, usize)> =
-            (0..self.particles.len()).filter(gone).map(|k| (self.particles.id[k], k)).collect();
-        ids.sort_unstable();
-        for (_, k) in ids {
-            out.push(self.sample(k, outlet as u32, true));
-        }
-    }
-
-    /// Where particle `k`, or the clump that it is the first member of, is now.
-    fn sample(&self, k: usize, outlet: u32, gone: bool) -> PathSample {
-        let (particle, clump) = self.state_back(k, 0.0);
-        PathSample { outlet, particle, clump, turn: self.bonds.turn_of(k), gone }
     }
 }

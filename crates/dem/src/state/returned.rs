@@ -1,17 +1,15 @@
 //! Particles that go back through a plane, against the flow: what is there is not simulated by this stage.
 
 use crate::model::error::Halt;
-use crate::passes::zones::travel::Way;
 use crate::setup::Setup;
-use crate::simulation::Simulation;
+use crate::state::zone_particle::Way;
 use crate::state::zones::Zones;
 use geom::Vec3;
-use serde::Deserialize;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Where a free particle came from.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-struct Origin {
+pub(crate) struct Origin {
     /// Its inlet + 1; 0 when it came by none that is watched.
     pub(crate) inlet: u32,
     /// Whether it was seen behind the calculation plane.
@@ -81,7 +79,7 @@ impl Lost {
 
 impl Zones {
     /// Refuses a particle on its way in that moves by more than the guard's share of its radius in a step.
-    fn fast(&self, time: f64, dt: f64, setup: &Setup) -> Result<(), Halt> {
+    pub(crate) fn fast(&self, time: f64, dt: f64, setup: &Setup) -> Result<(), Halt> {
         let limit = setup.guards.motion;
         for t in &self.travellers {
             let Way::In(inlet) = t.way else { continue };
@@ -96,7 +94,7 @@ impl Zones {
 
     /// How far a free particle is behind the calculation plane that it came by, less the length of the zone: above 0 it is behind
     /// the generation plane; and its inlet. Counts those that come back.
-    fn came_back(&mut self, k: usize, place: &Vec3, radius: f64) -> Option<(u32, f64)> {
+    pub(crate) fn came_back(&mut self, k: usize, place: &Vec3, radius: f64) -> Option<(u32, f64)> {
         let origin = self.lost.origins[k];
         if origin.inlet == 0 || self.gone[k] || self.busy[k] {
             return None;
@@ -109,34 +107,5 @@ impl Zones {
             self.lost.returned.inlets[inlet as usize] += u64::from(past < 0.0);
         }
         Some((inlet, -past - zone.length))
-    }
-}
-
-impl Simulation {
-    /// Looks for grains that zones have lost: one that came in by a cut and has gone back through the whole zone, and one that
-    /// comes in too fast for the step. Those behind a calculation plane again are counted. At no cost without inlets.
-    ///
-    /// # Errors
-    /// Such a grain.
-    pub fn look_back(&mut self) -> Result<(), Halt> {
-        let time = self.time();
-        self.zones.fast(time, self.dt, &self.setup)?;
-        let mut found = None;
-        for k in 0..if self.zones.lost.any { self.particles.len() } else { 0 } {
-            let Some((place, radius)) = self.tested(k) else { continue };
-            let Some((inlet, behind)) = self.zones.came_back(k, &place, radius) else {
-                continue;
-            };
-            if behind > 0.0 && self.setup.guards.zones && found.is_none() {
-                let (id, [x, y, z]) = (self.particles.id[k], [place.x, place.y, place.z]);
-                found = Some(Halt::CameBack { time, id, inlet, x, y, z, behind });
-            }
-        }
-        found.map_or(Ok(()), Err)
-    }
-
-    /// How many particles went back through planes so far.
-    pub fn returned(&self) -> &Returned {
-        &self.zones.lost.returned
     }
 }

@@ -7,23 +7,13 @@
 //! A traveller's row is overwritten after each move, so that the move itself knows nothing of zones.
 
 use crate::passes::zones::enter;
-use crate::passes::zones::travel;
-use crate::passes::zones::travel::Traveller;
-use crate::setup::ContactHistory;
-use crate::setup::Crossing;
-use crate::setup::Entry;
-use crate::setup::Setup;
-use crate::setup::Zone;
+use crate::setup::{ContactHistory, Crossing, Entry, Setup, Zone};
 use crate::simd::Row4;
-use crate::simulation::Simulation;
 use crate::state::particles::Particles;
-use crate::state::path;
-use crate::state::returned as lost;
-use serde::Deserialize;
-use serde::Serialize;
-use std::collections::BTreeMap;
-use std::collections::BTreeSet;
-use std::collections::VecDeque;
+use crate::state::zone_particle::{Traveller, Way};
+use crate::state::{path, returned as lost};
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 /// Steps ahead of their time at which entries are listed, so that not every one makes lists anew.
 pub const LOOK_AHEAD: u64 = 256;
@@ -116,7 +106,7 @@ impl Zones {
     /// The inlet that particle `k` comes in by, while it is on its way.
     pub fn on_its_way(&self, k: usize) -> Option<u32> {
         let found = self.travellers.iter().find(|t| self.travels(k) && t.at as usize == k)?;
-        if let travel::Way::In(inlet) = found.way { Some(inlet) } else { None }
+        if let Way::In(inlet) = found.way { Some(inlet) } else { None }
     }
 
     /// Whether each particle is in a zone; empty without zones.
@@ -133,7 +123,7 @@ impl Zones {
     pub(crate) fn comes(&self, id: u32, setup: &Setup) -> bool {
         let members = |e: &Entry| e.clump.map_or(1, |c| enter::members(&c, setup));
         self.pending.iter().any(|e| id.wrapping_sub(e.particle.id) < members(e))
-            || self.travellers.iter().any(|t| t.start.id == id && matches!(t.way, travel::Way::In(_)))
+            || self.travellers.iter().any(|t| t.start.id == id && matches!(t.way, Way::In(_)))
     }
 
     /// Whether one is to come in later.
@@ -166,13 +156,5 @@ impl Zones {
         self.gone = vec![false; order.len()];
         self.left.clear();
         self.lost.reorder(order);
-    }
-}
-
-impl Simulation {
-    /// After a move: prescribed motion, crossings, releases, exclusions.
-    pub(crate) fn move_zones(&mut self) {
-        self.move_travellers();
-        self.find_crossings();
     }
 }

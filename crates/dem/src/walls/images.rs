@@ -5,8 +5,6 @@
 //! to stands in its partner: number of the part + image × parts. When a particle comes back through the other face, or a wall is
 //! counted back, the same contact has another image ([`Image::before`]).
 
-use crate::simulation::Simulation;
-use crate::walls::motion::Pose;
 use geom::Vec3;
 
 /// An image: a digit of base 3 for each axis, 0, 1 or 2 = −1 periods.
@@ -45,9 +43,9 @@ impl Image {
 
 /// Which images of a wall particles may touch.
 pub struct Around {
-    period: Vec3,
-    lo: Vec3,
-    hi: Vec3,
+    pub period: Vec3,
+    pub lo: Vec3,
+    pub hi: Vec3,
 }
 
 impl Around {
@@ -75,56 +73,5 @@ impl Around {
             let image = Image::of([x.1[i], y.1[j], z.1[k]]);
             (image, image.shift(&period))
         })
-    }
-}
-
-impl Simulation {
-    /// Length of the box along periodic axes [m], 0 along others.
-    pub(crate) fn period(&self) -> Vec3 {
-        crate::state::clumps::periods(&self.setup.periodic)
-    }
-
-    /// Where a wall is now, counted back into the box.
-    pub(crate) fn pose_in_box(&self, wall: usize, time: f64) -> Pose {
-        self.count_back(wall, self.pose(wall, time))
-    }
-
-    /// A pose of a wall, counted back into the box.
-    pub(crate) fn count_back(&self, wall: usize, pose: Pose) -> Pose {
-        let Some(back) = self.counted_back.get(wall).filter(|n| **n != [0; 3]) else { return pose };
-        let period = self.period();
-        let by = Vec3::from([0, 1, 2].map(|a| -f64::from(back[a]) * period[a]));
-        pose.shifted(by, Vec3::zeros())
-    }
-
-    /// Whole periods that the middle of each wall was away from the box when neighbours were listed; none where nothing is
-    /// periodic.
-    pub(crate) fn travelled(&self) -> Vec<Periods> {
-        let period = self.period();
-        if period == Vec3::zeros() {
-            return Vec::new();
-        }
-        let middle = Vec3::from(self.setup.periodic.map(|p| p.map_or(0.0, |(lo, hi)| 0.5 * (lo + hi))));
-        let whole = |shift: f64, period: f64| if period > 0.0 { (shift / period).round() as i32 } else { 0 };
-        let of = |w: usize| {
-            let (point, home) = self.walls[w].counted_from(middle);
-            let away = self.pose_listed(w).place(&point) - home;
-            [0, 1, 2].map(|a| whole(away[a], period[a]))
-        };
-        (0..self.walls.len()).map(of).collect()
-    }
-
-    /// Where the images of a wall may be met.
-    pub(crate) fn around(&self, wall: usize, pose: &Pose) -> Around {
-        let [lo, hi] = self.walls[wall].bounds;
-        let period = self.period();
-        if !lo.iter().all(|x| x.is_finite()) {
-            return Around { period, lo, hi };
-        }
-        let corner = |k: usize| {
-            pose.place(&Vec3::from([0, 1, 2].map(|a| if k >> a & 1 == 1 { hi[a] } else { lo[a] })))
-        };
-        let (lo, hi) = (1..8).map(corner).fold((corner(0), corner(0)), |(l, h), c| (l.inf(&c), h.sup(&c)));
-        Around { period, lo, hi }
     }
 }

@@ -7,22 +7,15 @@
 pub(crate) mod images;
 pub(crate) mod motion;
 pub(crate) mod seams;
+pub(crate) mod servo;
 
-use crate::setup::Motion;
-use crate::setup::Wall;
-use crate::setup::WallShape;
-use crate::simd::Row;
-use crate::simd::Row4;
-use crate::state::particles::FAR;
-use crate::state::particles::is_away;
+use crate::setup::{Motion, Wall, WallShape};
+use crate::simd::{Row, Row4};
+use crate::state::particles::{FAR, is_away};
 use crate::walls::images::Image;
 use crate::walls::motion::Pose;
-use crate::walls::seams::Nearest;
-use crate::walls::seams::Slots;
-use geom::Boxes;
-use geom::Grid;
-use geom::Plane;
-use geom::Vec3;
+use crate::walls::seams::{Nearest, Slots};
+use geom::{Boxes, Grid, Plane, Vec3};
 
 /// A wall, ready to be met.
 #[derive(Debug, Clone)]

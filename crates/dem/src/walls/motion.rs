@@ -2,9 +2,7 @@
 
 use crate::setup::Motion;
 use geom::Vec3;
-use nalgebra::Matrix3;
-use nalgebra::Rotation3;
-use nalgebra::Unit;
+use nalgebra::{Matrix3, Rotation3, Unit};
 
 /// A wall's place and velocity at one instant.
 #[derive(Debug, Clone, Copy)]

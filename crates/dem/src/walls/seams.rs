@@ -13,8 +13,7 @@
 use crate::simd::BLOCK;
 use crate::simd::number::Form;
 use geom::Vec3;
-use geom::triangle::Feature;
-use geom::triangle::closest_feature;
+use geom::triangle::{Feature, closest_feature};
 
 /// Two points closer than this share of the distance are one contact [–].
 const SAME_POINT: f64 = 1e-6;

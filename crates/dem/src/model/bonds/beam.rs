@@ -2,8 +2,7 @@
 
 use geom::Vec3;
 use nalgebra::UnitQuaternion;
-use serde::Deserialize;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 /// Two particles, seen from the bond.

@@ -4,14 +4,10 @@ use crate::model::bonds::beam::Beam;
 use crate::model::bonds::limit;
 use crate::model::check::within;
 use crate::model::error::SetupError;
-use crate::neighbours::rebuild::half_of_shifts;
-use crate::neighbours::rebuild::pairs;
-use crate::setup::Bond;
-use crate::setup::Particle;
-use crate::setup::Setup;
+use crate::neighbours::rebuild::{half_of_shifts, pairs};
+use crate::setup::{Bond, Particle, Setup};
 use crate::space::search::Search;
-use crate::state::bonds::Tie;
-use crate::state::bonds::nearest;
+use crate::state::bonds::{Tie, nearest};
 use crate::state::clumps::periods;
 use geom::Vec3;
 

@@ -9,17 +9,12 @@
 use crate::model::bonds::beam::Beam;
 use crate::model::bonds::find::ties;
 use crate::model::error::SetupError;
-use crate::model::limit::Limit;
-use crate::model::limit::root;
-use crate::setup::EntryBonds;
-use crate::setup::Material;
-use crate::setup::Particle;
-use crate::setup::Setup;
+use crate::model::limit::{Limit, root};
+use crate::setup::{EntryBonds, Material, Particle, Setup};
 use crate::state::bonds::Tie;
 use crate::state::particles::mass;
 use geom::Vec3;
-use nalgebra::Matrix6;
-use nalgebra::Vector6;
+use nalgebra::{Matrix6, Vector6};
 
 /// A motion of one end that a spring resists.
 struct Motion {

@@ -1,3 +1,4 @@
 //! Bonds.
 
+pub mod pull;
 pub mod zones;

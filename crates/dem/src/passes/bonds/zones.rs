@@ -3,16 +3,13 @@
 //! A bond needs to know how both ends have turned since they were bonded, and nothing else: a traveller turns by its zone's motion, in closed form. It
 //! acts on the first of both that is free while the other is still on its way, as contacts do.
 
-use crate::model::bonds::beam::Beam;
-use crate::model::bonds::beam::Pull;
+use crate::model::Model;
+use crate::model::bonds::beam::{Beam, Pull};
 use crate::setup::Link;
-use crate::simulation::Simulation;
-use crate::state::bonds::Bonds;
-use crate::state::bonds::GONE;
-use crate::state::bonds::Tie;
+use crate::state::State;
+use crate::state::bonds::{Bonds, GONE, Tie};
 use nalgebra::UnitQuaternion;
-use std::collections::BTreeMap;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 impl Bonds {
     /// One comes in at the end of the list, turned like this; `None`: not at all.
@@ -81,48 +78,46 @@ impl Tie {
     }
 }
 
-impl Simulation {
-    /// Says that two are bonded that come in, before the first of them is free; of no effect where it is known, or where there are no bonds.
-    pub fn link(&mut self, link: Link) {
-        if self.bonds.on {
-            self.bonds.waiting.push(link);
-            self.stale = true;
-        }
+/// Says that two are bonded that come in, before the first of them is free; of no effect where it is known, or where there are no bonds.
+pub fn link(state: &mut State, link: Link) {
+    if state.bonds.on {
+        state.bonds.waiting.push(link);
+        state.stale = true;
     }
+}
 
-    /// Makes bonds of those that are here now; those of which one has gone are forgotten.
-    pub(crate) fn admit_bonds(&mut self) {
-        if self.bonds.waiting.is_empty() {
-            return;
-        }
-        let waiting = std::mem::take(&mut self.bonds.waiting);
-        let wanted: BTreeSet<u32> = waiting.iter().flat_map(|l| [l.id, l.partner]).collect();
-        let here = (0u32..)
-            .zip(&self.particles.id)
-            .filter(|&(k, id)| wanted.contains(id) && !self.zones.is_gone(k as usize));
-        let rows: BTreeMap<u32, u32> = here.map(|(k, &id)| (id, k)).collect();
-        let period = self.period();
-        let mut known: BTreeSet<[u32; 2]> = self.bonds.ties.iter().map(|tie| tie.ends).collect();
-        let mut energy = 0.0;
-        for link in waiting {
-            let ends = [link.id, link.partner].map(|id| rows.get(&id).copied());
-            if let [Some(a), Some(b)] = ends {
-                let tie = Tie::new(&link, [a, b]);
-                if known.insert(tie.ends) {
-                    energy += tie.beam.pull(&tie.ends(&self.particles, &self.bonds.turns, &period)).elastic;
-                    self.bonds.ties.push(tie);
-                    self.bonds.pulls.push(Pull::default());
-                }
-            } else if [link.id, link.partner]
-                .iter()
-                .zip(ends)
-                .all(|(&id, row)| row.is_some() || self.zones.waits(id))
-            {
-                self.bonds.waiting.push(link);
-            }
-        }
-        self.account.entered += energy;
-        self.account.passed -= energy;
-        self.bonds.index(&self.particles.id);
+/// Makes bonds of those that are here now; those of which one has gone are forgotten.
+pub fn insert_due(model: &Model, state: &mut State) {
+    if state.bonds.waiting.is_empty() {
+        return;
     }
+    let waiting = std::mem::take(&mut state.bonds.waiting);
+    let wanted: BTreeSet<u32> = waiting.iter().flat_map(|l| [l.id, l.partner]).collect();
+    let here = (0u32..)
+        .zip(&state.particles.id)
+        .filter(|&(k, id)| wanted.contains(id) && !state.zones.is_gone(k as usize));
+    let rows: BTreeMap<u32, u32> = here.map(|(k, &id)| (id, k)).collect();
+    let period = model.period();
+    let mut known: BTreeSet<[u32; 2]> = state.bonds.ties.iter().map(|tie| tie.ends).collect();
+    let mut energy = 0.0;
+    for link in waiting {
+        let ends = [link.id, link.partner].map(|id| rows.get(&id).copied());
+        if let [Some(a), Some(b)] = ends {
+            let tie = Tie::new(&link, [a, b]);
+            if known.insert(tie.ends) {
+                energy += tie.beam.pull(&tie.ends(&state.particles, &state.bonds.turns, &period)).elastic;
+                state.bonds.ties.push(tie);
+                state.bonds.pulls.push(Pull::default());
+            }
+        } else if [link.id, link.partner]
+            .iter()
+            .zip(ends)
+            .all(|(&id, row)| row.is_some() || state.zones.waits(id))
+        {
+            state.bonds.waiting.push(link);
+        }
+    }
+    state.account.entered += energy;
+    state.account.passed -= energy;
+    state.bonds.index(&state.particles.id);
 }

@@ -1,15 +1,12 @@
 //! The pass after each move.
 
+use crate::model::Model;
 use crate::passes::integrate::Moved;
 use crate::setup::Setup;
-use crate::simd::Row;
-use crate::simd::Row4;
-use crate::state::clump::Flight;
-use crate::state::clump::arm;
-use crate::state::clumps::Bodies;
-use crate::state::clumps::FREE;
-use crate::state::clumps::far;
-use crate::state::clumps::periods;
+use crate::simd::{Row, Row4};
+use crate::state::State;
+use crate::state::clump::{Flight, arm};
+use crate::state::clumps::{Bodies, FREE, far, periods};
 use crate::state::particles::Particles;
 use geom::Vec3;
 use rayon::prelude::*;
@@ -128,4 +125,15 @@ impl Write<'_> {
         }
         moved
     }
+}
+
+/// After a move: rigid clumps take the forces of their members and put them in their positions.
+pub fn advance(model: &Model, state: &mut State, moved: Moved) -> Moved {
+    if state.bodies.none() {
+        return moved;
+    }
+    if model.setup.ledger {
+        state.account.drag += state.bodies.drag_power(&model.setup) * model.dt;
+    }
+    moved.and(state.bodies.advance(&mut state.particles, &model.setup, model.dt))
 }

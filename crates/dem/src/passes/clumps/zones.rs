@@ -3,13 +3,9 @@
 //! In a zone a body keeps its angular velocity: R(τ) = turn(ω τ) R₀. That is no free turn unless ω lies along a principal axis; it is a
 //! prescribed motion as the constant velocity is, in closed form, and back in time it leads to where it began.
 
-use crate::setup::EntryClump;
-use crate::setup::Particle;
-use crate::setup::Setup;
+use crate::setup::{EntryClump, Particle, Setup};
 use crate::space::rotation;
-use crate::state::clump::Flight;
-use crate::state::clump::arm;
-use crate::state::clump::quaternion;
+use crate::state::clump::{Flight, arm, quaternion};
 use crate::state::clumps::Bodies;
 use geom::Vec3;
 use nalgebra::UnitQuaternion;

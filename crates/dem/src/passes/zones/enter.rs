@@ -1,21 +1,13 @@
 //! Entries: checked when they are queued, added to the particles when they are due.
 
+use crate::model::Model;
 use crate::model::check::near;
 use crate::model::error::SetupError;
-use crate::passes::zones::travel::Flow;
-use crate::passes::zones::travel::Traveller;
-use crate::passes::zones::travel::Way;
-use crate::setup::Entry;
-use crate::setup::EntryClump;
-use crate::setup::Particle;
-use crate::setup::Setup;
-use crate::setup::WallShape;
-use crate::setup::Zone;
-use crate::setup::ZoneMotion;
-use crate::simulation::Simulation;
+use crate::setup::{Entry, EntryClump, Particle, Setup, WallShape, Zone, ZoneMotion};
+use crate::state::State;
 use crate::state::path::Path;
-use crate::state::zones::LOOK_AHEAD;
-use crate::state::zones::Zones;
+use crate::state::zone_particle::{Flow, Traveller, Way};
+use crate::state::zones::{LOOK_AHEAD, Zones};
 use geom::Vec3;
 
 impl Zones {
@@ -123,68 +115,57 @@ fn lead(p: &Particle, clump: Option<&EntryClump>, zone: &Zone, setup: &Setup) ->
     shape.spheres.iter().map(of).fold(f64::NEG_INFINITY, f64::max)
 }
 
-impl Simulation {
-    /// Queues a particle that will enter; due when time() reaches `entry.time`.
-    ///
-    /// # Errors
-    /// An entry that comes after it was due, out of order, or outside what the setup announced.
-    pub fn enter(&mut self, entry: Entry) -> Result<(), SetupError> {
-        let now = self.time();
-        self.zones.enter(entry, now, &self.setup)
-    }
+/// Entries due until time() + this [s] must have been given before the next step.
+pub fn look_ahead(model: &Model) -> f64 {
+    model.dt * LOOK_AHEAD as f64
+}
 
-    /// Entries due until time() + this [s] must have been given before the next step.
-    pub fn look_ahead(&self) -> f64 {
-        self.dt * LOOK_AHEAD as f64
+/// Adds entries that are due, and those due soon, to the particles.
+pub fn insert_due(model: &Model, state: &mut State) {
+    let now = state.time();
+    if state.zones.pending.front().is_none_or(|e| e.time > now) {
+        return;
     }
-
-    /// Adds entries that are due, and those due soon, to the particles.
-    pub(crate) fn admit(&mut self) {
-        let now = self.time();
-        if self.zones.pending.front().is_none_or(|e| e.time > now) {
-            return;
-        }
-        let horizon = now + self.look_ahead();
-        while let Some(e) = self.zones.pending.pop_front_if(|e| e.time <= horizon) {
-            self.add(&e, now);
-        }
-        self.stale = true;
+    let horizon = now + look_ahead(model);
+    while let Some(e) = state.zones.pending.pop_front_if(|e| e.time <= horizon) {
+        add(model, state, &e, now);
     }
+    state.stale = true;
+}
 
-    fn add(&mut self, e: &Entry, now: f64) {
-        let zone = self.zones.inlets[e.inlet as usize];
-        let flow = match self.zones.paths.get(&e.particle.id) {
-            Some(path) => path.flow(now, &e.particle.position, &self.setup.gravity),
-            None => Flow::after(now - e.time, &e.particle, zone.acceleration(&self.setup.gravity)),
-        };
-        let (position, velocity) = (e.particle.position + flow.shift, flow.velocity);
-        let present = Particle { position, velocity, ..e.particle };
-        let at = self.particles.len() as u32;
-        let (starts, turn) = match &e.clump {
-            None => {
-                self.particles.push(&present, &self.setup.materials);
-                (vec![e.particle], None)
-            }
-            Some(clump) => {
-                let states = (&e.particle, &present, (now - e.time).max(0.0));
-                let (starts, turn) = self.bodies.enter(states, clump, &self.setup, &mut self.particles);
-                (starts, Some(turn))
-            }
-        };
-        let (centre, lead) = (e.particle.position, lead(&e.particle, e.clump.as_ref(), &zone, &self.setup));
-        for (at, start) in (at..).zip(starts) {
-            self.zones.busy.push(true);
-            self.zones.gone.push(false);
-            self.zones.lost.push();
-            if let Some(sleepers) = &mut self.sleepers {
-                sleepers.push();
-            }
-            let (way, turned) = (Way::In(e.inlet), e.turn.or(e.clump.map(|c| c.orientation)));
-            let whose = e.particle.id;
-            let traveller = Traveller { at, since: e.time, start, whose, centre, lead, turn, turned, way };
-            let now_turned = traveller.has_turned(now, &flow, &self.zones);
-            self.bonds.push(Some(now_turned));
-            self.zones.travellers.push(traveller);
+fn add(model: &Model, state: &mut State, e: &Entry, now: f64) {
+    let zone = state.zones.inlets[e.inlet as usize];
+    let flow = match state.zones.paths.get(&e.particle.id) {
+        Some(path) => path.flow(now, &e.particle.position, &model.setup.gravity),
+        None => Flow::after(now - e.time, &e.particle, zone.acceleration(&model.setup.gravity)),
+    };
+    let (position, velocity) = (e.particle.position + flow.shift, flow.velocity);
+    let present = Particle { position, velocity, ..e.particle };
+    let at = state.particles.len() as u32;
+    let (starts, turn) = match &e.clump {
+        None => {
+            state.particles.push(&present, &model.setup.materials);
+            (vec![e.particle], None)
         }
+        Some(clump) => {
+            let states = (&e.particle, &present, (now - e.time).max(0.0));
+            let (starts, turn) = state.bodies.enter(states, clump, &model.setup, &mut state.particles);
+            (starts, Some(turn))
+        }
+    };
+    let (centre, lead) = (e.particle.position, lead(&e.particle, e.clump.as_ref(), &zone, &model.setup));
+    for (at, start) in (at..).zip(starts) {
+        state.zones.busy.push(true);
+        state.zones.gone.push(false);
+        state.zones.lost.push();
+        if let Some(sleepers) = &mut state.sleepers {
+            sleepers.push();
+        }
+        let (way, turned) = (Way::In(e.inlet), e.turn.or(e.clump.map(|c| c.orientation)));
+        let whose = e.particle.id;
+        let traveller = Traveller { at, since: e.time, start, whose, centre, lead, turn, turned, way };
+        let now_turned = traveller.has_turned(now, &flow, &state.zones);
+        state.bonds.push(Some(now_turned));
+        state.zones.travellers.push(traveller);
     }
 }

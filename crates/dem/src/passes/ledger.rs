@@ -1,0 +1,148 @@
+//! The energy ledger: what each step adds to its sums.
+
+use crate::model::Model;
+use crate::neighbours::NeighbourLists;
+use crate::observe::energy::Energy;
+use crate::observe::snapshot::driven_now;
+use crate::observe::touching::position_before;
+use crate::passes::drag::drag_power;
+use crate::passes::zones::ledger::account_zones;
+use crate::setup::Particle;
+use crate::simd::Row4;
+use crate::state::State;
+use crate::state::ledger::{Account, Driven, carried, heavy, unwrapped_potential};
+use geom::Vec3;
+
+/// After a move: what contacts and fluid did to each particle in it.
+pub fn add_moves(model: &Model, state: &mut State) {
+    if !model.setup.ledger {
+        return;
+    }
+    let mut work = 0.0;
+    for k in (0..state.particles.len()).filter(|&k| is_driven(state, k)) {
+        if state.sleepers.as_ref().is_some_and(|s| s.fell(k)) {
+            continue;
+        }
+        let p = &state.particles;
+        let (row, a) = (&p.rows[k], p.acceleration[k]);
+        let (spin, turning) = match (p.spins.get(k), p.turning.get(k)) {
+            (Some(w), Some(t)) => (*w, *t),
+            _ => (Row4::default(), Row4::default()),
+        };
+        // The moved velocity is predicted from the one of the step and its acceleration.
+        let back = |predicted: [f64; 3], rate: [f64; 3]| Vec3::from(predicted) - Vec3::from(rate) * model.dt;
+        let velocity = back([row[4], row[5], row[6]], three(a));
+        let spin = back(three(spin), three(turning));
+        work += Driven { velocity, spin, ..driven(model, state, k, three(a), three(turning)) }.power();
+    }
+    work += state.bodies.last_driven(&model.setup, model.dt).map(|d| d.power()).sum::<f64>();
+    state.account.work += work * model.dt;
+}
+
+/// Particles `fresh` begin their first step: its first half was before them. Loads are those of this instant.
+pub fn open(model: &Model, state: &mut State, lists: &NeighbourLists, fresh: &[u32]) {
+    if !model.setup.ledger {
+        return;
+    }
+    if !state.account.opened {
+        let mut energy = Energy::default();
+        close_step(model, state, lists, &mut energy);
+        (state.account.start, state.account.opened) = (energy.integration, true);
+        return;
+    }
+    if fresh.is_empty() {
+        return;
+    }
+    let loads = lists.contacts.sums();
+    let free = fresh.iter().map(|&k| k as usize).filter(|&k| is_driven(state, k));
+    let bodies = state.bodies.driven_now(model, state, &loads).filter(|(first, _)| fresh.contains(first));
+    let driven = free.map(|k| driven_now(model, state, k, &loads)).chain(bodies.map(|(_, d)| d));
+    let halves = driven.map(|d| half(model, d.power(), d.step_share()));
+    let (work, share) = halves.fold((0.0, 0.0), |(w, s), h| (w + h.0, s + h.1));
+    // Until now they were moved, and took this half from their drive.
+    state.account.entered -= work;
+    state.account.passed += work;
+    state.account.work -= work + share;
+}
+
+/// Half the work of a power [W] in a step, and what a step's share [J/s²] makes [J].
+fn half(model: &Model, power: f64, share: f64) -> (f64, f64) {
+    (0.5 * power * model.dt, 0.125 * share * model.dt * model.dt)
+}
+
+/// A free particle is taken over in the middle of its last step, with an energy `taken` [J]: what the finite step made of it.
+pub fn close_account(model: &Model, state: &mut State, k: usize, taken: f64) {
+    let (p, dt) = (&state.particles, model.dt);
+    let half = |v: Row4, a: Row4| Vec3::from(three(v)) - Vec3::from(three(a)) * (0.5 * dt);
+    let (row, a) = (&p.rows[k], p.acceleration[k]);
+    let velocity = half(Row4([row[4], row[5], row[6], 0.0]), a);
+    let middle = (p.position(k) + position_before(model, state, k)) * 0.5;
+    let spin = match (p.spins.get(k), p.turning.get(k)) {
+        (Some(w), Some(t)) => half(*w, *t),
+        _ => Vec3::zeros(),
+    };
+    let (id, material, radius) = (p.id[k], p.material[k], row[3]);
+    let there = Particle { id, material, radius, position: middle, velocity, spin };
+    state.account.passed += taken - carried(&there, &model.setup).iter().sum::<f64>();
+}
+
+/// Brings the ledger to this instant, whose loads are known: what is lost at once is gone, of all else half is done.
+pub fn close_step(model: &Model, state: &State, lists: &NeighbourLists, energy: &mut Energy) {
+    let mut now = Account::default();
+    now.add(&model.kinds, &lists.contacts, &state.zones);
+    now.add_bonds(&state.bonds, model.dt);
+    let loads = lists.contacts.sums();
+    let free = (0..state.particles.len()).filter(|&k| is_driven(state, k));
+    let bodies = state.bodies.driven_now(model, state, &loads).map(|(_, d)| d);
+    let driven = free.clone().map(|k| driven_now(model, state, k, &loads)).chain(bodies);
+    let (power, share) = driven.fold((0.0, 0.0), |(p, s), d| (p + d.power(), s + d.step_share()));
+    let drag = free.map(|k| drag_power(model, state, k)).sum::<f64>() + state.bodies.drag_power(&model.setup);
+    now.drag = drag * model.dt;
+    let (work, share) = half(model, power, share);
+    energy.normal += now.lost;
+    energy.bonds += now.broken;
+    energy.half_step = 0.5 * now.gone();
+    let (account, lost) = (&state.account, |a: &Account| a.lost + a.broken);
+    let done = account.work + work + share + account.passed + lost(account) + lost(&now);
+    energy.integration =
+        done + account.gone() + energy.half_step + lists.contacts.elastic() + state.bonds.elastic()
+            - account.start;
+    if model.setup.periodic.iter().any(Option::is_some) {
+        energy.potential = unwrapped_potential(model, state) + account.wrapped;
+    }
+}
+
+/// After the forces of a step: what contacts and bonds did.
+pub fn add_contacts(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
+    if !model.setup.ledger {
+        return;
+    }
+    state.account.add(&model.kinds, &lists.contacts, &state.zones);
+    state.account.add_bonds(&state.bonds, model.dt);
+    lists.contacts.add_work();
+    account_zones(model, state, lists);
+}
+
+/// Whether forces drive a particle: it is free, awake, and no member of a rigid clump.
+fn is_driven(state: &State, k: usize) -> bool {
+    !state.zones.travels(k)
+        && !state.zones.is_gone(k)
+        && !state.bodies.is_member(k)
+        && !state.sleepers.as_ref().is_some_and(|s| s.sleeps(k))
+}
+
+/// What an acceleration [m/s²] and an angular acceleration [rad/s²] are made by; it stands still.
+pub fn driven(model: &Model, state: &State, k: usize, a: [f64; 3], turning: [f64; 3]) -> Driven {
+    let row = &state.particles.rows[k];
+    let density = model.setup.materials[state.particles.material[k] as usize].density;
+    let weight = model.setup.gravity * heavy(&model.setup, density);
+    let (mass, inverse_inertia) = (1.0 / row[7], 2.5 * row[7] / (row[3] * row[3]));
+    let (a, moment) = (Vec3::from(a), Vec3::from(turning) / inverse_inertia);
+    let (velocity, spin) = (Vec3::zeros(), Vec3::zeros());
+    let forces = [(a - weight) * mass, a * mass];
+    Driven { inverse_mass: row[7], inverse_inertia, forces, moment, velocity, spin }
+}
+
+fn three(row: Row4) -> [f64; 3] {
+    [row[0], row[1], row[2]]
+}

@@ -1,0 +1,58 @@
+//! A simulation: what is fixed (Model), what changes (State), and the lists that follow from both.
+//!
+//! `step` is the time step, `checkpoint` saves and resumes. `observe` and `stages` are what users call besides. Nothing else sees all three
+//! parts at once as one.
+
+mod checkpoint;
+mod observe;
+mod stages;
+mod step;
+
+pub use checkpoint::{Checkpoint, CheckpointView};
+
+use crate::model::Model;
+use crate::model::error::SetupError;
+use crate::neighbours::NeighbourLists;
+use crate::setup::Setup;
+use crate::simd::Width;
+use crate::state::State;
+
+/// A running simulation.
+pub struct Simulation {
+    pub(crate) model: Model,
+    pub(crate) state: State,
+    pub(crate) lists: NeighbourLists,
+}
+
+impl Simulation {
+    /// Checks a setup and makes it ready to run.
+    ///
+    /// # Errors
+    /// Everything that would make the run wrong or unstable: see [`SetupError`].
+    pub fn new(setup: Setup) -> Result<Simulation, SetupError> {
+        Simulation::with_width(setup, Width::best())
+    }
+
+    /// The same with lanes of a given width; all widths give the same bits.
+    ///
+    /// # Errors
+    /// As for [`Simulation::new`], and a width that this machine does not have.
+    pub fn with_width(setup: Setup, width: Width) -> Result<Simulation, SetupError> {
+        Simulation::build(setup, width, None)
+    }
+
+    /// The same with the step `begun` [s] of a run that is resumed.
+    fn build(setup: Setup, width: Width, begun: Option<f64>) -> Result<Simulation, SetupError> {
+        let mut model = Model::new(setup, width, begun)?;
+        let state = State::new(&model)?;
+        // They are in their columns now.
+        model.setup.particles = Vec::new();
+        model.setup.clumps.bodies = Vec::new();
+        Ok(Simulation { model, state, lists: NeighbourLists::default() })
+    }
+
+    /// Sets a time step [s] that nothing has checked: to find by trial where a run turns unstable.
+    pub fn set_step_unchecked(&mut self, dt: f64) {
+        (self.model.dt, self.state.dt) = (dt, dt);
+    }
+}

@@ -1,0 +1,85 @@
+//! One time step.
+//!
+//! Forces at time n, the move to n + 1, then everything that acts on what has moved: clumps, servos, the fluid, bonds, zones. Observing
+//! a simulation computes forces and moves nothing, so that output changes nothing.
+
+use super::Simulation;
+use crate::forces::sweep;
+use crate::model::Model;
+use crate::model::error::Halt;
+use crate::neighbours::{NeighbourLists, rebuild};
+use crate::observe::guards;
+use crate::passes::{bonds, clumps, drag, ledger, servo, start, zones};
+use crate::state::State;
+
+impl Simulation {
+    /// One time step.
+    ///
+    /// # Errors
+    /// A guard. The state is that of the last whole step; where only this step's forces showed an overlap, of the step itself.
+    pub fn step(&mut self) -> Result<(), Halt> {
+        let Simulation { model, state, lists } = self;
+        refresh_lists(model, state, lists);
+        // The move needs the acceleration of the step before.
+        if !state.fresh.is_empty() {
+            compute_forces(model, state, lists)?;
+        }
+        let found = sweep::forces_and_move(model, state, lists);
+        ledger::add_contacts(model, state, lists);
+        if let Some(sleepers) = &mut state.sleepers {
+            state.account.slept += sleepers.end_step(lists.contacts.tile());
+        }
+        let moved = clumps::advance::advance(model, state, found.moved);
+        let driven = servo::drive(model, state, lists);
+        state.out = moved.out | drag::apply(model, state, lists);
+        ledger::add_moves(model, state);
+        state.steps += 1;
+        state.current = false;
+        state.bonds.turn(&state.particles, model.dt);
+        zones::advance::advance(model, state, lists);
+        guards::check_overlap(model, state, lists, &found.deep, true)?;
+        if moved.wild {
+            guards::check_motion(model, state)?;
+        }
+        driven?;
+        if guards::checks_energy(model, state) {
+            self.ready()?;
+            guards::check_energy(&self.model, &mut self.state, &self.lists)?;
+        }
+        Ok(())
+    }
+
+    /// Brings lists and forces to this instant, as observing anything does.
+    ///
+    /// # Errors
+    /// When the state is beyond a guard.
+    pub fn ready(&mut self) -> Result<(), Halt> {
+        let Simulation { model, state, lists } = self;
+        refresh_lists(model, state, lists);
+        compute_forces(model, state, lists)
+    }
+}
+
+/// Inserts what is due, and rebuilds lists that no longer hold.
+fn refresh_lists(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
+    if state.current {
+        return;
+    }
+    zones::enter::insert_due(model, state);
+    bonds::zones::insert_due(model, state);
+    if rebuild::is_due(model, state) {
+        rebuild::rebuild(model, state, lists);
+    }
+}
+
+/// Forces of this instant, where they are not known.
+fn compute_forces(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> Result<(), Halt> {
+    if state.current {
+        return Ok(());
+    }
+    let found = sweep::forces(model, state, lists);
+    state.current = true;
+    let started = start::give_acceleration(model, state, lists);
+    ledger::open(model, state, lists, &started);
+    guards::check_overlap(model, state, lists, &found.deep, false)
+}

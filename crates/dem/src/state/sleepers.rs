@@ -1,0 +1,166 @@
+//! Particles that sleep ([`crate::passes::sleep`] says when).
+
+use crate::simd::Row;
+use serde::{Deserialize, Serialize};
+
+/// Who sleeps, and since when that is so.
+#[derive(Clone, Copy)]
+pub struct Known<'a> {
+    /// Whether each particle, and the two that fill up blocks, sleeps in this step.
+    pub asleep: &'a [bool],
+    /// Steps that were ended.
+    pub turns: u64,
+    /// For each tile, the last of them in which somebody fell asleep or woke.
+    pub changed: &'a [u64],
+}
+
+/// When particles sleep.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Sleep {
+    /// Speed of the surface, |v| + r|ω|, below which a particle is at rest [m/s].
+    pub speed: f64,
+    /// How long it must have been [s].
+    pub time: f64,
+    /// Force that wakes it, over its weight [–].
+    pub wake: f64,
+}
+
+/// Who sleeps.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Sleepers {
+    /// Steps that each particle has been at rest; those that sleep have reached `steps`.
+    pub(crate) quiet: Vec<u32>,
+    /// Whether each particle, and the two that fill up blocks, sleeps in this step.
+    pub asleep: Vec<bool>,
+    pub(crate) next: Vec<bool>,
+    /// Force, moment on each when it fell asleep, and the kinetic energy that it lost [N, N·m, J].
+    pub(crate) held: Vec<Row>,
+    pub(crate) steps: u32,
+    pub(crate) speed: f64,
+    /// Acceleration that wakes [m/s²].
+    pub(crate) wake: f64,
+    /// Steps that were ended, and for each tile the last of them in which somebody fell asleep or woke.
+    #[serde(skip)]
+    pub(crate) turns: u64,
+    #[serde(skip)]
+    pub(crate) changed: Vec<u64>,
+}
+
+/// The like, of some particles.
+pub struct Beds<'a> {
+    pub(crate) quiet: &'a mut [u32],
+    pub(crate) next: &'a mut [bool],
+    pub(crate) held: &'a mut [Row],
+    pub(crate) asleep: &'a [bool],
+    /// Who must stay awake.
+    pub(crate) busy: &'a [bool],
+    pub(crate) steps: u32,
+    pub(crate) speed: f64,
+    pub(crate) wake: f64,
+}
+
+impl Sleepers {
+    /// All awake.
+    pub fn new(rule: Sleep, dt: f64, gravity: f64, particles: usize) -> Sleepers {
+        let steps = (rule.time / dt).ceil().clamp(1.0, f64::from(u32::MAX)) as u32;
+        let mut new = Sleepers {
+            quiet: Vec::new(),
+            asleep: vec![true; 2],
+            next: Vec::new(),
+            held: Vec::new(),
+            steps,
+            speed: rule.speed,
+            wake: rule.wake * gravity,
+            turns: 0,
+            changed: Vec::new(),
+        };
+        (0..particles).for_each(|_| new.push());
+        new
+    }
+
+    /// One more particle, awake.
+    pub fn push(&mut self) {
+        self.asleep.insert(self.quiet.len(), false);
+        self.quiet.push(0);
+        self.held.push(Row::default());
+    }
+
+    /// Takes the particles named by `order`.
+    pub fn select(&mut self, order: &[u32]) {
+        let of = |k: &u32| *k as usize;
+        self.quiet = order.iter().map(|k| self.quiet[of(k)]).collect();
+        self.held = order.iter().map(|k| self.held[of(k)]).collect();
+        self.asleep = order.iter().map(|k| self.asleep[of(k)]).chain([true; 2]).collect();
+    }
+
+    /// Number of sleepers.
+    pub fn count(&self) -> usize {
+        self.asleep.iter().filter(|&&a| a).count() - 2
+    }
+
+    /// Whether a particle sleeps.
+    pub fn sleeps(&self, k: usize) -> bool {
+        self.asleep[k]
+    }
+
+    /// Whether a particle has fallen asleep in the last step.
+    pub fn fell(&self, k: usize) -> bool {
+        self.quiet[k] == self.steps
+    }
+
+    /// Ends a step: who sleeps from now on, and the energy [J] that those who fell asleep lost; particles of a `tile`.
+    pub fn end_step(&mut self, tile: usize) -> f64 {
+        self.turns += 1;
+        self.changed.resize(self.next.len().div_ceil(tile), self.turns);
+        let mut lost = 0.0;
+        for (t, next) in self.next.chunks(tile).enumerate() {
+            let here = t * tile..t * tile + next.len();
+            if self.asleep[here.clone()] == *next {
+                continue;
+            }
+            self.asleep[here.clone()].copy_from_slice(next);
+            self.changed[t] = self.turns;
+            let fell =
+                self.quiet[here.clone()].iter().zip(&self.held[here]).filter(|(q, _)| **q == self.steps);
+            lost += fell.map(|(_, held)| held[6]).sum::<f64>();
+        }
+        lost
+    }
+
+    /// What stands now, for [`Still`].
+    pub fn known(&self) -> Known<'_> {
+        Known { asleep: &self.asleep, turns: self.turns, changed: &self.changed }
+    }
+
+    /// Everyone, with `busy` (or none) to be kept awake.
+    pub fn beds<'a>(&'a mut self, busy: &'a [bool]) -> Beds<'a> {
+        self.next.resize(self.quiet.len(), false);
+        let Sleepers { quiet, next, held, asleep, steps, speed, wake, .. } = self;
+        Beds { quiet, next, held, asleep, busy, steps: *steps, speed: *speed, wake: *wake }
+    }
+
+    /// Wakes a particle.
+    pub fn rouse(&mut self, k: usize) {
+        (self.quiet[k], self.asleep[k]) = (0, false);
+        self.turns += 1;
+        self.changed.fill(self.turns);
+    }
+}
+
+impl<'a> Beds<'a> {
+    /// The same, for a while.
+    pub fn by_ref(&mut self) -> Beds<'_> {
+        Beds { quiet: self.quiet, next: self.next, held: self.held, ..*self }
+    }
+
+    /// The first `n`, and the others.
+    pub fn split(self, n: usize) -> (Beds<'a>, Beds<'a>) {
+        let Beds { quiet, next, held, asleep, busy, steps, speed, wake } = self;
+        let (quiet, quiet2) = quiet.split_at_mut(n);
+        let (next, next2) = next.split_at_mut(n);
+        let (held, held2) = held.split_at_mut(n);
+        let one = Beds { quiet, next, held, asleep, busy, steps, speed, wake };
+        let two = Beds { quiet: quiet2, next: next2, held: held2, asleep, busy, steps, speed, wake };
+        (one, two)
+    }
+}
