@@ -4,7 +4,7 @@
 //! a single effect.
 
 use super::pair::{Elastic, Meeting};
-use crate::setup::ContactLaw;
+use crate::effects::ContactLaw;
 use std::fmt::{Display, Formatter};
 
 /// What an effect does in a contact. A contact has at most one effect of each slot, and slots act in this order.

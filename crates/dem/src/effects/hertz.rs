@@ -12,7 +12,7 @@ use super::describe::{Description, Model, NormalLaw, Slot};
 use super::hooke::RESTITUTION;
 use super::pair::{Elastic, Meeting, Pair};
 use super::{Contact, ContactEffect, Effect, Load};
-use crate::setup::ContactLaw;
+use crate::effects::ContactLaw;
 use crate::simd::Lane;
 use std::f64::consts::PI;
 

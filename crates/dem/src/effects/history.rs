@@ -2,7 +2,7 @@
 
 use super::describe::{Description, Field, Kind};
 use super::registry::{DESCRIPTIONS, active};
-use crate::setup::ContactLaw;
+use crate::effects::ContactLaw;
 use crate::simd::number::Number;
 use crate::simd::{BLOCK, Lane, V};
 use geom::Vec3;

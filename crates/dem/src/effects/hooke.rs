@@ -11,7 +11,7 @@
 use super::describe::{Description, Key, Model, NormalLaw, Range, Slot};
 use super::pair::{Elastic, Meeting, Pair};
 use super::{Contact, ContactEffect, Effect, Load};
-use crate::setup::ContactLaw;
+use crate::effects::ContactLaw;
 use crate::simd::Lane;
 use std::f64::consts::PI;
 

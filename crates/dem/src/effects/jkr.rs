@@ -26,7 +26,7 @@ use super::describe::{Description, Field, Key, Kind, Model, NormalLaw, Range, Sl
 use super::hooke::RESTITUTION;
 use super::pair::{Elastic, Meeting, Pair};
 use super::{Contact, ContactEffect, Effect, Load};
-use crate::setup::ContactLaw;
+use crate::effects::ContactLaw;
 use crate::simd::Lane;
 use std::f64::consts::PI;
 

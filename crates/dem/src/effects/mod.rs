@@ -2,7 +2,7 @@
 //!
 //! A file holds the formula ([`Effect`]), how a contact law asks for it ([`ContactEffect`]) and what the rest of the program needs to
 //! know of it ([`Description`]). `registry.rs` lists the files, a line each. `(A, B)` applies A, then B; its history is A's and
-//! B's. `()` is no effect, no code, no history. A scene's composition is chosen once, outside the time loop ([`registry::compose`]).
+//! B's. `()` is no effect, no code, no history. A scene's composition is chosen once, outside the time loop (`kernel/compose.rs`).
 
 mod capped_spring;
 mod cohesion;
@@ -12,6 +12,7 @@ mod hertz;
 mod history;
 mod hooke;
 mod jkr;
+mod law;
 mod pair;
 mod registry;
 mod rolling_resistance;
@@ -25,32 +26,19 @@ pub use cohesion::Cohesion;
 pub use constant_rolling::ConstantRolling;
 pub use describe::*;
 pub use hertz::Hertz;
-pub use history::ContactHistory;
-pub use history::Memory;
-pub use history::RECORDED;
-pub use hooke::Hooke;
-pub use hooke::RESTITUTION;
+pub use history::{ContactHistory, Memory, RECORDED};
+pub use hooke::{Hooke, RESTITUTION};
 pub use jkr::Jkr;
-pub use pair::Elastic;
-pub use pair::Meeting;
-pub use pair::Pair;
-pub use pair::damping_ratio;
-pub use pair::tangential_ratio;
-pub use registry::DESCRIPTIONS;
-pub use registry::Dropped;
-pub use registry::active;
-pub use registry::compose;
-pub use registry::keys;
-pub use registry::models;
-pub use registry::needed;
-pub use registry::without;
+pub use law::ContactLaw;
+pub use pair::{Ease, Elastic, Material, Meeting, Pair, damping_ratio, tangential_ratio};
+pub(crate) use registry::effects;
+pub use registry::{DESCRIPTIONS, Dropped, active, keys, models, needed, without};
 pub use rolling_resistance::RollingResistance;
-pub use sliding_friction::Coefficient;
-pub use sliding_friction::SlidingFriction;
+pub use sliding_friction::{Coefficient, SlidingFriction};
 pub use table::tables;
 pub use twisting_resistance::TwistingResistance;
-pub use weakening::Friction;
-pub use weakening::Weakening;
+pub use walton_braun::WaltonBraun;
+pub use weakening::{Friction, Weakening};
 
 use crate::simd::{Lane, V};
 

@@ -1,7 +1,7 @@
 //! What effects are made of: the numbers of a contact law, and what follows from its two materials.
 
-use crate::setup::clumps::Ease;
-use crate::setup::{ContactLaw, Material};
+use crate::effects::ContactLaw;
+use serde::{Deserialize, Serialize};
 
 /// Elastic constants of a pair.
 ///
@@ -85,4 +85,27 @@ pub fn damping_ratio(restitution: f64) -> f64 {
     }
     let ln = libm::log(restitution);
     -2.0 * ln / (std::f64::consts::PI * std::f64::consts::PI + ln * ln).sqrt()
+}
+
+/// Elastic constants and density.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Material {
+    /// Name, for messages.
+    pub name: String,
+    /// Density [kg/m³]; of no effect for walls.
+    pub density: f64,
+    /// Young's modulus [Pa].
+    pub young: f64,
+    /// Poisson's ratio [–].
+    pub poisson: f64,
+}
+
+/// How much easier the easiest body of two materials yields to all its contacts than a sphere of its mass to twelve [–].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ease {
+    /// To contacts alone; 1 without clumps, and walls of spheres that lie deep within each other.
+    pub bodies: f64,
+    /// The like for the pace of tangential springs. Where bonds set it, which know nothing of the stiffness of contacts, so much that the springs are always late by
+    /// half a step.
+    pub springs: f64,
 }

@@ -14,7 +14,7 @@ use super::capped_spring::{CappedSpring, turned};
 use super::describe::{Description, Field, Key, Kind, Model, Range, Slot, Turning, TurningPair};
 use super::pair::Pair;
 use super::{Contact, ContactEffect, Effect, Load};
-use crate::setup::ContactLaw;
+use crate::effects::ContactLaw;
 use crate::simd::{Lane, V};
 
 /// μ_r.

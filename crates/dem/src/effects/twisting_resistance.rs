@@ -14,7 +14,7 @@ use super::capped_spring::CappedSpring;
 use super::describe::{ALONG, Description, Field, Key, Kind, Range, Slot, TURNS, Turning, TurningPair};
 use super::pair::{Pair, tangential_ratio};
 use super::{Contact, ContactEffect, Effect, Load};
-use crate::setup::ContactLaw;
+use crate::effects::ContactLaw;
 use crate::simd::Lane;
 
 /// What the program knows of it.

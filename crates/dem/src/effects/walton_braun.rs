@@ -15,7 +15,7 @@ use super::describe::{Description, Field, Key, Kind, Model, NormalLaw, Range, Sl
 use super::hooke::{RESTITUTION, STIFFNESS, TANGENTIAL_RATIO, unloaded_overlap};
 use super::pair::Pair;
 use super::{Contact, ContactEffect, Effect, Load};
-use crate::setup::ContactLaw;
+use crate::effects::ContactLaw;
 use crate::simd::Lane;
 
 /// What the program knows of it.

@@ -11,7 +11,7 @@ use super::describe::{Contradiction, Description, Key, Range, Slot};
 use super::pair::Pair;
 use super::sliding_friction::SPRING;
 use super::{Coefficient, Contact};
-use crate::setup::ContactLaw;
+use crate::effects::ContactLaw;
 use crate::simd::Lane;
 
 /// What the program knows of it.

@@ -3,43 +3,15 @@
 //! The sum of the loads of contacts that rest is kept for each particle; other contacts are added to it, in the order of their places. So
 //! the order of a sum depends on the lists and on who sleeps, and on nothing else.
 
-use crate::forces::tile::{Part, Seen};
+use crate::forces::tile::Seen;
 use crate::kernel::sums::Sums;
+use crate::neighbours::resting::Still;
+use crate::neighbours::slices::Part;
 use crate::passes::sleep::runs;
 use crate::simd::BLOCK;
 use crate::state::sleepers::Known;
-use std::ops::Range;
-
-/// What of a tile rests.
-#[derive(Debug, Default)]
-pub struct Still {
-    /// The tile itself, and those that it has contacts with.
-    near: Vec<u32>,
-    /// Steps that had been ended when it was found.
-    found: Option<u64>,
-    /// Whether it was found before this step.
-    goes_on: bool,
-    /// Segments and places of contacts that do not rest.
-    busy: Vec<(usize, Range<usize>)>,
-    /// Sums of the loads and couples of the others; none where there are no others.
-    rest: (Vec<f64>, Vec<f64>),
-    /// Particles of the tile that are awake, counted from its first.
-    pub awake: Vec<Range<usize>>,
-    /// Sleepers that touch or may touch somebody who is not asleep, counted likewise.
-    pub stirred: Vec<u32>,
-}
 
 impl Still {
-    /// Nothing yet, of a tile that has contacts with these.
-    pub fn beside(near: Vec<u32>) -> Still {
-        Still { near, ..Still::default() }
-    }
-
-    /// Whether what rests is what rested a step before.
-    pub fn goes_on(&self) -> bool {
-        self.goes_on
-    }
-
     /// Loads of the contacts of a tile, and their sums; true when an overlap passes the limit.
     pub fn compute(&mut self, part: &mut Part, seen: Seen, sums: &mut Sums) -> bool {
         let (lists, scenery) = seen;

@@ -4,13 +4,14 @@
 //! A tile's contacts are with its own particles and with those of later tiles. So one thread alone takes both halves of a tile at once: who
 //! still reads its particles comes before it, and what it computes is in the cache when it moves.
 
-use crate::forces::resting::Still;
-use crate::forces::tile::{Part, Scenery, Seen};
+use crate::forces::tile::{Scenery, Seen};
 use crate::kernel::Common;
 use crate::kernel::sums::Sums;
 use crate::model::Model;
 use crate::neighbours::NeighbourLists;
 use crate::neighbours::poses::pose_in_box;
+use crate::neighbours::resting::Still;
+use crate::neighbours::slices::Part;
 use crate::passes::bonds::pull::pull_bonds;
 use crate::passes::integrate::{Columns, Drive, Moved, advance};
 use crate::passes::sleep::advance_awake;
@@ -18,12 +19,9 @@ use crate::simd::{Row, Row4};
 use crate::state::State;
 use crate::state::particles::Particles;
 use crate::state::sleepers::Sleepers;
+use crate::threads::{FEW, share};
 use crate::walls::motion::Pose;
-use rayon::prelude::*;
 use std::ops::Range;
-
-/// Particles below which one thread is faster than several.
-pub(crate) const FEW: usize = 2048;
 
 /// What a pass found.
 #[derive(Clone, Default)]
@@ -32,19 +30,6 @@ pub struct Found {
     pub deep: Vec<Range<usize>>,
     /// Of the particles that moved.
     pub moved: Moved,
-}
-
-/// Does something with all items, on all threads where there are many: one item at a time, so that all end together.
-pub(crate) fn share<T: Send, R: Send>(
-    many: bool,
-    items: Vec<T>,
-    run: impl Fn(T) -> R + Sync + Send,
-) -> Vec<R> {
-    if many {
-        items.into_par_iter().with_max_len(1).map(run).collect()
-    } else {
-        items.into_iter().map(run).collect()
-    }
 }
 
 /// Forces of this instant; the wrench of each contact is kept for observers.

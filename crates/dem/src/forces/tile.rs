@@ -1,75 +1,17 @@
 //! Tiles of the lists, with what is computed for them: what a thread works on.
 
-use crate::kernel::sums::{Arrival, Computed, Sums};
+use crate::kernel::sums::Sums;
 use crate::kernel::{Common, LEDGER, Task};
 use crate::model::kind::{Kind, With};
-use crate::neighbours::contacts::{Met, Segment};
-use crate::simd::number::Form;
-use crate::simd::{BLOCK, Row, Row4, Width};
+use crate::neighbours::contacts::Segment;
+use crate::neighbours::slices::{Lists, Part, part, part_mut, some};
+use crate::simd::{BLOCK, Width};
 use crate::state::sleepers::Known;
 use crate::walls::WallBody;
 use crate::walls::motion::Pose;
 use crate::walls::seams::Slots;
 use geom::Vec3;
 use std::ops::Range;
-
-/// What all parts read.
-#[derive(Clone, Copy)]
-pub struct Lists<'a> {
-    pub i: &'a [u32],
-    pub partner: &'a [u32],
-    pub shift: &'a [Vec3],
-    /// 0, 1, 2, …
-    pub count: &'a [u32],
-    pub met: &'a [Met],
-    pub new: bool,
-    /// First segment of each tile, and one more.
-    pub tiles: &'a [usize],
-    /// Particles of a tile.
-    pub tile: usize,
-    /// First entry of each particle, and one more.
-    pub starts: &'a [u32],
-    /// Place × 2, + 1 where the particle is the second.
-    pub entries: &'a [u32],
-    /// What arrives at tiles.
-    pub arrivals: &'a [Arrival],
-    /// First arrival of each tile, and one more.
-    pub arriving: &'a [u32],
-}
-
-impl Lists<'_> {
-    /// What arrives at a tile.
-    pub fn arriving(&self, tile: usize) -> &[Arrival] {
-        &self.arrivals[self.arriving[tile] as usize..self.arriving[tile + 1] as usize]
-    }
-
-    /// Whether a particle has a contact that may have changed while it slept.
-    pub fn stirred(&self, particle: usize, asleep: &[bool]) -> bool {
-        let entries = self.starts[particle] as usize..self.starts[particle + 1] as usize;
-        self.new
-            || self.entries[entries].iter().any(|&entry| {
-                let (place, second) = ((entry >> 1) as usize, entry & 1 == 1);
-                match self.met[place / BLOCK] {
-                    Met::Particles => {
-                        !asleep[if second { self.i[place] } else { self.partner[place] } as usize]
-                    }
-                    Met::StillWall => false,
-                    Met::MovingWall => true,
-                }
-            })
-    }
-
-    /// Whether all contacts of a block are between sleepers, or of sleepers with a wall at rest.
-    pub fn rests(&self, block: usize, asleep: &[bool]) -> bool {
-        let all = |of: &[u32]| of[block * BLOCK..(block + 1) * BLOCK].iter().all(|&k| asleep[k as usize]);
-        !self.new
-            && match self.met[block] {
-                Met::Particles => all(self.i) && all(self.partner),
-                Met::StillWall => all(self.i),
-                Met::MovingWall => false,
-            }
-    }
-}
 
 /// What a contact needs besides the lists.
 #[derive(Clone, Copy)]
@@ -85,68 +27,10 @@ pub struct Scenery<'a> {
     pub known: Option<Known<'a>>,
 }
 
-/// Where a part begins.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct At {
-    place: usize,
-    row: usize,
-    memory: usize,
-    kept: usize,
-}
+/// What a contact needs besides its own.
+pub type Seen<'a> = (&'a Lists<'a>, &'a Scenery<'a>);
 
-/// Some segments that follow each other, with their part of everything that is computed.
-pub struct Part<'a> {
-    pub segments: &'a [Segment],
-    pub form: Form,
-    pub from: At,
-    pub rows: &'a mut [Row],
-    pub spins: &'a mut [Row4],
-    pub memory: &'a mut [f64],
-    pub active: &'a mut [bool],
-    /// Loads and couples that are kept for other tiles.
-    pub kept: (&'a mut [f64], &'a mut [f64]),
-    /// Loads and couples of each contact, or none.
-    pub each: (&'a mut [f64], &'a mut [f64]),
-    pub ledger: &'a mut [f64],
-}
-
-impl<'a> Part<'a> {
-    /// The first `count` segments, and the others.
-    pub fn split(self, count: usize) -> (Part<'a>, Part<'a>) {
-        let Part { segments, form, from, rows, spins, memory, active, kept, each, ledger } = self;
-        let (first, second) = segments.split_at(count);
-        let all = At {
-            place: from.place + active.len() * BLOCK,
-            row: from.row + rows.len(),
-            memory: from.memory + memory.len(),
-            kept: from.kept + kept.0.len() / form.load(),
-        };
-        let of = |s: &Segment| At { place: s.places.start, row: s.rows, memory: s.memory, kept: s.kept };
-        let to = second.first().map_or(all, of);
-        let places = to.place - from.place;
-        let (rows, rows2) = rows.split_at_mut(to.row - from.row);
-        let (spins, spins2) = split(spins, to.row - from.row);
-        let (memory, memory2) = memory.split_at_mut(to.memory - from.memory);
-        let (active, active2) = active.split_at_mut(places / BLOCK);
-        let (kept, kept2) = split_both(kept, to.kept - from.kept, form);
-        let (each, each2) = split_both(each, places, form);
-        let (ledger, ledger2) = split(ledger, places * LEDGER);
-        let one = Part { segments: first, form, from, rows, spins, memory, active, kept, each, ledger };
-        let two = Part {
-            segments: second,
-            form,
-            from: to,
-            rows: rows2,
-            spins: spins2,
-            memory: memory2,
-            active: active2,
-            kept: kept2,
-            each: each2,
-            ledger: ledger2,
-        };
-        (one, two)
-    }
-
+impl Part<'_> {
     /// Contact points and loads of segment `k` of this part, added to the `sums` of its tile; true when an overlap passes the limit.
     pub fn compute(&mut self, k: usize, (lists, scenery): Seen, sums: &mut Sums) -> bool {
         let s = &self.segments[k];
@@ -252,45 +136,4 @@ impl<'a> Part<'a> {
             With::Wall(_) => {}
         }
     }
-
-    /// Loads and couples that are kept for other tiles.
-    pub fn kept(&self) -> Computed<'_> {
-        (self.kept.0, self.kept.1)
-    }
-}
-
-/// What a contact needs besides its own.
-pub type Seen<'a> = (&'a Lists<'a>, &'a Scenery<'a>);
-
-/// Some of a column, or none of a column that does not exist.
-fn part<T>(of: &[T], from: usize, n: usize) -> &[T] {
-    if of.is_empty() { &[] } else { &of[from..from + n] }
-}
-
-fn part_mut<T>(of: &mut [T], from: usize, n: usize) -> &mut [T] {
-    if of.is_empty() { &mut [] } else { &mut of[from..from + n] }
-}
-
-/// Some loads and couples, or none of those that do not exist.
-fn some<'a>(
-    of: &'a mut (&mut [f64], &mut [f64]),
-    from: usize,
-    n: usize,
-    form: Form,
-) -> (&'a mut [f64], &'a mut [f64]) {
-    let (load, couple) = (form.load(), form.couple());
-    (part_mut(of.0, from * load, n * load), part_mut(of.1, from * couple, n * couple))
-}
-
-type Both<'a> = (&'a mut [f64], &'a mut [f64]);
-
-fn split_both<'a>((loads, couples): Both<'a>, n: usize, form: Form) -> (Both<'a>, Both<'a>) {
-    let (loads, loads2) = split(loads, n * form.load());
-    let (couples, couples2) = split(couples, n * form.couple());
-    ((loads, couples), (loads2, couples2))
-}
-
-fn split<T>(of: &mut [T], at: usize) -> (&mut [T], &mut [T]) {
-    let at = at.min(of.len());
-    of.split_at_mut(at)
 }

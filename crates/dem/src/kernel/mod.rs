@@ -1,5 +1,6 @@
 //! The contact loop: the only one, for pairs and for walls, for every composition of effects and every width.
 
+pub(crate) mod compose;
 pub(crate) mod sums;
 
 use crate::effects::{Contact, Effect, Load, Memory};

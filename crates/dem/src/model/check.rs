@@ -3,7 +3,8 @@
 use crate::effects::{Contradiction, Description, Elastic, Key as NumberKey, Slot, active};
 use crate::model::error::SetupError;
 use crate::model::limit::{largest_reach, normal, radii_by_material};
-use crate::setup::{ContactLaw, Drag, DragLaw, Particle, Precision, Servo, Setup, Sleep, Step, WallShape};
+use crate::setup::{ContactLaw, Drag, DragLaw, Particle, Servo, Setup, Sleep, Step, WallShape};
+use crate::simd::number::Precision;
 use geom::Vec3;
 use std::collections::HashSet;
 use std::fmt::{Display, Formatter};
@@ -16,7 +17,7 @@ pub fn check(setup: &Setup) -> Result<(), SetupError> {
     precision(setup)?;
     particles(setup)?;
     crate::model::clumps::check(setup)?;
-    crate::model::bonds::find::check(setup)?;
+    crate::model::bonds::check::check(setup)?;
     walls(setup)?;
     zones(setup)?;
     periodic(setup)?;

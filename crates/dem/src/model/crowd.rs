@@ -9,8 +9,8 @@
 //! overlap of δ R*/(r + R), a quarter of the limit for equal radii.
 
 use crate::effects::ALONG;
-use crate::forces::sweep::share;
 use crate::setup::{Setup, Wall, WallShape};
+use crate::threads::share;
 use geom::{Grid, Vec3};
 
 /// Centres that one thread counts the neighbours of.

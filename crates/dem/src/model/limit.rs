@@ -23,13 +23,16 @@
 //! ([`crate::crowd`]): where N > 4, all numbers of contacts count N/4 times.
 
 use crate::effects::{
-    ALONG, Elastic, Meeting, NormalLaw, Slot, TURNS, TurningPair, active, damping_ratio, tangential_ratio,
+    ALONG, Elastic, Material, Meeting, NormalLaw, Slot, TURNS, TurningPair, active, damping_ratio,
+    tangential_ratio,
 };
 use crate::model::crowd::{Crowds, met, rounding};
 use crate::model::error::SetupError;
 use crate::setup::clumps::Yielding;
-use crate::setup::{ContactLaw, Material, Setup, Wall};
-use crate::state::particles::mass;
+use crate::setup::{ContactLaw, Drag, Setup, Wall};
+use crate::space::sphere::mass;
+use geom::Vec3;
+use std::f64::consts::PI;
 
 /// Σ (1 − n nᵀ) of the twelve contacts of a close packing [–].
 const ACROSS: f64 = 8.0;
@@ -145,7 +148,7 @@ pub fn critical_step(setup: &Setup) -> Result<Limit, SetupError> {
         }
     }
     crate::model::bonds::limit::tighten(&mut limit, setup)?;
-    if let Some((rate, radius)) = setup.drag.and_then(|d| d.fastest_rate(setup)) {
+    if let Some((rate, radius)) = setup.drag.and_then(|d| fastest_drag(&d, setup)) {
         let with = 1.0 / (1.0 / limit.dt + rate);
         if with < 0.9 * limit.dt {
             limit.pair = format!(
@@ -291,4 +294,21 @@ impl Between {
         let turns = root(w * slide * across + a, w * slide * gamma * rub + b);
         moves.min(slides).min(turns).min((slide * across).sqrt().recip())
     }
+}
+
+/// Largest d|F|/d|w| / m [1/s] that is to be expected: at the speeds of the start, and of a fall without end after Stokes.
+fn fastest_drag(drag: &Drag, setup: &Setup) -> Option<(f64, f64)> {
+    let relative = |v: &Vec3| (v - drag.velocity).norm();
+    let bodies = setup.clumps.bodies.iter().map(|b| &b.velocity);
+    let all = setup.particles.iter().map(|p| &p.velocity).chain(bodies);
+    let start = all.map(relative).fold(drag.velocity.norm(), f64::max);
+    let materials = radii_by_material(setup).into_iter().zip(&setup.materials);
+    let ranges = materials.filter_map(|(r, m)| r.map(|(low, high)| [(low, m.density), (high, m.density)]));
+    let all = ranges.flatten().map(|(radius, density)| {
+        let inverse_mass = 1.0 / mass(radius, density);
+        let slow = 6.0 * PI * drag.viscosity * radius * inverse_mass;
+        let speed = start.max(setup.gravity.norm() / slow);
+        (drag.slope(radius, speed) * slow, radius)
+    });
+    all.max_by(|a, b| a.0.total_cmp(&b.0))
 }

@@ -17,9 +17,9 @@ use crate::model::error::SetupError;
 use crate::model::kind::Kind;
 use crate::model::limit::largest_reach;
 use crate::model::start::{kinds, mean_radius, servo_gains, slow_enough, time_step};
-use crate::setup::{Precision, Setup};
+use crate::setup::Setup;
 use crate::simd::Width;
-use crate::simd::number::Form;
+use crate::simd::number::{Form, Precision};
 use crate::space::search::SKIN;
 use crate::walls::WallBody;
 use geom::Vec3;
@@ -86,7 +86,7 @@ impl Model {
 
     /// Length of the box along periodic axes [m], 0 along others.
     pub fn period(&self) -> Vec3 {
-        crate::state::clumps::periods(&self.setup.periodic)
+        crate::space::sphere::periods(&self.setup.periodic)
     }
 
     /// A position, brought back into the periodic box.

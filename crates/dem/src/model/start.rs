@@ -1,6 +1,7 @@
 //! What a simulation begins with: its step, its kinds of contact.
 
-use crate::effects::{Elastic, Meeting, Pair, compose, damping_ratio};
+use crate::effects::{Elastic, Meeting, Pair, damping_ratio};
+use crate::kernel::compose::compose;
 use crate::model::crowd::{Crowds, met};
 use crate::model::error::SetupError;
 use crate::model::kind::{Kind, With};

@@ -4,28 +4,16 @@
 //! effects, so that a frictionless pair takes no memory even where another has friction. Contacts of one kind in one tile are a
 //! segment: whole blocks, one task of the contact loop. Images across periodic faces come first, before all tiles.
 
-use crate::forces::resting::Still;
-use crate::forces::tile::{At, Lists, Part};
 use crate::kernel::LEDGER;
 use crate::kernel::sums::{Arrival, Loads, Sums};
 use crate::model::kind::With;
+use crate::neighbours::resting::Still;
+use crate::neighbours::slices::{At, Lists, Part};
 use crate::simd::aligned::Aligned;
 use crate::simd::number::Form;
 use crate::simd::{BLOCK, Row, Row4};
 use geom::Vec3;
 use std::ops::Range;
-
-/// Particles of a tile. Contacts within a tile add to their particles at once, and loads between two tiles are kept until it is the other's
-/// turn: the larger tiles are, the fewer are kept. But what a tile computes is to be in the cache when it moves, and threads share tiles
-/// out, so that there must be some for each. A function of the number of particles alone: the order of sums depends on it.
-pub fn tile(particles: usize) -> usize {
-    (particles / TILES).next_multiple_of(LEAST_TILE).clamp(LEAST_TILE, LARGEST_TILE)
-}
-
-const TILES: usize = 24;
-const LEAST_TILE: usize = 64;
-/// Chosen on the bench pile; smaller ones cost more than larger ones.
-const LARGEST_TILE: usize = 2048;
 
 /// What may disturb a sleeper.
 #[derive(Debug, Clone, Copy, PartialEq)]

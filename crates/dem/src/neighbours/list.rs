@@ -1,13 +1,14 @@
 //! How lists become contacts: segments, what arrives where, and who meets whom.
 
-use crate::forces::resting::Still;
 use crate::kernel::sums::Arrival;
 use crate::model::kind::{Kind, With};
-use crate::neighbours::contacts::{Contacts, Met, Segment, tile};
+use crate::neighbours::contacts::{Contacts, Met, Segment};
+use crate::neighbours::resting::Still;
 use crate::simd::aligned::Aligned;
 use crate::simd::number::Form;
 use crate::simd::{BLOCK, Row4};
-use crate::state::particles::FAR;
+use crate::space::search::tile;
+use crate::space::sphere::FAR;
 use crate::walls::WallBody;
 use geom::Vec3;
 

@@ -4,9 +4,12 @@
 //! is their layout: tiles of particles, segments of one kind of contact, blocks of slots. Uses model, state, space, walls, kernel.
 
 pub mod contacts;
+pub mod ends;
 pub mod list;
 pub mod poses;
 pub mod rebuild;
+pub mod resting;
+pub mod slices;
 
 use crate::simd::Row;
 use crate::walls::images::Periods;

@@ -1,16 +1,16 @@
 //! Makes the lists anew: sorts the particles in space, finds pairs and walls near them, carries contact memory over.
 
-use crate::forces::sweep::share;
 use crate::model::Model;
 use crate::model::kind::{Kind, With};
 use crate::neighbours::NeighbourLists;
-use crate::neighbours::contacts::{Contacts, Segment, tile};
+use crate::neighbours::contacts::{Contacts, Segment};
 use crate::neighbours::list::List;
 use crate::neighbours::poses::{around, count_back, pose_listed, travelled, wall_way};
 use crate::setup::Zone;
-use crate::space::search::{Pair, SKIN, Search, room};
+use crate::space::search::{Pair, SKIN, Search, half_of_shifts, pairs, room, tile};
 use crate::state::State;
 use crate::state::ledger::wrap_accounted;
+use crate::threads::share;
 use crate::walls::WallBody;
 use crate::walls::images::{Image, Periods};
 use geom::Vec3;
@@ -19,19 +19,6 @@ use std::ops::Range;
 
 /// Particles below which one thread lists faster than several: handing over takes some ten microseconds.
 const LISTED_FEW: usize = 256;
-
-/// Pairs whose first is in `range`; `wide` are those of the whole search with wide particles.
-pub(crate) fn pairs(search: &Search, wide: &[Pair], range: &Range<usize>) -> Vec<Pair> {
-    let mut found = Vec::with_capacity(4 * range.len());
-    search.common_pairs(range.clone(), &mut found);
-    let at = |k: usize| wide.partition_point(|p| (p.0 as usize) < k);
-    let wide = &wide[at(range.start)..at(range.end)];
-    if !wide.is_empty() {
-        found.extend(wide);
-        found.sort_unstable();
-    }
-    found
-}
 
 /// Which kind two materials belong to.
 struct Classes {
@@ -43,23 +30,6 @@ impl Classes {
     fn of(&self, a: u16, b: u16) -> usize {
         self.at[a as usize * self.materials + b as usize]
     }
-}
-
-pub(crate) fn half_of_shifts(periodic: &[Option<(f64, f64)>; 3]) -> Vec<Vec3> {
-    let period = periodic.map(|p| p.map(|(lo, hi)| hi - lo));
-    let choices = period.map(|p| if p.is_some() { vec![-1.0, 0.0, 1.0] } else { vec![0.0] });
-    let mut shifts = Vec::new();
-    for &x in &choices[0] {
-        for &y in &choices[1] {
-            for &z in &choices[2] {
-                if [x, y, z].into_iter().find(|&s| s != 0.0) == Some(1.0) {
-                    let of = |a: usize, s: f64| s * period[a].unwrap_or(0.0);
-                    shifts.push(Vec3::new(of(0, x), of(1, y), of(2, z)));
-                }
-            }
-        }
-    }
-    shifts
 }
 
 fn remembered<'a>(

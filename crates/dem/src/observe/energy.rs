@@ -1,77 +1,13 @@
 //! The energy ledger: each term by its own formula.
 
 use crate::neighbours::contacts::Contacts;
-use crate::observe::clumps::BodyState;
+use crate::passes::clumps::instant::BodyState;
 use crate::setup::{Particle, Setup};
 use crate::state::bonds::Bonds;
+use crate::state::energy::Energy;
 use crate::state::ledger::{Account, carried, heavy};
-use serde::{Deserialize, Serialize};
-
-/// Energy of one instant, of the particles that are free, and what has come and gone since the start [J].
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct Energy {
-    /// ½ m v².
-    pub translation: f64,
-    /// ½ I ω².
-    pub rotation: f64,
-    /// −m g·x, from the origin.
-    pub potential: f64,
-    /// In the springs of contacts and bonds; negative where cohesion binds.
-    pub elastic: f64,
-    /// Dissipated by the normal law: its dashpot, and what it takes to part grains that adhere.
-    pub normal: f64,
-    /// Dissipated by sliding friction, dashpot included.
-    pub sliding: f64,
-    /// Dissipated by rolling resistance, dashpot included.
-    pub rolling: f64,
-    /// Dissipated by twisting resistance, dashpot included.
-    pub twisting: f64,
-    /// Dissipated by dashpots of bonds, and with bonds that broke.
-    pub bonds: f64,
-    /// Work of moving walls on particles.
-    pub walls: f64,
-    /// Kinetic energy of particles that fell asleep.
-    pub slept: f64,
-    /// Taken by the fluid.
-    pub drag: f64,
-    /// Brought by particles that became free at a calculation plane, and work of those before it.
-    pub entered: f64,
-    /// Taken along by particles that passed a storage plane, and work on those behind it.
-    pub left: f64,
-    /// Made (or taken, negative) by the finite time step: what contacts and fluid did to particles beyond what springs,
-    /// dissipators and walls account for. It falls with Δt as the integrator's error does.
-    pub integration: f64,
-    /// Half of what dissipators and fluid take and walls bring in the step that begins now: the other terms end with the last one.
-    pub half_step: f64,
-}
 
 impl Energy {
-    /// Everything that was there at the start: constant to rounding.
-    pub fn balance(&self) -> f64 {
-        self.translation
-            + self.rotation
-            + self.potential
-            + self.elastic
-            + self.normal
-            + self.sliding
-            + self.rolling
-            + self.twisting
-            + self.bonds
-            + self.slept
-            + self.drag
-            + self.left
-            + self.half_step
-            - self.walls
-            - self.entered
-            - self.integration
-    }
-
-    /// What has changed its form since the start, to compare [`Energy::integration`] with.
-    pub fn exchanged(&self) -> f64 {
-        let dissipated = self.normal + self.sliding + self.rolling + self.twisting + self.bonds;
-        dissipated + self.slept + self.drag.abs() + self.walls.abs()
-    }
-
     pub(crate) fn of(
         particles: &[Particle],
         setup: &Setup,
@@ -100,9 +36,7 @@ impl Energy {
         }
         e
     }
-}
 
-impl Energy {
     /// Adds a rigid clump: ½ m v², ½ ω·L, −m g·x.
     pub(crate) fn add_body(&mut self, body: &BodyState, setup: &Setup) {
         let material = setup.clumps.shapes[body.shape as usize].material;

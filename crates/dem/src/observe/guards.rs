@@ -4,12 +4,12 @@ use crate::model::Model;
 use crate::model::error::Halt;
 use crate::model::kind::With;
 use crate::neighbours::NeighbourLists;
-use crate::observe::record::{idles, partner};
+use crate::neighbours::ends::{idles, partner};
 use crate::observe::snapshot::energy;
-use crate::observe::touching::position_before;
+use crate::passes::touching::position_before;
 use crate::simd::Row4;
 use crate::state::State;
-use crate::walls::servo::ServoState;
+use crate::state::servo::ServoState;
 use std::ops::Range;
 
 /// The deepest overlap in those segments, travellers and who has left among themselves left out; `Ok` when only those are too deep. Where particles

@@ -1,9 +1,7 @@
 //! Looking.
 
-pub mod clumps;
 pub mod energy;
 pub mod explain;
 pub mod guards;
 pub mod record;
 pub mod snapshot;
-pub mod touching;

@@ -3,23 +3,14 @@
 use crate::kernel::sums::Loads;
 use crate::model::Model;
 use crate::neighbours::NeighbourLists;
-use crate::observe::energy::Energy;
-use crate::passes::drag::body_acceleration;
-use crate::passes::ledger::{close_step, driven};
+use crate::passes::instant::{Instant, instant};
+use crate::passes::ledger::close_step;
 use crate::passes::zones::ledger::held_by_idle;
 use crate::setup::Particle;
 use crate::state::State;
-use crate::state::ledger::Driven;
+use crate::state::energy::Energy;
 use geom::Vec3;
 use std::collections::BTreeSet;
-
-/// What a particle does at this instant.
-struct Instant {
-    velocity: Vec3,
-    spin: Vec3,
-    acceleration: [f64; 3],
-    turning: [f64; 3],
-}
 
 /// All particles at one instant, by id.
 pub struct Snapshot<'a> {
@@ -77,41 +68,6 @@ impl<'a> Snapshot<'a> {
 pub fn particles(model: &Model, state: &State, lists: &NeighbourLists) -> Vec<Particle> {
     let seen = Snapshot::new(model, state, lists);
     (0..seen.len()).map(|n| seen.particle(n)).collect()
-}
-
-/// Corrects what was predicted for particle `k`, whose loads are those of this instant.
-fn instant(model: &Model, state: &State, k: usize, loads: &Loads) -> Instant {
-    let p = &state.particles;
-    let row = &p.rows[k];
-    let (free, half) = (!state.zones.travels(k), 0.5 * model.dt);
-    let body = body_acceleration(model, state, k);
-    let (force, moment) = loads.on(k, row[3]);
-    let mut at = Instant {
-        velocity: Vec3::new(row[4], row[5], row[6]),
-        spin: Vec3::zeros(),
-        acceleration: [0.0; 3],
-        turning: [0.0; 3],
-    };
-    for a in 0..3 {
-        at.acceleration[a] = force[a] * row[7] + body[a];
-        if free {
-            at.velocity[a] += half * (at.acceleration[a] - p.acceleration[k][a]);
-        }
-        if p.rotates() {
-            at.spin[a] = p.spins[k][a];
-            at.turning[a] = moment[a] * (2.5 * row[7] / (row[3] * row[3]));
-            if free {
-                at.spin[a] += half * (at.turning[a] - p.turning[k][a]);
-            }
-        }
-    }
-    at
-}
-
-/// What drives particle `k` at this instant.
-pub fn driven_now(model: &Model, state: &State, k: usize, loads: &Loads) -> Driven {
-    let Instant { velocity, spin, acceleration, turning } = instant(model, state, k, loads);
-    Driven { velocity, spin, ..driven(model, state, k, acceleration, turning) }
 }
 
 /// Energy of this instant [J]; elastic and dissipated parts only when the setup asked for the ledger.

@@ -17,117 +17,14 @@
 //! Stable step: that scheme, on v' = −λ v, needs λ Δt ≤ 1; with contacts, 1/Δt ≥ 1/Δt_contacts + λ is on the safe side, because
 //! (ω Δt)²/4 + 2 ζ ω Δt + λ Δt ≤ 1 follows from it (see [`crate::limit`]).
 
-use crate::forces::sweep::{FEW, share};
 use crate::model::Model;
-use crate::model::limit::radii_by_material;
 use crate::neighbours::NeighbourLists;
-use crate::setup::Setup;
-use crate::simd::Row;
 use crate::state::State;
-use crate::state::particles::mass;
+use crate::threads::{FEW, share};
 use geom::Vec3;
-use serde::{Deserialize, Serialize};
-use std::f64::consts::PI;
 
 /// Particles of one task.
 const CHUNK: usize = 256;
-/// Re from which the drag coefficient is constant [–].
-const TURBULENT: f64 = 1000.0;
-/// That coefficient [–].
-const NEWTON: f64 = 0.44;
-
-/// How drag depends on speed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum DragLaw {
-    /// Slow, Re ≪ 1.
-    Stokes,
-    /// Re up to 2·10⁵.
-    SchillerNaumann,
-}
-
-/// A fluid.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Drag {
-    /// How drag depends on speed.
-    pub law: DragLaw,
-    /// μ [Pa·s].
-    pub viscosity: f64,
-    /// ρ_f [kg/m³].
-    pub density: f64,
-    /// u [m/s].
-    pub velocity: Vec3,
-    /// Whether it lifts particles by the weight of what they displace.
-    pub buoyancy: bool,
-}
-
-impl Drag {
-    /// Rate λ = |F| / (m |w|) of a sphere at a relative speed [m/s]: 1/s.
-    fn rate(&self, radius: f64, inverse_mass: f64, speed: f64) -> f64 {
-        6.0 * PI * self.viscosity * radius * inverse_mass * self.factor(radius, speed)
-    }
-
-    /// Drag over that of Stokes [–].
-    fn factor(&self, radius: f64, speed: f64) -> f64 {
-        match self.law {
-            DragLaw::Stokes => 1.0,
-            DragLaw::SchillerNaumann => {
-                let re = self.reynolds(radius, speed);
-                if re < TURBULENT { 1.0 + 0.15 * libm::pow(re, 0.687) } else { NEWTON * re / 24.0 }
-            }
-        }
-    }
-
-    fn reynolds(&self, radius: f64, speed: f64) -> f64 {
-        2.0 * radius * self.density * speed / self.viscosity
-    }
-
-    /// Acceleration by drag alone [m/s²], of a particle's row.
-    pub(crate) fn slowing(&self, row: &Row) -> Vec3 {
-        let w = Vec3::new(row[4], row[5], row[6]) - self.velocity;
-        w * -self.rate(row[3], row[7], w.norm())
-    }
-
-    /// Weight of the fluid that particles displace over their own, of one density [–].
-    pub fn lift(&self, density: f64) -> f64 {
-        if self.buoyancy { self.density / density } else { 0.0 }
-    }
-
-    /// Acceleration by the fluid [m/s²], of a particle's row.
-    pub fn acceleration(&self, row: &Row, gravity: &Vec3) -> Vec3 {
-        let lift = self.lift(1.0) * mass(row[3], 1.0) * row[7];
-        self.slowing(row) - gravity * lift
-    }
-
-    /// Largest d|F|/d|w| / m [1/s] that is to be expected: at the speeds of the start, and of a fall without end after Stokes.
-    pub fn fastest_rate(&self, setup: &Setup) -> Option<(f64, f64)> {
-        let relative = |v: &Vec3| (v - self.velocity).norm();
-        let bodies = setup.clumps.bodies.iter().map(|b| &b.velocity);
-        let all = setup.particles.iter().map(|p| &p.velocity).chain(bodies);
-        let start = all.map(relative).fold(self.velocity.norm(), f64::max);
-        let materials = radii_by_material(setup).into_iter().zip(&setup.materials);
-        let ranges =
-            materials.filter_map(|(r, m)| r.map(|(low, high)| [(low, m.density), (high, m.density)]));
-        let all = ranges.flatten().map(|(radius, density)| {
-            let inverse_mass = 1.0 / mass(radius, density);
-            let slow = 6.0 * PI * self.viscosity * radius * inverse_mass;
-            let speed = start.max(setup.gravity.norm() / slow);
-            (self.slope(radius, speed) * slow, radius)
-        });
-        all.max_by(|a, b| a.0.total_cmp(&b.0))
-    }
-
-    /// d(factor · |w|)/d|w| [–].
-    fn slope(&self, radius: f64, speed: f64) -> f64 {
-        match self.law {
-            DragLaw::Stokes => 1.0,
-            DragLaw::SchillerNaumann => {
-                let re = self.reynolds(radius, speed);
-                let low = 1.0 + 0.15 * 1.687 * libm::pow(re.min(TURBULENT), 0.687);
-                low.max(if re > TURBULENT { NEWTON * re / 12.0 } else { 0.0 })
-            }
-        }
-    }
-}
 
 /// Acceleration [m/s²] of particle `k` besides that of its contacts; a fluid acts on clumps as a whole.
 pub fn body_acceleration(model: &Model, state: &State, k: usize) -> Vec3 {

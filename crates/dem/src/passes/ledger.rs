@@ -1,16 +1,21 @@
 //! The energy ledger: what each step adds to its sums.
 
+use crate::effects::DISSIPATORS;
+use crate::kernel::{LEDGER, LOST};
 use crate::model::Model;
+use crate::model::kind::{Kind, With};
 use crate::neighbours::NeighbourLists;
-use crate::observe::energy::Energy;
-use crate::observe::snapshot::driven_now;
-use crate::observe::touching::position_before;
+use crate::neighbours::contacts::Contacts;
 use crate::passes::drag::drag_power;
+use crate::passes::instant::driven_now;
+use crate::passes::touching::position_before;
 use crate::passes::zones::ledger::account_zones;
 use crate::setup::Particle;
 use crate::simd::Row4;
 use crate::state::State;
+use crate::state::energy::Energy;
 use crate::state::ledger::{Account, Driven, carried, heavy, unwrapped_potential};
+use crate::state::zones::Zones;
 use geom::Vec3;
 
 /// After a move: what contacts and fluid did to each particle in it.
@@ -145,4 +150,31 @@ pub fn driven(model: &Model, state: &State, k: usize, a: [f64; 3], turning: [f64
 
 fn three(row: Row4) -> [f64; 3] {
     [row[0], row[1], row[2]]
+}
+
+impl Account {
+    /// Adds one step's ledger, in its order. What a contact that acts on nobody took or brought is part of the work on those that travel, and goes where that goes.
+    pub fn add(&mut self, kinds: &[Kind], contacts: &Contacts, zones: &Zones) {
+        for segment in &contacts.segments {
+            let places = segment.contacts();
+            let rows = &contacts.ledger[places.start * LEDGER..places.end * LEDGER];
+            let with = kinds[segment.kind].with;
+            let wall = matches!(with, With::Wall(_));
+            for (place, row) in places.zip(rows.chunks_exact(LEDGER)) {
+                let (dissipated, surface) =
+                    (&row[1..=DISSIPATORS], if wall { row[1 + DISSIPATORS] } else { 0.0 });
+                if zones.idles(contacts.ends(with, place)) {
+                    let gone = dissipated.iter().sum::<f64>() - surface;
+                    self.left += gone;
+                    self.passed += gone;
+                } else {
+                    for (sum, part) in self.dissipated.iter_mut().zip(dissipated) {
+                        *sum += part;
+                    }
+                    self.walls += surface;
+                }
+                self.lost += row[LOST];
+            }
+        }
+    }
 }

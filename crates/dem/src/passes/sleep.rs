@@ -8,8 +8,8 @@
 //!
 //! Sleeping changes results: by what a bed would still have crept, and by disturbances too weak to wake it.
 
-use crate::forces::resting::Still;
-use crate::forces::tile::Lists;
+use crate::neighbours::resting::Still;
+use crate::neighbours::slices::Lists;
 use crate::passes::integrate::{Columns, Drive, Moved, advance};
 use crate::simd::{Row, Width};
 use crate::state::sleepers::Beds;

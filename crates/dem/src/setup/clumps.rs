@@ -1,7 +1,8 @@
 //! What the clumps of a setup are, seen from the rest of the engine.
 
+use crate::effects::{Ease, Material};
 use crate::setup::clump_shape::ClumpShape;
-use crate::setup::{Clumps, Material, Setup};
+use crate::setup::{Clumps, EntryClump, Setup};
 
 /// How easily a rigid clump gives way, for the critical step.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,16 +23,6 @@ pub struct Yielding {
 
 /// Beyond any [–]; a number of single precision, also times 1/m.
 const AT_ONCE: f64 = 1e12;
-
-/// How much easier the easiest body of two materials yields to all its contacts than a sphere of its mass to twelve [–].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ease {
-    /// To contacts alone; 1 without clumps, and walls of spheres that lie deep within each other.
-    pub bodies: f64,
-    /// The like for the pace of tangential springs. Where bonds set it, which know nothing of the stiffness of contacts, so much that the springs are always late by
-    /// half a step.
-    pub springs: f64,
-}
 
 impl Setup {
     /// Of two materials, where so many times the contacts of a close packing push at once.
@@ -112,4 +103,9 @@ impl Clumps {
         let all = own.chain(self.entries.iter().copied());
         all.filter_map(|(shape, low, high)| Some((self.shapes.get(shape as usize)?, low, high)))
     }
+}
+
+/// Number of spheres of a clump.
+pub(crate) fn members(clump: &EntryClump, setup: &Setup) -> u32 {
+    setup.clumps.shapes.get(clump.shape as usize).map_or(1, |s| s.spheres.len() as u32)
 }

@@ -2,37 +2,29 @@
 
 pub mod clump_shape;
 pub mod clumps;
+pub mod drag;
+pub mod servo;
+pub mod sleep;
 
 mod bond;
-mod contact;
 mod zone;
+
+pub use crate::effects::{ContactHistory, ContactLaw, Material};
+pub use crate::setup::clump_shape::ClumpShape;
+pub use crate::setup::drag::{Drag, DragLaw};
+pub use crate::setup::servo::Servo;
+pub use crate::setup::sleep::Sleep;
+pub use crate::simd::number::Precision;
+pub use bond::Bond;
+pub use zone::{
+    Crossing, Entry, EntryBonds, EntryClump, Guide, Link, Memory, PathSample, Sample, Touch, Zone,
+    ZoneMotion, ZoneTest,
+};
 
 use geom::mesh::TriMesh;
 use geom::{Plane, Vec3};
 use nalgebra::UnitQuaternion;
 use serde::{Deserialize, Serialize};
-
-pub use crate::effects::ContactHistory;
-pub use crate::passes::drag::Drag;
-pub use crate::passes::drag::DragLaw;
-pub use crate::setup::clump_shape::ClumpShape;
-pub use crate::state::sleepers::Sleep;
-pub use crate::walls::servo::Servo;
-pub use bond::Bond;
-pub use contact::ContactLaw;
-pub use zone::Crossing;
-pub use zone::Entry;
-pub use zone::EntryBonds;
-pub use zone::EntryClump;
-pub use zone::Guide;
-pub use zone::Link;
-pub use zone::Memory;
-pub use zone::PathSample;
-pub use zone::Sample;
-pub use zone::Touch;
-pub use zone::Zone;
-pub use zone::ZoneMotion;
-pub use zone::ZoneTest;
 
 /// Everything that a run needs. SI units throughout.
 #[derive(Debug, Clone)]
@@ -81,30 +73,6 @@ pub struct Setup {
     pub guards: Guards,
 }
 
-/// In which precision contacts are computed; places and velocities are always in double precision. Within a plant of metres a place in single
-/// precision would be coarser than the overlap of two grains at rest.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Precision {
-    /// Double precision.
-    #[default]
-    Double,
-    /// What happens in a contact in single precision; what it remembers, and the sums of loads, in double precision.
-    Mixed,
-    /// All of that in single precision.
-    Single,
-}
-
-impl Precision {
-    /// Its name in scenes.
-    pub fn name(self) -> &'static str {
-        match self {
-            Precision::Double => "f64",
-            Precision::Mixed => "mixed",
-            Precision::Single => "f32",
-        }
-    }
-}
-
 /// How the time step is chosen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Step {
@@ -112,19 +80,6 @@ pub enum Step {
     Auto(f64),
     /// This step [s]; refused when above the critical one.
     Fixed(f64),
-}
-
-/// Elastic constants and density.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Material {
-    /// Name, for messages.
-    pub name: String,
-    /// Density [kg/m³]; of no effect for walls.
-    pub density: f64,
-    /// Young's modulus [Pa].
-    pub young: f64,
-    /// Poisson's ratio [–].
-    pub poisson: f64,
 }
 
 /// A sphere.

@@ -186,3 +186,27 @@ pub const FORCE: usize = 4;
 pub const FORCE_AND_MOMENT: usize = 8;
 /// Numbers of a couple: on i, and a pad.
 pub const COUPLE: usize = 4;
+
+/// In which precision contacts are computed; places and velocities are always in double precision. Within a plant of metres a place in single
+/// precision would be coarser than the overlap of two grains at rest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Precision {
+    /// Double precision.
+    #[default]
+    Double,
+    /// What happens in a contact in single precision; what it remembers, and the sums of loads, in double precision.
+    Mixed,
+    /// All of that in single precision.
+    Single,
+}
+
+impl Precision {
+    /// Its name in scenes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Precision::Double => "f64",
+            Precision::Mixed => "mixed",
+            Precision::Single => "f32",
+        }
+    }
+}

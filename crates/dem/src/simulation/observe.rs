@@ -3,17 +3,17 @@
 use super::Simulation;
 use crate::model::error::Halt;
 use crate::neighbours::poses::pose;
-use crate::observe::clumps::BodyState;
-use crate::observe::energy::Energy;
 use crate::observe::explain::{ContactBytes, EffectCost};
 use crate::observe::record::ContactRecord;
 use crate::observe::snapshot::Snapshot;
 use crate::observe::{explain, guards, record, snapshot};
 use crate::passes::bonds::pull;
+use crate::passes::clumps::instant::BodyState;
 use crate::passes::servo;
 use crate::passes::servo::WallForce;
 use crate::setup::Particle;
 use crate::state::bonds::BondState;
+use crate::state::energy::Energy;
 use crate::state::sleepers::Sleepers;
 use geom::Vec3;
 

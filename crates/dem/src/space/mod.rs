@@ -2,3 +2,4 @@
 
 pub mod rotation;
 pub mod search;
+pub mod sphere;

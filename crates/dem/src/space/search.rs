@@ -8,7 +8,6 @@
 //! rooms alone. Particles are sorted by blocks of about a tile, so that few partners are of another tile, and in these along the shortest
 //! side of their box first.
 
-use crate::neighbours::contacts::tile;
 use geom::grid::bounds;
 use geom::{Grid, Vec3};
 use std::ops::Range;
@@ -164,3 +163,47 @@ fn common_reach(reach: &[f64]) -> f64 {
     let at = ((reach.len() - 1) as f64 * COMMON) as usize;
     *sorted.select_nth_unstable_by(at, f64::total_cmp).1
 }
+
+/// Pairs whose first is in `range`; `wide` are those of the whole search with wide particles.
+pub(crate) fn pairs(search: &Search, wide: &[Pair], range: &Range<usize>) -> Vec<Pair> {
+    let mut found = Vec::with_capacity(4 * range.len());
+    search.common_pairs(range.clone(), &mut found);
+    let at = |k: usize| wide.partition_point(|p| (p.0 as usize) < k);
+    let wide = &wide[at(range.start)..at(range.end)];
+    if !wide.is_empty() {
+        found.extend(wide);
+        found.sort_unstable();
+    }
+    found
+}
+
+pub(crate) fn half_of_shifts(periodic: &[Option<(f64, f64)>; 3]) -> Vec<Vec3> {
+    let period = periodic.map(|p| p.map(|(lo, hi)| hi - lo));
+    let choices = period.map(|p| if p.is_some() { vec![-1.0, 0.0, 1.0] } else { vec![0.0] });
+    let mut shifts = Vec::new();
+    for &x in &choices[0] {
+        for &y in &choices[1] {
+            for &z in &choices[2] {
+                if [x, y, z].into_iter().find(|&s| s != 0.0) == Some(1.0) {
+                    let of = |a: usize, s: f64| s * period[a].unwrap_or(0.0);
+                    shifts.push(Vec3::new(of(0, x), of(1, y), of(2, z)));
+                }
+            }
+        }
+    }
+    shifts
+}
+
+/// Particles of a tile. Contacts within a tile add to their particles at once, and loads between two tiles are kept until it is the other's
+/// turn: the larger tiles are, the fewer are kept. But what a tile computes is to be in the cache when it moves, and threads share tiles
+/// out, so that there must be some for each. A function of the number of particles alone: the order of sums depends on it.
+pub fn tile(particles: usize) -> usize {
+    (particles / TILES).next_multiple_of(LEAST_TILE).clamp(LEAST_TILE, LARGEST_TILE)
+}
+
+const TILES: usize = 24;
+
+const LEAST_TILE: usize = 64;
+
+/// Chosen on the bench pile; smaller ones cost more than larger ones.
+const LARGEST_TILE: usize = 2048;

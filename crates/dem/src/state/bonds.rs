@@ -19,54 +19,21 @@
 //! both ends instead, so that nothing is lost by rounding or order: Wang (2009), Acta Geotech. 4, doi:10.1007/s11440-008-0072-1. Beam in a frame that turns along:
 //! Crisfield (1990), Comput. Methods Appl. Mech. Eng. 81, doi:10.1016/0045-7825(90)90106-V.
 
-use crate::forces::sweep::{FEW, share};
 use crate::kernel::sums::Sums;
-use crate::model::bonds::beam::{Beam, Ends, Pull};
+use crate::model::bonds::beam::{Ends, Pull};
 use crate::model::bonds::find;
+use crate::model::bonds::tie::Tie;
 use crate::model::error::SetupError;
 use crate::setup::{Link, Setup};
+use crate::space::sphere::nearest;
 use crate::state::particles::Particles;
+use crate::threads::{FEW, share};
 use geom::Vec3;
 use nalgebra::UnitQuaternion;
 use serde::{Deserialize, Serialize};
 
 /// Bonds, or particles, of one task.
 pub(crate) const CHUNK: usize = 256;
-
-/// A bond between two particles.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
-pub(crate) struct Tie {
-    /// Rows of i and j; i has the lower id.
-    pub(crate) ends: [u32; 2],
-    pub(crate) beam: Beam,
-    /// σ_c and τ_c [Pa].
-    pub(crate) strength: [f64; 2],
-    /// When it broke [s]; infinite while it is whole, `GONE` after one of both has left.
-    pub(crate) broken: f64,
-}
-
-/// Time at which a bond broke that did not break.
-pub(crate) const GONE: f64 = f64::NEG_INFINITY;
-
-impl Tie {
-    pub(crate) fn is_whole(&self) -> bool {
-        self.broken == f64::INFINITY
-    }
-
-    /// Of both particles now.
-    pub(crate) fn ends(&self, particles: &Particles, turns: &[UnitQuaternion<f64>], period: &Vec3) -> Ends {
-        let [i, j] = self.ends.map(|k| k as usize);
-        let three = |row: &[f64]| Vec3::new(row[0], row[1], row[2]);
-        let velocity = |k: usize| three(&particles.rows[k][4..7]);
-        let spin = |k: usize| three(&particles.spins[k][..3]);
-        Ends {
-            arm: nearest(particles.position(i) - particles.position(j), period),
-            velocity: velocity(i) - velocity(j),
-            spin: [spin(i), spin(j)],
-            turn: [turns[i], turns[j]],
-        }
-    }
-}
 
 /// A bond at one instant, for who looks.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -250,10 +217,18 @@ impl Bonds {
     }
 }
 
-/// From one centre to another, by the nearest image; a period of 0 is none.
-pub(crate) fn nearest(arm: Vec3, period: &Vec3) -> Vec3 {
-    let back = |axis: usize| {
-        if period[axis] > 0.0 { period[axis] * (arm[axis] / period[axis]).round() } else { 0.0 }
-    };
-    arm - Vec3::new(back(0), back(1), back(2))
+impl Tie {
+    /// Of both particles now.
+    pub(crate) fn ends(&self, particles: &Particles, turns: &[UnitQuaternion<f64>], period: &Vec3) -> Ends {
+        let [i, j] = self.ends.map(|k| k as usize);
+        let three = |row: &[f64]| Vec3::new(row[0], row[1], row[2]);
+        let velocity = |k: usize| three(&particles.rows[k][4..7]);
+        let spin = |k: usize| three(&particles.spins[k][..3]);
+        Ends {
+            arm: nearest(particles.position(i) - particles.position(j), period),
+            velocity: velocity(i) - velocity(j),
+            spin: [spin(i), spin(j)],
+            turn: [turns[i], turns[j]],
+        }
+    }
 }

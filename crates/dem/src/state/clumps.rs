@@ -14,10 +14,11 @@
 //! L is kept in space: without torque it never changes. Kick, turn, kick: Dullweber, Leimkuhler & McLachlan (1997), J. Chem. Phys.
 //! 107, doi:10.1063/1.474310. Members of one body never form a contact: such pairs are left out of the lists.
 
-use crate::passes::clumps::zones::starts;
-use crate::setup::{Body, ClumpShape, EntryClump, Material, Particle, Setup};
+use crate::effects::Material;
+use crate::setup::{Body, ClumpShape, EntryClump, Particle, Setup};
 use crate::simd::Row4;
 use crate::space::rotation;
+use crate::space::sphere::periods;
 use crate::state::clump::{Flight, arm, quaternion};
 use crate::state::particles::Particles;
 use geom::Vec3;
@@ -220,11 +221,20 @@ impl Bodies {
     }
 }
 
-/// Periods along x, y, z [m]; 0 along an open axis.
-pub(crate) fn periods(periodic: &[Option<(f64, f64)>; 3]) -> Vec3 {
-    Vec3::from(periodic.map(|p| p.map_or(0.0, |(lo, hi)| hi - lo)))
-}
-
 pub(crate) fn far(image: &[i8; 3], periods: &Vec3) -> Vec3 {
     Vec3::from(image.map(f64::from)).component_mul(periods)
+}
+
+/// The state of each member of a clump that is whole in this state, with the velocity of its centre; and its principal axes to space.
+pub fn starts(whole: &Particle, clump: &EntryClump, setup: &Setup) -> (Vec<Particle>, [f64; 4]) {
+    let shape = &setup.clumps.shapes[clump.shape as usize];
+    let turn = clump.orientation * shape.frame;
+    let member = |(k, (centre, radius)): (usize, &(Vec3, f64))| Particle {
+        id: whole.id.wrapping_add(k as u32),
+        radius: radius * clump.scale,
+        position: whole.position + turn * (centre * clump.scale),
+        material: shape.material,
+        ..*whole
+    };
+    (shape.spheres.iter().enumerate().map(member).collect(), turn.into_inner().coords.into())
 }

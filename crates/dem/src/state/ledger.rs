@@ -9,15 +9,11 @@
 //! Sums run in the order of particles and contacts: they are the same for any number of threads.
 
 use crate::effects::DISSIPATORS;
-use crate::kernel::{LEDGER, LOST};
 use crate::model::Model;
-use crate::model::kind::{Kind, With};
-use crate::neighbours::contacts::Contacts;
 use crate::setup::{Particle, Setup};
+use crate::space::sphere::mass;
 use crate::state::State;
 use crate::state::bonds::Bonds;
-use crate::state::particles::mass;
-use crate::state::zones::Zones;
 use geom::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -87,31 +83,6 @@ impl Driven {
 }
 
 impl Account {
-    /// Adds one step's ledger, in its order. What a contact that acts on nobody took or brought is part of the work on those that travel, and goes where that goes.
-    pub fn add(&mut self, kinds: &[Kind], contacts: &Contacts, zones: &Zones) {
-        for segment in &contacts.segments {
-            let places = segment.contacts();
-            let rows = &contacts.ledger[places.start * LEDGER..places.end * LEDGER];
-            let with = kinds[segment.kind].with;
-            let wall = matches!(with, With::Wall(_));
-            for (place, row) in places.zip(rows.chunks_exact(LEDGER)) {
-                let (dissipated, surface) =
-                    (&row[1..=DISSIPATORS], if wall { row[1 + DISSIPATORS] } else { 0.0 });
-                if zones.idles(contacts.ends(with, place)) {
-                    let gone = dissipated.iter().sum::<f64>() - surface;
-                    self.left += gone;
-                    self.passed += gone;
-                } else {
-                    for (sum, part) in self.dissipated.iter_mut().zip(dissipated) {
-                        *sum += part;
-                    }
-                    self.walls += surface;
-                }
-                self.lost += row[LOST];
-            }
-        }
-    }
-
     /// Adds what bonds take in a step of `dt` [s].
     pub fn add_bonds(&mut self, bonds: &Bonds, dt: f64) {
         let [power, lost] = bonds.dissipated();

@@ -1,28 +1,11 @@
 //! The particles' columns, in space order.
 
-use crate::setup::{Material, Particle};
+use crate::effects::Material;
+use crate::setup::Particle;
 use crate::simd::{Row, Row4};
+use crate::space::sphere::{FAR, mass};
 use geom::Vec3;
 use serde::{Deserialize, Serialize};
-
-/// Two rows that nothing ever touches: what the unused places of a block point to.
-pub const FAR: [Row; 2] = [
-    Row([1e150, 1e150, 1e150, 0.0, 0.0, 0.0, 0.0, 1.0]),
-    Row([-1e150, -1e150, -1e150, 0.0, 0.0, 0.0, 0.0, 1.0]),
-];
-
-/// How far away those are put that are out of the calculation [m]: no wall and no grain of a scene gets there.
-const AWAY: f64 = 1e100;
-
-/// Where row `k` waits until the next listing drops it: each in a place of its own, because two at one place would overlap.
-pub fn away(k: usize) -> [f64; 3] {
-    [-AWAY * (k + 1) as f64; 3]
-}
-
-/// Whether a row is out of the calculation. Its distance from a plane may be any number, also 0: it is not to be asked for.
-pub fn is_away(row: &Row) -> bool {
-    row[0] <= -AWAY
-}
 
 /// Columns, one entry a particle; `rows` and `spins` have two more ([`FAR`]).
 ///
@@ -115,9 +98,4 @@ impl Particles {
         let r = &self.rows[k];
         Vec3::new(r[0], r[1], r[2])
     }
-}
-
-/// Mass of a sphere [kg] of `radius` [m] and `density` [kg/m³].
-pub fn mass(radius: f64, density: f64) -> f64 {
-    4.0 / 3.0 * std::f64::consts::PI * radius * radius * radius * density
 }

@@ -1,5 +1,6 @@
 //! Particles that sleep ([`crate::passes::sleep`] says when).
 
+use crate::setup::sleep::Sleep;
 use crate::simd::Row;
 use serde::{Deserialize, Serialize};
 
@@ -12,17 +13,6 @@ pub struct Known<'a> {
     pub turns: u64,
     /// For each tile, the last of them in which somebody fell asleep or woke.
     pub changed: &'a [u64],
-}
-
-/// When particles sleep.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Sleep {
-    /// Speed of the surface, |v| + r|ω|, below which a particle is at rest [m/s].
-    pub speed: f64,
-    /// How long it must have been [s].
-    pub time: f64,
-    /// Force that wakes it, over its weight [–].
-    pub wake: f64,
 }
 
 /// Who sleeps.

@@ -6,7 +6,6 @@
 //!
 //! A traveller's row is overwritten after each move, so that the move itself knows nothing of zones.
 
-use crate::passes::zones::enter;
 use crate::setup::{ContactHistory, Crossing, Entry, Setup, Zone};
 use crate::simd::Row4;
 use crate::state::particles::Particles;
@@ -121,7 +120,7 @@ impl Zones {
 
     /// Whether a particle is to come in, or is on its way in.
     pub(crate) fn comes(&self, id: u32, setup: &Setup) -> bool {
-        let members = |e: &Entry| e.clump.map_or(1, |c| enter::members(&c, setup));
+        let members = |e: &Entry| e.clump.map_or(1, |c| crate::setup::clumps::members(&c, setup));
         self.pending.iter().any(|e| id.wrapping_sub(e.particle.id) < members(e))
             || self.travellers.iter().any(|t| t.start.id == id && matches!(t.way, Way::In(_)))
     }

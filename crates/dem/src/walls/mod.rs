@@ -7,11 +7,10 @@
 pub(crate) mod images;
 pub(crate) mod motion;
 pub(crate) mod seams;
-pub(crate) mod servo;
 
 use crate::setup::{Motion, Wall, WallShape};
 use crate::simd::{Row, Row4};
-use crate::state::particles::{FAR, is_away};
+use crate::space::sphere::{FAR, is_away};
 use crate::walls::images::Image;
 use crate::walls::motion::Pose;
 use crate::walls::seams::{Nearest, Slots};
@@ -232,7 +231,7 @@ fn bounds(surface: &Surface) -> [Vec3; 2] {
 mod tests {
     use super::*;
     use crate::simd::number::Form;
-    use crate::state::particles::away;
+    use crate::space::sphere::away;
 
     /// Who is out of the calculation touches no shape of wall, whichever way it looks.
     #[test]

@@ -6,13 +6,14 @@
 //! λ (Δt²/4 + t Δt) = 1,  t: dashpots over springs;   1/Δt ≥ 1/Δt_contacts + 1/Δt_bonds
 //! ```
 
+use crate::effects::Material;
 use crate::model::bonds::beam::Beam;
 use crate::model::bonds::find::ties;
+use crate::model::bonds::tie::Tie;
 use crate::model::error::SetupError;
 use crate::model::limit::{Limit, root};
-use crate::setup::{EntryBonds, Material, Particle, Setup};
-use crate::state::bonds::Tie;
-use crate::state::particles::mass;
+use crate::setup::{EntryBonds, Particle, Setup};
+use crate::space::sphere::mass;
 use geom::Vec3;
 use nalgebra::{Matrix6, Vector6};
 

@@ -2,8 +2,10 @@
 
 use crate::model::Model;
 use crate::model::bonds::beam::Pull;
+use crate::model::bonds::tie::{GONE, Tie};
+use crate::space::sphere::nearest;
 use crate::state::State;
-use crate::state::bonds::{BondState, GONE, Tie, nearest};
+use crate::state::bonds::BondState;
 
 /// Brings bonds to this instant.
 pub fn pull_bonds(model: &Model, state: &mut State) {

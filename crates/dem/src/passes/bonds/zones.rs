@@ -5,9 +5,10 @@
 
 use crate::model::Model;
 use crate::model::bonds::beam::{Beam, Pull};
+use crate::model::bonds::tie::{GONE, Tie};
 use crate::setup::Link;
 use crate::state::State;
-use crate::state::bonds::{Bonds, GONE, Tie};
+use crate::state::bonds::Bonds;
 use nalgebra::UnitQuaternion;
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,4 +1,5 @@
 //! Clumps.
 
 pub mod advance;
+pub mod instant;
 pub mod zones;

@@ -10,20 +10,6 @@ use crate::state::clumps::Bodies;
 use geom::Vec3;
 use nalgebra::UnitQuaternion;
 
-/// The state of each member of a clump that is whole in this state, with the velocity of its centre; and its principal axes to space.
-pub fn starts(whole: &Particle, clump: &EntryClump, setup: &Setup) -> (Vec<Particle>, [f64; 4]) {
-    let shape = &setup.clumps.shapes[clump.shape as usize];
-    let turn = clump.orientation * shape.frame;
-    let member = |(k, (centre, radius)): (usize, &(Vec3, f64))| Particle {
-        id: whole.id.wrapping_add(k as u32),
-        radius: radius * clump.scale,
-        position: whole.position + turn * (centre * clump.scale),
-        material: shape.material,
-        ..*whole
-    };
-    (shape.spheres.iter().enumerate().map(member).collect(), turn.into_inner().coords.into())
-}
-
 /// ½ m v² + ½ ω·L − m g·x [J], g the `weight` over the mass [m/s²].
 fn energy(mass: f64, place: &Vec3, velocity: &Vec3, [spin, momentum]: [&Vec3; 2], weight: &Vec3) -> f64 {
     mass * (0.5 * velocity.norm_squared() - weight.dot(place)) + 0.5 * spin.dot(momentum)

@@ -9,8 +9,8 @@
 
 use crate::model::Model;
 use crate::neighbours::NeighbourLists;
-use crate::observe::touching::touching;
 use crate::passes::ledger::close_account;
+use crate::passes::touching::touching;
 use crate::passes::zones::ledger::power_about;
 use crate::passes::zones::travel::carry_on;
 use crate::passes::zones::whole::{tested, tested_before, together};
@@ -110,8 +110,7 @@ fn hand_over(model: &Model, state: &mut State, lists: &mut NeighbourLists, k: us
     let (starts, turn) = match &crossing.clump {
         None => (vec![crossing.particle], None),
         Some(clump) => {
-            let (starts, turn) =
-                crate::passes::clumps::zones::starts(&crossing.particle, clump, &model.setup);
+            let (starts, turn) = crate::state::clumps::starts(&crossing.particle, clump, &model.setup);
             (starts, Some(turn))
         }
     };

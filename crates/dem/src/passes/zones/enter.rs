@@ -3,6 +3,7 @@
 use crate::model::Model;
 use crate::model::check::near;
 use crate::model::error::SetupError;
+use crate::setup::clumps::members;
 use crate::setup::{Entry, EntryClump, Particle, Setup, WallShape, Zone, ZoneMotion};
 use crate::state::State;
 use crate::state::path::Path;
@@ -45,11 +46,6 @@ impl Zones {
         self.pending.push_back(entry);
         Ok(())
     }
-}
-
-/// Number of spheres of a clump.
-pub(crate) fn members(clump: &EntryClump, setup: &Setup) -> u32 {
-    setup.clumps.shapes.get(clump.shape as usize).map_or(1, |s| s.spheres.len() as u32)
 }
 
 fn range(what: String, value: f64, unit: &'static str, range: &'static str) -> Result<(), SetupError> {

@@ -5,7 +5,7 @@ use crate::model::Model;
 use crate::model::kind::With;
 use crate::neighbours::NeighbourLists;
 use crate::neighbours::contacts::Segment;
-use crate::observe::record::idles;
+use crate::neighbours::ends::idles;
 use crate::setup::Particle;
 use crate::state::State;
 use crate::state::zone_particle::Way;

@@ -2,16 +2,16 @@
 
 use crate::model::Model;
 use crate::neighbours::NeighbourLists;
-use crate::observe::touching::position_before;
+use crate::passes::touching::position_before;
 use crate::passes::zones::ledger::held;
 use crate::passes::zones::memory::recollect;
 use crate::passes::zones::whole::tested;
 use crate::setup::{Particle, Zone};
 use crate::simd::Row4;
+use crate::space::sphere::away;
 use crate::state::State;
 use crate::state::clump::quaternion;
 use crate::state::ledger::carried;
-use crate::state::particles::away;
 use crate::state::path::Stage;
 use crate::state::zone_particle::{Flow, Traveller, Way};
 use geom::Vec3;

@@ -1,7 +1,7 @@
 //! What passes a plane as one: a sphere, or a rigid clump, whose members come and go together when its centre of mass does.
 
 use crate::model::Model;
-use crate::observe::touching::position_before;
+use crate::passes::touching::position_before;
 use crate::state::State;
 use geom::Vec3;
 

@@ -1,18 +1,6 @@
-//! A wall that follows a force, and where it is ([`crate::passes::servo`] moves it).
+//! Where a servo is.
 
-use geom::Vec3;
 use serde::{Deserialize, Serialize};
-
-/// A force to be followed.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Servo {
-    /// Which way the wall pushes [–].
-    pub direction: Vec3,
-    /// Force of the wall on the particles along `direction` [N].
-    pub force: f64,
-    /// Largest speed [m/s].
-    pub speed_limit: f64,
-}
 
 /// Where a servo is.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]

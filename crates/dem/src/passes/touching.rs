@@ -4,7 +4,7 @@ use crate::model::Model;
 use crate::model::kind::With;
 use crate::neighbours::NeighbourLists;
 use crate::neighbours::contacts::Segment;
-use crate::observe::record::partner;
+use crate::neighbours::ends::partner;
 use crate::passes::zones::memory::springs;
 use crate::setup::Touch;
 use crate::state::State;

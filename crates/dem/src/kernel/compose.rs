@@ -1,0 +1,126 @@
+//! The compositions of effects that are compiled.
+//!
+//! Each composition is compiled for every width of lanes, with and without the ledger. So that they stay few, the laws and resistances
+//! that most scenes use are compiled in every precision; all others in double precision only, where cohesion and the weakening of
+//! friction, which keep nothing, are not compositions of their own but a question that is asked once for each group of contacts.
+
+use super::{Kernel, Narrow};
+use crate::effects::*;
+use crate::simd::number::Precision;
+
+macro_rules! compositions {
+    (every precision: $($cm:ident :: $common:ident),*; double precision: $($dm:ident :: $rare:ident),*; cohesion: $am:ident :: $adhesion:ident;
+     sliding: $($sm:ident :: $sliding:ident <$of:ident :: $model:ident>),*; rolling: $($rm:ident :: $rolling:ident),*;
+     twisting: $($tm:ident :: $twisting:ident),*;) => {
+        /// The effects of a pair, composed.
+        pub fn compose(pair: &Pair, precision: Precision) -> Box<dyn Kernel> {
+            let common = active(pair.law).all(|d| d.every_precision);
+            $(if let Some(law) = $common::of(pair) {
+                return if common { in_every_precision(pair, precision, law) } else { adhering(pair, law) };
+            })*
+            $(if let Some(law) = $rare::of(pair) { return adhering(pair, law); })*
+            Box::new(())
+        }
+
+        fn adhering<N: Effect>(pair: &Pair, law: N) -> Box<dyn Kernel> {
+            let so_far = (law, $adhesion::of(pair));
+            $(if let Some(effect) = $sliding::<$model>::of(pair) { return rolling(pair, (so_far, effect)); })*
+            Box::new(so_far)
+        }
+
+        fn rolling<E: Effect>(pair: &Pair, so_far: E) -> Box<dyn Kernel> {
+            $(if let Some(effect) = $rolling::of(pair) { return twisting(pair, (so_far, effect)); })*
+            twisting(pair, so_far)
+        }
+
+        fn twisting<E: Effect>(pair: &Pair, so_far: E) -> Box<dyn Kernel> {
+            $(if let Some(effect) = $twisting::of(pair) { return Box::new((so_far, effect)); })*
+            Box::new(so_far)
+        }
+    };
+}
+effects!(compositions);
+
+fn in_every_precision<N: Effect>(pair: &Pair, precision: Precision, law: N) -> Box<dyn Kernel> {
+    let (sliding, rolling) = (SlidingFriction::<f64>::of(pair), RollingResistance::of(pair));
+    match (sliding, rolling) {
+        (None, _) => precise(precision, law),
+        (Some(sliding), None) => precise(precision, (law, sliding)),
+        (Some(sliding), Some(rolling)) => precise(precision, (law, (sliding, rolling))),
+    }
+}
+
+fn precise<E: Effect>(precision: Precision, effects: E) -> Box<dyn Kernel> {
+    match precision {
+        Precision::Double => Box::new(effects),
+        Precision::Mixed => Box::new(Narrow::<E, f64>::new(effects)),
+        Precision::Single => Box::new(Narrow::<E, f32>::new(effects)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::Ease;
+    use crate::effects::Material;
+
+    /// Every law that a scene can ask for: each normal law with each choice of effects for the other slots.
+    fn laws() -> Vec<ContactLaw> {
+        let with = |mut law: ContactLaw, effect: &Description| {
+            effect.keys.iter().for_each(|key| law.set(key.name, 0.5));
+            effect.model.into_iter().for_each(|model| law.choose(model.key, model.value));
+            law
+        };
+        let of = |slot: Slot| DESCRIPTIONS.iter().filter(move |d| d.slot == slot);
+        let mut all: Vec<ContactLaw> =
+            of(Slot::Normal).map(|d| with(ContactLaw::new((0, 0), d.name), d)).collect();
+        for slot in [Slot::Cohesion, Slot::Sliding, Slot::Rolling, Slot::Twisting] {
+            let more = |law: &ContactLaw| {
+                let fits = move |d: &&&Description| {
+                    active(law).all(|a| a.excludes.is_none_or(|(slot, _)| slot != d.slot))
+                        && d.needs.is_none_or(|needed| active(law).any(|a| a.slot == needed))
+                };
+                of(slot).filter(fits).map(|d| with(law.clone(), d)).collect::<Vec<_>>()
+            };
+            all.extend(all.iter().flat_map(more).collect::<Vec<_>>());
+        }
+        all
+    }
+
+    #[test]
+    fn kernels_keep_what_their_effects_describe_and_no_more() {
+        let material = Material { name: "a".to_owned(), density: 1e3, young: 1e6, poisson: 0.3 };
+        let elastic = Elastic::of(&material, &material);
+        assert!(laws().len() > 70, "{}", laws().len());
+        for law in laws() {
+            let pair = Pair { law: &law, elastic, ease: Ease { bodies: 1.0, springs: 1.0 } };
+            let kernel = compose(&pair, Precision::Double);
+            let flips = active(&law).flat_map(|d| d.history);
+            let flips = flips.flat_map(|field| vec![field.kind == Kind::Vector; field.kind.columns()]);
+            let found: Vec<bool> = (0..kernel.columns()).map(|column| kernel.flips(column)).collect();
+            assert_eq!(found, flips.collect::<Vec<_>>(), "{law:?}");
+            let has = |slot: Slot| active(&law).any(|d| d.slot == slot);
+            assert_eq!(kernel.rotates(), has(Slot::Sliding), "{law:?}");
+            assert_eq!(kernel.couples(), has(Slot::Rolling) || has(Slot::Twisting), "{law:?}");
+        }
+    }
+
+    /// What does nothing is dropped with its keys, but not what something else needs.
+    #[test]
+    fn idle_effects_are_dropped() {
+        let law = |friction: f64, twisting: f64| {
+            let law = ContactLaw::new((0, 0), "jkr").with("restitution", 0.5).with("work_of_adhesion", 0.0);
+            needed(&law.with("sliding_friction", friction).with("twisting_resistance", twisting))
+        };
+        let hertz = ContactLaw::new((0, 0), "hertz").with("restitution", 0.5);
+        let (less, dropped) = law(0.0, 0.0);
+        assert_eq!((less, dropped.len()), (hertz.clone(), 3), "{dropped:?}");
+        let (less, dropped) = law(0.0, 0.1);
+        assert_eq!(less, hertz.clone().with("sliding_friction", 0.0).with("twisting_resistance", 0.1));
+        assert_eq!(dropped.len(), 1, "{dropped:?}");
+        // Without sliding friction nothing turns, so that what resists turning goes with it.
+        let rubs = hertz.clone().with("sliding_friction", 0.5).with("twisting_resistance", 0.1);
+        let sliding = active(&rubs).find(|d| d.slot == Slot::Sliding).expect("it slides");
+        assert_eq!(without(&rubs, sliding), Some(hertz));
+    }
+}

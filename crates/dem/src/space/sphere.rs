@@ -1,0 +1,41 @@
+//! Spheres, and where rows wait that nothing may touch.
+
+use crate::simd::Row;
+use geom::Vec3;
+
+/// Two rows that nothing ever touches: what the unused places of a block point to.
+pub const FAR: [Row; 2] = [
+    Row([1e150, 1e150, 1e150, 0.0, 0.0, 0.0, 0.0, 1.0]),
+    Row([-1e150, -1e150, -1e150, 0.0, 0.0, 0.0, 0.0, 1.0]),
+];
+
+/// How far away those are put that are out of the calculation [m]: no wall and no grain of a scene gets there.
+const AWAY: f64 = 1e100;
+
+/// Where row `k` waits until the next listing drops it: each in a place of its own, because two at one place would overlap.
+pub fn away(k: usize) -> [f64; 3] {
+    [-AWAY * (k + 1) as f64; 3]
+}
+
+/// Whether a row is out of the calculation. Its distance from a plane may be any number, also 0: it is not to be asked for.
+pub fn is_away(row: &Row) -> bool {
+    row[0] <= -AWAY
+}
+
+/// Mass of a sphere [kg] of `radius` [m] and `density` [kg/m³].
+pub fn mass(radius: f64, density: f64) -> f64 {
+    4.0 / 3.0 * std::f64::consts::PI * radius * radius * radius * density
+}
+
+/// Periods along x, y, z [m]; 0 along an open axis.
+pub(crate) fn periods(periodic: &[Option<(f64, f64)>; 3]) -> Vec3 {
+    Vec3::from(periodic.map(|p| p.map_or(0.0, |(lo, hi)| hi - lo)))
+}
+
+/// From one centre to another, by the nearest image; a period of 0 is none.
+pub(crate) fn nearest(arm: Vec3, period: &Vec3) -> Vec3 {
+    let back = |axis: usize| {
+        if period[axis] > 0.0 { period[axis] * (arm[axis] / period[axis]).round() } else { 0.0 }
+    };
+    arm - Vec3::new(back(0), back(1), back(2))
+}
