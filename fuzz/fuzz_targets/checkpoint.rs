@@ -2,6 +2,6 @@
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|data: &[u8]| {
-    let _ = stream::state::decode::<scene::Checkpoint>(data);
-    let _ = stream::state::decode::<scene::Checkpoint>(&grainpipe_fuzz::state_of(data));
+    let _ = stream::state::decode::<run::Checkpoint>(data);
+    let _ = stream::state::decode::<run::Checkpoint>(&grainpipe_fuzz::state_of(data));
 });

@@ -8,6 +8,6 @@ libfuzzer_sys::fuzz_target!(|data: &[u8]| {
         let _ = event;
     }
     let bytes = grainpipe_fuzz::without_crcs(data);
-    let _ = scene::Checkpoint::last("run", &bytes[..]);
+    let _ = run::Checkpoint::last("run", &bytes[..]);
     let _ = scene::Input::open("input", Box::new(Cursor::new(bytes)));
 });

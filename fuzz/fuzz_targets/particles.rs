@@ -10,6 +10,6 @@ libfuzzer_sys::fuzz_target!(|data: &[u8]| {
     let toml = format!("{SCENE}[[particles]]\nmaterial = \"a\"\nsource = \"{}\"\n", path.display());
     let scene = scene::Scene::new("s.toml", toml, &[], Path::new("")).expect("the scene is sound");
     if let Ok(plan) = scene.plan(Vec::new()) {
-        let _ = scene::run::ready(&scene, &plan, None);
+        let _ = run::ready(&scene, &plan, None);
     }
 });

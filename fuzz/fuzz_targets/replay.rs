@@ -1,6 +1,6 @@
 //! A run with crossings, made an inlet.
 #![no_main]
-use scene::replay::{Replay, replay};
+use stages::replay::{Replay, replay};
 use std::io::Cursor;
 use stream::mcap::{Compression, Provenance};
 

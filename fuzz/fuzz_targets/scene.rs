@@ -1,7 +1,7 @@
 //! A scene: its first line is a change as by --set, the rest its text; read, checked, and cut in two stages.
 #![no_main]
 use geom::{Plane, Vec3};
-use scene::split::{Cut, Stage, split};
+use stages::split::{Cut, Stage, split};
 use std::path::Path;
 
 libfuzzer_sys::fuzz_target!(|data: &[u8]| {

@@ -41,7 +41,7 @@ fn body(runs: &[Sample]) -> Vec<u8> {
     let mut state = Vec::new();
     for event in stream::mcap::Reader::new(&runs[0].1[..]).flatten() {
         let stream::mcap::Event::Bytes { topic, data, .. } = event else { continue };
-        if topic == scene::checkpoint::CHECKPOINT {
+        if topic == record::topic::CHECKPOINT {
             if state.starts_with(b"GRNSTATE") && data.get(1..9) == Some(b"GRNSTATE") {
                 state.clear();
             }

@@ -95,9 +95,9 @@ fn written(scene: &str) -> String {
     // Beyond what a scene may say: they sleep as they fall.
     plan.setup.sleep.iter_mut().for_each(|sleep| sleep.wake *= 10.0);
     let (provenance, how) = (Provenance::default(), Compression::None.into());
-    let settings = scene::run::Settings { provenance, how, watched: false, stop: || false };
-    let (_, run) = scene::run::run(&scene, plan, None, Vec::new(), settings, &mut |_| ()).expect("it runs");
-    layout(&scene::Checkpoint::last("run", &run[..]).expect("there is one")).expect("it has a layout")
+    let settings = run::Settings { provenance, how, watched: false, stop: || false };
+    let (_, run) = run::run(&scene, plan, None, Vec::new(), settings, &mut |_| ()).expect("it runs");
+    layout(&run::Checkpoint::last("run", &run[..]).expect("there is one")).expect("it has a layout")
 }
 
 /// A field on each line.

@@ -6,9 +6,9 @@
 
 use cloud::fill::Settings;
 use geom::{Grid, Vec3};
+use record::MaterialRecord;
 use sampling::{Amount, Method, Wish as Sampling};
 use std::path::{Path, PathBuf};
-use wall::attributes::Material;
 use wall::drawn::{Drawing, place};
 use wall::{Radius, Regions, Wish, build};
 
@@ -30,7 +30,12 @@ fn sample(name: &str) -> PathBuf {
 }
 
 fn regions(zeta: f64) -> Regions {
-    Regions::one(Some(zeta), Material { name: "rock".into(), ..Material::default() }, Vec3::zeros()).unwrap()
+    Regions::one(
+        Some(zeta),
+        MaterialRecord { name: "rock".into(), ..MaterialRecord::default() },
+        Vec3::zeros(),
+    )
+    .unwrap()
 }
 
 /// Distance from a place to the nearest sphere's surface [m]; infinite beyond `reach`.

@@ -138,11 +138,11 @@ fn page_with_surfaces() -> (TempDir, PathBuf) {
     for frame in 0..FRAMES {
         page.push(run, frame as f64 * 0.01, &grains(0.0)).expect("a whole table");
     }
-    let motion = Motion::of(&motion()).expect("whole");
+    let motion: Motion = serde_json::from_value(motion()).expect("whole");
     let mesh = json!({"mesh": {"vertices": [[-0.1, 0.05, 0.0], [0.2, 0.05, 0.0], [0.05, 0.05, 0.4]], "faces": [[0, 1, 2]]}});
     let plane = json!({"plane": {"point": [0, 0, -0.02], "normal": [0, 0, 1]}});
     for (name, shape, motion) in [("paddle", mesh, motion), ("floor", plane, Motion::default())] {
-        let shape = SurfaceShape::of(&shape).expect("whole").expect("a surface");
+        let shape = SurfaceShape::read(&shape).expect("whole").expect("a surface");
         page.surface(Surface { name: name.into(), shape, motion });
     }
     let walls = page.layer(Role::Walls, "paddle");
@@ -190,7 +190,8 @@ fn a_wall_is_shown_where_the_engine_has_it() {
     let engine: dem::setup::Motion = serde_json::from_value(motion()).expect("whole");
     let (time, home) = (0.07, geom::Vec3::new(0.31, -0.2, 0.13));
     let place = engine.pose(time).place(&home);
-    let shown = Motion::of(&motion()).expect("whole").to(time)(home);
+    let shown: Motion = serde_json::from_value(motion()).expect("whole");
+    let shown = shown.pose(time).place(&home);
     assert!((shown - place).norm() < 1e-12, "{shown} {place}");
     let Some(program) = chromium::find() else { return grainpipe_tests::skip("chromium") };
     let (_folder, file) = page_with_surfaces();

@@ -3,6 +3,7 @@
 use crate::Vec3;
 use crate::numbers::{NumbersError, numbers};
 use serde::{Deserialize, Serialize};
+use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
 
@@ -49,6 +50,14 @@ impl Plane {
     /// The point of the plane nearest to `p` [m].
     pub fn project(&self, p: &Vec3) -> Vec3 {
         p - self.normal * self.signed_distance(p)
+    }
+}
+
+impl fmt::Display for Plane {
+    /// As the command line writes it; reading it back gives the same plane.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (p, n) = (self.point, self.normal);
+        write!(f, "{},{},{},{},{},{}", p.x, p.y, p.z, n.x, n.y, n.z)
     }
 }
 

@@ -120,7 +120,7 @@ impl Observer for Energy {
     fn end(&mut self, _: &Run, _: &mut Vec<Row>) -> Result<Summary, MeasureError> {
         if self.first.is_none() {
             let cure = "set [output] energy = true";
-            return Err(MeasureError::Channel { topic: crate::run::ENERGY, what: "energy ledger", cure });
+            return Err(MeasureError::Channel { topic: record::topic::ENERGY, what: "energy ledger", cure });
         }
         let summary = Summary::default()
             .with("closure_error", "J", self.error)

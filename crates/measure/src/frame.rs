@@ -3,6 +3,11 @@
 use crate::MeasureError;
 use crate::table::Columns;
 use geom::Vec3;
+use record::column::{
+    FIRST, FORCE, ID, KIND, MASS, MATERIAL, NORMAL, OUTLET, OVERLAP, POSITION, RADIUS, SECOND, TIME,
+    VELOCITY, WORK,
+};
+use record::topic::{CONTACTS, CROSSINGS, PARTICLES};
 use std::f64::consts::PI;
 use stream::Table;
 
@@ -33,12 +38,12 @@ impl Frame {
     /// # Errors
     /// Columns that are missing, numbers that are not finite, radii not above zero.
     pub fn new(time: f64, table: Table, densities: &[f64]) -> Result<Frame, MeasureError> {
-        let columns = Columns { topic: "/particles", time, table: &table };
-        let position = columns.vectors(["x", "y", "z"])?;
-        let velocity = columns.vectors(["vx", "vy", "vz"])?;
-        let radius = columns.positive("radius")?;
-        let id = columns.whole("id")?;
-        let material = columns.or_zero("material")?.into_iter().map(|m| m as u16).collect::<Vec<_>>();
+        let columns = Columns { topic: PARTICLES, time, table: &table };
+        let position = columns.vectors(POSITION)?;
+        let velocity = columns.vectors(VELOCITY)?;
+        let radius = columns.positive(RADIUS)?;
+        let id = columns.whole(ID)?;
+        let material = columns.or_zero(MATERIAL)?.into_iter().map(|m| m as u16).collect::<Vec<_>>();
         let mass = material.iter().zip(&radius).map(|(m, r)| mass(*m, *r, densities)).collect();
         Ok(Frame { time, id, position, velocity, radius, material, mass, table })
     }
@@ -140,12 +145,12 @@ impl Contacts {
     /// # Errors
     /// Columns that are missing, numbers that are not finite.
     pub fn new(time: f64, table: &Table) -> Result<Contacts, MeasureError> {
-        let columns = Columns { topic: crate::run::CONTACTS, time, table };
-        let point = columns.vectors(["x", "y", "z"])?;
-        let normal = columns.vectors(["nx", "ny", "nz"])?;
-        let force = columns.vectors(["fx", "fy", "fz"])?;
-        let (i, j, kind) = (columns.whole("id_i")?, columns.whole("id_j")?, columns.whole("kind")?);
-        let (work, overlap) = (columns.or_zero("work")?, columns.or_zero("overlap")?);
+        let columns = Columns { topic: CONTACTS, time, table };
+        let point = columns.vectors(POSITION)?;
+        let normal = columns.vectors(NORMAL)?;
+        let force = columns.vectors(FORCE)?;
+        let (i, j, kind) = (columns.whole(FIRST)?, columns.whole(SECOND)?, columns.whole(KIND)?);
+        let (work, overlap) = (columns.or_zero(WORK)?, columns.or_zero(OVERLAP)?);
         let row = |k: usize| Contact {
             grain: i[k],
             partner: if kind[k] == 0 { Partner::Grain(j[k]) } else { Partner::Wall(j[k]) },
@@ -180,13 +185,13 @@ impl Passage {
     /// # Errors
     /// Columns that are missing, numbers that are not finite.
     pub fn list(time: f64, table: &Table, densities: &[f64]) -> Result<Vec<Passage>, MeasureError> {
-        let columns = Columns { topic: crate::run::CROSSINGS, time, table };
-        let position = columns.vectors(["x", "y", "z"])?;
-        let (times, radius) = (columns.numbers("time")?, columns.positive("radius")?);
-        let (id, material) = (columns.whole("id")?, columns.or_zero("material")?);
-        let outlet = columns.or_zero("outlet")?;
+        let columns = Columns { topic: CROSSINGS, time, table };
+        let position = columns.vectors(POSITION)?;
+        let (times, radius) = (columns.numbers(TIME)?, columns.positive(RADIUS)?);
+        let (id, material) = (columns.whole(ID)?, columns.or_zero(MATERIAL)?);
+        let outlet = columns.or_zero(OUTLET)?;
         // The mass of a clump is written; that of a sphere follows from its radius.
-        let written = columns.or_zero("mass")?;
+        let written = columns.or_zero(MASS)?;
         let of_sphere = |k: usize| mass(material[k] as u16, radius[k], densities);
         let row = |k: usize| Passage {
             time: times[k],

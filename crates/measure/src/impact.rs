@@ -238,7 +238,7 @@ impl Observer for Impacts {
             let cure =
                 "write frames during the contact ([output] every = \"step\"), and run until it is over";
             return Err(MeasureError::Channel {
-                topic: crate::run::CONTACTS,
+                topic: record::topic::CONTACTS,
                 what: "impact that begins and ends",
                 cure,
             });

@@ -129,14 +129,14 @@ impl<M: OfFrame> Observer for PerFrame<M> {
 
 /// A run without frames.
 pub(crate) const NO_FRAMES: MeasureError = MeasureError::Channel {
-    topic: crate::run::PARTICLES,
+    topic: record::topic::PARTICLES,
     what: "frames",
     cure: "give a run of dem-run that has got as far as its first frame",
 };
 
 /// A run without contacts.
 pub(crate) const NO_CONTACTS: MeasureError = MeasureError::Channel {
-    topic: crate::run::CONTACTS,
+    topic: record::topic::CONTACTS,
     what: "contacts",
     cure: "set [output] contacts = true",
 };

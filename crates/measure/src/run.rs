@@ -3,20 +3,12 @@
 use crate::frame::{Contacts, Frame, Passage};
 use crate::{MeasureError, table::Columns};
 use geom::{Plane, Vec3};
+use record::column::{POSITION, RADIUS, WALL};
+use record::metadata::{MATERIALS, OUTLETS, SCENE};
+use record::topic::{CONTACTS, CROSSINGS, ENERGY, PARTICLES, SURFACES, WALLS};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use stream::{Table, mcap::Event};
-
-/// Topic of frames.
-pub const PARTICLES: &str = "/particles";
-/// Topic of contacts.
-pub const CONTACTS: &str = "/contacts";
-/// Topic of grains that passed an outlet's plane.
-pub const CROSSINGS: &str = "/crossings";
-/// Topic of the energy ledger.
-pub const ENERGY: &str = "/energy";
-const WALLS: &str = "/walls";
-const SURFACES: &str = "/surfaces";
 
 /// Wall spheres as they are now.
 #[derive(Debug, Clone, Default)]
@@ -105,8 +97,8 @@ impl Run {
             CROSSINGS => Some(Seen::Passages(Passage::list(time, &table, &self.densities)?)),
             WALLS => {
                 let columns = Columns { topic: WALLS, time, table: &table };
-                let (position, radius) = (columns.vectors(["x", "y", "z"])?, columns.positive("radius")?);
-                let wall = columns.or_zero("wall")?.into_iter().map(|w| w as u64).collect();
+                let (position, radius) = (columns.vectors(POSITION)?, columns.positive(RADIUS)?);
+                let wall = columns.or_zero(WALL)?.into_iter().map(|w| w as u64).collect();
                 self.spheres = WallSpheres { position, radius, wall };
                 self.spheres_seen += 1;
                 None
@@ -120,13 +112,13 @@ impl Run {
         let json = |k: usize| serde_json::from_str(map.get(&k.to_string())?).ok();
         let all: Vec<Value> = (0..map.len()).map_while(json).collect();
         match name {
-            "materials" => {
+            MATERIALS => {
                 let name = |(k, m): (usize, &Value)| m["name"].as_str().map_or(k.to_string(), str::to_owned);
                 self.materials = all.iter().enumerate().map(name).collect();
                 self.densities = all.iter().map(|m| m["density"].as_f64().unwrap_or(f64::NAN)).collect();
             }
-            "outlets" => self.outlets = all.iter().filter_map(plane).collect(),
-            "scene" => {
+            OUTLETS => self.outlets = all.iter().filter_map(plane).collect(),
+            SCENE => {
                 let text = map.get("toml").map_or("", String::as_str);
                 if let Ok(scene) = text.parse::<toml::Table>() {
                     self.scene(&scene);

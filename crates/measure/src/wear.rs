@@ -148,7 +148,7 @@ impl Observer for Wear {
         }
         if self.cell.is_none() && run.spheres.position.is_empty() {
             let cure = "give --cell M for a map by cells of space";
-            return Err(MeasureError::Channel { topic: "/walls", what: "wall spheres", cure });
+            return Err(MeasureError::Channel { topic: record::topic::WALLS, what: "wall spheres", cure });
         }
         self.frames += 1;
         let own: Vec<Contact> = self.what.of(run, &contacts)?.copied().collect();

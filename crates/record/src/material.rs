@@ -1,16 +1,12 @@
-//! What a stream says about its materials: the metadata record `materials`, a JSON object for each index.
+//! The record `materials`: a JSON object for each index.
 
-use crate::error::SceneError;
+use crate::{Map, RecordError};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
-
-/// Name of the metadata record.
-pub const MATERIALS: &str = "materials";
 
 /// One material of a stream; absent values were not set.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct MaterialInfo {
-    /// Name.
+pub struct MaterialRecord {
+    /// Name, by which scenes speak of it.
     pub name: String,
     /// Density [kg/m³].
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -29,34 +25,33 @@ pub struct MaterialInfo {
     pub restitution: Option<f64>,
 }
 
-/// The materials of a record, by index.
-///
-/// # Errors
-/// An index that is missing, JSON that is none of a material.
-pub fn from_map(stream: &str, map: &BTreeMap<String, String>) -> Result<Vec<MaterialInfo>, SceneError> {
-    let cure = "write the stream again";
-    (0..map.len())
-        .map(|i| {
-            let json = map.get(&i.to_string());
-            let why = || format!("its record 'materials' has {} entries and none for index {i}", map.len());
-            let json = json.ok_or_else(|| SceneError::file(stream, why(), cure))?;
-            let wrong = |e| SceneError::file(stream, format!("its record 'materials', index {i}: {e}"), cure);
-            serde_json::from_str(json).map_err(wrong)
-        })
-        .collect()
+/// The range of Poisson's ratio in words, for messages.
+pub const POISSON: &str = "above -1 and at most 0.5";
+
+/// Whether a number can be Poisson's ratio: that of a stable, isotropic, elastic solid.
+pub fn is_poisson(ratio: f64) -> bool {
+    ratio > -1.0 && ratio <= 0.5
 }
 
-/// The record for the materials of a run.
-pub(crate) fn to_map(materials: &[dem::setup::Material]) -> BTreeMap<String, String> {
-    let info = |m: &dem::setup::Material| MaterialInfo {
-        name: m.name.clone(),
-        density: (m.density > crate::plan::NO_DENSITY).then_some(m.density),
-        young: Some(m.young),
-        poisson: Some(m.poisson),
-        friction: None,
-        restitution: None,
-    };
-    // A struct of numbers and text always is JSON.
-    let json = |m| serde_json::to_string(&info(m)).unwrap_or_default();
-    materials.iter().enumerate().map(|(i, m)| (i.to_string(), json(m))).collect()
+impl MaterialRecord {
+    /// The materials of a record, by index.
+    ///
+    /// # Errors
+    /// An index that is missing, JSON of something else.
+    pub fn from_map(stream: &str, map: &Map) -> Result<Vec<MaterialRecord>, RecordError> {
+        let cure = "write the stream again";
+        let one = |i: usize| {
+            let json = map.get(&i.to_string());
+            let why = || format!("its record 'materials' has {} entries and none for index {i}", map.len());
+            let json = json.ok_or_else(|| RecordError::new(stream, why(), cure))?;
+            let wrong = |e| RecordError::new(stream, format!("its record 'materials', index {i}: {e}"), cure);
+            serde_json::from_str(json).map_err(wrong)
+        };
+        (0..map.len()).map(one).collect()
+    }
+
+    /// The record.
+    pub fn to_map(materials: &[MaterialRecord]) -> Map {
+        materials.iter().enumerate().map(|(i, m)| (i.to_string(), crate::json(m))).collect()
+    }
 }

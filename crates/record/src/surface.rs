@@ -1,35 +1,75 @@
-//! Walls that are surfaces: planes and triangle meshes, which may move.
+//! The message of the topic `/surfaces`: planes and meshes at t = 0, and the motion of every wall.
 
-use crate::motion::{Motion, vector};
-use geom::{Plane, mesh::TriMesh};
-use serde_json::Value;
+use crate::column::POSITION;
+use geom::motion::Pose;
+use geom::{Motion, Plane, Vec3, mesh::TriMesh};
+use serde_json::{Value, json};
+use stream::{Table, Values};
 
-/// A wall that is a plane or a mesh.
+/// One wall of the message.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Surface {
-    /// Name, as shown.
+pub struct WallRecord {
+    /// Name.
     pub name: String,
-    /// Where it is at t = 0.
-    pub shape: SurfaceShape,
-    /// How it moves.
+    /// Its motion, without that of a servo.
     pub motion: Motion,
+    /// Its surface at t = 0; `None` of wall spheres, which are on the topic [`crate::topic::WALLS`].
+    pub surface: Option<SurfaceShape>,
 }
 
-/// The shape of a wall.
+/// A wall that is not made of spheres.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SurfaceShape {
-    /// Unbounded; a part of it around everything else is shown.
+    /// Unbounded.
     Plane(Plane),
-    /// Triangles, seen from both sides.
+    /// Triangles, both sides of which act.
     Mesh(TriMesh),
 }
 
+impl WallRecord {
+    /// The walls of a message.
+    ///
+    /// # Errors
+    /// What is wrong, with the name of the wall.
+    pub fn read_all(data: &[u8]) -> Result<Vec<WallRecord>, String> {
+        let json: Value = serde_json::from_slice(data).map_err(|e| format!("not JSON: {e}"))?;
+        let walls = json.as_array().ok_or("not a list of walls")?;
+        walls.iter().enumerate().map(|(n, wall)| WallRecord::read(n, wall)).collect()
+    }
+
+    fn read(n: usize, wall: &Value) -> Result<WallRecord, String> {
+        let name = wall["name"].as_str().map_or_else(|| format!("wall {n}"), str::to_owned);
+        let motion = motion(&wall["motion"]).ok_or_else(|| format!("{name}: motion: a number is missing"))?;
+        let surface = SurfaceShape::read(&wall["shape"]).map_err(|e| format!("{name}: {e}"))?;
+        Ok(WallRecord { name, motion, surface })
+    }
+
+    /// The wall in the message; `material` is the index of its material, `spheres` their number, `servo` what its servo follows.
+    pub fn to_json(&self, material: u16, spheres: usize, servo: Option<Value>) -> Value {
+        let m = &self.motion;
+        let mut motion = json!({
+            "velocity": triple(&m.velocity), "turn": triple(&m.turn), "through": triple(&m.through),
+            "amplitude": triple(&m.amplitude), "frequency": m.frequency,
+        });
+        if (m.from, m.until) != (0.0, f64::INFINITY) {
+            motion["from"] = m.from.into();
+            // null: never.
+            motion["until"] = m.until.into();
+        }
+        if let Some(servo) = servo {
+            motion["servo"] = servo;
+        }
+        let shape = self.surface.as_ref().map_or(json!({"spheres": spheres}), SurfaceShape::to_json);
+        json!({"name": self.name, "material": material, "motion": motion, "shape": shape})
+    }
+}
+
 impl SurfaceShape {
-    /// The shape that a run writes of a wall: none for wall spheres.
+    /// The surface of a wall in the message; `None` of wall spheres.
     ///
     /// # Errors
     /// What is wrong with it.
-    pub fn of(json: &Value) -> Result<Option<SurfaceShape>, String> {
+    pub fn read(json: &Value) -> Result<Option<SurfaceShape>, String> {
         if let Some(plane) = json.get("plane") {
             let part = |name: &str| vector(&plane[name]).ok_or(format!("plane: {name}: not three numbers"));
             let plane = Plane::new(part("point")?, part("normal")?).map_err(|e| e.to_string())?;
@@ -43,6 +83,40 @@ impl SurfaceShape {
         let faces = faces.ok_or("mesh: a face is not three vertex numbers")?;
         TriMesh::new(vertices, faces).map(|m| Some(SurfaceShape::Mesh(m))).map_err(|e| format!("mesh: {e}"))
     }
+
+    fn to_json(&self) -> Value {
+        match self {
+            SurfaceShape::Plane(p) => {
+                json!({"plane": {"point": triple(&p.point), "normal": triple(&p.normal)}})
+            }
+            SurfaceShape::Mesh(m) => {
+                json!({"mesh": {"vertices": m.vertices.iter().map(triple).collect::<Vec<_>>(), "faces": m.faces}})
+            }
+        }
+    }
+}
+
+/// The motion of a wall; `None` when a number is missing.
+fn motion(json: &Value) -> Option<Motion> {
+    Some(Motion {
+        velocity: vector(&json["velocity"])?,
+        turn: vector(&json["turn"])?,
+        through: vector(&json["through"])?,
+        amplitude: vector(&json["amplitude"])?,
+        frequency: json["frequency"].as_f64()?,
+        from: json["from"].as_f64().unwrap_or(0.0),
+        until: json["until"].as_f64().unwrap_or(f64::INFINITY),
+    })
+}
+
+fn triple(v: &Vec3) -> Value {
+    json!([v.x, v.y, v.z])
+}
+
+/// Three finite numbers.
+fn vector(json: &Value) -> Option<Vec3> {
+    let numbers: Vec<f64> = json.as_array()?.iter().filter_map(Value::as_f64).collect();
+    (numbers.len() == 3 && json.as_array()?.len() == 3).then(|| Vec3::from_column_slice(&numbers))
 }
 
 fn corners(json: &Value) -> Option<[u32; 3]> {
@@ -50,22 +124,52 @@ fn corners(json: &Value) -> Option<[u32; 3]> {
     numbers.try_into().ok()
 }
 
+/// A table of wall spheres that are at their positions at t = 0, as they are in a pose.
+pub fn moved(home: &Table, pose: &Pose) -> Table {
+    each(home, |p| pose.place(&p))
+}
+
+/// A table of wall spheres that are at their positions in a pose, as they are at t = 0.
+pub fn home(table: &Table, pose: &Pose) -> Table {
+    each(table, |p| pose.home(&p))
+}
+
+/// A table whose positions are changed; one without positions stays as it is.
+fn each(table: &Table, change: impl Fn(Vec3) -> Vec3) -> Table {
+    let mut table = table.clone();
+    let axes = POSITION.map(|name| table.get(name).map(Values::to_f64));
+    let [Some(x), Some(y), Some(z)] = axes else { return table };
+    let places: Vec<Vec3> = (0..x.len()).map(|i| change(Vec3::new(x[i], y[i], z[i]))).collect();
+    for (k, name) in POSITION.into_iter().enumerate() {
+        // A column as long as the one it replaces always fits.
+        let _ = table.replace(name, Values::F64(places.iter().map(|p| p[k]).collect()));
+    }
+    table
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use serde_json::json;
 
     #[test]
     fn a_shape_is_read_or_refused_by_what_is_wrong() {
         let mesh = |face: [u32; 3]| {
-            SurfaceShape::of(
-                &json!({"mesh": {"vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "faces": [face]}}),
-            )
+            let vertices = json!([[0, 0, 0], [1, 0, 0], [0, 1, 0]]);
+            SurfaceShape::read(&json!({"mesh": {"vertices": vertices, "faces": [face]}}))
         };
         assert!(matches!(mesh([0, 1, 2]), Ok(Some(SurfaceShape::Mesh(_)))));
         assert!(mesh([0, 1, 3]).is_err_and(|e| e.contains("vertex 3")));
-        assert!(matches!(SurfaceShape::of(&json!({"spheres": 12})), Ok(None)));
+        assert_eq!(SurfaceShape::read(&json!({"spheres": 12})), Ok(None));
         let flat = json!({"plane": {"point": [0, 0, 0], "normal": [0, 0]}});
-        assert!(SurfaceShape::of(&flat).is_err_and(|e| e.contains("normal")));
+        assert!(SurfaceShape::read(&flat).is_err_and(|e| e.contains("normal")));
+    }
+
+    #[test]
+    fn what_is_written_is_read_again() {
+        let surface = Some(SurfaceShape::Plane("0,0,1,0,0,1".parse().unwrap()));
+        let motion = Motion { frequency: 2.0, from: 0.5, until: 1.5, ..Motion::default() };
+        let wall = WallRecord { name: "floor".to_owned(), motion, surface };
+        let text = json!([wall.to_json(3, 0, None)]).to_string();
+        assert_eq!(WallRecord::read_all(text.as_bytes()), Ok(vec![wall]));
     }
 }

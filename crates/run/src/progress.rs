@@ -1,10 +1,10 @@
-//! Where a run is: for bars and for who watches a long one.
+//! How far a run is: for progress bars and monitors.
 
 use serde::Serialize;
 
 /// A run at one step.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Moment {
+pub struct Progress {
     /// Simulated time [s].
     pub time: f64,
     /// Its end [s].

@@ -1,9 +1,9 @@
-//! What is said of grains that went back through planes, against the flow.
+//! Warnings about particles that went back through planes, against the flow.
 
 use dem::Returned;
 
-/// A sentence for each plane that grains went back through.
-pub fn words(returned: &Returned) -> Vec<String> {
+/// A warning for each plane that particles went back through.
+pub fn warnings(returned: &Returned) -> Vec<String> {
     let lists = [
         (
             &returned.inlets,
@@ -23,12 +23,12 @@ pub fn words(returned: &Returned) -> Vec<String> {
              the same; turn the plane with the flow, or cut where grains do not come back",
         ),
     ];
-    let said = |(counts, zone, what): &(&Vec<u64>, &str, &str)| {
+    let warning = |(counts, zone, what): &(&Vec<u64>, &str, &str)| {
         let of =
             |(i, count): (usize, &u64)| (*count > 0).then(|| format!("{zone}.{i}: {count} grains {what}"));
         counts.iter().enumerate().filter_map(of).collect::<Vec<_>>()
     };
-    lists.iter().flat_map(said).collect()
+    lists.iter().flat_map(warning).collect()
 }
 
 #[cfg(test)]
@@ -37,10 +37,10 @@ mod tests {
 
     #[test]
     fn only_planes_that_grains_went_back_through_are_named() {
-        assert!(words(&Returned::default()).is_empty());
+        assert!(warnings(&Returned::default()).is_empty());
         let returned = Returned { inlets: vec![0, 3], outlets: vec![0], fallen: vec![2] };
-        let said = words(&returned);
-        assert!(said.len() == 2 && said[0].starts_with("inlet.1: 3 grains went back"), "{said:?}");
-        assert!(said[1].starts_with("outlet.0: 2 grains were recorded"), "{said:?}");
+        let found = warnings(&returned);
+        assert!(found.len() == 2 && found[0].starts_with("inlet.1: 3 grains went back"), "{found:?}");
+        assert!(found[1].starts_with("outlet.0: 2 grains were recorded"), "{found:?}");
     }
 }

@@ -2,9 +2,9 @@
 //!
 //! The time step is never changed to hit a time: frame k is the step nearest to k · every / Δt.
 
-use crate::error::SceneError;
-use crate::model::Every;
-use crate::scene::Scene;
+use scene::keys::Every;
+use scene::plan::SOFT;
+use scene::{Scene, SceneError};
 
 /// Steps of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,10 +23,9 @@ impl Schedule {
     /// # Errors
     /// An end that is missing or before the first step, frames closer than steps.
     pub fn new(scene: &Scene, dt: f64) -> Result<Schedule, SceneError> {
-        let check = crate::check::Check { text: &scene.text };
         let Some(until) = scene.model.time.until else {
             let cure = "add until [s] to [time], or use --until";
-            return Err(check.wrong("time.until", "(nothing)", "the end of the run is missing", cure));
+            return Err(scene.wrong("time.until", "(nothing)", "the end of the run is missing", cure));
         };
         let output = &scene.model.output;
         let every = match output.every {
@@ -37,18 +36,14 @@ impl Schedule {
         for (key, value) in [("output.every", Some(every)), ("output.checkpoint", output.checkpoint)] {
             if value.is_some_and(|v| v < dt) {
                 let value = format!("{} s", value.unwrap_or(0.0));
-                return Err(check.wrong(
-                    key,
-                    value,
-                    &format!("is shorter than the time step, {dt:.4e} s"),
-                    "make it longer",
-                ));
+                let why = format!("is shorter than the time step, {dt:.4e} s");
+                return Err(scene.wrong(key, value, &why, "make it longer"));
             }
         }
         let last = nearest(until, dt);
         if last == 0 {
             let why = format!("is less than half the time step, {dt:.4e} s");
-            return Err(check.wrong("time.until", format!("{until} s"), &why, &longer(scene)));
+            return Err(scene.wrong("time.until", format!("{until} s"), &why, &longer(scene)));
         }
         Ok(Schedule { dt, last, every, checkpoint: output.checkpoint })
     }
@@ -70,10 +65,10 @@ impl Schedule {
     }
 }
 
-/// What to do about a step that is too long for the run: it may be of a modulus in another unit.
+/// The cure for a step that is too long for the run: the modulus may be in another unit.
 fn longer(scene: &Scene) -> String {
     let softest = scene.model.material.iter().min_by(|a, b| a.young.total_cmp(&b.young));
-    match softest.filter(|m| m.young < crate::doubts::SOFT) {
+    match softest.filter(|m| m.young < SOFT) {
         Some(m) => format!(
             "material '{}' has young = {} Pa, which makes the step so long: give it in Pa (1 MPa is 1e6, 1 GPa is 1e9)",
             m.name, m.young
@@ -85,11 +80,6 @@ fn longer(scene: &Scene) -> String {
 /// The step nearest to a time [s].
 fn nearest(time: f64, dt: f64) -> u64 {
     (time / dt).round() as u64
-}
-
-/// A simulated time [s] as the clock of messages [ns].
-pub fn nanoseconds(time: f64) -> u64 {
-    (time * 1e9).round() as u64
 }
 
 #[cfg(test)]

@@ -1,167 +1,206 @@
-//! What a run begins with: the engine, and the head of its file.
+//! How a run begins: the engine, and the head of its file.
 
-use super::{CLUMPS, OUTLETS, Outcome, Run, RunError, Settings, json};
+use crate::RunError;
 use crate::checkpoint::Checkpoint;
-use crate::crossings::{self, ONLY_CLUMPS, SIZES};
-use crate::error::SceneError;
-use crate::feeds::Supply;
 use crate::frames;
-use crate::gate::Gate;
-use crate::links;
-use crate::material_info::{self, MATERIALS};
-use crate::paths;
 use crate::schedule::Schedule;
-use crate::{Plan, Scene, input::SCENE};
+use crate::simulate::{Outcome, Run, Settings, Written};
+use crate::supply::Supply;
 use dem::Simulation;
-use dem::setup::ZoneMotion;
-use std::collections::BTreeMap;
+use dem::setup::{Setup, WallShape, Zone, ZoneMotion};
+use geom::Shown;
+use record::{BondRange, Map, MaterialRecord, Sizes, json, metadata};
+use scene::input::ZoneRecord;
+use scene::plan::NO_DENSITY;
+use scene::{Plan, Scene, SceneError};
+use stages::outlet::path;
 use std::io::Write;
 use stream::mcap::Writer;
 
-type Record = BTreeMap<String, String>;
-
 impl<W: Write> Run<W> {
-    pub(super) fn start(
+    pub(crate) fn start(
         scene: &Scene,
         plan: Plan,
         resume: Option<Checkpoint>,
         out: W,
         settings: Settings<W>,
     ) -> Result<Run<W>, RunError> {
-        let mut supply = Supply::new(plan.feeds);
+        let Plan { setup, step, insertions, inlets, warnings, inputs, sizes } = plan;
+        let mut supply = Supply::new(inlets, insertions)?;
         if let Some(saved) = &resume {
-            saved.fits(&scene.text.toml, &plan.inputs)?;
+            saved.fits(&scene.text.toml, &inputs)?;
             let samples = supply.samples();
             supply.skip(&saved.given, saved.state.time() + saved.state.look_ahead() + samples)?;
         }
-        let walls = frames::heads(&plan.setup);
-        let surfaces = frames::surfaces(&plan.setup.walls);
-        let materials = material_info::to_map(&plan.setup.materials);
-        let (zones, gravity) = (plan.setup.outlets.clone(), plan.setup.gravity);
-        let moving = spheres_move(&plan.setup.walls);
-        let shapes = frames::clumps(&plan.setup.clumps);
-        let clumps = !shapes.is_empty();
-        let only_clumps = clumps && plan.setup.particles.is_empty() && plan.setup.entry_materials.is_empty();
-        let density = |m: u16| plan.setup.materials[m as usize].density;
-        let masses = plan.setup.clumps.shapes.iter().map(|s| s.mass(1.0, density(s.material))).collect();
-        let follows = plan.setup.walls.iter().any(|w| w.motion.servo.is_some());
-        let wall_forces = scene.model.output.wall_forces || follows;
-        let recorded = scene.model.output.contacts || wall_forces;
-        // What a stage downstream has to know of them.
-        let bonds = if zones.is_empty() { None } else { dem::bonds_of(&plan.setup)? };
+        let surfaces = frames::surfaces(&setup.walls);
+        let mut written = Written::new(scene, &setup, inputs);
+        let mut head = Head::new(scene, &setup, sizes)?;
         let mut sim = match resume {
-            Some(saved) => Simulation::resume(plan.setup, saved.state)?,
-            None => Simulation::new(plan.setup)?,
+            Some(saved) => Simulation::resume(setup, saved.state)?,
+            None => Simulation::new(setup)?,
         };
-        sim.record_loads(recorded);
+        sim.record_loads(written.contacts || written.wall_forces);
         let schedule = Schedule::new(scene, sim.dt())?;
-        if sim.steps() >= schedule.last {
-            let why = format!(
-                "the saved run has reached {} s, the scene ends at {} s",
-                geom::Shown(sim.time()),
-                geom::Shown(schedule.last as f64 * schedule.dt)
-            );
-            return Err(SceneError::file("--resume", why, "give a later --until").into());
-        }
-        let sampling = sampling(scene, sim.dt())?;
-        let sampled = Some(sim.steps()).filter(|step| *step > 0);
-        let every = sampling.map(|steps| steps as f64 * sim.dt());
-        let gate = |(i, zone): (usize, &dem::setup::Zone)| {
-            let plant = scene.model.outlet.get(i).and_then(|o| o.plant.clone());
-            let samples = every.filter(|_| zone.motion == ZoneMotion::Recorded);
-            let gate = Gate { zone: *zone, gravity: Some(gravity), plant, samples };
-            (i.to_string(), json(&gate))
-        };
-        let outlets: Record = zones.iter().enumerate().map(gate).collect();
+        not_yet_over(&sim, &schedule)?;
+        written.sampling = sampling(scene, sim.dt())?;
+        written.watched = settings.watched;
+        head.complete(&sim, &schedule, written.sampling);
         let mut writer = Writer::compressed(out, &settings.provenance, settings.how)?;
-        for (name, mut record) in records(scene, &schedule, &sim, materials, plan.sizes, &outlets) {
-            if name == SIZES && only_clumps {
-                record.insert(ONLY_CLUMPS.to_owned(), "true".to_owned());
-            }
+        for (name, record) in head.records() {
             writer.metadata(name, record)?;
         }
-        if clumps {
-            writer.metadata(CLUMPS, shapes)?;
-        }
-        if let Some(bonds) = bonds {
-            writer.metadata(links::BONDS, links::to_map(&bonds))?;
-        }
+        let first = sim.steps();
         let mut run = Run {
-            outcome: Outcome { dt: sim.dt(), chosen_by: plan.step, ..Outcome::default() },
+            outcome: Outcome { dt: sim.dt(), chosen_by: step, ..Outcome::default() },
+            sampled: Some(first).filter(|step| *step > 0),
             sim,
             supply,
             writer,
             schedule,
-            scene: scene.text.toml.clone(),
-            inputs: plan.inputs,
-            walls,
-            moving,
-            outlets: !outlets.is_empty(),
-            clumps,
-            masses,
-            energy: scene.model.output.energy,
-            contacts: scene.model.output.contacts,
-            wall_forces,
-            precision: scene.model.output.precision,
+            written,
+            first,
             crossings: Vec::new(),
-            sampling,
-            sampled,
             paths: Vec::new(),
-            looked: None,
-            watched: false,
+            frame_energy: None,
             before: None,
-            looked_at: 0.0,
+            saved_at: 0.0,
             checkpoints: 0,
         };
-        run.write_walls(&surfaces, &plan.notes)?;
+        run.write_walls(&surfaces, &warnings)?;
         Ok(run)
     }
 }
 
-/// The metadata of a run: scene, materials, sizes, times, outlets.
-fn records(
-    scene: &Scene,
-    schedule: &Schedule,
-    sim: &Simulation,
-    materials: Record,
-    sizes: Option<crossings::Sizes>,
-    outlets: &Record,
-) -> Vec<(&'static str, Record)> {
-    let times = [("dt", sim.dt()), ("start", sim.time()), ("end", schedule.last as f64 * schedule.dt)];
-    let times = times.iter().map(|(k, v)| ((*k).to_owned(), v.to_string())).collect();
-    let mut records = vec![
-        (SCENE, Record::from([("toml".to_owned(), scene.text.toml.clone())])),
-        (MATERIALS, materials),
-        ("time", times),
-    ];
-    records.extend(sizes.map(|s| (SIZES, s.to_map())));
-    if !outlets.is_empty() {
-        records.push((OUTLETS, outlets.clone()));
+impl Written {
+    fn new(scene: &Scene, setup: &Setup, inputs: Vec<(String, String)>) -> Written {
+        let output = &scene.model.output;
+        let density = |m: u16| setup.materials[m as usize].density;
+        let spheres_move =
+            |w: &dem::setup::Wall| matches!(w.shape, WallShape::Spheres(_)) && w.motion.moves();
+        Written {
+            scene: scene.text.toml.clone(),
+            inputs,
+            walls: frames::heads(setup),
+            walls_move: setup.walls.iter().any(spheres_move),
+            outlets: !setup.outlets.is_empty(),
+            clumps: !setup.clumps.shapes.is_empty(),
+            masses: setup.clumps.shapes.iter().map(|s| s.mass(1.0, density(s.material))).collect(),
+            energy: output.energy,
+            contacts: output.contacts,
+            wall_forces: output.wall_forces || setup.walls.iter().any(|w| w.motion.servo.is_some()),
+            precision: output.precision,
+            sampling: None,
+            watched: false,
+        }
     }
-    records
+}
+
+/// The metadata records of a run, in the order of its file.
+#[derive(Default)]
+struct Head {
+    scene: Map,
+    materials: Map,
+    times: Map,
+    sizes: Option<Map>,
+    outlets: Map,
+    clumps: Map,
+    bonds: Option<Map>,
+    /// Outlets as they will be recorded.
+    zones: Vec<ZoneRecord>,
+}
+
+impl Head {
+    fn new(scene: &Scene, setup: &Setup, sizes: Option<Sizes>) -> Result<Head, RunError> {
+        let materials: Vec<MaterialRecord> = setup.materials.iter().map(material).collect();
+        let clumps = frames::clumps(&setup.clumps);
+        let only_clumps =
+            !clumps.is_empty() && setup.particles.is_empty() && setup.entry_materials.is_empty();
+        let sizes = sizes.map(|sizes| {
+            let only = only_clumps.then(|| (metadata::ONLY_CLUMPS.to_owned(), "true".to_owned()));
+            sizes.to_map().into_iter().chain(only).collect()
+        });
+        // Bonds are for a stage downstream.
+        let bonds = if setup.outlets.is_empty() { None } else { dem::bonds_of(setup)? };
+        let bonds = bonds.map(|b| BondRange { step: b.step, longest: b.longest }.to_map());
+        let zone = |(zone, i): (&Zone, usize)| ZoneRecord {
+            zone: *zone,
+            gravity: Some(setup.gravity),
+            plant: scene.model.outlet.get(i).and_then(|o| o.plant.clone()),
+            samples: None,
+        };
+        Ok(Head {
+            scene: Map::from([("toml".to_owned(), scene.text.toml.clone())]),
+            materials: MaterialRecord::to_map(&materials),
+            sizes,
+            clumps,
+            bonds,
+            zones: setup.outlets.iter().zip(0..).map(zone).collect(),
+            ..Head::default()
+        })
+    }
+
+    /// Adds what is known once the engine is there.
+    fn complete(&mut self, sim: &Simulation, schedule: &Schedule, sampling: Option<u64>) {
+        let times = [("dt", sim.dt()), ("start", sim.time()), ("end", schedule.last as f64 * schedule.dt)];
+        self.times = times.iter().map(|(k, v)| ((*k).to_owned(), v.to_string())).collect();
+        let every = sampling.map(|steps| steps as f64 * sim.dt());
+        let outlet = |(mut zone, i): (ZoneRecord, usize)| {
+            zone.samples = every.filter(|_| zone.zone.motion == ZoneMotion::Recorded);
+            (i.to_string(), json(&zone))
+        };
+        self.outlets = std::mem::take(&mut self.zones).into_iter().zip(0..).map(outlet).collect();
+    }
+
+    /// All records that are there.
+    fn records(self) -> impl Iterator<Item = (&'static str, Map)> {
+        let full = |map: Map| Some(map).filter(|map| !map.is_empty());
+        let all = [
+            (metadata::SCENE, Some(self.scene)),
+            (metadata::MATERIALS, Some(self.materials)),
+            (metadata::TIME, Some(self.times)),
+            (metadata::SIZES, self.sizes),
+            (metadata::OUTLETS, full(self.outlets)),
+            (metadata::CLUMPS, full(self.clumps)),
+            (metadata::BONDS, self.bonds),
+        ];
+        all.into_iter().filter_map(|(name, record)| Some((name, record?)))
+    }
+}
+
+fn material(m: &dem::setup::Material) -> MaterialRecord {
+    MaterialRecord {
+        name: m.name.clone(),
+        density: (m.density > NO_DENSITY).then_some(m.density),
+        young: Some(m.young),
+        poisson: Some(m.poisson),
+        ..MaterialRecord::default()
+    }
+}
+
+/// Refuses to resume a run that has reached its end.
+fn not_yet_over(sim: &Simulation, schedule: &Schedule) -> Result<(), SceneError> {
+    if sim.steps() < schedule.last {
+        return Ok(());
+    }
+    let (reached, end) = (Shown(sim.time()), Shown(schedule.last as f64 * schedule.dt));
+    let why = format!("the saved run has reached {reached} s, the scene ends at {end} s");
+    Err(SceneError::file("--resume", why, "give a later --until"))
 }
 
 /// Steps between samples of paths, where an outlet records them.
 fn sampling(scene: &Scene, dt: f64) -> Result<Option<u64>, SceneError> {
     let mut least = None;
-    for (i, outlet) in scene.model.outlet.iter().enumerate().filter(|(_, o)| o.motion == ZoneMotion::Recorded)
-    {
-        let steps = outlet.samples.map_or(paths::STEPS, |time| (time / dt).round().max(1.0));
-        if steps > paths::MOST_STEPS {
-            let check = crate::check::Check { text: &scene.text };
-            let most = geom::Shown(paths::MOST_STEPS * dt);
-            let value = format!("{} s", geom::Shown(outlet.samples.unwrap_or(0.0)));
-            let (why, cure) =
-                (format!("is more than {} steps", paths::MOST_STEPS), format!("use at most {most} s"));
-            return Err(check.wrong(&format!("outlet.{i}.samples"), value, &why, &cure));
+    let outlets = scene.model.outlet.iter().enumerate();
+    for (i, outlet) in outlets.filter(|(_, o)| o.motion == ZoneMotion::Recorded) {
+        let steps = outlet.samples.map_or(path::STEPS, |time| (time / dt).round().max(1.0));
+        if steps > path::MOST_STEPS {
+            let value = format!("{} s", Shown(outlet.samples.unwrap_or(0.0)));
+            let why = format!("is more than {} steps", path::MOST_STEPS);
+            let cure = format!("use at most {} s", Shown(path::MOST_STEPS * dt));
+            return Err(scene.wrong(&format!("outlet.{i}.samples"), value, &why, &cure));
         }
         let steps = steps as u64;
         least = Some(least.map_or(steps, |other: u64| other.min(steps)));
     }
     Ok(least)
-}
-
-/// Whether wall spheres move, so that they are written with every frame.
-fn spheres_move(walls: &[dem::setup::Wall]) -> bool {
-    walls.iter().any(|w| matches!(w.shape, dem::setup::WallShape::Spheres(_)) && w.motion.moves())
 }

@@ -1,17 +1,18 @@
-//! How a run ends before its end: its file says why, and can be gone on with.
+//! How a run ends early: its file says why, and can be resumed.
 
-use super::{Run, RunError};
+use crate::RunError;
 use crate::checkpoint::{Checkpoint, Pieces};
-use crate::schedule::nanoseconds;
+use crate::simulate::{Before, Run};
+use record::{LogMessage, nanoseconds};
 use serde::Serialize;
 use std::io::Write;
 use stream::mcap::Writer;
 
 impl<W: Write> Run<W> {
-    pub(super) fn write_checkpoint(&mut self) -> Result<(), RunError> {
+    pub(crate) fn write_checkpoint(&mut self) -> Result<(), RunError> {
         let checkpoint = Checkpoint {
-            scene: self.scene.clone(),
-            inputs: self.inputs.clone(),
+            scene: self.written.scene.clone(),
+            inputs: self.written.inputs.clone(),
             given: self.supply.given.clone(),
             state: self.sim.state(),
         };
@@ -21,41 +22,40 @@ impl<W: Write> Run<W> {
         Ok(())
     }
 
-    /// The run is stopped: the file says why, and ends in a checkpoint.
-    pub(super) fn stop(&mut self, reason: String) -> Result<(), RunError> {
-        match self.before.take() {
-            Some(before) if !self.sim.is_finite() => self.go_back(reason, before),
+    /// Stops the run: the file says why, and ends in a checkpoint.
+    pub(crate) fn stop(&mut self, reason: String) -> Result<(), RunError> {
+        let reason = match self.before.take() {
+            Some(before) if !self.sim.is_finite() => self.go_back(reason, before)?,
             None if !self.sim.is_finite() => {
                 let reason = format!(
-                    "{reason}; nothing can go on from here: --resume goes on from the checkpoint before it (output.checkpoint)"
+                    "{reason}; the run cannot be resumed from here: --resume continues from the checkpoint before it (output.checkpoint)"
                 );
-                self.log("stopped", &reason)?;
-                self.outcome.stopped = Some(reason);
-                Ok(())
+                self.log(&LogMessage::stopped(self.sim.time(), &reason))?;
+                reason
             }
             _ => {
-                // What is saved was looked at: the run that goes on does not look again.
+                // The sample of a saved step is in the file: the run that resumes does not take it again.
                 self.sample()?;
                 self.write_crossings()?;
-                self.log("stopped", &reason)?;
+                self.log(&LogMessage::stopped(self.sim.time(), &reason))?;
                 self.write_checkpoint()?;
-                self.outcome.stopped = Some(reason);
-                Ok(())
+                reason
             }
-        }
-    }
-
-    /// A state without numbers is no use to anyone: the checkpoint is that of the last instant that was looked at. What has
-    /// crossed since then crosses again.
-    fn go_back(&mut self, reason: String, before: (Vec<u64>, dem::State)) -> Result<(), RunError> {
-        let (given, state) = before;
-        let time = state.time();
-        let reason = format!("{reason}; the checkpoint is of t = {time:.6e} s, before it");
-        self.log("stopped", &reason)?;
-        let (scene, inputs) = (self.scene.clone(), self.inputs.clone());
-        save(&mut self.writer, nanoseconds(time), &Checkpoint { scene, inputs, given, state })?;
+        };
         self.outcome.stopped = Some(reason);
         Ok(())
+    }
+
+    /// A state without numbers is useless: the checkpoint is that of the last state that was held. What has crossed since then crosses
+    /// again.
+    fn go_back(&mut self, reason: String, before: Before) -> Result<String, RunError> {
+        let Before { given, state } = before;
+        let time = state.time();
+        let reason = format!("{reason}; the checkpoint is of t = {time:.6e} s, before it");
+        self.log(&LogMessage::stopped(self.sim.time(), &reason))?;
+        let (scene, inputs) = (self.written.scene.clone(), self.written.inputs.clone());
+        save(&mut self.writer, nanoseconds(time), &Checkpoint { scene, inputs, given, state })?;
+        Ok(reason)
     }
 }
 

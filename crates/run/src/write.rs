@@ -1,19 +1,23 @@
 //! What a run writes on its way: walls, frames, paths, crossings.
 
-use super::{
-    BODIES, BONDS, CONTACTS, ENERGY, FRAME, HELD, PARTICLES, Run, RunError, SAMPLES_HELD, SURFACES,
-    WALL_FORCES, WALLS, json,
-};
-use crate::crossings::{self, CROSSINGS, Passage, WATERMARK, Watermark};
+use crate::RunError;
 use crate::frames::{self, ParticleRows};
-use crate::links::{self, LINKS};
-use crate::paths::{self, PATHS, Waypoint};
-use crate::touches::{self, TOUCHES};
+use crate::simulate::{Before, FrameEnergy, Run};
 use dem::Halt;
+use record::{FRAME, Watermark, json, topic};
+use stages::outlet::crossing::CrossingRow;
+use stages::outlet::path::PathRow;
+use stages::outlet::{bond, contact, crossing, path};
 use std::io::Write;
 
-/// What ends a look before it is whole.
-pub(super) enum Ended {
+/// Particles up to which a run holds the state of the last step that was written, to go back to: twice its memory. A larger run goes
+/// back to the last checkpoint in its file.
+const HELD: usize = 500_000;
+/// Samples of paths that are held before they are written.
+const SAMPLES_HELD: usize = 4096;
+
+/// Why a frame could not be written.
+pub(crate) enum Ended {
     /// A guard of the engine.
     Guard(Halt),
     /// An input or an output.
@@ -33,39 +37,38 @@ impl<E: Into<RunError>> From<E> for Ended {
 }
 
 impl<W: Write> Run<W> {
-    pub(super) fn write_walls(
+    pub(crate) fn write_walls(
         &mut self,
         surfaces: &serde_json::Value,
-        notes: &[String],
+        warnings: &[String],
     ) -> Result<(), RunError> {
         let now = self.now();
-        if let Some(table) = frames::wall_spheres(&self.sim, &self.walls) {
-            self.writer.points(WALLS, now, FRAME, table)?;
+        if let Some(table) = frames::wall_spheres(&self.sim, &self.written.walls) {
+            self.writer.points(topic::WALLS, now, FRAME, table)?;
         }
-        self.writer.bytes(SURFACES, "json", now, json(surfaces).as_bytes())?;
+        self.writer.bytes(topic::SURFACES, "json", now, json(surfaces).as_bytes())?;
         if let Some(chosen) = self.outcome.chosen_by.clone() {
-            self.log("note", &chosen)?;
+            self.note(&chosen)?;
         }
-        for note in notes {
-            self.log("note", note)?;
-        }
+        warnings.iter().try_for_each(|warning| self.note(warning))?;
         Ok(self.writer.flush_chunk()?)
     }
 
     /// Writes what is due after `step` steps. A run that was resumed does not repeat what it was resumed from.
-    pub(super) fn look(&mut self, step: u64, first: u64) -> Result<(), Ended> {
-        let resumed = step == first && step > 0;
+    pub(crate) fn look(&mut self, step: u64) -> Result<(), Ended> {
+        let resumed = step == self.first && step > 0;
         let (frame, checkpoint) = (self.schedule.is_frame(step), self.schedule.is_checkpoint(step));
         if resumed || frame || checkpoint {
-            self.looked_at = self.sim.time();
+            self.saved_at = self.sim.time();
             let held = self.sim.particle_count() <= HELD;
-            self.before = held.then(|| (self.supply.given.clone(), self.sim.state().to_state()));
+            let state = || Before { given: self.supply.given.clone(), state: self.sim.state().to_state() };
+            self.before = held.then(state);
         }
         if resumed || !(frame || checkpoint) {
             return Ok(());
         }
         self.write_crossings()?;
-        // Before the frame: looking computes loads, which would then belong to the state.
+        // Before the frame, which computes forces that would then belong to the state.
         if checkpoint {
             self.write_checkpoint()?;
         }
@@ -76,63 +79,64 @@ impl<W: Write> Run<W> {
     }
 
     fn write_frame(&mut self) -> Result<(), Ended> {
-        // What enters now belongs to this instant.
+        // What enters now belongs to this frame.
         self.feed()?;
         self.sim.ready()?;
-        let now = self.now();
-        if self.moving
+        let (now, precision) = (self.now(), self.written.precision);
+        if self.written.walls_move
             && self.sim.steps() > 0
-            && let Some(table) = frames::wall_spheres(&self.sim, &self.walls)
+            && let Some(table) = frames::wall_spheres(&self.sim, &self.written.walls)
         {
-            self.writer.points(WALLS, now, FRAME, table)?;
+            self.writer.points(topic::WALLS, now, FRAME, table)?;
         }
-        let bodies = self.clumps.then(|| self.sim.bodies()).transpose()?;
-        let (all, precision) = (self.sim.snapshot()?, self.precision);
-        let rows = ParticleRows { all, precision, bodies: bodies.as_deref() };
-        self.writer.rows(PARTICLES, now, FRAME, &rows)?;
+        let bodies = self.written.clumps.then(|| self.sim.bodies()).transpose()?;
+        let rows = ParticleRows { all: self.sim.snapshot()?, precision, bodies: bodies.as_deref() };
+        self.writer.rows(topic::PARTICLES, now, FRAME, &rows)?;
         if let Some(bodies) = bodies {
-            self.writer.points(BODIES, now, FRAME, frames::bodies(&bodies))?;
+            self.writer.points(topic::BODIES, now, FRAME, frames::bodies(&bodies))?;
         }
         if self.sim.bond_count()[0] > 0 {
             let bonds = self.sim.bonds()?;
-            self.writer.points(BONDS, now, FRAME, frames::bonds(&bonds, self.precision))?;
+            self.writer.points(topic::BONDS, now, FRAME, frames::bonds(&bonds, precision))?;
         }
-        if self.contacts {
+        if self.written.contacts {
             let contacts = self.sim.record_contacts()?;
-            self.writer.points(CONTACTS, now, FRAME, frames::contacts(&contacts, self.precision))?;
+            self.writer.points(topic::CONTACTS, now, FRAME, frames::contacts(&contacts, precision))?;
         }
         self.outcome.frames += 1;
-        if self.wall_forces {
+        if self.written.wall_forces {
             let forces = self.sim.wall_forces()?;
-            let message = frames::wall_forces(self.sim.time(), &forces, &self.walls);
-            self.writer.bytes(WALL_FORCES, "json", now, json(&message).as_bytes())?;
+            let message = frames::wall_forces(self.sim.time(), &forces, &self.written.walls);
+            self.writer.bytes(topic::WALL_FORCES, "json", now, json(&message).as_bytes())?;
         }
         self.write_energy()
     }
 
-    /// The ledger, and what those who watch hear of it.
+    /// Writes the ledger, and keeps the energies for progress reports.
     fn write_energy(&mut self) -> Result<(), Ended> {
-        if !self.energy && !self.watched {
+        let ledger = self.written.energy;
+        if !ledger && !self.written.watched {
             return Ok(());
         }
         let energy = self.sim.energy()?;
-        self.looked = Some((energy.translation + energy.rotation, self.energy.then(|| energy.balance())));
-        if self.energy {
+        let kinetic = energy.translation + energy.rotation;
+        self.frame_energy = Some(FrameEnergy { kinetic, balance: ledger.then(|| energy.balance()) });
+        if ledger {
             let mut message = serde_json::to_value(energy).unwrap_or_default();
             message["time"] = self.sim.time().into();
             message["balance"] = energy.balance().into();
-            self.writer.bytes(ENERGY, "json", self.now(), json(&message).as_bytes())?;
+            self.writer.bytes(topic::ENERGY, "json", self.now(), json(&message).as_bytes())?;
         }
         Ok(())
     }
 
-    /// Notes where grains are on their way to storage planes of recorded motion.
-    pub(super) fn sample(&mut self) -> Result<(), RunError> {
+    /// Samples the paths of particles on their way to storage planes of recorded motion.
+    pub(crate) fn sample(&mut self) -> Result<(), RunError> {
         let step = self.sim.steps();
         let new = self.sampled.replace(step) != Some(step);
-        if new && self.sampling.is_some_and(|every| step.is_multiple_of(every)) {
-            let time = self.sim.time();
-            self.paths.extend(self.sim.sample_paths().iter().map(|s| Waypoint::new(time, s, &self.masses)));
+        if new && self.written.sampling.is_some_and(|every| step.is_multiple_of(every)) {
+            let (time, masses) = (self.sim.time(), &self.written.masses);
+            self.paths.extend(self.sim.sample_paths().iter().map(|s| PathRow::new(time, s, masses)));
             if self.paths.len() >= SAMPLES_HELD {
                 self.write_paths()?;
             }
@@ -143,33 +147,34 @@ impl<W: Write> Run<W> {
     fn write_paths(&mut self) -> Result<(), RunError> {
         let rows = std::mem::take(&mut self.paths);
         if !rows.is_empty() {
-            self.writer.points(PATHS, self.now(), FRAME, paths::to_table(&rows))?;
+            self.writer.points(topic::PATHS, self.now(), FRAME, path::to_table(&rows))?;
         }
         Ok(())
     }
 
-    pub(super) fn write_crossings(&mut self) -> Result<(), RunError> {
-        if !self.outlets {
+    pub(crate) fn write_crossings(&mut self) -> Result<(), RunError> {
+        if !self.written.outlets {
             return Ok(());
         }
         self.write_paths()?;
         let now = self.now();
         let crossings = std::mem::take(&mut self.crossings);
         if !crossings.is_empty() {
-            // Contacts first: who passes rows on has them then.
-            let touches = touches::of_crossings(&crossings);
-            if touches.rows() > 0 {
-                self.writer.points(TOUCHES, now, FRAME, &touches)?;
+            // Contacts and bonds first: a reader that passes rows on has them then.
+            let contacts = contact::of_crossings(&crossings);
+            if contacts.rows() > 0 {
+                self.writer.points(topic::CROSSING_CONTACTS, now, FRAME, &contacts)?;
             }
-            let links = links::of_crossings(&crossings);
-            if !links.is_empty() {
-                self.writer.points(LINKS, now, FRAME, links::to_table(&links))?;
+            let bonds = bond::of_crossings(&crossings);
+            if !bonds.is_empty() {
+                self.writer.points(topic::CROSSING_BONDS, now, FRAME, bond::to_table(&bonds))?;
             }
-            let rows: Vec<Passage> = crossings.iter().map(|c| Passage::new(c, &self.masses)).collect();
-            self.writer.points(CROSSINGS, now, FRAME, crossings::to_table(&rows))?;
+            let masses = &self.written.masses;
+            let rows: Vec<CrossingRow> = crossings.iter().map(|c| CrossingRow::new(c, masses)).collect();
+            self.writer.points(topic::CROSSINGS, now, FRAME, crossing::to_table(&rows))?;
             self.outcome.crossings += rows.len() as u64;
         }
         let watermark = Watermark { until: self.sim.time() };
-        Ok(self.writer.bytes(WATERMARK, "json", now, &watermark.to_json())?)
+        Ok(self.writer.bytes(topic::WATERMARK, "json", now, &watermark.to_json())?)
     }
 }

@@ -1,7 +1,7 @@
 //! What `--explain` says: which key calls for what, what is dropped, and no number where nothing was measured.
 
+use run::explain::{Explained, explain};
 use scene::Scene;
-use scene::explain::{Explained, explain};
 use std::path::Path;
 
 const SCENE: &str = r#"gravity = [0, 0, -9.81]

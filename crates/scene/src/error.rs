@@ -1,6 +1,8 @@
-//! What a scene is refused for.
+//! Errors of scenes and of the files that they name.
 
+use record::RecordError;
 use std::fmt;
+use std::path::Path;
 use thiserror::Error;
 
 /// A place in a scene file.
@@ -37,8 +39,8 @@ pub enum SceneError {
     Value(Box<ValueError>),
     #[error("--set {text}: {why}")]
     Override { text: String, why: String },
-    #[error("{name}: {why}; {cure}")]
-    File { name: String, why: String, cure: String },
+    #[error(transparent)]
+    File(#[from] RecordError),
     #[error("{name}: particle {id} starts inside {partner} (overlap {overlap:.3e} m): move it")]
     Inside { name: String, id: u32, partner: String, overlap: f64 },
     #[error("{name}: cannot be read as {wanted}")]
@@ -62,7 +64,7 @@ pub struct ValueError {
 }
 
 impl SceneError {
-    /// The same about another place.
+    /// The same error at another place.
     pub(crate) fn at(mut self, there: Place) -> SceneError {
         match &mut self {
             SceneError::Syntax { place, .. }
@@ -75,7 +77,7 @@ impl SceneError {
         self
     }
 
-    /// Its words without the place.
+    /// The message without the place.
     pub(crate) fn without_place(&self) -> String {
         match self {
             SceneError::Syntax { message, .. } => message.clone(),
@@ -85,12 +87,26 @@ impl SceneError {
     }
 
     /// A file that holds something else than wanted.
-    pub(crate) fn file(name: &str, why: impl Into<String>, cure: impl Into<String>) -> SceneError {
-        SceneError::File { name: name.to_owned(), why: why.into(), cure: cure.into() }
+    pub fn file(name: &str, why: impl Into<String>, cure: impl Into<String>) -> SceneError {
+        SceneError::File(RecordError::new(name, why, cure))
+    }
+
+    /// A file that cannot be read.
+    pub fn read(path: &Path, source: std::io::Error) -> SceneError {
+        SceneError::Read { name: path.display().to_string(), source }
+    }
+
+    /// A file that cannot be read as what is wanted.
+    pub fn content(
+        name: &str,
+        wanted: &'static str,
+        source: impl std::error::Error + Send + Sync + 'static,
+    ) -> SceneError {
+        SceneError::Content { name: name.to_owned(), wanted, source: Box::new(source) }
     }
 }
 
-/// The known name nearest to `name`, when one is near enough to be meant.
+/// The known name nearest to `name`, when one is near enough to suggest.
 pub(crate) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let near = known.map(|k| (strsim::damerau_levenshtein(name, k), k)).min()?;
     let longest = name.chars().count().max(near.1.chars().count());

@@ -1,16 +1,16 @@
-//! A scene that was read and whose values are sound.
+//! A scene that was read and whose values were checked.
 
 use crate::check::Check;
 use crate::error::SceneError;
-use crate::model::Model;
-use crate::parse::parse;
-use crate::text::Text;
+use crate::keys::Model;
+use crate::text::{Text, parse};
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 /// A scene.
 #[derive(Debug, Clone)]
 pub struct Scene {
-    /// As it was written, with the changes of `--set`.
+    /// Its text.
     pub text: Text,
     /// Its keys.
     pub model: Model,
@@ -19,14 +19,14 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Reads a scene, changes what `overrides` say (`KEY=VALUE`), and checks every value.
+    /// Reads a scene, applies the `overrides` (`KEY=VALUE`), and checks every value.
     ///
     /// # Errors
     /// What is wrong, with line and column, key, value, unit and cure.
     pub fn new(name: &str, toml: String, overrides: &[String], folder: &Path) -> Result<Scene, SceneError> {
         let mut text = Text::new(name, toml.clone());
         if !overrides.is_empty() {
-            // Errors of the file itself are told with the places of the file itself.
+            // Errors of the file itself name places in the file itself.
             parse(&text)?;
             text.set(overrides)?;
         }
@@ -35,7 +35,12 @@ impl Scene {
         Ok(Scene { text, model, folder: folder.to_owned() })
     }
 
-    /// Every file that the scene names; whether it is there is not looked at. Shapes that can be filled name none.
+    /// The error for a key's value that only a run can judge.
+    pub fn wrong(&self, key: &str, value: impl Display, why: &str, cure: &str) -> SceneError {
+        Check { text: &self.text }.wrong(key, value, why, cure)
+    }
+
+    /// Every file that the scene names, whether or not it exists.
     pub fn files(&self) -> Vec<PathBuf> {
         let m = &self.model;
         let particles = m.particles.iter().map(|p| p.source.as_str());
@@ -46,7 +51,7 @@ impl Scene {
     }
 }
 
-/// What the file itself is not wrong about is told with the overrides that are: the reader does not see the changed text.
+/// The error of a changed scene, at the overrides that cause it: the reader does not see the changed text.
 fn blame(error: SceneError, name: &str, toml: &str, overrides: &[String]) -> SceneError {
     let alone = |text: &&String| {
         let mut changed = Text::new(name, toml.to_owned());

@@ -1,9 +1,12 @@
-//! A replay passes on what a run has told so far, while the run is still being written.
+//! A replay passes on what a run has written so far, while the run is still being written.
 
 use dem::setup::{Particle, Zone};
 use geom::Vec3;
-use scene::crossings::{CROSSINGS, Passage, SIZES, Sizes, WATERMARK, Watermark, to_table};
-use scene::replay::{Replay, replay};
+use record::metadata::SIZES;
+use record::topic::{CROSSINGS, WATERMARK};
+use record::{Sizes, Watermark};
+use stages::outlet::crossing::{CrossingRow, to_table};
+use stages::replay::{Replay, replay};
 use std::collections::BTreeMap;
 use std::io::{Read, Write};
 use std::sync::{Arc, Mutex};
@@ -62,7 +65,7 @@ impl Read for Halting {
     }
 }
 
-fn passage(time: f64, id: u32) -> Passage {
+fn row(time: f64, id: u32) -> CrossingRow {
     let zero = Vec3::zeros();
     let particle = Particle {
         id,
@@ -72,7 +75,7 @@ fn passage(time: f64, id: u32) -> Passage {
         velocity: Vec3::new(0.0, 0.0, -1.0),
         spin: zero,
     };
-    Passage { time, outlet: 0, particle, contacts: 0, clump: None, turn: None }
+    CrossingRow { time, outlet: 0, particle, contacts: 0, clump: None, turn: None }
 }
 
 /// A run with two crossings until 1 s and one until 2 s, as the parts that were flushed.
@@ -85,14 +88,14 @@ fn run() -> Vec<Vec<u8>> {
     writer.metadata("materials", one(r#"{"name":"m","density":1000.0}"#.into())).unwrap();
     writer.metadata(SIZES, Sizes { smallest: 0.01, largest: 0.01 }.to_map()).unwrap();
     writer.metadata("outlets", one(serde_json::to_string(&zone).unwrap())).unwrap();
-    let mut tell = |rows: &[Passage], until: f64| {
+    let mut write = |rows: &[CrossingRow], until: f64| {
         writer.points(CROSSINGS, 0, "world", to_table(rows)).unwrap();
         writer.bytes(WATERMARK, "json", 0, &Watermark { until }.to_json()).unwrap();
         writer.flush_chunk().unwrap();
     };
-    tell(&[passage(0.5, 1), passage(0.75, 2)], 1.0);
+    write(&[row(0.5, 1), row(0.75, 2)], 1.0);
     let first = bytes.0.lock().unwrap().len();
-    tell(&[passage(1.5, 3)], 2.0);
+    write(&[row(1.5, 3)], 2.0);
     writer.finish().unwrap();
     let all = bytes.0.lock().unwrap().clone();
     vec![all[..first].to_vec(), all[first..].to_vec()]
@@ -108,14 +111,14 @@ fn crossings_and_watermarks_are_passed_on_at_once() {
     assert_eq!(
         *between.lock().unwrap(),
         Some((2, 0.5)),
-        "both crossings, and a watermark from the first passage"
+        "both crossings, and a watermark from the first crossing"
     );
     assert_eq!(out.seen(), (3, 1.5));
     assert_eq!((done.particles, done.start, done.last), (3, 0.5, 1.0));
 }
 
 #[test]
-fn a_run_that_breaks_off_is_an_error_after_what_it_told_was_passed_on() {
+fn a_run_that_breaks_off_is_an_error_after_what_it_wrote_was_passed_on() {
     let out = Shared::default();
     let source = Halting { parts: run()[..1].to_vec(), out: out.clone(), between: Default::default() };
     let how = (Provenance::default(), Compression::None.into());
@@ -123,5 +126,5 @@ fn a_run_that_breaks_off_is_an_error_after_what_it_told_was_passed_on() {
     assert!(failed.is_err());
     assert_eq!(out.seen(), (2, 0.5));
     let whole = Reader::new(out.0.lock().unwrap().as_slice()).all(|e| e.is_ok());
-    assert!(!whole, "and nobody takes it for whole");
+    assert!(!whole, "it does not look whole");
 }

@@ -10,7 +10,6 @@ mod colour;
 mod error;
 mod field;
 pub mod film;
-mod motion;
 mod outline;
 mod page;
 pub mod picture;
@@ -23,10 +22,11 @@ pub mod vtk;
 pub use camera::Camera;
 pub use colour::{Map, Rgb};
 pub use error::ViewError;
-pub use motion::Motion;
+pub use geom::Motion;
 pub use page::{Kept, Page, PageOptions};
 pub use picture::{Image, Part, PictureOptions, Survey};
-pub use surface::{Surface, SurfaceShape};
+pub use record::SurfaceShape;
+pub use surface::Surface;
 
 /// What a table of spheres or points is, and so how it is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

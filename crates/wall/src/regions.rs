@@ -14,10 +14,11 @@
 //! With a section `[wear]` (see [`crate::wear`]) the roughness of points that no region with a roughness of its own holds comes from a
 //! table of wear and position.
 
-use crate::attributes::{AttributeError, Material, check_velocity};
+use crate::attributes::{AttributeError, check_material, check_velocity};
 use crate::wear::{self, Wear, WearError, WearReport};
 use geom::{Vec3, mesh::TriMesh, shape::Shape};
 use rayon::prelude::*;
+use record::MaterialRecord;
 use serde::Deserialize;
 use thiserror::Error;
 
@@ -40,7 +41,7 @@ pub struct Surface {
 #[derive(Debug)]
 pub struct Regions {
     /// Materials, by number.
-    pub materials: Vec<Material>,
+    pub materials: Vec<MaterialRecord>,
     /// Surfaces; number 0 is outside of all regions.
     pub surfaces: Vec<Surface>,
     shapes: Vec<Shape>,
@@ -96,8 +97,12 @@ impl Regions {
     ///
     /// # Errors
     /// Values outside their ranges.
-    pub fn one(roughness: Option<f64>, material: Material, velocity: Vec3) -> Result<Regions, RegionsError> {
-        material.check("material")?;
+    pub fn one(
+        roughness: Option<f64>,
+        material: MaterialRecord,
+        velocity: Vec3,
+    ) -> Result<Regions, RegionsError> {
+        check_material(&material, "material")?;
         check_velocity(&velocity, "velocity")?;
         check_roughness(roughness, "roughness")?;
         let surface = Surface { name: String::new(), roughness, material: 0, velocity, worn: true };
@@ -112,7 +117,7 @@ impl Regions {
     /// Text that is no such table, shapes that cannot be read, values outside their ranges.
     pub fn parse(
         text: &str,
-        material: Material,
+        material: MaterialRecord,
         velocity: Vec3,
         load: wear::Load<TriMesh>,
         read: wear::Load<String>,
@@ -158,14 +163,15 @@ impl Regions {
         });
         let known = self.materials.iter().find(|m| m.name == name);
         let base = known.unwrap_or(outside);
-        let material = Material {
+        let material = MaterialRecord {
+            density: None,
             young: region.young.or(base.young),
             poisson: region.poisson.or(base.poisson),
             friction: region.friction.or(base.friction),
             restitution: region.restitution.or(base.restitution),
             name,
         };
-        material.check(place)?;
+        check_material(&material, place)?;
         match self.materials.iter().position(|m| m.name == material.name) {
             Some(at) if self.materials[at] == material => Ok(at as u16),
             Some(_) => {

@@ -1,13 +1,10 @@
 //! Walls as MCAP: metadata `materials`, then one message on `/walls`.
 
 use crate::Regions;
-use crate::attributes;
+use record::{FRAME, MaterialRecord, metadata, topic};
 use std::io::Write;
 use stream::Table;
 use stream::mcap::{McapError, Provenance, Writer};
-
-/// Topic of wall spheres.
-pub const TOPIC: &str = "/walls";
 
 /// Writes the wall's columns and materials, and gives the output back, whole.
 ///
@@ -20,7 +17,7 @@ pub fn write_mcap<W: Write>(
     provenance: &Provenance,
 ) -> Result<W, McapError> {
     let mut writer = Writer::new(out, provenance)?;
-    writer.metadata("materials", attributes::record(&regions.materials))?;
-    writer.points(TOPIC, 0, "world", table)?;
+    writer.metadata(metadata::MATERIALS, MaterialRecord::to_map(&regions.materials))?;
+    writer.points(topic::WALLS, 0, FRAME, table)?;
     writer.finish()
 }

@@ -2,8 +2,8 @@
 
 use geom::mesh::{TriMesh, cuboid};
 use geom::{Shape, Vec3};
+use record::MaterialRecord;
 use std::f64::consts::TAU;
-use wall::attributes::Material;
 use wall::drawn::{Drawing, Drawn, place};
 use wall::{Radius, Regions, WallError, Wish, build, equation};
 
@@ -77,9 +77,12 @@ fn spheres_of_a_box_are_inside_and_touch_it_at_both_ends_of_every_edge_and_betwe
 fn the_mean_distance_is_the_one_that_roughness_and_radius_ask_for_and_nothing_leaks() {
     let drawn = place(&cylinder(48), &drawing()).unwrap();
     check_inside(&cylinder(48), &drawn);
-    let regions =
-        Regions::one(Some(ZETA), Material { name: "s".into(), ..Material::default() }, Vec3::zeros())
-            .unwrap();
+    let regions = Regions::one(
+        Some(ZETA),
+        MaterialRecord { name: "s".into(), ..MaterialRecord::default() },
+        Vec3::zeros(),
+    )
+    .unwrap();
     let wish = Wish { radius: Radius::Given(RADIUS), smallest_particle: Some(RADIUS), ..Wish::default() };
     let (_, report) = build(&drawn.centres, &regions, &wish).unwrap();
     assert!((report.spacing / drawn.report.spacing_asked - 1.0).abs() < 0.02, "{} m", report.spacing);
@@ -166,7 +169,7 @@ fn a_region_by_wear_and_position_sets_the_roughness_of_every_sphere() {
                 [[region]]\nshape = \"box:-1,-1,-1,0.2,2,1\"\nroughness = 7e-4\n";
     let table = |_: &str| Ok("wear, 0, 1\n0, 1e-4, 2e-4\n10, 3e-4, 4e-4\n".to_owned());
     let none = |_: &str| Err("no meshes here".to_owned());
-    let material = Material { name: "s".into(), ..Material::default() };
+    let material = MaterialRecord { name: "s".into(), ..MaterialRecord::default() };
     let mut regions = Regions::parse(text, material, Vec3::zeros(), &none, &table).unwrap();
     let points: Vec<Vec3> =
         (0..400).map(|i| Vec3::new((i % 20) as f64, (i / 20) as f64, 0.0) * 0.05).collect();

@@ -1,12 +1,12 @@
 //! What every wall must hold, against closed answers.
 
 use geom::Vec3;
+use record::MaterialRecord;
 use sampling::cells::Cells;
-use wall::attributes::Material;
 use wall::{Placement, Radius, Regions, Representative, WallError, Wish, build, equation};
 
-fn steel() -> Material {
-    Material { name: "steel".to_owned(), young: Some(2e8), ..Material::default() }
+fn steel() -> MaterialRecord {
+    MaterialRecord { name: "steel".to_owned(), young: Some(2e8), ..MaterialRecord::default() }
 }
 
 fn everywhere(roughness: f64) -> Regions {

@@ -3,8 +3,8 @@
 use super::chance::Chance;
 use dem::setup::{Motion, Wall, WallShape};
 use geom::Vec3;
+use record::MaterialRecord;
 use sampling::{Amount, Method};
-use wall::attributes::Material;
 use wall::{Radius, Regions, Wish};
 
 /// Scanned points for each point kept.
@@ -105,7 +105,7 @@ pub type Spheres = Vec<(Vec3, f64)>;
 /// # Panics
 /// When the points make no wall of that roughness.
 pub fn spheres(points: &[Vec3], roughness: f64, smallest: f64) -> (Spheres, wall::WallReport) {
-    let material = Material { name: "wall".to_owned(), ..Material::default() };
+    let material = MaterialRecord { name: "wall".to_owned(), ..MaterialRecord::default() };
     let regions = Regions::one(Some(roughness), material, Vec3::zeros()).expect("positive");
     let wish = Wish { radius: Radius::Uniform, smallest_particle: Some(smallest), ..Wish::default() };
     let (wall, report) = wall::build(points, &regions, &wish).expect("a wall");

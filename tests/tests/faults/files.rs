@@ -18,7 +18,7 @@ type Parser = fn(&[u8]) -> bool;
 
 fn events(bytes: &[u8]) -> bool {
     let events = stream::mcap::Reader::new(bytes).all(|event| event.is_ok());
-    let checkpoint = scene::Checkpoint::last("run", bytes).is_ok();
+    let checkpoint = run::Checkpoint::last("run", bytes).is_ok();
     let input = scene::Input::open("input", Box::new(Cursor::new(bytes.to_vec()))).is_ok();
     events || (checkpoint && input)
 }
@@ -36,7 +36,7 @@ fn text(bytes: &[u8]) -> bool {
     let (set, toml) = text.split_once('\n').unwrap_or(("", text));
     let here = std::path::Path::new("");
     let none = |_: &str| Err("no meshes here".to_owned());
-    let material = wall::attributes::Material { name: "steel".to_owned(), ..Default::default() };
+    let material = record::MaterialRecord { name: "steel".to_owned(), ..Default::default() };
     let mut rules = cloud::crop::Rules::default();
     scene::Scene::new("s.toml", toml.to_owned(), &[set.to_owned()], here).is_ok()
         | geom::prism::Prism::from_json(text).is_ok()

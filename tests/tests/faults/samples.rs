@@ -186,21 +186,17 @@ pub fn mcap() -> Vec<Sample> {
 pub fn run(how: Compression, scene: &str) -> Vec<u8> {
     let scene = scene::Scene::new("s.toml", scene.to_owned(), &[], Path::new("")).expect("sound");
     let plan = scene.plan(Vec::new()).expect("whole");
-    let settings = scene::run::Settings {
-        provenance: Provenance::default(),
-        how: how.into(),
-        watched: false,
-        stop: || false,
-    };
-    scene::run::run(&scene, plan, None, Vec::new(), settings, &mut |_| ()).expect("it runs").1
+    let settings =
+        run::Settings { provenance: Provenance::default(), how: how.into(), watched: false, stop: || false };
+    run::run(&scene, plan, None, Vec::new(), settings, &mut |_| ()).expect("it runs").1
 }
 
 /// The inlet of a run.
 pub fn inlet(run: &[u8]) -> Vec<u8> {
-    let what = scene::replay::Replay::default();
+    let what = stages::replay::Replay::default();
     let (source, how) =
         (Box::new(Cursor::new(run.to_vec())), (Provenance::default(), Compression::None.into()));
-    scene::replay::replay(vec![("run".into(), source)], &what, Vec::new(), how)
+    stages::replay::replay(vec![("run".into(), source)], &what, Vec::new(), how)
         .expect("a run with an outlet")
         .1
 }

@@ -3,7 +3,8 @@
 use super::passages;
 use grainpipe_tests::scenes::{ABOVE, AT, SINTER};
 use grainpipe_tests::tools::{line, succeed, tool};
-use scene::touches::{TOUCHES, Touching, from_table};
+use record::topic::CROSSING_CONTACTS;
+use stages::outlet::contact::{ContactRow, from_table};
 use std::fs;
 use std::path::Path;
 use stream::mcap::{Event, Reader};
@@ -65,9 +66,11 @@ fn clumped(options: &str) -> TempDir {
     folder
 }
 
-fn touches(path: &Path) -> Vec<Touching> {
+fn touches(path: &Path) -> Vec<ContactRow> {
     let rows = |event: Event| match event {
-        Event::Points { topic, table, .. } if topic == TOUCHES => from_table("test", &table).unwrap(),
+        Event::Points { topic, table, .. } if topic == CROSSING_CONTACTS => {
+            from_table("test", &table).unwrap()
+        }
         _ => Vec::new(),
     };
     Reader::new(fs::File::open(path).unwrap()).flat_map(|e| rows(e.unwrap())).collect()

@@ -12,7 +12,7 @@ mod replays;
 
 use grainpipe_tests::scenes::{ABOVE, AT, SINTER, folder, write};
 use grainpipe_tests::tools::{line, succeed, tool};
-use scene::crossings::{Passage, from_table};
+use stages::outlet::crossing::{CrossingRow, from_table};
 use std::fs;
 use std::path::Path;
 use stream::Table;
@@ -42,7 +42,7 @@ fn plant_of(text: &str, files: &[(&str, &str)], options: &[&str]) -> TempDir {
     folder
 }
 
-fn passages(path: &Path) -> Vec<Passage> {
+fn passages(path: &Path) -> Vec<CrossingRow> {
     let mut all = Vec::new();
     for event in Reader::new(fs::File::open(path).unwrap()) {
         if let Event::Points { topic, table, .. } = event.unwrap()
@@ -160,7 +160,7 @@ fn windows_of_time_and_kept_times() {
     let (from, until) = (all[10].time, all[20].time);
     let window = [format!("--from={from:?}"), format!("--until={until:?}")];
     succeed(folder.path(), "stage-replay", &["up.mcap", &window[0], &window[1], "-o", "w.mcap"]);
-    let ids = |list: &[Passage]| list.iter().map(|p| p.particle.id).collect::<Vec<_>>();
+    let ids = |list: &[CrossingRow]| list.iter().map(|p| p.particle.id).collect::<Vec<_>>();
     assert_eq!(ids(&passages(&path("w.mcap"))), ids(&all[10..20]));
     assert_eq!(passages(&path("w.mcap"))[0].time, 0.0);
 }

@@ -5,7 +5,7 @@ use dem::setup::Particle;
 use geom::Vec3;
 use grainpipe_tests::scenes::AT;
 use grainpipe_tests::tools::{line, succeed, tool};
-use scene::crossings::Passage;
+use stages::outlet::crossing::CrossingRow;
 use std::fs;
 use tempfile::{TempDir, tempdir};
 
@@ -24,7 +24,7 @@ fn stages(cut: &[&str]) -> TempDir {
 }
 
 /// When a passage that is generated arrives: t such that what is tested is on the plane z = 0, and its state then.
-fn arrival(p: &Passage, gravity: Vec3, lead: f64) -> (f64, Vec3, Vec3) {
+fn arrival(p: &CrossingRow, gravity: Vec3, lead: f64) -> (f64, Vec3, Vec3) {
     let Particle { position: x, velocity: v, .. } = p.particle;
     // z(τ) − lead = 0, going down.
     let depth = x.z - lead;
@@ -55,7 +55,7 @@ fn every_motion_brings_the_recorded_state_to_the_calculation_plane() {
                 let mut wanted = recorded.clone();
                 wanted.sort_by_key(|p| p.particle.id);
                 assert_eq!(wanted.len(), replayed.len());
-                let lead = |p: &Passage| if test == "lowest" { p.particle.radius } else { 0.0 };
+                let lead = |p: &CrossingRow| if test == "lowest" { p.particle.radius } else { 0.0 };
                 let first = recorded[0].time;
                 let ahead = arrival(
                     &replayed[wanted.iter().position(|w| w.time == first).unwrap()],

@@ -17,7 +17,7 @@ fn the_files_of_a_resumed_run_are_one_record() {
     let of = |name: &str| passages(&folder.path().join(name));
     let (whole, parts) = (of("whole.mcap"), of("parts.mcap"));
     assert!(of("one.mcap").len() > 3 && of("three.mcap").len() > 3, "something passes in each");
-    let seen = |rows: &[scene::crossings::Passage]| -> Vec<_> {
+    let seen = |rows: &[stages::outlet::crossing::CrossingRow]| -> Vec<_> {
         rows.iter()
             .map(|r| (r.time.to_bits(), r.particle.id, r.particle.position, r.particle.velocity))
             .collect()

@@ -3,7 +3,7 @@
 use super::{passages, plant};
 use geom::Vec3;
 use grainpipe_tests::tools::{succeed, tool};
-use scene::crossings::Passage;
+use stages::outlet::crossing::CrossingRow;
 use std::collections::BTreeSet;
 use std::path::Path;
 use tempfile::TempDir;
@@ -14,7 +14,7 @@ fn recorded() -> TempDir {
     folder
 }
 
-fn replay(folder: &Path, options: &[&str]) -> Vec<Passage> {
+fn replay(folder: &Path, options: &[&str]) -> Vec<CrossingRow> {
     succeed(folder, "stage-replay", &[&["up.mcap", "-o", "in.mcap"], options].concat());
     passages(&folder.join("in.mcap"))
 }

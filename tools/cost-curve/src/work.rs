@@ -38,7 +38,7 @@ fn left(job: &Job) -> Option<(String, String)> {
 
 /// Whether a run came to an end that it would come to again: done, or stopped by a guard.
 fn finished(job: &Job) -> bool {
-    let by_signal = || report(job).is_ok_and(|r| r["stopped"].as_str() == Some(scene::run::SIGNAL));
+    let by_signal = || report(job).is_ok_and(|r| r["stopped"].as_str() == Some(::run::SIGNAL));
     left(job).is_some_and(|(stamp, code)| stamp == job.stamp && (code == "0" || code == "3" && !by_signal()))
 }
 

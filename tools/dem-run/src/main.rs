@@ -7,8 +7,8 @@ use anyhow::Context;
 use clap::Parser;
 use cli::{Output, Report, Source, Stopped};
 use parts::Saved;
-use scene::run::{RunError, SIGNAL, Settings, run};
-use scene::{Checkpoint, Input, Moment, Plan, Scene, SceneError};
+use run::{Checkpoint, Progress, RunError, SIGNAL, Settings, run};
+use scene::{Input, Plan, Scene, SceneError};
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
@@ -79,11 +79,11 @@ fn dem_run(args: Args) -> anyhow::Result<Report> {
         inputs.push(Input::open(&source.to_string(), source.open()?)?);
     }
     let plan = scene.plan(inputs)?;
-    plan.notes.iter().for_each(|note| cli::warn(note));
+    plan.warnings.iter().for_each(|note| cli::warn(note));
     if args.explain || args.check {
         return explain(&args, &scene, plan);
     }
-    scene::run::ready(&scene, &plan, resume.as_ref())?;
+    run::ready(&scene, &plan, resume.as_ref())?;
     parts::say(&args.output, resumed.as_ref());
     simulate(&args, &scene, plan, resume)
 }
@@ -155,7 +155,7 @@ fn read_scene(args: &Args) -> anyhow::Result<Scene> {
 }
 
 fn explain(args: &Args, scene: &Scene, plan: Plan) -> anyhow::Result<Report> {
-    let explained = scene::explain::explain(scene, plan, args.explain)?;
+    let explained = run::explain::explain(scene, plan, args.explain)?;
     if args.explain {
         let mut out = args.output.open_text()?;
         std::io::Write::write_all(&mut out, explained.text.as_bytes()).context("--explain")?;
@@ -173,18 +173,18 @@ fn simulate(args: &Args, scene: &Scene, plan: Plan, resume: Option<Checkpoint>) 
     let (mut watch, mut saved) = (Watch::new(args.progress), Saved::default());
     let first = u64::from(resume.is_none());
     // What is in the file before the first step can be had again at no cost.
-    let mut hear = |moment: &Moment| {
-        if moment.checkpoints > 0 || moment.frames > first {
+    let mut hear = |progress: &Progress| {
+        if progress.checkpoints > 0 || progress.frames > first {
             keep.keep();
-            saved = Saved { time: moment.saved, resumes: moment.checkpoints > 0 };
+            saved = Saved { time: progress.saved, resumes: progress.checkpoints > 0 };
         }
-        watch.hear(moment);
+        watch.hear(progress);
     };
     let done = run(scene, plan, resume, out, settings, &mut hear).map_err(|e| written(e, args));
     let done = done.and_then(|(outcome, out)| out.commit().map(|()| outcome));
     drop(watch);
     let outcome = done.map_err(|e| parts::leaves(e, part.as_deref().filter(|_| keep.kept()), saved))?;
-    scene::returned::words(&outcome.returned).iter().chain(&outcome.inflow).for_each(|note| cli::warn(note));
+    run::warnings(&outcome.returned).iter().chain(&outcome.inflow).for_each(|note| cli::warn(note));
     let summary = format!(
         "{} steps of {:.3e} s to {:.4} s, {} particles, {} frames",
         outcome.steps, outcome.dt, outcome.time, outcome.particles, outcome.frames

@@ -1,6 +1,6 @@
 //! Tells how far a run is: a bar on a terminal, or a JSON line with each frame.
 
-use scene::Moment;
+use run::Progress;
 use serde::Serialize;
 use std::time::Instant;
 
@@ -21,7 +21,7 @@ pub struct Watch {
 #[derive(Serialize)]
 struct Line<'a> {
     #[serde(flatten)]
-    moment: &'a Moment,
+    progress: &'a Progress,
     /// Wall time since the start [s].
     elapsed: f64,
     /// Particle-steps a second since the line before.
@@ -38,29 +38,29 @@ impl Watch {
     }
 
     /// News of the run.
-    pub fn hear(&mut self, moment: &Moment) {
+    pub fn hear(&mut self, progress: &Progress) {
         let elapsed = self.start.elapsed().as_secs_f64();
-        let (step, since) = *self.first.get_or_insert((moment.step, elapsed));
+        let (step, since) = *self.first.get_or_insert((progress.step, elapsed));
         if let Some(bar) = &self.bar {
-            bar.set((BAR * moment.share) as u64);
+            bar.set((BAR * progress.share) as u64);
             bar.say(format!(
                 "t = {:.4} of {:.4} s, {} particles",
-                moment.time, moment.until, moment.particles
+                progress.time, progress.until, progress.particles
             ));
             return;
         }
-        if moment.kinetic.is_none() {
+        if progress.kinetic.is_none() {
             return;
         }
-        let pace = (elapsed - since) / (moment.step - step).max(1) as f64;
-        let done = (moment.step - self.before.0.max(step)) as f64;
+        let pace = (elapsed - since) / (progress.step - step).max(1) as f64;
+        let done = (progress.step - self.before.0.max(step)) as f64;
         let line = Line {
-            moment,
+            progress,
             elapsed,
-            particle_steps_per_second: done * moment.particles as f64 / (elapsed - self.before.1).max(1e-9),
-            left: pace * (moment.steps - moment.step) as f64,
+            particle_steps_per_second: done * progress.particles as f64 / (elapsed - self.before.1).max(1e-9),
+            left: pace * (progress.steps - progress.step) as f64,
         };
-        self.before = (moment.step, elapsed);
+        self.before = (progress.step, elapsed);
         if let Ok(line) = serde_json::to_string(&line) {
             eprintln!("{line}");
         }

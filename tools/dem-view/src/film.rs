@@ -78,7 +78,7 @@ impl Reel {
         let layers = self.series.layers.iter();
         layers
             .map(|layer| match &layer.home {
-                Some(home) => Some(Cow::Owned(layer.motion.place(home, time))),
+                Some(home) => Some(Cow::Owned(record::moved(home, &layer.motion.pose(time)))),
                 None => layer.at(time).map(Cow::Borrowed),
             })
             .collect()

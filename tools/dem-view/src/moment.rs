@@ -37,7 +37,8 @@ impl Moment {
     pub fn settle(&mut self) {
         let time = self.time().unwrap_or(0.0);
         for layer in self.layers.iter_mut().filter(|l| l.motion.moves()) {
-            layer.shown = layer.shown.take().map(|(_, home)| (time, layer.motion.place(&home, time)));
+            let pose = layer.motion.pose(time);
+            layer.shown = layer.shown.take().map(|(_, home)| (time, record::moved(&home, &pose)));
         }
     }
 

@@ -113,7 +113,7 @@ impl Folder {
         for (n, &time) in times.iter().enumerate() {
             let file = if let Some(home) = &layer.home {
                 let file = format!("{}_{n:05}.vtp", stem(number, layer));
-                let table = layer.motion.place(home, time);
+                let table = record::moved(home, &layer.motion.pose(time));
                 reach.add(layer.role, &table, &layer.name)?;
                 let data = PolyData { time: Some(time), ..vtk::points(layer.role, &table) };
                 write(&self.filling.path().join(&file), &data)?;

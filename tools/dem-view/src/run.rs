@@ -3,6 +3,7 @@
 use crate::inputs::{Show, short_name};
 use anyhow::Context;
 use cli::Source;
+use record::WallRecord;
 use serde_json::{Value, json};
 use std::{
     collections::{BTreeMap, HashMap},
@@ -12,7 +13,7 @@ use stream::{
     Table,
     mcap::{Event, Reader},
 };
-use view::{Motion, Role, Surface, SurfaceShape};
+use view::{Motion, Role, Surface};
 
 /// What is known of a run so far.
 struct Run<'a, S> {
@@ -112,15 +113,10 @@ impl<S: Show> Run<'_, S> {
             return Ok(());
         }
         self.count("/surfaces");
-        let json: Value = serde_json::from_slice(data).context("not JSON")?;
-        let walls = json.as_array().context("not a list of walls")?;
         let mut heads = Vec::new();
-        for (n, wall) in walls.iter().enumerate() {
-            let name = wall["name"].as_str().map_or_else(|| format!("wall {n}"), str::to_owned);
-            let motion = Motion::of(&wall["motion"]);
-            let motion = motion.with_context(|| format!("{name}: motion: a number is missing"))?;
-            let shape = SurfaceShape::of(&wall["shape"]).map_err(|e| anyhow::anyhow!("{name}: {e}"))?;
-            if let Some(shape) = shape {
+        for wall in WallRecord::read_all(data).map_err(anyhow::Error::msg)? {
+            let WallRecord { name, motion, surface } = wall;
+            if let Some(shape) = surface {
                 self.show.surface(Surface { name: name.clone(), shape, motion });
             }
             heads.push((name, motion));
@@ -150,7 +146,7 @@ impl<S: Show> Run<'_, S> {
             if !own.is_empty() {
                 let layer = self.layer(Role::Walls, name);
                 self.show.moves(layer, *motion);
-                self.show.push(layer, 0.0, motion.home(&table.select(&own), time))?;
+                self.show.push(layer, 0.0, record::home(&table.select(&own), &motion.pose(time)))?;
             }
         }
         Ok(())

@@ -4,7 +4,7 @@ use clap::{Parser, ValueEnum};
 use cli::{Output, Source, usage};
 use geom::{Plane, Vec3};
 use scene::ZoneMotion;
-use scene::replay::{Copies, Frame, Intervals, Replay};
+use stages::replay::{Copies, Frame, Intervals, Replay};
 
 /// Turns the crossings of a run into an inlet MCAP, also while the run is still being written
 #[derive(Parser)]

@@ -4,7 +4,7 @@ mod args;
 
 use args::Args;
 use cli::Report;
-use scene::replay::replay;
+use stages::replay::replay;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {

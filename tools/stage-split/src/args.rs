@@ -3,8 +3,8 @@
 use clap::{Parser, ValueEnum};
 use cli::{Output, Source};
 use geom::Plane;
-use scene::split::{Cut, Stage};
 use scene::{ZoneMotion, ZoneTest};
+use stages::split::{Cut, Stage};
 use std::path::Path;
 
 /// Cuts a scene at a plane and writes the scene of one stage

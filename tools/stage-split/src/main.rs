@@ -6,7 +6,7 @@ use anyhow::Context;
 use args::Args;
 use cli::Report;
 use scene::Scene;
-use scene::split::split;
+use stages::split::split;
 use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;

@@ -2,8 +2,8 @@
 
 use anyhow::Context;
 use geom::Vec3;
+use record::MaterialRecord;
 use std::path::{Path, PathBuf};
-use wall::attributes::Material;
 use wall::drawn::Drawing;
 use wall::{Placement, Radius, Regions, Representative, Wish};
 
@@ -153,7 +153,8 @@ impl Args {
 
     /// Roughness, material and velocity, everywhere or by region.
     pub fn regions(&self) -> anyhow::Result<Regions> {
-        let material = Material {
+        let material = MaterialRecord {
+            density: None,
             name: self.material.clone(),
             young: self.young,
             poisson: self.poisson,

@@ -1,11 +1,12 @@
 //! A short run of a scene, to see what a step takes.
 
-use crate::error::SceneError;
-use crate::feeds::{Item, Supply};
-use crate::plan::Feeds;
+use crate::supply::Supply;
 use dem::Simulation;
 use dem::setup::Setup;
+use scene::SceneError;
+use scene::plan::Insertion;
 use serde::Serialize;
+use stages::inlet::Arrival;
 use std::time::Instant;
 
 /// Time that a scene runs before it is measured [s], so that grains come in, fall and touch.
@@ -31,12 +32,12 @@ pub struct Calibration {
 }
 
 impl Calibration {
-    /// Of a setup with its faucets, after at most so many steps.
+    /// Of a setup with its insertions, after at most so many steps.
     ///
     /// # Errors
-    /// Why nothing can be told: a guard stops it, no particle is there.
-    pub(super) fn new(setup: Setup, feeds: &Feeds, most: u64) -> Result<Calibration, String> {
-        let mut trial = Trial::new(setup, feeds)?;
+    /// Why nothing can be measured: a guard stops it, no particle is there.
+    pub(super) fn new(setup: Setup, insertions: &[Insertion], most: u64) -> Result<Calibration, String> {
+        let mut trial = Trial::new(setup, insertions)?;
         let start = Instant::now();
         while trial.sim.steps() < most && start.elapsed().as_secs_f64() < AHEAD {
             trial.step()?;
@@ -45,8 +46,8 @@ impl Calibration {
     }
 
     /// Time of a step [s] of another setup after as many steps; `None` where it does not get so far in twice the time.
-    pub(super) fn compared(&self, setup: Setup, feeds: &Feeds) -> Option<f64> {
-        let mut trial = Trial::new(setup, feeds).ok()?;
+    pub(super) fn compared(&self, setup: Setup, insertions: &[Insertion]) -> Option<f64> {
+        let mut trial = Trial::new(setup, insertions).ok()?;
         let start = Instant::now();
         while trial.sim.steps() < self.steps {
             trial.step().ok()?;
@@ -58,26 +59,28 @@ impl Calibration {
     }
 }
 
+fn words(error: SceneError) -> String {
+    error.to_string()
+}
+
 struct Trial {
     sim: Simulation,
     supply: Supply,
 }
 
 impl Trial {
-    fn new(setup: Setup, feeds: &Feeds) -> Result<Trial, String> {
+    fn new(setup: Setup, insertions: &[Insertion]) -> Result<Trial, String> {
         let mut sim = Simulation::new(setup).map_err(|e| e.to_string())?;
         sim.record_loads(true);
-        // A stream may wait for another program: it is left alone.
-        let supply = Supply::new(Feeds { faucets: feeds.faucets.clone(), streams: Vec::new() });
+        // A stream may wait for another program: it is left out.
+        let supply = Supply::new(Vec::new(), insertions.to_vec()).map_err(words)?;
         Ok(Trial { sim, supply })
     }
 
     fn step(&mut self) -> Result<(), String> {
-        let told = |e: SceneError| e.to_string();
-        while let Some(item) =
-            self.supply.next_until(self.sim.time() + self.sim.look_ahead()).map_err(told)?
-        {
-            if let Item::Enter(entry) = item {
+        let horizon = self.sim.time() + self.sim.look_ahead();
+        while let Some(arrival) = self.supply.next_until(horizon).map_err(words)? {
+            if let Arrival::Enter(entry) = arrival {
                 self.sim.enter(entry).map_err(|e| e.to_string())?;
             }
         }

@@ -1,30 +1,27 @@
 //! How many particles come in while a run goes on, as far as that is known before.
 
-use crate::plan::Feeds;
+use scene::plan::Insertion;
 use serde::Serialize;
 
 /// What comes in.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Coming {
-    /// Faucets.
+    /// Keys of the insertions.
     pub faucets: Vec<String>,
-    /// Particles that they bring until the end, and how many of these are there on average over the run.
+    /// Particles that they bring until the end, and the mean number of these over the run.
     pub particles: (f64, f64),
-    /// Streams whose particles nobody knows before.
+    /// Keys of the inlets, whose particles are not known before.
     pub streams: Vec<String>,
 }
 
 impl Coming {
-    /// Of these feeds, until a time [s].
-    pub(crate) fn new(feeds: &Feeds, end: f64) -> Coming {
-        let add = |(all, there), faucet: &crate::faucet::Faucet| {
-            let (more, on_average) = faucet.expected(end);
-            (all + more, there + on_average)
-        };
+    /// Of these insertions and so many streams, until a time [s].
+    pub(crate) fn new(insertions: &[Insertion], streams: usize, end: f64) -> Coming {
+        let expected = insertions.iter().map(|insertion| insertion.expected(end));
         Coming {
-            faucets: feeds.faucets.iter().map(|f| f.key().to_owned()).collect(),
-            particles: feeds.faucets.iter().fold((0.0, 0.0), add),
-            streams: (0..feeds.streams.len()).map(|k| format!("inlet.{k}")).collect(),
+            faucets: insertions.iter().map(|insertion| insertion.key().to_owned()).collect(),
+            particles: expected.fold((0.0, 0.0), |sum, more| (sum.0 + more.all, sum.1 + more.mean)),
+            streams: (0..streams).map(|k| format!("inlet.{k}")).collect(),
         }
     }
 

@@ -1,11 +1,11 @@
 //! The effects of a scene, and the scene without each.
 
 use super::keys;
-use crate::Scene;
-use crate::model::DragLaw;
 use dem::Simulation;
 use dem::effects::{active, without};
 use dem::setup::{Precision, Setup};
+use scene::Scene;
+use scene::keys::DragLaw;
 use serde::Serialize;
 
 /// One effect of a scene.

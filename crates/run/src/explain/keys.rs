@@ -1,8 +1,9 @@
 //! Which keys of a scene call for what its engine does, and which are dropped.
 
-use crate::model::{Output, Wall};
-use crate::{Scene, contacts};
 use dem::setup::{self, Motion, Setup};
+use scene::Scene;
+use scene::keys::{Output, Wall};
+use scene::plan::{dropped as dropped_of, most_specific};
 
 /// Names of the two materials of a contact or a bond.
 pub(super) fn pair(setup: &Setup, between: (u16, u16)) -> String {
@@ -13,7 +14,7 @@ pub(super) fn pair(setup: &Setup, between: (u16, u16)) -> String {
 /// The entry that a contact comes from; `None`: a wall file says it.
 pub(super) fn entry(scene: &Scene, setup: &Setup, c: &setup::ContactLaw) -> Option<usize> {
     let name = |m: u16| setup.materials[m as usize].name.as_str();
-    contacts::most_specific(&scene.model.contact, name(c.between.0), name(c.between.1))
+    most_specific(&scene.model.contact, name(c.between.0), name(c.between.1))
 }
 
 /// What a scene asks for and cannot matter: key and pairs, and why.
@@ -21,7 +22,7 @@ pub(super) fn dropped(scene: &Scene, setup: &Setup) -> Vec<String> {
     let mut found: Vec<(String, Vec<String>, String)> = Vec::new();
     for c in &setup.contacts {
         let Some(at) = entry(scene, setup, c) else { continue };
-        for (key, why) in contacts::dropped(&scene.model.contact[at]) {
+        for (key, why) in dropped_of(&scene.model.contact[at]) {
             let key = format!("contact.{at}.{key}");
             match found.iter_mut().find(|(known, _, because)| *known == key && *because == why) {
                 Some((_, pairs, _)) => pairs.push(pair(setup, c.between)),

@@ -6,15 +6,17 @@ mod effects;
 mod keys;
 mod text;
 
-use crate::run::RunError;
+use crate::RunError;
 use crate::schedule::Schedule;
-use crate::{Plan, Scene};
+use crate::simulate::guard;
 pub use calibration::Calibration;
 pub use coming::Coming;
 use dem::{ContactBytes, Simulation, critical_step};
 pub use effects::Effect;
 use effects::{Asked, effects};
+use scene::{Plan, Scene};
 use serde::Serialize;
+use stages::inlet::InletStream;
 
 /// The answer.
 pub struct Explained {
@@ -72,11 +74,14 @@ pub struct Fields {
 /// # Errors
 /// Whatever would keep the scene from running.
 pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained, RunError> {
-    let Plan { setup, step: chosen_by, feeds, .. } = plan;
+    let Plan { setup, step: chosen_by, insertions, inlets, .. } = plan;
+    let streams = inlets.len();
+    // A stream whose first message is wrong would keep the scene from running.
+    inlets.into_iter().try_for_each(|inlet| InletStream::new(inlet).map(drop))?;
     let limit = critical_step(&setup)?;
     let mut sim = Simulation::new(setup.clone())?;
     if let Err(halt) = sim.particles() {
-        crate::run::stopped(scene, 0, halt)?;
+        guard(scene, 0, halt)?;
     }
     let Schedule { dt, last, .. } = Schedule::new(scene, sim.dt())?;
     let (bytes_per_particle, rotation) = (sim.bytes_per_particle(), sim.rotates());
@@ -84,14 +89,14 @@ pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained, Ru
     let bytes_per_bond = (bonds > 0).then(|| sim.bytes_of_bonds() as f64 / bonds as f64);
     drop(sim);
     let particles = setup.particles.len() + setup.clumps.members();
-    let coming = Coming::new(&feeds, dt * last as f64);
+    let coming = Coming::new(&insertions, streams, dt * last as f64);
     // The middle of the run at the latest: its end may be at rest.
-    let measured = measure.then(|| Calibration::new(setup.clone(), &feeds, last / 2));
+    let measured = measure.then(|| Calibration::new(setup.clone(), &insertions, last / 2));
     let calibration = measured.as_ref().and_then(|m| m.as_ref().ok()).copied();
     let share = |asked: Asked| {
         // Where nothing touches, a step says nothing of contacts.
         let whole = calibration.filter(|whole| whole.touching > 0 || !asked.in_contacts);
-        let less = whole.zip(asked.without).and_then(|(whole, setup)| whole.compared(setup, &feeds));
+        let less = whole.zip(asked.without).and_then(|(whole, setup)| whole.compared(setup, &insertions));
         let share = less.zip(whole).map(|(less, whole)| 1.0 - less / whole.seconds_per_step);
         Effect { share, ..asked.effect }
     };

@@ -1,11 +1,11 @@
-//! What a `[[contact]]` is refused for: numbers out of range, keys that no effect takes, effects that lack or contradict each other.
+//! Checks of `[[contact]]`: numbers out of range, keys that no effect takes, effects that lack or contradict each other.
 
-use crate::check::{Check, Checked};
-use crate::model::{Contact, Model};
+use super::{Check, Checked};
+use crate::keys::{Contact, Model};
 use dem::effects::{DESCRIPTIONS, Description, Slot, active};
 
 impl Check<'_> {
-    pub(crate) fn contacts(&self, m: &Model) -> Checked {
+    pub(super) fn contacts(&self, m: &Model) -> Checked {
         for (i, c) in m.contact.iter().enumerate() {
             let entry = Entry { check: self, at: format!("contact.{i}"), contact: c };
             entry.stiffness()?;

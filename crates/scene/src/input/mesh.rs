@@ -8,8 +8,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// A file of another kind, faces without vertices.
-pub fn read(path: &Path) -> Result<TriMesh, SceneError> {
-    let name = path.display().to_string();
-    let bytes = std::fs::read(path).map_err(|source| SceneError::Read { name: name.clone(), source })?;
-    mesh::from_bytes(&bytes).map_err(|e| SceneError::Content { name, wanted: "a mesh", source: e.into() })
+pub fn read_mesh(path: &Path) -> Result<TriMesh, SceneError> {
+    let bytes = std::fs::read(path).map_err(|e| SceneError::read(path, e))?;
+    mesh::from_bytes(&bytes).map_err(|e| SceneError::content(&path.display().to_string(), "a mesh", e))
 }

@@ -1,39 +1,35 @@
-//! Streams that a run is given: walls or an inlet, told apart by what they hold.
+//! Files that a scene names or a run is given: walls, inlets, particles, meshes.
+//!
+//! Walls and inlets are MCAP and detected by their content ([`Input::open`]). Walls, particles and meshes are read whole; of an inlet
+//! only the head is read here, and the stages read the rest as the run needs it. Uses `record` for all formats; knows no keys of scenes.
 
-use crate::clump_info::{self, ClumpInfo};
-use crate::crossings::{CROSSINGS, ONLY_CLUMPS, SIZES, Sizes, WATERMARK, topic};
+mod csv;
+mod head;
+mod mesh;
+mod particles;
+mod walls;
+mod zone;
+
+pub use head::{InletSource, Source};
+pub use mesh::read_mesh;
+pub use particles::{ParticleFile, ParticleTable};
+pub use walls::{WallFile, WallSphere};
+pub use zone::ZoneRecord;
+
 use crate::error::SceneError;
-use crate::gate::Gate;
-use crate::inlet::{INLET, InletStream, Source};
-use crate::links::{self, BONDS, LINKS};
-use crate::material_info::{self, MATERIALS, MaterialInfo};
-use crate::run::CLUMPS;
-use crate::touches::TOUCHES;
-use crate::wall_file::WallFile;
-use dem::setup::EntryBonds;
+use head::StreamHead;
+use record::{metadata, topic};
 use stream::mcap::{Event, McapError, Reader};
-
-/// Metadata record that every run has.
-pub const SCENE: &str = "scene";
-
-/// What a stream says of itself before its first message.
-#[derive(Default)]
-pub(crate) struct Said {
-    pub gate: Option<Gate>,
-    pub sizes: Option<Sizes>,
-    pub only_clumps: bool,
-    pub materials: Vec<MaterialInfo>,
-    pub clumps: Vec<ClumpInfo>,
-    pub bonds: Option<EntryBonds>,
-}
 
 /// A stream, as far as it had to be read to know what it is.
 pub enum Input {
     /// Wall spheres; read whole.
     Walls(WallFile),
     /// Recorded particles; read as the run needs them.
-    Inlet(Box<InletStream>),
+    Inlet(Box<InletSource>),
 }
+
+const GIVE: &str = "give walls (wallgen) or an inlet (stage-replay)";
 
 impl Input {
     /// Opens a stream under the name that messages use.
@@ -42,97 +38,75 @@ impl Input {
     /// A stream that breaks off, or holds neither walls nor crossings.
     pub fn open(name: &str, source: Source) -> Result<Input, SceneError> {
         let mut reader = Reader::new(source);
-        let mut said = Said::default();
+        let mut head = StreamHead::default();
         loop {
-            let Some(event) = reader.next() else {
-                return Err(SceneError::file(
-                    name,
-                    "holds no message",
-                    "give walls (wallgen) or an inlet (stage-replay)",
-                ));
-            };
-            let event = event.map_err(|e| broken(name, e))?;
-            let Event::Metadata { name: record, map } = &event else {
-                return Input::by_topic(name, reader, event, said);
-            };
-            match record.as_str() {
-                MATERIALS => said.materials = material_info::from_map(name, map)?,
-                CLUMPS => said.clumps = clump_info::from_map(name, map)?,
-                SIZES => {
-                    said.only_clumps = map.contains_key(ONLY_CLUMPS);
-                    said.sizes = Some(Sizes::from_map(name, map)?);
+            let event = reader.next().ok_or_else(|| SceneError::file(name, "holds no message", GIVE))?;
+            match event.map_err(|e| broken(name, e))? {
+                Event::Metadata { name: record, .. } if record == metadata::SCENE => {
+                    let cure = "pass it through stage-replay to let its particles in";
+                    return Err(SceneError::file(name, "is a run, neither walls nor an inlet", cure));
                 }
-                BONDS => said.bonds = Some(links::from_map(name, map)?),
-                SCENE => {
-                    let why = "is a run, neither walls nor an inlet";
-                    return Err(SceneError::file(
-                        name,
-                        why,
-                        "pass it through stage-replay to let its particles in",
-                    ));
+                Event::Metadata { name: record, map } => {
+                    head.take(name, &record, &map)?;
+                    // The last record of an inlet: messages after it may come as late as a run upstream makes them.
+                    if record == metadata::INLET {
+                        return InletSource::input(name, reader, None, head);
+                    }
                 }
-                // The last record of an inlet: from here on, messages may come as late as a run upstream makes them.
-                INLET => {
-                    said.gate = Some(Gate::from_map(name, INLET, map)?);
-                    return Input::inlet(name, reader, None, said);
-                }
-                _ => {}
+                event => return Input::by_topic(name, reader, event, head),
             }
         }
+    }
+
+    /// Opens a file that a scene names.
+    ///
+    /// # Errors
+    /// As [`Input::open`], and a file that cannot be read.
+    pub fn open_file(path: &std::path::Path) -> Result<Input, SceneError> {
+        let name = path.display().to_string();
+        let file = std::fs::File::open(path).map_err(|e| SceneError::read(path, e))?;
+        Input::open(&name, Box::new(file))
     }
 
     fn by_topic(
         name: &str,
-        mut reader: Reader<Source>,
+        reader: Reader<Source>,
         first: Event,
-        said: Said,
+        head: StreamHead,
     ) -> Result<Input, SceneError> {
-        match (topic(&first).unwrap_or_default(), &first) {
-            (CROSSINGS | WATERMARK | TOUCHES | LINKS, _) => Input::inlet(name, reader, Some(first), said),
-            ("/walls", Event::Points { table, .. }) => {
-                let walls = WallFile::new(name, table, said.materials)?;
-                // To the end, where the record is that tells a whole stream from a broken one.
-                for event in reader.by_ref() {
-                    let event = event.map_err(|e| broken(name, e))?;
-                    if topic(&event) == Some("/walls") {
-                        let why = "has walls at several times";
-                        return Err(SceneError::file(
-                            name,
-                            why,
-                            "give still walls, and their motion in the scene",
-                        ));
-                    }
-                }
+        let found = match &first {
+            Event::Metadata { .. } => "",
+            Event::Points { topic, .. } | Event::Bytes { topic, .. } => topic,
+        };
+        match (found, &first) {
+            (topic::CROSSINGS | topic::WATERMARK | topic::CROSSING_CONTACTS | topic::CROSSING_BONDS, _) => {
+                InletSource::input(name, reader, Some(first), head)
+            }
+            (topic::WALLS, Event::Points { table, .. }) => {
+                let walls = WallFile::new(name, table, head.materials)?;
+                only_walls(name, reader)?;
                 Ok(Input::Walls(walls))
             }
             (other, _) => {
                 let why = format!("begins with messages on '{other}', neither /walls nor /crossings");
-                Err(SceneError::file(name, why, "give walls (wallgen) or an inlet (stage-replay)"))
+                Err(SceneError::file(name, why, GIVE))
             }
         }
     }
+}
 
-    fn inlet(
-        name: &str,
-        reader: Reader<Source>,
-        first: Option<Event>,
-        said: Said,
-    ) -> Result<Input, SceneError> {
-        let missing = |record: &str, what: &str| {
-            SceneError::file(
-                name,
-                format!("the record '{record}' ({what}) is missing"),
-                "write it with stage-replay",
-            )
-        };
-        let sizes = said.sizes.ok_or_else(|| missing(SIZES, "range of the radii"))?;
-        if said.materials.is_empty() {
-            return Err(missing(MATERIALS, "names of the materials"));
+/// Reads walls to the end: the last record distinguishes a whole stream from a broken one.
+fn only_walls(name: &str, reader: Reader<Source>) -> Result<(), SceneError> {
+    for event in reader {
+        if matches!(event.map_err(|e| broken(name, e))?, Event::Points { topic, .. } if topic == topic::WALLS)
+        {
+            let cure = "give still walls, and their motion in the scene";
+            return Err(SceneError::file(name, "has walls at several times", cure));
         }
-        Ok(Input::Inlet(Box::new(InletStream::new(name, reader, sizes, said, first)?)))
     }
+    Ok(())
 }
 
 fn broken(name: &str, error: McapError) -> SceneError {
-    SceneError::Content { name: name.to_owned(), wanted: "walls or an inlet", source: error.into() }
+    SceneError::content(name, "walls or an inlet", error)
 }

@@ -1,187 +1,160 @@
 //! `[[particles]]`: spheres from CSV, PLY, or the last frame of a run.
 
-use crate::columns::Columns;
+use super::csv::csv;
 use crate::error::SceneError;
-use crate::material_info::{self, MATERIALS, MaterialInfo};
 use dem::setup::Particle;
+use record::column::{BODY, DIAMETER, ID, MATERIAL, POSITION, RADIUS, SPIN, VELOCITY};
+use record::{Columns, MaterialRecord, metadata, topic};
 use std::path::Path;
+use stream::Table;
 use stream::mcap::{Event, Reader};
-use stream::{Table, Values};
-
-/// Columns of a CSV or PLY that are read.
-const KNOWN: [&str; 12] = ["id", "x", "y", "z", "radius", "diameter", "vx", "vy", "vz", "wx", "wy", "wz"];
 
 /// Particles of a file. Their materials are indices of `materials`, when the file names its own.
 #[derive(Debug, Clone)]
-pub(crate) struct ParticleFile {
+pub struct ParticleFile {
     /// Particles; ids are those of the file, when it has them.
     pub particles: Vec<Particle>,
     /// Whether the file has ids.
     pub has_ids: bool,
     /// The materials that the file names.
-    pub materials: Vec<MaterialInfo>,
+    pub materials: Vec<MaterialRecord>,
     /// SHA-256 of the columns.
     pub hash: String,
-    /// Columns that are not used, for the user to know.
-    pub note: Option<String>,
+    /// Warning about columns that are not used.
+    pub warning: Option<String>,
 }
 
-/// Reads particles; the format is told by content.
-///
-/// # Errors
-/// A file of another kind, columns that are missing or wrong; a run with clumps.
-pub(crate) fn read(path: &Path) -> Result<ParticleFile, SceneError> {
-    let name = path.display().to_string();
-    let (table, materials, run) = table(path)?;
-    if run && table.get("body").is_some() {
-        let why = "is a run with clumps, and a frame does not hold their shapes";
-        return Err(SceneError::file(&name, why, "go on with dem-run --resume, or place them with [[body]]"));
+/// The columns of a file.
+pub struct ParticleTable {
+    /// Name of the file.
+    pub name: String,
+    /// Its columns.
+    pub table: Table,
+    /// The materials that it names.
+    pub materials: Vec<MaterialRecord>,
+    /// Whether it is a run.
+    pub is_run: bool,
+}
+
+impl ParticleTable {
+    /// Reads a file; its format is detected by content.
+    ///
+    /// # Errors
+    /// A file of another kind.
+    pub fn read(path: &Path) -> Result<ParticleTable, SceneError> {
+        let name = path.display().to_string();
+        let bytes = std::fs::read(path).map_err(|e| SceneError::read(path, e))?;
+        let (materials, is_run) = (Vec::new(), false);
+        if bytes.starts_with(b"\x89MCAP") {
+            return last_frame(name, &bytes);
+        }
+        if !bytes.starts_with(b"ply") {
+            return Ok(ParticleTable { table: csv(&name, &bytes)?, name, materials, is_run });
+        }
+        let ply = stream::ply::parse(&bytes).map_err(|e| SceneError::content(&name, "particles", e))?;
+        let vertex = ply.elements.into_iter().find(|e| e.name == "vertex");
+        let none = || SceneError::file(&name, "has no element 'vertex'", "give particles as vertices");
+        Ok(ParticleTable { table: vertex.ok_or_else(none)?.table, name, materials, is_run })
     }
-    let file = from_table(&name, &table, materials)?;
-    // A run has columns of its own that nobody wrote by hand.
-    Ok(ParticleFile { note: file.note.filter(|_| !run), ..file })
-}
 
-/// The columns of a file, the materials that it names, and whether it is a run.
-///
-/// # Errors
-/// A file of another kind.
-pub(crate) fn table(path: &Path) -> Result<(Table, Vec<MaterialInfo>, bool), SceneError> {
-    let name = path.display().to_string();
-    let bytes = std::fs::read(path).map_err(|source| SceneError::Read { name: name.clone(), source })?;
-    if bytes.starts_with(b"\x89MCAP") {
-        let (table, materials) = last_frame(&name, &bytes)?;
-        return Ok((table, materials, true));
+    /// Its columns as numbers.
+    pub fn columns(&self) -> Columns<'_> {
+        Columns { name: &self.name, table: &self.table }
     }
-    if !bytes.starts_with(b"ply") {
-        return Ok((csv(&name, &bytes)?, Vec::new(), false));
+
+    fn particles(self) -> Result<ParticleFile, SceneError> {
+        let columns = self.columns();
+        let positions = columns.vectors(POSITION)?;
+        let radii = columns.radii()?;
+        let (velocities, spins) = (columns.vectors_or_zero(VELOCITY)?, columns.vectors_or_zero(SPIN)?);
+        let ids = columns.indices(ID, f64::from(u32::MAX - 1))?;
+        let material = match self.materials.len() {
+            0 => None,
+            count => columns.indices(MATERIAL, count as f64 - 1.0)?,
+        };
+        let particle = |i: usize| Particle {
+            id: ids.as_ref().map_or(i as u32, |ids| ids[i]),
+            material: material.as_ref().map_or(0, |m| m[i] as u16),
+            radius: radii[i],
+            position: positions[i],
+            velocity: velocities[i],
+            spin: spins[i],
+        };
+        let particles = (0..positions.len()).map(particle).collect();
+        let warning = match self.table.rows() {
+            0 => Some(format!("{}: holds no particle: it has names of columns and no row", self.name)),
+            // A run has columns that are not read here.
+            _ if self.is_run => None,
+            _ => columns.unused(&known()),
+        };
+        let hash = record::hash(&self.table);
+        Ok(ParticleFile { particles, has_ids: ids.is_some(), materials: self.materials, hash, warning })
     }
-    let content = |e: stream::ply::PlyError| SceneError::Content {
-        name: name.clone(),
-        wanted: "particles",
-        source: e.into(),
-    };
-    let ply = stream::ply::parse(&bytes).map_err(content)?;
-    let vertex = ply.elements.into_iter().find(|e| e.name == "vertex");
-    let none = || SceneError::file(&name, "has no element 'vertex'", "give particles as vertices");
-    Ok((vertex.ok_or_else(none)?.table, Vec::new(), false))
 }
 
-fn from_table(name: &str, table: &Table, materials: Vec<MaterialInfo>) -> Result<ParticleFile, SceneError> {
-    let columns = Columns { name, table };
-    let positions = columns.vectors(["x", "y", "z"])?;
-    let radii = columns.radii()?;
-    let velocities = columns.vectors_or_zero(["vx", "vy", "vz"])?;
-    let spins = columns.vectors_or_zero(["wx", "wy", "wz"])?;
-    let ids = columns.indices("id", f64::from(u32::MAX - 1))?;
-    let material = if materials.is_empty() {
-        None
-    } else {
-        columns.indices("material", materials.len() as f64 - 1.0)?
-    };
-    let particle = |i: usize| Particle {
-        id: ids.as_ref().map_or(i as u32, |ids| ids[i]),
-        material: material.as_ref().map_or(0, |m| m[i] as u16),
-        radius: radii[i],
-        position: positions[i],
-        velocity: velocities[i],
-        spin: spins[i],
-    };
-    let particles = (0..positions.len()).map(particle).collect();
-    let empty = || Some(format!("{name}: holds no particle: it has names of columns and no row"));
-    let note = if table.rows() == 0 { empty() } else { columns.unused(&KNOWN) };
-    let hash = crate::wall_file::hash(table);
-    Ok(ParticleFile { particles, has_ids: ids.is_some(), materials, hash, note })
+/// Columns of a CSV or PLY that are read.
+fn known() -> Vec<&'static str> {
+    let sizes: &[&str] = &[RADIUS, DIAMETER];
+    [&[ID], &POSITION[..], sizes, &VELOCITY, &SPIN].concat()
 }
 
-fn last_frame(name: &str, bytes: &[u8]) -> Result<(Table, Vec<MaterialInfo>), SceneError> {
+impl ParticleFile {
+    /// Reads particles.
+    ///
+    /// # Errors
+    /// A file of another kind, columns that are missing or wrong; a run with clumps.
+    pub fn read(path: &Path) -> Result<ParticleFile, SceneError> {
+        let table = ParticleTable::read(path)?;
+        if table.is_run && table.table.get(BODY).is_some() {
+            let why = "is a run with clumps, and a frame does not hold their shapes";
+            let cure = "continue it with dem-run --resume, or place them with [[body]]";
+            return Err(SceneError::file(&table.name, why, cure));
+        }
+        table.particles()
+    }
+}
+
+fn last_frame(name: String, bytes: &[u8]) -> Result<ParticleTable, SceneError> {
     let (mut frame, mut materials) = (None, Vec::new());
     for event in Reader::new(bytes) {
-        let content = |e: stream::mcap::McapError| SceneError::Content {
-            name: name.to_owned(),
-            wanted: "a run",
-            source: e.into(),
-        };
-        match event.map_err(content)? {
-            Event::Metadata { name: record, map } if record == MATERIALS => {
-                materials = material_info::from_map(name, &map)?;
+        match event.map_err(|e| SceneError::content(&name, "a run", e))? {
+            Event::Metadata { name: record, map } if record == metadata::MATERIALS => {
+                materials = MaterialRecord::from_map(&name, &map)?;
             }
-            Event::Points { topic, table, .. } if topic == "/particles" => frame = Some(table),
+            Event::Points { topic, table, .. } if topic == topic::PARTICLES => frame = Some(table),
             _ => {}
         }
     }
-    let none = || SceneError::file(name, "has no message on /particles", "give a run that dem-run wrote");
-    Ok((frame.ok_or_else(none)?, materials))
-}
-
-/// A table of text: names on the first line, commas or blanks between, `#` starts a comment.
-fn csv(name: &str, bytes: &[u8]) -> Result<Table, SceneError> {
-    let wrong = |why: String| {
-        SceneError::file(name, why, "wanted: a line of names such as id,x,y,z,radius, then numbers")
-    };
-    // Spreadsheets mark UTF-8 with three bytes in front.
-    let text = std::str::from_utf8(bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes));
-    let text = text.map_err(|e| wrong(format!("byte {}: is no text, PLY or MCAP", e.valid_up_to())))?;
-    let split = |line: &str| -> Vec<String> {
-        line.split(|c: char| c == ',' || c == ';' || c.is_whitespace())
-            .filter(|f| !f.is_empty())
-            .map(str::to_owned)
-            .collect()
-    };
-    let lines = text.lines().enumerate().map(|(n, l)| (n + 1, l.split('#').next().unwrap_or("").trim()));
-    let mut lines = lines.filter(|(_, l)| !l.is_empty());
-    let Some((_, head)) = lines.next() else { return Err(wrong("is empty".into())) };
-    let names = split(head);
-    if names.first().is_none_or(|name| name.parse::<f64>().is_ok()) {
-        return Err(wrong("line 1: begins without a name, the line of names is missing".into()));
-    }
-    let mut columns: Vec<Vec<f64>> = vec![Vec::new(); names.len()];
-    for (n, line) in lines {
-        let fields = split(line);
-        if fields.len() != names.len() {
-            return Err(wrong(format!(
-                "line {n}: {} numbers where there are {} names",
-                fields.len(),
-                names.len()
-            )));
-        }
-        for (column, field) in columns.iter_mut().zip(&fields) {
-            column.push(field.parse().map_err(|_| wrong(format!("line {n}: '{field}' is no number")))?);
-        }
-    }
-    let mut table = Table::default();
-    for (column, values) in names.iter().zip(columns) {
-        table.push(column, Values::F64(values)).map_err(|e| wrong(e.to_string()))?;
-    }
-    Ok(table)
+    let none = || SceneError::file(&name, "has no message on /particles", "give a run that dem-run wrote");
+    Ok(ParticleTable { table: frame.ok_or_else(none)?, name, materials, is_run: true })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn file(name: &str, text: &[u8]) -> Result<ParticleFile, SceneError> {
+        let (name, table) = (name.to_owned(), csv(name, text)?);
+        ParticleTable { name, table, materials: Vec::new(), is_run: false }.particles()
+    }
+
     #[test]
     fn a_csv_has_names_and_numbers() {
-        let table = csv("a.csv", b"# pile\nid,x,y,z,radius,vx,vy,vz\n4, 0,1,2,0.5, 1,0,0\n").unwrap();
-        let file = from_table("a.csv", &table, Vec::new()).unwrap();
-        assert_eq!(
-            (file.particles[0].id, file.particles[0].position.z, file.particles[0].velocity.x),
-            (4, 2.0, 1.0)
-        );
-        assert_eq!(file.note, None);
-        let table = csv("pl.csv", b"x,y,z,radius,vz,wy,v_z\n0,1,2,0.5,-3,4,5\n").unwrap();
-        let file = from_table("pl.csv", &table, Vec::new()).unwrap();
-        let (velocity, spin) = (file.particles[0].velocity, file.particles[0].spin);
+        let found = file("a.csv", b"# pile\nid,x,y,z,radius,vx,vy,vz\n4, 0,1,2,0.5, 1,0,0\n").unwrap();
+        let first = found.particles[0];
+        assert_eq!((first.id, first.position.z, first.velocity.x, found.warning), (4, 2.0, 1.0, None));
+        let found = file("pl.csv", b"x,y,z,radius,vz,wy,v_z\n0,1,2,0.5,-3,4,5\n").unwrap();
+        let (velocity, spin) = (found.particles[0].velocity, found.particles[0].spin);
         assert_eq!((velocity.x, velocity.z, spin.y, spin.z), (0.0, -3.0, 4.0, 0.0));
         let note = "pl.csv: column 'v_z' is not used; known: id x y z radius diameter vx vy vz wx wy wz";
-        assert_eq!(file.note.as_deref(), Some(note));
+        assert_eq!(found.warning.as_deref(), Some(note));
         for (text, part) in
-            [("1,2,3", "names is missing"), ("x,y\n1", "line 2: 1 numbers"), ("x\na", "'a' is no number")]
+            [("1,2,3", "names is missing"), ("x,y\n1", "line 2: 1 numbers"), ("x\na", "'a' is not a number")]
         {
-            let message = csv("a.csv", text.as_bytes()).unwrap_err().to_string();
+            let message = file("a.csv", text.as_bytes()).unwrap_err().to_string();
             assert!(message.contains(part), "{message}");
         }
-        let table = csv("a.csv", b"x,y,z,radius\n0,0,0,-1").unwrap();
-        assert!(from_table("a.csv", &table, Vec::new()).unwrap_err().to_string().contains("radius -1 m"));
+        let message = file("a.csv", b"x,y,z,radius\n0,0,0,-1").unwrap_err().to_string();
+        assert!(message.contains("radius -1 m"), "{message}");
     }
 }

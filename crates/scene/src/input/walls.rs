@@ -1,10 +1,9 @@
 //! Wall spheres from a walls MCAP.
 
-use crate::columns::Columns;
 use crate::error::SceneError;
-use crate::material_info::MaterialInfo;
 use geom::Vec3;
-use sha2::{Digest, Sha256};
+use record::column::{MATERIAL, POSITION, VELOCITY};
+use record::{Columns, MaterialRecord};
 use stream::Table;
 
 /// The wall spheres of one stream.
@@ -12,14 +11,25 @@ use stream::Table;
 pub struct WallFile {
     /// Its name, for messages.
     pub name: String,
-    /// What it says of its materials, by index.
-    pub materials: Vec<MaterialInfo>,
-    /// Centre [m], radius [m], index of `materials`.
-    pub spheres: Vec<(Vec3, f64, u16)>,
+    /// Its materials, by index.
+    pub materials: Vec<MaterialRecord>,
+    /// Its spheres.
+    pub spheres: Vec<WallSphere>,
     /// Velocity of all of them [m/s].
     pub velocity: Vec3,
-    /// SHA-256 of the spheres, whatever the stream was packed like.
+    /// SHA-256 of the columns; packing and compression do not change it.
     pub hash: String,
+}
+
+/// One wall sphere.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WallSphere {
+    /// Centre [m].
+    pub centre: Vec3,
+    /// Radius [m].
+    pub radius: f64,
+    /// Index of [`WallFile::materials`].
+    pub material: u16,
 }
 
 impl WallFile {
@@ -27,45 +37,37 @@ impl WallFile {
     ///
     /// # Errors
     /// Columns that are missing or wrong; spheres that move one by one.
-    pub(crate) fn new(
+    pub(super) fn new(
         name: &str,
         table: &Table,
-        materials: Vec<MaterialInfo>,
+        materials: Vec<MaterialRecord>,
     ) -> Result<WallFile, SceneError> {
         let columns = Columns { name, table };
-        let centres = columns.vectors(["x", "y", "z"])?;
+        let centres = columns.vectors(POSITION)?;
         let radii = columns.radii()?;
         if centres.is_empty() {
             return Err(SceneError::file(name, "has no wall sphere", "check the tool that made it"));
         }
         let materials = if materials.is_empty() {
-            vec![MaterialInfo { name: "wall".into(), ..MaterialInfo::default() }]
+            vec![MaterialRecord { name: "wall".into(), ..MaterialRecord::default() }]
         } else {
             materials
         };
-        let material = columns.indices("material", materials.len() as f64 - 1.0)?;
+        let material = columns.indices(MATERIAL, materials.len() as f64 - 1.0)?;
         let material = |row: usize| material.as_ref().map_or(0, |m| m[row] as u16);
-        let spheres =
-            centres.iter().zip(&radii).enumerate().map(|(i, (c, r))| (*c, *r, material(i))).collect();
-        let velocities = columns.vectors_or_zero(["vx", "vy", "vz"])?;
+        let sphere = |(i, (centre, radius)): (usize, (&Vec3, &f64))| WallSphere {
+            centre: *centre,
+            radius: *radius,
+            material: material(i),
+        };
+        let spheres = centres.iter().zip(&radii).enumerate().map(sphere).collect();
+        let velocities = columns.vectors_or_zero(VELOCITY)?;
         let velocity = velocities[0];
         if let Some(row) = velocities.iter().position(|v| *v != velocity) {
             let why = format!("its spheres have different velocities (rows 0 and {row})");
             let cure = "not available yet: give the wall a 'motion' in the scene, or one velocity";
             return Err(SceneError::file(name, why, cure));
         }
-        Ok(WallFile { name: name.to_owned(), materials, hash: hash(table), spheres, velocity })
+        Ok(WallFile { name: name.to_owned(), materials, hash: record::hash(table), spheres, velocity })
     }
-}
-
-/// SHA-256 over names and values of columns.
-pub(crate) fn hash(table: &Table) -> String {
-    let mut sum = Sha256::new();
-    for column in table.columns() {
-        sum.update(column.name.as_bytes());
-        for row in 0..table.rows() {
-            sum.update(column.values.get(row).to_le_bytes());
-        }
-    }
-    sum.finalize().iter().map(|b| format!("{b:02x}")).collect()
 }

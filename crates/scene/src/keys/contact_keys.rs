@@ -1,4 +1,4 @@
-//! How a `[[contact]]` is read: which keys there are, the engine's effects say.
+//! How a `[[contact]]` is read: its keys are those of the engine's effects.
 
 use super::Contact;
 use dem::effects::{RESTITUTION, keys, models};

@@ -1,14 +1,17 @@
-//! The keys of a scene, as they are written.
+//! The keys of a scene, as they are written: one struct for each table, with defaults.
+//!
+//! Serde reads them ([`crate::text`]), [`crate::check`] checks their values, [`crate::plan`] turns them into a setup of the engine.
 
 mod calculation;
 mod contact;
 mod contact_keys;
-mod grains;
+mod forms;
+mod particles;
 mod wall;
 
 pub use calculation::*;
 pub use contact::*;
-pub use grains::*;
+pub use particles::*;
 pub use wall::*;
 
 use serde::Deserialize;

@@ -1,5 +1,6 @@
 //! Walls and how they move.
 
+use geom::{Plane, Vec3};
 use serde::Deserialize;
 
 /// `[[wall]]`: one of `source`, `plane`, `mesh`, `box`, or none for walls of the command line.
@@ -23,7 +24,7 @@ pub struct Wall {
     pub material: Option<String>,
     /// Motion; absent: at rest.
     pub motion: Option<Motion>,
-    /// A force that it follows besides; absent: none.
+    /// A force that it follows in addition; absent: none.
     pub servo: Option<Servo>,
 }
 
@@ -43,6 +44,32 @@ pub enum Face {
     LowZ,
     #[serde(rename = "z+")]
     HighZ,
+}
+
+impl Face {
+    /// All faces.
+    pub const ALL: [Face; 6] = [Face::LowX, Face::HighX, Face::LowY, Face::HighY, Face::LowZ, Face::HighZ];
+
+    /// Its name in scenes.
+    pub fn name(self) -> &'static str {
+        ["x-", "x+", "y-", "y+", "z-", "z+"][self as usize]
+    }
+
+    /// Its plane in a box between two corners; the normal points into the box.
+    fn plane(self, corners: &[f64; 6]) -> Plane {
+        let (axis, high) = (self as usize / 2, self as usize % 2);
+        let point = Vec3::from_column_slice(&corners[3 * high..3 * high + 3]);
+        Plane { point, normal: Vec3::ith(axis, if high == 1 { -1.0 } else { 1.0 }) }
+    }
+}
+
+impl Wall {
+    /// The faces of a box with their planes; none of other walls.
+    pub fn sides(&self) -> Vec<(Face, Plane)> {
+        let Some(corners) = self.cuboid else { return Vec::new() };
+        let faces = self.faces.as_deref().unwrap_or(&Face::ALL);
+        faces.iter().map(|face| (*face, face.plane(&corners))).collect()
+    }
 }
 
 /// Motion of a wall.

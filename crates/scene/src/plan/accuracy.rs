@@ -13,12 +13,12 @@
 
 use crate::check::Check;
 use crate::error::SceneError;
-use crate::model::{Accuracy, SAFETY, Time};
+use crate::keys::{Accuracy, SAFETY, Time};
 use dem::effects::{Slot, active};
 use dem::setup::ContactLaw;
 
 /// The measured curves.
-const CURVES: &str = include_str!("../data/impact-error.csv");
+const CURVES: &str = include_str!("../../data/impact-error.csv");
 /// Share of the error asked for that is aimed at: the curves were measured at some phases of a step, not at all.
 const AIM: f64 = 0.9;
 /// Where they are, for people.
@@ -26,15 +26,15 @@ const FILE: &str = "crates/scene/data/impact-error.csv";
 
 /// A point of a curve: share of the critical step [–], error [–].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Measured {
+struct Measured {
     /// Share of the critical step [–].
-    pub safety: f64,
+    safety: f64,
     /// Largest error of the restitution at this share or a smaller one [–].
-    pub error: f64,
+    error: f64,
 }
 
 /// The measured curve of a law ("hooke", "hertz", "jkr"), from small steps to large ones.
-pub fn curve(law: &str) -> Vec<Measured> {
+fn curve(law: &str) -> Vec<Measured> {
     let mut points: Vec<Measured> = Vec::new();
     for line in CURVES.lines() {
         let mut cells = line.split(',');
@@ -57,7 +57,7 @@ pub fn curve(law: &str) -> Vec<Measured> {
 }
 
 /// The largest share of the critical step whose error is not above `wanted`; `None` when no measured one is.
-pub fn safety(curve: &[Measured], wanted: f64) -> Option<f64> {
+fn safety(curve: &[Measured], wanted: f64) -> Option<f64> {
     let good = curve.iter().rposition(|p| p.error <= wanted)?;
     let (a, Some(b)) = (curve.get(good)?, curve.get(good + 1)) else { return curve.last().map(|p| p.safety) };
     if a.error <= 0.0 {
@@ -71,7 +71,7 @@ pub fn safety(curve: &[Measured], wanted: f64) -> Option<f64> {
 ///
 /// # Errors
 /// An accuracy that no measured step reaches.
-pub(crate) fn choose(
+pub(super) fn choose(
     check: &Check,
     time: &Time,
     contacts: &[ContactLaw],

@@ -1,32 +1,16 @@
 //! What a `[[bond]]` asks of the engine.
 
-use crate::check::{Check, Checked};
-use crate::contacts::known;
+use super::contacts::known;
+use crate::check::Check;
 use crate::error::SceneError;
-use crate::model::{Bond, Model};
+use crate::keys::Bond;
 use dem::setup::{self, Material};
-
-impl Check<'_> {
-    pub(crate) fn bonds(&self, m: &Model) -> Checked {
-        for (i, b) in m.bond.iter().enumerate() {
-            let key = |k: &str| format!("bond.{i}.{k}");
-            self.within(&key("gap"), b.gap, 0.0, 100.0, "m")?;
-            self.positive_if(&key("radius_ratio"), b.radius_ratio, "")?;
-            self.positive(&key("young"), b.young, "Pa")?;
-            self.within(&key("poisson"), b.poisson, -0.99, 0.5, "")?;
-            self.positive_if(&key("tensile_strength"), b.tensile_strength, "Pa")?;
-            self.positive_if(&key("shear_strength"), b.shear_strength, "Pa")?;
-            self.within(&key("damping"), b.damping.unwrap_or(0.0), 0.0, 2.0, "")?;
-        }
-        Ok(())
-    }
-}
 
 /// Bonds of a scene, whose materials are known by name.
 ///
 /// # Errors
 /// An unknown material, "*", or two entries for one pair.
-pub(crate) fn resolve(
+pub(super) fn resolve(
     check: &Check,
     entries: &[Bond],
     materials: &[Material],

@@ -2,7 +2,7 @@
 
 use crate::check::Check;
 use crate::error::{SceneError, nearest};
-use crate::model::Contact;
+use crate::keys::Contact;
 use dem::effects::{Elastic, active, needed};
 use dem::setup::{self, ContactLaw};
 
@@ -10,7 +10,7 @@ use dem::setup::{self, ContactLaw};
 ///
 /// # Errors
 /// An unknown material; two entries that are equally specific and differ.
-pub(crate) fn resolve(
+pub(super) fn resolve(
     check: &Check,
     entries: &[Contact],
     materials: &[setup::Material],
@@ -41,7 +41,7 @@ pub(crate) fn resolve(
 const STIFFNESS: &str = "stiffness";
 
 /// What an entry asks for and its contact does not have: key with value, and why.
-pub(crate) fn dropped(entry: &Contact) -> Vec<(String, String)> {
+pub fn dropped(entry: &Contact) -> Vec<(String, String)> {
     let why = |instead: Option<&str>| match instead {
         None => "has no effect, and is not computed".to_owned(),
         Some(other) => format!("has no effect: \"{other}\" is computed instead"),
@@ -49,7 +49,7 @@ pub(crate) fn dropped(entry: &Contact) -> Vec<(String, String)> {
     needed(&entry.law).1.into_iter().map(|d| (d.numbers, why(d.instead))).collect()
 }
 
-pub(crate) fn known(
+pub(super) fn known(
     check: &Check,
     key: &str,
     name: &str,
@@ -75,7 +75,7 @@ fn matches(entry: &Contact, a: &str, b: &str) -> Option<usize> {
 }
 
 /// Which entry holds between two materials: the first of the most specific ones.
-pub(crate) fn most_specific(entries: &[Contact], a: &str, b: &str) -> Option<usize> {
+pub fn most_specific(entries: &[Contact], a: &str, b: &str) -> Option<usize> {
     let mut best: Option<(usize, usize)> = None;
     for (i, entry) in entries.iter().enumerate() {
         best = best.max(matches(entry, a, b).map(|rank| (rank, usize::MAX - i)));

@@ -1,25 +1,25 @@
-//! What a scene can mean, but hardly does: told before the run, not refused.
+//! Warnings about implausible values: density, modulus, radius, overlap at the start. The scene runs with them.
 
-use crate::particle_file::ParticleFile;
-use crate::plan::Draft;
+use super::builder::PlanBuilder;
+use crate::input::ParticleFile;
 use dem::effects::{Slot, active};
 use dem::setup::{ContactLaw, WallShape};
 use geom::{Shown, Vec3, grid};
 use std::ops::Range;
 
-/// Densities of what grains are made of [kg/m³]: from foam to beyond osmium.
+/// Densities of particles [kg/m³]: from foam to beyond osmium.
 const DENSITIES: [f64; 2] = [10.0, 30_000.0];
-/// Young's moduli: softer is jelly, stiffer than diamond is nothing [Pa].
-pub(crate) const SOFT: f64 = 1e3;
+/// Young's moduli [Pa]: from jelly to diamond.
+pub const SOFT: f64 = 1e3;
 const STIFF: f64 = 2e12;
 /// Radii of grains [m].
 const RADII: [f64; 2] = [1e-7, 1.0];
-/// Share of the smaller radius that two may overlap by at the start before it is told.
+/// Overlap at the start, over the smaller radius, above which a warning is given [–].
 const DEEP: f64 = 0.01;
 
-/// What was read that may have to be told.
+/// Facts about the files of particles that warnings need.
 #[derive(Default)]
-pub(crate) struct Read {
+pub(super) struct FilesRead {
     /// Particles of files that people wrote.
     pub placed: usize,
     /// Files that give their particles spins.
@@ -28,9 +28,9 @@ pub(crate) struct Read {
     pub settled: Vec<Range<usize>>,
 }
 
-impl Read {
+impl FilesRead {
     /// A file whose particles come after `first` others.
-    pub(crate) fn file(&mut self, source: &str, file: &ParticleFile, first: usize) {
+    pub(super) fn file(&mut self, source: &str, file: &ParticleFile, first: usize) {
         // Only runs name their materials.
         if file.materials.is_empty() {
             self.placed += file.particles.len();
@@ -43,25 +43,28 @@ impl Read {
     }
 }
 
-/// Two that overlap at the start: who, by how much [m], over the smaller radius [–].
-struct Deep {
-    who: String,
+/// Two that overlap at the start.
+struct DeepOverlap {
+    /// Their names.
+    pair: String,
+    /// [m].
     overlap: f64,
+    /// Overlap over the smaller radius [–].
     share: f64,
 }
 
-impl Draft<'_> {
-    /// Tells of everything; `contacts` are the laws in force.
-    pub(crate) fn doubts(&mut self, contacts: &[ContactLaw]) {
+impl PlanBuilder<'_> {
+    /// Adds all warnings; `contacts` are those in force.
+    pub(super) fn warn(&mut self, contacts: &[ContactLaw]) {
         self.units();
         self.sizes_on_earth();
         self.lost_spins(contacts);
         let most = self.model().guards.overlap.unwrap_or(dem::setup::Guards::default().overlap);
         // What is deeper is refused.
         let deep = self.deepest().filter(|deep| deep.share > DEEP && deep.share <= most);
-        self.notes.extend(deep.map(|Deep { who, overlap, share }| {
+        self.warnings.extend(deep.map(|DeepOverlap { pair, overlap, share }| {
             format!(
-                "{who} overlap by {overlap:.3e} m at the start, {:.1} % of the smaller radius, and spring apart where nothing presses on them: move them apart, make \
+                "{pair} overlap by {overlap:.3e} m at the start, {:.1} % of the smaller radius, and spring apart where nothing presses on them: move them apart, make \
                  them smaller, let [[fill]] place them, or let them settle in a run of its own with much damping",
                 100.0 * share
             )
@@ -69,8 +72,8 @@ impl Draft<'_> {
     }
 
     fn units(&mut self) {
-        let mut tell = |key: &str, value: String, why: &str, cure: &str| {
-            self.notes.push(self.check.wrong(key, value, why, cure).to_string());
+        let mut warn = |key: &str, value: String, why: &str, cure: &str| {
+            self.warnings.push(self.check.wrong(key, value, why, cure).to_string());
         };
         for (i, m) in self.scene.model.material.iter().enumerate() {
             let key = format!("material.{i}.density");
@@ -78,19 +81,19 @@ impl Draft<'_> {
             match m.density {
                 Some(d) if d < DENSITIES[0] => {
                     let cure = format!("if g/cm³ are meant, write {}", Shown(1e3 * d));
-                    tell(&key, value(d), "is lighter than any grain", &cure);
+                    warn(&key, value(d), "is lighter than any grain", &cure);
                 }
                 Some(d) if d > DENSITIES[1] => {
                     let cure = format!("if g/m³ are meant, write {}", Shown(1e-3 * d));
-                    tell(&key, value(d), "is heavier than any metal", &cure);
+                    warn(&key, value(d), "is heavier than any metal", &cure);
                 }
                 _ => {}
             }
             let (key, value) = (format!("material.{i}.young"), format!("{} Pa", Shown(m.young)));
             if m.young < SOFT {
-                tell(&key, value, "is softer than any grain", "give it in Pa: 1 MPa is 1e6, 1 GPa is 1e9");
+                warn(&key, value, "is softer than any grain", "give it in Pa: 1 MPa is 1e6, 1 GPa is 1e9");
             } else if m.young > STIFF {
-                tell(&key, value, "is stiffer than diamond", "give it in Pa: 1 GPa is 1e9");
+                warn(&key, value, "is stiffer than diamond", "give it in Pa: 1 GPa is 1e9");
             }
         }
     }
@@ -103,11 +106,11 @@ impl Draft<'_> {
             (high, sizes.largest, "larger than 1 m", "10 mm are 0.01"),
         ];
         for (_, radius, what, cure) in ends.into_iter().filter(|end| end.0) {
-            let who = self.particles.iter().find(|p| p.radius == radius);
-            let who = who.map_or("grains".to_owned(), |p| format!("particle {}", p.id));
+            let particle = self.particles.iter().find(|p| p.radius == radius);
+            let particle = particle.map_or("grains".to_owned(), |p| format!("particle {}", p.id));
             let name = &self.scene.text.name;
-            self.notes.push(format!(
-                "{name}: {who}: radius = {} m: {what}; lengths are in metres: {cure}",
+            self.warnings.push(format!(
+                "{name}: {particle}: radius = {} m: {what}; lengths are in metres: {cure}",
                 Shown(radius)
             ));
         }
@@ -119,7 +122,7 @@ impl Draft<'_> {
             || contacts.iter().any(|c| active(c).any(|d| d.slot == Slot::Sliding && !(d.idle)(c)));
         if !turns && !self.read.spinning.is_empty() {
             let files = self.read.spinning.join(", ");
-            self.notes.push(format!(
+            self.warnings.push(format!(
                 "{files}: the spins (wx, wy, wz) are not kept: no contact has sliding_friction, so that nothing turns; add it, or take \
                  them out"
             ));
@@ -128,10 +131,10 @@ impl Draft<'_> {
 
     /// The deepest overlap of what files and `[[body]]` place, over the smaller radius: of pairs, and with planes. Members of one clump, and
     /// what a run left, do not count among themselves.
-    fn deepest(&self) -> Option<Deep> {
+    fn deepest(&self) -> Option<DeepOverlap> {
         let clumps = self.clumps.bodies.len();
         let by_hand = self.read.placed > 0 || clumps > 0;
-        let spheres = if by_hand { self.taken() } else { Vec::new() };
+        let spheres = if by_hand { self.spheres() } else { Vec::new() };
         let places: Vec<Vec3> = spheres.iter().map(|s| s.0).collect();
         let (low, high) = grid::bounds(&places);
         let sound = spheres.iter().all(|s| s.1 > 0.0 && s.1.is_finite());
@@ -143,7 +146,7 @@ impl Draft<'_> {
         pairs(&spheres, &places, &owners).into_iter().chain(planes).max_by(|a, b| a.share.total_cmp(&b.share))
     }
 
-    /// Id of each sphere of [`Draft::taken`], and whose it is: spheres of one owner are not looked at together.
+    /// Id of each sphere of [`PlanBuilder::spheres`], and whose it is: spheres of one owner are not looked at together.
     fn owners(&self) -> Vec<(u32, u32)> {
         // All that runs left is of owner 0.
         let mut owners: Vec<(u32, u32)> = (1..).zip(&self.particles).map(|(n, p)| (p.id, n)).collect();
@@ -156,16 +159,16 @@ impl Draft<'_> {
         owners
     }
 
-    fn in_planes(&self, spheres: &[(Vec3, f64)], owners: &[(u32, u32)]) -> Option<Deep> {
-        let mut worst: Option<Deep> = None;
+    fn in_planes(&self, spheres: &[(Vec3, f64)], owners: &[(u32, u32)]) -> Option<DeepOverlap> {
+        let mut worst: Option<DeepOverlap> = None;
         for wall in &self.walls {
             let WallShape::Plane(plane) = &wall.shape else { continue };
             for ((centre, radius), (id, _)) in spheres.iter().zip(owners) {
                 let overlap = radius - plane.signed_distance(centre);
                 let share = overlap / radius;
                 if share > worst.as_ref().map_or(DEEP, |w| w.share) {
-                    let who = format!("particle {id} and wall '{}'", wall.name);
-                    worst = Some(Deep { who, overlap, share });
+                    let pair = format!("particle {id} and wall '{}'", wall.name);
+                    worst = Some(DeepOverlap { pair, overlap, share });
                 }
             }
         }
@@ -174,7 +177,7 @@ impl Draft<'_> {
 }
 
 /// The deepest pair. Each is found from its larger sphere, so that a boulder is not looked for from every grain of sand.
-fn pairs(spheres: &[(Vec3, f64)], places: &[Vec3], owners: &[(u32, u32)]) -> Option<Deep> {
+fn pairs(spheres: &[(Vec3, f64)], places: &[Vec3], owners: &[(u32, u32)]) -> Option<DeepOverlap> {
     let mean = spheres.iter().map(|s| s.1).sum::<f64>() / spheres.len() as f64;
     let cells = grid::Grid::new(places, 2.0 * mean);
     let order = cells.order();
@@ -192,8 +195,8 @@ fn pairs(spheres: &[(Vec3, f64)], places: &[Vec3], owners: &[(u32, u32)]) -> Opt
         }
     }
     found.map(|(j, i, overlap)| {
-        let who = format!("particles {} and {}", owners[i].0.min(owners[j].0), owners[i].0.max(owners[j].0));
-        Deep { who, overlap, share: worst }
+        let pair = format!("particles {} and {}", owners[i].0.min(owners[j].0), owners[i].0.max(owners[j].0));
+        DeepOverlap { pair, overlap, share: worst }
     })
 }
 
@@ -209,10 +212,10 @@ mod tests {
         let places: Vec<Vec3> = spheres.iter().map(|s| s.0).collect();
         let deep = |owners: &[(u32, u32)]| pairs(&spheres, &places, owners);
         let found = deep(&[(7, 1), (3, 2), (9, 3), (4, 4)]).unwrap();
-        assert_eq!(found.who, "particles 7 and 9");
+        assert_eq!(found.pair, "particles 7 and 9");
         assert!((found.overlap - 0.05).abs() < 1e-12 && (found.share - 0.5).abs() < 1e-9);
         let found = deep(&[(7, 1), (3, 2), (9, 1), (4, 4)]).unwrap();
-        assert_eq!(found.who, "particles 3 and 7");
+        assert_eq!(found.pair, "particles 3 and 7");
         assert!(deep(&[(7, 0), (3, 0), (9, 0), (4, 0)]).is_none());
     }
 }

@@ -1,7 +1,4 @@
-//! What a table of a scene lacks: which table, and what to write.
-
-use crate::text::Text;
-use toml_edit::{Item, TableLike};
+//! Keys that a table of a scene lacks: which table, and what to write.
 
 /// Keys that tables need, as they may be written.
 const EXAMPLES: [(&str, &str); 29] = [
@@ -36,50 +33,9 @@ const EXAMPLES: [(&str, &str); 29] = [
     ("density", "density = 2500 (kg/m³)"),
 ];
 
-/// What to say of a key that is missing in the table that begins at a byte.
-pub(crate) fn missing(text: &Text, key: &str, offset: Option<usize>) -> String {
-    let table = offset.and_then(|offset| table_at(text, offset));
-    let where_ = table.map_or(String::new(), |path| format!("{path}: "));
+/// The message for a key that the table at a dotted path lacks.
+pub(super) fn missing(table: &str, key: &str) -> String {
+    let place = if table.is_empty() { String::new() } else { format!("{table}: ") };
     let example = EXAMPLES.iter().find(|e| e.0 == key).map_or(key, |e| e.1);
-    format!("{where_}'{key}' is missing: add it, such as {example}")
-}
-
-/// The dotted name of the innermost table that holds a byte of the text, or whose head does.
-fn table_at(text: &Text, offset: usize) -> Option<String> {
-    let document = toml_edit::Document::parse(text.toml.as_str()).ok()?;
-    let mut found = None;
-    search(document.as_table(), "", offset, &mut found);
-    found
-}
-
-fn search(table: &dyn TableLike, path: &str, offset: usize, found: &mut Option<String>) {
-    let holds = |span: Option<std::ops::Range<usize>>| span.is_some_and(|s| s.contains(&offset));
-    for (key, item) in table.iter() {
-        let path = if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
-        if let Item::ArrayOfTables(list) = item {
-            for (n, entry) in list.iter().enumerate() {
-                let path = format!("{path}.{n}");
-                if holds(entry.span()) {
-                    *found = Some(path.clone());
-                }
-                search(entry, &path, offset, found);
-            }
-            continue;
-        }
-        if let Some(inner) = item.as_table_like() {
-            if holds(item.span()) {
-                *found = Some(path.clone());
-            }
-            search(inner, &path, offset, found);
-        }
-        for (n, entry) in item.as_array().into_iter().flat_map(|list| list.iter().enumerate()) {
-            if let Some(inner) = entry.as_inline_table() {
-                let path = format!("{path}.{n}");
-                if holds(entry.span()) {
-                    *found = Some(path.clone());
-                }
-                search(inner, &path, offset, found);
-            }
-        }
-    }
+    format!("{place}'{key}' is missing: add it, such as {example}")
 }

@@ -1,16 +1,26 @@
-//! The text of a scene: places of keys in it, and the changes of `--set`.
+//! The text of a scene: places of keys in it, the changes of `--set`, and reading it into keys.
+//!
+//! [`Text`] keeps what was written, so that every error names file, line and column, also after `--set` changed the text. Uses the keys
+//! and the errors; knows nothing of what values mean.
+
+mod missing;
+mod overrides;
+mod parse;
+
+pub(crate) use parse::parse;
 
 use crate::error::{Place, SceneError};
-use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
+use overrides::put;
+use toml_edit::{DocumentMut, Item};
 
 /// A scene as it was written, with the name of its file for messages.
 #[derive(Debug, Clone)]
 pub struct Text {
     /// The file, or `-`.
     pub name: String,
-    /// What it holds.
+    /// Its text, with the changes of `--set`.
     pub toml: String,
-    /// What it held before it was changed, and the changes.
+    /// The text before, and the changes.
     changed: Option<(String, Vec<String>)>,
 }
 
@@ -36,21 +46,21 @@ impl Text {
                 return Err(refuse("'=' is missing: use KEY=VALUE, such as time.until=0.5".into()));
             };
             let path: Vec<&str> = key.trim().split('.').collect();
-            put(document.as_table_mut(), &path, parse_value(value.trim())).map_err(refuse)?;
+            put(document.as_table_mut(), &path, overrides::value(value.trim())).map_err(refuse)?;
         }
         let written = std::mem::replace(&mut self.toml, document.to_string());
         self.changed = Some((written, overrides.to_vec()));
         Ok(())
     }
 
-    /// The override that a key's value comes from, or that leads to or through it.
+    /// The override that a key's value comes from: of the key itself, or of a key above or below it.
     pub(crate) fn set_by(&self, key: &str) -> Option<&str> {
         let leads = |to: &str, key: &str| {
             key.strip_prefix(to).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
         };
         let names = |text: &&String| {
             let to = text.split('=').next().unwrap_or_default().trim();
-            // Of a whole entry, something else may be wrong than what was changed in it.
+            // An error of a whole entry may have another cause than the key that was changed in it.
             leads(to, key) || (leads(key, to) && !key.ends_with(|c: char| c.is_ascii_digit()))
         };
         self.changed
@@ -65,7 +75,7 @@ impl Text {
         self.changed.as_ref().map(|(toml, _)| Text::new(&self.name, toml.clone()))
     }
 
-    /// What a reader has to look at who sees only the file: the changes.
+    /// The place of an error that the changes cause: the reader sees only the file.
     pub(crate) fn changes(&self, overrides: &[&str]) -> Place {
         let list: String = overrides.iter().map(|text| format!(" --set {text}")).collect();
         Place { file: format!("{} with{list}", self.name), at: None }
@@ -74,7 +84,7 @@ impl Text {
     /// The text as a document that can be edited.
     ///
     /// # Errors
-    /// Anything that is no TOML.
+    /// Text that is not TOML.
     pub fn document(&self) -> Result<DocumentMut, SceneError> {
         self.toml.parse::<DocumentMut>().map_err(|e| SceneError::Syntax {
             place: self.at(e.span().map(|s| s.start)),
@@ -122,61 +132,4 @@ impl Text {
         }
         self.at(found)
     }
-}
-
-/// A TOML value, or the text itself: `contact.0.law=hooke` needs no quotes that a shell would eat.
-fn parse_value(text: &str) -> Value {
-    text.parse::<Value>().unwrap_or_else(|_| Value::from(text))
-}
-
-/// Puts `value` at the path, making tables that are missing.
-fn put(table: &mut dyn TableLike, path: &[&str], value: Value) -> Result<(), String> {
-    let (first, rest) = (path[0], &path[1..]);
-    if first.is_empty() {
-        return Err("a part of the key is empty".into());
-    }
-    if rest.is_empty() {
-        table.insert(first, Item::Value(value));
-        return Ok(());
-    }
-    if table.get(first).is_none() {
-        if rest[0].parse::<usize>().is_ok() {
-            return Err(format!("the scene has no list '{first}'"));
-        }
-        table.insert(first, Item::Table(Table::new()));
-    }
-    match table.get_mut(first) {
-        Some(item) => put_into(item, first, rest, value),
-        None => Err(format!("'{first}' cannot be made")),
-    }
-}
-
-fn put_into(item: &mut Item, name: &str, path: &[&str], value: Value) -> Result<(), String> {
-    let Ok(index) = path[0].parse::<usize>() else {
-        let table = item.as_table_like_mut();
-        return put(table.ok_or(format!("'{name}' is no table that could hold '{}'", path[0]))?, path, value);
-    };
-    let rest = &path[1..];
-    if let Some(list) = item.as_array_of_tables_mut() {
-        let len = list.len();
-        let table = list.get_mut(index);
-        let table =
-            table.ok_or(format!("'{name}' has entries 0 to {}, no {index}", len.saturating_sub(1)))?;
-        return if rest.is_empty() {
-            Err(format!("'{name}.{index}' is a table: name one of its keys"))
-        } else {
-            put(table, rest, value)
-        };
-    }
-    let list = item.as_array_mut().ok_or(format!("'{name}' is no list that could hold entry {index}"))?;
-    let len = list.len();
-    let slot = list.get_mut(index).ok_or(format!("'{name}' has {len} entries, no {index}"))?;
-    match rest {
-        [] => *slot = value,
-        [..] => {
-            let table = slot.as_inline_table_mut();
-            put(table.ok_or(format!("'{name}.{index}' is no table"))?, rest, value)?;
-        }
-    }
-    Ok(())
 }

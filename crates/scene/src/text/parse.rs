@@ -1,11 +1,13 @@
 //! From text to keys, with errors that name the place and the nearest known key.
 
-use crate::error::{SceneError, nearest};
-use crate::missing::missing;
-use crate::model::Model;
-use crate::text::Text;
+use super::Text;
+use super::missing::missing;
+use crate::error::{Place, SceneError, nearest};
+use crate::keys::Model;
+use serde_path_to_error::{Path, Segment};
+use toml::de::Error;
 
-/// What scenes will say one day, and what to do until then.
+/// Keys of later versions, and what to do until then.
 const NOT_YET: &[(&str, &str)] = &[
     ("sleep", "leave it out: every particle is moved at every step"),
     ("temperature", "leave it out"),
@@ -17,35 +19,48 @@ const NOT_YET: &[(&str, &str)] = &[
 /// Reads a scene.
 ///
 /// # Errors
-/// Anything that is no TOML, an unknown key, a value of the wrong type.
+/// Text that is not TOML, an unknown key, a value of the wrong type.
 pub(crate) fn parse(text: &Text) -> Result<Model, SceneError> {
     if text.toml.lines().all(|line| line.trim().is_empty() || line.trim_start().starts_with('#')) {
         let message =
             "there is nothing in it: a scene has at least [time], a [[material]] and grains".to_owned();
         return Err(SceneError::Syntax { place: text.at(None), message });
     }
-    toml::from_str::<Model>(&text.toml).map_err(|e| {
-        let start = e.span().map(|s| s.start);
-        let place = text.at(start);
-        let message = e.message().trim();
-        if let Some(key) = message.strip_prefix("missing field `").and_then(|rest| rest.strip_suffix('`')) {
-            return SceneError::Syntax { place, message: missing(text, key, start) };
-        }
-        let word = e.span().and_then(|s| text.toml.get(s)).unwrap_or_default().trim();
-        if let Some(message) = written_once(message, word, text.line(start)) {
-            return SceneError::Syntax { place, message };
-        }
-        match message.strip_prefix("unknown field `").and_then(|rest| rest.split_once('`')) {
-            Some((key, rest)) => unknown_key(place, key, rest),
-            None => {
-                let hint = variant_hint(message).map_or(String::new(), |h| format!("; did you mean '{h}'?"));
-                SceneError::Syntax { place, message: format!("{}{hint}", plain(message)) }
-            }
-        }
-    })
+    let keys = toml::Deserializer::parse(&text.toml).map_err(|e| refused(text, "", &e))?;
+    serde_path_to_error::deserialize(keys).map_err(|e| refused(text, &dotted(e.path()), e.inner()))
 }
 
-/// Keys and tables that are there twice, and lists of tables that are written as a table; `word` is what the error is about.
+/// The error of a scene for an error of the parser in the table at a dotted path.
+fn refused(text: &Text, table: &str, error: &Error) -> SceneError {
+    let start = error.span().map(|s| s.start);
+    let (place, message) = (text.at(start), error.message().trim());
+    if let Some(key) = message.strip_prefix("missing field `").and_then(|rest| rest.strip_suffix('`')) {
+        return SceneError::Syntax { place, message: missing(table, key) };
+    }
+    let word = error.span().and_then(|s| text.toml.get(s)).unwrap_or_default().trim();
+    if let Some(message) = written_once(message, word, text.line(start)) {
+        return SceneError::Syntax { place, message };
+    }
+    match message.strip_prefix("unknown field `").and_then(|rest| rest.split_once('`')) {
+        Some((key, rest)) => unknown_key(place, key, rest),
+        None => {
+            let hint = variant_hint(message).map_or(String::new(), |h| format!("; did you mean '{h}'?"));
+            SceneError::Syntax { place, message: format!("{}{hint}", plain(message)) }
+        }
+    }
+}
+
+/// The path of a table as `--set` writes it.
+fn dotted(path: &Path) -> String {
+    let segment = |s: &Segment| match s {
+        Segment::Seq { index } => Some(index.to_string()),
+        Segment::Map { key } => Some(key.clone()),
+        _ => None,
+    };
+    path.iter().filter_map(segment).collect::<Vec<_>>().join(".")
+}
+
+/// Keys and tables that are there twice, and lists of tables that are written as a table; `word` is the text at the error.
 fn written_once(message: &str, word: &str, line: &str) -> Option<String> {
     if message.starts_with("duplicate key") {
         return Some(format!("'{word}' is there twice: leave one of them out"));
@@ -56,7 +71,7 @@ fn written_once(message: &str, word: &str, line: &str) -> Option<String> {
     Some(format!("[{name}] is one of a list: write it as [[{name}]]"))
 }
 
-fn unknown_key(place: crate::error::Place, key: &str, expected: &str) -> SceneError {
+fn unknown_key(place: Place, key: &str, expected: &str) -> SceneError {
     if let Some((key, instead)) = NOT_YET.iter().find(|(k, _)| *k == key) {
         return SceneError::NotYet { place, key: (*key).to_owned(), instead };
     }
@@ -68,7 +83,7 @@ fn unknown_key(place: crate::error::Place, key: &str, expected: &str) -> SceneEr
     SceneError::UnknownKey { place, key: key.to_owned(), hint }
 }
 
-/// The message in the words of a scene, not of a program.
+/// The parser's message in the terms of a scene.
 fn plain(message: &str) -> String {
     let mut text = message.replace('`', "'");
     if let Some((rest, kind)) = text.split_once(", expected ") {
@@ -88,7 +103,7 @@ fn plain(message: &str) -> String {
         .replace("floating point", "number")
 }
 
-/// The nearest of the words that serde says it expected.
+/// The nearest of the words that serde expected.
 fn variant_hint(message: &str) -> Option<&str> {
     let (wrong, rest) = message.strip_prefix("unknown variant `")?.split_once('`')?;
     nearest(wrong, quoted(rest))

@@ -1,317 +1,195 @@
 //! An inlet stream: recorded particles that are read as the run needs them.
 
-use crate::clump_info::{ClumpInfo, SLACK};
-use crate::crossings::{self, CROSSINGS, Passage, Sizes, WATERMARK, Watermark};
-use crate::error::SceneError;
-use crate::feeds::Item;
-use crate::gate::Gate;
-use crate::input::Said;
-use crate::links::{self, BONDS, LINKS, Linking};
-use crate::material_info::MaterialInfo;
-use crate::paths::{self, PATHS, Waypoint};
-use crate::touches::{self, TOUCHES, Touching};
-use dem::setup::{Entry, EntryBonds, EntryClump, Guide, Sample, ZoneMotion};
-use geom::{Plane, Shown};
-use std::collections::{BTreeMap, VecDeque};
-use std::io::Read;
-use stream::mcap::{Event, Reader};
+use super::announced::{announced, in_time};
+use super::arrival::Arrival;
+use super::paths::Paths;
+use crate::outlet::bond::{self, BondRow};
+use crate::outlet::contact::{self, ContactRow};
+use crate::outlet::crossing::{self, CrossingRow};
+use crate::outlet::path;
+use dem::setup::{Entry, EntryClump, Guide, Sample, ZoneMotion};
+use record::{RecordError, Watermark, metadata, topic};
+use scene::SceneError;
+use scene::plan::PlannedInlet;
+use std::collections::VecDeque;
+use stream::mcap::Event;
 
-/// Bytes of a file or a pipe.
-pub type Source = Box<dyn Read + Send>;
-
-/// Name of the metadata record that an inlet stream has.
-pub const INLET: &str = "inlet";
-
-/// Grains that come in after this share of a record came until its end.
-const STILL: f64 = 0.9;
-
-/// A plane as the command line writes it.
-pub fn plane_text(plane: &Plane) -> String {
-    let (p, n) = (plane.point, plane.normal);
-    format!("{},{},{},{},{},{}", p.x, p.y, p.z, n.x, n.y, n.z)
-}
+/// A record whose last crossing comes after this share of it still had a flow at its end [–].
+const STILL_FLOWS: f64 = 0.9;
 
 /// A stream of recorded particles.
 pub struct InletStream {
-    /// Its name, for messages.
-    pub name: String,
-    /// Its gate, when it tells.
-    pub gate: Option<Gate>,
-    /// The sizes it can bring.
-    pub sizes: Sizes,
-    /// Whether all that it brings are clumps.
-    pub(crate) only_clumps: bool,
-    /// What it says of its materials, by index.
-    pub materials: Vec<MaterialInfo>,
-    /// What it says of its clumps, by index.
-    pub(crate) clumps: Vec<ClumpInfo>,
-    /// The bonds it can bring.
-    pub(crate) bonds: Option<EntryBonds>,
-    /// Material of the scene for each of the stream's.
-    pub(crate) to_scene: Vec<u16>,
-    /// Clump of the scene for each of the stream's.
-    pub(crate) to_shapes: Vec<u32>,
-    pub(crate) inlet: u32,
-    reader: Reader<Source>,
-    pending: VecDeque<Passage>,
-    /// What contacts of those that come have to remember.
-    touches: VecDeque<Touching>,
-    /// Which of those that come are bonded.
-    links: VecDeque<Linking>,
-    /// All passages before this time have been read [s].
-    known: f64,
-    /// What the stream itself says of that: it does not say ∞ at its end [s].
-    told: f64,
-    last: f64,
+    plan: PlannedInlet,
+    crossings: VecDeque<CrossingRow>,
+    contacts: VecDeque<ContactRow>,
+    bonds: VecDeque<BondRow>,
     paths: Paths,
-}
-
-/// What is known of recorded paths.
-#[derive(Default)]
-struct Paths {
-    waypoints: VecDeque<Waypoint>,
-    /// Who is on its way in, and when it was seen last [s].
-    present: BTreeMap<u32, f64>,
-    /// Who has just passed, and when [s].
-    passed: BTreeMap<u32, f64>,
-    /// Items that were made and not given.
-    made: VecDeque<Item>,
+    /// Arrivals that were made and not given.
+    made: VecDeque<Arrival>,
+    /// All rows before this time have been read [s]; ∞ at the end of the stream.
+    known: f64,
+    /// The last watermark [s].
+    watermark: f64,
+    /// Time of the last crossing [s].
     last: f64,
 }
 
 impl InletStream {
-    /// A stream whose metadata was read up to `first`, its first message.
-    pub(crate) fn new(
-        name: &str,
-        reader: Reader<Source>,
-        sizes: Sizes,
-        Said { gate, materials, clumps, only_clumps, bonds, .. }: Said,
-        first: Option<Event>,
-    ) -> Result<InletStream, SceneError> {
+    /// A stream whose head was read.
+    ///
+    /// # Errors
+    /// A first message that is wrong.
+    pub fn new(mut plan: PlannedInlet) -> Result<InletStream, SceneError> {
+        let first = plan.source.first.take();
         let mut stream = InletStream {
-            name: name.to_owned(),
-            gate,
-            sizes,
-            only_clumps,
-            to_scene: (0..materials.len() as u16).collect(),
-            to_shapes: (0..clumps.len() as u32).collect(),
-            materials,
-            clumps,
-            bonds,
-            inlet: 0,
-            reader,
-            pending: VecDeque::new(),
-            touches: VecDeque::new(),
-            links: VecDeque::new(),
-            known: f64::NEG_INFINITY,
-            told: f64::NEG_INFINITY,
-            last: f64::NEG_INFINITY,
+            plan,
+            crossings: VecDeque::new(),
+            contacts: VecDeque::new(),
+            bonds: VecDeque::new(),
             paths: Paths::default(),
+            made: VecDeque::new(),
+            known: f64::NEG_INFINITY,
+            watermark: f64::NEG_INFINITY,
+            last: f64::NEG_INFINITY,
         };
-        if let Some(event) = first {
-            stream.take(event)?;
-        }
+        first.map_or(Ok(()), |event| stream.take(event))?;
         Ok(stream)
     }
 
-    /// The next item whose time is at most `time` [s]; waits until the stream has told all of those.
+    /// Its name, for messages.
+    pub fn name(&self) -> &str {
+        &self.plan.source.name
+    }
+
+    /// Time between samples of recorded paths [s]; 0 without any.
+    pub fn samples(&self) -> f64 {
+        self.plan.source.zone.as_ref().and_then(|zone| zone.samples).unwrap_or(0.0)
+    }
+
+    /// The next arrival whose time is at most `time` [s]; waits until the stream has passed it.
     ///
     /// # Errors
     /// A stream that breaks off, or is out of order.
-    pub(crate) fn next_until(&mut self, time: f64) -> Result<Option<Item>, SceneError> {
+    pub fn next_until(&mut self, time: f64) -> Result<Option<Arrival>, SceneError> {
         loop {
-            if let Some(item) = self.paths.made.pop_front() {
-                return Ok(Some(item));
+            if let Some(arrival) = self.made.pop_front() {
+                return Ok(Some(arrival));
             }
-            let passes = self.pending.front().map(|p| p.time);
-            let passes_next = match (passes, self.paths.waypoints.front()) {
-                (Some(passes), Some(way)) => passes <= way.passage.time,
-                (passes, _) => passes.is_some(),
-            };
-            let next =
-                if passes_next { passes } else { self.paths.waypoints.front().map(|w| w.passage.time) };
-            // Rows of two topics come in the order of their times only up to what was promised.
+            let crossing = self.crossings.front().map(|row| row.time);
+            let sample = self.paths.rows.front().map(|row| row.row.time);
+            let crosses = crossing.is_some_and(|c| sample.is_none_or(|s| c <= s));
+            // Rows of two topics come in the order of their times only up to the watermark.
             let sure = |t: f64| !self.recorded() || t <= self.known;
-            match next {
+            match if crosses { crossing } else { sample } {
                 Some(t) if t <= time && sure(t) => {
-                    self.make(passes_next);
+                    if crosses {
+                        self.cross()
+                    } else {
+                        self.sample()
+                    }
                     continue;
                 }
                 Some(_) if !self.recorded() => return Ok(None),
-                None if self.known == f64::INFINITY && !self.paths.present.is_empty() => {
-                    self.vanish();
+                None if self.known == f64::INFINITY && self.paths.any_present() => {
+                    self.made.extend(self.paths.end());
                     continue;
                 }
                 _ if self.known > time || self.known == f64::INFINITY => return Ok(None),
                 _ => {}
             }
-            match self.reader.next() {
+            match self.plan.source.reader.next() {
                 None => self.known = f64::INFINITY,
                 Some(event) => {
-                    let event = event.map_err(|e| SceneError::Content {
-                        name: self.name.clone(),
-                        wanted: "an inlet",
-                        source: e.into(),
-                    })?;
+                    let event = event.map_err(|e| SceneError::content(self.name(), "an inlet", e))?;
                     self.take(event)?;
                 }
             }
         }
     }
 
-    /// Up to when the stream told what comes in [s], where it has ended, and the last grains came in shortly before.
-    pub(crate) fn ended(&self) -> Option<f64> {
+    /// Time at which the stream ended while particles still came in [s].
+    pub fn ended(&self) -> Option<f64> {
         let last = self.last.max(self.paths.last);
-        (self.known == f64::INFINITY && last > STILL * self.told).then_some(self.told)
+        (self.known == f64::INFINITY && last > STILL_FLOWS * self.watermark).then_some(self.watermark)
     }
 
     fn recorded(&self) -> bool {
-        self.gate.as_ref().is_some_and(|g| g.zone.motion == ZoneMotion::Recorded)
+        self.plan.source.zone.as_ref().is_some_and(|z| z.zone.motion == ZoneMotion::Recorded)
     }
 
-    /// Makes items of the next row of one of the topics.
-    fn make(&mut self, passes: bool) {
-        if passes {
-            let Some(passage) = self.pending.pop_front() else { return };
-            let (id, time) = (passage.particle.id, passage.time);
-            let known = self.paths.present.remove(&id).is_some();
-            if !known {
-                self.paths.made.push_back(Item::Enter(self.entry(passage)));
-            }
-            while let Some(t) = self.touches.pop_front_if(|t| t.time <= time) {
-                self.paths.made.push_back(Item::Remember { time, memory: t.memory });
-            }
-            while let Some(l) = self.links.pop_front_if(|l| l.time <= time) {
-                self.paths.made.push_back(Item::Link { time, link: l.link });
-            }
-            if self.recorded() {
-                self.paths.passed.insert(id, time);
-                self.paths.made.push_back(Item::Guide { time, id, guide: Guide::Free(self.sample(passage)) });
-            }
-            return;
+    /// Makes the arrivals of the next crossing.
+    fn cross(&mut self) {
+        let Some(row) = self.crossings.pop_front() else { return };
+        let (id, time) = (row.particle.id, row.time);
+        let entry = self.entry(&row);
+        if !self.paths.cross(id) {
+            self.made.push_back(Arrival::Enter(entry));
         }
-        let Some(Waypoint { passage, gone }) = self.paths.waypoints.pop_front() else { return };
-        let (id, time) = (passage.particle.id, passage.time);
-        // A passage at the very time of a sample may come before it, by rounding: the sample says nothing new.
-        let same = |t: f64| time - t <= 4.0 * f64::EPSILON * time.abs();
-        self.paths.passed.retain(|_, t| same(*t));
-        if self.paths.passed.contains_key(&id) {
-            return;
+        while let Some(c) = self.contacts.pop_front_if(|c| c.time <= time) {
+            self.made.push_back(Arrival::Remember { time, memory: c.memory });
         }
-        let known = if gone { self.paths.present.remove(&id) } else { self.paths.present.insert(id, time) };
-        match (known, gone) {
-            (None, true) => {}
-            (None, false) => self.paths.made.push_back(Item::Enter(self.entry(passage))),
-            (Some(_), true) => self.paths.made.push_back(Item::Guide { time, id, guide: Guide::Gone }),
-            (Some(_), false) => {
-                self.paths.made.push_back(Item::Guide { time, id, guide: Guide::At(self.sample(passage)) });
-            }
+        while let Some(b) = self.bonds.pop_front_if(|b| b.time <= time) {
+            self.made.push_back(Arrival::Bond { time, bond: b.bond });
+        }
+        if self.recorded() {
+            self.paths.crossed(id, time);
+            let guide = Guide::Free(Sample::of(&entry));
+            self.made.push_back(Arrival::Guide { time, id, guide });
         }
     }
 
-    /// The record has ended: who had not passed by then goes no farther.
-    fn vanish(&mut self) {
-        for (id, time) in std::mem::take(&mut self.paths.present) {
-            self.paths.made.push_back(Item::Guide { time, id, guide: Guide::Gone });
-        }
+    /// Makes the arrival of the next sample of a path.
+    fn sample(&mut self) {
+        let Some(row) = self.paths.rows.pop_front() else { return };
+        let entry = self.entry(&row.row);
+        self.made.extend(self.paths.sample(&row, entry));
     }
 
-    fn entry(&self, passage: Passage) -> Entry {
-        let mut particle = passage.particle;
-        particle.material = self.to_scene[particle.material as usize];
-        let shape = |c: EntryClump| EntryClump { shape: self.to_shapes[c.shape as usize], ..c };
-        let clump = passage.clump.map(|c| shape(c.0));
-        Entry { time: passage.time, inlet: self.inlet, particle, clump, turn: passage.turn }
-    }
-
-    fn sample(&self, passage: Passage) -> Sample {
-        Sample::of(&self.entry(passage))
+    /// A row with the indices of the scene.
+    fn entry(&self, row: &CrossingRow) -> Entry {
+        let mut particle = row.particle;
+        particle.material = self.plan.materials[particle.material as usize];
+        let shape = |c: EntryClump| EntryClump { shape: self.plan.shapes[c.shape as usize], ..c };
+        let clump = row.clump.map(|c| shape(c.0));
+        Entry { time: row.time, inlet: self.plan.inlet, particle, clump, turn: row.turn }
     }
 
     fn take(&mut self, event: Event) -> Result<(), SceneError> {
+        let (source, materials) = (&self.plan.source, self.plan.materials.len());
+        let name = &source.name;
         match event {
-            Event::Points { topic, table, .. } if topic == CROSSINGS => {
-                for passage in crossings::from_table(&self.name, &table, self.materials.len())? {
-                    self.check(&passage)?;
-                    self.last = passage.time;
-                    self.pending.push_back(passage);
+            Event::Points { topic, table, .. } if topic == topic::CROSSINGS => {
+                for row in crossing::from_table(name, &table, materials)? {
+                    in_time(name, &row, self.last.max(self.known))?;
+                    announced(source, &row)?;
+                    self.last = row.time;
+                    self.crossings.push_back(row);
                 }
             }
-            Event::Points { topic, table, .. } if topic == TOUCHES => {
-                self.touches.extend(touches::from_table(&self.name, &table)?);
+            Event::Points { topic, table, .. } if topic == topic::CROSSING_CONTACTS => {
+                self.contacts.extend(contact::from_table(name, &table)?);
             }
-            Event::Points { topic, table, .. } if topic == LINKS => {
-                if self.bonds.is_none() {
-                    let why = format!("has bonds ({LINKS}), which no record '{BONDS}' announces");
-                    return Err(SceneError::file(&self.name, why, "write the stream again"));
+            Event::Points { topic, table, .. } if topic == topic::CROSSING_BONDS => {
+                if source.bonds.is_none() {
+                    let (topic, record) = (topic::CROSSING_BONDS, metadata::BONDS);
+                    let why = format!("has bonds ({topic}), which no record '{record}' announces");
+                    return Err(RecordError::new(name, why, "write the stream again").into());
                 }
-                self.links.extend(links::from_table(&self.name, &table)?);
+                self.bonds.extend(bond::from_table(name, &table)?);
             }
-            Event::Points { topic, table, .. } if topic == PATHS && self.recorded() => {
-                for way in paths::from_table(&self.name, &table, self.materials.len())? {
-                    self.in_time(&way.passage, self.paths.last)?;
-                    self.announced(&way.passage)?;
-                    self.paths.last = way.passage.time;
-                    self.paths.waypoints.push_back(way);
+            Event::Points { topic, table, .. } if topic == topic::PATHS && self.recorded() => {
+                for row in path::from_table(name, &table, materials)? {
+                    in_time(name, &row.row, self.paths.last.max(self.known))?;
+                    announced(source, &row.row)?;
+                    self.paths.last = row.row.time;
+                    self.paths.rows.push_back(row);
                 }
             }
-            Event::Bytes { topic, data, .. } if topic == WATERMARK => {
-                self.told = self.told.max(Watermark::read(&self.name, &data)?.until);
-                self.known = self.known.max(self.told);
+            Event::Bytes { topic, data, .. } if topic == topic::WATERMARK => {
+                self.watermark = self.watermark.max(Watermark::read(name, &data)?.until);
+                self.known = self.known.max(self.watermark);
             }
             _ => {}
-        }
-        Ok(())
-    }
-
-    fn check(&self, passage: &Passage) -> Result<(), SceneError> {
-        self.in_time(passage, self.last)?;
-        self.announced(passage)
-    }
-
-    /// Refuses what the records do not announce.
-    fn announced(&self, passage: &Passage) -> Result<(), SceneError> {
-        let id = passage.particle.id;
-        if let Some((clump, _)) = passage.clump {
-            let scales = self.clumps.get(clump.shape as usize).and_then(|info| info.scales);
-            return match scales {
-                Some((low, high))
-                    if low * (1.0 - SLACK) <= clump.scale && clump.scale <= high * (1.0 + SLACK) =>
-                {
-                    Ok(())
-                }
-                _ => {
-                    let why = format!("clump {id} has shape {} and scale {}", clump.shape, clump.scale);
-                    let why = format!("{why}, which its record 'clumps' does not announce");
-                    Err(SceneError::file(&self.name, why, "write the stream again"))
-                }
-            };
-        }
-        let radius = passage.particle.radius;
-        if radius < self.sizes.smallest || radius > self.sizes.largest {
-            let range = format!("{} to {} m", Shown(self.sizes.smallest), Shown(self.sizes.largest));
-            let why = format!(
-                "particle {id} has a radius of {} m, outside the {range} of its record 'sizes'",
-                Shown(radius)
-            );
-            return Err(SceneError::file(&self.name, why, "write the stream again"));
-        }
-        Ok(())
-    }
-
-    fn in_time(&self, passage: &Passage, last: f64) -> Result<(), SceneError> {
-        let (time, id) = (passage.time, passage.particle.id);
-        if time < last || time < self.known {
-            let why = format!(
-                "particle {id} passes at {} s, after {} s was told",
-                Shown(time),
-                Shown(last.max(self.known))
-            );
-            return Err(SceneError::file(
-                &self.name,
-                why,
-                "crossings must come in time order: run stage-replay again",
-            ));
         }
         Ok(())
     }
@@ -320,66 +198,71 @@ impl InletStream {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::input::Input;
-    use crate::material_info::MATERIALS;
+    use crate::outlet::path::PathRow;
     use dem::setup::{Particle, Zone, ZoneTest};
     use geom::Vec3;
+    use record::{Map, Sizes};
+    use scene::Input;
+    use scene::input::ZoneRecord;
     use stream::mcap::{Provenance, Writer};
 
-    fn passage(time: f64) -> Passage {
+    fn row(time: f64) -> CrossingRow {
         let (position, velocity) = (Vec3::new(0.0, 0.0, 0.01 - time), Vec3::new(0.0, 0.0, -1.0));
         let particle = Particle { id: 1, material: 0, radius: 0.01, position, velocity, spin: Vec3::zeros() };
-        Passage { time, outlet: 0, particle, contacts: 0, clump: None, turn: None }
+        CrossingRow { time, outlet: 0, particle, contacts: 0, clump: None, turn: None }
     }
 
-    /// Samples and one passage of a grain along a recorded path.
-    fn stream(samples: &[f64], passes: f64) -> InletStream {
+    /// Samples and the crossing of one particle along a recorded path.
+    fn stream(samples: &[f64], crosses: f64) -> InletStream {
         let mut writer = Writer::new(Vec::new(), &Provenance::default()).unwrap();
-        let one = |value: &str| BTreeMap::from([("0".to_owned(), value.to_owned())]);
+        let one = |value: &str| Map::from([("0".to_owned(), value.to_owned())]);
         let plane = "0,0,0,0,0,-1".parse().unwrap();
         let zone = Zone { plane, length: 0.03, motion: ZoneMotion::Recorded, test: ZoneTest::Centre };
-        let gate = Gate { zone, gravity: None, plant: None, samples: Some(0.1) };
-        writer.metadata(MATERIALS, one(r#"{"name":"m","density":1000.0}"#)).unwrap();
-        writer.metadata(crossings::SIZES, Sizes { smallest: 0.01, largest: 0.01 }.to_map()).unwrap();
-        writer.metadata(INLET, gate.to_map()).unwrap();
-        let way = |&time: &f64| Waypoint { passage: passage(time), gone: false };
-        let ways: Vec<Waypoint> = samples.iter().map(way).collect();
-        writer.points(PATHS, 0, "world", paths::to_table(&ways)).unwrap();
-        writer.points(CROSSINGS, 0, "world", crossings::to_table(&[passage(passes)])).unwrap();
+        let zone = ZoneRecord { zone, gravity: None, plant: None, samples: Some(0.1) };
+        writer.metadata(metadata::MATERIALS, one(r#"{"name":"m","density":1000.0}"#)).unwrap();
+        writer.metadata(metadata::SIZES, Sizes { smallest: 0.01, largest: 0.01 }.to_map()).unwrap();
+        writer.metadata(metadata::INLET, zone.to_map()).unwrap();
+        let sample = |&time: &f64| PathRow { row: row(time), gone: false };
+        let samples: Vec<PathRow> = samples.iter().map(sample).collect();
+        writer.points(topic::PATHS, 0, "world", path::to_table(&samples)).unwrap();
+        writer.points(topic::CROSSINGS, 0, "world", crossing::to_table(&[row(crosses)])).unwrap();
         let bytes = writer.finish().unwrap();
         match Input::open("in", Box::new(std::io::Cursor::new(bytes))).unwrap() {
-            Input::Inlet(stream) => *stream,
+            Input::Inlet(source) => {
+                let plan = PlannedInlet { source: *source, inlet: 0, materials: vec![0], shapes: Vec::new() };
+                InletStream::new(plan).unwrap()
+            }
             Input::Walls(_) => panic!("an inlet"),
         }
     }
 
-    /// What comes of it: E enters, A is at a sample, F is free.
-    fn items(samples: &[f64], passes: f64) -> String {
-        let mut stream = stream(samples, passes);
+    /// Its arrivals: E enters, A is at a sample, F is free.
+    fn items(samples: &[f64], crosses: f64) -> String {
+        let mut stream = stream(samples, crosses);
         let mut found = String::new();
         while let Some(item) = stream.next_until(f64::INFINITY).unwrap() {
             found.push(match item {
-                Item::Enter(_) => 'E',
-                Item::Guide { guide: Guide::At(_), .. } => 'A',
-                Item::Guide { guide: Guide::Free(_), .. } => 'F',
-                Item::Guide { guide: Guide::Gone, .. } => 'G',
-                Item::Remember { .. } => 'R',
-                Item::Link { .. } => 'L',
+                Arrival::Enter(_) => 'E',
+                Arrival::Guide { guide: Guide::At(_), .. } => 'A',
+                Arrival::Guide { guide: Guide::Free(_), .. } => 'F',
+                Arrival::Guide { guide: Guide::Gone, .. } => 'G',
+                Arrival::Remember { .. } => 'R',
+                Arrival::Bond { .. } => 'B',
             });
         }
         found
     }
 
-    /// A passage a rounding before a sample of the same instant: the grain comes in once.
+    /// A crossing a rounding before a sample of the same instant: the particle comes in once.
     #[test]
-    fn a_passage_at_the_time_of_a_sample_is_one_grain() {
+    fn a_crossing_at_the_time_of_a_sample_is_one_particle() {
         let sample = 0.30000000000000004;
-        for passes in [sample, 0.3, 0.3 - 1e-16] {
-            assert_eq!(items(&[0.1, 0.2, sample], passes), "EAF", "{passes:?}");
-            assert_eq!(items(&[sample], passes), "EF", "{passes:?}");
+        for crosses in [sample, 0.3, 0.3 - 1e-16] {
+            assert_eq!(items(&[0.1, 0.2, sample], crosses), "EAF", "{crosses:?}");
+            assert_eq!(items(&[sample], crosses), "EF", "{crosses:?}");
         }
         assert_eq!(items(&[0.1, 0.2], 0.3), "EAF");
-        // Another grain of the same id is no rounding: whoever takes both refuses the second.
+        // Another particle of the same id is not a rounding: the engine refuses the second.
         assert_eq!(items(&[0.1, 0.4], 0.3), "EFEG");
     }
 }

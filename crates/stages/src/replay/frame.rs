@@ -4,7 +4,7 @@
 //! x ← p + R (x − p) + s      v ← R v      ω ← R ω      and so the springs of contacts, and the axes of clumps
 //! ```
 
-use crate::crossings::Passage;
+use crate::outlet::crossing::CrossingRow;
 use dem::setup::{ContactHistory, Particle};
 use geom::{Plane, Vec3};
 use nalgebra::{UnitQuaternion, UnitVector3};
@@ -36,8 +36,8 @@ impl Frame {
         Plane { point: self.point(&plane.point), normal: self.turn * plane.normal }
     }
 
-    /// A passage.
-    pub fn passage(&self, row: &mut Passage) {
+    /// A row.
+    pub fn row(&self, row: &mut CrossingRow) {
         self.particle(&mut row.particle);
         if let Some((clump, _)) = &mut row.clump {
             clump.orientation = self.turn * clump.orientation;
@@ -45,7 +45,7 @@ impl Frame {
         row.turn = row.turn.map(|turn| self.turn * turn);
     }
 
-    /// What a contact remembers.
+    /// A contact history.
     pub fn springs(&self, springs: &ContactHistory) -> ContactHistory {
         springs.seen(&self.turn)
     }

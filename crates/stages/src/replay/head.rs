@@ -1,122 +1,122 @@
-//! What a run says of itself before its first message: what an inlet stream needs of it.
+//! The metadata records of a run that an inlet stream passes on.
 
-use super::{REPLAY, Replay};
-use crate::clump_info::{self, ClumpInfo};
-use crate::crossings::{SIZES, Sizes};
-use crate::error::SceneError;
-use crate::gate::Gate;
-use crate::inlet::INLET;
-use crate::links::BONDS;
-use crate::material_info::MATERIALS;
-use crate::run::{CLUMPS, OUTLETS};
+use super::Replay;
 use dem::setup::{Zone, ZoneMotion};
 use geom::Shown;
+use record::metadata::{BONDS, CLUMPS, INLET, MATERIALS, OUTLETS, REPLAY, SCENE, SIZES};
+use record::{ClumpRecord, Map, Sizes};
+use scene::SceneError;
+use scene::input::ZoneRecord;
 use std::collections::BTreeMap;
 use std::io::Write;
 use stream::mcap::{McapError, Writer};
 
 pub struct Head {
-    pub materials: BTreeMap<String, String>,
-    /// The record of the sizes, as it is passed on.
-    pub sizes_record: BTreeMap<String, String>,
-    /// Radius of the widest that may come [m], of clumps that of the sphere which holds them.
+    pub materials: Map,
+    /// The record of the sizes.
+    pub sizes: Map,
+    /// Radius of the widest particle that may come [m]; of clumps that of the sphere which holds them.
     pub widest: f64,
-    /// Shapes of clumps: the record, or an empty one.
-    pub clumps_record: BTreeMap<String, String>,
-    /// How many spheres each has.
+    /// The record of clumps, or an empty one.
+    pub clumps: Map,
+    /// Number of spheres of each shape.
     pub members: Vec<u32>,
-    /// What bonds may come: the record, or an empty one.
-    pub bonds_record: BTreeMap<String, String>,
-    /// Where grains come in.
-    pub gate: Gate,
+    /// The record of bonds, or an empty one.
+    pub bonds: Map,
+    /// The zone of the inlet.
+    pub zone: ZoneRecord,
 }
 
 impl Head {
-    /// Writes what a stream says of itself.
+    /// Writes the records.
     pub fn write<W: Write>(&self, what: &Replay, writer: &mut Writer<W>) -> Result<(), McapError> {
         writer.metadata(MATERIALS, self.materials.clone())?;
-        writer.metadata(SIZES, self.sizes_record.clone())?;
-        if !self.clumps_record.is_empty() {
-            writer.metadata(CLUMPS, self.clumps_record.clone())?;
+        writer.metadata(SIZES, self.sizes.clone())?;
+        if !self.clumps.is_empty() {
+            writer.metadata(CLUMPS, self.clumps.clone())?;
         }
-        if !self.bonds_record.is_empty() {
-            writer.metadata(BONDS, self.bonds_record.clone())?;
+        if !self.bonds.is_empty() {
+            writer.metadata(BONDS, self.bonds.clone())?;
         }
         writer.metadata(REPLAY, what.to_map())?;
-        // The last record: from it on, messages may come as late as a run upstream makes them.
-        writer.metadata(INLET, self.gate.to_map())
+        // The last record: messages after it may come as late as a run upstream makes them.
+        writer.metadata(INLET, self.zone.to_map())
+    }
+
+    /// From the metadata of a run.
+    ///
+    /// # Errors
+    /// A stream that is not a run with this outlet, options that do not go with it.
+    pub fn new(name: &str, mut records: BTreeMap<String, Map>, what: &Replay) -> Result<Head, SceneError> {
+        let no_run = |record: &str| {
+            let why = format!("has no record '{record}' before its first message");
+            SceneError::file(name, why, "give a run that dem-run wrote")
+        };
+        if records.contains_key(INLET) {
+            let why = "is an inlet already, that stage-replay made";
+            let cure = "give it to dem-run, or give the run that it was made of";
+            return Err(SceneError::file(name, why, cure));
+        }
+        if !records.contains_key(SCENE) {
+            return Err(no_run(SCENE));
+        }
+        let recorded = outlet(name, records.remove(OUTLETS), what.outlet)?;
+        let sizes = records.remove(SIZES).ok_or_else(|| no_run(SIZES))?;
+        let clumps = records.remove(CLUMPS).unwrap_or_default();
+        let shapes = ClumpRecord::from_map(name, &clumps)?;
+        let largest = Sizes::from_map(name, &sizes)?.largest;
+        let widest = shapes.iter().map(ClumpRecord::reach).fold(largest, f64::max);
+        let members = shapes.iter().map(|c| c.spheres.len() as u32).collect();
+        let zone = zone(name, &recorded, what, widest)?;
+        let materials = records.remove(MATERIALS).ok_or_else(|| no_run(MATERIALS))?;
+        let bonds = records.remove(BONDS).unwrap_or_default();
+        let zone = ZoneRecord { zone, ..recorded };
+        Ok(Head { materials, sizes, widest, clumps, members, bonds, zone })
     }
 }
 
-/// From the metadata of a run.
-pub fn head(
-    name: &str,
-    mut records: BTreeMap<String, BTreeMap<String, String>>,
-    what: &Replay,
-) -> Result<Head, SceneError> {
-    let no_run = |record: &str| {
-        let why = format!("has no record '{record}' before its first message");
-        SceneError::file(name, why, "give a run that dem-run wrote")
-    };
-    if records.contains_key(INLET) {
-        let why = "is an inlet already, that stage-replay made";
-        return Err(SceneError::file(name, why, "give it to dem-run, or give the run that it was made of"));
-    }
-    if !records.contains_key(crate::input::SCENE) {
-        return Err(no_run(crate::input::SCENE));
-    }
-    let Some(outlets) = records.remove(OUTLETS) else {
+/// The outlet of a run with this index.
+fn outlet(name: &str, outlets: Option<Map>, index: u16) -> Result<ZoneRecord, SceneError> {
+    let Some(outlets) = outlets else {
         let why = "is a run without [[outlet]], so that nothing was recorded";
         return Err(SceneError::file(name, why, "make its scene with stage-split --keep upstream"));
     };
-    let Some(json) = outlets.get(&what.outlet.to_string()) else {
-        let why = format!("has {} outlets, none with index {}", outlets.len(), what.outlet);
+    let Some(json) = outlets.get(&index.to_string()) else {
+        let why = format!("has {} outlets, none with index {index}", outlets.len());
         return Err(SceneError::file(name, why, "--outlet 0 is the first"));
     };
     let wrong = |e| SceneError::file(name, format!("record '{OUTLETS}': {e}"), "run dem-run again");
-    let recorded: Gate = serde_json::from_str(json).map_err(wrong)?;
-    let sizes_record = records.remove(SIZES).ok_or_else(|| no_run(SIZES))?;
-    let sizes = Sizes::from_map(name, &sizes_record)?;
-    let clumps_record = records.remove(CLUMPS).unwrap_or_default();
-    let clumps = clump_info::from_map(name, &clumps_record)?;
-    let widest = clumps.iter().map(ClumpInfo::reach).fold(sizes.largest, f64::max);
-    let members = clumps.iter().map(|c| c.spheres.len() as u32).collect();
+    serde_json::from_str(json).map_err(wrong)
+}
+
+/// The zone of the inlet: that of the outlet, with the changes that are asked for.
+fn zone(name: &str, recorded: &ZoneRecord, what: &Replay, widest: f64) -> Result<Zone, SceneError> {
+    let plane = what.frame.map_or(recorded.zone.plane, |f| f.plane(&recorded.zone.plane));
     let zone = Zone {
-        plane: what
-            .at
-            .unwrap_or_else(|| what.frame.map_or(recorded.zone.plane, |f| f.plane(&recorded.zone.plane))),
+        plane: what.at.unwrap_or(plane),
         length: what.length.unwrap_or(recorded.zone.length),
         motion: what.motion.unwrap_or(recorded.zone.motion),
         test: recorded.zone.test,
     };
+    let refuse = |why: String, cure: String| Err(SceneError::file(name, why, cure));
     if zone.motion == ZoneMotion::Recorded {
         if recorded.zone.motion != ZoneMotion::Recorded {
-            let why = "has no paths, which --move recorded follows";
-            return Err(SceneError::file(
-                name,
-                why,
-                "run the stage upstream with motion = \"recorded\" in its [[outlet]]",
-            ));
+            let cure = "run the stage upstream with motion = \"recorded\" in its [[outlet]]";
+            return refuse("has no paths, which --move recorded follows".into(), cure.into());
         }
         if let Some(option) = what.off_path() {
-            let why = format!("{option} does not go with recorded paths");
-            return Err(SceneError::file(name, why, "leave it out, or use --move constant or ballistic"));
+            let cure = "leave it out, or use --move constant or ballistic";
+            return refuse(format!("{option} does not go with recorded paths"), cure.into());
         }
     }
     if zone.motion == ZoneMotion::Ballistic && recorded.gravity.is_none() {
-        let why = "does not tell its gravity, which --move ballistic needs";
-        return Err(SceneError::file(name, why, "run the stage upstream again with this version"));
+        let why = "has no record of its gravity, which --move ballistic needs";
+        return refuse(why.into(), "run the stage upstream again with this version".into());
     }
     if zone.length.is_nan() || zone.length <= 2.0 * widest {
-        let why = format!(
-            "--length {} m is not above the largest diameter, {} m",
-            Shown(zone.length),
-            Shown(2.0 * widest)
-        );
-        return Err(SceneError::file(name, why, format!("use at least {} m", Shown(2.4 * widest))));
+        let (length, largest) = (Shown(zone.length), Shown(2.0 * widest));
+        let why = format!("--length {length} m is not above the largest diameter, {largest} m");
+        return refuse(why, format!("use at least {} m", Shown(2.4 * widest)));
     }
-    let materials = records.remove(MATERIALS).ok_or_else(|| no_run(MATERIALS))?;
-    let bonds_record = records.remove(BONDS).unwrap_or_default();
-    let gate = Gate { zone, ..recorded };
-    Ok(Head { materials, sizes_record, widest, clumps_record, members, bonds_record, gate })
+    Ok(zone)
 }

@@ -1,24 +1,30 @@
-//! From the crossings of a run to an inlet stream, also while the run is still being written (SYSTEMS B4).
+//! From the crossings of a run to an inlet stream, also while the run is still being written.
+//!
+//! [`replay`] opens the files of the run ([`run_file`], [`head`]) and gives their events to the [`replayer`]. Each crossing gets the state in
+//! which it is generated ([`generation`]), waits in the [`queue`] for those that are generated before it, is merged with copies
+//! ([`merge`]), and is written with its contacts and bonds ([`pairs`], [`send`]).
 
 mod copies;
 mod frame;
+mod generation;
 mod head;
-mod order;
-mod part;
-mod pass;
-mod recall;
-mod start;
+mod merge;
+mod pairs;
+mod queue;
+mod replayer;
+mod run_file;
+mod send;
 
 pub use copies::Copies;
 pub use frame::Frame;
 
-use crate::inlet::Source;
-use crate::run::RunError;
+use crate::StageError;
 use dem::setup::ZoneMotion;
 use geom::Plane;
-use pass::Passing;
+use record::Map;
+use replayer::Replayer;
+use scene::input::Source;
 use serde::Serialize;
-use std::collections::BTreeMap;
 use std::io::Write;
 use stream::mcap::{How, Provenance, Writer};
 
@@ -29,21 +35,21 @@ pub struct Replay {
     pub at: Option<Plane>,
     /// L2 [m]; absent: the run's L1.
     pub length: Option<f64>,
-    /// Only what passes at this time or later [s]; becomes time 0.
+    /// Only crossings at this time or later [s]; it becomes time 0.
     pub from: Option<f64>,
-    /// Only what passes before this time [s].
+    /// Only crossings before this time [s].
     pub until: Option<f64>,
-    /// Whether times stay as recorded; otherwise the first passage becomes time 0.
+    /// Whether times stay as recorded; otherwise the first crossing becomes time 0.
     pub keep_times: bool,
     /// Which storage plane of the run.
     pub outlet: u16,
-    /// Where intervals and places are those that were recorded.
+    /// Where intervals and positions are those that were recorded.
     pub intervals: Intervals,
     /// Motion in the zone; absent: that of the run.
     pub motion: Option<ZoneMotion>,
     /// T of [`Intervals::Both`] [s]; absent: what the first one needs for the length of the zone.
     pub ahead: Option<f64>,
-    /// The record seen from elsewhere; absent: as it was.
+    /// A turn and shift of the record; absent: none.
     pub frame: Option<Frame>,
     /// Superposed copies.
     pub copies: Copies,
@@ -51,11 +57,11 @@ pub struct Replay {
     pub repeat: u32,
     /// Time between the starts of replays [s]; absent: how long the record is.
     pub period: Option<f64>,
-    /// Ids are given anew from here; absent: only where there are several of one.
+    /// First of new ids; absent: new ids only where ids are not unique.
     pub first_id: Option<u32>,
 }
 
-/// Where the recorded intervals and in-plane places are kept.
+/// Where the recorded intervals and in-plane positions are kept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Intervals {
     /// On the generation plane, as in the source document: the faster ones then catch up in the zone, so that
@@ -68,16 +74,13 @@ pub enum Intervals {
     Both,
 }
 
-/// Name of the metadata record that says what was made of the record.
-pub const REPLAY: &str = "replay";
-
 impl Replay {
-    /// Whether what happens at a recorded time [s] is replayed.
+    /// Whether the record at a time [s] is replayed.
     fn holds(&self, time: f64) -> bool {
         self.from.is_none_or(|from| time >= from) && self.until.is_none_or(|until| time < until)
     }
 
-    /// What of it does not go with recorded paths.
+    /// The first option that does not go with recorded paths.
     fn off_path(&self) -> Option<&'static str> {
         let asked = [
             (self.at.is_some(), "--at"),
@@ -90,10 +93,10 @@ impl Replay {
         asked.iter().find(|a| a.0).map(|a| a.1)
     }
 
-    /// The record [`REPLAY`].
-    fn to_map(&self) -> BTreeMap<String, String> {
+    /// The record [`record::metadata::REPLAY`].
+    fn to_map(&self) -> Map {
         let (copies, shift) = (&self.copies, self.copies.shift);
-        let mut map = BTreeMap::from([
+        let mut map = Map::from([
             ("copies".to_owned(), copies.count.to_string()),
             ("replays".to_owned(), self.repeat.max(1).to_string()),
         ]);
@@ -138,53 +141,53 @@ pub struct Replayed {
 /// Lengths of a zone before its calculation plane from which on a particle comes in oddly far away [–].
 pub const FAR: f64 = 10.0;
 
-/// Passes the crossings of a run on as an inlet stream, each as soon as it is read. A run that was stopped and gone on with is several files
-/// (`parts`, with their names), in the order of their times: of each counts what lies before the next begins.
+/// Passes the crossings of a run on as an inlet stream, each as soon as it is read. A run that was stopped and resumed is several files
+/// (`runs`, with their names), in the order of their times: of each counts what lies before the next begins.
 ///
 /// # Errors
-/// A stream that is no run with an outlet, breaks off, or was stopped before its end; a run that begins later than what is asked for, or
-/// parts that do not follow each other; a length that is too short.
+/// A stream that is not a run with an outlet, breaks off, or was stopped before its end; a run that begins later than what is asked for,
+/// or files that do not follow each other; a length that is too short.
 pub fn replay<W: Write>(
-    parts: Vec<(String, Source)>,
+    runs: Vec<(String, Source)>,
     what: &Replay,
     out: W,
     (mut provenance, how): (Provenance, How<W>),
-) -> Result<(Replayed, W), RunError> {
-    let (mut parts, head) = part::open(parts, what)?;
-    provenance.inputs.extend(parts.iter().filter_map(|p| p.scene.clone()));
+) -> Result<(Replayed, W), StageError> {
+    let (mut runs, head) = run_file::open(runs, what)?;
+    provenance.inputs.extend(runs.iter().filter_map(|r| r.scene.clone()));
     let mut writer = Writer::compressed(out, &provenance, how)?;
     head.write(what, &mut writer)?;
     let start = if what.keep_times { Some(0.0) } else { what.from };
-    let mut passing = Passing::new(what, head, start);
-    for k in 0..parts.len() {
-        let limit = parts.get(k + 1).map_or(f64::INFINITY, |next| next.begins);
-        passing.begin(&parts[k].name, limit);
-        while let Some(event) = parts[k].next().transpose()? {
-            if passing.pass(event, &mut writer)? {
+    let mut replayer = Replayer::new(what, head, start);
+    for k in 0..runs.len() {
+        let limit = runs.get(k + 1).map_or(f64::INFINITY, |next| next.begins);
+        replayer.begin(&runs[k].name, limit);
+        while let Some(event) = runs[k].next().transpose()? {
+            if replayer.pass(event, &mut writer)? {
                 break;
             }
         }
-        if passing.enough() {
+        if replayer.enough() {
             break;
         }
-        if k + 1 < parts.len() && !passing.over() {
-            return Err(parts[k].gap(&parts[k + 1], passing.known()).into());
+        if k + 1 < runs.len() && !replayer.over() {
+            return Err(runs[k].gap(&runs[k + 1], replayer.known()).into());
         }
     }
-    if let (Some(stop), Some(last)) = (&passing.stopped, parts.last()) {
-        // What was recorded is passed on, but the stream has no end: what is downstream must not look whole.
+    if let (Some(stop), Some(last)) = (&replayer.stopped, runs.last()) {
+        // The stream has no end record: readers downstream must not take it for whole.
         writer.flush_chunk()?;
-        return Err(stop.told(&last.name).into());
+        return Err(replayer::was_stopped(stop, &last.name).into());
     }
-    passing.again(&mut writer)?;
-    passing.send(f64::INFINITY, &mut writer)?;
-    passing.promise_end(&mut writer)?;
-    // The reader downstream may go on; whether the run is whole still matters.
+    replayer.again(&mut writer)?;
+    replayer.send(f64::INFINITY, &mut writer)?;
+    replayer.end(&mut writer)?;
+    // The reader downstream may go on; whether the run is whole is checked after that.
     let out = writer.finish()?;
-    if let Some(last) = parts.last_mut() {
+    if let Some(last) = runs.last_mut() {
         while last.next().transpose()?.is_some() {}
     }
-    passing.done.start = passing.start.unwrap_or(0.0);
-    passing.done.ahead = passing.starts.ahead();
-    Ok((passing.done, out))
+    replayer.done.start = replayer.start.unwrap_or(0.0);
+    replayer.done.ahead = replayer.generation.ahead();
+    Ok((replayer.done, out))
 }

@@ -1,9 +1,9 @@
 //! The column in which grains start and come down to the cut: which unbounded planes they surely feel before it.
 
-use super::Cutting;
+use super::cutting::Cutting;
 use super::sources::places;
-use crate::room::bounds;
 use geom::{Plane, Shape, Vec3};
+use scene::plan::bounds;
 
 /// Corners of all that grains start in [m], and where they are half a grain before the cut.
 pub struct Column(Vec<Vec3>);

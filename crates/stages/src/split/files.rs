@@ -1,6 +1,6 @@
 //! Files that a scene names, as seen from the folder of another one.
 
-use super::Cutting;
+use super::cutting::Cutting;
 use std::path::{Path, PathBuf};
 use toml_edit::{DocumentMut, Item, value};
 

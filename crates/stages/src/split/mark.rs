@@ -5,20 +5,18 @@
 //! as half a grain before the cut ([`super::column`]); their materials, and the contacts of its grains. Everything else is left out, planes
 //! far from that column among it, though it may matter: no variant of what lies behind the cut may be refused.
 
-use super::Cutting;
+use super::cutting::Cutting;
 use super::sides::Range;
 use super::walls::planes;
-use crate::contacts::most_specific;
-use crate::error::SceneError;
-use crate::input::Input;
-use crate::model::Wall;
-use crate::{mesh_file, particle_file};
 use geom::{Plane, Vec3};
+use scene::SceneError;
+use scene::input::{Input, ParticleFile, ParticleTable, read_mesh};
+use scene::keys::Wall;
+use scene::plan::most_specific;
 use std::collections::BTreeSet;
-use std::fs::File;
 use toml::{Table, Value};
 
-/// What a mark is made of.
+/// What a mark hashes.
 #[derive(Default)]
 struct Kept {
     table: Table,
@@ -47,12 +45,12 @@ impl Cutting<'_> {
         self.mark_grains(&all, &mut kept)?;
         self.mark_walls(&all, &mut kept);
         self.mark_materials(&all, &mut kept);
-        let mut mark = crate::sha256(&Value::Table(kept.table).to_string());
+        let mut mark = stream::sha256(Value::Table(kept.table).to_string().as_bytes());
         mark.truncate(16);
         Ok(mark)
     }
 
-    /// Where grains come from; of an inlet its place, and the mark that it has itself.
+    /// Where particles come from; of an inlet its plane, and the mark that it has itself.
     fn mark_grains(&self, all: &Table, kept: &mut Kept) -> Result<(), SceneError> {
         let m = &self.scene.model;
         kept.grains.extend(m.fill.iter().map(|f| f.material.clone()));
@@ -61,11 +59,11 @@ impl Cutting<'_> {
         let mut files = entries(all, "particles");
         for (entry, table) in m.particles.iter().zip(&mut files) {
             if entry.clump.is_some() {
-                let (columns, ..) = particle_file::table(&self.scene.folder.join(&entry.source))?;
-                table.insert("source".to_owned(), crate::wall_file::hash(&columns).into());
+                let file = ParticleTable::read(&self.scene.folder.join(&entry.source))?;
+                table.insert("source".to_owned(), record::hash(&file.table).into());
                 continue;
             }
-            let file = particle_file::read(&self.scene.folder.join(&entry.source))?;
+            let file = ParticleFile::read(&self.scene.folder.join(&entry.source))?;
             kept.grains.extend(entry.material.clone());
             kept.grains.extend(file.materials.into_iter().map(|m| m.name));
             table.insert("source".to_owned(), file.hash.into());
@@ -84,8 +82,7 @@ impl Cutting<'_> {
             kept.grains.insert(clump.material.clone());
             if let Some(file) = &clump.mesh {
                 let path = self.scene.folder.join(file);
-                let name = path.display().to_string();
-                let bytes = std::fs::read(&path).map_err(|source| SceneError::Read { name, source })?;
+                let bytes = std::fs::read(&path).map_err(|e| SceneError::read(&path, e))?;
                 table.insert("mesh".to_owned(), stream::sha256(&bytes).into());
             }
         }
@@ -121,7 +118,7 @@ impl Cutting<'_> {
         kept.put("wall", walls);
     }
 
-    /// Materials that something kept is of, and what holds between its grains, and between grains and its walls.
+    /// Materials of all that is kept, and the contacts between its particles, and between particles and walls.
     fn mark_materials(&self, all: &Table, kept: &mut Kept) {
         let named = |t: &Table| {
             let name = t.get("name").and_then(Value::as_str).unwrap_or_default();
@@ -146,16 +143,15 @@ impl Cutting<'_> {
     pub fn bounded(&self, wall: &Wall) -> Option<Bounded> {
         if let Some(file) = &wall.mesh {
             let path = self.scene.folder.join(file);
-            let mesh = mesh_file::read(&path).ok()?;
+            let mesh = read_mesh(&path).ok()?;
             let range = self.of_points(mesh.vertices.iter().map(|v| (*v, 0.0)));
             let hash = stream::sha256(&std::fs::read(&path).ok()?);
             return Some(Bounded { range, hash, materials: Vec::new() });
         }
         let path = self.scene.folder.join(wall.source.as_ref()?);
-        let file = File::open(&path).ok()?;
-        match Input::open(&path.display().to_string(), Box::new(file)).ok()? {
+        match Input::open_file(&path).ok()? {
             Input::Walls(walls) if walls.velocity == Vec3::zeros() => Some(Bounded {
-                range: self.of_points(walls.spheres.iter().map(|s| (s.0, s.1))),
+                range: self.of_points(walls.spheres.iter().map(|s| (s.centre, s.radius))),
                 hash: walls.hash.clone(),
                 materials: walls.materials.iter().map(|m| m.name.clone()).collect(),
             }),
@@ -173,7 +169,7 @@ impl Kept {
     }
 }
 
-/// Where a plane is, whichever of its points it was given by: two sides of a box may have a corner in common that is far from both.
+/// A plane by its normal and offset, so that the point that it was given by does not matter.
 fn place(plane: &Plane) -> String {
     let n = plane.normal;
     format!("{},{},{} at {}", n.x, n.y, n.z, n.dot(&plane.point))

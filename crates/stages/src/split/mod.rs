@@ -1,21 +1,27 @@
-//! A scene cut in two at a plane: the stage upstream records, the stage downstream lets in (SYSTEMS B1–B7).
+//! A scene cut in two at a plane: the stage upstream records, the stage downstream lets in.
+//!
+//! The text of the scene is edited, so that comments stay. [`split`] decides for each entry on which side of the plane it lies
+//! ([`sides`], [`sources`], [`walls`]), removes those of the other stage, adds the zone of the cut, and marks it with a hash of all that
+//! the flow through the cut depends on ([`mark`]), so that a record of another plant is refused. [`cutting`] holds the scene and the cut.
 
 mod column;
+mod cutting;
 mod files;
+mod found;
+mod largest;
 mod mark;
 mod sides;
 mod sources;
 mod walls;
 
-use crate::error::SceneError;
-use crate::inlet::plane_text;
-use crate::model::{Axis, Diameter};
-use crate::text::Text;
-use crate::{Scene, particle_file};
+use cutting::Cutting;
 use dem::setup::{ZoneMotion, ZoneTest};
-use geom::{Plane, Shown};
+use found::Found;
+use geom::Plane;
+use largest::largest;
+use scene::{Scene, SceneError, Text};
 use std::path::PathBuf;
-use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, value};
+use toml_edit::{Item, value};
 
 /// Which stage.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,14 +53,11 @@ pub struct Cut {
     pub length: Option<f64>,
     /// Motion in the zone.
     pub motion: ZoneMotion,
-    /// What of a grain passes the planes.
+    /// Which point of a particle crosses its planes.
     pub test: ZoneTest,
     /// Folder that files of the new scene are relative to.
     pub folder: PathBuf,
 }
-
-/// The first id of particles that a downstream stage makes itself, out of reach of those that come in.
-const OWN_IDS: u32 = 2_000_000_000;
 
 /// Cuts a scene; the text of the stage, with the comments of what it keeps, and what was left out.
 ///
@@ -99,131 +102,6 @@ fn stage(scene: &Scene, cut: &Cut) -> Result<(String, Vec<String>), SceneError> 
     cutting.rebase(&mut document);
     cutting.add_zone(&mut document)?;
     Ok((document.to_string(), found.names()))
-}
-
-/// Largest diameter that the scene itself tells [m], of clumps that of the sphere which holds them; 0 when its particles come from an inlet
-/// alone.
-fn largest(scene: &Scene) -> Result<f64, SceneError> {
-    let m = &scene.model;
-    let ranges = m.fill.iter().map(|f| f.diameter).chain(m.insert.iter().map(|f| f.diameter));
-    let mut largest = ranges.map(|d: Diameter| d.high).fold(0.0, f64::max);
-    for entry in m.particles.iter().filter(|p| p.clump.is_none()) {
-        let file = particle_file::read(&scene.folder.join(&entry.source))?;
-        largest = file.particles.iter().map(|p| 2.0 * p.radius).fold(largest, f64::max);
-    }
-    let reaches = if m.clump.is_empty() { Vec::new() } else { scene.clump_reaches()? };
-    for (clump, reach) in m.clump.iter().zip(reaches) {
-        let high = |scale: Option<Diameter>| scale.map_or(1.0, |s| s.high);
-        let fills = m.fill.iter().map(|f| (f.clump.as_deref(), high(f.scale)));
-        let faucets = m.insert.iter().map(|f| (f.clump.as_deref(), high(f.scale)));
-        let bodies = m.body.iter().map(|b| (Some(b.clump.as_str()), b.scale));
-        let mut files = Vec::new();
-        for entry in &m.particles {
-            files.push((entry.clump.as_deref(), sources::largest_scale(scene, entry)?));
-        }
-        let own =
-            fills.chain(faucets).chain(bodies).chain(files).filter(|(name, _)| *name == Some(&clump.name));
-        largest = own.map(|(_, scale)| 2.0 * reach * scale).fold(largest, f64::max);
-    }
-    Ok(largest)
-}
-
-/// What the cut finds in a scene.
-#[derive(Default)]
-struct Found {
-    /// What is left out, each with its place in the text.
-    gone: Vec<(Option<isize>, String)>,
-    /// Whether grains start, or come in, upstream of the plane.
-    upstream: bool,
-}
-
-impl Found {
-    /// What is left out, in the order of the scene.
-    fn names(mut self) -> Vec<String> {
-        self.gone.sort_by_key(|(place, _)| *place);
-        self.gone.into_iter().map(|(_, name)| name).collect()
-    }
-}
-
-struct Cutting<'a> {
-    scene: &'a Scene,
-    cut: &'a Cut,
-    largest: f64,
-}
-
-impl Cutting<'_> {
-    /// The zone of the cut.
-    fn add_zone(&self, document: &mut DocumentMut) -> Result<(), SceneError> {
-        let (cut, kind) = (self.cut, self.cut.keep.zone());
-        let word = if cut.keep == Stage::Upstream { "upstream" } else { "downstream" };
-        let mut zone = Table::new();
-        zone.insert("plane", value(plane_text(&cut.plane)));
-        if let Some(length) = cut.length {
-            zone.insert("length", value(length));
-        }
-        zone.insert("motion", value(cut.motion.name()));
-        zone.insert("test", value(cut.test.name()));
-        zone.decor_mut().set_prefix(format!("\n# The cut: {word} stage.\n"));
-        let tables = document.entry(kind).or_insert(Item::ArrayOfTables(ArrayOfTables::new()));
-        match tables.as_array_of_tables_mut() {
-            Some(tables) => tables.push(zone),
-            None => {
-                let why = format!("'{kind}' is written as a list in one line");
-                return Err(SceneError::file(&self.scene.text.name, why, format!("write it as [[{kind}]]")));
-            }
-        }
-        Ok(())
-    }
-
-    /// Across a periodic face a grain would come back from behind.
-    fn check_periodic(&self) -> Result<(), SceneError> {
-        for axis in &self.scene.model.domain.periodic {
-            let (name, along) = match axis {
-                Axis::X => ("x", self.cut.plane.normal.x),
-                Axis::Y => ("y", self.cut.plane.normal.y),
-                Axis::Z => ("z", self.cut.plane.normal.z),
-            };
-            if along.abs() > 1e-9 {
-                let why = format!(
-                    "the plane's normal has {name} = {}, and the domain is periodic along {name}: a grain that passes would come back from upstream",
-                    Shown(along)
-                );
-                return Err(SceneError::file(
-                    &self.scene.text.name,
-                    why,
-                    "cut along a direction that is not periodic",
-                ));
-            }
-        }
-        Ok(())
-    }
-
-    fn check_length(&self) -> Result<(), SceneError> {
-        match self.cut.length {
-            Some(length) if !length.is_finite() || length <= self.largest => {
-                let place =
-                    if length == f64::INFINITY { "has no end" } else { "is not above the largest diameter" };
-                let why = format!("--length {length} m {place}, {} m", Shown(self.largest));
-                Err(SceneError::file(
-                    &self.scene.text.name,
-                    why,
-                    format!("use at least {} m", Shown(1.2 * self.largest)),
-                ))
-            }
-            _ => Ok(()),
-        }
-    }
-}
-
-fn remove(document: &mut DocumentMut, key: &str, index: usize, name: String, found: &mut Found) {
-    if let Some(tables) = document.get_mut(key).and_then(Item::as_array_of_tables_mut) {
-        let place = tables.get(index).and_then(Table::position);
-        tables.remove(index);
-        found.gone.push((place, name));
-        if tables.is_empty() {
-            document.remove(key);
-        }
-    }
 }
 
 #[cfg(test)]

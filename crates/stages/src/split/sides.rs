@@ -1,9 +1,10 @@
 //! On which side of the plane something lies.
 
-use super::{Cutting, Stage};
-use crate::error::SceneError;
-use crate::room::bounds;
+use super::Stage;
+use super::cutting::Cutting;
 use geom::{Shape, Shown, Vec3};
+use scene::SceneError;
+use scene::plan::bounds;
 
 /// Distances [m] from the plane that something covers, lowest and highest.
 pub type Range = (f64, f64);

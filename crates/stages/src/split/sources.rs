@@ -1,22 +1,25 @@
-//! Where grains come from: fills, faucets, files, and the zones that are there already.
+//! Where particles come from: fills, insertions, files, and the zones that are there already.
 
-use super::{Cutting, Found, OWN_IDS, Stage, remove};
-use crate::columns::Columns;
-use crate::error::SceneError;
-use crate::model::Particles;
-use crate::{Scene, particle_file};
+use super::Stage;
+use super::cutting::Cutting;
+use super::found::{Found, remove};
 use geom::{Plane, Vec3};
+use record::column::{POSITION, SCALE};
+use scene::input::{ParticleFile, ParticleTable};
+use scene::keys::Particles;
+use scene::{Scene, SceneError};
 use toml_edit::{DocumentMut, value};
 
-/// Where the particles, or clumps, of a file are [m].
+/// The first id of particles that a stage downstream makes itself; ids of those that come in are below it.
+const OWN_IDS: u32 = 2_000_000_000;
+
+/// Positions of the particles, or clumps, of a file [m].
 pub fn places(scene: &Scene, entry: &Particles) -> Result<Vec<Vec3>, SceneError> {
     let path = scene.folder.join(&entry.source);
     if entry.clump.is_none() {
-        return Ok(particle_file::read(&path)?.particles.iter().map(|p| p.position).collect());
+        return Ok(ParticleFile::read(&path)?.particles.iter().map(|p| p.position).collect());
     }
-    let name = path.display().to_string();
-    let (table, ..) = particle_file::table(&path)?;
-    Columns { name: &name, table: &table }.vectors(["x", "y", "z"])
+    Ok(ParticleTable::read(&path)?.columns().vectors(POSITION)?)
 }
 
 /// Largest scale of the clumps of a file [–].
@@ -24,13 +27,10 @@ pub fn largest_scale(scene: &Scene, entry: &Particles) -> Result<f64, SceneError
     if entry.clump.is_none() {
         return Ok(1.0);
     }
-    let path = scene.folder.join(&entry.source);
-    let (name, (table, ..)) = (path.display().to_string(), particle_file::table(&path)?);
-    let columns = Columns { name: &name, table: &table };
-    if table.get("scale").is_none() {
-        Ok(1.0)
-    } else {
-        Ok(columns.numbers("scale")?.into_iter().fold(0.0, f64::max))
+    let file = ParticleTable::read(&scene.folder.join(&entry.source))?;
+    match file.table.get(SCALE) {
+        None => Ok(1.0),
+        Some(_) => Ok(file.columns().numbers(SCALE)?.into_iter().fold(0.0, f64::max)),
     }
 }
 
@@ -39,13 +39,12 @@ fn after_ids(scene: &Scene, entry: &Particles) -> Result<u32, SceneError> {
     if entry.clump.is_some() {
         return Ok(0);
     }
-    let file = particle_file::read(&scene.folder.join(&entry.source))?;
+    let file = ParticleFile::read(&scene.folder.join(&entry.source))?;
     let last = file.particles.iter().map(|p| p.id.saturating_add(1)).max().unwrap_or(0);
     Ok(if file.has_ids { last } else { 0 })
 }
 
-/// The first id of particles that a stage downstream makes itself, out of reach of those that come in: of a plant that begins there already, because it is such a
-/// stage, halfway to the last.
+/// The first id for a plant with this first id. A plant that begins at [`OWN_IDS`] already is such a stage: then halfway to the last id.
 fn own_ids(first: u32) -> i64 {
     if first < OWN_IDS { i64::from(OWN_IDS) } else { i64::from(first + (u32::MAX - first) / 2) }
 }
@@ -96,7 +95,7 @@ impl Cutting<'_> {
         }
         match self.cut.keep {
             Stage::Downstream if kept > 0 => drop(document.insert("first_id", value(own_ids(m.first_id)))),
-            // In the plant those of a fill or a faucet follow the ones of its files, which may stay downstream.
+            // In the plant, ids of fills and insertions follow those of its files, which may stay downstream.
             _ if taken > m.first_id => drop(document.insert("first_id", value(i64::from(taken)))),
             _ => {}
         }

@@ -1,9 +1,11 @@
 //! Walls: which of them a stage needs.
 
-use super::{Cutting, Found, Stage, remove};
-use crate::error::SceneError;
-use crate::model::{Face, Wall};
-use geom::{Plane, Shown, Vec3};
+use super::Stage;
+use super::cutting::Cutting;
+use super::found::{Found, remove};
+use geom::{Plane, Shown};
+use scene::SceneError;
+use scene::keys::Wall;
 use toml_edit::DocumentMut;
 
 /// Cosine beyond which a wall is parallel to the cut [–].
@@ -66,21 +68,17 @@ impl Cutting<'_> {
     }
 }
 
-/// The unbounded planes of a wall; what cannot be read is refused where it is used.
+/// The unbounded planes of a wall; a text that is not a plane is refused by the stage that uses it.
 pub fn planes(wall: &Wall) -> Vec<Plane> {
     let plane = wall.plane.as_ref().and_then(|text| text.parse().ok());
-    let face = |(k, face): (usize, Face)| {
-        let b = wall.cuboid.filter(|_| wall.faces.as_ref().is_none_or(|some| some.contains(&face)))?;
-        let mut normal = Vec3::zeros();
-        normal[k / 2] = if k % 2 == 0 { 1.0 } else { -1.0 };
-        let corner = if k % 2 == 0 { [b[0], b[1], b[2]] } else { [b[3], b[4], b[5]] };
-        Some(Plane { point: Vec3::from(corner), normal })
-    };
-    let faces = [Face::LowX, Face::HighX, Face::LowY, Face::HighY, Face::LowZ, Face::HighZ];
-    plane.into_iter().chain(faces.into_iter().enumerate().filter_map(face)).collect()
+    let mut sides = wall.sides();
+    // The mark of a plant does not depend on the order of faces.
+    sides.sort_by_key(|(face, _)| *face as usize);
+    sides.dedup_by_key(|(face, _)| *face);
+    plane.into_iter().chain(sides.into_iter().map(|(_, plane)| plane)).collect()
 }
 
-/// A wall as its author calls it.
+/// The name of a wall.
 fn wall_name(index: usize, wall: &Wall) -> String {
     wall.name.as_ref().map_or_else(|| format!("wall.{index}"), |name| format!("wall '{name}'"))
 }

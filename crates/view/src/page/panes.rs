@@ -87,7 +87,8 @@ pub(super) fn bytes(surface: &Surface) -> usize {
 fn add_moving(outline: &mut Outline, places: &[Vec3], motion: &Motion, moments: &[f64]) {
     let moments = if motion.moves() { moments } else { &[0.0] };
     for &time in moments {
-        let moved: Vec<Vec3> = places.iter().copied().map(motion.to(time)).collect();
+        let pose = motion.pose(time);
+        let moved: Vec<Vec3> = places.iter().map(|place| pose.place(place)).collect();
         outline.add(&moved);
     }
 }
@@ -130,6 +131,6 @@ pub(super) fn motion(motion: &Motion) -> Value {
         "velocity": triple(&motion.velocity), "turn": triple(&motion.turn), "through": triple(&motion.through),
         "amplitude": triple(&motion.amplitude), "frequency": motion.frequency,
         // null: never
-        "from": motion.start, "until": motion.stop,
+        "from": motion.from, "until": motion.until,
     })
 }

@@ -85,12 +85,14 @@ impl Painted {
         let mut outline = survey.outline.clone();
         self.outline = outline.places();
         for sheet in sheet::sheets(surfaces, self.extent) {
-            let place = sheet.surface.motion.to(time);
-            let vertices: Vec<Vec3> = sheet.vertices.iter().map(|v| place(*v)).collect();
+            let pose = sheet.surface.motion.pose(time);
+            let vertices: Vec<Vec3> = sheet.vertices.iter().map(|v| pose.place(v)).collect();
             let faces = sheet.faces.iter().map(|f| f.map(|v| vertices[v as usize])).collect();
-            let lines = sheet.lines.iter().map(|l| l.map(&place)).collect();
+            let lines = sheet.lines.iter().map(|l| l.map(|v| pose.place(&v))).collect();
             let side = match &sheet.surface.shape {
-                SurfaceShape::Plane(p) => Some([place(p.point), place(p.point + p.normal) - place(p.point)]),
+                SurfaceShape::Plane(p) => {
+                    Some([pose.place(&p.point), pose.place(&(p.point + p.normal)) - pose.place(&p.point)])
+                }
                 SurfaceShape::Mesh(_) => None,
             };
             if sheet.whole && side.is_some() && self.outline.is_empty() {

@@ -77,8 +77,8 @@ pub fn points(role: Role, table: &Table) -> PolyData {
 pub fn walls(surfaces: &[Surface], reach: &Reach, time: f64) -> PolyData {
     let mut all = PolyData::default();
     for (number, sheet) in sheet::sheets(surfaces, reach.extent()).into_iter().enumerate() {
-        let place = sheet.surface.motion.to(time);
-        let points: Vec<f64> = sheet.vertices.iter().flat_map(|v| <[f64; 3]>::from(place(*v))).collect();
+        let pose = sheet.surface.motion.pose(time);
+        let points: Vec<f64> = sheet.vertices.iter().flat_map(|v| <[f64; 3]>::from(pose.place(v))).collect();
         let rows = sheet.vertices.len();
         let number = Values::U16(vec![number.min(usize::from(u16::MAX)) as u16; rows]);
         let fields =

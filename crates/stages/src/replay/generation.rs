@@ -9,29 +9,29 @@
 
 use super::head::Head;
 use super::{Intervals, Replay};
-use crate::crossings::Passage;
-use crate::error::SceneError;
+use crate::outlet::crossing::CrossingRow;
 use dem::setup::{Zone, ZoneMotion};
 use geom::{Shown, Vec3};
+use scene::SceneError;
 
-/// Places passages on their paths.
-pub struct Starts {
+/// Places rows on their paths.
+pub struct Generation {
     zone: Zone,
     /// Of the motion in the zone [m/s²].
     acceleration: Vec3,
     intervals: Intervals,
     ahead: Option<f64>,
-    /// Whether grains arrive at the times that were recorded.
+    /// Whether particles arrive at the times that were recorded.
     kept: bool,
 }
 
-impl Starts {
-    pub fn new(head: &Head, what: &Replay) -> Starts {
-        let zone = head.gate.zone;
-        let acceleration = zone.acceleration(&head.gate.gravity.unwrap_or_default());
+impl Generation {
+    pub fn new(head: &Head, what: &Replay) -> Generation {
+        let zone = head.zone.zone;
+        let acceleration = zone.acceleration(&head.zone.gravity.unwrap_or_default());
         let kept =
             what.keep_times && what.intervals == Intervals::Both && zone.motion != ZoneMotion::Recorded;
-        Starts { zone, acceleration, intervals: what.intervals, ahead: what.ahead, kept }
+        Generation { zone, acceleration, intervals: what.intervals, ahead: what.ahead, kept }
     }
 
     /// T of [`Intervals::Both`] [s], when it is known.
@@ -39,14 +39,14 @@ impl Starts {
         self.ahead.filter(|_| self.intervals == Intervals::Both)
     }
 
-    /// How long before its passage a grain is generated at most, where it arrives at the time that was recorded [s]; ∞ while that is unknown.
+    /// The longest time between generation and crossing, where particles cross at the times that were recorded [s]; ∞ while it is unknown.
     pub fn lead(&self) -> f64 {
         if self.kept { self.ahead.unwrap_or(f64::INFINITY) } else { 0.0 }
     }
 
-    /// Gives a passage the state in which it is generated, and tells how much later than its passage that is [s], in a stream whose time is
-    /// later by T unless times are kept. Then it is earlier, and no earlier than 0: who passes before T is generated on its way.
-    pub fn place(&mut self, name: &str, row: &mut Passage) -> Result<f64, SceneError> {
+    /// Gives a row the state in which it is generated. The result is how much later than its crossing that is [s], in a stream whose time
+    /// is later by T. Where times are kept it is earlier, but not before 0: a particle that crosses before T is generated on its way.
+    pub fn place(&mut self, name: &str, row: &mut CrossingRow) -> Result<f64, SceneError> {
         let (plane, particle) = (self.zone.plane, &mut row.particle);
         let speed = particle.velocity.dot(&plane.normal);
         if !(speed > 0.0) {

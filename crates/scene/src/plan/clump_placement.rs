@@ -1,51 +1,36 @@
-//! Rigid clumps at t = 0: `[[body]]`, `[[particles]]` and `[[fill]]` with `clump`.
+//! Positions of rigid clumps at t = 0: `[[body]]`, `[[particles]]` and `[[fill]]` with `clump`.
 
-use crate::columns::Columns;
+use super::builder::PlanBuilder;
+use super::fill::LARGER;
+use super::packing::{Packing, bounds};
+use super::random::{diameter, generator, orientation};
 use crate::error::SceneError;
-use crate::fill::{Place, diameter, generator, unit};
-use crate::model::{Diameter, Fill};
-use crate::particle_file;
-use crate::plan::Draft;
-use crate::room::bounds;
+use crate::input::ParticleTable;
+use crate::keys::{Diameter, Fill};
 use dem::setup::{Body, ClumpShape};
 use geom::{Shape, Vec3};
 use nalgebra::{Quaternion, UnitQuaternion};
 use rand_pcg::Pcg64Mcg;
-use std::f64::consts::TAU;
+use record::column::{ID, ORIENTATION, ORIENTATION_REAL, POSITION, SCALE, SPIN, VELOCITY};
 
-/// Columns of a file of clumps that are read.
-const KNOWN: [&str; 15] =
-    ["id", "x", "y", "z", "qw", "qx", "qy", "qz", "scale", "vx", "vy", "vz", "wx", "wy", "wz"];
-/// More than this is a slip of the pen.
+/// More than this is a mistake.
 const MOST: u64 = 10_000_000;
-
-/// A random orientation, all alike likely: Shoemake (1992), Graphics Gems III.
-pub(crate) fn orientation(random: &mut Pcg64Mcg) -> UnitQuaternion<f64> {
-    let (share, a, b) = (unit(random), TAU * unit(random), TAU * unit(random));
-    let (p, q) = ((1.0 - share).sqrt(), share.sqrt());
-    let (i, j) = (p * libm::sin(a), p * libm::cos(a));
-    UnitQuaternion::new_normalize(Quaternion::new(q * libm::cos(b), i, j, q * libm::sin(b)))
-}
 
 /// w, x, y, z, of any length but 0.
 fn turn(q: [f64; 4]) -> Option<UnitQuaternion<f64>> {
     UnitQuaternion::try_new(Quaternion::new(q[0], q[1], q[2], q[3]), 1e-9).filter(|q| q.norm().is_finite())
 }
 
-impl Draft<'_> {
+impl PlanBuilder<'_> {
     /// `[[body]]`: one clump each.
-    pub(crate) fn bodies(&mut self) -> Result<(), SceneError> {
+    pub(super) fn bodies(&mut self) -> Result<(), SceneError> {
         for (i, entry) in self.model().body.iter().enumerate() {
             let shape = self.clump(&format!("body.{i}.clump"), &entry.clump)?;
             let Some(orientation) = turn(entry.quaternion) else {
                 let value = format!("{:?}", entry.quaternion);
                 let key = format!("body.{i}.quaternion");
-                return Err(self.check.wrong(
-                    &key,
-                    value,
-                    "is no orientation",
-                    "give [w, x, y, z], such as [1, 0, 0, 0]",
-                ));
+                let cure = "give [w, x, y, z], such as [1, 0, 0, 0]";
+                return Err(self.check.wrong(&key, value, "is not an orientation", cure));
             };
             self.clumps.bodies.push(Body {
                 id: self.next_id(),
@@ -60,34 +45,32 @@ impl Draft<'_> {
         Ok(())
     }
 
-    /// `[[particles]]` with `clump`: a body for each row of a file.
-    pub(crate) fn body_file(&mut self, key: &str, source: &str, clump: &str) -> Result<(), SceneError> {
+    /// `[[particles]]` with `clump`: a clump for each row of a file.
+    pub(super) fn clump_file(&mut self, key: &str, source: &str, clump: &str) -> Result<(), SceneError> {
         let shape = self.clump(&format!("{key}.clump"), clump)?;
-        let path = self.path(source);
-        let name = path.display().to_string();
-        let (table, ..) = particle_file::table(&path)?;
-        let columns = Columns { name: &name, table: &table };
-        let positions = columns.vectors(["x", "y", "z"])?;
-        let (velocities, spins) =
-            (columns.vectors_or_zero(["vx", "vy", "vz"])?, columns.vectors_or_zero(["wx", "wy", "wz"])?);
-        let vector = columns.vectors_or_zero(["qx", "qy", "qz"])?;
-        let or_one = |column: &str| match table.get(column) {
+        let file = ParticleTable::read(&self.path(source))?;
+        let columns = file.columns();
+        let positions = columns.vectors(POSITION)?;
+        let (velocities, spins) = (columns.vectors_or_zero(VELOCITY)?, columns.vectors_or_zero(SPIN)?);
+        let vector = columns.vectors_or_zero(ORIENTATION)?;
+        let or_one = |column: &str| match file.table.get(column) {
             Some(_) => columns.numbers(column),
             None => Ok(vec![1.0; positions.len()]),
         };
-        let (real, scales) = (or_one("qw")?, or_one("scale")?);
-        let ids = columns.indices("id", f64::from(u32::MAX - 1))?;
-        self.inputs.push(("particles".to_owned(), crate::wall_file::hash(&table)));
-        self.notes.extend(columns.unused(&KNOWN));
+        let (real, scales) = (or_one(ORIENTATION_REAL)?, or_one(SCALE)?);
+        let ids = columns.indices(ID, f64::from(u32::MAX - 1))?;
+        self.inputs.push(("particles".to_owned(), record::hash(&file.table)));
+        self.warnings.extend(columns.unused(&known()));
         if positions.is_empty() {
-            self.notes.push(format!("{name}: holds no clump: it has names of columns and no row"));
+            let name = &file.name;
+            self.warnings.push(format!("{name}: holds no clump: it has names of columns and no row"));
         }
         let (first, members) = (self.next_id(), self.clumps.shapes[shape as usize].spheres.len() as u32);
         for k in 0..positions.len() {
             let q = vector[k];
             let Some(orientation) = turn([real[k], q.x, q.y, q.z]) else {
                 let why = format!("row {k}: the quaternion (qw, qx, qy, qz) has no length");
-                return Err(SceneError::file(&name, why, "write 1, 0, 0, 0 for no turn"));
+                return Err(SceneError::file(&file.name, why, "write 1, 0, 0, 0 for no turn"));
             };
             self.clumps.bodies.push(Body {
                 id: ids.as_ref().map_or(first.wrapping_add(k as u32 * members), |ids| ids[k]),
@@ -102,8 +85,8 @@ impl Draft<'_> {
         Ok(())
     }
 
-    /// `[[fill]]` with `clump`: bodies at random places and in random orientations, the spheres that hold them inside the shape and apart.
-    pub(crate) fn fill_bodies(
+    /// `[[fill]]` with `clump`: clumps at random positions and orientations; the spheres that hold them are inside the shape and do not touch.
+    pub(super) fn fill_with_clumps(
         &mut self,
         index: usize,
         entry: &Fill,
@@ -121,24 +104,20 @@ impl Draft<'_> {
         let mut random = generator(entry.seed, 4, index as u64);
         let scales = scales(entry, clump, density, &mut random);
         if scales.is_empty() || scales.len() as u64 > MOST {
-            let (value, why) =
-                (format!("{} clumps", scales.len()), "is not a number of clumps that can be placed");
+            let value = format!("{} clumps", scales.len());
+            let why = "is not a number of clumps that can be placed";
             let given = if entry.count.is_some() { "count" } else { "mass" };
             return Err(self.check.wrong(&key(given), value, why, "ask for 1 to 10 million"));
         }
-        let taken = self.taken();
+        let taken = self.spheres();
         let reach = clump.reach();
-        let mut room = Place::new(shape, (low, high), scales[0] * reach, &taken);
+        let mut packing = Packing::new(shape, (low, high), scales[0] * reach, &taken);
         let (mut id, members) = (self.next_id(), clump.spheres.len() as u32);
         for (n, &scale) in scales.iter().enumerate() {
-            let Some(position) = room.find(scale * reach, &mut random) else {
-                let why = format!(
-                    "only {n} of {} clumps fit without their bounding spheres touching",
-                    scales.len()
-                );
-                let cure =
-                    "make the shape larger (random places fill about a third of it), or pour with [[insert]]";
-                return Err(self.check.wrong(&key("shape"), &entry.shape, &why, cure));
+            let Some(position) = packing.place(scale * reach, &mut random) else {
+                let count = scales.len();
+                let why = format!("only {n} of {count} clumps fit without their bounding spheres touching");
+                return Err(self.check.wrong(&key("shape"), &entry.shape, &why, LARGER));
             };
             let (orientation, velocity) = (orientation(&mut random), Vec3::from(entry.velocity));
             let spin = Vec3::zeros();
@@ -148,20 +127,25 @@ impl Draft<'_> {
         Ok(())
     }
 
-    /// Spheres of everything that is placed: centre, radius [m].
-    pub(crate) fn taken(&self) -> Vec<(Vec3, f64)> {
-        let mut taken: Vec<(Vec3, f64)> = self.particles.iter().map(|p| (p.position, p.radius)).collect();
+    /// All spheres that are placed: centre, radius [m].
+    pub(super) fn spheres(&self) -> Vec<(Vec3, f64)> {
+        let mut all: Vec<(Vec3, f64)> = self.particles.iter().map(|p| (p.position, p.radius)).collect();
         for b in &self.clumps.bodies {
             let shape = &self.clumps.shapes[b.shape as usize];
             let turn = b.orientation * shape.frame;
             let member = |(c, r): &(Vec3, f64)| (b.position + turn * (c * b.scale), r * b.scale);
-            taken.extend(shape.spheres.iter().map(member));
+            all.extend(shape.spheres.iter().map(member));
         }
-        taken
+        all
     }
 }
 
-/// Scales of the bodies of a fill, largest first; as many as come nearest to the mass.
+/// Columns of a file of clumps that are read.
+fn known() -> Vec<&'static str> {
+    [&[ID], &POSITION[..], &[ORIENTATION_REAL], &ORIENTATION, &[SCALE], &VELOCITY, &SPIN].concat()
+}
+
+/// Scales of the clumps of a fill, largest first; as many as come nearest to the mass.
 fn scales(entry: &Fill, clump: &ClumpShape, density: f64, random: &mut Pcg64Mcg) -> Vec<f64> {
     let range = entry.scale.unwrap_or(Diameter { low: 1.0, high: 1.0 });
     let (mut scales, mut mass) = (Vec::new(), 0.0);

@@ -1,32 +1,40 @@
-//! Keeps passages in the order in which they are generated.
+//! Keeps rows in the order in which they are generated.
 
-use crate::crossings::Passage;
+use crate::outlet::crossing::CrossingRow;
 use dem::setup::{Link, Memory};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::collections::binary_heap::PeekMut;
 use std::rc::Rc;
 
-/// A passage that is generated, which copy of it, and what it knows of others.
+/// A row that is generated.
 #[derive(Clone)]
 pub struct Generated {
-    pub row: Passage,
-    pub copy: (u32, u32),
-    pub known: Known,
+    pub row: CrossingRow,
+    /// Which copy in which replay it is.
+    pub origin: Origin,
+    pub partners: Partners,
 }
 
-/// What a passage knows of others.
+/// Which copy of a record, in which replay of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub struct Origin {
+    pub copy: u32,
+    pub replay: u32,
+}
+
+/// Contacts and bonds of a row.
 #[derive(Clone)]
-pub struct Known {
-    /// What its contacts remember.
-    pub touches: Rc<[Memory]>,
-    /// Its bonds.
-    pub links: Rc<[Link]>,
+pub struct Partners {
+    /// Contact histories.
+    pub contacts: Rc<[Memory]>,
+    /// Bonds.
+    pub bonds: Rc<[Link]>,
 }
 
-/// Passages that wait for those that may be generated before them; no more than pass in the time that one may wait.
+/// Rows that wait for those that may be generated before them.
 #[derive(Default)]
-pub struct Order {
+pub struct Queue {
     waiting: BinaryHeap<Waiting>,
     count: u64,
 }
@@ -37,7 +45,7 @@ struct Waiting {
     number: u64,
 }
 
-impl Order {
+impl Queue {
     pub fn put(&mut self, one: Generated) {
         self.count += 1;
         self.waiting.push(Waiting { one, number: self.count });

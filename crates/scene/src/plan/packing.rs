@@ -1,9 +1,20 @@
-//! Room for whole spheres inside a shape.
+//! Random places for whole spheres inside a shape, none of which touch.
 
+use super::random::unit;
 use geom::{Shape, Vec3, shape::Solid};
+use rand_pcg::Pcg64Mcg;
+use std::f64::consts::PI;
+
+/// Tries for a place before the shape counts as full.
+const TRIES: usize = 20_000;
+
+/// Volume of a sphere [m³].
+pub(super) fn volume(radius: f64) -> f64 {
+    4.0 / 3.0 * PI * radius * radius * radius
+}
 
 /// The corners (lowest, highest) [m] of a shape that has an end; `None` for one that has none.
-pub(crate) fn bounds(shape: &Shape) -> Option<(Vec3, Vec3)> {
+pub fn bounds(shape: &Shape) -> Option<(Vec3, Vec3)> {
     if shape.outside {
         return None;
     }
@@ -25,7 +36,7 @@ pub(crate) fn bounds(shape: &Shape) -> Option<(Vec3, Vec3)> {
 }
 
 /// Whether a whole sphere lies inside the shape.
-pub(crate) fn holds(shape: &Shape, centre: &Vec3, radius: f64) -> bool {
+pub(super) fn holds(shape: &Shape, centre: &Vec3, radius: f64) -> bool {
     match (&shape.solid, shape.outside) {
         (Solid::Box(low, high), false) => {
             (0..3).all(|a| low[a] + radius <= centre[a] && centre[a] <= high[a] - radius)
@@ -50,7 +61,7 @@ pub(crate) fn holds(shape: &Shape, centre: &Vec3, radius: f64) -> bool {
 }
 
 /// Spheres sorted into cells as they come, to see at once whether another one fits between them.
-pub(crate) struct Occupied {
+struct Occupied {
     low: Vec3,
     cell: f64,
     count: [usize; 3],
@@ -64,7 +75,7 @@ const NONE: u32 = u32::MAX;
 
 impl Occupied {
     /// No spheres yet, of at most this radius, between two corners [m].
-    pub(crate) fn new(low: Vec3, high: Vec3, largest: f64) -> Occupied {
+    fn new(low: Vec3, high: Vec3, largest: f64) -> Occupied {
         let size = high - low;
         // A very large empty shape gets larger cells rather than more of them than memory has room for.
         let cell = (2.0 * largest).max((size.x * size.y * size.z / 2e7).cbrt()).max(size.max() / 4e3);
@@ -79,7 +90,7 @@ impl Occupied {
     }
 
     /// Whether a sphere touches none of those that are there.
-    pub(crate) fn is_free(&self, centre: &Vec3, radius: f64) -> bool {
+    fn is_free(&self, centre: &Vec3, radius: f64) -> bool {
         let here = self.cell_of(centre);
         let range = |a: usize| here[a].saturating_sub(1)..=(here[a] + 1).min(self.count[a] - 1);
         for z in range(2) {
@@ -100,11 +111,49 @@ impl Occupied {
     }
 
     /// Puts a sphere there.
-    pub(crate) fn take(&mut self, centre: Vec3, radius: f64) {
+    fn take(&mut self, centre: Vec3, radius: f64) {
         let [x, y, z] = self.cell_of(&centre);
         let cell = (z * self.count[1] + y) * self.count[0] + x;
         self.before.push(self.last[cell]);
         self.last[cell] = self.spheres.len() as u32;
         self.spheres.push((centre, radius));
+    }
+}
+
+/// A shape that is filled with spheres one after the other.
+pub(super) struct Packing<'a> {
+    shape: &'a Shape,
+    low: Vec3,
+    high: Vec3,
+    occupied: Occupied,
+}
+
+impl<'a> Packing<'a> {
+    /// A shape between two corners, the spheres that are in it, and the largest radius of those to come [m].
+    pub(super) fn new(
+        shape: &'a Shape,
+        (low, high): (Vec3, Vec3),
+        largest: f64,
+        taken: &[(Vec3, f64)],
+    ) -> Packing<'a> {
+        let largest = taken.iter().map(|s| s.1).fold(largest, f64::max);
+        let mut occupied = Occupied::new(low, high, largest);
+        let near = |p: &Vec3| (0..3).all(|a| p[a] > low[a] - 2.0 * largest && p[a] < high[a] + 2.0 * largest);
+        taken.iter().filter(|s| near(&s.0)).for_each(|s| occupied.take(s.0, s.1));
+        Packing { shape, low, high, occupied }
+    }
+
+    /// Places one more sphere at random; `None` when there is no space.
+    pub(super) fn place(&mut self, radius: f64, random: &mut Pcg64Mcg) -> Option<Vec3> {
+        let (low, size) = (self.low.add_scalar(radius), (self.high - self.low).add_scalar(-2.0 * radius));
+        if size.min() < 0.0 {
+            return None;
+        }
+        let found = (0..TRIES).find_map(|_| {
+            let at = low + Vec3::new(unit(random), unit(random), unit(random)).component_mul(&size);
+            (holds(self.shape, &at, radius) && self.occupied.is_free(&at, radius)).then_some(at)
+        })?;
+        self.occupied.take(found, radius);
+        Some(found)
     }
 }

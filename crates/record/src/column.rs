@@ -1,0 +1,59 @@
+//! Names of columns; vectors are three columns.
+
+/// Three columns of a vector.
+pub type Vector = [&'static str; 3];
+
+/// Position [m]: particles, walls, contacts, bonds, crossings.
+pub const POSITION: Vector = ["x", "y", "z"];
+/// Velocity [m/s].
+pub const VELOCITY: Vector = ["vx", "vy", "vz"];
+/// Angular velocity [rad/s].
+pub const SPIN: Vector = ["wx", "wy", "wz"];
+/// Orientation: the real part, then [`ORIENTATION`].
+pub const ORIENTATION_REAL: &str = "qw";
+/// Orientation: the vector part.
+pub const ORIENTATION: Vector = ["qx", "qy", "qz"];
+/// Radius [m].
+pub const RADIUS: &str = "radius";
+/// Diameter [m], in files of particles.
+pub const DIAMETER: &str = "diameter";
+/// Unique number of a particle, or of the first member of a clump.
+pub const ID: &str = "id";
+/// Index of the material.
+pub const MATERIAL: &str = "material";
+/// Id of the clump of a particle; its own id where it has none.
+pub const BODY: &str = "body";
+/// Number of spheres of a clump.
+pub const MEMBERS: &str = "members";
+/// Index of a clump's shape.
+pub const CLUMP: &str = "clump";
+/// Size of a clump over that of its shape [–].
+pub const SCALE: &str = "scale";
+/// Mass [kg].
+pub const MASS: &str = "mass";
+/// Index of a wall.
+pub const WALL: &str = "wall";
+/// Unit normal of a contact, from j to i [–].
+pub const NORMAL: Vector = ["nx", "ny", "nz"];
+/// Force on i [N].
+pub const FORCE: Vector = ["fx", "fy", "fz"];
+/// Overlap [m].
+pub const OVERLAP: &str = "overlap";
+/// First particle of a contact or bond.
+pub const FIRST: &str = "id_i";
+/// Second particle of a contact or bond, or the wall.
+pub const SECOND: &str = "id_j";
+/// 0: two particles; 1: a particle and a wall.
+pub const KIND: &str = "kind";
+/// Sliding work since the frame before [J].
+pub const WORK: &str = "work";
+/// Time of a crossing [s].
+pub const TIME: &str = "time";
+/// Index of the outlet.
+pub const OUTLET: &str = "outlet";
+/// Number of contacts of a particle that crosses.
+pub const CONTACTS: &str = "contacts";
+/// The other particle of a contact or bond of a particle that crosses.
+pub const PARTNER: &str = "partner";
+/// 1: the particle has gone back upstream.
+pub const GONE: &str = "gone";

@@ -1,0 +1,49 @@
+//! What the files of a run hold: topics, metadata records and columns, each declared once.
+//!
+//! A run (`dem-run`), walls (`wallgen`) and an inlet (`stage-replay`) are MCAP streams. [`topic`] names their channels and [`metadata`]
+//! their records; [`column`] names the columns of tables. The other modules are the records and messages themselves: what writes and what
+//! reads one stands side by side. [`Columns`] reads a table, [`TableBuilder`] makes one.
+//!
+//! Uses `geom` and `stream` alone. It knows no engine and no scene, so that tools which only read runs (`view`, `measure`, `wall`) need
+//! neither; `scene`, `stages` and `run` translate between these records and the engine's types.
+
+mod bonds;
+mod clump;
+pub mod column;
+mod columns;
+mod error;
+mod log;
+mod material;
+pub mod metadata;
+mod sizes;
+mod surface;
+mod table;
+pub mod topic;
+mod watermark;
+
+pub use bonds::BondRange;
+pub use clump::ClumpRecord;
+pub use columns::{Columns, hash};
+pub use error::{RecordError, positive};
+pub use log::LogMessage;
+pub use material::{MaterialRecord, POISSON, is_poisson};
+pub use sizes::Sizes;
+pub use surface::{SurfaceShape, WallRecord, home, moved};
+pub use table::TableBuilder;
+pub use watermark::Watermark;
+
+/// Metadata of one record: text by key.
+pub type Map = std::collections::BTreeMap<String, String>;
+
+/// The name of a point cloud's frame of reference.
+pub const FRAME: &str = "world";
+
+/// A simulated time [s] as the clock of messages [ns].
+pub fn nanoseconds(time: f64) -> u64 {
+    (time * 1e9).round() as u64
+}
+
+/// JSON of what always is JSON: structs of numbers and text.
+pub fn json(value: &impl serde::Serialize) -> String {
+    serde_json::to_string(value).unwrap_or_default()
+}

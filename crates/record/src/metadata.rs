@@ -1,0 +1,22 @@
+//! Names of metadata records.
+
+/// The scene of a run; its key `toml` holds the text.
+pub const SCENE: &str = "scene";
+/// Materials by index, see [`crate::MaterialRecord`].
+pub const MATERIALS: &str = "materials";
+/// Time step, first and last time of a run [s].
+pub const TIME: &str = "time";
+/// Radii of all particles, see [`crate::Sizes`].
+pub const SIZES: &str = "sizes";
+/// Key of [`SIZES`] that is there when all particles are members of clumps.
+pub const ONLY_CLUMPS: &str = "only_clumps";
+/// Outlets of a run by index.
+pub const OUTLETS: &str = "outlets";
+/// Shapes of clumps by index, see [`crate::ClumpRecord`].
+pub const CLUMPS: &str = "clumps";
+/// Bonds that may cross, see [`crate::BondRange`].
+pub const BONDS: &str = "bonds";
+/// The zone of an inlet stream.
+pub const INLET: &str = "inlet";
+/// How a record was replayed.
+pub const REPLAY: &str = "replay";

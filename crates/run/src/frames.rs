@@ -1,0 +1,214 @@
+//! Tables and messages of a run: particles, clumps, contacts, bonds and walls at one time.
+
+use dem::setup::{ClumpShape, Clumps, Particle, Setup, Wall, WallShape};
+use dem::{BodyState, BondState, ContactRecord, Simulation, Snapshot, WallForce};
+use geom::{Motion, Vec3};
+use record::column::{self, FIRST, FORCE, ID, MATERIAL, NORMAL, POSITION, RADIUS, SECOND, SPIN, VELOCITY};
+use record::{ClumpRecord, Map, SurfaceShape, TableBuilder, WallRecord};
+use scene::keys::Precision;
+use serde_json::{Value, json};
+use stream::{Kind, Line, Rows, Table, Values};
+
+fn kind(precision: Precision) -> Kind {
+    match precision {
+        Precision::F64 => Kind::F64,
+        Precision::F32 => Kind::F32,
+    }
+}
+
+/// The rows of the topic `/particles`; with clumps in the scene, the body of each row, too (its own id for a free sphere).
+pub(crate) struct ParticleRows<'a> {
+    /// The particles.
+    pub all: Snapshot<'a>,
+    /// Of positions and velocities.
+    pub precision: Precision,
+    /// Clumps by id, where the scene has any.
+    pub bodies: Option<&'a [BodyState]>,
+}
+
+/// Numbers of a particle that are written in the precision asked for, in the order of [`measured`].
+fn measured_columns() -> impl Iterator<Item = &'static str> {
+    POSITION.into_iter().chain([RADIUS]).chain(VELOCITY).chain(SPIN)
+}
+
+fn measured(p: &Particle) -> [f64; 10] {
+    let Particle { position: x, velocity: v, spin: w, radius, .. } = p;
+    [x.x, x.y, x.z, *radius, v.x, v.y, v.z, w.x, w.y, w.z]
+}
+
+impl Rows for ParticleRows<'_> {
+    fn fields(&self) -> Vec<(&str, Kind)> {
+        let kind = kind(self.precision);
+        let whole = [(ID, Kind::U32), (MATERIAL, Kind::U16)];
+        let body = self.bodies.map(|_| (column::BODY, Kind::U32));
+        measured_columns().map(|name| (name, kind)).chain(whole).chain(body).collect()
+    }
+
+    fn count(&self) -> usize {
+        self.all.len()
+    }
+
+    fn put(&self, n: usize, row: &mut Line) {
+        let p = self.all.particle(n);
+        match self.precision {
+            Precision::F64 => measured(&p).into_iter().for_each(|x| row.put(x)),
+            Precision::F32 => measured(&p).into_iter().for_each(|x| row.put(x as f32)),
+        }
+        row.put(p.id);
+        row.put(p.material);
+        if let Some(bodies) = self.bodies {
+            let before = bodies.partition_point(|b| b.id <= p.id);
+            row.put(bodies[..before].last().filter(|b| b.has(p.id)).map_or(p.id, |b| b.id));
+        }
+    }
+}
+
+/// The table of the topic `/bodies`: a row for each rigid clump, at its centre of mass; the quaternion turns the frame that its shape was
+/// given in.
+pub(crate) fn bodies(rows: &[BodyState]) -> Table {
+    let turn = |b: &BodyState| {
+        let q = b.orientation;
+        [q.w, q.i, q.j, q.k]
+    };
+    TableBuilder::new(rows.len())
+        .vectors(POSITION, rows, |b| b.position)
+        .orientations(rows, turn)
+        .vectors(VELOCITY, rows, |b| b.velocity)
+        .vectors(SPIN, rows, |b| b.spin)
+        .numbers(column::MASS, rows.iter().map(|b| b.mass))
+        .numbers(column::SCALE, rows.iter().map(|b| b.scale))
+        .u32(ID, rows.iter().map(|b| b.id))
+        .u32(column::MEMBERS, rows.iter().map(|b| b.members))
+        .u16(column::CLUMP, rows.iter().map(|b| b.shape as u16))
+        .done()
+}
+
+/// The record `clumps`: each shape by its index, in the frame that it was given in.
+pub(crate) fn clumps(clumps: &Clumps) -> Map {
+    let one = |(s, k): (&ClumpShape, u32)| {
+        let range = clumps.scales_of(k).fold(None, |range: Option<(f64, f64)>, (low, high)| {
+            Some(range.map_or((low, high), |r| (r.0.min(low), r.1.max(high))))
+        });
+        let sphere = |(c, r): &(Vec3, f64)| {
+            let c = s.centre + s.frame * c;
+            [c.x, c.y, c.z, *r]
+        };
+        ClumpRecord {
+            centre: s.centre.into(),
+            inertia: s.inertia,
+            material: s.material,
+            name: s.name.clone(),
+            scales: range,
+            spheres: s.spheres.iter().map(sphere).collect(),
+            volume: s.volume,
+        }
+    };
+    ClumpRecord::to_map(&clumps.shapes.iter().zip(0..).map(one).collect::<Vec<_>>())
+}
+
+/// The table of the topic `/contacts`.
+pub(crate) fn contacts(rows: &[ContactRecord], precision: Precision) -> Table {
+    TableBuilder::of(rows.len(), kind(precision))
+        .vectors(POSITION, rows, |c| c.point)
+        .vectors(NORMAL, rows, |c| c.normal)
+        .vectors(FORCE, rows, |c| c.force)
+        .numbers(column::OVERLAP, rows.iter().map(|c| c.overlap))
+        .u32(FIRST, rows.iter().map(|c| c.i))
+        .u32(SECOND, rows.iter().map(|c| c.j))
+        .u16(column::KIND, rows.iter().map(|c| u16::from(c.wall)))
+        .numbers(column::WORK, rows.iter().map(|c| c.work))
+        .done()
+}
+
+/// The table of the topic `/bonds`: a row for each bond that there was at the start, half-way between its particles.
+pub(crate) fn bonds(rows: &[BondState], precision: Precision) -> Table {
+    TableBuilder::of(rows.len(), kind(precision))
+        .vectors(POSITION, rows, |b| b.middle)
+        .vectors(FORCE, rows, |b| b.force)
+        .vectors(["mx_i", "my_i", "mz_i"], rows, |b| b.moments[0])
+        .vectors(["mx_j", "my_j", "mz_j"], rows, |b| b.moments[1])
+        .numbers("tension", rows.iter().map(|b| b.stress[0]))
+        .numbers("shear", rows.iter().map(|b| b.stress[1]))
+        .u32(FIRST, rows.iter().map(|b| b.ids[0]))
+        .u32(SECOND, rows.iter().map(|b| b.ids[1]))
+        .with("broken", Values::U8(rows.iter().map(|b| u8::from(b.broken.is_some())).collect()))
+        .with("broken_at", Values::F64(rows.iter().map(|b| b.broken.unwrap_or(0.0)).collect()))
+        .done()
+}
+
+/// A wall sphere now.
+struct SphereNow {
+    centre: Vec3,
+    radius: f64,
+    material: u16,
+    wall: u16,
+}
+
+/// The table of the topic `/walls`: all wall spheres as they are now; `None` when there is none.
+pub(crate) fn wall_spheres(sim: &Simulation, walls: &[WallHead]) -> Option<Table> {
+    let of = |(index, wall): (usize, &WallHead)| {
+        let (material, wall) = (wall.material, index as u16);
+        let sphere = move |(centre, radius)| SphereNow { centre, radius, material, wall };
+        sim.wall_spheres(index).into_iter().map(sphere)
+    };
+    let rows: Vec<SphereNow> = walls.iter().enumerate().filter(|(_, w)| w.spheres).flat_map(of).collect();
+    if rows.is_empty() {
+        return None;
+    }
+    let table = TableBuilder::new(rows.len())
+        .vectors(POSITION, &rows, |r| r.centre)
+        .numbers(RADIUS, rows.iter().map(|r| r.radius))
+        .u16(MATERIAL, rows.iter().map(|r| r.material))
+        .u16(column::WALL, rows.iter().map(|r| r.wall));
+    Some(table.done())
+}
+
+/// What is kept of a wall when the engine has taken it.
+pub(crate) struct WallHead {
+    pub name: String,
+    pub material: u16,
+    pub spheres: bool,
+}
+
+/// The heads of a setup's walls.
+pub(crate) fn heads(setup: &Setup) -> Vec<WallHead> {
+    let head = |w: &Wall| WallHead {
+        name: w.name.clone(),
+        material: w.material,
+        spheres: matches!(w.shape, WallShape::Spheres(_)),
+    };
+    setup.walls.iter().map(head).collect()
+}
+
+fn triple(v: &Vec3) -> Value {
+    json!([v.x, v.y, v.z])
+}
+
+/// The message of the topic `/wall_forces`: force on each wall [N], and its shift [m].
+pub(crate) fn wall_forces(time: f64, forces: &[WallForce], walls: &[WallHead]) -> Value {
+    let one = |(f, w): (&WallForce, &WallHead)| json!({"name": w.name, "force": triple(&f.force), "shift": triple(&f.shift), "contacts": f.contacts});
+    json!({"time": time, "walls": forces.iter().zip(walls).map(one).collect::<Vec<_>>()})
+}
+
+/// The message of the topic `/surfaces`: planes and meshes at t = 0, and the motion of every wall.
+pub(crate) fn surfaces(walls: &[Wall]) -> Value {
+    let one = |w: &Wall| {
+        let (surface, spheres) = match &w.shape {
+            WallShape::Spheres(s) => (None, s.len()),
+            WallShape::Plane(p) => (Some(SurfaceShape::Plane(*p)), 0),
+            WallShape::Mesh(m) => (Some(SurfaceShape::Mesh(m.clone())), 0),
+        };
+        let servo = w.motion.servo.map(
+            |s| json!({"direction": triple(&s.direction), "force": s.force, "speed_limit": s.speed_limit}),
+        );
+        let record = WallRecord { name: w.name.clone(), motion: motion(&w.motion), surface };
+        record.to_json(w.material, spheres, servo)
+    };
+    Value::Array(walls.iter().map(one).collect())
+}
+
+/// The motion of a wall without its servo.
+fn motion(m: &dem::setup::Motion) -> Motion {
+    let dem::setup::Motion { velocity, turn, through, amplitude, frequency, from, until, .. } = *m;
+    Motion { velocity, turn, through, amplitude, frequency, from, until }
+}

@@ -1,0 +1,29 @@
+//! A plan through time, written as MCAP: frames, crossings, checkpoints; and what `--explain` says about it.
+//!
+//! ```text
+//! start (engine, head of the file) → step: feed → look (crossings, checkpoint, frame) → … → stop, or the end
+//! ```
+//!
+//! [`simulate`] is the loop; [`start`], [`write`] and [`stop`] are its beginning, its output and its early end. [`supply`] merges what comes
+//! in, [`schedule`] knows which steps are written, [`frames`] makes the tables, [`checkpoint`] saves and resumes. [`explain`] runs a part of a
+//! scene to measure it. Uses `scene` for the plan, `stages` for inlets and crossings, `record` for formats, `dem` for the engine.
+
+mod checkpoint;
+mod error;
+pub mod explain;
+mod frames;
+mod progress;
+mod returned;
+mod same_scene;
+mod schedule;
+mod simulate;
+mod start;
+mod stop;
+mod supply;
+mod write;
+
+pub use checkpoint::Checkpoint;
+pub use error::RunError;
+pub use progress::Progress;
+pub use returned::warnings;
+pub use simulate::{Outcome, SIGNAL, Settings, ready, run};

@@ -1,0 +1,286 @@
+//! The run: steps, and what is written between them.
+
+use crate::RunError;
+use crate::checkpoint::Checkpoint;
+use crate::frames::WallHead;
+use crate::progress::Progress;
+use crate::schedule::Schedule;
+use crate::supply::Supply;
+use crate::write::Ended;
+use dem::setup::{Crossing, Step};
+use dem::{Halt, SetupError, Simulation, State};
+use record::{LogMessage, json, nanoseconds, topic};
+use scene::keys::Precision;
+use scene::{Plan, Scene, SceneError};
+use serde::Serialize;
+use stages::inlet::Arrival;
+use stages::outlet::path::PathRow;
+use std::io::Write;
+use stream::mcap::{How, Provenance, Writer};
+
+/// Why a run was stopped that [`Settings::stop`] ended.
+pub const SIGNAL: &str = "by a signal";
+
+/// Steps between searches for particles that zones have lost: in so few, no particle gets past the length of a zone.
+const LOOK_BACK: u64 = 64;
+
+/// What was done.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Outcome {
+    /// Why the run was stopped: what a guard says, or [`SIGNAL`].
+    pub stopped: Option<String>,
+    /// Time reached [s].
+    pub time: f64,
+    /// Time step [s].
+    pub dt: f64,
+    /// Which measured curve the time step relies on, when the scene asks for an accuracy.
+    pub chosen_by: Option<String>,
+    /// Steps done in this run.
+    pub steps: u64,
+    /// Frames written.
+    pub frames: u64,
+    /// Particles at the end.
+    pub particles: usize,
+    /// Particles that entered.
+    pub entered: u64,
+    /// Particles that crossed a storage plane.
+    pub crossings: u64,
+    /// Particles that went back through planes.
+    pub returned: dem::Returned,
+    /// Warnings about records that ended before the run.
+    pub inflow: Vec<String>,
+    /// Contacts listed at the end.
+    pub listed_contacts: usize,
+    /// How often neighbour lists were rebuilt.
+    pub listings: u64,
+    /// Bonds at the start, and those that broke until the end.
+    pub bonds: [usize; 2],
+    /// Particles that sleep at the end.
+    pub asleep: usize,
+    /// Effects in force: name, pair, key.
+    pub effects: Vec<String>,
+}
+
+/// How a run is written.
+pub struct Settings<W> {
+    /// What made the run.
+    pub provenance: Provenance,
+    /// How its file is written.
+    pub how: How<W>,
+    /// Whether the energy of each frame is computed for progress reports.
+    pub watched: bool,
+    /// Called between steps: whether the run is to end here, with a checkpoint.
+    pub stop: fn() -> bool,
+}
+
+/// Refuses what would only be refused after the output was opened.
+///
+/// # Errors
+/// What the engine refuses, an end that is missing.
+pub fn ready(scene: &Scene, plan: &Plan, resume: Option<&Checkpoint>) -> Result<(), RunError> {
+    let limit = dem::critical_step(&plan.setup)?;
+    let dt = match (resume, plan.setup.step) {
+        // It was checked when the run began; a guard that has changed since does not matter.
+        (Some(checkpoint), _) => checkpoint.dt(),
+        (None, Step::Auto(share)) => share * limit.dt,
+        (None, Step::Fixed(dt)) if dt > limit.dt => {
+            return Err(SetupError::StepTooLarge { dt, critical: limit.dt, pair: limit.pair }.into());
+        }
+        (None, Step::Fixed(dt)) => dt,
+    };
+    if dt.is_finite() {
+        Schedule::new(scene, dt)?;
+    }
+    Ok(())
+}
+
+/// What of a scene and its setup decides what is written.
+pub(crate) struct Written {
+    /// Text of the scene.
+    pub scene: String,
+    /// Role and SHA-256 of its inputs.
+    pub inputs: Vec<(String, String)>,
+    pub walls: Vec<WallHead>,
+    /// Whether wall spheres move, so that they are written with every frame.
+    pub walls_move: bool,
+    pub outlets: bool,
+    pub clumps: bool,
+    /// Masses of clumps at scale 1 [kg].
+    pub masses: Vec<f64>,
+    pub energy: bool,
+    pub contacts: bool,
+    pub wall_forces: bool,
+    pub precision: Precision,
+    /// Steps between samples of paths, where any are recorded.
+    pub sampling: Option<u64>,
+    /// Whether the energy of each frame is computed for progress reports.
+    pub watched: bool,
+}
+
+/// A state to go back to: what the sources had given, and the engine.
+pub(crate) struct Before {
+    pub given: Vec<u64>,
+    pub state: State,
+}
+
+/// Energies of the frame that has just been written [J].
+#[derive(Clone, Copy)]
+pub(crate) struct FrameEnergy {
+    pub kinetic: f64,
+    /// Of the ledger, where it is kept.
+    pub balance: Option<f64>,
+}
+
+/// A run in progress.
+pub(crate) struct Run<W: Write> {
+    pub sim: Simulation,
+    pub supply: Supply,
+    pub writer: Writer<W>,
+    pub schedule: Schedule,
+    pub written: Written,
+    /// Step that the run began with.
+    pub first: u64,
+    pub crossings: Vec<Crossing>,
+    /// Step of the last sample of paths, or of the checkpoint that was resumed.
+    pub sampled: Option<u64>,
+    pub paths: Vec<PathRow>,
+    pub outcome: Outcome,
+    pub frame_energy: Option<FrameEnergy>,
+    /// The state when something was last written: a run whose numbers are lost is resumed from there.
+    pub before: Option<Before>,
+    /// When something was last written [s].
+    pub saved_at: f64,
+    pub checkpoints: u64,
+}
+
+/// Runs a scene to its end, or until a guard or a request stops it, and gives the output back.
+///
+/// `report` is called with the progress of the run every few steps and with each frame.
+///
+/// # Errors
+/// What the engine refuses, an inlet that breaks off, output that cannot be written.
+pub fn run<W: Write>(
+    scene: &Scene,
+    plan: Plan,
+    resume: Option<Checkpoint>,
+    out: W,
+    settings: Settings<W>,
+    report: &mut dyn FnMut(&Progress),
+) -> Result<(Outcome, W), RunError> {
+    let stop = settings.stop;
+    let mut run = Run::start(scene, plan, resume, out, settings)?;
+    let reason = loop {
+        let step = run.sim.steps();
+        run.sample()?;
+        match run.look(step) {
+            Err(Ended::Guard(halt)) => break Some(guard(scene, step, halt)?),
+            Err(Ended::Failed(error)) => return Err(error),
+            Ok(()) => {}
+        }
+        let last = step >= run.schedule.last;
+        if last || step % 256 == 0 || run.frame_energy.is_some() {
+            report(&run.progress());
+        }
+        if last {
+            break None;
+        }
+        // After the frame: a run that is resumed does not write it again.
+        if stop() {
+            break Some(SIGNAL.to_owned());
+        }
+        match run.feed() {
+            // The signal also ended what feeds this run; what had come in is in the checkpoint.
+            Err(_) if stop() => break Some(SIGNAL.to_owned()),
+            other => other?,
+        }
+        if let Err(halt) = run.step(step) {
+            break Some(guard(scene, step, halt)?);
+        }
+    };
+    run.finish(reason)
+}
+
+/// The message of a guard. What overlaps before the first step is an error of the scene, not of the calculation.
+pub(crate) fn guard(scene: &Scene, step: u64, halt: Halt) -> Result<String, SceneError> {
+    match halt {
+        Halt::Overlap { id, partner, overlap, .. } if step == 0 => {
+            Err(SceneError::Inside { name: scene.text.name.clone(), id, partner, overlap })
+        }
+        other => Ok(other.to_string()),
+    }
+}
+
+impl<W: Write> Run<W> {
+    fn step(&mut self, step: u64) -> Result<(), Halt> {
+        let outcome = self.sim.step();
+        self.crossings.append(&mut self.sim.take_crossings());
+        outcome?;
+        if step.is_multiple_of(LOOK_BACK) { self.sim.look_back() } else { Ok(()) }
+    }
+
+    /// Everything that enters before the next step must be known to it.
+    pub(crate) fn feed(&mut self) -> Result<(), RunError> {
+        // Where particles follow recorded paths, the next sample of each must be known.
+        let horizon = self.sim.time() + self.sim.look_ahead() + self.supply.samples();
+        while let Some(arrival) = self.supply.next_until(horizon)? {
+            match arrival {
+                Arrival::Enter(entry) => self.sim.enter(entry)?,
+                Arrival::Guide { id, guide, .. } => self.sim.guide(id, guide)?,
+                Arrival::Remember { memory, .. } => self.sim.remember(memory),
+                Arrival::Bond { bond, .. } => self.sim.link(bond),
+            }
+        }
+        Ok(())
+    }
+
+    fn progress(&mut self) -> Progress {
+        let (step, steps) = (self.sim.steps(), self.schedule.last);
+        let energy = self.frame_energy.take();
+        Progress {
+            time: self.sim.time(),
+            until: steps as f64 * self.schedule.dt,
+            step,
+            steps,
+            share: (step - self.first) as f64 / (steps - self.first).max(1) as f64,
+            particles: self.sim.particle_count(),
+            asleep: self.sim.asleep(),
+            kinetic: energy.map(|e| e.kinetic),
+            balance: energy.and_then(|e| e.balance),
+            frames: self.outcome.frames,
+            checkpoints: self.checkpoints,
+            saved: self.saved_at,
+        }
+    }
+
+    pub(crate) fn now(&self) -> u64 {
+        nanoseconds(self.sim.time())
+    }
+
+    pub(crate) fn log(&mut self, message: &LogMessage) -> Result<(), RunError> {
+        Ok(self.writer.bytes(topic::LOG, "json", self.now(), json(message).as_bytes())?)
+    }
+
+    pub(crate) fn note(&mut self, text: &str) -> Result<(), RunError> {
+        self.log(&LogMessage::note(self.sim.time(), text))
+    }
+
+    /// Writes the end of the file, with the `reason` of a run that was stopped.
+    fn finish(mut self, reason: Option<String>) -> Result<(Outcome, W), RunError> {
+        self.outcome.returned = self.sim.returned().clone();
+        self.outcome.inflow = self.supply.ended(self.sim.time());
+        let notes = [crate::warnings(&self.outcome.returned), self.outcome.inflow.clone()].concat();
+        notes.iter().try_for_each(|note| self.note(note))?;
+        reason.map_or(Ok(()), |reason| self.stop(reason))?;
+        let Run { sim, supply, mut outcome, writer, first, .. } = self;
+        outcome.steps = sim.steps() - first;
+        outcome.time = sim.time();
+        outcome.particles = sim.particle_count();
+        (outcome.listed_contacts, outcome.asleep) = (sim.listed_contacts(), sim.asleep());
+        (outcome.listings, outcome.bonds) = (sim.listings(), sim.bond_count());
+        let named =
+            |e: &dem::EffectCost| format!("{} ({}–{}): {}", e.effect, e.between.0, e.between.1, e.because);
+        outcome.effects = sim.explain().iter().map(named).collect();
+        outcome.entered = supply.entered;
+        Ok((outcome, writer.finish()?))
+    }
+}

@@ -1,0 +1,46 @@
+//! Particles as text: names on the first line, then a line of numbers for each particle.
+
+use crate::error::SceneError;
+use stream::{Table, Values};
+
+/// A table of text: names on the first line, commas or blanks between, `#` starts a comment.
+pub(super) fn csv(name: &str, bytes: &[u8]) -> Result<Table, SceneError> {
+    let wrong = |why: String| {
+        SceneError::file(name, why, "wanted: a line of names such as id,x,y,z,radius, then numbers")
+    };
+    // Spreadsheets mark UTF-8 with three bytes in front.
+    let text = std::str::from_utf8(bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes));
+    let text = text.map_err(|e| wrong(format!("byte {}: is not text, PLY or MCAP", e.valid_up_to())))?;
+    let split = |line: &str| -> Vec<String> {
+        line.split(|c: char| c == ',' || c == ';' || c.is_whitespace())
+            .filter(|f| !f.is_empty())
+            .map(str::to_owned)
+            .collect()
+    };
+    let lines = text.lines().enumerate().map(|(n, l)| (n + 1, l.split('#').next().unwrap_or("").trim()));
+    let mut lines = lines.filter(|(_, l)| !l.is_empty());
+    let Some((_, head)) = lines.next() else { return Err(wrong("is empty".into())) };
+    let names = split(head);
+    if names.first().is_none_or(|name| name.parse::<f64>().is_ok()) {
+        return Err(wrong("line 1: begins without a name, the line of names is missing".into()));
+    }
+    let mut columns: Vec<Vec<f64>> = vec![Vec::new(); names.len()];
+    for (n, line) in lines {
+        let fields = split(line);
+        if fields.len() != names.len() {
+            return Err(wrong(format!(
+                "line {n}: {} numbers where there are {} names",
+                fields.len(),
+                names.len()
+            )));
+        }
+        for (column, field) in columns.iter_mut().zip(&fields) {
+            column.push(field.parse().map_err(|_| wrong(format!("line {n}: '{field}' is not a number")))?);
+        }
+    }
+    let mut table = Table::default();
+    for (column, values) in names.iter().zip(columns) {
+        table.push(column, Values::F64(values)).map_err(|e| wrong(e.to_string()))?;
+    }
+    Ok(table)
+}

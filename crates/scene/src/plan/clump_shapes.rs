@@ -1,0 +1,84 @@
+//! `[[clump]]`: shapes of rigid clumps from spheres or from a closed mesh.
+//!
+//! Multisphere: mass, centre and inertia of the union of the spheres, or of their sum (`mass = "sum"`: overlaps count twice).
+//! Polyhedron: those of the inside of the mesh, exactly; a sphere of `vertex_radius` sits centred on every vertex that a face uses, so that
+//! the mesh is the hull of the centres and contacts lie `vertex_radius` outside of it (JP6939487B2, particles as polyhedra).
+
+use super::builder::PlanBuilder;
+use crate::error::SceneError;
+use crate::input::read_mesh;
+use crate::keys::{Clump, ClumpMass};
+use dem::setup::ClumpShape;
+use geom::moments::BodyError;
+use geom::{Moments, Vec3};
+
+/// More members make every contact list long; a mesh with so many vertices is not meant as a clump.
+const MOST: usize = 2000;
+
+type Sphere = (Vec3, f64);
+
+impl PlanBuilder<'_> {
+    /// Shapes of all `[[clump]]`.
+    pub(super) fn clump_shapes(&mut self) -> Result<(), SceneError> {
+        for (i, entry) in self.model().clump.iter().enumerate() {
+            let key = format!("clump.{i}");
+            let material = self.grain(&format!("{key}.material"), &entry.material)?.index;
+            let (spheres, moments) = match &entry.mesh {
+                Some(file) => self.polyhedron(&key, entry, file)?,
+                None => self.multisphere(&key, entry)?,
+            };
+            let shape = ClumpShape::new(&entry.name, material, &spheres, &moments);
+            self.inputs
+                .push((format!("clump '{}'", entry.name), stream::sha256(format!("{shape:?}").as_bytes())));
+            self.clumps.shapes.push(shape);
+        }
+        Ok(())
+    }
+
+    fn multisphere(&self, key: &str, entry: &Clump) -> Result<(Vec<Sphere>, Moments), SceneError> {
+        let given = entry.spheres.as_deref().unwrap_or_default();
+        self.few(&format!("{key}.spheres"), given.len(), "spheres")?;
+        let sphere = |s: &[f64; 4]| (Vec3::new(s[0], s[1], s[2]) * entry.scale, s[3] * entry.scale);
+        let spheres: Vec<Sphere> = given.iter().map(sphere).collect();
+        if let ClumpMass::Sum = entry.mass {
+            let moments = Moments::of_sum(&spheres);
+            return Ok((spheres, moments));
+        }
+        let moments = Moments::of_union(&spheres).map_err(|e| {
+            let count = format!("({} spheres)", spheres.len());
+            self.check.wrong(&format!("{key}.spheres"), count, &e.to_string(), "or use mass = \"sum\"")
+        })?;
+        Ok((spheres, moments))
+    }
+
+    fn polyhedron(&self, key: &str, entry: &Clump, file: &str) -> Result<(Vec<Sphere>, Moments), SceneError> {
+        let mut mesh = read_mesh(&self.path(file))?.welded();
+        mesh.vertices.iter_mut().for_each(|v| *v *= entry.scale);
+        let refused = |why: &str, cure: &str| {
+            self.check.wrong(&format!("{key}.mesh"), format!("\"{file}\""), why, cure)
+        };
+        let moments = Moments::of_mesh(&mesh).map_err(|e| {
+            let cure = match &e {
+                BodyError::Mesh(_) => "close it, with stone-clean or a mesh editor",
+                _ => "repair it in a mesh editor",
+            };
+            refused(&e.to_string(), cure)
+        })?;
+        let mut used = vec![false; mesh.vertices.len()];
+        mesh.faces.iter().flatten().for_each(|&v| used[v as usize] = true);
+        let vertices = mesh.vertices.iter().zip(used).filter(|(_, used)| *used);
+        let radius = entry.vertex_radius.unwrap_or_default() * entry.scale;
+        let spheres: Vec<Sphere> = vertices.map(|(v, _)| (*v, radius)).collect();
+        self.few(&format!("{key}.mesh"), spheres.len(), "vertices")?;
+        Ok((spheres, moments))
+    }
+
+    fn few(&self, key: &str, count: usize, what: &str) -> Result<(), SceneError> {
+        if count <= MOST {
+            return Ok(());
+        }
+        let why = format!("makes more than {MOST} spheres that move as one");
+        let cure = "thin it: a few dozen carry the shape (stone-clean --faces 100)";
+        Err(self.check.wrong(key, format!("{count} {what}"), &why, cure))
+    }
+}

@@ -1,0 +1,151 @@
+//! `[[inlet]]`: zones that recorded particles enter by, and the streams that bring them.
+
+use super::builder::{PlanBuilder, PlannedInlet};
+use super::same_zone::SameZone;
+use super::walls;
+use crate::error::SceneError;
+use crate::input::{InletSource, Input, ZoneRecord};
+use crate::keys::{Inlet, OrAuto};
+use dem::setup::{ClumpShape, EntryBonds, Zone};
+use geom::{Shown, Vec3};
+use record::{ClumpRecord, MaterialRecord};
+
+/// Scales are written as text: the last digit may differ [–].
+pub const SCALE_SLACK: f64 = 1e-12;
+
+impl PlanBuilder<'_> {
+    pub(super) fn inlets(&mut self, streams: Vec<InletSource>) -> Result<(), SceneError> {
+        self.all_wanted(&streams)?;
+        let mut given = streams.into_iter();
+        for (i, entry) in self.model().inlet.iter().enumerate() {
+            let key = format!("inlet.{i}");
+            let stream = match &entry.source {
+                Some(source) => self.open_inlet(source)?,
+                None => given.next().ok_or_else(|| {
+                    let why = "waits for an inlet of the command line, and none was given";
+                    let cure = "give dem-run the inlet that stage-replay wrote (dem-run SCENE.toml INLET.mcap), or this entry source";
+                    self.check.wrong(&key, "(without source)", why, cure)
+                })?,
+            };
+            let zone = self.inlet_zone(&key, entry, &stream)?;
+            if let Some(recorded) = &stream.zone {
+                let (gravity, plant) = (Some(self.model().gravity.into()), entry.plant.clone());
+                let scene = &ZoneRecord { zone, gravity, plant, samples: None };
+                let name = &stream.name;
+                SameZone { check: &self.check, key: &key, scene, stream: recorded, name }.check()?;
+            }
+            self.add_inlet(stream, zone)?;
+        }
+        Ok(())
+    }
+
+    /// The zone of an entry; keys that it lacks are those of the stream.
+    fn inlet_zone(&self, key: &str, entry: &Inlet, stream: &InletSource) -> Result<Zone, SceneError> {
+        let plane = walls::plane(&self.check, &format!("{key}.plane"), &entry.plane)?;
+        let recorded = stream.zone.as_ref().map(|z| z.zone);
+        let length = match (entry.length, recorded) {
+            (OrAuto::Given(length), _) => length,
+            (OrAuto::Auto, Some(zone)) => zone.length,
+            (OrAuto::Auto, None) => 2.4 * stream.sizes.largest,
+        };
+        let motion = entry.motion.or(recorded.map(|z| z.motion)).unwrap_or_default();
+        let test = entry.test.or(recorded.map(|z| z.test)).unwrap_or_default();
+        Ok(Zone { plane, length, motion, test })
+    }
+
+    /// Refuses inlets that no entry of the scene waits for.
+    fn all_wanted(&self, streams: &[InletSource]) -> Result<(), SceneError> {
+        let wanted = self.model().inlet.iter().filter(|entry| entry.source.is_none()).count();
+        let Some(left) = streams.get(wanted) else { return Ok(()) };
+        let why = if self.model().inlet.is_empty() {
+            "the scene has no [[inlet]]".to_owned()
+        } else {
+            format!("{} inlets are given, and {wanted} [[inlet]] without source wait for one", streams.len())
+        };
+        Err(SceneError::file(&left.name, why, "add [[inlet]] plane = \"…\" to the scene, or leave it out"))
+    }
+
+    fn open_inlet(&self, source: &str) -> Result<InletSource, SceneError> {
+        let path = self.path(source);
+        match Input::open_file(&path)? {
+            Input::Inlet(stream) => Ok(*stream),
+            Input::Walls(_) => {
+                let name = path.display().to_string();
+                Err(SceneError::file(&name, "holds walls, no crossings", "name it in [[wall]]"))
+            }
+        }
+    }
+
+    fn add_inlet(&mut self, source: InletSource, zone: Zone) -> Result<(), SceneError> {
+        let name = &source.name;
+        let mut materials = Vec::with_capacity(source.materials.len());
+        // Every material of the stream must fit: which of them it brings is known only when it has brought them.
+        for info in &source.materials {
+            let material = self.material_of(name, info)?;
+            self.same_density(name, info, material)?;
+            if self.materials[material as usize].density > 0.0 && !source.only_clumps {
+                self.entry_materials.push(material);
+            }
+            materials.push(material);
+        }
+        let shapes = self.shapes_of(name, &source.clumps)?;
+        if source.bonds.is_some() && self.model().bond.is_empty() {
+            let why = "brings bonds, and the scene has no [[bond]]";
+            return Err(SceneError::file(name, why, "add the [[bond]]s of the stage upstream to this one"));
+        }
+        let bonds = source.bonds.map(|b| EntryBonds { step: b.step, longest: b.longest });
+        self.entry_bonds = EntryBonds::union(self.entry_bonds, bonds);
+        self.will_enter(source.sizes, !source.only_clumps);
+        let inlet = self.inlets.len() as u32;
+        self.inlets.push(zone);
+        self.streams.push(PlannedInlet { source, inlet, materials, shapes });
+        Ok(())
+    }
+
+    /// Index of the scene's shape for each shape of a stream; those that may come are entries of the setup.
+    fn shapes_of(&mut self, stream: &str, records: &[ClumpRecord]) -> Result<Vec<u32>, SceneError> {
+        let mut found = Vec::with_capacity(records.len());
+        for record in records {
+            let Some((low, high)) = record.scales else {
+                found.push(u32::MAX);
+                continue;
+            };
+            let shape = self.clump(stream, &record.name)?;
+            if !self.clumps.shapes.get(shape as usize).is_some_and(|s| is_same(record, s)) {
+                let why = format!("its clump '{}' has other spheres than the scene's", record.name);
+                return Err(SceneError::file(stream, why, "cut both stages from one plant with stage-split"));
+            }
+            self.clumps.entries.push((shape, low * (1.0 - SCALE_SLACK), high * (1.0 + SCALE_SLACK)));
+            found.push(shape);
+        }
+        Ok(found)
+    }
+
+    /// Refuses a stream whose particles would have another mass here.
+    fn same_density(&self, stream: &str, info: &MaterialRecord, material: u16) -> Result<(), SceneError> {
+        let here = self.materials[material as usize].density;
+        match info.density {
+            Some(there) if here > 0.0 && there > 0.0 && (here - there).abs() > 1e-9 * there => {
+                let at = self.model().material.iter().position(|m| m.name == info.name);
+                let key = at.map_or("material".to_owned(), |k| format!("material.{k}.density"));
+                let why = format!("the grains of '{}' in {stream} have {} kg/m³", info.name, Shown(there));
+                let cure =
+                    "use the density of the stage upstream, or another name for what is denser or lighter";
+                Err(self.check.wrong(&key, format!("{} kg/m³", Shown(here)), &why, cure))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Whether a recorded shape is one of the scene, except for rounding.
+fn is_same(record: &ClumpRecord, shape: &ClumpShape) -> bool {
+    let size = shape.reach();
+    let near = |a: &[f64; 4], (c, r): &(Vec3, f64)| {
+        let at = shape.centre + shape.frame * c;
+        (Vec3::new(a[0], a[1], a[2]) - at).norm() < 1e-9 * size && (a[3] - r).abs() < 1e-9 * size
+    };
+    record.spheres.len() == shape.spheres.len()
+        && (record.volume - shape.volume).abs() < 1e-9 * shape.volume
+        && record.spheres.iter().zip(&shape.spheres).all(|(a, b)| near(a, b))
+}

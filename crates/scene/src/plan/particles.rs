@@ -1,0 +1,59 @@
+//! Particles at t = 0: `[[particles]]`, `[[body]]`, `[[fill]]`.
+
+use super::builder::PlanBuilder;
+use super::fill::{self, FillRequest};
+use crate::error::SceneError;
+use crate::input::ParticleFile;
+use crate::keys::Particles;
+
+impl PlanBuilder<'_> {
+    pub(super) fn particles(&mut self) -> Result<(), SceneError> {
+        for (i, entry) in self.model().particles.iter().enumerate() {
+            match &entry.clump {
+                Some(clump) => self.clump_file(&format!("particles.{i}"), &entry.source, clump)?,
+                None => self.particle_file(i, entry)?,
+            }
+        }
+        self.bodies()?;
+        for (i, entry) in self.model().fill.iter().enumerate() {
+            let shape = self.shape(&format!("fill.{i}.shape"), &entry.shape)?;
+            if let Some(clump) = &entry.clump {
+                self.fill_with_clumps(i, entry, clump, &shape)?;
+                continue;
+            }
+            let material = self.grain(&format!("fill.{i}.material"), &entry.material)?;
+            let (first_id, taken) = (self.next_id(), self.spheres());
+            let request = FillRequest { index: i, entry, shape: &shape, material, first_id, taken: &taken };
+            self.particles.extend(fill::fill(&self.check, &request)?);
+        }
+        Ok(())
+    }
+
+    fn particle_file(&mut self, index: usize, entry: &Particles) -> Result<(), SceneError> {
+        let file = ParticleFile::read(&self.path(&entry.source))?;
+        self.inputs.push(("particles".to_owned(), file.hash.clone()));
+        self.warnings.extend(file.warning.clone());
+        self.read.file(&entry.source, &file, self.particles.len());
+        let key = format!("particles.{index}.material");
+        let mut materials = Vec::new();
+        match &entry.material {
+            Some(name) => materials.push(self.grain(&key, name)?.index),
+            None if file.materials.is_empty() => {
+                let why = "is missing, and the file names none";
+                return Err(self.check.wrong(&key, "(nothing)", why, "add material = \"…\""));
+            }
+            None => {
+                for record in &file.materials {
+                    materials.push(self.material_of(&entry.source, record)?);
+                }
+            }
+        }
+        let first = self.next_id();
+        for (n, mut p) in file.particles.into_iter().enumerate() {
+            p.material = materials[if entry.material.is_some() { 0 } else { p.material as usize }];
+            p.id = if file.has_ids { p.id } else { first.wrapping_add(n as u32) };
+            self.particles.push(p);
+        }
+        Ok(())
+    }
+}

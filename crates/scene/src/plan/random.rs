@@ -1,0 +1,41 @@
+//! Random numbers of a scene: a stream for each thing that is placed, the same on every machine.
+
+use crate::keys::Diameter;
+use nalgebra::{Quaternion, UnitQuaternion};
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+use std::f64::consts::TAU;
+
+/// A generator for one entry of a scene: `kind` and `index` keep streams of one seed apart.
+pub(super) fn generator(seed: u64, kind: u64, index: u64) -> Pcg64Mcg {
+    let mut state = seed ^ kind.rotate_left(32) ^ index.rotate_left(48);
+    let mut next = || {
+        // SplitMix64 (Steele, Lea & Flood 2014, doi:10.1145/2660193.2660195).
+        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let a = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let b = (a ^ (a >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        b ^ (b >> 31)
+    };
+    let mut bytes = [0; 16];
+    bytes[..8].copy_from_slice(&next().to_le_bytes());
+    bytes[8..].copy_from_slice(&next().to_le_bytes());
+    Pcg64Mcg::from_seed(bytes)
+}
+
+/// A number in [0, 1), from the highest 53 bits: portable, and free of the details of `rand`.
+pub(super) fn unit(random: &mut Pcg64Mcg) -> f64 {
+    (random.next_u64() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
+}
+
+/// A diameter of the range [m].
+pub(super) fn diameter(range: Diameter, random: &mut Pcg64Mcg) -> f64 {
+    range.low + (range.high - range.low) * unit(random)
+}
+
+/// A random orientation, uniformly distributed: Shoemake (1992), Graphics Gems III.
+pub(super) fn orientation(random: &mut Pcg64Mcg) -> UnitQuaternion<f64> {
+    let (share, a, b) = (unit(random), TAU * unit(random), TAU * unit(random));
+    let (p, q) = ((1.0 - share).sqrt(), share.sqrt());
+    let (i, j) = (p * libm::sin(a), p * libm::cos(a));
+    UnitQuaternion::new_normalize(Quaternion::new(q * libm::cos(b), i, j, q * libm::sin(b)))
+}

@@ -1,0 +1,84 @@
+//! The engine's setup of a plan whose particles, walls and zones are known.
+
+use super::builder::PlanBuilder;
+use super::{NO_DENSITY, Plan, accuracy, bonds, contacts};
+use crate::error::SceneError;
+use crate::keys::{Arithmetic, DragLaw, OrAuto};
+use dem::setup::{self, Guards, Setup, Step};
+use geom::Vec3;
+
+impl PlanBuilder<'_> {
+    pub(super) fn finish(mut self) -> Result<Plan, SceneError> {
+        let model = self.model();
+        let sizes = self.sizes();
+        let largest = sizes.map_or(0.0, |s| s.largest);
+        let contacts = contacts::resolve(&self.check, &model.contact, &self.materials, largest)?;
+        let contacts = self.contacts_that_can_meet(contacts);
+        self.warn(&contacts);
+        let bonds = bonds::resolve(&self.check, &model.bond, &self.materials)?;
+        let (safety, step) = accuracy::choose(&self.check, &model.time, &contacts)?;
+        // The engine wants a density of every material, also of walls, whose mass plays no part.
+        self.materials.iter_mut().filter(|m| m.density == 0.0).for_each(|m| m.density = NO_DENSITY);
+        self.entry_materials.sort_unstable();
+        self.entry_materials.dedup();
+        let setup = Setup {
+            gravity: Vec3::from(model.gravity),
+            drag: self.drag(),
+            periodic: self.periodic()?,
+            step: match model.time.dt {
+                OrAuto::Auto => Step::Auto(safety),
+                OrAuto::Given(dt) => Step::Fixed(dt),
+            },
+            precision: match model.precision {
+                Arithmetic::F64 => setup::Precision::Double,
+                Arithmetic::Mixed => setup::Precision::Mixed,
+                Arithmetic::F32 => setup::Precision::Single,
+            },
+            skin: model.neighbours.skin,
+            sleep: model.sleep.map(|s| setup::Sleep { speed: s.speed, time: s.time, wake: s.wake }),
+            // Contacts are written with the work of sliding, which the ledger knows.
+            ledger: model.output.energy || model.output.contacts || model.guards.energy.is_some(),
+            guards: self.guards(),
+            largest_entry: self.sphere_sizes.map_or(0.0, |s| s.largest),
+            smallest_entry: self.sphere_sizes.map_or(0.0, |s| s.smallest),
+            materials: self.materials,
+            contacts,
+            particles: self.particles,
+            clumps: self.clumps,
+            bonds,
+            entry_bonds: self.entry_bonds,
+            walls: self.walls,
+            outlets: self.outlets,
+            inlets: self.inlets,
+            entry_materials: self.entry_materials,
+        };
+        let PlanBuilder { insertions, streams: inlets, warnings, inputs, .. } = self;
+        Ok(Plan { setup, step, insertions, inlets, warnings, inputs, sizes })
+    }
+
+    fn guards(&self) -> Guards {
+        let (guards, default) = (&self.model().guards, Guards::default());
+        Guards {
+            overlap: guards.overlap.unwrap_or(default.overlap),
+            motion: guards.motion.unwrap_or(default.motion),
+            // [[inlet]]s come before insertions, whose grains may get anywhere.
+            cuts: self.model().inlet.len() as u32,
+            zones: guards.zones != Some(false),
+            energy: guards.energy.unwrap_or(default.energy),
+        }
+    }
+
+    fn drag(&self) -> Option<setup::Drag> {
+        let entry = self.model().drag.as_ref()?;
+        Some(setup::Drag {
+            law: match entry.law {
+                DragLaw::Stokes => setup::DragLaw::Stokes,
+                DragLaw::SchillerNaumann => setup::DragLaw::SchillerNaumann,
+            },
+            viscosity: entry.viscosity,
+            density: entry.density.unwrap_or(0.0),
+            velocity: Vec3::from(entry.velocity),
+            buoyancy: entry.buoyancy,
+        })
+    }
+}

@@ -1,0 +1,64 @@
+//! Contacts of the pairs of materials that can meet.
+
+use super::builder::PlanBuilder;
+use dem::setup;
+
+/// μ at rest.
+fn friction_of(law: &setup::ContactLaw) -> Option<f64> {
+    law.number("sliding_friction").or(law.number("sliding_friction.static"))
+}
+
+impl PlanBuilder<'_> {
+    /// The contacts of pairs that can meet; friction and restitution of wall files are used where the scene has no entry.
+    pub(super) fn contacts_that_can_meet(
+        &mut self,
+        mut contacts: Vec<setup::ContactLaw>,
+    ) -> Vec<setup::ContactLaw> {
+        let grains = self.grain_materials();
+        let of = |contacts: &[setup::ContactLaw], a: u16, b: u16| {
+            contacts.iter().position(|c| c.between == (a, b) || c.between == (b, a))
+        };
+        for wall in &self.wall_materials {
+            for &grain in &grains {
+                let (found, friction) = (of(&contacts, grain, wall.index), wall.record.friction);
+                if let (None, Some(restitution)) = (found, wall.record.restitution) {
+                    let between = (grain.min(wall.index), grain.max(wall.index));
+                    let mut law = setup::ContactLaw::new(between, "hertz").with("restitution", restitution);
+                    friction
+                        .filter(|mu| *mu > 0.0)
+                        .into_iter()
+                        .for_each(|mu| law.set("sliding_friction", mu));
+                    contacts.push(law);
+                }
+                let (Some(at), Some(file)) = (found, friction) else { continue };
+                let scene = friction_of(&contacts[at]);
+                if friction != scene {
+                    let (a, b) = (&self.materials[grain as usize].name, &wall.record.name);
+                    let scene = scene.unwrap_or(0.0);
+                    self.warnings.push(format!(
+                        "{a}–{b}: sliding_friction {scene} of the scene, not {file} of the wall file"
+                    ));
+                }
+            }
+        }
+        let walls: Vec<u16> = self.walls.iter().map(|w| w.material).collect();
+        let grain = |m: u16| grains.contains(&m);
+        contacts.retain(|c| {
+            let (a, b) = c.between;
+            (grain(a) && (grain(b) || walls.contains(&b))) || (grain(b) && walls.contains(&a))
+        });
+        contacts
+    }
+
+    /// Materials of all particles, sorted.
+    fn grain_materials(&self) -> Vec<u16> {
+        let mut grains: Vec<u16> = self.particles.iter().map(|p| p.material).collect();
+        grains.extend(&self.entry_materials);
+        let shapes =
+            self.clumps.bodies.iter().map(|b| b.shape).chain(self.clumps.entries.iter().map(|e| e.0));
+        grains.extend(shapes.map(|s| self.clumps.shapes[s as usize].material));
+        grains.sort_unstable();
+        grains.dedup();
+        grains
+    }
+}
