@@ -87,4 +87,57 @@ pub enum ViewError {
         #[source]
         source: std::io::Error,
     },
+    /// A stream that cannot be read.
+    #[error(transparent)]
+    Mcap(#[from] stream::mcap::McapError),
+    /// An MCAP without anything to show.
+    #[error("no /particles and no /walls in this MCAP, but {}: give a run or walls", seen(others))]
+    NoTopic {
+        /// Topics of its point clouds.
+        others: Vec<String>,
+    },
+    /// A message of the topic `/surfaces` that cannot be read.
+    #[error("/surfaces: {0}")]
+    Surfaces(String),
+    /// MP4 without ffmpeg.
+    #[error(
+        "MP4 is packed by the program ffmpeg, which is not on the PATH: install it (apt install ffmpeg, brew install ffmpeg), or \
+         write a .gif, which needs no other program"
+    )]
+    NoFfmpeg,
+    /// ffmpeg failed.
+    #[error("ffmpeg {why}")]
+    Ffmpeg {
+        /// Its last words.
+        why: String,
+    },
+    /// A folder that is in the way of a series.
+    #[error(
+        "{folder}: is there, and holds more than the .vtp files of a series: remove it, or give another name"
+    )]
+    NotSeries {
+        /// The folder.
+        folder: String,
+    },
+    /// A file or pipe that cannot be used.
+    #[error("{what}")]
+    Io {
+        /// The file, and what cannot be done with it.
+        what: String,
+        /// Why.
+        #[source]
+        source: std::io::Error,
+    },
+}
+
+impl ViewError {
+    /// The error of an operation on a file or pipe.
+    pub(crate) fn io(what: impl Into<String>) -> impl FnOnce(std::io::Error) -> ViewError {
+        let what = what.into();
+        move |source| ViewError::Io { what, source }
+    }
+}
+
+fn seen(others: &[String]) -> String {
+    if others.is_empty() { "no point clouds at all".to_owned() } else { others.join(", ") }
 }

@@ -2,19 +2,24 @@
 //! a film ([`film`]), or files for ParaView ([`vtk`]).
 //!
 //! Everything shown is a table with the columns x, y, z, usually radius [m], and any others, which are fields
-//! to colour by; besides, there are walls that are planes or meshes ([`Surface`]). Whoever calls reads the files;
-//! this crate knows of none.
+//! to colour by; besides, there are walls that are planes or meshes ([`Surface`]). [`show_run`] reads a run and gives its layers to
+//! whatever can [`Show`] them: a page, one [`Moment`], or a [`Series`] of moments; those give pictures, films and files. The caller opens
+//! files and reads clouds. Uses `record` for the formats of runs; knows no engine.
 
 mod camera;
 mod colour;
 mod error;
 mod field;
 pub mod film;
+mod moment;
 mod outline;
 mod page;
 pub mod picture;
+mod run;
 mod scale;
+mod series;
 mod sheet;
+mod show;
 mod spheres;
 mod surface;
 pub mod vtk;
@@ -23,9 +28,13 @@ pub use camera::Camera;
 pub use colour::{Map, Rgb};
 pub use error::ViewError;
 pub use geom::Motion;
+pub use moment::Moment;
 pub use page::{Kept, Page, PageOptions};
 pub use picture::{Image, Part, PictureOptions, Survey};
 pub use record::SurfaceShape;
+pub use run::show_run;
+pub use series::{Series, Span};
+pub use show::{LayerHead, Show};
 pub use surface::Surface;
 
 /// What a table of spheres or points is, and so how it is drawn.

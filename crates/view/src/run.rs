@@ -1,19 +1,14 @@
 //! Reads a run, or walls: grains and wall spheres over time, planes and meshes, and how walls move.
 
-use crate::inputs::{Show, short_name};
-use anyhow::Context;
-use cli::Source;
-use record::WallRecord;
-use serde_json::{Value, json};
-use std::{
-    collections::{BTreeMap, HashMap},
-    io::Read,
-};
-use stream::{
-    Table,
-    mcap::{Event, Reader},
-};
-use view::{Motion, Role, Surface};
+use crate::show::{LayerHead, Show};
+use crate::{Motion, Role, Surface, ViewError};
+use record::column::WALL;
+use record::metadata::MATERIALS;
+use record::topic::{PARTICLES, SURFACES, WALLS};
+use record::{Map, MaterialRecord, WallRecord};
+use std::collections::{BTreeMap, HashMap};
+use stream::mcap::{Event, McapError};
+use stream::{Table, Values};
 
 /// What is known of a run so far.
 struct Run<'a, S> {
@@ -22,18 +17,30 @@ struct Run<'a, S> {
     /// Names of the materials.
     kinds: Vec<String>,
     /// The layer of a topic.
-    layers: HashMap<String, usize>,
-    /// Wall spheres that came before it is known how they move [s].
+    layers: HashMap<&'static str, usize>,
+    /// Wall spheres that came before their motion is known.
     waiting: Option<(f64, Table)>,
-    /// Name and motion of every wall, once the run has said.
-    walls: Option<Vec<(String, Motion)>>,
+    /// All walls, once the run has named them.
+    walls: Option<Vec<WallHead>>,
     /// Messages of each topic that is shown.
-    messages: BTreeMap<String, usize>,
+    messages: BTreeMap<&'static str, usize>,
 }
 
-/// Every `/particles`, `/walls` and `/surfaces` message; other topics are not for the eye.
-pub fn read(from: impl Read, source: &Source, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
-    let name = &short_name(source)[..];
+/// Name and motion of a wall.
+struct WallHead {
+    name: String,
+    motion: Motion,
+}
+
+/// Shows every `/particles`, `/walls` and `/surfaces` message of a run; gives the number of messages by topic.
+///
+/// # Errors
+/// A stream that breaks off, holds neither particles nor walls, or has a message that cannot be shown.
+pub fn show_run(
+    events: impl Iterator<Item = Result<Event, McapError>>,
+    name: &str,
+    show: &mut impl Show,
+) -> Result<BTreeMap<&'static str, usize>, ViewError> {
     let mut run = Run {
         name,
         show,
@@ -44,129 +51,121 @@ pub fn read(from: impl Read, source: &Source, show: &mut impl Show) -> anyhow::R
         messages: BTreeMap::new(),
     };
     let mut others = Vec::new();
-    for event in Reader::new(from) {
-        let Some(event) = source.as_far_as_it_goes(event)? else { break };
-        match event {
-            Event::Metadata { name, map } if name == "materials" => run.kinds = names(&map),
+    for event in events {
+        match event? {
+            Event::Metadata { name, map } if name == MATERIALS => run.kinds = names(&map),
             Event::Points { topic, time_ns, table } => match topic.as_str() {
-                "/particles" => run.grains(time_ns as f64 / 1e9, table)?,
-                "/walls" => run.wall_spheres(time_ns as f64 / 1e9, table)?,
+                PARTICLES => run.grains(time_ns as f64 / 1e9, table)?,
+                WALLS => run.wall_spheres(time_ns as f64 / 1e9, table)?,
                 _ => others.push(topic),
             },
-            Event::Bytes { topic, data, .. } if topic == "/surfaces" => {
-                run.surfaces(&data).context("/surfaces")?;
-            }
+            Event::Bytes { topic, data, .. } if topic == SURFACES => run.surfaces(&data)?,
             _ => {}
         }
     }
     run.settle()?;
     if run.messages.is_empty() {
         others.dedup();
-        let seen = if others.is_empty() { "no point clouds at all".to_owned() } else { others.join(", ") };
-        anyhow::bail!("no /particles and no /walls in this MCAP, but {seen}: give a run or walls");
+        return Err(ViewError::NoTopic { others });
     }
-    Ok(run.messages.iter().map(|(t, n)| json!({ "input": name, "topic": t, "messages": n })).collect())
+    Ok(run.messages)
 }
 
 impl<S: Show> Run<'_, S> {
-    fn count(&mut self, topic: &str) {
-        *self.messages.entry(topic.to_owned()).or_default() += 1;
+    fn count(&mut self, topic: &'static str) {
+        *self.messages.entry(topic).or_default() += 1;
     }
 
-    fn layer(&mut self, role: Role, word: &str) -> usize {
-        let layer = self.show.layer(role, &format!("{word} ({})", self.name));
-        self.show.kinds(layer, self.kinds.clone());
-        layer
+    fn layer(&mut self, role: Role, word: &str, motion: Motion) -> usize {
+        let (name, kinds) = (format!("{word} ({})", self.name), self.kinds.clone());
+        self.show.layer(LayerHead { role, name, kinds, motion })
     }
 
     /// Pushes to the one layer of a topic.
-    fn push(&mut self, topic: &str, role: Role, time: f64, table: Table) -> anyhow::Result<()> {
+    fn push(&mut self, topic: &'static str, role: Role, time: f64, table: Table) -> Result<(), ViewError> {
+        let word = if role == Role::Grains { "grains" } else { "walls" };
         let layer = match self.layers.get(topic) {
             Some(layer) => *layer,
-            None => self.layer(role, if role == Role::Grains { "grains" } else { "walls" }),
+            None => self.layer(role, word, Motion::default()),
         };
-        self.layers.insert(topic.to_owned(), layer);
-        Ok(self.show.push(layer, time, table)?)
+        self.layers.insert(topic, layer);
+        self.show.push(layer, time, table)
     }
 
-    fn grains(&mut self, time: f64, table: Table) -> anyhow::Result<()> {
+    fn grains(&mut self, time: f64, table: Table) -> Result<(), ViewError> {
         self.settle()?;
-        self.count("/particles");
-        self.push("/particles", Role::Grains, time, table)
+        self.count(PARTICLES);
+        self.push(PARTICLES, Role::Grains, time, table)
     }
 
     /// A run writes its wall spheres first, then how they move, and again with every frame when they do.
-    fn wall_spheres(&mut self, time: f64, table: Table) -> anyhow::Result<()> {
-        self.count("/walls");
-        if self.walls.is_some() && table.get("wall").is_some() {
-            return Ok(()); // where they are follows from their motion
+    fn wall_spheres(&mut self, time: f64, table: Table) -> Result<(), ViewError> {
+        self.count(WALLS);
+        if self.walls.is_some() && table.get(WALL).is_some() {
+            return Ok(()); // their positions follow from their motion
         }
         match self.waiting.replace((time, table)) {
-            Some((time, table)) => self.push("/walls", Role::Walls, time, table),
+            Some((time, table)) => self.push(WALLS, Role::Walls, time, table),
             None => Ok(()),
         }
     }
 
     /// Planes, meshes and motions; wall spheres that wait get theirs.
-    fn surfaces(&mut self, data: &[u8]) -> anyhow::Result<()> {
+    fn surfaces(&mut self, data: &[u8]) -> Result<(), ViewError> {
         if self.walls.is_some() {
             return Ok(());
         }
-        self.count("/surfaces");
+        self.count(SURFACES);
         let mut heads = Vec::new();
-        for wall in WallRecord::read_all(data).map_err(anyhow::Error::msg)? {
-            let WallRecord { name, motion, surface } = wall;
+        for WallRecord { name, motion, surface } in WallRecord::read_all(data).map_err(ViewError::Surfaces)? {
             if let Some(shape) = surface {
                 self.show.surface(Surface { name: name.clone(), shape, motion });
             }
-            heads.push((name, motion));
+            heads.push(WallHead { name, motion });
         }
-        let waiting = self.waiting.take();
-        if let Some((time, table)) = waiting {
+        if let Some((time, table)) = self.waiting.take() {
             self.place(time, &table, &heads)?;
         }
         self.walls = Some(heads);
         Ok(())
     }
 
-    /// Wall spheres at rest are one layer; each wall that moves is its own, kept as it is at t = 0.
-    fn place(&mut self, time: f64, table: &Table, walls: &[(String, Motion)]) -> anyhow::Result<()> {
-        let Some(number) = table.get("wall").map(stream::Values::to_f64) else {
-            return self.push("/walls", Role::Walls, time, table.clone());
+    /// Wall spheres at rest are one layer; each wall that moves is a separate one, kept as it is at t = 0.
+    fn place(&mut self, time: f64, table: &Table, walls: &[WallHead]) -> Result<(), ViewError> {
+        let Some(number) = table.get(WALL).map(Values::to_f64) else {
+            return self.push(WALLS, Role::Walls, time, table.clone());
         };
         let rows = |keep: &dyn Fn(usize) -> bool| -> Vec<u32> {
             (0..table.rows()).filter(|&i| keep(number[i] as usize)).map(|i| i as u32).collect()
         };
-        let still = rows(&|wall| walls.get(wall).is_none_or(|(_, motion)| !motion.moves()));
+        let still = rows(&|wall| walls.get(wall).is_none_or(|w| !w.motion.moves()));
         if !still.is_empty() {
-            self.push("/walls", Role::Walls, time, table.select(&still))?;
+            self.push(WALLS, Role::Walls, time, table.select(&still))?;
         }
-        for (wall, (name, motion)) in walls.iter().enumerate().filter(|(_, (_, m))| m.moves()) {
+        for (wall, WallHead { name, motion }) in walls.iter().enumerate().filter(|(_, w)| w.motion.moves()) {
             let own = rows(&|n| n == wall);
             if !own.is_empty() {
-                let layer = self.layer(Role::Walls, name);
-                self.show.moves(layer, *motion);
-                self.show.push(layer, 0.0, record::home(&table.select(&own), &motion.pose(time)))?;
+                let layer = self.layer(Role::Walls, name, *motion);
+                let home = record::home(&table.select(&own), &motion.pose(time));
+                self.show.push(layer, 0.0, home)?;
             }
         }
         Ok(())
     }
 
     /// Shows wall spheres that wait as they are: nothing says how they move.
-    fn settle(&mut self) -> anyhow::Result<()> {
+    fn settle(&mut self) -> Result<(), ViewError> {
         match self.waiting.take() {
-            Some((time, table)) => self.push("/walls", Role::Walls, time, table),
+            Some((time, table)) => self.push(WALLS, Role::Walls, time, table),
             None => Ok(()),
         }
     }
 }
 
 /// Names of the materials by number; a number without one is its own name.
-fn names(map: &BTreeMap<String, String>) -> Vec<String> {
-    let known = |key: &str| {
-        let material: Value = serde_json::from_str(map.get(key)?).ok()?;
-        material["name"].as_str().map(str::to_owned)
-    };
+fn names(map: &Map) -> Vec<String> {
+    let known =
+        |key: &str| serde_json::from_str::<MaterialRecord>(map.get(key)?).ok().map(|material| material.name);
     let count = map.keys().filter_map(|k| k.parse::<u16>().ok()).max().map_or(0, |k| usize::from(k) + 1);
     (0..count).map(|k| known(&k.to_string()).unwrap_or_else(|| k.to_string())).collect()
 }

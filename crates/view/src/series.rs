@@ -1,8 +1,9 @@
-//! All moments of everything, for a film or a series of files: what is kept of each state is up to the caller.
+//! All moments of everything, for a film or a series of files; the caller chooses what is kept of each state.
 
-use crate::inputs::Show;
+use crate::show::{LayerHead, Show, add_surface};
+use crate::{Part, Role, Surface, ViewError};
+use std::borrow::Cow;
 use stream::Table;
-use view::{Motion, Role, Surface, ViewError};
 
 /// The part of a run that is shown.
 #[derive(Debug, Clone, Copy)]
@@ -17,11 +18,9 @@ pub struct Span {
 
 /// One thing, over time.
 pub struct Layer<T> {
-    pub role: Role,
-    pub name: String,
-    pub kinds: Vec<String>,
-    pub motion: Motion,
-    /// Where a thing that moves as one body is at t = 0.
+    /// What it is.
+    pub head: LayerHead,
+    /// Of a layer that moves: its state at t = 0.
     pub home: Option<Table>,
     /// What is kept of each state, with its time [s].
     pub states: Vec<(f64, T)>,
@@ -32,15 +31,17 @@ pub struct Layer<T> {
 }
 
 /// Keeps of a state (number of the layer, layer, time, columns) what is needed later.
-type Keep<T> = Box<dyn FnMut(usize, &Layer<T>, f64, Table) -> Result<T, ViewError>>;
+pub type Keep<T> = Box<dyn FnMut(usize, &Layer<T>, f64, Table) -> Result<T, ViewError>>;
 
 /// Share of the time between two frames by which they may miss their time [–]: a frame is written at the end of the
 /// step in which its time comes.
 const MISS: f64 = 0.05;
 
-/// What is kept of everything shown.
+/// What is kept of all layers.
 pub struct Series<T> {
+    /// Layers, in the order in which they were added.
     pub layers: Vec<Layer<T>>,
+    /// Planes and meshes.
     pub surfaces: Vec<Surface>,
     span: Span,
     keep: Keep<T>,
@@ -55,7 +56,7 @@ impl<T> Series<T> {
     /// The times that grains were kept of, in order; without grains, those of all else.
     pub fn times(&self) -> Vec<f64> {
         let of = |grains: bool| {
-            let layers = self.layers.iter().filter(|l| (l.role == Role::Grains) == grains);
+            let layers = self.layers.iter().filter(|l| (l.head.role == Role::Grains) == grains);
             let times = layers.flat_map(|l| l.states.iter().map(|(time, _)| *time));
             let mut times: Vec<f64> = times.filter(|t| grains || self.span.holds(*t, 0.0)).collect();
             times.sort_by(f64::total_cmp);
@@ -78,6 +79,25 @@ impl<T> Layer<T> {
     }
 }
 
+impl Series<Table> {
+    /// Each layer at a time [s], in its order; `None` where it has no state.
+    pub fn tables(&self, time: f64) -> Vec<Option<Cow<'_, Table>>> {
+        let layers = self.layers.iter();
+        layers
+            .map(|layer| match &layer.home {
+                Some(home) => Some(Cow::Owned(record::moved(home, &layer.head.motion.pose(time)))),
+                None => layer.at(time).map(Cow::Borrowed),
+            })
+            .collect()
+    }
+
+    /// What to draw of these tables.
+    pub fn parts<'a>(&self, tables: &'a [Option<Cow<'a, Table>>]) -> Vec<Part<'a>> {
+        let shown = self.layers.iter().zip(tables);
+        shown.filter_map(|(layer, table)| Some(layer.head.part(table.as_deref()?))).collect()
+    }
+}
+
 impl Span {
     /// Whether a time that may be missed by `slack` [s] is in it.
     fn holds(&self, time: f64, slack: f64) -> bool {
@@ -94,43 +114,23 @@ impl Span {
 }
 
 impl<T> Show for Series<T> {
-    fn layer(&mut self, role: Role, name: &str) -> usize {
-        self.layers.push(Layer {
-            role,
-            name: name.to_owned(),
-            kinds: Vec::new(),
-            motion: Motion::default(),
-            home: None,
-            states: Vec::new(),
-            taken: None,
-            before: None,
-        });
+    fn layer(&mut self, head: LayerHead) -> usize {
+        self.layers.push(Layer { head, home: None, states: Vec::new(), taken: None, before: None });
         self.layers.len() - 1
     }
 
-    fn kinds(&mut self, layer: usize, kinds: Vec<String>) {
-        self.layers[layer].kinds = kinds;
-    }
-
-    fn moves(&mut self, layer: usize, motion: Motion) {
-        self.layers[layer].motion = motion;
-    }
-
     fn surface(&mut self, surface: Surface) {
-        // Runs of two stages both have the walls near the cut.
-        if !self.surfaces.contains(&surface) {
-            self.surfaces.push(surface);
-        }
+        add_surface(&mut self.surfaces, surface);
     }
 
     fn push(&mut self, layer: usize, time: f64, table: Table) -> Result<(), ViewError> {
         let known = &mut self.layers[layer];
-        if known.motion.moves() {
+        if known.head.motion.moves() {
             known.home = Some(table);
             return Ok(());
         }
         // Walls and clouds are there from the first moment on, whichever that is.
-        if known.role == Role::Grains {
+        if known.head.role == Role::Grains {
             let slack = known.before.map_or(0.0, |before| MISS * (time - before).max(0.0));
             known.before = Some(time);
             let Some(step) = self.span.step(time, slack) else { return Ok(()) };
@@ -153,13 +153,13 @@ mod tests {
 
     fn kept(span: Span) -> Vec<f64> {
         let mut series: Series<usize> = Series::new(span, Box::new(|_, _, _, table| Ok(table.rows())));
-        let grains = Show::layer(&mut series, Role::Grains, "grains");
-        let walls = Show::layer(&mut series, Role::Walls, "walls");
-        Show::push(&mut series, walls, 0.0, Table::with_rows(7)).expect("kept");
+        let grains = series.layer(LayerHead::new(Role::Grains, "grains"));
+        let walls = series.layer(LayerHead::new(Role::Walls, "walls"));
+        series.push(walls, 0.0, Table::with_rows(7)).expect("kept");
         for k in 0..=10 {
             // Late by up to a step, as frames are.
             let time = f64::from(k) * 0.1 + 0.001 * f64::from(k % 3);
-            Show::push(&mut series, grains, time, Table::with_rows(k as usize)).expect("kept");
+            series.push(grains, time, Table::with_rows(k as usize)).expect("kept");
         }
         assert_eq!(series.layers[walls].at(0.5), Some(&7));
         series.times()

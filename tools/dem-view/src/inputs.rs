@@ -1,54 +1,15 @@
-//! Reads what is to be shown: runs and walls (MCAP), and clouds, told apart by their content.
+//! Reads what is to be shown: runs and walls (MCAP), and clouds, detected by their content.
 
-use crate::run;
+use crate::args::Args;
 use anyhow::Context;
 use cli::Source;
 use serde_json::{Value, json};
 use std::io::{Cursor, Read};
-use stream::{Table, Values};
-use view::{Motion, Page, Role, Surface, SurfaceShape, ViewError};
+use stream::{Table, Values, mcap::Reader};
+use view::{LayerHead, Motion, Role, Show, Surface, SurfaceShape};
 
 /// The bytes that every MCAP stream begins with.
 const MCAP: &[u8] = b"\x89MCAP";
-
-/// Whatever shows layers.
-pub trait Show {
-    /// Adds a layer.
-    fn layer(&mut self, role: Role, name: &str) -> usize;
-    /// Names the layer's materials.
-    fn kinds(&mut self, layer: usize, kinds: Vec<String>);
-    /// Lets a layer move as one body; its only state is that at t = 0.
-    fn moves(&mut self, layer: usize, motion: Motion);
-    /// Adds a wall that is a plane or a mesh.
-    fn surface(&mut self, surface: Surface);
-    /// Adds a state of a layer.
-    fn push(&mut self, layer: usize, time: f64, table: Table) -> Result<(), ViewError>;
-    /// Whether only the points of a cloud are wanted.
-    fn wants_points(&self) -> bool {
-        false
-    }
-}
-
-impl Show for Page {
-    fn layer(&mut self, role: Role, name: &str) -> usize {
-        Page::layer(self, role, name)
-    }
-    fn kinds(&mut self, layer: usize, kinds: Vec<String>) {
-        Page::kinds(self, layer, kinds);
-    }
-    fn moves(&mut self, layer: usize, motion: Motion) {
-        Page::moves(self, layer, motion);
-    }
-    fn surface(&mut self, surface: Surface) {
-        Page::surface(self, surface);
-    }
-    fn push(&mut self, layer: usize, time: f64, table: Table) -> Result<(), ViewError> {
-        Page::push(self, layer, time, &table)
-    }
-    fn wants_points(&self) -> bool {
-        self.picks()
-    }
-}
 
 /// The name without its folder.
 pub fn short_name(source: &Source) -> String {
@@ -56,10 +17,10 @@ pub fn short_name(source: &Source) -> String {
     file.map_or_else(|| source.to_string(), |name| name.to_string_lossy().into_owned())
 }
 
-/// Reads every input into `show`; what was found, for the report.
-pub fn read_all(sources: &[Source], show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
+/// Reads every input into `show`; gives what was found, for the report.
+pub fn read_all(args: &Args, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
     let mut found = Vec::new();
-    for source in sources {
+    for source in &args.inputs {
         let mut from = source.open()?;
         let mut head = Vec::new();
         from.by_ref()
@@ -69,25 +30,36 @@ pub fn read_all(sources: &[Source], show: &mut impl Show) -> anyhow::Result<Vec<
         let is_mcap = head == MCAP;
         let whole = Cursor::new(head).chain(from);
         let name = short_name(source);
-        if is_mcap && show.wants_points() {
+        if is_mcap && args.pick {
             anyhow::bail!(
                 "{source}: --pick is for a cloud that cloud-crop reads, and this is MCAP, a run or walls: leave --pick out"
             );
         }
-        let layers = if is_mcap { run::read(whole, source, show) } else { scan(whole, &name, show) };
+        let layers = match is_mcap {
+            true => run(whole, source, show),
+            false => cloud(whole, &name, args.pick, show),
+        };
         found.extend(layers.with_context(|| source.to_string())?);
     }
     Ok(found)
 }
 
-/// A mesh, or a cloud; one whose points have a radius is a set of wall spheres, and of grains where each has an id.
-fn scan(mut from: impl Read, name: &str, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
+/// A run, or walls, as far as they were written.
+fn run(from: impl Read, source: &Source, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
+    let events = Reader::new(from).map_while(|event| source.as_far_as_it_goes(event).transpose());
+    let name = short_name(source);
+    let messages = view::show_run(events, &name, show)?;
+    Ok(messages.iter().map(|(t, n)| json!({ "input": name, "topic": t, "messages": n })).collect())
+}
+
+/// A mesh, or a cloud: its points are grains when they have a radius and an id, and wall spheres when they have a radius only.
+fn cloud(mut from: impl Read, name: &str, pick: bool, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
     let mut bytes = Vec::new();
     from.read_to_end(&mut bytes).with_context(|| format!("{name}: cannot read"))?;
-    if has_faces(&bytes) && !show.wants_points() {
+    if has_faces(&bytes) && !pick {
         return mesh(&bytes, name, show);
     }
-    let (cloud, dropped) = cloud::from_bytes(bytes)?.finite();
+    let (cloud, dropped) = ::cloud::from_bytes(bytes)?.finite();
     if dropped > 0 {
         cli::warn(&format!("{name}: {dropped} points without finite coordinates are not shown"));
     }
@@ -106,7 +78,7 @@ fn scan(mut from: impl Read, name: &str, show: &mut impl Show) -> anyhow::Result
         (false, _) => Role::Cloud,
     };
     let points = table.rows();
-    let layer = show.layer(role, name);
+    let layer = show.layer(LayerHead::new(role, name));
     show.push(layer, 0.0, table)?;
     Ok(vec![json!({ "input": name, "points": points })])
 }
@@ -120,7 +92,7 @@ fn has_faces(bytes: &[u8]) -> bool {
 
 /// A mesh of triangles, at rest.
 fn mesh(mut bytes: &[u8], name: &str, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
-    let mesh = cloud::read_mesh(&mut bytes)?;
+    let mesh = ::cloud::read_mesh(&mut bytes)?;
     let faces = mesh.faces.len();
     let (shape, motion) = (SurfaceShape::Mesh(mesh), Motion::default());
     show.surface(Surface { name: name.to_owned(), shape, motion });

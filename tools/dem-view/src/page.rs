@@ -1,6 +1,6 @@
 //! The HTML page.
 
-use crate::{Args, inputs};
+use crate::{args::Args, inputs};
 use anyhow::Context;
 use cli::{Output, Report};
 use view::{Kept, Page, PageOptions};
@@ -25,13 +25,13 @@ pub fn html(args: &Args, output: &Output) -> anyhow::Result<Report> {
         components: args.components,
         pick: if args.pick { names.first().cloned() } else { None },
     });
-    let seen = inputs::read_all(&args.inputs, &mut page)?;
+    let seen = inputs::read_all(args, &mut page)?;
     page.check()?;
     let mut out = output.open_text()?;
     let bytes = page.write_checked(&mut out).with_context(|| output.name())?;
     out.commit()?;
     let kept = page.kept();
-    say_what_is_missing(args, &kept);
+    warn_of_what_is_left_out(args, &kept);
     let frames = match kept.given {
         0 => String::new(),
         given => format!(", {} of {given} frames", kept.kept),
@@ -55,7 +55,7 @@ pub fn html(args: &Args, output: &Output) -> anyhow::Result<Report> {
         .with("layers", seen))
 }
 
-fn say_what_is_missing(args: &Args, kept: &Kept) {
+fn warn_of_what_is_left_out(args: &Args, kept: &Kept) {
     let limit = format!("to keep it below {} MB; --max-mb changes that", args.max_mb);
     if kept.stride > 1 {
         let (of, given, stride) = (kept.kept, kept.given, kept.stride);

@@ -1,14 +1,12 @@
 //! A film as MP4 (H.264), packed by the program ffmpeg.
 
-use anyhow::Context;
-use cli::Output;
+use crate::{Image, ViewError};
 use std::{
     io::{ErrorKind, Read, Write},
     path::{Path, PathBuf},
     process::{Child, ChildStdin, Command, Stdio},
 };
 use tempfile::TempPath;
-use view::Image;
 
 /// Fixed, so that the bytes do not depend on the machine's number of cores.
 const THREADS: &str = "4";
@@ -25,35 +23,34 @@ pub struct Mp4 {
     path: PathBuf,
 }
 
-/// Whether ffmpeg is there.
-pub fn find() -> anyhow::Result<()> {
-    let silent = || (Stdio::null(), Stdio::null(), Stdio::null());
-    let (stdin, stdout, stderr) = silent();
-    let found = Command::new("ffmpeg").arg("-version").stdin(stdin).stdout(stdout).stderr(stderr).status();
-    found.map(|_| ()).map_err(unfound)
+/// Checks that the program ffmpeg is there.
+///
+/// # Errors
+/// It is not, or cannot be started.
+pub fn find_ffmpeg() -> Result<(), ViewError> {
+    let mut program = Command::new("ffmpeg");
+    program.arg("-version").stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    program.status().map(drop).map_err(not_started)
 }
 
-fn unfound(error: std::io::Error) -> anyhow::Error {
-    if error.kind() == ErrorKind::NotFound {
-        anyhow::anyhow!(
-            "MP4 is packed by the program ffmpeg, which is not on the PATH: install it (apt install ffmpeg, \
-             brew install ffmpeg), or write a .gif, which needs no other program"
-        )
-    } else {
-        anyhow::Error::new(error).context("ffmpeg: cannot start it")
+fn not_started(error: std::io::Error) -> ViewError {
+    match error.kind() {
+        ErrorKind::NotFound => ViewError::NoFfmpeg,
+        _ => ViewError::io("ffmpeg: cannot start it")(error),
     }
 }
 
 impl Mp4 {
-    /// Begins a film of pictures of `size`, so many a second.
-    pub fn begin(output: &Output, [width, height]: [u32; 2], fps: u32) -> anyhow::Result<Mp4> {
-        let path = output.path().context("an MP4 needs a file: give -o NAME.mp4")?.to_owned();
+    /// Begins a film of pictures of a size [pixel], so many a second, in the file `path`.
+    ///
+    /// # Errors
+    /// A folder that cannot be written to, a program that cannot be started.
+    pub fn begin(path: &Path, [width, height]: [u32; 2], fps: u32) -> Result<Mp4, ViewError> {
         let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let stem = path.file_name().unwrap_or_default().to_string_lossy();
         let temp = tempfile::Builder::new().prefix(&format!(".{stem}.")).suffix(".part").tempfile_in(folder);
-        let temp = temp
-            .with_context(|| format!("{}: cannot create it (is the folder there?)", path.display()))?
-            .into_temp_path();
+        let create = format!("{}: cannot create it (is the folder there?)", path.display());
+        let (temp, path) = (temp.map_err(ViewError::io(create))?.into_temp_path(), path.to_owned());
         let (size, rate) = (format!("{width}x{height}"), fps.to_string());
         let mut ffmpeg = Command::new("ffmpeg")
             .args(["-hide_banner", "-loglevel", "error", "-nostdin", "-y"])
@@ -67,45 +64,54 @@ impl Mp4 {
             .stdout(Stdio::null())
             .stderr(Stdio::piped())
             .spawn()
-            .map_err(unfound)?;
-        let to = ffmpeg.stdin.take().context("ffmpeg: no pipe to it")?;
+            .map_err(not_started)?;
+        let to = ffmpeg.stdin.take().ok_or(ViewError::Ffmpeg { why: "no pipe to it".into() })?;
         Ok(Mp4 { ffmpeg, to, temp, path })
     }
 
     /// Adds a picture.
-    pub fn add(&mut self, image: &Image) -> anyhow::Result<()> {
+    ///
+    /// # Errors
+    /// The program has ended; the error holds its last words.
+    pub fn add(&mut self, image: &Image) -> Result<(), ViewError> {
         let rgb: Vec<u8> = image.rgba.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
         match self.to.write_all(&rgb) {
-            // It has ended before all was given: what it said is the reason.
-            Err(e) if e.kind() == ErrorKind::BrokenPipe => Err(self.complaint()),
-            other => other.context("ffmpeg: cannot write to it"),
+            Err(e) if e.kind() == ErrorKind::BrokenPipe => {
+                let why = words(&mut self.ffmpeg);
+                // Only its end is waited for.
+                let _ = self.ffmpeg.wait();
+                Err(ViewError::Ffmpeg {
+                    why: format!("failed: {why}: is it one with libx264? Else write a .gif"),
+                })
+            }
+            other => other.map_err(ViewError::io("ffmpeg: cannot write to it")),
         }
     }
 
     /// Ends the film and gives the file its name.
-    pub fn finish(self) -> anyhow::Result<()> {
+    ///
+    /// # Errors
+    /// The program failed, a file that cannot be renamed.
+    pub fn finish(self) -> Result<(), ViewError> {
         let Mp4 { mut ffmpeg, to, temp, path } = self;
         drop(to);
-        let said = words(&mut ffmpeg);
-        let ended = ffmpeg.wait().context("ffmpeg: cannot wait for it")?;
-        anyhow::ensure!(ended.success(), "ffmpeg failed ({ended}): {said}");
-        open_to_all(&temp)?;
-        temp.persist(&path).with_context(|| format!("{}: cannot rename to it", path.display()))
-    }
-
-    fn complaint(&mut self) -> anyhow::Error {
-        let said = words(&mut self.ffmpeg);
-        // Only its end is waited for.
-        let _ = self.ffmpeg.wait();
-        anyhow::anyhow!("ffmpeg failed: {said}: is it one with libx264? Else write a .gif")
+        let why = words(&mut ffmpeg);
+        let ended = ffmpeg.wait().map_err(ViewError::io("ffmpeg: cannot wait for it"))?;
+        if !ended.success() {
+            return Err(ViewError::Ffmpeg { why: format!("failed ({ended}): {why}") });
+        }
+        let rename = format!("{}: cannot rename to it", path.display());
+        open_to_all(&temp).map_err(ViewError::io(rename.clone()))?;
+        temp.persist(&path).map_err(|e| ViewError::io(rename)(e.error))
     }
 }
 
+/// The last line that the program wrote to stderr.
 fn words(ffmpeg: &mut Child) -> String {
-    let mut said = String::new();
-    // Words that cannot be read are missing from the message, no more.
-    let _ = ffmpeg.stderr.as_mut().map(|e| e.read_to_string(&mut said));
-    said.lines().next_back().unwrap_or("it did not say why").to_owned()
+    let mut text = String::new();
+    // Words that cannot be read are missing from the message.
+    let _ = ffmpeg.stderr.as_mut().map(|e| e.read_to_string(&mut text));
+    text.lines().next_back().unwrap_or("it gave no reason").to_owned()
 }
 
 /// A temporary file is its owner's only; this one stays.

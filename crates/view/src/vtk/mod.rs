@@ -10,9 +10,11 @@
 mod collection;
 mod fields;
 mod polydata;
+mod series;
 
 pub use collection::{Entry, write as write_collection};
 pub use polydata::{Field, PolyData};
+pub use series::SeriesFolder;
 
 use crate::{
     Part, Role, Surface, ViewError, outline::Outline, scale::Range, sheet, sheet::box_of, spheres::Spheres,

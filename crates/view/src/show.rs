@@ -1,0 +1,67 @@
+//! What layers are shown on: a page, one moment, or a series of moments.
+
+use crate::{Motion, Page, Part, Role, Surface, ViewError};
+use stream::Table;
+
+/// One thing to show, without its states.
+#[derive(Debug, Clone)]
+pub struct LayerHead {
+    /// What it is.
+    pub role: Role,
+    /// Its name.
+    pub name: String,
+    /// Names that its field `material` counts.
+    pub kinds: Vec<String>,
+    /// Its motion as one body; a layer that moves has one state, that at t = 0.
+    pub motion: Motion,
+}
+
+impl LayerHead {
+    /// A layer at rest, without materials.
+    pub fn new(role: Role, name: &str) -> LayerHead {
+        LayerHead { role, name: name.to_owned(), kinds: Vec::new(), motion: Motion::default() }
+    }
+
+    /// The layer with the columns of one state.
+    pub(crate) fn part<'a>(&self, table: &'a Table) -> Part<'a> {
+        Part { role: self.role, name: self.name.clone(), table, kinds: self.kinds.clone() }
+    }
+}
+
+/// Whatever shows layers.
+pub trait Show {
+    /// Adds a layer; its number is for [`Show::push`].
+    fn layer(&mut self, head: LayerHead) -> usize;
+    /// Adds a wall that is a plane or a mesh.
+    fn surface(&mut self, surface: Surface);
+    /// Adds a state of a layer, at `time` [s].
+    ///
+    /// # Errors
+    /// A table without positions, a page beyond its limit, a file that cannot be written.
+    fn push(&mut self, layer: usize, time: f64, table: Table) -> Result<(), ViewError>;
+}
+
+impl Show for Page {
+    fn layer(&mut self, head: LayerHead) -> usize {
+        let LayerHead { role, name, kinds, motion } = head;
+        let layer = Page::layer(self, role, &name);
+        self.kinds(layer, kinds);
+        self.moves(layer, motion);
+        layer
+    }
+
+    fn surface(&mut self, surface: Surface) {
+        Page::surface(self, surface);
+    }
+
+    fn push(&mut self, layer: usize, time: f64, table: Table) -> Result<(), ViewError> {
+        Page::push(self, layer, time, &table)
+    }
+}
+
+/// Adds a surface unless it is there: runs of two stages both have the walls near the cut.
+pub(crate) fn add_surface(surfaces: &mut Vec<Surface>, surface: Surface) {
+    if !surfaces.contains(&surface) {
+        surfaces.push(surface);
+    }
+}

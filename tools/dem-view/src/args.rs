@@ -1,0 +1,114 @@
+//! The command line.
+
+use crate::formats::{self, Format};
+use clap::Parser;
+use cli::Source;
+use std::path::PathBuf;
+use view::{Camera, Map, PictureOptions, Span};
+
+/// Show runs, walls and clouds together: an HTML page (no network needed), a picture, a film, files for ParaView
+#[derive(Parser)]
+pub struct Args {
+    /// Runs and walls (MCAP), clouds (PLY, LAS, E57, PCD, XYZ), meshes (PLY), shown together; - or none: stdin
+    #[arg(value_name = "INPUT")]
+    pub inputs: Vec<Source>,
+    /// Write to FILE (appears when whole) instead of HTML to stdout: .html, .png, .gif, .mp4 (needs ffmpeg), .vtp
+    /// (ParaView, one moment), .pvd (ParaView, a series: NAME.pvd and a folder NAME)
+    #[arg(id = "output", short = 'o', long = "output", value_name = "FILE")]
+    pub file: Option<PathBuf>,
+    /// Field to colour by: speed, spin, radius, material, id, x, y, z, rgb, or any column [default: speed, else z]
+    #[arg(long, value_name = "FIELD")]
+    pub colour: Option<String>,
+    /// Ends of the colour scale in SI units [default: what 98 % of the values lie in]
+    #[arg(long, value_name = "LO,HI", value_parser = formats::range, allow_hyphen_values = true)]
+    pub range: Option<[f64; 2]>,
+    /// Colour map: viridis or turbo
+    #[arg(long, value_name = "NAME", value_parser = formats::map, default_value = "viridis")]
+    pub map: Map,
+    /// Time to show [s]; HTML: show it first, paused; PNG, VTP: the frame nearest to it [default: the last with grains in it]
+    #[arg(long, value_name = "S", value_parser = formats::seconds)]
+    pub time: Option<f64>,
+    /// Where the eye is: iso, top, bottom, front, back, left, right; a side: x, -x, y, -y, z, -z; azimuth/elevation in
+    /// degrees, from x towards y and up: 35/20; or its x,y,z and, after it, the point looked at [m]
+    #[arg(long, value_name = "VIEW", value_parser = formats::camera, default_value = "iso", allow_hyphen_values = true)]
+    pub camera: Camera,
+    /// First time of a film or series [s]
+    #[arg(long, value_name = "S", value_parser = formats::seconds, allow_hyphen_values = true)]
+    pub from: Option<f64>,
+    /// Last time of a film or series [s]
+    #[arg(long, value_name = "S", value_parser = formats::seconds)]
+    pub to: Option<f64>,
+    /// Simulated time from one picture of a film or series to the next [s] [default: every frame]
+    #[arg(long, value_name = "S", value_parser = formats::interval)]
+    pub every: Option<f64>,
+    /// Pictures of a film shown in a second
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100), default_value_t = 25)]
+    pub fps: u32,
+    /// Size of a picture or film [pixel] [default: 1920x1080, GIF 960x540]
+    #[arg(long, value_name = "WxH", value_parser = formats::size)]
+    pub size: Option<[u32; 2]>,
+    /// How much of the grains a wall in front of them hides in the picture, 0 to 1
+    #[arg(long, value_name = "SHARE", value_parser = formats::share, default_value_t = 0.2)]
+    pub wall_opacity: f64,
+    /// Leave out the nearer half of the walls in the picture
+    #[arg(long)]
+    pub cut: bool,
+    /// Size of the page [MB]: components of vectors, then frames, evenly, are left out of a larger one; the rest is refused
+    #[arg(long, value_name = "MB", value_parser = formats::megabytes, default_value = "60")]
+    pub max_mb: f64,
+    /// Keep the components of vectors in a page that is too large, and leave out more frames
+    #[arg(long)]
+    pub components: bool,
+    /// Title of the page [default: the inputs' names]
+    #[arg(long)]
+    pub title: Option<String>,
+    /// Page on which regions are drawn over one cloud, as --keep and --remove options for cloud-crop
+    #[arg(long)]
+    pub pick: bool,
+}
+
+impl Args {
+    /// Refuses options of another kind of output.
+    pub fn check(&self, format: Format) -> anyhow::Result<()> {
+        let part =
+            [("--from", self.from.is_some()), ("--to", self.to.is_some()), ("--every", self.every.is_some())];
+        if let Some((name, _)) = part.iter().find(|(_, given)| *given && !format.is_series()) {
+            return Err(cli::usage(format!(
+                "{name} is for a film or series (.gif, .mp4, .pvd): use --time for one moment"
+            )));
+        }
+        if self.pick && format != Format::Html {
+            return Err(cli::usage("--pick makes a page: give a name in .html"));
+        }
+        if self.time.is_some() && format.is_series() {
+            return Err(cli::usage("--time is for one moment: give a film or series its --from and --to"));
+        }
+        Ok(())
+    }
+
+    /// The part of a run that a film or series shows.
+    pub fn span(&self) -> Span {
+        Span {
+            from: self.from.unwrap_or(f64::NEG_INFINITY),
+            to: self.to.unwrap_or(f64::INFINITY),
+            every: self.every,
+        }
+    }
+
+    /// How pictures are drawn.
+    pub fn picture(&self, format: Format) -> PictureOptions {
+        let [width, height] =
+            self.size.unwrap_or(if format == Format::Gif { [960, 540] } else { [1920, 1080] });
+        PictureOptions {
+            width,
+            height,
+            camera: self.camera,
+            colour: self.colour.clone(),
+            map: self.map,
+            range: self.range,
+            time: None,
+            wall_opacity: self.wall_opacity,
+            cut: self.cut,
+        }
+    }
+}
