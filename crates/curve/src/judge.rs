@@ -1,14 +1,14 @@
 //! From the runs to points with errors, and what they say.
 
-use crate::args::{Args, Norm, Wanted, Work};
-use crate::line::Counter;
-use crate::observe::Measure;
+use crate::study::{CurveError, Study, Wanted, Work};
 use crate::sweep::Sweep;
-use crate::work::{self, Made};
-use anyhow::anyhow;
-use curve::{Choice, Error, Point, Sample, Truth, errors, front, percent, recommend, sentence};
+use crate::sweep::measure::Measure;
+use crate::sweep::script::Counter;
+use crate::sweep::work::{self, Made};
+use crate::{Choice, Error, Point, Sample, Truth, errors, front, percent, recommend, sentence};
+use crate::{amount, change, order, share_of_time};
 
-/// What is known of a point besides.
+/// Times of a point.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Cost {
     /// Wall time for each simulated second, median over the runs [s/s].
@@ -37,8 +37,15 @@ pub struct Judged {
     pub what: (String, String),
     /// Points that are compared with, and in use.
     pub marks: (Option<usize>, Option<usize>),
-    /// `time`, `steps`, `instructions`.
+    /// What a run costs: `time`, `steps`, `instructions`.
     pub of: &'static str,
+}
+
+/// Points with their samples and times.
+struct Measured {
+    points: Vec<Point>,
+    costs: Vec<Cost>,
+    unit: String,
 }
 
 /// Reads and measures all runs and judges them.
@@ -46,80 +53,90 @@ pub struct Judged {
 /// # Errors
 /// No run came to its end, something that cannot be measured.
 pub fn judge(
-    args: &Args,
+    study: &Study,
     sweep: &Sweep,
     measure: &Measure,
     counter: Option<Counter>,
-) -> anyhow::Result<Judged> {
+) -> Result<Judged, CurveError> {
     let grid = &sweep.grid;
+    let Measured { points, costs, unit } = measured(study.work, sweep, measure, counter)?;
+    check_failed(&points, grid.reference)?;
+    let truth = match (grid.reference, study.truth) {
+        (Some(reference), _) => Truth::Point(reference),
+        (None, truth) => truth.map_or(Truth::Value(f64::NAN, 0.0), |t| Truth::Value(t.value, t.half_width)),
+    };
+    let errors = errors(&points, truth, study.norm);
+    let works: Vec<f64> = points.iter().map(Point::work).collect();
+    let relative = errors.iter().flatten().all(|e| e.relative);
+    let (wanted, share) = match study.wanted.unwrap_or(Wanted::Share(0.01)) {
+        Wanted::Share(share) => (share, true),
+        Wanted::Absolute(size) => (size, false),
+    };
+    if study.wanted.is_some() && share != relative {
+        let why = match relative {
+            true => "the truth is not zero, so errors are shares of it: give one such as 1%",
+            false => "the truth is zero, so errors are in the unit of the measure: give one without %",
+        };
+        return Err(CurveError::Usage(format!("--for: {why}")));
+    }
+    Ok(Judged {
+        front: front(&works, &errors),
+        choice: (share == relative).then(|| recommend(&works, &errors, grid.reference, wanted)),
+        costs,
+        wanted: (wanted, share),
+        what: (measure.name.clone(), unit),
+        marks: (grid.reference, grid.in_use.filter(|k| points[*k].failed.is_none())),
+        of: study.work.name(),
+        points,
+        errors,
+    })
+}
+
+/// The results of all runs, by point.
+fn measured(
+    work: Work,
+    sweep: &Sweep,
+    measure: &Measure,
+    counter: Option<Counter>,
+) -> Result<Measured, CurveError> {
     let empty = |setting: &Vec<(String, String)>| Point {
         setting: setting.clone(),
         samples: Vec::new(),
         failed: None,
     };
-    let mut points: Vec<Point> = grid.settings.iter().map(empty).collect();
+    let mut points: Vec<Point> = sweep.grid.settings.iter().map(empty).collect();
     let (mut all, mut unit) = (vec![Vec::new(); points.len()], String::new());
     for job in &sweep.jobs {
         let point = &mut points[job.setting];
-        match work::read(job, args.work, counter)? {
+        match work::read(job, work, counter)? {
             Made::Failed(why) => point.failed = Some(why),
             Made::Done { work, seconds, steps, prepared } => {
-                let (value, its) = measure.of(job, &sweep.tools)?;
-                unit = its;
-                point.samples.push(Sample { value, work, seed: job.repeat });
+                let found = measure.of(job, &sweep.tools)?;
+                unit = found.unit;
+                point.samples.push(Sample { value: found.values, work, seed: job.repeat });
                 all[job.setting].push(Cost { seconds, steps, prepared });
             }
         }
     }
-    // A setting that goes wrong with some seeds cannot be relied on.
+    // A setting that fails with some seeds cannot be relied on.
     points.iter_mut().filter(|p| p.failed.is_some()).for_each(|p| p.samples.clear());
-    let why = |k: usize| points[k].failed.clone().map(|why| anyhow!("{}: {why}", points[k].name()));
-    if let Some(error) = grid.reference.and_then(why) {
-        return Err(error.context("the reference cannot be run: give another --reference"));
+    Ok(Measured { points, costs: all.iter().map(|runs| median(runs)).collect(), unit })
+}
+
+/// Refuses a reference that failed, and a study in which all failed.
+fn check_failed(points: &[Point], reference: Option<usize>) -> Result<(), CurveError> {
+    let why = |k: usize| {
+        let why = points.get(k)?.failed.clone()?;
+        Some(CurveError::Failed(format!("{}: {why}", points[k].name())))
+    };
+    if let Some(error) = reference.and_then(why) {
+        return Err(error.at("the reference cannot be run: give another --reference"));
     }
     if points.iter().all(|p| p.failed.is_some()) {
-        return Err(why(0).unwrap_or_else(|| anyhow!("nothing to run")).context("no point can be run"));
+        let error = why(0).unwrap_or_else(|| CurveError::Failed("nothing to run".to_owned()));
+        return Err(error.at("no point can be run"));
     }
-    let truth = match (grid.reference, args.exact, args.laboratory) {
-        (Some(reference), ..) => Truth::Point(reference),
-        (_, Some(exact), _) => Truth::Value(exact, 0.0),
-        (.., laboratory) => laboratory.map_or(Truth::Value(f64::NAN, 0.0), |(v, u)| Truth::Value(v, u)),
-    };
-    let norm = if args.norm == Norm::Max { curve::Norm::Max } else { curve::Norm::Rms };
-    let errors = errors(&points, truth, norm);
-    let works: Vec<f64> = points.iter().map(Point::work).collect();
-    let relative = errors.iter().flatten().all(|e| e.relative);
-    let (wanted, share) = match args.wanted.unwrap_or(Wanted::Share(0.01)) {
-        Wanted::Share(share) => (share, true),
-        Wanted::Absolute(size) => (size, false),
-    };
-    if args.wanted.is_some() && share != relative {
-        return Err(cli::usage(format!(
-            "--for: the truth is {}, so errors are {}",
-            if relative { "not zero" } else { "zero" },
-            if relative {
-                "shares of it: give one such as 1%"
-            } else {
-                "in the unit of the measure: give one without %"
-            }
-        )));
-    }
-    Ok(Judged {
-        front: front(&works, &errors),
-        choice: (share == relative).then(|| recommend(&works, &errors, grid.reference, wanted)),
-        costs: all.iter().map(|runs| median(runs)).collect(),
-        wanted: (wanted, share),
-        what: (measure.name.clone(), unit),
-        marks: (grid.reference, grid.in_use.filter(|k| points[*k].failed.is_none())),
-        of: match args.work {
-            Work::Seconds => "time",
-            Work::Cpu => "processor time",
-            Work::Steps => "steps",
-            Work::Instructions => "instructions",
-        },
-        points,
-        errors,
-    })
+    Ok(())
 }
 
 fn median(runs: &[Cost]) -> Cost {
@@ -139,7 +156,7 @@ impl Judged {
         self.marks.1.or(self.marks.0).or_else(|| known.min_by(|a, b| size(a).total_cmp(&size(b))))
     }
 
-    /// Everything in plain words, a line each.
+    /// All results in words, a line each.
     pub fn words(&self) -> Vec<String> {
         let mut lines = Vec::new();
         let Some(base) = self.base() else { return lines };
@@ -149,21 +166,21 @@ impl Judged {
         for (k, point) in self.points.iter().enumerate().filter(|(k, _)| *k != base) {
             lines.push(match (&point.failed, &self.errors[k]) {
                 (Some(why), _) => {
-                    format!("{} cannot be run: {why}", curve::change(&self.points[base], point))
+                    format!("{} cannot be run: {why}", change(&self.points[base], point))
                 }
                 (None, Some(_)) if self.marks.0 == Some(k) => {
-                    let time = curve::share_of_time(point.work(), self.points[base].work(), self.of);
-                    format!("{}, the reference, {time}", curve::change(&self.points[base], point))
+                    let time = share_of_time(point.work(), self.points[base].work(), self.of);
+                    format!("{}, the reference, {time}", change(&self.points[base], point))
                 }
                 (None, Some(error)) => {
                     let base = (&self.points[base], self.errors[base].as_ref());
                     sentence(base, (point, error), what, self.of)
                 }
-                (None, None) => format!("{} cannot be compared", curve::change(&self.points[base], point)),
+                (None, None) => format!("{} cannot be compared", change(&self.points[base], point)),
             });
         }
         if self.points.first().is_some_and(|p| p.setting.len() == 1) {
-            lines.extend(curve::order(&self.points, &self.errors, (&self.what.0, self.of)));
+            lines.extend(order(&self.points, &self.errors, (&self.what.0, self.of)));
         }
         lines.extend(self.advice());
         lines
@@ -174,7 +191,7 @@ impl Judged {
         match (&self.errors[k], self.marks.0 == Some(k)) {
             (_, true) => format!(", the reference for {}", self.what.0),
             (Some(error), _) => {
-                format!(", with an error of {} in {}", curve::amount(error, &self.what.1), self.what.0)
+                format!(", with an error of {} in {}", amount(error, &self.what.1), self.what.0)
             }
             _ => String::new(),
         }
@@ -196,7 +213,7 @@ impl Judged {
             Choice::Point(k) => {
                 let time = match self.base().filter(|base| *base != k) {
                     Some(base) => {
-                        let time = curve::share_of_time(self.points[k].work(), self.points[base].work(), of);
+                        let time = share_of_time(self.points[k].work(), self.points[base].work(), of);
                         format!("; it {time}")
                     }
                     None => String::new(),

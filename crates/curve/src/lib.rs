@@ -1,12 +1,26 @@
-//! What accuracy costs: the error of each setting and its interval, the settings that nothing beats, the fastest that
-//! is good enough, and all of it in plain words. Numbers in, numbers and sentences out; nothing is run here.
+//! What accuracy costs: the runs of a study, the error of each setting and its interval, the settings that nothing beats, the fastest
+//! that is good enough, and all of it in plain words.
+//!
+//! ```text
+//! Study → sweep (settings, runs, scripts) → judge (values, errors, front, choice) → words, table
+//! ```
+//!
+//! [`point`], [`error`], [`front`] and [`words`] are numbers in, numbers and sentences out; [`sweep`] lays out, runs and measures points with the
+//! programs dem-run and dem-measure; [`judge`] joins both. The caller prints and draws. Uses `scene` to check settings, `measure` for statistics.
 
 mod error;
 mod front;
+mod judge;
 mod point;
+mod study;
+pub mod sweep;
+mod table;
 mod words;
 
 pub use error::{Norm, Truth, errors};
 pub use front::{Choice, front, recommend};
+pub use judge::{Cost, Judged, judge};
 pub use point::{Error, Point, Sample};
+pub use study::{CurveError, Study, TrueValue, Wanted, Work};
+pub use table::csv;
 pub use words::{amount, change, order, percent, sentence, share_of_time};

@@ -1,7 +1,7 @@
 //! The curve as CSV: a row for each point.
 
 use crate::judge::Judged;
-use curve::{Choice, Point};
+use crate::{Choice, Point};
 use measure::statistics::Mean;
 use std::fmt::Write;
 

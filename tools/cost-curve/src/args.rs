@@ -3,6 +3,7 @@
 use anyhow::Context;
 use clap::Parser;
 use cli::usage;
+use curve::{Study, TrueValue, Wanted};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -105,15 +106,6 @@ pub enum Norm {
     Max,
 }
 
-/// An error that is good enough.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Wanted {
-    /// A share of the truth [–].
-    Share(f64),
-    /// In the unit of the measure.
-    Absolute(f64),
-}
-
 fn wanted(text: &str) -> Result<Wanted, String> {
     let wrong = || "give a share such as 1%, or a number above 0 in the unit of the measure".to_owned();
     let number =
@@ -133,40 +125,35 @@ fn laboratory(text: &str) -> Result<(f64, f64), String> {
     }
 }
 
-/// `KEY=VALUE`
-pub fn pair(option: &str, text: &str) -> anyhow::Result<(String, String)> {
-    let (key, value) = text
-        .split_once('=')
-        .filter(|(key, value)| !key.trim().is_empty() && !value.trim().is_empty())
-        .ok_or_else(|| usage(format!("{option} {text}: write KEY=VALUE, such as safety=0.2")))?;
-    Ok((key.trim().to_owned(), value.trim().to_owned()))
-}
-
-/// Values between commas; those inside of brackets belong to the value.
-pub fn values(key: &str, text: &str) -> anyhow::Result<Vec<String>> {
-    let (mut depth, mut list) = (0i32, vec![String::new()]);
-    for c in text.chars() {
-        depth += i32::from(matches!(c, '[' | '{')) - i32::from(matches!(c, ']' | '}'));
-        match list.last_mut() {
-            Some(value) if c != ',' || depth > 0 => value.push(c),
-            _ => list.push(String::new()),
+impl Args {
+    /// The study.
+    pub fn study(&self) -> Study {
+        let exact = self.exact.map(|value| TrueValue { value, half_width: 0.0 });
+        let laboratory = self.laboratory.map(|(value, half_width)| TrueValue { value, half_width });
+        Study {
+            scene: self.scene.clone(),
+            inputs: self.inputs.clone(),
+            vary: self.vary.clone(),
+            set: self.set.clone(),
+            each: self.each.clone(),
+            reference: self.reference.clone(),
+            in_use: self.in_use.clone(),
+            truth: exact.or(laboratory),
+            wanted: self.wanted,
+            norm: if self.norm == Norm::Max { curve::Norm::Max } else { curve::Norm::Rms },
+            repeat: self.repeat,
+            rounds: self.rounds,
+            work: match self.work {
+                Work::Seconds => curve::Work::Seconds,
+                Work::Cpu => curve::Work::Cpu,
+                Work::Steps => curve::Work::Steps,
+                Work::Instructions => curve::Work::Instructions,
+            },
+            folder: self.folder(),
+            threads: rayon::current_num_threads(),
         }
     }
-    let list: Vec<String> = list.iter().map(|v| v.trim().to_owned()).collect();
-    if let Some(value) = list.iter().find(|v| v.is_empty()).or_else(|| list.iter().find(|v| twice(v, &list)))
-    {
-        let why =
-            if value.is_empty() { "one value is empty".into() } else { format!("{value} is there twice") };
-        return Err(usage(format!("--vary {key}={text}: {why}: leave it out")));
-    }
-    Ok(list)
-}
 
-fn twice(value: &str, list: &[String]) -> bool {
-    list.iter().filter(|v| *v == value).count() > 1
-}
-
-impl Args {
     /// The folder of the points.
     pub fn folder(&self) -> PathBuf {
         let beside = || self.plot.clone().unwrap_or_else(|| "cost-curve".into()).with_extension("points");

@@ -1,21 +1,15 @@
 //! Shows what accuracy costs in time: a scene over a grid of settings, errors, a plot, a recommended setting.
 
 mod args;
-mod grid;
-mod judge;
-mod knob;
-mod line;
-mod observe;
 mod plot;
-mod sweep;
-mod table;
-mod work;
+mod report;
 
 use anyhow::Context;
 use args::Args;
-use cli::{Output, OutputStream, Report};
-use judge::Judged;
-use line::{Job, quoted};
+use cli::{Output, OutputStream, Progress, Report};
+use curve::sweep::work::Open;
+use curve::sweep::{Sweep, measure::Measure, script::Counter, work};
+use curve::{CurveError, Judged, Study, Work, csv, judge};
 use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
@@ -25,74 +19,83 @@ fn main() -> ExitCode {
 }
 
 fn cost_curve(args: Args) -> anyhow::Result<Report> {
-    let measure = observe::Measure::parse(&args.measure)?;
-    let counter = work::counter(args.work)?;
-    args.check()?;
-    let sweep = sweep::Sweep::new(&args)?;
-    let open = work::scripts(&args, &sweep, counter)?;
-    let (runs, kept) = (sweep.jobs.len(), sweep.jobs.len() - open.len());
-    if args.print_commands {
-        return print_commands(&open, runs);
+    let measure = Measure::parse(&args.measure).map_err(refused)?;
+    let study = args.study();
+    let counter = work::counter(study.work).map_err(refused)?;
+    if counter == Some(Counter::Valgrind) {
+        cli::warn("--work instructions: perf cannot count here: valgrind does, 50 times slower");
     }
-    work::run(&args, &open)?;
-    let judged = judge::judge(&args, &sweep, &measure, counter)?;
-    write(Path::new("-"), table::csv(&judged).as_bytes())?;
+    args.check()?;
+    let sweep = lay_out(&study)?;
+    let open = work::scripts(&sweep.jobs, &sweep.tools, study.work, counter).map_err(refused)?;
+    let (runs, kept) = (sweep.jobs.len(), sweep.jobs.len() - open.jobs.len());
+    if open.outdated > 0 {
+        let (folder, old) = (study.folder.display(), open.outdated);
+        cli::warn(&format!(
+            "{folder}: {old} of {runs} runs there were made from another scene, input or program: they are made again"
+        ));
+    }
+    if args.print_commands {
+        write(Path::new("-"), report::commands(&open.jobs).as_bytes())?;
+        let count = open.jobs.len();
+        return Ok(Report::new(format!("{count} runs to make, {kept} are finished; nothing was run")));
+    }
+    run(&args, &study, &open)?;
+    let judged = judge(&study, &sweep, &measure, counter).map_err(refused)?;
+    publish(&args, &judged)?;
+    Ok(report::report(&judged, runs, kept))
+}
+
+/// The error of a study as one of the tool.
+fn refused(error: CurveError) -> anyhow::Error {
+    match error {
+        CurveError::Usage(text) => cli::usage(text),
+        CurveError::At { what, source } => refused(*source).context(what),
+        other => other.into(),
+    }
+}
+
+fn lay_out(study: &Study) -> anyhow::Result<Sweep> {
+    let sweep = Sweep::new(study).map_err(refused)?;
+    cli::also_reads(sweep.files.clone())?;
+    if sweep.one_seed {
+        cli::warn(
+            "chance plays a part in this scene, and one seed does not tell how much: --repeat 3 gives intervals",
+        );
+    }
+    Ok(sweep)
+}
+
+fn run(args: &Args, study: &Study, open: &Open) -> anyhow::Result<()> {
+    let jobs = args.jobs.get();
+    if jobs > 1 && study.work == Work::Seconds && !open.jobs.is_empty() {
+        cli::warn(&format!("--jobs {jobs}: runs at the same time disturb each other's times"));
+    }
+    cli::stop_in_order();
+    let progress = Progress::new("runs", open.jobs.len() as u64);
+    let begins = |job: &curve::sweep::script::Job| progress.say(job.name.clone());
+    work::run(&open.jobs, jobs, cli::stop_requested, &begins, &|| progress.add(1)).map_err(refused)
+}
+
+/// Writes the table, the plot and the sentences.
+fn publish(args: &Args, judged: &Judged) -> anyhow::Result<()> {
+    write(Path::new("-"), csv(judged).as_bytes())?;
     if let Some(file) = &args.plot {
         let title = format!("{}: what accuracy costs", args.scene);
-        write(file, &plot::draw(file, &judged, &title)?)?;
+        write(file, &plot::draw(file, judged, &title)?)?;
     }
     let words = judged.words();
     if let Some(file) = &args.words {
-        let bold = |line: &String| match Some(line) == judged.advice().as_ref() {
-            true => format!("- **{line}**\n"),
-            false => format!("- {line}\n"),
-        };
-        let list: String = words.iter().map(bold).collect();
-        write(file, list.as_bytes())?;
+        write(file, report::markdown(judged, &words).as_bytes())?;
     }
     if !cli::quiet() {
         words.iter().for_each(|line| eprintln!("{line}"));
     }
-    Ok(report(&judged, &words, runs, kept))
+    Ok(())
 }
 
 fn write(file: &Path, bytes: &[u8]) -> anyhow::Result<()> {
     let mut out: OutputStream = Output { file: Some(file.to_owned()) }.open_text()?;
     out.write_all(bytes).with_context(|| format!("{}: cannot write", file.display()))?;
     out.commit()
-}
-
-fn print_commands(open: &[&Job], runs: usize) -> anyhow::Result<Report> {
-    let line = |job: &&Job| {
-        let script = job.file("run.sh");
-        let script = quoted(&std::path::absolute(&script).unwrap_or(script).display().to_string());
-        format!("bash {script}  # {}\n", job.dem_run())
-    };
-    write(Path::new("-"), open.iter().map(line).collect::<String>().as_bytes())?;
-    let done = runs - open.len();
-    Ok(Report::new(format!("{} runs to make, {done} are finished; nothing was run", open.len())))
-}
-
-fn report(judged: &Judged, words: &[String], runs: usize, kept: usize) -> Report {
-    let failed = judged.points.iter().filter(|p| p.failed.is_some()).count();
-    let summary = format!(
-        "{} points, {runs} runs, {kept} of them made before, {failed} points failed",
-        judged.points.len()
-    );
-    let setting = |k: usize| {
-        judged.points[k].setting.iter().cloned().collect::<std::collections::BTreeMap<String, String>>()
-    };
-    let recommended = match judged.choice {
-        Some(curve::Choice::Point(k)) => Some(setting(k)),
-        _ => None,
-    };
-    Report::new(summary)
-        .with("points", judged.points.len())
-        .with("runs", runs)
-        .with("kept", kept)
-        .with("failed", failed)
-        .with("reference", judged.marks.0.map(setting))
-        .with("in_use", judged.marks.1.map(setting))
-        .with("recommended", recommended)
-        .with("words", words)
 }

@@ -1,9 +1,8 @@
 //! The work–precision diagram: error over work, both logarithmic, with the Pareto front and the setting in use.
 
-use crate::judge::Judged;
 use anyhow::anyhow;
 use cli::usage;
-use curve::Choice;
+use curve::{Choice, Judged};
 use kuva::plot::scatter::MarkerShape;
 use kuva::prelude::*;
 use std::path::Path;

@@ -1,8 +1,7 @@
 //! The grid of settings, with the reference and the setting in use.
 
-use crate::args::{Args, pair, values};
-use crate::knob::Knob;
-use cli::usage;
+use super::knob::Knob;
+use crate::study::{CurveError, Study};
 use toml::Value;
 
 /// Values of the knobs, in their order.
@@ -25,27 +24,33 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// The grid of the command line. `blank` tells whether {KEY} stands in a line, `scene` what it says, when it is one.
+    /// The grid of a study. `blank` tells whether {KEY} stands in a line, `scene` what it says, when it is one.
     ///
     /// # Errors
     /// A key twice, a reference that is not known.
-    pub fn new(args: &Args, blank: &dyn Fn(&str) -> bool, scene: Option<&Value>) -> anyhow::Result<Grid> {
+    pub fn new(
+        study: &Study,
+        blank: &dyn Fn(&str) -> bool,
+        scene: Option<&Value>,
+    ) -> Result<Grid, CurveError> {
         let mut knobs: Vec<Knob> = Vec::new();
         let mut lists: Vec<Vec<String>> = Vec::new();
-        for text in &args.vary {
+        for text in &study.vary {
             let (key, all) = pair("--vary", text)?;
             if knobs.iter().any(|k| k.name == key) {
-                return Err(usage(format!("--vary {key}: is given twice: list all of its values in one")));
+                return Err(CurveError::Usage(format!(
+                    "--vary {key}: is given twice: list all of its values in one"
+                )));
             }
             lists.push(values(&key, &all)?);
             knobs.push(Knob::new(&key, blank(&key)));
         }
         let mut grid = Grid { settings: product(&knobs, &lists), knobs, reference: None, in_use: None };
-        if args.exact.is_none() && args.laboratory.is_none() {
-            let setting = grid.finest(&pairs("--reference", &args.reference, &grid.knobs)?, &lists)?;
+        if study.truth.is_none() {
+            let setting = grid.finest(&pairs("--reference", &study.reference, &grid.knobs)?, &lists)?;
             grid.reference = Some(grid.place(setting));
         }
-        let given = pairs("--in-use", &args.in_use, &grid.knobs)?;
+        let given = pairs("--in-use", &study.in_use, &grid.knobs)?;
         let known = |knob: &Knob| {
             let own = || match scene {
                 Some(scene) if !knob.is_blank() => Some(knob.own(scene).unwrap_or(AS_IT_IS.to_owned())),
@@ -60,7 +65,7 @@ impl Grid {
     }
 
     /// The reference: what was given, else the finest value.
-    fn finest(&self, given: &Setting, lists: &[Vec<String>]) -> anyhow::Result<Setting> {
+    fn finest(&self, given: &Setting, lists: &[Vec<String>]) -> Result<Setting, CurveError> {
         let mut setting = Setting::new();
         for (knob, list) in self.knobs.iter().zip(lists) {
             let value = match value_of(given, &knob.name) {
@@ -91,13 +96,14 @@ fn value_of(setting: &Setting, key: &str) -> Option<String> {
     setting.iter().find(|(k, _)| k == key).map(|(_, v)| v.clone())
 }
 
-fn pairs(option: &str, texts: &[String], knobs: &[Knob]) -> anyhow::Result<Setting> {
-    let all = texts.iter().map(|text| pair(option, text)).collect::<anyhow::Result<Setting>>()?;
+fn pairs(option: &str, texts: &[String], knobs: &[Knob]) -> Result<Setting, CurveError> {
+    let all = texts.iter().map(|text| pair(option, text)).collect::<Result<Setting, CurveError>>()?;
     let names: Vec<&str> = knobs.iter().map(|k| k.name.as_str()).collect();
     match all.iter().find(|(key, _)| !names.contains(&key.as_str())) {
-        Some((key, _)) => {
-            Err(usage(format!("{option} {key}: is not varied: vary it, or name one of {}", names.join(", "))))
-        }
+        Some((key, _)) => Err(CurveError::Usage(format!(
+            "{option} {key}: is not varied: vary it, or name one of {}",
+            names.join(", ")
+        ))),
         None => Ok(all),
     }
 }
@@ -115,41 +121,92 @@ fn product(knobs: &[Knob], lists: &[Vec<String>]) -> Vec<Setting> {
     all
 }
 
+/// `KEY=VALUE`
+fn pair(option: &str, text: &str) -> Result<(String, String), CurveError> {
+    let (key, value) = text
+        .split_once('=')
+        .filter(|(key, value)| !key.trim().is_empty() && !value.trim().is_empty())
+        .ok_or_else(|| CurveError::Usage(format!("{option} {text}: write KEY=VALUE, such as safety=0.2")))?;
+    Ok((key.trim().to_owned(), value.trim().to_owned()))
+}
+
+/// Values between commas; those inside of brackets belong to the value.
+fn values(key: &str, text: &str) -> Result<Vec<String>, CurveError> {
+    let (mut depth, mut list) = (0i32, vec![String::new()]);
+    for c in text.chars() {
+        depth += i32::from(matches!(c, '[' | '{')) - i32::from(matches!(c, ']' | '}'));
+        match list.last_mut() {
+            Some(value) if c != ',' || depth > 0 => value.push(c),
+            _ => list.push(String::new()),
+        }
+    }
+    let list: Vec<String> = list.iter().map(|v| v.trim().to_owned()).collect();
+    if let Some(value) = list.iter().find(|v| v.is_empty()).or_else(|| list.iter().find(|v| twice(v, &list)))
+    {
+        let why =
+            if value.is_empty() { "one value is empty".into() } else { format!("{value} is there twice") };
+        return Err(CurveError::Usage(format!("--vary {key}={text}: {why}: leave it out")));
+    }
+    Ok(list)
+}
+
+fn twice(value: &str, list: &[String]) -> bool {
+    list.iter().filter(|v| *v == value).count() > 1
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::Parser;
+    use crate::Norm;
+    use crate::study::Work;
 
-    fn grid(options: &[&str]) -> anyhow::Result<Grid> {
-        let scene: Value = Value::Table("[time]\nsafety = 0.5\n".parse()?);
-        let args = ["cost-curve", "s.toml", "--measure", "heap-angle"].iter().chain(options);
-        Grid::new(&Args::try_parse_from(args)?, &|key| key == "spacing", Some(&scene))
+    fn grid(vary: &[&str], reference: &[&str], in_use: &[&str]) -> Result<Grid, CurveError> {
+        let scene = Value::Table("[time]\nsafety = 0.5\n".parse().unwrap());
+        let owned = |list: &[&str]| list.iter().map(|text| (*text).to_owned()).collect();
+        let study = Study {
+            scene: "s.toml".to_owned(),
+            inputs: Vec::new(),
+            vary: owned(vary),
+            set: Vec::new(),
+            each: None,
+            reference: owned(reference),
+            in_use: owned(in_use),
+            truth: None,
+            wanted: None,
+            norm: Norm::Rms,
+            repeat: 1,
+            rounds: 1,
+            work: Work::Steps,
+            folder: "points".into(),
+            threads: 1,
+        };
+        Grid::new(&study, &|key| key == "spacing", Some(&scene))
     }
 
     #[test]
     fn the_grid_has_every_combination_and_marks_reference_and_use() {
-        let found = grid(&["--vary", "safety=0.1,0.50", "--vary", "precision=f64,mixed"]).unwrap();
+        let found = grid(&["safety=0.1,0.50", "precision=f64,mixed"], &[], &[]).unwrap();
         assert_eq!(found.settings.len(), 4);
         assert_eq!((found.reference, found.in_use), (Some(0), Some(2)));
-        let found = grid(&["--vary", "safety=0.1,0.2", "--reference", "safety=0.01"]).unwrap();
+        let found = grid(&["safety=0.1,0.2"], &["safety=0.01"], &[]).unwrap();
         assert_eq!(found.settings.len(), 4, "{found:?}");
         assert_eq!((found.reference, found.in_use), (Some(2), Some(3)));
     }
 
     #[test]
-    fn what_only_a_line_knows_is_in_use_when_it_is_said() {
-        assert_eq!(grid(&["--vary", "spacing=1,2"]).unwrap().in_use, None);
-        assert_eq!(grid(&["--vary", "spacing=1,2", "--in-use", "spacing=2"]).unwrap().in_use, Some(1));
+    fn a_blank_is_in_use_when_it_is_given() {
+        assert_eq!(grid(&["spacing=1,2"], &[], &[]).unwrap().in_use, None);
+        assert_eq!(grid(&["spacing=1,2"], &[], &["spacing=2"]).unwrap().in_use, Some(1));
     }
 
     #[test]
-    fn what_is_wrong_is_said() {
-        let why = |options: &[&str]| grid(options).unwrap_err().to_string();
-        assert!(why(&["--vary", "safety"]).contains("write KEY=VALUE"));
-        assert!(why(&["--vary", "safety=1,1"]).contains("1 is there twice"));
-        assert!(why(&["--vary", "safety=1,,2"]).contains("one value is empty"));
-        assert!(why(&["--vary", "safety=1", "--vary", "safety=2"]).contains("given twice"));
-        assert!(why(&["--vary", "safety=1", "--reference", "dt=2"]).contains("is not varied"));
-        assert!(why(&["--vary", "gravity=[0,0,-1],[0,0,-2]"]).contains("say --reference gravity=[0,0,-1]"));
+    fn errors_name_the_option() {
+        let why = |vary: &[&str]| grid(vary, &[], &[]).unwrap_err().to_string();
+        assert!(why(&["safety"]).contains("write KEY=VALUE"));
+        assert!(why(&["safety=1,1"]).contains("1 is there twice"));
+        assert!(why(&["safety=1,,2"]).contains("one value is empty"));
+        assert!(why(&["safety=1", "safety=2"]).contains("given twice"));
+        assert!(grid(&["safety=1"], &["dt=2"], &[]).unwrap_err().to_string().contains("is not varied"));
+        assert!(why(&["gravity=[0,0,-1],[0,0,-2]"]).contains("say --reference gravity=[0,0,-1]"));
     }
 }

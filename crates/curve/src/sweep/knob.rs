@@ -1,7 +1,6 @@
 //! What can be varied: keys of the scene, short names for the usual ones, and blanks {KEY} in lines.
 
-use anyhow::anyhow;
-use cli::usage;
+use crate::study::CurveError;
 use toml::Value;
 
 /// Which of several values is the finest.
@@ -17,20 +16,33 @@ pub enum Finest {
     Unknown,
 }
 
-/// Short name, key of the scene (empty: not a key), which value is the finest, what holds when the scene says nothing.
-const KNOWN: [(&str, &str, Finest, &str); 12] = [
-    ("safety", "time.safety", Finest::Least, "0.5"),
-    ("dt", "time.dt", Finest::Least, "auto"),
-    ("accuracy", "time.accuracy", Finest::Least, ""),
-    ("stiffness", "", Finest::Most, "1"),
-    ("young", "material.*.young", Finest::Most, ""),
-    ("precision", "precision", Finest::Word("f64"), "f64"),
-    ("skin", "neighbours.skin", Finest::Most, ""),
-    ("sleep", "sleep.speed", Finest::Least, ""),
-    ("every", "output.every", Finest::Least, ""),
-    ("zone", "outlet.*.length", Finest::Unknown, ""),
-    ("threads", "", Finest::Least, ""),
-    ("spacing", "", Finest::Least, ""),
+/// A knob that has a short name.
+struct Known {
+    name: &'static str,
+    /// Key of the scene; empty: none.
+    key: &'static str,
+    finest: Finest,
+    /// Value when the scene has no such key; empty: unknown.
+    default: &'static str,
+}
+
+const fn known(name: &'static str, key: &'static str, finest: Finest, default: &'static str) -> Known {
+    Known { name, key, finest, default }
+}
+
+const KNOWN: [Known; 12] = [
+    known("safety", "time.safety", Finest::Least, "0.5"),
+    known("dt", "time.dt", Finest::Least, "auto"),
+    known("accuracy", "time.accuracy", Finest::Least, ""),
+    known("stiffness", "", Finest::Most, "1"),
+    known("young", "material.*.young", Finest::Most, ""),
+    known("precision", "precision", Finest::Word("f64"), "f64"),
+    known("skin", "neighbours.skin", Finest::Most, ""),
+    known("sleep", "sleep.speed", Finest::Least, ""),
+    known("every", "output.every", Finest::Least, ""),
+    known("zone", "outlet.*.length", Finest::Unknown, ""),
+    known("threads", "", Finest::Least, ""),
+    known("spacing", "", Finest::Least, ""),
 ];
 
 /// Where a value goes.
@@ -60,24 +72,24 @@ pub struct Knob {
 impl Knob {
     /// The knob of this name; `blank` when it stands as {NAME} in a line.
     pub fn new(name: &str, blank: bool) -> Knob {
-        let known = KNOWN.iter().find(|(short, key, ..)| *short == name || *key == name && !key.is_empty());
-        let (finest, own) = known.map_or((Finest::Unknown, ""), |k| (k.2, k.3));
+        let known = KNOWN.iter().find(|k| k.name == name || k.key == name && !k.key.is_empty());
+        let (finest, own) = known.map_or((Finest::Unknown, ""), |k| (k.finest, k.default));
         let target = match (blank, known, name) {
             (true, ..) => Target::Blank,
             (_, _, "stiffness") => Target::Stiffness,
             (_, _, "threads") => Target::Threads,
-            (_, Some((_, key, ..)), _) if !key.is_empty() => Target::Key((*key).to_owned()),
+            (_, Some(known), _) if !known.key.is_empty() => Target::Key(known.key.to_owned()),
             _ => Target::Key(name.to_owned()),
         };
         Knob { name: name.to_owned(), finest, target, own: own.to_owned() }
     }
 
-    /// Whether its value stands in a line, where the scene knows nothing of it.
+    /// Whether its value stands in a line and not in the scene.
     pub fn is_blank(&self) -> bool {
         self.target == Target::Blank
     }
 
-    /// What the scene says of it; `None` when it says nothing, or not one thing.
+    /// Its value in the scene; `None` when the scene has no such key, or several values of it.
     pub fn own(&self, scene: &Value) -> Option<String> {
         let default = Some(self.own.clone()).filter(|own| !own.is_empty());
         let Target::Key(key) = &self.target else { return default };
@@ -89,18 +101,18 @@ impl Knob {
     /// The index of the finest of some values.
     ///
     /// # Errors
-    /// Which is the finest is not known, or they are no numbers.
-    pub fn finest(&self, values: &[String]) -> anyhow::Result<usize> {
+    /// Which is the finest is not known, or they are not numbers.
+    pub fn finest(&self, values: &[String]) -> Result<usize, CurveError> {
         let unknown = || {
             let first = values.first().map_or("V", String::as_str);
-            usage(format!(
+            CurveError::Usage(format!(
                 "--vary {name}: which of its values is right is not known: say --reference {name}={first}, --exact or \
                  --laboratory",
                 name = self.name
             ))
         };
         let number = |v: &String| v.parse::<f64>().map_err(|_| unknown());
-        let numbers = || values.iter().map(number).collect::<anyhow::Result<Vec<f64>>>();
+        let numbers = || values.iter().map(number).collect::<Result<Vec<f64>, CurveError>>();
         let best = |sign: f64| {
             let all = numbers()?;
             let order = (0..all.len()).min_by(|a, b| (sign * all[*a]).total_cmp(&(sign * all[*b])));
@@ -117,19 +129,25 @@ impl Knob {
     /// The overrides of the scene (`KEY=VALUE`) that give it a value.
     ///
     /// # Errors
-    /// A key that the scene has no place for, a factor that is no number.
-    pub fn overrides(&self, scene: &Value, value: &str) -> anyhow::Result<Vec<String>> {
+    /// A key that the scene has no place for, a factor that is not a number.
+    pub fn overrides(&self, scene: &Value, value: &str) -> Result<Vec<String>, CurveError> {
         let name = &self.name;
         match &self.target {
             Target::Threads | Target::Blank => Ok(Vec::new()),
             Target::Key(key) => match &expand(scene, key)[..] {
-                [] => Err(anyhow!("--vary {name}: the scene has no entry for {key}: vary something it has")),
+                [] => {
+                    let why =
+                        format!("--vary {name}: the scene has no entry for {key}: vary something it has");
+                    Err(CurveError::Failed(why))
+                }
                 keys => Ok(keys.iter().map(|key| format!("{key}={value}")).collect()),
             },
             Target::Stiffness => {
                 let factor: f64 =
                     value.parse().ok().filter(|f: &f64| *f > 0.0 && f.is_finite()).ok_or_else(|| {
-                        usage(format!("--vary {name}={value}: stiffness is a factor above 0, such as 0.1"))
+                        CurveError::Usage(format!(
+                            "--vary {name}={value}: stiffness is a factor above 0, such as 0.1"
+                        ))
                     })?;
                 let keys = ["material.*.young", "contact.*.stiffness"].map(|key| expand(scene, key)).concat();
                 let one = |key: &String| {
@@ -148,7 +166,7 @@ impl Knob {
     }
 }
 
-/// Overrides that give every fill and faucet other random numbers; none for the first.
+/// Overrides that give every fill and insertion other random numbers; none for the first.
 pub fn seeds(scene: &Value, repeat: u64) -> Vec<String> {
     let keys = ["fill.*", "insert.*"].map(|key| expand(scene, key)).concat();
     let seed = |entry: &String| {
@@ -158,8 +176,8 @@ pub fn seeds(scene: &Value, repeat: u64) -> Vec<String> {
     keys.iter().filter(|_| repeat > 0).map(seed).collect()
 }
 
-/// Whether random numbers play a part in a scene.
-pub fn by_chance(scene: &Value) -> bool {
+/// Whether a scene uses random numbers.
+pub fn is_random(scene: &Value) -> bool {
     !seeds(scene, 1).is_empty()
 }
 
@@ -211,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_scene_says_is_in_use() {
+    fn the_value_of_the_scene_is_in_use() {
         let scene = scene();
         let own = |name: &str| Knob::new(name, false).own(&scene);
         assert_eq!(own("safety").as_deref(), Some("0.2"));

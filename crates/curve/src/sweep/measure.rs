@@ -1,25 +1,36 @@
 //! What is measured of a run: by dem-measure, a value of its summary or a column of its rows.
 
-use crate::line::Job;
-use anyhow::{Context, anyhow};
-use cli::usage;
+use super::script::Job;
+use crate::study::CurveError;
 use serde_json::Value;
 use std::path::Path;
 use std::process::Command;
 
-/// Name, option of dem-measure, value.
-const KNOWN: [(&str, &str, &str); 11] = [
-    ("heap-angle", "--repose", "angle"),
-    ("discharge-rate", "--flow", "mass_flow"),
-    ("wall-force", "--wall-force", "mean_force"),
-    ("peak-wall-force", "--wall-force", "largest_force"),
-    ("energy-error", "--energy", "largest_integration_relative"),
-    ("contact-time", "--impact", "contact_time"),
-    ("overlap", "--impact", "overlap"),
-    ("restitution", "--impact", "restitution"),
-    ("velocity-profile", "--profile", "speed"),
-    ("packing-fraction", "--porosity", "solid_fraction"),
-    ("bed-height", "--bed-height", "height"),
+/// A measure that has a name.
+struct Known {
+    name: &'static str,
+    /// Option of dem-measure.
+    option: &'static str,
+    /// Value of its summary.
+    value: &'static str,
+}
+
+const fn known(name: &'static str, option: &'static str, value: &'static str) -> Known {
+    Known { name, option, value }
+}
+
+const KNOWN: [Known; 11] = [
+    known("heap-angle", "--repose", "angle"),
+    known("discharge-rate", "--flow", "mass_flow"),
+    known("wall-force", "--wall-force", "mean_force"),
+    known("peak-wall-force", "--wall-force", "largest_force"),
+    known("energy-error", "--energy", "largest_integration_relative"),
+    known("contact-time", "--impact", "contact_time"),
+    known("overlap", "--impact", "overlap"),
+    known("restitution", "--impact", "restitution"),
+    known("velocity-profile", "--profile", "speed"),
+    known("packing-fraction", "--porosity", "solid_fraction"),
+    known("bed-height", "--bed-height", "height"),
 ];
 
 /// A measure.
@@ -35,15 +46,21 @@ pub struct Measure {
     options: Vec<String>,
 }
 
-/// What was measured of a run, and its unit.
-pub type Measured = (Vec<f64>, String);
+/// What was measured of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measured {
+    /// One number, or one for each row of a profile.
+    pub values: Vec<f64>,
+    /// Their unit.
+    pub unit: String,
+}
 
 impl Measure {
     /// From the text of `--measure`.
     ///
     /// # Errors
     /// A name that is not known.
-    pub fn parse(text: &str) -> anyhow::Result<Measure> {
+    pub fn parse(text: &str) -> Result<Measure, CurveError> {
         let own = |words: &str| words.split_whitespace().map(str::to_owned).collect::<Vec<String>>();
         if let Some((value, options)) = text.split_once(" of ") {
             let (value, options) = (value.trim().to_owned(), own(options));
@@ -55,19 +72,15 @@ impl Measure {
         }
         let words = own(text);
         let name = words.first().map_or("", String::as_str);
-        if let Some((name, option, value)) = KNOWN.iter().find(|known| known.0 == name) {
+        if let Some(Known { name, option, value }) = KNOWN.iter().find(|known| known.name == name) {
             let options = [vec![(*option).to_owned()], words[1..].to_vec()].concat();
-            return Ok(Measure {
-                name: name.replace('-', " "),
-                value: (*value).to_owned(),
-                each: false,
-                options,
-            });
+            let (name, value) = (name.replace('-', " "), (*value).to_owned());
+            return Ok(Measure { name, value, each: false, options });
         }
-        let near = KNOWN.iter().map(|k| (strsim::damerau_levenshtein(k.0, name), k.0)).min();
+        let near = KNOWN.iter().map(|k| (strsim::damerau_levenshtein(k.name, name), k.name)).min();
         let hint = near.filter(|n| n.0 <= 3).map_or(String::new(), |n| format!("; did you mean '{}'?", n.1));
-        let names: Vec<&str> = KNOWN.iter().map(|k| k.0).collect();
-        Err(usage(format!(
+        let names: Vec<&str> = KNOWN.iter().map(|k| k.name).collect();
+        Err(CurveError::Usage(format!(
             "--measure {text}: is not known{hint}: give one of {}, or 'VALUE of --MEASURE …' of dem-measure",
             names.join(", ")
         )))
@@ -77,41 +90,52 @@ impl Measure {
     ///
     /// # Errors
     /// What dem-measure says, a value that it does not have, a value that is no number.
-    pub fn of(&self, job: &Job, tools: &Path) -> anyhow::Result<Measured> {
+    pub fn of(&self, job: &Job, tools: &Path) -> Result<Measured, CurveError> {
         let key = stream::sha256(format!("{}\n{}", job.stamp, self.options.join("\n")).as_bytes());
         let kept = job.file(&format!("measure-{:.12}.json", key));
         let program = tools.join("dem-measure");
         if !fresh(&kept, &job.file("run.mcap"), &program) {
             let mut command = Command::new(&program);
             command.arg(job.file("run.mcap")).args(&self.options).args(["--json", "-q", "-o"]).arg(&kept);
-            let done =
-                command.output().with_context(|| format!("{}: cannot be started", program.display()))?;
+            let start = format!("{}: cannot be started", program.display());
+            let done = command.output().map_err(CurveError::io(start))?;
             if !done.status.success() {
-                return Err(anyhow!("{}", String::from_utf8_lossy(&done.stderr).trim()));
+                return Err(CurveError::Failed(String::from_utf8_lossy(&done.stderr).trim().to_owned()));
             }
         }
-        let text = std::fs::read_to_string(&kept).with_context(|| kept.display().to_string())?;
-        let sheet: Value = serde_json::from_str(&text).with_context(|| kept.display().to_string())?;
-        self.find(&sheet).with_context(|| job.file("run.mcap").display().to_string())
+        let text = std::fs::read_to_string(&kept).map_err(CurveError::io(kept.display().to_string()))?;
+        let sheet: Value = serde_json::from_str(&text)
+            .map_err(|e| CurveError::Failed(format!("{}: {e}", kept.display())))?;
+        self.find(&sheet).map_err(|e| e.at(job.file("run.mcap").display().to_string()))
     }
 
-    fn find(&self, sheet: &Value) -> anyhow::Result<Measured> {
-        let no_number = || anyhow!("'{}' is no number in this run: measure something it has", self.value);
+    fn find(&self, sheet: &Value) -> Result<Measured, CurveError> {
+        let no_number = || {
+            CurveError::Failed(format!(
+                "'{}' is not a number in this run: measure something it has",
+                self.value
+            ))
+        };
         let unit = |head: &Value| head["unit"].as_str().unwrap_or("1").to_owned();
         if let Some(found) = sheet["summary"].get(&self.value).filter(|_| !self.each) {
-            return Ok((vec![found["value"].as_f64().ok_or_else(no_number)?], unit(found)));
+            let value = found["value"].as_f64().ok_or_else(no_number)?;
+            return Ok(Measured { values: vec![value], unit: unit(found) });
         }
         let columns = sheet["columns"].as_array().map(Vec::as_slice).unwrap_or_default();
         let Some(at) = columns.iter().position(|c| c["name"] == self.value.as_str()) else {
             let summary = sheet["summary"].as_object().into_iter().flat_map(|s| s.keys().cloned());
             let names = summary.chain(columns.iter().filter_map(|c| c["name"].as_str().map(str::to_owned)));
             let names = names.collect::<Vec<_>>().join(", ");
-            return Err(usage(format!("{} has no '{}': it has {names}", self.options.join(" "), self.value)));
+            return Err(CurveError::Usage(format!(
+                "{} has no '{}': it has {names}",
+                self.options.join(" "),
+                self.value
+            )));
         };
         let rows = sheet["rows"].as_array().map(Vec::as_slice).unwrap_or_default();
-        // A cell of a profile that no grain is in has no number; it counts as 0 in every run alike.
+        // A cell of a profile without grains has no number; it counts as 0 in every run.
         let values: Vec<f64> = rows.iter().map(|row| row[at].as_f64().unwrap_or(0.0)).collect();
-        if values.is_empty() { Err(no_number()) } else { Ok((values, unit(&columns[at]))) }
+        if values.is_empty() { Err(no_number()) } else { Ok(Measured { values, unit: unit(&columns[at]) }) }
     }
 }
 
@@ -146,9 +170,10 @@ mod tests {
             Measure { name: String::new(), value: value.into(), each: false, options: vec!["--x".into()] }
                 .find(&sheet)
         };
-        assert_eq!(find("angle").unwrap(), (vec![30.5], "deg".into()));
-        assert_eq!(find("vx").unwrap(), (vec![1.0, 0.0], "m/s".into()));
-        assert!(find("bad").unwrap_err().to_string().contains("no number"));
+        let measured = |values: &[f64], unit: &str| Measured { values: values.to_vec(), unit: unit.into() };
+        assert_eq!(find("angle").unwrap(), measured(&[30.5], "deg"));
+        assert_eq!(find("vx").unwrap(), measured(&[1.0, 0.0], "m/s"));
+        assert!(find("bad").unwrap_err().to_string().contains("not a number"));
         assert!(find("vz").unwrap_err().to_string().contains("it has angle, bad, z, vx"));
     }
 }

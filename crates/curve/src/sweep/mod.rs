@@ -1,13 +1,23 @@
-//! From the command line to the runs: what each is made from, and its folder.
+//! The runs of a study: what each is made from, its folder, its script, and what it cost.
+//!
+//! A [`Study`] becomes a [`grid`] of settings of [`knob`]s; each setting and seed is a job with a stamp ([`stamp`]) and a [`script`] that
+//! runs dem-run; [`work`] runs the scripts that are not finished and reads their cost, [`measure`] their value.
 
-use crate::args::Args;
-use crate::grid::{AS_IT_IS, Grid, Setting};
-use crate::knob::{by_chance, seeds};
-use crate::line::{Job, fill, unfilled};
-use anyhow::{Context, anyhow};
-use cli::usage;
+mod grid;
+mod knob;
+pub mod measure;
+pub mod script;
+mod stamp;
+pub mod work;
+
+pub use grid::{Grid, Setting};
+
+use crate::study::{CurveError, Study};
+use grid::AS_IT_IS;
+use knob::{is_random, seeds};
 use scene::Scene;
-use std::collections::BTreeMap;
+use script::{Job, fill, unfilled};
+use stamp::{Hashes, stamp};
 use std::path::{Path, PathBuf};
 use toml::Value;
 
@@ -20,148 +30,116 @@ pub struct Sweep {
     pub jobs: Vec<Job>,
     /// Folder of the programs.
     pub tools: PathBuf,
-}
-
-/// What files hold, each read once.
-#[derive(Default)]
-struct Hashes(BTreeMap<PathBuf, String>);
-
-impl Hashes {
-    /// SHA-256 of a file.
-    fn of(&mut self, path: &Path) -> anyhow::Result<String> {
-        if let Some(known) = self.0.get(path) {
-            return Ok(known.clone());
-        }
-        let bytes = std::fs::read(path).with_context(|| format!("{}: cannot read it", path.display()))?;
-        let hash = stream::sha256(&bytes);
-        self.0.insert(path.to_owned(), hash.clone());
-        Ok(hash)
-    }
-
-    /// Hashes of those of some words that are files in one of the folders.
-    fn of_words<'a>(
-        &mut self,
-        words: impl Iterator<Item = &'a str>,
-        folders: &[&Path],
-    ) -> anyhow::Result<String> {
-        let mut all = String::new();
-        for word in words {
-            let paths = folders.iter().map(|folder| folder.join(word));
-            if let Some(path) = paths.into_iter().find(|path| path.is_file()) {
-                all += &self.of(&path)?;
-            }
-        }
-        Ok(all)
-    }
+    /// Files that the scenes name.
+    pub files: Vec<PathBuf>,
+    /// Whether a scene with random numbers is run with one seed only.
+    pub one_seed: bool,
 }
 
 impl Sweep {
     /// Lays out the runs.
     ///
     /// # Errors
-    /// A scene or setting that is wrong, blanks that nothing fills, repeats where chance plays no part.
-    pub fn new(args: &Args) -> anyhow::Result<Sweep> {
-        let lines = || [&args.scene].into_iter().chain(&args.inputs).chain(&args.each);
-        let blank = |key: &str| lines().any(|line| line.contains(&format!("{{{key}}}")));
-        let plain = !args.scene.contains('{');
-        let own = if plain { Some(read(&args.scene, &args.set)?) } else { None };
-        let grid = Grid::new(args, &blank, own.as_ref())?;
-        let tools = std::env::current_exe().context("where this program is")?;
+    /// A scene or setting that is wrong, blanks that nothing fills, repeats without random numbers.
+    pub fn new(study: &Study) -> Result<Sweep, CurveError> {
+        let blank = |key: &str| lines(study).any(|line| line.contains(&format!("{{{key}}}")));
+        let plain = !study.scene.contains('{');
+        let mut files = Vec::new();
+        let own = plain.then(|| read(&study.scene, &study.set, &mut files)).transpose()?;
+        let grid = Grid::new(study, &blank, own.as_ref())?;
+        let tools = std::env::current_exe().map_err(CurveError::io("where this program is"))?;
         let tools = tools.parent().unwrap_or(Path::new(".")).to_owned();
-        let (mut hashes, mut once) = (Hashes::default(), Vec::new());
-        for repeat in 0..args.repeat {
-            for (at, setting) in grid.settings.iter().enumerate() {
-                once.push(job(args, &grid, (at, setting), repeat, &tools, &mut hashes)?);
+        let mut sweep = Sweep { grid, jobs: Vec::new(), tools, files, one_seed: false };
+        let mut hashes = Hashes::default();
+        for repeat in 0..study.repeat {
+            for at in 0..sweep.grid.settings.len() {
+                let job = sweep.job(study, at, repeat, &mut hashes)?;
+                sweep.jobs.push(job);
             }
         }
-        let round = |round: u64| {
-            let folder = move |job: &Job| match round {
-                0 => job.folder.clone(),
-                _ => job.folder.with_file_name(format!("{},round={round}", base(&job.folder))),
-            };
-            once.iter().map(move |job| Job { folder: folder(job), ..job.clone() }).collect::<Vec<Job>>()
-        };
-        let jobs: Vec<Job> = (0..args.rounds).flat_map(round).collect();
-        Ok(Sweep { grid, jobs, tools })
+        let once = sweep.jobs.clone();
+        for round in 1..study.rounds {
+            let folder =
+                |job: &Job| job.folder.with_file_name(format!("{},round={round}", base(&job.folder)));
+            sweep.jobs.extend(once.iter().map(|job| Job { folder: folder(job), ..job.clone() }));
+        }
+        Ok(sweep)
     }
+
+    /// The run of one setting with one seed.
+    fn job(&mut self, study: &Study, at: usize, repeat: u64, hashes: &mut Hashes) -> Result<Job, CurveError> {
+        let setting = &self.grid.settings[at];
+        let filled = |text: &String| {
+            let line = fill(text, setting, repeat);
+            match unfilled(&line).map(|blank| (blank, blank.trim_matches(['{', '}']))) {
+                Some((blank, key)) => {
+                    Err(CurveError::Usage(format!("{text}: nothing fills {blank}: vary {key}")))
+                }
+                None => Ok(line),
+            }
+        };
+        let scene = filled(&study.scene)?;
+        let inputs = study.inputs.iter().map(filled).collect::<Result<Vec<_>, _>>()?;
+        let each = study.each.as_ref().map(filled).transpose()?;
+        let values = read(&scene, &study.set, &mut self.files)?;
+        check_random(study, &scene, &values)?;
+        self.one_seed |= study.repeat == 1 && is_random(&values);
+        let mut sets = study.set.clone();
+        let varied = self.grid.knobs.iter().zip(setting);
+        for (knob, (_, value)) in varied.clone().filter(|(_, (_, value))| value != AS_IT_IS) {
+            sets.extend(knob.overrides(&values, value)?);
+        }
+        sets.extend(seeds(&values, repeat));
+        let threads = varied.clone().find_map(|(k, (_, v))| k.threads(v).map(str::to_owned));
+        let threads = threads.unwrap_or(study.threads.to_string());
+        let name = name(setting, repeat, study.repeat);
+        let text =
+            checked(&scene, &sets, &mut self.files).map_err(|e| e.at(format!("point {name}")))?.text.toml;
+        let (folder, stamp_later) = (study.folder.join(folder(&name)), String::new());
+        let mut job =
+            Job { setting: at, repeat, folder, stamp: stamp_later, name, scene, inputs, sets, threads, each };
+        job.stamp = stamp(&job, &text, &self.tools, hashes)?;
+        Ok(job)
+    }
+}
+
+/// Texts that may have blanks.
+fn lines(study: &Study) -> impl Iterator<Item = &String> {
+    [&study.scene].into_iter().chain(&study.inputs).chain(&study.each)
+}
+
+/// Refuses repeats of a scene that does not depend on the seed.
+fn check_random(study: &Study, scene: &str, values: &Value) -> Result<(), CurveError> {
+    let seeded = lines(study).any(|line| line.contains("{seed}"));
+    if study.repeat == 1 || seeded || is_random(values) {
+        return Ok(());
+    }
+    Err(CurveError::Usage(format!(
+        "--repeat {}: chance plays no part in {scene}: it has no [[fill]] and no [[insert]]: leave --repeat out, or \
+         put {{seed}} into --each",
+        study.repeat
+    )))
 }
 
 fn base(folder: &Path) -> String {
     folder.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// A scene with changes, as values.
-fn read(file: &str, sets: &[String]) -> anyhow::Result<Value> {
-    Ok(Value::Table(checked(file, sets)?.text.toml.parse().with_context(|| file.to_owned())?))
+/// A scene with changes, as values; the files that it names are added to `files`.
+fn read(file: &str, sets: &[String], files: &mut Vec<PathBuf>) -> Result<Value, CurveError> {
+    table(file, &checked(file, sets, files)?.text.toml)
 }
 
-fn checked(file: &str, sets: &[String]) -> anyhow::Result<Scene> {
-    let text =
-        std::fs::read_to_string(file).with_context(|| format!("{file}: cannot open it (check the path)"))?;
+fn table(file: &str, text: &str) -> Result<Value, CurveError> {
+    text.parse().map(Value::Table).map_err(|e: toml::de::Error| CurveError::Failed(format!("{file}: {e}")))
+}
+
+fn checked(file: &str, sets: &[String], files: &mut Vec<PathBuf>) -> Result<Scene, CurveError> {
+    let what = format!("{file}: cannot open it (check the path)");
+    let text = std::fs::read_to_string(file).map_err(CurveError::io(what))?;
     let scene = Scene::new(file, text, sets, Path::new(file).parent().unwrap_or(Path::new("")))?;
-    cli::also_reads(scene.files())?;
+    files.extend(scene.files());
     Ok(scene)
-}
-
-fn job(
-    args: &Args,
-    grid: &Grid,
-    (at, setting): (usize, &Setting),
-    repeat: u64,
-    tools: &Path,
-    hashes: &mut Hashes,
-) -> anyhow::Result<Job> {
-    let filled = |text: &String| {
-        let line = fill(text, setting, repeat);
-        match unfilled(&line) {
-            Some(blank) => {
-                Err(usage(format!("{text}: nothing fills {blank}: vary {}", blank.trim_matches(['{', '}']))))
-            }
-            None => Ok(line),
-        }
-    };
-    let scene = filled(&args.scene)?;
-    let inputs = args.inputs.iter().map(filled).collect::<anyhow::Result<Vec<_>>>()?;
-    let each = args.each.as_ref().map(filled).transpose()?;
-    let values = read(&scene, &args.set)?;
-    let seeded =
-        [&args.scene].into_iter().chain(&args.inputs).chain(&args.each).any(|l| l.contains("{seed}"));
-    if args.repeat > 1 && !seeded && !by_chance(&values) {
-        return Err(usage(format!(
-            "--repeat {}: chance plays no part in {scene}: it has no [[fill]] and no [[insert]]: leave --repeat out, or \
-             put {{seed}} into --each",
-            args.repeat
-        )));
-    }
-    if args.repeat == 1 && by_chance(&values) {
-        static SAID: std::sync::Once = std::sync::Once::new();
-        SAID.call_once(|| {
-            cli::warn("chance plays a part in this scene, and one seed does not tell how much: --repeat 3 gives intervals")
-        });
-    }
-    let mut sets = args.set.clone();
-    for (knob, (_, value)) in grid.knobs.iter().zip(setting).filter(|(_, (_, value))| value != AS_IT_IS) {
-        sets.extend(knob.overrides(&values, value)?);
-    }
-    sets.extend(seeds(&values, repeat));
-    let threads = grid.knobs.iter().zip(setting).find_map(|(k, (_, v))| k.threads(v).map(str::to_owned));
-    let threads = threads.unwrap_or(rayon::current_num_threads().to_string());
-    let name = name(setting, repeat, args.repeat);
-    let text = checked(&scene, &sets).with_context(|| format!("point {name}"))?.text.toml;
-    let mut job = Job {
-        setting: at,
-        repeat,
-        folder: args.folder().join(folder(&name)),
-        stamp: String::new(),
-        name,
-        scene,
-        inputs,
-        sets,
-        threads,
-        each,
-    };
-    job.stamp = stamp(&job, &text, tools, hashes)?;
-    Ok(job)
 }
 
 fn name(setting: &Setting, repeat: u64, repeats: u64) -> String {
@@ -178,37 +156,5 @@ fn folder(name: &str) -> String {
         plain
     } else {
         format!("{:.100}-{:.8}", plain, stream::sha256(name.as_bytes()))
-    }
-}
-
-/// SHA-256 of everything that a point is made from: the scene with its changes, the files that it and the lines name, the
-/// programs, the line before.
-fn stamp(job: &Job, text: &str, tools: &Path, hashes: &mut Hashes) -> anyhow::Result<String> {
-    let value = Value::Table(text.parse().with_context(|| job.scene.clone())?);
-    let mut words = Vec::new();
-    strings(&value, &mut words);
-    // Shapes name their files behind a colon.
-    let named = words.iter().map(|w| w.split_once(':').map_or(w.as_str(), |(_, file)| file));
-    let folder = Path::new(&job.scene).parent().unwrap_or(Path::new("")).to_owned();
-    let program = hashes.of(&tools.join("dem-run")).map_err(|_| {
-        anyhow!("{}: is not there: install dem-run beside cost-curve", tools.join("dem-run").display())
-    })?;
-    let mut all = vec![program, stream::sha256(text.as_bytes()), hashes.of_words(named, &[&folder])?];
-    for input in &job.inputs {
-        all.push(hashes.of(Path::new(input))?);
-    }
-    let line = job.each.clone().unwrap_or_default();
-    all.push(hashes.of_words(line.split_whitespace(), &[Path::new(""), tools])?);
-    all.extend([line, job.threads.clone()]);
-    Ok(stream::sha256(all.join("\n").as_bytes()))
-}
-
-/// Every text in a scene.
-fn strings(value: &Value, found: &mut Vec<String>) {
-    match value {
-        Value::String(text) => found.push(text.clone()),
-        Value::Array(list) => list.iter().for_each(|v| strings(v, found)),
-        Value::Table(table) => table.values().for_each(|v| strings(v, found)),
-        _ => {}
     }
 }

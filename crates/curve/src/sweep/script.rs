@@ -3,8 +3,8 @@
 //! The last line of the script writes `made`: the stamp of the point and the exit code. A script that was killed leaves
 //! none, and is run again.
 
-use crate::args::Work;
-use crate::grid::Setting;
+use super::grid::Setting;
+use crate::study::Work;
 use std::path::{Path, PathBuf};
 
 /// One run.
@@ -16,9 +16,9 @@ pub struct Job {
     pub repeat: u64,
     /// Its folder.
     pub folder: PathBuf,
-    /// What it is made from: SHA-256 of scene, inputs, programs and options.
+    /// SHA-256 of scene, inputs, programs and options.
     pub stamp: String,
-    /// What it is, for people.
+    /// Its name, for people.
     pub name: String,
     /// The scene's file.
     pub scene: String,
@@ -44,7 +44,7 @@ pub fn unfilled(text: &str) -> Option<&str> {
     let end = start + text[start..].find('}')?;
     let word =
         |name: &str| !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || "._*".contains(c));
-    // What a shell makes of ${…} and of { …; } is not ours.
+    // ${…} and { …; } belong to the shell.
     let own = word(&text[start + 1..end]) && !text[..start].ends_with('$');
     if own { Some(&text[start..=end]) } else { unfilled(&text[end..]) }
 }
@@ -74,7 +74,7 @@ impl Job {
         self.dem_run_with(&self.path("input"))
     }
 
-    /// The line with its own input in other words.
+    /// The line with another text for the input of this point.
     fn dem_run_with(&self, input: &str) -> String {
         let mut words = vec!["dem-run".to_owned(), quoted(&self.scene)];
         words.extend(self.inputs.iter().map(|i| quoted(i)));
@@ -119,7 +119,7 @@ impl Job {
     }
 }
 
-/// What counts instructions.
+/// A program that counts instructions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Counter {
     /// The counters of the processor.
@@ -138,7 +138,7 @@ impl Counter {
         }
     }
 
-    /// The number in what it has written.
+    /// The count in its output.
     pub fn read(self, text: &str) -> Option<f64> {
         match self {
             Counter::Perf => {

@@ -1,20 +1,18 @@
-//! Makes the points that are not finished, one after another, and reads what became of them.
+//! Makes the points that are not finished, and reads their results.
 
-use crate::args::{Args, Work};
-use crate::line::{Counter, Job};
-use crate::sweep::Sweep;
-use anyhow::{Context, anyhow, bail};
-use cli::Progress;
+use super::script::{Counter, Job};
+use crate::study::{CurveError, Work};
 use serde_json::Value;
+use std::path::Path;
 use std::process::{Command, Stdio};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering::SeqCst};
 use std::time::SystemTime;
 
-/// What became of a run.
+/// The result of a run.
 #[derive(Debug, Clone)]
 pub enum Made {
-    /// It came to its end: its cost, and wall time, time for its input [s], steps for each simulated second.
+    /// It came to its end.
     Done {
         /// In the unit that was asked for, for each simulated second.
         work: f64,
@@ -25,7 +23,7 @@ pub enum Made {
         /// Wall time of the line that made its input [s]; 0 without one.
         prepared: f64,
     },
-    /// It was refused or stopped by a guard: what was said.
+    /// It was refused or stopped by a guard: the message.
     Failed(String),
 }
 
@@ -36,24 +34,28 @@ fn left(job: &Job) -> Option<(String, String)> {
     Some((stamp.to_owned(), code.to_owned()))
 }
 
-/// Whether a run came to an end that it would come to again: done, or stopped by a guard.
+/// Whether a run would come to the same end again: done, or stopped by a guard.
 fn finished(job: &Job) -> bool {
-    let by_signal = || report(job).is_ok_and(|r| r["stopped"].as_str() == Some(::run::SIGNAL));
+    let by_signal = || report(job).is_ok_and(|r| r["stopped"].as_str() == Some(run::SIGNAL));
     left(job).is_some_and(|(stamp, code)| stamp == job.stamp && (code == "0" || code == "3" && !by_signal()))
 }
 
-fn report(job: &Job) -> anyhow::Result<Value> {
+fn report(job: &Job) -> Result<Value, CurveError> {
     let file = job.file("report.json");
-    let text =
-        std::fs::read_to_string(&file).with_context(|| format!("{}: cannot read it", file.display()))?;
-    serde_json::from_str(&text).with_context(|| format!("{}: is no report", file.display()))
+    let text = read_file(&file, &format!("{}: cannot read it", file.display()))?;
+    serde_json::from_str(&text)
+        .map_err(|e| CurveError::Failed(format!("{}: is not a report: {e}", file.display())))
 }
 
-/// What counts instructions here.
+fn read_file(file: &Path, what: &str) -> Result<String, CurveError> {
+    std::fs::read_to_string(file).map_err(CurveError::io(what))
+}
+
+/// The program that counts instructions on this machine; `None` when they are not asked for.
 ///
 /// # Errors
-/// Nothing does.
-pub fn counter(work: Work) -> anyhow::Result<Option<Counter>> {
+/// There is none.
+pub fn counter(work: Work) -> Result<Option<Counter>, CurveError> {
     if work != Work::Instructions {
         return Ok(None);
     }
@@ -69,41 +71,44 @@ pub fn counter(work: Work) -> anyhow::Result<Option<Counter>> {
     let _ = std::fs::remove_file(&file);
     match (counts, works("valgrind", &["--version"])) {
         (true, _) => Ok(Some(Counter::Perf)),
-        (_, true) => {
-            cli::warn("--work instructions: perf cannot count here: valgrind does, 50 times slower");
-            Ok(Some(Counter::Valgrind))
-        }
-        _ => Err(cli::usage(
-            "--work instructions: neither perf nor valgrind counts them here: install one, or use --work steps",
+        (_, true) => Ok(Some(Counter::Valgrind)),
+        _ => Err(CurveError::Usage(
+            "--work instructions: neither perf nor valgrind counts them here: install one, or use --work steps"
+                .to_owned(),
         )),
     }
 }
 
-/// Writes the script of every run that is not finished; gives these runs.
+/// Runs that are not finished, and how many were made from another scene, input or program.
+pub struct Open<'a> {
+    /// The runs.
+    pub jobs: Vec<&'a Job>,
+    /// Runs that are made again.
+    pub outdated: usize,
+}
+
+/// Writes the script of every run that is not finished; `tools` is the folder of the programs.
 ///
 /// # Errors
 /// A folder that cannot be written to.
-pub fn scripts<'a>(args: &Args, sweep: &'a Sweep, counter: Option<Counter>) -> anyhow::Result<Vec<&'a Job>> {
-    let here = std::env::current_dir().context("the folder that this was started in")?;
-    let old = sweep.jobs.iter().filter(|job| left(job).is_some_and(|(stamp, _)| stamp != job.stamp)).count();
-    if old > 0 {
-        cli::warn(&format!(
-            "{}: {old} of {} runs there were made from another scene, input or program: they are made again",
-            args.folder().display(),
-            sweep.jobs.len()
-        ));
-    }
-    let open: Vec<&Job> =
-        sweep.jobs.iter().filter(|job| !finished(job) || uncounted(job, args.work)).collect();
+pub fn scripts<'a>(
+    jobs: &'a [Job],
+    tools: &Path,
+    work: Work,
+    counter: Option<Counter>,
+) -> Result<Open<'a>, CurveError> {
+    let here = std::env::current_dir().map_err(CurveError::io("the folder that this was started in"))?;
+    let outdated = jobs.iter().filter(|job| left(job).is_some_and(|(stamp, _)| stamp != job.stamp)).count();
+    let open: Vec<&Job> = jobs.iter().filter(|job| !finished(job) || uncounted(job, work)).collect();
     for job in &open {
         let write = || {
             std::fs::create_dir_all(&job.folder)?;
-            std::fs::write(job.file("run.sh"), job.script(&sweep.tools, &here, args.work, counter))
+            std::fs::write(job.file("run.sh"), job.script(tools, &here, work, counter))
         };
-        write()
-            .with_context(|| format!("{}: cannot write there: choose another --dir", job.folder.display()))?;
+        let what = format!("{}: cannot write there: choose another --dir", job.folder.display());
+        write().map_err(CurveError::io(what))?;
     }
-    Ok(open)
+    Ok(Open { jobs: open, outdated })
 }
 
 /// Whether instructions are asked for that were not counted.
@@ -111,60 +116,62 @@ fn uncounted(job: &Job, work: Work) -> bool {
     work == Work::Instructions && !job.file("instructions").exists()
 }
 
-/// Runs the scripts.
+/// Runs the scripts, so many at a time; `begins` and `ends` are called with each run.
 ///
 /// # Errors
 /// A signal, a script that cannot be started.
-pub fn run(args: &Args, jobs: &[&Job]) -> anyhow::Result<()> {
-    if args.jobs.get() > 1 && args.work == Work::Seconds && !jobs.is_empty() {
-        cli::warn(&format!("--jobs {}: runs at the same time disturb each other's times", args.jobs));
-    }
-    cli::stop_in_order();
-    let progress = Progress::new("runs", jobs.len() as u64);
+pub fn run(
+    jobs: &[&Job],
+    at_once: usize,
+    stop: fn() -> bool,
+    begins: &(dyn Fn(&Job) + Sync),
+    ends: &(dyn Fn() + Sync),
+) -> Result<(), CurveError> {
     let (next, trouble) = (AtomicUsize::new(0), Mutex::new(None));
     let one = || {
-        while let Some(job) = jobs.get(next.fetch_add(1, SeqCst)).filter(|_| !cli::stop_requested()) {
-            progress.say(job.name.clone());
+        while let Some(job) = jobs.get(next.fetch_add(1, SeqCst)).filter(|_| !stop()) {
+            begins(job);
             let status = Command::new("bash").arg(job.file("run.sh")).stdin(Stdio::null()).status();
             if let (Err(why), Ok(mut trouble)) = (status, trouble.lock()) {
-                *trouble = Some(anyhow::Error::new(why).context("bash: cannot be started: install it"));
+                *trouble = Some(CurveError::io("bash: cannot be started: install it")(why));
             }
-            progress.add(1);
+            ends();
         }
     };
     std::thread::scope(|threads| {
-        for _ in 0..args.jobs.get() {
+        for _ in 0..at_once {
             threads.spawn(one);
         }
     });
     if let Ok(Some(trouble)) = trouble.into_inner() {
         return Err(trouble);
     }
-    if cli::stop_requested() {
-        let done = jobs.iter().filter(|job| finished(job)).count();
-        bail!(
-            "stopped by a signal: {done} of {} runs were made: the same line goes on from there",
-            jobs.len()
-        );
+    if stop() {
+        let (done, all) = (jobs.iter().filter(|job| finished(job)).count(), jobs.len());
+        let why =
+            format!("stopped by a signal: {done} of {all} runs were made: the same line goes on from there");
+        return Err(CurveError::Failed(why));
     }
     Ok(())
 }
 
-/// What became of a run.
+/// The result of a run.
 ///
 /// # Errors
 /// A run that left nothing, or that a signal ended.
-pub fn read(job: &Job, work: Work, counter: Option<Counter>) -> anyhow::Result<Made> {
+pub fn read(job: &Job, work: Work, counter: Option<Counter>) -> Result<Made, CurveError> {
     let words = std::fs::read_to_string(job.file("words")).unwrap_or_default();
-    let lost = || anyhow!("{}: its run ended without a word: {words}", job.folder.display());
+    let lost =
+        || CurveError::Failed(format!("{}: its run ended without a message: {words}", job.folder.display()));
     let (_, code) = left(job).filter(|(stamp, _)| *stamp == job.stamp).ok_or_else(lost)?;
     if code != "0" {
-        let line = words.lines().rev().find(|l| !l.trim().is_empty()).unwrap_or("no word of why");
+        let line = words.lines().rev().find(|l| !l.trim().is_empty()).unwrap_or("it gave no reason");
         return Ok(Made::Failed(if code == "each" { format!("--each: {line}") } else { line.to_owned() }));
     }
     let report = report(job)?;
     let number = |key: &str| {
-        report[key].as_f64().ok_or_else(|| anyhow!("{}: has no '{key}'", job.file("report.json").display()))
+        let why = || format!("{}: has no '{key}'", job.file("report.json").display());
+        report[key].as_f64().ok_or_else(|| CurveError::Failed(why()))
     };
     let time = number("time")?;
     let (seconds, steps) = (number("seconds")? / time, number("steps")? / time);
@@ -173,8 +180,9 @@ pub fn read(job: &Job, work: Work, counter: Option<Counter>) -> anyhow::Result<M
         (Work::Steps, _) => steps,
         (Work::Instructions, Some(counter)) => {
             let file = job.file("instructions");
-            let text = std::fs::read_to_string(&file).with_context(|| file.display().to_string())?;
-            counter.read(&text).ok_or_else(|| anyhow!("{}: holds no count", file.display()))? / time
+            let text = read_file(&file, &file.display().to_string())?;
+            let why = || CurveError::Failed(format!("{}: holds no count", file.display()));
+            counter.read(&text).ok_or_else(why)? / time
         }
         _ => seconds,
     };
@@ -182,12 +190,13 @@ pub fn read(job: &Job, work: Work, counter: Option<Counter>) -> anyhow::Result<M
 }
 
 /// Processor time of the run [s]: of the program, and of the system for it.
-fn cpu(job: &Job) -> anyhow::Result<f64> {
+fn cpu(job: &Job) -> Result<f64, CurveError> {
     let file = job.file("cpu");
-    let text = std::fs::read_to_string(&file).with_context(|| file.display().to_string())?;
+    let text = read_file(&file, &file.display().to_string())?;
     let parts: Option<Vec<f64>> =
         text.split_whitespace().map(|part| part.replace(',', ".").parse().ok()).collect();
-    parts.map(|parts| parts.iter().sum()).ok_or_else(|| anyhow!("{}: holds no times: {text}", file.display()))
+    let why = || CurveError::Failed(format!("{}: holds no times: {text}", file.display()));
+    parts.map(|parts| parts.iter().sum()).ok_or_else(why)
 }
 
 /// Wall time of the line that made the input [s].

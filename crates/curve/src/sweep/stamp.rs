@@ -1,0 +1,74 @@
+//! What a point is made from, as a hash: a point that is made from the same is not run again.
+
+use super::script::Job;
+use super::table;
+use crate::study::CurveError;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use toml::Value;
+
+/// Hashes of files, each read once.
+#[derive(Default)]
+pub(super) struct Hashes(BTreeMap<PathBuf, String>);
+
+impl Hashes {
+    /// SHA-256 of a file.
+    fn of(&mut self, path: &Path) -> Result<String, CurveError> {
+        if let Some(known) = self.0.get(path) {
+            return Ok(known.clone());
+        }
+        let bytes =
+            std::fs::read(path).map_err(CurveError::io(format!("{}: cannot read it", path.display())))?;
+        let hash = stream::sha256(&bytes);
+        self.0.insert(path.to_owned(), hash.clone());
+        Ok(hash)
+    }
+
+    /// Hashes of those of some words that are files in one of the folders.
+    fn of_words<'a>(
+        &mut self,
+        words: impl Iterator<Item = &'a str>,
+        folders: &[&Path],
+    ) -> Result<String, CurveError> {
+        let mut all = String::new();
+        for word in words {
+            let paths = folders.iter().map(|folder| folder.join(word));
+            if let Some(path) = paths.into_iter().find(|path| path.is_file()) {
+                all += &self.of(&path)?;
+            }
+        }
+        Ok(all)
+    }
+}
+
+/// SHA-256 of everything that a point is made from: the scene with its changes, the files that it and the lines name, the
+/// programs, the line before.
+pub(super) fn stamp(job: &Job, text: &str, tools: &Path, hashes: &mut Hashes) -> Result<String, CurveError> {
+    let value = table(&job.scene, text)?;
+    let mut words = Vec::new();
+    strings(&value, &mut words);
+    // Shapes name their files behind a colon.
+    let named = words.iter().map(|w| w.split_once(':').map_or(w.as_str(), |(_, file)| file));
+    let folder = Path::new(&job.scene).parent().unwrap_or(Path::new("")).to_owned();
+    let program = tools.join("dem-run");
+    let missing = || format!("{}: is not there: install dem-run beside cost-curve", program.display());
+    let program = hashes.of(&program).map_err(|_| CurveError::Failed(missing()))?;
+    let mut all = vec![program, stream::sha256(text.as_bytes()), hashes.of_words(named, &[&folder])?];
+    for input in &job.inputs {
+        all.push(hashes.of(Path::new(input))?);
+    }
+    let line = job.each.clone().unwrap_or_default();
+    all.push(hashes.of_words(line.split_whitespace(), &[Path::new(""), tools])?);
+    all.extend([line, job.threads.clone()]);
+    Ok(stream::sha256(all.join("\n").as_bytes()))
+}
+
+/// Every text in a scene.
+fn strings(value: &Value, found: &mut Vec<String>) {
+    match value {
+        Value::String(text) => found.push(text.clone()),
+        Value::Array(list) => list.iter().for_each(|v| strings(v, found)),
+        Value::Table(table) => table.values().for_each(|v| strings(v, found)),
+        _ => {}
+    }
+}
