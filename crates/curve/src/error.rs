@@ -80,7 +80,7 @@ fn error(samples: &[Sample], points: &[Point], truth: Truth, norm: Norm) -> Opti
         Truth::Value(_, uncertainty) => uncertainty,
         Truth::Point(_) => 0.0,
     };
-    // One run tells nothing of chance; an uncertain truth is known all the same.
+    // One run has no scatter; the uncertainty of the truth is known.
     let chance = if pairs.len() < 2 { if known > 0.0 { 0.0 } else { f64::NAN } } else { chance };
     let size = norm.of(&differences.iter().map(|d| d.mean).collect::<Vec<f64>>()) / unit;
     let interval = chance.hypot(known) / unit;

@@ -63,7 +63,7 @@ fn marks(judged: &Judged, k: usize) -> String {
     all.iter().filter(|(is, _)| *is).map(|(_, name)| *name).collect::<Vec<_>>().join(" ")
 }
 
-/// Empty where there is no number; nine digits.
+/// A number with nine digits; empty for NaN.
 fn number(value: f64) -> String {
     let short: f64 = format!("{value:.8e}").parse().unwrap_or(value);
     if short.is_finite() { short.to_string() } else { String::new() }

@@ -25,7 +25,7 @@ pub use bonds::BondRange;
 pub use clump::ClumpRecord;
 pub use columns::{Columns, hash};
 pub use error::{RecordError, positive};
-pub use log::LogMessage;
+pub use log::{LogMessage, SIGNAL};
 pub use material::{MaterialRecord, POISSON, is_poisson};
 pub use sizes::Sizes;
 pub use surface::{SurfaceShape, WallRecord, home, moved};

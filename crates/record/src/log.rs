@@ -2,6 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+/// Why a run was stopped that a signal ended.
+pub const SIGNAL: &str = "by a signal";
+
 /// `kind` of a message that says why a run was stopped.
 const STOPPED: &str = "stopped";
 

@@ -1,6 +1,6 @@
 //! Errors of a run.
 
-use dem::SetupError;
+use dem::{Halt, SetupError};
 use record::RecordError;
 use scene::SceneError;
 use stream::mcap::McapError;
@@ -23,5 +23,25 @@ pub enum RunError {
 impl From<RecordError> for RunError {
     fn from(error: RecordError) -> RunError {
         RunError::Scene(error.into())
+    }
+}
+
+/// Why a frame could not be written.
+pub(crate) enum Ended {
+    /// A guard of the engine.
+    Guard(Halt),
+    /// An input or an output.
+    Failed(RunError),
+}
+
+impl From<Halt> for Ended {
+    fn from(halt: Halt) -> Ended {
+        Ended::Guard(halt)
+    }
+}
+
+impl<E: Into<RunError>> From<E> for Ended {
+    fn from(error: E) -> Ended {
+        Ended::Failed(error.into())
     }
 }

@@ -1,7 +1,7 @@
-//! A plan through time, written as MCAP: frames, crossings, checkpoints; and what `--explain` says about it.
+//! A plan through time, written as MCAP: frames, crossings, checkpoints; and the answer of `--explain`.
 //!
 //! ```text
-//! start (engine, head of the file) → step: feed → look (crossings, checkpoint, frame) → … → stop, or the end
+//! start (engine, head of the file) → write what is due (crossings, checkpoint, frame) → let in → step → … → stop, or the end
 //! ```
 //!
 //! [`simulate`] is the loop; [`start`], [`write`] and [`stop`] are its beginning, its output and its early end. [`supply`] merges what comes
@@ -26,4 +26,4 @@ pub use checkpoint::Checkpoint;
 pub use error::RunError;
 pub use progress::Progress;
 pub use returned::warnings;
-pub use simulate::{Outcome, SIGNAL, Settings, ready, run};
+pub use simulate::{Outcome, Settings, ready, run};

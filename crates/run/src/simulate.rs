@@ -1,15 +1,14 @@
 //! The run: steps, and what is written between them.
 
-use crate::RunError;
+use crate::error::{Ended, RunError};
 use crate::checkpoint::Checkpoint;
 use crate::frames::WallHead;
 use crate::progress::Progress;
 use crate::schedule::Schedule;
 use crate::supply::Supply;
-use crate::write::Ended;
 use dem::setup::{Crossing, Step};
 use dem::{Halt, SetupError, Simulation, State};
-use record::{LogMessage, json, nanoseconds, topic};
+use record::{LogMessage, SIGNAL, json, nanoseconds, topic};
 use scene::keys::Precision;
 use scene::{Plan, Scene, SceneError};
 use serde::Serialize;
@@ -18,16 +17,13 @@ use stages::outlet::path::PathRow;
 use std::io::Write;
 use stream::mcap::{How, Provenance, Writer};
 
-/// Why a run was stopped that [`Settings::stop`] ended.
-pub const SIGNAL: &str = "by a signal";
-
 /// Steps between searches for particles that zones have lost: in so few, no particle gets past the length of a zone.
 const LOOK_BACK: u64 = 64;
 
 /// What was done.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Outcome {
-    /// Why the run was stopped: what a guard says, or [`SIGNAL`].
+    /// Why the run was stopped: the message of a guard, or [`SIGNAL`].
     pub stopped: Option<String>,
     /// Time reached [s].
     pub time: f64,
@@ -172,7 +168,7 @@ pub fn run<W: Write>(
     let reason = loop {
         let step = run.sim.steps();
         run.sample()?;
-        match run.look(step) {
+        match run.write_due(step) {
             Err(Ended::Guard(halt)) => break Some(guard(scene, step, halt)?),
             Err(Ended::Failed(error)) => return Err(error),
             Ok(()) => {}
@@ -188,8 +184,8 @@ pub fn run<W: Write>(
         if stop() {
             break Some(SIGNAL.to_owned());
         }
-        match run.feed() {
-            // The signal also ended what feeds this run; what had come in is in the checkpoint.
+        match run.let_in() {
+            // The signal also ended the stage upstream; what had come in is in the checkpoint.
             Err(_) if stop() => break Some(SIGNAL.to_owned()),
             other => other?,
         }
@@ -218,8 +214,8 @@ impl<W: Write> Run<W> {
         if step.is_multiple_of(LOOK_BACK) { self.sim.look_back() } else { Ok(()) }
     }
 
-    /// Everything that enters before the next step must be known to it.
-    pub(crate) fn feed(&mut self) -> Result<(), RunError> {
+    /// Lets in everything that the next step must know.
+    pub(crate) fn let_in(&mut self) -> Result<(), RunError> {
         // Where particles follow recorded paths, the next sample of each must be known.
         let horizon = self.sim.time() + self.sim.look_ahead() + self.supply.samples();
         while let Some(arrival) = self.supply.next_until(horizon)? {

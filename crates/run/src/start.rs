@@ -29,8 +29,7 @@ impl<W: Write> Run<W> {
         let mut supply = Supply::new(inlets, insertions)?;
         if let Some(saved) = &resume {
             saved.fits(&scene.text.toml, &inputs)?;
-            let samples = supply.samples();
-            supply.skip(&saved.given, saved.state.time() + saved.state.look_ahead() + samples)?;
+            supply.resume(saved)?;
         }
         let surfaces = frames::surfaces(&setup.walls);
         let mut written = Written::new(scene, &setup, inputs);

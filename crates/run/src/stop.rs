@@ -1,4 +1,4 @@
-//! How a run ends early: its file says why, and can be resumed.
+//! How a run ends early: its file holds the reason, and can be resumed.
 
 use crate::RunError;
 use crate::checkpoint::{Checkpoint, Pieces};
@@ -22,7 +22,7 @@ impl<W: Write> Run<W> {
         Ok(())
     }
 
-    /// Stops the run: the file says why, and ends in a checkpoint.
+    /// Stops the run: the file ends with the reason and a checkpoint.
     pub(crate) fn stop(&mut self, reason: String) -> Result<(), RunError> {
         let reason = match self.before.take() {
             Some(before) if !self.sim.is_finite() => self.go_back(reason, before)?,

@@ -1,5 +1,6 @@
 //! Particles of all inlet streams and insertions, in the order of their times.
 
+use crate::checkpoint::Checkpoint;
 use geom::Shown;
 use scene::SceneError;
 use scene::plan::{Insertion, PlannedInlet};
@@ -49,12 +50,13 @@ impl Supply {
             .collect()
     }
 
-    /// Skips what a run had taken when it was saved: nothing that is due after `horizon` [s].
+    /// Skips what a run had taken when it was saved.
     ///
     /// # Errors
-    /// A source that has less, or others.
-    pub(crate) fn skip(&mut self, given: &[u64], horizon: f64) -> Result<(), SceneError> {
-        for (source, &count) in given.iter().enumerate().take(self.given.len()) {
+    /// A source that has less, or gives particles that were not due then.
+    pub(crate) fn resume(&mut self, saved: &Checkpoint) -> Result<(), SceneError> {
+        let horizon = saved.state.time() + saved.state.look_ahead() + self.samples();
+        for (source, &count) in saved.given.iter().enumerate().take(self.given.len()) {
             for n in 0..count {
                 let item = self.fetch(source, f64::INFINITY)?;
                 self.entered += u64::from(matches!(item, Some(Arrival::Enter(_))));

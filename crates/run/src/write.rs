@@ -1,9 +1,8 @@
 //! What a run writes on its way: walls, frames, paths, crossings.
 
-use crate::RunError;
+use crate::error::{Ended, RunError};
 use crate::frames::{self, ParticleRows};
 use crate::simulate::{Before, FrameEnergy, Run};
-use dem::Halt;
 use record::{FRAME, Watermark, json, topic};
 use stages::outlet::crossing::CrossingRow;
 use stages::outlet::path::PathRow;
@@ -15,26 +14,6 @@ use std::io::Write;
 const HELD: usize = 500_000;
 /// Samples of paths that are held before they are written.
 const SAMPLES_HELD: usize = 4096;
-
-/// Why a frame could not be written.
-pub(crate) enum Ended {
-    /// A guard of the engine.
-    Guard(Halt),
-    /// An input or an output.
-    Failed(RunError),
-}
-
-impl From<Halt> for Ended {
-    fn from(halt: Halt) -> Ended {
-        Ended::Guard(halt)
-    }
-}
-
-impl<E: Into<RunError>> From<E> for Ended {
-    fn from(error: E) -> Ended {
-        Ended::Failed(error.into())
-    }
-}
 
 impl<W: Write> Run<W> {
     pub(crate) fn write_walls(
@@ -55,7 +34,7 @@ impl<W: Write> Run<W> {
     }
 
     /// Writes what is due after `step` steps. A run that was resumed does not repeat what it was resumed from.
-    pub(crate) fn look(&mut self, step: u64) -> Result<(), Ended> {
+    pub(crate) fn write_due(&mut self, step: u64) -> Result<(), Ended> {
         let resumed = step == self.first && step > 0;
         let (frame, checkpoint) = (self.schedule.is_frame(step), self.schedule.is_checkpoint(step));
         if resumed || frame || checkpoint {
@@ -80,7 +59,7 @@ impl<W: Write> Run<W> {
 
     fn write_frame(&mut self) -> Result<(), Ended> {
         // What enters now belongs to this frame.
-        self.feed()?;
+        self.let_in()?;
         self.sim.ready()?;
         let (now, precision) = (self.now(), self.written.precision);
         if self.written.walls_move

@@ -2,7 +2,7 @@
 
 use stream::{Table, table::Values};
 
-/// Three columns whose length is a field of its own.
+/// Three columns whose length is a separate field.
 const VECTORS: [([&str; 3], &str); 3] =
     [(["vx", "vy", "vz"], "speed"), (["wx", "wy", "wz"], "spin"), (["fx", "fy", "fz"], "force")];
 
@@ -86,7 +86,7 @@ pub fn unit(name: &str) -> &'static str {
     }
 }
 
-/// The field shown when nobody asks for one: speed, else height.
+/// The default field: speed, else height.
 pub fn default_of(table: &Table) -> String {
     let has_speed = names(table, false).iter().any(|n| n == "speed");
     if has_speed { "speed" } else { "z" }.to_owned()

@@ -85,6 +85,11 @@ pub fn ticks(range: Range, count: usize) -> (Vec<f64>, usize) {
     ((first..=last).take(50).map(|k| k as f64 * step).collect(), decimals)
 }
 
+/// The box around everything that is looked at.
+pub(crate) fn around(extents: impl Iterator<Item = [Range; 3]>) -> [Range; 3] {
+    extents.fold([Range::EMPTY; 3], |all, one| std::array::from_fn(|k| all[k].with(one[k])))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

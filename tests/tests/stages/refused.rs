@@ -86,7 +86,7 @@ fn cuts_that_no_grain_can_pass_are_refused() {
     assert!(done.code == 1 && done.stderr.contains("is an inlet already"), "{}", done.stderr);
 }
 
-/// What comes in from far away, or appears amid the zone, or ends while the run goes on, is told.
+/// What comes in from far away, or appears inside the zone, or ends before the run does, prints a warning.
 #[test]
 fn odd_inflow_is_told() {
     let file = "id,x,y,z,radius\n0,0,0,1e-9,0.005\n1,0.03,0,0.1,0.005\n2,0,0.03,0.15,0.005\n";
@@ -103,11 +103,11 @@ fn odd_inflow_is_told() {
         "dem-run up.toml -o up.mcap && stage-replay up.mcap --from 0.15 -o in.mcap && stage-replay up.mcap -o all.mcap 2> all.txt",
     );
     assert!(
-        done.code == 0 && done.stderr.contains("amid the zone when what is replayed begins"),
+        done.code == 0 && done.stderr.contains("inside the zone when the replay begins"),
         "{}",
         done.stderr
     );
-    assert!(!fs::read_to_string(folder.path().join("all.txt")).unwrap().contains("amid"));
+    assert!(!fs::read_to_string(folder.path().join("all.txt")).unwrap().contains("inside the zone"));
 
     let folder = plant();
     let done = line(

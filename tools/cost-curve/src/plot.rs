@@ -8,7 +8,7 @@ use kuva::prelude::*;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Colours that can be told apart (Okabe & Ito 2008).
+/// Colours that are easy to distinguish (Okabe & Ito 2008).
 const COLOURS: [&str; 6] = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"];
 const GREY: &str = "#999999";
 const BLACK: &str = "#000000";
@@ -67,34 +67,45 @@ pub fn draw(file: &Path, judged: &Judged, title: &str) -> anyhow::Result<Vec<u8>
         let own: Vec<&Dot> = dots.iter().filter(|d| d.group == **group).collect();
         plots.push(scatter(&own, COLOURS[k % COLOURS.len()], group));
     }
-    for (k, name, shape) in marked(judged) {
-        if let Some(dot) = dots.iter().find(|d| d.index == k) {
-            let ring = ScatterPlot::new().with_data(vec![dot.at]).with_color(BLACK).with_size(8.0);
-            plots.push(Plot::from(
-                ring.with_marker(shape)
-                    .with_marker_opacity(0.0)
-                    .with_marker_stroke_width(1.5)
-                    .with_legend(name),
-            ));
-        }
+    plots.extend(marked(judged).into_iter().filter_map(|mark| ring(&dots, mark)));
+    plots.extend(wanted(judged, &dots));
+    let layout = layout(judged, &plots, title);
+    if ending(file) == "svg" {
+        return Ok(kuva::render_to_svg(plots, layout).into_bytes());
     }
-    let works: Vec<f64> = dots.iter().map(|d| d.at.0).collect();
-    let (low, high) =
-        (works.iter().copied().fold(f64::INFINITY, f64::min), works.iter().copied().fold(0.0, f64::max));
-    if judged.choice.is_some() && low.is_finite() {
-        let level = vec![(low, judged.wanted.0), (high.max(low * 1.01), judged.wanted.0)];
-        let wanted = LinePlot::new().with_data(level).with_color(BLACK).with_dotted();
-        plots.push(Plot::from(wanted.with_legend(if judged.wanted.1 {
-            format!("{} wanted", curve::percent(judged.wanted.0))
-        } else {
-            "wanted".to_owned()
-        })));
+    kuva::render_to_raster(plots, layout, 1.0)
+        .map_err(|why| anyhow!("-o {}: cannot draw it: {why}", file.display()))
+}
+
+/// A ring around a point with a mark.
+fn ring(dots: &[Dot], mark: Mark) -> Option<Plot> {
+    let dot = dots.iter().find(|d| d.index == mark.index)?;
+    let ring = ScatterPlot::new().with_data(vec![dot.at]).with_color(BLACK).with_size(8.0);
+    let ring = ring.with_marker(mark.shape).with_marker_opacity(0.0).with_marker_stroke_width(1.5);
+    Some(Plot::from(ring.with_legend(mark.name)))
+}
+
+/// The level of the error that is good enough.
+fn wanted(judged: &Judged, dots: &[Dot]) -> Option<Plot> {
+    let works = || dots.iter().map(|d| d.at.0);
+    let (low, high) = (works().fold(f64::INFINITY, f64::min), works().fold(0.0, f64::max));
+    if judged.choice.is_none() || !low.is_finite() {
+        return None;
     }
+    let level = vec![(low, judged.wanted.0), (high.max(low * 1.01), judged.wanted.0)];
+    let wanted = LinePlot::new().with_data(level).with_color(BLACK).with_dotted();
+    Some(Plot::from(wanted.with_legend(match judged.wanted.1 {
+        true => format!("{} wanted", curve::percent(judged.wanted.0)),
+        false => "wanted".to_owned(),
+    })))
+}
+
+fn layout(judged: &Judged, plots: &[Plot], title: &str) -> Layout {
     let unit = if judged.wanted.1 { "%" } else { judged.what.1.as_str() };
     let share = judged.wanted.1;
     let tick = move |v: f64| geom::Shown(if share { 100.0 * v } else { v }).to_string();
     let key = judged.points.first().and_then(|p| p.setting.first()).map_or("", |(k, _)| k.as_str());
-    let layout = Layout::auto_from_plots(&plots)
+    Layout::auto_from_plots(plots)
         .with_width(SIZE.0)
         .with_height(SIZE.1)
         .with_log_scale()
@@ -108,24 +119,28 @@ pub fn draw(file: &Path, judged: &Judged, title: &str) -> anyhow::Result<Vec<u8>
         })
         .with_y_label(format!("error in {} [{unit}]", judged.what.0))
         .with_x_tick_format(TickFormat::Custom(Arc::new(|v| geom::Shown(v).to_string())))
-        .with_y_tick_format(TickFormat::Custom(Arc::new(tick)));
-    if ending(file) == "svg" {
-        return Ok(kuva::render_to_svg(plots, layout).into_bytes());
-    }
-    kuva::render_to_raster(plots, layout, 1.0)
-        .map_err(|why| anyhow!("-o {}: cannot draw it: {why}", file.display()))
+        .with_y_tick_format(TickFormat::Custom(Arc::new(tick)))
 }
 
 fn on_front(judged: &Judged, dots: &[Dot]) -> Vec<(f64, f64)> {
     judged.front.iter().filter_map(|k| dots.iter().find(|d| d.index == *k)).map(|d| d.at).collect()
 }
 
-fn marked(judged: &Judged) -> Vec<(usize, &'static str, MarkerShape)> {
+/// A point that is marked.
+struct Mark {
+    index: usize,
+    name: &'static str,
+    shape: MarkerShape,
+}
+
+fn marked(judged: &Judged) -> Vec<Mark> {
+    let mark = |name, shape| move |index| Mark { index, name, shape };
     let recommended = match judged.choice {
-        Some(Choice::Point(k)) => Some((k, "recommended", MarkerShape::Diamond)),
+        Some(Choice::Point(k)) => Some(k),
         _ => None,
     };
-    judged.marks.1.map(|k| (k, "in use", MarkerShape::Circle)).into_iter().chain(recommended).collect()
+    let in_use = judged.marks.1.map(mark("in use", MarkerShape::Circle));
+    in_use.into_iter().chain(recommended.map(mark("recommended", MarkerShape::Diamond))).collect()
 }
 
 fn line(points: &[(f64, f64)], colour: &str, name: &str) -> Plot {

@@ -7,7 +7,8 @@ use anyhow::Context;
 use clap::Parser;
 use cli::{Output, Report, Source, Stopped};
 use parts::Saved;
-use run::{Checkpoint, Progress, RunError, SIGNAL, Settings, run};
+use record::SIGNAL;
+use run::{Checkpoint, Progress, RunError, Settings, run};
 use scene::{Input, Plan, Scene, SceneError};
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
@@ -24,22 +25,22 @@ struct Args {
     /// The scene (TOML), - for stdin
     #[arg(value_name = "SCENE.toml")]
     scene: Source,
-    /// Walls and inlets (MCAP, told apart by content), - for stdin
+    /// Walls and inlets (MCAP, detected by content), - for stdin
     #[arg(value_name = "WALLS|INLET.mcap")]
     inputs: Vec<Source>,
     /// Change a key of the scene, such as contact.0.restitution=0.3; may be repeated
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
-    /// End of the run [s], in place of time.until
+    /// End of the run [s], instead of time.until
     #[arg(long, value_name = "S")]
     until: Option<f64>,
-    /// Say which effects the scene switches on, why, what they cost, and what limits the time step
+    /// Print which effects the scene switches on, why, what they cost, and what limits the time step
     #[arg(long)]
     explain: bool,
     /// Do everything short of running
     #[arg(long)]
     check: bool,
-    /// Go on from the last checkpoint of a run
+    /// Resume a run from its last checkpoint
     #[arg(long, value_name = "RUN.mcap")]
     resume: Option<Source>,
     /// Write one JSON line on stderr with each frame: time, rate, particles, energy, time left
@@ -195,7 +196,7 @@ fn simulate(args: &Args, scene: &Scene, plan: Plan, resume: Option<Checkpoint>) 
             let time = geom::Shown(outcome.time);
             let file =
                 args.output.path().map_or_else(|| "FILE".to_owned(), |path| path.display().to_string());
-            let reason = format!("stopped {reason} at t = {time} s; go on with --resume {file}");
+            let reason = format!("stopped {reason} at t = {time} s; continue with --resume {file}");
             Err(Stopped::error(reason, Some(report)))
         }
         Some(reason) => Err(Stopped::error(format!("stopped by a guard: {reason}"), Some(report))),

@@ -65,7 +65,7 @@ pub fn as_named(output: &Output, part: Option<&Path>) -> Option<PathBuf> {
 pub struct Saved {
     /// Time of the last frame or checkpoint in it [s].
     pub time: f64,
-    /// Whether it has a checkpoint of its own.
+    /// Whether it holds a checkpoint.
     pub resumes: bool,
 }
 

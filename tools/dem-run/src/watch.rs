@@ -1,4 +1,4 @@
-//! Tells how far a run is: a bar on a terminal, or a JSON line with each frame.
+//! Progress of a run: a bar on a terminal, or a JSON line with each frame.
 
 use run::Progress;
 use serde::Serialize;
@@ -7,7 +7,7 @@ use std::time::Instant;
 /// Steps of the bar.
 const BAR: f64 = 1000.0;
 
-/// Who hears where the run is.
+/// Reports the progress of a run.
 pub struct Watch {
     bar: Option<cli::Progress>,
     start: Instant,

@@ -9,7 +9,7 @@ use stages::replay::{Copies, Frame, Intervals, Replay};
 /// Turns the crossings of a run into an inlet MCAP, also while the run is still being written
 #[derive(Parser)]
 pub struct Args {
-    /// The run (MCAP), - for stdin; of one that was stopped and gone on with all files, in the order of their times
+    /// The run (MCAP), - for stdin; all files of a run that was stopped and resumed, in the order of their times
     #[arg(value_name = "RUN.mcap", default_value = "-", hide_default_value = true)]
     pub runs: Vec<Source>,
     /// Calculation plane, px,py,pz,nx,ny,nz (default: the storage plane of the run)
@@ -54,7 +54,7 @@ pub struct Args {
     /// Time between the starts of two replays [s] (default: how long the record is)
     #[arg(long, value_name = "S", value_parser = span, requires = "repeat")]
     period: Option<f64>,
-    /// Superpose so many copies of each grain: scales the rate, and is said so in the file; needs --copy-shift or --copy-delay
+    /// Superpose so many copies of each grain: scales the rate, which the file notes; needs --copy-shift or --copy-delay
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     copies: u32,
     /// Copy k comes in this much beside the record, times k [m]

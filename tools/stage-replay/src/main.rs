@@ -46,7 +46,7 @@ fn stage_replay(args: Args) -> anyhow::Result<Report> {
     }
     if done.amid > 0 {
         cli::warn(&format!(
-            "{} grains are amid the zone when what is replayed begins, and appear there among others: begin with --from when nothing passes",
+            "{} grains are inside the zone when the replay begins, and appear there among others: begin with --from when nothing passes",
             done.amid
         ));
     }

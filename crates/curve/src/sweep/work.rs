@@ -36,7 +36,7 @@ fn left(job: &Job) -> Option<(String, String)> {
 
 /// Whether a run would come to the same end again: done, or stopped by a guard.
 fn finished(job: &Job) -> bool {
-    let by_signal = || report(job).is_ok_and(|r| r["stopped"].as_str() == Some(run::SIGNAL));
+    let by_signal = || report(job).is_ok_and(|r| r["stopped"].as_str() == Some(record::SIGNAL));
     left(job).is_some_and(|(stamp, code)| stamp == job.stamp && (code == "0" || code == "3" && !by_signal()))
 }
 

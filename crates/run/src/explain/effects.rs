@@ -1,11 +1,13 @@
 //! The effects of a scene, and the scene without each.
 
+use super::calibration::Calibration;
 use super::keys;
 use dem::Simulation;
 use dem::effects::{active, without};
 use dem::setup::{Precision, Setup};
 use scene::Scene;
 use scene::keys::DragLaw;
+use scene::plan::Insertion;
 use serde::Serialize;
 
 /// One effect of a scene.
@@ -22,7 +24,7 @@ pub struct Effect {
 }
 
 /// An effect, and what is needed to measure it.
-pub(super) struct Asked {
+pub(super) struct EffectToMeasure {
     pub effect: Effect,
     /// The setup without it, where there is one.
     pub without: Option<Setup>,
@@ -30,17 +32,28 @@ pub(super) struct Asked {
     pub in_contacts: bool,
 }
 
+impl EffectToMeasure {
+    /// The effect with its share of a step, where that can be measured.
+    pub fn measured(self, whole: Option<Calibration>, insertions: &[Insertion]) -> Effect {
+        // Where nothing touches, the time of a step does not depend on contacts.
+        let whole = whole.filter(|whole| whole.touching > 0 || !self.in_contacts);
+        let less = whole.zip(self.without).and_then(|(whole, setup)| whole.compared(setup, insertions));
+        let share = less.zip(whole).map(|(less, whole)| 1.0 - less / whole.seconds_per_step);
+        Effect { share, ..self.effect }
+    }
+}
+
 /// A key with its value, and the pairs of materials that it calls for an effect between.
 type Call = (String, Vec<String>);
 
 /// Every effect.
-pub(super) fn effects(scene: &Scene, setup: &Setup) -> Vec<Asked> {
+pub(super) fn effects(scene: &Scene, setup: &Setup) -> Vec<EffectToMeasure> {
     let model = &scene.model;
     let mut found = of_contacts(scene, setup);
     let mut add = |name: &str, why: String, without: Option<Setup>| {
         if !why.is_empty() {
             let effect = Effect { name: name.into(), why, bytes_per_contact: 0, share: None };
-            found.push(Asked { effect, without, in_contacts: false });
+            found.push(EffectToMeasure { effect, without, in_contacts: false });
         }
     };
     let named = |there: bool, key: String| if there { key } else { String::new() };
@@ -84,8 +97,8 @@ fn clumps(setup: &Setup) -> String {
 }
 
 /// Effects of contact, each once, with the keys and pairs that call for it.
-fn of_contacts(scene: &Scene, setup: &Setup) -> Vec<Asked> {
-    let mut found: Vec<(Asked, Vec<Call>)> = Vec::new();
+fn of_contacts(scene: &Scene, setup: &Setup) -> Vec<EffectToMeasure> {
+    let mut found: Vec<(EffectToMeasure, Vec<Call>)> = Vec::new();
     for (place, c) in setup.contacts.iter().enumerate() {
         let from =
             keys::entry(scene, setup, c).map_or("wall file: ".to_owned(), |at| format!("contact.{at}."));
@@ -94,16 +107,16 @@ fn of_contacts(scene: &Scene, setup: &Setup) -> Vec<Asked> {
             let number =
                 if setup.precision == Precision::Single { size_of::<f32>() } else { size_of::<f64>() };
             let (bytes, less) = (number * effect.columns(), without(c, effect));
-            let at = found.iter().position(|(asked, _)| asked.effect.name == name).unwrap_or_else(|| {
+            let at = found.iter().position(|(entry, _)| entry.effect.name == name).unwrap_or_else(|| {
                 let (name, why) = (name.to_owned(), String::new());
                 let effect = Effect { name, why, bytes_per_contact: 0, share: None };
                 let without = less.is_some().then(|| setup.clone());
-                found.push((Asked { effect, without, in_contacts: true }, Vec::new()));
+                found.push((EffectToMeasure { effect, without, in_contacts: true }, Vec::new()));
                 found.len() - 1
             });
-            let (asked, calls) = &mut found[at];
-            asked.effect.bytes_per_contact = asked.effect.bytes_per_contact.max(bytes);
-            if let (Some(setup), Some(less)) = (&mut asked.without, less) {
+            let (entry, calls) = &mut found[at];
+            entry.effect.bytes_per_contact = entry.effect.bytes_per_contact.max(bytes);
+            if let (Some(setup), Some(less)) = (&mut entry.without, less) {
                 setup.contacts[place] = less;
             }
             let (key, pair) = (format!("{from}{}", effect.because(c)), keys::pair(setup, c.between));
@@ -113,10 +126,10 @@ fn of_contacts(scene: &Scene, setup: &Setup) -> Vec<Asked> {
             }
         }
     }
-    let told = |(mut asked, calls): (Asked, Vec<Call>)| {
+    let named = |(mut entry, calls): (EffectToMeasure, Vec<Call>)| {
         let calls = calls.into_iter().map(|(key, pairs)| format!("{key} ({})", pairs.join(", ")));
-        asked.effect.why = calls.collect::<Vec<_>>().join("; ");
-        asked
+        entry.effect.why = calls.collect::<Vec<_>>().join("; ");
+        entry
     };
-    found.into_iter().map(told).collect()
+    found.into_iter().map(named).collect()
 }

@@ -11,7 +11,7 @@ pub(super) fn pair(setup: &Setup, between: (u16, u16)) -> String {
     format!("{}–{}", name(between.0), name(between.1))
 }
 
-/// The entry that a contact comes from; `None`: a wall file says it.
+/// The entry that a contact comes from; `None`: a wall file.
 pub(super) fn entry(scene: &Scene, setup: &Setup, c: &setup::ContactLaw) -> Option<usize> {
     let name = |m: u16| setup.materials[m as usize].name.as_str();
     most_specific(&scene.model.contact, name(c.between.0), name(c.between.1))

@@ -1,4 +1,7 @@
-//! What a scene switches on, why, and what it costs.
+//! What a scene switches on, why, and what it costs (`--explain`).
+//!
+//! [`explain`] builds the engine without running it, lists effects with the keys that call for them ([`effects`], [`keys`]), counts what
+//! comes in ([`coming`]), and runs a part of the scene with and without each effect ([`calibration`]). [`text`] writes the answer.
 
 mod calibration;
 mod coming;
@@ -11,9 +14,10 @@ use crate::schedule::Schedule;
 use crate::simulate::guard;
 pub use calibration::Calibration;
 pub use coming::Coming;
+use dem::setup::{Wall, WallShape};
 use dem::{ContactBytes, Simulation, critical_step};
 pub use effects::Effect;
-use effects::{Asked, effects};
+use effects::{EffectToMeasure, effects};
 use scene::{Plan, Scene};
 use serde::Serialize;
 use stages::inlet::InletStream;
@@ -35,7 +39,7 @@ pub struct Fields {
     pub particles: usize,
     /// Wall spheres.
     pub wall_spheres: usize,
-    /// What comes in besides.
+    /// Particles that come in.
     pub coming: Coming,
     /// Time step [s].
     pub dt: f64,
@@ -49,23 +53,23 @@ pub struct Fields {
     pub steps: u64,
     /// Effects.
     pub effects: Vec<Effect>,
-    /// What the scene asks for and cannot matter: key, and why.
+    /// Keys of the scene that have no effect, and why.
     pub dropped: Vec<String>,
     /// State of a particle [B].
     pub bytes_per_particle: usize,
-    /// What a listed contact takes besides the memory of its effects [B].
+    /// Bytes of a listed contact, without the history of its effects [B].
     pub bytes_per_contact: ContactBytes,
     /// Bonds at t = 0.
     pub bonds: usize,
-    /// What one takes [B], with what is kept of its particles; when there are some.
+    /// Bytes of a bond, with those of its particles; when there are some.
     pub bytes_per_bond: Option<f64>,
     /// Whether anything turns particles.
     pub rotation: bool,
-    /// What a step takes, when it was measured.
+    /// Time of a step, when it was measured.
     pub calibration: Option<Calibration>,
     /// Why it could not be.
     pub unmeasured: Option<String>,
-    /// Expected time of the run [s], when it can be told.
+    /// Expected time of the run [s], when it is known.
     pub expected_seconds: Option<f64>,
 }
 
@@ -93,26 +97,16 @@ pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained, Ru
     // The middle of the run at the latest: its end may be at rest.
     let measured = measure.then(|| Calibration::new(setup.clone(), &insertions, last / 2));
     let calibration = measured.as_ref().and_then(|m| m.as_ref().ok()).copied();
-    let share = |asked: Asked| {
-        // Where nothing touches, a step says nothing of contacts.
-        let whole = calibration.filter(|whole| whole.touching > 0 || !asked.in_contacts);
-        let less = whole.zip(asked.without).and_then(|(whole, setup)| whole.compared(setup, &insertions));
-        let share = less.zip(whole).map(|(less, whole)| 1.0 - less / whole.seconds_per_step);
-        Effect { share, ..asked.effect }
-    };
-    let spheres = setup.walls.iter().map(|w| match &w.shape {
-        dem::setup::WallShape::Spheres(s) => s.len(),
-        _ => 0,
-    });
+    let measured_effect = |effect: EffectToMeasure| effect.measured(calibration, &insertions);
     let fields = Fields {
         particles,
-        wall_spheres: spheres.sum(),
+        wall_spheres: setup.walls.iter().map(wall_spheres).sum(),
         dt,
         critical_dt: limit.dt,
         chosen_by,
         limiting_pair: limit.pair,
         steps: last,
-        effects: effects(scene, &setup).into_iter().map(share).collect(),
+        effects: effects(scene, &setup).into_iter().map(measured_effect).collect(),
         dropped: keys::dropped(scene, &setup),
         bytes_per_particle,
         bytes_per_contact,
@@ -127,4 +121,11 @@ pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained, Ru
     };
     let summary = format!("{particles} particles, {} walls, {last} steps of {dt:.3e} s", setup.walls.len());
     Ok(Explained { text: text::text(&fields), summary, fields })
+}
+
+fn wall_spheres(wall: &Wall) -> usize {
+    match &wall.shape {
+        WallShape::Spheres(spheres) => spheres.len(),
+        _ => 0,
+    }
 }

@@ -3,7 +3,7 @@
 use super::{Effect, Fields};
 use std::fmt::Write;
 
-/// Shares below this are not told from none [–].
+/// Shares below this are not distinguished from 0 [–].
 const UNSURE: f64 = 0.02;
 
 /// All lines.
@@ -43,10 +43,10 @@ pub(super) fn text(fields: &Fields) -> String {
 fn coming(fields: &Fields) -> Vec<String> {
     let coming = &fields.coming;
     let mut lines = Vec::new();
-    if !coming.faucets.is_empty() {
+    if !coming.insertions.is_empty() {
         let (all, there) = coming.particles;
         let (from, bring) =
-            (coming.faucets.join(", "), if coming.faucets.len() == 1 { "brings" } else { "bring" });
+            (coming.insertions.join(", "), if coming.insertions.len() == 1 { "brings" } else { "bring" });
         lines.push(format!(
             "{from} {bring} some {all:.0} until the end; {there:.0} of them are there on average"
         ));
@@ -70,7 +70,7 @@ fn expected(fields: &Fields) -> String {
         return format!("unknown: {}", fields.unmeasured.as_deref().unwrap_or("nothing was measured"));
     };
     let mean = fields.particles as f64 + coming.particles.1;
-    let grows = match coming.faucets.is_empty() {
+    let grows = match coming.insertions.is_empty() {
         true => String::new(),
         false => format!(" for each particle, of which there are {mean:.0} on average when none leaves"),
     };

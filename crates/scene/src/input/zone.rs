@@ -1,4 +1,4 @@
-//! The zone of a cut as records tell of it, so that both stages agree where it is and how particles cross it.
+//! The zone of a cut in records, so that both stages agree where it is and how particles cross it.
 
 use crate::error::SceneError;
 use dem::setup::{Zone, ZoneMotion, ZoneTest};

@@ -1,8 +1,8 @@
-//! How a scene is calculated and written, and what surrounds its grains.
+//! How a scene is calculated and written, and the fluid around its particles.
 
 use serde::Deserialize;
 
-/// In which precision contacts are computed; places and velocities are always double.
+/// Precision in which contacts are computed; positions and velocities are always double.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Arithmetic {
@@ -11,7 +11,7 @@ pub enum Arithmetic {
     F64,
     /// Single in contacts.
     Mixed,
-    /// Single in contacts, what they remember, and sums of loads.
+    /// Single in contacts, their history, and sums of forces.
     F32,
 }
 
@@ -58,7 +58,7 @@ pub struct Output {
     pub every: Option<Every>,
     /// Time between checkpoints [s]; absent: one at the end.
     pub checkpoint: Option<f64>,
-    /// Whether the force on each wall is written with each frame; walls that follow a force always tell.
+    /// Whether the force on each wall is written with each frame; forces on walls with a servo always are.
     #[serde(default)]
     pub wall_forces: bool,
     /// Whether the energy ledger is kept and written.
@@ -182,7 +182,7 @@ pub enum DragLaw {
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Neighbours {
-    /// Neighbours are listed up to this gap [m]; absent: chosen.
+    /// Margin of the neighbour lists [m]; absent: chosen by the program.
     pub skin: Option<f64>,
 }
 
@@ -196,6 +196,6 @@ pub struct Guards {
     pub motion: Option<f64>,
     /// Whether a run stops when a grain of an [[inlet]] goes back through all of its zone; absent: it does.
     pub zones: Option<bool>,
-    /// Largest energy that the time step may make, as a share of what was exchanged and moves [–]; absent: not looked at.
+    /// Largest energy that the time step may make, as a share of the energy that was exchanged and moves [–]; absent: no limit.
     pub energy: Option<f64>,
 }

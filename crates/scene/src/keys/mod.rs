@@ -69,7 +69,7 @@ pub struct Model {
     /// Particles from files.
     #[serde(default)]
     pub particles: Vec<Particles>,
-    /// Faucets.
+    /// Insertions.
     #[serde(default)]
     pub insert: Vec<Insert>,
     /// Walls.
@@ -83,5 +83,5 @@ pub struct Model {
     pub inlet: Vec<Inlet>,
 }
 
-/// Share of the critical step when the scene says nothing [–].
+/// Default share of the critical step [–].
 pub const SAFETY: f64 = 0.5;

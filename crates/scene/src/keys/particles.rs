@@ -1,4 +1,4 @@
-//! Grains: where they are, come from, and leave.
+//! Particles: where they are, come from, and leave.
 
 use super::OrAuto;
 use dem::setup::{ZoneMotion, ZoneTest};
@@ -17,13 +17,13 @@ pub struct Diameter {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Clump {
-    /// Name, that others call it by.
+    /// Name, by which other entries name it.
     pub name: String,
     /// Material.
     pub material: String,
     /// x, y, z, radius [m] of each sphere.
     pub spheres: Option<Vec<[f64; 4]>>,
-    /// What the mass of spheres is.
+    /// How the mass of overlapping spheres is computed.
     #[serde(default)]
     pub mass: ClumpMass,
     /// A closed surface (PLY): the body; a sphere on each of its vertices.
@@ -83,9 +83,9 @@ pub struct Fill {
     /// Material, unless there is a `clump`.
     #[serde(default)]
     pub material: String,
-    /// Name of a `[[clump]]`: bodies in the place of spheres.
+    /// Name of a `[[clump]]`: clumps instead of spheres.
     pub clump: Option<String>,
-    /// Sizes of bodies over that of the clump, uniform in the range [–].
+    /// Sizes of clumps over that of their shape, uniform in the range [–].
     pub scale: Option<Diameter>,
     /// Where; spheres lie wholly inside.
     pub shape: String,
@@ -112,7 +112,7 @@ pub struct Particles {
     pub source: String,
     /// Material of all; needed unless the file is a run, which names its own.
     pub material: Option<String>,
-    /// Name of a `[[clump]]`: a body for each row.
+    /// Name of a `[[clump]]`: a clump for each row.
     pub clump: Option<String>,
 }
 
@@ -123,9 +123,9 @@ pub struct Insert {
     /// Material, unless there is a `clump`.
     #[serde(default)]
     pub material: String,
-    /// Name of a `[[clump]]`: bodies in the place of spheres.
+    /// Name of a `[[clump]]`: clumps instead of spheres.
     pub clump: Option<String>,
-    /// Sizes of bodies over that of the clump, uniform in the range [–].
+    /// Sizes of clumps over that of their shape, uniform in the range [–].
     pub scale: Option<Diameter>,
     /// Cross-section, thicker along the velocity than the largest diameter.
     pub shape: String,
@@ -160,12 +160,12 @@ pub struct Outlet {
     /// Motion in the zone.
     #[serde(default)]
     pub motion: ZoneMotion,
-    /// What of a grain passes the planes.
+    /// Which point of a particle crosses the planes.
     #[serde(default)]
     pub test: ZoneTest,
     /// Time between samples of paths, with motion "recorded" [s]; absent: ten steps.
     pub samples: Option<f64>,
-    /// What the stage upstream was cut from (stage-split): goes into the record.
+    /// Mark of the plant that the stage upstream was cut from (stage-split); it goes into the record.
     pub plant: Option<String>,
 }
 
@@ -180,9 +180,9 @@ pub struct Inlet {
     pub length: OrAuto,
     /// Motion in the zone; absent: that of the stream.
     pub motion: Option<ZoneMotion>,
-    /// What of a grain passes the planes; absent: that of the stream.
+    /// Which point of a particle crosses the planes; absent: that of the stream.
     pub test: Option<ZoneTest>,
-    /// What the stage upstream was cut from (stage-split): a record of another one is refused.
+    /// Mark of the plant that the stage upstream was cut from (stage-split); a record of another plant is refused.
     pub plant: Option<String>,
     /// Inlet MCAP; absent: given on the command line.
     pub source: Option<String>,

@@ -19,9 +19,9 @@ use dem::setup::ContactLaw;
 
 /// The measured curves.
 const CURVES: &str = include_str!("../../data/impact-error.csv");
-/// Share of the error asked for that is aimed at: the curves were measured at some phases of a step, not at all.
+/// Share of the wanted error that the step is chosen for: the curves were measured at a few phases of a step only.
 const AIM: f64 = 0.9;
-/// Where they are, for people.
+/// Their file, for messages.
 const FILE: &str = "crates/scene/data/impact-error.csv";
 
 /// A point of a curve: share of the critical step [–], error [–].
@@ -47,7 +47,7 @@ fn curve(law: &str) -> Vec<Measured> {
         }
     }
     points.sort_by(|a, b| a.safety.total_cmp(&b.safety));
-    // A larger step may happen to do better; nobody can rely on that.
+    // A larger step may have a smaller error by accident: it does not count.
     let mut worst = 0.0;
     for point in &mut points {
         worst = point.error.max(worst);
@@ -98,7 +98,7 @@ pub(super) fn choose(
             best = Some((safety, law));
         }
     }
-    // Nothing ever touches: any step is as exact.
+    // Nothing touches: every step is exact.
     let Some((safety, law)) = best else { return Ok((SAFETY, None)) };
     let text = format!(
         "time.accuracy {}: safety {}, from the measured error of an impact with law \"{law}\" ({FILE})",

@@ -1,7 +1,8 @@
 //! A plan in the making: what the steps of this folder read and add to.
 
+use super::files_read::FilesRead;
+use super::inserted::GrainMaterial;
 use super::insertion::Insertion;
-use super::warnings::FilesRead;
 use crate::check::Check;
 use crate::error::SceneError;
 use crate::input::{InletSource, read_mesh};
@@ -12,15 +13,7 @@ use geom::Shape;
 use record::{MaterialRecord, Sizes};
 use std::path::PathBuf;
 
-/// Index and density of a material that particles are made of.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct GrainMaterial {
-    pub index: u16,
-    /// [kg/m³].
-    pub density: f64,
-}
-
-/// What a wall file says of a material of the scene.
+/// The record of a wall file for a material of the scene.
 pub(super) struct WallMaterial {
     pub index: u16,
     pub record: MaterialRecord,

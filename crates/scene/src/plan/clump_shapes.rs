@@ -12,7 +12,7 @@ use dem::setup::ClumpShape;
 use geom::moments::BodyError;
 use geom::{Moments, Vec3};
 
-/// More members make every contact list long; a mesh with so many vertices is not meant as a clump.
+/// Most members of a clump: more make every neighbour list long; a mesh with so many vertices is not meant as a clump.
 const MOST: usize = 2000;
 
 type Sphere = (Vec3, f64);

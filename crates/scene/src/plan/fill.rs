@@ -3,7 +3,7 @@
 //! The largest go first, while there is space. Diameters and positions come from random numbers of this fill alone, so that
 //! a fill depends on the ones before it only by the space they left.
 
-use super::builder::GrainMaterial;
+use super::inserted::GrainMaterial;
 use super::packing::{Packing, bounds, volume};
 use super::random::{diameter, generator};
 use crate::check::Check;

@@ -1,9 +1,16 @@
 //! What an insertion inserts: spheres, or clumps in place of the spheres that hold them.
 
-use super::builder::GrainMaterial;
 use super::packing::volume;
 use crate::keys::Diameter;
 use dem::setup::ClumpShape;
+
+/// Index and density of a material that particles are made of.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct GrainMaterial {
+    pub index: u16,
+    /// [kg/m³].
+    pub density: f64,
+}
 
 /// Spheres, or clumps as the spheres that hold them.
 #[derive(Debug, Clone, Copy)]

@@ -244,7 +244,7 @@ impl Insertion {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::builder::GrainMaterial;
+    use crate::plan::inserted::GrainMaterial;
     use crate::text::Text;
 
     fn insertion(rate: f64) -> Result<Insertion, SceneError> {

@@ -10,6 +10,7 @@ mod builder;
 mod clump_placement;
 mod clump_shapes;
 mod contacts;
+mod files_read;
 mod fill;
 mod inlets;
 mod inserted;

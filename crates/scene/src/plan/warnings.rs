@@ -1,11 +1,9 @@
 //! Warnings about implausible values: density, modulus, radius, overlap at the start. The scene runs with them.
 
 use super::builder::PlanBuilder;
-use crate::input::ParticleFile;
 use dem::effects::{Slot, active};
 use dem::setup::{ContactLaw, WallShape};
 use geom::{Shown, Vec3, grid};
-use std::ops::Range;
 
 /// Densities of particles [kg/m³]: from foam to beyond osmium.
 const DENSITIES: [f64; 2] = [10.0, 30_000.0];
@@ -16,32 +14,6 @@ const STIFF: f64 = 2e12;
 const RADII: [f64; 2] = [1e-7, 1.0];
 /// Overlap at the start, over the smaller radius, above which a warning is given [–].
 const DEEP: f64 = 0.01;
-
-/// Facts about the files of particles that warnings need.
-#[derive(Default)]
-pub(super) struct FilesRead {
-    /// Particles of files that people wrote.
-    pub placed: usize,
-    /// Files that give their particles spins.
-    pub spinning: Vec<String>,
-    /// Particles of runs, by index: they lie as the engine left them.
-    pub settled: Vec<Range<usize>>,
-}
-
-impl FilesRead {
-    /// A file whose particles come after `first` others.
-    pub(super) fn file(&mut self, source: &str, file: &ParticleFile, first: usize) {
-        // Only runs name their materials.
-        if file.materials.is_empty() {
-            self.placed += file.particles.len();
-        } else {
-            self.settled.push(first..first + file.particles.len());
-        }
-        if file.particles.iter().any(|p| p.spin != Vec3::zeros()) {
-            self.spinning.push(source.to_owned());
-        }
-    }
-}
 
 /// Two that overlap at the start.
 struct DeepOverlap {
@@ -60,7 +32,7 @@ impl PlanBuilder<'_> {
         self.sizes_on_earth();
         self.lost_spins(contacts);
         let most = self.model().guards.overlap.unwrap_or(dem::setup::Guards::default().overlap);
-        // What is deeper is refused.
+        // Deeper overlaps are refused.
         let deep = self.deepest().filter(|deep| deep.share > DEEP && deep.share <= most);
         self.warnings.extend(deep.map(|DeepOverlap { pair, overlap, share }| {
             format!(
@@ -129,8 +101,8 @@ impl PlanBuilder<'_> {
         }
     }
 
-    /// The deepest overlap of what files and `[[body]]` place, over the smaller radius: of pairs, and with planes. Members of one clump, and
-    /// what a run left, do not count among themselves.
+    /// The deepest overlap of what files and `[[body]]` place, over the smaller radius: of pairs, and with planes. Members of one clump
+    /// are not compared with each other, nor are particles of runs.
     fn deepest(&self) -> Option<DeepOverlap> {
         let clumps = self.clumps.bodies.len();
         let by_hand = self.read.placed > 0 || clumps > 0;
@@ -146,7 +118,7 @@ impl PlanBuilder<'_> {
         pairs(&spheres, &places, &owners).into_iter().chain(planes).max_by(|a, b| a.share.total_cmp(&b.share))
     }
 
-    /// Id of each sphere of [`PlanBuilder::spheres`], and whose it is: spheres of one owner are not looked at together.
+    /// Id of each sphere of [`PlanBuilder::spheres`], and its owner: spheres of one owner are not compared.
     fn owners(&self) -> Vec<(u32, u32)> {
         // All that runs left is of owner 0.
         let mut owners: Vec<(u32, u32)> = (1..).zip(&self.particles).map(|(n, p)| (p.id, n)).collect();
@@ -176,7 +148,7 @@ impl PlanBuilder<'_> {
     }
 }
 
-/// The deepest pair. Each is found from its larger sphere, so that a boulder is not looked for from every grain of sand.
+/// The deepest pair. Each is found from its larger sphere, so that no small sphere has to search as far as a large one.
 fn pairs(spheres: &[(Vec3, f64)], places: &[Vec3], owners: &[(u32, u32)]) -> Option<DeepOverlap> {
     let mean = spheres.iter().map(|s| s.1).sum::<f64>() / spheres.len() as f64;
     let cells = grid::Grid::new(places, 2.0 * mean);

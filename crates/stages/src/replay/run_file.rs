@@ -23,7 +23,7 @@ pub struct RunFile {
 /// Opens all of them, and checks that they follow each other.
 ///
 /// # Errors
-/// A stream that is no run with an outlet; one that begins after what is asked for, or not after the one before, or has another outlet.
+/// A stream without an outlet; one that begins after what is asked for, or not after the one before, or has another outlet.
 pub fn open(files: Vec<(String, Source)>, what: &Replay) -> Result<(Vec<RunFile>, Head), SceneError> {
     let (mut runs, mut heads) = (Vec::new(), Vec::new());
     for (name, source) in files {

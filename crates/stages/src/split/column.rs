@@ -1,11 +1,11 @@
-//! The column in which grains start and come down to the cut: which unbounded planes they surely feel before it.
+//! The column in which particles start and come down to the cut: unbounded planes near it act on them before the cut.
 
 use super::cutting::Cutting;
 use super::sources::places;
 use geom::{Plane, Shape, Vec3};
 use scene::plan::bounds;
 
-/// Corners of all that grains start in [m], and where they are half a grain before the cut.
+/// Corners of all shapes that particles start in [m], and their projections half a diameter before the cut.
 pub struct Column(Vec<Vec3>);
 
 impl Column {

@@ -1,9 +1,9 @@
-//! The mark of a plant: what its flow through the cut surely depends on, so that a record is refused where it does not belong.
+//! The mark of a plant: a hash of what the flow through the cut depends on, so that a record of another plant is refused.
 //!
-//! It takes, of the stage upstream: gravity, domain and drag; the grains and their clumps; the walls that have an end and begin more than half a
-//! grain before the cut, files by what is in them; unbounded planes that come nearer than a grain to the column in which grains start, as far
-//! as half a grain before the cut ([`super::column`]); their materials, and the contacts of its grains. Everything else is left out, planes
-//! far from that column among it, though it may matter: no variant of what lies behind the cut may be refused.
+//! Hashed are, of the stage upstream: gravity, domain and drag; particles and clumps; bounded walls that begin more than half a diameter
+//! before the cut, files by their content; unbounded planes that come nearer than a diameter to the column in which particles start, down
+//! to half a diameter before the cut ([`super::column`]); the materials of all these, and the contacts of the particles. All else is left
+//! out, also planes far from that column: plants that differ only behind the cut have the same mark.
 
 use super::cutting::Cutting;
 use super::sides::Range;
@@ -106,7 +106,7 @@ impl Cutting<'_> {
                 walls.push(table);
                 continue;
             }
-            // One that reaches up to the cut, or hardly beyond it, is of the stage downstream.
+            // A wall that begins at the cut belongs to the stage downstream.
             let before = |b: &Bounded| b.range.0 < -self.largest / 2.0;
             let Some(bounded) = self.bounded(wall).filter(before) else { continue };
             kept.walls.extend(bounded.materials);

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 /// Colours of a film; one more index stands for "as before".
 const COLOURS: usize = 255;
 
-/// Bits of each part of a colour that are told apart.
+/// Bits of each part of a colour that are distinguished.
 const BITS: usize = 6;
 
 /// So many of them are steps of the colour map, for the colour bar and the grains.

@@ -137,8 +137,3 @@ pub fn needed(mut table: Table, colour: Option<&str>) -> Table {
     }
     table
 }
-
-/// The box around everything that is looked at.
-pub(crate) fn around(extents: impl Iterator<Item = [Range; 3]>) -> [Range; 3] {
-    extents.fold([Range::EMPTY; 3], |all, one| std::array::from_fn(|k| all[k].with(one[k])))
-}

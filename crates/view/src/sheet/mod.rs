@@ -3,7 +3,10 @@
 mod mesh;
 mod plane;
 
-use crate::{Surface, SurfaceShape, picture::around, scale::Range};
+use crate::{
+    Surface, SurfaceShape,
+    scale::{Range, around},
+};
 use geom::{Plane, Vec3};
 
 /// A plane or mesh, ready to draw; all at t = 0.
