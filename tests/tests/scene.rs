@@ -228,18 +228,28 @@ fn wrong_scenes_say_where_what_and_what_to_do() {
 fn poissons_ratio_has_one_range() {
     let bond = "[[bond]]\nbetween = [\"sinter\", \"sinter\"]\ngap = 1e-4\nyoung = 1e7\npoisson = 0.25\n";
     let toml = format!("{SCENE}{bond}");
-    let keys = [("material.0.poisson", "name = \"sinter\"\ndensity = 3300\nyoung = 5e6\npoisson = 0.25"), ("bond.0.poisson", bond)];
-    for (ratio, fits) in [(-1.0, false), (-0.2, true), (0.0, true), (0.5, true), (0.51, false), (f64::NAN, false)] {
+    let keys = [
+        ("material.0.poisson", "name = \"sinter\"\ndensity = 3300\nyoung = 5e6\npoisson = 0.25"),
+        ("bond.0.poisson", bond),
+    ];
+    for (ratio, fits) in
+        [(-1.0, false), (-0.2, true), (0.0, true), (0.5, true), (0.51, false), (f64::NAN, false)]
+    {
         for (key, text) in keys {
-            let changed = text.replace("poisson = 0.25", &format!("poisson = {}", ratio.to_string().to_lowercase()));
+            let changed =
+                text.replace("poisson = 0.25", &format!("poisson = {}", ratio.to_string().to_lowercase()));
             let scene = Scene::new("s.toml", toml.replace(text, &changed), &[], Path::new(""));
             let words = scene.map_err(|e| e.to_string()).err().unwrap_or_default();
-            assert!(fits == words.is_empty() && (fits || words.contains(key) && words.contains(POISSON)), "{words}");
+            assert!(
+                fits == words.is_empty() && (fits || words.contains(key) && words.contains(POISSON)),
+                "{words}"
+            );
         }
         let material = MaterialRecord { name: "m".into(), poisson: Some(ratio), ..MaterialRecord::default() };
         let words = check_material(&material, "here").map_err(|e| e.to_string()).err().unwrap_or_default();
         assert!(fits == words.is_empty() && (fits || words.contains(POISSON)), "{words}");
-        let mut setup = Scene::new("s.toml", toml.clone(), &[], Path::new("")).unwrap().plan(Vec::new()).unwrap().setup;
+        let mut setup =
+            Scene::new("s.toml", toml.clone(), &[], Path::new("")).unwrap().plan(Vec::new()).unwrap().setup;
         setup.bonds.clear();
         setup.materials[0].poisson = ratio;
         assert_eq!(dem::Simulation::new(setup).is_ok(), fits, "the engine, {ratio}");

@@ -1,7 +1,7 @@
 //! The run: steps, and what is written between them.
 
-use crate::error::{Ended, RunError};
 use crate::checkpoint::Checkpoint;
+use crate::error::{Ended, RunError};
 use crate::frames::WallHead;
 use crate::progress::Progress;
 use crate::schedule::Schedule;

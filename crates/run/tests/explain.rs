@@ -31,7 +31,7 @@ plane = "0,0,-0.01,0,0,1"
 material = "steel"
 "#;
 
-const FAUCET: &str = r#"[[insert]]
+const INSERT: &str = r#"[[insert]]
 material = "sinter"
 diameter = 0.01
 shape = "cylinder:0,0,0.4,0,0,0.5,0.05"
@@ -94,7 +94,7 @@ fn every_effect_names_the_key_that_calls_for_it() {
         "contact.0.sliding_friction = 0.5 (sinter–sinter, sinter–steel)"
     );
     assert_eq!(why(&explained(SCENE, &["output.energy=true"]), "energy"), "output.energy = true");
-    let inserted = explained(&(SCENE.to_owned() + FAUCET), &[]);
+    let inserted = explained(&(SCENE.to_owned() + INSERT), &[]);
     assert_eq!(why(&inserted, "insert"), "insert.0");
     assert!(inserted.fields.effects.iter().all(|e| e.name != "inlet"));
 }
@@ -145,12 +145,12 @@ fn what_cannot_matter_is_dropped_and_says_why() {
 #[test]
 fn grains_that_come_in_count_in_the_time_and_without_any_there_is_none() {
     // Stiff enough for grains that fall from the faucet.
-    let scene = SCENE.replacen("young = 5e6", "young = 1e8", 1) + FAUCET;
+    let scene = SCENE.replacen("young = 5e6", "young = 1e8", 1) + INSERT;
     let fields = measured(&scene, &[]).fields;
     let (all, there) = fields.coming.particles;
     // The run ends at the step that is nearest to a second.
     assert!((all - 200.0).abs() < 1e-9 && (there - 150.0).abs() < 0.01, "{all}, {there} on average");
-    assert_eq!(fields.coming.faucets, ["insert.0"]);
+    assert_eq!(fields.coming.insertions, ["insert.0"]);
     let calibration = fields.calibration.unwrap_or_else(|| panic!("{:?}", fields.unmeasured));
     assert!(calibration.particles >= 50 && calibration.time <= 0.5);
     // Those of the start, and those that come.

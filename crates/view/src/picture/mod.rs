@@ -15,7 +15,7 @@ mod survey;
 pub use paint::Part;
 pub use survey::Survey;
 
-use crate::{Camera, Map, Surface, ViewError, field, scale::Range};
+use crate::{Camera, Map, Surface, ViewError, field};
 use paint::Painted;
 use stream::Table;
 
