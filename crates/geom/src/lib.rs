@@ -13,6 +13,7 @@ pub mod plane;
 pub mod prism;
 pub mod shape;
 mod shown;
+pub mod sphere;
 mod spread;
 mod tree;
 pub mod triangle;

@@ -9,11 +9,10 @@
 //! Tools 1(2), doi:10.1080/10867651.1996.10487458. Spheres: as a sum, each by itself (where they overlap, twice), or as their
 //! union ([`Moments::of_union`]).
 
-use crate::Vec3;
 use crate::mesh::{MeshError, TriMesh};
+use crate::{Vec3, sphere};
 use nalgebra::Matrix3;
 use std::collections::HashMap;
-use std::f64::consts::PI;
 
 /// Integrals of a body of density 1 kg/m³.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -109,7 +108,7 @@ impl Moments {
         let origin = spheres.first().map_or_else(Vec3::zeros, |s| s.0);
         let mut sum = Integrals::zero();
         for &(centre, r) in spheres {
-            let (volume, c) = (4.0 / 3.0 * PI * r * r * r, centre - origin);
+            let (volume, c) = (sphere::volume(r), centre - origin);
             sum.volume += volume;
             sum.first += c * volume;
             sum.second += (c * c.transpose() + Matrix3::identity() * (r * r / 5.0)) * volume;

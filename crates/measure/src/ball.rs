@@ -16,10 +16,7 @@
 use geom::{Plane, Vec3};
 use std::f64::consts::PI;
 
-/// Volume of a ball [m³].
-pub fn volume(radius: f64) -> f64 {
-    4.0 / 3.0 * PI * radius * radius * radius
-}
+pub use geom::sphere::volume;
 
 /// Volume [m³] of the part of a ball between the corners `low` and `high` [m] of a box; corners may be infinite.
 pub fn in_box(centre: &Vec3, radius: f64, low: &Vec3, high: &Vec3) -> f64 {

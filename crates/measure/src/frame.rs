@@ -8,7 +8,6 @@ use record::column::{
     VELOCITY, WORK,
 };
 use record::topic::{CONTACTS, CROSSINGS, PARTICLES};
-use std::f64::consts::PI;
 use stream::Table;
 
 /// All grains at one time.
@@ -87,7 +86,7 @@ impl Frame {
 /// Mass of a ball [kg]; NaN where the density is unknown.
 pub(crate) fn mass(material: u16, radius: f64, densities: &[f64]) -> f64 {
     let density = densities.get(usize::from(material)).copied().unwrap_or(f64::NAN);
-    4.0 / 3.0 * PI * radius * radius * radius * density
+    geom::sphere::volume(radius) * density
 }
 
 /// What a grain touches.

@@ -73,12 +73,16 @@ fn every_effect_names_the_key_that_calls_for_it() {
     let scene = SCENE.replacen("[[fill]]", steel, 1) + lid;
     let of = explained(&scene, &["output.contacts=true", "guards.energy=0.1"]);
     for (effect, key) in [
-        ("hertz", "contact.0.law = \"hertz\" (sinter–sinter)"),
-        ("hooke", "contact.1.law = \"hooke\", 1e4 N/m (sinter–steel)"),
+        ("hertz", "contact.0.law = \"hertz\", restitution = 0.5 (sinter–sinter)"),
+        (
+            "hooke",
+            "contact.1.law = \"hooke\", stiffness = 10000 N/m, restitution = 0.5 (sinter–steel)",
+        ),
         ("sliding_friction", "contact.0.sliding_friction = 0.5 (sinter–sinter)"),
         (
             "weakening friction",
-            "contact.1.sliding_friction = { static = 0.5, dynamic = 0.4, speed = 0.1 } (sinter–steel)",
+            "contact.1.sliding_friction.static = 0.5, sliding_friction.dynamic = 0.4, \
+             sliding_friction.speed = 0.1 m/s (sinter–steel)",
         ),
         ("gravity", "gravity = [0.0, 0.0, -9.81]"),
         ("drag", "drag.law = \"schiller-naumann\""),
@@ -104,19 +108,20 @@ fn what_cannot_matter_is_dropped_and_says_why() {
     for (set, line) in [
         (
             "contact.0.sliding_friction=0",
-            "contact.0.sliding_friction = 0 (sinter–sinter, sinter–steel): does nothing",
+            "contact.0.sliding_friction = 0 (sinter–sinter, sinter–steel): has no effect",
         ),
         (
             "contact.0.rolling_resistance=0",
-            "contact.0.rolling_resistance = 0 (sinter–sinter, sinter–steel): does nothing",
+            "contact.0.rolling_resistance = 0 (sinter–sinter, sinter–steel): has no effect",
         ),
         (
             "contact.0.twisting_resistance=0",
-            "contact.0.twisting_resistance = 0 (sinter–sinter, sinter–steel): does",
+            "contact.0.twisting_resistance = 0 (sinter–sinter, sinter–steel): has no effect",
         ),
         (
             "contact.0.sliding_friction={static=0,dynamic=0,speed=1}",
-            "contact.0.sliding_friction = { static = 0, dynamic = 0, speed = 1 } (sinter–sinter, sinter–steel): does",
+            "contact.0.sliding_friction.static = 0, sliding_friction.dynamic = 0, \
+             sliding_friction.speed = 1 m/s (sinter–sinter, sinter–steel): has no effect",
         ),
         ("wall.0.motion={rotate={about=[0,0,1],through=[0,0,0],rpm=0}}", "wall.0.motion: moves nothing"),
     ] {
@@ -127,11 +132,11 @@ fn what_cannot_matter_is_dropped_and_says_why() {
         |keys: &str| explained(&SCENE.replacen("restitution", &format!("{keys}\nrestitution"), 1), &[]).text;
     let text = with("law = \"jkr\"\nwork_of_adhesion = 0");
     assert!(
-        text.contains("dropped        contact.0.work_of_adhesion = 0 (") && text.contains("\"hertz\", which"),
+        text.contains("dropped        contact.0.work_of_adhesion = 0 J/m² (") && text.contains("\"hertz\" is"),
         "{text}"
     );
     let text = with("cohesion = \"sjkr\"\ncohesion_energy_density = 0");
-    assert!(text.contains("dropped        contact.0.cohesion_energy_density = 0 ("), "{text}");
+    assert!(text.contains("dropped        contact.0.cohesion_energy_density = 0 J/m³ ("), "{text}");
     let unused = SCENE.replacen(
         "[[fill]]",
         "[[contact]]\nbetween = [\"steel\", \"steel\"]\nrestitution = 1\n[[fill]]",

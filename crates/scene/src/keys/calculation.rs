@@ -16,7 +16,7 @@ pub enum Arithmetic {
 }
 
 /// `[time]`
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Time {
     /// End of the run [s]; may come from `--until`.
@@ -34,12 +34,6 @@ pub struct Time {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Accuracy(pub f64);
 
-impl Default for Time {
-    fn default() -> Time {
-        Time { until: None, dt: OrAuto::Auto, safety: None, accuracy: None }
-    }
-}
-
 /// A number, or "auto".
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum OrAuto {
@@ -51,7 +45,7 @@ pub enum OrAuto {
 }
 
 /// `[output]`
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Output {
     /// Time between frames; absent: a hundredth of the run.
@@ -70,19 +64,6 @@ pub struct Output {
     /// Type of the numbers in frames.
     #[serde(default)]
     pub precision: Precision,
-}
-
-impl Default for Output {
-    fn default() -> Output {
-        Output {
-            every: None,
-            checkpoint: None,
-            energy: false,
-            contacts: false,
-            wall_forces: false,
-            precision: Precision::F64,
-        }
-    }
 }
 
 /// Time between frames.

@@ -1,7 +1,7 @@
 //! Which `[[contact]]` holds for which pair of materials: the most specific one.
 
 use crate::check::Check;
-use crate::error::{SceneError, nearest};
+use crate::error::SceneError;
 use crate::keys::Contact;
 use dem::effects::{Elastic, active, needed};
 use dem::setup::{self, ContactLaw};
@@ -49,21 +49,18 @@ pub fn dropped(entry: &Contact) -> Vec<(String, String)> {
     needed(&entry.law).1.into_iter().map(|d| (d.numbers, why(d.instead))).collect()
 }
 
+/// Refuses a name that is neither "*" nor a material.
 pub(super) fn known(
     check: &Check,
     key: &str,
     name: &str,
     materials: &[setup::Material],
 ) -> Result<(), SceneError> {
-    let names = || materials.iter().map(|m| m.name.as_str());
-    if name == "*" || names().any(|m| m == name) {
-        return Ok(());
+    let names = materials.iter().map(|m| m.name.as_str());
+    match name == "*" || names.clone().any(|m| m == name) {
+        true => Ok(()),
+        false => Err(check.unknown(key, name, "material", names)),
     }
-    let cure = match nearest(name, names()) {
-        Some(near) => format!("did you mean '{near}'?"),
-        None => format!("known: {}, and \"*\" for all", names().collect::<Vec<_>>().join(", ")),
-    };
-    Err(check.wrong(key, format!("\"{name}\""), "no [[material]] has this name", &cure))
 }
 
 /// How specific an entry is for a pair, when it matches: the number of names that are no "*".

@@ -4,13 +4,13 @@
 //! a fill depends on the ones before it only by the space they left.
 
 use super::inserted::GrainMaterial;
-use super::packing::{Packing, bounds, volume};
+use super::packing::{Packing, bounds};
 use super::random::{diameter, generator};
 use crate::check::Check;
 use crate::error::SceneError;
 use crate::keys::Fill;
 use dem::setup::Particle;
-use geom::{Shape, Vec3};
+use geom::{Shape, Vec3, sphere::volume};
 use rand_pcg::Pcg64Mcg;
 
 /// More than this is a mistake, or needs another program.

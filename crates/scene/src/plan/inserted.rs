@@ -1,8 +1,8 @@
 //! What an insertion inserts: spheres, or clumps in place of the spheres that hold them.
 
-use super::packing::volume;
 use crate::keys::Diameter;
 use dem::setup::ClumpShape;
+use geom::sphere::volume;
 
 /// Index and density of a material that particles are made of.
 #[derive(Debug, Clone, Copy)]

@@ -5,14 +5,13 @@
 //! touch, because two particles that come Δt apart are v Δt apart along the velocity v.
 
 use super::inserted::Inserted;
-use super::packing::volume;
 use super::random::{diameter, generator, orientation};
 use super::section::Section;
 use crate::check::{Check, Checked};
 use crate::error::SceneError;
 use crate::keys::{Diameter, Insert};
 use dem::setup::{Entry, EntryClump, Particle, Zone};
-use geom::{Plane, Shape, Shown, Vec3};
+use geom::{Plane, Shape, Shown, Vec3, sphere::volume};
 use rand_pcg::Pcg64Mcg;
 use std::collections::VecDeque;
 

@@ -3,15 +3,9 @@
 use super::random::unit;
 use geom::{Shape, Vec3, shape::Solid};
 use rand_pcg::Pcg64Mcg;
-use std::f64::consts::PI;
 
 /// Tries for a place before the shape counts as full.
 const TRIES: usize = 20_000;
-
-/// Volume of a sphere [m³].
-pub(super) fn volume(radius: f64) -> f64 {
-    4.0 / 3.0 * PI * radius * radius * radius
-}
 
 /// The corners (lowest, highest) [m] of a shape that has an end; `None` for one that has none.
 pub fn bounds(shape: &Shape) -> Option<(Vec3, Vec3)> {
