@@ -454,7 +454,7 @@ fn scenes_that_cannot_run() {
                 1,
                 &["s.toml with --set gravity=[0,0]: ", "number of values: 2", "list of 3"],
             ),
-            ("dem-run s.toml --set material.0.name=\"\"", 1, &["material.0.name = \"\"", "is no name"]),
+            ("dem-run s.toml --set material.0.name=\"\"", 1, &["material.0.name = \"\"", "is not a name"]),
             ("dem-run s.toml --set guards.overlap=0", 1, &["guards.overlap = 0: must"]),
             ("dem-run s.toml --set fill.0.diameter.0=-0.1", 1, &["fill.0.diameter", "-0.1"]),
             ("dem-run s.toml --set fill.0.shape=box:0,0,0,1", 1, &["fill.0.shape", "6 numbers wanted"]),

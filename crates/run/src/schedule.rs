@@ -23,11 +23,11 @@ impl Schedule {
     /// # Errors
     /// An end that is missing or before the first step, frames closer than steps.
     pub fn new(scene: &Scene, dt: f64) -> Result<Schedule, SceneError> {
-        let Some(until) = scene.model.time.until else {
+        let Some(until) = scene.keys.time.until else {
             let cure = "add until [s] to [time], or use --until";
             return Err(scene.wrong("time.until", "(nothing)", "the end of the run is missing", cure));
         };
-        let output = &scene.model.output;
+        let output = &scene.keys.output;
         let every = match output.every {
             None => (until / 100.0).max(dt),
             Some(Every::Step) => dt,
@@ -67,7 +67,7 @@ impl Schedule {
 
 /// The cure for a step that is too long for the run: the modulus may be in another unit.
 fn longer(scene: &Scene) -> String {
-    let softest = scene.model.material.iter().min_by(|a, b| a.young.total_cmp(&b.young));
+    let softest = scene.keys.material.iter().min_by(|a, b| a.young.total_cmp(&b.young));
     match softest.filter(|m| m.young < SOFT) {
         Some(m) => format!(
             "material '{}' has young = {} Pa, which makes the step so long: give it in Pa (1 MPa is 1e6, 1 GPa is 1e9)",

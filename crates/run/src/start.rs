@@ -72,7 +72,7 @@ impl<W: Write> Run<W> {
 
 impl Written {
     fn new(scene: &Scene, setup: &Setup, inputs: Vec<(String, String)>) -> Written {
-        let output = &scene.model.output;
+        let output = &scene.keys.output;
         let density = |m: u16| setup.materials[m as usize].density;
         let spheres_move =
             |w: &dem::setup::Wall| matches!(w.shape, WallShape::Spheres(_)) && w.motion.moves();
@@ -124,7 +124,7 @@ impl Head {
         let zone = |(zone, i): (&Zone, usize)| ZoneRecord {
             zone: *zone,
             gravity: Some(setup.gravity),
-            plant: scene.model.outlet.get(i).and_then(|o| o.plant.clone()),
+            plant: scene.keys.outlet.get(i).and_then(|o| o.plant.clone()),
             samples: None,
         };
         Ok(Head {
@@ -189,7 +189,7 @@ fn not_yet_over(sim: &Simulation, schedule: &Schedule) -> Result<(), SceneError>
 /// Steps between samples of paths, where an outlet records them.
 fn sampling(scene: &Scene, dt: f64) -> Result<Option<u64>, SceneError> {
     let mut least = None;
-    let outlets = scene.model.outlet.iter().enumerate();
+    let outlets = scene.keys.outlet.iter().enumerate();
     for (i, outlet) in outlets.filter(|(_, o)| o.motion == ZoneMotion::Recorded) {
         let steps = outlet.samples.map_or(path::STEPS, |time| (time / dt).round().max(1.0));
         if steps > path::MOST_STEPS {

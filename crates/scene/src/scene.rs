@@ -2,7 +2,7 @@
 
 use crate::check::Check;
 use crate::error::SceneError;
-use crate::keys::Model;
+use crate::keys::SceneKeys;
 use crate::text::{Text, parse};
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ pub struct Scene {
     /// Its text.
     pub text: Text,
     /// Its keys.
-    pub model: Model,
+    pub keys: SceneKeys,
     /// Files that it names are relative to this folder.
     pub folder: PathBuf,
 }
@@ -30,9 +30,9 @@ impl Scene {
             parse(&text)?;
             text.set(overrides)?;
         }
-        let model = parse(&text).map_err(|error| blame(error, name, &toml, overrides))?;
-        Check { text: &text }.model(&model)?;
-        Ok(Scene { text, model, folder: folder.to_owned() })
+        let keys = parse(&text).map_err(|error| blame(error, name, &toml, overrides))?;
+        Check { text: &text }.keys(&keys)?;
+        Ok(Scene { text, keys, folder: folder.to_owned() })
     }
 
     /// The error for a key's value that only a run can judge.
@@ -42,7 +42,7 @@ impl Scene {
 
     /// Every file that the scene names, whether or not it exists.
     pub fn files(&self) -> Vec<PathBuf> {
-        let m = &self.model;
+        let m = &self.keys;
         let particles = m.particles.iter().map(|p| p.source.as_str());
         let walls = m.wall.iter().flat_map(|w| w.source.iter().chain(&w.mesh)).map(String::as_str);
         let clumps = m.clump.iter().filter_map(|c| c.mesh.as_deref());

@@ -49,7 +49,7 @@ fn a_part_of_a_record_is_not_taken_for_all_of_it() {
     assert_eq!(done.code, 0, "{}", done.stderr);
     for (arguments, wanted) in [
         (&["two.mcap"][..], "two.mcap: begins at 0.1000"),
-        (&["two.mcap", "--from", "0.05"], "where it goes on from another run"),
+        (&["two.mcap", "--from", "0.05"], "where it resumes another run"),
         (&["one.mcap", "three.mcap"], "one.mcap: ends at 0.1000"),
         (&["one.mcap", "three.mcap", "two.mcap"], "three.mcap, which is given before it"),
     ] {

@@ -48,7 +48,7 @@ type Call = (String, Vec<String>);
 
 /// Every effect.
 pub(super) fn effects(scene: &Scene, setup: &Setup) -> Vec<EffectToMeasure> {
-    let model = &scene.model;
+    let written = &scene.keys;
     let mut found = of_contacts(scene, setup);
     let mut add = |name: &str, why: String, without: Option<Setup>| {
         if !why.is_empty() {
@@ -62,9 +62,9 @@ pub(super) fn effects(scene: &Scene, setup: &Setup) -> Vec<EffectToMeasure> {
     let bonds = bonds.map(|(k, b)| format!("bond.{k} ({})", keys::pair(setup, b.between)));
     let loose = Setup { bonds: Vec::new(), entry_bonds: None, ..setup.clone() };
     add("bond", bonds.collect::<Vec<_>>().join(", "), Some(loose));
-    let gravity = format!("gravity = {:?}", model.gravity);
+    let gravity = format!("gravity = {:?}", written.gravity);
     add("gravity", named(setup.gravity.norm() > 0.0, gravity), None);
-    let law = model.drag.as_ref().map(|d| match d.law {
+    let law = written.drag.as_ref().map(|d| match d.law {
         DragLaw::Stokes => "drag.law = \"stokes\"".to_owned(),
         DragLaw::SchillerNaumann => "drag.law = \"schiller-naumann\"".to_owned(),
     });
@@ -78,11 +78,11 @@ pub(super) fn effects(scene: &Scene, setup: &Setup) -> Vec<EffectToMeasure> {
     let reduced = named(setup.precision != Precision::Double, precision);
     add(if single { "single precision" } else { "mixed precision" }, reduced, Some(double));
     let axes: Vec<String> =
-        model.domain.periodic.iter().map(|a| format!("\"{a:?}\"").to_lowercase()).collect();
+        written.domain.periodic.iter().map(|a| format!("\"{a:?}\"").to_lowercase()).collect();
     add("periodic domain", named(!axes.is_empty(), format!("domain.periodic = [{}]", axes.join(", "))), None);
     add("outlet", keys::numbered("outlet", setup.outlets.len()), None);
-    add("inlet", keys::numbered("inlet", model.inlet.len()), None);
-    add("insert", keys::numbered("insert", model.insert.len()), None);
+    add("inlet", keys::numbered("inlet", written.inlet.len()), None);
+    add("insert", keys::numbered("insert", written.insert.len()), None);
     add("wall motion", keys::motions(scene, setup, false), None);
     add("servo", keys::motions(scene, setup, true), None);
     found

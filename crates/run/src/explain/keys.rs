@@ -14,7 +14,7 @@ pub(super) fn pair(setup: &Setup, between: (u16, u16)) -> String {
 /// The entry that a contact comes from; `None`: a wall file.
 pub(super) fn entry(scene: &Scene, setup: &Setup, c: &setup::ContactLaw) -> Option<usize> {
     let name = |m: u16| setup.materials[m as usize].name.as_str();
-    most_specific(&scene.model.contact, name(c.between.0), name(c.between.1))
+    most_specific(&scene.keys.contact, name(c.between.0), name(c.between.1))
 }
 
 /// What a scene asks for and cannot matter: key and pairs, and why.
@@ -22,7 +22,7 @@ pub(super) fn dropped(scene: &Scene, setup: &Setup) -> Vec<String> {
     let mut found: Vec<(String, Vec<String>, String)> = Vec::new();
     for c in &setup.contacts {
         let Some(at) = entry(scene, setup, c) else { continue };
-        for (key, why) in dropped_of(&scene.model.contact[at]) {
+        for (key, why) in dropped_of(&scene.keys.contact[at]) {
             let key = format!("contact.{at}.{key}");
             match found.iter_mut().find(|(known, _, because)| *known == key && *because == why) {
                 Some((_, pairs, _)) => pairs.push(pair(setup, c.between)),
@@ -32,7 +32,7 @@ pub(super) fn dropped(scene: &Scene, setup: &Setup) -> Vec<String> {
     }
     let contacts = found.into_iter().map(|(key, pairs, why)| format!("{key} ({}): {why}", pairs.join(", ")));
     let used = |i: usize| setup.contacts.iter().any(|c| entry(scene, setup, c) == Some(i));
-    let idle = (0..scene.model.contact.len()).filter(|i| !used(*i));
+    let idle = (0..scene.keys.contact.len()).filter(|i| !used(*i));
     let idle = idle.map(|i| format!("contact.{i}: holds for no two materials that can meet"));
     let still = setup.walls.iter().filter(|w| !w.motion.moves()).filter_map(|w| wall(scene, w));
     let mut still: Vec<String> = still
@@ -50,7 +50,7 @@ fn wall<'s>(scene: &'s Scene, wall: &setup::Wall) -> Option<(usize, &'s Wall)> {
         // A box has a wall for each face, a file one for each material: their names go on behind a blank.
         wall.name.strip_prefix(&own).is_some_and(|rest| rest.is_empty() || rest.starts_with(' '))
     };
-    scene.model.wall.iter().enumerate().find(comes)
+    scene.keys.wall.iter().enumerate().find(comes)
 }
 
 /// Keys of the walls that move by themselves, or that follow a force.
@@ -72,8 +72,8 @@ pub(super) fn motions(scene: &Scene, setup: &Setup, servo: bool) -> String {
 
 /// Keys that call for the energy ledger.
 pub(super) fn ledger(scene: &Scene) -> String {
-    let Output { energy, contacts, .. } = scene.model.output;
-    let guard = scene.model.guards.energy.map(|share| format!("guards.energy = {share}"));
+    let Output { energy, contacts, .. } = scene.keys.output;
+    let guard = scene.keys.guards.energy.map(|share| format!("guards.energy = {share}"));
     let energy = energy.then(|| "output.energy = true".to_owned());
     // The work of sliding is known to the ledger alone.
     let contacts = contacts.then(|| "output.contacts = true".to_owned());

@@ -1,11 +1,11 @@
 //! Checks of how a scene is calculated and written, and of the fluid around its particles.
 
 use super::{Check, Checked};
-use crate::keys::{Drag, DragLaw, Every, Model, OrAuto, Sleep, Time};
+use crate::keys::{Drag, DragLaw, Every, SceneKeys, OrAuto, Sleep, Time};
 
 impl Check<'_> {
     /// `[time]`, `[output]`, `[guards]` and the other single tables.
-    pub(super) fn calculation(&self, m: &Model) -> Checked {
+    pub(super) fn calculation(&self, m: &SceneKeys) -> Checked {
         self.finite("gravity", &m.gravity, "m/s²")?;
         self.positive_if("time.until", m.time.until, "s")?;
         if let OrAuto::Given(dt) = m.time.dt {

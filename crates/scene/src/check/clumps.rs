@@ -1,7 +1,7 @@
 //! Checks of `[[clump]]`, `[[body]]`, and of entries that name a clump.
 
 use super::{Check, Checked};
-use crate::keys::{Clump, Diameter, Model};
+use crate::keys::{Clump, Diameter, SceneKeys};
 
 /// Keys of an entry that makes spheres or clumps.
 pub(super) struct Given<'a> {
@@ -42,7 +42,7 @@ impl Check<'_> {
     }
 
     /// `[[clump]]` and `[[body]]`.
-    pub(super) fn clumps(&self, m: &Model) -> Checked {
+    pub(super) fn clumps(&self, m: &SceneKeys) -> Checked {
         for (i, c) in m.clump.iter().enumerate() {
             if c.name.is_empty() || m.clump[..i].iter().any(|o| o.name == c.name) {
                 let (key, value) = (format!("clump.{i}.name"), format!("\"{}\"", c.name));

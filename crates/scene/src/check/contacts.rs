@@ -1,11 +1,11 @@
 //! Checks of `[[contact]]`: numbers out of range, keys that no effect takes, effects that lack or contradict each other.
 
 use super::{Check, Checked};
-use crate::keys::{Contact, Model};
+use crate::keys::{Contact, SceneKeys};
 use dem::effects::{DESCRIPTIONS, Description, Slot, active};
 
 impl Check<'_> {
-    pub(super) fn contacts(&self, m: &Model) -> Checked {
+    pub(super) fn contacts(&self, m: &SceneKeys) -> Checked {
         for (i, c) in m.contact.iter().enumerate() {
             let entry = Entry { check: self, at: format!("contact.{i}"), contact: c };
             entry.stiffness()?;

@@ -1,10 +1,10 @@
 //! Checks of `[[material]]` and `[[bond]]`.
 
 use super::{Check, Checked};
-use crate::keys::Model;
+use crate::keys::SceneKeys;
 
 impl Check<'_> {
-    pub(super) fn materials(&self, m: &Model) -> Checked {
+    pub(super) fn materials(&self, m: &SceneKeys) -> Checked {
         for (i, material) in m.material.iter().enumerate() {
             let key = |k: &str| format!("material.{i}.{k}");
             if m.material[..i].iter().any(|o| o.name == material.name) {
@@ -31,7 +31,7 @@ impl Check<'_> {
         Ok(())
     }
 
-    pub(super) fn bonds(&self, m: &Model) -> Checked {
+    pub(super) fn bonds(&self, m: &SceneKeys) -> Checked {
         for (i, b) in m.bond.iter().enumerate() {
             let key = |k: &str| format!("bond.{i}.{k}");
             self.within(&key("gap"), b.gap, 0.0, 100.0, "m")?;

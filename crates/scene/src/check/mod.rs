@@ -11,7 +11,7 @@ mod particles;
 mod walls;
 
 use crate::error::{SceneError, ValueError, nearest};
-use crate::keys::{Diameter, Model, OrAuto};
+use crate::keys::{Diameter, SceneKeys, OrAuto};
 use crate::text::Text;
 use std::fmt::Display;
 
@@ -103,7 +103,7 @@ impl Check<'_> {
     }
 
     /// Every value of a scene that can be judged by itself.
-    pub(crate) fn model(&self, m: &Model) -> Checked {
+    pub(crate) fn keys(&self, m: &SceneKeys) -> Checked {
         self.calculation(m)?;
         self.materials(m)?;
         self.contacts(m)?;

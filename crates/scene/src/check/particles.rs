@@ -2,11 +2,11 @@
 
 use super::clumps::Given;
 use super::{Check, Checked};
-use crate::keys::{Fill, Insert, Model};
+use crate::keys::{Fill, Insert, SceneKeys};
 
 impl Check<'_> {
     /// `[[fill]]` and `[[insert]]`.
-    pub(super) fn particles(&self, m: &Model) -> Checked {
+    pub(super) fn particles(&self, m: &SceneKeys) -> Checked {
         m.fill.iter().enumerate().try_for_each(|(i, f)| self.fill(&format!("fill.{i}"), f))?;
         m.insert.iter().enumerate().try_for_each(|(i, f)| self.insert(&format!("insert.{i}"), f))
     }
@@ -42,7 +42,7 @@ impl Check<'_> {
     }
 
     /// `[[outlet]]` and `[[inlet]]`.
-    pub(super) fn zones(&self, m: &Model) -> Checked {
+    pub(super) fn zones(&self, m: &SceneKeys) -> Checked {
         for (i, o) in m.outlet.iter().enumerate() {
             self.length(&format!("outlet.{i}.length"), o.length)?;
             self.positive_if(&format!("outlet.{i}.samples"), o.samples, "s")?;

@@ -1,10 +1,10 @@
 //! Checks of `[[wall]]`, its motion and its servo.
 
 use super::{Check, Checked};
-use crate::keys::{Model, Motion, Servo, Wall};
+use crate::keys::{SceneKeys, Motion, Servo, Wall};
 
 impl Check<'_> {
-    pub(super) fn walls(&self, m: &Model) -> Checked {
+    pub(super) fn walls(&self, m: &SceneKeys) -> Checked {
         m.wall.iter().enumerate().try_for_each(|(i, w)| self.wall(&format!("wall.{i}"), w))
     }
 

@@ -19,7 +19,7 @@ use serde::Deserialize;
 /// A scene; see CLI.md of the project for an example. SI units.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Model {
+pub struct SceneKeys {
     /// Acceleration of free fall [m/s²]; absent: none.
     #[serde(default)]
     pub gravity: [f64; 3],

@@ -6,7 +6,7 @@ use super::insertion::Insertion;
 use crate::check::Check;
 use crate::error::SceneError;
 use crate::input::{InletSource, read_mesh};
-use crate::keys::{self, Model};
+use crate::keys::{self, SceneKeys};
 use crate::scene::Scene;
 use dem::setup::{self, EntryBonds, Particle, Zone};
 use geom::Shape;
@@ -69,7 +69,7 @@ impl<'a> PlanBuilder<'a> {
         PlanBuilder {
             check: Check { text: &scene.text },
             scene,
-            materials: scene.model.material.iter().map(material).collect(),
+            materials: scene.keys.material.iter().map(material).collect(),
             particles: Vec::new(),
             clumps: setup::Clumps::default(),
             walls: Vec::new(),
@@ -88,8 +88,8 @@ impl<'a> PlanBuilder<'a> {
         }
     }
 
-    pub(super) fn model(&self) -> &'a Model {
-        &self.scene.model
+    pub(super) fn keys(&self) -> &'a SceneKeys {
+        &self.scene.keys
     }
 
     /// A file that the scene names, relative to the scene's folder.
@@ -144,7 +144,7 @@ impl<'a> PlanBuilder<'a> {
         let members = |b: &setup::Body| self.clumps.shapes[b.shape as usize].spheres.len() as u32;
         let bodies = self.clumps.bodies.iter().map(|b| b.id.saturating_add(members(b)));
         let particles = self.particles.iter().map(|p| p.id.saturating_add(1));
-        particles.chain(bodies).max().unwrap_or(0).max(self.model().first_id)
+        particles.chain(bodies).max().unwrap_or(0).max(self.keys().first_id)
     }
 
     /// Radii of all particles.
@@ -176,7 +176,7 @@ impl<'a> PlanBuilder<'a> {
 
     /// Index of a shape, by name.
     pub(super) fn clump(&self, key: &str, name: &str) -> Result<u32, SceneError> {
-        let names = self.model().clump.iter().map(|c| c.name.as_str());
+        let names = self.keys().clump.iter().map(|c| c.name.as_str());
         let at = names.clone().position(|n| n == name).map(|at| at as u32);
         at.ok_or_else(|| self.check.unknown(key, name, "clump", names))
     }

@@ -24,7 +24,7 @@ fn turn(q: [f64; 4]) -> Option<UnitQuaternion<f64>> {
 impl PlanBuilder<'_> {
     /// `[[body]]`: one clump each.
     pub(super) fn bodies(&mut self) -> Result<(), SceneError> {
-        for (i, entry) in self.model().body.iter().enumerate() {
+        for (i, entry) in self.keys().body.iter().enumerate() {
             let shape = self.clump(&format!("body.{i}.clump"), &entry.clump)?;
             let Some(orientation) = turn(entry.quaternion) else {
                 let value = format!("{:?}", entry.quaternion);

@@ -20,7 +20,7 @@ type Sphere = (Vec3, f64);
 impl PlanBuilder<'_> {
     /// Shapes of all `[[clump]]`.
     pub(super) fn clump_shapes(&mut self) -> Result<(), SceneError> {
-        for (i, entry) in self.model().clump.iter().enumerate() {
+        for (i, entry) in self.keys().clump.iter().enumerate() {
             let key = format!("clump.{i}");
             let material = self.grain(&format!("{key}.material"), &entry.material)?.index;
             let (spheres, moments) = match &entry.mesh {

@@ -17,7 +17,7 @@ impl PlanBuilder<'_> {
     pub(super) fn inlets(&mut self, streams: Vec<InletSource>) -> Result<(), SceneError> {
         self.all_wanted(&streams)?;
         let mut given = streams.into_iter();
-        for (i, entry) in self.model().inlet.iter().enumerate() {
+        for (i, entry) in self.keys().inlet.iter().enumerate() {
             let key = format!("inlet.{i}");
             let stream = match &entry.source {
                 Some(source) => self.open_inlet(source)?,
@@ -29,7 +29,7 @@ impl PlanBuilder<'_> {
             };
             let zone = self.inlet_zone(&key, entry, &stream)?;
             if let Some(recorded) = &stream.zone {
-                let (gravity, plant) = (Some(self.model().gravity.into()), entry.plant.clone());
+                let (gravity, plant) = (Some(self.keys().gravity.into()), entry.plant.clone());
                 let scene = &ZoneRecord { zone, gravity, plant, samples: None };
                 let name = &stream.name;
                 SameZone { check: &self.check, key: &key, scene, stream: recorded, name }.check()?;
@@ -55,9 +55,9 @@ impl PlanBuilder<'_> {
 
     /// Refuses inlets that no entry of the scene waits for.
     fn all_wanted(&self, streams: &[InletSource]) -> Result<(), SceneError> {
-        let wanted = self.model().inlet.iter().filter(|entry| entry.source.is_none()).count();
+        let wanted = self.keys().inlet.iter().filter(|entry| entry.source.is_none()).count();
         let Some(left) = streams.get(wanted) else { return Ok(()) };
-        let why = if self.model().inlet.is_empty() {
+        let why = if self.keys().inlet.is_empty() {
             "the scene has no [[inlet]]".to_owned()
         } else {
             format!("{} inlets are given, and {wanted} [[inlet]] without source wait for one", streams.len())
@@ -89,7 +89,7 @@ impl PlanBuilder<'_> {
             materials.push(material);
         }
         let shapes = self.shapes_of(name, &source.clumps)?;
-        if source.bonds.is_some() && self.model().bond.is_empty() {
+        if source.bonds.is_some() && self.keys().bond.is_empty() {
             let why = "brings bonds, and the scene has no [[bond]]";
             return Err(SceneError::file(name, why, "add the [[bond]]s of the stage upstream to this one"));
         }
@@ -126,7 +126,7 @@ impl PlanBuilder<'_> {
         let here = self.materials[material as usize].density;
         match info.density {
             Some(there) if here > 0.0 && there > 0.0 && (here - there).abs() > 1e-9 * there => {
-                let at = self.model().material.iter().position(|m| m.name == info.name);
+                let at = self.keys().material.iter().position(|m| m.name == info.name);
                 let key = at.map_or("material".to_owned(), |k| format!("material.{k}.density"));
                 let why = format!("the grains of '{}' in {stream} have {} kg/m³", info.name, Shown(there));
                 let cure =

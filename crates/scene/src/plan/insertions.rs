@@ -15,7 +15,7 @@ const IDS: u32 = 200_000_000;
 impl PlanBuilder<'_> {
     pub(super) fn insertions(&mut self) -> Result<(), SceneError> {
         let mut first_id = self.next_id();
-        for (i, entry) in self.model().insert.iter().enumerate() {
+        for (i, entry) in self.keys().insert.iter().enumerate() {
             let shape = self.shape(&format!("insert.{i}.shape"), &entry.shape)?;
             let numbers = Numbers { index: i, first_id, inlet: self.inlets.len() as u32 };
             let inserted = self.inserted(i, entry)?;

@@ -10,7 +10,7 @@ use geom::Shown;
 impl PlanBuilder<'_> {
     pub(super) fn outlets(&mut self) -> Result<(), SceneError> {
         let largest = 2.0 * self.sizes().map_or(0.0, |s| s.largest).max(self.widest_clump());
-        for (i, entry) in self.model().outlet.iter().enumerate() {
+        for (i, entry) in self.keys().outlet.iter().enumerate() {
             let plane = walls::plane(&self.check, &format!("outlet.{i}.plane"), &entry.plane)?;
             let length = match entry.length {
                 OrAuto::Auto => 1.2 * largest,

@@ -8,14 +8,14 @@ use crate::keys::Particles;
 
 impl PlanBuilder<'_> {
     pub(super) fn particles(&mut self) -> Result<(), SceneError> {
-        for (i, entry) in self.model().particles.iter().enumerate() {
+        for (i, entry) in self.keys().particles.iter().enumerate() {
             match &entry.clump {
                 Some(clump) => self.clump_file(&format!("particles.{i}"), &entry.source, clump)?,
                 None => self.particle_file(i, entry)?,
             }
         }
         self.bodies()?;
-        for (i, entry) in self.model().fill.iter().enumerate() {
+        for (i, entry) in self.keys().fill.iter().enumerate() {
             let shape = self.shape(&format!("fill.{i}.shape"), &entry.shape)?;
             if let Some(clump) = &entry.clump {
                 self.fill_with_clumps(i, entry, clump, &shape)?;

@@ -6,7 +6,7 @@ use crate::error::SceneError;
 impl PlanBuilder<'_> {
     /// Lowest and highest coordinate [m] of each axis that is periodic.
     pub(super) fn periodic(&self) -> Result<[Option<(f64, f64)>; 3], SceneError> {
-        let domain = &self.model().domain;
+        let domain = &self.keys().domain;
         let mut periodic = [None; 3];
         for axis in &domain.periodic {
             let a = *axis as usize;

@@ -9,35 +9,35 @@ use geom::Vec3;
 
 impl PlanBuilder<'_> {
     pub(super) fn finish(mut self) -> Result<Plan, SceneError> {
-        let model = self.model();
+        let keys = self.keys();
         let sizes = self.sizes();
         let largest = sizes.map_or(0.0, |s| s.largest);
-        let contacts = contacts::resolve(&self.check, &model.contact, &self.materials, largest)?;
+        let contacts = contacts::resolve(&self.check, &keys.contact, &self.materials, largest)?;
         let contacts = self.contacts_that_can_meet(contacts);
         self.warn(&contacts);
-        let bonds = bonds::resolve(&self.check, &model.bond, &self.materials)?;
-        let (safety, step) = accuracy::choose(&self.check, &model.time, &contacts)?;
+        let bonds = bonds::resolve(&self.check, &keys.bond, &self.materials)?;
+        let (safety, step) = accuracy::choose(&self.check, &keys.time, &contacts)?;
         // The engine wants a density of every material, also of walls, whose mass plays no part.
         self.materials.iter_mut().filter(|m| m.density == 0.0).for_each(|m| m.density = NO_DENSITY);
         self.entry_materials.sort_unstable();
         self.entry_materials.dedup();
         let setup = Setup {
-            gravity: Vec3::from(model.gravity),
+            gravity: Vec3::from(keys.gravity),
             drag: self.drag(),
             periodic: self.periodic()?,
-            step: match model.time.dt {
+            step: match keys.time.dt {
                 OrAuto::Auto => Step::Auto(safety),
                 OrAuto::Given(dt) => Step::Fixed(dt),
             },
-            precision: match model.precision {
+            precision: match keys.precision {
                 Arithmetic::F64 => setup::Precision::Double,
                 Arithmetic::Mixed => setup::Precision::Mixed,
                 Arithmetic::F32 => setup::Precision::Single,
             },
-            skin: model.neighbours.skin,
-            sleep: model.sleep.map(|s| setup::Sleep { speed: s.speed, time: s.time, wake: s.wake }),
+            skin: keys.neighbours.skin,
+            sleep: keys.sleep.map(|s| setup::Sleep { speed: s.speed, time: s.time, wake: s.wake }),
             // Contacts are written with the work of sliding, which the ledger knows.
-            ledger: model.output.energy || model.output.contacts || model.guards.energy.is_some(),
+            ledger: keys.output.energy || keys.output.contacts || keys.guards.energy.is_some(),
             guards: self.guards(),
             largest_entry: self.sphere_sizes.map_or(0.0, |s| s.largest),
             smallest_entry: self.sphere_sizes.map_or(0.0, |s| s.smallest),
@@ -57,19 +57,19 @@ impl PlanBuilder<'_> {
     }
 
     fn guards(&self) -> Guards {
-        let (guards, default) = (&self.model().guards, Guards::default());
+        let (guards, default) = (&self.keys().guards, Guards::default());
         Guards {
             overlap: guards.overlap.unwrap_or(default.overlap),
             motion: guards.motion.unwrap_or(default.motion),
             // [[inlet]]s come before insertions, whose grains may get anywhere.
-            cuts: self.model().inlet.len() as u32,
+            cuts: self.keys().inlet.len() as u32,
             zones: guards.zones != Some(false),
             energy: guards.energy.unwrap_or(default.energy),
         }
     }
 
     fn drag(&self) -> Option<setup::Drag> {
-        let entry = self.model().drag.as_ref()?;
+        let entry = self.keys().drag.as_ref()?;
         Some(setup::Drag {
             law: match entry.law {
                 DragLaw::Stokes => setup::DragLaw::Stokes,

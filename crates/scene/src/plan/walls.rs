@@ -16,7 +16,7 @@ impl PlanBuilder<'_> {
     /// Files that cannot be read, unknown materials, walls of the command line that no entry waits for.
     pub(super) fn walls(&mut self, given: Vec<WallFile>) -> Result<(), SceneError> {
         let mut given = given.into_iter();
-        for (i, entry) in self.model().wall.iter().enumerate() {
+        for (i, entry) in self.keys().wall.iter().enumerate() {
             let key = format!("wall.{i}");
             let name = entry.name.clone().unwrap_or_else(|| key.clone());
             let motion =

@@ -31,7 +31,7 @@ impl PlanBuilder<'_> {
         self.units();
         self.sizes_on_earth();
         self.lost_spins(contacts);
-        let most = self.model().guards.overlap.unwrap_or(dem::setup::Guards::default().overlap);
+        let most = self.keys().guards.overlap.unwrap_or(dem::setup::Guards::default().overlap);
         // Deeper overlaps are refused.
         let deep = self.deepest().filter(|deep| deep.share > DEEP && deep.share <= most);
         self.warnings.extend(deep.map(|DeepOverlap { pair, overlap, share }| {
@@ -47,7 +47,7 @@ impl PlanBuilder<'_> {
         let mut warn = |key: &str, value: String, why: &str, cure: &str| {
             self.warnings.push(self.check.wrong(key, value, why, cure).to_string());
         };
-        for (i, m) in self.scene.model.material.iter().enumerate() {
+        for (i, m) in self.scene.keys.material.iter().enumerate() {
             let key = format!("material.{i}.density");
             let value = |d: f64| format!("{} kg/m³", Shown(d));
             match m.density {
@@ -90,7 +90,7 @@ impl PlanBuilder<'_> {
 
     /// Spins that nothing turns are not kept.
     fn lost_spins(&mut self, contacts: &[ContactLaw]) {
-        let turns = !self.scene.model.bond.is_empty()
+        let turns = !self.scene.keys.bond.is_empty()
             || contacts.iter().any(|c| active(c).any(|d| d.slot == Slot::Sliding && !(d.idle)(c)));
         if !turns && !self.read.spinning.is_empty() {
             let files = self.read.spinning.join(", ");

@@ -3,7 +3,7 @@
 use super::Text;
 use super::missing::missing;
 use crate::error::{Place, SceneError, nearest};
-use crate::keys::Model;
+use crate::keys::SceneKeys;
 use serde_path_to_error::{Path, Segment};
 use toml::de::Error;
 
@@ -20,7 +20,7 @@ const NOT_YET: &[(&str, &str)] = &[
 ///
 /// # Errors
 /// Text that is not TOML, an unknown key, a value of the wrong type.
-pub(crate) fn parse(text: &Text) -> Result<Model, SceneError> {
+pub(crate) fn parse(text: &Text) -> Result<SceneKeys, SceneError> {
     if text.toml.lines().all(|line| line.trim().is_empty() || line.trim_start().starts_with('#')) {
         let message =
             "there is nothing in it: a scene has at least [time], a [[material]] and grains".to_owned();

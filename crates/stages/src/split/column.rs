@@ -18,7 +18,7 @@ impl Column {
 impl Cutting<'_> {
     /// Of the stage upstream; `None` where all its grains come in by inlets.
     pub fn column(&self) -> Option<Column> {
-        let m = &self.scene.model;
+        let m = &self.scene.keys;
         let mut starts: Vec<Vec3> = m.body.iter().map(|b| b.position.into()).collect();
         for shape in m.fill.iter().map(|f| &f.shape).chain(m.insert.iter().map(|f| &f.shape)) {
             let shape: Option<Shape> = shape.parse().ok();

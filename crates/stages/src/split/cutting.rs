@@ -39,7 +39,7 @@ impl Cutting<'_> {
 
     /// Refuses a cut across which a particle would come back through a periodic face.
     pub fn check_periodic(&self) -> Result<(), SceneError> {
-        for axis in &self.scene.model.domain.periodic {
+        for axis in &self.scene.keys.domain.periodic {
             let (name, along) = match axis {
                 Axis::X => ("x", self.cut.plane.normal.x),
                 Axis::Y => ("y", self.cut.plane.normal.y),

@@ -7,7 +7,7 @@ use scene::{Scene, SceneError};
 
 /// Largest diameter of the scene's own particles [m], of clumps that of the sphere which holds them; 0 when all come from an inlet.
 pub(super) fn largest(scene: &Scene) -> Result<f64, SceneError> {
-    let m = &scene.model;
+    let m = &scene.keys;
     let ranges = m.fill.iter().map(|f| f.diameter).chain(m.insert.iter().map(|f| f.diameter));
     let mut largest = ranges.map(|d: Diameter| d.high).fold(0.0, f64::max);
     for entry in m.particles.iter().filter(|p| p.clump.is_none()) {

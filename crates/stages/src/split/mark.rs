@@ -52,7 +52,7 @@ impl Cutting<'_> {
 
     /// Where particles come from; of an inlet its plane, and the mark that it has itself.
     fn mark_grains(&self, all: &Table, kept: &mut Kept) -> Result<(), SceneError> {
-        let m = &self.scene.model;
+        let m = &self.scene.keys;
         kept.grains.extend(m.fill.iter().map(|f| f.material.clone()));
         kept.grains.extend(m.insert.iter().map(|f| f.material.clone()));
         self.mark_clumps(all, kept)?;
@@ -78,7 +78,7 @@ impl Cutting<'_> {
     /// Shapes of clumps, meshes by what is in them.
     fn mark_clumps(&self, all: &Table, kept: &mut Kept) -> Result<(), SceneError> {
         let mut clumps = entries(all, "clump");
-        for (clump, table) in self.scene.model.clump.iter().zip(&mut clumps) {
+        for (clump, table) in self.scene.keys.clump.iter().zip(&mut clumps) {
             kept.grains.insert(clump.material.clone());
             if let Some(file) = &clump.mesh {
                 let path = self.scene.folder.join(file);
@@ -93,7 +93,7 @@ impl Cutting<'_> {
     fn mark_walls(&self, all: &Table, kept: &mut Kept) {
         let mut walls = Vec::new();
         let column = self.column();
-        for (wall, mut table) in self.scene.model.wall.iter().zip(entries(all, "wall")) {
+        for (wall, mut table) in self.scene.keys.wall.iter().zip(entries(all, "wall")) {
             let near: Vec<Value> = planes(wall)
                 .iter()
                 .filter(|plane| column.as_ref().is_some_and(|c| c.meets(plane, self.largest)))
@@ -128,7 +128,7 @@ impl Cutting<'_> {
         let (tables, mut contacts) = (entries(all, "contact"), Vec::new());
         for a in &kept.grains {
             for b in kept.grains.union(&kept.walls) {
-                let in_force = most_specific(&self.scene.model.contact, a, b).and_then(|i| tables.get(i));
+                let in_force = most_specific(&self.scene.keys.contact, a, b).and_then(|i| tables.get(i));
                 if let Some(mut table) = in_force.cloned() {
                     table.insert("between".to_owned(), vec![a.clone(), b.clone()].into());
                     contacts.push(table);

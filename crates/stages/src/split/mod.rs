@@ -65,7 +65,7 @@ pub struct Cut {
 /// Particles on both sides of the plane, a length that is too short, files that cannot be read.
 pub fn split(scene: &Scene, cut: &Cut) -> Result<(String, Vec<String>), SceneError> {
     let unfit = cut.test == ZoneTest::Lowest;
-    if let Some(clump) = scene.model.clump.first().filter(|_| unfit) {
+    if let Some(clump) = scene.keys.clump.first().filter(|_| unfit) {
         let why = format!("has clumps ('{}'): of them only centres are tested", clump.name);
         let cure = "use --test centre";
         return Err(SceneError::file(&scene.text.name, why, cure));
@@ -156,13 +156,13 @@ material = "m"
         let (up, gone) = cut(Stage::Upstream, "0,0,0,0,0,-1", None).unwrap();
         assert_eq!(gone, ["fill.1"]);
         let scene = Scene::new("up", up.clone(), &[], Path::new("")).unwrap();
-        assert_eq!((scene.model.fill.len(), scene.model.outlet.len(), scene.model.inlet.len()), (1, 1, 0));
+        assert_eq!((scene.keys.fill.len(), scene.keys.outlet.len(), scene.keys.inlet.len()), (1, 1, 0));
         assert!(up.contains("# grain") && up.contains("# above") && up.starts_with("# plant"), "{up}");
         let (down, gone) = cut(Stage::Downstream, "0,0,0,0,0,-1", Some(0.2)).unwrap();
         assert_eq!(gone, ["fill.0"]);
         let scene = Scene::new("down", down, &[], Path::new("")).unwrap();
-        assert_eq!((scene.model.fill[0].shape.as_str(), scene.model.inlet.len()), ("box:0,0,-2,1,1,-1", 1));
-        assert_eq!(scene.model.first_id, 2_000_000_000);
+        assert_eq!((scene.keys.fill[0].shape.as_str(), scene.keys.inlet.len()), ("box:0,0,-2,1,1,-1", 1));
+        assert_eq!(scene.keys.first_id, 2_000_000_000);
     }
 
     #[test]

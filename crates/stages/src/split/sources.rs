@@ -52,7 +52,7 @@ fn own_ids(first: u32) -> i64 {
 impl Cutting<'_> {
     /// Fills, inserts, particle files and single clumps of the other stage.
     pub fn sources(&self, document: &mut DocumentMut, found: &mut Found) -> Result<(), SceneError> {
-        let m = &self.scene.model;
+        let m = &self.scene.keys;
         let (mut kept, mut taken) = (0, 0);
         let shapes = [
             ("fill", m.fill.iter().map(|f| f.shape.as_str()).collect::<Vec<_>>()),
@@ -104,7 +104,7 @@ impl Cutting<'_> {
 
     /// Zones that are there already stay with the stage they lie in.
     pub fn zones(&self, document: &mut DocumentMut, found: &mut Found) -> Result<(), SceneError> {
-        let m = &self.scene.model;
+        let m = &self.scene.keys;
         let outlets = m.outlet.iter().map(|o| ("outlet", &o.plane)).enumerate().rev();
         let inlets = m.inlet.iter().map(|o| ("inlet", &o.plane)).enumerate().rev();
         for (i, (key, plane)) in outlets.chain(inlets) {

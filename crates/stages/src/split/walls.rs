@@ -15,7 +15,7 @@ impl Cutting<'_> {
     /// Refuses a plane that lies behind an unbounded wall at rest, or whose zone reaches through one.
     pub fn clear_of_walls(&self) -> Result<(), SceneError> {
         let length = self.cut.length.unwrap_or(1.2 * self.largest);
-        for (i, wall) in self.scene.model.wall.iter().enumerate().filter(|(_, w)| w.motion.is_none()) {
+        for (i, wall) in self.scene.keys.wall.iter().enumerate().filter(|(_, w)| w.motion.is_none()) {
             for plane in planes(wall) {
                 let along = plane.normal.dot(&self.cut.plane.normal);
                 let before = plane.signed_distance(&self.cut.plane.point);
@@ -51,7 +51,7 @@ impl Cutting<'_> {
 
     /// Walls at rest that no particle of the stage can reach.
     pub fn walls(&self, document: &mut DocumentMut, found: &mut Found) {
-        for (i, wall) in self.scene.model.wall.iter().enumerate().rev() {
+        for (i, wall) in self.scene.keys.wall.iter().enumerate().rev() {
             if wall.motion.is_some() {
                 continue;
             }
