@@ -19,7 +19,8 @@ mod threads;
 mod walls;
 
 pub use model::bonds::limit::entries as bonds_of;
-pub use model::error::{Halt, SetupError};
+pub use model::error::SetupError;
+pub use model::halt::Halt;
 pub use model::limit::{Limit, critical_step};
 pub use observe::explain::{ContactBytes, EffectCost};
 pub use observe::record::ContactRecord;

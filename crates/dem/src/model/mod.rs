@@ -6,8 +6,10 @@
 pub mod bonds;
 pub mod check;
 pub mod clumps;
+pub mod contact_check;
 pub mod crowd;
 pub mod error;
+pub mod halt;
 pub mod kind;
 pub mod limit;
 pub mod start;

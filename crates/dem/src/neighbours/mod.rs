@@ -5,6 +5,7 @@
 
 pub mod contacts;
 pub mod ends;
+pub mod history;
 pub mod list;
 pub mod poses;
 pub mod rebuild;

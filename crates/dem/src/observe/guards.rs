@@ -1,7 +1,7 @@
 //! What is looked for when a guard has tripped: which particle, where, by how much.
 
 use crate::model::Model;
-use crate::model::error::Halt;
+use crate::model::halt::Halt;
 use crate::model::kind::With;
 use crate::neighbours::NeighbourLists;
 use crate::neighbours::ends::{idles, partner};

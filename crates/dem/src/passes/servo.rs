@@ -15,7 +15,7 @@
 //! P is summed in the order of the contact list: the same bits for any number of threads.
 
 use crate::model::Model;
-use crate::model::error::Halt;
+use crate::model::halt::Halt;
 use crate::model::kind::With;
 use crate::neighbours::NeighbourLists;
 use crate::neighbours::ends::idles;

@@ -9,9 +9,12 @@ pub mod sleep;
 mod bond;
 mod zone;
 
-pub use crate::effects::{ContactHistory, ContactLaw, Material};
+pub use crate::effects::ContactHistory;
+pub use crate::effects::ContactLaw;
+pub use crate::effects::Material;
 pub use crate::setup::clump_shape::ClumpShape;
-pub use crate::setup::drag::{Drag, DragLaw};
+pub use crate::setup::drag::Drag;
+pub use crate::setup::drag::DragLaw;
 pub use crate::setup::servo::Servo;
 pub use crate::setup::sleep::Sleep;
 pub use crate::simd::number::Precision;

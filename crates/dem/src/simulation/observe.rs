@@ -1,7 +1,7 @@
 //! Observing a simulation: everything is of this instant, and nothing that is observed changes.
 
 use super::Simulation;
-use crate::model::error::Halt;
+use crate::model::halt::Halt;
 use crate::neighbours::poses::pose;
 use crate::observe::explain::{ContactBytes, EffectCost};
 use crate::observe::record::ContactRecord;

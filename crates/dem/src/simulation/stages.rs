@@ -1,7 +1,8 @@
 //! What a stage of a plant does to a simulation: particles come in with their contacts and bonds, and crossings and paths go out.
 
 use super::Simulation;
-use crate::model::error::{Halt, SetupError};
+use crate::model::error::SetupError;
+use crate::model::halt::Halt;
 use crate::passes::bonds::zones as bonds;
 use crate::passes::zones::{enter, memory, paths, returned};
 use crate::setup::{Crossing, Entry, Guide, Link, Memory, PathSample};

@@ -6,7 +6,7 @@
 use super::Simulation;
 use crate::forces::sweep;
 use crate::model::Model;
-use crate::model::error::Halt;
+use crate::model::halt::Halt;
 use crate::neighbours::{NeighbourLists, rebuild};
 use crate::observe::guards;
 use crate::passes::{bonds, clumps, drag, ledger, servo, start, zones};

@@ -1,6 +1,6 @@
 //! Particles that go back through a plane, against the flow: what is there is not simulated by this stage.
 
-use crate::model::error::Halt;
+use crate::model::halt::Halt;
 use crate::setup::Setup;
 use crate::state::zone_particle::Way;
 use crate::state::zones::Zones;

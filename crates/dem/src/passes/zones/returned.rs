@@ -1,7 +1,7 @@
 //! Looks for particles that zones have lost.
 
 use crate::model::Model;
-use crate::model::error::Halt;
+use crate::model::halt::Halt;
 use crate::passes::zones::whole::tested;
 use crate::state::State;
 

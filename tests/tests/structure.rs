@@ -1,0 +1,64 @@
+//! The shape of the code: the engine's imports go down its layers, and files stay small enough to read.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Layers of the engine, lowest first: a folder uses those before it.
+const LAYERS: [&str; 14] = [
+    "threads", "simd", "space", "effects", "setup", "kernel", "walls", "model", "state", "neighbours", "passes",
+    "forces", "observe", "simulation",
+];
+
+/// Lines that a file may have.
+const LONGEST: usize = 350;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// All Rust files under a folder, without what is built.
+fn files(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path()) {
+        if entry.is_dir() && entry.file_name() != Some("target".as_ref()) {
+            files(&entry, found);
+        } else if entry.extension() == Some("rs".as_ref()) {
+            found.push(entry);
+        }
+    }
+}
+
+/// Names of the top-level modules that a line of code names by `crate::`.
+fn modules(line: &str) -> impl Iterator<Item = &str> {
+    let code = line.split("//").next().unwrap_or_default();
+    code.split("crate::").skip(1).map(|rest| rest.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or_default())
+}
+
+#[test]
+fn imports_of_the_engine_go_down_its_layers() {
+    let source = root().join("crates/dem/src");
+    let mut all = Vec::new();
+    files(&source, &mut all);
+    let mut wrong = BTreeSet::new();
+    for file in all.iter().filter(|file| !file.ends_with("lib.rs")) {
+        let own = file.strip_prefix(&source).expect("below").iter().next().expect("a name");
+        let own = own.to_str().expect("text").trim_end_matches(".rs");
+        let layer = |name: &str| LAYERS.iter().position(|l| *l == name);
+        let height = layer(own).unwrap_or_else(|| panic!("{own} is in no layer"));
+        let text = fs::read_to_string(file).expect("text");
+        for used in text.lines().flat_map(modules).filter_map(layer).filter(|used| *used > height) {
+            wrong.insert(format!("{} uses {}", file.display(), LAYERS[used]));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
+fn no_file_is_too_long_to_read() {
+    let mut all = Vec::new();
+    files(&root().join("crates"), &mut all);
+    files(&root().join("tools"), &mut all);
+    let lines = |file: &PathBuf| fs::read_to_string(file).expect("text").lines().count();
+    let long: Vec<String> = all.iter().filter(|f| lines(f) > LONGEST).map(|f| format!("{}: {}", f.display(), lines(f))).collect();
+    assert!(long.is_empty(), "above {LONGEST} lines: {long:#?}");
+}
