@@ -212,7 +212,7 @@ fn stretched_contact_survives_listing() {
             let p = particles(&mut sim);
             gaps.push((p[0].position - p[1].position).norm() - 0.02);
         }
-        (gaps, sim.listings(), sim.energy().expect("sound").normal)
+        (gaps, sim.rebuilds(), sim.energy().expect("sound").normal)
     };
     let ((still, few, once), (moving, many, again)) = (relative(0.0), relative(3.0));
     assert!(many > 10 * few, "{many} listings against {few}");
@@ -244,7 +244,7 @@ fn turning_pair_remembers_its_contact() {
         lowest = lowest.min(particles(&mut sim)[0].position.z);
     }
     let (e, p) = (sim.energy().expect("sound"), particles(&mut sim));
-    assert!(lowest < -0.0099 && sim.listings() > 10, "they have turned: {lowest} m");
+    assert!(lowest < -0.0099 && sim.rebuilds() > 10, "they have turned: {lowest} m");
     assert!((p[0].position - p[1].position).norm() < 0.02 + cycle(0.005).1, "and hold");
     assert!((e.normal / cycle(0.005).0 - 1.0).abs() < 1e-9, "{} J booked", e.normal);
     assert!(e.integration.abs() < 1e-6 * e.translation, "{:e} J", e.integration);

@@ -136,10 +136,10 @@ fn twisting_is_a_spring_under_a_cap() {
     let k = 0.8 * 1e4 * 0.01 * 0.01;
     for phi in [1e-5, 1e-4, -5e-4] {
         let got = twisted(phi);
-        assert!((got.couple.z / (-k * phi) - 1.0).abs() < 1e-12, "{} N·m", got.couple.z);
+        assert!((got.torque.z / (-k * phi) - 1.0).abs() < 1e-12, "{} N·m", got.torque.z);
         assert!((got.elastic - 5e-5 - 0.5 * k * phi * phi).abs() < 1e-15);
     }
-    assert!((twisted(1.0).couple.z + 0.1 * 0.01 * 1.0).abs() < 1e-15, "the cap is μ R* F_n");
+    assert!((twisted(1.0).torque.z + 0.1 * 0.01 * 1.0).abs() < 1e-15, "the cap is μ R* F_n");
 }
 
 /// Rolling of constant size: μ_r R* F_n whatever the speed, but never more than takes an eighth of the rolling in a step; less of a body that yields
@@ -152,8 +152,8 @@ fn constant_rolling_has_one_size_and_never_turns_rolling_round() {
         contact.spin = V::new(spin, 0.0, 7.0);
         let mut load = load(Hooke { stiffness: 1e4, damping_ratio: 0.0 }, &contact);
         rolling.apply(&contact, 1e-6, &mut (), &mut load);
-        assert!((load.dissipated[2] + load.couple.x * spin * 1e-6).abs() < 1e-18, "what it takes is booked");
-        load.couple
+        assert!((load.dissipated[2] + load.torque.x * spin * 1e-6).abs() < 1e-18, "what it takes is booked");
+        load.torque
     };
     for spin in [1000.0, 1e4, -1e6] {
         let couple = couple(spin, 1.0);

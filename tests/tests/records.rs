@@ -61,9 +61,9 @@ fn work_is_carried_over_to_new_lists() {
         .collect();
     let mut sim = Simulation::new(setup).expect("sound");
     sim.record_contacts().expect("within the guards");
-    let listings = sim.listings();
+    let listings = sim.rebuilds();
     run_until(&mut sim, 0.001);
-    assert!(sim.listings() > listings + 2, "{} listings", sim.listings());
+    assert!(sim.rebuilds() > listings + 2, "{} listings", sim.rebuilds());
     let done: f64 = sim.record_contacts().expect("within the guards").iter().map(|c| c.work).sum();
     let ledger = sim.energy().expect("within the guards").sliding;
     assert!(

@@ -69,7 +69,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!(
         "{count} particles, {steps} steps, {} listed contacts, {} listings: {:.2} M particle-steps/s",
         sim.listed_contacts(),
-        sim.listings(),
+        sim.rebuilds(),
         count as f64 * steps as f64 / seconds / 1e6
     );
     let e = sim.energy()?;

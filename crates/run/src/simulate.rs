@@ -272,7 +272,7 @@ impl<W: Write> Run<W> {
         outcome.time = sim.time();
         outcome.particles = sim.particle_count();
         (outcome.listed_contacts, outcome.asleep) = (sim.listed_contacts(), sim.asleep());
-        (outcome.listings, outcome.bonds) = (sim.listings(), sim.bond_count());
+        (outcome.listings, outcome.bonds) = (sim.rebuilds(), sim.bond_count());
         let named =
             |e: &dem::EffectCost| format!("{} ({}–{}): {}", e.effect, e.between.0, e.between.1, e.because);
         outcome.effects = sim.explain().iter().map(named).collect();

@@ -341,5 +341,5 @@ fn seen_at(law: Law, speed: f64) -> (Vec<[Vec3; 3]>, u64) {
         let (a, b) = (p[0], p[1]);
         seen.push([a.position - b.position, a.velocity - b.velocity, a.spin - b.spin]);
     }
-    (seen, sim.listings())
+    (seen, sim.rebuilds())
 }

@@ -71,7 +71,7 @@ impl Effect for ConstantRolling {
         let inertia = R::splat(0.4) * contact.mass * contact.radius * contact.radius;
         let dashpot =
             (cap / square.max(R::splat(1e-300)).sqrt()).min(R::splat(SHARE / self.yielding) * inertia / dt);
-        load.couple = load.couple - rolling.scale(dashpot);
+        load.torque = load.torque - rolling.scale(dashpot);
         load.dissipated[LEDGER] = load.dissipated[LEDGER] + dashpot * square * dt;
     }
 }

@@ -30,7 +30,7 @@ pub use history::{ContactHistory, Memory, RECORDED};
 pub use hooke::{Hooke, RESTITUTION};
 pub use jkr::Jkr;
 pub use law::ContactLaw;
-pub use pair::{Ease, Elastic, Material, Meeting, Pair, damping_ratio, tangential_ratio};
+pub use pair::{Compliance, Elastic, Material, Meeting, Pair, damping_ratio, tangential_ratio};
 pub(crate) use registry::effects;
 pub use registry::{DESCRIPTIONS, Dropped, active, keys, models, needed, without};
 pub use rolling_resistance::RollingResistance;
@@ -85,7 +85,7 @@ pub struct Load<R: Lane> {
     /// F_t on i [N].
     pub tangential: V<R>,
     /// Couple on i [N·m]; j gets its opposite.
-    pub couple: V<R>,
+    pub torque: V<R>,
     /// Elastic energy in the contact [J].
     pub elastic: R,
     /// Energy dissipated in this step: by the normal law, sliding, rolling, twisting [J].
@@ -106,7 +106,7 @@ impl<R: Lane> Load<R> {
             stiffness_before: zero,
             impedance: zero,
             tangential: V::zero(),
-            couple: V::zero(),
+            torque: V::zero(),
             elastic: zero,
             dissipated: [zero; DISSIPATORS],
             lost: zero,

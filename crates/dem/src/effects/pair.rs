@@ -52,7 +52,7 @@ pub struct Pair<'a> {
     /// Constants of the materials.
     pub elastic: Elastic,
     /// How much easier the bodies of both materials yield than spheres of their mass.
-    pub ease: Ease,
+    pub ease: Compliance,
 }
 
 impl Pair<'_> {
@@ -102,7 +102,7 @@ pub struct Material {
 
 /// How much easier the easiest body of two materials yields to all its contacts than a sphere of its mass to twelve [–].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ease {
+pub struct Compliance {
     /// To contacts alone; 1 without clumps, and walls of spheres that lie deep within each other.
     pub bodies: f64,
     /// The like for the pace of tangential springs. Where bonds set it, which know nothing of the stiffness of contacts, so much that the springs are always late by

@@ -94,7 +94,7 @@ impl Effect for RollingResistance {
         };
         *theta = turned(*theta, contact);
         let pull = spring.pull(theta, rolling, dt);
-        load.couple = load.couple + pull.force;
+        load.torque = load.torque + pull.force;
         load.elastic = load.elastic + pull.elastic;
         load.dissipated[LEDGER] = load.dissipated[LEDGER] + pull.dissipated;
     }

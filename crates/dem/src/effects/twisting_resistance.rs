@@ -96,7 +96,7 @@ impl Effect for TwistingResistance {
             cap: R::splat(self.resistance) * contact.radius * load.pressing.max(R::splat(0.0)),
         };
         let pull = spring.pull(phi, contact.spin.dot(contact.normal), dt);
-        load.couple = load.couple + contact.normal.scale(pull.force);
+        load.torque = load.torque + contact.normal.scale(pull.force);
         load.elastic = load.elastic + pull.elastic;
         load.dissipated[LEDGER] = load.dissipated[LEDGER] + pull.dissipated;
     }

@@ -4,16 +4,16 @@
 //! A tile's contacts are with its own particles and with those of later tiles. So one thread alone takes both halves of a tile at once: who
 //! still reads its particles comes before it, and what it computes is in the cache when it moves.
 
-use crate::forces::tile::{Scenery, Seen};
-use crate::kernel::Common;
+use crate::forces::tile::{ContactInputs, TileInputs};
+use crate::kernel::StepInputs;
 use crate::kernel::sums::Sums;
 use crate::model::Model;
 use crate::neighbours::NeighbourLists;
 use crate::neighbours::poses::pose_in_box;
-use crate::neighbours::resting::Still;
-use crate::neighbours::slices::Part;
-use crate::passes::bonds::pull::pull_bonds;
-use crate::passes::integrate::{Columns, Drive, Moved, advance};
+use crate::neighbours::resting::RestingTile;
+use crate::neighbours::slices::TileSlice;
+use crate::passes::bonds::pull::add_bond_forces;
+use crate::passes::integrate::{MoveFlags, MoveInputs, ParticleSlices, advance};
 use crate::passes::sleep::advance_awake;
 use crate::simd::{Row, Row4};
 use crate::state::State;
@@ -25,39 +25,39 @@ use std::ops::Range;
 
 /// What a pass found.
 #[derive(Clone, Default)]
-pub struct Found {
+pub struct StepFlags {
     /// Segments in which an overlap passes its limit.
     pub deep: Vec<Range<usize>>,
     /// Of the particles that moved.
-    pub moved: Moved,
+    pub moved: MoveFlags,
 }
 
 /// Forces of this instant; the wrench of each contact is kept for observers.
-pub fn forces(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> Found {
+pub fn forces(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> StepFlags {
     let deep = compute(model, state, lists, true);
-    pull_bonds(model, state);
+    add_bond_forces(model, state);
     let moved = finish(model, state, lists, Ends { collects: true, moves: false });
-    Found { deep, moved }
+    StepFlags { deep, moved }
 }
 
 /// Forces of this instant, unless they are known, and the move.
-pub fn forces_and_move(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> Found {
+pub fn forces_and_move(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> StepFlags {
     if state.current {
         let moved = finish(model, state, lists, Ends { collects: false, moves: true });
-        return Found { deep: Vec::new(), moved };
+        return StepFlags { deep: Vec::new(), moved };
     }
-    if goes_in_turn(state) {
-        return step_in_turn(model, state, lists);
+    if is_sequential(state) {
+        return step_tile_by_tile(model, state, lists);
     }
     let deep = compute(model, state, lists, false);
-    pull_bonds(model, state);
+    add_bond_forces(model, state);
     let moved = finish(model, state, lists, Ends { collects: true, moves: true });
-    Found { deep, moved }
+    StepFlags { deep, moved }
 }
 
 /// Sums of wrenches that were computed before.
 pub fn recall(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
-    add_again(model, state, lists);
+    sum_kept_wrenches(model, state, lists);
     finish(model, state, lists, Ends { collects: true, moves: false });
 }
 
@@ -73,8 +73,8 @@ struct Ends {
 /// Loads of all contacts, and their sums within tiles; the segments in which an overlap passes its limit. `looks`: the load of each contact
 /// is kept.
 fn compute(model: &Model, state: &State, lists: &mut NeighbourLists, looks: bool) -> Vec<Range<usize>> {
-    lists.contacts.keep_each(looks && lists.records || state.keeps_each());
-    for_tiles(model, state, lists, |part, still, seen, sums| match still {
+    lists.contacts.keep_wrenches(looks && lists.records || state.keeps_wrenches());
+    for_each_tile(model, state, lists, |part, still, seen, sums| match still {
         Some(still) => still.compute(part, seen, sums),
         None => {
             sums.clear();
@@ -84,8 +84,8 @@ fn compute(model: &Model, state: &State, lists: &mut NeighbourLists, looks: bool
 }
 
 /// Sums within tiles of loads that were computed before.
-fn add_again(model: &Model, state: &State, lists: &mut NeighbourLists) {
-    for_tiles(model, state, lists, |part, still, seen, sums| {
+fn sum_kept_wrenches(model: &Model, state: &State, lists: &mut NeighbourLists) {
+    for_each_tile(model, state, lists, |part, still, seen, sums| {
         match still {
             Some(still) => still.recall(part, seen, sums),
             None => {
@@ -98,22 +98,22 @@ fn add_again(model: &Model, state: &State, lists: &mut NeighbourLists) {
 }
 
 /// Does something with each segment of images, and with each tile, what rests there, and its sums; the segments of those that say so.
-fn for_tiles(
+fn for_each_tile(
     model: &Model,
     state: &State,
     lists: &mut NeighbourLists,
-    each: impl Fn(&mut Part, Option<&mut Still>, Seen, &mut Sums) -> bool + Sync,
+    each: impl Fn(&mut TileSlice, Option<&mut RestingTile>, TileInputs, &mut Sums) -> bool + Sync,
 ) -> Vec<Range<usize>> {
     let poses = poses(model, state, lists);
     let contacts = &mut lists.contacts;
     let (period, form, many) = (model.period(), contacts.form, state.particles.len() >= FEW);
     let Particles { rows, spins, .. } = &state.particles;
     let spins = if state.particles.rotates() { &spins[..] } else { &[] };
-    let common = Common { dt: model.dt, overlap_limit: model.setup.guards.overlap, rows, spins, form };
+    let common = StepInputs { dt: model.dt, overlap_limit: model.setup.guards.overlap, rows, spins, form };
     let known = state.sleepers.as_ref().map(Sleepers::known);
     let (kinds, walls, width) = (&model.kinds, &model.walls, model.width);
-    let scenery = Scenery { kinds, walls, poses: &poses, period, width, common, known };
-    let (lists, part, mut sums, stills) = contacts.parts();
+    let inputs = ContactInputs { kinds, walls, poses: &poses, period, width, common, known };
+    let (lists, part, mut sums, resting_tiles) = contacts.parts();
     let (mut images, mut rest) = part.split(lists.tiles[0]);
     let mut items = Vec::with_capacity(images.segments.len() + lists.tiles.len());
     while !images.segments.is_empty() {
@@ -121,14 +121,14 @@ fn for_tiles(
         images = others;
         items.push((one, None, Sums::default()));
     }
-    let mut stills = stills.iter_mut();
+    let mut resting_tiles = resting_tiles.iter_mut();
     for segments in lists.tiles.windows(2) {
         let (one, others) = rest.split(segments[1] - segments[0]);
         let (mine, next) = sums.split(lists.tile);
         (rest, sums) = (others, next);
-        items.push((one, stills.next(), mine));
+        items.push((one, resting_tiles.next(), mine));
     }
-    let run = |(mut part, still, mut sums)| each(&mut part, still, (&lists, &scenery), &mut sums);
+    let run = |(mut part, still, mut sums)| each(&mut part, still, (&lists, &inputs), &mut sums);
     let said = share(many, items, run);
     let tiles = lists.tiles.windows(2).map(|s| s[0]..s[1]);
     let segments = (0..lists.tiles[0]).map(|image| image..image + 1).chain(tiles);
@@ -136,28 +136,30 @@ fn for_tiles(
 }
 
 /// Whether tiles are stepped one after the other: one thread, and nothing that is to be done between the halves.
-fn goes_in_turn(state: &State) -> bool {
+fn is_sequential(state: &State) -> bool {
     let alone = state.particles.len() < FEW || rayon::current_num_threads() == 1;
     alone && state.bonds.none() && state.sleepers.is_none()
 }
 
 /// Both halves of each tile at once.
-fn step_in_turn(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> Found {
+fn step_tile_by_tile(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> StepFlags {
     let form = lists.contacts.form;
-    lists.contacts.keep_each(state.keeps_each());
-    note_rows(model, state, lists);
+    lists.contacts.keep_wrenches(state.keeps_wrenches());
+    keep_rows(model, state, lists);
     let (poses, period, drive) = (poses(model, state, lists), model.period(), drive(model));
     let contacts = &mut lists.contacts;
     let Particles { rows, spins, acceleration, turning, home, .. } = &mut state.particles;
     let (kinds, walls, width) = (&model.kinds, &model.walls, model.width);
     let (lists, mut part, mut sums, _) = contacts.parts();
-    let mut found = Found::default();
-    let compute = |segments: Range<usize>, rows: &[Row], spins: &[Row4], part: &mut Part, sums: &mut Sums| {
-        let common = Common { dt: model.dt, overlap_limit: model.setup.guards.overlap, rows, spins, form };
-        let scenery = Scenery { kinds, walls, poses: &poses, period, width, common, known: None };
-        let deep = segments.clone().fold(false, |any, k| any | part.compute(k, (&lists, &scenery), sums));
-        deep.then_some(segments)
-    };
+    let mut found = StepFlags::default();
+    let compute =
+        |segments: Range<usize>, rows: &[Row], spins: &[Row4], part: &mut TileSlice, sums: &mut Sums| {
+            let common =
+                StepInputs { dt: model.dt, overlap_limit: model.setup.guards.overlap, rows, spins, form };
+            let inputs = ContactInputs { kinds, walls, poses: &poses, period, width, common, known: None };
+            let deep = segments.clone().fold(false, |any, k| any | part.compute(k, (&lists, &inputs), sums));
+            deep.then_some(segments)
+        };
     found.deep.extend(compute(0..lists.tiles[0], rows, spins, &mut part, &mut Sums::default()));
     for (tile, segments) in lists.tiles.windows(2).enumerate() {
         let (mut mine, others) = sums.split(lists.tile);
@@ -167,7 +169,7 @@ fn step_in_turn(model: &Model, state: &mut State, lists: &mut NeighbourLists) ->
         mine.collect(lists.arriving(tile), part.kept());
         let (first, count) = (mine.first, mine.len());
         let (all, turn) = (first..first + count, if spins.is_empty() { 0..0 } else { first..first + count });
-        let columns = Columns {
+        let columns = ParticleSlices {
             first,
             rows: &mut rows[all.clone()],
             spins: &mut spins[turn.clone()],
@@ -175,7 +177,7 @@ fn step_in_turn(model: &Model, state: &mut State, lists: &mut NeighbourLists) ->
             turning: &mut turning[turn],
             home: &home[all],
             sums: mine,
-            beds: None,
+            sleeper_slices: None,
         };
         found.moved = found.moved.and(advance(width, columns, &drive));
     }
@@ -184,15 +186,15 @@ fn step_in_turn(model: &Model, state: &mut State, lists: &mut NeighbourLists) ->
 }
 
 /// Notes where particles are before they move; a fluid asks for that.
-fn note_rows(model: &Model, state: &State, lists: &mut NeighbourLists) {
+fn keep_rows(model: &Model, state: &State, lists: &mut NeighbourLists) {
     if model.setup.drag.is_some() {
         lists.before.clone_from(&state.particles.rows);
     }
 }
 
-fn drive(model: &Model) -> Drive {
+fn drive(model: &Model) -> MoveInputs {
     let g = model.setup.gravity;
-    Drive { dt: model.dt, gravity: [g.x, g.y, g.z], motion_limit: model.setup.guards.motion }
+    MoveInputs { dt: model.dt, gravity: [g.x, g.y, g.z], motion_limit: model.setup.guards.motion }
 }
 
 /// Second half: adds what arrives at each tile from others, and moves its particles, where that is to be done.
@@ -201,19 +203,20 @@ fn finish(
     state: &mut State,
     lists: &mut NeighbourLists,
     Ends { collects, moves }: Ends,
-) -> Moved {
+) -> MoveFlags {
     if moves {
-        note_rows(model, state, lists);
+        keep_rows(model, state, lists);
     }
     let drive = drive(model);
     let Particles { rows, acceleration, spins, turning, home, .. } = &mut state.particles;
     let (count, many) = (acceleration.len(), acceleration.len() >= FEW);
     let contacts = &mut lists.contacts;
-    let (lists, part, sums, stills) = contacts.parts();
+    let (lists, part, sums, resting_tiles) = contacts.parts();
     let (rows, rotating) = (&mut rows[..count], if spins.is_empty() { 0 } else { count });
     let spins = &mut spins[..rotating];
-    let beds = state.sleepers.as_mut().map(|s| s.beds(state.zones.busy()));
-    let mut columns = Columns { first: 0, rows, spins, acceleration, turning, home, sums, beds };
+    let sleeper_slices = state.sleepers.as_mut().map(|s| s.sleeper_slices(state.zones.busy()));
+    let mut columns =
+        ParticleSlices { first: 0, rows, spins, acceleration, turning, home, sums, sleeper_slices };
     let mut items = Vec::with_capacity(lists.tiles.len());
     for tile in 0..lists.tiles.len() - 1 {
         let (mine, others) = columns.split((tile + 1) * lists.tile);
@@ -226,13 +229,17 @@ fn finish(
             columns.sums.collect(lists.arriving(tile), part.kept());
             bonds.add(&mut columns.sums);
         }
-        if moves { advance_awake(width, columns, &drive, &lists, stills.get(tile)) } else { Moved::default() }
+        if moves {
+            advance_awake(width, columns, &drive, &lists, resting_tiles.get(tile))
+        } else {
+            MoveFlags::default()
+        }
     });
     if moves {
         // Until now: sleepers are looked at after each listing.
         contacts.new = false;
     }
-    moved.into_iter().fold(Moved::default(), Moved::and)
+    moved.into_iter().fold(MoveFlags::default(), MoveFlags::and)
 }
 
 /// Where walls are now.
@@ -243,8 +250,8 @@ fn poses(model: &Model, state: &State, lists: &NeighbourLists) -> Vec<Pose> {
 
 /// Contact points of images and walls, without loads.
 pub fn find_contact_points(model: &Model, state: &State, lists: &mut NeighbourLists) {
-    for_tiles(model, state, lists, |part, _, (lists, scenery), _| {
-        part.segments.iter().for_each(|s| part.renew(s, lists, scenery));
+    for_each_tile(model, state, lists, |part, _, (lists, inputs), _| {
+        part.segments.iter().for_each(|s| part.refresh(s, lists, inputs));
         false
     });
 }

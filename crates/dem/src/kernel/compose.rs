@@ -61,7 +61,7 @@ fn precise<E: Effect>(precision: Precision, effects: E) -> Box<dyn Kernel> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::effects::Ease;
+    use crate::effects::Compliance;
     use crate::effects::Material;
 
     /// Every law that a scene can ask for: each normal law with each choice of effects for the other slots.
@@ -93,7 +93,7 @@ mod tests {
         let elastic = Elastic::of(&material, &material);
         assert!(laws().len() > 70, "{}", laws().len());
         for law in laws() {
-            let pair = Pair { law: &law, elastic, ease: Ease { bodies: 1.0, springs: 1.0 } };
+            let pair = Pair { law: &law, elastic, ease: Compliance { bodies: 1.0, springs: 1.0 } };
             let kernel = compose(&pair, Precision::Double);
             let flips = active(&law).flat_map(|d| d.history);
             let flips = flips.flat_map(|field| vec![field.kind == Kind::Vector; field.kind.columns()]);
@@ -101,7 +101,7 @@ mod tests {
             assert_eq!(found, flips.collect::<Vec<_>>(), "{law:?}");
             let has = |slot: Slot| active(&law).any(|d| d.slot == slot);
             assert_eq!(kernel.rotates(), has(Slot::Sliding), "{law:?}");
-            assert_eq!(kernel.couples(), has(Slot::Rolling) || has(Slot::Twisting), "{law:?}");
+            assert_eq!(kernel.torques(), has(Slot::Rolling) || has(Slot::Twisting), "{law:?}");
         }
     }
 

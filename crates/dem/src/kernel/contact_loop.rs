@@ -3,10 +3,10 @@
 //! Every function is inlined into the loop that is compiled for wide registers, always; a closure or a function that is not calls out for each
 //! operation and takes several times as long.
 
-use super::{Common, LEDGER, LOST, Task};
+use super::{Batch, LEDGER, LOST, StepInputs};
 use crate::effects::{Contact, Effect, Load, Memory};
 use crate::simd::number::{COUPLE, FORCE, FORCE_AND_MOMENT, Number};
-use crate::simd::{BLOCK, Lane, Places, Row, Row4, V, fetch};
+use crate::simd::{BLOCK, Indices, Lane, Row, Row4, V, fetch};
 
 /// Blocks between one whose rows are asked for and the one that is computed; chosen on the bench pile.
 const AHEAD: usize = 4;
@@ -14,12 +14,14 @@ const AHEAD: usize = 4;
 #[inline(always)]
 pub fn blocks<R: Lane, E: Effect, T: Number, const KEEP: bool>(
     e: &E,
-    common: Common,
-    mut task: Task,
+    common: StepInputs,
+    mut task: Batch,
 ) -> bool {
     let mut too_deep = false;
-    let mut hand: Hand<T> =
-        Hand { loads: [T::default(); BLOCK * FORCE_AND_MOMENT], couples: [T::default(); BLOCK * COUPLE] };
+    let mut hand: WrenchBuffer<T> = WrenchBuffer {
+        loads: [T::default(); BLOCK * FORCE_AND_MOMENT],
+        torques: [T::default(); BLOCK * COUPLE],
+    };
     for block in 0..task.active.len() {
         // Rows of partners come from far: they are asked for while other blocks are computed.
         let soon = (block + AHEAD) * BLOCK;
@@ -46,9 +48,9 @@ pub fn blocks<R: Lane, E: Effect, T: Number, const KEEP: bool>(
 #[inline(always)]
 fn lanes<R: Lane, E: Effect, T: Number, const KEEP: bool>(
     effect: &E,
-    common: &Common,
-    task: &mut Task,
-    hand: &mut Hand<T>,
+    common: &StepInputs,
+    task: &mut Batch,
+    hand: &mut WrenchBuffer<T>,
     (block, lane, was_active): (usize, usize, bool),
 ) -> (bool, bool) {
     let at = block * BLOCK + lane;
@@ -83,8 +85,8 @@ fn lanes<R: Lane, E: Effect, T: Number, const KEEP: bool>(
 
 /// What is read of both ends: differences in double precision, rounded to the lane's.
 struct Ends<'a, R: Lane> {
-    i: Places<'a>,
-    j: Places<'a>,
+    i: Indices<'a>,
+    j: Indices<'a>,
     /// x_i − x_j [m].
     apart: V<R::Wide>,
     /// Radii [m].
@@ -101,12 +103,12 @@ struct Ends<'a, R: Lane> {
 
 /// Reads the rows of both ends.
 #[inline(always)]
-fn gather<'a, R: Lane, E: Effect>(common: &Common, task: &Task<'a>, at: usize) -> Ends<'a, R> {
+fn gather<'a, R: Lane, E: Effect>(common: &StepInputs, task: &Batch<'a>, at: usize) -> Ends<'a, R> {
     let (i, j) = (&task.i[at..at + R::WIDTH], &task.j[at..at + R::WIDTH]);
     let rows =
         |table: (&[Row], &[Row4])| if E::ROTATES { table.0.len().min(table.1.len()) } else { table.0.len() };
     let (i, j) =
-        (Places::within(i, rows((common.rows, common.spins))), Places::within(j, rows(task.partners)));
+        (Indices::within(i, rows((common.rows, common.spins))), Indices::within(j, rows(task.partners)));
     let [xi, yi, zi, ri, ui, vi, wi, inverse_mi] = R::Wide::rows(common.rows, i);
     let [xj, yj, zj, rj, uj, vj, wj, inverse_mj] = R::Wide::rows(task.partners.0, j);
     let (apart, reach) = (V::new(xi - xj, yi - yj, zi - zj), ri + rj);
@@ -133,7 +135,7 @@ struct Geometry<R: Lane> {
 
 /// Normal, overlap, and how the surfaces move past each other.
 #[inline(always)]
-fn geometry<R: Lane, E: Effect>(common: &Common, task: &Task, ends: Ends<R>) -> Geometry<R> {
+fn geometry<R: Lane, E: Effect>(common: &StepInputs, task: &Batch, ends: Ends<R>) -> Geometry<R> {
     let zero = R::splat(0.0);
     let [ri, rj] = ends.radii;
     let (apart, reach, distance) = (V::narrow(ends.apart), R::narrow(ri + rj), R::narrow(ends.square).sqrt());
@@ -182,9 +184,9 @@ fn geometry<R: Lane, E: Effect>(common: &Common, task: &Task, ends: Ends<R>) -> 
 /// Adds force, moment and torque to both ends, and keeps them where they are wanted; the force [N].
 #[inline(always)]
 fn scatter<R: Lane, E: Effect, T: Number>(
-    common: &Common,
-    task: &mut Task,
-    hand: &mut Hand<T>,
+    common: &StepInputs,
+    task: &mut Batch,
+    hand: &mut WrenchBuffer<T>,
     at: usize,
     found: &Geometry<R>,
     load: &Load<R>,
@@ -192,8 +194,8 @@ fn scatter<R: Lane, E: Effect, T: Number>(
     let (zero, Contact { touching, normal, .. }) = (R::splat(0.0), found.contact);
     let force = V::select(touching, normal.scale(load.normal) + load.tangential, V::zero());
     if E::COUPLES {
-        let c = V::select(touching, load.couple, V::zero());
-        T::store_rows4([c.x, c.y, c.z, zero], &mut hand.couples);
+        let c = V::select(touching, load.torque, V::zero());
+        T::store_rows4([c.x, c.y, c.z, zero], &mut hand.torques);
     }
     if E::ROTATES {
         // Of a particle of radius −1: each takes it times minus its own.
@@ -215,7 +217,7 @@ fn scatter<R: Lane, E: Effect, T: Number>(
 /// Energies of a contact in the step: see [`LEDGER`].
 #[inline(always)]
 fn ledger_row<R: Lane, E: Effect>(
-    common: &Common,
+    common: &StepInputs,
     found: &Geometry<R>,
     load: &Load<R>,
     force: V<R>,
@@ -224,7 +226,7 @@ fn ledger_row<R: Lane, E: Effect>(
     let (zero, touching) = (R::splat(0.0), found.contact.touching);
     let [a, b, c, d] = load.dissipated;
     // Work of j's surface on i; only walls' is added up.
-    let surface = (found.surface.dot(force) + load.couple.dot(found.turning)) * R::splat(common.dt);
+    let surface = (found.surface.dot(force) + load.torque.dot(found.turning)) * R::splat(common.dt);
     let mut row = [
         R::select(touching, load.elastic, zero),
         R::select(touching, a, zero),
@@ -245,23 +247,23 @@ fn ledger_row<R: Lane, E: Effect>(
 
 /// What some contacts have just been found to do.
 #[repr(align(64))]
-struct Hand<T> {
+struct WrenchBuffer<T> {
     loads: [T; BLOCK * FORCE_AND_MOMENT],
-    couples: [T; BLOCK * COUPLE],
+    torques: [T; BLOCK * COUPLE],
 }
 
-impl<T: Number> Hand<T> {
+impl<T: Number> WrenchBuffer<T> {
     /// Hands the loads (of `N` numbers) of `width` contacts from place `at` on to their particles, and to who wants to see them.
     #[inline(always)]
-    fn over<const N: usize>(&self, task: &mut Task, at: usize, width: usize, couples: bool) {
+    fn over<const N: usize>(&self, task: &mut Batch, at: usize, width: usize, torques: bool) {
         let pairs = (&task.i[at..at + width], &task.j[at..at + width]);
         let loads = &self.loads[..width * N];
-        let couples = if couples { &self.couples[..width * COUPLE] } else { &[] };
-        task.sums.take::<T, N>(pairs, task.both, (loads, couples));
+        let torques = if torques { &self.torques[..width * COUPLE] } else { &[] };
+        task.sums.take::<T, N>(pairs, task.both, (loads, torques));
         keep(task.kept.0, at * N, loads);
-        keep(task.kept.1, at * COUPLE, couples);
+        keep(task.kept.1, at * COUPLE, torques);
         keep(task.each.0, at * N, loads);
-        keep(task.each.1, at * COUPLE, couples);
+        keep(task.each.1, at * COUPLE, torques);
     }
 }
 

@@ -6,7 +6,7 @@ pub(crate) mod sums;
 
 use crate::effects::{Effect, Memory};
 use crate::kernel::sums::Sums;
-use crate::simd::number::{Form, Number};
+use crate::simd::number::{Layout, Number};
 use crate::simd::{Lane, Row, Row4, Width};
 use std::marker::PhantomData;
 
@@ -28,7 +28,7 @@ pub const LOST: usize = 6;
 
 /// What all contacts share in one step.
 #[derive(Clone, Copy)]
-pub struct Common<'a> {
+pub struct StepInputs<'a> {
     /// Δt [s].
     pub dt: f64,
     /// Largest overlap over the smaller radius [–].
@@ -38,11 +38,11 @@ pub struct Common<'a> {
     /// Particle spins; empty without rotation.
     pub spins: &'a [Row4],
     /// How loads and memory are kept.
-    pub form: Form,
+    pub form: Layout,
 }
 
 /// Some blocks of one interaction.
-pub struct Task<'a> {
+pub struct Batch<'a> {
     /// Rows and spins that `j` points into: the particles' own, or a wall's contact points.
     pub partners: (&'a [Row], &'a [Row4]),
     /// First particle of each contact; whole blocks.
@@ -74,9 +74,9 @@ pub trait Kernel: Send + Sync {
     /// Whether it turns particles.
     fn rotates(&self) -> bool;
     /// Whether it makes couples.
-    fn couples(&self) -> bool;
+    fn torques(&self) -> bool;
     /// Computes the loads of some blocks; true when an overlap passes the limit.
-    fn run(&self, width: Width, common: Common, task: Task) -> bool;
+    fn run(&self, width: Width, common: StepInputs, task: Batch) -> bool;
 }
 
 impl<E: Effect> Kernel for E {
@@ -89,10 +89,10 @@ impl<E: Effect> Kernel for E {
     fn rotates(&self) -> bool {
         E::ROTATES
     }
-    fn couples(&self) -> bool {
+    fn torques(&self) -> bool {
         E::COUPLES
     }
-    fn run(&self, width: Width, common: Common, task: Task) -> bool {
+    fn run(&self, width: Width, common: StepInputs, task: Batch) -> bool {
         match task.ledger.is_empty() {
             true => dispatch::<E, false>(self, width, common, task),
             false => dispatch::<E, true>(self, width, common, task),
@@ -121,10 +121,10 @@ impl<E: Effect, T: Number> Kernel for Narrow<E, T> {
     fn rotates(&self) -> bool {
         self.0.rotates()
     }
-    fn couples(&self) -> bool {
-        self.0.couples()
+    fn torques(&self) -> bool {
+        self.0.torques()
     }
-    fn run(&self, width: Width, common: Common, task: Task) -> bool {
+    fn run(&self, width: Width, common: StepInputs, task: Batch) -> bool {
         match task.ledger.is_empty() {
             true => dispatch_narrow::<E, T, false>(&self.0, width, common, task),
             false => dispatch_narrow::<E, T, true>(&self.0, width, common, task),
@@ -135,8 +135,8 @@ impl<E: Effect, T: Number> Kernel for Narrow<E, T> {
 fn dispatch_narrow<E: Effect, T: Number, const KEEP: bool>(
     e: &E,
     width: Width,
-    common: Common,
-    task: Task,
+    common: StepInputs,
+    task: Batch,
 ) -> bool {
     match width {
         #[cfg(target_arch = "x86_64")]
@@ -147,7 +147,7 @@ fn dispatch_narrow<E: Effect, T: Number, const KEEP: bool>(
     }
 }
 
-fn dispatch<E: Effect, const KEEP: bool>(effect: &E, width: Width, common: Common, task: Task) -> bool {
+fn dispatch<E: Effect, const KEEP: bool>(effect: &E, width: Width, common: StepInputs, task: Batch) -> bool {
     match width {
         #[cfg(target_arch = "x86_64")]
         Width::Avx512 => simd::avx512::<X8, E, f64, KEEP>(effect, common, task),
@@ -165,20 +165,32 @@ mod simd {
 
     pub fn avx512<R: Lane, E: Effect, T: Number, const KEEP: bool>(
         e: &E,
-        common: Common,
-        task: Task,
+        common: StepInputs,
+        task: Batch,
     ) -> bool {
         #[target_feature(enable = "avx512f,avx512dq,avx2")]
-        fn inner<R: Lane, E: Effect, T: Number, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
+        fn inner<R: Lane, E: Effect, T: Number, const KEEP: bool>(
+            e: &E,
+            common: StepInputs,
+            task: Batch,
+        ) -> bool {
             contact_loop::blocks::<R, E, T, KEEP>(e, common, task)
         }
         // SAFETY: `Width::Avx512` is only made where the processor has these features.
         unsafe { inner::<R, E, T, KEEP>(e, common, task) }
     }
 
-    pub fn avx2<R: Lane, E: Effect, T: Number, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
+    pub fn avx2<R: Lane, E: Effect, T: Number, const KEEP: bool>(
+        e: &E,
+        common: StepInputs,
+        task: Batch,
+    ) -> bool {
         #[target_feature(enable = "avx2")]
-        fn inner<R: Lane, E: Effect, T: Number, const KEEP: bool>(e: &E, common: Common, task: Task) -> bool {
+        fn inner<R: Lane, E: Effect, T: Number, const KEEP: bool>(
+            e: &E,
+            common: StepInputs,
+            task: Batch,
+        ) -> bool {
             contact_loop::blocks::<R, E, T, KEEP>(e, common, task)
         }
         // SAFETY: `Width::Avx2` is only made where the processor has these features.

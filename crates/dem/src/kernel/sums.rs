@@ -5,7 +5,7 @@
 //! tile has its turn: of images across periodic faces, and of earlier tiles. The order depends on the lists alone, so that no sum depends
 //! on threads.
 
-use crate::simd::number::{COUPLE, FORCE, Form, Number, as_kept, of_a_load};
+use crate::simd::number::{COUPLE, FORCE, Layout, Number, as_kept, of_a_load};
 use crate::simd::scalar::Each;
 use crate::simd::{Four, fetch};
 
@@ -38,7 +38,7 @@ fn add_opposite<T: Number, const N: usize>(sums: &mut [T], at: usize, load: &[T]
 }
 
 /// Words of the loads and couples (empty where no effect makes any) of some contacts, or of the sums of some particles.
-pub type Computed<'a> = (&'a [f64], &'a [f64]);
+pub type WrenchSlices<'a> = (&'a [f64], &'a [f64]);
 
 /// A load that arrives at a tile from elsewhere.
 #[derive(Debug, Clone, Copy)]
@@ -55,32 +55,32 @@ pub struct Sums<'a> {
     /// Number of the first particle.
     pub first: usize,
     /// How they are kept.
-    pub form: Form,
+    pub form: Layout,
     /// Words of loads.
     pub loads: &'a mut [f64],
     /// Words of couples; empty where no effect makes any.
-    pub couples: &'a mut [f64],
+    pub torques: &'a mut [f64],
 }
 
 impl<'a> Sums<'a> {
     /// The same, for a while.
     pub fn by_ref(&mut self) -> Sums<'_> {
-        Sums { first: self.first, form: self.form, loads: self.loads, couples: self.couples }
+        Sums { first: self.first, form: self.form, loads: self.loads, torques: self.torques }
     }
 
     /// The first `n` particles, if there are so many, and the others.
     pub fn split(self, n: usize) -> (Sums<'a>, Sums<'a>) {
-        let Sums { first, form, loads, couples } = self;
+        let Sums { first, form, loads, torques } = self;
         let (loads, loads2) = loads.split_at_mut((n * form.load()).min(loads.len()));
-        let (couples, couples2) = couples.split_at_mut((n * form.couple()).min(couples.len()));
-        let two = Sums { first: first + n, form, loads: loads2, couples: couples2 };
-        (Sums { first, form, loads, couples }, two)
+        let (torques, couples2) = torques.split_at_mut((n * form.torque()).min(torques.len()));
+        let two = Sums { first: first + n, form, loads: loads2, torques: couples2 };
+        (Sums { first, form, loads, torques }, two)
     }
 
     /// Begins anew.
     pub fn clear(&mut self) {
         self.loads.fill(0.0);
-        self.couples.fill(0.0);
+        self.torques.fill(0.0);
     }
 
     /// Number of particles.
@@ -89,9 +89,9 @@ impl<'a> Sums<'a> {
     }
 
     /// Begins with these.
-    pub fn put(&mut self, (loads, couples): &(Vec<f64>, Vec<f64>)) {
+    pub fn put(&mut self, (loads, torques): &(Vec<f64>, Vec<f64>)) {
         self.loads.copy_from_slice(loads);
-        self.couples.copy_from_slice(couples);
+        self.torques.copy_from_slice(torques);
     }
 
     /// Adds the loads (of `N` numbers) and couples (or none) of contacts between particles i and j: to i, and if `both` to j; to none
@@ -101,7 +101,7 @@ impl<'a> Sums<'a> {
         &mut self,
         (i, j): (&[u32], &[u32]),
         both: bool,
-        (loads, couples): (&[T], &[T]),
+        (loads, torques): (&[T], &[T]),
     ) {
         let first = self.first as u32;
         let at = |k: u32| k.wrapping_sub(first) as usize;
@@ -112,30 +112,30 @@ impl<'a> Sums<'a> {
                 add_opposite::<T, N>(sums, at(j), load);
             }
         }
-        let sums = T::of_mut(self.couples);
-        for ((&i, &j), couple) in i.iter().zip(j).zip(couples.as_chunks::<COUPLE>().0) {
-            add::<T, COUPLE>(sums, at(i), couple);
+        let sums = T::of_mut(self.torques);
+        for ((&i, &j), torque) in i.iter().zip(j).zip(torques.as_chunks::<COUPLE>().0) {
+            add::<T, COUPLE>(sums, at(i), torque);
             if both {
-                add_opposite::<T, COUPLE>(sums, at(j), couple);
+                add_opposite::<T, COUPLE>(sums, at(j), torque);
             }
         }
     }
 
     /// Adds what was computed before.
-    pub fn take_again(&mut self, pairs: (&[u32], &[u32]), both: bool, (loads, couples): Computed) {
+    pub fn take_again(&mut self, pairs: (&[u32], &[u32]), both: bool, (loads, torques): WrenchSlices) {
         as_kept!(self.form, T, ROTATES => {
-            self.take::<T, { of_a_load(ROTATES) }>(pairs, both, (T::of(loads), T::of(couples)));
+            self.take::<T, { of_a_load(ROTATES) }>(pairs, both, (T::of(loads), T::of(torques)));
         });
     }
 
     /// Adds what arrives from elsewhere.
-    pub fn collect(&mut self, arrivals: &[Arrival], kept: Computed) {
+    pub fn collect(&mut self, arrivals: &[Arrival], kept: WrenchSlices) {
         as_kept!(self.form, T, ROTATES => self.collect_rows::<T, { of_a_load(ROTATES) }>(arrivals, kept));
     }
 
-    fn collect_rows<T: Number, const N: usize>(&mut self, arrivals: &[Arrival], kept: Computed) {
-        let (loads, couples) = (T::of(kept.0), T::of(kept.1));
-        let (sums, sums2) = (T::of_mut(self.loads), T::of_mut(self.couples));
+    fn collect_rows<T: Number, const N: usize>(&mut self, arrivals: &[Arrival], kept: WrenchSlices) {
+        let (loads, torques) = (T::of(kept.0), T::of(kept.1));
+        let (sums, sums2) = (T::of_mut(self.loads), T::of_mut(self.torques));
         for (n, &Arrival { from, particle }) in arrivals.iter().enumerate() {
             if let Some(soon) = arrivals.get(n + AHEAD) {
                 fetch(loads.as_chunks::<N>().0, (soon.from >> 1) as usize);
@@ -143,22 +143,22 @@ impl<'a> Sums<'a> {
             let (place, second) = ((from >> 1) as usize, from & 1 == 1);
             let at = particle as usize - self.first;
             let load = loads.get(place * N..).unwrap_or_default();
-            let couple = couples.get(place * COUPLE..).unwrap_or_default();
+            let torque = torques.get(place * COUPLE..).unwrap_or_default();
             if second {
                 add_opposite::<T, N>(sums, at, load);
-                add_opposite::<T, COUPLE>(sums2, at, couple);
+                add_opposite::<T, COUPLE>(sums2, at, torque);
             } else {
                 add::<T, N>(sums, at, load);
-                add::<T, COUPLE>(sums2, at, couple);
+                add::<T, COUPLE>(sums2, at, torque);
             }
         }
     }
 
     /// Adds to the force [N] and couple [N·m] on the particle after `k` others of these.
-    pub fn add(&mut self, k: usize, force: [f64; 3], couple: [f64; 3]) {
+    pub fn add(&mut self, k: usize, force: [f64; 3], torque: [f64; 3]) {
         let form = self.form;
         for (words, size, by) in
-            [(&mut *self.loads, form.load(), force), (&mut *self.couples, form.couple(), couple)]
+            [(&mut *self.loads, form.load(), force), (&mut *self.torques, form.torque(), torque)]
         {
             let own = &mut words[k * size..(k + 1) * size];
             (0..3).for_each(|axis| form.put(own, axis, form.get(own, axis) + by[axis]));
@@ -166,20 +166,20 @@ impl<'a> Sums<'a> {
     }
 
     /// As they are.
-    pub fn seen(&self) -> Loads<'_> {
-        Loads { first: self.first, form: self.form, sums: (self.loads, self.couples) }
+    pub fn seen(&self) -> WrenchSums<'_> {
+        WrenchSums { first: self.first, form: self.form, sums: (self.loads, self.torques) }
     }
 }
 
 /// Sums of the loads on some particles.
 #[derive(Clone, Copy)]
-pub struct Loads<'a> {
+pub struct WrenchSums<'a> {
     /// Number of the first particle.
     pub first: usize,
     /// How they are kept.
-    pub form: Form,
+    pub form: Layout,
     /// Sums.
-    pub sums: Computed<'a>,
+    pub sums: WrenchSlices<'a>,
 }
 
 /// Force [N] and moment [N·m]; the fourth number of each means nothing.
@@ -189,17 +189,17 @@ pub struct Sum<Q> {
     pub moment: Q,
 }
 
-impl Loads<'_> {
+impl WrenchSums<'_> {
     /// On the particle after `k` others of `radius` [m].
     #[inline(always)]
     pub fn sum<T: Number, Q: Four, const SPIN: bool>(&self, k: usize, radius: f64) -> Sum<Q> {
-        let (sums, couples) = (T::of(self.sums.0).as_chunks::<4>().0, T::of(self.sums.1).as_chunks::<4>().0);
+        let (sums, torques) = (T::of(self.sums.0).as_chunks::<4>().0, T::of(self.sums.1).as_chunks::<4>().0);
         let read = |row: &[T; 4]| Q::read(&[row[0].wide(), row[1].wide(), row[2].wide(), row[3].wide()]);
         if !SPIN {
             return Sum { force: read(&sums[k]), moment: Q::all(0.0) };
         }
-        let couple = couples.get(k).map_or(Q::all(0.0), read);
-        Sum { force: read(&sums[2 * k]), moment: couple - Q::all(radius) * read(&sums[2 * k + 1]) }
+        let torque = torques.get(k).map_or(Q::all(0.0), read);
+        Sum { force: read(&sums[2 * k]), moment: torque - Q::all(radius) * read(&sums[2 * k + 1]) }
     }
 
     /// Force [N] and moment [N·m] on particle number `k` of `radius` [m].

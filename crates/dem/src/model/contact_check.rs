@@ -1,7 +1,7 @@
 //! Laws of contact that are refused before a run starts.
 
-use crate::model::check::within;
 use crate::effects::{Contradiction, Description, Elastic, Key as NumberKey, Slot, active};
+use crate::model::check::within;
 use crate::model::error::SetupError;
 use crate::model::limit::{normal, radii_by_material};
 use crate::setup::{ContactLaw, Setup};

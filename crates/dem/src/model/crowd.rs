@@ -31,30 +31,30 @@ pub fn met(wall: &Wall, r: f64) -> (f64, f64) {
 }
 
 /// The walls of a setup, and how many times the four of a close packing they push the largest grain: most walls do so once, and are counted once.
-pub struct Crowds<'a> {
+pub struct DenseWalls<'a> {
     setup: &'a Setup,
     largest: f64,
     most: Vec<f64>,
 }
 
-impl<'a> Crowds<'a> {
+impl<'a> DenseWalls<'a> {
     /// Of grains up to this radius [m]: the larger, the more push it.
-    pub fn new(setup: &'a Setup, largest: f64) -> Crowds<'a> {
-        let most = setup.walls.iter().map(|wall| crowd_on(wall, largest, setup.guards.overlap));
-        Crowds { setup, largest, most: most.collect() }
+    pub fn new(setup: &'a Setup, largest: f64) -> DenseWalls<'a> {
+        let most = setup.walls.iter().map(|wall| density_on(wall, largest, setup.guards.overlap));
+        DenseWalls { setup, largest, most: most.collect() }
     }
 
     /// How many times the four of a close packing push a sphere of radius `r` [m] one way on wall `w`; no fewer than once.
     pub fn on(&self, w: usize, r: f64) -> f64 {
         let Setup { walls, guards, .. } = self.setup;
         let known = self.most[w] == 1.0 || r >= self.largest;
-        if known { self.most[w] } else { crowd_on(&walls[w], r, guards.overlap) }
+        if known { self.most[w] } else { density_on(&walls[w], r, guards.overlap) }
     }
 }
 
 /// How many times the four of a close packing push a sphere of radius `r` [m] one way on a wall, up to an overlap that is such a share
 /// of the smaller radius; no fewer than once.
-fn crowd_on(wall: &Wall, r: f64, overlap: f64) -> f64 {
+fn density_on(wall: &Wall, r: f64, overlap: f64) -> f64 {
     let WallShape::Spheres(spheres) = &wall.shape else { return 1.0 };
     let (radius, smaller) = met(wall, r);
     let centres: Vec<Vec3> = spheres.iter().map(|s| s.0).collect();
@@ -90,10 +90,10 @@ mod tests {
     fn dense_spheres_are_counted() {
         let (r, overlap) = (0.01, 0.25);
         let closed = std::f64::consts::TAU * 0.005 * overlap * r / (0.0005f64 * 0.0005);
-        let found = ALONG * crowd_on(&grid(0.0005, r), r, overlap);
+        let found = ALONG * density_on(&grid(0.0005, r), r, overlap);
         assert!((found / closed - 1.0).abs() < 0.05, "{found}, not {closed}");
         for spacing in [0.008, 0.01, 0.012] {
-            assert_eq!(crowd_on(&grid(spacing, r), r, overlap), 1.0, "{spacing}");
+            assert_eq!(density_on(&grid(spacing, r), r, overlap), 1.0, "{spacing}");
         }
         let (nan, far) = (vec![Vec3::repeat(f64::NAN)], vec![Vec3::zeros(), Vec3::x()]);
         assert_eq!((most_within(&nan, 1.0), most_within(&far, 0.5), most_within(&far, 0.0)), (0, 1, 0));

@@ -26,9 +26,9 @@ use crate::effects::{
     ALONG, Elastic, Material, Meeting, NormalLaw, Slot, TURNS, TurningPair, active, damping_ratio,
     tangential_ratio,
 };
-use crate::model::crowd::{Crowds, met, rounding};
+use crate::model::crowd::{DenseWalls, met, rounding};
 use crate::model::error::SetupError;
-use crate::setup::clumps::Yielding;
+use crate::setup::clumps::ClumpCompliance;
 use crate::setup::{ContactLaw, Drag, Setup, Wall};
 use crate::space::sphere::mass;
 use geom::Vec3;
@@ -86,7 +86,7 @@ fn free_radii(setup: &Setup) -> Vec<Option<(f64, f64)>> {
 }
 
 /// Grains that can meet others: a sphere, or a rigid clump with the mass by which it yields.
-pub struct Grain {
+pub struct SizeClass {
     pub material: u16,
     /// Of the sphere that touches [m].
     pub radius: f64,
@@ -97,7 +97,7 @@ pub struct Grain {
     name: Option<String>,
 }
 
-impl Grain {
+impl SizeClass {
     fn name(&self, materials: &[Material]) -> String {
         match &self.name {
             Some(clump) => format!("clump '{clump}' (radius {:.4e} m)", self.radius),
@@ -107,7 +107,7 @@ impl Grain {
 }
 
 /// The smallest and the largest sphere of each material: a small mass may be worse, or a large radius.
-pub fn grains(setup: &Setup) -> Vec<Grain> {
+pub fn grains(setup: &Setup) -> Vec<SizeClass> {
     let clumps = setup.clumps.yielding(&setup.materials);
     let mut grains = Vec::new();
     for (material, range) in (0u16..).zip(free_radii(setup)) {
@@ -115,18 +115,18 @@ pub fn grains(setup: &Setup) -> Vec<Grain> {
         for radius in if low == high { vec![low] } else { vec![low, high] } {
             let inverse = 1.0 / mass(radius, setup.materials[material as usize].density);
             let yields = (inverse, inverse);
-            grains.push(Grain { material, radius, inverse_mass: inverse, yields, name: None });
+            grains.push(SizeClass { material, radius, inverse_mass: inverse, yields, name: None });
         }
     }
     grains.extend(clumps.into_iter().map(|c| {
-        let Yielding { name, material, radius, inverse_mass, normal, tangential } = c;
-        Grain { material, radius, inverse_mass, yields: (normal, tangential), name: Some(name) }
+        let ClumpCompliance { name, material, radius, inverse_mass, normal, tangential } = c;
+        SizeClass { material, radius, inverse_mass, yields: (normal, tangential), name: Some(name) }
     }));
     grains
 }
 
 /// Largest radius of some grains [m].
-pub fn largest(grains: &[Grain]) -> f64 {
+pub fn largest(grains: &[SizeClass]) -> f64 {
     grains.iter().map(|g| g.radius).fold(0.0, f64::max)
 }
 
@@ -137,11 +137,11 @@ pub fn largest(grains: &[Grain]) -> f64 {
 pub fn critical_step(setup: &Setup) -> Result<Limit, SetupError> {
     crate::model::check::indices(setup)?;
     let grains = grains(setup);
-    let crowds = Crowds::new(setup, largest(&grains));
+    let crowds = DenseWalls::new(setup, largest(&grains));
     let mut limit = Limit { dt: f64::INFINITY, pair: "no contact can occur".to_owned() };
     for (k, a) in grains.iter().enumerate() {
         for b in &grains[k..] {
-            tighten(&mut limit, setup, a, Partner::Grain(b))?;
+            tighten(&mut limit, setup, a, Partner::SizeClass(b))?;
         }
         for (w, wall) in setup.walls.iter().enumerate() {
             tighten(&mut limit, setup, a, Partner::Wall(wall, crowds.on(w, a.radius)))?;
@@ -185,15 +185,15 @@ pub(crate) fn stiffest(law: &ContactLaw, elastic: Elastic, at: Meeting) -> f64 {
 }
 
 enum Partner<'a> {
-    Grain(&'a Grain),
+    SizeClass(&'a SizeClass),
     /// And how many times the four of a close packing push there.
     Wall(&'a Wall, f64),
 }
 
-fn tighten(limit: &mut Limit, setup: &Setup, a: &Grain, partner: Partner) -> Result<(), SetupError> {
+fn tighten(limit: &mut Limit, setup: &Setup, a: &SizeClass, partner: Partner) -> Result<(), SetupError> {
     let (ra, (normal, tangential)) = (a.radius, a.yields);
     let (other, yields, uneven, radius, (smaller, larger), what, dense) = match &partner {
-        Partner::Grain(b) => {
+        Partner::SizeClass(b) => {
             let (rb, (n, t)) = (b.radius, b.yields);
             let (mine, its) = (crowd(ra, rb), crowd(rb, ra));
             let yields = (mine * normal + its * n, mine * tangential + its * t);
@@ -219,8 +219,9 @@ fn tighten(limit: &mut Limit, setup: &Setup, a: &Grain, partner: Partner) -> Res
     let (first, second) = (&setup.materials[a.material as usize], &setup.materials[other as usize]);
     let elastic = Elastic::of(first, second);
     let stiffness = stiffest(contact, elastic, Meeting { radius, smaller, share: setup.guards.overlap });
-    let inverse_mass = a.inverse_mass + if let Partner::Grain(b) = partner { b.inverse_mass } else { 0.0 };
-    let between = Between {
+    let inverse_mass =
+        a.inverse_mass + if let Partner::SizeClass(b) = partner { b.inverse_mass } else { 0.0 };
+    let between = PairBound {
         stiffness,
         tangential: tangential_ratio(contact, elastic) * stiffness,
         yields,
@@ -242,7 +243,7 @@ fn crowd(own: f64, other: f64) -> f64 {
 }
 
 /// What bounds the step of a pair.
-struct Between {
+struct PairBound {
     /// S and k_t [N/m].
     stiffness: f64,
     tangential: f64,
@@ -263,7 +264,7 @@ pub(crate) fn root(a: f64, b: f64) -> f64 {
     2.0 / ((a + b * b).sqrt() + b)
 }
 
-impl Between {
+impl PairBound {
     fn step(&self, contact: &ContactLaw) -> f64 {
         let gamma = damping_ratio(contact.number("restitution").unwrap_or(f64::NAN));
         let (along, across) = (self.stiffness * self.yields.0, self.tangential * self.yields.1);

@@ -21,7 +21,7 @@ use crate::model::limit::largest_reach;
 use crate::model::start::{kinds, mean_radius, servo_gains, slow_enough, time_step};
 use crate::setup::Setup;
 use crate::simd::Width;
-use crate::simd::number::{Form, Precision};
+use crate::simd::number::{Layout, Precision};
 use crate::space::search::SKIN;
 use crate::walls::WallBody;
 use geom::Vec3;
@@ -82,8 +82,8 @@ impl Model {
     }
 
     /// How what is computed of contacts is kept.
-    pub fn form(&self) -> Form {
-        Form { rotates: self.rotates, single: self.setup.precision == Precision::Single }
+    pub fn form(&self) -> Layout {
+        Layout { rotates: self.rotates, single: self.setup.precision == Precision::Single }
     }
 
     /// Length of the box along periodic axes [m], 0 along others.

@@ -2,11 +2,11 @@
 
 use crate::effects::{Elastic, Meeting, Pair, damping_ratio};
 use crate::kernel::compose::compose;
-use crate::model::crowd::{Crowds, met};
+use crate::model::crowd::{DenseWalls, met};
 use crate::model::error::SetupError;
 use crate::model::kind::{Kind, With};
 use crate::model::limit::{
-    Grain, contact_between, critical_step, grains, largest, radii_by_material, stiffest,
+    SizeClass, contact_between, critical_step, grains, largest, radii_by_material, stiffest,
 };
 use crate::setup::{Setup, Step, Wall};
 use crate::walls::WallBody;
@@ -53,7 +53,7 @@ pub fn kinds(setup: &Setup) -> Result<Vec<Kind>, SetupError> {
     let periodic = setup.periodic.iter().any(|p| p.is_some());
     let mut list = Vec::new();
     let grains = grains(setup);
-    let crowds = Crowds::new(setup, largest(&grains));
+    let crowds = DenseWalls::new(setup, largest(&grains));
     let crowd = |a: u16, with: With| {
         let With::Wall(w) = with else { return 1.0 };
         let own = grains.iter().filter(|g| g.material == a);
@@ -87,7 +87,7 @@ pub fn kinds(setup: &Setup) -> Result<Vec<Kind>, SetupError> {
 /// k Δt + c [N·s/m] of the stiffest contact with each wall that follows a force; of a clump with the mass of the whole body, as contacts have it.
 pub fn servo_gains(setup: &Setup, dt: f64) -> Vec<f64> {
     let grains = grains(setup);
-    let of = |wall: &Wall, grain: &Grain| {
+    let of = |wall: &Wall, grain: &SizeClass| {
         let contact = contact_between(setup, grain.material, wall.material).ok()?;
         let [first, second] = [grain.material, wall.material].map(|m| &setup.materials[m as usize]);
         let (radius, smaller) = met(wall, grain.radius);

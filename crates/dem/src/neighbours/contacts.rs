@@ -5,19 +5,19 @@
 //! segment: whole blocks, one task of the contact loop. Images across periodic faces come first, before all tiles.
 
 use crate::kernel::LEDGER;
-use crate::kernel::sums::{Arrival, Loads, Sums};
+use crate::kernel::sums::{Arrival, Sums, WrenchSums};
 use crate::model::kind::With;
-use crate::neighbours::resting::Still;
-use crate::neighbours::slices::{At, Lists, Part};
+use crate::neighbours::resting::RestingTile;
+use crate::neighbours::slices::{Lists, SliceStart, TileSlice};
 use crate::simd::aligned::Aligned;
-use crate::simd::number::Form;
+use crate::simd::number::Layout;
 use crate::simd::{BLOCK, Row, Row4};
 use geom::Vec3;
 use std::ops::Range;
 
 /// What may disturb a sleeper.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Met {
+pub enum Disturber {
     Particles,
     StillWall,
     MovingWall,
@@ -53,7 +53,7 @@ pub struct Contacts {
     /// In order of their places.
     pub segments: Vec<Segment>,
     /// How what is computed is kept.
-    pub form: Form,
+    pub form: Layout,
     /// How many particles there are.
     pub(crate) particles: usize,
     /// Particles of a tile.
@@ -74,7 +74,7 @@ pub struct Contacts {
     /// Force and moment of each contact, where somebody looks at them; else none.
     pub loads: Aligned,
     /// Couples, or none.
-    pub couples: Aligned,
+    pub torques: Aligned,
     /// Whether these are kept now.
     pub(crate) keeps: bool,
     /// Of loads and couples, by particle.
@@ -95,9 +95,9 @@ pub struct Contacts {
     pub entries: Vec<u32>,
     pub(crate) count: Vec<u32>,
     /// Whom the contacts of each block meet; only where particles sleep.
-    pub(crate) met: Vec<Met>,
+    pub(crate) met: Vec<Disturber>,
     /// What rests in each tile; only where particles sleep.
-    pub(crate) stills: Vec<Still>,
+    pub(crate) resting_tiles: Vec<RestingTile>,
     /// Whether contact points of walls at rest are to be found.
     pub new: bool,
 }
@@ -119,32 +119,32 @@ impl Contacts {
     }
 
     /// Room for what is computed of them: whether there are couples, whether a ledger is kept.
-    pub fn make_room(&mut self, couples: bool, ledger: bool) {
-        let (places, particles, load, couple) =
-            (self.i.len(), self.particles, self.form.load(), self.form.couple());
+    pub fn allocate(&mut self, torques: bool, ledger: bool) {
+        let (places, particles, load, torque) =
+            (self.i.len(), self.particles, self.form.load(), self.form.torque());
         let kept = self.segments.last().map_or(0, |s| s.kept + s.places.len());
-        let some = |couples: bool, n: usize| Aligned::zeros(if couples { n * couple } else { 0 });
-        self.sums = (Aligned::zeros(particles * load), some(couples, particles));
-        self.kept = (Aligned::zeros(kept * load), some(couples, kept));
-        (self.loads, self.couples, self.keeps) = Default::default();
+        let some = |torques: bool, n: usize| Aligned::zeros(if torques { n * torque } else { 0 });
+        self.sums = (Aligned::zeros(particles * load), some(torques, particles));
+        self.kept = (Aligned::zeros(kept * load), some(torques, kept));
+        (self.loads, self.torques, self.keeps) = Default::default();
         self.ledger = Aligned::zeros(if ledger { places * LEDGER } else { 0 });
         self.work.resize(if ledger { places } else { 0 }, 0.0);
     }
 
     /// Gives the room back.
-    pub fn free_room(&mut self) {
+    pub fn release_memory(&mut self) {
         (self.sums, self.kept, self.ledger) = Default::default();
-        (self.loads, self.couples, self.keeps) = Default::default();
+        (self.loads, self.torques, self.keeps) = Default::default();
     }
 
     /// Whether the load and couple of each contact are kept from now on. Where they were not, all begin at 0: blocks in which nothing touches
     /// are not computed.
-    pub fn keep_each(&mut self, keep: bool) {
+    pub fn keep_wrenches(&mut self, keep: bool) {
         if keep && !self.keeps {
             let places = self.i.len();
-            let couples = if self.sums.1.is_empty() { 0 } else { places };
+            let torques = if self.sums.1.is_empty() { 0 } else { places };
             self.loads.clear(places * self.form.load());
-            self.couples.clear(couples * self.form.couple());
+            self.torques.clear(torques * self.form.torque());
         }
         self.keeps = keep;
     }
@@ -156,8 +156,8 @@ impl Contacts {
 
     /// Puts loads, couples and ledger of each contact, or sums by particle, as they were saved; false where there are other numbers of them.
     pub fn put_loads(&mut self, each: &[Vec<f64>; 3], sums: &[Vec<f64>; 2]) -> bool {
-        let Contacts { loads, couples, ledger, keeps, .. } = self;
-        let (mine, sums_mine) = ([loads, couples], [&mut self.sums.0, &mut self.sums.1]);
+        let Contacts { loads, torques, ledger, keeps, .. } = self;
+        let (mine, sums_mine) = ([loads, torques], [&mut self.sums.0, &mut self.sums.1]);
         let pairs: Vec<(&Vec<f64>, &mut Aligned)> = match keeps {
             true => each.iter().zip(mine.into_iter().chain([ledger])).collect(),
             false => sums.iter().zip(sums_mine).chain([(&each[2], ledger)]).collect(),
@@ -172,8 +172,8 @@ impl Contacts {
     }
 
     /// Sums of the loads on all particles.
-    pub fn sums(&self) -> Loads<'_> {
-        Loads { first: 0, form: self.form, sums: (&self.sums.0, &self.sums.1) }
+    pub fn sums(&self) -> WrenchSums<'_> {
+        WrenchSums { first: 0, form: self.form, sums: (&self.sums.0, &self.sums.1) }
     }
 
     /// The particle of a contact, and the other one where it is not with a wall.
@@ -188,13 +188,13 @@ impl Contacts {
     }
 
     /// Number `column` of so many in the memory of contact `place`.
-    pub fn remembered(&self, segment: &Segment, place: usize, column: usize, columns: usize) -> f64 {
+    pub fn history_of_slot(&self, segment: &Segment, place: usize, column: usize, columns: usize) -> f64 {
         let at = self.form.memory_at(segment.memory, place - segment.places.start, column, columns);
         self.form.get(&self.memory, at)
     }
 
     /// Gives one contact its memory, in the order of its kind's columns.
-    pub fn give_memory(&mut self, segment: &Segment, place: usize, columns: &[f64]) {
+    pub fn set_history(&mut self, segment: &Segment, place: usize, columns: &[f64]) {
         for (c, number) in columns.iter().enumerate() {
             let at = self.form.memory_at(segment.memory, place - segment.places.start, c, columns.len());
             self.form.put(&mut self.memory, at, *number);
@@ -213,7 +213,7 @@ impl Contacts {
     }
 
     /// Everything, to be computed.
-    pub fn parts(&mut self) -> (Lists<'_>, Part<'_>, Sums<'_>, &mut [Still]) {
+    pub fn parts(&mut self) -> (Lists<'_>, TileSlice<'_>, Sums<'_>, &mut [RestingTile]) {
         let lists = Lists {
             i: &self.i,
             partner: &self.partner,
@@ -228,19 +228,19 @@ impl Contacts {
             arrivals: &self.arrivals,
             arriving: &self.arriving,
         };
-        let part = Part {
+        let part = TileSlice {
             segments: &self.segments,
             form: self.form,
-            from: At::default(),
+            from: SliceStart::default(),
             rows: &mut self.rows,
             spins: &mut self.spins,
             memory: &mut self.memory,
             active: &mut self.active,
             kept: (&mut self.kept.0, &mut self.kept.1),
-            each: if self.keeps { (&mut self.loads, &mut self.couples) } else { Default::default() },
+            each: if self.keeps { (&mut self.loads, &mut self.torques) } else { Default::default() },
             ledger: &mut self.ledger,
         };
-        let sums = Sums { first: 0, form: self.form, loads: &mut self.sums.0, couples: &mut self.sums.1 };
-        (lists, part, sums, &mut self.stills)
+        let sums = Sums { first: 0, form: self.form, loads: &mut self.sums.0, torques: &mut self.sums.1 };
+        (lists, part, sums, &mut self.resting_tiles)
     }
 }

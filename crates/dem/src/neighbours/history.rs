@@ -1,32 +1,32 @@
 //! Carries contact history and sliding work over to rebuilt lists, by pair of particles or particle and part of a wall.
 
-use crate::neighbours::rebuild::LISTED_FEW;
 use crate::model::Model;
 use crate::model::kind::{Kind, With};
 use crate::neighbours::NeighbourLists;
 use crate::neighbours::contacts::{Contacts, Segment};
+use crate::neighbours::rebuild::LISTED_FEW;
 use crate::state::State;
 use crate::threads::share;
 use crate::walls::WallBody;
 use crate::walls::images::{Image, Periods};
 
-fn remembered<'a>(
+fn history_of_slot<'a>(
     model: &'a Model,
     now: &[Periods],
     before: &'a Contacts,
     order: &'a [u32],
-    (wraps, counted_back): Moved<'a>,
-) -> Remembered<'a> {
+    (wraps, wall_periods): MoveFlags<'a>,
+) -> OldLists<'a> {
     let back = |(now, was): (&Periods, &Periods)| [0, 1, 2].map(|a| was[a] - now[a]);
-    let back = now.iter().zip(counted_back).map(back).collect();
-    Remembered { kinds: &model.kinds, walls: &model.walls, before, order, wraps, back }
+    let back = now.iter().zip(wall_periods).map(back).collect();
+    OldLists { kinds: &model.kinds, walls: &model.walls, before, order, wraps, back }
 }
 
 /// By how many periods particles were moved, by their old places, and how far walls were counted back before.
-type Moved<'a> = (&'a [Periods], &'a [Periods]);
+type MoveFlags<'a> = (&'a [Periods], &'a [Periods]);
 
 /// Lists and memory as they were before: what new contacts remember from.
-struct Remembered<'a> {
+struct OldLists<'a> {
     kinds: &'a [Kind],
     walls: &'a [WallBody],
     before: &'a Contacts,
@@ -37,7 +37,7 @@ struct Remembered<'a> {
     back: Vec<Periods>,
 }
 
-impl Remembered<'_> {
+impl OldLists<'_> {
     /// Fills the memory of one segment. A contact whose two partners have changed places remembers the opposite.
     fn recall(&self, now: &Contacts, segment: &Segment, memory: &mut [f64]) {
         let kernel = &self.kinds[segment.kind].kernel;
@@ -48,14 +48,14 @@ impl Remembered<'_> {
         for place in segment.contacts() {
             let before = self.before;
             let holds = |old: &Segment, at: usize| {
-                (0..columns).any(|c| before.remembered(old, at, c, columns) != 0.0)
+                (0..columns).any(|c| before.history_of_slot(old, at, c, columns) != 0.0)
             };
             let Some((old, from, swapped)) = self.find(segment.kind, now.i[place], now.partner[place], holds)
             else {
                 continue;
             };
             for c in 0..columns {
-                let was = before.remembered(old, from, c, columns);
+                let was = before.history_of_slot(old, from, c, columns);
                 let at = now.form.memory_at(0, place - segment.places.start, c, columns);
                 now.form.put(memory, at, if swapped && kernel.flips(c) { -was } else { was });
             }
@@ -110,7 +110,7 @@ pub fn recall(
     lists: &mut NeighbourLists,
     before: &Contacts,
     order: &[u32],
-    moved: Moved,
+    moved: MoveFlags,
 ) {
     let kinds = &model.kinds;
     let mut memory = std::mem::take(&mut lists.contacts.memory);
@@ -124,7 +124,7 @@ pub fn recall(
             rest = others;
             pieces.push((s, mine));
         }
-        let old = remembered(model, &lists.counted_back, before, order, moved);
+        let old = history_of_slot(model, &lists.wall_periods, before, order, moved);
         share(state.particles.len() >= LISTED_FEW, pieces, |(s, memory)| old.recall(now, s, memory));
     }
     lists.contacts.memory = memory;
@@ -136,12 +136,12 @@ pub fn recall_work(
     lists: &mut NeighbourLists,
     before: &Contacts,
     order: &[u32],
-    moved: Moved,
+    moved: MoveFlags,
 ) {
     if before.work.is_empty() {
         return;
     }
-    let old = remembered(model, &lists.counted_back, before, order, moved);
+    let old = history_of_slot(model, &lists.wall_periods, before, order, moved);
     let mut work = vec![0.0; lists.contacts.i.len()];
     for s in &lists.contacts.segments {
         for place in s.contacts() {

@@ -2,10 +2,10 @@
 
 use crate::kernel::sums::Arrival;
 use crate::model::kind::{Kind, With};
-use crate::neighbours::contacts::{Contacts, Met, Segment};
-use crate::neighbours::resting::Still;
+use crate::neighbours::contacts::{Contacts, Disturber, Segment};
+use crate::neighbours::resting::RestingTile;
 use crate::simd::aligned::Aligned;
-use crate::simd::number::Form;
+use crate::simd::number::Layout;
 use crate::simd::{BLOCK, Row4};
 use crate::space::search::tile;
 use crate::space::sphere::FAR;
@@ -37,7 +37,7 @@ impl Contacts {
         kinds: &[Kind],
         images: &[List],
         tiles: &[Vec<[List; 2]>],
-        (particles, form): (usize, Form),
+        (particles, form): (usize, Layout),
     ) -> Contacts {
         let mut new = Contacts { new: true, form, particles, tile: tile(particles), ..Contacts::default() };
         let lists = images.iter().chain(tiles.iter().flatten().flatten());
@@ -83,19 +83,19 @@ impl Contacts {
         new.active = vec![true; new.i.len() / BLOCK];
         let largest = new.segments.iter().filter(|s| kinds[s.kind].with != With::Particles);
         new.count = (0..largest.map(|s| s.places.len()).max().unwrap_or(0) as u32).collect();
-        new.find_arrivals(kinds);
+        new.index_arrivals(kinds);
         new
     }
 
     /// What arrives at each tile.
-    fn find_arrivals(&mut self, kinds: &[Kind]) {
+    fn index_arrivals(&mut self, kinds: &[Kind]) {
         let tiles = self.tiles.len() - 1;
         let mut starts = vec![0; tiles + 1];
-        self.for_kept(kinds, |_, particle| starts[particle as usize / self.tile + 1] += 1);
+        self.for_each_kept(kinds, |_, particle| starts[particle as usize / self.tile + 1] += 1);
         (0..tiles).for_each(|tile| starts[tile + 1] += starts[tile]);
         let mut next = starts.clone();
         let mut arrivals = vec![Arrival { from: 0, particle: 0 }; starts[tiles] as usize];
-        self.for_kept(kinds, |from, particle| {
+        self.for_each_kept(kinds, |from, particle| {
             let at = &mut next[particle as usize / self.tile];
             arrivals[*at as usize] = Arrival { from, particle };
             *at += 1;
@@ -104,7 +104,7 @@ impl Contacts {
     }
 
     /// Each load that is kept, in the order of their places: place among them × 2, + 1 for the second particle of a contact; and to whom it goes.
-    fn for_kept(&self, kinds: &[Kind], mut each: impl FnMut(u32, u32)) {
+    fn for_each_kept(&self, kinds: &[Kind], mut each: impl FnMut(u32, u32)) {
         for s in &self.segments {
             let image = kinds[s.kind].with == With::Images;
             for place in if image || s.later { s.contacts() } else { 0..0 } {
@@ -118,18 +118,18 @@ impl Contacts {
     }
 
     /// Notes whom blocks meet.
-    pub fn note_walls(&mut self, kinds: &[Kind], walls: &[WallBody]) {
-        self.met = vec![Met::Particles; self.active.len()];
+    pub fn mark_wall_blocks(&mut self, kinds: &[Kind], walls: &[WallBody]) {
+        self.met = vec![Disturber::Particles; self.active.len()];
         for s in &self.segments {
             if let With::Wall(w) = kinds[s.kind].with {
-                let met = if walls[w].motion.moves() { Met::MovingWall } else { Met::StillWall };
+                let met = if walls[w].motion.moves() { Disturber::MovingWall } else { Disturber::StillWall };
                 self.met[s.places.start / BLOCK..s.places.end / BLOCK].fill(met);
             }
         }
     }
 
     /// Notes which tiles meet.
-    pub fn note_tiles(&mut self, kinds: &[Kind]) {
+    pub fn find_adjacent_tiles(&mut self, kinds: &[Kind]) {
         let tile = |particle: u32| (particle as usize / self.tile) as u32;
         let mut near: Vec<Vec<u32>> = (0..self.tiles.len() as u32 - 1).map(|t| vec![t]).collect();
         for s in self.segments.iter().filter(|s| !matches!(kinds[s.kind].with, With::Wall(_))) {
@@ -144,7 +144,7 @@ impl Contacts {
             near.sort_unstable();
             near.dedup();
         }
-        self.stills = near.into_iter().map(Still::beside).collect();
+        self.resting_tiles = near.into_iter().map(RestingTile::beside).collect();
     }
 
     /// For each particle, its contacts in the order of their places: for who asks by particle, and not otherwise.

@@ -21,7 +21,7 @@ pub struct NeighbourLists {
     /// Contacts by tile.
     pub contacts: Contacts,
     /// Whole periods that walls had travelled when neighbours were listed; empty where nothing is periodic.
-    pub counted_back: Vec<Periods>,
+    pub wall_periods: Vec<Periods>,
     /// Particles as they were before the move; only where a fluid drags them.
     pub before: Vec<Row>,
     /// Whether the wrench of each contact is kept when a run is observed.
@@ -32,7 +32,7 @@ impl Default for NeighbourLists {
     fn default() -> NeighbourLists {
         NeighbourLists {
             contacts: Contacts::default(),
-            counted_back: Vec::new(),
+            wall_periods: Vec::new(),
             before: Vec::new(),
             records: true,
         }

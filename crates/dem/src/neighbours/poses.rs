@@ -3,7 +3,7 @@
 use crate::model::Model;
 use crate::neighbours::NeighbourLists;
 use crate::state::State;
-use crate::walls::images::{Around, Periods};
+use crate::walls::images::{Periods, WallImages};
 use crate::walls::motion::Pose;
 use geom::Vec3;
 
@@ -35,12 +35,12 @@ pub fn wall_way(model: &Model, state: &State, wall: usize, since: f64) -> f64 {
 
 /// Where a wall is now, counted back into the box.
 pub fn pose_in_box(model: &Model, state: &State, lists: &NeighbourLists, wall: usize, time: f64) -> Pose {
-    count_back(model, lists, wall, pose(model, state, wall, time))
+    shift_into_box(model, lists, wall, pose(model, state, wall, time))
 }
 
 /// A pose of a wall, counted back into the box.
-pub fn count_back(model: &Model, lists: &NeighbourLists, wall: usize, pose: Pose) -> Pose {
-    let Some(back) = lists.counted_back.get(wall).filter(|n| **n != [0; 3]) else { return pose };
+pub fn shift_into_box(model: &Model, lists: &NeighbourLists, wall: usize, pose: Pose) -> Pose {
+    let Some(back) = lists.wall_periods.get(wall).filter(|n| **n != [0; 3]) else { return pose };
     let period = model.period();
     let by = Vec3::from([0, 1, 2].map(|a| -f64::from(back[a]) * period[a]));
     pose.shifted(by, Vec3::zeros())
@@ -48,7 +48,7 @@ pub fn count_back(model: &Model, lists: &NeighbourLists, wall: usize, pose: Pose
 
 /// Whole periods that the middle of each wall was away from the box when neighbours were listed; none where nothing is
 /// periodic.
-pub fn travelled(model: &Model, state: &State) -> Vec<Periods> {
+pub fn periods_travelled(model: &Model, state: &State) -> Vec<Periods> {
     let period = model.period();
     if period == Vec3::zeros() {
         return Vec::new();
@@ -56,7 +56,7 @@ pub fn travelled(model: &Model, state: &State) -> Vec<Periods> {
     let middle = Vec3::from(model.setup.periodic.map(|p| p.map_or(0.0, |(lo, hi)| 0.5 * (lo + hi))));
     let whole = |shift: f64, period: f64| if period > 0.0 { (shift / period).round() as i32 } else { 0 };
     let of = |w: usize| {
-        let (point, home) = model.walls[w].counted_from(middle);
+        let (point, home) = model.walls[w].anchor_points(middle);
         let away = pose_listed(model, state, w).place(&point) - home;
         [0, 1, 2].map(|a| whole(away[a], period[a]))
     };
@@ -64,14 +64,14 @@ pub fn travelled(model: &Model, state: &State) -> Vec<Periods> {
 }
 
 /// Where the images of a wall may be met.
-pub fn around(model: &Model, wall: usize, pose: &Pose) -> Around {
+pub fn around(model: &Model, wall: usize, pose: &Pose) -> WallImages {
     let [lo, hi] = model.walls[wall].bounds;
     let period = model.period();
     if !lo.iter().all(|x| x.is_finite()) {
-        return Around { period, lo, hi };
+        return WallImages { period, lo, hi };
     }
     let corner =
         |k: usize| pose.place(&Vec3::from([0, 1, 2].map(|a| if k >> a & 1 == 1 { hi[a] } else { lo[a] })));
     let (lo, hi) = (1..8).map(corner).fold((corner(0), corner(0)), |(l, h), c| (l.inf(&c), h.sup(&c)));
-    Around { period, lo, hi }
+    WallImages { period, lo, hi }
 }

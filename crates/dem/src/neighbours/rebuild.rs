@@ -6,11 +6,11 @@ use crate::neighbours::NeighbourLists;
 use crate::neighbours::contacts::Contacts;
 use crate::neighbours::history::{recall, recall_work};
 use crate::neighbours::list::List;
-use crate::neighbours::poses::{around, count_back, pose_listed, travelled, wall_way};
+use crate::neighbours::poses::{around, periods_travelled, pose_listed, shift_into_box, wall_way};
 use crate::setup::Zone;
-use crate::space::search::{Pair, SKIN, Search, half_of_shifts, pairs, room, tile};
+use crate::space::search::{Pair, SKIN, Search, half_of_shifts, margin, pairs, tile};
 use crate::state::State;
-use crate::state::ledger::wrap_accounted;
+use crate::state::ledger::wrap_in_ledger;
 use crate::threads::share;
 use crate::walls::images::Periods;
 use geom::Vec3;
@@ -21,12 +21,12 @@ use std::ops::Range;
 pub const LISTED_FEW: usize = 256;
 
 /// Which kind two materials belong to.
-struct Classes {
+struct KindTable {
     materials: usize,
     at: Vec<usize>,
 }
 
-impl Classes {
+impl KindTable {
     fn of(&self, a: u16, b: u16) -> usize {
         self.at[a as usize * self.materials + b as usize]
     }
@@ -35,15 +35,15 @@ impl Classes {
 /// Sorts, lists, and remembers.
 pub fn rebuild(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
     // Lists that are stale for another reason say nothing of the skin.
-    if model.setup.skin.is_none() && !state.stale {
+    if model.setup.skin.is_none() && !state.outdated {
         state.skin = SKIN.next(state.skin, state.steps - state.listed, model.mean_radius).max(model.reach);
     }
     let wraps = wrap(model, state);
-    let counted_back = std::mem::take(&mut lists.counted_back);
+    let wall_periods = std::mem::take(&mut lists.wall_periods);
     state.servos.iter_mut().for_each(|p| p.listed = p.way);
     let mut before = std::mem::take(&mut lists.contacts);
     // Freed before anything is listed: old and new together would be the most that a run ever takes.
-    before.free_room();
+    before.release_memory();
     let remembers = !before.memory.is_empty() || !before.work.is_empty();
     if remembers && before.starts.is_empty() {
         before.index(&model.kinds);
@@ -56,30 +56,31 @@ pub fn rebuild(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
     if let Some(sleepers) = &mut state.sleepers {
         sleepers.select(&order);
     }
-    follow_fresh(state, &order);
+    follow_starting(state, &order);
     state.listed = state.steps;
     list_contacts(model, state, lists, &search);
-    let moved = (&wraps[..], &counted_back[..]);
+    let moved = (&wraps[..], &wall_periods[..]);
     recall(model, state, lists, &before, &order, moved);
     recall_work(model, lists, &before, &order, moved);
     drop(before);
-    make_room(model, state, lists);
+    allocate(model, state, lists);
     state.out = false;
-    state.stale = false;
-    state.listings += 1;
+    state.outdated = false;
+    state.rebuilds += 1;
 }
 
-fn follow_fresh(state: &mut State, order: &[u32]) {
-    if state.fresh.is_empty() {
+fn follow_starting(state: &mut State, order: &[u32]) {
+    if state.starting.is_empty() {
         return;
     }
-    let mut is_fresh = vec![false; order.iter().max().map_or(0, |&last| last as usize + 1)];
-    for &k in &state.fresh {
-        if let Some(flag) = is_fresh.get_mut(k as usize) {
+    let mut is_starting = vec![false; order.iter().max().map_or(0, |&last| last as usize + 1)];
+    for &k in &state.starting {
+        if let Some(flag) = is_starting.get_mut(k as usize) {
             *flag = true;
         }
     }
-    state.fresh = (0..).zip(order).filter(|&(_, &was)| is_fresh[was as usize]).map(|(now, _)| now).collect();
+    state.starting =
+        (0..).zip(order).filter(|&(_, &was)| is_starting[was as usize]).map(|(now, _)| now).collect();
 }
 
 /// Particles that have left the box through a periodic face come back through the other. Returns by how many periods each
@@ -89,7 +90,7 @@ fn wrap(model: &Model, state: &mut State) -> Vec<Periods> {
         return Vec::new();
     }
     let before: Vec<Vec3> = (0..state.particles.len()).map(|k| state.particles.position(k)).collect();
-    wrap_accounted(model, state, |state| {
+    wrap_in_ledger(model, state, |state| {
         for k in (0..state.particles.len()).filter(|&k| !state.bodies.is_member(k)) {
             let p = model.wrapped(state.particles.position(k));
             state.particles.rows[k][..3].copy_from_slice(p.as_slice());
@@ -114,8 +115,8 @@ fn space_order(model: &Model, state: &mut State) -> (Search, Vec<u32>) {
         let row = &p.rows[k as usize];
         let speed = Vec3::new(row[4], row[5], row[6]).norm();
         let way = horizon * (speed + 0.5 * gravity * horizon);
-        let room = room(state.skin, way, model.mean_radius);
-        p.home[k as usize].0 = [row[0], row[1], row[2], room];
+        let margin = margin(state.skin, way, model.mean_radius);
+        p.home[k as usize].0 = [row[0], row[1], row[2], margin];
     }
     let points: Vec<Vec3> = stay.iter().map(|&k| p.position(k as usize)).collect();
     let reach: Vec<f64> = stay.iter().map(|&k| p.reach(k as usize)).collect();
@@ -135,7 +136,7 @@ pub fn list_again(model: &Model, state: &mut State, lists: &mut NeighbourLists) 
     let points: Vec<Vec3> = p.home.iter().map(|h| Vec3::new(h[0], h[1], h[2])).collect();
     let reach: Vec<f64> = (0..p.len()).map(|k| p.reach(k)).collect();
     list_contacts(model, state, lists, &Search::new(&points, &reach));
-    make_room(model, state, lists);
+    allocate(model, state, lists);
     for (k, _) in state.zones.left.clone() {
         let row = state.particles.rows[k as usize];
         state.particles.home[k as usize].0 = [row[0], row[1], row[2], 0.0];
@@ -143,7 +144,7 @@ pub fn list_again(model: &Model, state: &mut State, lists: &mut NeighbourLists) 
 }
 
 fn list_contacts(model: &Model, state: &mut State, lists: &mut NeighbourLists, search: &Search) {
-    lists.counted_back = travelled(model, state);
+    lists.wall_periods = periods_travelled(model, state);
     let count = state.particles.len();
     let wide = search.wide_pairs();
     let class = classes(model, With::Particles);
@@ -155,7 +156,7 @@ fn list_contacts(model: &Model, state: &mut State, lists: &mut NeighbourLists, s
         let mut pairs = pairs(search, &wide, &range);
         state.bodies.drop_own(&mut pairs, |p| *p);
         // Those that touch go first: a block of others is passed over as long as none of them comes to touch.
-        let (touching, apart): (Vec<_>, Vec<_>) = pairs.into_iter().partition(|p| touched(state, p));
+        let (touching, apart): (Vec<_>, Vec<_>) = pairs.into_iter().partition(|p| touch(state, p));
         for (i, j) in touching.into_iter().chain(apart) {
             found[class.of(material(i), material(j))][usize::from(j as usize >= range.end)].push(i, j);
         }
@@ -169,13 +170,13 @@ fn list_contacts(model: &Model, state: &mut State, lists: &mut NeighbourLists, s
     }
     note_near(state);
     if state.sleepers.is_some() {
-        lists.contacts.note_walls(&model.kinds, &model.walls);
-        lists.contacts.note_tiles(&model.kinds);
+        lists.contacts.mark_wall_blocks(&model.kinds, &model.walls);
+        lists.contacts.find_adjacent_tiles(&model.kinds);
     }
 }
 
 /// Whether two particles touched where they were listed.
-fn touched(state: &State, &(i, j): &Pair) -> bool {
+fn touch(state: &State, &(i, j): &Pair) -> bool {
     let p = &state.particles;
     let [a, b] = [i, j].map(|k| (&p.home[k as usize], p.rows[k as usize][3]));
     let square: f64 = (0..3).map(|x| (a.0[x] - b.0[x]) * (a.0[x] - b.0[x])).sum();
@@ -194,7 +195,7 @@ fn list_walls(
         let With::Wall(w) = kind.with else { continue };
         let wall = &model.walls[w];
         let (pose, moves) =
-            (count_back(model, lists, w, pose_listed(model, state, w)), wall_room(model, state, w));
+            (shift_into_box(model, lists, w, pose_listed(model, state, w)), wall_margin(model, state, w));
         let around = around(model, w, &pose);
         for k in range.clone().filter(|&k| state.particles.material[k] == kind.between.0) {
             let home = &state.particles.home[k];
@@ -209,8 +210,8 @@ fn list_walls(
 }
 
 /// How far a wall may move until lists are made anew [m].
-pub fn wall_room(model: &Model, state: &State, wall: usize) -> f64 {
-    room(state.skin, model.horizon * model.dt * model.walls[wall].fastest(), model.mean_radius)
+pub fn wall_margin(model: &Model, state: &State, wall: usize) -> f64 {
+    margin(state.skin, model.horizon * model.dt * model.walls[wall].fastest(), model.mean_radius)
 }
 
 /// Pairs across periodic faces: each once, by the half of all shifts whose first part that is not zero is positive.
@@ -233,13 +234,13 @@ fn list_images(model: &Model, state: &State, search: &Search) -> Vec<List> {
 }
 
 /// Room for the loads of all listed contacts; made last, when old lists are gone.
-pub fn make_room(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
-    let couples = state.couples(model);
-    lists.contacts.make_room(couples, model.setup.ledger);
-    lists.contacts.keep_each(state.keeps_each());
+pub fn allocate(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
+    let torques = state.torques(model);
+    lists.contacts.allocate(torques, model.setup.ledger);
+    lists.contacts.keep_wrenches(state.keeps_wrenches());
 }
 
-fn classes(model: &Model, with: With) -> Classes {
+fn classes(model: &Model, with: With) -> KindTable {
     let materials = model.setup.materials.len();
     let mut at = vec![usize::MAX; materials * materials];
     for (k, i) in model.kinds.iter().enumerate().filter(|(_, i)| i.with == with) {
@@ -247,15 +248,15 @@ fn classes(model: &Model, with: With) -> Classes {
         at[a * materials + b] = k;
         at[b * materials + a] = k;
     }
-    Classes { materials, at }
+    KindTable { materials, at }
 }
 
 /// Whether lists must be rebuilt: they are outdated, or a particle or a wall may have left its margin.
 pub fn is_due(model: &Model, state: &State) -> bool {
     let since = (state.steps - state.listed) as f64 * model.dt;
     // Written so that NaN is caught.
-    let holds = |w: usize| wall_way(model, state, w, since) <= wall_room(model, state, w);
-    state.stale || state.out || !(0..model.walls.len()).all(holds)
+    let holds = |w: usize| wall_way(model, state, w, since) <= wall_margin(model, state, w);
+    state.outdated || state.out || !(0..model.walls.len()).all(holds)
 }
 
 /// Notes who may pass a storage plane, or come back through it, before lists are made anew: nobody else's room reaches it. Where what is tested
@@ -264,9 +265,9 @@ fn note_near(state: &mut State) {
     let p = &state.particles;
     let near = |(zone, beyond): (&Zone, &BTreeSet<u32>)| {
         let stays = |k: usize| {
-            let (home, room) = (Vec3::new(p.home[k][0], p.home[k][1], p.home[k][2]), p.home[k][3]);
+            let (home, margin) = (Vec3::new(p.home[k][0], p.home[k][1], p.home[k][2]), p.home[k][3]);
             let past = zone.past(&home, p.rows[k][3]);
-            !state.bodies.is_member(k) && (past < -room || (past > room && beyond.contains(&p.id[k])))
+            !state.bodies.is_member(k) && (past < -margin || (past > margin && beyond.contains(&p.id[k])))
         };
         (0..p.len() as u32).filter(|&k| !stays(k as usize)).collect()
     };

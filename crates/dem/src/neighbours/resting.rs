@@ -4,13 +4,13 @@ use std::ops::Range;
 
 /// What of a tile rests.
 #[derive(Debug, Default)]
-pub struct Still {
+pub struct RestingTile {
     /// The tile itself, and those that it has contacts with.
     pub near: Vec<u32>,
     /// Steps that had been ended when it was found.
     pub found: Option<u64>,
     /// Whether it was found before this step.
-    pub goes_on: bool,
+    pub unchanged: bool,
     /// Segments and places of contacts that do not rest.
     pub busy: Vec<(usize, Range<usize>)>,
     /// Sums of the loads and couples of the others; none where there are no others.
@@ -18,17 +18,17 @@ pub struct Still {
     /// Particles of the tile that are awake, counted from its first.
     pub awake: Vec<Range<usize>>,
     /// Sleepers that touch or may touch somebody who is not asleep, counted likewise.
-    pub stirred: Vec<u32>,
+    pub disturbed: Vec<u32>,
 }
 
-impl Still {
+impl RestingTile {
     /// Nothing yet, of a tile that has contacts with these.
-    pub fn beside(near: Vec<u32>) -> Still {
-        Still { near, ..Still::default() }
+    pub fn beside(near: Vec<u32>) -> RestingTile {
+        RestingTile { near, ..RestingTile::default() }
     }
 
     /// Whether what rests is what rested a step before.
-    pub fn goes_on(&self) -> bool {
-        self.goes_on
+    pub fn unchanged(&self) -> bool {
+        self.unchanged
     }
 }

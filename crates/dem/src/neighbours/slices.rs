@@ -1,9 +1,9 @@
 //! Slices of the lists: what one tile reads, and what it writes.
 
 use crate::kernel::LEDGER;
-use crate::kernel::sums::{Arrival, Computed};
-use crate::neighbours::contacts::{Met, Segment};
-use crate::simd::number::Form;
+use crate::kernel::sums::{Arrival, WrenchSlices};
+use crate::neighbours::contacts::{Disturber, Segment};
+use crate::simd::number::Layout;
 use crate::simd::{BLOCK, Row, Row4};
 use geom::Vec3;
 
@@ -15,7 +15,7 @@ pub struct Lists<'a> {
     pub shift: &'a [Vec3],
     /// 0, 1, 2, …
     pub count: &'a [u32],
-    pub met: &'a [Met],
+    pub met: &'a [Disturber],
     pub new: bool,
     /// First segment of each tile, and one more.
     pub tiles: &'a [usize],
@@ -38,17 +38,17 @@ impl Lists<'_> {
     }
 
     /// Whether a particle has a contact that may have changed while it slept.
-    pub fn stirred(&self, particle: usize, asleep: &[bool]) -> bool {
+    pub fn disturbed(&self, particle: usize, asleep: &[bool]) -> bool {
         let entries = self.starts[particle] as usize..self.starts[particle + 1] as usize;
         self.new
             || self.entries[entries].iter().any(|&entry| {
                 let (place, second) = ((entry >> 1) as usize, entry & 1 == 1);
                 match self.met[place / BLOCK] {
-                    Met::Particles => {
+                    Disturber::Particles => {
                         !asleep[if second { self.i[place] } else { self.partner[place] } as usize]
                     }
-                    Met::StillWall => false,
-                    Met::MovingWall => true,
+                    Disturber::StillWall => false,
+                    Disturber::MovingWall => true,
                 }
             })
     }
@@ -58,16 +58,16 @@ impl Lists<'_> {
         let all = |of: &[u32]| of[block * BLOCK..(block + 1) * BLOCK].iter().all(|&k| asleep[k as usize]);
         !self.new
             && match self.met[block] {
-                Met::Particles => all(self.i) && all(self.partner),
-                Met::StillWall => all(self.i),
-                Met::MovingWall => false,
+                Disturber::Particles => all(self.i) && all(self.partner),
+                Disturber::StillWall => all(self.i),
+                Disturber::MovingWall => false,
             }
     }
 }
 
 /// Where a part begins.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct At {
+pub struct SliceStart {
     pub place: usize,
     pub row: usize,
     pub memory: usize,
@@ -75,10 +75,10 @@ pub struct At {
 }
 
 /// Some segments that follow each other, with their part of everything that is computed.
-pub struct Part<'a> {
+pub struct TileSlice<'a> {
     pub segments: &'a [Segment],
-    pub form: Form,
-    pub from: At,
+    pub form: Layout,
+    pub from: SliceStart,
     pub rows: &'a mut [Row],
     pub spins: &'a mut [Row4],
     pub memory: &'a mut [f64],
@@ -90,18 +90,19 @@ pub struct Part<'a> {
     pub ledger: &'a mut [f64],
 }
 
-impl<'a> Part<'a> {
+impl<'a> TileSlice<'a> {
     /// The first `count` segments, and the others.
-    pub fn split(self, count: usize) -> (Part<'a>, Part<'a>) {
-        let Part { segments, form, from, rows, spins, memory, active, kept, each, ledger } = self;
+    pub fn split(self, count: usize) -> (TileSlice<'a>, TileSlice<'a>) {
+        let TileSlice { segments, form, from, rows, spins, memory, active, kept, each, ledger } = self;
         let (first, second) = segments.split_at(count);
-        let all = At {
+        let all = SliceStart {
             place: from.place + active.len() * BLOCK,
             row: from.row + rows.len(),
             memory: from.memory + memory.len(),
             kept: from.kept + kept.0.len() / form.load(),
         };
-        let of = |s: &Segment| At { place: s.places.start, row: s.rows, memory: s.memory, kept: s.kept };
+        let of =
+            |s: &Segment| SliceStart { place: s.places.start, row: s.rows, memory: s.memory, kept: s.kept };
         let to = second.first().map_or(all, of);
         let places = to.place - from.place;
         let (rows, rows2) = rows.split_at_mut(to.row - from.row);
@@ -111,8 +112,8 @@ impl<'a> Part<'a> {
         let (kept, kept2) = split_both(kept, to.kept - from.kept, form);
         let (each, each2) = split_both(each, places, form);
         let (ledger, ledger2) = split(ledger, places * LEDGER);
-        let one = Part { segments: first, form, from, rows, spins, memory, active, kept, each, ledger };
-        let two = Part {
+        let one = TileSlice { segments: first, form, from, rows, spins, memory, active, kept, each, ledger };
+        let two = TileSlice {
             segments: second,
             form,
             from: to,
@@ -128,7 +129,7 @@ impl<'a> Part<'a> {
     }
 
     /// Loads and couples that are kept for other tiles.
-    pub fn kept(&self) -> Computed<'_> {
+    pub fn kept(&self) -> WrenchSlices<'_> {
         (self.kept.0, self.kept.1)
     }
 }
@@ -147,18 +148,18 @@ pub fn some<'a>(
     of: &'a mut (&mut [f64], &mut [f64]),
     from: usize,
     n: usize,
-    form: Form,
+    form: Layout,
 ) -> (&'a mut [f64], &'a mut [f64]) {
-    let (load, couple) = (form.load(), form.couple());
-    (part_mut(of.0, from * load, n * load), part_mut(of.1, from * couple, n * couple))
+    let (load, torque) = (form.load(), form.torque());
+    (part_mut(of.0, from * load, n * load), part_mut(of.1, from * torque, n * torque))
 }
 
 pub type Both<'a> = (&'a mut [f64], &'a mut [f64]);
 
-fn split_both<'a>((loads, couples): Both<'a>, n: usize, form: Form) -> (Both<'a>, Both<'a>) {
+fn split_both<'a>((loads, torques): Both<'a>, n: usize, form: Layout) -> (Both<'a>, Both<'a>) {
     let (loads, loads2) = split(loads, n * form.load());
-    let (couples, couples2) = split(couples, n * form.couple());
-    ((loads, couples), (loads2, couples2))
+    let (torques, couples2) = split(torques, n * form.torque());
+    ((loads, torques), (loads2, couples2))
 }
 
 pub fn split<T>(of: &mut [T], at: usize) -> (&mut [T], &mut [T]) {

@@ -5,26 +5,26 @@ use crate::passes::clumps::instant::BodyState;
 use crate::setup::{Particle, Setup};
 use crate::state::bonds::Bonds;
 use crate::state::energy::Energy;
-use crate::state::ledger::{Account, carried, heavy};
+use crate::state::ledger::{LedgerSums, carried, heavy};
 
 impl Energy {
     pub(crate) fn of(
         particles: &[Particle],
         setup: &Setup,
         (contacts, bonds): (&Contacts, &Bonds),
-        account: &Account,
+        ledger: &LedgerSums,
     ) -> Energy {
         let mut e = Energy {
-            normal: account.dissipated[0] + account.lost,
-            sliding: account.dissipated[1],
-            rolling: account.dissipated[2],
-            twisting: account.dissipated[3],
-            bonds: account.by_bonds(),
-            walls: account.walls,
-            slept: account.slept,
-            drag: account.drag,
-            entered: account.entered,
-            left: account.left,
+            normal: ledger.dissipated[0] + ledger.lost,
+            sliding: ledger.dissipated[1],
+            rolling: ledger.dissipated[2],
+            twisting: ledger.dissipated[3],
+            bonds: ledger.by_bonds(),
+            walls: ledger.walls,
+            slept: ledger.slept,
+            drag: ledger.drag,
+            entered: ledger.entered,
+            left: ledger.left,
             elastic: if setup.ledger { contacts.elastic() + bonds.elastic() } else { 0.0 },
             ..Energy::default()
         };

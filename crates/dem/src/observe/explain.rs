@@ -63,8 +63,8 @@ pub fn bytes_per_particle(model: &Model, state: &State) -> usize {
     let rotates = state.particles.rotates();
     let rotation = if rotates { 2 * size_of::<Row4>() } else { 0 };
     let form = model.form();
-    let couples = if state.couples(model) { form.couple() } else { 0 };
-    let sums = (form.load() + couples) * size_of::<f64>();
+    let torques = if state.torques(model) { form.torque() } else { 0 };
+    let sums = (form.load() + torques) * size_of::<f64>();
     let own = size_of::<Row>() + 2 * size_of::<Row4>() + sums;
     let sleep = if state.sleepers.is_some() { size_of::<Row>() + size_of::<u32>() + 2 + sums } else { 0 };
     own + rotation + sleep + size_of::<u32>() + size_of::<u16>() + size_of::<u32>()
@@ -73,7 +73,7 @@ pub fn bytes_per_particle(model: &Model, state: &State) -> usize {
 /// What a listed contact takes without what its effects remember.
 pub fn bytes_of_contact(model: &Model, state: &State) -> ContactBytes {
     let form = model.form();
-    let words = form.load() + if state.couples(model) { form.couple() } else { 0 };
+    let words = form.load() + if state.torques(model) { form.torque() } else { 0 };
     ContactBytes {
         listed: 2 * size_of::<u32>(),
         point: size_of::<Row>() + if state.particles.rotates() { size_of::<Row4>() } else { 0 },

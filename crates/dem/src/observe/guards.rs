@@ -39,14 +39,14 @@ pub fn check_overlap(
             let share = overlap / if radius == 0.0 { mine } else { mine.min(radius) };
             if share > limit && worst.as_ref().is_none_or(|w| share > w.0) {
                 // Of a pair, the one that comes in is named first.
-                let (one, other) = if pair && state.zones.on_its_way(j).is_some() { (j, i) } else { (i, j) };
+                let (one, other) = if pair && state.zones.entering_by(j).is_some() { (j, i) } else { (i, j) };
                 let partner = match with {
                     With::Wall(w) => format!("wall '{}'", model.setup.walls[w].name),
                     _ => format!("particle {}", state.particles.id[other]),
                 };
                 let here = place(one);
                 let (id, [x, y, z]) = (state.particles.id[one], [here.x, here.y, here.z]);
-                let halt = match state.zones.on_its_way(one) {
+                let halt = match state.zones.entering_by(one) {
                     Some(inlet) => {
                         Halt::InletOverlap { time, id, inlet, partner, x, y, z, overlap, share, limit }
                     }
@@ -81,7 +81,7 @@ pub fn check_energy(model: &Model, state: &mut State, lists: &NeighbourLists) ->
     let limit = model.setup.guards.energy;
     let (time, e) = (state.time(), energy(model, state, lists));
     // At the deepest point of an impact and at the top of a flight nothing moves: the most that was seen counts.
-    let peak = &mut state.account.peak;
+    let peak = &mut state.ledger.peak;
     *peak = peak.max(e.translation + e.rotation + e.elastic.abs());
     let (made, of) = (e.integration, e.exchanged() + *peak);
     // Sums of positions far from the origin have no more digits. Written so that NaN is caught.

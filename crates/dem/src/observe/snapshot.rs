@@ -1,11 +1,11 @@
 //! Looking at a simulation: particles, clumps and energy of this instant. Nothing that is looked at changes.
 
-use crate::kernel::sums::Loads;
+use crate::kernel::sums::WrenchSums;
 use crate::model::Model;
 use crate::neighbours::NeighbourLists;
 use crate::passes::instant::{Instant, instant};
 use crate::passes::ledger::close_step;
-use crate::passes::zones::ledger::held_by_idle;
+use crate::passes::zones::ledger::energy_of_idle;
 use crate::setup::Particle;
 use crate::state::State;
 use crate::state::energy::Energy;
@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 pub struct Snapshot<'a> {
     model: &'a Model,
     state: &'a State,
-    loads: Loads<'a>,
+    loads: WrenchSums<'a>,
     /// Velocity and spin of those that are members of clumps.
     members: Vec<Option<(Vec3, Vec3)>>,
     order: Vec<u32>,
@@ -83,10 +83,10 @@ pub fn energy(model: &Model, state: &State, lists: &NeighbourLists) -> Energy {
     }
     let body_of = |id: u32| bodies[..bodies.partition_point(|b| b.id <= id)].last();
     particles.retain(|p| !body_of(p.id).is_some_and(|b| b.has(p.id)));
-    let mut energy = Energy::of(&particles, &model.setup, (&lists.contacts, &state.bonds), &state.account);
+    let mut energy = Energy::of(&particles, &model.setup, (&lists.contacts, &state.bonds), &state.ledger);
     bodies.iter().for_each(|b| energy.add_body(b, &model.setup));
     if model.setup.ledger {
-        let held = held_by_idle(model, state, lists);
+        let held = energy_of_idle(model, state, lists);
         energy.elastic -= held;
         energy.left += held;
         close_step(model, state, lists, &mut energy);

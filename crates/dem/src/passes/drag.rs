@@ -70,7 +70,7 @@ pub fn apply(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> bo
             (taken, out)
         });
     if model.setup.ledger {
-        done.iter().for_each(|d| state.account.drag += d.0);
+        done.iter().for_each(|d| state.ledger.drag += d.0);
     }
     done.iter().any(|d| d.1)
 }

@@ -1,11 +1,11 @@
 //! Particles at one instant: velocities corrected by the forces of it.
 
-use crate::kernel::sums::Loads;
+use crate::kernel::sums::WrenchSums;
 use crate::model::Model;
 use crate::passes::drag::body_acceleration;
 use crate::passes::ledger::driven;
 use crate::state::State;
-use crate::state::ledger::Driven;
+use crate::state::ledger::DrivenBody;
 use geom::Vec3;
 
 /// What a particle does at this instant.
@@ -17,7 +17,7 @@ pub struct Instant {
 }
 
 /// Corrects what was predicted for particle `k`, whose loads are those of this instant.
-pub fn instant(model: &Model, state: &State, k: usize, loads: &Loads) -> Instant {
+pub fn instant(model: &Model, state: &State, k: usize, loads: &WrenchSums) -> Instant {
     let p = &state.particles;
     let row = &p.rows[k];
     let (free, half) = (!state.zones.travels(k), 0.5 * model.dt);
@@ -46,7 +46,7 @@ pub fn instant(model: &Model, state: &State, k: usize, loads: &Loads) -> Instant
 }
 
 /// What drives particle `k` at this instant.
-pub fn driven_now(model: &Model, state: &State, k: usize, loads: &Loads) -> Driven {
+pub fn driven_now(model: &Model, state: &State, k: usize, loads: &WrenchSums) -> DrivenBody {
     let Instant { velocity, spin, acceleration, turning } = instant(model, state, k, loads);
-    Driven { velocity, spin, ..driven(model, state, k, acceleration, turning) }
+    DrivenBody { velocity, spin, ..driven(model, state, k, acceleration, turning) }
 }

@@ -13,10 +13,10 @@ use crate::kernel::sums::Sums;
 use crate::simd::number::{Number, as_kept};
 use crate::simd::scalar::Each;
 use crate::simd::{Four, Row, Row4, Width};
-use crate::state::sleepers::Beds;
+use crate::state::sleepers::SleeperSlices;
 
 /// Columns of some particles.
-pub struct Columns<'a> {
+pub struct ParticleSlices<'a> {
     /// Number of the first.
     pub first: usize,
     pub rows: &'a mut [Row],
@@ -28,13 +28,13 @@ pub struct Columns<'a> {
     /// Loads on them.
     pub sums: Sums<'a>,
     /// Who sleeps, where the scene asks for it.
-    pub beds: Option<Beds<'a>>,
+    pub sleeper_slices: Option<SleeperSlices<'a>>,
 }
 
-impl<'a> Columns<'a> {
+impl<'a> ParticleSlices<'a> {
     /// The same, for a while.
-    pub fn by_ref(&mut self) -> Columns<'_> {
-        Columns {
+    pub fn by_ref(&mut self) -> ParticleSlices<'_> {
+        ParticleSlices {
             first: self.first,
             rows: self.rows,
             spins: self.spins,
@@ -42,12 +42,12 @@ impl<'a> Columns<'a> {
             turning: self.turning,
             home: self.home,
             sums: self.sums.by_ref(),
-            beds: self.beds.as_mut().map(Beds::by_ref),
+            sleeper_slices: self.sleeper_slices.as_mut().map(SleeperSlices::by_ref),
         }
     }
 
     /// The particles before number `to`, and the others.
-    pub fn split(self, to: usize) -> (Columns<'a>, Columns<'a>) {
+    pub fn split(self, to: usize) -> (ParticleSlices<'a>, ParticleSlices<'a>) {
         let n = (to - self.first).min(self.rows.len());
         let turn = n.min(self.spins.len());
         let (rows, rows2) = self.rows.split_at_mut(n);
@@ -57,9 +57,9 @@ impl<'a> Columns<'a> {
         let (home, home2) = self.home.split_at(n);
         let first = self.first;
         let (sums, sums2) = self.sums.split(n);
-        let (beds, beds2) = self.beds.map(|b| b.split(n)).unzip();
-        let one = Columns { first, rows, spins, acceleration, turning, home, sums, beds };
-        let two = Columns {
+        let (sleeper_slices, beds2) = self.sleeper_slices.map(|b| b.split(n)).unzip();
+        let one = ParticleSlices { first, rows, spins, acceleration, turning, home, sums, sleeper_slices };
+        let two = ParticleSlices {
             first: first + n,
             rows: rows2,
             spins: spins2,
@@ -67,7 +67,7 @@ impl<'a> Columns<'a> {
             turning: turning2,
             home: home2,
             sums: sums2,
-            beds: beds2,
+            sleeper_slices: beds2,
         };
         (one, two)
     }
@@ -75,34 +75,38 @@ impl<'a> Columns<'a> {
 
 /// What one move found.
 #[derive(Clone, Copy, Default)]
-pub struct Moved {
+pub struct MoveFlags {
     /// Whether a particle has left the room that its neighbours were listed for.
     pub out: bool,
     /// Whether a particle moved more than its limit, or is not a number.
-    pub wild: bool,
+    pub too_fast: bool,
 }
 
-impl Moved {
+impl MoveFlags {
     /// Either.
-    pub fn and(self, o: Moved) -> Moved {
-        Moved { out: self.out | o.out, wild: self.wild | o.wild }
+    pub fn and(self, o: MoveFlags) -> MoveFlags {
+        MoveFlags { out: self.out | o.out, too_fast: self.too_fast | o.too_fast }
     }
 }
 
 /// Step [s], acceleration of free fall [m/s²], largest motion in one step over the radius [–].
 #[derive(Clone, Copy)]
-pub struct Drive {
+pub struct MoveInputs {
     pub dt: f64,
     pub gravity: [f64; 3],
     pub motion_limit: f64,
 }
 
 /// Moves particles by one step, computing with lanes of `width`; all widths give the same bits.
-pub fn advance(width: Width, columns: Columns, drive: &Drive) -> Moved {
+pub fn advance(width: Width, columns: ParticleSlices, drive: &MoveInputs) -> MoveFlags {
     as_kept!(columns.sums.form, T, ROTATES => dispatch::<T, ROTATES>(width, columns, drive))
 }
 
-fn dispatch<T: Number, const SPIN: bool>(width: Width, columns: Columns, drive: &Drive) -> Moved {
+fn dispatch<T: Number, const SPIN: bool>(
+    width: Width,
+    columns: ParticleSlices,
+    drive: &MoveInputs,
+) -> MoveFlags {
     match width {
         #[cfg(target_arch = "x86_64")]
         Width::Avx2 | Width::Avx512 => simd::avx2::<T, SPIN>(columns, drive),
@@ -117,9 +121,9 @@ mod simd {
     use super::*;
     use crate::simd::x86::X4;
 
-    pub fn avx2<T: Number, const SPIN: bool>(columns: Columns, drive: &Drive) -> Moved {
+    pub fn avx2<T: Number, const SPIN: bool>(columns: ParticleSlices, drive: &MoveInputs) -> MoveFlags {
         #[target_feature(enable = "avx2")]
-        fn inner<T: Number, const SPIN: bool>(columns: Columns, drive: &Drive) -> Moved {
+        fn inner<T: Number, const SPIN: bool>(columns: ParticleSlices, drive: &MoveInputs) -> MoveFlags {
             chunk::<T, X4, SPIN>(columns, drive)
         }
         // SAFETY: these widths are only made where the processor has AVX2.
@@ -128,15 +132,15 @@ mod simd {
 }
 
 #[inline(always)]
-fn chunk<T: Number, Q: Four, const SPIN: bool>(columns: Columns, drive: &Drive) -> Moved {
-    let Columns { rows, spins, acceleration, turning, home, sums, .. } = columns;
+fn chunk<T: Number, Q: Four, const SPIN: bool>(columns: ParticleSlices, drive: &MoveInputs) -> MoveFlags {
+    let ParticleSlices { rows, spins, acceleration, turning, home, sums, .. } = columns;
     let loads = sums.seen();
     let [gx, gy, gz] = drive.gravity;
     let gravity = Q::read(&[gx, gy, gz, 0.0]);
     // Rows hold radius and 1/m in the fourth place, which must not move.
     let three = Q::read(&[1.0, 1.0, 1.0, 0.0]);
     let (dt, half, square) = (Q::all(drive.dt), Q::all(0.5 * drive.dt), Q::all(0.5 * drive.dt * drive.dt));
-    let mut moved = Moved::default();
+    let mut moved = MoveFlags::default();
     for k in 0..rows.len() {
         let ([place, velocity], []) = rows[k].as_chunks_mut::<4>() else { continue };
         let (radius, inverse_mass) = (place[3], velocity[3]);
@@ -150,9 +154,9 @@ fn chunk<T: Number, Q: Four, const SPIN: bool>(columns: Columns, drive: &Drive) 
         new.write(&mut acceleration[k]);
         let limit = drive.motion_limit * radius;
         // Written so that NaN is caught.
-        moved.wild |= !(length2(moves) <= limit * limit);
-        let room = home[k][3];
-        moved.out |= length2(there - Q::read(&home[k])) > room * room;
+        moved.too_fast |= !(length2(moves) <= limit * limit);
+        let margin = home[k][3];
+        moved.out |= length2(there - Q::read(&home[k])) > margin * margin;
         if SPIN {
             let new = sum.moment * Q::all(2.5 * inverse_mass / (radius * radius)) * three;
             let w = Q::read(&spins[k]) + half * (new - Q::read(&turning[k]));

@@ -4,53 +4,55 @@
 //! share of g. Its velocity is then zero, and the force on it is kept. It wakes when the force on it differs from that
 //! by more than the share of its weight, or the moment by the share of weight × radius. Loads between two sleepers, or of a sleeper on a
 //! wall at rest, are those of the step in which they fell asleep: whole blocks of them are passed over,
-//! and their sum is kept for each tile ([`Still`]) until somebody in or beside it falls asleep or wakes.
+//! and their sum is kept for each tile ([`RestingTile`]) until somebody in or beside it falls asleep or wakes.
 //!
 //! Sleeping changes results: by what a bed would still have crept, and by disturbances too weak to wake it.
 
-use crate::neighbours::resting::Still;
+use crate::neighbours::resting::RestingTile;
 use crate::neighbours::slices::Lists;
-use crate::passes::integrate::{Columns, Drive, Moved, advance};
+use crate::passes::integrate::{MoveFlags, MoveInputs, ParticleSlices, advance};
 use crate::simd::{Row, Width};
-use crate::state::sleepers::Beds;
+use crate::state::sleepers::SleeperSlices;
 use std::ops::Range;
 
 /// Moves those of a tile that are awake, and looks after the others: all of them, where what is `still` has just been found.
 pub fn advance_awake(
     width: Width,
-    mut columns: Columns,
-    drive: &Drive,
+    mut columns: ParticleSlices,
+    drive: &MoveInputs,
     lists: &Lists,
-    still: Option<&Still>,
-) -> Moved {
-    let mut moved = Moved::default();
-    let Some(mut beds) = columns.beds.take() else { return advance(width, columns, drive) };
+    still: Option<&RestingTile>,
+) -> MoveFlags {
+    let mut moved = MoveFlags::default();
+    let Some(mut sleeper_slices) = columns.sleeper_slices.take() else {
+        return advance(width, columns, drive);
+    };
     let first = columns.first;
-    let sleeps = &beds.asleep[first..first + columns.rows.len()];
-    let mut wake = |run: Range<usize>, columns: &mut Columns, beds: &mut Beds| {
+    let sleeps = &sleeper_slices.asleep[first..first + columns.rows.len()];
+    let mut wake = |run: Range<usize>, columns: &mut ParticleSlices, sleeper_slices: &mut SleeperSlices| {
         let (_, rest) = columns.by_ref().split(first + run.start);
         let (awake, _) = rest.split(first + run.end);
         moved = moved.and(advance(width, awake, drive));
-        run.for_each(|k| beds.watch(k, columns, drive));
+        run.for_each(|k| sleeper_slices.check_sleep(k, columns, drive));
     };
-    if let Some(still) = still.filter(|s| s.goes_on()) {
-        still.awake.iter().for_each(|run| wake(run.clone(), &mut columns, &mut beds));
-        still.stirred.iter().for_each(|&k| beds.feel(k as usize, &mut columns, drive));
+    if let Some(still) = still.filter(|s| s.unchanged()) {
+        still.awake.iter().for_each(|run| wake(run.clone(), &mut columns, &mut sleeper_slices));
+        still.disturbed.iter().for_each(|&k| sleeper_slices.check_wake(k as usize, &mut columns, drive));
         return moved;
     }
     for run in runs(sleeps) {
         if sleeps[run.start] {
-            run.for_each(|k| beds.hold(k, &mut columns, drive, lists));
+            run.for_each(|k| sleeper_slices.keep_asleep(k, &mut columns, drive, lists));
         } else {
-            wake(run, &mut columns, &mut beds);
+            wake(run, &mut columns, &mut sleeper_slices);
         }
     }
     moved
 }
 
-impl Beds<'_> {
+impl SleeperSlices<'_> {
     /// A particle that has just moved: whether it falls asleep.
-    fn watch(&mut self, k: usize, columns: &mut Columns, drive: &Drive) {
+    fn check_sleep(&mut self, k: usize, columns: &mut ParticleSlices, drive: &MoveInputs) {
         let row = columns.rows[k];
         let spin = columns.spins.get(k).map_or(0.0, |w| length([w[0], w[1], w[2]]));
         let turning = columns.turning.get(k).map_or(0.0, |t| length([t[0], t[1], t[2]]));
@@ -72,16 +74,16 @@ impl Beds<'_> {
     }
 
     /// A sleeper: whether it wakes.
-    fn hold(&mut self, k: usize, columns: &mut Columns, drive: &Drive, lists: &Lists) {
+    fn keep_asleep(&mut self, k: usize, columns: &mut ParticleSlices, drive: &MoveInputs, lists: &Lists) {
         self.quiet[k] = self.steps.saturating_add(1);
         self.next[k] = true;
-        if lists.stirred(columns.first + k, self.asleep) {
-            self.feel(k, columns, drive);
+        if lists.disturbed(columns.first + k, self.asleep) {
+            self.check_wake(k, columns, drive);
         }
     }
 
     /// A sleeper that something may have stirred: whether it wakes.
-    fn feel(&mut self, k: usize, columns: &mut Columns, drive: &Drive) {
+    fn check_wake(&mut self, k: usize, columns: &mut ParticleSlices, drive: &MoveInputs) {
         let here = columns.first + k;
         let row = columns.rows[k];
         let (force, moment) = columns.sums.seen().on(here, row[3]);
@@ -103,7 +105,7 @@ impl Beds<'_> {
 
 /// What a particle that has just moved loses when it rests there [J]: its kinetic energy half a step ago, and what contacts did
 /// not add and its weight will not ([`crate::account`] leaves its last step out).
-fn lost(k: usize, columns: &Columns, drive: &Drive) -> f64 {
+fn lost(k: usize, columns: &ParticleSlices, drive: &MoveInputs) -> f64 {
     let (row, a, dt) = (columns.rows[k], columns.acceleration[k], drive.dt);
     let mut lost = 0.0;
     for axis in 0..3 {
@@ -120,7 +122,7 @@ fn lost(k: usize, columns: &Columns, drive: &Drive) -> f64 {
 }
 
 /// Takes the velocity that a particle would have next.
-fn rest(k: usize, columns: &mut Columns) {
+fn rest(k: usize, columns: &mut ParticleSlices) {
     columns.rows[k][4..7].fill(0.0);
     if let Some(spin) = columns.spins.get_mut(k) {
         spin[..3].fill(0.0);

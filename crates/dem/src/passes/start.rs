@@ -8,9 +8,9 @@ use crate::state::State;
 
 /// Gives particles without a past the acceleration of this instant as that of the step before; which they are.
 pub fn give_acceleration(model: &Model, state: &mut State, lists: &NeighbourLists) -> Vec<u32> {
-    let fresh = std::mem::take(&mut state.fresh);
+    let starting = std::mem::take(&mut state.starting);
     let loads = lists.contacts.sums();
-    for k in fresh.iter().map(|&k| k as usize) {
+    for k in starting.iter().map(|&k| k as usize) {
         let row = state.particles.rows[k];
         let (force, m) = loads.on(k, row[3]);
         let (mut a, body) = (Row4::default(), body_acceleration(model, state, k));
@@ -25,5 +25,5 @@ pub fn give_acceleration(model: &Model, state: &mut State, lists: &NeighbourList
         }
     }
     state.bodies.prime(&state.particles, &model.setup);
-    fresh
+    starting
 }

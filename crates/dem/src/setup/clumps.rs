@@ -1,12 +1,12 @@
 //! What the clumps of a setup are, seen from the rest of the engine.
 
-use crate::effects::{Ease, Material};
+use crate::effects::{Compliance, Material};
 use crate::setup::clump_shape::ClumpShape;
 use crate::setup::{Clumps, EntryClump, Setup};
 
 /// How easily a rigid clump gives way, for the critical step.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Yielding {
+pub struct ClumpCompliance {
     /// Name of the shape.
     pub name: String,
     /// Its material.
@@ -26,12 +26,12 @@ const AT_ONCE: f64 = 1e12;
 
 impl Setup {
     /// Of two materials, where so many times the contacts of a close packing push at once.
-    pub(crate) fn ease(&self, a: u16, b: u16, crowd: f64) -> Ease {
+    pub(crate) fn ease(&self, a: u16, b: u16, crowd: f64) -> Compliance {
         let clumps = self.clumps.yielding(&self.materials);
         let own = clumps.iter().filter(|c| c.material == a || c.material == b);
         let bodies = crowd * own.map(|c| c.normal.max(c.tangential) / c.inverse_mass).fold(1.0, f64::max);
         let is_bonded = |m: u16| self.bonds.iter().any(|bond| bond.between.0 == m || bond.between.1 == m);
-        Ease { bodies, springs: if is_bonded(a) || is_bonded(b) { AT_ONCE } else { bodies } }
+        Compliance { bodies, springs: if is_bonded(a) || is_bonded(b) { AT_ONCE } else { bodies } }
     }
 }
 
@@ -62,7 +62,7 @@ impl Clumps {
     }
 
     /// How easily bodies of each shape give way, at the smallest and the largest scale.
-    pub(crate) fn yielding(&self, materials: &[Material]) -> Vec<Yielding> {
+    pub(crate) fn yielding(&self, materials: &[Material]) -> Vec<ClumpCompliance> {
         let mut range: Vec<Option<(f64, f64)>> = vec![None; self.shapes.len()];
         let own = self.bodies.iter().map(|b| (b.shape, b.scale, b.scale));
         for (shape, low, high) in own.chain(self.entries.iter().copied()) {
@@ -76,7 +76,7 @@ impl Clumps {
             let density = materials[shape.material as usize].density;
             for s in if low == high { vec![low] } else { vec![low, high] } {
                 let share = 1.0 / (s * s * s * density);
-                list.push(Yielding {
+                list.push(ClumpCompliance {
                     name: shape.name.clone(),
                     material: shape.material,
                     radius: shape.radii().1 * s,

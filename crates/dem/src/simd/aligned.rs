@@ -8,7 +8,7 @@ const LINE: usize = 8;
 /// Zeros at first, beginning at the start of a cache line.
 #[derive(Debug, Default)]
 pub struct Aligned {
-    room: Vec<f64>,
+    margin: Vec<f64>,
     first: usize,
     len: usize,
 }
@@ -19,9 +19,9 @@ impl Aligned {
         if len == 0 {
             return Aligned::default();
         }
-        let room = vec![0.0; len + LINE];
-        let first = room.as_ptr().align_offset(LINE * size_of::<f64>()).min(LINE);
-        Aligned { room, first, len }
+        let margin = vec![0.0; len + LINE];
+        let first = margin.as_ptr().align_offset(LINE * size_of::<f64>()).min(LINE);
+        Aligned { margin, first, len }
     }
 
     /// `len` zeros, in the same place where there are so many.
@@ -36,12 +36,12 @@ impl Aligned {
 impl Deref for Aligned {
     type Target = [f64];
     fn deref(&self) -> &[f64] {
-        &self.room[self.first..self.first + self.len]
+        &self.margin[self.first..self.first + self.len]
     }
 }
 
 impl DerefMut for Aligned {
     fn deref_mut(&mut self) -> &mut [f64] {
-        &mut self.room[self.first..self.first + self.len]
+        &mut self.margin[self.first..self.first + self.len]
     }
 }

@@ -69,29 +69,29 @@ pub fn fetch<T>(table: &[T], at: usize) {
 
 /// Which rows of a table are read: all of them within it, which is looked at once for several tables of as many rows.
 #[derive(Clone, Copy)]
-pub struct Places<'a> {
+pub struct Indices<'a> {
     of: &'a [u32],
     /// All are below this.
     rows: usize,
 }
 
-impl<'a> Places<'a> {
+impl<'a> Indices<'a> {
     /// Places in tables of so many rows.
     ///
     /// # Panics
     /// Where one lies beyond.
     #[inline(always)]
-    pub fn within(of: &'a [u32], rows: usize) -> Places<'a> {
+    pub fn within(of: &'a [u32], rows: usize) -> Indices<'a> {
         let end = rows.min(u32::MAX as usize) as u32;
         // Without a branch for each.
         assert!(of.iter().fold(true, |all, &k| all & (k < end)));
-        Places { of, rows }
+        Indices { of, rows }
     }
 
     /// Those from number `first` on.
     #[inline(always)]
-    pub fn from(self, first: usize) -> Places<'a> {
-        Places { of: &self.of[first..], ..self }
+    pub fn from(self, first: usize) -> Indices<'a> {
+        Indices { of: &self.of[first..], ..self }
     }
 }
 
@@ -134,9 +134,9 @@ pub trait Lane:
     /// Whether any lane holds.
     fn any(mask: Self::Mask) -> bool;
     /// Columns of the rows at the first `WIDTH` places.
-    fn rows(table: &[Row], places: Places) -> [Self; 8];
+    fn rows(table: &[Row], places: Indices) -> [Self; 8];
     /// The like for rows of four.
-    fn rows4(table: &[Row4], places: Places) -> [Self; 4];
+    fn rows4(table: &[Row4], places: Indices) -> [Self; 4];
     /// Writes columns as `WIDTH` rows of eight.
     fn store_rows(columns: [Self; 8], to: &mut [f64]);
     /// Writes columns as `WIDTH` rows of four.

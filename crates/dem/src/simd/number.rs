@@ -91,7 +91,7 @@ impl Number for f32 {
 
 /// How what is computed of contacts is kept in a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Form {
+pub struct Layout {
     /// Whether loads have moments.
     pub rotates: bool,
     /// Whether numbers are kept in single precision.
@@ -120,7 +120,7 @@ pub const fn of_a_load(rotates: bool) -> usize {
     if rotates { FORCE_AND_MOMENT } else { FORCE }
 }
 
-impl Form {
+impl Layout {
     /// Words of so many numbers.
     #[inline(always)]
     fn words(self, numbers: usize) -> usize {
@@ -136,7 +136,7 @@ impl Form {
 
     /// Words of a couple.
     #[inline(always)]
-    pub fn couple(self) -> usize {
+    pub fn torque(self) -> usize {
         self.words(COUPLE)
     }
 

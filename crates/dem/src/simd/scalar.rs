@@ -1,6 +1,6 @@
 //! One contact at a time: what the wide lanes must equal.
 
-use crate::simd::{Four, Lane, Places, Row, Row4};
+use crate::simd::{Four, Indices, Lane, Row, Row4};
 use std::ops::{Add, Mul, Sub};
 
 impl Lane for f64 {
@@ -59,11 +59,11 @@ impl Lane for f64 {
         mask
     }
     #[inline(always)]
-    fn rows(table: &[Row], places: Places) -> [f64; 8] {
+    fn rows(table: &[Row], places: Indices) -> [f64; 8] {
         table[places.of[0] as usize].0
     }
     #[inline(always)]
-    fn rows4(table: &[Row4], places: Places) -> [f64; 4] {
+    fn rows4(table: &[Row4], places: Indices) -> [f64; 4] {
         table[places.of[0] as usize].0
     }
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! One contact at a time in single precision: what the wide lanes of single precision must equal.
 
-use crate::simd::{Lane, Places, Row, Row4};
+use crate::simd::{Indices, Lane, Row, Row4};
 
 impl Lane for f32 {
     const WIDTH: usize = 1;
@@ -57,11 +57,11 @@ impl Lane for f32 {
         mask
     }
     #[inline(always)]
-    fn rows(table: &[Row], places: Places) -> [f32; 8] {
+    fn rows(table: &[Row], places: Indices) -> [f32; 8] {
         f64::rows(table, places).map(f32::narrow)
     }
     #[inline(always)]
-    fn rows4(table: &[Row4], places: Places) -> [f32; 4] {
+    fn rows4(table: &[Row4], places: Indices) -> [f32; 4] {
         f64::rows4(table, places).map(f32::narrow)
     }
     #[inline(always)]

@@ -3,7 +3,7 @@
 //! A contact is one long chain of roots and divisions, each of which waits for the one before: a processor computes two chains
 //! in hardly more time than one. Eight contacts as one lane need registers that not every processor has.
 
-use crate::simd::{Lane, Places, Row, Row4};
+use crate::simd::{Indices, Lane, Row, Row4};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// The first contacts, and as many more.
@@ -90,7 +90,7 @@ impl<R: Lane> Lane for Two<R> {
         R::any(mask.0) | R::any(mask.1)
     }
     #[inline(always)]
-    fn rows(table: &[Row], places: Places) -> [Two<R>; 8] {
+    fn rows(table: &[Row], places: Indices) -> [Two<R>; 8] {
         let (a, b) = (R::rows(table, places), R::rows(table, places.from(R::WIDTH)));
         [
             Two(a[0], b[0]),
@@ -104,7 +104,7 @@ impl<R: Lane> Lane for Two<R> {
         ]
     }
     #[inline(always)]
-    fn rows4(table: &[Row4], places: Places) -> [Two<R>; 4] {
+    fn rows4(table: &[Row4], places: Indices) -> [Two<R>; 4] {
         let (a, b) = (R::rows4(table, places), R::rows4(table, places.from(R::WIDTH)));
         [Two(a[0], b[0]), Two(a[1], b[1]), Two(a[2], b[2]), Two(a[3], b[3])]
     }

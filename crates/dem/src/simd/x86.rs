@@ -7,7 +7,7 @@
 
 use crate::simd::Four;
 
-use crate::simd::{Lane, Places, Row, Row4};
+use crate::simd::{Indices, Lane, Row, Row4};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -74,7 +74,7 @@ impl X8 {
 
 /// The first `N` places, and the start of a table that they lie in.
 #[inline(always)]
-fn first<'a, const N: usize, T>(table: &'a [T], places: Places<'a>) -> (&'a [u32], *const T) {
+fn first<'a, const N: usize, T>(table: &'a [T], places: Indices<'a>) -> (&'a [u32], *const T) {
     assert!(places.rows <= table.len());
     (&places.of[..N], table.as_ptr())
 }
@@ -198,7 +198,7 @@ impl Lane for X4 {
         unsafe { _mm256_movemask_pd(mask) != 0 }
     }
     #[inline(always)]
-    fn rows(table: &[Row], places: Places) -> [X4; 8] {
+    fn rows(table: &[Row], places: Indices) -> [X4; 8] {
         let (of, table) = first::<4, Row>(table, places);
         // SAFETY: the row is one of the table, has eight numbers, and `at` is 0 or 4.
         let half =
@@ -208,7 +208,7 @@ impl Lane for X4 {
         [X4(a[0]), X4(a[1]), X4(a[2]), X4(a[3]), X4(b[0]), X4(b[1]), X4(b[2]), X4(b[3])]
     }
     #[inline(always)]
-    fn rows4(table: &[Row4], places: Places) -> [X4; 4] {
+    fn rows4(table: &[Row4], places: Indices) -> [X4; 4] {
         let (of, table) = first::<4, Row4>(table, places);
         // SAFETY: the row is one of the table, and has four numbers.
         let row = |k: usize| unsafe { _mm256_loadu_pd(table.add(of[k] as usize).cast()) };
@@ -298,14 +298,14 @@ impl Lane for X8 {
         mask != 0
     }
     #[inline(always)]
-    fn rows(table: &[Row], places: Places) -> [X8; 8] {
+    fn rows(table: &[Row], places: Indices) -> [X8; 8] {
         let (of, table) = first::<8, Row>(table, places);
         // SAFETY: the row is one of the table, and has eight numbers.
         let row = |k: usize| unsafe { _mm512_loadu_pd(table.add(of[k] as usize).cast()) };
         transpose8([row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7)]).map(X8)
     }
     #[inline(always)]
-    fn rows4(table: &[Row4], places: Places) -> [X8; 4] {
+    fn rows4(table: &[Row4], places: Indices) -> [X8; 4] {
         let (a, b) = (X4::rows4(table, places), X4::rows4(table, places.from(4)));
         // SAFETY: see the module's head.
         let join = |k: usize| unsafe { X8(_mm512_insertf64x4::<1>(_mm512_castpd256_pd512(a[k].0), b[k].0)) };

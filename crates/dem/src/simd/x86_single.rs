@@ -7,7 +7,7 @@ use crate::simd::Lane;
 
 use crate::simd::two::Two;
 use crate::simd::x86::{X4, X8};
-use crate::simd::{Places, Row, Row4};
+use crate::simd::{Indices, Row, Row4};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -156,13 +156,13 @@ macro_rules! single {
                 unsafe { _mm256_movemask_ps(mask) != 0 }
             }
             #[inline(always)]
-            fn rows(table: &[Row], places: Places) -> [$t; 8] {
+            fn rows(table: &[Row], places: Indices) -> [$t; 8] {
                 let c = $wide::rows(table, places);
                 let n = $t::narrow;
                 [n(c[0]), n(c[1]), n(c[2]), n(c[3]), n(c[4]), n(c[5]), n(c[6]), n(c[7])]
             }
             #[inline(always)]
-            fn rows4(table: &[Row4], places: Places) -> [$t; 4] {
+            fn rows4(table: &[Row4], places: Indices) -> [$t; 4] {
                 let c = $wide::rows4(table, places);
                 let n = $t::narrow;
                 [n(c[0]), n(c[1]), n(c[2]), n(c[3])]

@@ -105,7 +105,7 @@ impl Simulation {
             new: c.new,
             // Wrenches between sleepers are those of the step in which they fell asleep.
             loads: match (state.current || state.sleepers.is_some(), c.keeps()) {
-                (true, true) => [&c.loads, &c.couples, &c.ledger],
+                (true, true) => [&c.loads, &c.torques, &c.ledger],
                 (true, false) => [&[], &[], &c.ledger],
                 (false, _) => [&[]; 3],
             },
@@ -130,7 +130,7 @@ impl Simulation {
         sim.state = state;
         let Simulation { model, state, lists } = &mut sim;
         state.bonds.index(&state.particles.id);
-        if state.listings > 0 {
+        if state.rebuilds > 0 {
             rebuild::list_again(model, state, lists);
             if memory.len() != lists.contacts.memory.len() {
                 other("another number of contacts")?;
@@ -143,7 +143,7 @@ impl Simulation {
         if current || !loads[0].is_empty() {
             // Where nothing touches, wrenches that are kept are empty, too.
             let kept = sums.iter().all(Vec::is_empty);
-            lists.contacts.keep_each(kept);
+            lists.contacts.keep_wrenches(kept);
             // A crossing in this step asks where walls were touched, and so do sleepers on walls at rest.
             sweep::find_contact_points(model, state, lists);
             if !lists.contacts.put_loads(&loads, &sums) {

@@ -40,8 +40,8 @@ impl Simulation {
     }
 
     /// How often neighbours were listed so far.
-    pub fn listings(&self) -> u64 {
-        self.state.listings
+    pub fn rebuilds(&self) -> u64 {
+        self.state.rebuilds
     }
 
     /// Gap up to which neighbours are listed [m].
@@ -170,7 +170,7 @@ impl Simulation {
 
     /// Memory of a rigid clump, and of each of its members beyond that of a particle [bytes].
     pub fn bytes_of_clump() -> (usize, usize) {
-        crate::state::clumps::Bodies::bytes()
+        crate::state::clumps::RigidClumps::bytes()
     }
 
     /// Memory that rigid clumps take beyond that of their members' rows [bytes].

@@ -21,13 +21,13 @@ impl Simulation {
         let Simulation { model, state, lists } = self;
         refresh_lists(model, state, lists);
         // The move needs the acceleration of the step before.
-        if !state.fresh.is_empty() {
+        if !state.starting.is_empty() {
             compute_forces(model, state, lists)?;
         }
         let found = sweep::forces_and_move(model, state, lists);
         ledger::add_contacts(model, state, lists);
         if let Some(sleepers) = &mut state.sleepers {
-            state.account.slept += sleepers.end_step(lists.contacts.tile());
+            state.ledger.slept += sleepers.end_step(lists.contacts.tile());
         }
         let moved = clumps::advance::advance(model, state, found.moved);
         let driven = servo::drive(model, state, lists);
@@ -38,7 +38,7 @@ impl Simulation {
         state.bonds.turn(&state.particles, model.dt);
         zones::advance::advance(model, state, lists);
         guards::check_overlap(model, state, lists, &found.deep, true)?;
-        if moved.wild {
+        if moved.too_fast {
             guards::check_motion(model, state)?;
         }
         driven?;

@@ -16,10 +16,10 @@ use std::ops::Range;
 const COMMON: f64 = 0.98;
 
 /// How the skin is chosen: least, first and largest over the mean radius, and the steps that lists should hold.
-pub const SKIN: Choice = Choice { least: 0.02, start: 0.05, most: 0.6, steps: 32..96 };
+pub const SKIN: SkinChoice = SkinChoice { least: 0.02, start: 0.05, most: 0.6, steps: 32..96 };
 
 /// See [`SKIN`].
-pub struct Choice {
+pub struct SkinChoice {
     /// Smallest skin over the mean radius [–].
     pub least: f64,
     /// Skin at the start over the mean radius [–].
@@ -30,7 +30,7 @@ pub struct Choice {
     pub steps: Range<u64>,
 }
 
-impl Choice {
+impl SkinChoice {
     /// The skin [m] after lists have held for so many steps with `skin`, for grains of mean radius `grain` [m].
     pub fn next(&self, skin: f64, held: u64, grain: f64) -> f64 {
         let factor = if held < self.steps.start {
@@ -49,7 +49,7 @@ pub type Pair = (u32, u32);
 
 /// Room of a particle [m]: a share of the skin, and the `way` that it is expected to go, but no more than `most`: beyond, lists that
 /// hold longer would cost more than they save.
-pub fn room(skin: f64, way: f64, most: f64) -> f64 {
+pub fn margin(skin: f64, way: f64, most: f64) -> f64 {
     0.5 * skin + way.min(most)
 }
 

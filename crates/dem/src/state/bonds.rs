@@ -21,8 +21,8 @@
 
 use crate::kernel::sums::Sums;
 use crate::model::bonds::beam::{Ends, Pull};
+use crate::model::bonds::bonded_pair::BondedPair;
 use crate::model::bonds::find;
-use crate::model::bonds::tie::Tie;
 use crate::model::error::SetupError;
 use crate::setup::{Link, Setup};
 use crate::space::sphere::nearest;
@@ -60,7 +60,7 @@ pub struct Bonds {
     /// Whether the scene has any, or may get them.
     pub(crate) on: bool,
     /// By rows.
-    pub(crate) ties: Vec<Tie>,
+    pub(crate) pairs_bonded: Vec<BondedPair>,
     /// What each does at this instant.
     pub(crate) pulls: Vec<Pull>,
     /// How each particle has turned, by row; empty where there are none.
@@ -89,8 +89,8 @@ impl Bonds {
         if bonds.none() {
             return Ok(bonds);
         }
-        bonds.ties = find::ties(setup)?;
-        bonds.pulls = vec![Pull::default(); bonds.ties.len()];
+        bonds.pairs_bonded = find::pairs_bonded(setup)?;
+        bonds.pulls = vec![Pull::default(); bonds.pairs_bonded.len()];
         bonds.turns = vec![UnitQuaternion::identity(); particles.len()];
         bonds.index(&particles.id);
         Ok(bonds)
@@ -103,14 +103,14 @@ impl Bonds {
 
     /// How many there were, of those that have left as well, and how many of them broke.
     pub fn count(&self) -> [usize; 2] {
-        let broken = self.ties.iter().filter(|t| t.broken.is_finite()).count();
-        [self.ties.len() + self.left[0], broken + self.left[1]]
+        let broken = self.pairs_bonded.iter().filter(|t| t.broken.is_finite()).count();
+        [self.pairs_bonded.len() + self.left[0], broken + self.left[1]]
     }
 
     /// Memory that bonds take [bytes].
     pub fn bytes(&self) -> usize {
         use std::mem::size_of_val;
-        size_of_val(&self.ties[..])
+        size_of_val(&self.pairs_bonded[..])
             + size_of_val(&self.pulls[..])
             + size_of_val(&self.turns[..])
             + size_of_val(&self.starts[..])
@@ -138,12 +138,16 @@ impl Bonds {
             new[was as usize] = now;
         }
         let count = self.count();
-        self.ties.iter_mut().for_each(|tie| tie.ends = tie.ends.map(|k| new[k as usize]));
-        let (ties, pulls) = (std::mem::take(&mut self.ties), std::mem::take(&mut self.pulls));
-        let mut kept: Vec<(Tie, Pull)> = ties.into_iter().zip(pulls).collect();
-        kept.retain(|(tie, _)| !tie.ends.contains(&u32::MAX));
-        kept.sort_unstable_by_key(|(tie, _)| (tie.ends[0].min(tie.ends[1]), tie.ends[0].max(tie.ends[1])));
-        (self.ties, self.pulls) = kept.into_iter().unzip();
+        self.pairs_bonded
+            .iter_mut()
+            .for_each(|pair_bonded| pair_bonded.ends = pair_bonded.ends.map(|k| new[k as usize]));
+        let (pairs_bonded, pulls) = (std::mem::take(&mut self.pairs_bonded), std::mem::take(&mut self.pulls));
+        let mut kept: Vec<(BondedPair, Pull)> = pairs_bonded.into_iter().zip(pulls).collect();
+        kept.retain(|(pair_bonded, _)| !pair_bonded.ends.contains(&u32::MAX));
+        kept.sort_unstable_by_key(|(pair_bonded, _)| {
+            (pair_bonded.ends[0].min(pair_bonded.ends[1]), pair_bonded.ends[0].max(pair_bonded.ends[1]))
+        });
+        (self.pairs_bonded, self.pulls) = kept.into_iter().unzip();
         let here = self.count();
         self.left = [0, 1].map(|n| self.left[n] + count[n] - here[n]);
         self.turns = order.iter().map(|&was| self.turns[was as usize]).collect();
@@ -153,18 +157,19 @@ impl Bonds {
     /// Who has which bonds.
     pub fn index(&mut self, ids: &[u32]) {
         let mut starts = vec![0; self.turns.len() + 1];
-        let ends = || self.ties.iter().flat_map(|t| t.ends);
+        let ends = || self.pairs_bonded.iter().flat_map(|t| t.ends);
         ends().for_each(|k| starts[k as usize + 1] += 1);
         (1..starts.len()).for_each(|k| starts[k] += starts[k - 1]);
         let mut next = starts.clone();
-        self.entries = vec![0; 2 * self.ties.len()];
+        self.entries = vec![0; 2 * self.pairs_bonded.len()];
         for (entry, k) in (0..).zip(ends()) {
             self.entries[next[k as usize] as usize] = entry;
             next[k as usize] += 1;
         }
         // Sums do not depend on the order of rows.
-        let ties = &self.ties;
-        let other = |&entry: &u32| ids[ties[(entry >> 1) as usize].ends[1 - (entry & 1) as usize] as usize];
+        let pairs_bonded = &self.pairs_bonded;
+        let other =
+            |&entry: &u32| ids[pairs_bonded[(entry >> 1) as usize].ends[1 - (entry & 1) as usize] as usize];
         for pair in starts.windows(2) {
             self.entries[pair[0] as usize..pair[1] as usize].sort_unstable_by_key(other);
         }
@@ -186,18 +191,25 @@ impl Bonds {
 
     /// What all bonds do, at a time [s]; those that break do nothing any more. None breaks while both of its particles travel (`busy`), which feel nothing.
     pub(crate) fn pull(&mut self, particles: &Particles, period: &Vec3, (time, busy): (f64, &[bool])) {
-        let (ties, turns) = (&self.ties, &self.turns);
-        let pulls = self.pulls.chunks_mut(CHUNK).zip(ties.chunks(CHUNK));
-        share(ties.len() >= FEW / 4, pulls.collect(), |(pulls, ties)| {
-            for (pull, tie) in pulls.iter_mut().zip(ties).filter(|(_, tie)| tie.is_whole()) {
-                *pull = tie.beam.pull(&tie.ends(particles, turns, period));
+        let (pairs_bonded, turns) = (&self.pairs_bonded, &self.turns);
+        let pulls = self.pulls.chunks_mut(CHUNK).zip(pairs_bonded.chunks(CHUNK));
+        share(pairs_bonded.len() >= FEW / 4, pulls.collect(), |(pulls, pairs_bonded)| {
+            for (pull, pair_bonded) in
+                pulls.iter_mut().zip(pairs_bonded).filter(|(_, pair_bonded)| pair_bonded.is_whole())
+            {
+                *pull = pair_bonded.beam.pull(&pair_bonded.ends(particles, turns, period));
             }
         });
         self.lost = 0.0;
-        for (pull, tie) in self.pulls.iter_mut().zip(&mut self.ties).filter(|(_, tie)| tie.is_whole()) {
-            let travel = tie.ends.iter().all(|&k| busy.get(k as usize) == Some(&true));
-            if !travel && pull.stress.iter().zip(tie.strength).any(|(&now, most)| now > most) {
-                tie.broken = time;
+        for (pull, pair_bonded) in self
+            .pulls
+            .iter_mut()
+            .zip(&mut self.pairs_bonded)
+            .filter(|(_, pair_bonded)| pair_bonded.is_whole())
+        {
+            let travel = pair_bonded.ends.iter().all(|&k| busy.get(k as usize) == Some(&true));
+            if !travel && pull.stress.iter().zip(pair_bonded.strength).any(|(&now, most)| now > most) {
+                pair_bonded.broken = time;
                 self.lost += pull.elastic;
                 *pull = Pull { stress: pull.stress, ..Pull::default() };
             }
@@ -217,7 +229,7 @@ impl Bonds {
     }
 }
 
-impl Tie {
+impl BondedPair {
     /// Of both particles now.
     pub(crate) fn ends(&self, particles: &Particles, turns: &[UnitQuaternion<f64>], period: &Vec3) -> Ends {
         let [i, j] = self.ends.map(|k| k as usize);

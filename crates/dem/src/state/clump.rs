@@ -3,7 +3,7 @@
 use crate::setup::Setup;
 use crate::simd::{Row, Row4};
 use crate::space::rotation;
-use crate::state::ledger::{Driven, heavy};
+use crate::state::ledger::{DrivenBody, heavy};
 use crate::state::particles::Particles;
 use geom::Vec3;
 use nalgebra::{Quaternion, UnitQuaternion};
@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 
 /// One body: its state at the step, velocities predicted for it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Flight {
+pub struct ClumpMotion {
     /// Centre of mass [m].
     pub place: Vec3,
     /// Predicted velocity [m/s].
@@ -46,7 +46,7 @@ pub struct Flight {
     /// Number of members.
     pub count: u32,
     /// Whether the acceleration of the step before is unknown.
-    pub fresh: bool,
+    pub starting: bool,
     /// Whether it moves by a prescribed motion.
     pub travels: bool,
 }
@@ -61,17 +61,17 @@ pub fn arm(row: &Row4) -> Vec3 {
     Vec3::new(row[0], row[1], row[2])
 }
 
-impl Flight {
+impl ClumpMotion {
     /// Driven by a force of contacts and fluid, and a torque, at a velocity and an angular velocity.
     pub fn driven(
         &self,
         [force, moment]: [Vec3; 2],
         (velocity, spin): (Vec3, Vec3),
         setup: &Setup,
-    ) -> Driven {
+    ) -> DrivenBody {
         let forces = [force, force + self.weight(setup) * self.mass];
         let (inverse_mass, inverse_inertia) = (1.0 / self.mass, 0.0);
-        Driven { inverse_mass, inverse_inertia, forces, moment, velocity, spin }
+        DrivenBody { inverse_mass, inverse_inertia, forces, moment, velocity, spin }
     }
 
     /// Of what it is made of [kg/m³].

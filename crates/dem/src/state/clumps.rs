@@ -19,7 +19,7 @@ use crate::setup::{Body, ClumpShape, EntryClump, Particle, Setup};
 use crate::simd::Row4;
 use crate::space::rotation;
 use crate::space::sphere::periods;
-use crate::state::clump::{Flight, arm, quaternion};
+use crate::state::clump::{ClumpMotion, arm, quaternion};
 use crate::state::particles::Particles;
 use geom::Vec3;
 use serde::{Deserialize, Serialize};
@@ -29,8 +29,8 @@ pub(crate) const FREE: u32 = u32::MAX;
 
 /// All bodies of a simulation, and who their members are.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
-pub struct Bodies {
-    pub(crate) flights: Vec<Flight>,
+pub struct RigidClumps {
+    pub(crate) flights: Vec<ClumpMotion>,
     /// Rows of the members, body after body.
     pub(crate) members: Vec<u32>,
     /// The body of each row, or [`FREE`]; empty without bodies.
@@ -41,10 +41,10 @@ pub struct Bodies {
     pub(crate) images: Vec<[i8; 3]>,
 }
 
-impl Bodies {
+impl RigidClumps {
     /// The bodies of a setup at t = 0; their members are added to the particles.
-    pub fn new(setup: &Setup, particles: &mut Particles) -> Bodies {
-        let mut bodies = Bodies::default();
+    pub fn new(setup: &Setup, particles: &mut Particles) -> RigidClumps {
+        let mut bodies = RigidClumps::default();
         let mut sorted: Vec<&Body> = setup.clumps.bodies.iter().collect();
         sorted.sort_unstable_by_key(|b| b.id);
         for body in sorted {
@@ -73,7 +73,7 @@ impl Bodies {
         self.of.resize(particles.len(), FREE);
         self.arms.resize(particles.len(), Row4::default());
         self.images.resize(particles.len(), [0; 3]);
-        let (flight, first) = (self.flights.len() as u32, self.members.len() as u32);
+        let (clump_motion, first) = (self.flights.len() as u32, self.members.len() as u32);
         for (k, (centre, radius)) in shape.spheres.iter().enumerate() {
             let arm = centre * s;
             let out = turn * arm;
@@ -91,13 +91,13 @@ impl Bodies {
             );
             particles.rows[at][7] = 1.0 / mass;
             self.members.push(at as u32);
-            self.of.push(flight);
+            self.of.push(clump_motion);
             self.arms.push(Row4([arm.x, arm.y, arm.z, 0.0]));
             self.images.push([0; 3]);
         }
         let momentum = rotation::momentum(&turn, &body.spin, &inverse_inertia);
         let turn = turn.into_inner().coords.into();
-        self.flights.push(Flight {
+        self.flights.push(ClumpMotion {
             place: body.position,
             velocity: body.velocity,
             acceleration: Vec3::zeros(),
@@ -114,7 +114,7 @@ impl Bodies {
             shape: body.shape,
             first,
             count: shape.spheres.len() as u32,
-            fresh: true,
+            starting: true,
             travels: false,
         });
     }
@@ -134,8 +134,8 @@ impl Bodies {
         let orientation = rotation::spun(&(spin * turned)) * orientation;
         let body = Body { id, shape: index, scale, position, orientation, velocity, spin };
         self.push(&body, shape, &setup.materials, particles);
-        if let Some(flight) = self.flights.last_mut() {
-            flight.travels = true;
+        if let Some(clump_motion) = self.flights.last_mut() {
+            clump_motion.travels = true;
         }
         starts(start, clump, setup)
     }
@@ -157,7 +157,7 @@ impl Bodies {
     }
 
     /// The body that a row is a member of.
-    pub(crate) fn body_of(&self, k: usize) -> Option<&Flight> {
+    pub(crate) fn body_of(&self, k: usize) -> Option<&ClumpMotion> {
         self.of.get(k).and_then(|&b| self.flights.get(b as usize))
     }
 
@@ -207,7 +207,7 @@ impl Bodies {
 
     /// Memory of one body, and of each of its members beyond a particle's [bytes].
     pub fn bytes() -> (usize, usize) {
-        (size_of::<Flight>(), 2 * size_of::<u32>() + size_of::<Row4>() + size_of::<[i8; 3]>())
+        (size_of::<ClumpMotion>(), 2 * size_of::<u32>() + size_of::<Row4>() + size_of::<[i8; 3]>())
     }
 
     /// Memory of all bodies [bytes].

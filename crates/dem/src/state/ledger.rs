@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 
 /// Sums since the start [J].
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct Account {
+pub struct LedgerSums {
     /// By the normal law, sliding, rolling, twisting.
     pub dissipated: [f64; DISSIPATORS],
     /// Lost at once, when contacts are made or break.
@@ -54,7 +54,7 @@ pub struct Account {
 
 /// A particle or a rigid clump at one instant: what moves it.
 #[derive(Clone, Copy)]
-pub struct Driven {
+pub struct DrivenBody {
     /// 1/m [1/kg].
     pub inverse_mass: f64,
     /// 1/I [1/(kg·m²)]; of a clump 0, whose turn has no such energy.
@@ -68,7 +68,7 @@ pub struct Driven {
     pub spin: Vec3,
 }
 
-impl Driven {
+impl DrivenBody {
     /// Power of contacts and fluid [W].
     pub(crate) fn power(&self) -> f64 {
         self.forces[0].dot(&self.velocity) + self.moment.dot(&self.spin)
@@ -82,7 +82,7 @@ impl Driven {
     }
 }
 
-impl Account {
+impl LedgerSums {
     /// Adds what bonds take in a step of `dt` [s].
     pub fn add_bonds(&mut self, bonds: &Bonds, dt: f64) {
         let [power, lost] = bonds.dissipated();
@@ -114,11 +114,11 @@ pub fn unwrapped_potential(model: &Model, state: &State) -> f64 {
 }
 
 /// Brings particles back into the periodic box; what that does to their potential is booked.
-pub fn wrap_accounted(model: &Model, state: &mut State, wrap: impl FnOnce(&mut State)) {
+pub fn wrap_in_ledger(model: &Model, state: &mut State, wrap: impl FnOnce(&mut State)) {
     let before = if model.setup.ledger { unwrapped_potential(model, state) } else { 0.0 };
     wrap(state);
     if model.setup.ledger {
-        state.account.wrapped += before - unwrapped_potential(model, state);
+        state.ledger.wrapped += before - unwrapped_potential(model, state);
     }
 }
 

@@ -21,8 +21,8 @@ use crate::model::error::SetupError;
 use crate::setup::{Particle, Setup};
 use crate::state::servo::ServoState;
 use bonds::Bonds;
-use clumps::Bodies;
-use ledger::Account;
+use clumps::RigidClumps;
+use ledger::LedgerSums;
 use particles::Particles;
 use serde::{Deserialize, Serialize};
 use sleepers::Sleepers;
@@ -42,17 +42,17 @@ pub struct State {
     /// Whether a particle has left the margin that its neighbours were listed for.
     pub out: bool,
     /// Whether lists must be rebuilt whatever has moved.
-    pub stale: bool,
+    pub outdated: bool,
     /// Whether forces are those of this instant.
     pub current: bool,
     /// Particles whose acceleration of the step before is unknown.
-    pub fresh: Vec<u32>,
+    pub starting: Vec<u32>,
     /// Particles.
     pub particles: Particles,
     /// Zones and the particles in them.
     pub zones: Zones,
     /// Rigid clumps.
-    pub bodies: Bodies,
+    pub bodies: RigidClumps,
     /// Bonds.
     pub bonds: Bonds,
     /// Particles that sleep, where the setup asks for it.
@@ -60,9 +60,9 @@ pub struct State {
     /// Servos, by wall; empty where no wall follows a force.
     pub servos: Vec<ServoState>,
     /// Sums of the energy ledger.
-    pub account: Account,
+    pub ledger: LedgerSums,
     /// How often neighbours were listed.
-    pub listings: u64,
+    pub rebuilds: u64,
 }
 
 impl State {
@@ -76,7 +76,7 @@ impl State {
         let mut sorted: Vec<&Particle> = setup.particles.iter().collect();
         sorted.sort_unstable_by_key(|p| p.id);
         sorted.into_iter().for_each(|p| particles.push(p, &setup.materials));
-        let bodies = Bodies::new(setup, &mut particles);
+        let bodies = RigidClumps::new(setup, &mut particles);
         let bonds = Bonds::new(setup, &particles)?;
         let sleepers = setup.sleep.map(|s| Sleepers::new(s, model.dt, setup.gravity.norm(), particles.len()));
         Ok(State {
@@ -85,16 +85,16 @@ impl State {
             steps: 0,
             listed: 0,
             out: false,
-            stale: true,
+            outdated: true,
             current: false,
-            fresh: (0..particles.len() as u32).collect(),
+            starting: (0..particles.len() as u32).collect(),
             zones: Zones::new(setup, &particles),
             bodies,
             bonds,
             sleepers,
             servos: servos(setup),
-            account: Account::default(),
-            listings: 0,
+            ledger: LedgerSums::default(),
+            rebuilds: 0,
             particles,
         })
     }
@@ -105,13 +105,13 @@ impl State {
     }
 
     /// Whether the wrench of each contact is wanted in each step: by servos, planes of zones, and sleepers.
-    pub fn keeps_each(&self) -> bool {
+    pub fn keeps_wrenches(&self) -> bool {
         !self.servos.is_empty() || !self.zones.none() || self.sleepers.is_some()
     }
 
     /// Whether anything makes torques besides those of tangential forces.
-    pub fn couples(&self, model: &Model) -> bool {
-        !self.bonds.none() || model.kinds.iter().any(|k| k.kernel.couples())
+    pub fn torques(&self, model: &Model) -> bool {
+        !self.bonds.none() || model.kinds.iter().any(|k| k.kernel.torques())
     }
 }
 

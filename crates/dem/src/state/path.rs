@@ -9,7 +9,7 @@
 use crate::model::error::SetupError;
 use crate::setup::{Entry, Guide, Sample, Setup};
 use crate::space::rotation::spun;
-use crate::state::zone_particle::Flow;
+use crate::state::zone_particle::Kinematics;
 use crate::state::zones::Zones;
 use geom::Vec3;
 use nalgebra::UnitQuaternion;
@@ -29,7 +29,7 @@ fn between(from: &UnitQuaternion<f64>, to: &UnitQuaternion<f64>) -> Vec3 {
 
 /// How a path ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) enum End {
+pub(crate) enum PathEnd {
     /// It is not known yet.
     Open,
     /// At the calculation plane.
@@ -42,12 +42,12 @@ pub(crate) enum End {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Path {
     pub(crate) samples: VecDeque<Sample>,
-    pub(crate) end: End,
+    pub(crate) end: PathEnd,
 }
 
 /// Where a traveller on a path is.
 #[derive(PartialEq, Eq)]
-pub enum Stage {
+pub enum PathStage {
     Inside,
     Free,
     Gone,
@@ -55,19 +55,19 @@ pub enum Stage {
 
 impl Path {
     pub fn new(entry: &Entry) -> Path {
-        Path { samples: VecDeque::from([Sample::of(entry)]), end: End::Open }
+        Path { samples: VecDeque::from([Sample::of(entry)]), end: PathEnd::Open }
     }
 
     /// Forgets what is past; where the traveller is then.
-    pub fn follow(&mut self, now: f64) -> Stage {
+    pub fn follow(&mut self, now: f64) -> PathStage {
         while self.samples.get(1).is_some_and(|s| s.time <= now) {
             self.samples.pop_front();
         }
         match self.end {
-            End::Open => Stage::Inside,
-            _ if self.samples.back().is_some_and(|last| last.time > now) => Stage::Inside,
-            End::Free => Stage::Free,
-            End::Gone => Stage::Gone,
+            PathEnd::Open => PathStage::Inside,
+            _ if self.samples.back().is_some_and(|last| last.time > now) => PathStage::Inside,
+            PathEnd::Free => PathStage::Free,
+            PathEnd::Gone => PathStage::Gone,
         }
     }
 
@@ -95,18 +95,18 @@ impl Path {
 
     /// State at `now` [s], shifts counted from `origin`; before its first sample it waits there, out of everyone's sight. From its
     /// release within a step to the end of that step it falls freely.
-    pub fn flow(&self, now: f64, origin: &Vec3, gravity: &Vec3) -> Flow {
+    pub fn flow(&self, now: f64, origin: &Vec3, gravity: &Vec3) -> Kinematics {
         let still = Vec3::zeros();
         let Some(a) = self.samples.front() else {
-            return Flow { shift: still, velocity: still, acceleration: still, spin: still };
+            return Kinematics { shift: still, velocity: still, acceleration: still, spin: still };
         };
         let from = a.position - origin;
         let Some(b) = self.samples.get(1).filter(|_| now > a.time) else {
-            let pull = if self.end == End::Free { *gravity } else { still };
+            let pull = if self.end == PathEnd::Free { *gravity } else { still };
             let tau = (now - a.time).max(0.0);
             let (shift, velocity) =
                 (from + a.velocity * tau + pull * (0.5 * tau * tau), a.velocity + pull * tau);
-            return Flow { shift, velocity, acceleration: pull, spin: a.spin };
+            return Kinematics { shift, velocity, acceleration: pull, spin: a.spin };
         };
         let h = b.time - a.time;
         let s = (now - a.time) / h;
@@ -117,7 +117,7 @@ impl Path {
         let velocity =
             way * (6.0 * s * (1.0 - s) / h) + v0 * ((3.0 * s - 1.0) * (s - 1.0)) + v1 * (s * (3.0 * s - 2.0));
         let acceleration = (way * ((6.0 - 12.0 * s) / h) + v0 * (6.0 * s - 4.0) + v1 * (6.0 * s - 2.0)) / h;
-        Flow { shift, velocity, acceleration, spin: a.spin + (b.spin - a.spin) * s }
+        Kinematics { shift, velocity, acceleration, spin: a.spin + (b.spin - a.spin) * s }
     }
 }
 
@@ -125,10 +125,10 @@ impl Zones {
     /// Whether an entry only goes on with a path that was said to end, and has not come to that yet.
     pub fn comes_back(&mut self, entry: &Entry, setup: &Setup) -> Result<bool, SetupError> {
         let p = &entry.particle;
-        let Some(path) = self.paths.get_mut(&p.id).filter(|path| path.end == End::Gone) else {
+        let Some(path) = self.paths.get_mut(&p.id).filter(|path| path.end == PathEnd::Gone) else {
             return Ok(false);
         };
-        path.end = End::Open;
+        path.end = PathEnd::Open;
         self.guide(p.id, Guide::At(Sample::of(entry)), setup)?;
         Ok(true)
     }
@@ -143,7 +143,7 @@ impl Zones {
                 range: range.to_owned(),
             })
         };
-        let Some(path) = self.paths.get_mut(&id).filter(|p| p.end == End::Open) else {
+        let Some(path) = self.paths.get_mut(&id).filter(|p| p.end == PathEnd::Open) else {
             return wrong("news", f64::NAN, "the particles that are on their way in");
         };
         let mut add = |mut sample: Sample| {
@@ -171,9 +171,9 @@ impl Zones {
             Guide::At(sample) => add(sample)?,
             Guide::Free(sample) => {
                 add(sample)?;
-                path.end = End::Free;
+                path.end = PathEnd::Free;
             }
-            Guide::Gone => path.end = End::Gone,
+            Guide::Gone => path.end = PathEnd::Gone,
         }
         Ok(())
     }

@@ -2,7 +2,7 @@
 
 use crate::model::halt::Halt;
 use crate::setup::Setup;
-use crate::state::zone_particle::Way;
+use crate::state::zone_particle::Direction;
 use crate::state::zones::Zones;
 use geom::Vec3;
 use serde::{Deserialize, Serialize};
@@ -29,7 +29,7 @@ pub struct Returned {
 
 /// Who came from where.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
-pub struct Lost {
+pub struct ReturnCounts {
     /// Of each particle; empty where no inlet is watched.
     pub(crate) origins: Vec<Origin>,
     /// Whether any is.
@@ -37,14 +37,14 @@ pub struct Lost {
     pub(crate) returned: Returned,
 }
 
-impl Lost {
-    pub fn new(setup: &Setup, particles: usize) -> Lost {
+impl ReturnCounts {
+    pub fn new(setup: &Setup, particles: usize) -> ReturnCounts {
         let watched = (setup.guards.cuts as usize).min(setup.inlets.len());
         let none = |count: usize| vec![0; count];
         let outlets = setup.outlets.len();
         let returned = Returned { inlets: none(watched), outlets: none(outlets), fallen: none(outlets) };
         let origins = if watched > 0 { vec![Origin::default(); particles] } else { Vec::new() };
-        Lost { origins, any: false, returned }
+        ReturnCounts { origins, any: false, returned }
     }
 
     /// A particle is added at the end.
@@ -81,8 +81,8 @@ impl Zones {
     /// Refuses a particle on its way in that moves by more than the guard's share of its radius in a step.
     pub(crate) fn fast(&self, time: f64, dt: f64, setup: &Setup) -> Result<(), Halt> {
         let limit = setup.guards.motion;
-        for t in &self.travellers {
-            let Way::In(inlet) = t.way else { continue };
+        for t in &self.zone_particles {
+            let Direction::In(inlet) = t.way else { continue };
             let speed = t.flow(time, self, setup).velocity.norm();
             let share = speed * dt / t.start.radius;
             if !(share <= limit) {

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// Who sleeps, and since when that is so.
 #[derive(Clone, Copy)]
-pub struct Known<'a> {
+pub struct SleepMap<'a> {
     /// Whether each particle, and the two that fill up blocks, sleeps in this step.
     pub asleep: &'a [bool],
     /// Steps that were ended.
@@ -37,7 +37,7 @@ pub struct Sleepers {
 }
 
 /// The like, of some particles.
-pub struct Beds<'a> {
+pub struct SleeperSlices<'a> {
     pub(crate) quiet: &'a mut [u32],
     pub(crate) next: &'a mut [bool],
     pub(crate) held: &'a mut [Row],
@@ -94,7 +94,7 @@ impl Sleepers {
     }
 
     /// Whether a particle has fallen asleep in the last step.
-    pub fn fell(&self, k: usize) -> bool {
+    pub fn fell_asleep(&self, k: usize) -> bool {
         self.quiet[k] == self.steps
     }
 
@@ -110,47 +110,47 @@ impl Sleepers {
             }
             self.asleep[here.clone()].copy_from_slice(next);
             self.changed[t] = self.turns;
-            let fell =
+            let fell_asleep =
                 self.quiet[here.clone()].iter().zip(&self.held[here]).filter(|(q, _)| **q == self.steps);
-            lost += fell.map(|(_, held)| held[6]).sum::<f64>();
+            lost += fell_asleep.map(|(_, held)| held[6]).sum::<f64>();
         }
         lost
     }
 
-    /// What stands now, for [`Still`].
-    pub fn known(&self) -> Known<'_> {
-        Known { asleep: &self.asleep, turns: self.turns, changed: &self.changed }
+    /// What stands now, for [`RestingTile`].
+    pub fn known(&self) -> SleepMap<'_> {
+        SleepMap { asleep: &self.asleep, turns: self.turns, changed: &self.changed }
     }
 
     /// Everyone, with `busy` (or none) to be kept awake.
-    pub fn beds<'a>(&'a mut self, busy: &'a [bool]) -> Beds<'a> {
+    pub fn sleeper_slices<'a>(&'a mut self, busy: &'a [bool]) -> SleeperSlices<'a> {
         self.next.resize(self.quiet.len(), false);
         let Sleepers { quiet, next, held, asleep, steps, speed, wake, .. } = self;
-        Beds { quiet, next, held, asleep, busy, steps: *steps, speed: *speed, wake: *wake }
+        SleeperSlices { quiet, next, held, asleep, busy, steps: *steps, speed: *speed, wake: *wake }
     }
 
     /// Wakes a particle.
-    pub fn rouse(&mut self, k: usize) {
+    pub fn wake_particle(&mut self, k: usize) {
         (self.quiet[k], self.asleep[k]) = (0, false);
         self.turns += 1;
         self.changed.fill(self.turns);
     }
 }
 
-impl<'a> Beds<'a> {
+impl<'a> SleeperSlices<'a> {
     /// The same, for a while.
-    pub fn by_ref(&mut self) -> Beds<'_> {
-        Beds { quiet: self.quiet, next: self.next, held: self.held, ..*self }
+    pub fn by_ref(&mut self) -> SleeperSlices<'_> {
+        SleeperSlices { quiet: self.quiet, next: self.next, held: self.held, ..*self }
     }
 
     /// The first `n`, and the others.
-    pub fn split(self, n: usize) -> (Beds<'a>, Beds<'a>) {
-        let Beds { quiet, next, held, asleep, busy, steps, speed, wake } = self;
+    pub fn split(self, n: usize) -> (SleeperSlices<'a>, SleeperSlices<'a>) {
+        let SleeperSlices { quiet, next, held, asleep, busy, steps, speed, wake } = self;
         let (quiet, quiet2) = quiet.split_at_mut(n);
         let (next, next2) = next.split_at_mut(n);
         let (held, held2) = held.split_at_mut(n);
-        let one = Beds { quiet, next, held, asleep, busy, steps, speed, wake };
-        let two = Beds { quiet: quiet2, next: next2, held: held2, asleep, busy, steps, speed, wake };
+        let one = SleeperSlices { quiet, next, held, asleep, busy, steps, speed, wake };
+        let two = SleeperSlices { quiet: quiet2, next: next2, held: held2, asleep, busy, steps, speed, wake };
         (one, two)
     }
 }

@@ -10,14 +10,14 @@ use serde::{Deserialize, Serialize};
 
 /// Which zone a traveller is in.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub enum Way {
+pub enum Direction {
     Out(u32),
     In(u32),
 }
 
 /// A particle in a zone: x(t) = x₀ + v₀ τ + ½ a τ², τ = t − t₀. A member of a clump turns about its centre with the spin that it began with.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct Traveller {
+pub struct ZoneParticle {
     pub at: u32,
     pub since: f64,
     /// Its state then; of a member of a clump, with the velocity of the centre.
@@ -32,31 +32,31 @@ pub struct Traveller {
     pub turn: Option<[f64; 4]>,
     /// How a sphere had turned by then that may be bonded; orientation of the clump that comes in.
     pub turned: Option<UnitQuaternion<f64>>,
-    pub way: Way,
+    pub way: Direction,
 }
 
 /// Shift [m] and velocity [m/s] of a traveller at one instant, and its acceleration [m/s²].
 #[derive(Clone, Copy)]
-pub struct Flow {
+pub struct Kinematics {
     pub shift: Vec3,
     pub velocity: Vec3,
     pub acceleration: Vec3,
     pub spin: Vec3,
 }
 
-impl Flow {
+impl Kinematics {
     /// After `tau` [s] from a velocity, with a spin that stays. Before its time a traveller comes along a straight line, out of everyone's sight.
-    pub fn after(tau: f64, start: &Particle, acceleration: Vec3) -> Flow {
+    pub fn after(tau: f64, start: &Particle, acceleration: Vec3) -> Kinematics {
         let Particle { velocity, spin, .. } = *start;
         if tau < 0.0 {
-            return Flow { shift: velocity * tau, velocity, acceleration: Vec3::zeros(), spin };
+            return Kinematics { shift: velocity * tau, velocity, acceleration: Vec3::zeros(), spin };
         }
         let shift = velocity * tau + acceleration * (0.5 * tau * tau);
-        Flow { shift, velocity: velocity + acceleration * tau, acceleration, spin }
+        Kinematics { shift, velocity: velocity + acceleration * tau, acceleration, spin }
     }
 
     /// Of a point that was this far from the centre [m] before the clump turned for `tau` [s].
-    pub(crate) fn about(self, arm: &Vec3, tau: f64) -> Flow {
+    pub(crate) fn about(self, arm: &Vec3, tau: f64) -> Kinematics {
         if self.spin == Vec3::zeros() || tau < 0.0 {
             return self;
         }
@@ -64,10 +64,10 @@ impl Flow {
     }
 
     /// Of a point that was at `arm` from the centre [m], and is at `r`.
-    pub(crate) fn around(self, arm: &Vec3, r: &Vec3) -> Flow {
+    pub(crate) fn around(self, arm: &Vec3, r: &Vec3) -> Kinematics {
         let spin = self.spin;
         let (around, inwards) = (spin.cross(r), spin.cross(&spin.cross(r)));
-        Flow {
+        Kinematics {
             shift: self.shift + (r - arm),
             velocity: self.velocity + around,
             acceleration: self.acceleration + inwards,
@@ -76,19 +76,19 @@ impl Flow {
     }
 }
 
-impl Traveller {
+impl ZoneParticle {
     /// At `time` [s].
-    pub fn flow(&self, time: f64, zones: &Zones, setup: &Setup) -> Flow {
+    pub fn flow(&self, time: f64, zones: &Zones, setup: &Setup) -> Kinematics {
         self.own(self.centre_flow(time, zones, setup), time, zones)
     }
 
     /// The path that it follows.
     pub(crate) fn path<'a>(&self, zones: &'a Zones) -> Option<&'a Path> {
-        if let Way::In(_) = self.way { zones.paths.get(&self.whose) } else { None }
+        if let Direction::In(_) = self.way { zones.paths.get(&self.whose) } else { None }
     }
 
     /// Its own flow, where that of the centre is known.
-    pub(crate) fn own(&self, centre: Flow, time: f64, zones: &Zones) -> Flow {
+    pub(crate) fn own(&self, centre: Kinematics, time: f64, zones: &Zones) -> Kinematics {
         if self.turn.is_none() {
             return centre;
         }
@@ -100,7 +100,7 @@ impl Traveller {
     }
 
     /// By how much it has turned since it began.
-    pub(crate) fn turned_since(&self, time: f64, flow: &Flow, zones: &Zones) -> UnitQuaternion<f64> {
+    pub(crate) fn turned_since(&self, time: f64, flow: &Kinematics, zones: &Zones) -> UnitQuaternion<f64> {
         match self.path(zones) {
             Some(path) => path.turned(time) * self.turned.unwrap_or_default().inverse(),
             None => spun(&(flow.spin * (time - self.since).max(0.0))),
@@ -108,18 +108,18 @@ impl Traveller {
     }
 
     /// Of its centre, at `time` [s].
-    pub(crate) fn centre_flow(&self, time: f64, zones: &Zones, setup: &Setup) -> Flow {
+    pub(crate) fn centre_flow(&self, time: f64, zones: &Zones, setup: &Setup) -> Kinematics {
         if let Some(path) = self.path(zones) {
             let flow = path.flow(time, &self.centre, &setup.gravity);
             // What is rigid moves as it turns.
-            return if self.turn.is_some() { Flow { spin: path.rate(time), ..flow } } else { flow };
+            return if self.turn.is_some() { Kinematics { spin: path.rate(time), ..flow } } else { flow };
         }
         let a = self.zone(zones).acceleration(&setup.gravity);
-        Flow::after(time - self.since, &self.start, a)
+        Kinematics::after(time - self.since, &self.start, a)
     }
 
     /// How it has turned by `time` [s], in the flow of then.
-    pub fn has_turned(&self, time: f64, flow: &Flow, zones: &Zones) -> UnitQuaternion<f64> {
+    pub fn has_turned(&self, time: f64, flow: &Kinematics, zones: &Zones) -> UnitQuaternion<f64> {
         if let Some(path) = self.path(zones) {
             return path.turned(time);
         }
@@ -128,8 +128,8 @@ impl Traveller {
 
     pub fn zone<'a>(&self, zones: &'a Zones) -> &'a Zone {
         match self.way {
-            Way::Out(o) => &zones.outlets[o as usize],
-            Way::In(i) => &zones.inlets[i as usize],
+            Direction::Out(o) => &zones.outlets[o as usize],
+            Direction::In(i) => &zones.inlets[i as usize],
         }
     }
 }

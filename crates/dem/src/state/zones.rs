@@ -9,7 +9,7 @@
 use crate::setup::{ContactHistory, Crossing, Entry, Setup, Zone};
 use crate::simd::Row4;
 use crate::state::particles::Particles;
-use crate::state::zone_particle::{Traveller, Way};
+use crate::state::zone_particle::{Direction, ZoneParticle};
 use crate::state::{path, returned as lost};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
@@ -22,7 +22,7 @@ pub const LOOK_AHEAD: u64 = 256;
 pub struct Zones {
     pub(crate) outlets: Vec<Zone>,
     pub(crate) inlets: Vec<Zone>,
-    pub(crate) travellers: Vec<Traveller>,
+    pub(crate) zone_particles: Vec<ZoneParticle>,
     /// For each outlet, free particles past its plane that never crossed it.
     pub(crate) beyond: Vec<BTreeSet<u32>>,
     pub(crate) pending: VecDeque<Entry>,
@@ -45,7 +45,7 @@ pub struct Zones {
     pub(crate) sampled: Vec<BTreeSet<u32>>,
     pub(crate) latest: f64,
     /// Where free particles came from, and which went back.
-    pub(crate) lost: lost::Lost,
+    pub(crate) lost: lost::ReturnCounts,
 }
 
 impl Zones {
@@ -69,7 +69,7 @@ impl Zones {
             busy: flags,
             ids,
             latest: f64::NEG_INFINITY,
-            lost: lost::Lost::new(setup, particles.len()),
+            lost: lost::ReturnCounts::new(setup, particles.len()),
             ..Zones::default()
         }
     }
@@ -81,7 +81,8 @@ impl Zones {
 
     /// Whether a particle is listed and not in the calculation: past an exclusion plane, or its time to come in is yet to come.
     pub fn hidden(&self, time: f64) -> impl Fn(usize) -> bool + '_ {
-        let early: BTreeSet<u32> = self.travellers.iter().filter(|t| t.since > time).map(|t| t.at).collect();
+        let early: BTreeSet<u32> =
+            self.zone_particles.iter().filter(|t| t.since > time).map(|t| t.at).collect();
         move |k| self.is_gone(k) || early.contains(&(k as u32))
     }
 
@@ -103,9 +104,9 @@ impl Zones {
     }
 
     /// The inlet that particle `k` comes in by, while it is on its way.
-    pub fn on_its_way(&self, k: usize) -> Option<u32> {
-        let found = self.travellers.iter().find(|t| self.travels(k) && t.at as usize == k)?;
-        if let Way::In(inlet) = found.way { Some(inlet) } else { None }
+    pub fn entering_by(&self, k: usize) -> Option<u32> {
+        let found = self.zone_particles.iter().find(|t| self.travels(k) && t.at as usize == k)?;
+        if let Direction::In(inlet) = found.way { Some(inlet) } else { None }
     }
 
     /// Whether each particle is in a zone; empty without zones.
@@ -119,10 +120,10 @@ impl Zones {
     }
 
     /// Whether a particle is to come in, or is on its way in.
-    pub(crate) fn comes(&self, id: u32, setup: &Setup) -> bool {
+    pub(crate) fn is_entering(&self, id: u32, setup: &Setup) -> bool {
         let members = |e: &Entry| e.clump.map_or(1, |c| crate::setup::clumps::members(&c, setup));
         self.pending.iter().any(|e| id.wrapping_sub(e.particle.id) < members(e))
-            || self.travellers.iter().any(|t| t.start.id == id && matches!(t.way, Way::In(_)))
+            || self.zone_particles.iter().any(|t| t.start.id == id && matches!(t.way, Direction::In(_)))
     }
 
     /// Whether one is to come in later.
@@ -148,7 +149,7 @@ impl Zones {
         for (n, &o) in order.iter().enumerate() {
             new[o as usize] = n as u32;
         }
-        for t in &mut self.travellers {
+        for t in &mut self.zone_particles {
             t.at = new[t.at as usize];
         }
         self.busy = order.iter().map(|&o| self.busy[o as usize]).collect();

@@ -42,13 +42,13 @@ impl Image {
 }
 
 /// Which images of a wall particles may touch.
-pub struct Around {
+pub struct WallImages {
     pub period: Vec3,
     pub lo: Vec3,
     pub hi: Vec3,
 }
 
-impl Around {
+impl WallImages {
     /// Images near a particle at `p` that reaches so far [m]; the wall itself first.
     pub fn near(&self, p: &Vec3, reach: f64) -> impl Iterator<Item = (Image, Vec3)> {
         let mut digits = [(1, [0, 0, 0]); 3];

@@ -13,7 +13,7 @@ use crate::simd::{Row, Row4};
 use crate::space::sphere::{FAR, is_away};
 use crate::walls::images::Image;
 use crate::walls::motion::Pose;
-use crate::walls::seams::{Nearest, Slots};
+use crate::walls::seams::{HistorySlots, Nearest};
 use geom::{Boxes, Grid, Plane, Vec3};
 
 /// A wall, ready to be met.
@@ -72,7 +72,7 @@ impl WallBody {
     }
 
     /// Whether contact points must be found anew in each step.
-    pub fn renewed(&self) -> bool {
+    pub fn refreshes(&self) -> bool {
         self.flat() || self.motion.moves()
     }
 
@@ -93,7 +93,7 @@ impl WallBody {
 
     /// A point of the wall at t = 0, and where it is to be near [m]: its middle in the middle of the box, a plane where it
     /// began, so that no more than must be is behind it.
-    pub fn counted_from(&self, middle: Vec3) -> (Vec3, Vec3) {
+    pub fn anchor_points(&self, middle: Vec3) -> (Vec3, Vec3) {
         match &self.surface {
             Surface::Plane(plane) => (plane.point, plane.point),
             _ => ((self.bounds[0] + self.bounds[1]) * 0.5, middle),
@@ -151,13 +151,13 @@ impl WallBody {
     }
 
     /// Contact points of one particle, whose place and radius are `row`: `partners` are all that it may touch.
-    pub fn meet(
+    pub fn contact_points(
         &self,
         (pose, period): (&Pose, &Vec3),
         row: &Row,
         partners: &[u32],
         (rows, spins): (&mut [Row], &mut [Row4]),
-        mut slots: Slots,
+        mut slots: HistorySlots,
     ) {
         if is_away(row) {
             rows.fill(FAR[0]);
@@ -190,7 +190,7 @@ impl WallBody {
                 let mut near: Vec<Nearest> =
                     (0..partners.len()).map(|k| Nearest::of(corners[part(k)], local(k))).collect();
                 seams::count(&mut near, row[3], self.reach);
-                slots.hand_over(&near, row[3]);
+                slots.take_over(&near, row[3]);
                 for (k, point) in near.iter().enumerate() {
                     // What is no contact of its own is put out of reach.
                     let far = Vec3::repeat(FAR[1][0]);
@@ -230,7 +230,7 @@ fn bounds(surface: &Surface) -> [Vec3; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simd::number::Form;
+    use crate::simd::number::Layout;
     use crate::space::sphere::away;
 
     /// Who is out of the calculation touches no shape of wall, whichever way it looks.
@@ -258,9 +258,9 @@ mod tests {
                 let mut found = [Row::default()];
                 let memory = &mut [];
                 let active = &mut [];
-                let slots = Slots { memory, active, form: Form::default(), first: 0, columns: 0 };
+                let slots = HistorySlots { memory, active, form: Layout::default(), first: 0, columns: 0 };
                 let pose = wall.motion.pose(0.0);
-                body.meet((&pose, &Vec3::zeros()), &row, &[0], (&mut found, &mut []), slots);
+                body.contact_points((&pose, &Vec3::zeros()), &row, &[0], (&mut found, &mut []), slots);
                 let square: f64 = (0..3).map(|a| (found[0][a] - row[a]).powi(2)).sum();
                 assert!(square.is_finite() && square > 1e200, "{:?}, row {k}: {square}", wall.shape);
             }

@@ -11,7 +11,7 @@
 //! move less in a step). The spring is turned into the new tangent plane by the effect itself.
 
 use crate::simd::BLOCK;
-use crate::simd::number::Form;
+use crate::simd::number::Layout;
 use geom::Vec3;
 use geom::triangle::{Feature, closest_feature};
 
@@ -82,24 +82,24 @@ pub fn count(near: &mut [Nearest], radius: f64, reach: f64) {
 }
 
 /// Contact memory of some places of one segment.
-pub struct Slots<'a> {
+pub struct HistorySlots<'a> {
     /// Of the whole segment, by block and column.
     pub memory: &'a mut [f64],
     /// Whether each block of it may hold any.
     pub active: &'a mut [bool],
     /// How it is kept.
-    pub form: Form,
+    pub form: Layout,
     /// First of the places.
     pub first: usize,
     /// Numbers of each contact.
     pub columns: usize,
 }
 
-impl Slots<'_> {
+impl HistorySlots<'_> {
     /// The same from place `by` on.
-    pub fn from(&mut self, by: usize) -> Slots<'_> {
-        let Slots { memory, active, form, first, columns } = self;
-        Slots { memory, active, form: *form, first: *first + by, columns: *columns }
+    pub fn from(&mut self, by: usize) -> HistorySlots<'_> {
+        let HistorySlots { memory, active, form, first, columns } = self;
+        HistorySlots { memory, active, form: *form, first: *first + by, columns: *columns }
     }
 
     fn at(&self, k: usize, column: usize) -> usize {
@@ -111,7 +111,7 @@ impl Slots<'_> {
     }
 
     /// Gives the memory of points that no longer count to neighbours that remember nothing.
-    pub fn hand_over(&mut self, near: &[Nearest], radius: f64) {
+    pub fn take_over(&mut self, near: &[Nearest], radius: f64) {
         if self.columns == 0 {
             return;
         }
@@ -144,15 +144,15 @@ mod tests {
     #[test]
     fn a_block_that_is_given_memory_is_active() {
         let triangle = [Vec3::zeros(), Vec3::x(), Vec3::y()];
-        let form = Form::default();
+        let form = Layout::default();
         let (mut memory, mut active) = (vec![0.0; 2 * BLOCK], [true, false]);
         let at = |k: usize| form.memory_at(0, k, 0, 1);
         form.put(&mut memory, at(7), 3.0);
         // The grain's triangles are the last of one block and the first of the next.
         let mut near = [Nearest::of(triangle, Vec3::new(0.2, 0.2, 1.0)); 2];
         near[1].counts = true;
-        let mut slots = Slots { memory: &mut memory, active: &mut active, form, first: 0, columns: 1 };
-        slots.from(7).hand_over(&near, 1.0);
+        let mut slots = HistorySlots { memory: &mut memory, active: &mut active, form, first: 0, columns: 1 };
+        slots.from(7).take_over(&near, 1.0);
         assert_eq!((form.get(&memory, at(7)), form.get(&memory, at(8))), (0.0, 3.0));
         assert_eq!(active, [true, true]);
     }

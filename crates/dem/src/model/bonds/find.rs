@@ -1,9 +1,9 @@
 //! Who is bonded, and which bonds are refused.
 
 use crate::model::bonds::beam::Beam;
+use crate::model::bonds::bonded_pair::BondedPair;
 use crate::model::bonds::check::name;
 use crate::model::bonds::limit;
-use crate::model::bonds::tie::Tie;
 use crate::model::error::SetupError;
 use crate::setup::{Bond, Particle, Setup};
 use crate::space::search::{Search, half_of_shifts, pairs};
@@ -11,7 +11,7 @@ use crate::space::sphere::{nearest, periods};
 use geom::Vec3;
 
 /// All bonds at t = 0, by ids; their ends are places in the list of particles by id.
-pub fn ties(setup: &Setup) -> Result<Vec<Tie>, SetupError> {
+pub fn pairs_bonded(setup: &Setup) -> Result<Vec<BondedPair>, SetupError> {
     let mut sorted: Vec<&Particle> = setup.particles.iter().collect();
     sorted.sort_unstable_by_key(|p| p.id);
     let gap = setup.bonds.iter().map(|b| b.gap).fold(0.0, f64::max);
@@ -19,7 +19,7 @@ pub fn ties(setup: &Setup) -> Result<Vec<Tie>, SetupError> {
     let reach: Vec<f64> = sorted.iter().map(|p| (p.radius + 0.5 * gap) * (1.0 + 1e-6)).collect();
     let points: Vec<Vec3> = sorted.iter().map(|p| p.position).collect();
     let mut used = vec![false; setup.bonds.len()];
-    let (mut ties, period) = (Vec::new(), periods(&setup.periodic));
+    let (mut pairs_bonded, period) = (Vec::new(), periods(&setup.periodic));
     for [i, j] in near(setup, &points, &reach) {
         let (a, b) = (sorted[i as usize], sorted[j as usize]);
         let is_of =
@@ -41,7 +41,7 @@ pub fn ties(setup: &Setup) -> Result<Vec<Tie>, SetupError> {
         let mut beam = Beam::of_moduli(arm / length, [length, radius], [law.young, law.shear_modulus]);
         beam.lag = law.damping / limit::frequency(&beam, [a, b], &setup.materials);
         let strength = [law.tensile_strength, law.shear_strength];
-        ties.push(Tie { ends: [i, j], beam, strength, broken: f64::INFINITY });
+        pairs_bonded.push(BondedPair { ends: [i, j], beam, strength, broken: f64::INFINITY });
     }
     // Where others come in, those of a rule may be among them.
     match used.iter().position(|used| !used).filter(|_| setup.inlets.is_empty()) {
@@ -49,7 +49,7 @@ pub fn ties(setup: &Setup) -> Result<Vec<Tie>, SetupError> {
             let law = &setup.bonds[n];
             Err(SetupError::BondOfNobody { between: name(setup, law), gap: law.gap })
         }
-        None => Ok(ties),
+        None => Ok(pairs_bonded),
     }
 }
 

@@ -8,8 +8,8 @@
 
 use crate::effects::Material;
 use crate::model::bonds::beam::Beam;
-use crate::model::bonds::find::ties;
-use crate::model::bonds::tie::Tie;
+use crate::model::bonds::bonded_pair::BondedPair;
+use crate::model::bonds::find::pairs_bonded;
 use crate::model::error::SetupError;
 use crate::model::limit::{Limit, root};
 use crate::setup::{EntryBonds, Particle, Setup};
@@ -68,23 +68,23 @@ fn own(setup: &Setup) -> Result<Option<(f64, &Particle)>, SetupError> {
     if setup.bonds.is_empty() {
         return Ok(None);
     }
-    let ties = ties(setup)?;
+    let pairs_bonded = pairs_bonded(setup)?;
     let mut sorted: Vec<&Particle> = setup.particles.iter().collect();
     sorted.sort_unstable_by_key(|p| p.id);
     // A block of 36 numbers for each end of a bond, and none for the grains beside them.
-    let mut bonded: Vec<u32> = ties.iter().flat_map(|t| t.ends).collect();
+    let mut bonded: Vec<u32> = pairs_bonded.iter().flat_map(|t| t.ends).collect();
     bonded.sort_unstable();
     bonded.dedup();
     let mut blocks = vec![Matrix6::zeros(); bonded.len()];
-    for tie in &ties {
-        let inverse = tie.ends.map(|k| inverse(sorted[k as usize], &setup.materials));
-        let places = tie.ends.map(|k| bonded.partition_point(|&b| b < k));
-        add(&mut blocks, (tie, places), inverse);
+    for pair_bonded in &pairs_bonded {
+        let inverse = pair_bonded.ends.map(|k| inverse(sorted[k as usize], &setup.materials));
+        let places = pair_bonded.ends.map(|k| bonded.partition_point(|&b| b < k));
+        add(&mut blocks, (pair_bonded, places), inverse);
     }
     let largest = |block: &Matrix6<f64>| block.symmetric_eigenvalues().max();
     let all = blocks.iter().map(largest).zip(bonded);
     let Some((square, worst)) = all.max_by(|a, b| a.0.total_cmp(&b.0)) else { return Ok(None) };
-    let lag = ties.iter().map(|t| t.beam.lag).fold(0.0, f64::max);
+    let lag = pairs_bonded.iter().map(|t| t.beam.lag).fold(0.0, f64::max);
     Ok(Some((root(square, square * lag), sorted[worst as usize])))
 }
 
@@ -124,8 +124,12 @@ pub fn tighten(limit: &mut Limit, setup: &Setup) -> Result<(), SetupError> {
 }
 
 /// Adds a bond to the blocks of its ends, which are at these places.
-fn add(blocks: &mut [Matrix6<f64>], (tie, places): (&Tie, [usize; 2]), inverse: [Vector6<f64>; 2]) {
-    for motion in motions(&tie.beam) {
+fn add(
+    blocks: &mut [Matrix6<f64>],
+    (pair_bonded, places): (&BondedPair, [usize; 2]),
+    inverse: [Vector6<f64>; 2],
+) {
+    for motion in motions(&pair_bonded.beam) {
         let scaled = [0, 1].map(|e| motion.ends[e].component_mul(&inverse[e].map(f64::sqrt)));
         let sum: f64 = scaled.iter().map(|g| g.norm_squared()).sum();
         for e in 0..2 {

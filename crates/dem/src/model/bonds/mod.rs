@@ -1,7 +1,7 @@
 //! Bonds.
 
 pub mod beam;
+pub mod bonded_pair;
 pub mod check;
 pub mod find;
 pub mod limit;
-pub mod tie;

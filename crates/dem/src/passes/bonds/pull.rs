@@ -2,13 +2,13 @@
 
 use crate::model::Model;
 use crate::model::bonds::beam::Pull;
-use crate::model::bonds::tie::{GONE, Tie};
+use crate::model::bonds::bonded_pair::{BondedPair, GONE};
 use crate::space::sphere::nearest;
 use crate::state::State;
 use crate::state::bonds::BondState;
 
 /// Brings bonds to this instant.
-pub fn pull_bonds(model: &Model, state: &mut State) {
+pub fn add_bond_forces(model: &Model, state: &mut State) {
     if state.bonds.none() {
         return;
     }
@@ -23,16 +23,21 @@ pub fn bonds(model: &Model, state: &State) -> Vec<BondState> {
         let from = p.position(j as usize);
         model.wrapped(from + nearest(p.position(i as usize) - from, &period) * 0.5)
     };
-    let of = |(tie, pull): (&Tie, &Pull)| BondState {
-        ids: tie.ends.map(|k| p.id[k as usize]),
-        middle: middle(tie.ends),
-        size: [tie.beam.length, tie.beam.radius],
-        broken: tie.broken.is_finite().then_some(tie.broken),
+    let of = |(pair_bonded, pull): (&BondedPair, &Pull)| BondState {
+        ids: pair_bonded.ends.map(|k| p.id[k as usize]),
+        middle: middle(pair_bonded.ends),
+        size: [pair_bonded.beam.length, pair_bonded.beam.radius],
+        broken: pair_bonded.broken.is_finite().then_some(pair_bonded.broken),
         force: pull.force.into(),
         moments: pull.moment.map(Into::into),
         stress: pull.stress,
     };
-    let here = state.bonds.ties.iter().zip(&state.bonds.pulls).filter(|(tie, _)| tie.broken != GONE);
+    let here = state
+        .bonds
+        .pairs_bonded
+        .iter()
+        .zip(&state.bonds.pulls)
+        .filter(|(pair_bonded, _)| pair_bonded.broken != GONE);
     let mut all: Vec<BondState> = here.map(of).collect();
     all.sort_unstable_by_key(|b| b.ids);
     all

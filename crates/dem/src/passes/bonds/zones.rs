@@ -5,7 +5,7 @@
 
 use crate::model::Model;
 use crate::model::bonds::beam::{Beam, Pull};
-use crate::model::bonds::tie::{GONE, Tie};
+use crate::model::bonds::bonded_pair::{BondedPair, GONE};
 use crate::setup::Link;
 use crate::state::State;
 use crate::state::bonds::Bonds;
@@ -35,7 +35,10 @@ impl Bonds {
     /// Places among the bonds of particle `k`, of those that are whole.
     fn whole(&self, k: usize) -> impl Iterator<Item = usize> {
         let of = if self.on { self.starts[k] as usize..self.starts[k + 1] as usize } else { 0..0 };
-        self.entries[of].iter().map(|&entry| (entry >> 1) as usize).filter(|&n| self.ties[n].is_whole())
+        self.entries[of]
+            .iter()
+            .map(|&entry| (entry >> 1) as usize)
+            .filter(|&n| self.pairs_bonded[n].is_whole())
     }
 
     /// Elastic energy of the bonds of particle `k` [J].
@@ -47,14 +50,14 @@ impl Bonds {
     pub fn leave(&mut self, k: usize) {
         let mine: Vec<usize> = self.whole(k).collect();
         for n in mine {
-            (self.ties[n].broken, self.pulls[n]) = (GONE, Pull::default());
+            (self.pairs_bonded[n].broken, self.pulls[n]) = (GONE, Pull::default());
         }
     }
 
     /// Whole bonds of particle `k`, by the ids of the others.
     pub fn links(&self, k: usize, ids: &[u32]) -> Vec<Link> {
         let link = |n: usize| {
-            let Tie { ends: [i, j], beam, strength, .. } = self.ties[n];
+            let BondedPair { ends: [i, j], beam, strength, .. } = self.pairs_bonded[n];
             let second = j as usize == k;
             Link {
                 id: ids[k],
@@ -70,12 +73,12 @@ impl Bonds {
     }
 }
 
-impl Tie {
+impl BondedPair {
     /// Of two that come in.
-    fn new(link: &Link, rows: [u32; 2]) -> Tie {
+    fn new(link: &Link, rows: [u32; 2]) -> BondedPair {
         let Link { id, partner, axis, size, springs, lag, strength } = *link;
         let (ends, axis) = if id < partner { (rows, axis) } else { ([rows[1], rows[0]], -axis) };
-        Tie { ends, beam: Beam::new(axis, size, springs, lag), strength, broken: f64::INFINITY }
+        BondedPair { ends, beam: Beam::new(axis, size, springs, lag), strength, broken: f64::INFINITY }
     }
 }
 
@@ -83,7 +86,7 @@ impl Tie {
 pub fn link(state: &mut State, link: Link) {
     if state.bonds.on {
         state.bonds.waiting.push(link);
-        state.stale = true;
+        state.outdated = true;
     }
 }
 
@@ -99,15 +102,19 @@ pub fn insert_due(model: &Model, state: &mut State) {
         .filter(|&(k, id)| wanted.contains(id) && !state.zones.is_gone(k as usize));
     let rows: BTreeMap<u32, u32> = here.map(|(k, &id)| (id, k)).collect();
     let period = model.period();
-    let mut known: BTreeSet<[u32; 2]> = state.bonds.ties.iter().map(|tie| tie.ends).collect();
+    let mut known: BTreeSet<[u32; 2]> =
+        state.bonds.pairs_bonded.iter().map(|pair_bonded| pair_bonded.ends).collect();
     let mut energy = 0.0;
     for link in waiting {
         let ends = [link.id, link.partner].map(|id| rows.get(&id).copied());
         if let [Some(a), Some(b)] = ends {
-            let tie = Tie::new(&link, [a, b]);
-            if known.insert(tie.ends) {
-                energy += tie.beam.pull(&tie.ends(&state.particles, &state.bonds.turns, &period)).elastic;
-                state.bonds.ties.push(tie);
+            let pair_bonded = BondedPair::new(&link, [a, b]);
+            if known.insert(pair_bonded.ends) {
+                energy += pair_bonded
+                    .beam
+                    .pull(&pair_bonded.ends(&state.particles, &state.bonds.turns, &period))
+                    .elastic;
+                state.bonds.pairs_bonded.push(pair_bonded);
                 state.bonds.pulls.push(Pull::default());
             }
         } else if [link.id, link.partner]
@@ -118,7 +125,7 @@ pub fn insert_due(model: &Model, state: &mut State) {
             state.bonds.waiting.push(link);
         }
     }
-    state.account.entered += energy;
-    state.account.passed -= energy;
+    state.ledger.entered += energy;
+    state.ledger.passed -= energy;
     state.bonds.index(&state.particles.id);
 }

@@ -1,13 +1,13 @@
 //! The pass after each move.
 
 use crate::model::Model;
-use crate::passes::integrate::Moved;
+use crate::passes::integrate::MoveFlags;
 use crate::setup::Setup;
 use crate::simd::{Row, Row4};
 use crate::space::sphere::periods;
 use crate::state::State;
-use crate::state::clump::{Flight, arm};
-use crate::state::clumps::{Bodies, FREE, far};
+use crate::state::clump::{ClumpMotion, arm};
+use crate::state::clumps::{FREE, RigidClumps, far};
 use crate::state::particles::Particles;
 use geom::Vec3;
 use rayon::prelude::*;
@@ -15,12 +15,12 @@ use rayon::prelude::*;
 /// Bodies, or rows, of one task; fewer are not worth another thread.
 const CHUNK: usize = 512;
 
-impl Bodies {
+impl RigidClumps {
     /// Moves the bodies whose members have been moved as if they were free, and puts the members in their places.
-    pub fn advance(&mut self, particles: &mut Particles, setup: &Setup, dt: f64) -> Moved {
+    pub fn advance(&mut self, particles: &mut Particles, setup: &Setup, dt: f64) -> MoveFlags {
         let (members, arms) = (&self.members, &self.arms);
         let seen = &*particles;
-        let advance = |chunk: &mut [Flight]| {
+        let advance = |chunk: &mut [ClumpMotion]| {
             for f in chunk.iter_mut().filter(|f| !f.travels) {
                 let (a, torque) = f.gathered(members, arms, seen, &setup.gravity);
                 f.advance(a + f.fluid(setup), torque, dt);
@@ -36,15 +36,15 @@ impl Bodies {
     /// Bodies without a past get the acceleration and the torque of this instant as those of the step before.
     pub fn prime(&mut self, particles: &Particles, setup: &Setup) {
         let (members, arms) = (&self.members, &self.arms);
-        for f in self.flights.iter_mut().filter(|f| f.fresh && !f.travels) {
+        for f in self.flights.iter_mut().filter(|f| f.starting && !f.travels) {
             let (a, torque) = f.gathered(members, arms, particles, &setup.gravity);
             (f.acceleration, f.torque) = (a + f.fluid(setup), torque);
-            f.fresh = false;
+            f.starting = false;
         }
     }
 
     /// Writes the members' rows.
-    fn place(&self, particles: &mut Particles, setup: &Setup, dt: f64) -> Moved {
+    fn place(&self, particles: &mut Particles, setup: &Setup, dt: f64) -> MoveFlags {
         let count = self.of.len();
         let spins = &mut particles.spins[..];
         let write = Write {
@@ -75,7 +75,7 @@ impl Bodies {
         let moved = parts.map(|(c, (((rows, accelerations), home), spins))| {
             write.rows(&seats(c * CHUNK, CHUNK), rows, spins, accelerations, home)
         });
-        moved.reduce(Moved::default, Moved::and)
+        moved.reduce(MoveFlags::default, MoveFlags::and)
     }
 }
 
@@ -88,7 +88,7 @@ struct Seats<'a> {
 
 /// What writing needs of the bodies.
 struct Write<'a> {
-    flights: &'a [Flight],
+    flights: &'a [ClumpMotion],
     periods: Vec3,
     motion_limit: f64,
     dt: f64,
@@ -102,8 +102,8 @@ impl Write<'_> {
         spins: &mut [Row4],
         accelerations: &mut [Row4],
         home: &[Row4],
-    ) -> Moved {
-        let mut moved = Moved::default();
+    ) -> MoveFlags {
+        let mut moved = MoveFlags::default();
         for (k, &of) in seats.of.iter().enumerate().filter(|(_, of)| **of != FREE) {
             let f = &self.flights[of as usize];
             if f.travels {
@@ -121,7 +121,7 @@ impl Write<'_> {
             let a = (velocity * self.dt - way) * (2.0 / (self.dt * self.dt));
             accelerations[k] = Row4([a.x, a.y, a.z, 0.0]);
             let limit = self.motion_limit * row[3];
-            moved.wild |= !(way.norm_squared() <= limit * limit);
+            moved.too_fast |= !(way.norm_squared() <= limit * limit);
             moved.out |= (place - arm(&home[k])).norm_squared() > home[k][3] * home[k][3];
         }
         moved
@@ -129,12 +129,12 @@ impl Write<'_> {
 }
 
 /// After a move: rigid clumps take the forces of their members and put them in their positions.
-pub fn advance(model: &Model, state: &mut State, moved: Moved) -> Moved {
+pub fn advance(model: &Model, state: &mut State, moved: MoveFlags) -> MoveFlags {
     if state.bodies.none() {
         return moved;
     }
     if model.setup.ledger {
-        state.account.drag += state.bodies.drag_power(&model.setup) * model.dt;
+        state.ledger.drag += state.bodies.drag_power(&model.setup) * model.dt;
     }
     moved.and(state.bodies.advance(&mut state.particles, &model.setup, model.dt))
 }

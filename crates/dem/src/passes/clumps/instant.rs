@@ -1,14 +1,14 @@
 //! Bodies at one instant, for those who look.
 
-use crate::kernel::sums::Loads;
+use crate::kernel::sums::WrenchSums;
 use crate::model::Model;
 use crate::neighbours::NeighbourLists;
 use crate::setup::Setup;
 use crate::space::rotation;
 use crate::state::State;
-use crate::state::clump::{Flight, arm, quaternion};
-use crate::state::clumps::Bodies;
-use crate::state::ledger::Driven;
+use crate::state::clump::{ClumpMotion, arm, quaternion};
+use crate::state::clumps::RigidClumps;
+use crate::state::ledger::DrivenBody;
 use crate::state::particles::Particles;
 use geom::Vec3;
 use nalgebra::UnitQuaternion;
@@ -55,11 +55,11 @@ struct Instant {
     torque: Vec3,
 }
 
-impl Bodies {
+impl RigidClumps {
     /// The bodies in the calculation with velocities of this instant, by id.
     pub fn states(&self, model: &Model, state: &State, lists: &NeighbourLists) -> Vec<BodyState> {
         let (loads, hidden) = (lists.contacts.sums(), state.zones.hidden(state.time()));
-        let of = |f: &Flight| {
+        let of = |f: &ClumpMotion| {
             let Instant { velocity, spin, momentum, .. } =
                 self.instant(f, &state.particles, &loads, &model.setup, model.dt);
             let shape = &model.setup.clumps.shapes[f.shape as usize];
@@ -76,13 +76,20 @@ impl Bodies {
                 angular_momentum: momentum,
             }
         };
-        let seen = |f: &&Flight| !hidden(self.members[f.first as usize] as usize);
+        let seen = |f: &&ClumpMotion| !hidden(self.members[f.first as usize] as usize);
         let mut states: Vec<BodyState> = self.flights.iter().filter(seen).map(of).collect();
         states.sort_by_key(|s| s.id);
         states
     }
 
-    fn instant(&self, f: &Flight, particles: &Particles, loads: &Loads, setup: &Setup, dt: f64) -> Instant {
+    fn instant(
+        &self,
+        f: &ClumpMotion,
+        particles: &Particles,
+        loads: &WrenchSums,
+        setup: &Setup,
+        dt: f64,
+    ) -> Instant {
         let (mut velocity, mut momentum) = (f.velocity, f.momentum);
         let turn = quaternion(&f.turn);
         let (mut force, mut torque) = (Vec3::zeros(), Vec3::zeros());
@@ -112,8 +119,8 @@ impl Bodies {
         &'a self,
         model: &'a Model,
         state: &'a State,
-        loads: &'a Loads,
-    ) -> impl Iterator<Item = (u32, Driven)> + 'a {
+        loads: &'a WrenchSums,
+    ) -> impl Iterator<Item = (u32, DrivenBody)> + 'a {
         self.flights.iter().filter(|f| !f.travels).map(move |f| {
             let now = self.instant(f, &state.particles, loads, &model.setup, model.dt);
             let force = now.force + f.drag(&model.setup);
@@ -123,7 +130,7 @@ impl Bodies {
     }
 
     /// What drove each body that is free in the last move.
-    pub fn last_driven<'a>(&'a self, setup: &'a Setup, dt: f64) -> impl Iterator<Item = Driven> + 'a {
+    pub fn last_driven<'a>(&'a self, setup: &'a Setup, dt: f64) -> impl Iterator<Item = DrivenBody> + 'a {
         self.flights.iter().filter(|f| !f.travels).map(move |f| {
             let momentum = f.momentum - f.torque * dt;
             let spin = rotation::spin(&quaternion(&f.turn_before), &momentum, &f.inverse_inertia);
@@ -142,7 +149,7 @@ impl Bodies {
     pub fn member_states(
         &self,
         particles: &Particles,
-        loads: &Loads,
+        loads: &WrenchSums,
         setup: &Setup,
         dt: f64,
     ) -> Vec<Option<(Vec3, Vec3)>> {

@@ -5,8 +5,8 @@
 
 use crate::setup::{EntryClump, Particle, Setup};
 use crate::space::rotation;
-use crate::state::clump::{Flight, arm, quaternion};
-use crate::state::clumps::Bodies;
+use crate::state::clump::{ClumpMotion, arm, quaternion};
+use crate::state::clumps::RigidClumps;
 use geom::Vec3;
 use nalgebra::UnitQuaternion;
 
@@ -15,7 +15,7 @@ fn energy(mass: f64, place: &Vec3, velocity: &Vec3, [spin, momentum]: [&Vec3; 2]
     mass * (0.5 * velocity.norm_squared() - weight.dot(place)) + 0.5 * spin.dot(momentum)
 }
 
-impl Bodies {
+impl RigidClumps {
     /// Centre of the body that row `k` is a member of, and whether it is the first.
     pub fn place_at(&self, k: usize) -> Option<(Vec3, bool)> {
         self.body_of(k).map(|f| (f.place, self.is_first(f, k)))
@@ -41,7 +41,7 @@ impl Bodies {
         self.body_of(k).map(|f| &self.members[f.range()])
     }
 
-    fn is_first(&self, f: &Flight, k: usize) -> bool {
+    fn is_first(&self, f: &ClumpMotion, k: usize) -> bool {
         self.members.get(f.first as usize) == Some(&(k as u32))
     }
 
@@ -116,7 +116,7 @@ impl Bodies {
     pub fn release(&mut self, k: usize, since: f64) {
         let first = self.body_of(k).is_some_and(|f| self.is_first(f, k));
         if let Some(f) = self.body_at(k).filter(|_| first) {
-            (f.travels, f.fresh) = (false, true);
+            (f.travels, f.starting) = (false, true);
             let (now, spin) = (quaternion(&f.turn), f.spin);
             let then = rotation::spun(&(spin * -since)) * now;
             f.momentum = rotation::momentum(&then, &spin, &f.inverse_inertia);
@@ -124,13 +124,14 @@ impl Bodies {
         }
     }
 
-    fn body_at(&mut self, k: usize) -> Option<&mut Flight> {
+    fn body_at(&mut self, k: usize) -> Option<&mut ClumpMotion> {
         self.of.get(k).and_then(|&b| self.flights.get_mut(b as usize))
     }
 
     /// Forgets bodies whose members are not among those that stay; `new` is the new place of each row, or none. Bodies stay or leave whole.
     pub(crate) fn keep(&mut self, new: &[u32]) {
-        let stays = |f: &Flight| new[self.members[f.first as usize] as usize] != crate::state::clumps::FREE;
+        let stays =
+            |f: &ClumpMotion| new[self.members[f.first as usize] as usize] != crate::state::clumps::FREE;
         if self.flights.iter().all(stays) {
             return;
         }
@@ -140,7 +141,7 @@ impl Bodies {
             number[b] = flights.len() as u32;
             let first = members.len() as u32;
             members.extend_from_slice(&self.members[f.range()]);
-            flights.push(Flight { first, ..*f });
+            flights.push(ClumpMotion { first, ..*f });
         }
         for of in self.of.iter_mut().filter(|of| **of != crate::state::clumps::FREE) {
             *of = number[*of as usize];
@@ -149,7 +150,7 @@ impl Bodies {
     }
 }
 
-impl Flight {
+impl ClumpMotion {
     /// Its axes this share of the last step before its end. Of two turns so near to each other a mean is a turn about the same axis,
     /// off by no more than the cube of the angle between them.
     fn turn_back(&self, share: f64) -> UnitQuaternion<f64> {

@@ -9,20 +9,20 @@
 
 use crate::model::Model;
 use crate::neighbours::NeighbourLists;
-use crate::passes::ledger::close_account;
+use crate::passes::ledger::close_crossing;
 use crate::passes::touching::touching;
-use crate::passes::zones::ledger::power_about;
-use crate::passes::zones::travel::carry_on;
-use crate::passes::zones::whole::{tested, tested_before, together};
+use crate::passes::zones::ledger::power_of_member;
+use crate::passes::zones::travel::follow_motion;
+use crate::passes::zones::whole::{rows_with, test_point, test_point_before};
 use crate::setup::{Crossing, EntryClump, Particle, Touch};
 use crate::state::State;
 use crate::state::ledger::carried;
-use crate::state::zone_particle::{Traveller, Way};
+use crate::state::zone_particle::{Direction, ZoneParticle};
 use geom::Vec3;
 use nalgebra::UnitQuaternion;
 
 /// What a particle has to do with a storage plane.
-enum Passage {
+enum PlanePassage {
     /// It is so far past it [m], and free.
     Past(f64),
     /// It was past it without a crossing, and has come back.
@@ -38,19 +38,19 @@ fn since_passage(past: f64, speed: f64, acceleration: f64) -> f64 {
 pub fn find_crossings(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
     let mut found = Vec::new();
     for outlet in 0..state.zones.outlets.len() {
-        look_at(model, state, lists, outlet, &mut found);
+        cross_outlet(model, state, lists, outlet, &mut found);
     }
     // Who passes several planes in one step passes the first of them.
     found.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.time.total_cmp(&b.1.time)).then(a.1.outlet.cmp(&b.1.outlet)));
     found.dedup_by_key(|f| f.0);
     for (k, crossing) in found {
-        hand_over(model, state, lists, k, crossing);
+        take_over(model, state, lists, k, crossing);
     }
     state.zones.crossings.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.particle.id.cmp(&b.particle.id)));
 }
 
 /// Finds who has passed one plane.
-fn look_at(
+fn cross_outlet(
     model: &Model,
     state: &mut State,
     lists: &mut NeighbourLists,
@@ -68,11 +68,11 @@ fn look_at(
         let k = k as usize;
         match passage(state, outlet, k) {
             None => {}
-            Some(Passage::Back) => {
+            Some(PlanePassage::Back) => {
                 state.zones.beyond[outlet].remove(&state.particles.id[k]);
                 state.zones.lost.came_upstream(outlet);
             }
-            Some(Passage::Past(past)) => {
+            Some(PlanePassage::Past(past)) => {
                 let crossing = crossing(model, state, lists, k, outlet as u32, past);
                 // One that does not move with the flow has not passed yet: carried on by its velocity, it would never leave.
                 if crossing.particle.velocity.dot(&state.zones.outlets[outlet].plane.normal) > 0.0 {
@@ -85,27 +85,27 @@ fn look_at(
 }
 
 /// What particle `k` has to do with a storage plane now.
-fn passage(state: &State, outlet: usize, k: usize) -> Option<Passage> {
+fn passage(state: &State, outlet: usize, k: usize) -> Option<PlanePassage> {
     let (zones, id) = (&state.zones, state.particles.id[k]);
     if zones.gone[k] {
         return None;
     }
-    let (place, radius) = tested(state, k)?;
+    let (place, radius) = test_point(state, k)?;
     let past = zones.outlets[outlet].past(&place, radius);
     let beyond = &zones.beyond[outlet];
     match past < 0.0 {
-        true => beyond.contains(&id).then_some(Passage::Back),
-        false => (!zones.busy[k] && !beyond.contains(&id)).then_some(Passage::Past(past)),
+        true => beyond.contains(&id).then_some(PlanePassage::Back),
+        false => (!zones.busy[k] && !beyond.contains(&id)).then_some(PlanePassage::Past(past)),
     }
 }
 
 /// Particle `k`, and all members of its clump, move by the motion of the zone from its passage on.
-fn hand_over(model: &Model, state: &mut State, lists: &mut NeighbourLists, k: usize, crossing: Crossing) {
+fn take_over(model: &Model, state: &mut State, lists: &mut NeighbourLists, k: usize, crossing: Crossing) {
     let since = crossing.time;
     let zone = state.zones.outlets[crossing.outlet as usize];
     let after = state.time() - since;
     if model.setup.ledger {
-        account_crossing(model, state, lists, k, &crossing, after);
+        add_crossing(model, state, lists, k, &crossing, after);
     }
     let (starts, turn) = match &crossing.clump {
         None => (vec![crossing.particle], None),
@@ -115,24 +115,24 @@ fn hand_over(model: &Model, state: &mut State, lists: &mut NeighbourLists, k: us
         }
     };
     let (centre, lead) = (crossing.particle.position, zone.lead(crossing.particle.radius));
-    for (at, start) in together(state, k).into_iter().zip(starts) {
+    for (at, start) in rows_with(state, k).into_iter().zip(starts) {
         let k = at as usize;
         state.zones.busy[k] = true;
         if let Some(sleepers) = &mut state.sleepers {
-            sleepers.rouse(k);
+            sleepers.wake_particle(k);
         }
         state.bodies.take(k);
-        let way = Way::Out(crossing.outlet);
+        let way = Direction::Out(crossing.outlet);
         let (turned, whose) = (crossing.turn, crossing.particle.id);
-        let traveller = Traveller { at, since, start, whose, centre, lead, turn, turned, way };
-        carry_on(model, state, &traveller, state.time());
-        state.zones.travellers.push(traveller);
+        let particle_in_zone = ZoneParticle { at, since, start, whose, centre, lead, turn, turned, way };
+        follow_motion(model, state, &particle_in_zone, state.time());
+        state.zones.zone_particles.push(particle_in_zone);
     }
     state.zones.crossings.push(crossing);
 }
 
 /// What leaves the ledger with a crossing, `after` [s] before the end of the step.
-fn account_crossing(
+fn add_crossing(
     model: &Model,
     state: &mut State,
     lists: &mut NeighbourLists,
@@ -145,12 +145,13 @@ fn account_crossing(
         None => carried(start, &model.setup).iter().sum(),
         Some(clump) => state.bodies.energy_of(k, start, clump, &model.setup),
     };
-    let power: f64 = together(state, k).iter().map(|&m| power_about(state, lists, m as usize, start)).sum();
+    let power: f64 =
+        rows_with(state, k).iter().map(|&m| power_of_member(state, lists, m as usize, start)).sum();
     let taken = carried + power * after;
-    state.account.left += taken;
+    state.ledger.left += taken;
     match state.bodies.energy_before_half(k, &model.setup, model.dt) {
-        None => close_account(model, state, k, taken),
-        Some(energy) => state.account.passed += taken - energy,
+        None => close_crossing(model, state, k, taken),
+        Some(energy) => state.ledger.passed += taken - energy,
     }
 }
 
@@ -166,7 +167,7 @@ fn crossing(
     let zone = &state.zones.outlets[outlet as usize];
     let (velocity, acceleration) = motion_of(state, k);
     // Past the plane at the start of the step already, but not with the flow: it passes now.
-    let (before, radius) = tested_before(model, state, k);
+    let (before, radius) = test_point_before(model, state, k);
     let late = zone.past(&before, radius) >= 0.0;
     let back = if late {
         0.0
@@ -178,7 +179,7 @@ fn crossing(
     let began = state.steps.saturating_sub(1) as f64 * model.dt;
     let time = (state.time() - back).max(began);
     let mut touches: Vec<Touch> = Vec::new();
-    together(state, k).iter().for_each(|&m| touches.extend(touching(model, state, lists, m as usize)));
+    rows_with(state, k).iter().for_each(|&m| touches.extend(touching(model, state, lists, m as usize)));
     let (particle, clump) = state_back(model, state, k, back);
     let turn = turn_back(model, state, k, back);
     let links = state.bonds.links(k, &state.particles.id);

@@ -7,7 +7,7 @@ use crate::setup::clumps::members;
 use crate::setup::{Entry, EntryClump, Particle, Setup, WallShape, Zone, ZoneMotion};
 use crate::state::State;
 use crate::state::path::Path;
-use crate::state::zone_particle::{Flow, Traveller, Way};
+use crate::state::zone_particle::{Direction, Kinematics, ZoneParticle};
 use crate::state::zones::{LOOK_AHEAD, Zones};
 use geom::Vec3;
 
@@ -86,7 +86,7 @@ fn arrives(entry: &Entry, zone: &Zone, setup: &Setup) -> Result<(), SetupError> 
             "what brings it to the calculation plane: above 0, or in free fall",
         );
     };
-    let flow = Flow::after(time, p, zone.acceleration(&setup.gravity));
+    let flow = Kinematics::after(time, p, zone.acceleration(&setup.gravity));
     let free = p.position + flow.shift;
     for wall in setup.walls.iter().filter(|w| !w.motion.moves()) {
         let WallShape::Plane(plane) = &wall.shape else { continue };
@@ -126,14 +126,14 @@ pub fn insert_due(model: &Model, state: &mut State) {
     while let Some(e) = state.zones.pending.pop_front_if(|e| e.time <= horizon) {
         add(model, state, &e, now);
     }
-    state.stale = true;
+    state.outdated = true;
 }
 
 fn add(model: &Model, state: &mut State, e: &Entry, now: f64) {
     let zone = state.zones.inlets[e.inlet as usize];
     let flow = match state.zones.paths.get(&e.particle.id) {
         Some(path) => path.flow(now, &e.particle.position, &model.setup.gravity),
-        None => Flow::after(now - e.time, &e.particle, zone.acceleration(&model.setup.gravity)),
+        None => Kinematics::after(now - e.time, &e.particle, zone.acceleration(&model.setup.gravity)),
     };
     let (position, velocity) = (e.particle.position + flow.shift, flow.velocity);
     let present = Particle { position, velocity, ..e.particle };
@@ -157,11 +157,12 @@ fn add(model: &Model, state: &mut State, e: &Entry, now: f64) {
         if let Some(sleepers) = &mut state.sleepers {
             sleepers.push();
         }
-        let (way, turned) = (Way::In(e.inlet), e.turn.or(e.clump.map(|c| c.orientation)));
+        let (way, turned) = (Direction::In(e.inlet), e.turn.or(e.clump.map(|c| c.orientation)));
         let whose = e.particle.id;
-        let traveller = Traveller { at, since: e.time, start, whose, centre, lead, turn, turned, way };
-        let now_turned = traveller.has_turned(now, &flow, &state.zones);
+        let particle_in_zone =
+            ZoneParticle { at, since: e.time, start, whose, centre, lead, turn, turned, way };
+        let now_turned = particle_in_zone.has_turned(now, &flow, &state.zones);
         state.bonds.push(Some(now_turned));
-        state.zones.travellers.push(traveller);
+        state.zones.zone_particles.push(particle_in_zone);
     }
 }

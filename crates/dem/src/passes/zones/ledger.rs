@@ -8,20 +8,20 @@ use crate::neighbours::contacts::Segment;
 use crate::neighbours::ends::idles;
 use crate::setup::Particle;
 use crate::state::State;
-use crate::state::zone_particle::Way;
+use crate::state::zone_particle::Direction;
 use geom::Vec3;
 
 /// The ledger of one step, before the zones move.
-pub fn account_zones(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
+pub fn add_zones(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
     let now = state.time();
-    for t in &state.zones.travellers {
+    for t in &state.zones.zone_particles {
         let flow = t.flow(now, &state.zones, &model.setup);
         let moving = Particle { velocity: flow.velocity, spin: flow.spin, ..t.start };
         let work = power(lists, t.at as usize, &moving) * model.dt;
-        state.account.passed += work;
+        state.ledger.passed += work;
         match t.way {
-            Way::In(_) => state.account.entered -= work,
-            Way::Out(_) => state.account.left += work,
+            Direction::In(_) => state.ledger.entered -= work,
+            Direction::Out(_) => state.ledger.left += work,
         }
     }
 }
@@ -33,14 +33,14 @@ pub fn power(lists: &NeighbourLists, k: usize, state: &Particle) -> f64 {
 }
 
 /// The like of particle `k`, or of a member of the clump that moves like this about its centre.
-pub fn power_about(state: &State, lists: &NeighbourLists, k: usize, whole: &Particle) -> f64 {
+pub fn power_of_member(state: &State, lists: &NeighbourLists, k: usize, whole: &Particle) -> f64 {
     let r = state.bodies.arm_at(k);
     let velocity = whole.velocity + whole.spin.cross(&r);
     power(lists, k, &Particle { radius: state.particles.rows[k][3], velocity, ..*whole })
 }
 
 /// Elastic energy [J] of the contacts that act on nobody.
-pub fn held_by_idle(model: &Model, state: &State, lists: &NeighbourLists) -> f64 {
+pub fn energy_of_idle(model: &Model, state: &State, lists: &NeighbourLists) -> f64 {
     if state.zones.none() {
         return 0.0;
     }

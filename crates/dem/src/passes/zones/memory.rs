@@ -15,7 +15,7 @@ use std::ops::Range;
 /// Says what a contact is to remember of two that come in: before the first of them is free, or it is of no effect.
 pub fn remember(model: &Model, state: &mut State, memory: Memory) {
     let Memory { id, partner, springs } = memory;
-    if state.zones.comes(id, &model.setup) {
+    if state.zones.is_entering(id, &model.setup) {
         state.zones.memories.insert((id, partner), springs);
     }
 }
@@ -31,7 +31,7 @@ pub fn springs(
     let kernel = &model.kinds[segment.kind].kernel;
     let columns = kernel.columns();
     let number = |c: usize| {
-        let n = lists.contacts.remembered(segment, place, c, columns);
+        let n = lists.contacts.history_of_slot(segment, place, c, columns);
         if second && kernel.flips(c) { -n } else { n }
     };
     let mut history = ContactHistory::default();
@@ -59,22 +59,22 @@ fn history_places(model: &Model, segment: &Segment) -> Vec<(Range<usize>, Range<
 }
 
 /// Particle `k` is free from now on: its contacts with those on their way in remember what they were told.
-pub fn recollect(model: &Model, state: &mut State, lists: &mut NeighbourLists, k: usize) {
+pub fn restore_history(model: &Model, state: &mut State, lists: &mut NeighbourLists, k: usize) {
     let id = state.particles.id[k];
     for (partner, springs) in state.zones.told(id) {
-        let Some((place, second)) = contact_with(model, state, lists, k, partner) else { continue };
+        let Some((place, second)) = slot_with(model, state, lists, k, partner) else { continue };
         let segment = lists.contacts.segment_of(place).clone();
         let kernel = &model.kinds[segment.kind].kernel;
         let mut columns = columns(model, &segment, &springs);
         for (_, number) in columns.iter_mut().enumerate().filter(|(c, _)| second && kernel.flips(*c)) {
             *number = -*number;
         }
-        lists.contacts.give_memory(&segment, place, &columns);
+        lists.contacts.set_history(&segment, place, &columns);
     }
 }
 
 /// Where particle `k` is listed with one that travels, and whether it is the second there.
-fn contact_with(
+fn slot_with(
     model: &Model,
     state: &State,
     lists: &NeighbourLists,

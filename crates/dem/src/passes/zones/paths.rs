@@ -3,7 +3,7 @@
 use crate::model::Model;
 use crate::model::error::SetupError;
 use crate::passes::zones::cross::state_back;
-use crate::passes::zones::whole::tested;
+use crate::passes::zones::whole::test_point;
 use crate::setup::{Guide, PathSample};
 use crate::state::State;
 use crate::state::path::EARLY;
@@ -34,7 +34,7 @@ fn sample_paths_of(model: &Model, state: &mut State, outlet: usize, out: &mut Ve
     let zone = state.zones.outlets[outlet];
     let first = out.len();
     for k in 0..state.particles.len() {
-        let Some((place, radius)) = tested(state, k) else { continue };
+        let Some((place, radius)) = test_point(state, k) else { continue };
         let id = state.particles.id[k];
         if !(zone.past(&place, radius) >= -EARLY * zone.length)
             || state.zones.is_gone(k)

@@ -2,7 +2,7 @@
 
 use crate::model::Model;
 use crate::model::halt::Halt;
-use crate::passes::zones::whole::tested;
+use crate::passes::zones::whole::test_point;
 use crate::state::State;
 
 /// Looks for grains that zones have lost: one that came in by a cut and has gone back through the whole zone, and one that
@@ -15,7 +15,7 @@ pub fn look_back(model: &Model, state: &mut State) -> Result<(), Halt> {
     state.zones.fast(time, model.dt, &model.setup)?;
     let mut found = None;
     for k in 0..if state.zones.lost.any { state.particles.len() } else { 0 } {
-        let Some((place, radius)) = tested(state, k) else { continue };
+        let Some((place, radius)) = test_point(state, k) else { continue };
         let Some((inlet, behind)) = state.zones.came_back(k, &place, radius) else {
             continue;
         };

@@ -4,52 +4,52 @@ use crate::model::Model;
 use crate::neighbours::NeighbourLists;
 use crate::passes::touching::position_before;
 use crate::passes::zones::ledger::held;
-use crate::passes::zones::memory::recollect;
-use crate::passes::zones::whole::tested;
+use crate::passes::zones::memory::restore_history;
+use crate::passes::zones::whole::test_point;
 use crate::setup::{Particle, Zone};
 use crate::simd::Row4;
 use crate::space::sphere::away;
 use crate::state::State;
 use crate::state::clump::quaternion;
 use crate::state::ledger::carried;
-use crate::state::path::Stage;
-use crate::state::zone_particle::{Flow, Traveller, Way};
+use crate::state::path::PathStage;
+use crate::state::zone_particle::{Direction, Kinematics, ZoneParticle};
 use geom::Vec3;
 
-pub fn move_travellers(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
+pub fn move_zone_particles(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
     let now = state.time();
-    let mut travellers = std::mem::take(&mut state.zones.travellers);
+    let mut zone_particles = std::mem::take(&mut state.zones.zone_particles);
     // All members of a clump follow one path.
     let mut ended = Vec::new();
-    travellers.retain(|t| {
+    zone_particles.retain(|t| {
         let stage = state.zones.paths.get_mut(&t.whose).map(|path| path.follow(now));
-        let (centre, flow) = carry_on(model, state, t, now);
+        let (centre, flow) = follow_motion(model, state, t, now);
         let zone = *t.zone(&state.zones);
         let past = zone.plane.signed_distance(&centre) + t.lead;
         match (t.way, stage) {
-            (Way::Out(o), _) => stays_behind(model, state, lists, t, o, (&zone, past), &flow),
-            (Way::In(_), Some(Stage::Inside)) => true,
-            (Way::In(_), Some(Stage::Gone)) => {
+            (Direction::Out(o), _) => stays_in_zone(model, state, lists, t, o, (&zone, past), &flow),
+            (Direction::In(_), Some(PathStage::Inside)) => true,
+            (Direction::In(_), Some(PathStage::Gone)) => {
                 ended.push(t.whose);
                 state.zones.ids.remove(&t.start.id);
                 state.zones.told(t.start.id);
                 exclude(model, state, lists, t.at as usize);
                 false
             }
-            (Way::In(_), None) if now < t.since || past < 0.0 => true,
-            (Way::In(i), _) => {
+            (Direction::In(_), None) if now < t.since || past < 0.0 => true,
+            (Direction::In(i), _) => {
                 ended.push(t.whose);
-                let_in(model, state, lists, t, i, centre, &flow);
+                release(model, state, lists, t, i, centre, &flow);
                 false
             }
         }
     });
     ended.iter().for_each(|id| drop(state.zones.paths.remove(id)));
-    state.zones.travellers = travellers;
+    state.zones.zone_particles = zone_particles;
 }
 
 /// Puts a traveller where it is at a time [s]; where its centre is then, and how that flows.
-pub fn carry_on(model: &Model, state: &mut State, t: &Traveller, time: f64) -> (Vec3, Flow) {
+pub fn follow_motion(model: &Model, state: &mut State, t: &ZoneParticle, time: f64) -> (Vec3, Kinematics) {
     let flow = t.centre_flow(time, &state.zones, &model.setup);
     let (centre, own) = (t.centre + flow.shift, t.own(flow, time, &state.zones));
     place(model, state, t.at as usize, t.start.position + own.shift, &own);
@@ -64,20 +64,20 @@ pub fn carry_on(model: &Model, state: &mut State, t: &Traveller, time: f64) -> (
 }
 
 /// Whether a particle that is `past` a storage plane stays in its zone; otherwise it is out of the calculation.
-fn stays_behind(
+fn stays_in_zone(
     model: &Model,
     state: &mut State,
     lists: &mut NeighbourLists,
-    t: &Traveller,
+    t: &ZoneParticle,
     outlet: u32,
     (zone, past): (&Zone, f64),
-    flow: &Flow,
+    flow: &Kinematics,
 ) -> bool {
     // One that falls back has been recorded all the same.
     let back = past < 0.0 && !(flow.velocity.dot(&zone.plane.normal) > 0.0);
     let stays = past < zone.length && !back;
     if !stays {
-        if back && tested(state, t.at as usize).is_some() {
+        if back && test_point(state, t.at as usize).is_some() {
             state.zones.lost.fell_back(outlet);
         }
         exclude(model, state, lists, t.at as usize);
@@ -86,7 +86,7 @@ fn stays_behind(
 }
 
 /// Puts particle `k` in its place in a flow: the one of its images that is nearest to where it was listed.
-pub fn place(model: &Model, state: &mut State, k: usize, mut place: Vec3, flow: &Flow) {
+pub fn place(model: &Model, state: &mut State, k: usize, mut place: Vec3, flow: &Kinematics) {
     let home = state.particles.home[k];
     for (axis, range) in model.setup.periodic.iter().enumerate() {
         if let Some((lo, hi)) = range {
@@ -110,8 +110,8 @@ pub fn place(model: &Model, state: &mut State, k: usize, mut place: Vec3, flow: 
 fn exclude(model: &Model, state: &mut State, lists: &mut NeighbourLists, k: usize) {
     if model.setup.ledger {
         let held = held(model, state, lists, k) + state.bonds.held(k);
-        state.account.left += held;
-        state.account.passed += held;
+        state.ledger.left += held;
+        state.ledger.passed += held;
     }
     state.bonds.leave(k);
     state.zones.left.push((k as u32, state.particles.home[k]));
@@ -123,31 +123,31 @@ fn exclude(model: &Model, state: &mut State, lists: &mut NeighbourLists, k: usiz
 }
 
 /// Past the calculation plane, in the flow of its centre.
-fn let_in(
+fn release(
     model: &Model,
     state: &mut State,
     lists: &mut NeighbourLists,
-    t: &Traveller,
+    t: &ZoneParticle,
     inlet: u32,
     centre: Vec3,
-    flow: &Flow,
+    flow: &Kinematics,
 ) {
     let k = t.at as usize;
     let zone = &state.zones.inlets[inlet as usize];
     let since = (zone.plane.signed_distance(&centre) + t.lead) / flow.velocity.dot(&zone.plane.normal);
     state.bodies.release(k, if since.is_finite() { since.clamp(0.0, model.dt) } else { 0.0 });
     if model.setup.ledger {
-        let Flow { velocity, spin, .. } = *flow;
+        let Kinematics { velocity, spin, .. } = *flow;
         let free = Particle { position: state.particles.position(k), velocity, spin, ..t.start };
-        state.account.entered += match state.bodies.energy_at(k, &model.setup) {
+        state.ledger.entered += match state.bodies.energy_at(k, &model.setup) {
             None => carried(&free, &model.setup).iter().sum::<f64>(),
             Some(energy) => energy,
         };
     }
     state.zones.busy[k] = false;
-    state.fresh.push(k as u32);
-    recollect(model, state, lists, k);
-    if tested(state, k).is_none() {
+    state.starting.push(k as u32);
+    restore_history(model, state, lists, k);
+    if test_point(state, k).is_none() {
         return;
     }
     // What passes a storage plane in this very step crosses it.

@@ -7,7 +7,7 @@ use geom::Vec3;
 
 /// Centre and radius [m] of what is tested in the name of particle `k`: its own, or those of the clump (radius 0: only centres of clumps
 /// are tested) that it is the first member of; `None` for the other members.
-pub fn tested(state: &State, k: usize) -> Option<(Vec3, f64)> {
+pub fn test_point(state: &State, k: usize) -> Option<(Vec3, f64)> {
     match state.bodies.place_at(k) {
         None => Some((state.particles.position(k), state.particles.rows[k][3])),
         Some((place, true)) => Some((place, 0.0)),
@@ -16,7 +16,7 @@ pub fn tested(state: &State, k: usize) -> Option<(Vec3, f64)> {
 }
 
 /// The like before the last move, for one that was not moved by a zone then.
-pub fn tested_before(model: &Model, state: &State, k: usize) -> (Vec3, f64) {
+pub fn test_point_before(model: &Model, state: &State, k: usize) -> (Vec3, f64) {
     match state.bodies.place_before_at(k) {
         None => (position_before(model, state, k), state.particles.rows[k][3]),
         Some(place) => (place, 0.0),
@@ -24,6 +24,6 @@ pub fn tested_before(model: &Model, state: &State, k: usize) -> (Vec3, f64) {
 }
 
 /// Rows of all that passes together with particle `k`.
-pub fn together(state: &State, k: usize) -> Vec<u32> {
+pub fn rows_with(state: &State, k: usize) -> Vec<u32> {
     state.bodies.members_with(k).map_or_else(|| vec![k as u32], <[u32]>::to_vec)
 }

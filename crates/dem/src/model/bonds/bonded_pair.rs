@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// A bond between two particles.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
-pub struct Tie {
+pub struct BondedPair {
     /// Rows of i and j; i has the lower id.
     pub(crate) ends: [u32; 2],
     pub(crate) beam: Beam,
@@ -18,7 +18,7 @@ pub struct Tie {
 /// Time at which a bond broke that did not break.
 pub(crate) const GONE: f64 = f64::NEG_INFINITY;
 
-impl Tie {
+impl BondedPair {
     pub(crate) fn is_whole(&self) -> bool {
         self.broken == f64::INFINITY
     }
