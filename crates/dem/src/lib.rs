@@ -1,7 +1,24 @@
 //! The engine: particles, contacts, effects, integration, neighbours, zones, energy, checkpoints.
 //!
-//! Signs: the unit normal n of a contact points from j to i, an overlap δ > 0 is contact, repulsion is
-//! positive. It knows nothing of files, TOML or the terminal.
+//! It knows nothing of files, TOML or the terminal. SI units throughout. Signs: the unit normal n of a contact points from j to i, an overlap
+//! δ > 0 is contact, repulsion is positive.
+//!
+//! The folders are layers: each uses those above it in this list, and nothing below (`tests/tests/structure.rs` checks it).
+//!
+//! ```text
+//! threads, simd, space   work shared out; lanes; searching, rotation, spheres
+//! effects                what a contact does: one file an effect, which describes itself
+//! setup                  plain data that a simulation is made of
+//! kernel                 the contact loop: gather → geometry → effects → scatter; sums in fixed order
+//! walls                  shape × motion → contact points
+//! model                  what is fixed: resolved once from a setup, checked, with the step that is stable
+//! state                  what changes: what a checkpoint holds
+//! neighbours             lists, rebuildable from Model and State
+//! passes                 integrate, clumps, bonds, drag, servo, sleep, zones, ledger
+//! forces                 the sweep over tiles: forces, then the move
+//! observe                records, snapshots, energy, guards, --explain
+//! simulation             Simulation { model, state, lists }: new, resume, step, observe
+//! ```
 
 pub mod effects;
 mod forces;

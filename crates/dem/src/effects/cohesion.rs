@@ -66,7 +66,7 @@ impl Effect for Cohesion {
         let share = delta * contact.curvature;
         let rest = number(1.0) - share;
         let inner = delta * share;
-        // a² and V, in R*, δ and δ/S alone, so that a flat wall is no case of its own.
+        // a² and V, in R*, δ and δ/S alone, so that a flat wall needs no separate case.
         let square =
             delta * (number(4.0) * contact.radius - number(2.0) * delta + inner) * (number(2.0) - share)
                 / (number(4.0) * rest * rest);

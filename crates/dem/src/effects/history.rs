@@ -181,7 +181,7 @@ impl ContactHistory {
         &self.0
     }
 
-    /// The like, to be written.
+    /// The same, mutable.
     pub fn numbers_mut(&mut self) -> &mut [f64; RECORDED] {
         &mut self.0
     }

@@ -105,7 +105,7 @@ pub struct Material {
 pub struct Compliance {
     /// To contacts alone; 1 without clumps, and walls of spheres that lie deep within each other.
     pub bodies: f64,
-    /// The like for the pace of tangential springs. Where bonds set it, which know nothing of the stiffness of contacts, so much that the springs are always late by
+    /// The same for the pace of tangential springs. Where bonds set it, which know nothing of the stiffness of contacts, so much that the springs are always late by
     /// half a step.
     pub springs: f64,
 }

@@ -1,7 +1,7 @@
-//! What of a tile rests: found once, and again only when somebody in the tile or beside it has fallen asleep or woken.
+//! The part of a tile that rests: found once, and again only when a particle in the tile or beside it falls asleep or wakes.
 //!
 //! The sum of the loads of contacts that rest is kept for each particle; other contacts are added to it, in the order of their places. So
-//! the order of a sum depends on the lists and on who sleeps, and on nothing else.
+//! the order of a sum depends on the lists and on which particles sleep, and on nothing else.
 
 use crate::forces::tile::TileInputs;
 use crate::kernel::sums::Sums;

@@ -1,7 +1,7 @@
 //! One pass over the tiles, in two halves: the loads of their contacts, which read all particles; then, for each tile, the loads that arrive
 //! from others, and the move of its particles. Tiles are shared out to threads; no result depends on how.
 //!
-//! A tile's contacts are with its own particles and with those of later tiles. So one thread alone takes both halves of a tile at once: who
+//! A tile's contacts are with its own particles and with those of later tiles. So one thread alone takes both halves of a tile at once: a tile that
 //! still reads its particles comes before it, and what it computes is in the cache when it moves.
 
 use crate::forces::tile::{ContactInputs, TileInputs};

@@ -23,7 +23,7 @@ pub struct ContactInputs<'a> {
     pub period: Vec3,
     pub width: Width,
     pub common: StepInputs<'a>,
-    /// Who sleeps, where the scene asks for it.
+    /// Which particles sleep, where the scene asks for it.
     pub known: Option<SleepMap<'a>>,
 }
 

@@ -253,7 +253,7 @@ struct WrenchBuffer<T> {
 }
 
 impl<T: Number> WrenchBuffer<T> {
-    /// Hands the loads (of `N` numbers) of `width` contacts from place `at` on to their particles, and to who wants to see them.
+    /// Adds the wrenches (of `N` numbers) of `width` contacts from slot `at` on to their particles, and copies them where they are kept.
     #[inline(always)]
     fn over<const N: usize>(&self, task: &mut Batch, at: usize, width: usize, torques: bool) {
         let pairs = (&task.i[at..at + width], &task.j[at..at + width]);

@@ -59,7 +59,7 @@ pub struct Batch<'a> {
     pub both: bool,
     /// Words of loads and couples that are kept for other tiles, or empty.
     pub kept: (&'a mut [f64], &'a mut [f64]),
-    /// The like of each contact, for who looks at them; or empty.
+    /// Wrenches and torques of each contact, for observers; or empty.
     pub each: (&'a mut [f64], &'a mut [f64]),
     /// Ledger, [`LEDGER`] numbers a contact; empty when it is not kept.
     pub ledger: &'a mut [f64],

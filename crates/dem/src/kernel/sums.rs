@@ -45,7 +45,7 @@ pub type WrenchSlices<'a> = (&'a [f64], &'a [f64]);
 pub struct Arrival {
     /// Place among the loads that are kept × 2, + 1 where the particle is the second of the contact.
     pub from: u32,
-    /// Who takes it.
+    /// The particle that takes it.
     pub particle: u32,
 }
 
@@ -77,7 +77,7 @@ impl<'a> Sums<'a> {
         (Sums { first, form, loads, torques }, two)
     }
 
-    /// Begins anew.
+    /// Sets all to 0.
     pub fn clear(&mut self) {
         self.loads.fill(0.0);
         self.torques.fill(0.0);

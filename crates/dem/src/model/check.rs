@@ -105,7 +105,7 @@ pub(crate) fn finite(what: impl Display, v: &Vec3, unit: &'static str) -> Result
     bad.map_or(Ok(()), |&x| within(what, x, unit, false, "the finite numbers"))
 }
 
-/// Share of its radius that a place is to be told to, or better.
+/// Share of its radius to which a position is known, or better.
 const DIGITS: f64 = 1e-6;
 
 /// Refuses a sphere so far away that its place has too few digits left: it would hang in the air.
@@ -241,7 +241,7 @@ fn zones(setup: &Setup) -> Result<(), SetupError> {
 }
 
 fn periodic(setup: &Setup) -> Result<(), SetupError> {
-    // The nearest image of whom a particle is bonded to is to be one.
+    // Both ends of a bond are nearest images of each other.
     let bonded = setup.bonds.iter().map(|b| b.gap).fold(0.0, f64::max);
     let diameter = 2.0 * largest_radius(setup);
     let least = 2.5 * diameter + 2.0 * bonded;

@@ -147,10 +147,10 @@ pub enum SetupError {
     /// A bond that has no direction.
     #[error("bond: particles {} and {} have one centre: move one of them", ids[0], ids[1])]
     BondOfNoLength {
-        /// Who.
+        /// Their ids.
         ids: [u32; 2],
     },
-    /// A bond that nobody has.
+    /// A bond that joins no two particles.
     #[error(
         "bond {between}: no two particles of these materials are within a gap of {gap:.4e} m at the start: give a larger gap, or leave it out"
     )]
@@ -177,7 +177,7 @@ pub enum SetupError {
     },
     /// A place so far away that its last digit is coarse.
     #[error(
-        "{what}: {far:.4e} m from the origin, its place is told to {:.1e} of its radius {radius:.4e} m, and a millionth is needed: shift the scene to the origin",
+        "{what}: {far:.4e} m from the origin, its position is known to {:.1e} of its radius {radius:.4e} m, and a millionth is needed: shift the scene to the origin",
         far * f64::EPSILON / radius
     )]
     TooFar {
@@ -204,7 +204,7 @@ pub enum SetupError {
     },
     /// A rotating plane, whose speed has no bound.
     #[error(
-        "wall '{0}': an unbounded plane cannot turn but about its own normal: use a mesh or wall spheres, or rotate.about along the normal"
+        "wall '{0}': an unbounded plane can turn about its own normal only: use a mesh or wall spheres, or rotate.about along the normal"
     )]
     TurningPlane(String),
     /// A saved state of another setup.

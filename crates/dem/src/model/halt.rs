@@ -112,7 +112,7 @@ pub enum Halt {
         /// Along the direction of its servo [N].
         push: f64,
     },
-    /// Contacts or forces on walls are asked for that the run was told not to keep.
+    /// Contacts or forces on walls are asked for, and the run does not keep them.
     #[error(
         "t = {time:.6e} s: the load of each contact is asked for, which this run does not keep: record_loads(true) before its steps"
     )]

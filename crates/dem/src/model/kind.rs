@@ -2,7 +2,7 @@
 
 use crate::kernel::Kernel;
 
-/// Whom the particles of a kind of contact meet.
+/// What the particles of a kind of contact meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum With {
     /// Each other.
@@ -19,6 +19,6 @@ pub struct Kind {
     pub kernel: Box<dyn Kernel>,
     /// Materials, lower first; of the particle, then of the wall.
     pub between: (u16, u16),
-    /// Whom they meet.
+    /// What they meet.
     pub with: With,
 }

@@ -68,7 +68,7 @@ pub fn radii_by_material(setup: &Setup) -> Vec<Option<(f64, f64)>> {
     radii
 }
 
-/// The like of spheres that belong to no clump.
+/// Smallest and largest radius of spheres that belong to no clump.
 fn free_radii(setup: &Setup) -> Vec<Option<(f64, f64)>> {
     let mut radii: Vec<Option<(f64, f64)>> = vec![None; setup.materials.len()];
     let mut widen = |material: u16, r: f64| {

@@ -71,7 +71,7 @@ pub struct Contacts {
     /// Contact memory.
     pub memory: Aligned,
     pub(crate) active: Vec<bool>,
-    /// Force and moment of each contact, where somebody looks at them; else none.
+    /// Force and moment of each contact, where an observer wants them; else none.
     pub loads: Aligned,
     /// Couples, or none.
     pub torques: Aligned,
@@ -94,7 +94,7 @@ pub struct Contacts {
     /// Place × 2, + 1 where the particle is the second; none before [`Contacts::index`].
     pub entries: Vec<u32>,
     pub(crate) count: Vec<u32>,
-    /// Whom the contacts of each block meet; only where particles sleep.
+    /// What the contacts of each block meet; only where particles sleep.
     pub(crate) met: Vec<Disturber>,
     /// What rests in each tile; only where particles sleep.
     pub(crate) resting_tiles: Vec<RestingTile>,

@@ -7,7 +7,7 @@ use crate::neighbours::contacts::Segment;
 use crate::state::State;
 use geom::Vec3;
 
-/// Whether contact `place`, of those with these, acts on nobody ([`crate::state::zones::Zones::idles`]).
+/// Whether contact `place`, of those with these, acts on no particle ([`crate::state::zones::Zones::idles`]).
 pub fn idles(state: &State, lists: &NeighbourLists, with: With, place: usize) -> bool {
     state.zones.idles(lists.contacts.ends(with, place))
 }

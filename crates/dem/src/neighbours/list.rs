@@ -1,4 +1,4 @@
-//! How lists become contacts: segments, what arrives where, and who meets whom.
+//! How lists become contacts: segments, what arrives at which tile, and which tiles are adjacent.
 
 use crate::kernel::sums::Arrival;
 use crate::model::kind::{Kind, With};
@@ -103,7 +103,7 @@ impl Contacts {
         (self.arrivals, self.arriving) = (arrivals, starts);
     }
 
-    /// Each load that is kept, in the order of their places: place among them × 2, + 1 for the second particle of a contact; and to whom it goes.
+    /// Each wrench that is kept, in the order of the slots: slot among them × 2, + 1 for the second particle of a contact; and the particle that takes it.
     fn for_each_kept(&self, kinds: &[Kind], mut each: impl FnMut(u32, u32)) {
         for s in &self.segments {
             let image = kinds[s.kind].with == With::Images;
@@ -117,7 +117,7 @@ impl Contacts {
         }
     }
 
-    /// Notes whom blocks meet.
+    /// Marks what blocks meet.
     pub fn mark_wall_blocks(&mut self, kinds: &[Kind], walls: &[WallBody]) {
         self.met = vec![Disturber::Particles; self.active.len()];
         for s in &self.segments {
@@ -147,7 +147,7 @@ impl Contacts {
         self.resting_tiles = near.into_iter().map(RestingTile::beside).collect();
     }
 
-    /// For each particle, its contacts in the order of their places: for who asks by particle, and not otherwise.
+    /// For each particle, its contacts in the order of their slots; only where contacts are looked up by particle.
     pub fn index(&mut self, kinds: &[Kind]) {
         let particles = self.particles;
         self.starts = vec![0; particles + 1];

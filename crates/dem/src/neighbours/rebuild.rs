@@ -1,4 +1,4 @@
-//! Makes the lists anew: sorts the particles in space, finds pairs and walls near them, carries contact memory over.
+//! Rebuilds the lists: sorts the particles in space, and finds pairs and walls near them.
 
 use crate::model::Model;
 use crate::model::kind::With;
@@ -209,7 +209,7 @@ fn list_walls(
     }
 }
 
-/// How far a wall may move until lists are made anew [m].
+/// How far a wall may move until lists are rebuilt [m].
 pub fn wall_margin(model: &Model, state: &State, wall: usize) -> f64 {
     margin(state.skin, model.horizon * model.dt * model.walls[wall].fastest(), model.mean_radius)
 }
@@ -259,7 +259,7 @@ pub fn is_due(model: &Model, state: &State) -> bool {
     state.outdated || state.out || !(0..model.walls.len()).all(holds)
 }
 
-/// Notes who may pass a storage plane, or come back through it, before lists are made anew: nobody else's room reaches it. Where what is tested
+/// Notes which particles may pass a storage plane, or come back through it, before the next rebuild: the margins of no others reach it. Where what is tested
 /// is the centre of a clump, rooms of its members say nothing.
 fn note_near(state: &mut State) {
     let p = &state.particles;

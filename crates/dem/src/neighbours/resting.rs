@@ -17,7 +17,7 @@ pub struct RestingTile {
     pub rest: (Vec<f64>, Vec<f64>),
     /// Particles of the tile that are awake, counted from its first.
     pub awake: Vec<Range<usize>>,
-    /// Sleepers that touch or may touch somebody who is not asleep, counted likewise.
+    /// Sleepers that touch or may touch a particle that is awake, counted likewise.
     pub disturbed: Vec<u32>,
 }
 

@@ -29,7 +29,7 @@ pub struct ContactBytes {
     pub listed: usize,
     /// The contact point on a wall, or across a periodic face; none between two particles.
     pub point: usize,
-    /// Its load, where that is kept: between two tiles, or for who looks at each.
+    /// Its wrench, where that is kept: between two tiles, or for observers.
     pub load: usize,
     /// Its energies; 0 without the ledger.
     pub ledger: usize,

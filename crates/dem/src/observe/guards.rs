@@ -12,7 +12,7 @@ use crate::state::State;
 use crate::state::servo::ServoState;
 use std::ops::Range;
 
-/// The deepest overlap in those segments, travellers and who has left among themselves left out; `Ok` when only those are too deep. Where particles
+/// The deepest overlap in those segments, zone particles and those that have left among themselves left out; `Ok` when only those are too deep. Where particles
 /// have `moved` since loads were computed, they are looked for where they were.
 pub fn check_overlap(
     model: &Model,

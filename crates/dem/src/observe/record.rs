@@ -1,4 +1,4 @@
-//! What contacts do at one instant, and the sliding work that they have done: for who looks at a run.
+//! What contacts do at one instant, and the sliding work that they have done, for observers.
 
 use crate::kernel::LEDGER;
 use crate::model::Model;
@@ -49,7 +49,7 @@ pub fn record_contacts(model: &Model, state: &State, lists: &mut NeighbourLists)
     for segment in &lists.contacts.segments {
         let kind = &model.kinds[segment.kind];
         for place in segment.contacts() {
-            // Who has left at the end of a zone is in the lists until they are made anew.
+            // A particle that has left at the end of a zone is in the lists until the next rebuild.
             let (i, other) = lists.contacts.ends(kind.with, place);
             let gone = |k: u32| state.zones.is_gone(k as usize);
             if gone(i) || other.is_some_and(gone) || idles(state, lists, kind.with, place) {
@@ -79,7 +79,7 @@ fn record(
 ) -> ContactRecord {
     let i = lists.contacts.i[place] as usize;
     let (centre, mine) = (state.particles.position(i), state.particles.rows[i][3]);
-    // A mesh that the grain has left since has no point that is nearest to it: the contact is told at the grain's centre.
+    // A mesh that the particle has left since has no point that is nearest to it: the record has the particle's centre.
     let gone = other.x.abs() >= FAR[0][0];
     let apart = if gone { Vec3::zeros() } else { centre - other };
     let reach = mine + radius;

@@ -27,7 +27,7 @@ pub struct ParticleSlices<'a> {
     pub home: &'a [Row4],
     /// Loads on them.
     pub sums: Sums<'a>,
-    /// Who sleeps, where the scene asks for it.
+    /// Which particles sleep, where the scene asks for it.
     pub sleeper_slices: Option<SleeperSlices<'a>>,
 }
 

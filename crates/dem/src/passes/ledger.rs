@@ -153,7 +153,7 @@ fn three(row: Row4) -> [f64; 3] {
 }
 
 impl LedgerSums {
-    /// Adds one step's ledger, in its order. What a contact that acts on nobody took or brought is part of the work on those that travel, and goes where that goes.
+    /// Adds one step's ledger, in its order. What a contact that acts on no particle took or brought is part of the work on zone particles, and is booked with it.
     pub fn add(&mut self, kinds: &[Kind], contacts: &Contacts, zones: &Zones) {
         for segment in &contacts.segments {
             let places = segment.contacts();

@@ -1,4 +1,7 @@
-//! Passes.
+//! What happens to particles beside contacts: a pass is a function of Model and of the parts of State and lists that it needs.
+//!
+//! `integrate` moves tiles; `clumps`, `bonds`, `drag`, `servo`, `sleep` and `zones` act only in scenes that ask for them; `ledger` adds up
+//! energy where it is kept. `start` gives particles that begin their first acceleration. Uses neighbours and below.
 
 pub mod bonds;
 pub mod clumps;

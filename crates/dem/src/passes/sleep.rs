@@ -4,7 +4,7 @@
 //! share of g. Its velocity is then zero, and the force on it is kept. It wakes when the force on it differs from that
 //! by more than the share of its weight, or the moment by the share of weight × radius. Loads between two sleepers, or of a sleeper on a
 //! wall at rest, are those of the step in which they fell asleep: whole blocks of them are passed over,
-//! and their sum is kept for each tile ([`RestingTile`]) until somebody in or beside it falls asleep or wakes.
+//! and their sum is kept for each tile ([`RestingTile`]) until a particle in or beside it falls asleep or wakes.
 //!
 //! Sleeping changes results: by what a bed would still have crept, and by disturbances too weak to wake it.
 

@@ -17,7 +17,7 @@ pub struct ClumpCompliance {
     pub inverse_mass: f64,
     /// 1/m of the sphere that yields as easily to normal forces [1/kg].
     pub normal: f64,
-    /// The like for tangential forces [1/kg].
+    /// The same for tangential forces [1/kg].
     pub tangential: f64,
 }
 

@@ -1,4 +1,7 @@
-//! What a simulation is made of: plain data, checked and turned into an engine by [`crate::Simulation::new`].
+//! What a simulation is made of: plain data, checked and resolved by [`crate::Simulation::new`].
+//!
+//! [`Setup::default`] is an empty scene with gravity; a contact law is a table of models and numbers under their keys
+//! ([`ContactLaw`]).
 
 pub mod clump_shape;
 pub mod clumps;
@@ -50,9 +53,9 @@ pub struct Setup {
     pub entry_bonds: Option<EntryBonds>,
     /// Walls: they act on particles and are not moved by them.
     pub walls: Vec<Wall>,
-    /// Storage planes with their zones (SYSTEMS B1–B3).
+    /// Storage planes with their zones (JP5440448B2).
     pub outlets: Vec<Zone>,
-    /// Zones that particles enter by (SYSTEMS B4, B5); `Entry::inlet` is an index of this list.
+    /// Zones that particles enter by; `Entry::inlet` is an index of this list.
     pub inlets: Vec<Zone>,
     /// Largest radius [m] that inlets will bring; 0 when there is none.
     pub largest_entry: f64,
@@ -74,6 +77,35 @@ pub struct Setup {
     pub ledger: bool,
     /// When a run is stopped.
     pub guards: Guards,
+}
+
+/// Nothing but gravity, the automatic step at a fifth of the critical one, and the usual guards.
+impl Default for Setup {
+    fn default() -> Setup {
+        Setup {
+            gravity: Vec3::new(0.0, 0.0, -9.81),
+            drag: None,
+            materials: Vec::new(),
+            contacts: Vec::new(),
+            particles: Vec::new(),
+            clumps: Clumps::default(),
+            bonds: Vec::new(),
+            entry_bonds: None,
+            walls: Vec::new(),
+            outlets: Vec::new(),
+            inlets: Vec::new(),
+            largest_entry: 0.0,
+            smallest_entry: 0.0,
+            entry_materials: Vec::new(),
+            step: Step::Auto(0.2),
+            periodic: [None; 3],
+            precision: Precision::Double,
+            skin: None,
+            sleep: None,
+            ledger: false,
+            guards: Guards::default(),
+        }
+    }
 }
 
 /// How the time step is chosen.

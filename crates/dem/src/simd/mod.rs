@@ -135,7 +135,7 @@ pub trait Lane:
     fn any(mask: Self::Mask) -> bool;
     /// Columns of the rows at the first `WIDTH` places.
     fn rows(table: &[Row], places: Indices) -> [Self; 8];
-    /// The like for rows of four.
+    /// The same for rows of four.
     fn rows4(table: &[Row4], places: Indices) -> [Self; 4];
     /// Writes columns as `WIDTH` rows of eight.
     fn store_rows(columns: [Self; 8], to: &mut [f64]);

@@ -13,7 +13,7 @@ pub trait Number: Copy + Default + AddAssign + SubAssign + Send + Sync {
     fn wide(self) -> f64;
     /// What words hold.
     fn of(words: &[f64]) -> &[Self];
-    /// The like, to be written.
+    /// The same, mutable.
     fn of_mut(words: &mut [f64]) -> &mut [Self];
     /// The first numbers of a slice as lanes.
     fn load<R: Lane>(from: &[Self]) -> R;
@@ -98,7 +98,7 @@ pub struct Layout {
     pub single: bool,
 }
 
-/// Calls what is made for the numbers `$T` of a form, and for whether its loads have moments: `$ROTATES`.
+/// Expands to a call for the numbers `$T` of a layout, and for whether its wrenches have moments: `$ROTATES`.
 macro_rules! as_kept {
     ($form:expr, $T:ident, $ROTATES:ident => $call:expr) => {
         $crate::simd::number::as_kept!(@ $form, $T, $ROTATES => $call; (false, false, f64), (false, true, f64), (true, false, f32), (true, true, f32))

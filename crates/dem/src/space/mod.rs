@@ -1,4 +1,4 @@
-//! Space.
+//! Positions and rotations: the search for neighbours, turning by a vector, spheres and periods.
 
 pub mod rotation;
 pub mod search;

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! The flow of each part is a turn: about L by |L|/I₁ Δt (which changes no l and so commutes with the others), about the body's
-//! third axis by (1/I₃ − 1/I₁) l₃ Δt, about its second by the like. Composed as half the third, the second, half the third:
+//! third axis by (1/I₃ − 1/I₁) l₃ Δt, about its second in the same way. Composed as half the third, the second, half the third:
 //! of second order, symplectic, reversible; exact for a symmetric body (I₁ = I₂), and L is kept to the last bit because it is
 //! not touched. Splitting around a symmetric top: Touma & Wisdom (1994), Astron. J. 107, doi:10.1086/116931; compared with others:
 //! Fassò (2003), J. Comput. Phys. 189, doi:10.1016/S0021-9991(03)00234-8.

@@ -1,8 +1,8 @@
-//! Who may touch whom until a particle leaves its room: the Verlet list.
+//! Which particles may touch until one leaves its margin: the Verlet list.
 //!
 //! Every particle has a room, a ball around the place where it was listed; two are listed when they could touch without
 //! leaving their rooms: |x_i − x_j| < R_i + R_j, R = r + room. A fast particle gets a larger room ([`room`]), so that a few fast ones
-//! do not make the whole list anew, and slow ones are listed with few partners.
+//! do not force a rebuild of the whole list, and slow ones are listed with few partners.
 //!
 //! Verlet (1967), Phys. Rev. 159; a room for each particle instead of one skin for all. The list is a function of places and
 //! rooms alone. Particles are sorted by blocks of about a tile, so that few partners are of another tile, and in these along the shortest

@@ -12,7 +12,7 @@ pub const FAR: [Row; 2] = [
 /// How far away those are put that are out of the calculation [m]: no wall and no grain of a scene gets there.
 const AWAY: f64 = 1e100;
 
-/// Where row `k` waits until the next listing drops it: each in a place of its own, because two at one place would overlap.
+/// Where row `k` waits until the next rebuild drops it: each at a different position, because two at one position would overlap.
 pub fn away(k: usize) -> [f64; 3] {
     [-AWAY * (k + 1) as f64; 3]
 }

@@ -35,7 +35,7 @@ use serde::{Deserialize, Serialize};
 /// Bonds, or particles, of one task.
 pub(crate) const CHUNK: usize = 256;
 
-/// A bond at one instant, for who looks.
+/// A bond at one instant, for observers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BondState {
     /// Ids of both particles, the lower first.
@@ -69,7 +69,7 @@ pub struct Bonds {
     pub(crate) lost: f64,
     /// Of those that have left: how many, and how many of them were broken.
     pub(crate) left: [usize; 2],
-    /// Of two that come in, one of whom is not here yet.
+    /// Of two that come in, one of which is not here yet.
     pub(crate) waiting: Vec<Link>,
     /// First entry of each particle, and one more.
     #[serde(skip)]
@@ -154,7 +154,7 @@ impl Bonds {
         self.index(ids);
     }
 
-    /// Who has which bonds.
+    /// Which particles have which bonds.
     pub fn index(&mut self, ids: &[u32]) {
         let mut starts = vec![0; self.turns.len() + 1];
         let ends = || self.pairs_bonded.iter().flat_map(|t| t.ends);

@@ -24,10 +24,10 @@ use crate::state::particles::Particles;
 use geom::Vec3;
 use serde::{Deserialize, Serialize};
 
-/// Who belongs to no body.
+/// A particle that belongs to no clump.
 pub(crate) const FREE: u32 = u32::MAX;
 
-/// All bodies of a simulation, and who their members are.
+/// All clumps of a simulation, and their members.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct RigidClumps {
     pub(crate) flights: Vec<ClumpMotion>,

@@ -74,7 +74,7 @@ impl DrivenBody {
         self.forces[0].dot(&self.velocity) + self.moment.dot(&self.spin)
     }
 
-    /// m a² − 2 F·a, and the like of its turn [J/s²]: an eighth of it times Δt² takes ½ F·v to ½ F·v₋, and ½ m v² to ½ m v₋·v₊.
+    /// m a² − 2 F·a, and the same of its rotation [J/s²]: an eighth of it times Δt² takes ½ F·v to ½ F·v₋, and ½ m v² to ½ m v₋·v₊.
     pub(crate) fn step_share(&self) -> f64 {
         let [contacts, all] = self.forces;
         (all - 2.0 * contacts).dot(&all) * self.inverse_mass

@@ -71,7 +71,7 @@ impl Path {
         }
     }
 
-    /// How who follows it has turned by `now` [s]: evenly between two samples.
+    /// How a particle that follows it has turned by `now` [s]: evenly between two samples.
     pub fn turned(&self, now: f64) -> UnitQuaternion<f64> {
         let Some(a) = self.samples.front() else { return UnitQuaternion::identity() };
         let first = a.turn.unwrap_or_default();

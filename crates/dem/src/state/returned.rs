@@ -27,7 +27,7 @@ pub struct Returned {
     pub fallen: Vec<u64>,
 }
 
-/// Who came from where.
+/// Where particles came from.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct ReturnCounts {
     /// Of each particle; empty where no inlet is watched.

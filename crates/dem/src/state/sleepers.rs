@@ -4,18 +4,18 @@ use crate::setup::sleep::Sleep;
 use crate::simd::Row;
 use serde::{Deserialize, Serialize};
 
-/// Who sleeps, and since when that is so.
+/// Which particles sleep, and since when that is so.
 #[derive(Clone, Copy)]
 pub struct SleepMap<'a> {
     /// Whether each particle, and the two that fill up blocks, sleeps in this step.
     pub asleep: &'a [bool],
     /// Steps that were ended.
     pub turns: u64,
-    /// For each tile, the last of them in which somebody fell asleep or woke.
+    /// For each tile, the last of them in which a particle fell asleep or woke.
     pub changed: &'a [u64],
 }
 
-/// Who sleeps.
+/// Particles that sleep.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Sleepers {
     /// Steps that each particle has been at rest; those that sleep have reached `steps`.
@@ -29,20 +29,20 @@ pub struct Sleepers {
     pub(crate) speed: f64,
     /// Acceleration that wakes [m/s²].
     pub(crate) wake: f64,
-    /// Steps that were ended, and for each tile the last of them in which somebody fell asleep or woke.
+    /// Steps that were ended, and for each tile the last of them in which a particle fell asleep or woke.
     #[serde(skip)]
     pub(crate) turns: u64,
     #[serde(skip)]
     pub(crate) changed: Vec<u64>,
 }
 
-/// The like, of some particles.
+/// The same, for some particles.
 pub struct SleeperSlices<'a> {
     pub(crate) quiet: &'a mut [u32],
     pub(crate) next: &'a mut [bool],
     pub(crate) held: &'a mut [Row],
     pub(crate) asleep: &'a [bool],
-    /// Who must stay awake.
+    /// Particles that must stay awake.
     pub(crate) busy: &'a [bool],
     pub(crate) steps: u32,
     pub(crate) speed: f64,
@@ -98,7 +98,7 @@ impl Sleepers {
         self.quiet[k] == self.steps
     }
 
-    /// Ends a step: who sleeps from now on, and the energy [J] that those who fell asleep lost; particles of a `tile`.
+    /// Ends a step: which particles sleep from now on, and the energy [J] that those lost that fell asleep; particles of a `tile`.
     pub fn end_step(&mut self, tile: usize) -> f64 {
         self.turns += 1;
         self.changed.resize(self.next.len().div_ceil(tile), self.turns);

@@ -14,10 +14,10 @@ use crate::state::{path, returned as lost};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
-/// Steps ahead of their time at which entries are listed, so that not every one makes lists anew.
+/// Steps ahead of their time at which entries are listed, so that not each of them forces a rebuild.
 pub const LOOK_AHEAD: u64 = 256;
 
-/// All zones of a simulation and who is in them.
+/// All zones of a simulation and the particles in them.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Zones {
     pub(crate) outlets: Vec<Zone>,
@@ -27,7 +27,7 @@ pub struct Zones {
     pub(crate) beyond: Vec<BTreeSet<u32>>,
     pub(crate) pending: VecDeque<Entry>,
     pub(crate) crossings: Vec<Crossing>,
-    /// For each outlet, who may be past its plane, or come back through it, until lists are made anew.
+    /// For each outlet, particles that may be past its plane, or come back through it, until the next rebuild.
     #[serde(skip)]
     pub(crate) near: Vec<Vec<u32>>,
     /// Whether a particle is out of the calculation and waits for the next listing.
@@ -96,7 +96,7 @@ impl Zones {
         self.busy.get(k) == Some(&true)
     }
 
-    /// Whether a contact of a particle, with another or with a wall (`None`), acts on nobody: those in zones act on others and on nothing else. Who
+    /// Whether a contact of a particle, with another or with a wall (`None`), acts on no particle: those in zones act on others and nothing acts on them. One that
     /// has just left at the end of a zone travelled when loads were computed.
     pub fn idles(&self, (i, other): (u32, Option<u32>)) -> bool {
         let passive = |k: u32| self.travels(k as usize) || self.is_gone(k as usize);
@@ -131,7 +131,7 @@ impl Zones {
         self.pending.iter().any(|e| e.particle.id == id)
     }
 
-    /// What contacts of a particle were told to remember, by their other particle; forgotten here.
+    /// Histories that contacts of a particle are to take, by their other particle; removed here.
     pub(crate) fn told(&mut self, id: u32) -> Vec<(u32, ContactHistory)> {
         let told: Vec<_> = self.memories.range((id, 0)..=(id, u32::MAX)).map(|(k, s)| (k.1, *s)).collect();
         for (partner, _) in &told {

@@ -71,7 +71,7 @@ impl WallBody {
         WallBody { motion: wall.motion, bounds: bounds(&surface), surface, span, reach }
     }
 
-    /// Whether contact points must be found anew in each step.
+    /// Whether contact points must be found in each step.
     pub fn refreshes(&self) -> bool {
         self.flat() || self.motion.moves()
     }
@@ -86,7 +86,7 @@ impl WallBody {
         self.fastest_driven() + self.motion.servo.map_or(0.0, |s| s.speed_limit)
     }
 
-    /// The like without the servo.
+    /// The same without the servo.
     pub fn fastest_driven(&self) -> f64 {
         self.motion.fastest(self.span)
     }
@@ -233,7 +233,7 @@ mod tests {
     use crate::simd::number::Layout;
     use crate::space::sphere::away;
 
-    /// Who is out of the calculation touches no shape of wall, whichever way it looks.
+    /// A particle that is out of the calculation touches no shape of wall, whichever way it faces.
     #[test]
     fn no_wall_is_met_far_away() {
         let plane = |normal: Vec3| {

@@ -64,7 +64,7 @@ fn turned(axis: &Unit<Vec3>, angle: f64) -> Matrix3<f64> {
 }
 
 impl Pose {
-    /// The like, shifted by `by` [m] and faster by `speed` [m/s].
+    /// The same, shifted by `by` [m] and faster by `speed` [m/s].
     pub fn shifted(self, by: Vec3, speed: Vec3) -> Pose {
         Pose { shift: self.shift + by, velocity: self.velocity + speed, ..self }
     }

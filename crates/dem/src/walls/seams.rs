@@ -46,7 +46,7 @@ impl Nearest {
         Nearest { triangle, centre, way, square: way.norm_squared(), face, counts: false }
     }
 
-    /// Whether the like point of a particle lies on this triangle.
+    /// Whether the same point of a particle lies on this triangle.
     fn holds(&self, way: &Vec3) -> bool {
         let place = self.centre + way;
         let tolerance = SAME_POINT * way.norm();

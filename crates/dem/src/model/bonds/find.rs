@@ -1,4 +1,4 @@
-//! Who is bonded, and which bonds are refused.
+//! Which particles are bonded at the start.
 
 use crate::model::bonds::beam::Beam;
 use crate::model::bonds::bonded_pair::BondedPair;
@@ -28,7 +28,7 @@ pub fn pairs_bonded(setup: &Setup) -> Result<Vec<BondedPair>, SetupError> {
         let law = &setup.bonds[n];
         let arm = nearest(a.position - b.position, &period);
         let length = arm.norm();
-        // Places are told to so many digits.
+        // Positions have so many digits.
         let digits = 4.0 * f64::EPSILON * (a.position.amax() + b.position.amax() + length);
         if length > a.radius + b.radius + law.gap + digits {
             continue;

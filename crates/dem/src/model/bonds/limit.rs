@@ -25,7 +25,7 @@ struct Motion {
     ends: [Vector6<f64>; 2],
 }
 
-/// Motions that a beam resists, each by itself; turns are told times the length, so that all are in metres.
+/// Motions that a beam resists, each by itself; rotations are multiplied by the length, so that all are in metres.
 fn motions(beam: &Beam) -> [Motion; 6] {
     let n = beam.axis;
     let side = (if n.x.abs() < 0.6 { Vec3::x() } else { Vec3::y() }).cross(&n).normalize();
@@ -63,7 +63,7 @@ pub fn frequency(beam: &Beam, ends: [&Particle; 2], materials: &[Material]) -> f
     motions(beam).iter().map(square).fold(0.0, f64::max).sqrt()
 }
 
-/// Who bounds the step of bonds that are there at the start, and to what [s]; `None`: there are none.
+/// The particle that bounds the step of bonds that are there at the start, and that step [s]; `None` without bonds.
 fn own(setup: &Setup) -> Result<Option<(f64, &Particle)>, SetupError> {
     if setup.bonds.is_empty() {
         return Ok(None);

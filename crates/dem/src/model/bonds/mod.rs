@@ -1,4 +1,4 @@
-//! Bonds.
+//! Bonds of a setup: which particles they join, the beam of each, their stable step, and what is refused.
 
 pub mod beam;
 pub mod bonded_pair;

@@ -1,4 +1,4 @@
-//! Bonds of those that come and go: told with each of two that pass a storage plane, made anew where both come in.
+//! Bonds through cuts: recorded with both particles that pass a storage plane, restored where both come in.
 //!
 //! A bond needs to know how both ends have turned since they were bonded, and nothing else: a traveller turns by its zone's motion, in closed form. It
 //! acts on the first of both that is free while the other is still on its way, as contacts do.

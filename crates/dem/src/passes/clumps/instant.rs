@@ -1,4 +1,4 @@
-//! Bodies at one instant, for those who look.
+//! Clumps at one instant, for observers.
 
 use crate::kernel::sums::WrenchSums;
 use crate::model::Model;

@@ -71,14 +71,14 @@ impl RigidClumps {
         energy(f.mass, &whole.position, &whole.velocity, [&whole.spin, &momentum], &f.weight(setup))
     }
 
-    /// The like as it is now.
+    /// Energy of the clump as it is now.
     pub fn energy_at(&self, k: usize, setup: &Setup) -> Option<f64> {
         let f = self.body_of(k)?;
         let now = || energy(f.mass, &f.place, &f.velocity, [&f.spin, &f.momentum], &f.weight(setup));
         Some(if self.is_first(f, k) { now() } else { 0.0 })
     }
 
-    /// The like in the middle of the last step.
+    /// Energy of the clump in the middle of the last step.
     pub fn energy_before_half(&self, k: usize, setup: &Setup, dt: f64) -> Option<f64> {
         let f = self.body_of(k)?;
         let (velocity, momentum) =

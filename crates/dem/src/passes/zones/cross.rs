@@ -1,4 +1,4 @@
-//! Who passes a storage plane in a step, and when within it.
+//! Which particles pass a storage plane in a step, and when within it.
 //!
 //! A step moves a particle along a parabola; its passage is where what is tested of it meets the plane there:
 //!
@@ -40,7 +40,7 @@ pub fn find_crossings(model: &Model, state: &mut State, lists: &mut NeighbourLis
     for outlet in 0..state.zones.outlets.len() {
         cross_outlet(model, state, lists, outlet, &mut found);
     }
-    // Who passes several planes in one step passes the first of them.
+    // A particle that passes several planes in one step passes the first of them.
     found.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.time.total_cmp(&b.1.time)).then(a.1.outlet.cmp(&b.1.outlet)));
     found.dedup_by_key(|f| f.0);
     for (k, crossing) in found {
@@ -49,7 +49,7 @@ pub fn find_crossings(model: &Model, state: &mut State, lists: &mut NeighbourLis
     state.zones.crossings.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.particle.id.cmp(&b.particle.id)));
 }
 
-/// Finds who has passed one plane.
+/// Finds the particles that have passed one plane.
 fn cross_outlet(
     model: &Model,
     state: &mut State,
@@ -62,7 +62,7 @@ fn cross_outlet(
     debug_assert!(
         state.out || all().all(|k| passage(state, outlet, k as usize).is_none() || near.contains(&k))
     );
-    // Whoever has just left their room may be anywhere.
+    // A particle that has just left its margin may be anywhere.
     let looked_at = if state.out { all().collect() } else { Vec::new() };
     for &k in if state.out { &looked_at } else { &near } {
         let k = k as usize;

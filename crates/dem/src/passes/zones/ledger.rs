@@ -32,14 +32,14 @@ pub fn power(lists: &NeighbourLists, k: usize, state: &Particle) -> f64 {
     Vec3::from(force).dot(&state.velocity) + Vec3::from(moment).dot(&state.spin)
 }
 
-/// The like of particle `k`, or of a member of the clump that moves like this about its centre.
+/// The same for particle `k`, or for a member of the clump that moves like this about its centre.
 pub fn power_of_member(state: &State, lists: &NeighbourLists, k: usize, whole: &Particle) -> f64 {
     let r = state.bodies.arm_at(k);
     let velocity = whole.velocity + whole.spin.cross(&r);
     power(lists, k, &Particle { radius: state.particles.rows[k][3], velocity, ..*whole })
 }
 
-/// Elastic energy [J] of the contacts that act on nobody.
+/// Elastic energy [J] of the contacts that act on no particle.
 pub fn energy_of_idle(model: &Model, state: &State, lists: &NeighbourLists) -> f64 {
     if state.zones.none() {
         return 0.0;

@@ -1,7 +1,7 @@
 //! What contacts remember across a cut: read where a particle passes a storage plane, given back where it is free downstream.
 //!
 //! The record is made at the passage of `id`, whose partner is free then, too: both feel the contact. So it is given back when `id` is
-//! free behind the calculation plane, and the partner still on its way in; from then on the contact goes on by itself.
+//! free behind the calculation plane, and the partner still on its way in; from then on the contact continues without the record.
 
 use crate::model::Model;
 use crate::model::kind::With;
@@ -12,7 +12,7 @@ use crate::setup::{ContactHistory, Memory};
 use crate::state::State;
 use std::ops::Range;
 
-/// Says what a contact is to remember of two that come in: before the first of them is free, or it is of no effect.
+/// Queues the history of a contact of two particles that come in: before the first of them is free, or it has no effect.
 pub fn remember(model: &Model, state: &mut State, memory: Memory) {
     let Memory { id, partner, springs } = memory;
     if state.zones.is_entering(id, &model.setup) {
@@ -58,7 +58,7 @@ fn history_places(model: &Model, segment: &Segment) -> Vec<(Range<usize>, Range<
     contact_between(&model.setup, a, b).map_or_else(|_| Vec::new(), ContactHistory::places)
 }
 
-/// Particle `k` is free from now on: its contacts with those on their way in remember what they were told.
+/// Particle `k` is free from now on: its contacts with particles on their way in take their queued histories.
 pub fn restore_history(model: &Model, state: &mut State, lists: &mut NeighbourLists, k: usize) {
     let id = state.particles.id[k];
     for (partner, springs) in state.zones.told(id) {

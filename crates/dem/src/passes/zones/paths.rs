@@ -9,7 +9,7 @@ use crate::state::State;
 use crate::state::path::EARLY;
 use std::collections::BTreeSet;
 
-/// Says where a particle goes that was queued for an inlet of recorded motion. What is told must reach beyond time() +
+/// Says where a particle goes that was queued for an inlet of recorded motion. The samples must reach beyond time() +
 /// [`Simulation::look_ahead`] before the next step.
 ///
 /// # Errors

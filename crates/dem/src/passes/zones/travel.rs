@@ -85,7 +85,7 @@ fn stays_in_zone(
     stays
 }
 
-/// Puts particle `k` in its place in a flow: the one of its images that is nearest to where it was listed.
+/// Puts particle `k` where a flow has it: at the image that is nearest to where it was listed.
 pub fn place(model: &Model, state: &mut State, k: usize, mut place: Vec3, flow: &Kinematics) {
     let home = state.particles.home[k];
     for (axis, range) in model.setup.periodic.iter().enumerate() {

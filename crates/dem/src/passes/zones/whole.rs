@@ -15,7 +15,7 @@ pub fn test_point(state: &State, k: usize) -> Option<(Vec3, f64)> {
     }
 }
 
-/// The like before the last move, for one that was not moved by a zone then.
+/// The same before the last move, for a particle that no zone moved then.
 pub fn test_point_before(model: &Model, state: &State, k: usize) -> (Vec3, f64) {
     match state.bodies.place_before_at(k) {
         None => (position_before(model, state, k), state.particles.rows[k][3]),
