@@ -5,7 +5,7 @@
 //! huge pages; where there are none it has small ones, and everything else is as the system's allocator does it. A block that grows
 //! takes its pages along: nothing is copied. A block that is given back is kept for the next one, because the first touch of a page is
 //! dear, above all in a virtual machine; what is kept makes room before anything new is asked for, so that no tool ever takes more by it.
-#![allow(unsafe_code)]
+#![expect(unsafe_code, reason = "an allocator hands out and takes back raw memory")]
 
 use std::alloc::{GlobalAlloc, Layout, System};
 

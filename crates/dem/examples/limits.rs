@@ -4,7 +4,7 @@
 //! Measured: memory bandwidth by the triad a ← b + s c (McCalpin, 1995), far beyond all caches; adds and multiplies, divisions and
 //! square roots of f64 in the widest lanes, on registers. From these the particle-steps a second that memory alone and
 //! arithmetic alone allow, with the counts of [`KERNELS`].
-#![allow(unsafe_code)]
+#![cfg_attr(target_arch = "x86_64", expect(unsafe_code, reason = "the processor's own vector instructions"))]
 
 use std::hint::black_box;
 use std::sync::Barrier;

@@ -3,7 +3,7 @@
 //! Safety of this file: the types are made only inside kernels that [`crate::simd::Width`] dispatches to after
 //! asking the processor; every load and store is preceded by a check of its slice's length or of the
 //! index, as in scalar code. All functions are inlined into those kernels.
-#![allow(unsafe_code)]
+#![expect(unsafe_code, reason = "the processor's own vector instructions")]
 
 use crate::simd::Four;
 

@@ -1,7 +1,7 @@
 //! Eight contacts at a time in single precision, between rows in double precision, by AVX2 and AVX-512.
 //!
 //! Safety of this file: as for [`crate::simd::x86`]; nothing here reads or writes memory but through the wide types.
-#![allow(unsafe_code)]
+#![expect(unsafe_code, reason = "the processor's own vector instructions")]
 
 use crate::simd::Lane;
 
