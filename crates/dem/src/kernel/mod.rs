@@ -160,7 +160,10 @@ fn dispatch<E: Effect, const KEEP: bool>(effect: &E, width: Width, common: StepI
 #[cfg(target_arch = "x86_64")]
 mod simd {
     //! The loop, compiled for wider registers.
-    #![expect(unsafe_code, reason = "one loop is compiled for several widths and called after asking the processor")]
+    #![expect(
+        unsafe_code,
+        reason = "one loop is compiled for several widths and called after asking the processor"
+    )]
     use super::*;
 
     pub fn avx512<R: Lane, E: Effect, T: Number, const KEEP: bool>(

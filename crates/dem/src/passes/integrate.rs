@@ -117,7 +117,10 @@ fn dispatch<T: Number, const SPIN: bool>(
 #[cfg(target_arch = "x86_64")]
 mod simd {
     //! The move, compiled for wider registers.
-    #![expect(unsafe_code, reason = "one loop is compiled for several widths and called after asking the processor")]
+    #![expect(
+        unsafe_code,
+        reason = "one loop is compiled for several widths and called after asking the processor"
+    )]
     use super::*;
     use crate::simd::x86::X4;
 
