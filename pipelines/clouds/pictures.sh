@@ -50,7 +50,7 @@ drawing() { # FILE RADIUS VIEW...
 cat >"$out/data.md" <<'HEAD'
 # Real scans and drawings, as walls of spheres
 
-Made by `make -C pipelines data-pictures DATA=FOLDER`; where the files come from, and their licences: heads of `tests/tests/real_clouds.rs`, which holds the same
+Made by `make -C pipelines data-pictures DATA=FOLDER`; where the files come from, and their licences: heads of `tests/tests/tools/real_clouds.rs`, which holds the same
 files to counts, spacing, coverage and leaks.
 
 ## Scans

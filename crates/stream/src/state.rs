@@ -18,7 +18,7 @@ use std::io::Write;
 use thiserror::Error;
 
 const MAGIC: &[u8; 8] = b"GRNSTATE";
-/// Layout of the body. Raised whenever a field of what is written comes, goes or changes: `tests/tests/layout.rs` holds each
+/// Layout of the body. Raised whenever a field of what is written comes, goes or changes: `tests/tests/tools/layout.rs` holds each
 /// layout to its number.
 pub const VERSION: u32 = 6;
 const HEAD: usize = 8 + 4 + 8 + 32;

@@ -1,8 +1,6 @@
 //! What dem-measure says of runs whose answers are known.
 
-#[path = "measure/made.rs"]
 mod made;
-#[path = "measure/refused.rs"]
 mod refused;
 
 use geom::Vec3;

@@ -1,11 +1,8 @@
 //! The HTML page, opened from a file in a real browser: it draws, it plays, and it asks nobody for anything.
 
 mod chromium;
-#[path = "chromium/hands_on.rs"]
 mod hands_on;
-#[path = "chromium/outlines.rs"]
 mod outlines;
-#[path = "chromium/regions.rs"]
 mod regions;
 
 use chromium::Chromium;

@@ -2,7 +2,7 @@
 //!
 //! `layouts/VERSION.txt` holds what the version writes. A change of it is a new version, so that `--resume` refuses older files by
 //! their number instead of reading them wrongly: raise `VERSION` in `crates/stream/src/state.rs`, then
-//! `GRAINPIPE_NEW_LAYOUT=1 cargo test -p grainpipe-tests --test layout` writes the file that goes with it.
+//! `GRAINPIPE_NEW_LAYOUT=1 cargo test -p grainpipe-tests --test tools layout` writes the file that goes with it.
 
 use grainpipe_tests::layout::layout;
 use grainpipe_tests::scenes::{Head, RUBS};
@@ -122,7 +122,7 @@ fn the_layout_of_checkpoints_is_that_of_their_version() {
         let flat = all.replace('\n', " ").replace("[ ", "[");
         assert!(flat.contains(&filled.replace('\n', "")), "the scenes have {filled}: {all}");
     }
-    let file = format!("{}/tests/layouts/{VERSION}.txt", env!("CARGO_MANIFEST_DIR"));
+    let file = format!("{}/tests/tools/layouts/{VERSION}.txt", env!("CARGO_MANIFEST_DIR"));
     if std::env::var_os("GRAINPIPE_NEW_LAYOUT").is_some() && !Path::new(&file).exists() {
         std::fs::write(&file, &all).expect("written");
     }

@@ -1,6 +1,6 @@
 //! What an engineer does to the page of a run, with mouse, keys and fingers: it answers with the run's own numbers.
 
-use crate::chromium::{self, Chromium};
+use super::chromium::{self, Chromium};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 use stream::{Table, Values};

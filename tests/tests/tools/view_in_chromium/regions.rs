@@ -1,6 +1,6 @@
 //! The page on which an operator draws regions: `cloud-crop` drops exactly what the page has marked.
 
-use crate::chromium::{self, Chromium};
+use super::chromium::{self, Chromium};
 use grainpipe_tests::tools::{line, succeed, tool};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;

@@ -1,6 +1,6 @@
 //! What is drawn where: every pixel of two spheres that intersect, against the closed answer.
 
-use crate::chromium::{self, Chromium};
+use super::chromium::{self, Chromium};
 use std::path::PathBuf;
 use stream::{Table, Values};
 use tempfile::TempDir;

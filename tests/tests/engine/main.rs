@@ -1,0 +1,12 @@
+//! The engine, called from Rust: its effects, together and alone, particles, walls and precisions.
+
+mod clumps;
+mod effects_adhesion;
+mod effects_forces;
+mod effects_together;
+mod fluid;
+mod meshes;
+mod precision;
+mod records;
+mod servo;
+mod sleep;

@@ -1,0 +1,21 @@
+//! The tools, as a user calls them, and the pages and files that go with them.
+
+mod bad_inputs;
+mod chain;
+mod clump_scenes;
+mod contact_numbers;
+mod cost;
+mod cost_curve;
+mod dem_run;
+mod docs;
+mod layout;
+mod measure;
+mod outputs;
+mod pipelines;
+mod python;
+mod real_clouds;
+mod scans;
+mod scene;
+mod sinter_box;
+mod view_in_chromium;
+mod walls_told;
