@@ -10,7 +10,7 @@ for program in "cargo +nightly --version" "cargo fuzz --version"; do
     $program > /dev/null 2>&1 || { echo "fuzz: '$program' fails: rustup toolchain install nightly; cargo install cargo-fuzz" >&2; exit 1; }
 done
 mkdir -p "$out"
-cargo run -p grainpipe-tests --example fuzz_seeds --locked --quiet -- fuzz/corpus > "$out/seeds.txt" || exit 1
+cargo run -p grainpipe-studies --bin fuzz_seeds --locked --quiet -- fuzz/corpus > "$out/seeds.txt" || exit 1
 
 # Lengths in reach of a million inputs in minutes; a packed or checked file needs its whole head.
 length() {

@@ -13,7 +13,7 @@ out=pipelines/out/soak
 mkdir -p "$out"
 export GRAINPIPE_KILLS=${KILLS:-200}
 all="kills rest pressed turning"
-cargo build --workspace --bins --examples --tests --locked --quiet || exit 1
+cargo build --workspace --bins --tests --locked --quiet || exit 1
 tests() { cargo test -p grainpipe-tests --locked --quiet "$@"; }
 
 part() {
@@ -40,7 +40,7 @@ missing=
 for name in $all; do [ -s "$out/$name.jsonl" ] || missing="$missing $name"; done
 if [ -z "$missing" ]; then
     for name in $all; do cat "$out/$name.jsonl"; done > "$out/findings.jsonl"
-    cargo run -p grainpipe-tests --example stability --locked --quiet -- "$out/findings.jsonl" docs/soak.md Soak || failed=1
+    cargo run -p grainpipe-studies --bin stability --locked --quiet -- "$out/findings.jsonl" docs/soak.md Soak || failed=1
     grep '^| ' docs/soak.md || true
 else
     echo "docs/soak.md waits for:$missing"

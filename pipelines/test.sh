@@ -5,7 +5,7 @@ cd "$(dirname "$0")/.."
 log=$(mktemp) skips=$(mktemp)
 trap 'rm -f "$log" "$skips"' EXIT
 
-cargo build --workspace --bins --locked || exit 1
+cargo build --bins --locked || exit 1
 GRAINPIPE_SKIPS=$skips cargo test --workspace --locked --no-fail-fast 2>&1 | tee "$log"
 status=$?
 sort -u "$skips"

@@ -80,7 +80,7 @@ pub struct Found {
 
 /// Folder of the scene.
 pub fn scenes() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../pipelines/stages")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../stages")
 }
 
 /// What each cut sees of the plant with a setting and a seed, or the one cut that it has: run now, or kept in the folder by an earlier study

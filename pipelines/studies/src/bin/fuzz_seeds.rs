@@ -1,6 +1,6 @@
 //! Writes what fuzzing begins with: `fuzz_seeds FOLDER` makes a folder for each target of `fuzz/`.
 
-#[path = "../tests/faults/samples.rs"]
+#[path = "../../../../tests/tests/faults/samples.rs"]
 mod samples;
 
 use samples::Sample;

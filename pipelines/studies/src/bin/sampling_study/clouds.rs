@@ -41,7 +41,7 @@ pub fn plate(count: usize, thickness: f64, noise: f64) -> Vec<Vec3> {
 
 /// A scan of the samples.
 pub fn read(file: &str) -> Result<cloud::Cloud, String> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../sample-data").join(file);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../sample-data").join(file);
     let open = std::fs::File::open(&path).map_err(|why| format!("{}: {why}", path.display()))?;
     cloud::read(open).map_err(|why| format!("{}: {why}", path.display()))
 }
