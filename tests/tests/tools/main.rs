@@ -13,6 +13,7 @@ mod measure;
 mod outputs;
 mod pipelines;
 mod python;
+mod readme;
 mod real_clouds;
 mod scans;
 mod scene;

@@ -1,0 +1,95 @@
+//! The commands of README.md: every one runs as it stands, in a copy of the folders that it names, dem-run for a moment only.
+
+use grainpipe_tests::tools::{program, succeed};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use tempfile::tempdir;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+fn readme() -> String {
+    fs::read_to_string(root().join("README.md")).expect("README.md is there")
+}
+
+/// The blocks of shell commands.
+fn blocks(text: &str) -> Vec<&str> {
+    text.split("```sh\n").skip(1).filter_map(|rest| rest.split("```").next()).collect()
+}
+
+/// The words behind a piece of text, wherever it occurs.
+fn behind<'a>(text: &'a str, start: &str) -> Vec<&'a str> {
+    let word = |rest: &'a str| rest.split(|c: char| !c.is_ascii_alphanumeric() && c != '-').next();
+    text.split(start).skip(1).filter_map(word).filter(|w| !w.is_empty()).collect()
+}
+
+#[test]
+fn every_make_target_exists() {
+    let (readme, makefile) =
+        (readme(), fs::read_to_string(root().join("pipelines/Makefile")).expect("a Makefile"));
+    let targets = behind(&readme, "make -C pipelines ");
+    assert!(targets.len() > 4, "{targets:?}");
+    for target in targets {
+        assert!(makefile.lines().any(|l| l.starts_with(&format!("{target}:"))), "make -C pipelines {target}");
+    }
+}
+
+#[test]
+fn every_file_that_is_linked_exists() {
+    let readme = readme();
+    for link in readme.split("](").skip(1).filter_map(|rest| rest.split([')', '#']).next()) {
+        assert!(root().join(link).exists(), "README.md links {link}");
+    }
+}
+
+/// Options in the text.
+#[test]
+fn every_option_is_in_its_tools_help() {
+    let readme = readme();
+    // Blocks stand between backticks as well.
+    let code: Vec<&str> = readme.split('`').skip(1).step_by(2).collect();
+    let mut seen = 0;
+    for command in code.iter().flat_map(|c| c.split(['|', '\n'])).flat_map(|c| c.split("&&")) {
+        let mut words = command.split_whitespace();
+        let Some(name) = words.next().filter(|n| root().join("tools").join(n).is_dir()) else { continue };
+        let help = String::from_utf8_lossy(&succeed(&root(), name, &["--help"]).stdout).into_owned();
+        for option in words.filter(|w| w.starts_with("--")) {
+            seen += 1;
+            assert!(help.split([' ', ',', '=', '\n']).any(|w| w == option), "{name} has no {option}");
+        }
+    }
+    assert!(seen > 10, "{seen} options");
+}
+
+#[test]
+#[cfg(unix)]
+fn every_block_runs() {
+    use std::os::unix::fs::{PermissionsExt, symlink};
+    let (folder, sources) = (tempdir().unwrap(), root().canonicalize().unwrap());
+    let at = |name: &str| folder.path().join(name);
+    symlink(sources.join("sample-data"), at("sample-data")).unwrap();
+    fs::create_dir_all(at("pipelines/scenes")).unwrap();
+    for entry in fs::read_dir(sources.join("pipelines/scenes")).unwrap() {
+        let entry = entry.unwrap();
+        fs::copy(entry.path(), at("pipelines/scenes").join(entry.file_name())).unwrap();
+    }
+    // The tools, but dem-run stops after a moment.
+    fs::create_dir(at("bin")).unwrap();
+    let engine = program("dem-run");
+    fs::write(at("bin/dem-run"), format!("#!/bin/sh\nexec '{}' \"$@\" --until 0.001\n", engine.display()))
+        .unwrap();
+    fs::set_permissions(at("bin/dem-run"), fs::Permissions::from_mode(0o755)).unwrap();
+    let path = format!("{}:{}:/usr/bin:/bin", at("bin").display(), engine.parent().unwrap().display());
+    let readme = readme();
+    let runs: Vec<&str> = blocks(&readme).into_iter().filter(|b| !b.contains("make ")).collect();
+    assert_eq!(runs.len(), 3);
+    for block in runs {
+        let mut shell = Command::new("bash");
+        shell.args(["-eo", "pipefail", "-c", block]).current_dir(folder.path()).env("PATH", &path);
+        let done = shell.output().expect("bash starts");
+        assert!(done.status.success(), "{block}\n{}", String::from_utf8_lossy(&done.stderr));
+    }
+    assert!(at("run.html").exists() && at("up.mcap").exists() && at("down.mcap").exists());
+}
