@@ -51,24 +51,33 @@ impl Sheet {
             self.begun = true;
             self.head(heads)?;
         }
+        if self.json { self.json_rows(rows) } else { self.csv_rows(rows) }
+    }
+
+    fn json_rows(&mut self, rows: &[Row]) -> std::io::Result<()> {
         for row in rows {
-            if self.json {
-                let comma = if self.rows == 0 { "" } else { "," };
-                let row = Value::Array(row.iter().map(|v| number(*v)).collect());
-                write!(self.out, "{comma}\n  {row}")?;
-            } else {
-                let row: Vec<String> = row.iter().map(|v| cell(*v)).collect();
-                writeln!(self.out, "{}", row.join(","))?;
-            }
+            let comma = if self.rows == 0 { "" } else { "," };
+            let row = Value::Array(row.iter().map(|v| number(*v)).collect());
+            write!(self.out, "{comma}\n  {row}")?;
             self.rows += 1;
         }
         Ok(())
     }
 
+    fn csv_rows(&mut self, rows: &[Row]) -> std::io::Result<()> {
+        let mut table = csv::Writer::from_writer(&mut self.out);
+        for row in rows {
+            table.write_record(row.iter().map(|v| cell(*v)))?;
+            self.rows += 1;
+        }
+        table.flush()
+    }
+
     fn head(&mut self, heads: &[Head]) -> std::io::Result<()> {
         if !self.json {
-            let names: Vec<String> = heads.iter().map(title).collect();
-            return writeln!(self.out, "{}", names.join(","));
+            let mut table = csv::Writer::from_writer(&mut self.out);
+            table.write_record(heads.iter().map(title))?;
+            return table.flush();
         }
         let columns: Vec<Value> = heads.iter().map(|h| json!({"name": h.name, "unit": h.unit})).collect();
         let (what, columns) = (json!(self.what.trim_start_matches('-')), Value::Array(columns));
