@@ -193,7 +193,7 @@ impl Line {
 impl Part {
     /// A markdown table, a row for each line.
     pub fn table(&self) -> String {
-        let mut table = "| what holds | tried on | worst found | allowed | order (expected) |\n".to_owned();
+        let mut table = "| claim | tried on | worst found | limit | order (expected) |\n".to_owned();
         table += "|---|---|---|---|---|\n";
         self.lines.iter().for_each(|line| table += &line.row());
         table

@@ -9,12 +9,12 @@ use stream::Table;
 use stream::mcap::{Event, Reader};
 use tempfile::{TempDir, tempdir};
 
-const TRIPPED: Case = case("Guards", "stops with code 3, a reason and a cure");
+const TRIPPED: Case = case("Guards", "stops with code 3, a reason and a remedy");
 const RESUMES: Case =
-    case("Guards", "the file of a stopped run is whole, and ends in a checkpoint that resumes");
+    case("Guards", "the file of a stopped run is whole and ends in a checkpoint that resumes");
 const EXACT: Case =
-    case("Guards", "resumed with the guard raised: bit for bit as if it had never been in force");
-const REFUSED: Case = case("Guards", "limits that are none are refused");
+    case("Guards", "resumed with a raised guard: bit for bit as if the guard had not tripped");
+const REFUSED: Case = case("Guards", "invalid limits are refused");
 
 const HEAD: &str = r#"[time]
 until = 0.02

@@ -5,8 +5,9 @@ use dem::Simulation;
 use grainpipe_tests::findings::{Case, case};
 use grainpipe_tests::setups::run_until;
 
-const CLOSES: Case = case("Energy", "the ledger closes, relative to what was exchanged, at dt = auto");
-const MADE: Case = case("Energy", "what the finite step makes, relative to what was exchanged, at dt = auto");
+const CLOSES: Case = case("Energy", "the ledger closes, relative to the energy exchanged, at dt = auto");
+const MADE: Case =
+    case("Energy", "energy created by the finite step, over the energy exchanged, at dt = auto");
 
 /// In the middle of motion, and at the end. Besides rounding only the turn of a clump with three moments of inertia is left, which
 /// [`dem::Energy::integration`] does not follow.

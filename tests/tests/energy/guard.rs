@@ -6,7 +6,7 @@ use dem::{Halt, Simulation};
 use grainpipe_tests::findings::{Case, case};
 use grainpipe_tests::normals::NORMALS;
 
-const STOPS: Case = case("Guards", "energy without work stops a run");
+const STOPS: Case = case("Guards", "energy from nothing stops a run");
 
 /// Grains that bounce without loss, in a step that is allowed but coarse: what they gain is told, and the state is finite.
 #[test]

@@ -9,7 +9,7 @@ use grainpipe_tests::normals::{NORMALS, Normal};
 use grainpipe_tests::setups::{bond, lattice, run_until};
 
 const ORDER: Case =
-    case("Energy", "what the finite step makes, relative to what was exchanged, falls with the step");
+    case("Energy", "energy created by the finite step, over the energy exchanged, falls with the step");
 
 /// A grain that spins falls on a floor and bounces.
 fn dropped(normal: &Normal, rubs: bool) -> Setup {

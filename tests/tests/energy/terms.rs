@@ -21,13 +21,11 @@ use grainpipe_tests::normals::{MODULUS, NORMALS, Normal, Surface, WORK, name_of,
 use grainpipe_tests::setups::{Law, bond, grain, lattice, plane};
 use std::f64::consts::PI;
 
-const ALONE: Case = case(
-    "Energy",
-    "scenes with one term: it takes what the motion of the start must lose, by its closed answer",
-);
+const ALONE: Case =
+    case("Energy", "scenes with one energy term: it takes the energy that the closed solution predicts");
 const NOTHING: Case = case(
     "Energy",
-    "scenes with one term, short steps: what the finite step makes, at every instant, of what is exchanged",
+    "scenes with one energy term, short steps: energy created by the finite step at every instant, over the energy exchanged",
 );
 
 const R: f64 = 0.01;

@@ -7,8 +7,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const FULL: Case = case("Faults", "the disk is full: said, code 1, and no file that looks whole");
-const KEPT: Case = case("Faults", "the disk is full: what a run had written is kept, and resumes");
+const FULL: Case = case("Faults", "the disk is full: a message, code 1, and no file that looks whole");
+const KEPT: Case = case("Faults", "the disk is full: the output so far is kept and resumes");
 
 const COMMANDS: [&str; 9] = [
     "cloud-crop cloud.xyz",

@@ -9,9 +9,9 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use std::io::Cursor;
 
-const CUT: Case = case("Faults", "a file that is cut anywhere is refused");
+const CUT: Case = case("Faults", "a truncated file is refused, wherever it ends");
 const FLIPPED: Case = case("Faults", "a changed byte in a run, walls or a checkpoint is refused");
-const SOUND: Case = case("Faults", "no changed byte in any format ends in a panic");
+const SOUND: Case = case("Faults", "no changed byte in any format causes a panic");
 
 /// What reads a file; whether it took it for whole.
 type Parser = fn(&[u8]) -> bool;

@@ -4,7 +4,7 @@ use crate::samples;
 use grainpipe_tests::findings::{Case, case};
 use std::error::Error;
 
-const CLAIMS: Case = case("Faults", "a file that claims more than it holds is refused, and takes no memory");
+const CLAIMS: Case = case("Faults", "a file that claims more than it holds is refused and takes no memory");
 
 /// An error and its causes.
 fn said(error: &dyn Error) -> String {

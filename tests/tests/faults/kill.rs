@@ -14,10 +14,8 @@ use tempfile::TempDir;
 const FRAMES: Case = case("Faults", "killed at any moment: earlier frames are whole");
 const RESUMED: Case =
     case("Faults", "killed at any moment: the resumed run ends bit for bit as the uninterrupted one");
-const LOOK: Case = case(
-    "Faults",
-    "killed at any moment: no output looks whole, and what is there can be viewed and measured",
-);
+const LOOK: Case =
+    case("Faults", "killed at any moment: no output looks whole, and what exists can be viewed and measured");
 
 /// Kills of the ordinary test; GRAINPIPE_KILLS=200 asks for more.
 const KILLS: u64 = 10;

@@ -6,7 +6,7 @@ use grainpipe_tests::scenes::folder;
 use grainpipe_tests::tools::{line, succeed};
 use tempfile::TempDir;
 
-const CLOSED: Case = case("Faults", "the reader closes the pipe: every tool ends quietly with code 0");
+const CLOSED: Case = case("Faults", "the reader closes the pipe: every tool ends silently with code 0");
 
 /// A folder with a cloud of 40 000 points, walls, and a run whose output is longer than a pipe holds.
 pub fn plant() -> TempDir {

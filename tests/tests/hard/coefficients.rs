@@ -11,7 +11,7 @@ use grainpipe_tests::setups::{grain, particles, plane, run_until};
 const SMOOTH: Case = case("Rest and extremes", "μ = 0: a thrown ball keeps its speed and its spin");
 const RUGGED: Case = case(
     "Rest and extremes",
-    "μ = 10: a thrown ball rolls on at 5/7 of its speed, its arm shortened by the overlap",
+    "μ = 10: a thrown ball rolls at 5/7 of its speed, its arm shortened by the overlap",
 );
 const DEAD: Case = case("Rest and extremes", "e = 0: nothing rebounds");
 const ELASTIC: Case = case("Rest and extremes", "e = 1: 100 bounces lose no energy");

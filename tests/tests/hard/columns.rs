@@ -12,9 +12,10 @@ const COLUMN: Case =
     case("Rest and extremes", "a column of 200 spheres: each contact bears the weight above it");
 const JANSSEN: Case = case(
     "Rest and extremes",
-    "a tall silo: the force on the base against the weight filled in follows Janssen's curve",
+    "a tall silo: the force on the base over the filled weight follows Janssen's curve",
 );
-const SATURATES: Case = case("Rest and extremes", "a tall silo: of what is filled in last the base bears");
+const SATURATES: Case =
+    case("Rest and extremes", "a tall silo: share of the last fill that the base carries");
 
 const COUNT: u32 = 200;
 

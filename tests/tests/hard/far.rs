@@ -18,7 +18,7 @@ const SPEED: Case = case(
 
 const REFUSED: Case = case(
     "Rest and extremes",
-    "so far away that a place is told to less than a millionth of the radius: refused, naming the grain or the wall",
+    "so far from the origin that a position is coarser than a millionth of the radius: refused, naming the grain or the wall",
 );
 
 const DISTANCE: f64 = 1e6;

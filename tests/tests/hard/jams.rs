@@ -11,20 +11,18 @@ use grainpipe_tests::tools::{line, succeed, tool};
 
 const WEDGED: Case = case(
     "Rest and extremes",
-    "a grain wedged between two closing walls: the run stops with the reason when the overlap passes its limit",
+    "a grain between two closing walls: the run stops with the reason when the overlap exceeds its limit",
 );
 const ARCH: Case = case("Rest and extremes", "an arch over the mouth of a hopper stands");
 const STILL: Case = case("Rest and extremes", "an arch over the mouth of a hopper comes to rest");
 const MIXED: Case = case(
     "Rest and extremes",
-    "an arch over the mouth of a hopper, in mixed precision: it creeps by what single precision rounds off its springs",
+    "an arch over the mouth of a hopper, in mixed precision: creeps by the rounding of its springs in single precision",
 );
 const PRESSED: Case =
-    case("Rest and extremes", "a jam in a hopper that is pressed on: the run stops with the reason");
-const EXIT: Case = case(
-    "Rest and extremes",
-    "dem-run ends a wedged run with code 3, the reason and a file that can be read",
-);
+    case("Rest and extremes", "a jam in a hopper under pressure: the run stops with the reason");
+const EXIT: Case =
+    case("Rest and extremes", "dem-run ends a jammed run with code 3, the reason and a readable file");
 
 fn wall(name: &str, point: Vec3, normal: Vec3, velocity: Vec3) -> Wall {
     let shape = WallShape::Plane(Plane { point, normal });

@@ -14,7 +14,7 @@ const ACROSS_SPIN: Case =
 
 const SHORT: Case = case(
     "Rest and extremes",
-    "a periodic box shorter than a diameter and the skin, or without an end: refused",
+    "a periodic box shorter than a diameter plus the skin, or without an end: refused",
 );
 
 /// Steps of a trial: the contact lasts for most of them.

@@ -9,10 +9,10 @@ use tempfile::tempdir;
 
 const CLEAR: Case = case(
     "Walls of spheres",
-    "points that are double, on a line, in a plane, one, none, far off, in two close sheets: a result",
+    "degenerate clouds (duplicates, a line, a plane, one point, none, far away, two close sheets): a result",
 );
 const REFUSED: Case =
-    case("Walls of spheres", "points that no wall can be made of: refused with place and reason");
+    case("Walls of spheres", "points that cannot become a wall: refused with position and reason");
 
 type Point = [f64; 3];
 

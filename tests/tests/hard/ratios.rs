@@ -8,16 +8,16 @@ use grainpipe_tests::findings::{Case, case};
 use grainpipe_tests::setups::{Law, contact, grain, particles, plane, run_until};
 
 const MOMENTUM: Case =
-    case("Rest and extremes", "size ratio 1:100, mass ratio 1:10⁶: momentum is kept in an impact");
+    case("Rest and extremes", "size ratio 1:100, mass ratio 1:10⁶: momentum is conserved in an impact");
 const IMPACT: Case =
     case("Rest and extremes", "size ratio 1:100, mass ratio 1:10⁶: the small grain rebounds with e");
 const PRESSED: Case = case(
     "Rest and extremes",
-    "a grain 100 times larger and 10⁶ times heavier rests on a bed: the floor bears all the weight",
+    "a grain 100 times larger and 10⁶ times heavier rests on a bed: the floor carries the whole weight",
 );
 const BORNE: Case = case(
     "Rest and extremes",
-    "a grain 100 times larger and 10⁶ times heavier rests on a bed: its speed after 6 ms, over that of a free fall",
+    "a grain 100 times larger and 10⁶ times heavier rests on a bed: its speed after 6 ms, over that of free fall",
 );
 const SMALLEST: Case = case("Time step", "size ratio 1:100: the step follows the smallest pair");
 const STIFF: Case =

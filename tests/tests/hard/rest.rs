@@ -7,20 +7,21 @@ use geom::{Plane, Vec3, mesh::TriMesh};
 use grainpipe_tests::findings::{Case, case};
 use grainpipe_tests::setups::{bond, grain, lattice, particles, plane};
 
-const SPEED: Case = case("Rest and extremes", "a heap at rest: speeds fall to rounding and stay");
-const SPIN: Case = case("Rest and extremes", "a heap at rest: spins fall to rounding and stay");
+const SPEED: Case = case("Rest and extremes", "a heap at rest: speeds fall to rounding and stay there there");
+const SPIN: Case = case("Rest and extremes", "a heap at rest: spins fall to rounding and stay there there");
 const CREEP: Case = case("Rest and extremes", "a heap at rest does not creep");
 const MIXED: Case = case(
     "Rest and extremes",
-    "a heap at rest in mixed precision: it creeps by what single precision rounds off its springs in a step",
+    "a heap at rest in mixed precision creeps by the rounding of its springs in single precision",
 );
 const FAR: Case = case(
     "Rest and extremes",
-    "a heap at rest 1000 km away: nothing goes as far in a step as the last digit of its place",
+    "a heap at rest 1000 km away: no grain moves by the last digit of its position in a step",
 );
 const FAR_CREEP: Case = case("Rest and extremes", "a heap at rest 1000 km away does not creep");
 
-const BLOCK: Case = case("Rest and extremes", "a bonded block at rest: speeds fall to rounding and stay");
+const BLOCK: Case =
+    case("Rest and extremes", "a bonded block at rest: speeds fall to rounding and stay there there");
 const BLOCK_CREEP: Case = case("Rest and extremes", "a bonded block at rest does not creep");
 
 /// Last digit of a place 1000 km away [m].

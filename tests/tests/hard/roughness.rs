@@ -10,7 +10,7 @@ const RADIUS: Case = case("Walls of spheres", "ζ from P·10⁻¹⁵ to P/2: the
 const DENT: Case = case("Walls of spheres", "ζ from P·10⁻¹⁵ to P/2: the dents that wallgen reports are ζ");
 const REFUSED: Case = case(
     "Walls of spheres",
-    "ζ above P/2, 0, below 0, and so small that the radius is no number: refused with the reason",
+    "ζ above P/2, zero, negative, or so small that the radius is not a number: refused with the reason",
 );
 
 const SPACING: f64 = 0.01;

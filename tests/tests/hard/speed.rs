@@ -14,12 +14,14 @@ use grainpipe_tests::findings::{Case, case};
 use grainpipe_tests::setups::{grain, plane};
 
 const FAST: Case =
-    case("Rest and extremes", "an impact at 100 m/s, the step at half the critical one: rebounds with e");
-const STOPPED: Case =
-    case("Rest and extremes", "an impact at 100 m/s on too soft a grain is stopped, by its id");
+    case("Rest and extremes", "an impact at 100 m/s at half the critical step: rebounds with e");
+const STOPPED: Case = case(
+    "Rest and extremes",
+    "an impact at 100 m/s on too soft a grain is stopped; the message names the grain",
+);
 const TUNNEL: Case = case(
     "Rest and extremes",
-    "grains thrown at up to 100 radii a step at planes, a mesh, wall spheres down to 1/50 of their size: none is on the other side without a stop",
+    "grains thrown at up to 100 radii per step at planes, a mesh, and wall spheres down to 1/50 of their size: none passes without a stop",
 );
 
 /// What is thrown at: all at or below z = 0.

@@ -8,11 +8,11 @@ use grainpipe_tests::setups::{grain, particles, plane};
 
 const DEEP: Case = case(
     "Rest and extremes",
-    "a start at 50 % overlap, or with two equal centres, is stopped, naming both grains",
+    "a start at 50 % overlap, or with two equal centres, is stopped; the message names both grains",
 );
 const EMPTY: Case =
-    case("Rest and extremes", "a scene with no grain, and one with a grain that meets nothing, run");
-const HUGE: Case = case("Rest and extremes", "a grain with no number for a place is refused by its id");
+    case("Rest and extremes", "a scene without grains runs, and a scene with one grain that touches nothing");
+const HUGE: Case = case("Rest and extremes", "a grain whose position is not a number is refused with its id");
 
 /// Equal centres and deep overlaps are named with their grains, and never become a number that is none.
 #[test]

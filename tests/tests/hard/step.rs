@@ -9,18 +9,18 @@ use grainpipe_tests::setups::{Law, grain, plane};
 
 const BOUNDED: Case = case(
     "Time step",
-    "Δt at 0.95 of the critical one, no losses: the energy of grains pressed together stays as it was",
+    "Δt at 0.95 of the critical step, no losses: the energy of compressed grains is constant",
 );
 const COOLS: Case = case(
     "Time step",
-    "Δt at 0.95 of the critical one, with damping and friction: grains pressed together come to rest",
+    "Δt at 0.95 of the critical step, with damping and friction: compressed grains come to rest",
 );
-const GAS: Case = case("Time step", "Δt at 0.95 of the critical one, e = 0.9: a gas only cools");
+const GAS: Case = case("Time step", "Δt at 0.95 of the critical step, e = 0.9: a gas only cools");
 const LOSSLESS: Case = case(
     "Time step",
-    "a gas without losses (e = 1): what the finite step makes of its energy, at 0.05 of the critical one",
+    "a gas without losses (e = 1): energy created by the finite step, at 0.05 of the critical step",
 );
-pub const ABOVE: Case = case("Time step", "Δt at 1.05 of the critical one is refused, naming the pair");
+pub const ABOVE: Case = case("Time step", "Δt at 1.05 of the critical step is refused, naming the pair");
 
 /// 27 grains in a closed box, which overlap each other and its walls so far [m], or are that far apart where it is negative.
 fn boxed(mut setup: Setup, share: f64, overlaps: (f64, f64), speed: f64) -> Simulation {

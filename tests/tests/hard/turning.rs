@@ -14,35 +14,33 @@ use std::f64::consts::PI;
 
 const TURNS: Case = case(
     "Rest and extremes",
-    "a loaded grain turned rigidly with its partners: the tangential force stays as it was, change in 1000 turns",
+    "a loaded grain in rigid rotation with its partners: the tangential force is constant, change in 1000 turns",
 );
-const WORK: Case = case(
-    "Rest and extremes",
-    "a loaded grain turned rigidly with its partners: no work is done in 1000 turns",
-);
+const WORK: Case =
+    case("Rest and extremes", "a loaded grain in rigid rotation with its partners: no work in 1000 turns");
 const MIXED: Case = case(
     "Rest and extremes",
-    "a loaded grain turned rigidly, in mixed precision: the tangential force loses the last digit of single precision in a step",
+    "a loaded grain in rigid rotation, in mixed precision: the tangential force loses the last digit of single precision per step",
 );
 const ANY: Case = case(
     "Rest and extremes",
-    "a loaded grain turned rigidly about any axis: the tangential force stays as it was",
+    "a loaded grain in rigid rotation about any axis: the tangential force is constant",
 );
 
 const SQUEEZE: f64 = 5e-5;
 
 const BOND: Case =
-    case("Rest and extremes", "a bonded rod that turns rigidly: what its bonds bear stays as it was");
+    case("Rest and extremes", "a bonded rod in rigid rotation: the forces in its bonds are constant");
 const BOND_SINGLE: Case = case(
     "Rest and extremes",
-    "a bonded rod that turns rigidly, in single precision: what its bonds bear changes by the last digit of a sum",
+    "a bonded rod in rigid rotation, in single precision: the forces in its bonds change by the last digit of a sum",
 );
 const SPIN_SINGLE: Case = case(
     "Rest and extremes",
-    "a bonded rod that turns rigidly, in single precision: its energy of motion stays as it was",
+    "a bonded rod in rigid rotation, in single precision: its kinetic energy is constant",
 );
 const SPIN: Case =
-    case("Rest and extremes", "a bonded rod that turns rigidly: its energy of motion stays as it was");
+    case("Rest and extremes", "a bonded rod in rigid rotation: its kinetic energy is constant");
 
 /// The cage turns about `axis` [rad/s], wall B a little later than wall A, so that it is loaded.
 fn cage(variant: &Variant, axis: Vec3, lag: f64) -> Simulation {

@@ -13,11 +13,11 @@ const SHORT: Case = case(
 );
 const BOTH: Case = case(
     "Rest and extremes",
-    "crossings of a storage plane in one step: each is recorded at its time and place",
+    "several crossings of a storage plane in one step: each is recorded at its time and position",
 );
 const ASTRIDE: Case = case(
     "Rest and extremes",
-    "a contact astride a storage plane: at hand-over its force goes on as in any other step, largest step over that of others",
+    "a contact across a storage plane: its force has no jump at the crossing, largest change per step over that of other steps",
 );
 
 fn zone(x: f64, length: f64) -> Zone {

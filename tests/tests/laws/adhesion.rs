@@ -21,11 +21,11 @@ use std::f64::consts::PI;
 
 const REBOUND: Case = case("One contact", "JKR, e = 1: rebound at √(v² − 2W/m*) (Thornton & Ning)");
 const STICKS: Case =
-    case("One contact", "JKR, e = 1: sticks below √(2W/m*), and comes free above: wrong of two");
+    case("One contact", "JKR, e = 1: sticks below √(2W/m*) and separates above: wrong results of two");
 const LOWER: Case = case("One contact", "JKR, e = 1: each bounce is lower by W/mg, until it sticks");
-const HEIGHT: Case = case("One contact", "cohesion of SJKR, e = 1: every bounce is as high as the first");
+const HEIGHT: Case = case("One contact", "SJKR cohesion, e = 1: every bounce is as high as the first");
 const DAMPED: Case =
-    case("One contact", "cohesion of SJKR on a linear law: restitution exp(−c t/2m*) of the weakened spring");
+    case("One contact", "SJKR cohesion on a linear law: restitution exp(−c t/2m*) of the weakened spring");
 
 /// W [J] of a cycle of making and breaking. 7.09 is 4π (π/8)^(2/3) (0.1 + 0.15 · 4^(4/3)).
 fn cycle(work: f64, radius: f64, modulus: f64) -> f64 {

@@ -12,14 +12,14 @@ use std::f64::consts::PI;
 const BAR: Case = case("Bonds", "bar of n spheres, force F on each: its end moves by Σ F x/E A");
 const BENDS: Case =
     case("Bonds", "cantilever of n spheres: its end moves by Σ F x² (3 L − x)/6 E I (one: F L³/3 E I)");
-const ROOT: Case = case("Bonds", "cantilever of n spheres: tension at the rim where it is held, Σ F x r/I");
+const ROOT: Case = case("Bonds", "cantilever of n spheres: tension at the rim of the fixed end, Σ F x r/I");
 const CRANK: Case = case("Bonds", "crank of bonded spheres: bending of both arms and torsion F b² a/G J");
 const BREAKS: Case = case(
     "Bonds",
-    "breaks at σ = F_n/A + |M| r/I or τ = |F_t|/A + |M_t| r/J, 1 % off on each side: wrong of two",
+    "a bond breaks at σ = F_n/A + |M| r/I or τ = |F_t|/A + |M_t| r/J, 1 % on each side: wrong results of two",
 );
-const ORDER: Case = case("Bonds", "particles in another order in the list: numbers that differ");
-const NAMES: Case = case("Bonds", "particles with other ids: places, over the deflection");
+const ORDER: Case = case("Bonds", "particles listed in another order: numbers that differ");
+const NAMES: Case = case("Bonds", "particles with other ids: difference of positions, over the deflection");
 
 const E: f64 = 1e7;
 const G: f64 = 4e6;

@@ -15,10 +15,11 @@ const DEEPEST: Case = case(PART, "Hertz: δ_max = (15 m* v²/16 √R* E*)^0.4");
 const STRONGEST: Case = case(PART, "Hertz: F_max = 4/3 E* √R* δ_max^1.5");
 const LASTS: Case = case(PART, "Hertz: contact lasts 2.87 (m*²/R* E*² v)^0.2");
 const CONTACT_TIME: Case = case(PART, "linear law: t_c = π/√(k/m* − (c/2m*)²)");
-const MOMENTUM: Case = case(PART, "oblique collision: Σ m v is kept, over that before");
-const SPIN: Case = case(PART, "oblique collision: Σ x × m v + I ω is kept, over that before");
+const MOMENTUM: Case = case(PART, "oblique collision: Σ m v is conserved, relative to its value before");
+const SPIN: Case =
+    case(PART, "oblique collision: Σ x × m v + I ω is conserved, relative to its value before");
 const BOUNCE: Case = case(PART, "bounce heights: h_k = (h₀ − r) e^2k + r");
-const FRAME: Case = case(PART, "a collision is the same from a frame that moves");
+const FRAME: Case = case(PART, "a collision is the same in a moving frame");
 
 /// z = z₀ + v t − g t²/2, exactly but for rounding.
 #[test]

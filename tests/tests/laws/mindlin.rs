@@ -16,16 +16,16 @@ use grainpipe_tests::normals::still;
 const STICKS: Case =
     case("Friction and rolling", "tangential loading and unloading below μ F_n: F_t = −8 G* a ξ, over μ F_n");
 const LOOP: Case =
-    case("Friction and rolling", "tangential cycle of amplitude D: takes 4 μ F_n (D − μ F_n/k_t)");
+    case("Friction and rolling", "tangential cycle of amplitude D dissipates 4 μ F_n (D − μ F_n/k_t)");
 const STIFFENS: Case =
     case("Friction and rolling", "F_n grows at constant ξ: F_t stays; F_n falls: F_t = −8 G* a ξ");
 const PARTIAL: Case = case(
     "Friction and rolling",
-    "loading beside partial slip (Mindlin & Deresiewicz): the law here has none, over μ F_n",
+    "loading compared with partial slip (Mindlin & Deresiewicz), which this law leaves out: difference over μ F_n",
 );
 const LOADING: Case = case(
     "One contact",
-    "Hertz with its dashpot beside another engine's loading and unloading (sample-data/reference)",
+    "Hertz with its dashpot compared with another engine's loading and unloading (sample-data/reference)",
 );
 
 const MU: f64 = 0.4;

@@ -24,12 +24,12 @@ const ELASTIC: Case = case("One contact", "error of an elastic impact: v′ over
 const DAMPED: Case = case("One contact", "error of a damped impact: v′ over e v, by step");
 const ADHESIVE: Case = case("One contact", "error of an impact with JKR: v′ over √(v² − 2W/m), by step");
 const SLIDING: Case =
-    case("Friction and rolling", "error of an oblique impact that slides: v_t′ over v_n, by step");
+    case("Friction and rolling", "error of an oblique impact with sliding: v_t′ over v_n, by step");
 const STAYS: Case =
-    case("One contact", "error of a grain that swings on a plane: z over its amplitude, by step");
+    case("One contact", "error of a grain that oscillates on a plane: z over its amplitude, by step");
 const FLUCTUATES: Case = case(
     "Energy",
-    "largest change of energy of a grain that swings on a plane without loss, over what swings, by step",
+    "largest energy change of a grain that oscillates on a plane without loss, over the energy of the oscillation, by step",
 );
 
 const STARTS: u32 = 16;

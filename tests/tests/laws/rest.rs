@@ -10,8 +10,7 @@ use grainpipe_tests::setups::{grain, particles, run_until};
 
 const COLUMN: Case = case("Many grains", "column of 10 at rest: force in the n-th contact = weight above it");
 
-const ON_A_SPHERE: Case =
-    case("One contact", "grain at rest on a wall sphere: force by its overlap = weight");
+const ON_A_SPHERE: Case = case("One contact", "grain at rest on a wall sphere: contact force = weight");
 
 /// A wall sphere is round: R* is r s/(r + s), and what adheres is the circle in which both meet.
 #[test]

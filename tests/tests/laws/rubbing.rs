@@ -14,20 +14,25 @@ use nalgebra::UnitQuaternion;
 
 const PART: &str = "Friction and rolling";
 const SLIDES: Case = case(PART, "thrown ball slides: v = v₀ − μ p t (p = g; with adhesion (F_n + 2 F_po)/m)");
-const ROLLS: Case = case(PART, "thrown ball rolls from 2 v₀/7 μ p on, at 5/7 v₀, for all μ");
-const ROLLS_DOWN: Case = case(PART, "ball that sticks rolls down a slope: 5/7 g sin θ");
+const ROLLS: Case = case(PART, "a thrown ball rolls after 2 v₀/7 μ p at 5/7 v₀, for all μ");
+const ROLLS_DOWN: Case = case(PART, "a ball that does not slip rolls down a slope: 5/7 g sin θ");
 const SLIDES_DOWN: Case = case(PART, "ball on tan θ > 7/2 μ slides: g (sin θ − μ cos θ)");
 const SLOWS: Case = case(PART, "rolling resistance: −v̇ = 5/7 μ_r p, both models");
-const HOLDS: Case = case(PART, "rolling resistance (spring): a ball stays on 0.9 μ_r p/g, does not on 1.1");
+const HOLDS: Case =
+    case(PART, "rolling resistance (spring): a ball stays on a slope of 0.9 μ_r p/g, and rolls on 1.1");
 const CREEPS: Case =
     case(PART, "rolling resistance (constant): creeps on a slope at 5 g sin θ Δt/2β, β = 1/8");
 const RESTS: Case = case(PART, "rolling resistance (constant): comes to rest on level ground");
 const TWISTS: Case = case(PART, "twisting resistance: −ω̇ = 5/2 μ_w p/r");
-const WEAKENS: Case = case(PART, "friction that weakens: slip s of ṡ = −7/2 μ(s) p");
-const MOMENTUM: Case = case(PART, "collision with all that rubs: Σ m v is kept, over that before");
-const SPIN: Case = case(PART, "collision with all that rubs: Σ x × m v + I ω is kept, over that before");
-const BLOCK_STAYS: Case = case(PART, "block on 0.9 μ stays where it came to rest");
-const BLOCK_SLIDES: Case = case(PART, "block on 1.1 μ slides: g (sin θ − μ cos θ)");
+const WEAKENS: Case = case(PART, "speed-dependent friction: slip s of ṡ = −7/2 μ(s) p");
+const MOMENTUM: Case =
+    case(PART, "collision with all friction effects: Σ m v is conserved, relative to its value before");
+const SPIN: Case = case(
+    PART,
+    "collision with all friction effects: Σ x × m v + I ω is conserved, relative to its value before",
+);
+const BLOCK_STAYS: Case = case(PART, "block on a slope of 0.9 μ stays where it came to rest");
+const BLOCK_SLIDES: Case = case(PART, "block on a slope of 1.1 μ slides: g (sin θ − μ cos θ)");
 
 /// Every normal law in every precision on every surface: a grain at rest, and what friction is capped by over its mass [m/s²].
 fn all(friction: f64, test: impl Fn(Setup, f64, &str)) {

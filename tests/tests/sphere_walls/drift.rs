@@ -6,10 +6,11 @@ use crate::sphere_walls::plates::{Layout, spheres};
 use grainpipe_tests::findings::Case;
 use sampling::Method;
 
-const EVEN: Case =
-    of_walls("blue noise leads grains nowhere: drift aside over speed down, within its 95 % interval");
+const EVEN: Case = of_walls(
+    "blue noise does not deflect grains: sideways drift over downward speed, within its 95 % interval",
+);
 const ROWS: Case =
-    of_walls("a grid leads grains along its rows: lower end of the 95 % interval of the drift is above 0");
+    of_walls("a grid deflects grains along its rows: lower end of the 95 % interval of the drift is above 0");
 
 #[test]
 fn rows_lead_grains_aside_and_blue_noise_does_not() {

@@ -5,7 +5,7 @@ use crate::sphere_walls::filling::{Scan, Surface, fill};
 use grainpipe_tests::findings::Case;
 
 const CLOSES: Case = of_walls(
-    "a ball wider than the hole closes it, one half as wide does not: share of missing points added",
+    "a ball wider than the hole closes it, a ball half as wide does not: share of missing points added",
 );
 const LIES: Case = of_walls(
     "points that cloud-fill adds lie on the scanned surface: root mean square distance over the hole's width",

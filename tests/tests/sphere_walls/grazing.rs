@@ -9,14 +9,14 @@ use grainpipe_tests::setups::Law;
 use sampling::Method;
 
 const RUBS: Case =
-    of_walls("grazing impact at 1° to 10° with friction or e < 1: kinetic energy gained by no grain");
+    of_walls("grazing impact at 1° to 10° with friction or e < 1: no grain gains kinetic energy");
 const KEEPS: Case =
     of_walls("grazing impact with e = 1 and no friction: kinetic energy gained at the default step");
 const SEAMS: Case = of_walls(
-    "grazing the seams of a mesh with JKR: what pulls a grain is lost there, as its law states; energy gained",
+    "grazing the seams of a mesh with JKR: the attraction ends at a seam, as the law states; energy gained",
 );
 const FALLS: Case = of_walls(
-    "what a grazing impact with e = 1 and no friction gains or loses falls with the square of the step",
+    "energy change in a grazing impact with e = 1 and no friction falls with the square of the step",
 );
 
 fn wall() -> Target {

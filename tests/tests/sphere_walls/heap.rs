@@ -17,10 +17,10 @@ use sampling::Method;
 const P: f64 = 0.01;
 const R: f64 = 0.006;
 const SAME: Case = of_walls(
-    "a heap on a wall of spheres with ζ/P = 0.005 spreads as on a flat wall: difference over both 95 % intervals",
+    "a heap spreads on a wall of spheres with ζ/P = 0.005 as on a flat wall: difference over both 95 % intervals",
 );
 const STANDS: Case = of_walls(
-    "a heap that slides apart on a flat wall stands on a rough wall of spheres: its spread over that",
+    "a heap that slides apart on a flat wall stands on a rough wall of spheres: spread over spread on the flat wall",
 );
 
 /// A column of grains on a wall up to a height [m] that is let go: the mean distance of its grains from its axis when they have come to

@@ -10,7 +10,7 @@ use sampling::Method;
 const P: f64 = 0.01;
 const R: f64 = 0.006;
 const HOLDS: Case = of_walls("a grain rolls or slides out of its pocket at tan α = s(u)/H");
-const WEDGED: Case = of_walls("one that cannot roll slides out at arctan(s/H) + arctan(μ/cos β)");
+const WEDGED: Case = of_walls("a grain that cannot roll slides out at arctan(s/H) + arctan(μ/cos β)");
 const BOUND: Case =
     of_walls("no grain without friction is held above tan α = c/H, the steepest slope of the wall");
 /// Step of tilt [rad].

@@ -9,12 +9,14 @@ use grainpipe_tests::findings::Case;
 use grainpipe_tests::tools::line;
 use sampling::Method;
 
-const WIDTH: Case =
-    of_walls("a grain 1 % smaller than the gap that wallgen reports falls through, one 1 % larger does not");
+const WIDTH: Case = of_walls(
+    "a grain 1 % smaller than the gap that wallgen reports falls through, a grain 1 % larger does not",
+);
 const SQUARE: Case = of_walls("widest gap of a square lattice: √2 P − 2R");
-const CLOSED: Case = of_walls("a wall without a gap lets nothing through: share of grains below it");
-const TOOLS: Case =
-    of_walls("the same through wallgen and dem-run: 2 % smaller falls through, 2 % larger stays");
+const CLOSED: Case = of_walls("a wall without a gap lets no grain through: share of grains below it");
+const TOOLS: Case = of_walls(
+    "through wallgen and dem-run: a grain 2 % smaller than the gap falls through, a grain 2 % larger stays",
+);
 
 const P: f64 = 0.01;
 

@@ -10,13 +10,13 @@ use sampling::Method;
 
 const P: f64 = 0.01;
 const R: f64 = 0.006;
-const EACH: Case = of_walls("a grain leaves a sphere of a wall as the formula says: (1 + e) cos² θ − 1");
+const EACH: Case = of_walls("a grain rebounds from a wall sphere by the formula (1 + e) cos² θ − 1");
 const MEAN: Case =
     of_walls("mean rebound on a square lattice: (1 + e)(1 − P²/6(R + r)²) − 1, within its 95 % interval");
 const FLAT: Case =
-    of_walls("ζ → 0: a grain that touches one sphere of a wall at a time rebounds as from the plane, by e");
+    of_walls("ζ → 0: a grain that touches one wall sphere at a time rebounds as from a plane, with e");
 const PIPE: Case =
-    of_walls("rebound in a half pipe of spheres as on a flat wall, within both 95 % intervals");
+    of_walls("rebound in a half pipe of spheres equals that on a flat wall, within both 95 % intervals");
 
 #[test]
 fn each_grain_rebounds_by_the_tilt_of_the_sphere_it_hits() {

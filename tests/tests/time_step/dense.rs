@@ -8,9 +8,9 @@ use grainpipe_tests::setups::{Law, empty, grain, with_friction};
 
 const MADE: Case = case(
     "Time step",
-    "a grain thrown at wall spheres a twentieth of their radius apart: energy made by the default step, over that of the throw",
+    "a grain thrown at wall spheres a twentieth of their radius apart: energy created by the default step, over that of the throw",
 );
-const NAMED: Case = case("Time step", "the pair that sets the step names how many wall spheres push at once");
+const NAMED: Case = case("Time step", "the limiting pair names how many wall spheres push at once");
 
 const R: f64 = 0.01;
 const SPEED: f64 = 4.0;

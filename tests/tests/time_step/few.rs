@@ -13,7 +13,7 @@ const LINE: Case = case(
     "grain between two planes, linear law: true limit is 2/ω (√(1 + 2γ²) − √2 γ), ω² = 2k/m",
 );
 const FEWER: Case =
-    case("Time step", "few contacts: true limit over the bound, which is for twelve: above 1");
+    case("Time step", "few contacts: true limit over the bound (which is for twelve contacts) is above 1");
 
 const R: f64 = 0.01;
 

@@ -7,13 +7,11 @@ use geom::Vec3;
 use grainpipe_tests::findings::{Case, case};
 
 /// True limits of no more than twice the bound.
-pub const MEANT: Case = case(
-    "Time step",
-    "true limit over the bound, of configurations that the bound is meant for: no more than 2",
-);
+pub const MEANT: Case =
+    case("Time step", "true limit over the bound, for configurations that the bound is made for: at most 2");
 /// What is below the bound, as a share of it.
 pub const SAFE: Case =
-    case("Time step", "true limit, found by bisection, is not below the bound: share missing");
+    case("Time step", "true limit, found by bisection, is not below the bound: missing share");
 /// Growth at 0.95 of the bound.
 pub const STABLE: Case =
     case("Time step", "0.95 of the bound: largest speed within 20 000 steps, over that of the start");
