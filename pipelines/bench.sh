@@ -151,23 +151,23 @@ by_size() {
 }
 
 caption() {
-    echo "Millions of particle-steps a second, medians of $rounds rounds (of one from a million grains on): the bench pile of"
-    echo "\`make -C pipelines race\` (Hooke, Δt 10⁻⁵ s, the engine's own lists), copied side by side, or cut to a cube that settles between walls below"
-    echo "50 000. A timing is a long run less a short one; frames and checkpoints are in neither. *Touching* and *listed* are pairs a grain"
-    echo "(listed within 0.6 mm where dem-run does not report its own); *memory* is of a contact between steps [bytes]; *peak* the most"
-    echo "resident memory of dem-run [bytes a grain], *own* what the engine says of itself. Rows with + add to the row above them."
+    echo "Speeds are millions of particle-steps per second, medians of $rounds rounds (of one from a million grains). The scene is the bench pile of"
+    echo "\`make -C pipelines race\` (Hooke, Δt 10⁻⁵ s, the engine's own lists), copied side by side; below 50 000 grains it is a cube that settles between walls."
+    echo "A timing is a long run minus a short one, both without frames and checkpoints."
+    echo "*Touching* and *listed* are pairs per grain (listed within 0.6 mm where dem-run does not report its own). *Memory* is the history of a contact [bytes]."
+    echo "*Peak* is the largest resident memory of dem-run, *own* the engine's own count [bytes per grain]. Rows with + add to the row above them."
     echo
-    echo "The last columns are shares of what one part of the machine alone would allow, on one thread and on two. Measured in the same run:"
+    echo "The last columns are shares of the limit that one part of the machine alone would set, on one thread and on two. Measured in the same run:"
     for threads in 1 2; do
         awk -v t=$threads '$1 == "lanes" { w = $2 } $1 != "lanes" && NF == 3 { v[$1] = $2 } END {
             printf "%s: triad %s GB/s, adds and multiplies %s, divisions %s, roots %s thousand millions a second (f64, %s lanes).\n",
                 t == 1 ? "one thread" : "two threads", v["bandwidth"], v["add_multiply"], v["divide"], v["root"], w }' "limits-$threads"
     done
     echo "Bytes and operations of a particle and a contact are counted in \`crates/dem/examples/limits.rs\`: everything that a step reads or"
-    echo "writes, once, as if no cache kept it from one step to the next; a share above 100 % of memory says that caches do."
+    echo "writes, once, as if no cache kept it until the next step. A share above 100 % of memory means that caches help."
     awk '$1 > 5000 && !small { small = $2 } { large = $2; n = $1 } END {
         if (small && n >= 1e6) printf "\nA particle-step of %d grains costs %.2f times that of 10 000, on one thread.\n", n, small / large }' by-size
-    awk '{ printf "\nFrames of %d grains that go to a file take %d bytes a grain at most; one that goes to a pipe, as here, is held once more.\n", $1, $2 }' filed
+    awk '{ printf "\nFrames of %d grains that go to a file take %d bytes per grain at most. A frame that goes to a pipe, as here, is held once more.\n", $1, $2 }' filed
     sed 's/^/- /' remarks
 }
 

@@ -137,9 +137,9 @@ for size in $sizes; do
 done
 
 words() {
-    echo "Medians of $rounds rounds on $(nproc) cores; each tool reads and writes files here, and may use $limit GB. The scans are those of"
-    echo "\`chute-scan\`, thinned to $spacing m, with a roughness of $roughness m. pymeshlab thins to the number that came out of bluenoise-sample;"
-    echo "its time and Open3D's are of the step alone, without start and, but where it says so, reading."
+    echo "Medians of $rounds rounds on $(nproc) cores. Each tool reads and writes files here, and may use $limit GB. The scans are those of"
+    echo "\`chute-scan\`, thinned to $spacing m, with a roughness of $roughness m. pymeshlab thins to the number of points from bluenoise-sample."
+    echo "The times of pymeshlab and Open3D are those of the step alone: start is left out, and reading has its own row."
     sort -u remarks | sed 's/^/- /'
 }
 words | tee words

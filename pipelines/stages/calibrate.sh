@@ -61,7 +61,7 @@ slopes rolling "$ROLLING" "$SEEDS" | awk -v angle="$ANGLE" '
     for (i = 1; i <= n; i++) rest += (y[i] - level - slope * (x[i] - mean))^2
     s = sqrt(rest / (n - 2)); at = mean + (angle - level) / slope
     off = t[n - 2 > 12 ? 12 : n - 2] * s / (slope < 0 ? -slope : slope) * sqrt(1 / n + (at - mean)^2 / (sxx - sx * sx / n))
-    printf "\nThe line: %.1f° and %.1f° for each 0.1 more, at %.2f; it meets %.1f° at a **rolling resistance of %.2f ± %.2f** (95 %%, from the scatter of the runs about the line).\n", level, slope / 10, mean, angle, at, off
+    printf "\nThe line has %.1f° at %.2f, and rises by %.1f° for each 0.1. It reaches %.1f° at a **rolling resistance of %.2f ± %.2f** (95 %% interval, from the scatter of the runs about the line).\n", level, mean, slope / 10, angle, at, off
   }' > "$OUT/calibration.md"
 slopes stiffness "$STIFFNESS" "$MORE" | awk '
   {if (!($1 in count)) order[++values] = $1

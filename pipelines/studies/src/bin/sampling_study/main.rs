@@ -47,8 +47,8 @@ fn dense(page: &mut Page, folder: &Path, file: &Path) -> Result<(), String> {
     let points = clouds::sheet(200_000);
     let before = sampling::nearest_distances(&points).map_or(0.0, |n| n.variation);
     page.say(&format!(
-        "## What each method is by itself\n\nA bent sheet of 1 m² with {} points of chance (variation of their nearest distances: \
-         {before:.2}), thinned to about {count}. P = √(area per point kept).",
+        "## The methods compared\n\nA bent sheet of 1 m² with {} random points (variation of their nearest \
+         distances: {before:.2}), thinned to about {count}. P = √(area per point kept).",
         points.len()
     ));
     let wished = |method: Method| match method {
@@ -96,8 +96,9 @@ fn dense(page: &mut Page, folder: &Path, file: &Path) -> Result<(), String> {
 /// Real scans and the sample of a chute, which are hardly finer than the sample.
 fn scans(page: &mut Page) -> Result<(), String> {
     page.say(
-        "## Scans\n\nBy `--spacing`, so that the methods keep different numbers. Variation of the nearest distances before and after; \
-         the processor time is that of one core.",
+        "## Scans\n\nAll methods get the same `--spacing`, so they keep different numbers of points. The \
+         table shows the variation of the nearest distances before and after, and the processor time of one \
+         core.",
     );
     let mut rows = Vec::new();
     for (name, file, spacing) in clouds::SCANS {
@@ -125,9 +126,10 @@ fn scans(page: &mut Page) -> Result<(), String> {
 /// Both sides of a plate thinner than the spacing.
 fn plates(page: &mut Page) {
     page.say(
-        "## Two sheets closer than the spacing\n\nBoth sides of a plate of 1 m², 60 000 points, thinned by a spacing r of 60 mm. Kept points \
-         on one side, times r² over the area: a full Poisson-disk sample of a sheet alone has about 0.69. In space (`--distance space`) \
-         the sides thin each other; along the surface each is sampled as if it were alone.",
+        "## Two sheets closer than the spacing\n\nBoth sides of a plate of 1 m² with 60 000 points are \
+         thinned with a spacing r of 60 mm. The table shows the kept points on one side, times r² over the \
+         area. A full Poisson-disk sample of a single sheet has about 0.69. In space (`--distance space`) \
+         the two sides thin each other; along the surface each is sampled as if it were alone.",
     );
     let spacing = 0.06;
     let mut rows = Vec::new();

@@ -4,35 +4,49 @@ use crate::measured::Measured;
 use kuva::prelude::*;
 use std::path::Path;
 
-pub const HEAD: &str = "# Sampling\n\nWhich points of a scan become wall spheres. `bluenoise-sample` picks points of the cloud and moves none. This page is written by\n\
-`make -C pipelines sampling-study`; every number on it comes from there, and what must hold of them is asserted by\n\
-`crates/sampling/tests/laws.rs`.\n\n\
-```sh\n\
-bluenoise-sample scan.ply --spacing 0.012 -o even.ply                       # no two points nearer, no gap wider\n\
-bluenoise-sample scan.ply --count 100000 --method eliminate -o even.ply     # exactly so many\n\
-bluenoise-sample scan.ply --density 5000,7000 -o even.ply                   # points per m²\n\
-bluenoise-sample scan.ply --spacing 0.012 --plot spectrum.svg --report even.json -o even.ply   # … and its measures\n\
-bluenoise-sample scan.ply --spacing 0.012 --no-measures --report count.json -o even.ply        # a report without them: no time for measuring\n\
-```\n\n\
-| method | what it does | take it for |\n|---|---|---|\n\
-| `poisson` | Poisson disk, the loneliest point first | the default: a guarantee both ways, and quick |\n\
-| `eliminate` | removes the most crowded point again and again (after Yuksel 2015) | an exact count |\n\
-| `relax` | Poisson disk, then each point moves to the middle of its share (Lloyd) | the least unevenness of large extent |\n\
-| `tile` | an even pattern laid on patch by patch, seams closed by Poisson disk | dense scans: a pattern that was made beforehand; fewer points for the same spacing where the scan is coarse |\n\
-| `grid` | the point nearest to each node of a grid along x, y, z | flows with one direction |\n\n\
-A count is met within 1 %, below 200 and by `eliminate` exactly (a grid takes the nearest it has); what cannot be met is told. \
-`--keep-filled` keeps\nthe points that `cloud-fill` added.";
+pub const HEAD: &str = r#"# Sampling
 
-pub const LEGEND: &str = "Variation: standard deviation over mean of the nearest distances. Power: radial power spectrum, 1 for chance, at ν waves per P; blue noise has little \
-below ν = ½ and no sharp peak. Anisotropy: 1 when directions differ by chance only. Processor time of one core, the least of two; by count it \
-takes several\nsamplings to find the spacing.";
+`bluenoise-sample` chooses which points of a scan become wall spheres. It does not move any point.
 
-pub const TAIL: &str = "## Which distance\n\nWith `--distance surface` distances are those along the surface where another sheet lies nearer than the spacing, such as the far side of a thin plate \
-(the default is `space`, which is\nquicker and bears more noise): within a spacing, points that are only\nconnected by ways more than 1.5 spacings long, and that lie off the plane of this sheet, do not thin it. Nothing but the points is needed for that: no normals. \
-Around a\nright-angled edge both sides thin each other as ever. Sheets are told apart where they are at least 1.7 times as far apart as the scan's own points (and a twentieth \
-of the\nspacing), and where the spacing is at least five times that of the scan; otherwise they are thinned as one. The grid is one of space.\n\n\
-Surfaces that are one sheet everywhere are sampled bit for bit as in space. Noise of about the spacing of the scan makes one sheet look like many: \
-take `space` there.";
+```sh
+bluenoise-sample scan.ply --spacing 0.012 -o even.ply                       # no two points nearer, no gap wider
+bluenoise-sample scan.ply --count 100000 --method eliminate -o even.ply     # exactly so many
+bluenoise-sample scan.ply --density 5000,7000 -o even.ply                   # points per m²
+bluenoise-sample scan.ply --spacing 0.012 --plot spectrum.svg --report even.json -o even.ply   # … and its measures
+bluenoise-sample scan.ply --spacing 0.012 --no-measures --report count.json -o even.ply        # a report without measures, which is faster
+```
+
+| `--method` | what it does | use it for |
+|---|---|---|
+| `poisson` | Poisson disk, the most isolated point first | the default: guarantees both distances, and is fast |
+| `eliminate` | removes the most crowded point again and again (after Yuksel 2015) | an exact count |
+| `relax` | Poisson disk, then each point moves to the middle of its share (Lloyd) | the most even density over long distances |
+| `tile` | lays a prepared even pattern patch by patch and closes the seams by Poisson disk | dense scans. On coarse scans it keeps fewer points for the same spacing |
+| `grid` | the point nearest to each node of a grid along x, y, z | flows with one direction |
+
+A wanted count is met within 1 %; exactly if it is below 200, and with `eliminate`. A grid takes the nearest count that it has. A count that cannot be met prints a warning. `--keep-filled` keeps the points that `cloud-fill` added.
+
+`make -C pipelines sampling-study` writes this page. The tests `crates/sampling/tests/laws.rs` check what must hold."#;
+
+pub const LEGEND: &str = r#"| column | meaning |
+|---|---|
+| variation | standard deviation over mean of the nearest distances |
+| power | radial power spectrum at ν waves per P; 1 for random points. Blue noise has little power below ν = ½ and no sharp peak |
+| anisotropy | 1 if directions differ only by random scatter |
+| processor time | of one core, the smaller of two runs. With a count, several samplings search for the spacing |"#;
+
+pub const TAIL: &str = r#"## Which distance
+
+| `--distance` | meaning |
+|---|---|
+| `space` (default) | straight distance; faster, and tolerates more noise |
+| `surface` | distance along the surface where another sheet is nearer than the spacing, such as the far side of a thin plate |
+
+With `surface`, a point does not thin another one within the spacing if every connection between them is longer than 1.5 spacings and it lies off the plane of the sheet. This needs only the points, no normals. At a right-angled edge both sides thin each other as usual.
+
+Two sheets are detected if they are at least 1.7 times as far apart as the points of the scan (and a twentieth of the spacing), and if the spacing is at least five times that of the scan. Otherwise they are thinned as one. The method `grid` always works in space.
+
+A surface that is one sheet everywhere is sampled bit for bit as with `space`. Noise of about the spacing of the scan makes one sheet look like many: use `space` there."#;
 
 /// What is written when all is known.
 #[derive(Default)]

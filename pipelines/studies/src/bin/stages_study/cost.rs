@@ -99,11 +99,13 @@ fn text(upstream: Took, times: &[Vec<Took>; 3], record: (u64, u64)) -> String {
     let formula =
         (upstream.processor + sums[2].processor) / (n * (upstream.processor + sums[2].processor / n));
     format!(
-        "{cells}\nX = 1 upstream variant, Y = 10 downstream ones; one thread each, one after the other, on a machine with other work on it. Ten tilts \
-         in stages take {:.0} % of the processor time of ten undivided runs ({:.0} % on the clock).\nBy A·X + B·X·Y against (A + B)·X·Y with A and B \
-         as measured it would be {:.0} %; A is {:.1} times B here, and 5 times in the source, with 25 %. One variant alone, in two stages,\ntakes {:.0} % of an \
-         undivided run: what cutting itself costs or saves. Record and replay: {:.1} % of the time in stages; the upstream run is a file of {} kB, \
-         its inlet of {} kB.\n",
+        "{cells}\nX = 1 upstream variant, Y = 10 downstream variants; one thread each, one after the other, \
+         on a machine with other work. Ten tilts in stages take {:.0} % of the processor time of ten \
+         undivided runs ({:.0} % on the clock). The formula A·X + B·X·Y over (A + B)·X·Y gives {:.0} % with \
+         the measured A and B. Here A is {:.1} times B; in the source document it is 5 times, which gives 25 \
+         %. One variant alone takes {:.0} % of an undivided run in two stages: this is the cost or saving of \
+         the cut itself. Record and replay take {:.1} % of the time in stages. The upstream run is a file of \
+         {} kB, its inlet one of {} kB.\n",
         100.0 * staged.processor / sums[0].processor,
         100.0 * staged.wall / sums[0].wall,
         100.0 * formula,

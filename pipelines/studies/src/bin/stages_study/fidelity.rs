@@ -48,8 +48,9 @@ pub fn study(folder: &Path, page: &Path, seeds: usize) -> Result<(), String> {
         runs.seeds.iter().find_map(|s| s.as_ref().err()).map_or(Ok(()), |why| Err(why.clone()))?;
     }
     let mut text = format!(
-        "Each line: mean difference from the undivided runs of the same {seeds} seeds, ± its 95 % interval (Student), bold where that does not \
-         reach zero.\nThe first line of each table has the undivided runs themselves: mean, ± the deviation of one run between seeds.\n"
+        "Each line gives the mean difference from the undivided runs with the same {seeds} seeds, ± its 95 % \
+         interval (Student). It is bold if the interval does not include zero. The first line of each table \
+         gives the undivided runs: mean ± deviation of one run between seeds.\n"
     );
     if quick {
         text += "Quick form (QUICK=1): the shortest zone, and neither other stiffness nor other steps. `make -C pipelines stages-study` runs all.\n";

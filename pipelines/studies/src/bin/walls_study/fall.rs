@@ -46,11 +46,13 @@ pub fn study(page: &mut Page) -> Result<(), String> {
         rows.push(row);
         panel.lines.push((layout.name().to_owned(), SIZES.iter().copied().zip(shares).collect()));
     }
-    page.head("Leaks: what wallgen reports against grains that fall");
+    page.head("Leaks: what wallgen reports, and what falls through");
     page.say(&format!(
-        "Over the widest gap that wallgen reports, a grain of 0.99 and one of 1.01 of its width were let go: {right} of {} did as they should, fall \
-         through and stay.\nLet go at chance places of walls with ζ = 0.4 P, P = d, this share of grains fell through, by their size over the widest gap: \
-         on a lattice all gaps are alike and\nall or none pass, on blue noise the widest gap is rare and most pockets hold a grain of that size.",
+        "Test of the reported gap: a grain of 0.99 and a grain of 1.01 of its width are released over the \
+         widest gap that wallgen reports. {right} of {} fell through or stayed as expected.\n\nTest at \
+         random positions: this share of grains falls through walls with ζ = 0.4 P and P = d, by grain size \
+         over the widest gap. On a lattice all gaps are equal, so all grains or none pass. On blue noise the \
+         widest gap is rare, and most pockets hold a grain of that size.",
         2 * layouts.len()
     ));
     let sizes: Vec<String> = SIZES.iter().map(|s| format!("{s}")).collect();

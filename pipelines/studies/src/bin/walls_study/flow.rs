@@ -60,15 +60,18 @@ pub fn study(page: &mut Page) -> Result<(), String> {
     }
     page.head("Flow in every direction: grid against blue noise");
     page.say(&format!(
-        "Grains, 144 for each of {AZIMUTHS} azimuths, roll 0.8 s down a wall of P = d/1.2 and ζ = 0.1 P (μ = 0.5, e = 0.5) that is turned under the tilt. \
-         Unevenness: deviation of the\nmean speed down over the azimuths; drift: root mean square of the mean speed aside; both over the speed down, in %, what chance makes taken off, with \
-         intervals by drawing the\ngrains anew 400 times. Rows lead grains aside by {:.1} % of their speed or more; the largest drift of a blue-noise wall is {:.1} %, and \
-         whether it is more than chance is told by its interval.",
+        "144 grains for each of {AZIMUTHS} azimuths roll for 0.8 s down a wall of P = d/1.2 and ζ = 0.1 P (μ \
+         = 0.5, e = 0.5) that is rotated under the tilt.\n\n- Unevenness: deviation of the mean downward \
+         speed over the azimuths.\n- Drift: root mean square of the mean sideways speed.\n\nBoth are given \
+         over the downward speed, in %, with random scatter subtracted. Their intervals come from resampling \
+         the grains 400 times. Rows deflect grains by {:.1} % of their speed or more. The largest drift of a \
+         blue-noise wall is {:.1} %; its interval shows whether that is more than scatter.",
         100.0 * rowed,
         100.0 * blue
     ));
     page.advise(format!(
-        "**Method**: poisson (the default), not grid, unless the flow has one direction: rows drag grains aside by {:.1} % of their speed or more, blue noise by {:.1} % at most.",
+        "**Method**: poisson (the default). Use grid only if the flow has one direction: rows deflect grains \
+         by {:.1} % of their speed or more, blue noise by {:.1} % at most.",
         100.0 * rowed,
         100.0 * blue
     ));

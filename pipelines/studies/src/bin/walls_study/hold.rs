@@ -134,10 +134,12 @@ fn words(page: &mut Page, all: &[Found]) {
     });
     let spread = spread.fold(0.0, f64::max);
     page.say(&format!(
-        "A grain that cannot roll, μ = {MU}, rests in a pocket of the wall; the tilt at which it leaves is the wall's hold. On a plane that is \
-         arctan μ = {bare:.1}°.\nA Poisson-disk wall holds {:.1}° at P = d/2, ζ = 0.02 P; {:.1}° at P = d, ζ = 0.1 P; {:.1}° at P = 2 d, ζ = 0.2 P. \
-         What counts is the slope of the surface\nthat the grain's centre moves on, arcsin of (distance from a sphere's axis)/(R + r), which grows with ζ/P and with P/d. \
-         Between methods the hold differs by at most {spread:.1}°;\nthe intervals are in the table. Tilts go in steps of 2°.",
+        "A grain that cannot roll, with μ = {MU}, rests in a pocket of the wall. The tilt at which it leaves \
+         is the hold of the wall. On a plane it is arctan μ = {bare:.1}°. A Poisson-disk wall holds {:.1}° \
+         at P = d/2, ζ = 0.02 P; {:.1}° at P = d, ζ = 0.1 P; {:.1}° at P = 2 d, ζ = 0.2 P.\n\nWhat counts is \
+         the slope of the surface on which the grain's centre moves: arcsin of (distance from a sphere's \
+         axis)/(R + r). It grows with ζ/P and with P/d. Between methods the hold differs by at most \
+         {spread:.1}°; the intervals are in the table. The tilt changes in steps of 2°.",
         at(0.5, 0.02),
         at(1.0, 0.1),
         at(2.0, 0.2),
@@ -151,8 +153,9 @@ fn words(page: &mut Page, all: &[Found]) {
         worst.map(|f| f.gap).fold(0.0, f64::max)
     };
     page.say(&format!(
-        "The lowest ζ/P of this list at which a wall has a gap at all: poisson {}, eliminate {}, relax {}, grid {}. At ζ = 0.2 P the widest gap of any \
-         method is {:.2} d at P = d/2, {:.2} d at P = d\nand {:.2} d at P = 2 d: above 1 the smallest grain falls through.",
+        "The lowest ζ/P of this list at which a wall has a gap: poisson {}, eliminate {}, relax {}, grid {}. \
+         At ζ = 0.2 P the widest gap of any method is {:.2} d at P = d/2, {:.2} d at P = d and {:.2} d at P \
+         = 2 d. Above 1 d the smallest grain falls through.",
         closed(Method::Poisson),
         closed(Method::Eliminate),
         closed(Method::Relax),
@@ -173,11 +176,11 @@ fn advice(page: &mut Page, all: &[Found], bare: f64) {
     let tightness =
         if gap > 0.0 { format!("had a gap wider than {gap:.2} d") } else { "had any gap".to_owned() };
     page.advise(format!(
-        "**Spacing** P ≤ d, one smallest grain, and **roughness** ζ ≤ 0.1 P: no blue-noise wall here {tightness}. Give wallgen \
-         `--smallest-particle d`: its widest gap is right to 1 %."
+        "**Spacing** P ≤ d (one smallest grain) and **roughness** ζ ≤ 0.1 P: no blue-noise wall here \
+         {tightness}. Give wallgen `--smallest-particle d`: its widest gap is right to 1 %."
     ));
     page.advise(format!(
-        "**Where the wall is to be as smooth as its μ says**: P ≤ d and ζ = 0.02 P add at most {extra:.1}° to arctan μ. **Where it is to be rough**, \
-         ζ is the knob: read the hold off the plot below."
+        "**For a wall as smooth as its μ says**, take P ≤ d and ζ = 0.02 P: this adds at most {extra:.1}° to \
+         arctan μ. **For a rough wall**, change ζ: the plot below gives the hold."
     ));
 }

@@ -94,12 +94,16 @@ pub fn study(page: &mut Page) -> Result<(), String> {
 fn words(page: &mut Page, closes: f64, spread: f64) {
     page.head("Filling holes: ball radius against error");
     page.say(&format!(
-        "Scans of known surfaces, points 6 mm apart, have a round hole of {:.0} mm that cloud-fill closes with balls of one radius. Every hole was closed from a ball of \
-         {closes} of its width on\n(half its width is what geometry asks for); smaller balls fall through and leave it open, and the report says so. Once it is closed the \
-         radius no longer matters: the error\nof the added points changes by at most {spread:.0e} of the hole's width, because they are put on the smooth surface of the surroundings and not on the ball's triangles.",
+        "Scans of known surfaces with points 6 mm apart have a round hole of {:.0} mm. cloud-fill closes it \
+         with balls of one radius. Every hole was closed by balls of {closes} of its width or more (geometry \
+         asks for half its width). Smaller balls fall through and leave it open, and the report says \
+         so.\n\nOnce the hole is closed the radius no longer matters: the error of the added points changes \
+         by at most {spread:.0e} of the hole's width. The points are put on the smooth surface of the \
+         surroundings, not on the ball's triangles.",
         HOLE * 1e3
     ));
     page.advise(format!(
-        "**cloud-fill**: leave `--ball` out, it fits its own; a given ball needs {closes} of the hole's width to close it, and larger ones change nothing."
+        "**cloud-fill**: leave `--ball` out, so that it chooses the ball. A given ball needs {closes} of the \
+         hole's width to close it; larger ones change nothing."
     ));
 }

@@ -3,6 +3,28 @@
 use crate::picture::{Panel, draw};
 use std::path::{Path, PathBuf};
 
+const HEAD: &str = r#"# Walls of spheres
+
+What spacing, roughness and sampling do to wall friction, rebound, flow and leaks.
+
+```sh
+make -C pipelines walls-study      # runs every simulation of this page, and writes it
+```
+
+Its tables are in `pipelines/out/walls/`. The tests `tests/tests/sphere_walls` are short forms of the studies, with limits.
+
+| symbol | meaning |
+|---|---|
+| P | spacing: one wall sphere for each P² of surface |
+| ζ | roughness |
+| R | radius of the wall spheres, by equation (1) |
+| d = 2r | diameter of the smallest grain |
+| ± | 95 % interval of the mean |
+
+## What to choose
+
+"#;
+
 /// What is written when all is known.
 pub struct Page {
     folder: PathBuf,
@@ -82,11 +104,7 @@ impl Page {
     /// A file that cannot be written.
     pub fn write(&self) -> Result<(), String> {
         let mut out = String::from(
-            "# Walls of spheres\n\nWhat spacing, roughness and sampling do to wall friction, rebound, flow and leaks. Written by \
-             `make -C pipelines walls-study`, which\nruns every simulation named here; its tables are in `pipelines/out/walls/`. \
-             The short forms of the studies, with their limits, are the\ntests `tests/tests/sphere_walls`.\n\n\
-             P: spacing (one wall sphere for each P² of surface). ζ: roughness. R: radius of the wall spheres, by equation (1). \
-             d = 2r: diameter of the\nsmallest grain. ±: 95 % interval of the mean.\n\n## What to choose\n\n",
+            HEAD,
         );
         for line in &self.advice {
             out += &format!("- {line}\n");

@@ -54,10 +54,12 @@ pub fn study(page: &mut Page) -> Result<(), String> {
     }
     page.head("Normal rebound");
     page.say(&format!(
-        "Grains without friction come straight down on a Poisson-disk wall at chance places. A sphere tilts the impact by θ, sin θ = \
-         distance from its axis/(R + r),\nand the grain leaves upwards at (1 + e) cos² θ − 1 of its speed. The mean falls from {E} by at most \
-         {smooth:.3} at ζ = 0.02 P to {worst:.3} at the roughest and widest wall here;\nwhat is missing went sideways. On a square lattice the mean \
-         is (1 + e)(1 − P²/6(R + r)²) − 1 (dashed); blue noise of the same P has wider places between\nits spheres and lies below it by up to {below:.3}."
+        "Frictionless grains fall straight down on a Poisson-disk wall at random positions. A sphere tilts \
+         the impact by θ, with sin θ = distance from its axis/(R + r), and the grain rebounds upwards with \
+         (1 + e) cos² θ − 1 of its speed. The mean falls from {E} by at most {smooth:.3} at ζ = 0.02 P. It \
+         is {worst:.3} at the roughest and widest wall here. The missing part goes sideways.\n\nOn a square \
+         lattice the mean is (1 + e)(1 − P²/6(R + r)²) − 1 (dashed). Blue noise of the same P has wider \
+         places between its spheres; its mean is lower by up to {below:.3}."
     ));
     let columns = [
         "P/d",
@@ -82,8 +84,8 @@ fn pipe(page: &mut Page) -> Result<(), String> {
     let bent = on_a_pipe(&bent, E, (0.5 * GRAIN, 0.3), (0.5, 300));
     let (flat, bent) = (mean(&flat), mean(&bent));
     page.say(&format!(
-        "A half pipe of radius 25 d rebounds grains that hit it along its radius by {:.3} ± {:.3}, the flat wall of the same P = d and ζ = 0.1 P \
-         by {:.3} ± {:.3}.",
+        "In a half pipe of radius 25 d, grains that hit the wall along its radius rebound with {:.3} ± \
+         {:.3}. On a flat wall of the same P = d and ζ = 0.1 P it is {:.3} ± {:.3}.",
         bent.mean, bent.off, flat.mean, flat.off
     ));
     Ok(())
