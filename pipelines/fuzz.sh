@@ -23,7 +23,7 @@ length() {
     esac
 }
 
-# To be told of each comparison takes up to three quarters of the time, in tables that decode packed points without end.
+# Tracing each comparison takes up to three quarters of the time, in tables that decode packed points without end.
 plain=(--no-trace-compares --target-dir fuzz/target/plain)
 
 printf '%-12s %10s %8s %s\n' target inputs seconds outcome

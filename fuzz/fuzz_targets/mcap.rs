@@ -3,7 +3,7 @@
 use std::io::Cursor;
 
 libfuzzer_sys::fuzz_target!(|data: &[u8]| {
-    // As it is, and with CRCs out of the way; who reads it does not look at them.
+    // As it is, and with CRCs out of the way, which the reader does not check then.
     for event in stream::mcap::Reader::hashed(data) {
         let _ = event;
     }

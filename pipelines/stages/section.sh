@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# section.sh PAGE.md NAME < TEXT: puts a text between the lines <!-- begin NAME --> and <!-- end NAME --> of a page, in the place of what is there.
+# section.sh PAGE.md NAME < TEXT: replaces the text between the lines <!-- begin NAME --> and <!-- end NAME --> of a page.
 set -euo pipefail
 page=$1 name=$2
 grep -q "^<!-- begin $name -->$" "$page" && grep -q "^<!-- end $name -->$" "$page" || {

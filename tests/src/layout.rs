@@ -24,7 +24,7 @@ pub fn layout(value: &impl Serialize) -> Result<String, Error> {
 
 struct Layout<'a>(&'a mut String);
 
-/// Elements, told apart by commas; `all` or only the first.
+/// Elements, separated by commas; `all` or only the first.
 struct Elements<'a> {
     text: &'a mut String,
     count: usize,

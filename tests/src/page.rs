@@ -150,7 +150,7 @@ impl Line {
         if let (Some(order), Some(expected)) = (number("order"), number("expected")) {
             self.orders.push(Order { on, order, expected, points: points(finding) });
         } else if let Some(limit) = number("limit") {
-            // A value that is no number is written as null.
+            // A value that is not a number is written as null.
             let value = number("value").unwrap_or(f64::NAN);
             let found = Number { on, value, limit, unit: word(finding, "unit") };
             let worse = |w: &Number| !(found.share() <= w.share());

@@ -6,7 +6,7 @@ use kuva::prelude::*;
 use kuva::render::render::Scene;
 use std::path::Path;
 
-/// Colours that can be told apart (Okabe & Ito 2008).
+/// Distinguishable colours (Okabe & Ito 2008).
 const COLOURS: [&str; 8] =
     ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#A6761D", "#7F7F7F"];
 /// Of a slope.
@@ -17,7 +17,7 @@ const PANEL: (f64, f64) = (560.0, 340.0);
 const TITLE: usize = 52;
 /// Panels side by side.
 const COLUMNS: usize = 2;
-/// Series that a panel shows at most: more cannot be told apart.
+/// Series that a panel shows at most: more cannot be distinguished.
 const SERIES: usize = 8;
 
 /// Error over step, log–log, a panel for each line that has an order; dashed: the slope that is expected. `None` without any.

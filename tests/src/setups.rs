@@ -3,7 +3,7 @@
 use dem::setup::*;
 use geom::{Plane, Vec3};
 
-/// A normal law with the numbers of its own.
+/// A normal law with its numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Law {
     /// Linear spring and dashpot: k_n [N/m], and k_t/k_n [–] where it is not Mindlin's.

@@ -1,4 +1,4 @@
-//! Guards of a run: each is tripped by a scene of its own. The run ends with code 3, its file is whole, says why and how to cure it,
+//! Guards of a run: each is tripped by a separate scene. The run ends with code 3, its file is whole, gives reason and remedy,
 //! and ends in a checkpoint with numbers in it that a run can go on from.
 
 use grainpipe_tests::findings::{Case, case};

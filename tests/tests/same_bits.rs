@@ -11,7 +11,7 @@ fn shaken_trough(law: Law) -> Setup {
     filled_trough(law, 600)
 }
 
-/// The like with so many grains.
+/// The same with so many grains.
 fn filled_trough(law: Law, grains: u32) -> Setup {
     let mut setup = with_friction(empty(law, 0.4), 0.4);
     setup.contacts[0].set("rolling_resistance", 0.1);

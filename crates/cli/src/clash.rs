@@ -104,7 +104,7 @@ fn real(path: &Path) -> Option<PathBuf> {
     path.canonicalize().ok().filter(|path| path.is_file())
 }
 
-/// The like of a file that need not be there yet.
+/// The same for a file that may not exist yet.
 fn written(path: &Path) -> Option<PathBuf> {
     if path.exists() {
         return real(path);

@@ -47,7 +47,7 @@ impl fmt::Display for Stopped {
 }
 impl Error for Stopped {}
 
-/// Whether the reader of our output went away: not a failure, nobody wants the rest.
+/// Whether the reader closed our output. This is not a failure: the rest is not wanted.
 pub(crate) fn reader_closed_the_pipe(error: &anyhow::Error) -> bool {
     error
         .chain()

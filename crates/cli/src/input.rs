@@ -102,12 +102,12 @@ impl Source {
     pub fn read_text(&self) -> anyhow::Result<String> {
         String::from_utf8(self.read_all()?).map_err(|e| {
             let at = e.utf8_error().valid_up_to();
-            anyhow::anyhow!("{self}: byte {at}: this is not UTF-8 text: is it the right file?")
+            anyhow::anyhow!("{self}: byte {at}: not UTF-8 text: is it the right file?")
         })
     }
 
     /// An event of this stream; `None` where a file breaks off whose name says that it is unfinished: what is there is read, and a
-    /// warning tells that it is not all.
+    /// warning says that it is incomplete.
     ///
     /// # Errors
     /// Those of the stream.
@@ -135,7 +135,7 @@ impl Source {
 /// The cloud that a tool reads: flatten it into the tool's arguments.
 #[derive(Debug, Clone, clap::Args)]
 pub struct Input {
-    /// Point cloud (PLY, LAS, LAZ, E57, PCD, XYZ, PTS; told apart by content), - for stdin
+    /// Point cloud (PLY, LAS, LAZ, E57, PCD, XYZ, PTS; detected by content), - for stdin
     #[arg(value_name = "CLOUD", default_value = "-", hide_default_value = true)]
     pub cloud: Source,
     /// Multiply coordinates as they are read: 0.001 for a scan in millimetres
@@ -167,7 +167,7 @@ impl Input {
     /// Reads the cloud, whatever its format.
     ///
     /// # Errors
-    /// As [`Source::open`]; content that is no cloud.
+    /// As [`Source::open`]; content that is not a cloud.
     pub fn read_cloud(&self) -> anyhow::Result<cloud::Cloud> {
         let cloud = cloud::read(self.open()?).with_context(|| self.name())?;
         Ok(self.in_metres(cloud))
@@ -192,7 +192,7 @@ impl Input {
         Ok((self.in_metres(cloud), ("cloud".to_owned(), from.sha256())))
     }
 
-    /// Scales the cloud, or tells what looks wrong about its numbers; of a pipe, only the tool at its beginning tells.
+    /// Scales the cloud, or warns of implausible numbers. In a pipe only the first tool warns.
     fn in_metres(&self, mut cloud: cloud::Cloud) -> cloud::Cloud {
         match self.scale {
             Some(1.0) => {}
@@ -203,7 +203,7 @@ impl Input {
         cloud
     }
 
-    /// Tells what looks wrong about the numbers of a cloud; nothing where the scale is given, or another tool has told it.
+    /// Warns of implausible numbers of a cloud, unless the scale is given or another tool has warned.
     pub fn tell(&self, doubts: &[cloud::units::Doubt]) {
         if self.scale.is_none() && self.cloud != Source::Stdin {
             doubts.iter().for_each(|doubt| crate::warn(&format!("{}: {doubt}", self.name())));

@@ -1,11 +1,11 @@
 //! Large blocks of memory on huge pages.
 //!
-//! A cloud lies in a few blocks of megabytes that are filled once. On pages of 4 KiB the kernel hands these out one by one, and that costs
-//! more time than a tool's own work. On Linux a block of 1 MiB and more therefore begins at a multiple of 2 MiB and asks for
-//! huge pages; where there are none it has small ones, and everything else is as the system's allocator does it. A block that grows
-//! takes its pages along: nothing is copied. A block that is given back is kept for the next one, because the first touch of a page is
-//! dear, above all in a virtual machine; what is kept makes room before anything new is asked for, so that no tool ever takes more by it.
-#![expect(unsafe_code, reason = "an allocator hands out and takes back raw memory")]
+//! A cloud lies in a few blocks of megabytes that are filled once. On pages of 4 KiB the kernel hands these out one by one, which costs
+//! more time than the work of a tool. So on Linux a block of 1 MiB or more begins at a multiple of 2 MiB and asks for
+//! huge pages. If there are none it has small ones. Everything else is left to the system's allocator. A block that grows
+//! moves its pages: nothing is copied. A freed block is kept for the next one, because the first touch of a page is
+//! expensive, above all in a virtual machine. Kept blocks are released before new memory is requested, so no tool ever takes more memory.
+#![allow(unsafe_code)]
 
 use std::alloc::{GlobalAlloc, Layout, System};
 
@@ -35,7 +35,7 @@ fn is_large(_: &Layout) -> bool {
     false
 }
 
-// SAFETY: a block comes from `System`, or is a mapping of its own, by its layout alone; so it is given back to where it came from.
+// SAFETY: the layout alone decides whether a block comes from `System` or is a separate mapping, so it returns to its origin.
 unsafe impl GlobalAlloc for Memory {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         match is_large(&layout) {
@@ -55,7 +55,7 @@ unsafe impl GlobalAlloc for Memory {
 
     unsafe fn dealloc(&self, block: *mut u8, layout: Layout) {
         match is_large(&layout) {
-            // SAFETY: `alloc` made it with this size, and nobody uses it any more.
+            // SAFETY: `alloc` made it with this size, and it is no longer used.
             true => unsafe { pages::give_back(block, layout.size()) },
             // SAFETY: as above.
             false => unsafe { System.dealloc(block, layout) },
@@ -70,7 +70,7 @@ unsafe impl GlobalAlloc for Memory {
             (false, false) => return unsafe { System.realloc(block, layout, size) },
             (true, true) if pages::whole(layout.size()) == pages::whole(size) => return block,
             (true, true) => {
-                // SAFETY: `alloc` mapped it with this size; where it moves, nobody uses the old place any more.
+                // SAFETY: `alloc` mapped it with this size; if it moves, the old address is no longer used.
                 let resized = unsafe { pages::resize(block, layout.size(), size) };
                 if !resized.is_null() {
                     return resized;
@@ -162,7 +162,7 @@ mod pages {
         if let Some(start) = found {
             let block = with_exposed_provenance_mut::<u8>(start);
             if zero {
-                // SAFETY: the block is nobody's, and this long.
+                // SAFETY: the block is unused and this long.
                 unsafe { block.write_bytes(0, size) };
             }
             return block;
@@ -172,7 +172,7 @@ mod pages {
         while freed < all {
             let Some((start, size)) = spare().pop() else { break };
             freed += size;
-            // SAFETY: nobody has this block any more.
+            // SAFETY: this block is no longer used.
             unsafe { unmap(with_exposed_provenance_mut(start), size) };
         }
         map(size)
@@ -181,7 +181,7 @@ mod pages {
     /// Takes a block back, for the next one or for the system.
     ///
     /// # Safety
-    /// [`take`] or [`resize`] made it with this size, and nobody uses it any more.
+    /// [`take`] or [`resize`] made it with this size, and it is no longer used.
     pub unsafe fn give_back(block: *mut u8, size: usize) {
         if !spare().keep(block.expose_provenance(), whole(size)) {
             // SAFETY: promised by the caller.
@@ -194,10 +194,10 @@ mod pages {
         size.next_multiple_of(PAGE)
     }
 
-    /// A block of zeros on pages of its own; null when there is no memory.
+    /// A block of zeros on separate pages; null when there is no memory.
     pub fn map(size: usize) -> *mut u8 {
         let size = whole(size);
-        // SAFETY: a new mapping, of which the ends that are cut off are nobody's.
+        // SAFETY: a new mapping; its ends, which are cut off, are unused.
         unsafe {
             let flags = (ProtFlags::READ | ProtFlags::WRITE, MapFlags::PRIVATE);
             let Ok(start) = mmap_anonymous(null_mut(), size + PAGE, flags.0, flags.1) else {
@@ -219,7 +219,7 @@ mod pages {
     /// was, when that cannot be.
     ///
     /// # Safety
-    /// [`map`] or this made it with the size `old`, and nobody uses what is no more.
+    /// [`map`] or this function made it with the size `old`, and the part that is cut off is no longer used.
     pub unsafe fn resize(block: *mut u8, old: usize, new: usize) -> *mut u8 {
         // SAFETY: the block is a mapping of the caller's alone, and so is the room it moves to.
         unsafe {
@@ -243,7 +243,7 @@ mod pages {
     /// Gives a block back.
     ///
     /// # Safety
-    /// [`map`] made it with this size, and nobody uses it any more.
+    /// [`map`] made it with this size, and it is no longer used.
     pub unsafe fn unmap(block: *mut u8, size: usize) {
         // SAFETY: promised by the caller.
         let _ = unsafe { munmap(block.cast(), whole(size)) };

@@ -16,7 +16,7 @@ use stream::{mcap, ply::Encoding};
 /// Enough that a pipe is filled by one write.
 const BUFFER: usize = 1 << 18;
 
-/// What a pipe between two tools may hold [B]: as much as Linux lets anyone have.
+/// Capacity of a pipe between two tools [B]: the most that Linux allows without privileges.
 #[cfg(target_os = "linux")]
 const PIPE: usize = 1 << 20;
 

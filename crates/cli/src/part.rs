@@ -1,8 +1,8 @@
 //! Unfinished outputs: files beside the name that they will get.
 //!
-//! Most tools write to a hidden file that nobody is to see, and that is removed when the tool fails. What a long run has
+//! Most tools write to a hidden file, which is removed if the tool fails. What a long run has
 //! written is worth keeping: `NAME.part` is in plain sight, and stays when the run is killed or fails after a while. A
-//! part is locked as long as its tool lives, so that one that was left can be told from one that is being written.
+//! part is locked as long as its tool runs. This separates a leftover part from one that is being written.
 
 use std::{
     fs::{self, File, TryLockError},
@@ -17,7 +17,7 @@ use tempfile::NamedTempFile;
 
 /// Ending of the names of unfinished outputs.
 const ENDING: &str = "part";
-/// Parts of one output at most: someone who has left more of them wants to know.
+/// Most parts of one output: more of them are an error that the user should see.
 const MOST: usize = 99;
 
 /// Whether an unfinished output is to stay when its tool does not come to its end.

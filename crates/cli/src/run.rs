@@ -22,7 +22,7 @@ use stream::mcap::Provenance;
 /// Options of every tool; [`run`] adds them, so a tool need not flatten them.
 #[derive(Debug, Clone, Default, clap::Args)]
 pub struct Common {
-    /// Say nothing but errors
+    /// Print errors only
     #[arg(short, long)]
     pub quiet: bool,
     /// Threads to use (default: all cores); the result is the same for any number
@@ -33,7 +33,7 @@ pub struct Common {
     pub report: Option<PathBuf>,
 }
 
-/// `--seed N`, for tools where chance plays a part.
+/// `--seed N`, for tools that use random numbers.
 #[derive(Debug, Clone, Copy, Default, clap::Args)]
 pub struct Seed {
     /// Seed of the random numbers; the same seed gives the same result
@@ -55,14 +55,14 @@ pub fn quiet() -> bool {
     INVOCATION.get().is_some_and(|i| i.quiet)
 }
 
-/// Says on stderr something that is no error, unless `-q` was given.
+/// Prints a warning on stderr, unless `-q` was given.
 pub fn warn(message: &str) {
     if let Some(i) = INVOCATION.get().filter(|i| !i.quiet) {
         say(&format!("{}: warning: {message}\n", i.tool));
     }
 }
 
-/// In one piece: the tools of a pipe speak at the same time, and stderr is not buffered.
+/// In one write: the tools of a pipe print at the same time, and stderr is not buffered.
 fn say(text: &str) {
     let _ = std::io::stderr().write_all(text.as_bytes());
 }
@@ -127,18 +127,18 @@ fn command<A: clap::Parser>(name: &'static str) -> Command {
     if command.get_arguments().any(|a| a.get_id() == "quiet") {
         return command;
     }
-    // Adding arguments also puts their group's documentation in the place of the tool's own.
+    // Adding arguments also replaces the tool's documentation by that of their group.
     let (about, long_about) = (command.get_about().cloned(), command.get_long_about().cloned());
     Common::augment_args(command).about(Resettable::from(about)).long_about(Resettable::from(long_about))
 }
 
-/// More threads than any machine has cores: a slip of the hand.
+/// More threads than any machine has cores: a typing error.
 const MOST_THREADS: usize = 4096;
 
-/// What parsers of numbers say, and what it means.
+/// Messages of number parsers, and what they mean.
 const PLAIN: [(&str, &str); 5] = [
-    ("invalid float literal", "this is no number: give it in SI units and without the unit, such as 0.012"),
-    ("invalid digit found in string", "this is no whole number"),
+    ("invalid float literal", "not a number: give it in SI units without the unit, such as 0.012"),
+    ("invalid digit found in string", "not a whole number"),
     ("number too large to fit in target type", "this number is too large"),
     ("cannot parse integer from empty string", "a number is missing"),
     ("number would be zero for non-zero type", "give at least 1"),
@@ -229,7 +229,7 @@ fn write_report(path: &Path, name: &str, report: &Report, start: Instant) -> any
     out.commit()
 }
 
-/// Most memory this process ever held [B], where the system tells (Linux: VmHWM).
+/// Peak memory of this process [B], if the system reports it (Linux: VmHWM).
 fn peak_memory() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;

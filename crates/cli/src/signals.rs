@@ -1,5 +1,5 @@
 //! Ctrl-C, termination and a lost terminal: unfinished files that are not worth keeping are removed, then the signal does what it always
-//! does. A tool that asked for it is told first, and may end in order; a second signal ends it at once.
+//! does. A tool that asked for it gets the signal first and may end in order; a second signal ends it at once.
 
 use crate::part::{Keep, Part};
 use signal_hook::{
@@ -53,7 +53,7 @@ fn hangup_is_ignored() -> bool {
 }
 
 fn listen() {
-    // Without a listener a signal leaves the hidden file behind, which harms nobody.
+    // Without a listener a signal leaves the hidden file behind, which is harmless.
     let hangup = Some(SIGHUP).filter(|_| !hangup_is_ignored());
     let Ok(mut signals) = Signals::new(TERM_SIGNALS.iter().copied().chain(hangup)) else { return };
     std::thread::spawn(move || {

@@ -75,7 +75,7 @@ pub(crate) fn find(points: &[Vec3], search: &Search) -> Vec<Hole> {
     let (narrow, wide) = loops(&sheet, &ends, search.widest);
     let whole = |loops: Vec<Vec<End>>| loops.into_iter().map(|ends| (ends, None)).collect();
     let found = look(points, &sheet, whole(narrow), search);
-    // A box of many holes lies far from the surface: what is seen there is looked at again, each in a patch of its own.
+    // A box of many holes lies far from the surface: each hole found there is examined again in a separate patch.
     let seen = look_over(points, &sheet, wide, search);
     let seen =
         seen.iter().filter(|hole| !found.iter().any(|known| known.overlaps(hole) || hole.overlaps(known)));
@@ -221,7 +221,7 @@ impl<'a> Patch<'a> {
         parts.filter_map(|part| self.hole(part, &raster, &surface, &around, search)).collect()
     }
 
-    /// The same by a few points of each cell; the holes are told without what is around them.
+    /// The same with a few points of each cell; the holes are returned without their surroundings.
     fn holes_of(&self, few: &Few, sheet: &Sheet, search: &Search) -> Vec<Hole> {
         let Some(surface) = self.surface(sheet) else { return Vec::new() };
         let covers = self.tolerance(&surface, sheet).max(COVERS * self.radius);

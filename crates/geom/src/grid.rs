@@ -39,7 +39,7 @@ enum Table {
     /// First sorted place of each cell, and one more.
     Dense(Vec<u32>),
     /// The cells that hold points: their keys, ascending, the first sorted place of each, and one more. Where a key is
-    /// is kept in `slots` (open addressing), made when somebody asks.
+    /// is kept in `slots` (open addressing), made on first use.
     Sparse { keys: Vec<u64>, starts: Vec<u32>, slots: OnceLock<Vec<u32>> },
 }
 
@@ -52,7 +52,7 @@ impl Grid {
         Grid::sorted(points, cell, None)
     }
 
-    /// The like, sorted by blocks of cells, as cubic as the box allows, that would hold so many points each if they were spread evenly.
+    /// The same, sorted by blocks of cells, as cubic as the box allows, that would hold so many points each if they were spread evenly.
     ///
     /// # Panics
     /// As [`Grid::new`].

@@ -18,7 +18,7 @@ pub struct Inside {
     columns: [usize; 2],
     starts: Vec<u32>,
     faces: Vec<u32>,
-    /// Made when somebody asks for a distance.
+    /// Made when a distance is first needed.
     tree: OnceLock<Tree>,
 }
 

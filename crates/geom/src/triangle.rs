@@ -13,7 +13,7 @@ pub enum Feature {
     Corner(u8),
 }
 
-/// Square of the least height-to-length ratio at which a triangle has a plane of its own; flatter ones are
+/// Square of the least height-to-length ratio at which a triangle defines a plane; flatter ones are
 /// treated as their edges, which is exact to a part in 10¹² of their size.
 const FLAT: f64 = 1e-24;
 

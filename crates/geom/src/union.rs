@@ -261,7 +261,7 @@ mod tests {
     }
 
     /// Two spheres of radius r at distance d, as one body of revolution: with h = d/2,
-    /// V = 2 ∫_{−r}^{h} π (r² − u²) du, and the like for its moments about the axis and across it.
+    /// V = 2 ∫_{−r}^{h} π (r² − u²) du, and similar integrals for its moments about the axis and across it.
     #[test]
     fn two_overlapping_spheres_in_any_direction() {
         let (r, h): (f64, f64) = (1.3, 0.6);

@@ -4,7 +4,7 @@
 //! closure error = Σ Δ balance       balance = kinetic + potential + elastic + dissipated − work of walls − integration
 //! ```
 //!
-//! over the intervals between ledgers; there the balance is constant to rounding. Ledgers without that term do not book who comes and
+//! over the intervals between ledgers; there the balance is constant to rounding. Ledgers without that term do not count particles that come and
 //! goes either: of those only intervals in which no grain enters or leaves count (by the ids of the frames). What the finite time step made is the term `integration`, the error of the run's energy. Both are given
 //! relative to what was exchanged so far, too: the largest change of any other term.
 
@@ -78,7 +78,7 @@ impl Energy {
             }
         }
         match self.before.replace((ledger.balance, self.now)) {
-            // A ledger that tells what the step made books who comes and goes, too.
+            // A ledger with the energy of the step also counts particles that come and go.
             Some((balance, grains)) if grains == self.now || self.made.is_some() => {
                 self.error += ledger.balance - balance
             }

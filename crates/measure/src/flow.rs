@@ -3,7 +3,7 @@
 //! Where an outlet of the run lies in the plane, its recorded passages are counted: exact in time. Else a grain passes
 //! when its centre is on the other side in the next frame; when and where follows from its path between the frames
 //! (see [`crate::path`]). Grains that come or go between two frames (inlets, outlets) cannot be judged there: those that
-//! would have passed the plane at constant velocity are told as `unjudged`.
+//! would have passed the plane at constant velocity are counted as `unjudged`.
 
 use crate::observer::{NO_FRAMES, Observer, SLACK};
 use crate::path::Before;
@@ -55,7 +55,7 @@ impl Span {
     }
 }
 
-/// What is asked for.
+/// What the options ask for.
 #[derive(Debug, Clone)]
 pub struct FlowOptions {
     /// The plane; its normal is the direction of flow.

@@ -134,7 +134,7 @@ pub struct Contacts {
 }
 
 impl Contacts {
-    /// The contacts of this time; who sums work takes all `rows`.
+    /// The contacts of this time; to sum work, take all `rows`.
     pub fn acting(&self) -> impl Iterator<Item = &Contact> {
         self.rows.iter().filter(|c| c.acts())
     }

@@ -84,7 +84,7 @@ impl Before {
         self.states.iter().filter(move |(id, _)| !here.contains(id)).map(|(_, state)| *state)
     }
 
-    /// Takes the next frame in the place of this one.
+    /// Replaces this frame by the next one.
     pub fn replace(&mut self, frame: &Frame) {
         self.time = Some(frame.time);
         self.states.clear();

@@ -9,7 +9,7 @@
 //!
 //! with n_c grains in cell c of C cells that hold any, N in all. Deviation from Lacey, whose samples are equal: cells
 //! weigh by their grains, and σᵣ² is the exact mean of σ² when the kinds are dealt at random (the hypergeometric
-//! variance p (1 − p)(N − n_c)/(n_c (N − 1)), summed), whatever the n_c are. M depends on the size of the cells, which is told: 3 mean diameters unless given.
+//! variance p (1 − p)(N − n_c)/(n_c (N − 1)), summed), whatever the n_c are. M depends on the size of the cells, which is reported: 3 mean diameters unless given.
 //!
 //! The difference of the centres of mass of the kinds along an axis, over half of the bed's height,
 //! S = (z_A − z_B) / (H/2), H = √12 · deviation of z (mass-weighted): 0 mixed, 1 all of A above all of B.

@@ -1,4 +1,4 @@
-//! Triangle meshes from files, told apart by their content, never by the ending of a name.
+//! Triangle meshes from files, detected by their content, never by the file name.
 //!
 //! ```text
 //! PLY            ASCII and binary; faces with more than three corners are cut into fans
@@ -68,7 +68,7 @@ const FORMATS: [Format; 4] = [
 /// Reads a mesh that is in memory; lengths come as they are in the file [m].
 ///
 /// # Errors
-/// Content that is no mesh, or is cut off, with its place; a mesh without a face.
+/// Content that is not a mesh, or is truncated, with its place; a mesh without a face.
 pub fn from_bytes(bytes: &[u8]) -> Result<TriMesh, MeshFileError> {
     if bytes.is_empty() {
         return Err(MeshFileError::Empty);

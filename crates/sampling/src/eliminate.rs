@@ -34,7 +34,7 @@ pub(crate) fn eliminate(
         _ => start.kept.len(),
     };
     let few = thinned(points, forced, start.spacing, wish.seed);
-    // Duplicates and the like: thinning may leave too few.
+    // For example duplicates: thinning may leave too few.
     let all = if few.len() >= count { few } else { (0..points.len() as u32).collect() };
     let kept = uncrowded(points, forced, &all, count, &start);
     Ok(Sample { kept, ..start })

@@ -82,7 +82,7 @@ pub struct Wish {
     pub method: Method,
     /// Which distances count.
     pub distance: Distance,
-    /// Seed of chance.
+    /// Seed of the random numbers.
     pub seed: u64,
 }
 

@@ -30,8 +30,8 @@ const BLOCK: i64 = 16;
 const PART: usize = 4096;
 /// Points that are compared at once.
 const LANES: usize = 8;
-/// Stands for no point: near nobody.
-const NOBODY: f64 = 1e150;
+/// Stands for no point.
+const NO_POINT: f64 = 1e150;
 /// So few are sorted at once.
 const FEW: usize = 64;
 
@@ -70,7 +70,7 @@ fn kept(cells: &Cells, state: &[AtomicU8]) -> Vec<u32> {
 }
 
 /// Number of points nearer than `spacing` [m] to each place from `first` on. The points around a cell are laid side by side once for all
-/// of its own.
+/// points of the cell.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn ranks(cells: &Cells, first: u32, spacing: f64, rivals: &mut [u64]) {
     let [mut xs, mut ys, mut zs]: [Vec<f64>; 3] = Default::default();
@@ -88,7 +88,7 @@ fn ranks(cells: &Cells, first: u32, spacing: f64, rivals: &mut [u64]) {
                 zs.extend(points.iter().map(|p| p.z));
             }
             let whole = xs.len().next_multiple_of(LANES);
-            [&mut xs, &mut ys, &mut zs].into_iter().for_each(|column| column.resize(whole, NOBODY));
+            [&mut xs, &mut ys, &mut zs].into_iter().for_each(|column| column.resize(whole, NO_POINT));
         }
         let p = cells.points[place as usize];
         let mut count = [0u64; LANES];
@@ -129,7 +129,7 @@ fn keep_forced(cells: &Cells, spacing: f64, forced: &[bool], state: &[AtomicU8])
     );
 }
 
-/// Keeps each point of the block that is still open, few rivals first, then by chance, and covers its neighbours.
+/// Keeps each point of the block that is still open, points with few rivals first, then in random order, and covers its neighbours.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn throw(cells: &Cells, spacing: f64, block: &[Range<usize>], rank: &[u64], state: &[AtomicU8]) {
     let is_open = |place: u32| state[place as usize].load(Relaxed) == OPEN;
@@ -160,7 +160,7 @@ fn throw(cells: &Cells, spacing: f64, block: &[Range<usize>], rank: &[u64], stat
 fn cover(cells: &Cells, place: u32, spacing: f64, state: &[AtomicU8]) {
     let centre = cells.points[place as usize];
     for run in cells.runs(place) {
-        // Without a branch: which points are near cannot be predicted. Nobody else writes here while this block is served.
+        // Without a branch: which points are near cannot be predicted. No other thread writes here while this block is processed.
         for (state, point) in state[run.clone()].iter().zip(&cells.points[run]) {
             let is_near = apart(point, &centre) < spacing * spacing;
             let before = state.load(Relaxed);

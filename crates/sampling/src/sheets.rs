@@ -9,7 +9,7 @@
 //! The first condition is an on-surface distance in the graph of near points (Tenenbaum et al. 2000,
 //! doi:10.1126/science.290.5500.2319); a right-angled edge makes a way at most √2 times longer, so that points on both sides of
 //! an edge thin each other as ever. The second keeps the rows of a scanner, which lie in one surface, together however far they
-//! are apart. Two sheets are told apart from 1.7 s of distance on; below that, and where a spacing is less than about five times s,
+//! are apart. Two sheets are separated from a distance of 1.7 s; below that, and where a spacing is less than about five times s,
 //! points alone do not say what lies on which.
 //!
 //! Nearly all surroundings are one sheet and are not searched: there a paraboloid of least squares passes all points within 0.8 s.
@@ -21,7 +21,7 @@ use nalgebra::{Cholesky, Matrix3, SMatrix, SVector, SymmetricEigen};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Points of a ball from which sheets can be told apart [–].
+/// Points of a ball from which sheets can be separated [–].
 const FEWEST: u32 = 60;
 /// Longest step of a way, in input spacings as the ball shows them: two sheets in a ball show √½ of each one's own.
 const STEP: f64 = 2.4;
@@ -66,7 +66,7 @@ pub(crate) fn others(cells: &Cells, place: u32, radius: f64) -> Vec<u32> {
     found
 }
 
-/// Positions in `places` of the points that ways lead over: all, or chosen by chance where there are many; and which of them is the
+/// Positions in `places` of the points that paths use: all, or a random choice where there are many; and which of them is the
 /// centre.
 fn stand_ins(places: &[u32], centre: u32) -> (Vec<usize>, usize) {
     let one_of = (places.len() / MOST).max(1) as u64;

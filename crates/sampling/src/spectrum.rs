@@ -12,7 +12,7 @@
 //! doi:10.1111/j.1467-8659.2007.01100.x, on the plane; here patch by patch.)
 //!
 //! Anisotropy at ν: the variance over directions of the power, over its mean squared, times the number of
-//! patches: 1 when directions differ by chance only (the −10 dB of Ulichney for ten patches), and large for rows.
+//! patches: 1 when directions differ only by random scatter (the −10 dB of Ulichney for ten patches), and large for rows.
 
 use crate::cells::Cells;
 use crate::poisson::poisson;
@@ -39,7 +39,7 @@ pub struct Spectrum {
     pub wave_number: Vec<f64>,
     /// Power; 1 for random points [–].
     pub power: Vec<f64>,
-    /// Anisotropy; 1 when directions differ by chance only [–].
+    /// Anisotropy; 1 when directions differ only by random scatter [–].
     pub anisotropy: Vec<f64>,
     /// Patches in the average.
     pub patches: usize,
@@ -92,7 +92,7 @@ pub fn spectrum(points: &[Vec3], spacing: f64) -> Option<Spectrum> {
     Some(average(&patches))
 }
 
-/// Centres of patches, spread over the cloud, far enough apart that patches share little and differ by chance on their own.
+/// Centres of patches, spread over the cloud, far enough apart that patches share little and scatter independently.
 fn centres(points: &[Vec3], spacing: f64) -> Vec<u32> {
     let apart = 2.5 * SIGMA * spacing;
     let all = poisson(&Cells::new(points, apart), apart, 0, None);

@@ -3,14 +3,14 @@
 //! ```text
 //! patches      points nearest to the same one of coarse Poisson-disk centres, 10 r apart
 //! pattern      each patch is laid flat onto its plane of least squares (distances from its middle kept); over it lies a square
-//!              tile of points of even distances that repeats without seam, shifted and turned by chance
+//!              tile of points of even distances that repeats without seam, randomly shifted and rotated
 //! first        the point nearest to each point of the pattern
 //! seams        where patches meet, too near ones lose by Poisson disk, and gaps are filled by Poisson disk
 //! ```
 //!
 //! Least distance r and no gap wider than r hold as for Poisson disk. Tiles of point patterns: Cohen et al. (2003),
 //! doi:10.1145/882262.882265; Lagae & Dutré (2005), doi:10.1145/1095878.1095888; Kopf et al. (2006), doi:10.1145/1141911.1141916. Deviation:
-//! one tile that meets itself, turned by chance from patch to patch, instead of a set whose coloured edges fit, since patches of a
+//! one tile that meets itself, randomly rotated from patch to patch, instead of a set whose coloured edges fit, since patches of a
 //! scanned surface fit no square; the seams are closed afterwards.
 
 use crate::cells::Cells;

@@ -7,7 +7,7 @@ use crate::poisson::chance;
 
 /// Points of the tile.
 const POINTS: usize = 400;
-/// Points of chance for each that is left.
+/// Random points for each that is left.
 const CROWD: usize = 6;
 /// Squares along an edge in which points are looked up: about one point each.
 const SQUARES: usize = 20;

@@ -152,7 +152,7 @@ fn thinning_a_chute_scan_leaves_even_distances() {
     assert!(spectrum.mean_anisotropy() < 1.4, "{}", spectrum.mean_anisotropy());
 }
 
-/// Below half a wave per mean spacing less than a tenth of the power of chance is left, and above it no peak of more than two and a half times that.
+/// Below half a wave per mean spacing less than a tenth of the power of random points is left, and above it no peak of more than two and a half times that power.
 #[test]
 fn no_method_that_chooses_by_distance_leaves_unevenness_of_large_extent() {
     let dense = sheet(200_000, 5);
@@ -269,7 +269,7 @@ fn a_sharp_edge_thins_across_itself() {
     }
 }
 
-/// Noise of a third of the scan's own spacing leaves one sheet one sheet: nobody is kept as if on another one, but for a few.
+/// Noise of a third of the scan's own spacing leaves one sheet one sheet: almost no point is kept as if on another one.
 #[test]
 fn a_noisy_sheet_is_one_sheet() {
     let (count, mut next) = (40_000, uniform(5));

@@ -51,7 +51,7 @@ pub(crate) fn column<const BIG: bool>(bytes: &[u8], stride: usize, offset: usize
         .collect()))
 }
 
-/// Rows that are made while they are packed: nobody holds them as columns.
+/// Rows that are made while they are packed: they are never held as columns.
 pub trait Rows: Sync {
     /// Names and types of the numbers of a row, in order.
     fn fields(&self) -> Vec<(&str, Kind)>;

@@ -152,7 +152,7 @@ impl Table {
         Ok(())
     }
 
-    /// Puts `values` in the place of the column called `name`, or at the end when there is none.
+    /// Replaces the column called `name` by `values`, or appends it.
     ///
     /// # Errors
     /// Another length than the table's.

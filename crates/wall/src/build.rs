@@ -51,7 +51,7 @@ pub struct WallReport {
     pub widest_gap: Option<leak::Gap>,
     /// Gaps that the smallest particle passes.
     pub leaks: usize,
-    /// Gaps wider than this [m] between three points cannot be told from the outline.
+    /// Gaps wider than this [m] between three points cannot be distinguished from the outline.
     pub gaps_up_to: f64,
     /// Where two sheets of the surface are closer than the spacing; `None` when nowhere.
     pub sheets: Option<Sheets>,
@@ -107,7 +107,7 @@ pub fn build(points: &[Vec3], regions: &Regions, wish: &Wish) -> Result<(Wall, W
         check_sizes(&mut report, particle, &cells.points, &radii)?;
         check_particle(&mut report, particle, &centres, &radii, &stars);
     } else if wish.gaps {
-        // No particle: what is wider than can be told from the outline is no gap.
+        // No particle: a gap too wide to be distinguished from the outline does not count.
         let limit = report.gaps_up_to;
         (report.widest_gap, _) = leak::widest(&centres, &radii, &stars.triangles, &stars.outline, limit);
     }

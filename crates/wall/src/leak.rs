@@ -6,7 +6,7 @@
 //!
 //! ρ is the radius of the sphere that touches three neighbouring wall spheres with its centre c in their plane: a particle up to that
 //! size passes between them (Apollonius' circle). The voids are the corners of the Voronoi cells of [`crate::star`];
-//! what is wider than the largest of these cannot be told from the wall's outline. Along the outline, three points may lie
+//! what is wider than the largest of these cannot be distinguished from the wall's outline. Along the outline, three points may lie
 //! nearly in a row, and the sphere that touches them stands outside: a gap whose centre lies beyond an edge of the outline, or
 //! that opens to it as wide as the particle, is a notch of the rim and not a leak. Where the centre lies beyond any edge of the three,
 //! the void goes on there and is wider: the three beyond it tell its width, or it is open to the rim.

@@ -69,7 +69,7 @@ pub struct Wish {
     pub representative: Representative,
     /// Place of the spheres.
     pub placement: Placement,
-    /// Direction in which the flow side lies; needed for [`Placement::Surface`].
+    /// Direction to the flow side; needed for [`Placement::Surface`].
     pub facing: Option<Vec3>,
     /// A place in the flow [m], instead of a direction.
     pub flow_at: Option<Vec3>,
@@ -102,7 +102,7 @@ pub enum WallError {
     )]
     Duplicate { first: u32, second: u32, x: f64, y: f64, z: f64 },
     #[error(
-        "roughness {roughness:?} m: must be positive, at most half the distance of neighbours, and not so small that the radius, their distance squared over 8 times the roughness, is no number"
+        "roughness {roughness:?} m: must be positive, at most half the distance of neighbours, and not so small that the radius, their distance squared over 8 times the roughness, is not a number"
     )]
     NotPositive { roughness: f64 },
     #[error(

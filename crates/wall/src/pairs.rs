@@ -25,7 +25,7 @@ const PART: usize = 1024;
 /// Points that are compared at once.
 const LANES: usize = 8;
 /// Stands for no point: in no ball.
-const NOBODY: f64 = 1e150;
+const NO_POINT: f64 = 1e150;
 
 /// Width of the cells that [`pairs`] wants, in typical distances.
 pub const REACH: f64 = 2.8;
@@ -109,7 +109,7 @@ struct Work {
     squares: Vec<f64>,
     /// Places of the points near by, ascending.
     near: Vec<u32>,
-    /// The same points from the one in the middle [m], and their squared distances; filled up with [`NOBODY`].
+    /// The same points from the one in the middle [m], and their squared distances; filled up with [`NO_POINT`].
     x: Vec<f64>,
     y: Vec<f64>,
     z: Vec<f64>,
@@ -198,14 +198,14 @@ impl Work {
         let padded = count.next_multiple_of(LANES);
         for column in [&mut self.x, &mut self.y, &mut self.z, &mut self.square] {
             column.clear();
-            column.resize(padded, NOBODY);
+            column.resize(padded, NO_POINT);
         }
         for (k, &place) in self.near.iter().enumerate() {
             let to = cells.points[place as usize] - centre;
             (self.x[k], self.y[k], self.z[k]) = (to.x, to.y, to.z);
             self.square[k] = square(&cells.points[place as usize], &centre);
         }
-        self.square[count..].fill(NOBODY * NOBODY);
+        self.square[count..].fill(NO_POINT * NO_POINT);
     }
 
     /// Whether no other point lies in the ball of the point in the middle and the one at `at`.

@@ -27,7 +27,7 @@ const LEFT: f64 = 0.1;
 const APART: f64 = 0.1;
 /// Largest distance of the middles of the two along the plane, in spacings.
 const BESIDE: f64 = 0.8;
-/// Least share of the points that is told.
+/// Least share of the points that is reported.
 const TOLD: f64 = 0.02;
 
 /// Two sheets.

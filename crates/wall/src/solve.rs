@@ -23,7 +23,7 @@ const MOST_SWEEPS: usize = 12;
 /// A sweep that gains less than this share is the last.
 const WORTH: f64 = 0.02;
 const EQUAL: f64 = 0.05;
-/// Radii stay within this factor of r̄: beyond it contact search and time step pay for roughness nobody sees.
+/// Radii stay within this factor of r̄: beyond it contact search and time step pay for roughness without effect.
 const WIDEST: f64 = 2.0;
 /// Points are visited in parts of this many.
 const PART: usize = 512;
@@ -132,7 +132,7 @@ pub fn solve(pairs: &[(u32, u32)], lengths: &[f64], zeta: &[f64], even: &[f64]) 
     radii
 }
 
-/// The choices of those points that may choose anew.
+/// The choices of those points that may choose again.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn visit_all(now: &Sweep, points: &[u32]) -> Vec<Choice> {
     let mut visit = Visit::default();
@@ -155,7 +155,7 @@ struct Visit {
     radii: Vec<f64>,
     /// Their sums [m].
     sums: Vec<f64>,
-    /// Radii of the neighbours [m], and of nobody.
+    /// Radii of the neighbours [m], and of the filler.
     others: Vec<f64>,
 }
 
@@ -179,7 +179,7 @@ impl Visit {
             }
             sums.copy_from_slice(&here);
         }
-        // The logarithm is dear, and adds: who has lost without it has lost.
+        // The logarithm is expensive and only adds: a choice that loses without it loses.
         let equal = |radius: f64| EQUAL * zeta * libm::log(radius / even).abs();
         let mut best = (radii[0], sums[0] + equal(radii[0]));
         for (&radius, &sum) in radii.iter().zip(&*sums).take(count).skip(1) {

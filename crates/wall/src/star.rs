@@ -25,7 +25,7 @@ pub struct Stars {
     pub triangles: Vec<[u32; 3]>,
     /// Edges of the wall's outline, lower index first, ascending: on one of their sides no void is found.
     pub outline: Vec<(u32, u32)>,
-    /// Largest circle through three points that is told from the outline of the wall [m].
+    /// Largest circle through three points that is distinguished from the outline of the wall [m].
     pub largest: f64,
 }
 

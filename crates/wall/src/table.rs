@@ -19,7 +19,7 @@ impl Wall {
         Ok(table)
     }
 
-    /// Adds material, roughness, region and velocity, or puts them in the place of columns of that name.
+    /// Adds material, roughness, region and velocity, or replaces columns of that name.
     ///
     /// # Errors
     /// A table with another number of rows.

@@ -18,7 +18,7 @@ fn lattice(n: usize, p: f64) -> Vec<Vec3> {
     (0..n * n).map(|i| Vec3::new((i % n) as f64 * p, (i / n) as f64 * p, 0.0)).collect()
 }
 
-/// The same, each point moved by chance by up to `off` [m] along x and y.
+/// The same, each point moved randomly by up to `off` [m] along x and y.
 fn shaken(n: usize, p: f64, off: f64) -> Vec<Vec3> {
     let mut state = 5u64;
     let mut next = || {

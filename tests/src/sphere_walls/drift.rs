@@ -1,7 +1,7 @@
 //! Grains that run down a tilted wall of spheres, whichever way it is turned: does the wall lead them aside?
 //!
 //! The wall is turned under the tilt by an azimuth φ. A wall without preferred directions gives every φ the same speed down and no
-//! drift aside but by chance; rows lead grains along and brake them across.
+//! drift aside except by random scatter; rows deflect grains along them and brake them across.
 //!
 //! ```text
 //! V(φ) mean speed down, W(φ) mean speed aside             over the grains of one azimuth
@@ -89,13 +89,13 @@ fn run(spheres: &[(Vec3, f64)], slope: Slope, azimuth: f64) -> Run {
 pub struct Anisotropy {
     /// Mean speed down [m/s].
     pub speed: Mean,
-    /// Deviation of the mean speed down over the azimuths, less that of chance, over the mean speed.
+    /// Deviation of the mean downward speed over the azimuths, minus random scatter, over the mean speed.
     pub unevenness: Mean,
-    /// Root mean square of the mean speed aside, less that of chance, over the mean speed down.
+    /// Root mean square of the mean sideways speed, minus random scatter, over the mean downward speed.
     pub drift: Mean,
 }
 
-/// Measures of runs of several azimuths. Intervals: grains drawn anew with replacement (Efron 1979,
+/// Measures of runs of several azimuths. Intervals: grains resampled with replacement (Efron 1979,
 /// doi:10.1214/aos/1176344552), `draws` times.
 pub fn anisotropy(runs: &[Run], draws: usize) -> Anisotropy {
     let all: Vec<f64> = runs.iter().flat_map(|r| r.down.iter().copied()).collect();

@@ -101,7 +101,7 @@ pub fn fill(scan: Scan, balls: &[f64], seed: u64) -> Filled {
     let attributes = stream::Table::with_rows(points.len());
     let before = points.len();
     let filled = cloud::fill(Cloud { points, attributes, ..Cloud::default() }, &settings).expect("a cloud");
-    // Holes of chance beside the one that was made do not count.
+    // Random holes beside the one that was made do not count.
     let middle = scan.surface.at(0.0, 0.0);
     let near = |p: &&Vec3| (*p - middle).norm() < 0.75 * scan.hole;
     let added: Vec<f64> =

@@ -93,7 +93,7 @@ pub fn graze(target: &Target, impact: Impact) -> Change {
     change
 }
 
-/// Grains a hair above the surface, 40 mm apart, all flying along x and y by chance.
+/// Grains just above the surface, 40 mm apart, with random directions along x and y.
 fn grains(target: &Target) -> Vec<Particle> {
     let mut chance = Chance::new(1);
     let mut out = Vec::new();

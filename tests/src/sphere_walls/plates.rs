@@ -1,4 +1,4 @@
-//! Plates and half pipes of wall spheres, made as a user makes them: a scan of chance points, sampled, then radii by equation (1).
+//! Plates and half pipes of wall spheres, made as a user makes them: a scan of random points, sampled, then radii by equation (1).
 
 use super::chance::Chance;
 use dem::setup::{Motion, Wall, WallShape};

@@ -40,7 +40,7 @@ pub fn impacts(spheres: &[(Vec3, f64)], e: f64, r: f64, field: (f64, usize)) -> 
     impacts_in(Precision::Double, spheres, e, r, field)
 }
 
-/// The like in any precision.
+/// The same in any precision.
 ///
 /// # Panics
 /// As [`impacts`].

@@ -8,7 +8,7 @@ use grainpipe_tests::normals::NORMALS;
 
 const STOPS: Case = case("Guards", "energy from nothing stops a run");
 
-/// Grains that bounce without loss, in a step that is allowed but coarse: what they gain is told, and the state is finite.
+/// Grains that bounce without loss, in a step that is allowed but coarse: the energy gained is reported, and the state is finite.
 #[test]
 fn energy_without_work_stops_a_run() {
     let mut setup = poured(&NORMALS[0]);

@@ -13,7 +13,7 @@ pub struct Scene {
     pub name: String,
     /// What is simulated.
     pub setup: Setup,
-    /// Who comes in at a calculation plane.
+    /// Particles that come in at a calculation plane.
     pub entries: Vec<Entry>,
     /// How long [s].
     pub until: f64,
@@ -196,7 +196,7 @@ fn shape(spheres: &[(Vec3, f64)]) -> ClumpShape {
     ClumpShape::new("clump", 0, spheres, &Moments::of_sum(spheres))
 }
 
-/// A clump in the place of each grain.
+/// A clump instead of each grain.
 fn tumbling(mut setup: Setup, shape: ClumpShape) -> Setup {
     let orientation = nalgebra::UnitQuaternion::from_euler_angles(0.3, -0.8, 0.5);
     let body = |(k, p): (u32, &Particle)| Body {
@@ -253,7 +253,7 @@ fn arriving() -> Scene {
     Scene { name: "hertz, clumps through a plane".to_owned(), setup, entries, until: 0.6 }
 }
 
-/// The like, turning on their way in, and out again through a storage plane.
+/// The same, rotating on their way in, and out again through a storage plane.
 fn leaving() -> Scene {
     let Scene { mut setup, mut entries, .. } = arriving();
     setup.outlets = passing().setup.outlets;

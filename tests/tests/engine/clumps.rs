@@ -45,7 +45,7 @@ fn cube() -> ClumpShape {
     die(0.003)
 }
 
-/// The like with spheres of another radius [m].
+/// The same with spheres of another radius [m].
 fn die(radius: f64) -> ClumpShape {
     let side = Vec3::repeat(0.01);
     let mesh = geom::mesh::cuboid(-side, side);

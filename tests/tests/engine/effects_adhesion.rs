@@ -162,7 +162,7 @@ fn grains_stick_below_the_speed_of_the_cycle() {
     }
 }
 
-/// Contact is made at δ = 0 and no sooner, and lasts until −δ_c, also when lists are made anew between.
+/// Contact is made at δ = 0 and no sooner, and lasts until −δ_c, also if lists are rebuilt meanwhile.
 #[test]
 fn contact_is_made_at_touch_and_broken_at_the_pull_off_distance() {
     for skin in [None, Some(1e-7)] {

@@ -89,13 +89,13 @@ fn a_sleeper_that_loses_its_support_falls() {
     setup.particles = vec![grain(0, Vec3::new(0.0, 0.0, 0.0101))];
     let mut sim = simulation(setup);
     run_until(&mut sim, 0.3);
-    assert_eq!(sim.asleep(), 0, "a wall that moves lets nobody sleep");
+    assert_eq!(sim.asleep(), 0, "no particle sleeps beside a moving wall");
     let z = particles(&mut sim)[0].position.z;
     let free = 0.0101 - 0.5 * 9.81 * sim.time() * sim.time();
     assert!((z - free).abs() < 1e-3, "fell to {z} m, freely to {free} m");
 }
 
-/// A sleeper whose neighbour is thrown out of reach within one step wakes: lists are made anew in that step, and nobody in them would
+/// A sleeper whose neighbour is thrown out of reach within one step wakes: lists are rebuilt in that step, and none of them would
 /// tell it that its load is gone.
 #[test]
 fn a_sleeper_whose_neighbour_is_no_longer_listed_wakes() {
@@ -149,7 +149,7 @@ fn sleep_is_the_same_for_every_width_and_thread_and_across_a_checkpoint() {
         )
     };
     let reference = end(simulation(sleepy(filling(HOOKE, 5))));
-    assert!(reference.0 > 0, "nobody sleeps");
+    assert!(reference.0 > 0, "no particle sleeps");
     for width in Width::available() {
         let sim = Simulation::with_width(sleepy(filling(HOOKE, 5)), width).expect("sound");
         assert!(end(sim) == reference, "{width:?}");

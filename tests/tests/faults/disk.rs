@@ -48,7 +48,7 @@ fn every_tool_says_that_the_disk_is_full() {
     FULL.within("every tool, to a device that is full", f64::from(silent), "tools", 0.0);
 }
 
-/// A disk of some kB; `None`, said aloud, where nobody may mount one.
+/// A disk of some kB; `None`, with a message, where mounting is not allowed.
 struct Disk(PathBuf);
 
 impl Disk {

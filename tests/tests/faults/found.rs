@@ -58,7 +58,7 @@ fn laz_with_a_layer_longer_than_the_file() {
 fn laz_whose_times_have_no_end() {
     let said = cloud(include_bytes!("times.laz").to_vec());
     CLAIMS.refused("LAZ: times", &said, &["belongs to no sequence", "damaged"]);
-    // The like in layers, where an overwritten sector says the same.
+    // The same in layers, where an overwritten sector says the same.
     let whole = sample(samples::las(), "7.laz");
     let points = whole[96..100].iter().rev().fold(0, |n, &b| (n << 8) | usize::from(b));
     let lengths = points + 8 + 36 + 4;
@@ -194,7 +194,7 @@ fn laz_that_its_reader_gives_up_on() {
     }
     let files = (200..whole.len()).step_by(40).count() as u32;
     CLAIMS.within(
-        "LAZ: damaged, files that are told in more than a line",
+        "LAZ: damaged, files with a message of more than one line",
         f64::from(files - quiet),
         "files",
         0.0,

@@ -142,7 +142,7 @@ fn a_run_that_is_killed_at_any_moment_loses_nothing_that_it_had_written() {
 fn goes_on(folder: &Path, whole: &Read) -> bool {
     let done =
         succeed(folder, "dem-run", &["s.toml", "--resume", "run.mcap", "--threads", "1", "-o", "rest.mcap"]);
-    assert!(done.stderr.contains("going on from run.mcap.part"), "{}", done.stderr);
+    assert!(done.stderr.contains("resuming from run.mcap.part"), "{}", done.stderr);
     let rest = read(&folder.join("rest.mcap"));
     let from = whole.frames.len() - rest.frames.len();
     rest.whole && rest.frames[..] == whole.frames[from..] && rest.checkpoint == whole.checkpoint
@@ -157,7 +157,7 @@ fn looks(folder: &Path) -> u32 {
     1
 }
 
-/// The next start says what a killed run has left; a second part gets a name of its own; a living one is no leftover.
+/// The next start says what a killed run has left; a second part gets another name; the part of a living run is not a leftover.
 #[test]
 fn what_a_killed_run_left_is_said_and_never_overwritten() {
     let folder = scene();

@@ -22,7 +22,7 @@ pub fn scene() -> String {
     head.toml() + FALLING
 }
 
-/// The like, with grains that are bonded.
+/// The same with bonded grains.
 fn bonded() -> String {
     let bond = "[[bond]]\nbetween = [\"sinter\", \"sinter\"]\ngap = 0.015\nyoung = 1e6\npoisson = 0.25\n";
     scene().replace("\"auto\"", "0.03") + bond

@@ -222,8 +222,8 @@ fn every_scene_has_the_same_bits() {
             [1, 2, 3, 7].map(|threads| bits(setup.clone(), Width::best(), threads, 100)).to_vec();
         all.extend(Width::available().into_iter().map(|w| bits(setup.clone(), w, 1, 100)));
         let [.., crossed, asleep] = all[0][..] else { return };
-        assert!(name != "sleep" || f64::from_bits(asleep) > 0.0, "nobody sleeps");
-        assert!(name != "zone" || f64::from_bits(crossed) > 0.0, "nobody crosses");
+        assert!(name != "sleep" || f64::from_bits(asleep) > 0.0, "no particle sleeps");
+        assert!(name != "zone" || f64::from_bits(crossed) > 0.0, "no particle crosses");
         SCENES.within(name, differing(&all), "numbers differ", 0.0);
     }
 }

@@ -48,7 +48,7 @@ fn a_grain_between_closing_walls_stops_the_run() {
     }
 }
 
-/// Grains in one layer between two panes, over a mouth of 1.6 diameters between two slopes; the lid comes down when it is told to.
+/// Grains in one layer between two panes, over a mouth of 1.6 diameters between two slopes; the lid comes down on request.
 fn hopper(variant: &Variant, lid: f64) -> Simulation {
     let mut setup = variant.rough(0.3, 0.8);
     setup.gravity.z = -9.81;

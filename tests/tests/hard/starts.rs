@@ -71,7 +71,7 @@ fn no_grain_and_one_grain() {
 /// Puts a number where it does not belong.
 type Spoil = fn(&mut Particle, f64);
 
-/// What is no number is refused before the first step, with the grain's id and the key.
+/// A value that is not a number is refused before the first step, with the grain's id and the key.
 #[test]
 fn what_is_no_number_is_refused() {
     let wrong: [(&str, Spoil); 4] = [
@@ -97,7 +97,7 @@ fn what_is_no_number_is_refused() {
     }
 }
 
-/// Numbers of materials that there are not are refused, by the critical step as well, whoever has them.
+/// Invalid indices of materials are refused, by the critical step as well, wherever they occur.
 #[test]
 fn materials_that_are_none_are_refused() {
     type Spoil = fn(&mut dem::Setup);

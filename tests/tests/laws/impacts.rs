@@ -301,7 +301,7 @@ fn bouncing_ball() {
     }
 }
 
-/// A collision looks the same from a frame that moves: also while the pair is sorted anew again and again, and its two partners
+/// A collision looks the same from a frame that moves: also while the pair is sorted again and again, and its two partners
 /// change places in the list.
 #[test]
 fn galilean_invariance() {

@@ -35,7 +35,7 @@ const FLUCTUATES: Case = case(
 const STARTS: u32 = 16;
 const HALVINGS: u32 = 6;
 
-/// t_c [s] of a linear impact on a plane; those of the other laws are told by the caller.
+/// t_c [s] of a linear impact on a plane; the caller gives those of the other laws.
 fn contact_time(stiffness: f64) -> f64 {
     PI * (mass(0.01, 2500.0) / stiffness).sqrt()
 }

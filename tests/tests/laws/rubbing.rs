@@ -46,7 +46,7 @@ fn all(friction: f64, test: impl Fn(Setup, f64, &str)) {
     }
 }
 
-/// The like for effects that are offered in double precision only.
+/// The same for effects that exist in double precision only.
 fn all_double(friction: f64, test: impl Fn(Setup, f64, &str)) {
     all(friction, |setup, press, case| {
         if setup.precision == Precision::Double {

@@ -175,7 +175,7 @@ fn what_planes_cannot_do_with_clumps_is_refused() {
     );
 }
 
-/// Contacts of the record remember, and those of two that come in are told so; turned as the record is.
+/// Contacts of the record keep their history, and those of two incoming grains get it, rotated as the record is.
 #[test]
 fn what_contacts_remember_is_recorded_and_replayed() {
     let folder = tempdir().unwrap();

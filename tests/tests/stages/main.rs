@@ -31,7 +31,7 @@ fn plant() -> TempDir {
     plant_of(&text(), &[], &[])
 }
 
-/// The like of any plant, with files that it names, and options of the cut.
+/// The same for any plant, with files that it names, and options of the cut.
 fn plant_of(text: &str, files: &[(&str, &str)], options: &[&str]) -> TempDir {
     let folder = folder(files);
     write(folder.path(), "plant.toml", text);

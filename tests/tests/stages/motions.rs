@@ -82,7 +82,7 @@ fn every_motion_brings_the_recorded_state_to_the_calculation_plane() {
     }
 }
 
-/// The stage downstream is told by the record, and refuses another motion, another test, another gravity.
+/// The stage downstream takes motion, test and gravity from the record, and refuses others.
 #[test]
 fn a_record_that_was_made_for_another_zone_is_refused() {
     let folder = stages(&["--motion", "ballistic", "--test", "lowest"]);

@@ -1,4 +1,4 @@
-//! A stage upstream that was stopped and gone on with: its record is in several files.
+//! A stage upstream that was stopped and resumed: its record is in several files.
 
 use super::{last_of, passages, plant};
 use grainpipe_tests::tools::{line, tool};
@@ -35,7 +35,7 @@ fn the_files_of_a_resumed_run_are_one_record() {
          && stage-replay long.mcap rest.mcap -o again.mcap",
     );
     assert_eq!(done.code, 0, "{}", done.stderr);
-    assert_eq!(seen(&of("again.mcap")), seen(&whole), "what both files tell is told once");
+    assert_eq!(seen(&of("again.mcap")), seen(&whole), "what both files contain counts once");
 }
 
 #[test]
@@ -67,7 +67,7 @@ fn a_part_of_a_record_is_not_taken_for_all_of_it() {
     assert_eq!(alone.code, 0, "{}", alone.stderr);
 }
 
-/// A stage downstream that is gone on with takes the inlet that it had, from the beginning: of another one, grains would be lost.
+/// A resumed downstream stage takes the inlet that it had, from the start: with another one, grains would be lost.
 #[test]
 fn a_resumed_run_refuses_another_inlet() {
     let folder = plant();

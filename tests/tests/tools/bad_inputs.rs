@@ -254,7 +254,7 @@ fn options_that_cannot_be_meant() {
             (
                 "wallgen good.ply --roughness 0.002mm",
                 2,
-                &["--roughness 0.002mm: is no number of metres and no file"],
+                &["--roughness 0.002mm: is neither a number of metres nor a file"],
             ),
             ("cloud-crop good.ply --kep sphere:0,0,0,1", 2, &["--kep", "--keep"]),
             ("cloud-crop good.ply --largest -1", 2, &["--largest"]),

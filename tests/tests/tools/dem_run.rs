@@ -493,8 +493,8 @@ fn bonds_that_nobody_has_or_that_are_not_followed_are_refused() {
     let again = format!("[[bond]]\nbetween = [\"sinter\", \"sinter\"]\n{BOND}\n");
     says(BOND, &again, &["bond.1.between", "bond.0 is between these two materials already"]);
     let stone = "[[material]]\nname = \"stone\"\nyoung = 1e7\npoisson = 0.25\ndensity = 2000\n";
-    let nobody = format!("{stone}[[bond]]\nbetween = [\"stone\", \"sinter\"]\n{BOND}\n");
-    says(BOND, &nobody, &["bond sinter–stone", "no two particles", "gap of 1.0000e-6 m", "larger gap"]);
+    let far = format!("{stone}[[bond]]\nbetween = [\"stone\", \"sinter\"]\n{BOND}\n");
+    says(BOND, &far, &["bond sinter–stone", "no two particles", "gap of 1.0000e-6 m", "larger gap"]);
     let any = format!("[[bond]]\nbetween = [\"*\", \"sinter\"]\n{BOND}\n");
     says(BOND, &any, &["bond.1.between.0", "named materials"]);
     let folder = bonded(BOND);

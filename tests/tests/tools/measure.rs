@@ -14,7 +14,7 @@ use std::sync::mpsc;
 use std::time::Duration;
 use tempfile::{TempDir, tempdir};
 
-/// Saves a run as `run.mcap` in a folder of its own.
+/// Saves a run as `run.mcap` in a separate folder.
 fn saved(made: Made) -> TempDir {
     let folder = tempdir().unwrap();
     made.save(&folder.path().join("run.mcap"));

@@ -71,7 +71,7 @@ fn goes_through(chain: &Chain) {
     let far = |p: &&Vec3| nearest(&grid, &wall.centres, radius, p, reach) > reach;
     let uncovered = scanned.iter().filter(far).count() as f64 / scanned.len() as f64;
     assert!(uncovered <= share, "{name}: {uncovered} of the scan is farther than {reach} m from the wall");
-    // What passes is no wider than the void that is told from an outline.
+    // What passes is no wider than the void that is distinguished from an outline.
     let widest = report.widest_gap.map_or(0.0, |gap| gap.diameter);
     assert!(widest <= 2.0 * report.gaps_up_to, "{name}: {widest} m");
     println!(

@@ -1,4 +1,4 @@
-//! Coordinates of scans through the whole chain: far from the origin nothing is lost, and units are told.
+//! Coordinates of scans through the whole chain: far from the origin nothing is lost, and doubtful units print a warning.
 
 use geom::Vec3;
 use grainpipe_tests::tools::{line, succeed, tool};
@@ -103,7 +103,7 @@ fn map_coordinates_in_short_numbers_are_told() {
     }
 }
 
-/// A count that cannot be met is told; small ones are met.
+/// A count that cannot be met prints a warning; small ones are met.
 #[test]
 fn small_counts_are_met() {
     let folder = tempdir().unwrap();

@@ -35,7 +35,7 @@ plane = "0,0,-0.01,0,0,1"
 material = "steel"
 "#;
 
-/// The message for the scene with one text in the place of another.
+/// The message for the scene with one text replaced by another.
 fn refused(from: &str, to: &str) -> String {
     let folder = tempdir().unwrap();
     assert!(SCENE.contains(from), "{from}");
@@ -329,7 +329,7 @@ fn particles_come_from_csv_and_walls_name_their_own_material() {
     assert!(done.code == 1 && done.stderr.contains("id 7 is used twice"), "{}", done.stderr);
 }
 
-/// Everyday files of spreadsheets, and what is told of files and numbers that can be meant but hardly are.
+/// Everyday files of spreadsheets, and warnings of implausible files and numbers.
 #[test]
 fn doubtful_particles_and_materials_are_told() {
     let folder = tempdir().unwrap();

@@ -25,7 +25,7 @@ fn slope(folder: &Path, run: &str) -> f64 {
 /// 600 grains, three seeds: the slope with the friction of the full box, cut as that one is: at the mouth with zones of 1.2 d, along recorded paths.
 ///
 /// A heap of 15 grains in height is flatter than the full one, which is 50 high: undivided it has 30.5°, the mean of twelve seeds with a deviation of
-/// 2.6° from one to the next. The mean of three is allowed 4°, two and a half of its own deviations; with next to no rolling resistance the heap has less than 10°.
+/// 2.6° from one to the next. The mean of three is allowed 4°, two and a half of its own deviations; with almost no rolling resistance the heap has less than 10°.
 #[test]
 fn the_small_box_in_stages_has_the_slope_of_the_small_box() {
     let place = folder();

@@ -1,4 +1,4 @@
-//! The HTML page, opened from a file in a real browser: it draws, it plays, and it asks nobody for anything.
+//! The HTML page, opened from a file in a real browser: it draws, it plays, and it uses no network.
 
 mod chromium;
 mod hands_on;
@@ -53,7 +53,7 @@ fn floor() -> Table {
     ])
 }
 
-/// A page of a falling block over a floor, in a folder of its own.
+/// A page of a falling block over a floor, in a separate folder.
 fn page() -> (TempDir, PathBuf) {
     let mut page = Page::new(PageOptions { title: "A block <falls>".into(), ..PageOptions::default() });
     let run = page.layer(Role::Grains, "run.mcap");

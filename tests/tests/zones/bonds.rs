@@ -108,7 +108,7 @@ fn below(up: &Setup) -> Setup {
     }
 }
 
-/// A stage downstream that is told all at once.
+/// A stage downstream that gets its whole inlet at once.
 fn downstream(setup: Setup, told: Vec<News>) -> Simulation {
     let mut sim = Simulation::new(setup).expect("sound");
     for one in told {
@@ -153,7 +153,7 @@ fn a_rod_comes_through_unstrained() {
     }
 }
 
-/// Who is free first is released into the strain that it passed with: the other is where it was then, turned as it was. (Later the two stages differ:
+/// The grain that is free first is released into the strain that it passed with: the other is where it was then, with its orientation. (Later the two stages differ:
 /// what travels upstream feels nothing.)
 #[test]
 fn a_rod_that_swings_is_strained_downstream_as_it_was_upstream() {
@@ -200,7 +200,7 @@ fn the_ledger_closes_on_both_sides() {
             let mut up = weak(swinging(motion), strength);
             (up.ledger, up.bonds[0].damping) = (true, damping);
             let moving = 5.0 * 0.5 * dem::mass(0.01, 2500.0);
-            // What the step makes is little as well: it is where energy would go that nobody booked.
+            // The energy of the step is small as well: missing terms of the ledger would show there.
             let made = if strength < 1.0 { 2e-3 } else { 0.5 };
             let watch = |mut sim: Simulation, times: [f64; 4], stage: &str| {
                 let start = sim.energy().expect("sound").balance();
@@ -237,7 +237,7 @@ fn it_resumes_exactly() {
     }
 }
 
-/// Who comes in asks for the step that they had, and for a zone that holds the longest bond.
+/// Incoming grains need the step that they had, and a zone that holds the longest bond.
 #[test]
 fn what_is_announced_bounds_step_and_zone() {
     let up = Setup { step: Step::Auto(1.0), ..rod(ZoneMotion::Constant) };

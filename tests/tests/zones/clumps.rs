@@ -94,7 +94,7 @@ fn a_clump_keeps_its_form_and_spin_in_the_zone_and_leaves_it_whole() {
     assert!(sim.particle_count() == 0 && sim.bodies().expect("fine").is_empty(), "all of it has left");
 }
 
-/// One leaves, one stays, and another comes: rows, bodies and members stay together, also after lists were made anew and after a resume.
+/// One leaves, one stays, and another comes: rows, bodies and members stay together, also after lists were rebuilt and after a resume.
 #[test]
 fn who_stays_is_who_it_was() {
     let mut setup = upstream();

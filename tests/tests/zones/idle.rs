@@ -1,4 +1,4 @@
-//! Who travels acts on grains that are free, and on nothing else: not on walls, not on those that travel beside it.
+//! A grain of a zone acts on free grains and on nothing else: not on walls, not on other grains of the zone.
 
 use super::*;
 use dem::Energy;
@@ -22,7 +22,7 @@ fn pushed(setup: Setup, from: f64, until: f64) -> (f64, u32, Energy) {
     let mut sim = Simulation::new(setup).expect("sound");
     let (mut most, mut contacts) = (0.0f64, 0);
     while sim.time() < until {
-        sim.step().expect("no guard looks at who travels");
+        sim.step().expect("no guard checks grains of a zone");
         if sim.time() > from {
             let floor = sim.wall_forces().expect("loads are kept")[0];
             (most, contacts) = (most.max(floor.force.norm()), contacts.max(floor.contacts));
@@ -67,7 +67,7 @@ fn nobody_on_the_way_in_pushes_a_wall() {
     start.velocity = Vec3::new(1.0, 0.0, 9.81 * back);
     sim.enter(Entry { time: 1e-5, inlet: 0, particle: start, clump: None, turn: None }).expect("announced");
     while sim.time() < 0.02 {
-        sim.step().expect("no guard looks at who travels");
+        sim.step().expect("no guard checks grains of a zone");
         let floor = sim.wall_forces().expect("loads are kept")[0];
         assert_eq!((floor.force, floor.contacts), (Vec3::zeros(), 0), "at {} s", sim.time());
     }

@@ -1,4 +1,4 @@
-//! Who has left at the end of a zone is in nobody's way, though lists still name it.
+//! A grain that has left at the end of a zone acts on nothing, though lists still name it.
 
 use super::zone;
 use dem::Simulation;
@@ -21,8 +21,8 @@ fn a_follower_may_overlap_who_leaves() {
     let mut sim = Simulation::new(setup).expect("sound");
     let mut closest = f64::INFINITY;
     while sim.time() < 0.1 {
-        sim.step().expect("nobody is pushed");
-        let told = sim.record_contacts().expect("nobody is pushed");
+        sim.step().expect("no grain is pushed");
+        let told = sim.record_contacts().expect("no grain is pushed");
         assert!(told.iter().all(|c| c.point.amax() < 1.0), "{told:?}");
         let list = grainpipe_tests::setups::particles(&mut sim);
         if let [a, b] = &list[..] {
@@ -33,7 +33,7 @@ fn a_follower_may_overlap_who_leaves() {
     assert_eq!(sim.take_crossings().len(), 2);
 }
 
-/// Walls at 45° pass through every place with x = y = z, as far away as it may be: who has left presses on none of them. The ledger stays a
+/// Walls at 45° pass through every place with x = y = z, as far away as it may be: a grain that has left presses on none of them. The ledger stays a
 /// number, and a chute that follows a force goes on doing so.
 #[test]
 fn who_has_left_is_beyond_every_plane() {

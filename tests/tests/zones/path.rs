@@ -59,7 +59,7 @@ fn downstream(told: &Told) -> Simulation {
     guided(setup, told)
 }
 
-/// A stage downstream that is told all at once.
+/// A stage downstream that gets its whole inlet at once.
 fn guided(mut setup: Setup, told: &Told) -> Simulation {
     (setup.smallest_entry, setup.largest_entry, setup.entry_materials) = (0.01, 0.01, vec![0]);
     let mut sim = Simulation::new(setup).expect("sound");

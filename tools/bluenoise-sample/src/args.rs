@@ -16,7 +16,7 @@ pub struct Args {
     /// Least distance between kept points (grid: distance between its nodes) [m]
     #[arg(long, value_name = "M")]
     spacing: Option<f64>,
-    /// Number of points to keep (within 1 %; below 200, and by eliminate, exactly; grid: the nearest it has)
+    /// Number of points to keep (within 1 %; exact below 200 and with eliminate; grid: the nearest count that it has)
     #[arg(long, value_name = "N")]
     count: Option<usize>,
     /// Lowest and highest number of kept points per area [1/m²]
@@ -25,7 +25,7 @@ pub struct Args {
     /// How points are chosen
     #[arg(long, value_enum, default_value = "poisson")]
     method: Choice,
-    /// Which distances count where two sheets are closer than the spacing: of space, or along the surface, so that the sides of a thin plate do not thin each other (slower; wants noise well below the spacing of the scan; the grid's are those of space)
+    /// How to measure distance where two sheets are closer than the spacing: in space, or along the surface, so that the two sides of a thin plate do not thin each other (slower; needs noise well below the spacing of the scan; grid always uses space)
     #[arg(long, value_enum, default_value = "space")]
     distance: Along,
     /// Keep all points whose property `filled` is 1
@@ -34,7 +34,7 @@ pub struct Args {
     /// Draw the spectrum and the anisotropy (FILE.svg or FILE.png)
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
-    /// Leave nearest distances and spectrum out of the report: measuring takes longer than sampling
+    /// Leave nearest distances and spectrum out of the report; measuring them takes longer than sampling
     #[arg(long)]
     no_measures: bool,
     #[command(flatten)]
@@ -66,7 +66,7 @@ enum Along {
 }
 
 impl Args {
-    /// What sampling is asked for.
+    /// The requested sampling.
     pub fn wish(&self) -> anyhow::Result<Wish> {
         let method = match self.method {
             Choice::Poisson => Method::Poisson,
@@ -96,7 +96,7 @@ impl Args {
         Some((0..filled.len()).map(|row| filled.get(row) == 1.0).collect())
     }
 
-    /// Whether somebody will see the measures: they take longer than the sampling.
+    /// Whether the measures are wanted: they take longer than the sampling.
     pub fn measured(&self) -> bool {
         (self.common.report.is_some() && !self.no_measures) || self.plot.is_some()
     }

@@ -56,7 +56,7 @@ fn bluenoise_sample(args: Args) -> anyhow::Result<Report> {
     Ok(report)
 }
 
-/// Says when a spacing [m] or a density does not fit the cloud, as with a scan in millimetres.
+/// Warns if a spacing [m] or a density does not fit the cloud, as with a scan in millimetres.
 fn warn(amount: &Amount, before: usize, after: usize, spacing: f64) {
     if matches!(amount, Amount::Count(_)) || before < 4 {
         return;
@@ -74,7 +74,7 @@ fn warn(amount: &Amount, before: usize, after: usize, spacing: f64) {
     }
 }
 
-/// Says when an amount was not met.
+/// Warns if the requested amount was not met.
 fn missed(amount: &Amount, after: usize, density: Option<f64>) {
     match (amount, density) {
         (Amount::Count(count), _) if after != *count && 100 * after.abs_diff(*count) > *count => {
@@ -92,14 +92,14 @@ fn missed(amount: &Amount, after: usize, density: Option<f64>) {
     }
 }
 
-/// Writes a picture so that it appears when it is whole.
+/// Writes a picture, which appears when it is complete.
 fn write_picture(path: &std::path::Path, bytes: &[u8]) -> anyhow::Result<()> {
     let mut out = cli::OutputStream::file(path)?;
     out.write_all(bytes).with_context(|| path.display().to_string())?;
     out.commit()
 }
 
-/// Refuses a name that promises another format than PLY.
+/// Refuses a file name of another format than PLY.
 fn check_ending(output: &cli::Output) -> anyhow::Result<()> {
     let ending = output.path().and_then(std::path::Path::extension);
     if ending.is_none() || output.has_extension("ply") {

@@ -14,7 +14,7 @@ pub fn measure(report: Report, before: &Cloud, after: &Cloud, plot: Option<&Path
                 let picture = sampling::plot::draw(&path.to_string_lossy(), spectrum)?;
                 crate::write_picture(path, &picture)?;
             }
-            None => cli::warn("--plot: too few points of a sheet for a spectrum: nothing is drawn"),
+            None => cli::warn("--plot: too few points of a sheet for a spectrum: no plot is drawn"),
         }
     }
     Ok(report

@@ -149,6 +149,6 @@ mod tests {
         let cloud = Scan { points: 75_000, noise: 0.0008, blind: 0.12, tilt, seed: 0 }.cloud();
         let mut bytes = Vec::new();
         cloud::write_ply(&mut bytes, &cloud, stream::ply::Encoding::BinaryLittleEndian).unwrap();
-        assert!(bytes == sample, "made anew, the sample differs: run chute-scan and update its README");
+        assert!(bytes == sample, "the sample differs when made again: run chute-scan and update its README");
     }
 }

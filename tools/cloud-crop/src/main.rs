@@ -36,16 +36,16 @@ struct Args {
     /// Named regions to keep and to remove
     #[arg(long, value_name = "FILE.toml")]
     regions: Option<PathBuf>,
-    /// Remove what lies beyond the outer shape of the equipment (repeat: it is all of them together), and tell which parts that are
+    /// Remove points beyond the outer shape of the equipment (repeat: the shapes enclose it together), and report them as parts
     #[arg(long, value_name = "SHAPE", value_parser = outer_shape)]
     outer: Vec<Shape>,
     /// How far beyond the outer shape a point may be and still belong to the equipment [m]
     #[arg(long, value_name = "M", value_parser = not_negative)]
     tolerance: Option<f64>,
-    /// Only tell whether there is a part beyond the outer shape: a line for each to stdout, no cloud
+    /// Only check for parts beyond the outer shape: write one line for each to stdout, and no cloud
     #[arg(long, conflicts_with_all = ["output", "ascii", "outliers", "largest"])]
     check: bool,
-    /// Remove points whose mean distance to K neighbours is SIGMA deviations above the mean
+    /// Remove points whose mean distance to K neighbours is more than SIGMA deviations above the mean
     #[arg(long, value_name = "K,SIGMA")]
     outliers: Option<Outliers>,
     /// Keep only the largest part connected by steps of at most RADIUS [m]
@@ -147,7 +147,7 @@ fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Refuses a name that promises another format than PLY.
+/// Refuses a file name of another format than PLY.
 fn check_ending(output: &cli::Output) -> anyhow::Result<()> {
     let ending = output.path().and_then(std::path::Path::extension);
     if ending.is_none() || output.has_extension("ply") {

@@ -1,4 +1,4 @@
-//! What is told of a crop.
+//! The report of a crop, in words.
 
 use anyhow::Context;
 use cli::Report;
@@ -7,7 +7,7 @@ use cloud::outer::Part;
 use geom::Shown;
 use std::io::Write;
 
-/// Parts that are told one by one.
+/// Parts that are reported one by one.
 const TOLD: usize = 8;
 
 /// What looks like a mistake.

@@ -8,11 +8,11 @@ use geom::Shape;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-const ABOUT: &str = "Holes are regions inside the outline of the surface whose density is at or below --below; \
-    the rim is left alone. Each is meshed by ball pivoting, and points are put on the smooth surface that goes on \
-    from its surroundings. Added points have the property filled = 1 and take every other property from the \
-    nearest scanned point. The default threshold is a quarter of the density that only the sparsest 20th of the \
-    surface is below; the report states it.";
+const ABOUT: &str = "A hole is a region inside the outline of the surface with a density of at most --below. The rim is not \
+    changed. Each hole is meshed by ball pivoting, and points are put on the smooth surface that continues its \
+    surroundings. Added points have the property filled = 1 and take all other properties from the nearest scanned \
+    point. By default --below is a quarter of the density that the sparsest 5 % of the surface stay under; the \
+    report gives it.";
 
 /// Find the holes of a scan and fill them with points
 #[derive(Parser)]
@@ -86,7 +86,7 @@ fn fill(args: Args) -> anyhow::Result<Report> {
     Ok(Report::new(summary).with_all(report))
 }
 
-/// What the user should know besides the numbers.
+/// Warnings besides the numbers.
 fn warn(report: &cloud::fill::Report) {
     if report.not_finite > 0 {
         cli::warn(&format!("{} points without finite coordinates were dropped", report.not_finite));
@@ -112,7 +112,7 @@ fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Refuses a name that promises another format than PLY.
+/// Refuses a file name of another format than PLY.
 fn check_ending(output: &cli::Output) -> anyhow::Result<()> {
     let ending = output.path().and_then(std::path::Path::extension);
     if ending.is_none() || output.has_extension("ply") {

@@ -67,7 +67,7 @@ pub struct Args {
     /// The last frame (repose, profile and forces: the default)
     #[arg(long, conflicts_with = "time", help_heading = "Which frames")]
     pub last: bool,
-    /// Every frame (the others' default)
+    /// Every frame (default of the other measures)
     #[arg(long, conflicts_with_all = ["time", "last"], help_heading = "Which frames")]
     pub all: bool,
     /// Every frame from S on [s]
@@ -116,23 +116,23 @@ pub struct Args {
     /// Side of the cells [m] [segregation: default 3 mean diameters; wear]
     #[arg(long, value_name = "M", help_heading = "How")]
     pub cell: Option<f64>,
-    /// The first kind is what is larger than M [m] (default: the median) [segregation]
+    /// The first kind is grains larger than M [m] (default: the median) [segregation]
     #[arg(long, value_name = "M", conflicts_with = "kind", help_heading = "How")]
     pub split: Option<f64>,
-    /// The first kind is what is of this material [segregation]
+    /// The first kind is grains of this material [segregation]
     #[arg(long, value_name = "MATERIAL", help_heading = "How")]
     pub kind: Option<String>,
     /// Only this wall, by name or index [wall-force, wear]
     #[arg(long, value_name = "WALL", help_heading = "How")]
     pub wall: Option<String>,
-    /// Forces on walls in the place of forces between grains [forces]
+    /// Forces on walls instead of forces between grains [forces]
     #[arg(long, help_heading = "How")]
     pub on_walls: bool,
 
-    /// Draw it, too
+    /// Also draw a plot
     #[arg(long, value_name = "FILE.svg|png")]
     pub plot: Option<PathBuf>,
-    /// JSON in the place of CSV
+    /// JSON instead of CSV
     #[arg(long)]
     pub json: bool,
     #[command(flatten)]

@@ -8,7 +8,7 @@ use measure::{Chart, Curve, Look, Panel};
 use std::path::Path;
 use std::sync::Arc;
 
-/// Colours that can be told apart (Okabe & Ito 2008).
+/// Distinguishable colours (Okabe & Ito 2008).
 const COLOURS: [&str; 8] =
     ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#A6761D", "#7F7F7F"];
 /// Of a fit or a reference.

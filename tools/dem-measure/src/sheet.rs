@@ -21,7 +21,7 @@ impl Sheet {
         Sheet { out, json, what, begun: false, rows: 0 }
     }
 
-    /// Writes rows and sends them on: somebody may be waiting at the other end of a pipe.
+    /// Writes rows and sends them on: a reader may be waiting at the other end of a pipe.
     pub fn rows(&mut self, heads: &[Head], rows: &[Row]) -> anyhow::Result<()> {
         if rows.is_empty() {
             return Ok(());
@@ -96,7 +96,7 @@ fn tidy(value: f64) -> f64 {
     if value.fract() == 0.0 { value + 0.0 } else { rounded }
 }
 
-/// Empty where there is no number.
+/// Empty if the value is missing.
 fn cell(value: f64) -> String {
     if value.is_finite() { tidy(value).to_string() } else { String::new() }
 }

@@ -37,7 +37,7 @@ struct Args {
     /// Print which effects the scene switches on, why, what they cost, and what limits the time step
     #[arg(long)]
     explain: bool,
-    /// Do everything short of running
+    /// Check everything without running
     #[arg(long)]
     check: bool,
     /// Resume a run from its last checkpoint
@@ -57,7 +57,7 @@ fn main() -> ExitCode {
     })
 }
 
-/// What the engine refuses does not know the file: it is named here.
+/// Adds the name of the scene file to an error of the engine.
 fn in_scene(error: anyhow::Error, scene: String) -> anyhow::Error {
     if error.chain().any(|cause| cause.is::<dem::SetupError>()) { error.context(scene) } else { error }
 }
@@ -89,7 +89,7 @@ fn dem_run(args: Args) -> anyhow::Result<Report> {
     simulate(&args, &scene, plan, resume)
 }
 
-/// Refuses to put the words of `--explain` where a run is, or will be looked for.
+/// Refuses to write the text of `--explain` over a run or under the name of a run.
 fn no_run(output: &Output) -> anyhow::Result<()> {
     let Some(path) = output.path() else { return Ok(()) };
     let mut head = [0; MCAP.len()];
@@ -136,7 +136,7 @@ fn same_file(a: &Path, b: &Path) -> io::Result<bool> {
     }
 }
 
-/// What cannot be written does not know where: it is named here.
+/// Adds the name of the output to a write error.
 fn written(error: RunError, args: &Args) -> anyhow::Error {
     match error {
         RunError::Mcap(e) => anyhow::Error::new(e).context(format!("{}: cannot write", args.output.name())),

@@ -14,12 +14,12 @@ pub fn say(output: &Output, resumed: Option<&Source>) {
         let (name, part) = (path.display(), part.display());
         cli::warn(&if written {
             format!(
-                "another dem-run is writing {name} ({part}): the later of the two to end will replace the other"
+                "another dem-run is writing {name} ({part}): the run that ends later will replace the other one"
             )
         } else {
             format!(
-                "{part} was left by a run that did not end: --resume {part} goes on from it, dem-view shows it; a run that went on from it \
-                 begins at its last checkpoint, so remove it only when you do not need what is before"
+                "{part} is the output of an unfinished run: --resume {part} continues it, dem-view shows it; a resumed run \
+                 starts at its last checkpoint, so remove the file only if you do not need the time before that"
             )
         });
     }
@@ -43,14 +43,17 @@ pub fn resumed(source: &Source) -> anyhow::Result<Source> {
         [] => Ok(source.clone()),
         [part] => {
             cli::warn(&format!(
-                "{source} is not there; going on from {}, which its run has left",
+                "{source} does not exist; resuming from {}, the unfinished output of its run",
                 part.display()
             ));
             Ok(Source::File(part.clone()))
         }
         _ => {
             let names: Vec<String> = parts.iter().map(|part| part.display().to_string()).collect();
-            anyhow::bail!("--resume {source}: is not there, but {}: name one of them", names.join(", "))
+            anyhow::bail!(
+                "--resume {source}: not found, but there are {}: name one of them",
+                names.join(", ")
+            )
         }
     }
 }
@@ -73,10 +76,7 @@ pub struct Saved {
 pub fn leaves(error: anyhow::Error, part: Option<&Path>, saved: Saved) -> anyhow::Error {
     let Some(part) = part else { return error };
     let (part, time) = (part.display(), geom::Shown(saved.time));
-    let use_of = if saved.resumes {
-        format!("--resume {part} goes on from it")
-    } else {
-        "dem-view shows it".to_owned()
-    };
+    let use_of =
+        if saved.resumes { format!("--resume {part} continues it") } else { "dem-view shows it".to_owned() };
     error.context(format!("the run until t = {time} s is kept in {part} ({use_of})"))
 }

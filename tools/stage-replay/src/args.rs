@@ -18,52 +18,52 @@ pub struct Args {
     /// Length of the zone before it [m] (default: that of the run)
     #[arg(long, value_name = "M")]
     length: Option<f64>,
-    /// Leave out what passes before S; S becomes time 0 [s]
+    /// Leave out crossings before S; S becomes time 0 [s]
     #[arg(long, value_name = "S", value_parser = seconds)]
     from: Option<f64>,
-    /// Leave out what passes at S or later [s]
+    /// Leave out crossings at S or later [s]
     #[arg(long, value_name = "S", value_parser = seconds)]
     until: Option<f64>,
-    /// Grains arrive at the recorded times (default: the first comes in at time 0)
+    /// Grains arrive at the recorded times (default: the first grain enters at time 0)
     #[arg(long, conflicts_with = "from")]
     keep_times: bool,
     /// Index of the storage plane
     #[arg(long, value_name = "N", default_value_t = 0)]
     outlet: u16,
-    /// Where recorded intervals are kept; "both" lets grains of a dense flow in without overlap
+    /// On which plane recorded intervals are kept; "both" avoids overlaps in a dense flow
     #[arg(long, value_enum, default_value = "both")]
     intervals: Keep,
     /// Motion in the zone (default: that of the run)
     #[arg(long = "move", value_enum)]
     motion: Option<Motion>,
-    /// With intervals both: how long before it arrives each grain is generated [s] (default: what the first needs for the zone)
+    /// With intervals both: time from generation to arrival of each grain [s] (default: what the first grain needs for the zone)
     #[arg(long, value_name = "S", value_parser = span)]
     ahead: Option<f64>,
-    /// Turn the record by this angle about --axis: places, velocities, spins, and the plane unless --at is given
+    /// Rotate the record by this angle about --axis: positions, velocities, spins, and the plane unless --at is given
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = number)]
     turn_deg: Option<f64>,
     /// Axis of --turn-deg: a point [m] and a direction
     #[arg(long, value_name = "PX,PY,PZ,AX,AY,AZ", allow_hyphen_values = true, default_value = "0,0,0,0,0,1")]
     axis: Plane,
-    /// Shift the record, after it was turned [m]
+    /// Shift the record, after the rotation [m]
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = vector)]
     shift: Option<Vec3>,
-    /// Replay the record so many times, one after the other; it is held in memory
+    /// Replay the record this many times, one after the other; it is held in memory
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     repeat: u32,
-    /// Time between the starts of two replays [s] (default: how long the record is)
+    /// Time between the starts of two replays [s] (default: the duration of the record)
     #[arg(long, value_name = "S", value_parser = span, requires = "repeat")]
     period: Option<f64>,
     /// Superpose so many copies of each grain: scales the rate, which the file notes; needs --copy-shift or --copy-delay
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     copies: u32,
-    /// Copy k comes in this much beside the record, times k [m]
+    /// Shift copy k by k times this vector [m]
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = vector, requires = "copies")]
     copy_shift: Option<Vec3>,
-    /// Copy k comes in this much later, times k [s]
+    /// Delay copy k by k times this time [s]
     #[arg(long, value_name = "S", value_parser = span, requires = "copies")]
     copy_delay: Option<f64>,
-    /// Give grains new ids from N on, in the order in which they enter (default: only where there are several of one, from 0)
+    /// Give grains new ids from N, in order of entry (default: only if several grains have one id, from 0)
     #[arg(long, value_name = "N")]
     first_id: Option<u32>,
     #[command(flatten)]
@@ -87,7 +87,7 @@ enum Motion {
 }
 
 impl Args {
-    /// What is asked for.
+    /// What the options ask for.
     ///
     /// # Errors
     /// Options that do not go together.

@@ -22,7 +22,7 @@ fn stage_replay(args: Args) -> anyhow::Result<Report> {
     let (done, out) = replay(parts, &what, out, written)?;
     out.commit()?;
     if done.particles == 0 {
-        cli::warn("nothing passed the storage plane");
+        cli::warn("no grain passed the storage plane");
     }
     if done.near > 0 {
         let cure = match done.ahead {
@@ -30,15 +30,15 @@ fn stage_replay(args: Args) -> anyhow::Result<Report> {
             None => "use --intervals both with a longer --ahead".to_owned(),
         };
         cli::warn(&format!(
-            "{} grains are so slow that they are generated less than the largest diameter before the calculation plane, among what \
-             is there: {cure}, or cut where grains are faster",
+            "{} slow grains are generated less than the largest diameter before the calculation plane, among other \
+             grains: {cure}, or cut where grains are faster",
             done.near
         ));
     }
     if let (1.., Some(ahead)) = (done.far, done.ahead) {
         cli::warn(&format!(
-            "{} grains come in up to {} m before the calculation plane, many lengths of the zone, and {} s before they arrive: so long does \
-             the first grain take for the zone, which is slow; give a shorter --ahead",
+            "{} grains come in up to {} m before the calculation plane, many lengths of the zone, and {} s before they arrive: the slow first \
+             grain takes this time for the zone; give a shorter --ahead",
             done.far,
             geom::Shown(done.farthest),
             geom::Shown(ahead)
@@ -52,7 +52,7 @@ fn stage_replay(args: Args) -> anyhow::Result<Report> {
     }
     if done.copies > 1 {
         cli::warn(&format!(
-            "{} superposed copies: a rate is scaled, the flow is not that of such a rate",
+            "{} superposed copies: they scale the rate, but the flow is not that of such a rate",
             done.copies
         ));
     }

@@ -13,10 +13,10 @@ pub struct Args {
     /// The scene (TOML), - for stdin
     #[arg(value_name = "SCENE.toml", default_value = "-", hide_default_value = true)]
     pub scene: Source,
-    /// The plane, px,py,pz,nx,ny,nz, its normal in the direction of flow
+    /// The plane, px,py,pz,nx,ny,nz; the normal points in the direction of flow
     #[arg(long, value_name = "PLANE", allow_hyphen_values = true)]
     at: Plane,
-    /// The stage that is written
+    /// The stage to write
     #[arg(long, value_enum)]
     keep: Keep,
     /// Length of the zone behind the plane [m] (default: 1.2 times the largest diameter)
@@ -25,7 +25,7 @@ pub struct Args {
     /// Motion in the zone
     #[arg(long, value_enum, default_value = "constant")]
     motion: Motion,
-    /// What of a grain passes the planes: its centre, or the point of its surface that is foremost along the plane's normal
+    /// Which point of a particle triggers a crossing: its centre, or the foremost point of its surface along the plane's normal
     #[arg(long, value_enum, default_value = "centre")]
     test: Test,
     #[command(flatten)]
@@ -55,7 +55,7 @@ enum Test {
 }
 
 impl Args {
-    /// The cut that is asked for.
+    /// The requested cut.
     pub fn cut(&self) -> Cut {
         Cut {
             plane: self.at,

@@ -21,19 +21,19 @@ pub struct Args {
     /// Radii: solve (pair by pair), uniform, or a length [m]
     #[arg(long, value_name = "solve|uniform|M", default_value = "solve", value_parser = radius)]
     radius: Radius,
-    /// The neighbour distance that stands for all
+    /// Which average of the neighbour distances to use
     #[arg(long, value_enum, default_value = "mean")]
     representative: Middle,
-    /// What touches the point: the sphere's centre, or its surface on the flow side (default: centre; of a drawing: surface)
+    /// What lies on the point: the sphere's centre, or its surface on the flow side (default: centre; for a drawing: surface)
     #[arg(long, value_enum)]
     place: Option<Place>,
-    /// Direction in which the flow side lies
+    /// Direction to the flow side
     #[arg(long, value_name = "x,y,z", value_parser = vector, allow_hyphen_values = true)]
     facing: Option<Vec3>,
-    /// A place in the flow [m], instead of a direction: for what is closed all around, and to say the side of a drawing
+    /// A point in the flow [m], instead of a direction: for closed equipment, and for the side of a drawing
     #[arg(long, value_name = "x,y,z", value_parser = vector, allow_hyphen_values = true, conflicts_with = "facing")]
     flow_at: Option<Vec3>,
-    /// Drawn equipment instead of a cloud (PLY, STL, OBJ [m]): spheres of --radius M inside of it that touch its surface
+    /// Drawn equipment instead of a cloud (PLY, STL, OBJ [m]): spheres of --radius M inside it that touch its surface
     #[arg(long, value_name = "FILE")]
     pub from_mesh: Option<PathBuf>,
     /// Name of the material
@@ -60,10 +60,10 @@ pub struct Args {
     /// Diameter of the largest particle [m]: checks the spheres' sizes
     #[arg(long, value_name = "M")]
     largest_particle: Option<f64>,
-    /// Tell the largest sphere that passes through the wall, and where (--smallest-particle does so, too)
+    /// Report the largest sphere that passes through the wall, and where (--smallest-particle does so, too)
     #[arg(long)]
     pub gaps: bool,
-    /// Write the pairs of neighbours whose roughness is not the one asked for: point_i,point_j,x,y,z,distance,asked,made [m]
+    /// Write the pairs of neighbours without the requested roughness: point_i,point_j,x,y,z,distance,asked,made [m]
     #[arg(long, value_name = "FILE.csv")]
     pub changes: Option<PathBuf>,
 }
@@ -81,7 +81,7 @@ enum Place {
 }
 
 impl Args {
-    /// What is asked for.
+    /// What the options ask for.
     pub fn wish(&self) -> anyhow::Result<Wish> {
         if self.roughness.is_none() && !matches!(self.radius, Radius::Given(_)) {
             return Err(cli::usage(
@@ -138,9 +138,7 @@ impl Args {
             ));
         }
         if self.input.cloud.path().is_some() {
-            return Err(cli::usage(
-                "--from-mesh: the drawing takes the place of the cloud; leave one of them out",
-            ));
+            return Err(cli::usage("--from-mesh: a drawing replaces the cloud; leave one of them out"));
         }
         let Some(roughness) = regions.least_roughness() else {
             return Err(cli::usage(
@@ -187,24 +185,24 @@ impl Args {
         Ok(Some(("roughness".to_owned(), stream::sha256(&bytes))))
     }
 
-    /// Refuses a length with a unit behind it, which is no file's name either.
+    /// Refuses a length with a unit behind it, which is not the name of a file either.
     fn check_length(&self) -> anyhow::Result<()> {
         let Some(path) = self.regions_file().filter(|path| !path.exists()) else { return Ok(()) };
         let text = path.to_string_lossy();
         let unit = text.trim_start_matches(|c: char| c.is_ascii_digit() || "+-.,".contains(c)).trim();
         if matches!(unit, "" | "m" | "mm" | "cm" | "um" | "µm" | "in") {
-            return Err(cli::usage(format!("--roughness {text}: is no number of metres and no file")));
+            return Err(cli::usage(format!("--roughness {text}: is neither a number of metres nor a file")));
         }
         Ok(())
     }
 
-    /// A roughness that is no number is a file.
+    /// A roughness that is not a number is a file.
     fn regions_file(&self) -> Option<&Path> {
         self.roughness.as_deref().filter(|text| text.parse::<f64>().is_err()).map(Path::new)
     }
 }
 
-/// A message of the library with the option that it is about in front.
+/// Puts the option in front of a message of the library.
 fn option(message: &str) -> String {
     let detail = ["roughness: ", "material: "].iter().find_map(|place| message.strip_prefix(place));
     match detail {

@@ -60,7 +60,7 @@ fn as_cloud(mut cloud: cloud::Cloud, wall: &Wall, regions: &Regions) -> anyhow::
     Ok(cloud)
 }
 
-/// What the check of gaps has found, where it was asked for.
+/// The result of the check of gaps, if requested.
 fn passes(report: &WallReport, wish: &Wish) -> String {
     let limit = Shown(report.gaps_up_to);
     match report.widest_gap {
@@ -111,7 +111,7 @@ fn summary(report: &WallReport, wish: &Wish, drawn: Option<&DrawnReport>) -> Str
     )
 }
 
-/// Refuses a name that promises another format than MCAP or PLY.
+/// Refuses a file name of another format than MCAP or PLY.
 fn check_ending(output: &cli::Output) -> anyhow::Result<()> {
     let ending = output.path().and_then(std::path::Path::extension);
     if ending.is_none() || output.has_extension("mcap") || output.has_extension("ply") {

@@ -78,7 +78,7 @@ struct File {
 }
 
 impl File {
-    /// Reads every share by a thread of its own. None where one did not end at the byte at which the next began, which the table of
+    /// Reads every share in a separate thread. None if a share did not end at the byte at which the next one began, which the table of
     /// chunks has wrong then: what was read from there, and what became of it, says nothing.
     fn read(&self, starts: &[Chunk]) -> Result<Option<Rows>, ReadError> {
         let at_once = CHUNK.min(ROOM / self.size / starts.len().max(1) as u64).max(1);

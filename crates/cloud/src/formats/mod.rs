@@ -1,4 +1,4 @@
-//! Formats of clouds, told apart by their first bytes, never by the ending of a name.
+//! Formats of clouds, detected by their first bytes, never by the file name.
 //!
 //! A format is its file here and its line in [`FORMATS`]; text without a mark of its own comes last.
 
@@ -50,7 +50,7 @@ pub enum ReadError {
     Unknown { start: String, hint: &'static str },
     #[error("not a cloud")]
     Ply(#[source] PlyError),
-    #[error("PLY: no element has the properties x, y, z: this is no cloud")]
+    #[error("PLY: not a cloud: no element has the properties x, y, z")]
     NoPosition,
     #[error("PLY: element '{element}' has x but no '{missing}': a point needs x, y and z")]
     HalfPosition { element: String, missing: &'static str },
@@ -90,7 +90,7 @@ fn plain(what: &str) -> String {
 /// Points may be NaN where a scanner had no echo: see [`Cloud::finite`].
 ///
 /// # Errors
-/// Content that is no cloud, or is cut off, with its place.
+/// Content that is not a cloud, or is truncated, with its place.
 pub fn read(from: impl Read) -> Result<Cloud, ReadError> {
     go_on(stream::ply::Opened::new(from).map_err(ReadError::Io)?)
 }
@@ -140,7 +140,7 @@ fn hint(bytes: &[u8]) -> &'static str {
         [0x1f, 0x8b, ..] => " (gzip: unpack it first, gunzip -c FILE |)",
         [0x28, 0xb5, 0x2f, 0xfd, ..] => " (zstd: unpack it first, zstd -dc FILE |)",
         [b'P', b'K', 3, 4, ..] => " (zip: unpack it first)",
-        [0x89, b'M', b'C', b'A', b'P', ..] => " (MCAP: walls or a run, which is no cloud)",
+        [0x89, b'M', b'C', b'A', b'P', ..] => " (MCAP: walls or a run, not a cloud)",
         _ => "",
     }
 }
@@ -148,7 +148,7 @@ fn hint(bytes: &[u8]) -> &'static str {
 /// Readers of other crates that run now.
 static FOREIGN: AtomicUsize = AtomicUsize::new(0);
 
-/// Whether a panic is now most likely one of a reader of another crate, which becomes an error and need not be told.
+/// Whether a panic now most likely comes from a reader of another crate; it becomes an error and is not printed.
 pub fn panics_become_errors() -> bool {
     FOREIGN.load(SeqCst) > 0
 }

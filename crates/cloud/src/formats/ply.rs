@@ -203,10 +203,10 @@ pub fn write_mesh(to: &mut impl Write, mesh: &TriMesh, encoding: Encoding) -> Re
     ply::write(to, &ply, encoding)
 }
 
-/// Reads a mesh: PLY, STL, OBJ or a list of triangles, told apart by content.
+/// Reads a mesh: PLY, STL, OBJ or a list of triangles, detected by content.
 ///
 /// # Errors
-/// Content that is no mesh, with the face.
+/// Content that is not a mesh, with the face.
 pub fn read_mesh(from: &mut impl Read) -> Result<TriMesh, ReadError> {
     let mut bytes = Vec::new();
     from.read_to_end(&mut bytes).map_err(ReadError::Io)?;

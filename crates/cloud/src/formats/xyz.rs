@@ -121,9 +121,9 @@ impl Rows {
         let mut values = [0.0; 3];
         let mut width = 0;
         for word in words(line) {
-            let value: f64 = word
-                .parse()
-                .map_err(|_| error(number, format!("'{word}' (column {}) is no number", width + 1), line))?;
+            let value: f64 = word.parse().map_err(|_| {
+                error(number, format!("'{word}' (column {}) is not a number", width + 1), line)
+            })?;
             match width {
                 0..3 => values[width] = value,
                 _ if self.points.is_empty() => self.extra.push(vec![value]),

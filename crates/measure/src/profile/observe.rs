@@ -6,7 +6,7 @@ use crate::sheet::{Chart, Head, Panel, Row, Summary};
 use crate::{Frame, MeasureError, Run, table};
 use geom::Vec3;
 
-/// What is asked for.
+/// What the options ask for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProfileOptions {
     /// Number of cells along x, y, z.

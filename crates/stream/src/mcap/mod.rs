@@ -2,7 +2,7 @@
 //!
 //! A stream is a header, a metadata record `provenance`, further metadata, chunks of messages, and a last
 //! metadata record `end_of_stream`, which only [`Writer::finish`] writes and on which [`Reader`] insists: a tool
-//! that failed half way leaves a file that nobody takes for a whole one. Points travel as
+//! that failed half way leaves a file that no reader takes for a whole one. Points travel as
 //! `foxglove.PointCloud`; times are simulation times, and nothing depends on the clock, so that the same
 //! input gives the same bytes.
 
@@ -36,7 +36,7 @@ pub enum McapError {
     #[error("MCAP: the stream is empty: did the tool before this one fail?")]
     Empty,
     #[error(
-        "MCAP: this is no MCAP stream: its first bytes are others; give what wallgen, dem-run or stage-replay wrote"
+        "MCAP: not an MCAP stream: magic bytes are missing; give a file of wallgen, dem-run or stage-replay"
     )]
     Magic,
     #[error(

@@ -60,7 +60,7 @@ pub(super) fn encode(
     head.encode(message, |_, out| pack::<false>(&columns, 0, out))
 }
 
-/// Encodes rows that nobody holds.
+/// Encodes rows that are not held in memory.
 pub(super) fn encode_rows(
     rows: &impl Rows,
     time_ns: u64,

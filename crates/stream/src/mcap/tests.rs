@@ -220,7 +220,7 @@ fn nothing_is_held_of_what_goes_to_a_file() {
     assert!(file.0.borrow().0.get_ref().len() >= before + 500_000);
 }
 
-/// Rows that nobody holds, as the same table.
+/// Rows that are not held in memory, as the same table.
 #[test]
 fn rows_are_written_as_their_table_is() {
     struct Own;

@@ -74,7 +74,7 @@ function showCard() {
   byId("card").hidden = !picked.hit;
   if (!picked.hit) return;
   const { layer, surface, row } = picked.hit;
-  byId("who").textContent = surface ? surface.name : `${WORDS[layer.role]} ${picked.id ?? row}`;
+  byId("picked-name").textContent = surface ? surface.name : `${WORDS[layer.role]} ${picked.id ?? row}`;
   byId("whose").textContent = surface ? `face ${row}` : picked.id !== null ? layer.name : `row of ${layer.name}`;
   byId("follow").hidden = Boolean(surface) || clock.length < 2;
   byId("follow").setAttribute("aria-pressed", picked.follows);

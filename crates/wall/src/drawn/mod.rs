@@ -8,7 +8,7 @@
 //!
 //! Japanese patent application JP2012-037937: spheres stand at both ends of every nearly straight stretch, and between them at spacing
 //! P. In space the stretches are edges of the drawing (creases and open rims) between their corners, see [`stretches`]; the faces
-//! between them are covered by spheres at distances whose mean is P, spread by chance (darts), so that no direction is preferred.
+//! between them are covered by spheres at distances whose mean is P, spread randomly (darts), so that no direction is preferred.
 //! On which side the structure is, see [`sides`].
 
 mod cover;

@@ -74,7 +74,7 @@ fn what_cannot_be_measured_is_refused_with_a_cure() {
     }
 }
 
-/// What was measured before the break is there, and the break is told.
+/// What was measured before the break is written, and the break is reported.
 #[test]
 fn a_broken_run_is_measured_as_far_as_it_goes() {
     let folder = tempdir().unwrap();

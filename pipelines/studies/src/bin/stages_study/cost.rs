@@ -11,7 +11,7 @@ use std::path::Path;
 /// Tilts of the chute [deg].
 const TILTS: [u32; 10] = [31, 33, 35, 37, 39, 41, 43, 45, 47, 49];
 
-/// What the plant has in the place of what the small one has.
+/// What the plant has instead of the small one's text.
 const LARGER: [(&str, &str); 5] = [
     ("0.0415,0.008,0.375", "0.0415,0.008,0.72"),
     ("mass = 0.07 ", "mass = 0.35 "),

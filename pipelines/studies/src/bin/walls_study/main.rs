@@ -15,7 +15,7 @@ use page::Page;
 use std::path::Path;
 use std::process::ExitCode;
 
-/// Diameter of the smallest grain here [m]; everything is told as a share of it.
+/// Diameter of the smallest grain here [m]; everything is reported as a share of it.
 const GRAIN: f64 = 0.012;
 
 /// Adds a part to the page.

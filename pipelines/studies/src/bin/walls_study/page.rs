@@ -103,9 +103,7 @@ impl Page {
     /// # Errors
     /// A file that cannot be written.
     pub fn write(&self) -> Result<(), String> {
-        let mut out = String::from(
-            HEAD,
-        );
+        let mut out = String::from(HEAD);
         for line in &self.advice {
             out += &format!("- {line}\n");
         }

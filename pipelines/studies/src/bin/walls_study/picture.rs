@@ -3,7 +3,7 @@
 use kuva::backend::{raster::RasterBackend, svg::SvgBackend};
 use kuva::prelude::*;
 
-/// Colours that can be told apart (Okabe & Ito 2008).
+/// Distinguishable colours (Okabe & Ito 2008).
 const COLOURS: [&str; 6] = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"];
 /// Size of a panel [px].
 const SIZE: (f64, f64) = (420.0, 320.0);
