@@ -168,7 +168,7 @@ fn what_a_killed_run_left_is_said_and_never_overwritten() {
     LOOK.refused(
         "the next start",
         &done.stderr,
-        &["run.mcap.part was left by a run that did not end", "--resume", "remove"],
+        &["run.mcap.part is the output of an unfinished run", "--resume", "remove"],
     );
     assert!(
         fs::read(folder.join("run.mcap.part")).expect("still there") == left
