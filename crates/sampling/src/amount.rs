@@ -6,7 +6,7 @@ use crate::eliminate::uncrowded;
 use crate::lattice::lattice;
 use crate::poisson::poisson;
 use crate::tile::tiled;
-use crate::{Amount, Method, Sample, SampleError, Wish};
+use crate::{Amount, Method, Sample, SampleError, SampleSettings};
 use geom::Vec3;
 
 /// A count is met within this share.
@@ -24,19 +24,19 @@ const FEW: usize = 200;
 pub(crate) fn sample_of(
     points: &[Vec3],
     forced: Option<&[bool]>,
-    wish: &Wish,
+    settings: &SampleSettings,
 ) -> Result<Sample, SampleError> {
-    let throw = |cells: &Cells, spacing: f64| match wish.method {
+    let throw = |cells: &Cells, spacing: f64| match settings.method {
         Method::Grid => Thrown { kept: lattice(points, forced, spacing), beside: 0 },
         Method::Tile => {
-            let kept = tiled(points, cells, spacing, wish.seed, forced);
-            complete(cells, spacing, wish.seed, kept, wish.distance)
+            let kept = tiled(points, cells, spacing, settings.seed, forced);
+            complete(cells, spacing, settings.seed, kept, settings.distance)
         }
-        _ => complete(cells, spacing, wish.seed, poisson(cells, spacing, wish.seed, forced), wish.distance),
+        _ => complete(cells, spacing, settings.seed, poisson(cells, spacing, settings.seed, forced), settings.distance),
     };
-    match wish.amount {
+    match settings.amount {
         Amount::Spacing(spacing) => Ok(Sample::of(throw(&Cells::new(points, spacing), spacing), spacing, 1)),
-        Amount::Count(count) => by_count(points, forced, count, wish.method != Method::Grid, throw),
+        Amount::Count(count) => by_count(points, forced, count, settings.method != Method::Grid, throw),
         Amount::Density(low, high) => Ok(by_density(points, low, high, throw)),
     }
 }

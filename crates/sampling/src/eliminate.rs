@@ -13,7 +13,7 @@
 use crate::cells::Cells;
 use crate::poisson::poisson;
 use crate::sheets::others;
-use crate::{Amount, Sample, SampleError, Wish, amount};
+use crate::{Amount, Sample, SampleError, SampleSettings, amount};
 use geom::Vec3;
 use rayon::prelude::*;
 use std::collections::BinaryHeap;
@@ -26,14 +26,14 @@ const UNIT: f64 = (1u64 << 40) as f64;
 pub(crate) fn eliminate(
     points: &[Vec3],
     forced: Option<&[bool]>,
-    wish: &Wish,
+    settings: &SampleSettings,
 ) -> Result<Sample, SampleError> {
-    let start = amount::sample_of(points, forced, wish)?;
-    let count = match wish.amount {
+    let start = amount::sample_of(points, forced, settings)?;
+    let count = match settings.amount {
         Amount::Count(count) => count,
         _ => start.kept.len(),
     };
-    let few = thinned(points, forced, start.spacing, wish.seed);
+    let few = thinned(points, forced, start.spacing, settings.seed);
     // For example duplicates: thinning may leave too few.
     let all = if few.len() >= count { few } else { (0..points.len() as u32).collect() };
     let kept = uncrowded(points, forced, &all, count, &start);

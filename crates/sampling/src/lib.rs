@@ -75,7 +75,7 @@ pub enum Amount {
 
 /// What is wanted.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wish {
+pub struct SampleSettings {
     /// How many.
     pub amount: Amount,
     /// How they are chosen.
@@ -139,16 +139,16 @@ pub enum SampleError {
 ///
 /// # Errors
 /// No points, coordinates that are not finite, an amount that cannot be met.
-pub fn sample(points: &[Vec3], forced: Option<&[bool]>, wish: &Wish) -> Result<Sample, SampleError> {
-    check(points, forced, wish)?;
-    match wish.method {
-        Method::Poisson | Method::Tile | Method::Grid => amount::sample_of(points, forced, wish),
-        Method::Relax => relax::relax(points, forced, wish),
-        Method::Eliminate => eliminate::eliminate(points, forced, wish),
+pub fn sample(points: &[Vec3], forced: Option<&[bool]>, settings: &SampleSettings) -> Result<Sample, SampleError> {
+    check(points, forced, settings)?;
+    match settings.method {
+        Method::Poisson | Method::Tile | Method::Grid => amount::sample_of(points, forced, settings),
+        Method::Relax => relax::relax(points, forced, settings),
+        Method::Eliminate => eliminate::eliminate(points, forced, settings),
     }
 }
 
-fn check(points: &[Vec3], forced: Option<&[bool]>, wish: &Wish) -> Result<(), SampleError> {
+fn check(points: &[Vec3], forced: Option<&[bool]>, settings: &SampleSettings) -> Result<(), SampleError> {
     if points.is_empty() {
         return Err(SampleError::Empty);
     }
@@ -159,20 +159,20 @@ fn check(points: &[Vec3], forced: Option<&[bool]>, wish: &Wish) -> Result<(), Sa
     if let Some(forced) = forced.filter(|f| f.len() != points.len()) {
         return Err(SampleError::Forced { marks: forced.len(), there: points.len() });
     }
-    if let Amount::Count(asked) = wish.amount
+    if let Amount::Count(asked) = settings.amount
         && asked > points.len()
     {
         return Err(SampleError::Count { asked, there: points.len() });
     }
-    check_wish(wish)
+    check_settings(settings)
 }
 
 /// Checks what can be checked without the points.
 ///
 /// # Errors
 /// Lengths, counts and densities that are not positive.
-pub fn check_wish(wish: &Wish) -> Result<(), SampleError> {
-    match wish.amount {
+pub fn check_settings(settings: &SampleSettings) -> Result<(), SampleError> {
+    match settings.amount {
         Amount::Spacing(r) if !(r > 0.0 && r.is_finite()) => Err(SampleError::Spacing(r)),
         Amount::Count(0) => Err(SampleError::NoCount),
         Amount::Density(low, high) if !(low > 0.0 && high >= low && high.is_finite()) => {

@@ -6,14 +6,14 @@
 
 use crate::cells::Cells;
 use crate::sheets::others;
-use crate::{Sample, SampleError, Wish, amount};
+use crate::{Sample, SampleError, SampleSettings, amount};
 use geom::{Grid, Vec3};
 use rayon::prelude::*;
 
 const ROUNDS: usize = 8;
 
-pub(crate) fn relax(points: &[Vec3], forced: Option<&[bool]>, wish: &Wish) -> Result<Sample, SampleError> {
-    let mut sample = amount::sample_of(points, forced, wish)?;
+pub(crate) fn relax(points: &[Vec3], forced: Option<&[bool]>, settings: &SampleSettings) -> Result<Sample, SampleError> {
+    let mut sample = amount::sample_of(points, forced, settings)?;
     let cells = Cells::new(points, sample.spacing);
     let mut weight = vec![0.0; points.len()];
     let counts = cells.map(|place| cells.count_near(place, sample.spacing, u32::MAX / 2));

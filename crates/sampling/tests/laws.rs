@@ -1,7 +1,7 @@
 //! What every sample must hold, against brute force and closed answers.
 
 use geom::Vec3;
-use sampling::{Amount, Distance, Method, SampleError, Wish, sample};
+use sampling::{Amount, Distance, Method, SampleError, SampleSettings, sample};
 
 /// Uniform numbers in [0, 1) of a small generator (splitmix64).
 fn uniform(seed: u64) -> impl FnMut() -> f64 {
@@ -44,8 +44,8 @@ fn chute(count: usize) -> Vec<Vec3> {
     points
 }
 
-fn wish(amount: Amount, method: Method) -> Wish {
-    Wish { amount, method, distance: Distance::Surface, seed: 0 }
+fn settings(amount: Amount, method: Method) -> SampleSettings {
+    SampleSettings { amount, method, distance: Distance::Surface, seed: 0 }
 }
 
 fn pick(points: &[Vec3], kept: &[u32]) -> Vec<Vec3> {
@@ -57,8 +57,8 @@ fn no_two_kept_points_are_nearer_and_no_point_is_farther_than_the_spacing() {
     for (seed, spacing) in [(1, 0.02), (2, 0.05), (3, 0.3), (4, 5.0), (5, 1e-4)] {
         let points = sheet(3000, seed);
         for seed in [0, 9] {
-            let wish = Wish { seed, ..wish(Amount::Spacing(spacing), Method::Poisson) };
-            let kept = pick(&points, &sample(&points, None, &wish).unwrap().kept);
+            let settings = SampleSettings { seed, ..settings(Amount::Spacing(spacing), Method::Poisson) };
+            let kept = pick(&points, &sample(&points, None, &settings).unwrap().kept);
             for (i, p) in kept.iter().enumerate() {
                 assert!(kept[..i].iter().all(|q| (p - q).norm() >= spacing));
             }
@@ -78,7 +78,7 @@ fn the_same_points_for_any_number_of_threads() {
             let run = |threads: usize| {
                 let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
                 pool.install(|| {
-                    let sample = sample(&points, None, &wish(amount, method)).unwrap();
+                    let sample = sample(&points, None, &settings(amount, method)).unwrap();
                     let kept = pick(&points, &sample.kept);
                     let measures =
                         (sampling::nearest_distances(&kept), sampling::spectrum(&kept, sample.spacing));
@@ -97,7 +97,7 @@ fn the_same_points_for_any_number_of_threads() {
 fn golden_samples_stay_what_they_are() {
     let points = sheet(20_000, 6);
     let hash = |method, amount| {
-        let kept = sample(&points, None, &wish(amount, method)).unwrap().kept;
+        let kept = sample(&points, None, &settings(amount, method)).unwrap().kept;
         let mix = |h: u64, &i: &u32| (h ^ u64::from(i)).wrapping_mul(0x0000_0100_0000_01b3);
         (kept.len(), kept.iter().fold(0xcbf2_9ce4_8422_2325, mix))
     };
@@ -122,9 +122,9 @@ const GOLDEN: [(usize, u64); 4] = [
 fn counts_are_met() {
     let points = sheet(20_000, 8);
     for count in [1, 2, 10, 100, 1000, 5000, 15_000, 20_000] {
-        let kept = sample(&points, None, &wish(Amount::Count(count), Method::Poisson)).unwrap().kept.len();
+        let kept = sample(&points, None, &settings(Amount::Count(count), Method::Poisson)).unwrap().kept.len();
         assert!(kept.abs_diff(count) <= (count / 100).max(1), "{kept} for {count}");
-        let exact = sample(&points, None, &wish(Amount::Count(count), Method::Eliminate)).unwrap().kept.len();
+        let exact = sample(&points, None, &settings(Amount::Count(count), Method::Eliminate)).unwrap().kept.len();
         assert_eq!(exact, count);
     }
 }
@@ -132,7 +132,7 @@ fn counts_are_met() {
 #[test]
 fn densities_are_met() {
     let points = sheet(40_000, 8);
-    let made = sample(&points, None, &wish(Amount::Density(3000.0, 4000.0), Method::Poisson)).unwrap();
+    let made = sample(&points, None, &settings(Amount::Density(3000.0, 4000.0), Method::Poisson)).unwrap();
     let density = sampling::median_density(&pick(&points, &made.kept), made.spacing);
     assert!((3000.0..4000.0).contains(&density), "{density}");
 }
@@ -141,7 +141,7 @@ fn densities_are_met() {
 #[test]
 fn thinning_a_chute_scan_leaves_even_distances() {
     let points = chute(277_647);
-    let made = sample(&points, None, &wish(Amount::Count(79_159), Method::Poisson)).unwrap();
+    let made = sample(&points, None, &settings(Amount::Count(79_159), Method::Poisson)).unwrap();
     let kept = pick(&points, &made.kept);
     let before = sampling::nearest_distances(&points).unwrap();
     let after = sampling::nearest_distances(&kept).unwrap();
@@ -157,7 +157,7 @@ fn thinning_a_chute_scan_leaves_even_distances() {
 fn no_method_that_chooses_by_distance_leaves_unevenness_of_large_extent() {
     let dense = sheet(200_000, 5);
     for method in [Method::Poisson, Method::Eliminate, Method::Relax] {
-        let kept = pick(&dense, &sample(&dense, None, &wish(Amount::Count(6000), method)).unwrap().kept);
+        let kept = pick(&dense, &sample(&dense, None, &settings(Amount::Count(6000), method)).unwrap().kept);
         let spectrum = sampling::spectrum(&kept, sampling::nearest_distances(&kept).unwrap().median).unwrap();
         let seen = format!("{method:?}: {} {:?}", spectrum.low(), spectrum.peak());
         assert!(
@@ -177,7 +177,7 @@ fn the_spectrum_tells_chance_blue_noise_and_rows_apart() {
         chance.peak()
     );
     let dense = sheet(300_000, 2);
-    let made = sample(&dense, None, &wish(Amount::Spacing(0.008), Method::Poisson)).unwrap();
+    let made = sample(&dense, None, &settings(Amount::Spacing(0.008), Method::Poisson)).unwrap();
     let blue = sampling::spectrum(&pick(&dense, &made.kept), 0.01).unwrap();
     let seen = format!("{} {:?} {}", blue.low(), blue.peak(), blue.mean_anisotropy());
     assert!(blue.low() < 0.25 && blue.peak().1 < 2.0 && blue.mean_anisotropy() < 1.5, "{seen}");
@@ -225,7 +225,7 @@ fn both_sides_of_a_thin_plate_are_sampled_as_if_each_were_alone() {
     for (thickness, noise) in [(0.025, 0.0), (0.04, 0.0015)] {
         let points = plate(40_000, thickness, noise);
         for method in [Method::Poisson, Method::Eliminate, Method::Relax, Method::Tile] {
-            let made = sample(&points, None, &wish(Amount::Spacing(spacing), method)).unwrap();
+            let made = sample(&points, None, &settings(Amount::Spacing(spacing), method)).unwrap();
             let sides = [true, false].map(|up| packing(&points, &made.kept, spacing, thickness, up));
             let on = format!("{method:?}, {thickness} m, noise {noise} m: {sides:?}, {} beside", made.beside);
             assert!(sides.iter().all(|p| (0.6..0.76).contains(p)) && made.beside > 50, "{on}");
@@ -234,7 +234,7 @@ fn both_sides_of_a_thin_plate_are_sampled_as_if_each_were_alone() {
             let nearest = sampling::nearest_distances(&pick(&points, &flat)).unwrap();
             let least = if method == Method::Eliminate { 0.6 } else { 0.97 };
             assert!(nearest.min > least * spacing && nearest.variation < 0.16, "{on}: {nearest:?}");
-            let air = Wish { distance: Distance::Space, ..wish(Amount::Spacing(spacing), method) };
+            let air = SampleSettings { distance: Distance::Space, ..settings(Amount::Spacing(spacing), method) };
             let through = sample(&points, None, &air).unwrap();
             assert!(
                 through.kept.len() < made.kept.len() * 17 / 20 && through.beside == 0,
@@ -261,9 +261,9 @@ fn edge(count: usize, angle: f64) -> Vec<Vec3> {
 fn a_sharp_edge_thins_across_itself() {
     for degrees in [170.0, 135.0, 90.0f64] {
         let points = edge(150_000, degrees.to_radians());
-        let on_surface = wish(Amount::Spacing(0.04), Method::Poisson);
+        let on_surface = settings(Amount::Spacing(0.04), Method::Poisson);
         let made = sample(&points, None, &on_surface).unwrap();
-        let space = sample(&points, None, &Wish { distance: Distance::Space, ..on_surface }).unwrap();
+        let space = sample(&points, None, &SampleSettings { distance: Distance::Space, ..on_surface }).unwrap();
         assert!(made.beside <= 2, "{degrees}°: {} beside of {}", made.beside, made.kept.len());
         assert!(made.kept.len() - space.kept.len() <= 2);
     }
@@ -278,9 +278,9 @@ fn a_noisy_sheet_is_one_sheet() {
         let mut off = || share * scan * (next() + next() + next() + next() - 2.0) * 3f64.sqrt();
         let noise: Vec<Vec3> = (0..count).map(|_| Vec3::new(off(), off(), off())).collect();
         let points: Vec<Vec3> = noise.iter().map(|n| Vec3::new(next(), next(), 0.0) + n).collect();
-        let on_surface = wish(Amount::Spacing(0.06), Method::Poisson);
+        let on_surface = settings(Amount::Spacing(0.06), Method::Poisson);
         let made = sample(&points, None, &on_surface).unwrap();
-        let space = sample(&points, None, &Wish { distance: Distance::Space, ..on_surface }).unwrap();
+        let space = sample(&points, None, &SampleSettings { distance: Distance::Space, ..on_surface }).unwrap();
         let (kept, more) = (made.kept.len(), made.kept.len().abs_diff(space.kept.len()));
         assert!(space.kept.len() > 150, "{}", space.kept.len());
         assert!(
@@ -298,7 +298,7 @@ fn rows_of_a_scanner_are_one_sheet() {
         .flat_map(|x| (0..125).map(move |y| (0.001 * f64::from(x), 0.008 * f64::from(y))))
         .map(|(x, y)| Vec3::new(x, y, 0.2 * libm::sin(3.0 * y)))
         .collect();
-    let made = sample(&points, None, &wish(Amount::Spacing(0.03), Method::Poisson)).unwrap();
+    let made = sample(&points, None, &settings(Amount::Spacing(0.03), Method::Poisson)).unwrap();
     assert_eq!(made.beside, 0);
 }
 
@@ -307,7 +307,7 @@ fn counts_of_thin_plates_and_of_few_points_are_met() {
     let points = plate(10_000, 0.04, 0.0);
     for method in [Method::Poisson, Method::Eliminate, Method::Relax, Method::Tile, Method::Grid] {
         for count in [3, 150] {
-            let made = sample(&points, None, &wish(Amount::Count(count), method)).unwrap();
+            let made = sample(&points, None, &settings(Amount::Count(count), method)).unwrap();
             let off = made.kept.len().abs_diff(count);
             let exact = method == Method::Eliminate || (count < 200 && method != Method::Grid);
             let most = if exact { 0 } else { count / 100 };
@@ -322,7 +322,7 @@ fn counts_between_the_samples_of_a_lattice_are_met_without_holes() {
     let (side, count) = (200, 28_000);
     let points: Vec<Vec3> =
         (0..side * side).map(|k| Vec3::new(f64::from(k % side), f64::from(k / side), 0.0)).collect();
-    let kept = sample(&points, None, &wish(Amount::Count(count), Method::Poisson)).unwrap().kept;
+    let kept = sample(&points, None, &settings(Amount::Count(count), Method::Poisson)).unwrap().kept;
     assert_eq!(kept.len(), count);
     let mut near = vec![false; points.len()];
     for p in pick(&points, &kept) {
@@ -341,7 +341,7 @@ fn filled_points_are_kept_as_they_are() {
     let points = sheet(5000, 3);
     let forced: Vec<bool> = (0..5000).map(|i| i % 10 == 0).collect();
     for method in [Method::Poisson, Method::Eliminate, Method::Relax, Method::Tile, Method::Grid] {
-        let made = sample(&points, Some(&forced), &wish(Amount::Spacing(0.03), method)).unwrap();
+        let made = sample(&points, Some(&forced), &settings(Amount::Spacing(0.03), method)).unwrap();
         assert!((0..5000).step_by(10).all(|i| made.kept.binary_search(&i).is_ok()), "{method:?}");
         assert!(made.kept.windows(2).all(|w| w[0] < w[1]));
         if method == Method::Poisson {
@@ -358,7 +358,7 @@ fn filled_points_are_kept_as_they_are() {
 #[test]
 fn the_grid_keeps_the_point_nearest_to_each_node() {
     let points = sheet(2000, 4);
-    let kept = sample(&points, None, &wish(Amount::Spacing(0.1), Method::Grid)).unwrap().kept;
+    let kept = sample(&points, None, &settings(Amount::Spacing(0.1), Method::Grid)).unwrap().kept;
     let node = |p: &Vec3| (p / 0.1).map(f64::round);
     for (i, p) in points.iter().enumerate() {
         let off = |q: &Vec3| (q - node(p) * 0.1).norm();
@@ -369,7 +369,7 @@ fn the_grid_keeps_the_point_nearest_to_each_node() {
 
 #[test]
 fn hard_clouds() {
-    let by = |points: &[Vec3], amount| sample(points, None, &wish(amount, Method::Poisson));
+    let by = |points: &[Vec3], amount| sample(points, None, &settings(amount, Method::Poisson));
     let one = Vec3::new(1e6, 0.0, 0.0);
     assert_eq!(by(&[], Amount::Spacing(1.0)), Err(SampleError::Empty));
     assert_eq!(by(&[one], Amount::Spacing(1.0)).unwrap().kept, [0]);

@@ -146,7 +146,7 @@ fn no_gap_lies_beyond_the_rim_and_the_widest_inside_is_that_of_brute_force() {
     let (side, big) = (0.15, 0.006);
     let scan = shaken(180, 2.0 * side / 180.0, 0.01);
     let amount = sampling::Amount::Count(900);
-    let wish = sampling::Wish {
+    let wish = sampling::SampleSettings {
         amount,
         method: sampling::Method::Eliminate,
         distance: sampling::Distance::Surface,

@@ -91,7 +91,7 @@ fn sampled(scan: Vec<Vec3>, method: Method, p: f64, area: f64, seed: u64) -> Vec
         Method::Grid => Amount::Spacing(p),
         _ => Amount::Count((area / (p * p)).round() as usize),
     };
-    let wish = sampling::Wish { amount, method, distance: sampling::Distance::Surface, seed };
+    let wish = sampling::SampleSettings { amount, method, distance: sampling::Distance::Surface, seed };
     let kept = sampling::sample(&scan, None, &wish).expect("there is a scan").kept;
     kept.iter().map(|&k| scan[k as usize]).collect()
 }

@@ -1,7 +1,7 @@
 //! The command line.
 
 use cloud::Cloud;
-use sampling::{Amount, Distance, Method, Wish};
+use sampling::{Amount, Distance, Method, SampleSettings};
 use std::path::PathBuf;
 
 /// Keep points of a cloud so that their distances are even and their spectrum is blue noise.
@@ -67,7 +67,7 @@ enum Along {
 
 impl Args {
     /// The requested sampling.
-    pub fn wish(&self) -> anyhow::Result<Wish> {
+    pub fn settings(&self) -> anyhow::Result<SampleSettings> {
         let method = match self.method {
             Choice::Poisson => Method::Poisson,
             Choice::Eliminate => Method::Eliminate,
@@ -85,9 +85,9 @@ impl Args {
             Along::Surface => Distance::Surface,
             Along::Space => Distance::Space,
         };
-        let wish = Wish { amount, method, distance, seed: self.seed.seed };
-        sampling::check_wish(&wish).map_err(|e| cli::usage(e.to_string()))?;
-        Ok(wish)
+        let settings = SampleSettings { amount, method, distance, seed: self.seed.seed };
+        sampling::check_settings(&settings).map_err(|e| cli::usage(e.to_string()))?;
+        Ok(settings)
     }
 
     /// The points to keep as they are, when `--keep-filled` was given and there are any.

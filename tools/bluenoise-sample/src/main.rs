@@ -16,7 +16,7 @@ fn main() -> ExitCode {
 
 fn bluenoise_sample(args: Args) -> anyhow::Result<Report> {
     check_ending(&args.output.to)?;
-    let wish = args.wish()?;
+    let settings = args.settings()?;
     if let Some(plot) = &args.plot {
         sampling::plot::check_name(&plot.to_string_lossy())
             .map_err(|e| cli::usage(format!("--plot: {e}")))?;
@@ -24,12 +24,12 @@ fn bluenoise_sample(args: Args) -> anyhow::Result<Report> {
     let cloud = args.input.read_cloud()?;
     cloud.check_reach().with_context(|| args.input.name())?;
     let forced = args.forced(&cloud);
-    let chosen = sample(&cloud.points, forced.as_deref(), &wish).with_context(|| args.input.name())?;
+    let chosen = sample(&cloud.points, forced.as_deref(), &settings).with_context(|| args.input.name())?;
     let kept = cloud.select(&chosen.kept);
-    let density = matches!(wish.amount, Amount::Density(..))
+    let density = matches!(settings.amount, Amount::Density(..))
         .then(|| sampling::median_density(&kept.points, chosen.spacing));
-    warn(&wish.amount, cloud.points.len(), kept.points.len(), chosen.spacing);
-    missed(&wish.amount, kept.points.len(), density);
+    warn(&settings.amount, cloud.points.len(), kept.points.len(), chosen.spacing);
+    missed(&settings.amount, kept.points.len(), density);
     args.output.write_cloud(&kept)?;
     let mut report = Report::new(format!(
         "{} of {} points, spacing {} m",
@@ -40,11 +40,11 @@ fn bluenoise_sample(args: Args) -> anyhow::Result<Report> {
     .with("points_before", cloud.points.len())
     .with("points_after", kept.points.len())
     .with("kept_as_filled", forced.iter().flatten().filter(|&&f| f).count())
-    .with("method", wish.method)
-    .with("amount", wish.amount)
-    .with("distance", wish.distance)
+    .with("method", settings.method)
+    .with("amount", settings.amount)
+    .with("distance", settings.distance)
     .with("beside_another_sheet", chosen.beside)
-    .with("seed", wish.seed)
+    .with("seed", settings.seed)
     .with("spacing", chosen.spacing)
     .with("tries", chosen.tries);
     if let Some(density) = density {

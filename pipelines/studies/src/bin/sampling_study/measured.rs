@@ -2,7 +2,7 @@
 
 use geom::Vec3;
 use sampling::nearest::NearestDistances;
-use sampling::{Amount, Distance, Method, Spectrum, Wish, sample};
+use sampling::{Amount, Distance, Method, Spectrum, SampleSettings, sample};
 
 /// All methods, the default first.
 pub const METHODS: [Method; 5] =
@@ -44,11 +44,11 @@ pub fn measured(
     method: Method,
     distance: Distance,
 ) -> Result<Measured, String> {
-    let wish = Wish { amount, method, distance, seed: 0 };
+    let settings = SampleSettings { amount, method, distance, seed: 0 };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().map_err(|why| why.to_string())?;
     let timed = || {
         let start = busy();
-        let made = sample(points, None, &wish).map_err(|why| why.to_string())?;
+        let made = sample(points, None, &settings).map_err(|why| why.to_string())?;
         Ok::<_, String>((made, busy() - start))
     };
     let rounds: Vec<_> = (0..ROUNDS).map(|_| pool.install(timed)).collect::<Result<_, _>>()?;
