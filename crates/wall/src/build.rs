@@ -4,7 +4,7 @@ use crate::pairs::{FURTHEST, Pairs, REACH, pairs};
 use crate::sheets::{self, Sheets};
 use crate::solve::{Changed, Changes};
 use crate::star::{SQUARE, Stars, stars};
-use crate::{Placement, Radius, Regions, Representative, WallError, Wish, equation, leak, normals, solve};
+use crate::{Placement, Radius, Regions, Representative, WallError, WallSettings, equation, leak, normals, solve};
 use geom::{Shown, Vec3};
 use sampling::cells::Cells;
 use serde::Serialize;
@@ -63,8 +63,8 @@ pub struct WallReport {
 ///
 /// # Errors
 /// Points or settings that make no wall; see [`WallError`].
-pub fn build(points: &[Vec3], regions: &Regions, wish: &Wish) -> Result<(Wall, WallReport), WallError> {
-    check(points, wish)?;
+pub fn build(points: &[Vec3], regions: &Regions, settings: &WallSettings) -> Result<(Wall, WallReport), WallError> {
+    check(points, settings)?;
     let typical = sampling::nearest::typical(points).ok_or(WallError::OnePlace(points.len()))?;
     // From here to the end points go by their place in the cells' order: neighbours lie side by side in memory.
     let cells = Cells::new(points, REACH * typical);
@@ -73,15 +73,15 @@ pub fn build(points: &[Vec3], regions: &Regions, wish: &Wish) -> Result<(Wall, W
     if found.pairs.is_empty() {
         return Err(WallError::NoPairs { reach: FURTHEST * typical });
     }
-    let wants_stars = wish.placement == Placement::Surface || wish.smallest_particle.is_some() || wish.gaps;
+    let wants_stars = settings.placement == Placement::Surface || settings.smallest_particle.is_some() || settings.gaps;
     let stars = if wants_stars { stars(&cells, typical) } else { Stars::default() };
     let region_of = regions.of(&cells.points);
-    let spacing = representative(&found.lengths, wish.representative);
-    let zeta = roughness(regions, &region_of, cells.order(), wish)?;
-    let (radii, zeta_all) = radii(&cells, &found, spacing, zeta.as_deref(), wish)?;
+    let spacing = representative(&found.lengths, settings.representative);
+    let zeta = roughness(regions, &region_of, cells.order(), settings)?;
+    let (radii, zeta_all) = radii(&cells, &found, spacing, zeta.as_deref(), settings)?;
     let asked = zeta.unwrap_or_else(|| vec![zeta_all; radii.len()]);
     let changes = solve::changes(&found.pairs, &found.lengths, &asked, &radii);
-    let centres = place(&cells.points, &stars, &found.pairs, &radii, wish)?;
+    let centres = place(&cells.points, &stars, &found.pairs, &radii, settings)?;
     let mut report = WallReport {
         spheres: radii.len(),
         spacing,
@@ -89,7 +89,7 @@ pub fn build(points: &[Vec3], regions: &Regions, wish: &Wish) -> Result<(Wall, W
         roughness: zeta_all,
         radius_range: [range(&radii)[0], radii.iter().sum::<f64>() / radii.len() as f64, range(&radii)[1]],
         changes,
-        changed: if wish.list_changes { list(&cells, &found, &asked, &radii) } else { Vec::new() },
+        changed: if settings.list_changes { list(&cells, &found, &asked, &radii) } else { Vec::new() },
         widest_gap: None,
         leaks: 0,
         gaps_up_to: SQUARE * typical,
@@ -100,13 +100,13 @@ pub fn build(points: &[Vec3], regions: &Regions, wish: &Wish) -> Result<(Wall, W
         report.warnings.push(two_sheets(&sheets, spacing));
         report.sheets = Some(sheets);
     }
-    if let Some(largest) = wish.largest_particle {
+    if let Some(largest) = settings.largest_particle {
         check_largest(&mut report, largest);
     }
-    if let Some(particle) = wish.smallest_particle {
+    if let Some(particle) = settings.smallest_particle {
         check_sizes(&mut report, particle, &cells.points, &radii)?;
         check_particle(&mut report, particle, &centres, &radii, &stars);
-    } else if wish.gaps {
+    } else if settings.gaps {
         // No particle: a gap too wide to be distinguished from the outline does not count.
         let limit = report.gaps_up_to;
         (report.widest_gap, _) = leak::widest(&centres, &radii, &stars.triangles, &stars.outline, limit);
@@ -137,7 +137,7 @@ fn by_index<T: Copy + Default>(cells: &Cells, by_place: &[T]) -> Vec<T> {
     by_index
 }
 
-fn check(points: &[Vec3], wish: &Wish) -> Result<(), WallError> {
+fn check(points: &[Vec3], settings: &WallSettings) -> Result<(), WallError> {
     if points.len() < 2 {
         return Err(WallError::TooFew(points.len()));
     }
@@ -146,11 +146,11 @@ fn check(points: &[Vec3], wish: &Wish) -> Result<(), WallError> {
         return Err(WallError::NotFinite { index, x: p.x, y: p.y, z: p.z });
     }
     let positive = |x: f64| x > 0.0 && x.is_finite();
-    match (wish.radius, wish.smallest_particle, wish.facing) {
+    match (settings.radius, settings.smallest_particle, settings.facing) {
         (Radius::Given(r), _, _) if !positive(r) => Err(WallError::BadRadius(r)),
         (_, Some(d), _) if !positive(d) => Err(WallError::BadParticle(d)),
         (_, _, Some(f)) if !positive(f.norm()) => Err(WallError::BadFacing { x: f.x, y: f.y, z: f.z }),
-        (_, _, None) if wish.placement == Placement::Surface && wish.flow_at.is_none() => {
+        (_, _, None) if settings.placement == Placement::Surface && settings.flow_at.is_none() => {
             Err(WallError::NoFacing)
         }
         _ => Ok(()),
@@ -171,9 +171,9 @@ fn roughness(
     regions: &Regions,
     region_of: &[u16],
     order: &[u32],
-    wish: &Wish,
+    settings: &WallSettings,
 ) -> Result<Option<Vec<f64>>, WallError> {
-    if matches!(wish.radius, Radius::Given(_)) && !regions.is_rough() {
+    if matches!(settings.radius, Radius::Given(_)) && !regions.is_rough() {
         return Ok(None);
     }
     let of = |(&i, &r): (&u32, &u16)| regions.roughness(i as usize, r).ok_or(WallError::NoRoughness);
@@ -186,14 +186,14 @@ fn radii(
     found: &Pairs,
     spacing: f64,
     zeta: Option<&[f64]>,
-    wish: &Wish,
+    settings: &WallSettings,
 ) -> Result<(Vec<f64>, f64), WallError> {
-    if let Radius::Given(radius) = wish.radius {
+    if let Radius::Given(radius) = settings.radius {
         let zeta = equation::dent(radius, radius, spacing);
         return Ok((vec![radius; cells.len()], zeta));
     }
     let zeta = zeta.ok_or(WallError::NoRoughness)?;
-    let common = representative(zeta, wish.representative);
+    let common = representative(zeta, settings.representative);
     let even = |zeta: f64| {
         let place = "the representative one".to_owned();
         // ζ = P/2 is valid, and P is a sum of rounded numbers.
@@ -201,7 +201,7 @@ fn radii(
         equation::radius(spacing, rounded)
             .ok_or_else(|| too_rough(zeta, spacing, "representative spacing", place))
     };
-    if wish.radius == Radius::Uniform {
+    if settings.radius == Radius::Uniform {
         return Ok((vec![even(common)?; cells.len()], common));
     }
     // The worst pair is named, so that one cure serves all.
@@ -237,13 +237,13 @@ fn place(
     stars: &Stars,
     pairs: &[(u32, u32)],
     radii: &[f64],
-    wish: &Wish,
+    settings: &WallSettings,
 ) -> Result<Vec<Vec3>, WallError> {
-    if wish.placement == Placement::Centre {
+    if settings.placement == Placement::Centre {
         return Ok(points.to_vec());
     }
-    let towards = wish.facing.map(normals::Flow::Towards);
-    let flow = wish.flow_at.map(normals::Flow::At).or(towards).ok_or(WallError::NoFacing)?;
+    let towards = settings.facing.map(normals::Flow::Towards);
+    let flow = settings.flow_at.map(normals::Flow::At).or(towards).ok_or(WallError::NoFacing)?;
     let normals = normals::oriented(points, &stars.normals, pairs, flow);
     Ok(points.iter().zip(&normals).zip(radii).map(|((p, n), r)| p - n * *r).collect())
 }

@@ -19,7 +19,7 @@ pub mod wear;
 mod write;
 
 pub use build::{Wall, WallReport, build};
-pub use regions::{Regions, Surface};
+pub use regions::{Regions, SurfaceAttributes};
 pub use write::write_mcap;
 
 use geom::{Shown, Vec3};
@@ -62,7 +62,7 @@ pub enum Placement {
 
 /// What is wanted.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Wish {
+pub struct WallSettings {
     /// Radii.
     pub radius: Radius,
     /// Distance that stands for all.

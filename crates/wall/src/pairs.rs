@@ -44,10 +44,10 @@ pub struct Pairs {
 /// The pairs of points whose nearest distance is typically `typical` [m].
 pub fn pairs(cells: &Cells, typical: f64) -> Pairs {
     let count = cells.len();
-    let parts: Vec<Part> = (0..count.div_ceil(PART))
+    let parts: Vec<PointPairs> = (0..count.div_ceil(PART))
         .into_par_iter()
         .map(|part| {
-            let mut found = Part::default();
+            let mut found = PointPairs::default();
             look_all(cells, part * PART..count.min((part + 1) * PART), FURTHEST * typical, &mut found);
             found
         })
@@ -92,19 +92,19 @@ struct Link {
 
 /// What the places of a part found.
 #[derive(Default)]
-struct Part {
+struct PointPairs {
     /// Squared [m²].
     nearest: Vec<f64>,
     /// To higher places, ascending.
     up: Vec<Link>,
     /// To lower places.
     down: Vec<Link>,
-    work: Work,
+    work: PairScratch,
 }
 
 /// Memory that is used again for every place.
 #[derive(Default)]
-struct Work {
+struct PairScratch {
     /// Squared distances of the candidates [m²].
     squares: Vec<f64>,
     /// Places of the points near by, ascending.
@@ -117,16 +117,16 @@ struct Work {
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn look_all(cells: &Cells, places: std::ops::Range<usize>, furthest: f64, part: &mut Part) {
+fn look_all(cells: &Cells, places: std::ops::Range<usize>, furthest: f64, part: &mut PointPairs) {
     for place in places {
         look(cells, place as u32, furthest, part);
     }
 }
 
 #[inline(always)]
-fn look(cells: &Cells, place: u32, furthest: f64, part: &mut Part) {
+fn look(cells: &Cells, place: u32, furthest: f64, part: &mut PointPairs) {
     let centre = cells.points[place as usize];
-    let Part { nearest, up, down, work } = part;
+    let PointPairs { nearest, up, down, work } = part;
     let mut runs = [(0, 0); 9];
     let mut used = 0;
     for run in cells.runs(place) {
@@ -156,7 +156,7 @@ fn look(cells: &Cells, place: u32, furthest: f64, part: &mut Part) {
     }
 }
 
-impl Work {
+impl PairScratch {
     /// Squared distances of the points of `runs`; the least of them but the place's own.
     #[inline(always)]
     fn measure(&mut self, cells: &Cells, place: u32, centre: Vec3, runs: &[(u32, u32)]) -> f64 {

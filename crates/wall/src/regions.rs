@@ -24,7 +24,7 @@ use thiserror::Error;
 
 /// What a region's surface is like.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Surface {
+pub struct SurfaceAttributes {
     /// Name of the region; empty outside of all.
     pub name: String,
     /// Depth of the dents between neighbouring spheres ζ [m]; `None` when only radii are given.
@@ -43,7 +43,7 @@ pub struct Regions {
     /// Materials, by number.
     pub materials: Vec<MaterialRecord>,
     /// Surfaces; number 0 is outside of all regions.
-    pub surfaces: Vec<Surface>,
+    pub surfaces: Vec<SurfaceAttributes>,
     shapes: Vec<Shape>,
     wear: Option<Wear>,
     /// Roughness of each point [m] by the table of wear.
@@ -105,7 +105,7 @@ impl Regions {
         check_material(&material, "material")?;
         check_velocity(&velocity, "velocity")?;
         check_roughness(roughness, "roughness")?;
-        let surface = Surface { name: String::new(), roughness, material: 0, velocity, worn: true };
+        let surface = SurfaceAttributes { name: String::new(), roughness, material: 0, velocity, worn: true };
         let (materials, surfaces) = (vec![material], vec![surface]);
         Ok(Regions { materials, surfaces, shapes: Vec::new(), wear: None, worn: Vec::new() })
     }
@@ -148,7 +148,7 @@ impl Regions {
         check_velocity(&velocity, &place)?;
         let material = self.material(&region, &place)?;
         let (roughness, worn) = (region.roughness.or(outside.roughness), region.roughness.is_none());
-        self.surfaces.push(Surface { name: region.name, roughness, material, velocity, worn });
+        self.surfaces.push(SurfaceAttributes { name: region.name, roughness, material, velocity, worn });
         Ok(())
     }
 

@@ -38,7 +38,7 @@ struct Corner {
 
 /// A point near by: its place in the order, and where it is from the point in the middle [m].
 #[derive(Clone, Copy)]
-struct Near {
+struct Neighbour {
     index: u32,
     to: Vec3,
 }
@@ -49,7 +49,7 @@ pub fn stars(cells: &Cells, typical: f64) -> Stars {
     let parts: Vec<Stars> = (0..count.div_ceil(PART))
         .into_par_iter()
         .map(|part| {
-            let (mut stars, mut work) = (Stars::default(), Work::default());
+            let (mut stars, mut work) = (Stars::default(), StarScratch::default());
             for place in part * PART..count.min((part + 1) * PART) {
                 star(cells, place as u32, typical, &mut work, &mut stars);
             }
@@ -71,15 +71,15 @@ pub fn stars(cells: &Cells, typical: f64) -> Stars {
 
 /// Memory that is used again for every point.
 #[derive(Default)]
-struct Work {
+struct StarScratch {
     /// Squared distance [m²] (its bits are in the order of the numbers), place.
     found: Vec<(u64, u32)>,
-    near: Vec<Near>,
+    near: Vec<Neighbour>,
     cell: Vec<Corner>,
     kept: Vec<Corner>,
 }
 
-fn star(cells: &Cells, place: u32, typical: f64, work: &mut Work, part: &mut Stars) {
+fn star(cells: &Cells, place: u32, typical: f64, work: &mut StarScratch, part: &mut Stars) {
     let (mut reach, furthest) = (cells.width, 2.0 * SQUARE * typical);
     loop {
         neighbours(cells, place, reach, work);
@@ -94,8 +94,8 @@ fn star(cells: &Cells, place: u32, typical: f64, work: &mut Work, part: &mut Sta
 }
 
 /// Points within reach, nearest first, relative to the point.
-fn neighbours(cells: &Cells, place: u32, reach: f64, work: &mut Work) {
-    let Work { found, near, .. } = work;
+fn neighbours(cells: &Cells, place: u32, reach: f64, work: &mut StarScratch) {
+    let StarScratch { found, near, .. } = work;
     let centre = cells.points[place as usize];
     found.clear();
     let mut look = |run: Range<usize>| {
@@ -112,11 +112,11 @@ fn neighbours(cells: &Cells, place: u32, reach: f64, work: &mut Work) {
     }
     found.sort_unstable();
     near.clear();
-    near.extend(found.iter().map(|&(_, index)| Near { index, to: cells.points[index as usize] - centre }));
+    near.extend(found.iter().map(|&(_, index)| Neighbour { index, to: cells.points[index as usize] - centre }));
 }
 
 /// Two axes and the normal of the plane of least squares through the point and those nearest to it.
-fn plane(near: &[Near]) -> (Vec3, Vec3, Vec3) {
+fn plane(near: &[Neighbour]) -> (Vec3, Vec3, Vec3) {
     let some = &near[..near.len().min(FOR_NORMAL)];
     let count = some.len() as f64 + 1.0;
     let mean = some.iter().map(|n| n.to).sum::<Vec3>() / count;
@@ -148,8 +148,8 @@ fn across(axis: &Vec3) -> Vec3 {
 }
 
 /// The Voronoi cell in the plane, around the origin; how far its furthest corner is [m].
-fn voronoi(work: &mut Work, u: &Vec3, v: &Vec3, half: f64) -> f64 {
-    let Work { near, cell, kept, .. } = work;
+fn voronoi(work: &mut StarScratch, u: &Vec3, v: &Vec3, half: f64) -> f64 {
+    let StarScratch { near, cell, kept, .. } = work;
     let square = [[-half, -half], [half, -half], [half, half], [-half, half]];
     cell.clear();
     cell.extend(square.map(|at| Corner { at, next: None }));
@@ -192,7 +192,7 @@ fn cut(cell: &[Corner], kept: &mut Vec<Corner>, beyond: impl Fn(&Corner) -> f64,
     }
 }
 
-fn finish(i: u32, near: &[Near], cell: &[Corner], half: f64, part: &mut Stars) {
+fn finish(i: u32, near: &[Neighbour], cell: &[Corner], half: f64, part: &mut Stars) {
     // A corner is a void when three points make it and it is not too far.
     let is_void = |k: usize| {
         let (before, [x, y]) = (cell[(k + cell.len() - 1) % cell.len()].next, cell[k].at);

@@ -31,7 +31,7 @@ pub enum WearError {
     #[error(
         "wear: give one of measured = \"PROPERTY\", drawing = \"MESH\", value = NUMBER; {given} are given"
     )]
-    Source { given: usize },
+    WearSource { given: usize },
     #[error("wear: along = {along:?} has no direction: give one, such as [1, 0, 0]")]
     Along { along: [f64; 3] },
     #[error("wear: {file}: {why}")]
@@ -64,7 +64,7 @@ pub(crate) struct Section {
 }
 
 #[derive(Debug, Clone)]
-enum Source {
+enum WearSource {
     Property(String),
     Drawing(TriMesh),
     Value(f64),
@@ -73,7 +73,7 @@ enum Source {
 /// A table, and where its two indices come from.
 #[derive(Debug, Clone)]
 pub struct Wear {
-    source: Source,
+    source: WearSource,
     from: Vec3,
     along: Vec3,
     positions: Vec<f64>,
@@ -105,13 +105,13 @@ impl Wear {
         let given = [section.measured.is_some(), section.drawing.is_some(), section.value.is_some()];
         let given = given.iter().filter(|g| **g).count();
         let source = match (section.measured, section.drawing, section.value) {
-            (Some(name), None, None) => Source::Property(name),
+            (Some(name), None, None) => WearSource::Property(name),
             (None, Some(file), None) => {
-                Source::Drawing(mesh(&file).map_err(|why| WearError::File { file: file.clone(), why })?)
+                WearSource::Drawing(mesh(&file).map_err(|why| WearError::File { file: file.clone(), why })?)
             }
             (None, None, Some(value)) if !value.is_finite() => return Err(WearError::Value(value)),
-            (None, None, Some(value)) => Source::Value(value),
-            _ => return Err(WearError::Source { given }),
+            (None, None, Some(value)) => WearSource::Value(value),
+            _ => return Err(WearError::WearSource { given }),
         };
         let along = Vec3::from(section.along).try_normalize(0.0).filter(|a| a.iter().all(|c| c.is_finite()));
         let along = along.ok_or(WearError::Along { along: section.along })?;
@@ -160,11 +160,11 @@ impl Wear {
         property: &dyn Fn(&str) -> Option<Vec<f64>>,
     ) -> Result<Vec<f64>, WearError> {
         match &self.source {
-            Source::Value(value) => Ok(vec![*value; points.len()]),
-            Source::Property(name) => property(name)
+            WearSource::Value(value) => Ok(vec![*value; points.len()]),
+            WearSource::Property(name) => property(name)
                 .filter(|column| column.len() == points.len())
                 .ok_or_else(|| WearError::NoProperty(name.clone())),
-            Source::Drawing(mesh) => Ok(distances(points, mesh)),
+            WearSource::Drawing(mesh) => Ok(distances(points, mesh)),
         }
     }
 
@@ -310,8 +310,8 @@ mod tests {
 
     #[test]
     fn wrong_tables_are_named() {
-        assert!(matches!(wear(""), Err(WearError::Source { given: 0 })));
-        assert!(matches!(wear("value = 1\nmeasured = 'w'"), Err(WearError::Source { given: 2 })));
+        assert!(matches!(wear(""), Err(WearError::WearSource { given: 0 })));
+        assert!(matches!(wear("value = 1\nmeasured = 'w'"), Err(WearError::WearSource { given: 2 })));
         for (table, words) in [
             ("", "is empty"),
             ("wear\n", "line 1"),

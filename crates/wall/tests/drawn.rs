@@ -5,7 +5,7 @@ use geom::{Shape, Vec3};
 use record::MaterialRecord;
 use std::f64::consts::TAU;
 use wall::drawn::{Drawing, Drawn, place};
-use wall::{Radius, Regions, WallError, Wish, build, equation};
+use wall::{Radius, Regions, WallError, WallSettings, build, equation};
 
 const RADIUS: f64 = 0.02;
 const ZETA: f64 = 0.004;
@@ -175,7 +175,7 @@ fn a_region_by_wear_and_position_sets_the_roughness_of_every_sphere() {
         (0..400).map(|i| Vec3::new((i % 20) as f64, (i / 20) as f64, 0.0) * 0.05).collect();
     let report = regions.measure(&points, &|_| None).unwrap().unwrap();
     assert_eq!((report.not_measured, report.beyond), (0, 0));
-    let (wall, _) = build(&points, &regions, &Wish::default()).unwrap();
+    let (wall, _) = build(&points, &regions, &WallSettings::default()).unwrap();
     let table = wall.table(&regions).unwrap();
     let inside: Shape = "box:-1,-1,-1,0.2,2,1".parse().unwrap();
     for (i, p) in points.iter().enumerate() {

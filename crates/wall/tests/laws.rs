@@ -39,8 +39,8 @@ fn pairs(points: &[Vec3], typical: f64) -> Vec<(u32, u32)> {
     pairs
 }
 
-fn with(radius: Radius) -> Wish {
-    Wish { radius, ..Wish::default() }
+fn with(radius: Radius) -> WallSettings {
+    WallSettings { radius, ..WallSettings::default() }
 }
 
 #[test]
@@ -50,8 +50,8 @@ fn on_an_even_lattice_solved_and_uniform_radii_are_those_of_equation_1() {
         let even = equation::radius(0.01, zeta).unwrap();
         for radius in [Radius::Solve, Radius::Uniform] {
             for representative in [Representative::Mean, Representative::Median] {
-                let wish = Wish { representative, ..with(radius) };
-                let (wall, report) = build(&points, &everywhere(zeta), &wish).unwrap();
+                let settings = WallSettings { representative, ..with(radius) };
+                let (wall, report) = build(&points, &everywhere(zeta), &settings).unwrap();
                 assert!(wall.radii.iter().all(|r| (r / even - 1.0).abs() < 1e-9), "ζ = {zeta}, {radius:?}");
                 assert_eq!(report.changes.pairs, 2 * 20 * 19, "the lattice's edges and no diagonals");
                 assert!(report.changes.largest_change < 1e-6 * zeta);
@@ -116,13 +116,13 @@ fn gabriel_pairs_are_those_of_brute_force() {
 #[test]
 fn the_widest_gap_of_a_square_lattice_is_its_diagonal_less_two_radii() {
     let points = lattice(12, 0.01);
-    let wish = Wish { smallest_particle: Some(0.002), ..with(Radius::Given(0.006)) };
-    let (_, report) = build(&points, &everywhere(0.001), &wish).unwrap();
+    let settings = WallSettings { smallest_particle: Some(0.002), ..with(Radius::Given(0.006)) };
+    let (_, report) = build(&points, &everywhere(0.001), &settings).unwrap();
     let gap = 0.01 * 2f64.sqrt() - 0.012;
     assert!((report.widest_gap.unwrap().diameter - gap).abs() < 1e-12);
     assert!(report.leaks > 0 && report.warnings[0].contains("leaks"), "{:?}", report.warnings);
-    let wish = Wish { smallest_particle: Some(0.0022), ..wish };
-    let (_, report) = build(&points, &everywhere(0.001), &wish).unwrap();
+    let settings = WallSettings { smallest_particle: Some(0.0022), ..settings };
+    let (_, report) = build(&points, &everywhere(0.001), &settings).unwrap();
     assert_eq!((report.leaks, report.warnings.len()), (0, 0));
 }
 
@@ -131,8 +131,8 @@ fn the_widest_gap_of_a_square_lattice_is_its_diagonal_less_two_radii() {
 fn a_notch_of_the_rim_is_no_leak_and_a_hole_of_its_width_is() {
     let leaks = |hole: Vec3| {
         let points: Vec<Vec3> = lattice(12, 0.01).into_iter().filter(|p| (p - hole).norm() > 0.005).collect();
-        let wish = Wish { smallest_particle: Some(0.004), ..with(Radius::Given(0.0075)) };
-        build(&points, &everywhere(0.001), &wish).unwrap().1.leaks
+        let settings = WallSettings { smallest_particle: Some(0.004), ..with(Radius::Given(0.0075)) };
+        build(&points, &everywhere(0.001), &settings).unwrap().1.leaks
     };
     let corner = lattice(12, 0.01)[0];
     assert_eq!(leaks(corner + Vec3::new(0.05, 0.0, 0.0)), 0);
@@ -146,13 +146,13 @@ fn no_gap_lies_beyond_the_rim_and_the_widest_inside_is_that_of_brute_force() {
     let (side, big) = (0.15, 0.006);
     let scan = shaken(180, 2.0 * side / 180.0, 0.01);
     let amount = sampling::Amount::Count(900);
-    let wish = sampling::SampleSettings {
+    let settings = sampling::SampleSettings {
         amount,
         method: sampling::Method::Eliminate,
         distance: sampling::Distance::Surface,
         seed: 1,
     };
-    let kept = sampling::sample(&scan, None, &wish).unwrap().kept;
+    let kept = sampling::sample(&scan, None, &settings).unwrap().kept;
     let points: Vec<Vec3> = kept.iter().map(|&k| scan[k as usize]).collect();
     let cells = Cells::new(&points, wall::pairs::REACH * 0.008);
     let (stars, points) = (wall::star::stars(&cells, 0.008), &cells.points);
@@ -182,25 +182,25 @@ fn no_gap_lies_beyond_the_rim_and_the_widest_inside_is_that_of_brute_force() {
 fn a_missing_sphere_is_found_as_the_widest_gap() {
     let mut points = lattice(12, 0.01);
     let hole = points.remove(5 * 12 + 6);
-    let wish = Wish { smallest_particle: Some(0.006), ..with(Radius::Given(0.007)) };
-    let (_, report) = build(&points, &everywhere(0.001), &wish).unwrap();
+    let settings = WallSettings { smallest_particle: Some(0.006), ..with(Radius::Given(0.007)) };
+    let (_, report) = build(&points, &everywhere(0.001), &settings).unwrap();
     let gap = report.widest_gap.unwrap();
     assert!((Vec3::from(gap.at) - hole).norm() < 1e-9 && (gap.diameter - 0.006).abs() < 1e-9, "{gap:?}");
 }
 
 #[test]
 fn spheres_much_smaller_than_the_particles_are_warned_of() {
-    let wish = Wish { smallest_particle: Some(0.0151), ..with(Radius::Given(0.006)) };
-    let (_, report) = build(&lattice(5, 0.005), &everywhere(0.001), &wish).unwrap();
+    let settings = WallSettings { smallest_particle: Some(0.0151), ..with(Radius::Given(0.006)) };
+    let (_, report) = build(&lattice(5, 0.005), &everywhere(0.001), &settings).unwrap();
     assert!(report.warnings[0].contains("80 %"), "{:?}", report.warnings);
 }
 
 #[test]
 fn placed_on_the_surface_spheres_touch_the_points_from_behind() {
-    let wish = Wish { placement: Placement::Surface, facing: Some(Vec3::z()), ..with(Radius::Uniform) };
-    let (wall, _) = build(&lattice(9, 0.01), &everywhere(0.001), &wish).unwrap();
+    let settings = WallSettings { placement: Placement::Surface, facing: Some(Vec3::z()), ..with(Radius::Uniform) };
+    let (wall, _) = build(&lattice(9, 0.01), &everywhere(0.001), &settings).unwrap();
     assert!(wall.centres.iter().zip(&wall.radii).all(|(c, r)| (c.z + r).abs() < 1e-12));
-    let error = build(&lattice(9, 0.01), &everywhere(0.001), &Wish { facing: None, ..wish }).unwrap_err();
+    let error = build(&lattice(9, 0.01), &everywhere(0.001), &WallSettings { facing: None, ..settings }).unwrap_err();
     assert!(matches!(error, WallError::NoFacing));
 }
 
@@ -212,8 +212,8 @@ fn the_flow_side_of_a_half_pipe_is_its_inside_also_past_the_vertical() {
             Vec3::new(0.03 * (i / 60) as f64, 0.45 * libm::sin(angle), -0.45 * libm::cos(angle))
         })
         .collect();
-    let wish = Wish { placement: Placement::Surface, facing: Some(Vec3::z()), ..with(Radius::Given(0.03)) };
-    let (wall, _) = build(&points, &everywhere(0.001), &wish).unwrap();
+    let settings = WallSettings { placement: Placement::Surface, facing: Some(Vec3::z()), ..with(Radius::Given(0.03)) };
+    let (wall, _) = build(&points, &everywhere(0.001), &settings).unwrap();
     for c in &wall.centres {
         let off = (c.y * c.y + c.z * c.z).sqrt();
         assert!((off - 0.48).abs() < 1e-3, "{off}");
@@ -223,10 +223,10 @@ fn the_flow_side_of_a_half_pipe_is_its_inside_also_past_the_vertical() {
 #[test]
 fn the_same_wall_for_any_number_of_threads() {
     let points = shaken(60, 0.01, 0.002);
-    let wish = Wish { smallest_particle: Some(0.003), ..with(Radius::Solve) };
+    let settings = WallSettings { smallest_particle: Some(0.003), ..with(Radius::Solve) };
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| build(&points, &everywhere(0.0008), &wish).unwrap())
+        pool.install(|| build(&points, &everywhere(0.0008), &settings).unwrap())
     };
     let one = run(1);
     for threads in [2, 3, 7] {

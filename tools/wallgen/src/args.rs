@@ -5,7 +5,7 @@ use geom::Vec3;
 use record::MaterialRecord;
 use std::path::{Path, PathBuf};
 use wall::drawn::Drawing;
-use wall::{Placement, Radius, Regions, Representative, Wish};
+use wall::{Placement, Radius, Regions, Representative, WallSettings};
 
 /// Turn the points of a surface into wall spheres (MCAP; PLY with -o FILE.ply).
 #[derive(clap::Parser)]
@@ -82,7 +82,7 @@ enum Place {
 
 impl Args {
     /// What the options ask for.
-    pub fn wish(&self) -> anyhow::Result<Wish> {
+    pub fn settings(&self) -> anyhow::Result<WallSettings> {
         if self.roughness.is_none() && !matches!(self.radius, Radius::Given(_)) {
             return Err(cli::usage(
                 "--roughness: is needed to find the radii; add --roughness M, or give --radius M",
@@ -114,7 +114,7 @@ impl Args {
             Middle::Mean => Representative::Mean,
             Middle::Median => Representative::Median,
         };
-        Ok(Wish {
+        Ok(WallSettings {
             radius: self.radius,
             representative,
             placement,

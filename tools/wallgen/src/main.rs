@@ -10,9 +10,9 @@ use cli::Report;
 use geom::Shown;
 use std::process::ExitCode;
 use stream::Values;
-use surface::Surface;
+use surface::WallPoints;
 use wall::drawn::DrawnReport;
-use wall::{Radius, Regions, Wall, WallReport, Wish, build};
+use wall::{Radius, Regions, Wall, WallReport, WallSettings, build};
 
 fn main() -> ExitCode {
     cli::run("wallgen", wallgen)
@@ -20,13 +20,13 @@ fn main() -> ExitCode {
 
 fn wallgen(args: Args) -> anyhow::Result<Report> {
     check_ending(&args.output.to)?;
-    let wish = args.wish()?;
+    let settings = args.settings()?;
     let mut regions = args.regions()?;
-    let Surface { cloud, name, hash, drawn } = surface::read(&args, &regions)?;
+    let WallPoints { cloud, name, hash, drawn } = surface::read(&args, &regions)?;
     cloud.check_reach().with_context(|| name.clone())?;
     let property = |name: &str| cloud.attributes.get(name).map(|v| (0..v.len()).map(|i| v.get(i)).collect());
     let wear = regions.measure(&cloud.points, &property).with_context(|| name.clone())?;
-    let (wall, report) = build(&cloud.points, &regions, &wish).with_context(|| name)?;
+    let (wall, report) = build(&cloud.points, &regions, &settings).with_context(|| name)?;
     if args.output.to.has_extension("ply") {
         args.output.write_cloud(&as_cloud(cloud, &wall, &regions)?)?;
     } else {
@@ -45,7 +45,7 @@ fn wallgen(args: Args) -> anyhow::Result<Report> {
         changes::write(path, &report.changed)?;
     }
     report.warnings.iter().for_each(|w| cli::warn(w));
-    let words = summary(&report, &wish, drawn.as_ref()) + &passes(&report, &wish);
+    let words = summary(&report, &settings, drawn.as_ref()) + &passes(&report, &settings);
     let all = Report::new(words).with_all(&report).with("materials", &regions.materials);
     let all = if let Some(drawn) = &drawn { all.with("drawing", drawn) } else { all };
     Ok(if let Some(wear) = &wear { all.with("wear", wear) } else { all })
@@ -61,10 +61,10 @@ fn as_cloud(mut cloud: cloud::Cloud, wall: &Wall, regions: &Regions) -> anyhow::
 }
 
 /// The result of the check of gaps, if requested.
-fn passes(report: &WallReport, wish: &Wish) -> String {
+fn passes(report: &WallReport, settings: &WallSettings) -> String {
     let limit = Shown(report.gaps_up_to);
     match report.widest_gap {
-        _ if !wish.gaps => String::new(),
+        _ if !settings.gaps => String::new(),
         None => format!("; nothing passes (gaps wider than {limit} m count as outline)"),
         Some(gap) => {
             let [x, y, z] = gap.at.map(|c| format!("{c:.4}"));
@@ -76,10 +76,10 @@ fn passes(report: &WallReport, wish: &Wish) -> String {
     }
 }
 
-fn summary(report: &WallReport, wish: &Wish, drawn: Option<&DrawnReport>) -> String {
+fn summary(report: &WallReport, settings: &WallSettings, drawn: Option<&DrawnReport>) -> String {
     let [least, mean, largest] = report.radius_range.map(Shown);
     let (spheres, spacing, changes) = (report.spheres, Shown(report.spacing), &report.changes);
-    if wish.radius == Radius::Solve {
+    if settings.radius == Radius::Solve {
         return format!(
             "{spheres} wall spheres, radius {least} to {largest} m (mean {mean}), spacing {spacing} m, \
              roughness changed on {} of {} pairs",
@@ -97,7 +97,7 @@ fn summary(report: &WallReport, wish: &Wish, drawn: Option<&DrawnReport>) -> Str
         );
     }
     let [low, middle, high] = changes.dents.map(Shown);
-    let asked = match wish.radius {
+    let asked = match settings.radius {
         Radius::Uniform => format!(" where {} m was asked for", Shown(report.roughness)),
         _ => String::new(),
     };

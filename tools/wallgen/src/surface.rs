@@ -9,7 +9,7 @@ use wall::Regions;
 use wall::drawn::{DrawnReport, place};
 
 /// Points that become spheres.
-pub struct Surface {
+pub struct WallPoints {
     pub cloud: Cloud,
     /// The name that messages use.
     pub name: String,
@@ -19,10 +19,10 @@ pub struct Surface {
     pub drawn: Option<DrawnReport>,
 }
 
-pub fn read(args: &Args, regions: &Regions) -> anyhow::Result<Surface> {
+pub fn read(args: &Args, regions: &Regions) -> anyhow::Result<WallPoints> {
     let Some(path) = &args.from_mesh else {
         let (cloud, hash) = args.input.read_cloud_hashed()?;
-        return Ok(Surface { cloud, name: args.input.name(), hash, drawn: None });
+        return Ok(WallPoints { cloud, name: args.input.name(), hash, drawn: None });
     };
     let drawing = args.drawing(regions)?;
     let name = path.display().to_string();
@@ -32,7 +32,7 @@ pub fn read(args: &Args, regions: &Regions) -> anyhow::Result<Surface> {
     warn(&drawn.report, drawing.radius);
     let attributes = Table::with_rows(drawn.centres.len());
     let cloud = Cloud { points: drawn.centres, attributes, double: true, ..Cloud::default() };
-    Ok(Surface { cloud, name, hash: ("mesh".to_owned(), stream::sha256(&bytes)), drawn: Some(drawn.report) })
+    Ok(WallPoints { cloud, name, hash: ("mesh".to_owned(), stream::sha256(&bytes)), drawn: Some(drawn.report) })
 }
 
 fn warn(report: &DrawnReport, radius: f64) {

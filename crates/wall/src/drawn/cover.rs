@@ -26,7 +26,7 @@ pub(crate) fn cover(on_stretches: &[Candidate], on_faces: &[Candidate], spacing:
     let mut share = FIRST_SHARE;
     let mut best: Option<(f64, Vec<Vec3>)> = None;
     for _ in 0..=CORRECTIONS {
-        let mut taken = Taken::new(share.max(CROWD) * spacing);
+        let mut taken = PlacedSpheres::new(share.max(CROWD) * spacing);
         on_stretches.iter().for_each(|c| taken.offer(c, CROWD * spacing));
         order.iter().for_each(|&i| taken.offer(&on_faces[i as usize], share * spacing));
         let Some(mean) = mean_distance(&taken.centres, share * spacing) else { return taken.centres };
@@ -46,16 +46,16 @@ fn mean_distance(centres: &[Vec3], nearest: f64) -> Option<f64> {
 }
 
 /// Spheres so far, in cells as wide as the longest distance that is asked for.
-struct Taken {
+struct PlacedSpheres {
     cell: f64,
     cells: HashMap<[i64; 3], Vec<u32>>,
     centres: Vec<Vec3>,
     normals: Vec<Vec3>,
 }
 
-impl Taken {
-    fn new(cell: f64) -> Taken {
-        Taken { cell, cells: HashMap::new(), centres: Vec::new(), normals: Vec::new() }
+impl PlacedSpheres {
+    fn new(cell: f64) -> PlacedSpheres {
+        PlacedSpheres { cell, cells: HashMap::new(), centres: Vec::new(), normals: Vec::new() }
     }
 
     /// Takes a candidate that is at least `apart` [m] from all of its side.

@@ -105,7 +105,7 @@ pub fn place(mesh: &TriMesh, drawing: &Drawing) -> Result<Drawn, WallError> {
     }
     let spacing =
         equation::spacing(radius, roughness).ok_or(WallError::DeeperThanRadius { roughness, radius })?;
-    let surface = sides::Surface::new(mesh, drawing.flow_at).ok_or(WallError::NoArea)?;
+    let surface = sides::DrawnSurface::new(mesh, drawing.flow_at).ok_or(WallError::NoArea)?;
     let wanted = CANDIDATES * surface.area / (spacing * spacing);
     if wanted > MOST {
         return Err(WallError::TooManySpheres { spacing, area: surface.area, count: wanted / CANDIDATES });

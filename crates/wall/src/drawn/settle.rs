@@ -8,7 +8,7 @@
 //! projections onto one half-space after the other lead into their intersection (Bregman 1965, doi:10.1016/0041-5553(67)90040-7, theirs
 //! being the general case): the sphere comes to touch both faces of an edge, or the three of a corner.
 
-use super::sides::Surface;
+use super::sides::DrawnSurface;
 use super::{Candidate, Drawing};
 use geom::mesh::closest_point;
 use geom::{Boxes, Vec3};
@@ -21,14 +21,14 @@ const STEPS: (usize, usize) = (200, 8);
 const FARTHEST: f64 = 4.0;
 
 pub(crate) struct Settle<'a> {
-    surface: &'a Surface,
+    surface: &'a DrawnSurface,
     boxes: Boxes,
     radius: f64,
     centred: bool,
 }
 
 impl<'a> Settle<'a> {
-    pub fn new(surface: &'a Surface, drawing: &Drawing) -> Settle<'a> {
+    pub fn new(surface: &'a DrawnSurface, drawing: &Drawing) -> Settle<'a> {
         let boxed = |tri: [Vec3; 3]| [tri[0].inf(&tri[1]).inf(&tri[2]), tri[0].sup(&tri[1]).sup(&tri[2])];
         let boxes: Vec<[Vec3; 2]> = surface.mesh.triangles().map(boxed).collect();
         Settle { surface, boxes: Boxes::new(&boxes), radius: drawing.radius, centred: drawing.centred }

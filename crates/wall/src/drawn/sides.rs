@@ -13,7 +13,7 @@ use std::collections::HashMap;
 const AS_NEAR: f64 = 1e-9;
 
 /// A mesh whose faces show the flow their front.
-pub(crate) struct Surface {
+pub(crate) struct DrawnSurface {
     pub mesh: TriMesh,
     /// Unit normal of each face, on the flow side.
     pub normals: Vec<Vec3>,
@@ -26,9 +26,9 @@ pub(crate) struct Surface {
     pub one_sided: usize,
 }
 
-impl Surface {
+impl DrawnSurface {
     /// None when no face has an area.
-    pub fn new(mesh: &TriMesh, flow_at: Option<Vec3>) -> Option<Surface> {
+    pub fn new(mesh: &TriMesh, flow_at: Option<Vec3>) -> Option<DrawnSurface> {
         let mut mesh = mesh.welded();
         let (lo, hi) = geom::grid::bounds(&mesh.vertices);
         let least = 1e-12 * (hi - lo).norm_squared();
@@ -42,7 +42,7 @@ impl Surface {
         let (closed, turned) = turn(&mut mesh, &edges, &part_of, parts, flow_at);
         let normal = |[a, b, c]: [Vec3; 3]| (b - a).cross(&(c - a)).normalize();
         let (normals, area) = (mesh.triangles().map(normal).collect(), mesh.area());
-        Some(Surface { normals, edges, area, parts, closed, turned, one_sided, mesh })
+        Some(DrawnSurface { normals, edges, area, parts, closed, turned, one_sided, mesh })
     }
 
     /// About `count` places spread evenly over the faces, each with its normal: by area along the faces, and within a face by the
@@ -223,7 +223,7 @@ mod tests {
             assert_eq!(piece.vertices.len(), 3);
             assert_eq!(piece.triangle(0), mesh.triangle(k));
         }
-        let surface = Surface::new(&mesh, None).unwrap();
+        let surface = DrawnSurface::new(&mesh, None).unwrap();
         assert_eq!((surface.parts, surface.closed, surface.turned), (4000, 0, 0));
     }
 
@@ -235,7 +235,7 @@ mod tests {
         let hollow =
             (0..2000).step_by(10).map(|k| cuboid(at(k) + Vec3::repeat(0.3), at(k) + Vec3::repeat(0.6)));
         let mesh = joined((0..2000).map(body).chain(hollow));
-        let surface = Surface::new(&mesh, None).unwrap();
+        let surface = DrawnSurface::new(&mesh, None).unwrap();
         assert_eq!((surface.parts, surface.closed, surface.turned), (2200, 2200, 200));
     }
 }

@@ -5,7 +5,7 @@
 //! stand at both ends of a stretch, and between them at equal distances of at most the spacing; on a closed one (the rim of a
 //! pipe) at equal distances all around. Each place stands once for every face that it lies on.
 
-use super::sides::Surface;
+use super::sides::DrawnSurface;
 use geom::Vec3;
 use std::collections::BTreeMap;
 
@@ -28,7 +28,7 @@ struct Edge {
 
 /// The stretches of a surface. `centre` gives the sphere of a place and a normal: where those of the ends stand off from the ends (in a
 /// corner), the others stand between them.
-pub(crate) fn find(surface: &Surface, spacing: f64, centre: &dyn Fn(Vec3, Vec3) -> Vec3) -> Stretches {
+pub(crate) fn find(surface: &DrawnSurface, spacing: f64, centre: &dyn Fn(Vec3, Vec3) -> Vec3) -> Stretches {
     let edges: Vec<Edge> =
         surface.edges.iter().filter_map(|(ends, faces)| crease(surface, *ends, faces)).collect();
     let mut at: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
@@ -79,7 +79,7 @@ pub(crate) fn find(surface: &Surface, spacing: f64, centre: &dyn Fn(Vec3, Vec3) 
     Stretches { places, count, corners: corners.len() }
 }
 
-fn crease(surface: &Surface, ends: (u32, u32), faces: &[u32]) -> Option<Edge> {
+fn crease(surface: &DrawnSurface, ends: (u32, u32), faces: &[u32]) -> Option<Edge> {
     let is_straight = match *faces {
         [f, g] => surface.normals[f as usize].dot(&surface.normals[g as usize]) >= STRAIGHT,
         _ => false,
@@ -94,7 +94,7 @@ fn other(edge: &Edge, end: u32) -> u32 {
 /// Places between the ends of a chain of edges (number and first vertex), or all around.
 fn between(
     places: &mut Vec<(Vec3, Vec3)>,
-    surface: &Surface,
+    surface: &DrawnSurface,
     edges: &[Edge],
     chain: &[(usize, u32)],
     (closed, spacing, (head, tail)): (bool, f64, (f64, f64)),
@@ -121,7 +121,7 @@ fn between(
 }
 
 /// A place, once for each direction that its faces look to.
-fn push(places: &mut Vec<(Vec3, Vec3)>, surface: &Surface, at: Vec3, faces: impl Iterator<Item = u32>) {
+fn push(places: &mut Vec<(Vec3, Vec3)>, surface: &DrawnSurface, at: Vec3, faces: impl Iterator<Item = u32>) {
     let mut seen: Vec<Vec3> = Vec::new();
     for face in faces {
         let normal = surface.normals[face as usize];
