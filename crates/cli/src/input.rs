@@ -198,15 +198,15 @@ impl Input {
             Some(1.0) => {}
             Some(factor) => cloud.scale(factor),
             None if self.cloud == Source::Stdin => {}
-            None => self.tell(&cloud::units::doubts(&cloud)),
+            None => self.warn_about(&cloud::units::warnings(&cloud)),
         }
         cloud
     }
 
     /// Warns of implausible numbers of a cloud, unless the scale is given or another tool has warned.
-    pub fn tell(&self, doubts: &[cloud::units::Doubt]) {
+    pub fn warn_about(&self, warnings: &[cloud::units::UnitWarning]) {
         if self.scale.is_none() && self.cloud != Source::Stdin {
-            doubts.iter().for_each(|doubt| crate::warn(&format!("{}: {doubt}", self.name())));
+            warnings.iter().for_each(|warning| crate::warn(&format!("{}: {warning}", self.name())));
         }
     }
 }

@@ -3,7 +3,7 @@
 //! A point stays when it is in some `keep` (or none is given) and in no `remove`; of those, what lies beyond the outer shape,
 //! isolated points and small parts go when asked.
 
-use crate::outer::{self, Beyond, Outer};
+use crate::outer::{self, Outside, Outer};
 use crate::points::{TooFar, check_reach};
 use crate::regions::{Action, Region};
 use crate::{Cloud, largest, outliers};
@@ -41,11 +41,11 @@ pub struct Cropped {
     /// Points that the shapes took away.
     pub outside_shapes: usize,
     /// Points of each named region, whatever the other rules make of them.
-    pub regions: Vec<InRegion>,
+    pub regions: Vec<RegionCount>,
     /// Points beyond the outer shape.
     pub beyond_outer: usize,
     /// The parts that they make up, when an outer shape is described.
-    pub beyond: Option<Beyond>,
+    pub beyond: Option<Outside>,
     /// Points far from their neighbours.
     pub outliers: usize,
     /// Points of smaller parts.
@@ -56,7 +56,7 @@ pub struct Cropped {
 
 /// Points of a named region.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct InRegion {
+pub struct RegionCount {
     /// Its name.
     pub name: String,
     /// What is done with them.
@@ -68,7 +68,7 @@ pub struct InRegion {
 impl Cropped {
     /// Nothing counted yet.
     pub(crate) fn of(rules: &Rules) -> Cropped {
-        let none = |r: &Region| InRegion { name: r.name.clone(), action: r.action, points: 0 };
+        let none = |r: &Region| RegionCount { name: r.name.clone(), action: r.action, points: 0 };
         Cropped { regions: rules.regions.iter().map(none).collect(), ..Cropped::default() }
     }
 
@@ -80,15 +80,15 @@ impl Cropped {
 }
 
 /// Shapes that a point is in, or not.
-pub(crate) struct Judge<'a> {
+pub(crate) struct ShapeTest<'a> {
     keep: Vec<&'a Shape>,
     remove: Vec<&'a Shape>,
 }
 
-impl Judge<'_> {
-    pub fn new(rules: &Rules) -> Judge<'_> {
+impl ShapeTest<'_> {
+    pub fn new(rules: &Rules) -> ShapeTest<'_> {
         let of = |action: Action| rules.regions.iter().filter(move |r| r.action == action).map(|r| &r.shape);
-        Judge {
+        ShapeTest {
             keep: rules.keep.iter().chain(of(Action::Keep)).collect(),
             remove: rules.remove.iter().chain(of(Action::Remove)).collect(),
         }
@@ -109,7 +109,7 @@ impl Judge<'_> {
 pub fn crop(cloud: &Cloud, rules: &Rules) -> Result<(Cloud, Cropped), TooFar> {
     let points = &cloud.points;
     let is_finite = |p: &Vec3| p.x.is_finite() && p.y.is_finite() && p.z.is_finite();
-    let judge = Judge::new(rules);
+    let judge = ShapeTest::new(rules);
     let judged: Vec<(Vec<u32>, usize)> = points
         .par_chunks(CHUNK)
         .enumerate()
@@ -150,9 +150,9 @@ pub fn crop(cloud: &Cloud, rules: &Rules) -> Result<(Cloud, Cropped), TooFar> {
     Ok((if all { cloud.clone() } else { cloud.select(&rows) }, report))
 }
 
-fn count(points: &[Vec3], region: &Region) -> InRegion {
+fn count(points: &[Vec3], region: &Region) -> RegionCount {
     let inside = points.par_iter().filter(|p| region.shape.contains(p)).count();
-    InRegion { name: region.name.clone(), action: region.action, points: inside }
+    RegionCount { name: region.name.clone(), action: region.action, points: inside }
 }
 
 /// The rows without those at the given ascending places.

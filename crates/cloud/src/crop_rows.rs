@@ -1,8 +1,8 @@
 //! Crop of a plain binary PLY as its rows come: shapes judge each point by itself, so that only the rows that stay are kept, as they are.
 
-use crate::crop::{Cropped, Judge, Rules};
+use crate::crop::{Cropped, ShapeTest, Rules};
 use crate::formats::ReadError;
-use crate::units::{self, Doubt};
+use crate::units::{self, UnitWarning};
 use geom::Vec3;
 use rayon::prelude::*;
 use std::io::{Read, Write};
@@ -13,12 +13,12 @@ use stream::ply::{self, Blocks, PlyError, number_at};
 const CHUNK: usize = 1 << 12;
 
 /// The rows that stay, and what a header says about them.
-pub struct Kept {
+pub struct KeptRows {
     comments: Vec<String>,
     properties: Vec<(String, Kind)>,
     rows: Vec<u8>,
     /// What looks wrong about the numbers of the whole cloud.
-    pub doubts: Vec<Doubt>,
+    pub warnings: Vec<UnitWarning>,
 }
 
 /// Where x, y and z are: side by side, all of one type with a point in it.
@@ -41,11 +41,11 @@ pub fn can<R>(blocks: &Blocks<R>, rules: &Rules) -> bool {
 ///
 /// # Errors
 /// A stream that is cut off, or goes on after its last row.
-pub fn crop_rows<R: Read>(mut blocks: Blocks<R>, rules: &Rules) -> Result<(Kept, Cropped), ReadError> {
+pub fn crop_rows<R: Read>(mut blocks: Blocks<R>, rules: &Rules) -> Result<(KeptRows, Cropped), ReadError> {
     let Some((kind, at)) = positions(&blocks) else { return Err(ReadError::NoPosition) };
     let (stride, size) = (blocks.stride, kind.size());
     let point = move |row: &[u8]| Vec3::from([0, 1, 2].map(|a| number_at(&row[at + a * size..], kind)));
-    let judge = Judge::new(rules);
+    let judge = ShapeTest::new(rules);
     let mut report = Cropped::of(rules);
     let mut survey = units::Survey::new(usize::try_from(blocks.rows).unwrap_or(usize::MAX));
     let mut kept = Vec::new();
@@ -65,11 +65,11 @@ pub fn crop_rows<R: Read>(mut blocks: Blocks<R>, rules: &Rules) -> Result<(Kept,
     report.points_out = kept.len() / stride;
     report.outside_shapes = report.points_in - report.not_finite - report.points_out;
     let properties = blocks.properties.iter().map(|(name, kind, _)| (name.clone(), *kind)).collect();
-    let (doubts, comments) = (survey.doubts(kind == Kind::F64), std::mem::take(&mut blocks.comments));
-    Ok((Kept { comments, properties, rows: kept, doubts }, report))
+    let (warnings, comments) = (survey.warnings(kind == Kind::F64), std::mem::take(&mut blocks.comments));
+    Ok((KeptRows { comments, properties, rows: kept, warnings }, report))
 }
 
-impl Kept {
+impl KeptRows {
     /// Writes them as PLY.
     ///
     /// # Errors
@@ -81,7 +81,7 @@ impl Kept {
     }
 }
 
-impl Judge<'_> {
+impl ShapeTest<'_> {
     /// The rows that stay, and counts of the others.
     fn rows(
         &self,
@@ -146,7 +146,7 @@ mod tests {
             assert_eq!(counts, same);
             assert!(counts.points_out > 1000 && counts.not_finite == 1);
             assert!(out == written(&whole));
-            assert_eq!(kept.doubts, units::doubts(&cloud));
+            assert_eq!(kept.warnings, units::warnings(&cloud));
         }
     }
 }

@@ -53,7 +53,7 @@ pub(crate) fn throw(hole: &Hole, cover: &Cover, method: Method, spacing: f64, se
         Method::Random => spacing / 2.0,
         Method::Grid => spacing * 0.7,
     };
-    let mut taken = Near::new(hole, cover, spacing.max(keep_off));
+    let mut taken = PointGrid::new(hole, cover, spacing.max(keep_off));
     let mut points = Vec::new();
     let mut random = Pcg64Mcg::seed_from_u64(seed);
     match method {
@@ -154,7 +154,7 @@ fn grid(hole: &Hole, cover: &Cover, step: f64) -> Vec<(f64, f64)> {
 }
 
 /// Points in square cells over the patch, to ask what is near.
-struct Near {
+struct PointGrid {
     lo: (f64, f64),
     cell: f64,
     side: (usize, usize),
@@ -164,9 +164,9 @@ struct Near {
     points: Vec<(Vec3, u32)>,
 }
 
-impl Near {
+impl PointGrid {
     /// Holds the scanned points around the mask.
-    fn new(hole: &Hole, cover: &Cover, cell: f64) -> Near {
+    fn new(hole: &Hole, cover: &Cover, cell: f64) -> PointGrid {
         let corners = cover.corners.iter().map(|(_, p)| *p);
         let places: Vec<Vec3> = corners.chain(cover.places.iter().copied()).collect();
         let (lo, hi) = geom::grid::bounds(&places);
@@ -175,7 +175,7 @@ impl Near {
         let cell = cell.max((extent.x * extent.y / 4e6).sqrt());
         let side = ((extent.x / cell) as usize + 1, (extent.y / cell) as usize + 1);
         let heads = vec![0; side.0 * side.1];
-        let mut near = Near { lo: (lo.x, lo.y), cell, side, heads, points: Vec::new() };
+        let mut near = PointGrid { lo: (lo.x, lo.y), cell, side, heads, points: Vec::new() };
         hole.around.iter().for_each(|(_, p)| near.add(*p));
         near
     }

@@ -27,7 +27,7 @@ const CHUNK: usize = 1 << 12;
 
 /// A connected heap of points beyond the outer shape.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Part {
+pub struct OutsidePart {
     /// Points.
     pub points: usize,
     /// Lowest coordinates [m].
@@ -42,12 +42,12 @@ pub struct Part {
 
 /// What lies beyond the outer shape.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
-pub struct Beyond {
+pub struct Outside {
     /// Rows beyond, in order.
     #[serde(skip)]
     pub rows: Vec<u32>,
     /// Connected parts of at least thirty points, the largest first.
-    pub parts: Vec<Part>,
+    pub parts: Vec<OutsidePart>,
     /// Points of smaller heaps.
     pub stray: usize,
     /// Largest step between two points of a part [m].
@@ -55,7 +55,7 @@ pub struct Beyond {
 }
 
 /// What of the finite `points` [m] lies beyond.
-pub fn beyond(points: &[Vec3], outer: &Outer) -> Beyond {
+pub fn beyond(points: &[Vec3], outer: &Outer) -> Outside {
     let off = |p: &Vec3| outer.shapes.iter().map(|s| s.solid.distance(p)).fold(f64::INFINITY, f64::min);
     let judged: Vec<Vec<(u32, f64)>> = points
         .par_chunks(CHUNK)
@@ -72,7 +72,7 @@ pub fn beyond(points: &[Vec3], outer: &Outer) -> Beyond {
     let part_of = largest::parts(&some, step);
     let mut order: Vec<usize> = (0..rows.len()).collect();
     order.sort_by_key(|&k| (part_of[k], k));
-    let mut found = Beyond { step, ..Beyond::default() };
+    let mut found = Outside { step, ..Outside::default() };
     for heap in order.chunk_by(|a, b| part_of[*a] == part_of[*b]) {
         if heap.len() < FEWEST {
             found.stray += heap.len();
@@ -85,13 +85,13 @@ pub fn beyond(points: &[Vec3], outer: &Outer) -> Beyond {
     found
 }
 
-fn part(heap: impl Iterator<Item = (Vec3, f64)>, points: usize) -> Part {
+fn part(heap: impl Iterator<Item = (Vec3, f64)>, points: usize) -> OutsidePart {
     let (mut low, mut high) = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
     let (mut sum, mut beyond) = (Vec3::zeros(), 0.0f64);
     for (p, off) in heap {
         (low, high, sum, beyond) = (low.inf(&p), high.sup(&p), sum + p, beyond.max(off));
     }
-    Part { points, low: low.into(), high: high.into(), middle: (sum / points as f64).into(), beyond }
+    OutsidePart { points, low: low.into(), high: high.into(), middle: (sum / points as f64).into(), beyond }
 }
 
 #[cfg(test)]

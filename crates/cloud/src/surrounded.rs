@@ -32,7 +32,7 @@ pub(crate) fn surrounded(cells: &Cells, radius: f64) -> Vec<bool> {
 
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn look(cells: &Cells, first: u32, radius: f64, found: &mut [bool]) {
-    let mut near = Near::default();
+    let mut near = NeighbourVectors::default();
     for (place, found) in (first..).zip(found) {
         near.gather(cells, place, radius);
         *found = near.surround();
@@ -41,14 +41,14 @@ fn look(cells: &Cells, first: u32, radius: f64, found: &mut [bool]) {
 
 /// Vectors to the neighbours [m]; memory that is used again.
 #[derive(Default)]
-struct Near {
+struct NeighbourVectors {
     x: Vec<f64>,
     y: Vec<f64>,
     z: Vec<f64>,
     count: usize,
 }
 
-impl Near {
+impl NeighbourVectors {
     #[inline(always)]
     fn gather(&mut self, cells: &Cells, place: u32, radius: f64) {
         let centre = cells.points[place as usize];

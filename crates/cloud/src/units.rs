@@ -17,7 +17,7 @@ const EXACT: f64 = 0.01;
 
 /// What looks wrong about the numbers of a cloud.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Doubt {
+pub enum UnitWarning {
     /// As wide [m] as a plant in millimetres, its points as far apart [m].
     Millimetres {
         /// Width along the longest axis [m].
@@ -36,19 +36,19 @@ pub enum Doubt {
     },
 }
 
-impl fmt::Display for Doubt {
+impl fmt::Display for UnitWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         // Rough numbers: they are estimates.
         let rough = |value: f64| geom::Shown(format!("{value:.1e}").parse().unwrap_or(value));
         match self {
-            Doubt::Millimetres { width, spacing } => write!(
+            UnitWarning::Millimetres { width, spacing } => write!(
                 f,
                 "the cloud is about {} m wide and its points are {} m apart: if it is in millimetres, read it with \
                  --scale 0.001, and with --scale 1 if it is in metres",
                 rough(*width),
                 rough(*spacing)
             ),
-            Doubt::Short { largest, step, spacing } => write!(
+            UnitWarning::Short { largest, step, spacing } => write!(
                 f,
                 "coordinates up to {} m stand in 4-byte numbers, which are {} m apart there, and the points are {} m apart: \
                  export the scan with 8-byte numbers (double), or with its origin near the equipment",
@@ -61,10 +61,10 @@ impl fmt::Display for Doubt {
 }
 
 /// What looks wrong, if anything.
-pub fn doubts(cloud: &Cloud) -> Vec<Doubt> {
+pub fn warnings(cloud: &Cloud) -> Vec<UnitWarning> {
     let mut survey = Survey::new(cloud.points.len());
     survey.add(cloud.points.len(), |row| cloud.points[row]);
-    survey.doubts(cloud.double)
+    survey.warnings(cloud.double)
 }
 
 /// Points that stand for all, of a cloud that comes in parts.
@@ -89,21 +89,21 @@ impl Survey {
     }
 
     /// What looks wrong, if anything; `double` coordinates have 8 bytes.
-    pub fn doubts(&self, double: bool) -> Vec<Doubt> {
+    pub fn warnings(&self, double: bool) -> Vec<UnitWarning> {
         look(&self.some, self.count as f64, double)
     }
 }
 
-fn look(some: &[Vec3], count: f64, double: bool) -> Vec<Doubt> {
+fn look(some: &[Vec3], count: f64, double: bool) -> Vec<UnitWarning> {
     let Some((sides, largest)) = survey(some) else { return Vec::new() };
     let spacing = (sides[2] * sides[1].max(sides[2] / count) / count).sqrt();
     let mut found = Vec::new();
     if sides[2] > WIDE && spacing > SPARSE {
-        found.push(Doubt::Millimetres { width: sides[2], spacing });
+        found.push(UnitWarning::Millimetres { width: sides[2], spacing });
     }
     let step = largest * f64::from(f32::EPSILON);
     if !double && step > EXACT * spacing && spacing > 0.0 {
-        found.push(Doubt::Short { largest, step, spacing });
+        found.push(UnitWarning::Short { largest, step, spacing });
     }
     found
 }
@@ -138,20 +138,20 @@ mod tests {
 
     #[test]
     fn millimetres_are_told_and_metres_are_not() {
-        assert_eq!(doubts(&sheet(0.002, 0.0, false)), []);
-        assert!(matches!(doubts(&sheet(2.0, 0.0, true))[..], [Doubt::Millimetres { .. }]));
-        let said = doubts(&sheet(2.0, 0.0, true))[0].to_string();
+        assert_eq!(warnings(&sheet(0.002, 0.0, false)), []);
+        assert!(matches!(warnings(&sheet(2.0, 0.0, true))[..], [UnitWarning::Millimetres { .. }]));
+        let said = warnings(&sheet(2.0, 0.0, true))[0].to_string();
         assert!(said.contains("about 180 m wide") && said.contains("--scale 0.001"), "{said}");
         let mut far = sheet(0.002, 0.0, false);
         far.points.push(Vec3::repeat(1e9));
-        assert_eq!(doubts(&far), [], "an outlier is no plant");
-        assert_eq!(doubts(&Cloud::default()), []);
+        assert_eq!(warnings(&far), [], "an outlier is no plant");
+        assert_eq!(warnings(&Cloud::default()), []);
     }
 
     #[test]
     fn map_coordinates_in_short_numbers_are_told() {
-        assert!(matches!(doubts(&sheet(0.002, 637_000.0, false))[..], [Doubt::Short { .. }]));
-        assert_eq!(doubts(&sheet(0.002, 637_000.0, true)), []);
-        assert_eq!(doubts(&sheet(0.002, 40.0, false)), []);
+        assert!(matches!(warnings(&sheet(0.002, 637_000.0, false))[..], [UnitWarning::Short { .. }]));
+        assert_eq!(warnings(&sheet(0.002, 637_000.0, true)), []);
+        assert_eq!(warnings(&sheet(0.002, 40.0, false)), []);
     }
 }

@@ -83,7 +83,7 @@ fn crop(args: Args) -> anyhow::Result<Report> {
 /// The same for a plain PLY, row by row.
 fn rows(args: &Args, blocks: Blocks<impl Read>, rules: &Rules) -> anyhow::Result<Report> {
     let (kept, counts) = crop_rows::crop_rows(blocks, rules).with_context(|| args.input.name())?;
-    args.input.tell(&kept.doubts);
+    args.input.warn_about(&kept.warnings);
     words::warn(&counts);
     let mut out = args.output.to.open()?;
     kept.write(&mut out).with_context(|| format!("{}: cannot write", args.output.to.name()))?;

@@ -3,7 +3,7 @@
 use anyhow::Context;
 use cli::Report;
 use cloud::crop::Cropped;
-use cloud::outer::Part;
+use cloud::outer::OutsidePart;
 use geom::Shown;
 use std::io::Write;
 
@@ -54,7 +54,7 @@ pub fn parts(counts: &Cropped) {
     }
 }
 
-fn told(part: &Part) -> String {
+fn told(part: &OutsidePart) -> String {
     let place = |p: [f64; 3]| p.map(|c| Shown(c).to_string()).join(",");
     let (low, high) = (place(part.low), place(part.high));
     format!(

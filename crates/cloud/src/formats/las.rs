@@ -83,14 +83,14 @@ impl File {
     fn read(&self, starts: &[Chunk]) -> Result<Option<Rows>, ReadError> {
         let at_once = CHUNK.min(ROOM / self.size / starts.len().max(1) as u64).max(1);
         let ends = starts.iter().skip(1).map(|c| c.first).chain([self.promised]);
-        let parts: Vec<Part> = starts
+        let parts: Vec<PointRange> = starts
             .iter()
             .zip(ends)
-            .map(|(start, to)| Part { file: self, from: start.first, to, at_once })
+            .map(|(start, to)| PointRange { file: self, from: start.first, to, at_once })
             .collect();
         let read: Vec<_> = std::thread::scope(|scope| {
             let spawn = |part| {
-                std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, move || Part::read(part))
+                std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, move || PointRange::read(part))
             };
             let running: Vec<_> = parts.iter().map(spawn).collect();
             running.into_iter().map(|thread| thread.map(ScopedJoinHandle::join)).collect()
@@ -109,7 +109,7 @@ impl File {
 }
 
 /// Points that one thread reads.
-struct Part<'a> {
+struct PointRange<'a> {
     file: &'a File,
     from: u64,
     to: u64,
@@ -130,7 +130,7 @@ impl Rows {
     }
 }
 
-impl Part<'_> {
+impl PointRange<'_> {
     /// Its points, and the byte behind them.
     fn read(&self) -> Result<(Rows, u64), ReadError> {
         let options = ReaderOptions::default().with_laz_parallelism(LazParallelism::No);
