@@ -4,7 +4,7 @@
 //! a mean diameter; places without grains are left out. The median takes no notice of grains in the air.
 
 use crate::observer::OfFrame;
-use crate::repose::{Frame3, Surface};
+use crate::repose::{Frame3, HeapSurface};
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::statistics::quantile;
 use crate::{Frame, MeasureError, Run};
@@ -34,7 +34,7 @@ impl OfFrame for BedHeight {
             return Err(MeasureError::NoGrains { time: frame.time });
         }
         let up = self.up.or(run.up).unwrap_or(Vec3::z());
-        let surface = Surface::new(frame, &Frame3::new(up), self.ground);
+        let surface = HeapSurface::new(frame, &Frame3::new(up), self.ground);
         let mut heights: Vec<f64> = surface.points.iter().map(|p| p[2] - surface.ground).collect();
         let [height, low, high] = [0.5, 0.1, 0.9].map(|share| quantile(&mut heights, share));
         self.last = [frame.time, height, low, high];

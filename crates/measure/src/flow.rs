@@ -6,7 +6,7 @@
 //! would have passed the plane at constant velocity are counted as `unjudged`.
 
 use crate::observer::{NO_FRAMES, Observer, SLACK};
-use crate::path::Before;
+use crate::path::PreviousFrame;
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::statistics::Mean;
 use crate::{Frame, MeasureError, Run, Seen};
@@ -15,7 +15,7 @@ use std::collections::VecDeque;
 
 /// One grain through the plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pass {
+pub struct PlaneCrossing {
     /// When [s].
     pub time: f64,
     /// Whether in the direction of the normal.
@@ -38,7 +38,7 @@ pub struct Span {
 }
 
 impl Span {
-    fn add(&mut self, pass: &Pass) {
+    fn add(&mut self, pass: &PlaneCrossing) {
         let side = usize::from(!pass.forward);
         self.count[side] += 1;
         self.mass[side] += pass.mass;
@@ -73,8 +73,8 @@ pub struct Flow {
     options: FlowOptions,
     /// The outlet in the plane and whether its normal is the plane's; known once the first frame is there.
     outlet: Option<(usize, bool)>,
-    before: Before,
-    passes: VecDeque<Pass>,
+    before: PreviousFrame,
+    passes: VecDeque<PlaneCrossing>,
     /// Where the open span starts [s].
     start: Option<f64>,
     /// Number of the open span, of those of equal length.
@@ -104,7 +104,7 @@ impl Flow {
         Ok(Flow {
             options,
             outlet: None,
-            before: Before::default(),
+            before: PreviousFrame::default(),
             passes: VecDeque::new(),
             start: None,
             number: 0,
@@ -135,7 +135,7 @@ impl Flow {
     fn add(&mut self, time: f64, forward: bool, mass: f64) {
         let (from, until) = self.options.between;
         if from <= time && time < until {
-            self.passes.push_back(Pass { time, forward, mass });
+            self.passes.push_back(PlaneCrossing { time, forward, mass });
         }
     }
 

@@ -22,7 +22,7 @@ type Pair = (u64, u64, bool);
 
 /// A contact that goes on.
 #[derive(Debug, Clone, Copy)]
-struct Open {
+struct OpenContact {
     /// When it began [s], and the speed before [m/s]; `None` when that was not seen.
     start: Option<(f64, f64)>,
     deepest: f64,
@@ -106,7 +106,7 @@ pub struct Impacts {
     between: (f64, f64),
     /// The frame before, and that of the contacts that come next.
     moments: [Option<Moment>; 2],
-    open: BTreeMap<Pair, Open>,
+    open: BTreeMap<Pair, OpenContact>,
     rows: [Vec<f64>; 3],
     seen: u64,
     /// Contacts whose start or end was not seen.
@@ -142,7 +142,7 @@ impl Impacts {
     fn touches(&mut self, run: &Run, pair: Pair, contact: &Contact) {
         let old = self.open.get(&pair).copied();
         let cubic = self.cubic(run, pair, contact.overlap, true, &contact.normal);
-        let mut open = old.unwrap_or(Open {
+        let mut open = old.unwrap_or(OpenContact {
             start: None,
             deepest: 0.0,
             overlap: contact.overlap,
@@ -160,7 +160,7 @@ impl Impacts {
     }
 
     /// A pair that touched and does not now: its row, when all of the impact was seen.
-    fn parted(&mut self, run: &Run, pair: Pair, open: &Open) -> Option<Row> {
+    fn parted(&mut self, run: &Run, pair: Pair, open: &OpenContact) -> Option<Row> {
         let cubic = self.cubic(run, pair, open.overlap, false, &open.normal);
         let Some(((start, before), cubic)) = open.start.zip(cubic) else {
             self.cut += 1;
@@ -218,7 +218,7 @@ impl Observer for Impacts {
                 *deepest = contact;
             }
         }
-        let over: Vec<(Pair, Open)> =
+        let over: Vec<(Pair, OpenContact)> =
             self.open.iter().filter(|(pair, _)| !now.contains_key(pair)).map(|(p, o)| (*p, *o)).collect();
         for (pair, open) in over {
             self.open.remove(&pair);

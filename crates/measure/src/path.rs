@@ -52,12 +52,12 @@ impl Path {
 
 /// The frame before, by id.
 #[derive(Debug, Default)]
-pub struct Before {
+pub struct PreviousFrame {
     time: Option<f64>,
     states: HashMap<u64, (Vec3, Vec3)>,
 }
 
-impl Before {
+impl PreviousFrame {
     /// Time of the frame before [s].
     pub fn time(&self) -> Option<f64> {
         self.time

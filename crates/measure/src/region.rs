@@ -23,7 +23,7 @@ pub struct Region {
 
 /// Volume of a part, and its standard error.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Part {
+pub struct PartialVolume {
     /// Volume [m³].
     pub volume: f64,
     /// Standard error [m³].
@@ -58,7 +58,7 @@ impl Region {
     }
 
     /// How much of a ball lies in the region.
-    pub fn part(&self, centre: &Vec3, radius: f64) -> Part {
+    pub fn part(&self, centre: &Vec3, radius: f64) -> PartialVolume {
         let inside = match &self.shape.solid {
             Solid::Box(low, high) => exact(ball::in_box(centre, radius, low, high)),
             Solid::Sphere(middle, r) => exact(ball::lens((centre - middle).norm(), radius, *r)),
@@ -67,24 +67,24 @@ impl Region {
             solid @ (Solid::Cone(..) | Solid::Prism(_) | Solid::Mesh(_)) => counted(solid, centre, radius),
         };
         let whole = ball::volume(radius);
-        if self.shape.outside { Part { volume: whole - inside.volume, ..inside } } else { inside }
+        if self.shape.outside { PartialVolume { volume: whole - inside.volume, ..inside } } else { inside }
     }
 }
 
-fn exact(volume: f64) -> Part {
-    Part { volume, error: 0.0 }
+fn exact(volume: f64) -> PartialVolume {
+    PartialVolume { volume, error: 0.0 }
 }
 
-fn counted(solid: &Solid, centre: &Vec3, radius: f64) -> Part {
+fn counted(solid: &Solid, centre: &Vec3, radius: f64) -> PartialVolume {
     let (outer, inner) = points();
     let count = |points: &[Vec3]| points.iter().filter(|p| solid.contains(&(centre + *p * radius))).count();
     let whole = ball::volume(radius);
     match count(outer) {
-        0 if !solid.contains(centre) => Part::default(),
+        0 if !solid.contains(centre) => PartialVolume::default(),
         OUTER => exact(whole),
         _ => {
             let share = count(inner) as f64 / INNER as f64;
-            Part { volume: whole * share, error: whole * (share * (1.0 - share) / INNER as f64).sqrt() }
+            PartialVolume { volume: whole * share, error: whole * (share * (1.0 - share) / INNER as f64).sqrt() }
         }
     }
 }

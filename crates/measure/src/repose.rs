@@ -17,7 +17,7 @@ mod profiles;
 mod surface;
 
 pub use observe::Repose;
-pub use surface::{Frame3, Surface};
+pub use surface::{Frame3, HeapSurface};
 
 use crate::statistics::{Line, Mean, median, theil_sen};
 use crate::{Frame, MeasureError};
@@ -125,7 +125,7 @@ pub fn heap_angle(frame: &Frame, options: &HeapOptions, up: Option<Vec3>) -> Res
         axes.u = -level.normalize();
         axes.v = axes.up.cross(&axes.u);
     }
-    let surface = Surface::new(frame, &axes, options.ground);
+    let surface = HeapSurface::new(frame, &axes, options.ground);
     let bin = options.bin.unwrap_or(frame.mean_diameter());
     if bin < surface.step {
         let cure = "give at least a quarter of a mean diameter";

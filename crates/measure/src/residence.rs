@@ -7,7 +7,7 @@
 //! of those, the mean is too low (long stays are missing).
 
 use crate::observer::{NO_FRAMES, Observer};
-use crate::path::Before;
+use crate::path::PreviousFrame;
 use crate::sheet::{Chart, Curve, Head, Look, Row, Summary};
 use crate::statistics::{Mean, quantile};
 use crate::{Frame, MeasureError, Run, Seen};
@@ -28,7 +28,7 @@ struct Stay {
 pub struct Residence {
     shape: Shape,
     between: (f64, f64),
-    before: Before,
+    before: PreviousFrame,
     inside: HashMap<u64, Stay>,
     stays: Vec<f64>,
     unknown: u64,
@@ -42,7 +42,7 @@ impl Residence {
         Residence {
             shape,
             between,
-            before: Before::default(),
+            before: PreviousFrame::default(),
             inside: HashMap::new(),
             stays: Vec::new(),
             unknown: 0,

@@ -15,7 +15,7 @@ use geom::{Shape, Vec3};
 
 /// Which contacts are looked at.
 #[derive(Debug, Clone)]
-pub struct OnWalls {
+pub struct WallContactFilter {
     /// Contact points in this shape.
     pub shape: Shape,
     /// Only this wall, by name or by index; `None`: all.
@@ -24,7 +24,7 @@ pub struct OnWalls {
     pub between: (f64, f64),
 }
 
-impl OnWalls {
+impl WallContactFilter {
     /// The rows that are wanted, with those of contacts that have ended.
     ///
     /// # Errors
@@ -58,7 +58,7 @@ fn index(run: &Run, name: &str) -> Result<u64, MeasureError> {
 
 /// Measures the force on walls.
 pub struct WallForce {
-    what: OnWalls,
+    what: WallContactFilter,
     magnitudes: Vec<f64>,
     sum: Vec3,
     work: f64,
@@ -69,7 +69,7 @@ pub struct WallForce {
 
 impl WallForce {
     /// Of these contacts.
-    pub fn new(what: OnWalls) -> WallForce {
+    pub fn new(what: WallContactFilter) -> WallForce {
         let none = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
         WallForce {
             what,

@@ -7,7 +7,7 @@
 
 use crate::observer::{NO_CONTACTS, Observer};
 use crate::sheet::{Chart, Head, Panel, Row, Summary};
-use crate::wall_force::OnWalls;
+use crate::wall_force::WallContactFilter;
 use crate::{Contact, MeasureError, Run, Seen};
 use geom::{Grid, Vec3};
 use std::collections::BTreeMap;
@@ -17,7 +17,7 @@ const MOST_SQUARES: f64 = 240.0;
 
 /// What a place has borne.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Borne {
+pub struct WallLoad {
     /// Σ over frames of the normal force [N].
     normal: f64,
     /// Normal force of this frame so far, and the largest of all frames [N].
@@ -30,11 +30,11 @@ pub struct Borne {
 
 /// Measures wear by place.
 pub struct Wear {
-    what: OnWalls,
+    what: WallContactFilter,
     /// Side of the cubes [m]; `None`: by wall sphere.
     cell: Option<f64>,
-    by_sphere: BTreeMap<usize, Borne>,
-    by_cell: BTreeMap<[i64; 3], Borne>,
+    by_sphere: BTreeMap<usize, WallLoad>,
+    by_cell: BTreeMap<[i64; 3], WallLoad>,
     grid: Option<(u64, Grid, f64)>,
     frames: u64,
     seen: u64,
@@ -46,7 +46,7 @@ impl Wear {
     ///
     /// # Errors
     /// A cell not above zero.
-    pub fn new(what: OnWalls, cell: Option<f64>) -> Result<Wear, MeasureError> {
+    pub fn new(what: WallContactFilter, cell: Option<f64>) -> Result<Wear, MeasureError> {
         if let Some(value) = cell.filter(|c| !(*c > 0.0 && c.is_finite())) {
             return Err(MeasureError::Setting {
                 what: "cell",
@@ -105,7 +105,7 @@ impl Wear {
         borne.contacts += u64::from(contact.acts());
     }
 
-    fn row(&self, place: Vec3, size: f64, area: f64, b: &Borne) -> Row {
+    fn row(&self, place: Vec3, size: f64, area: f64, b: &WallLoad) -> Row {
         let frames = self.frames as f64;
         let mean = b.normal / frames;
         vec![

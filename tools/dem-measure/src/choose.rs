@@ -17,7 +17,7 @@ use measure::region::Region;
 use measure::repose::{HeapOptions, Repose};
 use measure::residence::Residence;
 use measure::segregation::{Kinds, Segregation};
-use measure::wall_force::{OnWalls, WallForce};
+use measure::wall_force::{WallContactFilter, WallForce};
 use measure::wear::Wear;
 use measure::{Observer, PerFrame, Which};
 
@@ -134,8 +134,8 @@ fn grid(args: &Args) -> anyhow::Result<ProfileOptions> {
     Ok(ProfileOptions { bins, corners, mean: args.mean, fields: args.field.clone() })
 }
 
-fn on_walls(args: &Args, given: &GivenShape, between: (f64, f64)) -> OnWalls {
-    OnWalls { shape: given.shape.clone(), wall: args.wall.clone(), between }
+fn on_walls(args: &Args, given: &GivenShape, between: (f64, f64)) -> WallContactFilter {
+    WallContactFilter { shape: given.shape.clone(), wall: args.wall.clone(), between }
 }
 
 /// Volume [m³] of what has a file; shapes without one know theirs.

@@ -1,6 +1,6 @@
 //! Median heights of a surface over bins of distance, in sectors or lanes.
 
-use super::Surface;
+use super::HeapSurface;
 use crate::statistics::median;
 use std::f64::consts::PI;
 
@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 pub(super) type Profiles = Vec<(f64, Vec<[f64; 2]>)>;
 
 /// Around the axis: where that is, and the profile of each sector with its azimuth [rad].
-pub(super) fn sectors(surface: &Surface, count: usize, bin: f64) -> ([f64; 2], Profiles) {
+pub(super) fn sectors(surface: &HeapSurface, count: usize, bin: f64) -> ([f64; 2], Profiles) {
     let middle = surface.middle();
     let turn = 2.0 * PI / count as f64;
     let of = |[x, y, _]: [f64; 3]| {
@@ -20,7 +20,7 @@ pub(super) fn sectors(surface: &Surface, count: usize, bin: f64) -> ([f64; 2], P
 }
 
 /// Away from the wall: where that and the middle are, and the profile of each lane with its place across [m].
-pub(super) fn lanes(surface: &Surface, count: usize, bin: f64) -> ([f64; 2], Profiles) {
+pub(super) fn lanes(surface: &HeapSurface, count: usize, bin: f64) -> ([f64; 2], Profiles) {
     let (low, rays) = surface.grid;
     let width = rays[1] as f64 * surface.step / count as f64;
     let of = |[x, y, _]: [f64; 3]| ((((y - low[1]) / width) as usize).min(count - 1), x - low[0]);
@@ -30,7 +30,7 @@ pub(super) fn lanes(surface: &Surface, count: usize, bin: f64) -> ([f64; 2], Pro
 
 /// Median heights of the bins of each part; `of` gives a point's part and distance.
 fn profiles(
-    surface: &Surface,
+    surface: &HeapSurface,
     count: usize,
     bin: f64,
     of: impl Fn([f64; 3]) -> (usize, f64),

@@ -31,7 +31,7 @@ impl Frame3 {
 
 /// Heights over a grid.
 #[derive(Debug, Clone)]
-pub struct Surface {
+pub struct HeapSurface {
     /// Level places of the rays (along u and v) and heights [m]; only rays that meet a grain.
     pub points: Vec<[f64; 3]>,
     /// Height of the ground [m]: below 99 % of the lowest points of grains.
@@ -42,9 +42,9 @@ pub struct Surface {
     pub grid: ([f64; 2], [usize; 2]),
 }
 
-impl Surface {
+impl HeapSurface {
     /// The surface of a frame that holds grains.
-    pub fn new(frame: &Frame, axes: &Frame3, ground: Option<f64>) -> Surface {
+    pub fn new(frame: &Frame, axes: &Frame3, ground: Option<f64>) -> HeapSurface {
         let place = |p: &Vec3| [p.dot(&axes.u), p.dot(&axes.v), p.dot(&axes.up)];
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for (p, r) in frame.position.iter().zip(&frame.radius) {
@@ -81,7 +81,7 @@ impl Surface {
         };
         let points = heights.iter().enumerate().filter(|(_, h)| h.is_finite()).map(at).collect();
         let ground = ground.unwrap_or_else(|| crate::statistics::quantile(&mut bottoms, 0.01));
-        Surface { points, ground, step, grid: (low, count) }
+        HeapSurface { points, ground, step, grid: (low, count) }
     }
 
     /// Level centre of what stands above half of the greatest height: where the top of a heap is.
