@@ -18,14 +18,14 @@ pub(crate) const OUTPUTS: [(&str, &str); 6] = [
 ];
 
 /// A file that the running tool will write.
-struct Named {
+struct OutputFile {
     flag: &'static str,
     path: PathBuf,
     /// Its one name.
     file: PathBuf,
 }
 
-static WRITTEN: OnceLock<Vec<Named>> = OnceLock::new();
+static WRITTEN: OnceLock<Vec<OutputFile>> = OnceLock::new();
 
 /// Refuses an output of the command line that is also one of its inputs, or another output.
 ///
@@ -51,13 +51,13 @@ pub fn also_reads(files: impl IntoIterator<Item = PathBuf>) -> anyhow::Result<()
     WRITTEN.get().map_or(Ok(()), |outputs| against(outputs, files))
 }
 
-fn against(outputs: &[Named], inputs: impl IntoIterator<Item = PathBuf>) -> anyhow::Result<()> {
+fn against(outputs: &[OutputFile], inputs: impl IntoIterator<Item = PathBuf>) -> anyhow::Result<()> {
     if outputs.is_empty() {
         return Ok(());
     }
     for input in inputs {
         let Some(file) = real(&input) else { continue };
-        if let Some(Named { flag, path, .. }) = outputs.iter().find(|output| output.file == file) {
+        if let Some(OutputFile { flag, path, .. }) = outputs.iter().find(|output| output.file == file) {
             let known = path.file_name() == input.file_name();
             let (path, input) = (path.display(), input.display());
             let also = if known { String::new() } else { format!(" ({input})") };
@@ -67,11 +67,11 @@ fn against(outputs: &[Named], inputs: impl IntoIterator<Item = PathBuf>) -> anyh
     Ok(())
 }
 
-fn outputs(matches: &ArgMatches) -> Vec<Named> {
+fn outputs(matches: &ArgMatches) -> Vec<OutputFile> {
     let named = |&(id, flag): &(&str, &'static str)| {
         let path = matches.try_get_one::<PathBuf>(id).ok().flatten()?.clone();
         let file = if flag == "-o" && path == Path::new("-") { None } else { written(&path) };
-        file.map(|file| Named { flag, path, file })
+        file.map(|file| OutputFile { flag, path, file })
     };
     OUTPUTS.iter().filter_map(named).collect()
 }

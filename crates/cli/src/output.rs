@@ -2,7 +2,7 @@
 
 use crate::{
     exit::usage,
-    part::{Keep, Part},
+    part::{Keep, PartFile},
     signals,
 };
 use anyhow::Context;
@@ -82,7 +82,7 @@ impl Output {
     /// As [`Output::open`].
     pub fn open_long(&self) -> anyhow::Result<OutputStream> {
         match self.path() {
-            Some(path) => OutputStream::beside(path, Part::plain),
+            Some(path) => OutputStream::beside(path, PartFile::plain),
             None => self.open(),
         }
     }
@@ -148,7 +148,7 @@ enum Sink {
     /// Stdout, a device or a named pipe: bytes go out as they are written.
     Direct(File),
     /// Beside the final name.
-    Pending { part: Part, path: PathBuf },
+    Pending { part: PartFile, path: PathBuf },
 }
 
 impl OutputStream {
@@ -172,10 +172,10 @@ impl OutputStream {
     /// # Errors
     /// A folder that is missing or cannot be written to.
     pub fn file(path: &Path) -> anyhow::Result<OutputStream> {
-        OutputStream::beside(path, Part::hidden)
+        OutputStream::beside(path, PartFile::hidden)
     }
 
-    fn beside(path: &Path, part: fn(&Path, &str) -> io::Result<Part>) -> anyhow::Result<OutputStream> {
+    fn beside(path: &Path, part: fn(&Path, &str) -> io::Result<PartFile>) -> anyhow::Result<OutputStream> {
         let name = path.display().to_string();
         let failed = || format!("{name}: cannot create it (is the folder there, and may you write to it?)");
         // A link stays a link: its target is replaced. Devices and named pipes are written to, not replaced.

@@ -38,22 +38,22 @@ impl Keep {
 
 /// An unfinished output: removed on drop, also while a panic unwinds, unless it is to be kept.
 #[derive(Debug)]
-pub(crate) struct Part {
+pub(crate) struct PartFile {
     /// `None` once it has its name.
     temp: Option<NamedTempFile>,
     keep: Keep,
 }
 
-impl Part {
+impl PartFile {
     /// A hidden file of a name that no other has.
-    pub(crate) fn hidden(folder: &Path, stem: &str) -> io::Result<Part> {
+    pub(crate) fn hidden(folder: &Path, stem: &str) -> io::Result<PartFile> {
         let prefix = format!(".{stem}.");
         let temp = builder().prefix(&prefix).suffix(".part").tempfile_in(folder)?;
-        Ok(Part { temp: Some(temp), keep: Keep::default() })
+        Ok(PartFile { temp: Some(temp), keep: Keep::default() })
     }
 
     /// `NAME.part`, or `NAME.2.part` and so on when there are parts already.
-    pub(crate) fn plain(folder: &Path, stem: &str) -> io::Result<Part> {
+    pub(crate) fn plain(folder: &Path, stem: &str) -> io::Result<PartFile> {
         for number in 1..=MOST {
             match builder().rand_bytes(0).prefix(&name(stem, number)).tempfile_in(folder) {
                 Err(e) if e.kind() == io::ErrorKind::AlreadyExists => {}
@@ -61,7 +61,7 @@ impl Part {
                     let temp = other?;
                     // Where a file system has no locks, a living part looks like one that was left: no more than a warning.
                     let _ = temp.as_file().try_lock();
-                    return Ok(Part { temp: Some(temp), keep: Keep::default() });
+                    return Ok(PartFile { temp: Some(temp), keep: Keep::default() });
                 }
             }
         }
@@ -95,7 +95,7 @@ impl Part {
     }
 }
 
-impl Drop for Part {
+impl Drop for PartFile {
     fn drop(&mut self) {
         if let Some(temp) = &mut self.temp {
             temp.disable_cleanup(self.keep.kept());

@@ -1,7 +1,7 @@
 //! Ctrl-C, termination and a lost terminal: unfinished files that are not worth keeping are removed, then the signal does what it always
 //! does. A tool that asked for it gets the signal first and may end in order; a second signal ends it at once.
 
-use crate::part::{Keep, Part};
+use crate::part::{Keep, PartFile};
 use signal_hook::{
     consts::{SIGHUP, SIGINT, SIGTERM, TERM_SIGNALS},
     iterator::Signals,
@@ -36,7 +36,7 @@ pub fn stop_requested() -> bool {
 
 /// Creates a file that is removed when a signal ends the process. Once renamed, it is no longer there to be
 /// removed. A signal that arrives during the creation waits for it.
-pub(crate) fn removed_on_signal(create: impl FnOnce() -> io::Result<Part>) -> io::Result<Part> {
+pub(crate) fn removed_on_signal(create: impl FnOnce() -> io::Result<PartFile>) -> io::Result<PartFile> {
     LISTEN.call_once(listen);
     let mut unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
     let part = create()?;
