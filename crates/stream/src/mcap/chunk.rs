@@ -8,7 +8,7 @@ use std::{
 
 /// Why a chunk is not believed.
 #[derive(Debug)]
-pub(super) enum Wrong {
+pub(super) enum ChunkError {
     Crc,
     Length,
     Records,
@@ -24,55 +24,55 @@ const FREE: u64 = 64 << 20;
 /// See [`FREE`].
 const RATIO: u64 = 2048;
 
-impl Wrong {
+impl ChunkError {
     pub fn text(&self) -> &'static str {
         match self {
-            Wrong::Crc => "the CRC of a chunk does not match: bytes were changed",
-            Wrong::Length => "a chunk is not as long as its header says",
-            Wrong::Records => "a record reaches over the end of its chunk",
-            Wrong::Compression => "a chunk is packed in a way that is not known (known: none, zstd, lz4)",
-            Wrong::Unpack => "a chunk cannot be unpacked: bytes were changed",
-            Wrong::Large => "a chunk claims to hold thousands of times its own size",
-            Wrong::Text => "a text reaches over the end of its record",
+            ChunkError::Crc => "the CRC of a chunk does not match: bytes were changed",
+            ChunkError::Length => "a chunk is not as long as its header says",
+            ChunkError::Records => "a record reaches over the end of its chunk",
+            ChunkError::Compression => "a chunk is packed in a way that is not known (known: none, zstd, lz4)",
+            ChunkError::Unpack => "a chunk cannot be unpacked: bytes were changed",
+            ChunkError::Large => "a chunk claims to hold thousands of times its own size",
+            ChunkError::Text => "a text reaches over the end of its record",
         }
     }
 }
 
 /// The records of a chunk, unpacked. Memory follows the packed bytes, not the size that the header claims.
-pub(super) fn unpack<'a>(header: &ChunkHeader, data: &'a [u8]) -> Result<Cow<'a, [u8]>, Wrong> {
+pub(super) fn unpack<'a>(header: &ChunkHeader, data: &'a [u8]) -> Result<Cow<'a, [u8]>, ChunkError> {
     if header.uncompressed_size > FREE && header.uncompressed_size / RATIO > data.len() as u64 {
-        return Err(Wrong::Large);
+        return Err(ChunkError::Large);
     }
     let records = match header.compression.as_str() {
         "" => Cow::Borrowed(data),
         "zstd" => Cow::Owned(read(zstd::stream::read::Decoder::new(data), header)?),
         "lz4" => Cow::Owned(read(lz4::Decoder::new(data), header)?),
-        _ => return Err(Wrong::Compression),
+        _ => return Err(ChunkError::Compression),
     };
     if records.len() as u64 != header.uncompressed_size {
-        return Err(Wrong::Length);
+        return Err(ChunkError::Length);
     }
     // A CRC of 0 means that the writer took none.
     if header.uncompressed_crc != 0 && crc32fast::hash(&records) != header.uncompressed_crc {
-        return Err(Wrong::Crc);
+        return Err(ChunkError::Crc);
     }
     Ok(records)
 }
 
-fn read(decoder: io::Result<impl Read>, header: &ChunkHeader) -> Result<Vec<u8>, Wrong> {
+fn read(decoder: io::Result<impl Read>, header: &ChunkHeader) -> Result<Vec<u8>, ChunkError> {
     let mut records = Vec::new();
-    let decoder = decoder.map_err(|_| Wrong::Unpack)?;
+    let decoder = decoder.map_err(|_| ChunkError::Unpack)?;
     let limit = header.uncompressed_size.saturating_add(1);
-    decoder.take(limit).read_to_end(&mut records).map_err(|_| Wrong::Unpack)?;
+    decoder.take(limit).read_to_end(&mut records).map_err(|_| ChunkError::Unpack)?;
     Ok(records)
 }
 
 /// Cuts the next record off: its opcode and its body.
-pub(super) fn next_record<'a>(records: &mut &'a [u8]) -> Result<(u8, &'a [u8]), Wrong> {
-    let (head, rest) = records.split_first_chunk::<9>().ok_or(Wrong::Records)?;
+pub(super) fn next_record<'a>(records: &mut &'a [u8]) -> Result<(u8, &'a [u8]), ChunkError> {
+    let (head, rest) = records.split_first_chunk::<9>().ok_or(ChunkError::Records)?;
     let [opcode, length @ ..] = *head;
-    let length = usize::try_from(u64::from_le_bytes(length)).map_err(|_| Wrong::Records)?;
-    let (body, rest) = rest.split_at_checked(length).ok_or(Wrong::Records)?;
+    let length = usize::try_from(u64::from_le_bytes(length)).map_err(|_| ChunkError::Records)?;
+    let (body, rest) = rest.split_at_checked(length).ok_or(ChunkError::Records)?;
     *records = rest;
     Ok((opcode, body))
 }

@@ -10,7 +10,7 @@ pub type Seeks<W> = fn(&mut W, SeekFrom) -> io::Result<u64>;
 
 /// An output that may be sought in, as far back as it was last flushed: the head of a chunk tells its length and its checksum. A pipe takes no byte
 /// twice, so that what goes there waits in memory; a file is changed where it is.
-pub(super) struct Held<W> {
+pub(super) struct SeekBuffer<W> {
     out: W,
     seeks: Option<Seeks<W>>,
     held: Vec<u8>,
@@ -20,9 +20,9 @@ pub(super) struct Held<W> {
     at: usize,
 }
 
-impl<W: Write> Held<W> {
-    pub fn new(out: W, seeks: Option<Seeks<W>>) -> Held<W> {
-        Held { out, seeks, held: Vec::new(), sent: 0, at: 0 }
+impl<W: Write> SeekBuffer<W> {
+    pub fn new(out: W, seeks: Option<Seeks<W>>) -> SeekBuffer<W> {
+        SeekBuffer { out, seeks, held: Vec::new(), sent: 0, at: 0 }
     }
 
     /// The output, without what was not flushed.
@@ -31,7 +31,7 @@ impl<W: Write> Held<W> {
     }
 }
 
-impl<W: Write> Write for Held<W> {
+impl<W: Write> Write for SeekBuffer<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         if self.seeks.is_some() {
             return self.out.write(bytes);
@@ -55,7 +55,7 @@ impl<W: Write> Write for Held<W> {
     }
 }
 
-impl<W> Seek for Held<W> {
+impl<W> Seek for SeekBuffer<W> {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
         if let Some(seek) = self.seeks {
             return seek(&mut self.out, to);
@@ -79,7 +79,7 @@ mod tests {
 
     #[test]
     fn what_is_held_may_be_changed_and_what_was_sent_on_may_not() {
-        let mut held = Held::new(Vec::new(), None);
+        let mut held = SeekBuffer::new(Vec::new(), None);
         held.write_all(b"first").unwrap();
         held.flush().unwrap();
         held.write_all(b"----, then more").unwrap();
@@ -97,7 +97,7 @@ mod tests {
     /// Several times the largest frame would lie idle between two frames.
     #[test]
     fn no_memory_of_a_large_chunk_is_kept() {
-        let mut held = Held::new(io::sink(), None);
+        let mut held = SeekBuffer::new(io::sink(), None);
         held.write_all(&vec![1; 3 * KEPT]).unwrap();
         held.flush().unwrap();
         assert!(held.held.capacity() <= KEPT);

@@ -1,10 +1,10 @@
 //! Lengths that a record claims for its texts, checked against the record itself before anybody makes room for them.
 
-use super::chunk::Wrong;
+use super::chunk::ChunkError;
 use ::mcap::records::op;
 
 /// Refuses a record with a text that is longer than what is left of the record.
-pub(super) fn check(opcode: u8, body: &[u8]) -> Result<(), Wrong> {
+pub(super) fn check(opcode: u8, body: &[u8]) -> Result<(), ChunkError> {
     let mut rest = body;
     let whole = match opcode {
         op::SCHEMA => skip(&mut rest, 2).and(texts(&mut rest, 3)),
@@ -13,7 +13,7 @@ pub(super) fn check(opcode: u8, body: &[u8]) -> Result<(), Wrong> {
         op::CHUNK => skip(&mut rest, 28).and(texts(&mut rest, 1)),
         _ => Some(()),
     };
-    whole.ok_or(Wrong::Text)
+    whole.ok_or(ChunkError::Text)
 }
 
 fn skip(rest: &mut &[u8], count: usize) -> Option<()> {

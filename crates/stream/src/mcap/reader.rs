@@ -151,7 +151,7 @@ impl<R: Read> Reader<R> {
         else {
             return Ok(());
         };
-        let wrong = |w: chunk::Wrong| self.malformed(w.text());
+        let wrong = |w: chunk::ChunkError| self.malformed(w.text());
         let records = chunk::unpack(&header, &data).map_err(wrong)?;
         let mut rest = &records[..];
         while !rest.is_empty() {

@@ -1,6 +1,6 @@
 //! Writes a stream that is whole only when it was finished.
 
-use super::held::{Held, KEPT, Seeks};
+use super::held::{SeekBuffer, KEPT, Seeks};
 use super::{END_OF_STREAM, McapError, PROVENANCE, Provenance, points};
 use crate::{Rows, Table};
 use ::mcap::{WriteOptions, records};
@@ -41,7 +41,7 @@ impl<W> From<Compression> for How<W> {
 ///
 /// Dropping it without [`Writer::finish`] leaves a stream that every reader refuses as truncated.
 pub struct Writer<W: Write> {
-    inner: Option<::mcap::Writer<Held<W>>>,
+    inner: Option<::mcap::Writer<SeekBuffer<W>>>,
     /// Id and next sequence number, by schema or encoding and topic.
     channels: BTreeMap<String, (u16, u32)>,
     /// Memory of the last message, used again unless it was large.
@@ -80,7 +80,7 @@ impl<W: Write> Writer<W> {
             // With threads, bytes would depend on their number.
             .compression_threads(0)
             .chunk_size(None);
-        let inner = options.create(Held::new(out, seeks)).map_err(McapError::writing)?;
+        let inner = options.create(SeekBuffer::new(out, seeks)).map_err(McapError::writing)?;
         let mut writer = Writer {
             inner: Some(inner),
             channels: BTreeMap::new(),
@@ -92,7 +92,7 @@ impl<W: Write> Writer<W> {
         Ok(writer)
     }
 
-    fn inner(&mut self) -> Result<&mut ::mcap::Writer<Held<W>>, McapError> {
+    fn inner(&mut self) -> Result<&mut ::mcap::Writer<SeekBuffer<W>>, McapError> {
         // Only `finish`, which takes the writer away, empties it.
         self.inner.as_mut().ok_or_else(|| McapError::Io(std::io::ErrorKind::NotConnected.into()))
     }

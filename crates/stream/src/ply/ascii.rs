@@ -30,7 +30,7 @@ fn rows(element: &ElementHeader, lines: &mut Lines) -> Result<Element, PlyError>
             return Err(PlyError::Truncated { element, rows, row, byte });
         };
         let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
-        let place = Place { element, row, line: lines.number };
+        let place = NumberPlace { element, row, line: lines.number };
         for (property, (values, ends)) in element.properties.iter().zip(&mut columns) {
             let count = if property.count.is_some() { place.count(property, words.next())? } else { 1 };
             for _ in 0..count {
@@ -50,13 +50,13 @@ fn rows(element: &ElementHeader, lines: &mut Lines) -> Result<Element, PlyError>
 }
 
 /// Where a number stands, for messages.
-struct Place<'a> {
+struct NumberPlace<'a> {
     element: &'a ElementHeader,
     row: u64,
     line: usize,
 }
 
-impl Place<'_> {
+impl NumberPlace<'_> {
     /// Parses a word into the end of `values`.
     fn number(&self, property: &Property, word: Option<&[u8]>, values: &mut Values) -> Result<(), PlyError> {
         let text = word.and_then(|word| std::str::from_utf8(word).ok());
