@@ -1,4 +1,4 @@
-//! Outputs that would replace what the same call reads, or each other.
+//! Refuses outputs that would replace an input of the same call, or each other.
 
 use crate::{Source, exit::usage};
 use clap::{Arg, ArgMatches, Command};

@@ -1,4 +1,4 @@
-//! Unfinished outputs: files beside the name that they will get.
+//! Unfinished outputs: files beside their final name.
 //!
 //! Most tools write to a hidden file, which is removed if the tool fails. What a long run has
 //! written is worth keeping: `NAME.part` is in plain sight, and stays when the run is killed or fails after a while. A

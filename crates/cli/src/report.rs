@@ -1,4 +1,4 @@
-//! What a tool did: a line for the reader, fields for `--report`.
+//! The report of a tool: one summary line, and fields for `--report`.
 
 use serde::Serialize;
 use serde_json::{Map, Value};

@@ -1,4 +1,4 @@
-//! The one way a tool starts and ends.
+//! How every tool starts and ends.
 
 use crate::{
     Report, Source, Stopped,

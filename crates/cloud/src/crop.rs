@@ -3,7 +3,7 @@
 //! A point stays when it is in some `keep` (or none is given) and in no `remove`; of those, what lies beyond the outer shape,
 //! isolated points and small parts go when asked.
 
-use crate::outer::{self, Outside, Outer};
+use crate::outer::{self, Outer, Outside};
 use crate::points::{TooFar, check_reach};
 use crate::regions::{Action, Region};
 use crate::{Cloud, largest, outliers};

@@ -1,6 +1,6 @@
-//! Crop of a plain binary PLY as its rows come: shapes judge each point by itself, so that only the rows that stay are kept, as they are.
+//! Crop of a plain binary PLY row by row: shapes test each point separately, so only the kept rows are held, unchanged.
 
-use crate::crop::{Cropped, ShapeTest, Rules};
+use crate::crop::{Cropped, Rules, ShapeTest};
 use crate::formats::ReadError;
 use crate::units::{self, UnitWarning};
 use geom::Vec3;

@@ -1,4 +1,4 @@
-//! The surface at a coarse scale: one place a cell, its normal, and where the surface ends.
+//! The surface at a coarse scale: one position per cell, its normal, and where the surface ends.
 
 use crate::surrounded::surrounded;
 use geom::{Cells, Vec3};

@@ -1,4 +1,4 @@
-//! Which places are surely inside the surface: their neighbours leave no gap of 100° around them.
+//! Which positions are certainly inside the surface: their neighbours leave no gap of 100° around them.
 //!
 //! ```text
 //! t = 1 − x/(|x| + |y|) above,  3 + x/(|x| + |y|) below       turns with the angle, from 0 to 4; 1 ≤ dφ/dt ≤ 2

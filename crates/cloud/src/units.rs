@@ -1,4 +1,4 @@
-//! Units of a scan: what looks like millimetres, and coordinates that their numbers are too short for.
+//! Units of a scan: warns of coordinates that look like millimetres, and of coordinates with too few digits.
 
 use crate::Cloud;
 use geom::Vec3;

@@ -1,4 +1,4 @@
-//! The settings that nothing beats, and the fastest that is good enough.
+//! The Pareto front of settings, and the fastest setting that is good enough.
 
 use crate::point::Error;
 

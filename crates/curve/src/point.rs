@@ -1,4 +1,4 @@
-//! A setting, what was seen of it, and how wrong it is.
+//! A setting, its measurements and its error.
 
 use measure::statistics::median;
 

@@ -1,4 +1,4 @@
-//! Numbers in plain words, made of them and of nothing else.
+//! Numbers in plain words.
 
 use crate::point::{Error, Point};
 use geom::Shown;

@@ -1,4 +1,4 @@
-//! A tree of boxes: which of many bodies of any size may be near a place.
+//! A tree of boxes: which of many bodies of any size may be near a position.
 //!
 //! Bodies are halved at the median of their centres along the longest side, down to a few of them; a node is the box of
 //! all below it. The tree is a function of the boxes and their order alone.

@@ -1,4 +1,4 @@
-//! The cell grid: finds points near a place. The only neighbour search with a fixed radius in the project.
+//! The cell grid: finds points near a position. It is the only neighbour search with a fixed radius in the project.
 //!
 //! Points are sorted by cell, x fastest, so that the points of neighbouring cells along x are one
 //! contiguous run, and within a cell by their index, so that the order depends on nothing else. Where all neighbours shall lie

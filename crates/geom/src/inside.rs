@@ -1,4 +1,4 @@
-//! Inside of a closed mesh, for many places: faces crossed by a ray, parity decides.
+//! Whether many positions are inside a closed mesh: by the parity of the faces that a ray crosses.
 
 use crate::Vec3;
 use crate::mesh::{MeshError, TriMesh};

@@ -1,4 +1,4 @@
-//! Geometry that every other crate stands on: vectors, the cell grid, shapes, planes, triangle meshes.
+//! Geometry for all other crates: vectors, the cell grid, shapes, planes, triangle meshes.
 
 mod boxes;
 pub mod cells;

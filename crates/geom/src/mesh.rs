@@ -1,4 +1,4 @@
-//! Triangle meshes: area, volume, nearest point, and whether a place is inside.
+//! Triangle meshes: area, volume, nearest point, and whether a position is inside.
 
 use crate::Vec3;
 use std::collections::HashMap;

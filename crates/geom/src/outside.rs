@@ -1,4 +1,4 @@
-//! How far outside of a solid a place is.
+//! How far a position is outside a solid.
 
 use crate::Vec3;
 use crate::shape::Solid;

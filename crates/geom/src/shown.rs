@@ -1,4 +1,4 @@
-//! Computed numbers as people read them.
+//! Computed numbers, rounded for messages.
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! The point of a triangle nearest to a place.
+//! The point of a triangle nearest to a position.
 
 use crate::Vec3;
 

@@ -1,4 +1,4 @@
-//! What cannot be measured, and what to do about it.
+//! Errors: what cannot be measured, and the remedy.
 
 use geom::Shown;
 use thiserror::Error;

@@ -1,4 +1,4 @@
-//! Impacts: how long a contact lasts, how deep it gets, and how fast what met parts again.
+//! Impacts: duration, deepest overlap and restitution of a contact.
 //!
 //! ```text
 //! δ(t) = δ_k − n·(u(t) − u_k)      u = x_i − x_j (of a wall at rest, x_i); δ_k the recorded overlap, n its normal

@@ -1,4 +1,4 @@
-//! What all measurements of a run have in common: they see it as it comes and give rows.
+//! What all measures of a run share: they read it event by event and return rows.
 
 use crate::{Chart, Frame, Head, MeasureError, Row, Run, Seen, Summary};
 

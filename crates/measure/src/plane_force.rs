@@ -1,4 +1,4 @@
-//! Force that grains on one side of a plane exert on those on the other, over time.
+//! Force of the grains on one side of a plane on those on the other side, over time.
 //!
 //! ```text
 //! F = Σ F_b        over contacts of a grain a before the plane with a grain b behind it (n·(x_a − p) < 0 ≤ n·(x_b − p))

@@ -84,7 +84,10 @@ fn counted(solid: &Solid, centre: &Vec3, radius: f64) -> PartialVolume {
         OUTER => exact(whole),
         _ => {
             let share = count(inner) as f64 / INNER as f64;
-            PartialVolume { volume: whole * share, error: whole * (share * (1.0 - share) / INNER as f64).sqrt() }
+            PartialVolume {
+                volume: whole * share,
+                error: whole * (share * (1.0 - share) / INNER as f64).sqrt(),
+            }
         }
     }
 }

@@ -1,4 +1,4 @@
-//! A run as it comes, event by event: what it says of itself, and what can be measured.
+//! A run, event by event: its metadata and its data.
 
 use crate::frame::{Contacts, Frame, Passage};
 use crate::{MeasureError, table::Columns};

@@ -1,4 +1,4 @@
-//! Results as rows of numbers under named columns with units, and in sum; and what to draw of them.
+//! Results: rows of numbers under named columns with units, a summary, and what to plot.
 
 /// Name and unit of a column or of a result.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,4 +1,4 @@
-//! Wavefront OBJ: the lines `v` and `f`; normals, textures and materials are passed over.
+//! Wavefront OBJ: the lines `v` and `f`; normals, textures and materials are ignored.
 
 use crate::{MeshFileError, lines};
 use geom::{Vec3, mesh::TriMesh};

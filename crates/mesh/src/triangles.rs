@@ -1,4 +1,4 @@
-//! Text with a triangle a line: nine numbers, the corners [m]. Benchmarks of particle codes give their walls so.
+//! Text with one triangle per line: nine numbers, the corners [m]. Benchmarks of particle codes use it for walls.
 
 use crate::{MeshFileError, lines};
 use geom::{Vec3, mesh::TriMesh};

@@ -1,4 +1,4 @@
-//! Finds the spacing that leaves the count, or the density, that was asked for.
+//! Finds the spacing that gives the requested count or density.
 
 use crate::beside::{Thrown, complete};
 use crate::cells::Cells;
@@ -32,7 +32,13 @@ pub(crate) fn sample_of(
             let kept = tiled(points, cells, spacing, settings.seed, forced);
             complete(cells, spacing, settings.seed, kept, settings.distance)
         }
-        _ => complete(cells, spacing, settings.seed, poisson(cells, spacing, settings.seed, forced), settings.distance),
+        _ => complete(
+            cells,
+            spacing,
+            settings.seed,
+            poisson(cells, spacing, settings.seed, forced),
+            settings.distance,
+        ),
     };
     match settings.amount {
         Amount::Spacing(spacing) => Ok(Sample::of(throw(&Cells::new(points, spacing), spacing), spacing, 1)),

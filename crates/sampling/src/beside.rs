@@ -1,4 +1,4 @@
-//! Second pass of a Poisson-disk sample: what a kept point covers through the air, on another sheet, is opened again.
+//! Second pass of a Poisson-disk sample: points that a kept point covers through the air, on another sheet, are opened again.
 //!
 //! The first pass thins in space. Where its disks reach onto another sheet (see `sheets`), the points there that no disk of
 //! their own sheet covers are thrown again, in random order, each against its own sheet. A cloud that is one sheet

@@ -139,7 +139,11 @@ pub enum SampleError {
 ///
 /// # Errors
 /// No points, coordinates that are not finite, an amount that cannot be met.
-pub fn sample(points: &[Vec3], forced: Option<&[bool]>, settings: &SampleSettings) -> Result<Sample, SampleError> {
+pub fn sample(
+    points: &[Vec3],
+    forced: Option<&[bool]>,
+    settings: &SampleSettings,
+) -> Result<Sample, SampleError> {
     check(points, forced, settings)?;
     match settings.method {
         Method::Poisson | Method::Tile | Method::Grid => amount::sample_of(points, forced, settings),

@@ -12,7 +12,11 @@ use rayon::prelude::*;
 
 const ROUNDS: usize = 8;
 
-pub(crate) fn relax(points: &[Vec3], forced: Option<&[bool]>, settings: &SampleSettings) -> Result<Sample, SampleError> {
+pub(crate) fn relax(
+    points: &[Vec3],
+    forced: Option<&[bool]>,
+    settings: &SampleSettings,
+) -> Result<Sample, SampleError> {
     let mut sample = amount::sample_of(points, forced, settings)?;
     let cells = Cells::new(points, sample.spacing);
     let mut weight = vec![0.0; points.len()];

@@ -122,9 +122,11 @@ const GOLDEN: [(usize, u64); 4] = [
 fn counts_are_met() {
     let points = sheet(20_000, 8);
     for count in [1, 2, 10, 100, 1000, 5000, 15_000, 20_000] {
-        let kept = sample(&points, None, &settings(Amount::Count(count), Method::Poisson)).unwrap().kept.len();
+        let kept =
+            sample(&points, None, &settings(Amount::Count(count), Method::Poisson)).unwrap().kept.len();
         assert!(kept.abs_diff(count) <= (count / 100).max(1), "{kept} for {count}");
-        let exact = sample(&points, None, &settings(Amount::Count(count), Method::Eliminate)).unwrap().kept.len();
+        let exact =
+            sample(&points, None, &settings(Amount::Count(count), Method::Eliminate)).unwrap().kept.len();
         assert_eq!(exact, count);
     }
 }
@@ -234,7 +236,8 @@ fn both_sides_of_a_thin_plate_are_sampled_as_if_each_were_alone() {
             let nearest = sampling::nearest_distances(&pick(&points, &flat)).unwrap();
             let least = if method == Method::Eliminate { 0.6 } else { 0.97 };
             assert!(nearest.min > least * spacing && nearest.variation < 0.16, "{on}: {nearest:?}");
-            let air = SampleSettings { distance: Distance::Space, ..settings(Amount::Spacing(spacing), method) };
+            let air =
+                SampleSettings { distance: Distance::Space, ..settings(Amount::Spacing(spacing), method) };
             let through = sample(&points, None, &air).unwrap();
             assert!(
                 through.kept.len() < made.kept.len() * 17 / 20 && through.beside == 0,
@@ -263,7 +266,8 @@ fn a_sharp_edge_thins_across_itself() {
         let points = edge(150_000, degrees.to_radians());
         let on_surface = settings(Amount::Spacing(0.04), Method::Poisson);
         let made = sample(&points, None, &on_surface).unwrap();
-        let space = sample(&points, None, &SampleSettings { distance: Distance::Space, ..on_surface }).unwrap();
+        let space =
+            sample(&points, None, &SampleSettings { distance: Distance::Space, ..on_surface }).unwrap();
         assert!(made.beside <= 2, "{degrees}°: {} beside of {}", made.beside, made.kept.len());
         assert!(made.kept.len() - space.kept.len() <= 2);
     }
@@ -280,7 +284,8 @@ fn a_noisy_sheet_is_one_sheet() {
         let points: Vec<Vec3> = noise.iter().map(|n| Vec3::new(next(), next(), 0.0) + n).collect();
         let on_surface = settings(Amount::Spacing(0.06), Method::Poisson);
         let made = sample(&points, None, &on_surface).unwrap();
-        let space = sample(&points, None, &SampleSettings { distance: Distance::Space, ..on_surface }).unwrap();
+        let space =
+            sample(&points, None, &SampleSettings { distance: Distance::Space, ..on_surface }).unwrap();
         let (kept, more) = (made.kept.len(), made.kept.len().abs_diff(space.kept.len()));
         assert!(space.kept.len() > 150, "{}", space.kept.len());
         assert!(

@@ -1,4 +1,4 @@
-//! Where the eye stands: by name, by two angles, or by coordinates.
+//! The camera: by name, by two angles, or by coordinates.
 //!
 //! ```text
 //! towards the eye = (cos e cos a, cos e sin a, sin e)      a azimuth from x towards y, e elevation above x, y

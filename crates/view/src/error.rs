@@ -1,4 +1,4 @@
-//! What cannot be shown, and why.
+//! Errors: what cannot be shown, and why.
 
 use thiserror::Error;
 

@@ -1,4 +1,4 @@
-//! Places and sizes out of a table, checked.
+//! Positions and radii from a table, checked.
 
 use crate::{ViewError, scale::Range};
 use geom::Vec3;

@@ -1,10 +1,12 @@
-//! Puts a wall together: neighbours, radii, placement, leak check.
+//! Builds a wall: neighbours, radii, placement, leak check.
 
 use crate::pairs::{FURTHEST, Pairs, REACH, pairs};
 use crate::sheets::{self, Sheets};
 use crate::solve::{Changed, Changes};
 use crate::star::{SQUARE, Stars, stars};
-use crate::{Placement, Radius, Regions, Representative, WallError, WallSettings, equation, leak, normals, solve};
+use crate::{
+    Placement, Radius, Regions, Representative, WallError, WallSettings, equation, leak, normals, solve,
+};
 use geom::{Shown, Vec3};
 use sampling::cells::Cells;
 use serde::Serialize;
@@ -63,7 +65,11 @@ pub struct WallReport {
 ///
 /// # Errors
 /// Points or settings that make no wall; see [`WallError`].
-pub fn build(points: &[Vec3], regions: &Regions, settings: &WallSettings) -> Result<(Wall, WallReport), WallError> {
+pub fn build(
+    points: &[Vec3],
+    regions: &Regions,
+    settings: &WallSettings,
+) -> Result<(Wall, WallReport), WallError> {
     check(points, settings)?;
     let typical = sampling::nearest::typical(points).ok_or(WallError::OnePlace(points.len()))?;
     // From here to the end points go by their place in the cells' order: neighbours lie side by side in memory.
@@ -73,7 +79,8 @@ pub fn build(points: &[Vec3], regions: &Regions, settings: &WallSettings) -> Res
     if found.pairs.is_empty() {
         return Err(WallError::NoPairs { reach: FURTHEST * typical });
     }
-    let wants_stars = settings.placement == Placement::Surface || settings.smallest_particle.is_some() || settings.gaps;
+    let wants_stars =
+        settings.placement == Placement::Surface || settings.smallest_particle.is_some() || settings.gaps;
     let stars = if wants_stars { stars(&cells, typical) } else { Stars::default() };
     let region_of = regions.of(&cells.points);
     let spacing = representative(&found.lengths, settings.representative);

@@ -112,7 +112,9 @@ fn neighbours(cells: &Cells, place: u32, reach: f64, work: &mut StarScratch) {
     }
     found.sort_unstable();
     near.clear();
-    near.extend(found.iter().map(|&(_, index)| Neighbour { index, to: cells.points[index as usize] - centre }));
+    near.extend(
+        found.iter().map(|&(_, index)| Neighbour { index, to: cells.points[index as usize] - centre }),
+    );
 }
 
 /// Two axes and the normal of the plane of least squares through the point and those nearest to it.

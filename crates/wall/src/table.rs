@@ -1,4 +1,4 @@
-//! The wall's columns: x y z radius, material, and what else there is to say.
+//! The wall's columns: x y z radius, material, and further attributes.
 
 use crate::{Regions, Wall, WallError};
 use stream::{Table, Values};

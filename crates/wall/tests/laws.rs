@@ -197,10 +197,12 @@ fn spheres_much_smaller_than_the_particles_are_warned_of() {
 
 #[test]
 fn placed_on_the_surface_spheres_touch_the_points_from_behind() {
-    let settings = WallSettings { placement: Placement::Surface, facing: Some(Vec3::z()), ..with(Radius::Uniform) };
+    let settings =
+        WallSettings { placement: Placement::Surface, facing: Some(Vec3::z()), ..with(Radius::Uniform) };
     let (wall, _) = build(&lattice(9, 0.01), &everywhere(0.001), &settings).unwrap();
     assert!(wall.centres.iter().zip(&wall.radii).all(|(c, r)| (c.z + r).abs() < 1e-12));
-    let error = build(&lattice(9, 0.01), &everywhere(0.001), &WallSettings { facing: None, ..settings }).unwrap_err();
+    let error =
+        build(&lattice(9, 0.01), &everywhere(0.001), &WallSettings { facing: None, ..settings }).unwrap_err();
     assert!(matches!(error, WallError::NoFacing));
 }
 
@@ -212,7 +214,8 @@ fn the_flow_side_of_a_half_pipe_is_its_inside_also_past_the_vertical() {
             Vec3::new(0.03 * (i / 60) as f64, 0.45 * libm::sin(angle), -0.45 * libm::cos(angle))
         })
         .collect();
-    let settings = WallSettings { placement: Placement::Surface, facing: Some(Vec3::z()), ..with(Radius::Given(0.03)) };
+    let settings =
+        WallSettings { placement: Placement::Surface, facing: Some(Vec3::z()), ..with(Radius::Given(0.03)) };
     let (wall, _) = build(&points, &everywhere(0.001), &settings).unwrap();
     for c in &wall.centres {
         let off = (c.y * c.y + c.z * c.z).sqrt();

@@ -91,8 +91,8 @@ fn sampled(scan: Vec<Vec3>, method: Method, p: f64, area: f64, seed: u64) -> Vec
         Method::Grid => Amount::Spacing(p),
         _ => Amount::Count((area / (p * p)).round() as usize),
     };
-    let wish = sampling::SampleSettings { amount, method, distance: sampling::Distance::Surface, seed };
-    let kept = sampling::sample(&scan, None, &wish).expect("there is a scan").kept;
+    let settings = sampling::SampleSettings { amount, method, distance: sampling::Distance::Surface, seed };
+    let kept = sampling::sample(&scan, None, &settings).expect("there is a scan").kept;
     kept.iter().map(|&k| scan[k as usize]).collect()
 }
 
@@ -107,8 +107,12 @@ pub type Spheres = Vec<(Vec3, f64)>;
 pub fn spheres(points: &[Vec3], roughness: f64, smallest: f64) -> (Spheres, wall::WallReport) {
     let material = MaterialRecord { name: "wall".to_owned(), ..MaterialRecord::default() };
     let regions = Regions::one(Some(roughness), material, Vec3::zeros()).expect("positive");
-    let wish = Wish { radius: Radius::Uniform, smallest_particle: Some(smallest), ..Wish::default() };
-    let (wall, report) = wall::build(points, &regions, &wish).expect("a wall");
+    let settings = WallSettings {
+        radius: Radius::Uniform,
+        smallest_particle: Some(smallest),
+        ..WallSettings::default()
+    };
+    let (wall, report) = wall::build(points, &regions, &settings).expect("a wall");
     (wall.centres.into_iter().zip(wall.radii).collect(), report)
 }
 

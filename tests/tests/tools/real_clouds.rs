@@ -10,7 +10,7 @@ use record::MaterialRecord;
 use sampling::{Amount, Method, Wish as Sampling};
 use std::path::{Path, PathBuf};
 use wall::drawn::{Drawing, place};
-use wall::{Radius, Regions, Wish, build};
+use wall::{Radius, Regions, WallSettings, build};
 
 struct Chain {
     file: PathBuf,
@@ -54,16 +54,19 @@ fn goes_through(chain: &Chain) {
     let (low, high) = chain.added;
     assert!((low..=high).contains(&filled.report.added), "{name}: {} added", filled.report.added);
     let (amount, distance) = (Amount::Spacing(chain.spacing), sampling::Distance::default());
-    let wish = Sampling { amount, method: Method::Poisson, distance, seed: 0 };
-    let kept = sampling::sample(&filled.cloud.points, None, &wish).unwrap().kept;
+    let settings = Sampling { amount, method: Method::Poisson, distance, seed: 0 };
+    let kept = sampling::sample(&filled.cloud.points, None, &settings).unwrap().kept;
     let points: Vec<Vec3> = kept.iter().map(|&i| filled.cloud.points[i as usize]).collect();
     let nearest_ones = sampling::nearest_distances(&points).unwrap();
     assert!(nearest_ones.min >= chain.spacing * (1.0 - 1e-9), "{name}: {nearest_ones:?}");
     let (low, high) = chain.spheres;
     assert!((low..=high).contains(&points.len()), "{name}: {} spheres", points.len());
-    let wish =
-        Wish { radius: Radius::Uniform, smallest_particle: Some(2.0 * chain.spacing), ..Wish::default() };
-    let (wall, report) = build(&points, &regions(chain.zeta), &wish).unwrap();
+    let settings = WallSettings {
+        radius: Radius::Uniform,
+        smallest_particle: Some(2.0 * chain.spacing),
+        ..WallSettings::default()
+    };
+    let (wall, report) = build(&points, &regions(chain.zeta), &settings).unwrap();
     let ratio = report.spacing / chain.spacing;
     assert!((1.0..1.5).contains(&ratio), "{name}: neighbours {ratio} spacings apart");
     let (grid, radius) = (Grid::new(&wall.centres, 2.0 * chain.spacing), wall.radii[0]);
@@ -140,8 +143,8 @@ fn drawings_go_through() {
             "{file}: {:?}",
             drawn.report
         );
-        let wish = Wish { radius: Radius::Given(radius), ..Wish::default() };
-        let (_, report) = build(&drawn.centres, &regions(zeta), &wish).unwrap();
+        let settings = WallSettings { radius: Radius::Given(radius), ..WallSettings::default() };
+        let (_, report) = build(&drawn.centres, &regions(zeta), &settings).unwrap();
         let ratio = report.spacing / drawn.report.spacing_asked;
         assert!((0.8..1.1).contains(&ratio), "{file}: {ratio}");
         // Every place of the drawing is within a diameter of a sphere.

@@ -32,7 +32,12 @@ pub fn read(args: &Args, regions: &Regions) -> anyhow::Result<WallPoints> {
     warn(&drawn.report, drawing.radius);
     let attributes = Table::with_rows(drawn.centres.len());
     let cloud = Cloud { points: drawn.centres, attributes, double: true, ..Cloud::default() };
-    Ok(WallPoints { cloud, name, hash: ("mesh".to_owned(), stream::sha256(&bytes)), drawn: Some(drawn.report) })
+    Ok(WallPoints {
+        cloud,
+        name,
+        hash: ("mesh".to_owned(), stream::sha256(&bytes)),
+        drawn: Some(drawn.report),
+    })
 }
 
 fn warn(report: &DrawnReport, radius: f64) {

@@ -90,7 +90,9 @@ impl File {
             .collect();
         let read: Vec<_> = std::thread::scope(|scope| {
             let spawn = |part| {
-                std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, move || PointRange::read(part))
+                std::thread::Builder::new()
+                    .stack_size(STACK)
+                    .spawn_scoped(scope, move || PointRange::read(part))
             };
             let running: Vec<_> = parts.iter().map(spawn).collect();
             running.into_iter().map(|thread| thread.map(ScopedJoinHandle::join)).collect()

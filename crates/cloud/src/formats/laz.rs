@@ -1,4 +1,4 @@
-//! What a LAS or LAZ file claims to hold, held against its length before its reader makes room for it, and a stack that holds it.
+//! Checks the claims of a LAS or LAZ file against its length before its reader allocates memory, and gives the reader a large stack.
 //!
 //! ```text
 //! header   byte 25: minor version;  96: where points begin;  104: format of points, a high bit where they are packed

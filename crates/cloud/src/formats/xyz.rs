@@ -1,4 +1,4 @@
-//! Text: a point a line, as XYZ, PTS, CSV, ASC and TXT exports have it.
+//! Text: one point per line, as in XYZ, PTS, CSV, ASC and TXT exports.
 //!
 //! Numbers are separated by blanks, tabs, commas or semicolons; decimal commas are refused. Lines that begin with `#` or `//` are
 //! comments. A first line of words names the columns. A line that is one whole number promises so many

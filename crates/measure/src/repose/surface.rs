@@ -1,4 +1,4 @@
-//! The surface of a bed from above: how high the highest grain is over each point of a grid.
+//! The surface of a bed from above: the height of the highest grain over each point of a grid.
 
 use crate::Frame;
 use geom::Vec3;

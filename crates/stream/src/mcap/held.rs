@@ -1,4 +1,4 @@
-//! What a stream holds back until a chunk is whole.
+//! The buffer of a stream until a chunk is complete.
 
 use std::io::{self, Seek, SeekFrom, Write};
 

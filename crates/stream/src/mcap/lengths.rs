@@ -1,4 +1,4 @@
-//! Lengths that a record claims for its texts, checked against the record itself before anybody makes room for them.
+//! Lengths that a record claims for its texts, checked against the record itself before memory is allocated.
 
 use super::chunk::ChunkError;
 use ::mcap::records::op;

@@ -1,4 +1,4 @@
-//! Where a stream came from: which tool made it, with which arguments, from what.
+//! The origin of a stream: tool, version, arguments, inputs.
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

@@ -1,6 +1,6 @@
 //! Writes a stream that is whole only when it was finished.
 
-use super::held::{SeekBuffer, KEPT, Seeks};
+use super::held::{KEPT, SeekBuffer, Seeks};
 use super::{END_OF_STREAM, McapError, PROVENANCE, Provenance, points};
 use crate::{Rows, Table};
 use ::mcap::{WriteOptions, records};

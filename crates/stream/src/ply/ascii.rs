@@ -1,4 +1,4 @@
-//! Text data: one row a line, blank lines passed over.
+//! Text data: one row per line; blank lines are skipped.
 
 use super::{
     Element, Ply, PlyError,

@@ -1,4 +1,4 @@
-//! A binary PLY of one element without lists, in blocks of rows as they come: what clouds nearly always are.
+//! A binary PLY of one element without lists, in blocks of rows as they arrive. Nearly all clouds are like this.
 //!
 //! The bytes of the file are never all in memory, and a reader begins before the writer has ended.
 

@@ -1,4 +1,4 @@
-//! Positions to the last bit, for a page on which regions are drawn: what it marks is what `cloud-crop` drops.
+//! Exact positions for a page on which regions are drawn: the points that it marks are those that `cloud-crop` removes.
 
 use std::sync::Arc;
 

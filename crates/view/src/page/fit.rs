@@ -1,4 +1,4 @@
-//! A page stays below its limit: what is left out of it, and what is refused.
+//! Keeps a page below its size limit: what is left out, and what is refused.
 
 use super::{Field, Layer, Page, exact::Exact, panes};
 use crate::{ViewError, field};

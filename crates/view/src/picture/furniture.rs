@@ -1,4 +1,4 @@
-//! What makes a picture readable: colour bar, scale bar, time, count and axes.
+//! Annotations of a picture: colour bar, scale bar, time, count and axes.
 
 use super::{
     Image, PictureOptions, font,

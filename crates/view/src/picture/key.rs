@@ -1,4 +1,4 @@
-//! What colours mean, and the colours of a table by it.
+//! The colour key, and the colours of a table by it.
 
 use crate::{Map, colour, field, scale::Range};
 use stream::{Table, Values};

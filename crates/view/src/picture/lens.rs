@@ -1,4 +1,4 @@
-//! The eye: from metres to samples of the picture.
+//! The projection: from metres to samples of the picture.
 
 use super::{PictureOptions, furniture::text_height, paint::Painted};
 use crate::{camera, scale::Range};

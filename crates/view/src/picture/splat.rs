@@ -1,4 +1,4 @@
-//! The z-buffer: which sphere is nearest at each sample of the picture, and how far.
+//! The z-buffer: the nearest sphere at each sample of the picture, and its distance.
 //!
 //! The picture is cut into tiles; a tile draws its spheres from near to far, in the order of their numbers where
 //! equally near, and skips those behind all it has drawn. Tiles do not touch each other's samples, so the result

@@ -1,4 +1,4 @@
-//! The place of a sphere inside the structure that touches the surface at a place, or next to it.
+//! The position of a sphere inside the structure that touches the surface at or near a given point.
 //!
 //! ```text
 //! c ← p − r n;   while some face is nearer than r:   c ← q + r m

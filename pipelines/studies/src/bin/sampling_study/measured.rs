@@ -2,7 +2,7 @@
 
 use geom::Vec3;
 use sampling::nearest::NearestDistances;
-use sampling::{Amount, Distance, Method, Spectrum, SampleSettings, sample};
+use sampling::{Amount, Distance, Method, SampleSettings, Spectrum, sample};
 
 /// All methods, the default first.
 pub const METHODS: [Method; 5] =
