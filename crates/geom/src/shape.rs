@@ -46,7 +46,7 @@ pub enum Solid {
 #[allow(missing_docs)]
 pub enum ShapeError {
     #[error(
-        "'{0}' is no shape: use box:x0,y0,z0,x1,y1,z1, sphere:x,y,z,r, cylinder:x0,y0,z0,x1,y1,z1,r, \
+        "'{0}' is not a shape: use box:x0,y0,z0,x1,y1,z1, sphere:x,y,z,r, cylinder:x0,y0,z0,x1,y1,z1,r, \
          cone:x0,y0,z0,x1,y1,z1,r0,r1, halfspace:px,py,pz,nx,ny,nz, prism:FILE.json or mesh:FILE, with ! in front for its outside"
     )]
     Kind(String),
@@ -56,7 +56,7 @@ pub enum ShapeError {
     Plane { text: String, source: PlaneError },
     #[error("shape '{text}': radius {radius} m must be positive")]
     Radius { text: String, radius: f64 },
-    #[error("shape '{text}': both ends of the axis are the same place")]
+    #[error("shape '{text}': both ends of the axis are the same point")]
     NoAxis { text: String },
     #[error("shape '{text}': cannot read the file: {source}")]
     Read { text: String, source: std::io::Error },
@@ -226,12 +226,12 @@ mod tests {
     fn wrong_texts_say_what_and_where() {
         for (text, part) in [
             ("ball:1", "sphere:x,y,z,r"),
-            ("box", "is no shape"),
+            ("box", "is not a shape"),
             ("box:0,0,0,1,1", "6 numbers wanted, separated by commas, and 5 found"),
             ("sphere:0,0,zero,1", "'zero' at character 12"),
             ("!sphere:0,0,nan,1", "'nan' at character 13"),
             ("sphere:0,0,0,-1", "radius -1 m must be positive"),
-            ("cylinder:1,1,1,1,1,1,1", "same place"),
+            ("cylinder:1,1,1,1,1,1,1", "same point"),
             ("cone:0,0,0,0,0,1,0,0", "radius 0 m must be positive"),
             ("cone:0,0,0,0,0,1,1,-1", "radius -1 m must be positive"),
             ("halfspace:0,0,0,0,0,0", "no length"),

@@ -26,13 +26,13 @@ pub enum MeasureError {
     #[error("run has no frame {}: its frames are from {} to {} s", wanted, Shown(*first), Shown(*last))]
     NoFrame { wanted: String, first: f64, last: f64 },
     #[error(
-        "plane lies outside of the grains, which are from {} to {} m of it along its normal: move it there",
+        "plane lies outside of the grains, which are from {} to {} m from it along its normal: move it there",
         Shown(*low), Shown(*high)
     )]
     PlaneOutside { low: f64, high: f64 },
     #[error("shape has a volume of {} m³: give one with room inside", Shown(*volume))]
     EmptyShape { volume: f64 },
-    #[error("shape has no end, so no volume: give a box, sphere, cylinder, prism or mesh, without !")]
+    #[error("shape is infinite, so it has no volume: give a box, sphere, cylinder, prism or mesh, without !")]
     EndlessShape,
     #[error(
         "no {what} in the shape at any time: the grains are in box:{}: move the shape",

@@ -131,7 +131,7 @@ impl<M: OfFrame> Observer for PerFrame<M> {
 pub(crate) const NO_FRAMES: MeasureError = MeasureError::Channel {
     topic: record::topic::PARTICLES,
     what: "frames",
-    cure: "give a run of dem-run that has got as far as its first frame",
+    cure: "give a run of dem-run that has reached its first frame",
 };
 
 /// A run without contacts.

@@ -119,7 +119,7 @@ pub enum SampleError {
     Spacing(f64),
     #[error("count 0: must be at least 1")]
     NoCount,
-    #[error("count {asked}: only {there} points are there; ask for at most that many")]
+    #[error("count {asked}: there are only {there} points; ask for at most that many")]
     Count { asked: usize, there: usize },
     #[error("density {low},{high} points/m²: must be positive numbers, the lower one first")]
     Density { low: f64, high: f64 },
@@ -127,9 +127,7 @@ pub enum SampleError {
         "count {asked}: {distinct} distinct points were found, the rest are duplicates; ask for at most that many"
     )]
     Duplicates { asked: usize, distinct: usize },
-    #[error(
-        "{forced} points are to be kept as they are, which is more than the count {count}: ask for at least as many"
-    )]
+    #[error("{forced} points must be kept, which is more than the count {count}: ask for at least as many")]
     TooManyForced { forced: usize, count: usize },
     #[error("marks of {marks} points are given for a cloud of {there}")]
     Forced { marks: usize, there: usize },

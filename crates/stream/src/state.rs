@@ -39,7 +39,7 @@ pub enum StateError {
     Length { found: u64, expected: u64 },
     #[error("state: its SHA-256 does not match: bytes were changed")]
     Hash,
-    #[error("state: it holds something else than what this program expects")]
+    #[error("state: its content is not what this program expects")]
     Decode(#[source] Box<bincode::error::DecodeError>),
     #[error("state: cannot be written")]
     Write(#[source] std::io::Error),

@@ -6,7 +6,7 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum ViewError {
     /// A table without positions.
-    #[error("{name}: no column '{column}', so there is nothing to place: give a table with x, y, z")]
+    #[error("{name}: no column '{column}': give a table with x, y, z")]
     NoPosition {
         /// The layer.
         name: String,
@@ -26,7 +26,7 @@ pub enum ViewError {
         value: f64,
     },
     /// Nothing at all to draw.
-    #[error("nothing to show: no input has a sphere or a point in it")]
+    #[error("nothing to show: no input has a sphere or a point")]
     Empty,
     /// A page beyond its limit, though every frame but two is left out.
     #[error(

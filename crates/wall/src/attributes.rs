@@ -12,7 +12,7 @@ pub enum AttributeError {
     Range { place: String, what: &'static str, value: f64, range: &'static str },
     #[error("{place}: material '{name}' has two sets of values: give one of the two another name")]
     TwoOfOneName { place: String, name: String },
-    #[error("{place}: the material has no name: give it one, so that the scene can speak of it")]
+    #[error("{place}: the material has no name: give it one, so that the scene can refer to it")]
     NoName { place: String },
 }
 

@@ -90,7 +90,7 @@ pub enum WallError {
     #[error("the cloud has {0} points: a wall needs at least 2 that are apart; check the step before")]
     TooFew(usize),
     #[error(
-        "most of the {0} points are at the same place as another: sample the cloud first, e.g. with bluenoise-sample"
+        "most of the {0} points have the same position as another one: sample the cloud first, e.g. with bluenoise-sample"
     )]
     OnePlace(usize),
     #[error(
@@ -98,7 +98,7 @@ pub enum WallError {
     )]
     NotFinite { index: usize, x: f64, y: f64, z: f64 },
     #[error(
-        "points {first} and {second} at ({x}, {y}, {z}) m are the same place: sample the cloud first, e.g. with bluenoise-sample"
+        "points {first} and {second} at ({x}, {y}, {z}) m have the same position: sample the cloud first, e.g. with bluenoise-sample"
     )]
     Duplicate { first: u32, second: u32, x: f64, y: f64, z: f64 },
     #[error(

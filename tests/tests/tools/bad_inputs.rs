@@ -221,7 +221,7 @@ fn clouds_that_cannot_become_a_wall_or_a_sample() {
             (
                 "wallgen same.xyz --roughness 0.001",
                 1,
-                &["same.xyz", "50 points", "same place", "bluenoise-sample"],
+                &["same.xyz", "50 points", "same position", "bluenoise-sample"],
             ),
             (
                 "wallgen mm.xyz --roughness 0.0001 --smallest-particle 0.01",

@@ -60,7 +60,7 @@ fn regions_largest_part_and_outliers() {
 #[test]
 fn wrong_use_and_wrong_input_say_what_and_where() {
     for (args, stdin, code, part) in [
-        (vec!["-", "--keep", "ball:1,2,3,4"], "1 2 3\n", 2, "is no shape"),
+        (vec!["-", "--keep", "ball:1,2,3,4"], "1 2 3\n", 2, "is not a shape"),
         (vec!["-", "--keep", "sphere:0,0,x,4"], "1 2 3\n", 2, "'x' at character 12"),
         (vec!["-", "--largest", "0"], "1 2 3\n", 2, "largest"),
         (vec!["-", "--outliers", "3"], "1 2 3\n", 2, "K,SIGMA"),

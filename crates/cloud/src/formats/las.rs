@@ -230,7 +230,7 @@ mod tests {
         assert_ne!(swapped, bytes);
         let (file, starts) = in_three(swapped.clone());
         assert_eq!(starts.len(), 3, "nothing is seen before points are read");
-        assert!(file.read(&starts).unwrap().is_none(), "what is read from wrong places is not believed");
+        assert!(file.read(&starts).unwrap().is_none(), "data from wrong offsets is refused");
         let mut large = swapped;
         large.resize(large.len().max(SMALL as usize), 0);
         assert!(decode(large).unwrap().points == whole);

@@ -77,7 +77,7 @@ fn here() -> usize {
 impl Read for Shallow {
     fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
         if here().abs_diff(self.base) > DEEP {
-            return Err(io::Error::other("the time of a point belongs to no sequence"));
+            return Err(io::Error::other("the time of a point does not belong to any sequence"));
         }
         let read = self.from.read(into);
         self.at();

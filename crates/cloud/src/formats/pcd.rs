@@ -64,7 +64,7 @@ fn decode(bytes: &[u8]) -> Result<Cloud, ReadError> {
     let values = fields.iter().map(|f| f.count).fold(0, u64::saturating_add);
     if values > bytes.len() as u64 {
         return Err(broken(
-            format!("{values} values a point promised in a file of {} bytes", bytes.len()),
+            format!("{values} values per point are promised in a file of {} bytes", bytes.len()),
             None,
         ));
     }

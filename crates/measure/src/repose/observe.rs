@@ -77,7 +77,7 @@ impl OfFrame for Repose {
             .with("parts", "1", a.count as f64)
             .with("height", "m", heap.height)
             .with("time", "s", heap.time);
-        let note = format!("{} frames left out: no heap, or too small a one", self.left_out.0);
+        let note = format!("{} frames left out: no heap, or a heap that is too small", self.left_out.0);
         Ok((Vec::new(), if self.left_out.0 > 0 { summary.note(note) } else { summary }))
     }
 

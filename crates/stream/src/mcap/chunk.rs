@@ -30,9 +30,7 @@ impl ChunkError {
             ChunkError::Crc => "the CRC of a chunk does not match: bytes were changed",
             ChunkError::Length => "a chunk is not as long as its header says",
             ChunkError::Records => "a record reaches over the end of its chunk",
-            ChunkError::Compression => {
-                "a chunk is packed in a way that is not known (known: none, zstd, lz4)"
-            }
+            ChunkError::Compression => "a chunk has an unknown compression (known: none, zstd, lz4)",
             ChunkError::Unpack => "a chunk cannot be unpacked: bytes were changed",
             ChunkError::Large => "a chunk claims to hold thousands of times its own size",
             ChunkError::Text => "a text reaches over the end of its record",

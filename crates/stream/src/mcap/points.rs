@@ -128,7 +128,7 @@ pub(super) fn decode(message: Vec<u8>) -> Result<Table, String> {
         };
     }
     if cloud.data.len() % stride != 0 {
-        return Err(format!("{} bytes are no whole number of rows of {stride} bytes", cloud.data.len()));
+        return Err(format!("{} bytes are not a whole number of rows of {stride} bytes", cloud.data.len()));
     }
     let columns: Vec<Result<Values, String>> =
         cloud.fields.par_iter().map(|f| field(f, &cloud.data, stride)).collect();

@@ -197,7 +197,7 @@ impl<R: Read> Reader<R> {
             return Err(self.malformed("a message follows the end-of-stream record"));
         }
         let Some(Channel { topic, points }) = self.channels.get(&channel) else {
-            return Err(self.malformed("a message of a channel that was not announced"));
+            return Err(self.malformed("a message of an undeclared channel"));
         };
         if let Some(digest) = &mut self.digest {
             digest.update(format!("{topic} {time_ns} {} ", data.len()));

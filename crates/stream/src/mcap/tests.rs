@@ -361,7 +361,7 @@ fn point_clouds_that_contradict_themselves_are_refused() {
         assert!(message.contains(expected), "{message}");
     };
     refused(0, 0, 8, 8, "point_stride is 0");
-    refused(8, 0, 8, 9, "no whole number of rows");
+    refused(8, 0, 8, 9, "not a whole number of rows");
     refused(8, 1, 8, 8, "reaches over the end");
     refused(8, u32::MAX, 8, 8, "reaches over the end");
     refused(8, 0, 99, 8, "unknown type");

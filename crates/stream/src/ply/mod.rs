@@ -96,7 +96,7 @@ pub enum PlyError {
     Io(#[from] io::Error),
     #[error("PLY header, line {line}: {what}: '{found}'")]
     Header { line: usize, what: &'static str, found: String },
-    #[error("PLY header: it does not end ('end_header' is missing): the file is cut off or not PLY")]
+    #[error("PLY header: 'end_header' is missing: the file is truncated or not PLY")]
     NoEnd,
     #[error(
         "PLY: element '{element}': the header promises {rows} rows, the data ends in row {row} (byte {byte}): \

@@ -73,7 +73,7 @@ fn check(element: &Element) -> Result<(), PlyError> {
             if list.count_kind.is_integer() { (1u64 << (8 * list.count_kind.size() - 1)) - 1 } else { 0 };
         let unsigned = list.count_kind.word().starts_with('u');
         if longest as u64 > if unsigned { 2 * most + 1 } else { most } {
-            return wrong("a row is longer than the type of its count can say");
+            return wrong("a row is longer than the type of its count can hold");
         }
     }
     Ok(())
