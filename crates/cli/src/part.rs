@@ -1,8 +1,8 @@
 //! Unfinished outputs: files beside their final name.
 //!
-//! Most tools write to a hidden file, which is removed if the tool fails. What a long run has
-//! written is worth keeping: `NAME.part` is in plain sight, and stays when the run is killed or fails after a while. A
-//! part is locked as long as its tool runs. This separates a leftover part from one that is being written.
+//! Most tools write to a hidden file, which is removed if the tool fails. A long run writes to the visible file `NAME.part`,
+//! which stays if the run is killed or fails after a while. A part file is locked as long as its tool runs. This separates a
+//! leftover part from one that is being written.
 
 use std::{
     fs::{self, File, TryLockError},

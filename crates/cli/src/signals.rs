@@ -1,5 +1,7 @@
-//! Ctrl-C, termination and a lost terminal: unfinished files that are not worth keeping are removed, then the signal does what it always
-//! does. A tool that asked for it gets the signal first and may end in order; a second signal ends it at once.
+//! Ctrl-C, termination and a lost terminal.
+//!
+//! Unfinished files that are not worth keeping are removed, then the signal has its usual effect. A tool may ask to get the signal
+//! first and end in order; a second signal ends it at once.
 
 use crate::part::{Keep, PartFile};
 use signal_hook::{

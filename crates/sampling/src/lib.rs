@@ -1,15 +1,15 @@
-//! Blue-noise subsampling of a scanned surface, and the measures of how blue it is.
+//! Blue-noise subsampling of a scanned surface, and measures of its quality.
 //!
 //! ```text
-//! poisson     maximal Poisson disk, loneliest point first        the default: distances at least the spacing
+//! poisson     maximal Poisson disk, most isolated point first        the default: distances at least the spacing
 //! eliminate   weighted sample elimination                        an exact count
 //! relax       Poisson disk, then Lloyd's relaxation on points    more even, less random
 //! tile        a pattern laid on patch by patch, seams closed     the pattern's evenness
 //! grid        the point nearest to each node of a cubic grid     equal intervals along x, y, z
 //! ```
 //!
-//! Every method picks input points and moves none, and gives the same result for any number of threads. Distances are those
-//! along the surface where another sheet lies nearer than the spacing (all but the grid, which is one of space).
+//! Every method picks input points and does not move them. It gives the same result for any number of threads. Where another sheet is
+//! nearer than the spacing, distances can be those along the surface (the grid always works in space).
 
 mod amount;
 mod beside;

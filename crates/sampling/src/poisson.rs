@@ -5,16 +5,16 @@
 //! keep i when no point nearer than r has been kept; in the order of (deg(i), hash(seed, i))
 //! ```
 //!
-//! Loneliest first, chance among equals. On a cloud that is hardly denser than the sample, plain chance
-//! (Cook 1986, doi:10.1145/8927.8928; Corsini et al. 2012, doi:10.1109/TVCG.2012.34) wastes room: taking points with few
+//! Points with few rivals come first, in random order among equals. On a cloud that is hardly denser than the sample, purely random order
+//! (Cook 1986, doi:10.1145/8927.8928; Corsini et al. 2012, doi:10.1109/TVCG.2012.34) wastes space. Taking points with few
 //! rivals first (the minimum-degree rule for independent sets; Halldórsson & Radhakrishnan 1997, doi:10.1007/BF02523693)
 //! needs a larger r for the same count and leaves more even distances. Where the input is
-//! dense the count is capped, and the order is chance alone.
+//! dense the count is capped, and the order is purely random.
 //!
-//! Parallel with the same result for any number of threads: the points lie in blocks 16 cells wide (a cell is r or somewhat
-//! more), blocks have eight colours, and blocks of one colour are too far apart to meet. Colours are served in
-//! turn, the blocks of a colour at the same time. Of a block's points the first quarter in the order is sorted and thrown, then the
-//! first quarter of those that it left open, and so on: most points are covered before anyone asks for their rank.
+//! The result is the same for any number of threads. The points lie in blocks 16 cells wide (a cell is r or somewhat
+//! more). Blocks have eight colours, and blocks of one colour are too far apart to affect each other. The colours are processed one after
+//! another, the blocks of a colour at the same time. Of the points of a block the first quarter in the order is sorted and thrown, then the
+//! first quarter of those still open, and so on: most points are covered before their rank is needed.
 
 use crate::cells::{Cells, apart};
 use multiversion::multiversion;

@@ -4,12 +4,13 @@
 //! |c − p_k| = ρ + r_k,  k = 1, 2, 3,   c in the plane of p_1, p_2, p_3
 //! ```
 //!
-//! ρ is the radius of the sphere that touches three neighbouring wall spheres with its centre c in their plane: a particle up to that
-//! size passes between them (Apollonius' circle). The voids are the corners of the Voronoi cells of [`crate::star`];
-//! what is wider than the largest of these cannot be distinguished from the wall's outline. Along the outline, three points may lie
-//! nearly in a row, and the sphere that touches them stands outside: a gap whose centre lies beyond an edge of the outline, or
-//! that opens to it as wide as the particle, is a notch of the rim and not a leak. Where the centre lies beyond any edge of the three,
-//! the void goes on there and is wider: the three beyond it tell its width, or it is open to the rim.
+//! ρ is the radius of the sphere that touches three neighbouring wall spheres and has its centre c in their plane. A particle up to
+//! that size passes between them (Apollonius' circle). The voids are the corners of the Voronoi cells of [`crate::star`].
+//!
+//! A gap wider than the largest of these circles cannot be distinguished from the wall's outline. Along the outline, three points
+//! may lie nearly in a row, and the sphere that touches them is outside. So a gap is a notch of the rim, not a leak, if its centre
+//! lies beyond an edge of the outline, or if it opens to that edge as wide as the particle. If the centre lies beyond an inner edge of
+//! the three, the void continues there and is wider: the next three points give its width, or it is open to the rim.
 
 use geom::Vec3;
 use rayon::prelude::*;

@@ -1,16 +1,16 @@
 //! Radii point by point from equation (1).
 //!
-//! One equation for each pair, more pairs than points: not all can hold. What is minimised is
+//! There is one equation for each pair, and more pairs than points, so not all can hold. The solver minimises
 //!
 //! ```text
 //! Σ_pairs |ζ_ij(r_i, r_j) − ζ_ij| + 0.05 Σ_points ζ_i |ln(r_i/r̄_i)|
 //! ```
 //!
-//! ζ_ij(r_i, r_j) the dent that the radii make, ζ_ij the one asked for, r̄ the uniform radius. A sum of absolute values is least where
-//! many terms are exactly zero: ζ is changed on few pairs, and by little; the second sum keeps radii equal where the first
-//! leaves a choice. Points are visited from the first: each takes, of the radii that meet (1) with one of its neighbours, its
-//! own and r̄, the one with the least sum. Visits go by colours (no two neighbours have one colour), so that
-//! points of a colour can be visited at once and the result does not depend on threads.
+//! Here ζ_ij(r_i, r_j) is the dent that the radii make, ζ_ij the requested dent, and r̄ the uniform radius. A sum of absolute values is
+//! smallest if many terms are exactly zero: so ζ changes on few pairs, and by little. The second sum keeps radii equal where the first
+//! leaves a choice. The points are visited in order. Each point compares the radii that fulfil (1) with one of its neighbours, its current
+//! radius and r̄, and takes the one with the smallest sum. Visits go by colours (neighbours differ in colour). So
+//! points of one colour can be visited at once, and the result does not depend on threads.
 
 use crate::build::ROUNDED;
 use crate::equation::{Beside, LANES, dent, partners};
