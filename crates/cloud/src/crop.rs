@@ -1,7 +1,7 @@
 //! Crop: which points stay.
 //!
-//! A point stays when it is in some `keep` (or none is given) and in no `remove`; of those, what lies beyond the outer shape,
-//! isolated points and small parts go when asked.
+//! A point stays if it is in at least one `keep` (or none is given) and in no `remove`. Of the rest, points beyond the outer shape,
+//! isolated points and small parts are removed on request.
 
 use crate::outer::{self, Outer, Outside};
 use crate::points::{TooFar, check_reach};

@@ -6,8 +6,8 @@
 //!           fifth of its rim
 //! ```
 //!
-//! On rough ground the shadows of stones hang together through narrow straits, and so with the outside: that they are holes shows in
-//! that only a strait leads there. A bay of the rim is open along more of its border and stays as it is.
+//! On rough ground the shadows of stones are connected by narrow straits, also to the outside. They count as holes if
+//! only a strait leads outside. A bay of the rim is open along more of its border and is not filled.
 
 use crate::raster::Raster;
 

@@ -1,7 +1,7 @@
 //! A few points of each cell of a sheet, side by side in memory: enough to see whether something is there.
 //!
-//! A box that holds many cells is laid flat by them. What is seen there is looked at again by all points, so that these may be
-//! numbers of 4 bytes, from the middle of the sheet.
+//! A box that holds many cells is projected by these points. A hole found there is examined again with all points, so these may be
+//! 4-byte numbers, relative to the middle of the sheet.
 
 use crate::patch::{Frame, Quadratic};
 use crate::raster::Raster;

@@ -11,7 +11,7 @@
 //!    joined to the outside, but by a strait, are a hole (`enclosed`)
 //! ```
 //!
-//! Step 4 decides, so that the rim of the surface, and false ends of step 1, are no holes.
+//! Step 4 decides, so that the rim of the surface and false ends of step 1 do not count as holes.
 
 use crate::enclosed;
 use crate::few::Few;

@@ -1,6 +1,6 @@
 //! Points beyond a given outer shape, as connected parts to remove.
 //!
-//! The outer shape of the equipment is a union of shapes, with a tolerance. What lies farther outside is no equipment: a mounting,
+//! The outer shape of the equipment is a union of shapes, with a tolerance. Points farther outside are not equipment: a mounting,
 //! a scaffold, a person. Points beyond are joined by steps of a few input spacings; small heaps are stray points, not parts.
 
 use crate::density::{self, FEWEST};

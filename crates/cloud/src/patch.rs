@@ -4,8 +4,8 @@
 //! w(u, v) = c₀ + c₁u + c₂v + c₃u² + c₄uv + c₅v²  +  Σ aᵢ φ(|(u,v) − (uᵢ,vᵢ)|) + b₀ + b₁u + b₂v,   φ(r) = r² ln r
 //! ```
 //!
-//! The quadratic takes the curvature, the thin plate (least bending; Duchon 1977) what is left of it, smoothed by
-//! λ on the diagonal so that the noise of the scan is not followed.
+//! The quadratic takes the curvature; the thin plate (least bending; Duchon 1977) takes the rest, smoothed by
+//! λ on the diagonal so that it does not follow the noise of the scan.
 
 use geom::Vec3;
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, SymmetricEigen, Vector6};

@@ -1,6 +1,6 @@
 //! Points in the order of the cell grid, with the runs of neighbouring cells computed once per cell.
 //!
-//! The samplers ask for the neighbours of most points, often, and at several radii: looking cells up once for
+//! The samplers need the neighbours of most points, often, and at several radii. Looking cells up once for
 //! all points of a cell, and walking positions that lie side by side in memory, is several times faster
 //! than asking the grid point by point.
 

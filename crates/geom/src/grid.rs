@@ -1,7 +1,7 @@
 //! The cell grid: finds points near a position. It is the only neighbour search with a fixed radius in the project.
 //!
 //! Points are sorted by cell, x fastest, so that the points of neighbouring cells along x are one
-//! contiguous run, and within a cell by their index, so that the order depends on nothing else. Where all neighbours shall lie
+//! contiguous run, and within a cell by their index, so that the order depends on nothing else. If all neighbours should lie
 //! close in memory, and not those along x alone ([`Grid::in_blocks`]), cells are sorted by blocks first, and a run ends where its block does.
 //! Cells are looked up in a dense table where the box is well filled (a bed of grains) and in a hash
 //! table where it is mostly empty (a scanned surface); both give the same order.

@@ -1,7 +1,7 @@
 //! Volume, centre and inertia of the union of spheres.
 //!
-//! A plane cuts the union in a union of discs. Its area, first and second moments follow exactly from the arcs of its outline
-//! (Green's theorem); along z they are summed up by Gauss–Legendre quadrature between the heights where the outline changes its kind:
+//! A plane cuts the union of spheres in a union of discs. Its area, first and second moments follow exactly from the arcs of its outline
+//! (Green's theorem). Along z they are integrated by Gauss–Legendre quadrature between the heights where the outline changes its type:
 //! ends of spheres, ends of the circles in which two meet, points in which three meet. Inside such an interval the moments are
 //! smooth, and at its ends they have at worst a power of 3/2, which the substitution z = a + (b − a)(3s² − 2s³) makes
 //! smooth. Error about 10⁻⁹ of each value (tested against closed forms), set by the number of nodes.

@@ -8,7 +8,7 @@
 //! body     bincode 2, standard configuration with fixed-width integers
 //! ```
 //!
-//! Floats are written by their bits, so that a resumed run goes on exactly as the one that was stopped.
+//! Floats are written by their bits, so that a resumed run continues exactly as the one that was stopped.
 //! This file is the only one that knows bincode.
 
 use bincode::config::{self, Config};

@@ -9,10 +9,10 @@
 //! chunk    of formats 6 to 10: a point as it is, 4 bytes number of points, 4 bytes length of each layer, the layers
 //! ```
 //!
-//! The reader calls itself once more whenever the time of a point belongs to another of four sequences, as often as the file says so
-//! ("look again" takes 2·10⁻⁴ bits once it is all that is said), until the stack is gone and the program ended. Whole files say so once
-//! in a row. Where points are packed one by one, [`Shallow`] ends it; layers are read out of reach: there a layer of times
-//! with a run of bytes 255 is refused, which says so to an end, and which nothing packed holds.
+//! The reader calls itself again whenever the time of a point belongs to another of four sequences, as often as the file says so
+//! ("look again" takes 2·10⁻⁴ bits once nothing else occurs), until the stack is full and the program ends. Valid files say so once
+//! in a row. Where points are packed one by one, [`Shallow`] ends it. Layers are read elsewhere: there a layer of times
+//! with a run of bytes 255 is refused, which would repeat it without end, and which no valid packed layer contains.
 //!
 //! ASPRS LAS 1.4 R15 (2019); Isenburg (2013), LASzip, Photogramm. Eng. Remote Sens. 79(2), doi:10.14358/PERS.79.2.209.
 

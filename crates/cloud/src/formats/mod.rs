@@ -1,6 +1,6 @@
 //! Formats of clouds, detected by their first bytes, never by the file name.
 //!
-//! A format is its file here and its line in [`FORMATS`]; text without a mark of its own comes last.
+//! A format is one file here and one line in [`FORMATS`]. Text without a magic number comes last.
 
 mod e57;
 mod las;

@@ -1,8 +1,8 @@
 //! Text: one point per line, as in XYZ, PTS, CSV, ASC and TXT exports.
 //!
 //! Numbers are separated by blanks, tabs, commas or semicolons; decimal commas are refused. Lines that begin with `#` or `//` are
-//! comments. A first line of words names the columns. A line that is one whole number promises so many
-//! points (PTS; again in front of each further scan).
+//! comments. A first line of words names the columns. A line with a single whole number gives the number of
+//! points that follow (PTS; again in front of each further scan).
 
 use super::ReadError;
 use crate::Cloud;

@@ -1,7 +1,7 @@
 //! MCAP over files and pipes: everything that has a time, or attributes per sphere.
 //!
 //! A stream is a header, a metadata record `provenance`, further metadata, chunks of messages, and a last
-//! metadata record `end_of_stream`, which only [`Writer::finish`] writes and on which [`Reader`] insists: a tool
+//! metadata record `end_of_stream`, which only [`Writer::finish`] writes and which [`Reader`] requires: a tool
 //! that failed half way leaves a file that no reader takes for a whole one. Points travel as
 //! `foxglove.PointCloud`; times are simulation times, and nothing depends on the clock, so that the same
 //! input gives the same bytes.

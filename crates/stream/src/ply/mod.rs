@@ -2,10 +2,10 @@
 //!
 //! Reads ASCII and binary of both endians, with LF, CRLF or CR line ends, and numbers of any type under
 //! their old and new names. Truncated data, bytes after the end and unknown types are errors that say
-//! where. Memory follows the bytes that are there, never a count that a header claims.
+//! where. Memory depends on the bytes present, never on a count that a header claims.
 //!
 //! Header and ASCII are parsed here, not by `ply-rs-bw`: that crate refuses `nan` in ASCII and CR line
-//! ends, passes over trailing bytes in silence, and keeps no place for a message to name.
+//! ends, ignores trailing bytes without a message, and keeps no position for messages.
 
 mod ascii;
 mod binary;
