@@ -6,9 +6,9 @@
 //! interval = t s/√n of v − v₀, and the uncertainty of a value from a laboratory, as the root of the squares
 //! ```
 //!
-//! ‖·‖ is over the places of a profile: the root of the mean of the squares, or the largest; of one number its size.
-//! Differences are taken seed by seed: what chance does to both runs alike is then not counted as chance, and where
-//! runs of one seed part by chaos the interval is that of two independent means.
+//! ‖·‖ is over the points of a profile: the root mean square, or the largest value. For a single number it is its size.
+//! Differences are taken seed by seed, so scatter that both runs share does not count. Where
+//! runs of one seed diverge by chaos, the interval is that of two independent means.
 
 use crate::point::{Error, Point, Sample};
 use measure::statistics::Mean;

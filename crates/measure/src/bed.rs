@@ -1,7 +1,7 @@
 //! Height of a bed: the median height of its surface over the ground.
 //!
 //! The surface is that of the heap angle (see [`crate::repose`]): the highest grain over each point of a grid of a quarter of
-//! a mean diameter; places without grains are left out. The median takes no notice of grains in the air.
+//! a mean diameter; cells without grains are left out. Grains in the air do not affect the median.
 
 use crate::observer::OfFrame;
 use crate::repose::{Frame3, HeapSurface};

@@ -6,7 +6,7 @@
 //!
 //! with C contacts between N grains, N₀ of which touch nothing and N₁ one grain: Z_m, without those rattlers, is the
 //! mechanical coordination number of Thornton (2000), Géotechnique 50(1), DOI 10.1680/geot.2000.50.1.43. Contacts are
-//! those of the run where it holds them; walls then count, too, in numbers of their own. Else two grains touch when their
+//! those of the run if it holds them; walls then count in separate numbers. Otherwise two grains touch if their
 //! distance is less than the sum of their radii, which is exact for every law whose forces end there, and walls are
 //! unknown.
 

@@ -5,8 +5,8 @@
 //! ```
 //!
 //! over the intervals between ledgers; there the balance is constant to rounding. Ledgers without that term do not count particles that come and
-//! goes either: of those only intervals in which no grain enters or leaves count (by the ids of the frames). What the finite time step made is the term `integration`, the error of the run's energy. Both are given
-//! relative to what was exchanged so far, too: the largest change of any other term.
+//! goes either: of those only intervals in which no grain enters or leaves count (by the ids of the frames). The energy that the finite time step created is the term `integration`, the error of the run's energy. Both are given
+//! also relative to the energy exchanged so far: the largest change of any other term.
 
 use crate::observer::Observer;
 use crate::run::Ledger;

@@ -1,6 +1,6 @@
 //! Mass and number of grains that pass a plane, over time.
 //!
-//! Where an outlet of the run lies in the plane, its recorded passages are counted: exact in time. Else a grain passes
+//! If an outlet of the run lies in the plane, its recorded crossings are counted, exact in time. Otherwise a grain passes
 //! when its centre is on the other side in the next frame; when and where follows from its path between the frames
 //! (see [`crate::path`]). Grains that come or go between two frames (inlets, outlets) cannot be judged there: those that
 //! would have passed the plane at constant velocity are counted as `unjudged`.

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! The cubic with the places and velocities of both frames (Hermite): exact in free fall, of order h⁴ where forces are
-//! smooth. What happens and is undone between two frames is not seen.
+//! smooth. A motion forth and back between two frames is not seen.
 
 use crate::{Frame, Run};
 use geom::Vec3;

@@ -5,8 +5,8 @@
 //! ```
 //!
 //! with the force F_b on b as the run records it: the traction that a cut through the plane has to replace. F·n is above
-//! zero where what is before the plane presses along its normal. In an upstream stage the grains of the zone are those
-//! behind its storage plane: they feel nothing, and what they do to the others is counted.
+//! zero where grains before the plane press along its normal. In an upstream stage the grains of the zone are those
+//! behind its storage plane: they feel no force, and their force on the others is counted.
 
 use crate::observer::{NO_CONTACTS, Observer};
 use crate::sheet::{Chart, Head, Row, Summary};

@@ -1,7 +1,7 @@
 //! Porosity in a shape: the share of its volume that no grain fills.
 //!
-//! Each ball counts with the part of it that lies in the shape (see [`crate::region`] for how exactly). What two
-//! grains share where they overlap would count twice; the lenses of pairs whose middle lies in the shape are taken off.
+//! Each ball counts with its part in the shape (see [`crate::region`] for the accuracy). The lens that two
+//! overlapping grains share would count twice; lenses whose middle lies in the shape are subtracted.
 
 use crate::coordination::touching;
 use crate::observer::OfFrame;

@@ -7,7 +7,7 @@
 //! d₁₀ = Σ wᵢdᵢ / Σ wᵢ     d₃₂ = Σ wᵢdᵢ³ / Σ wᵢdᵢ²     wᵢ = Vᵢ / (π dᵢ³/6)
 //! ```
 //!
-//! Several frames are averaged by adding their sums. Where grains overlap, what they share counts for both.
+//! Several frames are averaged by adding their sums. Where grains overlap, the shared volume counts for both.
 
 mod observe;
 

@@ -2,8 +2,8 @@
 //!
 //! A centre that is outside in one frame and inside in the next entered between them, at the time that its path says
 //! (see [`crate::path`]); so for leaving. A grain that appears inside (an inlet) entered, and one that vanishes inside
-//! (an outlet) left, half way between two frames. A grain that is inside from the first frame on entered before the
-//! run: it is counted, and its time is not used. What is still inside at the end is counted, too: while there are many
+//! (an outlet) left, half-way between two frames. A grain that is inside in the first frame entered before the
+//! run: it is counted, and its time is not used. Grains still inside at the end are counted, too: while there are many
 //! of those, the mean is too low (long stays are missing).
 
 use crate::observer::{NO_FRAMES, Observer};

@@ -1,7 +1,7 @@
 //! One tile of points of even distances on a square whose opposite edges meet.
 //!
-//! Chance, thinned by weighted sample elimination (see `eliminate`; Yuksel 2015, doi:10.1111/cgf.12538) with distances around
-//! the torus. Made when it is asked for, the same each time.
+//! Random points, thinned by weighted sample elimination (see `eliminate`; Yuksel 2015, doi:10.1111/cgf.12538) with distances around
+//! the torus. Made on first use, the same each time.
 
 use crate::poisson::chance;
 

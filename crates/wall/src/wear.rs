@@ -15,7 +15,7 @@
 //! 0.01,  0.0010, 0.0015, 0.0020
 //! ```
 //!
-//! Between the entries ζ is linear in both; beyond the table its edge holds on, and the report says for how many points. With a
+//! Between the entries ζ is linear in both; beyond the table the value at its edge is used, and the report counts these points. With a
 //! drawing, the wear is the distance of a point from the drawn surface [m].
 
 use geom::mesh::{TriMesh, closest_point};
