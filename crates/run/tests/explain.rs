@@ -74,10 +74,7 @@ fn every_effect_names_the_key_that_calls_for_it() {
     let of = explained(&scene, &["output.contacts=true", "guards.energy=0.1"]);
     for (effect, key) in [
         ("hertz", "contact.0.law = \"hertz\", restitution = 0.5 (sinter–sinter)"),
-        (
-            "hooke",
-            "contact.1.law = \"hooke\", stiffness = 10000 N/m, restitution = 0.5 (sinter–steel)",
-        ),
+        ("hooke", "contact.1.law = \"hooke\", stiffness = 10000 N/m, restitution = 0.5 (sinter–steel)"),
         ("sliding_friction", "contact.0.sliding_friction = 0.5 (sinter–sinter)"),
         (
             "weakening friction",
@@ -132,7 +129,8 @@ fn what_cannot_matter_is_dropped_and_says_why() {
         |keys: &str| explained(&SCENE.replacen("restitution", &format!("{keys}\nrestitution"), 1), &[]).text;
     let text = with("law = \"jkr\"\nwork_of_adhesion = 0");
     assert!(
-        text.contains("dropped        contact.0.work_of_adhesion = 0 J/m² (") && text.contains("\"hertz\" is"),
+        text.contains("dropped        contact.0.work_of_adhesion = 0 J/m² (")
+            && text.contains("\"hertz\" is"),
         "{text}"
     );
     let text = with("cohesion = \"sjkr\"\ncohesion_energy_density = 0");

@@ -83,8 +83,12 @@ fn the_mean_distance_is_the_one_that_roughness_and_radius_ask_for_and_nothing_le
         Vec3::zeros(),
     )
     .unwrap();
-    let wish = Wish { radius: Radius::Given(RADIUS), smallest_particle: Some(RADIUS), ..Wish::default() };
-    let (_, report) = build(&drawn.centres, &regions, &wish).unwrap();
+    let settings = WallSettings {
+        radius: Radius::Given(RADIUS),
+        smallest_particle: Some(RADIUS),
+        ..WallSettings::default()
+    };
+    let (_, report) = build(&drawn.centres, &regions, &settings).unwrap();
     assert!((report.spacing / drawn.report.spacing_asked - 1.0).abs() < 0.02, "{} m", report.spacing);
     assert_eq!(report.leaks, 0, "{:?}", report.widest_gap);
     // Two rims without corners, and nothing else is a stretch: 48 sides turn by 7.5°.

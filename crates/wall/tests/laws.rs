@@ -3,7 +3,7 @@
 use geom::Vec3;
 use record::MaterialRecord;
 use sampling::cells::Cells;
-use wall::{Placement, Radius, Regions, Representative, WallError, Wish, build, equation};
+use wall::{Placement, Radius, Regions, Representative, WallError, WallSettings, build, equation};
 
 fn steel() -> MaterialRecord {
     MaterialRecord { name: "steel".to_owned(), young: Some(2e8), ..MaterialRecord::default() }

@@ -5,7 +5,7 @@ use dem::setup::{Motion, Wall, WallShape};
 use geom::Vec3;
 use record::MaterialRecord;
 use sampling::{Amount, Method};
-use wall::{Radius, Regions, Wish};
+use wall::{Radius, Regions, WallSettings};
 
 /// Scanned points for each point kept.
 const DENSE: f64 = 30.0;

@@ -7,7 +7,7 @@
 use cloud::fill::Settings;
 use geom::{Grid, Vec3};
 use record::MaterialRecord;
-use sampling::{Amount, Method, Wish as Sampling};
+use sampling::{Amount, Method, SampleSettings as Sampling};
 use std::path::{Path, PathBuf};
 use wall::drawn::{Drawing, place};
 use wall::{Radius, Regions, WallSettings, build};

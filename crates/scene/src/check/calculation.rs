@@ -1,7 +1,7 @@
 //! Checks of how a scene is calculated and written, and of the fluid around its particles.
 
 use super::{Check, Checked};
-use crate::keys::{Drag, DragLaw, Every, SceneKeys, OrAuto, Sleep, Time};
+use crate::keys::{Drag, DragLaw, Every, OrAuto, SceneKeys, Sleep, Time};
 
 impl Check<'_> {
     /// `[time]`, `[output]`, `[guards]` and the other single tables.

@@ -11,7 +11,7 @@ mod particles;
 mod walls;
 
 use crate::error::{SceneError, ValueError, nearest};
-use crate::keys::{Diameter, SceneKeys, OrAuto};
+use crate::keys::{Diameter, OrAuto, SceneKeys};
 use crate::text::Text;
 use std::fmt::Display;
 

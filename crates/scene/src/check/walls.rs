@@ -1,7 +1,7 @@
 //! Checks of `[[wall]]`, its motion and its servo.
 
 use super::{Check, Checked};
-use crate::keys::{SceneKeys, Motion, Servo, Wall};
+use crate::keys::{Motion, SceneKeys, Servo, Wall};
 
 impl Check<'_> {
     pub(super) fn walls(&self, m: &SceneKeys) -> Checked {
