@@ -86,10 +86,10 @@ impl Measure {
         )))
     }
 
-    /// Measures a run, or reads what was measured before.
+    /// Measures a run, or takes what was measured of it before.
     ///
     /// # Errors
-    /// What dem-measure says, a value that it does not have or that is not a number.
+    /// What dem-measure says, a missing value, a value that is not a number.
     pub fn of(&self, job: &Job, tools: &Path) -> Result<Measured, CurveError> {
         let key = stream::sha256(format!("{}\n{}", job.stamp, self.options.join("\n")).as_bytes());
         let kept = job.file(&format!("measure-{:.12}.json", key));
