@@ -55,26 +55,26 @@ fn most_common(part_of: &[u32]) -> Vec<u32> {
 
 /// The occupied cells of a grid.
 struct Cells {
-    /// Cell `c` holds the sorted places `starts[c]..starts[c + 1]`.
+    /// Cell `c` holds the sorted slots `starts[c]..starts[c + 1]`.
     starts: Vec<usize>,
-    /// The occupied cell of each sorted place.
-    of_place: Vec<u32>,
+    /// The occupied cell of each sorted slot.
+    of_slot: Vec<u32>,
 }
 
 impl Cells {
     fn new(points: &[Vec3], grid: &Grid) -> Cells {
-        let (mut starts, mut of_place) = (Vec::new(), Vec::with_capacity(points.len()));
+        let (mut starts, mut of_slot) = (Vec::new(), Vec::with_capacity(points.len()));
         let mut last = None;
-        for (place, &i) in grid.order().iter().enumerate() {
+        for (slot, &i) in grid.order().iter().enumerate() {
             let cell = grid.cell_of(&points[i as usize]);
             if last != Some(cell) {
-                starts.push(place);
+                starts.push(slot);
                 last = Some(cell);
             }
-            of_place.push(starts.len() as u32 - 1);
+            of_slot.push(starts.len() as u32 - 1);
         }
         starts.push(points.len());
-        Cells { starts, of_place }
+        Cells { starts, of_slot }
     }
 
     /// Joins cells that have two points within `radius`: these are at most two cells apart along each axis.
@@ -87,16 +87,16 @@ impl Cells {
                     continue;
                 }
                 for run in grid.row(x - 2..x + 3, y + dy, z + dz) {
-                    let mut place = run.start;
-                    while place < run.end {
-                        let other = self.of_place[place] as usize;
+                    let mut slot = run.start;
+                    while slot < run.end {
+                        let other = self.of_slot[slot] as usize;
                         if other > cell
                             && parts.root(cell as u32) != parts.root(other as u32)
                             && self.touch(points, grid, [cell, other], radius)
                         {
                             parts.join(cell as u32, other as u32);
                         }
-                        place = self.starts[other + 1];
+                        slot = self.starts[other + 1];
                     }
                 }
             }

@@ -22,7 +22,7 @@ const LANES: usize = 8;
 /// Places are worked on in parts of this many.
 const PART: usize = 1024;
 
-/// By place in the cells' order, whether the points within `radius` [m], at most the cell width, surely surround it.
+/// By slot in the cells' order, whether the points within `radius` [m], at most the cell width, surely surround it.
 pub(crate) fn surrounded(cells: &Cells, radius: f64) -> Vec<bool> {
     let mut surrounded = vec![false; cells.len()];
     let parts = surrounded.par_chunks_mut(PART).enumerate();
@@ -33,8 +33,8 @@ pub(crate) fn surrounded(cells: &Cells, radius: f64) -> Vec<bool> {
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn look(cells: &Cells, first: u32, radius: f64, found: &mut [bool]) {
     let mut near = NeighbourVectors::default();
-    for (place, found) in (first..).zip(found) {
-        near.gather(cells, place, radius);
+    for (slot, found) in (first..).zip(found) {
+        near.gather(cells, slot, radius);
         *found = near.surround();
     }
 }
@@ -50,17 +50,17 @@ struct NeighbourVectors {
 
 impl NeighbourVectors {
     #[inline(always)]
-    fn gather(&mut self, cells: &Cells, place: u32, radius: f64) {
-        let centre = cells.points[place as usize];
-        let most = cells.runs(place).map(|run| run.len()).sum::<usize>().next_multiple_of(LANES) + 1;
+    fn gather(&mut self, cells: &Cells, slot: u32, radius: f64) {
+        let centre = cells.points[slot as usize];
+        let most = cells.runs(slot).map(|run| run.len()).sum::<usize>().next_multiple_of(LANES) + 1;
         [&mut self.x, &mut self.y, &mut self.z].into_iter().for_each(|column| column.resize(most, 0.0));
         let mut count = 0;
-        for run in cells.runs(place) {
+        for run in cells.runs(slot) {
             for (other, p) in (run.start as u32..).zip(&cells.points[run]) {
                 let (x, y, z) = (p.x - centre.x, p.y - centre.y, p.z - centre.z);
                 // Without a branch: which points are near cannot be predicted.
                 (self.x[count], self.y[count], self.z[count]) = (x, y, z);
-                count += (x * x + y * y + z * z <= radius * radius && other != place) as usize;
+                count += (x * x + y * y + z * z <= radius * radius && other != slot) as usize;
             }
         }
         self.count = count;
@@ -98,7 +98,7 @@ impl NeighbourVectors {
         leaves_no_gap(filled.iter().fold(0, |all, some| all | some))
     }
 
-    /// Σ (d − d̄)(d − d̄)ᵀ of the neighbours and the place itself, at zero.
+    /// Σ (d − d̄)(d − d̄)ᵀ of the neighbours and the point itself, at zero.
     #[inline(always)]
     fn spread(&self) -> Matrix3<f64> {
         let mut sums = [[0.0; LANES]; 9];
@@ -154,8 +154,8 @@ mod tests {
         let disc: Vec<(f64, f64)> = places.into_iter().filter(|(a, b)| a.hypot(*b) <= 25.0).collect();
         let points: Vec<Vec3> = disc.iter().map(|(a, b)| u * *a + v * *b).collect();
         let cells = Cells::new(&points, 2.5);
-        for (place, found) in surrounded(&cells, 2.5).into_iter().enumerate() {
-            let radius = cells.points[place].norm();
+        for (slot, found) in surrounded(&cells, 2.5).into_iter().enumerate() {
+            let radius = cells.points[slot].norm();
             assert!(found == (radius < 23.9) || (23.4..24.6).contains(&radius), "{radius}: {found}");
         }
     }

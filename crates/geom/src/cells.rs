@@ -8,10 +8,10 @@ use crate::{Grid, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Cells and places are worked on in parts of this many.
+/// Cells and slots are worked on in parts of this many.
 const PART: usize = 1024;
 
-/// The cells that hold points, sorted: the key of each, and its first place (and one more).
+/// The cells that hold points, sorted: the key of each, and its first slot (and one more).
 struct Filled<'a> {
     dims: [i64; 3],
     keys: &'a [u64],
@@ -21,16 +21,16 @@ struct Filled<'a> {
 /// The surroundings of a cell that holds points.
 #[derive(Debug, Clone)]
 struct Cell {
-    /// Places in the 27 cells around it: at most nine contiguous runs.
+    /// Slots in the 27 cells around it: at most nine contiguous runs.
     rows: [(u32, u32); 9],
     /// Runs in use.
     used: u8,
 }
 
-/// Points sorted by cell; a *place* is an index in this order.
+/// Points sorted by cell; a *slot* is an index in this order.
 #[derive(Debug, Clone)]
 pub struct Cells {
-    /// Positions by place [m].
+    /// Positions by slot [m].
     pub points: Vec<Vec3>,
     /// The grid that gave the order; for searches wider than a cell.
     pub grid: Grid,
@@ -58,7 +58,7 @@ impl Cells {
         Cells { points: sorted, width: grid.cell(), grid, cells, cell_of }
     }
 
-    /// Cells that hold points in cubes of `wide` cells a side: the coordinates of each cube, and the runs of places of its cells; sorted
+    /// Cells that hold points in cubes of `wide` cells a side: the coordinates of each cube, and the runs of slots of its cells; sorted
     /// by cube.
     pub fn cubes(&self, wide: i64) -> Vec<([i64; 3], Vec<Range<usize>>)> {
         let (keys, starts) = self.grid.filled();
@@ -84,24 +84,24 @@ impl Cells {
         by_cube.chunk_by(|a, b| a.0 == b.0).map(runs).collect()
     }
 
-    /// Number of the cell that holds a place.
+    /// Number of the cell that holds a slot.
     #[inline(always)]
-    pub fn cell(&self, place: u32) -> u32 {
-        self.cell_of[place as usize]
+    pub fn cell(&self, slot: u32) -> u32 {
+        self.cell_of[slot as usize]
     }
 
-    /// Index of the point at each place.
+    /// Index of the point at each slot.
     pub fn order(&self) -> &[u32] {
         self.grid.order()
     }
 
     /// Place of each point, by index.
-    pub fn places(&self) -> Vec<u32> {
-        let mut places = vec![0; self.len()];
-        for (place, &i) in (0..).zip(self.order()) {
-            places[i as usize] = place;
+    pub fn slots(&self) -> Vec<u32> {
+        let mut slots = vec![0; self.len()];
+        for (slot, &i) in (0..).zip(self.order()) {
+            slots[i as usize] = slot;
         }
-        places
+        slots
     }
 
     /// Whether there are no points.
@@ -114,20 +114,20 @@ impl Cells {
         self.points.len()
     }
 
-    /// Runs of places that hold every point within one cell width of the point at `place`.
+    /// Runs of slots that hold every point within one cell width of the point at `slot`.
     #[inline(always)]
-    pub fn runs(&self, place: u32) -> impl Iterator<Item = Range<usize>> + '_ {
-        let cell = &self.cells[self.cell_of[place as usize] as usize];
+    pub fn runs(&self, slot: u32) -> impl Iterator<Item = Range<usize>> + '_ {
+        let cell = &self.cells[self.cell_of[slot as usize] as usize];
         cell.rows[..cell.used as usize].iter().map(|&(a, b)| a as usize..b as usize)
     }
 
-    /// Calls `f` with the place and the squared distance [m²] of each point nearer than `radius` [m]
-    /// to the one at `place`; itself too.
+    /// Calls `f` with the slot and the squared distance [m²] of each point nearer than `radius` [m]
+    /// to the one at `slot`; itself too.
     #[inline(always)]
-    pub fn each_near(&self, place: u32, radius: f64, mut f: impl FnMut(u32, f64)) {
+    pub fn each_near(&self, slot: u32, radius: f64, mut f: impl FnMut(u32, f64)) {
         debug_assert!(radius <= self.width);
-        let centre = self.points[place as usize];
-        for run in self.runs(place) {
+        let centre = self.points[slot as usize];
+        for run in self.runs(slot) {
             for (other, point) in (run.start as u32..).zip(&self.points[run]) {
                 let square = apart(point, &centre);
                 if square < radius * radius {
@@ -137,13 +137,12 @@ impl Cells {
         }
     }
 
-    /// Number of points nearer than `radius` [m] to the one at `place`, itself too; counting may stop past `enough`.
+    /// Number of points nearer than `radius` [m] to the one at `slot`, itself too; counting may stop past `enough`.
     #[inline(always)]
-    pub fn count_near(&self, place: u32, radius: f64, enough: u32) -> u32 {
-        let centre = self.points[place as usize];
+    pub fn count_near(&self, slot: u32, radius: f64, enough: u32) -> u32 {
+        let centre = self.points[slot as usize];
         let mut count = 0;
-        for part in self.runs(place).flat_map(|run| self.points[run].chunks(enough.clamp(64, 4096) as usize))
-        {
+        for part in self.runs(slot).flat_map(|run| self.points[run].chunks(enough.clamp(64, 4096) as usize)) {
             // Without a branch: about half of the candidates are near, which cannot be predicted.
             count += part.iter().map(|p| (apart(p, &centre) < radius * radius) as u32).sum::<u32>();
             if count > enough {
@@ -153,7 +152,7 @@ impl Cells {
         count
     }
 
-    /// For each place, `f` of the place; in parallel, in parts of fixed size.
+    /// For each slot, `f` of the slot; in parallel, in parts of fixed size.
     pub fn map<T: Send>(&self, f: impl Fn(u32) -> T + Sync + Send) -> Vec<T> {
         (0..self.len() as u32).into_par_iter().with_min_len(PART).map(f).collect()
     }

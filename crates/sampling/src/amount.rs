@@ -198,7 +198,7 @@ fn by_density(points: &[Vec3], low: f64, high: f64, throw: impl Fn(&Cells, f64) 
 pub fn median_density(points: &[Vec3], spacing: f64) -> f64 {
     let disk = DENSITY_DISK * spacing;
     let cells = Cells::new(points, disk);
-    let mut counts = cells.map(|place| cells.count_near(place, disk, u32::MAX / 2));
+    let mut counts = cells.map(|slot| cells.count_near(slot, disk, u32::MAX / 2));
     counts.sort_unstable();
     counts.get(counts.len() / 2).map_or(0.0, |&n| n as f64 / (std::f64::consts::PI * disk * disk))
 }

@@ -24,21 +24,21 @@ pub(crate) fn complete(cells: &Cells, spacing: f64, seed: u64, kept: Vec<u32>, d
     if distance == Distance::Space {
         return Thrown { kept, beside: 0 };
     }
-    let place_of = cells.places();
+    let slot_of = cells.slots();
     let lists: Vec<Vec<u32>> =
-        kept.par_iter().map(|&i| others(cells, place_of[i as usize], spacing)).collect();
-    let mut open = opened(cells, spacing, &kept, &place_of, &lists);
+        kept.par_iter().map(|&i| others(cells, slot_of[i as usize], spacing)).collect();
+    let mut open = opened(cells, spacing, &kept, &slot_of, &lists);
     let mut order: Vec<u32> = (0..cells.len() as u32).filter(|&p| open[p as usize]).collect();
     order.sort_unstable_by_key(|&p| (chance(seed, u64::from(cells.order()[p as usize])), p));
     let mut kept = kept;
     let before = kept.len();
-    for place in order {
-        if open[place as usize] {
-            let there = others(cells, place, spacing);
-            cells.each_near(place, spacing, |other, _| {
+    for slot in order {
+        if open[slot as usize] {
+            let there = others(cells, slot, spacing);
+            cells.each_near(slot, spacing, |other, _| {
                 open[other as usize] &= there.binary_search(&other).is_ok()
             });
-            kept.push(cells.order()[place as usize]);
+            kept.push(cells.order()[slot as usize]);
         }
     }
     let beside = kept.len() - before;
@@ -46,24 +46,23 @@ pub(crate) fn complete(cells: &Cells, spacing: f64, seed: u64, kept: Vec<u32>, d
     Thrown { kept, beside }
 }
 
-/// By place, whether all disks that cover a point are those of another sheet.
-fn opened(cells: &Cells, spacing: f64, kept: &[u32], place_of: &[u32], lists: &[Vec<u32>]) -> Vec<bool> {
+/// By slot, whether all disks that cover a point are those of another sheet.
+fn opened(cells: &Cells, spacing: f64, kept: &[u32], slot_of: &[u32], lists: &[Vec<u32>]) -> Vec<bool> {
     let mut open = vec![false; cells.len()];
     if lists.iter().all(Vec::is_empty) {
         return open;
     }
     let mut from_others = vec![0u32; cells.len()];
-    lists.iter().flatten().for_each(|&place| from_others[place as usize] += 1);
+    lists.iter().flatten().for_each(|&slot| from_others[slot as usize] += 1);
     let mut is_kept = vec![false; cells.len()];
-    kept.iter().for_each(|&i| is_kept[place_of[i as usize] as usize] = true);
-    let covers = |place: u32| {
+    kept.iter().for_each(|&i| is_kept[slot_of[i as usize] as usize] = true);
+    let covers = |slot: u32| {
         let mut count = 0;
-        cells.each_near(place, spacing, |other, _| count += u32::from(is_kept[other as usize]));
+        cells.each_near(slot, spacing, |other, _| count += u32::from(is_kept[other as usize]));
         count
     };
-    let is_open = |place: usize| {
-        from_others[place] > 0 && !is_kept[place] && covers(place as u32) == from_others[place]
-    };
-    open.par_iter_mut().enumerate().for_each(|(place, open)| *open = is_open(place));
+    let is_open =
+        |slot: usize| from_others[slot] > 0 && !is_kept[slot] && covers(slot as u32) == from_others[slot];
+    open.par_iter_mut().enumerate().for_each(|(slot, open)| *open = is_open(slot));
     open
 }

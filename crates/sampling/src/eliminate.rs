@@ -56,8 +56,8 @@ pub(crate) fn uncrowded(
     let apart = if like.beside > 0 { Apart::new(points, all, &cells, reach) } else { Apart::default() };
     let weight = Weight { reach, least: reach * left * 0.65, apart };
     let alive = remove(&cells, forced.as_deref(), count, &weight);
-    let alive = (0..crowd.len()).filter(|&place| alive[place]);
-    let mut kept: Vec<u32> = alive.map(|place| all[cells.order()[place] as usize]).collect();
+    let alive = (0..crowd.len()).filter(|&slot| alive[slot]);
+    let mut kept: Vec<u32> = alive.map(|slot| all[cells.order()[slot] as usize]).collect();
     kept.sort_unstable();
     kept
 }
@@ -77,7 +77,7 @@ struct Weight {
     apart: Apart,
 }
 
-/// Pairs of places of the crowd that lie on two sheets and do not crowd each other.
+/// Pairs of slots of the crowd that lie on two sheets and do not crowd each other.
 #[derive(Default)]
 struct Apart(Vec<(u32, u32)>);
 
@@ -85,14 +85,14 @@ impl Apart {
     /// Judged in the whole cloud, of which the crowd has the indices `all`.
     fn new(points: &[Vec3], all: &[u32], crowd: &Cells, reach: f64) -> Apart {
         let cells = Cells::new(points, reach);
-        let place_of = cells.places();
+        let slot_of = cells.slots();
         let mut in_crowd = vec![u32::MAX; points.len()];
-        (0..).zip(crowd.order()).for_each(|(place, &k)| in_crowd[all[k as usize] as usize] = place);
-        let pairs = |(place, &k): (usize, &u32)| {
-            let found = others(&cells, place_of[all[k as usize] as usize], reach);
+        (0..).zip(crowd.order()).for_each(|(slot, &k)| in_crowd[all[k as usize] as usize] = slot);
+        let pairs = |(slot, &k): (usize, &u32)| {
+            let found = others(&cells, slot_of[all[k as usize] as usize], reach);
             let theirs = found.into_iter().map(|p| in_crowd[cells.order()[p as usize] as usize]);
             let theirs: Vec<u32> = theirs.filter(|&p| p != u32::MAX).collect();
-            theirs.into_iter().flat_map(move |other| [(place as u32, other), (other, place as u32)])
+            theirs.into_iter().flat_map(move |other| [(slot as u32, other), (other, slot as u32)])
         };
         let mut apart: Vec<(u32, u32)> = crowd.order().par_iter().enumerate().flat_map_iter(pairs).collect();
         apart.par_sort_unstable();
@@ -115,28 +115,28 @@ impl Weight {
 
 /// Heap with late updates: a weight only falls, so an entry that is out of date is too high and is pushed back.
 fn remove(cells: &Cells, forced: Option<&[bool]>, count: usize, weight: &Weight) -> Vec<bool> {
-    let mut w: Vec<u64> = cells.map(|place| {
+    let mut w: Vec<u64> = cells.map(|slot| {
         let mut sum = 0;
-        cells.each_near(place, weight.reach, |other, square| {
-            sum += if other == place || weight.apart.has(place, other) { 0 } else { weight.of(square) }
+        cells.each_near(slot, weight.reach, |other, square| {
+            sum += if other == slot || weight.apart.has(slot, other) { 0 } else { weight.of(square) }
         });
         sum
     });
-    let free = |place: &usize| forced.is_none_or(|f| !f[cells.order()[*place] as usize]);
+    let free = |slot: &usize| forced.is_none_or(|f| !f[cells.order()[*slot] as usize]);
     let mut heap: BinaryHeap<(u64, u32)> =
-        (0..cells.len()).filter(free).map(|place| (w[place], place as u32)).collect();
+        (0..cells.len()).filter(free).map(|slot| (w[slot], slot as u32)).collect();
     let mut alive = vec![true; cells.len()];
     let mut left = cells.len();
     while left > count {
-        let Some((was, place)) = heap.pop() else { break };
-        if was != w[place as usize] {
-            heap.push((w[place as usize], place));
+        let Some((was, slot)) = heap.pop() else { break };
+        if was != w[slot as usize] {
+            heap.push((w[slot as usize], slot));
             continue;
         }
-        alive[place as usize] = false;
+        alive[slot as usize] = false;
         left -= 1;
-        cells.each_near(place, weight.reach, |other, square| {
-            if alive[other as usize] && !weight.apart.has(place, other) {
+        cells.each_near(slot, weight.reach, |other, square| {
+            if alive[other as usize] && !weight.apart.has(slot, other) {
                 w[other as usize] -= weight.of(square);
             }
         });

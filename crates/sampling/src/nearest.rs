@@ -47,9 +47,9 @@ pub fn distances(points: &[Vec3]) -> Vec<f64> {
     // Points without a neighbour in reach are tried again with twice the reach, against all points.
     while !open.is_empty() {
         let cells = Cells::new(points, reach);
-        let place_of = cells.places();
+        let slot_of = cells.slots();
         let found: Vec<f64> =
-            open.par_iter().map(|&i| nearest_in(&cells, place_of[i as usize], reach)).collect();
+            open.par_iter().map(|&i| nearest_in(&cells, slot_of[i as usize], reach)).collect();
         for (&i, d) in open.iter().zip(&found) {
             nearest[i as usize] = *d;
         }
@@ -85,10 +85,10 @@ pub fn typical(points: &[Vec3]) -> Option<f64> {
     }
 }
 
-fn nearest_in(cells: &Cells, place: u32, reach: f64) -> f64 {
+fn nearest_in(cells: &Cells, slot: u32, reach: f64) -> f64 {
     let mut least = f64::INFINITY;
-    cells.each_near(place, reach, |other, square| {
-        if other != place {
+    cells.each_near(slot, reach, |other, square| {
+        if other != slot {
             least = least.min(square);
         }
     });

@@ -26,7 +26,7 @@ use std::sync::atomic::{AtomicU8, Ordering::Relaxed};
 const RIVALS: u64 = 48;
 /// Width of a block in cells; must be more than 2.
 const BLOCK: i64 = 16;
-/// Places are ranked in parts of this many.
+/// Slots are ranked in parts of this many.
 const PART: usize = 4096;
 /// Points that are compared at once.
 const LANES: usize = 8;
@@ -69,19 +69,19 @@ fn kept(cells: &Cells, state: &[AtomicU8]) -> Vec<u32> {
     (0..).zip(is_kept).filter(|(_, is_kept)| *is_kept).map(|(index, _)| index).collect()
 }
 
-/// Number of points nearer than `spacing` [m] to each place from `first` on. The points around a cell are laid side by side once for all
+/// Number of points nearer than `spacing` [m] to each slot from `first` on. The points around a cell are laid side by side once for all
 /// points of the cell.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn ranks(cells: &Cells, first: u32, spacing: f64, rivals: &mut [u64]) {
     let [mut xs, mut ys, mut zs]: [Vec<f64>; 3] = Default::default();
     let mut around = u32::MAX;
-    for (place, rivals) in (first..).zip(rivals) {
-        if cells.cell(place) != around {
-            around = cells.cell(place);
+    for (slot, rivals) in (first..).zip(rivals) {
+        if cells.cell(slot) != around {
+            around = cells.cell(slot);
             [&mut xs, &mut ys, &mut zs].into_iter().for_each(Vec::clear);
-            let mine = |run: &Range<usize>| run.contains(&(place as usize));
+            let mine = |run: &Range<usize>| run.contains(&(slot as usize));
             // Its own row first: it has most of the near ones.
-            for run in cells.runs(place).filter(mine).chain(cells.runs(place).filter(|run| !mine(run))) {
+            for run in cells.runs(slot).filter(mine).chain(cells.runs(slot).filter(|run| !mine(run))) {
                 let points = &cells.points[run];
                 xs.extend(points.iter().map(|p| p.x));
                 ys.extend(points.iter().map(|p| p.y));
@@ -90,7 +90,7 @@ fn ranks(cells: &Cells, first: u32, spacing: f64, rivals: &mut [u64]) {
             let whole = xs.len().next_multiple_of(LANES);
             [&mut xs, &mut ys, &mut zs].into_iter().for_each(|column| column.resize(whole, NO_POINT));
         }
-        let p = cells.points[place as usize];
+        let p = cells.points[slot as usize];
         let mut count = [0u64; LANES];
         let rows = xs.chunks_exact(LANES).zip(ys.chunks_exact(LANES)).zip(zs.chunks_exact(LANES));
         for (row, ((xs, ys), zs)) in rows.enumerate() {
@@ -118,13 +118,13 @@ pub(crate) fn chance(seed: u64, index: u64) -> u64 {
 
 fn keep_forced(cells: &Cells, spacing: f64, forced: &[bool], state: &[AtomicU8]) {
     (0..cells.len() as u32).into_par_iter().filter(|&p| forced[cells.order()[p as usize] as usize]).for_each(
-        |place| {
-            cells.each_near(place, spacing, |other, _| {
+        |slot| {
+            cells.each_near(slot, spacing, |other, _| {
                 if !forced[cells.order()[other as usize] as usize] {
                     state[other as usize].store(COVERED, Relaxed);
                 }
             });
-            state[place as usize].store(KEPT, Relaxed);
+            state[slot as usize].store(KEPT, Relaxed);
         },
     );
 }
@@ -132,34 +132,34 @@ fn keep_forced(cells: &Cells, spacing: f64, forced: &[bool], state: &[AtomicU8])
 /// Keeps each point of the block that is still open, points with few rivals first, then in random order, and covers its neighbours.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn throw(cells: &Cells, spacing: f64, block: &[Range<usize>], rank: &[u64], state: &[AtomicU8]) {
-    let is_open = |place: u32| state[place as usize].load(Relaxed) == OPEN;
-    let places = block.iter().cloned().flatten().map(|place| (rank[place], place as u32));
-    let mut open: Vec<(u64, u32)> = places.filter(|&(_, place)| is_open(place)).collect();
+    let is_open = |slot: u32| state[slot as usize].load(Relaxed) == OPEN;
+    let slots = block.iter().cloned().flatten().map(|slot| (rank[slot], slot as u32));
+    let mut open: Vec<(u64, u32)> = slots.filter(|&(_, slot)| is_open(slot)).collect();
     while !open.is_empty() {
         let first = if open.len() <= FEW { open.len() } else { (open.len() / 4).max(FEW) };
         if first < open.len() {
             open.select_nth_unstable(first);
         }
         open[..first].sort_unstable();
-        for &(_, place) in &open[..first] {
-            if is_open(place) {
-                cover(cells, place, spacing, state);
-                state[place as usize].store(KEPT, Relaxed);
+        for &(_, slot) in &open[..first] {
+            if is_open(slot) {
+                cover(cells, slot, spacing, state);
+                state[slot as usize].store(KEPT, Relaxed);
             }
         }
         let mut number = 0;
-        open.retain(|&(_, place)| {
+        open.retain(|&(_, slot)| {
             number += 1;
-            number > first && is_open(place)
+            number > first && is_open(slot)
         });
     }
 }
 
 /// Covers what is nearer than `spacing` [m].
 #[inline(always)]
-fn cover(cells: &Cells, place: u32, spacing: f64, state: &[AtomicU8]) {
-    let centre = cells.points[place as usize];
-    for run in cells.runs(place) {
+fn cover(cells: &Cells, slot: u32, spacing: f64, state: &[AtomicU8]) {
+    let centre = cells.points[slot as usize];
+    for run in cells.runs(slot) {
         // Without a branch: which points are near cannot be predicted. No other thread writes here while this block is processed.
         for (state, point) in state[run.clone()].iter().zip(&cells.points[run]) {
             let is_near = apart(point, &centre) < spacing * spacing;
@@ -169,7 +169,7 @@ fn cover(cells: &Cells, place: u32, spacing: f64, state: &[AtomicU8]) {
     }
 }
 
-/// Runs of the blocks' places, by colour.
+/// Runs of the blocks' slots, by colour.
 fn colours(cells: &Cells) -> [Vec<Vec<Range<usize>>>; 8] {
     let mut colours: [Vec<Vec<Range<usize>>>; 8] = Default::default();
     for ([x, y, z], runs) in cells.cubes(BLOCK) {

@@ -20,21 +20,21 @@ pub(crate) fn relax(
     let mut sample = amount::sample_of(points, forced, settings)?;
     let cells = Cells::new(points, sample.spacing);
     let mut weight = vec![0.0; points.len()];
-    let counts = cells.map(|place| cells.count_near(place, sample.spacing, u32::MAX / 2));
-    for (place, count) in counts.into_iter().enumerate() {
-        weight[cells.order()[place] as usize] = 1.0 / f64::from(count);
+    let counts = cells.map(|slot| cells.count_near(slot, sample.spacing, u32::MAX / 2));
+    for (slot, count) in counts.into_iter().enumerate() {
+        weight[cells.order()[slot] as usize] = 1.0 / f64::from(count);
     }
-    let mut place_of = vec![0; points.len()];
-    for (place, &i) in cells.order().iter().enumerate() {
-        place_of[i as usize] = place as u32;
+    let mut slot_of = vec![0; points.len()];
+    for (slot, &i) in cells.order().iter().enumerate() {
+        slot_of[i as usize] = slot as u32;
     }
-    let still = still(points.len(), forced, &sample, &cells, &place_of);
+    let still = still(points.len(), forced, &sample, &cells, &slot_of);
     let forced = still.as_deref();
     for _ in 0..ROUNDS {
         let owner = owners(points, &sample.kept, sample.spacing);
         let middles = middles(points, &weight, &owner, sample.kept.len());
         let wanted = wanted(points, &owner, &middles, &sample.kept, forced);
-        if !snap(&cells, &place_of, &wanted, &mut sample.kept, sample.spacing) {
+        if !snap(&cells, &slot_of, &wanted, &mut sample.kept, sample.spacing) {
             break;
         }
     }
@@ -48,13 +48,13 @@ fn still(
     forced: Option<&[bool]>,
     sample: &Sample,
     cells: &Cells,
-    place_of: &[u32],
+    slot_of: &[u32],
 ) -> Option<Vec<bool>> {
     if sample.beside == 0 {
         return forced.map(<[bool]>::to_vec);
     }
     let mut still = forced.map_or_else(|| vec![false; count], <[bool]>::to_vec);
-    let is_beside = |i: &&u32| !others(cells, place_of[**i as usize], sample.spacing).is_empty();
+    let is_beside = |i: &&u32| !others(cells, slot_of[**i as usize], sample.spacing).is_empty();
     let beside: Vec<u32> = sample.kept.par_iter().filter(is_beside).copied().collect();
     beside.into_iter().for_each(|i| still[i as usize] = true);
     Some(still)
@@ -92,20 +92,20 @@ fn middles(points: &[Vec3], weight: &[f64], owner: &[u32], count: usize) -> Vec<
 
 /// The point of each share that is nearest to its middle; a forced point stays, and so does one whose
 /// move would bring two kept points nearer than the spacing. One after the other, so that every move sees the ones before.
-fn snap(cells: &Cells, place_of: &[u32], wanted: &[(f64, u32)], kept: &mut [u32], spacing: f64) -> bool {
-    let mut taken = vec![false; place_of.len()];
+fn snap(cells: &Cells, slot_of: &[u32], wanted: &[(f64, u32)], kept: &mut [u32], spacing: f64) -> bool {
+    let mut taken = vec![false; slot_of.len()];
     for &i in kept.iter() {
-        taken[place_of[i as usize] as usize] = true;
+        taken[slot_of[i as usize] as usize] = true;
     }
     let mut moved = false;
     for (now, &(_, to)) in kept.iter_mut().zip(wanted) {
-        let (from, place) = (place_of[*now as usize], place_of[to as usize]);
-        let mut free = from != place;
+        let (from, slot) = (slot_of[*now as usize], slot_of[to as usize]);
+        let mut free = from != slot;
         if free {
-            cells.each_near(place, spacing, |other, _| free &= other == from || !taken[other as usize]);
+            cells.each_near(slot, spacing, |other, _| free &= other == from || !taken[other as usize]);
         }
         if free {
-            (taken[from as usize], taken[place as usize]) = (false, true);
+            (taken[from as usize], taken[slot as usize]) = (false, true);
             (*now, moved) = (to, true);
         }
     }

@@ -38,17 +38,17 @@ const MOST: usize = 3000;
 /// Cells of a ball's own grid along an axis, at most.
 const CELLS: f64 = 24.0;
 
-/// Places in the ball of `radius` [m] around the point at `place` that lie on another sheet; ascending, mostly none.
+/// Slots in the ball of `radius` [m] around the point at `slot` that lie on another sheet; ascending, mostly none.
 /// `radius` is at most the cell width.
-pub(crate) fn others(cells: &Cells, place: u32, radius: f64) -> Vec<u32> {
-    if cells.count_near(place, radius, FEWEST) < FEWEST {
+pub(crate) fn others(cells: &Cells, slot: u32, radius: f64) -> Vec<u32> {
+    if cells.count_near(slot, radius, FEWEST) < FEWEST {
         return Vec::new();
     }
-    let mut places = Vec::new();
-    cells.each_near(place, radius, |other, _| places.push(other));
-    let centre = cells.points[place as usize];
-    let near: Vec<Vec3> = places.iter().map(|&p| cells.points[p as usize] - centre).collect();
-    let (some, start) = stand_ins(&places, place);
+    let mut slots = Vec::new();
+    cells.each_near(slot, radius, |other, _| slots.push(other));
+    let centre = cells.points[slot as usize];
+    let near: Vec<Vec3> = slots.iter().map(|&p| cells.points[p as usize] - centre).collect();
+    let (some, start) = stand_ins(&slots, slot);
     let step = STEP * (std::f64::consts::PI * radius * radius / some.len() as f64).sqrt();
     if is_smooth(&near, SMOOTH * step) {
         return Vec::new();
@@ -61,18 +61,18 @@ pub(crate) fn others(cells: &Cells, place: u32, radius: f64) -> Vec<u32> {
     let Some(normal) = normal(&reached) else { return Vec::new() };
     let is_other = |p: &Vec3| p.dot(&normal).abs() > OFF * step && ball.is_far(p, &ways, WAY * radius);
     let mut found: Vec<u32> =
-        places.iter().zip(&near).filter(|(_, p)| is_other(p)).map(|(place, _)| *place).collect();
+        slots.iter().zip(&near).filter(|(_, p)| is_other(p)).map(|(slot, _)| *slot).collect();
     found.sort_unstable();
     found
 }
 
-/// Positions in `places` of the points that paths use: all, or a random choice where there are many; and which of them is the
+/// Positions in `slots` of the points that paths use: all, or a random choice where there are many; and which of them is the
 /// centre.
-fn stand_ins(places: &[u32], centre: u32) -> (Vec<usize>, usize) {
-    let one_of = (places.len() / MOST).max(1) as u64;
-    let stands = |k: &usize| places[*k] == centre || chance(0, u64::from(places[*k])).is_multiple_of(one_of);
-    let some: Vec<usize> = (0..places.len()).filter(stands).collect();
-    let start = some.iter().position(|&k| places[k] == centre).unwrap_or(0);
+fn stand_ins(slots: &[u32], centre: u32) -> (Vec<usize>, usize) {
+    let one_of = (slots.len() / MOST).max(1) as u64;
+    let stands = |k: &usize| slots[*k] == centre || chance(0, u64::from(slots[*k])).is_multiple_of(one_of);
+    let some: Vec<usize> = (0..slots.len()).filter(stands).collect();
+    let start = some.iter().position(|&k| slots[k] == centre).unwrap_or(0);
     (some, start)
 }
 

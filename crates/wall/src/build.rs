@@ -72,7 +72,7 @@ pub fn build(
 ) -> Result<(Wall, WallReport), WallError> {
     check(points, settings)?;
     let typical = sampling::nearest::typical(points).ok_or(WallError::OnePlace(points.len()))?;
-    // From here to the end points go by their place in the cells' order: neighbours lie side by side in memory.
+    // From here to the end points are named by their slot in the order of the cells: neighbours lie side by side in memory.
     let cells = Cells::new(points, REACH * typical);
     let found = pairs(&cells, typical);
     check_apart(points, &cells, &found)?;
@@ -126,7 +126,7 @@ pub fn build(
 fn list(cells: &Cells, found: &Pairs, asked: &[f64], radii: &[f64]) -> Vec<Changed> {
     let of = |(k, asked, made): (usize, f64, f64)| {
         let (i, j) = found.pairs[k];
-        let [a, b] = [i, j].map(|place| cells.order()[place as usize]);
+        let [a, b] = [i, j].map(|slot| cells.order()[slot as usize]);
         let at = (cells.points[i as usize] + cells.points[j as usize]) * 0.5;
         Changed { points: [a.min(b), a.max(b)], at: at.into(), distance: found.lengths[k], asked, made }
     };
@@ -135,10 +135,10 @@ fn list(cells: &Cells, found: &Pairs, asked: &[f64], radii: &[f64]) -> Vec<Chang
     all
 }
 
-/// Values by place in the order of the points.
-fn by_index<T: Copy + Default>(cells: &Cells, by_place: &[T]) -> Vec<T> {
-    let mut by_index = vec![T::default(); by_place.len()];
-    for (&i, value) in cells.order().iter().zip(by_place) {
+/// Values by slot in the order of the points.
+fn by_index<T: Copy + Default>(cells: &Cells, by_slot: &[T]) -> Vec<T> {
+    let mut by_index = vec![T::default(); by_slot.len()];
+    for (&i, value) in cells.order().iter().zip(by_slot) {
         by_index[i as usize] = *value;
     }
     by_index

@@ -20,7 +20,7 @@ const LONGEST: f64 = 2.0;
 pub(crate) const FURTHEST: f64 = 6.0;
 /// A point as near as this to the border of the ball counts as inside: on a square lattice there is no diagonal.
 const ON_BORDER: f64 = 1e-9;
-/// Places are worked on in parts of this many.
+/// Slots are worked on in parts of this many.
 const PART: usize = 1024;
 /// Points that are compared at once.
 const LANES: usize = 8;
@@ -30,14 +30,14 @@ const NO_POINT: f64 = 1e150;
 /// Width of the cells that [`pairs`] wants, in typical distances.
 pub const REACH: f64 = 2.8;
 
-/// Pairs of neighbours. Points go by their place in the cells' order.
+/// Pairs of neighbours, as slots in the order of the cells.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Pairs {
-    /// Places a < b, ascending.
+    /// Slots a < b, ascending.
     pub pairs: Vec<(u32, u32)>,
     /// Distance of each pair [m].
     pub lengths: Vec<f64>,
-    /// Distance from each place to the nearest other one [m]; infinite when none is near.
+    /// Distance from the point of each slot to the nearest other one [m]; infinite when none is near.
     pub nearest: Vec<f64>,
 }
 
@@ -81,7 +81,7 @@ impl Pairs {
     }
 }
 
-/// What one place found.
+/// A neighbour of a point.
 #[derive(Debug, Clone, Copy)]
 struct Link {
     from: u32,
@@ -90,24 +90,24 @@ struct Link {
     square: f64,
 }
 
-/// What the places of a part found.
+/// The neighbours that one task found.
 #[derive(Default)]
 struct PointPairs {
     /// Squared [m²].
     nearest: Vec<f64>,
-    /// To higher places, ascending.
+    /// To higher slots, ascending.
     up: Vec<Link>,
-    /// To lower places.
+    /// To lower slots.
     down: Vec<Link>,
     work: PairScratch,
 }
 
-/// Memory that is used again for every place.
+/// Buffers that every point uses again.
 #[derive(Default)]
 struct PairScratch {
     /// Squared distances of the candidates [m²].
     squares: Vec<f64>,
-    /// Places of the points near by, ascending.
+    /// Slots of the points near by, ascending.
     near: Vec<u32>,
     /// The same points from the one in the middle [m], and their squared distances; filled up with [`NO_POINT`].
     x: Vec<f64>,
@@ -117,24 +117,24 @@ struct PairScratch {
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn look_all(cells: &Cells, places: std::ops::Range<usize>, furthest: f64, part: &mut PointPairs) {
-    for place in places {
-        look(cells, place as u32, furthest, part);
+fn look_all(cells: &Cells, slots: std::ops::Range<usize>, furthest: f64, part: &mut PointPairs) {
+    for slot in slots {
+        look(cells, slot as u32, furthest, part);
     }
 }
 
 #[inline(always)]
-fn look(cells: &Cells, place: u32, furthest: f64, part: &mut PointPairs) {
-    let centre = cells.points[place as usize];
+fn look(cells: &Cells, slot: u32, furthest: f64, part: &mut PointPairs) {
+    let centre = cells.points[slot as usize];
     let PointPairs { nearest, up, down, work } = part;
     let mut runs = [(0, 0); 9];
     let mut used = 0;
-    for run in cells.runs(place) {
+    for run in cells.runs(slot) {
         runs[used] = (run.start as u32, run.end as u32);
         used += 1;
     }
     let runs = &runs[..used];
-    let mut least = work.measure(cells, place, centre, runs);
+    let mut least = work.measure(cells, slot, centre, runs);
     // The square of 2 n is exactly 4 n²: from both ends, a pair is as long.
     let most = |least: f64| (LONGEST * LONGEST * least).min(furthest * furthest);
     if LONGEST * least.sqrt() > cells.width {
@@ -142,7 +142,7 @@ fn look(cells: &Cells, place: u32, furthest: f64, part: &mut PointPairs) {
         let reach = (LONGEST * least.sqrt()).min(furthest) * ROUNDED;
         let wide = cells.grid.runs_near(centre, reach).map(|run| (run.start as u32, run.end as u32));
         let wide: Vec<(u32, u32)> = wide.collect();
-        least = work.measure(cells, place, centre, &wide);
+        least = work.measure(cells, slot, centre, &wide);
         work.gather(cells, centre, &wide, most(least));
     } else {
         work.gather(cells, centre, runs, most(least));
@@ -150,23 +150,23 @@ fn look(cells: &Cells, place: u32, furthest: f64, part: &mut PointPairs) {
     nearest.push(if least <= furthest * furthest { least } else { f64::INFINITY });
     for (at, &to) in work.near.iter().enumerate() {
         if work.is_pair(at) {
-            let link = Link { from: place, to, square: work.square[at] };
-            if to > place { up.push(link) } else { down.push(link) }
+            let link = Link { from: slot, to, square: work.square[at] };
+            if to > slot { up.push(link) } else { down.push(link) }
         }
     }
 }
 
 impl PairScratch {
-    /// Squared distances of the points of `runs`; the least of them but the place's own.
+    /// Squared distances of the points of `runs`; the least of them, without the point itself.
     #[inline(always)]
-    fn measure(&mut self, cells: &Cells, place: u32, centre: Vec3, runs: &[(u32, u32)]) -> f64 {
+    fn measure(&mut self, cells: &Cells, slot: u32, centre: Vec3, runs: &[(u32, u32)]) -> f64 {
         self.squares.clear();
         for &(from, to) in runs {
             let points = &cells.points[from as usize..to as usize];
             let first = self.squares.len();
             self.squares.extend(points.iter().map(|p| square(p, &centre)));
-            if (from..to).contains(&place) {
-                self.squares[first + (place - from) as usize] = f64::INFINITY;
+            if (from..to).contains(&slot) {
+                self.squares[first + (slot - from) as usize] = f64::INFINITY;
             }
         }
         // Eight at a time: the least is the same in any order.
@@ -188,8 +188,8 @@ impl PairScratch {
         let (mut count, mut at) = (0, 0);
         for &(from, to) in runs {
             // Without a branch: which points are near cannot be predicted.
-            for (place, &square) in (from..to).zip(&self.squares[at..]) {
-                self.near[count] = place;
+            for (slot, &square) in (from..to).zip(&self.squares[at..]) {
+                self.near[count] = slot;
                 count += (square <= most) as usize;
             }
             at += (to - from) as usize;
@@ -200,10 +200,10 @@ impl PairScratch {
             column.clear();
             column.resize(padded, NO_POINT);
         }
-        for (k, &place) in self.near.iter().enumerate() {
-            let to = cells.points[place as usize] - centre;
+        for (k, &slot) in self.near.iter().enumerate() {
+            let to = cells.points[slot as usize] - centre;
             (self.x[k], self.y[k], self.z[k]) = (to.x, to.y, to.z);
-            self.square[k] = square(&cells.points[place as usize], &centre);
+            self.square[k] = square(&cells.points[slot as usize], &centre);
         }
         self.square[count..].fill(NO_POINT * NO_POINT);
     }

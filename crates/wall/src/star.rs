@@ -2,7 +2,7 @@
 //!
 //! The points near by are laid onto the plane of least squares through them, and the point's Voronoi cell is cut out of a square by
 //! one bisector after the other, nearest first. Its sides give the neighbours, its corners the voids: a corner is as far from
-//! three points as from no other. Points go by their place in the order of the cells.
+//! three points as from no other. Points are named by their slot in the order of the cells.
 
 use geom::{Vec3, least_axis};
 use nalgebra::Matrix3;
@@ -36,7 +36,7 @@ struct Corner {
     next: Option<u32>,
 }
 
-/// A point near by: its place in the order, and where it is from the point in the middle [m].
+/// A point near by: its slot in the order, and where it is from the point in the middle [m].
 #[derive(Clone, Copy)]
 struct Neighbour {
     index: u32,
@@ -50,8 +50,8 @@ pub fn stars(cells: &Cells, typical: f64) -> Stars {
         .into_par_iter()
         .map(|part| {
             let (mut stars, mut work) = (Stars::default(), StarScratch::default());
-            for place in part * PART..count.min((part + 1) * PART) {
-                star(cells, place as u32, typical, &mut work, &mut stars);
+            for slot in part * PART..count.min((part + 1) * PART) {
+                star(cells, slot as u32, typical, &mut work, &mut stars);
             }
             stars
         })
@@ -72,42 +72,42 @@ pub fn stars(cells: &Cells, typical: f64) -> Stars {
 /// Memory that is used again for every point.
 #[derive(Default)]
 struct StarScratch {
-    /// Squared distance [m²] (its bits are in the order of the numbers), place.
+    /// Squared distance [m²] (its bits are in the order of the numbers), slot.
     found: Vec<(u64, u32)>,
     near: Vec<Neighbour>,
     cell: Vec<Corner>,
     kept: Vec<Corner>,
 }
 
-fn star(cells: &Cells, place: u32, typical: f64, work: &mut StarScratch, part: &mut Stars) {
+fn star(cells: &Cells, slot: u32, typical: f64, work: &mut StarScratch, part: &mut Stars) {
     let (mut reach, furthest) = (cells.width, 2.0 * SQUARE * typical);
     loop {
-        neighbours(cells, place, reach, work);
+        neighbours(cells, slot, reach, work);
         let (u, v, normal) = plane(&work.near);
         let extent = voronoi(work, &u, &v, SQUARE * typical);
         if 2.0 * extent <= reach || reach >= furthest {
             part.normals.push(normal);
-            return finish(place, &work.near, &work.cell, SQUARE * typical, part);
+            return finish(slot, &work.near, &work.cell, SQUARE * typical, part);
         }
         reach = (2.0 * extent).min(furthest);
     }
 }
 
 /// Points within reach, nearest first, relative to the point.
-fn neighbours(cells: &Cells, place: u32, reach: f64, work: &mut StarScratch) {
+fn neighbours(cells: &Cells, slot: u32, reach: f64, work: &mut StarScratch) {
     let StarScratch { found, near, .. } = work;
-    let centre = cells.points[place as usize];
+    let centre = cells.points[slot as usize];
     found.clear();
     let mut look = |run: Range<usize>| {
         for (other, point) in (run.start as u32..).zip(&cells.points[run]) {
             let square = (point - centre).norm_squared();
-            if square <= reach * reach && other != place {
+            if square <= reach * reach && other != slot {
                 found.push((square.to_bits(), other));
             }
         }
     };
     match reach <= cells.width {
-        true => cells.runs(place).for_each(&mut look),
+        true => cells.runs(slot).for_each(&mut look),
         false => cells.grid.runs_near(centre, reach).for_each(&mut look),
     }
     found.sort_unstable();
