@@ -10,8 +10,8 @@ use serde::Serialize;
 use std::collections::HashMap;
 use std::str::FromStr;
 
-/// Most places that a thin plate is fitted to: it costs their number cubed.
-const MOST_PLACES: usize = 250;
+/// Most positions that a thin plate is fitted to: it costs their number cubed.
+const MOST_POSITIONS: usize = 250;
 /// Smoothing of the plate [–]: follows the surface over about two scales, not the noise.
 const SMOOTHING: f64 = 3.0;
 /// Width of the surroundings that are used, in cells.
@@ -46,11 +46,11 @@ impl FromStr for Mesher {
 pub(crate) struct Cover {
     /// Cells that may get points.
     pub mask: Vec<bool>,
-    /// Scanned points around the hole: rows of the cloud and their local places [m].
+    /// Scanned points around the hole: rows of the cloud and their local positions [m].
     pub corners: Vec<(u32, Vec3)>,
-    /// Local places of the mesh's vertices [m].
-    pub places: Vec<Vec3>,
-    /// Triangles over `places`.
+    /// Local positions of the mesh's vertices [m].
+    pub positions: Vec<Vec3>,
+    /// Triangles over `positions`.
     pub faces: Vec<[u32; 3]>,
     /// Points per area of the surroundings [1/m²].
     pub density: f64,
@@ -90,8 +90,8 @@ impl Cover {
         let covered = covered(hole, &flat, &faces);
         let heights = Heights::new(hole, &mask, &around);
         let ball = balls.iter().copied().fold(0.0, f64::max);
-        let places = corners.iter().map(|c| c.1).collect();
-        Ok(Cover { mask, corners, places, faces, density, ball, covered, heights })
+        let positions = corners.iter().map(|c| c.1).collect();
+        Ok(Cover { mask, corners, positions, faces, density, ball, covered, heights })
     }
 
     /// A mesh of two triangles a cell, at the heights where the diffused field is zero.
@@ -105,11 +105,11 @@ impl Cover {
         let (first, side) = Heights::window(raster, &mask);
         let nodes = volume::heights(hole, around, first, side);
         let corner = |i: usize| i as f64 * raster.cell - raster.half;
-        let place = |n: usize| {
+        let position = |n: usize| {
             let (u, v) = (corner(first.0 + n % side.0), corner(first.1 + n / side.0));
             Vec3::new(u, v, hole.surface.height(u, v) + nodes[n])
         };
-        let places = (0..nodes.len()).map(place).collect();
+        let positions = (0..nodes.len()).map(position).collect();
         let mut faces = Vec::new();
         for cell in (0..raster.len()).filter(|&cell| mask[cell]) {
             let n = (cell / raster.side - first.1) * side.0 + cell % raster.side - first.0;
@@ -117,7 +117,7 @@ impl Cover {
             faces.extend([[a, b, c], [a, c, d]]);
         }
         let heights = Heights { raster: *raster, first, side, nodes };
-        Cover { mask, corners, places, faces, density, ball: 0.0, covered: 1.0, heights }
+        Cover { mask, corners, positions, faces, density, ball: 0.0, covered: 1.0, heights }
     }
 
     /// Whether the mesh leaves no hole in the hole.
@@ -132,7 +132,7 @@ impl Cover {
 
     /// Local corners of a face, without height [m].
     pub fn triangle(&self, face: [u32; 3]) -> [Vec3; 3] {
-        face.map(|i| self.places[i as usize])
+        face.map(|i| self.positions[i as usize])
     }
 }
 
@@ -211,12 +211,12 @@ impl Heights {
         let raster = hole.raster;
         let (lo, side) = Heights::window(&raster, mask);
         let mut scale = raster.cell * CELLS;
-        let mut places = means(hole, around, scale);
-        while places.len() > MOST_PLACES {
+        let mut positions = means(hole, around, scale);
+        while positions.len() > MOST_POSITIONS {
             scale *= 1.3;
-            places = means(hole, around, scale);
+            positions = means(hole, around, scale);
         }
-        let plate = ThinPlate::fit(&places, scale, SMOOTHING);
+        let plate = ThinPlate::fit(&positions, scale, SMOOTHING);
         let corner = |i: usize| i as f64 * raster.cell - raster.half;
         let node = |i: usize| plate.height(corner(lo.0 + i % side.0), corner(lo.1 + i / side.0));
         Heights { raster, first: lo, side, nodes: (0..side.0 * side.1).map(node).collect() }
@@ -233,7 +233,7 @@ impl Heights {
         (lo, (hi.0 + 2 - lo.0.min(hi.0), hi.1 + 2 - lo.1.min(hi.1)))
     }
 
-    /// Between the four nodes around a place.
+    /// Between the four nodes around a position.
     fn at(&self, u: f64, v: f64) -> f64 {
         let along = |c: f64, first: usize, side: usize| {
             let t = ((c + self.raster.half) / self.raster.cell - first as f64).clamp(0.0, (side - 1) as f64);
@@ -249,7 +249,7 @@ impl Heights {
     }
 }
 
-/// Mean place of the points of each square of side `scale` [m], with the height that the quadratic leaves.
+/// Mean position of the points of each square of side `scale` [m], with the height that the quadratic leaves.
 fn means(hole: &Hole, around: &[(u32, Vec3)], scale: f64) -> Vec<Vec3> {
     let mut number: HashMap<(i64, i64), usize> = HashMap::new();
     let mut sums: Vec<(Vec3, f64)> = Vec::new();

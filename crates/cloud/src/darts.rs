@@ -21,7 +21,7 @@ pub enum Method {
     /// Poisson disk: nowhere nearer than the spacing, no preferred direction.
     #[default]
     BlueNoise,
-    /// Each place alike, whatever is there.
+    /// Every position with the same probability, whatever is there.
     Random,
     /// A square grid along the coordinate axes.
     Grid,
@@ -40,7 +40,7 @@ impl FromStr for Method {
     }
 }
 
-/// Local places [m] of the points that a hole gets; `spacing` [m] is their least distance (of a grid: its step).
+/// Local positions [m] of the points that a hole gets; `spacing` [m] is their least distance (of a grid: its step).
 pub(crate) fn throw(hole: &Hole, cover: &Cover, method: Method, spacing: f64, seed: u64) -> Vec<Vec3> {
     let target = Target::new(hole, cover);
     let wanted = PACKING * target.area / (spacing * spacing);
@@ -108,7 +108,7 @@ impl<'a> Target<'a> {
         Target { hole, cover, areas, area }
     }
 
-    /// A place on the mesh, each alike.
+    /// A random position on the mesh, each with the same probability.
     fn dart(&self, random: &mut Pcg64Mcg) -> (f64, f64) {
         let mut share = || (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
         let at = share() * self.areas[self.areas.len() - 1];
@@ -150,7 +150,7 @@ fn grid(hole: &Hole, cover: &Cover, step: f64) -> Vec<(f64, f64)> {
     // A crossing on an edge is under both of its faces.
     found.sort_by_key(|(key, _)| *key);
     found.dedup_by_key(|(key, _)| *key);
-    found.into_iter().map(|(_, place)| place).collect()
+    found.into_iter().map(|(_, position)| position).collect()
 }
 
 /// Points in square cells over the patch, to ask what is near.
@@ -168,8 +168,8 @@ impl PointGrid {
     /// Holds the scanned points around the mask.
     fn new(hole: &Hole, cover: &Cover, cell: f64) -> PointGrid {
         let corners = cover.corners.iter().map(|(_, p)| *p);
-        let places: Vec<Vec3> = corners.chain(cover.places.iter().copied()).collect();
-        let (lo, hi) = geom::grid::bounds(&places);
+        let positions: Vec<Vec3> = corners.chain(cover.positions.iter().copied()).collect();
+        let (lo, hi) = geom::grid::bounds(&positions);
         let extent = (hi - lo).map(|e| e.max(cell));
         // At most a few million cells.
         let cell = cell.max((extent.x * extent.y / 4e6).sqrt());

@@ -23,10 +23,10 @@ pub fn densities(points: &[Vec3], radius: f64) -> Vec<f64> {
 }
 
 /// Density [1/m²] below which only the sparsest `share` of the surface lies; none when points are too few or all
-/// in one place.
+/// in one position.
 ///
-/// Measured at places spread over the points, from the distance to the 16th neighbour in a random part of the
-/// cloud; each place counts for the area it stands for.
+/// Measured at positions spread over the points, from the distance to the 16th neighbour in a random part of the
+/// cloud; each position counts for the area it stands for.
 pub fn sparse(points: &[Vec3], share: f64) -> Option<f64> {
     if points.len() < FEWEST {
         return None;
@@ -35,16 +35,16 @@ pub fn sparse(points: &[Vec3], share: f64) -> Option<f64> {
     let part = sample.len() as f64 / points.len() as f64;
     let tree = ImmutableKdTree::<f64, 3>::new_from_slice(&sample).ok()?;
     let step = sample.len().div_ceil(PLACES);
-    let places: Vec<[f64; 3]> = sample.iter().copied().step_by(step).collect();
+    let positions: Vec<[f64; 3]> = sample.iter().copied().step_by(step).collect();
     let wanted = NonZero::new(NEIGHBOURS + 1)?;
-    let measure = |place: &[f64; 3]| {
-        let found = tree.query(place).nearest_n::<SquaredEuclidean<f64>>(wanted).execute();
+    let measure = |position: &[f64; 3]| {
+        let found = tree.query(position).nearest_n::<SquaredEuclidean<f64>>(wanted).execute();
         let radius2 = found.iter().map(|n| n.distance).fold(0.0, f64::max);
         NEIGHBOURS as f64 / (PI * radius2 * part)
     };
-    let mut found: Vec<f64> = places.par_iter().map(measure).filter(|d| d.is_finite()).collect();
+    let mut found: Vec<f64> = positions.par_iter().map(measure).filter(|d| d.is_finite()).collect();
     found.sort_by(f64::total_cmp);
-    // A lone far point stands for a huge area: the sparsest hundredth of the places does not count.
+    // A lone far point stands for a huge area: the sparsest hundredth of the positions does not count.
     let found = &found[found.len() / 100..];
     let whole: f64 = found.iter().map(|d| 1.0 / d).sum();
     let mut area = 0.0;

@@ -12,7 +12,7 @@ use rayon::prelude::*;
 
 /// Points of a cell at most: with fewer than seven, a window full of points looks open.
 const ENOUGH: usize = 8;
-/// How far from its cell's mean place a point may be, in cells: √3, and rounding.
+/// How far from its cell's mean position a point may be, in cells: √3, and rounding.
 const FROM_MEAN: f64 = 1.75;
 
 /// x, y and z of the points of a cell, from the sheet's middle [m]; NaN where there are fewer.
@@ -27,8 +27,8 @@ impl Few {
             let rows = sheet.rows(cell);
             let mut some = [[f32::NAN; ENOUGH]; 3];
             for (k, &row) in rows.iter().step_by(rows.len().div_ceil(ENOUGH)).enumerate() {
-                let place = points[row as usize] - sheet.middle;
-                (0..3).for_each(|a| some[a][k] = place[a] as f32);
+                let position = points[row as usize] - sheet.middle;
+                (0..3).for_each(|a| some[a][k] = position[a] as f32);
             }
             some
         };
@@ -57,7 +57,7 @@ impl Few {
     }
 }
 
-/// From a place to a cell of a raster, and to the height over a surface.
+/// From a position to a cell of a raster, and to the height over a surface.
 struct Flat {
     /// Three rows of a matrix and a shift: along u and v in cells of the raster, along the normal [m].
     axes: [[f32; 4]; 3],
@@ -108,7 +108,7 @@ impl Flat {
     }
 }
 
-/// Counts the points of cells whose mean places are at most `edge` [m] off the frame's origin along u and v.
+/// Counts the points of cells whose mean positions are at most `edge` [m] off the frame's origin along u and v.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn count(flat: &Flat, frame: &Frame, edge: f64, (means, points): (&[Vec3], &[Points]), counts: &mut [u32]) {
     for (mean, points) in means.iter().zip(points) {

@@ -57,7 +57,7 @@ pub struct Report {
     pub points_in: usize,
     /// Points without finite coordinates, dropped.
     pub not_finite: usize,
-    /// Density at or below which a place is part of a hole [1/m²].
+    /// Density at or below which a position is part of a hole [1/m²].
     pub below: Option<f64>,
     /// Whether that was chosen from the cloud.
     pub below_is_automatic: bool,
@@ -198,14 +198,14 @@ impl Patch {
         Patch {
             like: local.iter().map(|p| nearest(p, &cover.corners)).collect(),
             points: local.iter().map(|p| hole.frame.world(p)).collect(),
-            vertices: cover.places.iter().map(|p| hole.frame.world(p)).collect(),
+            vertices: cover.positions.iter().map(|p| hole.frame.world(p)).collect(),
             faces: cover.faces,
             report,
         }
     }
 }
 
-/// Row of the corner nearest to a local place.
+/// Row of the corner nearest to a local position.
 fn nearest(p: &Vec3, corners: &[(u32, Vec3)]) -> u32 {
     let far = |c: &&(u32, Vec3)| (c.1 - p).norm_squared();
     corners.iter().min_by(|a, b| far(a).total_cmp(&far(b))).map_or(0, |c| c.0)

@@ -3,7 +3,7 @@
 //! ```text
 //! threshold D [1/m²]   given, or a quarter of the density that only the sparsest 20th of the surface is below
 //! scale     c = 1/√D   a disc of c² has one point where the density is D; wider where the noise is
-//! 1. the surface ends where the cells of width c around a place leave a gap of 100° and more (`sheet`)
+//! 1. the surface ends where the cells of width c around a position leave a gap of 100° and more (`sheet`)
 //! 2. ends are linked to loops when they are near and look the same way: across a hole or a narrow strip they do not;
 //!    what is linked wider than a hole may be is looked at in overlapping boxes, each of which a hole fits in
 //! 3. each loop's surroundings are laid flat: plane, and the quadratic over it (`patch`)
@@ -56,7 +56,7 @@ pub(crate) struct Hole {
     pub raster: Raster,
     /// The open cells.
     pub open: Vec<usize>,
-    /// Rows of the points of this sheet around the hole, and their local places [m].
+    /// Rows of the points of this sheet around the hole, and their local positions [m].
     pub around: Vec<(u32, Vec3)>,
     /// Middle of the open cells [m].
     pub centre: Vec3,
@@ -104,7 +104,7 @@ fn look(
 ) -> Vec<Hole> {
     let patch = |(ends, shape)| Patch::new(sheet, ends, shape);
     let patches: Vec<Patch> = groups.into_iter().filter_map(patch).collect();
-    let near = |p: &Patch| sheet.cells.grid.within(&sheet.places, p.frame.origin, p.radius * 1.5);
+    let near = |p: &Patch| sheet.cells.grid.within(&sheet.positions, p.frame.origin, p.radius * 1.5);
     let holes = |patch: &Patch| {
         let rows = near(patch).flat_map(|cell| sheet.rows(cell).iter().copied());
         patch.holes(points, sheet, rows, search)
@@ -113,15 +113,15 @@ fn look(
     found.into_iter().flatten().collect()
 }
 
-/// Ends in loops no wider than a hole of width `widest` [m] has, by the number of their first place; and what hangs together farther,
+/// Ends in loops no wider than a hole of width `widest` [m] has, by the number of their first position; and what hangs together farther,
 /// in boxes.
 fn loops(sheet: &Sheet, ends: &[End], widest: f64) -> (Vec<Vec<End>>, Vec<Vec<End>>) {
-    let places: Vec<Vec3> = ends.iter().map(|e| sheet.places[e.place as usize]).collect();
+    let positions: Vec<Vec3> = ends.iter().map(|e| sheet.positions[e.index as usize]).collect();
     let reach = REACH * sheet.cell;
-    let grid = Grid::new(&places, reach);
+    let grid = Grid::new(&positions, reach);
     let mut parts = Parts::new(ends.len());
     for (i, end) in ends.iter().enumerate() {
-        for j in grid.within(&places, places[i], reach).filter(|&j| j > i as u32) {
+        for j in grid.within(&positions, positions[i], reach).filter(|&j| j > i as u32) {
             if end.free.dot(&ends[j as usize].free) > 0.2 {
                 parts.join(i as u32, j);
             }
@@ -132,8 +132,8 @@ fn loops(sheet: &Sheet, ends: &[End], widest: f64) -> (Vec<Vec<End>>, Vec<Vec<En
     let groups =
         by_root.chunk_by(|a, b| a.0 == b.0).map(|group| group.iter().map(|g| g.1).collect::<Vec<End>>());
     let narrow = |group: &Vec<End>| {
-        let places: Vec<Vec3> = group.iter().map(|e| sheet.places[e.place as usize]).collect();
-        let (lo, hi) = geom::grid::bounds(&places);
+        let positions: Vec<Vec3> = group.iter().map(|e| sheet.positions[e.index as usize]).collect();
+        let (lo, hi) = geom::grid::bounds(&positions);
         (hi - lo).norm() <= 2.0 * (widest + reach)
     };
     let (loops, wide): (Vec<_>, Vec<_>) = groups.partition(narrow);
@@ -146,23 +146,23 @@ fn boxes(sheet: &Sheet, group: Vec<End>, side: f64) -> Vec<Vec<End>> {
     for end in group {
         for shift in 0..8i64 {
             let half = |a: usize| 0.5 * (shift >> a & 1) as f64;
-            let place = sheet.places[end.place as usize];
-            let [x, y, z] = [0, 1, 2].map(|a| (place[a] / side + half(a)).floor() as i64);
+            let position = sheet.positions[end.index as usize];
+            let [x, y, z] = [0, 1, 2].map(|a| (position[a] / side + half(a)).floor() as i64);
             boxes.entry([shift, x, y, z]).or_default().push(end);
         }
     }
     let mut all: Vec<Vec<End>> = boxes.into_values().collect();
     // A flat surface is cut in the same way by shifts across it.
-    all.sort_by_key(|ends| ends.iter().map(|e| e.place).collect::<Vec<u32>>());
-    all.dedup_by(|a, b| a.len() == b.len() && a.iter().zip(b.iter()).all(|(a, b)| a.place == b.place));
+    all.sort_by_key(|ends| ends.iter().map(|e| e.index).collect::<Vec<u32>>());
+    all.dedup_by(|a, b| a.len() == b.len() && a.iter().zip(b.iter()).all(|(a, b)| a.index == b.index));
     all
 }
 
 /// Ends in a shape, or looking into it.
 fn ends_of(sheet: &Sheet, ends: &[End], shape: &Shape) -> Vec<End> {
     let looks_in = |end: &&End| {
-        let place = sheet.places[end.place as usize];
-        (0..8).any(|step| shape.contains(&(place + end.free * (0.5 * f64::from(step) * sheet.cell))))
+        let position = sheet.positions[end.index as usize];
+        (0..8).any(|step| shape.contains(&(position + end.free * (0.5 * f64::from(step) * sheet.cell))))
     };
     ends.iter().filter(looks_in).copied().collect()
 }
@@ -181,11 +181,11 @@ impl<'a> Patch<'a> {
         if ends.len() < FEWEST_ENDS {
             return None;
         }
-        let places = ends.iter().map(|e| sheet.places[e.place as usize]);
-        let centre = places.clone().sum::<Vec3>() / ends.len() as f64;
+        let positions = ends.iter().map(|e| sheet.positions[e.index as usize]);
+        let centre = positions.clone().sum::<Vec3>() / ends.len() as f64;
         let normals: Vec<Vec3> = ends.iter().map(|e| e.normal).collect();
         let frame = Frame::new(centre, &normals)?;
-        let radius = places.map(|p| (p - centre).norm()).fold(0.0, f64::max) + 5.0 * sheet.cell;
+        let radius = positions.map(|p| (p - centre).norm()).fold(0.0, f64::max) + 5.0 * sheet.cell;
         ((2.0 * radius * CELLS / sheet.cell).powi(2) < MOST_CELLS).then_some(Patch {
             ends,
             frame,
@@ -237,15 +237,17 @@ impl<'a> Patch<'a> {
         (3.0 * surface.rms).max(1.5 * sheet.cell)
     }
 
-    /// The quadratic through the places around the ends.
+    /// The quadratic through the positions around the ends.
     fn surface(&self, sheet: &Sheet) -> Option<Quadratic> {
         let reach = REACH * sheet.cell;
-        let near = |e: &End| sheet.cells.grid.within(&sheet.places, sheet.places[e.place as usize], reach);
+        let near =
+            |e: &End| sheet.cells.grid.within(&sheet.positions, sheet.positions[e.index as usize], reach);
         let mut near: Vec<u32> = self.ends.iter().flat_map(near).collect();
         near.sort_unstable();
         near.dedup();
-        let places: Vec<Vec3> = near.iter().map(|&i| self.frame.local(&sheet.places[i as usize])).collect();
-        Quadratic::fit(&places)
+        let positions: Vec<Vec3> =
+            near.iter().map(|&i| self.frame.local(&sheet.positions[i as usize])).collect();
+        Quadratic::fit(&positions)
     }
 
     /// The open cells; in a shape, those that may be filled.
@@ -271,14 +273,14 @@ impl<'a> Patch<'a> {
         around: &[(u32, Vec3)],
         search: &Search,
     ) -> Option<Hole> {
-        let places: Vec<Vec3> = open
+        let positions: Vec<Vec3> = open
             .iter()
             .map(|&cell| {
                 let (u, v) = raster.middle(cell);
                 Vec3::new(u, v, surface.height(u, v))
             })
             .collect();
-        let (lo, hi) = geom::grid::bounds(&places);
+        let (lo, hi) = geom::grid::bounds(&positions);
         let width = (hi - lo).max() + (1.0 + GROW) * raster.cell;
         let reach = 0.5 * (hi - lo).norm() + 5.0 * CELLS * raster.cell;
         let middle = (lo + hi) / 2.0;
@@ -287,7 +289,7 @@ impl<'a> Patch<'a> {
             frame: self.frame,
             surface: *surface,
             raster: *raster,
-            centre: self.frame.world(&(places.iter().sum::<Vec3>() / places.len() as f64)),
+            centre: self.frame.world(&(positions.iter().sum::<Vec3>() / positions.len() as f64)),
             width,
             around: around.iter().filter(near).copied().collect(),
             open,
@@ -317,7 +319,7 @@ impl Hole {
     /// The ends of the surface around it.
     fn ends(&self, sheet: &Sheet, ends: &[End]) -> Vec<End> {
         let reach = 0.5 * self.width + REACH * sheet.cell;
-        let near = |end: &&End| (sheet.places[end.place as usize] - self.centre).norm() <= reach;
+        let near = |end: &&End| (sheet.positions[end.index as usize] - self.centre).norm() <= reach;
         ends.iter().filter(near).copied().collect()
     }
 
@@ -334,8 +336,8 @@ impl Hole {
         }
         let inside = |cell: &&usize| {
             let (u, v) = other.raster.middle(**cell);
-            let place = other.frame.world(&Vec3::new(u, v, other.surface.height(u, v)));
-            let local = self.frame.local(&place);
+            let position = other.frame.world(&Vec3::new(u, v, other.surface.height(u, v)));
+            let local = self.frame.local(&position);
             self.raster.at(local.x, local.y).is_some_and(|cell| self.open.binary_search(&cell).is_ok())
         };
         5 * other.open.iter().filter(inside).count() >= other.open.len()

@@ -54,21 +54,21 @@ pub fn inliers(points: &[Vec3], rule: &Outliers) -> Vec<u32> {
 
 /// Mean distance [m] from each point to its `k` nearest others.
 pub fn mean_distances(points: &[Vec3], k: usize) -> Vec<f64> {
-    let places: Vec<[f64; 3]> = points.iter().map(|p| [p.x, p.y, p.z]).collect();
+    let positions: Vec<[f64; 3]> = points.iter().map(|p| [p.x, p.y, p.z]).collect();
     let k = k.min(points.len().saturating_sub(1));
     let (Some(k_and_self), Ok(tree)) =
-        (NonZero::new(k + 1), ImmutableKdTree::<f64, 3>::new_from_slice(&places))
+        (NonZero::new(k + 1), ImmutableKdTree::<f64, 3>::new_from_slice(&positions))
     else {
         return vec![0.0; points.len()];
     };
     if k == 0 {
         return vec![0.0; points.len()];
     }
-    let mean = |place: &[f64; 3]| {
-        let found = tree.query(place).nearest_n::<SquaredEuclidean<f64>>(k_and_self).execute();
+    let mean = |position: &[f64; 3]| {
+        let found = tree.query(position).nearest_n::<SquaredEuclidean<f64>>(k_and_self).execute();
         found.iter().map(|n| n.distance.sqrt()).sum::<f64>() / k as f64
     };
-    places.par_iter().map(mean).collect()
+    positions.par_iter().map(mean).collect()
 }
 
 #[cfg(test)]

@@ -52,24 +52,24 @@ pub(crate) struct Quadratic {
 }
 
 impl Quadratic {
-    /// Least squares through local places; none for too few, or places on one line.
-    pub fn fit(places: &[Vec3]) -> Option<Quadratic> {
-        if places.len() < 8 {
+    /// Least squares through local positions; none for too few, or positions on one line.
+    pub fn fit(positions: &[Vec3]) -> Option<Quadratic> {
+        if positions.len() < 8 {
             return None;
         }
-        let scale = places.iter().map(|p| p.x.abs().max(p.y.abs())).fold(0.0, f64::max);
+        let scale = positions.iter().map(|p| p.x.abs().max(p.y.abs())).fold(0.0, f64::max);
         let (mut a, mut b) = (Matrix6::zeros(), Vector6::zeros());
-        for p in places {
+        for p in positions {
             let row = terms(p.x / scale, p.y / scale);
             a += row * row.transpose();
             b += row * p.z;
         }
-        // A trace of ridge: places on a conic leave one term free.
-        a += Matrix6::identity() * (1e-9 * places.len() as f64);
+        // A trace of ridge: positions on a conic leave one term free.
+        a += Matrix6::identity() * (1e-9 * positions.len() as f64);
         let coefficients = a.cholesky()?.solve(&b);
         let mut fit = Quadratic { coefficients, scale, rms: 0.0 };
-        let left = places.iter().map(|p| (p.z - fit.height(p.x, p.y)).powi(2)).sum::<f64>();
-        fit.rms = (left / places.len() as f64).sqrt();
+        let left = positions.iter().map(|p| (p.z - fit.height(p.x, p.y)).powi(2)).sum::<f64>();
+        fit.rms = (left / positions.len() as f64).sqrt();
         fit.rms.is_finite().then_some(fit)
     }
 
@@ -105,10 +105,10 @@ pub(crate) struct ThinPlate {
 }
 
 impl ThinPlate {
-    /// Through places (u, v, height) about `scale` [m] apart, smoothed by `smoothing` [–]; flat zero when they
+    /// Through positions (u, v, height) about `scale` [m] apart, smoothed by `smoothing` [–]; flat zero when they
     /// do not determine one.
-    pub fn fit(places: &[Vec3], scale: f64, smoothing: f64) -> ThinPlate {
-        let centres: Vec<(f64, f64)> = places.iter().map(|p| (p.x / scale, p.y / scale)).collect();
+    pub fn fit(positions: &[Vec3], scale: f64, smoothing: f64) -> ThinPlate {
+        let centres: Vec<(f64, f64)> = positions.iter().map(|p| (p.x / scale, p.y / scale)).collect();
         let n = centres.len();
         let mut a = DMatrix::zeros(n + 3, n + 3);
         for (i, p) in centres.iter().enumerate() {
@@ -121,7 +121,7 @@ impl ThinPlate {
                 a[(n + k, i)] = value;
             }
         }
-        let mut heights: Vec<f64> = places.iter().map(|p| p.z).collect();
+        let mut heights: Vec<f64> = positions.iter().map(|p| p.z).collect();
         heights.extend([0.0; 3]);
         let solved = a.lu().solve(&DVector::from_vec(heights)).filter(|w| w.iter().all(|x| x.is_finite()));
         match solved {
@@ -171,10 +171,10 @@ mod tests {
     fn the_plate_spans_a_hole_in_a_cylinder() {
         // Radius 4 around a hole of radius 1: the quadratic alone leaves its fourth order.
         let truth = |u: f64, _: f64| 4.0 - (16.0 - u * u).sqrt();
-        let places = ring(truth);
-        let fit = Quadratic::fit(&places).unwrap();
+        let positions = ring(truth);
+        let fit = Quadratic::fit(&positions).unwrap();
         let left: Vec<Vec3> =
-            places.iter().map(|p| Vec3::new(p.x, p.y, p.z - fit.height(p.x, p.y))).collect();
+            positions.iter().map(|p| Vec3::new(p.x, p.y, p.z - fit.height(p.x, p.y))).collect();
         let plate = ThinPlate::fit(&left, 0.2, 1.0);
         for (u, v) in [(0.0, 0.0), (0.5, 0.3), (-0.8, 0.1), (0.0, 0.9)] {
             let error = fit.height(u, v) + plate.height(u, v) - truth(u, v);

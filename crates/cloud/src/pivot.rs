@@ -180,10 +180,11 @@ impl Front {
 
 /// The first triangle at an unused point that an empty ball can rest on.
 fn seed(ball: &Ball, front: &Front, i: u32) -> Option<([u32; 3], Vec3)> {
-    let place = ball.points[i as usize];
-    let free = |&j: &u32| j != i && !front.used[j as usize] && ball.points[j as usize] != place;
-    let mut near: Vec<u32> = ball.grid.within(ball.points, place, 2.0 * ball.radius).filter(free).collect();
-    let far = |j: &u32| (ball.points[*j as usize] - place).norm_squared();
+    let position = ball.points[i as usize];
+    let free = |&j: &u32| j != i && !front.used[j as usize] && ball.points[j as usize] != position;
+    let mut near: Vec<u32> =
+        ball.grid.within(ball.points, position, 2.0 * ball.radius).filter(free).collect();
+    let far = |j: &u32| (ball.points[*j as usize] - position).norm_squared();
     near.sort_by(|p, q| far(p).total_cmp(&far(q)).then(p.cmp(q)));
     // A ball rests on near points if on any: looking further costs much and finds little.
     near.truncate(24);

@@ -20,7 +20,7 @@ impl Raster {
         self.side * self.side
     }
 
-    /// The cell that holds a place.
+    /// The cell that holds a position.
     pub fn at(&self, u: f64, v: f64) -> Option<usize> {
         let [x, y] = [u, v].map(|c| (c + self.half) / self.cell);
         let inside = |c: f64| c >= 0.0 && c < self.side as f64;

@@ -7,9 +7,9 @@ use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
-/// Neighbourhood of a place, in cells.
+/// Neighbourhood of a position, in cells.
 pub(crate) const REACH: f64 = 2.5;
-/// A place whose neighbours leave a gap this wide is at an end of the surface [rad].
+/// A position whose neighbours leave a gap this wide is at an end of the surface [rad].
 const GAP: f64 = 100.0 * PI / 180.0;
 /// Spread across the surface, as a share of that along it, above which noise hides where it ends [–].
 const THICK: f64 = 0.2;
@@ -28,22 +28,22 @@ pub(crate) struct Sheet {
     /// Width of a cell [m].
     pub cell: f64,
     /// Mean of the points of each cell [m].
-    pub places: Vec<Vec3>,
+    pub positions: Vec<Vec3>,
     /// Rows of the points by cell, and where those of each cell are among them; points too far from the rest to belong to any surface
     /// are in none.
     rows: Vec<u32>,
     runs: Vec<Range<u32>>,
-    /// A place in the middle of most points [m].
+    /// A position in the middle of most points [m].
     pub middle: Vec3,
-    /// The places sorted into cells of `REACH * cell`.
+    /// The positions sorted into cells of `REACH * cell`.
     pub cells: Cells,
 }
 
-/// A place where the surface ends.
+/// A position where the surface ends.
 #[derive(Clone, Copy)]
 pub(crate) struct End {
-    /// The place's number.
-    pub place: u32,
+    /// Index of its position.
+    pub index: u32,
     /// Unit normal, of either sign.
     pub normal: Vec3,
     /// Unit vector in the surface, towards where there is none.
@@ -63,14 +63,14 @@ impl Sheet {
             let rows = &rows[run.start as usize..run.end as usize];
             middle + rows.iter().map(|&row| points[row as usize] - middle).sum::<Vec3>() / rows.len() as f64
         };
-        let places: Vec<Vec3> = runs.par_iter().map(mean).collect();
+        let positions: Vec<Vec3> = runs.par_iter().map(mean).collect();
         rows.shrink_to_fit();
-        let cells = Cells::new(&places, REACH * cell);
-        Sheet { cell, places, rows, runs, middle, cells }
+        let cells = Cells::new(&positions, REACH * cell);
+        Sheet { cell, positions, rows, runs, middle, cells }
     }
 
     /// A coarse picture of cells at least `cell` [m] wide, and wider where the noise of the points makes the surface thicker than that: there
-    /// neighbours lie all around a place, and nothing has an end.
+    /// neighbours lie all around a position, and nothing has an end.
     pub fn of_surface(points: &[Vec3], cell: f64) -> Sheet {
         let mut sheet = Sheet::new(points, cell);
         for _ in 0..MOST_WIDER {
@@ -82,12 +82,12 @@ impl Sheet {
         sheet
     }
 
-    /// Median of the least of the three spreads of a place's neighbours, as a share of the second: 0 of a plane, 1 of a ball. None for a few places.
+    /// Median of the least of the three spreads of a position's neighbours, as a share of the second: 0 of a plane, 1 of a ball. None for a few positions.
     fn flatness(&self) -> Option<f64> {
         let some: Vec<u32> =
-            (0..self.places.len() as u32).step_by(self.places.len().div_ceil(SOME).max(1)).collect();
-        let share = |&place: &u32| {
-            let offsets = self.offsets(place);
+            (0..self.positions.len() as u32).step_by(self.positions.len().div_ceil(SOME).max(1)).collect();
+        let share = |&index: &u32| {
+            let offsets = self.offsets(index);
             let [least, second, _] = spreads(&offsets)?.0;
             (offsets.len() >= FEWEST && second > 0.0).then(|| least.max(0.0) / second)
         };
@@ -96,20 +96,20 @@ impl Sheet {
         (shares.len() >= SOME / 10).then(|| *shares.select_nth_unstable_by(middle, f64::total_cmp).1)
     }
 
-    /// From a place to those near by [m].
-    fn offsets(&self, place: u32) -> Vec<Vec3> {
-        let centre = self.places[place as usize];
-        let near = self.cells.grid.within(&self.places, centre, REACH * self.cell).filter(|&j| j != place);
-        near.map(|j| self.places[j as usize] - centre).collect()
+    /// From a position to those near by [m].
+    fn offsets(&self, index: u32) -> Vec<Vec3> {
+        let centre = self.positions[index as usize];
+        let near = self.cells.grid.within(&self.positions, centre, REACH * self.cell).filter(|&j| j != index);
+        near.map(|j| self.positions[j as usize] - centre).collect()
     }
 
     /// Rows of the points of a cell, ascending.
-    pub fn rows(&self, place: u32) -> &[u32] {
-        let Range { start, end } = self.runs[place as usize];
+    pub fn rows(&self, index: u32) -> &[u32] {
+        let Range { start, end } = self.runs[index as usize];
         &self.rows[start as usize..end as usize]
     }
 
-    /// The places where the surface ends, in order.
+    /// The positions where the surface ends, in order.
     pub fn ends(&self) -> Vec<End> {
         let surrounded = surrounded(&self.cells, REACH * self.cell);
         let others = self.cells.order().iter().zip(surrounded).filter(|(_, surrounded)| !surrounded);
@@ -118,8 +118,8 @@ impl Sheet {
         others.into_par_iter().filter_map(|i| self.end(i)).collect()
     }
 
-    fn end(&self, place: u32) -> Option<End> {
-        let offsets = self.offsets(place);
+    fn end(&self, index: u32) -> Option<End> {
+        let offsets = self.offsets(index);
         if offsets.len() < 3 {
             return None;
         }
@@ -137,7 +137,7 @@ impl Sheet {
             }
         }
         let free = u * libm::cos(middle) + v * libm::sin(middle);
-        (gap >= GAP).then_some(End { place, normal, free })
+        (gap >= GAP).then_some(End { index, normal, free })
     }
 }
 
@@ -162,7 +162,7 @@ fn spreads(offsets: &[Vec3]) -> Option<([f64; 3], Vec3)> {
     (!offsets.is_empty()).then(|| (values, eigen.eigenvectors.column(order[0]).into()))
 }
 
-/// A place in the middle of most points: the median of a few hundred along each axis.
+/// A position in the middle of most points: the median of a few hundred along each axis.
 fn middle(points: &[Vec3]) -> Vec3 {
     let step = points.len().div_ceil(501).max(1);
     Vec3::from([0, 1, 2].map(|a| {
@@ -172,7 +172,7 @@ fn middle(points: &[Vec3]) -> Vec3 {
     }))
 }
 
-/// Rows sorted by the cell that they lie in, within a cell as they come, and the first place of each cell and one more.
+/// Rows sorted by the cell that they lie in, within a cell as they come, and the first row of each cell and one more.
 fn by_cell(points: &[Vec3], width: f64, middle: &Vec3) -> (Vec<u32>, Vec<u32>) {
     let cell = |p: &Vec3| {
         // From zero on, to cut the fraction off is to round down.
@@ -190,7 +190,7 @@ fn by_cell(points: &[Vec3], width: f64, middle: &Vec3) -> (Vec<u32>, Vec<u32>) {
         points.par_iter().filter_map(cell).fold(|| none, |all, c| both(all, (c, c))).reduce(|| none, both);
     let dims = [0, 1, 2].map(|k| (hi[k] + 1).saturating_sub(lo[k]));
     let cells = dims[0] as u128 * dims[1] as u128 * dims[2] as u128;
-    // A place that is nowhere comes last.
+    // A position that is nowhere comes last.
     let key = |p: &Vec3| {
         let number = |[x, y, z]: [u64; 3]| ((z - lo[2]) * dims[1] + y - lo[1]) * dims[0] + x - lo[0];
         cell(p).map_or(cells as u64, number)
@@ -206,7 +206,7 @@ fn by_cell(points: &[Vec3], width: f64, middle: &Vec3) -> (Vec<u32>, Vec<u32>) {
     runs(&items, |&both| both, cells as u64)
 }
 
-/// Rows, and the first place of each cell and one more, from what is sorted; `split` gives the key and the row.
+/// Rows, and the first row of each cell and one more, from what is sorted; `split` gives the key and the row.
 fn runs<T: Sync>(
     sorted: &[T],
     split: impl Fn(&T) -> (u64, u32) + Sync,
@@ -233,7 +233,7 @@ mod tests {
         let ends = sheet.ends();
         assert!(ends.len() > 100 && ends.len() < 400, "{}", ends.len());
         for end in &ends {
-            let p = sheet.places[end.place as usize] - Vec3::new(0.5, 0.5, 0.0);
+            let p = sheet.positions[end.index as usize] - Vec3::new(0.5, 0.5, 0.0);
             assert!(p.amax() > 0.45 && p.dot(&end.free) > 0.0 && end.normal.z.abs() > 0.99);
         }
     }
@@ -245,15 +245,15 @@ mod tests {
             f64::from(i.wrapping_mul(2654435769) ^ (i >> 3).wrapping_mul(2246822519)) / f64::from(u32::MAX)
         };
         let noise = |i: u32| 0.012 * ((0..6).map(|k| chance(6 * i + k)).sum::<f64>() - 3.0);
-        let place = |i: u32| Vec3::new(f64::from(i % 400) / 400.0, f64::from(i / 400) / 400.0, noise(i));
-        let points: Vec<Vec3> = (0..160_000).map(place).collect();
+        let position = |i: u32| Vec3::new(f64::from(i % 400) / 400.0, f64::from(i / 400) / 400.0, noise(i));
+        let points: Vec<Vec3> = (0..160_000).map(position).collect();
         let asked = Sheet::new(&points, 0.012);
         assert!(asked.flatness().unwrap() > THICK, "{:?}", asked.flatness());
         let sheet = Sheet::of_surface(&points, 0.012);
         assert!(sheet.cell > 0.012 && sheet.flatness().unwrap() < THICK);
         let ends = sheet.ends();
         let at_rim = |end: &&End| {
-            let p = sheet.places[end.place as usize] - Vec3::new(0.5, 0.5, 0.0);
+            let p = sheet.positions[end.index as usize] - Vec3::new(0.5, 0.5, 0.0);
             p.xy().amax() > 0.4
         };
         assert!(

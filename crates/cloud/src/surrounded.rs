@@ -143,15 +143,15 @@ mod tests {
         assert!(!leaves_no_gap(0) && leaves_no_gap(u64::MAX));
     }
 
-    /// A disc of places is surrounded but near its rim, however it lies in space; a gap of 101° in a ring is one.
+    /// A disc of positions is surrounded but near its rim, however it lies in space; a gap of 101° in a ring is one.
     #[test]
     fn the_rim_of_a_disc_is_not_surrounded_and_the_rest_is() {
         let normal = Vec3::new(0.3, -0.5, 0.8).normalize();
         let u = normal.cross(&Vec3::x()).normalize();
         let v = normal.cross(&u);
-        let places: Vec<(f64, f64)> =
+        let positions: Vec<(f64, f64)> =
             (0..3600).map(|i| (f64::from(i % 60) - 29.5, f64::from(i / 60) - 29.5)).collect();
-        let disc: Vec<(f64, f64)> = places.into_iter().filter(|(a, b)| a.hypot(*b) <= 25.0).collect();
+        let disc: Vec<(f64, f64)> = positions.into_iter().filter(|(a, b)| a.hypot(*b) <= 25.0).collect();
         let points: Vec<Vec3> = disc.iter().map(|(a, b)| u * *a + v * *b).collect();
         let cells = Cells::new(&points, 2.5);
         for (slot, found) in surrounded(&cells, 2.5).into_iter().enumerate() {

@@ -67,7 +67,7 @@ pub(crate) fn heights(
 }
 
 impl Field {
-    fn place(&self, node: usize) -> Vec3 {
+    fn position(&self, node: usize) -> Vec3 {
         let [nu, nv, _] = self.side;
         let (u, v, w) = (node % nu, node / nu % nv, node / (nu * nv));
         let (across, up) = self.step;
@@ -89,7 +89,7 @@ impl Field {
         let normals: Vec<Vec3> = points.iter().map(normal).collect();
         let count = self.side.iter().product();
         for node in 0..count {
-            let x = self.place(node);
+            let x = self.position(node);
             let (mut sum, mut weights, mut number) = (0.0, 0.0, 0);
             for k in grid.within(points, x, reach) {
                 let off = x - points[k as usize];
