@@ -23,7 +23,7 @@ pub fn densities(points: &[Vec3], radius: f64) -> Vec<f64> {
 }
 
 /// Density [1/m²] below which only the sparsest `share` of the surface lies; none when points are too few or all
-/// in one position.
+/// at one position.
 ///
 /// Measured at positions spread over the points, from the distance to the 16th neighbour in a random part of the
 /// cloud; each position counts for the area it stands for.

@@ -104,7 +104,7 @@ pub fn gap(centres: &[Vec3], radii: &[f64], triangle: &[u32; 3]) -> Option<Gap> 
     if of_s.min(of_q).min(1.0 - of_s - of_q) < -ON_SIDE {
         return None;
     }
-    // No place between the points is farther from all three than the centre of their circle: beyond it, the sphere
+    // No position between the points is farther from all three than the centre of their circle: beyond it, the sphere
     // touches the three from outside.
     let middle = (b * b + height * height - a * b) / (2.0 * height);
     let circle = (0.25 * a * a + middle * middle).sqrt();

@@ -71,7 +71,7 @@ pub struct WallSettings {
     pub placement: Placement,
     /// Direction to the flow side; needed for [`Placement::Surface`].
     pub facing: Option<Vec3>,
-    /// A place in the flow [m], instead of a direction.
+    /// A position in the flow [m], instead of a direction.
     pub flow_at: Option<Vec3>,
     /// Diameter of the smallest particle [m]: checks gaps and sizes.
     pub smallest_particle: Option<f64>,

@@ -3,7 +3,7 @@
 //! Neighbours take their side from each other, most alike normals first (the spanning tree of least 1 − |nᵢ·nⱼ|; Hoppe et al. 1992,
 //! doi:10.1145/133994.134011), so that a side goes around a sharp edge where the surface bends least, and the walls of a half pipe that
 //! lean past the vertical still face inwards. A piece that hangs together starts from the point whose normal agrees best with the
-//! direction of the flow side, or from the one nearest to a place in the flow: its own plane decides on which side that is.
+//! direction of the flow side, or from the one nearest to a position in the flow: its own plane decides on which side that is.
 
 use geom::Vec3;
 use std::cmp::Reverse;
@@ -23,14 +23,14 @@ impl Flow {
     fn fitness(&self, point: &Vec3, normal: &Vec3) -> f64 {
         match self {
             Flow::Towards(facing) => normal.dot(facing).abs(),
-            Flow::At(place) => -(place - point).norm(),
+            Flow::At(position) => -(position - point).norm(),
         }
     }
 
     fn seen_from(&self, point: &Vec3) -> Vec3 {
         match self {
             Flow::Towards(facing) => *facing,
-            Flow::At(place) => place - point,
+            Flow::At(position) => position - point,
         }
     }
 }
@@ -109,7 +109,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_side_goes_around_a_pipe_seen_from_a_place_in_it() {
+    fn a_side_goes_around_a_pipe_seen_from_a_position_in_it() {
         let points: Vec<Vec3> = (0..60)
             .map(|i| Vec3::new(0.0, (f64::from(i) * 0.1047).cos(), (f64::from(i) * 0.1047).sin()))
             .collect();

@@ -29,7 +29,7 @@ pub struct SurfaceAttributes {
     pub name: String,
     /// Depth of the dents between neighbouring spheres ζ [m]; `None` when only radii are given.
     pub roughness: Option<f64>,
-    /// Its material, as a place in [`Regions::materials`].
+    /// Its material, as an index in [`Regions::materials`].
     pub material: u16,
     /// Velocity [m/s].
     pub velocity: Vec3,

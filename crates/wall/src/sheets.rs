@@ -62,7 +62,7 @@ pub fn closer_than(points: &[Vec3], spacing: f64) -> Option<Sheets> {
     (share >= TOLD).then(|| Sheets { share, apart, at: points[i as usize].into() })
 }
 
-/// Distance of the two sheets that the places make [m]; none for one sheet.
+/// Distance of the two sheets that the positions make [m]; none for one sheet.
 fn apart(near: &[Vec3], spacing: f64) -> Option<f64> {
     if near.len() < FEWEST.0 {
         return None;
@@ -106,14 +106,14 @@ mod tests {
         }
     }
 
-    /// 900 shaken places of a lattice of spacing 1 with a height.
+    /// 900 shaken positions of a lattice of spacing 1 with a height.
     fn sheet(mut height: impl FnMut(f64, f64, f64) -> f64) -> Vec<Vec3> {
         let mut next = random();
-        let mut place = |i: usize| {
+        let mut position = |i: usize| {
             let (x, y) = ((i % 30) as f64 + 0.4 * next(), (i / 30) as f64 + 0.4 * next());
             Vec3::new(x, y, height(x, y, next()))
         };
-        (0..900).map(&mut place).collect()
+        (0..900).map(&mut position).collect()
     }
 
     #[test]

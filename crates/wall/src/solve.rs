@@ -236,7 +236,7 @@ pub fn changes(pairs: &[(u32, u32)], lengths: &[f64], zeta: &[f64], radii: &[f64
     all
 }
 
-/// The pairs that count as changed: place in `pairs`, ζ asked for and made [m].
+/// The pairs that count as changed: index in `pairs`, ζ asked for and made [m].
 pub fn changed<'a>(
     pairs: &'a [(u32, u32)],
     lengths: &'a [f64],

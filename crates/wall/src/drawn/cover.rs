@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use sampling::cells::Cells;
 use std::collections::HashMap;
 
-/// Spheres whose places look more than about 100° apart are on two sides of a plate and do not see each other.
+/// Spheres whose normals are more than about 100° apart are on two sides of a plate and do not see each other.
 const OTHER_SIDE: f64 = -0.2;
 /// Spheres nearer than this share of the distance are one, whatever they look at.
 const ONE: f64 = 0.25;
@@ -77,9 +77,9 @@ impl PlacedSpheres {
     }
 }
 
-/// The greatest distance from a place of the surface to the nearest sphere [m], and where it is. Where centres stand on the surface,
+/// The greatest distance from a position of the surface to the nearest sphere [m], and where it is. Where centres stand on the surface,
 /// it is counted from the level of the spheres' tops.
-pub(crate) fn deepest(places: &[Candidate], centres: &[Vec3], radius: f64, centred: bool) -> (f64, Vec3) {
+pub(crate) fn deepest(positions: &[Candidate], centres: &[Vec3], radius: f64, centred: bool) -> (f64, Vec3) {
     if centres.is_empty() {
         return (0.0, Vec3::zeros());
     }
@@ -96,6 +96,6 @@ pub(crate) fn deepest(places: &[Candidate], centres: &[Vec3], radius: f64, centr
             reach *= 2.0;
         }
     };
-    let all: Vec<(f64, Vec3)> = places.par_iter().map(depth).collect();
+    let all: Vec<(f64, Vec3)> = positions.par_iter().map(depth).collect();
     all.into_iter().fold((0.0, Vec3::zeros()), |best, d| if d.0 > best.0 { d } else { best })
 }

@@ -21,7 +21,7 @@ use geom::{Vec3, mesh::TriMesh};
 use rayon::prelude::*;
 use serde::Serialize;
 
-/// Candidates for a sphere's place in a square of side P.
+/// Candidates for a sphere's position in a square of side P.
 const CANDIDATES: f64 = 10.0;
 /// Most candidates.
 const MOST: f64 = 2e7;
@@ -37,7 +37,7 @@ pub struct Drawing {
     pub radius: f64,
     /// Depth of the dents between neighbours ζ [m].
     pub roughness: f64,
-    /// A place where the flow is [m]: the surface faces it.
+    /// A position in the flow [m]: the surface faces it.
     pub flow_at: Option<Vec3>,
     /// Centres stand on the surface itself, not a radius inside.
     pub centred: bool,
@@ -65,7 +65,7 @@ pub struct DrawnReport {
     pub turned_parts: usize,
     /// Edges where two faces could not be made to agree on a side.
     pub one_sided_edges: usize,
-    /// Nearly straight stretches, and places where they end.
+    /// Nearly straight stretches, and positions where they end.
     pub stretches: usize,
     /// Ends of stretches.
     pub corners: usize,
@@ -73,7 +73,7 @@ pub struct DrawnReport {
     pub spacing_asked: f64,
     /// Share of the surface under which a sphere of this radius stands out elsewhere, the structure being too thin [–].
     pub too_thin: f64,
-    /// One place of that [m].
+    /// One position of that [m].
     pub too_thin_at: Option<[f64; 3]>,
     /// Deepest dent: the greatest distance from the surface to the spheres [m].
     pub deepest: f64,
@@ -81,7 +81,7 @@ pub struct DrawnReport {
     pub deepest_at: [f64; 3],
 }
 
-/// A place of the surface and where its sphere is.
+/// A position on the surface and where its sphere is.
 #[derive(Clone, Copy)]
 pub(crate) struct Candidate {
     /// On the surface [m].
@@ -114,7 +114,7 @@ pub fn place(mesh: &TriMesh, drawing: &Drawing) -> Result<Drawn, WallError> {
     let stretches = stretches::find(&surface, spacing, &|at, normal| settle.candidate(at, normal).centre);
     let on_faces = surface.scattered(wanted as usize);
     let with_centre = |&(at, normal): &(Vec3, Vec3)| settle.candidate(at, normal);
-    let on_stretches: Vec<Candidate> = stretches.places.par_iter().map(with_centre).collect();
+    let on_stretches: Vec<Candidate> = stretches.positions.par_iter().map(with_centre).collect();
     let on_faces: Vec<Candidate> = on_faces.par_iter().map(with_centre).collect();
     let centres = cover::cover(&on_stretches, &on_faces, spacing);
     let (deepest, at) = cover::deepest(&on_faces, &centres, radius, drawing.centred);

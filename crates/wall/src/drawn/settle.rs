@@ -17,7 +17,7 @@ use geom::{Boxes, Vec3};
 const TOUCH: f64 = 1e-6;
 /// Most projections; and after how many the way to go must have become shorter by half, or there is no room.
 const STEPS: (usize, usize) = (200, 8);
-/// A sphere goes at most this many radii away from its place: in the edge of a wedge that is sharper it has no room.
+/// A sphere goes at most this many radii away from its position: in the edge of a wedge that is sharper it has no room.
 const FARTHEST: f64 = 4.0;
 
 pub(crate) struct Settle<'a> {
@@ -98,7 +98,7 @@ impl<'a> Settle<'a> {
         near
     }
 
-    /// Whether a place is above all faces that meet at the point of an edge or a corner which is nearest to it. The rim of an open sheet
+    /// Whether a position is above all faces that meet at the point of an edge or a corner which is nearest to it. The rim of an open sheet
     /// has one face.
     fn is_beyond(&self, near: &[Face], q: Vec3) -> bool {
         let meet = near.iter().filter(|f| (f.q - q).norm() <= TOUCH * self.radius);

@@ -1,9 +1,9 @@
 //! On which side of a drawn surface the flow is.
 //!
-//! Faces that share an edge are made to agree on a side, part by part. Then, a place in the flow being given, each part faces it:
-//! seen from there, its nearest face shows its front. Without such a place, a closed part is a body and the flow is around it, or in
-//! it when it lies in another closed part (a cavity); an open part faces the side from which most of its corners run
-//! anticlockwise, as drawn.
+//! 1. Faces that share an edge are made to agree on a side, part by part.
+//! 2. If a position in the flow is given, each part faces it: seen from there, its nearest face shows its front.
+//! 3. Otherwise a closed part is a body, and the flow is around it, or inside it if it lies in another closed part (a cavity). An
+//!    open part faces the side from which most of its corners run anticlockwise, as drawn.
 
 use geom::Vec3;
 use geom::mesh::{TriMesh, area, closest_point};
@@ -45,11 +45,11 @@ impl DrawnSurface {
         Some(DrawnSurface { normals, edges, area, parts, closed, turned, one_sided, mesh })
     }
 
-    /// About `count` places spread evenly over the faces, each with its normal: by area along the faces, and within a face by the
+    /// About `count` positions spread evenly over the faces, each with its normal: by area along the faces, and within a face by the
     /// sequence of Roberts (2018) that fills a square evenly.
     pub fn scattered(&self, count: usize) -> Vec<(Vec3, Vec3)> {
         let each = self.area / count.max(1) as f64;
-        let mut places = Vec::with_capacity(count + self.mesh.faces.len());
+        let mut positions = Vec::with_capacity(count + self.mesh.faces.len());
         // The share of a candidate that earlier faces left.
         let (mut due, mut number) = (0.5, 0u64);
         for (face, tri) in self.mesh.triangles().enumerate() {
@@ -57,10 +57,10 @@ impl DrawnSurface {
             while due >= 1.0 {
                 due -= 1.0;
                 number += 1;
-                places.push((within(tri, number), self.normals[face]));
+                positions.push((within(tri, number), self.normals[face]));
             }
         }
-        places
+        positions
     }
 }
 
@@ -144,7 +144,7 @@ fn turn(
     let boxes: Vec<(Vec3, Vec3)> = pieces.iter().map(|piece| geom::grid::bounds(&piece.vertices)).collect();
     let is_within = |p: &Vec3, (lo, hi): &(Vec3, Vec3)| (0..3).all(|a| lo[a] <= p[a] && p[a] <= hi[a]);
     let is_turned = |part: usize| match flow_at {
-        Some(place) => !faces_place(&pieces[part], place),
+        Some(position) => !faces_position(&pieces[part], position),
         None if open[part] => false,
         None => {
             let (piece, inside) = (&pieces[part], pieces[part].volume() < 0.0);
@@ -181,12 +181,12 @@ fn pieces(mesh: &TriMesh, part_of: &[u32], parts: usize) -> Vec<TriMesh> {
     pieces
 }
 
-/// Whether the faces nearest to a place show it their front.
-fn faces_place(piece: &TriMesh, place: Vec3) -> bool {
+/// Whether the faces nearest to a position show their front to it.
+fn faces_position(piece: &TriMesh, position: Vec3) -> bool {
     let near: Vec<(f64, Vec3, Vec3)> = piece
         .triangles()
         .map(|tri| {
-            let to = place - closest_point(tri, place);
+            let to = position - closest_point(tri, position);
             (to.norm(), to, (tri[1] - tri[0]).cross(&(tri[2] - tri[0])).normalize())
         })
         .collect();

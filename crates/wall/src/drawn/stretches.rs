@@ -3,7 +3,7 @@
 //! An edge is a crease when its faces turn by more than 25° there, and a rim when it has one face. Creases and rims that follow
 //! each other form a stretch until the next corner: a vertex where not two of them meet, or where they turn by more than 25°. Places
 //! stand at both ends of a stretch, and between them at equal distances of at most the spacing; on a closed one (the rim of a
-//! pipe) at equal distances all around. Each place stands once for every face that it lies on.
+//! pipe) at equal distances all around. Each position stands once for every face that it lies on.
 
 use super::sides::DrawnSurface;
 use geom::Vec3;
@@ -15,7 +15,7 @@ const STRAIGHT: f64 = 0.906_307_787_036_65;
 /// Places on the stretches of a surface.
 pub(crate) struct Stretches {
     /// Place [m] and unit normal of a face there; ends first.
-    pub places: Vec<(Vec3, Vec3)>,
+    pub positions: Vec<(Vec3, Vec3)>,
     pub count: usize,
     pub corners: usize,
 }
@@ -26,7 +26,7 @@ struct Edge {
     faces: Vec<u32>,
 }
 
-/// The stretches of a surface. `centre` gives the sphere of a place and a normal: where those of the ends stand off from the ends (in a
+/// The stretches of a surface. `centre` gives the sphere of a position and a normal: where those of the ends stand off from the ends (in a
 /// corner), the others stand between them.
 pub(crate) fn find(surface: &DrawnSurface, spacing: f64, centre: &dyn Fn(Vec3, Vec3) -> Vec3) -> Stretches {
     let edges: Vec<Edge> =
@@ -35,17 +35,17 @@ pub(crate) fn find(surface: &DrawnSurface, spacing: f64, centre: &dyn Fn(Vec3, V
     for (number, edge) in edges.iter().enumerate() {
         edge.ends.iter().for_each(|&end| at.entry(end).or_default().push(number));
     }
-    let place = |v: u32| surface.mesh.vertices[v as usize];
-    let along = |edge: &Edge, from: u32| (place(other(edge, from)) - place(from)).normalize();
+    let position = |v: u32| surface.mesh.vertices[v as usize];
+    let along = |edge: &Edge, from: u32| (position(other(edge, from)) - position(from)).normalize();
     let is_corner = |v: u32| match at.get(&v).map(Vec::as_slice) {
         Some(&[e, f]) => -along(&edges[e], v).dot(&along(&edges[f], v)) < STRAIGHT,
         _ => true,
     };
     let corners: Vec<u32> = at.keys().copied().filter(|&v| is_corner(v)).collect();
-    let mut places = Vec::new();
+    let mut positions = Vec::new();
     for &v in &corners {
         let faces = at[&v].iter().flat_map(|&e| edges[e].faces.iter().copied());
-        push(&mut places, surface, place(v), faces);
+        push(&mut positions, surface, position(v), faces);
     }
     let (mut used, mut count) = (vec![false; edges.len()], 0);
     let starts = corners.iter().flat_map(|&v| at[&v].iter().map(move |&e| (v, e)));
@@ -65,7 +65,7 @@ pub(crate) fn find(surface: &DrawnSurface, spacing: f64, centre: &dyn Fn(Vec3, V
         }
         let closed = vertex == from && !is_corner(from);
         let inset = |(number, from): (usize, u32)| {
-            let (edge, a) = (&edges[number], place(from));
+            let (edge, a) = (&edges[number], position(from));
             let off = |&f: &u32| (centre(a, surface.normals[f as usize]) - a).dot(&along(edge, from));
             edge.faces.iter().map(off).fold(0.0, f64::max)
         };
@@ -73,10 +73,10 @@ pub(crate) fn find(surface: &DrawnSurface, spacing: f64, centre: &dyn Fn(Vec3, V
             (false, Some(&(last, _))) => (inset((first, from)), inset((last, vertex))),
             _ => (0.0, 0.0),
         };
-        between(&mut places, surface, &edges, &chain, (closed, spacing, insets));
+        between(&mut positions, surface, &edges, &chain, (closed, spacing, insets));
         count += 1;
     }
-    Stretches { places, count, corners: corners.len() }
+    Stretches { positions, count, corners: corners.len() }
 }
 
 fn crease(surface: &DrawnSurface, ends: (u32, u32), faces: &[u32]) -> Option<Edge> {
@@ -93,14 +93,14 @@ fn other(edge: &Edge, end: u32) -> u32 {
 
 /// Places between the ends of a chain of edges (number and first vertex), or all around.
 fn between(
-    places: &mut Vec<(Vec3, Vec3)>,
+    positions: &mut Vec<(Vec3, Vec3)>,
     surface: &DrawnSurface,
     edges: &[Edge],
     chain: &[(usize, u32)],
     (closed, spacing, (head, tail)): (bool, f64, (f64, f64)),
 ) {
-    let place = |v: u32| surface.mesh.vertices[v as usize];
-    let length = |&(e, _): &(usize, u32)| (place(edges[e].ends[1]) - place(edges[e].ends[0])).norm();
+    let position = |v: u32| surface.mesh.vertices[v as usize];
+    let length = |&(e, _): &(usize, u32)| (position(edges[e].ends[1]) - position(edges[e].ends[0])).norm();
     let whole: f64 = chain.iter().map(length).sum();
     let left = (whole - head - tail).max(0.0);
     // A stretch that is a whole number of spacings long has no further part by rounding.
@@ -114,20 +114,25 @@ fn between(
             edge += 1;
         }
         let (number, from) = chain[edge];
-        let (a, b) = (place(from), place(other(&edges[number], from)));
+        let (a, b) = (position(from), position(other(&edges[number], from)));
         let share = ((goal - before) / (b - a).norm()).clamp(0.0, 1.0);
-        push(places, surface, a + (b - a) * share, edges[number].faces.iter().copied());
+        push(positions, surface, a + (b - a) * share, edges[number].faces.iter().copied());
     }
 }
 
-/// A place, once for each direction that its faces look to.
-fn push(places: &mut Vec<(Vec3, Vec3)>, surface: &DrawnSurface, at: Vec3, faces: impl Iterator<Item = u32>) {
+/// A position, once for each direction that its faces look to.
+fn push(
+    positions: &mut Vec<(Vec3, Vec3)>,
+    surface: &DrawnSurface,
+    at: Vec3,
+    faces: impl Iterator<Item = u32>,
+) {
     let mut seen: Vec<Vec3> = Vec::new();
     for face in faces {
         let normal = surface.normals[face as usize];
         if seen.iter().all(|n| n.dot(&normal) < STRAIGHT) {
             seen.push(normal);
-            places.push((at, normal));
+            positions.push((at, normal));
         }
     }
 }
