@@ -66,11 +66,11 @@ mod tests {
     #[test]
     fn the_median_of_a_layer_of_balls_is_that_of_a_half_sphere() {
         let r = 0.01;
-        let place = |k: i32| Vec3::new(0.0213 * f64::from(k % 40), 0.0217 * f64::from(k / 40), 0.3 + r);
+        let position = |k: i32| Vec3::new(0.0213 * f64::from(k % 40), 0.0217 * f64::from(k / 40), 0.3 + r);
         let frame = Frame {
             time: 1.0,
             id: (0..1600).collect(),
-            position: (0..1600).map(place).collect(),
+            position: (0..1600).map(position).collect(),
             radius: vec![r; 1600],
             ..Frame::default()
         };

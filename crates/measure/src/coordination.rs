@@ -12,7 +12,7 @@
 
 use crate::observer::{NO_FRAMES, Observer, Which};
 use crate::sheet::{Chart, Curve, Head, Look, Row, Summary};
-use crate::{Contacts, Frame, MeasureError, Partner, Run, Seen};
+use crate::{Contacts, Frame, MeasureError, Partner, Run, RunMessage};
 use geom::Vec3;
 use std::collections::{HashMap, HashSet};
 
@@ -26,7 +26,7 @@ pub struct Coordination {
 }
 
 impl Coordination {
-    /// From places and radii, with the shortest ways of a periodic run.
+    /// From positions and radii, with the shortest ways of a periodic run.
     pub fn of_frame(run: &Run, frame: &Frame) -> Coordination {
         let mut of_grains = vec![0; frame.len()];
         for (a, b) in touching(run, frame) {
@@ -110,30 +110,32 @@ impl Coordination {
 /// Pairs of grains (rows of the frame) that overlap.
 pub fn touching(run: &Run, frame: &Frame) -> Vec<(usize, usize)> {
     let largest = frame.radius.iter().copied().fold(0.0, f64::max);
-    let (mut places, mut rows) = (frame.position.clone(), (0..frame.len()).collect::<Vec<_>>());
+    let (mut positions, mut rows) = (frame.position.clone(), (0..frame.len()).collect::<Vec<_>>());
     for (axis, period) in run.periodic.iter().enumerate() {
         let Some((low, high)) = period else { continue };
-        for k in 0..places.len() {
-            for (near, shift) in [(places[k][axis] - low, high - low), (high - places[k][axis], low - high)] {
+        for k in 0..positions.len() {
+            for (near, shift) in
+                [(positions[k][axis] - low, high - low), (high - positions[k][axis], low - high)]
+            {
                 if near < 2.0 * largest {
-                    let mut place = places[k];
-                    place[axis] += shift;
-                    places.push(place);
+                    let mut position = positions[k];
+                    position[axis] += shift;
+                    positions.push(position);
                     rows.push(rows[k]);
                 }
             }
         }
     }
-    if places.is_empty() {
+    if positions.is_empty() {
         return Vec::new();
     }
-    let grid = geom::Grid::new(&places, 2.0 * largest);
+    let grid = geom::Grid::new(&positions, 2.0 * largest);
     let mut pairs = Vec::new();
     for a in 0..frame.len() {
-        for k in grid.within(&places, frame.position[a], frame.radius[a] + largest) {
+        for k in grid.within(&positions, frame.position[a], frame.radius[a] + largest) {
             let b = rows[k as usize];
             let reach = frame.radius[a] + frame.radius[b];
-            let way: Vec3 = places[k as usize] - frame.position[a];
+            let way: Vec3 = positions[k as usize] - frame.position[a];
             if a < b && way.norm_squared() < reach * reach {
                 pairs.push((a, b));
             }
@@ -205,10 +207,10 @@ impl Observer for ContactNumbers {
         ])
     }
 
-    fn see(&mut self, run: &Run, seen: Seen, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+    fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
         let series = matches!(self.which, Which::Between(..));
-        match seen {
-            Seen::Frame(frame) => {
+        match message {
+            RunMessage::Frame(frame) => {
                 self.frames += 1;
                 if !self.which.holds(frame.time) || (!series && frame.is_empty()) {
                     return Ok(());
@@ -224,7 +226,7 @@ impl Observer for ContactNumbers {
                     own => self.early = own,
                 }
             }
-            Seen::Contacts(contacts) => {
+            RunMessage::Contacts(contacts) => {
                 let fits = self.waiting.as_ref().is_some_and(|f| f.time == contacts.time);
                 if fits && series {
                     self.settle(run, Some(&contacts), rows);

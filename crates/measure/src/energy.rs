@@ -11,7 +11,7 @@
 use crate::observer::Observer;
 use crate::run::Ledger;
 use crate::sheet::{Chart, Head, Row, Summary};
-use crate::{MeasureError, Run, Seen};
+use crate::{MeasureError, Run, RunMessage};
 
 /// Terms in this order; what a run has besides follows by name.
 const ORDER: [&str; 8] =
@@ -103,13 +103,13 @@ impl Observer for Energy {
         heads
     }
 
-    fn see(&mut self, _: &Run, seen: Seen, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
-        match seen {
-            Seen::Frame(frame) => {
+    fn observe(&mut self, _: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+        match message {
+            RunMessage::Frame(frame) => {
                 let sum = |of: fn(u64) -> u64| frame.id.iter().fold(0, |s: u64, id| s.wrapping_add(of(*id)));
                 self.now = (frame.len(), sum(|id| id), sum(|id| id.wrapping_mul(id)));
             }
-            Seen::Ledger(l) if self.between.0 <= l.time && l.time <= self.between.1 => {
+            RunMessage::Ledger(l) if self.between.0 <= l.time && l.time <= self.between.1 => {
                 rows.push(self.row(l));
             }
             _ => {}

@@ -9,7 +9,7 @@ use crate::observer::{NO_FRAMES, Observer, SLACK};
 use crate::path::PreviousFrame;
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::statistics::Mean;
-use crate::{Frame, MeasureError, Run, Seen};
+use crate::{Frame, MeasureError, Run, RunMessage};
 use geom::{Plane, Shape, Vec3};
 use std::collections::VecDeque;
 
@@ -128,8 +128,8 @@ impl Flow {
         Some((found, run.outlets[found].normal.dot(&plane.normal) > 0.0))
     }
 
-    fn wanted(&self, place: &Vec3) -> bool {
-        self.options.within.as_ref().is_none_or(|shape| shape.contains(place))
+    fn wanted(&self, position: &Vec3) -> bool {
+        self.options.within.as_ref().is_none_or(|shape| shape.contains(position))
     }
 
     fn add(&mut self, time: f64, forward: bool, mass: f64) {
@@ -149,16 +149,17 @@ impl Flow {
         let mut found = Vec::new();
         for (row, mass) in masses.iter().enumerate() {
             let Some((path, other)) = self.before.paths(run, frame, row) else {
-                let place = frame.position[row];
-                self.unjudged += u64::from(beyond(&place) != beyond(&(place - frame.velocity[row] * length)));
+                let position = frame.position[row];
+                self.unjudged +=
+                    u64::from(beyond(&position) != beyond(&(position - frame.velocity[row] * length)));
                 continue;
             };
             for path in [Some(path), other].into_iter().flatten() {
                 let (start, end) = (beyond(&path.at(0.0)), beyond(&path.at(1.0)));
                 if start != end {
-                    let (time, place) = path.change(beyond);
+                    let (time, position) = path.change(beyond);
                     // Of the two images of a way through a periodic face, the one that is in the box then.
-                    if (other.is_none() || run.in_box(&place)) && self.wanted(&place) {
+                    if (other.is_none() || run.in_box(&position)) && self.wanted(&position) {
                         found.push((time, end, *mass));
                     }
                 }
@@ -250,12 +251,12 @@ impl Observer for Flow {
         ])
     }
 
-    fn see(&mut self, run: &Run, seen: Seen, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
-        match seen {
-            Seen::Frame(frame) => self.frame(run, &frame, rows)?,
-            Seen::Passages(passages) => {
+    fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+        match message {
+            RunMessage::Frame(frame) => self.frame(run, &frame, rows)?,
+            RunMessage::Crossings(crossings) => {
                 if let Some((outlet, along)) = self.outlet_of(run) {
-                    let own = passages.iter().filter(|p| p.outlet == outlet && self.wanted(&p.position));
+                    let own = crossings.iter().filter(|p| p.outlet == outlet && self.wanted(&p.position));
                     for p in own.copied().collect::<Vec<_>>() {
                         if p.mass.is_nan() {
                             return Err(MeasureError::Density { index: 0 });

@@ -5,7 +5,7 @@
 
 use crate::observer::{NO_CONTACTS, Observer, Which};
 use crate::sheet::{Chart, Curve, Head, Look, Row, Summary};
-use crate::{Contacts, MeasureError, Partner, Run, Seen};
+use crate::{Contacts, MeasureError, Partner, Run, RunMessage};
 
 const WIDTH: f64 = 0.2;
 const BARS: usize = 40;
@@ -58,13 +58,13 @@ pub struct Forces {
     walls: bool,
     kept: Option<Contacts>,
     last: Option<[Distribution; 2]>,
-    seen: u64,
+    contact_frames: u64,
 }
 
 impl Forces {
     /// Of the contacts at chosen times; between grains, or with walls.
     pub fn new(which: Which, walls: bool) -> Forces {
-        Forces { which, walls, kept: None, last: None, seen: 0 }
+        Forces { which, walls, kept: None, last: None, contact_frames: 0 }
     }
 
     fn measure(&mut self, contacts: &Contacts) -> Vec<Row> {
@@ -97,9 +97,9 @@ impl Observer for Forces {
         ])
     }
 
-    fn see(&mut self, _: &Run, seen: Seen, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
-        let Seen::Contacts(contacts) = seen else { return Ok(()) };
-        self.seen += 1;
+    fn observe(&mut self, _: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+        let RunMessage::Contacts(contacts) = message else { return Ok(()) };
+        self.contact_frames += 1;
         if !self.which.holds(contacts.time) {
             return Ok(());
         }
@@ -112,7 +112,7 @@ impl Observer for Forces {
     }
 
     fn end(&mut self, _: &Run, rows: &mut Vec<Row>) -> Result<Summary, MeasureError> {
-        if self.seen == 0 {
+        if self.contact_frames == 0 {
             return Err(NO_CONTACTS);
         }
         if let Some(contacts) = self.kept.take() {

@@ -163,9 +163,9 @@ impl Contacts {
     }
 }
 
-/// A grain that passed an outlet's plane.
+/// A grain that crossed a storage plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Passage {
+pub struct Crossing {
     /// When [s].
     pub time: f64,
     /// Index of the outlet.
@@ -178,12 +178,12 @@ pub struct Passage {
     pub mass: f64,
 }
 
-impl Passage {
-    /// Passages from the table of a message of `/crossings`.
+impl Crossing {
+    /// Crossings from the table of a message of `/crossings`.
     ///
     /// # Errors
     /// Columns that are missing, numbers that are not finite.
-    pub fn list(time: f64, table: &Table, densities: &[f64]) -> Result<Vec<Passage>, MeasureError> {
+    pub fn list(time: f64, table: &Table, densities: &[f64]) -> Result<Vec<Crossing>, MeasureError> {
         let columns = Columns { topic: CROSSINGS, time, table };
         let position = columns.vectors(POSITION)?;
         let (times, radius) = (columns.numbers(TIME)?, columns.positive(RADIUS)?);
@@ -192,7 +192,7 @@ impl Passage {
         // The mass of a clump is written; that of a sphere follows from its radius.
         let written = columns.or_zero(MASS)?;
         let of_sphere = |k: usize| mass(material[k] as u16, radius[k], densities);
-        let row = |k: usize| Passage {
+        let row = |k: usize| Crossing {
             time: times[k],
             outlet: outlet[k] as usize,
             position: position[k],

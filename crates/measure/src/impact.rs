@@ -13,7 +13,7 @@
 use crate::observer::{NO_CONTACTS, Observer};
 use crate::sheet::{Chart, Curve, Head, Look, Row, Summary};
 use crate::statistics::Mean;
-use crate::{Contact, Frame, MeasureError, Partner, Run, Seen};
+use crate::{Contact, Frame, MeasureError, Partner, Run, RunMessage};
 use geom::Vec3;
 use std::collections::{BTreeMap, HashMap};
 
@@ -30,7 +30,7 @@ struct OpenContact {
     normal: Vec3,
 }
 
-/// Places and velocities at one time, by id.
+/// Positions and velocities at one time, by id.
 #[derive(Debug, Default)]
 struct Moment {
     time: f64,
@@ -43,7 +43,7 @@ impl Moment {
         Moment { time: frame.time, states: frame.id.iter().copied().zip(states).collect() }
     }
 
-    /// Place and velocity of i seen from j.
+    /// Position and velocity of i relative to j.
     fn between(&self, run: &Run, pair: Pair) -> Option<(Vec3, Vec3)> {
         let (x, v) = *self.states.get(&pair.0)?;
         if pair.2 {
@@ -108,7 +108,7 @@ pub struct Impacts {
     moments: [Option<Moment>; 2],
     open: BTreeMap<Pair, OpenContact>,
     rows: [Vec<f64>; 3],
-    seen: u64,
+    contact_frames: u64,
     /// Contacts whose start or end was not seen.
     cut: u64,
 }
@@ -121,7 +121,7 @@ impl Impacts {
             moments: [None, None],
             open: BTreeMap::new(),
             rows: Default::default(),
-            seen: 0,
+            contact_frames: 0,
             cut: 0,
         }
     }
@@ -196,16 +196,16 @@ impl Observer for Impacts {
         ])
     }
 
-    fn see(&mut self, run: &Run, seen: Seen, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
-        let contacts = match seen {
-            Seen::Frame(frame) => {
+    fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+        let contacts = match message {
+            RunMessage::Frame(frame) => {
                 self.moments = [self.moments[1].take(), Some(Moment::of(&frame))];
                 return Ok(());
             }
-            Seen::Contacts(contacts) => contacts,
+            RunMessage::Contacts(contacts) => contacts,
             _ => return Ok(()),
         };
-        self.seen += 1;
+        self.contact_frames += 1;
         let mut now: BTreeMap<Pair, &Contact> = BTreeMap::new();
         for contact in contacts.rows.iter().filter(|c| c.overlap > 0.0) {
             let pair = match contact.partner {
@@ -231,7 +231,7 @@ impl Observer for Impacts {
     }
 
     fn end(&mut self, _: &Run, _: &mut Vec<Row>) -> Result<Summary, MeasureError> {
-        if self.seen == 0 {
+        if self.contact_frames == 0 {
             return Err(NO_CONTACTS);
         }
         if self.rows[0].is_empty() {
@@ -301,7 +301,7 @@ mod tests {
                 velocity: vec![Vec3::new(0.0, 0.0, -speed(t))],
                 ..Frame::default()
             };
-            impacts.see(&run, Seen::Frame(frame), &mut rows).unwrap();
+            impacts.observe(&run, RunMessage::Frame(frame), &mut rows).unwrap();
             let contact = Contact {
                 grain: 3,
                 partner: Partner::Wall(0),
@@ -312,7 +312,7 @@ mod tests {
                 overlap: overlap(t),
             };
             let list = if overlap(t) > 0.0 { vec![contact] } else { Vec::new() };
-            impacts.see(&run, Seen::Contacts(Contacts { time: t, rows: list }), &mut rows).unwrap();
+            impacts.observe(&run, RunMessage::Contacts(Contacts { time: t, rows: list }), &mut rows).unwrap();
         }
         let summary = impacts.end(&run, &mut rows).unwrap();
         let get = |name: &str| summary.get(name).unwrap();

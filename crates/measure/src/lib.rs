@@ -33,7 +33,7 @@ pub mod wall_force;
 pub mod wear;
 
 pub use error::MeasureError;
-pub use frame::{Contact, Contacts, Frame, Partner, Passage};
+pub use frame::{Contact, Contacts, Crossing, Frame, Partner};
 pub use observer::{Observer, OfFrame, PerFrame, Which};
-pub use run::{Ledger, Run, Seen, WallSpheres};
+pub use run::{Ledger, Run, RunMessage, WallSpheres};
 pub use sheet::{Chart, Curve, Head, Look, Panel, Row, Summary};

@@ -1,16 +1,16 @@
 //! What all measures of a run share: they read it event by event and return rows.
 
-use crate::{Chart, Frame, Head, MeasureError, Row, Run, Seen, Summary};
+use crate::{Chart, Frame, Head, MeasureError, Row, Run, RunMessage, Summary};
 
 /// Something measured on a run while it comes.
 pub trait Observer {
     /// The columns of its rows; final once the first row is there.
     fn heads(&self) -> Vec<Head>;
-    /// Takes what comes; adds the rows that are now final.
+    /// Takes a message; adds the rows that are now final.
     ///
     /// # Errors
     /// What cannot be measured.
-    fn see(&mut self, run: &Run, seen: Seen, rows: &mut Vec<Row>) -> Result<(), MeasureError>;
+    fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError>;
     /// The run has ended: adds the last rows and sums up.
     ///
     /// # Errors
@@ -88,8 +88,8 @@ impl<M: OfFrame> Observer for PerFrame<M> {
         self.measure.heads()
     }
 
-    fn see(&mut self, run: &Run, seen: Seen, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
-        let Seen::Frame(frame) = seen else { return Ok(()) };
+    fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+        let RunMessage::Frame(frame) = message else { return Ok(()) };
         self.span = Some((self.span.map_or(frame.time, |s| s.0), frame.time));
         if !self.which.holds(frame.time) {
             return Ok(());

@@ -4,7 +4,7 @@
 //! x(τ) = (1 + 2τ)(1 − τ)² x₀ + τ(1 − τ)² h v₀ + τ²(3 − 2τ) x₁ − τ²(1 − τ) h v₁      0 ≤ τ ≤ 1, h = t₁ − t₀
 //! ```
 //!
-//! The cubic with the places and velocities of both frames (Hermite): exact in free fall, of order h⁴ where forces are
+//! The cubic with the positions and velocities of both frames (Hermite): exact in free fall, of order h⁴ where forces are
 //! smooth. A motion forth and back between two frames is not seen.
 
 use crate::{Frame, Run};
@@ -23,13 +23,13 @@ pub struct Path {
 }
 
 impl Path {
-    /// The way between two states (place [m], velocity [m/s]) at two times [s].
+    /// The way between two states (position [m], velocity [m/s]) at two times [s].
     pub fn new(times: [f64; 2], start: (Vec3, Vec3), end: (Vec3, Vec3)) -> Path {
         let h = times[1] - times[0];
         Path { start: start.0, end: end.0, ways: [start.1 * h, end.1 * h], times }
     }
 
-    /// Place [m] at a share τ of the time between the frames.
+    /// Position [m] at a share τ of the time between the frames.
     pub fn at(&self, tau: f64) -> Vec3 {
         let rest = 1.0 - tau;
         self.start * ((1.0 + 2.0 * tau) * rest * rest)
@@ -38,7 +38,7 @@ impl Path {
             - self.ways[1] * (tau * tau * rest)
     }
 
-    /// Time [s] and place [m] of the change from one answer to the other, which the two ends must give, by halving.
+    /// Time [s] and position [m] of the change from one answer to the other, which the two ends must give, by halving.
     pub fn change(&self, holds: impl Fn(&Vec3) -> bool) -> (f64, Vec3) {
         let at_start = holds(&self.start);
         let (mut low, mut high) = (0.0, 1.0);
@@ -78,7 +78,7 @@ impl PreviousFrame {
         Some((if passed { path } else { Path::new(times, old, new) }, other))
     }
 
-    /// Place [m] and velocity [m/s] of the grains that are not in the next frame any more, in no order.
+    /// Position [m] and velocity [m/s] of the grains that are not in the next frame any more, in no order.
     pub fn vanished(&self, frame: &Frame) -> impl Iterator<Item = (Vec3, Vec3)> + '_ {
         let here: HashSet<u64> = frame.id.iter().copied().collect();
         self.states.iter().filter(move |(id, _)| !here.contains(id)).map(|(_, state)| *state)
@@ -103,7 +103,7 @@ mod tests {
         let state = |t: f64| (Vec3::new(t, 0.0, 0.5 * g.z * t * t), Vec3::new(1.0, 0.0, g.z * t));
         let path = Path::new([0.1, 0.5], state(0.1), state(0.5));
         assert!((path.at(0.25) - state(0.2).0).norm() < 1e-14);
-        let (time, place) = path.change(|p| p.z < -0.5 * 9.81 * 0.09);
-        assert!((time - 0.3).abs() < 1e-12 && (place.x - 0.3).abs() < 1e-12, "{time} {place}");
+        let (time, position) = path.change(|p| p.z < -0.5 * 9.81 * 0.09);
+        assert!((time - 0.3).abs() < 1e-12 && (position.x - 0.3).abs() < 1e-12, "{time} {position}");
     }
 }

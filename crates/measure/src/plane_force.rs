@@ -11,7 +11,7 @@
 use crate::observer::{NO_CONTACTS, Observer};
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::statistics::Mean;
-use crate::{Contact, Contacts, MeasureError, Partner, Run, Seen};
+use crate::{Contact, Contacts, MeasureError, Partner, Run, RunMessage};
 use geom::{Plane, Vec3};
 use std::collections::HashMap;
 
@@ -25,14 +25,14 @@ pub struct PlaneForce {
     /// Along the normal and across it, of every frame [N].
     sizes: [Vec<f64>; 2],
     counts: Vec<f64>,
-    seen: u64,
+    contact_frames: u64,
 }
 
 impl PlaneForce {
     /// Through a plane, between two times [s].
     pub fn new(plane: Plane, between: (f64, f64)) -> PlaneForce {
         let (distances, sizes) = (HashMap::new(), [Vec::new(), Vec::new()]);
-        PlaneForce { plane, between, distances, sizes, counts: Vec::new(), seen: 0 }
+        PlaneForce { plane, between, distances, sizes, counts: Vec::new(), contact_frames: 0 }
     }
 
     /// The force of a contact on the grain behind the plane [N], where its grains are on different sides.
@@ -47,7 +47,7 @@ impl PlaneForce {
     }
 
     fn contacts(&mut self, contacts: &Contacts, rows: &mut Vec<Row>) {
-        self.seen += 1;
+        self.contact_frames += 1;
         if !(self.between.0 <= contacts.time && contacts.time <= self.between.1) {
             return;
         }
@@ -77,21 +77,21 @@ impl Observer for PlaneForce {
         ])
     }
 
-    fn see(&mut self, _: &Run, seen: Seen, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
-        match seen {
-            Seen::Frame(frame) => {
+    fn observe(&mut self, _: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+        match message {
+            RunMessage::Frame(frame) => {
                 self.distances.clear();
                 let distance = frame.position.iter().map(|p| self.plane.signed_distance(p));
                 self.distances.extend(frame.id.iter().copied().zip(distance));
             }
-            Seen::Contacts(contacts) => self.contacts(&contacts, rows),
+            RunMessage::Contacts(contacts) => self.contacts(&contacts, rows),
             _ => {}
         }
         Ok(())
     }
 
     fn end(&mut self, _: &Run, _: &mut Vec<Row>) -> Result<Summary, MeasureError> {
-        if self.seen == 0 {
+        if self.contact_frames == 0 {
             return Err(NO_CONTACTS);
         }
         let [normal, shear] = [0, 1].map(|k| Mean::of(&self.sizes[k]));

@@ -97,15 +97,15 @@ fn points() -> &'static (Vec<Vec3>, Vec<Vec3>) {
     static POINTS: OnceLock<(Vec<Vec3>, Vec<Vec3>)> = OnceLock::new();
     // 1/g, 1/g², 1/g³ with g⁴ = g + 1.
     const STEPS: [f64; 3] = [0.819_172_513_396_164_4, 0.671_043_606_703_789_2, 0.549_700_477_901_97];
-    let place = |k: usize, radius: &dyn Fn(f64) -> f64| {
+    let position = |k: usize, radius: &dyn Fn(f64) -> f64| {
         let [a, b, c] = STEPS.map(|s| (0.5 + s * k as f64).fract());
         let (z, turn) = (2.0 * a - 1.0, 2.0 * PI * b);
         let flat = (1.0 - z * z).sqrt();
         Vec3::new(flat * libm::cos(turn), flat * libm::sin(turn), z) * radius(c)
     };
     POINTS.get_or_init(|| {
-        let outer = (0..OUTER).map(|k| place(k, &|_| 1.0)).collect();
-        (outer, (0..INNER).map(|k| place(k, &|c| libm::cbrt(c))).collect())
+        let outer = (0..OUTER).map(|k| position(k, &|_| 1.0)).collect();
+        (outer, (0..INNER).map(|k| position(k, &|c| libm::cbrt(c))).collect())
     })
 }
 

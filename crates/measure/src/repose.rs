@@ -72,8 +72,8 @@ impl HeapOptions {
 /// One sector or lane.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Flank {
-    /// Azimuth of the sector's middle [rad], or place of the lane's middle [m].
-    pub place: f64,
+    /// Azimuth of the sector's middle [rad], or position of the lane's middle [m].
+    pub middle: f64,
     /// Angle [rad].
     pub angle: f64,
     /// 95 % interval of the angle [rad], by the ranks of slopes.
@@ -95,7 +95,7 @@ pub struct HeapAngle {
     pub angle: Mean,
     /// Height above the ground [m].
     pub height: f64,
-    /// Level place of the axis [m], along the first and second level direction.
+    /// Level position of the axis [m], along the first and second level direction.
     pub axis: [f64; 2],
     /// Sectors or lanes.
     pub flanks: Vec<Flank>,
@@ -138,8 +138,8 @@ pub fn heap_angle(frame: &Frame, options: &HeapOptions, up: Option<Vec3>) -> Res
     let top = |profile: &Vec<[f64; 2]>| profile.iter().map(|p| p[1]).fold(0.0, f64::max);
     let mut tops: Vec<f64> = profiles.iter().map(|(_, profile)| top(profile)).collect();
     let height = median(&mut tops);
-    let fit = |(k, (place, profile)): (usize, (f64, Vec<[f64; 2]>))| {
-        flank(place, profile, height, options.fractions).map_err(|found| {
+    let fit = |(k, (middle, profile)): (usize, (f64, Vec<[f64; 2]>))| {
+        flank(middle, profile, height, options.fractions).map_err(|found| {
             let part = if options.wall.is_some() { "lane" } else { "sector" };
             let (time, fractions) = (frame.time, options.fractions);
             MeasureError::SmallHeap { time, part: format!("{part} {k}"), found, fractions, height, bin }
@@ -151,7 +151,7 @@ pub fn heap_angle(frame: &Frame, options: &HeapOptions, up: Option<Vec3>) -> Res
 }
 
 /// The fitted flank; else the number of bins that were there to fit.
-fn flank(place: f64, profile: Vec<[f64; 2]>, height: f64, fractions: [f64; 2]) -> Result<Flank, usize> {
+fn flank(middle: f64, profile: Vec<[f64; 2]>, height: f64, fractions: [f64; 2]) -> Result<Flank, usize> {
     let [low, high] = fractions.map(|f| f * height);
     let start = profile.iter().rposition(|p| p[1] >= high).unwrap_or(0);
     let below = profile[start..].iter().position(|p| p[1] < low);
@@ -161,5 +161,5 @@ fn flank(place: f64, profile: Vec<[f64; 2]>, height: f64, fractions: [f64; 2]) -
     let angle = |slope: f64| libm::atan(-slope);
     let [steep, shallow] = line.interval;
     let interval = [angle(shallow), angle(steep)];
-    Ok(Flank { place, angle: angle(line.slope), interval, fitted: [start, end], line, profile })
+    Ok(Flank { middle, angle: angle(line.slope), interval, fitted: [start, end], line, profile })
 }

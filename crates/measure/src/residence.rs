@@ -10,7 +10,7 @@ use crate::observer::{NO_FRAMES, Observer};
 use crate::path::PreviousFrame;
 use crate::sheet::{Chart, Curve, Head, Look, Row, Summary};
 use crate::statistics::{Mean, quantile};
-use crate::{Frame, MeasureError, Run, Seen};
+use crate::{Frame, MeasureError, Run, RunMessage};
 use geom::Shape;
 use std::collections::HashMap;
 
@@ -61,8 +61,8 @@ impl Residence {
         let mut gone = std::mem::take(&mut self.inside);
         let mut left = Vec::new();
         for (row, id) in frame.id.iter().enumerate() {
-            let Some(place) = frame.position.get(row) else { continue };
-            let (was, is) = (gone.remove(id), self.shape.contains(place));
+            let Some(position) = frame.position.get(row) else { continue };
+            let (was, is) = (gone.remove(id), self.shape.contains(position));
             let change = || {
                 let path = self.before.paths(run, frame, row);
                 // Through a periodic face the two ends may be on one side: half way then.
@@ -107,8 +107,8 @@ impl Observer for Residence {
         Head::list(&[("id", "1"), ("entered", "s"), ("left", "s"), ("residence", "s"), ("mass", "kg")])
     }
 
-    fn see(&mut self, run: &Run, seen: Seen, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
-        if let Seen::Frame(frame) = seen
+    fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+        if let RunMessage::Frame(frame) = message
             && self.between.0 <= frame.time
             && frame.time <= self.between.1
         {

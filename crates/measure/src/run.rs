@@ -1,6 +1,6 @@
 //! A run, event by event: its metadata and its data.
 
-use crate::frame::{Contacts, Frame, Passage};
+use crate::frame::{Contacts, Crossing, Frame};
 use crate::{MeasureError, table::Columns};
 use geom::{Plane, Vec3};
 use record::column::{POSITION, RADIUS, WALL};
@@ -34,18 +34,18 @@ pub struct Ledger {
 
 /// Something to measure.
 #[derive(Debug, Clone)]
-pub enum Seen {
+pub enum RunMessage {
     /// Grains at one time.
     Frame(Frame),
     /// Contacts at one time.
     Contacts(Contacts),
-    /// Grains that passed outlets.
-    Passages(Vec<Passage>),
+    /// Grains that crossed storage planes.
+    Crossings(Vec<Crossing>),
     /// The energy ledger at one time.
     Ledger(Ledger),
 }
 
-/// What a run has said of itself so far.
+/// What the messages of a run have said about it so far.
 #[derive(Debug, Clone, Default)]
 pub struct Run {
     /// Names of the materials.
@@ -71,7 +71,7 @@ impl Run {
     ///
     /// # Errors
     /// Messages that lack columns or hold numbers that cannot be.
-    pub fn take(&mut self, event: Event) -> Result<Option<Seen>, MeasureError> {
+    pub fn take(&mut self, event: Event) -> Result<Option<RunMessage>, MeasureError> {
         let seconds = |ns: u64| ns as f64 / 1e9;
         Ok(match event {
             Event::Metadata { name, map } => {
@@ -80,7 +80,7 @@ impl Run {
             }
             Event::Points { topic, time_ns, table } => self.points(&topic, seconds(time_ns), table)?,
             Event::Bytes { topic, time_ns, data } if topic == ENERGY => {
-                Some(Seen::Ledger(ledger(seconds(time_ns), &data)?))
+                Some(RunMessage::Ledger(ledger(seconds(time_ns), &data)?))
             }
             Event::Bytes { topic, data, .. } if topic == SURFACES => {
                 self.surfaces(&data);
@@ -90,11 +90,11 @@ impl Run {
         })
     }
 
-    fn points(&mut self, topic: &str, time: f64, table: Table) -> Result<Option<Seen>, MeasureError> {
+    fn points(&mut self, topic: &str, time: f64, table: Table) -> Result<Option<RunMessage>, MeasureError> {
         Ok(match topic {
-            PARTICLES => Some(Seen::Frame(Frame::new(time, table, &self.densities)?)),
-            CONTACTS => Some(Seen::Contacts(Contacts::new(time, &table)?)),
-            CROSSINGS => Some(Seen::Passages(Passage::list(time, &table, &self.densities)?)),
+            PARTICLES => Some(RunMessage::Frame(Frame::new(time, table, &self.densities)?)),
+            CONTACTS => Some(RunMessage::Contacts(Contacts::new(time, &table)?)),
+            CROSSINGS => Some(RunMessage::Crossings(Crossing::list(time, &table, &self.densities)?)),
             WALLS => {
                 let columns = Columns { topic: WALLS, time, table: &table };
                 let (position, radius) = (columns.vectors(POSITION)?, columns.positive(RADIUS)?);
@@ -148,9 +148,9 @@ impl Run {
         self.walls = walls.as_array().into_iter().flatten().enumerate().map(name).collect();
     }
 
-    /// Whether a place [m] lies in the periodic box, where there is one; on its faces, too.
-    pub fn in_box(&self, place: &Vec3) -> bool {
-        self.periodic.iter().zip(place.iter()).all(|(period, x)| {
+    /// Whether a position [m] lies in the periodic box, where there is one; on its faces, too.
+    pub fn in_box(&self, position: &Vec3) -> bool {
+        self.periodic.iter().zip(position.iter()).all(|(period, x)| {
             period.is_none_or(|(low, high)| {
                 let slack = 1e-9 * (high - low);
                 (low - slack..=high + slack).contains(x)

@@ -10,7 +10,7 @@
 use crate::observer::{NO_CONTACTS, Observer};
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::statistics::Mean;
-use crate::{Contact, Contacts, MeasureError, Partner, Run, Seen};
+use crate::{Contact, Contacts, MeasureError, Partner, Run, RunMessage};
 use geom::{Shape, Vec3};
 
 /// Which contacts are looked at.
@@ -63,7 +63,7 @@ pub struct WallForce {
     sum: Vec3,
     work: f64,
     touched: bool,
-    seen: u64,
+    contact_frames: u64,
     bounds: (Vec3, Vec3),
 }
 
@@ -77,7 +77,7 @@ impl WallForce {
             sum: Vec3::zeros(),
             work: 0.0,
             touched: false,
-            seen: 0,
+            contact_frames: 0,
             bounds: none,
         }
     }
@@ -98,9 +98,9 @@ impl Observer for WallForce {
         ])
     }
 
-    fn see(&mut self, run: &Run, seen: Seen, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
-        let Seen::Contacts(contacts) = seen else { return Ok(()) };
-        self.seen += 1;
+    fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+        let RunMessage::Contacts(contacts) = message else { return Ok(()) };
+        self.contact_frames += 1;
         if !self.what.holds(contacts.time) {
             return Ok(());
         }
@@ -124,7 +124,7 @@ impl Observer for WallForce {
     }
 
     fn end(&mut self, _: &Run, _: &mut Vec<Row>) -> Result<Summary, MeasureError> {
-        if self.seen == 0 {
+        if self.contact_frames == 0 {
             return Err(NO_CONTACTS);
         }
         if !self.touched && self.bounds.0.x.is_finite() {

@@ -8,14 +8,14 @@
 use crate::observer::{NO_CONTACTS, Observer};
 use crate::sheet::{Chart, Head, Panel, Row, Summary};
 use crate::wall_force::WallContactFilter;
-use crate::{Contact, MeasureError, Run, Seen};
+use crate::{Contact, MeasureError, Run, RunMessage};
 use geom::{Grid, Vec3};
 use std::collections::BTreeMap;
 
 /// Most squares of a map along an axis.
 const MOST_SQUARES: f64 = 240.0;
 
-/// What a place has borne.
+/// The load on a part of the wall.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct WallLoad {
     /// Σ over frames of the normal force [N].
@@ -28,7 +28,7 @@ pub struct WallLoad {
     contacts: u64,
 }
 
-/// Measures wear by place.
+/// Measures wear by position.
 pub struct Wear {
     what: WallContactFilter,
     /// Side of the cubes [m]; `None`: by wall sphere.
@@ -37,7 +37,7 @@ pub struct Wear {
     by_cell: BTreeMap<[i64; 3], WallLoad>,
     grid: Option<(u64, Grid, f64)>,
     frames: u64,
-    seen: u64,
+    contact_frames: u64,
     elsewhere: u64,
 }
 
@@ -62,7 +62,7 @@ impl Wear {
             by_cell: BTreeMap::new(),
             grid: None,
             frames: 0,
-            seen: 0,
+            contact_frames: 0,
             elsewhere: 0,
         })
     }
@@ -105,13 +105,13 @@ impl Wear {
         borne.contacts += u64::from(contact.acts());
     }
 
-    fn row(&self, place: Vec3, size: f64, area: f64, b: &WallLoad) -> Row {
+    fn row(&self, position: Vec3, size: f64, area: f64, b: &WallLoad) -> Row {
         let frames = self.frames as f64;
         let mean = b.normal / frames;
         vec![
-            place.x,
-            place.y,
-            place.z,
+            position.x,
+            position.y,
+            position.z,
             size,
             b.contacts as f64,
             mean,
@@ -140,9 +140,9 @@ impl Observer for Wear {
         ])
     }
 
-    fn see(&mut self, run: &Run, seen: Seen, _: &mut Vec<Row>) -> Result<(), MeasureError> {
-        let Seen::Contacts(contacts) = seen else { return Ok(()) };
-        self.seen += 1;
+    fn observe(&mut self, run: &Run, message: RunMessage, _: &mut Vec<Row>) -> Result<(), MeasureError> {
+        let RunMessage::Contacts(contacts) = message else { return Ok(()) };
+        self.contact_frames += 1;
         if !self.what.holds(contacts.time) {
             return Ok(());
         }
@@ -161,16 +161,16 @@ impl Observer for Wear {
     }
 
     fn end(&mut self, run: &Run, rows: &mut Vec<Row>) -> Result<Summary, MeasureError> {
-        if self.seen == 0 {
+        if self.contact_frames == 0 {
             return Err(NO_CONTACTS);
         }
         let side = self.cell.unwrap_or(f64::NAN);
         let centre = |key: &[i64; 3]| Vec3::from(key.map(|k| (k as f64 + 0.5) * side));
         rows.extend(self.by_cell.iter().map(|(key, b)| self.row(centre(key), side, side * side, b)));
         for (k, b) in &self.by_sphere {
-            if let (Some(place), Some(r)) = (run.spheres.position.get(*k), run.spheres.radius.get(*k)) {
+            if let (Some(position), Some(r)) = (run.spheres.position.get(*k), run.spheres.radius.get(*k)) {
                 // What a sphere stands for of a wall is not known here.
-                rows.push(self.row(*place, *r, f64::NAN, b));
+                rows.push(self.row(*position, *r, f64::NAN, b));
             }
         }
         let work: f64 = rows.iter().map(|r| r[7]).sum();

@@ -33,9 +33,9 @@ fn measure_run(args: Args) -> anyhow::Result<Report> {
     for event in Reader::new(source) {
         let event = args.run.as_far_as_it_goes(event).with_context(|| args.run.to_string())?;
         let Some(event) = event else { break };
-        if let Some(seen) = run.take(event).with_context(place)? {
-            progress.add(u64::from(matches!(seen, measure::Seen::Frame(_))));
-            observer.see(&run, seen, &mut rows).with_context(place)?;
+        if let Some(message) = run.take(event).with_context(place)? {
+            progress.add(u64::from(matches!(message, measure::RunMessage::Frame(_))));
+            observer.observe(&run, message, &mut rows).with_context(place)?;
             sheet.rows(&observer.heads(), &rows)?;
             kept.append(&mut if args.plot.is_some() { std::mem::take(&mut rows) } else { Vec::new() });
             rows.clear();

@@ -54,7 +54,7 @@ impl OfFrame for Repose {
         let free = self.options.wall.is_none();
         let row = |(k, f): (usize, &Flank)| {
             let [start, end] = f.fitted;
-            let place = if free { degrees(f.place) } else { f.place };
+            let place = if free { degrees(f.middle) } else { f.middle };
             let [low, high] = f.interval.map(degrees);
             let [from, to] = [start, end - 1].map(|k| f.profile[k][0]);
             vec![heap.time, k as f64, place, degrees(f.angle), low, high, (end - start) as f64, from, to]

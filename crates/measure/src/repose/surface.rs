@@ -32,23 +32,23 @@ impl Frame3 {
 /// Heights over a grid.
 #[derive(Debug, Clone)]
 pub struct HeapSurface {
-    /// Level places of the rays (along u and v) and heights [m]; only rays that meet a grain.
+    /// Level positions of the rays (along u and v) and heights [m]; only rays that meet a grain.
     pub points: Vec<[f64; 3]>,
     /// Height of the ground [m]: below 99 % of the lowest points of grains.
     pub ground: f64,
     /// Steps of the grid [m].
     pub step: f64,
-    /// Lowest level place along u and v [m], and rays along each.
+    /// Lowest level position along u and v [m], and rays along each.
     pub grid: ([f64; 2], [usize; 2]),
 }
 
 impl HeapSurface {
     /// The surface of a frame that holds grains.
     pub fn new(frame: &Frame, axes: &Frame3, ground: Option<f64>) -> HeapSurface {
-        let place = |p: &Vec3| [p.dot(&axes.u), p.dot(&axes.v), p.dot(&axes.up)];
+        let position = |p: &Vec3| [p.dot(&axes.u), p.dot(&axes.v), p.dot(&axes.up)];
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for (p, r) in frame.position.iter().zip(&frame.radius) {
-            let p = place(p);
+            let p = position(p);
             for k in 0..2 {
                 (low[k], high[k]) = (low[k].min(p[k] - r), high[k].max(p[k] + r));
             }
@@ -59,7 +59,7 @@ impl HeapSurface {
         let mut heights = vec![f64::NEG_INFINITY; count[0] * count[1]];
         let mut bottoms = Vec::with_capacity(frame.len());
         for (p, r) in frame.position.iter().zip(&frame.radius) {
-            let p = place(p);
+            let p = position(p);
             bottoms.push(p[2] - r);
             let range = |k: usize| {
                 let from = ((p[k] - r - low[k]) / step).ceil().max(0.0) as usize;
