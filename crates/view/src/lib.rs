@@ -2,7 +2,7 @@
 //! a film ([`film`]), or files for ParaView ([`vtk`]).
 //!
 //! Everything shown is a table with the columns x, y, z, usually radius [m], and any others, which are fields
-//! to colour by; besides, there are walls that are planes or meshes ([`Surface`]). [`show_run`] reads a run and gives its layers to
+//! to colour by; besides, there are walls that are planes or meshes ([`WallSurface`]). [`show_run`] reads a run and gives its layers to
 //! whatever can [`Show`] them: a page, one [`Moment`], or a [`Series`] of moments; those give pictures, films and files. The caller opens
 //! files and reads clouds. Uses `record` for the formats of runs; knows no engine.
 
@@ -29,13 +29,13 @@ pub use colour::{Map, Rgb};
 pub use error::ViewError;
 pub use geom::Motion;
 pub use moment::Moment;
-pub use page::{Kept, Page, PageOptions};
-pub use picture::{Image, Part, PictureOptions, Survey};
+pub use page::{Page, PageContent, PageOptions};
+pub use picture::{DrawnTable, Image, PictureOptions, Survey};
 pub use record::SurfaceShape;
 pub use run::show_run;
 pub use series::{Series, Span};
 pub use show::{LayerHead, Show};
-pub use surface::Surface;
+pub use surface::WallSurface;
 
 /// What a table of spheres or points is, and so how it is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

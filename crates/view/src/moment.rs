@@ -1,11 +1,11 @@
 //! One moment of everything, for a picture.
 
 use crate::show::{LayerHead, Show, add_surface};
-use crate::{Part, Role, Surface, ViewError};
+use crate::{DrawnTable, Role, ViewError, WallSurface};
 use stream::Table;
 
 /// One thing at the moment shown.
-struct Layer {
+struct MomentLayer {
     head: LayerHead,
     /// The state that is shown, and its time [s].
     shown: Option<(f64, Table)>,
@@ -15,8 +15,8 @@ struct Layer {
 /// comes, so the one meant is a little late.
 pub struct Moment {
     until: f64,
-    layers: Vec<Layer>,
-    surfaces: Vec<Surface>,
+    layers: Vec<MomentLayer>,
+    surfaces: Vec<WallSurface>,
 }
 
 impl Moment {
@@ -41,12 +41,12 @@ impl Moment {
     }
 
     /// Planes and meshes.
-    pub fn surfaces(&self) -> &[Surface] {
+    pub fn surfaces(&self) -> &[WallSurface] {
         &self.surfaces
     }
 
     /// What to draw.
-    pub fn parts(&self) -> Vec<Part<'_>> {
+    pub fn parts(&self) -> Vec<DrawnTable<'_>> {
         let shown = self.layers.iter().filter_map(|l| l.shown.as_ref().map(|(_, table)| (l, table)));
         shown.map(|(layer, table)| layer.head.part(table)).collect()
     }
@@ -54,11 +54,11 @@ impl Moment {
 
 impl Show for Moment {
     fn layer(&mut self, head: LayerHead) -> usize {
-        self.layers.push(Layer { head, shown: None });
+        self.layers.push(MomentLayer { head, shown: None });
         self.layers.len() - 1
     }
 
-    fn surface(&mut self, surface: Surface) {
+    fn surface(&mut self, surface: WallSurface) {
         add_surface(&mut self.surfaces, surface);
     }
 

@@ -1,4 +1,4 @@
-//! The places that stand out farthest, each way: what a camera must see to see everything.
+//! The points that stand out farthest, each way: what a camera must see to see everything.
 
 use crate::spheres::Spheres;
 use geom::Vec3;
@@ -15,7 +15,7 @@ const NEAR: f64 = 0.12;
 /// Places that stand out.
 #[derive(Clone, Default)]
 pub(crate) struct Outline {
-    /// The farthest place in each direction [m], with how far.
+    /// The farthest point in each direction [m], with how far.
     ends: Vec<(f64, Vec3)>,
 }
 
@@ -28,34 +28,34 @@ impl Outline {
         for (n, direction) in directions().enumerate() {
             let reach = balls.iter().map(|(p, r)| p.dot(&direction) + r).enumerate();
             if let Some(i) = farthest(reach.map(|(i, far)| (far, i)).collect(), loose) {
-                let place = balls[i].0 + direction * balls[i].1;
-                self.take(n, place.dot(&direction), place);
+                let point = balls[i].0 + direction * balls[i].1;
+                self.take(n, point.dot(&direction), point);
             }
         }
     }
 
-    /// Takes in places.
-    pub fn add(&mut self, places: &[Vec3]) {
+    /// Takes in points.
+    pub fn add(&mut self, points: &[Vec3]) {
         for (n, direction) in directions().enumerate() {
-            for place in places {
-                self.take(n, place.dot(&direction), *place);
+            for point in points {
+                self.take(n, point.dot(&direction), *point);
             }
         }
     }
 
-    fn take(&mut self, direction: usize, far: f64, place: Vec3) {
+    fn take(&mut self, direction: usize, far: f64, point: Vec3) {
         match self.ends.get_mut(direction) {
-            Some(end) if end.0 < far => *end = (far, place),
+            Some(end) if end.0 < far => *end = (far, point),
             Some(_) => {}
-            None => self.ends.push((far, place)),
+            None => self.ends.push((far, point)),
         }
     }
 
-    /// The places [m].
-    pub fn places(&self) -> Vec<Vec3> {
-        let mut places: Vec<Vec3> = self.ends.iter().map(|(_, place)| *place).collect();
-        places.dedup();
-        places
+    /// The points [m].
+    pub fn points(&self) -> Vec<Vec3> {
+        let mut points: Vec<Vec3> = self.ends.iter().map(|(_, point)| *point).collect();
+        points.dedup();
+        points
     }
 }
 
@@ -83,19 +83,19 @@ mod tests {
 
     #[test]
     fn a_ball_of_spheres_is_outlined_without_its_stray() {
-        let place = |i: usize| {
+        let point = |i: usize| {
             let (a, z) = (2.4 * i as f64, (i as f64 + 0.5) / 500.0 - 1.0);
             let r = (1.0 - z * z).sqrt();
             Vec3::new(r * a.cos(), r * a.sin(), z)
         };
-        let mut all: Vec<Vec3> = (0..1000).map(place).collect();
+        let mut all: Vec<Vec3> = (0..1000).map(point).collect();
         all.push(Vec3::new(1e4, 0.0, 0.0));
         let centre = std::array::from_fn(|k| all.iter().map(|p| p[k]).collect());
         let spheres = Spheres { centre, radius: vec![0.0; all.len()], sized: true };
         let outlined = |loose| {
             let mut outline = Outline::default();
             outline.add_spheres(&spheres, loose);
-            outline.places().iter().map(|p| p.norm()).fold(0.0, f64::max)
+            outline.points().iter().map(|p| p.norm()).fold(0.0, f64::max)
         };
         assert!(outlined(false) > 1e3 && (outlined(true) - 1.0).abs() < 1e-9);
         assert_eq!(directions().count(), 98);

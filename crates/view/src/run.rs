@@ -1,7 +1,7 @@
 //! Reads a run, or walls: grains and wall spheres over time, planes and meshes, and how walls move.
 
 use crate::show::{LayerHead, Show};
-use crate::{Motion, Role, Surface, ViewError};
+use crate::{Motion, Role, ViewError, WallSurface};
 use record::column::WALL;
 use record::metadata::MATERIALS;
 use record::topic::{PARTICLES, SURFACES, WALLS};
@@ -119,7 +119,7 @@ impl<S: Show> Run<'_, S> {
         let mut heads = Vec::new();
         for WallRecord { name, motion, surface } in WallRecord::read_all(data).map_err(ViewError::Surfaces)? {
             if let Some(shape) = surface {
-                self.show.surface(Surface { name: name.clone(), shape, motion });
+                self.show.surface(WallSurface { name: name.clone(), shape, motion });
             }
             heads.push(WallHead { name, motion });
         }

@@ -1,7 +1,7 @@
 //! All moments of everything, for a film or a series of files; the caller chooses what is kept of each state.
 
 use crate::show::{LayerHead, Show, add_surface};
-use crate::{Part, Role, Surface, ViewError};
+use crate::{DrawnTable, Role, ViewError, WallSurface};
 use std::borrow::Cow;
 use stream::Table;
 
@@ -17,7 +17,7 @@ pub struct Span {
 }
 
 /// One thing, over time.
-pub struct Layer<T> {
+pub struct SeriesLayer<T> {
     /// What it is.
     pub head: LayerHead,
     /// Of a layer that moves: its state at t = 0.
@@ -31,7 +31,7 @@ pub struct Layer<T> {
 }
 
 /// Keeps of a state (number of the layer, layer, time, columns) what is needed later.
-pub type Keep<T> = Box<dyn FnMut(usize, &Layer<T>, f64, Table) -> Result<T, ViewError>>;
+pub type KeepState<T> = Box<dyn FnMut(usize, &SeriesLayer<T>, f64, Table) -> Result<T, ViewError>>;
 
 /// Share of the time between two frames by which they may miss their time [–]: a frame is written at the end of the
 /// step in which its time comes.
@@ -40,16 +40,16 @@ const MISS: f64 = 0.05;
 /// What is kept of all layers.
 pub struct Series<T> {
     /// Layers, in the order in which they were added.
-    pub layers: Vec<Layer<T>>,
+    pub layers: Vec<SeriesLayer<T>>,
     /// Planes and meshes.
-    pub surfaces: Vec<Surface>,
+    pub surfaces: Vec<WallSurface>,
     span: Span,
-    keep: Keep<T>,
+    keep: KeepState<T>,
 }
 
 impl<T> Series<T> {
     /// Keeps what `keep` makes of each state in the span.
-    pub fn new(span: Span, keep: Keep<T>) -> Series<T> {
+    pub fn new(span: Span, keep: KeepState<T>) -> Series<T> {
         Series { layers: Vec::new(), surfaces: Vec::new(), span, keep }
     }
 
@@ -70,7 +70,7 @@ impl<T> Series<T> {
     }
 }
 
-impl<T> Layer<T> {
+impl<T> SeriesLayer<T> {
     /// The state nearest to `time` [s].
     pub fn at(&self, time: f64) -> Option<&T> {
         let far = |state: &&(f64, T)| (state.0 - time).abs();
@@ -92,7 +92,7 @@ impl Series<Table> {
     }
 
     /// What to draw of these tables.
-    pub fn parts<'a>(&self, tables: &'a [Option<Cow<'a, Table>>]) -> Vec<Part<'a>> {
+    pub fn parts<'a>(&self, tables: &'a [Option<Cow<'a, Table>>]) -> Vec<DrawnTable<'a>> {
         let shown = self.layers.iter().zip(tables);
         shown.filter_map(|(layer, table)| Some(layer.head.part(table.as_deref()?))).collect()
     }
@@ -115,11 +115,11 @@ impl Span {
 
 impl<T> Show for Series<T> {
     fn layer(&mut self, head: LayerHead) -> usize {
-        self.layers.push(Layer { head, home: None, states: Vec::new(), taken: None, before: None });
+        self.layers.push(SeriesLayer { head, home: None, states: Vec::new(), taken: None, before: None });
         self.layers.len() - 1
     }
 
-    fn surface(&mut self, surface: Surface) {
+    fn surface(&mut self, surface: WallSurface) {
         add_surface(&mut self.surfaces, surface);
     }
 

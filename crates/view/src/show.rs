@@ -1,6 +1,6 @@
 //! What layers are shown on: a page, one moment, or a series of moments.
 
-use crate::{Motion, Page, Part, Role, Surface, ViewError};
+use crate::{DrawnTable, Motion, Page, Role, ViewError, WallSurface};
 use stream::Table;
 
 /// One thing to show, without its states.
@@ -23,8 +23,8 @@ impl LayerHead {
     }
 
     /// The layer with the columns of one state.
-    pub(crate) fn part<'a>(&self, table: &'a Table) -> Part<'a> {
-        Part { role: self.role, name: self.name.clone(), table, kinds: self.kinds.clone() }
+    pub(crate) fn part<'a>(&self, table: &'a Table) -> DrawnTable<'a> {
+        DrawnTable { role: self.role, name: self.name.clone(), table, kinds: self.kinds.clone() }
     }
 }
 
@@ -33,7 +33,7 @@ pub trait Show {
     /// Adds a layer; its number is for [`Show::push`].
     fn layer(&mut self, head: LayerHead) -> usize;
     /// Adds a wall that is a plane or a mesh.
-    fn surface(&mut self, surface: Surface);
+    fn surface(&mut self, surface: WallSurface);
     /// Adds a state of a layer, at `time` [s].
     ///
     /// # Errors
@@ -50,7 +50,7 @@ impl Show for Page {
         layer
     }
 
-    fn surface(&mut self, surface: Surface) {
+    fn surface(&mut self, surface: WallSurface) {
         Page::surface(self, surface);
     }
 
@@ -60,7 +60,7 @@ impl Show for Page {
 }
 
 /// Adds a surface unless it is there: runs of two stages both have the walls near the cut.
-pub(crate) fn add_surface(surfaces: &mut Vec<Surface>, surface: Surface) {
+pub(crate) fn add_surface(surfaces: &mut Vec<WallSurface>, surface: WallSurface) {
     if !surfaces.contains(&surface) {
         surfaces.push(surface);
     }

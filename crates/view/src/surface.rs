@@ -5,7 +5,7 @@ use record::SurfaceShape;
 
 /// A wall that is a plane or a mesh.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Surface {
+pub struct WallSurface {
     /// Name, as shown.
     pub name: String,
     /// Its shape at t = 0.

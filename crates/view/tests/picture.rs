@@ -3,7 +3,7 @@
 use geom::{Plane, Vec3, mesh::TriMesh};
 use std::time::Instant;
 use stream::{Table, Values};
-use view::{Image, Motion, Part, PictureOptions, Role, Surface, SurfaceShape, Survey, picture};
+use view::{DrawnTable, Image, Motion, PictureOptions, Role, SurfaceShape, Survey, WallSurface, picture};
 
 /// Spheres x, y, z, r with a field `load`.
 fn table(spheres: &[[f64; 4]], load: &[f64]) -> Table {
@@ -17,8 +17,9 @@ fn table(spheres: &[[f64; 4]], load: &[f64]) -> Table {
 
 /// Seen from 10 m in front, looking at 0; 400 pixels high at 10 m are 5.358 m.
 fn seen<'a>(parts: &[(Role, &'a Table)], colour: &str) -> Image {
-    let part = |&(role, table): &(Role, &'a Table)| Part { role, name: "test".into(), table, kinds: vec![] };
-    let parts: Vec<Part> = parts.iter().map(part).collect();
+    let part =
+        |&(role, table): &(Role, &'a Table)| DrawnTable { role, name: "test".into(), table, kinds: vec![] };
+    let parts: Vec<DrawnTable> = parts.iter().map(part).collect();
     let options = PictureOptions {
         width: 600,
         height: 400,
@@ -74,16 +75,16 @@ fn a_wall_in_front_lets_grains_be_seen_and_one_behind_does_not_change_them() {
 }
 
 /// A sheet 2 m wide and high, 2 m right of the middle, in the plane y = `y`.
-fn sheet(y: f64, motion: Motion) -> Surface {
+fn sheet(y: f64, motion: Motion) -> WallSurface {
     let corner = |x: f64, z: f64| Vec3::new(x, y, z);
     let vertices = vec![corner(1.0, -1.0), corner(3.0, -1.0), corner(3.0, 1.0), corner(1.0, 1.0)];
     let mesh = TriMesh::new(vertices, vec![[0, 1, 2], [0, 2, 3]]).expect("whole");
-    Surface { name: "sheet".into(), shape: SurfaceShape::Mesh(mesh), motion }
+    WallSurface { name: "sheet".into(), shape: SurfaceShape::Mesh(mesh), motion }
 }
 
 /// The same eye as [`seen`], at a time.
-fn seen_with(surfaces: &[Surface], grain: &Table, time: f64, cut: bool) -> Image {
-    let part = Part { role: Role::Grains, name: "test".into(), table: grain, kinds: vec![] };
+fn seen_with(surfaces: &[WallSurface], grain: &Table, time: f64, cut: bool) -> Image {
+    let part = DrawnTable { role: Role::Grains, name: "test".into(), table: grain, kinds: vec![] };
     let options = PictureOptions {
         width: 600,
         height: 400,
@@ -136,9 +137,9 @@ fn the_cut_leaves_out_what_is_nearer_than_the_middle() {
 fn a_floor_is_drawn_below_the_grains_and_not_above() {
     let plane = Plane::new(Vec3::new(0.0, 0.0, -0.5), Vec3::z()).expect("a direction");
     let floor =
-        Surface { name: "floor".into(), shape: SurfaceShape::Plane(plane), motion: Motion::default() };
+        WallSurface { name: "floor".into(), shape: SurfaceShape::Plane(plane), motion: Motion::default() };
     let grain = table(&[[0.0, 0.0, 0.0, 0.5]], &[1.0]);
-    let part = Part { role: Role::Grains, name: "test".into(), table: &grain, kinds: vec![] };
+    let part = DrawnTable { role: Role::Grains, name: "test".into(), table: &grain, kinds: vec![] };
     let options = PictureOptions { width: 600, height: 400, ..PictureOptions::default() };
     let image = picture::draw(&[part], &[floor], &options).expect("drawn");
     let tinted = |rows: std::ops::Range<u32>| {
@@ -156,15 +157,16 @@ fn a_floor_is_drawn_below_the_grains_and_not_above() {
 fn a_grain_casts_a_shadow_on_the_floor_and_on_wall_spheres() {
     let plane = Plane::new(Vec3::new(0.0, 0.0, -0.1), Vec3::z()).expect("a direction");
     let floor =
-        Surface { name: "floor".into(), shape: SurfaceShape::Plane(plane), motion: Motion::default() };
+        WallSurface { name: "floor".into(), shape: SurfaceShape::Plane(plane), motion: Motion::default() };
     let grid =
         |z: f64| (0..400).map(move |n| [0.1 * f64::from(n % 20 - 10), 0.1 * f64::from(n / 20 - 10), z, 0.1]);
     let walls: Vec<[f64; 4]> = grid(-0.2).collect();
     let walls = table(&walls, &vec![0.0; walls.len()]);
-    let draw = |grain: [f64; 4], floor: &[Surface], walls: Option<&Table>| {
+    let draw = |grain: [f64; 4], floor: &[WallSurface], walls: Option<&Table>| {
         let grain = table(&[grain, [0.9, 0.9, 0.0, 0.1], [-0.9, -0.9, 0.0, 0.1]], &[1.0; 3]);
-        let mut parts = vec![Part { role: Role::Grains, name: "test".into(), table: &grain, kinds: vec![] }];
-        parts.extend(walls.map(|table| Part {
+        let mut parts =
+            vec![DrawnTable { role: Role::Grains, name: "test".into(), table: &grain, kinds: vec![] }];
+        parts.extend(walls.map(|table| DrawnTable {
             role: Role::Walls,
             name: "walls".into(),
             table,
@@ -191,7 +193,7 @@ fn a_grain_casts_a_shadow_on_the_floor_and_on_wall_spheres() {
 fn moments_of_a_film_are_seen_by_the_same_eye_in_the_same_colours() {
     let walls = table(&[[-2.0, 0.0, 0.0, 0.2]], &[0.0]);
     let moments = [[0.0, 0.0, 4.0, 0.2], [3.0, 0.0, 0.0, 0.2]].map(|grain| table(&[grain], &[grain[2]]));
-    let part = |role, table| Part { role, name: "test".into(), table, kinds: vec![] };
+    let part = |role, table| DrawnTable { role, name: "test".into(), table, kinds: vec![] };
     let options = PictureOptions {
         width: 600,
         height: 400,
@@ -228,7 +230,7 @@ fn a_stray_does_not_shrink_the_picture() {
         .collect();
     spheres.push([1e3, 0.0, 0.0, 0.05]);
     let table = table(&spheres, &vec![0.5; spheres.len()]);
-    let part = Part { role: Role::Grains, name: "heap".into(), table: &table, kinds: vec![] };
+    let part = DrawnTable { role: Role::Grains, name: "heap".into(), table: &table, kinds: vec![] };
     let options = PictureOptions {
         width: 600,
         height: 400,
@@ -255,7 +257,7 @@ fn heap(count: usize) -> Table {
 
 fn draw_heap(count: usize, threads: usize) -> Image {
     let heap = heap(count);
-    let part = Part { role: Role::Grains, name: "heap".into(), table: &heap, kinds: vec![] };
+    let part = DrawnTable { role: Role::Grains, name: "heap".into(), table: &heap, kinds: vec![] };
     let options =
         PictureOptions { colour: Some("load".into()), time: Some(0.5), ..PictureOptions::default() };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
@@ -281,7 +283,7 @@ fn a_hundred_thousand_spheres_at_full_size_take_seconds_at_most() {
 #[test]
 fn what_cannot_be_drawn_is_named() {
     let table = table(&[[0.0, 0.0, 0.0, 1.0]], &[0.0]);
-    let part = Part { role: Role::Grains, name: "run".into(), table: &table, kinds: vec![] };
+    let part = DrawnTable { role: Role::Grains, name: "run".into(), table: &table, kinds: vec![] };
     let options = PictureOptions { colour: Some("warmth".into()), ..PictureOptions::default() };
     let message =
         picture::draw(std::slice::from_ref(&part), &[], &options).expect_err("no such field").to_string();

@@ -3,7 +3,7 @@
 use geom::{Plane, Vec3, mesh::TriMesh};
 use stream::{Table, Values};
 use view::{
-    Motion, Part, Role, Surface, SurfaceShape,
+    DrawnTable, Motion, Role, SurfaceShape, WallSurface,
     vtk::{self, PolyData},
 };
 
@@ -25,14 +25,14 @@ fn table(rows: usize, moves: bool) -> Table {
 
 fn everything() -> PolyData {
     let (grains, walls) = (table(3, true), table(2, false));
-    let part = |role, table| Part { role, name: "test".into(), table, kinds: vec![] };
+    let part = |role, table| DrawnTable { role, name: "test".into(), table, kinds: vec![] };
     let plane = Plane::new(Vec3::zeros(), Vec3::z()).expect("a direction");
     let corners = vec![Vec3::zeros(), Vec3::x(), Vec3::y()];
     let mesh = TriMesh::new(corners, vec![[0, 1, 2]]).expect("whole");
     let moves = Motion { velocity: Vec3::new(0.0, 0.0, 2.0), ..Motion::default() };
     let surfaces = [
-        Surface { name: "floor".into(), shape: SurfaceShape::Plane(plane), motion: Motion::default() },
-        Surface { name: "lid".into(), shape: SurfaceShape::Mesh(mesh), motion: moves },
+        WallSurface { name: "floor".into(), shape: SurfaceShape::Plane(plane), motion: Motion::default() },
+        WallSurface { name: "lid".into(), shape: SurfaceShape::Mesh(mesh), motion: moves },
     ];
     vtk::moment(&[part(Role::Grains, &grains), part(Role::Walls, &walls)], &surfaces, Some(0.5))
         .expect("made")

@@ -10,7 +10,7 @@ use serde_json::json;
 use std::path::PathBuf;
 use stream::{Table, Values};
 use tempfile::TempDir;
-use view::{Motion, Page, PageOptions, Role, Surface, SurfaceShape};
+use view::{Motion, Page, PageOptions, Role, SurfaceShape, WallSurface};
 
 const GRAINS: usize = 1500;
 const WALLS: usize = 400;
@@ -140,7 +140,7 @@ fn page_with_surfaces() -> (TempDir, PathBuf) {
     let plane = json!({"plane": {"point": [0, 0, -0.02], "normal": [0, 0, 1]}});
     for (name, shape, motion) in [("paddle", mesh, motion), ("floor", plane, Motion::default())] {
         let shape = SurfaceShape::read(&shape).expect("whole").expect("a surface");
-        page.surface(Surface { name: name.into(), shape, motion });
+        page.surface(WallSurface { name: name.into(), shape, motion });
     }
     let walls = page.layer(Role::Walls, "paddle");
     page.moves(walls, motion);

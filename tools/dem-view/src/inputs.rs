@@ -6,7 +6,7 @@ use cli::Source;
 use serde_json::{Value, json};
 use std::io::{Cursor, Read};
 use stream::{Table, Values, mcap::Reader};
-use view::{LayerHead, Motion, Role, Show, Surface, SurfaceShape};
+use view::{LayerHead, Motion, Role, Show, SurfaceShape, WallSurface};
 
 /// The bytes that every MCAP stream begins with.
 const MCAP: &[u8] = b"\x89MCAP";
@@ -95,6 +95,6 @@ fn mesh(mut bytes: &[u8], name: &str, show: &mut impl Show) -> anyhow::Result<Ve
     let mesh = ::cloud::read_mesh(&mut bytes)?;
     let faces = mesh.faces.len();
     let (shape, motion) = (SurfaceShape::Mesh(mesh), Motion::default());
-    show.surface(Surface { name: name.to_owned(), shape, motion });
+    show.surface(WallSurface { name: name.to_owned(), shape, motion });
     Ok(vec![json!({ "input": name, "triangles": faces })])
 }

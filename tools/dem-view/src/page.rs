@@ -3,7 +3,7 @@
 use crate::{args::Args, inputs};
 use anyhow::Context;
 use cli::{Output, Report};
-use view::{Kept, Page, PageOptions};
+use view::{Page, PageContent, PageOptions};
 
 /// Writes the page of everything given.
 pub fn html(args: &Args, output: &Output) -> anyhow::Result<Report> {
@@ -55,7 +55,7 @@ pub fn html(args: &Args, output: &Output) -> anyhow::Result<Report> {
         .with("layers", seen))
 }
 
-fn warn_of_what_is_left_out(args: &Args, kept: &Kept) {
+fn warn_of_what_is_left_out(args: &Args, kept: &PageContent) {
     let limit = format!("to keep it below {} MB; --max-mb changes that", args.max_mb);
     if kept.stride > 1 {
         let (of, given, stride) = (kept.kept, kept.given, kept.stride);

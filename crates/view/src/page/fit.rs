@@ -1,6 +1,6 @@
 //! Keeps a page below its size limit: what is left out, and what is refused.
 
-use super::{Field, Layer, Page, exact::Exact, panes};
+use super::{Field, Page, PageLayer, exact::Exact, panes};
 use crate::{ViewError, field};
 use stream::Table;
 
@@ -51,7 +51,7 @@ impl Page {
     }
 }
 
-impl Layer {
+impl PageLayer {
     /// Leaves out the components of vectors whose length is a field; `kept` stays.
     fn leave_components(&mut self, kept: Option<&str>) {
         let lengths: Vec<&str> = self.fields.iter().map(|f| f.name.as_str()).collect();

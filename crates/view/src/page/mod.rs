@@ -12,7 +12,8 @@ mod timeline;
 mod write;
 
 use crate::{
-    Camera, Map, Motion, Role, Surface, ViewError, field, outline::Outline, scale::Range, spheres::Spheres,
+    Camera, Map, Motion, Role, ViewError, WallSurface, field, outline::Outline, scale::Range,
+    spheres::Spheres,
 };
 use exact::Exact;
 use pack::Packed;
@@ -58,9 +59,9 @@ impl Default for PageOptions {
     }
 }
 
-/// What became of the frames.
+/// What the page holds, and what was left out.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Kept {
+pub struct PageContent {
     /// Frames given.
     pub given: usize,
     /// Frames in the page.
@@ -80,7 +81,7 @@ pub struct Kept {
 }
 
 /// One thing shown: a file's grains, walls or cloud.
-pub(crate) struct Layer {
+pub(crate) struct PageLayer {
     pub name: String,
     pub role: Role,
     /// Names of the kinds that the field `material` counts.
@@ -110,8 +111,8 @@ pub(crate) struct Field {
 /// A page in the making.
 pub struct Page {
     options: PageOptions,
-    layers: Vec<Layer>,
-    surfaces: Vec<Surface>,
+    layers: Vec<PageLayer>,
+    surfaces: Vec<WallSurface>,
     given: usize,
     stride: usize,
     lengths_only: bool,
@@ -132,7 +133,7 @@ impl Page {
 
     /// Adds a layer; its number is for [`Page::push`].
     pub fn layer(&mut self, role: Role, name: &str) -> usize {
-        self.layers.push(Layer {
+        self.layers.push(PageLayer {
             name: name.to_owned(),
             role,
             kinds: Vec::new(),
@@ -157,7 +158,7 @@ impl Page {
     }
 
     /// Adds a wall that is a plane or a mesh.
-    pub fn surface(&mut self, surface: Surface) {
+    pub fn surface(&mut self, surface: WallSurface) {
         self.surfaces.push(surface);
     }
 
@@ -193,19 +194,19 @@ impl Page {
     }
 
     /// What became of the frames so far.
-    pub fn kept(&self) -> Kept {
+    pub fn kept(&self) -> PageContent {
         let grains = self.layers.iter().filter(|l| l.role == Role::Grains);
         let error = |of: fn(&Packed) -> f64| {
             self.layers.iter().flat_map(|l| l.frames.iter()).map(of).fold(0.0, f64::max)
         };
         let mut field_errors: Vec<(String, f64)> = Vec::new();
-        for (name, error) in self.layers.iter().flat_map(Layer::field_errors) {
+        for (name, error) in self.layers.iter().flat_map(PageLayer::field_errors) {
             match field_errors.iter_mut().find(|(known, _)| *known == name) {
                 Some((_, most)) => *most = most.max(error),
                 None => field_errors.push((name, error)),
             }
         }
-        Kept {
+        PageContent {
             given: self.given,
             kept: grains.map(|l| l.frames.len()).sum(),
             stride: self.stride,
@@ -218,7 +219,7 @@ impl Page {
     }
 }
 
-impl Layer {
+impl PageLayer {
     /// Name and bound on the error by packing of each field.
     fn field_errors(&self) -> impl Iterator<Item = (String, f64)> {
         self.fields.iter().enumerate().map(|(n, field)| {

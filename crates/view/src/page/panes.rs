@@ -1,7 +1,7 @@
 //! Thin walls in a page, packed once: where they are at t = 0, and how they move.
 
-use super::{Layer, Page};
-use crate::{Motion, Role, Surface, SurfaceShape, outline::Outline, scale::Range, sheet};
+use super::{Page, PageLayer};
+use crate::{Motion, Role, SurfaceShape, WallSurface, outline::Outline, scale::Range, sheet};
 use geom::Vec3;
 use serde_json::{Value, json};
 use std::sync::Arc;
@@ -41,7 +41,7 @@ pub(super) struct Framed {
 impl Page {
     /// Times at which anything changes [s]: those of grains, where there are any.
     pub(super) fn times(&self) -> Vec<f64> {
-        let grains = |l: &&Layer| l.role == Role::Grains && !l.frames.is_empty();
+        let grains = |l: &&PageLayer| l.role == Role::Grains && !l.frames.is_empty();
         let any = self.layers.iter().any(|l| grains(&l));
         let of = self.layers.iter().filter(|l| !any || grains(l));
         let mut times: Vec<f64> = of.flat_map(|l| l.frames.iter().map(|f| f.time)).collect();
@@ -56,9 +56,9 @@ impl Page {
         let on_its_way = |places: &[Vec3], motion: &Motion| {
             let mut outline = Outline::default();
             add_moving(&mut outline, places, motion, &moments);
-            outline.places()
+            outline.points()
         };
-        let layers = self.layers.iter().map(|l| on_its_way(&l.outline.places(), &l.motion));
+        let layers = self.layers.iter().map(|l| on_its_way(&l.outline.points(), &l.motion));
         let outlines: Vec<Vec<Vec3>> = layers.collect();
         let mut all: Vec<Vec3> = outlines.concat();
         let mut panes = Vec::new();
@@ -67,7 +67,7 @@ impl Page {
             if sheet.whole {
                 own.add(&sheet.vertices);
             }
-            let outline = on_its_way(&own.places(), &sheet.surface.motion);
+            let outline = on_its_way(&own.points(), &sheet.surface.motion);
             all.extend(&outline);
             panes.push(Pane::new(&sheet, outline));
         }
@@ -76,7 +76,7 @@ impl Page {
 }
 
 /// Bytes that a surface takes, without its lines.
-pub(super) fn bytes(surface: &Surface) -> usize {
+pub(super) fn bytes(surface: &WallSurface) -> usize {
     match &surface.shape {
         SurfaceShape::Plane(_) => 0,
         SurfaceShape::Mesh(mesh) => 12 * (mesh.vertices.len() + mesh.faces.len()),

@@ -1,7 +1,7 @@
 //! The page as text: a header in JSON, and each column of bytes once, in base64.
 
 use super::{
-    Layer, Page,
+    Page, PageLayer,
     pack::Column,
     panes::{self, Framed, Pane},
 };
@@ -102,7 +102,7 @@ impl Page {
     /// # Errors
     /// Nothing to show, or no layer has the field to colour by.
     pub fn check(&self) -> Result<(), ViewError> {
-        let layers: Vec<&Layer> = self.layers.iter().filter(|l| is_shown(l)).collect();
+        let layers: Vec<&PageLayer> = self.layers.iter().filter(|l| is_shown(l)).collect();
         if layers.is_empty() && self.surfaces.is_empty() {
             return Err(ViewError::Empty);
         }
@@ -187,7 +187,7 @@ impl Page {
 }
 
 /// Whether the layer has anything in it, ever.
-fn is_shown(layer: &Layer) -> bool {
+fn is_shown(layer: &PageLayer) -> bool {
     layer.frames.iter().any(|f| f.count > 0)
 }
 
@@ -208,7 +208,7 @@ fn pane<'a>(pane: &'a Pane, blobs: &mut Blobs<'a>) -> Value {
     })
 }
 
-fn layer<'a>(layer: &'a Layer, outline: &[Vec3], blobs: &mut Blobs<'a>) -> Value {
+fn layer<'a>(layer: &'a PageLayer, outline: &[Vec3], blobs: &mut Blobs<'a>) -> Value {
     let mut frames = Vec::new();
     for frame in layer.frames.iter() {
         frames.push(json!({
@@ -225,7 +225,7 @@ fn layer<'a>(layer: &'a Layer, outline: &[Vec3], blobs: &mut Blobs<'a>) -> Value
         let shown = f.most.opened();
         named_field(&f.name, f.whole, [f.all.lo, f.all.hi], [shown.lo, shown.hi])
     });
-    let extent = sheet::box_of(&layer.outline.places());
+    let extent = sheet::box_of(&layer.outline.points());
     let axes = (0..3).map(|k| {
         let of = extent[k];
         named_field(["x", "y", "z"][k], false, [of.lo, of.hi], [of.lo, of.hi])

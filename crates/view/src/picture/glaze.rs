@@ -85,13 +85,13 @@ impl Glaze {
     }
 
     /// A colour as seen through what is between grains and wall spheres.
-    pub fn behind(&self, place: usize, under: [f32; 3]) -> [f32; 3] {
-        self.veils.get(place).map_or(under, |v| veiled(under, v[0]))
+    pub fn behind(&self, sample: usize, under: [f32; 3]) -> [f32; 3] {
+        self.veils.get(sample).map_or(under, |v| veiled(under, v[0]))
     }
 
     /// A colour as seen through what is before both.
-    pub fn before(&self, place: usize, under: [f32; 3]) -> [f32; 3] {
-        self.veils.get(place).map_or(under, |v| veiled(under, v[1]))
+    pub fn before(&self, sample: usize, under: [f32; 3]) -> [f32; 3] {
+        self.veils.get(sample).map_or(under, |v| veiled(under, v[1]))
     }
 }
 
@@ -199,7 +199,7 @@ impl Piece {
         [bright * (1.0 - 0.45 * dark), hides + dark * (SHADOW - hides).max(0.0)]
     }
 
-    /// Calls `paint` with the place and 1/z of every sample inside, in the rows given. A sample on the common edge of
+    /// Calls `paint` with the number and 1/z of every sample inside, in the rows given. A sample on the common edge of
     /// two triangles belongs to one of them.
     fn fill(&self, rows: [usize; 2], width: usize, mut paint: impl FnMut(usize, f64)) {
         let [a, b, c] = self.corner;

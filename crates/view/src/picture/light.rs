@@ -5,7 +5,7 @@ use super::{
     PictureOptions,
     glaze::Glaze,
     lens::{Lens, SAMPLES},
-    paint::{Layer, Painted},
+    paint::{Painted, PaintedLayer},
     shadow::Shadow,
     splat::{Depths, NOTHING, splat},
 };
@@ -51,8 +51,9 @@ struct Shaded {
 /// Draws everything on white; four bytes a pixel.
 pub fn render(painted: &Painted, lens: &Lens, options: &PictureOptions) -> Vec<u8> {
     let walls_only = painted.layers.iter().all(|l| l.role == Role::Walls);
-    let see_through = |l: &&Layer| l.role == Role::Walls && !walls_only && options.wall_opacity < 1.0;
-    let (glass, solid): (Vec<&Layer>, Vec<&Layer>) = painted.layers.iter().partition(see_through);
+    let see_through = |l: &&PaintedLayer| l.role == Role::Walls && !walls_only && options.wall_opacity < 1.0;
+    let (glass, solid): (Vec<&PaintedLayer>, Vec<&PaintedLayer>) =
+        painted.layers.iter().partition(see_through);
     let keep = |place: Vec3| !options.cut || lens.seen(place)[2] >= lens.distance;
     let extent = painted.ball();
     let solid = Shaded::new(&solid, lens, extent, keep);
@@ -110,7 +111,7 @@ fn through(
 
 impl Shaded {
     /// The surfaces of all `layers` together; walls only where `keep` holds for their place.
-    fn new(layers: &[&Layer], lens: &Lens, extent: (Vec3, f64), keep: impl Fn(Vec3) -> bool) -> Self {
+    fn new(layers: &[&PaintedLayer], lens: &Lens, extent: (Vec3, f64), keep: impl Fn(Vec3) -> bool) -> Self {
         let mut joined = Spheres::default();
         let mut colour = Vec::new();
         for layer in layers {

@@ -12,10 +12,10 @@ mod shadow;
 mod splat;
 mod survey;
 
-pub use paint::Part;
+pub use paint::DrawnTable;
 pub use survey::Survey;
 
-use crate::{Camera, Map, Surface, ViewError, field};
+use crate::{Camera, Map, ViewError, WallSurface, field};
 use paint::Painted;
 use stream::Table;
 
@@ -98,7 +98,11 @@ impl Image {
 ///
 /// # Errors
 /// Nothing to draw, a broken table, an unknown field, or a size out of range.
-pub fn draw(parts: &[Part], surfaces: &[Surface], options: &PictureOptions) -> Result<Image, ViewError> {
+pub fn draw(
+    parts: &[DrawnTable],
+    surfaces: &[WallSurface],
+    options: &PictureOptions,
+) -> Result<Image, ViewError> {
     let mut survey = Survey::default();
     survey.add(parts, surfaces, options)?;
     draw_surveyed(parts, surfaces, &survey, options)
@@ -109,8 +113,8 @@ pub fn draw(parts: &[Part], surfaces: &[Surface], options: &PictureOptions) -> R
 /// # Errors
 /// As [`draw`].
 pub fn draw_surveyed(
-    parts: &[Part],
-    surfaces: &[Surface],
+    parts: &[DrawnTable],
+    surfaces: &[WallSurface],
     survey: &Survey,
     options: &PictureOptions,
 ) -> Result<Image, ViewError> {

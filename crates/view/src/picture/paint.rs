@@ -5,13 +5,13 @@ use super::{
     key::{Key, plain},
     survey::Survey,
 };
-use crate::{Role, Surface, SurfaceShape, ViewError, scale::Range, sheet, spheres::Spheres};
+use crate::{Role, SurfaceShape, ViewError, WallSurface, scale::Range, sheet, spheres::Spheres};
 use geom::Vec3;
 use stream::Table;
 
 /// One table to draw.
 #[derive(Debug, Clone)]
-pub struct Part<'a> {
+pub struct DrawnTable<'a> {
     /// How it is drawn.
     pub role: Role,
     /// For messages.
@@ -23,7 +23,7 @@ pub struct Part<'a> {
 }
 
 /// One kind of thing, ready to draw.
-pub(crate) struct Layer {
+pub(crate) struct PaintedLayer {
     pub role: Role,
     pub spheres: Spheres,
     /// A colour for each sphere, parts 0 to 1.
@@ -46,7 +46,7 @@ pub(crate) struct Pane {
 
 /// Everything in the picture.
 pub(crate) struct Painted {
-    pub layers: Vec<Layer>,
+    pub layers: Vec<PaintedLayer>,
     pub panes: Vec<Pane>,
     /// Places that the camera must see [m].
     pub outline: Vec<Vec3>,
@@ -58,8 +58,8 @@ pub(crate) struct Painted {
 impl Painted {
     /// What is there at a moment that `survey` knows.
     pub fn new(
-        parts: &[Part],
-        surfaces: &[Surface],
+        parts: &[DrawnTable],
+        surfaces: &[WallSurface],
         survey: &Survey,
         options: &PictureOptions,
     ) -> Result<Painted, ViewError> {
@@ -72,7 +72,7 @@ impl Painted {
             let spheres = Spheres::of(part.table, &part.name)?;
             let shown = survey.role() == Some(part.role);
             let colour = if shown { key.colours(part.table) } else { plain(spheres.len()) };
-            layers.push(Layer { role: part.role, spheres, colour });
+            layers.push(PaintedLayer { role: part.role, spheres, colour });
         }
         let mut painted =
             Painted { layers, panes: Vec::new(), outline: Vec::new(), key, extent: survey.extent() };
@@ -81,9 +81,9 @@ impl Painted {
     }
 
     /// Places the surfaces; a plane is looked at where there is nothing else.
-    fn place(&mut self, surfaces: &[Surface], survey: &Survey, time: f64) {
+    fn place(&mut self, surfaces: &[WallSurface], survey: &Survey, time: f64) {
         let mut outline = survey.outline.clone();
-        self.outline = outline.places();
+        self.outline = outline.points();
         for sheet in sheet::sheets(surfaces, self.extent) {
             let pose = sheet.surface.motion.pose(time);
             let vertices: Vec<Vec3> = sheet.vertices.iter().map(|v| pose.place(v)).collect();
@@ -101,7 +101,7 @@ impl Painted {
             let opaque = sheet.closed && self.layers.is_empty();
             self.panes.push(Pane { faces, lines, ink: sheet.ink, opaque, side });
         }
-        self.outline = outline.places();
+        self.outline = outline.points();
         self.extent = sheet::box_of(&self.outline);
     }
 

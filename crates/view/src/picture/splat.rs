@@ -72,16 +72,16 @@ fn seen_ball(spheres: &Spheres, i: usize, lens: &Lens) -> Option<Ball> {
     inside.then_some(Ball { centre, radius, window, number: i as u32 })
 }
 
-/// The places in `balls` that reach into each tile, near ones first.
+/// The numbers of the balls that reach into each tile, near ones first.
 fn by_tile(balls: &[Ball], size: [usize; 2]) -> Vec<Vec<u32>> {
     let [across, down] = size.map(|s| s.div_ceil(TILE));
     let mut lists = vec![Vec::new(); across * down];
     let tile = |sample: f64, count: usize| (sample.max(0.0) as usize / TILE).min(count - 1);
-    for (place, ball) in balls.iter().enumerate() {
+    for (number, ball) in balls.iter().enumerate() {
         let [x0, x1, y0, y1] = ball.window;
         for row in tile(y0, down)..=tile(y1, down) {
             for column in tile(x0, across)..=tile(x1, across) {
-                lists[row * across + column].push(place as u32);
+                lists[row * across + column].push(number as u32);
             }
         }
     }
@@ -100,15 +100,15 @@ struct Tile<'a> {
 impl Tile<'_> {
     fn draw(&mut self, balls: &[Ball], list: &[u32], lens: &Lens) {
         let mut behind = f32::INFINITY;
-        for (n, &place) in list.iter().enumerate() {
-            let ball = &balls[place as usize];
+        for (n, &number) in list.iter().enumerate() {
+            let ball = &balls[number as usize];
             if n % 64 == 63 {
                 behind = self.farthest();
             }
             if (ball.centre[2] - ball.radius) as f32 > behind {
                 return; // all others are farther still
             }
-            self.draw_ball(ball, place, lens);
+            self.draw_ball(ball, number, lens);
         }
     }
 
@@ -124,7 +124,7 @@ impl Tile<'_> {
         (y0..y1).flat_map(row).copied().fold(0.0, f32::max)
     }
 
-    fn draw_ball(&mut self, ball: &Ball, place: u32, lens: &Lens) {
+    fn draw_ball(&mut self, ball: &Ball, number: u32, lens: &Lens) {
         let [x0, x1, y0, y1] = self.bounds();
         let [bx0, bx1, by0, by1] = ball.window;
         let from = |sample: f64, low: usize| (sample.ceil().max(0.0) as usize).max(low);
@@ -146,7 +146,7 @@ impl Tile<'_> {
                 let depth = ((b - inside.sqrt()) / a) as f32;
                 if depth < self.depth[base + x] {
                     self.depth[base + x] = depth;
-                    self.ball[base + x] = place;
+                    self.ball[base + x] = number;
                 }
             }
         }

@@ -3,10 +3,10 @@
 use super::{
     PictureOptions,
     key::{Key, scan_colours},
-    paint::Part,
+    paint::DrawnTable,
 };
 use crate::{
-    Role, Surface, SurfaceShape, ViewError, colour, field, outline::Outline, scale::Range, sheet::box_of,
+    Role, SurfaceShape, ViewError, WallSurface, colour, field, outline::Outline, scale::Range, sheet::box_of,
     spheres::Spheres,
 };
 use geom::Vec3;
@@ -41,8 +41,8 @@ impl Survey {
     /// A broken table, an unknown field.
     pub fn add(
         &mut self,
-        parts: &[Part],
-        surfaces: &[Surface],
+        parts: &[DrawnTable],
+        surfaces: &[WallSurface],
         options: &PictureOptions,
     ) -> Result<(), ViewError> {
         self.moments += 1;
@@ -72,7 +72,7 @@ impl Survey {
 
     /// The box around everything but planes [m].
     pub(super) fn extent(&self) -> [Range; 3] {
-        box_of(&self.outline.places())
+        box_of(&self.outline.points())
     }
 
     /// What the colours mean.
@@ -96,7 +96,7 @@ impl Survey {
 }
 
 impl Colours {
-    fn of(part: &Part, options: &PictureOptions) -> Colours {
+    fn of(part: &DrawnTable, options: &PictureOptions) -> Colours {
         let asked = options.colour.as_deref().map(field::canonical);
         let own = asked.is_none_or(|f| f == "rgb") && scan_colours(part.table).is_some();
         let name = || asked.map_or_else(|| field::default_of(part.table), str::to_owned);
@@ -106,7 +106,7 @@ impl Colours {
         Colours { role: part.role, field, whole, kinds, values, all: Range::EMPTY }
     }
 
-    fn add(&mut self, part: &Part) -> Result<(), ViewError> {
+    fn add(&mut self, part: &DrawnTable) -> Result<(), ViewError> {
         let Some(name) = &self.field else { return Ok(()) };
         let Some(values) = field::values(part.table, name) else {
             let known = field::names(part.table, true).into_iter().chain(["x", "y", "z"].map(str::to_owned));

@@ -1,7 +1,7 @@
 //! A mesh as a sheet: its lines are its rims and the edges where it bends.
 
 use super::Sheet;
-use crate::Surface;
+use crate::WallSurface;
 use geom::{Vec3, mesh::TriMesh};
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ const ROUGH: f64 = 0.643;
 const MANY: usize = 500;
 
 /// The sheet of a mesh.
-pub fn sheet<'a>(surface: &'a Surface, mesh: &TriMesh) -> Sheet<'a> {
+pub fn sheet<'a>(surface: &'a WallSurface, mesh: &TriMesh) -> Sheet<'a> {
     let mesh = mesh.welded();
     let (lines, closed) = edges(&mesh);
     Sheet { surface, vertices: mesh.vertices, faces: mesh.faces, lines, ink: 0.65, closed, whole: true }

@@ -4,7 +4,7 @@ mod mesh;
 mod plane;
 
 use crate::{
-    Surface, SurfaceShape,
+    SurfaceShape, WallSurface,
     scale::{Range, around},
 };
 use geom::{Plane, Vec3};
@@ -12,7 +12,7 @@ use geom::{Plane, Vec3};
 /// A plane or mesh, ready to draw; all at t = 0.
 pub(crate) struct Sheet<'a> {
     /// Name and motion.
-    pub surface: &'a Surface,
+    pub surface: &'a WallSurface,
     /// Corners [m].
     pub vertices: Vec<Vec3>,
     /// Three corners each.
@@ -28,7 +28,7 @@ pub(crate) struct Sheet<'a> {
 }
 
 /// The sheets of all surfaces: meshes as they are, planes as far as `extent` [m], the box of all else, reaches.
-pub(crate) fn sheets(surfaces: &[Surface], extent: [Range; 3]) -> Vec<Sheet<'_>> {
+pub(crate) fn sheets(surfaces: &[WallSurface], extent: [Range; 3]) -> Vec<Sheet<'_>> {
     let meshes = surfaces.iter().filter_map(|s| match &s.shape {
         SurfaceShape::Mesh(mesh) => Some(box_of(&mesh.vertices)),
         SurfaceShape::Plane(_) => None,
@@ -37,7 +37,7 @@ pub(crate) fn sheets(surfaces: &[Surface], extent: [Range; 3]) -> Vec<Sheet<'_>>
     surfaces.iter().map(|s| sheet(s, surfaces, extent)).collect()
 }
 
-fn sheet<'a>(surface: &'a Surface, all: &[Surface], extent: [Range; 3]) -> Sheet<'a> {
+fn sheet<'a>(surface: &'a WallSurface, all: &[WallSurface], extent: [Range; 3]) -> Sheet<'a> {
     match &surface.shape {
         SurfaceShape::Mesh(mesh) => mesh::sheet(surface, mesh),
         SurfaceShape::Plane(plane) => plane::sheet(surface, plane, extent, &beside(all, surface)),
@@ -45,8 +45,8 @@ fn sheet<'a>(surface: &'a Surface, all: &[Surface], extent: [Range; 3]) -> Sheet
 }
 
 /// The other planes that move as this one: none is shown beyond another.
-fn beside(surfaces: &[Surface], of: &Surface) -> Vec<Plane> {
-    let other = |s: &Surface| match &s.shape {
+fn beside(surfaces: &[WallSurface], of: &WallSurface) -> Vec<Plane> {
+    let other = |s: &WallSurface| match &s.shape {
         SurfaceShape::Plane(p) if !std::ptr::eq(s, of) && s.motion == of.motion => Some(*p),
         _ => None,
     };

@@ -2,7 +2,7 @@
 
 use super::Sheet;
 use crate::{
-    Surface,
+    WallSurface,
     scale::{Range, round_below},
 };
 use geom::{Plane, Vec3};
@@ -14,7 +14,7 @@ const MARGIN: f64 = 0.06;
 const SQUARES: f64 = 12.0;
 
 /// The sheet of a plane, around the box `extent` [m].
-pub fn sheet<'a>(surface: &'a Surface, plane: &Plane, extent: [Range; 3], beside: &[Plane]) -> Sheet<'a> {
+pub fn sheet<'a>(surface: &'a WallSurface, plane: &Plane, extent: [Range; 3], beside: &[Plane]) -> Sheet<'a> {
     let [u, v] = directions(plane.normal);
     let corners: Vec<Vec3> = (0..8).map(|n| corner(extent, n)).collect();
     let reach = |d: Vec3| {
@@ -107,9 +107,9 @@ mod tests {
     use super::*;
     use crate::{Motion, SurfaceShape, sheet::sheets};
 
-    fn surface(point: [f64; 3], normal: [f64; 3]) -> Surface {
+    fn surface(point: [f64; 3], normal: [f64; 3]) -> WallSurface {
         let plane = Plane::new(point.into(), normal.into()).expect("a direction");
-        Surface { name: "p".into(), shape: SurfaceShape::Plane(plane), motion: Motion::default() }
+        WallSurface { name: "p".into(), shape: SurfaceShape::Plane(plane), motion: Motion::default() }
     }
 
     #[test]

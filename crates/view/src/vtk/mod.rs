@@ -17,7 +17,8 @@ pub use polydata::{Field, PolyData};
 pub use series::SeriesFolder;
 
 use crate::{
-    Part, Role, Surface, ViewError, outline::Outline, scale::Range, sheet, sheet::box_of, spheres::Spheres,
+    DrawnTable, Role, ViewError, WallSurface, outline::Outline, scale::Range, sheet, sheet::box_of,
+    spheres::Spheres,
 };
 use stream::{Table, Values};
 
@@ -39,7 +40,7 @@ impl Reach {
     }
 
     fn extent(&self) -> [Range; 3] {
-        box_of(&self.0.places())
+        box_of(&self.0.points())
     }
 }
 
@@ -48,7 +49,11 @@ impl Reach {
 ///
 /// # Errors
 /// Nothing at all; a position or radius that is missing or not finite.
-pub fn moment(parts: &[Part], surfaces: &[Surface], time: Option<f64>) -> Result<PolyData, ViewError> {
+pub fn moment(
+    parts: &[DrawnTable],
+    surfaces: &[WallSurface],
+    time: Option<f64>,
+) -> Result<PolyData, ViewError> {
     let mut reach = Reach::default();
     let mut whole = PolyData::default();
     for part in parts {
@@ -76,7 +81,7 @@ pub fn points(role: Role, table: &Table) -> PolyData {
 }
 
 /// Planes, as far as `reach`, and meshes, where they are at `time` [s]; the field `surface` counts them.
-pub fn walls(surfaces: &[Surface], reach: &Reach, time: f64) -> PolyData {
+pub fn walls(surfaces: &[WallSurface], reach: &Reach, time: f64) -> PolyData {
     let mut all = PolyData::default();
     for (number, sheet) in sheet::sheets(surfaces, reach.extent()).into_iter().enumerate() {
         let pose = sheet.surface.motion.pose(time);

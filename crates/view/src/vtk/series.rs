@@ -2,7 +2,7 @@
 
 use super::{Entry, PolyData, Reach, points, walls};
 use crate::ViewError;
-use crate::series::{Keep, Layer, Series};
+use crate::series::{KeepState, Series, SeriesLayer};
 use std::cell::RefCell;
 use std::fs::{self, File};
 use std::io::{self, BufWriter};
@@ -39,7 +39,7 @@ impl SeriesFolder {
     }
 
     /// Writes each state to a file as it comes: a run that does not fit in memory can be shown.
-    pub fn keeper(&self) -> Keep<String> {
+    pub fn keeper(&self) -> KeepState<String> {
         let (folder, reach) = (self.filling.path().to_owned(), self.reach.clone());
         Box::new(move |number, layer, time, table| {
             reach.borrow_mut().add(layer.head.role, &table, &layer.head.name)?;
@@ -65,7 +65,12 @@ impl SeriesFolder {
         if entries.is_empty() { Err(ViewError::Empty) } else { Ok(entries) }
     }
 
-    fn of_layer(&self, number: usize, layer: &Layer<String>, times: &[f64]) -> Result<Vec<Entry>, ViewError> {
+    fn of_layer(
+        &self,
+        number: usize,
+        layer: &SeriesLayer<String>,
+        times: &[f64],
+    ) -> Result<Vec<Entry>, ViewError> {
         let head = &layer.head;
         let mut entries = Vec::new();
         for (n, &time) in times.iter().enumerate() {
@@ -127,7 +132,7 @@ impl SeriesFolder {
 }
 
 /// The beginning of the names of a layer's files.
-fn stem(number: usize, layer: &Layer<String>) -> String {
+fn stem(number: usize, layer: &SeriesLayer<String>) -> String {
     let word: String = layer.head.name.chars().take_while(char::is_ascii_alphanumeric).collect();
     format!("{number}_{}", if word.is_empty() { "layer" } else { &word })
 }
