@@ -221,12 +221,13 @@ impl OutputStream {
     }
 
     /// How an MCAP stream is written to it: packed, in place, in a file; not packed to a reader that waits.
-    pub fn how(&self) -> mcap::How<OutputStream> {
+    pub fn how(&self) -> mcap::StreamOptions<OutputStream> {
         match self.is_stream() {
             true => mcap::Compression::None.into(),
-            false => {
-                mcap::How { compression: mcap::Compression::Zstd, seeks: Some(|out, to| out.sink.seek(to)) }
-            }
+            false => mcap::StreamOptions {
+                compression: mcap::Compression::Zstd,
+                seeks: Some(|out, to| out.sink.seek(to)),
+            },
         }
     }
 

@@ -6,7 +6,7 @@ use crate::units::{self, UnitWarning};
 use geom::Vec3;
 use rayon::prelude::*;
 use std::io::{Read, Write};
-use stream::Kind;
+use stream::NumberType;
 use stream::ply::{self, Blocks, PlyError, number_at};
 
 /// Rows judged by one task.
@@ -15,20 +15,21 @@ const CHUNK: usize = 1 << 12;
 /// The rows that stay, and what a header says about them.
 pub struct KeptRows {
     comments: Vec<String>,
-    properties: Vec<(String, Kind)>,
+    properties: Vec<(String, NumberType)>,
     rows: Vec<u8>,
     /// What looks wrong about the numbers of the whole cloud.
     pub warnings: Vec<UnitWarning>,
 }
 
 /// Where x, y and z are: side by side, all of one type with a point in it.
-fn positions<R>(blocks: &Blocks<R>) -> Option<(Kind, usize)> {
+fn positions<R>(blocks: &Blocks<R>) -> Option<(NumberType, usize)> {
     let x = blocks.properties.iter().position(|(name, _, _)| name == "x")?;
     let (kind, at) = (blocks.properties[x].1, blocks.properties[x].2);
     let follows = |step: usize, axis: &str| {
         blocks.properties.get(x + step).is_some_and(|(name, other, _)| name == axis && *other == kind)
     };
-    (matches!(kind, Kind::F32 | Kind::F64) && follows(1, "y") && follows(2, "z")).then_some((kind, at))
+    (matches!(kind, NumberType::F32 | NumberType::F64) && follows(1, "y") && follows(2, "z"))
+        .then_some((kind, at))
 }
 
 /// Whether [`crop_rows`] can do what the rules ask for.
@@ -65,7 +66,8 @@ pub fn crop_rows<R: Read>(mut blocks: Blocks<R>, rules: &Rules) -> Result<(KeptR
     report.points_out = kept.len() / stride;
     report.outside_shapes = report.points_in - report.not_finite - report.points_out;
     let properties = blocks.properties.iter().map(|(name, kind, _)| (name.clone(), *kind)).collect();
-    let (warnings, comments) = (survey.warnings(kind == Kind::F64), std::mem::take(&mut blocks.comments));
+    let (warnings, comments) =
+        (survey.warnings(kind == NumberType::F64), std::mem::take(&mut blocks.comments));
     Ok((KeptRows { comments, properties, rows: kept, warnings }, report))
 }
 
@@ -75,7 +77,7 @@ impl KeptRows {
     /// # Errors
     /// A stream that takes no more.
     pub fn write(&self, to: &mut impl Write) -> Result<(), PlyError> {
-        let properties: Vec<(&str, Kind)> =
+        let properties: Vec<(&str, NumberType)> =
             self.properties.iter().map(|(name, kind)| (&**name, *kind)).collect();
         ply::write_rows(to, &self.comments, ("vertex", &self.rows), &properties)
     }

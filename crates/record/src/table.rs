@@ -2,22 +2,22 @@
 
 use crate::column::{ORIENTATION, ORIENTATION_REAL};
 use geom::Vec3;
-use stream::{Kind, Table, Values};
+use stream::{NumberType, Table, Values};
 
 /// Columns of one table. Names are given once by the caller, and all columns have the same number of rows.
 pub struct TableBuilder {
     table: Table,
-    kind: Kind,
+    kind: NumberType,
 }
 
 impl TableBuilder {
     /// A table of so many rows, whose numbers are written in double precision.
     pub fn new(rows: usize) -> TableBuilder {
-        TableBuilder::of(rows, Kind::F64)
+        TableBuilder::of(rows, NumberType::F64)
     }
 
     /// A table whose [`TableBuilder::numbers`] and [`TableBuilder::vectors`] are of this type: `F32`, else `F64`.
-    pub fn of(rows: usize, kind: Kind) -> TableBuilder {
+    pub fn of(rows: usize, kind: NumberType) -> TableBuilder {
         TableBuilder { table: Table::with_rows(rows), kind }
     }
 
@@ -31,7 +31,7 @@ impl TableBuilder {
     /// Adds a column of numbers.
     pub fn numbers(self, name: &str, values: impl Iterator<Item = f64>) -> TableBuilder {
         let values = match self.kind {
-            Kind::F32 => Values::F32(values.map(|v| v as f32).collect()),
+            NumberType::F32 => Values::F32(values.map(|v| v as f32).collect()),
             _ => Values::F64(values.collect()),
         };
         self.with(name, values)

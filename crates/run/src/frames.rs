@@ -7,12 +7,12 @@ use record::column::{self, FIRST, FORCE, ID, MATERIAL, NORMAL, POSITION, RADIUS,
 use record::{ClumpRecord, Map, SurfaceShape, TableBuilder, WallRecord};
 use scene::keys::Precision;
 use serde_json::{Value, json};
-use stream::{Kind, Line, Rows, Table, Values};
+use stream::{Line, NumberType, Rows, Table, Values};
 
-fn kind(precision: Precision) -> Kind {
+fn kind(precision: Precision) -> NumberType {
     match precision {
-        Precision::F64 => Kind::F64,
-        Precision::F32 => Kind::F32,
+        Precision::F64 => NumberType::F64,
+        Precision::F32 => NumberType::F32,
     }
 }
 
@@ -37,10 +37,10 @@ fn measured(p: &Particle) -> [f64; 10] {
 }
 
 impl Rows for ParticleRows<'_> {
-    fn fields(&self) -> Vec<(&str, Kind)> {
+    fn fields(&self) -> Vec<(&str, NumberType)> {
         let kind = kind(self.precision);
-        let whole = [(ID, Kind::U32), (MATERIAL, Kind::U16)];
-        let body = self.bodies.map(|_| (column::BODY, Kind::U32));
+        let whole = [(ID, NumberType::U32), (MATERIAL, NumberType::U16)];
+        let body = self.bodies.map(|_| (column::BODY, NumberType::U32));
         measured_columns().map(|name| (name, kind)).chain(whole).chain(body).collect()
     }
 

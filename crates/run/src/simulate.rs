@@ -15,7 +15,7 @@ use serde::Serialize;
 use stages::inlet::Arrival;
 use stages::outlet::path::PathRow;
 use std::io::Write;
-use stream::mcap::{How, Provenance, Writer};
+use stream::mcap::{Provenance, StreamOptions, Writer};
 
 /// Steps between searches for particles that zones have lost: in so few, no particle gets past the length of a zone.
 const LOOK_BACK: u64 = 64;
@@ -62,7 +62,7 @@ pub struct Settings<W> {
     /// What made the run.
     pub provenance: Provenance,
     /// How its file is written.
-    pub how: How<W>,
+    pub how: StreamOptions<W>,
     /// Whether the energy of each frame is computed for progress reports.
     pub watched: bool,
     /// Called between steps: whether the run is to end here, with a checkpoint.

@@ -1,13 +1,13 @@
 //! Streams: tables of named columns, PLY and MCAP over files and pipes, exact state, provenance.
 
-pub mod kind;
 pub mod mcap;
+pub mod number_type;
 pub mod ply;
 mod rows;
 pub mod state;
 pub mod table;
 
-pub use kind::Kind;
+pub use number_type::NumberType;
 pub use rows::{Fill, Line, Rows};
 pub use table::{Column, Table, Values};
 

@@ -2,7 +2,7 @@
 
 use crate::{
     Values,
-    kind::{Kind, of_kind},
+    number_type::{NumberType, of_kind},
     table::each,
 };
 use rayon::prelude::*;
@@ -43,7 +43,12 @@ macro_rules! number {
 number!(i8 u8 i16 u16 i32 u32 f32 f64);
 
 /// The column at `offset` of rows that are `stride` bytes wide; `bytes` holds whole rows.
-pub(crate) fn column<const BIG: bool>(bytes: &[u8], stride: usize, offset: usize, kind: Kind) -> Values {
+pub(crate) fn column<const BIG: bool>(
+    bytes: &[u8],
+    stride: usize,
+    offset: usize,
+    kind: NumberType,
+) -> Values {
     of_kind!(kind, T, V => V(bytes
         .par_chunks_exact(stride)
         .with_min_len(CHUNK)
@@ -54,7 +59,7 @@ pub(crate) fn column<const BIG: bool>(bytes: &[u8], stride: usize, offset: usize
 /// Rows that are made while they are packed: they are never held as columns.
 pub trait Rows: Sync {
     /// Names and types of the numbers of a row, in order.
-    fn fields(&self) -> Vec<(&str, Kind)>;
+    fn fields(&self) -> Vec<(&str, NumberType)>;
     /// How many rows there are.
     fn count(&self) -> usize;
     /// Puts the numbers of the row after `n` others, in that order.
@@ -121,13 +126,13 @@ fn in_chunks(stride: usize, first: usize, out: &mut [u8], fill: impl Fn(usize, &
 /// Numbers that can be written as a column of little-endian rows, wherever they are kept.
 pub trait Fill: Sync {
     /// Their type.
-    fn kind(&self) -> Kind;
+    fn kind(&self) -> NumberType;
     /// Fills a column of `rows` with the numbers from `first` on; `place` is the width of a row and where in it the column begins [B].
     fn fill(&self, first: usize, rows: &mut [u8], place: (usize, usize));
 }
 
 impl Fill for Values {
-    fn kind(&self) -> Kind {
+    fn kind(&self) -> NumberType {
         self.kind()
     }
     fn fill(&self, first: usize, rows: &mut [u8], place: (usize, usize)) {

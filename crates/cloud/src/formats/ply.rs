@@ -5,7 +5,9 @@ use crate::Cloud;
 use geom::Vec3;
 use geom::mesh::TriMesh;
 use std::io::{Read, Write};
-use stream::ply::{self, Blocks, Element, Encoding, Kind, ListColumn, Opened, Ply, PlyError, number_at};
+use stream::ply::{
+    self, Blocks, Element, Encoding, ListColumn, NumberType, Opened, Ply, PlyError, number_at,
+};
 use stream::{Fill, Table, Values};
 
 pub(super) fn matches(bytes: &[u8]) -> bool {
@@ -62,22 +64,22 @@ fn from_blocks<R: Read>(mut blocks: Blocks<R>) -> Result<Cloud, ReadError> {
         let table = |source| ReadError::Table { format: "PLY", source };
         attributes.push(&blocks.properties[k].0, values).map_err(table)?;
     }
-    let double = axes.iter().any(|(kind, _)| *kind != Kind::F32);
+    let double = axes.iter().any(|(kind, _)| *kind != NumberType::F32);
     let comments = std::mem::take(&mut blocks.comments);
     Ok(Cloud { points, attributes, double, position_column: at[0], comments })
 }
 
 /// Adds the points of whole rows of `stride` bytes; types and places of x, y and z.
-fn extend(points: &mut Vec<Vec3>, rows: &[u8], stride: usize, axes: [(Kind, usize); 3]) {
+fn extend(points: &mut Vec<Vec3>, rows: &[u8], stride: usize, axes: [(NumberType, usize); 3]) {
     let rows = rows.chunks_exact(stride);
     let [(_, x), (_, y), (_, z)] = axes;
-    let long = |row: &[u8], at: usize| number_at(&row[at..], Kind::F64);
-    let short = |row: &[u8], at: usize| number_at(&row[at..], Kind::F32);
+    let long = |row: &[u8], at: usize| number_at(&row[at..], NumberType::F64);
+    let short = |row: &[u8], at: usize| number_at(&row[at..], NumberType::F32);
     match axes.map(|(kind, _)| kind) {
-        [Kind::F32, Kind::F32, Kind::F32] => {
+        [NumberType::F32, NumberType::F32, NumberType::F32] => {
             points.extend(rows.map(|row| Vec3::new(short(row, x), short(row, y), short(row, z))));
         }
-        [Kind::F64, Kind::F64, Kind::F64] => {
+        [NumberType::F64, NumberType::F64, NumberType::F64] => {
             points.extend(rows.map(|row| Vec3::new(long(row, x), long(row, y), long(row, z))));
         }
         _ => points.extend(rows.map(|row| Vec3::from(axes.map(|(kind, at)| number_at(&row[at..], kind))))),
@@ -162,8 +164,8 @@ struct Axis<'a> {
 }
 
 impl Fill for Axis<'_> {
-    fn kind(&self) -> Kind {
-        if self.cloud.double { Kind::F64 } else { Kind::F32 }
+    fn kind(&self) -> NumberType {
+        if self.cloud.double { NumberType::F64 } else { NumberType::F32 }
     }
 
     fn fill(&self, first: usize, rows: &mut [u8], (stride, offset): (usize, usize)) {
@@ -192,7 +194,7 @@ pub fn write_mesh(to: &mut impl Write, mesh: &TriMesh, encoding: Encoding) -> Re
     let indices = ListColumn {
         name: "vertex_indices".into(),
         position: 0,
-        count_kind: Kind::U8,
+        count_kind: NumberType::U8,
         ends: (1..=mesh.faces.len()).map(|f| 3 * f).collect(),
         values: Values::I32(mesh.faces.iter().flatten().map(|&v| v as i32).collect()),
     };

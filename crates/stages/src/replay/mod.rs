@@ -26,7 +26,7 @@ use replayer::Replayer;
 use scene::input::Source;
 use serde::Serialize;
 use std::io::Write;
-use stream::mcap::{How, Provenance, Writer};
+use stream::mcap::{Provenance, StreamOptions, Writer};
 
 /// What is replayed, and where.
 #[derive(Debug, Clone, Default)]
@@ -151,7 +151,7 @@ pub fn replay<W: Write>(
     runs: Vec<(String, Source)>,
     what: &Replay,
     out: W,
-    (mut provenance, how): (Provenance, How<W>),
+    (mut provenance, how): (Provenance, StreamOptions<W>),
 ) -> Result<(Replayed, W), StageError> {
     let (mut runs, head) = run_file::open(runs, what)?;
     provenance.inputs.extend(runs.iter().filter_map(|r| r.scene.clone()));

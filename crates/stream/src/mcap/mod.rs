@@ -7,19 +7,19 @@
 //! input gives the same bytes.
 
 mod chunk;
-mod held;
 mod lengths;
 mod points;
 mod provenance;
 mod reader;
+mod seek_buffer;
 #[cfg(test)]
 mod tests;
 mod writer;
 
-pub use held::Seeks;
 pub use provenance::{PROVENANCE, Provenance};
 pub use reader::{Event, Reader};
-pub use writer::{Compression, How, Writer};
+pub use seek_buffer::SeekFn;
+pub use writer::{Compression, StreamOptions, Writer};
 
 use std::io;
 use thiserror::Error;

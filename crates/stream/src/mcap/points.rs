@@ -1,7 +1,7 @@
 //! Tables as `foxglove.PointCloud` messages.
 
 use crate::{
-    Kind, Rows, Table, Values,
+    NumberType, Rows, Table, Values,
     rows::{column, pack, pack_rows},
 };
 use foxglove::messages::packed_element_field::NumericType;
@@ -12,36 +12,36 @@ use rayon::prelude::*;
 /// Protobuf tag of `PointCloud.data`: field 6, length-delimited. Checked by a test against prost.
 const DATA_TAG: u8 = (6 << 3) | 2;
 
-fn numeric(kind: Kind) -> NumericType {
+fn numeric(kind: NumberType) -> NumericType {
     match kind {
-        Kind::I8 => NumericType::Int8,
-        Kind::U8 => NumericType::Uint8,
-        Kind::I16 => NumericType::Int16,
-        Kind::U16 => NumericType::Uint16,
-        Kind::I32 => NumericType::Int32,
-        Kind::U32 => NumericType::Uint32,
-        Kind::F32 => NumericType::Float32,
-        Kind::F64 => NumericType::Float64,
+        NumberType::I8 => NumericType::Int8,
+        NumberType::U8 => NumericType::Uint8,
+        NumberType::I16 => NumericType::Int16,
+        NumberType::U16 => NumericType::Uint16,
+        NumberType::I32 => NumericType::Int32,
+        NumberType::U32 => NumericType::Uint32,
+        NumberType::F32 => NumericType::Float32,
+        NumberType::F64 => NumericType::Float64,
     }
 }
 
-fn kind(numeric: NumericType) -> Option<Kind> {
+fn kind(numeric: NumericType) -> Option<NumberType> {
     Some(match numeric {
         NumericType::Unknown => return None,
-        NumericType::Int8 => Kind::I8,
-        NumericType::Uint8 => Kind::U8,
-        NumericType::Int16 => Kind::I16,
-        NumericType::Uint16 => Kind::U16,
-        NumericType::Int32 => Kind::I32,
-        NumericType::Uint32 => Kind::U32,
-        NumericType::Float32 => Kind::F32,
-        NumericType::Float64 => Kind::F64,
+        NumericType::Int8 => NumberType::I8,
+        NumericType::Uint8 => NumberType::U8,
+        NumericType::Int16 => NumberType::I16,
+        NumericType::Uint16 => NumberType::U16,
+        NumericType::Int32 => NumberType::I32,
+        NumericType::Uint32 => NumberType::U32,
+        NumericType::Float32 => NumberType::F32,
+        NumericType::Float64 => NumberType::F64,
     })
 }
 
 /// What is around the rows of a message.
 pub(super) struct Head<'a> {
-    pub fields: Vec<(&'a str, Kind)>,
+    pub fields: Vec<(&'a str, NumberType)>,
     pub rows: usize,
     pub time_ns: u64,
     pub frame_id: &'a str,

@@ -1,5 +1,5 @@
 use super::*;
-use crate::{Kind, Line, Rows, Table, Values};
+use crate::{Line, NumberType, Rows, Table, Values};
 use std::{
     cell::RefCell,
     collections::BTreeMap,
@@ -34,7 +34,7 @@ fn one(key: &str, value: &str) -> BTreeMap<String, String> {
     BTreeMap::from([(key.to_owned(), value.to_owned())])
 }
 
-fn begin<W: Write>(out: W, how: impl Into<How<W>>) -> Writer<W> {
+fn begin<W: Write>(out: W, how: impl Into<StreamOptions<W>>) -> Writer<W> {
     let mut writer = Writer::compressed(out, &provenance(), how).unwrap();
     writer.metadata("materials", one("0", r#"{"name":"steel"}"#)).unwrap();
     for frame in 0..3 {
@@ -164,18 +164,18 @@ fn bytes_after_the_end_are_refused() {
 
 /// A file, and all that it was while it was written.
 #[derive(Clone, Default)]
-struct Seen(Rc<RefCell<Written>>);
+struct SharedFile(Rc<RefCell<Written>>);
 
 /// The file, and what it was after each write.
 type Written = (io::Cursor<Vec<u8>>, Vec<Vec<u8>>);
 
-impl Seen {
+impl SharedFile {
     fn seek(&mut self, to: io::SeekFrom) -> io::Result<u64> {
         io::Seek::seek(&mut self.0.borrow_mut().0, to)
     }
 }
 
-impl Write for Seen {
+impl Write for SharedFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let (file, states) = &mut *self.0.borrow_mut();
         let written = file.write(bytes);
@@ -191,8 +191,8 @@ impl Write for Seen {
 #[test]
 fn a_file_is_written_in_place_with_the_bytes_of_a_pipe() {
     for compression in [Compression::None, Compression::Zstd] {
-        let file = Seen::default();
-        begin(file.clone(), How { compression, seeks: Some(Seen::seek) }).finish().unwrap();
+        let file = SharedFile::default();
+        begin(file.clone(), StreamOptions { compression, seeks: Some(SharedFile::seek) }).finish().unwrap();
         let (file, states) = &*file.0.borrow();
         let all = read(&stream(compression)).unwrap();
         assert_eq!(file.get_ref(), &stream(compression));
@@ -212,8 +212,9 @@ fn a_file_is_written_in_place_with_the_bytes_of_a_pipe() {
 /// What is written goes to a file at once: a chunk is not held beside its message.
 #[test]
 fn nothing_is_held_of_what_goes_to_a_file() {
-    let file = Seen::default();
-    let how = How { compression: Compression::None, seeks: Some(Seen::seek as Seeks<Seen>) };
+    let file = SharedFile::default();
+    let how =
+        StreamOptions { compression: Compression::None, seeks: Some(SharedFile::seek as SeekFn<SharedFile>) };
     let mut writer = begin(file.clone(), how);
     let before = file.0.borrow().0.get_ref().len();
     writer.bytes("/energy", "json", 60_000_000, &[b' '; 500_000]).unwrap();
@@ -225,8 +226,13 @@ fn nothing_is_held_of_what_goes_to_a_file() {
 fn rows_are_written_as_their_table_is() {
     struct Own;
     impl Rows for Own {
-        fn fields(&self) -> Vec<(&str, Kind)> {
-            vec![("x", Kind::F64), ("id", Kind::U32), ("r", Kind::F32), ("m", Kind::U16)]
+        fn fields(&self) -> Vec<(&str, NumberType)> {
+            vec![
+                ("x", NumberType::F64),
+                ("id", NumberType::U32),
+                ("r", NumberType::F32),
+                ("m", NumberType::U16),
+            ]
         }
         fn count(&self) -> usize {
             5000

@@ -1,6 +1,6 @@
 //! Writes a stream that is whole only when it was finished.
 
-use super::held::{KEPT, SeekBuffer, Seeks};
+use super::seek_buffer::{KEPT, SeekBuffer, SeekFn};
 use super::{END_OF_STREAM, McapError, PROVENANCE, Provenance, points};
 use crate::{Rows, Table};
 use ::mcap::{WriteOptions, records};
@@ -23,17 +23,17 @@ pub enum Compression {
 
 /// How a stream is written.
 #[derive(Debug)]
-pub struct How<W> {
+pub struct StreamOptions<W> {
     /// How chunks are packed.
     pub compression: Compression,
     /// How the output goes back in itself, which a file can: what is written goes there at once. What goes to any other output waits in memory
     /// until its chunk is whole.
-    pub seeks: Option<Seeks<W>>,
+    pub seeks: Option<SeekFn<W>>,
 }
 
-impl<W> From<Compression> for How<W> {
-    fn from(compression: Compression) -> How<W> {
-        How { compression, seeks: None }
+impl<W> From<Compression> for StreamOptions<W> {
+    fn from(compression: Compression) -> StreamOptions<W> {
+        StreamOptions { compression, seeks: None }
     }
 }
 
@@ -67,9 +67,9 @@ impl<W: Write> Writer<W> {
     pub fn compressed(
         out: W,
         provenance: &Provenance,
-        how: impl Into<How<W>>,
+        how: impl Into<StreamOptions<W>>,
     ) -> Result<Writer<W>, McapError> {
-        let How { compression, seeks } = how.into();
+        let StreamOptions { compression, seeks } = how.into();
         let options = WriteOptions::new()
             .library(LIBRARY)
             .compression(match compression {

@@ -1,12 +1,12 @@
 //! Binary data: rows of one width in bulk, rows with lists one by one.
 
 use super::{
-    Element, Kind, ListColumn, Ply, PlyError,
+    Element, ListColumn, NumberType, Ply, PlyError,
     header::{ElementHeader, Header, Property},
 };
 use crate::{
     Table, Values,
-    kind::of_kind,
+    number_type::of_kind,
     rows::{Number, column},
     table::each,
 };
@@ -111,7 +111,7 @@ impl<'a> Rows<'a> {
         &mut self,
         row: u64,
         property: &Property,
-        kind: Kind,
+        kind: NumberType,
     ) -> Result<usize, PlyError> {
         let bytes = self.bytes[self.at..].get(..kind.size());
         let bytes = bytes.ok_or_else(|| truncated(self.element, row, self.bytes))?;

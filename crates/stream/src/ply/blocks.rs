@@ -2,8 +2,8 @@
 //!
 //! The bytes of the file are never all in memory, and a reader begins before the writer has ended.
 
-use super::{Encoding, Kind, PlyError, header};
-use crate::{Values, kind::of_kind, rows::Number};
+use super::{Encoding, NumberType, PlyError, header};
+use crate::{Values, number_type::of_kind, rows::Number};
 use std::io::{self, Read};
 
 /// Bytes that are read at once: they stay in the cache of a core until they are columns.
@@ -24,7 +24,7 @@ pub struct Blocks<R> {
     /// Bytes of a row.
     pub stride: usize,
     /// Name, type and place in the row [B] of each property.
-    pub properties: Vec<(String, Kind, usize)>,
+    pub properties: Vec<(String, NumberType, usize)>,
     /// Rows given.
     given: u64,
     /// Bytes of the file up to the end of the buffer.
@@ -142,7 +142,7 @@ impl Values {
 
 /// The number of the given type at the beginning of little-endian bytes.
 #[inline(always)]
-pub fn number_at(bytes: &[u8], kind: Kind) -> f64 {
+pub fn number_at(bytes: &[u8], kind: NumberType) -> f64 {
     #[allow(clippy::unnecessary_cast)]
     {
         of_kind!(kind, T, _V => <T as Number>::get::<false>(bytes) as f64)

@@ -1,6 +1,6 @@
 //! The header: lines of words up to `end_header`.
 
-use super::{Encoding, Kind, PlyError, text::Lines};
+use super::{Encoding, NumberType, PlyError, text::Lines};
 
 /// What the header says.
 pub(super) struct Header {
@@ -23,8 +23,8 @@ pub(super) struct ElementHeader {
 pub(super) struct Property {
     pub name: String,
     /// Type of the count, for a list.
-    pub count: Option<Kind>,
-    pub kind: Kind,
+    pub count: Option<NumberType>,
+    pub kind: NumberType,
 }
 
 impl ElementHeader {
@@ -112,12 +112,13 @@ fn element(rest: &str) -> Option<ElementHeader> {
 
 fn property(rest: &str) -> Result<Property, &'static str> {
     let words: Vec<&str> = rest.split_ascii_whitespace().collect();
-    let kind =
-        |word: &str| Kind::named(word).ok_or("unknown type (char uchar short ushort int uint float double)");
+    let kind = |word: &str| {
+        NumberType::named(word).ok_or("unknown type (char uchar short ushort int uint float double)")
+    };
     match words[..] {
         ["list", count, item, name] => {
             let count = kind(count)?;
-            if matches!(count, Kind::F32 | Kind::F64) {
+            if matches!(count, NumberType::F32 | NumberType::F64) {
                 return Err("the count of a list is a whole number");
             }
             Ok(Property { name: name.to_owned(), count: Some(count), kind: kind(item)? })

@@ -19,7 +19,7 @@ mod write;
 pub use blocks::{Blocks, Opened, number_at};
 pub use write::{write, write_columns, write_rows};
 
-pub use crate::kind::Kind;
+pub use crate::number_type::NumberType;
 use crate::{Table, Values};
 use std::io::{self, Read};
 use thiserror::Error;
@@ -54,7 +54,7 @@ pub struct ListColumn {
     /// How many number properties stand before it in the file, so that order is kept.
     pub position: usize,
     /// Type of the count in front of each list.
-    pub count_kind: Kind,
+    pub count_kind: NumberType,
     /// Row i is `values[ends[i-1]..ends[i]]`.
     pub ends: Vec<usize>,
     /// All lists, one after the other.

@@ -49,7 +49,7 @@ fn mesh() -> Ply {
     let list = |name: &str, position, ends, values| ListColumn {
         name: name.into(),
         position,
-        count_kind: Kind::U8,
+        count_kind: NumberType::U8,
         ends,
         values,
     };
@@ -219,7 +219,7 @@ proptest! {
         table.push("f", Values::F32(floats)).unwrap();
         let ends: Vec<usize> = lengths[..rows].iter().scan(0, |n, l| { *n += l; Some(*n) }).collect();
         let items = (0..ends.last().copied().unwrap_or(0)).map(|n| n as u16).collect();
-        let list = ListColumn { name: "l".into(), position: 1, count_kind: Kind::I16, ends, values: Values::U16(items) };
+        let list = ListColumn { name: "l".into(), position: 1, count_kind: NumberType::I16, ends, values: Values::U16(items) };
         table.push("x", Values::F64(xs)).unwrap();
         let element = |name: &str, lists| Element { name: name.into(), table: table.clone(), lists };
         let elements = vec![element("a", vec![list]), element("b", vec![])];

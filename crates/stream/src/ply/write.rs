@@ -1,9 +1,9 @@
 //! Writes a PLY; binary rows of one width are packed in bulk.
 
-use super::{Element, Encoding, Kind, ListColumn, Ply, PlyError};
+use super::{Element, Encoding, ListColumn, NumberType, Ply, PlyError};
 use crate::{
     Values,
-    kind::of_kind,
+    number_type::of_kind,
     rows::{self, Fill, Number},
     table::each,
 };
@@ -89,7 +89,8 @@ pub fn write_columns(
     (element, rows): (&str, usize),
     columns: &[(&str, &dyn Fill)],
 ) -> Result<(), PlyError> {
-    let properties: Vec<(&str, Kind)> = columns.iter().map(|(name, column)| (*name, column.kind())).collect();
+    let properties: Vec<(&str, NumberType)> =
+        columns.iter().map(|(name, column)| (*name, column.kind())).collect();
     out.write_all(head(comments, (element, rows as u64), &properties)?.as_bytes())?;
     let columns: Vec<&dyn Fill> = columns.iter().map(|(_, column)| *column).collect();
     let stride = columns.iter().map(|c| c.kind().size()).sum::<usize>().max(1);
@@ -105,7 +106,7 @@ pub fn write_rows(
     out: &mut impl Write,
     comments: &[String],
     (element, rows): (&str, &[u8]),
-    properties: &[(&str, Kind)],
+    properties: &[(&str, NumberType)],
 ) -> Result<(), PlyError> {
     let stride = properties.iter().map(|(_, kind)| kind.size()).sum::<usize>().max(1);
     out.write_all(head(comments, (element, (rows.len() / stride) as u64), properties)?.as_bytes())?;
@@ -117,7 +118,7 @@ pub fn write_rows(
 fn head(
     comments: &[String],
     (element, rows): (&str, u64),
-    properties: &[(&str, Kind)],
+    properties: &[(&str, NumberType)],
 ) -> Result<String, PlyError> {
     let wrong = |name: &&str| name.is_empty() || !name.bytes().all(|b| b.is_ascii_graphic());
     if let Some(name) = properties.iter().map(|(name, _)| *name).chain([element]).find(wrong) {

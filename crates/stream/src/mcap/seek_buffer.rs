@@ -6,13 +6,13 @@ use std::io::{self, Seek, SeekFrom, Write};
 pub(super) const KEPT: usize = 1 << 20;
 
 /// Goes to a place in an output and tells how far it is from the start [B], as [`Seek::seek`] does.
-pub type Seeks<W> = fn(&mut W, SeekFrom) -> io::Result<u64>;
+pub type SeekFn<W> = fn(&mut W, SeekFrom) -> io::Result<u64>;
 
 /// An output that may be sought in, as far back as it was last flushed: the head of a chunk tells its length and its checksum. A pipe takes no byte
 /// twice, so that what goes there waits in memory; a file is changed where it is.
 pub(super) struct SeekBuffer<W> {
     out: W,
-    seeks: Option<Seeks<W>>,
+    seeks: Option<SeekFn<W>>,
     held: Vec<u8>,
     /// Bytes that were sent on: where what is held begins.
     sent: u64,
@@ -21,7 +21,7 @@ pub(super) struct SeekBuffer<W> {
 }
 
 impl<W: Write> SeekBuffer<W> {
-    pub fn new(out: W, seeks: Option<Seeks<W>>) -> SeekBuffer<W> {
+    pub fn new(out: W, seeks: Option<SeekFn<W>>) -> SeekBuffer<W> {
         SeekBuffer { out, seeks, held: Vec::new(), sent: 0, at: 0 }
     }
 

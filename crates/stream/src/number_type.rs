@@ -5,7 +5,7 @@ use crate::Values;
 /// Type of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[allow(missing_docs)]
-pub enum Kind {
+pub enum NumberType {
     I8,
     U8,
     I16,
@@ -28,31 +28,31 @@ macro_rules! of_kind {
             }};
         }
         match $kind {
-            $crate::kind::Kind::I8 => arm!(i8, I8),
-            $crate::kind::Kind::U8 => arm!(u8, U8),
-            $crate::kind::Kind::I16 => arm!(i16, I16),
-            $crate::kind::Kind::U16 => arm!(u16, U16),
-            $crate::kind::Kind::I32 => arm!(i32, I32),
-            $crate::kind::Kind::U32 => arm!(u32, U32),
-            $crate::kind::Kind::F32 => arm!(f32, F32),
-            $crate::kind::Kind::F64 => arm!(f64, F64),
+            $crate::number_type::NumberType::I8 => arm!(i8, I8),
+            $crate::number_type::NumberType::U8 => arm!(u8, U8),
+            $crate::number_type::NumberType::I16 => arm!(i16, I16),
+            $crate::number_type::NumberType::U16 => arm!(u16, U16),
+            $crate::number_type::NumberType::I32 => arm!(i32, I32),
+            $crate::number_type::NumberType::U32 => arm!(u32, U32),
+            $crate::number_type::NumberType::F32 => arm!(f32, F32),
+            $crate::number_type::NumberType::F64 => arm!(f64, F64),
         }
     }};
 }
 pub(crate) use of_kind;
 
-impl Kind {
+impl NumberType {
     /// The kind that a PLY header's word names, in the old or the new spelling.
-    pub fn named(word: &str) -> Option<Kind> {
+    pub fn named(word: &str) -> Option<NumberType> {
         Some(match word {
-            "char" | "int8" => Kind::I8,
-            "uchar" | "uint8" => Kind::U8,
-            "short" | "int16" => Kind::I16,
-            "ushort" | "uint16" => Kind::U16,
-            "int" | "int32" => Kind::I32,
-            "uint" | "uint32" => Kind::U32,
-            "float" | "float32" => Kind::F32,
-            "double" | "float64" => Kind::F64,
+            "char" | "int8" => NumberType::I8,
+            "uchar" | "uint8" => NumberType::U8,
+            "short" | "int16" => NumberType::I16,
+            "ushort" | "uint16" => NumberType::U16,
+            "int" | "int32" => NumberType::I32,
+            "uint" | "uint32" => NumberType::U32,
+            "float" | "float32" => NumberType::F32,
+            "double" | "float64" => NumberType::F64,
             _ => return None,
         })
     }
@@ -69,7 +69,7 @@ impl Kind {
 
     /// Whether it holds whole numbers only.
     pub fn is_integer(self) -> bool {
-        !matches!(self, Kind::F32 | Kind::F64)
+        !matches!(self, NumberType::F32 | NumberType::F64)
     }
 
     /// An empty column of this kind.
@@ -80,16 +80,16 @@ impl Kind {
 
 impl Values {
     /// The type of the column.
-    pub fn kind(&self) -> Kind {
+    pub fn kind(&self) -> NumberType {
         match self {
-            Values::I8(_) => Kind::I8,
-            Values::U8(_) => Kind::U8,
-            Values::I16(_) => Kind::I16,
-            Values::U16(_) => Kind::U16,
-            Values::I32(_) => Kind::I32,
-            Values::U32(_) => Kind::U32,
-            Values::F32(_) => Kind::F32,
-            Values::F64(_) => Kind::F64,
+            Values::I8(_) => NumberType::I8,
+            Values::U8(_) => NumberType::U8,
+            Values::I16(_) => NumberType::I16,
+            Values::U16(_) => NumberType::U16,
+            Values::I32(_) => NumberType::I32,
+            Values::U32(_) => NumberType::U32,
+            Values::F32(_) => NumberType::F32,
+            Values::F64(_) => NumberType::F64,
         }
     }
 }
