@@ -2,7 +2,7 @@
 # Real scans and drawings as walls of spheres
 
 What the tools make of real scans and drawings. `make -C pipelines data-pictures DATA=FOLDER` writes this page. The sources and licences of the files are at the head of
-`tests/tests/real_clouds.rs`; the tests there check counts, spacing, coverage and leaks of the same files.
+`tests/tests/tools/real_clouds.rs`; the tests there check counts, spacing, coverage and leaks of the same files.
 
 ## Scans
 HEAD

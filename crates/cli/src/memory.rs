@@ -5,7 +5,7 @@
 //! huge pages. If there are none it has small ones. Everything else is left to the system's allocator. A block that grows
 //! moves its pages: nothing is copied. A freed block is kept for the next one, because the first touch of a page is
 //! expensive, above all in a virtual machine. Kept blocks are released before new memory is requested, so no tool ever takes more memory.
-#![allow(unsafe_code)]
+#![expect(unsafe_code, reason = "an allocator hands out and takes back raw memory")]
 
 use std::alloc::{GlobalAlloc, Layout, System};
 

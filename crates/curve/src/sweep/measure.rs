@@ -86,7 +86,7 @@ impl Measure {
         )))
     }
 
-    /// Measures a run, or takes what was measured of it before.
+    /// Measures a run, or reads what was measured before.
     ///
     /// # Errors
     /// What dem-measure says, a missing value, a value that is not a number.
