@@ -6,8 +6,20 @@ use std::path::{Path, PathBuf};
 
 /// Layers of the engine, lowest first: a folder uses those before it.
 const LAYERS: [&str; 14] = [
-    "threads", "simd", "space", "effects", "setup", "kernel", "walls", "model", "state", "neighbours", "passes",
-    "forces", "observe", "simulation",
+    "threads",
+    "simd",
+    "space",
+    "effects",
+    "setup",
+    "kernel",
+    "walls",
+    "model",
+    "state",
+    "neighbours",
+    "passes",
+    "forces",
+    "observe",
+    "simulation",
 ];
 
 /// Lines that a file may have.
@@ -31,7 +43,9 @@ fn files(folder: &Path, found: &mut Vec<PathBuf>) {
 /// Names of the top-level modules that a line of code names by `crate::`.
 fn modules(line: &str) -> impl Iterator<Item = &str> {
     let code = line.split("//").next().unwrap_or_default();
-    code.split("crate::").skip(1).map(|rest| rest.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or_default())
+    code.split("crate::")
+        .skip(1)
+        .map(|rest| rest.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or_default())
 }
 
 #[test]
@@ -59,6 +73,7 @@ fn no_file_is_too_long_to_read() {
     files(&root().join("crates"), &mut all);
     files(&root().join("tools"), &mut all);
     let lines = |file: &PathBuf| fs::read_to_string(file).expect("text").lines().count();
-    let long: Vec<String> = all.iter().filter(|f| lines(f) > LONGEST).map(|f| format!("{}: {}", f.display(), lines(f))).collect();
+    let long: Vec<String> =
+        all.iter().filter(|f| lines(f) > LONGEST).map(|f| format!("{}: {}", f.display(), lines(f))).collect();
     assert!(long.is_empty(), "above {LONGEST} lines: {long:#?}");
 }
