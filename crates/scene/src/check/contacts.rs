@@ -77,7 +77,7 @@ impl Entry<'_> {
                 .collect::<Vec<_>>()
                 .join(" and ")
         };
-        let mut cures: Vec<String> = owners.map(|d| lacks(d)).filter(|cure| !cure.is_empty()).collect();
+        let mut cures: Vec<String> = owners.map(lacks).filter(|cure| !cure.is_empty()).collect();
         cures.dedup();
         let cure = format!("add {}, or take {key} out", cures.join(", or "));
         self.wrong(key, "(given)", "nothing in this [[contact]] uses it", &cure)
