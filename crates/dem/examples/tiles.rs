@@ -54,7 +54,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// A body in the place of each grain, as text: `scale` 1 stands for a grain of 2 mm radius.
+/// A clump instead of each grain, as text: `scale` 1 stands for a grain of 2 mm radius.
 fn write_bodies(mut to: impl Write, chosen: &[Shifted]) -> std::io::Result<()> {
     writeln!(to, "id,x,y,z,scale,vx,vy,vz")?;
     // Spheres of a body have the ids behind its own.
