@@ -162,7 +162,7 @@ fn mcap_with_a_chunk_that_unpacks_without_end() {
 fn state_with_a_text_longer_than_itself() {
     let state = stream::state::encode(&(5u64 << 32, 0u64)).expect("encoded");
     let error = stream::state::decode::<String>(&state).expect_err("refused");
-    CLAIMS.refused("checkpoint: texts", &said(&error), &["state", "something else"]);
+    CLAIMS.refused("checkpoint: texts", &said(&error), &["state", "not what this program expects"]);
 }
 
 /// A first line of nothing but commas was a panic.

@@ -125,7 +125,7 @@ pub enum SetupError {
     },
     /// A storage plane in a scene with clumps.
     #[error(
-        "outlet: of clumps (the scene has '{0}') only centres are test_point: use test = \"centre\" in [[outlet]]"
+        "outlet: of clumps (the scene has '{0}') only centres are tested: use test = \"centre\" in [[outlet]]"
     )]
     ClumpOutlet(String),
     /// An effect that is computed in double precision only.

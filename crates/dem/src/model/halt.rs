@@ -32,7 +32,7 @@ pub enum Halt {
     },
     /// A particle comes in on top of another.
     #[error(
-        "t = {time:.6e} s: particle {id} is_entering in by inlet {inlet} at ({x:.4e}, {y:.4e}, {z:.4e}) m on top of {partner}: they overlap by \
+        "t = {time:.6e} s: particle {id} comes in by inlet {inlet} at ({x:.4e}, {y:.4e}, {z:.4e}) m on top of {partner}: they overlap by \
          {overlap:.3e} m, {:.1} % of the smaller radius (limit {:.1} %): keep its zone free at the start, let slow grains start farther \
          back (stage-replay --ahead), cut where nothing piles up to the plane, or raise guards.overlap",
         100.0 * share, 100.0 * limit
@@ -144,7 +144,7 @@ pub enum Halt {
     },
     /// A particle that is to come in is too fast for the time step.
     #[error(
-        "t = {time:.6e} s: particle {id} is_entering in by inlet {inlet} at {speed:.4e} m/s, {:.1} % of its radius in one step of {dt:.3e} s \
+        "t = {time:.6e} s: particle {id} comes in by inlet {inlet} at {speed:.4e} m/s, {:.1} % of its radius in one step of {dt:.3e} s \
          (limit {:.1} %): shorten dt, or raise guards.motion",
         100.0 * share, 100.0 * limit
     )]

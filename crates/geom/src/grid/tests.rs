@@ -1,0 +1,70 @@
+//! The grid against a search of all points.
+
+use super::*;
+
+/// Points of a small congruential generator, `spread` wide.
+fn scatter(count: usize, spread: [f64; 3]) -> Vec<Vec3> {
+    let mut state = 7u64;
+    let mut next = || {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (state >> 11) as f64 / (1u64 << 53) as f64
+    };
+    (0..count).map(|_| Vec3::new(spread[0] * next(), spread[1] * next(), spread[2] * next())).collect()
+}
+
+/// A grid of rows, and grids of small and of large blocks.
+fn kinds(points: &[Vec3], cell: f64) -> Vec<Grid> {
+    let blocks = [1, 20, 10_000].map(|n| Grid::in_blocks(points, cell, n));
+    [Grid::new(points, cell)].into_iter().chain(blocks).collect()
+}
+
+#[test]
+fn within_finds_what_brute_force_finds_in_dense_and_sparse_grids() {
+    for spread in [[1.0, 1.0, 1.0], [1.0, 1.0, 1e-9], [1.0, 0.0, 0.0], [400.0, 400.0, 400.0]] {
+        let points = scatter(600, spread);
+        for (cell, radius) in [(0.1, 0.1), (0.05, 0.13), (0.3, 0.1), (0.01, 0.02)] {
+            for grid in kinds(&points, cell) {
+                for &centre in points.iter().step_by(37).chain(&[Vec3::new(-5.0, 0.5, 0.5)]) {
+                    let mut found: Vec<u32> = grid.within(&points, centre, radius).collect();
+                    found.sort();
+                    let near = |i: &u32| (points[*i as usize] - centre).norm() <= radius;
+                    assert_eq!(found, (0..600).filter(near).collect::<Vec<u32>>());
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn order_is_a_permutation_sorted_by_cell_then_index() {
+    for spread in [[1.0; 3], [90.0; 3]] {
+        let points = scatter(500, spread);
+        for grid in kinds(&points, 0.2) {
+            let keys: Vec<_> =
+                grid.order().iter().map(|&i| (grid.key(grid.cell_of(&points[i as usize])), i)).collect();
+            assert!(keys.is_sorted());
+            assert_eq!(keys.len(), 500);
+        }
+    }
+}
+
+/// Of a block's points, fewer have a neighbour elsewhere than of a slab's.
+#[test]
+fn blocks_are_cubes_that_fill_the_box() {
+    assert_eq!(block_of([40, 40, 40], 1000.0), [10, 10, 10]);
+    assert_eq!(block_of([2, 40, 40], 200.0), [2, 10, 10]);
+    assert_eq!(block_of([40, 1, 3], 12.0), [4, 1, 3]);
+    // 21 cells are three times seven, not twice ten and one.
+    assert_eq!(block_of([21, 21, 21], 1000.0), [7, 11, 11]);
+    assert_eq!(block_of([5, 5, 5], 0.01), [1, 1, 1]);
+    assert_eq!(block_of([5, 6, 7], 1e9), [5, 6, 7]);
+}
+
+#[test]
+fn no_point_and_one_point() {
+    for none in kinds(&[], 1.0) {
+        assert_eq!(none.within(&[], Vec3::zeros(), 1.0).count(), 0);
+    }
+    let one = [Vec3::new(1e9, 0.0, 0.0)];
+    assert_eq!(Grid::new(&one, 1.0).within(&one, one[0], 0.0).count(), 1);
+}
