@@ -1,22 +1,24 @@
-//! One pass over the tiles, in two halves: the loads of their contacts, which read all particles; then, for each tile, the loads that arrive
-//! from others, and the move of its particles. Tiles are shared out to threads; no result depends on how.
+//! One pass over the tiles. [`forces_of_tile`] computes the contacts of a tile, which read all particles; [`SecondHalf::tile`] adds what arrives
+//! from other tiles and moves the particles. Two schedules call these two functions: several threads do the first for all tiles, then the
+//! second for all tiles; one thread alone does both for one tile after the other. No result depends on the schedule.
 //!
-//! A tile's contacts are with its own particles and with those of later tiles. So one thread alone takes both halves of a tile at once: a tile that
-//! still reads its particles comes before it, and what it computes is in the cache when it moves.
+//! A tile's contacts are with its own particles and with those of later tiles. So one thread can take both halves of a tile at once: each
+//! tile that reads its particles comes before it, and what it computes is in the cache when it moves.
 
 use crate::forces::tile::{ContactInputs, TileInputs};
 use crate::kernel::StepInputs;
-use crate::kernel::sums::Sums;
+use crate::kernel::sums::{Sums, WrenchSlices};
 use crate::model::Model;
 use crate::neighbours::NeighbourLists;
 use crate::neighbours::poses::pose_in_box;
 use crate::neighbours::resting::RestingTile;
-use crate::neighbours::slices::TileSlice;
+use crate::neighbours::slices::{Lists, TileSlice};
 use crate::passes::bonds::pull::add_bond_forces;
-use crate::passes::integrate::{MoveFlags, MoveInputs, ParticleSlices, advance};
+use crate::passes::integrate::{MoveFlags, MoveInputs, ParticleSlices};
 use crate::passes::sleep::advance_awake;
-use crate::simd::{Row, Row4};
+use crate::simd::{Row, Row4, Width};
 use crate::state::State;
+use crate::state::bonds::Bonds;
 use crate::state::particles::Particles;
 use crate::state::sleepers::Sleepers;
 use crate::threads::{FEW, share};
@@ -76,11 +78,44 @@ fn compute(model: &Model, state: &State, lists: &mut NeighbourLists, looks: bool
     lists.contacts.keep_wrenches(looks && lists.records || state.keeps_wrenches());
     for_each_tile(model, state, lists, |part, still, seen, sums| match still {
         Some(still) => still.compute(part, seen, sums),
-        None => {
-            sums.clear();
-            (0..part.segments.len()).fold(false, |any, k| any | part.compute(k, seen, sums))
-        }
+        None => forces_of_tile(part, 0..part.segments.len(), seen, sums),
     })
+}
+
+/// Forces of some segments of a tile, and their sums; true when an overlap passes its limit.
+fn forces_of_tile(part: &mut TileSlice, segments: Range<usize>, seen: TileInputs, sums: &mut Sums) -> bool {
+    sums.clear();
+    segments.into_iter().fold(false, |any, k| any | part.compute(k, seen, sums))
+}
+
+/// The second half of a pass, with what it needs of the scene.
+struct SecondHalf<'a> {
+    width: Width,
+    drive: MoveInputs,
+    bonds: &'a Bonds,
+    lists: &'a Lists<'a>,
+    ends: Ends,
+}
+
+impl SecondHalf<'_> {
+    /// Adds what arrives at a tile from others, and moves its particles.
+    fn tile(
+        &self,
+        tile: usize,
+        mut particles: ParticleSlices,
+        kept: WrenchSlices,
+        resting: Option<&RestingTile>,
+    ) -> MoveFlags {
+        if self.ends.collects {
+            particles.sums.collect(self.lists.arriving(tile), kept);
+            self.bonds.add(&mut particles.sums);
+        }
+        if self.ends.moves {
+            advance_awake(self.width, particles, &self.drive, self.lists, resting)
+        } else {
+            MoveFlags::default()
+        }
+    }
 }
 
 /// Sums within tiles of loads that were computed before.
@@ -152,24 +187,23 @@ fn step_tile_by_tile(model: &Model, state: &mut State, lists: &mut NeighbourList
     let (kinds, walls, width) = (&model.kinds, &model.walls, model.width);
     let (lists, mut part, mut sums, _) = contacts.parts();
     let mut found = StepFlags::default();
-    let compute =
+    let ends = Ends { collects: true, moves: true };
+    let second = SecondHalf { width, drive, bonds: &state.bonds, lists: &lists, ends };
+    let forces =
         |segments: Range<usize>, rows: &[Row], spins: &[Row4], part: &mut TileSlice, sums: &mut Sums| {
             let common =
                 StepInputs { dt: model.dt, overlap_limit: model.setup.guards.overlap, rows, spins, form };
             let inputs = ContactInputs { kinds, walls, poses: &poses, period, width, common, known: None };
-            let deep = segments.clone().fold(false, |any, k| any | part.compute(k, (&lists, &inputs), sums));
-            deep.then_some(segments)
+            forces_of_tile(part, segments.clone(), (&lists, &inputs), sums).then_some(segments)
         };
-    found.deep.extend(compute(0..lists.tiles[0], rows, spins, &mut part, &mut Sums::default()));
+    found.deep.extend(forces(0..lists.tiles[0], rows, spins, &mut part, &mut Sums::default()));
     for (tile, segments) in lists.tiles.windows(2).enumerate() {
         let (mut mine, others) = sums.split(lists.tile);
         sums = others;
-        mine.clear();
-        found.deep.extend(compute(segments[0]..segments[1], rows, spins, &mut part, &mut mine));
-        mine.collect(lists.arriving(tile), part.kept());
+        found.deep.extend(forces(segments[0]..segments[1], rows, spins, &mut part, &mut mine));
         let (first, count) = (mine.first, mine.len());
         let (all, turn) = (first..first + count, if spins.is_empty() { 0..0 } else { first..first + count });
-        let columns = ParticleSlices {
+        let particles = ParticleSlices {
             first,
             rows: &mut rows[all.clone()],
             spins: &mut spins[turn.clone()],
@@ -179,7 +213,7 @@ fn step_tile_by_tile(model: &Model, state: &mut State, lists: &mut NeighbourList
             sums: mine,
             sleeper_slices: None,
         };
-        found.moved = found.moved.and(advance(width, columns, &drive));
+        found.moved = found.moved.and(second.tile(tile, particles, part.kept(), None));
     }
     contacts.new = false;
     found
@@ -198,13 +232,8 @@ fn drive(model: &Model) -> MoveInputs {
 }
 
 /// Second half: adds what arrives at each tile from others, and moves its particles, where that is to be done.
-fn finish(
-    model: &Model,
-    state: &mut State,
-    lists: &mut NeighbourLists,
-    Ends { collects, moves }: Ends,
-) -> MoveFlags {
-    if moves {
+fn finish(model: &Model, state: &mut State, lists: &mut NeighbourLists, ends: Ends) -> MoveFlags {
+    if ends.moves {
         keep_rows(model, state, lists);
     }
     let drive = drive(model);
@@ -223,19 +252,10 @@ fn finish(
         columns = others;
         items.push((tile, mine));
     }
-    let (bonds, width) = (&state.bonds, model.width);
-    let moved = share(many, items, |(tile, mut columns)| {
-        if collects {
-            columns.sums.collect(lists.arriving(tile), part.kept());
-            bonds.add(&mut columns.sums);
-        }
-        if moves {
-            advance_awake(width, columns, &drive, &lists, resting_tiles.get(tile))
-        } else {
-            MoveFlags::default()
-        }
-    });
-    if moves {
+    let second = SecondHalf { width: model.width, drive, bonds: &state.bonds, lists: &lists, ends };
+    let run = |(tile, particles)| second.tile(tile, particles, part.kept(), resting_tiles.get(tile));
+    let moved = share(many, items, run);
+    if ends.moves {
         // Until now: sleepers are looked at after each listing.
         contacts.new = false;
     }
