@@ -46,9 +46,12 @@ pub use passes::clumps::instant::BodyState;
 pub use passes::servo::WallForce;
 pub use setup::Setup;
 pub use simd as lane;
-pub use simulation::{Checkpoint as State, CheckpointView as StateView, Simulation};
+pub use simulation::{Checkpoint, Simulation};
 pub use space::rotation::spun;
 pub use space::sphere::mass;
 pub use state::bonds::BondState;
 pub use state::energy::Energy;
 pub use state::returned::Returned;
+
+/// A checkpoint that owns its state.
+pub type State = Checkpoint<'static>;

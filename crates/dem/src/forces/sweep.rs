@@ -17,10 +17,10 @@ use crate::passes::bonds::pull::add_bond_forces;
 use crate::passes::integrate::{MoveFlags, MoveInputs, ParticleSlices};
 use crate::passes::sleep::advance_awake;
 use crate::simd::{Row, Row4, Width};
-use crate::state::State;
 use crate::state::bonds::Bonds;
 use crate::state::particles::Particles;
 use crate::state::sleepers::Sleepers;
+use crate::state::{Forces, State};
 use crate::threads::{FEW, share};
 use crate::walls::motion::Pose;
 use std::ops::Range;
@@ -44,7 +44,7 @@ pub fn forces(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> S
 
 /// Forces of this instant, unless they are known, and the move.
 pub fn forces_and_move(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> StepFlags {
-    if state.current {
+    if state.forces == Forces::Known {
         let moved = finish(model, state, lists, Ends { collects: false, moves: true });
         return StepFlags { deep: Vec::new(), moved };
     }

@@ -13,6 +13,7 @@ use crate::simd::aligned::Aligned;
 use crate::simd::number::Layout;
 use crate::simd::{BLOCK, Row, Row4};
 use geom::Vec3;
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// What may disturb a sleeper.
@@ -155,10 +156,10 @@ impl Contacts {
     }
 
     /// Puts loads, couples and ledger of each contact, or sums by particle, as they were saved; false where there are other numbers of them.
-    pub fn put_loads(&mut self, each: &[Vec<f64>; 3], sums: &[Vec<f64>; 2]) -> bool {
+    pub fn put_loads(&mut self, each: &[Cow<[f64]>; 3], sums: &[Cow<[f64]>; 2]) -> bool {
         let Contacts { loads, torques, ledger, keeps, .. } = self;
         let (mine, sums_mine) = ([loads, torques], [&mut self.sums.0, &mut self.sums.1]);
-        let pairs: Vec<(&Vec<f64>, &mut Aligned)> = match keeps {
+        let pairs: Vec<(&Cow<[f64]>, &mut Aligned)> = match keeps {
             true => each.iter().zip(mine.into_iter().chain([ledger])).collect(),
             false => sums.iter().zip(sums_mine).chain([(&each[2], ledger)]).collect(),
         };

@@ -20,7 +20,7 @@ pub fn pose(model: &Model, state: &State, wall: usize, time: f64) -> Pose {
 /// Where a wall was when neighbours were listed.
 pub fn pose_listed(model: &Model, state: &State, wall: usize) -> Pose {
     let motion = &model.walls[wall].motion;
-    let pose = motion.pose(state.listed as f64 * model.dt);
+    let pose = motion.pose(state.listing.step as f64 * model.dt);
     match (motion.servo, state.servos.get(wall)) {
         (Some(servo), Some(p)) => pose.shifted(servo.direction * p.listed, Vec3::zeros()),
         _ => pose,

@@ -9,8 +9,8 @@ use crate::neighbours::list::List;
 use crate::neighbours::poses::{around, periods_travelled, pose_listed, shift_into_box, wall_way};
 use crate::setup::Zone;
 use crate::space::search::{Pair, SKIN, Search, half_of_shifts, margin, pairs, tile};
-use crate::state::State;
 use crate::state::ledger::wrap_in_ledger;
+use crate::state::{ListStatus, State};
 use crate::threads::share;
 use crate::walls::images::Periods;
 use geom::Vec3;
@@ -35,8 +35,10 @@ impl KindTable {
 /// Sorts, lists, and remembers.
 pub fn rebuild(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
     // Lists that are stale for another reason say nothing of the skin.
-    if model.setup.skin.is_none() && !state.outdated {
-        state.skin = SKIN.next(state.skin, state.steps - state.listed, model.mean_radius).max(model.reach);
+    if model.setup.skin.is_none() && state.listing.status != ListStatus::Outdated {
+        state.listing.skin = SKIN
+            .next(state.listing.skin, state.steps - state.listing.step, model.mean_radius)
+            .max(model.reach);
     }
     let wraps = wrap(model, state);
     let wall_periods = std::mem::take(&mut lists.wall_periods);
@@ -57,16 +59,15 @@ pub fn rebuild(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
         sleepers.select(&order);
     }
     follow_starting(state, &order);
-    state.listed = state.steps;
+    state.listing.step = state.steps;
     list_contacts(model, state, lists, &search);
     let moved = (&wraps[..], &wall_periods[..]);
     recall(model, state, lists, &before, &order, moved);
     recall_work(model, lists, &before, &order, moved);
     drop(before);
     allocate(model, state, lists);
-    state.out = false;
-    state.outdated = false;
-    state.rebuilds += 1;
+    state.listing.status = ListStatus::Valid;
+    state.listing.rebuilds += 1;
 }
 
 fn follow_starting(state: &mut State, order: &[u32]) {
@@ -115,7 +116,7 @@ fn space_order(model: &Model, state: &mut State) -> (Search, Vec<u32>) {
         let row = &p.rows[k as usize];
         let speed = Vec3::new(row[4], row[5], row[6]).norm();
         let way = horizon * (speed + 0.5 * gravity * horizon);
-        let margin = margin(state.skin, way, model.mean_radius);
+        let margin = margin(state.listing.skin, way, model.mean_radius);
         p.home[k as usize].0 = [row[0], row[1], row[2], margin];
     }
     let points: Vec<Vec3> = stay.iter().map(|&k| p.position(k as usize)).collect();
@@ -211,7 +212,7 @@ fn list_walls(
 
 /// How far a wall may move until lists are rebuilt [m].
 pub fn wall_margin(model: &Model, state: &State, wall: usize) -> f64 {
-    margin(state.skin, model.horizon * model.dt * model.walls[wall].fastest(), model.mean_radius)
+    margin(state.listing.skin, model.horizon * model.dt * model.walls[wall].fastest(), model.mean_radius)
 }
 
 /// Pairs across periodic faces: each once, by the half of all shifts whose first part that is not zero is positive.
@@ -253,10 +254,10 @@ fn classes(model: &Model, with: With) -> KindTable {
 
 /// Whether lists must be rebuilt: they are outdated, or a particle or a wall may have left its margin.
 pub fn is_due(model: &Model, state: &State) -> bool {
-    let since = (state.steps - state.listed) as f64 * model.dt;
+    let since = (state.steps - state.listing.step) as f64 * model.dt;
     // Written so that NaN is caught.
     let holds = |w: usize| wall_way(model, state, w, since) <= wall_margin(model, state, w);
-    state.outdated || state.out || !(0..model.walls.len()).all(holds)
+    state.listing.status != ListStatus::Valid || !(0..model.walls.len()).all(holds)
 }
 
 /// Notes which particles may pass a storage plane, or come back through it, before the next rebuild: the margins of no others reach it. Where what is tested

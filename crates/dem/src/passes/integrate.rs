@@ -77,7 +77,7 @@ impl<'a> ParticleSlices<'a> {
 #[derive(Clone, Copy, Default)]
 pub struct MoveFlags {
     /// Whether a particle has left the room that its neighbours were listed for.
-    pub out: bool,
+    pub left_margin: bool,
     /// Whether a particle moved more than its limit, or is not a number.
     pub too_fast: bool,
 }
@@ -85,7 +85,7 @@ pub struct MoveFlags {
 impl MoveFlags {
     /// Either.
     pub fn and(self, o: MoveFlags) -> MoveFlags {
-        MoveFlags { out: self.out | o.out, too_fast: self.too_fast | o.too_fast }
+        MoveFlags { left_margin: self.left_margin | o.left_margin, too_fast: self.too_fast | o.too_fast }
     }
 }
 
@@ -159,7 +159,7 @@ fn chunk<T: Number, Q: Four, const SPIN: bool>(columns: ParticleSlices, drive: &
         // Written so that NaN is caught.
         moved.too_fast |= !(length2(moves) <= limit * limit);
         let margin = home[k][3];
-        moved.out |= length2(there - Q::read(&home[k])) > margin * margin;
+        moved.left_margin |= length2(there - Q::read(&home[k])) > margin * margin;
         if SPIN {
             let new = sum.moment * Q::all(2.5 * inverse_mass / (radius * radius)) * three;
             let w = Q::read(&spins[k]) + half * (new - Q::read(&turning[k]));

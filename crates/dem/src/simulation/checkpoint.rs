@@ -6,52 +6,40 @@ use crate::model::error::SetupError;
 use crate::neighbours::rebuild;
 use crate::setup::{Setup, Step};
 use crate::simd::Width;
-use crate::state::State;
 use crate::state::zones::LOOK_AHEAD;
+use crate::state::{Forces, State};
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
-/// Everything that a setup and the lists do not give.
+/// Everything that a setup and the lists do not give: borrowed from a simulation when it is written, owned when it is read.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct Checkpoint {
-    state: State,
+pub struct Checkpoint<'a> {
+    state: Cow<'a, State>,
     /// Contact history, by slot.
-    memory: Vec<f64>,
-    /// Whether nothing has been computed of the lists.
-    new: bool,
+    memory: Cow<'a, [f64]>,
     /// Sliding work of each contact that has not been recorded, by slot.
-    work: Vec<f64>,
+    work: Cow<'a, [f64]>,
     /// Wrenches, torques and ledger of each contact, when they are those of this step and kept.
-    loads: [Vec<f64>; 3],
+    loads: [Cow<'a, [f64]>; 3],
     /// Sums of wrenches and torques by particle, when they are those of this step and each contact's are not kept.
-    sums: [Vec<f64>; 2],
+    sums: [Cow<'a, [f64]>; 2],
 }
 
-/// A checkpoint, borrowed from a simulation; serialized, it is a [`Checkpoint`].
-#[derive(Debug, Serialize)]
-pub struct CheckpointView<'a> {
-    state: &'a State,
-    memory: &'a [f64],
-    new: bool,
-    work: &'a [f64],
-    loads: [&'a [f64]; 3],
-    sums: [&'a [f64]; 2],
-}
-
-impl CheckpointView<'_> {
+impl Checkpoint<'_> {
     /// A copy that outlives the simulation.
-    pub fn to_state(&self) -> Checkpoint {
+    pub fn to_state(&self) -> Checkpoint<'static> {
+        fn own(column: &Cow<[f64]>) -> Cow<'static, [f64]> {
+            Cow::Owned(column.to_vec())
+        }
         Checkpoint {
-            state: self.state.clone(),
-            memory: self.memory.to_vec(),
-            new: self.new,
-            work: self.work.to_vec(),
-            loads: self.loads.map(<[f64]>::to_vec),
-            sums: self.sums.map(<[f64]>::to_vec),
+            state: Cow::Owned(self.state.clone().into_owned()),
+            memory: own(&self.memory),
+            work: own(&self.work),
+            loads: self.loads.each_ref().map(own),
+            sums: self.sums.each_ref().map(own),
         }
     }
-}
 
-impl Checkpoint {
     /// Steps done.
     pub fn steps(&self) -> u64 {
         self.state.steps
@@ -74,7 +62,7 @@ impl Checkpoint {
 
     /// Refuses a checkpoint of another setup.
     fn fits(&self, begun: &State, setup: &Setup) -> Result<(), SetupError> {
-        let State { dt, sleepers, particles, bonds, servos, .. } = &self.state;
+        let State { dt, sleepers, particles, bonds, servos, .. } = &*self.state;
         let asked = if let Step::Fixed(asked) = setup.step { asked } else { *dt };
         let differs = |differs: bool, what: &str| if differs { other(what) } else { Ok(()) };
         differs(asked != *dt, &format!("time step {asked} s, saved {dt} s"))?;
@@ -95,21 +83,21 @@ fn other(what: &str) -> Result<(), SetupError> {
 
 impl Simulation {
     /// The state of this instant.
-    pub fn state(&self) -> CheckpointView<'_> {
-        let (state, c) = (&self.state, &self.lists.contacts);
-        let sums = c.sums().sums;
-        CheckpointView {
-            state,
-            memory: &c.memory,
-            work: &c.work,
-            new: c.new,
-            // Wrenches between sleepers are those of the step in which they fell asleep.
-            loads: match (state.current || state.sleepers.is_some(), c.keeps()) {
-                (true, true) => [&c.loads, &c.torques, &c.ledger],
-                (true, false) => [&[], &[], &c.ledger],
-                (false, _) => [&[]; 3],
-            },
-            sums: if state.current && !c.keeps() { [sums.0, sums.1] } else { [&[]; 2] },
+    pub fn state(&self) -> Checkpoint<'_> {
+        let (state, c, none) = (&self.state, &self.lists.contacts, &[][..]);
+        let (sums, known) = (c.sums().sums, state.forces == Forces::Known);
+        // Wrenches between sleepers are those of the step in which they fell asleep.
+        let loads = match (known || state.sleepers.is_some(), c.keeps()) {
+            (true, true) => [&c.loads[..], &c.torques, &c.ledger],
+            (true, false) => [none, none, &c.ledger],
+            (false, _) => [none; 3],
+        };
+        Checkpoint {
+            state: Cow::Borrowed(state),
+            memory: Cow::Borrowed(&c.memory),
+            work: Cow::Borrowed(&c.work),
+            loads: loads.map(Cow::Borrowed),
+            sums: if known && !c.keeps() { [sums.0, sums.1] } else { [none; 2] }.map(Cow::Borrowed),
         }
     }
 
@@ -125,31 +113,30 @@ impl Simulation {
         // The step stays, also where a guard that enters the critical step has changed.
         let mut sim = Simulation::build(setup, Width::best(), Some(dt))?;
         saved.fits(&sim.state, &sim.model.setup)?;
-        let Checkpoint { state, memory, new, work, loads, sums } = saved;
-        let current = state.current;
-        sim.state = state;
+        let Checkpoint { state, memory, work, loads, sums } = saved;
+        sim.state = state.into_owned();
         let Simulation { model, state, lists } = &mut sim;
         state.bonds.index(&state.particles.id);
-        if state.rebuilds > 0 {
+        if state.listing.rebuilds > 0 {
             rebuild::list_again(model, state, lists);
             if memory.len() != lists.contacts.memory.len() {
                 other("another number of contacts")?;
             }
             lists.contacts.memory.copy_from_slice(&memory);
             if work.len() == lists.contacts.work.len() {
-                lists.contacts.work = work;
+                lists.contacts.work = work.into_owned();
             }
         }
-        if current || !loads[0].is_empty() {
+        if state.forces == Forces::Known || !loads[0].is_empty() {
             // Where nothing touches, wrenches that are kept are empty, too.
-            let kept = sums.iter().all(Vec::is_empty);
+            let kept = sums.iter().all(|column| column.is_empty());
             lists.contacts.keep_wrenches(kept);
             // A crossing in this step asks where walls were touched, and so do sleepers on walls at rest.
             sweep::find_contact_points(model, state, lists);
             if !lists.contacts.put_loads(&loads, &sums) {
                 other("another number of wrenches")?;
             }
-            lists.contacts.new = new;
+            lists.contacts.new = state.steps == state.listing.step;
             if kept {
                 sweep::recall(model, state, lists);
             }

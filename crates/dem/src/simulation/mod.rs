@@ -8,7 +8,7 @@ mod observe;
 mod stages;
 mod step;
 
-pub use checkpoint::{Checkpoint, CheckpointView};
+pub use checkpoint::Checkpoint;
 
 use crate::model::Model;
 use crate::model::error::SetupError;

@@ -41,12 +41,12 @@ impl Simulation {
 
     /// How often neighbours were listed so far.
     pub fn rebuilds(&self) -> u64 {
-        self.state.rebuilds
+        self.state.listing.rebuilds
     }
 
     /// Gap up to which neighbours are listed [m].
     pub fn skin(&self) -> f64 {
-        self.state.skin
+        self.state.listing.skin
     }
 
     /// Number of contacts listed now.

@@ -10,7 +10,7 @@ use crate::model::halt::Halt;
 use crate::neighbours::{NeighbourLists, rebuild};
 use crate::observe::guards;
 use crate::passes::{bonds, clumps, drag, ledger, servo, start, zones};
-use crate::state::State;
+use crate::state::{Forces, ListStatus, State};
 
 impl Simulation {
     /// One time step.
@@ -31,10 +31,12 @@ impl Simulation {
         }
         let moved = clumps::advance::advance(model, state, found.moved);
         let driven = servo::drive(model, state, lists);
-        state.out = moved.out | drag::apply(model, state, lists);
+        if moved.left_margin | drag::apply(model, state, lists) {
+            state.listing.outdate(ListStatus::MarginLeft);
+        }
         ledger::add_moves(model, state);
         state.steps += 1;
-        state.current = false;
+        state.forces = Forces::Due;
         state.bonds.turn(&state.particles, model.dt);
         zones::advance::advance(model, state, lists);
         guards::check_overlap(model, state, lists, &found.deep, true)?;
@@ -62,7 +64,7 @@ impl Simulation {
 
 /// Inserts what is due, and rebuilds lists that no longer hold.
 fn refresh_lists(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
-    if state.current {
+    if state.forces == Forces::Known {
         return;
     }
     zones::enter::insert_due(model, state);
@@ -74,11 +76,11 @@ fn refresh_lists(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
 
 /// Forces of this instant, where they are not known.
 fn compute_forces(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> Result<(), Halt> {
-    if state.current {
+    if state.forces == Forces::Known {
         return Ok(());
     }
     let found = sweep::forces(model, state, lists);
-    state.current = true;
+    state.forces = Forces::Known;
     let started = start::give_acceleration(model, state, lists);
     ledger::open(model, state, lists, &started);
     guards::check_overlap(model, state, lists, &found.deep, false)

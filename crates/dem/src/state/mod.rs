@@ -33,19 +33,13 @@ use zones::Zones;
 pub struct State {
     /// Time step that the run began with [s].
     pub dt: f64,
-    /// Gap up to which neighbours are listed [m].
-    pub skin: f64,
     /// Steps done.
     pub steps: u64,
-    /// Step at which neighbours were listed.
-    pub listed: u64,
-    /// Whether a particle has left the margin that its neighbours were listed for.
-    pub out: bool,
-    /// Whether lists must be rebuilt whatever has moved.
-    pub outdated: bool,
-    /// Whether forces are those of this instant.
-    pub current: bool,
-    /// Particles whose acceleration of the step before is unknown.
+    /// When and how neighbours were listed.
+    pub listing: Listing,
+    /// Whether forces of this instant are known.
+    pub forces: Forces,
+    /// Particles that start: they have no acceleration of the step before.
     pub starting: Vec<u32>,
     /// Particles.
     pub particles: Particles,
@@ -61,8 +55,46 @@ pub struct State {
     pub servos: Vec<ServoState>,
     /// Sums of the energy ledger.
     pub ledger: LedgerSums,
-    /// How often neighbours were listed.
+}
+
+/// Whether forces of this instant are known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Forces {
+    /// They must be computed.
+    Due,
+    /// They have been computed, or resumed.
+    Known,
+}
+
+/// Whether neighbour lists hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum ListStatus {
+    /// No particle has left its margin; walls are checked separately.
+    Valid,
+    /// A particle has left its margin.
+    MarginLeft,
+    /// They must be rebuilt whatever has moved.
+    Outdated,
+}
+
+/// The record of the last rebuild of neighbour lists.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Listing {
+    /// Gap up to which neighbours are listed [m].
+    pub skin: f64,
+    /// Step of the last rebuild.
+    pub step: u64,
+    /// Number of rebuilds.
     pub rebuilds: u64,
+    /// Whether the lists hold.
+    pub status: ListStatus,
+}
+
+impl Listing {
+    /// Lists no longer hold, for this reason or a stronger one.
+    pub fn outdate(&mut self, why: ListStatus) {
+        self.status = self.status.max(why);
+    }
 }
 
 impl State {
@@ -81,12 +113,9 @@ impl State {
         let sleepers = setup.sleep.map(|s| Sleepers::new(s, model.dt, setup.gravity.norm(), particles.len()));
         Ok(State {
             dt: model.dt,
-            skin: model.skin,
             steps: 0,
-            listed: 0,
-            out: false,
-            outdated: true,
-            current: false,
+            listing: Listing { skin: model.skin, step: 0, rebuilds: 0, status: ListStatus::Outdated },
+            forces: Forces::Due,
             starting: (0..particles.len() as u32).collect(),
             zones: Zones::new(setup, &particles),
             bodies,
@@ -94,7 +123,6 @@ impl State {
             sleepers,
             servos: servos(setup),
             ledger: LedgerSums::default(),
-            rebuilds: 0,
             particles,
         })
     }

@@ -7,8 +7,8 @@ use crate::model::Model;
 use crate::model::bonds::beam::{Beam, Pull};
 use crate::model::bonds::bonded_pair::{BondedPair, GONE};
 use crate::setup::Link;
-use crate::state::State;
 use crate::state::bonds::Bonds;
+use crate::state::{ListStatus, State};
 use nalgebra::UnitQuaternion;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -86,7 +86,7 @@ impl BondedPair {
 pub fn link(state: &mut State, link: Link) {
     if state.bonds.on {
         state.bonds.waiting.push(link);
-        state.outdated = true;
+        state.listing.outdate(ListStatus::Outdated);
     }
 }
 

@@ -122,7 +122,7 @@ impl Write<'_> {
             accelerations[k] = Row4([a.x, a.y, a.z, 0.0]);
             let limit = self.motion_limit * row[3];
             moved.too_fast |= !(way.norm_squared() <= limit * limit);
-            moved.out |= (place - arm(&home[k])).norm_squared() > home[k][3] * home[k][3];
+            moved.left_margin |= (place - arm(&home[k])).norm_squared() > home[k][3] * home[k][3];
         }
         moved
     }

@@ -15,9 +15,9 @@ use crate::passes::zones::ledger::power_of_member;
 use crate::passes::zones::travel::follow_motion;
 use crate::passes::zones::whole::{rows_with, test_point, test_point_before};
 use crate::setup::{Crossing, EntryClump, Particle, Touch};
-use crate::state::State;
 use crate::state::ledger::carried;
 use crate::state::zone_particle::{Direction, ZoneParticle};
+use crate::state::{ListStatus, State};
 use geom::Vec3;
 use nalgebra::UnitQuaternion;
 
@@ -57,14 +57,15 @@ fn cross_outlet(
     outlet: usize,
     found: &mut Vec<(usize, Crossing)>,
 ) {
+    let left_margin = state.listing.status != ListStatus::Valid;
     let near = std::mem::take(&mut state.zones.near[outlet]);
     let all = || 0..state.particles.len() as u32;
     debug_assert!(
-        state.out || all().all(|k| passage(state, outlet, k as usize).is_none() || near.contains(&k))
+        left_margin || all().all(|k| passage(state, outlet, k as usize).is_none() || near.contains(&k))
     );
     // A particle that has just left its margin may be anywhere.
-    let looked_at = if state.out { all().collect() } else { Vec::new() };
-    for &k in if state.out { &looked_at } else { &near } {
+    let looked_at = if left_margin { all().collect() } else { Vec::new() };
+    for &k in if left_margin { &looked_at } else { &near } {
         let k = k as usize;
         match passage(state, outlet, k) {
             None => {}

@@ -5,10 +5,10 @@ use crate::model::check::near;
 use crate::model::error::SetupError;
 use crate::setup::clumps::members;
 use crate::setup::{Entry, EntryClump, Particle, Setup, WallShape, Zone, ZoneMotion};
-use crate::state::State;
 use crate::state::path::Path;
 use crate::state::zone_particle::{Direction, Kinematics, ZoneParticle};
 use crate::state::zones::{LOOK_AHEAD, Zones};
+use crate::state::{ListStatus, State};
 use geom::Vec3;
 
 impl Zones {
@@ -126,7 +126,7 @@ pub fn insert_due(model: &Model, state: &mut State) {
     while let Some(e) = state.zones.pending.pop_front_if(|e| e.time <= horizon) {
         add(model, state, &e, now);
     }
-    state.outdated = true;
+    state.listing.outdate(ListStatus::Outdated);
 }
 
 fn add(model: &Model, state: &mut State, e: &Entry, now: f64) {

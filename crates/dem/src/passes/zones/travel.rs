@@ -9,11 +9,11 @@ use crate::passes::zones::whole::test_point;
 use crate::setup::{Particle, Zone};
 use crate::simd::Row4;
 use crate::space::sphere::away;
-use crate::state::State;
 use crate::state::clump::quaternion;
 use crate::state::ledger::carried;
 use crate::state::path::PathStage;
 use crate::state::zone_particle::{Direction, Kinematics, ZoneParticle};
+use crate::state::{ListStatus, State};
 use geom::Vec3;
 
 pub fn move_zone_particles(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
@@ -103,7 +103,9 @@ pub fn place(model: &Model, state: &mut State, k: usize, mut place: Vec3, flow: 
     if let Some(turning) = state.particles.turning.get_mut(k) {
         *turning = Row4::default();
     }
-    state.out |= (place - Vec3::new(home[0], home[1], home[2])).norm() > home[3];
+    if (place - Vec3::new(home[0], home[1], home[2])).norm() > home[3] {
+        state.listing.outdate(ListStatus::MarginLeft);
+    }
 }
 
 /// Out of everyone's reach until the next listing drops it.
