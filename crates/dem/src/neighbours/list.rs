@@ -11,6 +11,7 @@ use crate::space::search::tile;
 use crate::space::sphere::FAR;
 use crate::walls::WallBody;
 use geom::Vec3;
+use std::ops::Range;
 
 /// Contacts of one kind to be listed, by first particle.
 #[derive(Debug, Clone, Default)]
@@ -50,16 +51,7 @@ impl Contacts {
             if len == 0 {
                 return;
             }
-            let first = new.i.len();
-            new.i.extend(&list.i);
-            new.partner.extend(&list.partner);
-            new.shift.extend(&list.shift);
-            let places = first..first + len.next_multiple_of(BLOCK);
-            new.i.resize(places.end, particles as u32);
-            new.partner.resize(places.end, particles as u32 + 1);
-            if !list.shift.is_empty() {
-                new.shift.resize(places.end, Vec3::zeros());
-            }
+            let places = new.append(list);
             let padded = places.len();
             let with = kinds[kind].with;
             new.segments.push(Segment { kind, places, len, later, memory, rows, kept });
@@ -85,6 +77,21 @@ impl Contacts {
         new.count = (0..largest.map(|s| s.places.len()).max().unwrap_or(0) as u32).collect();
         new.index_arrivals(kinds);
         new
+    }
+
+    /// Adds the contacts of a list, filled up to whole blocks; the slots that they get.
+    fn append(&mut self, list: &List) -> Range<usize> {
+        let first = self.i.len();
+        self.i.extend(&list.i);
+        self.partner.extend(&list.partner);
+        self.shift.extend(&list.shift);
+        let slots = first..first + list.i.len().next_multiple_of(BLOCK);
+        self.i.resize(slots.end, self.particles as u32);
+        self.partner.resize(slots.end, self.particles as u32 + 1);
+        if !list.shift.is_empty() {
+            self.shift.resize(slots.end, Vec3::zeros());
+        }
+        slots
     }
 
     /// What arrives at each tile.

@@ -70,31 +70,8 @@ impl RigidClumps {
         let (s, mass) = (body.scale, shape.mass(body.scale, density));
         let inverse_inertia = shape.inertia.map(|i| 1.0 / (i * density * s * s * s * s * s));
         let turn = body.orientation * shape.frame;
-        self.of.resize(particles.len(), FREE);
-        self.arms.resize(particles.len(), Row4::default());
-        self.images.resize(particles.len(), [0; 3]);
-        let (clump_motion, first) = (self.flights.len() as u32, self.members.len() as u32);
-        for (k, (centre, radius)) in shape.spheres.iter().enumerate() {
-            let arm = centre * s;
-            let out = turn * arm;
-            let at = particles.len();
-            particles.push(
-                &Particle {
-                    id: body.id.wrapping_add(k as u32),
-                    material: shape.material,
-                    radius: radius * s,
-                    position: body.position + out,
-                    velocity: body.velocity + body.spin.cross(&out),
-                    spin: body.spin,
-                },
-                materials,
-            );
-            particles.rows[at][7] = 1.0 / mass;
-            self.members.push(at as u32);
-            self.of.push(clump_motion);
-            self.arms.push(Row4([arm.x, arm.y, arm.z, 0.0]));
-            self.images.push([0; 3]);
-        }
+        let first = self.members.len() as u32;
+        self.push_members(body, shape, materials, particles);
         let momentum = rotation::momentum(&turn, &body.spin, &inverse_inertia);
         let turn = turn.into_inner().coords.into();
         self.flights.push(ClumpMotion {
@@ -117,6 +94,42 @@ impl RigidClumps {
             starting: true,
             travels: false,
         });
+    }
+
+    /// Adds the members of a clump at the end of the particles, each with the mass of the whole.
+    fn push_members(
+        &mut self,
+        body: &Body,
+        shape: &ClumpShape,
+        materials: &[Material],
+        particles: &mut Particles,
+    ) {
+        let turn = body.orientation * shape.frame;
+        let mass = shape.mass(body.scale, materials[shape.material as usize].density);
+        self.of.resize(particles.len(), FREE);
+        self.arms.resize(particles.len(), Row4::default());
+        self.images.resize(particles.len(), [0; 3]);
+        for (k, (centre, radius)) in shape.spheres.iter().enumerate() {
+            let arm = centre * body.scale;
+            let out = turn * arm;
+            let at = particles.len();
+            particles.push(
+                &Particle {
+                    id: body.id.wrapping_add(k as u32),
+                    material: shape.material,
+                    radius: radius * body.scale,
+                    position: body.position + out,
+                    velocity: body.velocity + body.spin.cross(&out),
+                    spin: body.spin,
+                },
+                materials,
+            );
+            particles.rows[at][7] = 1.0 / mass;
+            self.members.push(at as u32);
+            self.of.push(self.flights.len() as u32);
+            self.arms.push(Row4([arm.x, arm.y, arm.z, 0.0]));
+            self.images.push([0; 3]);
+        }
     }
 
     /// Adds a body that moves by a prescribed motion for now, from its state at the start, its place and velocity now, and how long it has
