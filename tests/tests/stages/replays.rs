@@ -106,7 +106,11 @@ fn superposed_copies_scale_the_rate() {
         "stage-replay",
         &["up.mcap", "-o", "in.mcap", "--copies", "2", "--copy-shift", "0.2,0,0", "--report", "r.json"],
     );
-    assert!(done.stderr.contains("they scale the rate, but the flow is not that of such a rate"), "{}", done.stderr);
+    assert!(
+        done.stderr.contains("they scale the rate, but the flow is not that of such a rate"),
+        "{}",
+        done.stderr
+    );
     let report = std::fs::read_to_string(folder.path().join("r.json")).unwrap();
     assert!(report.contains("\"copies\": 2") || report.contains("\"copies\":2"), "{report}");
     let inside = tool(

@@ -266,7 +266,11 @@ fn options_that_cannot_be_meant() {
             ("bluenoise-sample good.ply", 2, &["--spacing", "--count", "--density"]),
             ("bluenoise-sample good.ply --spacing 0.01 --count 5", 2, &["--spacing", "--count"]),
             ("bluenoise-sample good.ply --spacing -0.01", 2, &["spacing -0.01 m", "positive"]),
-            ("bluenoise-sample good.ply --spacing 12mm", 2, &["--spacing", "12mm", "no number", "SI units"]),
+            (
+                "bluenoise-sample good.ply --spacing 12mm",
+                2,
+                &["--spacing", "12mm", "not a number", "SI units"],
+            ),
             ("bluenoise-sample good.ply --count 0", 2, &["count 0"]),
             ("bluenoise-sample good.ply --density 500,20", 2, &["density 500,20", "lower one first"]),
             ("bluenoise-sample good.ply --density 500 --method tile", 2, &["--density", "LO,HI"]),

@@ -112,11 +112,11 @@ fn the_layout_of_checkpoints_is_that_of_their_version() {
         all += &format!("# {name}\n{}\n", lines(&written(scene)));
     }
     for filled in [
-        "travellers: [Traveller",
-        "pistons: [Piston",
+        "zone_particles: [ZoneParticle",
+        "servos: [ServoState",
         "memory: [\nf64",
-        "flights: [Flight",
-        "ties: [Tie",
+        "flights: [ClumpMotion",
+        "pairs_bonded: [BondedPair",
         "?Sleepers",
     ] {
         let flat = all.replace('\n', " ").replace("[ ", "[");

@@ -139,7 +139,7 @@ fn wrong_scenes_say_where_what_and_what_to_do() {
         (
             "restitution = 0.5",
             "restitution = 0.5\nwork_of_adhesion = 0.1",
-            &["contact.0.work_of_adhesion", "use law = \"jkr\""],
+            &["contact.0.work_of_adhesion", "add law = \"jkr\""],
         ),
         (
             "restitution = 0.5",

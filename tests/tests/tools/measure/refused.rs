@@ -28,7 +28,7 @@ fn what_cannot_be_measured_is_refused_with_a_cure() {
             &["plane lies outside of the grains", "from -5.258 to -4.608 m", "move it"],
         ),
         (&some, &["--porosity", "box:0,0,0,1,1,0"], &["volume of 0 m³", "room inside"]),
-        (&some, &["--porosity", "halfspace:0,0,0,0,0,1"], &["shape has no end"]),
+        (&some, &["--porosity", "halfspace:0,0,0,0,0,1"], &["shape is infinite"]),
         (
             &some,
             &["--porosity", "box:5,5,5,6,6,6"],
