@@ -80,7 +80,8 @@ impl Entry<'_> {
         let mut cures: Vec<String> = owners.map(lacks).filter(|cure| !cure.is_empty()).collect();
         cures.dedup();
         let cure = format!("add {}, or take {key} out", cures.join(", or "));
-        self.wrong(key, "(given)", "nothing in this [[contact]] uses it", &cure)
+        let asked = active(law).map(|d| d.name).collect::<Vec<_>>().join(", ");
+        self.wrong(key, "(given)", &format!("nothing in this [[contact]] uses it ({asked})"), &cure)
     }
 
     fn effect(&self, effect: &Description) -> Checked {
