@@ -28,15 +28,15 @@ pub struct Checkpoint<'a> {
 impl Checkpoint<'_> {
     /// A copy that outlives the simulation.
     pub fn to_state(&self) -> Checkpoint<'static> {
-        fn own(column: &Cow<[f64]>) -> Cow<'static, [f64]> {
+        fn own(column: &[f64]) -> Cow<'static, [f64]> {
             Cow::Owned(column.to_vec())
         }
         Checkpoint {
             state: Cow::Owned(self.state.clone().into_owned()),
             memory: own(&self.memory),
             work: own(&self.work),
-            loads: self.loads.each_ref().map(own),
-            sums: self.sums.each_ref().map(own),
+            loads: self.loads.each_ref().map(|column| own(column)),
+            sums: self.sums.each_ref().map(|column| own(column)),
         }
     }
 
