@@ -1,6 +1,6 @@
 //! A heap of 500 grains poured onto a plate, from Rust: `cargo run --release -p dem --example heap`.
 
-use dem::setup::{ContactLaw, Material, Motion, Particle, Wall, WallShape};
+use dem::setup::{ContactLaw, Material, Particle, Wall, WallShape};
 use dem::{Setup, Simulation};
 use geom::{Plane, Vec3};
 
@@ -21,7 +21,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         materials: vec![stone],
         contacts: vec![law.with("rolling_resistance", 0.1)],
         particles: (0..500).map(grain).collect(),
-        walls: vec![Wall { name: "plate".into(), material: 0, shape, motion: Motion::still() }],
+        walls: vec![Wall::new("plate", 0, shape)],
         ..Setup::default()
     })?;
     while sim.time() < 1.0 {

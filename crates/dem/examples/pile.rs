@@ -27,35 +27,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let law = ContactLaw::new(between, "hooke").with("restitution", 0.9977).with("sliding_friction", 0.5);
         law.with("stiffness", 1e4).with("tangential_ratio", 2.0 / 7.0)
     };
-    let floor = Wall {
-        name: "floor".to_owned(),
-        material: 1,
-        shape: WallShape::Plane(Plane { point: Vec3::zeros(), normal: Vec3::z() }),
-        motion: Motion::still(),
-    };
+    let floor = Wall::new("floor", 1, WallShape::Plane(Plane { point: Vec3::zeros(), normal: Vec3::z() }));
     let count = particles.len();
     let setup = Setup {
-        drag: None,
-        gravity: Vec3::new(0.0, 0.0, -9.81),
         materials: vec![material("grain"), material("floor")],
         contacts: vec![contact((0, 0)), contact((0, 1))],
         particles,
         walls: vec![floor],
-        clumps: Clumps::default(),
-        bonds: vec![],
-        entry_bonds: None,
-        outlets: vec![],
-        inlets: vec![],
-        largest_entry: 0.0,
-        smallest_entry: 0.0,
-        entry_materials: vec![],
         step: Step::Fixed(1e-5),
         periodic: [Some((0.0, 0.1196)), Some((0.0, 0.1196)), None],
         skin: args.get(4).map(|s| s.parse()).transpose()?,
-        sleep: None,
-        precision: Precision::Double,
-        ledger: false,
-        guards: Guards::default(),
+        ..Setup::default()
     };
     let mut sim = Simulation::new(setup)?;
     for _ in 0..50 {

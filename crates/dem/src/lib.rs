@@ -16,8 +16,8 @@
 //! neighbours             lists, rebuildable from Model and State
 //! passes                 integrate, clumps, bonds, drag, servo, sleep, zones, ledger
 //! forces                 the sweep over tiles: forces, then the move
-//! observe                records, snapshots, energy, guards, --explain
-//! simulation             Simulation { model, state, lists }: new, resume, step, observe
+//! observe                records, snapshots, energy, guards
+//! simulation             Simulation { model, state, lists }: new, resume, step, observe, explain
 //! ```
 
 pub mod effects;
@@ -36,22 +36,19 @@ mod threads;
 mod walls;
 
 pub use model::bonds::limit::entries as bonds_of;
-pub use model::error::SetupError;
-pub use model::halt::Halt;
-pub use model::limit::{Limit, critical_step};
-pub use observe::explain::{ContactBytes, EffectCost};
+pub use model::limit::critical_step;
+pub use model::start::time_step;
+pub use model::{
+    Allowed, BondConflict, BondedParticle, CriticalBonds, CriticalDrag, CriticalGrain, CriticalPair,
+    CriticalPartner, Halt, Limit, OutOfRange, Partner, Quantity, SetupError, StateMismatch, StepCause,
+    Subject,
+};
 pub use observe::record::ContactRecord;
 pub use observe::snapshot::Snapshot;
-pub use passes::clumps::instant::BodyState;
+pub use passes::clumps::instant::ClumpState;
 pub use passes::servo::WallForce;
 pub use setup::Setup;
-pub use simd as lane;
-pub use simulation::{Checkpoint, Simulation};
+pub use simulation::{Checkpoint, ContactBytes, EffectCost, Simulation};
 pub use space::rotation::spun;
 pub use space::sphere::mass;
-pub use state::bonds::BondState;
-pub use state::energy::Energy;
-pub use state::returned::Returned;
-
-/// A checkpoint that owns its state.
-pub type State = Checkpoint<'static>;
+pub use state::{BondState, Energy, Returned};

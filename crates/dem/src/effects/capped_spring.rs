@@ -20,59 +20,59 @@ use super::Contact;
 use crate::simd::{Lane, V};
 use std::ops::{Add, Sub};
 
-/// What a spring is stretched by: a vector, or a number.
+/// The stretch of a spring: a vector or a number.
 pub trait Stretch<R: Lane>: Copy + Add<Output = Self> + Sub<Output = Self> {
     /// None.
-    fn none() -> Self;
+    fn zero() -> Self;
     /// Times a number.
-    fn times(self, s: R) -> Self;
+    fn scale(self, s: R) -> Self;
     /// Scalar product.
-    fn with(self, other: Self) -> R;
+    fn dot(self, other: Self) -> R;
     /// `yes` where the mask holds, else `no`.
-    fn choose(mask: R::Mask, yes: Self, no: Self) -> Self;
+    fn select(mask: R::Mask, yes: Self, no: Self) -> Self;
 }
 
 impl<R: Lane> Stretch<R> for R {
     #[inline(always)]
-    fn none() -> R {
+    fn zero() -> R {
         R::splat(0.0)
     }
     #[inline(always)]
-    fn times(self, s: R) -> R {
+    fn scale(self, s: R) -> R {
         self * s
     }
     #[inline(always)]
-    fn with(self, other: R) -> R {
+    fn dot(self, other: R) -> R {
         self * other
     }
     #[inline(always)]
-    fn choose(mask: R::Mask, yes: R, no: R) -> R {
+    fn select(mask: R::Mask, yes: R, no: R) -> R {
         R::select(mask, yes, no)
     }
 }
 
 impl<R: Lane> Stretch<R> for V<R> {
     #[inline(always)]
-    fn none() -> V<R> {
+    fn zero() -> V<R> {
         V::zero()
     }
     #[inline(always)]
-    fn times(self, s: R) -> V<R> {
+    fn scale(self, s: R) -> V<R> {
         self.scale(s)
     }
     #[inline(always)]
-    fn with(self, other: V<R>) -> R {
+    fn dot(self, other: V<R>) -> R {
         self.dot(other)
     }
     #[inline(always)]
-    fn choose(mask: R::Mask, yes: V<R>, no: V<R>) -> V<R> {
+    fn select(mask: R::Mask, yes: V<R>, no: V<R>) -> V<R> {
         V::select(mask, yes, no)
     }
 }
 
 /// The spring and dashpot at one instant.
 pub struct CappedSpring<R: Lane> {
-    /// Where there is a contact: what comes of it elsewhere is not looked at.
+    /// Where there is a contact: elsewhere the result is ignored.
     pub touching: R::Mask,
     /// k, spring.
     pub stiffness: R,
@@ -86,7 +86,7 @@ pub struct CappedSpring<R: Lane> {
     pub cap: R,
 }
 
-/// What came of it.
+/// The result of a step.
 pub struct Outcome<R: Lane, X> {
     /// The force, opposite to the motion.
     pub force: X,
@@ -97,7 +97,7 @@ pub struct Outcome<R: Lane, X> {
 }
 
 impl<R: Lane> CappedSpring<R> {
-    /// What the cap leaves of a force of this square [–].
+    /// Share of a force of this square that the cap leaves [–].
     #[inline(always)]
     fn share(&self, square: R) -> R {
         (self.cap / square.max(R::splat(R::TINY)).sqrt()).min(R::splat(1.0))
@@ -107,30 +107,30 @@ impl<R: Lane> CappedSpring<R> {
     #[inline(always)]
     pub fn pull<X: Stretch<R>>(&self, spring: &mut X, rate: X, dt: R) -> Outcome<R, X> {
         let late = (self.pace * dt * dt).min(R::splat(0.5));
-        let half = rate.times((R::splat(0.5) + late) * dt);
-        let rest = rate.times((R::splat(0.5) - late) * dt);
+        let half = rate.scale((R::splat(0.5) + late) * dt);
+        let rest = rate.scale((R::splat(0.5) - late) * dt);
         let there = *spring;
         let keeps = self.before.min(R::splat(1.0));
-        let stretched = there.times(keeps) + half;
-        let lost = R::splat(0.5) * self.stiffness * there.with(there) * (self.before - keeps * keeps);
-        let dashpot = rate.times(self.damping);
-        let mut force = X::none() - stretched.times(self.stiffness) - dashpot;
+        let stretched = there.scale(keeps) + half;
+        let lost = R::splat(0.5) * self.stiffness * there.dot(there) * (self.before - keeps * keeps);
+        let dashpot = rate.scale(self.damping);
+        let mut force = X::zero() - stretched.scale(self.stiffness) - dashpot;
         let mut kept = stretched;
-        let size = force.with(force);
+        let size = force.dot(force);
         let slides = R::both(self.touching, size.gt(self.cap * self.cap));
         if R::any(slides) {
-            let pull = stretched.times(self.stiffness);
-            kept = X::choose(slides, stretched.times(self.share(pull.with(pull))), stretched);
-            force = X::choose(slides, force.times(self.share(size)), force);
+            let pull = stretched.scale(self.stiffness);
+            kept = X::select(slides, stretched.scale(self.share(pull.dot(pull))), stretched);
+            force = X::select(slides, force.scale(self.share(size)), force);
         }
         *spring = kept + rest;
-        let spring_force = kept.times(self.stiffness);
+        let spring_force = kept.scale(self.stiffness);
         // What is cut off slid under a force between that of the step before and that of now: also where the cap falls to nothing.
-        let middle = (kept + stretched - rate.times(dt)).times(R::splat(0.5) * self.stiffness);
+        let middle = (kept + stretched - rate.scale(dt)).scale(R::splat(0.5) * self.stiffness);
         Outcome {
             force,
-            elastic: R::splat(0.5) * spring_force.with(kept),
-            dissipated: lost + middle.with(stretched - kept) - (force + spring_force).with(rate) * dt,
+            elastic: R::splat(0.5) * spring_force.dot(kept),
+            dissipated: lost + middle.dot(stretched - kept) - (force + spring_force).dot(rate) * dt,
         }
     }
 }

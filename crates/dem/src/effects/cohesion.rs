@@ -14,9 +14,7 @@
 //! friction (as LIGGGHTS without `tangential_reduce`): grains rub by what presses them together.
 //! Comes after the normal law, before friction.
 
-use super::describe::{Description, Key, Model, Range, Slot};
-use super::pair::Pair;
-use super::{Contact, ContactEffect, Effect, Load};
+use super::{Contact, ContactEffect, Description, Effect, Key, Model, Pair, Range, Response, Slot};
 use crate::simd::Lane;
 use std::f64::consts::PI;
 
@@ -51,17 +49,16 @@ pub struct Cohesion {
 impl ContactEffect for Cohesion {
     const DESCRIPTIONS: &'static [&'static Description] = &[&DESCRIPTION];
 
-    fn of(pair: &Pair) -> Option<Cohesion> {
-        let energy_density = pair.number("cohesion_energy_density");
-        DESCRIPTION.asked_for(pair.law).then_some(Cohesion { energy_density })
+    fn new(pair: &Pair) -> Cohesion {
+        Cohesion { energy_density: pair.number("cohesion_energy_density") }
     }
 }
 
 impl Effect for Cohesion {
-    type Memory<R: Lane> = ();
+    type History<R: Lane> = ();
 
     #[inline(always)]
-    fn apply<R: Lane>(&self, contact: &Contact<R>, _: R, _: &mut (), load: &mut Load<R>) {
+    fn apply<R: Lane>(&self, contact: &Contact<R>, _: R, _: &mut (), response: &mut Response<R>) {
         let (delta, number) = (contact.overlap.max(R::splat(0.0)), R::splat);
         let share = delta * contact.curvature;
         let rest = number(1.0) - share;
@@ -73,7 +70,7 @@ impl Effect for Cohesion {
         let volume =
             number(PI / 12.0) * delta * delta * (number(12.0) * contact.radius - number(4.0) * delta + inner)
                 / rest;
-        load.normal = load.normal - number(self.energy_density * PI) * square;
-        load.elastic = load.elastic - number(self.energy_density) * volume;
+        response.normal = response.normal - number(self.energy_density * PI) * square;
+        response.elastic = response.elastic - number(self.energy_density) * volume;
     }
 }

@@ -1,4 +1,4 @@
-//! Rolling resistance (`rolling_model = "constant"`): a couple against the rolling that does not depend on its speed, without memory.
+//! Rolling resistance (`rolling_model = "constant"`): a torque against the rolling that does not depend on its speed, without history.
 //!
 //! ```text
 //! M = −μ_r R* F_n ω_r/|ω_r|,   ω_r = (ω_i − ω_j) − its part along n
@@ -6,7 +6,7 @@
 //! ```
 //!
 //! Zhou, Wright, Yang, Xu & Yu (1999), Physica A 269, doi:10.1016/S0378-4371(99)00183-1; model A of Ai, Chen, Rotter & Ooi
-//! (2011), Powder Technology 206, doi:10.1016/j.powtec.2010.09.030. Deviation, the second line: a couple of constant size would turn
+//! (2011), Powder Technology 206, doi:10.1016/j.powtec.2010.09.030. Deviation, the second line: a torque of constant size would turn
 //! round at every step of a grain at rest. It never takes more than the share β/y of the rolling in one step; below
 //! |ω_r| = y μ_r R* F_n Δt/β I_r it is a dashpot, which never makes energy, and ω_r decays to zero instead of jittering. I_r is
 //! at most the inertia against relative rolling, a quarter of it for equal spheres, so that twelve contacts at
@@ -15,10 +15,8 @@
 //! spheres. Wall spheres so close that more than four push at once count in y, too. What it cannot do: hold a grain on a slope, where it creeps at the
 //! speed at which the dashpot bears the moment, ∝ Δt; the spring model holds it.
 
-use super::describe::{Description, Model, Slot};
-use super::pair::Pair;
 use super::rolling_resistance::COEFFICIENT;
-use super::{Contact, ContactEffect, Effect, Load};
+use super::{Contact, ContactEffect, Description, Effect, Model, Pair, Response, Slot};
 use crate::simd::Lane;
 
 /// What the program knows of it.
@@ -33,45 +31,41 @@ pub const DESCRIPTION: Description = Description {
     ..Description::PLAIN
 };
 
-/// Its entry of the energy ledger.
-const LEDGER: usize = DESCRIPTION.slot.ledger();
-
 /// β, the share of the rolling that one contact of a sphere may take in one step [–].
 const SHARE: f64 = 0.125;
 
-/// A couple of constant size.
+/// A torque of constant size.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ConstantRolling {
     /// μ_r [–].
     pub resistance: f64,
-    /// y: how much easier the easiest body yields than a sphere of its mass [–].
-    pub yielding: f64,
+    /// y: compliance of the most compliant clump over that of a sphere of its mass [–].
+    pub compliance: f64,
 }
 
 impl ContactEffect for ConstantRolling {
     const DESCRIPTIONS: &'static [&'static Description] = &[&DESCRIPTION];
 
-    fn of(pair: &Pair) -> Option<ConstantRolling> {
-        let (resistance, yielding) = (pair.number("rolling_resistance"), pair.ease.bodies);
-        DESCRIPTION.asked_for(pair.law).then_some(ConstantRolling { resistance, yielding })
+    fn new(pair: &Pair) -> ConstantRolling {
+        ConstantRolling { resistance: pair.number("rolling_resistance"), compliance: pair.compliance.clumps }
     }
 }
 
 impl Effect for ConstantRolling {
-    type Memory<R: Lane> = ();
+    type History<R: Lane> = ();
     const ROTATES: bool = true;
-    const COUPLES: bool = true;
+    const TORQUES: bool = true;
 
     #[inline(always)]
-    fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, _: &mut (), load: &mut Load<R>) {
+    fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, _: &mut (), response: &mut Response<R>) {
         let n = contact.normal;
         let rolling = contact.spin - n.scale(contact.spin.dot(n));
         let square = rolling.dot(rolling);
-        let cap = R::splat(self.resistance) * contact.radius * load.pressing.max(R::splat(0.0));
+        let cap = R::splat(self.resistance) * contact.radius * response.pressing.max(R::splat(0.0));
         let inertia = R::splat(0.4) * contact.mass * contact.radius * contact.radius;
         let dashpot =
-            (cap / square.max(R::splat(1e-300)).sqrt()).min(R::splat(SHARE / self.yielding) * inertia / dt);
-        load.torque = load.torque - rolling.scale(dashpot);
-        load.dissipated[LEDGER] = load.dissipated[LEDGER] + dashpot * square * dt;
+            (cap / square.max(R::splat(1e-300)).sqrt()).min(R::splat(SHARE / self.compliance) * inertia / dt);
+        response.torque = response.torque - rolling.scale(dashpot);
+        response.dissipate(DESCRIPTION.slot, dashpot * square * dt);
     }
 }

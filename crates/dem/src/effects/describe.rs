@@ -1,10 +1,9 @@
-//! What an effect says of itself: everything that checks, `--explain`, time step, stages, scene keys and docs need to know of it.
+//! What an effect says of itself: everything that checks, reports, time step, stages, scene keys and docs need to know of it.
 //!
 //! A description is a constant in the effect's own file; `registry.rs` lists them. Nothing else in the engine or the tools names
 //! a single effect.
 
-use super::pair::{Elastic, Meeting};
-use crate::effects::ContactLaw;
+use super::{ContactLaw, Elastic, OverlapLimit};
 use std::fmt::{Display, Formatter};
 
 /// What an effect does in a contact. A contact has at most one effect of each slot, and slots act in this order.
@@ -40,6 +39,7 @@ pub const DISSIPATORS: usize = 4;
 
 impl Slot {
     /// Entry of the energy ledger that its effects dissipate into.
+    #[inline(always)]
     pub const fn ledger(self) -> usize {
         match self {
             Slot::Normal | Slot::Cohesion => 0,
@@ -119,7 +119,7 @@ pub struct Model {
     pub default: bool,
 }
 
-/// Shape of a number that a contact keeps, and what becomes of it when both particles change places.
+/// Shape of a number that a contact keeps, and how it changes when both particles are exchanged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// A number that both see alike.
@@ -155,7 +155,7 @@ pub struct Field {
 #[derive(Debug, Clone, Copy)]
 pub struct NormalLaw {
     /// Largest stiffness S [N/m] up to an overlap.
-    pub stiffest: fn(&ContactLaw, Elastic, Meeting) -> f64,
+    pub stiffest: fn(&ContactLaw, Elastic, OverlapLimit) -> f64,
     /// Largest gap [m] at which a contact that was made still acts, for a particle of this R* [m].
     pub reach: fn(&ContactLaw, Elastic, f64) -> f64,
     /// Overlap of two particles that bear no load under a pull of this energy density [J/m³] × the area of contact, over the smaller
@@ -206,7 +206,7 @@ pub struct Contradiction {
 /// An effect of contact, as the rest of the program knows it.
 #[derive(Debug, Clone, Copy)]
 pub struct Description {
-    /// Name in `--explain` and messages.
+    /// Name in reports and messages.
     pub name: &'static str,
     /// What it does, in a line.
     pub doc: &'static str,

@@ -8,11 +8,10 @@
 //! doi:10.1016/0032-5910(92)88030-L; γ from e is exact for contact until δ = 0, not Tsuji's polynomial: Antypov &
 //! Elliott (2011), EPL 94, doi:10.1209/0295-5075/94/50004.
 
-use super::describe::{Description, Model, NormalLaw, Slot};
-use super::hooke::RESTITUTION;
-use super::pair::{Elastic, Meeting, Pair};
-use super::{Contact, ContactEffect, Effect, Load};
-use crate::effects::ContactLaw;
+use super::{
+    Contact, ContactEffect, ContactLaw, Description, Effect, Elastic, Model, NormalLaw, OverlapLimit, Pair,
+    RESTITUTION, Response, Slot,
+};
 use crate::simd::Lane;
 use std::f64::consts::PI;
 
@@ -28,11 +27,8 @@ pub const DESCRIPTION: Description = Description {
     ..Description::PLAIN
 };
 
-/// Its entry of the energy ledger.
-const LEDGER: usize = DESCRIPTION.slot.ledger();
-
 /// dF_n/dδ.
-fn stiffest(_: &ContactLaw, elastic: Elastic, at: Meeting) -> f64 {
+fn stiffest(_: &ContactLaw, elastic: Elastic, at: OverlapLimit) -> f64 {
     2.0 * elastic.modulus * (at.radius * at.share * at.smaller).sqrt()
 }
 
@@ -53,30 +49,29 @@ pub struct Hertz {
 impl ContactEffect for Hertz {
     const DESCRIPTIONS: &'static [&'static Description] = &[&DESCRIPTION];
 
-    fn of(pair: &Pair) -> Option<Hertz> {
-        let (modulus, damping_ratio) = (pair.elastic.modulus, pair.damping_ratio());
-        DESCRIPTION.asked_for(pair.law).then_some(Hertz { modulus, damping_ratio })
+    fn new(pair: &Pair) -> Hertz {
+        Hertz { modulus: pair.elastic.modulus, damping_ratio: pair.damping_ratio() }
     }
 }
 
 impl Effect for Hertz {
-    type Memory<R: Lane> = ();
+    type History<R: Lane> = ();
 
     #[inline(always)]
-    fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, _: &mut (), load: &mut Load<R>) {
+    fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, _: &mut (), response: &mut Response<R>) {
         let overlap = contact.overlap.max(R::splat(0.0));
         let s = R::splat(2.0 * self.modulus) * (contact.radius * overlap).sqrt();
-        load.impedance = (s * contact.mass).sqrt();
-        let c = R::splat(self.damping_ratio * (5.0f64 / 6.0).sqrt()) * load.impedance;
+        response.impedance = (s * contact.mass).sqrt();
+        let c = R::splat(self.damping_ratio * (5.0f64 / 6.0).sqrt()) * response.impedance;
         let elastic = R::splat(2.0 / 3.0) * s * overlap;
         let damping = c * contact.approach;
-        load.normal = load.normal + (elastic + damping);
-        load.pressing = load.normal;
-        load.stiffness = s;
+        response.normal = response.normal + (elastic + damping);
+        response.pressing = response.normal;
+        response.stiffness = s;
         // S ∝ √δ; the overlap a step ago follows from the approach.
         let before = (overlap - contact.approach * dt).max(R::splat(0.0));
-        load.stiffness_before = (before / overlap.max(R::splat(R::TINY))).sqrt();
-        load.elastic = load.elastic + R::splat(0.4) * elastic * overlap;
-        load.dissipated[LEDGER] = load.dissipated[LEDGER] + damping * contact.approach * dt;
+        response.stiffness_before = (before / overlap.max(R::splat(R::TINY))).sqrt();
+        response.elastic = response.elastic + R::splat(0.4) * elastic * overlap;
+        response.dissipate(DESCRIPTION.slot, damping * contact.approach * dt);
     }
 }

@@ -1,17 +1,14 @@
 //! What a contact keeps from step to step: as lanes while an effect computes, as columns in lists, as named fields in records.
 
-use super::describe::{Description, Field, Kind};
-use super::registry::{DESCRIPTIONS, active};
-use crate::effects::ContactLaw;
-use crate::simd::number::Number;
-use crate::simd::{BLOCK, Lane, V};
+use super::{ContactLaw, DESCRIPTIONS, Description, Field, Kind, active};
+use crate::simd::{BLOCK, Lane, Number, V};
 use geom::Vec3;
 use nalgebra::UnitQuaternion;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// History that is stored as columns of numbers.
-pub trait Memory<R: Lane>: Copy {
+pub trait History<R: Lane>: Copy {
     /// Numbers for each contact.
     const COLUMNS: usize;
     /// Reads the lanes from `lane` on in a block of columns, [`BLOCK`] apart.
@@ -20,11 +17,11 @@ pub trait Memory<R: Lane>: Copy {
     fn store<T: Number>(self, block: &mut [T], lane: usize);
     /// Sets it to 0 where the mask does not hold.
     fn keep(self, mask: R::Mask) -> Self;
-    /// Whether a column changes its sign when i and j change places, as vectors do.
+    /// Whether a column changes its sign when i and j are exchanged, as vectors do.
     fn flips(column: usize) -> bool;
 }
 
-impl<R: Lane> Memory<R> for () {
+impl<R: Lane> History<R> for () {
     const COLUMNS: usize = 0;
     #[inline(always)]
     fn load<T: Number>(_: &[T], _: usize) {}
@@ -37,8 +34,8 @@ impl<R: Lane> Memory<R> for () {
     }
 }
 
-/// A number is the same seen from i and from j.
-impl<R: Lane> Memory<R> for R {
+/// A scalar has the same value for i and for j.
+impl<R: Lane> History<R> for R {
     const COLUMNS: usize = 1;
     #[inline(always)]
     fn load<T: Number>(block: &[T], lane: usize) -> R {
@@ -57,7 +54,7 @@ impl<R: Lane> Memory<R> for R {
     }
 }
 
-impl<R: Lane> Memory<R> for V<R> {
+impl<R: Lane> History<R> for V<R> {
     const COLUMNS: usize = 3;
     #[inline(always)]
     fn load<T: Number>(block: &[T], lane: usize) -> V<R> {
@@ -79,7 +76,7 @@ impl<R: Lane> Memory<R> for V<R> {
     }
 }
 
-impl<R: Lane, A: Memory<R>, B: Memory<R>> Memory<R> for (A, B) {
+impl<R: Lane, A: History<R>, B: History<R>> History<R> for (A, B) {
     const COLUMNS: usize = A::COLUMNS + B::COLUMNS;
     #[inline(always)]
     fn load<T: Number>(block: &[T], lane: usize) -> (A, B) {
@@ -159,15 +156,15 @@ impl ContactHistory {
     }
 
     /// Where each field of a contact law lies: its columns in the lists, and in a record.
-    pub(crate) fn places(law: &ContactLaw) -> Vec<(Range<usize>, Range<usize>)> {
+    pub(crate) fn ranges(law: &ContactLaw) -> Vec<(Range<usize>, Range<usize>)> {
         let (all, mut from) = (ContactHistory::fields(), 0);
-        let mut place = |field: &Field| {
+        let mut range = |field: &Field| {
             let listed = from..from + field.kind.columns();
             from = listed.end;
             let recorded = all.iter().find(|(known, _)| known.name == field.name);
             (listed, recorded.map_or(0..0, |(_, columns)| columns.clone()))
         };
-        active(law).flat_map(|d| d.history).map(&mut place).collect()
+        active(law).flat_map(|d| d.history).map(&mut range).collect()
     }
 
     /// The numbers of a field; empty where there is none of this name.

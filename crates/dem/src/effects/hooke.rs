@@ -8,10 +8,10 @@
 //! [`super::damping_ratio`]. The contact lasts until δ = 0, so that e comes out exactly; the force may pull a little
 //! in its last moment.
 
-use super::describe::{Description, Key, Model, NormalLaw, Range, Slot};
-use super::pair::{Elastic, Meeting, Pair};
-use super::{Contact, ContactEffect, Effect, Load};
-use crate::effects::ContactLaw;
+use super::{
+    Contact, ContactEffect, ContactLaw, Description, Effect, Elastic, Key, Model, NormalLaw, OverlapLimit,
+    Pair, Range, Response, Slot,
+};
 use crate::simd::Lane;
 use std::f64::consts::PI;
 
@@ -55,11 +55,8 @@ pub const DESCRIPTION: Description = Description {
     ..Description::PLAIN
 };
 
-/// Its entry of the energy ledger.
-const LEDGER: usize = DESCRIPTION.slot.ledger();
-
 /// S = k.
-fn stiffest(law: &ContactLaw, _: Elastic, _: Meeting) -> f64 {
+fn stiffest(law: &ContactLaw, _: Elastic, _: OverlapLimit) -> f64 {
     law.number("stiffness").unwrap_or(f64::NAN)
 }
 
@@ -81,26 +78,25 @@ pub struct Hooke {
 impl ContactEffect for Hooke {
     const DESCRIPTIONS: &'static [&'static Description] = &[&DESCRIPTION];
 
-    fn of(pair: &Pair) -> Option<Hooke> {
-        let damping_ratio = pair.damping_ratio();
-        DESCRIPTION.asked_for(pair.law).then(|| Hooke { stiffness: pair.number("stiffness"), damping_ratio })
+    fn new(pair: &Pair) -> Hooke {
+        Hooke { stiffness: pair.number("stiffness"), damping_ratio: pair.damping_ratio() }
     }
 }
 
 impl Effect for Hooke {
-    type Memory<R: Lane> = ();
+    type History<R: Lane> = ();
 
     #[inline(always)]
-    fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, _: &mut (), load: &mut Load<R>) {
+    fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, _: &mut (), response: &mut Response<R>) {
         let k = R::splat(self.stiffness);
-        load.impedance = (k * contact.mass).sqrt();
-        let c = R::splat(self.damping_ratio) * load.impedance;
+        response.impedance = (k * contact.mass).sqrt();
+        let c = R::splat(self.damping_ratio) * response.impedance;
         let damping = c * contact.approach;
-        load.normal = load.normal + (k * contact.overlap + damping);
-        load.pressing = load.normal;
-        load.stiffness = k;
-        load.stiffness_before = R::splat(1.0);
-        load.elastic = load.elastic + R::splat(0.5) * k * contact.overlap * contact.overlap;
-        load.dissipated[LEDGER] = load.dissipated[LEDGER] + damping * contact.approach * dt;
+        response.normal = response.normal + (k * contact.overlap + damping);
+        response.pressing = response.normal;
+        response.stiffness = k;
+        response.stiffness_before = R::splat(1.0);
+        response.elastic = response.elastic + R::splat(0.5) * k * contact.overlap * contact.overlap;
+        response.dissipate(DESCRIPTION.slot, damping * contact.approach * dt);
     }
 }

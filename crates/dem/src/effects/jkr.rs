@@ -22,11 +22,10 @@
 //! books all of W when contact is made. On a triangle mesh each triangle is a contact of its own: a grain that rolls over a seam
 //! while it is pulled comes free there, and the ledger books W again.
 
-use super::describe::{Description, Field, Key, Kind, Model, NormalLaw, Range, Slot};
-use super::hooke::RESTITUTION;
-use super::pair::{Elastic, Meeting, Pair};
-use super::{Contact, ContactEffect, Effect, Load};
-use crate::effects::ContactLaw;
+use super::{
+    Contact, ContactEffect, ContactLaw, Description, Effect, Elastic, Field, Key, Kind, Model, NormalLaw,
+    OverlapLimit, Pair, RESTITUTION, Range, Response, Slot,
+};
 use crate::simd::Lane;
 use std::f64::consts::PI;
 
@@ -59,16 +58,13 @@ pub const DESCRIPTION: Description = Description {
     ..Description::PLAIN
 };
 
-/// Its entry of the energy ledger.
-const LEDGER: usize = DESCRIPTION.slot.ledger();
-
 fn undamped(law: &ContactLaw, elastic: Elastic) -> Jkr {
     let work_of_adhesion = law.number("work_of_adhesion").unwrap_or(f64::NAN);
     Jkr { modulus: elastic.modulus, work_of_adhesion, damping_ratio: 0.0 }
 }
 
 /// 2 E* a.
-fn stiffest(law: &ContactLaw, elastic: Elastic, at: Meeting) -> f64 {
+fn stiffest(law: &ContactLaw, elastic: Elastic, at: OverlapLimit) -> f64 {
     let last = undamped(law, elastic).last_radius(at.radius);
     2.0 * elastic.modulus * last * Jkr::spread(at.overlap(), at.radius, last).powi(2)
 }
@@ -137,19 +133,18 @@ impl Jkr {
 impl ContactEffect for Jkr {
     const DESCRIPTIONS: &'static [&'static Description] = &[&DESCRIPTION];
 
-    fn of(pair: &Pair) -> Option<Jkr> {
-        let damping_ratio = pair.damping_ratio();
-        DESCRIPTION.asked_for(pair.law).then(|| Jkr { damping_ratio, ..undamped(pair.law, pair.elastic) })
+    fn new(pair: &Pair) -> Jkr {
+        Jkr { damping_ratio: pair.damping_ratio(), ..undamped(pair.law, pair.elastic) }
     }
 }
 
 impl Effect for Jkr {
     /// a_c [m]; 0 where no contact is made.
-    type Memory<R: Lane> = R;
+    type History<R: Lane> = R;
     const REACHES: bool = true;
 
     #[inline(always)]
-    fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, made: &mut R, load: &mut Load<R>) {
+    fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, made: &mut R, response: &mut Response<R>) {
         let (number, r) = (R::splat, contact.radius);
         let new = R::select(made.gt(number(0.0)), number(0.0), number(1.0));
         if R::any(R::both(contact.touching, new.gt(number(0.0)))) {
@@ -161,20 +156,20 @@ impl Effect for Jkr {
         let pull = number(PI * self.work_of_adhesion) * r;
         let elastic = pull * cube * (cube / number(6.0) - number(1.0));
         let s = number(2.0 * self.modulus) * last * y * y;
-        load.impedance = (s * contact.mass).sqrt();
-        let c = number(self.damping_ratio * (5.0f64 / 6.0).sqrt()) * load.impedance;
+        response.impedance = (s * contact.mass).sqrt();
+        let c = number(self.damping_ratio * (5.0f64 / 6.0).sqrt()) * response.impedance;
         let damping = c * contact.approach;
-        load.normal = load.normal + (elastic + damping);
-        load.pressing = load.normal + number(3.0) * pull;
-        load.stiffness = s;
+        response.normal = response.normal + (elastic + damping);
+        response.pressing = response.normal + number(3.0) * pull;
+        response.stiffness = s;
         let before = Self::spread(contact.overlap - contact.approach * dt, r, last);
-        load.stiffness_before = before * before / (y * y);
+        response.stiffness_before = before * before / (y * y);
         let unit = number(4.0 * PI * self.work_of_adhesion) * last * last;
         let stored =
             cube * y * (cube * (cube / number(60.0) - number(1.0 / 6.0)) + number(0.25)) - number(0.1);
-        load.elastic = load.elastic + unit * stored;
-        load.dissipated[LEDGER] = load.dissipated[LEDGER] + damping * contact.approach * dt;
-        load.lost = load.lost + number(CYCLE) * new * unit;
+        response.elastic = response.elastic + unit * stored;
+        response.dissipate(DESCRIPTION.slot, damping * contact.approach * dt);
+        response.lost = response.lost + number(CYCLE) * new * unit;
     }
 
     #[inline(always)]

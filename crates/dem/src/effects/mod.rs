@@ -26,11 +26,11 @@ pub use cohesion::Cohesion;
 pub use constant_rolling::ConstantRolling;
 pub use describe::*;
 pub use hertz::Hertz;
-pub use history::{ContactHistory, Memory, RECORDED};
+pub use history::{ContactHistory, History, RECORDED};
 pub use hooke::{Hooke, RESTITUTION};
 pub use jkr::Jkr;
 pub use law::ContactLaw;
-pub use pair::{Compliance, Elastic, Material, Meeting, Pair, damping_ratio, tangential_ratio};
+pub use pair::{Compliance, Elastic, Material, OverlapLimit, Pair, damping_ratio, tangential_ratio};
 pub(crate) use registry::effects;
 pub use registry::{DESCRIPTIONS, Dropped, active, keys, models, needed, without};
 pub use rolling_resistance::RollingResistance;
@@ -71,7 +71,7 @@ pub struct Contact<R: Lane> {
 
 /// What effects make of it.
 #[derive(Clone, Copy)]
-pub struct Load<R: Lane> {
+pub struct Response<R: Lane> {
     /// F_n [N], repulsion positive.
     pub normal: R,
     /// What caps friction, rolling and twisting resistance [N]: F_n without the pull of cohesion.
@@ -94,12 +94,12 @@ pub struct Load<R: Lane> {
     pub lost: R,
 }
 
-impl<R: Lane> Load<R> {
-    /// No load.
+impl<R: Lane> Response<R> {
+    /// No force.
     #[inline(always)]
-    pub fn zero() -> Load<R> {
+    pub fn zero() -> Response<R> {
         let zero = R::splat(0.0);
-        Load {
+        Response {
             normal: zero,
             pressing: zero,
             stiffness: zero,
@@ -112,80 +112,109 @@ impl<R: Lane> Load<R> {
             lost: zero,
         }
     }
+
+    /// Adds what an effect of this slot dissipates in the step [J].
+    #[inline(always)]
+    pub fn dissipate(&mut self, slot: Slot, energy: R) {
+        let sum = &mut self.dissipated[slot.ledger()];
+        *sum = *sum + energy;
+    }
 }
 
 /// How contact laws ask for an effect.
 pub trait ContactEffect: Effect {
     /// What the program knows of it: one description, or one for each way of asking.
     const DESCRIPTIONS: &'static [&'static Description];
+    /// The effect of a pair whose law asks for it.
+    fn new(pair: &Pair) -> Self;
     /// The effect of a pair; `None` where its law does not ask for it.
-    fn of(pair: &Pair) -> Option<Self>;
+    fn of(pair: &Pair) -> Option<Self> {
+        Self::DESCRIPTIONS.iter().any(|d| d.asked_for(pair.law)).then(|| Self::new(pair))
+    }
 }
 
 /// An effect of contact.
 pub trait Effect: Copy + Send + Sync + 'static {
     /// Memory of one contact between steps.
-    type Memory<R: Lane>: Memory<R>;
-    /// Numbers of memory for each contact.
-    const MEMORY: usize = <Self::Memory<f64> as Memory<f64>>::COLUMNS;
+    type History<R: Lane>: History<R>;
+    /// Numbers of history for each contact.
+    const HISTORY: usize = <Self::History<f64> as History<f64>>::COLUMNS;
     /// Whether it turns particles: without any such effect there is no rotation at all.
     const ROTATES: bool = false;
-    /// Whether it makes a couple besides the moment of the tangential force.
-    const COUPLES: bool = false;
+    /// Whether it makes a torque besides the moment of the tangential force.
+    const TORQUES: bool = false;
     /// Whether a contact that was made lasts beyond touching.
     const REACHES: bool = false;
 
-    /// Adds to the load; `dt` [s].
-    fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, memory: &mut Self::Memory<R>, load: &mut Load<R>);
+    /// Adds to the response; `dt` [s].
+    fn apply<R: Lane>(
+        &self,
+        contact: &Contact<R>,
+        dt: R,
+        history: &mut Self::History<R>,
+        response: &mut Response<R>,
+    );
 
     /// Gap up to which the contact still acts [m]: 0 where none was made; `radius` is R* [m].
     #[inline(always)]
-    fn reach<R: Lane>(&self, _radius: R, _memory: &Self::Memory<R>) -> R {
+    fn reach<R: Lane>(&self, _radius: R, _memory: &Self::History<R>) -> R {
         R::splat(0.0)
     }
 }
 
 impl Effect for () {
-    type Memory<R: Lane> = ();
+    type History<R: Lane> = ();
     #[inline(always)]
-    fn apply<R: Lane>(&self, _: &Contact<R>, _: R, _: &mut (), _: &mut Load<R>) {}
+    fn apply<R: Lane>(&self, _: &Contact<R>, _: R, _: &mut (), _: &mut Response<R>) {}
 }
 
-/// An effect that may be absent at run time: for what is rare and has no memory, so that there need not be a composition with it
+/// An effect that may be absent at run time: for what is rare and keeps no history, so that there need not be a composition with it
 /// and one without. Absent, it costs a question for each group of contacts.
 impl<E: Effect> Effect for Option<E> {
-    type Memory<R: Lane> = E::Memory<R>;
+    type History<R: Lane> = E::History<R>;
     const ROTATES: bool = E::ROTATES;
-    const COUPLES: bool = E::COUPLES;
+    const TORQUES: bool = E::TORQUES;
     const REACHES: bool = E::REACHES;
     #[inline(always)]
-    fn apply<R: Lane>(&self, c: &Contact<R>, dt: R, memory: &mut Self::Memory<R>, load: &mut Load<R>) {
+    fn apply<R: Lane>(
+        &self,
+        c: &Contact<R>,
+        dt: R,
+        history: &mut Self::History<R>,
+        response: &mut Response<R>,
+    ) {
         if let Some(effect) = self {
-            effect.apply(c, dt, memory, load);
+            effect.apply(c, dt, history, response);
         }
     }
     #[inline(always)]
-    fn reach<R: Lane>(&self, radius: R, memory: &Self::Memory<R>) -> R {
-        self.map_or(R::splat(0.0), |effect| effect.reach(radius, memory))
+    fn reach<R: Lane>(&self, radius: R, history: &Self::History<R>) -> R {
+        self.map_or(R::splat(0.0), |effect| effect.reach(radius, history))
     }
 }
 
 impl<A: Effect, B: Effect> Effect for (A, B) {
-    type Memory<R: Lane> = (A::Memory<R>, B::Memory<R>);
+    type History<R: Lane> = (A::History<R>, B::History<R>);
     const ROTATES: bool = A::ROTATES || B::ROTATES;
-    const COUPLES: bool = A::COUPLES || B::COUPLES;
+    const TORQUES: bool = A::TORQUES || B::TORQUES;
     const REACHES: bool = A::REACHES || B::REACHES;
     #[inline(always)]
-    fn apply<R: Lane>(&self, c: &Contact<R>, dt: R, memory: &mut Self::Memory<R>, load: &mut Load<R>) {
-        self.0.apply(c, dt, &mut memory.0, load);
-        self.1.apply(c, dt, &mut memory.1, load);
+    fn apply<R: Lane>(
+        &self,
+        c: &Contact<R>,
+        dt: R,
+        history: &mut Self::History<R>,
+        response: &mut Response<R>,
+    ) {
+        self.0.apply(c, dt, &mut history.0, response);
+        self.1.apply(c, dt, &mut history.1, response);
     }
     #[inline(always)]
-    fn reach<R: Lane>(&self, radius: R, memory: &Self::Memory<R>) -> R {
+    fn reach<R: Lane>(&self, radius: R, history: &Self::History<R>) -> R {
         match (A::REACHES, B::REACHES) {
-            (true, true) => self.0.reach(radius, &memory.0).max(self.1.reach(radius, &memory.1)),
-            (true, false) => self.0.reach(radius, &memory.0),
-            (false, _) => self.1.reach(radius, &memory.1),
+            (true, true) => self.0.reach(radius, &history.0).max(self.1.reach(radius, &history.1)),
+            (true, false) => self.0.reach(radius, &history.0),
+            (false, _) => self.1.reach(radius, &history.1),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What effects are made of: the numbers of a contact law, and what follows from its two materials.
 
-use crate::effects::ContactLaw;
+use super::ContactLaw;
 use serde::{Deserialize, Serialize};
 
 /// Elastic constants of a pair.
@@ -26,9 +26,9 @@ impl Elastic {
     }
 }
 
-/// How deep two bodies may meet.
+/// Largest overlap of a pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Meeting {
+pub struct OverlapLimit {
     /// R* [m].
     pub radius: f64,
     /// The smaller radius [m].
@@ -37,7 +37,7 @@ pub struct Meeting {
     pub share: f64,
 }
 
-impl Meeting {
+impl OverlapLimit {
     /// That overlap [m].
     pub fn overlap(&self) -> f64 {
         self.share * self.smaller
@@ -51,8 +51,8 @@ pub struct Pair<'a> {
     pub law: &'a ContactLaw,
     /// Constants of the materials.
     pub elastic: Elastic,
-    /// How much easier the bodies of both materials yield than spheres of their mass.
-    pub ease: Compliance,
+    /// Compliance of the clumps of both materials over that of spheres of their mass.
+    pub compliance: Compliance,
 }
 
 impl Pair<'_> {
@@ -100,11 +100,11 @@ pub struct Material {
     pub poisson: f64,
 }
 
-/// How much easier the easiest body of two materials yields to all its contacts than a sphere of its mass to twelve [–].
+/// Compliance of the most compliant clump of two materials, with all its contacts, over that of a sphere of its mass with twelve [–].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Compliance {
     /// To contacts alone; 1 without clumps, and walls of spheres that lie deep within each other.
-    pub bodies: f64,
+    pub clumps: f64,
     /// The same for the pace of tangential springs. Where bonds set it, which know nothing of the stiffness of contacts, so much that the springs are always late by
     /// half a step.
     pub springs: f64,

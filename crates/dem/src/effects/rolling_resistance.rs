@@ -1,4 +1,4 @@
-//! Rolling resistance (`rolling_model = "spring"`): a rotational spring and dashpot, capped by a couple proportional to the normal force.
+//! Rolling resistance (`rolling_model = "spring"`): a rotational spring and dashpot, capped by a torque proportional to the normal force.
 //!
 //! ```text
 //! θ ← θ + ω_r Δt,   ω_r = (ω_i − ω_j) − its part along n
@@ -11,10 +11,10 @@
 //! M never exceeds the cap.
 
 use super::capped_spring::{CappedSpring, turned};
-use super::describe::{Description, Field, Key, Kind, Model, Range, Slot, Turning, TurningPair};
-use super::pair::Pair;
-use super::{Contact, ContactEffect, Effect, Load};
-use crate::effects::ContactLaw;
+use super::{
+    Contact, ContactEffect, ContactLaw, Description, Effect, Field, Key, Kind, Model, Pair, Range, Response,
+    Slot, Turning, TurningPair,
+};
 use crate::simd::{Lane, V};
 
 /// μ_r.
@@ -42,9 +42,6 @@ pub const DESCRIPTION: Description = Description {
     ..Description::PLAIN
 };
 
-/// Its entry of the energy ledger.
-const LEDGER: usize = DESCRIPTION.slot.ledger();
-
 /// 8 × 5/2 c_r over its arm and √(S m*); one hundredth of it stands for the spring.
 fn turning(law: &ContactLaw, pair: &TurningPair) -> Turning {
     let resistance = law.number("rolling_resistance").unwrap_or(0.0);
@@ -64,38 +61,37 @@ pub struct RollingResistance {
 impl ContactEffect for RollingResistance {
     const DESCRIPTIONS: &'static [&'static Description] = &[&DESCRIPTION];
 
-    fn of(pair: &Pair) -> Option<RollingResistance> {
-        let resistance = pair.number("rolling_resistance");
-        DESCRIPTION.asked_for(pair.law).then_some(RollingResistance { resistance })
+    fn new(pair: &Pair) -> RollingResistance {
+        RollingResistance { resistance: pair.number("rolling_resistance") }
     }
 }
 
 impl Effect for RollingResistance {
-    type Memory<R: Lane> = V<R>;
+    type History<R: Lane> = V<R>;
     const ROTATES: bool = true;
-    const COUPLES: bool = true;
+    const TORQUES: bool = true;
 
     #[inline(always)]
-    fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, theta: &mut V<R>, load: &mut Load<R>) {
+    fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, theta: &mut V<R>, response: &mut Response<R>) {
         let n = contact.normal;
         let rolling = contact.spin - n.scale(contact.spin.dot(n));
         let arm = R::splat(self.resistance) * contact.radius;
-        let stiffness = (R::splat(2.25) * load.stiffness * arm * arm).max(R::splat(R::TINY));
+        let stiffness = (R::splat(2.25) * response.stiffness * arm * arm).max(R::splat(R::TINY));
         let spring = CappedSpring {
             touching: contact.touching,
             stiffness,
-            before: load.stiffness_before,
+            before: response.stiffness_before,
             // √(k_r I_r) = √(2.25 S (μ_r R*)² 7/5 m* R*²), and the frequency k_r/I_r, without R*.
-            damping: R::splat(2.0 * ETA * (2.25f64 * 1.4).sqrt()) * arm * contact.radius * load.impedance,
+            damping: R::splat(2.0 * ETA * (2.25f64 * 1.4).sqrt()) * arm * contact.radius * response.impedance,
             pace: R::splat(0.25 * 2.25 / 1.4 * self.resistance * self.resistance)
-                * load.stiffness
+                * response.stiffness
                 * contact.inverse_mass,
-            cap: arm * load.pressing.max(R::splat(0.0)),
+            cap: arm * response.pressing.max(R::splat(0.0)),
         };
         *theta = turned(*theta, contact);
         let pull = spring.pull(theta, rolling, dt);
-        load.torque = load.torque + pull.force;
-        load.elastic = load.elastic + pull.elastic;
-        load.dissipated[LEDGER] = load.dissipated[LEDGER] + pull.dissipated;
+        response.torque = response.torque + pull.force;
+        response.elastic = response.elastic + pull.elastic;
+        response.dissipate(DESCRIPTION.slot, pull.dissipated);
     }
 }

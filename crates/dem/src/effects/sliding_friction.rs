@@ -13,10 +13,10 @@
 //! pulls, nothing holds. Comes after every effect that changes F_n.
 
 use super::capped_spring::{CappedSpring, turned};
-use super::describe::{Description, Field, Key, Kind, Range, Slot};
-use super::pair::{Pair, tangential_ratio};
-use super::weakening::Friction;
-use super::{Contact, ContactEffect, Effect, Load, weakening};
+use super::{
+    Contact, ContactEffect, Description, Effect, Field, Friction, Key, Kind, Pair, Range, Response, Slot,
+    tangential_ratio, weakening,
+};
 use crate::simd::{Lane, V};
 
 /// ξ.
@@ -41,9 +41,6 @@ pub const DESCRIPTION: Description = Description {
     ..Description::PLAIN
 };
 
-/// Its entry of the energy ledger.
-const LEDGER: usize = DESCRIPTION.slot.ledger();
-
 /// What μ is: a number, or a function of the state of the contact.
 pub trait Coefficient: Copy + Send + Sync + 'static {
     /// μ [–] of a contact.
@@ -66,15 +63,15 @@ pub struct SlidingFriction<C = f64> {
     pub stiffness_ratio: f64,
     /// γ [–], as for the normal law.
     pub damping_ratio: f64,
-    /// How much easier than a sphere of its mass the easiest body yields: 1 for spheres, more for clumps [–].
-    pub yielding: f64,
+    /// Compliance of the most compliant clump over that of a sphere of its mass: 1 for spheres, more for clumps [–].
+    pub compliance: f64,
 }
 
 impl<C: Coefficient> SlidingFriction<C> {
-    fn new(pair: &Pair, friction: C) -> SlidingFriction<C> {
+    fn with(pair: &Pair, friction: C) -> SlidingFriction<C> {
         let stiffness_ratio = tangential_ratio(pair.law, pair.elastic);
-        let (damping_ratio, yielding) = (pair.damping_ratio(), pair.ease.springs);
-        SlidingFriction { friction, stiffness_ratio, damping_ratio, yielding }
+        let (damping_ratio, compliance) = (pair.damping_ratio(), pair.compliance.springs);
+        SlidingFriction { friction, stiffness_ratio, damping_ratio, compliance }
     }
 }
 
@@ -82,8 +79,8 @@ impl<C: Coefficient> SlidingFriction<C> {
 impl ContactEffect for SlidingFriction<f64> {
     const DESCRIPTIONS: &'static [&'static Description] = &[&DESCRIPTION];
 
-    fn of(pair: &Pair) -> Option<SlidingFriction<f64>> {
-        DESCRIPTION.asked_for(pair.law).then(|| SlidingFriction::new(pair, pair.number("sliding_friction")))
+    fn new(pair: &Pair) -> SlidingFriction<f64> {
+        SlidingFriction::with(pair, pair.number("sliding_friction"))
     }
 }
 
@@ -91,35 +88,35 @@ impl ContactEffect for SlidingFriction<f64> {
 impl ContactEffect for SlidingFriction<Friction> {
     const DESCRIPTIONS: &'static [&'static Description] = &[&DESCRIPTION, &weakening::DESCRIPTION];
 
-    fn of(pair: &Pair) -> Option<SlidingFriction<Friction>> {
-        Some(SlidingFriction::new(pair, Friction::of(pair)?))
+    fn new(pair: &Pair) -> SlidingFriction<Friction> {
+        SlidingFriction::with(pair, Friction::of(pair))
     }
 }
 
 impl<C: Coefficient> Effect for SlidingFriction<C> {
-    type Memory<R: Lane> = V<R>;
+    type History<R: Lane> = V<R>;
     const ROTATES: bool = true;
 
     #[inline(always)]
-    fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, xi: &mut V<R>, load: &mut Load<R>) {
+    fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, xi: &mut V<R>, response: &mut Response<R>) {
         // A stiffness of 0 at δ = 0 (Hertz) would be divided by; nothing holds there in any case.
-        let stiffness = (R::splat(self.stiffness_ratio) * load.stiffness).max(R::splat(R::TINY));
+        let stiffness = (R::splat(self.stiffness_ratio) * response.stiffness).max(R::splat(R::TINY));
         let spring = CappedSpring {
             touching: contact.touching,
             stiffness,
-            before: load.stiffness_before,
-            damping: R::splat(self.damping_ratio * self.stiffness_ratio.sqrt()) * load.impedance,
+            before: response.stiffness_before,
+            damping: R::splat(self.damping_ratio * self.stiffness_ratio.sqrt()) * response.impedance,
             // A quarter of the square of the fastest motion of a close packing: all grains turning the same way, 20 k_t/m*,
             // or layers against layers, 4 (S + k_t)/m*, which the spring would feed otherwise.
             // Clumps, which forces turn as well, are faster by what they yield.
-            pace: (R::splat(5.0) * stiffness).max(load.stiffness + stiffness)
-                * (R::splat(self.yielding) * contact.inverse_mass),
-            cap: self.friction.of(contact) * load.pressing.max(R::splat(0.0)),
+            pace: (R::splat(5.0) * stiffness).max(response.stiffness + stiffness)
+                * (R::splat(self.compliance) * contact.inverse_mass),
+            cap: self.friction.of(contact) * response.pressing.max(R::splat(0.0)),
         };
         *xi = turned(*xi, contact);
         let pull = spring.pull(xi, contact.slip, dt);
-        load.tangential = load.tangential + pull.force;
-        load.elastic = load.elastic + pull.elastic;
-        load.dissipated[LEDGER] = load.dissipated[LEDGER] + pull.dissipated;
+        response.tangential = response.tangential + pull.force;
+        response.elastic = response.elastic + pull.elastic;
+        response.dissipate(DESCRIPTION.slot, pull.dissipated);
     }
 }

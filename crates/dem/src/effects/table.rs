@@ -1,7 +1,6 @@
 //! The effects and their keys as tables for people: docs/scene.md holds them, and a test compares.
 
-use super::describe::{Description, Key};
-use super::registry::{DESCRIPTIONS, keys, models};
+use super::{DESCRIPTIONS, Description, Key, keys, models};
 use std::fmt::Write;
 
 /// Both tables in Markdown: a row for each effect, and one for each number.
@@ -28,7 +27,7 @@ pub fn tables() -> String {
 
 fn asked_by(effect: &Description) -> String {
     let model = effect.model.map(|m| format!("`{} = \"{}\"`", m.key, m.value));
-    // A normal law is asked for by its name, and a default model by the number.
+    // A normal law is chosen by its name, and a default model by its number.
     let numbers =
         effect.keys.iter().filter(|_| effect.normal.is_none() && effect.model.is_none_or(|m| m.default));
     let numbers = numbers.map(|key| format!("`{}`", key.name));

@@ -1,4 +1,4 @@
-//! Twisting resistance: a rotational spring and dashpot about the normal, capped by a couple proportional to the normal force.
+//! Twisting resistance: a rotational spring and dashpot about the normal, capped by a torque proportional to the normal force.
 //!
 //! ```text
 //! φ ← φ + ω_n Δt,   ω_n = (ω_i − ω_j)·n
@@ -8,13 +8,13 @@
 //!
 //! Torsion of Luding (2008), Granular Matter 10(4), doi:10.1007/s10035-008-0099-x: the law of sliding for the displacement R* φ,
 //! with the stiffness of sliding. Deviations: the dashpot is a share of the critical one, as for rolling. φ is a number: it turns
-//! with the contact by itself, and is the same seen from i and from j.
+//! with the contact by itself, and is the same for i and for j.
 
 use super::capped_spring::CappedSpring;
-use super::describe::{ALONG, Description, Field, Key, Kind, Range, Slot, TURNS, Turning, TurningPair};
-use super::pair::{Pair, tangential_ratio};
-use super::{Contact, ContactEffect, Effect, Load};
-use crate::effects::ContactLaw;
+use super::{
+    ALONG, Contact, ContactEffect, ContactLaw, Description, Effect, Field, Key, Kind, Pair, Range, Response,
+    Slot, TURNS, Turning, TurningPair, tangential_ratio,
+};
 use crate::simd::Lane;
 
 /// What the program knows of it.
@@ -37,9 +37,6 @@ pub const DESCRIPTION: Description = Description {
     ..Description::PLAIN
 };
 
-/// Its entry of the energy ledger.
-const LEDGER: usize = DESCRIPTION.slot.ledger();
-
 /// 4 × 5/2 of k_w and c_w, η = 0.3.
 fn turning(_: &ContactLaw, pair: &TurningPair) -> Turning {
     let straight = ALONG * pair.dense;
@@ -60,44 +57,40 @@ pub struct TwistingResistance {
     /// k_t/S [–], as for sliding.
     pub stiffness_ratio: f64,
     /// As for sliding [–].
-    pub yielding: f64,
+    pub compliance: f64,
 }
 
 impl ContactEffect for TwistingResistance {
     const DESCRIPTIONS: &'static [&'static Description] = &[&DESCRIPTION];
 
-    fn of(pair: &Pair) -> Option<TwistingResistance> {
+    fn new(pair: &Pair) -> TwistingResistance {
         let stiffness_ratio = tangential_ratio(pair.law, pair.elastic);
-        let (resistance, yielding) = (pair.number("twisting_resistance"), pair.ease.springs);
-        DESCRIPTION.asked_for(pair.law).then_some(TwistingResistance {
-            resistance,
-            stiffness_ratio,
-            yielding,
-        })
+        let (resistance, compliance) = (pair.number("twisting_resistance"), pair.compliance.springs);
+        TwistingResistance { resistance, stiffness_ratio, compliance }
     }
 }
 
 impl Effect for TwistingResistance {
-    type Memory<R: Lane> = R;
+    type History<R: Lane> = R;
     const ROTATES: bool = true;
-    const COUPLES: bool = true;
+    const TORQUES: bool = true;
 
     #[inline(always)]
-    fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, phi: &mut R, load: &mut Load<R>) {
+    fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, phi: &mut R, response: &mut Response<R>) {
         let square = contact.radius * contact.radius;
-        let stiffness = (R::splat(self.stiffness_ratio) * load.stiffness * square).max(R::splat(1e-150));
+        let stiffness = (R::splat(self.stiffness_ratio) * response.stiffness * square).max(R::splat(1e-150));
         let inertia = R::splat(0.4) * contact.mass * square;
         let spring = CappedSpring {
             touching: contact.touching,
             stiffness,
-            before: load.stiffness_before,
+            before: response.stiffness_before,
             damping: R::splat(2.0 * ETA) * (stiffness * inertia).sqrt(),
-            pace: R::splat(0.25 * self.yielding) * stiffness / inertia,
-            cap: R::splat(self.resistance) * contact.radius * load.pressing.max(R::splat(0.0)),
+            pace: R::splat(0.25 * self.compliance) * stiffness / inertia,
+            cap: R::splat(self.resistance) * contact.radius * response.pressing.max(R::splat(0.0)),
         };
         let pull = spring.pull(phi, contact.spin.dot(contact.normal), dt);
-        load.torque = load.torque + contact.normal.scale(pull.force);
-        load.elastic = load.elastic + pull.elastic;
-        load.dissipated[LEDGER] = load.dissipated[LEDGER] + pull.dissipated;
+        response.torque = response.torque + contact.normal.scale(pull.force);
+        response.elastic = response.elastic + pull.elastic;
+        response.dissipate(DESCRIPTION.slot, pull.dissipated);
     }
 }

@@ -11,11 +11,11 @@
 //! contact at rest moves along that line. The flattened spot is forgotten when the spheres part. It has no dashpot: along the line of
 //! unloading nothing is lost, and small vibrations last; W is lost at once, as δ_max grows.
 
-use super::describe::{Description, Field, Key, Kind, Model, NormalLaw, Range, Slot};
-use super::hooke::{RESTITUTION, STIFFNESS, TANGENTIAL_RATIO, unloaded_overlap};
-use super::pair::Pair;
-use super::{Contact, ContactEffect, Effect, Load};
-use crate::effects::ContactLaw;
+use super::hooke::{STIFFNESS, TANGENTIAL_RATIO, unloaded_overlap};
+use super::{
+    Contact, ContactEffect, ContactLaw, Description, Effect, Field, Key, Kind, Model, NormalLaw, Pair,
+    RESTITUTION, Range, Response, Slot,
+};
 use crate::simd::Lane;
 
 /// What the program knows of it.
@@ -53,30 +53,29 @@ pub struct WaltonBraun {
 impl ContactEffect for WaltonBraun {
     const DESCRIPTIONS: &'static [&'static Description] = &[&DESCRIPTION];
 
-    fn of(pair: &Pair) -> Option<WaltonBraun> {
-        let law = WaltonBraun { loading: pair.number("stiffness"), unloading: unloading(pair.law) };
-        DESCRIPTION.asked_for(pair.law).then_some(law)
+    fn new(pair: &Pair) -> WaltonBraun {
+        WaltonBraun { loading: pair.number("stiffness"), unloading: unloading(pair.law) }
     }
 }
 
 impl Effect for WaltonBraun {
     /// δ_max [m].
-    type Memory<R: Lane> = R;
+    type History<R: Lane> = R;
 
     #[inline(always)]
-    fn apply<R: Lane>(&self, contact: &Contact<R>, _: R, deepest: &mut R, load: &mut Load<R>) {
+    fn apply<R: Lane>(&self, contact: &Contact<R>, _: R, deepest: &mut R, response: &mut Response<R>) {
         let (number, before) = (R::splat, *deepest);
         *deepest = before.max(contact.overlap);
         let yielded = number(1.0 - self.loading / self.unloading);
         let spring = (contact.overlap - yielded * *deepest).max(number(0.0));
         let force = number(self.unloading) * spring;
-        load.normal = load.normal + force;
-        load.pressing = load.normal;
-        load.stiffness = number(self.unloading);
-        load.stiffness_before = number(1.0);
-        load.impedance = (load.stiffness * contact.mass).sqrt();
-        load.elastic = load.elastic + number(0.5) * force * spring;
+        response.normal = response.normal + force;
+        response.pressing = response.normal;
+        response.stiffness = number(self.unloading);
+        response.stiffness_before = number(1.0);
+        response.impedance = (response.stiffness * contact.mass).sqrt();
+        response.elastic = response.elastic + number(0.5) * force * spring;
         let plastic = number(0.5 * self.loading) * yielded;
-        load.lost = load.lost + plastic * (*deepest * *deepest - before * before);
+        response.lost = response.lost + plastic * (*deepest * *deepest - before * before);
     }
 }

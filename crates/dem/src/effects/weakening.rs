@@ -7,11 +7,8 @@
 //!
 //! Hess & Soom (1990), J. Tribology 112(1), doi:10.1115/1.2920220, without the viscous term.
 
-use super::describe::{Contradiction, Description, Key, Range, Slot};
-use super::pair::Pair;
 use super::sliding_friction::SPRING;
-use super::{Coefficient, Contact};
-use crate::effects::ContactLaw;
+use super::{Coefficient, Contact, ContactLaw, Contradiction, Description, Key, Pair, Range, Slot};
 use crate::simd::Lane;
 
 /// What the program knows of it.
@@ -82,7 +79,7 @@ impl Coefficient for Weakening {
     }
 }
 
-/// A coefficient that may be either, which is asked for each group of contacts.
+/// A coefficient that may be either; which, is a branch for each group of contacts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Friction {
     /// μ [–].
@@ -92,15 +89,14 @@ pub enum Friction {
 }
 
 impl Friction {
-    /// Of a pair; `None` where its law asks for neither.
-    pub fn of(pair: &Pair) -> Option<Friction> {
-        let number = |key: &str| pair.law.number(key);
-        if let Some(constant) = number("sliding_friction") {
-            return Some(Friction::Constant(constant));
+    /// Of a pair whose law asks for either.
+    pub fn of(pair: &Pair) -> Friction {
+        if let Some(constant) = pair.law.number("sliding_friction") {
+            return Friction::Constant(constant);
         }
         let [at_rest, sliding, speed] =
-            ["static", "dynamic", "speed"].map(|key| number(&format!("sliding_friction.{key}")));
-        Some(Friction::Weakening(Weakening { at_rest: at_rest?, sliding: sliding?, speed: speed? }))
+            ["static", "dynamic", "speed"].map(|key| pair.number(&format!("sliding_friction.{key}")));
+        Friction::Weakening(Weakening { at_rest, sliding, speed })
     }
 }
 

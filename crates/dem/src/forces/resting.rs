@@ -1,89 +1,86 @@
 //! The part of a tile that rests: found once, and again only when a particle in the tile or beside it falls asleep or wakes.
 //!
-//! The sum of the loads of contacts that rest is kept for each particle; other contacts are added to it, in the order of their places. So
+//! The sum of the wrenches of contacts that rest is kept for each particle; other contacts are added to it, in the order of their slots. So
 //! the order of a sum depends on the lists and on which particles sleep, and on nothing else.
 
 use crate::forces::tile::TileInputs;
-use crate::kernel::sums::Sums;
-use crate::neighbours::resting::RestingTile;
-use crate::neighbours::slices::TileSlice;
+use crate::kernel::Sums;
+use crate::neighbours::{RestingTile, Segment, SlotRun, TileSlice};
 use crate::passes::sleep::runs;
 use crate::simd::BLOCK;
-use crate::state::sleepers::SleepMap;
+use crate::state::SleepMap;
 
 impl RestingTile {
-    /// Loads of the contacts of a tile, and their sums; true when an overlap passes the limit.
-    pub fn compute(&mut self, part: &mut TileSlice, seen: TileInputs, sums: &mut Sums) -> bool {
-        let (lists, inputs) = seen;
-        let Some(known) = inputs.known.filter(|_| !lists.new) else {
+    /// Forces of the contacts of a tile, and their sums; true when an overlap passes the limit.
+    pub fn compute(&mut self, slice: &mut TileSlice, inputs: &TileInputs, sums: &mut Sums) -> bool {
+        let Some(sleepers) = inputs.sleepers.filter(|_| !inputs.lists.new) else {
             (self.found, self.unchanged) = (None, false);
             sums.clear();
-            return (0..part.segments.len()).fold(false, |any, k| any | part.compute(k, seen, sums));
+            return (0..slice.segments.len()).fold(false, |any, k| any | slice.compute(k, inputs, sums));
         };
-        self.unchanged = self.holds(&known);
-        if self.unchanged {
-            if self.rest.0.is_empty() { sums.clear() } else { sums.put(&self.rest) }
+        self.unchanged = self.holds(&sleepers);
+        if !self.unchanged {
+            self.find(sleepers, slice, inputs, sums);
+        } else if self.sums.forces.is_empty() {
+            sums.clear();
         } else {
-            self.find(known, part, seen, sums);
+            sums.set(self.sums.slices());
         }
-        let (mut deep, mut refreshes) = (false, None);
-        for (k, places) in &self.busy {
-            let s = &part.segments[*k];
+        let (mut deep, mut found) = (false, None);
+        for run in &self.active {
+            let s = &slice.segments[run.segment];
             // A segment may have several runs that do not rest: its contact points are found once.
-            if refreshes.replace(*k) != Some(*k) {
-                part.refresh(s, lists, inputs);
+            if found.replace(run.segment) != Some(run.segment) {
+                slice.find_contact_points(s, inputs);
             }
-            deep |= part.compute_slots(s, places.clone(), seen, sums);
+            deep |= slice.compute_slots(s, run.slots.clone(), inputs, sums);
         }
         deep
     }
 
-    /// Adds loads that were computed before, in the same order.
-    pub fn recall(&mut self, part: &mut TileSlice, seen: TileInputs, sums: &mut Sums) {
-        match seen.1.known.filter(|_| !seen.0.new) {
-            Some(known) => self.find(known, part, seen, sums),
+    /// Adds wrenches that were computed before, in the same order.
+    pub fn add_kept(&mut self, slice: &mut TileSlice, inputs: &TileInputs, sums: &mut Sums) {
+        match inputs.sleepers.filter(|_| !inputs.lists.new) {
+            Some(sleepers) => self.find(sleepers, slice, inputs, sums),
             None => {
                 sums.clear();
-                self.busy = part.segments.iter().map(|s| s.places.clone()).enumerate().collect();
+                let whole = |(segment, s): (usize, &Segment)| SlotRun { segment, slots: s.slots.clone() };
+                self.active = slice.segments.iter().enumerate().map(whole).collect();
             }
         }
-        for (k, places) in &self.busy {
-            part.recall(&part.segments[*k], places.clone(), seen, sums);
+        for run in &self.active {
+            slice.add_kept(&slice.segments[run.segment], run.slots.clone(), inputs, sums);
         }
         (self.found, self.unchanged) = (None, false);
     }
 
-    fn holds(&self, known: &SleepMap) -> bool {
-        let since = |found: u64| move |&t: &u32| known.changed.get(t as usize).is_some_and(|&c| c <= found);
+    fn holds(&self, sleepers: &SleepMap) -> bool {
+        let since =
+            |found: u64| move |&t: &u32| sleepers.changed.get(t as usize).is_some_and(|&c| c <= found);
         self.found.is_some_and(|found| self.near.iter().all(since(found)))
     }
 
-    fn find(&mut self, known: SleepMap, part: &mut TileSlice, seen: TileInputs, sums: &mut Sums) {
-        let (lists, asleep) = (seen.0, known.asleep);
-        self.found = Some(known.turns);
-        self.busy.clear();
+    fn find(&mut self, sleepers: SleepMap, slice: &mut TileSlice, inputs: &TileInputs, sums: &mut Sums) {
+        let (lists, asleep) = (&inputs.lists, sleepers.asleep);
+        self.found = Some(sleepers.turns);
+        self.active.clear();
         sums.clear();
-        let mut some = false;
-        for (k, s) in part.segments.iter().enumerate() {
+        let mut any_rests = false;
+        for (segment, s) in slice.segments.iter().enumerate() {
             let rests: Vec<bool> =
-                (s.places.start / BLOCK..s.places.end / BLOCK).map(|b| lists.rests(b, asleep)).collect();
+                (s.slots.start / BLOCK..s.slots.end / BLOCK).map(|b| lists.rests(b, asleep)).collect();
             for run in runs(&rests) {
-                let places = s.places.start + run.start * BLOCK..s.places.start + run.end * BLOCK;
+                let slots = s.slots.start + run.start * BLOCK..s.slots.start + run.end * BLOCK;
                 if rests[run.start] {
-                    some = true;
-                    part.recall(s, places.clone(), seen, sums);
-                    part.clear_ledger(places);
+                    any_rests = true;
+                    slice.add_kept(s, slots.clone(), inputs, sums);
+                    slice.clear_ledger(slots);
                 } else {
-                    self.busy.push((k, places));
+                    self.active.push(SlotRun { segment, slots });
                 }
             }
         }
-        self.rest.0.clear();
-        self.rest.1.clear();
-        if some {
-            self.rest.0.extend_from_slice(sums.loads);
-            self.rest.1.extend_from_slice(sums.torques);
-        }
+        self.sums.set(any_rests.then(|| sums.wrenches.as_ref()));
         let sleeps = &asleep[sums.first..sums.first + sums.len()];
         self.awake = runs(sleeps).filter(|run| !sleeps[run.start]).collect();
         let disturbed = |k: &u32| sleeps[*k as usize] && lists.disturbed(sums.first + *k as usize, asleep);

@@ -1,28 +1,22 @@
 //! One pass over the tiles. [`forces_of_tile`] computes the contacts of a tile, which read all particles; [`SecondHalf::tile`] adds what arrives
 //! from other tiles and moves the particles. Two schedules call these two functions: several threads do the first for all tiles, then the
-//! second for all tiles; one thread alone does both for one tile after the other. No result depends on the schedule.
+//! second for all tiles; one thread alone does both, tile after tile. No result depends on the schedule.
 //!
 //! A tile's contacts are with its own particles and with those of later tiles. So one thread can take both halves of a tile at once: each
 //! tile that reads its particles comes before it, and what it computes is in the cache when it moves.
 
-use crate::forces::tile::{ContactInputs, TileInputs};
-use crate::kernel::StepInputs;
-use crate::kernel::sums::{Sums, WrenchSlices};
+use crate::forces::tile::TileInputs;
+use crate::kernel::{StepInputs, Sums, WrenchSlices};
 use crate::model::Model;
-use crate::neighbours::NeighbourLists;
 use crate::neighbours::poses::pose_in_box;
-use crate::neighbours::resting::RestingTile;
-use crate::neighbours::slices::{Lists, TileSlice};
-use crate::passes::bonds::pull::add_bond_forces;
-use crate::passes::integrate::{MoveFlags, MoveInputs, ParticleSlices};
+use crate::neighbours::{Computed, NeighbourLists, RestingTile, Slots, TileSlice};
+use crate::passes::bonds::add_bond_forces;
+use crate::passes::integrate::{MoveFlags, ParticleSlices};
 use crate::passes::sleep::advance_awake;
-use crate::simd::{Row, Row4, Width};
-use crate::state::bonds::Bonds;
-use crate::state::particles::Particles;
-use crate::state::sleepers::Sleepers;
-use crate::state::{Forces, State};
+use crate::simd::Layout;
+use crate::state::{Bonds, Forces, Particles, Sleepers, State};
 use crate::threads::{FEW, share};
-use crate::walls::motion::Pose;
+use geom::motion::Pose;
 use std::ops::Range;
 
 /// What a pass found.
@@ -38,14 +32,14 @@ pub struct StepFlags {
 pub fn forces(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> StepFlags {
     let deep = compute(model, state, lists, true);
     add_bond_forces(model, state);
-    let moved = finish(model, state, lists, Ends { collects: true, moves: false });
+    let moved = finish(model, state, lists, Second::ARRIVALS);
     StepFlags { deep, moved }
 }
 
 /// Forces of this instant, unless they are known, and the move.
 pub fn forces_and_move(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> StepFlags {
     if state.forces == Forces::Known {
-        let moved = finish(model, state, lists, Ends { collects: false, moves: true });
+        let moved = finish(model, state, lists, Second::MOVE);
         return StepFlags { deep: Vec::new(), moved };
     }
     if is_sequential(state) {
@@ -53,48 +47,81 @@ pub fn forces_and_move(model: &Model, state: &mut State, lists: &mut NeighbourLi
     }
     let deep = compute(model, state, lists, false);
     add_bond_forces(model, state);
-    let moved = finish(model, state, lists, Ends { collects: true, moves: true });
+    let moved = finish(model, state, lists, Second::BOTH);
     StepFlags { deep, moved }
 }
 
 /// Sums of wrenches that were computed before.
-pub fn recall(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
-    sum_kept_wrenches(model, state, lists);
-    finish(model, state, lists, Ends { collects: true, moves: false });
+pub fn sum_kept(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
+    for_each_tile(model, state, lists, |slice, resting, inputs, sums| {
+        match resting {
+            Some(resting) => resting.add_kept(slice, inputs, sums),
+            None => {
+                sums.clear();
+                slice.segments.iter().for_each(|s| slice.add_kept(s, s.slots.clone(), inputs, sums));
+            }
+        }
+        false
+    });
+    finish(model, state, lists, Second::ARRIVALS);
 }
 
-/// What the second half does with a tile.
-#[derive(Clone, Copy)]
-struct Ends {
-    /// Adds what arrives from other tiles.
-    collects: bool,
-    /// Moves its particles.
-    moves: bool,
+/// Contact points of images and walls, without forces.
+pub fn find_contact_points(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
+    for_each_tile(model, state, lists, |slice, _, inputs, _| {
+        slice.segments.iter().for_each(|s| slice.find_contact_points(s, inputs));
+        false
+    });
 }
 
-/// Loads of all contacts, and their sums within tiles; the segments in which an overlap passes its limit. `looks`: the load of each contact
-/// is kept.
-fn compute(model: &Model, state: &State, lists: &mut NeighbourLists, looks: bool) -> Vec<Range<usize>> {
-    lists.contacts.keep_wrenches(looks && lists.records || state.keeps_wrenches());
-    for_each_tile(model, state, lists, |part, still, seen, sums| match still {
-        Some(still) => still.compute(part, seen, sums),
-        None => forces_of_tile(part, 0..part.segments.len(), seen, sums),
+/// Forces of all contacts, and their sums within tiles; the segments in which an overlap passes its limit. `observed`: the wrench of each
+/// contact is kept where the setup asks for records.
+fn compute(
+    model: &Model,
+    state: &mut State,
+    lists: &mut NeighbourLists,
+    observed: bool,
+) -> Vec<Range<usize>> {
+    let keeps = observed && model.setup.record_wrenches || state.keeps_wrenches();
+    state.contacts.keep_wrenches(keeps, lists.slots.i.len());
+    for_each_tile(model, state, lists, |slice, resting, inputs, sums| match resting {
+        Some(resting) => resting.compute(slice, inputs, sums),
+        None => forces_of_tile(slice, 0..slice.segments.len(), inputs, sums),
     })
 }
 
 /// Forces of some segments of a tile, and their sums; true when an overlap passes its limit.
-fn forces_of_tile(part: &mut TileSlice, segments: Range<usize>, seen: TileInputs, sums: &mut Sums) -> bool {
+fn forces_of_tile(
+    slice: &mut TileSlice,
+    segments: Range<usize>,
+    inputs: &TileInputs,
+    sums: &mut Sums,
+) -> bool {
     sums.clear();
-    segments.into_iter().fold(false, |any, k| any | part.compute(k, seen, sums))
+    segments.into_iter().fold(false, |any, k| any | slice.compute(k, inputs, sums))
+}
+
+/// What the second half does with a tile.
+#[derive(Clone, Copy)]
+struct Second {
+    /// Adds what arrives from other tiles.
+    adds_arrivals: bool,
+    /// Moves its particles.
+    moves: bool,
+}
+
+impl Second {
+    const ARRIVALS: Second = Second { adds_arrivals: true, moves: false };
+    const MOVE: Second = Second { adds_arrivals: false, moves: true };
+    const BOTH: Second = Second { adds_arrivals: true, moves: true };
 }
 
 /// The second half of a pass, with what it needs of the scene.
 struct SecondHalf<'a> {
-    width: Width,
-    drive: MoveInputs,
+    model: &'a Model,
     bonds: &'a Bonds,
-    lists: &'a Lists<'a>,
-    ends: Ends,
+    lists: &'a Slots,
+    does: Second,
 }
 
 impl SecondHalf<'_> {
@@ -106,68 +133,52 @@ impl SecondHalf<'_> {
         kept: WrenchSlices,
         resting: Option<&RestingTile>,
     ) -> MoveFlags {
-        if self.ends.collects {
-            particles.sums.collect(self.lists.arriving(tile), kept);
+        if self.does.adds_arrivals {
+            particles.sums.accumulate_arrivals(self.lists.arriving(tile), kept);
             self.bonds.add(&mut particles.sums);
         }
-        if self.ends.moves {
-            advance_awake(self.width, particles, &self.drive, self.lists, resting)
+        if self.does.moves {
+            advance_awake(self.model, particles, self.lists, resting)
         } else {
             MoveFlags::default()
         }
     }
 }
 
-/// Sums within tiles of loads that were computed before.
-fn sum_kept_wrenches(model: &Model, state: &State, lists: &mut NeighbourLists) {
-    for_each_tile(model, state, lists, |part, still, seen, sums| {
-        match still {
-            Some(still) => still.recall(part, seen, sums),
-            None => {
-                sums.clear();
-                part.segments.iter().for_each(|s| part.recall(s, s.places.clone(), seen, sums));
-            }
-        }
-        false
-    });
-}
-
-/// Does something with each segment of images, and with each tile, what rests there, and its sums; the segments of those that say so.
+/// Calls `each` with each segment of images, and with each tile, what rests there, and its sums; the segments for which it returns true.
 fn for_each_tile(
     model: &Model,
-    state: &State,
+    state: &mut State,
     lists: &mut NeighbourLists,
-    each: impl Fn(&mut TileSlice, Option<&mut RestingTile>, TileInputs, &mut Sums) -> bool + Sync,
+    each: impl Fn(&mut TileSlice, Option<&mut RestingTile>, &TileInputs, &mut Sums) -> bool + Sync,
 ) -> Vec<Range<usize>> {
     let poses = poses(model, state, lists);
-    let contacts = &mut lists.contacts;
-    let (period, form, many) = (model.period(), contacts.form, state.particles.len() >= FEW);
-    let Particles { rows, spins, .. } = &state.particles;
-    let spins = if state.particles.rotates() { &spins[..] } else { &[] };
-    let common = StepInputs { dt: model.dt, overlap_limit: model.setup.guards.overlap, rows, spins, form };
-    let known = state.sleepers.as_ref().map(Sleepers::known);
-    let (kinds, walls, width) = (&model.kinds, &model.walls, model.width);
-    let inputs = ContactInputs { kinds, walls, poses: &poses, period, width, common, known };
-    let (lists, part, mut sums, resting_tiles) = contacts.parts();
-    let (mut images, mut rest) = part.split(lists.tiles[0]);
-    let mut items = Vec::with_capacity(images.segments.len() + lists.tiles.len());
+    let State { particles, sleepers, contacts, .. } = state;
+    let (layout, many) = (contacts.layout, particles.len() >= FEW);
+    let Computed { slots, mut slice, mut sums, resting_tiles } = lists.with(contacts);
+    let inputs = TileInputs {
+        lists: slots,
+        model,
+        poses: &poses,
+        period: model.period(),
+        step: step_inputs(model, particles, layout),
+        sleepers: sleepers.as_ref().map(Sleepers::map),
+    };
+    let mut images = slice.split_off(slots.tiles[0]);
+    let mut items = Vec::with_capacity(images.segments.len() + slots.tiles.len());
     while !images.segments.is_empty() {
-        let (one, others) = images.split(1);
-        images = others;
-        items.push((one, None, Sums::default()));
+        items.push((images.split_off(1), None, Sums::default()));
     }
     let mut resting_tiles = resting_tiles.iter_mut();
-    for segments in lists.tiles.windows(2) {
-        let (one, others) = rest.split(segments[1] - segments[0]);
-        let (mine, next) = sums.split(lists.tile);
-        (rest, sums) = (others, next);
-        items.push((one, resting_tiles.next(), mine));
+    for segments in slots.tiles.windows(2) {
+        let tile = slice.split_off(segments[1] - segments[0]);
+        items.push((tile, resting_tiles.next(), sums.split_off(slots.tile)));
     }
-    let run = |(mut part, still, mut sums)| each(&mut part, still, (&lists, &inputs), &mut sums);
-    let said = share(many, items, run);
-    let tiles = lists.tiles.windows(2).map(|s| s[0]..s[1]);
-    let segments = (0..lists.tiles[0]).map(|image| image..image + 1).chain(tiles);
-    segments.zip(said).filter(|(_, said)| *said).map(|(segments, _)| segments).collect()
+    let run = |(mut slice, resting, mut sums)| each(&mut slice, resting, &inputs, &mut sums);
+    let found = share(many, items, run);
+    let tiles = slots.tiles.windows(2).map(|s| s[0]..s[1]);
+    let segments = (0..slots.tiles[0]).map(|image| image..image + 1).chain(tiles);
+    segments.zip(found).filter(|(_, found)| *found).map(|(segments, _)| segments).collect()
 }
 
 /// Whether tiles are stepped one after the other: one thread, and nothing that is to be done between the halves.
@@ -178,45 +189,36 @@ fn is_sequential(state: &State) -> bool {
 
 /// Both halves of each tile at once.
 fn step_tile_by_tile(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> StepFlags {
-    let form = lists.contacts.form;
-    lists.contacts.keep_wrenches(state.keeps_wrenches());
+    let keeps = state.keeps_wrenches();
+    state.contacts.keep_wrenches(keeps, lists.slots.i.len());
     keep_rows(model, state, lists);
-    let (poses, period, drive) = (poses(model, state, lists), model.period(), drive(model));
-    let contacts = &mut lists.contacts;
-    let Particles { rows, spins, acceleration, turning, home, .. } = &mut state.particles;
-    let (kinds, walls, width) = (&model.kinds, &model.walls, model.width);
-    let (lists, mut part, mut sums, _) = contacts.parts();
+    let (poses, period) = (poses(model, state, lists), model.period());
+    let State { particles, bonds, contacts, .. } = state;
+    let layout = contacts.layout;
+    let Computed { slots: shared, mut slice, mut sums, .. } = lists.with(contacts);
     let mut found = StepFlags::default();
-    let ends = Ends { collects: true, moves: true };
-    let second = SecondHalf { width, drive, bonds: &state.bonds, lists: &lists, ends };
-    let forces =
-        |segments: Range<usize>, rows: &[Row], spins: &[Row4], part: &mut TileSlice, sums: &mut Sums| {
-            let common =
-                StepInputs { dt: model.dt, overlap_limit: model.setup.guards.overlap, rows, spins, form };
-            let inputs = ContactInputs { kinds, walls, poses: &poses, period, width, common, known: None };
-            forces_of_tile(part, segments.clone(), (&lists, &inputs), sums).then_some(segments)
-        };
-    found.deep.extend(forces(0..lists.tiles[0], rows, spins, &mut part, &mut Sums::default()));
-    for (tile, segments) in lists.tiles.windows(2).enumerate() {
-        let (mut mine, others) = sums.split(lists.tile);
-        sums = others;
-        found.deep.extend(forces(segments[0]..segments[1], rows, spins, &mut part, &mut mine));
-        let (first, count) = (mine.first, mine.len());
-        let (all, turn) = (first..first + count, if spins.is_empty() { 0..0 } else { first..first + count });
-        let particles = ParticleSlices {
-            first,
-            rows: &mut rows[all.clone()],
-            spins: &mut spins[turn.clone()],
-            acceleration: &mut acceleration[all.clone()],
-            turning: &mut turning[turn],
-            home: &home[all],
-            sums: mine,
-            sleeper_slices: None,
-        };
-        found.moved = found.moved.and(second.tile(tile, particles, part.kept(), None));
+    let second = SecondHalf { model, bonds, lists: shared, does: Second::BOTH };
+    let forces = |segments: Range<usize>, particles: &Particles, slice: &mut TileSlice, sums: &mut Sums| {
+        let step = step_inputs(model, particles, layout);
+        let inputs = TileInputs { lists: shared, model, poses: &poses, period, step, sleepers: None };
+        forces_of_tile(slice, segments.clone(), &inputs, sums).then_some(segments)
+    };
+    found.deep.extend(forces(0..shared.tiles[0], particles, &mut slice, &mut Sums::default()));
+    for (tile, segments) in shared.tiles.windows(2).enumerate() {
+        let mut own = sums.split_off(shared.tile);
+        found.deep.extend(forces(segments[0]..segments[1], particles, &mut slice, &mut own));
+        let range = own.first..own.first + own.len();
+        let particles = ParticleSlices::of(particles, range, own);
+        found.moved = found.moved.and(second.tile(tile, particles, slice.kept.as_ref(), None));
     }
-    contacts.new = false;
+    lists.slots.new = false;
     found
+}
+
+/// What all contacts of a step share.
+fn step_inputs<'a>(model: &Model, particles: &'a Particles, layout: Layout) -> StepInputs<'a> {
+    let Particles { rows, spins, .. } = particles;
+    StepInputs { dt: model.dt, overlap_limit: model.setup.guards.overlap, rows, spins, layout }
 }
 
 /// Notes where particles are before they move; a fluid asks for that.
@@ -226,38 +228,23 @@ fn keep_rows(model: &Model, state: &State, lists: &mut NeighbourLists) {
     }
 }
 
-fn drive(model: &Model) -> MoveInputs {
-    let g = model.setup.gravity;
-    MoveInputs { dt: model.dt, gravity: [g.x, g.y, g.z], motion_limit: model.setup.guards.motion }
-}
-
 /// Second half: adds what arrives at each tile from others, and moves its particles, where that is to be done.
-fn finish(model: &Model, state: &mut State, lists: &mut NeighbourLists, ends: Ends) -> MoveFlags {
-    if ends.moves {
+fn finish(model: &Model, state: &mut State, lists: &mut NeighbourLists, does: Second) -> MoveFlags {
+    if does.moves {
         keep_rows(model, state, lists);
     }
-    let drive = drive(model);
-    let Particles { rows, acceleration, spins, turning, home, .. } = &mut state.particles;
-    let (count, many) = (acceleration.len(), acceleration.len() >= FEW);
-    let contacts = &mut lists.contacts;
-    let (lists, part, sums, resting_tiles) = contacts.parts();
-    let (rows, rotating) = (&mut rows[..count], if spins.is_empty() { 0 } else { count });
-    let spins = &mut spins[..rotating];
-    let sleeper_slices = state.sleepers.as_mut().map(|s| s.sleeper_slices(state.zones.busy()));
-    let mut columns =
-        ParticleSlices { first: 0, rows, spins, acceleration, turning, home, sums, sleeper_slices };
-    let mut items = Vec::with_capacity(lists.tiles.len());
-    for tile in 0..lists.tiles.len() - 1 {
-        let (mine, others) = columns.split((tile + 1) * lists.tile);
-        columns = others;
-        items.push((tile, mine));
-    }
-    let second = SecondHalf { width: model.width, drive, bonds: &state.bonds, lists: &lists, ends };
-    let run = |(tile, particles)| second.tile(tile, particles, part.kept(), resting_tiles.get(tile));
+    let State { particles, bonds, sleepers, zones, contacts, .. } = state;
+    let (count, many) = (particles.len(), particles.len() >= FEW);
+    let Computed { slots: shared, slice, sums, resting_tiles } = lists.with(contacts);
+    let sleeper_slices = sleepers.as_mut().map(|s| s.sleeper_slices(&zones.prescribed));
+    let mut columns = ParticleSlices { sleeper_slices, ..ParticleSlices::of(particles, 0..count, sums) };
+    let items = (0..shared.tiles.len() - 1).map(|tile| (tile, columns.split_off(shared.tile))).collect();
+    let second = SecondHalf { model, bonds, lists: shared, does };
+    let run = |(tile, particles)| second.tile(tile, particles, slice.kept.as_ref(), resting_tiles.get(tile));
     let moved = share(many, items, run);
-    if ends.moves {
-        // Until now: sleepers are looked at after each listing.
-        contacts.new = false;
+    if does.moves {
+        // Until here: all sleepers are checked after each rebuild.
+        lists.slots.new = false;
     }
     moved.into_iter().fold(MoveFlags::default(), MoveFlags::and)
 }
@@ -266,12 +253,4 @@ fn finish(model: &Model, state: &mut State, lists: &mut NeighbourLists, ends: En
 fn poses(model: &Model, state: &State, lists: &NeighbourLists) -> Vec<Pose> {
     let time = state.time();
     (0..model.walls.len()).map(|w| pose_in_box(model, state, lists, w, time)).collect()
-}
-
-/// Contact points of images and walls, without loads.
-pub fn find_contact_points(model: &Model, state: &State, lists: &mut NeighbourLists) {
-    for_each_tile(model, state, lists, |part, _, (lists, inputs), _| {
-        part.segments.iter().for_each(|s| part.refresh(s, lists, inputs));
-        false
-    });
 }

@@ -1,151 +1,159 @@
 //! Tiles of the lists, with what is computed for them: what a thread works on.
 
-use crate::kernel::sums::Sums;
-use crate::kernel::{Batch, LEDGER, StepInputs};
-use crate::model::kind::{Kind, With};
-use crate::neighbours::contacts::Segment;
-use crate::neighbours::slices::{Lists, TileSlice, part, part_mut, some};
-use crate::simd::{BLOCK, Width};
-use crate::state::sleepers::SleepMap;
-use crate::walls::WallBody;
-use crate::walls::motion::Pose;
+use crate::kernel::wrenches::{rows, rows_mut};
+use crate::kernel::{Batch, LEDGER, Pairs, StepInputs, Sums};
+use crate::model::{Model, With};
+use crate::neighbours::{Segment, Slots, TileSlice};
+use crate::simd::BLOCK;
+use crate::state::SleepMap;
 use crate::walls::seams::HistorySlots;
 use geom::Vec3;
+use geom::motion::Pose;
 use std::ops::Range;
 
-/// What a contact needs besides the lists.
+/// What all tiles read.
 #[derive(Clone, Copy)]
-pub struct ContactInputs<'a> {
-    pub kinds: &'a [Kind],
-    pub walls: &'a [WallBody],
+pub struct TileInputs<'a> {
+    /// The lists.
+    pub lists: &'a Slots,
+    pub model: &'a Model,
+    /// Where walls are now.
     pub poses: &'a [Pose],
     /// Length of the box along periodic axes, 0 along others [m].
     pub period: Vec3,
-    pub width: Width,
-    pub common: StepInputs<'a>,
+    /// What all contacts share.
+    pub step: StepInputs<'a>,
     /// Which particles sleep, where the scene asks for it.
-    pub known: Option<SleepMap<'a>>,
+    pub sleepers: Option<SleepMap<'a>>,
 }
 
-/// What a contact needs besides its own.
-pub type TileInputs<'a> = (&'a Lists<'a>, &'a ContactInputs<'a>);
-
-impl TileSlice<'_> {
-    /// Contact points and loads of segment `k` of this part, added to the `sums` of its tile; true when an overlap passes the limit.
-    pub fn compute(&mut self, k: usize, (lists, inputs): TileInputs, sums: &mut Sums) -> bool {
-        let s = &self.segments[k];
-        self.refresh(s, lists, inputs);
-        self.compute_slots(s, s.places.clone(), (lists, inputs), sums)
+impl Segment {
+    /// Whether the second particle of each contact is in its tile.
+    fn both(&self) -> bool {
+        self.with == With::Particles && !self.later
     }
 
-    /// Adds loads that were computed before: those of contacts `places` of a segment.
-    pub fn recall(
-        &mut self,
-        s: &Segment,
-        places: Range<usize>,
-        (lists, inputs): TileInputs,
-        sums: &mut Sums,
-    ) {
-        let both = inputs.kinds[s.kind].with == With::Particles && !s.later;
-        let (first, n) = (places.start - self.from.place, places.len());
-        let pairs = (&lists.i[places.clone()], &lists.partner[places.clone()]);
-        let (load, torque) = (self.form.load(), self.form.torque());
-        let loads = part(self.each.0, first * load, n * load);
-        let torques = part(self.each.1, first * torque, n * torque);
-        sums.take_again(pairs, both, (loads, torques));
-        if s.later || inputs.kinds[s.kind].with == With::Images {
-            let kept = s.kept - self.from.kept + places.start - s.places.start;
-            self.kept.0[kept * load..][..loads.len()].copy_from_slice(loads);
-            part_mut(self.kept.1, kept * torque, n * torque).copy_from_slice(torques);
+    /// Whether its wrenches arrive at other tiles.
+    fn keeps(&self) -> bool {
+        self.later || self.with == With::Images
+    }
+}
+
+impl TileSlice<'_> {
+    /// Contact points and forces of segment `k` of this slice, added to the `sums` of its tile; true when an overlap passes the limit.
+    pub fn compute(&mut self, k: usize, inputs: &TileInputs, sums: &mut Sums) -> bool {
+        let s = &self.segments[k];
+        self.find_contact_points(s, inputs);
+        self.compute_slots(s, s.slots.clone(), inputs, sums)
+    }
+
+    /// Adds the wrenches of some slots of a segment that were computed before.
+    pub fn add_kept(&mut self, s: &Segment, slots: Range<usize>, inputs: &TileInputs, sums: &mut Sums) {
+        let (first, n) = (slots.start - self.from.slot, slots.len());
+        let Slots { i, partner, .. } = inputs.lists;
+        let pairs = Pairs { i: &i[slots.clone()], j: &partner[slots.clone()], both: s.both() };
+        let wrenches = self.each.as_ref().rows(first, n, self.layout);
+        sums.accumulate_kept(pairs, wrenches);
+        if s.keeps() {
+            let kept = s.kept - self.from.kept + slots.start - s.slots.start;
+            self.kept.rows_mut(kept, n, self.layout).copy_from(wrenches);
         }
     }
 
-    /// What is passed over loses no energy.
-    pub fn clear_ledger(&mut self, places: Range<usize>) {
-        let first = places.start - self.from.place;
-        for row in part_mut(self.ledger, first * LEDGER, places.len() * LEDGER).chunks_exact_mut(LEDGER) {
+    /// Contacts that are passed over dissipate nothing.
+    pub fn clear_ledger(&mut self, slots: Range<usize>) {
+        let first = slots.start - self.from.slot;
+        for row in rows_mut(self.ledger, first * LEDGER, slots.len() * LEDGER).chunks_exact_mut(LEDGER) {
             row[1..].fill(0.0);
         }
     }
 
-    /// Loads of contacts `places` of a segment, whose contact points are found.
+    /// Forces of some slots of a segment, whose contact points are known; true when an overlap passes the limit.
     pub fn compute_slots(
         &mut self,
         s: &Segment,
-        places: Range<usize>,
-        (lists, inputs): TileInputs,
+        slots: Range<usize>,
+        inputs: &TileInputs,
         sums: &mut Sums,
     ) -> bool {
-        let kind = &inputs.kinds[s.kind];
-        let (first, n) = (places.start - self.from.place, places.len());
-        let words = self.form.memory(kind.kernel.columns());
-        let within = places.start - s.places.start;
-        let (row, memory) = (s.rows - self.from.row + within, s.memory - self.from.memory + within * words);
-        let (partners, j) = match kind.with {
-            With::Particles => ((inputs.common.rows, inputs.common.spins), &lists.partner[places.clone()]),
-            _ => ((&self.rows[row..row + n], part(self.spins, row, n)), &lists.count[..n]),
+        let (kernel, lists) = (&inputs.model.kinds[s.kind].kernel, &inputs.lists);
+        let (first, n) = (slots.start - self.from.slot, slots.len());
+        let words = self.layout.history(kernel.columns());
+        let within = slots.start - s.slots.start;
+        let (row, history) =
+            (s.rows - self.from.row + within, s.history - self.from.history + within * words);
+        let (partners, j) = match s.with {
+            With::Particles => ((inputs.step.rows, inputs.step.spins), &lists.partner[slots.clone()]),
+            _ => ((&self.rows[row..row + n], rows(self.spins, row, n)), &lists.count[..n]),
         };
-        let keeps = s.later || kind.with == With::Images;
-        let (kept, kept_n) = if keeps { (s.kept - self.from.kept + within, n) } else { (0, 0) };
-        let task = Batch {
+        let (kept, kept_n) = if s.keeps() { (s.kept - self.from.kept + within, n) } else { (0, 0) };
+        let batch = Batch {
             partners,
-            i: &lists.i[places],
+            i: &lists.i[slots],
             j,
-            memory: &mut self.memory[memory..memory + n * words],
+            history: &mut self.history[history..history + n * words],
             active: &mut self.active[first / BLOCK..(first + n) / BLOCK],
             sums: sums.by_ref(),
-            both: kind.with == With::Particles && !s.later,
-            kept: some(&mut self.kept, kept, kept_n, self.form),
-            each: some(&mut self.each, first, n, self.form),
-            ledger: part_mut(self.ledger, first * LEDGER, n * LEDGER),
+            both: s.both(),
+            kept: self.kept.rows_mut(kept, kept_n, self.layout),
+            each: self.each.rows_mut(first, n, self.layout),
+            ledger: rows_mut(self.ledger, first * LEDGER, n * LEDGER),
         };
-        kind.kernel.run(inputs.width, inputs.common, task)
+        kernel.run(inputs.model.width, inputs.step, batch)
     }
 
     /// Finds the contact points of images and walls as they are now.
-    pub fn refresh(&mut self, s: &Segment, lists: &Lists, inputs: &ContactInputs) {
-        let kind = &inputs.kinds[s.kind];
-        let first = s.rows - self.from.row;
-        let (i, partner) = (&lists.i[s.contacts()], &lists.partner[s.contacts()]);
-        match kind.with {
-            With::Particles => {}
-            With::Images => {
-                for (k, (&j, shift)) in partner.iter().zip(&lists.shift[s.contacts()]).enumerate() {
-                    let mut row = inputs.common.rows[j as usize];
-                    for a in 0..3 {
-                        row[a] += shift[a];
-                    }
-                    self.rows[first + k] = row;
-                    if let Some(spin) = self.spins.get_mut(first + k) {
-                        *spin = inputs.common.spins[j as usize];
-                    }
-                }
+    pub fn find_contact_points(&mut self, s: &Segment, inputs: &TileInputs) {
+        match s.with {
+            With::Images => self.shift_images(s, inputs),
+            With::Wall(w) if inputs.lists.new || inputs.model.walls[w].refreshes() => {
+                self.touch_wall(s, w, inputs);
             }
-            With::Wall(w) if lists.new || inputs.walls[w].refreshes() => {
-                let (form, columns) = (self.form, kind.kernel.columns());
-                let memory = s.memory - self.from.memory;
-                let memory = &mut self.memory[memory..memory + s.places.len() * form.memory(columns)];
-                let active = (s.places.start - self.from.place) / BLOCK;
-                let active = &mut self.active[active..active + s.places.len() / BLOCK];
-                let mut slots = HistorySlots { memory, active, form, first: 0, columns };
-                let mut from = 0;
-                while from < s.len {
-                    let to = from + i[from..].iter().take_while(|&&k| k == i[from]).count();
-                    let row = &inputs.common.rows[i[from] as usize];
-                    let rows = &mut self.rows[first + from..first + to];
-                    let spins = part_mut(self.spins, first + from, to - from);
-                    let pose = (&inputs.poses[w], &inputs.period);
-                    inputs.walls[w].contact_points(
-                        pose,
-                        row,
-                        &partner[from..to],
-                        (rows, spins),
-                        slots.from(from),
-                    );
-                    from = to;
-                }
+            With::Wall(_) | With::Particles => {}
+        }
+    }
+
+    /// Copies rows and spins of particles to their images, shifted.
+    fn shift_images(&mut self, s: &Segment, inputs: &TileInputs) {
+        let (first, slots) = (s.rows - self.from.row, s.contacts());
+        let Slots { partner, shift, .. } = inputs.lists;
+        for (k, (&j, shift)) in partner[slots.clone()].iter().zip(&shift[slots]).enumerate() {
+            let mut row = inputs.step.rows[j as usize];
+            for a in 0..3 {
+                row[a] += shift[a];
             }
-            With::Wall(_) => {}
+            self.rows[first + k] = row;
+            if let Some(spin) = self.spins.get_mut(first + k) {
+                *spin = inputs.step.spins[j as usize];
+            }
+        }
+    }
+
+    /// Contact points of a wall, particle by particle.
+    fn touch_wall(&mut self, s: &Segment, wall: usize, inputs: &TileInputs) {
+        let (first, layout) = (s.rows - self.from.row, self.layout);
+        let (i, partner) = (&inputs.lists.i[s.contacts()], &inputs.lists.partner[s.contacts()]);
+        let columns = inputs.model.kinds[s.kind].kernel.columns();
+        let history = s.history - self.from.history;
+        let history = &mut self.history[history..history + s.slots.len() * layout.history(columns)];
+        let active = (s.slots.start - self.from.slot) / BLOCK;
+        let active = &mut self.active[active..active + s.slots.len() / BLOCK];
+        let mut slots = HistorySlots { history, active, layout, first: 0, columns };
+        let pose = (&inputs.poses[wall], &inputs.period);
+        let mut from = 0;
+        while from < s.len {
+            let to = from + i[from..].iter().take_while(|&&k| k == i[from]).count();
+            let row = &inputs.step.rows[i[from] as usize];
+            let rows = &mut self.rows[first + from..first + to];
+            let spins = rows_mut(self.spins, first + from, to - from);
+            inputs.model.walls[wall].contact_points(
+                pose,
+                row,
+                &partner[from..to],
+                (rows, spins),
+                slots.from(from),
+            );
+            from = to;
         }
     }
 }

@@ -2,21 +2,22 @@
 //!
 //! Each composition is compiled for every width of lanes, with and without the ledger. So that they stay few, the laws and resistances
 //! that most scenes use are compiled in every precision; all others in double precision only, where cohesion and the weakening of
-//! friction, which keep nothing, are not compositions of their own but a question that is asked once for each group of contacts.
+//! friction, which keep nothing, are not compositions of their own but a branch for each group of contacts.
 
 use super::{Kernel, Narrow};
 use crate::effects::*;
-use crate::simd::number::Precision;
+use crate::simd::Precision;
+use std::marker::PhantomData;
 
 macro_rules! compositions {
-    (every precision: $($cm:ident :: $common:ident),*; double precision: $($dm:ident :: $rare:ident),*; cohesion: $am:ident :: $adhesion:ident;
+    (every precision: $($cm:ident :: $step:ident),*; double precision: $($dm:ident :: $rare:ident),*; cohesion: $am:ident :: $adhesion:ident;
      sliding: $($sm:ident :: $sliding:ident <$of:ident :: $model:ident>),*; rolling: $($rm:ident :: $rolling:ident),*;
      twisting: $($tm:ident :: $twisting:ident),*;) => {
         /// The effects of a pair, composed.
         pub fn compose(pair: &Pair, precision: Precision) -> Box<dyn Kernel> {
-            let common = active(pair.law).all(|d| d.every_precision);
-            $(if let Some(law) = $common::of(pair) {
-                return if common { in_every_precision(pair, precision, law) } else { adhering(pair, law) };
+            let step = active(pair.law).all(|d| d.every_precision);
+            $(if let Some(law) = $step::of(pair) {
+                return if step { in_every_precision(pair, precision, law) } else { adhering(pair, law) };
             })*
             $(if let Some(law) = $rare::of(pair) { return adhering(pair, law); })*
             Box::new(())
@@ -53,8 +54,8 @@ fn in_every_precision<N: Effect>(pair: &Pair, precision: Precision, law: N) -> B
 fn precise<E: Effect>(precision: Precision, effects: E) -> Box<dyn Kernel> {
     match precision {
         Precision::Double => Box::new(effects),
-        Precision::Mixed => Box::new(Narrow::<E, f64>::new(effects)),
-        Precision::Single => Box::new(Narrow::<E, f32>::new(effects)),
+        Precision::Mixed => Box::new(Narrow(effects, PhantomData::<f64>)),
+        Precision::Single => Box::new(Narrow(effects, PhantomData::<f32>)),
     }
 }
 
@@ -93,7 +94,7 @@ mod tests {
         let elastic = Elastic::of(&material, &material);
         assert!(laws().len() > 70, "{}", laws().len());
         for law in laws() {
-            let pair = Pair { law: &law, elastic, ease: Compliance { bodies: 1.0, springs: 1.0 } };
+            let pair = Pair { law: &law, elastic, compliance: Compliance { clumps: 1.0, springs: 1.0 } };
             let kernel = compose(&pair, Precision::Double);
             let flips = active(&law).flat_map(|d| d.history);
             let flips = flips.flat_map(|field| vec![field.kind == Kind::Vector; field.kind.columns()]);

@@ -3,81 +3,89 @@
 //! Every function is inlined into the loop that is compiled for wide registers, always; a closure or a function that is not calls out for each
 //! operation and takes several times as long.
 
+use super::sums::Pairs;
 use super::{Batch, LEDGER, LOST, StepInputs};
-use crate::effects::{Contact, Effect, Load, Memory};
-use crate::simd::number::{COUPLE, FORCE, FORCE_AND_MOMENT, Number};
-use crate::simd::{BLOCK, Indices, Lane, Row, Row4, V, fetch};
+use crate::effects::{Contact, Effect, History, Response};
+use crate::simd::{BLOCK, FORCE, FORCE_AND_MOMENT, Indices, Lane, Number, Row, Row4, TORQUE, V, fetch};
 
-/// Blocks between one whose rows are asked for and the one that is computed; chosen on the bench pile.
+/// Blocks between the one whose rows are prefetched and the one that is computed; chosen on the bench pile.
 const AHEAD: usize = 4;
 
 #[inline(always)]
 pub fn blocks<R: Lane, E: Effect, T: Number, const KEEP: bool>(
     e: &E,
-    common: StepInputs,
-    mut task: Batch,
+    step: StepInputs,
+    mut batch: Batch,
 ) -> bool {
     let mut too_deep = false;
-    let mut hand: WrenchBuffer<T> = WrenchBuffer {
-        loads: [T::default(); BLOCK * FORCE_AND_MOMENT],
-        torques: [T::default(); BLOCK * COUPLE],
+    let mut buffer: WrenchBuffer<T> = WrenchBuffer {
+        forces: [T::default(); BLOCK * FORCE_AND_MOMENT],
+        torques: [T::default(); BLOCK * TORQUE],
     };
-    for block in 0..task.active.len() {
-        // Rows of partners come from far: they are asked for while other blocks are computed.
+    for block in 0..batch.active.len() {
+        // Rows of partners come from far: they are prefetched while other blocks are computed.
         let soon = (block + AHEAD) * BLOCK;
-        for &j in task.j.get(soon..soon + BLOCK).unwrap_or_default() {
-            fetch(task.partners.0, j as usize);
+        for &j in batch.j.get(soon..soon + BLOCK).unwrap_or_default() {
+            fetch(batch.partners.0, j as usize);
             if E::ROTATES {
-                fetch(task.partners.1, j as usize);
+                fetch(batch.partners.1, j as usize);
             }
         }
-        let was_active = task.active[block];
+        let was_active = batch.active[block];
         let mut active = false;
         for lane in (0..BLOCK).step_by(R::WIDTH) {
             let (touches, deep) =
-                lanes::<R, E, T, KEEP>(e, &common, &mut task, &mut hand, (block, lane, was_active));
+                lanes::<R, E, T, KEEP>(e, &step, &mut batch, &mut buffer, Group { block, lane, was_active });
             active |= touches;
             too_deep |= deep;
         }
-        task.active[block] = active;
+        batch.active[block] = active;
     }
     too_deep
+}
+
+/// `WIDTH` contacts of a block, from `lane` on.
+struct Group {
+    block: usize,
+    lane: usize,
+    /// Whether the block was active before.
+    was_active: bool,
 }
 
 /// `WIDTH` contacts; whether any touches, and whether any overlap passes the limit.
 #[inline(always)]
 fn lanes<R: Lane, E: Effect, T: Number, const KEEP: bool>(
     effect: &E,
-    common: &StepInputs,
-    task: &mut Batch,
-    hand: &mut WrenchBuffer<T>,
-    (block, lane, was_active): (usize, usize, bool),
+    step: &StepInputs,
+    batch: &mut Batch,
+    buffer: &mut WrenchBuffer<T>,
+    Group { block, lane, was_active }: Group,
 ) -> (bool, bool) {
     let at = block * BLOCK + lane;
-    let ends = gather::<R, E>(common, task, at);
+    let ends = gather::<R, E>(step, batch, at);
     let mut touching = ends.gap.gt(R::splat(0.0));
     if !R::any(touching) && !was_active {
         return (false, false);
     }
-    let mut found = geometry::<R, E>(common, task, ends);
-    let words = E::MEMORY.div_ceil(T::IN_A_WORD) * BLOCK;
-    let stored = T::of_mut(&mut task.memory[block * words..(block + 1) * words]);
-    let mut memory = <E::Memory<R> as Memory<R>>::load(stored, lane);
+    let mut found = geometry::<R, E>(step, batch, ends);
+    let words = E::HISTORY.div_ceil(T::IN_A_WORD) * BLOCK;
+    let stored = T::of_mut(&mut batch.history[block * words..(block + 1) * words]);
+    let mut history = <E::History<R> as History<R>>::load(stored, lane);
     let mut was_held = R::splat(0.0);
     if E::REACHES {
-        was_held = effect.reach(found.contact.radius, &memory);
+        was_held = effect.reach(found.contact.radius, &history);
         touching = R::select(touching, found.reach, found.contact.overlap + was_held).gt(R::splat(0.0));
     }
     found.contact.touching = touching;
-    let mut load = Load::zero();
-    effect.apply(&found.contact, R::splat(common.dt), &mut memory, &mut load);
-    memory.keep(touching).store(stored, lane);
-    let force = scatter::<R, E, T>(common, task, hand, at, &found, &load);
+    let mut response = Response::zero();
+    effect.apply(&found.contact, R::splat(step.dt), &mut history, &mut response);
+    history.keep(touching).store(stored, lane);
+    let force = scatter::<R, E, T>(step, batch, buffer, at, &found, &response);
     if KEEP {
-        let row = ledger_row::<R, E>(common, &found, &load, force, was_held);
-        R::store_rows(row, &mut task.ledger[at * LEDGER..]);
+        let row = ledger_row::<R, E>(step, &found, &response, force, was_held);
+        R::store_rows(row, &mut batch.ledger[at * LEDGER..]);
     }
-    let deep = R::both(touching, found.contact.overlap.gt(found.smaller * R::splat(common.overlap_limit)));
+    let deep = R::both(touching, found.contact.overlap.gt(found.smaller * R::splat(step.overlap_limit)));
     // A contact that has just broken stays in the ledger for one step.
     let active = R::any(touching) || (E::REACHES && KEEP && R::any(was_held.gt(R::splat(0.0))));
     (active, R::any(deep))
@@ -103,14 +111,14 @@ struct Ends<'a, R: Lane> {
 
 /// Reads the rows of both ends.
 #[inline(always)]
-fn gather<'a, R: Lane, E: Effect>(common: &StepInputs, task: &Batch<'a>, at: usize) -> Ends<'a, R> {
-    let (i, j) = (&task.i[at..at + R::WIDTH], &task.j[at..at + R::WIDTH]);
+fn gather<'a, R: Lane, E: Effect>(step: &StepInputs, batch: &Batch<'a>, at: usize) -> Ends<'a, R> {
+    let (i, j) = (&batch.i[at..at + R::WIDTH], &batch.j[at..at + R::WIDTH]);
     let rows =
         |table: (&[Row], &[Row4])| if E::ROTATES { table.0.len().min(table.1.len()) } else { table.0.len() };
     let (i, j) =
-        (Indices::within(i, rows((common.rows, common.spins))), Indices::within(j, rows(task.partners)));
-    let [xi, yi, zi, ri, ui, vi, wi, inverse_mi] = R::Wide::rows(common.rows, i);
-    let [xj, yj, zj, rj, uj, vj, wj, inverse_mj] = R::Wide::rows(task.partners.0, j);
+        (Indices::within(i, rows((step.rows, step.spins))), Indices::within(j, rows(batch.partners)));
+    let [xi, yi, zi, ri, ui, vi, wi, inverse_mi] = R::Wide::rows(step.rows, i);
+    let [xj, yj, zj, rj, uj, vj, wj, inverse_mj] = R::Wide::rows(batch.partners.0, j);
     let (apart, reach) = (V::new(xi - xj, yi - yj, zi - zj), ri + rj);
     let square = apart.dot(apart);
     let gap = R::narrow(reach * reach - square);
@@ -130,12 +138,12 @@ struct Geometry<R: Lane> {
     /// Velocity of j's surface at the contact [m/s].
     surface: V<R>,
     /// ω_j [rad/s].
-    turning: V<R>,
+    spin_j: V<R>,
 }
 
 /// Normal, overlap, and how the surfaces move past each other.
 #[inline(always)]
-fn geometry<R: Lane, E: Effect>(common: &StepInputs, task: &Batch, ends: Ends<R>) -> Geometry<R> {
+fn geometry<R: Lane, E: Effect>(step: &StepInputs, batch: &Batch, ends: Ends<R>) -> Geometry<R> {
     let zero = R::splat(0.0);
     let [ri, rj] = ends.radii;
     let (apart, reach, distance) = (V::narrow(ends.apart), R::narrow(ri + rj), R::narrow(ends.square).sqrt());
@@ -155,15 +163,15 @@ fn geometry<R: Lane, E: Effect>(common: &StepInputs, task: &Batch, ends: Ends<R>
     let along = velocity.dot(normal);
     let mut slip = velocity - normal.scale(along);
     let (mut spin, mut turn) = (V::zero(), zero);
-    let (mut surface, mut turning) = (V::narrow(ends.velocities[1]), V::zero());
+    let (mut surface, mut spin_j) = (V::narrow(ends.velocities[1]), V::zero());
     if E::ROTATES {
-        let [axi, ayi, azi, _] = R::rows4(common.spins, ends.i);
-        let [axj, ayj, azj, _] = R::rows4(task.partners.1, ends.j);
+        let [axi, ayi, azi, _] = R::rows4(step.spins, ends.i);
+        let [axj, ayj, azj, _] = R::rows4(batch.partners.1, ends.j);
         let (si, sj) = (V::new(axi, ayi, azi), V::new(axj, ayj, azj));
         slip = slip - (si.scale(arm_i) + sj.scale(arm_j)).cross(normal);
         surface = surface + sj.scale(arm_j).cross(normal);
-        (spin, turning) = (si - sj, sj);
-        turn = (si + sj).dot(normal) * R::splat(0.5 * common.dt);
+        (spin, spin_j) = (si - sj, sj);
+        turn = (si + sj).dot(normal) * R::splat(0.5 * step.dt);
     }
     let contact = Contact {
         touching: ends.gap.gt(zero),
@@ -178,38 +186,38 @@ fn geometry<R: Lane, E: Effect>(common: &StepInputs, task: &Batch, ends: Ends<R>
         spin,
         turn,
     };
-    Geometry { contact, reach, smaller: R::select(round, ri.min(rj), ri), share, surface, turning }
+    Geometry { contact, reach, smaller: R::select(round, ri.min(rj), ri), share, surface, spin_j }
 }
 
 /// Adds force, moment and torque to both ends, and keeps them where they are wanted; the force [N].
 #[inline(always)]
 fn scatter<R: Lane, E: Effect, T: Number>(
-    common: &StepInputs,
-    task: &mut Batch,
-    hand: &mut WrenchBuffer<T>,
+    step: &StepInputs,
+    batch: &mut Batch,
+    buffer: &mut WrenchBuffer<T>,
     at: usize,
     found: &Geometry<R>,
-    load: &Load<R>,
+    response: &Response<R>,
 ) -> V<R> {
     let (zero, Contact { touching, normal, .. }) = (R::splat(0.0), found.contact);
-    let force = V::select(touching, normal.scale(load.normal) + load.tangential, V::zero());
-    if E::COUPLES {
-        let c = V::select(touching, load.torque, V::zero());
-        T::store_rows4([c.x, c.y, c.z, zero], &mut hand.torques);
+    let force = V::select(touching, normal.scale(response.normal) + response.tangential, V::zero());
+    if E::TORQUES {
+        let c = V::select(touching, response.torque, V::zero());
+        T::store_rows4([c.x, c.y, c.z, zero], &mut buffer.torques);
     }
     if E::ROTATES {
         // Of a particle of radius −1: each takes it times minus its own.
-        let moment = V::select(touching, normal.cross(load.tangential).scale(found.share), V::zero());
+        let moment = V::select(touching, normal.cross(response.tangential).scale(found.share), V::zero());
         let row = [force.x, force.y, force.z, zero, moment.x, moment.y, moment.z, zero];
-        T::store_rows(row, &mut hand.loads);
-        hand.over::<FORCE_AND_MOMENT>(task, at, R::WIDTH, E::COUPLES);
-    } else if !common.form.rotates {
-        T::store_rows4([force.x, force.y, force.z, zero], &mut hand.loads);
-        hand.over::<FORCE>(task, at, R::WIDTH, false);
+        T::store_rows(row, &mut buffer.forces);
+        buffer.scatter::<FORCE_AND_MOMENT>(batch, at, R::WIDTH, E::TORQUES);
+    } else if !step.layout.rotates {
+        T::store_rows4([force.x, force.y, force.z, zero], &mut buffer.forces);
+        buffer.scatter::<FORCE>(batch, at, R::WIDTH, false);
     } else {
         let row = [force.x, force.y, force.z, zero, zero, zero, zero, zero];
-        T::store_rows(row, &mut hand.loads);
-        hand.over::<FORCE_AND_MOMENT>(task, at, R::WIDTH, false);
+        T::store_rows(row, &mut buffer.forces);
+        buffer.scatter::<FORCE_AND_MOMENT>(batch, at, R::WIDTH, false);
     }
     force
 }
@@ -217,53 +225,53 @@ fn scatter<R: Lane, E: Effect, T: Number>(
 /// Energies of a contact in the step: see [`LEDGER`].
 #[inline(always)]
 fn ledger_row<R: Lane, E: Effect>(
-    common: &StepInputs,
+    step: &StepInputs,
     found: &Geometry<R>,
-    load: &Load<R>,
+    response: &Response<R>,
     force: V<R>,
     was_held: R,
 ) -> [R; LEDGER] {
     let (zero, touching) = (R::splat(0.0), found.contact.touching);
-    let [a, b, c, d] = load.dissipated;
+    let [a, b, c, d] = response.dissipated;
     // Work of j's surface on i; only walls' is added up.
-    let surface = (found.surface.dot(force) + load.torque.dot(found.turning)) * R::splat(common.dt);
+    let surface = (found.surface.dot(force) + response.torque.dot(found.spin_j)) * R::splat(step.dt);
     let mut row = [
-        R::select(touching, load.elastic, zero),
+        R::select(touching, response.elastic, zero),
         R::select(touching, a, zero),
         R::select(touching, b, zero),
         R::select(touching, c, zero),
         R::select(touching, d, zero),
         R::select(touching, surface, zero),
-        R::select(touching, load.lost, zero),
+        R::select(touching, response.lost, zero),
         zero,
     ];
     if E::REACHES {
         // What a contact holds when it breaks is lost.
-        let broken = R::select(was_held.gt(zero), load.elastic, zero);
+        let broken = R::select(was_held.gt(zero), response.elastic, zero);
         row[LOST] = R::select(touching, row[LOST], broken);
     }
     row
 }
 
-/// What some contacts have just been found to do.
+/// Wrenches of some contacts, as they have just been computed.
 #[repr(align(64))]
 struct WrenchBuffer<T> {
-    loads: [T; BLOCK * FORCE_AND_MOMENT],
-    torques: [T; BLOCK * COUPLE],
+    forces: [T; BLOCK * FORCE_AND_MOMENT],
+    torques: [T; BLOCK * TORQUE],
 }
 
 impl<T: Number> WrenchBuffer<T> {
     /// Adds the wrenches (of `N` numbers) of `width` contacts from slot `at` on to their particles, and copies them where they are kept.
     #[inline(always)]
-    fn over<const N: usize>(&self, task: &mut Batch, at: usize, width: usize, torques: bool) {
-        let pairs = (&task.i[at..at + width], &task.j[at..at + width]);
-        let loads = &self.loads[..width * N];
-        let torques = if torques { &self.torques[..width * COUPLE] } else { &[] };
-        task.sums.take::<T, N>(pairs, task.both, (loads, torques));
-        keep(task.kept.0, at * N, loads);
-        keep(task.kept.1, at * COUPLE, torques);
-        keep(task.each.0, at * N, loads);
-        keep(task.each.1, at * COUPLE, torques);
+    fn scatter<const N: usize>(&self, batch: &mut Batch, at: usize, width: usize, torques: bool) {
+        let pairs = Pairs { i: &batch.i[at..at + width], j: &batch.j[at..at + width], both: batch.both };
+        let forces = &self.forces[..width * N];
+        let torques = if torques { &self.torques[..width * TORQUE] } else { &[] };
+        batch.sums.accumulate::<T, N>(pairs, forces, torques);
+        keep(batch.kept.forces, at * N, forces);
+        keep(batch.kept.torques, at * TORQUE, torques);
+        keep(batch.each.forces, at * N, forces);
+        keep(batch.each.torques, at * TORQUE, torques);
     }
 }
 

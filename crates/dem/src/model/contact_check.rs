@@ -1,13 +1,14 @@
 //! Laws of contact that are refused before a run starts.
 
 use crate::effects::{Contradiction, Description, Elastic, Key as NumberKey, Slot, active};
-use crate::model::check::within;
-use crate::model::error::SetupError;
+use crate::model::in_range::out_of_range;
 use crate::model::limit::{normal, radii_by_material};
+use crate::model::quantity::material_names;
+use crate::model::{Allowed, Check, SetupError, Subject};
 use crate::setup::{ContactLaw, Setup};
-use crate::simd::number::Precision;
+use crate::simd::Precision;
 
-/// Radius below which the square of a couple is too small for single precision [m].
+/// Radius below which the square of a torque is too small for single precision [m].
 const SMALLEST_NARROW: f64 = 1e-5;
 
 /// Rare effects are compiled for double precision only.
@@ -17,39 +18,33 @@ pub fn precision(setup: &Setup) -> Result<(), SetupError> {
     }
     let smallest = radii_by_material(setup).iter().flatten().map(|r| r.0).fold(f64::INFINITY, f64::min);
     let fine = smallest >= SMALLEST_NARROW;
-    within(
-        format!("precision \"{}\": radius", setup.precision.name()),
-        smallest,
-        "m",
-        fine,
-        "radius ≥ 1e-5 (leave the key out for double precision)",
-    )?;
+    let check = Check(|| Subject::Precision(setup.precision));
+    check.within("radius", smallest, "m", fine, format!("radius ≥ {SMALLEST_NARROW:e}"))?;
     let rare = |c: &&ContactLaw| active(c).any(|d| !d.every_precision);
     setup.contacts.iter().find(rare).map_or(Ok(()), |c| {
-        let name = |m: u16| setup.materials[m as usize].name.as_str();
-        let names: Vec<&str> = active(c).filter(|d| !d.every_precision).map(|d| d.name).collect();
-        let what = format!("{} ({}–{})", names.join(", "), name(c.between.0), name(c.between.1));
-        Err(SetupError::PrecisionWithout { precision: setup.precision.name(), what })
+        let effects = active(c).filter(|d| !d.every_precision).map(|d| d.name).collect();
+        let between = material_names(setup, c.between);
+        Err(SetupError::PrecisionWithout { precision: setup.precision, effects, between })
     })
 }
 
 pub fn contacts(setup: &Setup) -> Result<(), SetupError> {
     for c in &setup.contacts {
-        let name = |m: u16| setup.materials[m as usize].name.as_str();
-        let at = format!("contact {}–{}", name(c.between.0), name(c.between.1));
-        effects(&at, c)?;
-        bound_grains(&at, c, setup)?;
+        let between = material_names(setup, c.between);
+        effects(&between, c)?;
+        bound_grains(&between, c, setup)?;
     }
     Ok(())
 }
 
 /// Every number that the effects of a law take, and none that they do not.
-fn effects(at: &str, law: &ContactLaw) -> Result<(), SetupError> {
+fn effects(between: &[String; 2], law: &ContactLaw) -> Result<(), SetupError> {
     let asked: Vec<&Description> = active(law).collect();
     let has = |slot: Slot| asked.iter().any(|d| d.slot == slot);
     let value = |key: &str| law.number(key).unwrap_or(f64::NAN);
-    let refuse = |key: &str, unit, range: String| {
-        Err(SetupError::Range { what: format!("{at}: {key}"), value: value(key), unit, range })
+    let refuse = |key: &'static str, unit, values: String| {
+        let quantity = Subject::Contact(Some(between.clone())).quantity(key);
+        Err(out_of_range(quantity, value(key), unit, values))
     };
     if !has(Slot::Normal) {
         return refuse("law", "", "the normal laws that there are".to_owned());
@@ -79,7 +74,7 @@ fn effects(at: &str, law: &ContactLaw) -> Result<(), SetupError> {
 }
 
 /// Cohesion that would pull grains into each other, beyond the guard, without any load.
-fn bound_grains(at: &str, c: &ContactLaw, setup: &Setup) -> Result<(), SetupError> {
+fn bound_grains(between: &[String; 2], c: &ContactLaw, setup: &Setup) -> Result<(), SetupError> {
     let sizes = radii_by_material(setup);
     let both = [c.between.0, c.between.1].map(|m| sizes[m as usize]);
     let Some(smallest) = both.iter().flatten().map(|r| r.0).reduce(f64::min) else { return Ok(()) };
@@ -92,6 +87,7 @@ fn bound_grains(at: &str, c: &ContactLaw, setup: &Setup) -> Result<(), SetupErro
         .flat_map(|d| d.keys)
         .find(|key| key.unit.starts_with('J'));
     let (key, unit) = pulls.map_or(("law", ""), |key| (key.name, key.unit));
-    let range = "what the stiffness bears: grains without load would overlap by more than guards.overlap";
-    within(format!("{at}: {key}"), c.number(key).unwrap_or(0.0), unit, share < setup.guards.overlap, range)
+    let check = Check(|| Subject::Contact(Some(between.clone())));
+    let value = c.number(key).unwrap_or(0.0);
+    check.within(key, value, unit, share < setup.guards.overlap, Allowed::BelowOverlapGuard)
 }

@@ -1,13 +1,16 @@
-//! What the engine refuses, and what stops it.
+//! What the engine refuses: each error has its numbers as fields, and says what is wrong; what to do about it is up to the caller.
 
+use crate::model::{OutOfRange, Quantity, StepCause};
+use crate::setup::Precision;
 use crate::simd::Width;
+use std::fmt::{Display, Formatter};
 use thiserror::Error;
 
 /// Why a setup cannot run.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SetupError {
-    /// Two materials can meet and have no law.
-    #[error("contact: no law between '{a}' and '{b}': add a [[contact]] with between = [\"{a}\", \"{b}\"]")]
+    /// Two materials can meet and have no contact law.
+    #[error("no contact law between materials '{a}' and '{b}'")]
     NoContact {
         /// One material.
         a: String,
@@ -15,78 +18,61 @@ pub enum SetupError {
         b: String,
     },
     /// The time step is not stable.
-    #[error(
-        "time.dt: {dt:.4e} s is above the critical step {critical:.4e} s of {pair}: use dt = \"auto\", a smaller dt, or softer materials"
-    )]
+    #[error("time step {dt:.4e} s is above the critical step {critical:.4e} s of {cause}")]
     StepTooLarge {
-        /// Asked for [s].
+        /// Time step [s].
         dt: f64,
-        /// Critical [s].
+        /// Critical step [s].
         critical: f64,
         /// What sets it.
-        pair: String,
+        cause: Box<StepCause>,
     },
-    /// No contact can occur, so no step follows.
-    #[error("time.dt: \"auto\" needs a pair that can touch, and there is none: give dt in seconds")]
+    /// The time step is to be a share of the critical step, and no contact can occur.
+    #[error("no contact can occur, so there is no critical time step")]
     NoStep,
     /// A quantity is outside its range.
-    #[error("{what}: {value} {unit} is outside {range}")]
-    Range {
-        /// Where and what.
-        what: String,
-        /// Its value.
-        value: f64,
-        /// Its unit.
-        unit: &'static str,
-        /// What is allowed.
-        range: String,
-    },
+    #[error("{0}")]
+    OutOfRange(Box<OutOfRange>),
     /// Two particles of one id.
-    #[error("particle id {0} is used twice: give each particle its own")]
-    IdTwice(u32),
-    /// An entry whose id is in use.
-    #[error(
-        "inlet: particle id {id}, due at {time} s, is in the run already: give the particles of this scene other ids (first_id), or the \
-         replayed ones (stage-replay --first-id)"
-    )]
-    EntryTwice {
+    #[error("particle id {0} is used twice")]
+    DuplicateId(u32),
+    /// A particle that enters with an id that is in use.
+    #[error("particle id {id}, due at {time} s, is in the run already")]
+    DuplicateEntryId {
         /// The id.
         id: u32,
         /// When it is due [s].
         time: f64,
     },
     /// A zone that ends before both ends of a bond are past its plane.
-    #[error("zone of {length:.4e} m is not longer than a bond may be at rest, {longest:.4e} m: use at least {:.4e} m, or a smaller gap in [[bond]]", 1.2 * longest)]
+    #[error("zone of {length:.4e} m is not longer than a bond may be at rest, {longest:.4e} m")]
     ZoneShorterThanBond {
-        /// L [m].
+        /// Length of the zone [m].
         length: f64,
-        /// Length of a bond at rest [m].
+        /// Largest length of a bond at rest [m].
         longest: f64,
     },
     /// A zone that lets particles act across it.
-    #[error("zone of {length:.4e} m is not longer than the largest particle diameter {diameter:.4e} m: use at least {:.4e} m", 1.2 * diameter)]
+    #[error("zone of {length:.4e} m is not longer than the largest particle diameter {diameter:.4e} m")]
     ZoneTooShort {
-        /// Its length [m].
+        /// Length of the zone [m].
         length: f64,
         /// Largest diameter [m].
         diameter: f64,
     },
     /// A periodic box in which a particle meets itself.
-    #[error(
-        "domain: period of {period:.4e} m along {axis} is too small: particles need at least {least:.4e} m"
-    )]
+    #[error("period of {period:.4e} m along {axis} is too small: particles need at least {least:.4e} m")]
     PeriodTooSmall {
         /// x, y or z.
         axis: char,
         /// The period [m].
         period: f64,
-        /// Least [m].
+        /// Least period [m].
         least: f64,
     },
     /// A skin with which a particle is listed with itself.
     #[error(
-        "neighbours.skin: {skin:.4e} m and the largest diameter are more than the period of {period:.4e} m along {axis}: use at most {most:.4e} m, \
-         or leave the key out"
+        "skin {skin:.4e} m and the largest diameter are more than the period of {period:.4e} m along {axis}"
     )]
     PeriodBelowSkin {
         /// x, y or z.
@@ -99,22 +85,20 @@ pub enum SetupError {
         most: f64,
     },
     /// Lanes that this machine does not have.
-    #[error("lanes: this machine cannot compute with {0:?}: use one of Width::available()")]
+    #[error("this machine cannot compute with {0:?}")]
     NoWidth(Width),
     /// An entry out of order or later than it is due.
-    #[error("inlet: particle {id} is due at {time} s, before {now} s: crossings must come in time order")]
+    #[error("particle {id} is due at {time} s, before {now} s")]
     EntryLate {
         /// Its id.
         id: u32,
-        /// Its time [s].
+        /// When it is due [s].
         time: f64,
-        /// Now, or the time of the entry before [s].
+        /// Now, or when the entry before is due [s].
         now: f64,
     },
-    /// A particle that no plane can hold.
-    #[error(
-        "particle {id} starts {depth:.4e} m behind wall '{wall}': move it to the side that the plane's normal points to"
-    )]
+    /// A particle on the wrong side of a plane.
+    #[error("particle {id} starts {depth:.4e} m behind wall '{wall}'")]
     BehindPlane {
         /// Its id.
         id: u32,
@@ -123,50 +107,44 @@ pub enum SetupError {
         /// The wall.
         wall: String,
     },
-    /// A storage plane in a scene with clumps.
-    #[error(
-        "outlet: of clumps (the scene has '{0}') only centres are tested: use test = \"centre\" in [[outlet]]"
-    )]
+    /// A storage plane that tests the lowest point, in a setup with clumps of this shape.
+    #[error("a storage plane tests only the centres of clumps (here '{0}')")]
     ClumpOutlet(String),
-    /// An effect that is computed in double precision only.
-    #[error(
-        "precision: \"{precision}\" has no {what}: leave the key out for double precision, or that effect"
-    )]
+    /// Effects that are computed in double precision only.
+    #[error("precision {} has no {}", precision.name(), effects_between(effects, between))]
     PrecisionWithout {
-        /// The precision asked for.
-        precision: &'static str,
-        /// The effect, and between what.
-        what: String,
+        /// The precision.
+        precision: Precision,
+        /// The effects.
+        effects: Vec<&'static str>,
+        /// The materials of their contact law.
+        between: [String; 2],
     },
-    /// Particles that the fluid does not act on.
-    #[error("drag: not available yet with [sleep]: leave out one of them")]
+    /// Drag and sleep in one setup.
+    #[error("drag does not act on sleeping particles yet")]
     DragAndSleep,
-    /// What bonds are not followed through.
-    #[error("bond: not available yet with {0}: leave out one of them")]
-    BondWith(&'static str),
-    /// A bond that has no direction.
-    #[error("bond: particles {} and {} have one centre: move one of them", ids[0], ids[1])]
-    BondOfNoLength {
+    /// Bonds in one setup with what they do not follow.
+    #[error("bonds cannot be combined with {0} yet")]
+    BondWith(BondConflict),
+    /// A bond without a direction.
+    #[error("particles {} and {} have the same centre", ids[0], ids[1])]
+    BondOfZeroLength {
         /// Their ids.
         ids: [u32; 2],
     },
-    /// A bond that joins no two particles.
-    #[error(
-        "bond {between}: no two particles of these materials are within a gap of {gap:.4e} m at the start: give a larger gap, or leave it out"
-    )]
-    BondOfNobody {
-        /// Materials.
-        between: String,
+    /// Bonds of two materials that join no particles.
+    #[error("bond {}–{}: no two particles of these materials are within a gap of {gap:.4e} m at the start", between[0], between[1])]
+    BondJoinsNothing {
+        /// The materials.
+        between: [String; 2],
         /// Gap [m].
         gap: f64,
     },
-    /// Sleep in a scene with clumps.
-    #[error("sleep: clumps (the scene has '{0}') do not sleep: leave out [sleep], or use spheres")]
+    /// Sleep in a setup with clumps of this shape.
+    #[error("clumps (here '{0}') cannot sleep")]
     ClumpSleep(String),
-    /// An entry that no plane can hold.
-    #[error(
-        "inlet: particle {id} would become free {depth:.4e} m behind wall '{wall}': move the inlet's plane or the wall, or turn the wall's normal round"
-    )]
+    /// A particle that enters and becomes free on the wrong side of a plane.
+    #[error("particle {id} would become free {depth:.4e} m behind wall '{wall}'")]
     EntryBehindPlane {
         /// Its id.
         id: u32,
@@ -175,39 +153,94 @@ pub enum SetupError {
         /// The wall.
         wall: String,
     },
-    /// A place so far away that its last digit is coarse.
+    /// A position so far away that its last digit is coarse.
     #[error(
-        "{what}: {far:.4e} m from the origin, its position is known to {:.1e} of its radius {radius:.4e} m, and a millionth is needed: shift the scene to the origin",
+        "{quantity}: {far:.4e} m from the origin, its position is known to {:.1e} of its radius {radius:.4e} m, and a millionth is needed",
         far * f64::EPSILON / radius
     )]
     TooFar {
-        /// What.
-        what: String,
+        /// Which position.
+        quantity: Box<Quantity>,
         /// Its largest coordinate [m].
         far: f64,
-        /// Its radius [m].
+        /// Radius of the sphere [m].
         radius: f64,
     },
-    /// A wall that a particle cannot see coming.
-    #[error("wall '{wall}': {speed:.4e} m/s is {:.1} % of the smallest radius in a step of {dt:.4e} s (limit {:.1} %): shorten dt, or slow the wall", 100.0 * share, 100.0 * limit)]
+    /// A wall that moves through particles within a few steps.
+    #[error("wall '{wall}': {speed:.4e} m/s is {:.1} % of the smallest radius in a step of {dt:.4e} s (limit {:.1} %)", 100.0 * share, 100.0 * limit)]
     WallTooFast {
         /// The wall.
         wall: String,
         /// Its largest speed [m/s].
         speed: f64,
-        /// Step [s].
+        /// Time step [s].
         dt: f64,
-        /// Way in a step over the smallest radius [–].
+        /// Distance in a step over the smallest radius [–].
         share: f64,
         /// Allowed [–].
         limit: f64,
     },
-    /// A rotating plane, whose speed has no bound.
-    #[error(
-        "wall '{0}': an unbounded plane can turn about its own normal only: use a mesh or wall spheres, or rotate.about along the normal"
-    )]
-    TurningPlane(String),
+    /// A plane that rotates out of itself: the speed of its far points has no bound.
+    #[error("wall '{0}': an unbounded plane can turn about its own normal only")]
+    RotatingPlane(String),
     /// A saved state of another setup.
-    #[error("resume: the saved state does not fit this scene: {0}")]
-    OtherState(String),
+    #[error("the saved state does not fit the setup: {0}")]
+    OtherState(StateMismatch),
+}
+
+/// Effects with the materials of their contact law: "twisting_resistance (glass–steel)".
+fn effects_between(effects: &[&str], [a, b]: &[String; 2]) -> String {
+    format!("{} ({a}–{b})", effects.join(", "))
+}
+
+/// What bonds do not follow yet.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BondConflict {
+    /// Rigid clumps.
+    Clumps,
+    /// Particles that sleep.
+    Sleep,
+}
+
+impl Display for BondConflict {
+    fn fmt(&self, f: &mut Formatter) -> std::fmt::Result {
+        f.write_str(match self {
+            BondConflict::Clumps => "clumps",
+            BondConflict::Sleep => "sleep",
+        })
+    }
+}
+
+/// How a saved state differs from a setup.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum StateMismatch {
+    /// A time step that is none.
+    #[error("time step {0} s")]
+    InvalidStep(f64),
+    /// Another time step.
+    #[error("time step {asked} s, saved {saved} s")]
+    Step {
+        /// Of the setup [s].
+        asked: f64,
+        /// Of the saved state [s].
+        saved: f64,
+    },
+    /// Sleep.
+    #[error("one has particles that sleep and the other has not")]
+    Sleep,
+    /// Rotation.
+    #[error("one has rotation and the other has not")]
+    Rotation,
+    /// Servos.
+    #[error("one has walls that follow a force and the other has not")]
+    Servos,
+    /// The number of bonds.
+    #[error("another number of bonds")]
+    Bonds,
+    /// The number of contacts.
+    #[error("another number of contacts")]
+    Contacts,
+    /// The number of wrenches.
+    #[error("another number of wrenches")]
+    Wrenches,
 }

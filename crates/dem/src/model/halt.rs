@@ -1,14 +1,16 @@
-//! Why a run stops.
+//! Why a run stops: each reason has its numbers as fields, and says what happened; what to do about it is up to the caller.
 
+use geom::Vec3;
+use std::fmt::{Display, Formatter};
 use thiserror::Error;
 
 /// Why a run was stopped.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Halt {
-    /// Two bodies overlap too far.
+    /// A particle overlaps another or a wall too far.
     #[error(
-        "t = {time:.6e} s: particle {id} at ({x:.4e}, {y:.4e}, {z:.4e}) m overlaps {partner} by {overlap:.3e} m, {:.1} % of the smaller radius (limit {:.1} %): stiffen the material, shorten dt, or raise guards.overlap",
-        100.0 * share, 100.0 * limit
+        "t = {time:.6e} s: particle {id} at {} overlaps {partner} by {overlap:.3e} m, {:.1} % of the smaller radius (limit {:.1} %)",
+        shown(position), 100.0 * share, 100.0 * limit
     )]
     Overlap {
         /// When [s].
@@ -16,13 +18,9 @@ pub enum Halt {
         /// Which particle.
         id: u32,
         /// What it overlaps.
-        partner: String,
+        partner: Partner,
         /// Where [m].
-        x: f64,
-        /// Where [m].
-        y: f64,
-        /// Where [m].
-        z: f64,
+        position: Vec3,
         /// By how much [m].
         overlap: f64,
         /// Over the smaller radius [–].
@@ -32,10 +30,9 @@ pub enum Halt {
     },
     /// A particle comes in on top of another.
     #[error(
-        "t = {time:.6e} s: particle {id} comes in by inlet {inlet} at ({x:.4e}, {y:.4e}, {z:.4e}) m on top of {partner}: they overlap by \
-         {overlap:.3e} m, {:.1} % of the smaller radius (limit {:.1} %): keep its zone free at the start, let slow grains start farther \
-         back (stage-replay --ahead), cut where nothing piles up to the plane, or raise guards.overlap",
-        100.0 * share, 100.0 * limit
+        "t = {time:.6e} s: particle {id} comes in by inlet {inlet} at {} on top of {partner}: they overlap by \
+         {overlap:.3e} m, {:.1} % of the smaller radius (limit {:.1} %)",
+        shown(position), 100.0 * share, 100.0 * limit
     )]
     InletOverlap {
         /// When [s].
@@ -45,13 +42,9 @@ pub enum Halt {
         /// Its inlet.
         inlet: u32,
         /// What it overlaps.
-        partner: String,
+        partner: Partner,
         /// Where [m].
-        x: f64,
-        /// Where [m].
-        y: f64,
-        /// Where [m].
-        z: f64,
+        position: Vec3,
         /// By how much [m].
         overlap: f64,
         /// Over the smaller radius [–].
@@ -61,8 +54,8 @@ pub enum Halt {
     },
     /// A particle moved too far in one step, or its state is not a number.
     #[error(
-        "t = {time:.6e} s: particle {id} at ({x:.4e}, {y:.4e}, {z:.4e}) m moves {motion:.3e} m in one step, {:.1} % of its radius (limit {:.1} %): shorten dt or raise guards.motion",
-        100.0 * share, 100.0 * limit
+        "t = {time:.6e} s: particle {id} at {} moves {motion:.3e} m in one step, {:.1} % of its radius (limit {:.1} %)",
+        shown(position), 100.0 * share, 100.0 * limit
     )]
     Motion {
         /// When [s].
@@ -70,11 +63,7 @@ pub enum Halt {
         /// Which particle.
         id: u32,
         /// Where [m].
-        x: f64,
-        /// Where [m].
-        y: f64,
-        /// Where [m].
-        z: f64,
+        position: Vec3,
         /// How far [m].
         motion: f64,
         /// Over its radius [–].
@@ -84,8 +73,8 @@ pub enum Halt {
     },
     /// The state of a particle is not a number any more.
     #[error(
-        "t = {time:.6e} s: particle {id} at ({x:.4e}, {y:.4e}, {z:.4e}) m: the force on it or its motion is beyond all numbers (NaN): \
-         its speed, spin or stiffness is far too large; look at what it started with, or shorten dt"
+        "t = {time:.6e} s: particle {id} at {}: its force or its motion is not finite (NaN)",
+        shown(position)
     )]
     NotANumber {
         /// When [s].
@@ -93,16 +82,12 @@ pub enum Halt {
         /// Which particle.
         id: u32,
         /// Where it was last [m].
-        x: f64,
-        /// Where it was last [m].
-        y: f64,
-        /// Where it was last [m].
-        z: f64,
+        position: Vec3,
     },
-    /// A wall that follows a force has no place any more.
+    /// The position of a wall that follows a force is not a number any more.
     #[error(
-        "t = {time:.6e} s: wall '{wall}', which follows a force, has no place any more (NaN): the force of the particles on it was \
-         {push:e} N; look at the stiffness of its contacts, or shorten dt"
+        "t = {time:.6e} s: wall '{wall}', which follows a force, has a position that is not finite (NaN): the force of the particles on it was \
+         {push:e} N"
     )]
     WallNotANumber {
         /// When [s].
@@ -112,19 +97,18 @@ pub enum Halt {
         /// Along the direction of its servo [N].
         push: f64,
     },
-    /// Contacts or forces on walls are asked for, and the run does not keep them.
-    #[error(
-        "t = {time:.6e} s: the load of each contact is asked for, which this run does not keep: record_loads(true) before its steps"
-    )]
+    /// Contacts or forces on walls are asked for, and the wrench of each contact is not kept
+    /// ([`crate::Setup::record_wrenches`]).
+    #[error("t = {time:.6e} s: the wrench of each contact was not recorded")]
     NotKept {
         /// When [s].
         time: f64,
     },
-    /// A grain has come back through an inlet, against the flow.
+    /// A particle has come back through an inlet, against the flow.
     #[error(
-        "t = {time:.6e} s: particle {id} at ({x:.4e}, {y:.4e}, {z:.4e}) m came in by inlet {inlet} and has gone back through all of its \
-         zone, {behind:.3e} m behind the generation plane, where nothing of the plant is simulated: cut the plant farther upstream, or \
-         set guards.zones = false where grains get there by another way"
+        "t = {time:.6e} s: particle {id} at {} came in by inlet {inlet} and has gone back through all of its \
+         zone, {behind:.3e} m behind the generation plane, where nothing of the plant is simulated",
+        shown(position)
     )]
     CameBack {
         /// When [s].
@@ -134,18 +118,14 @@ pub enum Halt {
         /// Its inlet.
         inlet: u32,
         /// Where [m].
-        x: f64,
-        /// Where [m].
-        y: f64,
-        /// Where [m].
-        z: f64,
+        position: Vec3,
         /// How far behind the generation plane [m].
         behind: f64,
     },
     /// A particle that is to come in is too fast for the time step.
     #[error(
         "t = {time:.6e} s: particle {id} comes in by inlet {inlet} at {speed:.4e} m/s, {:.1} % of its radius in one step of {dt:.3e} s \
-         (limit {:.1} %): shorten dt, or raise guards.motion",
+         (limit {:.1} %)",
         100.0 * share, 100.0 * limit
     )]
     TooFast {
@@ -159,14 +139,14 @@ pub enum Halt {
         speed: f64,
         /// Time step [s].
         dt: f64,
-        /// Way in one step over its radius [–].
+        /// Distance in one step over its radius [–].
         share: f64,
         /// Allowed share [–].
         limit: f64,
     },
     /// Energy came from nowhere.
     #[error(
-        "t = {time:.6e} s: the time step has made {made:.3e} J, {:.2} % of the {of:.3e} J that were exchanged or in motion and springs at most (limit {:.2} %): shorten dt (time.safety) or raise guards.energy",
+        "t = {time:.6e} s: the time step has made {made:.3e} J, {:.2} % of the {of:.3e} J that were exchanged or in motion and springs at most (limit {:.2} %)",
         100.0 * made / of, 100.0 * limit
     )]
     Energy {
@@ -179,4 +159,27 @@ pub enum Halt {
         /// Allowed share [–].
         limit: f64,
     },
+}
+
+/// A position in messages.
+fn shown(position: &Vec3) -> String {
+    format!("({:.4e}, {:.4e}, {:.4e}) m", position.x, position.y, position.z)
+}
+
+/// What a particle overlaps.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Partner {
+    /// A particle, by id.
+    Particle(u32),
+    /// A wall, by name.
+    Wall(String),
+}
+
+impl Display for Partner {
+    fn fmt(&self, f: &mut Formatter) -> std::fmt::Result {
+        match self {
+            Partner::Particle(id) => write!(f, "particle {id}"),
+            Partner::Wall(name) => write!(f, "wall '{name}'"),
+        }
+    }
 }

@@ -11,24 +11,28 @@
 //! ```
 //!
 //! For rigid clumps 1/m* is that of their yielding in a_n and a_t, and b_n = γ √(S m*)/m*, b_t = γ √(k_t m*)/m* have m* of the whole
-//! bodies under the root. Effects that the scene does not ask for count 0. The integrator of [`crate::advance`] turns unstable by an eigenvalue of −1:
+//! clumps under the root. Effects that the scene does not ask for count 0. The integrator of [`crate::passes::integrate`] turns unstable by an eigenvalue of −1:
 //! A Δt²/4 + B Δt = 1, the dashpot seeing the predicted velocity. 4 and 8: twelve contacts, Σ n nᵀ = 4 and Σ (1 − n nᵀ) = 8,
 //! each against a neighbour that moves the other way; 16: a tangential spring that is late by half a step, the most there is, counts
 //! twice. c: as many times twelve small ones touch a large one (3 (1 + q)² together), which may be the lighter; the largest eigenvalue of the whole is
 //! no more than those of both sides together. 20 = 8 × 5/2: all grains turn the same way. 1/√(20 a_t): up to there the
 //! tangential spring, whose rate is predicted as well, takes more energy than it makes without a dashpot. Sliding resists
 //! ω_i + ω_j, rolling and twisting ω_i − ω_j: they add up for a grain beside a wall (w = 1), and only the greater counts between
-//! equals (w = 0). Cohesion only softens a contact, and the constant couple of rolling limits
+//! equals (w = 0). Cohesion only softens a contact, and the constant torque of rolling limits
 //! itself ([`crate::effects::ConstantRolling`]). On a wall of spheres that lie deep within each other N push one way at once, Σ n nᵀ = N
-//! ([`crate::crowd`]): where N > 4, all numbers of contacts count N/4 times.
+//! ([`crate::model::dense_walls`]): where N > 4, all numbers of contacts count N/4 times.
 
 use crate::effects::{
-    ALONG, Elastic, Material, Meeting, NormalLaw, Slot, TURNS, TurningPair, active, damping_ratio,
+    ALONG, Elastic, Material, NormalLaw, OverlapLimit, Slot, TURNS, TurningPair, active, damping_ratio,
     tangential_ratio,
 };
-use crate::model::crowd::{DenseWalls, met, rounding};
-use crate::model::error::SetupError;
-use crate::setup::clumps::ClumpCompliance;
+use crate::model::dense_walls::{met, rounding};
+use crate::model::in_range::indices;
+use crate::model::step_cause::root;
+use crate::model::{
+    CriticalDrag, CriticalGrain, CriticalPair, CriticalPartner, DenseWalls, Limit, SetupError, StepCause,
+};
+use crate::setup::clumps::{SizeClass, widen};
 use crate::setup::{ContactLaw, Drag, Setup, Wall};
 use crate::space::sphere::mass;
 use geom::Vec3;
@@ -36,15 +40,6 @@ use std::f64::consts::PI;
 
 /// Σ (1 − n nᵀ) of the twelve contacts of a close packing [–].
 const ACROSS: f64 = 8.0;
-
-/// A critical step and what sets it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Limit {
-    /// Largest stable step [s].
-    pub dt: f64,
-    /// Materials and radii of the pair that sets it.
-    pub pair: String,
-}
 
 /// The law of contact between two materials.
 ///
@@ -62,8 +57,7 @@ pub fn contact_between(setup: &Setup, a: u16, b: u16) -> Result<&ContactLaw, Set
 pub fn radii_by_material(setup: &Setup) -> Vec<Option<(f64, f64)>> {
     let mut radii = free_radii(setup);
     for (material, low, high) in setup.clumps.radii() {
-        let range = &mut radii[material as usize];
-        *range = Some(range.map_or((low, high), |(l, h)| (l.min(low), h.max(high))));
+        widen(&mut radii[material as usize], low, high);
     }
     radii
 }
@@ -71,57 +65,41 @@ pub fn radii_by_material(setup: &Setup) -> Vec<Option<(f64, f64)>> {
 /// Smallest and largest radius of spheres that belong to no clump.
 fn free_radii(setup: &Setup) -> Vec<Option<(f64, f64)>> {
     let mut radii: Vec<Option<(f64, f64)>> = vec![None; setup.materials.len()];
-    let mut widen = |material: u16, r: f64| {
-        let range = &mut radii[material as usize];
-        *range = Some(range.map_or((r, r), |(lo, hi)| (lo.min(r), hi.max(r))));
-    };
     for p in &setup.particles {
-        widen(p.material, p.radius);
+        widen(&mut radii[p.material as usize], p.radius, p.radius);
     }
     for &m in setup.entry_materials.iter().filter(|_| setup.largest_entry > 0.0) {
-        widen(m, setup.smallest_entry);
-        widen(m, setup.largest_entry);
+        widen(&mut radii[m as usize], setup.smallest_entry, setup.largest_entry);
     }
     radii
 }
 
-/// Grains that can meet others: a sphere, or a rigid clump with the mass by which it yields.
-pub struct SizeClass {
-    pub material: u16,
-    /// Of the sphere that touches [m].
-    pub radius: f64,
-    /// 1/m [1/kg].
-    pub inverse_mass: f64,
-    /// 1/m to normal and to tangential forces [1/kg].
-    yields: (f64, f64),
-    name: Option<String>,
-}
-
 impl SizeClass {
-    fn name(&self, materials: &[Material]) -> String {
-        match &self.name {
-            Some(clump) => format!("clump '{clump}' (radius {:.4e} m)", self.radius),
-            None => format!("{} (radius {:.4e} m)", materials[self.material as usize].name, self.radius),
+    /// As it is named where it sets the step.
+    fn critical(&self, materials: &[Material]) -> CriticalGrain {
+        let radius = self.radius;
+        match self.shape.clone() {
+            Some(shape) => CriticalGrain::Clump { shape, radius },
+            None => {
+                let material = materials[self.material as usize].name.clone();
+                CriticalGrain::Sphere { material, radius }
+            }
         }
     }
 }
 
 /// The smallest and the largest sphere of each material: a small mass may be worse, or a large radius.
 pub fn grains(setup: &Setup) -> Vec<SizeClass> {
-    let clumps = setup.clumps.yielding(&setup.materials);
     let mut grains = Vec::new();
     for (material, range) in (0u16..).zip(free_radii(setup)) {
         let Some((low, high)) = range else { continue };
         for radius in if low == high { vec![low] } else { vec![low, high] } {
-            let inverse = 1.0 / mass(radius, setup.materials[material as usize].density);
-            let yields = (inverse, inverse);
-            grains.push(SizeClass { material, radius, inverse_mass: inverse, yields, name: None });
+            let inverse_mass = 1.0 / mass(radius, setup.materials[material as usize].density);
+            let (normal, tangential) = (inverse_mass, inverse_mass);
+            grains.push(SizeClass { shape: None, material, radius, inverse_mass, normal, tangential });
         }
     }
-    grains.extend(clumps.into_iter().map(|c| {
-        let ClumpCompliance { name, material, radius, inverse_mass, normal, tangential } = c;
-        SizeClass { material, radius, inverse_mass, yields: (normal, tangential), name: Some(name) }
-    }));
+    grains.extend(setup.clumps.yielding(&setup.materials));
     grains
 }
 
@@ -133,12 +111,12 @@ pub fn largest(grains: &[SizeClass]) -> f64 {
 /// The critical step of a setup: over every pair of grains that can meet, walls included.
 ///
 /// # Errors
-/// A pair without a law of contact, a material that is none.
+/// A pair of materials without a contact law, an index beyond the materials.
 pub fn critical_step(setup: &Setup) -> Result<Limit, SetupError> {
-    crate::model::check::indices(setup)?;
+    indices(setup)?;
     let grains = grains(setup);
     let crowds = DenseWalls::new(setup, largest(&grains));
-    let mut limit = Limit { dt: f64::INFINITY, pair: "no contact can occur".to_owned() };
+    let mut limit = Limit { dt: f64::INFINITY, cause: StepCause::default() };
     for (k, a) in grains.iter().enumerate() {
         for b in &grains[k..] {
             tighten(&mut limit, setup, a, Partner::SizeClass(b))?;
@@ -151,11 +129,7 @@ pub fn critical_step(setup: &Setup) -> Result<Limit, SetupError> {
     if let Some((rate, radius)) = setup.drag.and_then(|d| fastest_drag(&d, setup)) {
         let with = 1.0 / (1.0 / limit.dt + rate);
         if with < 0.9 * limit.dt {
-            limit.pair = format!(
-                "[drag] on radius {radius:.4e} m (relaxation time {:.4e} s); {}",
-                1.0 / rate,
-                limit.pair
-            );
+            limit.cause.drag = Some(CriticalDrag { radius, relaxation_time: 1.0 / rate });
         }
         limit.dt = with;
     }
@@ -180,7 +154,7 @@ pub(crate) fn normal(law: &ContactLaw) -> Option<NormalLaw> {
 }
 
 /// Largest stiffness of a contact up to an overlap [N/m].
-pub(crate) fn stiffest(law: &ContactLaw, elastic: Elastic, at: Meeting) -> f64 {
+pub(crate) fn stiffest(law: &ContactLaw, elastic: Elastic, at: OverlapLimit) -> f64 {
     normal(law).map_or(f64::NAN, |known| (known.stiffest)(law, elastic, at))
 }
 
@@ -190,35 +164,42 @@ enum Partner<'a> {
     Wall(&'a Wall, f64),
 }
 
+impl Partner<'_> {
+    /// As it is named where it sets the step.
+    fn critical(&self, setup: &Setup) -> CriticalPartner {
+        match self {
+            Partner::SizeClass(grain) => CriticalPartner::Grain(grain.critical(&setup.materials)),
+            Partner::Wall(wall, dense) => CriticalPartner::Wall {
+                material: setup.materials[wall.material as usize].name.clone(),
+                wall: wall.name.clone(),
+                spheres: (*dense > 1.0).then_some(ALONG * *dense),
+            },
+        }
+    }
+}
+
 fn tighten(limit: &mut Limit, setup: &Setup, a: &SizeClass, partner: Partner) -> Result<(), SetupError> {
-    let (ra, (normal, tangential)) = (a.radius, a.yields);
-    let (other, yields, uneven, radius, (smaller, larger), what, dense) = match &partner {
+    let SizeClass { radius: ra, normal, tangential, .. } = *a;
+    let (other, yields, uneven, radius, (smaller, larger), dense) = match &partner {
         Partner::SizeClass(b) => {
-            let (rb, (n, t)) = (b.radius, b.yields);
+            let rb = b.radius;
             let (mine, its) = (crowd(ra, rb), crowd(rb, ra));
-            let yields = (mine * normal + its * n, mine * tangential + its * t);
+            let yields = (mine * normal + its * b.normal, mine * tangential + its * b.tangential);
             let sizes = (ra.min(rb), ra.max(rb));
-            let uneven = (mine * normal - its * n).abs();
-            (b.material, yields, uneven, ra * rb / (ra + rb), sizes, b.name(&setup.materials), 1.0)
+            let uneven = (mine * normal - its * b.normal).abs();
+            (b.material, yields, uneven, ra * rb / (ra + rb), sizes, 1.0)
         }
         Partner::Wall(wall, dense) => {
             let (rb, (radius, smaller)) = (rounding(wall), met(wall, ra));
-            let material = &setup.materials[wall.material as usize].name;
-            let many = if *dense > 1.0 {
-                format!(", {} of its spheres at once", ALONG * *dense)
-            } else {
-                String::new()
-            };
-            let what = format!("{material} (wall '{}'{many})", wall.name);
             // Wall spheres may lie within each other, so that there may be many however large they are.
             let sizes = if rb.is_finite() { (smaller, smaller) } else { (ra, rb) };
-            (wall.material, a.yields, normal, radius, sizes, what, *dense)
+            (wall.material, (normal, tangential), normal, radius, sizes, *dense)
         }
     };
     let contact = contact_between(setup, a.material, other)?;
     let (first, second) = (&setup.materials[a.material as usize], &setup.materials[other as usize]);
     let elastic = Elastic::of(first, second);
-    let stiffness = stiffest(contact, elastic, Meeting { radius, smaller, share: setup.guards.overlap });
+    let stiffness = stiffest(contact, elastic, OverlapLimit { radius, smaller, share: setup.guards.overlap });
     let inverse_mass =
         a.inverse_mass + if let Partner::SizeClass(b) = partner { b.inverse_mass } else { 0.0 };
     let between = PairBound {
@@ -232,12 +213,13 @@ fn tighten(limit: &mut Limit, setup: &Setup, a: &SizeClass, partner: Partner) ->
     };
     let dt = between.step(contact);
     if dt < limit.dt {
-        *limit = Limit { dt, pair: format!("{} – {what}", a.name(&setup.materials)) };
+        let pair = CriticalPair { grain: a.critical(&setup.materials), partner: partner.critical(setup) };
+        *limit = Limit { dt, cause: StepCause { pair: Some(pair), ..StepCause::default() } };
     }
     Ok(())
 }
 
-/// How many times twelve grains of radius `other` [m] find place on one of radius `own` [m]; no fewer than once.
+/// How many times twelve grains of radius `other` [m] fit around one of radius `own` [m]; at least 1.
 fn crowd(own: f64, other: f64) -> f64 {
     (0.5 * (1.0 + own / other)).powi(2).max(1.0)
 }
@@ -257,11 +239,6 @@ struct PairBound {
     turning: f64,
     /// N/4, at least 1 [–].
     dense: f64,
-}
-
-/// The root of A Δt²/4 + B Δt = 1.
-pub(crate) fn root(a: f64, b: f64) -> f64 {
-    2.0 / ((a + b * b).sqrt() + b)
 }
 
 impl PairBound {
@@ -300,8 +277,8 @@ impl PairBound {
 /// Largest d|F|/d|w| / m [1/s] that is to be expected: at the speeds of the start, and of a fall without end after Stokes.
 fn fastest_drag(drag: &Drag, setup: &Setup) -> Option<(f64, f64)> {
     let relative = |v: &Vec3| (v - drag.velocity).norm();
-    let bodies = setup.clumps.bodies.iter().map(|b| &b.velocity);
-    let all = setup.particles.iter().map(|p| &p.velocity).chain(bodies);
+    let clumps = setup.clumps.placed.iter().map(|b| &b.velocity);
+    let all = setup.particles.iter().map(|p| &p.velocity).chain(clumps);
     let start = all.map(relative).fold(drag.velocity.norm(), f64::max);
     let materials = radii_by_material(setup).into_iter().zip(&setup.materials);
     let ranges = materials.filter_map(|(r, m)| r.map(|(low, high)| [(low, m.density), (high, m.density)]));

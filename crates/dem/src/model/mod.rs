@@ -1,28 +1,40 @@
 //! What is fixed while a simulation runs: resolved once from a setup, read by everything, changed by nothing.
 //!
-//! `check` refuses numbers without meaning, `limit` bounds the time step (with `crowd` for dense walls and `bonds`), `start` makes
+//! `check` refuses numbers without meaning (by `in_range`), `limit` bounds the time step (with `dense_walls` and `bonds`), `start` makes
 //! the kinds of contact, each with its composition of effects. Uses setup, effects, walls and kernel.
 
 pub mod bonds;
 pub mod check;
 pub mod clumps;
 pub mod contact_check;
-pub mod crowd;
+pub mod dense_walls;
 pub mod error;
 pub mod halt;
-pub mod kind;
+pub mod in_range;
 pub mod limit;
+pub mod quantity;
 pub mod start;
+pub mod step_cause;
+
+pub use bonds::beam::{Beam, Ends, Pull};
+pub use bonds::{BondedPair, GONE};
+pub use dense_walls::DenseWalls;
+pub use error::{BondConflict, SetupError, StateMismatch};
+pub use halt::{Halt, Partner};
+pub use in_range::Check;
+pub use quantity::{Allowed, OutOfRange, Quantity, Subject};
+pub use step_cause::{
+    BondedParticle, CriticalBonds, CriticalDrag, CriticalGrain, CriticalPair, CriticalPartner, Limit,
+    StepCause,
+};
 
 use crate::effects::needed;
-use crate::model::error::SetupError;
-use crate::model::kind::Kind;
+use crate::kernel::Kernel;
 use crate::model::limit::largest_reach;
 use crate::model::start::{kinds, mean_radius, servo_gains, slow_enough, time_step};
 use crate::setup::Setup;
-use crate::simd::Width;
-use crate::simd::number::{Layout, Precision};
-use crate::space::search::SKIN;
+use crate::simd::{Layout, Precision, Width};
+use crate::space::search::FIRST_SKIN;
 use crate::walls::WallBody;
 use geom::Vec3;
 
@@ -55,6 +67,34 @@ pub struct Model {
     pub rotates: bool,
 }
 
+/// What the particles of a kind of contact meet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum With {
+    /// Each other.
+    Particles,
+    /// Each other across a periodic face.
+    Images,
+    /// The wall of this number.
+    Wall(usize),
+}
+
+impl With {
+    /// Whether they meet a wall.
+    pub fn is_wall(self) -> bool {
+        matches!(self, With::Wall(_))
+    }
+}
+
+/// Contacts that share a law.
+pub struct Kind {
+    /// The law.
+    pub kernel: Box<dyn Kernel>,
+    /// Materials, lower first; of the particle, then of the wall.
+    pub between: (u16, u16),
+    /// What they meet.
+    pub with: With,
+}
+
 impl Model {
     /// Checks a setup and resolves it, with the time step `begun` [s] of a run that is resumed, or with the one that the setup asks for.
     ///
@@ -72,7 +112,7 @@ impl Model {
         let kinds = kinds(&setup)?;
         let mean_radius = mean_radius(&setup);
         let reach = largest_reach(&setup);
-        let skin = setup.skin.unwrap_or(SKIN.start * mean_radius).max(reach);
+        let skin = setup.skin.unwrap_or(FIRST_SKIN * mean_radius).max(reach);
         let horizon = if setup.skin.is_some() { 0.0 } else { HORIZON };
         let walls: Vec<WallBody> = setup.walls.iter().map(|w| WallBody::new(w, reach)).collect();
         slow_enough(&setup, &walls, dt)?;
@@ -81,8 +121,8 @@ impl Model {
         Ok(Model { setup, dt, reach, skin, width, walls, servo_gains, kinds, horizon, mean_radius, rotates })
     }
 
-    /// How what is computed of contacts is kept.
-    pub fn form(&self) -> Layout {
+    /// How the numbers of contacts are kept.
+    pub fn layout(&self) -> Layout {
         Layout { rotates: self.rotates, single: self.setup.precision == Precision::Single }
     }
 

@@ -1,24 +1,25 @@
 //! What a simulation begins with: its step, its kinds of contact.
 
-use crate::effects::{Elastic, Meeting, Pair, damping_ratio};
+use crate::effects::{Elastic, OverlapLimit, Pair, damping_ratio};
 use crate::kernel::compose::compose;
-use crate::model::crowd::{DenseWalls, met};
-use crate::model::error::SetupError;
-use crate::model::kind::{Kind, With};
-use crate::model::limit::{
-    SizeClass, contact_between, critical_step, grains, largest, radii_by_material, stiffest,
-};
+use crate::model::dense_walls::met;
+use crate::model::limit::{contact_between, critical_step, grains, largest, radii_by_material, stiffest};
+use crate::model::{DenseWalls, Kind, SetupError, With};
+use crate::setup::clumps::SizeClass;
 use crate::setup::{Setup, Step, Wall};
 use crate::walls::WallBody;
 
 /// The step [s] that a setup asks for.
+///
+/// # Errors
+/// A step above the critical one, a share of it where nothing can touch, a pair of materials without a contact law.
 pub fn time_step(setup: &Setup) -> Result<f64, SetupError> {
     let limit = critical_step(setup)?;
     match setup.step {
         Step::Auto(_) if limit.dt.is_infinite() => Err(SetupError::NoStep),
         Step::Auto(share) => Ok(share * limit.dt),
         Step::Fixed(dt) if dt > limit.dt => {
-            Err(SetupError::StepTooLarge { dt, critical: limit.dt, pair: limit.pair })
+            Err(SetupError::StepTooLarge { dt, critical: limit.dt, cause: Box::new(limit.cause) })
         }
         Step::Fixed(dt) => Ok(dt),
     }
@@ -63,7 +64,11 @@ pub fn kinds(setup: &Setup) -> Result<Vec<Kind>, SetupError> {
         let elastic = Elastic::of(&setup.materials[a as usize], &setup.materials[b as usize]);
         Ok(Kind {
             kernel: compose(
-                &Pair { law: contact_between(setup, a, b)?, elastic, ease: setup.ease(a, b, crowd(a, with)) },
+                &Pair {
+                    law: contact_between(setup, a, b)?,
+                    elastic,
+                    compliance: setup.compliance(a, b, crowd(a, with)),
+                },
                 setup.precision,
             ),
             between: (a, b),
@@ -84,19 +89,19 @@ pub fn kinds(setup: &Setup) -> Result<Vec<Kind>, SetupError> {
     Ok(list)
 }
 
-/// k Δt + c [N·s/m] of the stiffest contact with each wall that follows a force; of a clump with the mass of the whole body, as contacts have it.
+/// k Δt + c [N·s/m] of the stiffest contact with each wall that follows a force; of a clump with its whole mass, as contacts have it.
 pub fn servo_gains(setup: &Setup, dt: f64) -> Vec<f64> {
     let grains = grains(setup);
     let of = |wall: &Wall, grain: &SizeClass| {
         let contact = contact_between(setup, grain.material, wall.material).ok()?;
         let [first, second] = [grain.material, wall.material].map(|m| &setup.materials[m as usize]);
         let (radius, smaller) = met(wall, grain.radius);
-        let at = Meeting { radius, smaller, share: setup.guards.overlap };
+        let at = OverlapLimit { radius, smaller, share: setup.guards.overlap };
         let k = stiffest(contact, Elastic::of(first, second), at);
         let gamma = damping_ratio(contact.number("restitution").unwrap_or(f64::NAN));
         Some(k * dt + gamma * (k / grain.inverse_mass).sqrt())
     };
-    let largest = |wall: &Wall| match wall.motion.servo {
+    let largest = |wall: &Wall| match wall.servo {
         Some(_) => grains.iter().filter_map(|g| of(wall, g)).fold(f64::MIN_POSITIVE, f64::max),
         None => 1.0,
     };

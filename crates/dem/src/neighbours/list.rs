@@ -1,14 +1,10 @@
 //! How lists become contacts: segments, what arrives at which tile, and which tiles are adjacent.
 
-use crate::kernel::sums::Arrival;
-use crate::model::kind::{Kind, With};
-use crate::neighbours::contacts::{Contacts, Disturber, Segment};
-use crate::neighbours::resting::RestingTile;
-use crate::simd::aligned::Aligned;
-use crate::simd::number::Layout;
-use crate::simd::{BLOCK, Row4};
+use crate::kernel::{Arrival, SlotEnd};
+use crate::model::{Kind, With};
+use crate::neighbours::{Disturber, RestingTile, Segment, Slots};
+use crate::simd::{BLOCK, Layout};
 use crate::space::search::tile;
-use crate::space::sphere::FAR;
 use crate::walls::WallBody;
 use geom::Vec3;
 use std::ops::Range;
@@ -32,30 +28,31 @@ impl List {
     }
 }
 
-impl Contacts {
-    /// Contacts of `images`, then of each tile, lists for every kind: with particles of the tile, and of later ones. Of so many particles.
+impl Slots {
+    /// Slots of the contacts of `images`, then of each tile: lists for every kind, with particles of the tile and of later ones.
     pub fn new(
         kinds: &[Kind],
         images: &[List],
         tiles: &[Vec<[List; 2]>],
-        (particles, form): (usize, Layout),
-    ) -> Contacts {
-        let mut new = Contacts { new: true, form, particles, tile: tile(particles), ..Contacts::default() };
+        particles: usize,
+        layout: Layout,
+    ) -> Slots {
+        let mut new = Slots { new: true, particles, tile: tile(particles), ..Slots::default() };
         let lists = images.iter().chain(tiles.iter().flatten().flatten());
         let most: usize = lists.map(|l| l.i.len() + BLOCK).sum();
         new.i.reserve(most);
         new.partner.reserve(most);
-        let (mut memory, mut rows, mut kept) = (0, 0, 0);
-        let mut put = |kind: usize, later: bool, list: &List, new: &mut Contacts| {
+        let (mut history, mut rows, mut kept) = (0, 0, 0);
+        let mut put = |kind: usize, later: bool, list: &List, new: &mut Slots| {
             let len = list.i.len();
             if len == 0 {
                 return;
             }
-            let places = new.append(list);
-            let padded = places.len();
+            let slots = new.append(list);
+            let padded = slots.len();
             let with = kinds[kind].with;
-            new.segments.push(Segment { kind, places, len, later, memory, rows, kept });
-            memory += padded * form.memory(kinds[kind].kernel.columns());
+            new.segments.push(Segment { kind, with, slots, len, later, history, rows, kept });
+            history += padded * layout.history(kinds[kind].kernel.columns());
             rows += if with == With::Particles { 0 } else { padded };
             kept += if later || with == With::Images { padded } else { 0 };
         };
@@ -68,14 +65,10 @@ impl Contacts {
             }
         }
         new.tiles.push(new.segments.len());
-        let turns = kinds.iter().any(|k| k.kernel.rotates());
-        new.rows = vec![FAR[1]; rows];
-        new.spins = vec![Row4::default(); if turns { rows } else { 0 }];
-        new.memory = Aligned::zeros(memory);
-        new.active = vec![true; new.i.len() / BLOCK];
-        let largest = new.segments.iter().filter(|s| kinds[s.kind].with != With::Particles);
-        new.count = (0..largest.map(|s| s.places.len()).max().unwrap_or(0) as u32).collect();
-        new.index_arrivals(kinds);
+        new.history = history;
+        let largest = new.segments.iter().filter(|s| s.with != With::Particles);
+        new.count = (0..largest.map(|s| s.slots.len()).max().unwrap_or(0) as u32).collect();
+        new.index_arrivals();
         new
     }
 
@@ -95,14 +88,14 @@ impl Contacts {
     }
 
     /// What arrives at each tile.
-    fn index_arrivals(&mut self, kinds: &[Kind]) {
+    fn index_arrivals(&mut self) {
         let tiles = self.tiles.len() - 1;
         let mut starts = vec![0; tiles + 1];
-        self.for_each_kept(kinds, |_, particle| starts[particle as usize / self.tile + 1] += 1);
+        self.for_each_kept(|_, particle| starts[particle as usize / self.tile + 1] += 1);
         (0..tiles).for_each(|tile| starts[tile + 1] += starts[tile]);
         let mut next = starts.clone();
-        let mut arrivals = vec![Arrival { from: 0, particle: 0 }; starts[tiles] as usize];
-        self.for_each_kept(kinds, |from, particle| {
+        let mut arrivals = vec![Arrival { from: SlotEnd::default(), particle: 0 }; starts[tiles] as usize];
+        self.for_each_kept(|from, particle| {
             let at = &mut next[particle as usize / self.tile];
             arrivals[*at as usize] = Arrival { from, particle };
             *at += 1;
@@ -110,37 +103,37 @@ impl Contacts {
         (self.arrivals, self.arriving) = (arrivals, starts);
     }
 
-    /// Each wrench that is kept, in the order of the slots: slot among them × 2, + 1 for the second particle of a contact; and the particle that takes it.
-    fn for_each_kept(&self, kinds: &[Kind], mut each: impl FnMut(u32, u32)) {
+    /// Calls `each` with the ends that take a wrench which is kept, in the order of the slots (counted among those that are kept), and with their particles.
+    fn for_each_kept(&self, mut each: impl FnMut(SlotEnd, u32)) {
         for s in &self.segments {
-            let image = kinds[s.kind].with == With::Images;
-            for place in if image || s.later { s.contacts() } else { 0..0 } {
-                let kept = 2 * (s.kept + place - s.places.start) as u32;
+            let image = s.with == With::Images;
+            for slot in if image || s.later { s.contacts() } else { 0..0 } {
+                let kept = s.kept + slot - s.slots.start;
                 if image {
-                    each(kept, self.i[place]);
+                    each(SlotEnd::new(kept, false), self.i[slot]);
                 }
-                each(kept + 1, self.partner[place]);
+                each(SlotEnd::new(kept, true), self.partner[slot]);
             }
         }
     }
 
     /// Marks what blocks meet.
-    pub fn mark_wall_blocks(&mut self, kinds: &[Kind], walls: &[WallBody]) {
-        self.met = vec![Disturber::Particles; self.active.len()];
+    pub fn mark_wall_blocks(&mut self, walls: &[WallBody]) {
+        self.met = vec![Disturber::Particles; self.i.len() / BLOCK];
         for s in &self.segments {
-            if let With::Wall(w) = kinds[s.kind].with {
-                let met = if walls[w].motion.moves() { Disturber::MovingWall } else { Disturber::StillWall };
-                self.met[s.places.start / BLOCK..s.places.end / BLOCK].fill(met);
+            if let With::Wall(w) = s.with {
+                let met = if walls[w].moves() { Disturber::MovingWall } else { Disturber::StillWall };
+                self.met[s.slots.start / BLOCK..s.slots.end / BLOCK].fill(met);
             }
         }
     }
 
-    /// Notes which tiles meet.
-    pub fn find_adjacent_tiles(&mut self, kinds: &[Kind]) {
+    /// What rests in each tile: nothing yet, beside the tiles that it meets.
+    pub fn resting_tiles(&self) -> Vec<RestingTile> {
         let tile = |particle: u32| (particle as usize / self.tile) as u32;
         let mut near: Vec<Vec<u32>> = (0..self.tiles.len() as u32 - 1).map(|t| vec![t]).collect();
-        for s in self.segments.iter().filter(|s| !matches!(kinds[s.kind].with, With::Wall(_))) {
-            for (a, b) in s.contacts().map(|place| (tile(self.i[place]), tile(self.partner[place]))) {
+        for s in self.segments.iter().filter(|s| !s.with.is_wall()) {
+            for (a, b) in s.contacts().map(|slot| (tile(self.i[slot]), tile(self.partner[slot]))) {
                 if a != b && near[a as usize].last() != Some(&b) {
                     near[a as usize].push(b);
                     near[b as usize].push(a);
@@ -151,38 +144,32 @@ impl Contacts {
             near.sort_unstable();
             near.dedup();
         }
-        self.resting_tiles = near.into_iter().map(RestingTile::beside).collect();
+        near.into_iter().map(RestingTile::beside).collect()
     }
 
     /// For each particle, its contacts in the order of their slots; only where contacts are looked up by particle.
-    pub fn index(&mut self, kinds: &[Kind]) {
-        let particles = self.particles;
-        self.starts = vec![0; particles + 1];
-        for s in &self.segments {
-            let both = !matches!(kinds[s.kind].with, With::Wall(_));
-            for place in s.contacts() {
-                self.starts[self.i[place] as usize + 1] += 1;
-                if both {
-                    self.starts[self.partner[place] as usize + 1] += 1;
-                }
-            }
-        }
-        for k in 0..particles {
-            self.starts[k + 1] += self.starts[k];
-        }
-        let mut next = self.starts.clone();
-        self.entries = vec![0; self.starts[particles] as usize];
-        let mut put = |particle: u32, entry: usize| {
+    pub fn index(&mut self) {
+        let mut starts = vec![0; self.particles + 1];
+        self.for_each_end(|_, particle| starts[particle as usize + 1] += 1);
+        (0..self.particles).for_each(|k| starts[k + 1] += starts[k]);
+        let mut next = starts.clone();
+        let mut entries = vec![SlotEnd::default(); starts[self.particles] as usize];
+        self.for_each_end(|end, particle| {
             let at = &mut next[particle as usize];
-            self.entries[*at as usize] = entry as u32;
+            entries[*at as usize] = end;
             *at += 1;
-        };
+        });
+        (self.starts, self.entries) = (starts, entries);
+    }
+
+    /// Calls `each` with both ends of each contact that are particles, in the order of the slots.
+    fn for_each_end(&self, mut each: impl FnMut(SlotEnd, u32)) {
         for s in &self.segments {
-            let both = !matches!(kinds[s.kind].with, With::Wall(_));
-            for place in s.contacts() {
-                put(self.i[place], 2 * place);
+            let both = !s.with.is_wall();
+            for slot in s.contacts() {
+                each(SlotEnd::new(slot, false), self.i[slot]);
                 if both {
-                    put(self.partner[place], 2 * place + 1);
+                    each(SlotEnd::new(slot, true), self.partner[slot]);
                 }
             }
         }

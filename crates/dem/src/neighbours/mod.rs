@@ -1,40 +1,33 @@
-//! Neighbour lists: all contacts that may come to act before the next rebuild, with what is computed in their slots.
+//! Neighbour lists: all contacts that may come to act before the next rebuild.
 //!
-//! `rebuild` makes them from Model and State alone, so that a resumed run has the same lists, and carries contact history over. `contacts`
+//! `rebuild` makes them from Model and State alone, so that a resumed run has the same lists, and carries contact history over. `slots`
 //! is their layout: tiles of particles, segments of one kind of contact, blocks of slots. Uses model, state, space, walls, kernel.
 
-pub mod contacts;
-pub mod ends;
 pub mod history;
 pub mod list;
 pub mod poses;
 pub mod rebuild;
-pub mod resting;
 pub mod slices;
+pub mod slots;
+
+pub use history::OldContacts;
+pub use list::List;
+pub use rebuild::LISTED_FEW;
+pub use slices::{Computed, RestingTile, SlotRun, StepColumns, TileSlice};
+pub use slots::{Disturber, Segment, Slots};
 
 use crate::simd::Row;
 use crate::walls::images::Periods;
-use contacts::Contacts;
 
 /// Neighbour lists.
+#[derive(Default)]
 pub struct NeighbourLists {
     /// Contacts by tile.
-    pub contacts: Contacts,
+    pub slots: Slots,
+    /// What is computed of them in each step.
+    pub step: StepColumns,
     /// Whole periods that walls had travelled when neighbours were listed; empty where nothing is periodic.
     pub wall_periods: Vec<Periods>,
     /// Particles as they were before the move; only where a fluid drags them.
     pub before: Vec<Row>,
-    /// Whether the wrench of each contact is kept when a run is observed.
-    pub records: bool,
-}
-
-impl Default for NeighbourLists {
-    fn default() -> NeighbourLists {
-        NeighbourLists {
-            contacts: Contacts::default(),
-            wall_periods: Vec::new(),
-            before: Vec::new(),
-            records: true,
-        }
-    }
 }

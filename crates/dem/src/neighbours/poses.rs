@@ -3,34 +3,35 @@
 use crate::model::Model;
 use crate::neighbours::NeighbourLists;
 use crate::state::State;
+use crate::walls::WallBody;
 use crate::walls::images::{Periods, WallImages};
-use crate::walls::motion::Pose;
 use geom::Vec3;
+use geom::motion::Pose;
 
 /// Where a wall is at `time` [s], which is now.
 pub fn pose(model: &Model, state: &State, wall: usize, time: f64) -> Pose {
-    let motion = &model.walls[wall].motion;
+    let WallBody { motion, servo, .. } = &model.walls[wall];
     let pose = motion.pose(time);
-    match (motion.servo, state.servos.get(wall)) {
-        (Some(servo), Some(p)) => pose.shifted(servo.direction * p.way, servo.direction * p.speed),
+    match (servo, state.servos.get(wall)) {
+        (Some(servo), Some(p)) => pose.shifted(servo.direction * p.shift, servo.direction * p.speed),
         _ => pose,
     }
 }
 
 /// Where a wall was when neighbours were listed.
 pub fn pose_listed(model: &Model, state: &State, wall: usize) -> Pose {
-    let motion = &model.walls[wall].motion;
+    let WallBody { motion, servo, .. } = &model.walls[wall];
     let pose = motion.pose(state.listing.step as f64 * model.dt);
-    match (motion.servo, state.servos.get(wall)) {
+    match (servo, state.servos.get(wall)) {
         (Some(servo), Some(p)) => pose.shifted(servo.direction * p.listed, Vec3::zeros()),
         _ => pose,
     }
 }
 
 /// How far a wall may have moved [m] in the time `since` [s] neighbours were listed.
-pub fn wall_way(model: &Model, state: &State, wall: usize, since: f64) -> f64 {
-    let way = state.servos.get(wall).map_or(0.0, |p| (p.way - p.listed).abs());
-    model.walls[wall].fastest_driven() * since + way
+pub fn wall_shift(model: &Model, state: &State, wall: usize, since: f64) -> f64 {
+    let shift = state.servos.get(wall).map_or(0.0, |p| (p.shift - p.listed).abs());
+    model.walls[wall].fastest_driven() * since + shift
 }
 
 /// Where a wall is now, counted back into the box.
@@ -57,7 +58,7 @@ pub fn periods_travelled(model: &Model, state: &State) -> Vec<Periods> {
     let whole = |shift: f64, period: f64| if period > 0.0 { (shift / period).round() as i32 } else { 0 };
     let of = |w: usize| {
         let (point, home) = model.walls[w].anchor_points(middle);
-        let away = pose_listed(model, state, w).place(&point) - home;
+        let away = pose_listed(model, state, w).position(&point) - home;
         [0, 1, 2].map(|a| whole(away[a], period[a]))
     };
     (0..model.walls.len()).map(of).collect()
@@ -71,7 +72,7 @@ pub fn around(model: &Model, wall: usize, pose: &Pose) -> WallImages {
         return WallImages { period, lo, hi };
     }
     let corner =
-        |k: usize| pose.place(&Vec3::from([0, 1, 2].map(|a| if k >> a & 1 == 1 { hi[a] } else { lo[a] })));
+        |k: usize| pose.position(&Vec3::from([0, 1, 2].map(|a| if k >> a & 1 == 1 { hi[a] } else { lo[a] })));
     let (lo, hi) = (1..8).map(corner).fold((corner(0), corner(0)), |(l, h), c| (l.inf(&c), h.sup(&c)));
     WallImages { period, lo, hi }
 }

@@ -1,168 +1,176 @@
-//! Slices of the lists: what one tile reads, and what it writes.
+//! What is computed of listed contacts in a step, and slices of it by tile.
 
-use crate::kernel::LEDGER;
-use crate::kernel::sums::{Arrival, WrenchSlices};
-use crate::neighbours::contacts::{Disturber, Segment};
-use crate::simd::number::Layout;
-use crate::simd::{BLOCK, Row, Row4};
+use crate::kernel::wrenches::split_off;
+use crate::kernel::{LEDGER, Sums, WrenchSlicesMut};
+use crate::model::With;
+use crate::neighbours::{NeighbourLists, Segment, Slots};
+use crate::simd::{BLOCK, Layout, Row, Row4};
+use crate::space::sphere::FAR;
+use crate::state::{ContactColumns, Particles, WrenchColumns};
 use geom::Vec3;
+use std::ops::Range;
 
-/// What all parts read.
-#[derive(Clone, Copy)]
-pub struct Lists<'a> {
-    pub i: &'a [u32],
-    pub partner: &'a [u32],
-    pub shift: &'a [Vec3],
-    /// 0, 1, 2, …
-    pub count: &'a [u32],
-    pub met: &'a [Disturber],
-    pub new: bool,
-    /// First segment of each tile, and one more.
-    pub tiles: &'a [usize],
-    /// Particles of a tile.
-    pub tile: usize,
-    /// First entry of each particle, and one more.
-    pub starts: &'a [u32],
-    /// Place × 2, + 1 where the particle is the second.
-    pub entries: &'a [u32],
-    /// What arrives at tiles.
-    pub arrivals: &'a [Arrival],
-    /// First arrival of each tile, and one more.
-    pub arriving: &'a [u32],
+/// Columns of the listed contacts that are computed in each step, and no others are saved.
+#[derive(Default)]
+pub struct StepColumns {
+    /// Contact points of images and walls, as rows and spins of partners.
+    pub rows: Vec<Row>,
+    pub spins: Vec<Row4>,
+    /// Whether the wrenches or the history of a block are not all zero.
+    pub active: Vec<bool>,
+    /// Wrenches that are kept for other tiles.
+    pub kept: WrenchColumns,
+    /// What rests in each tile; only where particles sleep.
+    pub resting_tiles: Vec<RestingTile>,
 }
 
-impl Lists<'_> {
-    /// What arrives at a tile.
-    pub fn arriving(&self, tile: usize) -> &[Arrival] {
-        &self.arrivals[self.arriving[tile] as usize..self.arriving[tile + 1] as usize]
-    }
-
-    /// Whether a particle has a contact that may have changed while it slept.
-    pub fn disturbed(&self, particle: usize, asleep: &[bool]) -> bool {
-        let entries = self.starts[particle] as usize..self.starts[particle + 1] as usize;
-        self.new
-            || self.entries[entries].iter().any(|&entry| {
-                let (place, second) = ((entry >> 1) as usize, entry & 1 == 1);
-                match self.met[place / BLOCK] {
-                    Disturber::Particles => {
-                        !asleep[if second { self.i[place] } else { self.partner[place] } as usize]
-                    }
-                    Disturber::StillWall => false,
-                    Disturber::MovingWall => true,
-                }
-            })
-    }
-
-    /// Whether all contacts of a block are between sleepers, or of sleepers with a wall at rest.
-    pub fn rests(&self, block: usize, asleep: &[bool]) -> bool {
-        let all = |of: &[u32]| of[block * BLOCK..(block + 1) * BLOCK].iter().all(|&k| asleep[k as usize]);
-        !self.new
-            && match self.met[block] {
-                Disturber::Particles => all(self.i) && all(self.partner),
-                Disturber::StillWall => all(self.i),
-                Disturber::MovingWall => false,
-            }
+impl StepColumns {
+    /// Columns of these contacts, with or without spins, but for the wrenches that are kept.
+    pub fn new(slots: &Slots, rotates: bool) -> StepColumns {
+        let with_points = slots.segments.iter().filter(|s| s.with != With::Particles);
+        let rows = with_points.map(|s| s.slots.len()).sum();
+        StepColumns {
+            rows: vec![FAR[1]; rows],
+            spins: vec![Row4::default(); if rotates { rows } else { 0 }],
+            active: vec![true; slots.i.len() / BLOCK],
+            ..StepColumns::default()
+        }
     }
 }
 
-/// Where a part begins.
+/// What of a tile rests ([`crate::forces::resting`] finds it).
+#[derive(Debug, Default)]
+pub struct RestingTile {
+    /// The tile itself, and those that it has contacts with.
+    pub near: Vec<u32>,
+    /// Steps that had been ended when it was found.
+    pub found: Option<u64>,
+    /// Whether it was found before this step: what rests is what rested a step before.
+    pub unchanged: bool,
+    /// Runs of slots whose contacts do not rest.
+    pub active: Vec<SlotRun>,
+    /// Sums of the wrenches of the others; none where there are no others.
+    pub sums: WrenchColumns,
+    /// Particles of the tile that are awake, counted from its first.
+    pub awake: Vec<Range<usize>>,
+    /// Sleepers that touch or may touch a particle that is awake, counted likewise.
+    pub disturbed: Vec<u32>,
+}
+
+/// Slots that follow each other in a segment.
+#[derive(Debug, Clone)]
+pub struct SlotRun {
+    /// The segment, by its number in the tile.
+    pub segment: usize,
+    /// Whole blocks.
+    pub slots: Range<usize>,
+}
+
+impl RestingTile {
+    /// Nothing yet, of a tile that has contacts with these.
+    pub fn beside(near: Vec<u32>) -> RestingTile {
+        RestingTile { near, ..RestingTile::default() }
+    }
+}
+
+/// The lists, and all that is computed with them in a step.
+pub struct Computed<'a> {
+    /// What every tile reads.
+    pub slots: &'a Slots,
+    /// All segments, with their rows of what is computed.
+    pub slice: TileSlice<'a>,
+    /// Sums by particle.
+    pub sums: Sums<'a>,
+    /// What rests in each tile; empty where nothing sleeps.
+    pub resting_tiles: &'a mut [RestingTile],
+}
+
+impl NeighbourLists {
+    /// What is computed, with the columns that it is computed in.
+    pub fn with<'a>(&'a mut self, columns: &'a mut ContactColumns) -> Computed<'a> {
+        let ContactColumns { layout, history, ledger, wrenches, keeps, sums, .. } = columns;
+        let StepColumns { rows, spins, active, kept, resting_tiles } = &mut self.step;
+        let (layout, slots) = (*layout, &self.slots);
+        let slice = TileSlice {
+            segments: &slots.segments,
+            layout,
+            from: SliceStart::default(),
+            rows,
+            spins,
+            history,
+            active,
+            kept: kept.slices_mut(),
+            each: if *keeps { wrenches.slices_mut() } else { Default::default() },
+            ledger,
+        };
+        Computed { slots, slice, sums: Sums { first: 0, layout, wrenches: sums.slices_mut() }, resting_tiles }
+    }
+
+    /// Where the second of a contact is, and its radius (0 on a flat wall) [m]; `position` tells where particles are. Images and walls are where
+    /// they were when forces were computed.
+    pub fn partner(
+        &self,
+        particles: &Particles,
+        segment: &Segment,
+        slot: usize,
+        position: impl Fn(usize) -> Vec3,
+    ) -> (Vec3, f64) {
+        if segment.with == With::Particles {
+            let j = self.slots.partner[slot] as usize;
+            return (position(j), particles.rows[j][3]);
+        }
+        let row = &self.step.rows[segment.rows + segment.rank(slot)];
+        (row.position(), row[3])
+    }
+}
+
+/// Where a slice begins.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct SliceStart {
-    pub place: usize,
+    pub slot: usize,
     pub row: usize,
-    pub memory: usize,
+    pub history: usize,
     pub kept: usize,
 }
 
-/// Some segments that follow each other, with their part of everything that is computed.
+/// Some segments that follow each other, with their rows of everything that is computed.
+#[derive(Default)]
 pub struct TileSlice<'a> {
     pub segments: &'a [Segment],
-    pub form: Layout,
+    pub layout: Layout,
     pub from: SliceStart,
     pub rows: &'a mut [Row],
     pub spins: &'a mut [Row4],
-    pub memory: &'a mut [f64],
+    pub history: &'a mut [f64],
     pub active: &'a mut [bool],
-    /// Loads and couples that are kept for other tiles.
-    pub kept: (&'a mut [f64], &'a mut [f64]),
-    /// Loads and couples of each contact, or none.
-    pub each: (&'a mut [f64], &'a mut [f64]),
+    /// Wrenches that are kept for other tiles.
+    pub kept: WrenchSlicesMut<'a>,
+    /// Wrench of each contact, or none.
+    pub each: WrenchSlicesMut<'a>,
     pub ledger: &'a mut [f64],
 }
 
 impl<'a> TileSlice<'a> {
-    /// The first `count` segments, and the others.
-    pub fn split(self, count: usize) -> (TileSlice<'a>, TileSlice<'a>) {
-        let TileSlice { segments, form, from, rows, spins, memory, active, kept, each, ledger } = self;
-        let (first, second) = segments.split_at(count);
-        let all = SliceStart {
-            place: from.place + active.len() * BLOCK,
-            row: from.row + rows.len(),
-            memory: from.memory + memory.len(),
-            kept: from.kept + kept.0.len() / form.load(),
-        };
-        let of =
-            |s: &Segment| SliceStart { place: s.places.start, row: s.rows, memory: s.memory, kept: s.kept };
-        let to = second.first().map_or(all, of);
-        let places = to.place - from.place;
-        let (rows, rows2) = rows.split_at_mut(to.row - from.row);
-        let (spins, spins2) = split(spins, to.row - from.row);
-        let (memory, memory2) = memory.split_at_mut(to.memory - from.memory);
-        let (active, active2) = active.split_at_mut(places / BLOCK);
-        let (kept, kept2) = split_both(kept, to.kept - from.kept, form);
-        let (each, each2) = split_both(each, places, form);
-        let (ledger, ledger2) = split(ledger, places * LEDGER);
-        let one = TileSlice { segments: first, form, from, rows, spins, memory, active, kept, each, ledger };
-        let two = TileSlice {
-            segments: second,
-            form,
-            from: to,
-            rows: rows2,
-            spins: spins2,
-            memory: memory2,
-            active: active2,
-            kept: kept2,
-            each: each2,
-            ledger: ledger2,
-        };
-        (one, two)
+    /// Takes the first `count` segments off.
+    pub fn split_off(&mut self, count: usize) -> TileSlice<'a> {
+        let (segments, others) = self.segments.split_at(count);
+        let Some(next) = others.first() else { return std::mem::take(self) };
+        let (from, layout) = (self.from, self.layout);
+        let to =
+            SliceStart { slot: next.slots.start, row: next.rows, history: next.history, kept: next.kept };
+        (self.segments, self.from) = (others, to);
+        let (slots, rows) = (to.slot - from.slot, to.row - from.row);
+        TileSlice {
+            segments,
+            layout,
+            from,
+            rows: split_off(&mut self.rows, rows),
+            spins: split_off(&mut self.spins, rows),
+            history: split_off(&mut self.history, to.history - from.history),
+            active: split_off(&mut self.active, slots / BLOCK),
+            kept: self.kept.split_off(to.kept - from.kept, layout),
+            each: self.each.split_off(slots, layout),
+            ledger: split_off(&mut self.ledger, slots * LEDGER),
+        }
     }
-
-    /// Loads and couples that are kept for other tiles.
-    pub fn kept(&self) -> WrenchSlices<'_> {
-        (self.kept.0, self.kept.1)
-    }
-}
-
-/// Some of a column, or none of a column that does not exist.
-pub fn part<T>(of: &[T], from: usize, n: usize) -> &[T] {
-    if of.is_empty() { &[] } else { &of[from..from + n] }
-}
-
-pub fn part_mut<T>(of: &mut [T], from: usize, n: usize) -> &mut [T] {
-    if of.is_empty() { &mut [] } else { &mut of[from..from + n] }
-}
-
-/// Some loads and couples, or none of those that do not exist.
-pub fn some<'a>(
-    of: &'a mut (&mut [f64], &mut [f64]),
-    from: usize,
-    n: usize,
-    form: Layout,
-) -> (&'a mut [f64], &'a mut [f64]) {
-    let (load, torque) = (form.load(), form.torque());
-    (part_mut(of.0, from * load, n * load), part_mut(of.1, from * torque, n * torque))
-}
-
-pub type Both<'a> = (&'a mut [f64], &'a mut [f64]);
-
-fn split_both<'a>((loads, torques): Both<'a>, n: usize, form: Layout) -> (Both<'a>, Both<'a>) {
-    let (loads, loads2) = split(loads, n * form.load());
-    let (torques, couples2) = split(torques, n * form.torque());
-    ((loads, torques), (loads2, couples2))
-}
-
-pub fn split<T>(of: &mut [T], at: usize) -> (&mut [T], &mut [T]) {
-    let at = at.min(of.len());
-    of.split_at_mut(at)
 }

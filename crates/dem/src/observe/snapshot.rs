@@ -1,14 +1,14 @@
-//! Looking at a simulation: particles, clumps and energy of this instant. Nothing that is looked at changes.
+//! Snapshots: particles, clumps and energy of this instant.
 
-use crate::kernel::sums::WrenchSums;
+use crate::kernel::WrenchSums;
 use crate::model::Model;
 use crate::neighbours::NeighbourLists;
 use crate::passes::instant::{Instant, instant};
 use crate::passes::ledger::close_step;
 use crate::passes::zones::ledger::energy_of_idle;
-use crate::setup::Particle;
-use crate::state::State;
-use crate::state::energy::Energy;
+use crate::setup::{Particle, Setup};
+use crate::state::ledger::{carried, heavy};
+use crate::state::{Energy, State};
 use geom::Vec3;
 use std::collections::BTreeSet;
 
@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 pub struct Snapshot<'a> {
     model: &'a Model,
     state: &'a State,
-    loads: WrenchSums<'a>,
+    sums: WrenchSums<'a>,
     /// Velocity and spin of those that are members of clumps.
     members: Vec<Option<(Vec3, Vec3)>>,
     order: Vec<u32>,
@@ -24,15 +24,15 @@ pub struct Snapshot<'a> {
 
 impl<'a> Snapshot<'a> {
     /// Of an instant whose forces are known.
-    pub(crate) fn new(model: &'a Model, state: &'a State, lists: &'a NeighbourLists) -> Snapshot<'a> {
-        let (p, loads) = (&state.particles, lists.contacts.sums());
-        let members = state.bodies.member_states(p, &loads, &model.setup, model.dt);
+    pub(crate) fn new(model: &'a Model, state: &'a State) -> Snapshot<'a> {
+        let (p, sums) = (&state.particles, state.contacts.sums());
+        let members = state.clumps.member_states(model, state, &sums);
         // All at once: a list that grows takes twice its length, beside the largest state there is.
         let (hidden, mut order) = (state.zones.hidden(state.time()), Vec::with_capacity(p.len()));
         order.extend((0..p.len() as u32).filter(|&k| !hidden(k as usize)));
         drop(hidden);
         order.sort_unstable_by_key(|&k| p.id[k as usize]);
-        Snapshot { model, state, loads, members, order }
+        Snapshot { model, state, sums, members, order }
     }
 
     /// How many there are.
@@ -51,7 +51,7 @@ impl<'a> Snapshot<'a> {
     /// Where there are not so many.
     pub fn particle(&self, n: usize) -> Particle {
         let (k, p) = (self.order[n] as usize, &self.state.particles);
-        let Instant { velocity, spin, .. } = instant(self.model, self.state, k, &self.loads);
+        let Instant { velocity, spin, .. } = instant(self.model, self.state, k, &self.sums);
         let (velocity, spin) = self.members.get(k).copied().flatten().unwrap_or((velocity, spin));
         Particle {
             id: p.id[k],
@@ -65,31 +65,61 @@ impl<'a> Snapshot<'a> {
 }
 
 /// Particles in the calculation, by id, with velocities of this instant, whose forces are known.
-pub fn particles(model: &Model, state: &State, lists: &NeighbourLists) -> Vec<Particle> {
-    let seen = Snapshot::new(model, state, lists);
-    (0..seen.len()).map(|n| seen.particle(n)).collect()
+pub fn particles(model: &Model, state: &State) -> Vec<Particle> {
+    let snapshot = Snapshot::new(model, state);
+    (0..snapshot.len()).map(|n| snapshot.particle(n)).collect()
 }
 
 /// Energy of this instant [J]; elastic and dissipated parts only when the setup asked for the ledger.
 pub fn energy(model: &Model, state: &State, lists: &NeighbourLists) -> Energy {
-    let (mut particles, mut bodies) =
-        (particles(model, state, lists), state.bodies.states(model, state, lists));
+    let (mut particles, mut clumps) = (particles(model, state), state.clumps.states(model, state));
     if !state.zones.none() {
         let all = 0..state.particles.len();
         let travelling: BTreeSet<u32> =
-            all.filter(|&k| state.zones.travels(k)).map(|k| state.particles.id[k]).collect();
+            all.filter(|&k| state.zones.is_prescribed(k)).map(|k| state.particles.id[k]).collect();
         particles.retain(|p| !travelling.contains(&p.id));
-        bodies.retain(|b| !travelling.contains(&b.id));
+        clumps.retain(|b| !travelling.contains(&b.id));
     }
-    let body_of = |id: u32| bodies[..bodies.partition_point(|b| b.id <= id)].last();
+    let body_of = |id: u32| clumps[..clumps.partition_point(|b| b.id <= id)].last();
     particles.retain(|p| !body_of(p.id).is_some_and(|b| b.has(p.id)));
-    let mut energy = Energy::of(&particles, &model.setup, (&lists.contacts, &state.bonds), &state.ledger);
-    bodies.iter().for_each(|b| energy.add_body(b, &model.setup));
-    if model.setup.ledger {
-        let held = energy_of_idle(model, state, lists);
+    let setup = &model.setup;
+    let mut energy = ledger_terms(state, setup);
+    for [translation, rotation, potential] in particles.iter().map(|p| carried(p, setup)) {
+        energy.translation += translation;
+        energy.rotation += rotation;
+        energy.potential += potential;
+    }
+    for clump in &clumps {
+        let material = setup.clumps.shapes[clump.shape as usize].material;
+        let heavy = heavy(setup, setup.materials[material as usize].density);
+        energy.translation += 0.5 * clump.mass * clump.velocity.norm_squared();
+        energy.rotation += 0.5 * clump.spin.dot(&clump.angular_momentum);
+        energy.potential -= clump.mass * heavy * setup.gravity.dot(&clump.position);
+    }
+    if setup.ledger {
+        let held = energy_of_idle(state, lists);
         energy.elastic -= held;
         energy.left += held;
         close_step(model, state, lists, &mut energy);
     }
     energy
+}
+
+/// The terms of the ledger, and what the springs of contacts and bonds hold.
+fn ledger_terms(state: &State, setup: &Setup) -> Energy {
+    let State { ledger, contacts, bonds, .. } = state;
+    Energy {
+        normal: ledger.dissipated[0] + ledger.lost,
+        sliding: ledger.dissipated[1],
+        rolling: ledger.dissipated[2],
+        twisting: ledger.dissipated[3],
+        bonds: ledger.bonds + ledger.broken,
+        walls: ledger.walls,
+        slept: ledger.slept,
+        drag: ledger.drag,
+        entered: ledger.entered,
+        left: ledger.left,
+        elastic: if setup.ledger { contacts.elastic() + bonds.elastic() } else { 0.0 },
+        ..Energy::default()
+    }
 }

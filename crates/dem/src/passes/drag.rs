@@ -9,13 +9,13 @@
 //! ```
 //!
 //! Stokes (1851), Trans. Camb. Phil. Soc. 9; Schiller & Naumann (1933), Z. Ver. Dtsch. Ing. 77; w is the predicted velocity of the
-//! instant, as for contacts. The last line is what an acceleration a adds to the move of [`crate::advance`]: a pass behind it, so
+//! instant, as for contacts. The last line is what an acceleration a adds to the move of [`crate::passes::integrate`]: a pass behind it, so
 //! that a scene without a fluid runs the same code as ever. On a rigid clump it acts as on a sphere of its volume at its centre
-//! ([`crate::bodies`]). Left out: the shape of a clump, the mass of fluid that moves along, the couple of the fluid on a particle that
+//! ([`crate::state::clumps`]). Left out: the shape of a clump, the mass of fluid that moves along, the torque of the fluid on a particle that
 //! spins, and what particles do to the fluid and through it to each other.
 //!
 //! Stable step: that scheme, on v' = −λ v, needs λ Δt ≤ 1; with contacts, 1/Δt ≥ 1/Δt_contacts + λ is on the safe side, because
-//! (ω Δt)²/4 + 2 ζ ω Δt + λ Δt ≤ 1 follows from it (see [`crate::limit`]).
+//! (ω Δt)²/4 + 2 ζ ω Δt + λ Δt ≤ 1 follows from it (see [`crate::model::limit`]).
 
 use crate::model::Model;
 use crate::neighbours::NeighbourLists;
@@ -29,20 +29,20 @@ const CHUNK: usize = 256;
 /// Acceleration [m/s²] of particle `k` besides that of its contacts; a fluid acts on clumps as a whole.
 pub fn body_acceleration(model: &Model, state: &State, k: usize) -> Vec3 {
     let (gravity, row) = (model.setup.gravity, &state.particles.rows[k]);
-    let drag = model.setup.drag.filter(|_| !state.bodies.is_member(k));
+    let drag = model.setup.drag.filter(|_| !state.clumps.is_member(k));
     drag.map_or(gravity, |d| gravity + d.acceleration(row, &gravity))
 }
 
 /// What the fluid takes from particle `k` [W].
 pub fn drag_power(model: &Model, state: &State, k: usize) -> f64 {
     let row = &state.particles.rows[k];
-    model.setup.drag.map_or(0.0, |d| -d.slowing(row).dot(&Vec3::new(row[4], row[5], row[6])) / row[7])
+    model.setup.drag.map_or(0.0, |d| -d.slowing(row).dot(&row.velocity()) / row[7])
 }
 
-/// After a move: what the fluid adds to it. Returns whether a particle has left its room.
+/// After a move: what the fluid adds to it. Returns whether a particle has left its margin.
 pub fn apply(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> bool {
     let Some(drag) = model.setup.drag else { return false };
-    let (dt, gravity, zones, bodies) = (model.dt, model.setup.gravity, &state.zones, &state.bodies);
+    let (dt, gravity, zones, clumps) = (model.dt, model.setup.gravity, &state.zones, &state.clumps);
     let (p, before) = (&mut state.particles, &lists.before);
     let count = p.len();
     let rows = p.rows[..count].chunks_mut(CHUNK).zip(p.acceleration.chunks_mut(CHUNK));
@@ -52,7 +52,7 @@ pub fn apply(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> bo
             let (mut taken, mut out) = (0.0, false);
             for k in 0..rows.len() {
                 let at = tile * CHUNK + k;
-                if zones.travels(at) || zones.is_gone(at) || bodies.is_member(at) {
+                if !zones.is_free(at) || clumps.is_member(at) {
                     continue;
                 }
                 let (row, was) = (&mut rows[k], &before[k]);
@@ -65,7 +65,7 @@ pub fn apply(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> bo
                     away += (row[axis] - home[k][axis]) * (row[axis] - home[k][axis]);
                 }
                 out |= away > home[k][3] * home[k][3];
-                taken -= drag.slowing(was).dot(&Vec3::new(was[4], was[5], was[6])) * dt / was[7];
+                taken -= drag.slowing(was).dot(&was.velocity()) * dt / was[7];
             }
             (taken, out)
         });

@@ -1,33 +1,34 @@
-//! Particles at one instant: velocities corrected by the forces of it.
+//! Particles at one instant: velocities corrected by the forces of it, and the first acceleration of those that begin to move.
 
-use crate::kernel::sums::WrenchSums;
+use crate::kernel::WrenchSums;
 use crate::model::Model;
 use crate::passes::drag::body_acceleration;
 use crate::passes::ledger::driven;
-use crate::state::State;
-use crate::state::ledger::DrivenBody;
+use crate::simd::Row4;
+use crate::space::sphere::inverse_inertia;
+use crate::state::{DrivenBody, State};
 use geom::Vec3;
 
 /// What a particle does at this instant.
 pub struct Instant {
     pub velocity: Vec3,
     pub spin: Vec3,
-    pub acceleration: [f64; 3],
-    pub turning: [f64; 3],
+    pub acceleration: Vec3,
+    pub angular_acceleration: Vec3,
 }
 
-/// Corrects what was predicted for particle `k`, whose loads are those of this instant.
-pub fn instant(model: &Model, state: &State, k: usize, loads: &WrenchSums) -> Instant {
+/// Corrects what was predicted for particle `k`, from the forces of this instant.
+pub fn instant(model: &Model, state: &State, k: usize, sums: &WrenchSums) -> Instant {
     let p = &state.particles;
     let row = &p.rows[k];
-    let (free, half) = (!state.zones.travels(k), 0.5 * model.dt);
+    let (free, half) = (!state.zones.is_prescribed(k), 0.5 * model.dt);
     let body = body_acceleration(model, state, k);
-    let (force, moment) = loads.on(k, row[3]);
+    let (force, moment) = sums.on(k, row[3]);
     let mut at = Instant {
-        velocity: Vec3::new(row[4], row[5], row[6]),
+        velocity: row.velocity(),
         spin: Vec3::zeros(),
-        acceleration: [0.0; 3],
-        turning: [0.0; 3],
+        acceleration: Vec3::zeros(),
+        angular_acceleration: Vec3::zeros(),
     };
     for a in 0..3 {
         at.acceleration[a] = force[a] * row[7] + body[a];
@@ -36,9 +37,9 @@ pub fn instant(model: &Model, state: &State, k: usize, loads: &WrenchSums) -> In
         }
         if p.rotates() {
             at.spin[a] = p.spins[k][a];
-            at.turning[a] = moment[a] * (2.5 * row[7] / (row[3] * row[3]));
+            at.angular_acceleration[a] = moment[a] * inverse_inertia(row[3], row[7]);
             if free {
-                at.spin[a] += half * (at.turning[a] - p.turning[k][a]);
+                at.spin[a] += half * (at.angular_acceleration[a] - p.angular_acceleration[k][a]);
             }
         }
     }
@@ -46,7 +47,22 @@ pub fn instant(model: &Model, state: &State, k: usize, loads: &WrenchSums) -> In
 }
 
 /// What drives particle `k` at this instant.
-pub fn driven_now(model: &Model, state: &State, k: usize, loads: &WrenchSums) -> DrivenBody {
-    let Instant { velocity, spin, acceleration, turning } = instant(model, state, k, loads);
-    DrivenBody { velocity, spin, ..driven(model, state, k, acceleration, turning) }
+pub fn driven_now(model: &Model, state: &State, k: usize, sums: &WrenchSums) -> DrivenBody {
+    let Instant { velocity, spin, acceleration, angular_acceleration } = instant(model, state, k, sums);
+    DrivenBody { velocity, spin, ..driven(model, state, k, acceleration, angular_acceleration) }
+}
+
+/// Gives particles that begin to move the acceleration of this instant as that of the step before, which velocity Verlet needs; which they are.
+pub fn start(model: &Model, state: &mut State) -> Vec<u32> {
+    let starting = std::mem::take(&mut state.starting);
+    let sums = state.contacts.sums();
+    for k in starting.iter().map(|&k| k as usize) {
+        let Instant { acceleration, angular_acceleration, .. } = instant(model, state, k, &sums);
+        state.particles.acceleration[k] = Row4::of(acceleration);
+        if state.particles.rotates() {
+            state.particles.angular_acceleration[k] = Row4::of(angular_acceleration);
+        }
+    }
+    state.clumps.prime(&state.particles, &model.setup);
+    starting
 }

@@ -1,4 +1,4 @@
-//! Moves each particle by the sum of its loads: velocity Verlet with predicted velocities.
+//! Moves each particle by the sum of its forces: velocity Verlet with predicted velocities.
 //!
 //! ```text
 //! v_n     = v*_n + (a_n − a_{n−1}) Δt/2          a_n from forces at (x_n, v*_n)
@@ -9,11 +9,13 @@
 //! Velocity Verlet: Swope et al. (1982), J. Chem. Phys. 76; positions and velocities of one instant in the force:
 //! Vyas, Ottino, Lueptow & Umbanhowar (2024), arXiv:2410.14798. Rotation in the same way, I = 2/5 m r².
 
-use crate::kernel::sums::Sums;
-use crate::simd::number::{Number, as_kept};
-use crate::simd::scalar::Each;
-use crate::simd::{Four, Row, Row4, Width};
-use crate::state::sleepers::SleeperSlices;
+use crate::kernel::Sums;
+use crate::kernel::wrenches::split_off;
+use crate::simd::number::with_layout;
+use crate::simd::{Each, Four, Number, Row, Row4, Width};
+use crate::space::sphere::inverse_inertia;
+use crate::state::{Particles, SleeperSlices};
+use std::ops::Range;
 
 /// Columns of some particles.
 pub struct ParticleSlices<'a> {
@@ -22,8 +24,8 @@ pub struct ParticleSlices<'a> {
     pub rows: &'a mut [Row],
     pub spins: &'a mut [Row4],
     pub acceleration: &'a mut [Row4],
-    pub turning: &'a mut [Row4],
-    /// Where they were listed, and their rooms.
+    pub angular_acceleration: &'a mut [Row4],
+    /// Positions at the last rebuild, and margins.
     pub home: &'a [Row4],
     /// Loads on them.
     pub sums: Sums<'a>,
@@ -32,51 +34,60 @@ pub struct ParticleSlices<'a> {
 }
 
 impl<'a> ParticleSlices<'a> {
-    /// The same, for a while.
-    pub fn by_ref(&mut self) -> ParticleSlices<'_> {
+    /// Those of a range, with their sums; nothing is known of sleep.
+    pub fn of(particles: &'a mut Particles, range: Range<usize>, sums: Sums<'a>) -> ParticleSlices<'a> {
+        let Particles { rows, spins, acceleration, angular_acceleration, home, .. } = particles;
+        let rotating = if spins.is_empty() { 0..0 } else { range.clone() };
         ParticleSlices {
-            first: self.first,
-            rows: self.rows,
-            spins: self.spins,
-            acceleration: self.acceleration,
-            turning: self.turning,
-            home: self.home,
-            sums: self.sums.by_ref(),
-            sleeper_slices: self.sleeper_slices.as_mut().map(SleeperSlices::by_ref),
+            first: range.start,
+            rows: &mut rows[range.clone()],
+            spins: &mut spins[rotating.clone()],
+            acceleration: &mut acceleration[range.clone()],
+            angular_acceleration: &mut angular_acceleration[rotating],
+            home: &home[range],
+            sums,
+            sleeper_slices: None,
         }
     }
 
-    /// The particles before number `to`, and the others.
-    pub fn split(self, to: usize) -> (ParticleSlices<'a>, ParticleSlices<'a>) {
-        let n = (to - self.first).min(self.rows.len());
-        let turn = n.min(self.spins.len());
-        let (rows, rows2) = self.rows.split_at_mut(n);
-        let (spins, spins2) = self.spins.split_at_mut(turn);
-        let (acceleration, acceleration2) = self.acceleration.split_at_mut(n);
-        let (turning, turning2) = self.turning.split_at_mut(turn);
-        let (home, home2) = self.home.split_at(n);
-        let first = self.first;
-        let (sums, sums2) = self.sums.split(n);
-        let (sleeper_slices, beds2) = self.sleeper_slices.map(|b| b.split(n)).unzip();
-        let one = ParticleSlices { first, rows, spins, acceleration, turning, home, sums, sleeper_slices };
-        let two = ParticleSlices {
-            first: first + n,
-            rows: rows2,
-            spins: spins2,
-            acceleration: acceleration2,
-            turning: turning2,
-            home: home2,
-            sums: sums2,
-            sleeper_slices: beds2,
-        };
-        (one, two)
+    /// Those of a range, counted from the first of these, for a while; whether they sleep is not known of them.
+    pub fn range(&mut self, range: Range<usize>) -> ParticleSlices<'_> {
+        let rotating = if self.spins.is_empty() { 0..0 } else { range.clone() };
+        let mut sums = self.sums.by_ref();
+        sums.split_off(range.start);
+        ParticleSlices {
+            first: self.first + range.start,
+            rows: &mut self.rows[range.clone()],
+            spins: &mut self.spins[rotating.clone()],
+            acceleration: &mut self.acceleration[range.clone()],
+            angular_acceleration: &mut self.angular_acceleration[rotating],
+            home: &self.home[range.clone()],
+            sums: sums.split_off(range.len()),
+            sleeper_slices: None,
+        }
+    }
+
+    /// Takes off the first `n` particles, or all where there are fewer.
+    pub fn split_off(&mut self, n: usize) -> ParticleSlices<'a> {
+        let (first, n) = (self.first, n.min(self.rows.len()));
+        self.first += n;
+        ParticleSlices {
+            first,
+            rows: split_off(&mut self.rows, n),
+            spins: split_off(&mut self.spins, n),
+            acceleration: split_off(&mut self.acceleration, n),
+            angular_acceleration: split_off(&mut self.angular_acceleration, n),
+            home: self.home.split_off(..n).unwrap_or_default(),
+            sums: self.sums.split_off(n),
+            sleeper_slices: self.sleeper_slices.as_mut().map(|s| s.split_off(n)),
+        }
     }
 }
 
 /// What one move found.
 #[derive(Clone, Copy, Default)]
 pub struct MoveFlags {
-    /// Whether a particle has left the room that its neighbours were listed for.
+    /// Whether a particle has left its margin.
     pub left_margin: bool,
     /// Whether a particle moved more than its limit, or is not a number.
     pub too_fast: bool,
@@ -99,7 +110,7 @@ pub struct MoveInputs {
 
 /// Moves particles by one step, computing with lanes of `width`; all widths give the same bits.
 pub fn advance(width: Width, columns: ParticleSlices, drive: &MoveInputs) -> MoveFlags {
-    as_kept!(columns.sums.form, T, ROTATES => dispatch::<T, ROTATES>(width, columns, drive))
+    with_layout!(columns.sums.layout, T, ROTATES => dispatch::<T, ROTATES>(width, columns, drive))
 }
 
 fn dispatch<T: Number, const SPIN: bool>(
@@ -136,8 +147,8 @@ mod simd {
 
 #[inline(always)]
 fn chunk<T: Number, Q: Four, const SPIN: bool>(columns: ParticleSlices, drive: &MoveInputs) -> MoveFlags {
-    let ParticleSlices { rows, spins, acceleration, turning, home, sums, .. } = columns;
-    let loads = sums.seen();
+    let ParticleSlices { rows, spins, acceleration, angular_acceleration, home, sums, .. } = columns;
+    let sums = sums.as_ref();
     let [gx, gy, gz] = drive.gravity;
     let gravity = Q::read(&[gx, gy, gz, 0.0]);
     // Rows hold radius and 1/m in the fourth place, which must not move.
@@ -145,14 +156,14 @@ fn chunk<T: Number, Q: Four, const SPIN: bool>(columns: ParticleSlices, drive: &
     let (dt, half, square) = (Q::all(drive.dt), Q::all(0.5 * drive.dt), Q::all(0.5 * drive.dt * drive.dt));
     let mut moved = MoveFlags::default();
     for k in 0..rows.len() {
-        let ([place, velocity], []) = rows[k].as_chunks_mut::<4>() else { continue };
-        let (radius, inverse_mass) = (place[3], velocity[3]);
-        let sum = loads.sum::<T, Q, SPIN>(k, radius);
+        let ([position, velocity], []) = rows[k].as_chunks_mut::<4>() else { continue };
+        let (radius, inverse_mass) = (position[3], velocity[3]);
+        let sum = sums.sum::<T, Q, SPIN>(k, radius);
         let new = (sum.force * Q::all(inverse_mass) + gravity) * three;
         let v = Q::read(velocity) + half * (new - Q::read(&acceleration[k]));
         let moves = (dt * v + square * new) * three;
-        let there = Q::read(place) + moves;
-        there.write(place);
+        let there = Q::read(position) + moves;
+        there.write(position);
         (v + dt * new).write(velocity);
         new.write(&mut acceleration[k]);
         let limit = drive.motion_limit * radius;
@@ -161,10 +172,10 @@ fn chunk<T: Number, Q: Four, const SPIN: bool>(columns: ParticleSlices, drive: &
         let margin = home[k][3];
         moved.left_margin |= length2(there - Q::read(&home[k])) > margin * margin;
         if SPIN {
-            let new = sum.moment * Q::all(2.5 * inverse_mass / (radius * radius)) * three;
-            let w = Q::read(&spins[k]) + half * (new - Q::read(&turning[k]));
+            let new = sum.moment * Q::all(inverse_inertia(radius, inverse_mass)) * three;
+            let w = Q::read(&spins[k]) + half * (new - Q::read(&angular_acceleration[k]));
             (w + dt * new).write(&mut spins[k]);
-            new.write(&mut turning[k]);
+            new.write(&mut angular_acceleration[k]);
         }
     }
     moved

@@ -1,7 +1,7 @@
 //! What happens to particles beside contacts: a pass is a function of Model and of the parts of State and lists that it needs.
 //!
 //! `integrate` moves tiles; `clumps`, `bonds`, `drag`, `servo`, `sleep` and `zones` act only in scenes that ask for them; `ledger` adds up
-//! energy where it is kept. `start` gives particles that begin their first acceleration. Uses neighbours and below.
+//! energy where it is kept. `instant` has velocities of one instant, and gives particles that begin their first acceleration. Uses neighbours and below.
 
 pub mod bonds;
 pub mod clumps;
@@ -11,6 +11,5 @@ pub mod integrate;
 pub mod ledger;
 pub mod servo;
 pub mod sleep;
-pub mod start;
 pub mod touching;
 pub mod zones;

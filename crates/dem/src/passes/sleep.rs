@@ -8,34 +8,37 @@
 //!
 //! Sleeping changes results: by what a bed would still have crept, and by disturbances too weak to wake it.
 
-use crate::neighbours::resting::RestingTile;
-use crate::neighbours::slices::Lists;
+use crate::model::Model;
+use crate::neighbours::{RestingTile, Slots};
 use crate::passes::integrate::{MoveFlags, MoveInputs, ParticleSlices, advance};
-use crate::simd::{Row, Width};
-use crate::state::sleepers::SleeperSlices;
+use crate::simd::Row;
+use crate::space::sphere::inverse_inertia;
+use crate::state::SleeperSlices;
+use geom::Vec3;
+use geom::sphere::INERTIA;
 use std::ops::Range;
 
-/// Moves those of a tile that are awake, and looks after the others: all of them, where what is `still` has just been found.
+/// Moves the particles of a tile that are awake, and checks the sleepers: all of them where `still` has just been found, later only those
+/// that may be disturbed.
 pub fn advance_awake(
-    width: Width,
+    model: &Model,
     mut columns: ParticleSlices,
-    drive: &MoveInputs,
-    lists: &Lists,
+    lists: &Slots,
     still: Option<&RestingTile>,
 ) -> MoveFlags {
-    let mut moved = MoveFlags::default();
+    let (mut moved, width) = (MoveFlags::default(), model.width);
+    let gravity = model.setup.gravity.into();
+    let drive = &MoveInputs { dt: model.dt, gravity, motion_limit: model.setup.guards.motion };
     let Some(mut sleeper_slices) = columns.sleeper_slices.take() else {
         return advance(width, columns, drive);
     };
     let first = columns.first;
     let sleeps = &sleeper_slices.asleep[first..first + columns.rows.len()];
     let mut wake = |run: Range<usize>, columns: &mut ParticleSlices, sleeper_slices: &mut SleeperSlices| {
-        let (_, rest) = columns.by_ref().split(first + run.start);
-        let (awake, _) = rest.split(first + run.end);
-        moved = moved.and(advance(width, awake, drive));
+        moved = moved.and(advance(width, columns.range(run.clone()), drive));
         run.for_each(|k| sleeper_slices.check_sleep(k, columns, drive));
     };
-    if let Some(still) = still.filter(|s| s.unchanged()) {
+    if let Some(still) = still.filter(|s| s.unchanged) {
         still.awake.iter().for_each(|run| wake(run.clone(), &mut columns, &mut sleeper_slices));
         still.disturbed.iter().for_each(|&k| sleeper_slices.check_wake(k as usize, &mut columns, drive));
         return moved;
@@ -51,30 +54,30 @@ pub fn advance_awake(
 }
 
 impl SleeperSlices<'_> {
-    /// A particle that has just moved: whether it falls asleep.
+    /// Puts a particle that has just moved to sleep if it has been quiet for long enough.
     fn check_sleep(&mut self, k: usize, columns: &mut ParticleSlices, drive: &MoveInputs) {
         let row = columns.rows[k];
-        let spin = columns.spins.get(k).map_or(0.0, |w| length([w[0], w[1], w[2]]));
-        let turning = columns.turning.get(k).map_or(0.0, |t| length([t[0], t[1], t[2]]));
+        let spin = columns.spins.get(k).map_or(0.0, |w| w.vector().norm());
+        let angular_acceleration = columns.angular_acceleration.get(k).map_or(0.0, |t| t.vector().norm());
         let a = columns.acceleration[k];
         let here = columns.first + k;
-        let still = length([row[4], row[5], row[6]]) + row[3] * spin < self.speed
-            && length([a[0], a[1], a[2]]) < self.wake
-            && turning * row[3] < self.wake
-            && self.busy.get(here) != Some(&true);
+        let still = row.velocity().norm() + row[3] * spin < self.speed
+            && a.vector().norm() < self.wake
+            && angular_acceleration * row[3] < self.wake
+            && self.prescribed.get(here) != Some(&true);
         self.quiet[k] = if still { self.quiet[k] + 1 } else { 0 };
         self.next[k] = self.quiet[k] >= self.steps;
         if !self.next[k] {
             return;
         }
-        let (force, moment) = columns.sums.seen().on(here, row[3]);
+        let (force, moment) = columns.sums.as_ref().on(here, row[3]);
         let lost = lost(k, columns, drive);
         self.held[k] = Row([force[0], force[1], force[2], moment[0], moment[1], moment[2], lost, 0.0]);
         rest(k, columns);
     }
 
-    /// A sleeper: whether it wakes.
-    fn keep_asleep(&mut self, k: usize, columns: &mut ParticleSlices, drive: &MoveInputs, lists: &Lists) {
+    /// Keeps a sleeper asleep unless it is disturbed.
+    fn keep_asleep(&mut self, k: usize, columns: &mut ParticleSlices, drive: &MoveInputs, lists: &Slots) {
         self.quiet[k] = self.steps.saturating_add(1);
         self.next[k] = true;
         if lists.disturbed(columns.first + k, self.asleep) {
@@ -82,21 +85,21 @@ impl SleeperSlices<'_> {
         }
     }
 
-    /// A sleeper that something may have stirred: whether it wakes.
+    /// Wakes a sleeper if the force or the moment on it has changed enough.
     fn check_wake(&mut self, k: usize, columns: &mut ParticleSlices, drive: &MoveInputs) {
         let here = columns.first + k;
         let row = columns.rows[k];
-        let (force, moment) = columns.sums.seen().on(here, row[3]);
+        let (force, moment) = columns.sums.as_ref().on(here, row[3]);
         let held = self.held[k];
-        let push = length([force[0] - held[0], force[1] - held[1], force[2] - held[2]]) * row[7];
-        let twist = length([moment[0] - held[3], moment[1] - held[4], moment[2] - held[5]]) * row[7] / row[3];
+        let push = (force - Vec3::new(held[0], held[1], held[2])).norm() * row[7];
+        let twist = (moment - Vec3::new(held[3], held[4], held[5])).norm() * row[7] / row[3];
         if push > self.wake || twist > self.wake || push.is_nan() {
             (self.quiet[k], self.next[k]) = (0, false);
-            let inverse_inertia = 2.5 * row[7] / (row[3] * row[3]);
+            let inverse_inertia = inverse_inertia(row[3], row[7]);
             for a in 0..3 {
                 columns.acceleration[k][a] = force[a] * row[7] + drive.gravity[a];
-                if let Some(turning) = columns.turning.get_mut(k) {
-                    turning[a] = moment[a] * inverse_inertia;
+                if let Some(angular_acceleration) = columns.angular_acceleration.get_mut(k) {
+                    angular_acceleration[a] = moment[a] * inverse_inertia;
                 }
             }
         }
@@ -104,7 +107,7 @@ impl SleeperSlices<'_> {
 }
 
 /// What a particle that has just moved loses when it rests there [J]: its kinetic energy half a step ago, and what contacts did
-/// not add and its weight will not ([`crate::account`] leaves its last step out).
+/// not add and its weight will not ([`crate::passes::ledger`] leaves its last step out).
 fn lost(k: usize, columns: &ParticleSlices, drive: &MoveInputs) -> f64 {
     let (row, a, dt) = (columns.rows[k], columns.acceleration[k], drive.dt);
     let mut lost = 0.0;
@@ -112,8 +115,8 @@ fn lost(k: usize, columns: &ParticleSlices, drive: &MoveInputs) -> f64 {
         let (ahead, g) = (row[4 + axis], drive.gravity[axis]);
         let (now, middle) = (ahead - a[axis] * dt, ahead - 0.5 * a[axis] * dt);
         lost += (0.5 * middle * middle + 0.5 * g * middle * dt - (a[axis] - g) * now * dt) / row[7];
-        if let (Some(w), Some(t)) = (columns.spins.get(k), columns.turning.get(k)) {
-            let inertia = 0.4 * row[3] * row[3] / row[7];
+        if let (Some(w), Some(t)) = (columns.spins.get(k), columns.angular_acceleration.get(k)) {
+            let inertia = INERTIA * row[3] * row[3] / row[7];
             let (now, middle) = (w[axis] - t[axis] * dt, w[axis] - 0.5 * t[axis] * dt);
             lost += inertia * (0.5 * middle * middle - t[axis] * now * dt);
         }
@@ -121,16 +124,12 @@ fn lost(k: usize, columns: &ParticleSlices, drive: &MoveInputs) -> f64 {
     lost
 }
 
-/// Takes the velocity that a particle would have next.
+/// Sets velocity and spin of a particle to 0.
 fn rest(k: usize, columns: &mut ParticleSlices) {
     columns.rows[k][4..7].fill(0.0);
     if let Some(spin) = columns.spins.get_mut(k) {
         spin[..3].fill(0.0);
     }
-}
-
-fn length(v: [f64; 3]) -> f64 {
-    (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
 }
 
 /// Runs of equal flags.

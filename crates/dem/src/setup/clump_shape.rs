@@ -1,7 +1,7 @@
 //! What a rigid clump is made of: spheres in its own frame, and the mass they carry.
 //!
 //! The frame of a shape has its origin at the centre of mass and its axes along the principal axes, the one that differs most
-//! from the other two last (the third, as [`crate::space::rotation`] wants it). A body is a shape × scale s: lengths × s, mass × s³,
+//! from the other two last (the third, as [`crate::space::rotation`] wants it). A clump is a shape × scale s: lengths × s, mass × s³,
 //! moments of inertia × s⁵.
 
 use geom::{Moments, Vec3};
@@ -45,6 +45,17 @@ impl ClumpShape {
         }
     }
 
+    /// Position and radius [m] of the spheres of a clump: centre of mass [m], orientation, scale.
+    pub fn spheres_at(
+        &self,
+        centre: Vec3,
+        orientation: &UnitQuaternion<f64>,
+        scale: f64,
+    ) -> impl Iterator<Item = (Vec3, f64)> + '_ {
+        let turn = orientation * self.frame;
+        self.spheres.iter().map(move |(arm, radius)| (centre + turn * (arm * scale), radius * scale))
+    }
+
     /// Radius of the sphere about the centre of mass that holds all of it [m].
     pub fn reach(&self) -> f64 {
         self.spheres.iter().map(|(c, r)| c.norm() + r).fold(0.0, f64::max)
@@ -64,9 +75,9 @@ impl ClumpShape {
     /// w_n = λ_max(M^−½ N M^−½)/4,   w_t = λ_max(M^−½ T M^−½)/20,   c = 4,   M = diag(m, m, m, I)
     /// ```
     ///
-    /// N and T are the stiffnesses of the body against contacts of stiffness 1 from all sides on all its n members, three c on each,
+    /// N and T are the stiffnesses of the clump against contacts of stiffness 1 from all sides on all its n members, three c on each,
     /// as on a sphere of a close packing: across its axis a rod of spheres that touch has no fewer in a crystal. One sphere:
-    /// w_n = w_t = 1/m, the bounds that [`crate::critical_step`] divides by 4 and 20.
+    /// w_n = w_t = 1/m, the bounds that [`crate::model::limit::critical_step`] divides by 4 and 20.
     pub fn yielding(&self) -> (f64, f64) {
         let c = 4.0;
         let root = |x: f64| 1.0 / x.sqrt();
@@ -92,7 +103,7 @@ impl ClumpShape {
         (largest(normal) / 4.0, largest(tangential) / 20.0)
     }
 
-    /// Mass [kg] of a body of this shape.
+    /// Mass [kg] of a clump of this shape.
     pub fn mass(&self, scale: f64, density: f64) -> f64 {
         self.volume * scale * scale * scale * density
     }

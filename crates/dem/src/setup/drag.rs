@@ -59,7 +59,7 @@ impl Drag {
 
     /// Acceleration by drag alone [m/s²], of a particle's row.
     pub(crate) fn slowing(&self, row: &Row) -> Vec3 {
-        let w = Vec3::new(row[4], row[5], row[6]) - self.velocity;
+        let w = row.velocity() - self.velocity;
         w * -self.rate(row[3], row[7], w.norm())
     }
 

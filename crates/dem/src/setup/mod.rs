@@ -6,26 +6,19 @@
 pub mod clump_shape;
 pub mod clumps;
 pub mod drag;
-pub mod servo;
-pub mod sleep;
 
-mod bond;
 mod zone;
 
-pub use crate::effects::ContactHistory;
-pub use crate::effects::ContactLaw;
-pub use crate::effects::Material;
+pub use crate::effects::{ContactHistory, ContactLaw, Material};
 pub use crate::setup::clump_shape::ClumpShape;
-pub use crate::setup::drag::Drag;
-pub use crate::setup::drag::DragLaw;
-pub use crate::setup::servo::Servo;
-pub use crate::setup::sleep::Sleep;
+pub use crate::setup::drag::{Drag, DragLaw};
 pub use crate::simd::number::Precision;
-pub use bond::Bond;
 pub use zone::{
-    Crossing, Entry, EntryBonds, EntryClump, Guide, Link, Memory, PathSample, Sample, Touch, Zone,
-    ZoneMotion, ZoneTest,
+    Crossing, CrossingBond, Entry, EntryBonds, EntryClump, Guide, PairHistory, PathSample, Sample, Touch,
+    Zone, ZoneMotion, ZoneTest,
 };
+
+pub use geom::Motion;
 
 use geom::mesh::TriMesh;
 use geom::{Plane, Vec3};
@@ -75,6 +68,9 @@ pub struct Setup {
     pub sleep: Option<Sleep>,
     /// Whether the energy ledger is kept (it costs time).
     pub ledger: bool,
+    /// Whether the wrench of each contact is kept when a run is observed: 64 bytes a contact that only
+    /// [`crate::Simulation::record_contacts`] and [`crate::Simulation::wall_forces`] want.
+    pub record_wrenches: bool,
     /// When a run is stopped.
     pub guards: Guards,
 }
@@ -103,6 +99,7 @@ impl Default for Setup {
             skin: None,
             sleep: None,
             ledger: false,
+            record_wrenches: true,
             guards: Guards::default(),
         }
     }
@@ -134,15 +131,26 @@ pub struct Particle {
     pub spin: Vec3,
 }
 
-/// Rigid clumps: their shapes, and the bodies of these shapes at t = 0.
+/// Rigid clumps: their shapes, and the clumps of these shapes at t = 0.
 #[derive(Debug, Clone, Default)]
 pub struct Clumps {
     /// Shapes.
     pub shapes: Vec<ClumpShape>,
-    /// Bodies at t = 0.
-    pub bodies: Vec<Body>,
-    /// Shape, smallest and largest scale [–] of the bodies that inlets will bring.
-    pub entries: Vec<(u32, f64, f64)>,
+    /// Clumps at t = 0.
+    pub placed: Vec<Body>,
+    /// Scales of the clumps that inlets will bring.
+    pub entries: Vec<ClumpScales>,
+}
+
+/// The scales of clumps of one shape.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ClumpScales {
+    /// Index of the shape.
+    pub shape: u32,
+    /// Smallest size over that of the shape [–].
+    pub least: f64,
+    /// Largest size over that of the shape [–].
+    pub most: f64,
 }
 
 /// A rigid clump. Its members have the ids from `id` on, one each.
@@ -164,7 +172,29 @@ pub struct Body {
     pub spin: Vec3,
 }
 
-/// A wall: a shape that moves as one rigid body.
+/// Bonds between the particles of two materials that are close to each other at t = 0: round elastic beams between the centres, as long as these
+/// are apart, with the radius λ min(r_i, r_j). They act beside contacts, until they break.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bond {
+    /// The two materials, by index, in any order.
+    pub between: (u16, u16),
+    /// Largest gap between two surfaces at t = 0 that is bonded [m].
+    pub gap: f64,
+    /// λ, radius of the beam over the smaller of both [–].
+    pub radius_ratio: f64,
+    /// Young's modulus E of the beam [Pa].
+    pub young: f64,
+    /// Its shear modulus G [Pa].
+    pub shear_modulus: f64,
+    /// σ_c: it breaks at this tension at its rim [Pa]; infinite: never.
+    pub tensile_strength: f64,
+    /// τ_c: it breaks at this shear [Pa]; infinite: never.
+    pub shear_strength: f64,
+    /// γ: dashpots are this share of √(k m*) of the stiffest motion of the two, in proportion to stiffness [–]; 0: none, 2: critical.
+    pub damping: f64,
+}
+
+/// A wall: a shape that moves as one rigid body, as its motion prescribes and by as much as its servo has moved it.
 #[derive(Debug, Clone)]
 pub struct Wall {
     /// Name, for messages and reports.
@@ -173,8 +203,22 @@ pub struct Wall {
     pub material: u16,
     /// Where its surface is at t = 0.
     pub shape: WallShape,
-    /// How it moves.
+    /// Prescribed motion.
     pub motion: Motion,
+    /// A force that it follows besides.
+    pub servo: Option<Servo>,
+}
+
+impl Wall {
+    /// A wall at rest.
+    pub fn new(name: impl Into<String>, material: u16, shape: WallShape) -> Wall {
+        Wall { name: name.into(), material, shape, motion: Motion::still(), servo: None }
+    }
+
+    /// Whether it moves at all.
+    pub fn moves(&self) -> bool {
+        self.motion.moves() || self.servo.is_some()
+    }
 }
 
 /// The surface of a wall.
@@ -188,48 +232,26 @@ pub enum WallShape {
     Mesh(TriMesh),
 }
 
-/// Rigid motion: a turn about a fixed axis, then a shift.
-///
-/// ```text
-/// x(t) = c + R(Ω τ)(x₀ − c) + v τ + a sin(2π f τ) d + s(t) e      τ = min(max(t, from), until) − from
-/// ```
-///
-/// s is the way of a servo, along its direction e.
+/// A force that a wall follows ([`crate::passes::servo`] says how).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Motion {
-    /// v [m/s].
-    pub velocity: Vec3,
-    /// Ω, axis times rate [rad/s].
-    pub turn: Vec3,
-    /// c, a point of the axis [m].
-    pub through: Vec3,
-    /// a d, amplitude and direction of the vibration [m].
-    pub amplitude: Vec3,
-    /// f [Hz].
-    pub frequency: f64,
-    /// When it starts to move [s].
-    pub from: f64,
-    /// When it stops, where it is then [s]; ∞: never.
-    pub until: f64,
-    /// Whether it follows a force besides.
-    pub servo: Option<Servo>,
+pub struct Servo {
+    /// Which way the wall pushes [–].
+    pub direction: Vec3,
+    /// Force of the wall on the particles along `direction` [N].
+    pub force: f64,
+    /// Largest speed [m/s].
+    pub speed_limit: f64,
 }
 
-impl Motion {
-    /// A wall at rest.
-    pub fn still() -> Motion {
-        let zero = Vec3::zeros();
-        Motion {
-            velocity: zero,
-            turn: zero,
-            through: zero,
-            amplitude: zero,
-            frequency: 0.0,
-            from: 0.0,
-            until: f64::INFINITY,
-            servo: None,
-        }
-    }
+/// When particles sleep ([`crate::passes::sleep`] says what that does).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Sleep {
+    /// Speed of the surface, |v| + r|ω|, below which a particle is at rest [m/s].
+    pub speed: f64,
+    /// How long it must have been [s].
+    pub time: f64,
+    /// Force that wakes it, over its weight [–].
+    pub wake: f64,
 }
 
 /// When a run is stopped.
@@ -243,7 +265,7 @@ pub struct Guards {
     pub cuts: u32,
     /// Whether a grain that goes back through the whole zone of a cut stops the run.
     pub zones: bool,
-    /// Largest energy that the finite time step may make, as a share of what was exchanged and the most that moved or was in springs [–]; ∞: not looked at. It
+    /// Largest energy that the finite time step may make, as a share of what was exchanged and the most that moved or was in springs [–]; ∞: not checked. It
     /// needs the ledger.
     pub energy: f64,
 }

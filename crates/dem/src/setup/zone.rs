@@ -214,12 +214,12 @@ pub struct Crossing {
     /// Its contacts, or those of all members.
     pub touching: Vec<Touch>,
     /// Its bonds that are whole.
-    pub links: Vec<Link>,
+    pub bonds: Vec<CrossingBond>,
 }
 
-/// A bond of one that crosses, or of two that come in.
+/// A bond of a particle that crosses, or of two that come in.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Link {
+pub struct CrossingBond {
     /// Id of the particle that crosses, or of one that comes in.
     pub id: u32,
     /// Id of the other.
@@ -229,8 +229,8 @@ pub struct Link {
     /// Length L and radius r at rest [m].
     pub size: [f64; 2],
     /// E A/L [N/m], E I/L and G J/L [N·m/rad].
-    pub springs: [f64; 3],
-    /// Dashpots over springs [s].
+    pub stiffness: [f64; 3],
+    /// Damping over stiffness [s].
     pub lag: f64,
     /// σ_c and τ_c [Pa]; infinite: it never breaks.
     pub strength: [f64; 2],
@@ -268,17 +268,17 @@ pub struct Touch {
     pub normal: Vec3,
     /// Tangential force on the crossing particle [N].
     pub tangential: Vec3,
-    /// What the contact remembers.
-    pub springs: ContactHistory,
+    /// Its history.
+    pub history: ContactHistory,
 }
 
-/// What the contact of two that come in has to remember once the first of them is free.
+/// History that the contact of two that come in takes once the first of them is free.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Memory {
+pub struct PairHistory {
     /// Id of the one that is free first.
     pub id: u32,
     /// Id of the other.
     pub partner: u32,
     /// As `id` sees it.
-    pub springs: ContactHistory,
+    pub history: ContactHistory,
 }

@@ -24,12 +24,20 @@ impl Aligned {
         Aligned { margin, first, len }
     }
 
-    /// `len` zeros, in the same place where there are so many.
+    /// `len` zeros, in the same memory where there are so many.
     pub fn clear(&mut self, len: usize) {
         match self.len == len {
             true => self.fill(0.0),
             false => *self = Aligned::zeros(len),
         }
+    }
+}
+
+impl Clone for Aligned {
+    fn clone(&self) -> Aligned {
+        let mut copy = Aligned::zeros(self.len);
+        copy.copy_from_slice(self);
+        copy
     }
 }
 

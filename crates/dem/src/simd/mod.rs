@@ -1,26 +1,28 @@
 //! Lanes: one contact, or several at a time, computed by the same source with the same bits.
 //!
-//! Arithmetic is in double precision, or, for what happens in a contact, in single precision ([`single`]): places are subtracted in
+//! Arithmetic is in double precision, or, for what happens in a contact, in single precision: positions are subtracted in
 //! double precision first, so that nothing is lost far from the origin.
 //!
 //! Only operations that IEEE 754 rounds the same way everywhere: +, −, ×, ÷, √, comparison. No fused
 //! multiply-add and no reassociation, so a wide lane equals the scalar one bit for bit.
 //!
-//! What computes with lanes is inlined into the loop that is compiled for wide registers, always: functions say so, and closures cannot.
-//! One that is not inlined calls a function for each operation, and takes several times as long.
+//! Every function on lanes is marked `#[inline(always)]`, so that it is compiled for the wide registers of the loop that calls it; closures cannot be
+//! marked. A function that is not inlined calls another for each operation and takes several times as long.
 
-#[cfg(target_arch = "x86_64")]
-#[cfg(target_arch = "x86_64")]
 pub(crate) mod aligned;
 pub(crate) mod number;
 pub(crate) mod scalar;
-pub(crate) mod single;
 pub(crate) mod two;
 #[cfg(target_arch = "x86_64")]
 pub(crate) mod x86;
 #[cfg(target_arch = "x86_64")]
 pub(crate) mod x86_single;
 
+pub(crate) use aligned::Aligned;
+pub(crate) use number::{FORCE, FORCE_AND_MOMENT, Layout, Number, Precision, TORQUE};
+pub(crate) use scalar::Each;
+
+use geom::Vec3;
 use serde::{Deserialize, Serialize};
 use std::ops::{Add, Deref, DerefMut, Div, Mul, Neg, Sub};
 
@@ -58,6 +60,34 @@ macro_rules! behaves_as {
 behaves_as!(Row, [f64; 8]);
 behaves_as!(Row4, [f64; 4]);
 
+impl Row {
+    /// Centre [m].
+    #[inline(always)]
+    pub fn position(&self) -> Vec3 {
+        Vec3::new(self[0], self[1], self[2])
+    }
+
+    /// Velocity [m/s].
+    #[inline(always)]
+    pub fn velocity(&self) -> Vec3 {
+        Vec3::new(self[4], self[5], self[6])
+    }
+}
+
+impl Row4 {
+    /// A vector, and 0.
+    #[inline(always)]
+    pub fn of(v: Vec3) -> Row4 {
+        Row4([v.x, v.y, v.z, 0.0])
+    }
+
+    /// The vector.
+    #[inline(always)]
+    pub fn vector(&self) -> Vec3 {
+        Vec3::new(self[0], self[1], self[2])
+    }
+}
+
 /// Asks for an entry of a table that will soon be read, whether or not there is one; it changes nothing.
 #[inline(always)]
 pub fn fetch<T>(table: &[T], at: usize) {
@@ -67,7 +97,7 @@ pub fn fetch<T>(table: &[T], at: usize) {
     let _ = (table, at);
 }
 
-/// Which rows of a table are read: all of them within it, which is looked at once for several tables of as many rows.
+/// Which rows of a table are read: all of them within it, which is checked once for several tables of as many rows.
 #[derive(Clone, Copy)]
 pub struct Indices<'a> {
     of: &'a [u32],
@@ -133,10 +163,10 @@ pub trait Lane:
     fn both(a: Self::Mask, b: Self::Mask) -> Self::Mask;
     /// Whether any lane holds.
     fn any(mask: Self::Mask) -> bool;
-    /// Columns of the rows at the first `WIDTH` places.
-    fn rows(table: &[Row], places: Indices) -> [Self; 8];
+    /// Columns of the rows at the first `WIDTH` indices.
+    fn rows(table: &[Row], indices: Indices) -> [Self; 8];
     /// The same for rows of four.
-    fn rows4(table: &[Row4], places: Indices) -> [Self; 4];
+    fn rows4(table: &[Row4], indices: Indices) -> [Self; 4];
     /// Writes columns as `WIDTH` rows of eight.
     fn store_rows(columns: [Self; 8], to: &mut [f64]);
     /// Writes columns as `WIDTH` rows of four.

@@ -1,4 +1,4 @@
-//! Numbers that are computed of contacts, in double or in single precision: what they remember, their loads, and the sums of these.
+//! Numbers of contacts, in double or in single precision: history, wrenches, and sums of wrenches.
 //!
 //! All are kept in columns of words of eight bytes, so that one kind of column does for both precisions: a word holds one number, or two.
 
@@ -25,86 +25,60 @@ pub trait Number: Copy + Default + AddAssign + SubAssign + Send + Sync {
     fn store_rows4<R: Lane>(columns: [R; 4], to: &mut [Self]);
 }
 
-impl Number for f64 {
-    const IN_A_WORD: usize = 1;
-    #[inline(always)]
-    fn wide(self) -> f64 {
-        self
-    }
-    #[inline(always)]
-    fn of(words: &[f64]) -> &[f64] {
-        words
-    }
-    #[inline(always)]
-    fn of_mut(words: &mut [f64]) -> &mut [f64] {
-        words
-    }
-    #[inline(always)]
-    fn load<R: Lane>(from: &[f64]) -> R {
-        R::load(from)
-    }
-    #[inline(always)]
-    fn store<R: Lane>(lanes: R, to: &mut [f64]) {
-        lanes.store(to);
-    }
-    #[inline(always)]
-    fn store_rows<R: Lane>(columns: [R; 8], to: &mut [f64]) {
-        R::store_rows(columns, to);
-    }
-    #[inline(always)]
-    fn store_rows4<R: Lane>(columns: [R; 4], to: &mut [f64]) {
-        R::store_rows4(columns, to);
-    }
+macro_rules! number {
+    ($number:ident, $in_a_word:literal, $load:ident, $store:ident, $store_rows:ident, $store_rows4:ident) => {
+        impl Number for $number {
+            const IN_A_WORD: usize = $in_a_word;
+            #[inline(always)]
+            fn wide(self) -> f64 {
+                f64::from(self)
+            }
+            #[inline(always)]
+            fn of(words: &[f64]) -> &[$number] {
+                bytemuck::must_cast_slice(words)
+            }
+            #[inline(always)]
+            fn of_mut(words: &mut [f64]) -> &mut [$number] {
+                bytemuck::must_cast_slice_mut(words)
+            }
+            #[inline(always)]
+            fn load<R: Lane>(from: &[$number]) -> R {
+                R::$load(from)
+            }
+            #[inline(always)]
+            fn store<R: Lane>(lanes: R, to: &mut [$number]) {
+                lanes.$store(to);
+            }
+            #[inline(always)]
+            fn store_rows<R: Lane>(columns: [R; 8], to: &mut [$number]) {
+                R::$store_rows(columns, to);
+            }
+            #[inline(always)]
+            fn store_rows4<R: Lane>(columns: [R; 4], to: &mut [$number]) {
+                R::$store_rows4(columns, to);
+            }
+        }
+    };
 }
+number!(f64, 1, load, store, store_rows, store_rows4);
+number!(f32, 2, load_single, store_single, store_rows_single, store_rows4_single);
 
-impl Number for f32 {
-    const IN_A_WORD: usize = 2;
-    #[inline(always)]
-    fn wide(self) -> f64 {
-        f64::from(self)
-    }
-    #[inline(always)]
-    fn of(words: &[f64]) -> &[f32] {
-        bytemuck::must_cast_slice(words)
-    }
-    #[inline(always)]
-    fn of_mut(words: &mut [f64]) -> &mut [f32] {
-        bytemuck::must_cast_slice_mut(words)
-    }
-    #[inline(always)]
-    fn load<R: Lane>(from: &[f32]) -> R {
-        R::load_single(from)
-    }
-    #[inline(always)]
-    fn store<R: Lane>(lanes: R, to: &mut [f32]) {
-        lanes.store_single(to);
-    }
-    #[inline(always)]
-    fn store_rows<R: Lane>(columns: [R; 8], to: &mut [f32]) {
-        R::store_rows_single(columns, to);
-    }
-    #[inline(always)]
-    fn store_rows4<R: Lane>(columns: [R; 4], to: &mut [f32]) {
-        R::store_rows4_single(columns, to);
-    }
-}
-
-/// How what is computed of contacts is kept in a scene.
+/// How the numbers of contacts are kept in a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Layout {
-    /// Whether loads have moments.
+    /// Whether wrenches have moments.
     pub rotates: bool,
     /// Whether numbers are kept in single precision.
     pub single: bool,
 }
 
 /// Expands to a call for the numbers `$T` of a layout, and for whether its wrenches have moments: `$ROTATES`.
-macro_rules! as_kept {
-    ($form:expr, $T:ident, $ROTATES:ident => $call:expr) => {
-        $crate::simd::number::as_kept!(@ $form, $T, $ROTATES => $call; (false, false, f64), (false, true, f64), (true, false, f32), (true, true, f32))
+macro_rules! with_layout {
+    ($layout:expr, $T:ident, $ROTATES:ident => $call:expr) => {
+        $crate::simd::number::with_layout!(@ $layout, $T, $ROTATES => $call; (false, false, f64), (false, true, f64), (true, false, f32), (true, true, f32))
     };
-    (@ $form:expr, $T:ident, $ROTATES:ident => $call:expr; $(($single:literal, $rotates:literal, $number:ty)),*) => {
-        match ($form.single, $form.rotates) {
+    (@ $layout:expr, $T:ident, $ROTATES:ident => $call:expr; $(($single:literal, $rotates:literal, $number:ty)),*) => {
+        match ($layout.single, $layout.rotates) {
             $(($single, $rotates) => {
                 type $T = $number;
                 const $ROTATES: bool = $rotates;
@@ -113,10 +87,10 @@ macro_rules! as_kept {
         }
     };
 }
-pub(crate) use as_kept;
+pub(crate) use with_layout;
 
-/// Numbers of a load, with or without a moment.
-pub const fn of_a_load(rotates: bool) -> usize {
+/// Numbers of a force, with or without the moment of its tangential part.
+pub const fn numbers_of_force(rotates: bool) -> usize {
     if rotates { FORCE_AND_MOMENT } else { FORCE }
 }
 
@@ -128,27 +102,27 @@ impl Layout {
         (numbers + single) >> single
     }
 
-    /// Words of a load.
+    /// Words of a force, with its moment where anything rotates.
     #[inline(always)]
-    pub fn load(self) -> usize {
-        self.words(of_a_load(self.rotates))
+    pub fn force(self) -> usize {
+        self.words(numbers_of_force(self.rotates))
     }
 
-    /// Words of a couple.
+    /// Words of a torque.
     #[inline(always)]
     pub fn torque(self) -> usize {
-        self.words(COUPLE)
+        self.words(TORQUE)
     }
 
-    /// Words of the memory of one contact that has so many columns.
+    /// Words of the history of one contact with so many columns.
     #[inline(always)]
-    pub fn memory(self, columns: usize) -> usize {
+    pub fn history(self, columns: usize) -> usize {
         self.words(columns)
     }
 
-    /// Which of the numbers behind `first` words is column `column` of the memory of the contact after `k` others, with so many columns.
-    pub fn memory_at(self, first: usize, k: usize, column: usize, columns: usize) -> usize {
-        let block = first + k / BLOCK * BLOCK * self.memory(columns);
+    /// Which of the numbers behind `first` words is column `column` of the history of the contact after `k` others, with so many columns.
+    pub fn history_at(self, first: usize, k: usize, column: usize, columns: usize) -> usize {
+        let block = first + k / BLOCK * BLOCK * self.history(columns);
         (block << usize::from(self.single)) + column * BLOCK + k % BLOCK
     }
 
@@ -164,10 +138,10 @@ impl Layout {
         if self.single { f32::of_mut(words)[at] = x as f32 } else { words[at] = x }
     }
 
-    /// The first three numbers of load `place`.
-    pub fn force(self, loads: &[f64], place: usize) -> geom::Vec3 {
-        let first = place * of_a_load(self.rotates);
-        geom::Vec3::new(self.get(loads, first), self.get(loads, first + 1), self.get(loads, first + 2))
+    /// The first three numbers of the force in `slot`.
+    pub fn force_at(self, forces: &[f64], slot: usize) -> geom::Vec3 {
+        let first = slot * numbers_of_force(self.rotates);
+        geom::Vec3::new(self.get(forces, first), self.get(forces, first + 1), self.get(forces, first + 2))
     }
 
     /// Whether all numbers are finite.
@@ -180,21 +154,21 @@ impl Layout {
     }
 }
 
-/// Numbers of a load without rotation: force on i and a pad.
+/// Numbers of a force without rotation: force on i and a pad.
 pub const FORCE: usize = 4;
 /// With rotation: force on i, a pad, n × F_t times distance over reach (the moment on a particle of radius −1), a pad.
 pub const FORCE_AND_MOMENT: usize = 8;
-/// Numbers of a couple: on i, and a pad.
-pub const COUPLE: usize = 4;
+/// Numbers of a torque: on i, and a pad.
+pub const TORQUE: usize = 4;
 
-/// In which precision contacts are computed; places and velocities are always in double precision. Within a plant of metres a place in single
-/// precision would be coarser than the overlap of two grains at rest.
+/// In which precision contacts are computed. Positions and velocities are always in double precision: within a plant of metres, a position in
+/// single precision would be coarser than the overlap of two grains at rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Precision {
     /// Double precision.
     #[default]
     Double,
-    /// What happens in a contact in single precision; what it remembers, and the sums of loads, in double precision.
+    /// Contacts in single precision; their history, and sums of wrenches, in double precision.
     Mixed,
     /// All of that in single precision.
     Single,

@@ -90,8 +90,8 @@ impl<R: Lane> Lane for Two<R> {
         R::any(mask.0) | R::any(mask.1)
     }
     #[inline(always)]
-    fn rows(table: &[Row], places: Indices) -> [Two<R>; 8] {
-        let (a, b) = (R::rows(table, places), R::rows(table, places.from(R::WIDTH)));
+    fn rows(table: &[Row], indices: Indices) -> [Two<R>; 8] {
+        let (a, b) = (R::rows(table, indices), R::rows(table, indices.from(R::WIDTH)));
         [
             Two(a[0], b[0]),
             Two(a[1], b[1]),
@@ -104,8 +104,8 @@ impl<R: Lane> Lane for Two<R> {
         ]
     }
     #[inline(always)]
-    fn rows4(table: &[Row4], places: Indices) -> [Two<R>; 4] {
-        let (a, b) = (R::rows4(table, places), R::rows4(table, places.from(R::WIDTH)));
+    fn rows4(table: &[Row4], indices: Indices) -> [Two<R>; 4] {
+        let (a, b) = (R::rows4(table, indices), R::rows4(table, indices.from(R::WIDTH)));
         [Two(a[0], b[0]), Two(a[1], b[1]), Two(a[2], b[2]), Two(a[3], b[3])]
     }
     #[inline(always)]

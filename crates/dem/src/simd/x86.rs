@@ -5,9 +5,7 @@
 //! index, as in scalar code. All functions are inlined into those kernels.
 #![expect(unsafe_code, reason = "the processor's own vector instructions")]
 
-use crate::simd::Four;
-
-use crate::simd::{Indices, Lane, Row, Row4};
+use crate::simd::{Four, Indices, Lane, Row, Row4};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -26,8 +24,9 @@ pub struct X4(pub(crate) __m256d);
 #[derive(Clone, Copy)]
 pub struct X8(pub(crate) __m512d);
 
+/// Arithmetic of a type of lanes.
 macro_rules! operators {
-    ($t:ident, $add:ident, $sub:ident, $mul:ident, $div:ident, $set:ident) => {
+    ($t:ident, $add:ident, $sub:ident, $mul:ident, $div:ident, $xor:ident, $set:ident) => {
         operators!(@ $t, Add, add, $add);
         operators!(@ $t, Sub, sub, $sub);
         operators!(@ $t, Mul, mul, $mul);
@@ -37,7 +36,7 @@ macro_rules! operators {
             #[inline(always)]
             fn neg(self) -> $t {
                 // SAFETY: see the module's head. Flips the sign bit, as scalar negation does.
-                unsafe { $t::flip(self, $set(-0.0)) }
+                $t(unsafe { $xor(self.0, $set(-0.0)) })
             }
         }
     };
@@ -52,31 +51,66 @@ macro_rules! operators {
         }
     };
 }
+pub(crate) use operators;
 
-operators!(X4, _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd, _mm256_set1_pd);
-operators!(X8, _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd, _mm512_div_pd, _mm512_set1_pd);
+operators!(X4, _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd, _mm256_xor_pd, _mm256_set1_pd);
+operators!(X8, _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd, _mm512_div_pd, _mm512_xor_pd, _mm512_set1_pd);
 
-impl X4 {
-    #[inline(always)]
-    unsafe fn flip(self, sign: __m256d) -> X4 {
-        // SAFETY: see the module's head.
-        X4(unsafe { _mm256_xor_pd(self.0, sign) })
-    }
+/// Functions of [`Lane`] that are one instruction for `$n` doubles.
+macro_rules! doubles {
+    ($t:ident, $n:literal, $set:ident, $load:ident, $store:ident, $sqrt:ident, $min:ident, $max:ident) => {
+        const WIDTH: usize = $n;
+        const TINY: f64 = f64::TINY;
+        type Wide = $t;
+
+        #[inline(always)]
+        fn narrow(wide: $t) -> $t {
+            wide
+        }
+        #[inline(always)]
+        fn overlap(_: $t, reach: $t, distance: $t) -> $t {
+            reach - distance
+        }
+        #[inline(always)]
+        fn splat(x: f64) -> $t {
+            // SAFETY: see the module's head.
+            $t(unsafe { $set(x) })
+        }
+        #[inline(always)]
+        fn load(from: &[f64]) -> $t {
+            let from = &from[..$n];
+            // SAFETY: as many numbers, as checked above.
+            $t(unsafe { $load(from.as_ptr()) })
+        }
+        #[inline(always)]
+        fn store(self, to: &mut [f64]) {
+            let to = &mut to[..$n];
+            // SAFETY: as many numbers, as checked above.
+            unsafe { $store(to.as_mut_ptr(), self.0) }
+        }
+        #[inline(always)]
+        fn sqrt(self) -> $t {
+            // SAFETY: see the module's head.
+            $t(unsafe { $sqrt(self.0) })
+        }
+        #[inline(always)]
+        fn min(self, o: $t) -> $t {
+            // SAFETY: see the module's head.
+            $t(unsafe { $min(self.0, o.0) })
+        }
+        #[inline(always)]
+        fn max(self, o: $t) -> $t {
+            // SAFETY: see the module's head.
+            $t(unsafe { $max(self.0, o.0) })
+        }
+    };
 }
 
-impl X8 {
-    #[inline(always)]
-    unsafe fn flip(self, sign: __m512d) -> X8 {
-        // SAFETY: see the module's head.
-        X8(unsafe { _mm512_xor_pd(self.0, sign) })
-    }
-}
-
-/// The first `N` places, and the start of a table that they lie in.
+/// The first `N` indices, and the start of the table that they point into.
 #[inline(always)]
-fn first<'a, const N: usize, T>(table: &'a [T], places: Indices<'a>) -> (&'a [u32], *const T) {
-    assert!(places.rows <= table.len());
-    (&places.of[..N], table.as_ptr())
+fn first<'a, const N: usize, T>(table: &'a [T], indices: Indices<'a>) -> (&'a [u32], *const T) {
+    assert!(indices.rows <= table.len());
+    (&indices.of[..N], table.as_ptr())
 }
 
 #[inline(always)]
@@ -131,52 +165,18 @@ fn transpose8(r: [__m512d; 8]) -> [__m512d; 8] {
 }
 
 impl Lane for X4 {
-    const WIDTH: usize = 4;
-    const TINY: f64 = 1e-300;
+    doubles!(
+        X4,
+        4,
+        _mm256_set1_pd,
+        _mm256_loadu_pd,
+        _mm256_storeu_pd,
+        _mm256_sqrt_pd,
+        _mm256_min_pd,
+        _mm256_max_pd
+    );
     type Mask = __m256d;
-    type Wide = X4;
 
-    #[inline(always)]
-    fn narrow(wide: X4) -> X4 {
-        wide
-    }
-    #[inline(always)]
-    fn overlap(_: X4, reach: X4, distance: X4) -> X4 {
-        reach - distance
-    }
-
-    #[inline(always)]
-    fn splat(x: f64) -> X4 {
-        // SAFETY: see the module's head.
-        X4(unsafe { _mm256_set1_pd(x) })
-    }
-    #[inline(always)]
-    fn load(from: &[f64]) -> X4 {
-        let from = &from[..4];
-        // SAFETY: four numbers, as checked above.
-        X4(unsafe { _mm256_loadu_pd(from.as_ptr()) })
-    }
-    #[inline(always)]
-    fn store(self, to: &mut [f64]) {
-        let to = &mut to[..4];
-        // SAFETY: four numbers, as checked above.
-        unsafe { _mm256_storeu_pd(to.as_mut_ptr(), self.0) }
-    }
-    #[inline(always)]
-    fn sqrt(self) -> X4 {
-        // SAFETY: see the module's head.
-        X4(unsafe { _mm256_sqrt_pd(self.0) })
-    }
-    #[inline(always)]
-    fn min(self, o: X4) -> X4 {
-        // SAFETY: see the module's head.
-        X4(unsafe { _mm256_min_pd(self.0, o.0) })
-    }
-    #[inline(always)]
-    fn max(self, o: X4) -> X4 {
-        // SAFETY: see the module's head.
-        X4(unsafe { _mm256_max_pd(self.0, o.0) })
-    }
     #[inline(always)]
     fn gt(self, o: X4) -> __m256d {
         // SAFETY: see the module's head.
@@ -198,8 +198,8 @@ impl Lane for X4 {
         unsafe { _mm256_movemask_pd(mask) != 0 }
     }
     #[inline(always)]
-    fn rows(table: &[Row], places: Indices) -> [X4; 8] {
-        let (of, table) = first::<4, Row>(table, places);
+    fn rows(table: &[Row], indices: Indices) -> [X4; 8] {
+        let (of, table) = first::<4, Row>(table, indices);
         // SAFETY: the row is one of the table, has eight numbers, and `at` is 0 or 4.
         let half =
             |k: usize, at: usize| unsafe { _mm256_loadu_pd(table.add(of[k] as usize).cast::<f64>().add(at)) };
@@ -208,8 +208,8 @@ impl Lane for X4 {
         [X4(a[0]), X4(a[1]), X4(a[2]), X4(a[3]), X4(b[0]), X4(b[1]), X4(b[2]), X4(b[3])]
     }
     #[inline(always)]
-    fn rows4(table: &[Row4], places: Indices) -> [X4; 4] {
-        let (of, table) = first::<4, Row4>(table, places);
+    fn rows4(table: &[Row4], indices: Indices) -> [X4; 4] {
+        let (of, table) = first::<4, Row4>(table, indices);
         // SAFETY: the row is one of the table, and has four numbers.
         let row = |k: usize| unsafe { _mm256_loadu_pd(table.add(of[k] as usize).cast()) };
         transpose4([row(0), row(1), row(2), row(3)]).map(X4)
@@ -233,52 +233,18 @@ impl Lane for X4 {
 }
 
 impl Lane for X8 {
-    const WIDTH: usize = 8;
-    const TINY: f64 = 1e-300;
+    doubles!(
+        X8,
+        8,
+        _mm512_set1_pd,
+        _mm512_loadu_pd,
+        _mm512_storeu_pd,
+        _mm512_sqrt_pd,
+        _mm512_min_pd,
+        _mm512_max_pd
+    );
     type Mask = __mmask8;
-    type Wide = X8;
 
-    #[inline(always)]
-    fn narrow(wide: X8) -> X8 {
-        wide
-    }
-    #[inline(always)]
-    fn overlap(_: X8, reach: X8, distance: X8) -> X8 {
-        reach - distance
-    }
-
-    #[inline(always)]
-    fn splat(x: f64) -> X8 {
-        // SAFETY: see the module's head.
-        X8(unsafe { _mm512_set1_pd(x) })
-    }
-    #[inline(always)]
-    fn load(from: &[f64]) -> X8 {
-        let from = &from[..8];
-        // SAFETY: eight numbers, as checked above.
-        X8(unsafe { _mm512_loadu_pd(from.as_ptr()) })
-    }
-    #[inline(always)]
-    fn store(self, to: &mut [f64]) {
-        let to = &mut to[..8];
-        // SAFETY: eight numbers, as checked above.
-        unsafe { _mm512_storeu_pd(to.as_mut_ptr(), self.0) }
-    }
-    #[inline(always)]
-    fn sqrt(self) -> X8 {
-        // SAFETY: see the module's head.
-        X8(unsafe { _mm512_sqrt_pd(self.0) })
-    }
-    #[inline(always)]
-    fn min(self, o: X8) -> X8 {
-        // SAFETY: see the module's head.
-        X8(unsafe { _mm512_min_pd(self.0, o.0) })
-    }
-    #[inline(always)]
-    fn max(self, o: X8) -> X8 {
-        // SAFETY: see the module's head.
-        X8(unsafe { _mm512_max_pd(self.0, o.0) })
-    }
     #[inline(always)]
     fn gt(self, o: X8) -> __mmask8 {
         // SAFETY: see the module's head.
@@ -298,15 +264,15 @@ impl Lane for X8 {
         mask != 0
     }
     #[inline(always)]
-    fn rows(table: &[Row], places: Indices) -> [X8; 8] {
-        let (of, table) = first::<8, Row>(table, places);
+    fn rows(table: &[Row], indices: Indices) -> [X8; 8] {
+        let (of, table) = first::<8, Row>(table, indices);
         // SAFETY: the row is one of the table, and has eight numbers.
         let row = |k: usize| unsafe { _mm512_loadu_pd(table.add(of[k] as usize).cast()) };
         transpose8([row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7)]).map(X8)
     }
     #[inline(always)]
-    fn rows4(table: &[Row4], places: Indices) -> [X8; 4] {
-        let (a, b) = (X4::rows4(table, places), X4::rows4(table, places.from(4)));
+    fn rows4(table: &[Row4], indices: Indices) -> [X8; 4] {
+        let (a, b) = (X4::rows4(table, indices), X4::rows4(table, indices.from(4)));
         // SAFETY: see the module's head.
         let join = |k: usize| unsafe { X8(_mm512_insertf64x4::<1>(_mm512_castpd256_pd512(a[k].0), b[k].0)) };
         [join(0), join(1), join(2), join(3)]

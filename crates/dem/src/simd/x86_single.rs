@@ -3,11 +3,9 @@
 //! Safety of this file: as for [`crate::simd::x86`]; nothing here reads or writes memory but through the wide types.
 #![expect(unsafe_code, reason = "the processor's own vector instructions")]
 
-use crate::simd::Lane;
-
 use crate::simd::two::Two;
-use crate::simd::x86::{X4, X8};
-use crate::simd::{Indices, Row, Row4};
+use crate::simd::x86::{X4, X8, operators};
+use crate::simd::{Indices, Lane, Row, Row4};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -72,18 +70,15 @@ unsafe fn halves(a: __m256, b: __m256, upper: bool) -> __m256 {
 
 macro_rules! single {
     ($t:ident, $wide:ident, $narrow:ident, $widen:ident) => {
-        single!(@ $t, Add, add, _mm256_add_ps);
-        single!(@ $t, Sub, sub, _mm256_sub_ps);
-        single!(@ $t, Mul, mul, _mm256_mul_ps);
-        single!(@ $t, Div, div, _mm256_div_ps);
-        impl Neg for $t {
-            type Output = $t;
-            #[inline(always)]
-            fn neg(self) -> $t {
-                // SAFETY: see the module's head. Flips the sign bit, as scalar negation does.
-                $t(unsafe { _mm256_xor_ps(self.0, _mm256_set1_ps(-0.0)) })
-            }
-        }
+        operators!(
+            $t,
+            _mm256_add_ps,
+            _mm256_sub_ps,
+            _mm256_mul_ps,
+            _mm256_div_ps,
+            _mm256_xor_ps,
+            _mm256_set1_ps
+        );
         impl $t {
             /// In double precision.
             #[inline(always)]
@@ -156,14 +151,14 @@ macro_rules! single {
                 unsafe { _mm256_movemask_ps(mask) != 0 }
             }
             #[inline(always)]
-            fn rows(table: &[Row], places: Indices) -> [$t; 8] {
-                let c = $wide::rows(table, places);
+            fn rows(table: &[Row], indices: Indices) -> [$t; 8] {
+                let c = $wide::rows(table, indices);
                 let n = $t::narrow;
                 [n(c[0]), n(c[1]), n(c[2]), n(c[3]), n(c[4]), n(c[5]), n(c[6]), n(c[7])]
             }
             #[inline(always)]
-            fn rows4(table: &[Row4], places: Indices) -> [$t; 4] {
-                let c = $wide::rows4(table, places);
+            fn rows4(table: &[Row4], indices: Indices) -> [$t; 4] {
+                let c = $wide::rows4(table, indices);
                 let n = $t::narrow;
                 [n(c[0]), n(c[1]), n(c[2]), n(c[3])]
             }
@@ -195,8 +190,7 @@ macro_rules! single {
             fn store_rows_single(columns: [$t; 8], to: &mut [f32]) {
                 let [a, b, c, d, e, f, g, h] = columns;
                 // SAFETY: see the module's head.
-                let (low, high) =
-                    unsafe { (quads([a.0, b.0, c.0, d.0]), quads([e.0, f.0, g.0, h.0])) };
+                let (low, high) = unsafe { (quads([a.0, b.0, c.0, d.0]), quads([e.0, f.0, g.0, h.0])) };
                 for (k, row) in to[..64].as_chunks_mut::<8>().0.iter_mut().enumerate() {
                     let (l, h) = (low[k % 4], high[k % 4]);
                     // SAFETY: see the module's head; a row is eight floats.
@@ -217,16 +211,6 @@ macro_rules! single {
                         _mm256_storeu_ps(rows.as_mut_ptr(), halves(one, next, k >= 2));
                     }
                 }
-            }
-        }
-    };
-    (@ $t:ident, $trait:ident, $f:ident, $op:ident) => {
-        impl $trait for $t {
-            type Output = $t;
-            #[inline(always)]
-            fn $f(self, o: $t) -> $t {
-                // SAFETY: see the module's head.
-                $t(unsafe { $op(self.0, o.0) })
             }
         }
     };

@@ -1,17 +1,18 @@
 //! A simulation: what is fixed (Model), what changes (State), and the lists that follow from both.
 //!
-//! `step` is the time step, `checkpoint` saves and resumes. `observe` and `stages` are what users call besides. Nothing else sees all three
+//! `step` is the time step, `checkpoint` saves and resumes. `observe`, `explain` and `stages` are what users call besides. Nothing else sees all three
 //! parts at once as one.
 
 mod checkpoint;
+mod explain;
 mod observe;
 mod stages;
 mod step;
 
 pub use checkpoint::Checkpoint;
+pub use explain::{ContactBytes, EffectCost};
 
-use crate::model::Model;
-use crate::model::error::SetupError;
+use crate::model::{Model, SetupError};
 use crate::neighbours::NeighbourLists;
 use crate::setup::Setup;
 use crate::simd::Width;
@@ -47,7 +48,7 @@ impl Simulation {
         let state = State::new(&model)?;
         // They are in their columns now.
         model.setup.particles = Vec::new();
-        model.setup.clumps.bodies = Vec::new();
+        model.setup.clumps.placed = Vec::new();
         Ok(Simulation { model, state, lists: NeighbourLists::default() })
     }
 

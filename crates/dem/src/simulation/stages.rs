@@ -1,12 +1,10 @@
 //! What a stage of a plant does to a simulation: particles come in with their contacts and bonds, and crossings and paths go out.
 
 use super::Simulation;
-use crate::model::error::SetupError;
-use crate::model::halt::Halt;
-use crate::passes::bonds::zones as bonds;
-use crate::passes::zones::{enter, memory, paths, returned};
-use crate::setup::{Crossing, Entry, Guide, Link, Memory, PathSample};
-use crate::state::returned::Returned;
+use crate::model::{Halt, SetupError};
+use crate::passes::zones::{enter, paths, returned};
+use crate::setup::{Crossing, CrossingBond, Entry, Guide, PairHistory, PathSample};
+use crate::state::{ListStatus, Returned};
 
 impl Simulation {
     /// Queues a particle that will enter; due when time() reaches `entry.time`.
@@ -23,27 +21,35 @@ impl Simulation {
         enter::look_ahead(&self.model)
     }
 
-    /// Takes news of a particle on its way in along a recorded path.
+    /// Takes news of a particle on its way in along a recorded path, whose samples must reach beyond time() + [`Simulation::look_ahead`] before
+    /// the next step.
     ///
     /// # Errors
     /// News of a particle that is not on its way, or out of order.
     pub fn guide(&mut self, id: u32, guide: Guide) -> Result<(), SetupError> {
-        paths::guide(&self.model, &mut self.state, id, guide)
+        self.state.zones.guide(id, guide, &self.model.setup)
     }
 
-    /// Says what a contact of two that come in keeps: before the first of them is free, or it has no effect.
-    pub fn remember(&mut self, history: Memory) {
-        memory::remember(&self.model, &mut self.state, history);
+    /// Queues the history of a contact of two particles that come in: before the first of them is free, or it has no effect.
+    pub fn enter_history(&mut self, history: PairHistory) {
+        let PairHistory { id, partner, history } = history;
+        if self.state.zones.is_entering(id, &self.model.setup) {
+            self.state.zones.histories.insert((id, partner), history);
+        }
     }
 
-    /// Bonds two that come in.
-    pub fn link(&mut self, link: Link) {
-        bonds::link(&mut self.state, link);
+    /// Queues a bond of two particles that come in, before the first of them is free. No effect where the bond is known, or where the setup has
+    /// no bonds.
+    pub fn enter_bond(&mut self, bond: CrossingBond) {
+        if self.state.bonds.on {
+            self.state.bonds.waiting.push(bond);
+            self.state.listing.outdate(ListStatus::Outdated);
+        }
     }
 
     /// Crossings of storage planes since the last call, in time order.
     pub fn take_crossings(&mut self) -> Vec<Crossing> {
-        self.state.zones.take_crossings()
+        std::mem::take(&mut self.state.zones.crossings)
     }
 
     /// States of the particles near a storage plane of recorded paths, now.

@@ -5,11 +5,10 @@
 
 use super::Simulation;
 use crate::forces::sweep;
-use crate::model::Model;
-use crate::model::halt::Halt;
+use crate::model::{Halt, Model};
 use crate::neighbours::{NeighbourLists, rebuild};
 use crate::observe::guards;
-use crate::passes::{bonds, clumps, drag, ledger, servo, start, zones};
+use crate::passes::{bonds, clumps, drag, instant, ledger, servo, zones};
 use crate::state::{Forces, ListStatus, State};
 
 impl Simulation {
@@ -27,7 +26,7 @@ impl Simulation {
         let found = sweep::forces_and_move(model, state, lists);
         ledger::add_contacts(model, state, lists);
         if let Some(sleepers) = &mut state.sleepers {
-            state.ledger.slept += sleepers.end_step(lists.contacts.tile());
+            state.ledger.slept += sleepers.end_step(lists.slots.tile);
         }
         let moved = clumps::advance::advance(model, state, found.moved);
         let driven = servo::drive(model, state, lists);
@@ -38,7 +37,8 @@ impl Simulation {
         state.steps += 1;
         state.forces = Forces::Due;
         state.bonds.turn(&state.particles, model.dt);
-        zones::advance::advance(model, state, lists);
+        zones::travel::move_zone_particles(model, state, lists);
+        zones::cross::find_crossings(model, state, lists);
         guards::check_overlap(model, state, lists, &found.deep, true)?;
         if moved.too_fast {
             guards::check_motion(model, state)?;
@@ -81,7 +81,7 @@ fn compute_forces(model: &Model, state: &mut State, lists: &mut NeighbourLists) 
     }
     let found = sweep::forces(model, state, lists);
     state.forces = Forces::Known;
-    let started = start::give_acceleration(model, state, lists);
-    ledger::open(model, state, lists, &started);
+    let starting = instant::start(model, state);
+    ledger::open(model, state, lists, &starting);
     guards::check_overlap(model, state, lists, &found.deep, false)
 }

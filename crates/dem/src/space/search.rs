@@ -1,11 +1,11 @@
 //! Which particles may touch until one leaves its margin: the Verlet list.
 //!
-//! Every particle has a room, a ball around the place where it was listed; two are listed when they could touch without
-//! leaving their rooms: |x_i − x_j| < R_i + R_j, R = r + room. A fast particle gets a larger room ([`room`]), so that a few fast ones
+//! Every particle has a margin, a ball around the position where it was listed; two are listed when they could touch without
+//! leaving their margins: |x_i − x_j| < R_i + R_j, R = r + margin. A fast particle gets a larger margin ([`margin`]), so that a few fast ones
 //! do not force a rebuild of the whole list, and slow ones are listed with few partners.
 //!
-//! Verlet (1967), Phys. Rev. 159; a room for each particle instead of one skin for all. The list is a function of places and
-//! rooms alone. Particles are sorted by blocks of about a tile, so that few partners are of another tile, and in these along the shortest
+//! Verlet (1967), Phys. Rev. 159; a margin for each particle instead of one skin for all. The list is a function of positions and
+//! margins alone. Particles are sorted by blocks of about a tile, so that few partners are of another tile, and in these along the shortest
 //! side of their box first.
 
 use geom::grid::bounds;
@@ -15,33 +15,25 @@ use std::ops::Range;
 /// Share of the particles that cells are made for; what reaches farther than half a cell is searched one by one.
 const COMMON: f64 = 0.98;
 
-/// How the skin is chosen: least, first and largest over the mean radius, and the steps that lists should hold.
-pub const SKIN: SkinChoice = SkinChoice { least: 0.02, start: 0.05, most: 0.6, steps: 32..96 };
+/// Skin at the start over the mean radius [–].
+pub const FIRST_SKIN: f64 = 0.05;
 
-/// See [`SKIN`].
-pub struct SkinChoice {
-    /// Smallest skin over the mean radius [–].
-    pub least: f64,
-    /// Skin at the start over the mean radius [–].
-    pub start: f64,
-    /// Largest skin over the mean radius [–].
-    pub most: f64,
-    /// Lists that hold shorter want a larger skin, and longer a smaller.
-    pub steps: Range<u64>,
-}
+/// Smallest and largest skin over the mean radius [–].
+const SKINS: [f64; 2] = [0.02, 0.6];
 
-impl SkinChoice {
-    /// The skin [m] after lists have held for so many steps with `skin`, for grains of mean radius `grain` [m].
-    pub fn next(&self, skin: f64, held: u64, grain: f64) -> f64 {
-        let factor = if held < self.steps.start {
-            1.3
-        } else if held > self.steps.end {
-            0.9
-        } else {
-            1.0
-        };
-        (skin * factor).clamp(self.least * grain, self.most * grain)
-    }
+/// Steps that lists should hold: if they hold shorter, the skin grows, and if longer, it shrinks.
+const HOLD: Range<u64> = 32..96;
+
+/// The skin [m] after lists have held for so many steps with `skin`, for grains of mean radius `grain` [m].
+pub fn next_skin(skin: f64, held: u64, grain: f64) -> f64 {
+    let factor = if held < HOLD.start {
+        1.3
+    } else if held > HOLD.end {
+        0.9
+    } else {
+        1.0
+    };
+    (skin * factor).clamp(SKINS[0] * grain, SKINS[1] * grain)
 }
 
 /// A pair of particles, i < j.
@@ -58,7 +50,7 @@ pub struct Search {
     grid: Grid,
     axes: [usize; 3],
     /// In the grid's order, and along its axes.
-    places: Vec<Vec3>,
+    positions: Vec<Vec3>,
     reach: Vec<f64>,
     /// `reach` of common particles, −∞ of wide ones: nothing is closer than that.
     common: Vec<f64>,
@@ -77,13 +69,13 @@ impl Search {
         let points: Vec<Vec3> = points.iter().map(along).collect();
         let grid = Grid::in_blocks(&points, cell, tile(points.len()));
         let order = grid.order();
-        let places = order.iter().map(|&k| points[k as usize]).collect();
+        let positions = order.iter().map(|&k| points[k as usize]).collect();
         let reach: Vec<f64> = order.iter().map(|&k| reach[k as usize]).collect();
         let is_wide = |r: f64| 2.0 * r > grid.cell();
         let wide = (0u32..).zip(&reach).filter(|&(_, &r)| is_wide(r)).map(|(k, _)| k).collect();
         let common = reach.iter().map(|&r| if is_wide(r) { f64::NEG_INFINITY } else { r }).collect();
         let largest = reach.iter().copied().fold(0.0, f64::max);
-        Search { axes, places, reach, common, wide, largest, grid }
+        Search { axes, positions, reach, common, wide, largest, grid }
     }
 
     /// The points in space order.
@@ -96,7 +88,7 @@ impl Search {
         let mut cell = [-1; 3];
         let mut runs: Vec<Range<usize>> = Vec::new();
         for i in range {
-            let (p, reach) = (self.places[i], self.common[i]);
+            let (p, reach) = (self.positions[i], self.common[i]);
             let here = self.grid.cell_of(&p);
             if here != cell {
                 let [x, y, z] = here;
@@ -110,7 +102,7 @@ impl Search {
             for run in &runs {
                 for j in run.start.max(i + 1)..run.end.max(i + 1) {
                     let close = reach + self.common[j];
-                    if (self.places[j] - p).norm_squared() < close * close && close > 0.0 {
+                    if (self.positions[j] - p).norm_squared() < close * close && close > 0.0 {
                         found.push((i as u32, j as u32));
                     }
                 }
@@ -122,11 +114,11 @@ impl Search {
     pub fn wide_pairs(&self) -> Vec<Pair> {
         let mut found = Vec::new();
         for &w in &self.wide {
-            let (p, reach) = (self.places[w as usize], self.reach[w as usize]);
+            let (p, reach) = (self.positions[w as usize], self.reach[w as usize]);
             for j in self.grid.runs_near(p, reach + self.largest).flatten() {
                 let close = reach + self.reach[j];
                 let once = j != w as usize && (self.common[j] > 0.0 || j > w as usize);
-                if once && (self.places[j] - p).norm_squared() < close * close {
+                if once && (self.positions[j] - p).norm_squared() < close * close {
                     found.push((w.min(j as u32), w.max(j as u32)));
                 }
             }
@@ -136,22 +128,33 @@ impl Search {
     }
 
     /// Pairs whose second is a particle shifted by `shift` [m], by first.
-    pub fn shifted_pairs(&self, shift: &Vec3, found: &mut Vec<(u32, u32, Vec3)>) {
+    pub fn shifted_pairs(&self, shift: &Vec3, found: &mut Vec<ImagePair>) {
         let along = Vec3::from(self.axes.map(|a| shift[a]));
-        let (lo, hi) = bounds(&self.places);
-        for (i, p) in self.places.iter().enumerate() {
-            let (place, far) = (p - along, self.reach[i] + self.largest);
-            if (0..3).any(|a| place[a] < lo[a] - far || place[a] > hi[a] + far) {
+        let (lo, hi) = bounds(&self.positions);
+        for (i, p) in self.positions.iter().enumerate() {
+            let (position, far) = (p - along, self.reach[i] + self.largest);
+            if (0..3).any(|a| position[a] < lo[a] - far || position[a] > hi[a] + far) {
                 continue;
             }
-            for j in self.grid.runs_near(place, far).flatten() {
+            for j in self.grid.runs_near(position, far).flatten() {
                 let close = self.reach[i] + self.reach[j];
-                if (self.places[j] - place).norm_squared() < close * close {
-                    found.push((i as u32, j as u32, *shift));
+                if (self.positions[j] - position).norm_squared() < close * close {
+                    found.push(ImagePair { i: i as u32, j: j as u32, shift: *shift });
                 }
             }
         }
     }
+}
+
+/// A particle, and the image of another across a periodic face.
+#[derive(Debug, Clone, Copy)]
+pub struct ImagePair {
+    /// The particle.
+    pub i: u32,
+    /// The other particle.
+    pub j: u32,
+    /// Shift of its image [m].
+    pub shift: Vec3,
 }
 
 /// The reach [m] that no more than a few particles surpass.
@@ -194,9 +197,9 @@ pub(crate) fn half_of_shifts(periodic: &[Option<(f64, f64)>; 3]) -> Vec<Vec3> {
     shifts
 }
 
-/// Particles of a tile. Contacts within a tile add to their particles at once, and loads between two tiles are kept until it is the other's
-/// turn: the larger tiles are, the fewer are kept. But what a tile computes is to be in the cache when it moves, and threads share tiles
-/// out, so that there must be some for each. A function of the number of particles alone: the order of sums depends on it.
+/// Number of particles of a tile. Wrenches between two tiles are kept until the other tile is summed: the larger the tiles, the fewer are kept. But a tile
+/// should still be in the cache when it moves, and each thread needs several tiles. It depends on the number of particles alone, because
+/// the order of sums depends on it.
 pub fn tile(particles: usize) -> usize {
     (particles / TILES).next_multiple_of(LEAST_TILE).clamp(LEAST_TILE, LARGEST_TILE)
 }

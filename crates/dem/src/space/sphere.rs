@@ -2,8 +2,9 @@
 
 use crate::simd::Row;
 use geom::Vec3;
+use geom::sphere::{INVERSE_INERTIA, volume};
 
-/// Two rows that nothing ever touches: what the unused places of a block point to.
+/// Two rows that nothing ever touches: what the unused slots of a block point to.
 pub const FAR: [Row; 2] = [
     Row([1e150, 1e150, 1e150, 0.0, 0.0, 0.0, 0.0, 1.0]),
     Row([-1e150, -1e150, -1e150, 0.0, 0.0, 0.0, 0.0, 1.0]),
@@ -17,14 +18,20 @@ pub fn away(k: usize) -> [f64; 3] {
     [-AWAY * (k + 1) as f64; 3]
 }
 
-/// Whether a row is out of the calculation. Its distance from a plane may be any number, also 0: it is not to be asked for.
+/// Whether a row is out of the calculation. Its distance from a plane may be any number, also 0, and means nothing.
 pub fn is_away(row: &Row) -> bool {
     row[0] <= -AWAY
 }
 
 /// Mass of a sphere [kg] of `radius` [m] and `density` [kg/m³].
 pub fn mass(radius: f64, density: f64) -> f64 {
-    4.0 / 3.0 * std::f64::consts::PI * radius * radius * radius * density
+    volume(radius) * density
+}
+
+/// Reciprocal of the moment of inertia of a sphere [1/(kg·m²)] of `radius` [m] and 1/m [1/kg].
+#[inline(always)]
+pub fn inverse_inertia(radius: f64, inverse_mass: f64) -> f64 {
+    INVERSE_INERTIA * inverse_mass / (radius * radius)
 }
 
 /// Periods along x, y, z [m]; 0 along an open axis.

@@ -5,7 +5,7 @@
 //! precision always. [`beam`] has the law. It needs to know how each end has turned since it was bonded:
 //!
 //! ```text
-//! q ← exp(ω_{n−½} Δt) q,   ω_{n−½} = w*_n − α_{n−1} Δt/2          what [`crate::advance`] has turned it by
+//! q ← exp(ω_{n−½} Δt) q,   ω_{n−½} = w*_n − α_{n−1} Δt/2          what [`crate::passes::integrate`] has turned it by
 //! ```
 //!
 //! Places and turns of one instant in the springs, velocities predicted for it in the dashpots: with springs alone that is velocity Verlet, which makes no energy
@@ -19,14 +19,13 @@
 //! both ends instead, so that nothing is lost by rounding or order: Wang (2009), Acta Geotech. 4, doi:10.1007/s11440-008-0072-1. Beam in a frame that turns along:
 //! Crisfield (1990), Comput. Methods Appl. Mech. Eng. 81, doi:10.1016/0045-7825(90)90106-V.
 
-use crate::kernel::sums::Sums;
-use crate::model::bonds::beam::{Ends, Pull};
-use crate::model::bonds::bonded_pair::BondedPair;
+use crate::kernel::Sums;
 use crate::model::bonds::find;
-use crate::model::error::SetupError;
-use crate::setup::{Link, Setup};
+use crate::model::{BondedPair, Ends, Pull, SetupError};
+use crate::setup::{CrossingBond, Setup};
 use crate::space::sphere::nearest;
-use crate::state::particles::Particles;
+use crate::state::Particles;
+use crate::state::particles::select;
 use crate::threads::{FEW, share};
 use geom::Vec3;
 use nalgebra::UnitQuaternion;
@@ -60,7 +59,7 @@ pub struct Bonds {
     /// Whether the scene has any, or may get them.
     pub(crate) on: bool,
     /// By rows.
-    pub(crate) pairs_bonded: Vec<BondedPair>,
+    pub(crate) pairs: Vec<BondedPair>,
     /// What each does at this instant.
     pub(crate) pulls: Vec<Pull>,
     /// How each particle has turned, by row; empty where there are none.
@@ -70,7 +69,7 @@ pub struct Bonds {
     /// Of those that have left: how many, and how many of them were broken.
     pub(crate) left: [usize; 2],
     /// Of two that come in, one of which is not here yet.
-    pub(crate) waiting: Vec<Link>,
+    pub(crate) waiting: Vec<CrossingBond>,
     /// First entry of each particle, and one more.
     #[serde(skip)]
     pub(crate) starts: Vec<u32>,
@@ -83,14 +82,14 @@ impl Bonds {
     /// Bonds of a setup at t = 0, whose particles are sorted by id.
     ///
     /// # Errors
-    /// Two centres at one place; a law for which there is no pair.
+    /// Two centres at one position; a law for which there is no pair.
     pub fn new(setup: &Setup, particles: &Particles) -> Result<Bonds, SetupError> {
         let mut bonds = Bonds { on: !setup.bonds.is_empty(), ..Bonds::default() };
         if bonds.none() {
             return Ok(bonds);
         }
-        bonds.pairs_bonded = find::pairs_bonded(setup)?;
-        bonds.pulls = vec![Pull::default(); bonds.pairs_bonded.len()];
+        bonds.pairs = find::bonded_pairs(setup)?;
+        bonds.pulls = vec![Pull::default(); bonds.pairs.len()];
         bonds.turns = vec![UnitQuaternion::identity(); particles.len()];
         bonds.index(&particles.id);
         Ok(bonds)
@@ -103,14 +102,14 @@ impl Bonds {
 
     /// How many there were, of those that have left as well, and how many of them broke.
     pub fn count(&self) -> [usize; 2] {
-        let broken = self.pairs_bonded.iter().filter(|t| t.broken.is_finite()).count();
-        [self.pairs_bonded.len() + self.left[0], broken + self.left[1]]
+        let broken = self.pairs.iter().filter(|t| t.broken.is_finite()).count();
+        [self.pairs.len() + self.left[0], broken + self.left[1]]
     }
 
     /// Memory that bonds take [bytes].
     pub fn bytes(&self) -> usize {
         use std::mem::size_of_val;
-        size_of_val(&self.pairs_bonded[..])
+        size_of_val(&self.pairs[..])
             + size_of_val(&self.pulls[..])
             + size_of_val(&self.turns[..])
             + size_of_val(&self.starts[..])
@@ -127,49 +126,42 @@ impl Bonds {
         [self.pulls.iter().map(|p| p.power).sum(), self.lost]
     }
 
-    /// Follows the particles to their new places; `order` names the old ones of those that stay, `ids` are those of the new. Bonds lie in the
-    /// order of their particles, which are then fetched from near each other.
-    pub fn reorder(&mut self, order: &[u32], ids: &[u32]) {
+    /// Reorders with the particles: `order` has the old row of each that stays, `new` the new row of each, `ids` the new ids. Bonds lie in
+    /// the order of their particles, which are then fetched from near each other.
+    pub fn reorder(&mut self, order: &[u32], new: &[u32], ids: &[u32]) {
         if self.none() {
             return;
         }
-        let mut new = vec![u32::MAX; self.turns.len()];
-        for (now, &was) in (0u32..).zip(order) {
-            new[was as usize] = now;
-        }
         let count = self.count();
-        self.pairs_bonded
-            .iter_mut()
-            .for_each(|pair_bonded| pair_bonded.ends = pair_bonded.ends.map(|k| new[k as usize]));
-        let (pairs_bonded, pulls) = (std::mem::take(&mut self.pairs_bonded), std::mem::take(&mut self.pulls));
-        let mut kept: Vec<(BondedPair, Pull)> = pairs_bonded.into_iter().zip(pulls).collect();
-        kept.retain(|(pair_bonded, _)| !pair_bonded.ends.contains(&u32::MAX));
-        kept.sort_unstable_by_key(|(pair_bonded, _)| {
-            (pair_bonded.ends[0].min(pair_bonded.ends[1]), pair_bonded.ends[0].max(pair_bonded.ends[1]))
+        self.pairs.iter_mut().for_each(|pair| pair.ends = pair.ends.map(|k| new[k as usize]));
+        let (pairs, pulls) = (std::mem::take(&mut self.pairs), std::mem::take(&mut self.pulls));
+        let mut kept: Vec<(BondedPair, Pull)> = pairs.into_iter().zip(pulls).collect();
+        kept.retain(|(pair, _)| !pair.ends.contains(&u32::MAX));
+        kept.sort_unstable_by_key(|(pair, _)| {
+            (pair.ends[0].min(pair.ends[1]), pair.ends[0].max(pair.ends[1]))
         });
-        (self.pairs_bonded, self.pulls) = kept.into_iter().unzip();
+        (self.pairs, self.pulls) = kept.into_iter().unzip();
         let here = self.count();
         self.left = [0, 1].map(|n| self.left[n] + count[n] - here[n]);
-        self.turns = order.iter().map(|&was| self.turns[was as usize]).collect();
+        select(&mut self.turns, order, 0);
         self.index(ids);
     }
 
     /// Which particles have which bonds.
     pub fn index(&mut self, ids: &[u32]) {
         let mut starts = vec![0; self.turns.len() + 1];
-        let ends = || self.pairs_bonded.iter().flat_map(|t| t.ends);
+        let ends = || self.pairs.iter().flat_map(|t| t.ends);
         ends().for_each(|k| starts[k as usize + 1] += 1);
         (1..starts.len()).for_each(|k| starts[k] += starts[k - 1]);
         let mut next = starts.clone();
-        self.entries = vec![0; 2 * self.pairs_bonded.len()];
+        self.entries = vec![0; 2 * self.pairs.len()];
         for (entry, k) in (0..).zip(ends()) {
             self.entries[next[k as usize] as usize] = entry;
             next[k as usize] += 1;
         }
         // Sums do not depend on the order of rows.
-        let pairs_bonded = &self.pairs_bonded;
-        let other =
-            |&entry: &u32| ids[pairs_bonded[(entry >> 1) as usize].ends[1 - (entry & 1) as usize] as usize];
+        let pairs = &self.pairs;
+        let other = |&entry: &u32| ids[pairs[(entry >> 1) as usize].ends[1 - (entry & 1) as usize] as usize];
         for pair in starts.windows(2) {
             self.entries[pair[0] as usize..pair[1] as usize].sort_unstable_by_key(other);
         }
@@ -179,7 +171,7 @@ impl Bonds {
     /// Turns all particles by what they have turned in the step of `dt` [s] that has just been made.
     pub fn turn(&mut self, particles: &Particles, dt: f64) {
         let many = self.turns.len() >= FEW;
-        let rows = particles.spins.chunks(CHUNK).zip(particles.turning.chunks(CHUNK));
+        let rows = particles.spins.chunks(CHUNK).zip(particles.angular_acceleration.chunks(CHUNK));
         share(many, self.turns.chunks_mut(CHUNK).zip(rows).collect(), |(turns, (spins, turning))| {
             for ((turn, w), a) in turns.iter_mut().zip(spins).zip(turning) {
                 let by = [0, 1, 2].map(|axis| (w[axis] - 0.5 * dt * a[axis]) * dt);
@@ -189,27 +181,20 @@ impl Bonds {
         });
     }
 
-    /// What all bonds do, at a time [s]; those that break do nothing any more. None breaks while both of its particles travel (`busy`), which feel nothing.
-    pub(crate) fn pull(&mut self, particles: &Particles, period: &Vec3, (time, busy): (f64, &[bool])) {
-        let (pairs_bonded, turns) = (&self.pairs_bonded, &self.turns);
-        let pulls = self.pulls.chunks_mut(CHUNK).zip(pairs_bonded.chunks(CHUNK));
-        share(pairs_bonded.len() >= FEW / 4, pulls.collect(), |(pulls, pairs_bonded)| {
-            for (pull, pair_bonded) in
-                pulls.iter_mut().zip(pairs_bonded).filter(|(_, pair_bonded)| pair_bonded.is_whole())
-            {
-                *pull = pair_bonded.beam.pull(&pair_bonded.ends(particles, turns, period));
+    /// What all bonds do, at a time [s]; those that break do nothing any more. None breaks while both of its particles are in zones (`prescribed`), where nothing acts on them.
+    pub(crate) fn pull(&mut self, particles: &Particles, period: &Vec3, (time, prescribed): (f64, &[bool])) {
+        let (pairs, turns) = (&self.pairs, &self.turns);
+        let pulls = self.pulls.chunks_mut(CHUNK).zip(pairs.chunks(CHUNK));
+        share(pairs.len() >= FEW / 4, pulls.collect(), |(pulls, pairs)| {
+            for (pull, pair) in pulls.iter_mut().zip(pairs).filter(|(_, pair)| pair.is_whole()) {
+                *pull = pair.beam.pull(&pair.ends(particles, turns, period));
             }
         });
         self.lost = 0.0;
-        for (pull, pair_bonded) in self
-            .pulls
-            .iter_mut()
-            .zip(&mut self.pairs_bonded)
-            .filter(|(_, pair_bonded)| pair_bonded.is_whole())
-        {
-            let travel = pair_bonded.ends.iter().all(|&k| busy.get(k as usize) == Some(&true));
-            if !travel && pull.stress.iter().zip(pair_bonded.strength).any(|(&now, most)| now > most) {
-                pair_bonded.broken = time;
+        for (pull, pair) in self.pulls.iter_mut().zip(&mut self.pairs).filter(|(_, pair)| pair.is_whole()) {
+            let travel = pair.ends.iter().all(|&k| prescribed.get(k as usize) == Some(&true));
+            if !travel && pull.stress.iter().zip(pair.strength).any(|(&now, most)| now > most) {
+                pair.broken = time;
                 self.lost += pull.elastic;
                 *pull = Pull { stress: pull.stress, ..Pull::default() };
             }
@@ -233,13 +218,10 @@ impl BondedPair {
     /// Of both particles now.
     pub(crate) fn ends(&self, particles: &Particles, turns: &[UnitQuaternion<f64>], period: &Vec3) -> Ends {
         let [i, j] = self.ends.map(|k| k as usize);
-        let three = |row: &[f64]| Vec3::new(row[0], row[1], row[2]);
-        let velocity = |k: usize| three(&particles.rows[k][4..7]);
-        let spin = |k: usize| three(&particles.spins[k][..3]);
         Ends {
             arm: nearest(particles.position(i) - particles.position(j), period),
-            velocity: velocity(i) - velocity(j),
-            spin: [spin(i), spin(j)],
+            velocity: particles.rows[i].velocity() - particles.rows[j].velocity(),
+            spin: [i, j].map(|k| particles.spins[k].vector()),
             turn: [turns[i], turns[j]],
         }
     }

@@ -1,20 +1,21 @@
-//! One body: its state, and its step.
+//! One clump: its state, and its step.
 
 use crate::setup::Setup;
 use crate::simd::{Row, Row4};
 use crate::space::rotation;
-use crate::state::ledger::{DrivenBody, heavy};
-use crate::state::particles::Particles;
+use crate::state::ledger::heavy;
+use crate::state::{DrivenBody, Particles};
 use geom::Vec3;
+use geom::sphere::INERTIA;
 use nalgebra::{Quaternion, UnitQuaternion};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-/// One body: its state at the step, velocities predicted for it.
+/// One clump: its state at the step, velocities predicted for it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ClumpMotion {
     /// Centre of mass [m].
-    pub place: Vec3,
+    pub position: Vec3,
     /// Predicted velocity [m/s].
     pub velocity: Vec3,
     /// Acceleration of the step before [m/s²].
@@ -48,7 +49,7 @@ pub struct ClumpMotion {
     /// Whether the acceleration of the step before is unknown.
     pub starting: bool,
     /// Whether it moves by a prescribed motion.
-    pub travels: bool,
+    pub is_prescribed: bool,
 }
 
 /// Principal axes to space.
@@ -56,19 +57,10 @@ pub fn quaternion(q: &[f64; 4]) -> UnitQuaternion<f64> {
     UnitQuaternion::new_unchecked(Quaternion::from(*q))
 }
 
-/// The first three numbers.
-pub fn arm(row: &Row4) -> Vec3 {
-    Vec3::new(row[0], row[1], row[2])
-}
-
 impl ClumpMotion {
-    /// Driven by a force of contacts and fluid, and a torque, at a velocity and an angular velocity.
-    pub fn driven(
-        &self,
-        [force, moment]: [Vec3; 2],
-        (velocity, spin): (Vec3, Vec3),
-        setup: &Setup,
-    ) -> DrivenBody {
+    /// Driven by a force of contacts and fluid, at rest and without a moment.
+    pub fn driven(&self, force: Vec3, setup: &Setup) -> DrivenBody {
+        let [moment, velocity, spin] = [Vec3::zeros(); 3];
         let forces = [force, force + self.weight(setup) * self.mass];
         let (inverse_mass, inverse_inertia) = (1.0 / self.mass, 0.0);
         DrivenBody { inverse_mass, inverse_inertia, forces, moment, velocity, spin }
@@ -86,7 +78,7 @@ impl ClumpMotion {
 
     /// What a fluid meets: a sphere of its volume at its centre.
     fn ball(&self, setup: &Setup) -> Row {
-        let (p, v) = (self.place, self.velocity);
+        let (p, v) = (self.position, self.velocity);
         let radius = libm::cbrt(0.75 / PI * self.mass / self.density(setup));
         Row([p.x, p.y, p.z, radius, v.x, v.y, v.z, 1.0 / self.mass])
     }
@@ -106,7 +98,7 @@ impl ClumpMotion {
         self.first as usize..(self.first + self.count) as usize
     }
 
-    /// Acceleration of the centre and torque about it, from what a free move made of the members' loads:
+    /// Acceleration of the centre and torque about it, from what a free move made of the forces on the members:
     /// F_k = m (a_k − g), M_k = 2/5 m R_k² α_k.
     pub fn gathered(
         &self,
@@ -119,12 +111,12 @@ impl ClumpMotion {
         let (mut a, mut torque) = (Vec3::zeros(), Vec3::zeros());
         for &m in &members[self.range()] {
             let m = m as usize;
-            let push = arm(&particles.acceleration[m]) - gravity;
+            let push = particles.acceleration[m].vector() - gravity;
             a += push;
-            torque += (turn * arm(&arms[m])).cross(&push);
-            if let Some(turning) = particles.turning.get(m) {
+            torque += (turn * arms[m].vector()).cross(&push);
+            if let Some(turning) = particles.angular_acceleration.get(m) {
                 let radius = particles.rows[m][3];
-                torque += arm(turning) * (0.4 * radius * radius);
+                torque += turning.vector() * (INERTIA * radius * radius);
             }
         }
         (a + gravity, torque * self.mass)
@@ -133,9 +125,9 @@ impl ClumpMotion {
     /// One step from the acceleration and the torque of this instant.
     pub fn advance(&mut self, a: Vec3, torque: Vec3, dt: f64) {
         let half = 0.5 * dt;
-        (self.place_before, self.turn_before) = (self.place, self.turn);
+        (self.place_before, self.turn_before) = (self.position, self.turn);
         let v = self.velocity + (a - self.acceleration) * half;
-        self.place += v * dt + a * (half * dt);
+        self.position += v * dt + a * (half * dt);
         self.velocity = v + a * dt;
         self.acceleration = a;
         let middle = self.momentum + (torque - self.torque) * half + torque * half;
@@ -148,8 +140,8 @@ impl ClumpMotion {
 
     /// Place and velocity of a member, and its last way.
     pub fn point(&self, out: &Row4) -> (Vec3, Vec3, Vec3) {
-        let r = quaternion(&self.turn) * arm(out);
-        let way = (self.place - self.place_before) + (r - quaternion(&self.turn_before) * arm(out));
-        (self.place + r, self.velocity + self.spin.cross(&r), way)
+        let r = quaternion(&self.turn) * out.vector();
+        let way = (self.position - self.place_before) + (r - quaternion(&self.turn_before) * out.vector());
+        (self.position + r, self.velocity + self.spin.cross(&r), way)
     }
 }

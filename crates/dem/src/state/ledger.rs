@@ -12,8 +12,7 @@ use crate::effects::DISSIPATORS;
 use crate::model::Model;
 use crate::setup::{Particle, Setup};
 use crate::space::sphere::mass;
-use crate::state::State;
-use crate::state::bonds::Bonds;
+use crate::state::{Bonds, State};
 use geom::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -40,7 +39,7 @@ pub struct LedgerSums {
     pub left: f64,
     /// Work of contacts and fluid on free particles.
     pub(crate) work: f64,
-    /// Work of contacts on those that travel by a prescribed motion, and what contacts held that left with them.
+    /// Work of contacts on zone particles, and the energy of contacts that left with them.
     pub passed: f64,
     /// What the sums that make up the integration error were at the start.
     pub(crate) start: f64,
@@ -48,7 +47,7 @@ pub struct LedgerSums {
     pub(crate) opened: bool,
     /// Potential that particles lost when they came back through a periodic face.
     pub(crate) wrapped: f64,
-    /// Most that the guard has seen in motion and springs together.
+    /// Largest energy of motion and springs together that the guard has found.
     pub peak: f64,
 }
 
@@ -90,11 +89,6 @@ impl LedgerSums {
         self.broken += lost;
     }
 
-    /// What has gone for good by bonds.
-    pub fn by_bonds(&self) -> f64 {
-        self.bonds + self.broken
-    }
-
     /// What has gone, less what walls brought.
     pub(crate) fn gone(&self) -> f64 {
         self.dissipated.iter().sum::<f64>() + self.bonds + self.drag - self.walls
@@ -104,13 +98,12 @@ impl LedgerSums {
 /// −m g·x of the particles where they are between two listings, which may be beyond a periodic face [J].
 pub fn unwrapped_potential(model: &Model, state: &State) -> f64 {
     let gravity = model.setup.gravity;
-    let inside =
-        |&k: &usize| !state.zones.travels(k) && !state.zones.is_gone(k) && !state.bodies.is_member(k);
+    let inside = |&k: &usize| state.zones.is_free(k) && !state.clumps.is_member(k);
     let of = |k: usize| {
         let density = model.setup.materials[state.particles.material[k] as usize].density;
         -heavy(&model.setup, density) / state.particles.rows[k][7] * gravity.dot(&state.particles.position(k))
     };
-    (0..state.particles.len()).filter(inside).map(of).sum::<f64>() + state.bodies.potential(&model.setup)
+    (0..state.particles.len()).filter(inside).map(of).sum::<f64>() + state.clumps.potential(&model.setup)
 }
 
 /// Brings particles back into the periodic box; what that does to their potential is booked.

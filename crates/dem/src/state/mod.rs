@@ -1,32 +1,37 @@
 //! What changes while a simulation runs, and what a checkpoint holds: nothing of it can be derived.
 //!
-//! A file a part. What lists keep in their slots (contact history, forces of this instant) is saved beside it
-//! ([`crate::simulation::checkpoint`]). Uses model and setup.
+//! One file for each part. `contacts` are columns by slot of the neighbour lists, so they are saved apart
+//! ([`contacts::SavedColumns`]). Uses model, setup and kernel.
 
 pub mod bonds;
 pub mod clump;
 pub mod clumps;
+pub mod contacts;
 pub mod energy;
 pub mod ledger;
 pub mod particles;
 pub mod path;
 pub mod returned;
-pub mod servo;
 pub mod sleepers;
 pub mod zone_particle;
 pub mod zones;
 
-use crate::model::Model;
-use crate::model::error::SetupError;
+pub use bonds::{BondState, Bonds};
+pub use clump::ClumpMotion;
+pub use clumps::{FREE, RigidClumps};
+pub use contacts::{ContactColumns, SavedColumns, WrenchColumns};
+pub use energy::Energy;
+pub use ledger::{DrivenBody, LedgerSums};
+pub use particles::Particles;
+pub use path::{EARLY, Path, PathEnd};
+pub use returned::{ReturnCounts, Returned};
+pub use sleepers::{SleepMap, SleeperSlices, Sleepers};
+pub use zone_particle::{Direction, Kinematics, ZoneParticle};
+pub use zones::{LOOK_AHEAD, Zones};
+
+use crate::model::{Model, SetupError};
 use crate::setup::{Particle, Setup};
-use crate::state::servo::ServoState;
-use bonds::Bonds;
-use clumps::RigidClumps;
-use ledger::LedgerSums;
-use particles::Particles;
 use serde::{Deserialize, Serialize};
-use sleepers::Sleepers;
-use zones::Zones;
 
 /// What changes while a simulation runs.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -46,7 +51,7 @@ pub struct State {
     /// Zones and the particles in them.
     pub zones: Zones,
     /// Rigid clumps.
-    pub bodies: RigidClumps,
+    pub clumps: RigidClumps,
     /// Bonds.
     pub bonds: Bonds,
     /// Particles that sleep, where the setup asks for it.
@@ -55,6 +60,9 @@ pub struct State {
     pub servos: Vec<ServoState>,
     /// Sums of the energy ledger.
     pub ledger: LedgerSums,
+    /// History and wrenches of contacts.
+    #[serde(skip)]
+    pub contacts: ContactColumns,
 }
 
 /// Whether forces of this instant are known.
@@ -108,7 +116,7 @@ impl State {
         let mut sorted: Vec<&Particle> = setup.particles.iter().collect();
         sorted.sort_unstable_by_key(|p| p.id);
         sorted.into_iter().for_each(|p| particles.push(p, &setup.materials));
-        let bodies = RigidClumps::new(setup, &mut particles);
+        let clumps = RigidClumps::new(setup, &mut particles);
         let bonds = Bonds::new(setup, &particles)?;
         let sleepers = setup.sleep.map(|s| Sleepers::new(s, model.dt, setup.gravity.norm(), particles.len()));
         Ok(State {
@@ -118,13 +126,33 @@ impl State {
             forces: Forces::Due,
             starting: (0..particles.len() as u32).collect(),
             zones: Zones::new(setup, &particles),
-            bodies,
+            clumps,
             bonds,
             sleepers,
             servos: servos(setup),
             ledger: LedgerSums::default(),
+            contacts: ContactColumns::default(),
             particles,
         })
+    }
+
+    /// A copy of all but the columns of contacts, which are saved apart.
+    pub fn without_contacts(&self) -> State {
+        State {
+            dt: self.dt,
+            steps: self.steps,
+            listing: self.listing,
+            forces: self.forces,
+            starting: self.starting.clone(),
+            particles: self.particles.clone(),
+            zones: self.zones.clone(),
+            clumps: self.clumps.clone(),
+            bonds: self.bonds.clone(),
+            sleepers: self.sleepers.clone(),
+            servos: self.servos.clone(),
+            ledger: self.ledger,
+            contacts: ContactColumns::default(),
+        }
     }
 
     /// Steps × Δt [s].
@@ -143,8 +171,26 @@ impl State {
     }
 }
 
+/// Where a servo has moved its wall.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct ServoState {
+    /// How far the wall has been shifted since t = 0, along the servo's direction [m].
+    pub shift: f64,
+    /// Its rate [m/s].
+    pub speed: f64,
+    /// Shift when neighbours were listed [m].
+    pub listed: f64,
+}
+
+impl ServoState {
+    /// Whether its numbers are finite.
+    pub fn is_finite(&self) -> bool {
+        self.shift.is_finite() && self.speed.is_finite()
+    }
+}
+
 /// A servo for each wall, or none where no wall follows a force.
 fn servos(setup: &Setup) -> Vec<ServoState> {
-    let any = setup.walls.iter().any(|w| w.motion.servo.is_some());
+    let any = setup.walls.iter().any(|w| w.servo.is_some());
     vec![ServoState::default(); if any { setup.walls.len() } else { 0 }]
 }

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 /// Columns, one entry a particle; `rows` and `spins` have two more ([`FAR`]).
 ///
 /// Positions are those of the step; velocities and spins are predicted for it from the acceleration of the step
-/// before, so that forces use positions and velocities of one instant ([`crate::advance`]).
+/// before, so that forces use positions and velocities of one instant ([`crate::passes::integrate`]).
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Particles {
     /// x, y, z, radius [m], predicted velocity [m/s], 1/m [1/kg].
@@ -20,13 +20,19 @@ pub struct Particles {
     /// Predicted angular velocity [rad/s]; empty without rotation.
     pub spins: Vec<Row4>,
     /// Angular acceleration of the step before [rad/s²]; empty without rotation.
-    pub turning: Vec<Row4>,
+    pub angular_acceleration: Vec<Row4>,
     /// Unique number.
     pub id: Vec<u32>,
     /// Material.
     pub material: Vec<u16>,
-    /// Where the particle was when neighbours were listed, and its room around that place [m].
+    /// Position when neighbours were listed, and the margin around it [m].
     pub home: Vec<Row4>,
+}
+
+/// Takes the rows named by `order`; the last ones, so many as the `tail` is long, stay behind them.
+pub fn select<T: Copy>(column: &mut Vec<T>, order: &[u32], tail: usize) {
+    let end = column.len() - tail;
+    *column = order.iter().map(|&k| column[k as usize]).chain(column[end..].iter().copied()).collect();
 }
 
 impl Particles {
@@ -36,7 +42,7 @@ impl Particles {
             rows: FAR.to_vec(),
             acceleration: Vec::new(),
             spins: if rotates { vec![Row4::default(); 2] } else { Vec::new() },
-            turning: Vec::new(),
+            angular_acceleration: Vec::new(),
             id: Vec::new(),
             material: Vec::new(),
             home: Vec::new(),
@@ -62,30 +68,25 @@ impl Particles {
         self.rows.insert(at, Row(row));
         self.acceleration.push(Row4::default());
         if self.rotates() {
-            self.spins.insert(at, Row4([w.x, w.y, w.z, 0.0]));
-            self.turning.push(Row4::default());
+            self.spins.insert(at, Row4::of(w));
+            self.angular_acceleration.push(Row4::default());
         }
         self.id.push(particle.id);
         self.material.push(material);
-        self.home.push(Row4([p.x, p.y, p.z, 0.0]));
+        self.home.push(Row4::of(p));
     }
 
     /// Takes the particles named by `order`, and leaves the others.
     pub fn select(&mut self, order: &[u32]) {
-        fn pick<T: Copy>(from: &mut Vec<T>, order: &[u32], tail: usize) {
-            let end = from.len() - tail;
-            let picked = order.iter().map(|&k| from[k as usize]).chain(from[end..].iter().copied()).collect();
-            *from = picked;
-        }
-        pick(&mut self.rows, order, 2);
-        pick(&mut self.acceleration, order, 0);
+        select(&mut self.rows, order, 2);
+        select(&mut self.acceleration, order, 0);
         if self.rotates() {
-            pick(&mut self.spins, order, 2);
-            pick(&mut self.turning, order, 0);
+            select(&mut self.spins, order, 2);
+            select(&mut self.angular_acceleration, order, 0);
         }
-        pick(&mut self.id, order, 0);
-        pick(&mut self.material, order, 0);
-        pick(&mut self.home, order, 0);
+        select(&mut self.id, order, 0);
+        select(&mut self.material, order, 0);
+        select(&mut self.home, order, 0);
     }
 
     /// How far the surface of particle `k` may come from its home [m].
@@ -94,8 +95,14 @@ impl Particles {
     }
 
     /// Centre of particle `k` [m].
+    #[inline]
     pub fn position(&self, k: usize) -> Vec3 {
-        let r = &self.rows[k];
-        Vec3::new(r[0], r[1], r[2])
+        self.rows[k].position()
+    }
+
+    /// Predicted angular velocity [rad/s] of particle `k`, and its angular acceleration of the step before [rad/s²]; 0 without rotation.
+    pub fn rotation(&self, k: usize) -> (Vec3, Vec3) {
+        let of = |column: &[Row4]| column.get(k).map_or_else(Vec3::zeros, Row4::vector);
+        (of(&self.spins), of(&self.angular_acceleration))
     }
 }

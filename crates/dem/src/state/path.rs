@@ -1,23 +1,23 @@
-//! Recorded paths: what a stage upstream writes of particles that come near its storage plane, and how a traveller follows it.
+//! Recorded paths: what a stage upstream writes of particles that come near its storage plane, and how a zone particle follows it.
 //!
 //! ```text
 //! x(s) = (2s³ − 3s² + 1) x₀ + (s³ − 2s² + s) h v₀ + (3s² − 2s³) x₁ + (s³ − s²) h v₁        s = (t − t₀)/h, h = t₁ − t₀
 //! ```
 //!
-//! Cubic Hermite interpolation: places and velocities of the samples are met, and free flight between them is exact.
+//! Cubic Hermite interpolation: positions and velocities of the samples are met, and free flight between them is exact.
 
-use crate::model::error::SetupError;
+use crate::model::in_range::out_of_range;
+use crate::model::{SetupError, Subject};
 use crate::setup::{Entry, Guide, Sample, Setup};
 use crate::space::rotation::spun;
-use crate::state::zone_particle::Kinematics;
-use crate::state::zones::Zones;
+use crate::state::{Kinematics, Zones};
 use geom::Vec3;
 use nalgebra::UnitQuaternion;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
 /// Samples begin this much farther from the plane than the zone is long, so that the first of them is before the zone.
-pub(crate) const EARLY: f64 = 1.25;
+pub const EARLY: f64 = 1.25;
 
 /// Vector of the turn that leads from one orientation to another [rad], the short way.
 fn between(from: &UnitQuaternion<f64>, to: &UnitQuaternion<f64>) -> Vec3 {
@@ -27,9 +27,9 @@ fn between(from: &UnitQuaternion<f64>, to: &UnitQuaternion<f64>) -> Vec3 {
     if sine > 0.0 { v * (2.0 * libm::atan2(sine, w) / sine) } else { v }
 }
 
-/// How a path ends.
+/// How a path ends, or has ended for a particle that follows it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) enum PathEnd {
+pub enum PathEnd {
     /// It is not known yet.
     Open,
     /// At the calculation plane.
@@ -45,30 +45,18 @@ pub struct Path {
     pub(crate) end: PathEnd,
 }
 
-/// Where a traveller on a path is.
-#[derive(PartialEq, Eq)]
-pub enum PathStage {
-    Inside,
-    Free,
-    Gone,
-}
-
 impl Path {
     pub fn new(entry: &Entry) -> Path {
         Path { samples: VecDeque::from([Sample::of(entry)]), end: PathEnd::Open }
     }
 
-    /// Forgets what is past; where the traveller is then.
-    pub fn follow(&mut self, now: f64) -> PathStage {
+    /// Drops samples that are past; how the path has ended for the particle that follows it.
+    pub fn follow(&mut self, now: f64) -> PathEnd {
         while self.samples.get(1).is_some_and(|s| s.time <= now) {
             self.samples.pop_front();
         }
-        match self.end {
-            PathEnd::Open => PathStage::Inside,
-            _ if self.samples.back().is_some_and(|last| last.time > now) => PathStage::Inside,
-            PathEnd::Free => PathStage::Free,
-            PathEnd::Gone => PathStage::Gone,
-        }
+        let goes_on = self.samples.back().is_some_and(|last| last.time > now);
+        if goes_on { PathEnd::Open } else { self.end }
     }
 
     /// How a particle that follows it has turned by `now` [s]: evenly between two samples.
@@ -93,16 +81,13 @@ impl Path {
         }
     }
 
-    /// State at `now` [s], shifts counted from `origin`; before its first sample it waits there, out of everyone's sight. From its
+    /// State at `now` [s], shifts counted from `origin`; before its first sample it waits there, listed but hidden. From its
     /// release within a step to the end of that step it falls freely.
     pub fn flow(&self, now: f64, origin: &Vec3, gravity: &Vec3) -> Kinematics {
-        let still = Vec3::zeros();
-        let Some(a) = self.samples.front() else {
-            return Kinematics { shift: still, velocity: still, acceleration: still, spin: still };
-        };
+        let Some(a) = self.samples.front() else { return Kinematics::default() };
         let from = a.position - origin;
         let Some(b) = self.samples.get(1).filter(|_| now > a.time) else {
-            let pull = if self.end == PathEnd::Free { *gravity } else { still };
+            let pull = if self.end == PathEnd::Free { *gravity } else { Vec3::zeros() };
             let tau = (now - a.time).max(0.0);
             let (shift, velocity) =
                 (from + a.velocity * tau + pull * (0.5 * tau * tau), a.velocity + pull * tau);
@@ -135,13 +120,8 @@ impl Zones {
 
     /// Takes news of a path.
     pub fn guide(&mut self, id: u32, guide: Guide, setup: &Setup) -> Result<(), SetupError> {
-        let wrong = |what: &str, value: f64, range: &'static str| {
-            Err(SetupError::Range {
-                what: format!("inlet: path of particle {id}: {what}"),
-                value,
-                unit: "s",
-                range: range.to_owned(),
-            })
+        let wrong = |name, value: f64, allowed: &'static str| {
+            Err(out_of_range(Subject::Path(id).quantity(name), value, "s", allowed))
         };
         let Some(path) = self.paths.get_mut(&id).filter(|p| p.end == PathEnd::Open) else {
             return wrong("news", f64::NAN, "the particles that are on their way in");

@@ -1,9 +1,9 @@
 //! Particles that go back through a plane, against the flow: what is there is not simulated by this stage.
 
-use crate::model::halt::Halt;
+use crate::model::Halt;
 use crate::setup::Setup;
-use crate::state::zone_particle::Direction;
-use crate::state::zones::Zones;
+use crate::state::particles::select;
+use crate::state::{Direction, Zones};
 use geom::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -12,14 +12,14 @@ use serde::{Deserialize, Serialize};
 pub(crate) struct Origin {
     /// Its inlet + 1; 0 when it came by none that is watched.
     pub(crate) inlet: u32,
-    /// Whether it was seen behind the calculation plane.
+    /// Whether it has been behind the calculation plane.
     pub(crate) behind: bool,
 }
 
 /// How many particles went back.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Returned {
-    /// For each watched inlet: particles that were seen behind its calculation plane again.
+    /// For each watched inlet: particles that were behind its calculation plane again.
     pub inlets: Vec<u64>,
     /// For each outlet: free particles that came upstream through its storage plane.
     pub outlets: Vec<u64>,
@@ -56,7 +56,7 @@ impl ReturnCounts {
 
     pub fn reorder(&mut self, order: &[u32]) {
         if !self.returned.inlets.is_empty() {
-            self.origins = order.iter().map(|&o| self.origins[o as usize]).collect();
+            select(&mut self.origins, order, 0);
         }
     }
 
@@ -67,14 +67,6 @@ impl ReturnCounts {
             self.any = true;
         }
     }
-
-    pub fn fell_back(&mut self, outlet: u32) {
-        self.returned.fallen[outlet as usize] += 1;
-    }
-
-    pub fn came_upstream(&mut self, outlet: usize) {
-        self.returned.outlets[outlet] += 1;
-    }
 }
 
 impl Zones {
@@ -82,7 +74,7 @@ impl Zones {
     pub(crate) fn fast(&self, time: f64, dt: f64, setup: &Setup) -> Result<(), Halt> {
         let limit = setup.guards.motion;
         for t in &self.zone_particles {
-            let Direction::In(inlet) = t.way else { continue };
+            let Direction::In(inlet) = t.direction else { continue };
             let speed = t.flow(time, self, setup).velocity.norm();
             let share = speed * dt / t.start.radius;
             if !(share <= limit) {
@@ -94,14 +86,14 @@ impl Zones {
 
     /// How far a free particle is behind the calculation plane that it came by, less the length of the zone: above 0 it is behind
     /// the generation plane; and its inlet. Counts those that come back.
-    pub(crate) fn came_back(&mut self, k: usize, place: &Vec3, radius: f64) -> Option<(u32, f64)> {
+    pub(crate) fn came_back(&mut self, k: usize, position: &Vec3, radius: f64) -> Option<(u32, f64)> {
         let origin = self.lost.origins[k];
-        if origin.inlet == 0 || self.gone[k] || self.busy[k] {
+        if origin.inlet == 0 || self.gone[k] || self.prescribed[k] {
             return None;
         }
         let inlet = origin.inlet - 1;
         let zone = &self.inlets[inlet as usize];
-        let past = zone.past(place, radius);
+        let past = zone.past(position, radius);
         if (past < 0.0) != origin.behind {
             self.lost.origins[k].behind = past < 0.0;
             self.lost.returned.inlets[inlet as usize] += u64::from(past < 0.0);

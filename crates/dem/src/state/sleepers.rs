@@ -1,7 +1,9 @@
 //! Particles that sleep ([`crate::passes::sleep`] says when).
 
-use crate::setup::sleep::Sleep;
+use crate::kernel::wrenches::split_off;
+use crate::setup::Sleep;
 use crate::simd::Row;
+use crate::state::particles::select;
 use serde::{Deserialize, Serialize};
 
 /// Which particles sleep, and since when that is so.
@@ -43,7 +45,7 @@ pub struct SleeperSlices<'a> {
     pub(crate) held: &'a mut [Row],
     pub(crate) asleep: &'a [bool],
     /// Particles that must stay awake.
-    pub(crate) busy: &'a [bool],
+    pub(crate) prescribed: &'a [bool],
     pub(crate) steps: u32,
     pub(crate) speed: f64,
     pub(crate) wake: f64,
@@ -77,10 +79,9 @@ impl Sleepers {
 
     /// Takes the particles named by `order`.
     pub fn select(&mut self, order: &[u32]) {
-        let of = |k: &u32| *k as usize;
-        self.quiet = order.iter().map(|k| self.quiet[of(k)]).collect();
-        self.held = order.iter().map(|k| self.held[of(k)]).collect();
-        self.asleep = order.iter().map(|k| self.asleep[of(k)]).chain([true; 2]).collect();
+        select(&mut self.quiet, order, 0);
+        select(&mut self.held, order, 0);
+        select(&mut self.asleep, order, 2);
     }
 
     /// Number of sleepers.
@@ -118,15 +119,15 @@ impl Sleepers {
     }
 
     /// What stands now, for [`RestingTile`].
-    pub fn known(&self) -> SleepMap<'_> {
+    pub fn map(&self) -> SleepMap<'_> {
         SleepMap { asleep: &self.asleep, turns: self.turns, changed: &self.changed }
     }
 
-    /// Everyone, with `busy` (or none) to be kept awake.
-    pub fn sleeper_slices<'a>(&'a mut self, busy: &'a [bool]) -> SleeperSlices<'a> {
+    /// Everyone, with `prescribed` (or none) to be kept awake.
+    pub fn sleeper_slices<'a>(&'a mut self, prescribed: &'a [bool]) -> SleeperSlices<'a> {
         self.next.resize(self.quiet.len(), false);
         let Sleepers { quiet, next, held, asleep, steps, speed, wake, .. } = self;
-        SleeperSlices { quiet, next, held, asleep, busy, steps: *steps, speed: *speed, wake: *wake }
+        SleeperSlices { quiet, next, held, asleep, prescribed, steps: *steps, speed: *speed, wake: *wake }
     }
 
     /// Wakes a particle.
@@ -138,19 +139,13 @@ impl Sleepers {
 }
 
 impl<'a> SleeperSlices<'a> {
-    /// The same, for a while.
-    pub fn by_ref(&mut self) -> SleeperSlices<'_> {
-        SleeperSlices { quiet: self.quiet, next: self.next, held: self.held, ..*self }
-    }
-
-    /// The first `n`, and the others.
-    pub fn split(self, n: usize) -> (SleeperSlices<'a>, SleeperSlices<'a>) {
-        let SleeperSlices { quiet, next, held, asleep, busy, steps, speed, wake } = self;
-        let (quiet, quiet2) = quiet.split_at_mut(n);
-        let (next, next2) = next.split_at_mut(n);
-        let (held, held2) = held.split_at_mut(n);
-        let one = SleeperSlices { quiet, next, held, asleep, busy, steps, speed, wake };
-        let two = SleeperSlices { quiet: quiet2, next: next2, held: held2, asleep, busy, steps, speed, wake };
-        (one, two)
+    /// Takes the first `n` off.
+    pub fn split_off(&mut self, n: usize) -> SleeperSlices<'a> {
+        SleeperSlices {
+            quiet: split_off(&mut self.quiet, n),
+            next: split_off(&mut self.next, n),
+            held: split_off(&mut self.held, n),
+            ..*self
+        }
     }
 }

@@ -2,13 +2,12 @@
 
 use crate::setup::{Particle, Setup, Zone};
 use crate::space::rotation::spun;
-use crate::state::path::Path;
-use crate::state::zones::Zones;
+use crate::state::{Path, Zones};
 use geom::Vec3;
 use nalgebra::UnitQuaternion;
 use serde::{Deserialize, Serialize};
 
-/// Which zone a traveller is in.
+/// Which zone a particle is in.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Direction {
     Out(u32),
@@ -23,7 +22,7 @@ pub struct ZoneParticle {
     /// Its state then; of a member of a clump, with the velocity of the centre.
     pub start: Particle,
     /// Id of what passes: its own, or that of the first member of its clump.
-    pub whose: u32,
+    pub passing_id: u32,
     /// What must be past the plane, at that time: the centre, or that of the whole clump [m].
     pub centre: Vec3,
     /// And how far before it the point lies that is tested [m].
@@ -32,11 +31,11 @@ pub struct ZoneParticle {
     pub turn: Option<[f64; 4]>,
     /// How a sphere had turned by then that may be bonded; orientation of the clump that comes in.
     pub turned: Option<UnitQuaternion<f64>>,
-    pub way: Direction,
+    pub direction: Direction,
 }
 
-/// Shift [m] and velocity [m/s] of a traveller at one instant, and its acceleration [m/s²].
-#[derive(Clone, Copy)]
+/// Shift [m], velocity [m/s] and acceleration [m/s²] of a zone particle at one instant.
+#[derive(Clone, Copy, Default)]
 pub struct Kinematics {
     pub shift: Vec3,
     pub velocity: Vec3,
@@ -45,7 +44,7 @@ pub struct Kinematics {
 }
 
 impl Kinematics {
-    /// After `tau` [s] from a velocity, with a spin that stays. Before its time a traveller comes along a straight line, out of everyone's sight.
+    /// After `tau` [s] from a velocity, with a spin that stays. Before its time it comes along a straight line, listed but hidden.
     pub fn after(tau: f64, start: &Particle, acceleration: Vec3) -> Kinematics {
         let Particle { velocity, spin, .. } = *start;
         if tau < 0.0 {
@@ -84,7 +83,7 @@ impl ZoneParticle {
 
     /// The path that it follows.
     pub(crate) fn path<'a>(&self, zones: &'a Zones) -> Option<&'a Path> {
-        if let Direction::In(_) = self.way { zones.paths.get(&self.whose) } else { None }
+        if let Direction::In(_) = self.direction { zones.paths.get(&self.passing_id) } else { None }
     }
 
     /// Its own flow, where that of the centre is known.
@@ -127,7 +126,7 @@ impl ZoneParticle {
     }
 
     pub fn zone<'a>(&self, zones: &'a Zones) -> &'a Zone {
-        match self.way {
+        match self.direction {
             Direction::Out(o) => &zones.outlets[o as usize],
             Direction::In(i) => &zones.inlets[i as usize],
         }

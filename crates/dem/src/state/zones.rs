@@ -4,13 +4,12 @@
 //! plane. Inlet: a particle appears on the generation plane at its recorded time and goes on by the zone's motion to
 //! the calculation plane, where it becomes free. JP5440448B2.
 //!
-//! A traveller's row is overwritten after each move, so that the move itself knows nothing of zones.
+//! A zone particle's row is overwritten after each move, so that the move itself needs no zones.
 
 use crate::setup::{ContactHistory, Crossing, Entry, Setup, Zone};
 use crate::simd::Row4;
-use crate::state::particles::Particles;
-use crate::state::zone_particle::{Direction, ZoneParticle};
-use crate::state::{path, returned as lost};
+use crate::state::particles::select;
+use crate::state::{Direction, Particles, Path, ReturnCounts, ZoneParticle};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
@@ -34,18 +33,18 @@ pub struct Zones {
     pub(crate) gone: Vec<bool>,
     /// Those, and where they were when neighbours were listed.
     pub(crate) left: Vec<(u32, Row4)>,
-    /// Whether a particle travels.
-    pub(crate) busy: Vec<bool>,
+    /// Whether each particle is in a zone; empty without zones.
+    pub(crate) prescribed: Vec<bool>,
     pub(crate) ids: BTreeSet<u32>,
     /// Recorded paths of those on their way in, by id.
-    pub(crate) paths: BTreeMap<u32, path::Path>,
-    /// What contacts are to remember once the first of two is free, by its id and that of the other.
-    pub(crate) memories: BTreeMap<(u32, u32), ContactHistory>,
+    pub(crate) paths: BTreeMap<u32, Path>,
+    /// Histories that contacts take once the first particle is free, by its id and that of the other.
+    pub(crate) histories: BTreeMap<(u32, u32), ContactHistory>,
     /// For each outlet, those whose paths were sampled last.
     pub(crate) sampled: Vec<BTreeSet<u32>>,
     pub(crate) latest: f64,
     /// Where free particles came from, and which went back.
-    pub(crate) lost: lost::ReturnCounts,
+    pub(crate) lost: ReturnCounts,
 }
 
 impl Zones {
@@ -53,8 +52,8 @@ impl Zones {
     pub fn new(setup: &Setup, particles: &Particles) -> Zones {
         let past = |zone: &Zone| {
             let there = setup.particles.iter().filter(|p| zone.past(&p.position, p.radius) >= 0.0);
-            let bodies = setup.clumps.bodies.iter().filter(|b| zone.past(&b.position, 0.0) >= 0.0);
-            there.map(|p| p.id).chain(bodies.map(|b| b.id)).collect()
+            let clumps = setup.clumps.placed.iter().filter(|b| zone.past(&b.position, 0.0) >= 0.0);
+            there.map(|p| p.id).chain(clumps.map(|b| b.id)).collect()
         };
         let ids =
             if setup.inlets.is_empty() { BTreeSet::new() } else { particles.id.iter().copied().collect() };
@@ -66,10 +65,10 @@ impl Zones {
             beyond: setup.outlets.iter().map(past).collect(),
             gone: flags.clone(),
             sampled: vec![BTreeSet::new(); setup.outlets.len()],
-            busy: flags,
+            prescribed: flags,
             ids,
             latest: f64::NEG_INFINITY,
-            lost: lost::ReturnCounts::new(setup, particles.len()),
+            lost: ReturnCounts::new(setup, particles.len()),
             ..Zones::default()
         }
     }
@@ -91,68 +90,54 @@ impl Zones {
         self.gone.get(k) == Some(&true)
     }
 
+    /// Whether particle `k` is neither in a zone nor out of the calculation.
+    pub fn is_free(&self, k: usize) -> bool {
+        !self.is_prescribed(k) && !self.is_gone(k)
+    }
+
     /// Whether particle `k` is in a zone.
-    pub fn travels(&self, k: usize) -> bool {
-        self.busy.get(k) == Some(&true)
+    pub fn is_prescribed(&self, k: usize) -> bool {
+        self.prescribed.get(k) == Some(&true)
     }
 
     /// Whether a contact of a particle, with another or with a wall (`None`), acts on no particle: those in zones act on others and nothing acts on them. One that
-    /// has just left at the end of a zone travelled when loads were computed.
-    pub fn idles(&self, (i, other): (u32, Option<u32>)) -> bool {
-        let passive = |k: u32| self.travels(k as usize) || self.is_gone(k as usize);
+    /// has just left at the end of a zone was in the zone when forces were computed.
+    pub fn is_idle(&self, (i, other): (u32, Option<u32>)) -> bool {
+        let passive = |k: u32| !self.is_free(k as usize);
         passive(i) && other.is_none_or(passive)
     }
 
     /// The inlet that particle `k` comes in by, while it is on its way.
     pub fn entering_by(&self, k: usize) -> Option<u32> {
-        let found = self.zone_particles.iter().find(|t| self.travels(k) && t.at as usize == k)?;
-        if let Direction::In(inlet) = found.way { Some(inlet) } else { None }
-    }
-
-    /// Whether each particle is in a zone; empty without zones.
-    pub fn busy(&self) -> &[bool] {
-        &self.busy
-    }
-
-    /// Crossings since the last call.
-    pub fn take_crossings(&mut self) -> Vec<Crossing> {
-        std::mem::take(&mut self.crossings)
+        let found = self.zone_particles.iter().find(|t| self.is_prescribed(k) && t.at as usize == k)?;
+        if let Direction::In(inlet) = found.direction { Some(inlet) } else { None }
     }
 
     /// Whether a particle is to come in, or is on its way in.
     pub(crate) fn is_entering(&self, id: u32, setup: &Setup) -> bool {
         let members = |e: &Entry| e.clump.map_or(1, |c| crate::setup::clumps::members(&c, setup));
         self.pending.iter().any(|e| id.wrapping_sub(e.particle.id) < members(e))
-            || self.zone_particles.iter().any(|t| t.start.id == id && matches!(t.way, Direction::In(_)))
-    }
-
-    /// Whether one is to come in later.
-    pub(crate) fn waits(&self, id: u32) -> bool {
-        self.pending.iter().any(|e| e.particle.id == id)
+            || self.zone_particles.iter().any(|t| t.start.id == id && matches!(t.direction, Direction::In(_)))
     }
 
     /// Histories that contacts of a particle are to take, by their other particle; removed here.
-    pub(crate) fn told(&mut self, id: u32) -> Vec<(u32, ContactHistory)> {
-        let told: Vec<_> = self.memories.range((id, 0)..=(id, u32::MAX)).map(|(k, s)| (k.1, *s)).collect();
+    pub(crate) fn take_histories(&mut self, id: u32) -> Vec<(u32, ContactHistory)> {
+        let told: Vec<_> = self.histories.range((id, 0)..=(id, u32::MAX)).map(|(k, s)| (k.1, *s)).collect();
         for (partner, _) in &told {
-            self.memories.remove(&(id, *partner));
+            self.histories.remove(&(id, *partner));
         }
         told
     }
 
-    /// Follows the particles to their new places; `order` names the old ones of those that stay.
-    pub fn reorder(&mut self, order: &[u32]) {
+    /// Reorders with the particles: `order` has the old row of each that stays, `new` the new row of each.
+    pub fn reorder(&mut self, order: &[u32], new: &[u32]) {
         if self.none() {
             return;
-        }
-        let mut new = vec![u32::MAX; self.busy.len()];
-        for (n, &o) in order.iter().enumerate() {
-            new[o as usize] = n as u32;
         }
         for t in &mut self.zone_particles {
             t.at = new[t.at as usize];
         }
-        self.busy = order.iter().map(|&o| self.busy[o as usize]).collect();
+        select(&mut self.prescribed, order, 0);
         self.gone = vec![false; order.len()];
         self.left.clear();
         self.lost.reorder(order);

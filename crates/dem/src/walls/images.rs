@@ -1,6 +1,6 @@
 //! Walls across periodic faces: each acts with all its images, one period away along every periodic axis.
 //!
-//! A wall that travels is counted back into the box by whole periods, those of the step of listing: a conveyor may run
+//! A wall that moves far is counted back into the box by whole periods, those of the step of listing: a conveyor may run
 //! for ever. A plane has images along the axes that cross it; it is the same in all others. Which image a contact belongs
 //! to stands in its partner: number of the part + image × parts. When a particle comes back through the other face, or a wall is
 //! counted back, the same contact has another image ([`Image::before`]).

@@ -2,25 +2,26 @@
 //!
 //! A wall sphere is its centre and radius; a plane or a triangle is the point of it that is nearest to the particle, with radius
 //! 0. A wall has no mass of its own in a contact (1/m = 0, so m* = m_i). Across a periodic face its images act: the partner
-//! of a contact tells part and image ([`crate::images`]).
+//! of a contact tells part and image ([`images`]).
 
 pub(crate) mod images;
-pub(crate) mod motion;
 pub(crate) mod seams;
 
-use crate::setup::{Motion, Wall, WallShape};
+use crate::setup::{Servo, Wall, WallShape};
 use crate::simd::{Row, Row4};
 use crate::space::sphere::{FAR, is_away};
 use crate::walls::images::Image;
-use crate::walls::motion::Pose;
 use crate::walls::seams::{HistorySlots, Nearest};
-use geom::{Boxes, Grid, Plane, Vec3};
+use geom::motion::Pose;
+use geom::{Boxes, Grid, Motion, Plane, Vec3};
 
 /// A wall, ready to be met.
 #[derive(Debug, Clone)]
 pub struct WallBody {
-    /// Motion.
+    /// Prescribed motion.
     pub motion: Motion,
+    /// The force that it follows besides.
+    pub servo: Option<Servo>,
     surface: Surface,
     span: f64,
     /// Largest gap at which a contact that was made still acts [m].
@@ -68,12 +69,17 @@ impl WallBody {
                 (Surface::Triangles { boxes: Boxes::new(&boxes), corners }, span)
             }
         };
-        WallBody { motion: wall.motion, bounds: bounds(&surface), surface, span, reach }
+        WallBody { motion: wall.motion, servo: wall.servo, bounds: bounds(&surface), surface, span, reach }
+    }
+
+    /// Whether it moves at all.
+    pub fn moves(&self) -> bool {
+        self.motion.moves() || self.servo.is_some()
     }
 
     /// Whether contact points must be found in each step.
     pub fn refreshes(&self) -> bool {
-        self.flat() || self.motion.moves()
+        self.flat() || self.moves()
     }
 
     /// Whether its contact points belong to a flat surface.
@@ -83,7 +89,7 @@ impl WallBody {
 
     /// Upper bound of the speed of its surface [m/s].
     pub fn fastest(&self) -> f64 {
-        self.fastest_driven() + self.motion.servo.map_or(0.0, |s| s.speed_limit)
+        self.fastest_driven() + self.servo.map_or(0.0, |s| s.speed_limit)
     }
 
     /// The same without the servo.
@@ -114,7 +120,7 @@ impl WallBody {
         let Surface::Spheres { centres, radii, original, .. } = &self.surface else { return Vec::new() };
         let mut out = vec![(Vec3::zeros(), 0.0); centres.len()];
         for (k, &o) in original.iter().enumerate() {
-            out[o as usize] = (pose.place(&centres[k]), radii[k]);
+            out[o as usize] = (pose.position(&centres[k]), radii[k]);
         }
         out
     }
@@ -150,7 +156,7 @@ impl WallBody {
         }
     }
 
-    /// Contact points of one particle, whose place and radius are `row`: `partners` are all that it may touch.
+    /// Contact points of one particle, whose position and radius are `row`: `partners` are all that it may touch.
     pub fn contact_points(
         &self,
         (pose, period): (&Pose, &Vec3),
@@ -164,25 +170,25 @@ impl WallBody {
             spins.fill(Row4::default());
             return;
         }
-        let centre = Vec3::new(row[0], row[1], row[2]);
+        let centre = row.position();
         let count = self.parts();
         let part = |k: usize| (partners[k] % count) as usize;
         let shift = |k: usize| Image(partners[k] / count).shift(period);
-        let mut put = |k: usize, place: Vec3, radius: f64| {
+        let mut put = |k: usize, position: Vec3, radius: f64| {
             let shift = shift(k);
-            let (v, p) = (pose.velocity(&place), place + shift);
+            let (v, p) = (pose.velocity(&position), position + shift);
             rows[k] = Row([p.x, p.y, p.z, radius, v.x, v.y, v.z, 0.0]);
             if let Some(spin) = spins.get_mut(k) {
-                *spin = Row4([pose.turn.x, pose.turn.y, pose.turn.z, 0.0]);
+                *spin = Row4::of(pose.turn);
             }
         };
         match &self.surface {
             Surface::Spheres { centres, radii, .. } => {
-                (0..partners.len()).for_each(|k| put(k, pose.place(&centres[part(k)]), radii[part(k)]));
+                (0..partners.len()).for_each(|k| put(k, pose.position(&centres[part(k)]), radii[part(k)]));
             }
             Surface::Plane(plane) => {
                 for k in 0..partners.len() {
-                    put(k, pose.place(&plane.project(&pose.home(&(centre - shift(k))))), 0.0);
+                    put(k, pose.position(&plane.project(&pose.home(&(centre - shift(k))))), 0.0);
                 }
             }
             Surface::Triangles { corners, .. } => {
@@ -194,7 +200,7 @@ impl WallBody {
                 for (k, point) in near.iter().enumerate() {
                     // What is no contact of its own is put out of reach.
                     let far = Vec3::repeat(FAR[1][0]);
-                    put(k, if point.counts { pose.place(&(local(k) + point.way)) } else { far }, 0.0);
+                    put(k, if point.counts { pose.position(&(local(k) + point.way)) } else { far }, 0.0);
                 }
             }
         }
@@ -250,15 +256,15 @@ mod tests {
             WallShape::Spheres(vec![(Vec3::zeros(), 1.0)]),
         ];
         for shape in shapes {
-            let wall = Wall { name: "w".to_owned(), material: 0, shape, motion: Motion::still() };
+            let wall = Wall::new("w", 0, shape);
             let body = WallBody::new(&wall, 0.0);
             for k in [0, 1, 2, 1_000_000] {
                 let [x, y, z] = away(k);
                 let row = Row([x, y, z, 0.01, 0.0, 0.0, 0.0, 1.0]);
                 let mut found = [Row::default()];
-                let memory = &mut [];
+                let history = &mut [];
                 let active = &mut [];
-                let slots = HistorySlots { memory, active, form: Layout::default(), first: 0, columns: 0 };
+                let slots = HistorySlots { history, active, layout: Layout::default(), first: 0, columns: 0 };
                 let pose = wall.motion.pose(0.0);
                 body.contact_points((&pose, &Vec3::zeros()), &row, &[0], (&mut found, &mut []), slots);
                 let square: f64 = (0..3).map(|a| (found[0][a] - row[a]).powi(2)).sum();

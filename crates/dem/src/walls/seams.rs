@@ -1,4 +1,4 @@
-//! A particle on the seams of a mesh: which of the nearest points of its triangles are contacts, and what they remember.
+//! A particle on the seams of a mesh: which of the nearest points of its triangles are contacts, and which history they keep.
 //!
 //! A contact is where the distance to the mesh has a local minimum: a point inside a face, or a point on an edge or at a corner
 //! that lies on no triangle which comes nearer elsewhere. So a particle on a seam touches once, in a corner between two
@@ -7,11 +7,10 @@
 //! twice.
 //!
 //! Memory belongs to a contact, not to a triangle: where a triangle no longer counts that did in the step before, and
-//! a neighbour counts that remembers nothing, the neighbour takes over (the nearest one, within a quarter of r: contact points
+//! a neighbour without history counts, the neighbour takes over (the nearest one, within a quarter of r: contact points
 //! move less in a step). The spring is turned into the new tangent plane by the effect itself.
 
-use crate::simd::BLOCK;
-use crate::simd::number::Layout;
+use crate::simd::{BLOCK, Layout};
 use geom::Vec3;
 use geom::triangle::{Feature, closest_feature};
 
@@ -24,7 +23,7 @@ const STRIDE: f64 = 0.25;
 /// Points farther than this share of the radius are no contacts where nothing adheres [–].
 const NEAR: f64 = 1.02;
 
-/// The nearest point of one triangle, seen from the particle.
+/// The nearest point of one triangle, to a particle.
 #[derive(Debug, Clone, Copy)]
 pub struct Nearest {
     triangle: [Vec3; 3],
@@ -48,9 +47,9 @@ impl Nearest {
 
     /// Whether the same point of a particle lies on this triangle.
     fn holds(&self, way: &Vec3) -> bool {
-        let place = self.centre + way;
+        let position = self.centre + way;
         let tolerance = SAME_POINT * way.norm();
-        (closest_feature(self.triangle, place).0 - place).norm_squared() <= tolerance * tolerance
+        (closest_feature(self.triangle, position).0 - position).norm_squared() <= tolerance * tolerance
     }
 
     /// Square of the distance within which another point is the same contact [m²].
@@ -81,36 +80,36 @@ pub fn count(near: &mut [Nearest], radius: f64, reach: f64) {
     }
 }
 
-/// Contact memory of some places of one segment.
+/// Contact history of some slots of one segment.
 pub struct HistorySlots<'a> {
     /// Of the whole segment, by block and column.
-    pub memory: &'a mut [f64],
+    pub history: &'a mut [f64],
     /// Whether each block of it may hold any.
     pub active: &'a mut [bool],
     /// How it is kept.
-    pub form: Layout,
-    /// First of the places.
+    pub layout: Layout,
+    /// First of the slots.
     pub first: usize,
     /// Numbers of each contact.
     pub columns: usize,
 }
 
 impl HistorySlots<'_> {
-    /// The same from place `by` on.
+    /// The same from slot `by` on.
     pub fn from(&mut self, by: usize) -> HistorySlots<'_> {
-        let HistorySlots { memory, active, form, first, columns } = self;
-        HistorySlots { memory, active, form: *form, first: *first + by, columns: *columns }
+        let HistorySlots { history, active, layout, first, columns } = self;
+        HistorySlots { history, active, layout: *layout, first: *first + by, columns: *columns }
     }
 
     fn at(&self, k: usize, column: usize) -> usize {
-        self.form.memory_at(0, self.first + k, column, self.columns)
+        self.layout.history_at(0, self.first + k, column, self.columns)
     }
 
     fn empty(&self, k: usize) -> bool {
-        (0..self.columns).all(|c| self.form.get(self.memory, self.at(k, c)) == 0.0)
+        (0..self.columns).all(|c| self.layout.get(self.history, self.at(k, c)) == 0.0)
     }
 
-    /// Gives the memory of points that no longer count to neighbours that remember nothing.
+    /// Moves the history of points that no longer count to neighbours without history.
     pub fn take_over(&mut self, near: &[Nearest], radius: f64) {
         if self.columns == 0 {
             return;
@@ -125,9 +124,9 @@ impl HistorySlots<'_> {
             if let Some(m) = nearest.filter(|&m| away(m) <= (STRIDE * radius).powi(2)) {
                 for c in 0..self.columns {
                     let (from, to) = (self.at(k, c), self.at(m, c));
-                    let x = self.form.get(self.memory, from);
-                    self.form.put(self.memory, to, x);
-                    self.form.put(self.memory, from, 0.0);
+                    let x = self.layout.get(self.history, from);
+                    self.layout.put(self.history, to, x);
+                    self.layout.put(self.history, from, 0.0);
                 }
                 // Or a block in which nothing touches is passed over, by as many contacts as are computed at once.
                 self.active[(self.first + m) / BLOCK] = true;
@@ -140,20 +139,21 @@ impl HistorySlots<'_> {
 mod tests {
     use super::*;
 
-    /// What is handed to a contact in a block that was passed over is computed from then on, all of the block.
+    /// A block that was skipped is computed again once one of its contacts takes a history.
     #[test]
-    fn a_block_that_is_given_memory_is_active() {
+    fn a_block_that_takes_history_is_active() {
         let triangle = [Vec3::zeros(), Vec3::x(), Vec3::y()];
-        let form = Layout::default();
-        let (mut memory, mut active) = (vec![0.0; 2 * BLOCK], [true, false]);
-        let at = |k: usize| form.memory_at(0, k, 0, 1);
-        form.put(&mut memory, at(7), 3.0);
+        let layout = Layout::default();
+        let (mut history, mut active) = (vec![0.0; 2 * BLOCK], [true, false]);
+        let at = |k: usize| layout.history_at(0, k, 0, 1);
+        layout.put(&mut history, at(7), 3.0);
         // The grain's triangles are the last of one block and the first of the next.
         let mut near = [Nearest::of(triangle, Vec3::new(0.2, 0.2, 1.0)); 2];
         near[1].counts = true;
-        let mut slots = HistorySlots { memory: &mut memory, active: &mut active, form, first: 0, columns: 1 };
+        let mut slots =
+            HistorySlots { history: &mut history, active: &mut active, layout, first: 0, columns: 1 };
         slots.from(7).take_over(&near, 1.0);
-        assert_eq!((form.get(&memory, at(7)), form.get(&memory, at(8))), (0.0, 3.0));
+        assert_eq!((layout.get(&history, at(7)), layout.get(&history, at(8))), (0.0, 3.0));
         assert_eq!(active, [true, true]);
     }
 }

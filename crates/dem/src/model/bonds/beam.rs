@@ -5,9 +5,9 @@ use nalgebra::UnitQuaternion;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-/// Two particles, seen from the bond.
+/// Two bonded particles.
 pub struct Ends {
-    /// Centre of i as seen from j [m].
+    /// Centre of i relative to j [m].
     pub arm: Vec3,
     /// Velocity of i less that of j [m/s].
     pub velocity: Vec3,
@@ -42,7 +42,7 @@ pub struct Beam {
     /// r [m].
     pub radius: f64,
     /// E A/L [N/m], E I/L and G J/L [N·m/rad]: against length, bending and twist.
-    pub springs: [f64; 3],
+    pub stiffness: [f64; 3],
     /// Dashpots over springs [s].
     pub lag: f64,
     /// 1/A [1/m²] and r/I [1/m³], so that no step divides.
@@ -51,17 +51,17 @@ pub struct Beam {
 
 impl Beam {
     /// Of a round section A = π r², I = π r⁴/4, J = 2 I.
-    pub fn new(axis: Vec3, [length, radius]: [f64; 2], springs: [f64; 3], lag: f64) -> Beam {
+    pub fn new(axis: Vec3, [length, radius]: [f64; 2], stiffness: [f64; 3], lag: f64) -> Beam {
         let area = PI * radius * radius;
-        Beam { axis, length, radius, springs, lag, shares: [1.0 / area, 4.0 / (area * radius)] }
+        Beam { axis, length, radius, stiffness, lag, shares: [1.0 / area, 4.0 / (area * radius)] }
     }
 
     /// Of a size L, r [m] and moduli E, G [Pa], without dashpots.
     pub fn of_moduli(axis: Vec3, [length, radius]: [f64; 2], [young, shear]: [f64; 2]) -> Beam {
         let area = PI * radius * radius;
         let inertia = 0.25 * area * radius * radius;
-        let springs = [young * area, young * inertia, shear * 2.0 * inertia].map(|k| k / length);
-        Beam::new(axis, [length, radius], springs, 0.0)
+        let stiffness = [young * area, young * inertia, shear * 2.0 * inertia].map(|k| k / length);
+        Beam::new(axis, [length, radius], stiffness, 0.0)
     }
 
     /// What it does.
@@ -71,14 +71,14 @@ impl Beam {
     /// ```
     ///
     /// a: n × t, by which the end of the beam, fixed in its particle, is turned out of the line of the centres n; φ: the turn of one end against the other
-    /// about the beam. Forces and moments are the gradient of U, which depends on places and turns alone: a beam that is turned as a
+    /// about the beam. Forces and moments are the gradient of U, which depends on positions and rotations alone: a beam that is turned as a
     /// whole does nothing, however often, and momentum and angular momentum are kept to rounding. Dashpots are the same beam fed by rates.
     pub fn pull(&self, ends: &Ends) -> Pull {
         let distance = ends.arm.norm();
         let per_distance = 1.0 / distance;
         let n = ends.arm * per_distance;
         let t = [0, 1].map(|e| ends.turn[e] * self.axis);
-        let [along, bend, twist] = self.springs;
+        let [along, bend, twist] = self.stiffness;
         let stretch = along * (distance - self.length);
         let bend = 2.0 * bend;
         // Of a_i² + a_i·a_j + a_j² by n: how the line of the centres is turned back.
@@ -111,7 +111,7 @@ impl Beam {
 
     /// Force and moments of the dashpots, and the power that they take.
     fn slow(&self, ends: &Ends, n: &Vec3, per_distance: f64) -> (Vec3, [Vec3; 2], f64) {
-        let [along, bend, twist] = self.springs.map(|k| k * self.lag);
+        let [along, bend, twist] = self.stiffness.map(|k| k * self.lag);
         let line = n.cross(&ends.velocity) * per_distance;
         let across = |w: &Vec3| w - n * n.dot(w);
         let rate = ends.spin.map(|w| across(&w) - line);

@@ -1,17 +1,15 @@
 //! Which particles are bonded at the start.
 
-use crate::model::bonds::beam::Beam;
-use crate::model::bonds::bonded_pair::BondedPair;
-use crate::model::bonds::check::name;
-use crate::model::bonds::limit;
-use crate::model::error::SetupError;
+use crate::model::bonds::motions::frequency;
+use crate::model::quantity::material_names;
+use crate::model::{Beam, BondedPair, SetupError};
 use crate::setup::{Bond, Particle, Setup};
 use crate::space::search::{Search, half_of_shifts, pairs};
 use crate::space::sphere::{nearest, periods};
 use geom::Vec3;
 
-/// All bonds at t = 0, by ids; their ends are places in the list of particles by id.
-pub fn pairs_bonded(setup: &Setup) -> Result<Vec<BondedPair>, SetupError> {
+/// All bonds at t = 0, by ids; their ends are positions in the list of particles by id.
+pub fn bonded_pairs(setup: &Setup) -> Result<Vec<BondedPair>, SetupError> {
     let mut sorted: Vec<&Particle> = setup.particles.iter().collect();
     sorted.sort_unstable_by_key(|p| p.id);
     let gap = setup.bonds.iter().map(|b| b.gap).fold(0.0, f64::max);
@@ -19,7 +17,7 @@ pub fn pairs_bonded(setup: &Setup) -> Result<Vec<BondedPair>, SetupError> {
     let reach: Vec<f64> = sorted.iter().map(|p| (p.radius + 0.5 * gap) * (1.0 + 1e-6)).collect();
     let points: Vec<Vec3> = sorted.iter().map(|p| p.position).collect();
     let mut used = vec![false; setup.bonds.len()];
-    let (mut pairs_bonded, period) = (Vec::new(), periods(&setup.periodic));
+    let (mut pairs, period) = (Vec::new(), periods(&setup.periodic));
     for [i, j] in near(setup, &points, &reach) {
         let (a, b) = (sorted[i as usize], sorted[j as usize]);
         let is_of =
@@ -34,34 +32,34 @@ pub fn pairs_bonded(setup: &Setup) -> Result<Vec<BondedPair>, SetupError> {
             continue;
         }
         if length <= 0.0 {
-            return Err(SetupError::BondOfNoLength { ids: [a.id, b.id] });
+            return Err(SetupError::BondOfZeroLength { ids: [a.id, b.id] });
         }
         used[n] = true;
         let radius = law.radius_ratio * a.radius.min(b.radius);
         let mut beam = Beam::of_moduli(arm / length, [length, radius], [law.young, law.shear_modulus]);
-        beam.lag = law.damping / limit::frequency(&beam, [a, b], &setup.materials);
+        beam.lag = law.damping / frequency(&beam, [a, b], &setup.materials);
         let strength = [law.tensile_strength, law.shear_strength];
-        pairs_bonded.push(BondedPair { ends: [i, j], beam, strength, broken: f64::INFINITY });
+        pairs.push(BondedPair { ends: [i, j], beam, strength, broken: f64::INFINITY });
     }
-    // Where others come in, those of a rule may be among them.
+    // Where particles come in, those of a rule may be among them.
     match used.iter().position(|used| !used).filter(|_| setup.inlets.is_empty()) {
         Some(n) => {
             let law = &setup.bonds[n];
-            Err(SetupError::BondOfNobody { between: name(setup, law), gap: law.gap })
+            Err(SetupError::BondJoinsNothing { between: material_names(setup, law.between), gap: law.gap })
         }
-        None => Ok(pairs_bonded),
+        None => Ok(pairs),
     }
 }
 
-/// Pairs of places in the list that may be near enough, by both; each once.
+/// Pairs of positions in the list that may be near enough; each once.
 fn near(setup: &Setup, points: &[Vec3], reach: &[f64]) -> Vec<[u32; 2]> {
     let search = Search::new(points, reach);
     let mut found = pairs(&search, &search.wide_pairs(), &(0..points.len()));
     let mut images = Vec::new();
     half_of_shifts(&setup.periodic).iter().for_each(|shift| search.shifted_pairs(shift, &mut images));
-    found.extend(images.into_iter().map(|(i, j, _)| (i, j)));
-    let place = |k: u32| search.order()[k as usize];
-    let both = |(i, j)| [place(i).min(place(j)), place(i).max(place(j))];
+    found.extend(images.into_iter().map(|image| (image.i, image.j)));
+    let row = |k: u32| search.order()[k as usize];
+    let both = |(i, j)| [row(i).min(row(j)), row(i).max(row(j))];
     let mut found: Vec<[u32; 2]> = found.into_iter().map(both).collect();
     found.sort_unstable();
     found.dedup();

@@ -5,38 +5,33 @@ use crate::passes::integrate::MoveFlags;
 use crate::setup::Setup;
 use crate::simd::{Row, Row4};
 use crate::space::sphere::periods;
-use crate::state::State;
-use crate::state::clump::{ClumpMotion, arm};
-use crate::state::clumps::{FREE, RigidClumps, far};
-use crate::state::particles::Particles;
+use crate::state::clumps::far;
+use crate::state::{ClumpMotion, Particles, RigidClumps, State};
+use crate::threads::share;
 use geom::Vec3;
-use rayon::prelude::*;
 
 /// Bodies, or rows, of one task; fewer are not worth another thread.
 const CHUNK: usize = 512;
 
 impl RigidClumps {
-    /// Moves the bodies whose members have been moved as if they were free, and puts the members in their places.
+    /// Moves the clumps whose members have been moved as if they were free, and sets the rows of the members.
     pub fn advance(&mut self, particles: &mut Particles, setup: &Setup, dt: f64) -> MoveFlags {
         let (members, arms) = (&self.members, &self.arms);
         let seen = &*particles;
         let advance = |chunk: &mut [ClumpMotion]| {
-            for f in chunk.iter_mut().filter(|f| !f.travels) {
+            for f in chunk.iter_mut().filter(|f| !f.is_prescribed) {
                 let (a, torque) = f.gathered(members, arms, seen, &setup.gravity);
                 f.advance(a + f.fluid(setup), torque, dt);
             }
         };
-        match self.flights.len() > CHUNK {
-            true => self.flights.par_chunks_mut(CHUNK).for_each(advance),
-            false => advance(&mut self.flights),
-        }
-        self.place(particles, setup, dt)
+        share(self.flights.len() > CHUNK, self.flights.chunks_mut(CHUNK).collect(), advance);
+        self.position(particles, setup, dt)
     }
 
     /// Bodies without a past get the acceleration and the torque of this instant as those of the step before.
     pub fn prime(&mut self, particles: &Particles, setup: &Setup) {
         let (members, arms) = (&self.members, &self.arms);
-        for f in self.flights.iter_mut().filter(|f| f.starting && !f.travels) {
+        for f in self.flights.iter_mut().filter(|f| f.starting && !f.is_prescribed) {
             let (a, torque) = f.gathered(members, arms, particles, &setup.gravity);
             (f.acceleration, f.torque) = (a + f.fluid(setup), torque);
             f.starting = false;
@@ -44,85 +39,59 @@ impl RigidClumps {
     }
 
     /// Writes the members' rows.
-    fn place(&self, particles: &mut Particles, setup: &Setup, dt: f64) -> MoveFlags {
+    fn position(&self, particles: &mut Particles, setup: &Setup, dt: f64) -> MoveFlags {
         let count = self.of.len();
-        let spins = &mut particles.spins[..];
-        let write = Write {
-            flights: &self.flights,
-            periods: periods(&setup.periodic),
-            motion_limit: setup.guards.motion,
-            dt,
-        };
-        let seats = |from: usize, n: usize| {
-            let range = from..(from + n).min(count);
-            Seats {
-                of: &self.of[range.clone()],
-                arms: &self.arms[range.clone()],
-                images: &self.images[range],
-            }
-        };
-        let turning = if spins.is_empty() { 0 } else { count };
-        let (rows, spins) = (&mut particles.rows[..count], &mut spins[..turning]);
-        let (accelerations, home) = (&mut particles.acceleration[..count], &particles.home[..count]);
-        if count <= CHUNK {
-            return write.rows(&seats(0, count), rows, spins, accelerations, home);
-        }
+        let (periods, motion_limit) = (periods(&setup.periodic), setup.guards.motion);
+        let members = Members { clumps: self, periods, motion_limit, dt };
+        let Particles { rows, spins, acceleration, home, .. } = particles;
+        let rotating = if spins.is_empty() { 0 } else { count };
         // Without rotation there are no spins, and an empty part for each chunk.
-        let mut spins: Vec<&mut [Row4]> = spins.chunks_mut(CHUNK).collect();
-        spins.resize_with(count.div_ceil(CHUNK), Default::default);
-        let parts = rows.par_chunks_mut(CHUNK).zip(accelerations.par_chunks_mut(CHUNK));
-        let parts = parts.zip(home.par_chunks(CHUNK)).zip(spins.into_par_iter()).enumerate();
-        let moved = parts.map(|(c, (((rows, accelerations), home), spins))| {
-            write.rows(&seats(c * CHUNK, CHUNK), rows, spins, accelerations, home)
+        let spins = spins[..rotating].chunks_mut(CHUNK).chain(std::iter::repeat_with(Default::default));
+        let rows = rows[..count].chunks_mut(CHUNK).zip(spins);
+        let rows = rows.zip(acceleration.chunks_mut(CHUNK)).zip(home.chunks(CHUNK)).enumerate();
+        let moved = share(count > CHUNK, rows.collect(), |(n, (((rows, spins), acceleration), home))| {
+            members.write(n * CHUNK, rows, spins, acceleration, home)
         });
-        moved.reduce(MoveFlags::default, MoveFlags::and)
+        moved.into_iter().fold(MoveFlags::default(), MoveFlags::and)
     }
 }
 
-/// Body, arm and image of some rows.
-struct Seats<'a> {
-    of: &'a [u32],
-    arms: &'a [Row4],
-    images: &'a [[i8; 3]],
-}
-
-/// What writing needs of the bodies.
-struct Write<'a> {
-    flights: &'a [ClumpMotion],
+/// What the rows of members are made of.
+struct Members<'a> {
+    clumps: &'a RigidClumps,
     periods: Vec3,
     motion_limit: f64,
     dt: f64,
 }
 
-impl Write<'_> {
-    fn rows(
+impl Members<'_> {
+    /// Writes some rows, from number `first` on.
+    fn write(
         &self,
-        seats: &Seats,
+        first: usize,
         rows: &mut [Row],
         spins: &mut [Row4],
         accelerations: &mut [Row4],
         home: &[Row4],
     ) -> MoveFlags {
+        let RigidClumps { flights, of, arms, images, .. } = self.clumps;
         let mut moved = MoveFlags::default();
-        for (k, &of) in seats.of.iter().enumerate().filter(|(_, of)| **of != FREE) {
-            let f = &self.flights[of as usize];
-            if f.travels {
-                continue;
-            }
-            let (place, velocity, way) = f.point(&seats.arms[k]);
-            let place = place + far(&seats.images[k], &self.periods);
-            let row = &mut rows[k];
-            row[..3].copy_from_slice(place.as_slice());
+        for (k, row) in rows.iter_mut().enumerate() {
+            let at = first + k;
+            let Some(f) = flights.get(of[at] as usize).filter(|f| !f.is_prescribed) else { continue };
+            let (position, velocity, way) = f.point(&arms[at]);
+            let position = position + far(&images[at], &self.periods);
+            row[..3].copy_from_slice(position.as_slice());
             row[4..7].copy_from_slice(velocity.as_slice());
             if let Some(spin) = spins.get_mut(k) {
-                *spin = Row4([f.spin.x, f.spin.y, f.spin.z, 0.0]);
+                *spin = Row4::of(f.spin);
             }
             // What brings it back to where it was: `position_before`.
             let a = (velocity * self.dt - way) * (2.0 / (self.dt * self.dt));
-            accelerations[k] = Row4([a.x, a.y, a.z, 0.0]);
+            accelerations[k] = Row4::of(a);
             let limit = self.motion_limit * row[3];
             moved.too_fast |= !(way.norm_squared() <= limit * limit);
-            moved.left_margin |= (place - arm(&home[k])).norm_squared() > home[k][3] * home[k][3];
+            moved.left_margin |= (position - home[k].vector()).norm_squared() > home[k][3] * home[k][3];
         }
         moved
     }
@@ -130,11 +99,11 @@ impl Write<'_> {
 
 /// After a move: rigid clumps take the forces of their members and put them in their positions.
 pub fn advance(model: &Model, state: &mut State, moved: MoveFlags) -> MoveFlags {
-    if state.bodies.none() {
+    if state.clumps.none() {
         return moved;
     }
     if model.setup.ledger {
-        state.ledger.drag += state.bodies.drag_power(&model.setup) * model.dt;
+        state.ledger.drag += state.clumps.drag_power(&model.setup) * model.dt;
     }
-    moved.and(state.bodies.advance(&mut state.particles, &model.setup, model.dt))
+    moved.and(state.clumps.advance(&mut state.particles, &model.setup, model.dt))
 }

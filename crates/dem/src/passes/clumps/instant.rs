@@ -1,21 +1,17 @@
 //! Clumps at one instant, for observers.
 
-use crate::kernel::sums::WrenchSums;
+use crate::kernel::WrenchSums;
 use crate::model::Model;
-use crate::neighbours::NeighbourLists;
 use crate::setup::Setup;
 use crate::space::rotation;
-use crate::state::State;
-use crate::state::clump::{ClumpMotion, arm, quaternion};
-use crate::state::clumps::RigidClumps;
-use crate::state::ledger::DrivenBody;
-use crate::state::particles::Particles;
+use crate::state::clump::quaternion;
+use crate::state::{ClumpMotion, DrivenBody, RigidClumps, State};
 use geom::Vec3;
 use nalgebra::UnitQuaternion;
 
-/// A body at one instant.
+/// A clump at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BodyState {
+pub struct ClumpState {
     /// Id of its first member; the others follow.
     pub id: u32,
     /// Index of its shape.
@@ -38,14 +34,14 @@ pub struct BodyState {
     pub angular_momentum: Vec3,
 }
 
-impl BodyState {
+impl ClumpState {
     /// Whether a particle is one of its members.
     pub fn has(&self, particle: u32) -> bool {
         particle.wrapping_sub(self.id) < self.members
     }
 }
 
-/// Velocity and angular velocity of a body, its angular momentum, and what contacts do to it.
+/// Velocity and angular velocity of a clump, its angular momentum, and what contacts do to it.
 #[derive(Default)]
 struct Instant {
     velocity: Vec3,
@@ -56,20 +52,19 @@ struct Instant {
 }
 
 impl RigidClumps {
-    /// The bodies in the calculation with velocities of this instant, by id.
-    pub fn states(&self, model: &Model, state: &State, lists: &NeighbourLists) -> Vec<BodyState> {
-        let (loads, hidden) = (lists.contacts.sums(), state.zones.hidden(state.time()));
+    /// The clumps in the calculation with velocities of this instant, by id.
+    pub fn states(&self, model: &Model, state: &State) -> Vec<ClumpState> {
+        let (sums, hidden) = (state.contacts.sums(), state.zones.hidden(state.time()));
         let of = |f: &ClumpMotion| {
-            let Instant { velocity, spin, momentum, .. } =
-                self.instant(f, &state.particles, &loads, &model.setup, model.dt);
+            let Instant { velocity, spin, momentum, .. } = self.instant(f, model, state, &sums);
             let shape = &model.setup.clumps.shapes[f.shape as usize];
-            BodyState {
+            ClumpState {
                 id: f.id,
                 shape: f.shape,
                 members: f.count,
                 scale: f.scale,
                 mass: f.mass,
-                position: model.wrapped(f.place),
+                position: model.wrapped(f.position),
                 orientation: quaternion(&f.turn) * shape.frame.inverse(),
                 velocity,
                 spin,
@@ -77,90 +72,77 @@ impl RigidClumps {
             }
         };
         let seen = |f: &&ClumpMotion| !hidden(self.members[f.first as usize] as usize);
-        let mut states: Vec<BodyState> = self.flights.iter().filter(seen).map(of).collect();
+        let mut states: Vec<ClumpState> = self.flights.iter().filter(seen).map(of).collect();
         states.sort_by_key(|s| s.id);
         states
     }
 
-    fn instant(
-        &self,
-        f: &ClumpMotion,
-        particles: &Particles,
-        loads: &WrenchSums,
-        setup: &Setup,
-        dt: f64,
-    ) -> Instant {
+    fn instant(&self, f: &ClumpMotion, model: &Model, state: &State, sums: &WrenchSums) -> Instant {
         let (mut velocity, mut momentum) = (f.velocity, f.momentum);
         let turn = quaternion(&f.turn);
         let (mut force, mut torque) = (Vec3::zeros(), Vec3::zeros());
-        if !f.travels {
+        if !f.is_prescribed {
             for &m in &self.members[f.range()] {
-                let radius = particles.rows[m as usize][3];
-                let (push, moment) = loads.on(m as usize, radius);
-                let push = Vec3::from(push);
+                let radius = state.particles.rows[m as usize][3];
+                let (push, moment) = sums.on(m as usize, radius);
                 force += push;
-                torque += (turn * arm(&self.arms[m as usize])).cross(&push) + Vec3::from(moment);
+                torque += (turn * self.arms[m as usize].vector()).cross(&push) + moment;
             }
-            let a = force / f.mass + setup.gravity + f.fluid(setup);
-            velocity += (a - f.acceleration) * (0.5 * dt);
-            momentum += (torque - f.torque) * (0.5 * dt);
+            let a = force / f.mass + model.setup.gravity + f.fluid(&model.setup);
+            velocity += (a - f.acceleration) * (0.5 * model.dt);
+            momentum += (torque - f.torque) * (0.5 * model.dt);
         }
-        Instant {
-            velocity,
-            spin: rotation::spin(&turn, &momentum, &f.inverse_inertia),
-            momentum,
-            force,
-            torque,
-        }
+        let spin = rotation::spin(&turn, &momentum, &f.inverse_inertia);
+        Instant { velocity, spin, momentum, force, torque }
     }
 
-    /// What drives each body that is free, at this instant, and the row of its first member.
+    /// What drives each clump that is free, at this instant, and the row of its first member.
     pub fn driven_now<'a>(
         &'a self,
         model: &'a Model,
         state: &'a State,
-        loads: &'a WrenchSums,
+        sums: &'a WrenchSums,
     ) -> impl Iterator<Item = (u32, DrivenBody)> + 'a {
-        self.flights.iter().filter(|f| !f.travels).map(move |f| {
-            let now = self.instant(f, &state.particles, loads, &model.setup, model.dt);
-            let force = now.force + f.drag(&model.setup);
-            let driven = f.driven([force, now.torque], (now.velocity, now.spin), &model.setup);
-            (self.members[f.first as usize], driven)
+        self.flights.iter().filter(|f| !f.is_prescribed).map(move |f| {
+            let now = self.instant(f, model, state, sums);
+            let Instant { velocity, spin, torque: moment, .. } = now;
+            let driven = f.driven(now.force + f.drag(&model.setup), &model.setup);
+            (self.members[f.first as usize], DrivenBody { moment, velocity, spin, ..driven })
         })
     }
 
-    /// What drove each body that is free in the last move.
+    /// What drove each clump that is free in the last move.
     pub fn last_driven<'a>(&'a self, setup: &'a Setup, dt: f64) -> impl Iterator<Item = DrivenBody> + 'a {
-        self.flights.iter().filter(|f| !f.travels).map(move |f| {
+        self.flights.iter().filter(|f| !f.is_prescribed).map(move |f| {
             let momentum = f.momentum - f.torque * dt;
             let spin = rotation::spin(&quaternion(&f.turn_before), &momentum, &f.inverse_inertia);
             let force = (f.acceleration - f.weight(setup)) * f.mass;
-            f.driven([force, f.torque], (f.velocity - f.acceleration * dt, spin), setup)
+            let velocity = f.velocity - f.acceleration * dt;
+            DrivenBody { moment: f.torque, velocity, spin, ..f.driven(force, setup) }
         })
     }
 
     /// What a fluid takes from those that are free, at the velocities predicted for them [W].
     pub fn drag_power(&self, setup: &Setup) -> f64 {
-        let free = self.flights.iter().filter(|f| setup.drag.is_some() && !f.travels);
+        let free = self.flights.iter().filter(|f| setup.drag.is_some() && !f.is_prescribed);
         free.map(|f| -f.drag(setup).dot(&f.velocity)).sum()
     }
 
     /// Velocity and spin of each member at this instant, by particle; empty without clumps.
     pub fn member_states(
         &self,
-        particles: &Particles,
-        loads: &WrenchSums,
-        setup: &Setup,
-        dt: f64,
+        model: &Model,
+        state: &State,
+        sums: &WrenchSums,
     ) -> Vec<Option<(Vec3, Vec3)>> {
         if self.flights.is_empty() {
             return Vec::new();
         }
-        let mut out = vec![None; particles.len()];
+        let mut out = vec![None; state.particles.len()];
         for f in &self.flights {
-            let Instant { velocity, spin, .. } = self.instant(f, particles, loads, setup, dt);
+            let Instant { velocity, spin, .. } = self.instant(f, model, state, sums);
             for &m in &self.members[f.range()] {
-                let r = quaternion(&f.turn) * arm(&self.arms[m as usize]);
+                let r = quaternion(&f.turn) * self.arms[m as usize].vector();
                 out[m as usize] = Some((velocity + spin.cross(&r), spin));
             }
         }

@@ -1,51 +1,27 @@
 //! Bodies that pass planes: what zones ask of them, and how they are moved there.
 //!
-//! In a zone a body keeps its angular velocity: R(τ) = turn(ω τ) R₀. That is no free turn unless ω lies along a principal axis; it is a
+//! In a zone a clump keeps its angular velocity: R(τ) = turn(ω τ) R₀. That is no free turn unless ω lies along a principal axis; it is a
 //! prescribed motion as the constant velocity is, in closed form, and back in time it leads to where it began.
 
 use crate::setup::{EntryClump, Particle, Setup};
 use crate::space::rotation;
-use crate::state::clump::{ClumpMotion, arm, quaternion};
-use crate::state::clumps::RigidClumps;
+use crate::state::clump::quaternion;
+use crate::state::{ClumpMotion, FREE, Kinematics, RigidClumps};
 use geom::Vec3;
 use nalgebra::UnitQuaternion;
 
 /// ½ m v² + ½ ω·L − m g·x [J], g the `weight` over the mass [m/s²].
-fn energy(mass: f64, place: &Vec3, velocity: &Vec3, [spin, momentum]: [&Vec3; 2], weight: &Vec3) -> f64 {
-    mass * (0.5 * velocity.norm_squared() - weight.dot(place)) + 0.5 * spin.dot(momentum)
+fn energy(mass: f64, position: &Vec3, velocity: &Vec3, [spin, momentum]: [&Vec3; 2], weight: &Vec3) -> f64 {
+    mass * (0.5 * velocity.norm_squared() - weight.dot(position)) + 0.5 * spin.dot(momentum)
 }
 
 impl RigidClumps {
-    /// Centre of the body that row `k` is a member of, and whether it is the first.
-    pub fn place_at(&self, k: usize) -> Option<(Vec3, bool)> {
-        self.body_of(k).map(|f| (f.place, self.is_first(f, k)))
-    }
-
-    /// Where that centre was before the last move.
-    pub fn place_before_at(&self, k: usize) -> Option<Vec3> {
-        self.body_of(k).map(|f| f.place_before)
-    }
-
-    /// Predicted velocity and acceleration of that centre.
-    pub fn motion_at(&self, k: usize) -> Option<(Vec3, Vec3)> {
-        self.body_of(k).map(|f| (f.velocity, f.acceleration))
-    }
-
-    /// From that centre to row `k` [m]; 0 of a sphere.
-    pub fn arm_at(&self, k: usize) -> Vec3 {
-        self.body_of(k).map_or_else(Vec3::zeros, |f| quaternion(&f.turn) * arm(&self.arms[k]))
-    }
-
-    /// Rows of all members of the body of row `k`.
-    pub fn members_with(&self, k: usize) -> Option<&[u32]> {
-        self.body_of(k).map(|f| &self.members[f.range()])
-    }
-
-    fn is_first(&self, f: &ClumpMotion, k: usize) -> bool {
+    /// Whether row `k` is the first member of its clump.
+    pub(crate) fn is_first(&self, f: &ClumpMotion, k: usize) -> bool {
         self.members.get(f.first as usize) == Some(&(k as u32))
     }
 
-    /// State of the body of row `k` a time `back` [s] before the end of the step, that took `dt` [s].
+    /// State of the clump of row `k` a time `back` [s] before the end of the step, that took `dt` [s].
     pub fn state_back(&self, k: usize, back: f64, dt: f64, setup: &Setup) -> Option<(Particle, EntryClump)> {
         let f = self.body_of(k)?;
         let shape = &setup.clumps.shapes[f.shape as usize];
@@ -55,7 +31,7 @@ impl RigidClumps {
             id: f.id,
             material: shape.material,
             radius: shape.reach() * f.scale,
-            position: f.place - f.velocity * back + f.acceleration * (0.5 * back * back),
+            position: f.position - f.velocity * back + f.acceleration * (0.5 * back * back),
             velocity: f.velocity - f.acceleration * back,
             spin,
         };
@@ -63,7 +39,7 @@ impl RigidClumps {
         Some((particle, EntryClump { shape: f.shape, scale: f.scale, orientation }))
     }
 
-    /// Energy [J] of the body of row `k`, were it in this state; all of it for the first member, none for the others.
+    /// Energy [J] of the clump of row `k`, were it in this state; all of it for the first member, none for the others.
     pub fn energy_of(&self, k: usize, whole: &Particle, clump: &EntryClump, setup: &Setup) -> f64 {
         let Some(f) = self.body_of(k).filter(|f| self.is_first(f, k)) else { return 0.0 };
         let turn = clump.orientation * setup.clumps.shapes[f.shape as usize].frame;
@@ -74,7 +50,7 @@ impl RigidClumps {
     /// Energy of the clump as it is now.
     pub fn energy_at(&self, k: usize, setup: &Setup) -> Option<f64> {
         let f = self.body_of(k)?;
-        let now = || energy(f.mass, &f.place, &f.velocity, [&f.spin, &f.momentum], &f.weight(setup));
+        let now = || energy(f.mass, &f.position, &f.velocity, [&f.spin, &f.momentum], &f.weight(setup));
         Some(if self.is_first(f, k) { now() } else { 0.0 })
     }
 
@@ -84,39 +60,34 @@ impl RigidClumps {
         let (velocity, momentum) =
             (f.velocity - f.acceleration * (0.5 * dt), f.momentum - f.torque * (0.5 * dt));
         let spin = rotation::spin(&f.turn_back(0.5), &momentum, &f.inverse_inertia);
-        let middle = (f.place + f.place_before) * 0.5;
+        let middle = (f.position + f.place_before) * 0.5;
         Some(energy(f.mass, &middle, &velocity, [&spin, &momentum], &f.weight(setup)))
     }
 
-    /// The body of row `k` moves by a prescribed motion from now on.
+    /// The clump of row `k` moves by a prescribed motion from now on.
     pub fn take(&mut self, k: usize) {
         if let Some(f) = self.body_at(k) {
-            f.travels = true;
+            f.is_prescribed = true;
         }
     }
 
-    /// Where the body of row `k` is that travels: its centre, the velocity of that, its principal axes, its spin.
-    pub fn carry(
-        &mut self,
-        k: usize,
-        centre: Vec3,
-        velocity: Vec3,
-        (turned, spin): (UnitQuaternion<f64>, Vec3),
-    ) {
+    /// Where the clump of row `k` is, in a zone: its centre, how that moves, its principal axes.
+    pub fn carry(&mut self, k: usize, centre: Vec3, flow: &Kinematics, turned: UnitQuaternion<f64>) {
+        let Kinematics { velocity, spin, .. } = *flow;
         let first = self.body_of(k).is_some_and(|f| self.is_first(f, k));
         if let Some(f) = self.body_at(k).filter(|_| first) {
-            (f.place, f.place_before, f.velocity) = (centre, centre, velocity);
+            (f.position, f.place_before, f.velocity) = (centre, centre, velocity);
             f.turn = turned.into_inner().coords.into();
             (f.turn_before, f.spin) = (f.turn, spin);
             f.momentum = rotation::momentum(&turned, &spin, &f.inverse_inertia);
         }
     }
 
-    /// The body of row `k` is free from now on, and was so for a time `since` [s] of this step, in which its angular momentum stayed.
+    /// The clump of row `k` is free from now on, and was so for a time `since` [s] of this step, in which its angular momentum stayed.
     pub fn release(&mut self, k: usize, since: f64) {
         let first = self.body_of(k).is_some_and(|f| self.is_first(f, k));
         if let Some(f) = self.body_at(k).filter(|_| first) {
-            (f.travels, f.starting) = (false, true);
+            (f.is_prescribed, f.starting) = (false, true);
             let (now, spin) = (quaternion(&f.turn), f.spin);
             let then = rotation::spun(&(spin * -since)) * now;
             f.momentum = rotation::momentum(&then, &spin, &f.inverse_inertia);
@@ -128,22 +99,21 @@ impl RigidClumps {
         self.of.get(k).and_then(|&b| self.flights.get_mut(b as usize))
     }
 
-    /// Forgets bodies whose members are not among those that stay; `new` is the new place of each row, or none. Bodies stay or leave whole.
+    /// Drops clumps whose members have left; `new` is the new number of each row, or none. Clumps stay or leave whole.
     pub(crate) fn keep(&mut self, new: &[u32]) {
-        let stays =
-            |f: &ClumpMotion| new[self.members[f.first as usize] as usize] != crate::state::clumps::FREE;
+        let stays = |f: &ClumpMotion| new[self.members[f.first as usize] as usize] != FREE;
         if self.flights.iter().all(stays) {
             return;
         }
         let (mut flights, mut members) = (Vec::new(), Vec::new());
-        let mut number = vec![crate::state::clumps::FREE; self.flights.len()];
+        let mut number = vec![FREE; self.flights.len()];
         for (b, f) in self.flights.iter().enumerate().filter(|(_, f)| stays(f)) {
             number[b] = flights.len() as u32;
             let first = members.len() as u32;
             members.extend_from_slice(&self.members[f.range()]);
             flights.push(ClumpMotion { first, ..*f });
         }
-        for of in self.of.iter_mut().filter(|of| **of != crate::state::clumps::FREE) {
+        for of in self.of.iter_mut().filter(|of| **of != FREE) {
             *of = number[*of as usize];
         }
         (self.flights, self.members) = (flights, members);

@@ -15,9 +15,9 @@ use crate::passes::zones::ledger::power_of_member;
 use crate::passes::zones::travel::follow_motion;
 use crate::passes::zones::whole::{rows_with, test_point, test_point_before};
 use crate::setup::{Crossing, EntryClump, Particle, Touch};
+use crate::state::clumps::starts;
 use crate::state::ledger::carried;
-use crate::state::zone_particle::{Direction, ZoneParticle};
-use crate::state::{ListStatus, State};
+use crate::state::{Direction, ListStatus, State, ZoneParticle};
 use geom::Vec3;
 use nalgebra::UnitQuaternion;
 
@@ -35,7 +35,7 @@ fn since_passage(past: f64, speed: f64, acceleration: f64) -> f64 {
     2.0 * past / (speed + square.max(0.0).sqrt())
 }
 
-pub fn find_crossings(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
+pub fn find_crossings(model: &Model, state: &mut State, lists: &NeighbourLists) {
     let mut found = Vec::new();
     for outlet in 0..state.zones.outlets.len() {
         cross_outlet(model, state, lists, outlet, &mut found);
@@ -44,7 +44,7 @@ pub fn find_crossings(model: &Model, state: &mut State, lists: &mut NeighbourLis
     found.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.time.total_cmp(&b.1.time)).then(a.1.outlet.cmp(&b.1.outlet)));
     found.dedup_by_key(|f| f.0);
     for (k, crossing) in found {
-        take_over(model, state, lists, k, crossing);
+        take_over(model, state, k, crossing);
     }
     state.zones.crossings.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.particle.id.cmp(&b.particle.id)));
 }
@@ -53,7 +53,7 @@ pub fn find_crossings(model: &Model, state: &mut State, lists: &mut NeighbourLis
 fn cross_outlet(
     model: &Model,
     state: &mut State,
-    lists: &mut NeighbourLists,
+    lists: &NeighbourLists,
     outlet: usize,
     found: &mut Vec<(usize, Crossing)>,
 ) {
@@ -71,7 +71,7 @@ fn cross_outlet(
             None => {}
             Some(PlanePassage::Back) => {
                 state.zones.beyond[outlet].remove(&state.particles.id[k]);
-                state.zones.lost.came_upstream(outlet);
+                state.zones.lost.returned.outlets[outlet] += 1;
             }
             Some(PlanePassage::Past(past)) => {
                 let crossing = crossing(model, state, lists, k, outlet as u32, past);
@@ -91,41 +91,36 @@ fn passage(state: &State, outlet: usize, k: usize) -> Option<PlanePassage> {
     if zones.gone[k] {
         return None;
     }
-    let (place, radius) = test_point(state, k)?;
-    let past = zones.outlets[outlet].past(&place, radius);
+    let (position, radius) = test_point(state, k)?;
+    let past = zones.outlets[outlet].past(&position, radius);
     let beyond = &zones.beyond[outlet];
     match past < 0.0 {
         true => beyond.contains(&id).then_some(PlanePassage::Back),
-        false => (!zones.busy[k] && !beyond.contains(&id)).then_some(PlanePassage::Past(past)),
+        false => (!zones.prescribed[k] && !beyond.contains(&id)).then_some(PlanePassage::Past(past)),
     }
 }
 
 /// Particle `k`, and all members of its clump, move by the motion of the zone from its passage on.
-fn take_over(model: &Model, state: &mut State, lists: &mut NeighbourLists, k: usize, crossing: Crossing) {
+fn take_over(model: &Model, state: &mut State, k: usize, crossing: Crossing) {
     let since = crossing.time;
     let zone = state.zones.outlets[crossing.outlet as usize];
     let after = state.time() - since;
     if model.setup.ledger {
-        add_crossing(model, state, lists, k, &crossing, after);
+        add_crossing(model, state, k, &crossing, after);
     }
-    let (starts, turn) = match &crossing.clump {
-        None => (vec![crossing.particle], None),
-        Some(clump) => {
-            let (starts, turn) = crate::state::clumps::starts(&crossing.particle, clump, &model.setup);
-            (starts, Some(turn))
-        }
-    };
+    let (starts, turn) = starts(&crossing.particle, crossing.clump.as_ref(), &model.setup);
     let (centre, lead) = (crossing.particle.position, zone.lead(crossing.particle.radius));
     for (at, start) in rows_with(state, k).into_iter().zip(starts) {
         let k = at as usize;
-        state.zones.busy[k] = true;
+        state.zones.prescribed[k] = true;
         if let Some(sleepers) = &mut state.sleepers {
             sleepers.wake_particle(k);
         }
-        state.bodies.take(k);
-        let way = Direction::Out(crossing.outlet);
-        let (turned, whose) = (crossing.turn, crossing.particle.id);
-        let particle_in_zone = ZoneParticle { at, since, start, whose, centre, lead, turn, turned, way };
+        state.clumps.take(k);
+        let direction = Direction::Out(crossing.outlet);
+        let (turned, passing_id) = (crossing.turn, crossing.particle.id);
+        let particle_in_zone =
+            ZoneParticle { at, since, start, passing_id, centre, lead, turn, turned, direction };
         follow_motion(model, state, &particle_in_zone, state.time());
         state.zones.zone_particles.push(particle_in_zone);
     }
@@ -133,30 +128,22 @@ fn take_over(model: &Model, state: &mut State, lists: &mut NeighbourLists, k: us
 }
 
 /// What leaves the ledger with a crossing, `after` [s] before the end of the step.
-fn add_crossing(
-    model: &Model,
-    state: &mut State,
-    lists: &mut NeighbourLists,
-    k: usize,
-    crossing: &Crossing,
-    after: f64,
-) {
+fn add_crossing(model: &Model, state: &mut State, k: usize, crossing: &Crossing, after: f64) {
     let start = &crossing.particle;
     let carried: f64 = match &crossing.clump {
         None => carried(start, &model.setup).iter().sum(),
-        Some(clump) => state.bodies.energy_of(k, start, clump, &model.setup),
+        Some(clump) => state.clumps.energy_of(k, start, clump, &model.setup),
     };
-    let power: f64 =
-        rows_with(state, k).iter().map(|&m| power_of_member(state, lists, m as usize, start)).sum();
+    let power: f64 = rows_with(state, k).iter().map(|&m| power_of_member(state, m as usize, start)).sum();
     let taken = carried + power * after;
     state.ledger.left += taken;
-    match state.bodies.energy_before_half(k, &model.setup, model.dt) {
+    match state.clumps.energy_before_half(k, &model.setup, model.dt) {
         None => close_crossing(model, state, k, taken),
         Some(energy) => state.ledger.passed += taken - energy,
     }
 }
 
-/// State of particle `k` when what is tested of it was on the plane that it is `past` [m] of now.
+/// State of particle `k` at its passage; its tested point is now `past` [m] behind the plane.
 fn crossing(
     model: &Model,
     state: &State,
@@ -183,28 +170,27 @@ fn crossing(
     rows_with(state, k).iter().for_each(|&m| touches.extend(touching(model, state, lists, m as usize)));
     let (particle, clump) = state_back(model, state, k, back);
     let turn = turn_back(model, state, k, back);
-    let links = state.bonds.links(k, &state.particles.id);
-    Crossing { time, outlet, particle, clump, turn, touching: touches, links }
+    let bonds = state.bonds.crossing(k, &state.particles.id);
+    Crossing { time, outlet, particle, clump, turn, touching: touches, bonds }
 }
 
-/// Velocity and acceleration of what is tested in the name of particle `k`.
+/// Velocity and acceleration of the tested point of particle `k`.
 fn motion_of(state: &State, k: usize) -> (Vec3, Vec3) {
-    let (row, a) = (&state.particles.rows[k], state.particles.acceleration[k]);
-    let own = (Vec3::new(row[4], row[5], row[6]), Vec3::new(a[0], a[1], a[2]));
-    state.bodies.motion_at(k).unwrap_or(own)
+    let own = (state.particles.rows[k].velocity(), state.particles.acceleration[k].vector());
+    state.clumps.body_of(k).map_or(own, |clump| (clump.velocity, clump.acceleration))
 }
 
 /// How particle `k` had turned a time `back` [s] before the end of the step.
 fn turn_back(model: &Model, state: &State, k: usize, back: f64) -> Option<UnitQuaternion<f64>> {
     let turn = state.bonds.turn_of(k)?;
-    let (w, a) = (&state.particles.spins[k], &state.particles.turning[k]);
+    let (w, a) = (&state.particles.spins[k], &state.particles.angular_acceleration[k]);
     let by = [0, 1, 2].map(|axis| (0.5 * model.dt * a[axis] - w[axis]) * back);
     Some(crate::space::rotation::spun(&Vec3::from(by)) * turn)
 }
 
 /// State of particle `k`, or of the clump that it is a member of, a time `back` [s] before the end of the step.
 pub fn state_back(model: &Model, state: &State, k: usize, back: f64) -> (Particle, Option<EntryClump>) {
-    match state.bodies.state_back(k, back, model.dt, &model.setup) {
+    match state.clumps.state_back(k, back, model.dt, &model.setup) {
         None => (sphere_back(state, k, back), None),
         Some((particle, clump)) => (particle, Some(clump)),
     }
@@ -214,11 +200,8 @@ pub fn state_back(model: &Model, state: &State, k: usize, back: f64) -> (Particl
 fn sphere_back(state: &State, k: usize, back: f64) -> Particle {
     let p = &state.particles;
     let (velocity, a) = motion_of(state, k);
-    let spin = match (p.spins.get(k), p.turning.get(k)) {
-        (Some(w), Some(t)) => Vec3::new(w[0] - t[0] * back, w[1] - t[1] * back, w[2] - t[2] * back),
-        _ => Vec3::zeros(),
-    };
+    let (spin, angular_acceleration) = p.rotation(k);
     let position = p.position(k) - velocity * back + a * (0.5 * back * back);
-    let velocity = velocity - a * back;
+    let (velocity, spin) = (velocity - a * back, spin - angular_acceleration * back);
     Particle { id: p.id[k], material: p.material[k], radius: p.rows[k][3], position, velocity, spin }
 }

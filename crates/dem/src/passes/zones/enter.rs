@@ -1,14 +1,11 @@
 //! Entries: checked when they are queued, added to the particles when they are due.
 
-use crate::model::Model;
-use crate::model::check::near;
-use crate::model::error::SetupError;
+use crate::model::in_range::out_of_range;
+use crate::model::{Allowed, Check, Model, SetupError, Subject};
 use crate::setup::clumps::members;
 use crate::setup::{Entry, EntryClump, Particle, Setup, WallShape, Zone, ZoneMotion};
-use crate::state::path::Path;
-use crate::state::zone_particle::{Direction, Kinematics, ZoneParticle};
-use crate::state::zones::{LOOK_AHEAD, Zones};
-use crate::state::{ListStatus, State};
+use crate::state::clumps::starts;
+use crate::state::{Direction, Kinematics, LOOK_AHEAD, ListStatus, Path, State, ZoneParticle, Zones};
 use geom::Vec3;
 
 impl Zones {
@@ -21,7 +18,8 @@ impl Zones {
         }
         announced(&entry, setup)?;
         let Some(zone) = self.inlets.get(entry.inlet as usize).copied() else {
-            return range(format!("inlet of particle {id}"), entry.inlet.into(), "[–]", "the scene's inlets");
+            let (quantity, value) = (Subject::Entry(id).quantity("inlet"), entry.inlet.into());
+            return Err(out_of_range(quantity, value, "[–]", Allowed::IndexOf("inlets")));
         };
         // Seen again before it was out of sight: entries come ahead of their time.
         if zone.motion == ZoneMotion::Recorded && self.comes_back(&entry, setup)? {
@@ -38,7 +36,7 @@ impl Zones {
         let members = entry.clump.map_or(1, |c| members(&c, setup));
         for id in (0..members).map(|k| id.wrapping_add(k)) {
             if !self.ids.insert(id) {
-                return Err(SetupError::EntryTwice { id, time: entry.time });
+                return Err(SetupError::DuplicateEntryId { id, time: entry.time });
             }
         }
         self.paths.extend(path.map(|path| (id, path)));
@@ -48,28 +46,25 @@ impl Zones {
     }
 }
 
-fn range(what: String, value: f64, unit: &'static str, range: &'static str) -> Result<(), SetupError> {
-    Err(SetupError::Range { what, value, unit, range: range.to_owned() })
-}
-
 /// Refuses what the inlet did not announce.
 fn announced(entry: &Entry, setup: &Setup) -> Result<(), SetupError> {
     let Particle { id, radius, position, velocity, spin, material } = entry.particle;
+    let quantity = |name| Subject::Entry(id).quantity(name);
     let numbers = position.iter().chain(&velocity).chain(&spin).chain([&entry.time]);
     if let Some(&wrong) = numbers.into_iter().find(|x| !x.is_finite()) {
-        return range(format!("inlet: state of particle {id}"), wrong, "", "the finite numbers");
+        return Err(out_of_range(quantity("state"), wrong, "", "the finite numbers"));
     }
     if let Some(clump) = &entry.clump {
         return crate::model::clumps::check_entry(clump, &entry.particle, setup);
     }
     if !setup.entry_materials.contains(&material) {
         let value = material.into();
-        return range(format!("inlet: material of particle {id}"), value, "[–]", "what the inlet announced");
+        return Err(out_of_range(quantity("material"), value, "[–]", "what the inlet announced"));
     }
     if !(radius >= setup.smallest_entry && radius <= setup.largest_entry) {
-        return range(format!("inlet: radius of particle {id}"), radius, "m", "what the inlet announced");
+        return Err(out_of_range(quantity("radius"), radius, "m", "what the inlet announced"));
     }
-    near(format_args!("inlet: position of particle {id}"), &position, radius)
+    Check(|| Subject::Entry(id)).near("position", &position, radius)
 }
 
 /// Refuses an entry that never gets to the calculation plane, or becomes free behind a plane at rest.
@@ -78,17 +73,13 @@ fn arrives(entry: &Entry, zone: &Zone, setup: &Setup) -> Result<(), SetupError> 
     let past = zone.plane.signed_distance(&p.position) + lead(p, entry.clump.as_ref(), zone, setup);
     let Some(time) = zone.arrives_after(past, &p.velocity, &setup.gravity) else {
         let speed = zone.plane.normal.dot(&p.velocity);
-        let what = format!("inlet: velocity of particle {} along the flow", p.id);
-        return range(
-            what,
-            speed,
-            "m/s",
-            "what brings it to the calculation plane: above 0, or in free fall",
-        );
+        let quantity = Subject::Entry(p.id).quantity("velocity along the flow");
+        let allowed = "what brings it to the calculation plane: above 0, or in free fall";
+        return Err(out_of_range(quantity, speed, "m/s", allowed));
     };
     let flow = Kinematics::after(time, p, zone.acceleration(&setup.gravity));
     let free = p.position + flow.shift;
-    for wall in setup.walls.iter().filter(|w| !w.motion.moves()) {
+    for wall in setup.walls.iter().filter(|w| !w.moves()) {
         let WallShape::Plane(plane) = &wall.shape else { continue };
         let depth = -plane.signed_distance(&free);
         if depth >= 0.0 {
@@ -103,7 +94,7 @@ fn lead(p: &Particle, clump: Option<&EntryClump>, zone: &Zone, setup: &Setup) ->
     let Some(EntryClump { shape, scale, orientation }) = clump else { return zone.lead(p.radius) };
     let shape = &setup.clumps.shapes[*shape as usize];
     let (turn, normal) = (orientation * shape.frame, zone.plane.normal);
-    // Of spheres, so that the centre is tested where it is asked for.
+    // Of spheres, so that `test = "centre"` tests the centre.
     let of = |(centre, radius): &(Vec3, f64)| match zone.lead(radius * scale) {
         0.0 => 0.0,
         radius => normal.dot(&(turn * (centre * *scale))) + radius,
@@ -138,31 +129,27 @@ fn add(model: &Model, state: &mut State, e: &Entry, now: f64) {
     let (position, velocity) = (e.particle.position + flow.shift, flow.velocity);
     let present = Particle { position, velocity, ..e.particle };
     let at = state.particles.len() as u32;
-    let (starts, turn) = match &e.clump {
-        None => {
-            state.particles.push(&present, &model.setup.materials);
-            (vec![e.particle], None)
-        }
+    match &e.clump {
+        None => state.particles.push(&present, &model.setup.materials),
         Some(clump) => {
-            let states = (&e.particle, &present, (now - e.time).max(0.0));
-            let (starts, turn) = state.bodies.enter(states, clump, &model.setup, &mut state.particles);
-            (starts, Some(turn))
+            let turned = (now - e.time).max(0.0);
+            state.clumps.enter(&present, turned, clump, &model.setup, &mut state.particles);
         }
-    };
+    }
+    let (starts, turn) = starts(&e.particle, e.clump.as_ref(), &model.setup);
     let (centre, lead) = (e.particle.position, lead(&e.particle, e.clump.as_ref(), &zone, &model.setup));
     for (at, start) in (at..).zip(starts) {
-        state.zones.busy.push(true);
+        state.zones.prescribed.push(true);
         state.zones.gone.push(false);
         state.zones.lost.push();
         if let Some(sleepers) = &mut state.sleepers {
             sleepers.push();
         }
-        let (way, turned) = (Direction::In(e.inlet), e.turn.or(e.clump.map(|c| c.orientation)));
-        let whose = e.particle.id;
+        let (direction, turned) = (Direction::In(e.inlet), e.turn.or(e.clump.map(|c| c.orientation)));
+        let passing_id = e.particle.id;
         let particle_in_zone =
-            ZoneParticle { at, since: e.time, start, whose, centre, lead, turn, turned, way };
-        let now_turned = particle_in_zone.has_turned(now, &flow, &state.zones);
-        state.bonds.push(Some(now_turned));
+            ZoneParticle { at, since: e.time, start, passing_id, centre, lead, turn, turned, direction };
+        state.bonds.push(particle_in_zone.has_turned(now, &flow, &state.zones));
         state.zones.zone_particles.push(particle_in_zone);
     }
 }

@@ -1,29 +1,18 @@
-//! Recorded paths: what comes in of them, and what is recorded.
+//! Recorded paths: what is recorded.
 
 use crate::model::Model;
-use crate::model::error::SetupError;
 use crate::passes::zones::cross::state_back;
 use crate::passes::zones::whole::test_point;
-use crate::setup::{Guide, PathSample};
-use crate::state::State;
-use crate::state::path::EARLY;
+use crate::setup::{PathSample, ZoneMotion};
+use crate::state::{EARLY, State};
 use std::collections::BTreeSet;
-
-/// Says where a particle goes that was queued for an inlet of recorded motion. The samples must reach beyond time() +
-/// [`Simulation::look_ahead`] before the next step.
-///
-/// # Errors
-/// A particle that is not on its way in, samples out of order.
-pub fn guide(model: &Model, state: &mut State, id: u32, guide: Guide) -> Result<(), SetupError> {
-    state.zones.guide(id, guide, &model.setup)
-}
 
 /// Where free particles near a storage plane of recorded motion are now, and which have gone back upstream since they were
 /// sampled last, by outlet and id.
 pub fn sample_paths(model: &Model, state: &mut State) -> Vec<PathSample> {
     let mut out = Vec::new();
     for outlet in 0..state.zones.outlets.len() {
-        if state.zones.outlets[outlet].motion == crate::setup::ZoneMotion::Recorded {
+        if state.zones.outlets[outlet].motion == ZoneMotion::Recorded {
             sample_paths_of(model, state, outlet, &mut out);
         }
     }
@@ -34,11 +23,10 @@ fn sample_paths_of(model: &Model, state: &mut State, outlet: usize, out: &mut Ve
     let zone = state.zones.outlets[outlet];
     let first = out.len();
     for k in 0..state.particles.len() {
-        let Some((place, radius)) = test_point(state, k) else { continue };
+        let Some((position, radius)) = test_point(state, k) else { continue };
         let id = state.particles.id[k];
-        if !(zone.past(&place, radius) >= -EARLY * zone.length)
-            || state.zones.is_gone(k)
-            || state.zones.travels(k)
+        if !(zone.past(&position, radius) >= -EARLY * zone.length)
+            || !state.zones.is_free(k)
             || state.zones.beyond[outlet].contains(&id)
         {
             continue;
@@ -52,7 +40,7 @@ fn sample_paths_of(model: &Model, state: &mut State, outlet: usize, out: &mut Ve
     // Those that are not free any more have passed: their crossing ends the path.
     let gone = |k: &usize| {
         let id = &state.particles.id[*k];
-        before.contains(id) && !now.contains(id) && !state.zones.travels(*k) && !state.zones.is_gone(*k)
+        before.contains(id) && !now.contains(id) && state.zones.is_free(*k)
     };
     let mut ids: Vec<(u32, usize)> =
         (0..state.particles.len()).filter(gone).map(|k| (state.particles.id[k], k)).collect();

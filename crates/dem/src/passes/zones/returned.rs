@@ -1,7 +1,6 @@
 //! Looks for particles that zones have lost.
 
-use crate::model::Model;
-use crate::model::halt::Halt;
+use crate::model::{Halt, Model};
 use crate::passes::zones::whole::test_point;
 use crate::state::State;
 
@@ -15,13 +14,12 @@ pub fn look_back(model: &Model, state: &mut State) -> Result<(), Halt> {
     state.zones.fast(time, model.dt, &model.setup)?;
     let mut found = None;
     for k in 0..if state.zones.lost.any { state.particles.len() } else { 0 } {
-        let Some((place, radius)) = test_point(state, k) else { continue };
-        let Some((inlet, behind)) = state.zones.came_back(k, &place, radius) else {
+        let Some((position, radius)) = test_point(state, k) else { continue };
+        let Some((inlet, behind)) = state.zones.came_back(k, &position, radius) else {
             continue;
         };
         if behind > 0.0 && model.setup.guards.zones && found.is_none() {
-            let (id, [x, y, z]) = (state.particles.id[k], [place.x, place.y, place.z]);
-            found = Some(Halt::CameBack { time, id, inlet, x, y, z, behind });
+            found = Some(Halt::CameBack { time, id: state.particles.id[k], inlet, position, behind });
         }
     }
     found.map_or(Ok(()), Err)

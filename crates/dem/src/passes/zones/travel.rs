@@ -3,42 +3,52 @@
 use crate::model::Model;
 use crate::neighbours::NeighbourLists;
 use crate::passes::touching::position_before;
+use crate::passes::zones::history::restore_history;
 use crate::passes::zones::ledger::held;
-use crate::passes::zones::memory::restore_history;
 use crate::passes::zones::whole::test_point;
-use crate::setup::{Particle, Zone};
+use crate::setup::Particle;
 use crate::simd::Row4;
 use crate::space::sphere::away;
 use crate::state::clump::quaternion;
 use crate::state::ledger::carried;
-use crate::state::path::PathStage;
-use crate::state::zone_particle::{Direction, Kinematics, ZoneParticle};
-use crate::state::{ListStatus, State};
+use crate::state::{Direction, Kinematics, ListStatus, PathEnd, State, ZoneParticle};
 use geom::Vec3;
 
+/// Moves all zone particles, and ends the motion of those that are through their zone.
 pub fn move_zone_particles(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
     let now = state.time();
     let mut zone_particles = std::mem::take(&mut state.zones.zone_particles);
     // All members of a clump follow one path.
     let mut ended = Vec::new();
     zone_particles.retain(|t| {
-        let stage = state.zones.paths.get_mut(&t.whose).map(|path| path.follow(now));
+        let stage = state.zones.paths.get_mut(&t.passing_id).map(|path| path.follow(now));
         let (centre, flow) = follow_motion(model, state, t, now);
         let zone = *t.zone(&state.zones);
         let past = zone.plane.signed_distance(&centre) + t.lead;
-        match (t.way, stage) {
-            (Direction::Out(o), _) => stays_in_zone(model, state, lists, t, o, (&zone, past), &flow),
-            (Direction::In(_), Some(PathStage::Inside)) => true,
-            (Direction::In(_), Some(PathStage::Gone)) => {
-                ended.push(t.whose);
+        match (t.direction, stage) {
+            (Direction::Out(outlet), _) => {
+                // One that falls back has been recorded all the same.
+                let back = past < 0.0 && !(flow.velocity.dot(&zone.plane.normal) > 0.0);
+                if past < zone.length && !back {
+                    return true;
+                }
+                if back && test_point(state, t.at as usize).is_some() {
+                    state.zones.lost.returned.fallen[outlet as usize] += 1;
+                }
+                exclude(model, state, lists, t.at as usize);
+                false
+            }
+            (Direction::In(_), Some(PathEnd::Open)) => true,
+            (Direction::In(_), Some(PathEnd::Gone)) => {
+                ended.push(t.passing_id);
                 state.zones.ids.remove(&t.start.id);
-                state.zones.told(t.start.id);
+                state.zones.take_histories(t.start.id);
                 exclude(model, state, lists, t.at as usize);
                 false
             }
             (Direction::In(_), None) if now < t.since || past < 0.0 => true,
             (Direction::In(i), _) => {
-                ended.push(t.whose);
+                ended.push(t.passing_id);
                 release(model, state, lists, t, i, centre, &flow);
                 false
             }
@@ -48,70 +58,48 @@ pub fn move_zone_particles(model: &Model, state: &mut State, lists: &mut Neighbo
     state.zones.zone_particles = zone_particles;
 }
 
-/// Puts a traveller where it is at a time [s]; where its centre is then, and how that flows.
+/// Moves a zone particle to where it is at a time [s]; the position of its centre then, and how that moves.
 pub fn follow_motion(model: &Model, state: &mut State, t: &ZoneParticle, time: f64) -> (Vec3, Kinematics) {
     let flow = t.centre_flow(time, &state.zones, &model.setup);
     let (centre, own) = (t.centre + flow.shift, t.own(flow, time, &state.zones));
-    place(model, state, t.at as usize, t.start.position + own.shift, &own);
+    position(model, state, t.at as usize, t.start.position + own.shift, &own);
     if !state.bonds.none() {
-        state.bonds.put_turn(t.at as usize, t.has_turned(time, &flow, &state.zones));
+        state.bonds.turns[t.at as usize] = t.has_turned(time, &flow, &state.zones);
     }
     if let Some(turn) = &t.turn {
         let turned = t.turned_since(time, &flow, &state.zones) * quaternion(turn);
-        state.bodies.carry(t.at as usize, centre, flow.velocity, (turned, flow.spin));
+        state.clumps.carry(t.at as usize, centre, &flow, turned);
     }
     (centre, flow)
 }
 
-/// Whether a particle that is `past` a storage plane stays in its zone; otherwise it is out of the calculation.
-fn stays_in_zone(
-    model: &Model,
-    state: &mut State,
-    lists: &mut NeighbourLists,
-    t: &ZoneParticle,
-    outlet: u32,
-    (zone, past): (&Zone, f64),
-    flow: &Kinematics,
-) -> bool {
-    // One that falls back has been recorded all the same.
-    let back = past < 0.0 && !(flow.velocity.dot(&zone.plane.normal) > 0.0);
-    let stays = past < zone.length && !back;
-    if !stays {
-        if back && test_point(state, t.at as usize).is_some() {
-            state.zones.lost.fell_back(outlet);
-        }
-        exclude(model, state, lists, t.at as usize);
-    }
-    stays
-}
-
 /// Puts particle `k` where a flow has it: at the image that is nearest to where it was listed.
-pub fn place(model: &Model, state: &mut State, k: usize, mut place: Vec3, flow: &Kinematics) {
+fn position(model: &Model, state: &mut State, k: usize, mut position: Vec3, flow: &Kinematics) {
     let home = state.particles.home[k];
     for (axis, range) in model.setup.periodic.iter().enumerate() {
         if let Some((lo, hi)) = range {
-            place[axis] += (hi - lo) * ((home[axis] - place[axis]) / (hi - lo)).round();
+            position[axis] += (hi - lo) * ((home[axis] - position[axis]) / (hi - lo)).round();
         }
     }
     let (v, a, spin) = (flow.velocity, flow.acceleration, flow.spin);
     let row = &mut state.particles.rows[k];
-    (row[0], row[1], row[2], row[4], row[5], row[6]) = (place.x, place.y, place.z, v.x, v.y, v.z);
-    state.particles.acceleration[k] = Row4([a.x, a.y, a.z, 0.0]);
+    (row[0], row[1], row[2], row[4], row[5], row[6]) = (position.x, position.y, position.z, v.x, v.y, v.z);
+    state.particles.acceleration[k] = Row4::of(a);
     if let Some(row) = state.particles.spins.get_mut(k) {
-        *row = Row4([spin.x, spin.y, spin.z, 0.0]);
+        *row = Row4::of(spin);
     }
-    if let Some(turning) = state.particles.turning.get_mut(k) {
-        *turning = Row4::default();
+    if let Some(angular_acceleration) = state.particles.angular_acceleration.get_mut(k) {
+        *angular_acceleration = Row4::default();
     }
-    if (place - Vec3::new(home[0], home[1], home[2])).norm() > home[3] {
+    if (position - home.vector()).norm() > home[3] {
         state.listing.outdate(ListStatus::MarginLeft);
     }
 }
 
-/// Out of everyone's reach until the next listing drops it.
+/// Out of reach of all others until the next listing drops it.
 fn exclude(model: &Model, state: &mut State, lists: &mut NeighbourLists, k: usize) {
     if model.setup.ledger {
-        let held = held(model, state, lists, k) + state.bonds.held(k);
+        let held = held(state, lists, k) + state.bonds.held(k);
         state.ledger.left += held;
         state.ledger.passed += held;
     }
@@ -120,7 +108,7 @@ fn exclude(model: &Model, state: &mut State, lists: &mut NeighbourLists, k: usiz
     let far = away(k);
     state.particles.rows[k][..3].copy_from_slice(&far);
     state.particles.home[k][..3].copy_from_slice(&far);
-    state.zones.busy[k] = false;
+    state.zones.prescribed[k] = false;
     state.zones.gone[k] = true;
 }
 
@@ -137,16 +125,16 @@ fn release(
     let k = t.at as usize;
     let zone = &state.zones.inlets[inlet as usize];
     let since = (zone.plane.signed_distance(&centre) + t.lead) / flow.velocity.dot(&zone.plane.normal);
-    state.bodies.release(k, if since.is_finite() { since.clamp(0.0, model.dt) } else { 0.0 });
+    state.clumps.release(k, if since.is_finite() { since.clamp(0.0, model.dt) } else { 0.0 });
     if model.setup.ledger {
         let Kinematics { velocity, spin, .. } = *flow;
         let free = Particle { position: state.particles.position(k), velocity, spin, ..t.start };
-        state.ledger.entered += match state.bodies.energy_at(k, &model.setup) {
+        state.ledger.entered += match state.clumps.energy_at(k, &model.setup) {
             None => carried(&free, &model.setup).iter().sum::<f64>(),
             Some(energy) => energy,
         };
     }
-    state.zones.busy[k] = false;
+    state.zones.prescribed[k] = false;
     state.starting.push(k as u32);
     restore_history(model, state, lists, k);
     if test_point(state, k).is_none() {

@@ -76,13 +76,12 @@ fn most_within(centres: &[Vec3], distance: f64) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::setup::Motion;
 
     fn grid(spacing: f64, radius: f64) -> Wall {
         let at = |k: i32| spacing * f64::from(k);
         let sphere = |k: i32| (Vec3::new(at(k % 60), at(k / 60), 0.0), radius);
         let shape = WallShape::Spheres((0..3600).map(sphere).collect());
-        Wall { name: "w".to_owned(), material: 0, shape, motion: Motion::still() }
+        Wall::new("w", 0, shape)
     }
 
     /// N ≈ 2π R* δ/P² on a plane; at ordinary spacings, of about a radius, no more than the four of a packing.
