@@ -34,7 +34,7 @@ pub enum MeshError {
     NotFinite(usize),
     /// Edges that do not join exactly two faces.
     #[error(
-        "mesh is not closed: {open} of its edges do not join two faces; close it before asking for its inside"
+        "mesh is not closed: {open} of its edges do not join two faces; close the mesh, because its inside is needed"
     )]
     Open {
         /// How many such edges.

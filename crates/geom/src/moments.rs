@@ -53,15 +53,13 @@ pub enum BodyError {
     #[error("{0}")]
     Mesh(#[from] MeshError),
     /// Neighbouring faces that look to different sides.
-    #[error("{0} edges join faces of which one looks inwards and one outwards: orient the faces alike")]
+    #[error("at {0} edges one face points inwards and the other outwards: orient all faces the same way")]
     Orientation(usize),
     /// Nothing inside.
-    #[error("the volume is {0:.3e} m³: the surface encloses nothing")]
+    #[error("the volume is {0:.3e} m³: the surface encloses no space")]
     NoVolume(f64),
     /// Spheres that do not hang together.
-    #[error(
-        "the spheres fall into {0} parts that do not overlap: move or enlarge them until they make one body"
-    )]
+    #[error("the spheres form {0} parts that do not overlap: move or enlarge them until they form one body")]
     Parts(usize),
 }
 

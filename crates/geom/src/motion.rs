@@ -29,11 +29,8 @@ pub struct Motion {
 }
 
 impl Default for Motion {
-    /// At rest.
     fn default() -> Motion {
-        let zero = Vec3::zeros();
-        let (frequency, from, until) = (0.0, 0.0, f64::INFINITY);
-        Motion { velocity: zero, turn: zero, through: zero, amplitude: zero, frequency, from, until }
+        Motion::still()
     }
 }
 
@@ -49,6 +46,13 @@ pub struct Pose {
 }
 
 impl Motion {
+    /// At rest.
+    pub const fn still() -> Motion {
+        let zero = Vec3::new(0.0, 0.0, 0.0);
+        let (frequency, from, until) = (0.0, 0.0, f64::INFINITY);
+        Motion { velocity: zero, turn: zero, through: zero, amplitude: zero, frequency, from, until }
+    }
+
     /// Whether anything moves.
     pub fn moves(&self) -> bool {
         self.velocity != Vec3::zeros() || self.turn != Vec3::zeros() || self.vibrates()
@@ -104,21 +108,25 @@ impl Pose {
     }
 
     /// Position [m] of the point of the wall that was at `home` [m] at t = 0.
-    pub fn place(&self, home: &Vec3) -> Vec3 {
+    #[inline]
+    pub fn position(&self, home: &Vec3) -> Vec3 {
         self.through + self.rotation * (home - self.through) + self.shift
     }
 
     /// Position at t = 0 [m] of the point of the wall that is at `place` [m] now.
+    #[inline]
     pub fn home(&self, place: &Vec3) -> Vec3 {
         self.through + self.rotation.transpose() * (place - self.shift - self.through)
     }
 
     /// Velocity [m/s] of the point of the wall that is at `place` [m] now.
+    #[inline]
     pub fn velocity(&self, place: &Vec3) -> Vec3 {
         self.velocity + self.turn.cross(&(place - self.shift - self.through))
     }
 
     /// A direction of the wall, turned.
+    #[inline]
     pub fn direction(&self, home: &Vec3) -> Vec3 {
         self.rotation * home
     }
@@ -141,14 +149,14 @@ mod tests {
 
     #[test]
     fn a_quarter_turn_a_shift_and_the_crest_of_a_vibration() {
-        let place = drum().pose(1.0).place(&Vec3::new(2.0, 0.0, 0.0));
+        let place = drum().pose(1.0).position(&Vec3::new(2.0, 0.0, 0.0));
         assert!((place - Vec3::new(1.0, 1.0, 1.25)).norm() < 1e-12, "{place}");
     }
 
     #[test]
     fn home_is_the_inverse_of_place() {
         let (pose, home) = (drum().pose(0.37), Vec3::new(0.3, -0.7, 2.0));
-        assert!((pose.home(&pose.place(&home)) - home).norm() < 1e-12);
+        assert!((pose.home(&pose.position(&home)) - home).norm() < 1e-12);
         assert!(drum().moves() && !Motion::default().moves());
     }
 }

@@ -6,7 +6,7 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum NumbersError {
     /// More or fewer of them.
-    #[error("{wanted} numbers wanted, separated by commas, and {found} found in '{text}'")]
+    #[error("expected {wanted} numbers, separated by commas, and found {found} in '{text}'")]
     Count {
         /// How many were wanted.
         wanted: usize,
@@ -16,7 +16,7 @@ pub enum NumbersError {
         text: String,
     },
     /// One that is no finite number.
-    #[error("'{part}' at character {at} is no finite number")]
+    #[error("'{part}' at character {at} is not a finite number")]
     Number {
         /// The part between its commas.
         part: String,

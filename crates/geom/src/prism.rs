@@ -18,13 +18,15 @@ pub struct Prism {
 #[derive(Debug, Error)]
 pub enum PrismError {
     /// Not the JSON that is wanted.
-    #[error("not a prism (wanted {{\"polygon\": [[x,y,z], …], \"extrusion\": [x,y,z]}}, in metres): {0}")]
+    #[error("not a prism (expected {{\"polygon\": [[x,y,z], …], \"extrusion\": [x,y,z]}}, in metres): {0}")]
     Json(#[from] serde_json::Error),
     /// A polygon without area.
-    #[error("the polygon of the prism has {0} corners and no area: at least 3 corners, not on one line")]
+    #[error(
+        "the polygon of the prism has {0} corners and no area: give at least 3 corners that are not on one line"
+    )]
     Flat(usize),
     /// An extrusion inside the plane of the polygon.
-    #[error("the extrusion of the prism lies in the plane of its polygon: give one that leaves it")]
+    #[error("the extrusion of the prism lies in the plane of its polygon: give another direction")]
     Extrusion,
 }
 

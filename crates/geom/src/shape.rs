@@ -47,7 +47,7 @@ pub enum Solid {
 pub enum ShapeError {
     #[error(
         "'{0}' is not a shape: use box:x0,y0,z0,x1,y1,z1, sphere:x,y,z,r, cylinder:x0,y0,z0,x1,y1,z1,r, \
-         cone:x0,y0,z0,x1,y1,z1,r0,r1, halfspace:px,py,pz,nx,ny,nz, prism:FILE.json or mesh:FILE, with ! in front for its outside"
+         cone:x0,y0,z0,x1,y1,z1,r0,r1, halfspace:px,py,pz,nx,ny,nz, prism:FILE.json or mesh:FILE; a ! before a shape means its outside"
     )]
     Kind(String),
     #[error("shape '{text}': {source}")]
@@ -85,8 +85,7 @@ impl Shape {
             None => (false, text),
         };
         let Some((kind, rest)) = body.split_once(':') else { return Err(ShapeError::Kind(text.to_owned())) };
-        let offset = text.chars().count() - rest.chars().count();
-        let solid = Solid::parse(kind, rest, text, offset, load)?;
+        let solid = Solid::parse(&ShapeText { whole: text, kind, rest }, load)?;
         Ok(Shape { solid, outside })
     }
 }
@@ -100,62 +99,77 @@ impl FromStr for Shape {
     }
 }
 
+/// A shape as the user wrote it; its errors name the whole of it.
+struct ShapeText<'a> {
+    whole: &'a str,
+    /// What stands before the colon, without a `!`.
+    kind: &'a str,
+    /// What stands behind the colon.
+    rest: &'a str,
+}
+
+impl ShapeText<'_> {
+    fn owned(&self) -> String {
+        self.whole.to_owned()
+    }
+
+    fn numbers<const N: usize>(&self) -> Result<[f64; N], ShapeError> {
+        let offset = self.whole.chars().count() - self.rest.chars().count();
+        numbers(self.rest, offset).map_err(|source| ShapeError::Numbers { text: self.owned(), source })
+    }
+
+    fn positive(&self, radius: f64) -> Result<f64, ShapeError> {
+        if radius > 0.0 { Ok(radius) } else { Err(ShapeError::Radius { text: self.owned(), radius }) }
+    }
+
+    /// The radii at both ends of a cone: it may end in a point, but not in two.
+    fn cone_radii(&self, radii: [f64; 2]) -> Result<[f64; 2], ShapeError> {
+        self.positive(radii[0].max(radii[1]))?;
+        for radius in radii.into_iter().filter(|r| *r != 0.0) {
+            self.positive(radius)?;
+        }
+        Ok(radii)
+    }
+
+    /// The ends of an axis, which must be apart.
+    fn axis(&self, a: [f64; 3], b: [f64; 3]) -> Result<[Vec3; 2], ShapeError> {
+        if a == b { Err(ShapeError::NoAxis { text: self.owned() }) } else { Ok([a.into(), b.into()]) }
+    }
+}
+
 impl Solid {
     fn parse(
-        kind: &str,
-        rest: &str,
-        whole: &str,
-        offset: usize,
+        text: &ShapeText<'_>,
         load: &dyn Fn(&str) -> Result<TriMesh, String>,
     ) -> Result<Solid, ShapeError> {
-        let text = || whole.to_owned();
-        let wrong = |source| ShapeError::Numbers { text: text(), source };
-        Ok(match kind {
+        Ok(match text.kind {
             "box" => {
-                let [x0, y0, z0, x1, y1, z1] = numbers(rest, offset).map_err(wrong)?;
+                let [x0, y0, z0, x1, y1, z1] = text.numbers()?;
                 let (a, b) = (Vec3::new(x0, y0, z0), Vec3::new(x1, y1, z1));
                 Solid::Box(a.inf(&b), a.sup(&b))
             }
             "sphere" => {
-                let [x, y, z, r] = numbers(rest, offset).map_err(wrong)?;
-                Solid::Sphere(Vec3::new(x, y, z), positive(r, whole)?)
+                let [x, y, z, r] = text.numbers()?;
+                Solid::Sphere(Vec3::new(x, y, z), text.positive(r)?)
             }
             "cylinder" => {
-                let [x0, y0, z0, x1, y1, z1, r] = numbers(rest, offset).map_err(wrong)?;
-                if [x0, y0, z0] == [x1, y1, z1] {
-                    return Err(ShapeError::NoAxis { text: text() });
-                }
-                Solid::Cylinder(Vec3::new(x0, y0, z0), Vec3::new(x1, y1, z1), positive(r, whole)?)
+                let [x0, y0, z0, x1, y1, z1, r] = text.numbers()?;
+                let [a, b] = text.axis([x0, y0, z0], [x1, y1, z1])?;
+                Solid::Cylinder(a, b, text.positive(r)?)
             }
             "cone" => {
-                let [x0, y0, z0, x1, y1, z1, r0, r1] = numbers(rest, offset).map_err(wrong)?;
-                if [x0, y0, z0] == [x1, y1, z1] {
-                    return Err(ShapeError::NoAxis { text: text() });
-                }
-                // A cone may end in a point, but not in two.
-                positive(r0.max(r1), whole)?;
-                for radius in [r0, r1].into_iter().filter(|r| *r != 0.0) {
-                    positive(radius, whole)?;
-                }
-                Solid::Cone(Vec3::new(x0, y0, z0), Vec3::new(x1, y1, z1), [r0, r1])
+                let [x0, y0, z0, x1, y1, z1, r0, r1] = text.numbers()?;
+                let [a, b] = text.axis([x0, y0, z0], [x1, y1, z1])?;
+                Solid::Cone(a, b, text.cone_radii([r0, r1])?)
             }
             "halfspace" => {
-                let [px, py, pz, nx, ny, nz] = numbers(rest, offset).map_err(wrong)?;
+                let [px, py, pz, nx, ny, nz] = text.numbers()?;
                 let plane = Plane::new(Vec3::new(px, py, pz), Vec3::new(nx, ny, nz));
-                Solid::Halfspace(plane.map_err(|source| ShapeError::Plane { text: text(), source })?)
+                Solid::Halfspace(plane.map_err(|source| ShapeError::Plane { text: text.owned(), source })?)
             }
-            "prism" => {
-                let json = std::fs::read_to_string(rest)
-                    .map_err(|source| ShapeError::Read { text: text(), source })?;
-                let prism = Prism::from_json(&json);
-                Solid::Prism(prism.map_err(|source| ShapeError::Prism { text: text(), source })?)
-            }
-            "mesh" => {
-                let mesh = load(rest).map_err(|why| ShapeError::Load { text: text(), why })?;
-                let inside = Inside::new(&mesh);
-                Solid::Mesh(inside.map_err(|source| ShapeError::Mesh { text: text(), source })?)
-            }
-            _ => return Err(ShapeError::Kind(text())),
+            "prism" => Solid::Prism(read_prism(text)?),
+            "mesh" => Solid::Mesh(load_mesh(text, load)?),
+            _ => return Err(ShapeError::Kind(text.owned())),
         })
     }
 
@@ -182,8 +196,18 @@ fn is_in_cone(p: &Vec3, start: &Vec3, end: &Vec3, [r0, r1]: [f64; 2]) -> bool {
     (0.0..=1.0).contains(&share) && (from - axis * share).norm_squared() <= radius * radius
 }
 
-fn positive(radius: f64, text: &str) -> Result<f64, ShapeError> {
-    if radius > 0.0 { Ok(radius) } else { Err(ShapeError::Radius { text: text.to_owned(), radius }) }
+fn read_prism(text: &ShapeText<'_>) -> Result<Prism, ShapeError> {
+    let json = std::fs::read_to_string(text.rest)
+        .map_err(|source| ShapeError::Read { text: text.owned(), source })?;
+    Prism::from_json(&json).map_err(|source| ShapeError::Prism { text: text.owned(), source })
+}
+
+fn load_mesh(
+    text: &ShapeText<'_>,
+    load: &dyn Fn(&str) -> Result<TriMesh, String>,
+) -> Result<Inside, ShapeError> {
+    let mesh = load(text.rest).map_err(|why| ShapeError::Load { text: text.owned(), why })?;
+    Inside::new(&mesh).map_err(|source| ShapeError::Mesh { text: text.owned(), source })
 }
 
 #[cfg(test)]
@@ -227,7 +251,7 @@ mod tests {
         for (text, part) in [
             ("ball:1", "sphere:x,y,z,r"),
             ("box", "is not a shape"),
-            ("box:0,0,0,1,1", "6 numbers wanted, separated by commas, and 5 found"),
+            ("box:0,0,0,1,1", "expected 6 numbers, separated by commas, and found 5"),
             ("sphere:0,0,zero,1", "'zero' at character 12"),
             ("!sphere:0,0,nan,1", "'nan' at character 13"),
             ("sphere:0,0,0,-1", "radius -1 m must be positive"),

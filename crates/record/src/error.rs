@@ -30,6 +30,6 @@ pub fn positive(stream: &str, record: &str, map: &crate::Map, key: &str) -> Resu
     value.ok_or_else(|| {
         let found = map.get(key).map_or("nothing", String::as_str);
         let why = format!("record '{record}': {key} = {found}");
-        RecordError::new(stream, why, "wanted: a number above 0")
+        RecordError::new(stream, why, "expected a number above 0")
     })
 }

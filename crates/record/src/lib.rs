@@ -7,30 +7,26 @@
 //! Uses `geom` and `stream` alone. It knows no engine and no scene, so that tools which only read runs (`view`, `measure`, `wall`) need
 //! neither; `scene`, `stages` and `run` translate between these records and the engine's types.
 
-mod bonds;
 mod clump;
 pub mod column;
 mod columns;
 mod error;
-mod log;
+mod limits;
 mod material;
+mod messages;
 pub mod metadata;
-mod sizes;
 mod surface;
 mod table;
 pub mod topic;
-mod watermark;
 
-pub use bonds::BondRange;
 pub use clump::ClumpRecord;
 pub use columns::{Columns, hash};
 pub use error::{RecordError, positive};
-pub use log::{LogMessage, SIGNAL};
+pub use limits::{BondRange, Sizes};
 pub use material::{MaterialRecord, POISSON, is_poisson};
-pub use sizes::Sizes;
+pub use messages::{LogMessage, SIGNAL, Watermark};
 pub use surface::{SurfaceShape, WallRecord, home, moved};
 pub use table::TableBuilder;
-pub use watermark::Watermark;
 
 /// Metadata of one record: text by key.
 pub type Map = std::collections::BTreeMap<String, String>;

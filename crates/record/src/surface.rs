@@ -3,6 +3,7 @@
 use crate::column::POSITION;
 use geom::motion::Pose;
 use geom::{Motion, Plane, Vec3, mesh::TriMesh};
+use serde::Deserialize;
 use serde_json::{Value, json};
 use stream::{Table, Values};
 
@@ -48,8 +49,8 @@ impl WallRecord {
     pub fn to_json(&self, material: u16, spheres: usize, servo: Option<Value>) -> Value {
         let m = &self.motion;
         let mut motion = json!({
-            "velocity": triple(&m.velocity), "turn": triple(&m.turn), "through": triple(&m.through),
-            "amplitude": triple(&m.amplitude), "frequency": m.frequency,
+            "velocity": m.velocity, "turn": m.turn, "through": m.through,
+            "amplitude": m.amplitude, "frequency": m.frequency,
         });
         if (m.from, m.until) != (0.0, f64::INFINITY) {
             motion["from"] = m.from.into();
@@ -86,12 +87,8 @@ impl SurfaceShape {
 
     fn to_json(&self) -> Value {
         match self {
-            SurfaceShape::Plane(p) => {
-                json!({"plane": {"point": triple(&p.point), "normal": triple(&p.normal)}})
-            }
-            SurfaceShape::Mesh(m) => {
-                json!({"mesh": {"vertices": m.vertices.iter().map(triple).collect::<Vec<_>>(), "faces": m.faces}})
-            }
+            SurfaceShape::Plane(p) => json!({"plane": {"point": p.point, "normal": p.normal}}),
+            SurfaceShape::Mesh(m) => json!({"mesh": {"vertices": m.vertices, "faces": m.faces}}),
         }
     }
 }
@@ -109,24 +106,18 @@ fn motion(json: &Value) -> Option<Motion> {
     })
 }
 
-fn triple(v: &Vec3) -> Value {
-    json!([v.x, v.y, v.z])
-}
-
 /// Three finite numbers.
 fn vector(json: &Value) -> Option<Vec3> {
-    let numbers: Vec<f64> = json.as_array()?.iter().filter_map(Value::as_f64).collect();
-    (numbers.len() == 3 && json.as_array()?.len() == 3).then(|| Vec3::from_column_slice(&numbers))
+    <[f64; 3]>::deserialize(json).ok().map(Vec3::from)
 }
 
 fn corners(json: &Value) -> Option<[u32; 3]> {
-    let numbers: Vec<u32> = json.as_array()?.iter().filter_map(|v| u32::try_from(v.as_u64()?).ok()).collect();
-    numbers.try_into().ok()
+    <[u32; 3]>::deserialize(json).ok()
 }
 
 /// A table of wall spheres that are at their positions at t = 0, as they are in a pose.
 pub fn moved(home: &Table, pose: &Pose) -> Table {
-    each(home, |p| pose.place(&p))
+    each(home, |p| pose.position(&p))
 }
 
 /// A table of wall spheres that are at their positions in a pose, as they are at t = 0.

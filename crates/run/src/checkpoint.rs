@@ -1,6 +1,6 @@
 //! Checkpoints of a run: the engine's state, what fed it, and the scene it belongs to.
 
-use crate::RunError;
+use crate::error::Result;
 use record::topic::CHECKPOINT;
 use scene::SceneError;
 use serde::{Deserialize, Serialize};
@@ -51,7 +51,7 @@ impl<W: Write> Write for Pieces<'_, W> {
 
 /// Everything that a run resumes from; `S` is the state: owned when it is read, borrowed when it is written.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct Checkpoint<S = dem::State> {
+pub struct Checkpoint<S = dem::Checkpoint<'static>> {
     /// Text of the scene.
     pub(crate) scene: String,
     /// Role and SHA-256 of the inputs of the scene.
@@ -67,7 +67,7 @@ impl Checkpoint {
     ///
     /// # Errors
     /// A stream that is damaged, or has no whole checkpoint.
-    pub fn last(name: &str, source: impl Read) -> Result<Checkpoint, RunError> {
+    pub fn last(name: &str, source: impl Read) -> Result<Checkpoint> {
         let (mut last, mut pieces) = (None, Vec::new());
         for event in Reader::new(source) {
             match event {
@@ -79,9 +79,7 @@ impl Checkpoint {
                 }
                 Ok(_) => {}
                 Err(McapError::Truncated { .. }) => break,
-                Err(error) => {
-                    return Err(SceneError::content(name, "a run", error).into());
-                }
+                Err(error) => return Err(SceneError::content(name, "a run", error).into()),
             }
         }
         let Some(data) = last else {
@@ -90,15 +88,5 @@ impl Checkpoint {
             return Err(SceneError::file(name, why, cure).into());
         };
         Ok(stream::state::decode(&data)?)
-    }
-
-    /// Step of the run [s].
-    pub fn dt(&self) -> f64 {
-        self.state.dt()
-    }
-
-    /// Time of the checkpoint [s].
-    pub fn time(&self) -> f64 {
-        self.state.time()
     }
 }

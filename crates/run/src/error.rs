@@ -2,7 +2,7 @@
 
 use dem::{Halt, SetupError};
 use record::RecordError;
-use scene::SceneError;
+use scene::{SceneError, SceneSetupError};
 use stream::mcap::McapError;
 use thiserror::Error;
 
@@ -13,16 +13,25 @@ pub enum RunError {
     #[error("{0}")]
     Scene(#[from] SceneError),
     #[error("{0}")]
-    Setup(#[from] SetupError),
+    Setup(#[from] SceneSetupError),
     #[error("{0}")]
     Mcap(#[from] McapError),
     #[error("{0}")]
     State(#[from] stream::state::StateError),
 }
 
+/// What can fail in a run.
+pub type Result<T, E = RunError> = std::result::Result<T, E>;
+
 impl From<RecordError> for RunError {
     fn from(error: RecordError) -> RunError {
         RunError::Scene(error.into())
+    }
+}
+
+impl From<SetupError> for RunError {
+    fn from(error: SetupError) -> RunError {
+        RunError::Setup(error.into())
     }
 }
 

@@ -1,8 +1,8 @@
 //! Tables and messages of a run: particles, clumps, contacts, bonds and walls at one time.
 
 use dem::setup::{ClumpShape, Clumps, Particle, Setup, Wall, WallShape};
-use dem::{BodyState, BondState, ContactRecord, Simulation, Snapshot, WallForce};
-use geom::{Motion, Vec3};
+use dem::{BondState, ClumpState, ContactRecord, Simulation, Snapshot, WallForce};
+use geom::Vec3;
 use record::column::{self, FIRST, FORCE, ID, MATERIAL, NORMAL, POSITION, RADIUS, SECOND, SPIN, VELOCITY};
 use record::{ClumpRecord, Map, SurfaceShape, TableBuilder, WallRecord};
 use scene::keys::Precision;
@@ -23,7 +23,7 @@ pub(crate) struct ParticleRows<'a> {
     /// Of positions and velocities.
     pub precision: Precision,
     /// Clumps by id, where the scene has any.
-    pub bodies: Option<&'a [BodyState]>,
+    pub clumps: Option<&'a [ClumpState]>,
 }
 
 /// Numbers of a particle that are written in the precision asked for, in the order of [`measured`].
@@ -40,7 +40,7 @@ impl Rows for ParticleRows<'_> {
     fn fields(&self) -> Vec<(&str, NumberType)> {
         let kind = kind(self.precision);
         let whole = [(ID, NumberType::U32), (MATERIAL, NumberType::U16)];
-        let body = self.bodies.map(|_| (column::BODY, NumberType::U32));
+        let body = self.clumps.map(|_| (column::BODY, NumberType::U32));
         measured_columns().map(|name| (name, kind)).chain(whole).chain(body).collect()
     }
 
@@ -56,17 +56,17 @@ impl Rows for ParticleRows<'_> {
         }
         row.put(p.id);
         row.put(p.material);
-        if let Some(bodies) = self.bodies {
-            let before = bodies.partition_point(|b| b.id <= p.id);
-            row.put(bodies[..before].last().filter(|b| b.has(p.id)).map_or(p.id, |b| b.id));
+        if let Some(clumps) = self.clumps {
+            let before = clumps.partition_point(|b| b.id <= p.id);
+            row.put(clumps[..before].last().filter(|b| b.has(p.id)).map_or(p.id, |b| b.id));
         }
     }
 }
 
 /// The table of the topic `/bodies`: a row for each rigid clump, at its centre of mass; the quaternion turns the frame that its shape was
 /// given in.
-pub(crate) fn bodies(rows: &[BodyState]) -> Table {
-    let turn = |b: &BodyState| {
+pub(crate) fn clump_rows(rows: &[ClumpState]) -> Table {
+    let turn = |b: &ClumpState| {
         let q = b.orientation;
         [q.w, q.i, q.j, q.k]
     };
@@ -86,9 +86,6 @@ pub(crate) fn bodies(rows: &[BodyState]) -> Table {
 /// The record `clumps`: each shape by its index, in the frame that it was given in.
 pub(crate) fn clumps(clumps: &Clumps) -> Map {
     let one = |(s, k): (&ClumpShape, u32)| {
-        let range = clumps.scales_of(k).fold(None, |range: Option<(f64, f64)>, (low, high)| {
-            Some(range.map_or((low, high), |r| (r.0.min(low), r.1.max(high))))
-        });
         let sphere = |(c, r): &(Vec3, f64)| {
             let c = s.centre + s.frame * c;
             [c.x, c.y, c.z, *r]
@@ -98,7 +95,7 @@ pub(crate) fn clumps(clumps: &Clumps) -> Map {
             inertia: s.inertia,
             material: s.material,
             name: s.name.clone(),
-            scales: range,
+            scales: clumps.scales_of(k).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))),
             spheres: s.spheres.iter().map(sphere).collect(),
             volume: s.volume,
         }
@@ -180,13 +177,9 @@ pub(crate) fn heads(setup: &Setup) -> Vec<WallHead> {
     setup.walls.iter().map(head).collect()
 }
 
-fn triple(v: &Vec3) -> Value {
-    json!([v.x, v.y, v.z])
-}
-
 /// The message of the topic `/wall_forces`: force on each wall [N], and its shift [m].
 pub(crate) fn wall_forces(time: f64, forces: &[WallForce], walls: &[WallHead]) -> Value {
-    let one = |(f, w): (&WallForce, &WallHead)| json!({"name": w.name, "force": triple(&f.force), "shift": triple(&f.shift), "contacts": f.contacts});
+    let one = |(f, w): (&WallForce, &WallHead)| json!({"name": w.name, "force": f.force, "shift": f.shift, "contacts": f.contacts});
     json!({"time": time, "walls": forces.iter().zip(walls).map(one).collect::<Vec<_>>()})
 }
 
@@ -198,17 +191,11 @@ pub(crate) fn surfaces(walls: &[Wall]) -> Value {
             WallShape::Plane(p) => (Some(SurfaceShape::Plane(*p)), 0),
             WallShape::Mesh(m) => (Some(SurfaceShape::Mesh(m.clone())), 0),
         };
-        let servo = w.motion.servo.map(
-            |s| json!({"direction": triple(&s.direction), "force": s.force, "speed_limit": s.speed_limit}),
-        );
-        let record = WallRecord { name: w.name.clone(), motion: motion(&w.motion), surface };
+        let servo = w
+            .servo
+            .map(|s| json!({"direction": s.direction, "force": s.force, "speed_limit": s.speed_limit}));
+        let record = WallRecord { name: w.name.clone(), motion: w.motion, surface };
         record.to_json(w.material, spheres, servo)
     };
     Value::Array(walls.iter().map(one).collect())
-}
-
-/// The motion of a wall without its servo.
-fn motion(m: &dem::setup::Motion) -> Motion {
-    let dem::setup::Motion { velocity, turn, through, amplitude, frequency, from, until, .. } = *m;
-    Motion { velocity, turn, through, amplitude, frequency, from, until }
 }

@@ -17,14 +17,12 @@ impl Checkpoint {
         if let Some(difference) = difference("", &fixed(&self.scene), &fixed(scene)) {
             return refuse(difference);
         }
-        let others = |list: &[(String, String)]| list.iter().filter(|i| i.0 != "scene").cloned().collect();
+        let others = |list: &'_ [(String, String)]| list.iter().filter(|i| i.0 != "scene").cloned().collect();
         let (saved, now): (Vec<_>, Vec<_>) = (others(&self.inputs), others(inputs));
-        match saved.iter().zip(&now).find(|(a, b)| a != b) {
-            Some((a, _)) => refuse(format!("the {} are others", a.0)),
-            None if saved.len() != now.len() => {
-                refuse(format!("{} inputs then, {} now", saved.len(), now.len()))
-            }
-            None => Ok(()),
+        match (saved.iter().zip(&now).find(|(a, b)| a != b), saved.len(), now.len()) {
+            (Some((a, _)), ..) => refuse(format!("the {} are others", a.0)),
+            (None, then, now) if then != now => refuse(format!("{then} inputs then, {now} now")),
+            _ => Ok(()),
         }
     }
 }

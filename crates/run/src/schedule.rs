@@ -34,10 +34,9 @@ impl Schedule {
             Some(Every::Given(every)) => every,
         };
         for (key, value) in [("output.every", Some(every)), ("output.checkpoint", output.checkpoint)] {
-            if value.is_some_and(|v| v < dt) {
-                let value = format!("{} s", value.unwrap_or(0.0));
+            if let Some(value) = value.filter(|value| *value < dt) {
                 let why = format!("is shorter than the time step, {dt:.4e} s");
-                return Err(scene.wrong(key, value, &why, "make it longer"));
+                return Err(scene.wrong(key, format!("{value} s"), &why, "make it longer"));
             }
         }
         let last = nearest(until, dt);

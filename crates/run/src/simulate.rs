@@ -1,15 +1,16 @@
 //! The run: steps, and what is written between them.
 
 use crate::checkpoint::Checkpoint;
-use crate::error::{Ended, RunError};
+use crate::error::{Ended, Result};
 use crate::frames::WallHead;
 use crate::progress::Progress;
 use crate::schedule::Schedule;
 use crate::supply::Supply;
-use dem::setup::{Crossing, Step};
-use dem::{Halt, SetupError, Simulation, State};
+use dem::setup::Crossing;
+use dem::{Halt, Simulation};
 use record::{LogMessage, SIGNAL, json, nanoseconds, topic};
-use scene::keys::Precision;
+use scene::advice::explain_halt;
+use scene::keys::Output;
 use scene::{Plan, Scene, SceneError};
 use serde::Serialize;
 use stages::inlet::Arrival;
@@ -63,6 +64,8 @@ pub struct Settings<W> {
     pub provenance: Provenance,
     /// How its file is written.
     pub how: StreamOptions<W>,
+    /// The state that it goes on from; `None`: t = 0.
+    pub resume: Option<Checkpoint>,
     /// Whether the energy of each frame is computed for progress reports.
     pub watched: bool,
     /// Called between steps: whether the run is to end here, with a checkpoint.
@@ -73,20 +76,13 @@ pub struct Settings<W> {
 ///
 /// # Errors
 /// What the engine refuses, an end that is missing.
-pub fn ready(scene: &Scene, plan: &Plan, resume: Option<&Checkpoint>) -> Result<(), RunError> {
-    let limit = dem::critical_step(&plan.setup)?;
-    let dt = match (resume, plan.setup.step) {
+pub fn ready(scene: &Scene, plan: &Plan, resume: Option<&Checkpoint>) -> Result<()> {
+    let dt = match resume {
         // It was checked when the run began; a guard that has changed since does not matter.
-        (Some(checkpoint), _) => checkpoint.dt(),
-        (None, Step::Auto(share)) => share * limit.dt,
-        (None, Step::Fixed(dt)) if dt > limit.dt => {
-            return Err(SetupError::StepTooLarge { dt, critical: limit.dt, pair: limit.pair }.into());
-        }
-        (None, Step::Fixed(dt)) => dt,
+        Some(checkpoint) => checkpoint.state.dt(),
+        None => dem::time_step(&plan.setup)?,
     };
-    if dt.is_finite() {
-        Schedule::new(scene, dt)?;
-    }
+    Schedule::new(scene, dt)?;
     Ok(())
 }
 
@@ -100,13 +96,10 @@ pub(crate) struct Written {
     /// Whether wall spheres move, so that they are written with every frame.
     pub walls_move: bool,
     pub outlets: bool,
-    pub clumps: bool,
-    /// Masses of clumps at scale 1 [kg].
+    /// Masses of clumps at scale 1 [kg]; empty where the scene has no clump.
     pub masses: Vec<f64>,
-    pub energy: bool,
-    pub contacts: bool,
-    pub wall_forces: bool,
-    pub precision: Precision,
+    /// As the scene asks for it, with the forces that servos need.
+    pub output: Output,
     /// Steps between samples of paths, where any are recorded.
     pub sampling: Option<u64>,
     /// Whether the energy of each frame is computed for progress reports.
@@ -116,7 +109,7 @@ pub(crate) struct Written {
 /// A state to go back to: what the sources had given, and the engine.
 pub(crate) struct Before {
     pub given: Vec<u64>,
-    pub state: State,
+    pub state: dem::Checkpoint<'static>,
 }
 
 /// Energies of the frame that has just been written [J].
@@ -158,13 +151,12 @@ pub(crate) struct Run<W: Write> {
 pub fn run<W: Write>(
     scene: &Scene,
     plan: Plan,
-    resume: Option<Checkpoint>,
     out: W,
     settings: Settings<W>,
     report: &mut dyn FnMut(&Progress),
-) -> Result<(Outcome, W), RunError> {
+) -> Result<(Outcome, W)> {
     let stop = settings.stop;
-    let mut run = Run::start(scene, plan, resume, out, settings)?;
+    let mut run = Run::start(scene, plan, out, settings)?;
     let reason = loop {
         let step = run.sim.steps();
         run.sample()?;
@@ -200,9 +192,10 @@ pub fn run<W: Write>(
 pub(crate) fn guard(scene: &Scene, step: u64, halt: Halt) -> Result<String, SceneError> {
     match halt {
         Halt::Overlap { id, partner, overlap, .. } if step == 0 => {
-            Err(SceneError::Inside { name: scene.text.name.clone(), id, partner, overlap })
+            let (name, partner) = (scene.text.name.clone(), partner.to_string());
+            Err(SceneError::Inside { name, id, partner, overlap })
         }
-        other => Ok(other.to_string()),
+        other => Ok(explain_halt(&other)),
     }
 }
 
@@ -215,15 +208,15 @@ impl<W: Write> Run<W> {
     }
 
     /// Lets in everything that the next step must know.
-    pub(crate) fn let_in(&mut self) -> Result<(), RunError> {
+    pub(crate) fn let_in(&mut self) -> Result<()> {
         // Where particles follow recorded paths, the next sample of each must be known.
         let horizon = self.sim.time() + self.sim.look_ahead() + self.supply.samples();
         while let Some(arrival) = self.supply.next_until(horizon)? {
             match arrival {
                 Arrival::Enter(entry) => self.sim.enter(entry)?,
                 Arrival::Guide { id, guide, .. } => self.sim.guide(id, guide)?,
-                Arrival::Remember { memory, .. } => self.sim.remember(memory),
-                Arrival::Bond { bond, .. } => self.sim.link(bond),
+                Arrival::History { pair, .. } => self.sim.enter_history(pair),
+                Arrival::Bond { bond, .. } => self.sim.enter_bond(bond),
             }
         }
         Ok(())
@@ -252,16 +245,16 @@ impl<W: Write> Run<W> {
         nanoseconds(self.sim.time())
     }
 
-    pub(crate) fn log(&mut self, message: &LogMessage) -> Result<(), RunError> {
+    pub(crate) fn log(&mut self, message: &LogMessage) -> Result<()> {
         Ok(self.writer.bytes(topic::LOG, "json", self.now(), json(message).as_bytes())?)
     }
 
-    pub(crate) fn note(&mut self, text: &str) -> Result<(), RunError> {
+    pub(crate) fn note(&mut self, text: &str) -> Result<()> {
         self.log(&LogMessage::note(self.sim.time(), text))
     }
 
     /// Writes the end of the file, with the `reason` of a run that was stopped.
-    fn finish(mut self, reason: Option<String>) -> Result<(Outcome, W), RunError> {
+    fn finish(mut self, reason: Option<String>) -> Result<(Outcome, W)> {
         self.outcome.returned = self.sim.returned().clone();
         self.outcome.inflow = self.supply.ended(self.sim.time());
         let notes = [crate::warnings(&self.outcome.returned), self.outcome.inflow.clone()].concat();

@@ -1,7 +1,6 @@
 //! How a run begins: the engine, and the head of its file.
 
-use crate::RunError;
-use crate::checkpoint::Checkpoint;
+use crate::error::Result;
 use crate::frames;
 use crate::schedule::Schedule;
 use crate::simulate::{Outcome, Run, Settings, Written};
@@ -11,6 +10,7 @@ use dem::setup::{Setup, WallShape, Zone, ZoneMotion};
 use geom::Shown;
 use record::{BondRange, Map, MaterialRecord, Sizes, json, metadata};
 use scene::input::ZoneRecord;
+use scene::keys::Output;
 use scene::plan::NO_DENSITY;
 use scene::{Plan, Scene, SceneError};
 use stages::outlet::path;
@@ -18,34 +18,27 @@ use std::io::Write;
 use stream::mcap::Writer;
 
 impl<W: Write> Run<W> {
-    pub(crate) fn start(
-        scene: &Scene,
-        plan: Plan,
-        resume: Option<Checkpoint>,
-        out: W,
-        settings: Settings<W>,
-    ) -> Result<Run<W>, RunError> {
-        let Plan { setup, step, insertions, inlets, warnings, inputs, sizes } = plan;
+    pub(crate) fn start(scene: &Scene, plan: Plan, out: W, settings: Settings<W>) -> Result<Run<W>> {
+        let Plan { mut setup, step, insertions, inlets, warnings, inputs, sizes } = plan;
         let mut supply = Supply::new(inlets, insertions)?;
-        if let Some(saved) = &resume {
+        if let Some(saved) = &settings.resume {
             saved.fits(&scene.text.toml, &inputs)?;
             supply.resume(saved)?;
         }
         let surfaces = frames::surfaces(&setup.walls);
         let mut written = Written::new(scene, &setup, inputs);
-        let mut head = Head::new(scene, &setup, sizes)?;
-        let mut sim = match resume {
+        setup.record_wrenches = written.output.contacts || written.output.wall_forces;
+        let head = Head::new(scene, &setup, sizes)?;
+        let sim = match settings.resume {
             Some(saved) => Simulation::resume(setup, saved.state)?,
             None => Simulation::new(setup)?,
         };
-        sim.record_loads(written.contacts || written.wall_forces);
         let schedule = Schedule::new(scene, sim.dt())?;
         not_yet_over(&sim, &schedule)?;
         written.sampling = sampling(scene, sim.dt())?;
         written.watched = settings.watched;
-        head.complete(&sim, &schedule, written.sampling);
         let mut writer = Writer::compressed(out, &settings.provenance, settings.how)?;
-        for (name, record) in head.records() {
+        for (name, record) in head.records(&sim, &schedule, written.sampling) {
             writer.metadata(name, record)?;
         }
         let first = sim.steps();
@@ -72,51 +65,43 @@ impl<W: Write> Run<W> {
 
 impl Written {
     fn new(scene: &Scene, setup: &Setup, inputs: Vec<(String, String)>) -> Written {
-        let output = &scene.keys.output;
+        let servo = setup.walls.iter().any(|w| w.servo.is_some());
+        let output = scene.keys.output.clone();
         let density = |m: u16| setup.materials[m as usize].density;
-        let spheres_move =
-            |w: &dem::setup::Wall| matches!(w.shape, WallShape::Spheres(_)) && w.motion.moves();
+        let spheres_move = |w: &dem::setup::Wall| matches!(w.shape, WallShape::Spheres(_)) && w.moves();
         Written {
             scene: scene.text.toml.clone(),
             inputs,
             walls: frames::heads(setup),
             walls_move: setup.walls.iter().any(spheres_move),
             outlets: !setup.outlets.is_empty(),
-            clumps: !setup.clumps.shapes.is_empty(),
             masses: setup.clumps.shapes.iter().map(|s| s.mass(1.0, density(s.material))).collect(),
-            energy: output.energy,
-            contacts: output.contacts,
-            wall_forces: output.wall_forces || setup.walls.iter().any(|w| w.motion.servo.is_some()),
-            precision: output.precision,
+            output: Output { wall_forces: output.wall_forces || servo, ..output },
             sampling: None,
             watched: false,
         }
     }
 }
 
-/// The metadata records of a run, in the order of its file.
-#[derive(Default)]
+/// What of a scene and its setup is in the metadata records of a run; a record that is not there is empty.
 struct Head {
     scene: Map,
     materials: Map,
-    times: Map,
-    sizes: Option<Map>,
-    outlets: Map,
+    sizes: Map,
     clumps: Map,
-    bonds: Option<Map>,
-    /// Outlets as they will be recorded.
-    zones: Vec<ZoneRecord>,
+    bonds: Map,
+    outlets: Vec<ZoneRecord>,
 }
 
 impl Head {
-    fn new(scene: &Scene, setup: &Setup, sizes: Option<Sizes>) -> Result<Head, RunError> {
+    fn new(scene: &Scene, setup: &Setup, sizes: Option<Sizes>) -> Result<Head> {
         let materials: Vec<MaterialRecord> = setup.materials.iter().map(material).collect();
         let clumps = frames::clumps(&setup.clumps);
         let only_clumps =
             !clumps.is_empty() && setup.particles.is_empty() && setup.entry_materials.is_empty();
         let sizes = sizes.map(|sizes| {
             let only = only_clumps.then(|| (metadata::ONLY_CLUMPS.to_owned(), "true".to_owned()));
-            sizes.to_map().into_iter().chain(only).collect()
+            sizes.to_map().into_iter().chain(only).collect::<Map>()
         });
         // Bonds are for a stage downstream.
         let bonds = if setup.outlets.is_empty() { None } else { dem::bonds_of(setup)? };
@@ -130,39 +115,36 @@ impl Head {
         Ok(Head {
             scene: Map::from([("toml".to_owned(), scene.text.toml.clone())]),
             materials: MaterialRecord::to_map(&materials),
-            sizes,
+            sizes: sizes.unwrap_or_default(),
             clumps,
-            bonds,
-            zones: setup.outlets.iter().zip(0..).map(zone).collect(),
-            ..Head::default()
+            bonds: bonds.unwrap_or_default(),
+            outlets: setup.outlets.iter().zip(0..).map(zone).collect(),
         })
     }
 
-    /// Adds what is known once the engine is there.
-    fn complete(&mut self, sim: &Simulation, schedule: &Schedule, sampling: Option<u64>) {
+    /// All records that are there, in the order of the file, with what is known once the engine is there.
+    fn records(
+        self,
+        sim: &Simulation,
+        schedule: &Schedule,
+        sampling: Option<u64>,
+    ) -> impl Iterator<Item = (&'static str, Map)> {
         let times = [("dt", sim.dt()), ("start", sim.time()), ("end", schedule.last as f64 * schedule.dt)];
-        self.times = times.iter().map(|(k, v)| ((*k).to_owned(), v.to_string())).collect();
         let every = sampling.map(|steps| steps as f64 * sim.dt());
         let outlet = |(mut zone, i): (ZoneRecord, usize)| {
             zone.samples = every.filter(|_| zone.zone.motion == ZoneMotion::Recorded);
             (i.to_string(), json(&zone))
         };
-        self.outlets = std::mem::take(&mut self.zones).into_iter().zip(0..).map(outlet).collect();
-    }
-
-    /// All records that are there.
-    fn records(self) -> impl Iterator<Item = (&'static str, Map)> {
-        let full = |map: Map| Some(map).filter(|map| !map.is_empty());
         let all = [
-            (metadata::SCENE, Some(self.scene)),
-            (metadata::MATERIALS, Some(self.materials)),
-            (metadata::TIME, Some(self.times)),
+            (metadata::SCENE, self.scene),
+            (metadata::MATERIALS, self.materials),
+            (metadata::TIME, Map::from(times.map(|(key, time)| (key.to_owned(), time.to_string())))),
             (metadata::SIZES, self.sizes),
-            (metadata::OUTLETS, full(self.outlets)),
-            (metadata::CLUMPS, full(self.clumps)),
+            (metadata::OUTLETS, self.outlets.into_iter().zip(0..).map(outlet).collect()),
+            (metadata::CLUMPS, self.clumps),
             (metadata::BONDS, self.bonds),
         ];
-        all.into_iter().filter_map(|(name, record)| Some((name, record?)))
+        all.into_iter().filter(|(name, record)| *name == metadata::MATERIALS || !record.is_empty())
     }
 }
 

@@ -1,67 +1,63 @@
 //! How a run ends early: its file holds the reason, and can be resumed.
 
-use crate::RunError;
 use crate::checkpoint::{Checkpoint, Pieces};
-use crate::simulate::{Before, Run};
+use crate::error::Result;
+use crate::simulate::{Before, Run, Written};
 use record::{LogMessage, nanoseconds};
 use serde::Serialize;
 use std::io::Write;
 use stream::mcap::Writer;
 
 impl<W: Write> Run<W> {
-    pub(crate) fn write_checkpoint(&mut self) -> Result<(), RunError> {
-        let checkpoint = Checkpoint {
-            scene: self.written.scene.clone(),
-            inputs: self.written.inputs.clone(),
-            given: self.supply.given.clone(),
-            state: self.sim.state(),
-        };
-        let now = nanoseconds(self.sim.time());
-        save(&mut self.writer, now, &checkpoint)?;
+    pub(crate) fn write_checkpoint(&mut self) -> Result<()> {
+        let (time, given) = (self.sim.time(), self.supply.given.clone());
+        save(&mut self.writer, time, &self.written, given, self.sim.checkpoint())?;
         self.checkpoints += 1;
         Ok(())
     }
 
-    /// Stops the run: the file ends with the reason and a checkpoint.
-    pub(crate) fn stop(&mut self, reason: String) -> Result<(), RunError> {
-        let reason = match self.before.take() {
-            Some(before) if !self.sim.is_finite() => self.go_back(reason, before)?,
-            None if !self.sim.is_finite() => {
-                let reason = format!(
-                    "{reason}; the run cannot be resumed from here: --resume continues from the checkpoint before it (output.checkpoint)"
-                );
-                self.log(&LogMessage::stopped(self.sim.time(), &reason))?;
-                reason
+    /// Stops the run: the file ends with the reason and a checkpoint. A state without numbers is useless: the checkpoint is then that of
+    /// the last state that was held, and what has crossed since then crosses again.
+    pub(crate) fn stop(&mut self, reason: String) -> Result<()> {
+        let finite = self.sim.is_finite();
+        let before = self.before.take().filter(|_| !finite);
+        let reason = match &before {
+            Some(Before { state, .. }) => {
+                format!("{reason}; the checkpoint is of t = {:.6e} s, before it", state.time())
             }
-            _ => {
-                // The sample of a saved step is in the file: the run that resumes does not take it again.
-                self.sample()?;
-                self.write_crossings()?;
-                self.log(&LogMessage::stopped(self.sim.time(), &reason))?;
-                self.write_checkpoint()?;
-                reason
-            }
+            None if finite => reason,
+            None => format!(
+                "{reason}; the run cannot be resumed from here: --resume continues from the checkpoint before it (output.checkpoint)"
+            ),
         };
+        if finite {
+            // The sample of a saved step is in the file: the run that resumes does not take it again.
+            self.sample()?;
+            self.write_crossings()?;
+        }
+        self.log(&LogMessage::stopped(self.sim.time(), &reason))?;
+        match before {
+            Some(Before { given, state }) => {
+                save(&mut self.writer, state.time(), &self.written, given, state)?;
+            }
+            None if finite => self.write_checkpoint()?,
+            None => {}
+        }
         self.outcome.stopped = Some(reason);
         Ok(())
     }
-
-    /// A state without numbers is useless: the checkpoint is that of the last state that was held. What has crossed since then crosses
-    /// again.
-    fn go_back(&mut self, reason: String, before: Before) -> Result<String, RunError> {
-        let Before { given, state } = before;
-        let time = state.time();
-        let reason = format!("{reason}; the checkpoint is of t = {time:.6e} s, before it");
-        self.log(&LogMessage::stopped(self.sim.time(), &reason))?;
-        let (scene, inputs) = (self.written.scene.clone(), self.written.inputs.clone());
-        save(&mut self.writer, nanoseconds(time), &Checkpoint { scene, inputs, given, state })?;
-        Ok(reason)
-    }
 }
 
-/// Writes a checkpoint.
-fn save<W: Write>(writer: &mut Writer<W>, now: u64, checkpoint: &impl Serialize) -> Result<(), RunError> {
-    let mut pieces = Pieces::new(writer, now);
-    stream::state::encode_to(checkpoint, &mut pieces)?;
+/// Writes the checkpoint of a state at a time [s], when its sources had given so many arrivals.
+fn save<W: Write, S: Serialize>(
+    writer: &mut Writer<W>,
+    time: f64,
+    written: &Written,
+    given: Vec<u64>,
+    state: S,
+) -> Result<()> {
+    let (scene, inputs) = (written.scene.clone(), written.inputs.clone());
+    let mut pieces = Pieces::new(writer, nanoseconds(time));
+    stream::state::encode_to(&Checkpoint { scene, inputs, given, state }, &mut pieces)?;
     Ok(pieces.finish()?)
 }

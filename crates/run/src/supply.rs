@@ -36,18 +36,15 @@ impl Supply {
 
     /// A warning for each stream that ended while particles still came in, long before the run does, at `end` [s].
     pub(crate) fn ended(&self, end: f64) -> Vec<String> {
-        let early = self.streams.iter().filter_map(|s| s.ended().map(|last| (s.name(), last)));
-        let early = early.filter(|(_, last)| *last < end * (1.0 - 1e-6));
-        early
-            .map(|(name, last)| {
-                format!(
-                    "{name}: the record ends at t = {} s while grains still came in, and this run at {} s: nothing came in after it; \
-                     let the stage upstream run longer, or end this one there (--until)",
-                    Shown(last),
-                    Shown(end)
-                )
-            })
-            .collect()
+        let warning = |stream: &InletStream| {
+            let last = stream.ended().filter(|last| *last < end * (1.0 - 1e-6))?;
+            let (name, last, end) = (stream.name(), Shown(last), Shown(end));
+            Some(format!(
+                "{name}: the record ends at t = {last} s while grains still came in, and this run at {end} s: nothing came in after it; \
+                 let the stage upstream run longer, or end this one there (--until)"
+            ))
+        };
+        self.streams.iter().filter_map(warning).collect()
     }
 
     /// Skips what a run had taken when it was saved.
@@ -62,11 +59,12 @@ impl Supply {
                 self.entered += u64::from(matches!(item, Some(Arrival::Enter(_))));
                 let why = match item.as_ref().map(Arrival::time) {
                     None => format!("ends after {n} particles, and the saved run had taken {count}"),
-                    Some(due) if due > horizon => format!(
-                        "{count} particles had come in when the run was saved, and number {} of these is due at {} s, later than that",
-                        n + 1,
-                        Shown(due)
-                    ),
+                    Some(due) if due > horizon => {
+                        let (number, due) = (n + 1, Shown(due));
+                        format!(
+                            "{count} particles had come in when the run was saved, and number {number} of these is due at {due} s, later than that"
+                        )
+                    }
                     Some(_) => continue,
                 };
                 let cure = "give the same inlet as then, from its beginning";
@@ -83,10 +81,8 @@ impl Supply {
             return self.streams[source].next_until(until);
         }
         let insertion = &mut self.insertions[source - streams];
-        match insertion.next_time().is_some_and(|t| t <= until) {
-            true => Ok(insertion.next_entry()?.map(Arrival::Enter)),
-            false => Ok(None),
-        }
+        let due = insertion.next_time().is_some_and(|time| time <= until);
+        if due { Ok(insertion.next_entry()?.map(Arrival::Enter)) } else { Ok(None) }
     }
 
     /// The next arrival of all sources whose time is at most `until` [s].

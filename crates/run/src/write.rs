@@ -1,6 +1,6 @@
 //! What a run writes on its way: walls, frames, paths, crossings.
 
-use crate::error::{Ended, RunError};
+use crate::error::{Ended, Result};
 use crate::frames::{self, ParticleRows};
 use crate::simulate::{Before, FrameEnergy, Run};
 use record::{FRAME, Watermark, json, topic};
@@ -16,11 +16,7 @@ const HELD: usize = 500_000;
 const SAMPLES_HELD: usize = 4096;
 
 impl<W: Write> Run<W> {
-    pub(crate) fn write_walls(
-        &mut self,
-        surfaces: &serde_json::Value,
-        warnings: &[String],
-    ) -> Result<(), RunError> {
+    pub(crate) fn write_walls(&mut self, surfaces: &serde_json::Value, warnings: &[String]) -> Result<()> {
         let now = self.now();
         if let Some(table) = frames::wall_spheres(&self.sim, &self.written.walls) {
             self.writer.points(topic::WALLS, now, FRAME, table)?;
@@ -40,8 +36,8 @@ impl<W: Write> Run<W> {
         if resumed || frame || checkpoint {
             self.saved_at = self.sim.time();
             let held = self.sim.particle_count() <= HELD;
-            let state = || Before { given: self.supply.given.clone(), state: self.sim.state().to_state() };
-            self.before = held.then(state);
+            let given = || self.supply.given.clone();
+            self.before = held.then(|| Before { given: given(), state: self.sim.checkpoint().to_static() });
         }
         if resumed || !(frame || checkpoint) {
             return Ok(());
@@ -61,29 +57,29 @@ impl<W: Write> Run<W> {
         // What enters now belongs to this frame.
         self.let_in()?;
         self.sim.ready()?;
-        let (now, precision) = (self.now(), self.written.precision);
+        let (now, precision) = (self.now(), self.written.output.precision);
         if self.written.walls_move
             && self.sim.steps() > 0
             && let Some(table) = frames::wall_spheres(&self.sim, &self.written.walls)
         {
             self.writer.points(topic::WALLS, now, FRAME, table)?;
         }
-        let bodies = self.written.clumps.then(|| self.sim.bodies()).transpose()?;
-        let rows = ParticleRows { all: self.sim.snapshot()?, precision, bodies: bodies.as_deref() };
+        let clumps = (!self.written.masses.is_empty()).then(|| self.sim.clumps()).transpose()?;
+        let rows = ParticleRows { all: self.sim.snapshot()?, precision, clumps: clumps.as_deref() };
         self.writer.rows(topic::PARTICLES, now, FRAME, &rows)?;
-        if let Some(bodies) = bodies {
-            self.writer.points(topic::BODIES, now, FRAME, frames::bodies(&bodies))?;
+        if let Some(clumps) = clumps {
+            self.writer.points(topic::BODIES, now, FRAME, frames::clump_rows(&clumps))?;
         }
         if self.sim.bond_count()[0] > 0 {
             let bonds = self.sim.bonds()?;
             self.writer.points(topic::BONDS, now, FRAME, frames::bonds(&bonds, precision))?;
         }
-        if self.written.contacts {
+        if self.written.output.contacts {
             let contacts = self.sim.record_contacts()?;
             self.writer.points(topic::CONTACTS, now, FRAME, frames::contacts(&contacts, precision))?;
         }
         self.outcome.frames += 1;
-        if self.written.wall_forces {
+        if self.written.output.wall_forces {
             let forces = self.sim.wall_forces()?;
             let message = frames::wall_forces(self.sim.time(), &forces, &self.written.walls);
             self.writer.bytes(topic::WALL_FORCES, "json", now, json(&message).as_bytes())?;
@@ -93,7 +89,7 @@ impl<W: Write> Run<W> {
 
     /// Writes the ledger, and keeps the energies for progress reports.
     fn write_energy(&mut self) -> Result<(), Ended> {
-        let ledger = self.written.energy;
+        let ledger = self.written.output.energy;
         if !ledger && !self.written.watched {
             return Ok(());
         }
@@ -110,7 +106,7 @@ impl<W: Write> Run<W> {
     }
 
     /// Samples the paths of particles on their way to storage planes of recorded motion.
-    pub(crate) fn sample(&mut self) -> Result<(), RunError> {
+    pub(crate) fn sample(&mut self) -> Result<()> {
         let step = self.sim.steps();
         let new = self.sampled.replace(step) != Some(step);
         if new && self.written.sampling.is_some_and(|every| step.is_multiple_of(every)) {
@@ -123,7 +119,7 @@ impl<W: Write> Run<W> {
         Ok(())
     }
 
-    fn write_paths(&mut self) -> Result<(), RunError> {
+    fn write_paths(&mut self) -> Result<()> {
         let rows = std::mem::take(&mut self.paths);
         if !rows.is_empty() {
             self.writer.points(topic::PATHS, self.now(), FRAME, path::to_table(&rows))?;
@@ -131,7 +127,7 @@ impl<W: Write> Run<W> {
         Ok(())
     }
 
-    pub(crate) fn write_crossings(&mut self) -> Result<(), RunError> {
+    pub(crate) fn write_crossings(&mut self) -> Result<()> {
         if !self.written.outlets {
             return Ok(());
         }

@@ -170,7 +170,7 @@ fn grains_that_come_in_count_in_the_time_and_without_any_there_is_none() {
     let late = measured(&empty, &["insert.0.from=2", "insert.0.until=3"]);
     assert!(late.fields.calibration.is_none() && late.fields.expected_seconds.is_none());
     assert!(late.fields.effects.iter().all(|e| e.share.is_none()), "{}", late.text);
-    for words in ["insert.0 brings some 0 until", "expected       unknown: no particle is there"] {
+    for words in ["insert.0 brings about 0 until", "expected       unknown: no particle is there"] {
         assert!(late.text.contains(words), "'{words}' in {}", late.text);
     }
     assert!(!late.text.contains(" % "), "{}", late.text);
@@ -181,6 +181,6 @@ fn grains_that_come_in_count_in_the_time_and_without_any_there_is_none() {
 fn bytes_of_a_contact_are_those_of_its_kind() {
     let of = |count: &str| explained(SCENE, &[&format!("fill.0.count={count}")]).fields.bytes_per_contact;
     let one = of("1");
-    assert_eq!((one.listed, one.load, one.ledger), (8, 64, 0));
+    assert_eq!((one.listed, one.wrench, one.ledger), (8, 64, 0));
     assert_eq!(one, of("60"));
 }

@@ -47,6 +47,9 @@ pub enum SceneError {
     Content { name: String, wanted: &'static str, source: Box<dyn std::error::Error + Send + Sync + 'static> },
 }
 
+/// What can fail because of a scene.
+pub type Result<T, E = SceneError> = std::result::Result<T, E>;
+
 /// A value that a key cannot have.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{place}: {key} = {value}: {why}; {cure}")]
@@ -66,13 +69,9 @@ pub struct ValueError {
 impl SceneError {
     /// The same error at another place.
     pub(crate) fn at(mut self, there: Place) -> SceneError {
-        match &mut self {
-            SceneError::Syntax { place, .. }
-            | SceneError::UnknownKey { place, .. }
-            | SceneError::NotYet { place, .. } => {
-                *place = there;
-            }
-            _ => {}
+        use SceneError::{NotYet, Syntax, UnknownKey};
+        if let Syntax { place, .. } | UnknownKey { place, .. } | NotYet { place, .. } = &mut self {
+            *place = there;
         }
         self
     }

@@ -6,9 +6,11 @@
 //!
 //! [`text`] finds places in the file and reads it into [`keys`]; [`check`] judges every value by itself; [`Scene::plan`] reads the files
 //! that the scene names ([`input`]), places particles and makes the setup ([`plan`]). Modules use those before them in this list, never
-//! those after: error, text, keys, check, input, scene, plan. Uses `dem` for the setup's types and `record` for formats of files; knows
-//! nothing of time or of outputs.
+//! those after: error, text, keys, check, input, scene, plan. [`advice`] puts errors of the engine into
+//! the words of scenes and uses none of them. Uses `dem` for the setup's types and `record` for formats of files; knows nothing of time
+//! or of outputs.
 
+pub mod advice;
 mod check;
 pub mod error;
 pub mod input;
@@ -17,8 +19,9 @@ pub mod plan;
 mod scene;
 pub mod text;
 
+pub use advice::SceneSetupError;
 pub use dem::setup::{ZoneMotion, ZoneTest};
-pub use error::SceneError;
+pub use error::{Result, SceneError};
 pub use input::Input;
 pub use plan::Plan;
 pub use scene::Scene;

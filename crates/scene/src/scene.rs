@@ -1,7 +1,7 @@
 //! A scene that was read and whose values were checked.
 
 use crate::check::Check;
-use crate::error::SceneError;
+use crate::error::{Result, SceneError};
 use crate::keys::SceneKeys;
 use crate::text::{Text, parse};
 use std::fmt::Display;
@@ -23,7 +23,7 @@ impl Scene {
     ///
     /// # Errors
     /// What is wrong, with line and column, key, value, unit and cure.
-    pub fn new(name: &str, toml: String, overrides: &[String], folder: &Path) -> Result<Scene, SceneError> {
+    pub fn new(name: &str, toml: String, overrides: &[String], folder: &Path) -> Result<Scene> {
         let mut text = Text::new(name, toml.clone());
         if !overrides.is_empty() {
             // Errors of the file itself name places in the file itself.

@@ -3,7 +3,7 @@
 use crate::supply::Supply;
 use dem::Simulation;
 use dem::setup::Setup;
-use scene::SceneError;
+use scene::advice::{explain_halt, explain_setup_error};
 use scene::plan::Insertion;
 use serde::Serialize;
 use stages::inlet::Arrival;
@@ -59,10 +59,6 @@ impl Calibration {
     }
 }
 
-fn words(error: SceneError) -> String {
-    error.to_string()
-}
-
 struct Trial {
     sim: Simulation,
     supply: Supply,
@@ -70,21 +66,20 @@ struct Trial {
 
 impl Trial {
     fn new(setup: Setup, insertions: &[Insertion]) -> Result<Trial, String> {
-        let mut sim = Simulation::new(setup).map_err(|e| e.to_string())?;
-        sim.record_loads(true);
+        let sim = Simulation::new(setup).map_err(|e| explain_setup_error(&e))?;
         // A stream may wait for another program: it is left out.
-        let supply = Supply::new(Vec::new(), insertions.to_vec()).map_err(words)?;
+        let supply = Supply::new(Vec::new(), insertions.to_vec()).map_err(|e| e.to_string())?;
         Ok(Trial { sim, supply })
     }
 
     fn step(&mut self) -> Result<(), String> {
         let horizon = self.sim.time() + self.sim.look_ahead();
-        while let Some(arrival) = self.supply.next_until(horizon).map_err(words)? {
+        while let Some(arrival) = self.supply.next_until(horizon).map_err(|e| e.to_string())? {
             if let Arrival::Enter(entry) = arrival {
-                self.sim.enter(entry).map_err(|e| e.to_string())?;
+                self.sim.enter(entry).map_err(|e| explain_setup_error(&e))?;
             }
         }
-        self.sim.step().map_err(|halt| halt.to_string())?;
+        self.sim.step().map_err(|halt| explain_halt(&halt))?;
         drop(self.sim.take_crossings());
         Ok(())
     }
@@ -95,7 +90,7 @@ impl Trial {
         if particles == 0 {
             return Err("no particle is there".to_owned());
         }
-        let touching = self.sim.record_contacts().map_err(|halt| halt.to_string())?;
+        let touching = self.sim.record_contacts().map_err(|halt| explain_halt(&halt))?;
         let touching = touching.iter().filter(|c| c.force != geom::Vec3::zeros()).count();
         self.step()?;
         let (start, mut done) = (Instant::now(), 0);

@@ -98,15 +98,14 @@ fn clumps(setup: &Setup) -> String {
 
 /// Effects of contact, each once, with the keys and pairs that call for it.
 fn of_contacts(scene: &Scene, setup: &Setup) -> Vec<EffectToMeasure> {
+    let number_bytes = if setup.precision == Precision::Single { size_of::<f32>() } else { size_of::<f64>() };
     let mut found: Vec<(EffectToMeasure, Vec<Call>)> = Vec::new();
     for (place, c) in setup.contacts.iter().enumerate() {
-        let from =
-            keys::entry(scene, setup, c).map_or("wall file: ".to_owned(), |at| format!("contact.{at}."));
+        let entry = keys::entry(scene, setup, c);
+        let from = entry.map_or("wall file: ".to_owned(), |at| format!("contact.{at}."));
         for effect in active(c) {
             let name = effect.name;
-            let number =
-                if setup.precision == Precision::Single { size_of::<f32>() } else { size_of::<f64>() };
-            let (bytes, less) = (number * effect.columns(), without(c, effect));
+            let (bytes, less) = (number_bytes * effect.columns(), without(c, effect));
             let at = found.iter().position(|(entry, _)| entry.effect.name == name).unwrap_or_else(|| {
                 let (name, why) = (name.to_owned(), String::new());
                 let effect = Effect { name, why, bytes_per_contact: 0, share: None };
@@ -119,11 +118,8 @@ fn of_contacts(scene: &Scene, setup: &Setup) -> Vec<EffectToMeasure> {
             if let (Some(setup), Some(less)) = (&mut entry.without, less) {
                 setup.contacts[place] = less;
             }
-            let (key, pair) = (format!("{from}{}", effect.because(c)), keys::pair(setup, c.between));
-            match calls.iter_mut().find(|(known, _)| *known == key) {
-                Some((_, pairs)) => pairs.push(pair),
-                None => calls.push((key, vec![pair])),
-            }
+            let key = format!("{from}{}", effect.because(c));
+            keys::add_pair(calls, key, keys::pair(setup, c.between));
         }
     }
     let named = |(mut entry, calls): (EffectToMeasure, Vec<Call>)| {

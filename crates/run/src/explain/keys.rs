@@ -1,6 +1,6 @@
 //! Which keys of a scene call for what its engine does, and which are dropped.
 
-use dem::setup::{self, Motion, Setup};
+use dem::setup::{self, Setup};
 use scene::Scene;
 use scene::keys::{Output, Wall};
 use scene::plan::{dropped as dropped_of, most_specific};
@@ -11,6 +11,14 @@ pub(super) fn pair(setup: &Setup, between: (u16, u16)) -> String {
     format!("{}–{}", name(between.0), name(between.1))
 }
 
+/// Adds a pair to those of a key.
+pub(super) fn add_pair<K: PartialEq>(found: &mut Vec<(K, Vec<String>)>, key: K, pair: String) {
+    match found.iter_mut().find(|(known, _)| *known == key) {
+        Some((_, pairs)) => pairs.push(pair),
+        None => found.push((key, vec![pair])),
+    }
+}
+
 /// The entry that a contact comes from; `None`: a wall file.
 pub(super) fn entry(scene: &Scene, setup: &Setup, c: &setup::ContactLaw) -> Option<usize> {
     let name = |m: u16| setup.materials[m as usize].name.as_str();
@@ -19,22 +27,19 @@ pub(super) fn entry(scene: &Scene, setup: &Setup, c: &setup::ContactLaw) -> Opti
 
 /// What a scene asks for and cannot matter: key and pairs, and why.
 pub(super) fn dropped(scene: &Scene, setup: &Setup) -> Vec<String> {
-    let mut found: Vec<(String, Vec<String>, String)> = Vec::new();
+    let mut found = Vec::new();
     for c in &setup.contacts {
         let Some(at) = entry(scene, setup, c) else { continue };
         for (key, why) in dropped_of(&scene.keys.contact[at]) {
-            let key = format!("contact.{at}.{key}");
-            match found.iter_mut().find(|(known, _, because)| *known == key && *because == why) {
-                Some((_, pairs, _)) => pairs.push(pair(setup, c.between)),
-                None => found.push((key, vec![pair(setup, c.between)], why)),
-            }
+            add_pair(&mut found, (format!("contact.{at}.{key}"), why), pair(setup, c.between));
         }
     }
-    let contacts = found.into_iter().map(|(key, pairs, why)| format!("{key} ({}): {why}", pairs.join(", ")));
+    let contacts =
+        found.into_iter().map(|((key, why), pairs)| format!("{key} ({}): {why}", pairs.join(", ")));
     let used = |i: usize| setup.contacts.iter().any(|c| entry(scene, setup, c) == Some(i));
     let idle = (0..scene.keys.contact.len()).filter(|i| !used(*i));
     let idle = idle.map(|i| format!("contact.{i}: holds for no two materials that can meet"));
-    let still = setup.walls.iter().filter(|w| !w.motion.moves()).filter_map(|w| wall(scene, w));
+    let still = setup.walls.iter().filter(|w| !w.moves()).filter_map(|w| wall(scene, w));
     let mut still: Vec<String> = still
         .filter(|(_, entry)| entry.motion.is_some())
         .map(|(at, _)| format!("wall.{at}.motion: moves nothing"))
@@ -55,8 +60,7 @@ fn wall<'s>(scene: &'s Scene, wall: &setup::Wall) -> Option<(usize, &'s Wall)> {
 
 /// Keys of the walls that move by themselves, or that follow a force.
 pub(super) fn motions(scene: &Scene, setup: &Setup, servo: bool) -> String {
-    let own = |m: &Motion| Motion { servo: None, ..*m }.moves();
-    let moving = setup.walls.iter().filter(|w| if servo { w.motion.servo.is_some() } else { own(&w.motion) });
+    let moving = setup.walls.iter().filter(|w| if servo { w.servo.is_some() } else { w.motion.moves() });
     let mut keys: Vec<String> = moving
         .map(|w| match wall(scene, w) {
             Some((at, entry)) if servo || entry.motion.is_some() => {

@@ -1,23 +1,23 @@
 //! What a scene switches on, why, and what it costs (`--explain`).
 //!
 //! [`explain`] builds the engine without running it, lists effects with the keys that call for them ([`effects`], [`keys`]), counts what
-//! comes in ([`coming`]), and runs a part of the scene with and without each effect ([`calibration`]). [`text`] writes the answer.
+//! comes in ([`Coming`]), and runs a part of the scene with and without each effect ([`calibration`]). [`text`] writes the answer.
 
 mod calibration;
-mod coming;
 mod effects;
 mod keys;
 mod text;
 
-use crate::RunError;
+use crate::error::Result;
 use crate::schedule::Schedule;
 use crate::simulate::guard;
 pub use calibration::Calibration;
-pub use coming::Coming;
 use dem::setup::{Wall, WallShape};
 use dem::{ContactBytes, Simulation, critical_step};
 pub use effects::Effect;
 use effects::{EffectToMeasure, effects};
+use scene::advice::explain_step_cause;
+use scene::plan::Insertion;
 use scene::{Plan, Scene};
 use serde::Serialize;
 use stages::inlet::InletStream;
@@ -73,11 +73,46 @@ pub struct Fields {
     pub expected_seconds: Option<f64>,
 }
 
+/// What comes in while a run goes on, as far as that is known before.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Coming {
+    /// Keys of the insertions.
+    #[serde(rename = "faucets")]
+    pub insertions: Vec<String>,
+    /// Particles that they bring until the end, and the mean number of these over the run.
+    pub particles: (f64, f64),
+    /// Keys of the inlets, whose particles are not known before.
+    pub streams: Vec<String>,
+}
+
+impl Coming {
+    /// Of these insertions and so many streams, until a time [s].
+    fn new(insertions: &[Insertion], streams: usize, end: f64) -> Coming {
+        let expected = insertions.iter().map(|insertion| insertion.expected(end));
+        Coming {
+            insertions: insertions.iter().map(|insertion| insertion.key.clone()).collect(),
+            particles: expected.fold((0.0, 0.0), |sum, more| (sum.0 + more.all, sum.1 + more.mean)),
+            streams: (0..streams).map(|k| format!("inlet.{k}")).collect(),
+        }
+    }
+
+    /// Mean number of particles over the run, where none of the `start` leaves, over those that were there when a step was measured.
+    /// `None`: unknown.
+    fn growth(&self, start: usize, measured: usize) -> Option<f64> {
+        let mean = start as f64 + self.particles.1;
+        match (self.streams.is_empty(), self.insertions.is_empty()) {
+            (true, true) => Some(1.0),
+            (true, false) => Some(mean / measured as f64),
+            (false, _) => None,
+        }
+    }
+}
+
 /// Explains a scene; `measure` also runs a part of it, with and without each effect.
 ///
 /// # Errors
 /// Whatever would keep the scene from running.
-pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained, RunError> {
+pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained> {
     let Plan { setup, step: chosen_by, insertions, inlets, .. } = plan;
     let streams = inlets.len();
     // A stream whose first message is wrong would keep the scene from running.
@@ -104,7 +139,7 @@ pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained, Ru
         dt,
         critical_dt: limit.dt,
         chosen_by,
-        limiting_pair: limit.pair,
+        limiting_pair: explain_step_cause(&limit.cause),
         steps: last,
         effects: effects(scene, &setup).into_iter().map(measured_effect).collect(),
         dropped: keys::dropped(scene, &setup),

@@ -1,7 +1,8 @@
 //! The answer in words.
 
-use super::{Effect, Fields};
-use std::fmt::Write;
+use super::{Coming, Effect, Fields};
+use dem::ContactBytes;
+use std::fmt::{Display, Write};
 
 /// Shares below this are not distinguished from 0 [–].
 const UNSURE: f64 = 0.02;
@@ -9,62 +10,59 @@ const UNSURE: f64 = 0.02;
 /// All lines.
 pub(super) fn text(fields: &Fields) -> String {
     let mut out = String::new();
-    let mut line = |head: &str, words: String| {
-        // Writing to a string does not fail.
-        let _ = writeln!(out, "{head:<15}{words}");
-    };
     let Fields { dt, critical_dt, .. } = fields;
-    line("time step", format!("{dt:.4e} s, {:.3} of the critical {critical_dt:.4e} s", dt / critical_dt));
+    let share_of_critical = format!("{:.3} of the critical {critical_dt:.4e} s", dt / critical_dt);
+    line(&mut out, "time step", format!("{dt:.4e} s, {share_of_critical}"));
     if let Some(chosen) = &fields.chosen_by {
-        line("chosen by", chosen.clone());
+        line(&mut out, "chosen by", chosen);
     }
-    line("limited by", fields.limiting_pair.clone());
-    line("steps", fields.steps.to_string());
-    line("particles", format!("{} at the start, and {} wall spheres", fields.particles, fields.wall_spheres));
-    coming(fields).into_iter().for_each(|words| line("", words));
+    line(&mut out, "limited by", &fields.limiting_pair);
+    line(&mut out, "steps", fields.steps);
+    let Fields { particles, wall_spheres, .. } = fields;
+    line(&mut out, "particles", format!("{particles} at the start, and {wall_spheres} wall spheres"));
+    coming(&mut out, &fields.coming);
     if let Some(c) = &fields.calibration {
         let at = format!("{} particles and {} contacts that touch", c.particles, c.touching);
-        line("measured", format!("{:.3e} s a step at t = {:.3e} s, with {at}", c.seconds_per_step, c.time));
+        let step = format!("{:.3e} s a step at t = {:.3e} s", c.seconds_per_step, c.time);
+        line(&mut out, "measured", format!("{step}, with {at}"));
     }
     if fields.calibration.is_some() || fields.unmeasured.is_some() {
-        line("expected", expected(fields));
+        line(&mut out, "expected", expected(fields));
     }
     let _ = writeln!(out, "\n{:22} {:>10} {:>8}  called for by", "effect", "B/contact", "share");
     for e in &fields.effects {
         let _ = writeln!(out, "{:22} {:>10} {:>8}  {}", e.name, e.bytes_per_contact, share(e), e.why);
     }
     memory(&mut out, fields);
-    for key in &fields.dropped {
-        let _ = writeln!(out, "dropped        {key}");
-    }
+    fields.dropped.iter().for_each(|key| line(&mut out, "dropped", key));
     out
 }
 
-fn coming(fields: &Fields) -> Vec<String> {
-    let coming = &fields.coming;
-    let mut lines = Vec::new();
-    if !coming.insertions.is_empty() {
+/// Adds a line under a heading.
+fn line(out: &mut String, head: &str, words: impl Display) {
+    // Writing to a string does not fail.
+    let _ = writeln!(out, "{head:<15}{words}");
+}
+
+fn coming(out: &mut String, coming: &Coming) {
+    let (insertions, streams) = (coming.insertions.join(", "), coming.streams.join(", "));
+    if !insertions.is_empty() {
         let (all, there) = coming.particles;
-        let (from, bring) =
-            (coming.insertions.join(", "), if coming.insertions.len() == 1 { "brings" } else { "bring" });
-        lines.push(format!(
-            "{from} {bring} some {all:.0} until the end; {there:.0} of them are there on average"
-        ));
+        let bring = if coming.insertions.len() == 1 { "brings" } else { "bring" };
+        let present = format!("{there:.0} of them present on average");
+        line(out, "", format!("{insertions} {bring} about {all:.0} until the end, {present}"));
     }
-    if !coming.streams.is_empty() {
-        lines.push(format!(
-            "{} bring as many as they hold, which is not known before",
-            coming.streams.join(", ")
-        ));
+    if !streams.is_empty() {
+        let words = "bring as many particles as they hold, which is not known in advance";
+        line(out, "", format!("{streams} {words}"));
     }
-    lines
 }
 
 /// The time of the run, and what it rests on.
 fn expected(fields: &Fields) -> String {
     let coming = &fields.coming;
     if !coming.streams.is_empty() {
-        return "unknown: grains still come in, and how many is not known before".to_owned();
+        return "unknown: streams bring particles, and their number is not known in advance".to_owned();
     }
     let Some(seconds) = fields.expected_seconds else {
         return format!("unknown: {}", fields.unmeasured.as_deref().unwrap_or("nothing was measured"));
@@ -72,9 +70,9 @@ fn expected(fields: &Fields) -> String {
     let mean = fields.particles as f64 + coming.particles.1;
     let grows = match coming.insertions.is_empty() {
         true => String::new(),
-        false => format!(" for each particle, of which there are {mean:.0} on average when none leaves"),
+        false => format!(" per particle, with {mean:.0} particles on average if none leaves"),
     };
-    format!("{} for the run without its output, if a step goes on to take as long{grows}", duration(seconds))
+    format!("{} for the run without its output, if later steps take as long{grows}", duration(seconds))
 }
 
 fn duration(seconds: f64) -> String {
@@ -94,28 +92,22 @@ fn share(effect: &Effect) -> String {
 }
 
 fn memory(out: &mut String, fields: &Fields) {
-    let turns = if fields.rotation { "" } else { ", without rotation: nothing here turns a particle" };
-    let _ = writeln!(out, "\nmemory         {} B a particle{turns}", fields.bytes_per_particle);
-    let mut line = |words: String| {
-        let _ = writeln!(out, "{:15}{words}", "");
-    };
-    let bytes = &fields.bytes_per_contact;
-    line(format!("{} B a listed contact, and B/contact of its effects", bytes.listed));
-    line(format!("{} B more for its point on a wall, or across a periodic face", bytes.point));
-    line(format!(
-        "{} B more for its load, between tiles of particles or where each is looked at",
-        bytes.load
-    ));
-    if bytes.ledger > 0 {
-        line(format!("{} B more for its energies", bytes.ledger));
+    let turns =
+        if fields.rotation { "" } else { ", without rotation: nothing in this scene turns a particle" };
+    out.push('\n');
+    line(out, "memory", format!("{} B per particle{turns}", fields.bytes_per_particle));
+    let ContactBytes { listed, point, wrench, ledger, .. } = fields.bytes_per_contact;
+    line(out, "", format!("{listed} B per listed contact, plus B/contact of its effects"));
+    line(out, "", format!("{point} B more for a contact point on a wall or across a periodic face"));
+    let kept = "for a force that is kept: between tiles, or where contacts are recorded";
+    line(out, "", format!("{wrench} B more {kept}"));
+    if ledger > 0 {
+        line(out, "", format!("{ledger} B more for the energy ledger"));
     }
     if let Some(bytes) = fields.bytes_per_bond {
-        line(format!("{bytes:.0} B a bond, {} bonds", fields.bonds));
+        line(out, "", format!("{bytes:.0} B per bond, {} bonds", fields.bonds));
     }
     if fields.calibration.is_some_and(|c| c.touching == 0) {
-        let _ = writeln!(
-            out,
-            "shares         not measured of what acts in contacts: nothing touched in the calibration run"
-        );
+        line(out, "shares", "not measured for contact effects: nothing touched in the calibration run");
     }
 }

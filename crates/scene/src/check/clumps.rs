@@ -1,23 +1,24 @@
 //! Checks of `[[clump]]`, `[[body]]`, and of entries that name a clump.
 
-use super::{Check, Checked};
+use super::Check;
+use crate::error::Result;
 use crate::keys::{Clump, Diameter, SceneKeys};
 
 /// Keys of an entry that makes spheres or clumps.
 pub(super) struct Given<'a> {
     pub material: &'a str,
     pub diameter: Diameter,
-    pub clump: bool,
+    pub clump: &'a Option<String>,
     pub scale: Option<Diameter>,
 }
 
 impl Check<'_> {
     /// Spheres have material and diameter, clumps a name and perhaps a scale.
-    pub(super) fn particle(&self, entry: &str, given: &Given) -> Checked {
+    pub(super) fn particle(&self, entry: &str, given: &Given) -> Result<()> {
         let key = |k: &str| format!("{entry}.{k}");
         let diameter = given.diameter != Diameter::default();
         let keys = [("material", !given.material.is_empty()), ("diameter", diameter)];
-        if given.clump {
+        if given.clump.is_some() {
             if let Some((name, _)) = keys.iter().find(|k| k.1) {
                 let cure = "take it out, or use scale";
                 return Err(self.wrong(&key(name), "(given)", "a clump has its own", cure));
@@ -42,7 +43,7 @@ impl Check<'_> {
     }
 
     /// `[[clump]]` and `[[body]]`.
-    pub(super) fn clumps(&self, m: &SceneKeys) -> Checked {
+    pub(super) fn clumps(&self, m: &SceneKeys) -> Result<()> {
         for (i, c) in m.clump.iter().enumerate() {
             if c.name.is_empty() || m.clump[..i].iter().any(|o| o.name == c.name) {
                 let (key, value) = (format!("clump.{i}.name"), format!("\"{}\"", c.name));
@@ -60,12 +61,12 @@ impl Check<'_> {
         Ok(())
     }
 
-    fn clump(&self, entry: &str, c: &Clump) -> Checked {
+    fn clump(&self, entry: &str, c: &Clump) -> Result<()> {
         let key = |k: &str| format!("{entry}.{k}");
         let kinds = [("spheres", c.spheres.is_some()), ("mesh", c.mesh.is_some())];
         self.one_of(entry, &kinds)?;
         self.positive(&key("scale"), c.scale, "")?;
-        self.positive_if(&key("vertex_radius"), c.vertex_radius, "m")?;
+        self.positive(&key("vertex_radius"), c.vertex_radius, "m")?;
         if c.mesh.is_some() != c.vertex_radius.is_some() {
             let why = "vertex_radius goes with mesh, and mesh with vertex_radius";
             return Err(self.wrong(entry, "(one of them)", why, "give both, or spheres"));

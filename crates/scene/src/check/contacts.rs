@@ -1,11 +1,12 @@
 //! Checks of `[[contact]]`: numbers out of range, keys that no effect takes, effects that lack or contradict each other.
 
-use super::{Check, Checked};
+use super::Check;
+use crate::error::Result;
 use crate::keys::{Contact, SceneKeys};
-use dem::effects::{DESCRIPTIONS, Description, Slot, active};
+use dem::effects::{DESCRIPTIONS, Description, Key, Slot, active};
 
 impl Check<'_> {
-    pub(super) fn contacts(&self, m: &SceneKeys) -> Checked {
+    pub(super) fn contacts(&self, m: &SceneKeys) -> Result<()> {
         for (i, c) in m.contact.iter().enumerate() {
             let entry = Entry { check: self, at: format!("contact.{i}"), contact: c };
             entry.stiffness()?;
@@ -24,20 +25,18 @@ struct Entry<'a> {
 }
 
 impl Entry<'_> {
-    fn wrong(&self, key: &str, value: &str, why: &str, cure: &str) -> Checked {
+    fn wrong(&self, key: &str, value: &str, why: &str, cure: &str) -> Result<()> {
         Err(self.check.wrong(&format!("{}.{key}", self.at), value, why, cure))
     }
 
     /// Linear laws take a stiffness, or the speed that it follows from.
-    fn stiffness(&self) -> Checked {
+    fn stiffness(&self) -> Result<()> {
         let (law, speed) = (&self.contact.law, self.contact.characteristic_velocity);
-        self.check.positive_if(&format!("{}.characteristic_velocity", self.at), speed, "m/s")?;
+        self.check.positive(&format!("{}.characteristic_velocity", self.at), speed, "m/s")?;
         let linear = |d: &Description| d.keys.iter().any(|key| key.name == "stiffness");
         if active(law).any(linear) {
-            let given = [
-                ("stiffness", law.number("stiffness").is_some()),
-                ("characteristic_velocity", speed.is_some()),
-            ];
+            let stiffness = ("stiffness", law.number("stiffness").is_some());
+            let given = [stiffness, ("characteristic_velocity", speed.is_some())];
             return self.check.one_of(&self.at, &given);
         }
         if speed.is_none() {
@@ -45,16 +44,12 @@ impl Entry<'_> {
         }
         let laws: Vec<String> = DESCRIPTIONS.iter().filter(|d| linear(d)).map(|d| asks(d)).collect();
         let cure = format!("take it out, or use {}", laws.join(" or "));
-        self.wrong(
-            "characteristic_velocity",
-            "(given)",
-            "this law takes its stiffness from young and poisson",
-            &cure,
-        )
+        let why = "this law takes its stiffness from young and poisson";
+        self.wrong("characteristic_velocity", "(given)", why, &cure)
     }
 
     /// Keys that none of the effects takes that the others ask for.
-    fn foreign(&self) -> Checked {
+    fn foreign(&self) -> Result<()> {
         let law = &self.contact.law;
         let numbers = law.numbers().map(|(key, _)| key).filter(|key| !takes(active(law), key));
         let model = |d: &Description| d.model.map(|m| m.key);
@@ -66,16 +61,13 @@ impl Entry<'_> {
             d.model.is_some_and(|m| law.model(key) == Some(m.value)) || takes(std::iter::once(**d), key)
         });
         let lacks = |d: &&Description| {
-            let numbers = d.keys.iter().filter(|k| k.required && law.number(k.name).is_none());
-            let numbers =
-                numbers.map(|k| format!("{} = {} {}", k.name, k.example, k.unit).trim_end().to_owned());
             let model = d.model.filter(|m| !m.default && law.model(m.key) != Some(m.value));
-            model
-                .map(|m| format!("{} = \"{}\"", m.key, m.value))
-                .into_iter()
-                .chain(numbers)
-                .collect::<Vec<_>>()
-                .join(" and ")
+            let mut missing: Vec<String> =
+                model.iter().map(|m| format!("{} = \"{}\"", m.key, m.value)).collect();
+            let numbers = d.keys.iter().filter(|k| k.required && law.number(k.name).is_none());
+            let number = |k: &Key| format!("{} = {} {}", k.name, k.example, k.unit).trim_end().to_owned();
+            missing.extend(numbers.map(number));
+            missing.join(" and ")
         };
         let mut cures: Vec<String> = owners.map(lacks).filter(|cure| !cure.is_empty()).collect();
         cures.dedup();
@@ -84,7 +76,7 @@ impl Entry<'_> {
         self.wrong(key, "(given)", &format!("nothing in this [[contact]] uses it ({asked})"), &cure)
     }
 
-    fn effect(&self, effect: &Description) -> Checked {
+    fn effect(&self, effect: &Description) -> Result<()> {
         let law = &self.contact.law;
         for key in effect.keys {
             let Some(value) = law.number(key.name) else {
@@ -97,13 +89,8 @@ impl Entry<'_> {
                 continue;
             };
             if !key.range.holds(value) {
-                let value = format!("{value} {}", key.unit);
-                return self.wrong(
-                    key.name,
-                    value.trim_end(),
-                    "is outside the range",
-                    &format!("give {}", key.range),
-                );
+                let (value, cure) = (format!("{value} {}", key.unit), format!("give {}", key.range));
+                return self.wrong(key.name, value.trim_end(), "is outside the range", &cure);
             }
         }
         if let Some(wrong) = (effect.contradiction)(law) {
@@ -119,7 +106,7 @@ impl Entry<'_> {
     }
 
     /// An effect without the one that it needs, or with one that does nothing.
-    fn needs(&self, effect: &Description) -> Checked {
+    fn needs(&self, effect: &Description) -> Result<()> {
         let law = &self.contact.law;
         let works = |slot: Slot| {
             active(law).any(|d| d.slot == slot && law.number(slot.key()) != Some(0.0) && !(d.idle)(law))

@@ -10,9 +10,10 @@ mod materials;
 mod particles;
 mod walls;
 
-use crate::error::{SceneError, ValueError, nearest};
-use crate::keys::{Diameter, OrAuto, SceneKeys};
+use crate::error::{Result, SceneError, ValueError, nearest};
+use crate::keys::{Diameter, SceneKeys};
 use crate::text::Text;
+use dem::setup::Material;
 use std::fmt::Display;
 
 /// Refuses values, naming key, value, unit and cure.
@@ -20,8 +21,6 @@ pub struct Check<'a> {
     /// The scene, for places in it.
     pub text: &'a Text,
 }
-
-pub(crate) type Checked = Result<(), SceneError>;
 
 impl Check<'_> {
     /// The error for a key's value.
@@ -35,26 +34,15 @@ impl Check<'_> {
         }))
     }
 
-    /// A number above zero.
-    pub(crate) fn positive(&self, key: &str, value: f64, unit: &str) -> Checked {
-        if value > 0.0 && value.is_finite() {
-            return Ok(());
-        }
-        Err(self.wrong(
-            key,
-            format!("{value} {unit}").trim_end(),
-            "must be a finite number above 0",
-            "give a positive value",
-        ))
-    }
-
     /// A number above zero, where there is one.
-    pub(crate) fn positive_if(&self, key: &str, value: Option<f64>, unit: &str) -> Checked {
-        value.map_or(Ok(()), |v| self.positive(key, v, unit))
+    pub(crate) fn positive(&self, key: &str, value: impl Into<Option<f64>>, unit: &str) -> Result<()> {
+        let Some(value) = value.into().filter(|v| !(*v > 0.0 && v.is_finite())) else { return Ok(()) };
+        let value = format!("{value} {unit}");
+        Err(self.wrong(key, value.trim_end(), "must be a finite number above 0", "give a positive value"))
     }
 
     /// A number from `low` to `high`.
-    pub(crate) fn within(&self, key: &str, value: f64, low: f64, high: f64, unit: &str) -> Checked {
+    pub(crate) fn within(&self, key: &str, value: f64, low: f64, high: f64, unit: &str) -> Result<()> {
         if (low..=high).contains(&value) {
             return Ok(());
         }
@@ -63,7 +51,7 @@ impl Check<'_> {
     }
 
     /// Finite numbers.
-    pub(crate) fn finite(&self, key: &str, value: &[f64], unit: &str) -> Checked {
+    pub(crate) fn finite(&self, key: &str, value: &[f64], unit: &str) -> Result<()> {
         if value.iter().all(|v| v.is_finite()) {
             return Ok(());
         }
@@ -71,7 +59,7 @@ impl Check<'_> {
     }
 
     /// Two numbers above zero, the smaller first.
-    pub(crate) fn range(&self, key: &str, range: Diameter, unit: &str) -> Checked {
+    pub(crate) fn range(&self, key: &str, range: Diameter, unit: &str) -> Result<()> {
         self.positive(key, range.low, unit)?;
         self.positive(key, range.high, unit)?;
         if range.low <= range.high {
@@ -82,7 +70,7 @@ impl Check<'_> {
     }
 
     /// One and only one of several keys.
-    pub(crate) fn one_of(&self, entry: &str, keys: &[(&str, bool)]) -> Checked {
+    pub(crate) fn one_of(&self, entry: &str, keys: &[(&str, bool)]) -> Result<()> {
         let names = || keys.iter().map(|k| k.0).collect::<Vec<_>>().join(" or ");
         let given: Vec<&str> = keys.iter().filter(|k| k.1).map(|k| k.0).collect();
         match given[..] {
@@ -94,16 +82,18 @@ impl Check<'_> {
         }
     }
 
-    /// A length, or "auto".
-    pub(crate) fn length(&self, key: &str, value: OrAuto) -> Checked {
-        match value {
-            OrAuto::Auto => Ok(()),
-            OrAuto::Given(v) => self.positive(key, v, "m"),
+    /// A time that comes after that of the key `from`, where there is one.
+    pub(crate) fn until(&self, key: &str, until: Option<f64>, from: f64) -> Result<()> {
+        match until.filter(|until| !(*until > from)) {
+            Some(until) => {
+                Err(self.wrong(key, format!("{until} s"), "is not after 'from'", "give a later time"))
+            }
+            None => Ok(()),
         }
     }
 
     /// Every value of a scene that can be judged by itself.
-    pub(crate) fn keys(&self, m: &SceneKeys) -> Checked {
+    pub(crate) fn keys(&self, m: &SceneKeys) -> Result<()> {
         self.calculation(m)?;
         self.materials(m)?;
         self.contacts(m)?;
@@ -115,38 +105,34 @@ impl Check<'_> {
     }
 
     /// Poisson's ratio of a material or of bonds.
-    pub(crate) fn poisson(&self, key: &str, value: f64) -> Checked {
+    pub(crate) fn poisson(&self, key: &str, value: f64) -> Result<()> {
         if record::is_poisson(value) {
             return Ok(());
         }
         Err(self.wrong(key, value, "is outside the range", &format!("give a number {}", record::POISSON)))
     }
 
-    /// The error for a name that none of the `[[table]]`s has; `known` are their names.
-    pub(crate) fn unknown<'n>(
+    /// The index of a name among those `known` of the `[[table]]`s.
+    pub(crate) fn named<'n>(
         &self,
         key: &str,
         name: &str,
         table: &str,
         known: impl Iterator<Item = &'n str> + Clone,
-    ) -> SceneError {
-        let list = || known.clone().collect::<Vec<_>>().join(", ");
-        let cure = match nearest(name, known.clone()) {
-            Some(near) => format!("did you mean '{near}'?"),
-            None if known.clone().next().is_none() => format!("add a [[{table}]] with this name"),
-            None => format!("known: {}", list()),
+    ) -> Result<usize> {
+        let unknown = || {
+            let cure = match nearest(name, known.clone()) {
+                Some(near) => format!("did you mean '{near}'?"),
+                None if known.clone().next().is_none() => format!("add a [[{table}]] with this name"),
+                None => format!("known: {}", known.clone().collect::<Vec<_>>().join(", ")),
+            };
+            self.wrong(key, format!("\"{name}\""), &format!("no [[{table}]] has this name"), &cure)
         };
-        self.wrong(key, format!("\"{name}\""), &format!("no [[{table}]] has this name"), &cure)
+        known.clone().position(|k| k == name).ok_or_else(unknown)
     }
 
     /// The index of a material, by name.
-    pub(crate) fn material(
-        &self,
-        key: &str,
-        name: &str,
-        known: &[dem::setup::Material],
-    ) -> Result<u16, SceneError> {
-        let at = known.iter().position(|m| m.name == name).map(|at| at as u16);
-        at.ok_or_else(|| self.unknown(key, name, "material", known.iter().map(|m| m.name.as_str())))
+    pub(crate) fn material(&self, key: &str, name: &str, known: &[Material]) -> Result<u16> {
+        Ok(self.named(key, name, "material", known.iter().map(|m| m.name.as_str()))? as u16)
     }
 }

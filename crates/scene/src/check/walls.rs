@@ -1,14 +1,15 @@
 //! Checks of `[[wall]]`, its motion and its servo.
 
-use super::{Check, Checked};
+use super::Check;
+use crate::error::Result;
 use crate::keys::{Motion, SceneKeys, Servo, Wall};
 
 impl Check<'_> {
-    pub(super) fn walls(&self, m: &SceneKeys) -> Checked {
+    pub(super) fn walls(&self, m: &SceneKeys) -> Result<()> {
         m.wall.iter().enumerate().try_for_each(|(i, w)| self.wall(&format!("wall.{i}"), w))
     }
 
-    fn wall(&self, entry: &str, w: &Wall) -> Checked {
+    fn wall(&self, entry: &str, w: &Wall) -> Result<()> {
         let kinds = [
             ("source", w.source.is_some()),
             ("plane", w.plane.is_some()),
@@ -34,17 +35,14 @@ impl Check<'_> {
         w.motion.as_ref().map_or(Ok(()), |motion| self.motion(&format!("{entry}.motion"), motion))
     }
 
-    fn motion(&self, entry: &str, motion: &Motion) -> Checked {
+    fn motion(&self, entry: &str, motion: &Motion) -> Result<()> {
         let key = |k: &str| format!("{entry}.{k}");
         if motion.rotate.is_none() && motion.translate.is_none() && motion.vibrate.is_none() {
             let cure = "add rotate, translate or vibrate, or take it out";
             return Err(self.wrong(entry, "{ }", "names no motion", cure));
         }
         self.finite(&key("from"), &[motion.from], "s")?;
-        if let Some(until) = motion.until.filter(|u| !(*u > motion.from)) {
-            let value = format!("{until} s");
-            return Err(self.wrong(&key("until"), value, "is not after 'from'", "give a later time"));
-        }
+        self.until(&key("until"), motion.until, motion.from)?;
         if let Some(r) = &motion.rotate {
             self.direction(&key("rotate.about"), r.about, "such as [0, 0, 1]")?;
             self.finite(&key("rotate.through"), &r.through, "m")?;
@@ -59,7 +57,7 @@ impl Check<'_> {
     }
 
     /// A vector of any length but 0.
-    fn direction(&self, key: &str, vector: [f64; 3], such: &str) -> Checked {
+    fn direction(&self, key: &str, vector: [f64; 3], such: &str) -> Result<()> {
         self.finite(key, &vector, "")?;
         match vector == [0.0; 3] {
             true => Err(self.wrong(key, "[0, 0, 0]", "has no direction", such)),
@@ -67,7 +65,7 @@ impl Check<'_> {
         }
     }
 
-    fn servo(&self, entry: &str, w: &Wall, s: &Servo) -> Checked {
+    fn servo(&self, entry: &str, w: &Wall, s: &Servo) -> Result<()> {
         let key = |k: &str| format!("{entry}.servo.{k}");
         self.direction(&key("direction"), s.direction, "such as [0, 0, -1]")?;
         let of = [("force", s.force.is_some()), ("stress", s.stress.is_some())];
@@ -81,7 +79,7 @@ impl Check<'_> {
                 return Err(self.wrong(&key(k), format!("{value} {unit}"), why, cure));
             }
         }
-        self.positive_if(&key("area"), s.area, "m²")?;
+        self.positive(&key("area"), s.area, "m²")?;
         if s.stress.is_some() != s.area.is_some() {
             let why = "stress and area make a force together";
             return Err(self.wrong(&key("area"), "(one of them)", why, "give both, or force [N] alone"));

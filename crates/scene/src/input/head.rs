@@ -1,7 +1,7 @@
 //! The head of an inlet stream: its metadata records.
 
 use super::{Input, ZoneRecord};
-use crate::error::SceneError;
+use crate::error::{Result, SceneError};
 use record::{BondRange, ClumpRecord, Map, MaterialRecord, Sizes, metadata};
 use std::io::Read;
 use stream::mcap::{Event, Reader};
@@ -22,7 +22,7 @@ pub(super) struct StreamHead {
 
 impl StreamHead {
     /// Takes a record; records of other names are passed over.
-    pub(super) fn take(&mut self, name: &str, record: &str, map: &Map) -> Result<(), SceneError> {
+    pub(super) fn take(&mut self, name: &str, record: &str, map: &Map) -> Result<()> {
         match record {
             metadata::MATERIALS => self.materials = MaterialRecord::from_map(name, map)?,
             metadata::CLUMPS => self.clumps = ClumpRecord::from_map(name, map)?,
@@ -66,7 +66,7 @@ impl InletSource {
         reader: Reader<Source>,
         first: Option<Event>,
         head: StreamHead,
-    ) -> Result<Input, SceneError> {
+    ) -> Result<Input> {
         let missing = |record: &str, what: &str| {
             let why = format!("the record '{record}' ({what}) is missing");
             SceneError::file(name, why, "write it with stage-replay")

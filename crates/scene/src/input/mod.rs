@@ -5,20 +5,20 @@
 
 mod csv;
 mod head;
-mod mesh;
 mod particles;
 mod walls;
 mod zone;
 
 pub use head::{InletSource, Source};
-pub use mesh::read_mesh;
 pub use particles::{ParticleFile, ParticleTable};
 pub use walls::{WallFile, WallSphere};
 pub use zone::ZoneRecord;
 
-use crate::error::SceneError;
+use crate::error::{Result, SceneError};
+use geom::mesh::TriMesh;
 use head::StreamHead;
 use record::{metadata, topic};
+use std::path::Path;
 use stream::mcap::{Event, McapError, Reader};
 
 /// A stream, as far as it had to be read to know what it is.
@@ -36,7 +36,7 @@ impl Input {
     ///
     /// # Errors
     /// A stream that breaks off, or holds neither walls nor crossings.
-    pub fn open(name: &str, source: Source) -> Result<Input, SceneError> {
+    pub fn open(name: &str, source: Source) -> Result<Input> {
         let mut reader = Reader::new(source);
         let mut head = StreamHead::default();
         loop {
@@ -62,18 +62,13 @@ impl Input {
     ///
     /// # Errors
     /// As [`Input::open`], and a file that cannot be read.
-    pub fn open_file(path: &std::path::Path) -> Result<Input, SceneError> {
+    pub fn open_file(path: &Path) -> Result<Input> {
         let name = path.display().to_string();
         let file = std::fs::File::open(path).map_err(|e| SceneError::read(path, e))?;
         Input::open(&name, Box::new(file))
     }
 
-    fn by_topic(
-        name: &str,
-        reader: Reader<Source>,
-        first: Event,
-        head: StreamHead,
-    ) -> Result<Input, SceneError> {
+    fn by_topic(name: &str, reader: Reader<Source>, first: Event, head: StreamHead) -> Result<Input> {
         let found = match &first {
             Event::Metadata { .. } => "",
             Event::Points { topic, .. } | Event::Bytes { topic, .. } => topic,
@@ -96,7 +91,7 @@ impl Input {
 }
 
 /// Reads walls to the end: the last record distinguishes a whole stream from a broken one.
-fn only_walls(name: &str, reader: Reader<Source>) -> Result<(), SceneError> {
+fn only_walls(name: &str, reader: Reader<Source>) -> Result<()> {
     for event in reader {
         if matches!(event.map_err(|e| broken(name, e))?, Event::Points { topic, .. } if topic == topic::WALLS)
         {
@@ -109,4 +104,13 @@ fn only_walls(name: &str, reader: Reader<Source>) -> Result<(), SceneError> {
 
 fn broken(name: &str, error: McapError) -> SceneError {
     SceneError::content(name, "walls or an inlet", error)
+}
+
+/// Reads a mesh (PLY, STL, OBJ; polygons are cut into triangles).
+///
+/// # Errors
+/// A file of another kind, faces without vertices.
+pub fn read_mesh(path: &Path) -> Result<TriMesh> {
+    let bytes = std::fs::read(path).map_err(|e| SceneError::read(path, e))?;
+    mesh::from_bytes(&bytes).map_err(|e| SceneError::content(&path.display().to_string(), "a mesh", e))
 }

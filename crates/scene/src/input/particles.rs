@@ -1,7 +1,7 @@
 //! `[[particles]]`: spheres from CSV, PLY, or the last frame of a run.
 
 use super::csv::csv;
-use crate::error::SceneError;
+use crate::error::{Result, SceneError};
 use dem::setup::Particle;
 use record::column::{BODY, DIAMETER, ID, MATERIAL, POSITION, RADIUS, SPIN, VELOCITY};
 use record::{Columns, MaterialRecord, metadata, topic};
@@ -41,20 +41,14 @@ impl ParticleTable {
     ///
     /// # Errors
     /// A file of another kind.
-    pub fn read(path: &Path) -> Result<ParticleTable, SceneError> {
+    pub fn read(path: &Path) -> Result<ParticleTable> {
         let name = path.display().to_string();
         let bytes = std::fs::read(path).map_err(|e| SceneError::read(path, e))?;
-        let (materials, is_run) = (Vec::new(), false);
         if bytes.starts_with(b"\x89MCAP") {
             return last_frame(name, &bytes);
         }
-        if !bytes.starts_with(b"ply") {
-            return Ok(ParticleTable { table: csv(&name, &bytes)?, name, materials, is_run });
-        }
-        let ply = stream::ply::parse(&bytes).map_err(|e| SceneError::content(&name, "particles", e))?;
-        let vertex = ply.elements.into_iter().find(|e| e.name == "vertex");
-        let none = || SceneError::file(&name, "has no element 'vertex'", "give particles as vertices");
-        Ok(ParticleTable { table: vertex.ok_or_else(none)?.table, name, materials, is_run })
+        let table = if bytes.starts_with(b"ply") { vertices(&name, &bytes)? } else { csv(&name, &bytes)? };
+        Ok(ParticleTable { name, table, materials: Vec::new(), is_run: false })
     }
 
     /// Its columns as numbers.
@@ -62,7 +56,7 @@ impl ParticleTable {
         Columns { name: &self.name, table: &self.table }
     }
 
-    fn particles(self) -> Result<ParticleFile, SceneError> {
+    fn particles(self) -> Result<ParticleFile> {
         let columns = self.columns();
         let positions = columns.vectors(POSITION)?;
         let radii = columns.radii()?;
@@ -103,7 +97,7 @@ impl ParticleFile {
     ///
     /// # Errors
     /// A file of another kind, columns that are missing or wrong; a run with clumps.
-    pub fn read(path: &Path) -> Result<ParticleFile, SceneError> {
+    pub fn read(path: &Path) -> Result<ParticleFile> {
         let table = ParticleTable::read(path)?;
         if table.is_run && table.table.get(BODY).is_some() {
             let why = "is a run with clumps, and a frame does not hold their shapes";
@@ -114,7 +108,14 @@ impl ParticleFile {
     }
 }
 
-fn last_frame(name: String, bytes: &[u8]) -> Result<ParticleTable, SceneError> {
+fn vertices(name: &str, bytes: &[u8]) -> Result<Table> {
+    let ply = stream::ply::parse(bytes).map_err(|e| SceneError::content(name, "particles", e))?;
+    let vertex = ply.elements.into_iter().find(|e| e.name == "vertex");
+    let none = || SceneError::file(name, "has no element 'vertex'", "give particles as vertices");
+    Ok(vertex.ok_or_else(none)?.table)
+}
+
+fn last_frame(name: String, bytes: &[u8]) -> Result<ParticleTable> {
     let (mut frame, mut materials) = (None, Vec::new());
     for event in Reader::new(bytes) {
         match event.map_err(|e| SceneError::content(&name, "a run", e))? {
@@ -133,7 +134,7 @@ fn last_frame(name: String, bytes: &[u8]) -> Result<ParticleTable, SceneError> {
 mod tests {
     use super::*;
 
-    fn file(name: &str, text: &[u8]) -> Result<ParticleFile, SceneError> {
+    fn file(name: &str, text: &[u8]) -> Result<ParticleFile> {
         let (name, table) = (name.to_owned(), csv(name, text)?);
         ParticleTable { name, table, materials: Vec::new(), is_run: false }.particles()
     }

@@ -1,6 +1,6 @@
 //! Wall spheres from a walls MCAP.
 
-use crate::error::SceneError;
+use crate::error::{Result, SceneError};
 use geom::Vec3;
 use record::column::{MATERIAL, POSITION, VELOCITY};
 use record::{Columns, MaterialRecord};
@@ -37,30 +37,20 @@ impl WallFile {
     ///
     /// # Errors
     /// Columns that are missing or wrong; spheres that move one by one.
-    pub(super) fn new(
-        name: &str,
-        table: &Table,
-        materials: Vec<MaterialRecord>,
-    ) -> Result<WallFile, SceneError> {
+    pub(super) fn new(name: &str, table: &Table, mut materials: Vec<MaterialRecord>) -> Result<WallFile> {
         let columns = Columns { name, table };
         let centres = columns.vectors(POSITION)?;
         let radii = columns.radii()?;
         if centres.is_empty() {
             return Err(SceneError::file(name, "has no wall sphere", "check the tool that made it"));
         }
-        let materials = if materials.is_empty() {
-            vec![MaterialRecord { name: "wall".into(), ..MaterialRecord::default() }]
-        } else {
-            materials
-        };
+        if materials.is_empty() {
+            materials.push(MaterialRecord { name: "wall".into(), ..MaterialRecord::default() });
+        }
         let material = columns.indices(MATERIAL, materials.len() as f64 - 1.0)?;
         let material = |row: usize| material.as_ref().map_or(0, |m| m[row] as u16);
-        let sphere = |(i, (centre, radius)): (usize, (&Vec3, &f64))| WallSphere {
-            centre: *centre,
-            radius: *radius,
-            material: material(i),
-        };
-        let spheres = centres.iter().zip(&radii).enumerate().map(sphere).collect();
+        let sphere = |i: usize| WallSphere { centre: centres[i], radius: radii[i], material: material(i) };
+        let spheres = (0..centres.len()).map(sphere).collect();
         let velocities = columns.vectors_or_zero(VELOCITY)?;
         let velocity = velocities[0];
         if let Some(row) = velocities.iter().position(|v| *v != velocity) {

@@ -1,6 +1,6 @@
 //! The zone of a cut in records, so that both stages agree where it is and how particles cross it.
 
-use crate::error::SceneError;
+use crate::error::{Result, SceneError};
 use dem::setup::{Zone, ZoneMotion, ZoneTest};
 use geom::Vec3;
 use record::Map;
@@ -43,7 +43,7 @@ impl ZoneRecord {
     ///
     /// # Errors
     /// A key that is missing or wrong.
-    pub fn from_map(stream: &str, record: &str, map: &Map) -> Result<ZoneRecord, SceneError> {
+    pub fn from_map(stream: &str, record: &str, map: &Map) -> Result<ZoneRecord> {
         let text = |key: &str| map.get(key).map_or("", String::as_str);
         let wrong = |key: &str, why: String| {
             let why = format!("record '{record}': {key} = {}: {why}", text(key));
@@ -53,16 +53,9 @@ impl ZoneRecord {
         let unknown = |key: &str| wrong(key, "is not known to this version".to_owned());
         let plane = text("plane").parse();
         let plane = plane.map_err(|e: geom::plane::PlaneError| wrong("plane", e.to_string()))?;
-        let motion = match map.get("motion") {
-            None => ZoneMotion::default(),
-            Some(name) => {
-                *ZoneMotion::ALL.iter().find(|m| m.name() == name).ok_or_else(|| unknown("motion"))?
-            }
-        };
-        let test = match map.get("test") {
-            None => ZoneTest::default(),
-            Some(name) => *ZoneTest::ALL.iter().find(|t| t.name() == name).ok_or_else(|| unknown("test"))?,
-        };
+        let motion = named(map.get("motion"), &ZoneMotion::ALL, ZoneMotion::name);
+        let motion = motion.ok_or_else(|| unknown("motion"))?;
+        let test = named(map.get("test"), &ZoneTest::ALL, ZoneTest::name).ok_or_else(|| unknown("test"))?;
         let vector =
             |text: &String| vector(text).ok_or_else(|| wrong("gravity", "wanted: three numbers".to_owned()));
         let gravity = map.get("gravity").map(vector).transpose()?;
@@ -70,6 +63,11 @@ impl ZoneRecord {
         let samples = map.contains_key("samples").then(|| number("samples")).transpose()?;
         Ok(ZoneRecord { zone, gravity, plant: map.get("plant").cloned(), samples })
     }
+}
+
+/// The one that has this name, or the default where none is given.
+fn named<T: Copy + Default>(name: Option<&String>, all: &[T], of: fn(T) -> &'static str) -> Option<T> {
+    name.map_or(Some(T::default()), |name| all.iter().copied().find(|one| of(*one) == name))
 }
 
 /// Three numbers with commas between.

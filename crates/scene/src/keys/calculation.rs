@@ -34,15 +34,9 @@ pub struct Time {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Accuracy(pub f64);
 
-/// A number, or "auto".
+/// A number; `None`: "auto", chosen by the program.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum OrAuto {
-    /// Chosen by the program.
-    #[default]
-    Auto,
-    /// As given.
-    Given(f64),
-}
+pub struct OrAuto(pub Option<f64>);
 
 /// `[output]`
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]

@@ -33,9 +33,9 @@ macro_rules! written_as {
     };
 }
 
-written_as!(OrAuto, "\"auto\" or a number", OrAuto::Given, {
+written_as!(OrAuto, "\"auto\" or a number", |v| OrAuto(Some(v)), {
     fn visit_str<E: Error>(self, v: &str) -> Result<OrAuto, E> {
-        if v == "auto" { Ok(OrAuto::Auto) } else { Err(E::invalid_value(Unexpected::Str(v), &self)) }
+        if v == "auto" { Ok(OrAuto(None)) } else { Err(E::invalid_value(Unexpected::Str(v), &self)) }
     }
 });
 

@@ -104,6 +104,13 @@ pub struct Fill {
     pub seed: u64,
 }
 
+impl Fill {
+    /// The key that says how much: `count` or `mass`.
+    pub(crate) fn amount(&self) -> &'static str {
+        if self.count.is_some() { "count" } else { "mass" }
+    }
+}
+
 /// `[[particles]]`
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -12,10 +12,11 @@
 //! measures that.
 
 use crate::check::Check;
-use crate::error::SceneError;
+use crate::error::Result;
 use crate::keys::{Accuracy, SAFETY, Time};
 use dem::effects::{Slot, active};
 use dem::setup::ContactLaw;
+use std::collections::BTreeSet;
 
 /// The measured curves.
 const CURVES: &str = include_str!("../../data/impact-error.csv");
@@ -71,27 +72,21 @@ fn safety(curve: &[Measured], wanted: f64) -> Option<f64> {
 ///
 /// # Errors
 /// An accuracy that no measured step reaches.
-pub(super) fn choose(
-    check: &Check,
-    time: &Time,
-    contacts: &[ContactLaw],
-) -> Result<(f64, Option<String>), SceneError> {
+pub(super) fn choose(check: &Check, time: &Time, contacts: &[ContactLaw]) -> Result<(f64, Option<String>)> {
     let Some(Accuracy(wanted)) = time.accuracy else { return Ok((time.safety.unwrap_or(SAFETY), None)) };
     let mut best: Option<(f64, &str)> = None;
     for law in laws(contacts) {
         let measured = curve(law);
-        if measured.is_empty() {
+        let Some(smallest) = measured.first() else {
             let why = format!("was not measured for law = \"{law}\"");
             let cure = "give time.safety instead, and measure with cost-curve what it costs";
             return Err(check.wrong("time.accuracy", percent(wanted), &why, cure));
-        }
+        };
         let Some(safety) = safety(&measured, AIM * wanted) else {
-            let (least, at) = measured.first().map_or((f64::NAN, f64::NAN), |p| (p.error / AIM, p.safety));
-            let why = format!(
-                "is less than any measured step reaches with law \"{law}\": {} at {at} of the critical step",
-                percent(least)
-            );
-            let cure = format!("ask for {} or more, or give time.safety below {at} instead", percent(least));
+            let (least, at) = (percent(smallest.error / AIM), smallest.safety);
+            let reached = format!("{least} at {at} of the critical step");
+            let why = format!("is less than any measured step reaches with law \"{law}\": {reached}");
+            let cure = format!("ask for {least} or more, or give time.safety below {at} instead");
             return Err(check.wrong("time.accuracy", percent(wanted), &why, &cure));
         };
         if best.is_none_or(|(least, _)| safety < least) {
@@ -100,12 +95,9 @@ pub(super) fn choose(
     }
     // Nothing touches: every step is exact.
     let Some((safety, law)) = best else { return Ok((SAFETY, None)) };
-    let text = format!(
-        "time.accuracy {}: safety {}, from the measured error of an impact with law \"{law}\" ({FILE})",
-        percent(wanted),
-        geom::Shown(safety)
-    );
-    Ok((safety, Some(text)))
+    let (wanted, shown) = (percent(wanted), geom::Shown(safety));
+    let curve = format!("from the measured error of an impact with law \"{law}\" ({FILE})");
+    Ok((safety, Some(format!("time.accuracy {wanted}: safety {shown}, {curve}"))))
 }
 
 fn percent(share: f64) -> String {
@@ -113,12 +105,9 @@ fn percent(share: f64) -> String {
 }
 
 /// Names of the normal laws in force, each once.
-fn laws(contacts: &[ContactLaw]) -> Vec<&'static str> {
+fn laws(contacts: &[ContactLaw]) -> BTreeSet<&'static str> {
     let name = |law: &ContactLaw| active(law).find(|d| d.slot == Slot::Normal).map(|d| d.name);
-    let mut all: Vec<&str> = contacts.iter().filter_map(name).collect();
-    all.sort_unstable();
-    all.dedup();
-    all
+    contacts.iter().filter_map(name).collect()
 }
 
 #[cfg(test)]

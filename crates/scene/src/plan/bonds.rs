@@ -1,8 +1,7 @@
 //! What a `[[bond]]` asks of the engine.
 
-use super::contacts::known;
 use crate::check::Check;
-use crate::error::SceneError;
+use crate::error::Result;
 use crate::keys::Bond;
 use dem::setup::{self, Material};
 
@@ -10,22 +9,17 @@ use dem::setup::{self, Material};
 ///
 /// # Errors
 /// An unknown material, "*", or two entries for one pair.
-pub(super) fn resolve(
-    check: &Check,
-    entries: &[Bond],
-    materials: &[Material],
-) -> Result<Vec<setup::Bond>, SceneError> {
+pub(super) fn resolve(check: &Check, entries: &[Bond], materials: &[Material]) -> Result<Vec<setup::Bond>> {
     let mut found: Vec<setup::Bond> = Vec::new();
     for (i, b) in entries.iter().enumerate() {
         let mut between = [0; 2];
         for (k, name) in b.between.iter().enumerate() {
             let key = format!("bond.{i}.between.{k}");
-            known(check, &key, name, materials)?;
-            let Some(at) = materials.iter().position(|m| m.name == *name) else {
+            if name == "*" {
                 let why = "bonds are made between named materials";
-                return Err(check.wrong(&key, format!("\"{name}\""), why, "name one"));
-            };
-            between[k] = at as u16;
+                return Err(check.wrong(&key, "\"*\"", why, "name one"));
+            }
+            between[k] = check.material(&key, name, materials)?;
         }
         let between = (between[0].min(between[1]), between[0].max(between[1]));
         if let Some(first) = found.iter().position(|f| f.between == between) {

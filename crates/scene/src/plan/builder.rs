@@ -1,17 +1,23 @@
 //! A plan in the making: what the steps of this folder read and add to.
 
-use super::files_read::FilesRead;
-use super::inserted::GrainMaterial;
 use super::insertion::Insertion;
 use crate::check::Check;
-use crate::error::SceneError;
+use crate::error::{Result, SceneError};
 use crate::input::{InletSource, read_mesh};
 use crate::keys::{self, SceneKeys};
 use crate::scene::Scene;
 use dem::setup::{self, EntryBonds, Particle, Zone};
 use geom::Shape;
 use record::{MaterialRecord, Sizes};
+use std::ops::Range;
 use std::path::PathBuf;
+
+/// Index and density of a material that particles are made of.
+pub(super) struct GrainMaterial {
+    pub index: u16,
+    /// [kg/m³].
+    pub density: f64,
+}
 
 /// The record of a wall file for a material of the scene.
 pub(super) struct WallMaterial {
@@ -29,6 +35,17 @@ pub struct PlannedInlet {
     pub materials: Vec<u16>,
     /// Shape of the scene for each of the stream's; `u32::MAX` of those that do not come.
     pub shapes: Vec<u32>,
+}
+
+/// Facts about the files of particles that warnings need.
+#[derive(Default)]
+pub(super) struct FilesRead {
+    /// Particles of files that people wrote.
+    pub placed: usize,
+    /// Files that give their particles spins.
+    pub spinning: Vec<String>,
+    /// Particles of runs, by index: they lie as the engine left them.
+    pub settled: Vec<Range<usize>>,
 }
 
 /// A plan in the making.
@@ -97,7 +114,7 @@ impl<'a> PlanBuilder<'a> {
         self.scene.folder.join(file)
     }
 
-    pub(super) fn shape(&self, key: &str, text: &str) -> Result<Shape, SceneError> {
+    pub(super) fn shape(&self, key: &str, text: &str) -> Result<Shape> {
         let load = |file: &str| read_mesh(&self.path(file)).map_err(|e| e.to_string());
         Shape::parse(text, &load).map_err(|e| {
             let cure = "write box:x0,y0,z0,x1,y1,z1, sphere:x,y,z,r or cylinder:x0,y0,z0,x1,y1,z1,r";
@@ -106,7 +123,7 @@ impl<'a> PlanBuilder<'a> {
     }
 
     /// A material that particles are made of.
-    pub(super) fn grain(&self, key: &str, name: &str) -> Result<GrainMaterial, SceneError> {
+    pub(super) fn grain(&self, key: &str, name: &str) -> Result<GrainMaterial> {
         let index = self.check.material(key, name, &self.materials)?;
         let density = self.materials[index as usize].density;
         if density > 0.0 {
@@ -117,7 +134,7 @@ impl<'a> PlanBuilder<'a> {
     }
 
     /// Index of the material that a stream describes; added when the scene does not define it.
-    pub(super) fn material_of(&mut self, stream: &str, info: &MaterialRecord) -> Result<u16, SceneError> {
+    pub(super) fn material_of(&mut self, stream: &str, info: &MaterialRecord) -> Result<u16> {
         let name = &info.name;
         if let Some(at) = self.materials.iter().position(|m| m.name == *name) {
             return Ok(at as u16);
@@ -142,7 +159,7 @@ impl<'a> PlanBuilder<'a> {
     /// The first id that no particle has.
     pub(super) fn next_id(&self) -> u32 {
         let members = |b: &setup::Body| self.clumps.shapes[b.shape as usize].spheres.len() as u32;
-        let bodies = self.clumps.bodies.iter().map(|b| b.id.saturating_add(members(b)));
+        let bodies = self.clumps.placed.iter().map(|b| b.id.saturating_add(members(b)));
         let particles = self.particles.iter().map(|p| p.id.saturating_add(1));
         particles.chain(bodies).max().unwrap_or(0).max(self.keys().first_id)
     }
@@ -150,7 +167,7 @@ impl<'a> PlanBuilder<'a> {
     /// Radii of all particles.
     pub(super) fn sizes(&self) -> Option<Sizes> {
         let own = self.particles.iter().map(|p| Some(Sizes { smallest: p.radius, largest: p.radius }));
-        let members = self.clumps.bodies.iter().map(|b| {
+        let members = self.clumps.placed.iter().map(|b| {
             let (least, most) = self.clumps.shapes[b.shape as usize].radii();
             Some(Sizes { smallest: least * b.scale, largest: most * b.scale })
         });
@@ -175,9 +192,7 @@ impl<'a> PlanBuilder<'a> {
     }
 
     /// Index of a shape, by name.
-    pub(super) fn clump(&self, key: &str, name: &str) -> Result<u32, SceneError> {
-        let names = self.keys().clump.iter().map(|c| c.name.as_str());
-        let at = names.clone().position(|n| n == name).map(|at| at as u32);
-        at.ok_or_else(|| self.check.unknown(key, name, "clump", names))
+    pub(super) fn clump(&self, key: &str, name: &str) -> Result<u32> {
+        Ok(self.check.named(key, name, "clump", self.keys().clump.iter().map(|c| c.name.as_str()))? as u32)
     }
 }

@@ -1,16 +1,15 @@
 //! Positions of rigid clumps at t = 0: `[[body]]`, `[[particles]]` and `[[fill]]` with `clump`.
 
 use super::builder::PlanBuilder;
-use super::fill::LARGER;
+use super::fill::{LARGER, sizes};
 use super::packing::{Packing, bounds};
-use super::random::{diameter, generator, orientation};
-use crate::error::SceneError;
+use super::random::{generator, orientation};
+use crate::error::{Result, SceneError};
 use crate::input::ParticleTable;
 use crate::keys::{Diameter, Fill};
-use dem::setup::{Body, ClumpShape};
+use dem::setup::Body;
 use geom::{Shape, Vec3};
 use nalgebra::{Quaternion, UnitQuaternion};
-use rand_pcg::Pcg64Mcg;
 use record::column::{ID, ORIENTATION, ORIENTATION_REAL, POSITION, SCALE, SPIN, VELOCITY};
 
 /// More than this is a mistake.
@@ -23,7 +22,7 @@ fn turn(q: [f64; 4]) -> Option<UnitQuaternion<f64>> {
 
 impl PlanBuilder<'_> {
     /// `[[body]]`: one clump each.
-    pub(super) fn bodies(&mut self) -> Result<(), SceneError> {
+    pub(super) fn bodies(&mut self) -> Result<()> {
         for (i, entry) in self.keys().body.iter().enumerate() {
             let shape = self.clump(&format!("body.{i}.clump"), &entry.clump)?;
             let Some(orientation) = turn(entry.quaternion) else {
@@ -32,7 +31,7 @@ impl PlanBuilder<'_> {
                 let cure = "give [w, x, y, z], such as [1, 0, 0, 0]";
                 return Err(self.check.wrong(&key, value, "is not an orientation", cure));
             };
-            self.clumps.bodies.push(Body {
+            self.clumps.placed.push(Body {
                 id: self.next_id(),
                 shape,
                 scale: entry.scale,
@@ -46,7 +45,7 @@ impl PlanBuilder<'_> {
     }
 
     /// `[[particles]]` with `clump`: a clump for each row of a file.
-    pub(super) fn clump_file(&mut self, key: &str, source: &str, clump: &str) -> Result<(), SceneError> {
+    pub(super) fn clump_file(&mut self, key: &str, source: &str, clump: &str) -> Result<()> {
         let shape = self.clump(&format!("{key}.clump"), clump)?;
         let file = ParticleTable::read(&self.path(source))?;
         let columns = file.columns();
@@ -72,10 +71,15 @@ impl PlanBuilder<'_> {
                 let why = format!("row {k}: the quaternion (qw, qx, qy, qz) has no length");
                 return Err(SceneError::file(&file.name, why, "write 1, 0, 0, 0 for no turn"));
             };
-            self.clumps.bodies.push(Body {
+            let scale = scales[k];
+            if !(scale > 0.0 && scale.is_finite()) {
+                let why = format!("row {k}: scale = {scale} is not a factor above 0");
+                return Err(SceneError::file(&file.name, why, "write 1 for the size of the [[clump]]"));
+            }
+            self.clumps.placed.push(Body {
                 id: ids.as_ref().map_or(first.wrapping_add(k as u32 * members), |ids| ids[k]),
                 shape,
-                scale: scales[k],
+                scale,
                 position: positions[k],
                 orientation,
                 velocity: velocities[k],
@@ -92,26 +96,26 @@ impl PlanBuilder<'_> {
         entry: &Fill,
         name: &str,
         shape: &Shape,
-    ) -> Result<(), SceneError> {
+    ) -> Result<()> {
         let key = |k: &str| format!("fill.{index}.{k}");
         let kind = self.clump(&key("clump"), name)?;
         let clump = &self.clumps.shapes[kind as usize];
         let density = self.materials[clump.material as usize].density;
-        let Some((low, high)) = bounds(shape) else {
+        let Some(corners) = bounds(shape) else {
             let why = "cannot be filled: only box, sphere and cylinder (without '!') can";
             return Err(self.check.wrong(&key("shape"), &entry.shape, why, "use one of these"));
         };
         let mut random = generator(entry.seed, 4, index as u64);
-        let scales = scales(entry, clump, density, &mut random);
+        let range = entry.scale.unwrap_or(Diameter { low: 1.0, high: 1.0 });
+        let scales = sizes(entry, range, MOST, |scale| clump.mass(scale, density), &mut random);
         if scales.is_empty() || scales.len() as u64 > MOST {
             let value = format!("{} clumps", scales.len());
             let why = "is not a number of clumps that can be placed";
-            let given = if entry.count.is_some() { "count" } else { "mass" };
-            return Err(self.check.wrong(&key(given), value, why, "ask for 1 to 10 million"));
+            return Err(self.check.wrong(&key(entry.amount()), value, why, "ask for 1 to 10 million"));
         }
         let taken = self.spheres();
         let reach = clump.reach();
-        let mut packing = Packing::new(shape, (low, high), scales[0] * reach, &taken);
+        let mut packing = Packing::new(shape, corners, scales[0] * reach, &taken);
         let (mut id, members) = (self.next_id(), clump.spheres.len() as u32);
         for (n, &scale) in scales.iter().enumerate() {
             let Some(position) = packing.place(scale * reach, &mut random) else {
@@ -121,7 +125,7 @@ impl PlanBuilder<'_> {
             };
             let (orientation, velocity) = (orientation(&mut random), Vec3::from(entry.velocity));
             let spin = Vec3::zeros();
-            self.clumps.bodies.push(Body { id, shape: kind, scale, position, orientation, velocity, spin });
+            self.clumps.placed.push(Body { id, shape: kind, scale, position, orientation, velocity, spin });
             id = id.wrapping_add(members);
         }
         Ok(())
@@ -130,7 +134,7 @@ impl PlanBuilder<'_> {
     /// All spheres that are placed: centre, radius [m].
     pub(super) fn spheres(&self) -> Vec<(Vec3, f64)> {
         let mut all: Vec<(Vec3, f64)> = self.particles.iter().map(|p| (p.position, p.radius)).collect();
-        for b in &self.clumps.bodies {
+        for b in &self.clumps.placed {
             let shape = &self.clumps.shapes[b.shape as usize];
             let turn = b.orientation * shape.frame;
             let member = |(c, r): &(Vec3, f64)| (b.position + turn * (c * b.scale), r * b.scale);
@@ -143,25 +147,4 @@ impl PlanBuilder<'_> {
 /// Columns of a file of clumps that are read.
 fn known() -> Vec<&'static str> {
     [&[ID], &POSITION[..], &[ORIENTATION_REAL], &ORIENTATION, &[SCALE], &VELOCITY, &SPIN].concat()
-}
-
-/// Scales of the clumps of a fill, largest first; as many as come nearest to the mass.
-fn scales(entry: &Fill, clump: &ClumpShape, density: f64, random: &mut Pcg64Mcg) -> Vec<f64> {
-    let range = entry.scale.unwrap_or(Diameter { low: 1.0, high: 1.0 });
-    let (mut scales, mut mass) = (Vec::new(), 0.0);
-    while scales.len() as u64 <= MOST {
-        let scale = diameter(range, random);
-        let more = clump.mass(scale, density);
-        let enough = match (entry.count, entry.mass) {
-            (Some(count), _) => scales.len() as u64 >= count,
-            (None, wanted) => mass + more / 2.0 > wanted.unwrap_or(0.0),
-        };
-        if enough {
-            break;
-        }
-        mass += more;
-        scales.push(scale);
-    }
-    scales.sort_by(|a, b| b.total_cmp(a));
-    scales
 }

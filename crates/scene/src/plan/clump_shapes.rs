@@ -5,7 +5,7 @@
 //! the mesh is the hull of the centres and contacts lie `vertex_radius` outside of it (JP6939487B2, particles as polyhedra).
 
 use super::builder::PlanBuilder;
-use crate::error::SceneError;
+use crate::error::Result;
 use crate::input::read_mesh;
 use crate::keys::{Clump, ClumpMass};
 use dem::setup::ClumpShape;
@@ -19,7 +19,7 @@ type Sphere = (Vec3, f64);
 
 impl PlanBuilder<'_> {
     /// Shapes of all `[[clump]]`.
-    pub(super) fn clump_shapes(&mut self) -> Result<(), SceneError> {
+    pub(super) fn clump_shapes(&mut self) -> Result<()> {
         for (i, entry) in self.keys().clump.iter().enumerate() {
             let key = format!("clump.{i}");
             let material = self.grain(&format!("{key}.material"), &entry.material)?.index;
@@ -35,7 +35,7 @@ impl PlanBuilder<'_> {
         Ok(())
     }
 
-    fn multisphere(&self, key: &str, entry: &Clump) -> Result<(Vec<Sphere>, Moments), SceneError> {
+    fn multisphere(&self, key: &str, entry: &Clump) -> Result<(Vec<Sphere>, Moments)> {
         let given = entry.spheres.as_deref().unwrap_or_default();
         self.few(&format!("{key}.spheres"), given.len(), "spheres")?;
         let sphere = |s: &[f64; 4]| (Vec3::new(s[0], s[1], s[2]) * entry.scale, s[3] * entry.scale);
@@ -51,7 +51,7 @@ impl PlanBuilder<'_> {
         Ok((spheres, moments))
     }
 
-    fn polyhedron(&self, key: &str, entry: &Clump, file: &str) -> Result<(Vec<Sphere>, Moments), SceneError> {
+    fn polyhedron(&self, key: &str, entry: &Clump, file: &str) -> Result<(Vec<Sphere>, Moments)> {
         let mut mesh = read_mesh(&self.path(file))?.welded();
         mesh.vertices.iter_mut().for_each(|v| *v *= entry.scale);
         let refused = |why: &str, cure: &str| {
@@ -73,7 +73,7 @@ impl PlanBuilder<'_> {
         Ok((spheres, moments))
     }
 
-    fn few(&self, key: &str, count: usize, what: &str) -> Result<(), SceneError> {
+    fn few(&self, key: &str, count: usize, what: &str) -> Result<()> {
         if count <= MOST {
             return Ok(());
         }

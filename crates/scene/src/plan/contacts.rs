@@ -1,10 +1,12 @@
 //! Which `[[contact]]` holds for which pair of materials: the most specific one.
 
 use crate::check::Check;
-use crate::error::SceneError;
+use crate::error::Result;
 use crate::keys::Contact;
 use dem::effects::{Elastic, active, needed};
 use dem::setup::{self, ContactLaw};
+use geom::sphere::volume;
+use std::cmp::Reverse;
 
 /// One law for every pair that some entry of the scene matches. `largest` is the largest particle radius [m].
 ///
@@ -15,10 +17,10 @@ pub(super) fn resolve(
     entries: &[Contact],
     materials: &[setup::Material],
     largest: f64,
-) -> Result<Vec<ContactLaw>, SceneError> {
+) -> Result<Vec<ContactLaw>> {
     for (i, entry) in entries.iter().enumerate() {
-        for (k, name) in entry.between.iter().enumerate() {
-            known(check, &format!("contact.{i}.between.{k}"), name, materials)?;
+        for (k, name) in entry.between.iter().enumerate().filter(|(_, name)| *name != "*") {
+            check.material(&format!("contact.{i}.between.{k}"), name, materials)?;
         }
     }
     let mut found = Vec::new();
@@ -49,20 +51,6 @@ pub fn dropped(entry: &Contact) -> Vec<(String, String)> {
     needed(&entry.law).1.into_iter().map(|d| (d.numbers, why(d.instead))).collect()
 }
 
-/// Refuses a name that is neither "*" nor a material.
-pub(super) fn known(
-    check: &Check,
-    key: &str,
-    name: &str,
-    materials: &[setup::Material],
-) -> Result<(), SceneError> {
-    let names = materials.iter().map(|m| m.name.as_str());
-    match name == "*" || names.clone().any(|m| m == name) {
-        true => Ok(()),
-        false => Err(check.unknown(key, name, "material", names)),
-    }
-}
-
 /// How specific an entry is for a pair, when it matches: the number of names that are no "*".
 fn matches(entry: &Contact, a: &str, b: &str) -> Option<usize> {
     let fits = |pattern: &str, name: &str| pattern == "*" || pattern == name;
@@ -73,39 +61,25 @@ fn matches(entry: &Contact, a: &str, b: &str) -> Option<usize> {
 
 /// Which entry holds between two materials: the first of the most specific ones.
 pub fn most_specific(entries: &[Contact], a: &str, b: &str) -> Option<usize> {
-    let mut best: Option<(usize, usize)> = None;
-    for (i, entry) in entries.iter().enumerate() {
-        best = best.max(matches(entry, a, b).map(|rank| (rank, usize::MAX - i)));
-    }
-    best.map(|(_, i)| usize::MAX - i)
+    let ranked = |(i, entry)| Some((matches(entry, a, b)?, Reverse(i)));
+    entries.iter().enumerate().filter_map(ranked).max().map(|(_, Reverse(i))| i)
 }
 
-fn best<'e>(
-    check: &Check,
-    entries: &'e [Contact],
-    a: &str,
-    b: &str,
-) -> Result<Option<&'e Contact>, SceneError> {
-    let mut best: Option<(usize, usize)> = None;
-    for (i, entry) in entries.iter().enumerate() {
-        let Some(rank) = matches(entry, a, b) else { continue };
-        match best {
-            Some((top, first)) if top == rank => {
-                let other = &entries[first];
-                if (Contact { between: other.between.clone(), ..entry.clone() }) != *other {
-                    let why = format!(
-                        "contact.{first} says otherwise about {a} and {b}, and neither is more specific"
-                    );
-                    let cure = format!("add a [[contact]] between = [\"{a}\", \"{b}\"]");
-                    let value = format!("{:?}", entry.between);
-                    return Err(check.wrong(&format!("contact.{i}.between"), value, &why, &cure));
-                }
-            }
-            Some((top, _)) if top > rank => {}
-            _ => best = Some((rank, i)),
+/// The entry that holds between two materials; refuses another one that is as specific and says otherwise.
+fn best<'e>(check: &Check, entries: &'e [Contact], a: &str, b: &str) -> Result<Option<&'e Contact>> {
+    let Some(first) = most_specific(entries, a, b) else { return Ok(None) };
+    let best = &entries[first];
+    for (i, entry) in entries.iter().enumerate().skip(first + 1) {
+        let differs = || Contact { between: best.between.clone(), ..entry.clone() } != *best;
+        if matches(entry, a, b) == matches(best, a, b) && differs() {
+            let why =
+                format!("contact.{first} says otherwise about {a} and {b}, and neither is more specific");
+            let cure = format!("add a [[contact]] between = [\"{a}\", \"{b}\"]");
+            let value = format!("{:?}", entry.between);
+            return Err(check.wrong(&format!("contact.{i}.between"), value, &why, &cure));
         }
     }
-    Ok(best.map(|(_, i)| &entries[i]))
+    Ok(Some(best))
 }
 
 /// ```text
@@ -116,7 +90,7 @@ fn best<'e>(
 /// the largest particles (E* of the pair of materials, the density of the heavier).
 fn stiffness(entry: &Contact, a: &setup::Material, b: &setup::Material, largest: f64) -> f64 {
     let v = entry.characteristic_velocity.unwrap_or(1.0);
-    let mass = 4.0 / 3.0 * std::f64::consts::PI * largest.powi(3) * a.density.max(b.density) / 2.0;
+    let mass = volume(1.0) * largest.powi(3) * a.density.max(b.density) / 2.0;
     let stem = (largest / 2.0).sqrt() * Elastic::of(a, b).modulus;
     16.0 / 15.0 * stem * libm::pow(15.0 * mass * v * v / (16.0 * stem), 0.2)
 }
@@ -131,7 +105,7 @@ mod tests {
         Contact { between: [a.into(), b.into()], law, characteristic_velocity: None }
     }
 
-    fn solved(entries: &[Contact]) -> Result<Vec<ContactLaw>, SceneError> {
+    fn solved(entries: &[Contact]) -> Result<Vec<ContactLaw>> {
         let text = Text::new("s", String::new());
         let material =
             |name: &str| setup::Material { name: name.into(), density: 1e3, young: 1e6, poisson: 0.3 };
@@ -171,6 +145,9 @@ mod tests {
         let message = solved(&[entry("sinter", "*", 0.1), entry("*", "steel", 0.2)]).unwrap_err().to_string();
         assert!(message.contains("sinter and steel") && message.contains("add a [[contact]]"), "{message}");
         assert!(solved(&[entry("sinter", "*", 0.1), entry("*", "steel", 0.1)]).is_ok());
+        // The cure works wherever it is written.
+        let cured = [entry("sinter", "*", 0.1), entry("*", "steel", 0.2), entry("steel", "sinter", 0.3)];
+        assert!(solved(&cured).is_ok());
         let message = solved(&[entry("sintr", "*", 0.1)]).unwrap_err().to_string();
         assert!(message.contains("did you mean 'sinter'?"), "{message}");
     }

@@ -4,13 +4,13 @@
 //! are free behind it. Seen from the moving particles, successive positions are random and no two
 //! touch, because two particles that come Δt apart are v Δt apart along the velocity v.
 
-use super::inserted::Inserted;
+use super::builder::PlanBuilder;
 use super::random::{diameter, generator, orientation};
 use super::section::Section;
-use crate::check::{Check, Checked};
-use crate::error::SceneError;
+use crate::check::Check;
+use crate::error::{Result, SceneError};
 use crate::keys::{Diameter, Insert};
-use dem::setup::{Entry, EntryClump, Particle, Zone};
+use dem::setup::{Entry, EntryClump, Particle};
 use geom::{Plane, Shape, Shown, Vec3, sphere::volume};
 use rand_pcg::Pcg64Mcg;
 use std::collections::VecDeque;
@@ -23,8 +23,10 @@ const CURE: &str = "use a lower rate, a wider shape or a higher velocity";
 /// An insertion that gives its particles one after the other, in the order of their times.
 #[derive(Debug, Clone)]
 pub struct Insertion {
-    key: String,
-    section: Section,
+    /// Its name in messages.
+    pub key: String,
+    /// What it comes through.
+    pub(super) section: Section,
     velocity: Vec3,
     inserted: Inserted,
     rate: Rate,
@@ -43,15 +45,28 @@ enum Rate {
     Count(f64),
 }
 
-/// How an insertion is numbered.
+/// What an insertion inserts: spheres, or clumps as the spheres that hold them.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Numbers {
-    /// Index of the entry.
-    pub index: usize,
-    /// First id.
-    pub first_id: u32,
-    /// Index of the zone.
-    pub inlet: u32,
+pub(super) struct Inserted {
+    /// Diameters of the spheres [m].
+    pub diameter: Diameter,
+    /// Index of the material.
+    pub material: u16,
+    /// Mass over the volume of the sphere [kg/m³].
+    pub density: f64,
+    /// Of clumps: their shape.
+    pub clump: Option<InsertedClump>,
+    /// Ids that each takes.
+    pub ids: u32,
+}
+
+/// The shape of inserted clumps.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct InsertedClump {
+    /// Index of the shape.
+    pub shape: u32,
+    /// Diameter of the sphere that holds it at scale 1 [m].
+    pub size: f64,
 }
 
 /// Particles that are expected to come in.
@@ -63,19 +78,21 @@ pub struct Expected {
     pub mean: f64,
 }
 
-impl Insertion {
+impl PlanBuilder<'_> {
+    /// The insertion of an entry, whose zone is the next of the plan.
+    ///
     /// # Errors
     /// A shape that is too thin, has no end, or is too narrow for the rate.
-    pub(super) fn new(
-        check: &Check,
-        numbers: Numbers,
+    pub(super) fn insertion(
+        &self,
+        index: usize,
         entry: &Insert,
         shape: Shape,
         inserted: Inserted,
-    ) -> Result<Insertion, SceneError> {
-        let Numbers { index, first_id, inlet } = numbers;
+        first_id: u32,
+    ) -> Result<Insertion> {
+        let (check, velocity) = (&self.check, Vec3::from(entry.velocity));
         let key = |k: &str| format!("insert.{index}.{k}");
-        let velocity = Vec3::from(entry.velocity);
         let speed = velocity.norm();
         if speed == 0.0 {
             let cure = "give the velocity that particles leave the shape with";
@@ -94,27 +111,28 @@ impl Insertion {
             let cure = format!("make it at least {} m thick", Shown(1.2 * largest));
             return Err(check.wrong(&key("shape"), &entry.shape, &why, &cure));
         }
-        let rate = entry.rate.map_or(Rate::Count(entry.rate_count.unwrap_or(0.0)), Rate::Mass);
         let insertion = Insertion {
             key: format!("insert.{index}"),
             section,
             velocity,
             inserted,
-            rate,
+            rate: entry.rate.map_or(Rate::Count(entry.rate_count.unwrap_or(0.0)), Rate::Mass),
             until: entry.until.unwrap_or(f64::INFINITY),
             time: entry.from,
             count: 0,
             first_id,
-            inlet,
+            inlet: self.inlets.len() as u32,
             random: generator(entry.seed, 2, index as u64),
             recent: VecDeque::new(),
         };
         insertion.check_rate(check, index)?;
         Ok(insertion)
     }
+}
 
+impl Insertion {
     /// Refuses a rate that needs more space than the cross-section has.
-    fn check_rate(&self, check: &Check, index: usize) -> Checked {
+    fn check_rate(&self, check: &Check, index: usize) -> Result<()> {
         let Diameter { low, high } = self.inserted.diameter;
         let radius = high / 2.0;
         let mut random = generator(0, 3, index as u64);
@@ -146,11 +164,6 @@ impl Insertion {
         Err(check.wrong(&format!("{}.{key}", self.key), written, &why, &cure))
     }
 
-    /// Its zone.
-    pub(super) fn zone(&self) -> Zone {
-        self.section.zone()
-    }
-
     /// Lowest distance [m] of the centres that become free, from a plane.
     pub(super) fn lowest_over(&self, plane: &Plane) -> f64 {
         let mut random = generator(0, 4, 0);
@@ -163,11 +176,6 @@ impl Insertion {
     /// Time of the next particle [s]; `None` when the insertion has ended.
     pub fn next_time(&self) -> Option<f64> {
         (self.time < self.until).then_some(self.time)
-    }
-
-    /// Its name in messages.
-    pub fn key(&self) -> &str {
-        &self.key
     }
 
     /// Particles that come until a time [s] since t = 0; members of clumps count one by one.
@@ -191,7 +199,7 @@ impl Insertion {
     ///
     /// # Errors
     /// No space is found.
-    pub fn next_entry(&mut self) -> Result<Option<Entry>, SceneError> {
+    pub fn next_entry(&mut self) -> Result<Option<Entry>> {
         let Some(time) = self.next_time() else { return Ok(None) };
         let mut random = self.random.clone();
         let radius = diameter(self.inserted.diameter, &mut random) / 2.0;
@@ -243,30 +251,20 @@ impl Insertion {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::inserted::GrainMaterial;
-    use crate::text::Text;
+    use crate::Scene;
+    use std::path::Path;
 
-    fn insertion(rate: f64) -> Result<Insertion, SceneError> {
-        let text = Text::new("s", String::new());
-        let shape = "cylinder:0,0,1,0,0,1.03,0.05";
-        let entry = Insert {
-            material: "m".into(),
-            clump: None,
-            scale: None,
-            shape: shape.into(),
-            diameter: Diameter { low: 0.01, high: 0.02 },
-            velocity: [0.0, 0.0, -1.0],
-            rate: Some(rate),
-            rate_count: None,
-            from: 0.0,
-            until: Some(1.0),
-            seed: 0,
-        };
-        let inserted = Inserted::spheres(entry.diameter, GrainMaterial { index: 0, density: 1000.0 });
-        let numbers = Numbers { index: 0, first_id: 0, inlet: 0 };
-        let insertion =
-            Insertion::new(&Check { text: &text }, numbers, &entry, shape.parse().unwrap(), inserted)?;
-        let zone = insertion.zone();
+    fn insertion(rate: f64) -> Result<Insertion> {
+        let toml = format!(
+            "[[material]]\nname = \"m\"\ndensity = 1000\nyoung = 1e6\npoisson = 0.3\n\
+             [[insert]]\nmaterial = \"m\"\nshape = \"cylinder:0,0,1,0,0,1.03,0.05\"\ndiameter = [0.01, 0.02]\n\
+             velocity = [0, 0, -1]\nrate = {rate}\nuntil = 1"
+        );
+        let scene = Scene::new("s", toml, &[], Path::new(""))?;
+        let mut builder = PlanBuilder::new(&scene);
+        builder.insertions()?;
+        let insertion = builder.insertions.remove(0);
+        let zone = insertion.section.zone();
         assert!((zone.length - 0.03).abs() < 1e-12 && (zone.plane.point.z - 1.0).abs() < 1e-12);
         Ok(insertion)
     }

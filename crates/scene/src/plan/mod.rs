@@ -10,16 +10,11 @@ mod builder;
 mod clump_placement;
 mod clump_shapes;
 mod contacts;
-mod files_read;
 mod fill;
-mod inlets;
-mod inserted;
 mod insertion;
 mod insertions;
-mod outlets;
 mod packing;
 mod particles;
-mod periodic;
 mod random;
 mod same_zone;
 mod section;
@@ -27,15 +22,16 @@ mod setup;
 mod wall_contacts;
 mod walls;
 mod warnings;
+mod zones;
 
 pub use builder::PlannedInlet;
 pub use contacts::{dropped, most_specific};
-pub use inlets::SCALE_SLACK;
 pub use insertion::Insertion;
 pub use packing::bounds;
 pub use warnings::SOFT;
+pub use zones::SCALE_SLACK;
 
-use crate::error::SceneError;
+use crate::error::{Result, SceneError};
 use crate::input::{InletSource, Input, WallFile};
 use crate::scene::Scene;
 use builder::PlanBuilder;
@@ -69,7 +65,7 @@ impl Scene {
     ///
     /// # Errors
     /// Whatever does not fit together, with key, value and cure.
-    pub fn plan(&self, given: Vec<Input>) -> Result<Plan, SceneError> {
+    pub fn plan(&self, given: Vec<Input>) -> Result<Plan> {
         let mut builder = PlanBuilder::new(self);
         let (mut wall_files, mut streams): (Vec<WallFile>, Vec<InletSource>) = (Vec::new(), Vec::new());
         for input in given {
@@ -94,7 +90,7 @@ impl Scene {
     ///
     /// # Errors
     /// A shape that cannot be built.
-    pub fn clump_reaches(&self) -> Result<Vec<f64>, SceneError> {
+    pub fn clump_reaches(&self) -> Result<Vec<f64>> {
         let mut builder = PlanBuilder::new(self);
         builder.clump_shapes()?;
         Ok(builder.clumps.shapes.iter().map(ClumpShape::reach).collect())

@@ -1,13 +1,13 @@
 //! Particles at t = 0: `[[particles]]`, `[[body]]`, `[[fill]]`.
 
 use super::builder::PlanBuilder;
-use super::fill::{self, FillRequest};
-use crate::error::SceneError;
+use crate::error::Result;
 use crate::input::ParticleFile;
 use crate::keys::Particles;
+use geom::Vec3;
 
 impl PlanBuilder<'_> {
-    pub(super) fn particles(&mut self) -> Result<(), SceneError> {
+    pub(super) fn particles(&mut self) -> Result<()> {
         for (i, entry) in self.keys().particles.iter().enumerate() {
             match &entry.clump {
                 Some(clump) => self.clump_file(&format!("particles.{i}"), &entry.source, clump)?,
@@ -17,23 +17,28 @@ impl PlanBuilder<'_> {
         self.bodies()?;
         for (i, entry) in self.keys().fill.iter().enumerate() {
             let shape = self.shape(&format!("fill.{i}.shape"), &entry.shape)?;
-            if let Some(clump) = &entry.clump {
-                self.fill_with_clumps(i, entry, clump, &shape)?;
-                continue;
+            match &entry.clump {
+                Some(clump) => self.fill_with_clumps(i, entry, clump, &shape)?,
+                None => self.fill_with_spheres(i, entry, &shape)?,
             }
-            let material = self.grain(&format!("fill.{i}.material"), &entry.material)?;
-            let (first_id, taken) = (self.next_id(), self.spheres());
-            let request = FillRequest { index: i, entry, shape: &shape, material, first_id, taken: &taken };
-            self.particles.extend(fill::fill(&self.check, &request)?);
         }
         Ok(())
     }
 
-    fn particle_file(&mut self, index: usize, entry: &Particles) -> Result<(), SceneError> {
+    fn particle_file(&mut self, index: usize, entry: &Particles) -> Result<()> {
         let file = ParticleFile::read(&self.path(&entry.source))?;
         self.inputs.push(("particles".to_owned(), file.hash.clone()));
         self.warnings.extend(file.warning.clone());
-        self.read.file(&entry.source, &file, self.particles.len());
+        // Only runs name their materials.
+        if file.materials.is_empty() {
+            self.read.placed += file.particles.len();
+        } else {
+            let first = self.particles.len();
+            self.read.settled.push(first..first + file.particles.len());
+        }
+        if file.particles.iter().any(|p| p.spin != Vec3::zeros()) {
+            self.read.spinning.push(entry.source.clone());
+        }
         let key = format!("particles.{index}.material");
         let mut materials = Vec::new();
         match &entry.material {

@@ -16,10 +16,8 @@ pub(super) fn generator(seed: u64, kind: u64, index: u64) -> Pcg64Mcg {
         let b = (a ^ (a >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         b ^ (b >> 31)
     };
-    let mut bytes = [0; 16];
-    bytes[..8].copy_from_slice(&next().to_le_bytes());
-    bytes[8..].copy_from_slice(&next().to_le_bytes());
-    Pcg64Mcg::from_seed(bytes)
+    let (low, high) = (u128::from(next()), u128::from(next()));
+    Pcg64Mcg::from_seed((low | high << 64).to_le_bytes())
 }
 
 /// A number in [0, 1), from the highest 53 bits: portable, and free of the details of `rand`.

@@ -1,81 +1,60 @@
 //! Whether a recorded stream was made for the zone of an `[[inlet]]`.
 
-use crate::check::Check;
-use crate::error::SceneError;
-use crate::input::ZoneRecord;
+use super::builder::PlanBuilder;
+use crate::error::Result;
+use crate::input::{InletSource, ZoneRecord};
 use dem::setup::{Zone, ZoneMotion};
 use geom::Vec3;
 
-/// A stream, and the entry of the scene that it enters by.
-pub(super) struct SameZone<'a> {
-    pub check: &'a Check<'a>,
-    /// Key of the entry.
-    pub key: &'a str,
-    /// The zone of the entry.
-    pub scene: &'a ZoneRecord,
-    /// The zone that the stream was made for.
-    pub stream: &'a ZoneRecord,
-    /// Name of the stream.
-    pub name: &'a str,
-}
-
-impl SameZone<'_> {
-    /// Refuses a stream that was made for another zone.
-    pub(super) fn check(&self) -> Result<(), SceneError> {
-        self.same_place()?;
-        let (here, there) = (&self.scene.zone, &self.stream.zone);
-        if here.motion != there.motion {
-            let cure = format!("run stage-replay with --move {}, or leave the key out", here.motion.name());
-            return Err(self.other("motion", here.motion.name(), there.motion.name(), &cure));
-        }
-        if here.test != there.test {
-            let cure = "run both stages with the same test, or leave the key out";
-            return Err(self.other("test", here.test.name(), there.test.name(), cure));
-        }
-        match (&self.scene.plant, &self.stream.plant) {
-            (Some(mine), Some(its)) if mine != its => {
-                let cure = "give the record of the stage upstream of this one, cut both from one plant with stage-split, or leave the \
-                            key out to use the flow of another plant";
-                Err(self.other("plant", mine, its, cure))
-            }
-            _ => self.same_gravity(),
-        }
-    }
-
-    /// The error of a key whose value is another one in the stream.
-    fn other(&self, part: &str, value: &str, other: &str, cure: &str) -> SceneError {
-        let why = format!("{} was made for \"{other}\"", self.name);
-        self.check.wrong(&format!("{}.{part}", self.key), format!("\"{value}\""), &why, cure)
-    }
-
-    fn same_gravity(&self) -> Result<(), SceneError> {
-        let (Some(mine), Some(its)) = (self.scene.gravity, self.stream.gravity) else { return Ok(()) };
-        if self.scene.zone.motion != ZoneMotion::Ballistic || (mine - its).norm() <= 1e-9 * its.norm() {
-            return Ok(());
-        }
-        let shown = |g: Vec3| format!("[{}, {}, {}] m/s²", g.x, g.y, g.z);
-        let why = format!("{} was made for a free fall of {}", self.name, shown(its));
-        let cure = "use the gravity of the stage upstream, or --move constant";
-        Err(self.check.wrong("gravity", shown(mine), &why, cure))
-    }
-
-    fn same_place(&self) -> Result<(), SceneError> {
-        let (name, key) = (self.name, self.key);
-        let (scene, stream): (&Zone, &Zone) = (&self.scene.zone, &self.stream.zone);
-        let size = stream.length;
-        let apart = stream.plane.signed_distance(&scene.plane.point).abs();
-        let turned = (scene.plane.normal - stream.plane.normal).norm();
-        if apart > 1e-6 * size.max(apart) && apart > 1e-3 * size || turned > 1e-6 {
-            let why = format!("{name} was made for the plane {}", stream.plane);
+impl PlanBuilder<'_> {
+    /// Refuses a stream that was made for another zone than that of the entry at `key`.
+    pub(super) fn same_zone(&self, key: &str, here: &ZoneRecord, stream: &InletSource) -> Result<()> {
+        let Some(there) = &stream.zone else { return Ok(()) };
+        let refuse = |key: &str, value: String, made_for: String, cure: &str| {
+            let why = format!("{} was made for {made_for}", stream.name);
+            Err(self.check.wrong(key, value, &why, cure))
+        };
+        let key = |part: &str| format!("{key}.{part}");
+        let (mine, its) = (&here.zone, &there.zone);
+        if !same_plane(mine, its) {
             let cure = "run stage-replay with --at this plane";
-            return Err(self.check.wrong(&format!("{key}.plane"), scene.plane, &why, cure));
+            return refuse(&key("plane"), mine.plane.to_string(), format!("the plane {}", its.plane), cure);
         }
-        if (scene.length - stream.length).abs() > 1e-9 * size {
-            let why = format!("{name} was made for a length of {} m", stream.length);
+        if (mine.length - its.length).abs() > 1e-9 * its.length {
             let cure = "run stage-replay with this --length, or use length = \"auto\"";
-            let value = format!("{} m", scene.length);
-            return Err(self.check.wrong(&format!("{key}.length"), value, &why, cure));
+            let (value, made_for) = (format!("{} m", mine.length), format!("a length of {} m", its.length));
+            return refuse(&key("length"), value, made_for, cure);
+        }
+        let quoted = |name: &str| format!("\"{name}\"");
+        if mine.motion != its.motion {
+            let cure = format!("run stage-replay with --move {}, or leave the key out", mine.motion.name());
+            return refuse(&key("motion"), quoted(mine.motion.name()), quoted(its.motion.name()), &cure);
+        }
+        if mine.test != its.test {
+            let cure = "run both stages with the same test, or leave the key out";
+            return refuse(&key("test"), quoted(mine.test.name()), quoted(its.test.name()), cure);
+        }
+        if let (Some(mine), Some(its)) = (&here.plant, &there.plant)
+            && mine != its
+        {
+            let cure = "give the record of the stage upstream of this one, cut both from one plant with stage-split, or leave the \
+                        key out to use the flow of another plant";
+            return refuse(&key("plant"), quoted(mine), quoted(its), cure);
+        }
+        let falls = mine.motion == ZoneMotion::Ballistic;
+        if let (true, Some(mine), Some(its)) = (falls, here.gravity, there.gravity)
+            && !((mine - its).norm() <= 1e-9 * its.norm())
+        {
+            let shown = |g: Vec3| format!("[{}, {}, {}] m/s²", g.x, g.y, g.z);
+            let cure = "use the gravity of the stage upstream, or --move constant";
+            return refuse("gravity", shown(mine), format!("a free fall of {}", shown(its)), cure);
         }
         Ok(())
     }
+}
+
+fn same_plane(here: &Zone, there: &Zone) -> bool {
+    let apart = there.plane.signed_distance(&here.plane.point).abs();
+    let turned = (here.plane.normal - there.plane.normal).norm();
+    !(apart > 1e-3 * there.length || turned > 1e-6)
 }

@@ -2,13 +2,13 @@
 
 use super::builder::PlanBuilder;
 use super::{NO_DENSITY, Plan, accuracy, bonds, contacts};
-use crate::error::SceneError;
-use crate::keys::{Arithmetic, DragLaw, OrAuto};
+use crate::error::Result;
+use crate::keys::{Arithmetic, DragLaw};
 use dem::setup::{self, Guards, Setup, Step};
 use geom::Vec3;
 
 impl PlanBuilder<'_> {
-    pub(super) fn finish(mut self) -> Result<Plan, SceneError> {
+    pub(super) fn finish(mut self) -> Result<Plan> {
         let keys = self.keys();
         let sizes = self.sizes();
         let largest = sizes.map_or(0.0, |s| s.largest);
@@ -25,10 +25,7 @@ impl PlanBuilder<'_> {
             gravity: Vec3::from(keys.gravity),
             drag: self.drag(),
             periodic: self.periodic()?,
-            step: match keys.time.dt {
-                OrAuto::Auto => Step::Auto(safety),
-                OrAuto::Given(dt) => Step::Fixed(dt),
-            },
+            step: keys.time.dt.0.map_or(Step::Auto(safety), Step::Fixed),
             precision: match keys.precision {
                 Arithmetic::F64 => setup::Precision::Double,
                 Arithmetic::Mixed => setup::Precision::Mixed,
@@ -38,6 +35,7 @@ impl PlanBuilder<'_> {
             sleep: keys.sleep.map(|s| setup::Sleep { speed: s.speed, time: s.time, wake: s.wake }),
             // Contacts are written with the work of sliding, which the ledger knows.
             ledger: keys.output.energy || keys.output.contacts || keys.guards.energy.is_some(),
+            record_wrenches: true,
             guards: self.guards(),
             largest_entry: self.sphere_sizes.map_or(0.0, |s| s.largest),
             smallest_entry: self.sphere_sizes.map_or(0.0, |s| s.smallest),
@@ -80,5 +78,31 @@ impl PlanBuilder<'_> {
             velocity: Vec3::from(entry.velocity),
             buoyancy: entry.buoyancy,
         })
+    }
+
+    /// Lowest and highest coordinate [m] of each axis that is periodic.
+    pub(super) fn periodic(&self) -> Result<[Option<(f64, f64)>; 3]> {
+        let domain = &self.keys().domain;
+        let mut periodic = [None; 3];
+        for axis in &domain.periodic {
+            let a = *axis as usize;
+            let (Some(low), Some(high)) = (domain.low, domain.high) else {
+                let why = "needs the corners of the domain";
+                let cure = "add low and high, in metres";
+                return Err(self.check.wrong("domain.periodic", format!("{axis:?}"), why, cure));
+            };
+            if low[a].is_nan() || high[a].is_nan() || low[a] >= high[a] {
+                let value = format!("{} m", high[a]);
+                let cure = "swap them, or widen the domain";
+                return Err(self.check.wrong("domain.high", value, "is not above low", cure));
+            }
+            periodic[a] = Some((low[a], high[a]));
+        }
+        if domain.periodic.is_empty() && (domain.low.is_some() || domain.high.is_some()) {
+            let why = "no axis is periodic, and a domain does not hold particles back";
+            let cure = "add periodic = [\"x\"], or a [[wall]] with box";
+            return Err(self.check.wrong("domain", "(low, high)", why, cure));
+        }
+        Ok(periodic)
     }
 }

@@ -1,21 +1,19 @@
 //! Contacts of the pairs of materials that can meet.
 
 use super::builder::PlanBuilder;
-use dem::setup;
+use dem::setup::ContactLaw;
+use std::collections::BTreeSet;
 
 /// μ at rest.
-fn friction_of(law: &setup::ContactLaw) -> Option<f64> {
+fn friction_of(law: &ContactLaw) -> Option<f64> {
     law.number("sliding_friction").or(law.number("sliding_friction.static"))
 }
 
 impl PlanBuilder<'_> {
     /// The contacts of pairs that can meet; friction and restitution of wall files are used where the scene has no entry.
-    pub(super) fn contacts_that_can_meet(
-        &mut self,
-        mut contacts: Vec<setup::ContactLaw>,
-    ) -> Vec<setup::ContactLaw> {
+    pub(super) fn contacts_that_can_meet(&mut self, mut contacts: Vec<ContactLaw>) -> Vec<ContactLaw> {
         let grains = self.grain_materials();
-        let of = |contacts: &[setup::ContactLaw], a: u16, b: u16| {
+        let of = |contacts: &[ContactLaw], a: u16, b: u16| {
             contacts.iter().position(|c| c.between == (a, b) || c.between == (b, a))
         };
         for wall in &self.wall_materials {
@@ -23,11 +21,10 @@ impl PlanBuilder<'_> {
                 let (found, friction) = (of(&contacts, grain, wall.index), wall.record.friction);
                 if let (None, Some(restitution)) = (found, wall.record.restitution) {
                     let between = (grain.min(wall.index), grain.max(wall.index));
-                    let mut law = setup::ContactLaw::new(between, "hertz").with("restitution", restitution);
-                    friction
-                        .filter(|mu| *mu > 0.0)
-                        .into_iter()
-                        .for_each(|mu| law.set("sliding_friction", mu));
+                    let mut law = ContactLaw::new(between, "hertz").with("restitution", restitution);
+                    if let Some(mu) = friction.filter(|mu| *mu > 0.0) {
+                        law.set("sliding_friction", mu);
+                    }
                     contacts.push(law);
                 }
                 let (Some(at), Some(file)) = (found, friction) else { continue };
@@ -50,15 +47,13 @@ impl PlanBuilder<'_> {
         contacts
     }
 
-    /// Materials of all particles, sorted.
-    fn grain_materials(&self) -> Vec<u16> {
-        let mut grains: Vec<u16> = self.particles.iter().map(|p| p.material).collect();
+    /// Materials of all particles.
+    fn grain_materials(&self) -> BTreeSet<u16> {
+        let mut grains: BTreeSet<u16> = self.particles.iter().map(|p| p.material).collect();
         grains.extend(&self.entry_materials);
         let shapes =
-            self.clumps.bodies.iter().map(|b| b.shape).chain(self.clumps.entries.iter().map(|e| e.0));
+            self.clumps.placed.iter().map(|b| b.shape).chain(self.clumps.entries.iter().map(|e| e.shape));
         grains.extend(shapes.map(|s| self.clumps.shapes[s as usize].material));
-        grains.sort_unstable();
-        grains.dedup();
         grains
     }
 }

@@ -2,7 +2,7 @@
 
 use super::builder::{PlanBuilder, WallMaterial};
 use crate::check::Check;
-use crate::error::SceneError;
+use crate::error::{Result, SceneError};
 use crate::input::{Input, WallFile, read_mesh};
 use crate::keys::{Face, Motion, Servo, Wall};
 use dem::setup::{self, WallShape};
@@ -14,50 +14,46 @@ impl PlanBuilder<'_> {
     ///
     /// # Errors
     /// Files that cannot be read, unknown materials, walls of the command line that no entry waits for.
-    pub(super) fn walls(&mut self, given: Vec<WallFile>) -> Result<(), SceneError> {
+    pub(super) fn walls(&mut self, given: Vec<WallFile>) -> Result<()> {
         let mut given = given.into_iter();
         for (i, entry) in self.keys().wall.iter().enumerate() {
             let key = format!("wall.{i}");
             let name = entry.name.clone().unwrap_or_else(|| key.clone());
-            let motion =
-                setup::Motion { servo: entry.servo.as_ref().map(servo), ..motion(entry.motion.as_ref()) };
-            if let Some(source) = &entry.source {
-                let file = self.wall_file(source)?;
-                self.wall_spheres(&name, entry, motion, file)?;
-            } else if entry.plane.is_some() || entry.mesh.is_some() || entry.cuboid.is_some() {
-                let material = self.wall_material(&key, entry)?;
-                for (name, shape) in self.surfaces(&key, &name, entry)? {
-                    self.walls.push(setup::Wall { name, material, shape, motion });
+            let file = match &entry.source {
+                Some(source) => self.wall_file(source)?,
+                None if entry.plane.is_some() || entry.mesh.is_some() || entry.cuboid.is_some() => {
+                    let material = self.wall_material(&key, entry)?;
+                    for (name, shape) in self.surfaces(&key, &name, entry)? {
+                        self.walls.push(wall(entry, name, material, shape));
+                    }
+                    continue;
                 }
-            } else {
-                let file = given.next().ok_or_else(|| {
+                None => given.next().ok_or_else(|| {
                     let why = "waits for walls of the command line, and none were given";
                     let cure = "give dem-run the walls that wallgen wrote (dem-run SCENE.toml WALLS.mcap), or this entry source, plane, \
                                 mesh or box";
                     self.check.wrong(&key, "(without source)", why, cure)
-                })?;
-                self.wall_spheres(&name, entry, motion, file)?;
-            }
+                })?,
+            };
+            self.wall_spheres(&key, &name, entry, file)?;
         }
         for (n, file) in given.enumerate() {
             let name = if n == 0 { "given".to_owned() } else { format!("given.{n}") };
-            self.wall_spheres(&name, &Wall::default(), setup::Motion::still(), file)?;
+            self.wall_spheres("wall", &name, &Wall::default(), file)?;
         }
         Ok(())
     }
 
-    fn wall_file(&self, source: &str) -> Result<WallFile, SceneError> {
+    fn wall_file(&self, source: &str) -> Result<WallFile> {
         let path = self.path(source);
-        match Input::open_file(&path)? {
-            Input::Walls(walls) => Ok(walls),
-            Input::Inlet(_) => {
-                let name = path.display().to_string();
-                Err(SceneError::file(&name, "is an inlet, no walls", "name it in [[inlet]]"))
-            }
-        }
+        let Input::Walls(walls) = Input::open_file(&path)? else {
+            let name = path.display().to_string();
+            return Err(SceneError::file(&name, "is an inlet, no walls", "name it in [[inlet]]"));
+        };
+        Ok(walls)
     }
 
-    fn wall_material(&self, key: &str, entry: &Wall) -> Result<u16, SceneError> {
+    fn wall_material(&self, key: &str, entry: &Wall) -> Result<u16> {
         let missing = || {
             let cure = "add material = \"…\"";
             self.check.wrong(key, "(without material)", "material is missing", cure)
@@ -67,20 +63,13 @@ impl PlanBuilder<'_> {
     }
 
     /// One wall for each material of the file, all with one motion.
-    fn wall_spheres(
-        &mut self,
-        name: &str,
-        entry: &Wall,
-        mut motion: setup::Motion,
-        file: WallFile,
-    ) -> Result<(), SceneError> {
+    fn wall_spheres(&mut self, key: &str, name: &str, entry: &Wall, file: WallFile) -> Result<()> {
         self.inputs.push(("walls".to_owned(), file.hash.clone()));
-        if motion.servo.is_some() && file.materials.len() > 1 {
+        if entry.servo.is_some() && file.materials.len() > 1 {
             let why = "its spheres are of several materials, each of which would follow the force by itself";
-            let (key, cure) = (format!("{name}: servo"), "use a file of one material");
-            return Err(self.check.wrong(&key, &file.name, why, cure));
+            let (servo, cure) = (format!("{name}: servo"), "use a file of one material");
+            return Err(self.check.wrong(&servo, &file.name, why, cure));
         }
-        motion.velocity += file.velocity;
         for (k, record) in file.materials.iter().enumerate() {
             let own = file.spheres.iter().filter(|s| s.material as usize == k);
             let spheres: Vec<(Vec3, f64)> = own.map(|s| (s.centre, s.radius)).collect();
@@ -88,20 +77,21 @@ impl PlanBuilder<'_> {
                 continue;
             }
             let index = match &entry.material {
-                Some(chosen) => self.check.material("wall.material", chosen, &self.materials)?,
+                Some(chosen) => self.check.material(&format!("{key}.material"), chosen, &self.materials)?,
                 None => self.material_of(&file.name, record)?,
             };
             self.wall_materials.push(WallMaterial { index, record: record.clone() });
             let single = file.materials.len() == 1;
             let name = if single { name.to_owned() } else { format!("{name} ({})", record.name) };
-            let shape = WallShape::Spheres(spheres);
-            self.walls.push(setup::Wall { name, material: index, shape, motion });
+            let mut wall = wall(entry, name, index, WallShape::Spheres(spheres));
+            wall.motion.velocity += file.velocity;
+            self.walls.push(wall);
         }
         Ok(())
     }
 
     /// Names and shapes of a wall that is a plane, a mesh or a box.
-    fn surfaces(&self, key: &str, name: &str, entry: &Wall) -> Result<Vec<(String, WallShape)>, SceneError> {
+    fn surfaces(&self, key: &str, name: &str, entry: &Wall) -> Result<Vec<(String, WallShape)>> {
         if let Some(text) = &entry.plane {
             let plane = plane(&self.check, &format!("{key}.plane"), text)?;
             return Ok(vec![(name.to_owned(), WallShape::Plane(plane))]);
@@ -115,8 +105,14 @@ impl PlanBuilder<'_> {
     }
 }
 
+/// A wall that moves as its entry says.
+fn wall(entry: &Wall, name: String, material: u16, shape: WallShape) -> setup::Wall {
+    let (motion, servo) = (motion(entry.motion.as_ref()), entry.servo.as_ref().map(servo));
+    setup::Wall { motion, servo, ..setup::Wall::new(name, material, shape) }
+}
+
 /// A plane of a key.
-pub(super) fn plane(check: &Check, key: &str, text: &str) -> Result<Plane, SceneError> {
+pub(super) fn plane(check: &Check, key: &str, text: &str) -> Result<Plane> {
     text.parse().map_err(|e: geom::plane::PlaneError| {
         check.wrong(key, format!("\"{text}\""), &e.to_string(), "write it px,py,pz,nx,ny,nz in metres")
     })

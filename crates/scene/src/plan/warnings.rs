@@ -104,7 +104,7 @@ impl PlanBuilder<'_> {
     /// The deepest overlap of what files and `[[body]]` place, over the smaller radius: of pairs, and with planes. Members of one clump
     /// are not compared with each other, nor are particles of runs.
     fn deepest(&self) -> Option<DeepOverlap> {
-        let clumps = self.clumps.bodies.len();
+        let clumps = self.clumps.placed.len();
         let by_hand = self.read.placed > 0 || clumps > 0;
         let spheres = if by_hand { self.spheres() } else { Vec::new() };
         let places: Vec<Vec3> = spheres.iter().map(|s| s.0).collect();
@@ -124,7 +124,7 @@ impl PlanBuilder<'_> {
         let mut owners: Vec<(u32, u32)> = (1..).zip(&self.particles).map(|(n, p)| (p.id, n)).collect();
         let settled = self.read.settled.iter().flat_map(|range| range.clone());
         settled.for_each(|n| owners[n].1 = 0);
-        for (owner, b) in (owners.len() as u32 + 1..).zip(&self.clumps.bodies) {
+        for (owner, b) in (owners.len() as u32 + 1..).zip(&self.clumps.placed) {
             let members = self.clumps.shapes[b.shape as usize].spheres.len() as u32;
             owners.extend((0..members).map(|k| (b.id.wrapping_add(k), owner)));
         }

@@ -9,7 +9,7 @@ mod parse;
 
 pub(crate) use parse::parse;
 
-use crate::error::{Place, SceneError};
+use crate::error::{Place, Result, SceneError};
 use overrides::put;
 use toml_edit::{DocumentMut, Item};
 
@@ -20,14 +20,16 @@ pub struct Text {
     pub name: String,
     /// Its text, with the changes of `--set`.
     pub toml: String,
-    /// The text before, and the changes.
-    changed: Option<(String, Vec<String>)>,
+    /// Its text before the changes.
+    before: String,
+    /// The changes.
+    overrides: Vec<String>,
 }
 
 impl Text {
     /// A scene's text under the name of its file.
     pub fn new(name: &str, toml: String) -> Text {
-        Text { name: name.to_owned(), toml, changed: None }
+        Text { name: name.to_owned(), toml, before: String::new(), overrides: Vec::new() }
     }
 
     /// Changes values: each override is `KEY=VALUE`, the key dotted with indices for lists
@@ -35,7 +37,7 @@ impl Text {
     ///
     /// # Errors
     /// A text without `=`, a key that leads nowhere.
-    pub fn set(&mut self, overrides: &[String]) -> Result<(), SceneError> {
+    pub fn set(&mut self, overrides: &[String]) -> Result<()> {
         if overrides.is_empty() {
             return Ok(());
         }
@@ -48,8 +50,8 @@ impl Text {
             let path: Vec<&str> = key.trim().split('.').collect();
             put(document.as_table_mut(), &path, overrides::value(value.trim())).map_err(refuse)?;
         }
-        let written = std::mem::replace(&mut self.toml, document.to_string());
-        self.changed = Some((written, overrides.to_vec()));
+        self.before = std::mem::replace(&mut self.toml, document.to_string());
+        self.overrides = overrides.to_vec();
         Ok(())
     }
 
@@ -63,16 +65,7 @@ impl Text {
             // An error of a whole entry may have another cause than the key that was changed in it.
             leads(to, key) || (leads(key, to) && !key.ends_with(|c: char| c.is_ascii_digit()))
         };
-        self.changed
-            .iter()
-            .flat_map(|(_, overrides)| overrides.iter().rev().find(names))
-            .map(String::as_str)
-            .next()
-    }
-
-    /// The text before its changes; `None` where there are none.
-    pub(crate) fn written(&self) -> Option<Text> {
-        self.changed.as_ref().map(|(toml, _)| Text::new(&self.name, toml.clone()))
+        self.overrides.iter().rev().find(names).map(String::as_str)
     }
 
     /// The place of an error that the changes cause: the reader sees only the file.
@@ -85,7 +78,7 @@ impl Text {
     ///
     /// # Errors
     /// Text that is not TOML.
-    pub fn document(&self) -> Result<DocumentMut, SceneError> {
+    pub fn document(&self) -> Result<DocumentMut> {
         self.toml.parse::<DocumentMut>().map_err(|e| SceneError::Syntax {
             place: self.at(e.span().map(|s| s.start)),
             message: e.message().trim().to_owned(),
@@ -115,8 +108,8 @@ impl Text {
         if let Some(text) = self.set_by(key) {
             return self.changes(&[text]);
         }
-        if let Some(written) = self.written() {
-            return written.place(key);
+        if !self.overrides.is_empty() {
+            return Text::new(&self.name, self.before.clone()).place(key);
         }
         let Ok(document) = toml_edit::Document::parse(self.toml.as_str()) else { return self.at(None) };
         let mut item: &Item = document.as_item();

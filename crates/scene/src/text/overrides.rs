@@ -30,24 +30,17 @@ pub(super) fn put(table: &mut dyn TableLike, path: &[&str], value: Value) -> Res
 }
 
 fn put_into(item: &mut Item, name: &str, path: &[&str], value: Value) -> Result<(), String> {
-    let Ok(index) = path[0].parse::<usize>() else {
+    let (first, rest) = (path[0], &path[1..]);
+    let Ok(index) = first.parse::<usize>() else {
         let table = item.as_table_like_mut();
-        return put(
-            table.ok_or(format!("'{name}' is not a table that could hold '{}'", path[0]))?,
-            path,
-            value,
-        );
+        return put(table.ok_or(format!("'{name}' is not a table that could hold '{first}'"))?, path, value);
     };
-    let rest = &path[1..];
     if let Some(list) = item.as_array_of_tables_mut() {
-        let len = list.len();
-        let table = list.get_mut(index);
-        let table =
-            table.ok_or(format!("'{name}' has entries 0 to {}, no {index}", len.saturating_sub(1)))?;
-        return if rest.is_empty() {
-            Err(format!("'{name}.{index}' is a table: name one of its keys"))
-        } else {
-            put(table, rest, value)
+        let last = list.len().saturating_sub(1);
+        let table = list.get_mut(index).ok_or(format!("'{name}' has entries 0 to {last}, no {index}"))?;
+        return match rest {
+            [] => Err(format!("'{name}.{index}' is a table: name one of its keys")),
+            [..] => put(table, rest, value),
         };
     }
     let list = item.as_array_mut().ok_or(format!("'{name}' is not a list that could hold entry {index}"))?;

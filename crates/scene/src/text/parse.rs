@@ -2,25 +2,23 @@
 
 use super::Text;
 use super::missing::missing;
-use crate::error::{Place, SceneError, nearest};
+use crate::error::{Place, Result, SceneError, nearest};
 use crate::keys::SceneKeys;
 use serde_path_to_error::{Path, Segment};
 use toml::de::Error;
 
 /// Keys of later versions, and what to do until then.
 const NOT_YET: &[(&str, &str)] = &[
-    ("sleep", "leave it out: every particle is moved at every step"),
     ("temperature", "leave it out"),
     ("wear", "leave it out"),
     ("roughness", "give it to wallgen --roughness"),
-    ("test", "leave it out: the centre of a particle is tested at the plane"),
 ];
 
 /// Reads a scene.
 ///
 /// # Errors
 /// Text that is not TOML, an unknown key, a value of the wrong type.
-pub(crate) fn parse(text: &Text) -> Result<SceneKeys, SceneError> {
+pub(crate) fn parse(text: &Text) -> Result<SceneKeys> {
     if text.toml.lines().all(|line| line.trim().is_empty() || line.trim_start().starts_with('#')) {
         let message =
             "there is nothing in it: a scene has at least [time], a [[material]] and grains".to_owned();

@@ -1,25 +1,32 @@
 //! Whether the rows of a stream are in order, and among those that its records announce.
 
 use crate::outlet::crossing::CrossingRow;
+use dem::setup::EntryClump;
 use geom::Shown;
 use record::RecordError;
 use scene::input::InletSource;
 use scene::plan::SCALE_SLACK;
 
-/// Refuses a row that the records do not announce.
-pub(super) fn announced(source: &InletSource, row: &CrossingRow) -> Result<(), RecordError> {
+/// Refuses a row that is earlier than a time that was reached [s], or that the records do not announce.
+pub(super) fn check(source: &InletSource, row: &CrossingRow, reached: f64) -> Result<(), RecordError> {
     let id = row.particle.id;
+    if row.time < reached {
+        let why =
+            format!("particle {id} passes at {} s, after {} s was reached", Shown(row.time), Shown(reached));
+        let cure = "crossings must come in time order: run stage-replay again";
+        return Err(RecordError::new(&source.name, why, cure));
+    }
     let wrong = |why: String| Err(RecordError::new(&source.name, why, "write the stream again"));
     if let Some((clump, _)) = row.clump {
         let scales = source.clumps.get(clump.shape as usize).and_then(|shape| shape.scales);
         let fits = scales.is_some_and(|(low, high)| {
             low * (1.0 - SCALE_SLACK) <= clump.scale && clump.scale <= high * (1.0 + SCALE_SLACK)
         });
+        let EntryClump { shape, scale, .. } = clump;
         return match fits {
             true => Ok(()),
             false => wrong(format!(
-                "clump {id} has shape {} and scale {}, which its record 'clumps' does not announce",
-                clump.shape, clump.scale
+                "clump {id} has shape {shape} and scale {scale}, which its record 'clumps' does not contain"
             )),
         };
     }
@@ -27,19 +34,8 @@ pub(super) fn announced(source: &InletSource, row: &CrossingRow) -> Result<(), R
     if (sizes.smallest..=sizes.largest).contains(&radius) {
         return Ok(());
     }
-    let range = format!("{} to {} m", Shown(sizes.smallest), Shown(sizes.largest));
+    let (radius, low, high) = (Shown(radius), Shown(sizes.smallest), Shown(sizes.largest));
     wrong(format!(
-        "particle {id} has a radius of {} m, outside the {range} of its record 'sizes'",
-        Shown(radius)
+        "particle {id} has a radius of {radius} m, outside the {low} to {high} m of its record 'sizes'"
     ))
-}
-
-/// Refuses a row that is earlier than the row before it, or than a watermark [s].
-pub(super) fn in_time(name: &str, row: &CrossingRow, before: f64) -> Result<(), RecordError> {
-    if row.time >= before {
-        return Ok(());
-    }
-    let (id, time, before) = (row.particle.id, Shown(row.time), Shown(before));
-    let why = format!("particle {id} passes at {time} s, after {before} s was reached");
-    Err(RecordError::new(name, why, "crossings must come in time order: run stage-replay again"))
 }

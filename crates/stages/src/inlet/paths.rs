@@ -1,6 +1,6 @@
 //! Particles that follow recorded paths: which of them are on their way.
 
-use super::arrival::Arrival;
+use super::Arrival;
 use crate::outlet::path::PathRow;
 use dem::setup::{Entry, Guide, Sample};
 use std::collections::{BTreeMap, VecDeque};
@@ -12,27 +12,12 @@ pub(super) struct Paths {
     /// Time of the last row [s].
     pub last: f64,
     /// Time of the last sample of each particle on its way in [s].
-    present: BTreeMap<u32, f64>,
+    pub present: BTreeMap<u32, f64>,
     /// Time of the crossing of those that have just crossed [s].
-    crossed: BTreeMap<u32, f64>,
+    pub crossed: BTreeMap<u32, f64>,
 }
 
 impl Paths {
-    /// Whether any particle is on its way.
-    pub fn any_present(&self) -> bool {
-        !self.present.is_empty()
-    }
-
-    /// A particle crosses; whether it was on its way.
-    pub fn cross(&mut self, id: u32) -> bool {
-        self.present.remove(&id).is_some()
-    }
-
-    /// Notes the crossing of a particle that follows a path.
-    pub fn crossed(&mut self, id: u32, time: f64) {
-        self.crossed.insert(id, time);
-    }
-
     /// What the row of a path gives, with the entry of its state.
     pub fn sample(&mut self, row: &PathRow, entry: Entry) -> Option<Arrival> {
         let (id, time) = (row.row.particle.id, row.row.time);

@@ -1,7 +1,7 @@
 //! An inlet stream: recorded particles that are read as the run needs them.
 
-use super::announced::{announced, in_time};
-use super::arrival::Arrival;
+use super::Arrival;
+use super::announced;
 use super::paths::Paths;
 use crate::outlet::bond::{self, BondRow};
 use crate::outlet::contact::{self, ContactRow};
@@ -9,8 +9,8 @@ use crate::outlet::crossing::{self, CrossingRow};
 use crate::outlet::path;
 use dem::setup::{Entry, EntryClump, Guide, Sample, ZoneMotion};
 use record::{RecordError, Watermark, metadata, topic};
-use scene::SceneError;
 use scene::plan::PlannedInlet;
+use scene::{Result, SceneError};
 use std::collections::VecDeque;
 use stream::mcap::Event;
 
@@ -39,7 +39,7 @@ impl InletStream {
     ///
     /// # Errors
     /// A first message that is wrong.
-    pub fn new(mut plan: PlannedInlet) -> Result<InletStream, SceneError> {
+    pub fn new(mut plan: PlannedInlet) -> Result<InletStream> {
         let first = plan.source.first.take();
         let mut stream = InletStream {
             plan,
@@ -70,7 +70,7 @@ impl InletStream {
     ///
     /// # Errors
     /// A stream that breaks off, or is out of order.
-    pub fn next_until(&mut self, time: f64) -> Result<Option<Arrival>, SceneError> {
+    pub fn next_until(&mut self, time: f64) -> Result<Option<Arrival>> {
         loop {
             if let Some(arrival) = self.made.pop_front() {
                 return Ok(Some(arrival));
@@ -90,7 +90,7 @@ impl InletStream {
                     continue;
                 }
                 Some(_) if !self.recorded() => return Ok(None),
-                None if self.known == f64::INFINITY && self.paths.any_present() => {
+                None if self.known == f64::INFINITY && !self.paths.present.is_empty() => {
                     self.made.extend(self.paths.end());
                     continue;
                 }
@@ -122,17 +122,17 @@ impl InletStream {
         let Some(row) = self.crossings.pop_front() else { return };
         let (id, time) = (row.particle.id, row.time);
         let entry = self.entry(&row);
-        if !self.paths.cross(id) {
+        if self.paths.present.remove(&id).is_none() {
             self.made.push_back(Arrival::Enter(entry));
         }
         while let Some(c) = self.contacts.pop_front_if(|c| c.time <= time) {
-            self.made.push_back(Arrival::Remember { time, memory: c.memory });
+            self.made.push_back(Arrival::History { time, pair: c.pair });
         }
         while let Some(b) = self.bonds.pop_front_if(|b| b.time <= time) {
             self.made.push_back(Arrival::Bond { time, bond: b.bond });
         }
         if self.recorded() {
-            self.paths.crossed(id, time);
+            self.paths.crossed.insert(id, time);
             let guide = Guide::Free(Sample::of(&entry));
             self.made.push_back(Arrival::Guide { time, id, guide });
         }
@@ -154,14 +154,13 @@ impl InletStream {
         Entry { time: row.time, inlet: self.plan.inlet, particle, clump, turn: row.turn }
     }
 
-    fn take(&mut self, event: Event) -> Result<(), SceneError> {
+    fn take(&mut self, event: Event) -> Result<()> {
         let (source, materials) = (&self.plan.source, self.plan.materials.len());
         let name = &source.name;
         match event {
             Event::Points { topic, table, .. } if topic == topic::CROSSINGS => {
                 for row in crossing::from_table(name, &table, materials)? {
-                    in_time(name, &row, self.last.max(self.known))?;
-                    announced(source, &row)?;
+                    announced::check(source, &row, self.last.max(self.known))?;
                     self.last = row.time;
                     self.crossings.push_back(row);
                 }
@@ -172,15 +171,14 @@ impl InletStream {
             Event::Points { topic, table, .. } if topic == topic::CROSSING_BONDS => {
                 if source.bonds.is_none() {
                     let (topic, record) = (topic::CROSSING_BONDS, metadata::BONDS);
-                    let why = format!("has bonds ({topic}), which no record '{record}' announces");
+                    let why = format!("has bonds ({topic}), but no record '{record}'");
                     return Err(RecordError::new(name, why, "write the stream again").into());
                 }
                 self.bonds.extend(bond::from_table(name, &table)?);
             }
             Event::Points { topic, table, .. } if topic == topic::PATHS && self.recorded() => {
                 for row in path::from_table(name, &table, materials)? {
-                    in_time(name, &row.row, self.paths.last.max(self.known))?;
-                    announced(source, &row.row)?;
+                    announced::check(source, &row.row, self.paths.last.max(self.known))?;
                     self.paths.last = row.row.time;
                     self.paths.rows.push_back(row);
                 }
@@ -246,7 +244,7 @@ mod tests {
                 Arrival::Guide { guide: Guide::At(_), .. } => 'A',
                 Arrival::Guide { guide: Guide::Free(_), .. } => 'F',
                 Arrival::Guide { guide: Guide::Gone, .. } => 'G',
-                Arrival::Remember { .. } => 'R',
+                Arrival::History { .. } => 'R',
                 Arrival::Bond { .. } => 'B',
             });
         }

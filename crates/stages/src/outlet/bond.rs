@@ -8,7 +8,7 @@
 //!
 //! In an inlet stream a row says that two particles that come in are bonded.
 
-use dem::setup::{Crossing, Link};
+use dem::setup::{Crossing, CrossingBond};
 use geom::Vec3;
 use record::column::{ID, PARTNER, POSITION, RADIUS, TIME, Vector};
 use record::{Columns, RecordError, TableBuilder, topic};
@@ -30,21 +30,21 @@ pub struct BondRow {
     /// Position of the particle [m].
     pub place: Vec3,
     /// The bond.
-    pub bond: Link,
+    pub bond: CrossingBond,
 }
 
 /// The bonds of a run's crossings.
 pub fn of_crossings(crossings: &[Crossing]) -> Vec<BondRow> {
     let of = |c: &Crossing| {
         let (time, place) = (c.time, c.particle.position);
-        c.links.clone().into_iter().map(move |bond| BondRow { time, place, bond })
+        c.bonds.clone().into_iter().map(move |bond| BondRow { time, place, bond })
     };
     crossings.iter().flat_map(of).collect()
 }
 
 /// The table of the topic.
 pub fn to_table(rows: &[BondRow]) -> Table {
-    let number = |of: fn(&Link) -> f64| rows.iter().map(move |r| of(&r.bond));
+    let number = |of: fn(&CrossingBond) -> f64| rows.iter().map(move |r| of(&r.bond));
     TableBuilder::new(rows.len())
         .vectors(POSITION, rows, |r| r.place)
         .numbers(TIME, rows.iter().map(|r| r.time))
@@ -53,7 +53,7 @@ pub fn to_table(rows: &[BondRow]) -> Table {
         .vectors(AXIS, rows, |r| r.bond.axis)
         .numbers(LENGTH, number(|b| b.size[0]))
         .numbers(RADIUS, number(|b| b.size[1]))
-        .vectors(SPRINGS, rows, |r| r.bond.springs.into())
+        .vectors(SPRINGS, rows, |r| r.bond.stiffness.into())
         .numbers(LAG, number(|b| b.lag))
         .numbers(TENSILE, number(|b| b.strength[0]))
         .numbers(SHEAR, number(|b| b.strength[1]))
@@ -74,18 +74,18 @@ pub fn from_table(stream: &str, table: &Table) -> Result<Vec<BondRow>, RecordErr
     let springs = columns.vectors(SPRINGS)?;
     let (tensile, shear) = (strengths(&columns, TENSILE)?, strengths(&columns, SHEAR)?);
     let row = |k: usize| {
-        let bond = Link {
+        let bond = CrossingBond {
             id: ids[k],
             partner: partners[k],
             axis: axes[k],
             size: [length[k], radius[k]],
-            springs: springs[k].into(),
+            stiffness: springs[k].into(),
             lag: lag[k],
             strength: [tensile[k], shear[k]],
         };
-        match is_sound(&bond) {
-            true => Ok(BondRow { time: times[k], place: places[k], bond }),
-            false => Err(RecordError::new(stream, unsound(k, &bond), CURE)),
+        match unsound(k, &bond) {
+            None => Ok(BondRow { time: times[k], place: places[k], bond }),
+            Some(why) => Err(RecordError::new(stream, why, CURE)),
         }
     };
     (0..ids.len()).map(row).collect()
@@ -98,18 +98,13 @@ fn strengths(columns: &Columns, column: &str) -> Result<Vec<f64>, RecordError> {
     found.ok_or_else(|| RecordError::new(columns.name, why(), CURE))
 }
 
-fn is_sound(bond: &Link) -> bool {
-    (bond.axis.norm() - 1.0).abs() < 1e-9
-        && bond.size.iter().chain(&bond.springs).all(|x| *x > 0.0)
-        && bond.lag >= 0.0
-        && bond.id != bond.partner
-}
-
-fn unsound(row: usize, bond: &Link) -> String {
-    let Link { id, partner, size, springs, lag, .. } = bond;
-    format!(
-        "row {row} of {}: a bond of {id} and {partner} with an axis of length {}, length and radius {size:?} m, springs {springs:?}, lag {lag} s",
-        topic::CROSSING_BONDS,
-        bond.axis.norm()
-    )
+/// What is wrong with the bond of a row.
+fn unsound(row: usize, bond: &CrossingBond) -> Option<String> {
+    let CrossingBond { id, partner, axis, size, stiffness, lag, .. } = bond;
+    let (topic, norm) = (topic::CROSSING_BONDS, axis.norm());
+    let positive = size.iter().chain(stiffness).all(|x| *x > 0.0);
+    let sound = (norm - 1.0).abs() < 1e-9 && positive && *lag >= 0.0 && id != partner;
+    (!sound).then(|| format!(
+        "row {row} of {topic}: a bond of {id} and {partner} with an axis of length {norm}, length and radius {size:?} m, springs {stiffness:?}, lag {lag} s"
+    ))
 }

@@ -8,7 +8,7 @@
 //! In an inlet stream a row is the history that the contact of two particles gets once `id` is free.
 
 use dem::effects::{ContactHistory, Field, Kind};
-use dem::setup::{Crossing, Memory, Touch};
+use dem::setup::{Crossing, PairHistory, Touch};
 use geom::Vec3;
 use record::column::{ID, PARTNER, POSITION, TIME, Vector};
 use record::{Columns, RecordError, TableBuilder};
@@ -28,7 +28,7 @@ pub struct ContactRow {
     /// Time of the crossing [s].
     pub time: f64,
     /// The two particles, and the history of their contact.
-    pub memory: Memory,
+    pub pair: PairHistory,
 }
 
 /// The table of a run's crossings.
@@ -42,7 +42,7 @@ pub fn of_crossings(crossings: &[Crossing]) -> Table {
         .u32(PARTNER, rows.iter().map(|r| r.1.partner.unwrap_or(WALL)))
         .vectors(NORMAL_FORCE, &rows, |r| r.1.normal)
         .vectors(TANGENTIAL_FORCE, &rows, |r| r.1.tangential);
-    history(table, &rows, |r| r.1.springs)
+    history(table, &rows, |r| r.1.history)
 }
 
 /// The table of an inlet stream.
@@ -50,18 +50,14 @@ pub fn to_table(rows: &[ContactRow]) -> Table {
     let table = TableBuilder::new(rows.len())
         .vectors(POSITION, rows, |_| Vec3::zeros())
         .numbers(TIME, rows.iter().map(|r| r.time))
-        .u32(ID, rows.iter().map(|r| r.memory.id))
-        .u32(PARTNER, rows.iter().map(|r| r.memory.partner));
-    history(table, rows, |r| r.memory.springs)
+        .u32(ID, rows.iter().map(|r| r.pair.id))
+        .u32(PARTNER, rows.iter().map(|r| r.pair.partner));
+    history(table, rows, |r| r.pair.history)
 }
 
-fn history<T>(table: TableBuilder, rows: &[T], of: impl Fn(&T) -> ContactHistory) -> Table {
-    let number = |at: usize| rows.iter().map(|r| of(r).numbers()[at]).collect::<Vec<_>>();
-    names()
-        .into_iter()
-        .enumerate()
-        .fold(table, |table, (at, name)| table.numbers(&name, number(at).into_iter()))
-        .done()
+fn history<T>(table: TableBuilder, rows: &[T], of: fn(&T) -> ContactHistory) -> Table {
+    let number = |at: usize| rows.iter().map(move |r| of(r).numbers()[at]);
+    names().iter().zip(0..).fold(table, |table, (name, at)| table.numbers(name, number(at))).done()
 }
 
 /// Columns of the history, as the effects name its fields.
@@ -85,12 +81,12 @@ pub fn from_table(stream: &str, table: &Table) -> Result<Vec<ContactRow>, Record
     let times = columns.numbers(TIME)?;
     let any = f64::from(u32::MAX);
     let (ids, partners) = (columns.needed(ID, any)?, columns.needed(PARTNER, any)?);
-    let history = names().iter().map(|name| columns.numbers(name)).collect::<Result<Vec<_>, _>>()?;
+    let numbers = names().iter().map(|name| columns.numbers(name)).collect::<Result<Vec<_>, _>>()?;
     let row = |k: usize| {
-        let mut springs = ContactHistory::default();
-        springs.numbers_mut().iter_mut().zip(&history).for_each(|(number, column)| *number = column[k]);
-        ContactRow { time: times[k], memory: Memory { id: ids[k], partner: partners[k], springs } }
+        let mut history = ContactHistory::default();
+        history.numbers_mut().iter_mut().zip(&numbers).for_each(|(number, column)| *number = column[k]);
+        ContactRow { time: times[k], pair: PairHistory { id: ids[k], partner: partners[k], history } }
     };
-    let kept = |r: &ContactRow| r.memory.partner != WALL && !r.memory.springs.is_zero();
+    let kept = |r: &ContactRow| r.pair.partner != WALL && !r.pair.history.is_zero();
     Ok((0..times.len()).map(row).filter(kept).collect())
 }

@@ -15,7 +15,7 @@ use record::{Columns, RecordError, TableBuilder};
 use stream::Table;
 
 /// `clump` of a sphere.
-pub const SPHERE: u16 = u16::MAX;
+const SPHERE: u16 = u16::MAX;
 
 /// One row: when, through which outlet, what.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -88,41 +88,34 @@ pub(super) fn columns(rows: &[CrossingRow]) -> TableBuilder {
         .numbers(MASS, rows.iter().map(|r| r.clump.map_or(0.0, |c| c.1)))
 }
 
-/// Shape and orientation of a row.
-#[derive(Clone, Default)]
-struct Turned {
-    clump: Option<(EntryClump, f64)>,
-    turn: Option<UnitQuaternion<f64>>,
-}
-
-/// Shapes and orientations of the rows of a table, where it has them.
-fn turned(columns: &Columns) -> Result<Vec<Turned>, RecordError> {
-    let rows = columns.table.rows();
+/// Adds shapes and orientations to the rows of a table, where it has them.
+fn add_turns(columns: &Columns, rows: &mut [CrossingRow]) -> Result<(), RecordError> {
     if columns.table.get(ORIENTATION_REAL).is_none() {
-        return Ok(vec![Turned::default(); rows]);
+        return Ok(());
     }
     let (real, vector) = (columns.numbers(ORIENTATION_REAL)?, columns.vectors(ORIENTATION)?);
-    let wrong = |why: String| Err(RecordError::new(columns.name, why, "run stage-replay again"));
-    let mut all = Vec::with_capacity(rows);
-    for (row, (w, v)) in real.iter().zip(&vector).enumerate() {
-        let q = Quaternion::new(*w, v.x, v.y, v.z);
+    let wrong = |k: usize, why: String| {
+        Err(RecordError::new(columns.name, format!("row {k}: {why}"), "run stage-replay again"))
+    };
+    for (k, row) in rows.iter_mut().enumerate() {
+        let q = Quaternion::new(real[k], vector[k].x, vector[k].y, vector[k].z);
         if !((q.norm() - 1.0).abs() < 1e-9) {
-            return wrong(format!("row {row}: a quaternion of length {}", q.norm()));
+            return wrong(k, format!("a quaternion of length {}", q.norm()));
         }
         // As it was written: to normalize it again would change its last digits.
-        all.push(Turned { clump: None, turn: Some(UnitQuaternion::new_unchecked(q)) });
+        row.turn = Some(UnitQuaternion::new_unchecked(q));
     }
-    let Some(shapes) = columns.indices(CLUMP, f64::from(SPHERE))? else { return Ok(all) };
+    let Some(shapes) = columns.indices(CLUMP, f64::from(SPHERE))? else { return Ok(()) };
     let (scales, masses) = (columns.numbers(SCALE)?, columns.numbers(MASS)?);
-    for (row, one) in all.iter_mut().enumerate().filter(|(row, _)| shapes[*row] != u32::from(SPHERE)) {
-        let (shape, scale, mass) = (shapes[row], scales[row], masses[row]);
+    for (k, row) in rows.iter_mut().enumerate().filter(|(k, _)| shapes[*k] != u32::from(SPHERE)) {
+        let (shape, scale, mass) = (shapes[k], scales[k], masses[k]);
         if !(scale > 0.0 && mass > 0.0) {
-            return wrong(format!("row {row}: a clump of scale {scale} and mass {mass} kg"));
+            return wrong(k, format!("a clump of scale {scale} and mass {mass} kg"));
         }
-        let orientation = one.turn.take().unwrap_or_default();
-        one.clump = Some((EntryClump { shape, scale, orientation }, mass));
+        let orientation = row.turn.take().unwrap_or_default();
+        row.clump = Some((EntryClump { shape, scale, orientation }, mass));
     }
-    Ok(all)
+    Ok(())
 }
 
 /// The rows of a table.
@@ -140,7 +133,6 @@ pub fn from_table(stream: &str, table: &Table, materials: usize) -> Result<Vec<C
     let material = columns.needed(MATERIAL, materials as f64 - 1.0)?;
     let outlets = columns.indices(OUTLET, f64::from(u16::MAX))?;
     let contacts = columns.indices(CONTACTS, f64::from(u16::MAX))?;
-    let turned = turned(&columns)?;
     let row = |i: usize| CrossingRow {
         time: times[i],
         outlet: outlets.as_ref().map_or(0, |o| o[i] as u16),
@@ -153,8 +145,10 @@ pub fn from_table(stream: &str, table: &Table, materials: usize) -> Result<Vec<C
             spin: spins[i],
         },
         contacts: contacts.as_ref().map_or(0, |c| c[i] as u16),
-        clump: turned[i].clump,
-        turn: turned[i].turn,
+        clump: None,
+        turn: None,
     };
-    Ok((0..times.len()).map(row).collect())
+    let mut rows: Vec<CrossingRow> = (0..times.len()).map(row).collect();
+    add_turns(&columns, &mut rows)?;
+    Ok(rows)
 }

@@ -5,7 +5,7 @@
 //! ```
 
 use crate::outlet::crossing::CrossingRow;
-use dem::setup::{ContactHistory, Particle};
+use dem::setup::ContactHistory;
 use geom::{Plane, Vec3};
 use nalgebra::{UnitQuaternion, UnitVector3};
 
@@ -38,7 +38,9 @@ impl Frame {
 
     /// A row.
     pub fn row(&self, row: &mut CrossingRow) {
-        self.particle(&mut row.particle);
+        let p = &mut row.particle;
+        p.position = self.point(&p.position);
+        (p.velocity, p.spin) = (self.turn * p.velocity, self.turn * p.spin);
         if let Some((clump, _)) = &mut row.clump {
             clump.orientation = self.turn * clump.orientation;
         }
@@ -46,13 +48,7 @@ impl Frame {
     }
 
     /// A contact history.
-    pub fn springs(&self, springs: &ContactHistory) -> ContactHistory {
-        springs.seen(&self.turn)
-    }
-
-    /// A particle.
-    pub fn particle(&self, p: &mut Particle) {
-        p.position = self.point(&p.position);
-        (p.velocity, p.spin) = (self.turn * p.velocity, self.turn * p.spin);
+    pub fn history(&self, history: &ContactHistory) -> ContactHistory {
+        history.seen(&self.turn)
     }
 }

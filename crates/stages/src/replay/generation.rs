@@ -12,7 +12,7 @@ use super::{Intervals, Replay};
 use crate::outlet::crossing::CrossingRow;
 use dem::setup::{Zone, ZoneMotion};
 use geom::{Shown, Vec3};
-use scene::SceneError;
+use scene::{Result, SceneError};
 
 /// Places rows on their paths.
 pub struct Generation {
@@ -28,7 +28,7 @@ pub struct Generation {
 impl Generation {
     pub fn new(head: &Head, what: &Replay) -> Generation {
         let zone = head.zone.zone;
-        let acceleration = zone.acceleration(&head.zone.gravity.unwrap_or_default());
+        let acceleration = head.acceleration();
         let kept =
             what.keep_times && what.intervals == Intervals::Both && zone.motion != ZoneMotion::Recorded;
         Generation { zone, acceleration, intervals: what.intervals, ahead: what.ahead, kept }
@@ -46,26 +46,23 @@ impl Generation {
 
     /// Gives a row the state in which it is generated. The result is how much later than its crossing that is [s], in a stream whose time
     /// is later by T. Where times are kept it is earlier, but not before 0: a particle that crosses before T is generated on its way.
-    pub fn place(&mut self, name: &str, row: &mut CrossingRow) -> Result<f64, SceneError> {
+    pub fn place(&mut self, name: &str, row: &mut CrossingRow) -> Result<f64> {
         let (plane, particle) = (self.zone.plane, &mut row.particle);
         let speed = particle.velocity.dot(&plane.normal);
         if !(speed > 0.0) {
+            let (id, time, speed) = (particle.id, Shown(row.time), Shown(speed));
             let why = format!(
-                "particle {} passes at {} s with {} m/s along the normal of the calculation plane",
-                particle.id,
-                Shown(row.time),
-                Shown(speed)
+                "particle {id} passes at {time} s with {speed} m/s along the normal of the calculation plane"
             );
-            return Err(SceneError::file(
-                name,
-                why,
-                "give --at a normal that points with the flow, or turn the record (--turn-deg)",
-            ));
+            let cure = "give --at a normal in the direction of flow, or rotate the record (--turn-deg)";
+            return Err(SceneError::file(name, why, cure));
         }
         let passes = plane.project(&particle.position) - plane.normal * self.zone.lead(particle.radius);
         let pull = self.acceleration.dot(&plane.normal);
         let apex = if pull > 0.0 { speed / pull } else { f64::INFINITY };
-        let whole = self.back_to(self.zone.length, speed, pull).unwrap_or(apex);
+        // From the generation plane, or from the apex where no path leads there.
+        let square = speed * speed - 2.0 * pull * self.zone.length;
+        let whole = if square >= 0.0 { 2.0 * self.zone.length / (speed + square.sqrt()) } else { apex };
         let (position, before, waits) = match self.intervals {
             Intervals::Generation => {
                 let depth = self.zone.length.min(speed * whole - 0.5 * pull * whole * whole);
@@ -87,11 +84,5 @@ impl Generation {
         }
         row.turn = row.turn.map(|turn| dem::spun(&(particle.spin * -before)) * turn);
         Ok(waits)
-    }
-
-    /// τ back to a depth before the plane [s].
-    fn back_to(&self, depth: f64, speed: f64, pull: f64) -> Option<f64> {
-        let square = speed * speed - 2.0 * pull * depth;
-        (square >= 0.0).then(|| 2.0 * depth / (speed + square.sqrt()))
     }
 }

@@ -2,11 +2,11 @@
 
 use super::Replay;
 use dem::setup::{Zone, ZoneMotion};
-use geom::Shown;
+use geom::{Shown, Vec3};
 use record::metadata::{BONDS, CLUMPS, INLET, MATERIALS, OUTLETS, REPLAY, SCENE, SIZES};
 use record::{ClumpRecord, Map, Sizes};
-use scene::SceneError;
 use scene::input::ZoneRecord;
+use scene::{Result, SceneError};
 use std::collections::BTreeMap;
 use std::io::Write;
 use stream::mcap::{McapError, Writer};
@@ -43,18 +43,23 @@ impl Head {
         writer.metadata(INLET, self.zone.to_map())
     }
 
+    /// Acceleration of particles in the zone [m/s²].
+    pub fn acceleration(&self) -> Vec3 {
+        self.zone.zone.acceleration(&self.zone.gravity.unwrap_or_default())
+    }
+
     /// From the metadata of a run.
     ///
     /// # Errors
     /// A stream that is not a run with this outlet, options that do not go with it.
-    pub fn new(name: &str, mut records: BTreeMap<String, Map>, what: &Replay) -> Result<Head, SceneError> {
+    pub fn new(name: &str, mut records: BTreeMap<String, Map>, what: &Replay) -> Result<Head> {
         let no_run = |record: &str| {
             let why = format!("has no record '{record}' before its first message");
             SceneError::file(name, why, "give a run that dem-run wrote")
         };
         if records.contains_key(INLET) {
             let why = "is an inlet already, that stage-replay made";
-            let cure = "give it to dem-run, or give the run that it was made of";
+            let cure = "give it to dem-run, or give the run that it was made from";
             return Err(SceneError::file(name, why, cure));
         }
         if !records.contains_key(SCENE) {
@@ -76,9 +81,9 @@ impl Head {
 }
 
 /// The outlet of a run with this index.
-fn outlet(name: &str, outlets: Option<Map>, index: u16) -> Result<ZoneRecord, SceneError> {
+fn outlet(name: &str, outlets: Option<Map>, index: u16) -> Result<ZoneRecord> {
     let Some(outlets) = outlets else {
-        let why = "is a run without [[outlet]], so that nothing was recorded";
+        let why = "is a run without [[outlet]]: it has no recorded crossings";
         return Err(SceneError::file(name, why, "make its scene with stage-split --keep upstream"));
     };
     let Some(json) = outlets.get(&index.to_string()) else {
@@ -90,7 +95,7 @@ fn outlet(name: &str, outlets: Option<Map>, index: u16) -> Result<ZoneRecord, Sc
 }
 
 /// The zone of the inlet: that of the outlet, with the changes that are asked for.
-fn zone(name: &str, recorded: &ZoneRecord, what: &Replay, widest: f64) -> Result<Zone, SceneError> {
+fn zone(name: &str, recorded: &ZoneRecord, what: &Replay, widest: f64) -> Result<Zone> {
     let plane = what.frame.map_or(recorded.zone.plane, |f| f.plane(&recorded.zone.plane));
     let zone = Zone {
         plane: what.at.unwrap_or(plane),
@@ -101,17 +106,17 @@ fn zone(name: &str, recorded: &ZoneRecord, what: &Replay, widest: f64) -> Result
     let refuse = |why: String, cure: String| Err(SceneError::file(name, why, cure));
     if zone.motion == ZoneMotion::Recorded {
         if recorded.zone.motion != ZoneMotion::Recorded {
-            let cure = "run the stage upstream with motion = \"recorded\" in its [[outlet]]";
+            let cure = "run the upstream stage with motion = \"recorded\" in its [[outlet]]";
             return refuse("has no paths, which --move recorded follows".into(), cure.into());
         }
         if let Some(option) = what.off_path() {
             let cure = "leave it out, or use --move constant or ballistic";
-            return refuse(format!("{option} does not go with recorded paths"), cure.into());
+            return refuse(format!("{option} does not work with recorded paths"), cure.into());
         }
     }
     if zone.motion == ZoneMotion::Ballistic && recorded.gravity.is_none() {
         let why = "has no record of its gravity, which --move ballistic needs";
-        return refuse(why.into(), "run the stage upstream again with this version".into());
+        return refuse(why.into(), "run the upstream stage again with this version".into());
     }
     if zone.length.is_nan() || zone.length <= 2.0 * widest {
         let (length, largest) = (Shown(zone.length), Shown(2.0 * widest));

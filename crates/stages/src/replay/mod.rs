@@ -101,8 +101,7 @@ impl Replay {
             ("replays".to_owned(), self.repeat.max(1).to_string()),
         ]);
         if copies.count > 1 {
-            let what =
-                "superposed copies of one record: a rate is scaled, the flow is not that of such a rate";
+            let what = "superposed copies of one record: the rate is scaled, but grains do not flow as they would at that rate";
             map.insert("note".to_owned(), what.to_owned());
             map.insert("copy_shift".to_owned(), format!("{},{},{}", shift.x, shift.y, shift.z));
             map.insert("copy_delay".to_owned(), copies.delay.to_string());
@@ -158,12 +157,12 @@ pub fn replay<W: Write>(
     let mut writer = Writer::compressed(out, &provenance, how)?;
     head.write(what, &mut writer)?;
     let start = if what.keep_times { Some(0.0) } else { what.from };
-    let mut replayer = Replayer::new(what, head, start);
+    let mut replayer = Replayer::new(what, head, start, writer);
     for k in 0..runs.len() {
         let limit = runs.get(k + 1).map_or(f64::INFINITY, |next| next.begins);
         replayer.begin(&runs[k].name, limit);
         while let Some(event) = runs[k].next().transpose()? {
-            if replayer.pass(event, &mut writer)? {
+            if replayer.pass(event)? {
                 break;
             }
         }
@@ -171,19 +170,19 @@ pub fn replay<W: Write>(
             break;
         }
         if k + 1 < runs.len() && !replayer.over() {
-            return Err(runs[k].gap(&runs[k + 1], replayer.known()).into());
+            return Err(runs[k].gap(&runs[k + 1], replayer.known).into());
         }
     }
     if let (Some(stop), Some(last)) = (&replayer.stopped, runs.last()) {
         // The stream has no end record: readers downstream must not take it for whole.
-        writer.flush_chunk()?;
+        replayer.writer.flush_chunk()?;
         return Err(replayer::was_stopped(stop, &last.name).into());
     }
-    replayer.again(&mut writer)?;
-    replayer.send(f64::INFINITY, &mut writer)?;
-    replayer.end(&mut writer)?;
+    replayer.again()?;
+    replayer.send(f64::INFINITY)?;
+    replayer.end()?;
     // The reader downstream may go on; whether the run is whole is checked after that.
-    let out = writer.finish()?;
+    let out = replayer.writer.finish()?;
     if let Some(last) = runs.last_mut() {
         while last.next().transpose()?.is_some() {}
     }

@@ -10,7 +10,7 @@ use super::queue::{Generated, Origin};
 use crate::outlet::bond::BondRow;
 use crate::outlet::contact::ContactRow;
 use crate::outlet::crossing::CrossingRow;
-use dem::setup::{Link, Memory};
+use dem::setup::{CrossingBond, PairHistory};
 use std::collections::{BTreeMap, VecDeque};
 
 /// Contacts or bonds that wait for their second particle. Beyond this number the oldest are dropped: their second particle has most
@@ -51,9 +51,9 @@ impl<T> Waiting<T> {
 /// Contacts and bonds whose first particle has been generated, with its new id.
 #[derive(Default)]
 pub struct Pairs {
-    contacts: Waiting<Memory>,
+    contacts: Waiting<PairHistory>,
     /// With the id that the first particle had.
-    bonds: Waiting<(u32, Link)>,
+    bonds: Waiting<(u32, CrossingBond)>,
 }
 
 /// Contacts and bonds that are written with one row.
@@ -63,40 +63,39 @@ pub struct PairRows {
     pub bonds: Vec<BondRow>,
 }
 
-impl Pairs {
-    /// Those of a particle that follows a recorded path.
-    pub fn at_once(&self, one: &Generated, row: &CrossingRow) -> PairRows {
+impl PairRows {
+    /// Adds those of a particle that follows a recorded path.
+    pub fn add(&mut self, one: &Generated, row: &CrossingRow) {
         let (time, place) = (row.time, row.particle.position);
-        let contacts = one.partners.contacts.iter().map(|&memory| ContactRow { time, memory });
-        let bonds = one.partners.bonds.iter().map(|&bond| BondRow { time, place, bond });
-        PairRows { contacts: contacts.collect(), bonds: bonds.collect() }
+        self.contacts.extend(one.partners.contacts.iter().map(|&pair| ContactRow { time, pair }));
+        self.bonds.extend(one.partners.bonds.iter().map(|&bond| BondRow { time, place, bond }));
     }
+}
 
-    /// Those that are complete with a particle of so many spheres, which is written as `row`.
-    pub fn complete(&mut self, one: &Generated, row: &CrossingRow, members: u32) -> PairRows {
+impl Pairs {
+    /// Adds those that are complete with a particle of so many spheres, which is written as `row`.
+    pub fn complete(&mut self, one: &Generated, row: &CrossingRow, members: u32, rows: &mut PairRows) {
         let (was, now, time) = (one.row.particle.id, row.particle.id, row.time);
         let renamed = |id: u32| now.wrapping_add(id.wrapping_sub(was));
         let (place, partners) = (row.particle.position, &one.partners);
-        let mut rows = PairRows::default();
         for k in 0..members {
             let id = was.wrapping_add(k);
-            for memory in self.contacts.remove((one.origin, id)) {
-                let memory = Memory { partner: renamed(id), ..memory };
-                rows.contacts.push(ContactRow { time, memory });
+            for pair in self.contacts.remove((one.origin, id)) {
+                let pair = PairHistory { partner: renamed(id), ..pair };
+                rows.contacts.push(ContactRow { time, pair });
             }
         }
         for (first, bond) in self.bonds.remove((one.origin, was)) {
             if partners.bonds.iter().any(|mine| mine.partner == first) {
-                rows.bonds.push(BondRow { time, place, bond: Link { partner: now, ..bond } });
+                rows.bonds.push(BondRow { time, place, bond: CrossingBond { partner: now, ..bond } });
             }
         }
-        for memory in partners.contacts.iter() {
-            let first = Memory { id: renamed(memory.id), ..*memory };
-            self.contacts.insert((one.origin, memory.partner), first);
+        for pair in partners.contacts.iter() {
+            let first = PairHistory { id: renamed(pair.id), ..*pair };
+            self.contacts.insert((one.origin, pair.partner), first);
         }
         for bond in partners.bonds.iter() {
-            self.bonds.insert((one.origin, bond.partner), (was, Link { id: now, ..*bond }));
+            self.bonds.insert((one.origin, bond.partner), (was, CrossingBond { id: now, ..*bond }));
         }
-        rows
     }
 }

@@ -1,7 +1,7 @@
 //! Keeps rows in the order in which they are generated.
 
 use crate::outlet::crossing::CrossingRow;
-use dem::setup::{Link, Memory};
+use dem::setup::{CrossingBond, PairHistory};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::collections::binary_heap::PeekMut;
@@ -27,9 +27,9 @@ pub struct Origin {
 #[derive(Clone)]
 pub struct Partners {
     /// Contact histories.
-    pub contacts: Rc<[Memory]>,
+    pub contacts: Rc<[PairHistory]>,
     /// Bonds.
-    pub bonds: Rc<[Link]>,
+    pub bonds: Rc<[CrossingBond]>,
 }
 
 /// Rows that wait for those that may be generated before them.

@@ -11,17 +11,18 @@ use crate::outlet::contact::{self, ContactRow};
 use crate::outlet::crossing::{self, CrossingRow};
 use crate::outlet::path::{self, PathRow};
 use crate::outlet::{bond, bond::BondRow};
-use dem::setup::{Link, Memory, ZoneMotion};
+use dem::setup::{CrossingBond, PairHistory, ZoneMotion};
 use geom::Shown;
 use record::{FRAME, LogMessage, Watermark, nanoseconds, topic};
-use scene::SceneError;
+use scene::{Result, SceneError};
 use std::collections::BTreeMap;
 use std::io::Write;
 use stream::Table;
 use stream::mcap::{Event, Writer};
 
 /// The record as it passes.
-pub(super) struct Replayer<'a> {
+pub(super) struct Replayer<'a, W: Write> {
+    pub(super) writer: Writer<W>,
     /// Name of the file that is read.
     pub(super) name: String,
     /// Time from which on the next file counts [s].
@@ -36,13 +37,13 @@ pub(super) struct Replayer<'a> {
     /// The record, where it is replayed more than once.
     pub(super) held: Vec<(CrossingRow, Partners)>,
     /// Contact histories of the rows that come next, by particle.
-    contacts: BTreeMap<u32, Vec<Memory>>,
+    contacts: BTreeMap<u32, Vec<PairHistory>>,
     /// Bonds of the rows that come next, by particle.
-    bonds: BTreeMap<u32, Vec<Link>>,
+    bonds: BTreeMap<u32, Vec<CrossingBond>>,
     pub(super) pairs: Pairs,
     pub(super) done: Replayed,
-    /// Watermark of the run [s].
-    known: f64,
+    /// Up to when the record is known: the watermark of the run [s].
+    pub(super) known: f64,
     /// Whether particles inside the zone at the start were counted.
     inside_counted: bool,
     /// The message of a run that was stopped before its end.
@@ -55,22 +56,27 @@ pub(super) fn was_stopped(message: &LogMessage, run: &str) -> SceneError {
     let has_time = message.text.starts_with("t = ");
     let time = if has_time { String::new() } else { format!("t = {} s: ", Shown(message.time)) };
     let why = format!("the run was stopped at {time}{}", message.text);
-    let cure = "continue it with dem-run --resume and give both runs, or take what lies before the stop with --until";
+    let cure = "continue it with dem-run --resume and give both runs, or replay the part before the stop with --until";
     SceneError::file(run, why, cure)
 }
 
-impl<'a> Replayer<'a> {
+impl<'a, W: Write> Replayer<'a, W> {
     /// Nothing has been read yet; `start` is where the stream begins in the record [s], or the first crossing.
-    pub(super) fn new(what: &'a Replay, head: Head, start: Option<f64>) -> Replayer<'a> {
-        let (zone, gravity) = (head.zone.zone, head.zone.gravity.unwrap_or_default());
+    pub(super) fn new(
+        what: &'a Replay,
+        head: Head,
+        start: Option<f64>,
+        writer: Writer<W>,
+    ) -> Replayer<'a, W> {
         Replayer {
+            writer,
             name: String::new(),
             limit: f64::INFINITY,
             what,
             start,
             generation: Generation::new(&head, what),
             queue: Queue::default(),
-            merge: Merge::new(what, zone, gravity, head.widest),
+            merge: Merge::new(&head, what),
             held: Vec::new(),
             contacts: BTreeMap::new(),
             bonds: BTreeMap::new(),
@@ -93,11 +99,6 @@ impl<'a> Replayer<'a> {
         self.known >= self.limit
     }
 
-    /// Up to when the record is known [s].
-    pub(super) fn known(&self) -> f64 {
-        self.known
-    }
-
     /// Up to when what is replayed is known [s].
     pub(super) fn reached(&self) -> f64 {
         self.what.until.map_or(self.known, |until| until.min(self.known))
@@ -117,17 +118,13 @@ impl<'a> Replayer<'a> {
     }
 
     /// Passes an event on; whether nothing more of this file counts.
-    pub(super) fn pass<W: Write>(
-        &mut self,
-        event: Event,
-        writer: &mut Writer<W>,
-    ) -> Result<bool, StageError> {
+    pub(super) fn pass(&mut self, event: Event) -> Result<bool, StageError> {
         match event {
-            Event::Points { topic, table, .. } => self.pass_table(&topic, &table, writer),
+            Event::Points { topic, table, .. } => self.pass_table(&topic, &table),
             Event::Bytes { topic, data, .. } if topic == topic::WATERMARK => {
                 self.know(Watermark::read(&self.name, &data)?.until);
-                self.send(self.bound(), writer)?;
-                self.watermark(self.bound(), writer)?;
+                self.send(self.bound())?;
+                self.watermark(self.bound())?;
                 Ok(self.over() || self.enough())
             }
             Event::Bytes { topic, data, .. } if topic == topic::LOG => {
@@ -139,16 +136,11 @@ impl<'a> Replayer<'a> {
         }
     }
 
-    fn pass_table<W: Write>(
-        &mut self,
-        topic: &str,
-        table: &Table,
-        writer: &mut Writer<W>,
-    ) -> Result<bool, StageError> {
+    fn pass_table(&mut self, topic: &str, table: &Table) -> Result<bool, StageError> {
         match topic {
             topic::CROSSING_CONTACTS => {
-                for ContactRow { memory, .. } in contact::from_table(&self.name, table)? {
-                    self.contacts.entry(memory.id).or_default().push(memory);
+                for ContactRow { pair, .. } in contact::from_table(&self.name, table)? {
+                    self.contacts.entry(pair.id).or_default().push(pair);
                 }
             }
             topic::CROSSING_BONDS => {
@@ -164,18 +156,18 @@ impl<'a> Replayer<'a> {
                 // Those that are left belong to rows of other outlets and times.
                 self.contacts.clear();
                 self.bonds.clear();
-                self.send(self.bound(), writer)?;
+                self.send(self.bound())?;
                 return Ok(self.over());
             }
-            topic::PATHS if self.recorded() => self.take_paths(table, writer)?,
+            topic::PATHS if self.recorded() => self.take_paths(table)?,
             _ => {}
         }
         Ok(false)
     }
 
     /// Adds a row of the record, where it belongs to what is replayed.
-    fn take(&mut self, mut row: CrossingRow) -> Result<(), SceneError> {
-        if row.outlet != self.what.outlet || row.time > self.limit || !self.what.holds(row.time) {
+    fn take(&mut self, mut row: CrossingRow) -> Result<()> {
+        if !self.counts(&row) {
             return Ok(());
         }
         let partners = self.partners(&row);
@@ -184,6 +176,11 @@ impl<'a> Replayer<'a> {
             self.held.push((row, partners.clone()));
         }
         self.enter(row, partners, 0)
+    }
+
+    /// Whether a row belongs to what is replayed.
+    fn counts(&self, row: &CrossingRow) -> bool {
+        row.outlet == self.what.outlet && !(row.time > self.limit) && self.what.holds(row.time)
     }
 
     /// A row in the frame and the times of the stream.
@@ -199,9 +196,10 @@ impl<'a> Replayer<'a> {
     fn partners(&mut self, row: &CrossingRow) -> Partners {
         let first = row.particle.id;
         let ids = (0..self.members(row)).map(|k| first.wrapping_add(k));
-        let mut contacts: Vec<Memory> = ids.filter_map(|id| self.contacts.remove(&id)).flatten().collect();
+        let mut contacts: Vec<PairHistory> =
+            ids.filter_map(|id| self.contacts.remove(&id)).flatten().collect();
         if let Some(frame) = &self.what.frame {
-            contacts.iter_mut().for_each(|m| m.springs = frame.springs(&m.springs));
+            contacts.iter_mut().for_each(|m| m.history = frame.history(&m.history));
         }
         // Bonds are recorded in a frame that turns with their particles.
         let bonds = self.bonds.remove(&first).unwrap_or_default();
@@ -214,14 +212,13 @@ impl<'a> Replayer<'a> {
     }
 
     /// Passes on samples of paths.
-    fn take_paths<W: Write>(&mut self, table: &Table, writer: &mut Writer<W>) -> Result<(), StageError> {
+    fn take_paths(&mut self, table: &Table) -> Result<(), StageError> {
         let mut rows = path::from_table(&self.name, table, self.head.materials.len())?;
-        let counts = |time: f64| time <= self.limit && self.what.holds(time);
-        rows.retain(|r| self.what.outlet == r.row.outlet && counts(r.row.time));
+        rows.retain(|r| self.counts(&r.row));
         self.count_inside(&rows);
         rows.iter_mut().for_each(|r| self.rebase(&mut r.row));
         if let Some(last) = rows.last() {
-            writer.points(topic::PATHS, nanoseconds(last.row.time), FRAME, path::to_table(&rows))?;
+            self.writer.points(topic::PATHS, nanoseconds(last.row.time), FRAME, path::to_table(&rows))?;
         }
         Ok(())
     }
@@ -242,12 +239,7 @@ impl<'a> Replayer<'a> {
     }
 
     /// Queues a row, with its copies.
-    pub(super) fn enter(
-        &mut self,
-        row: CrossingRow,
-        partners: Partners,
-        replay: u32,
-    ) -> Result<(), SceneError> {
+    pub(super) fn enter(&mut self, row: CrossingRow, partners: Partners, replay: u32) -> Result<()> {
         if self.recorded() {
             self.queue.put(Generated { row, origin: Origin::default(), partners });
             return Ok(());

@@ -4,8 +4,8 @@ use super::Replay;
 use super::head::Head;
 use geom::Shown;
 use record::{Map, metadata};
-use scene::SceneError;
 use scene::input::Source;
+use scene::{Result, SceneError};
 use std::collections::BTreeMap;
 use stream::mcap::{Event, McapError, Reader};
 
@@ -24,7 +24,7 @@ pub struct RunFile {
 ///
 /// # Errors
 /// A stream without an outlet; one that begins after what is asked for, or not after the one before, or has another outlet.
-pub fn open(files: Vec<(String, Source)>, what: &Replay) -> Result<(Vec<RunFile>, Head), SceneError> {
+pub fn open(files: Vec<(String, Source)>, what: &Replay) -> Result<(Vec<RunFile>, Head)> {
     let (mut runs, mut heads) = (Vec::new(), Vec::new());
     for (name, source) in files {
         let (run, head) = RunFile::open(name, source, what)?;
@@ -41,19 +41,11 @@ pub fn open(files: Vec<(String, Source)>, what: &Replay) -> Result<(Vec<RunFile>
         let cure = format!("give that run before this one, or --from {begins} to replay this file alone");
         return Err(SceneError::file(&first.name, why, cure));
     }
-    for two in runs.windows(2) {
-        if !(two[1].begins > two[0].begins) {
-            let why = format!(
-                "begins at {} s, and {}, which is given before it, at {} s",
-                Shown(two[1].begins),
-                two[0].name,
-                Shown(two[0].begins)
-            );
-            return Err(SceneError::file(
-                &two[1].name,
-                why,
-                "give a run first, then the one that resumes it",
-            ));
+    for (before, run) in runs.iter().zip(runs.iter().skip(1)) {
+        if !(run.begins > before.begins) {
+            let (begins, first, name) = (Shown(run.begins), Shown(before.begins), &before.name);
+            let why = format!("begins at {begins} s, and {name}, which is given before it, at {first} s");
+            return Err(SceneError::file(&run.name, why, "give a run first, then the one that resumes it"));
         }
     }
     for (run, two) in runs.iter().skip(1).zip(heads.windows(2)) {
@@ -68,7 +60,7 @@ pub fn open(files: Vec<(String, Source)>, what: &Replay) -> Result<(Vec<RunFile>
 }
 
 impl RunFile {
-    fn open(name: String, source: Source, what: &Replay) -> Result<(RunFile, Head), SceneError> {
+    fn open(name: String, source: Source, what: &Replay) -> Result<(RunFile, Head)> {
         let mut reader = Reader::new(source);
         let mut records: BTreeMap<String, Map> = BTreeMap::new();
         let first = loop {
@@ -86,7 +78,7 @@ impl RunFile {
     }
 
     /// The next event.
-    pub fn next(&mut self) -> Option<Result<Event, SceneError>> {
+    pub fn next(&mut self) -> Option<Result<Event>> {
         match self.first.take() {
             Some(event) => Some(Ok(event)),
             None => self.reader.next().map(|event| event.map_err(|e| broken(&self.name, e))),
@@ -96,7 +88,7 @@ impl RunFile {
     /// The error of a file that ends, at a time [s], before the next one begins.
     pub fn gap(&self, next: &RunFile, ends: f64) -> SceneError {
         let why = format!("ends at {} s, and {} begins at {} s", Shown(ends), next.name, Shown(next.begins));
-        SceneError::file(&self.name, why, "give what lies between, too")
+        SceneError::file(&self.name, why, "give the runs between them, too")
     }
 }
 

@@ -1,9 +1,8 @@
-//! A scene and its cut: what the other steps work on.
+//! A scene and its cut, and the text of the stage in the making: what the other steps work on.
 
 use super::{Cut, Stage};
 use geom::Shown;
-use scene::keys::Axis;
-use scene::{Scene, SceneError};
+use scene::{Result, Scene, SceneError};
 use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, value};
 
 pub(super) struct Cutting<'a> {
@@ -13,9 +12,47 @@ pub(super) struct Cutting<'a> {
     pub largest: f64,
 }
 
+/// The text of the stage that is kept.
+pub(super) struct StageText {
+    pub document: DocumentMut,
+    /// Entries that are left out, each with its place in the text.
+    gone: Vec<(Option<isize>, String)>,
+    /// Whether grains start, or come in, upstream of the plane.
+    pub upstream: bool,
+}
+
+impl StageText {
+    /// Nothing has been left out yet.
+    pub fn new(document: DocumentMut) -> StageText {
+        StageText { document, gone: Vec::new(), upstream: false }
+    }
+
+    /// Removes an entry of a list of tables.
+    pub fn remove(&mut self, key: &str, index: usize, name: String) {
+        if let Some(tables) = self.document.get_mut(key).and_then(Item::as_array_of_tables_mut) {
+            self.gone.push((tables.get(index).and_then(Table::position), name));
+            tables.remove(index);
+            if tables.is_empty() {
+                self.document.remove(key);
+            }
+        }
+    }
+
+    /// The text, and what was left out in the order of the scene.
+    pub fn done(mut self) -> (String, Vec<String>) {
+        self.gone.sort_by_key(|(place, _)| *place);
+        (self.document.to_string(), self.gone.into_iter().map(|(_, name)| name).collect())
+    }
+}
+
 impl Cutting<'_> {
+    /// The error of a scene that cannot be cut so.
+    pub fn wrong(&self, why: impl Into<String>, cure: impl Into<String>) -> SceneError {
+        SceneError::file(&self.scene.text.name, why, cure)
+    }
+
     /// Adds the zone of the cut.
-    pub fn add_zone(&self, document: &mut DocumentMut) -> Result<(), SceneError> {
+    pub fn add_zone(&self, document: &mut DocumentMut) -> Result<()> {
         let (cut, kind) = (self.cut, self.cut.keep.zone());
         let word = if cut.keep == Stage::Upstream { "upstream" } else { "downstream" };
         let mut zone = Table::new();
@@ -27,52 +64,36 @@ impl Cutting<'_> {
         zone.insert("test", value(cut.test.name()));
         zone.decor_mut().set_prefix(format!("\n# The cut: {word} stage.\n"));
         let tables = document.entry(kind).or_insert(Item::ArrayOfTables(ArrayOfTables::new()));
-        match tables.as_array_of_tables_mut() {
-            Some(tables) => tables.push(zone),
-            None => {
-                let why = format!("'{kind}' is written as a list in one line");
-                return Err(SceneError::file(&self.scene.text.name, why, format!("write it as [[{kind}]]")));
-            }
-        }
+        let Some(tables) = tables.as_array_of_tables_mut() else {
+            let why = format!("'{kind}' is written as a list in one line");
+            return Err(self.wrong(why, format!("write it as [[{kind}]]")));
+        };
+        tables.push(zone);
         Ok(())
     }
 
     /// Refuses a cut across which a particle would come back through a periodic face.
-    pub fn check_periodic(&self) -> Result<(), SceneError> {
-        for axis in &self.scene.keys.domain.periodic {
-            let (name, along) = match axis {
-                Axis::X => ("x", self.cut.plane.normal.x),
-                Axis::Y => ("y", self.cut.plane.normal.y),
-                Axis::Z => ("z", self.cut.plane.normal.z),
-            };
+    pub fn check_periodic(&self) -> Result<()> {
+        for axis in self.scene.keys.domain.periodic.iter().map(|axis| *axis as usize) {
+            let (name, along) = (["x", "y", "z"][axis], self.cut.plane.normal[axis]);
             if along.abs() > 1e-9 {
                 let why = format!(
-                    "the plane's normal has {name} = {}, and the domain is periodic along {name}: a grain that passes would come back from upstream",
+                    "the plane's normal has {name} = {}, and the domain is periodic along {name}: a grain that passes the plane would come back upstream",
                     Shown(along)
                 );
-                return Err(SceneError::file(
-                    &self.scene.text.name,
-                    why,
-                    "cut along a direction that is not periodic",
-                ));
+                return Err(self.wrong(why, "cut along a direction that is not periodic"));
             }
         }
         Ok(())
     }
 
-    pub fn check_length(&self) -> Result<(), SceneError> {
-        match self.cut.length {
-            Some(length) if !length.is_finite() || length <= self.largest => {
-                let place =
-                    if length == f64::INFINITY { "has no end" } else { "is not above the largest diameter" };
-                let why = format!("--length {length} m {place}, {} m", Shown(self.largest));
-                Err(SceneError::file(
-                    &self.scene.text.name,
-                    why,
-                    format!("use at least {} m", Shown(1.2 * self.largest)),
-                ))
-            }
-            _ => Ok(()),
+    pub fn check_length(&self) -> Result<()> {
+        let Some(length) = self.cut.length else { return Ok(()) };
+        if length.is_finite() && length > self.largest {
+            return Ok(());
         }
+        let place = if length == f64::INFINITY { "is infinite" } else { "is not above the largest diameter" };
+        let why = format!("--length {length} m {place}, {} m", Shown(self.largest));
+        Err(self.wrong(why, format!("use at least {} m", Shown(1.2 * self.largest))))
     }
 }

@@ -13,17 +13,12 @@ impl Cutting<'_> {
             ("particles", &["source"]),
             ("inlet", &["source"]),
         ] {
-            let Some(tables) = document.get_mut(table).and_then(Item::as_array_of_tables_mut) else {
-                continue;
-            };
-            for entry in tables.iter_mut() {
+            let tables = document.get_mut(table).and_then(Item::as_array_of_tables_mut);
+            for entry in tables.into_iter().flat_map(|tables| tables.iter_mut()) {
                 for key in keys {
                     let Some(item) = entry.get_mut(key) else { continue };
-                    if let Some(file) =
-                        item.as_str().map(|f| relative(&self.scene.folder.join(f), &self.cut.folder))
-                    {
-                        *item = value(file);
-                    }
+                    let Some(file) = item.as_str() else { continue };
+                    *item = value(relative(&self.scene.folder.join(file), &self.cut.folder));
                 }
             }
         }

@@ -2,17 +2,17 @@
 //!
 //! Hashed are, of the stage upstream: gravity, domain and drag; particles and clumps; bounded walls that begin more than half a diameter
 //! before the cut, files by their content; unbounded planes that come nearer than a diameter to the column in which particles start, down
-//! to half a diameter before the cut ([`super::column`]); the materials of all these, and the contacts of the particles. All else is left
+//! to half a diameter before the cut ([`super::sides`]); the materials of all these, and the contacts of the particles. All else is left
 //! out, also planes far from that column: plants that differ only behind the cut have the same mark.
 
 use super::cutting::Cutting;
 use super::sides::Range;
 use super::walls::planes;
 use geom::{Plane, Vec3};
-use scene::SceneError;
 use scene::input::{Input, ParticleFile, ParticleTable, read_mesh};
 use scene::keys::Wall;
 use scene::plan::most_specific;
+use scene::{Result, SceneError};
 use std::collections::BTreeSet;
 use toml::{Table, Value};
 
@@ -36,7 +36,7 @@ pub struct Bounded {
 
 impl Cutting<'_> {
     /// The beginning of a hash, of a scene that is a stage upstream.
-    pub fn mark(&self) -> Result<String, SceneError> {
+    pub fn mark(&self) -> Result<String> {
         let all: Table = toml::from_str(&self.scene.text.toml).unwrap_or_default();
         let mut kept = Kept::default();
         for key in ["gravity", "domain", "drag", "fill", "insert", "body"] {
@@ -51,7 +51,7 @@ impl Cutting<'_> {
     }
 
     /// Where particles come from; of an inlet its plane, and the mark that it has itself.
-    fn mark_grains(&self, all: &Table, kept: &mut Kept) -> Result<(), SceneError> {
+    fn mark_grains(&self, all: &Table, kept: &mut Kept) -> Result<()> {
         let m = &self.scene.keys;
         kept.grains.extend(m.fill.iter().map(|f| f.material.clone()));
         kept.grains.extend(m.insert.iter().map(|f| f.material.clone()));
@@ -76,7 +76,7 @@ impl Cutting<'_> {
     }
 
     /// Shapes of clumps, meshes by what is in them.
-    fn mark_clumps(&self, all: &Table, kept: &mut Kept) -> Result<(), SceneError> {
+    fn mark_clumps(&self, all: &Table, kept: &mut Kept) -> Result<()> {
         let mut clumps = entries(all, "clump");
         for (clump, table) in self.scene.keys.clump.iter().zip(&mut clumps) {
             kept.grains.insert(clump.material.clone());

@@ -4,22 +4,18 @@
 //! ([`sides`], [`sources`], [`walls`]), removes those of the other stage, adds the zone of the cut, and marks it with a hash of all that
 //! the flow through the cut depends on ([`mark`]), so that a record of another plant is refused. [`cutting`] holds the scene and the cut.
 
-mod column;
 mod cutting;
 mod files;
-mod found;
-mod largest;
 mod mark;
 mod sides;
 mod sources;
 mod walls;
 
-use cutting::Cutting;
+use cutting::{Cutting, StageText};
 use dem::setup::{ZoneMotion, ZoneTest};
-use found::Found;
 use geom::Plane;
-use largest::largest;
-use scene::{Scene, SceneError, Text};
+use scene::{Result, Scene, SceneError, Text};
+use sources::largest;
 use std::path::PathBuf;
 use toml_edit::{Item, value};
 
@@ -63,7 +59,7 @@ pub struct Cut {
 ///
 /// # Errors
 /// Particles on both sides of the plane, a length that is too short, files that cannot be read.
-pub fn split(scene: &Scene, cut: &Cut) -> Result<(String, Vec<String>), SceneError> {
+pub fn split(scene: &Scene, cut: &Cut) -> Result<(String, Vec<String>)> {
     let unfit = cut.test == ZoneTest::Lowest;
     if let Some(clump) = scene.keys.clump.first().filter(|_| unfit) {
         let why = format!("has clumps ('{}'): of them only centres are tested", clump.name);
@@ -85,23 +81,22 @@ pub fn split(scene: &Scene, cut: &Cut) -> Result<(String, Vec<String>), SceneErr
 }
 
 /// The scene of one stage, but for its mark.
-fn stage(scene: &Scene, cut: &Cut) -> Result<(String, Vec<String>), SceneError> {
+fn stage(scene: &Scene, cut: &Cut) -> Result<(String, Vec<String>)> {
     let cutting = Cutting { scene, cut, largest: largest(scene)? };
     cutting.check_length()?;
     cutting.check_periodic()?;
-    let mut document = scene.text.document()?;
-    let mut found = Found::default();
-    cutting.sources(&mut document, &mut found)?;
-    cutting.zones(&mut document, &mut found)?;
-    if !found.upstream {
-        let why = "no grains start upstream of the plane: its normal is to point with the flow";
-        return Err(SceneError::file(&scene.text.name, why, "turn the plane or move it"));
+    let mut text = StageText::new(scene.text.document()?);
+    cutting.sources(&mut text)?;
+    cutting.zones(&mut text)?;
+    if !text.upstream {
+        let why = "no grains start upstream of the plane: its normal must point in the direction of flow";
+        return Err(cutting.wrong(why, "reverse the normal, or move the plane"));
     }
     cutting.clear_of_walls()?;
-    cutting.walls(&mut document, &mut found);
-    cutting.rebase(&mut document);
-    cutting.add_zone(&mut document)?;
-    Ok((document.to_string(), found.names()))
+    cutting.walls(&mut text);
+    cutting.rebase(&mut text.document);
+    cutting.add_zone(&mut text.document)?;
+    Ok(text.done())
 }
 
 #[cfg(test)]
@@ -136,19 +131,14 @@ plane = "0,0,-3,0,0,1"
 material = "m"
 "#;
 
-    fn cut(keep: Stage, at: &str, length: Option<f64>) -> Result<(String, Vec<String>), SceneError> {
+    fn cut(keep: Stage, at: &str, length: Option<f64>) -> Result<(String, Vec<String>)> {
         let scene = Scene::new("p.toml", PLANT.into(), &[], Path::new("")).unwrap();
-        split(
-            &scene,
-            &Cut {
-                plane: at.parse().unwrap(),
-                keep,
-                length,
-                motion: ZoneMotion::Constant,
-                test: ZoneTest::Centre,
-                folder: PathBuf::new(),
-            },
-        )
+        split(&scene, &Cut { length, ..at_plane(keep, at, Path::new("")) })
+    }
+
+    fn at_plane(keep: Stage, at: &str, folder: &Path) -> Cut {
+        let (motion, test) = (ZoneMotion::Constant, ZoneTest::Centre);
+        Cut { plane: at.parse().unwrap(), keep, length: None, motion, test, folder: folder.to_owned() }
     }
 
     #[test]
@@ -184,16 +174,7 @@ material = "m"
         let wall = |name: &str| format!("[[wall]]\n{name}mesh = \"a.ply\"\nmaterial = \"m\"\n");
         let walls = [wall("name = \"chute\"\n"), wall(""), wall("name = \"lip\"\n")].concat();
         let scene = Scene::new("p.toml", format!("{PLANT}{walls}"), &[], &folder).unwrap();
-        let plane = "0,0,0,0,0,-1".parse().unwrap();
-        let at = Cut {
-            plane,
-            keep: Stage::Upstream,
-            length: None,
-            motion: ZoneMotion::Constant,
-            test: ZoneTest::Centre,
-            folder: folder.clone(),
-        };
-        let (_, gone) = split(&scene, &at).unwrap();
+        let (_, gone) = split(&scene, &at_plane(Stage::Upstream, "0,0,0,0,0,-1", &folder)).unwrap();
         std::fs::remove_dir_all(&folder).unwrap();
         assert_eq!(gone, ["fill.1", "wall 'chute'", "wall.2", "wall 'lip'"]);
     }
@@ -202,7 +183,7 @@ material = "m"
     fn a_plane_that_looks_the_wrong_way_is_refused() {
         for keep in [Stage::Upstream, Stage::Downstream] {
             let message = cut(keep, "0,0,5,0,0,-1", None).unwrap_err().to_string();
-            assert!(message.contains("its normal is to point with the flow"), "{message}");
+            assert!(message.contains("its normal must point in the direction of flow"), "{message}");
         }
     }
 }

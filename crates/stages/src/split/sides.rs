@@ -1,27 +1,36 @@
-//! On which side of the plane something lies.
+//! On which side of the plane something lies, and the column in which particles start and come down to it: unbounded planes near that
+//! column act on them before the cut.
 
 use super::Stage;
 use super::cutting::Cutting;
-use geom::{Shape, Shown, Vec3};
-use scene::SceneError;
+use super::sources::places;
+use geom::{Plane, Shape, Shown, Vec3};
+use scene::Result;
 use scene::plan::bounds;
 
 /// Distances [m] from the plane that something covers, lowest and highest.
 pub type Range = (f64, f64);
 
+/// Corners of all shapes that particles start in [m], and their projections half a diameter before the cut.
+pub struct Column(Vec<Vec3>);
+
+impl Column {
+    /// Whether a plane comes nearer to it than this [m], or cuts it.
+    pub fn meets(&self, plane: &Plane, near: f64) -> bool {
+        self.0.iter().any(|corner| plane.signed_distance(corner) < near)
+    }
+}
+
 impl Cutting<'_> {
     /// Whether something that covers this range belongs to the stage that is kept.
-    pub fn keeps(&self, what: &str, range: Range) -> Result<bool, SceneError> {
+    pub fn keeps(&self, what: &str, range: Range) -> Result<bool> {
         match (range.1 <= 0.0, range.0 >= 0.0, self.cut.keep) {
             (true, _, stage) => Ok(stage == Stage::Upstream),
             (_, true, stage) => Ok(stage == Stage::Downstream),
             _ => {
-                let why = format!(
-                    "{what} lies on both sides of the plane ({} to {} m from it)",
-                    Shown(range.0),
-                    Shown(range.1)
-                );
-                Err(SceneError::file(&self.scene.text.name, why, "move the plane, or divide it into two"))
+                let (low, high) = (Shown(range.0), Shown(range.1));
+                let why = format!("{what} lies on both sides of the plane ({low} to {high} m from it)");
+                Err(self.wrong(why, "move the plane, or divide it into two"))
             }
         }
     }
@@ -33,19 +42,36 @@ impl Cutting<'_> {
         })
     }
 
-    pub fn of_shape(&self, key: &str, text: &str) -> Result<Range, SceneError> {
-        let wrong = |why: String| {
-            SceneError::file(&self.scene.text.name, format!("{key}: {why}"), "use box, sphere or cylinder")
-        };
+    pub fn of_shape(&self, key: &str, text: &str) -> Result<Range> {
+        let wrong = |why: String| self.wrong(format!("{key}: {why}"), "use box, sphere or cylinder");
         let shape: Shape = text.parse().map_err(|e: geom::shape::ShapeError| wrong(e.to_string()))?;
-        let (low, high) = bounds(&shape).ok_or_else(|| wrong(format!("{text} has no end")))?;
-        let corner = |i: usize| {
-            Vec3::new(
-                if i & 1 == 0 { low.x } else { high.x },
-                if i & 2 == 0 { low.y } else { high.y },
-                if i & 4 == 0 { low.z } else { high.z },
-            )
-        };
-        Ok(self.of_points((0..8).map(|i| (corner(i), 0.0))))
+        let (low, high) = bounds(&shape).ok_or_else(|| wrong(format!("{text} is infinite")))?;
+        Ok(self.of_points(corners(low, high).into_iter().map(|corner| (corner, 0.0))))
     }
+
+    /// The column of the stage upstream; `None` where all its grains come in by inlets.
+    pub fn column(&self) -> Option<Column> {
+        let m = &self.scene.keys;
+        let mut starts: Vec<Vec3> = m.body.iter().map(|b| b.position.into()).collect();
+        for shape in m.fill.iter().map(|f| &f.shape).chain(m.insert.iter().map(|f| &f.shape)) {
+            let shape: Option<Shape> = shape.parse().ok();
+            if let Some((low, high)) = shape.as_ref().and_then(bounds) {
+                starts.extend(corners(low, high));
+            }
+        }
+        for entry in &m.particles {
+            starts.extend(places(self.scene, entry).unwrap_or_default());
+        }
+        let cut = &self.cut.plane;
+        let before = |p: &Vec3| p - cut.normal * (cut.signed_distance(p) + 0.5 * self.largest).max(0.0);
+        let down = |p: &Vec3| p - cut.normal * (cut.signed_distance(p) + 0.5 * self.largest);
+        let corners: Vec<Vec3> = starts.iter().map(before).chain(starts.iter().map(down)).collect();
+        (!corners.is_empty()).then_some(Column(corners))
+    }
+}
+
+/// The corners of a box between two of them [m].
+fn corners(low: Vec3, high: Vec3) -> [Vec3; 8] {
+    let side = |corner: usize, axis: usize| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] };
+    std::array::from_fn(|corner| Vec3::from_fn(|axis, _| side(corner, axis)))
 }

@@ -1,34 +1,28 @@
 //! Walls: which of them a stage needs.
 
 use super::Stage;
-use super::cutting::Cutting;
-use super::found::{Found, remove};
+use super::cutting::{Cutting, StageText};
 use geom::{Plane, Shown};
-use scene::SceneError;
+use scene::Result;
 use scene::keys::Wall;
-use toml_edit::DocumentMut;
 
 /// Cosine beyond which a wall is parallel to the cut [–].
 const PARALLEL: f64 = 0.99;
 
 impl Cutting<'_> {
     /// Refuses a plane that lies behind an unbounded wall at rest, or whose zone reaches through one.
-    pub fn clear_of_walls(&self) -> Result<(), SceneError> {
+    pub fn clear_of_walls(&self) -> Result<()> {
         let length = self.cut.length.unwrap_or(1.2 * self.largest);
         for (i, wall) in self.scene.keys.wall.iter().enumerate().filter(|(_, w)| w.motion.is_none()) {
             for plane in planes(wall) {
                 let along = plane.normal.dot(&self.cut.plane.normal);
                 let before = plane.signed_distance(&self.cut.plane.point);
                 let name = wall_name(i, wall);
-                let refuse =
-                    |why: String, cure: String| Err(SceneError::file(&self.scene.text.name, why, cure));
                 if along.abs() > PARALLEL && before <= 0.0 {
                     let why =
-                        format!("the plane lies {} m behind {name}, where no grain gets", Shown(-before));
-                    return refuse(
-                        why,
-                        "move the plane to the side that the wall's normal points to".to_owned(),
-                    );
+                        format!("the plane lies {} m behind {name}, where no grain can be", Shown(-before));
+                    let cure = "move the plane to the side that the wall's normal points to";
+                    return Err(self.wrong(why, cure));
                 }
                 if along < -PARALLEL && before < length {
                     let why = format!(
@@ -36,13 +30,10 @@ impl Cutting<'_> {
                         Shown(before),
                         Shown(length)
                     );
-                    return refuse(
-                        why,
-                        format!(
-                            "move the plane at least {} m upstream, or use a shorter --length",
-                            Shown(length - before)
-                        ),
-                    );
+                    let beyond = Shown(length - before);
+                    let cure =
+                        format!("move the plane at least {beyond} m upstream, or use a shorter --length");
+                    return Err(self.wrong(why, cure));
                 }
             }
         }
@@ -50,7 +41,7 @@ impl Cutting<'_> {
     }
 
     /// Walls at rest that no particle of the stage can reach.
-    pub fn walls(&self, document: &mut DocumentMut, found: &mut Found) {
+    pub fn walls(&self, text: &mut StageText) {
         for (i, wall) in self.scene.keys.wall.iter().enumerate().rev() {
             if wall.motion.is_some() {
                 continue;
@@ -62,7 +53,7 @@ impl Cutting<'_> {
                 Stage::Downstream => range.1 < -reach,
             };
             if self.largest > 0.0 && unreachable {
-                remove(document, "wall", i, wall_name(i, wall), found);
+                text.remove("wall", i, wall_name(i, wall));
             }
         }
     }

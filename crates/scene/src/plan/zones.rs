@@ -1,12 +1,11 @@
-//! `[[inlet]]`: zones that recorded particles enter by, and the streams that bring them.
+//! `[[inlet]]`: zones that recorded particles enter by, and the streams that bring them; `[[outlet]]`: zones that record.
 
 use super::builder::{PlanBuilder, PlannedInlet};
-use super::same_zone::SameZone;
 use super::walls;
-use crate::error::SceneError;
+use crate::error::{Result, SceneError};
 use crate::input::{InletSource, Input, ZoneRecord};
-use crate::keys::{Inlet, OrAuto};
-use dem::setup::{ClumpShape, EntryBonds, Zone};
+use crate::keys::Inlet;
+use dem::setup::{ClumpScales, ClumpShape, EntryBonds, Zone};
 use geom::{Shown, Vec3};
 use record::{ClumpRecord, MaterialRecord};
 
@@ -14,7 +13,7 @@ use record::{ClumpRecord, MaterialRecord};
 pub const SCALE_SLACK: f64 = 1e-12;
 
 impl PlanBuilder<'_> {
-    pub(super) fn inlets(&mut self, streams: Vec<InletSource>) -> Result<(), SceneError> {
+    pub(super) fn inlets(&mut self, streams: Vec<InletSource>) -> Result<()> {
         self.all_wanted(&streams)?;
         let mut given = streams.into_iter();
         for (i, entry) in self.keys().inlet.iter().enumerate() {
@@ -28,33 +27,24 @@ impl PlanBuilder<'_> {
                 })?,
             };
             let zone = self.inlet_zone(&key, entry, &stream)?;
-            if let Some(recorded) = &stream.zone {
-                let (gravity, plant) = (Some(self.keys().gravity.into()), entry.plant.clone());
-                let scene = &ZoneRecord { zone, gravity, plant, samples: None };
-                let name = &stream.name;
-                SameZone { check: &self.check, key: &key, scene, stream: recorded, name }.check()?;
-            }
+            let (gravity, plant) = (Some(self.keys().gravity.into()), entry.plant.clone());
+            self.same_zone(&key, &ZoneRecord { zone, gravity, plant, samples: None }, &stream)?;
             self.add_inlet(stream, zone)?;
         }
         Ok(())
     }
 
     /// The zone of an entry; keys that it lacks are those of the stream.
-    fn inlet_zone(&self, key: &str, entry: &Inlet, stream: &InletSource) -> Result<Zone, SceneError> {
+    fn inlet_zone(&self, key: &str, entry: &Inlet, stream: &InletSource) -> Result<Zone> {
         let plane = walls::plane(&self.check, &format!("{key}.plane"), &entry.plane)?;
-        let recorded = stream.zone.as_ref().map(|z| z.zone);
-        let length = match (entry.length, recorded) {
-            (OrAuto::Given(length), _) => length,
-            (OrAuto::Auto, Some(zone)) => zone.length,
-            (OrAuto::Auto, None) => 2.4 * stream.sizes.largest,
-        };
-        let motion = entry.motion.or(recorded.map(|z| z.motion)).unwrap_or_default();
-        let test = entry.test.or(recorded.map(|z| z.test)).unwrap_or_default();
-        Ok(Zone { plane, length, motion, test })
+        let usual = Zone::new(plane, 2.4 * stream.sizes.largest);
+        let Zone { length, motion, test, .. } = stream.zone.as_ref().map_or(usual, |recorded| recorded.zone);
+        let (length, motion) = (entry.length.0.unwrap_or(length), entry.motion.unwrap_or(motion));
+        Ok(Zone { plane, length, motion, test: entry.test.unwrap_or(test) })
     }
 
     /// Refuses inlets that no entry of the scene waits for.
-    fn all_wanted(&self, streams: &[InletSource]) -> Result<(), SceneError> {
+    fn all_wanted(&self, streams: &[InletSource]) -> Result<()> {
         let wanted = self.keys().inlet.iter().filter(|entry| entry.source.is_none()).count();
         let Some(left) = streams.get(wanted) else { return Ok(()) };
         let why = if self.keys().inlet.is_empty() {
@@ -65,18 +55,16 @@ impl PlanBuilder<'_> {
         Err(SceneError::file(&left.name, why, "add [[inlet]] plane = \"…\" to the scene, or leave it out"))
     }
 
-    fn open_inlet(&self, source: &str) -> Result<InletSource, SceneError> {
+    fn open_inlet(&self, source: &str) -> Result<InletSource> {
         let path = self.path(source);
-        match Input::open_file(&path)? {
-            Input::Inlet(stream) => Ok(*stream),
-            Input::Walls(_) => {
-                let name = path.display().to_string();
-                Err(SceneError::file(&name, "holds walls, no crossings", "name it in [[wall]]"))
-            }
-        }
+        let Input::Inlet(stream) = Input::open_file(&path)? else {
+            let name = path.display().to_string();
+            return Err(SceneError::file(&name, "holds walls, no crossings", "name it in [[wall]]"));
+        };
+        Ok(*stream)
     }
 
-    fn add_inlet(&mut self, source: InletSource, zone: Zone) -> Result<(), SceneError> {
+    fn add_inlet(&mut self, source: InletSource, zone: Zone) -> Result<()> {
         let name = &source.name;
         let mut materials = Vec::with_capacity(source.materials.len());
         // Every material of the stream must fit: which of them it brings is known only when it has brought them.
@@ -103,7 +91,7 @@ impl PlanBuilder<'_> {
     }
 
     /// Index of the scene's shape for each shape of a stream; those that may come are entries of the setup.
-    fn shapes_of(&mut self, stream: &str, records: &[ClumpRecord]) -> Result<Vec<u32>, SceneError> {
+    fn shapes_of(&mut self, stream: &str, records: &[ClumpRecord]) -> Result<Vec<u32>> {
         let mut found = Vec::with_capacity(records.len());
         for record in records {
             let Some((low, high)) = record.scales else {
@@ -115,14 +103,15 @@ impl PlanBuilder<'_> {
                 let why = format!("its clump '{}' has other spheres than the scene's", record.name);
                 return Err(SceneError::file(stream, why, "cut both stages from one plant with stage-split"));
             }
-            self.clumps.entries.push((shape, low * (1.0 - SCALE_SLACK), high * (1.0 + SCALE_SLACK)));
+            let (least, most) = (low * (1.0 - SCALE_SLACK), high * (1.0 + SCALE_SLACK));
+            self.clumps.entries.push(ClumpScales { shape, least, most });
             found.push(shape);
         }
         Ok(found)
     }
 
     /// Refuses a stream whose particles would have another mass here.
-    fn same_density(&self, stream: &str, info: &MaterialRecord, material: u16) -> Result<(), SceneError> {
+    fn same_density(&self, stream: &str, info: &MaterialRecord, material: u16) -> Result<()> {
         let here = self.materials[material as usize].density;
         match info.density {
             Some(there) if here > 0.0 && there > 0.0 && (here - there).abs() > 1e-9 * there => {
@@ -135,6 +124,23 @@ impl PlanBuilder<'_> {
             }
             _ => Ok(()),
         }
+    }
+
+    /// `[[outlet]]`: storage planes with their zones.
+    pub(super) fn outlets(&mut self) -> Result<()> {
+        let largest = 2.0 * self.sizes().map_or(0.0, |s| s.largest).max(self.widest_clump());
+        for (i, entry) in self.keys().outlet.iter().enumerate() {
+            let plane = walls::plane(&self.check, &format!("outlet.{i}.plane"), &entry.plane)?;
+            let length = entry.length.0.unwrap_or(1.2 * largest);
+            if length <= largest {
+                let why = format!("is not above the largest diameter, {} m", Shown(largest));
+                let cure = format!("use \"auto\", or at least {} m", Shown(1.2 * largest));
+                let key = format!("outlet.{i}.length");
+                return Err(self.check.wrong(&key, format!("{length} m"), &why, &cure));
+            }
+            self.outlets.push(Zone { plane, length, motion: entry.motion, test: entry.test });
+        }
+        Ok(())
     }
 }
 

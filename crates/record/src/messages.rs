@@ -1,5 +1,6 @@
-//! Messages of the topic `/log`.
+//! Messages of the topics `/log` and `/crossings/watermark`.
 
+use crate::{RecordError, topic};
 use serde::{Deserialize, Serialize};
 
 /// Why a run was stopped that a signal ended.
@@ -33,5 +34,30 @@ impl LogMessage {
     /// Whether it says that the run was stopped.
     pub fn is_stop(&self) -> bool {
         self.kind == STOPPED
+    }
+}
+
+/// No crossing comes after this message that is earlier than `until`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Watermark {
+    /// Time [s].
+    pub until: f64,
+}
+
+impl Watermark {
+    /// The message.
+    pub fn to_json(self) -> Vec<u8> {
+        crate::json(&self).into_bytes()
+    }
+
+    /// The watermark of a message.
+    ///
+    /// # Errors
+    /// Other JSON than is wanted.
+    pub fn read(stream: &str, data: &[u8]) -> Result<Watermark, RecordError> {
+        let wrong = |e| {
+            RecordError::new(stream, format!("{}: {e}", topic::WATERMARK), "expected {\"until\": seconds}")
+        };
+        serde_json::from_slice(data).map_err(wrong)
     }
 }

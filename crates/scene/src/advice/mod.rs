@@ -1,0 +1,48 @@
+//! What the engine refuses or stops at, in the words of a scene: which key it is about, and what to do.
+//!
+//! The engine's own messages say what is wrong; keys, flags and remedies are added here, and nowhere else.
+
+mod setup;
+#[cfg(test)]
+mod tests;
+
+pub use setup::{explain_setup_error, explain_step_cause};
+
+use dem::{Halt, SetupError};
+use thiserror::Error;
+
+/// A scene whose setup the engine refuses; its message is that of [`explain_setup_error`].
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("{}", explain_setup_error(.0))]
+pub struct SceneSetupError(pub SetupError);
+
+impl From<SetupError> for SceneSetupError {
+    fn from(error: SetupError) -> SceneSetupError {
+        SceneSetupError(error)
+    }
+}
+
+/// Why a run was stopped, and what to change in the scene or in the stages of a plant.
+pub fn explain_halt(halt: &Halt) -> String {
+    let advice = match halt {
+        Halt::Overlap { .. } => "stiffen the material, shorten dt, or raise guards.overlap",
+        Halt::InletOverlap { .. } => {
+            "keep its zone free at the start, let slow grains start farther back (stage-replay --ahead), \
+             cut where nothing piles up to the plane, or raise guards.overlap"
+        }
+        Halt::Motion { .. } => "shorten dt or raise guards.motion",
+        Halt::NotANumber { .. } => {
+            "its speed, spin or stiffness is far too large; look at what it started with, or shorten dt"
+        }
+        Halt::WallNotANumber { .. } => {
+            return format!("{halt}; look at the stiffness of its contacts, or shorten dt");
+        }
+        Halt::NotKept { .. } => "set record_wrenches in the setup",
+        Halt::CameBack { .. } => {
+            "cut the plant farther upstream, or set guards.zones = false where grains get there by another way"
+        }
+        Halt::TooFast { .. } => "shorten dt, or raise guards.motion",
+        Halt::Energy { .. } => "shorten dt (time.safety) or raise guards.energy",
+    };
+    format!("{halt}: {advice}")
+}
