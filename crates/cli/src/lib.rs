@@ -25,7 +25,6 @@
 mod clash;
 pub mod exit;
 mod input;
-mod memory;
 mod output;
 mod part;
 mod progress;

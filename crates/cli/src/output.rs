@@ -31,7 +31,7 @@ pub(crate) fn widen(stream: &impl std::os::fd::AsFd) {
 /// Where a tool writes: flatten it into the tool's arguments.
 #[derive(Debug, Clone, Default, clap::Args)]
 pub struct Output {
-    /// Write to FILE (appears when whole) instead of stdout
+    /// Write to FILE instead of stdout; FILE appears when it is complete
     #[arg(id = "output", short = 'o', long = "output", value_name = "FILE")]
     pub file: Option<PathBuf>,
 }
@@ -70,7 +70,7 @@ impl Output {
     /// Wrong usage when stdout is a terminal; a folder that cannot be written to.
     pub fn open(&self) -> anyhow::Result<OutputStream> {
         if self.path().is_none() && io::stdout().is_terminal() {
-            return Err(usage("stdout is a terminal and this output is binary: use -o FILE, or pipe it on"));
+            return Err(usage("stdout is a terminal and this output is binary: use -o FILE, or a pipe"));
         }
         self.open_text()
     }
@@ -177,7 +177,7 @@ impl OutputStream {
 
     fn beside(path: &Path, part: fn(&Path, &str) -> io::Result<PartFile>) -> anyhow::Result<OutputStream> {
         let name = path.display().to_string();
-        let failed = || format!("{name}: cannot create it (is the folder there, and may you write to it?)");
+        let failed = || format!("{name}: cannot create it (check that the folder exists and is writable)");
         // A link stays a link: its target is replaced. Devices and named pipes are written to, not replaced.
         let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
         match fs::metadata(&target) {

@@ -65,7 +65,9 @@ impl PartFile {
                 }
             }
         }
-        Err(io::Error::other(format!("{MOST} unfinished outputs of this name are there: remove them")))
+        Err(io::Error::other(format!(
+            "there are already {MOST} unfinished outputs of this name: remove those that you do not need"
+        )))
     }
 
     pub(crate) fn keeper(&self) -> Keep {

@@ -28,7 +28,7 @@ pub struct Common {
     /// Threads to use (default: all cores); the result is the same for any number
     #[arg(long, value_name = "N")]
     pub threads: Option<NonZeroUsize>,
-    /// Write a JSON report of what was done
+    /// Write a report to FILE (JSON)
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,
 }
@@ -92,7 +92,7 @@ pub fn run<A: clap::Parser>(name: &'static str, work: impl FnOnce(A) -> anyhow::
             print(panic);
         }
     }));
-    let matches = command::<A>(name).try_get_matches().unwrap_or_else(|e| refuse(name, &e));
+    let matches = parsed(command::<A>(name)).unwrap_or_else(|e| refuse(name, &e));
     let (args, common) = match (A::from_arg_matches(&matches), Common::from_arg_matches(&matches)) {
         (Ok(args), Ok(common)) => (args, common),
         (Err(e), _) | (_, Err(e)) => refuse(name, &e.with_cmd(&command::<A>(name))),
@@ -117,6 +117,14 @@ pub fn run<A: clap::Parser>(name: &'static str, work: impl FnOnce(A) -> anyhow::
         say(&format!("{name}: {}\n", one_line(&error)));
     }
     ExitCode::from(code(&error))
+}
+
+/// Parses the arguments in a pool of one thread: a value that reads a mesh would start the pool of all before `--threads` is known.
+fn parsed(command: Command) -> Result<ArgMatches, clap::Error> {
+    match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
+        Ok(pool) => pool.install(|| command.try_get_matches()),
+        Err(_) => command.try_get_matches(),
+    }
 }
 
 /// The tool's command line, with the options of every tool and the project's version.

@@ -4,7 +4,7 @@ use cloud::Cloud;
 use sampling::{Amount, Distance, Method, SampleSettings};
 use std::path::PathBuf;
 
-/// Keep points of a cloud so that their distances are even and their spectrum is blue noise.
+/// Thin a cloud to points at even distances (blue noise).
 #[derive(clap::Parser)]
 #[command(allow_negative_numbers = true)]
 #[command(group = clap::ArgGroup::new("amount").required(true).args(["spacing", "count", "density"]))]
@@ -16,7 +16,7 @@ pub struct Args {
     /// Least distance between kept points (grid: distance between its nodes) [m]
     #[arg(long, value_name = "M")]
     spacing: Option<f64>,
-    /// Number of points to keep (within 1 %; exact below 200 and with eliminate; grid: the nearest count that it has)
+    /// Number of points to keep (within 1 %; exact below 200 and with eliminate; grid: the nearest count that a grid can have)
     #[arg(long, value_name = "N")]
     count: Option<usize>,
     /// Lowest and highest number of kept points per area [1/m²]
@@ -45,13 +45,13 @@ pub struct Args {
 
 #[derive(Clone, Copy, clap::ValueEnum)]
 enum Choice {
-    /// Poisson disk: no two kept points nearer than the spacing, no other farther from a kept one
+    /// Poisson disk: kept points are at least the spacing apart, and every other point is within the spacing of a kept one
     Poisson,
     /// Weighted sample elimination
     Eliminate,
     /// Poisson disk, then relaxation
     Relax,
-    /// An even pattern laid on patch by patch, its seams closed by Poisson disk
+    /// A prepared even pattern, laid on patch by patch; Poisson disk closes the seams
     Tile,
     /// The point nearest to each node of a grid along x, y, z
     Grid,
@@ -59,9 +59,9 @@ enum Choice {
 
 #[derive(Clone, Copy, clap::ValueEnum)]
 enum Along {
-    /// Along the surface: the far side of a thin plate is far
+    /// Along the surface: points on the other side of a thin plate do not count
     Surface,
-    /// In space: what is near on another sheet is near
+    /// In space: near points on another sheet count, too
     Space,
 }
 

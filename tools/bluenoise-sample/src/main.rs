@@ -2,6 +2,7 @@
 
 mod args;
 mod measures;
+mod plot;
 
 use anyhow::Context;
 use args::Args;
@@ -18,8 +19,7 @@ fn bluenoise_sample(args: Args) -> anyhow::Result<Report> {
     check_ending(&args.output.to)?;
     let settings = args.settings()?;
     if let Some(plot) = &args.plot {
-        sampling::plot::check_name(&plot.to_string_lossy())
-            .map_err(|e| cli::usage(format!("--plot: {e}")))?;
+        ::plot::check_name(plot).map_err(|e| cli::usage(format!("--plot {e}")))?;
     }
     let cloud = args.input.read_cloud()?;
     cloud.check_reach().with_context(|| args.input.name())?;
@@ -64,7 +64,7 @@ fn warn(amount: &Amount, before: usize, after: usize, spacing: f64) {
     let spacing = geom::Shown(spacing);
     if after == before {
         cli::warn(&format!(
-            "all {before} points were kept: the spacing {spacing} m is below the cloud's own; is the cloud in metres?"
+            "all {before} points were kept: the spacing {spacing} m is smaller than that of the cloud; is the cloud in metres?"
         ));
     } else if after < 4 {
         cli::warn(&format!(
@@ -79,13 +79,13 @@ fn missed(amount: &Amount, after: usize, density: Option<f64>) {
     match (amount, density) {
         (Amount::Count(count), _) if after != *count && 100 * after.abs_diff(*count) > *count => {
             cli::warn(&format!(
-                "{after} points instead of {count}: the method has no sample nearer to it; --method eliminate meets a count exactly"
+                "{after} points instead of {count}: this method has no sample with a nearer count; --method eliminate meets a count exactly"
             ));
         }
         (Amount::Density(low, high), Some(found)) if !(*low..=*high).contains(&found) => {
             let [found, low, high] = [found, *low, *high].map(geom::Shown);
             cli::warn(&format!(
-                "the median density is {found} points/m², not between {low} and {high}: the cloud is too thin, or the range too narrow"
+                "the median density is {found} points/m², not between {low} and {high}: the cloud is too sparse, or the range too narrow"
             ));
         }
         _ => {}
@@ -105,5 +105,5 @@ fn check_ending(output: &cli::Output) -> anyhow::Result<()> {
     if ending.is_none() || output.has_extension("ply") {
         return Ok(());
     }
-    Err(cli::usage(format!("-o {}: only PLY is written: use a name in .ply", output.name())))
+    Err(cli::usage(format!("-o {}: the output is PLY: use a name that ends in .ply", output.name())))
 }

@@ -11,7 +11,7 @@ pub fn measure(report: Report, before: &Cloud, after: &Cloud, plot: Option<&Path
     if let Some(path) = plot {
         match &spectrum {
             Some(spectrum) => {
-                let picture = sampling::plot::draw(&path.to_string_lossy(), spectrum)?;
+                let picture = crate::plot::draw(path, spectrum)?;
                 crate::write_picture(path, &picture)?;
             }
             None => cli::warn("--plot: too few points of a sheet for a spectrum: no plot is drawn"),

@@ -12,7 +12,7 @@ struct Args {
     /// Number of points
     #[arg(long, value_name = "N", default_value_t = 60_000, value_parser = clap::value_parser!(u32).range(1..=50_000_000))]
     points: u32,
-    /// Deviation of the range noise [m]
+    /// Standard deviation of the range noise [m]
     #[arg(long, value_name = "M", default_value_t = 0.0008, value_parser = length)]
     noise: f64,
     /// Radius of the blind spot [m], 0 for none

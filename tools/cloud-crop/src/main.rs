@@ -16,10 +16,10 @@ use stream::ply::{Blocks, Opened};
 
 const SHAPES: &str = "SHAPE: box:x0,y0,z0,x1,y1,z1 | sphere:x,y,z,r | cylinder:x0,y0,z0,x1,y1,z1,r | \
     cone:x0,y0,z0,x1,y1,z1,r0,r1 | halfspace:px,py,pz,nx,ny,nz (the side n points to) | prism:FILE.json | mesh:FILE; \
-    a ! in front means outside. All in metres.\n\nWith --check: exit 0 when nothing is to be removed, 3 when there is a part beyond \
-    the outer shape.";
+    a ! before a SHAPE means its outside. All lengths in metres.\n\n\
+    With --check: exit 0 if there is nothing to remove, 3 if there is a part beyond the outer shape.";
 
-/// Keep or remove points of a cloud by shapes, isolation and connectedness
+/// Keep or remove points of a cloud by shapes, named regions, outliers and connected parts
 #[derive(Parser)]
 #[command(after_help = SHAPES)]
 struct Args {
@@ -27,22 +27,22 @@ struct Args {
     input: cli::Input,
     #[command(flatten)]
     output: cli::CloudOutput,
-    /// Keep the points inside SHAPE (repeat: inside any of them)
+    /// Keep the points inside SHAPE (repeat: inside any of the shapes)
     #[arg(long, value_name = "SHAPE", value_parser = cloud::shape)]
     keep: Vec<Shape>,
     /// Remove the points inside SHAPE
     #[arg(long, value_name = "SHAPE", value_parser = cloud::shape)]
     remove: Vec<Shape>,
-    /// Named regions to keep and to remove
+    /// Named regions to keep and to remove (docs/files.md)
     #[arg(long, value_name = "FILE.toml")]
     regions: Option<PathBuf>,
-    /// Remove points beyond the outer shape of the equipment (repeat: the shapes enclose it together), and report them as parts
+    /// Remove points beyond the outer shape of the equipment and report them as parts (repeat: the shapes together enclose the equipment)
     #[arg(long, value_name = "SHAPE", value_parser = outer_shape)]
     outer: Vec<Shape>,
     /// How far beyond the outer shape a point may be and still belong to the equipment [m]
     #[arg(long, value_name = "M", value_parser = not_negative)]
     tolerance: Option<f64>,
-    /// Only check for parts beyond the outer shape: write one line for each to stdout, and no cloud
+    /// Only check for parts beyond the outer shape: write one CSV line for each part to stdout, and no cloud
     #[arg(long, conflicts_with_all = ["output", "ascii", "outliers", "largest"])]
     check: bool,
     /// Remove points whose mean distance to K neighbours is more than SIGMA deviations above the mean
@@ -117,7 +117,8 @@ fn rules(args: &Args) -> anyhow::Result<Rules> {
     if rules.outer.shapes.is_empty() && (args.check || args.tolerance.is_some()) {
         let option = if args.check { "--check" } else { "--tolerance" };
         return Err(cli::usage(format!(
-            "{option}: no outer shape is described: give --outer SHAPE, or --regions FILE.toml with action = \"outer\""
+            "{option}: no outer shape is given: add --outer SHAPE, or --regions FILE.toml with action = \
+             \"outer\""
         )));
     }
     Ok(rules)
@@ -126,7 +127,7 @@ fn rules(args: &Args) -> anyhow::Result<Rules> {
 fn outer_shape(text: &str) -> Result<Shape, String> {
     match cloud::shape(text) {
         Ok(shape) if shape.outside => {
-            Err("an outer shape encloses the equipment: leave the ! in front of it out".to_owned())
+            Err("an outer shape encloses the equipment: remove the ! before it".to_owned())
         }
         Ok(shape) => Ok(shape),
         Err(why) => Err(why.to_string()),
@@ -153,5 +154,5 @@ fn check_ending(output: &cli::Output) -> anyhow::Result<()> {
     if ending.is_none() || output.has_extension("ply") {
         return Ok(());
     }
-    Err(cli::usage(format!("-o {}: only PLY is written: use a name in .ply", output.name())))
+    Err(cli::usage(format!("-o {}: the output is PLY: use a name that ends in .ply", output.name())))
 }

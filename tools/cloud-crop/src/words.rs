@@ -17,12 +17,12 @@ pub fn warn(counts: &Cropped) {
     }
     for region in counts.regions.iter().filter(|region| region.points == 0) {
         cli::warn(&format!(
-            "region '{}' holds no point: check it against the coordinates of the cloud",
+            "region '{}' contains no point: compare its coordinates with those of the cloud",
             region.name
         ));
     }
     if counts.points_out == 0 && counts.points_in > 0 {
-        cli::warn("no point is left: check the shapes against the coordinates of the cloud");
+        cli::warn("no point is left: compare the coordinates of the shapes with those of the cloud");
     }
 }
 

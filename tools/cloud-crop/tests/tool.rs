@@ -91,7 +91,7 @@ fn a_part_beyond_the_outer_shape_is_found_and_removed() {
     let check = crop(&[&[CHUTE, "--check"][..], &regions[..]].concat(), b"");
     let said = String::from_utf8_lossy(&check.stderr).into_owned();
     assert_eq!(check.status.code(), Some(3), "{said}");
-    assert!(said.contains("beyond the outer shape") && said.contains("'bolt' holds no point"), "{said}");
+    assert!(said.contains("beyond the outer shape") && said.contains("'bolt' contains no point"), "{said}");
     let table = String::from_utf8(check.stdout).unwrap();
     let rows: Vec<&str> = table.lines().collect();
     assert!(rows[0] == "part,points,x0,y0,z0,x1,y1,z1,beyond" && rows.len() >= 2, "{table}");
@@ -134,4 +134,24 @@ fn a_scan_in_millimetres_is_told_and_scaled() {
         assert_eq!(cloud::from_bytes(scaled.stdout).unwrap().points[1].x, x);
     }
     assert_eq!(crop(&[file, "--scale", "-1"], b"").status.code(), Some(2));
+}
+
+/// A mesh is read before the threads start: the points inside it stay, for any number of threads.
+#[test]
+fn a_closed_mesh_is_a_region() {
+    let folder = tempfile::tempdir().unwrap();
+    let mesh = folder.path().join("tetrahedron.ply");
+    let header = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
+         element face 4\nproperty list uchar int vertex_indices\nend_header\n";
+    let corners = "-9 -9 -0.2\n9 -9 -0.2\n0 9 -0.2\n0 0 0.3\n";
+    let faces = "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+    std::fs::write(&mesh, [header, corners, faces].concat()).unwrap();
+    let keep = format!("mesh:{}", mesh.display());
+    let kept = crop(&[CHUTE, "--keep", &keep], b"");
+    assert_eq!(kept.status.code(), Some(0), "{}", String::from_utf8_lossy(&kept.stderr));
+    let removed = crop(&[CHUTE, "--remove", &keep, "--threads", "2"], b"");
+    let count = |output: Output| cloud::from_bytes(output.stdout).unwrap().points.len();
+    let all = cloud::from_bytes(std::fs::read(CHUTE).unwrap()).unwrap().points.len();
+    let (kept, removed) = (count(kept), count(removed));
+    assert!(kept > 0 && removed > 0 && kept + removed == all, "{kept} + {removed} of {all}");
 }

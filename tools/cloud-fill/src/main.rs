@@ -11,7 +11,7 @@ use std::process::ExitCode;
 const ABOUT: &str = "A hole is a region inside the outline of the surface with a density of at most --below. The rim is not \
     changed. Each hole is meshed by ball pivoting, and points are put on the smooth surface that continues its \
     surroundings. Added points have the property filled = 1 and take all other properties from the nearest scanned \
-    point. By default --below is a quarter of the density that the sparsest 5 % of the surface stay under; the \
+    point. The default of --below is a quarter of the density below which the sparsest 5 % of the surface lie; the \
     report gives it.";
 
 /// Find the holes of a scan and fill them with points
@@ -22,7 +22,7 @@ struct Args {
     input: cli::Input,
     #[command(flatten)]
     output: cli::CloudOutput,
-    /// Least distance of added points [m] (default: as dense as the surroundings)
+    /// Smallest distance between added points [m] (default: as dense as the surroundings)
     #[arg(long, value_name = "M", value_parser = positive)]
     spacing: Option<f64>,
     /// Fill where there are at most DENSITY points per m² (default: from the cloud)
@@ -40,10 +40,10 @@ struct Args {
     /// How holes are meshed: ball-pivoting, or volumetric (signed distances, diffused)
     #[arg(long, value_name = "METHOD", default_value = "ball-pivoting")]
     method: Mesher,
-    /// Radii of the balls that mesh a hole [m], growing (default: fitted to each hole)
+    /// Radii of the balls that mesh a hole [m] (default: fitted to each hole)
     #[arg(long, value_name = "M,…", value_delimiter = ',', value_parser = positive)]
     ball: Vec<f64>,
-    /// Write what was meshed (PLY)
+    /// Write the meshes of the holes to FILE (PLY)
     #[arg(long, value_name = "FILE")]
     mesh: Option<PathBuf>,
     #[command(flatten)]
@@ -72,7 +72,8 @@ fn fill(args: Args) -> anyhow::Result<Report> {
     warn(&filled.report);
     if !settings.regions.is_empty() && filled.report.holes.is_empty() {
         cli::warn(
-            "no end of the surface is in or beside the regions: nothing was filled; check their coordinates",
+            "the surface has no edge in or near the regions: nothing was filled; check the coordinates of \
+             the regions",
         );
     }
     if let Some(path) = &args.mesh {
@@ -92,14 +93,14 @@ fn warn(report: &cloud::fill::Report) {
         cli::warn(&format!("{} points without finite coordinates were dropped", report.not_finite));
     }
     if report.below.is_none() {
-        cli::warn("too few points, or all in one place: no density to compare with, nothing was filled");
+        cli::warn("too few points, or all at one position: their density is unknown, and nothing was filled");
     }
     let open = report.holes.iter().filter(|h| h.open).count();
     if let Some(hole) = report.holes.iter().find(|h| h.open) {
         let [x, y, z] = hole.centre;
         cli::warn(&format!(
-            "{open} holes are not closed whole, the first at {x:.3},{y:.3},{z:.3}, {:.3} m wide: balls up to {:.3} m \
-             fall through, or its surroundings are too few; the report lists them",
+            "{open} holes are not completely closed, the first at {x:.3},{y:.3},{z:.3}, {:.3} m wide: balls \
+             up to {:.3} m fall through, or too few points surround it; the report lists the holes",
             hole.width, hole.ball
         ));
     }
@@ -118,5 +119,5 @@ fn check_ending(output: &cli::Output) -> anyhow::Result<()> {
     if ending.is_none() || output.has_extension("ply") {
         return Ok(());
     }
-    Err(cli::usage(format!("-o {}: only PLY is written: use a name in .ply", output.name())))
+    Err(cli::usage(format!("-o {}: the output is PLY: use a name that ends in .ply", output.name())))
 }

@@ -9,15 +9,15 @@ use std::path::PathBuf;
 
 const NOTES: &str = "KEY: any key of the scene (as for dem-run --set; * is every entry of a list: material.*.young), or safety, dt, \
     accuracy, stiffness (a factor on every young and stiffness), young, precision, skin, sleep, every, zone, threads. \
-    A KEY that stands as {KEY} in SCENE, an INPUT or --each is put there; {seed} is there, too.\n\
+    {KEY} in SCENE, an INPUT or --each is replaced by the value of KEY, {seed} by the seed.\n\
     NAME: heap-angle, discharge-rate PLANE, wall-force SHAPE, peak-wall-force SHAPE, energy-error, contact-time, overlap, \
     restitution, velocity-profile, packing-fraction SHAPE, bed-height, each with further options of dem-measure; or \
     'VALUE of --MEASURE …': any value of its summary, or any of its columns as a profile \
     ('each VALUE of …' where both have it).\n\
     Points run one after another: other work on the machine, and --jobs, disturb the times.\n\
-    How it is judged, and examples: docs/accuracy.md.";
+    docs/accuracy.md explains errors and costs, and has examples.";
 
-/// Shows what accuracy costs in time: runs a scene over a grid of settings; CSV to stdout, a plot, a recommended setting
+/// Show what accuracy costs in time: run a scene over a grid of settings; CSV to stdout, a plot, a recommended setting
 #[derive(Parser, Debug)]
 #[command(after_help = NOTES)]
 pub struct Args {
@@ -30,35 +30,35 @@ pub struct Args {
     /// Values of a key; the grid is every combination (repeat)
     #[arg(long, value_name = "KEY=A,B,C", required = true, allow_hyphen_values = true)]
     pub vary: Vec<String>,
-    /// What is measured, by dem-measure
+    /// The measure (NAME below), computed by dem-measure
     #[arg(long, value_name = "NAME", allow_hyphen_values = true)]
     pub measure: String,
     /// Change a key of the scene in every point (repeat)
     #[arg(long, value_name = "KEY=VALUE", allow_hyphen_values = true)]
     pub set: Vec<String>,
     /// A shell line that makes one more input of each point, such as 'bluenoise-sample scan.ply --spacing {spacing} | wallgen …';
-    /// what prints nothing gives none
+    /// a line that prints nothing adds no input
     #[arg(long, value_name = "LINE")]
     pub each: Option<String>,
     /// The setting that errors are measured from (default: the finest of each key)
     #[arg(long, value_name = "KEY=V", conflicts_with_all = ["exact", "laboratory"], help_heading = "Judging")]
     pub reference: Vec<String>,
-    /// The right answer, in the unit of the measure
+    /// The exact value, in the unit of the measure
     #[arg(long, value_name = "VALUE", conflicts_with = "laboratory", help_heading = "Judging")]
     pub exact: Option<f64>,
     /// A value from a laboratory, and the half width of its 95 % interval
     #[arg(long, value_name = "VALUE[,U]", value_parser = laboratory, allow_hyphen_values = true, help_heading = "Judging")]
     pub laboratory: Option<(f64, f64)>,
-    /// The setting in use of what the scene does not say, such as a {KEY} (repeat)
+    /// The setting in use of a key that the scene does not contain, such as a {KEY} (repeat)
     #[arg(long, value_name = "KEY=V", help_heading = "Judging")]
     pub in_use: Vec<String>,
-    /// Recommend the fastest setting with no more error: a share (1%), or in the unit of the measure (default 1%)
+    /// Recommend the cheapest setting within this error: a share (1%), or in the unit of the measure (default 1%)
     #[arg(long = "for", value_name = "ERROR", value_parser = wanted, allow_hyphen_values = true, help_heading = "Judging")]
     pub wanted: Option<Wanted>,
     /// How a profile becomes one number
     #[arg(long, value_enum, default_value_t = Norm::Rms, help_heading = "Judging")]
     pub norm: Norm,
-    /// Seeds of each point: N runs with other random numbers; mean and 95 % interval
+    /// Run each point with N seeds of the random numbers; gives the mean and its 95 % interval
     #[arg(long, value_name = "N", default_value_t = 1, help_heading = "Running")]
     pub repeat: u64,
     /// Run everything N times, in turn; the median time counts
@@ -70,13 +70,13 @@ pub struct Args {
     /// Points that run at the same time; they disturb each other's times
     #[arg(long, value_name = "N", default_value = "1", help_heading = "Running")]
     pub jobs: NonZeroUsize,
-    /// A folder for each point with its run and report; finished points there are used (default: beside the plot)
+    /// Folder for the points, each with its run and report; finished points are reused (default: beside the plot)
     #[arg(long, value_name = "DIR", help_heading = "Running")]
     pub dir: Option<PathBuf>,
     /// Run nothing: write a script for each point that is not finished, and print a line to run each
     #[arg(long, visible_alias = "dry-run", help_heading = "Running")]
     pub print_commands: bool,
-    /// Also write the sentences to a file (Markdown)
+    /// Also write the result in sentences to FILE.md (Markdown)
     #[arg(long, value_name = "FILE.md")]
     pub words: Option<PathBuf>,
     /// The plot: work over error
@@ -100,9 +100,9 @@ pub enum Work {
 /// How a profile becomes one number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Norm {
-    /// Root of the mean of the squares
+    /// Root mean square
     Rms,
-    /// The largest
+    /// Largest absolute value
     Max,
 }
 
@@ -166,7 +166,7 @@ impl Args {
     /// Another picture than SVG and PNG, streams that can be read only once, counts of 0.
     pub fn check(&self) -> anyhow::Result<()> {
         if let Some(file) = &self.plot {
-            crate::plot::check_name(file)?;
+            plot::check_name(file).map_err(|e| cli::usage(format!("-o {e}")))?;
         }
         if self.scene == "-" || self.inputs.iter().any(|i| i == "-") {
             return Err(usage("-: every point reads its inputs again: give files"));

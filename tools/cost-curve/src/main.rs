@@ -23,7 +23,9 @@ fn cost_curve(args: Args) -> anyhow::Result<Report> {
     let study = args.study();
     let counter = work::counter(study.work).map_err(refused)?;
     if counter == Some(Counter::Valgrind) {
-        cli::warn("--work instructions: perf cannot count here: valgrind does, 50 times slower");
+        cli::warn(
+            "--work instructions: perf cannot count here: valgrind is used instead, which is 50 times slower",
+        );
     }
     args.check()?;
     let sweep = lay_out(&study)?;
@@ -32,13 +34,13 @@ fn cost_curve(args: Args) -> anyhow::Result<Report> {
     if open.outdated > 0 {
         let (folder, old) = (study.folder.display(), open.outdated);
         cli::warn(&format!(
-            "{folder}: {old} of {runs} runs there were made from another scene, input or program: they are made again"
+            "{folder}: {old} of {runs} runs there used another scene, input or program: they are run again"
         ));
     }
     if args.print_commands {
         write(Path::new("-"), report::commands(&open.jobs).as_bytes())?;
         let count = open.jobs.len();
-        return Ok(Report::new(format!("{count} runs to make, {kept} are finished; nothing was run")));
+        return Ok(Report::new(format!("{count} runs are left, {kept} are finished; nothing was run")));
     }
     run(&args, &study, &open)?;
     let judged = judge(&study, &sweep, &measure, counter).map_err(refused)?;
@@ -59,9 +61,7 @@ fn lay_out(study: &Study) -> anyhow::Result<Sweep> {
     let sweep = Sweep::new(study).map_err(refused)?;
     cli::also_reads(sweep.files.clone())?;
     if sweep.one_seed {
-        cli::warn(
-            "chance plays a part in this scene, and one seed does not tell how much: --repeat 3 gives intervals",
-        );
+        cli::warn("the result of this scene depends on random numbers: --repeat 3 gives intervals");
     }
     Ok(sweep)
 }

@@ -1,30 +1,16 @@
 //! The work–precision diagram: error over work, both logarithmic, with the Pareto front and the setting in use.
 
+use ::plot::COLOURS;
 use anyhow::anyhow;
-use cli::usage;
 use curve::{Choice, Judged};
 use kuva::plot::scatter::MarkerShape;
 use kuva::prelude::*;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Colours that are easy to distinguish (Okabe & Ito 2008).
-const COLOURS: [&str; 6] = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"];
 const GREY: &str = "#999999";
 const BLACK: &str = "#000000";
 const SIZE: (f64, f64) = (760.0, 480.0);
-
-/// Refuses names that end in neither .svg nor .png, before the work is done.
-pub fn check_name(file: &Path) -> anyhow::Result<()> {
-    match ending(file).as_str() {
-        "svg" | "png" => Ok(()),
-        _ => Err(usage(format!("-o {}: the name must end in .svg or .png", file.display()))),
-    }
-}
-
-fn ending(file: &Path) -> String {
-    file.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
-}
 
 /// A point of the diagram: work, error, half width of the interval, name.
 struct Dot {
@@ -70,11 +56,7 @@ pub fn draw(file: &Path, judged: &Judged, title: &str) -> anyhow::Result<Vec<u8>
     plots.extend(marked(judged).into_iter().filter_map(|mark| ring(&dots, mark)));
     plots.extend(wanted(judged, &dots));
     let layout = layout(judged, &plots, title);
-    if ending(file) == "svg" {
-        return Ok(kuva::render_to_svg(plots, layout).into_bytes());
-    }
-    kuva::render_to_raster(plots, layout, 1.0)
-        .map_err(|why| anyhow!("-o {}: cannot draw it: {why}", file.display()))
+    ::plot::diagram(file, plots, layout).map_err(|e| anyhow!("-o {e}"))
 }
 
 /// A ring around a point with a mark.

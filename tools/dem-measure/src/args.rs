@@ -6,11 +6,12 @@ use geom::{Plane, Shape, Vec3};
 use std::path::PathBuf;
 
 const SHAPES: &str = "SHAPE: box:x0,y0,z0,x1,y1,z1 | sphere:x,y,z,r | cylinder:x0,y0,z0,x1,y1,z1,r | \
-    halfspace:px,py,pz,nx,ny,nz | prism:FILE.json | mesh:FILE | all (where no volume is needed); a ! in front \
-    means outside. PLANE: px,py,pz,nx,ny,nz, n in the direction of flow. All in metres.\n\
-    How each measure is defined, and its columns: docs/measure.md.";
+    cone:x0,y0,z0,x1,y1,z1,r0,r1 | halfspace:px,py,pz,nx,ny,nz | prism:FILE.json | mesh:FILE | all (where no volume \
+    is needed); a ! before a SHAPE means its outside. PLANE: px,py,pz,nx,ny,nz, with n in the direction of flow. \
+    All lengths in metres.\n\
+    docs/measure.md defines each measure and its columns.";
 
-/// Measures a run (MCAP), also while it is still being written: CSV (or JSON) to stdout
+/// Measure a run (MCAP), also while it is still being written; CSV (or JSON) to stdout
 #[derive(Parser, Debug)]
 #[command(after_help = SHAPES)]
 #[command(group(ArgGroup::new("measure").required(true)))]
@@ -33,7 +34,7 @@ pub struct Args {
     /// The energy ledger and how well it closes
     #[arg(long, group = "measure")]
     pub energy: bool,
-    /// Contact numbers, with and without rattlers
+    /// Coordination numbers, with and without rattlers
     #[arg(long, group = "measure")]
     pub contacts: bool,
     /// Distribution of contact forces
@@ -61,7 +62,7 @@ pub struct Args {
     #[arg(long, group = "measure")]
     pub bed_height: bool,
 
-    /// The last frame not after S [s]
+    /// The last frame at or before S [s]
     #[arg(long, value_name = "S", help_heading = "Which frames")]
     pub time: Option<f64>,
     /// The last frame (repose, profile and forces: the default)

@@ -22,7 +22,7 @@ fn main() -> ExitCode {
 fn measure_run(args: Args) -> anyhow::Result<Report> {
     let (what, mut observer) = choose::observer(&args)?;
     if let Some(file) = &args.plot {
-        plot::check_name(file)?;
+        ::plot::check_name(file).map_err(|e| cli::usage(format!("--plot {e}")))?;
     }
     let place = || format!("{}: {what}", args.run);
     let source = args.run.open()?;

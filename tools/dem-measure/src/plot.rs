@@ -1,32 +1,16 @@
 //! Draws a chart as SVG or PNG.
 
+use ::plot::COLOURS;
 use anyhow::anyhow;
-use cli::usage;
-use kuva::backend::{raster::RasterBackend, svg::SvgBackend};
 use kuva::prelude::*;
 use measure::{Chart, Curve, Look, Panel};
 use std::path::Path;
 use std::sync::Arc;
 
-/// Distinguishable colours (Okabe & Ito 2008).
-const COLOURS: [&str; 8] =
-    ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#A6761D", "#7F7F7F"];
 /// Of a fit or a reference.
 const BLACK: &str = "#000000";
 /// Size of a panel [px].
 const PANEL: (f64, f64) = (820.0, 420.0);
-
-/// Refuses names that end in neither .svg nor .png, before the work is done.
-pub fn check_name(file: &Path) -> anyhow::Result<()> {
-    match ending(file).as_str() {
-        "svg" | "png" => Ok(()),
-        _ => Err(usage(format!("--plot {}: the name must end in .svg or .png", file.display()))),
-    }
-}
-
-fn ending(file: &Path) -> String {
-    file.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
-}
 
 /// The bytes of the picture; the ending of the name chooses the format.
 pub fn draw(file: &Path, chart: &Chart) -> anyhow::Result<Vec<u8>> {
@@ -43,11 +27,7 @@ pub fn draw(file: &Path, chart: &Chart) -> anyhow::Result<Vec<u8>> {
     let count = plots.len().max(1);
     let figure = Figure::new(count, 1).with_plots(plots).with_layouts(layouts);
     let scene = figure.with_cell_size(PANEL.0, PANEL.1).with_keep_panel_legends().render();
-    if ending(file) == "svg" {
-        return Ok(SvgBackend::new().render_scene(&scene).into_bytes());
-    }
-    let drawn = RasterBackend::new().render_scene(&scene);
-    drawn.map_err(|why| anyhow!("--plot {}: cannot draw it: {why}", file.display()))
+    ::plot::bytes(file, &scene).map_err(|e| anyhow!("--plot {e}"))
 }
 
 /// What to draw, and what the colours of a map mean.

@@ -9,7 +9,7 @@ use cli::{Output, Report, Source, Stopped};
 use parts::Saved;
 use record::SIGNAL;
 use run::{Checkpoint, Progress, RunError, Settings, run};
-use scene::{Input, Plan, Scene, SceneError};
+use scene::{Input, Plan, Scene, SceneError, SceneSetupError};
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
@@ -19,7 +19,7 @@ use watch::Watch;
 /// What an MCAP file begins with.
 const MCAP: [u8; 5] = *b"\x89MCAP";
 
-/// Runs a DEM scene and writes a run MCAP (walls, frames, crossings, checkpoints)
+/// Run a DEM scene and write a run MCAP (walls, frames, crossings, checkpoints)
 #[derive(Parser)]
 struct Args {
     /// The scene (TOML), - for stdin
@@ -28,22 +28,22 @@ struct Args {
     /// Walls and inlets (MCAP, detected by content), - for stdin
     #[arg(value_name = "WALLS|INLET.mcap")]
     inputs: Vec<Source>,
-    /// Change a key of the scene, such as contact.0.restitution=0.3; may be repeated
+    /// Change a key of the scene, such as contact.0.restitution=0.3 (repeat for more)
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// End of the run [s], instead of time.until
     #[arg(long, value_name = "S")]
     until: Option<f64>,
-    /// Print which effects the scene switches on, why, what they cost, and what limits the time step
+    /// Print the active effects, the keys that switch them on, their cost, and the pair that limits the time step
     #[arg(long)]
     explain: bool,
-    /// Check everything without running
+    /// Check the scene and its inputs without running
     #[arg(long)]
     check: bool,
     /// Resume a run from its last checkpoint
     #[arg(long, value_name = "RUN.mcap")]
     resume: Option<Source>,
-    /// Write one JSON line on stderr with each frame: time, rate, particles, energy, time left
+    /// Write one JSON line to stderr with each frame: time, rate, particles, energy, time left
     #[arg(long)]
     progress: bool,
     #[command(flatten)]
@@ -59,7 +59,7 @@ fn main() -> ExitCode {
 
 /// Adds the name of the scene file to an error of the engine.
 fn in_scene(error: anyhow::Error, scene: String) -> anyhow::Error {
-    if error.chain().any(|cause| cause.is::<dem::SetupError>()) { error.context(scene) } else { error }
+    if error.chain().any(|cause| cause.is::<SceneSetupError>()) { error.context(scene) } else { error }
 }
 
 fn dem_run(args: Args) -> anyhow::Result<Report> {
@@ -168,11 +168,11 @@ fn explain(args: &Args, scene: &Scene, plan: Plan) -> anyhow::Result<Report> {
 fn simulate(args: &Args, scene: &Scene, plan: Plan, resume: Option<Checkpoint>) -> anyhow::Result<Report> {
     let out = args.output.open_long()?;
     let (keep, part) = (out.keeper(), parts::as_named(&args.output, out.part()));
+    let first = u64::from(resume.is_none());
     let (provenance, how) = (cli::provenance(plan.inputs.clone()), out.how());
-    let settings = Settings { provenance, how, watched: args.progress, stop: cli::stop_requested };
+    let settings = Settings { provenance, how, resume, watched: args.progress, stop: cli::stop_requested };
     cli::stop_in_order();
     let (mut watch, mut saved) = (Watch::new(args.progress), Saved::default());
-    let first = u64::from(resume.is_none());
     // What is in the file before the first step can be had again at no cost.
     let mut hear = |progress: &Progress| {
         if progress.checkpoints > 0 || progress.frames > first {
@@ -181,7 +181,7 @@ fn simulate(args: &Args, scene: &Scene, plan: Plan, resume: Option<Checkpoint>) 
         }
         watch.hear(progress);
     };
-    let done = run(scene, plan, resume, out, settings, &mut hear).map_err(|e| written(e, args));
+    let done = run(scene, plan, out, settings, &mut hear).map_err(|e| written(e, args));
     let done = done.and_then(|(outcome, out)| out.commit().map(|()| outcome));
     drop(watch);
     let outcome = done.map_err(|e| parts::leaves(e, part.as_deref().filter(|_| keep.kept()), saved))?;

@@ -14,7 +14,7 @@ pub fn say(output: &Output, resumed: Option<&Source>) {
         let (name, part) = (path.display(), part.display());
         cli::warn(&if written {
             format!(
-                "another dem-run is writing {name} ({part}): the run that ends later will replace the other one"
+                "another dem-run is writing {name} ({part}): the run that ends last will replace the other one"
             )
         } else {
             format!(

@@ -12,24 +12,24 @@ pub struct Args {
     /// Runs and walls (MCAP), clouds (PLY, LAS, E57, PCD, XYZ), meshes (PLY), shown together; - or none: stdin
     #[arg(value_name = "INPUT")]
     pub inputs: Vec<Source>,
-    /// Write to FILE (appears when whole) instead of HTML to stdout: .html, .png, .gif, .mp4 (needs ffmpeg), .vtp
+    /// Write to FILE instead of HTML to stdout; FILE appears when it is complete. Endings: .html, .png, .gif, .mp4 (needs ffmpeg), .vtp
     /// (ParaView, one moment), .pvd (ParaView, a series: NAME.pvd and a folder NAME)
     #[arg(id = "output", short = 'o', long = "output", value_name = "FILE")]
     pub file: Option<PathBuf>,
     /// Field to colour by: speed, spin, radius, material, id, x, y, z, rgb, or any column [default: speed, else z]
     #[arg(long, value_name = "FIELD")]
     pub colour: Option<String>,
-    /// Ends of the colour scale in SI units [default: what 98 % of the values lie in]
+    /// Ends of the colour scale in SI units [default: the range of 98 % of the values]
     #[arg(long, value_name = "LO,HI", value_parser = formats::range, allow_hyphen_values = true)]
     pub range: Option<[f64; 2]>,
     /// Colour map: viridis or turbo
     #[arg(long, value_name = "NAME", value_parser = formats::map, default_value = "viridis")]
     pub map: Map,
-    /// Time to show [s]; HTML: show it first, paused; PNG, VTP: the frame nearest to it [default: the last with grains in it]
+    /// Time to show [s]. HTML: shown first, paused; PNG, VTP: the nearest frame [default: the last frame with grains]
     #[arg(long, value_name = "S", value_parser = formats::seconds)]
     pub time: Option<f64>,
-    /// Where the eye is: iso, top, bottom, front, back, left, right; a side: x, -x, y, -y, z, -z; azimuth/elevation in
-    /// degrees, from x towards y and up: 35/20; or its x,y,z and, after it, the point looked at [m]
+    /// Position of the camera: iso, top, bottom, front, back, left, right; a side: x, -x, y, -y, z, -z; azimuth/elevation in
+    /// degrees, from x towards y and up: 35/20; or x,y,z of the camera [m], and after it those of the point looked at (optional)
     #[arg(long, value_name = "VIEW", value_parser = formats::camera, default_value = "iso", allow_hyphen_values = true)]
     pub camera: Camera,
     /// First time of a film or series [s]
@@ -38,22 +38,22 @@ pub struct Args {
     /// Last time of a film or series [s]
     #[arg(long, value_name = "S", value_parser = formats::seconds)]
     pub to: Option<f64>,
-    /// Simulated time from one picture of a film or series to the next [s] [default: every frame]
+    /// Simulated time between two pictures of a film or series [s] [default: every frame]
     #[arg(long, value_name = "S", value_parser = formats::interval)]
     pub every: Option<f64>,
-    /// Pictures of a film shown in a second
+    /// Pictures per second of a film
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100), default_value_t = 25)]
     pub fps: u32,
     /// Size of a picture or film [pixel] [default: 1920x1080, GIF 960x540]
     #[arg(long, value_name = "WxH", value_parser = formats::size)]
     pub size: Option<[u32; 2]>,
-    /// How much of the grains a wall in front of them hides in the picture, 0 to 1
+    /// Opacity of walls in front of grains in the picture, 0 to 1
     #[arg(long, value_name = "SHARE", value_parser = formats::share, default_value_t = 0.2)]
     pub wall_opacity: f64,
     /// Leave out the nearer half of the walls in the picture
     #[arg(long)]
     pub cut: bool,
-    /// Size of the page [MB]: components of vectors, then frames, evenly, are left out of a larger one; the rest is refused
+    /// Largest size of the page [MB]: a larger page loses the components of vectors, then frames at even intervals; if it is still too large, it is refused
     #[arg(long, value_name = "MB", value_parser = formats::megabytes, default_value = "60")]
     pub max_mb: f64,
     /// Keep the components of vectors in a page that is too large, and leave out more frames
@@ -62,7 +62,7 @@ pub struct Args {
     /// Title of the page [default: the inputs' names]
     #[arg(long)]
     pub title: Option<String>,
-    /// Page on which regions are drawn over one cloud, as --keep and --remove options for cloud-crop
+    /// Write a page in which you draw regions over one cloud; it gives the --keep and --remove options for cloud-crop
     #[arg(long)]
     pub pick: bool,
 }
@@ -78,7 +78,7 @@ impl Args {
             )));
         }
         if self.pick && format != Format::Html {
-            return Err(cli::usage("--pick makes a page: give a name in .html"));
+            return Err(cli::usage("--pick writes a page: use a name that ends in .html"));
         }
         if self.time.is_some() && format.is_series() {
             return Err(cli::usage("--time is for one moment: give a film or series its --from and --to"));

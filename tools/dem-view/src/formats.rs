@@ -34,7 +34,7 @@ impl Format {
         let known = ENDINGS.iter().find(|(ending, _)| output.has_extension(ending));
         known.map(|(_, format)| *format).ok_or_else(|| {
             cli::usage(format!(
-                "-o {}: cannot tell what to write: use a name in .html, .png, .gif, .mp4, .vtp or .pvd",
+                "-o {}: unknown format: use a name that ends in .html, .png, .gif, .mp4, .vtp or .pvd",
                 output.name()
             ))
         })
@@ -69,7 +69,7 @@ pub fn interval(text: &str) -> Result<f64, String> {
 
 /// The name of a colour map.
 pub fn map(text: &str) -> Result<Map, String> {
-    Map::named(text).ok_or_else(|| "viridis or turbo".into())
+    Map::named(text).ok_or_else(|| "give viridis or turbo".into())
 }
 
 /// A view direction.
@@ -82,7 +82,7 @@ pub fn size(text: &str) -> Result<[u32; 2], String> {
     let sides: Vec<u32> = text.split('x').filter_map(|part| part.parse().ok()).collect();
     match sides[..] {
         [w, h] if (64..=16384).contains(&w) && (64..=16384).contains(&h) => Ok([w, h]),
-        _ => Err("give width x height, 64 to 16384 each, as 1920x1080".into()),
+        _ => Err("give width x height, 64 to 16384 each, such as 1920x1080".into()),
     }
 }
 

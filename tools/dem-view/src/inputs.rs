@@ -32,7 +32,7 @@ pub fn read_all(args: &Args, show: &mut impl Show) -> anyhow::Result<Vec<Value>>
         let name = short_name(source);
         if is_mcap && args.pick {
             anyhow::bail!(
-                "{source}: --pick is for a cloud that cloud-crop reads, and this is MCAP, a run or walls: leave --pick out"
+                "{source}: --pick needs a cloud that cloud-crop can read, and this is MCAP (a run or walls): leave --pick out"
             );
         }
         let layers = match is_mcap {

@@ -59,7 +59,9 @@ fn warn_of_what_is_left_out(args: &Args, kept: &PageContent) {
     let limit = format!("to keep it below {} MB; --max-mb changes that", args.max_mb);
     if kept.stride > 1 {
         let (of, given, stride) = (kept.kept, kept.given, kept.stride);
-        cli::warn(&format!("{of} of {given} frames are in the page, one of {stride} and the last, {limit}"));
+        cli::warn(&format!(
+            "{of} of {given} frames are in the page (one of {stride}, and the last), {limit}"
+        ));
     }
     if kept.lengths_only {
         cli::warn(&format!("components of vectors are not in the page, only their lengths, {limit}"));

@@ -161,7 +161,7 @@ fn what_it_cannot_write_is_refused_by_name() {
         assert!(said(&assert).contains(".gif, .mp4, .vtp or .pvd"), "{}", said(&assert));
     }
     let assert = dem_view(folder.path(), &["run.mcap", "--pick", "-o", "x.html"]).code(1);
-    assert!(said(&assert).contains("--pick is for a cloud that cloud-crop reads"));
+    assert!(said(&assert).contains("--pick needs a cloud that cloud-crop can read"));
 }
 
 #[test]

@@ -6,16 +6,16 @@ use geom::{Plane, Vec3};
 use scene::ZoneMotion;
 use stages::replay::{Copies, Frame, Intervals, Replay};
 
-/// Turns the crossings of a run into an inlet MCAP, also while the run is still being written
+/// Turn the crossings of a run into an inlet MCAP, also while the run is still being written
 #[derive(Parser)]
 pub struct Args {
-    /// The run (MCAP), - for stdin; all files of a run that was stopped and resumed, in the order of their times
+    /// The run (MCAP), - for stdin; give all files of a run that was stopped and resumed, in the order of their times
     #[arg(value_name = "RUN.mcap", default_value = "-", hide_default_value = true)]
     pub runs: Vec<Source>,
     /// Calculation plane, px,py,pz,nx,ny,nz (default: the storage plane of the run)
     #[arg(long, value_name = "PLANE", allow_hyphen_values = true)]
     at: Option<Plane>,
-    /// Length of the zone before it [m] (default: that of the run)
+    /// Length of the zone before the calculation plane [m] (default: that of the run)
     #[arg(long, value_name = "M")]
     length: Option<f64>,
     /// Leave out crossings before S; S becomes time 0 [s]
@@ -24,19 +24,19 @@ pub struct Args {
     /// Leave out crossings at S or later [s]
     #[arg(long, value_name = "S", value_parser = seconds)]
     until: Option<f64>,
-    /// Grains arrive at the recorded times (default: the first grain enters at time 0)
+    /// Keep the recorded arrival times (default: the first grain enters at time 0)
     #[arg(long, conflicts_with = "from")]
     keep_times: bool,
     /// Index of the storage plane
     #[arg(long, value_name = "N", default_value_t = 0)]
     outlet: u16,
-    /// On which plane recorded intervals are kept; "both" avoids overlaps in a dense flow
+    /// Where grains keep their recorded intervals: on the generation plane, or on both planes of the zone, which avoids overlaps in a dense flow
     #[arg(long, value_enum, default_value = "both")]
     intervals: Keep,
     /// Motion in the zone (default: that of the run)
     #[arg(long = "move", value_enum)]
     motion: Option<Motion>,
-    /// With intervals both: time from generation to arrival of each grain [s] (default: what the first grain needs for the zone)
+    /// With --intervals both: time from start to arrival of each grain [s] (default: the time that the first grain needs for the zone)
     #[arg(long, value_name = "S", value_parser = span)]
     ahead: Option<f64>,
     /// Rotate the record by this angle about --axis: positions, velocities, spins, and the plane unless --at is given
@@ -48,13 +48,13 @@ pub struct Args {
     /// Shift the record, after the rotation [m]
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = vector)]
     shift: Option<Vec3>,
-    /// Replay the record this many times, one after the other; it is held in memory
+    /// Replay the record N times, one after the other; the record is held in memory
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     repeat: u32,
     /// Time between the starts of two replays [s] (default: the duration of the record)
     #[arg(long, value_name = "S", value_parser = span, requires = "repeat")]
     period: Option<f64>,
-    /// Superpose so many copies of each grain: scales the rate, which the file notes; needs --copy-shift or --copy-delay
+    /// Superpose N copies of each grain; this scales the rate, and the file says so; needs --copy-shift or --copy-delay
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     copies: u32,
     /// Shift copy k by k times this vector [m]
@@ -63,7 +63,7 @@ pub struct Args {
     /// Delay copy k by k times this time [s]
     #[arg(long, value_name = "S", value_parser = span, requires = "copies")]
     copy_delay: Option<f64>,
-    /// Give grains new ids from N, in order of entry (default: only if several grains have one id, from 0)
+    /// Give grains new ids from N, in order of entry (default: from 0, only if several grains have the same id)
     #[arg(long, value_name = "N")]
     first_id: Option<u32>,
     #[command(flatten)]
@@ -78,11 +78,11 @@ enum Keep {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum Motion {
-    /// With the velocity at the plane
+    /// At the constant velocity that the grain had at the plane
     Constant,
     /// In free fall
     Ballistic,
-    /// Along the paths that grains took in the stage upstream
+    /// Along the paths that the grains took in the upstream stage
     Recorded,
 }
 
@@ -98,7 +98,7 @@ impl Args {
             return Err(usage(format!("--until {until} s is not after --from {from} s: give a later end")));
         }
         if self.copies > 1 && self.copy_shift.is_none() && self.copy_delay.is_none() {
-            let why = "superposed copies would lie in each other: give --copy-shift X,Y,Z (beside each other) or --copy-delay S";
+            let why = "the copies would overlap: give --copy-shift X,Y,Z or --copy-delay S";
             return Err(usage(format!("--copies {}: {why}", self.copies)));
         }
         let turned = self.turn_deg.is_some() || self.shift.is_some();

@@ -30,15 +30,15 @@ fn stage_replay(args: Args) -> anyhow::Result<Report> {
             None => "use --intervals both with a longer --ahead".to_owned(),
         };
         cli::warn(&format!(
-            "{} slow grains are generated less than the largest diameter before the calculation plane, among other \
+            "{} slow grains start less than the largest diameter before the calculation plane, among other \
              grains: {cure}, or cut where grains are faster",
             done.near
         ));
     }
     if let (1.., Some(ahead)) = (done.far, done.ahead) {
         cli::warn(&format!(
-            "{} grains come in up to {} m before the calculation plane, many lengths of the zone, and {} s before they arrive: the slow first \
-             grain takes this time for the zone; give a shorter --ahead",
+            "{} grains start up to {} m before the calculation plane, many lengths of the zone, and {} s \
+             before they arrive, because the slow first grain takes this time for the zone: give a shorter --ahead",
             done.far,
             geom::Shown(done.farthest),
             geom::Shown(ahead)
@@ -46,13 +46,14 @@ fn stage_replay(args: Args) -> anyhow::Result<Report> {
     }
     if done.amid > 0 {
         cli::warn(&format!(
-            "{} grains are inside the zone when the replay begins, and appear there among others: begin with --from when nothing passes",
+            "{} grains are inside the zone when the replay begins, and start there among others: choose a \
+             --from at which no grain is in the zone",
             done.amid
         ));
     }
     if done.copies > 1 {
         cli::warn(&format!(
-            "{} superposed copies: they scale the rate, but the flow is not that of such a rate",
+            "{} superposed copies: they scale the rate, but a real flow of that rate looks different",
             done.copies
         ));
     }

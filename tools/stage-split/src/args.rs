@@ -7,7 +7,7 @@ use scene::{ZoneMotion, ZoneTest};
 use stages::split::{Cut, Stage};
 use std::path::Path;
 
-/// Cuts a scene at a plane and writes the scene of one stage
+/// Cut a scene at a plane and write the scene of one stage
 #[derive(Parser)]
 pub struct Args {
     /// The scene (TOML), - for stdin
@@ -40,11 +40,11 @@ enum Keep {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum Motion {
-    /// With the velocity at the plane
+    /// At the constant velocity that the grain had at the plane
     Constant,
     /// In free fall
     Ballistic,
-    /// Along the paths that grains took in the stage upstream
+    /// Along the paths that the grains took in the upstream stage
     Recorded,
 }
 

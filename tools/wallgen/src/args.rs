@@ -15,7 +15,7 @@ pub struct Args {
     pub input: cli::Input,
     #[command(flatten)]
     pub output: cli::CloudOutput,
-    /// Depth of the dents between neighbouring spheres [m], or a table of regions and wear (docs/wall-input.md)
+    /// Depth of the dents between neighbouring spheres [m], or a file of regions and wear (docs/wall-input.md)
     #[arg(long, value_name = "M|FILE.toml", allow_hyphen_values = true)]
     roughness: Option<String>,
     /// Radii: solve (pair by pair), uniform, or a length [m]
@@ -24,13 +24,13 @@ pub struct Args {
     /// Which average of the neighbour distances to use
     #[arg(long, value_enum, default_value = "mean")]
     representative: Middle,
-    /// What lies on the point: the sphere's centre, or its surface on the flow side (default: centre; for a drawing: surface)
+    /// Which point of a sphere lies on the scanned point: its centre, or its surface on the flow side (default: centre; for a drawing: surface)
     #[arg(long, value_enum)]
     place: Option<Place>,
     /// Direction to the flow side
     #[arg(long, value_name = "x,y,z", value_parser = vector, allow_hyphen_values = true)]
     facing: Option<Vec3>,
-    /// A point in the flow [m], instead of a direction: for closed equipment, and for the side of a drawing
+    /// A point in the flow [m], instead of --facing: for closed equipment, and to choose the side of a drawing
     #[arg(long, value_name = "x,y,z", value_parser = vector, allow_hyphen_values = true, conflicts_with = "facing")]
     flow_at: Option<Vec3>,
     /// Drawn equipment instead of a cloud (PLY, STL, OBJ [m]): spheres of --radius M inside it that touch its surface
@@ -60,7 +60,7 @@ pub struct Args {
     /// Diameter of the largest particle [m]: checks the spheres' sizes
     #[arg(long, value_name = "M")]
     largest_particle: Option<f64>,
-    /// Report the largest sphere that passes through the wall, and where (--smallest-particle does so, too)
+    /// Report the largest sphere that passes through the wall, and where (also reported with --smallest-particle)
     #[arg(long)]
     pub gaps: bool,
     /// Write the pairs of neighbours without the requested roughness: point_i,point_j,x,y,z,distance,asked,made [m]
@@ -130,11 +130,11 @@ impl Args {
     /// How the spheres of a drawing are placed.
     pub fn drawing(&self, regions: &Regions) -> anyhow::Result<Drawing> {
         let Radius::Given(radius) = self.radius else {
-            return Err(cli::usage("--from-mesh: spheres of one radius touch the drawing; add --radius M"));
+            return Err(cli::usage("--from-mesh: all spheres have one given radius; add --radius M"));
         };
         if self.facing.is_some() {
             return Err(cli::usage(
-                "--facing: a drawing has its own directions; give a place in the flow, --flow-at x,y,z",
+                "--facing: does not work with a drawing; give a point in the flow, --flow-at x,y,z",
             ));
         }
         if self.input.cloud.path().is_some() {
@@ -142,7 +142,7 @@ impl Args {
         }
         let Some(roughness) = regions.least_roughness() else {
             return Err(cli::usage(
-                "--from-mesh: the distance of the spheres follows from the roughness; add --roughness M",
+                "--from-mesh: the distance between spheres follows from the roughness; add --roughness M",
             ));
         };
         let centred = matches!(self.place, Some(Place::Centre));
@@ -191,7 +191,7 @@ impl Args {
         let text = path.to_string_lossy();
         let unit = text.trim_start_matches(|c: char| c.is_ascii_digit() || "+-.,".contains(c)).trim();
         if matches!(unit, "" | "m" | "mm" | "cm" | "um" | "µm" | "in") {
-            return Err(cli::usage(format!("--roughness {text}: is neither a number of metres nor a file")));
+            return Err(cli::usage(format!("--roughness {text}: is neither a length in metres nor a file")));
         }
         Ok(())
     }

@@ -98,12 +98,12 @@ fn summary(report: &WallReport, settings: &WallSettings, drawn: Option<&DrawnRep
     }
     let [low, middle, high] = changes.dents.map(Shown);
     let asked = match settings.radius {
-        Radius::Uniform => format!(" where {} m was asked for", Shown(report.roughness)),
+        Radius::Uniform => format!(", requested {} m", Shown(report.roughness)),
         _ => String::new(),
     };
     let apart = match changes.pairs_apart {
         0 => String::new(),
-        apart => format!("; {apart} of {} pairs are too far apart to meet", changes.pairs),
+        apart => format!("; {apart} of {} pairs are too far apart to touch", changes.pairs),
     };
     format!(
         "{spheres} wall spheres of radius {mean} m, spacing {spacing} m, \
@@ -118,7 +118,7 @@ fn check_ending(output: &cli::Output) -> anyhow::Result<()> {
         return Ok(());
     }
     Err(cli::usage(format!(
-        "-o {}: only MCAP and PLY are written: use a name in .mcap or .ply",
+        "-o {}: the output is MCAP or PLY: use a name that ends in .mcap or .ply",
         output.name()
     )))
 }

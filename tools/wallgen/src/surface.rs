@@ -45,14 +45,14 @@ fn warn(report: &DrawnReport, radius: f64) {
         let [x, y, z] = at.map(|c| format!("{c:.4}"));
         cli::warn(&format!(
             "under {:.0} % of the surface, as at ({x}, {y}, {z}) m, the structure is thinner than a sphere ({} m): spheres touch \
-             their own face and stand out of the other; if particles touch that too, use a smaller radius, or --place centre",
+             their own face and stick out of the opposite one; if particles touch that face, too, use a smaller radius, or --place centre",
             (100.0 * report.too_thin).max(1.0),
             Shown(2.0 * radius)
         ));
     }
     if report.one_sided_edges > 0 {
         cli::warn(&format!(
-            "at {} edges the faces have no common side (the drawing is one-sided or torn there): check which side the spheres are on",
+            "at {} edges the faces have no common side (the drawing is one-sided or torn there): check on which side the spheres are",
             report.one_sided_edges
         ));
     }
