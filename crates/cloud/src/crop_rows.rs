@@ -23,10 +23,10 @@ pub struct KeptRows {
 
 /// Where x, y and z are: side by side, all of one type with a point in it.
 fn positions<R>(blocks: &Blocks<R>) -> Option<(NumberType, usize)> {
-    let x = blocks.properties.iter().position(|(name, _, _)| name == "x")?;
-    let (kind, at) = (blocks.properties[x].1, blocks.properties[x].2);
+    let x = blocks.properties.iter().position(|p| p.name == "x")?;
+    let (kind, at) = (blocks.properties[x].kind, blocks.properties[x].offset);
     let follows = |step: usize, axis: &str| {
-        blocks.properties.get(x + step).is_some_and(|(name, other, _)| name == axis && *other == kind)
+        blocks.properties.get(x + step).is_some_and(|p| p.name == axis && p.kind == kind)
     };
     (matches!(kind, NumberType::F32 | NumberType::F64) && follows(1, "y") && follows(2, "z"))
         .then_some((kind, at))
@@ -65,7 +65,7 @@ pub fn crop_rows<R: Read>(mut blocks: Blocks<R>, rules: &Rules) -> Result<(KeptR
     }
     report.points_out = kept.len() / stride;
     report.outside_shapes = report.points_in - report.not_finite - report.points_out;
-    let properties = blocks.properties.iter().map(|(name, kind, _)| (name.clone(), *kind)).collect();
+    let properties = blocks.properties.iter().map(|p| (p.name.clone(), p.kind)).collect();
     let (warnings, comments) =
         (survey.warnings(kind == NumberType::F64), std::mem::take(&mut blocks.comments));
     Ok((KeptRows { comments, properties, rows: kept, warnings }, report))

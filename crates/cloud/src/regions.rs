@@ -28,9 +28,9 @@ pub enum RegionsError {
         #[source]
         source: ShapeError,
     },
-    #[error("two regions are called '{0}': give each its own name")]
+    #[error("two regions have the name '{0}': rename one of them")]
     Twice(String),
-    #[error("region '{0}': an outer shape encloses the equipment: leave the ! in front of it out")]
+    #[error("region '{0}': an outer shape encloses the equipment: remove the ! before it")]
     OuterOutside(String),
     #[error("tolerance {0} m: must be a length, 0 or more")]
     Tolerance(f64),
@@ -159,7 +159,7 @@ mod tests {
             ("[[region]]\nname = 'a'\nshape = 'sphere:0,0,0,1'\naction = 'drop'", "drop"),
             ("[[regoin]]", "regoin"),
             ("tolerance = -1", "tolerance -1 m"),
-            ("[[region]]\nname = 'a'\nshape = '!sphere:0,0,0,1'\naction = 'outer'", "leave the !"),
+            ("[[region]]\nname = 'a'\nshape = '!sphere:0,0,0,1'\naction = 'outer'", "remove the !"),
             (
                 "[[region]]\nname = 'a'\nshape = 'sphere:0,0,0,1'\naction = 'keep'\n[[region]]\nname = 'a'\nshape = 'sphere:0,0,0,1'\naction = 'keep'",
                 "two regions",

@@ -74,8 +74,8 @@ pub fn judge(
     };
     if study.wanted.is_some() && share != relative {
         let why = match relative {
-            true => "the truth is not zero, so errors are shares of it: give one such as 1%",
-            false => "the truth is zero, so errors are in the unit of the measure: give one without %",
+            true => "the truth is not zero, so errors are shares of it: give a share, such as 1%",
+            false => "the truth is zero, so errors are in the unit of the measure: give an error without %",
         };
         return Err(CurveError::Usage(format!("--for: {why}")));
     }

@@ -34,7 +34,7 @@ pub fn in_box(centre: &Vec3, radius: f64, low: &Vec3, high: &Vec3) -> f64 {
         let sign = if (corner_of as u32).count_ones().is_multiple_of(2) { 1.0 } else { -1.0 };
         sum += sign * corner(side(0).clamp(-1.0, 1.0), side(1).clamp(-1.0, 1.0), side(2).clamp(-1.0, 1.0));
     }
-    sum.clamp(0.0, 4.0 / 3.0 * PI) * radius * radius * radius
+    sum.clamp(0.0, volume(1.0)) * radius * radius * radius
 }
 
 /// Volume [m³] of the part of a ball on the side of a plane that its normal points to.

@@ -253,7 +253,7 @@ impl Observer for ContactNumbers {
             .with("rattlers", "1", rattlers)
             .with("time", "s", *time);
         let by_distance =
-            "contacts by distance of grains, walls unknown: [output] contacts = true records them";
+            "contacts from distances of grains, walls unknown: [output] contacts = true records all contacts";
         Ok(summary.note(if self.recorded { "contacts as recorded" } else { by_distance }))
     }
 

@@ -12,7 +12,7 @@ pub enum MeasureError {
     #[error("{topic}: the column '{column}' is missing; it has {}: write the run with dem-run", has.join(", "))]
     Column { topic: String, column: String, has: Vec<String> },
     #[error(
-        "{topic} at {} s: row {row}: {column} = {value} is {wrong}: the run is damaged here, stop before with --until",
+        "{topic} at {} s: row {row}: {column} = {value} is {wrong}: the run is damaged here; measure the part before it with --until",
         Shown(*time)
     )]
     Value { topic: String, time: f64, row: usize, column: String, value: f64, wrong: &'static str },
@@ -26,13 +26,15 @@ pub enum MeasureError {
     #[error("run has no frame {}: its frames are from {} to {} s", wanted, Shown(*first), Shown(*last))]
     NoFrame { wanted: String, first: f64, last: f64 },
     #[error(
-        "plane lies outside of the grains, which are from {} to {} m from it along its normal: move it there",
+        "plane lies outside of the grains, which are from {} to {} m from it along its normal: move the plane",
         Shown(*low), Shown(*high)
     )]
     PlaneOutside { low: f64, high: f64 },
-    #[error("shape has a volume of {} m³: give one with room inside", Shown(*volume))]
+    #[error("shape has a volume of {} m³: give a larger shape", Shown(*volume))]
     EmptyShape { volume: f64 },
-    #[error("shape is infinite, so it has no volume: give a box, sphere, cylinder, prism or mesh, without !")]
+    #[error(
+        "shape is infinite, so it has no volume: give a box, sphere, cylinder, cone, prism or mesh, without !"
+    )]
     EndlessShape,
     #[error(
         "no {what} in the shape at any time: the grains are in box:{}: move the shape",

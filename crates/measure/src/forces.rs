@@ -119,7 +119,7 @@ impl Observer for Forces {
             rows.extend(self.measure(&contacts));
         }
         let Some([normal, tangential]) = &self.last else {
-            let note = "no contacts at that time: nothing touches";
+            let note = "no contacts in these frames";
             return Ok(Summary::default().with("contacts", "1", 0.0).note(note));
         };
         Ok(Summary::default()

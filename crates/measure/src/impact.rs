@@ -235,8 +235,7 @@ impl Observer for Impacts {
             return Err(NO_CONTACTS);
         }
         if self.rows[0].is_empty() {
-            let cure =
-                "write frames during the contact ([output] every = \"step\"), and run until it is over";
+            let cure = "write frames during the contact ([output] every = \"step\"), and run until the contact has ended";
             return Err(MeasureError::Channel {
                 topic: record::topic::CONTACTS,
                 what: "impact that begins and ends",
@@ -251,7 +250,8 @@ impl Observer for Impacts {
             .with("largest_overlap", "m", self.rows[1].iter().copied().fold(0.0, f64::max))
             .with("impacts", "1", self.rows[0].len() as f64);
         let cut = self.cut + self.open.len() as u64;
-        let note = format!("{cut} contacts left out: their start or end was not seen");
+        let note =
+            format!("{cut} contacts left out: they began before the first frame or end after the last one");
         Ok(if cut > 0 { summary.note(note) } else { summary })
     }
 

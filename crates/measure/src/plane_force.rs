@@ -101,7 +101,7 @@ impl Observer for PlaneForce {
             .with("mean_shear", "N", shear.mean)
             .with("mean_contacts", "1", Mean::of(&self.counts).mean);
         let never = self.counts.iter().all(|count| *count == 0.0);
-        Ok(if never { summary.note("no contact ever reaches through the plane") } else { summary })
+        Ok(if never { summary.note("no contact crosses the plane in these frames") } else { summary })
     }
 
     fn chart(&self, rows: &[Row]) -> Chart {

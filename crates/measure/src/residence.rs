@@ -144,7 +144,7 @@ impl Observer for Residence {
             .with("still_inside", "1", self.inside.len() as f64)
             .with("inside_from_the_start", "1", self.unknown as f64);
         let many = self.inside.len() > self.stays.len();
-        let note = "more grains are still inside than have left: the mean is too low, run longer";
+        let note = "more grains are still inside than have left, so the mean is too low: run longer";
         Ok(if many { summary.note(note) } else { summary })
     }
 

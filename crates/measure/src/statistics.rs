@@ -46,7 +46,8 @@ impl Mean {
     }
 }
 
-/// t with P(|T| < t) = 0.95 for ν degrees of freedom, by halving on Abramowitz & Stegun 26.7.3 and 26.7.4.
+/// t with P(|T| < t) = 0.95 for ν degrees of freedom, by halving on Abramowitz & Stegun 26.7.3 and 26.7.4. The crate statrs (0.18)
+/// agrees to 3e-13 up to ν = 1000, but is off by 3.5e-6 at ν = 10⁵, where Fisher's expansion confirms this one.
 pub(crate) fn student(nu: usize) -> f64 {
     if nu == 0 {
         return f64::NAN;
@@ -112,6 +113,12 @@ mod tests {
         for (nu, t) in [(1, 12.706), (2, 4.303), (5, 2.571), (7, 2.365), (30, 2.042), (1000, 1.962)] {
             assert!((student(nu) - t).abs() < 6e-4, "{nu}: {}", student(nu));
         }
+        // Fisher's expansion about the normal distribution: z + (z³ + z)/4ν + (5 z⁵ + 16 z³ + 3 z)/96ν².
+        let (z, nu) = (1.959963984540054f64, 1e5);
+        let t = z
+            + (z.powi(3) + z) / (4.0 * nu)
+            + (5.0 * z.powi(5) + 16.0 * z.powi(3) + 3.0 * z) / (96.0 * nu * nu);
+        assert!((student(100_000) - t).abs() < 1e-9, "{} instead of {t}", student(100_000));
     }
 
     #[test]

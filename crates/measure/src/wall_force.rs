@@ -145,7 +145,7 @@ impl Observer for WallForce {
             .with("deviation", "N", sizes.deviation)
             .with("largest_force", "N", self.magnitudes.iter().copied().fold(0.0, f64::max))
             .with("sliding_work", "J", self.work);
-        Ok(if self.touched { summary } else { summary.note("no grain ever touches a wall") })
+        Ok(if self.touched { summary } else { summary.note("no grain touches a wall in these frames") })
     }
 
     fn chart(&self, rows: &[Row]) -> Chart {

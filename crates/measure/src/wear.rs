@@ -28,6 +28,15 @@ pub struct WallLoad {
     contacts: u64,
 }
 
+/// Wall spheres by position.
+struct NearSpheres {
+    /// Messages of wall spheres that had been read.
+    seen: u64,
+    grid: Grid,
+    /// Distance from a contact up to which spheres count [m].
+    reach: f64,
+}
+
 /// Measures wear by position.
 pub struct Wear {
     what: WallContactFilter,
@@ -35,7 +44,7 @@ pub struct Wear {
     cell: Option<f64>,
     by_sphere: BTreeMap<usize, WallLoad>,
     by_cell: BTreeMap<[i64; 3], WallLoad>,
-    grid: Option<(u64, Grid, f64)>,
+    near: Option<NearSpheres>,
     frames: u64,
     contact_frames: u64,
     elsewhere: u64,
@@ -60,7 +69,7 @@ impl Wear {
             cell,
             by_sphere: BTreeMap::new(),
             by_cell: BTreeMap::new(),
-            grid: None,
+            near: None,
             frames: 0,
             contact_frames: 0,
             elsewhere: 0,
@@ -70,12 +79,12 @@ impl Wear {
     /// The wall sphere whose surface is nearest to a point; `None` when none is near.
     fn sphere(&mut self, run: &Run, point: &Vec3) -> Option<usize> {
         let spheres = &run.spheres;
-        if self.grid.as_ref().is_none_or(|g| g.0 != run.spheres_seen) {
+        if self.near.as_ref().is_none_or(|near| near.seen != run.spheres_seen) {
             let largest = spheres.radius.iter().copied().fold(0.0, f64::max);
             let grid = Grid::new(&spheres.position, (2.0 * largest).max(f64::MIN_POSITIVE));
-            self.grid = Some((run.spheres_seen, grid, 1.5 * largest));
+            self.near = Some(NearSpheres { seen: run.spheres_seen, grid, reach: 1.5 * largest });
         }
-        let (_, grid, reach) = self.grid.as_ref()?;
+        let NearSpheres { grid, reach, .. } = self.near.as_ref()?;
         let gap = |k: &u32| {
             let k = *k as usize;
             (spheres.position[k] - point).norm() - spheres.radius[k]

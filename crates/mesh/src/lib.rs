@@ -22,10 +22,10 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[allow(missing_docs)]
 pub enum MeshFileError {
-    #[error("nothing to read: the input has no byte; did the tool upstream fail?")]
+    #[error("nothing to read: the input is empty; did the previous tool fail?")]
     Empty,
     #[error(
-        "no mesh begins with {start}: give PLY, STL, OBJ, or text with nine numbers a line (a triangle's corners)"
+        "no mesh begins with {start}: give PLY, STL, OBJ, or text with nine numbers per line (the corners of a triangle)"
     )]
     Unknown { start: String },
     #[error("not a mesh")]

@@ -99,7 +99,7 @@ fn a_file_cut_anywhere_is_an_error_or_a_mesh_of_whole_faces_and_never_a_panic() 
 fn what_is_no_mesh_is_named() {
     let cloud = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n";
     for (bytes, words) in [
-        (&b""[..], "no byte"),
+        (&b""[..], "input is empty"),
         (b"hello world", "'hello world'"),
         (cloud.as_bytes(), "a cloud, not a mesh"),
         (b"v 0 0 0\nv 1 0 0\nf 1 2 9\n", "OBJ"),

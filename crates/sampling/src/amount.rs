@@ -61,10 +61,11 @@ fn by_count(
         return Err(SampleError::TooManyForced { forced: must, count });
     }
     let (mut cells, mut spacing) = first_guess(points, count);
+    // A small count aims a little above itself: what is too many can go, what is missing cannot come.
+    let aim = if exactly && count < FEW { 0.5 / count as f64 } else { 0.0 };
+    let mut secant = Secant { low: f64::NEG_INFINITY, high: f64::INFINITY, last: None, aim };
     let goal = (count as f64).ln();
-    let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
     let mut tried = Tried::default();
-    let mut last: Option<(f64, f64)> = None;
     for tries in 1..=MOST_TRIES {
         if spacing > cells.width || spacing < 0.5 * cells.width {
             cells = Cells::new(points, 1.1 * spacing);
@@ -76,35 +77,48 @@ fn by_count(
         if tried.is_near(count, exactly) {
             break;
         }
-        if y > 0.0 {
-            low = low.max(x)
-        } else {
-            high = high.min(x)
-        }
         let share = ((y + goal).exp() / points.len() as f64).min(1.0);
-        let slope = match last {
-            Some((x0, y0)) if x0 != x && y0 != y => ((y - y0) / (x - x0)).clamp(-3.0, -0.05),
-            // The fuller the sample already is, the less a smaller spacing adds.
-            _ => -2.0 * (1.0 - share).max(0.1),
-        };
-        last = Some((x, y));
-        // A small count aims a little above itself: what is too many can go, what is missing cannot come.
-        let aim = if exactly && count < FEW { 0.5 / count as f64 } else { 0.0 };
-        let step = x - ((y - aim) / slope).clamp(-1.5, 1.5);
-        let inside = step > low && step < high;
-        spacing = if inside {
-            step
-        } else if low.is_finite() && high.is_finite() {
-            0.5 * (low + high)
-        } else {
-            x - (y / slope).signum()
-        }
-        .exp();
-        if high - low < 1e-9 || spacing < f64::MIN_POSITIVE.sqrt() {
+        spacing = secant.next(x, y, share).exp();
+        if secant.high - secant.low < 1e-9 || spacing < f64::MIN_POSITIVE.sqrt() {
             break;
         }
     }
     tried.best(points, forced, count, exactly)
+}
+
+/// A secant search for the zero of y(x), kept inside its bracket; y falls with x.
+struct Secant {
+    low: f64,
+    high: f64,
+    /// x and y of the last try.
+    last: Option<[f64; 2]>,
+    /// The y that is aimed at.
+    aim: f64,
+}
+
+impl Secant {
+    /// The x to try after y came out at x, with a share of all points in the sample.
+    fn next(&mut self, x: f64, y: f64, share: f64) -> f64 {
+        if y > 0.0 {
+            self.low = self.low.max(x)
+        } else {
+            self.high = self.high.min(x)
+        }
+        let slope = match self.last {
+            Some([x0, y0]) if x0 != x && y0 != y => ((y - y0) / (x - x0)).clamp(-3.0, -0.05),
+            // The fuller the sample already is, the less a smaller spacing adds.
+            _ => -2.0 * (1.0 - share).max(0.1),
+        };
+        self.last = Some([x, y]);
+        let step = x - ((y - self.aim) / slope).clamp(-1.5, 1.5);
+        if step > self.low && step < self.high {
+            step
+        } else if self.low.is_finite() && self.high.is_finite() {
+            0.5 * (self.low + self.high)
+        } else {
+            x - (y / slope).signum()
+        }
+    }
 }
 
 /// The samples nearest to a count, from below and from above.

@@ -16,7 +16,6 @@ mod beside;
 mod eliminate;
 mod lattice;
 pub mod nearest;
-pub mod plot;
 mod poisson;
 mod relax;
 mod sheets;
@@ -109,7 +108,7 @@ impl Sample {
 #[derive(Debug, Error, PartialEq)]
 #[allow(missing_docs)]
 pub enum SampleError {
-    #[error("the cloud has no points: nothing to sample; check the step before")]
+    #[error("the cloud has no points: nothing to sample; check the previous tool")]
     Empty,
     #[error(
         "point {index}: coordinates ({x}, {y}, {z}) m are not finite: remove it first, e.g. with cloud-crop"

@@ -105,7 +105,7 @@ fn patch_power(points: &[Vec3], grid: &Grid, centre: Vec3, reach: f64, axis: Vec
     if near.len() < 60 {
         return None;
     }
-    let (u, v, normal) = plane(&near, axis)?;
+    let [u, v, normal] = plane(&near, axis)?;
     // The sheet alone: points off the plane by more than a sixth of the reach lie on another one, or on a bend.
     let flat: Vec<[f64; 2]> =
         near.iter().filter(|p| p.dot(&normal).abs() < reach / 6.0).map(|p| unroll(p, &u, &v)).collect();
@@ -170,7 +170,7 @@ fn unroll(p: &Vec3, u: &Vec3, v: &Vec3) -> [f64; 2] {
 }
 
 /// Two axes in the plane of least squares, the first along `axis` where it can be, and the normal.
-fn plane(near: &[Vec3], axis: Vec3) -> Option<(Vec3, Vec3, Vec3)> {
+fn plane(near: &[Vec3], axis: Vec3) -> Option<[Vec3; 3]> {
     let mean = near.iter().sum::<Vec3>() / near.len() as f64;
     let spread: Matrix3<f64> = near.iter().map(|p| (p - mean) * (p - mean).transpose()).sum();
     let eigen = SymmetricEigen::new(spread);
@@ -180,7 +180,7 @@ fn plane(near: &[Vec3], axis: Vec3) -> Option<(Vec3, Vec3, Vec3)> {
         return None;
     }
     let u = along.normalize();
-    Some((u, normal.cross(&u), normal))
+    Some([u, normal.cross(&u), normal])
 }
 
 fn longest_axis(points: &[Vec3]) -> Vec3 {

@@ -90,8 +90,8 @@ fn laid(points: &[Vec3], members: &[u32], tile: &Tile, spacing: f64, luck: [f64;
         let (of, square) = tile.nearest_to(place(points[i as usize]))?;
         (square <= most).then_some((of, square.to_bits(), i))
     };
-    let mut found: Vec<((u32, i64, i64), u64, u32)> = members.iter().filter_map(near).collect();
+    let mut found: Vec<_> = members.iter().filter_map(near).collect();
     found.sort_unstable();
-    found.dedup_by_key(|(of, _, _)| *of);
-    found.into_iter().map(|(_, _, i)| i).collect()
+    found.dedup_by_key(|(of, ..)| *of);
+    found.into_iter().map(|(.., i)| i).collect()
 }

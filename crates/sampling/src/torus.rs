@@ -35,9 +35,9 @@ impl Tile {
         Tile { points, squares, nearest }
     }
 
-    /// The point of the endless pattern nearest to `at` (in tile widths), as the number of the point and of its copy, and its
-    /// squared distance; `None` where none is nearer than the width of a square.
-    pub(crate) fn nearest_to(&self, at: [f64; 2]) -> Option<((u32, i64, i64), f64)> {
+    /// The point of the endless pattern nearest to `at` (in tile widths), and its squared distance; `None` where none is nearer
+    /// than the width of a square.
+    pub(crate) fn nearest_to(&self, at: [f64; 2]) -> Option<(TilePoint, f64)> {
         let home = at.map(|c| (c * SQUARES as f64).floor() as i64);
         let around = (-1..2).flat_map(|v| (-1..2).map(move |u| [home[0] + u, home[1] + v]));
         let all = around.flat_map(|cell| {
@@ -45,11 +45,19 @@ impl Tile {
             self.squares[square(cell)].iter().map(move |&k| {
                 let p = self.points[k as usize];
                 let d = [0, 1].map(|a| p[a] + copy[a] as f64 - at[a]);
-                ((k, copy[0], copy[1]), d[0] * d[0] + d[1] * d[1])
+                (TilePoint { number: k, copy }, d[0] * d[0] + d[1] * d[1])
             })
         });
         all.min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)))
     }
+}
+
+/// A point of the endless pattern, which repeats a tile.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct TilePoint {
+    number: u32,
+    /// Which copy of the tile, along each axis.
+    copy: [i64; 2],
 }
 
 fn square(cell: [i64; 2]) -> usize {

@@ -29,7 +29,7 @@ const LIMIT: usize = 1 << 38;
 #[derive(Debug, Error)]
 #[allow(missing_docs)]
 pub enum StateError {
-    #[error("state: not a state: the word GRNSTATE is missing at its start")]
+    #[error("state: not a state: GRNSTATE is missing at its start")]
     Magic,
     #[error(
         "state: its layout has version {found}, this program reads version {VERSION}: use the program that wrote it"

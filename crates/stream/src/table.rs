@@ -99,7 +99,7 @@ pub struct Table {
 #[derive(Debug, Error, PartialEq)]
 pub enum TableError {
     /// A column of another length.
-    #[error("column '{name}' has {len} rows where the table has {rows}")]
+    #[error("column '{name}' has {len} rows, but the table has {rows}")]
     Length {
         /// The column.
         name: String,
@@ -109,7 +109,7 @@ pub enum TableError {
         rows: usize,
     },
     /// Two columns of one name.
-    #[error("two columns are called '{0}'")]
+    #[error("two columns have the name '{0}'")]
     Twice(String),
 }
 

@@ -75,7 +75,7 @@ impl FromStr for Camera {
             _ => return Err(wrong("3 or 6 numbers are needed")),
         };
         if target == Some(eye) {
-            return Err(wrong("the eye is at the point it looks at"));
+            return Err(wrong("the camera is at the point that it looks at"));
         }
         Ok(Camera { eye: Some(eye), target, ..Camera::default() })
     }

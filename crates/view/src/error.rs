@@ -14,7 +14,7 @@ pub enum ViewError {
         column: &'static str,
     },
     /// A position or radius that is not a number.
-    #[error("{name}: row {row}: {column} is {value}: remove the row or repair what wrote it")]
+    #[error("{name}: row {row}: {column} is {value}: remove the row, or repair the program that wrote it")]
     NotFinite {
         /// The layer.
         name: String,
@@ -26,7 +26,7 @@ pub enum ViewError {
         value: f64,
     },
     /// Nothing at all to draw.
-    #[error("nothing to show: no input has a sphere or a point")]
+    #[error("nothing to show: the inputs contain no sphere and no point")]
     Empty,
     /// A page beyond its limit, though every frame but two is left out.
     #[error(
@@ -113,7 +113,7 @@ pub enum ViewError {
     },
     /// A folder that is in the way of a series.
     #[error(
-        "{folder}: is there, and holds more than the .vtp files of a series: remove it, or give another name"
+        "{folder}: exists and contains other files than the .vtp files of a series: remove it, or give another name"
     )]
     NotSeries {
         /// The folder.

@@ -1,21 +1,16 @@
 //! Builds a wall: neighbours, radii, placement, leak check.
 
 use crate::pairs::{FURTHEST, Pairs, REACH, pairs};
-use crate::sheets::{self, Sheets};
-use crate::solve::{Changed, Changes};
+use crate::sheets::Sheets;
+use crate::solve::{Changed, ChangedPair, Changes};
 use crate::star::{SQUARE, Stars, stars};
+use crate::warnings::{self, Built};
 use crate::{
     Placement, Radius, Regions, Representative, WallError, WallSettings, equation, leak, normals, solve,
 };
-use geom::{Shown, Vec3};
+use geom::Vec3;
 use sampling::cells::Cells;
 use serde::Serialize;
-
-/// Wall sphere diameter over smallest particle diameter below which spheres cost more than they give [–].
-const PRACTICAL: f64 = 0.8;
-
-/// Median wall sphere radius over smallest particle diameter above which a unit is likely wrong [–].
-const FAR_LARGER: f64 = 20.0;
 
 /// A length that is too large by less than this factor is meant to be equal.
 pub(crate) const ROUNDED: f64 = 1.0 + 1e-9;
@@ -103,28 +98,18 @@ pub fn build(
         sheets: None,
         warnings: Vec::new(),
     };
-    if let Some(sheets) = sheets::closer_than(&cells.points, spacing) {
-        report.warnings.push(two_sheets(&sheets, spacing));
-        report.sheets = Some(sheets);
-    }
-    if let Some(largest) = settings.largest_particle {
-        check_largest(&mut report, largest);
-    }
-    if let Some(particle) = settings.smallest_particle {
-        check_sizes(&mut report, particle, &cells.points, &radii)?;
-        check_particle(&mut report, particle, &centres, &radii, &stars);
-    } else if settings.gaps {
-        // No particle: a gap too wide to be distinguished from the outline does not count.
-        let limit = report.gaps_up_to;
-        (report.widest_gap, _) = leak::widest(&centres, &radii, &stars.triangles, &stars.outline, limit);
-    }
+    warnings::judge(
+        &mut report,
+        &Built { points: &cells.points, stars: &stars, centres: &centres, radii: &radii },
+        settings,
+    )?;
     let (centres, radii) = (by_index(&cells, &centres), by_index(&cells, &radii));
     Ok((Wall { centres, radii, regions: by_index(&cells, &region_of) }, report))
 }
 
 /// The pairs whose ζ was changed, by the numbers that their points came in with.
 fn list(cells: &Cells, found: &Pairs, asked: &[f64], radii: &[f64]) -> Vec<Changed> {
-    let of = |(k, asked, made): (usize, f64, f64)| {
+    let of = |ChangedPair { pair: k, asked, made }| {
         let (i, j) = found.pairs[k];
         let [a, b] = [i, j].map(|slot| cells.order()[slot as usize]);
         let at = (cells.points[i as usize] + cells.points[j as usize]) * 0.5;
@@ -255,81 +240,7 @@ fn place(
     Ok(points.iter().zip(&normals).zip(radii).map(|((p, n), r)| p - n * *r).collect())
 }
 
-/// Refuses spheres larger than the cloud; warns of those far larger than the smallest particle [m].
-fn check_sizes(
-    report: &mut WallReport,
-    particle: f64,
-    points: &[Vec3],
-    radii: &[f64],
-) -> Result<(), WallError> {
-    let (low, high) = points.iter().fold((points[0], points[0]), |(a, b), p| (a.inf(p), b.sup(p)));
-    let (width, radius) = ((high - low).max(), report.radius_range[2]);
-    if radius > width {
-        return Err(WallError::LargerThanCloud { radius, width });
-    }
-    let median = representative(radii, Representative::Median);
-    if median > FAR_LARGER * particle {
-        report.warnings.push(format!(
-            "wall spheres of radius {} m (median) are far larger than the smallest particle ({} m), \
-             and the cloud is {} m wide: is it in millimetres? If not, use a smaller spacing or more roughness",
-            Shown(median),
-            Shown(particle),
-            Shown(width)
-        ));
-    }
-    Ok(())
-}
-
-fn two_sheets(sheets: &Sheets, spacing: f64) -> String {
-    let [x, y, z] = sheets.at.map(|c| format!("{c:.4}"));
-    format!(
-        "two sheets of the surface lie {} m apart, closer than the spacing of {} m, over {:.0} % of it, as at ({x}, {y}, {z}) m: \
-         their spheres fill each other's dents; use a spacing below {} m, or crop the sheet that no particle touches",
-        Shown(sheets.apart),
-        Shown(spacing),
-        (100.0 * sheets.share).max(1.0),
-        Shown(sheets.apart)
-    )
-}
-
-/// Warns of spheres larger than the largest particle [m]: a wall coarser than what flows over it.
-fn check_largest(report: &mut WallReport, particle: f64) {
-    let largest = 2.0 * report.radius_range[2];
-    if largest > particle * ROUNDED {
-        report.warnings.push(format!(
-            "wall spheres up to {} m in diameter are larger than the largest particle ({} m): use a smaller spacing or more \
-             roughness",
-            Shown(largest),
-            Shown(particle)
-        ));
-    }
-}
-
-fn check_particle(report: &mut WallReport, particle: f64, centres: &[Vec3], radii: &[f64], stars: &Stars) {
-    (report.widest_gap, report.leaks) =
-        leak::widest(centres, radii, &stars.triangles, &stars.outline, particle);
-    if let Some(gap) = report.widest_gap.filter(|g| g.diameter >= particle) {
-        let [x, y, z] = gap.at.map(|c| format!("{c:.4}"));
-        let passes = Shown(particle);
-        report.warnings.push(format!(
-            "the wall leaks: {} gaps pass a particle of {passes} m, the widest ({} m) at ({x}, {y}, {z}) m; \
-             sample with a smaller spacing, fill the hole, or use larger radii (less roughness)",
-            report.leaks,
-            Shown(gap.diameter)
-        ));
-    }
-    let least = 2.0 * report.radius_range[0];
-    if least < PRACTICAL * particle {
-        report.warnings.push(format!(
-            "wall spheres down to {} m in diameter are smaller than 80 % of the smallest particle ({} m): \
-             they cost more spheres and a shorter time step; use a larger spacing or less roughness",
-            Shown(least),
-            Shown(particle)
-        ));
-    }
-}
-
-fn representative(values: &[f64], which: Representative) -> f64 {
+pub(crate) fn representative(values: &[f64], which: Representative) -> f64 {
     let middle = values.len() / 2;
     match which {
         // The mean of equal numbers is that number, not one beside it.

@@ -97,13 +97,14 @@ pub fn partners(others: Beside, count: usize, within: (f64, f64), radii: &mut Ve
         let most = if turn > 0.0 { 0.5 * (s - root) } else { 0.0 };
         let least = if turn > 0.0 { 0.5 * (s + root) } else { 0.0 };
         let four = 4.0 * zeta * zeta;
+        let terms = Terms { s, four, p };
         let fits = (2.0 * radius >= zeta) as u64;
         // Two equal half chords are P.
-        larger.set(k, (s, four, p), p - s, (greater(least, lowest), highest));
+        larger.set(k, terms, p - s, (greater(least, lowest), highest));
         larger.there[k] &= fits;
         // Where the slope is steepest Newton's method cannot overshoot.
         let steepest = above_zero((s * s - 0.5 * four) / 3.0).sqrt();
-        smaller.set(k, (s, four, p), steepest, (lesser(least, highest), greater(most, lowest)));
+        smaller.set(k, terms, steepest, (lesser(least, highest), greater(most, lowest)));
         smaller.there[k] &= fits & (turn > 0.0) as u64 & (lowest < least) as u64;
     }
     let mut open = Half::default();
@@ -156,9 +157,17 @@ struct Half {
     there: [u64; LANES],
 }
 
+/// s, 4ζ² and P of one pair.
+#[derive(Clone, Copy)]
+struct Terms {
+    s: f64,
+    four: f64,
+    p: f64,
+}
+
 impl Half {
     #[inline(always)]
-    fn set(&mut self, k: usize, (s, four, p): (f64, f64, f64), start: f64, (below, above): (f64, f64)) {
+    fn set(&mut self, k: usize, Terms { s, four, p }: Terms, start: f64, (below, above): (f64, f64)) {
         (self.s[k], self.four[k], self.right[k]) = (s, four, four * p * p);
         (self.low[k], self.high[k]) = (below, above);
         self.t[k] = lesser(greater(start, lesser(below, above)), greater(below, above));
@@ -241,7 +250,7 @@ mod tests {
         assert_eq!(radius(0.01, f64::NAN), None);
         let r = radius(0.01, 1e-15).unwrap();
         assert!(r.is_finite() && (r * 8e-15 / 1e-4 - 1.0).abs() < 1e-12, "ζ → 0: r → P²/8ζ");
-        assert_eq!(radius(0.01, 1e-320), None, "a radius beyond all numbers");
+        assert_eq!(radius(0.01, 1e-320), None, "a radius that is not finite");
     }
 
     #[test]

@@ -15,6 +15,7 @@ pub mod sheets;
 pub mod solve;
 pub mod star;
 mod table;
+mod warnings;
 pub mod wear;
 mod write;
 
@@ -87,7 +88,9 @@ pub struct WallSettings {
 #[derive(Debug, Error)]
 #[allow(missing_docs)]
 pub enum WallError {
-    #[error("the cloud has {0} points: a wall needs at least 2 that are apart; check the step before")]
+    #[error(
+        "the cloud has {0} points: a wall needs at least 2 at different positions; check the previous tool"
+    )]
     TooFew(usize),
     #[error(
         "most of the {0} points have the same position as another one: sample the cloud first, e.g. with bluenoise-sample"
@@ -125,7 +128,7 @@ pub enum WallError {
     #[error("a roughness is needed to find the radii: give one, or give the radius itself")]
     NoRoughness,
     #[error(
-        "placement on the surface needs the flow side: give the direction in which it lies, e.g. --facing 0,0,1, or a place in the \
+        "placement on the surface needs the flow side: give its direction, e.g. --facing 0,0,1, or a point in the \
          flow, --flow-at x,y,z"
     )]
     NoFacing,

@@ -96,8 +96,14 @@ struct Sweep<'a> {
     visited: &'a [u32],
 }
 
-/// What a visit chose: the point, its radius [m] and its sum [m].
-type Choice = (u32, f64, f64);
+/// What a visit chose for a point.
+struct Choice {
+    point: usize,
+    /// [m]
+    radius: f64,
+    /// Of what its pairs are off [m].
+    sum: f64,
+}
 
 /// Radii [m] for pairs of points at distances `lengths` [m] with roughness `zeta` [m] each point, from the uniform ones `even` [m].
 pub fn solve(pairs: &[(u32, u32)], lengths: &[f64], zeta: &[f64], even: &[f64]) -> Vec<f64> {
@@ -114,8 +120,7 @@ pub fn solve(pairs: &[(u32, u32)], lengths: &[f64], zeta: &[f64], even: &[f64]) 
                 Sweep { links: &links, zeta, even, radii: &radii, changed: &changed, visited: &visited };
             let chosen: Vec<Vec<Choice>> =
                 colour.par_chunks(PART).map(|part| visit_all(&now, part)).collect();
-            for (i, radius, sum) in chosen.into_iter().flatten() {
-                let i = i as usize;
+            for Choice { point: i, radius, sum } in chosen.into_iter().flatten() {
                 visited[i] = step;
                 if radii[i] != radius {
                     (radii[i], changed[i]) = (radius, step);
@@ -142,7 +147,7 @@ fn visit_all(now: &Sweep, points: &[u32]) -> Vec<Choice> {
         let visited = now.visited[i as usize];
         if now.links.to[links.clone()].iter().any(|&to| now.changed[to as usize] > visited) {
             let (radius, sum) = visit.choose(now, i, links);
-            chosen.push((i, radius, sum));
+            chosen.push(Choice { point: i as usize, radius, sum });
         }
     }
     chosen
@@ -236,19 +241,29 @@ pub fn changes(pairs: &[(u32, u32)], lengths: &[f64], zeta: &[f64], radii: &[f64
     all
 }
 
-/// The pairs that count as changed: index in `pairs`, ζ asked for and made [m].
-pub fn changed<'a>(
+/// A pair that counts as changed.
+pub(crate) struct ChangedPair {
+    /// Its number in the list of pairs.
+    pub(crate) pair: usize,
+    /// ζ asked for [m].
+    pub(crate) asked: f64,
+    /// ζ that the radii make [m].
+    pub(crate) made: f64,
+}
+
+/// The pairs that count as changed.
+pub(crate) fn changed<'a>(
     pairs: &'a [(u32, u32)],
     lengths: &'a [f64],
     zeta: &'a [f64],
     radii: &'a [f64],
-) -> impl Iterator<Item = (usize, f64, f64)> + 'a {
-    let both = move |(k, (&(i, j), &p)): (usize, (&(u32, u32), &f64))| {
-        let (i, j) = (i as usize, j as usize);
-        (k, 0.5 * (zeta[i] + zeta[j]), dent(radii[i], radii[j], p))
-    };
-    let all = pairs.iter().zip(lengths).enumerate().map(both);
-    all.filter(|(_, asked, made)| (made - asked).abs() > CHANGED * asked)
+) -> impl Iterator<Item = ChangedPair> + 'a {
+    let all = (0..pairs.len()).map(move |pair| {
+        let [i, j] = [pairs[pair].0 as usize, pairs[pair].1 as usize];
+        let (asked, made) = (0.5 * (zeta[i] + zeta[j]), dent(radii[i], radii[j], lengths[pair]));
+        ChangedPair { pair, asked, made }
+    });
+    all.filter(|c| (c.made - c.asked).abs() > CHANGED * c.asked)
 }
 
 impl Changes {

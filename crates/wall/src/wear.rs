@@ -45,7 +45,7 @@ pub enum WearError {
     )]
     NoProperty(String),
     #[error(
-        "wear: point {point} has no measurement ({found}), and no roughness holds outside: give `roughness` in the same file"
+        "wear: point {point} has no measurement ({found}), and the file has no `roughness` for such points: add it"
     )]
     NotMeasured { point: usize, found: f64 },
 }
@@ -76,7 +76,15 @@ pub struct Wear {
     source: WearSource,
     from: Vec3,
     along: Vec3,
+    table: WearTable,
+}
+
+/// Roughness over wear and position.
+#[derive(Debug, Clone)]
+struct WearTable {
+    /// Along the direction [m], ascending.
     positions: Vec<f64>,
+    /// Ascending.
     wears: Vec<f64>,
     /// ζ [m], a row a wear.
     roughness: Vec<Vec<f64>>,
@@ -117,8 +125,7 @@ impl Wear {
         let along = along.ok_or(WearError::Along { along: section.along })?;
         let file = section.table;
         let text = text(&file).map_err(|why| WearError::File { file: file.clone(), why })?;
-        let (positions, wears, roughness) = parse(&file, &text)?;
-        Ok(Wear { source, from: section.from.into(), along, positions, wears, roughness })
+        Ok(Wear { source, from: section.from.into(), along, table: parse(&file, &text)? })
     }
 
     /// ζ [m] of each point [m]; where nothing was measured it is `outside`. `property` gives a column of the cloud.
@@ -138,8 +145,8 @@ impl Wear {
         for (point, (p, &wear)) in points.iter().zip(&wears).enumerate() {
             let zeta = if wear.is_finite() {
                 let position = (p - self.from).dot(&self.along);
-                let (row, is_in) = place(&self.wears, wear);
-                let (column, is_along) = place(&self.positions, position);
+                let (row, is_in) = place(&self.table.wears, wear);
+                let (column, is_along) = place(&self.table.positions, position);
                 report.beyond += usize::from(!(is_in && is_along));
                 widen(&mut report.wear, wear);
                 widen(&mut report.position, position);
@@ -171,11 +178,11 @@ impl Wear {
     /// Linear in both indices, each a place between two entries and the share of the second.
     fn at(&self, (row, t): (usize, f64), (column, s): (usize, f64)) -> f64 {
         let along = |row: usize| {
-            let line = &self.roughness[row];
+            let line = &self.table.roughness[row];
             let next = (column + 1).min(line.len() - 1);
             line[column] * (1.0 - s) + line[next] * s
         };
-        along(row) * (1.0 - t) + along((row + 1).min(self.roughness.len() - 1)) * t
+        along(row) * (1.0 - t) + along((row + 1).min(self.table.roughness.len() - 1)) * t
     }
 }
 
@@ -218,9 +225,7 @@ fn distances(points: &[Vec3], mesh: &TriMesh) -> Vec<f64> {
     points.par_iter().map(distance).collect()
 }
 
-type Entries = (Vec<f64>, Vec<f64>, Vec<Vec<f64>>);
-
-fn parse(file: &str, text: &str) -> Result<Entries, WearError> {
+fn parse(file: &str, text: &str) -> Result<WearTable, WearError> {
     let mut lines =
         (1..).zip(text.lines()).filter(|(_, l)| !l.trim().is_empty() && !l.trim_start().starts_with('#'));
     let wrong = |line: usize, what: &'static str, text: &str| WearError::Line {
@@ -260,7 +265,7 @@ fn parse(file: &str, text: &str) -> Result<Entries, WearError> {
             why: "has no line below the positions".to_owned(),
         });
     }
-    Ok((positions, wears, roughness))
+    Ok(WearTable { positions, wears, roughness })
 }
 
 fn ascends(values: &[f64]) -> bool {

@@ -18,7 +18,7 @@
 
 use las::Header;
 use laz::LazItemType;
-use laz::laszip::ChunkTable;
+use laz::laszip::{ChunkTable, ChunkTableEntry, LazVlr};
 use std::io::{self, Cursor, Read, Seek, SeekFrom};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -173,19 +173,7 @@ pub(super) fn before_the_points(bytes: &[u8], header: &Header) -> Result<Vec<Chu
     // Chunks of points packed one by one do not tell their length: those of the table must end where it begins.
     let mut whole = start.checked_add(8).and_then(|first| first.checked_add(total)) == table_at(bytes);
     if vlr.items().first().is_some_and(|item| item.version() > 2) {
-        let fixed = (!vlr.uses_variable_size_chunks()).then(|| u64::from(vlr.chunk_size()));
-        let points = |k: usize| fixed.or(table.get(k).map(|c| c.point_count)).filter(|&n| n > 0);
-        let head = Head { size: size as usize, items: vlr.items().iter().map(|i| i.item_type()).collect() };
-        // Chunks follow each other, whatever the table says. One that counts no point never ends.
-        whole = true;
-        let (mut at, mut left, mut k) = (start as usize + 8, header.number_of_points(), 0);
-        while left > 0
-            && let Some(length) = head.length(bytes, at, k)?
-        {
-            whole &= table.get(k).is_some_and(|c| c.byte_count == length as u64);
-            left = left.saturating_sub(points(k).unwrap_or(u64::MAX));
-            (at, k) = (at + length, k + 1);
-        }
+        whole = layers_follow(bytes, start, header.number_of_points(), &vlr, table)?;
     }
     let (mut next, mut chunks) = (Chunk { first: 0, at: start.saturating_add(8) }, Vec::new());
     for chunk in table {
@@ -201,6 +189,33 @@ pub(super) fn before_the_points(bytes: &[u8], header: &Header) -> Result<Vec<Chu
         };
     }
     Ok(if whole && !chunks.is_empty() { chunks } else { vec![Chunk::default()] })
+}
+
+/// Whether chunks of layers have the lengths that the table gives them. Chunks follow each other, whatever the table says.
+fn layers_follow(
+    bytes: &[u8],
+    start: u64,
+    points: u64,
+    vlr: &LazVlr,
+    table: &[ChunkTableEntry],
+) -> Result<bool, String> {
+    let head = Head {
+        size: vlr.items().iter().map(|item| usize::from(item.size())).sum(),
+        items: vlr.items().iter().map(|item| item.item_type()).collect(),
+    };
+    let fixed = (!vlr.uses_variable_size_chunks()).then(|| u64::from(vlr.chunk_size()));
+    let (mut at, mut left, mut k, mut whole) = (start as usize + 8, points, 0, true);
+    while left > 0
+        && let Some(length) = head.length(bytes, at, k)?
+    {
+        let entry = table.get(k);
+        whole &= entry.is_some_and(|c| c.byte_count == length as u64);
+        // One that counts no point never ends.
+        let counted = fixed.or(entry.map(|c| c.point_count)).filter(|&n| n > 0);
+        left = left.saturating_sub(counted.unwrap_or(u64::MAX));
+        (at, k) = (at + length, k + 1);
+    }
+    Ok(whole)
 }
 
 /// What stands at the head of a chunk of layers.

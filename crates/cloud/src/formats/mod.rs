@@ -44,7 +44,7 @@ const FORMATS: [Format; 5] = [
 pub enum ReadError {
     #[error("cannot read")]
     Io(#[source] std::io::Error),
-    #[error("nothing to read: the input has no byte; did the tool upstream fail?")]
+    #[error("nothing to read: the input is empty; did the previous tool fail?")]
     Empty,
     #[error("no known cloud format begins with {start}{hint}: give PLY, LAS, LAZ, E57, PCD or XYZ/PTS text")]
     Unknown { start: String, hint: &'static str },
@@ -60,13 +60,13 @@ pub enum ReadError {
     Broken { format: &'static str, what: String, point: Option<u64> },
     #[error("XYZ/PTS: line {line}: {what}: '{text}'")]
     Text { line: usize, what: String, text: String },
-    #[error("{format}: columns cannot be put together")]
+    #[error("{format}: cannot combine the columns")]
     Table {
         format: &'static str,
         #[source]
         source: TableError,
     },
-    #[error("{points} points are more than one cloud can hold ({}): cut the scan in parts", u32::MAX - 1)]
+    #[error("{points} points are more than one cloud can hold ({}): divide the scan into parts", u32::MAX - 1)]
     TooMany { points: u64 },
 }
 

@@ -42,7 +42,7 @@ fn rest<R: Read>((mut bytes, mut from): (Vec<u8>, R)) -> Result<Result<Cloud, Ve
 
 /// Which properties are x, y and z; none when one is missing.
 fn positions<R>(blocks: &Blocks<R>) -> Option<[usize; 3]> {
-    let at = |axis: &str| blocks.properties.iter().position(|(name, _, _)| name == axis);
+    let at = |axis: &str| blocks.properties.iter().position(|p| p.name == axis);
     Some([at("x")?, at("y")?, at("z")?])
 }
 
@@ -50,10 +50,10 @@ fn positions<R>(blocks: &Blocks<R>) -> Option<[usize; 3]> {
 fn from_blocks<R: Read>(mut blocks: Blocks<R>) -> Result<Cloud, ReadError> {
     let Some(at) = positions(&blocks) else { return Err(ReadError::NoPosition) };
     let stride = blocks.stride;
-    let axes = at.map(|k| (blocks.properties[k].1, blocks.properties[k].2));
+    let axes = at.map(|k| (blocks.properties[k].kind, blocks.properties[k].offset));
     let others: Vec<usize> = (0..blocks.properties.len()).filter(|k| !at.contains(k)).collect();
-    let mut columns: Vec<Values> = others.iter().map(|&k| blocks.properties[k].1.empty()).collect();
-    let places: Vec<usize> = others.iter().map(|&k| blocks.properties[k].2).collect();
+    let mut columns: Vec<Values> = others.iter().map(|&k| blocks.properties[k].kind.empty()).collect();
+    let places: Vec<usize> = others.iter().map(|&k| blocks.properties[k].offset).collect();
     let mut points = Vec::new();
     while let Some(rows) = blocks.next_rows().map_err(ReadError::Ply)? {
         extend(&mut points, rows, stride, axes);
@@ -62,7 +62,7 @@ fn from_blocks<R: Read>(mut blocks: Blocks<R>) -> Result<Cloud, ReadError> {
     let mut attributes = Table::with_rows(points.len());
     for (k, values) in others.into_iter().zip(columns) {
         let table = |source| ReadError::Table { format: "PLY", source };
-        attributes.push(&blocks.properties[k].0, values).map_err(table)?;
+        attributes.push(&blocks.properties[k].name, values).map_err(table)?;
     }
     let double = axes.iter().any(|(kind, _)| *kind != NumberType::F32);
     let comments = std::mem::take(&mut blocks.comments);

@@ -39,7 +39,7 @@ impl Grid {
             let (key, all) = pair("--vary", text)?;
             if knobs.iter().any(|k| k.name == key) {
                 return Err(CurveError::Usage(format!(
-                    "--vary {key}: is given twice: list all of its values in one"
+                    "--vary {key}: is given twice: list all its values in one option"
                 )));
             }
             lists.push(values(&key, &all)?);
@@ -144,7 +144,7 @@ fn values(key: &str, text: &str) -> Result<Vec<String>, CurveError> {
     if let Some(value) = list.iter().find(|v| v.is_empty()).or_else(|| list.iter().find(|v| twice(v, &list)))
     {
         let why =
-            if value.is_empty() { "one value is empty".into() } else { format!("{value} is there twice") };
+            if value.is_empty() { "one value is empty".into() } else { format!("{value} is given twice") };
         return Err(CurveError::Usage(format!("--vary {key}={text}: {why}: leave it out")));
     }
     Ok(list)
@@ -203,7 +203,7 @@ mod tests {
     fn errors_name_the_option() {
         let why = |vary: &[&str]| grid(vary, &[], &[]).unwrap_err().to_string();
         assert!(why(&["safety"]).contains("write KEY=VALUE"));
-        assert!(why(&["safety=1,1"]).contains("1 is there twice"));
+        assert!(why(&["safety=1,1"]).contains("1 is given twice"));
         assert!(why(&["safety=1,,2"]).contains("one value is empty"));
         assert!(why(&["safety=1", "safety=2"]).contains("given twice"));
         assert!(grid(&["safety=1"], &["dt=2"], &[]).unwrap_err().to_string().contains("is not varied"));

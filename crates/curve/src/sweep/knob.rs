@@ -137,7 +137,7 @@ impl Knob {
             Target::Key(key) => match &expand(scene, key)[..] {
                 [] => {
                     let why =
-                        format!("--vary {name}: the scene has no entry for {key}: vary something it has");
+                        format!("--vary {name}: the scene has no entry for {key}: choose a key that it has");
                     Err(CurveError::Failed(why))
                 }
                 keys => Ok(keys.iter().map(|key| format!("{key}={value}")).collect()),

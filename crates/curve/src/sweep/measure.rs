@@ -112,7 +112,7 @@ impl Measure {
     fn find(&self, sheet: &Value) -> Result<Measured, CurveError> {
         let no_number = || {
             CurveError::Failed(format!(
-                "'{}' is not a number in this run: measure something it has",
+                "'{}' is not a number in this run: choose another measure",
                 self.value
             ))
         };

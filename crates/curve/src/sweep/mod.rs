@@ -115,7 +115,7 @@ fn check_random(study: &Study, scene: &str, values: &Value) -> Result<(), CurveE
         return Ok(());
     }
     Err(CurveError::Usage(format!(
-        "--repeat {}: chance plays no part in {scene}: it has no [[fill]] and no [[insert]]: leave --repeat out, or \
+        "--repeat {}: {scene} uses no random numbers: it has no [[fill]] and no [[insert]]: leave --repeat out, or \
          put {{seed}} into --each",
         study.repeat
     )))

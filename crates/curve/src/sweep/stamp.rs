@@ -51,7 +51,7 @@ pub(super) fn stamp(job: &Job, text: &str, tools: &Path, hashes: &mut Hashes) ->
     let named = words.iter().map(|w| w.split_once(':').map_or(w.as_str(), |(_, file)| file));
     let folder = Path::new(&job.scene).parent().unwrap_or(Path::new("")).to_owned();
     let program = tools.join("dem-run");
-    let missing = || format!("{}: is not there: install dem-run beside cost-curve", program.display());
+    let missing = || format!("{}: not found: install dem-run beside cost-curve", program.display());
     let program = hashes.of(&program).map_err(|_| CurveError::Failed(missing()))?;
     let mut all = vec![program, stream::sha256(text.as_bytes()), hashes.of_words(named, &[&folder])?];
     for input in &job.inputs {

@@ -97,7 +97,7 @@ pub fn scripts<'a>(
     work: Work,
     counter: Option<Counter>,
 ) -> Result<Open<'a>, CurveError> {
-    let here = std::env::current_dir().map_err(CurveError::io("the folder that this was started in"))?;
+    let here = std::env::current_dir().map_err(CurveError::io("the current folder"))?;
     let outdated = jobs.iter().filter(|job| left(job).is_some_and(|(stamp, _)| stamp != job.stamp)).count();
     let open: Vec<&Job> = jobs.iter().filter(|job| !finished(job) || uncounted(job, work)).collect();
     for job in &open {
@@ -149,7 +149,7 @@ pub fn run(
     if stop() {
         let (done, all) = (jobs.iter().filter(|job| finished(job)).count(), jobs.len());
         let why =
-            format!("stopped by a signal: {done} of {all} runs were made: the same line goes on from there");
+            format!("stopped by a signal: {done} of {all} runs are finished: the same command continues");
         return Err(CurveError::Failed(why));
     }
     Ok(())
@@ -162,7 +162,7 @@ pub fn run(
 pub fn read(job: &Job, work: Work, counter: Option<Counter>) -> Result<Made, CurveError> {
     let words = std::fs::read_to_string(job.file("words")).unwrap_or_default();
     let lost =
-        || CurveError::Failed(format!("{}: its run ended without a message: {words}", job.folder.display()));
+        || CurveError::Failed(format!("{}: the run ended without a message: {words}", job.folder.display()));
     let (_, code) = left(job).filter(|(stamp, _)| *stamp == job.stamp).ok_or_else(lost)?;
     if code != "0" {
         let line = words.lines().rev().find(|l| !l.trim().is_empty()).unwrap_or("it gave no reason");

@@ -33,7 +33,7 @@ pub const END_OF_STREAM: &str = "end_of_stream";
 pub enum McapError {
     #[error("MCAP: cannot read or write")]
     Io(#[from] io::Error),
-    #[error("MCAP: the stream is empty: did the tool before this one fail?")]
+    #[error("MCAP: the stream is empty: did the previous tool fail?")]
     Empty,
     #[error(
         "MCAP: not an MCAP stream: magic bytes are missing; give a file of wallgen, dem-run or stage-replay"
@@ -56,10 +56,10 @@ pub enum McapError {
     )]
     Malformed { byte: u64, messages: u64, what: &'static str },
     #[error(
-        "MCAP: bytes follow the end of the stream (from byte {byte}): were files joined with cat? Give them one by one"
+        "MCAP: bytes follow the end of the stream (from byte {byte}): were files joined with cat? Give each file separately"
     )]
     Trailing { byte: u64 },
-    #[error("MCAP: {found} messages where the end-of-stream record counts {expected}")]
+    #[error("MCAP: {found} messages found, but the end-of-stream record counts {expected}")]
     Count { found: u64, expected: u64 },
     #[error("MCAP: topic '{topic}' at {time_ns} ns: point cloud: {what}")]
     Points { topic: String, time_ns: u64, what: String },

@@ -23,12 +23,22 @@ pub struct Blocks<R> {
     pub rows: u64,
     /// Bytes of a row.
     pub stride: usize,
-    /// Name, type and place in the row [B] of each property.
-    pub properties: Vec<(String, NumberType, usize)>,
+    /// Properties of a row.
+    pub properties: Vec<RowProperty>,
     /// Rows given.
     given: u64,
     /// Bytes of the file up to the end of the buffer.
     bytes: u64,
+}
+
+/// A property of rows of one size.
+pub struct RowProperty {
+    /// Its name.
+    pub name: String,
+    /// Its type.
+    pub kind: NumberType,
+    /// Where it begins in a row [B].
+    pub offset: usize,
 }
 
 /// What a stream turned out to be.
@@ -59,9 +69,9 @@ impl<R: Read> Opened<R> {
         };
         let mut offset = 0;
         let place = |p: header::Property| {
-            let here = offset;
-            offset += p.kind.size();
-            (p.name, p.kind, here)
+            let property = RowProperty { name: p.name, kind: p.kind, offset };
+            offset += property.kind.size();
+            property
         };
         Ok(Opened::Blocks(Blocks {
             properties: element.properties.into_iter().map(place).collect(),

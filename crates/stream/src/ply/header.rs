@@ -50,57 +50,64 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Header, usize), PlyError> {
         lines: 0,
     };
     while let Some(line) = lines.next() {
-        let number = lines.number;
         // Comments may be in any encoding; the rest is ASCII.
         let line = String::from_utf8_lossy(line);
-        let wrong = |what| PlyError::Header { line: number, what, found: shortened(&line) };
+        let wrong = |what| PlyError::Header { line: lines.number, what, found: shortened(&line) };
         let (word, rest) = line.trim_end().split_once([' ', '\t']).unwrap_or((line.trim_end(), ""));
         match word {
-            "comment" => header.comments.push(rest.to_owned()),
-            "obj_info" => header.obj_info.push(rest.to_owned()),
-            "" => {}
             "format" if format.is_some() => return Err(wrong("a second format")),
-            "format" => {
-                format = Some(encoding(rest).ok_or_else(|| {
-                    wrong("unknown format (known: ascii, binary_little_endian, binary_big_endian, 1.0)")
-                })?)
-            }
-            "element" => {
-                header.elements.push(element(rest).ok_or_else(|| wrong("not 'element NAME COUNT'"))?)
-            }
-            "property" => {
-                let property = property(rest).map_err(&wrong)?;
-                let element =
-                    header.elements.last_mut().ok_or_else(|| wrong("a property before any element"))?;
-                if element.properties.iter().any(|p| p.name == property.name) {
-                    return Err(wrong("this name occurs twice in its element"));
-                }
-                element.properties.push(property);
-            }
+            "format" => format = Some(encoding(rest).map_err(wrong)?),
             "end_header" => {
                 header.encoding = format.ok_or_else(|| wrong("no 'format' line before the end"))?;
                 if let Some(e) = header.elements.iter().find(|e| e.rows > 0 && e.properties.is_empty()) {
                     return Err(PlyError::Empty { element: e.name.clone(), rows: e.rows });
                 }
-                header.lines = number;
+                header.lines = lines.number;
                 // The line break after `end_header` is part of the header; data that follow it may be LF bytes.
                 return Ok((header, lines.at));
             }
-            _ => return Err(wrong("unknown word")),
+            _ => header.take(word, rest).map_err(wrong)?,
         }
     }
     Err(PlyError::NoEnd)
 }
 
-fn encoding(rest: &str) -> Option<Encoding> {
+impl Header {
+    /// Takes what a line says, or tells what is wrong with it.
+    fn take(&mut self, word: &str, rest: &str) -> Result<(), &'static str> {
+        match word {
+            "" => {}
+            "comment" => self.comments.push(rest.to_owned()),
+            "obj_info" => self.obj_info.push(rest.to_owned()),
+            "element" => {
+                let element = element(rest).ok_or("not 'element NAME COUNT'")?;
+                if self.elements.iter().any(|e| e.name == element.name) {
+                    return Err("a second element of this name");
+                }
+                self.elements.push(element);
+            }
+            "property" => {
+                let property = property(rest)?;
+                let element = self.elements.last_mut().ok_or("a property before any element")?;
+                if element.properties.iter().any(|p| p.name == property.name) {
+                    return Err("this name occurs twice in its element");
+                }
+                element.properties.push(property);
+            }
+            _ => return Err("unknown word"),
+        }
+        Ok(())
+    }
+}
+
+fn encoding(rest: &str) -> Result<Encoding, &'static str> {
     let mut words = rest.split_ascii_whitespace();
-    let encoding = match words.next()? {
-        "ascii" => Encoding::Ascii,
-        "binary_little_endian" => Encoding::BinaryLittleEndian,
-        "binary_big_endian" => Encoding::BinaryBigEndian,
-        _ => return None,
-    };
-    (words.next() == Some("1.0")).then_some(encoding)
+    match (words.next(), words.next()) {
+        (Some("ascii"), Some("1.0")) => Ok(Encoding::Ascii),
+        (Some("binary_little_endian"), Some("1.0")) => Ok(Encoding::BinaryLittleEndian),
+        (Some("binary_big_endian"), Some("1.0")) => Ok(Encoding::BinaryBigEndian),
+        _ => Err("unknown format (known: ascii, binary_little_endian, binary_big_endian, 1.0)"),
+    }
 }
 
 fn element(rest: &str) -> Option<ElementHeader> {

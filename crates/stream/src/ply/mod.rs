@@ -129,7 +129,7 @@ pub enum PlyError {
         source: crate::table::TableError,
     },
     #[error(
-        "PLY: element '{element}': the name '{name}' cannot stand in a header (blank, empty or not ASCII)"
+        "PLY: element '{element}': the name '{name}' is not allowed in a header (blank, empty or not ASCII)"
     )]
     Name { element: String, name: String },
     #[error("PLY: element '{element}', list '{property}': {what}")]

@@ -253,8 +253,8 @@ impl Read for Drops<'_> {
 /// Columns of a plain file, read in blocks.
 fn in_blocks(bytes: &[u8]) -> Result<Vec<Vec<f64>>, PlyError> {
     let Opened::Blocks(mut blocks) = Opened::new(Drops(bytes)).unwrap() else { panic!("a plain file") };
-    let mut columns: Vec<Values> = blocks.properties.iter().map(|(_, kind, _)| kind.empty()).collect();
-    let places: Vec<usize> = blocks.properties.iter().map(|(_, _, place)| *place).collect();
+    let mut columns: Vec<Values> = blocks.properties.iter().map(|p| p.kind.empty()).collect();
+    let places: Vec<usize> = blocks.properties.iter().map(|p| p.offset).collect();
     let stride = blocks.stride;
     while let Some(rows) = blocks.next_rows()? {
         assert!(!rows.is_empty() && rows.len().is_multiple_of(stride));

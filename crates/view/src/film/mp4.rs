@@ -49,7 +49,8 @@ impl Mp4 {
         let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let stem = path.file_name().unwrap_or_default().to_string_lossy();
         let temp = tempfile::Builder::new().prefix(&format!(".{stem}.")).suffix(".part").tempfile_in(folder);
-        let create = format!("{}: cannot create it (is the folder there?)", path.display());
+        let create =
+            format!("{}: cannot create it (check that the folder exists and is writable)", path.display());
         let (temp, path) = (temp.map_err(ViewError::io(create))?.into_temp_path(), path.to_owned());
         let (size, rate) = (format!("{width}x{height}"), fps.to_string());
         let mut ffmpeg = Command::new("ffmpeg")
@@ -81,7 +82,7 @@ impl Mp4 {
                 // Only its end is waited for.
                 let _ = self.ffmpeg.wait();
                 Err(ViewError::Ffmpeg {
-                    why: format!("failed: {why}: is it one with libx264? Else write a .gif"),
+                    why: format!("failed: {why}: check that this ffmpeg has libx264, or write a .gif"),
                 })
             }
             other => other.map_err(ViewError::io("ffmpeg: cannot write to it")),

@@ -88,7 +88,7 @@ fn add_moving(outline: &mut Outline, places: &[Vec3], motion: &Motion, moments: 
     let moments = if motion.moves() { moments } else { &[0.0] };
     for &time in moments {
         let pose = motion.pose(time);
-        let moved: Vec<Vec3> = places.iter().map(|place| pose.place(place)).collect();
+        let moved: Vec<Vec3> = places.iter().map(|place| pose.position(place)).collect();
         outline.add(&moved);
     }
 }

@@ -86,13 +86,14 @@ impl Painted {
         self.outline = outline.points();
         for sheet in sheet::sheets(surfaces, self.extent) {
             let pose = sheet.surface.motion.pose(time);
-            let vertices: Vec<Vec3> = sheet.vertices.iter().map(|v| pose.place(v)).collect();
+            let vertices: Vec<Vec3> = sheet.vertices.iter().map(|v| pose.position(v)).collect();
             let faces = sheet.faces.iter().map(|f| f.map(|v| vertices[v as usize])).collect();
-            let lines = sheet.lines.iter().map(|l| l.map(|v| pose.place(&v))).collect();
+            let lines = sheet.lines.iter().map(|l| l.map(|v| pose.position(&v))).collect();
             let side = match &sheet.surface.shape {
-                SurfaceShape::Plane(p) => {
-                    Some([pose.place(&p.point), pose.place(&(p.point + p.normal)) - pose.place(&p.point)])
-                }
+                SurfaceShape::Plane(p) => Some([
+                    pose.position(&p.point),
+                    pose.position(&(p.point + p.normal)) - pose.position(&p.point),
+                ]),
                 SurfaceShape::Mesh(_) => None,
             };
             if sheet.whole && side.is_some() && self.outline.is_empty() {

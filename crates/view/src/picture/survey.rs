@@ -53,7 +53,7 @@ impl Survey {
         for surface in surfaces.iter().filter(|s| self.moments == 1 || s.motion.moves()) {
             if let SurfaceShape::Mesh(mesh) = &surface.shape {
                 let pose = surface.motion.pose(options.time.unwrap_or(0.0));
-                self.outline.add(&mesh.vertices.iter().map(|v| pose.place(v)).collect::<Vec<Vec3>>());
+                self.outline.add(&mesh.vertices.iter().map(|v| pose.position(v)).collect::<Vec<Vec3>>());
             }
         }
         let Some(first) = parts().min_by_key(|p| p.role) else { return Ok(()) };

@@ -85,7 +85,8 @@ pub fn walls(surfaces: &[WallSurface], reach: &Reach, time: f64) -> PolyData {
     let mut all = PolyData::default();
     for (number, sheet) in sheet::sheets(surfaces, reach.extent()).into_iter().enumerate() {
         let pose = sheet.surface.motion.pose(time);
-        let points: Vec<f64> = sheet.vertices.iter().flat_map(|v| <[f64; 3]>::from(pose.place(v))).collect();
+        let points: Vec<f64> =
+            sheet.vertices.iter().flat_map(|v| <[f64; 3]>::from(pose.position(v))).collect();
         let rows = sheet.vertices.len();
         let number = Values::U16(vec![number.min(usize::from(u16::MAX)) as u16; rows]);
         let fields =

@@ -33,7 +33,7 @@ impl SeriesFolder {
         let filling =
             tempfile::Builder::new().prefix(&format!(".{name}.")).suffix(".part").tempdir_in(parent);
         let create =
-            format!("{}: cannot create it (is the folder there, and may you write to it?)", place.display());
+            format!("{}: cannot create it (check that the folder exists and is writable)", place.display());
         let filling = filling.map_err(ViewError::io(create))?;
         Ok(SeriesFolder { filling, place, name, reach: Rc::default() })
     }

@@ -73,7 +73,7 @@ pub(crate) fn find(surface: &DrawnSurface, spacing: f64, centre: &dyn Fn(Vec3, V
             (false, Some(&(last, _))) => (inset((first, from)), inset((last, vertex))),
             _ => (0.0, 0.0),
         };
-        between(&mut positions, surface, &edges, &chain, (closed, spacing, insets));
+        between(&mut positions, surface, &edges, &chain, Split { closed, spacing, insets });
         count += 1;
     }
     Stretches { positions, count, corners: corners.len() }
@@ -91,13 +91,22 @@ fn other(edge: &Edge, end: u32) -> u32 {
     if edge.ends[0] == end { edge.ends[1] } else { edge.ends[0] }
 }
 
-/// Places between the ends of a chain of edges (number and first vertex), or all around.
+/// How a chain of edges is divided.
+struct Split {
+    closed: bool,
+    /// Largest distance of two positions [m].
+    spacing: f64,
+    /// Length that is left out at the head and at the tail [m].
+    insets: (f64, f64),
+}
+
+/// Positions between the ends of a chain of edges (number and first vertex), or all around.
 fn between(
     positions: &mut Vec<(Vec3, Vec3)>,
     surface: &DrawnSurface,
     edges: &[Edge],
     chain: &[(usize, u32)],
-    (closed, spacing, (head, tail)): (bool, f64, (f64, f64)),
+    Split { closed, spacing, insets: (head, tail) }: Split,
 ) {
     let position = |v: u32| surface.mesh.vertices[v as usize];
     let length = |&(e, _): &(usize, u32)| (position(edges[e].ends[1]) - position(edges[e].ends[0])).norm();
