@@ -1,9 +1,9 @@
 //! Every normal law there is, with and without cohesion, and every surface a grain can meet: what laws are tried on.
 
 use crate::setups::{HOOKE, Law, empty, grain, plane, sticky};
-use dem::effects::{Cohesion, Contact, Effect, Hertz, Hooke, Jkr, Load};
-use dem::lane::V;
+use dem::effects::{Cohesion, Contact, Effect, Hertz, Hooke, Jkr, Response};
 use dem::setup::*;
+use dem::simd::V;
 use dem::{Setup, mass};
 use geom::Vec3;
 use std::f64::consts::PI;
@@ -69,12 +69,12 @@ pub fn still(overlap: f64, radius: f64, curvature: f64) -> Contact<f64> {
 }
 
 /// What an effect makes of a contact that has just been made.
-pub fn load<E: Effect>(effect: E, contact: &Contact<f64>) -> Load<f64> {
-    let nothing = vec![0.0; E::MEMORY * dem::lane::BLOCK];
-    let mut memory = <E::Memory<f64> as dem::effects::Memory<f64>>::load(&nothing, 0);
-    let mut load = Load::zero();
-    effect.apply(contact, 1e-6, &mut memory, &mut load);
-    load
+pub fn response<E: Effect>(effect: E, contact: &Contact<f64>) -> Response<f64> {
+    let nothing = vec![0.0; E::HISTORY * dem::simd::BLOCK];
+    let mut history = <E::History<f64> as dem::effects::History<f64>>::load(&nothing, 0);
+    let mut response = Response::zero();
+    effect.apply(contact, 1e-6, &mut history, &mut response);
+    response
 }
 
 impl Normal {
@@ -93,13 +93,15 @@ impl Normal {
     }
 
     /// Force and energy without damping.
-    pub fn load(&self, contact: &Contact<f64>) -> Load<f64> {
+    pub fn response(&self, contact: &Contact<f64>) -> Response<f64> {
         let cohesion = self.cohesion.map(|energy_density| Cohesion { energy_density });
         let (modulus, damping_ratio) = (MODULUS, 0.0);
         match self.law {
-            Law::Hooke { stiffness, .. } => load((Hooke { stiffness, damping_ratio }, cohesion), contact),
-            Law::Hertz => load((Hertz { modulus, damping_ratio }, cohesion), contact),
-            Law::Jkr { work_of_adhesion } => load(Jkr { modulus, work_of_adhesion, damping_ratio }, contact),
+            Law::Hooke { stiffness, .. } => response((Hooke { stiffness, damping_ratio }, cohesion), contact),
+            Law::Hertz => response((Hertz { modulus, damping_ratio }, cohesion), contact),
+            Law::Jkr { work_of_adhesion } => {
+                response(Jkr { modulus, work_of_adhesion, damping_ratio }, contact)
+            }
         }
     }
 
@@ -136,8 +138,8 @@ impl Normal {
 
     /// Overlap [m] at which a grain of 10 mm on a flat wall bears a force [N], and what friction is capped by there [N].
     pub fn at_rest(&self, force: f64) -> (f64, f64) {
-        let of = |overlap| self.load(&still(overlap, 0.01, 0.0));
-        // Above the overlap without load the force grows with the overlap.
+        let of = |overlap| self.response(&still(overlap, 0.01, 0.0));
+        // Above the overlap without response the force grows with the overlap.
         let (mut low, mut high) = (0.0, 2e-3);
         for _ in 0..200 {
             let middle = 0.5 * (low + high);

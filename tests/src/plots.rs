@@ -1,14 +1,10 @@
 //! Draws orders of convergence and curves, a panel for each line of the page.
 
 use crate::page::{Line, Page};
-use kuva::backend::{raster::RasterBackend, svg::SvgBackend};
 use kuva::prelude::*;
-use kuva::render::render::Scene;
+use plot::COLOURS;
 use std::path::Path;
 
-/// Distinguishable colours (Okabe & Ito 2008).
-const COLOURS: [&str; 8] =
-    ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#A6761D", "#7F7F7F"];
 /// Of a slope.
 const BLACK: &str = "#000000";
 /// Size of a panel [px].
@@ -50,14 +46,8 @@ fn draw(panels: Vec<Drawn>, file: &Path) -> Result<Option<Vec<u8>>, String> {
     let wrapped = |(plots, layout): Drawn| (plots, layout.with_title_wrap(TITLE));
     let (plots, layouts): (Vec<_>, Vec<_>) = panels.into_iter().map(wrapped).unzip();
     let figure = Figure::new(rows, columns).with_plots(plots).with_layouts(layouts);
-    bytes(&figure.with_cell_size(PANEL.0, PANEL.1).with_keep_panel_legends().render(), file).map(Some)
-}
-
-fn bytes(scene: &Scene, file: &Path) -> Result<Vec<u8>, String> {
-    if file.extension().is_some_and(|e| e == "png") {
-        return RasterBackend::new().render_scene(scene).map_err(|why| format!("{}: {why}", file.display()));
-    }
-    Ok(SvgBackend::new().render_scene(scene).into_bytes())
+    let scene = figure.with_cell_size(PANEL.0, PANEL.1).with_keep_panel_legends().render();
+    plot::bytes(file, &scene).map(Some).map_err(|e| e.to_string())
 }
 
 fn series(points: &[(f64, f64)], colour: &str, name: &str, marked: bool) -> Vec<Plot> {

@@ -62,26 +62,10 @@ pub fn empty(law: Law, restitution: f64) -> Setup {
         |name: &str| Material { name: name.to_owned(), density: 2500.0, young: 1e7, poisson: 0.25 };
     Setup {
         gravity: Vec3::zeros(),
-        drag: None,
         materials: vec![material("grain"), material("wall")],
         contacts: vec![contact((0, 0), law, restitution), contact((0, 1), law, restitution)],
-        particles: vec![],
-        walls: vec![],
-        clumps: Clumps::default(),
-        bonds: vec![],
-        entry_bonds: None,
-        outlets: vec![],
-        inlets: vec![],
-        largest_entry: 0.0,
-        smallest_entry: 0.0,
-        entry_materials: vec![],
         step: Step::Auto(0.05),
-        periodic: [None; 3],
-        skin: None,
-        sleep: None,
-        precision: Precision::Double,
-        ledger: false,
-        guards: Guards::default(),
+        ..Setup::default()
     }
 }
 
@@ -120,7 +104,7 @@ pub fn grain(id: u32, position: Vec3) -> Particle {
 /// A still plane through the origin.
 pub fn plane(normal: Vec3) -> Wall {
     let plane = Plane { point: Vec3::zeros(), normal: normal.normalize() };
-    Wall { name: "plane".to_owned(), material: 1, shape: WallShape::Plane(plane), motion: Motion::still() }
+    Wall::new("plane", 1, WallShape::Plane(plane))
 }
 
 /// Gives every pair sliding friction μ.

@@ -1,7 +1,7 @@
 //! The same bits for every width of lanes, any number of threads, any order of the particles, and across a checkpoint.
 
-use dem::lane::Width;
 use dem::setup::*;
+use dem::simd::Width;
 use dem::{Setup, Simulation};
 use geom::Vec3;
 use grainpipe_tests::setups::{HOOKE, LAWS, Law, bond, empty, lattice, particles, plane, with_friction};
@@ -130,8 +130,8 @@ fn resumed_run_equals_the_uninterrupted_one() {
         if looked {
             particles(&mut first);
         }
-        let resumed =
-            Simulation::resume(shaken_trough(Law::Hertz), first.state().to_state()).expect("the same setup");
+        let resumed = Simulation::resume(shaken_trough(Law::Hertz), first.checkpoint().to_static())
+            .expect("the same setup");
         assert!(bits(resumed, 800) == bits(first, 800), "looked at: {looked}");
     }
 }
@@ -173,7 +173,7 @@ fn bonds_for_any_number_of_threads_order_and_after_a_checkpoint() {
             particles(&mut first);
         }
         let broken = first.bond_count()[1];
-        let resumed = Simulation::resume(block(5), first.state().to_state()).expect("the same setup");
+        let resumed = Simulation::resume(block(5), first.checkpoint().to_static()).expect("the same setup");
         assert_eq!(resumed.bond_count()[1], broken);
         assert!(bits(resumed, 300) == bits(first, 300), "looked at: {looked}");
     }

@@ -1,7 +1,7 @@
 //! Plates and half pipes of wall spheres, made as a user makes them: a scan of random points, sampled, then radii by equation (1).
 
 use super::chance::Chance;
-use dem::setup::{Motion, Wall, WallShape};
+use dem::setup::{Wall, WallShape};
 use geom::Vec3;
 use record::MaterialRecord;
 use sampling::{Amount, Method};
@@ -119,7 +119,7 @@ pub fn spheres(points: &[Vec3], roughness: f64, smallest: f64) -> (Spheres, wall
 /// The wall of an engine.
 pub fn still(spheres: &[(Vec3, f64)]) -> Wall {
     let shape = WallShape::Spheres(spheres.to_vec());
-    Wall { name: "spheres".to_owned(), material: 1, shape, motion: Motion::still() }
+    Wall::new("spheres", 1, shape)
 }
 
 /// Height z [m] at which a grain of radius `r` [m] that comes down at (x, y) touches first, and the sphere it touches; `None`

@@ -5,6 +5,8 @@ use dem::setup::*;
 use dem::{Halt, Simulation};
 use grainpipe_tests::findings::{Case, case};
 use grainpipe_tests::normals::NORMALS;
+use scene::advice::explain_halt;
+use scene::advice::explain_setup_error;
 
 const STOPS: Case = case("Guards", "energy from nothing stops a run");
 
@@ -27,7 +29,7 @@ fn energy_without_work_stops_a_run() {
     assert!(matches!(halt, Halt::Energy { .. }), "{halt}");
     STOPS.refused(
         "hooke, e = 1, at the critical step",
-        &halt.to_string(),
+        &explain_halt(&halt),
         &["guards.energy", "shorten dt", "J"],
     );
     assert!(sim.particles().expect("sound").iter().all(|p| p.velocity.norm().is_finite()));
@@ -45,6 +47,6 @@ fn energy_without_work_stops_a_run() {
     // A limit without the ledger that it needs.
     setup.ledger = false;
     setup.guards.energy = 0.01;
-    let error = Simulation::new(setup).err().expect("refused").to_string();
+    let error = explain_setup_error(&Simulation::new(setup).err().expect("refused"));
     STOPS.refused("without a ledger", &error, &["guards.energy", "ledger"]);
 }

@@ -59,79 +59,114 @@ fn pebbles() -> WallShape {
     WallShape::Spheres((0..144).map(|k| (place(k), 0.012)).collect())
 }
 
+fn scene(name: &str, setup: Setup) -> Scene {
+    Scene { name: name.to_owned(), setup, entries: vec![], until: 0.2 }
+}
+
 /// Every scene at dt = auto, of the safety that is the default.
 pub fn all() -> Vec<Scene> {
-    let mut scenes = Vec::new();
-    let mut add =
-        |name: String, setup: Setup| scenes.push(Scene { name, setup, entries: vec![], until: 0.2 });
-    for normal in &NORMALS {
-        add(format!("{} on a still floor", normal.name), poured(normal));
-        add(format!("{} on a shaking floor", normal.name), shaking(poured(normal)));
-        let mut spheres = poured(normal);
-        spheres.walls[0].shape = pebbles();
-        add(format!("{} on a shaking wall of spheres", normal.name), shaking(spheres));
-    }
-    let hertz = &NORMALS[1];
-    let mut periodic = poured(hertz);
-    periodic.periodic = [Some((-0.01, 0.14)), Some((-0.01, 0.11)), None];
-    periodic.particles.iter_mut().for_each(|p| p.velocity = Vec3::new(0.8, -0.6, 0.0));
-    add("hertz, periodic".to_owned(), periodic.clone());
-    periodic.gravity.x = 4.0;
-    add("hertz, periodic, down a slope".to_owned(), periodic);
-    let mut walls = poured(hertz);
-    let beside = Plane { point: Vec3::new(-0.02, 0.0, 0.0), normal: Vec3::x() };
-    walls.walls.push(Wall { shape: WallShape::Plane(beside), ..plane(Vec3::x()) });
-    walls.walls[1].motion.velocity = Vec3::new(0.2, 0.0, 0.0);
-    add("hertz, pushed by a plane".to_owned(), walls);
-    let mut constant = poured(hertz);
-    constant.contacts.iter_mut().for_each(|c| c.choose("rolling_model", "constant"));
-    add("hertz, constant rolling couple".to_owned(), constant);
-    for normal in &NORMALS {
-        let mut weakens = poured(normal);
-        weakens.contacts.iter_mut().for_each(|c| grainpipe_tests::setups::weaken(c, [0.3, 0.1, 0.1]));
-        add(format!("{}, friction that weakens", normal.name), weakens);
-    }
-    for normal in &NORMALS[..2] {
-        let mut mixed = shaking(poured(normal));
-        mixed.precision = Precision::Mixed;
-        mixed.contacts.iter_mut().for_each(|c| c.remove("twisting_resistance"));
-        add(format!("{} on a shaking floor, mixed precision", normal.name), mixed.clone());
-        (mixed.walls[0].shape, mixed.periodic) =
-            (pebbles(), [Some((-0.01, 0.14)), Some((-0.01, 0.11)), None]);
-        add(format!("{} on a shaking wall of spheres, periodic, mixed precision", normal.name), mixed);
-    }
-    for normal in &NORMALS {
-        add(format!("{}, bonded grains", normal.name), bonded(poured(normal), 0.5, f64::INFINITY));
-        add(format!("{}, bonds that break", normal.name), bonded(poured(normal), 0.2, 2e3));
-    }
-    let mut across = bonded(poured(hertz), 0.0, 5e3);
-    across.periodic = [Some((-0.05, 0.05)), Some((-0.05, 0.05)), None];
-    across.particles.iter_mut().for_each(|p| p.velocity = Vec3::new(2.0, -1.0, 0.0));
-    add("hertz, bonds across a periodic face".to_owned(), across);
-    let mut free = poured(hertz);
-    free.contacts = NORMALS[1].setup(0.5).contacts;
-    add("hertz, no friction".to_owned(), free);
-    let mut asleep = poured(hertz);
-    asleep.sleep = Some(Sleep { speed: 0.02, time: 0.01, wake: 0.3 });
-    add("hertz, sleep".to_owned(), Setup { particles: cloud(12, 0.011), ..asleep.clone() });
-    asleep.sleep = Some(Sleep { speed: 0.05, time: 0.005, wake: 0.3 });
-    add("hertz, sleep and waking".to_owned(), asleep);
-    add("hertz, sinking in a fluid".to_owned(), in_fluid(poured(hertz)));
-    add("hertz, pressed by a servo".to_owned(), pressed(poured(hertz)));
-    let mut meshed = poured(hertz);
-    meshed.walls[0].shape = WallShape::Mesh(waves());
-    add("hertz on a shaking mesh".to_owned(), shaking(meshed));
-    for (name, shape) in [("dumbbells", dumbbell()), ("boomerangs", boomerang())] {
-        let mut slope = tumbling(poured(hertz), shape.clone());
-        slope.periodic = [Some((-0.02, 0.14)), Some((-0.02, 0.11)), None];
-        slope.gravity.x = 4.0;
-        add(format!("hertz, {name}, periodic, down a slope"), slope);
-        add(format!("hertz, {name}"), tumbling(poured(hertz), shape));
-    }
-    scenes.push(passing());
-    scenes.push(arriving());
-    scenes.push(leaving());
+    let hertz = || poured(&NORMALS[1]);
+    let mut scenes: Vec<Scene> = NORMALS.iter().flat_map(on_floors).collect();
+    scenes.extend(periodic(hertz()));
+    scenes.push(scene("hertz, pushed by a plane", pushed(hertz())));
+    scenes.push(scene("hertz, constant rolling couple", constant_rolling(hertz())));
+    scenes.extend(NORMALS.iter().map(weakening));
+    scenes.extend(NORMALS[..2].iter().flat_map(mixed_precision));
+    scenes.extend(NORMALS.iter().flat_map(bonds));
+    scenes.push(scene("hertz, bonds across a periodic face", across_a_face(hertz())));
+    scenes.push(scene("hertz, no friction", Setup { contacts: NORMALS[1].setup(0.5).contacts, ..hertz() }));
+    scenes.extend(asleep(hertz()));
+    scenes.push(scene("hertz, sinking in a fluid", in_fluid(hertz())));
+    scenes.push(scene("hertz, pressed by a servo", pressed(hertz())));
+    scenes.push(scene("hertz on a shaking mesh", shaking(on(WallShape::Mesh(waves()), hertz()))));
+    scenes.extend(clumps("dumbbells", &dumbbell()));
+    scenes.extend(clumps("boomerangs", &boomerang()));
+    scenes.extend([passing(), arriving(), leaving()]);
     scenes
+}
+
+/// On a floor of this shape.
+fn on(floor: WallShape, mut setup: Setup) -> Setup {
+    setup.walls[0].shape = floor;
+    setup
+}
+
+fn on_floors(normal: &Normal) -> [Scene; 3] {
+    let (name, setup) = (normal.name, poured(normal));
+    [
+        scene(&format!("{name} on a still floor"), setup.clone()),
+        scene(&format!("{name} on a shaking floor"), shaking(setup.clone())),
+        scene(&format!("{name} on a shaking wall of spheres"), shaking(on(pebbles(), setup))),
+    ]
+}
+
+fn periodic(mut setup: Setup) -> [Scene; 2] {
+    setup.periodic = [Some((-0.01, 0.14)), Some((-0.01, 0.11)), None];
+    setup.particles.iter_mut().for_each(|p| p.velocity = Vec3::new(0.8, -0.6, 0.0));
+    let level = scene("hertz, periodic", setup.clone());
+    setup.gravity.x = 4.0;
+    [level, scene("hertz, periodic, down a slope", setup)]
+}
+
+/// A plane comes from the side.
+fn pushed(mut setup: Setup) -> Setup {
+    let beside = Plane { point: Vec3::new(-0.02, 0.0, 0.0), normal: Vec3::x() };
+    setup.walls.push(Wall { shape: WallShape::Plane(beside), ..plane(Vec3::x()) });
+    setup.walls[1].motion.velocity = Vec3::new(0.2, 0.0, 0.0);
+    setup
+}
+
+fn constant_rolling(mut setup: Setup) -> Setup {
+    setup.contacts.iter_mut().for_each(|c| c.choose("rolling_model", "constant"));
+    setup
+}
+
+fn weakening(normal: &Normal) -> Scene {
+    let mut setup = poured(normal);
+    setup.contacts.iter_mut().for_each(|c| grainpipe_tests::setups::weaken(c, [0.3, 0.1, 0.1]));
+    scene(&format!("{}, friction that weakens", normal.name), setup)
+}
+
+fn mixed_precision(normal: &Normal) -> [Scene; 2] {
+    let name = normal.name;
+    let mut setup = shaking(poured(normal));
+    setup.precision = Precision::Mixed;
+    setup.contacts.iter_mut().for_each(|c| c.remove("twisting_resistance"));
+    let plane = scene(&format!("{name} on a shaking floor, mixed precision"), setup.clone());
+    setup.periodic = [Some((-0.01, 0.14)), Some((-0.01, 0.11)), None];
+    let spheres = format!("{name} on a shaking wall of spheres, periodic, mixed precision");
+    [plane, scene(&spheres, on(pebbles(), setup))]
+}
+
+fn bonds(normal: &Normal) -> [Scene; 2] {
+    let name = normal.name;
+    [
+        scene(&format!("{name}, bonded grains"), bonded(poured(normal), 0.5, f64::INFINITY)),
+        scene(&format!("{name}, bonds that break"), bonded(poured(normal), 0.2, 2e3)),
+    ]
+}
+
+fn across_a_face(setup: Setup) -> Setup {
+    let mut setup = bonded(setup, 0.0, 5e3);
+    setup.periodic = [Some((-0.05, 0.05)), Some((-0.05, 0.05)), None];
+    setup.particles.iter_mut().for_each(|p| p.velocity = Vec3::new(2.0, -1.0, 0.0));
+    setup
+}
+
+fn asleep(mut setup: Setup) -> [Scene; 2] {
+    setup.sleep = Some(Sleep { speed: 0.02, time: 0.01, wake: 0.3 });
+    let resting = Setup { particles: cloud(12, 0.011), ..setup.clone() };
+    setup.sleep = Some(Sleep { speed: 0.05, time: 0.005, wake: 0.3 });
+    [scene("hertz, sleep", resting), scene("hertz, sleep and waking", setup)]
+}
+
+fn clumps(name: &str, shape: &ClumpShape) -> [Scene; 2] {
+    let level = tumbling(poured(&NORMALS[1]), shape.clone());
+    let mut slope = level.clone();
+    slope.periodic = [Some((-0.02, 0.14)), Some((-0.02, 0.11)), None];
+    slope.gravity.x = 4.0;
+    let sloping = scene(&format!("hertz, {name}, periodic, down a slope"), slope);
+    [sloping, scene(&format!("hertz, {name}"), level)]
 }
 
 /// A bonded block that turns and falls on an edge, with bonds of this damping and strength [Pa].
@@ -159,7 +194,7 @@ fn in_fluid(mut setup: Setup) -> Setup {
 fn pressed(mut setup: Setup) -> Setup {
     let lid = Plane { point: Vec3::new(0.0, 0.0, 0.075), normal: -Vec3::z() };
     setup.walls.push(Wall { shape: WallShape::Plane(lid), ..plane(-Vec3::z()) });
-    setup.walls[1].motion.servo = Some(Servo { direction: -Vec3::z(), force: 5.0, speed_limit: 0.4 });
+    setup.walls[1].servo = Some(Servo { direction: -Vec3::z(), force: 5.0, speed_limit: 0.4 });
     setup
 }
 
@@ -209,7 +244,7 @@ fn tumbling(mut setup: Setup, shape: ClumpShape) -> Setup {
         spin: p.spin,
     };
     let bodies = (0..).zip(&setup.particles).map(body).collect();
-    setup.clumps = Clumps { shapes: vec![shape], bodies, entries: vec![] };
+    setup.clumps = Clumps { shapes: vec![shape], placed: bodies, entries: vec![] };
     setup.particles.clear();
     setup
 }
@@ -241,7 +276,11 @@ fn passing() -> Scene {
 fn arriving() -> Scene {
     let Scene { mut setup, entries, .. } = passing();
     setup.outlets.clear();
-    setup.clumps = Clumps { shapes: vec![boomerang()], bodies: vec![], entries: vec![(0, 0.5, 1.0)] };
+    setup.clumps = Clumps {
+        shapes: vec![boomerang()],
+        placed: vec![],
+        entries: vec![ClumpScales { shape: 0, least: 0.5, most: 1.0 }],
+    };
     let orientation = nalgebra::UnitQuaternion::from_euler_angles(0.3, -0.8, 0.5);
     let clump = |k: u32| EntryClump { shape: 0, scale: 0.5 + 0.1 * f64::from(k % 4), orientation };
     let entry = |(k, e): (u32, Entry)| {

@@ -1,13 +1,16 @@
 //! Rigid clumps: spheres that move as one body.
 
-use dem::lane::Width;
+mod beds;
+
 use dem::setup::*;
-use dem::{BodyState, Energy, Setup, Simulation};
+use dem::simd::Width;
+use dem::{ClumpState, Energy, Setup, Simulation};
 use geom::{Moments, Vec3};
 use grainpipe_tests::setups::{
     HOOKE, LAWS, Law, empty, grain, particles, plane, rolling, run_until, with_friction,
 };
 use nalgebra::{Rotation3, Unit, UnitQuaternion};
+use scene::advice::explain_setup_error;
 
 const DENSITY: f64 = 2500.0;
 
@@ -15,8 +18,8 @@ fn simulation(setup: Setup) -> Simulation {
     Simulation::new(setup).expect("the setup is sound")
 }
 
-fn bodies(sim: &mut Simulation) -> Vec<BodyState> {
-    sim.bodies().expect("no guard trips in a test of a law")
+fn bodies(sim: &mut Simulation) -> Vec<ClumpState> {
+    sim.clumps().expect("no guard trips in a test of a law")
 }
 
 fn energy(sim: &mut Simulation) -> Energy {
@@ -66,7 +69,7 @@ fn alone(shape: ClumpShape, spin: Vec3, dt: f64) -> Setup {
     setup.guards.motion = 1.0;
     let turn = Rotation3::from_euler_angles(0.3, -0.8, 0.5).into();
     let one = Body { orientation: turn, spin, velocity: Vec3::new(0.3, 0.1, -0.2), ..body(7, Vec3::x()) };
-    setup.clumps = Clumps { shapes: vec![shape], bodies: vec![one], entries: vec![] };
+    setup.clumps = Clumps { shapes: vec![shape], placed: vec![one], entries: vec![] };
     setup
 }
 
@@ -148,7 +151,7 @@ fn intermediate_axis_turns_over() {
         own[axis] = 60.0;
         let own = shape.frame * own;
         let setup = alone(shape.clone(), Vec3::zeros(), 1e-4);
-        let spin = setup.clumps.bodies[0].orientation * own;
+        let spin = setup.clumps.placed[0].orientation * own;
         let mut sim = simulation(alone(shape.clone(), spin, 1e-4));
         let mut lowest = f64::INFINITY;
         while sim.time() < 2.0 {
@@ -177,7 +180,7 @@ fn clump_of_one_sphere_is_a_sphere() {
             if clump {
                 let one = Body { velocity: ball.velocity, spin: ball.spin, ..body(1, ball.position) };
                 let sphere = shape(&[(Vec3::new(3.0, 1.0, 2.0), 0.01)]);
-                setup.clumps = Clumps { shapes: vec![sphere], bodies: vec![one], entries: vec![] };
+                setup.clumps = Clumps { shapes: vec![sphere], placed: vec![one], entries: vec![] };
             } else {
                 setup.particles.push(ball);
             }
@@ -205,7 +208,7 @@ fn dropped_dumbbell() {
     setup.step = Step::Auto(0.01);
     let tilt = 0.5;
     let start = Body { orientation: about(Vec3::y(), tilt), ..body(1, Vec3::new(0.0, 0.0, 0.03)) };
-    setup.clumps = Clumps { shapes: vec![dumbbell()], bodies: vec![start], entries: vec![] };
+    setup.clumps = Clumps { shapes: vec![dumbbell()], placed: vec![start], entries: vec![] };
     let mut sim = simulation(setup);
     run_until(&mut sim, 0.12);
 
@@ -260,7 +263,7 @@ fn cube_rests_on_its_face_and_slides_above_the_angle_of_friction() {
             setup.walls = vec![plane(Vec3::z())];
             setup.step = Step::Auto(0.3);
             let one = body(0, Vec3::new(0.0, 0.0, 0.013));
-            setup.clumps = Clumps { shapes: vec![cube()], bodies: vec![one], entries: vec![] };
+            setup.clumps = Clumps { shapes: vec![cube()], placed: vec![one], entries: vec![] };
             let mut sim = simulation(setup);
             run_until(&mut sim, time);
             sim
@@ -307,8 +310,8 @@ fn collision_conserves_momentum_and_angular_momentum() {
         let mut second = body(10, Vec3::new(0.02, -0.003, 0.0));
         (second.shape, second.scale, second.spin) = (1, 1.3, Vec3::new(-9.0, 3.0, 5.0));
         setup.clumps =
-            Clumps { shapes: vec![boomerang(), cube()], bodies: vec![first, second], entries: vec![] };
-        let totals = |list: &[BodyState]| {
+            Clumps { shapes: vec![boomerang(), cube()], placed: vec![first, second], entries: vec![] };
+        let totals = |list: &[ClumpState]| {
             let p: Vec3 = list.iter().map(|b| b.velocity * b.mass).sum();
             let l: Vec3 =
                 list.iter().map(|b| b.position.cross(&b.velocity) * b.mass + b.angular_momentum).sum();
@@ -325,210 +328,4 @@ fn collision_conserves_momentum_and_angular_momentum() {
         println!("{law:?}: {:e} of L", (after.1 - before.1).norm() / before.1.norm());
         assert!((after.1 - before.1).norm() < 1e-5 * before.1.norm(), "{:e}", (after.1 - before.1).norm());
     }
-}
-
-/// Clumps of three kinds and spheres, thrown into a periodic, shaken trough of wall spheres.
-fn trough(law: Law, count: u32) -> Setup {
-    let mut setup = with_friction(empty(law, 0.4), 0.4);
-    setup.contacts.iter_mut().for_each(|c| c.set("rolling_resistance", 0.05));
-    setup.gravity = Vec3::new(0.5, 0.0, -9.81);
-    setup.periodic = [Some((0.0, 0.3)), Some((0.0, 0.3)), None];
-    setup.step = Step::Auto(0.3);
-    setup.guards.overlap = 0.6;
-    let at = |k: usize| Vec3::new(0.005 + 0.01 * (k % 30) as f64, 0.005 + 0.01 * (k / 30) as f64, 0.0);
-    let mut floor = plane(Vec3::z());
-    floor.shape = WallShape::Spheres((0..900).map(|k| (at(k), 0.008)).collect());
-    floor.motion.amplitude = Vec3::new(0.0, 0.0, 0.002);
-    floor.motion.frequency = 25.0;
-    setup.walls = vec![floor];
-    let place = |k: u32| {
-        Vec3::new(
-            0.03 + 0.06 * (k % 5) as f64,
-            0.03 + 0.06 * (k / 5 % 5) as f64,
-            0.05 + 0.06 * (k / 25) as f64,
-        )
-    };
-    let thrown = |k: u32| Vec3::new(0.1 * (k % 7) as f64 - 0.3, 0.05 * (k % 5) as f64 - 0.1, -0.5);
-    setup.clumps.shapes = vec![boomerang(), die(0.006), dumbbell()];
-    for k in 0..count {
-        if k % 4 == 3 {
-            let mut p = grain(10 * k, place(k));
-            p.velocity = thrown(k);
-            setup.particles.push(p);
-        } else {
-            let orientation = Rotation3::from_euler_angles(k as f64, 0.3 * k as f64, 0.0).into();
-            let spin = Vec3::new(5.0, -3.0, 2.0) * (k % 3) as f64;
-            let scale = 0.8 + 0.005 * (k % 80) as f64;
-            let one = body(10 * k, place(k));
-            setup.clumps.bodies.push(Body {
-                shape: k % 4,
-                scale,
-                orientation,
-                spin,
-                velocity: thrown(k),
-                ..one
-            });
-        }
-    }
-    setup
-}
-
-/// Every bit of every particle and body.
-fn bits(mut sim: Simulation, steps: u64) -> Vec<u64> {
-    for _ in 0..steps {
-        sim.step().expect("within the guards");
-    }
-    let of = |p: &Particle| [p.position, p.velocity, p.spin].map(|v| [v.x, v.y, v.z]).concat();
-    let mut all: Vec<f64> = particles(&mut sim).iter().flat_map(of).collect();
-    let turn =
-        |b: &BodyState| b.orientation.coords.iter().chain(&b.angular_momentum).copied().collect::<Vec<_>>();
-    all.extend(bodies(&mut sim).iter().flat_map(turn));
-    all.into_iter().map(f64::to_bits).collect()
-}
-
-/// Kinetic + potential + elastic + dissipated − work of walls stays the same.
-#[test]
-fn energy_budget_closes() {
-    for law in LAWS {
-        let closing = |safety: f64| {
-            let mut setup = trough(law, 75);
-            setup.ledger = true;
-            setup.gravity.x = 0.0;
-            // Wall spheres end at the edge of the box: what goes through a periodic face jumps between them.
-            setup.walls[0].shape = plane(Vec3::z()).shape;
-            setup.step = Step::Auto(safety);
-            let mut sim = simulation(setup);
-            run_until(&mut sim, 0.2);
-            let e = energy(&mut sim);
-            let exchanged = e.normal + e.sliding + e.rolling + e.walls.abs();
-            assert!(e.normal > 0.0 && e.sliding > 0.0 && e.rolling > 0.0 && e.walls != 0.0, "{e:?}");
-            e.integration.abs() / exchanged
-        };
-        let (coarse, fine) = (closing(0.4), closing(0.1));
-        println!("{law:?}: {coarse:e} at safety 0.4, {fine:e} at 0.1");
-        assert!(fine < 5e-3, "{law:?}: {fine:e} of the exchanged energy is missing");
-    }
-}
-
-#[test]
-fn same_bits_for_widths_threads_order_and_resume() {
-    let reference = bits(simulation(trough(Law::Hertz, 75)), 900);
-    for width in Width::available() {
-        let sim = Simulation::with_width(trough(Law::Hertz, 75), width).expect("sound");
-        assert!(bits(sim, 900) == reference, "{width:?}");
-    }
-    for threads in [1, 3] {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-        assert!(
-            pool.install(|| bits(simulation(trough(Law::Hertz, 75)), 900)) == reference,
-            "{threads} threads"
-        );
-    }
-    let mut shuffled = trough(Law::Hertz, 75);
-    shuffled.particles.reverse();
-    shuffled.clumps.bodies.rotate_left(17);
-    assert!(bits(simulation(shuffled), 900) == reference, "another order");
-    for looked in [false, true] {
-        let mut first = simulation(trough(Law::Hertz, 75));
-        for _ in 0..400 {
-            first.step().expect("within the guards");
-        }
-        if looked {
-            particles(&mut first);
-        }
-        let saved = first.state().to_state();
-        let resumed = Simulation::resume(trough(Law::Hertz, 75), saved).expect("the same setup");
-        assert!(bits(resumed, 500) == reference, "resumed, looked at: {looked}");
-    }
-}
-
-/// Just below the critical step a packing of clumps neither heats nor explodes; above, the step is refused, and the clump named.
-#[test]
-fn stable_just_below_the_critical_step() {
-    for law in LAWS {
-        let mut setup = trough(law, 125);
-        setup.walls = vec![plane(Vec3::z())];
-        setup.gravity.x = 0.0;
-        let critical = dem::critical_step(&setup).expect("laws for all pairs");
-        assert!(critical.pair.contains("clump '"), "{}", critical.pair);
-        setup.step = Step::Fixed(1.05 * critical.dt);
-        assert!(Simulation::new(setup.clone()).is_err());
-        setup.step = Step::Fixed(0.95 * critical.dt);
-        let mut sim = simulation(setup);
-        run_until(&mut sim, 0.8);
-        let first = energy(&mut sim);
-        run_until(&mut sim, 1.2);
-        let later = energy(&mut sim);
-        println!("{law:?}: {:e} J, then {:e} J", first.translation, later.translation);
-        assert!(later.translation < 0.1 * first.translation, "{law:?} trembles: {first:?} {later:?}");
-        // A single foot may spin on: nothing resists twisting.
-        assert!(later.rotation <= first.rotation * (1.0 + 1e-9), "{law:?} heats: {first:?} {later:?}");
-    }
-}
-
-/// Rolling resistance of constant size brings a rod of many spheres to rest: all its contacts together never turn its rolling round.
-#[test]
-fn constant_rolling_ends_on_a_rod() {
-    let mut setup = with_friction(empty(HOOKE, 0.5), 0.5);
-    setup.gravity.z = -9.81;
-    setup.ledger = true;
-    setup.step = Step::Auto(0.5);
-    setup.contacts.iter_mut().for_each(|c| {
-        rolling(c, 0.2, "constant");
-    });
-    setup.walls = vec![plane(Vec3::z())];
-    let spheres: Vec<(Vec3, f64)> =
-        (0..16).map(|k| (Vec3::new(0.012 * f64::from(k), 0.0, 0.0), 0.01)).collect();
-    let rolling = Vec3::new(0.0, -0.03, 0.0);
-    let rod =
-        Body { velocity: rolling, spin: Vec3::new(3.0, 0.0, 0.0), ..body(1, Vec3::new(0.0, 0.0, 0.00999)) };
-    setup.clumps = Clumps { shapes: vec![shape(&spheres)], bodies: vec![rod], entries: vec![] };
-    let mut sim = simulation(setup);
-    run_until(&mut sim, 1.0);
-    let before = energy(&mut sim);
-    run_until(&mut sim, 1.2);
-    let after = energy(&mut sim);
-    let taken = after.rolling - before.rolling;
-    println!("{taken:e} J in 0.2 s, {:e} J in motion", after.rotation + after.translation);
-    assert!(taken < 1e-12 && after.rotation < 1e-15, "it goes on: {before:?} {after:?}");
-}
-
-/// What cannot be a body, or does not fit the scene, is refused by name.
-#[test]
-fn wrong_clumps_are_refused() {
-    let sound = || {
-        let mut setup = alone(cube(), Vec3::zeros(), 1e-5);
-        setup.walls = vec![plane(Vec3::z())];
-        setup.clumps.bodies[0].position.z = 0.1;
-        setup
-    };
-    assert!(Simulation::new(sound()).is_ok());
-    let refused = |change: &dyn Fn(&mut Setup), part: &str| {
-        let mut setup = sound();
-        change(&mut setup);
-        let message = Simulation::new(setup).err().map(|e| e.to_string()).unwrap_or_default();
-        assert!(message.contains(part), "wanted '{part}' in '{message}'");
-    };
-    refused(&|s| s.clumps.bodies[0].scale = 0.0, "scale");
-    refused(&|s| s.clumps.bodies[0].spin.x = f64::NAN, "spin");
-    refused(&|s| s.clumps.bodies[0].shape = 3, "shape");
-    refused(&|s| s.clumps.bodies[0].position.z = 0.005, "behind wall");
-    refused(&|s| s.clumps.bodies[0].position.x = 1e13, "shift the scene to the origin");
-    refused(&|s| s.particles = vec![grain(12, Vec3::new(0.0, 0.0, 0.5))], "id 12 is used twice");
-    refused(&|s| s.clumps.shapes[0].volume = 0.0, "volume");
-    refused(&|s| s.clumps.shapes[0].spheres.clear(), "spheres");
-    refused(&|s| s.periodic[0] = Some((0.0, 0.05)), "period of");
-    let plane = geom::Plane { point: Vec3::new(0.0, 0.0, -1.0), normal: -Vec3::z() };
-    let lowest = Zone { test: ZoneTest::Lowest, ..Zone::new(plane, 0.2) };
-    refused(&|s| s.outlets = vec![lowest], "only centres are tested");
-}
-
-/// Without clumps there is nothing of them: not a byte in the checkpoint beyond four empty lists.
-#[test]
-fn no_clumps_no_bytes() {
-    let mut setup = alone(cube(), Vec3::zeros(), 1e-5);
-    assert!(simulation(setup.clone()).bytes_of_clumps() > 0);
-    setup.clumps = Clumps::default();
-    setup.particles = vec![grain(1, Vec3::zeros())];
-    assert_eq!(simulation(setup).bytes_of_clumps(), 0);
 }

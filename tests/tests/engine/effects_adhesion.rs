@@ -5,6 +5,7 @@ use dem::{Setup, Simulation, mass};
 use geom::Vec3;
 use grainpipe_tests::normals::{MODULUS, NORMALS, Normal, SURFACES, Surface, WORK, still};
 use grainpipe_tests::setups::{Law, grain, particles, run_until};
+use scene::advice::explain_setup_error;
 use std::f64::consts::PI;
 
 const JKR: Normal = NORMALS[2];
@@ -100,7 +101,7 @@ fn deepest_overlap_holds_the_energy_of_the_impact() {
             let (reduced, speed, radius, curvature) =
                 if on.is_some() { (m, 0.2, 0.01, 0.0) } else { (0.5 * m, 0.4, 0.005, 50.0) };
             let energy = 0.5 * reduced * speed * speed;
-            let held = |overlap: f64| normal.load(&still(overlap, radius, curvature)).elastic;
+            let held = |overlap: f64| normal.response(&still(overlap, radius, curvature)).elastic;
             let (mut low, mut high) = (0.0, 2e-3);
             for _ in 0..100 {
                 let middle = 0.5 * (low + high);
@@ -256,7 +257,7 @@ fn cohesion_that_nothing_bears_is_refused() {
     let refused = |law, cohesion| {
         let mut setup = Normal { name: "", law, cohesion }.setup(0.5);
         setup.particles = vec![grain(1, Vec3::zeros())];
-        Simulation::new(setup).err().map(|e| e.to_string())
+        Simulation::new(setup).err().map(|e| explain_setup_error(&e))
     };
     let hooke = NORMALS[0].law;
     assert!(refused(hooke, Some(1.5e5)).is_none());

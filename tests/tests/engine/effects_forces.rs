@@ -1,8 +1,8 @@
 //! The parts of contact laws that conserve energy: force = dE/dδ, against their closed forms, and at their limits.
 
-use dem::effects::{Cohesion, Effect, Hooke, Jkr, Load};
-use dem::lane::V;
-use grainpipe_tests::normals::{MODULUS, NORMALS, WORK, load, still};
+use dem::effects::{Cohesion, Effect, Hooke, Jkr, Response};
+use dem::simd::V;
+use grainpipe_tests::normals::{MODULUS, NORMALS, WORK, response, still};
 use std::f64::consts::PI;
 
 /// F = dE/dδ for every normal law, for a pair of unequal spheres and at a flat wall.
@@ -12,7 +12,7 @@ fn force_is_the_slope_of_energy() {
     for normal in NORMALS {
         for (radius, curvature) in [(a * b / (a + b), 1.0 / (a + b)), (a, 0.0)] {
             for overlap in [1e-6, 1e-5, 1e-4, 5e-4] {
-                let at = |overlap| normal.load(&still(overlap, radius, curvature));
+                let at = |overlap| normal.response(&still(overlap, radius, curvature));
                 let h = 1e-3 * overlap;
                 let slope = (at(overlap + h).elastic - at(overlap - h).elastic) / (2.0 * h);
                 let force = at(overlap).normal;
@@ -33,7 +33,7 @@ fn cohesion_is_energy_density_times_common_volume() {
     let (ri, rj, overlap) = (0.01f64, 0.006f64, 0.0005f64);
     let (sum, d) = (ri + rj, ri + rj - overlap);
     let contact = still(overlap, ri * rj / sum, 1.0 / sum);
-    let got = load(Cohesion { energy_density: 1e5 }, &contact);
+    let got = response(Cohesion { energy_density: 1e5 }, &contact);
     // The circle lies at x from the centre of i.
     let x = (d * d + ri * ri - rj * rj) / (2.0 * d);
     let area = PI * (ri * ri - x * x);
@@ -62,7 +62,7 @@ fn jkr_follows_its_closed_form_from_the_break_to_deep_overlap() {
             let overlap = a * a / r - (2.0 * PI * WORK * a / MODULUS).sqrt();
             let force =
                 4.0 * MODULUS * a.powi(3) / (3.0 * r) - (8.0 * PI * WORK * MODULUS * a.powi(3)).sqrt();
-            let got = load(jkr(), &still(overlap, r, 0.0));
+            let got = response(jkr(), &still(overlap, r, 0.0));
             // Near the break √(δ + δ_c) loses digits.
             let bound = 1e-11 * PI * WORK * r * share.powi(3).max(1.0) / (share - 1.0).min(1.0);
             assert!((got.normal - force).abs() < bound, "R {r}, a/a_c {share}: {} N, {force} N", got.normal);
@@ -81,7 +81,7 @@ fn jkr_pulls_off_at_three_halves_pi_w_r() {
     let r = 0.005;
     let last = (PI * WORK * r * r / (8.0 * MODULUS)).cbrt();
     let gap = 3.0 * last * last / r;
-    let force = |overlap: f64| load(jkr(), &still(overlap, r, 0.0)).normal;
+    let force = |overlap: f64| response(jkr(), &still(overlap, r, 0.0)).normal;
     let pulls = (0..=100_000).map(|k| force(-gap * f64::from(k) / 1e5));
     let strongest = pulls.fold(0.0, f64::min);
     assert!((strongest / (-1.5 * PI * WORK * r) - 1.0).abs() < 1e-6, "{strongest} N");
@@ -99,9 +99,9 @@ fn jkr_books_the_area_of_its_hysteresis() {
     let last = (PI * WORK * r * r / (8.0 * MODULUS)).cbrt();
     let gap = 3.0 * last * last / r;
     let n = 200_000;
-    let force = |k: i32| load(jkr(), &still(-gap * (f64::from(k) + 0.5) / f64::from(n), r, 0.0)).normal;
+    let force = |k: i32| response(jkr(), &still(-gap * (f64::from(k) + 0.5) / f64::from(n), r, 0.0)).normal;
     let area: f64 = (0..n).map(|k| -force(k) * gap / f64::from(n)).sum();
-    let made = load(jkr(), &still(0.0, r, 0.0));
+    let made = response(jkr(), &still(0.0, r, 0.0));
     assert!((made.lost / area - 1.0).abs() < 1e-6, "{} J, {area} J", made.lost);
     assert!(
         (made.elastic / -area - 1.0).abs() < 1e-6,
@@ -117,21 +117,22 @@ fn jkr_without_adhesion_is_hertz() {
     let weak = Jkr { work_of_adhesion: 1e-15, ..jkr() };
     let overlap = 1e-4;
     let hertz = 4.0 / 3.0 * MODULUS * 0.01f64.sqrt() * f64::powf(overlap, 1.5);
-    let got = load(weak, &still(overlap, 0.01, 0.0));
+    let got = response(weak, &still(overlap, 0.01, 0.0));
     assert!((got.normal / hertz - 1.0).abs() < 1e-6, "{} N, {hertz} N", got.normal);
 }
 
 /// A spring under its cap: the couple is k φ, and the energy ½ k φ²; over it, μ R* F_n.
 #[test]
 fn twisting_is_a_spring_under_a_cap() {
-    let twisting = dem::effects::TwistingResistance { resistance: 0.1, stiffness_ratio: 0.8, yielding: 1.0 };
+    let twisting =
+        dem::effects::TwistingResistance { resistance: 0.1, stiffness_ratio: 0.8, compliance: 1.0 };
     let normal = Hooke { stiffness: 1e4, damping_ratio: 0.0 };
     let twisted = |phi: f64| {
         let contact = still(1e-4, 0.01, 0.0);
-        let mut load: Load<f64> = load(normal, &contact);
-        let mut memory = phi;
-        twisting.apply(&contact, 1e-6, &mut memory, &mut load);
-        load
+        let mut response: Response<f64> = response(normal, &contact);
+        let mut history = phi;
+        twisting.apply(&contact, 1e-6, &mut history, &mut response);
+        response
     };
     let k = 0.8 * 1e4 * 0.01 * 0.01;
     for phi in [1e-5, 1e-4, -5e-4] {
@@ -146,14 +147,17 @@ fn twisting_is_a_spring_under_a_cap() {
 /// more easily.
 #[test]
 fn constant_rolling_has_one_size_and_never_turns_rolling_round() {
-    let couple = |spin: f64, yielding: f64| {
-        let rolling = dem::effects::ConstantRolling { resistance: 0.1, yielding };
+    let couple = |spin: f64, compliance: f64| {
+        let rolling = dem::effects::ConstantRolling { resistance: 0.1, compliance };
         let mut contact = still(1e-4, 0.01, 0.0);
         contact.spin = V::new(spin, 0.0, 7.0);
-        let mut load = load(Hooke { stiffness: 1e4, damping_ratio: 0.0 }, &contact);
-        rolling.apply(&contact, 1e-6, &mut (), &mut load);
-        assert!((load.dissipated[2] + load.torque.x * spin * 1e-6).abs() < 1e-18, "what it takes is booked");
-        load.torque
+        let mut response = response(Hooke { stiffness: 1e4, damping_ratio: 0.0 }, &contact);
+        rolling.apply(&contact, 1e-6, &mut (), &mut response);
+        assert!(
+            (response.dissipated[2] + response.torque.x * spin * 1e-6).abs() < 1e-18,
+            "what it takes is booked"
+        );
+        response.torque
     };
     for spin in [1000.0, 1e4, -1e6] {
         let couple = couple(spin, 1.0);

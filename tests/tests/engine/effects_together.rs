@@ -1,7 +1,7 @@
 //! All compositions of effects: the energy ledger closes, every width of lanes gives the same bits, an absent effect takes no bytes.
 
-use dem::lane::Width;
 use dem::setup::*;
+use dem::simd::Width;
 use dem::{Setup, Simulation};
 use geom::Vec3;
 use grainpipe_tests::normals::{NORMALS, Normal};

@@ -5,6 +5,7 @@ use dem::{Setup, Simulation, critical_step, mass};
 use geom::{Moments, Plane, Vec3};
 use grainpipe_tests::setups::{HOOKE, empty, grain, particles, plane, run_until, with_friction};
 use nalgebra::UnitQuaternion;
+use scene::advice::explain_setup_error;
 use std::f64::consts::PI;
 
 const RADIUS: f64 = 0.01;
@@ -84,13 +85,13 @@ fn relaxation_time_bounds_the_step() {
     let mut dry = sinking(fluid(DragLaw::Stokes, 1e-5));
     dry.drag = None;
     let dry = critical_step(&dry).expect("sound");
-    assert!((thin.dt / dry.dt - 1.0).abs() < 1e-5 && thin.pair == dry.pair, "{thin:?} {dry:?}");
+    assert!((thin.dt / dry.dt - 1.0).abs() < 1e-5 && thin.cause == dry.cause, "{thin:?} {dry:?}");
     let thick = critical_step(&sinking(fluid(DragLaw::Stokes, 1e5))).expect("sound");
     let tau = mass(RADIUS, 2500.0) / (6.0 * PI * 1e5 * RADIUS);
-    assert!(thick.dt < tau && thick.dt > 0.9 * tau && thick.pair.contains("[drag]"), "{thick:?}");
+    assert!(thick.dt < tau && thick.dt > 0.9 * tau && thick.cause.drag.is_some(), "{thick:?}");
     let mut setup = sinking(fluid(DragLaw::Stokes, 1e5));
     setup.step = Step::Fixed(0.5 * dry.dt);
-    let error = Simulation::new(setup).err().expect("refused").to_string();
+    let error = explain_setup_error(&Simulation::new(setup).err().expect("refused"));
     assert!(error.contains("above the critical step") && error.contains("[drag]"), "{error}");
     // The largest step that is allowed decays.
     let mut setup = sinking(fluid(DragLaw::Stokes, 1e5));
@@ -128,7 +129,7 @@ fn a_clump_of_one_sphere_sinks_as_the_sphere() {
         free.step = Step::Fixed(1e-4);
         let mut whole = Setup { particles: Vec::new(), ..free.clone() };
         whole.clumps =
-            Clumps { shapes: vec![row(1)], bodies: vec![body(1, Vec3::zeros())], ..Clumps::default() };
+            Clumps { shapes: vec![row(1)], placed: vec![body(1, Vec3::zeros())], ..Clumps::default() };
         let [free, whole] = [free, whole].map(|setup| {
             let mut sim = Simulation::new(setup).expect("sound");
             run_until(&mut sim, 0.3);
@@ -151,11 +152,11 @@ fn a_clump_sinks_as_a_sphere_of_its_volume() {
         let mut setup = Setup { particles: Vec::new(), ..sinking(drag) };
         let orientation = UnitQuaternion::from_scaled_axis(Vec3::new(0.0, turn, 0.3));
         let bodies = vec![Body { orientation, ..body(1, Vec3::zeros()) }];
-        setup.clumps = Clumps { shapes: vec![row(3)], bodies, ..Clumps::default() };
+        setup.clumps = Clumps { shapes: vec![row(3)], placed: bodies, ..Clumps::default() };
         setup.step = Step::Auto(0.01);
         let mut sim = Simulation::new(setup).expect("sound");
         run_until(&mut sim, 2.0 * tau);
-        let (v, t) = (sim.bodies().expect("sound")[0].velocity.z, sim.time());
+        let (v, t) = (sim.clumps().expect("sound")[0].velocity.z, sim.time());
         let expected = -9.81 * tau * (1.0 - 1000.0 / density) * -(-t / tau).exp_m1();
         assert!((v / expected - 1.0).abs() < 2e-5, "{v} m/s instead of {expected}");
     }
@@ -193,7 +194,7 @@ fn ledger_closes_in_a_fluid() {
         spin: Vec3::new(3.0, f64::from(k), 1.0),
         ..body(100 + 3 * k, Vec3::new(0.02, 0.03 * f64::from(k), 0.15))
     });
-    clumps.clumps = Clumps { shapes: vec![row(3)], bodies: bodies.collect(), ..Clumps::default() };
+    clumps.clumps = Clumps { shapes: vec![row(3)], placed: bodies.collect(), ..Clumps::default() };
     for setup in [setup, clumps] {
         let (error, e) = closing(setup, 0.5);
         assert!(e.drag.abs() > 1e-3, "{e:?}");

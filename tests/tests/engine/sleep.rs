@@ -1,7 +1,7 @@
 //! Sleep: what is at rest is passed over until it is disturbed, and the heap is the one that was computed in full.
 
-use dem::lane::Width;
 use dem::setup::*;
+use dem::simd::Width;
 use dem::{Setup, Simulation};
 use geom::Vec3;
 use grainpipe_tests::setups::{HOOKE, LAWS, Law, empty, grain, particles, plane, run_until, with_friction};
@@ -163,7 +163,7 @@ fn sleep_is_the_same_for_every_width_and_thread_and_across_a_checkpoint() {
     }
     let mut first = simulation(sleepy(filling(HOOKE, 5)));
     run_until(&mut first, 0.72);
-    let state = first.state().to_state();
+    let state = first.checkpoint().to_static();
     let resumed = Simulation::resume(sleepy(filling(HOOKE, 5)), state).expect("the same setup");
     assert!(end(resumed) == reference, "resumed");
 }
@@ -179,7 +179,7 @@ fn a_sleeping_heap_resumes_bit_for_bit() {
         let mut whole = simulation(setup.clone());
         run_until(&mut whole, 0.3);
         assert!(whole.asleep() > 50, "{law:?}: {} sleep when the state is saved", whole.asleep());
-        let mut resumed = Simulation::resume(setup, whole.state().to_state()).expect("the same setup");
+        let mut resumed = Simulation::resume(setup, whole.checkpoint().to_static()).expect("the same setup");
         for end in [0.31, 0.45, 0.6] {
             run_until(&mut whole, end);
             run_until(&mut resumed, end);
@@ -191,7 +191,7 @@ fn a_sleeping_heap_resumes_bit_for_bit() {
 
 /// A sleeper that is looked at goes on sleeping: its place does not change by a bit.
 #[test]
-fn looking_wakes_nobody() {
+fn observing_wakes_no_particle() {
     let mut sim = simulation(sleepy(filling(HOOKE, 1)));
     run_until(&mut sim, 0.2);
     assert_eq!(sim.asleep(), 64);

@@ -186,9 +186,14 @@ pub fn mcap() -> Vec<Sample> {
 pub fn run(how: Compression, scene: &str) -> Vec<u8> {
     let scene = scene::Scene::new("s.toml", scene.to_owned(), &[], Path::new("")).expect("sound");
     let plan = scene.plan(Vec::new()).expect("whole");
-    let settings =
-        run::Settings { provenance: Provenance::default(), how: how.into(), watched: false, stop: || false };
-    run::run(&scene, plan, None, Vec::new(), settings, &mut |_| ()).expect("it runs").1
+    let settings = run::Settings {
+        provenance: Provenance::default(),
+        how: how.into(),
+        resume: None,
+        watched: false,
+        stop: || false,
+    };
+    run::run(&scene, plan, Vec::new(), settings, &mut |_| ()).expect("it runs").1
 }
 
 /// The inlet of a run.

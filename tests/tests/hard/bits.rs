@@ -2,8 +2,8 @@
 //! number of threads.
 
 use crate::variants::{Variant, variants};
-use dem::lane::Width;
 use dem::setup::*;
+use dem::simd::Width;
 use dem::{Setup, Simulation};
 use geom::{Moments, Plane, Vec3, mesh::TriMesh};
 use grainpipe_tests::findings::{Case, case};
@@ -184,8 +184,8 @@ fn scenes() -> Vec<(&'static str, Setup)> {
     let mut pressed = base(hertz);
     let lid = Plane { point: Vec3::new(0.0, 0.0, 0.264), normal: -Vec3::z() };
     let servo = Servo { direction: -Vec3::z(), force: 50.0, speed_limit: 0.2 };
-    let motion = Motion { servo: Some(servo), ..Motion::still() };
-    pressed.walls.push(Wall { shape: WallShape::Plane(lid), motion, ..plane(Vec3::z()) });
+
+    pressed.walls.push(Wall { shape: WallShape::Plane(lid), servo: Some(servo), ..plane(Vec3::z()) });
     let mut cut = base(hertz);
     // Just behind a layer of grains.
     let away = Plane { point: Vec3::new(0.0, 0.091, 0.0), normal: Vec3::y() };
@@ -211,7 +211,7 @@ fn clumps(variant: &Variant) -> Setup {
         spin: p.spin,
     });
     let bodies = bodies.collect();
-    setup.clumps = Clumps { shapes: vec![shape], bodies, entries: vec![] };
+    setup.clumps = Clumps { shapes: vec![shape], placed: bodies, entries: vec![] };
     setup
 }
 

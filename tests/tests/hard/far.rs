@@ -6,6 +6,7 @@ use dem::setup::*;
 use geom::{Plane, Vec3, mesh::TriMesh};
 use grainpipe_tests::findings::{Case, case};
 use grainpipe_tests::setups::{grain, particles, plane};
+use scene::advice::explain_setup_error;
 
 const PLACE: Case = case(
     "Rest and extremes",
@@ -86,7 +87,7 @@ fn too_far_is_refused() {
         for far in [5e7, -1e12, 1e300, 1.7e308] {
             let mut setup = variant.smooth(0.5);
             setup.particles = vec![grain(41, Vec3::zeros()), grain(42, Vec3::new(0.1, far, -far))];
-            let said = Simulation::new(setup.clone()).err().expect("refused").to_string();
+            let said = explain_setup_error(&Simulation::new(setup.clone()).err().expect("refused"));
             REFUSED.refused(
                 &format!("{}, {far:e} m", variant.name()),
                 &said,
@@ -95,7 +96,7 @@ fn too_far_is_refused() {
             setup.particles.pop();
             let spheres = vec![(Vec3::new(0.0, 0.1, 0.0), 0.01), (Vec3::new(-far, far, 0.0), 0.01)];
             setup.walls = vec![Wall { shape: WallShape::Spheres(spheres), ..plane(Vec3::z()) }];
-            let said = Simulation::new(setup).err().expect("refused").to_string();
+            let said = explain_setup_error(&Simulation::new(setup).err().expect("refused"));
             REFUSED.refused(
                 &format!("{}, wall, {far:e} m", variant.name()),
                 &said,

@@ -26,7 +26,7 @@ const EXIT: Case =
 
 fn wall(name: &str, point: Vec3, normal: Vec3, velocity: Vec3) -> Wall {
     let shape = WallShape::Plane(Plane { point, normal });
-    Wall { name: name.to_owned(), material: 1, shape, motion: Motion { velocity, ..Motion::still() } }
+    Wall { motion: Motion { velocity, ..Motion::still() }, ..Wall::new(name, 1, shape) }
 }
 
 #[test]
@@ -58,7 +58,7 @@ fn hopper(variant: &Variant, lid: f64) -> Simulation {
         let vertices =
             vec![at(0.013, -0.03, 0.0), at(0.013, 0.03, 0.0), at(0.093, 0.03, 0.06), at(0.093, -0.03, 0.06)];
         let shape = WallShape::Mesh(TriMesh { vertices, faces: vec![[0, 1, 2], [0, 2, 3]] });
-        Wall { name: format!("slope {side}"), material: 1, shape, motion: Motion::still() }
+        Wall::new(format!("slope {side}"), 1, shape)
     };
     let still = Vec3::zeros();
     setup.walls = vec![

@@ -5,6 +5,7 @@ use dem::setup::*;
 use geom::Vec3;
 use grainpipe_tests::findings::{Case, case};
 use grainpipe_tests::setups::{grain, particles};
+use scene::advice::explain_setup_error;
 
 const ACROSS: Case =
     case("Rest and extremes", "a contact is the same in the middle of a periodic box and across its face");
@@ -74,7 +75,7 @@ fn a_period_below_the_skin_is_refused() {
         setup.periodic = [Some((0.0, period)), None, None];
         setup.skin = skin;
         setup.particles = vec![grain(0, Vec3::new(0.01, 0.0, 0.0)), grain(1, Vec3::new(0.04, 0.0, 0.0))];
-        dem::Simulation::new(setup).err().map(|e| e.to_string())
+        dem::Simulation::new(setup).err().map(|e| explain_setup_error(&e))
     };
     for skin in [0.081, 1.0] {
         let said = said(0.1, Some(skin)).expect("refused");

@@ -61,80 +61,85 @@ fn outcome(folder: &Path, words: &[&str]) -> Result<usize, String> {
 /// A number of points, or words of the refusal.
 type Expected = Result<RangeInclusive<usize>, &'static [&'static str]>;
 
-/// For each cloud: what cloud-crop, alone and by distances, cloud-fill, bluenoise-sample by spacing and by count, and wallgen make of it.
-fn table() -> [(&'static str, [Expected; 7]); 14] {
-    let n = |n: usize| -> Expected { Ok(n..=n) };
-    let no = |words: &'static [&'static str]| -> Expected { Err(words) };
-    let empty: &[&str] = &["none.xyz", "nothing to read"];
-    let not_finite: &[&str] = &["point 400", "not finite", "cloud-crop"];
-    let too_far: &[&str] = &["point 400", "farther than", "cloud-crop"];
-    [
-        ("plane", [n(400), n(400), n(400), n(400), Ok(200..=400), n(10), n(400)]),
-        ("none", [no(empty), no(empty), no(empty), no(empty), no(empty), no(empty), no(empty)]),
-        (
-            "one",
-            [
-                n(1),
-                n(1),
-                n(1),
-                n(1),
-                n(1),
-                no(&["count 10", "only 1 points"]),
-                no(&["1 points", "at least 2"]),
-            ],
-        ),
-        ("two", [n(2), n(2), n(2), n(2), n(2), no(&["count 10", "only 2 points"]), n(2)]),
-        (
-            "same",
-            [
-                n(50),
-                n(50),
-                n(50),
-                n(50),
-                n(1),
-                no(&["count 10", "duplicates"]),
-                no(&["same position", "bluenoise-sample"]),
-            ],
-        ),
-        (
-            "double",
-            [
-                n(440),
-                n(440),
-                n(440),
-                n(440),
-                Ok(200..=400),
-                n(10),
-                no(&["points 0 and 400", "same position", "bluenoise-sample"]),
-            ],
-        ),
-        (
-            "twice",
-            [
-                n(800),
-                n(800),
-                n(800),
-                n(800),
-                Ok(200..=400),
-                n(10),
-                no(&["same position", "bluenoise-sample"]),
-            ],
-        ),
-        ("line", [n(50), n(50), n(50), n(50), Ok(30..=50), n(10), n(50)]),
-        ("tilted", [n(50), n(50), n(50), n(50), n(50), n(10), n(50)]),
-        ("nan", [n(400), n(400), n(400), n(400), no(not_finite), no(not_finite), no(not_finite)]),
-        ("inf", [n(400), n(400), n(400), n(400), no(not_finite), no(not_finite), no(not_finite)]),
-        ("outlier", [n(401), n(400), n(400), n(401), Ok(201..=401), n(10), n(401)]),
-        ("far", [n(402), no(too_far), no(too_far), n(402), no(too_far), no(too_far), no(too_far)]),
-        ("sheets", [n(800), n(800), n(800), n(800), Ok(200..=400), n(10), n(800)]),
-    ]
+const fn n(count: usize) -> Expected {
+    Ok(count..=count)
 }
+
+const fn refused(words: &'static [&'static str]) -> Expected {
+    Err(words)
+}
+
+const EMPTY: Expected = refused(&["none.xyz", "nothing to read"]);
+const NOT_FINITE: Expected = refused(&["point 400", "not finite", "cloud-crop"]);
+const TOO_FAR: Expected = refused(&["point 400", "farther than", "cloud-crop"]);
+
+/// For each cloud: what cloud-crop, alone and by distances, cloud-fill, bluenoise-sample by spacing and by count, and wallgen make of it.
+const TABLE: [(&str, [Expected; 7]); 14] = [
+    ("plane", [n(400), n(400), n(400), n(400), Ok(200..=400), n(10), n(400)]),
+    ("none", [EMPTY, EMPTY, EMPTY, EMPTY, EMPTY, EMPTY, EMPTY]),
+    (
+        "one",
+        [
+            n(1),
+            n(1),
+            n(1),
+            n(1),
+            n(1),
+            refused(&["count 10", "only 1 points"]),
+            refused(&["1 points", "at least 2"]),
+        ],
+    ),
+    ("two", [n(2), n(2), n(2), n(2), n(2), refused(&["count 10", "only 2 points"]), n(2)]),
+    (
+        "same",
+        [
+            n(50),
+            n(50),
+            n(50),
+            n(50),
+            n(1),
+            refused(&["count 10", "duplicates"]),
+            refused(&["same position", "bluenoise-sample"]),
+        ],
+    ),
+    (
+        "double",
+        [
+            n(440),
+            n(440),
+            n(440),
+            n(440),
+            Ok(200..=400),
+            n(10),
+            refused(&["points 0 and 400", "same position", "bluenoise-sample"]),
+        ],
+    ),
+    (
+        "twice",
+        [
+            n(800),
+            n(800),
+            n(800),
+            n(800),
+            Ok(200..=400),
+            n(10),
+            refused(&["same position", "bluenoise-sample"]),
+        ],
+    ),
+    ("line", [n(50), n(50), n(50), n(50), Ok(30..=50), n(10), n(50)]),
+    ("tilted", [n(50), n(50), n(50), n(50), n(50), n(10), n(50)]),
+    ("nan", [n(400), n(400), n(400), n(400), NOT_FINITE, NOT_FINITE, NOT_FINITE]),
+    ("inf", [n(400), n(400), n(400), n(400), NOT_FINITE, NOT_FINITE, NOT_FINITE]),
+    ("outlier", [n(401), n(400), n(400), n(401), Ok(201..=401), n(10), n(401)]),
+    ("far", [n(402), TOO_FAR, TOO_FAR, n(402), TOO_FAR, TOO_FAR, TOO_FAR]),
+    ("sheets", [n(800), n(800), n(800), n(800), Ok(200..=400), n(10), n(800)]),
+];
 
 #[test]
 fn clouds_that_are_hardly_one() {
     let folder = tempdir().unwrap();
     let f = folder.path();
-    for ((name, points), (row, expected)) in clouds().into_iter().zip(table()) {
+    for ((name, points), (row, expected)) in clouds().into_iter().zip(TABLE) {
         assert_eq!(name, row);
         let text: String = points.iter().map(|[x, y, z]| format!("{x:e} {y:e} {z:e}\n")).collect();
         let file = format!("{name}.xyz");

@@ -89,7 +89,7 @@ fn a_large_grain_presses_on_a_bed_of_small_ones() {
         let limit = critical_step(&setup).expect("contacts");
         let alone = Setup { particles: setup.particles[..49].to_vec(), ..setup.clone() };
         let small = critical_step(&alone).expect("contacts").dt;
-        SMALLEST.refused(&variant.name(), &limit.pair, &["radius 1.0000e-3 m"]);
+        SMALLEST.refused(&variant.name(), &limit.cause.to_string(), &["radius 1.0000e-3 m"]);
         SMALLEST.equals(
             &format!("{}: over that of small grains alone", variant.name()),
             limit.dt,

@@ -7,8 +7,8 @@ use geom::{Plane, Vec3, mesh::TriMesh};
 use grainpipe_tests::findings::{Case, case};
 use grainpipe_tests::setups::{bond, grain, lattice, particles, plane};
 
-const SPEED: Case = case("Rest and extremes", "a heap at rest: speeds fall to rounding and stay there there");
-const SPIN: Case = case("Rest and extremes", "a heap at rest: spins fall to rounding and stay there there");
+const SPEED: Case = case("Rest and extremes", "a heap at rest: speeds fall to rounding and stay there");
+const SPIN: Case = case("Rest and extremes", "a heap at rest: spins fall to rounding and stay there");
 const CREEP: Case = case("Rest and extremes", "a heap at rest does not creep");
 const MIXED: Case = case(
     "Rest and extremes",
@@ -21,7 +21,7 @@ const FAR: Case = case(
 const FAR_CREEP: Case = case("Rest and extremes", "a heap at rest 1000 km away does not creep");
 
 const BLOCK: Case =
-    case("Rest and extremes", "a bonded block at rest: speeds fall to rounding and stay there there");
+    case("Rest and extremes", "a bonded block at rest: speeds fall to rounding and stay there");
 const BLOCK_CREEP: Case = case("Rest and extremes", "a bonded block at rest does not creep");
 
 /// Last digit of a place 1000 km away [m].

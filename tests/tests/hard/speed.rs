@@ -12,6 +12,7 @@ use dem::setup::*;
 use geom::{Plane, Vec3, mesh::TriMesh};
 use grainpipe_tests::findings::{Case, case};
 use grainpipe_tests::setups::{grain, plane};
+use scene::advice::explain_halt;
 
 const FAST: Case =
     case("Rest and extremes", "an impact at 100 m/s at half the critical step: rebounds with e");
@@ -83,7 +84,7 @@ fn impact(variant: &Variant, young: f64, share: f64) -> Result<f64, String> {
     setup.particles = vec![Particle { velocity, ..grain(7, Vec3::new(0.0, 0.0, 0.011)) }];
     let mut sim = simulation(setup);
     for _ in 0..100_000 {
-        sim.step().map_err(|halt| halt.to_string())?;
+        sim.step().map_err(|halt| explain_halt(&halt))?;
         let p = sim.particles().map_err(|halt| halt.to_string())?[0];
         if p.velocity.z > 0.0 && p.position.z > 0.0101 {
             return Ok(p.velocity.z);

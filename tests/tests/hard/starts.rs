@@ -5,6 +5,8 @@ use dem::setup::*;
 use geom::Vec3;
 use grainpipe_tests::findings::{Case, case};
 use grainpipe_tests::setups::{grain, particles, plane};
+use scene::advice::explain_halt;
+use scene::advice::explain_setup_error;
 
 const DEEP: Case = case(
     "Rest and extremes",
@@ -21,7 +23,7 @@ fn starts_that_cannot_be_are_stopped_with_ids() {
         for distance in [0.0, 1e-300, 1e-12, 0.01] {
             let mut setup = variant.rough(0.5, 0.5);
             setup.particles = vec![grain(41, Vec3::zeros()), grain(42, Vec3::new(distance, 0.0, 0.0))];
-            let halt = simulation(setup).step().expect_err("too deep").to_string();
+            let halt = explain_halt(&simulation(setup).step().expect_err("too deep"));
             let on = format!("{}, {distance} m apart", variant.name());
             DEEP.refused(&on, &halt, &["41", "42", "overlaps", "limit 25.0 %"]);
             assert!(!halt.contains("NaN"), "{halt}");
@@ -90,7 +92,7 @@ fn what_is_no_number_is_refused() {
                 let mut setup = variant.rough(0.5, 0.5);
                 setup.particles = vec![grain(41, Vec3::zeros()), grain(42, Vec3::new(0.1, 0.0, 0.0))];
                 spoil(&mut setup.particles[1], value);
-                let error = dem::Simulation::new(setup).err().expect("refused").to_string();
+                let error = explain_setup_error(&dem::Simulation::new(setup).err().expect("refused"));
                 HUGE.refused(&format!("{}: {key} {value}", variant.name()), &error, &["particle 42", key]);
             }
         }
@@ -109,7 +111,11 @@ fn materials_that_are_none_are_refused() {
         ("clump 'ball': material", |s| {
             let spheres = [(Vec3::zeros(), 0.01)];
             let shape = ClumpShape::new("ball", 9, &spheres, &geom::Moments::of_sum(&spheres));
-            s.clumps = Clumps { shapes: vec![shape], bodies: vec![], entries: vec![(0, 1.0, 1.0)] };
+            s.clumps = Clumps {
+                shapes: vec![shape],
+                placed: vec![],
+                entries: vec![ClumpScales { shape: 0, least: 1.0, most: 1.0 }],
+            };
         }),
     ];
     for (what, spoil) in wrong {
@@ -117,9 +123,9 @@ fn materials_that_are_none_are_refused() {
         setup.particles = vec![grain(41, Vec3::new(0.0, 0.0, 0.1))];
         setup.walls = vec![plane(Vec3::z())];
         spoil(&mut setup);
-        let of_step = dem::critical_step(&setup).expect_err("refused").to_string();
-        let error = dem::Simulation::new(setup).err().expect("refused").to_string();
+        let of_step = dem::critical_step(&setup).expect_err("refused");
+        let error = dem::Simulation::new(setup).err().expect("refused");
         assert_eq!(of_step, error);
-        HUGE.refused(what, &error, &[what, "9", "the scene's materials"]);
+        HUGE.refused(what, &explain_setup_error(&error), &[what, "9", "the scene's materials"]);
     }
 }

@@ -6,6 +6,7 @@ use dem::{Simulation, critical_step};
 use geom::{Plane, Vec3};
 use grainpipe_tests::findings::{Case, case};
 use grainpipe_tests::setups::{Law, grain, plane};
+use scene::advice::explain_setup_error;
 
 const BOUNDED: Case = case(
     "Time step",
@@ -159,7 +160,7 @@ fn above_the_critical_step_is_refused() {
             setup.particles.push(Particle { radius: 0.005, ..grain(2, Vec3::new(0.1, 0.0, 0.0)) });
             let critical = critical_step(&setup).expect("contacts").dt;
             setup.step = Step::Fixed(1.05 * critical);
-            let error = Simulation::new(setup.clone()).err().expect("refused").to_string();
+            let error = explain_setup_error(&Simulation::new(setup.clone()).err().expect("refused"));
             let words = ["time.dt", "critical step", "grain (radius 5.0000e-3 m) – grain (radius "];
             ABOVE.refused(&variant.name(), &error, &words);
             setup.step = Step::Fixed(0.95 * critical);

@@ -53,10 +53,12 @@ fn cage(variant: &Variant, axis: Vec3, lag: f64) -> Simulation {
     setup.ledger = true;
     setup.particles = vec![Particle { spin: axis, ..grain(1, Vec3::zeros()) }];
     let wall = |name: &str, way: Vec3, from: f64| Wall {
-        name: name.to_owned(),
-        material: 1,
-        shape: WallShape::Spheres([-1.0, 1.0].map(|s| (way * (s * (0.02 - SQUEEZE)), 0.01)).to_vec()),
         motion: Motion { turn: axis, from, ..Motion::still() },
+        ..Wall::new(
+            name,
+            1,
+            WallShape::Spheres([-1.0, 1.0].map(|s| (way * (s * (0.02 - SQUEEZE)), 0.01)).to_vec()),
+        )
     };
     setup.walls = vec![wall("a", Vec3::x(), 0.0), wall("b", Vec3::y(), lag)];
     simulation(setup)

@@ -4,6 +4,7 @@ use dem::setup::*;
 use dem::{Setup, Simulation};
 use geom::Vec3;
 use grainpipe_tests::normals::{Normal, name_of, precisions};
+use scene::advice::explain_halt;
 
 /// A normal law in a precision.
 #[derive(Debug, Clone, Copy)]
@@ -66,7 +67,7 @@ pub fn run(sim: &mut Simulation, steps: u64) {
 
 /// Steps until a guard trips; what it says.
 pub fn halt(sim: &mut Simulation, steps: u64) -> Option<String> {
-    (0..steps).find_map(|_| sim.step().err()).map(|halt| halt.to_string())
+    (0..steps).find_map(|_| sim.step().err()).map(|halt| explain_halt(&halt))
 }
 
 /// Largest speed [m/s] and spin [rad/s].

@@ -6,6 +6,7 @@ use dem::{Setup, Simulation};
 use geom::{Plane, Vec3};
 use grainpipe_tests::findings::{Case, case};
 use grainpipe_tests::setups::grain;
+use scene::advice::explain_setup_error;
 
 const SHORT: Case = case(
     "Rest and extremes",
@@ -35,7 +36,7 @@ fn a_zone_shorter_than_the_largest_particle_is_refused() {
             (into.smallest_entry, into.largest_entry, into.entry_materials) = (0.003, 0.01, vec![0]);
             into.inlets = vec![zone(0.1, length)];
             for (what, setup) in [("outlet", out), ("inlet", into)] {
-                let said = Simulation::new(setup).err().expect("refused").to_string();
+                let said = explain_setup_error(&Simulation::new(setup).err().expect("refused"));
                 SHORT.refused(
                     &format!("{}, {what} of {length} m", variant.name()),
                     &said,

@@ -53,7 +53,7 @@ fn floor(hole: f64) -> Wall {
         }
     }
     let shape = WallShape::Mesh(TriMesh { vertices, faces });
-    Wall { name: "floor".to_owned(), material: 1, shape, motion: Motion::still() }
+    Wall::new("floor", 1, shape)
 }
 
 /// A silo, periodic across, whose floor is open from the start.

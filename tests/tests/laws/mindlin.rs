@@ -8,8 +8,8 @@
 //!
 //! The law here has no partial slip: it is stiffer on the way to sliding, by at most 0.193 μ F_n, at k_t ξ = μ F_n.
 
-use dem::effects::{Contact, Effect, Hertz, Load, Memory, SlidingFriction};
-use dem::lane::{BLOCK, V};
+use dem::effects::{Contact, Effect, Hertz, History, Response, SlidingFriction};
+use dem::simd::{BLOCK, V};
 use grainpipe_tests::findings::{Case, case};
 use grainpipe_tests::normals::still;
 
@@ -35,29 +35,29 @@ const OVERLAP: f64 = 1e-4;
 
 type Rubbing = (Hertz, SlidingFriction);
 
-/// A contact of flat wall and grain of 10 mm that is dragged along; the spring is its memory.
+/// A contact of flat wall and grain of 10 mm that is dragged along; the spring is its history.
 struct Dragged {
     law: Rubbing,
-    memory: <Rubbing as Effect>::Memory<f64>,
+    history: <Rubbing as Effect>::History<f64>,
 }
 
 impl Dragged {
     fn new() -> Dragged {
         let hertz = Hertz { modulus: MODULUS, damping_ratio: 0.0 };
         let friction =
-            SlidingFriction { friction: MU, stiffness_ratio: RATIO, damping_ratio: 0.0, yielding: 1.0 };
-        let nothing = vec![0.0; Rubbing::MEMORY * BLOCK];
-        Dragged { law: (hertz, friction), memory: Memory::load(&nothing, 0) }
+            SlidingFriction { friction: MU, stiffness_ratio: RATIO, damping_ratio: 0.0, compliance: 1.0 };
+        let nothing = vec![0.0; Rubbing::HISTORY * BLOCK];
+        Dragged { law: (hertz, friction), history: History::load(&nothing, 0) }
     }
 
     /// One step of slip [m] at an overlap that has grown [m] in it; step so short that nothing is late.
-    fn step(&mut self, slip: f64, overlap: f64, growth: f64) -> Load<f64> {
+    fn step(&mut self, slip: f64, overlap: f64, growth: f64) -> Response<f64> {
         let dt = 1e-9;
         let contact =
             Contact { slip: V::new(slip / dt, 0.0, 0.0), approach: growth / dt, ..still(overlap, 0.01, 0.0) };
-        let mut load = Load::zero();
-        self.law.apply(&contact, dt, &mut self.memory, &mut load);
-        load
+        let mut response = Response::zero();
+        self.law.apply(&contact, dt, &mut self.history, &mut response);
+        response
     }
 }
 
@@ -91,8 +91,8 @@ fn a_cycle_takes_what_slides() {
         let n = 20_000;
         let mut sweep = |from: f64, to: f64| {
             let step = (to - from) / f64::from(n);
-            (0..n).map(|_| dragged.step(step, OVERLAP, 0.0)).fold((0.0, 0.0), |(work, lost), load| {
-                (work - load.tangential.x * step, lost + load.dissipated[1])
+            (0..n).map(|_| dragged.step(step, OVERLAP, 0.0)).fold((0.0, 0.0), |(work, lost), response| {
+                (work - response.tangential.x * step, lost + response.dissipated[1])
             })
         };
         sweep(0.0, d);
@@ -166,9 +166,9 @@ fn another_engines_loading() {
         }
         let approach = if time < 1.503 { -0.01 } else { 0.01 };
         let contact = Contact { mass: 0.125, inverse_mass: 8.0, approach, ..still(overlap, 0.25, 0.0) };
-        let mut load = Load::zero();
-        law.apply(&contact, 1e-9, &mut (), &mut load);
-        worst = worst.max((load.normal / force - 1.0).abs());
+        let mut response = Response::zero();
+        law.apply(&contact, 1e-9, &mut (), &mut response);
+        worst = worst.max((response.normal / force - 1.0).abs());
         rows += 1;
     }
     assert_eq!(rows, 499);

@@ -280,7 +280,7 @@ fn block(law: Law, mu: f64, tangent: f64) -> dem::Simulation {
         velocity: Vec3::zeros(),
         spin: Vec3::zeros(),
     };
-    setup.clumps = Clumps { shapes: vec![shape], bodies: vec![one], entries: vec![] };
+    setup.clumps = Clumps { shapes: vec![shape], placed: vec![one], entries: vec![] };
     simulation(setup)
 }
 
@@ -292,15 +292,15 @@ fn block_on_a_slope() {
             let on = format!("{name}, μ = {mu}");
             let mut sim = block(law, mu, 0.9 * mu);
             run_until(&mut sim, 1.0);
-            let rested = sim.bodies().expect("sound")[0];
+            let rested = sim.clumps().expect("sound")[0];
             run_until(&mut sim, 2.0);
-            let b = sim.bodies().expect("sound")[0];
+            let b = sim.clumps().expect("sound")[0];
             BLOCK_STAYS.within(&on, (b.position - rested.position).norm(), "m in 1 s", 1e-9);
             let mut sim = block(law, mu, 1.1 * mu);
             run_until(&mut sim, 0.5);
             let theta = f64::atan(1.1 * mu);
             let expected = 9.81 * (theta.sin() - mu * theta.cos()) * sim.time();
-            let v = sim.bodies().expect("sound")[0].velocity.x;
+            let v = sim.clumps().expect("sound")[0].velocity.x;
             BLOCK_SLIDES.equals(&on, v, "m/s", expected, 2e-2);
         }
     }

@@ -47,7 +47,7 @@ fn array(law: Law, mu: f64) -> Setup {
         let mut motion = Motion::still();
         motion.velocity = normal * speed;
         let plane = Plane { point: Vec3::new(0.0, 0.0, z), normal };
-        Wall { name: name.to_owned(), material: 1, shape: WallShape::Plane(plane), motion }
+        Wall { motion, ..Wall::new(name, 1, WallShape::Plane(plane)) }
     };
     let top = 2.0 * R + layer * f64::from(LAYERS - 1);
     setup.walls = vec![wall("floor", 0.0, Vec3::z(), 0.0), wall("lid", top, -Vec3::z(), 1e-3)];

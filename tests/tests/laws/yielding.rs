@@ -1,8 +1,8 @@
 //! Walton and Braun's law: a spring that yields loses the same share at every speed, on grains and on walls, with everything that rubs.
 
 use super::simulation;
-use dem::lane::Width;
 use dem::setup::*;
+use dem::simd::Width;
 use dem::{Setup, Simulation};
 use geom::Vec3;
 use grainpipe_tests::setups::{HOOKE, empty, grain, particles, plane, run_until, with_friction};
@@ -115,7 +115,7 @@ fn same_bits_in_lanes_and_resumed() {
     assert!(Width::available().into_iter().all(|width| run(width) == scalar));
     let mut first = simulation(pile());
     run_until(&mut first, 0.06);
-    let mut resumed = Simulation::resume(pile(), first.state().to_state()).expect("the same setup");
+    let mut resumed = Simulation::resume(pile(), first.checkpoint().to_static()).expect("the same setup");
     run_until(&mut resumed, 0.1);
     assert!(bits(&mut resumed) == scalar, "resumed");
 }

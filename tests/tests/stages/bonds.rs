@@ -83,7 +83,7 @@ fn pipes_and_stops_change_nothing() {
 
 /// A stage that knows of no bonds does not take them for loose grains.
 #[test]
-fn bonds_that_nobody_asked_for_are_refused() {
+fn bonds_that_no_scene_asked_for_are_refused() {
     let folder = lumps();
     succeed(folder.path(), "dem-run", &["up.toml", "--until", "0.15", "-q", "-o", "up.mcap"]);
     succeed(folder.path(), "stage-replay", &["up.mcap", "-q", "-o", "in.mcap"]);

@@ -175,63 +175,72 @@ fn what_planes_cannot_do_with_clumps_is_refused() {
     );
 }
 
+/// Contacts at a cut whose stages have run.
+struct CutContacts {
+    recorded: Vec<ContactRow>,
+    replayed: Vec<ContactRow>,
+    /// Replayed with a quarter turn.
+    turned: Vec<ContactRow>,
+}
+
+/// Runs both stages of a plant, one after the other and live.
+fn run_stages(folder: &Path, plant: &str, motion: &str) -> CutContacts {
+    fs::write(folder.join("plant.toml"), plant).unwrap();
+    let cut = |keep: &str| {
+        format!("stage-split plant.toml --at {AT} --motion {motion} --keep {keep}stream -o {keep}.toml")
+    };
+    let done = line(
+        folder,
+        &format!(
+            "{} && {} && dem-run up.toml -o up.mcap && stage-replay up.mcap --keep-times -o in.mcap \
+             && stage-replay up.mcap --keep-times --turn-deg 90 -o turned.mcap \
+             && dem-run down.toml in.mcap -o after.mcap \
+             && dem-run up.toml | stage-replay --keep-times | dem-run down.toml - -o piped.mcap",
+            cut("up"),
+            cut("down")
+        ),
+    );
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let bytes = |name: &str| fs::read(folder.join(name)).unwrap();
+    assert!(bytes("after.mcap") == bytes("piped.mcap"), "live: the same bytes");
+    let [recorded, replayed, turned] =
+        ["up.mcap", "in.mcap", "turned.mcap"].map(|name| touches(&folder.join(name)));
+    CutContacts { recorded, replayed, turned }
+}
+
+fn assert_history_is_kept(CutContacts { recorded, replayed, turned }: &CutContacts, motion: &str) {
+    let (count, of) = (replayed.len(), recorded.len());
+    assert!(count > 1 && count <= of, "{motion}: {count} of {of}");
+    let is_recorded = |row: &ContactRow| recorded.iter().any(|r| r.pair == row.pair);
+    assert!(replayed.iter().all(is_recorded), "{motion}: in full precision");
+    assert_eq!(count, turned.len());
+    for (a, b) in replayed.iter().zip(turned) {
+        let [a, b] = [a, b].map(|row| geom::Vec3::from_column_slice(row.pair.history.get("sliding")));
+        assert!((b.x + a.y).abs() + (b.y - a.x).abs() + (b.z - a.z).abs() < 1e-15, "{a} {b}");
+    }
+}
+
+/// Of the record `up.mcap`: its contacts come twice, between particles that come too.
+fn assert_repeats_have_their_contacts(folder: &Path) {
+    let repeat = ["up.mcap", "--repeat", "2", "--move", "constant", "-o", "twice.mcap"];
+    succeed(folder, "stage-replay", &repeat);
+    let path = folder.join("twice.mcap");
+    let twice = touches(&path);
+    let ids: Vec<u32> = passages(&path).iter().map(|p| p.particle.id).collect();
+    assert!(twice.len() > 3 && twice.len().is_multiple_of(2));
+    assert!(twice.iter().all(|t| ids.contains(&t.pair.id) && ids.contains(&t.pair.partner)));
+}
+
 /// Contacts of the record keep their history, and those of two incoming grains get it, rotated as the record is.
 #[test]
 fn what_contacts_remember_is_recorded_and_replayed() {
     let folder = tempdir().unwrap();
-    let stages = |motion: &str, plant: &str| {
-        fs::write(folder.path().join("plant.toml"), plant).unwrap();
-        let cut = |keep: &str| {
-            format!("stage-split plant.toml --at {AT} --motion {motion} --keep {keep}stream -o {keep}.toml")
-        };
-        let done = line(
-            folder.path(),
-            &format!(
-                "{} && {} && dem-run up.toml -o up.mcap && stage-replay up.mcap --keep-times -o in.mcap \
-                 && stage-replay up.mcap --keep-times --turn-deg 90 -o turned.mcap \
-                 && dem-run down.toml in.mcap -o after.mcap \
-                 && dem-run up.toml | stage-replay --keep-times | dem-run down.toml - -o piped.mcap",
-                cut("up"),
-                cut("down")
-            ),
-        );
-        assert_eq!(done.code, 0, "{}", done.stderr);
-        let bytes = |name: &str| fs::read(folder.path().join(name)).unwrap();
-        assert!(bytes("after.mcap") == bytes("piped.mcap"), "live: the same bytes");
-        ["up", "in", "turned"].map(|name| touches(&folder.path().join(format!("{name}.mcap"))))
-    };
     let lowered = SINTER.toml() + PLATE;
     // Grains that fall behind the plane leave the plate that they rest on: these are pushed.
     let pushed = lowered.replace("gravity = [0, 0, -9.81]", "gravity = [0, -9.81, 0]");
     let pushed = pushed.replace("plane = \"0,0,0.015,0,0,1\"", "plane = \"0,0,0.125,0,0,-1\"");
     for (motion, plant) in [("constant", lowered), ("recorded", pushed)] {
-        let [recorded, told, turned] = stages(motion, &plant);
-        assert!(
-            told.len() > 1 && told.len() <= recorded.len(),
-            "{motion}: {} of {}",
-            told.len(),
-            recorded.len()
-        );
-        assert!(
-            told.iter().all(|t| recorded.iter().any(|r| r.memory == t.memory)),
-            "{motion}: in full precision"
-        );
-        assert_eq!(told.len(), turned.len());
-        for (a, b) in told.iter().zip(&turned) {
-            let [a, b] = [a, b].map(|t| geom::Vec3::from_column_slice(t.memory.springs.get("sliding")));
-            assert!((b.x + a.y).abs() + (b.y - a.x).abs() + (b.z - a.z).abs() < 1e-15, "{a} {b}");
-        }
+        assert_history_is_kept(&run_stages(folder.path(), &plant, motion), motion);
     }
-    succeed(
-        folder.path(),
-        "stage-replay",
-        &["up.mcap", "--repeat", "2", "--move", "constant", "-o", "twice.mcap"],
-    );
-    let (twice, path) = (touches(&folder.path().join("twice.mcap")), folder.path().join("twice.mcap"));
-    let ids: Vec<u32> = passages(&path).iter().map(|p| p.particle.id).collect();
-    assert!(
-        twice.len() > 3
-            && twice.len().is_multiple_of(2)
-            && twice.iter().all(|t| ids.contains(&t.memory.id) && ids.contains(&t.memory.partner))
-    );
+    assert_repeats_have_their_contacts(folder.path());
 }

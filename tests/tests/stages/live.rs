@@ -94,7 +94,10 @@ fn a_plane_whose_zone_reaches_through_a_wall_is_refused() {
             "0,0,-0.095,0,0,-1",
             ["wall 'floor' lies 0.005 m behind the plane", "zone of 0.0144 m", "0.0094 m upstream"],
         ),
-        ("0,0,-0.11,0,0,-1", ["lies 0.01 m behind wall 'floor'", "where no grain gets", "normal points to"]),
+        (
+            "0,0,-0.11,0,0,-1",
+            ["lies 0.01 m behind wall 'floor'", "where no grain can be", "normal points to"],
+        ),
     ] {
         for keep in ["upstream", "downstream"] {
             let done = tool(

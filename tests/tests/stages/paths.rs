@@ -127,7 +127,7 @@ fn what_does_not_go_with_paths_is_refused() {
     };
     let done = replay(&["--length", "0.03"]);
     assert!(
-        done.code == 1 && done.stderr.contains("--length does not go with recorded paths"),
+        done.code == 1 && done.stderr.contains("--length does not work with recorded paths"),
         "{}",
         done.stderr
     );

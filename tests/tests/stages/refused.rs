@@ -71,7 +71,7 @@ fn cuts_that_no_grain_can_pass_are_refused() {
     };
     for (arguments, wanted) in [
         (&["periodic.toml", "--at", "0.05,0,0,1,0,-1"][..], "periodic along x"),
-        (&["plant.toml", "--at", AT, "--length", "inf"], "--length inf m has no end"),
+        (&["plant.toml", "--at", AT, "--length", "inf"], "--length inf m is infinite"),
         (&["up.toml", "--at", "0,0,-0.05,0,0,-1"], "outlet.0 is a cut upstream of this one"),
         (&["up.toml", "--at", AT], "outlet.0 is a cut upstream of this one"),
     ] {
@@ -94,7 +94,7 @@ fn odd_inflow_is_told() {
     let scene = SINTER.toml() + "[[particles]]\nsource = \"slow.csv\"\nmaterial = \"sinter\"\n" + floor;
     let folder = plant_of(&scene, &[("slow.csv", file)], &[]);
     let done = line(folder.path(), "dem-run up.toml -o up.mcap && stage-replay up.mcap -o in.mcap");
-    assert!(done.code == 0 && done.stderr.contains("2 grains come in up to"), "{}", done.stderr);
+    assert!(done.code == 0 && done.stderr.contains("2 grains start up to"), "{}", done.stderr);
     assert!(done.stderr.contains("--ahead"), "{}", done.stderr);
 
     let folder = plant_of(&text(), &[], &["--motion", "recorded"]);

@@ -179,7 +179,7 @@ fn clumps() {
             velocity: Vec3::zeros(),
             spin: Vec3::zeros(),
         };
-        setup.clumps = Clumps { shapes: vec![shape], bodies: firsts.map(body).collect(), entries: vec![] };
+        setup.clumps = Clumps { shapes: vec![shape], placed: firsts.map(body).collect(), entries: vec![] };
         setup.particles = vec![];
         setup.contacts.iter_mut().for_each(|c| c.set("sliding_friction", friction));
         Trial { name, setup, ways: ALL }.meant();

@@ -21,7 +21,7 @@ fn floor(spacing: f64) -> Setup {
     let at = |k: i32| spacing * f64::from(k - 25);
     let spheres = (0..51 * 51).map(|k| (Vec3::new(at(k % 51), at(k / 51), -R), R)).collect();
     let shape = WallShape::Spheres(spheres);
-    setup.walls = vec![Wall { name: "floor".to_owned(), material: 1, shape, motion: Motion::still() }];
+    setup.walls = vec![Wall::new("floor", 1, shape)];
     let velocity = Vec3::new(0.0, 0.0, -SPEED);
     setup.particles = vec![Particle { velocity, ..grain(0, Vec3::new(1e-4, 2e-4, 1.02 * R)) }];
     setup.step = Step::Auto(0.5);
@@ -47,7 +47,12 @@ fn only_dense_walls_shorten_the_step() {
     let [single, ordinary, dense] =
         [10.0 * R, R, 0.05 * R].map(|spacing| critical_step(&floor(spacing)).expect("laws for all pairs"));
     assert_eq!(single, ordinary);
-    assert!(!single.pair.contains("at once"), "{}", single.pair);
+    let cause = single.cause.to_string();
+    assert!(!cause.contains("at once"), "{cause}");
     assert!(dense.dt < 0.2 * single.dt, "{} of {}", dense.dt, single.dt);
-    NAMED.refused("a twentieth of a radius", &dense.pair, &["wall 'floor'", "of its spheres at once"]);
+    NAMED.refused(
+        "a twentieth of a radius",
+        &dense.cause.to_string(),
+        &["wall 'floor'", "of its spheres at once"],
+    );
 }

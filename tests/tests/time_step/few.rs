@@ -35,11 +35,8 @@ fn two_contacts_in_closed_form() {
 fn between_walls(law: Law, e: f64) -> Setup {
     let mut setup = empty(law, e);
     let half = 0.99 * R;
-    let wall = |z: f64, normal: Vec3| Wall {
-        name: "plane".to_owned(),
-        material: 1,
-        shape: WallShape::Plane(Plane { point: Vec3::new(0.0, 0.0, z), normal }),
-        motion: Motion::still(),
+    let wall = |z: f64, normal: Vec3| {
+        Wall::new("plane", 1, WallShape::Plane(Plane { point: Vec3::new(0.0, 0.0, z), normal }))
     };
     setup.guards.overlap = 0.0101;
     setup.walls = vec![wall(-half, Vec3::z()), wall(half, -Vec3::z())];
@@ -122,7 +119,7 @@ fn a_light_bead_in_a_shell_of_heavy_balls() {
             held.push((out * (R + 3.0 * ball - 2.0 * pressed), ball));
         }
         let shape = WallShape::Spheres(held);
-        setup.walls = vec![Wall { name: "shell".to_owned(), material: 1, shape, motion: Motion::still() }];
+        setup.walls = vec![Wall::new("shell", 1, shape)];
         note(&Trial { name, setup, ways: ALL });
     }
 }
@@ -149,7 +146,7 @@ fn between_walls_of_spheres() {
             }
         }
         let (name_of, shape) = ("beds".to_owned(), WallShape::Spheres(spheres));
-        setup.walls = vec![Wall { name: name_of, material: 1, shape, motion: Motion::still() }];
+        setup.walls = vec![Wall::new(name_of, 1, shape)];
         setup.particles = vec![grain(0, Vec3::zeros())];
         note(&Trial { name, setup, ways: ALL });
     }
@@ -174,7 +171,7 @@ fn cage_of_wall_spheres() {
             spheres.extend(ways.map(|place| (place, R)));
         }
         let (name_of, shape) = ("cage".to_owned(), WallShape::Spheres(spheres));
-        setup.walls = vec![Wall { name: name_of, material: 1, shape, motion: Motion::still() }];
+        setup.walls = vec![Wall::new(name_of, 1, shape)];
         setup.particles = vec![grain(0, Vec3::zeros())];
         note(&Trial { name, setup, ways: ALL });
     }

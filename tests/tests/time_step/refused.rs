@@ -7,6 +7,7 @@ use grainpipe_tests::findings::{Case, case};
 use grainpipe_tests::scenes::{Head, folder, write};
 use grainpipe_tests::setups::{LAWS, contact, empty, grain, plane, with_friction};
 use grainpipe_tests::tools::tool;
+use scene::advice::explain_setup_error;
 
 const REFUSED: Case = case("Time step", "1.05 of the critical step is refused, naming the pair");
 
@@ -28,7 +29,7 @@ fn by_the_engine() {
             setup.step = Step::Fixed(1.05 * critical);
             let Err(message) = Simulation::new(setup).map(|_| ()) else { panic!("not refused") };
             let words = ["time.dt", "above the critical step", "wall (radius 1.0000e-3 m)"];
-            REFUSED.refused(&format!("{law:?}, friction {friction}"), &message.to_string(), &words);
+            REFUSED.refused(&format!("{law:?}, friction {friction}"), &explain_setup_error(&message), &words);
         }
     }
 }

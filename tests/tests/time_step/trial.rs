@@ -47,7 +47,7 @@ impl Trial {
             (p.velocity, p.spin) =
                 (vector(SPEED).component_mul(&self.ways), turns * vector(SPEED / p.radius));
         }
-        for b in &mut setup.clumps.bodies {
+        for b in &mut setup.clumps.placed {
             (b.velocity, b.spin) = (vector(SPEED), vector(SPEED / 0.01));
         }
         setup.step = Step::Auto(0.5);

@@ -1,13 +1,29 @@
 //! What users do wrong: the exit code, the words, and that nothing is left that looks whole.
 
+mod options;
+mod scenes;
+
 use grainpipe_tests::tools::{Done, succeed, with_stdin};
 use std::fs;
 use std::path::Path;
 use stream::mcap::Reader;
 use tempfile::{TempDir, tempdir};
 
-/// A command line (`<FILE` is its stdin), its exit code, and what stderr must say.
-type Case = (&'static str, i32, &'static [&'static str]);
+struct Case {
+    /// The command; `<FILE` is its stdin.
+    line: &'static str,
+    code: i32,
+    /// What stderr must say.
+    parts: &'static [&'static str],
+}
+
+const fn failed(line: &'static str, parts: &'static [&'static str]) -> Case {
+    Case { line, code: 1, parts }
+}
+
+const fn misused(line: &'static str, parts: &'static [&'static str]) -> Case {
+    Case { line, code: 2, parts }
+}
 
 /// Runs every case twice, to a file and to stdout: whatever fails leaves neither a file nor a whole stream.
 fn check(folder: &Path, cases: &[Case]) {
@@ -16,7 +32,7 @@ fn check(folder: &Path, cases: &[Case]) {
 }
 
 /// Why a case is not refused as it should be.
-fn outcome(folder: &Path, &(line, code, parts): &Case) -> Result<(), String> {
+fn outcome(folder: &Path, &Case { line, code, parts }: &Case) -> Result<(), String> {
     let before = names(folder);
     let output = match line.split(['-', ' ']).next() {
         Some("cloud" | "bluenoise") => "out.ply",
@@ -150,7 +166,7 @@ fn clouds() -> TempDir {
 /// The check itself: what succeeds is seen as whole, so that "not whole" means something.
 #[test]
 fn what_succeeds_is_seen_as_whole() {
-    let folder = scenes();
+    let folder = scenes::scenes();
     for line in [
         "cloud-crop good.ply",
         "wallgen good.ply --roughness 0.002",
@@ -170,33 +186,32 @@ fn clouds_that_are_damaged_or_no_clouds() {
     check(
         folder.path(),
         &[
-            ("cloud-crop cut.ply", 1, &["cut.ply", "promises 400 rows", "row 395", "byte 9620"]),
-            ("cloud-crop <cut.ply", 1, &["stdin", "promises 400 rows"]),
-            ("cloud-crop long.ply", 1, &["long.ply", "4 bytes follow"]),
-            ("cloud-crop cut.las", 1, &["cut.las", "LAS", "cut off"]),
-            ("cloud-crop head.las", 1, &["head.las", "LAS", "cut off"]),
-            ("cloud-crop cut.laz", 1, &["cut.laz", "LAZ", "cut off"]),
-            ("cloud-crop cut.e57", 1, &["cut.e57", "E57", "cut off"]),
-            ("cloud-crop cut.pcd", 1, &["cut.pcd", "PCD", "point 2", "cut off"]),
-            ("cloud-crop row.xyz", 1, &["row.xyz", "line 2"]),
-            (
+            failed("cloud-crop cut.ply", &["cut.ply", "promises 400 rows", "row 395", "byte 9620"]),
+            failed("cloud-crop <cut.ply", &["stdin", "promises 400 rows"]),
+            failed("cloud-crop long.ply", &["long.ply", "4 bytes follow"]),
+            failed("cloud-crop cut.las", &["cut.las", "LAS", "cut off"]),
+            failed("cloud-crop head.las", &["head.las", "LAS", "cut off"]),
+            failed("cloud-crop cut.laz", &["cut.laz", "LAZ", "cut off"]),
+            failed("cloud-crop cut.e57", &["cut.e57", "E57", "cut off"]),
+            failed("cloud-crop cut.pcd", &["cut.pcd", "PCD", "point 2", "cut off"]),
+            failed("cloud-crop row.xyz", &["row.xyz", "line 2"]),
+            failed(
                 "cloud-crop comma.xyz",
-                1,
                 &["comma.xyz", "line 1", "decimal commas: write numbers with a point", "0,5 1,25 2,0"],
             ),
-            ("cloud-crop word.xyz", 1, &["word.xyz", "line 2", "three"]),
-            ("cloud-crop text.ply", 1, &["text.ply", "line 9", "row 1", "'y'", "'o'"]),
-            ("cloud-crop no-z.ply", 1, &["no-z.ply", "no 'z'"]),
-            ("cloud-crop format.ply", 1, &["format.ply", "line 2", "2.0"]),
-            ("cloud-crop type.ply", 1, &["type.ply", "line 4", "floot"]),
-            ("cloud-crop count.ply", 1, &["count.ply", "99999999999999"]),
-            ("cloud-crop minus.ply", 1, &["minus.ply", "line 3", "-3"]),
-            ("cloud-crop header.ply", 1, &["header.ply", "end_header"]),
-            ("cloud-crop empty.xyz", 1, &["empty.xyz", "nothing to read"]),
-            ("cloud-crop photo.png", 1, &["photo.png", "give PLY, LAS"]),
-            ("cloud-crop missing.ply", 1, &["missing.ply", "cannot open it", "check the path"]),
-            ("cloud-crop folder", 1, &["folder", "is a folder", "name a file"]),
-            ("dem-view cut.ply", 1, &["cut.ply", "promises 400 rows"]),
+            failed("cloud-crop word.xyz", &["word.xyz", "line 2", "three"]),
+            failed("cloud-crop text.ply", &["text.ply", "line 9", "row 1", "'y'", "'o'"]),
+            failed("cloud-crop no-z.ply", &["no-z.ply", "no 'z'"]),
+            failed("cloud-crop format.ply", &["format.ply", "line 2", "2.0"]),
+            failed("cloud-crop type.ply", &["type.ply", "line 4", "floot"]),
+            failed("cloud-crop count.ply", &["count.ply", "99999999999999"]),
+            failed("cloud-crop minus.ply", &["minus.ply", "line 3", "-3"]),
+            failed("cloud-crop header.ply", &["header.ply", "end_header"]),
+            failed("cloud-crop empty.xyz", &["empty.xyz", "nothing to read"]),
+            failed("cloud-crop photo.png", &["photo.png", "give PLY, LAS"]),
+            failed("cloud-crop missing.ply", &["missing.ply", "cannot open it", "check the path"]),
+            failed("cloud-crop folder", &["folder", "is a folder", "name a file"]),
+            failed("dem-view cut.ply", &["cut.ply", "promises 400 rows"]),
         ],
     );
 }
@@ -207,322 +222,39 @@ fn clouds_that_cannot_become_a_wall_or_a_sample() {
     check(
         folder.path(),
         &[
-            ("bluenoise-sample none.ply --spacing 0.01", 1, &["none.ply", "no point"]),
-            (
+            failed("bluenoise-sample none.ply --spacing 0.01", &["none.ply", "no point"]),
+            failed(
                 "bluenoise-sample nan.xyz --spacing 0.01",
-                1,
                 &["nan.xyz", "point 400", "not finite", "cloud-crop"],
             ),
-            ("bluenoise-sample good.ply --count 401", 1, &["good.ply", "401", "400 points"]),
-            ("wallgen far.xyz --roughness 0.001", 1, &["far.xyz", "point 400", "1e300", "cloud-crop"]),
-            ("bluenoise-sample far.xyz --spacing 0.01", 1, &["far.xyz", "point 400", "1e300", "cloud-crop"]),
-            ("wallgen none.ply --roughness 0.001", 1, &["none.ply", "0 points", "at least 2"]),
-            ("wallgen one.xyz --roughness 0.001", 1, &["one.xyz", "at least 2"]),
-            (
+            failed("bluenoise-sample good.ply --count 401", &["good.ply", "401", "400 points"]),
+            failed("wallgen far.xyz --roughness 0.001", &["far.xyz", "point 400", "1e300", "cloud-crop"]),
+            failed(
+                "bluenoise-sample far.xyz --spacing 0.01",
+                &["far.xyz", "point 400", "1e300", "cloud-crop"],
+            ),
+            failed("wallgen none.ply --roughness 0.001", &["none.ply", "0 points", "at least 2"]),
+            failed("wallgen one.xyz --roughness 0.001", &["one.xyz", "at least 2"]),
+            failed(
                 "wallgen same.xyz --roughness 0.001",
-                1,
                 &["same.xyz", "50 points", "same position", "bluenoise-sample"],
             ),
-            (
+            failed(
                 "wallgen mm.xyz --roughness 0.0001 --smallest-particle 0.01",
-                1,
                 &["mm.xyz", "the cloud is 19 m wide: is it in millimetres?"],
             ),
-            ("wallgen nan.xyz --roughness 0.001", 1, &["nan.xyz", "point 400", "not finite"]),
-            ("wallgen line.xyz --roughness 0.02", 1, &["roughness 0.02 m", "half", "0.01 m"]),
-            ("wallgen good.ply --roughness 0.006", 1, &["good.ply", "roughness 0.006 m", "half", "0.01 m"]),
-            ("cloud-crop good.ply --regions regions.toml", 1, &["regions.toml: line 3", "'shap'", "'shape'"]),
-            ("cloud-crop good.ply --regions good.xyz", 1, &["good.xyz"]),
-            ("wallgen good.ply --roughness nowhere.toml", 1, &["nowhere.toml: cannot read"]),
-        ],
-    );
-}
-
-#[test]
-fn options_that_cannot_be_meant() {
-    let folder = clouds();
-    check(
-        folder.path(),
-        &[
-            ("cloud-crop good.ply --keep ball:0,0,0,1", 2, &["--keep", "ball", "sphere:"]),
-            ("cloud-crop good.ply --keep sphere:0,0,0", 2, &["--keep", "4 numbers wanted", "3 found"]),
-            ("cloud-crop good.ply --remove halfspace:0,0,0,0,0,0", 2, &["--remove", "normal"]),
-            ("cloud-crop good.ply --keep sphere:0,0,0,-1", 2, &["radius -1 m", "positive"]),
-            ("cloud-crop good.ply --keep mesh:missing.ply", 2, &["missing.ply", "cannot read"]),
-            ("cloud-crop good.ply --keep mesh:mesh.obj", 2, &["mesh.obj", "not closed"]),
-            ("cloud-crop good.ply --keep mesh:word.xyz", 2, &["word.xyz", "give PLY, STL, OBJ"]),
-            (
-                "wallgen good.ply --roughness 0.002mm",
-                2,
-                &["--roughness 0.002mm: is neither a number of metres nor a file"],
+            failed("wallgen nan.xyz --roughness 0.001", &["nan.xyz", "point 400", "not finite"]),
+            failed("wallgen line.xyz --roughness 0.02", &["roughness 0.02 m", "half", "0.01 m"]),
+            failed(
+                "wallgen good.ply --roughness 0.006",
+                &["good.ply", "roughness 0.006 m", "half", "0.01 m"],
             ),
-            ("cloud-crop good.ply --kep sphere:0,0,0,1", 2, &["--kep", "--keep"]),
-            ("cloud-crop good.ply --largest -1", 2, &["--largest"]),
-            ("cloud-crop good.ply --threads 0", 2, &["--threads"]),
-            ("cloud-crop good.ply good.xyz", 2, &["good.xyz"]),
-            ("cloud-fill good.ply --spacing 0", 2, &["--spacing", "above 0"]),
-            ("cloud-fill good.ply --spacing=-0.1", 2, &["--spacing", "above 0"]),
-            ("cloud-fill good.ply --fill noise", 2, &["--fill", "noise", "blue-noise"]),
-            ("bluenoise-sample good.ply", 2, &["--spacing", "--count", "--density"]),
-            ("bluenoise-sample good.ply --spacing 0.01 --count 5", 2, &["--spacing", "--count"]),
-            ("bluenoise-sample good.ply --spacing -0.01", 2, &["spacing -0.01 m", "positive"]),
-            (
-                "bluenoise-sample good.ply --spacing 12mm",
-                2,
-                &["--spacing", "12mm", "not a number", "SI units"],
+            failed(
+                "cloud-crop good.ply --regions regions.toml",
+                &["regions.toml: line 3", "'shap'", "'shape'"],
             ),
-            ("bluenoise-sample good.ply --count 0", 2, &["count 0"]),
-            ("bluenoise-sample good.ply --density 500,20", 2, &["density 500,20", "lower one first"]),
-            ("bluenoise-sample good.ply --density 500 --method tile", 2, &["--density", "LO,HI"]),
-            (
-                "bluenoise-sample good.ply --spacing 0.01 --method blue",
-                2,
-                &["--method", "poisson", "eliminate"],
-            ),
-            ("bluenoise-sample good.ply --spacing 0.01 --plot a.pdf", 2, &["--plot", "a.pdf", "svg"]),
-            ("wallgen good.ply", 2, &["--roughness", "--radius M"]),
-            ("wallgen good.ply --roughness 0", 2, &["--roughness 0 m", "positive"]),
-            ("wallgen good.ply --roughness -0.001", 2, &["--roughness -0.001 m", "positive"]),
-            ("wallgen good.ply --roughness 0.001 --facing 0,0,0", 2, &["--facing 0,0,0", "no direction"]),
-            ("wallgen good.ply --roughness 0.001 --smallest-particle -1", 2, &["--smallest-particle -1 m"]),
-            ("wallgen good.ply --roughness 0.001 --young 0", 2, &["--young 0 Pa", "positive"]),
-            ("cloud-crop good.ply --threads 1000000", 2, &["--threads 1000000", "at most 4096"]),
-            ("stage-replay up.mcap --from nan", 2, &["--from", "nan", "seconds"]),
-            ("stage-replay up.mcap --from 2 --until 1", 2, &["--until 1 s", "--from 2 s"]),
-            ("dem-view good.ply --time nan", 2, &["--time", "seconds"]),
-            ("dem-view - -", 2, &["only one of the inputs"]),
-            ("dem-run - -", 2, &["only one of the inputs", "give files"]),
-            ("wallgen good.ply --roughness 0.001 --place surface", 2, &["--place surface", "--facing x,y,z"]),
-            ("wallgen good.ply --roughness 0.001 --poisson 0.7", 2, &["--poisson", "0.7"]),
-            (
-                "wallgen good.ply --roughness 0.001 --radius 0.01 --from-mesh mesh.obj",
-                2,
-                &["--from-mesh", "leave one of them out"],
-            ),
-            ("wallgen --roughness 0.001 --from-mesh mesh.obj", 2, &["--from-mesh", "add --radius M"]),
-            ("wallgen --radius 0.01 --from-mesh mesh.obj", 2, &["--from-mesh", "add --roughness M"]),
-            (
-                "wallgen --radius 0.01 --roughness 0.02 --from-mesh mesh.obj",
-                1,
-                &["0.02 m", "at most the radius"],
-            ),
-            ("wallgen --radius 1e-9 --roughness 1e-12 --from-mesh mesh.obj", 1, &["too many", "millimetres"]),
-            (
-                "wallgen --radius 0.01 --roughness 0.001 --from-mesh missing.stl",
-                1,
-                &["missing.stl", "cannot read"],
-            ),
-            ("wallgen good.ply --roughness 0.001 --ascii", 2, &["--ascii", "no text form"]),
-            ("dem-view good.ply --colour speeed", 1, &["speeed"]),
-            ("stage-split s.toml --at 0,0,0,0,0,0 --keep upstream", 2, &["--at", "normal"]),
-            ("stage-split s.toml --at 0,0,0,0,0,-1", 2, &["--keep"]),
-            ("stage-split s.toml --at 0,0,0,0,0,-1 --keep both", 2, &["both", "upstream"]),
-            ("dem-run", 2, &["SCENE.toml"]),
-            ("dem-run s.toml --until soon", 2, &["--until", "soon"]),
-        ],
-    );
-    for (line, part) in [
-        ("cloud-crop good.ply -o a.las", "-o a.las: only PLY"),
-        ("cloud-fill good.ply -o a.csv", "-o a.csv: only PLY"),
-        ("bluenoise-sample good.ply --spacing 0.02 -o a.xyz", "-o a.xyz: only PLY"),
-        ("wallgen good.ply --roughness 0.002 -o a.las", "-o a.las: only MCAP and PLY"),
-        ("dem-view good.ply -o a.png --every 0.1", "--every is for a film"),
-        ("dem-view good.ply -o a.xyz", ".html"),
-        ("dem-view good.ply -o a", ".html"),
-    ] {
-        let done = run(folder.path(), line, &[]);
-        assert!(done.code == 2 && done.stderr.contains(part), "{line}: {}", done.stderr);
-    }
-    for line in [
-        "cloud-crop good.ply -o no/such/a.ply",
-        "cloud-crop good.ply -o folder",
-        "cloud-crop good.ply -o b.ply --report no/r.json",
-    ] {
-        let done = run(folder.path(), line, &[]);
-        assert!(done.code == 1 && done.stderr.contains("folder"), "{line}: {}", done.stderr);
-        println!("{line}\n    {}", done.stderr);
-    }
-}
-
-#[test]
-fn lengths_of_another_unit_are_told() {
-    let folder = clouds();
-    for (line, part) in [
-        ("wallgen mm.xyz --roughness 0.05 --smallest-particle 0.01", "far larger than the smallest particle"),
-        ("bluenoise-sample mm.xyz --spacing 0.01", "all 400 points were kept"),
-        ("bluenoise-sample good.ply --spacing 10", "1 of 400 points were kept"),
-    ] {
-        let done = run(folder.path(), line, &[]);
-        assert!(done.code == 0 && done.stderr.contains(part), "{line}: {}", done.stderr);
-    }
-}
-
-const SCENE: &str = r#"gravity = [0, 0, -9.81]
-[time]
-until = 0.06
-[output]
-every = 0.02
-checkpoint = 0.04
-[[material]]
-name = "sinter"
-density = 3300
-young = 2e7
-poisson = 0.25
-[[contact]]
-between = ["sinter", "sinter"]
-restitution = 0.5
-[[fill]]
-material = "sinter"
-shape = "box:-0.04,-0.04,0.02,0.04,0.04,0.06"
-diameter = [0.008, 0.012]
-count = 40
-[[wall]]
-plane = "0,0,0,0,0,1"
-material = "sinter"
-"#;
-
-fn scenes() -> TempDir {
-    let folder = clouds();
-    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
-    write("s.toml", SCENE);
-    write("key.toml", &SCENE.replace("young =", "yung ="));
-    write("type.toml", &SCENE.replace("density = 3300", "density = \"3300\""));
-    write("broken.toml", &SCENE.replace("[time]", "[time"));
-    let steel = "[[material]]\nname = \"steel\"\nyoung = 2e8\npoisson = 0.3\n";
-    write(
-        "law.toml",
-        &format!("{}{steel}", SCENE.replace("1\"\nmaterial = \"sinter\"", "1\"\nmaterial = \"steel\"")),
-    );
-    let plant = SCENE.replace("plane = \"0,0,0,", "plane = \"0,0,-0.1,");
-    write("plant.toml", &plant);
-    write("walls.toml", &SCENE.replace("plane = \"0,0,0,0,0,1\"\n", ""));
-    let f = folder.path();
-    succeed(f, "wallgen", &["good.ply", "--roughness", "0.002", "--material", "sinter", "-o", "walls.mcap"]);
-    for (stage, file) in [("upstream", "up.toml"), ("downstream", "down.toml")] {
-        succeed(f, "stage-split", &["plant.toml", "--at", "0,0,0,0,0,-1", "--keep", stage, "-o", file]);
-    }
-    succeed(f, "dem-run", &["s.toml", "-o", "run.mcap"]);
-    succeed(f, "dem-run", &["up.toml", "--until", "0.1", "-o", "up.mcap"]);
-    succeed(f, "stage-replay", &["up.mcap", "-o", "in.mcap"]);
-    for name in ["up", "walls", "in"] {
-        let bytes = fs::read(f.join(format!("{name}.mcap"))).unwrap();
-        let write =
-            |kind: &str, bytes: &[u8]| fs::write(f.join(format!("{name}-{kind}.mcap")), bytes).unwrap();
-        write("cut", &bytes[..bytes.len() * 2 / 3]);
-        write("long", &[&bytes[..], b"more"].concat());
-        write("twice", &[&bytes[..], &bytes[..]].concat());
-        let mut flipped = bytes.clone();
-        flipped[bytes.len() / 2] ^= 0x10;
-        write("flipped", &flipped);
-    }
-    let bytes = fs::read(f.join("run.mcap")).unwrap();
-    fs::write(f.join("start.mcap"), &bytes[..700]).unwrap();
-    folder
-}
-
-#[test]
-fn scenes_that_cannot_run() {
-    let folder = scenes();
-    check(
-        folder.path(),
-        &[
-            ("dem-run missing.toml", 1, &["missing.toml", "cannot open"]),
-            ("dem-run good.ply", 1, &["good.ply", "not UTF-8 text", "right file"]),
-            ("dem-run key.toml", 1, &["key.toml:10:1", "'yung'", "did you mean 'young'?"]),
-            ("dem-run type.toml", 1, &["type.toml:9:11", "expected a number"]),
-            ("dem-run broken.toml", 1, &["broken.toml:2:"]),
-            (
-                "dem-run law.toml",
-                1,
-                &["law.toml: contact: no law between 'sinter' and 'steel'", "[[contact]]"],
-            ),
-            ("dem-run s.toml --set material.0.density=-1", 1, &["material.0.density = -1 kg/m³", "positive"]),
-            (
-                "dem-run s.toml --set contact.0.restitutio=1",
-                1,
-                &["restitutio", "did you mean 'restitution'?"],
-            ),
-            (
-                "dem-run s.toml --set time.dt=0.01",
-                1,
-                &["s.toml: time.dt: 1.0000e-2 s", "critical step", "sinter (radius", "auto"],
-            ),
-            ("dem-run s.toml --set fill.0.count=0", 1, &["fill.0.count", "0"]),
-            (
-                "dem-run s.toml --set fill.0.count=4000000000",
-                1,
-                &["fill.0.count = 4000000000", "fifty million"],
-            ),
-            (
-                "dem-run s.toml --set gravity=[0,0]",
-                1,
-                &["s.toml with --set gravity=[0,0]: ", "number of values: 2", "list of 3"],
-            ),
-            ("dem-run s.toml --set material.0.name=\"\"", 1, &["material.0.name = \"\"", "is not a name"]),
-            ("dem-run s.toml --set guards.overlap=0", 1, &["guards.overlap = 0: must"]),
-            ("dem-run s.toml --set fill.0.diameter.0=-0.1", 1, &["fill.0.diameter", "-0.1"]),
-            ("dem-run s.toml --set fill.0.shape=box:0,0,0,1", 1, &["fill.0.shape", "6 numbers wanted"]),
-            ("dem-run s.toml --until=-1", 1, &["time.until = -1", "s"]),
-            ("dem-run s.toml --set wall.0.plane=0,0,0,0,0,0", 1, &["wall.0.plane", "normal"]),
-            ("dem-run walls.toml", 1, &["waits for walls", "wallgen"]),
-            ("dem-run walls.toml good.ply", 1, &["good.ply", "MCAP", "wallgen"]),
-            ("dem-run walls.toml walls-cut.mcap", 1, &["walls-cut.mcap", "truncated"]),
-            ("dem-run walls.toml walls-long.mcap", 1, &["walls-long.mcap", "bytes follow the end"]),
-            ("dem-run walls.toml walls-twice.mcap", 1, &["walls-twice.mcap", "bytes follow the end"]),
-            ("dem-run walls.toml walls-flipped.mcap", 1, &["walls-flipped.mcap", "damaged"]),
-            ("dem-run s.toml missing.mcap", 1, &["missing.mcap", "cannot open"]),
-            ("dem-run s.toml in.mcap", 1, &["in.mcap: the scene has no [[inlet]]"]),
-        ],
-    );
-}
-
-#[test]
-fn stages_and_resumed_runs_that_do_not_fit() {
-    let folder = scenes();
-    check(
-        folder.path(),
-        &[
-            ("stage-replay run.mcap", 1, &["run.mcap", "without [[outlet]]", "stage-split"]),
-            ("stage-replay walls.mcap", 1, &["walls.mcap"]),
-            ("stage-replay up-cut.mcap", 1, &["up-cut.mcap", "truncated"]),
-            ("stage-replay <up-cut.mcap", 1, &["stdin", "truncated"]),
-            ("stage-replay up-flipped.mcap", 1, &["up-flipped.mcap", "damaged"]),
-            ("stage-replay up-long.mcap", 1, &["up-long.mcap", "bytes follow the end"]),
-            ("stage-replay up-twice.mcap", 1, &["up-twice.mcap", "cat"]),
-            ("stage-replay up.mcap --length 0.01", 1, &["0.01", "largest diameter", "at least"]),
-            ("stage-replay up.mcap --move free", 2, &["--move", "'free'", "ballistic"]),
-            ("stage-replay up.mcap --outlet 3", 1, &["outlet", "3"]),
-            (
-                "stage-split plant.toml --at 0,0,0,0,0,-1 --keep upstream --length 0.01",
-                1,
-                &["--length 0.01 m", "largest diameter", "at least 0.0144 m"],
-            ),
-            (
-                "stage-split plant.toml --at 0,0,0.1,0,0,-1 --keep upstream",
-                1,
-                &["no grains start upstream of the plane: its normal is to point with the flow"],
-            ),
-            ("stage-split plant.toml --at 0,0,0.04,0,0,-1 --keep upstream", 1, &["fill.0", "both sides"]),
-            (
-                "stage-split plant.toml --at 0,0,0,0,0,-1 --keep upstream --motion free",
-                2,
-                &["--motion", "'free'", "ballistic"],
-            ),
-            ("dem-run down.toml", 1, &["waits for an inlet", "stage-replay"]),
-            ("dem-run down.toml up.mcap", 1, &["up.mcap", "stage-replay"]),
-            ("dem-run down.toml in-cut.mcap", 1, &["in-cut.mcap", "truncated"]),
-            (
-                "dem-run s.toml --set outlet=[{plane=\"0,0,-1,0,0,-1\",length=0.01}]",
-                1,
-                &["outlet.0.length = 0.01 m", "largest diameter"],
-            ),
-            ("dem-run plant.toml --resume run.mcap", 1, &["--resume", "wall.0.plane", "was"]),
-            ("dem-run s.toml --resume start.mcap", 1, &["start.mcap", "checkpoint"]),
-            ("dem-run s.toml --resume walls.mcap", 1, &["walls.mcap"]),
-            ("dem-run s.toml --resume good.ply", 1, &["good.ply", "MCAP"]),
-            ("dem-run s.toml --resume run.mcap", 1, &["until"]),
-            ("dem-view in.mcap", 1, &["in.mcap", "/particles"]),
-            ("dem-view up-cut.mcap", 1, &["up-cut.mcap", "truncated"]),
+            failed("cloud-crop good.ply --regions good.xyz", &["good.xyz"]),
+            failed("wallgen good.ply --roughness nowhere.toml", &["nowhere.toml: cannot read"]),
         ],
     );
 }

@@ -218,7 +218,7 @@ fn what_is_wrong_is_refused_before_anything_runs() {
     let with = |more: &[&str]| refused(&folder, &[&vary[..], more].concat(), 2);
     assert!(with(&["--measure", "heap-angel"]).contains("did you mean 'heap-angle'?"));
     assert!(with(&["--measure", "restitution", "-o", "x.pdf"]).contains("must end in .svg or .png"));
-    assert!(with(&["--measure", "restitution", "--repeat", "3"]).contains("chance plays no part in s.toml"));
+    assert!(with(&["--measure", "restitution", "--repeat", "3"]).contains("s.toml uses no random numbers"));
     assert!(with(&["--measure", "restitution", "--for", "-1%"]).contains("give a share such as 1%"));
     assert!(with(&["--measure", "restitution", "--laboratory", "a,b"]).contains("half width"));
     assert!(with(&["--measure", "restitution", "--reference", "dt=1"]).contains("is not varied"));
@@ -249,7 +249,7 @@ fn what_is_wrong_is_refused_before_anything_runs() {
         ],
         2,
     );
-    assert!(why.contains("shares of it: give one such as 1%"), "{why}");
+    assert!(why.contains("shares of it: give a share, such as 1%"), "{why}");
 }
 
 /// Pairs that meet head-on at 4.295 m/s, at other phases of a step than those that the curve was measured with.

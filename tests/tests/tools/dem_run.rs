@@ -1,5 +1,7 @@
 //! A run is exact, resumes bit for bit, and what stops it leaves a file that can be read.
 
+mod stopped;
+
 use grainpipe_tests::scenes::{Head, RUBS, folder};
 use grainpipe_tests::tools::{line, program, succeed, tool};
 use std::fs;
@@ -100,71 +102,6 @@ fn a_resumed_run_goes_on_as_if_it_had_never_stopped() {
 }
 
 #[test]
-fn a_killed_run_is_refused_as_input_and_resumes_from_its_last_checkpoint() {
-    let folder = with(&poured());
-    let path = |name: &str| folder.path().join(name);
-    succeed(folder.path(), "dem-run", &["s.toml", "-o", "whole.mcap"]);
-    let done = line(folder.path(), "dem-run s.toml | head -c 9000 > /dev/null");
-    assert_eq!(done.code, 0, "a reader that goes away is no failure: {}", done.stderr);
-    let bytes = succeed(folder.path(), "dem-run", &["s.toml"]).stdout;
-    fs::write(path("killed.mcap"), &bytes[..bytes.len() * 55 / 100]).unwrap();
-    assert!(!events(&path("killed.mcap")).1);
-    assert_eq!(checkpoints(&path("killed.mcap")).len(), 1, "the cut is between two checkpoints");
-    succeed(folder.path(), "dem-run", &["s.toml", "--resume", "killed.mcap", "-o", "rest.mcap"]);
-    let (whole, rest) = (frames(&path("whole.mcap")), frames(&path("rest.mcap")));
-    assert!(whole[5..] == rest[..]);
-    let done = tool(folder.path(), "stage-replay", &["killed.mcap", "-o", "x.mcap"]);
-    assert!(done.code == 1 && !path("x.mcap").exists(), "{}", done.stderr);
-}
-
-#[test]
-fn another_scene_or_a_damaged_run_is_not_resumed() {
-    let folder = with(&poured());
-    succeed(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap", "--until", "0.05"]);
-    let resume = |run: &str, set: &str| {
-        tool(folder.path(), "dem-run", &["s.toml", "--resume", run, "--set", set, "-o", "x.mcap"])
-    };
-    for (set, part) in [
-        ("contact.0.restitution=0.4", "contact.0.restitution was 0.5, now 0.4"),
-        ("fill.0.seed=1", "fill.0.seed = 1 is new"),
-        ("time.dt=1e-6", "time.dt = "),
-        ("time.until=0.02", "give a later --until"),
-    ] {
-        let done = resume("run.mcap", set);
-        assert!(done.code == 1 && done.stderr.contains(part), "{set}: {}", done.stderr);
-    }
-    let mut bytes = fs::read(folder.path().join("run.mcap")).unwrap();
-    let middle = bytes.len() / 2;
-    bytes[middle] ^= 1;
-    fs::write(folder.path().join("flipped.mcap"), bytes).unwrap();
-    let done = resume("flipped.mcap", "output.every=0.02");
-    assert!(done.code == 1 && done.stderr.contains("flipped.mcap"), "{}", done.stderr);
-    fs::write(folder.path().join("empty.mcap"), "").unwrap();
-    assert_eq!(resume("empty.mcap", "output.every=0.02").code, 1);
-    assert!(!folder.path().join("x.mcap").exists());
-}
-
-#[test]
-fn a_guard_ends_the_run_with_code_3_a_reason_and_a_checkpoint() {
-    let folder = with(&poured());
-    let done = tool(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap", "--set", "guards.overlap=0.01"]);
-    assert_eq!(done.code, 3, "{}", done.stderr);
-    assert!(done.stderr.contains("overlaps") && done.stderr.contains("guards.overlap"), "{}", done.stderr);
-    let (events, whole) = events(&folder.path().join("run.mcap"));
-    assert!(whole, "the file is valid");
-    let log = events.iter().any(|e| {
-        matches!(e, Event::Bytes { topic, data, .. }
-        if topic == "/log" && String::from_utf8_lossy(data).contains("overlaps"))
-    });
-    assert!(log, "the log says why");
-    let last = events.iter().rev().find(|e| !matches!(e, Event::Metadata { .. }));
-    assert!(
-        matches!(last, Some(Event::Bytes { topic, .. }) if topic == "/checkpoint"),
-        "it ends in a checkpoint"
-    );
-}
-
-#[test]
 fn walls_that_move_are_written_with_every_frame() {
     let scene = poured().replace("plane = \"0,0,0,0,0,1\"\nmaterial = \"sinter\"", "");
     let scene =
@@ -249,100 +186,12 @@ fn the_ledger_is_written_and_changes_nothing() {
     assert!(balances.iter().all(|b| (b - first).abs() < 0.02 * first.abs()), "{balances:?}");
 }
 
-/// Starts a run that takes minutes.
-fn long_run(folder: &Path) -> std::process::Child {
-    // Under nohup, whose children ignore a lost terminal, this one does not.
-    let mut command = std::process::Command::new("env");
-    command.arg("--default-signal=HUP").arg(program("dem-run"));
-    command.current_dir(folder).args(["s.toml", "--until", "1000", "-o", "run.mcap"]);
-    command.args(["--set", "output.every=0.01", "--set", "output.checkpoint=0.01"]);
-    command.stderr(std::process::Stdio::piped()).spawn().unwrap()
-}
-
-/// The unfinished file of a run, once it holds some frames and checkpoints.
-fn unfinished(folder: &Path) -> std::path::PathBuf {
-    let start = std::time::Instant::now();
-    loop {
-        let mut files = fs::read_dir(folder).unwrap().map(|e| e.unwrap().path());
-        let part = files.find(|p| p.extension().is_some_and(|e| e == "part"));
-        if let Some(part) = part.filter(|p| fs::metadata(p).is_ok_and(|m| m.len() > 600_000)) {
-            return part;
-        }
-        assert!(start.elapsed().as_secs() < 60, "the run does not begin");
-        std::thread::sleep(std::time::Duration::from_millis(20));
-    }
-}
-
-fn send(signal: &str, child: &std::process::Child) {
-    let id = child.id().to_string();
-    assert!(std::process::Command::new("kill").args([signal, &id]).status().unwrap().success());
-}
-
-#[test]
-fn a_signal_ends_the_run_with_code_3_and_a_checkpoint_to_go_on_from() {
-    let folder = with(&poured());
-    let path = |name: &str| folder.path().join(name);
-    for signal in ["-INT", "-HUP", "-TERM"] {
-        let child = long_run(folder.path());
-        let part = unfinished(folder.path());
-        send(signal, &child);
-        let done = child.wait_with_output().unwrap();
-        let said = String::from_utf8_lossy(&done.stderr);
-        assert_eq!(done.status.code(), Some(3), "{said}");
-        assert!(said.contains("stopped by a signal at t = ") && said.contains("--resume run.mcap"), "{said}");
-        assert!(events(&path("run.mcap")).1 && !part.exists(), "the file is whole");
-    }
-    let stopped = frames(&path("run.mcap"));
-    let until = (stopped.len() as f64 + 3.5) * 0.01;
-    let (until, every) = (until.to_string(), ["--set", "output.every=0.01"]);
-    let every = [&every[..], &["--set", "output.checkpoint=0.01"]].concat();
-    succeed(
-        folder.path(),
-        "dem-run",
-        &[&["s.toml", "--until", &until, "-o", "whole.mcap"], &every[..]].concat(),
-    );
-    let resume = ["s.toml", "--until", &until, "--resume", "run.mcap", "-o", "rest.mcap"];
-    succeed(folder.path(), "dem-run", &[&resume, &every[..]].concat());
-    let (whole, rest) = (frames(&path("whole.mcap")), frames(&path("rest.mcap")));
-    assert!(whole[..stopped.len()] == stopped[..] && whole[stopped.len()..] == rest[..]);
-}
-
-#[test]
-fn a_killed_run_leaves_a_part_that_is_resumed() {
-    let folder = with(&poured());
-    let child = long_run(folder.path());
-    let part = unfinished(folder.path());
-    send("-KILL", &child);
-    child.wait_with_output().unwrap();
-    let part = part.file_name().unwrap().to_str().unwrap();
-    succeed(folder.path(), "dem-run", &["s.toml", "--until", "1000", "--check", "--resume", part]);
-    assert!(!checkpoints(&folder.path().join(part)).is_empty());
-}
-
 /// Exit code and words of a line that must be refused, and that it leaves no `x.mcap`.
 fn refused(folder: &Path, words: &str, code: i32, parts: &[&str]) {
     let done = line(folder, words);
     let said = parts.iter().all(|part| done.stderr.contains(part));
     assert!(done.code == code && said, "{words}: {}: {}", done.code, done.stderr);
     assert!(!folder.join("x.mcap").exists(), "{words}");
-}
-
-#[test]
-fn a_run_that_was_stopped_gives_no_stage_downstream_that_looks_whole() {
-    let outlet = "[[outlet]]\nplane = \"0,0,-0.05,0,0,-1\"\nlength = 0.03\n";
-    // A slope that only the outermost grains meet before they pass the outlet.
-    let slope = "plane = \"0.04,0,-0.046,-1,0,1\"";
-    let falling = poured().replace("plane = \"0,0,0,0,0,1\"", slope) + outlet;
-    let folder = with(&falling.replace("until = 0.12", "until = 0.4"));
-    let strict = "dem-run s.toml --set guards.overlap=0.001";
-    assert_eq!(line(folder.path(), &format!("{strict} -o up.mcap")).code, 3);
-    let why = ["up.mcap: the run was stopped at t = 1.1", "guards.overlap", "--until"];
-    refused(folder.path(), "stage-replay up.mcap -o x.mcap", 1, &why);
-    let passed = line(folder.path(), "stage-replay up.mcap").stdout;
-    let events: Vec<_> = Reader::new(&passed[..]).collect();
-    assert!(events.iter().any(|e| matches!(e, Ok(Event::Points { .. }))), "what was recorded is passed on");
-    assert!(events.iter().any(|e| e.is_err()), "and has no end");
-    succeed(folder.path(), "stage-replay", &["up.mcap", "--until", "0.11", "-o", "early.mcap"]);
 }
 
 #[test]
@@ -465,7 +314,7 @@ fn bonds_are_written_with_each_frame_broken_ones_as_well() {
 }
 
 #[test]
-fn bonds_that_nobody_has_or_that_are_not_followed_are_refused() {
+fn bonds_that_no_grain_has_or_that_are_not_followed_are_refused() {
     let says = |bond: &str, more: &str, parts: &[&str]| {
         let folder = bonded(bond);
         let scene = fs::read_to_string(folder.path().join("s.toml")).unwrap() + more;

@@ -95,8 +95,8 @@ fn written(scene: &str) -> String {
     // Beyond what a scene may say: they sleep as they fall.
     plan.setup.sleep.iter_mut().for_each(|sleep| sleep.wake *= 10.0);
     let (provenance, how) = (Provenance::default(), Compression::None.into());
-    let settings = run::Settings { provenance, how, watched: false, stop: || false };
-    let (_, run) = run::run(&scene, plan, None, Vec::new(), settings, &mut |_| ()).expect("it runs");
+    let settings = run::Settings { provenance, how, resume: None, watched: false, stop: || false };
+    let (_, run) = run::run(&scene, plan, Vec::new(), settings, &mut |_| ()).expect("it runs");
     layout(&run::Checkpoint::last("run", &run[..]).expect("there is one")).expect("it has a layout")
 }
 
@@ -114,9 +114,9 @@ fn the_layout_of_checkpoints_is_that_of_their_version() {
     for filled in [
         "zone_particles: [ZoneParticle",
         "servos: [ServoState",
-        "memory: [\nf64",
+        "history: [\nf64",
         "flights: [ClumpMotion",
-        "pairs_bonded: [BondedPair",
+        "pairs: [BondedPair",
         "?Sleepers",
     ] {
         let flat = all.replace('\n', " ").replace("[ ", "[");

@@ -126,8 +126,7 @@ fn a_stream_cut_off_between_two_stages_fails_every_later_one() {
             for tool in &later[arrow + 1..] {
                 let place = format!("{tool}: stdin: ");
                 let words = said.lines().find(|l| l.starts_with(&place)).unwrap_or_default();
-                let clear =
-                    ["cut off", "truncated", "upstream", "before this one", "no known", "first bytes"];
+                let clear = ["cut off", "truncated", "upstream", "previous tool", "no known", "first bytes"];
                 assert!(clear.iter().any(|c| words.contains(c)), "{tool}, {bytes} bytes: {said}");
             }
             let left: Vec<_> = fs::read_dir(folder.path()).unwrap().map(|e| e.unwrap().file_name()).collect();

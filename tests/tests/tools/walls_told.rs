@@ -1,7 +1,9 @@
 //! What wallgen tells of a wall besides its spheres: the pairs whose roughness it changed, and the widest gap.
 
 use grainpipe_tests::scenes::folder;
-use grainpipe_tests::tools::tool;
+use grainpipe_tests::tools::{succeed, tool};
+use serde_json::Value;
+use std::path::Path;
 
 /// A grid of points [m], every second row closer, and a point left out.
 fn cloud() -> String {
@@ -11,55 +13,44 @@ fn cloud() -> String {
     kept.map(|(x, y)| format!("{x} {y} 0\n")).collect()
 }
 
+/// The list of changed pairs and the report of a wall with radii of this method.
+fn changes(folder: &Path, radius: &str) -> (String, Value) {
+    let cloud = ["cloud.xyz", "--roughness", "0.001", "--radius", radius];
+    let outputs = ["-o", "w.mcap", "--report", "w.json", "--changes", "c.csv"];
+    succeed(folder, "wallgen", &[&cloud[..], &outputs].concat());
+    let report = std::fs::read_to_string(folder.join("w.json")).expect("a report");
+    let csv = std::fs::read_to_string(folder.join("c.csv")).expect("a list");
+    (csv, serde_json::from_str(&report).expect("JSON"))
+}
+
+fn numbers(line: &str, separator: char) -> Vec<f64> {
+    line.split(separator).map(|n| n.parse().expect("a number")).collect()
+}
+
+/// A row names two points, their distance and their middle.
+fn assert_names_a_pair(row: &[f64], points: &[Vec<f64>]) {
+    let (a, b) = (&points[row[0] as usize], &points[row[1] as usize]);
+    let apart = (a[0] - b[0]).hypot(a[1] - b[1]);
+    assert!((apart - row[5]).abs() < 1e-12 && (0.5 * (a[0] + b[0]) - row[2]).abs() < 1e-12, "{row:?}");
+}
+
 #[test]
 fn changes_lists_the_pairs_whose_roughness_is_not_the_one_asked_for() {
     let folder = folder(&[("cloud.xyz", cloud())]);
-    let wallgen = |more: &[&str]| {
-        let words = [
-            &[
-                "cloud.xyz",
-                "--roughness",
-                "0.001",
-                "-o",
-                "w.mcap",
-                "--report",
-                "w.json",
-                "--changes",
-                "c.csv",
-            ],
-            more,
-        ];
-        let done = tool(folder.path(), "wallgen", &words.concat());
-        assert_eq!(done.code, 0, "{}", done.stderr);
-        let report = std::fs::read_to_string(folder.path().join("w.json")).expect("a report");
-        let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
-        let csv = std::fs::read_to_string(folder.path().join("c.csv")).expect("a list");
-        (csv, report)
-    };
+    let points: Vec<Vec<f64>> = cloud().lines().map(|line| numbers(line, ' ')).collect();
     for radius in ["solve", "uniform"] {
-        let (csv, report) = wallgen(&["--radius", radius]);
+        let (csv, report) = changes(folder.path(), radius);
         let mut lines = csv.lines();
         assert_eq!(lines.next(), Some("point_i,point_j,x,y,z,distance,asked,made"));
-        let rows: Vec<Vec<f64>> =
-            lines.map(|l| l.split(',').map(|n| n.parse().expect("a number")).collect()).collect();
-        assert_eq!(
-            Some(rows.len() as u64),
-            report["changes"]["pairs_changed"].as_u64(),
-            "{radius}: {report}"
-        );
+        let rows: Vec<Vec<f64>> = lines.map(|line| numbers(line, ',')).collect();
         assert!(!rows.is_empty());
-        let points: Vec<Vec<f64>> =
-            cloud().lines().map(|l| l.split(' ').map(|n| n.parse().expect("a number")).collect()).collect();
+        let count = report["changes"]["pairs_changed"].as_u64();
+        assert_eq!(Some(rows.len() as u64), count, "{radius}: {report}");
         let largest = rows.iter().map(|r| (r[7] - r[6]).abs()).fold(0.0, f64::max);
         let told = report["changes"]["largest_change"].as_f64().expect("a number");
         assert!((largest - told).abs() < 1e-12, "{radius}: {largest} m in the list, {told} m in the report");
         for row in rows {
-            let (a, b) = (&points[row[0] as usize], &points[row[1] as usize]);
-            let apart = (a[0] - b[0]).hypot(a[1] - b[1]);
-            assert!(
-                (apart - row[5]).abs() < 1e-12 && (0.5 * (a[0] + b[0]) - row[2]).abs() < 1e-12,
-                "{row:?}"
-            );
+            assert_names_a_pair(&row, &points);
             assert_eq!(row[6], 0.001);
         }
     }

@@ -92,7 +92,7 @@ fn free_fall_resumes_exactly() {
     for until in [0.04, 0.045, 0.05, 0.055, 0.06] {
         run_until(&mut whole, until);
         run_until(&mut parts, until);
-        parts = Simulation::resume(setup.clone(), parts.state().to_state()).expect("the same setup");
+        parts = Simulation::resume(setup.clone(), parts.checkpoint().to_static()).expect("the same setup");
         assert_eq!(particles(&mut whole), particles(&mut parts), "{until} s");
     }
     assert!(particles(&mut whole).len() == 8 && whole.take_crossings().len() == 8);

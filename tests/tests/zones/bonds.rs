@@ -43,7 +43,7 @@ fn weak(mut setup: Setup, share: f64) -> Setup {
 enum News {
     Enters(Entry),
     Is(u32, Guide),
-    Bonded(Link),
+    Bonded(CrossingBond),
 }
 
 fn along_paths(setup: &Setup, until: f64) -> (Vec<News>, Simulation) {
@@ -66,7 +66,7 @@ fn along_paths(setup: &Setup, until: f64) -> (Vec<News>, Simulation) {
             let (p, turn) = (c.particle, c.turn);
             let sample =
                 Sample { time: c.time, position: p.position, velocity: p.velocity, spin: p.spin, turn };
-            told.extend(c.links.into_iter().map(News::Bonded));
+            told.extend(c.bonds.into_iter().map(News::Bonded));
             told.push(News::Is(p.id, Guide::Free(sample)));
         }
     }
@@ -86,7 +86,7 @@ fn in_flight(setup: &Setup, until: f64, ahead: f64) -> (Vec<News>, Simulation) {
             p.velocity -= a * ahead;
             let turn = c.turn.map(|turn| dem::spun(&(p.spin * -ahead)) * turn);
             told.push(News::Enters(Entry { time: c.time - ahead, inlet: 0, particle: p, clump: None, turn }));
-            told.extend(c.links.into_iter().map(News::Bonded));
+            told.extend(c.bonds.into_iter().map(News::Bonded));
         }
     }
     (told, sim)
@@ -115,7 +115,7 @@ fn downstream(setup: Setup, told: Vec<News>) -> Simulation {
         match one {
             News::Enters(entry) => sim.enter(entry).expect("in order"),
             News::Is(id, guide) => sim.guide(id, guide).expect("in order"),
-            News::Bonded(link) => sim.link(link),
+            News::Bonded(bond) => sim.enter_bond(bond),
         }
     }
     sim
@@ -184,11 +184,11 @@ fn what_breaks_upstream_is_not_told_again() {
     let mut told = Vec::new();
     while sim.time() < 0.23 {
         sim.step().expect("within the guards");
-        told.extend(sim.take_crossings().into_iter().flat_map(|c| c.links));
+        told.extend(sim.take_crossings().into_iter().flat_map(|c| c.bonds));
     }
     let [all, broken] = sim.bond_count();
     assert!(all == 4 && broken > 0, "{broken} of {all} broke");
-    let twice = |a: &Link| told.iter().any(|b| (a.id, a.partner) == (b.partner, b.id));
+    let twice = |a: &CrossingBond| told.iter().any(|b| (a.id, a.partner) == (b.partner, b.id));
     assert!(told.iter().filter(|l| twice(l)).count() <= 2 * (all - broken));
 }
 
@@ -231,7 +231,7 @@ fn it_resumes_exactly() {
     for until in [0.05, 0.09, 0.1, 0.11, 0.13, 0.2] {
         run_until(&mut whole, until);
         run_until(&mut parts, until);
-        parts = Simulation::resume(below(&up), parts.state().to_state()).expect("the same setup");
+        parts = Simulation::resume(below(&up), parts.checkpoint().to_static()).expect("the same setup");
         assert_eq!(particles(&mut whole), particles(&mut parts), "{until} s");
         assert_eq!(whole.bonds().expect("sound"), parts.bonds().expect("sound"), "{until} s");
     }

@@ -2,7 +2,7 @@
 
 use super::zone;
 use dem::setup::*;
-use dem::{BodyState, SetupError, Simulation};
+use dem::{ClumpState, SetupError, Simulation};
 use geom::{Moments, Vec3};
 use grainpipe_tests::setups::{HOOKE, empty, grain, particles, run_until};
 use nalgebra::UnitQuaternion;
@@ -33,12 +33,12 @@ fn body(id: u32, x: f64) -> Body {
 fn upstream() -> Setup {
     let mut setup = setup();
     setup.outlets = vec![zone(0.100_03, LENGTH)];
-    setup.clumps.bodies = vec![body(7, 0.0)];
+    setup.clumps.placed = vec![body(7, 0.0)];
     setup
 }
 
-fn state(sim: &mut Simulation) -> BodyState {
-    sim.bodies().expect("within the guards")[0]
+fn state(sim: &mut Simulation) -> ClumpState {
+    sim.clumps().expect("within the guards")[0]
 }
 
 /// The only crossing until a time.
@@ -91,24 +91,24 @@ fn a_clump_keeps_its_form_and_spin_in_the_zone_and_leaves_it_whole() {
     assert!(miss < 1e-12, "{miss}");
     assert!((body.spin - c.particle.spin).norm() < 1e-10, "{}", body.spin);
     run_until(&mut sim, 0.17);
-    assert!(sim.particle_count() == 0 && sim.bodies().expect("fine").is_empty(), "all of it has left");
+    assert!(sim.particle_count() == 0 && sim.clumps().expect("fine").is_empty(), "all of it has left");
 }
 
 /// One leaves, one stays, and another comes: rows, bodies and members stay together, also after lists were rebuilt and after a resume.
 #[test]
 fn who_stays_is_who_it_was() {
     let mut setup = upstream();
-    setup.clumps.bodies = vec![body(7, 0.0), body(20, -0.3), body(30, -0.8)];
-    setup.clumps.bodies[1].velocity = Vec3::new(0.3, 0.0, 0.0);
+    setup.clumps.placed = vec![body(7, 0.0), body(20, -0.3), body(30, -0.8)];
+    setup.clumps.placed[1].velocity = Vec3::new(0.3, 0.0, 0.0);
     setup.particles = vec![grain(50, Vec3::new(-0.2, 0.1, 0.0))];
     setup.skin = Some(0.002);
     let mut sim = Simulation::new(setup.clone()).expect("sound");
     run_until(&mut sim, 0.2);
-    let saved = sim.state().to_state();
+    let saved = sim.checkpoint().to_static();
     let mut again = Simulation::resume(setup, saved).expect("its own state");
     run_until(&mut sim, 0.4);
     run_until(&mut again, 0.4);
-    let (one, other) = (sim.bodies().expect("fine"), again.bodies().expect("fine"));
+    let (one, other) = (sim.clumps().expect("fine"), again.clumps().expect("fine"));
     assert_eq!(one, other, "the same bits");
     let ids: Vec<u32> = one.iter().map(|b| b.id).collect();
     assert_eq!(ids, [20, 30]);
@@ -129,7 +129,7 @@ fn a_clump_comes_in_as_it_was_recorded() {
     let ahead = LENGTH / c.particle.velocity.x;
     let mut setup = setup();
     setup.inlets = vec![zone(0.100_03, LENGTH)];
-    setup.clumps.entries = vec![(0, 1.0, 1.0)];
+    setup.clumps.entries = vec![ClumpScales { shape: 0, least: 1.0, most: 1.0 }];
     let mut down = Simulation::new(setup).expect("sound");
     let particle = Particle { position: c.particle.position - c.particle.velocity * ahead, ..c.particle };
     let clump = c.clump.map(|clump| clump.turned(&(c.particle.spin * -ahead)));
@@ -155,7 +155,8 @@ fn a_clump_follows_what_it_did_upstream() {
     up.outlets[0].motion = ZoneMotion::Recorded;
     let mut sim = Simulation::new(up.clone()).expect("sound");
     let mut setup = setup();
-    (setup.inlets, setup.clumps.entries, setup.ledger) = (up.outlets.clone(), vec![(0, 1.0, 1.0)], true);
+    (setup.inlets, setup.clumps.entries, setup.ledger) =
+        (up.outlets.clone(), vec![ClumpScales { shape: 0, least: 1.0, most: 1.0 }], true);
     let mut down = Simulation::new(setup).expect("sound");
     let mut first = true;
     while sim.time() < 0.13 {

@@ -32,7 +32,7 @@ fn pushed(setup: Setup, from: f64, until: f64) -> (f64, u32, Energy) {
 }
 
 #[test]
-fn nobody_who_travels_pushes_a_wall_or_stands_in_the_ledger() {
+fn no_travelling_particle_pushes_a_wall_or_counts_in_the_ledger() {
     let passes = 0.062;
     let whole = Setup { outlets: vec![], ..slide() };
     let (_, _, whole) = pushed(whole, passes, 0.08);
@@ -56,7 +56,7 @@ fn nobody_who_travels_pushes_a_wall_or_stands_in_the_ledger() {
 
 /// The same on the way in: a path that leads back below the floor.
 #[test]
-fn nobody_on_the_way_in_pushes_a_wall() {
+fn no_particle_on_its_way_in_pushes_a_wall() {
     let mut setup = slide();
     (setup.outlets, setup.particles) = (vec![], vec![]);
     setup.inlets = vec![Zone { motion: ZoneMotion::Ballistic, ..zone(0.05, 0.03) }];
@@ -80,7 +80,7 @@ fn nobody_on_the_way_in_pushes_a_wall() {
 fn a_servo_does_not_feel_who_travels() {
     let of = |outlets: Vec<Zone>| {
         let mut setup = slide();
-        setup.walls[0].motion.servo = Some(Servo { direction: Vec3::z(), force: 0.15, speed_limit: 0.05 });
+        setup.walls[0].servo = Some(Servo { direction: Vec3::z(), force: 0.15, speed_limit: 0.05 });
         setup.outlets = outlets;
         setup.particles.push(grain(1, Vec3::new(-0.1, 0.05, 0.01)));
         let mut sim = Simulation::new(setup).expect("sound");

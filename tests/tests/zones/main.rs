@@ -15,6 +15,7 @@ use dem::Simulation;
 use dem::setup::*;
 use geom::{Plane, Vec3};
 use grainpipe_tests::setups::{HOOKE, empty, grain, particles, with_friction};
+use scene::advice::explain_setup_error;
 
 fn zone(x: f64, length: f64) -> Zone {
     Zone::new(Plane { point: Vec3::new(x, 0.0, 0.0), normal: Vec3::x() }, length)
@@ -141,10 +142,10 @@ fn entry_becomes_free_at_the_calculation_plane() {
     assert!((p.velocity.z + 9.81 * fall).abs() < 1e-11);
     let late =
         sim.enter(Entry { time: 0.01, inlet: 0, particle: grain(4, Vec3::zeros()), clump: None, turn: None });
-    assert!(late.expect_err("too late").to_string().contains("time order"));
+    assert!(explain_setup_error(&late.expect_err("too late")).contains("time order"));
     let away = Particle { velocity: Vec3::x(), ..grain(5, Vec3::new(-1e13, 0.0, 0.0)) };
     let far = sim.enter(Entry { time: 0.13, inlet: 0, particle: away, clump: None, turn: None });
-    let far = far.expect_err("too far").to_string();
+    let far = explain_setup_error(&far.expect_err("too far"));
     assert!(far.contains("particle 5") && far.contains("shift the scene to the origin"), "{far}");
 }
 
@@ -152,7 +153,7 @@ fn entry_becomes_free_at_the_calculation_plane() {
 fn zone_shorter_than_the_largest_particle_is_refused() {
     let mut setup = flight();
     setup.outlets[0].length = 0.02;
-    let error = Simulation::new(setup).err().expect("refused").to_string();
+    let error = explain_setup_error(&Simulation::new(setup).err().expect("refused"));
     assert!(error.contains("2.0000e-2 m") && error.contains("2.4000e-2 m"), "{error}");
 }
 
@@ -184,13 +185,13 @@ fn zones_resume_exactly() {
     // Also while some have left and wait for the next listing to drop them.
     let mut other = Simulation::new(setup.clone()).expect("sound");
     for step in (0..4000).step_by(20) {
-        let resumed = Simulation::resume(setup.clone(), other.state().to_state());
+        let resumed = Simulation::resume(setup.clone(), other.checkpoint().to_static());
         assert!(resumed.is_ok(), "at step {step}: {:?}", resumed.err());
         run(&mut other, 20);
     }
     let mut first = Simulation::new(setup.clone()).expect("sound");
     let mut parts = run(&mut first, 2400);
-    let mut second = Simulation::resume(setup, first.state().to_state()).expect("the same setup");
+    let mut second = Simulation::resume(setup, first.checkpoint().to_static()).expect("the same setup");
     parts.extend(run(&mut second, 2600));
     assert_eq!(all, parts);
     assert_eq!(particles(&mut whole), particles(&mut second));

@@ -77,7 +77,7 @@ fn downstream(
     if told {
         for touch in &crossing.touching {
             let partner = touch.partner.expect("a grain");
-            sim.remember(Memory { id: touch.id, partner, springs: touch.springs });
+            sim.enter_history(PairHistory { id: touch.id, partner, history: touch.history });
         }
     }
     while sim.time() < now - 1e-9 {
@@ -88,7 +88,7 @@ fn downstream(
 
 /// Length of a field of a contact's history.
 fn length(touch: &Touch, field: &str) -> f64 {
-    touch.springs.get(field).iter().map(|x| x * x).sum::<f64>().sqrt()
+    touch.history.get(field).iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 #[test]
@@ -103,9 +103,9 @@ fn a_contact_goes_on_with_its_springs() {
                 && length(touch, "rolling") > 1e-5
                 && length(touch, "twisting") > 1e-5,
             "{:?}",
-            touch.springs
+            touch.history
         );
-        assert_eq!(length(touch, "held") > 1e-4, law == "walton_braun", "{:?}", touch.springs);
+        assert_eq!(length(touch, "held") > 1e-4, law == "walton_braun", "{:?}", touch.history);
         // On the one that passes.
         let along = |c: &ContactRecord| {
             let force = if c.i == crossing.particle.id { c.force } else { -c.force };
@@ -138,7 +138,7 @@ fn memory_that_comes_too_late_is_of_no_effect() {
     setup.inlets = vec![zone(0.100_03, 0.03)];
     (setup.smallest_entry, setup.largest_entry, setup.entry_materials) = (0.01, 0.01, vec![0]);
     let mut sim = Simulation::new(setup).expect("sound");
-    let empty = format!("{:?}", sim.state());
-    sim.remember(Memory { id: 7, partner: 8, springs: crossing.touching[0].springs });
-    assert_eq!(format!("{:?}", sim.state()), empty);
+    let empty = format!("{:?}", sim.checkpoint());
+    sim.enter_history(PairHistory { id: 7, partner: 8, history: crossing.touching[0].history });
+    assert_eq!(format!("{:?}", sim.checkpoint()), empty);
 }

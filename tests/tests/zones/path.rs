@@ -214,7 +214,7 @@ fn paths_resume_exactly() {
     for until in [0.08, 0.09, 0.1, 0.11, 0.2] {
         run_until(&mut whole, until);
         run_until(&mut parts, until);
-        parts = Simulation::resume(setup(), parts.state().to_state()).expect("the same setup");
+        parts = Simulation::resume(setup(), parts.checkpoint().to_static()).expect("the same setup");
         assert_eq!(particles(&mut whole), particles(&mut parts), "{until} s");
     }
 }

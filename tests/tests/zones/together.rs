@@ -5,6 +5,7 @@ use dem::Simulation;
 use dem::setup::*;
 use geom::Vec3;
 use grainpipe_tests::setups::{HOOKE, empty, grain, run_until};
+use scene::advice::explain_halt;
 
 /// Two planes within one step, the later one first in the list: the first that is passed records.
 #[test]
@@ -60,7 +61,7 @@ fn a_grain_that_goes_back_through_the_calculation_plane_is_counted() {
         let back = sim.look_back();
         let (counted, time) = (sim.returned().inlets[0], sim.time());
         assert_eq!(counted, u64::from(time > 0.234_02), "{time} s");
-        stopped = back.err().map(|halt| (time, halt.to_string()));
+        stopped = back.err().map(|halt| (time, explain_halt(&halt)));
     }
     let (time, said) = stopped.expect("the run stops");
     assert!(
@@ -92,7 +93,7 @@ fn a_moving_wall_in_the_zone_does_not_touch_what_travels() {
     setup.outlets = vec![zone(0.0, 0.1)];
     let spheres = (0..5).map(|k| (Vec3::new(0.05, 0.01 * f64::from(k), 0.0), 0.01)).collect();
     let motion = Motion { velocity: Vec3::new(0.0, -0.5, 0.0), ..Motion::still() };
-    setup.walls = vec![Wall { name: "gate".into(), material: 1, shape: WallShape::Spheres(spheres), motion }];
+    setup.walls = vec![Wall { motion, ..Wall::new("gate", 1, WallShape::Spheres(spheres)) }];
     setup.particles = vec![Particle { velocity: Vec3::x(), ..grain(1, Vec3::new(-0.012, 0.0, 0.0)) }];
     let mut sim = Simulation::new(setup).expect("sound");
     run_until(&mut sim, 0.1);
@@ -113,7 +114,7 @@ fn an_entry_on_top_of_a_free_grain_stops_the_run() {
     sim.enter(Entry { time: 0.001, inlet: 0, particle, clump: None, turn: None }).expect("in time");
     let mut said = None;
     while said.is_none() && sim.time() < 0.01 {
-        said = sim.step().err().map(|halt| halt.to_string());
+        said = sim.step().err().map(|halt| explain_halt(&halt));
     }
     let said = said.expect("the run stops");
     let words = [

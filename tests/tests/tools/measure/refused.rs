@@ -1,77 +1,110 @@
 //! What dem-measure cannot measure, and what it says.
 
+use super::flow::uniform_stream;
 use super::made::{Made, grain};
-use super::{column, failed, one_frame, uniform_stream, with_contacts};
+use super::{column, failed, one_frame, saved, with_contacts};
 use grainpipe_tests::tools::tool;
 use tempfile::{TempDir, tempdir};
 
-#[test]
-fn what_cannot_be_measured_is_refused_with_a_cure() {
-    let folder = with_contacts();
-    let some = one_frame("", &[grain(0, [0.0, 0.0, 0.01], 0.01)]);
-    let none = tempdir().unwrap();
-    Made::new("").save(&none.path().join("run.mcap"));
-    let stream = tempdir().unwrap();
-    uniform_stream(&stream);
-    let cases: [(&TempDir, &[&str], &[&str]); 26] = [
-        (&some, &["--energy"], &["run.mcap: --energy: run holds no energy ledger", "[output] energy = true"]),
-        (&some, &["--forces"], &["run holds no contacts: set [output] contacts = true"]),
-        (&some, &["--wall-force", "all"], &["run holds no contacts: set [output] contacts = true"]),
-        (&some, &["--wear", "all"], &["run holds no contacts: set [output] contacts = true"]),
-        (&none, &["--repose"], &["run holds no frames"]),
-        (&none, &["--flow", "0,0,0,0,0,1"], &["run holds no frames"]),
-        (&some, &["--flow", "0,0,0,0,0,1"], &["run has 1 frame:", "set [output] every"]),
-        (&some, &["--residence", "all"], &["run has 1 frame:"]),
-        (
-            &stream,
-            &["--flow", "0,0,5,0,0,1"],
-            &["plane lies outside of the grains", "from -5.258 to -4.608 m", "move it"],
-        ),
-        (&some, &["--porosity", "box:0,0,0,1,1,0"], &["volume of 0 m³", "room inside"]),
-        (&some, &["--porosity", "halfspace:0,0,0,0,0,1"], &["shape is infinite"]),
-        (
-            &some,
-            &["--porosity", "box:5,5,5,6,6,6"],
-            &["no grain in the shape", "box:-0.01,-0.01,0,0.01,0.01,0.02"],
-        ),
-        (&stream, &["--residence", "sphere:9,9,9,1"], &["no grain in the shape"]),
-        (
-            &folder,
-            &["--wall-force", "box:5,5,5,6,6,6"],
-            &["no contact with a wall in the shape", "move the shape"],
-        ),
-        (&folder, &["--wall-force", "all", "--wall", "roof"], &["no material or wall 'roof'", "floor, side"]),
-        (&some, &["--profile", "--field", "heat"], &["no field 'heat' in /particles", "vx, vy, vz"]),
-        (&some, &["--repose"], &["heap at 0 s", "profile bins", "smaller --bin"]),
-        (
-            &some,
-            &["--repose", "--bin", "0.001"],
-            &["bin = 0.001 m: give at least a quarter of a mean diameter"],
-        ),
-        (&some, &["--repose", "--sectors", "1"], &["sectors = 1: give 2 to 1000"]),
-        (&some, &["--segregation"], &["frames hold at most 1 grains, and mixing needs 2"]),
-        (&folder, &["--segregation", "--kind", "z"], &["no material or wall 'z'; there are a, b"]),
-        (
-            &some,
-            &["--time", "-1", "--porosity", "sphere:0,0,0,1"],
-            &["no frame at or before -1 s", "from 0 to 0 s"],
-        ),
-        (&some, &["--profile", "--sectors", "3"], &["--sectors: is an option of --repose"]),
-        (
-            &some,
-            &["--energy", "--time", "1"],
-            &["--time: --energy is measured over time", "--from and --until"],
-        ),
-        (&some, &["--contacts", "--plot", "x.pdf"], &["must end in .svg or .png"]),
-        (&some, &[], &["--repose", "--porosity <SHAPE>"]),
-    ];
-    for (folder, arguments, parts) in cases {
+struct Case {
+    arguments: &'static [&'static str],
+    /// What stderr must say.
+    parts: &'static [&'static str],
+}
+
+/// Of one particle at time 0, without contacts.
+const OF_ONE_FRAME: &[Case] = &[
+    Case {
+        arguments: &["--energy"],
+        parts: &["run.mcap: --energy: run holds no energy ledger", "[output] energy = true"],
+    },
+    Case { arguments: &["--forces"], parts: &["run holds no contacts: set [output] contacts = true"] },
+    Case {
+        arguments: &["--wall-force", "all"],
+        parts: &["run holds no contacts: set [output] contacts = true"],
+    },
+    Case { arguments: &["--wear", "all"], parts: &["run holds no contacts: set [output] contacts = true"] },
+    Case { arguments: &["--flow", "0,0,0,0,0,1"], parts: &["run has 1 frame:", "set [output] every"] },
+    Case { arguments: &["--residence", "all"], parts: &["run has 1 frame:"] },
+    Case { arguments: &["--porosity", "box:0,0,0,1,1,0"], parts: &["volume of 0 m³", "larger shape"] },
+    Case { arguments: &["--porosity", "halfspace:0,0,0,0,0,1"], parts: &["shape is infinite"] },
+    Case {
+        arguments: &["--porosity", "box:5,5,5,6,6,6"],
+        parts: &["no grain in the shape", "box:-0.01,-0.01,0,0.01,0.01,0.02"],
+    },
+    Case {
+        arguments: &["--profile", "--field", "heat"],
+        parts: &["no field 'heat' in /particles", "vx, vy, vz"],
+    },
+    Case { arguments: &["--repose"], parts: &["heap at 0 s", "profile bins", "smaller --bin"] },
+    Case {
+        arguments: &["--repose", "--bin", "0.001"],
+        parts: &["bin = 0.001 m: give at least a quarter of a mean diameter"],
+    },
+    Case { arguments: &["--repose", "--sectors", "1"], parts: &["sectors = 1: give 2 to 1000"] },
+    Case { arguments: &["--segregation"], parts: &["frames hold at most 1 grains, and mixing needs 2"] },
+    Case {
+        arguments: &["--time", "-1", "--porosity", "sphere:0,0,0,1"],
+        parts: &["no frame at or before -1 s", "from 0 to 0 s"],
+    },
+    Case { arguments: &["--profile", "--sectors", "3"], parts: &["--sectors: is an option of --repose"] },
+    Case {
+        arguments: &["--energy", "--time", "1"],
+        parts: &["--time: --energy is measured over time", "--from and --until"],
+    },
+    Case { arguments: &["--contacts", "--plot", "x.pdf"], parts: &["must end in .svg or .png"] },
+    Case { arguments: &[], parts: &["--repose", "--porosity <SHAPE>"] },
+];
+
+/// Of a run that ended before its first frame.
+const OF_NO_FRAME: &[Case] = &[
+    Case { arguments: &["--repose"], parts: &["run holds no frames"] },
+    Case { arguments: &["--flow", "0,0,0,0,0,1"], parts: &["run holds no frames"] },
+];
+
+/// Of a uniform stream.
+const OF_A_STREAM: &[Case] = &[
+    Case {
+        arguments: &["--flow", "0,0,5,0,0,1"],
+        parts: &["plane lies outside of the grains", "from -5.258 to -4.608 m", "move the plane"],
+    },
+    Case { arguments: &["--residence", "sphere:9,9,9,1"], parts: &["no grain in the shape"] },
+];
+
+/// Of particles in contact with each other and with walls.
+const OF_CONTACTS: &[Case] = &[
+    Case {
+        arguments: &["--wall-force", "box:5,5,5,6,6,6"],
+        parts: &["no contact with a wall in the shape", "move the shape"],
+    },
+    Case {
+        arguments: &["--wall-force", "all", "--wall", "roof"],
+        parts: &["no material or wall 'roof'", "floor, side"],
+    },
+    Case {
+        arguments: &["--segregation", "--kind", "z"],
+        parts: &["no material or wall 'z'; there are a, b"],
+    },
+];
+
+fn refuses(folder: &TempDir, cases: &[Case]) {
+    for Case { arguments, parts } in cases {
         let message = failed(folder, arguments);
         assert!(message.starts_with("dem-measure: "), "{message}");
-        for part in parts {
+        for part in *parts {
             assert!(message.contains(part), "{arguments:?}: {part} in {message}");
         }
     }
+}
+
+#[test]
+fn what_cannot_be_measured_is_refused_with_a_cure() {
+    refuses(&one_frame("", &[grain(0, [0.0, 0.0, 0.01], 0.01)]), OF_ONE_FRAME);
+    refuses(&saved(Made::new("")), OF_NO_FRAME);
+    let stream = tempdir().unwrap();
+    uniform_stream(&stream);
+    refuses(&stream, OF_A_STREAM);
+    refuses(&with_contacts(), OF_CONTACTS);
 }
 
 /// What was measured before the break is written, and the break is reported.

@@ -163,7 +163,7 @@ fn a_mesh_is_drawn_as_triangles_and_a_run_has_no_regions() {
     succeed(folder.path(), "dem-view", &["stone.ply", "-o", "pick.html", "--pick"]);
     std::fs::write(folder.path().join("run.mcap"), b"\x89MCAP0\r\n").expect("written");
     let refused = tool(folder.path(), "dem-view", &["run.mcap", "--pick", "-o", "x.html"]);
-    assert!(refused.code == 1 && refused.stderr.contains("--pick is for a cloud"), "{}", refused.stderr);
+    assert!(refused.code == 1 && refused.stderr.contains("--pick needs a cloud"), "{}", refused.stderr);
     let refused = tool(folder.path(), "dem-view", &["stone.ply", "stone.ply", "--pick", "-o", "x.html"]);
     assert!(refused.code == 2 && refused.stderr.contains("one cloud"), "{}", refused.stderr);
     let Some(program) = chromium::find() else { return grainpipe_tests::skip("chromium") };

@@ -1,0 +1,80 @@
+//! Warnings of implausible files and numbers, and everyday files that need none.
+
+use super::with_particles_of_a_file;
+use grainpipe_tests::tools::{Done, tool};
+use std::fs;
+use tempfile::tempdir;
+
+const ONE: &str = "x,y,z,radius\n0,0,0.1,0.01\n";
+
+fn checked(scene: &str, csv: &str) -> Done {
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("s.toml"), scene).unwrap();
+    fs::write(folder.path().join("p.csv"), csv).unwrap();
+    tool(folder.path(), "dem-run", &["s.toml", "--check"])
+}
+
+fn says(scene: &str, csv: &str, code: i32, parts: &[&str]) -> Done {
+    let done = checked(scene, csv);
+    let all = parts.iter().all(|part| done.stderr.contains(part));
+    assert!(done.code == code && all, "{csv}: {}: wanted {parts:?} in: {}", done.code, done.stderr);
+    done
+}
+
+fn is_fine(scene: &str, csv: &str) {
+    let done = says(scene, csv, 0, &[]);
+    assert!(!done.stderr.contains("warning"), "{}", done.stderr);
+}
+
+fn warns(scene: &str, csv: &str, parts: &[&str]) {
+    let done = says(scene, csv, 0, parts);
+    assert!(done.stderr.contains("warning"), "{}", done.stderr);
+}
+
+fn refuses(scene: &str, csv: &str, parts: &[&str]) {
+    let done = says(scene, csv, 1, parts);
+    assert!(!done.stderr.contains("warning"), "{}", done.stderr);
+}
+
+#[test]
+fn everyday_files_of_spreadsheets_are_read_and_wrong_columns_told() {
+    let scene = with_particles_of_a_file();
+    is_fine(&scene, ONE);
+    is_fine(&scene, &format!("\u{feff}{ONE}"));
+    says(&scene, "x,y,z,radius\n", 1, &["p.csv: holds no particle"]);
+    refuses(&scene, "X,Y,Z,Radius\n0,0,0.1,0.01\n", &["'X' is there: did you mean 'x'?"]);
+    warns(&scene, "x,y,z,radius,VX\n0,0,0.1,0.01,1\n", &["'VX' is not used", "did you mean vx?"]);
+    let contradicts = ["row 0: radius 0.01 m and diameter 0.01 m contradict each other"];
+    refuses(&scene, "x,y,z,radius,diameter\n0,0,0.1,0.01,0.01\n", &contradicts);
+    is_fine(&scene, "x,y,z,radius,diameter\n0,0,0.1,0.01,0.02\n");
+}
+
+#[test]
+fn doubtful_particles_are_told() {
+    let scene = with_particles_of_a_file();
+    let spin = "x,y,z,radius,wy\n0,0,0.1,0.01,50\n";
+    is_fine(&scene, spin);
+    let smooth = scene.replace("sliding_friction = 0.5\n", "");
+    warns(&smooth, spin, &["p.csv: the spins", "not kept", "sliding_friction"]);
+    let deep = "id,x,y,z,radius\n4,0,0,0.1,0.01\n9,0.0185,0,0.1,0.01\n";
+    let overlap = ["particles 4 and 9 overlap by 1.500e-3 m", "15.0 % of the smaller radius", "[[fill]]"];
+    warns(&scene, deep, &overlap);
+    is_fine(&scene, &deep.replace("0.0185", "0.01995"));
+    let in_floor = ["particle 0 and wall 'floor' overlap by 1.000e-3 m"];
+    warns(&scene, "x,y,z,radius\n0,0,-0.001,0.01\n", &in_floor);
+    let long = scene.replace("until = 0.01", "until = 1");
+    let large = ["particle 0: radius = 10 m", "metres", "10 mm are 0.01"];
+    warns(&long, "x,y,z,radius\n0,0,30,10\n", &large);
+}
+
+#[test]
+fn doubtful_materials_are_told() {
+    let scene = with_particles_of_a_file();
+    let with_density = |density: &str| scene.replace("density = 3300", &format!("density = {density}"));
+    let light = ["s.toml:6:11: material.0.density = 3.3 kg/m³", "if g/cm³ are meant, write 3300"];
+    warns(&with_density("3.3"), ONE, &light);
+    let heavy = ["material.0.density = 3300000 kg/m³", "if g/m³ are meant, write 3300"];
+    warns(&with_density("3.3e6"), ONE, &heavy);
+    let stiff = scene.replace("young = 2e8", "young = 2e13");
+    warns(&stiff, ONE, &["material.1.young", "stiffer than diamond"]);
+}
