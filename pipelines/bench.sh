@@ -1,8 +1,8 @@
 #!/bin/bash
-# Times the chain from scan to walls and the engine by effect and by size, beside what memory and arithmetic allow here.
+# Measures the speed of the chain from scan to walls, and of the engine by effect and by size, and compares it with the limits of memory and arithmetic.
 # usage: bench.sh OUT   (the tools on PATH)   environment: SIZES ("1000 10000 100000 1000000 5000000", none: ""), ROUNDS (3),
 # WORK (30: millions of particle-steps a timing), EFFECTS (yes or no), EXAMPLES (folder of the examples limits and tiles)
-# Without any of these the table goes to docs/cost.md as well.
+# If none of them is set, the table is also written to docs/cost.md.
 set -euo pipefail
 shopt -s inherit_errexit
 here=$(cd "$(dirname "$0")" && pwd)
@@ -152,22 +152,22 @@ by_size() {
 
 caption() {
     echo "Speeds are millions of particle-steps per second, medians of $rounds rounds (of one from a million grains). The scene is the bench pile of"
-    echo "\`make -C pipelines race\` (Hooke, Δt 10⁻⁵ s, the engine's own lists), copied side by side; below 50 000 grains it is a cube that settles between walls."
-    echo "A timing is a long run minus a short one, both without frames and checkpoints."
-    echo "*Touching* and *listed* are pairs per grain (listed within 0.6 mm where dem-run does not report its own). *Memory* is the history of a contact [bytes]."
-    echo "*Peak* is the largest resident memory of dem-run, *own* the engine's own count [bytes per grain]. Rows with + add to the row above them."
+    echo "\`make -C pipelines race\` (Hooke, Δt 10⁻⁵ s, the engine's own lists), repeated side by side. Below 50 000 grains it is a cube cut out of the pile, which first settles between walls."
+    echo "Each time is the difference between a long run and a short one, both without frames and checkpoints."
+    echo "*Touching* and *listed* are pairs per grain (if dem-run does not report its lists, pairs within 0.6 mm). *Memory* is the history of a contact [bytes]."
+    echo "*Peak* is the largest resident memory of dem-run, *own* the engine's own count [bytes per grain]. A row with + has the effects of the row above and one more."
     echo
-    echo "The last columns are shares of the limit that one part of the machine alone would set, on one thread and on two. Measured in the same run:"
+    echo "*Of memory* and *of arithmetic* compare the speed with the limit that memory or arithmetic alone would set, on one thread and on two. The limits were measured in the same run:"
     for threads in 1 2; do
         awk -v t=$threads '$1 == "lanes" { w = $2 } $1 != "lanes" && NF == 3 { v[$1] = $2 } END {
             printf "%s: triad %s GB/s, adds and multiplies %s, divisions %s, roots %s thousand millions a second (f64, %s lanes).\n",
                 t == 1 ? "one thread" : "two threads", v["bandwidth"], v["add_multiply"], v["divide"], v["root"], w }' "limits-$threads"
     done
-    echo "Bytes and operations of a particle and a contact are counted in \`crates/dem/examples/limits.rs\`: everything that a step reads or"
-    echo "writes, once, as if no cache kept it until the next step. A share above 100 % of memory means that caches help."
+    echo "\`crates/dem/examples/limits.rs\` counts the bytes and operations of a particle and a contact: everything that a step reads or"
+    echo "writes, once, as if no cache kept it until the next step. So caches can lead to more than 100 % of memory."
     awk '$1 > 5000 && !small { small = $2 } { large = $2; n = $1 } END {
         if (small && n >= 1e6) printf "\nA particle-step of %d grains costs %.2f times that of 10 000, on one thread.\n", n, small / large }' by-size
-    awk '{ printf "\nFrames of %d grains that go to a file take %d bytes per grain at most. A frame that goes to a pipe, as here, is held once more.\n", $1, $2 }' filed
+    awk '{ printf "\nWith frames of %d grains written to a file, the peak is %d bytes per grain. A frame written to a pipe, as here, is held in memory once more.\n", $1, $2 }' filed
     sed 's/^/- /' remarks
 }
 

@@ -1,6 +1,6 @@
 #!/bin/bash
-# Fuzzes every parser: RUNS inputs for each of TARGETS, from small whole files of every format; ends at the first input that makes one
-# panic, take more than 10 s, or more than 1 GB. Needs a nightly compiler and cargo-fuzz; says what each target really got.
+# Fuzzes every parser: RUNS inputs for each of TARGETS, made from small valid files of every format. A target ends at the first input that makes it
+# panic, take more than 10 s, or take more than 1 GB. Needs a nightly compiler and cargo-fuzz; prints how many inputs each target really got.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 runs=${RUNS:-1000000}

@@ -1,9 +1,9 @@
 #!/bin/bash
-# The chain from scan to wall spheres, stage by stage and as one pipe, beside pymeshlab and Open3D on the same scans.
+# Measures the chain from scan to wall spheres, tool by tool and as one pipe, and pymeshlab and Open3D on the same scans.
 # usage: race-clouds.sh OUT   (the tools on PATH)   environment: SIZES ("277647 2989048"; above 5000000, such as 50000000, by one pipe
 # alone, from a file of 14 bytes a point), ROUNDS (3), LIMIT (6: memory that each tool may use [GB]), PEERS (folder of the virtual
 # environment with pymeshlab and Open3D)
-# Without SIZES, ROUNDS and LIMIT the table goes to docs/cost.md as well.
+# If none of SIZES, ROUNDS and LIMIT is set, the table is also written to docs/cost.md.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 out=$(cd "$1" && pwd)
@@ -137,9 +137,9 @@ for size in $sizes; do
 done
 
 words() {
-    echo "Medians of $rounds rounds on $(nproc) cores. Each tool reads and writes files here, and may use $limit GB. The scans are those of"
-    echo "\`chute-scan\`, thinned to $spacing m, with a roughness of $roughness m. pymeshlab thins to the number of points from bluenoise-sample."
-    echo "The times of pymeshlab and Open3D are those of the step alone: start is left out, and reading has its own row."
+    echo "Medians of $rounds rounds on $(nproc) cores. Here each tool reads and writes files, and may use $limit GB. The scans are made by"
+    echo "\`chute-scan\` and thinned to $spacing m; the roughness is $roughness m. pymeshlab thins to the number of points from bluenoise-sample."
+    echo "The times of pymeshlab and Open3D do not include their start; reading has its own row."
     sort -u remarks | sed 's/^/- /'
 }
 words | tee words

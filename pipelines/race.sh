@@ -1,5 +1,5 @@
 #!/bin/bash
-# The engine beside LAMMPS, LIGGGHTS and YADE: one pile, one law, one step, the same cores, in turn.
+# Compares the engine with LAMMPS, LIGGGHTS and YADE, in turn: the same pile, contact law, time step and cores.
 # usage: race.sh OUT   (the tools on PATH)   environment: ROUNDS (3), CORES ("1 2"), WARM (500) and STEPS (1000), PEERS (folder of
 # the virtual environment with LAMMPS)
 set -euo pipefail

@@ -43,6 +43,6 @@ if [ -z "$missing" ]; then
     cargo run -p grainpipe-studies --bin stability --locked --quiet -- "$out/findings.jsonl" docs/soak.md Soak || failed=1
     grep '^| ' docs/soak.md || true
 else
-    echo "docs/soak.md waits for:$missing"
+    echo "docs/soak.md is not written yet; these parts are missing:$missing"
 fi
 exit $failed

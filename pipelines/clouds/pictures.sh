@@ -1,8 +1,57 @@
 #!/bin/bash
+# Runs the chain on real scans and drawings; writes docs/data.md with a picture of each wall and the reports of the tools.
+# pictures.sh DATA OUT DOCS: DATA has the folders clouds and walls; tests/tests/tools/real_clouds.rs says where the files come from.
+set -euo pipefail
+data=$1 out=$2 docs=$3
+mkdir -p "$out" "$docs/data"
+
+# The words of a tool's report line, without its name.
+words() { grep "^$1: " "$2" | grep -v ' warning: ' | tail -1 | sed "s/^$1: //"; }
+
+show() { # NAME CAMERA...
+  local name=$1
+  shift
+  dem-view "$out/$name.mcap" -o "$docs/data/$name.png" --size 340x212 -q --wall-opacity 1 "$@"
+}
+
+scan() { # FILE SPACING VIEW...
+  local file=$1 spacing=$2 name=${1%%.*} ends
+  shift 2
+  ends=$(awk -v s="$spacing" 'BEGIN { print 20 * s, s / 6, 2 * s }')
+  read -r hole zeta particle <<<"$ends"
+  cloud-fill "$data/clouds/$file" --max-hole "$hole" 2>"$out/$name.fill" |
+    bluenoise-sample --spacing "$spacing" 2>"$out/$name.sample" |
+    wallgen --roughness "$zeta" --radius uniform --smallest-particle "$particle" -o "$out/$name.mcap" 2>"$out/$name.wall"
+  show "$name" "$@"
+  {
+    echo
+    echo "**$file** (\`cloud-fill --max-hole $hole | bluenoise-sample --spacing $spacing | wallgen --roughness $zeta --radius uniform\`):"
+    echo "$(words cloud-fill "$out/$name.fill"); $(words bluenoise-sample "$out/$name.sample"); $(words wallgen "$out/$name.wall")."
+    grep -h 'warning: the wall leaks' "$out/$name.wall" | sed 's/^wallgen: warning: \(.*\)$/For particles of twice the spacing: \1./' || true
+    echo
+    echo "![$file](data/$name.png)"
+  } >>"$out/data.md"
+}
+
+drawing() { # FILE RADIUS VIEW...
+  local file=$1 radius=$2 name=${1%%.*} zeta
+  shift 2
+  zeta=$(awk -v r="$radius" 'BEGIN { print r / 6 }')
+  wallgen --from-mesh "$data/walls/$file" --radius "$radius" --roughness "$zeta" -o "$out/$name.mcap" 2>"$out/$name.wall"
+  show "$name" "$@"
+  {
+    echo
+    echo "**$file** (\`wallgen --from-mesh … --radius $radius --roughness $zeta\`): $(words wallgen "$out/$name.wall")."
+    echo
+    echo "![$file](data/$name.png)"
+  } >>"$out/data.md"
+}
+
+cat >"$out/data.md" <<'HEAD'
 # Real scans and drawings as walls of spheres
 
-What the tools make of real scans and drawings. `make -C pipelines data-pictures DATA=FOLDER` writes this page. The sources and licences of the files are at the head of
-`tests/tests/tools/real_clouds.rs`; the tests there check counts, spacing, coverage and leaks of the same files.
+The results of the tools for real scans and drawings: a picture of each wall, and the reports of the tools. `make -C pipelines data-pictures DATA=FOLDER` writes this page.
+The head of `tests/tests/tools/real_clouds.rs` gives the sources and licences of the files; the tests there check counts, spacing, coverage and leaks of the same files.
 
 ## Scans
 HEAD

@@ -13,7 +13,7 @@ cd "$(dirname "$0")"
 ROLLING=${ROLLING-0.4 0.6 1.0} SEEDS=${SEEDS:-1} ANGLE=${ANGLE:-35.5}
 STIFFNESS=${STIFFNESS-1000 2500 10000 40000} MORE=${MORE-1 2 3 4 5}
 runs=$(($(wc -w <<< "$ROLLING") * $(wc -w <<< "$SEEDS")))
-[ "$runs" -ge 3 ] || { echo "calibrate: ROLLING=\"$ROLLING\" SEEDS=\"$SEEDS\" make $runs runs: a line with an interval wants three or more" >&2; exit 2; }
+[ "$runs" -ge 3 ] || { echo "calibrate: ROLLING=\"$ROLLING\" SEEDS=\"$SEEDS\" make $runs runs: a line with an interval needs three or more" >&2; exit 2; }
 
 # slope NAME SEED SCENE SETTINGS…: runs a scene unless that is done, and keeps its slope [deg] and step [s].
 slope() {

@@ -3,7 +3,7 @@
 set -euo pipefail
 page=$1 name=$2
 grep -q "^<!-- begin $name -->$" "$page" && grep -q "^<!-- end $name -->$" "$page" || {
-  echo "section.sh: $page: has no part '$name': put <!-- begin $name --> and <!-- end $name --> on lines of their own" >&2
+  echo "section.sh: $page: has no part '$name': add the lines <!-- begin $name --> and <!-- end $name -->" >&2
   exit 1
 }
 text=$(cat)

@@ -22,9 +22,9 @@ done
 SAMPLES=outlet.0.samples=2e-4 # s
 cd "$OUT"
 if [ -e downstream.mcap ] && [ -e upstream.mcap ]; then
-  echo "sinter-box: both runs are there: measured only (make clean runs them again)" >&2
+  echo "sinter-box: both runs exist and are only measured (after make clean they are run again)" >&2
 elif [ -e upstream.mcap ]; then
-  echo "sinter-box: replaying the record that is there" >&2
+  echo "sinter-box: replaying the existing record" >&2
   on=()
   [ -e downstream.mcap.part ] && on=(--resume downstream.mcap)
   { time stage-replay upstream.mcap --keep-times -q | dem-run downstream.toml - "${on[@]}" --threads "$THREADS" -q --report down.json -o downstream.mcap; } 2>> times

@@ -30,7 +30,7 @@ fn write(findings: &str, file: &Path, title: &str, parts: &[String]) -> Result<(
     let stem = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let beside = |what: &str| file.with_file_name(format!("{stem}-{what}.svg"));
     let mut out = format!(
-        "# {title}\n\nWhat the tests check, and the largest deviation that they found. `make -C pipelines {stem}` writes this page.\n\nLaws are tested with time steps that resolve them. The default step is 0.5 of the critical step;\n[accuracy.md](accuracy.md) shows what a coarser step costs.\n\n*Worst found* is the number nearest to its *limit*, among the variants in *tried on*.\n"
+        "# {title}\n\nThis page lists what the tests check and the largest deviation that they found. `make -C pipelines {stem}` writes it.\n\nLaws are tested with time steps that resolve them. The default step is 0.5 of the critical step;\n[accuracy.md](accuracy.md) shows what a coarser step costs.\n\n| column | meaning |\n|---|---|\n| tried on | number of variants, and the one with the worst result |\n| worst found | the result nearest to its limit; for wrong input, the message that refuses it |\n| limit | the test fails beyond this |\n| order (expected) | order of convergence in the time step, measured and expected |\n"
     );
     let orders = plots::orders(&page, &beside("orders"), "step (over contact time or period)")?;
     let curves = plots::curves(&page, &beside("curves"))?;

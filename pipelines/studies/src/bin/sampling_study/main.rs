@@ -127,8 +127,9 @@ fn scans(page: &mut Page) -> Result<(), String> {
 fn plates(page: &mut Page) {
     page.say(
         "## Two sheets closer than the spacing\n\nBoth sides of a plate of 1 m² with 60 000 points are \
-         thinned with a spacing r of 60 mm. The table shows the kept points on one side, times r² over the \
-         area. A full Poisson-disk sample of a single sheet has about 0.69. In space (`--distance space`) \
+         thinned with a spacing r of 60 mm. The columns *lower side* and *upper side* show the number of \
+         kept points on one side, times r² over the area. A full Poisson-disk sample of a single sheet has \
+         about 0.69. In space (`--distance space`) \
          the two sides thin each other; along the surface each is sampled as if it were alone.",
     );
     let spacing = 0.06;

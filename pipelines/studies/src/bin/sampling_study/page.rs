@@ -6,47 +6,47 @@ use std::path::Path;
 
 pub const HEAD: &str = r#"# Sampling
 
-`bluenoise-sample` chooses which points of a scan become wall spheres. It does not move any point.
+`bluenoise-sample` chooses the points of a scan that become wall spheres. It does not move points.
 
 ```sh
-bluenoise-sample scan.ply --spacing 0.012 -o even.ply                       # no two points nearer, no gap wider
-bluenoise-sample scan.ply --count 100000 --method eliminate -o even.ply     # exactly so many
+bluenoise-sample scan.ply --spacing 0.012 -o even.ply                       # at least 12 mm between kept points; every other point within 12 mm of one
+bluenoise-sample scan.ply --count 100000 --method eliminate -o even.ply     # an exact number of points
 bluenoise-sample scan.ply --density 5000,7000 -o even.ply                   # points per m²
-bluenoise-sample scan.ply --spacing 0.012 --plot spectrum.svg --report even.json -o even.ply   # … and its measures
-bluenoise-sample scan.ply --spacing 0.012 --no-measures --report count.json -o even.ply        # a report without measures, which is faster
+bluenoise-sample scan.ply --spacing 0.012 --plot spectrum.svg --report even.json -o even.ply   # a plot and a report of the spectrum
+bluenoise-sample scan.ply --spacing 0.012 --no-measures --report count.json -o even.ply        # a short report, which takes less time
 ```
 
 | `--method` | what it does | use it for |
 |---|---|---|
-| `poisson` | Poisson disk, the most isolated point first | the default: guarantees both distances, and is fast |
-| `eliminate` | removes the most crowded point again and again (after Yuksel 2015) | an exact count |
-| `relax` | Poisson disk, then each point moves to the middle of its share (Lloyd) | the most even density over long distances |
+| `poisson` | Poisson disk: takes the most isolated point first | the default: guarantees both distances, and is fast |
+| `eliminate` | removes the most crowded point repeatedly (after Yuksel 2015) | an exact count |
+| `relax` | Poisson disk; then each kept point is replaced by the point nearest to the middle of its share (Lloyd) | the most even density over long distances |
 | `tile` | lays a prepared even pattern patch by patch and closes the seams by Poisson disk | dense scans. On coarse scans it keeps fewer points for the same spacing |
 | `grid` | the point nearest to each node of a grid along x, y, z | flows with one direction |
 
-A wanted count is met within 1 %; exactly if it is below 200, and with `eliminate`. A grid takes the nearest count that it has. A count that cannot be met prints a warning. `--keep-filled` keeps the points that `cloud-fill` added.
+The number of points differs from `--count` by at most 1 %. It is exact below 200, and with `eliminate`. `grid` takes the nearest count that a grid can have. A count that cannot be met prints a warning. `--keep-filled` keeps the points that `cloud-fill` added.
 
-`make -C pipelines sampling-study` writes this page. The tests `crates/sampling/tests/laws.rs` check what must hold."#;
+`make -C pipelines sampling-study` writes this page. The tests `crates/sampling/tests/laws.rs` check the guarantees."#;
 
 pub const LEGEND: &str = r#"| column | meaning |
 |---|---|
 | variation | standard deviation over mean of the nearest distances |
 | power | radial power spectrum at ν waves per P; 1 for random points. Blue noise has little power below ν = ½ and no sharp peak |
 | anisotropy | 1 if directions differ only by random scatter |
-| processor time | of one core, the smaller of two runs. With a count, several samplings search for the spacing |"#;
+| processor time | time of one core, the smaller of two runs. With a count, it includes the search for the spacing, which takes several samplings |"#;
 
 pub const TAIL: &str = r#"## Which distance
 
 | `--distance` | meaning |
 |---|---|
-| `space` (default) | straight distance; faster, and tolerates more noise |
+| `space` (default) | straight distance. It is faster and tolerates more noise |
 | `surface` | distance along the surface where another sheet is nearer than the spacing, such as the far side of a thin plate |
 
-With `surface`, a point does not thin another one within the spacing if every connection between them is longer than 1.5 spacings and it lies off the plane of the sheet. This needs only the points, no normals. At a right-angled edge both sides thin each other as usual.
+With `surface`, two points within the spacing do not thin each other if every connection between them along the points is longer than 1.5 spacings and one lies off the plane of the other's sheet. This needs only the points, no normals. At a right-angled edge both sides thin each other as usual.
 
-Two sheets are detected if they are at least 1.7 times as far apart as the points of the scan (and a twentieth of the spacing), and if the spacing is at least five times that of the scan. Otherwise they are thinned as one. The method `grid` always works in space.
+Two sheets are detected if the distance between them is at least 1.7 times the spacing of the scan and a twentieth of the wanted spacing, and if the wanted spacing is at least five times that of the scan. Otherwise they are thinned as one. The method `grid` always works in space.
 
-A surface that is one sheet everywhere is sampled bit for bit as with `space`. Noise of about the spacing of the scan makes one sheet look like many: use `space` there."#;
+On a surface that is a single sheet everywhere, `surface` gives the same points as `space`, bit for bit. Noise of about the spacing of the scan makes one sheet look like many: use `space` there."#;
 
 /// What is written when all is known.
 #[derive(Default)]
@@ -91,15 +91,12 @@ impl Page {
                     );
                 (plots, layout)
             };
-            let (plots, layout) = draw();
             let svg = format!("sampling-{name}.svg");
-            let out = file.with_file_name(&svg);
-            std::fs::write(&out, kuva::render_to_svg(plots, layout))
-                .map_err(|why| format!("{}: {why}", out.display()))?;
-            let (plots, layout) = draw();
-            let png = kuva::render_to_raster(plots, layout, 1.0)?;
-            let out = folder.join(format!("sampling-{name}.png"));
-            std::fs::write(&out, png).map_err(|why| format!("{}: {why}", out.display()))?;
+            for out in [file.with_file_name(&svg), folder.join(format!("sampling-{name}.png"))] {
+                let (plots, layout) = draw();
+                let picture = plot::diagram(&out, plots, layout).map_err(|e| e.to_string())?;
+                std::fs::write(&out, picture).map_err(|why| format!("{}: {why}", out.display()))?;
+            }
             self.0 += &format!("\n![The {y} of the samples]({svg})\n");
         }
         Ok(())

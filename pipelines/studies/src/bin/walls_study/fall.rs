@@ -46,13 +46,14 @@ pub fn study(page: &mut Page) -> Result<(), String> {
         rows.push(row);
         panel.lines.push((layout.name().to_owned(), SIZES.iter().copied().zip(shares).collect()));
     }
-    page.head("Leaks: what wallgen reports, and what falls through");
+    page.head("Leaks: reported gaps, and grains that fall through");
     page.say(&format!(
-        "Test of the reported gap: a grain of 0.99 and a grain of 1.01 of its width are released over the \
-         widest gap that wallgen reports. {right} of {} fell through or stayed as expected.\n\nTest at \
-         random positions: this share of grains falls through walls with ζ = 0.4 P and P = d, by grain size \
-         over the widest gap. On a lattice all gaps are equal, so all grains or none pass. On blue noise the \
-         widest gap is rare, and most pockets hold a grain of that size.",
+        "Test of the reported gap: two grains, of 0.99 and 1.01 times the widest gap that wallgen reports, \
+         are released over that gap. {right} of {} fell through or stayed as expected.\n\nTest at random \
+         positions: the table shows the share of grains that fall through walls with ζ = 0.4 P and P = d. \
+         Columns are the grain size over the widest gap. On a lattice all gaps are equal, so all grains or \
+         none pass. On blue noise gaps as wide as the widest are rare, and most pockets hold a grain of \
+         that size.",
         2 * layouts.len()
     ));
     let sizes: Vec<String> = SIZES.iter().map(|s| format!("{s}")).collect();

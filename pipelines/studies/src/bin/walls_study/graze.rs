@@ -35,12 +35,13 @@ pub fn study(page: &mut Page) -> Result<(), String> {
     }
     page.head("Grazing impacts");
     page.say(&format!(
-        "Grains graze at 1°, 3°, 6° and 10°, spinning forwards, backwards or not. The table shows the \
-         largest change of kinetic energy of any grain, over the initial energy. It is the worst case of \
-         Hooke, Hertz and JKR with and without cohesion. The mesh is without JKR, because its attraction \
-         ends at a seam, as the law states.\n\nWith friction, the largest gain of any grain at the default \
-         step is {:.0e} (negative: all lose). With e = 1 and no friction the energy should not change. Its \
-         change is the error of the step: {:.0e} on a wall of spheres, falling with the step.",
+        "Grains hit the surface at 1°, 3°, 6° and 10°, with forward spin, backward spin or none. The table \
+         shows the largest change of kinetic energy of any grain, over the initial energy: the worst case \
+         of Hooke, Hertz and JKR with and without cohesion. JKR is left out on the mesh, because its \
+         attraction ends at a seam.\n\nWith friction, the largest gain of any grain at the default step is \
+         {:.0e} (negative values: all grains lose energy). With e = 1 and no friction the energy should not \
+         change. Its change is the error of the time step: {:.0e} on a wall of spheres, and less with a \
+         shorter step.",
         most[1], most[0]
     ));
     let columns = ["surface", "e", "μ", "step 0.5 (default)", "step 0.25", "step 0.125"];

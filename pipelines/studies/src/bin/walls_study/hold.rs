@@ -71,7 +71,7 @@ pub fn study(page: &mut Page) -> Result<(), String> {
     page.csv("hold", &columns, &rows)?;
     let poisson: Vec<Vec<String>> =
         all.iter().filter(|f| f.method == Method::Poisson).map(|f| row(f)[1..].to_vec()).collect();
-    page.say("Poisson disk; the other methods are in `hold.csv`.");
+    page.say("The table is for Poisson disk; `hold.csv` has the other methods.");
     page.table("hold-poisson", &columns[1..], &poisson)
 }
 
@@ -134,11 +134,13 @@ fn words(page: &mut Page, all: &[Found]) {
     });
     let spread = spread.fold(0.0, f64::max);
     page.say(&format!(
-        "A grain that cannot roll, with μ = {MU}, rests in a pocket of the wall. The tilt at which it leaves \
-         is the hold of the wall. On a plane it is arctan μ = {bare:.1}°. A Poisson-disk wall holds {:.1}° \
-         at P = d/2, ζ = 0.02 P; {:.1}° at P = d, ζ = 0.1 P; {:.1}° at P = 2 d, ζ = 0.2 P.\n\nWhat counts is \
-         the slope of the surface on which the grain's centre moves: arcsin of (distance from a sphere's \
-         axis)/(R + r). It grows with ζ/P and with P/d. Between methods the hold differs by at most \
+        "A grain that cannot roll, with μ = {MU}, rests in a pocket of the wall. The *hold* of the wall is \
+         the tilt at which the grain leaves its pocket. On a plane it is arctan μ = {bare:.1}°. A \
+         Poisson-disk wall holds {:.1}° \
+         at P = d/2, ζ = 0.02 P; {:.1}° at P = d, ζ = 0.1 P; {:.1}° at P = 2 d, ζ = 0.2 P.\n\nThe hold \
+         follows from the slope of the surface on which the grain's centre moves: arcsin of (distance from \
+         a sphere's axis)/(R + r). It grows with ζ/P and with P/d. Between methods the hold differs by at \
+         most \
          {spread:.1}°; the intervals are in the table. The tilt changes in steps of 2°.",
         at(0.5, 0.02),
         at(1.0, 0.1),
@@ -153,7 +155,8 @@ fn words(page: &mut Page, all: &[Found]) {
         worst.map(|f| f.gap).fold(0.0, f64::max)
     };
     page.say(&format!(
-        "The lowest ζ/P of this list at which a wall has a gap: poisson {}, eliminate {}, relax {}, grid {}. \
+        "The lowest ζ/P in this study at which a wall has a gap is: poisson {}, eliminate {}, relax {}, \
+         grid {}. \
          At ζ = 0.2 P the widest gap of any method is {:.2} d at P = d/2, {:.2} d at P = d and {:.2} d at P \
          = 2 d. Above 1 d the smallest grain falls through.",
         closed(Method::Poisson),
@@ -177,10 +180,11 @@ fn advice(page: &mut Page, all: &[Found], bare: f64) {
         if gap > 0.0 { format!("had a gap wider than {gap:.2} d") } else { "had any gap".to_owned() };
     page.advise(format!(
         "**Spacing** P ≤ d (one smallest grain) and **roughness** ζ ≤ 0.1 P: no blue-noise wall here \
-         {tightness}. Give wallgen `--smallest-particle d`: its widest gap is right to 1 %."
+         {tightness}. Give wallgen `--smallest-particle d`: the widest gap that it reports is correct to 1 %."
     ));
     page.advise(format!(
-        "**For a wall as smooth as its μ says**, take P ≤ d and ζ = 0.02 P: this adds at most {extra:.1}° to \
-         arctan μ. **For a rough wall**, change ζ: the plot below gives the hold."
+        "**For a smooth wall**, whose friction is that of μ alone, take P ≤ d and ζ = 0.02 P: this adds at \
+         most {extra:.1}° to arctan μ. **For a rough wall**, increase ζ: a plot below gives the angle up to \
+         which the wall holds a grain."
     ));
 }

@@ -8,10 +8,10 @@ const HEAD: &str = r#"# Walls of spheres
 What spacing, roughness and sampling do to wall friction, rebound, flow and leaks.
 
 ```sh
-make -C pipelines walls-study      # runs every simulation of this page, and writes it
+make -C pipelines walls-study      # runs every simulation of this page and writes the page
 ```
 
-Its tables are in `pipelines/out/walls/`. The tests `tests/tests/sphere_walls` are short forms of the studies, with limits.
+The tables are also in `pipelines/out/walls/`. The tests `tests/tests/sphere_walls` are short versions of the studies, with limits.
 
 | symbol | meaning |
 |---|---|

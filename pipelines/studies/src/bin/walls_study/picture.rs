@@ -1,10 +1,9 @@
 //! Panels of lines, as SVG or PNG.
 
-use kuva::backend::{raster::RasterBackend, svg::SvgBackend};
 use kuva::prelude::*;
+use plot::COLOURS;
+use std::path::Path;
 
-/// Distinguishable colours (Okabe & Ito 2008).
-const COLOURS: [&str; 6] = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"];
 /// Size of a panel [px].
 const SIZE: (f64, f64) = (420.0, 320.0);
 
@@ -32,10 +31,7 @@ pub fn draw(name: &str, columns: usize, panels: &[Panel]) -> Result<Vec<u8>, Str
     let rows = panels.len().div_ceil(columns);
     let figure = Figure::new(rows, columns).with_plots(plots).with_layouts(layouts);
     let scene = figure.with_cell_size(SIZE.0, SIZE.1).with_keep_panel_legends().render();
-    if name.ends_with(".svg") {
-        return Ok(SvgBackend::new().render_scene(&scene).into_bytes());
-    }
-    RasterBackend::new().render_scene(&scene).map_err(|why| format!("{name}: {why}"))
+    plot::bytes(Path::new(name), &scene).map_err(|e| e.to_string())
 }
 
 fn panel(panel: &Panel) -> (Vec<Plot>, Layout) {

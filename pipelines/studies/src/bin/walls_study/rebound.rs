@@ -3,64 +3,41 @@
 use crate::GRAIN;
 use crate::page::Page;
 use crate::picture::Panel;
-use grainpipe_tests::sphere_walls::chance::mean;
+use grainpipe_tests::sphere_walls::chance::{Mean, mean};
 use grainpipe_tests::sphere_walls::plates::{Layout, spheres};
-use grainpipe_tests::sphere_walls::rebound::{impacts, on_a_pipe, on_a_square_lattice};
+use grainpipe_tests::sphere_walls::rebound::{Impact, impacts, on_a_pipe, on_a_square_lattice};
 use sampling::Method;
 
 const E: f64 = 0.9;
 
+/// P/d of the walls.
+const SPACINGS: [f64; 3] = [0.5, 1.0, 2.0];
+/// ζ/P of the walls.
+const SHARES: [f64; 6] = [0.02, 0.05, 0.1, 0.2, 0.3, 0.4];
+
+/// Impacts on one wall.
+struct Found {
+    /// P/d.
+    spacing: f64,
+    /// ζ/P.
+    share: f64,
+    /// Radius of the wall spheres [d].
+    radius: f64,
+    /// Mean rebound.
+    upward: Mean,
+    /// Mean rebound by the formula at each place of impact.
+    formula: f64,
+    /// Mean rebound on a square lattice, for comparison.
+    square: f64,
+    /// Height of the centre at touch [d].
+    height: Mean,
+}
+
 pub fn study(page: &mut Page) -> Result<(), String> {
-    let (mut rows, mut rough) = (Vec::new(), Vec::new());
-    let mut panel = Panel {
-        title: format!("e = {E} asked for"),
-        axes: ("ζ/P".into(), "mean rebound".into()),
-        ..Panel::default()
-    };
-    let (mut worst, mut smooth, mut below) = (1.0f64, 0.0f64, 0.0f64);
-    for spacing in [0.5, 1.0, 2.0] {
-        let p = spacing * GRAIN;
-        let mut line = Vec::new();
-        let mut closed = Vec::new();
-        for share in [0.02, 0.05, 0.1, 0.2, 0.3, 0.4] {
-            let layout = Layout::Sampled(Method::Poisson, 1);
-            let (wall, _) = spheres(&layout.points(p, 0.6), share * p, GRAIN);
-            let all = impacts(&wall, E, 0.5 * GRAIN, (0.5, 300));
-            let up = mean(&all.iter().map(|i| i.upward).collect::<Vec<f64>>());
-            let high = mean(&all.iter().map(|i| i.height / GRAIN).collect::<Vec<f64>>());
-            // The same by the formula at each place of impact; the lattice's for comparison.
-            let formula = mean(&all.iter().map(|i| i.closed).collect::<Vec<f64>>()).mean;
-            let square = on_a_square_lattice(E, p, wall[0].1, 0.5 * GRAIN);
-            line.push((share, up.mean));
-            closed.push((share, square));
-            below = below.max(square - up.mean);
-            (worst, smooth) =
-                (worst.min(up.mean), if share == 0.02 { smooth.max(E - up.mean) } else { smooth });
-            let numbers = [
-                format!("{spacing}"),
-                format!("{share}"),
-                format!("{:.3}", share * spacing),
-                format!("{:.2}", wall[0].1 / GRAIN),
-                format!("{:.3} ± {:.3}", up.mean, up.off),
-                format!("{formula:.3}"),
-                format!("{square:.3}"),
-                format!("{:.4}", high.deviation),
-            ];
-            rough.push((share, up.mean));
-            rows.push(numbers.to_vec());
-        }
-        panel.lines.push((format!("P = {spacing} d"), line));
-        panel.closed.push(closed);
-    }
+    let walls = SPACINGS.iter().flat_map(|&spacing| SHARES.iter().map(move |&share| (spacing, share)));
+    let all: Vec<Found> = walls.map(|(spacing, share)| one(spacing, share)).collect();
     page.head("Normal rebound");
-    page.say(&format!(
-        "Frictionless grains fall straight down on a Poisson-disk wall at random positions. A sphere tilts \
-         the impact by θ, with sin θ = distance from its axis/(R + r), and the grain rebounds upwards with \
-         (1 + e) cos² θ − 1 of its speed. The mean falls from {E} by at most {smooth:.3} at ζ = 0.02 P. It \
-         is {worst:.3} at the roughest and widest wall here. The missing part goes sideways.\n\nOn a square \
-         lattice the mean is (1 + e)(1 − P²/6(R + r)²) − 1 (dashed). Blue noise of the same P has wider \
-         places between its spheres; its mean is lower by up to {below:.3}."
-    ));
+    words(page, &all);
     let columns = [
         "P/d",
         "ζ/P",
@@ -71,9 +48,68 @@ pub fn study(page: &mut Page) -> Result<(), String> {
         "formula, square lattice",
         "deviation of height / d",
     ];
+    let rows: Vec<Vec<String>> = all.iter().map(row).collect();
     page.table("rebound", &columns, &rows)?;
-    page.picture("rebound", "Mean rebound over roughness", 1, &[panel])?;
+    page.picture("rebound", "Mean rebound over roughness", 1, &[panel(&all)])?;
     pipe(page)
+}
+
+fn one(spacing: f64, share: f64) -> Found {
+    let p = spacing * GRAIN;
+    let layout = Layout::Sampled(Method::Poisson, 1);
+    let (wall, _) = spheres(&layout.points(p, 0.6), share * p, GRAIN);
+    let all = impacts(&wall, E, 0.5 * GRAIN, (0.5, 300));
+    let mean_of = |value: fn(&Impact) -> f64| mean(&all.iter().map(value).collect::<Vec<f64>>());
+    Found {
+        spacing,
+        share,
+        radius: wall[0].1 / GRAIN,
+        upward: mean_of(|i| i.upward),
+        formula: mean_of(|i| i.closed).mean,
+        square: on_a_square_lattice(E, p, wall[0].1, 0.5 * GRAIN),
+        height: mean_of(|i| i.height / GRAIN),
+    }
+}
+
+fn row(f: &Found) -> Vec<String> {
+    vec![
+        format!("{}", f.spacing),
+        format!("{}", f.share),
+        format!("{:.3}", f.share * f.spacing),
+        format!("{:.2}", f.radius),
+        format!("{:.3} ± {:.3}", f.upward.mean, f.upward.off),
+        format!("{:.3}", f.formula),
+        format!("{:.3}", f.square),
+        format!("{:.4}", f.height.deviation),
+    ]
+}
+
+fn panel(all: &[Found]) -> Panel {
+    let of = |spacing: f64| all.iter().filter(move |f| f.spacing == spacing);
+    let line = |p: f64| (format!("P = {p} d"), of(p).map(|f| (f.share, f.upward.mean)).collect());
+    Panel {
+        title: format!("e = {E} asked for"),
+        axes: ("ζ/P".into(), "mean rebound".into()),
+        lines: SPACINGS.map(line).into(),
+        closed: SPACINGS.map(|p| of(p).map(|f| (f.share, f.square)).collect()).into(),
+        ..Panel::default()
+    }
+}
+
+fn words(page: &mut Page, all: &[Found]) {
+    let worst = all.iter().map(|f| f.upward.mean).fold(1.0, f64::min);
+    let smoothest = all.iter().filter(|f| f.share == SHARES[0]);
+    let smooth = smoothest.map(|f| E - f.upward.mean).fold(0.0, f64::max);
+    let below = all.iter().map(|f| f.square - f.upward.mean).fold(0.0, f64::max);
+    page.say(&format!(
+        "Frictionless grains fall straight down on a Poisson-disk wall at random positions. A sphere tilts \
+         the impact by θ, with sin θ = distance from its axis/(R + r), and the grain rebounds upwards with \
+         (1 + e) cos² θ − 1 of its speed. On a plane this is e = {E}. At ζ = 0.02 P the mean is lower by at \
+         most {smooth:.3}. The lowest mean of all these walls is {worst:.3}. The missing part of \
+         the speed goes sideways.\n\nOn a square \
+         lattice the mean is (1 + e)(1 − P²/6(R + r)²) − 1 (dashed). Blue noise of the same P has wider \
+         gaps between some spheres; its mean is lower by up to {below:.3}."
+    ));
 }
 
 fn pipe(page: &mut Page) -> Result<(), String> {
