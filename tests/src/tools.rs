@@ -10,10 +10,9 @@ use std::process::{Command, Output, Stdio};
 /// When it was not built.
 pub fn program(tool: &str) -> PathBuf {
     let exe = std::env::current_exe().expect("the test has a path");
-    let folder = exe.parent().and_then(Path::parent).expect("target/debug/deps/test");
-    let program = folder.join(tool);
-    assert!(program.exists(), "{} is missing: build the tools first, cargo build --bins", program.display());
-    program
+    // Tests lie in target/debug/deps, studies in target/debug.
+    let program = exe.ancestors().skip(1).take(2).map(|folder| folder.join(tool)).find(|p| p.exists());
+    program.unwrap_or_else(|| panic!("{tool} is missing beside {}: build the tools first, cargo build --bins", exe.display()))
 }
 
 /// What a tool did.

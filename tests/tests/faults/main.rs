@@ -1,5 +1,7 @@
 //! Faults from outside: killed runs, full disks, closed pipes, files that were cut or changed.
 
+mod attack;
+mod attacked;
 mod disk;
 mod files;
 mod found;

@@ -123,7 +123,7 @@ impl Sleepers {
         SleepMap { asleep: &self.asleep, turns: self.turns, changed: &self.changed }
     }
 
-    /// Everyone, with `prescribed` (or none) to be kept awake.
+    /// Columns of all particles, with `prescribed` (or none) to be kept awake.
     pub fn sleeper_slices<'a>(&'a mut self, prescribed: &'a [bool]) -> SleeperSlices<'a> {
         self.next.resize(self.quiet.len(), false);
         let Sleepers { quiet, next, held, asleep, steps, speed, wake, .. } = self;

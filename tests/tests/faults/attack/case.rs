@@ -1,0 +1,161 @@
+//! One case: a call of a tool with bounded memory and time, and what became of it.
+
+use grainpipe_tests::tools::program;
+use std::fmt::{Display, Formatter};
+use std::fs::{self, File};
+use std::os::unix::process::ExitStatusExt;
+use std::path::Path;
+use std::process::{Command, ExitStatus, Stdio};
+use std::time::{Duration, Instant};
+
+/// Address space that a tool may take [kB]; the inputs have a few kilobytes.
+const MEMORY: u32 = 1_500_000;
+/// Time that a tool may take.
+const TIME: Duration = Duration::from_secs(20);
+
+/// A call of a tool.
+pub struct Case {
+    /// Kind of case, as the page lists it.
+    pub group: &'static str,
+    /// The tool.
+    pub tool: &'static str,
+    /// Its arguments.
+    pub args: Vec<String>,
+    /// Files that it may read.
+    pub files: Vec<(String, Vec<u8>)>,
+    /// What was done to them.
+    pub change: String,
+}
+
+/// What became of a case.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Outcome {
+    /// Exit 0, and whole output with finite numbers.
+    Accepted,
+    /// Exit 1 to 3 with a message.
+    Refused,
+    /// It panicked.
+    Panicked,
+    /// A signal ended it: out of memory, stack overflow.
+    Killed,
+    /// It did not end in time.
+    TimedOut,
+    /// It failed without a message.
+    Mute,
+    /// It failed and left output that looks whole.
+    LeftOutput,
+    /// It succeeded with output that is not finite.
+    NotFinite,
+    /// Its message has control characters.
+    RawText,
+}
+
+impl Outcome {
+    /// Every outcome, in the order of the page's columns.
+    pub const ALL: [Outcome; 9] = [
+        Outcome::Accepted,
+        Outcome::Refused,
+        Outcome::Panicked,
+        Outcome::Killed,
+        Outcome::TimedOut,
+        Outcome::Mute,
+        Outcome::LeftOutput,
+        Outcome::NotFinite,
+        Outcome::RawText,
+    ];
+
+    /// Whether this must not happen.
+    pub fn is_bad(self) -> bool {
+        !matches!(self, Outcome::Accepted | Outcome::Refused)
+    }
+}
+
+/// An outcome and the message that came with it.
+#[derive(Debug)]
+pub struct Verdict {
+    /// What became of the case.
+    pub outcome: Outcome,
+    /// The first line on stderr.
+    pub message: String,
+}
+
+impl Display for Case {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} {}", self.tool, self.args.join(" "))?;
+        if self.change.is_empty() { Ok(()) } else { write!(f, "   # {}", self.change) }
+    }
+}
+
+impl Case {
+    /// Runs the case in a separate folder.
+    ///
+    /// # Panics
+    /// When the folder cannot be made or bash cannot be started.
+    pub fn run(self) -> (Case, Verdict) {
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| folder.path().join(name);
+        for (name, bytes) in &self.files {
+            fs::write(at(name), bytes).expect("written");
+        }
+        let create = |name: &str| File::create(at(name)).expect("created");
+        let mut command = Command::new("bash");
+        // No core dumps: an abort would take longer to write one than to run.
+        command.args(["-c", &format!("ulimit -c 0 -v {MEMORY}; exec \"$0\" \"$@\"")]);
+        command.arg(program(self.tool)).args(&self.args).args(["--threads", "2"]);
+        command.current_dir(folder.path()).stdin(Stdio::null());
+        command.stdout(create("stdout")).stderr(create("stderr"));
+        let status = wait(&mut command);
+        let stderr = String::from_utf8_lossy(&fs::read(at("stderr")).expect("written")).into_owned();
+        let outcome = judge(status, &stderr, folder.path());
+        let message = stderr.lines().find(|l| !l.trim().is_empty()).unwrap_or_default();
+        (self, Verdict { outcome, message: message.escape_debug().take(300).collect() })
+    }
+}
+
+/// The exit status; none when the time was up.
+fn wait(command: &mut Command) -> Option<ExitStatus> {
+    let mut child = command.spawn().expect("bash starts");
+    let start = Instant::now();
+    loop {
+        if let Some(status) = child.try_wait().expect("a child") {
+            return Some(status);
+        }
+        if start.elapsed() > TIME {
+            let _ = child.kill();
+            let _ = child.wait();
+            return None;
+        }
+        std::thread::sleep(Duration::from_millis(if start.elapsed().as_millis() < 50 { 1 } else { 20 }));
+    }
+}
+
+fn judge(status: Option<ExitStatus>, stderr: &str, folder: &Path) -> Outcome {
+    let Some(status) = status else { return Outcome::TimedOut };
+    if stderr.contains("panicked at") {
+        return Outcome::Panicked;
+    }
+    if status.signal().is_some() {
+        return Outcome::Killed;
+    }
+    if stderr.chars().any(|c| c.is_control() && c != '\n' && c != '\t' || ('\u{202a}'..='\u{202e}').contains(&c)) {
+        return Outcome::RawText;
+    }
+    let output = ["out.ply", "out.mcap", "out.png"].iter().map(|name| folder.join(name)).find(|f| f.exists());
+    match status.code() {
+        Some(0) => match output.and_then(|f| fs::read(f).ok()) {
+            Some(bytes) if bytes.starts_with(b"ply") && !finite(bytes) => Outcome::NotFinite,
+            _ => Outcome::Accepted,
+        },
+        Some(1..=3) if stderr.trim().is_empty() => Outcome::Mute,
+        // A guard stops a run with whole output.
+        Some(1 | 2) if output.is_some() => Outcome::LeftOutput,
+        Some(1..=3) => Outcome::Refused,
+        _ => Outcome::Panicked,
+    }
+}
+
+/// Whether the coordinates of a cloud or mesh are finite.
+fn finite(ply: Vec<u8>) -> bool {
+    let Ok(cloud) = cloud::from_bytes(ply) else { return false };
+    cloud.points.iter().all(|p| p.iter().all(|c| c.is_finite()))
+}

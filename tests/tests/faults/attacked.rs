@@ -1,0 +1,17 @@
+//! The attack in short, with another seed than the page's.
+
+use crate::attack::{Findings, files, kills, options, scenes};
+
+/// One case in this many of those that are not drawn.
+const ONE_IN: usize = 12;
+
+#[test]
+fn no_attack_ends_in_a_panic_without_bound_or_with_output_that_only_looks_whole() {
+    let mut found = Findings::default();
+    found.run(files::cases(20, 500));
+    found.run(scenes::cases().into_iter().step_by(ONE_IN + 1).collect());
+    found.run(options::cases().into_iter().step_by(ONE_IN + 1).collect());
+    kills::run(20, 4, &mut found);
+    assert!(found.count() > 700, "only {} cases", found.count());
+    assert!(found.bad.is_empty(), "{:#?}", found.bad);
+}
