@@ -119,12 +119,12 @@ fn finished_points_are_used_changed_ones_made_again_and_lines_can_be_spread() {
     fs::write(folder.path().join("s.toml"), dropped().replace("restitution = 0.5", "restitution = 0.6"))
         .unwrap();
     let done = curve(&folder, &options);
-    assert!(done.stderr.contains("3 of 3 runs there were made from another scene"), "{}", done.stderr);
+    assert!(done.stderr.contains("3 of 3 runs there used another scene"), "{}", done.stderr);
     assert!(done.stderr.contains("3 runs, 0 of them made before"), "{}", done.stderr);
     // And other particles, though the scene is the same.
     fs::write(folder.path().join("ball.csv"), "id,x,y,z,radius,vz\n0,0,0,0.056,0.005,-1\n").unwrap();
     let done = curve(&folder, &options);
-    assert!(done.stderr.contains("3 of 3 runs there were made from another scene"), "{}", done.stderr);
+    assert!(done.stderr.contains("3 of 3 runs there used another scene"), "{}", done.stderr);
 }
 
 #[test]
@@ -143,7 +143,7 @@ fn an_interrupted_sweep_goes_on_from_where_it_was() {
     let done: Done = child.wait_with_output().unwrap().into();
     assert_eq!(done.code, 1, "{}", done.stderr);
     assert!(
-        done.stderr.contains("of 300 runs were made: the same line goes on from there"),
+        done.stderr.contains("of 300 runs are finished: the same command continues"),
         "{}",
         done.stderr
     );

@@ -349,6 +349,6 @@ fn bonds_that_no_grain_has_or_that_are_not_followed_are_refused() {
     let folder = bonded(BOND);
     let done = succeed(folder.path(), "dem-run", &["s.toml", "--explain"]);
     let text = String::from_utf8_lossy(&done.stdout) + &*done.stderr;
-    assert!(text.contains("bond.0 (sinter–sinter)") && text.contains("B a bond, 5 bonds"), "{text}");
+    assert!(text.contains("bond.0 (sinter–sinter)") && text.contains("B per bond, 5 bonds"), "{text}");
     assert!(text.contains("the bonds of particle"), "{text}");
 }
