@@ -12,7 +12,9 @@ pub fn program(tool: &str) -> PathBuf {
     let exe = std::env::current_exe().expect("the test has a path");
     // Tests lie in target/debug/deps, studies in target/debug.
     let program = exe.ancestors().skip(1).take(2).map(|folder| folder.join(tool)).find(|p| p.exists());
-    program.unwrap_or_else(|| panic!("{tool} is missing beside {}: build the tools first, cargo build --bins", exe.display()))
+    program.unwrap_or_else(|| {
+        panic!("{tool} is missing beside {}: build the tools first, cargo build --bins", exe.display())
+    })
 }
 
 /// What a tool did.

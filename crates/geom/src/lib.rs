@@ -18,6 +18,7 @@ mod spread;
 mod tree;
 pub mod triangle;
 mod union;
+pub mod units;
 
 pub use boxes::Boxes;
 pub use cells::Cells;

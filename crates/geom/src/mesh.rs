@@ -63,6 +63,11 @@ impl TriMesh {
         Ok(TriMesh { vertices, faces })
     }
 
+    /// Multiplies all lengths.
+    pub fn scale(&mut self, factor: f64) {
+        self.vertices.iter_mut().for_each(|v| *v *= factor);
+    }
+
     /// Corners of face `face` [m].
     pub fn triangle(&self, face: usize) -> [Vec3; 3] {
         self.faces[face].map(|v| self.vertices[v as usize])

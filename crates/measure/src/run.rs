@@ -175,9 +175,17 @@ fn plane(json: &Value) -> Option<Plane> {
     Plane::new(vector(&json["plane"]["point"])?, vector(&json["plane"]["normal"])?).ok()
 }
 
+/// The gravity of a scene: three numbers, or texts with units, or one text with commas.
 fn numbers(value: &toml::Value) -> Option<Vec3> {
-    let number = |v: &toml::Value| v.as_float().or_else(|| v.as_integer().map(|i| i as f64));
-    let list: Vec<f64> = value.as_array()?.iter().filter_map(number).collect();
+    let in_unit = |text: &str| text.trim().parse().ok().or_else(|| geom::units::parse(text, "m/s²").ok());
+    let number = |v: &toml::Value| match v {
+        toml::Value::String(text) => in_unit(text),
+        v => v.as_float().or_else(|| v.as_integer().map(|i| i as f64)),
+    };
+    let list: Vec<f64> = match value {
+        toml::Value::String(text) => text.split(',').filter_map(in_unit).collect(),
+        list => list.as_array()?.iter().filter_map(number).collect(),
+    };
     (list.len() == 3).then(|| Vec3::from_column_slice(&list))
 }
 

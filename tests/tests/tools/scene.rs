@@ -2,6 +2,7 @@
 
 mod doubtful;
 mod refused;
+mod units;
 
 use grainpipe_tests::tools::{succeed, tool};
 use record::{MaterialRecord, POISSON};

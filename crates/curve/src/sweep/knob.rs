@@ -151,8 +151,11 @@ impl Knob {
                     })?;
                 let keys = ["material.*.young", "contact.*.stiffness"].map(|key| expand(scene, key)).concat();
                 let one = |key: &String| {
-                    let now =
-                        get(scene, key).and_then(|v| v.as_float().or(v.as_integer().map(|i| i as f64)))?;
+                    let unit = if key.ends_with("young") { "Pa" } else { "N/m" };
+                    let text = |v: &Value| v.as_str().and_then(|text| geom::units::parse(text, unit).ok());
+                    let now = get(scene, key).and_then(|v| {
+                        v.as_float().or(v.as_integer().map(|i| i as f64)).or_else(|| text(v))
+                    })?;
                     Some(format!("{key}={:e}", now * factor))
                 };
                 Ok(keys.iter().filter_map(one).collect())

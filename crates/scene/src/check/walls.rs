@@ -3,6 +3,7 @@
 use super::Check;
 use crate::error::Result;
 use crate::keys::{Motion, SceneKeys, Servo, Wall};
+use geom::units;
 
 impl Check<'_> {
     pub(super) fn walls(&self, m: &SceneKeys) -> Result<()> {
@@ -23,6 +24,7 @@ impl Check<'_> {
             let cure = "add box = [x0,y0,z0,x1,y1,z1]";
             return Err(self.wrong(&format!("{entry}.faces"), "(given)", "only a box has faces", cure));
         }
+        self.mesh_scale(entry, w)?;
         if let Some(b) = w.cuboid {
             let key = format!("{entry}.box");
             self.finite(&key, &b, "m")?;
@@ -33,6 +35,31 @@ impl Check<'_> {
         }
         w.servo.as_ref().map_or(Ok(()), |s| self.servo(entry, w, s))?;
         w.motion.as_ref().map_or(Ok(()), |motion| self.motion(&format!("{entry}.motion"), motion))
+    }
+
+    /// `scale` and `units` of a drawing.
+    fn mesh_scale(&self, entry: &str, w: &Wall) -> Result<()> {
+        for (key, given) in [("scale", w.scale.is_some()), ("units", w.units.is_some())] {
+            if given && w.mesh.is_none() {
+                let why = "only a mesh has lengths in another unit: everything else is in metres";
+                return Err(self.wrong(
+                    &format!("{entry}.{key}"),
+                    "(given)",
+                    why,
+                    "take it out, or give mesh",
+                ));
+            }
+        }
+        if w.scale.is_some() && w.units.is_some() {
+            let why = "both say what a length in the file is";
+            return Err(self.wrong(&format!("{entry}.scale"), "(given)", why, "give scale or units"));
+        }
+        self.positive(&format!("{entry}.scale"), w.scale, "")?;
+        let Some(name) = &w.units else { return Ok(()) };
+        units::factor(name, "m").map(drop).map_err(|e| {
+            let cure = "write \"mm\", \"cm\", \"m\", \"in\" or \"ft\"";
+            self.wrong(&format!("{entry}.units"), format!("\"{name}\""), &e.to_string(), cure)
+        })
     }
 
     fn motion(&self, entry: &str, motion: &Motion) -> Result<()> {

@@ -1,5 +1,6 @@
 //! How a scene is calculated and written, and the fluid around its particles.
 
+use super::unit;
 use serde::Deserialize;
 
 /// Precision in which contacts are computed; positions and velocities are always double.
@@ -20,11 +21,13 @@ pub enum Arithmetic {
 #[serde(deny_unknown_fields)]
 pub struct Time {
     /// End of the run [s]; may come from `--until`.
+    #[serde(default, deserialize_with = "unit::seconds")]
     pub until: Option<f64>,
     /// Step.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "unit::seconds")]
     pub dt: OrAuto,
     /// Share of the critical step when `dt` is "auto" [–]; absent: [`SAFETY`], or what `accuracy` needs.
+    #[serde(default, deserialize_with = "unit::plain")]
     pub safety: Option<f64>,
     /// Largest error of an impact, for which the step is chosen [–].
     pub accuracy: Option<Accuracy>,
@@ -43,8 +46,10 @@ pub struct OrAuto(pub Option<f64>);
 #[serde(deny_unknown_fields)]
 pub struct Output {
     /// Time between frames; absent: a hundredth of the run.
+    #[serde(default, deserialize_with = "unit::seconds")]
     pub every: Option<Every>,
     /// Time between checkpoints [s]; absent: one at the end.
+    #[serde(default, deserialize_with = "unit::seconds")]
     pub checkpoint: Option<f64>,
     /// Whether the force on each wall is written with each frame; forces on walls with a servo always are.
     #[serde(default)]
@@ -85,12 +90,13 @@ pub enum Precision {
 #[serde(deny_unknown_fields)]
 pub struct Sleep {
     /// Speed of the surface below which a particle is at rest [m/s].
+    #[serde(deserialize_with = "unit::metres_a_second")]
     pub speed: f64,
     /// How long it must have been at rest [s].
-    #[serde(default = "sleep_time")]
+    #[serde(default = "sleep_time", deserialize_with = "unit::seconds")]
     pub time: f64,
     /// Force that wakes it, over its weight [–].
-    #[serde(default = "sleep_wake")]
+    #[serde(default = "sleep_wake", deserialize_with = "unit::plain")]
     pub wake: f64,
 }
 
@@ -110,8 +116,10 @@ pub struct Domain {
     #[serde(default)]
     pub periodic: Vec<Axis>,
     /// Lowest corner [m].
+    #[serde(default, deserialize_with = "unit::metres")]
     pub low: Option<[f64; 3]>,
     /// Highest corner [m].
+    #[serde(default, deserialize_with = "unit::metres")]
     pub high: Option<[f64; 3]>,
 }
 
@@ -132,11 +140,13 @@ pub struct Drag {
     /// How drag depends on speed.
     pub law: DragLaw,
     /// Viscosity of the fluid [Pa·s].
+    #[serde(deserialize_with = "unit::pascal_seconds")]
     pub viscosity: f64,
     /// Density of the fluid [kg/m³]; "stokes" without buoyancy needs none.
+    #[serde(default, deserialize_with = "unit::density")]
     pub density: Option<f64>,
     /// Velocity of the fluid [m/s].
-    #[serde(default)]
+    #[serde(default, deserialize_with = "unit::metres_a_second")]
     pub velocity: [f64; 3],
     /// Whether particles are lighter by the fluid that they displace.
     #[serde(default)]
@@ -158,6 +168,7 @@ pub enum DragLaw {
 #[serde(deny_unknown_fields)]
 pub struct Neighbours {
     /// Margin of the neighbour lists [m]; absent: chosen by the program.
+    #[serde(default, deserialize_with = "unit::metres")]
     pub skin: Option<f64>,
 }
 
@@ -166,11 +177,14 @@ pub struct Neighbours {
 #[serde(deny_unknown_fields)]
 pub struct Guards {
     /// Largest overlap, as a share of the smaller radius [–].
+    #[serde(default, deserialize_with = "unit::plain")]
     pub overlap: Option<f64>,
     /// Largest motion in one step, as a share of the radius [–].
+    #[serde(default, deserialize_with = "unit::plain")]
     pub motion: Option<f64>,
     /// Whether a run stops when a grain of an [[inlet]] goes back through all of its zone; absent: it does.
     pub zones: Option<bool>,
     /// Largest energy that the time step may make, as a share of the energy that was exchanged and moves [–]; absent: no limit.
+    #[serde(default, deserialize_with = "unit::plain")]
     pub energy: Option<f64>,
 }

@@ -1,5 +1,6 @@
 //! Materials, and what they do to each other.
 
+use super::unit;
 use dem::setup::ContactLaw;
 use serde::Deserialize;
 
@@ -10,10 +11,13 @@ pub struct Material {
     /// Name.
     pub name: String,
     /// Density [kg/m³]; walls need none.
+    #[serde(default, deserialize_with = "unit::density")]
     pub density: Option<f64>,
     /// Young's modulus [Pa].
+    #[serde(deserialize_with = "unit::pascals")]
     pub young: f64,
     /// Poisson's ratio [–].
+    #[serde(deserialize_with = "unit::plain")]
     pub poisson: f64,
 }
 
@@ -35,17 +39,24 @@ pub struct Bond {
     /// Two names of materials.
     pub between: [String; 2],
     /// Largest gap between two surfaces at t = 0 that is bonded [m].
+    #[serde(deserialize_with = "unit::metres")]
     pub gap: f64,
     /// Radius of a bond over the smaller of both particles' [–]; absent: 1.
+    #[serde(default, deserialize_with = "unit::plain")]
     pub radius_ratio: Option<f64>,
     /// Young's modulus of bonds [Pa].
+    #[serde(deserialize_with = "unit::pascals")]
     pub young: f64,
     /// Their Poisson's ratio [–], for the shear modulus.
+    #[serde(deserialize_with = "unit::plain")]
     pub poisson: f64,
     /// Tension at the rim that breaks one [Pa]; absent: none does.
+    #[serde(default, deserialize_with = "unit::pascals")]
     pub tensile_strength: Option<f64>,
     /// Shear that breaks one [Pa]; absent: none does.
+    #[serde(default, deserialize_with = "unit::pascals")]
     pub shear_strength: Option<f64>,
     /// γ of dashpots beside the springs [–]; absent: none.
+    #[serde(default, deserialize_with = "unit::plain")]
     pub damping: Option<f64>,
 }

@@ -1,11 +1,13 @@
 //! How a `[[contact]]` is read: its keys are those of the engine's effects.
 
 use super::Contact;
+use super::unit::{self, Seed};
 use dem::effects::{RESTITUTION, keys, models};
 use dem::setup::ContactLaw;
 use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, Visitor};
 use serde::{Deserialize, de};
 use std::fmt;
+use std::marker::PhantomData;
 use std::sync::LazyLock;
 
 /// Keys of a `[[contact]]` that are not the engine's.
@@ -27,6 +29,16 @@ static KEYS: LazyLock<Vec<&'static str>> = LazyLock::new(|| {
 /// Keys of the table that a key may have instead of a number, such as `static` of `sliding_friction.static`.
 fn table_keys(key: &str) -> impl Iterator<Item = (&'static str, &'static str)> {
     keys().filter_map(move |k| Some((k.name, k.name.strip_prefix(key)?.strip_prefix('.')?)))
+}
+
+/// The unit of a key of the engine.
+fn unit_of(key: &str) -> &'static str {
+    keys().find(|k| k.name == key).map_or("", |k| k.unit)
+}
+
+/// Reads a number, or text with a unit.
+fn number(unit: &'static str) -> Seed<f64> {
+    Seed(unit::of(unit), PhantomData)
 }
 
 impl<'de> Deserialize<'de> for Contact {
@@ -51,7 +63,7 @@ impl<'de> Visitor<'de> for ContactVisitor {
             if key == BETWEEN {
                 between = Some(map.next_value()?);
             } else if key == CHARACTERISTIC_VELOCITY {
-                characteristic_velocity = Some(map.next_value()?);
+                characteristic_velocity = Some(map.next_value_seed(number("m/s"))?);
             } else if let Some((key, values)) = models().into_iter().find(|m| m.0 == key) {
                 law.choose(key, map.next_value_seed(Named(values))?);
             } else {
@@ -129,7 +141,7 @@ impl<'de> DeserializeSeed<'de> for Numbers<'_> {
         if table_keys(self.key).next().is_some() {
             return from.deserialize_any(self);
         }
-        self.law.set(self.key, f64::deserialize(from)?);
+        self.law.set(self.key, number(unit_of(self.key)).deserialize(from)?);
         Ok(())
     }
 }
@@ -155,6 +167,11 @@ impl<'de> Visitor<'de> for Numbers<'_> {
         self.visit_f64(value as f64)
     }
 
+    fn visit_str<E: Error>(self, text: &str) -> Result<(), E> {
+        let value = unit::of(unit_of(self.key)).parse(text)?;
+        self.visit_f64(value)
+    }
+
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<(), A::Error> {
         // One list for each key that takes a table lasts as long as the program: there are few.
         static TABLE: LazyLock<Vec<(&str, Vec<&str>)>> = LazyLock::new(|| {
@@ -163,7 +180,8 @@ impl<'de> Visitor<'de> for Numbers<'_> {
         let known = TABLE.iter().find(|t| t.0 == self.key).map_or(&[][..], |t| &t.1[..]);
         while let Some(short) = map.next_key_seed(OneOf(known))? {
             let full = table_keys(self.key).find(|k| k.1 == short);
-            let value: f64 = map.next_value()?;
+            let unit = full.map_or("", |(full, _)| unit_of(full));
+            let value: f64 = map.next_value_seed(number(unit))?;
             full.into_iter().for_each(|(full, _)| self.law.set(full, value));
         }
         let missing = table_keys(self.key).find(|(full, _)| self.law.number(full).is_none());

@@ -6,7 +6,9 @@ mod calculation;
 mod contact;
 mod contact_keys;
 mod forms;
+mod geometry;
 mod particles;
+mod unit;
 mod wall;
 
 pub use calculation::*;
@@ -21,6 +23,7 @@ use serde::Deserialize;
 #[serde(deny_unknown_fields, default)]
 pub struct SceneKeys {
     /// Acceleration of free fall [m/s²]; absent: none.
+    #[serde(deserialize_with = "unit::metres_a_second_squared")]
     pub gravity: [f64; 3],
     /// Id of the first particle that the scene itself makes; particles of an inlet keep theirs.
     pub first_id: u32,

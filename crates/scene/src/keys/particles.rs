@@ -1,6 +1,6 @@
 //! Particles: where they are, come from, and leave.
 
-use super::OrAuto;
+use super::{OrAuto, geometry, unit};
 use dem::setup::{ZoneMotion, ZoneTest};
 use serde::Deserialize;
 
@@ -22,6 +22,7 @@ pub struct Clump {
     /// Material.
     pub material: String,
     /// x, y, z, radius [m] of each sphere.
+    #[serde(default, deserialize_with = "unit::metres")]
     pub spheres: Option<Vec<[f64; 4]>>,
     /// How the mass of overlapping spheres is computed.
     #[serde(default)]
@@ -29,9 +30,10 @@ pub struct Clump {
     /// A closed surface (PLY): the body; a sphere on each of its vertices.
     pub mesh: Option<String>,
     /// Radius of the spheres on the vertices of `mesh`, before `scale` [m].
+    #[serde(default, deserialize_with = "unit::metres")]
     pub vertex_radius: Option<f64>,
     /// Lengths are multiplied by this [–].
-    #[serde(default = "one")]
+    #[serde(default = "one", deserialize_with = "unit::plain")]
     pub scale: f64,
 }
 
@@ -57,18 +59,19 @@ pub struct Body {
     /// Name of its `[[clump]]`.
     pub clump: String,
     /// Centre of mass [m].
+    #[serde(deserialize_with = "unit::metres")]
     pub position: [f64; 3],
     /// Orientation: w, x, y, z.
-    #[serde(default = "upright")]
+    #[serde(default = "upright", deserialize_with = "unit::plain")]
     pub quaternion: [f64; 4],
     /// Velocity of the centre of mass [m/s].
-    #[serde(default)]
+    #[serde(default, deserialize_with = "unit::metres_a_second")]
     pub velocity: [f64; 3],
     /// Angular velocity [rad/s].
-    #[serde(default)]
+    #[serde(default, deserialize_with = "unit::radians_a_second")]
     pub spin: [f64; 3],
     /// Size over that of the clump [–].
-    #[serde(default = "one")]
+    #[serde(default = "one", deserialize_with = "unit::plain")]
     pub scale: f64,
 }
 
@@ -86,18 +89,21 @@ pub struct Fill {
     /// Name of a `[[clump]]`: clumps instead of spheres.
     pub clump: Option<String>,
     /// Sizes of clumps over that of their shape, uniform in the range [–].
+    #[serde(default, deserialize_with = "unit::plain")]
     pub scale: Option<Diameter>,
     /// Where; spheres lie wholly inside.
+    #[serde(deserialize_with = "geometry::shape")]
     pub shape: String,
     /// Diameters, uniform in the range [m], unless there is a `clump`.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "unit::metres")]
     pub diameter: Diameter,
     /// Mass [kg]; this or `count`.
+    #[serde(default, deserialize_with = "unit::kilograms")]
     pub mass: Option<f64>,
     /// Number; this or `mass`.
     pub count: Option<u64>,
     /// Velocity at t = 0 [m/s].
-    #[serde(default)]
+    #[serde(default, deserialize_with = "unit::metres_a_second")]
     pub velocity: [f64; 3],
     /// Seed of the random numbers.
     #[serde(default)]
@@ -133,22 +139,28 @@ pub struct Insert {
     /// Name of a `[[clump]]`: clumps instead of spheres.
     pub clump: Option<String>,
     /// Sizes of clumps over that of their shape, uniform in the range [–].
+    #[serde(default, deserialize_with = "unit::plain")]
     pub scale: Option<Diameter>,
     /// Cross-section, thicker along the velocity than the largest diameter.
+    #[serde(deserialize_with = "geometry::shape")]
     pub shape: String,
     /// Diameters, uniform in the range [m].
-    #[serde(default)]
+    #[serde(default, deserialize_with = "unit::metres")]
     pub diameter: Diameter,
     /// Velocity [m/s]; particles keep it until they leave the shape.
+    #[serde(deserialize_with = "unit::metres_a_second")]
     pub velocity: [f64; 3],
     /// Rate [kg/s]; this or `rate_count`.
+    #[serde(default, deserialize_with = "unit::kilograms_a_second")]
     pub rate: Option<f64>,
     /// Rate [1/s]; this or `rate`.
+    #[serde(default, deserialize_with = "unit::a_second")]
     pub rate_count: Option<f64>,
     /// When it opens [s].
-    #[serde(default)]
+    #[serde(default, deserialize_with = "unit::seconds")]
     pub from: f64,
     /// When it closes [s]; absent: never.
+    #[serde(default, deserialize_with = "unit::seconds")]
     pub until: Option<f64>,
     /// Seed of the random numbers.
     #[serde(default)]
@@ -160,9 +172,10 @@ pub struct Insert {
 #[serde(deny_unknown_fields)]
 pub struct Outlet {
     /// Storage plane, its normal in the direction of flow.
+    #[serde(deserialize_with = "geometry::plane")]
     pub plane: String,
     /// L1 [m]; "auto" is 1.2 times the largest diameter.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "unit::metres")]
     pub length: OrAuto,
     /// Motion in the zone.
     #[serde(default)]
@@ -171,6 +184,7 @@ pub struct Outlet {
     #[serde(default)]
     pub test: ZoneTest,
     /// Time between samples of paths, with motion "recorded" [s]; absent: ten steps.
+    #[serde(default, deserialize_with = "unit::seconds")]
     pub samples: Option<f64>,
     /// Mark of the plant that the stage upstream was cut from (stage-split); it goes into the record.
     pub plant: Option<String>,
@@ -181,9 +195,10 @@ pub struct Outlet {
 #[serde(deny_unknown_fields)]
 pub struct Inlet {
     /// Calculation plane, its normal in the direction of flow.
+    #[serde(deserialize_with = "geometry::plane")]
     pub plane: String,
     /// L2 [m]; "auto" is what the recorded stream was written with.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "unit::metres")]
     pub length: OrAuto,
     /// Motion in the zone; absent: that of the stream.
     pub motion: Option<ZoneMotion>,

@@ -1,5 +1,6 @@
 //! Walls and how they move.
 
+use super::{geometry, unit};
 use geom::{Plane, Vec3};
 use serde::Deserialize;
 
@@ -12,11 +13,17 @@ pub struct Wall {
     /// Wall spheres: a walls MCAP.
     pub source: Option<String>,
     /// Unbounded plane; its normal points to the particles.
+    #[serde(default, deserialize_with = "geometry::plane")]
     pub plane: Option<String>,
-    /// Triangles: a PLY file.
+    /// Triangles: a PLY, STL or OBJ file.
     pub mesh: Option<String>,
+    /// Factor on the lengths in the file of `mesh` [–]; this or `units`.
+    #[serde(default, deserialize_with = "unit::plain")]
+    pub scale: Option<f64>,
+    /// Unit of the lengths in the file of `mesh`, such as "mm"; absent: metres.
+    pub units: Option<String>,
     /// Planes that look inward: lowest, highest corner [m].
-    #[serde(rename = "box")]
+    #[serde(default, rename = "box", deserialize_with = "unit::metres")]
     pub cuboid: Option<[f64; 6]>,
     /// Which faces of the box there are; absent: all six.
     pub faces: Option<Vec<Face>>,
@@ -79,13 +86,15 @@ pub struct Motion {
     /// Turn.
     pub rotate: Option<Rotate>,
     /// Shift [m/s].
+    #[serde(default, deserialize_with = "unit::metres_a_second")]
     pub translate: Option<[f64; 3]>,
     /// Vibration.
     pub vibrate: Option<Vibrate>,
     /// When all of it starts [s].
-    #[serde(default)]
+    #[serde(default, deserialize_with = "unit::seconds")]
     pub from: f64,
     /// When it stops, where the wall is then [s]; absent: never.
+    #[serde(default, deserialize_with = "unit::seconds")]
     pub until: Option<f64>,
 }
 
@@ -94,14 +103,19 @@ pub struct Motion {
 #[serde(deny_unknown_fields)]
 pub struct Servo {
     /// Which way the wall pushes.
+    #[serde(deserialize_with = "unit::plain")]
     pub direction: [f64; 3],
     /// Force on the particles [N]; this or `stress`.
+    #[serde(default, deserialize_with = "unit::newtons")]
     pub force: Option<f64>,
     /// Stress [Pa] on `area`; this or `force`.
+    #[serde(default, deserialize_with = "unit::pascals")]
     pub stress: Option<f64>,
     /// Area that `stress` acts on [m²].
+    #[serde(default, deserialize_with = "unit::square_metres")]
     pub area: Option<f64>,
     /// Largest speed [m/s].
+    #[serde(deserialize_with = "unit::metres_a_second")]
     pub speed_limit: f64,
 }
 
@@ -110,10 +124,13 @@ pub struct Servo {
 #[serde(deny_unknown_fields)]
 pub struct Rotate {
     /// Direction of the axis, right-handed.
+    #[serde(deserialize_with = "unit::plain")]
     pub about: [f64; 3],
     /// A point of the axis [m].
+    #[serde(deserialize_with = "unit::metres")]
     pub through: [f64; 3],
     /// Turns per minute.
+    #[serde(deserialize_with = "unit::turns_a_minute")]
     pub rpm: f64,
 }
 
@@ -122,7 +139,9 @@ pub struct Rotate {
 #[serde(deny_unknown_fields)]
 pub struct Vibrate {
     /// Amplitude and direction [m].
+    #[serde(deserialize_with = "unit::metres")]
     pub amplitude: [f64; 3],
     /// Frequency [Hz].
+    #[serde(deserialize_with = "unit::hertz")]
     pub frequency: f64,
 }

@@ -11,6 +11,7 @@ mod clump_placement;
 mod clump_shapes;
 mod contacts;
 mod fill;
+mod implausible;
 mod insertion;
 mod insertions;
 mod packing;
@@ -26,9 +27,9 @@ mod zones;
 
 pub use builder::PlannedInlet;
 pub use contacts::{dropped, most_specific};
+pub use implausible::SOFT;
 pub use insertion::Insertion;
 pub use packing::bounds;
-pub use warnings::SOFT;
 pub use zones::SCALE_SLACK;
 
 use crate::error::{Result, SceneError};

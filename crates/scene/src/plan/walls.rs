@@ -6,7 +6,7 @@ use crate::error::{Result, SceneError};
 use crate::input::{Input, WallFile, read_mesh};
 use crate::keys::{Face, Motion, Servo, Wall};
 use dem::setup::{self, WallShape};
-use geom::{Plane, Vec3};
+use geom::{Plane, Vec3, units};
 use std::f64::consts::TAU;
 
 impl PlanBuilder<'_> {
@@ -97,7 +97,13 @@ impl PlanBuilder<'_> {
             return Ok(vec![(name.to_owned(), WallShape::Plane(plane))]);
         }
         if let Some(file) = &entry.mesh {
-            return Ok(vec![(name.to_owned(), WallShape::Mesh(read_mesh(&self.path(file))?))]);
+            let mut mesh = read_mesh(&self.path(file))?;
+            // Checked before: a name that is no unit of length is refused.
+            let of_unit = entry.units.as_ref().and_then(|name| units::factor(name, "m").ok());
+            if let Some(factor) = entry.scale.or(of_unit) {
+                mesh.scale(factor);
+            }
+            return Ok(vec![(name.to_owned(), WallShape::Mesh(mesh))]);
         }
         let face =
             |(face, plane): (Face, Plane)| (format!("{name} {}", face.name()), WallShape::Plane(plane));

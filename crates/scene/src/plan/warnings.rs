@@ -1,17 +1,10 @@
-//! Warnings about implausible values: density, modulus, radius, overlap at the start. The scene runs with them.
+//! Warnings of a plan: overlaps at the start, spins that nothing turns, and implausible values ([`super::implausible`]). The scene runs with them.
 
 use super::builder::PlanBuilder;
 use dem::effects::{Slot, active};
 use dem::setup::{ContactLaw, WallShape};
-use geom::{Shown, Vec3, grid};
+use geom::{Vec3, grid};
 
-/// Densities of particles [kg/m³]: from foam to beyond osmium.
-const DENSITIES: [f64; 2] = [10.0, 30_000.0];
-/// Young's moduli [Pa]: from jelly to diamond.
-pub const SOFT: f64 = 1e3;
-const STIFF: f64 = 2e12;
-/// Radii of grains [m].
-const RADII: [f64; 2] = [1e-7, 1.0];
 /// Overlap at the start, over the smaller radius, above which a warning is given [–].
 const DEEP: f64 = 0.01;
 
@@ -28,8 +21,7 @@ struct DeepOverlap {
 impl PlanBuilder<'_> {
     /// Adds all warnings; `contacts` are those in force.
     pub(super) fn warn(&mut self, contacts: &[ContactLaw]) {
-        self.units();
-        self.sizes_on_earth();
+        self.implausible();
         self.lost_spins(contacts);
         let most = self.keys().guards.overlap.unwrap_or(dem::setup::Guards::default().overlap);
         // Deeper overlaps are refused.
@@ -41,51 +33,6 @@ impl PlanBuilder<'_> {
                 100.0 * share
             )
         }));
-    }
-
-    fn units(&mut self) {
-        let mut warn = |key: &str, value: String, why: &str, cure: &str| {
-            self.warnings.push(self.check.wrong(key, value, why, cure).to_string());
-        };
-        for (i, m) in self.scene.keys.material.iter().enumerate() {
-            let key = format!("material.{i}.density");
-            let value = |d: f64| format!("{} kg/m³", Shown(d));
-            match m.density {
-                Some(d) if d < DENSITIES[0] => {
-                    let cure = format!("if g/cm³ are meant, write {}", Shown(1e3 * d));
-                    warn(&key, value(d), "is lighter than any grain", &cure);
-                }
-                Some(d) if d > DENSITIES[1] => {
-                    let cure = format!("if g/m³ are meant, write {}", Shown(1e-3 * d));
-                    warn(&key, value(d), "is heavier than any metal", &cure);
-                }
-                _ => {}
-            }
-            let (key, value) = (format!("material.{i}.young"), format!("{} Pa", Shown(m.young)));
-            if m.young < SOFT {
-                warn(&key, value, "is softer than any grain", "give it in Pa: 1 MPa is 1e6, 1 GPa is 1e9");
-            } else if m.young > STIFF {
-                warn(&key, value, "is stiffer than diamond", "give it in Pa: 1 GPa is 1e9");
-            }
-        }
-    }
-
-    fn sizes_on_earth(&mut self) {
-        let Some(sizes) = self.sizes() else { return };
-        let (low, high) = (sizes.smallest < RADII[0], sizes.largest > RADII[1]);
-        let ends = [
-            (low, sizes.smallest, "smaller than 1e-7 m", "0.1 mm is a radius of 5e-5"),
-            (high, sizes.largest, "larger than 1 m", "10 mm are 0.01"),
-        ];
-        for (_, radius, what, cure) in ends.into_iter().filter(|end| end.0) {
-            let particle = self.particles.iter().find(|p| p.radius == radius);
-            let particle = particle.map_or("grains".to_owned(), |p| format!("particle {}", p.id));
-            let name = &self.scene.text.name;
-            self.warnings.push(format!(
-                "{name}: {particle}: radius = {} m: {what}; lengths are in metres: {cure}",
-                Shown(radius)
-            ));
-        }
     }
 
     /// Spins that nothing turns are not kept.

@@ -31,7 +31,17 @@ fn main() -> io::Result<()> {
 /// The page: what was tried, and a row for each kind of case.
 fn page(found: &Findings, seed: usize) -> String {
     let mut page = HEAD.to_owned();
-    let titles = ["accepted", "refused", "panic", "killed", "too long", "no message", "half output", "not finite", "raw text"];
+    let titles = [
+        "accepted",
+        "refused",
+        "panic",
+        "killed",
+        "too long",
+        "no message",
+        "half output",
+        "not finite",
+        "raw text",
+    ];
     let _ = writeln!(page, "{} cases, seed {seed}:\n", found.count());
     let _ = writeln!(page, "| what | cases | {} |", titles.join(" | "));
     let _ = writeln!(page, "|---|{}", "---:|".repeat(titles.len() + 1));

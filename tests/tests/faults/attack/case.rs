@@ -137,7 +137,10 @@ fn judge(status: Option<ExitStatus>, stderr: &str, folder: &Path) -> Outcome {
     if status.signal().is_some() {
         return Outcome::Killed;
     }
-    if stderr.chars().any(|c| c.is_control() && c != '\n' && c != '\t' || ('\u{202a}'..='\u{202e}').contains(&c)) {
+    if stderr
+        .chars()
+        .any(|c| c.is_control() && c != '\n' && c != '\t' || ('\u{202a}'..='\u{202e}').contains(&c))
+    {
         return Outcome::RawText;
     }
     let output = ["out.ply", "out.mcap", "out.png"].iter().map(|name| folder.join(name)).find(|f| f.exists());

@@ -34,7 +34,8 @@ const RUN: &[&str] = &[
     "stage-replay FILE -o out.mcap",
     "dem-run scene.toml --resume FILE --until 0.013 -o out.mcap",
 ];
-const WALLS: &[&str] = &["dem-run walls.toml FILE --until 0.001 -o out.mcap", "dem-view FILE -o out.png --size 64x64"];
+const WALLS: &[&str] =
+    &["dem-run walls.toml FILE --until 0.001 -o out.mcap", "dem-view FILE -o out.png --size 64x64"];
 const INLET: &[&str] = &["dem-run inlet.toml FILE --until 0.01 -o out.mcap"];
 const SCENE: &[&str] = &[
     "dem-run FILE --check",
@@ -48,14 +49,18 @@ const PRISM: &[&str] = &["cloud-crop ascii.ply --keep prism:FILE -o out.ply"];
 
 /// Samples of each format, and the calls that read them.
 fn formats() -> Vec<(&'static str, Vec<Sample>, &'static [&'static str])> {
-    let (mut clouds, meshes): (Vec<_>, Vec<_>) = samples::ply().into_iter().partition(|s| !s.0.contains("mesh"));
+    let (mut clouds, meshes): (Vec<_>, Vec<_>) =
+        samples::ply().into_iter().partition(|s| !s.0.contains("mesh"));
     let (mcap, texts) = (samples::mcap(), samples::texts());
     let of = |all: &[Sample], names: &[&str]| -> Vec<Sample> {
         all.iter().filter(|s| names.contains(&s.0)).cloned().collect()
     };
     let grains = [of(&texts, &["grains.csv"]), clouds.split_off(1), of(&mcap, &["run.mcap"])].concat();
     let mut meshes = meshes;
-    meshes.push(("mesh.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n".to_vec()));
+    meshes.push((
+        "mesh.obj",
+        b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n".to_vec(),
+    ));
     meshes.push(("mesh.stl", stl()));
     vec![
         ("PLY clouds", samples::ply().into_iter().filter(|s| !s.0.contains("mesh")).collect(), CLOUD),
@@ -93,7 +98,8 @@ pub fn others() -> Vec<(String, Vec<u8>)> {
     let scene = samples::scene();
     let cut = |text: &str, from: &str, to: &str| -> String {
         let start = text.find(from).unwrap_or(text.len());
-        let end = if to.is_empty() { text.len() } else { text[start..].find(to).map_or(text.len(), |k| start + k) };
+        let end =
+            if to.is_empty() { text.len() } else { text[start..].find(to).map_or(text.len(), |k| start + k) };
         text[..start].to_owned() + &text[end..]
     };
     let no_outlet = cut(&scene, "[[outlet]]", "");

@@ -13,7 +13,12 @@ use std::time::{Duration, Instant};
 
 /// Pipes; the last program writes `out`.
 const PIPES: &[&[&str]] = &[
-    &["cloud-crop cloud.xyz --keep box:-9,-9,-9,9,9,9", "cloud-fill", "bluenoise-sample --spacing 0.02", "wallgen --roughness 0.001 -o out"],
+    &[
+        "cloud-crop cloud.xyz --keep box:-9,-9,-9,9,9,9",
+        "cloud-fill",
+        "bluenoise-sample --spacing 0.02",
+        "wallgen --roughness 0.001 -o out",
+    ],
     &["dem-run long.toml --threads 1", "stage-replay", "dem-run inlet.toml - --until 0.2 --threads 1 -o out"],
 ];
 

@@ -145,7 +145,14 @@ fn records(bytes: &[u8], rng: &mut Pcg64Mcg) -> (Vec<u8>, String) {
         (0..times).for_each(|_| new.extend(&bytes[other.clone()]));
     }
     new.extend(&bytes[at..]);
-    (new, format!("record {k} (opcode {:#04x}) {}", bytes[found[k].start], ["dropped", "twice", "behind the next"][what]))
+    (
+        new,
+        format!(
+            "record {k} (opcode {:#04x}) {}",
+            bytes[found[k].start],
+            ["dropped", "twice", "behind the next"][what]
+        ),
+    )
 }
 
 /// Puts zeros, which mean "not taken", for the CRCs of an MCAP stream.

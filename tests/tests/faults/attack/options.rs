@@ -48,7 +48,8 @@ fn flags(name: &str) -> Vec<Flag> {
 /// All cases: tools × options × values.
 pub fn cases() -> Vec<Case> {
     let mut shared = files::others();
-    shared.push(("run.mcap".into(), samples::mcap().into_iter().find(|s| s.0 == "run.mcap").expect("a run").1));
+    shared
+        .push(("run.mcap".into(), samples::mcap().into_iter().find(|s| s.0 == "run.mcap").expect("a run").1));
     let mut cases = Vec::new();
     for (tool, call) in CALLS {
         for Flag { name, takes_value } in flags(tool) {

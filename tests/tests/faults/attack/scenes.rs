@@ -91,8 +91,15 @@ pub fn cases() -> Vec<Case> {
     let mut shared = files::others();
     shared.push(("all.toml".into(), SCENE.as_bytes().to_vec()));
     let one = |key: &str, value: &str| {
-        let args = ["all.toml".to_owned(), "--set".into(), format!("{key}={value}"), "-o".into(), "out.mcap".into()];
-        Case { group: "keys of scenes", tool: "dem-run", args: args.into(), files: shared.clone(), change: String::new() }
+        let args =
+            ["all.toml".to_owned(), "--set".into(), format!("{key}={value}"), "-o".into(), "out.mcap".into()];
+        Case {
+            group: "keys of scenes",
+            tool: "dem-run",
+            args: args.into(),
+            files: shared.clone(),
+            change: String::new(),
+        }
     };
     keys().iter().flat_map(|key| values::KEY.map(|value| one(key, value))).collect()
 }

@@ -1,0 +1,126 @@
+//! Planes and shapes of a scene: text as on the command line, or lists of numbers and texts with units.
+//!
+//! Both become the text of the command line, which has one parser.
+
+use super::unit::{KeyUnit, Seed};
+use geom::units;
+use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Visitor};
+use std::fmt;
+use std::marker::PhantomData;
+
+const METRES: KeyUnit = KeyUnit { unit: "m", such: "8 mm" };
+
+/// Numbers with commas.
+fn joined(numbers: &[f64]) -> String {
+    numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(",")
+}
+
+/// A text whose lengths with units are in metres; other parts stay as they are.
+fn in_metres(text: &str) -> String {
+    let (name, numbers) = match text.split_once(':') {
+        Some((name, numbers)) => (format!("{name}:"), numbers),
+        None => (String::new(), text),
+    };
+    let part = |part: &str| units::parse(part, "m").map_or_else(|_| part.to_owned(), |v| v.to_string());
+    name + &numbers.split(',').map(part).collect::<Vec<_>>().join(",")
+}
+
+/// Reads a plane: `px,py,pz,nx,ny,nz`, or six numbers.
+pub(super) fn plane<'de, D: Deserializer<'de>, T: From<String>>(from: D) -> Result<T, D::Error> {
+    from.deserialize_any(PlaneText).map(T::from)
+}
+
+struct PlaneText;
+
+impl<'de> Visitor<'de> for PlaneText {
+    type Value = String;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a plane: \"px,py,pz,nx,ny,nz\" or [px, py, pz, nx, ny, nz], a point [m] and the normal")
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<String, E> {
+        Ok(in_metres(text))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<String, A::Error> {
+        let mut numbers = Vec::new();
+        while let Some(number) = seq.next_element_seed(Seed::<f64>(METRES, PhantomData))? {
+            numbers.push(number);
+        }
+        match numbers.len() {
+            6 => Ok(joined(&numbers)),
+            n => Err(A::Error::invalid_length(n, &self)),
+        }
+    }
+}
+
+/// Reads a shape: `box:x0,y0,z0,x1,y1,z1`, `["box", x0, …]` or `{ box = [x0, …] }`.
+pub(super) fn shape<'de, D: Deserializer<'de>, T: From<String>>(from: D) -> Result<T, D::Error> {
+    from.deserialize_any(ShapeText).map(T::from)
+}
+
+struct ShapeText;
+
+impl<'de> Visitor<'de> for ShapeText {
+    type Value = String;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(
+            "a shape: \"box:0,0,0,1,1,1\", [\"box\", 0, 0, 0, 1, 1, 1] or { box = [0, 0, 0, 1, 1, 1] }",
+        )
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<String, E> {
+        Ok(in_metres(text))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<String, A::Error> {
+        let name: String = seq.next_element()?.ok_or_else(|| A::Error::invalid_length(0, &self))?;
+        let mut numbers = Vec::new();
+        while let Some(number) = seq.next_element_seed(Seed::<f64>(METRES, PhantomData))? {
+            numbers.push(number);
+        }
+        Ok(format!("{name}:{}", joined(&numbers)))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<String, A::Error> {
+        let name: String = map.next_key()?.ok_or_else(|| A::Error::invalid_length(0, &self))?;
+        let numbers = map.next_value_seed(Values)?;
+        match map.next_key::<String>()? {
+            None => Ok(format!("{name}:{numbers}")),
+            Some(other) => Err(A::Error::custom(format_args!("a shape has one name: '{name}' or '{other}'"))),
+        }
+    }
+}
+
+/// The numbers of a shape, or the file of one.
+struct Values;
+
+impl<'de> serde::de::DeserializeSeed<'de> for Values {
+    type Value = String;
+
+    fn deserialize<D: Deserializer<'de>>(self, from: D) -> Result<String, D::Error> {
+        from.deserialize_any(self)
+    }
+}
+
+impl<'de> Visitor<'de> for Values {
+    type Value = String;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("the numbers of a shape [m], or the name of its file")
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<String, E> {
+        Ok(in_metres(text))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<String, A::Error> {
+        let mut numbers = Vec::new();
+        while let Some(number) = seq.next_element_seed(Seed::<f64>(METRES, PhantomData))? {
+            numbers.push(number);
+        }
+        Ok(joined(&numbers))
+    }
+}
