@@ -1,6 +1,10 @@
 //! Refuses outputs that would replace an input of the same call, or each other.
 
-use crate::{Source, exit::usage};
+use crate::{
+    Source,
+    exit::usage,
+    target::{folder, target},
+};
 use clap::{Arg, ArgMatches, Command};
 use std::{
     path::{Path, PathBuf},
@@ -109,6 +113,6 @@ fn written(path: &Path) -> Option<PathBuf> {
     if path.exists() {
         return real(path);
     }
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    Some(folder.canonicalize().ok()?.join(path.file_name()?))
+    let target = target(path).ok()?;
+    Some(folder(&target).canonicalize().ok()?.join(target.file_name()?))
 }

@@ -3,11 +3,12 @@
 use crate::{
     exit::usage,
     part::{Keep, PartFile},
-    signals,
+    signals, stdout,
+    target::{folder, target},
 };
 use anyhow::Context;
 use std::{
-    fs::{self, File},
+    fs::{self, File, Metadata},
     io::{self, BufWriter, IsTerminal, Seek, SeekFrom, Write},
     path::{Path, PathBuf},
 };
@@ -145,8 +146,9 @@ pub struct OutputStream {
 }
 
 enum Sink {
-    /// Stdout, a device or a named pipe: bytes go out as they are written.
-    Direct(File),
+    /// Stdout, a device or a named pipe: bytes go out as they are written. `waits`: a reader may be waiting for them; not where stdout is
+    /// a file.
+    Direct { file: File, waits: bool },
     /// Beside the final name.
     Pending { part: PartFile, path: PathBuf },
 }
@@ -162,9 +164,14 @@ impl OutputStream {
     /// A closed stdout.
     pub fn stdout() -> anyhow::Result<OutputStream> {
         use std::os::fd::AsFd;
+        if stdout::is_closed() {
+            anyhow::bail!("stdout is closed, and the output would be lost: use -o FILE, a pipe, or > FILE");
+        }
         let stdout = io::stdout().as_fd().try_clone_to_owned().context("stdout: cannot open")?;
         widen(&stdout);
-        Ok(OutputStream::new(Sink::Direct(stdout.into()), "stdout".to_owned()))
+        let file = File::from(stdout);
+        let waits = !file.metadata().is_ok_and(|kind| kind.is_file());
+        Ok(OutputStream::new(Sink::Direct { file, waits }, "stdout".to_owned()))
     }
 
     /// A file that appears as `path` when it is committed.
@@ -179,18 +186,18 @@ impl OutputStream {
         let name = path.display().to_string();
         let failed = || format!("{name}: cannot create it (check that the folder exists and is writable)");
         // A link stays a link: its target is replaced. Devices and named pipes are written to, not replaced.
-        let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        let target = target(path).with_context(failed)?;
         match fs::metadata(&target) {
             Ok(kind) if kind.is_dir() => anyhow::bail!("{name}: is a folder: name a file in it"),
             Ok(kind) if !kind.is_file() => {
-                let device = File::options().write(true).open(&target).with_context(failed)?;
-                return Ok(OutputStream::new(Sink::Direct(device), name));
+                let file = File::options().write(true).open(&target).with_context(failed)?;
+                return Ok(OutputStream::new(Sink::Direct { file, waits: true }, name));
             }
-            _ => {}
+            found => dangling(path, &target, found.ok()),
         }
-        let folder = target.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let stem = target.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let part = signals::removed_on_signal(|| part(folder, &stem)).with_context(failed)?;
+        let part = signals::removed_on_signal(|| part(folder(&target), &stem))
+            .with_context(|| link(path, &target, failed()))?;
         Ok(OutputStream::new(Sink::Pending { part, path: target }, name))
     }
 
@@ -203,7 +210,7 @@ impl OutputStream {
     pub fn keeper(&self) -> Keep {
         match self.sink.get_ref() {
             Sink::Pending { part, .. } => part.keeper(),
-            Sink::Direct(_) => Keep::default(),
+            Sink::Direct { .. } => Keep::default(),
         }
     }
 
@@ -211,20 +218,17 @@ impl OutputStream {
     pub fn part(&self) -> Option<&Path> {
         match self.sink.get_ref() {
             Sink::Pending { part, .. } => part.path(),
-            Sink::Direct(_) => None,
+            Sink::Direct { .. } => None,
         }
     }
 
-    /// Whether bytes go out as they are written, so that a reader may be waiting for them.
-    pub fn is_stream(&self) -> bool {
-        matches!(self.sink.get_ref(), Sink::Direct(_))
-    }
-
-    /// How an MCAP stream is written to it: packed, in place, in a file; not packed to a reader that waits.
+    /// How an MCAP stream is written to it: packed into a file, whether it is named or stdout (the bytes are the same), and not packed to a
+    /// reader that waits. A file that is stdout is not sought in: it may be appended to.
     pub fn how(&self) -> mcap::StreamOptions<OutputStream> {
-        match self.is_stream() {
-            true => mcap::Compression::None.into(),
-            false => mcap::StreamOptions {
+        match self.sink.get_ref() {
+            Sink::Direct { waits: true, .. } => mcap::Compression::None.into(),
+            Sink::Direct { waits: false, .. } => mcap::Compression::Zstd.into(),
+            Sink::Pending { .. } => mcap::StreamOptions {
                 compression: mcap::Compression::Zstd,
                 seeks: Some(|out, to| out.sink.seek(to)),
             },
@@ -240,22 +244,48 @@ impl OutputStream {
         let mut sink = self.sink.into_inner().map_err(|e| e.into_error()).with_context(|| name.clone())?;
         sink.flush().with_context(|| name.clone())?;
         if let Sink::Pending { part, path } = sink {
-            part.rename(&path).with_context(|| format!("{name}: cannot rename to it"))?;
+            let warning = part.rename(&path).with_context(|| format!("{name}: cannot give it its name"))?;
+            warning.iter().for_each(|warning| crate::warn(&format!("{name}: {warning}")));
         }
         Ok(())
+    }
+}
+
+/// Warns of a link whose target does not exist: it is created where the link points.
+fn dangling(path: &Path, target: &Path, found: Option<Metadata>) {
+    if found.is_none() && path.is_symlink() {
+        let (path, target) = (path.display(), target.display());
+        crate::warn(&format!("{path} is a link to {target}, which does not exist: it is created there"));
+    }
+}
+
+/// What failed at the target of a link, or at the path itself.
+fn link(path: &Path, target: &Path, failed: String) -> String {
+    if path.is_symlink() { format!("{failed}; it is a link to {}", target.display()) } else { failed }
+}
+
+/// A limit on the size of files is not a full disk.
+fn explained(error: io::Error) -> io::Error {
+    match error.kind() {
+        io::ErrorKind::FileTooLarge => {
+            let text = "the file has the largest size that is allowed here (ulimit -f, or the file system)";
+            io::Error::new(error.kind(), text)
+        }
+        _ => error,
     }
 }
 
 impl Write for Sink {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match self {
-            Sink::Direct(file) => file.write(bytes),
+            Sink::Direct { file, .. } => file.write(bytes),
             Sink::Pending { part, .. } => part.file()?.write(bytes),
         }
+        .map_err(explained)
     }
     fn flush(&mut self) -> io::Result<()> {
         match self {
-            Sink::Direct(file) => file.flush(),
+            Sink::Direct { file, .. } => file.flush(),
             Sink::Pending { part, .. } => part.file()?.flush(),
         }
     }
@@ -264,7 +294,7 @@ impl Write for Sink {
 impl Seek for Sink {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
         match self {
-            Sink::Direct(file) => file.seek(to),
+            Sink::Direct { file, .. } => file.seek(to),
             Sink::Pending { part, .. } => part.file()?.seek(to),
         }
     }

@@ -4,8 +4,11 @@
 //! which stays if the run is killed or fails after a while. A part file is locked as long as its tool runs. This separates a
 //! leftover part from one that is being written.
 
+use crate::target::target;
 use std::{
-    fs::{self, File, TryLockError},
+    error::Error,
+    fmt,
+    fs::{self, File, Metadata, TryLockError},
     io,
     path::{Path, PathBuf},
     sync::{
@@ -83,18 +86,74 @@ impl PartFile {
         Ok(temp.as_file_mut())
     }
 
-    /// Gives it its name. One that is worth keeping is on the disk before: a name must not survive what it names.
-    pub(crate) fn rename(mut self, path: &Path) -> io::Result<()> {
-        let temp = self.temp.take().ok_or(io::ErrorKind::NotConnected)?;
-        if self.keep.kept() {
-            temp.as_file().sync_all()?;
+    /// Gives it its name, and the mode and owner of the file that it replaces. One that is worth keeping is on the disk before: a name must
+    /// not survive what it names. Gives a warning about an owner or a mode that could not be kept.
+    pub(crate) fn rename(mut self, path: &Path) -> anyhow::Result<Option<String>> {
+        let kept = self.keep.kept();
+        let file = self.file()?;
+        if kept {
+            file.sync_all()?;
         }
-        temp.persist(path).map_err(|mut e| {
-            e.file.disable_cleanup(self.keep.kept());
-            e.error
-        })?;
-        Ok(())
+        let old = fs::metadata(path).ok().filter(Metadata::is_file);
+        let warning = old.and_then(|old| take_after(file, &old).err());
+        let temp = self.temp.take().ok_or_else(|| io::Error::from(io::ErrorKind::NotConnected))?;
+        let part = temp.path().to_owned();
+        match temp.persist(path) {
+            Ok(_) => Ok(warning),
+            Err(mut failed) if kept => {
+                failed.file.disable_cleanup(true);
+                Err(NotRenamed { part, path: path.to_owned(), source: failed.error }.into())
+            }
+            Err(failed) => Err(failed.error.into()),
+        }
     }
+}
+
+/// A complete output that could not be given its name.
+#[derive(Debug)]
+pub struct NotRenamed {
+    part: PathBuf,
+    path: PathBuf,
+    source: io::Error,
+}
+
+impl fmt::Display for NotRenamed {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let (part, path) = (self.part.display(), self.path.display());
+        write!(f, "{part} is complete, but cannot be renamed to {path}: rename it yourself, nothing is lost")
+    }
+}
+
+impl Error for NotRenamed {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        Some(&self.source)
+    }
+}
+
+/// Gives a file the owner and the mode of the one that it replaces.
+#[cfg(unix)]
+fn take_after(file: &File, old: &Metadata) -> Result<(), String> {
+    use std::os::unix::fs::{MetadataExt, PermissionsExt, fchown};
+    let (owner, mode) = (|m: &Metadata| [m.uid(), m.gid()], old.mode() & 0o777);
+    let new = file.metadata().map_err(|e| e.to_string())?;
+    let mut lost = None;
+    if owner(&new) != owner(old) && fchown(file, Some(old.uid()), Some(old.gid())).is_err() {
+        // Only root gives a file away, but a user has several groups.
+        let _ = fchown(file, None, Some(old.gid()));
+        lost = Some(format!(
+            "it was of user {} and group {} before, and this could not be kept",
+            old.uid(),
+            old.gid()
+        ));
+    }
+    let set = file.set_permissions(fs::Permissions::from_mode(mode));
+    let lost = lost.or_else(|| set.err().map(|e| format!("its mode {mode:o} could not be kept: {e}")));
+    lost.map_or(Ok(()), Err)
+}
+
+#[cfg(not(unix))]
+fn take_after(file: &File, old: &Metadata) -> Result<(), String> {
+    file.set_permissions(old.permissions()).map_err(|e| format!("its permissions could not be kept: {e}"))
 }
 
 impl Drop for PartFile {
@@ -120,16 +179,18 @@ fn name(stem: &str, number: usize) -> String {
     if number == 1 { format!("{stem}.{ENDING}") } else { format!("{stem}.{number}.{ENDING}") }
 }
 
-/// Parts of an output, and whether a living tool writes them; the others were left by killed ones.
+/// Parts of an output, and whether a living tool writes them; the others were left by killed ones. Those of a link lie beside its target.
 pub fn parts_of(output: &Path) -> Vec<(PathBuf, bool)> {
+    let output =
+        if output.is_symlink() { &target(output).unwrap_or_else(|_| output.to_owned()) } else { output };
     let Some(stem) = output.file_name() else { return Vec::new() };
     let stem = stem.to_string_lossy();
     let paths = (1..=MOST).map(|number| output.with_file_name(name(&stem, number)));
     paths.filter(|path| path.is_file()).map(|path| (path.clone(), is_written(&path))).collect()
 }
 
-/// Whether a living tool writes this file.
-fn is_written(path: &Path) -> bool {
+/// Whether a living tool writes this unfinished output.
+pub fn is_written(path: &Path) -> bool {
     let Ok(file) = File::open(path) else { return false };
     // A shared lock is given back at once, with the file.
     matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock))

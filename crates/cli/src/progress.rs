@@ -31,7 +31,7 @@ impl Progress {
 
     /// Says where the work is.
     pub fn say(&self, words: String) {
-        self.0.set_message(words);
+        self.0.set_message(crate::escaped(&words).into_owned());
     }
 
     /// Says that `more` steps were done.

@@ -5,12 +5,15 @@ use crate::{
     clash::{self, OUTPUTS},
     exit::{self, code, one_line, reader_closed_the_pipe},
     output::OutputStream,
+    signals,
+    stderr::{say, say_lines},
+    stdout,
 };
 use anyhow::Context;
 use clap::{ArgMatches, Args as _, Command, FromArgMatches as _, builder::Resettable, parser::ValueSource};
 use serde_json::{Map, Value, json};
 use std::{
-    io::Write,
+    io::{ErrorKind, Write},
     num::NonZeroUsize,
     path::{Path, PathBuf},
     process::ExitCode,
@@ -58,13 +61,8 @@ pub fn quiet() -> bool {
 /// Prints a warning on stderr, unless `-q` was given.
 pub fn warn(message: &str) {
     if let Some(i) = INVOCATION.get().filter(|i| !i.quiet) {
-        say(&format!("{}: warning: {message}\n", i.tool));
+        say(&format!("{}: warning: {message}", i.tool));
     }
-}
-
-/// In one write: the tools of a pipe print at the same time, and stderr is not buffered.
-fn say(text: &str) {
-    let _ = std::io::stderr().write_all(text.as_bytes());
 }
 
 /// The arguments that can change the result, in one spelling: `--radius=solve`.
@@ -86,6 +84,7 @@ pub fn provenance(inputs: Vec<(String, String)>) -> Provenance {
 /// Parses the arguments, runs `work`, reports, and turns every outcome into an exit code.
 pub fn run<A: clap::Parser>(name: &'static str, work: impl FnOnce(A) -> anyhow::Result<Report>) -> ExitCode {
     let start = Instant::now();
+    signals::size_limit_is_an_error();
     let print = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
         if !cloud::formats::panics_become_errors() {
@@ -114,7 +113,7 @@ pub fn run<A: clap::Parser>(name: &'static str, work: impl FnOnce(A) -> anyhow::
         let _ = tell(name, report, &common, start);
     }
     if !reader_closed_the_pipe(&error) {
-        say(&format!("{name}: {}\n", one_line(&error)));
+        say(&format!("{name}: {}", one_line(&error)));
     }
     ExitCode::from(code(&error))
 }
@@ -155,23 +154,46 @@ const PLAIN: [(&str, &str); 5] = [
 /// Ends the tool: help and version as they are, wrong usage with the tool's name, which a pipe of several needs.
 fn refuse(name: &str, error: &clap::Error) -> ! {
     if !error.use_stderr() {
-        error.exit();
+        help(name, error);
     }
     let mut text = error.render().to_string();
     for (program, people) in PLAIN {
         text = text.replace(program, people);
     }
-    say(&format!("{name}: {}", text.strip_prefix("error: ").unwrap_or(&text)));
+    say_lines(&format!("{name}: {}", text.strip_prefix("error: ").unwrap_or(&text)));
     std::process::exit(i32::from(exit::USAGE))
 }
+
+/// Prints help or version and ends the tool.
+fn help(name: &str, error: &clap::Error) -> ! {
+    let printed = if stdout::is_closed() { Err(ErrorKind::NotConnected.into()) } else { error.print() };
+    let failed = printed.err().filter(|e| e.kind() != ErrorKind::BrokenPipe);
+    if failed.is_some() {
+        say(&format!("{name}: stdout is closed or cannot be written to"));
+    }
+    std::process::exit(i32::from(failed.is_some()))
+}
+
+/// Threads that are always allowed, also on a small machine; more than these and [`SHARE`] for each core only wait for each other.
+const ENOUGH: usize = 64;
+/// Threads for each core.
+const SHARE: usize = 4;
 
 /// The calling thread is one of them, so that no work is handed to others and back. It follows that threads which a tool starts itself
 /// must not wait for work of this pool while the main thread waits for them.
 fn set_threads(common: &Common) -> anyhow::Result<()> {
-    let threads = common.threads.map_or(0, NonZeroUsize::get);
-    if threads > MOST_THREADS {
-        return Err(exit::usage(format!("--threads {threads}: give at most {MOST_THREADS}")));
+    let given = common.threads.map_or(0, NonZeroUsize::get);
+    if given > MOST_THREADS {
+        return Err(exit::usage(format!("--threads {given}: give at most {MOST_THREADS}")));
     }
+    let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+    let most = ENOUGH.max(SHARE * cores);
+    if given > most {
+        warn(&format!(
+            "--threads {given}: {most} threads are used: this machine has {cores} cores, and more only wait"
+        ));
+    }
+    let threads = given.min(most);
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .use_current_thread()
@@ -214,7 +236,7 @@ fn tell(name: &str, report: &Report, common: &Common, start: Instant) -> anyhow:
         write_report(path, name, report, start).context("--report")?;
     }
     if !common.quiet && !report.summary.is_empty() {
-        say(&format!("{name}: {}\n", report.summary));
+        say(&format!("{name}: {}", report.summary));
     }
     Ok(())
 }

@@ -5,7 +5,8 @@
 
 use crate::part::{Keep, PartFile};
 use signal_hook::{
-    consts::{SIGHUP, SIGINT, SIGTERM, TERM_SIGNALS},
+    consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ, TERM_SIGNALS},
+    flag,
     iterator::Signals,
     low_level::emulate_default_handler,
 };
@@ -13,7 +14,7 @@ use std::{
     io,
     path::PathBuf,
     sync::{
-        Mutex, Once, PoisonError,
+        Arc, Mutex, Once, PoisonError,
         atomic::{AtomicBool, Ordering::SeqCst},
     },
 };
@@ -24,6 +25,12 @@ static LISTEN: Once = Once::new();
 static ORDERLY: AtomicBool = AtomicBool::new(false);
 /// Whether a signal asked it to.
 static STOP: AtomicBool = AtomicBool::new(false);
+
+/// From now on, a file that reaches the limit on sizes (`ulimit -f`) is an error of the write; the signal would kill the tool.
+pub(crate) fn size_limit_is_an_error() {
+    // Without it the tool is killed, as before.
+    let _ = flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false)));
+}
 
 /// From now on, the first SIGINT, SIGTERM or SIGHUP only makes [`stop_requested`] true.
 pub fn stop_in_order() {

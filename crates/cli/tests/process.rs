@@ -18,13 +18,19 @@ fn main() -> ExitCode {
     if std::env::var_os(tool::SWITCH).is_some() {
         return tool::main();
     }
-    let tests: [(&str, Test); 12] = [
+    let tests: [(&str, Test); 18] = [
         ("a file appears when it is whole, with ordinary permissions", a_file_appears_when_it_is_whole),
         ("a failed tool leaves the old file and nothing else", a_failed_tool_leaves_the_old_file),
         ("a panic leaves nothing", a_panic_leaves_nothing),
         ("a signal leaves nothing", a_signal_leaves_nothing),
         ("links stay links, devices and pipes stay what they are", links_and_pipes_stay),
+        ("a link without a target stays, and its target is created", a_dangling_link_stays),
+        ("a file that is replaced keeps its mode and owner", a_replaced_file_keeps_its_mode),
+        ("a limit on the size of files is an error", a_size_limit_is_an_error),
         ("a closed pipe is no failure", a_closed_pipe_is_no_failure),
+        ("a closed stdout is a failure", a_closed_stdout_is_a_failure),
+        ("names cannot steer the terminal", names_cannot_steer_the_terminal),
+        ("more threads than a machine can use are not started", too_many_threads_are_not_started),
         ("wrong usage is exit 2", wrong_usage_is_exit_2),
         ("a guard's stop is exit 3, with output and report", a_stop_is_exit_3),
         ("a missing input names the tool, the file and the cure", a_missing_input_is_named),
@@ -149,6 +155,94 @@ fn a_closed_pipe_is_no_failure(folder: &Path) {
     child.stdout.take().unwrap().read_exact(&mut first).unwrap();
     let out = child.wait_with_output().unwrap();
     assert_eq!((out.status.code(), text(&out.stderr)), (Some(0), String::new()));
+}
+
+/// Runs the tool as a shell starts it after a command.
+fn in_shell(folder: &Path, before: &str, redirect: &str, arguments: &[&str]) -> Output {
+    Command::new("sh")
+        .args(["-c", &format!("{before} exec \"$0\" \"$@\" {redirect}")])
+        .arg(std::env::current_exe().unwrap())
+        .args(arguments)
+        .env(tool::SWITCH, "1")
+        .current_dir(folder)
+        .output()
+        .unwrap()
+}
+
+fn a_dangling_link_stays(folder: &Path) {
+    std::os::unix::fs::symlink("gone", folder.join("link")).unwrap();
+    let out = run(folder, &["write", "-o", "link"]);
+    assert!(out.status.success(), "{}", text(&out.stderr));
+    assert!(
+        text(&out.stderr).contains("link is a link to ./gone, which does not exist"),
+        "{}",
+        text(&out.stderr)
+    );
+    assert!(folder.join("link").is_symlink() && fs::read(folder.join("gone")).unwrap().len() == 1_000_000);
+    std::os::unix::fs::symlink("no/such/file", folder.join("lost")).unwrap();
+    let out = run(folder, &["write", "-o", "lost"]);
+    assert!(text(&out.stderr).contains("it is a link to ./no/such/file"), "{}", text(&out.stderr));
+    std::os::unix::fs::symlink("circle", folder.join("circle")).unwrap();
+    let out = run(folder, &["write", "-o", "circle"]);
+    assert!(out.status.code() == Some(1) && text(&out.stderr).contains("circle"), "{}", text(&out.stderr));
+}
+
+fn a_replaced_file_keeps_its_mode(folder: &Path) {
+    use std::os::unix::fs::{MetadataExt, PermissionsExt, chown};
+    let path = folder.join("out.bin");
+    fs::write(&path, "old").unwrap();
+    fs::set_permissions(&path, fs::Permissions::from_mode(0o604)).unwrap();
+    // Only root can give a file away.
+    let other = chown(&path, Some(12_345), Some(23_456)).is_ok();
+    assert!(run(folder, &["write", "-o", "out.bin"]).status.success());
+    let new = fs::metadata(&path).unwrap();
+    assert_eq!((new.len(), new.mode() & 0o777), (1_000_000, 0o604));
+    assert!(!other || (new.uid(), new.gid()) == (12_345, 23_456), "{} {}", new.uid(), new.gid());
+}
+
+fn a_size_limit_is_an_error(folder: &Path) {
+    let out = in_shell(folder, "ulimit -f 100;", "", &["write", "-o", "out.bin"]);
+    assert_eq!((out.status.code(), names(folder)), (Some(1), vec![]), "{}", text(&out.stderr));
+    assert!(
+        text(&out.stderr).contains("largest size that is allowed here (ulimit -f"),
+        "{}",
+        text(&out.stderr)
+    );
+    let out = in_shell(folder, "ulimit -f 100;", "> out.bin", &["write"]);
+    assert!(out.status.code() == Some(1) && text(&out.stderr).contains("ulimit -f"), "{}", text(&out.stderr));
+}
+
+fn a_closed_stdout_is_a_failure(folder: &Path) {
+    for arguments in [&["write"][..], &["--help"], &["--version"]] {
+        let out = in_shell(folder, "", ">&-", arguments);
+        let said = text(&out.stderr);
+        assert!(out.status.code() == Some(1) && said.starts_with("cloud-test: stdout is closed"), "{said}");
+    }
+    let out = in_shell(folder, "", ">&-", &["write", "-o", "out.bin"]);
+    assert!(out.status.success() && names(folder) == ["out.bin"], "{}", text(&out.stderr));
+    assert!(in_shell(folder, "", "> /dev/null", &["write"]).status.success());
+    // What other programs give for nothing: /dev/null to read and write.
+    assert!(in_shell(folder, "", "1<> /dev/null", &["write"]).status.success());
+}
+
+fn names_cannot_steer_the_terminal(folder: &Path) {
+    for arguments in [["copy", "no\u{1b}[31mne\u{202e}\u{7}.ply"], ["copy", "--no\u{1b}[31m\u{202e}\u{7}"]] {
+        let out = run(folder, &arguments);
+        let said = text(&out.stderr);
+        assert!(said.contains("\\u{1b}[31m") && said.contains("\\u{202e}\\u{7}"), "{said:?}");
+        assert!(said.chars().all(|c| c == '\n' || !c.is_control() && c != '\u{202e}'), "{said:?}");
+    }
+}
+
+fn too_many_threads_are_not_started(folder: &Path) {
+    fs::write(folder.join("in.ply"), CLOUD).unwrap();
+    let out = run(folder, &["copy", "in.ply", "-o", "out.ply", "--report", "r.json", "--threads", "4096"]);
+    let report: Value = serde_json::from_slice(&fs::read(folder.join("r.json")).unwrap()).unwrap();
+    let cores = std::thread::available_parallelism().unwrap().get() as u64;
+    let most = 64.max(4 * cores);
+    assert!(most >= 4096 || report["threads"] == most, "{report}");
+    let said = text(&out.stderr);
+    assert!(most >= 4096 || said.contains(&format!("--threads 4096: {most} threads are used")), "{said}");
 }
 
 fn wrong_usage_is_exit_2(folder: &Path) {

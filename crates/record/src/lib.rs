@@ -39,6 +39,9 @@ pub fn nanoseconds(time: f64) -> u64 {
     (time * 1e9).round() as u64
 }
 
+/// Latest time of a file [s]: its messages hold whole seconds in 32 bits.
+pub const LATEST: f64 = 4e9;
+
 /// JSON of what always is JSON: structs of numbers and text.
 pub fn json(value: &impl serde::Serialize) -> String {
     serde_json::to_string(value).unwrap_or_default()

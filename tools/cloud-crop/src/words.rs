@@ -47,10 +47,10 @@ pub fn summary(counts: &Cropped) -> String {
 pub fn parts(counts: &Cropped) {
     let Some(beyond) = counts.beyond.as_ref().filter(|_| !cli::quiet()) else { return };
     for (number, part) in (1..).zip(beyond.parts.iter().take(TOLD)) {
-        eprintln!("cloud-crop: part {number}: {}", told(part));
+        cli::say(&format!("cloud-crop: part {number}: {}", told(part)));
     }
     if beyond.parts.len() > TOLD {
-        eprintln!("cloud-crop: and {} smaller parts, see --report", beyond.parts.len() - TOLD);
+        cli::say(&format!("cloud-crop: and {} smaller parts, see --report", beyond.parts.len() - TOLD));
     }
 }
 

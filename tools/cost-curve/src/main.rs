@@ -89,7 +89,7 @@ fn publish(args: &Args, judged: &Judged) -> anyhow::Result<()> {
         write(file, report::markdown(judged, &words).as_bytes())?;
     }
     if !cli::quiet() {
-        words.iter().for_each(|line| eprintln!("{line}"));
+        words.iter().for_each(|line| cli::say(line));
     }
     Ok(())
 }

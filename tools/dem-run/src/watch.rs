@@ -62,7 +62,7 @@ impl Watch {
         };
         self.before = (progress.step, elapsed);
         if let Ok(line) = serde_json::to_string(&line) {
-            eprintln!("{line}");
+            cli::say(&line);
         }
     }
 }
