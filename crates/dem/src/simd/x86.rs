@@ -35,7 +35,7 @@ macro_rules! operators {
             type Output = $t;
             #[inline(always)]
             fn neg(self) -> $t {
-                // SAFETY: see the module's head. Flips the sign bit, as scalar negation does.
+                // SAFETY: registers only: `self` was made where the processor has the width of its type. Flips the sign bit, as scalar negation does.
                 $t(unsafe { $xor(self.0, $set(-0.0)) })
             }
         }
@@ -45,7 +45,7 @@ macro_rules! operators {
             type Output = $t;
             #[inline(always)]
             fn $f(self, o: $t) -> $t {
-                // SAFETY: see the module's head.
+                // SAFETY: registers only: both operands were made where the processor has the width of their type.
                 $t(unsafe { $op(self.0, o.0) })
             }
         }
@@ -73,7 +73,7 @@ macro_rules! doubles {
         }
         #[inline(always)]
         fn splat(x: f64) -> $t {
-            // SAFETY: see the module's head.
+            // SAFETY: registers only: this is inlined into kernels of its width, which are called after asking the processor.
             $t(unsafe { $set(x) })
         }
         #[inline(always)]
@@ -90,17 +90,17 @@ macro_rules! doubles {
         }
         #[inline(always)]
         fn sqrt(self) -> $t {
-            // SAFETY: see the module's head.
+            // SAFETY: registers only: `self` was made where the processor has the width of its type.
             $t(unsafe { $sqrt(self.0) })
         }
         #[inline(always)]
         fn min(self, o: $t) -> $t {
-            // SAFETY: see the module's head.
+            // SAFETY: registers only: both operands were made where the processor has the width of their type.
             $t(unsafe { $min(self.0, o.0) })
         }
         #[inline(always)]
         fn max(self, o: $t) -> $t {
-            // SAFETY: see the module's head.
+            // SAFETY: registers only: both operands were made where the processor has the width of their type.
             $t(unsafe { $max(self.0, o.0) })
         }
     };
@@ -115,7 +115,7 @@ fn first<'a, const N: usize, T>(table: &'a [T], indices: Indices<'a>) -> (&'a [u
 
 #[inline(always)]
 fn transpose4(r: [__m256d; 4]) -> [__m256d; 4] {
-    // SAFETY: see the module's head.
+    // SAFETY: registers only: the rows were loaded where the processor has AVX2.
     unsafe {
         let a = _mm256_unpacklo_pd(r[0], r[1]);
         let b = _mm256_unpackhi_pd(r[0], r[1]);
@@ -132,7 +132,7 @@ fn transpose4(r: [__m256d; 4]) -> [__m256d; 4] {
 
 #[inline(always)]
 fn transpose8(r: [__m512d; 8]) -> [__m512d; 8] {
-    // SAFETY: see the module's head.
+    // SAFETY: registers only: the rows were loaded where the processor has AVX-512.
     unsafe {
         let lo = |a, b| _mm512_unpacklo_pd(a, b);
         let hi = |a, b| _mm512_unpackhi_pd(a, b);
@@ -179,22 +179,22 @@ impl Lane for X4 {
 
     #[inline(always)]
     fn gt(self, o: X4) -> __m256d {
-        // SAFETY: see the module's head.
+        // SAFETY: registers only: an X4 is made only where the processor has AVX2.
         unsafe { _mm256_cmp_pd::<_CMP_GT_OQ>(self.0, o.0) }
     }
     #[inline(always)]
     fn select(mask: __m256d, yes: X4, no: X4) -> X4 {
-        // SAFETY: see the module's head.
+        // SAFETY: registers only: the mask comes from a comparison of this width.
         X4(unsafe { _mm256_blendv_pd(no.0, yes.0, mask) })
     }
     #[inline(always)]
     fn both(a: __m256d, b: __m256d) -> __m256d {
-        // SAFETY: see the module's head.
+        // SAFETY: registers only: both masks come from comparisons of this width.
         unsafe { _mm256_and_pd(a, b) }
     }
     #[inline(always)]
     fn any(mask: __m256d) -> bool {
-        // SAFETY: see the module's head.
+        // SAFETY: registers only: the mask comes from a comparison of this width.
         unsafe { _mm256_movemask_pd(mask) != 0 }
     }
     #[inline(always)]
@@ -247,12 +247,12 @@ impl Lane for X8 {
 
     #[inline(always)]
     fn gt(self, o: X8) -> __mmask8 {
-        // SAFETY: see the module's head.
+        // SAFETY: registers only: an X8 is made only where the processor has AVX-512.
         unsafe { _mm512_cmp_pd_mask::<_CMP_GT_OQ>(self.0, o.0) }
     }
     #[inline(always)]
     fn select(mask: __mmask8, yes: X8, no: X8) -> X8 {
-        // SAFETY: see the module's head.
+        // SAFETY: registers only: the mask comes from a comparison of this width.
         X8(unsafe { _mm512_mask_blend_pd(mask, no.0, yes.0) })
     }
     #[inline(always)]
@@ -273,7 +273,7 @@ impl Lane for X8 {
     #[inline(always)]
     fn rows4(table: &[Row4], indices: Indices) -> [X8; 4] {
         let (a, b) = (X4::rows4(table, indices), X4::rows4(table, indices.from(4)));
-        // SAFETY: see the module's head.
+        // SAFETY: registers only: this is inlined into kernels for AVX-512, which are called after asking the processor.
         let join = |k: usize| unsafe { X8(_mm512_insertf64x4::<1>(_mm512_castpd256_pd512(a[k].0), b[k].0)) };
         [join(0), join(1), join(2), join(3)]
     }
@@ -286,7 +286,7 @@ impl Lane for X8 {
     }
     #[inline(always)]
     fn store_rows4(c: [X8; 4], to: &mut [f64]) {
-        // SAFETY: see the module's head.
+        // SAFETY: registers only: an X8 is made only where the processor has AVX-512.
         let half = |x: X8| unsafe { (X4(_mm512_castpd512_pd256(x.0)), X4(_mm512_extractf64x4_pd::<1>(x.0))) };
         let (a, b) = (c.map(|x| half(x).0), c.map(|x| half(x).1));
         X4::store_rows4(a, to);
