@@ -16,12 +16,21 @@ impl Check<'_> {
         let key = |k: &str| format!("{entry}.{k}");
         let given = Given { material: &f.material, diameter: f.diameter, clump: &f.clump, scale: f.scale };
         self.particle(entry, &given)?;
-        self.positive(&key("mass"), f.mass, "kg")?;
-        if f.count == Some(0) {
-            return Err(self.wrong(&key("count"), "0", "no particle is asked for", "give at least 1"));
-        }
+        self.amount(entry, f.mass, f.count)?;
         self.one_of(entry, &[("mass", f.mass.is_some()), ("count", f.count.is_some())])?;
         self.finite(&key("velocity"), &f.velocity, "m/s")
+    }
+
+    /// `mass` and `count`, where they are given.
+    fn amount(&self, entry: &str, mass: Option<f64>, count: Option<u64>) -> Result<()> {
+        self.positive(&format!("{entry}.mass"), mass, "kg")?;
+        match count {
+            Some(0) => {
+                let (key, cure) = (format!("{entry}.count"), "give at least 1");
+                Err(self.wrong(&key, "0", "no particle is asked for", cure))
+            }
+            _ => Ok(()),
+        }
     }
 
     fn insert(&self, entry: &str, f: &Insert) -> Result<()> {
@@ -31,6 +40,10 @@ impl Check<'_> {
         self.positive(&key("rate"), f.rate, "kg/s")?;
         self.positive(&key("rate_count"), f.rate_count, "1/s")?;
         self.one_of(entry, &[("rate", f.rate.is_some()), ("rate_count", f.rate_count.is_some())])?;
+        self.amount(entry, f.mass, f.count)?;
+        if f.mass.is_some() && f.count.is_some() {
+            self.one_of(entry, &[("mass", true), ("count", true)])?;
+        }
         self.finite(&key("velocity"), &f.velocity, "m/s")?;
         self.within(&key("from"), f.from, 0.0, f64::MAX, "s")?;
         self.until(&key("until"), f.until, f.from)

@@ -162,6 +162,10 @@ pub struct Insert {
     /// When it closes [s]; absent: never.
     #[serde(default, deserialize_with = "unit::seconds")]
     pub until: Option<f64>,
+    /// Mass after which it closes [kg]; absent: none.
+    pub mass: Option<f64>,
+    /// Number after which it closes; absent: none.
+    pub count: Option<u64>,
     /// Seed of the random numbers.
     #[serde(default)]
     pub seed: u64,

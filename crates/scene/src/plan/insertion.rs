@@ -7,6 +7,7 @@
 use super::builder::PlanBuilder;
 use super::random::{diameter, generator, orientation};
 use super::section::Section;
+use super::total::Total;
 use crate::check::Check;
 use crate::error::{Result, SceneError};
 use crate::keys::{Diameter, Insert};
@@ -31,6 +32,7 @@ pub struct Insertion {
     inserted: Inserted,
     rate: Rate,
     until: f64,
+    total: Total,
     time: f64,
     count: u32,
     first_id: u32,
@@ -118,6 +120,7 @@ impl PlanBuilder<'_> {
             inserted,
             rate: entry.rate.map_or(Rate::Count(entry.rate_count.unwrap_or(0.0)), Rate::Mass),
             until: entry.until.unwrap_or(f64::INFINITY),
+            total: Total::new(entry),
             time: entry.from,
             count: 0,
             first_id,
@@ -125,6 +128,10 @@ impl PlanBuilder<'_> {
             random: generator(entry.seed, 2, index as u64),
             recent: VecDeque::new(),
         };
+        if let (Some(mass), None) = (entry.mass, insertion.next_time()) {
+            let (value, cure) = (format!("{mass} kg"), "give more mass, or count");
+            return Err(check.wrong(&key("mass"), value, "is less than half a particle", cure));
+        }
         insertion.check_rate(check, index)?;
         Ok(insertion)
     }
@@ -175,7 +182,13 @@ impl Insertion {
 
     /// Time of the next particle [s]; `None` when the insertion has ended.
     pub fn next_time(&self) -> Option<f64> {
-        (self.time < self.until).then_some(self.time)
+        let next = || self.mass_of(diameter(self.inserted.diameter, &mut self.random.clone()) / 2.0);
+        (self.time < self.until && self.total.has_room(next)).then_some(self.time)
+    }
+
+    /// Mass of a particle of a radius [kg].
+    fn mass_of(&self, radius: f64) -> f64 {
+        volume(radius) * self.inserted.density
     }
 
     /// Particles that come until a time [s] since t = 0; members of clumps count one by one.
@@ -183,11 +196,12 @@ impl Insertion {
         let Diameter { low, high } = self.inserted.diameter;
         // The mean of d³ of diameters that are uniform between both.
         let mean = volume(0.5) * 0.25 * (low + high) * (low * low + high * high);
+        let mass = mean * self.inserted.density;
         let each = match self.rate {
-            Rate::Mass(rate) => rate / (mean * self.inserted.density),
+            Rate::Mass(rate) => rate / mass,
             Rate::Count(rate) => rate,
         };
-        let open = (self.until.min(end) - self.time).max(0.0);
+        let open = (self.until.min(end) - self.time).max(0.0).min(self.total.expected(mass) / each);
         let rate = each * f64::from(self.inserted.ids);
         // The number grows while the insertion is open and stays afterwards.
         let after = end - self.time - open;
@@ -210,8 +224,10 @@ impl Insertion {
             let why = format!("no room for a particle of diameter {size} m at {time} s");
             return Err(SceneError::file(&self.key, why, CURE));
         };
+        let mass = self.mass_of(radius);
+        self.total.add(mass);
         self.time += match self.rate {
-            Rate::Mass(rate) => volume(radius) * self.inserted.density / rate,
+            Rate::Mass(rate) => mass / rate,
             Rate::Count(rate) => 1.0 / rate,
         };
         let id = self.first_id.wrapping_add(self.count);
@@ -255,10 +271,14 @@ mod tests {
     use std::path::Path;
 
     fn insertion(rate: f64) -> Result<Insertion> {
+        inserted(rate, "until = 1")
+    }
+
+    fn inserted(rate: f64, end: &str) -> Result<Insertion> {
         let toml = format!(
             "[[material]]\nname = \"m\"\ndensity = 1000\nyoung = 1e6\npoisson = 0.3\n\
              [[insert]]\nmaterial = \"m\"\nshape = \"cylinder:0,0,1,0,0,1.03,0.05\"\ndiameter = [0.01, 0.02]\n\
-             velocity = [0, 0, -1]\nrate = {rate}\nuntil = 1"
+             velocity = [0, 0, -1]\nrate = {rate}\n{end}"
         );
         let scene = Scene::new("s", toml, &[], Path::new(""))?;
         let mut builder = PlanBuilder::new(&scene);
@@ -291,6 +311,30 @@ mod tests {
                     a.particle.position - b.particle.position - b.particle.velocity * (a.time - b.time);
                 assert!(apart.norm() >= a.particle.radius + b.particle.radius - 1e-12);
             }
+        }
+    }
+
+    fn all(mut insertion: Insertion) -> Vec<f64> {
+        std::iter::from_fn(|| insertion.next_entry().unwrap())
+            .map(|e| 1000.0 * volume(e.particle.radius))
+            .collect()
+    }
+
+    #[test]
+    fn an_insertion_ends_after_its_number_or_its_mass() {
+        assert_eq!(all(inserted(0.8, "count = 37").unwrap()).len(), 37);
+        let found = all(inserted(0.8, "mass = 0.2").unwrap());
+        let (mass, last) = (found.iter().sum::<f64>(), found[found.len() - 1]);
+        assert!((mass - 0.2).abs() <= 1000.0 * volume(0.01) / 2.0, "{mass} kg, the last {last} kg");
+        // Whichever end comes first.
+        assert!(all(inserted(0.8, "count = 1000000\nuntil = 0.05").unwrap()).len() < 50);
+        let expected = inserted(0.8, "mass = 0.2").unwrap().expected(10.0).all;
+        assert!((expected / found.len() as f64 - 1.0).abs() < 0.15, "{expected} of {}", found.len());
+        for (end, part) in
+            [("count = 0", "no particle"), ("mass = -1", "above 0"), ("mass = 1\ncount = 1", "only one")]
+        {
+            let message = inserted(0.8, end).unwrap_err().to_string();
+            assert!(message.contains(part), "{end}: {message}");
         }
     }
 

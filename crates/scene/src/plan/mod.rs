@@ -20,6 +20,7 @@ mod random;
 mod same_zone;
 mod section;
 mod setup;
+mod total;
 mod wall_contacts;
 mod walls;
 mod warnings;
