@@ -31,6 +31,11 @@ impl LogMessage {
         LogMessage { kind: STOPPED.to_owned(), text: text.to_owned(), time }
     }
 
+    /// The message of some bytes that says why the run was stopped, if they do.
+    pub fn stop(data: &[u8]) -> Option<LogMessage> {
+        serde_json::from_slice(data).ok().filter(LogMessage::is_stop)
+    }
+
     /// Whether it says that the run was stopped.
     pub fn is_stop(&self) -> bool {
         self.kind == STOPPED

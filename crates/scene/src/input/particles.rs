@@ -3,8 +3,9 @@
 use super::csv::csv;
 use crate::error::{Result, SceneError};
 use dem::setup::Particle;
+use geom::Shown;
 use record::column::{BODY, DIAMETER, ID, MATERIAL, POSITION, RADIUS, SPIN, VELOCITY};
-use record::{Columns, MaterialRecord, metadata, topic};
+use record::{Columns, LogMessage, MaterialRecord, metadata, topic};
 use std::path::Path;
 use stream::Table;
 use stream::mcap::{Event, Reader};
@@ -20,7 +21,7 @@ pub struct ParticleFile {
     pub materials: Vec<MaterialRecord>,
     /// SHA-256 of the columns.
     pub hash: String,
-    /// Warning about columns that are not used.
+    /// Warning about columns that are not used, or about a run that did not reach its end.
     pub warning: Option<String>,
 }
 
@@ -34,6 +35,8 @@ pub struct ParticleTable {
     pub materials: Vec<MaterialRecord>,
     /// Whether it is a run.
     pub is_run: bool,
+    /// Why that run was stopped before its end.
+    pub stopped: Option<LogMessage>,
 }
 
 impl ParticleTable {
@@ -48,7 +51,7 @@ impl ParticleTable {
             return last_frame(name, &bytes);
         }
         let table = if bytes.starts_with(b"ply") { vertices(&name, &bytes)? } else { csv(&name, &bytes)? };
-        Ok(ParticleTable { name, table, materials: Vec::new(), is_run: false })
+        Ok(ParticleTable { name, table, materials: Vec::new(), is_run: false, stopped: None })
     }
 
     /// Its columns as numbers.
@@ -78,7 +81,10 @@ impl ParticleTable {
         let warning = match self.table.rows() {
             0 => Some(format!("{}: holds no particle: it has names of columns and no row", self.name)),
             // A run has columns that are not read here.
-            _ if self.is_run => None,
+            _ if self.is_run => self.stopped.as_ref().map(|stop| {
+                let (name, time, text) = (&self.name, Shown(stop.time), &stop.text);
+                format!("{name}: the run was stopped at t = {time} s ({text}); its last frame is used all the same")
+            }),
             _ => columns.unused(&known()),
         };
         let hash = record::hash(&self.table);
@@ -116,18 +122,21 @@ fn vertices(name: &str, bytes: &[u8]) -> Result<Table> {
 }
 
 fn last_frame(name: String, bytes: &[u8]) -> Result<ParticleTable> {
-    let (mut frame, mut materials) = (None, Vec::new());
+    let (mut frame, mut materials, mut stopped) = (None, Vec::new(), None);
     for event in Reader::new(bytes) {
         match event.map_err(|e| SceneError::content(&name, "a run", e))? {
             Event::Metadata { name: record, map } if record == metadata::MATERIALS => {
                 materials = MaterialRecord::from_map(&name, &map)?;
             }
             Event::Points { topic, table, .. } if topic == topic::PARTICLES => frame = Some(table),
+            Event::Bytes { topic, data, .. } if topic == topic::LOG => {
+                stopped = LogMessage::stop(&data).or(stopped);
+            }
             _ => {}
         }
     }
     let none = || SceneError::file(&name, "has no message on /particles", "give a run that dem-run wrote");
-    Ok(ParticleTable { table: frame.ok_or_else(none)?, name, materials, is_run: true })
+    Ok(ParticleTable { table: frame.ok_or_else(none)?, name, materials, is_run: true, stopped })
 }
 
 #[cfg(test)]
@@ -136,7 +145,7 @@ mod tests {
 
     fn file(name: &str, text: &[u8]) -> Result<ParticleFile> {
         let (name, table) = (name.to_owned(), csv(name, text)?);
-        ParticleTable { name, table, materials: Vec::new(), is_run: false }.particles()
+        ParticleTable { name, table, materials: Vec::new(), is_run: false, stopped: None }.particles()
     }
 
     #[test]

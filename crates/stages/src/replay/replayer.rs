@@ -128,8 +128,7 @@ impl<'a, W: Write> Replayer<'a, W> {
                 Ok(self.over() || self.enough())
             }
             Event::Bytes { topic, data, .. } if topic == topic::LOG => {
-                let message = serde_json::from_slice::<LogMessage>(&data).ok();
-                self.stopped = self.stopped.take().or(message.filter(LogMessage::is_stop));
+                self.stopped = self.stopped.take().or_else(|| LogMessage::stop(&data));
                 Ok(false)
             }
             _ => Ok(false),

@@ -245,6 +245,8 @@ impl<R: Read> Reader<R> {
             Inner::BadMagic if self.messages == 0 && !self.ended => McapError::Magic,
             Inner::BytesAfterEndMagic => McapError::Trailing { byte: self.byte },
             Inner::Io(e) => McapError::Io(e),
+            // Its own words are a trace through the parser, in colours.
+            Inner::Parse(_) => self.malformed("a record does not have the fields of its kind"),
             other => McapError::Damaged { byte: self.byte, messages: self.messages, source: Box::new(other) },
         }
     }

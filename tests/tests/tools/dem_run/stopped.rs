@@ -154,3 +154,36 @@ fn a_run_that_was_stopped_gives_no_stage_downstream_that_looks_whole() {
     assert!(events.iter().any(|e| e.is_err()), "and has no end");
     succeed(folder.path(), "stage-replay", &["up.mcap", "--until", "0.11", "-o", "early.mcap"]);
 }
+
+/// The last frame of a run that a guard stopped is not its end: the next scene prints a warning.
+#[test]
+fn the_last_frame_of_a_stopped_run_is_taken_with_a_warning() {
+    let next = format!("{}[[particles]]\nsource = \"run.mcap\"\n{}", HEAD.toml(), HEAD.floor());
+    let folder = folder(&[("s.toml", poured()), ("next.toml", next)]);
+    let run =
+        |set: &[&str]| tool(folder.path(), "dem-run", &[&["s.toml", "-q", "-o", "run.mcap"], set].concat());
+    let next = || tool(folder.path(), "dem-run", &["next.toml", "--until", "0.001", "-o", "next.mcap"]);
+    assert_eq!(run(&["--set", "guards.overlap=1e-4"]).code, 3);
+    let done = next();
+    let warned =
+        done.stderr.contains("run.mcap: the run was stopped at t = ") && done.stderr.contains("overlap");
+    assert!(done.code == 0 && warned, "{}", done.stderr);
+    assert_eq!(run(&["--until", "0.02"]).code, 0);
+    assert!(!next().stderr.contains("was stopped"), "a run that reached its end is no reason");
+}
+
+/// The parser of records has errors in colours, with lines of its own source: none of that is shown.
+#[test]
+fn a_damaged_record_is_refused_in_one_plain_line() {
+    let folder = with(&poured());
+    succeed(folder.path(), "dem-run", &["s.toml", "--until", "0.01", "-q", "-o", "run.mcap"]);
+    let mut bytes = fs::read(folder.path().join("run.mcap")).unwrap();
+    let at = bytes.windows(10).position(|part| part == b"provenance").unwrap();
+    bytes[at] = 0xff;
+    fs::write(folder.path().join("bad.mcap"), bytes).unwrap();
+    let done = tool(folder.path(), "dem-measure", &["bad.mcap", "--contacts"]);
+    assert_eq!(done.code, 1);
+    let wanted = "a record does not have the fields of its kind; the file is damaged, write or copy it again";
+    assert!(done.stderr.contains(wanted) && done.stderr.is_ascii(), "{}", done.stderr);
+    assert!(done.stderr.len() < 300 && !done.stderr.contains('\u{1b}'), "{}", done.stderr);
+}
