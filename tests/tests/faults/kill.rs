@@ -75,10 +75,14 @@ fn start(folder: &Path, arguments: &[&str]) -> Child {
 }
 
 /// Kills a run with SIGKILL as soon as its unfinished output has `size` bytes; whether that was in time.
-fn kill_at(folder: &Path, mut run: Child, size: u64) -> bool {
+fn kill_at(folder: &Path, run: Child, size: u64) -> bool {
+    kill_by(&folder.join("run.mcap.part"), run, size)
+}
+
+/// The same with an output of another name.
+fn kill_by(part: &Path, mut run: Child, size: u64) -> bool {
     let deadline = Instant::now() + Duration::from_secs(60);
-    let part = folder.join("run.mcap.part");
-    while fs::metadata(&part).map_or(0, |m| m.len()) < size {
+    while fs::metadata(part).map_or(0, |m| m.len()) < size {
         assert!(Instant::now() < deadline, "the run gets nowhere");
         if run.try_wait().expect("it can be asked").is_some() {
             return false;
@@ -181,13 +185,58 @@ fn what_a_killed_run_left_is_said_and_never_overwritten() {
     LOOK.refused("two parts to resume from", &done.stderr, &["run.mcap.part, run.mcap.2.part", "name one"]);
     fs::remove_file(folder.join("run.mcap.2.part")).expect("a copy");
     fs::remove_file(folder.join("run.mcap.part")).expect("left");
-    let mut living = start(folder, &["s.toml", "--until", "100", "-o", "run.mcap"]);
-    let deadline = Instant::now() + Duration::from_secs(60);
-    while !folder.join("run.mcap.part").exists() && Instant::now() < deadline {
-        std::thread::yield_now();
-    }
+    let mut living = living(folder);
+    let done = tool(folder, "dem-run", &["s.toml", "--resume", "run.mcap.part", "-o", "rest.mcap"]);
+    LOOK.refused("resuming the part of a living run", &done.stderr, &["is still writing run.mcap.part"]);
+    assert_eq!((done.code, folder.join("rest.mcap").exists()), (1, false));
     let done = succeed(folder, "dem-run", &["s.toml", "--until", "0.02", "-o", "run.mcap"]);
     living.kill().expect("it lives");
     living.wait().expect("it has ended");
     LOOK.refused("beside a run to the same name", &done.stderr, &["another dem-run is writing run.mcap"]);
+}
+
+/// A run that goes on for long, whose unfinished output is there.
+fn living(folder: &Path) -> Child {
+    let run = start(folder, &["s.toml", "--until", "100", "-o", "run.mcap"]);
+    let deadline = Instant::now() + Duration::from_secs(60);
+    while !folder.join("run.mcap.part").exists() && Instant::now() < deadline {
+        std::thread::yield_now();
+    }
+    run
+}
+
+/// A folder takes the name while the run goes on: the output is complete, and the message says that only its name is missing.
+#[test]
+fn an_output_that_cannot_be_renamed_is_said_to_be_complete() {
+    let folder = scene();
+    let folder = folder.path();
+    let mut command = Command::new(program("dem-run"));
+    let run = command.current_dir(folder).args(["s.toml", "-o", "run.mcap"]).stderr(Stdio::piped());
+    let run = run.spawn().expect("it starts");
+    let deadline = Instant::now() + Duration::from_secs(60);
+    while !folder.join("run.mcap.part").exists() && Instant::now() < deadline {
+        std::thread::yield_now();
+    }
+    fs::create_dir(folder.join("run.mcap")).expect("a folder");
+    let done = run.wait_with_output().expect("it ends");
+    let said = String::from_utf8_lossy(&done.stderr);
+    LOOK.refused("a name that is taken", &said, &["run.mcap.part is complete", "rename it yourself"]);
+    assert!(
+        done.status.code() == Some(1) && !said.contains("is kept in") && !said.contains("--resume"),
+        "{said}"
+    );
+    assert!(read(&folder.join("run.mcap.part")).whole);
+}
+
+/// The part of an output that is a link lies beside its target: it is named where it is, and found by the name of the link.
+#[test]
+fn the_part_of_a_link_is_found_beside_its_target() {
+    let folder = scene();
+    let folder = folder.path();
+    fs::create_dir(folder.join("other")).expect("a folder");
+    fs::write(folder.join("other/run.mcap"), "").expect("written");
+    std::os::unix::fs::symlink("other/run.mcap", folder.join("link")).expect("a link");
+    assert!(kill_by(&folder.join("other/run.mcap.part"), start(folder, &["s.toml", "-o", "link"]), 20_000));
+    let done = succeed(folder, "dem-run", &["s.toml", "--until", "0.02", "-o", "link"]);
+    LOOK.refused("the next start", &done.stderr, &["other/run.mcap.part is the output of an unfinished run"]);
 }

@@ -1,6 +1,6 @@
 //! Runs that did not come to their end: what they leave as `NAME.part`, and how it is found again.
 
-use cli::{Output, Source};
+use cli::{NotRenamed, Output, Source};
 use std::path::{Path, PathBuf};
 
 /// Says which parts of the output are there, but for the one that is resumed.
@@ -28,15 +28,22 @@ pub fn say(output: &Output, resumed: Option<&Source>) {
 /// What `--resume FILE` means: the file, or, where there is none, the part that a run of this name has left.
 ///
 /// # Errors
-/// Several parts.
+/// Several parts, a part that is still being written.
 pub fn resumed(source: &Source) -> anyhow::Result<Source> {
-    let Some(path) = source.path().filter(|path| !path.exists()) else { return Ok(source.clone()) };
-    let parts = cli::parts_of(path);
+    let Some(path) = source.path() else { return Ok(source.clone()) };
+    let parts = match path.exists() {
+        true if cli::is_part(path) => vec![(path.to_owned(), cli::is_written(path))],
+        true => return Ok(source.clone()),
+        false => cli::parts_of(path),
+    };
     if let Some((part, _)) = parts.iter().find(|part| part.1) {
         let part = part.display();
         anyhow::bail!(
             "--resume {source}: another dem-run is still writing {part}: wait for its end, or stop it"
         );
+    }
+    if path.exists() {
+        return Ok(source.clone());
     }
     let parts: Vec<PathBuf> = parts.into_iter().map(|part| part.0).collect();
     match &parts[..] {
@@ -58,9 +65,11 @@ pub fn resumed(source: &Source) -> anyhow::Result<Source> {
     }
 }
 
-/// The path of a part as the user would write it.
+/// The path of a part as the user would write it; that of a link lies beside its target.
 pub fn as_named(output: &Output, part: Option<&Path>) -> Option<PathBuf> {
-    Some(output.path()?.with_file_name(part?.file_name()?))
+    let (path, part) = (output.path()?, part?);
+    let named = path.with_file_name(part.file_name()?);
+    Some(if path.is_symlink() { part.to_owned() } else { named })
 }
 
 /// How far the part of a run that failed is of use.
@@ -74,7 +83,9 @@ pub struct Saved {
 
 /// What a run that fails says of the part that it leaves.
 pub fn leaves(error: anyhow::Error, part: Option<&Path>, saved: Saved) -> anyhow::Error {
-    let Some(part) = part else { return error };
+    // A complete output that has no name says so itself.
+    let whole = error.chain().any(|cause| cause.is::<NotRenamed>());
+    let Some(part) = part.filter(|part| part.is_file() && !whole) else { return error };
     let (part, time) = (part.display(), geom::Shown(saved.time));
     let use_of =
         if saved.resumes { format!("--resume {part} continues it") } else { "dem-view shows it".to_owned() };
