@@ -24,6 +24,9 @@ pub struct PlaneCrossing {
     pub mass: f64,
 }
 
+/// Rows beyond which a span is taken for a typing error.
+const MOST_ROWS: f64 = 1e7;
+
 /// What passed in a span of time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Span {
@@ -186,7 +189,14 @@ impl Flow {
             }
             self.before.replace(frame);
         }
-        self.close(frame.time.min(self.options.between.1), rows);
+        let end = frame.time.min(self.options.between.1);
+        if let (Some(value), Some(start)) = (self.options.span, self.start)
+            && (end - start) / value > MOST_ROWS
+        {
+            let cure = "gives more than ten million rows: give a longer one";
+            return Err(MeasureError::Setting { what: "span", value, unit: "s", cure });
+        }
+        self.close(end, rows);
         Ok(())
     }
 

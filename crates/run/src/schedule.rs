@@ -2,7 +2,7 @@
 //!
 //! The time step is never changed to hit a time: frame k is the step nearest to k · every / Δt.
 
-use scene::keys::Every;
+use scene::keys::{Every, MOST_FRAMES, MOST_STEPS};
 use scene::plan::SOFT;
 use scene::{Scene, SceneError};
 
@@ -39,11 +39,13 @@ impl Schedule {
                 return Err(scene.wrong(key, format!("{value} s"), &why, "make it longer"));
             }
         }
-        let last = nearest(until, dt);
-        if last == 0 {
+        let steps = (until / dt).round();
+        if steps < 1.0 {
             let why = format!("is less than half the time step, {dt:.4e} s");
             return Err(scene.wrong("time.until", format!("{until} s"), &why, &longer(scene)));
         }
+        counts(scene, until, steps, every, dt)?;
+        let last = nearest(until, dt);
         Ok(Schedule { dt, last, every, checkpoint: output.checkpoint })
     }
 
@@ -62,6 +64,30 @@ impl Schedule {
         // Rounding may move the nearest multiple by one.
         [k - 1.0, k, k + 1.0].iter().any(|k| *k >= 0.0 && nearest(k * every, self.dt) == step)
     }
+}
+
+/// Refuses a run of more steps, frames or checkpoints than anybody waits for or stores.
+fn counts(scene: &Scene, until: f64, steps: f64, every: f64, dt: f64) -> Result<(), SceneError> {
+    let guards = &scene.keys.guards;
+    let (most, key) = (guards.steps.unwrap_or(MOST_STEPS), "guards.steps");
+    if steps > most {
+        let why = format!("is {steps:.3e} steps of {dt:.4e} s, more than {key} = {most:e}");
+        let cure = format!("end earlier, make the step longer, or raise {key}");
+        return Err(scene.wrong("time.until", format!("{until} s"), &why, &cure));
+    }
+    let (most, key) = (guards.frames.unwrap_or(MOST_FRAMES), "guards.frames");
+    let checkpoint = scene.keys.output.checkpoint;
+    for (name, what, every) in
+        [("output.every", "frames", Some(every)), ("output.checkpoint", "checkpoints", checkpoint)]
+    {
+        let Some((every, count)) = every.map(|every| (every, until / every)) else { continue };
+        if count > most {
+            let why = format!("is {count:.3e} {what} until {until} s, more than {key} = {most:e}");
+            let cure = format!("make it longer, end earlier, or raise {key}");
+            return Err(scene.wrong(name, format!("{every} s"), &why, &cure));
+        }
+    }
+    Ok(())
 }
 
 /// The cure for a step that is too long for the run: the modulus may be in another unit.

@@ -166,7 +166,9 @@ pub fn run<W: Write>(
             Ok(()) => {}
         }
         let last = step >= run.schedule.last;
-        if last || step % 256 == 0 || run.frame_energy.is_some() {
+        // With each frame and checkpoint: what the caller knows to be written decides what it keeps.
+        let wrote = run.schedule.is_frame(step) || run.schedule.is_checkpoint(step);
+        if last || step % 256 == 0 || wrote {
             report(&run.progress());
         }
         if last {

@@ -58,8 +58,19 @@ impl<W: Write> Run<W> {
             saved_at: 0.0,
             checkpoints: 0,
         };
+        let warnings: Vec<String> = warnings.iter().map(|text| in_file(scene, text)).collect();
         run.write_walls(&surfaces, &warnings)?;
         Ok(run)
+    }
+}
+
+/// A warning as the output has it: without the name and the folder that the scene happened to be given by.
+fn in_file(scene: &Scene, text: &str) -> String {
+    let of_scene = text.strip_prefix(&scene.text.name).filter(|rest| rest.starts_with([':', ' ']));
+    let folder = scene.folder.join("").display().to_string();
+    match of_scene {
+        Some(rest) => format!("scene{rest}"),
+        None => text.strip_prefix(&folder).unwrap_or(text).to_owned(),
     }
 }
 

@@ -114,7 +114,7 @@ fn odd_inflow_is_told() {
         folder.path(),
         "dem-run up.toml --until 0.14 -o up.mcap && stage-replay up.mcap --keep-times -o in.mcap && dem-run down.toml in.mcap -o down.mcap",
     );
-    assert!(done.code == 0 && done.stderr.contains("in.mcap: the record ends at t = 0.1"), "{}", done.stderr);
+    assert!(done.code == 0 && done.stderr.contains("inlet.0: the record ends at t = 0.1"), "{}", done.stderr);
     let done = line(
         folder.path(),
         "dem-run up.toml -o up.mcap && stage-replay up.mcap -o in.mcap && dem-run down.toml in.mcap --until 0.2 -o down.mcap",

@@ -63,7 +63,7 @@ pub struct Args {
     pub bed_height: bool,
 
     /// The last frame at or before S [s]
-    #[arg(long, value_name = "S", help_heading = "Which frames")]
+    #[arg(long, value_name = "S", value_parser = cli::seconds, help_heading = "Which frames")]
     pub time: Option<f64>,
     /// The last frame (repose, profile and forces: the default)
     #[arg(long, conflicts_with = "time", help_heading = "Which frames")]
@@ -72,10 +72,10 @@ pub struct Args {
     #[arg(long, conflicts_with_all = ["time", "last"], help_heading = "Which frames")]
     pub all: bool,
     /// Every frame from S on [s]
-    #[arg(long, value_name = "S", conflicts_with_all = ["time", "last"], help_heading = "Which frames")]
+    #[arg(long, value_name = "S", value_parser = cli::seconds, conflicts_with_all = ["time", "last"], help_heading = "Which frames")]
     pub from: Option<f64>,
     /// Every frame until S [s]
-    #[arg(long, value_name = "S", conflicts_with_all = ["time", "last"], help_heading = "Which frames")]
+    #[arg(long, value_name = "S", value_parser = cli::seconds, conflicts_with_all = ["time", "last"], help_heading = "Which frames")]
     pub until: Option<f64>,
 
     /// Up (default: against the scene's gravity, else z) [repose, segregation, bed-height]
@@ -100,7 +100,7 @@ pub struct Args {
     #[arg(long, value_name = "SHAPE", value_parser = shape, help_heading = "How")]
     pub within: Option<GivenShape>,
     /// Rows for spans of S [s] (default: from frame to frame) [flow]
-    #[arg(long, value_name = "S", help_heading = "How")]
+    #[arg(long, value_name = "S", value_parser = cli::span, help_heading = "How")]
     pub span: Option<f64>,
     /// Axis of the bins: x, y or z (default z) [profile]
     #[arg(long, value_name = "AXIS", value_parser = axis, help_heading = "How")]

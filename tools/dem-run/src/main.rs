@@ -32,7 +32,7 @@ struct Args {
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// End of the run [s], instead of time.until
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", value_parser = cli::span)]
     until: Option<f64>,
     /// Print the active effects, the keys that switch them on, their cost, and the pair that limits the time step
     #[arg(long)]
@@ -159,7 +159,10 @@ fn explain(args: &Args, scene: &Scene, plan: Plan) -> anyhow::Result<Report> {
     let explained = run::explain::explain(scene, plan, args.explain)?;
     if args.explain {
         let mut out = args.output.open_text()?;
-        std::io::Write::write_all(&mut out, explained.text.as_bytes()).context("--explain")?;
+        for line in explained.text.lines() {
+            std::io::Write::write_all(&mut out, format!("{}\n", cli::escaped(line)).as_bytes())
+                .context("--explain")?;
+        }
         out.commit()?;
     }
     Ok(Report::new(format!("the scene can run: {}", explained.summary)).with_all(&explained.fields))

@@ -26,20 +26,20 @@ pub struct Args {
     #[arg(long, value_name = "NAME", value_parser = formats::map, default_value = "viridis")]
     pub map: Map,
     /// Time to show [s]. HTML: shown first, paused; PNG, VTP: the nearest frame [default: the last frame with grains]
-    #[arg(long, value_name = "S", value_parser = formats::seconds)]
+    #[arg(long, value_name = "S", value_parser = cli::seconds)]
     pub time: Option<f64>,
     /// Position of the camera: iso, top, bottom, front, back, left, right; a side: x, -x, y, -y, z, -z; azimuth/elevation in
     /// degrees, from x towards y and up: 35/20; or x,y,z of the camera [m], and after it those of the point looked at (optional)
     #[arg(long, value_name = "VIEW", value_parser = formats::camera, default_value = "iso", allow_hyphen_values = true)]
     pub camera: Camera,
     /// First time of a film or series [s]
-    #[arg(long, value_name = "S", value_parser = formats::seconds, allow_hyphen_values = true)]
+    #[arg(long, value_name = "S", value_parser = cli::seconds, allow_hyphen_values = true)]
     pub from: Option<f64>,
     /// Last time of a film or series [s]
-    #[arg(long, value_name = "S", value_parser = formats::seconds)]
+    #[arg(long, value_name = "S", value_parser = cli::seconds)]
     pub to: Option<f64>,
     /// Simulated time between two pictures of a film or series [s] [default: every frame]
-    #[arg(long, value_name = "S", value_parser = formats::interval)]
+    #[arg(long, value_name = "S", value_parser = cli::span)]
     pub every: Option<f64>,
     /// Pictures per second of a film
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100), default_value_t = 25)]

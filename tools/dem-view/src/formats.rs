@@ -55,18 +55,6 @@ pub fn range(text: &str) -> Result<[f64; 2], String> {
     }
 }
 
-/// A time [s].
-pub fn seconds(text: &str) -> Result<f64, String> {
-    let time = text.parse().ok().filter(|time: &f64| time.is_finite());
-    time.ok_or_else(|| "give a time in seconds, such as 0.5".into())
-}
-
-/// A length of time above nothing [s].
-pub fn interval(text: &str) -> Result<f64, String> {
-    let time = text.parse().ok().filter(|time: &f64| time.is_finite() && *time > 0.0);
-    time.ok_or_else(|| "give a number of seconds above 0, such as 0.02".into())
-}
-
 /// The name of a colour map.
 pub fn map(text: &str) -> Result<Map, String> {
     Map::named(text).ok_or_else(|| "give viridis or turbo".into())

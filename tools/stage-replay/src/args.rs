@@ -19,10 +19,10 @@ pub struct Args {
     #[arg(long, value_name = "M")]
     length: Option<f64>,
     /// Leave out crossings before S; S becomes time 0 [s]
-    #[arg(long, value_name = "S", value_parser = seconds)]
+    #[arg(long, value_name = "S", value_parser = cli::seconds)]
     from: Option<f64>,
     /// Leave out crossings at S or later [s]
-    #[arg(long, value_name = "S", value_parser = seconds)]
+    #[arg(long, value_name = "S", value_parser = cli::seconds)]
     until: Option<f64>,
     /// Keep the recorded arrival times (default: the first grain enters at time 0)
     #[arg(long, conflicts_with = "from")]
@@ -37,7 +37,7 @@ pub struct Args {
     #[arg(long = "move", value_enum)]
     motion: Option<Motion>,
     /// With --intervals both: time from start to arrival of each grain [s] (default: the time that the first grain needs for the zone)
-    #[arg(long, value_name = "S", value_parser = span)]
+    #[arg(long, value_name = "S", value_parser = cli::span)]
     ahead: Option<f64>,
     /// Rotate the record by this angle about --axis: positions, velocities, spins, and the plane unless --at is given
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = number)]
@@ -52,7 +52,7 @@ pub struct Args {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     repeat: u32,
     /// Time between the starts of two replays [s] (default: the duration of the record)
-    #[arg(long, value_name = "S", value_parser = span, requires = "repeat")]
+    #[arg(long, value_name = "S", value_parser = cli::span, requires = "repeat")]
     period: Option<f64>,
     /// Superpose N copies of each grain; this scales the rate, and the file says so; needs --copy-shift or --copy-delay
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
@@ -61,7 +61,7 @@ pub struct Args {
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = vector, requires = "copies")]
     copy_shift: Option<Vec3>,
     /// Delay copy k by k times this time [s]
-    #[arg(long, value_name = "S", value_parser = span, requires = "copies")]
+    #[arg(long, value_name = "S", value_parser = cli::span, requires = "copies")]
     copy_delay: Option<f64>,
     /// Give grains new ids from N, in order of entry (default: from 0, only if several grains have the same id)
     #[arg(long, value_name = "N")]
@@ -135,14 +135,6 @@ impl Args {
 
 fn number(text: &str) -> Result<f64, String> {
     text.parse::<f64>().ok().filter(|v| v.is_finite()).ok_or_else(|| "give a number, such as 90".into())
-}
-
-fn seconds(text: &str) -> Result<f64, String> {
-    number(text).map_err(|_| "give a time in seconds, such as 0.5".into())
-}
-
-fn span(text: &str) -> Result<f64, String> {
-    number(text).ok().filter(|s| *s > 0.0).ok_or_else(|| "give seconds above 0, such as 0.01".into())
 }
 
 fn vector(text: &str) -> Result<Vec3, String> {

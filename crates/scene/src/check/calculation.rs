@@ -4,11 +4,15 @@ use super::Check;
 use crate::error::Result;
 use crate::keys::{Drag, DragLaw, Every, SceneKeys, Sleep, Time};
 
+/// Whole numbers up to here are exact.
+const EXACT: f64 = 9e15;
+
 impl Check<'_> {
     /// `[time]`, `[output]`, `[guards]` and the other single tables.
     pub(super) fn calculation(&self, m: &SceneKeys) -> Result<()> {
         self.finite("gravity", &m.gravity, "m/s²")?;
         self.positive("time.until", m.time.until, "s")?;
+        self.within("time.until", m.time.until.unwrap_or(0.0), 0.0, record::LATEST, "s")?;
         self.positive("time.dt", m.time.dt.0, "s")?;
         if let Some(safety) = m.time.safety {
             self.within("time.safety", safety, 1e-6, 1.0, "")?;
@@ -23,6 +27,8 @@ impl Check<'_> {
         self.positive("guards.overlap", m.guards.overlap, "")?;
         self.positive("guards.motion", m.guards.motion, "")?;
         self.positive("guards.energy", m.guards.energy, "")?;
+        self.within("guards.steps", m.guards.steps.unwrap_or(1.0), 1.0, EXACT, "")?;
+        self.within("guards.frames", m.guards.frames.unwrap_or(1.0), 1.0, EXACT, "")?;
         self.within("first_id", f64::from(m.first_id), 0.0, 4e9, "")?;
         m.sleep.as_ref().map_or(Ok(()), |s| self.sleep(s))
     }

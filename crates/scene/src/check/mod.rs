@@ -22,6 +22,11 @@ pub struct Check<'a> {
     pub text: &'a Text,
 }
 
+/// A number as it was written, but for one of hundreds of digits.
+fn number(value: f64) -> String {
+    if (1e-9..1e15).contains(&value.abs()) || value == 0.0 { value.to_string() } else { format!("{value:e}") }
+}
+
 impl Check<'_> {
     /// The error for a key's value.
     pub(crate) fn wrong(&self, key: &str, value: impl Display, why: &str, cure: &str) -> SceneError {
@@ -37,7 +42,7 @@ impl Check<'_> {
     /// A number above zero, where there is one.
     pub(crate) fn positive(&self, key: &str, value: impl Into<Option<f64>>, unit: &str) -> Result<()> {
         let Some(value) = value.into().filter(|v| !(*v > 0.0 && v.is_finite())) else { return Ok(()) };
-        let value = format!("{value} {unit}");
+        let value = format!("{} {unit}", number(value));
         Err(self.wrong(key, value.trim_end(), "must be a finite number above 0", "give a positive value"))
     }
 
@@ -47,7 +52,8 @@ impl Check<'_> {
             return Ok(());
         }
         let cure = format!("give {low} to {high}{}{unit}", if unit.is_empty() { "" } else { " " });
-        Err(self.wrong(key, format!("{value} {unit}").trim_end(), "is outside the range", &cure))
+        let value = format!("{} {unit}", number(value));
+        Err(self.wrong(key, value.trim_end(), "is outside the range", &cure))
     }
 
     /// Finite numbers.

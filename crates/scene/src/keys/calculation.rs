@@ -187,4 +187,13 @@ pub struct Guards {
     /// Largest energy that the time step may make, as a share of the energy that was exchanged and moves [–]; absent: no limit.
     #[serde(default, deserialize_with = "unit::plain")]
     pub energy: Option<f64>,
+    /// Most steps of a run; absent: [`MOST_STEPS`].
+    pub steps: Option<f64>,
+    /// Most frames, and most checkpoints, of a run; absent: [`MOST_FRAMES`].
+    pub frames: Option<f64>,
 }
+
+/// Steps beyond which a run is taken for a typing error.
+pub const MOST_STEPS: f64 = 1e12;
+/// The same for frames.
+pub const MOST_FRAMES: f64 = 1e7;

@@ -13,6 +13,19 @@ use crate::error::{Place, Result, SceneError};
 use overrides::put;
 use toml_edit::{DocumentMut, Item};
 
+/// Names in a dotted key, at most: `wall.0.motion.rotate.about.0` has six, and there is room for keys to come.
+const DEEPEST: usize = 12;
+/// Characters of an override that a message shows.
+const SHOWN: usize = 120;
+
+/// The beginning of a long text.
+fn short(text: &str) -> String {
+    match text.char_indices().nth(SHOWN) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_owned(),
+    }
+}
+
 /// A scene as it was written, with the name of its file for messages.
 #[derive(Debug, Clone)]
 pub struct Text {
@@ -43,11 +56,15 @@ impl Text {
         }
         let mut document = self.document()?;
         for text in overrides {
-            let refuse = |why: String| SceneError::Override { text: text.clone(), why };
+            let refuse = |why: String| SceneError::Override { text: short(text), why };
             let Some((key, value)) = text.split_once('=') else {
                 return Err(refuse("'=' is missing: use KEY=VALUE, such as time.until=0.5".into()));
             };
             let path: Vec<&str> = key.trim().split('.').collect();
+            if path.len() > DEEPEST {
+                let why = format!("has {} names: a key of a scene has at most {DEEPEST}", path.len());
+                return Err(refuse(why));
+            }
             put(document.as_table_mut(), &path, overrides::value(value.trim())).map_err(refuse)?;
         }
         self.before = std::mem::replace(&mut self.toml, document.to_string());
@@ -70,7 +87,7 @@ impl Text {
 
     /// The place of an error that the changes cause: the reader sees only the file.
     pub(crate) fn changes(&self, overrides: &[&str]) -> Place {
-        let list: String = overrides.iter().map(|text| format!(" --set {text}")).collect();
+        let list: String = overrides.iter().map(|text| format!(" --set {}", short(text))).collect();
         Place { file: format!("{} with{list}", self.name), at: None }
     }
 
