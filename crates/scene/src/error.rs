@@ -105,9 +105,13 @@ impl SceneError {
     }
 }
 
-/// The known name nearest to `name`, when one is near enough to suggest.
-pub(crate) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    let near = known.map(|k| (strsim::damerau_levenshtein(name, k), k)).min()?;
-    let longest = name.chars().count().max(near.1.chars().count());
-    (near.0 <= 2.max(longest / 2)).then_some(near.1)
+/// The known name nearest to `name`, when one is near enough to suggest: a third of its letters may differ, or whole words may be missing.
+pub fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    let words = |text: &'a str| text.split('_');
+    let distance = |k: &'a str| (strsim::damerau_levenshtein(name, k), k);
+    let near = |&(d, k): &(usize, &'a str)| {
+        let longest = name.chars().count().max(k.chars().count());
+        (d <= 1.max(longest / 3) && d < longest) || (longest > 3 && words(k).any(|word| word == name))
+    };
+    known.filter(|k| !k.is_empty()).map(distance).filter(near).min().map(|(_, k)| k)
 }

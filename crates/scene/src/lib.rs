@@ -21,7 +21,7 @@ pub mod text;
 
 pub use advice::SceneSetupError;
 pub use dem::setup::{ZoneMotion, ZoneTest};
-pub use error::{Result, SceneError};
+pub use error::{Result, SceneError, nearest};
 pub use input::Input;
 pub use plan::Plan;
 pub use scene::Scene;

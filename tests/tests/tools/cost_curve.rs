@@ -227,6 +227,15 @@ fn what_is_wrong_is_refused_before_anything_runs() {
     let why =
         refused(&folder, &["--vary", "time.saftey=0.1,0.5", "--measure", "restitution", "--exact", "1"], 1);
     assert!(why.contains("unknown key 'saftey'; did you mean 'safety'?"), "{why}");
+    for more in [&[][..], &["--exact", "1"]] {
+        let why =
+            refused(&folder, &[&["--vary", "safty=0.1,0.5", "--measure", "restitution"], more].concat(), 2);
+        assert!(why.contains("--vary safty: there is no such key; did you mean 'safety'?"), "{why}");
+    }
+    for (set, part) in [("time.dt", "'=' is missing"), ("fill.7.count=1", "no list 'fill'")] {
+        let why = with(&["--measure", "restitution", "--set", set]);
+        assert!(why.contains(&format!("--set {set}: ")) && why.contains(part), "{why}");
+    }
     let why = refused(&folder, &["--vary", "safety=0.1,7", "--measure", "restitution"], 1);
     assert!(why.contains("point safety=7") && why.contains("time.safety = 7"), "{why}");
     let why = refused(

@@ -43,7 +43,9 @@ impl Grid {
                 )));
             }
             lists.push(values(&key, &all)?);
-            knobs.push(Knob::new(&key, blank(&key)));
+            let knob = Knob::new(&key, blank(&key));
+            knob.known_name()?;
+            knobs.push(knob);
         }
         let mut grid = Grid { settings: product(&knobs, &lists), knobs, reference: None, in_use: None };
         if study.truth.is_none() {

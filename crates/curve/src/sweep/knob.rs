@@ -1,6 +1,7 @@
 //! What can be varied: keys of the scene, short names for the usual ones, and blanks {KEY} in lines.
 
 use crate::study::CurveError;
+use scene::nearest;
 use toml::Value;
 
 /// Which of several values is the finest.
@@ -123,6 +124,22 @@ impl Knob {
             Finest::Most => best(-1.0),
             Finest::Word(word) => values.iter().position(|v| v == word).ok_or_else(unknown),
             Finest::Unknown => Err(unknown()),
+        }
+    }
+
+    /// Refuses a name that is almost a short one: as a key of the scene it would be refused later, without this hint.
+    ///
+    /// # Errors
+    /// Such a name.
+    pub fn known_name(&self) -> Result<(), CurveError> {
+        let name = &self.name;
+        let unknown = self.target == Target::Key(name.clone()) && self.finest == Finest::Unknown;
+        let near = nearest(name, KNOWN.iter().map(|k| k.name)).filter(|_| unknown && !name.contains('.'));
+        match near {
+            Some(near) => {
+                Err(CurveError::Usage(format!("--vary {name}: there is no such key; did you mean '{near}'?")))
+            }
+            None => Ok(()),
         }
     }
 
@@ -249,5 +266,10 @@ mod tests {
         assert_eq!(Knob::new("precision", false).finest(&list(&["mixed", "f64"])).unwrap(), 1);
         assert!(Knob::new("gravity", false).finest(&list(&["1", "2"])).is_err());
         assert!(Knob::new("precision", false).finest(&list(&["mixed"])).is_err());
+        assert!(
+            Knob::new("gravity", false).known_name().is_ok() && Knob::new("dt", false).known_name().is_ok()
+        );
+        let why = Knob::new("safty", false).known_name().unwrap_err().to_string();
+        assert_eq!(why, "--vary safty: there is no such key; did you mean 'safety'?");
     }
 }

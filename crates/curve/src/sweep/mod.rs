@@ -15,7 +15,7 @@ pub use grid::{Grid, Setting};
 use crate::study::{CurveError, Study};
 use grid::AS_IT_IS;
 use knob::{is_random, seeds};
-use scene::Scene;
+use scene::{Scene, SceneError};
 use script::{Job, fill, unfilled};
 use stamp::{Hashes, stamp};
 use std::path::{Path, PathBuf};
@@ -137,7 +137,11 @@ fn table(file: &str, text: &str) -> Result<Value, CurveError> {
 fn checked(file: &str, sets: &[String], files: &mut Vec<PathBuf>) -> Result<Scene, CurveError> {
     let what = format!("{file}: cannot open it (check the path)");
     let text = std::fs::read_to_string(file).map_err(CurveError::io(what))?;
-    let scene = Scene::new(file, text, sets, Path::new(file).parent().unwrap_or(Path::new("")))?;
+    let scene = Scene::new(file, text, sets, Path::new(file).parent().unwrap_or(Path::new("")));
+    let scene = scene.map_err(|error| match error {
+        SceneError::Override { .. } => CurveError::Usage(error.to_string()),
+        other => other.into(),
+    })?;
     files.extend(scene.files());
     Ok(scene)
 }

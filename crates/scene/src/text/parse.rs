@@ -14,6 +14,20 @@ const NOT_YET: &[(&str, &str)] = &[
     ("roughness", "give it to wallgen --roughness"),
 ];
 
+/// Keys as other programs and textbooks call them, and keys of a table inside of this one: what a scene has instead.
+const INSTEAD: &[(&str, &str, &str)] = &[
+    ("rolling_friction", "rolling_resistance", "rolling_resistance"),
+    ("twisting_friction", "twisting_resistance", "twisting_resistance"),
+    ("friction", "sliding_friction", "sliding_friction"),
+    ("poisson_ratio", "poisson", "poisson"),
+    ("radius", "diameter", "diameter"),
+    ("rpm", "rotate", "rotate = { about, through, rpm }"),
+    ("about", "rotate", "rotate = { about, through, rpm }"),
+    ("through", "rotate", "rotate = { about, through, rpm }"),
+    ("amplitude", "vibrate", "vibrate = { amplitude, frequency }"),
+    ("frequency", "vibrate", "vibrate = { amplitude, frequency }"),
+];
+
 /// Reads a scene.
 ///
 /// # Errors
@@ -39,7 +53,9 @@ fn refused(text: &Text, table: &str, error: &Error) -> SceneError {
     if let Some(message) = written_once(message, word, text.line(start)) {
         return SceneError::Syntax { place, message };
     }
-    match message.strip_prefix("unknown field `").and_then(|rest| rest.split_once('`')) {
+    // The last such words are the parser's own: a key may hold any text.
+    let unknown = message.strip_prefix("unknown field `");
+    match unknown.and_then(|rest| rest.rsplit_once("`, expected ").or(rest.rsplit_once("`, there are "))) {
         Some((key, rest)) => unknown_key(place, key, rest),
         None => {
             let hint = variant_hint(message).map_or(String::new(), |h| format!("; did you mean '{h}'?"));
@@ -74,8 +90,10 @@ fn unknown_key(place: Place, key: &str, expected: &str) -> SceneError {
         return SceneError::NotYet { place, key: (*key).to_owned(), instead };
     }
     let known: Vec<&str> = quoted(expected).collect();
-    let hint = match nearest(key, known.iter().copied()) {
+    let instead = INSTEAD.iter().find(|(other, own, _)| *other == key && known.contains(own));
+    let hint = match instead.map(|i| i.2).or_else(|| nearest(key, known.iter().copied())) {
         Some(near) => format!("; did you mean '{near}'?"),
+        None if known.is_empty() => "; this table has no keys".to_owned(),
         None => format!("; known here: {}", known.join(", ")),
     };
     SceneError::UnknownKey { place, key: key.to_owned(), hint }
@@ -118,6 +136,35 @@ mod tests {
 
     fn refused(toml: &str) -> String {
         parse(&Text::new("s.toml", toml.to_owned())).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_hint_names_what_the_key_can_only_mean() {
+        let motion = |key: &str| {
+            refused(&format!("[time]\nuntil = 1\n[[wall]]\nmaterial = \"m\"\n[wall.motion]\n{key} = 5"))
+        };
+        assert!(
+            motion("rpm").contains("did you mean 'rotate = { about, through, rpm }'?"),
+            "{}",
+            motion("rpm")
+        );
+        assert!(motion("frequency").contains("'vibrate = { amplitude, frequency }'"));
+        let contact = |key: &str| {
+            refused(&format!("[[contact]]\nbetween = [\"*\", \"*\"]\nrestitution = 1\n{key} = 0.1"))
+        };
+        assert!(contact("rolling_friction").contains("did you mean 'rolling_resistance'?"));
+        assert!(contact("friction").contains("did you mean 'sliding_friction'?"));
+        // Two of its three letters are others: no hint is better than a wrong one.
+        let message = refused("[time]\nend = 1");
+        assert!(message.contains("known here: until, dt, safety, accuracy"), "{message}");
+    }
+
+    #[test]
+    fn a_list_of_known_keys_is_never_empty() {
+        let message = refused("\"a`b\" = 1");
+        assert!(message.contains("unknown key 'a`b'; known here: gravity, first_id"), "{message}");
+        let message = refused("\"\" = 1");
+        assert!(message.contains("known here: gravity"), "{message}");
     }
 
     #[test]
