@@ -32,7 +32,7 @@ struct Args {
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// End of the run [s], instead of time.until
-    #[arg(long, value_name = "S", value_parser = cli::span)]
+    #[arg(long, value_name = "S")]
     until: Option<f64>,
     /// Print the active effects, the keys that switch them on, their cost, and the pair that limits the time step
     #[arg(long)]

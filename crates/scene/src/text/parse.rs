@@ -99,9 +99,22 @@ fn unknown_key(place: Place, key: &str, expected: &str) -> SceneError {
     SceneError::UnknownKey { place, key: key.to_owned(), hint }
 }
 
+/// Characters of a message that are shown, before and after what is left out.
+const SHOWN: [usize; 2] = [200, 160];
+
+/// A message without the middle of a very long value in it.
+fn bounded(message: &str) -> String {
+    let count = message.chars().count();
+    if count <= 2 * (SHOWN[0] + SHOWN[1]) {
+        return message.to_owned();
+    }
+    let (head, tail) = (message.chars().take(SHOWN[0]), message.chars().skip(count - SHOWN[1]));
+    head.chain(['…']).chain(tail).collect()
+}
+
 /// The parser's message in the terms of a scene.
 fn plain(message: &str) -> String {
-    let mut text = message.replace('`', "'");
+    let mut text = bounded(message).replace('`', "'");
     if let Some((rest, kind)) = text.split_once(", expected ") {
         let wanted = match kind.split(' ').next().unwrap_or_default() {
             "f64" => "a number, such as 0.5",

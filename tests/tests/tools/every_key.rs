@@ -1,0 +1,178 @@
+//! Every key of a scene, in each form of its value: the tables of docs/scene.md list what the code knows, each row stands in a scene here, and
+//! every scene runs.
+
+mod scenes;
+
+use grainpipe_tests::scenes::folder;
+use grainpipe_tests::tools::{line, succeed};
+use scenes::{CUTS, FILES, scenes};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+use toml::{Table, Value};
+
+/// A row of the page: where the key stands (`wall.motion`), its name, and its type.
+struct Documented {
+    table: String,
+    key: String,
+    kind: String,
+}
+
+/// The path of the table that a heading, or the first cell of a table, names.
+fn named(text: &str) -> Option<String> {
+    match text {
+        "Top level" => Some(String::new()),
+        "Contacts" => Some("contact".to_owned()),
+        "Bonds" => Some("bond".to_owned()),
+        "`motion`" | "`servo`" => Some(format!("wall.{}", text.trim_matches('`'))),
+        _ => text.strip_prefix("`[").map(|name| name.trim_matches(['[', ']', '`']).to_owned()),
+    }
+}
+
+/// The rows of the tables of keys.
+fn documented() -> Vec<Documented> {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/scene.md");
+    let text = std::fs::read_to_string(path).expect("the page");
+    let (mut heading, mut table, mut column, mut rows) = (None, None, 1, Vec::new());
+    for row in text.lines() {
+        if let Some(title) = row.strip_prefix("## ") {
+            heading = named(title);
+        }
+        let cells: Vec<&str> = row.trim_matches('|').split(" | ").map(str::trim).collect();
+        match cells[0] {
+            _ if !row.starts_with("| ") => table = table.filter(|_| row.starts_with('|')),
+            "key" => table = heading.clone(),
+            head if head.starts_with("key of ") => table = named(&head["key of ".len()..]),
+            key => {
+                let Some(table) = table.clone() else { continue };
+                let key = key.trim_matches('`').to_owned();
+                rows.push(Documented { table, key, kind: cells[column].to_owned() });
+                continue;
+            }
+        }
+        // The table of contacts has the unit before the values.
+        column = 1 + usize::from(cells.get(1) == Some(&"unit"));
+    }
+    rows
+}
+
+/// Every value in the scenes, by the dotted key without indices.
+fn values() -> BTreeMap<String, Vec<Value>> {
+    fn add(found: &mut BTreeMap<String, Vec<Value>>, at: &str, value: &Value) {
+        match value {
+            Value::Table(table) => {
+                table.iter().for_each(|(key, value)| {
+                    add(found, format!("{at}.{key}").trim_start_matches('.'), value)
+                });
+            }
+            Value::Array(list) if list.iter().any(Value::is_table) => {
+                list.iter().for_each(|v| add(found, at, v))
+            }
+            _ => {}
+        }
+        found.entry(at.to_owned()).or_default().push(value.clone());
+    }
+    let mut found = BTreeMap::new();
+    for (name, text) in scenes() {
+        let table: Table = toml::from_str(&text).unwrap_or_else(|e| panic!("{name}: {e}"));
+        add(&mut found, "", &Value::Table(table));
+    }
+    found
+}
+
+/// Forms of a type that no value has.
+fn missing(kind: &str, values: &[Value]) -> Vec<String> {
+    let has = |wanted: &dyn Fn(&Value) -> bool| values.iter().any(wanted);
+    let number = |v: &Value| v.is_float() || v.is_integer();
+    let mut forms: Vec<(String, bool)> = Vec::new();
+    for word in kind.split('"').skip(1).step_by(2) {
+        let is = |v: &Value| v.as_str() == Some(word);
+        forms.push((
+            format!("\"{word}\""),
+            has(&|v| is(v) || v.as_array().is_some_and(|list| list.iter().any(is))),
+        ));
+    }
+    for part in kind.split(" or ") {
+        let found = match part {
+            "number" | "integer" => has(&number),
+            "2" => has(&|v| v.as_array().is_some_and(|list| list.len() == 2)),
+            "true/false" => has(&|v| v.as_bool() == Some(true)) && has(&|v| v.as_bool() == Some(false)),
+            _ => !values.is_empty(),
+        };
+        forms.push((part.to_owned(), found));
+    }
+    forms.into_iter().filter(|form| !form.1).map(|form| form.0).collect()
+}
+
+#[test]
+fn every_key_stands_in_a_scene_in_each_form() {
+    let (rows, values) = (documented(), values());
+    assert!(rows.len() > 120, "{} rows", rows.len());
+    let wrong = |row: &Documented| {
+        let key = format!("{}.{}", row.table, row.key);
+        let found = values.get(key.trim_start_matches('.')).map_or(&[][..], |found| found);
+        let missing = missing(&row.kind, found);
+        (!missing.is_empty()).then(|| format!("{key}: {}", missing.join(", ")))
+    };
+    let wrong: Vec<String> = rows.iter().filter_map(wrong).collect();
+    assert!(wrong.is_empty(), "without a scene in every_key/scenes.rs: {wrong:#?}");
+}
+
+/// What the code calls known in a table.
+fn known(table: &str) -> BTreeSet<String> {
+    let line = match table.rsplit_once('.') {
+        Some((outer, inner)) => {
+            format!("[[{outer}]]\nmaterial = \"m\"\n{inner} = {{ zzzzzzzzzzzzzzzz = 1 }}")
+        }
+        None if table.is_empty() => "zzzzzzzzzzzzzzzz = 1".to_owned(),
+        None => format!("[[{table}]]\nzzzzzzzzzzzzzzzz = 1"),
+    };
+    let single = line.replace("[[", "[").replace("]]", "]");
+    let refused = [line, single].map(|text| {
+        let scene = scene::Scene::new("s", text, &[], Path::new(""));
+        scene.map_or_else(|e| e.to_string(), |_| String::new())
+    });
+    let list = refused.iter().find_map(|message| message.split_once("known here: "));
+    let list = list.unwrap_or_else(|| panic!("{table}: {refused:?}")).1;
+    list.split(", ").map(str::to_owned).collect()
+}
+
+#[test]
+fn the_page_lists_what_the_code_knows() {
+    let rows = documented();
+    let tables: BTreeSet<&str> = rows.iter().map(|row| row.table.as_str()).collect();
+    // A key that another table of the page explains, and what a row mentions in passing.
+    let elsewhere = ["between", "characteristic_velocity"];
+    for table in &tables {
+        let of = rows.iter().filter(|row| row.table == **table);
+        let page: BTreeSet<String> =
+            of.map(|row| row.key.split('.').next().unwrap_or_default().to_owned()).collect();
+        let mut known = known(table);
+        // Tables of their own are not keys of the top level.
+        known.retain(|key| !(table.is_empty() && tables.contains(key.as_str())));
+        known.retain(|key| !(*table == "contact" && elsewhere.contains(&key.as_str())));
+        assert_eq!(page, known, "[{table}] on the page, and in the code");
+    }
+}
+
+#[test]
+fn every_scene_runs() {
+    let folder = folder(&FILES);
+    let path = folder.path();
+    for (name, text) in scenes() {
+        std::fs::write(path.join(format!("{name}.toml")), text).expect("written");
+    }
+    std::fs::write(path.join("flat.xyz"), "0.3 0.3 0.1\n0.31 0.3 0.1\n0.3 0.31 0.1\n0.31 0.31 0.1\n")
+        .expect("written");
+    let wall = "flat.xyz --radius 0.005 --material steel -q -o walls.mcap";
+    succeed(path, "wallgen", &wall.split(' ').collect::<Vec<_>>());
+    for (motion, ..) in CUTS {
+        succeed(path, "dem-run", &[&format!("up-{motion}.toml"), "-q", "-o", "up.mcap"]);
+        succeed(path, "stage-replay", &["up.mcap", "-q", "-o", &format!("{motion}.mcap")]);
+    }
+    let wrong = |(name, _): &(String, String)| {
+        let done = line(path, &format!("dem-run {name}.toml > /dev/null"));
+        (done.code != 0).then(|| format!("{name}: {}", done.stderr))
+    };
+    let wrong: Vec<String> = scenes().iter().filter_map(wrong).collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}

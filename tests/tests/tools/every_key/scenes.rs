@@ -1,0 +1,324 @@
+//! Scenes that together hold every key, in each form of its value.
+
+/// Materials, and a contact for all pairs.
+const MATERIALS: &str = r#"
+[[material]]
+name = "sinter"
+density = 3300
+young = 2e6
+poisson = 0.25
+[[material]]
+name = "steel"
+density = 7800
+young = 2e7
+poisson = 0.3
+"#;
+
+const CONTACT: &str = r#"
+[[contact]]
+between = ["*", "*"]
+law = "hertz"
+restitution = 0.5
+sliding_friction = 0.5
+"#;
+
+/// Single tables, fills, walls that move.
+const PLAIN: &str = r#"
+gravity = [0, 0, -9.81]
+first_id = 100
+precision = "f64"
+[time]
+until = 0.002
+dt = "auto"
+safety = 0.4
+[output]
+every = 0.001
+checkpoint = 0.001
+energy = true
+contacts = true
+wall_forces = true
+precision = "f64"
+[domain]
+periodic = ["x", "y"]
+low = [0, 0, 0]
+high = [0.1, 0.1, 0.3]
+[neighbours]
+skin = 0.001
+[guards]
+overlap = 0.3
+motion = 0.2
+zones = true
+energy = 0.9
+steps = 1e6
+frames = 1000
+[[fill]]
+material = "sinter"
+shape = "box:0.01,0.01,0.05,0.09,0.09,0.1"
+diameter = 0.01
+mass = 0.02
+velocity = [0, 0, -0.1]
+seed = 3
+[[fill]]
+material = "sinter"
+shape = "sphere:0.05,0.05,0.15,0.03"
+diameter = [0.008, 0.01]
+count = 4
+[[fill]]
+material = "sinter"
+shape = "cylinder:0.05,0.05,0.2,0.05,0.05,0.25,0.03"
+diameter = 0.008
+count = 4
+[[wall]]
+name = "floor"
+plane = "0,0,0,0,0,1"
+material = "steel"
+motion = { translate = [0.1, 0, 0], vibrate = { amplitude = [0, 0, 0.0001], frequency = 50 }, from = 0.0005, until = 0.0015 }
+[[wall]]
+plane = "0,0,0.3,0,0,-1"
+material = "steel"
+servo = { direction = [0, 0, -1], force = 10, speed_limit = 0.1 }
+"#;
+
+/// Meshes, boxes, insertion by mass and by number, sleep.
+const WALLS: &str = r#"
+gravity = [0, 0, -9.81]
+precision = "mixed"
+[time]
+until = 0.002
+dt = 1e-5
+[output]
+every = "step"
+energy = false
+contacts = false
+wall_forces = false
+precision = "f32"
+[domain]
+periodic = ["z"]
+low = [0, 0, 0]
+high = [1, 1, 1]
+[guards]
+zones = false
+[sleep]
+speed = 1e-3
+time = 0.01
+wake = 0.2
+[[particles]]
+source = "grains.csv"
+material = "sinter"
+[[insert]]
+material = "sinter"
+shape = "box:0.3,0.3,0.5,0.5,0.5,0.53"
+diameter = 0.01
+velocity = [0, 0, -1]
+rate = 0.5
+from = 0.0001
+until = 0.0015
+mass = 0.01
+seed = 1
+[[insert]]
+material = "sinter"
+shape = "cylinder:0.7,0.7,0.5,0.7,0.7,0.53,0.1"
+diameter = [0.008, 0.01]
+velocity = [0, 0, -1]
+rate_count = 2000
+count = 2
+[[wall]]
+box = [0, 0, -1, 1, 1, 2]
+faces = ["x-", "x+", "y-", "y+"]
+material = "steel"
+[[wall]]
+mesh = "tetra.ply"
+material = "steel"
+motion = { rotate = { about = [0, 0, 1], through = [0.1, 0.1, 0], rpm = 10 } }
+[[wall]]
+source = "walls.mcap"
+[[wall]]
+box = [0, 0, -1, 1, 1, 2]
+faces = ["y-"]
+material = "steel"
+servo = { direction = [0, 1, 0], stress = 100, area = 0.5, speed_limit = 0.1 }
+"#;
+
+/// Clumps of spheres and of a mesh, placed, filled, inserted and read.
+const CLUMPS: &str = r#"
+gravity = [0, 0, -9.81]
+precision = "f32"
+[time]
+until = 0.002
+accuracy = "1%"
+[drag]
+law = "schiller-naumann"
+viscosity = 1e-3
+density = 1000
+velocity = [0, 0, 0.1]
+buoyancy = true
+[[clump]]
+name = "pair"
+material = "sinter"
+spheres = [[0, 0, 0, 0.005], [0.006, 0, 0, 0.005]]
+mass = "union"
+scale = 1.2
+[[clump]]
+name = "twin"
+material = "sinter"
+spheres = [[0, 0, 0, 0.005], [0.006, 0, 0, 0.005]]
+mass = "sum"
+[[clump]]
+name = "block"
+material = "sinter"
+mesh = "tetra.ply"
+vertex_radius = 0.05
+scale = 0.1
+[[body]]
+clump = "block"
+position = [0.5, 0.5, 0.5]
+quaternion = [0.6, 0.8, 0, 0]
+velocity = [0, 0, 1]
+spin = [1, 0, 0]
+scale = 0.8
+[[fill]]
+clump = "pair"
+scale = [0.8, 1.2]
+shape = "box:0,0,0,0.2,0.2,0.2"
+count = 5
+[[fill]]
+clump = "twin"
+scale = 0.9
+shape = "box:0.3,0,0,0.5,0.2,0.2"
+count = 5
+[[particles]]
+source = "clumps.csv"
+clump = "pair"
+[[insert]]
+clump = "twin"
+scale = 1.1
+shape = "box:0.3,0.3,0.5,0.5,0.5,0.54"
+velocity = [0, 0, -1]
+rate = 0.1
+[[insert]]
+clump = "twin"
+scale = [0.9, 1.1]
+shape = "box:0.6,0.3,0.5,0.8,0.5,0.54"
+velocity = [0, 0, -1]
+rate = 0.1
+"#;
+
+/// Every law between two materials, and bonds.
+const LAWS: &str = r#"
+[time]
+until = 0.002
+safety = 0.3
+[drag]
+law = "stokes"
+viscosity = 1.8e-5
+buoyancy = false
+[[contact]]
+between = ["a", "a"]
+law = "hooke"
+stiffness = 1e4
+tangential_ratio = 0.3
+restitution = 0.5
+sliding_friction = 0.5
+rolling_resistance = 0.1
+rolling_model = "spring"
+twisting_resistance = 0.1
+[[contact]]
+between = ["a", "b"]
+law = "jkr"
+work_of_adhesion = 0.01
+restitution = 0.5
+[[contact]]
+between = ["b", "b"]
+law = "walton_braun"
+stiffness = 1e4
+restitution = 0.5
+sliding_friction = { static = 0.5, dynamic = 0.3, speed = 0.1 }
+rolling_resistance = 0.1
+rolling_model = "constant"
+[[contact]]
+between = ["a", "c"]
+cohesion = "sjkr"
+cohesion_energy_density = 1000
+restitution = 0.5
+[[contact]]
+between = ["*", "*"]
+law = "hooke"
+characteristic_velocity = 1
+restitution = 0.5
+[[bond]]
+between = ["c", "c"]
+gap = 1e-3
+young = 1e6
+poisson = 0.25
+radius_ratio = 0.8
+tensile_strength = 1e5
+shear_strength = 1e5
+damping = 0.1
+[[particles]]
+source = "a.csv"
+material = "a"
+[[particles]]
+source = "b.csv"
+material = "b"
+[[particles]]
+source = "c.csv"
+material = "c"
+"#;
+
+fn three() -> String {
+    let one = |name| format!("[[material]]\nname = \"{name}\"\ndensity = 2000\nyoung = 1e6\npoisson = 0.3\n");
+    ["a", "b", "c"].map(one).concat()
+}
+
+/// A stage upstream, by the motion in its zone, the length of the zone and the test.
+fn upstream(motion: &str, length: &str, test: &str) -> String {
+    let samples = if motion == "recorded" { "samples = 1e-4\n" } else { "" };
+    format!(
+        "[time]\nuntil = 0.02\naccuracy = 0.01\n{MATERIALS}{CONTACT}[[particles]]\nsource = \"grains.csv\"\nmaterial = \"sinter\"\n\
+         [[outlet]]\nplane = \"0,0,0.09,0,0,-1\"\nlength = {length}\nmotion = \"{motion}\"\ntest = \"{test}\"\n{samples}\
+         plant = \"a b c\"\n"
+    )
+}
+
+/// The stage downstream of it.
+fn downstream(motion: &str, length: &str, test: &str) -> String {
+    format!(
+        "[time]\nuntil = 0.02\n{MATERIALS}{CONTACT}[[inlet]]\nsource = \"{motion}.mcap\"\nplane = \"0,0,0.09,0,0,-1\"\n\
+         length = {length}\nmotion = \"{motion}\"\ntest = \"{test}\"\nplant = \"a b c\"\n"
+    )
+}
+
+/// How the stages are cut: motion, length, test.
+pub const CUTS: [(&str, &str, &str); 3] =
+    [("constant", "\"auto\"", "centre"), ("ballistic", "0.03", "lowest"), ("recorded", "\"auto\"", "centre")];
+
+/// All scenes, in an order in which they can be run.
+pub fn scenes() -> Vec<(String, String)> {
+    let of = |text: &str| [text, MATERIALS, CONTACT].concat();
+    let mut all = vec![
+        ("plain".to_owned(), of(PLAIN)),
+        ("walls".to_owned(), of(WALLS)),
+        ("clumps".to_owned(), of(CLUMPS)),
+        ("laws".to_owned(), [LAWS, &three()].concat()),
+    ];
+    for (motion, length, test) in CUTS {
+        all.push((format!("up-{motion}"), upstream(motion, length, test)));
+        all.push((format!("down-{motion}"), downstream(motion, length, test)));
+    }
+    all
+}
+
+/// Files that the scenes read.
+pub const FILES: [(&str, &str); 6] = [
+    ("grains.csv", "x,y,z,radius,vz\n0.2,0.2,0.1,0.005,-1\n0.2,0.25,0.12,0.005,-1\n0.25,0.2,0.15,0.004,-1\n"),
+    ("clumps.csv", "x,y,z,qw,qx,qy,qz\n0.9,0.9,0.9,1,0,0,0\n"),
+    ("a.csv", "x,y,z,radius\n0,0,0,0.005\n0.00999,0,0,0.005\n"),
+    ("b.csv", "x,y,z,radius\n0,0.0099999,0,0.005\n0.00999,0.0199999,0,0.005\n"),
+    ("c.csv", "x,y,z,radius\n0.1,0,0,0.005\n0.1101,0,0,0.005\n0.1,0.0101,0,0.005\n"),
+    (
+        "tetra.ply",
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
+         element face 4\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n0.1 0 0\n0 0.1 0\n0 0 0.1\n\
+         3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n",
+    ),
+];

@@ -1,0 +1,91 @@
+//! Small inputs for the examples: clouds, a mesh, a prism, tables of regions, scenes.
+
+use grainpipe_tests::scenes::folder;
+use tempfile::TempDir;
+
+const TETRAHEDRON: &str = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n\
+                           property float z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n\
+                           0 0 0\n0.3 0 0\n0 0.3 0\n0 0 0.3\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+
+const PRISM: &str = r#"{"polygon": [[-1,-1,-1],[0.1,-1,-1],[0.1,1,-1],[-1,1,-1]], "extrusion": [0,0,2]}"#;
+
+const REGIONS: &str = "[[region]]\nname = \"left\"\nshape = \"box:-1,-1,-1,0.1,1,1\"\naction = \"keep\"\n";
+
+const ROUGHNESS: &str =
+    "roughness = 0.001\n[[region]]\nname = \"worn\"\nshape = \"box:-1,-1,-1,0.1,1,1\"\nroughness = 0.002\n";
+
+const HEAD: &str = r#"gravity = [0, 0, -9.81]
+[time]
+until = 0.05
+[output]
+every = 0.002
+energy = true
+contacts = true
+[[material]]
+name = "sinter"
+density = 3300
+young = 2e6
+poisson = 0.25
+[[material]]
+name = "coal"
+density = 1400
+young = 2e6
+poisson = 0.25
+[[contact]]
+between = ["*", "*"]
+restitution = 0.5
+sliding_friction = 0.5
+rolling_resistance = 0.1
+"#;
+
+const GRAINS: &str = r#"[[fill]]
+material = "sinter"
+shape = "box:0,0,0.02,0.06,0.06,0.08"
+diameter = [0.008, 0.012]
+count = 30
+velocity = [0, 0, -1]
+"#;
+
+/// A wedge that leans on a wall, at 45°, and a grain of another material.
+const HEAP: &str = "[[particles]]\nsource = \"heap.csv\"\nmaterial = \"sinter\"\n\
+                    [[particles]]\nsource = \"one.csv\"\nmaterial = \"coal\"\n";
+
+fn floor(height: f64) -> String {
+    format!("[[wall]]\nname = \"floor\"\nplane = \"0,0,{height},0,0,1\"\nmaterial = \"sinter\"\n")
+}
+
+/// 400 points, 10 mm apart.
+pub fn plate() -> impl Iterator<Item = (f64, f64)> {
+    (0..400).map(|k| (0.01 * f64::from(k % 20), 0.01 * f64::from(k / 20)))
+}
+
+fn heap() -> String {
+    let at = |i: i32| 0.01 * f64::from(i) + 0.005;
+    let column = |i: i32, j: i32| (0..10 - i).map(move |k| format!("{},{},{},0.005\n", at(i), at(j), at(k)));
+    let rows = (0..10).flat_map(|i| (0..8).flat_map(move |j| column(i, j)));
+    ["x,y,z,radius\n".to_owned()].into_iter().chain(rows).collect()
+}
+
+/// A folder with all of them.
+pub fn inputs() -> TempDir {
+    let flat: String = plate().map(|(x, y)| format!("{x} {y} 0\n")).collect();
+    let hole = |&(x, y): &(f64, f64)| (x - 0.1).hypot(y - 0.1) >= 0.03;
+    let scan = (0..).zip(plate()).filter(|(_, at)| hole(at));
+    let scan: String = scan.map(|(k, (x, y))| format!("{x} {y} {}\n", 0.002 * f64::from(k).sin())).collect();
+    let plant = [HEAD, GRAINS, &floor(-1.0)].concat();
+    let outlet = "[[outlet]]\nplane = \"0,0,0.02,0,0,-1\"\nmotion = \"recorded\"\n";
+    folder(&[
+        ("flat.xyz", flat),
+        ("scan.xyz", scan),
+        ("tetra.ply", TETRAHEDRON.to_owned()),
+        ("prism.json", PRISM.to_owned()),
+        ("regions.toml", REGIONS.to_owned()),
+        ("rough.toml", ROUGHNESS.to_owned()),
+        ("heap.csv", heap()),
+        ("one.csv", "x,y,z,radius\n0.15,0.04,0.004,0.004\n".to_owned()),
+        ("s.toml", [HEAD, GRAINS, &floor(0.0)].concat()),
+        ("heap.toml", [&HEAD.replace("until = 0.05", "until = 0.004"), HEAP, &floor(0.0)].concat()),
+        ("up.toml", [&plant, outlet].concat()),
+        ("plant.toml", plant),
+    ])
+}
