@@ -131,6 +131,14 @@ mesh = "tetra.ply"
 material = "steel"
 motion = { rotate = { about = [0, 0, 1], through = [0.1, 0.1, 0], rpm = 10 } }
 [[wall]]
+mesh = "tetra.ply"
+units = "cm"
+material = "steel"
+[[wall]]
+mesh = "tetra.ply"
+scale = 0.5
+material = "steel"
+[[wall]]
 source = "walls.mcap"
 [[wall]]
 box = [0, 0, -1, 1, 1, 2]
