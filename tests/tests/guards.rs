@@ -119,12 +119,27 @@ fn overlap() {
         folder.path(),
         "overlap",
         &guard,
-        &["particle 1", "particle 2", "overlaps", "raise guards.overlap"],
+        &["particle 1", "particle 2", "overlaps", "young of glass ≥ ", "m/s", "raise guards.overlap"],
     );
     let again = resumed(folder.path(), &guard);
     RESUMES.refused("overlap, the guard as it was", &again.stderr, &["stopped by a guard", "overlaps"]);
     assert_eq!(again.code, 3);
     exact(folder.path(), "overlap", &["--set", "guards.overlap=0.9"]);
+}
+
+/// The modulus that a message names bears the impact, and three quarters of it do not.
+#[test]
+fn the_modulus_that_is_named_bears_the_impact() {
+    let folder = scene(COLLISION, "");
+    let guard = ["--set", "guards.overlap=0.05", "--set", "time.dt=1e-7"];
+    let done = stopped(folder.path(), "overlap, a modulus", &guard, &["young of glass ≥ "]);
+    let (_, said) = done.stderr.split_once("young of glass ≥ ").expect("it is named");
+    let young: f64 = said.split_whitespace().next().and_then(|word| word.parse().ok()).expect("a number");
+    for (share, code) in [(1.0, 0), (0.5, 3)] {
+        let stiff = format!("material.0.young={:e}", share * young);
+        let again = tool(folder.path(), "dem-run", &[&["s.toml", "--set", &stiff], &guard[..]].concat());
+        assert_eq!(again.code, code, "{stiff}: {}", again.stderr);
+    }
 }
 
 /// The cure that a message names works: a step that was sound when the run began stays the step of the run, also where

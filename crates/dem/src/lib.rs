@@ -40,8 +40,8 @@ pub use model::limit::critical_step;
 pub use model::start::time_step;
 pub use model::{
     Allowed, BondConflict, BondedParticle, CriticalBonds, CriticalDrag, CriticalGrain, CriticalPair,
-    CriticalPartner, Halt, Limit, OutOfRange, Partner, Quantity, SetupError, StateMismatch, StepCause,
-    Subject,
+    CriticalPartner, Halt, Limit, OutOfRange, Partner, Quantity, SetupError, StateMismatch,
+    StepCause, Stiffer, Subject,
 };
 pub use observe::record::ContactRecord;
 pub use observe::snapshot::Snapshot;

@@ -27,6 +27,8 @@ pub enum Halt {
         share: f64,
         /// Allowed share [–].
         limit: f64,
+        /// What would bear it, where that is known.
+        stiffer: Option<Box<Stiffer>>,
     },
     /// A particle comes in on top of another.
     #[error(
@@ -159,6 +161,21 @@ pub enum Halt {
         /// Allowed share [–].
         limit: f64,
     },
+}
+
+/// What a contact must be made of to bear an approach.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stiffer {
+    /// Speed of the approach [m/s]; 0 where nothing approaches.
+    pub speed: f64,
+    /// "young" or "stiffness".
+    pub key: &'static str,
+    /// Name of the material, or of both.
+    pub of: String,
+    /// Its least value, in `unit`.
+    pub value: f64,
+    /// Pa or N/m.
+    pub unit: &'static str,
 }
 
 /// A position in messages.

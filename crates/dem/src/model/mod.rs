@@ -20,7 +20,7 @@ pub use bonds::beam::{Beam, Ends, Pull};
 pub use bonds::{BondedPair, GONE};
 pub use dense_walls::DenseWalls;
 pub use error::{BondConflict, SetupError, StateMismatch};
-pub use halt::{Halt, Partner};
+pub use halt::{Halt, Partner, Stiffer};
 pub use in_range::Check;
 pub use quantity::{Allowed, OutOfRange, Quantity, Subject};
 pub use step_cause::{

@@ -119,8 +119,16 @@ impl NeighbourLists {
             let j = self.slots.partner[slot] as usize;
             return (position(j), particles.rows[j][3]);
         }
-        let row = &self.step.rows[segment.rows + segment.rank(slot)];
+        let row = self.partner_row(particles, segment, slot);
         (row.position(), row[3])
+    }
+
+    /// The row of the second of a contact: a particle, its image, or the contact point of a wall.
+    pub fn partner_row<'a>(&'a self, particles: &'a Particles, segment: &Segment, slot: usize) -> &'a Row {
+        match segment.with {
+            With::Particles => &particles.rows[self.slots.partner[slot] as usize],
+            With::Images | With::Wall(_) => &self.step.rows[segment.rows + segment.rank(slot)],
+        }
     }
 }
 

@@ -1,8 +1,9 @@
 //! What tripped a guard: which particle, where, by how much.
 
-use crate::model::{Halt, Model, Partner, With};
-use crate::neighbours::NeighbourLists;
+use crate::model::{Halt, Model, Partner, Stiffer, With};
+use crate::neighbours::{NeighbourLists, Segment};
 use crate::observe::snapshot::energy;
+use crate::observe::stiffen::{DeepContact, stiffer};
 use crate::passes::touching::position_before;
 use crate::state::{ServoState, State};
 use std::ops::Range;
@@ -47,13 +48,38 @@ pub fn check_overlap(
                     Some(inlet) => {
                         Halt::InletOverlap { time, id, inlet, partner, position, overlap, share, limit }
                     }
-                    None => Halt::Overlap { time, id, partner, position, overlap, share, limit },
+                    None => {
+                        let stiffer = bearing(model, state, lists, (segment, at), overlap);
+                        Halt::Overlap { time, id, partner, position, overlap, share, limit, stiffer }
+                    }
                 };
                 worst = Some((share, halt));
             }
         }
     }
     worst.map_or(Ok(()), |(_, halt)| Err(halt))
+}
+
+/// What would bear the contact in a slot, which overlaps by so much [m].
+fn bearing(
+    model: &Model,
+    state: &State,
+    lists: &NeighbourLists,
+    (segment, slot): (&Segment, usize),
+    overlap: f64,
+) -> Option<Box<Stiffer>> {
+    let (p, i) = (&state.particles, lists.slots.i[slot] as usize);
+    let other = lists.partner_row(p, segment, slot);
+    let row = &p.rows[i];
+    let normal = (row.position() - other.position()).try_normalize(0.0)?;
+    let deep = DeepContact {
+        between: model.kinds[segment.kind].between,
+        radii: [row[3], other[3]],
+        inverse_mass: row[7] + other[7],
+        overlap,
+        approach: (other.velocity() - row.velocity()).dot(&normal),
+    };
+    stiffer(model, &deep).map(Box::new)
 }
 
 /// The particle whose state is lost: where it was listed, from where it has gone less than its margin.

@@ -5,3 +5,4 @@
 pub mod guards;
 pub mod record;
 pub mod snapshot;
+mod stiffen;

@@ -12,7 +12,7 @@ use crate::error::Result;
 use crate::schedule::Schedule;
 use crate::simulate::guard;
 pub use calibration::Calibration;
-use dem::setup::{Wall, WallShape};
+use dem::setup::{Guards, Setup, Wall, WallShape};
 use dem::{ContactBytes, Simulation, critical_step};
 pub use effects::Effect;
 use effects::{EffectToMeasure, effects};
@@ -21,6 +21,9 @@ use scene::plan::Insertion;
 use scene::{Plan, Scene};
 use serde::Serialize;
 use stages::inlet::InletStream;
+
+/// Step over another one from which on it is longer [–].
+const LONGER: f64 = 1.001;
 
 /// The answer.
 pub struct Explained {
@@ -49,6 +52,10 @@ pub struct Fields {
     pub chosen_by: Option<String>,
     /// The pair that limits it.
     pub limiting_pair: String,
+    /// Critical step with half of `guards.overlap`, where that lengthens it [s].
+    pub critical_dt_half_overlap: Option<f64>,
+    /// `guards.overlap` [–].
+    pub guard_overlap: f64,
     /// Steps of the run.
     pub steps: u64,
     /// Effects.
@@ -139,6 +146,8 @@ pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained> {
         dt,
         critical_dt: limit.dt,
         chosen_by,
+        critical_dt_half_overlap: half_overlap(&setup, limit.dt)?,
+        guard_overlap: setup.guards.overlap,
         limiting_pair: explain_step_cause(&limit.cause),
         steps: last,
         effects: effects(scene, &setup).into_iter().map(measured_effect).collect(),
@@ -156,6 +165,13 @@ pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained> {
     };
     let summary = format!("{particles} particles, {} walls, {last} steps of {dt:.3e} s", setup.walls.len());
     Ok(Explained { text: text::text(&fields), summary, fields })
+}
+
+/// Critical step with half of the overlap guard, where that is longer: the stiffness of the limiting pair is that at the guard.
+fn half_overlap(setup: &Setup, critical: f64) -> Result<Option<f64>> {
+    let guards = Guards { overlap: 0.5 * setup.guards.overlap, ..setup.guards };
+    let dt = critical_step(&Setup { guards, ..setup.clone() })?.dt;
+    Ok(Some(dt).filter(|dt| *dt > LONGER * critical))
 }
 
 fn wall_spheres(wall: &Wall) -> usize {

@@ -17,6 +17,14 @@ pub(super) fn text(fields: &Fields) -> String {
         line(&mut out, "chosen by", chosen);
     }
     line(&mut out, "limited by", &fields.limiting_pair);
+    if let Some(dt) = fields.critical_dt_half_overlap {
+        let overlap = geom::Shown(fields.guard_overlap);
+        line(
+            &mut out,
+            "",
+            format!("at guards.overlap = {overlap}; half of that would allow a critical step of {dt:.4e} s"),
+        );
+    }
     line(&mut out, "steps", fields.steps);
     let Fields { particles, wall_spheres, .. } = fields;
     line(&mut out, "particles", format!("{particles} at the start, and {wall_spheres} wall spheres"));

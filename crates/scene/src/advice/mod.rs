@@ -8,7 +8,7 @@ mod tests;
 
 pub use setup::{explain_setup_error, explain_step_cause};
 
-use dem::{Halt, SetupError};
+use dem::{Halt, SetupError, Stiffer};
 use thiserror::Error;
 
 /// A scene whose setup the engine refuses; its message is that of [`explain_setup_error`].
@@ -22,10 +22,23 @@ impl From<SetupError> for SceneSetupError {
     }
 }
 
+/// What else helps grains that overlap too far.
+const SOFTER: &str =
+    "let grains meet more slowly (a lower drop or speed of insertion), shorten dt, or raise guards.overlap";
+
+/// What a contact must be made of to bear what it met.
+fn of_stiffness(stiffer: Option<&Stiffer>) -> String {
+    let Some(Stiffer { speed, key, of, value, unit }) = stiffer else { return String::new() };
+    let met = if *speed > 0.0 { format!(" for an approach at {speed:.3e} m/s") } else { String::new() };
+    format!(" ({key} of {of} ≥ {value:.2e} {unit}{met})")
+}
+
 /// Why a run was stopped, and what to change in the scene or in the stages of a plant.
 pub fn explain_halt(halt: &Halt) -> String {
     let advice = match halt {
-        Halt::Overlap { .. } => "stiffen the material, shorten dt, or raise guards.overlap",
+        Halt::Overlap { stiffer, .. } => {
+            return format!("{halt}: stiffen the material{}, {SOFTER}", of_stiffness(stiffer.as_deref()));
+        }
         Halt::InletOverlap { .. } => {
             "keep its zone free at the start, let slow grains start farther back (stage-replay --ahead), \
              cut where nothing piles up to the plane, or raise guards.overlap"
@@ -39,7 +52,7 @@ pub fn explain_halt(halt: &Halt) -> String {
         }
         Halt::NotKept { .. } => "set record_wrenches in the setup",
         Halt::CameBack { .. } => {
-            "cut the plant farther upstream, or set guards.zones = false where grains get there by another way"
+            "cut the plant farther upstream, take a longer zone (length), or set guards.zones = false where grains get there by another way"
         }
         Halt::TooFast { .. } => "shorten dt, or raise guards.motion",
         Halt::Energy { .. } => "shorten dt (time.safety) or raise guards.energy",

@@ -173,8 +173,8 @@ fn halts() -> Vec<Advice<Halt>> {
     let wall = || Partner::Wall(floor());
     vec![
         (
-            Halt::Overlap { time, id, partner: wall(), position, overlap: 0.1, share, limit },
-            &["particle 7", WALL, "50.0 %", "guards.overlap"],
+            Halt::Overlap { time, id, partner: wall(), position, overlap: 0.1, share, limit, stiffer },
+            &["particle 7", WALL, "50.0 %", "(young of glass ≥ 2.00e7 Pa for an approach at 3.000e0 m/s)"],
         ),
         (
             Halt::InletOverlap { time, id, inlet, partner: wall(), position, overlap: 0.1, share, limit },
@@ -185,6 +185,8 @@ fn halts() -> Vec<Advice<Halt>> {
         (Halt::WallNotANumber { time, wall: floor(), push: 8.0 }, &[WALL, "8e0 N", "shorten dt"]),
         (Halt::NotKept { time }, &["not recorded", "record_wrenches"]),
         (Halt::CameBack { time, id, inlet, position, behind: 0.1 }, &["particle 7", "guards.zones"]),
+    let stiffer = Stiffer { speed: 3.0, key: "young", of: "glass".to_owned(), value: 2e7, unit: "Pa" };
+    let stiffer = Some(Box::new(stiffer));
         (
             Halt::TooFast { time, id, inlet, speed: 9.0, dt: 0.1, share, limit },
             &["9.0000e0 m/s", "guards.motion"],
