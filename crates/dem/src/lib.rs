@@ -36,6 +36,7 @@ mod threads;
 mod walls;
 
 pub use model::bonds::limit::entries as bonds_of;
+pub use model::in_range::magnitudes;
 pub use model::limit::critical_step;
 pub use model::start::time_step;
 pub use model::{

@@ -115,3 +115,9 @@ pub fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&
     };
     known.filter(|k| !k.is_empty()).map(distance).filter(near).min().map(|(_, k)| k)
 }
+
+/// A number with all its digits, or with an exponent where these would be many.
+pub(crate) fn shown(value: f64) -> String {
+    let usual = value == 0.0 || !value.is_finite() || (1e-9..1e16).contains(&value.abs());
+    if usual { value.to_string() } else { format!("{value:e}") }
+}

@@ -50,10 +50,13 @@ impl Slot {
     }
 }
 
+/// The largest number that any key takes: beyond, results overflow.
+const MOST: f64 = 1e18;
+
 /// Numbers that a key takes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Range {
-    /// Above 0 and finite.
+    /// Above 0, up to the largest number of any key.
     Positive,
     /// From 0 up to a limit.
     UpTo(f64),
@@ -65,7 +68,7 @@ impl Range {
     /// Whether a number is in it; NaN is not.
     pub fn holds(self, x: f64) -> bool {
         match self {
-            Range::Positive => x > 0.0 && x.is_finite(),
+            Range::Positive => x > 0.0 && x <= MOST,
             Range::UpTo(most) => (0.0..=most).contains(&x),
             Range::AboveZeroUpTo(most) => x > 0.0 && x <= most,
         }
@@ -75,7 +78,7 @@ impl Range {
 impl Display for Range {
     fn fmt(&self, f: &mut Formatter) -> std::fmt::Result {
         match self {
-            Range::Positive => write!(f, "numbers above 0"),
+            Range::Positive => write!(f, "above 0, up to {MOST:e}"),
             Range::UpTo(most) => write!(f, "0 to {}", geom::Shown(*most)),
             Range::AboveZeroUpTo(most) => write!(f, "above 0, up to {most}"),
         }

@@ -92,8 +92,7 @@ fn particles(setup: &Setup) -> Result<(), SetupError> {
     for p in &setup.particles {
         let check = Check(|| Subject::Particle(p.id));
         check.positive("radius", p.radius, "m")?;
-        check.vector("position", &p.position, "m")?;
-        check.near("position", &p.position, p.radius)?;
+        check.place("position", &p.position, p.radius)?;
         check.vector("velocity", &p.velocity, "m/s")?;
         check.vector("spin", &p.spin, "rad/s")?;
         if !ids.insert(p.id) {
@@ -133,10 +132,7 @@ fn walls(setup: &Setup) -> Result<(), SetupError> {
         let check = Check(|| Subject::Wall(w.name.clone()));
         match &w.shape {
             WallShape::Spheres(spheres) => {
-                for sphere in spheres {
-                    check.sphere(sphere)?;
-                    check.near("sphere", &sphere.0, sphere.1)?;
-                }
+                spheres.iter().try_for_each(|sphere| check.sphere(sphere))?;
             }
             WallShape::Plane(plane) => {
                 check.vector("plane", &plane.point, "m")?;

@@ -20,18 +20,22 @@ impl<S: Fn() -> Subject> Check<S> {
         if ok { Ok(()) } else { Err(out_of_range((self.0)().quantity(name), value, unit, allowed)) }
     }
 
-    /// Refuses all but numbers above 0.
+    /// Refuses all but numbers above 0 that a quantity of this unit may have.
     pub fn positive(&self, name: &'static str, value: f64, unit: &'static str) -> Result<(), SetupError> {
-        if value > 0.0 && value.is_finite() {
+        let [least, most] = magnitudes(unit);
+        if value > 0.0 && (least..=most).contains(&value) {
             return Ok(());
         }
         let key = name.rsplit('.').next().unwrap_or_default();
-        self.within(name, value, unit, false, format!("{key} > 0"))
+        let range =
+            if value > 0.0 { format!("{least:e} ≤ {key} ≤ {most:e}") } else { format!("{key} > 0") };
+        self.within(name, value, unit, false, range)
     }
 
-    /// Refuses infinity and NaN.
+    /// Refuses infinity, NaN, and numbers that are larger than a quantity of this unit may be.
     pub fn finite(&self, name: &'static str, value: f64, unit: &'static str) -> Result<(), SetupError> {
-        self.within(name, value, unit, value.is_finite(), "the finite numbers")
+        let [_, most] = magnitudes(unit);
+        self.within(name, value, unit, value.abs() <= most, format!("−{most:e} to {most:e}"))
     }
 
     /// Refuses a vector with a number that is not finite.
@@ -45,6 +49,14 @@ impl<S: Fn() -> Subject> Check<S> {
         self.within(name, material.into(), "[–]", known, Allowed::IndexOf("materials"))
     }
 
+    /// Refuses a position that is none, or too far away for a sphere.
+    pub fn place(&self, name: &'static str, position: &Vec3, radius: f64) -> Result<(), SetupError> {
+        if position.iter().all(|x| x.is_finite()) {
+            return self.near(name, position, radius);
+        }
+        self.vector(name, position, "m")
+    }
+
     /// Refuses a sphere so far away that its position has too few digits left: it would hang in the air.
     pub fn near(&self, name: &'static str, position: &Vec3, radius: f64) -> Result<(), SetupError> {
         let far = position.amax();
@@ -56,8 +68,22 @@ impl<S: Fn() -> Subject> Check<S> {
 
     /// Refuses a sphere without a centre or a radius.
     pub fn sphere(&self, (centre, radius): &(Vec3, f64)) -> Result<(), SetupError> {
-        self.vector("sphere", centre, "m")?;
-        self.positive("radius", *radius, "m")
+        self.positive("radius", *radius, "m")?;
+        self.place("sphere", centre, *radius)
+    }
+}
+
+/// The smallest (but 0) and the largest number that a quantity of this unit may have: beyond, results overflow, or lose all their digits.
+pub fn magnitudes(unit: &str) -> [f64; 2] {
+    match unit {
+        "m" => [1e-15, 1e15],
+        "m/s" | "rad/s" | "1/min" => [1e-18, 1e12],
+        "s" | "Hz" => [1e-18, 1e15],
+        "Pa" => [1e-9, 1e35],
+        "N/m" => [1e-9, 1e18],
+        "kg/m³" => [0.0, 1e30],
+        "" | "[–]" | "m/s²" | "Pa·s" => [1e-12, 1e12],
+        _ => [f64::MIN_POSITIVE, 1e18],
     }
 }
 

@@ -1,5 +1,6 @@
 //! What to change in a scene whose setup the engine refuses.
 
+use crate::error::shown;
 use dem::{Allowed, BondConflict, OutOfRange, Quantity, SetupError, StepCause, Subject};
 
 /// How much longer than what it must hold a zone should be [–].
@@ -123,7 +124,7 @@ fn out_of_range(number: &OutOfRange) -> String {
         }
         Allowed::SomeWeight => "scenes with gravity: a sleeper wakes by a share of its weight".to_owned(),
     };
-    format!("{}: {value} {unit} is outside {allowed}", key(quantity))
+    format!("{}: {} {unit} is outside {allowed}", key(quantity), shown(*value))
 }
 
 /// The key of a number, or where it stands.

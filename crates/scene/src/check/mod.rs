@@ -10,7 +10,7 @@ mod materials;
 mod particles;
 mod walls;
 
-use crate::error::{Result, SceneError, ValueError, nearest};
+use crate::error::{Result, SceneError, ValueError, nearest, shown};
 use crate::keys::{Diameter, SceneKeys};
 use crate::text::Text;
 use dem::setup::Material;
@@ -20,11 +20,6 @@ use std::fmt::Display;
 pub struct Check<'a> {
     /// The scene, for places in it.
     pub text: &'a Text,
-}
-
-/// A number as it was written, but for one of hundreds of digits.
-fn number(value: f64) -> String {
-    if (1e-9..1e15).contains(&value.abs()) || value == 0.0 { value.to_string() } else { format!("{value:e}") }
 }
 
 impl Check<'_> {
@@ -41,8 +36,14 @@ impl Check<'_> {
 
     /// A number above zero, where there is one.
     pub(crate) fn positive(&self, key: &str, value: impl Into<Option<f64>>, unit: &str) -> Result<()> {
-        let Some(value) = value.into().filter(|v| !(*v > 0.0 && v.is_finite())) else { return Ok(()) };
-        let value = format!("{} {unit}", number(value));
+        let [least, most] = dem::magnitudes(unit);
+        let Some(value) = value.into().filter(|v| !(*v > 0.0 && (least..=most).contains(v))) else {
+            return Ok(());
+        };
+        if value > 0.0 && value.is_finite() {
+            return self.within(key, value, least, most, unit);
+        }
+        let value = format!("{} {unit}", shown(value));
         Err(self.wrong(key, value.trim_end(), "must be a finite number above 0", "give a positive value"))
     }
 
@@ -51,15 +52,17 @@ impl Check<'_> {
         if (low..=high).contains(&value) {
             return Ok(());
         }
+        let (low, high) = (geom::Shown(low), geom::Shown(high));
         let cure = format!("give {low} to {high}{}{unit}", if unit.is_empty() { "" } else { " " });
-        let value = format!("{} {unit}", number(value));
-        Err(self.wrong(key, value.trim_end(), "is outside the range", &cure))
+        Err(self.wrong(key, format!("{} {unit}", shown(value)).trim_end(), "is outside the range", &cure))
     }
 
-    /// Finite numbers.
+    /// Numbers that are finite, and no larger than a quantity of this unit may be.
     pub(crate) fn finite(&self, key: &str, value: &[f64], unit: &str) -> Result<()> {
-        if value.iter().all(|v| v.is_finite()) {
-            return Ok(());
+        let [_, most] = dem::magnitudes(unit);
+        let Some(worst) = value.iter().find(|v| !(v.abs() <= most)) else { return Ok(()) };
+        if worst.is_finite() {
+            return self.within(key, *worst, -most, most, unit);
         }
         Err(self.wrong(key, format!("{value:?} {unit}"), "must be finite", "give numbers"))
     }
