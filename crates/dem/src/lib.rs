@@ -41,7 +41,7 @@ pub use model::limit::critical_step;
 pub use model::start::time_step;
 pub use model::{
     Allowed, BondConflict, BondedParticle, CriticalBonds, CriticalDrag, CriticalGrain, CriticalPair,
-    CriticalPartner, Halt, Limit, OutOfRange, Partner, Quantity, SetupError, StateMismatch,
+    CriticalPartner, Halt, Limit, OutOfRange, Partner, Quantity, RepeatedMotion, SetupError, StateMismatch,
     StepCause, Stiffer, Subject,
 };
 pub use observe::record::ContactRecord;

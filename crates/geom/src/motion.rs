@@ -62,9 +62,19 @@ impl Motion {
         self.amplitude != Vec3::zeros() && self.frequency != 0.0
     }
 
+    /// Frequency of the vibration [Hz]; 0: none.
+    pub fn vibration(&self) -> f64 {
+        if self.vibrates() { self.frequency.abs() } else { 0.0 }
+    }
+
+    /// Whether `time` [s] is between its start and its end.
+    pub fn runs(&self, time: f64) -> bool {
+        (self.from..self.until).contains(&time)
+    }
+
     /// Pose at `time` [s].
     pub fn pose(&self, time: f64) -> Pose {
-        let runs = (self.from..self.until).contains(&time);
+        let runs = self.runs(time);
         let time = time.max(self.from).min(self.until) - self.from;
         let angle = self.turn.norm() * time;
         let rotation = match Unit::try_new(self.turn, 0.0) {

@@ -95,6 +95,57 @@ fn a_sleeper_that_loses_its_support_falls() {
     assert!((z - free).abs() < 1e-3, "fell to {z} m, freely to {free} m");
 }
 
+/// Two layers at rest on a belt, which starts at 0.3 s: friction is too weak to wake them by its force. They ride on it as far as those that
+/// never slept.
+#[test]
+fn a_belt_that_starts_carries_sleepers_along() {
+    for (speed, friction) in [(0.2, 0.08), (0.2, 0.02), (0.002, 0.04)] {
+        let mut setup = filling(HOOKE, 2);
+        setup.contacts.iter_mut().for_each(|c| c.set("sliding_friction", friction));
+        let mut belt = plane(Vec3::z());
+        belt.motion = Motion { velocity: Vec3::new(speed, 0.0, 0.0), from: 0.5, ..Motion::still() };
+        setup.walls = vec![belt];
+        let way = |setup: Setup, least: usize| {
+            let mut sim = simulation(setup);
+            run_until(&mut sim, 0.49);
+            assert!(sim.asleep() >= least, "{} sleep before the start", sim.asleep());
+            let before = velocity_and_place(&mut sim);
+            let mut way = 0.0;
+            // In a periodic box a place says nothing of the way.
+            for k in 1..=40 {
+                run_until(&mut sim, 0.49 + 0.01 * f64::from(k));
+                way += 0.01 * velocity_and_place(&mut sim).0;
+            }
+            (way, before.1)
+        };
+        let rule = Sleep { speed: 1e-3, time: 0.01, wake: 0.1 };
+        let (asleep, _) = way(Setup { sleep: Some(rule), ..setup.clone() }, 64);
+        let (awake, _) = way(setup, 0);
+        let case = format!("belt {speed} m/s, friction {friction}");
+        assert!((asleep / awake - 1.0).abs() < 0.02, "{case}: {asleep} m, {awake} m awake");
+    }
+}
+
+/// Mean velocity and mean height along the belt.
+fn velocity_and_place(sim: &mut Simulation) -> (f64, f64) {
+    let all = particles(sim);
+    let n = all.len() as f64;
+    let sum = |f: fn(&Particle) -> f64| all.iter().map(f).sum::<f64>() / n;
+    (sum(|p| p.velocity.x), sum(|p| p.position.z))
+}
+
+/// A belt slower than sleep would leave behind what it carries: it is refused.
+#[test]
+fn a_belt_slower_than_sleep_is_refused() {
+    let mut setup = sleepy(filling(HOOKE, 1));
+    setup.walls[0].motion.velocity.x = 1.9e-3;
+    let refused = Simulation::new(setup.clone()).err().expect("refused");
+    let text = scene::advice::explain_setup_error(&refused);
+    assert!(text.starts_with("sleep.speed: ") && text.contains("wall 'plane'"), "{text}");
+    setup.walls[0].motion.velocity.x = 2.1e-3;
+    simulation(setup);
+}
+
 /// A sleeper whose neighbour is thrown out of reach within one step wakes: lists are rebuilt in that step, and none of them would
 /// tell it that its load is gone.
 #[test]

@@ -6,3 +6,4 @@ mod dense;
 mod few;
 mod refused;
 mod trial;
+mod vibrating;

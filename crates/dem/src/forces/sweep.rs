@@ -13,6 +13,7 @@ use crate::neighbours::{Computed, NeighbourLists, RestingTile, Slots, TileSlice}
 use crate::passes::bonds::add_bond_forces;
 use crate::passes::integrate::{MoveFlags, ParticleSlices};
 use crate::passes::sleep::advance_awake;
+use crate::passes::stirred::{Movers, Stirred};
 use crate::simd::Layout;
 use crate::state::{Bonds, Forces, Particles, Sleepers, State};
 use crate::threads::{FEW, share};
@@ -122,6 +123,8 @@ struct SecondHalf<'a> {
     bonds: &'a Bonds,
     lists: &'a Slots,
     does: Second,
+    /// Where particles sleep.
+    stirred: Option<Stirred<'a>>,
 }
 
 impl SecondHalf<'_> {
@@ -138,7 +141,7 @@ impl SecondHalf<'_> {
             self.bonds.add(&mut particles.sums);
         }
         if self.does.moves {
-            advance_awake(self.model, particles, self.lists, resting)
+            advance_awake(self.model, particles, resting, self.stirred)
         } else {
             MoveFlags::default()
         }
@@ -197,7 +200,7 @@ fn step_tile_by_tile(model: &Model, state: &mut State, lists: &mut NeighbourList
     let layout = contacts.layout;
     let Computed { slots: shared, mut slice, mut sums, .. } = lists.with(contacts);
     let mut found = StepFlags::default();
-    let second = SecondHalf { model, bonds, lists: shared, does: Second::BOTH };
+    let second = SecondHalf { model, bonds, lists: shared, does: Second::BOTH, stirred: None };
     let forces = |segments: Range<usize>, particles: &Particles, slice: &mut TileSlice, sums: &mut Sums| {
         let step = step_inputs(model, particles, layout);
         let inputs = TileInputs { lists: shared, model, poses: &poses, period, step, sleepers: None };
@@ -233,13 +236,18 @@ fn finish(model: &Model, state: &mut State, lists: &mut NeighbourLists, does: Se
     if does.moves {
         keep_rows(model, state, lists);
     }
+    let time = state.time();
     let State { particles, bonds, sleepers, zones, contacts, .. } = state;
+    let asleep = sleepers.as_ref().filter(|_| does.moves);
+    let movers = asleep.map(|s| Movers::new(model, particles, s, time));
     let (count, many) = (particles.len(), particles.len() >= FEW);
     let Computed { slots: shared, slice, sums, resting_tiles } = lists.with(contacts);
     let sleeper_slices = sleepers.as_mut().map(|s| s.sleeper_slices(&zones.prescribed));
     let mut columns = ParticleSlices { sleeper_slices, ..ParticleSlices::of(particles, 0..count, sums) };
     let items = (0..shared.tiles.len() - 1).map(|tile| (tile, columns.split_off(shared.tile))).collect();
-    let second = SecondHalf { model, bonds, lists: shared, does };
+    let (wrenches, layout) = (slice.each.as_ref(), slice.layout);
+    let stirred = movers.as_ref().map(|movers| Stirred { movers, lists: shared, wrenches, layout });
+    let second = SecondHalf { model, bonds, lists: shared, does, stirred };
     let run = |(tile, particles)| second.tile(tile, particles, slice.kept.as_ref(), resting_tiles.get(tile));
     let moved = share(many, items, run);
     if does.moves {

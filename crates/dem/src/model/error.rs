@@ -27,6 +27,16 @@ pub enum SetupError {
         /// What sets it.
         cause: Box<StepCause>,
     },
+    /// The time step skips the motion of a wall.
+    #[error("time step {dt:.4e} s is above the longest {most:.4e} s for {cause}")]
+    StepAbovePeriod {
+        /// Time step [s].
+        dt: f64,
+        /// Largest step that resolves the motion [s].
+        most: f64,
+        /// The motion, and what else bounds the step.
+        cause: Box<StepCause>,
+    },
     /// The time step is to be a share of the critical step, and no contact can occur.
     #[error("no contact can occur, so there is no critical time step")]
     NoStep,
@@ -179,6 +189,20 @@ pub enum SetupError {
         share: f64,
         /// Allowed [–].
         limit: f64,
+    },
+    /// A wall that carries particles so slowly that they would fall asleep on it.
+    #[error(
+        "wall '{wall}': {speed:.4e} m/s is less than twice the speed of sleep {sleep:.4e} m/s, so that particles that it carries would fall asleep"
+    )]
+    WallSlowerThanSleep {
+        /// The wall.
+        wall: String,
+        /// Its largest speed [m/s].
+        speed: f64,
+        /// Speed of sleep [m/s].
+        sleep: f64,
+        /// Largest speed of sleep [m/s].
+        most: f64,
     },
     /// A plane that rotates out of itself: the speed of its far points has no bound.
     #[error("wall '{0}': an unbounded plane can turn about its own normal only")]

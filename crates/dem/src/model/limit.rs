@@ -30,10 +30,11 @@ use crate::model::dense_walls::{met, rounding};
 use crate::model::in_range::indices;
 use crate::model::step_cause::root;
 use crate::model::{
-    CriticalDrag, CriticalGrain, CriticalPair, CriticalPartner, DenseWalls, Limit, SetupError, StepCause,
+    CriticalDrag, CriticalGrain, CriticalPair, CriticalPartner, DenseWalls, Limit, RepeatedMotion,
+    SetupError, StepCause,
 };
 use crate::setup::clumps::{SizeClass, widen};
-use crate::setup::{ContactLaw, Drag, Setup, Wall};
+use crate::setup::{ContactLaw, Drag, Setup, Step, Wall, WallShape};
 use crate::space::sphere::mass;
 use geom::Vec3;
 use std::f64::consts::PI;
@@ -133,7 +134,19 @@ pub fn critical_step(setup: &Setup) -> Result<Limit, SetupError> {
         }
         limit.dt = with;
     }
+    let share = if let Step::Auto(share) = setup.step { share } else { 1.0 };
+    limit.cause.motion = fastest_motion(setup).filter(|motion| motion.step() < share * limit.dt);
     Ok(limit)
+}
+
+/// The wall whose motion repeats fastest. A plane that turns in itself stays as it is; all else that turns may have an edge.
+fn fastest_motion(setup: &Setup) -> Option<RepeatedMotion> {
+    let of = |wall: &Wall| {
+        let turns = if matches!(wall.shape, WallShape::Plane(_)) { 0.0 } else { wall.motion.turn.norm() };
+        let rate = wall.motion.vibration().max(turns / (2.0 * PI));
+        (rate > 0.0).then(|| RepeatedMotion { wall: wall.name.clone(), period: 1.0 / rate })
+    };
+    setup.walls.iter().filter_map(of).min_by(|a, b| a.period.total_cmp(&b.period))
 }
 
 /// Largest gap at which any contact of a setup that was made still acts [m]: the skin is to be no less.

@@ -25,13 +25,13 @@ pub use in_range::Check;
 pub use quantity::{Allowed, OutOfRange, Quantity, Subject};
 pub use step_cause::{
     BondedParticle, CriticalBonds, CriticalDrag, CriticalGrain, CriticalPair, CriticalPartner, Limit,
-    StepCause,
+    RepeatedMotion, StepCause,
 };
 
 use crate::effects::needed;
 use crate::kernel::Kernel;
 use crate::model::limit::largest_reach;
-use crate::model::start::{kinds, mean_radius, servo_gains, slow_enough, time_step};
+use crate::model::start::{faster_than_sleep, kinds, mean_radius, servo_gains, slow_enough, time_step};
 use crate::setup::Setup;
 use crate::simd::{Layout, Precision, Width};
 use crate::space::search::FIRST_SKIN;
@@ -116,6 +116,7 @@ impl Model {
         let horizon = if setup.skin.is_some() { 0.0 } else { HORIZON };
         let walls: Vec<WallBody> = setup.walls.iter().map(|w| WallBody::new(w, reach)).collect();
         slow_enough(&setup, &walls, dt)?;
+        faster_than_sleep(&setup, &walls)?;
         let servo_gains = servo_gains(&setup, dt);
         let rotates = kinds.iter().any(|k| k.kernel.rotates()) || !setup.bonds.is_empty();
         Ok(Model { setup, dt, reach, skin, width, walls, servo_gains, kinds, horizon, mean_radius, rotates })

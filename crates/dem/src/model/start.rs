@@ -4,10 +4,13 @@ use crate::effects::{Elastic, OverlapLimit, Pair, damping_ratio};
 use crate::kernel::compose::compose;
 use crate::model::dense_walls::met;
 use crate::model::limit::{contact_between, critical_step, grains, largest, radii_by_material, stiffest};
-use crate::model::{DenseWalls, Kind, SetupError, With};
+use crate::model::{DenseWalls, Kind, RepeatedMotion, SetupError, With};
 use crate::setup::clumps::SizeClass;
 use crate::setup::{Setup, Step, Wall};
 use crate::walls::WallBody;
+
+/// By how much a step that is read from a message may be rounded [–].
+const ROUNDING: f64 = 1e-4;
 
 /// The step [s] that a setup asks for.
 ///
@@ -15,9 +18,13 @@ use crate::walls::WallBody;
 /// A step above the critical one, a share of it where nothing can touch, a pair of materials without a contact law.
 pub fn time_step(setup: &Setup) -> Result<f64, SetupError> {
     let limit = critical_step(setup)?;
+    let most = limit.cause.motion.as_ref().map_or(f64::INFINITY, RepeatedMotion::step);
     match setup.step {
         Step::Auto(_) if limit.dt.is_infinite() => Err(SetupError::NoStep),
-        Step::Auto(share) => Ok(share * limit.dt),
+        Step::Auto(share) => Ok(most.min(share * limit.dt)),
+        Step::Fixed(dt) if dt > most * (1.0 + ROUNDING) => {
+            Err(SetupError::StepAbovePeriod { dt, most, cause: Box::new(limit.cause) })
+        }
         Step::Fixed(dt) if dt > limit.dt => {
             Err(SetupError::StepTooLarge { dt, critical: limit.dt, cause: Box::new(limit.cause) })
         }
@@ -33,6 +40,22 @@ pub fn slow_enough(setup: &Setup, walls: &[WallBody], dt: f64) -> Result<(), Set
         let share = speed * dt / smallest;
         if share > limit {
             return Err(SetupError::WallTooFast { wall: wall.name.clone(), speed, dt, share, limit });
+        }
+    }
+    Ok(())
+}
+
+/// Smallest speed of a wall over the speed of sleep [–]: grains that it carries are to be faster than those at rest.
+const AWAKE: f64 = 2.0;
+
+/// A wall that moves must not carry particles so slowly that they count as at rest. A servo pushes, which wakes them.
+pub fn faster_than_sleep(setup: &Setup, walls: &[WallBody]) -> Result<(), SetupError> {
+    let Some(sleep) = setup.sleep else { return Ok(()) };
+    for (body, wall) in walls.iter().zip(&setup.walls) {
+        let speed = body.fastest_driven();
+        if speed > 0.0 && speed < AWAKE * sleep.speed {
+            let (wall, most) = (wall.name.clone(), speed / AWAKE);
+            return Err(SetupError::WallSlowerThanSleep { wall, speed, sleep: sleep.speed, most });
         }
     }
     Ok(())

@@ -25,10 +25,15 @@ pub struct StepCause {
     pub bonds: Option<CriticalBonds>,
     /// Drag that shortens the step.
     pub drag: Option<CriticalDrag>,
+    /// The wall whose motion repeats fastest, where that bounds the step more than stability does.
+    pub motion: Option<RepeatedMotion>,
 }
 
 impl Display for StepCause {
     fn fmt(&self, f: &mut Formatter) -> Result {
+        if let Some(motion) = &self.motion {
+            write!(f, "{motion}; ")?;
+        }
         if let Some(drag) = &self.drag {
             write!(f, "drag {drag}; ")?;
         }
@@ -146,6 +151,32 @@ impl Display for CriticalBonds {
                 )
             }
         }
+    }
+}
+
+/// Least number of steps in a period of a wall's motion: the work of a vibration is then exact to a hundredth.
+const STEPS_A_PERIOD: f64 = 20.0;
+
+/// The motion of a wall that repeats.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RepeatedMotion {
+    /// The wall.
+    pub wall: String,
+    /// Its period [s].
+    pub period: f64,
+}
+
+impl RepeatedMotion {
+    /// The largest step that resolves it [s].
+    pub fn step(&self) -> f64 {
+        self.period / STEPS_A_PERIOD
+    }
+}
+
+impl Display for RepeatedMotion {
+    fn fmt(&self, f: &mut Formatter) -> Result {
+        let RepeatedMotion { wall, period } = self;
+        write!(f, "the motion of wall '{wall}', {STEPS_A_PERIOD} steps in a period of {period:.4e} s")
     }
 }
 

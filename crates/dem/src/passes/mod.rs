@@ -11,5 +11,6 @@ pub mod integrate;
 pub mod ledger;
 pub mod servo;
 pub mod sleep;
+pub mod stirred;
 pub mod touching;
 pub mod zones;

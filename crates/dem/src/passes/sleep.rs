@@ -2,15 +2,17 @@
 //!
 //! A particle falls asleep when, for a time, |v| + r|ω| has been below a speed and its residual acceleration |F/m + g| and r|M|/I below a
 //! share of g. Its velocity is then zero, and the force on it is kept. It wakes when the force on it differs from that
-//! by more than the share of its weight, or the moment by the share of weight × radius. Loads between two sleepers, or of a sleeper on a
+//! by more than the share of its weight, or the moment by the share of weight × radius. What touches a wall or a particle that moves
+//! neither falls asleep nor sleeps on ([`crate::passes::stirred`]). Loads between two sleepers, or of a sleeper on a
 //! wall at rest, are those of the step in which they fell asleep: whole blocks of them are passed over,
 //! and their sum is kept for each tile ([`RestingTile`]) until a particle in or beside it falls asleep or wakes.
 //!
 //! Sleeping changes results: by what a bed would still have crept, and by disturbances too weak to wake it.
 
 use crate::model::Model;
-use crate::neighbours::{RestingTile, Slots};
+use crate::neighbours::RestingTile;
 use crate::passes::integrate::{MoveFlags, MoveInputs, ParticleSlices, advance};
+use crate::passes::stirred::Stirred;
 use crate::simd::Row;
 use crate::space::sphere::inverse_inertia;
 use crate::state::SleeperSlices;
@@ -23,29 +25,30 @@ use std::ops::Range;
 pub fn advance_awake(
     model: &Model,
     mut columns: ParticleSlices,
-    lists: &Slots,
     still: Option<&RestingTile>,
+    stirred: Option<Stirred>,
 ) -> MoveFlags {
     let (mut moved, width) = (MoveFlags::default(), model.width);
     let gravity = model.setup.gravity.into();
     let drive = &MoveInputs { dt: model.dt, gravity, motion_limit: model.setup.guards.motion };
-    let Some(mut sleeper_slices) = columns.sleeper_slices.take() else {
+    let (Some(mut sleeper_slices), Some(stirred)) = (columns.sleeper_slices.take(), stirred) else {
         return advance(width, columns, drive);
     };
     let first = columns.first;
     let sleeps = &sleeper_slices.asleep[first..first + columns.rows.len()];
     let mut wake = |run: Range<usize>, columns: &mut ParticleSlices, sleeper_slices: &mut SleeperSlices| {
         moved = moved.and(advance(width, columns.range(run.clone()), drive));
-        run.for_each(|k| sleeper_slices.check_sleep(k, columns, drive));
+        run.for_each(|k| sleeper_slices.check_sleep(k, columns, drive, stirred));
     };
     if let Some(still) = still.filter(|s| s.unchanged) {
         still.awake.iter().for_each(|run| wake(run.clone(), &mut columns, &mut sleeper_slices));
-        still.disturbed.iter().for_each(|&k| sleeper_slices.check_wake(k as usize, &mut columns, drive));
+        let disturbed = still.disturbed.iter().map(|&k| k as usize);
+        disturbed.for_each(|k| sleeper_slices.check_wake(k, &mut columns, drive, stirred));
         return moved;
     }
     for run in runs(sleeps) {
         if sleeps[run.start] {
-            run.for_each(|k| sleeper_slices.keep_asleep(k, &mut columns, drive, lists));
+            run.for_each(|k| sleeper_slices.keep_asleep(k, &mut columns, drive, stirred));
         } else {
             wake(run, &mut columns, &mut sleeper_slices);
         }
@@ -55,7 +58,7 @@ pub fn advance_awake(
 
 impl SleeperSlices<'_> {
     /// Puts a particle that has just moved to sleep if it has been quiet for long enough.
-    fn check_sleep(&mut self, k: usize, columns: &mut ParticleSlices, drive: &MoveInputs) {
+    fn check_sleep(&mut self, k: usize, columns: &mut ParticleSlices, drive: &MoveInputs, stirred: Stirred) {
         let row = columns.rows[k];
         let spin = columns.spins.get(k).map_or(0.0, |w| w.vector().norm());
         let angular_acceleration = columns.angular_acceleration.get(k).map_or(0.0, |t| t.vector().norm());
@@ -66,6 +69,9 @@ impl SleeperSlices<'_> {
             && angular_acceleration * row[3] < self.wake
             && self.prescribed.get(here) != Some(&true);
         self.quiet[k] = if still { self.quiet[k] + 1 } else { 0 };
+        if self.quiet[k] >= self.steps && stirred.touches(here) {
+            self.quiet[k] = 0;
+        }
         self.next[k] = self.quiet[k] >= self.steps;
         if !self.next[k] {
             return;
@@ -77,23 +83,23 @@ impl SleeperSlices<'_> {
     }
 
     /// Keeps a sleeper asleep unless it is disturbed.
-    fn keep_asleep(&mut self, k: usize, columns: &mut ParticleSlices, drive: &MoveInputs, lists: &Slots) {
+    fn keep_asleep(&mut self, k: usize, columns: &mut ParticleSlices, drive: &MoveInputs, stirred: Stirred) {
         self.quiet[k] = self.steps.saturating_add(1);
         self.next[k] = true;
-        if lists.disturbed(columns.first + k, self.asleep) {
-            self.check_wake(k, columns, drive);
+        if stirred.lists.disturbed(columns.first + k, self.asleep) {
+            self.check_wake(k, columns, drive, stirred);
         }
     }
 
-    /// Wakes a sleeper if the force or the moment on it has changed enough.
-    fn check_wake(&mut self, k: usize, columns: &mut ParticleSlices, drive: &MoveInputs) {
+    /// Wakes a sleeper if the force or the moment on it has changed enough, or something that moves touches it.
+    fn check_wake(&mut self, k: usize, columns: &mut ParticleSlices, drive: &MoveInputs, stirred: Stirred) {
         let here = columns.first + k;
         let row = columns.rows[k];
         let (force, moment) = columns.sums.as_ref().on(here, row[3]);
         let held = self.held[k];
         let push = (force - Vec3::new(held[0], held[1], held[2])).norm() * row[7];
         let twist = (moment - Vec3::new(held[3], held[4], held[5])).norm() * row[7] / row[3];
-        if push > self.wake || twist > self.wake || push.is_nan() {
+        if push > self.wake || twist > self.wake || push.is_nan() || stirred.touches(here) {
             (self.quiet[k], self.next[k]) = (0, false);
             let inverse_inertia = inverse_inertia(row[3], row[7]);
             for a in 0..3 {

@@ -100,6 +100,12 @@ impl Particles {
         self.rows[k].position()
     }
 
+    /// |v| + r|ω| of particle `k` [m/s].
+    pub fn surface_speed(&self, k: usize) -> f64 {
+        let spin = self.spins.get(k).map_or(0.0, |w| w.vector().norm());
+        self.rows[k].velocity().norm() + self.rows[k][3] * spin
+    }
+
     /// Predicted angular velocity [rad/s] of particle `k`, and its angular acceleration of the step before [rad/s²]; 0 without rotation.
     pub fn rotation(&self, k: usize) -> (Vec3, Vec3) {
         let of = |column: &[Row4]| column.get(k).map_or_else(Vec3::zeros, Row4::vector);

@@ -77,6 +77,11 @@ impl WallBody {
         self.motion.moves() || self.servo.is_some()
     }
 
+    /// Whether it is in motion at `time` [s], or follows a force.
+    pub fn moves_at(&self, time: f64) -> bool {
+        self.servo.is_some() || (self.motion.moves() && self.motion.runs(time))
+    }
+
     /// Whether contact points must be found in each step.
     pub fn refreshes(&self) -> bool {
         self.flat() || self.moves()

@@ -23,6 +23,10 @@ fn statement(error: &SetupError) -> String {
             let cause = explain_step_cause(cause);
             format!("time.dt: {dt:.4e} s is above the critical step {critical:.4e} s of {cause}")
         }
+        SetupError::StepAbovePeriod { dt, most, cause } => {
+            let motion = cause.motion.as_ref().map_or(String::new(), ToString::to_string);
+            format!("time.dt: {dt:.4e} s is above {most:.4e} s, the longest for {motion}")
+        }
         SetupError::NoStep => "time.dt: \"auto\" needs a pair that can touch, and there is none".to_owned(),
         SetupError::OutOfRange(number) => out_of_range(number),
         SetupError::TooFar { quantity, .. } => {
@@ -47,6 +51,9 @@ fn statement(error: &SetupError) -> String {
         SetupError::BondWith(BondConflict::Clumps) => "bond: not available yet with clumps".to_owned(),
         SetupError::BondWith(BondConflict::Sleep) => "bond: not available yet with [sleep]".to_owned(),
         SetupError::BondOfZeroLength { .. } => format!("bond: {error}"),
+        SetupError::WallSlowerThanSleep { wall, speed, sleep, .. } => format!(
+            "sleep.speed: {sleep:.4e} m/s is above half the speed of wall '{wall}', {speed:.4e} m/s: grains that it carries would fall asleep"
+        ),
         SetupError::ClumpSleep(clump) => format!("sleep: clumps (the scene has '{clump}') do not sleep"),
         SetupError::OtherState(how) => format!("resume: the saved state does not fit this scene: {how}"),
         SetupError::DuplicateId(_)
@@ -75,7 +82,11 @@ fn remedy(error: &SetupError) -> Option<String> {
         SetupError::PeriodBelowSkin { most, .. } => {
             return Some(format!("use at most {most:.4e} m, or leave the key out"));
         }
+        SetupError::WallSlowerThanSleep { most, .. } => {
+            return Some(format!("use at most {most:.4e} m/s, or leave out [sleep]"));
+        }
         SetupError::StepTooLarge { .. } => "use dt = \"auto\", a smaller dt, or softer materials",
+        SetupError::StepAbovePeriod { .. } => "use dt = \"auto\", a smaller dt, or a slower motion",
         SetupError::NoStep => "give dt in seconds",
         SetupError::TooFar { .. } => "shift the scene to the origin",
         SetupError::DuplicateId(_) => "give each particle its own",
@@ -103,10 +114,10 @@ fn remedy(error: &SetupError) -> Option<String> {
 
 /// What sets the critical time step, as scenes name it.
 pub fn explain_step_cause(cause: &StepCause) -> String {
-    match &cause.drag {
-        Some(drag) => format!("[drag] {drag}; {}", StepCause { drag: None, ..cause.clone() }),
-        None => cause.to_string(),
-    }
+    let rest = StepCause { drag: None, motion: None, ..cause.clone() };
+    let motion = cause.motion.iter().map(|motion| format!("{motion}; "));
+    let drag = cause.drag.iter().map(|drag| format!("[drag] {drag}; "));
+    motion.chain(drag).chain([rest.to_string()]).collect()
 }
 
 /// A number outside its range, under its key.

@@ -45,12 +45,24 @@ fn errors_of_time_steps() -> Vec<Advice<SetupError>> {
         drag: Some(CriticalDrag { radius: 0.002, relaxation_time: 1e-4 }),
         ..StepCause::default()
     });
+    let motion = Box::new(StepCause {
+        motion: Some(RepeatedMotion { wall: floor(), period: 2.5 }),
+        ..StepCause::default()
+    });
     vec![
         (SetupError::StepTooLarge { dt: 0.25, critical: 0.125, cause }, &["time.dt: 2.5000e-1 s", "[drag]"]),
+        (
+            SetupError::StepAbovePeriod { dt: 0.25, most: 0.125, cause: motion },
+            &["time.dt: 2.5000e-1 s", WALL],
+        ),
         (SetupError::NoStep, &["time.dt", "give dt in seconds"]),
         (
             SetupError::WallTooFast { wall: floor(), speed: 9.0, dt: 0.5, share: 2.0, limit: 0.25 },
             &[WALL, "9.0000e0 m/s", "200.0 %", "shorten dt"],
+        ),
+        (
+            SetupError::WallSlowerThanSleep { wall: floor(), speed: 1e-3, sleep: 1e-3, most: 5e-4 },
+            &["sleep.speed", WALL, "at most 5.0000e-4 m/s"],
         ),
     ]
 }
@@ -144,26 +156,28 @@ fn setup_error_number(error: &SetupError) -> usize {
         SetupError::NoWidth(_) => 2,
         SetupError::PrecisionWithout { .. } => 3,
         SetupError::StepTooLarge { .. } => 4,
-        SetupError::NoStep => 5,
-        SetupError::WallTooFast { .. } => 6,
-        SetupError::DuplicateId(_) => 7,
-        SetupError::BehindPlane { .. } => 8,
-        SetupError::TooFar { .. } => 9,
-        SetupError::RotatingPlane(_) => 10,
-        SetupError::PeriodTooSmall { .. } => 11,
-        SetupError::PeriodBelowSkin { .. } => 12,
-        SetupError::DuplicateEntryId { .. } => 13,
-        SetupError::EntryLate { .. } => 14,
-        SetupError::EntryBehindPlane { .. } => 15,
-        SetupError::ZoneTooShort { .. } => 16,
-        SetupError::ZoneShorterThanBond { .. } => 17,
-        SetupError::ClumpOutlet(_) => 18,
-        SetupError::DragAndSleep => 19,
-        SetupError::ClumpSleep(_) => 20,
-        SetupError::BondWith(_) => 21,
-        SetupError::BondOfZeroLength { .. } => 22,
-        SetupError::BondJoinsNothing { .. } => 23,
-        SetupError::OtherState(_) => 24,
+        SetupError::StepAbovePeriod { .. } => 5,
+        SetupError::NoStep => 6,
+        SetupError::WallTooFast { .. } => 7,
+        SetupError::WallSlowerThanSleep { .. } => 8,
+        SetupError::DuplicateId(_) => 9,
+        SetupError::BehindPlane { .. } => 10,
+        SetupError::TooFar { .. } => 11,
+        SetupError::RotatingPlane(_) => 12,
+        SetupError::PeriodTooSmall { .. } => 13,
+        SetupError::PeriodBelowSkin { .. } => 14,
+        SetupError::DuplicateEntryId { .. } => 15,
+        SetupError::EntryLate { .. } => 16,
+        SetupError::EntryBehindPlane { .. } => 17,
+        SetupError::ZoneTooShort { .. } => 18,
+        SetupError::ZoneShorterThanBond { .. } => 19,
+        SetupError::ClumpOutlet(_) => 20,
+        SetupError::DragAndSleep => 21,
+        SetupError::ClumpSleep(_) => 22,
+        SetupError::BondWith(_) => 23,
+        SetupError::BondOfZeroLength { .. } => 24,
+        SetupError::BondJoinsNothing { .. } => 25,
+        SetupError::OtherState(_) => 26,
     }
 }
 
@@ -171,6 +185,8 @@ fn halts() -> Vec<Advice<Halt>> {
     let (time, id, inlet, share, limit) = (0.5, 7, 1, 0.5, 0.25);
     let position = geom::Vec3::new(1.0, 2.0, 3.0);
     let wall = || Partner::Wall(floor());
+    let stiffer = Stiffer { speed: 3.0, key: "young", of: "glass".to_owned(), value: 2e7, unit: "Pa" };
+    let stiffer = Some(Box::new(stiffer));
     vec![
         (
             Halt::Overlap { time, id, partner: wall(), position, overlap: 0.1, share, limit, stiffer },
@@ -185,8 +201,6 @@ fn halts() -> Vec<Advice<Halt>> {
         (Halt::WallNotANumber { time, wall: floor(), push: 8.0 }, &[WALL, "8e0 N", "shorten dt"]),
         (Halt::NotKept { time }, &["not recorded", "record_wrenches"]),
         (Halt::CameBack { time, id, inlet, position, behind: 0.1 }, &["particle 7", "guards.zones"]),
-    let stiffer = Stiffer { speed: 3.0, key: "young", of: "glass".to_owned(), value: 2e7, unit: "Pa" };
-    let stiffer = Some(Box::new(stiffer));
         (
             Halt::TooFast { time, id, inlet, speed: 9.0, dt: 0.1, share, limit },
             &["9.0000e0 m/s", "guards.motion"],
