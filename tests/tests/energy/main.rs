@@ -5,4 +5,5 @@ mod closing;
 mod guard;
 mod order;
 mod scenes;
+mod sticking;
 mod terms;

@@ -7,8 +7,11 @@
 //! ξ ← ξ min(1, k_before/k)            a spring that stiffens keeps its force, one that softens its length
 //! ξ at t = ξ + (½ + p Δt²) v Δt        the rest of the step's way, (½ − p Δt²) v Δt, comes after: the midpoint rule, a little late,
 //!                                     because v is predicted, which alone would make energy, (ω Δt)⁴/8 a step; p = ω²/4
-//! F = −k ξ − c v,  capped: F ← F cap/|F|,  ξ ← ξ min(1, cap/|k ξ|)
+//! F = −k ξ − c v,  where |F| > cap: F ← F cap/|F|,  ξ ← ξ min(1, cap/|k ξ|)
 //! ```
+//!
+//! The spring is cut only where the whole force passes the cap: where the spring alone would, and the dashpot takes some of it back, it keeps
+//! its length. A contact that ends loses what its spring holds; the ledger books that as dissipated by the effect.
 //!
 //! Cutting ξ back to the cap: Luding (2008), Granular Matter 10(4), doi:10.1007/s10035-008-0099-x. Deviation: the spring is
 //! cut to the cap, not to the capped force less the dashpot's: that has no bound as k → 0 (Hertz at first touch), and it
@@ -78,6 +81,8 @@ pub struct CappedSpring<R: Lane> {
     pub stiffness: R,
     /// k of the step before over k [–].
     pub before: R,
+    /// k of the step before, where the contact has just ended.
+    pub last: R,
     /// c, dashpot.
     pub damping: R,
     /// Quarter of the square of the frequency.
@@ -127,11 +132,17 @@ impl<R: Lane> CappedSpring<R> {
         let spring_force = kept.scale(self.stiffness);
         // What is cut off slid under a force between that of the step before and that of now: also where the cap falls to nothing.
         let middle = (kept + stretched - rate.scale(dt)).scale(R::splat(0.5) * self.stiffness);
-        Outcome {
-            force,
-            elastic: R::splat(0.5) * spring_force.dot(kept),
-            dissipated: lost + middle.dot(stretched - kept) - (force + spring_force).dot(rate) * dt,
-        }
+        let dissipated = lost + middle.dot(stretched - kept) - (force + spring_force).dot(rate) * dt;
+        let elastic = R::splat(0.5) * spring_force.dot(kept);
+        let dissipated = R::select(self.touching, dissipated, self.released(there, rest, half));
+        Outcome { force, elastic, dissipated }
+    }
+
+    /// What a contact that has just ended lets go of: as if its spring were cut to nothing.
+    #[inline(always)]
+    fn released<X: Stretch<R>>(&self, there: X, rest: X, half: X) -> R {
+        let held = there.dot(there).gt(R::splat(0.0));
+        R::select(held, R::splat(0.5) * self.last * (there - rest).dot(there + half), R::splat(0.0))
     }
 }
 

@@ -66,6 +66,7 @@ impl Effect for ConstantRolling {
         let dashpot =
             (cap / square.max(R::splat(1e-300)).sqrt()).min(R::splat(SHARE / self.compliance) * inertia / dt);
         response.torque = response.torque - rolling.scale(dashpot);
-        response.dissipate(DESCRIPTION.slot, dashpot * square * dt);
+        let dissipated = R::select(contact.touching, dashpot * square * dt, R::splat(0.0));
+        response.dissipate(DESCRIPTION.slot, dissipated);
     }
 }

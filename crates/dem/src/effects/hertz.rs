@@ -69,7 +69,8 @@ impl Effect for Hertz {
         response.pressing = response.normal;
         response.stiffness = s;
         // S ∝ √δ; the overlap a step ago follows from the approach.
-        let before = (overlap - contact.approach * dt).max(R::splat(0.0));
+        let before = (contact.overlap - contact.approach * dt).max(R::splat(0.0));
+        response.stiffness_last = R::splat(2.0 * self.modulus) * (contact.radius * before).sqrt();
         response.stiffness_before = (before / overlap.max(R::splat(R::TINY))).sqrt();
         response.elastic = response.elastic + R::splat(0.4) * elastic * overlap;
         response.dissipate(DESCRIPTION.slot, damping * contact.approach * dt);

@@ -96,6 +96,7 @@ impl Effect for Hooke {
         response.pressing = response.normal;
         response.stiffness = k;
         response.stiffness_before = R::splat(1.0);
+        response.stiffness_last = k;
         response.elastic = response.elastic + R::splat(0.5) * k * contact.overlap * contact.overlap;
         response.dissipate(DESCRIPTION.slot, damping * contact.approach * dt);
     }

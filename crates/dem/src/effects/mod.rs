@@ -80,6 +80,8 @@ pub struct Response<R: Lane> {
     pub stiffness: R,
     /// The same a step ago, over the one now [–].
     pub stiffness_before: R,
+    /// ∂F_n/∂δ a step ago, also of a contact that has just ended [N/m]; the ledger alone asks for it.
+    pub stiffness_last: R,
     /// √(∂F_n/∂δ m*): what all dashpots are a share of, and the root of a contact that is taken once [N·s/m].
     pub impedance: R,
     /// F_t on i [N].
@@ -104,6 +106,7 @@ impl<R: Lane> Response<R> {
             pressing: zero,
             stiffness: zero,
             stiffness_before: zero,
+            stiffness_last: zero,
             impedance: zero,
             tangential: V::zero(),
             torque: V::zero(),

@@ -81,6 +81,7 @@ impl Effect for RollingResistance {
             touching: contact.touching,
             stiffness,
             before: response.stiffness_before,
+            last: R::splat(2.25) * response.stiffness_last * arm * arm,
             // √(k_r I_r) = √(2.25 S (μ_r R*)² 7/5 m* R*²), and the frequency k_r/I_r, without R*.
             damping: R::splat(2.0 * ETA * (2.25f64 * 1.4).sqrt()) * arm * contact.radius * response.impedance,
             pace: R::splat(0.25 * 2.25 / 1.4 * self.resistance * self.resistance)

@@ -105,6 +105,7 @@ impl<C: Coefficient> Effect for SlidingFriction<C> {
             touching: contact.touching,
             stiffness,
             before: response.stiffness_before,
+            last: R::splat(self.stiffness_ratio) * response.stiffness_last,
             damping: R::splat(self.damping_ratio * self.stiffness_ratio.sqrt()) * response.impedance,
             // A quarter of the square of the fastest motion of a close packing: all grains turning the same way, 20 k_t/m*,
             // or layers against layers, 4 (S + k_t)/m*, which the spring would feed otherwise.

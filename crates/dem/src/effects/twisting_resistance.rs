@@ -84,6 +84,7 @@ impl Effect for TwistingResistance {
             touching: contact.touching,
             stiffness,
             before: response.stiffness_before,
+            last: R::splat(self.stiffness_ratio) * response.stiffness_last * square,
             damping: R::splat(2.0 * ETA) * (stiffness * inertia).sqrt(),
             pace: R::splat(0.25 * self.compliance) * stiffness / inertia,
             cap: R::splat(self.resistance) * contact.radius * response.pressing.max(R::splat(0.0)),

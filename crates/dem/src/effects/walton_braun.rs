@@ -73,6 +73,7 @@ impl Effect for WaltonBraun {
         response.pressing = response.normal;
         response.stiffness = number(self.unloading);
         response.stiffness_before = number(1.0);
+        response.stiffness_last = response.stiffness;
         response.impedance = (response.stiffness * contact.mass).sqrt();
         response.elastic = response.elastic + number(0.5) * force * spring;
         let plastic = number(0.5 * self.loading) * yielded;

@@ -5,7 +5,7 @@
 
 use super::sums::Pairs;
 use super::{Batch, LEDGER, LOST, StepInputs};
-use crate::effects::{Contact, Effect, History, Response};
+use crate::effects::{Contact, DISSIPATORS, Effect, History, Response};
 use crate::simd::{BLOCK, FORCE, FORCE_AND_MOMENT, Indices, Lane, Number, Row, Row4, TORQUE, V, fetch};
 
 /// Blocks between the one whose rows are prefetched and the one that is computed; chosen on the bench pile.
@@ -81,13 +81,15 @@ fn lanes<R: Lane, E: Effect, T: Number, const KEEP: bool>(
     effect.apply(&found.contact, R::splat(step.dt), &mut history, &mut response);
     history.keep(touching).store(stored, lane);
     let force = scatter::<R, E, T>(step, batch, buffer, at, &found, &response);
+    let mut ended = false;
     if KEEP {
         let row = ledger_row::<R, E>(step, &found, &response, force, was_held);
+        ended = R::any(released(&row, touching).gt(R::splat(0.0)));
         R::store_rows(row, &mut batch.ledger[at * LEDGER..]);
     }
     let deep = R::both(touching, found.contact.overlap.gt(found.smaller * R::splat(step.overlap_limit)));
-    // A contact that has just broken stays in the ledger for one step.
-    let active = R::any(touching) || (E::REACHES && KEEP && R::any(was_held.gt(R::splat(0.0))));
+    // A contact that has just ended or broken stays in the ledger for one step.
+    let active = R::any(touching) || ended || (E::REACHES && KEEP && R::any(was_held.gt(R::splat(0.0))));
     (active, R::any(deep))
 }
 
@@ -238,9 +240,10 @@ fn ledger_row<R: Lane, E: Effect>(
     let mut row = [
         R::select(touching, response.elastic, zero),
         R::select(touching, a, zero),
-        R::select(touching, b, zero),
-        R::select(touching, c, zero),
-        R::select(touching, d, zero),
+        // Of a contact that has just ended: what its springs let go of.
+        b,
+        c,
+        d,
         R::select(touching, surface, zero),
         R::select(touching, response.lost, zero),
         zero,
@@ -251,6 +254,15 @@ fn ledger_row<R: Lane, E: Effect>(
         row[LOST] = R::select(touching, row[LOST], broken);
     }
     row
+}
+
+/// What contacts that have ended lose in this step, without its sign [J].
+#[inline(always)]
+fn released<R: Lane>(row: &[R; LEDGER], touching: R::Mask) -> R {
+    let zero = R::splat(0.0);
+    let size = |x: R| x.max(zero - x);
+    let largest = row[2..=DISSIPATORS].iter().fold(zero, |most, x| most.max(size(*x)));
+    R::select(touching, zero, largest)
 }
 
 /// Wrenches of some contacts, as they have just been computed.
