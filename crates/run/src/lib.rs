@@ -12,6 +12,7 @@ mod checkpoint;
 mod error;
 pub mod explain;
 mod frames;
+mod integration;
 mod progress;
 mod returned;
 mod same_scene;
@@ -24,6 +25,7 @@ mod write;
 
 pub use checkpoint::Checkpoint;
 pub use error::RunError;
+pub use integration::IntegrationError;
 pub use progress::Progress;
 pub use returned::warnings;
 pub use simulate::{Outcome, Settings, ready, run};

@@ -3,6 +3,7 @@
 use crate::checkpoint::Checkpoint;
 use crate::error::{Ended, Result};
 use crate::frames::WallHead;
+use crate::integration::IntegrationError;
 use crate::progress::Progress;
 use crate::schedule::Schedule;
 use crate::supply::Supply;
@@ -46,6 +47,8 @@ pub struct Outcome {
     pub returned: dem::Returned,
     /// Warnings about records that ended before the run.
     pub inflow: Vec<String>,
+    /// Energy that the finite time step created, where the ledger is kept.
+    pub integration: Option<IntegrationError>,
     /// Contacts listed at the end.
     pub listed_contacts: usize,
     /// How often neighbour lists were rebuilt.
@@ -104,6 +107,8 @@ pub(crate) struct Written {
     pub sampling: Option<u64>,
     /// Whether the energy of each frame is computed for progress reports.
     pub watched: bool,
+    /// Whether the energy ledger is kept.
+    pub ledger: bool,
 }
 
 /// A state to go back to: what the sources had given, and the engine.
@@ -243,6 +248,12 @@ impl<W: Write> Run<W> {
         }
     }
 
+    /// What the time step made, by the ledger.
+    fn integration(&mut self) -> Option<IntegrationError> {
+        let energy = self.written.ledger.then(|| self.sim.energy().ok())??;
+        IntegrationError::of(&energy)
+    }
+
     pub(crate) fn now(&self) -> u64 {
         nanoseconds(self.sim.time())
     }
@@ -257,10 +268,12 @@ impl<W: Write> Run<W> {
 
     /// Writes the end of the file, with the `reason` of a run that was stopped.
     fn finish(mut self, reason: Option<String>) -> Result<(Outcome, W)> {
+        self.outcome.integration = self.integration();
         self.outcome.returned = self.sim.returned().clone();
         self.outcome.inflow = self.supply.ended(self.sim.time());
+        let line = self.outcome.integration.map(|error| error.to_string());
         let notes = [crate::warnings(&self.outcome.returned), self.outcome.inflow.clone()].concat();
-        notes.iter().try_for_each(|note| self.note(note))?;
+        notes.into_iter().chain(line).try_for_each(|note| self.note(&note))?;
         reason.map_or(Ok(()), |reason| self.stop(reason))?;
         let Run { sim, supply, mut outcome, writer, first, .. } = self;
         outcome.steps = sim.steps() - first;

@@ -90,6 +90,7 @@ impl Written {
             output: Output { wall_forces: output.wall_forces || servo, ..output },
             sampling: None,
             watched: false,
+            ledger: setup.ledger,
         }
     }
 }

@@ -12,6 +12,7 @@ mod every_key;
 mod every_option;
 mod layout;
 mod limits;
+mod ledger_line;
 mod measure;
 mod outputs;
 mod pipelines;

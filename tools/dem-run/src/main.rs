@@ -188,9 +188,16 @@ fn simulate(args: &Args, scene: &Scene, plan: Plan, resume: Option<Checkpoint>) 
     let done = done.and_then(|(outcome, out)| out.commit().map(|()| outcome));
     drop(watch);
     let outcome = done.map_err(|e| parts::leaves(e, part.as_deref().filter(|_| keep.kept()), saved))?;
-    run::warnings(&outcome.returned).iter().chain(&outcome.inflow).for_each(|note| cli::warn(note));
+    let error = outcome.integration.as_ref();
+    let large = error.and_then(run::IntegrationError::warning);
+    run::warnings(&outcome.returned)
+        .iter()
+        .chain(&outcome.inflow)
+        .chain(&large)
+        .for_each(|note| cli::warn(note));
+    let error = error.map_or(String::new(), |error| format!(", {error}"));
     let summary = format!(
-        "{} steps of {:.3e} s to {:.4} s, {} particles, {} frames",
+        "{} steps of {:.3e} s to {:.4} s, {} particles, {} frames{error}",
         outcome.steps, outcome.dt, outcome.time, outcome.particles, outcome.frames
     );
     let report = Report::new(summary).with_all(&outcome);

@@ -61,6 +61,14 @@ impl Energy {
             - self.integration
     }
 
+    /// [`Energy::integration`] over what was exchanged, or over the energy of motion and springs where that is more [–]; `None` without
+    /// either. And whether the first was taken.
+    pub fn error(&self) -> Option<(f64, bool)> {
+        let (exchanged, held) = (self.exchanged(), self.translation + self.rotation + self.elastic.abs());
+        let of = exchanged.max(held);
+        (of > 0.0 && self.integration.is_finite()).then(|| (self.integration / of, exchanged >= held))
+    }
+
     /// What has changed its form since the start, to compare [`Energy::integration`] with.
     pub fn exchanged(&self) -> f64 {
         let dissipated = self.normal + self.sliding + self.rolling + self.twisting + self.bonds;

@@ -69,3 +69,9 @@ pub struct SceneKeys {
 
 /// Default share of the critical step [–].
 pub const SAFETY: f64 = 0.5;
+
+/// The same where nothing rubs and a linear law has a restitution above [`ELASTIC`] [–].
+pub const SAFETY_ELASTIC: f64 = 0.2;
+
+/// Restitution above which grains of a linear law keep what the time step makes [–].
+pub const ELASTIC: f64 = 0.9;

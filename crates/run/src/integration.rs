@@ -1,0 +1,60 @@
+//! The error of a run: energy that its finite time step created or removed, by the ledger.
+
+use dem::Energy;
+use serde::Serialize;
+use std::fmt::{Display, Formatter, Result};
+
+/// Share above which a warning is given [–].
+const LARGE: f64 = 0.01;
+
+/// Energy that the time step created (negative: removed).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct IntegrationError {
+    /// In joules.
+    pub energy: f64,
+    /// Over the energy exchanged, or over that of motion and springs at the end where that is more [–].
+    pub share: f64,
+    /// Whether it is the share of the energy exchanged.
+    pub of_exchanged: bool,
+}
+
+impl IntegrationError {
+    /// That of a ledger; `None` where no energy was exchanged and nothing moves.
+    pub fn of(energy: &Energy) -> Option<IntegrationError> {
+        let (share, of_exchanged) = energy.error()?;
+        Some(IntegrationError { energy: energy.integration, share, of_exchanged })
+    }
+
+    /// The line as a warning, where the error is large.
+    pub fn warning(&self) -> Option<String> {
+        let cure = "use a smaller time.safety or dt; guards.energy stops such a run";
+        (self.share.abs() > LARGE).then(|| format!("{self}: {cure}"))
+    }
+}
+
+impl Display for IntegrationError {
+    fn fmt(&self, f: &mut Formatter) -> Result {
+        let (made, percent) = (geom::Shown(self.energy), geom::Shown(100.0 * self.share));
+        let of = if self.of_exchanged { "the energy exchanged" } else { "the energy of motion and springs" };
+        write!(f, "integration error {percent} % of {of} ({made} J)")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_above_a_hundredth_is_a_warning() {
+        let of = |integration| {
+            let energy = Energy { normal: 2.0, translation: 1.0, integration, ..Energy::default() };
+            IntegrationError::of(&energy).expect("something was exchanged")
+        };
+        let small = of(0.019);
+        assert_eq!(small.to_string(), "integration error 0.95 % of the energy exchanged (0.019 J)");
+        assert_eq!(small.warning(), None);
+        let large = of(-0.021).warning().expect("a warning");
+        assert!(large.starts_with("integration error -1.05 %") && large.contains("time.safety"), "{large}");
+        assert_eq!(IntegrationError::of(&Energy::default()), None);
+    }
+}
