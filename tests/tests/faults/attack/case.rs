@@ -146,7 +146,7 @@ fn judge(status: Option<ExitStatus>, stderr: &str, folder: &Path) -> Outcome {
     let output = ["out.ply", "out.mcap", "out.png"].iter().map(|name| folder.join(name)).find(|f| f.exists());
     match status.code() {
         Some(0) => match output.and_then(|f| fs::read(f).ok()) {
-            Some(bytes) if bytes.starts_with(b"ply") && !finite(bytes) => Outcome::NotFinite,
+            Some(bytes) if bytes.starts_with(b"ply") && !finite(&bytes) => Outcome::NotFinite,
             _ => Outcome::Accepted,
         },
         Some(1..=3) if stderr.trim().is_empty() => Outcome::Mute,
@@ -158,7 +158,7 @@ fn judge(status: Option<ExitStatus>, stderr: &str, folder: &Path) -> Outcome {
 }
 
 /// Whether the coordinates of a cloud or mesh are finite.
-fn finite(ply: Vec<u8>) -> bool {
-    let Ok(cloud) = cloud::from_bytes(ply) else { return false };
+fn finite(ply: &[u8]) -> bool {
+    let Ok(cloud) = cloud::from_bytes(ply.to_vec()) else { return false };
     cloud.points.iter().all(|p| p.iter().all(|c| c.is_finite()))
 }
