@@ -269,6 +269,9 @@ impl<W: Write> Run<W> {
     /// Writes the end of the file, with the `reason` of a run that was stopped.
     fn finish(mut self, reason: Option<String>) -> Result<(Outcome, W)> {
         self.outcome.integration = self.integration();
+        if reason.is_none() {
+            self.supply.check_rest()?;
+        }
         self.outcome.returned = self.sim.returned().clone();
         self.outcome.inflow = self.supply.ended(self.sim.time());
         let line = self.outcome.integration.map(|error| error.to_string());

@@ -48,6 +48,14 @@ impl Supply {
         self.streams.iter().enumerate().filter_map(warning).collect()
     }
 
+    /// Checks what of inlet files comes after the end of the run.
+    ///
+    /// # Errors
+    /// A file whose watermarks were too late: particles of it were not let in.
+    pub(crate) fn check_rest(&mut self) -> Result<(), SceneError> {
+        self.streams.iter_mut().try_for_each(InletStream::check_rest)
+    }
+
     /// Skips what a run had taken when it was saved.
     ///
     /// # Errors

@@ -11,6 +11,7 @@
 
 mod error;
 pub mod inlet;
+mod order;
 pub mod outlet;
 pub mod replay;
 pub mod split;

@@ -5,6 +5,7 @@ mod clumps;
 mod live;
 mod marks;
 mod motions;
+mod order;
 mod parts;
 mod paths;
 mod refused;

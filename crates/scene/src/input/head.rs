@@ -4,6 +4,7 @@ use super::{Input, ZoneRecord};
 use crate::error::{Result, SceneError};
 use record::{BondRange, ClumpRecord, Map, MaterialRecord, Sizes, metadata};
 use std::io::Read;
+use std::path::Path;
 use stream::mcap::{Event, Reader};
 
 /// Bytes of a file or a pipe.
@@ -54,6 +55,8 @@ pub struct InletSource {
     pub clumps: Vec<ClumpRecord>,
     /// Bonds that it can bring.
     pub bonds: Option<BondRange>,
+    /// Whether it is a file: reading it to its end waits for no other program.
+    pub file: bool,
     /// Its first message, when that was read.
     pub first: Option<Event>,
     /// The rest.
@@ -76,8 +79,9 @@ impl InletSource {
         if materials.is_empty() {
             return Err(missing(metadata::MATERIALS, "names of the materials"));
         }
-        let name = name.to_owned();
-        let source = InletSource { name, zone, sizes, only_clumps, materials, clumps, bonds, first, reader };
+        let (name, file) = (name.to_owned(), Path::new(name).is_file());
+        let source =
+            InletSource { name, zone, sizes, only_clumps, materials, clumps, bonds, file, first, reader };
         Ok(Input::Inlet(Box::new(source)))
     }
 }

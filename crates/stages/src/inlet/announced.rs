@@ -1,4 +1,4 @@
-//! Whether the rows of a stream are in order, and among those that its records announce.
+//! Whether the rows of a stream are among those that its records announce.
 
 use crate::outlet::crossing::CrossingRow;
 use dem::setup::EntryClump;
@@ -7,15 +7,9 @@ use record::RecordError;
 use scene::input::InletSource;
 use scene::plan::SCALE_SLACK;
 
-/// Refuses a row that is earlier than a time that was reached [s], or that the records do not announce.
-pub(super) fn check(source: &InletSource, row: &CrossingRow, reached: f64) -> Result<(), RecordError> {
+/// Refuses a row that the records do not announce.
+pub(super) fn check(source: &InletSource, row: &CrossingRow) -> Result<(), RecordError> {
     let id = row.particle.id;
-    if row.time < reached {
-        let why =
-            format!("particle {id} passes at {} s, after {} s was reached", Shown(row.time), Shown(reached));
-        let cure = "crossings must come in time order: run stage-replay again";
-        return Err(RecordError::new(&source.name, why, cure));
-    }
     let wrong = |why: String| Err(RecordError::new(&source.name, why, "write the stream again"));
     if let Some((clump, _)) = row.clump {
         let scales = source.clumps.get(clump.shape as usize).and_then(|shape| shape.scales);

@@ -9,8 +9,6 @@ use std::collections::{BTreeMap, VecDeque};
 #[derive(Default)]
 pub(super) struct Paths {
     pub rows: VecDeque<PathRow>,
-    /// Time of the last row [s].
-    pub last: f64,
     /// Time of the last sample of each particle on its way in [s].
     pub present: BTreeMap<u32, f64>,
     /// Time of the crossing of those that have just crossed [s].

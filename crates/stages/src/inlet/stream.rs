@@ -3,6 +3,7 @@
 use super::Arrival;
 use super::announced;
 use super::paths::Paths;
+use crate::order::Order;
 use crate::outlet::bond::{self, BondRow};
 use crate::outlet::contact::{self, ContactRow};
 use crate::outlet::crossing::{self, CrossingRow};
@@ -28,10 +29,12 @@ pub struct InletStream {
     made: VecDeque<Arrival>,
     /// All rows before this time have been read [s]; ∞ at the end of the stream.
     known: f64,
-    /// The last watermark [s].
-    watermark: f64,
-    /// Time of the last crossing [s].
-    last: f64,
+    /// Times that the stream has reached.
+    order: Order,
+    /// The last watermark that a later row, watermark or the end of the stream has not contradicted [s].
+    confirmed: f64,
+    /// Why the stream broke off, where what was needed of it had been read.
+    broken: Option<SceneError>,
 }
 
 impl InletStream {
@@ -49,8 +52,9 @@ impl InletStream {
             paths: Paths::default(),
             made: VecDeque::new(),
             known: f64::NEG_INFINITY,
-            watermark: f64::NEG_INFINITY,
-            last: f64::NEG_INFINITY,
+            order: Order::default(),
+            confirmed: f64::NEG_INFINITY,
+            broken: None,
         };
         first.map_or(Ok(()), |event| stream.take(event))?;
         Ok(stream)
@@ -94,23 +98,60 @@ impl InletStream {
                     self.made.extend(self.paths.end());
                     continue;
                 }
-                _ if self.known > time || self.known == f64::INFINITY => return Ok(None),
+                _ if self.confirmed > time || self.confirmed == f64::INFINITY => return Ok(None),
                 _ => {}
             }
-            match self.plan.source.reader.next() {
-                None => self.known = f64::INFINITY,
-                Some(event) => {
-                    let event = event.map_err(|e| SceneError::content(self.name(), "an inlet", e))?;
-                    self.take(event)?;
+            self.read()?;
+        }
+    }
+
+    /// Reads the next event.
+    fn read(&mut self) -> Result<()> {
+        if let Some(error) = self.broken.take() {
+            return Err(error);
+        }
+        match self.plan.source.reader.next() {
+            None => (self.known, self.confirmed) = (f64::INFINITY, f64::INFINITY),
+            Some(Ok(event)) => self.take(event)?,
+            Some(Err(e)) => {
+                let error = SceneError::content(self.name(), "an inlet", e);
+                if self.confirmed >= self.known {
+                    return Err(error);
                 }
+                // What the last watermark vouches for has been read.
+                (self.confirmed, self.broken) = (self.known, Some(error));
             }
         }
+        Ok(())
+    }
+
+    /// Reads a file on to its end, after a run that stopped before: a watermark that was too late has hidden particles.
+    ///
+    /// # Errors
+    /// Rows or watermarks that are out of order. What breaks off is none: nothing of it was needed.
+    pub fn check_rest(&mut self) -> Result<()> {
+        if !self.plan.source.file || self.broken.is_some() {
+            return Ok(());
+        }
+        while let Some(Ok(event)) = self.plan.source.reader.next() {
+            self.take(event)?;
+            self.drop_read();
+        }
+        Ok(())
+    }
+
+    /// Forgets what was read.
+    fn drop_read(&mut self) {
+        self.crossings.clear();
+        self.contacts.clear();
+        self.bonds.clear();
+        self.paths.rows.clear();
     }
 
     /// Time at which the stream ended while particles still came in [s].
     pub fn ended(&self) -> Option<f64> {
-        let last = self.last.max(self.paths.last);
-        (self.known == f64::INFINITY && last > STILL_FLOWS * self.watermark).then_some(self.watermark)
+        let watermark = self.order.watermark();
+        (self.known == f64::INFINITY && self.order.last() > STILL_FLOWS * watermark).then_some(watermark)
     }
 
     fn recorded(&self) -> bool {
@@ -160,8 +201,9 @@ impl InletStream {
         match event {
             Event::Points { topic, table, .. } if topic == topic::CROSSINGS => {
                 for row in crossing::from_table(name, &table, materials)? {
-                    announced::check(source, &row, self.last.max(self.known))?;
-                    self.last = row.time;
+                    self.order.take_crossing(name, row.particle.id, row.time)?;
+                    announced::check(source, &row)?;
+                    self.confirmed = self.known;
                     self.crossings.push_back(row);
                 }
             }
@@ -178,14 +220,16 @@ impl InletStream {
             }
             Event::Points { topic, table, .. } if topic == topic::PATHS && self.recorded() => {
                 for row in path::from_table(name, &table, materials)? {
-                    announced::check(source, &row.row, self.paths.last.max(self.known))?;
-                    self.paths.last = row.row.time;
+                    self.order.take_sample(name, row.row.particle.id, row.row.time)?;
+                    announced::check(source, &row.row)?;
+                    self.confirmed = self.known;
                     self.paths.rows.push_back(row);
                 }
             }
             Event::Bytes { topic, data, .. } if topic == topic::WATERMARK => {
-                self.watermark = self.watermark.max(Watermark::read(name, &data)?.until);
-                self.known = self.known.max(self.watermark);
+                let until = Watermark::read(name, &data)?.until;
+                self.order.take_watermark(name, until)?;
+                (self.confirmed, self.known) = (self.known, until);
             }
             _ => {}
         }

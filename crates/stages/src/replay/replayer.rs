@@ -7,6 +7,7 @@ use super::pairs::Pairs;
 use super::queue::{Generated, Origin, Partners, Queue};
 use super::{FAR, Replay, Replayed};
 use crate::StageError;
+use crate::order::Order;
 use crate::outlet::contact::{self, ContactRow};
 use crate::outlet::crossing::{self, CrossingRow};
 use crate::outlet::path::{self, PathRow};
@@ -44,6 +45,8 @@ pub(super) struct Replayer<'a, W: Write> {
     pub(super) done: Replayed,
     /// Up to when the record is known: the watermark of the run [s].
     pub(super) known: f64,
+    /// Times that the file has reached.
+    order: Order,
     /// Whether particles inside the zone at the start were counted.
     inside_counted: bool,
     /// The message of a run that was stopped before its end.
@@ -84,6 +87,7 @@ impl<'a, W: Write> Replayer<'a, W> {
             head,
             done: Replayed::default(),
             known: 0.0,
+            order: Order::default(),
             inside_counted: false,
             stopped: None,
         }
@@ -92,6 +96,7 @@ impl<'a, W: Write> Replayer<'a, W> {
     /// The next file begins; of it counts what is no later than `limit` [s].
     pub(super) fn begin(&mut self, name: &str, limit: f64) {
         (self.name, self.limit, self.stopped) = (name.to_owned(), limit, None);
+        self.order = Order::default();
     }
 
     /// Whether all of a file that counts was read.
@@ -122,7 +127,9 @@ impl<'a, W: Write> Replayer<'a, W> {
         match event {
             Event::Points { topic, table, .. } => self.pass_table(&topic, &table),
             Event::Bytes { topic, data, .. } if topic == topic::WATERMARK => {
-                self.know(Watermark::read(&self.name, &data)?.until);
+                let until = Watermark::read(&self.name, &data)?.until;
+                self.order.take_watermark(&self.name, until)?;
+                self.know(until);
                 self.send(self.bound())?;
                 self.watermark(self.bound())?;
                 Ok(self.over() || self.enough())
@@ -149,6 +156,7 @@ impl<'a, W: Write> Replayer<'a, W> {
             }
             topic::CROSSINGS => {
                 for row in crossing::from_table(&self.name, table, self.head.materials.len())? {
+                    self.order.take_crossing(&self.name, row.particle.id, row.time)?;
                     self.know(row.time);
                     self.take(row)?;
                 }
@@ -213,6 +221,9 @@ impl<'a, W: Write> Replayer<'a, W> {
     /// Passes on samples of paths.
     fn take_paths(&mut self, table: &Table) -> Result<(), StageError> {
         let mut rows = path::from_table(&self.name, table, self.head.materials.len())?;
+        for PathRow { row, .. } in &rows {
+            self.order.take_sample(&self.name, row.particle.id, row.time)?;
+        }
         rows.retain(|r| self.counts(&r.row));
         self.count_inside(&rows);
         rows.iter_mut().for_each(|r| self.rebase(&mut r.row));
