@@ -7,6 +7,7 @@ mod inside;
 pub mod mesh;
 pub mod moments;
 pub mod motion;
+pub mod number;
 mod numbers;
 mod outside;
 pub mod plane;
@@ -30,6 +31,9 @@ pub use plane::Plane;
 pub use shape::Shape;
 pub use shown::Shown;
 pub use spread::least_axis;
+
+/// Numbers beyond this are no measures: squares and cubes of what is below stay finite.
+pub const LARGEST: f64 = 1e100;
 
 /// A point or vector of three `f64` [m, m/s, …].
 pub type Vec3 = nalgebra::Vector3<f64>;

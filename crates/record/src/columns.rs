@@ -2,7 +2,7 @@
 
 use crate::RecordError;
 use crate::column::{DIAMETER, RADIUS};
-use geom::Vec3;
+use geom::{LARGEST, Vec3};
 use sha2::{Digest, Sha256};
 use stream::Table;
 
@@ -36,10 +36,12 @@ impl Columns<'_> {
             };
             return Err(RecordError::new(self.name, why, format!("it has {}", has.join(", "))));
         };
-        match values.iter().position(|v| !v.is_finite()) {
+        match values.iter().position(|v| !(v.abs() <= LARGEST)) {
             None => Ok(values),
             Some(row) => {
-                let why = format!("row {row}: {column} = {} is not finite", values[row]);
+                let value = values[row];
+                let wrong = if value.is_finite() { "too large" } else { "not finite" };
+                let why = format!("row {row}: {column} = {value:e} is {wrong}");
                 Err(RecordError::new(self.name, why, "take the row out, or write the file again"))
             }
         }
@@ -86,10 +88,12 @@ impl Columns<'_> {
             (None, Some(d)) => d.iter().map(|d| d / 2.0).collect(),
             (_, diameters) => self.of_diameters(self.numbers(RADIUS)?, diameters)?,
         };
-        match radii.iter().position(|r| !(*r > 0.0 && r.is_finite())) {
+        match radii.iter().position(|r| !(*r > 0.0 && *r <= LARGEST)) {
             None => Ok(radii),
             Some(row) => {
-                let why = format!("row {row}: radius {} m must be above 0", radii[row]);
+                let bound =
+                    if radii[row] > 0.0 { format!("at most {LARGEST:e}") } else { "above 0".to_owned() };
+                let why = format!("row {row}: radius {} m must be {bound}", radii[row]);
                 Err(RecordError::new(self.name, why, "take the row out, or write the file again"))
             }
         }

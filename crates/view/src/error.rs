@@ -25,6 +25,16 @@ pub enum ViewError {
         /// What stands there.
         value: f64,
     },
+    /// A sphere without a size.
+    #[error("{name}: row {row}: radius {value} m must be above 0: remove the row, or write the file again")]
+    Radius {
+        /// The layer.
+        name: String,
+        /// Row, from 0.
+        row: usize,
+        /// What stands there [m].
+        value: f64,
+    },
     /// Nothing at all to draw.
     #[error("nothing to show: the inputs contain no sphere and no point")]
     Empty,

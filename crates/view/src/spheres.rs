@@ -1,7 +1,7 @@
 //! Positions and radii from a table, checked.
 
 use crate::{ViewError, scale::Range};
-use geom::Vec3;
+use geom::{LARGEST, Vec3};
 use std::collections::HashSet;
 use stream::Table;
 
@@ -20,7 +20,7 @@ impl Spheres {
     /// Takes x, y, z and radius out of `table`; `name` is for messages.
     ///
     /// # Errors
-    /// A position is missing, or a number is not finite.
+    /// A position is missing, a number is not finite, or a radius is not above 0.
     pub fn of(table: &Table, name: &str) -> Result<Spheres, ViewError> {
         let column = |column| {
             let missing = || ViewError::NoPosition { name: name.to_owned(), column };
@@ -28,7 +28,12 @@ impl Spheres {
         };
         let centre = [column("x")?, column("y")?, column("z")?];
         let (radius, sized) = match finite(table, name, "radius")? {
-            Some(radius) => (radius, true),
+            Some(radius) => match radius.iter().position(|r| !(*r > 0.0)) {
+                None => (radius, true),
+                Some(row) => {
+                    return Err(ViewError::Radius { name: name.to_owned(), row, value: radius[row] });
+                }
+            },
             None => (vec![0.5 * spacing(&centre); table.rows()], false),
         };
         Ok(Spheres { centre, radius, sized })
@@ -54,7 +59,7 @@ fn most_of(values: &[f64]) -> Range {
 
 fn finite(table: &Table, name: &str, column: &'static str) -> Result<Option<Vec<f64>>, ViewError> {
     let Some(values) = table.get(column).map(stream::Values::to_f64) else { return Ok(None) };
-    match values.iter().position(|v| !v.is_finite()) {
+    match values.iter().position(|v| !(v.abs() <= LARGEST)) {
         Some(row) => Err(ViewError::NotFinite { name: name.to_owned(), row, column, value: values[row] }),
         None => Ok(Some(values)),
     }
@@ -96,6 +101,16 @@ mod tests {
         assert!(broken.contains("run: row 1: x is NaN"), "{broken}");
         let missing = Spheres::of(&Table::with_rows(3), "run").err().expect("refused").to_string();
         assert!(missing.contains("no column 'x'"), "{missing}");
+    }
+
+    #[test]
+    fn a_radius_that_is_not_above_zero_is_named() {
+        for bad in [-0.01, 0.0] {
+            let mut spheres = table(vec![1.0, 2.0]);
+            spheres.push("radius", Values::F64(vec![0.01, bad])).expect("fits");
+            let refused = Spheres::of(&spheres, "walls").err().expect("refused").to_string();
+            assert!(refused.contains(&format!("walls: row 1: radius {bad} m")), "{refused}");
+        }
     }
 
     #[test]
