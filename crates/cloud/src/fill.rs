@@ -3,6 +3,7 @@
 use crate::cover::{Cover, FallsThrough, Mesher};
 use crate::darts::{Method, PACKING, throw};
 use crate::holes::{Hole, Search, find};
+use crate::points::TooFar;
 use crate::{Cloud, density};
 use geom::mesh::TriMesh;
 use geom::{Shape, Vec3};
@@ -99,6 +100,9 @@ pub struct HoleReport {
 /// Why a cloud cannot be filled.
 #[derive(Debug, Error, PartialEq)]
 pub enum FillError {
+    /// A point so far away that its distances cannot be computed with.
+    #[error(transparent)]
+    TooFar(#[from] TooFar),
     /// A spacing so small that memory would not hold the points.
     #[error(
         "a spacing of {spacing} m puts {points:.1e} points into the holes, more than {MOST:.0e}: give a wider spacing"
@@ -114,10 +118,11 @@ pub enum FillError {
 /// Fills the holes of a cloud.
 ///
 /// # Errors
-/// A spacing so small that memory would not hold the points.
+/// A spacing so small that memory would not hold the points; a point that is too far away.
 pub fn fill(cloud: Cloud, settings: &Settings) -> Result<Filled, FillError> {
     let points_in = cloud.points.len();
     let (cloud, not_finite) = cloud.finite();
+    cloud.check_reach()?;
     let automatic = || density::sparse(&cloud.points, SPARSEST.0).map(|d| d * SPARSEST.1);
     let below = settings.below.or_else(automatic);
     let max_hole = settings.max_hole.unwrap_or_else(|| WIDEST * diagonal(&cloud.points));

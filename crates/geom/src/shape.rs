@@ -10,8 +10,13 @@ use crate::mesh::{Inside, MeshError, TriMesh};
 use crate::numbers::{NumbersError, numbers};
 use crate::plane::{Plane, PlaneError};
 use crate::prism::{Prism, PrismError};
+use std::fs::File;
+use std::io::Read;
 use std::str::FromStr;
 use thiserror::Error;
+
+/// The file of a prism is read so far [B].
+const PRISM: u64 = 64 << 20;
 
 /// A part of space: a solid, or all that is outside of it. Its surface belongs to the solid.
 #[derive(Debug, Clone)]
@@ -197,8 +202,9 @@ fn is_in_cone(p: &Vec3, start: &Vec3, end: &Vec3, [r0, r1]: [f64; 2]) -> bool {
 }
 
 fn read_prism(text: &ShapeText<'_>) -> Result<Prism, ShapeError> {
-    let json = std::fs::read_to_string(text.rest)
-        .map_err(|source| ShapeError::Read { text: text.owned(), source })?;
+    let mut json = String::new();
+    let read = |file: File| file.take(PRISM).read_to_string(&mut json);
+    File::open(text.rest).and_then(read).map_err(|source| ShapeError::Read { text: text.owned(), source })?;
     Prism::from_json(&json).map_err(|source| ShapeError::Prism { text: text.owned(), source })
 }
 

@@ -15,6 +15,7 @@ mod stl;
 mod triangles;
 
 use geom::mesh::{MeshError, TriMesh};
+use std::path::Path;
 use stream::ply::PlyError;
 use thiserror::Error;
 
@@ -90,7 +91,7 @@ pub fn from_bytes(bytes: &[u8]) -> Result<TriMesh, MeshFileError> {
 /// # Errors
 /// As [`from_bytes`]; a file that cannot be read.
 pub fn load(file: &str) -> Result<TriMesh, String> {
-    let bytes = std::fs::read(file).map_err(|e| format!("cannot read the mesh: {e}"))?;
+    let bytes = stream::whole::file(Path::new(file)).map_err(|e| format!("cannot read the mesh: {e}"))?;
     from_bytes(&bytes).map_err(|e| {
         let cause = std::error::Error::source(&e).map(|c| format!(": {c}")).unwrap_or_default();
         format!("{file}: {e}{cause}")

@@ -6,10 +6,11 @@ pub mod ply;
 mod rows;
 pub mod state;
 pub mod table;
+pub mod whole;
 
 pub use number_type::NumberType;
 pub use rows::{Fill, Line, Rows};
-pub use table::{Column, Table, Values};
+pub use table::{Column, MOST_COLUMNS, Table, Values};
 
 use sha2::{Digest, Sha256};
 use std::io::{self, Read};

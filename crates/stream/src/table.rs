@@ -88,6 +88,9 @@ pub struct Column {
     pub values: Values,
 }
 
+/// Most columns of a table: names are compared one by one.
+pub const MOST_COLUMNS: usize = 4096;
+
 /// Columns of equal length, in the order of the file.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Table {
@@ -108,6 +111,9 @@ pub enum TableError {
         /// The table's rows.
         rows: usize,
     },
+    /// More columns than a table may have.
+    #[error("there are more than {MOST_COLUMNS} columns, up to '{0}': leave out those that are not needed")]
+    TooMany(String),
     /// Two columns of one name.
     #[error("two columns have the name '{0}'")]
     Twice(String),
@@ -137,8 +143,11 @@ impl Table {
     /// Adds a column at the end; the first one of a table made by `default` sets the number of rows.
     ///
     /// # Errors
-    /// Another length than the table's, or a name that is there already.
+    /// Another length than the table's, a name that is there already, or a column more than [`MOST_COLUMNS`].
     pub fn push(&mut self, name: &str, values: Values) -> Result<(), TableError> {
+        if self.columns.len() >= MOST_COLUMNS {
+            return Err(TableError::TooMany(name.to_owned()));
+        }
         if self.get(name).is_some() {
             return Err(TableError::Twice(name.to_owned()));
         }

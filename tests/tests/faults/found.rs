@@ -135,12 +135,9 @@ fn mcap_with_a_text_longer_than_its_record() {
     }
 }
 
-/// A few bytes of Zstandard that unpack to 256 MB of zeros.
-#[test]
-fn mcap_with_a_chunk_that_unpacks_without_end() {
-    let zeros = std::io::Read::take(std::io::repeat(0), 1 << 28);
-    let packed = zstd::stream::encode_all(zeros, 1).expect("packed");
-    let mut chunk = [0u64.to_le_bytes(), 0u64.to_le_bytes(), (1u64 << 28).to_le_bytes()].concat();
+/// A stream whose first chunk holds packed bytes that unpack to `whole` bytes.
+fn with_a_chunk(packed: &[u8], whole: u64) -> Vec<u8> {
+    let mut chunk = [0u64.to_le_bytes(), 0u64.to_le_bytes(), whole.to_le_bytes()].concat();
     chunk.extend(0u32.to_le_bytes());
     chunk.extend(4u32.to_le_bytes());
     chunk.extend(b"zstd");
@@ -153,8 +150,31 @@ fn mcap_with_a_chunk_that_unpacks_without_end() {
     bytes.push(6);
     bytes.extend((chunk.len() as u64).to_le_bytes());
     bytes.extend(chunk);
-    let error = stream::mcap::Reader::new(&bytes[..]).find_map(Result::err).expect("refused");
-    CLAIMS.refused("MCAP: a chunk of zeros", &said(&error), &["thousands of times its own size"]);
+    bytes
+}
+
+/// A few bytes of Zstandard that unpack to 256 MB of zeros, and a megabyte that unpacks to a hundred.
+#[test]
+fn mcap_with_a_chunk_that_unpacks_without_end() {
+    let zeros = std::io::Read::take(std::io::repeat(0), 1 << 28);
+    let few = zstd::stream::encode_all(zeros, 1).expect("packed");
+    let mut state = 1u32;
+    let mut noise = || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (state >> 24) as u8
+    };
+    let mut thin = Vec::new();
+    for _ in 0..1000 {
+        thin.extend((0..1000).map(|_| noise()));
+        thin.resize(thin.len() + 99_000, 0);
+    }
+    let many = zstd::stream::encode_all(&thin[..], 1).expect("packed");
+    assert!((1_000_000..1_500_000).contains(&many.len()), "{} bytes", many.len());
+    for (packed, whole) in [(few, 1 << 28), (many, thin.len() as u64)] {
+        let bytes = with_a_chunk(&packed, whole);
+        let error = stream::mcap::Reader::new(&bytes[..]).find_map(Result::err).expect("refused");
+        CLAIMS.refused("MCAP: a chunk of zeros", &said(&error), &["64 times its own size"]);
+    }
 }
 
 /// A text in a state that claimed 21 GB, behind a hash that is right.

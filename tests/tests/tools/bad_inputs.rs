@@ -212,6 +212,16 @@ fn clouds_that_are_damaged_or_no_clouds() {
             failed("cloud-crop missing.ply", &["missing.ply", "cannot open it", "check the path"]),
             failed("cloud-crop folder", &["folder", "is a folder", "name a file"]),
             failed("dem-view cut.ply", &["cut.ply", "promises 400 rows"]),
+            // Devices have no end.
+            failed("cloud-crop /dev/zero", &["/dev/zero", "no known cloud format"]),
+            failed("dem-view /dev/zero", &["/dev/zero", "no known cloud format"]),
+            failed(
+                "wallgen --radius 0.01 --roughness 0.001 --from-mesh /dev/zero",
+                &["/dev/zero", "is a device, and a file is needed"],
+            ),
+            failed("cloud-crop good.ply --regions /dev/zero", &["/dev/zero", "is a device"]),
+            misused("cloud-crop good.ply --keep mesh:/dev/zero", &["/dev/zero", "is a device"]),
+            misused("cloud-crop good.ply --keep prism:/dev/zero", &["/dev/zero", "not a prism"]),
         ],
     );
 }
@@ -233,6 +243,8 @@ fn clouds_that_cannot_become_a_wall_or_a_sample() {
                 "bluenoise-sample far.xyz --spacing 0.01",
                 &["far.xyz", "point 400", "1e300", "cloud-crop"],
             ),
+            failed("cloud-fill far.xyz", &["far.xyz", "point 400", "1e300", "cloud-crop"]),
+            failed("cloud-fill good.ply --scale 1e308", &["good.ply", "point ", "farther than"]),
             failed("wallgen none.ply --roughness 0.001", &["none.ply", "0 points", "at least 2"]),
             failed("wallgen one.xyz --roughness 0.001", &["one.xyz", "at least 2"]),
             failed(

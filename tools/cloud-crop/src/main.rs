@@ -107,8 +107,7 @@ fn rules(args: &Args) -> anyhow::Result<Rules> {
         ..Rules::default()
     };
     if let Some(file) = &args.regions {
-        let text =
-            std::fs::read_to_string(file).with_context(|| format!("{}: cannot read", file.display()))?;
+        let text = stream::whole::text(file).with_context(|| format!("{}: cannot read", file.display()))?;
         let folder = file.parent().unwrap_or(Path::new(""));
         cloud::regions::add_regions(&mut rules, &text, folder).with_context(|| file.display().to_string())?;
     }
@@ -135,17 +134,11 @@ fn outer_shape(text: &str) -> Result<Shape, String> {
 }
 
 fn not_negative(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if value >= 0.0 && value.is_finite() => Ok(value),
-        _ => Err("give a length in metres, 0 or more".into()),
-    }
+    geom::number::not_negative(text).map_err(|_| "give a length in metres, 0 or more".into())
 }
 
 fn positive(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
-        _ => Err("give a length above 0 in metres".into()),
-    }
+    geom::number::positive(text).map_err(|_| "give a length above 0 in metres".into())
 }
 
 /// Refuses a file name of another format than PLY.

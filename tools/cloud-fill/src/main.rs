@@ -1,10 +1,12 @@
 //! Fills the blind spots of a scan.
 
+use anyhow::Context;
 use clap::Parser;
 use cli::Report;
 use cloud::fill::Settings;
 use cloud::{Mesher, Method};
 use geom::Shape;
+use geom::number::positive;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -68,7 +70,7 @@ fn fill(args: Args) -> anyhow::Result<Report> {
         balls,
         seed: args.seed.seed,
     };
-    let filled = cloud::fill(args.input.read_cloud()?, &settings)?;
+    let filled = cloud::fill(args.input.read_cloud()?, &settings).with_context(|| args.input.name())?;
     warn(&filled.report);
     if !settings.regions.is_empty() && filled.report.holes.is_empty() {
         cli::warn(
@@ -103,13 +105,6 @@ fn warn(report: &cloud::fill::Report) {
              up to {:.3} m fall through, or too few points surround it; the report lists the holes",
             hole.width, hole.ball
         ));
-    }
-}
-
-fn positive(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
-        _ => Err("give a number above 0".into()),
     }
 }
 

@@ -20,6 +20,7 @@ use measure::segregation::{Kinds, Segregation};
 use measure::wall_force::{WallContactFilter, WallForce};
 use measure::wear::Wear;
 use measure::{Observer, PerFrame, Which};
+use std::path::Path;
 
 /// The option that was given, and what measures.
 pub fn observer(args: &Args) -> anyhow::Result<(&'static str, Box<dyn Observer>)> {
@@ -142,11 +143,13 @@ fn on_walls(args: &Args, given: &GivenShape, between: (f64, f64)) -> WallContact
 fn volume(given: &GivenShape) -> anyhow::Result<f64> {
     match given.text.trim_start_matches('!').split_once(':') {
         Some(("mesh", file)) => {
-            let bytes = std::fs::read(file).with_context(|| format!("{file}: cannot read"))?;
+            let bytes =
+                stream::whole::file(Path::new(file)).with_context(|| format!("{file}: cannot read"))?;
             Ok(cloud::read_mesh(&mut bytes.as_slice()).with_context(|| file.to_owned())?.volume().abs())
         }
         Some(("prism", file)) => {
-            let text = std::fs::read_to_string(file).with_context(|| format!("{file}: cannot read"))?;
+            let text =
+                stream::whole::text(Path::new(file)).with_context(|| format!("{file}: cannot read"))?;
             prism_volume(&text).ok_or_else(|| anyhow!("{file}: not a prism"))
         }
         _ => Ok(f64::NAN),

@@ -11,6 +11,9 @@ use view::{LayerHead, Motion, Role, Show, SurfaceShape, WallSurface};
 /// The bytes that every MCAP stream begins with.
 const MCAP: &[u8] = b"\x89MCAP";
 
+/// Bytes that tell the format of a cloud.
+const HEAD: u64 = 1 << 14;
+
 /// The name without its folder.
 pub fn short_name(source: &Source) -> String {
     let file = source.path().and_then(|path| path.file_name());
@@ -55,7 +58,12 @@ fn run(from: impl Read, source: &Source, show: &mut impl Show) -> anyhow::Result
 /// A mesh, or a cloud: its points are grains when they have a radius and an id, and wall spheres when they have a radius only.
 fn cloud(mut from: impl Read, name: &str, pick: bool, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
     let mut bytes = Vec::new();
-    from.read_to_end(&mut bytes).with_context(|| format!("{name}: cannot read"))?;
+    let cannot = || format!("{name}: cannot read");
+    from.by_ref().take(HEAD).read_to_end(&mut bytes).with_context(cannot)?;
+    // Bytes of an unknown format may come from an endless stream.
+    if ::cloud::formats::name_of(&bytes).is_some() {
+        stream::whole::rest(&mut from, &mut bytes).with_context(cannot)?;
+    }
     if has_faces(&bytes) && !pick {
         return mesh(&bytes, name, show);
     }

@@ -2,6 +2,7 @@
 
 use anyhow::Context;
 use geom::Vec3;
+use geom::number::{finite, positive};
 use record::MaterialRecord;
 use std::path::{Path, PathBuf};
 use wall::drawn::Drawing;
@@ -40,25 +41,25 @@ pub struct Args {
     #[arg(long, value_name = "NAME", default_value = "wall")]
     material: String,
     /// Young's modulus [Pa]
-    #[arg(long, value_name = "PA")]
+    #[arg(long, value_name = "PA", value_parser = finite)]
     young: Option<f64>,
     /// Poisson's ratio
-    #[arg(long, value_name = "X", allow_hyphen_values = true)]
+    #[arg(long, value_name = "X", value_parser = finite, allow_hyphen_values = true)]
     poisson: Option<f64>,
     /// Coefficient of sliding friction
-    #[arg(long, value_name = "X")]
+    #[arg(long, value_name = "X", value_parser = finite)]
     friction: Option<f64>,
     /// Coefficient of restitution
-    #[arg(long, value_name = "X")]
+    #[arg(long, value_name = "X", value_parser = finite)]
     restitution: Option<f64>,
     /// Velocity of the spheres [m/s]
     #[arg(long, value_name = "x,y,z", default_value = "0,0,0", value_parser = vector, allow_hyphen_values = true)]
     velocity: Vec3,
     /// Diameter of the smallest particle [m]: checks the wall's gaps and the spheres' sizes
-    #[arg(long, value_name = "M")]
+    #[arg(long, value_name = "M", value_parser = finite)]
     smallest_particle: Option<f64>,
     /// Diameter of the largest particle [m]: checks the spheres' sizes
-    #[arg(long, value_name = "M")]
+    #[arg(long, value_name = "M", value_parser = finite)]
     largest_particle: Option<f64>,
     /// Report the largest sphere that passes through the wall, and where (also reported with --smallest-particle)
     #[arg(long)]
@@ -167,12 +168,11 @@ impl Args {
             return Regions::one(roughness, material, self.velocity)
                 .map_err(|e| cli::usage(option(&e.to_string())));
         };
-        let text =
-            std::fs::read_to_string(path).with_context(|| format!("{}: cannot read", path.display()))?;
+        let text = stream::whole::text(path).with_context(|| format!("{}: cannot read", path.display()))?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let read = |name: &str| {
             let file = folder.join(name);
-            std::fs::read_to_string(&file).map_err(|e| format!("cannot read: {e}"))
+            stream::whole::text(&file).map_err(|e| format!("cannot read: {e}"))
         };
         Regions::parse(&text, material, self.velocity, &mesh::load, &read)
             .with_context(|| path.display().to_string())
@@ -181,7 +181,7 @@ impl Args {
     /// Role and hash of the table of regions, for provenance.
     pub fn regions_hash(&self) -> anyhow::Result<Option<(String, String)>> {
         let Some(path) = self.regions_file() else { return Ok(None) };
-        let bytes = std::fs::read(path).with_context(|| format!("{}: cannot read", path.display()))?;
+        let bytes = stream::whole::file(path).with_context(|| format!("{}: cannot read", path.display()))?;
         Ok(Some(("roughness".to_owned(), stream::sha256(&bytes))))
     }
 
@@ -220,9 +220,9 @@ fn radius(text: &str) -> Result<Radius, String> {
     match text {
         "solve" => Ok(Radius::Solve),
         "uniform" => Ok(Radius::Uniform),
-        _ => match text.parse::<f64>() {
-            Ok(radius) if radius > 0.0 && radius.is_finite() => Ok(Radius::Given(radius)),
-            _ => Err(format!("'{text}' is neither solve, uniform, nor a positive length in m")),
+        _ => match positive(text) {
+            Ok(radius) => Ok(Radius::Given(radius)),
+            Err(_) => Err(format!("'{text}' is neither solve, uniform, nor a positive length in m")),
         },
     }
 }

@@ -26,7 +26,7 @@ pub fn read(args: &Args, regions: &Regions) -> anyhow::Result<WallPoints> {
     };
     let drawing = args.drawing(regions)?;
     let name = path.display().to_string();
-    let bytes = std::fs::read(path).with_context(|| format!("{name}: cannot read"))?;
+    let bytes = stream::whole::file(path).with_context(|| format!("{name}: cannot read"))?;
     let mesh = mesh::from_bytes(&bytes).with_context(|| name.clone())?;
     let drawn = place(&mesh, &drawing).with_context(|| name.clone())?;
     warn(&drawn.report, drawing.radius);

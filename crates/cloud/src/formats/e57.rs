@@ -1,6 +1,6 @@
 //! E57, by the `e57` crate: every scan of the file, each in its pose.
 
-use super::{ReadError, catch};
+use super::{ReadError, catch, e57_claims as claims};
 use crate::Cloud;
 use e57::{CartesianCoordinate, E57Reader, Point, PointCloud};
 use geom::Vec3;
@@ -31,8 +31,13 @@ struct Columns {
 }
 
 fn decode(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
+    let length = bytes.len() as u64;
+    claims::before_the_header(&bytes).map_err(|e| broken(e, 0))?;
     let mut reader = E57Reader::new(Cursor::new(bytes)).map_err(|e| broken(e, 0))?;
     let scans = reader.pointclouds();
+    claims::before_the_points(&scans, length).map_err(|e| broken(e, 0))?;
+    let posed = scans.iter().enumerate().map(|(number, scan)| claims::with_sound_pose(number, scan));
+    let scans: Vec<PointCloud> = posed.collect::<Result<_, _>>().map_err(|e| broken(e, 0))?;
     let mut columns = Columns::default();
     for (number, scan) in scans.iter().enumerate() {
         let at = columns.points.len() as u64;

@@ -4,7 +4,7 @@ use super::laz::{self, Bytes, Chunk, STACK, Shallow};
 use super::{ReadError, catch};
 use crate::Cloud;
 use geom::Vec3;
-use las::{Header, LazParallelism, PointData, Reader, ReaderOptions};
+use las::{Header, LazParallelism, PointData, Reader, ReaderOptions, Transform};
 use std::io::Cursor;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -35,6 +35,7 @@ fn broken(what: impl ToString, point: u64) -> ReadError {
 fn decode(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
     laz::before_the_header(&bytes).map_err(|e| broken(e, 0))?;
     let header = Header::new(Cursor::new(&bytes)).map_err(|e| broken(e, 0))?;
+    sound(&header).map_err(|e| broken(e, 0))?;
     let chunks = laz::before_the_points(&bytes, &header).map_err(|e| broken(e, 0))?;
     let length = bytes.len() as u64;
     let (promised, format) = (header.number_of_points(), header.point_format());
@@ -58,6 +59,25 @@ fn decode(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
         attributes.push(name, values).map_err(|source| ReadError::Table { format: "LAS/LAZ", source })?;
     }
     Ok(Cloud { points: all.points, attributes, double: true, ..Cloud::default() })
+}
+
+/// Refuses scales that would bring all points to one coordinate, and numbers that are none.
+fn sound(header: &Header) -> Result<(), String> {
+    let (transforms, bounds) = (header.transforms(), header.bounds());
+    let axes = [
+        ("x", transforms.x, bounds.min.x, bounds.max.x),
+        ("y", transforms.y, bounds.min.y, bounds.max.y),
+        ("z", transforms.z, bounds.min.z, bounds.max.z),
+    ];
+    for (axis, Transform { scale, offset }, low, high) in axes {
+        if !(scale.is_finite() && scale != 0.0 && offset.is_finite()) {
+            return Err(format!("the header gives {axis} a scale of {scale} and an offset of {offset} m"));
+        }
+        if header.number_of_points() > 0 && !(low.is_finite() && high.is_finite()) {
+            return Err(format!("the bounding box in the header goes from {axis} = {low} m to {high} m"));
+        }
+    }
+    Ok(())
 }
 
 /// Where the shares of so many threads begin: at chunks.

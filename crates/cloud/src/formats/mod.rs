@@ -3,6 +3,7 @@
 //! A format is one file here and one line in [`FORMATS`]. Text without a magic number comes last.
 
 mod e57;
+mod e57_claims;
 mod las;
 mod laz;
 mod pcd;
@@ -52,6 +53,10 @@ pub enum ReadError {
     Ply(#[source] PlyError),
     #[error("PLY: not a cloud: no element has the properties x, y, z")]
     NoPosition,
+    #[error(
+        "PLY: two elements, '{one}' and '{other}', have the properties x, y, z: write each to a file of its own"
+    )]
+    TwoClouds { one: String, other: String },
     #[error("PLY: element '{element}' has x but no '{missing}': a point needs x, y and z")]
     HalfPosition { element: String, missing: &'static str },
     #[error(transparent)]

@@ -14,11 +14,16 @@ pub(super) fn matches(bytes: &[u8]) -> bool {
     bytes.starts_with(b"ply") && matches!(bytes.get(3), Some(b'\n' | b'\r' | b' ') | None)
 }
 
-/// The element with positions; `vertex` when there are several. Properties that are lists stay behind.
+/// The element with positions. Properties that are lists stay behind.
 pub(super) fn read(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
     let ply = ply::parse(&bytes).map_err(ReadError::Ply)?;
     drop(bytes);
     let has_x = |e: &Element| e.table.get("x").is_some();
+    let has_points = |e: &Element| ["x", "y", "z"].iter().all(|axis| e.table.get(axis).is_some());
+    let mut clouds = ply.elements.iter().filter(|e| has_points(e) && e.table.rows() > 0);
+    if let (Some(one), Some(other)) = (clouds.next(), clouds.next()) {
+        return Err(ReadError::TwoClouds { one: one.name.clone(), other: other.name.clone() });
+    }
     let at = ply.elements.iter().position(|e| e.name == "vertex" && has_x(e));
     let at = at.or_else(|| ply.elements.iter().position(has_x)).ok_or(ReadError::NoPosition)?;
     let Ply { comments, mut elements, .. } = ply;
@@ -36,7 +41,10 @@ pub(super) fn stream<R: Read>(opened: Opened<R>) -> Result<Result<Cloud, Vec<u8>
 }
 
 fn rest<R: Read>((mut bytes, mut from): (Vec<u8>, R)) -> Result<Result<Cloud, Vec<u8>>, ReadError> {
-    from.read_to_end(&mut bytes).map_err(ReadError::Io)?;
+    // Bytes of an unknown format may come from an endless stream.
+    if super::name_of(&bytes).is_some() {
+        stream::whole::rest(&mut from, &mut bytes).map_err(ReadError::Io)?;
+    }
     Ok(Err(bytes))
 }
 
@@ -211,6 +219,6 @@ pub fn write_mesh(to: &mut impl Write, mesh: &TriMesh, encoding: Encoding) -> Re
 /// Content that is not a mesh, with the face.
 pub fn read_mesh(from: &mut impl Read) -> Result<TriMesh, ReadError> {
     let mut bytes = Vec::new();
-    from.read_to_end(&mut bytes).map_err(ReadError::Io)?;
+    stream::whole::rest(from, &mut bytes).map_err(ReadError::Io)?;
     Ok(mesh::from_bytes(&bytes)?)
 }

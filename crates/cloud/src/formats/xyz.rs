@@ -7,7 +7,7 @@
 use super::ReadError;
 use crate::Cloud;
 use geom::Vec3;
-use stream::{Table, Values};
+use stream::{MOST_COLUMNS, Table, Values};
 
 /// The columns of PTS after x, y, z, by their number.
 const PTS: [&[&str]; 5] =
@@ -126,7 +126,11 @@ impl Rows {
             })?;
             match width {
                 0..3 => values[width] = value,
-                _ if self.points.is_empty() => self.extra.push(vec![value]),
+                _ if self.points.is_empty() && width < MOST_COLUMNS => self.extra.push(vec![value]),
+                _ if self.points.is_empty() => {
+                    let what = format!("more than {MOST_COLUMNS} columns: is the line end missing?");
+                    return Err(error(number, what, line));
+                }
                 _ => match self.extra.get_mut(width - 3) {
                     Some(column) => column.push(value),
                     None => return Err(self.uneven(number, words(line).count(), line)),

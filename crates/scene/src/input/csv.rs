@@ -1,7 +1,7 @@
 //! Particles as text: names on the first line, then a line of numbers for each particle.
 
 use crate::error::{Result, SceneError};
-use stream::{Table, Values};
+use stream::{MOST_COLUMNS, Table, Values};
 
 /// A table of text: names on the first line, commas or blanks between, `#` starts a comment.
 pub(super) fn csv(name: &str, bytes: &[u8]) -> Result<Table> {
@@ -19,6 +19,9 @@ pub(super) fn csv(name: &str, bytes: &[u8]) -> Result<Table> {
     let names = split(head);
     if names.first().is_none_or(|name| name.parse::<f64>().is_ok()) {
         return Err(wrong("line 1: begins without a name, the line of names is missing".into()));
+    }
+    if names.len() > MOST_COLUMNS {
+        return Err(wrong(format!("line 1: {} names are more than {MOST_COLUMNS} columns", names.len())));
     }
     let mut columns: Vec<Vec<f64>> = vec![Vec::new(); names.len()];
     for (n, line) in lines {

@@ -32,7 +32,7 @@ pub enum Input {
 const GIVE: &str = "give walls (wallgen) or an inlet (stage-replay)";
 
 impl Input {
-    /// Opens a stream under the name that messages use.
+    /// Opens a stream under the name that messages use, the path of a file.
     ///
     /// # Errors
     /// A stream that breaks off, or holds neither walls nor crossings.
@@ -111,6 +111,6 @@ fn broken(name: &str, error: McapError) -> SceneError {
 /// # Errors
 /// A file of another kind, faces without vertices.
 pub fn read_mesh(path: &Path) -> Result<TriMesh> {
-    let bytes = std::fs::read(path).map_err(|e| SceneError::read(path, e))?;
+    let bytes = stream::whole::file(path).map_err(|e| SceneError::read(path, e))?;
     mesh::from_bytes(&bytes).map_err(|e| SceneError::content(&path.display().to_string(), "a mesh", e))
 }

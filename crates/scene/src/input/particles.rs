@@ -46,7 +46,7 @@ impl ParticleTable {
     /// A file of another kind.
     pub fn read(path: &Path) -> Result<ParticleTable> {
         let name = path.display().to_string();
-        let bytes = std::fs::read(path).map_err(|e| SceneError::read(path, e))?;
+        let bytes = stream::whole::file(path).map_err(|e| SceneError::read(path, e))?;
         if bytes.starts_with(b"\x89MCAP") {
             return last_frame(name, &bytes);
         }
@@ -164,6 +164,11 @@ mod tests {
             let message = file("a.csv", text.as_bytes()).unwrap_err().to_string();
             assert!(message.contains(part), "{message}");
         }
+        let names: String = (0..200_000).map(|k| format!("c{k},")).collect();
+        let message = file("a.csv", names.as_bytes()).unwrap_err().to_string();
+        assert!(message.contains("200000 names are more than 4096 columns"), "{message}");
+        let message = file("a.csv", b"x,y,z,radius\n0,0,0,1e308").unwrap_err().to_string();
+        assert!(message.contains("radius = 1e308 is too large"), "{message}");
         let message = file("a.csv", b"x,y,z,radius\n0,0,0,-1").unwrap_err().to_string();
         assert!(message.contains("radius -1 m"), "{message}");
     }

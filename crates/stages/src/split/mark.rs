@@ -82,7 +82,7 @@ impl Cutting<'_> {
             kept.grains.insert(clump.material.clone());
             if let Some(file) = &clump.mesh {
                 let path = self.scene.folder.join(file);
-                let bytes = std::fs::read(&path).map_err(|e| SceneError::read(&path, e))?;
+                let bytes = stream::whole::file(&path).map_err(|e| SceneError::read(&path, e))?;
                 table.insert("mesh".to_owned(), stream::sha256(&bytes).into());
             }
         }
@@ -145,7 +145,7 @@ impl Cutting<'_> {
             let path = self.scene.folder.join(file);
             let mesh = read_mesh(&path).ok()?;
             let range = self.of_points(mesh.vertices.iter().map(|v| (*v, 0.0)));
-            let hash = stream::sha256(&std::fs::read(&path).ok()?);
+            let hash = stream::sha256(&stream::whole::file(&path).ok()?);
             return Some(Bounded { range, hash, materials: Vec::new() });
         }
         let path = self.scene.folder.join(wall.source.as_ref()?);

@@ -19,10 +19,11 @@ pub(super) enum ChunkError {
 }
 
 /// A chunk that unpacks to more than this [B] must also unpack to less than [`RATIO`] times its packed size: a few bytes can
-/// claim to hold any number of zeros. No chunk of measured numbers is packed as tightly.
+/// claim to hold any number of zeros. No chunk of measured numbers of that size is packed as tightly: grains at rest, in double
+/// precision, are packed to a third.
 const FREE: u64 = 64 << 20;
 /// See [`FREE`].
-const RATIO: u64 = 2048;
+const RATIO: u64 = 64;
 
 impl ChunkError {
     pub fn text(&self) -> &'static str {
@@ -32,7 +33,7 @@ impl ChunkError {
             ChunkError::Records => "a record reaches over the end of its chunk",
             ChunkError::Compression => "a chunk has an unknown compression (known: none, zstd, lz4)",
             ChunkError::Unpack => "a chunk cannot be unpacked: bytes were changed",
-            ChunkError::Large => "a chunk claims to hold thousands of times its own size",
+            ChunkError::Large => "a chunk claims to unpack to more than 64 MiB and 64 times its own size",
             ChunkError::Text => "a text reaches over the end of its record",
         }
     }

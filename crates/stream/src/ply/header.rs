@@ -1,6 +1,7 @@
 //! The header: lines of words up to `end_header`.
 
 use super::{Encoding, NumberType, PlyError, text::Lines};
+use crate::MOST_COLUMNS;
 
 /// What the header says.
 pub(super) struct Header {
@@ -81,6 +82,9 @@ impl Header {
             "obj_info" => self.obj_info.push(rest.to_owned()),
             "element" => {
                 let element = element(rest).ok_or("not 'element NAME COUNT'")?;
+                if self.elements.len() >= MOST_COLUMNS {
+                    return Err("more than 4096 elements");
+                }
                 if self.elements.iter().any(|e| e.name == element.name) {
                     return Err("a second element of this name");
                 }
@@ -89,6 +93,9 @@ impl Header {
             "property" => {
                 let property = property(rest)?;
                 let element = self.elements.last_mut().ok_or("a property before any element")?;
+                if element.properties.len() >= MOST_COLUMNS {
+                    return Err("an element has more than 4096 properties");
+                }
                 if element.properties.iter().any(|p| p.name == property.name) {
                     return Err("this name occurs twice in its element");
                 }

@@ -142,7 +142,7 @@ pub enum PlyError {
 /// As [`PlyError`] says, with the place.
 pub fn read(from: &mut impl Read) -> Result<Ply, PlyError> {
     let mut bytes = Vec::new();
-    from.read_to_end(&mut bytes)?;
+    crate::whole::rest(from, &mut bytes)?;
     parse(&bytes)
 }
 
