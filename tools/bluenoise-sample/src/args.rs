@@ -14,7 +14,7 @@ pub struct Args {
     #[command(flatten)]
     pub output: cli::CloudOutput,
     /// Least distance between kept points (grid: distance between its nodes) [m]
-    #[arg(long, value_name = "M")]
+    #[arg(long, value_name = "M", value_parser = geom::number::finite)]
     spacing: Option<f64>,
     /// Number of points to keep (within 1 %; exact below 200 and with eliminate; grid: the nearest count that a grid can have)
     #[arg(long, value_name = "N")]
@@ -105,6 +105,6 @@ impl Args {
 fn density(text: &str) -> Result<(f64, f64), String> {
     let wrong = || format!("'{text}' is not LO,HI: give two numbers of points per m², such as 20000,30000");
     let (low, high) = text.split_once(',').ok_or_else(wrong)?;
-    let number = |t: &str| t.trim().parse::<f64>().map_err(|_| wrong());
+    let number = |t: &str| geom::number::finite(t).map_err(|_| wrong());
     Ok((number(low)?, number(high)?))
 }

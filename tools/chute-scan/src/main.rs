@@ -19,7 +19,7 @@ struct Args {
     #[arg(long, value_name = "M", default_value_t = 0.12, value_parser = length)]
     blind: f64,
     /// Angle of the chute's axis below the horizontal [degrees]
-    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", default_value_t = 0.0, value_parser = geom::number::finite, allow_hyphen_values = true)]
     tilt_deg: f64,
     #[command(flatten)]
     seed: cli::Seed,

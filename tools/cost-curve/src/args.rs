@@ -44,7 +44,7 @@ pub struct Args {
     #[arg(long, value_name = "KEY=V", conflicts_with_all = ["exact", "laboratory"], help_heading = "Judging")]
     pub reference: Vec<String>,
     /// The exact value, in the unit of the measure
-    #[arg(long, value_name = "VALUE", conflicts_with = "laboratory", help_heading = "Judging")]
+    #[arg(long, value_name = "VALUE", value_parser = geom::number::finite, allow_hyphen_values = true, conflicts_with = "laboratory", help_heading = "Judging")]
     pub exact: Option<f64>,
     /// A value from a laboratory, and the half width of its 95 % interval
     #[arg(long, value_name = "VALUE[,U]", value_parser = laboratory, allow_hyphen_values = true, help_heading = "Judging")]
@@ -108,8 +108,7 @@ pub enum Norm {
 
 fn wanted(text: &str) -> Result<Wanted, String> {
     let wrong = || "give a share such as 1%, or a number above 0 in the unit of the measure".to_owned();
-    let number =
-        |text: &str| text.trim().parse().ok().filter(|v: &f64| *v > 0.0 && v.is_finite()).ok_or_else(wrong);
+    let number = |text: &str| geom::number::positive(text).map_err(|_| wrong());
     match text.strip_suffix('%') {
         Some(share) => Ok(Wanted::Share(number(share)? / 100.0)),
         None => Ok(Wanted::Absolute(number(text)?)),
@@ -118,7 +117,7 @@ fn wanted(text: &str) -> Result<Wanted, String> {
 
 fn laboratory(text: &str) -> Result<(f64, f64), String> {
     let (value, half) = text.split_once(',').unwrap_or((text, "0"));
-    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|v| v.is_finite());
+    let number = |text: &str| geom::number::finite(text).ok();
     match (number(value), number(half)) {
         (Some(value), Some(half)) if half >= 0.0 => Ok((value, half)),
         _ => Err("give a value, and the half width of its interval, such as 35.5,0.8".to_owned()),

@@ -2,6 +2,7 @@
 
 use clap::{ArgGroup, Parser};
 use cli::{Output, Source, usage};
+use geom::number::{finite, positive};
 use geom::{Plane, Shape, Vec3};
 use std::path::PathBuf;
 
@@ -88,10 +89,10 @@ pub struct Args {
     #[arg(long, value_name = "LO,HI", value_parser = pair, help_heading = "How")]
     pub fractions: Option<[f64; 2]>,
     /// Width of the bins of the heap's profile [m] (default: a mean diameter) [repose]
-    #[arg(long, value_name = "M", help_heading = "How")]
+    #[arg(long, value_name = "M", value_parser = positive, help_heading = "How")]
     pub bin: Option<f64>,
     /// Height of the ground [m] (default: that of the lowest grains) [repose, bed-height]
-    #[arg(long, value_name = "M", allow_hyphen_values = true, help_heading = "How")]
+    #[arg(long, value_name = "M", value_parser = finite, allow_hyphen_values = true, help_heading = "How")]
     pub ground: Option<f64>,
     /// The heap leans on a wall at this side: x- x+ y- y+ z- z+ [repose]
     #[arg(long, value_name = "SIDE", value_parser = side, allow_hyphen_values = true, help_heading = "How")]
@@ -115,10 +116,10 @@ pub struct Args {
     #[arg(long, value_name = "NAME", help_heading = "How")]
     pub field: Vec<String>,
     /// Side of the cells [m] [segregation: default 3 mean diameters; wear]
-    #[arg(long, value_name = "M", help_heading = "How")]
+    #[arg(long, value_name = "M", value_parser = positive, help_heading = "How")]
     pub cell: Option<f64>,
     /// The first kind is grains larger than M [m] (default: the median) [segregation]
-    #[arg(long, value_name = "M", conflicts_with = "kind", help_heading = "How")]
+    #[arg(long, value_name = "M", value_parser = positive, conflicts_with = "kind", help_heading = "How")]
     pub split: Option<f64>,
     /// The first kind is grains of this material [segregation]
     #[arg(long, value_name = "MATERIAL", help_heading = "How")]
@@ -234,7 +235,7 @@ fn bins(text: &str) -> Result<Bins, String> {
     let list: Option<Vec<usize>> = text.split(',').map(|p| p.trim().parse().ok()).collect();
     match list.as_deref() {
         Some([n]) if *n > 0 => Ok(Bins::One(*n)),
-        Some([x, y, z]) if x * y * z > 0 => Ok(Bins::All([*x, *y, *z])),
+        Some([x, y, z]) if *x > 0 && *y > 0 && *z > 0 => Ok(Bins::All([*x, *y, *z])),
         _ => Err("give a number of bins, or three for x, y and z, such as 20 or 10,1,20".into()),
     }
 }

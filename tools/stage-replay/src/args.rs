@@ -2,6 +2,7 @@
 
 use clap::{Parser, ValueEnum};
 use cli::{Output, Source, usage};
+use geom::number::{finite, positive};
 use geom::{Plane, Vec3};
 use scene::ZoneMotion;
 use stages::replay::{Copies, Frame, Intervals, Replay};
@@ -16,7 +17,7 @@ pub struct Args {
     #[arg(long, value_name = "PLANE", allow_hyphen_values = true)]
     at: Option<Plane>,
     /// Length of the zone before the calculation plane [m] (default: that of the run)
-    #[arg(long, value_name = "M")]
+    #[arg(long, value_name = "M", value_parser = geom::number::positive)]
     length: Option<f64>,
     /// Leave out crossings before S; S becomes time 0 [s]
     #[arg(long, value_name = "S", value_parser = cli::seconds)]
@@ -134,7 +135,7 @@ impl Args {
 }
 
 fn number(text: &str) -> Result<f64, String> {
-    text.parse::<f64>().ok().filter(|v| v.is_finite()).ok_or_else(|| "give a number, such as 90".into())
+    finite(text).map_err(|_| "give a number, such as 90".into())
 }
 
 fn vector(text: &str) -> Result<Vec3, String> {

@@ -74,10 +74,27 @@ const OF_RUNS_STAGES_AND_VIEWS: &[Case] = &[
     misused("dem-run s.toml --until soon", &["--until", "soon"]),
 ];
 
+const OF_NUMBERS: &[Case] = &[
+    misused("chute-scan --tilt-deg nan", &["--tilt-deg", "not a finite number"]),
+    misused("cost-curve s.toml --vary time.safety=0.1,0.5 --exact nan", &["--exact", "not a finite number"]),
+    misused("dem-measure up.mcap --repose --ground nan", &["--ground", "not a finite number"]),
+    misused("dem-measure up.mcap --repose --time inf", &["--time", "not a finite number"]),
+    misused("dem-measure up.mcap --segregation --split nan", &["--split", "not a finite number"]),
+    misused("dem-measure up.mcap --wear all --cell 1e308", &["--cell", "beyond 1e100"]),
+    misused("dem-measure up.mcap --flow 0,0,0,0,0,1 --span 0", &["--span", "above 0"]),
+    misused("stage-replay up.mcap --length nan", &["--length", "not a finite number"]),
+    misused("wallgen good.ply --roughness 0.001 --friction nan", &["--friction", "not a finite number"]),
+    misused("wallgen good.ply --roughness 0.001 --radius 1e308", &["--radius", "1e308"]),
+    misused("cloud-fill good.ply --spacing 1e308", &["--spacing", "beyond 1e100"]),
+    misused("bluenoise-sample good.ply --spacing 1e308", &["--spacing", "beyond 1e100"]),
+];
+
 #[test]
 fn options_that_cannot_be_meant() {
     let folder = clouds();
-    for cases in [OF_CLOUD_CROP_AND_FILL, OF_BLUENOISE_SAMPLE, OF_WALLGEN, OF_RUNS_STAGES_AND_VIEWS] {
+    for cases in
+        [OF_CLOUD_CROP_AND_FILL, OF_BLUENOISE_SAMPLE, OF_WALLGEN, OF_RUNS_STAGES_AND_VIEWS, OF_NUMBERS]
+    {
         check(folder.path(), cases);
     }
 }
