@@ -107,7 +107,8 @@ impl PlanBuilder<'_> {
         };
         let mut random = generator(entry.seed, 4, index as u64);
         let range = entry.scale.unwrap_or(Diameter { low: 1.0, high: 1.0 });
-        let scales = sizes(entry, range, MOST, |scale| clump.mass(scale, density), &mut random);
+        let mut scales = sizes(entry, range, MOST, |scale| clump.mass(scale, density), &mut random);
+        scales.sort_by(|a, b| b.total_cmp(a));
         if scales.is_empty() || scales.len() as u64 > MOST {
             let value = format!("{} clumps", scales.len());
             let why = "is not a number of clumps that can be placed";

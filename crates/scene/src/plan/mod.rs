@@ -14,6 +14,7 @@ mod fill;
 mod implausible;
 mod insertion;
 mod insertions;
+mod lattice;
 mod packing;
 mod particles;
 mod random;

@@ -55,7 +55,7 @@ pub(super) fn holds(shape: &Shape, centre: &Vec3, radius: f64) -> bool {
 }
 
 /// Spheres sorted into cells as they come, to see at once whether another one fits between them.
-struct Occupied {
+pub(super) struct Occupied {
     low: Vec3,
     cell: f64,
     count: [usize; 3],
@@ -68,6 +68,20 @@ struct Occupied {
 const NONE: u32 = u32::MAX;
 
 impl Occupied {
+    /// The spheres near the box between two corners [m], for others of at most the radius `largest` [m].
+    pub(super) fn with((low, high): (Vec3, Vec3), largest: f64, spheres: &[(Vec3, f64)]) -> Occupied {
+        let largest = spheres.iter().map(|s| s.1).fold(largest, f64::max);
+        let mut occupied = Occupied::new(low, high, largest);
+        let near = |p: &Vec3| (0..3).all(|a| p[a] > low[a] - 2.0 * largest && p[a] < high[a] + 2.0 * largest);
+        spheres.iter().filter(|s| near(&s.0)).for_each(|s| occupied.take(s.0, s.1));
+        occupied
+    }
+
+    /// Whether there is no sphere.
+    pub(super) fn is_empty(&self) -> bool {
+        self.spheres.is_empty()
+    }
+
     /// No spheres yet, of at most this radius, between two corners [m].
     fn new(low: Vec3, high: Vec3, largest: f64) -> Occupied {
         let size = high - low;
@@ -84,7 +98,7 @@ impl Occupied {
     }
 
     /// Whether a sphere touches none of those that are there.
-    fn is_free(&self, centre: &Vec3, radius: f64) -> bool {
+    pub(super) fn is_free(&self, centre: &Vec3, radius: f64) -> bool {
         let here = self.cell_of(centre);
         let range = |a: usize| here[a].saturating_sub(1)..=(here[a] + 1).min(self.count[a] - 1);
         for z in range(2) {
@@ -126,15 +140,17 @@ impl<'a> Packing<'a> {
     /// A shape between two corners, the spheres that are in it, and the largest radius of those to come [m].
     pub(super) fn new(
         shape: &'a Shape,
-        (low, high): (Vec3, Vec3),
+        corners: (Vec3, Vec3),
         largest: f64,
         taken: &[(Vec3, f64)],
     ) -> Packing<'a> {
-        let largest = taken.iter().map(|s| s.1).fold(largest, f64::max);
-        let mut occupied = Occupied::new(low, high, largest);
-        let near = |p: &Vec3| (0..3).all(|a| p[a] > low[a] - 2.0 * largest && p[a] < high[a] + 2.0 * largest);
-        taken.iter().filter(|s| near(&s.0)).for_each(|s| occupied.take(s.0, s.1));
-        Packing { shape, low, high, occupied }
+        let (low, high) = corners;
+        Packing { shape, low, high, occupied: Occupied::with(corners, largest, taken) }
+    }
+
+    /// A place for each sphere; else how many found one.
+    pub(super) fn place_all(mut self, radii: &[f64], random: &mut Pcg64Mcg) -> Result<Vec<Vec3>, usize> {
+        radii.iter().enumerate().map(|(n, &radius)| self.place(radius, random).ok_or(n)).collect()
     }
 
     /// Places one more sphere at random; `None` when there is no space.
