@@ -63,6 +63,11 @@ pub enum MeasureError {
     Setting { what: &'static str, value: f64, unit: &'static str, cure: &'static str },
     #[error("{what}: {count} cells are more than {most}: give fewer bins, or a larger --cell")]
     Cells { what: &'static str, count: f64, most: f64 },
+    #[error(
+        "{} s hold more than {most} spans of {} s: give a --span of at least {} s",
+        Shown(*length), Shown(*span), Shown(length / most)
+    )]
+    Spans { span: f64, length: f64, most: f64 },
     #[error("there is only one kind of grains ({kind}): {cure}")]
     OneKind { kind: String, cure: &'static str },
     #[error("no material or wall '{name}'; there are {}", has.join(", "))]

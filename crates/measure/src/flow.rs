@@ -13,6 +13,9 @@ use crate::{Frame, MeasureError, Run, RunMessage};
 use geom::{Plane, Shape, Vec3};
 use std::collections::VecDeque;
 
+/// Most spans of a run: each is a row.
+const MOST_SPANS: f64 = 1e6;
+
 /// One grain through the plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlaneCrossing {
@@ -23,9 +26,6 @@ pub struct PlaneCrossing {
     /// Mass [kg].
     pub mass: f64,
 }
-
-/// Rows beyond which a span is taken for a typing error.
-const MOST_ROWS: f64 = 1e7;
 
 /// What passed in a span of time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -189,20 +189,16 @@ impl Flow {
             }
             self.before.replace(frame);
         }
-        let end = frame.time.min(self.options.between.1);
-        if let (Some(value), Some(start)) = (self.options.span, self.start)
-            && (end - start) / value > MOST_ROWS
-        {
-            let cure = "gives more than ten million rows: give a longer one";
-            return Err(MeasureError::Setting { what: "span", value, unit: "s", cure });
-        }
-        self.close(end, rows);
-        Ok(())
+        self.close(frame.time.min(self.options.between.1), rows)
     }
 
     /// Rows of the spans that end at or before a time [s].
-    fn close(&mut self, time: f64, rows: &mut Vec<Row>) {
-        let Some(origin) = self.start else { return };
+    fn close(&mut self, time: f64, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+        let Some(origin) = self.start else { return Ok(()) };
+        let length = time + SLACK - origin;
+        if let Some(span) = self.options.span.filter(|span| length / span > MOST_SPANS) {
+            return Err(MeasureError::Spans { span, length, most: MOST_SPANS });
+        }
         match self.options.span {
             None if time > origin + SLACK => {
                 self.row(origin, time, rows);
@@ -218,6 +214,7 @@ impl Flow {
                 self.number += 1;
             },
         }
+        Ok(())
     }
 
     fn row(&mut self, from: f64, to: f64, rows: &mut Vec<Row>) {

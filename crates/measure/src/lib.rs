@@ -8,6 +8,7 @@
 
 pub mod ball;
 pub mod bed;
+mod cells;
 pub mod coordination;
 pub mod cylinder;
 pub mod energy;

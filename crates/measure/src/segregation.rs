@@ -14,6 +14,7 @@
 //! The difference of the centres of mass of the kinds along an axis, over half of the bed's height,
 //! S = (z_A − z_B) / (H/2), H = √12 · deviation of z (mass-weighted): 0 mixed, 1 all of A above all of B.
 
+use crate::cells::cell_of;
 use crate::observer::OfFrame;
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::statistics::median;
@@ -54,7 +55,7 @@ pub fn mixing(frame: &Frame, first: &[bool], cell: f64, up: &Vec3) -> Result<Mix
     let mut counts: BTreeMap<[i64; 3], [u64; 2]> = BTreeMap::new();
     let mut moments = [[0.0; 2]; 2];
     for ((p, is_first), m) in frame.position.iter().zip(first).zip(masses) {
-        let key = [0, 1, 2].map(|k| (p[k] / cell).floor() as i64);
+        let key = cell_of(p, cell)?;
         let kind = usize::from(!*is_first);
         counts.entry(key).or_default()[kind] += 1;
         let z = p.dot(up);

@@ -39,6 +39,7 @@ impl Columns<'_> {
     pub(crate) fn positive(&self, column: &str) -> Result<Vec<f64>, MeasureError> {
         let values = self.numbers(column)?;
         self.check(column, &values, |v| v > 0.0, "not above 0")?;
+        self.check(column, &values, |v| v < FAR, "too large")?;
         Ok(values)
     }
 

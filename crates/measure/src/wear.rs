@@ -5,6 +5,7 @@
 //! sphere is at that time, or to the cube of space it lies in; the area of a cube is taken as the square of its side,
 //! which is that of a flat wall along a face of it.
 
+use crate::cells::cell_of;
 use crate::observer::{NO_CONTACTS, Observer};
 use crate::sheet::{Chart, Head, Panel, Row, Summary};
 use crate::wall_force::WallContactFilter;
@@ -93,17 +94,17 @@ impl Wear {
         near.min_by(|a, b| gap(a).total_cmp(&gap(b))).map(|k| k as usize)
     }
 
-    fn add(&mut self, run: &Run, contact: &Contact) {
+    fn add(&mut self, run: &Run, contact: &Contact) -> Result<(), MeasureError> {
         let borne = match self.cell {
             Some(cell) => {
-                let key = [0, 1, 2].map(|k| (contact.point[k] / cell).floor() as i64);
+                let key = cell_of(&contact.point, cell)?;
                 self.by_cell.entry(key).or_default()
             }
             None => match self.sphere(run, &contact.point) {
                 Some(sphere) => self.by_sphere.entry(sphere).or_default(),
                 None => {
                     self.elsewhere += 1;
-                    return;
+                    return Ok(());
                 }
             },
         };
@@ -112,6 +113,7 @@ impl Wear {
         borne.now += normal;
         borne.work += contact.work;
         borne.contacts += u64::from(contact.acts());
+        Ok(())
     }
 
     fn row(&self, position: Vec3, size: f64, area: f64, b: &WallLoad) -> Row {
@@ -161,7 +163,7 @@ impl Observer for Wear {
         }
         self.frames += 1;
         let own: Vec<Contact> = self.what.of(run, &contacts)?.copied().collect();
-        own.iter().for_each(|contact| self.add(run, contact));
+        own.iter().try_for_each(|contact| self.add(run, contact))?;
         for b in self.by_sphere.values_mut().chain(self.by_cell.values_mut()) {
             b.largest = b.largest.max(b.now);
             b.now = 0.0;

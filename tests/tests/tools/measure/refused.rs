@@ -41,6 +41,10 @@ const OF_ONE_FRAME: &[Case] = &[
         arguments: &["--repose", "--bin", "0.001"],
         parts: &["bin = 0.001 m: give at least a quarter of a mean diameter"],
     },
+    Case {
+        arguments: &["--profile", "--bins", "4294967296,4294967296,1"],
+        parts: &["cells are more than", "fewer bins"],
+    },
     Case { arguments: &["--repose", "--sectors", "1"], parts: &["sectors = 1: give 2 to 1000"] },
     Case { arguments: &["--segregation"], parts: &["frames hold at most 1 grains, and mixing needs 2"] },
     Case {
@@ -69,6 +73,10 @@ const OF_A_STREAM: &[Case] = &[
         parts: &["plane lies outside of the grains", "from -5.258 to -4.608 m", "move the plane"],
     },
     Case { arguments: &["--residence", "sphere:9,9,9,1"], parts: &["no grain in the shape"] },
+    Case {
+        arguments: &["--flow", "0,0,0,0,0,-1", "--span", "1e-300"],
+        parts: &["spans of 1e-300 s", "give a --span of at least"],
+    },
 ];
 
 /// Of particles in contact with each other and with walls.
@@ -80,6 +88,10 @@ const OF_CONTACTS: &[Case] = &[
     Case {
         arguments: &["--wall-force", "all", "--wall", "roof"],
         parts: &["no material or wall 'roof'", "floor, side"],
+    },
+    Case {
+        arguments: &["--segregation", "--kind", "a", "--cell", "1e-300"],
+        parts: &["cell = 1e-300 m", "give a longer side"],
     },
     Case {
         arguments: &["--segregation", "--kind", "z"],
