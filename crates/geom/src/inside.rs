@@ -5,6 +5,9 @@ use crate::mesh::{MeshError, TriMesh};
 use crate::tree::Tree;
 use std::sync::OnceLock;
 
+/// Entries of the columns for each face, at most: of faces that are about as long as wide there are fewer than ten.
+const ENTRIES: usize = 32;
+
 /// Faces of a closed mesh sorted into columns along x.
 ///
 /// The ray goes along +x. Whether it meets a face is decided in the yz plane by the half-open crossing rule
@@ -38,30 +41,40 @@ impl Inside {
         }
         let (lo, hi) = crate::grid::bounds(&mesh.vertices);
         let side = ((mesh.faces.len() as f64).sqrt().ceil() as usize).clamp(1, 1024);
-        let columns = [side, side];
-        let mut inside = Inside {
-            mesh,
-            lo,
-            hi,
-            columns,
-            starts: vec![0; side * side + 1],
-            faces: Vec::new(),
-            tree: OnceLock::new(),
-        };
+        let (starts, faces, tree) = (Vec::new(), Vec::new(), OnceLock::new());
+        let mut inside = Inside { mesh, lo, hi, columns: [side, side], starts, faces, tree };
+        // Long faces are in many columns: fewer columns then.
+        while inside.columns[0] > 1 && inside.count_entries() > ENTRIES * inside.mesh.faces.len() {
+            inside.columns = inside.columns.map(|side| side.div_ceil(2));
+        }
         inside.sort();
         Ok(inside)
+    }
+
+    /// First and last column that a face may be in.
+    fn columns_of(&self, tri: &[Vec3; 3]) -> ([usize; 2], [usize; 2]) {
+        let (lo, hi) = (tri[0].inf(&tri[1]).inf(&tri[2]), tri[0].sup(&tri[1]).sup(&tri[2]));
+        (self.column(&lo), self.column(&hi))
+    }
+
+    fn count_entries(&self) -> usize {
+        let count = |tri: [Vec3; 3]| {
+            let ([y0, z0], [y1, z1]) = self.columns_of(&tri);
+            (y1 - y0 + 1) * (z1 - z0 + 1)
+        };
+        self.mesh.triangles().map(count).sum()
     }
 
     fn sort(&mut self) {
         let mut entries: Vec<(u32, u32)> = Vec::new();
         for (face, tri) in (0u32..).zip(self.mesh.triangles()) {
-            let (lo, hi) = crate::grid::bounds(&tri);
-            let ([y0, z0], [y1, z1]) = (self.column(&lo), self.column(&hi));
+            let ([y0, z0], [y1, z1]) = self.columns_of(&tri);
             for z in z0..=z1 {
                 entries.extend((y0..=y1).map(|y| ((z * self.columns[0] + y) as u32, face)));
             }
         }
         entries.sort_unstable();
+        self.starts = vec![0; self.columns[0] * self.columns[1] + 1];
         for &(column, _) in &entries {
             self.starts[column as usize + 1] += 1;
         }
@@ -151,6 +164,33 @@ mod tests {
             let p = Vec3::new((i % 9) as f64, (i / 9 % 9) as f64, (i / 81) as f64) / 8.0;
             assert_eq!(inside.contains(&p), mesh.contains(&p), "{p}");
         }
+    }
+
+    /// A star of long teeth: each face would be in hundreds of columns.
+    #[test]
+    fn long_faces_do_not_take_a_column_each() {
+        const TEETH: u32 = 4000;
+        let corner = |i: u32, z: f64| {
+            let (radius, angle) =
+                ([1.0, 0.3][i as usize % 2], std::f64::consts::TAU * f64::from(i) / f64::from(TEETH));
+            Vec3::new(radius * angle.cos(), radius * angle.sin(), z)
+        };
+        let vertices = [0.0, 1.0].into_iter().flat_map(|z| (0..TEETH).map(move |i| corner(i, z))).collect();
+        let mut faces = Vec::new();
+        for i in 0..TEETH {
+            let j = (i + 1) % TEETH;
+            faces.extend([[i, j, TEETH + j], [i, TEETH + j, TEETH + i]]);
+            if i > 0 && j > 0 {
+                faces.extend([[0, j, i], [TEETH, TEETH + i, TEETH + j]]);
+            }
+        }
+        let inside = Inside::new(&TriMesh::new(vertices, faces).unwrap()).unwrap();
+        assert!(inside.faces.len() <= ENTRIES * inside.mesh.faces.len(), "{} entries", inside.faces.len());
+        let has = |r: f64, i: f64| {
+            let angle = std::f64::consts::TAU * i / f64::from(TEETH);
+            inside.contains(&Vec3::new(r * angle.cos(), r * angle.sin(), 0.5))
+        };
+        assert!(has(0.2, 7.3) && has(0.9, 2000.0) && !has(0.9, 2001.0) && !has(1.1, 2000.0));
     }
 
     #[test]
