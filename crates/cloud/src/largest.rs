@@ -3,6 +3,7 @@
 //! Cells of a width of radius/√3 hold only connected points, so parts are found by joining cells.
 
 use geom::{Grid, Vec3};
+use std::borrow::Cow;
 
 /// Rows of the finite `points` [m] that belong to the part with the most points, in order; of two equal
 /// parts, the one with the lower first row. `radius` [m] is positive.
@@ -21,19 +22,19 @@ pub fn parts(points: &[Vec3], radius: f64) -> Vec<u32> {
     }
     // A little less, so that rounding cannot part the corners of a cell.
     let grid = Grid::new(points, radius / 3f64.sqrt() * (1.0 - 1e-9));
-    let cells = Cells::new(points, &grid);
-    let mut parts = Parts::new(cells.starts.len() - 1);
     let whole_cells = grid.cell() <= radius / 3f64.sqrt();
     let mut sorted_parts;
     if whole_cells {
-        cells.join(points, &grid, radius, &mut parts);
+        let cells = Cells::new(points, &grid);
+        let mut parts = Parts::new(cells.count());
+        cells.join(radius, &mut parts);
         sorted_parts = vec![0; points.len()];
         for (cell, run) in cells.starts.windows(2).enumerate() {
-            sorted_parts[run[0]..run[1]].fill(parts.root(cell as u32));
+            sorted_parts[run[0] as usize..run[1] as usize].fill(parts.root(cell as u32));
         }
     } else {
         // Cells were widened because the cloud is vast: join point by point.
-        parts = Parts::new(points.len());
+        let mut parts = Parts::new(points.len());
         for (i, p) in points.iter().enumerate() {
             grid.within(points, *p, radius).for_each(|j| parts.join(i as u32, j));
         }
@@ -53,61 +54,66 @@ fn most_common(part_of: &[u32]) -> Vec<u32> {
     (0u32..).zip(part_of).filter(|&(_, &part)| part == winner).map(|(i, _)| i).collect()
 }
 
-/// The occupied cells of a grid.
-struct Cells {
+/// The occupied cells of a grid, and the points in its order.
+struct Cells<'a> {
+    /// Number of each cell in the grid, ascending.
+    keys: Cow<'a, [u64]>,
     /// Cell `c` holds the sorted slots `starts[c]..starts[c + 1]`.
-    starts: Vec<usize>,
-    /// The occupied cell of each sorted slot.
-    of_slot: Vec<u32>,
+    starts: Cow<'a, [u32]>,
+    points: Vec<Vec3>,
+    dims: [u64; 3],
 }
 
-impl Cells {
-    fn new(points: &[Vec3], grid: &Grid) -> Cells {
-        let (mut starts, mut of_slot) = (Vec::new(), Vec::with_capacity(points.len()));
-        let mut last = None;
-        for (slot, &i) in grid.order().iter().enumerate() {
-            let cell = grid.cell_of(&points[i as usize]);
-            if last != Some(cell) {
-                starts.push(slot);
-                last = Some(cell);
-            }
-            of_slot.push(starts.len() as u32 - 1);
-        }
-        starts.push(points.len());
-        Cells { starts, of_slot }
+impl<'a> Cells<'a> {
+    fn new(points: &[Vec3], grid: &'a Grid) -> Cells<'a> {
+        let (keys, starts) = grid.filled();
+        let points = grid.order().iter().map(|&i| points[i as usize]).collect();
+        Cells { keys, starts, points, dims: grid.dims().map(|d| d as u64) }
+    }
+
+    fn count(&self) -> usize {
+        self.keys.len()
     }
 
     /// Joins cells that have two points within `radius`: these are at most two cells apart along each axis.
-    fn join(&self, points: &[Vec3], grid: &Grid, radius: f64, parts: &mut Parts) {
-        for cell in 0..self.starts.len() - 1 {
-            let first = points[grid.order()[self.starts[cell]] as usize];
-            let [x, y, z] = grid.cell_of(&first);
-            for (dy, dz) in (0..=2).flat_map(|dz| (-2..=2).map(move |dy| (dy, dz))) {
-                if dz == 0 && dy < 0 {
+    fn join(&self, radius: f64, parts: &mut Parts) {
+        let [nx, ny, nz] = self.dims;
+        // Of two cells the later one is found: in this row or one behind it. In each of these rows the search goes on from where it ended.
+        let rows: Vec<[i64; 2]> = (0..=2)
+            .flat_map(|dz| (-2..=2).map(move |dy| [dy, dz]))
+            .filter(|&[dy, dz]| dz > 0 || dy >= 0)
+            .collect();
+        let mut first = vec![0; rows.len()];
+        for (cell, &key) in self.keys.iter().enumerate() {
+            let (x, y, z) = (key % nx, key / nx % ny, key / nx / ny);
+            for (&[dy, dz], from) in rows.iter().zip(&mut first) {
+                let (Some(y), z) = (y.checked_add_signed(dy), z + dz as u64) else { continue };
+                if y >= ny || z >= nz {
                     continue;
                 }
-                for run in grid.row(x - 2..x + 3, y + dy, z + dz) {
-                    let mut slot = run.start;
-                    while slot < run.end {
-                        let other = self.of_slot[slot] as usize;
-                        if other > cell
-                            && parts.root(cell as u32) != parts.root(other as u32)
-                            && self.touch(points, grid, [cell, other], radius)
-                        {
-                            parts.join(cell as u32, other as u32);
-                        }
-                        slot = self.starts[other + 1];
+                let row = (z * ny + y) * nx;
+                let (low, high) = (row + x.saturating_sub(2), row + (x + 2).min(nx - 1));
+                while self.keys.get(*from).is_some_and(|&key| key < low) {
+                    *from += 1;
+                }
+                for other in (*from).max(cell + 1)..self.count() {
+                    if self.keys[other] > high {
+                        break;
+                    }
+                    if parts.root(cell as u32) != parts.root(other as u32)
+                        && self.touch([cell, other], radius)
+                    {
+                        parts.join(cell as u32, other as u32);
                     }
                 }
             }
         }
     }
 
-    fn touch(&self, points: &[Vec3], grid: &Grid, cells: [usize; 2], radius: f64) -> bool {
-        let [a, b] = cells.map(|c| &grid.order()[self.starts[c]..self.starts[c + 1]]);
-        let near =
-            |i: &u32, j: &u32| (points[*i as usize] - points[*j as usize]).norm_squared() <= radius * radius;
-        a.iter().any(|i| b.iter().any(|j| near(i, j)))
+    fn touch(&self, cells: [usize; 2], radius: f64) -> bool {
+        let [a, b] = cells.map(|c| &self.points[self.starts[c] as usize..self.starts[c + 1] as usize]);
+        let near = |p: &Vec3, q: &Vec3| (p - q).norm_squared() <= radius * radius;
+        a.iter().any(|p| b.iter().any(|q| near(p, q)))
     }
 }
 

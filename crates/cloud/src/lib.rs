@@ -11,6 +11,7 @@ pub mod fill;
 pub mod formats;
 mod holes;
 pub mod largest;
+mod near;
 pub mod outer;
 pub mod outliers;
 mod patch;

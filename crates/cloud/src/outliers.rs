@@ -7,10 +7,8 @@
 //!
 //! Rusu et al. (2008), Robotics and Autonomous Systems 56(11), doi:10.1016/j.robot.2008.08.005.
 
+use crate::near::mean_distances;
 use geom::Vec3;
-use kiddo::{ImmutableKdTree, SquaredEuclidean};
-use rayon::prelude::*;
-use std::num::NonZero;
 use std::str::FromStr;
 use thiserror::Error;
 
@@ -50,25 +48,6 @@ pub fn inliers(points: &[Vec3], rule: &Outliers) -> Vec<u32> {
     // A cloud of equal distances must not lose points to rounding.
     let most = mean + rule.sigma * variance.sqrt() + 1e-9 * mean;
     (0u32..).zip(&distances).filter(|(_, d)| **d <= most).map(|(i, _)| i).collect()
-}
-
-/// Mean distance [m] from each point to its `k` nearest others.
-pub fn mean_distances(points: &[Vec3], k: usize) -> Vec<f64> {
-    let positions: Vec<[f64; 3]> = points.iter().map(|p| [p.x, p.y, p.z]).collect();
-    let k = k.min(points.len().saturating_sub(1));
-    let (Some(k_and_self), Ok(tree)) =
-        (NonZero::new(k + 1), ImmutableKdTree::<f64, 3>::new_from_slice(&positions))
-    else {
-        return vec![0.0; points.len()];
-    };
-    if k == 0 {
-        return vec![0.0; points.len()];
-    }
-    let mean = |position: &[f64; 3]| {
-        let found = tree.query(position).nearest_n::<SquaredEuclidean<f64>>(k_and_self).execute();
-        found.iter().map(|n| n.distance.sqrt()).sum::<f64>() / k as f64
-    };
-    positions.par_iter().map(mean).collect()
 }
 
 #[cfg(test)]
