@@ -2,7 +2,7 @@
 
 use clap::{Parser, ValueEnum};
 use cli::{Output, Source, usage};
-use geom::number::{finite, positive};
+use geom::number::finite;
 use geom::{Plane, Vec3};
 use scene::ZoneMotion;
 use stages::replay::{Copies, Frame, Intervals, Replay};
