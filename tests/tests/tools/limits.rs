@@ -69,8 +69,9 @@ fn steps_and_frames_that_cannot_be_meant_are_refused_with_their_number() {
 fn times_that_no_file_holds_are_refused() {
     let folder = scene();
     let f = folder.path();
-    refused(f, &["--until", "1e308"], 1, &["time.until = 1e308 s", "is outside the range", "4000000000 s"]);
-    refused(f, &["--set", "time.until=1e308"], 1, &["time.until", "is outside the range", "4000000000 s"]);
+    let parts = ["time.until = 1e308 s", "is outside the range", "give 0 to 4"];
+    refused(f, &["--until", "1e308"], 1, &parts);
+    refused(f, &["--set", "time.until=1e308"], 1, &parts);
     succeed(f, "dem-run", &["s.toml", "--until", "0.01", "-q", "-o", "run.mcap"]);
     for (name, options) in [
         ("dem-measure", &["run.mcap", "--contacts", "--until", "1e308"][..]),
