@@ -109,7 +109,7 @@ fn every_example_runs() {
         (done.code != 0 || done.stderr.contains("panicked"))
             .then(|| format!("{line_}: {}: {}", done.code, done.stderr))
     };
-    let wrong: Vec<String> = EXAMPLES.iter().filter_map(|line| wrong(&line)).collect();
+    let wrong: Vec<String> = EXAMPLES.iter().filter_map(wrong).collect();
     assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), EXAMPLES.len(), wrong.join("\n"));
 }
 
