@@ -244,7 +244,7 @@ mod tests {
         let rate = parse("1.5 t/h", "kg/s").expect("a rate");
         assert!((rate - 1500.0 / 3600.0).abs() < 1e-15, "{rate}");
         assert!((parse("60 rpm", "rad/s").expect("a spin") - std::f64::consts::TAU).abs() < 1e-15);
-        assert!((parse("1 psi", "Pa").expect("a stress") - 6894.757_293_168).abs() < 1e-8);
+        assert!((parse("1 psi", "Pa").expect("a stress") - 6_894.757_293_168).abs() < 1e-8);
         assert_eq!(factor("mm", "m"), Ok(0.001));
     }
 

@@ -3,12 +3,9 @@
 #[path = "../../../../tests/tests/faults/attack/mod.rs"]
 mod attack;
 #[path = "../../../../tests/tests/faults/samples.rs"]
-#[expect(dead_code, reason = "the fuzz seeds use the other samples")]
 mod samples;
 
-use attack::case::Outcome;
 use attack::{Findings, files, kills, options, scenes};
-use std::fmt::Write;
 use std::{env, fs, io};
 
 fn main() -> io::Result<()> {
@@ -20,36 +17,9 @@ fn main() -> io::Result<()> {
     found.run(scenes::cases());
     found.run(options::cases());
     kills::run(seed as u64, killed, &mut found);
-    let page = page(&found, seed);
-    print!("{page}");
-    for (name, verdict) in &found.bad {
-        println!("{:?}: {name}\n    {}", verdict.outcome, verdict.message);
-    }
+    let page = format!("{HEAD}{} cases, seed {seed}:\n\n{}{TAIL}", found.count(), found.table());
+    print!("{page}\n{}", found.list());
     arguments.get(3).map_or(Ok(()), |file| fs::write(file, page))
-}
-
-/// The page: what was tried, and a row for each kind of case.
-fn page(found: &Findings, seed: usize) -> String {
-    let mut page = HEAD.to_owned();
-    let titles = [
-        "accepted",
-        "refused",
-        "panic",
-        "killed",
-        "too long",
-        "no message",
-        "half output",
-        "not finite",
-        "raw text",
-    ];
-    let _ = writeln!(page, "{} cases, seed {seed}:\n", found.count());
-    let _ = writeln!(page, "| what | cases | {} |", titles.join(" | "));
-    let _ = writeln!(page, "|---|{}", "---:|".repeat(titles.len() + 1));
-    for (group, totals) in &found.totals {
-        let cells = Outcome::ALL.map(|o| totals.get(&o).copied().unwrap_or(0).to_string());
-        let _ = writeln!(page, "| {group} | {} | {} |", totals.values().sum::<usize>(), cells.join(" | "));
-    }
-    page + TAIL
 }
 
 const HEAD: &str = "# Reliability

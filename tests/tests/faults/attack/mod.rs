@@ -48,4 +48,24 @@ impl Findings {
     pub fn count(&self) -> usize {
         self.totals.values().flat_map(Totals::values).sum()
     }
+
+    /// A Markdown table: a row for each kind of case, a column for each outcome.
+    pub fn table(&self) -> String {
+        let titles = "accepted | refused | panic | killed | too long | no message | half output | not finite | raw text";
+        let mut table =
+            format!("| what | cases | {titles} |\n|---|{}\n", "---:|".repeat(Outcome::ALL.len() + 1));
+        for (group, totals) in &self.totals {
+            let cells = Outcome::ALL.map(|o| totals.get(&o).copied().unwrap_or(0).to_string());
+            table += &format!("| {group} | {} | {} |\n", totals.values().sum::<usize>(), cells.join(" | "));
+        }
+        table
+    }
+
+    /// Two lines for each bad case: the call and the message.
+    pub fn list(&self) -> String {
+        let line = |(name, verdict): &(String, Verdict)| {
+            format!("{:?}: {name}\n    {}\n", verdict.outcome, verdict.message)
+        };
+        self.bad.iter().map(line).collect()
+    }
 }
