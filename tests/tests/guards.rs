@@ -228,7 +228,7 @@ fn numbers_beyond_all_meaning() {
         assert!(done.code == 1 && !folder.path().join("run.mcap").exists(), "{on}: {}", done.stderr);
         REFUSED.refused(on, &done.stderr, words);
     };
-    for spin in ["1e15", "1e18", "1e200"] {
+    for spin in ["1e15", "1e18", "1e99"] {
         let words = ["particle 7: spin", "rad/s is outside −1e12 to 1e12"];
         refused(
             &format!("a spin of {spin} rad/s"),

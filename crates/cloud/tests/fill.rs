@@ -137,10 +137,10 @@ fn bad_clouds_come_back_as_they_were() {
     let mut random = Random(1);
     let mut volume: Vec<Vec3> =
         (0..3000).map(|_| Vec3::new(random.next(), random.next(), random.next())).collect();
-    volume.push(Vec3::repeat(1e12));
+    volume.push(Vec3::repeat(1e9));
     let plate: Vec<Vec3> = (0..2500).map(|i| Vec3::new(f64::from(i % 50), f64::from(i / 50), 0.0)).collect();
     let twice: Vec<Vec3> = plate.iter().flat_map(|p| [*p, *p, *p]).collect();
-    let far: Vec<Vec3> = plate.iter().copied().chain([Vec3::repeat(-1e15)]).collect();
+    let far: Vec<Vec3> = plate.iter().copied().chain([Vec3::repeat(-1e9)]).collect();
     for points in [vec![], vec![Vec3::x()], vec![Vec3::x(); 5000], line, volume, plate, twice, far] {
         let count = points.len();
         let cloud = Cloud { attributes: Table::with_rows(count), points, ..Cloud::default() };
@@ -148,6 +148,12 @@ fn bad_clouds_come_back_as_they_were() {
             let filled = fill(cloud.clone(), &Settings { below, ..Settings::default() });
             assert_eq!(filled.cloud.points[..count], cloud.points[..]);
         }
+    }
+    for too_far in [1e12, -1e15, 1e308] {
+        let mut cloud = half_pipe(&[(0.7, 0.0, 0.1)], 8);
+        cloud.points[7] = Vec3::repeat(too_far);
+        let error = cloud::fill(cloud, &Settings::default()).expect_err("refused").to_string();
+        assert!(error.contains("point 7") && error.contains("farther than 1e9 m"), "{error}");
     }
     let mut cloud = half_pipe(&[(0.7, 0.0, 0.1)], 8);
     cloud.points[7] = Vec3::repeat(f64::NAN);

@@ -28,12 +28,7 @@ fn refused(folder: &Path, options: &[&str], code: i32, parts: &[&str]) {
 fn steps_and_frames_that_cannot_be_meant_are_refused_with_their_number() {
     let folder = scene();
     let f = folder.path();
-    refused(
-        f,
-        &["--set", "time.dt=1e-300"],
-        1,
-        &["time.until = 0.3 s", "3.000e299 steps", "guards.steps = 1e12"],
-    );
+    refused(f, &["--set", "time.dt=1e-300"], 1, &["time.dt = 1e-300 s", "is outside the range", "1e-18"]);
     refused(f, &["--set", "time.dt=1e-14"], 1, &["3.000e13 steps of 1.0000e-14 s", "guards.steps"]);
     let few = ["--set", "time.dt=1e-6"];
     refused(
@@ -69,7 +64,7 @@ fn steps_and_frames_that_cannot_be_meant_are_refused_with_their_number() {
 fn times_that_no_file_holds_are_refused() {
     let folder = scene();
     let f = folder.path();
-    let parts = ["time.until = 1e308 s", "is outside the range", "give 0 to 4"];
+    let parts = ["time.until = 1e308 s", "is outside the range", "to 4e9 s"];
     refused(f, &["--until", "1e308"], 1, &parts);
     refused(f, &["--set", "time.until=1e308"], 1, &parts);
     succeed(f, "dem-run", &["s.toml", "--until", "0.01", "-q", "-o", "run.mcap"]);

@@ -235,15 +235,20 @@ fn ledger_row<R: Lane, E: Effect>(
 ) -> [R; LEDGER] {
     let (zero, touching) = (R::splat(0.0), found.contact.touching);
     let [a, b, c, d] = response.dissipated;
+    // A contact that has just ended books what its springs let go of. It was closed at most two steps of its speed ago; a particle that has
+    // left is parked far away, and its contacts were booked when it left.
+    let two_steps = R::splat(2.0 * step.dt);
+    let recent =
+        R::select(touching, R::splat(1.0), found.contact.overlap - found.contact.approach * two_steps)
+            .gt(zero);
     // Work of j's surface on i; only walls' is added up.
     let surface = (found.surface.dot(force) + response.torque.dot(found.spin_j)) * R::splat(step.dt);
     let mut row = [
         R::select(touching, response.elastic, zero),
         R::select(touching, a, zero),
-        // Of a contact that has just ended: what its springs let go of.
-        b,
-        c,
-        d,
+        R::select(recent, b, zero),
+        R::select(recent, c, zero),
+        R::select(recent, d, zero),
         R::select(touching, surface, zero),
         R::select(touching, response.lost, zero),
         zero,

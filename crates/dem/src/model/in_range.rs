@@ -78,7 +78,9 @@ pub fn magnitudes(unit: &str) -> [f64; 2] {
     match unit {
         "m" => [1e-15, 1e15],
         "m/s" | "rad/s" | "1/min" => [1e-18, 1e12],
-        "s" | "Hz" => [1e-18, 1e15],
+        // Files count seconds in 32 bits.
+        "s" => [1e-18, 4e9],
+        "Hz" => [1e-18, 1e15],
         "Pa" => [1e-9, 1e35],
         "N/m" => [1e-9, 1e18],
         "kg/m³" => [0.0, 1e30],

@@ -4,7 +4,7 @@ use super::Contact;
 use super::unit::{self, Seed};
 use dem::effects::{RESTITUTION, keys, models};
 use dem::setup::ContactLaw;
-use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, Visitor};
+use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, Unexpected, Visitor};
 use serde::{Deserialize, de};
 use std::fmt;
 use std::marker::PhantomData;
@@ -168,6 +168,9 @@ impl<'de> Visitor<'de> for Numbers<'_> {
     }
 
     fn visit_str<E: Error>(self, text: &str) -> Result<(), E> {
+        if !text.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)) {
+            return Err(E::invalid_type(Unexpected::Str(text), &self));
+        }
         let value = unit::of(unit_of(self.key)).parse(text)?;
         self.visit_f64(value)
     }

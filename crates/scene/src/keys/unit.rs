@@ -135,7 +135,7 @@ impl<'de, const N: usize> Visitor<'de> for Numbers<N> {
     type Value = [f64; N];
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        self.0.expecting(f, &format!("{N} numbers"))
+        self.0.expecting(f, &format!("a list of {N} numbers"))
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<[f64; N], A::Error> {

@@ -78,7 +78,7 @@ const OF_NUMBERS: &[Case] = &[
     misused("chute-scan --tilt-deg nan", &["--tilt-deg", "not a finite number"]),
     misused("cost-curve s.toml --vary time.safety=0.1,0.5 --exact nan", &["--exact", "not a finite number"]),
     misused("dem-measure up.mcap --repose --ground nan", &["--ground", "not a finite number"]),
-    misused("dem-measure up.mcap --repose --time inf", &["--time", "not a finite number"]),
+    misused("dem-measure up.mcap --repose --time inf", &["--time", "give a time in seconds"]),
     misused("dem-measure up.mcap --segregation --split nan", &["--split", "not a finite number"]),
     misused("dem-measure up.mcap --wear all --cell 1e308", &["--cell", "beyond 1e100"]),
     misused("dem-measure up.mcap --flow 0,0,0,0,0,1 --span 0", &["--span", "above 0"]),
