@@ -238,7 +238,7 @@ fn numbers_beyond_all_meaning() {
             &words,
         );
     }
-    for speed in ["1e150", "1e308"] {
+    for speed in ["1e15", "1e99"] {
         let words = ["particle 7: velocity", "m/s is outside −1e12 to 1e12"];
         refused(
             &format!("a speed of {speed} m/s"),
@@ -257,8 +257,8 @@ fn numbers_beyond_all_meaning() {
         ("gravity=[0,0,-1e300]", ["gravity", "m/s²"]),
         ("material.0.young=1e300", ["material.0.young", "1e-9 to 1e35 Pa"]),
         ("material.0.density=1e300", ["material.0.density", "kg/m³"]),
-        ("time.until=1e300", ["time.until", "1e15 s"]),
-        ("time.dt=1e-300", ["time.dt", "1e-18 to 1e15 s"]),
+        ("time.until=1e300", ["time.until", "4e9 s"]),
+        ("time.dt=1e-300", ["time.dt", "1e-18 to 4e9 s"]),
         ("neighbours.skin=1e300", ["neighbours.skin", "1e15 m"]),
     ] {
         refused(set, pair, "", &["--set", set], &words);

@@ -171,7 +171,9 @@ fn scenes() -> Vec<(&'static str, Setup)> {
     let [hertz, .., mixed] = &variants()[1..] else { return Vec::new() };
     let base = |v: &Variant| Setup { ledger: true, ..crowd(v.rough(0.4, 0.4), 13) };
     let mut sleepy = base(hertz);
-    sleepy.sleep = Some(Sleep { speed: 0.15, time: 5e-5, wake: 5.0 });
+    // Beside walls that move faster than half of this speed nothing may sleep.
+    sleepy.walls.iter_mut().for_each(|wall| wall.motion = Motion::still());
+    sleepy.sleep = Some(Sleep { speed: 1.0, time: 5e-5, wake: 5.0 });
     let mut wet = base(hertz);
     let velocity = Vec3::new(0.3, 0.0, 0.0);
     wet.drag = Some(Drag {
