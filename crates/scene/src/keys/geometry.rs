@@ -15,6 +15,15 @@ fn joined(numbers: &[f64]) -> String {
     numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(",")
 }
 
+/// The rest of a list: numbers in metres, or texts with a unit.
+fn lengths<'de, A: SeqAccess<'de>>(seq: &mut A) -> Result<Vec<f64>, A::Error> {
+    let mut numbers = Vec::new();
+    while let Some(number) = seq.next_element_seed(Seed::<f64>(METRES, PhantomData))? {
+        numbers.push(number);
+    }
+    Ok(numbers)
+}
+
 /// A text whose lengths with units are in metres; other parts stay as they are.
 fn in_metres(text: &str) -> String {
     let (name, numbers) = match text.split_once(':') {
@@ -44,10 +53,7 @@ impl<'de> Visitor<'de> for PlaneText {
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<String, A::Error> {
-        let mut numbers = Vec::new();
-        while let Some(number) = seq.next_element_seed(Seed::<f64>(METRES, PhantomData))? {
-            numbers.push(number);
-        }
+        let numbers = lengths(&mut seq)?;
         match numbers.len() {
             6 => Ok(joined(&numbers)),
             n => Err(A::Error::invalid_length(n, &self)),
@@ -77,10 +83,7 @@ impl<'de> Visitor<'de> for ShapeText {
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<String, A::Error> {
         let name: String = seq.next_element()?.ok_or_else(|| A::Error::invalid_length(0, &self))?;
-        let mut numbers = Vec::new();
-        while let Some(number) = seq.next_element_seed(Seed::<f64>(METRES, PhantomData))? {
-            numbers.push(number);
-        }
+        let numbers = lengths(&mut seq)?;
         Ok(format!("{name}:{}", joined(&numbers)))
     }
 
@@ -117,10 +120,7 @@ impl<'de> Visitor<'de> for Values {
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<String, A::Error> {
-        let mut numbers = Vec::new();
-        while let Some(number) = seq.next_element_seed(Seed::<f64>(METRES, PhantomData))? {
-            numbers.push(number);
-        }
+        let numbers = lengths(&mut seq)?;
         Ok(joined(&numbers))
     }
 }
