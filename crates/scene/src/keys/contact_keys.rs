@@ -168,7 +168,7 @@ impl<'de> Visitor<'de> for Numbers<'_> {
     }
 
     fn visit_str<E: Error>(self, text: &str) -> Result<(), E> {
-        if !text.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)) {
+        if !unit::begins_as_number(text) {
             return Err(E::invalid_type(Unexpected::Str(text), &self));
         }
         let value = unit::of(unit_of(self.key)).parse(text)?;

@@ -78,6 +78,11 @@ pub(super) fn of(unit: &'static str) -> KeyUnit {
     KeyUnit { unit, such }
 }
 
+/// Whether a text is meant as a number, with or without a unit.
+pub(super) fn begins_as_number(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c))
+}
+
 /// A value that is made of numbers of one unit.
 pub trait InUnit: Sized {
     /// Reads it.
@@ -230,7 +235,7 @@ impl<'de, T: Copy> Visitor<'de> for NumberOr<T> {
     fn visit_str<E: Error>(self, text: &str) -> Result<T, E> {
         match self.word {
             Some((word, value)) if text == word => Ok(value),
-            Some(_) if !text.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)) => {
+            Some(_) if !begins_as_number(text) => {
                 Err(E::invalid_value(serde::de::Unexpected::Str(text), &self))
             }
             _ => self.unit.parse(text).map(self.number),
