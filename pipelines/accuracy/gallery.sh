@@ -27,14 +27,14 @@ cmp -s "$OUT/impact-error.csv" ../../crates/scene/data/impact-error.csv || {
 TC=$(awk 'BEGIN {pi = atan2(0, -1); m = 2500 * 4 / 3 * pi * 0.005^3 / 2; l = log(2); w = sqrt(1e4 / m)
   g = w * l / sqrt(pi * pi + l * l); printf "%.9g", pi / sqrt(w * w - g * g)}')
 STEPS=safety=0.01,0.02,0.05,0.1,0.2,0.3,0.5,0.8
-sweep impact-hooke impact-hooke.toml --vary $STEPS --measure 'each restitution of --impact' --exact 0.5 --norm max --work steps
-sweep contact-time impact-hooke.toml --vary $STEPS --measure 'each contact_time of --impact' --exact "$TC" --norm max --work steps
-sweep impact-hertz impact-hertz.toml --vary $STEPS --measure 'each restitution of --impact' --exact 0.5 --norm max --work steps
+sweep impact-hooke impact-hooke.toml --vary $STEPS --measure 'each restitution of --impact' --exact 0.5 --norm max --work steps --phases 1
+sweep contact-time impact-hooke.toml --vary $STEPS --measure 'each contact_time of --impact' --exact "$TC" --norm max --work steps --phases 1
+sweep impact-hertz impact-hertz.toml --vary $STEPS --measure 'each restitution of --impact' --exact 0.5 --norm max --work steps --phases 1
 # Without damping the depth of a Hertz impact has a closed form, which impact-hertz.toml was laid out for: 1.125 mm.
 DEEP=$(awk 'BEGIN {pi = atan2(0, -1); m = 2500 * 4 / 3 * pi * 0.005^3 / 2; e = 1e7 / 2 / (1 - 0.0625)
   printf "%.9g", exp(0.4 * log(15 * m * 4.295^2 / (16 * sqrt(0.0025) * e)))}')
 sweep impact-depth impact-hertz.toml --set contact.0.restitution=1 --vary $STEPS --measure 'each overlap of --impact' --exact "$DEEP" \
-  --norm max --work steps
+  --norm max --work steps --phases 1 --phases 1
 
 RATE='discharge-rate 0,0,0.6,0,0,-1 --from 0.2 --until 0.26'
 sweep hopper-step hopper.toml --vary safety=0.15,0.5,0.8 --vary precision=f64,mixed --reference safety=0.15 --reference precision=f64 \

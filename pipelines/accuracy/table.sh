@@ -18,7 +18,7 @@ for law in hooke hertz jkr; do
     truth=(--exact $e)
     [ $law = jkr ] && truth=(--reference safety=0.002)
     cost-curve impact-$law.toml --set contact.0.restitution=$e --set output.every=2.6e-4 --vary safety=$STEPS \
-      --measure 'each restitution of --impact' --norm max --work steps "${truth[@]}" --dir "$OUT/table-$law-$e" -q
+      --measure 'each restitution of --impact' --norm max --work steps --phases 1 "${truth[@]}" --dir "$OUT/table-$law-$e" -q
   done | awk -F, -v law=$law '$2 == "done" && $13 !~ "reference" && $6 + 0 > worst[$1] {worst[$1] = $6}
       END {for (s in worst) printf "%s,%s,%.3g\n", law, s, worst[s]}' | sort -t, -k2,2g
 done

@@ -5,7 +5,7 @@ use crate::sweep::Sweep;
 use crate::sweep::measure::Measure;
 use crate::sweep::script::Counter;
 use crate::sweep::work::{self, Made};
-use crate::{Choice, Error, Point, Sample, Truth, errors, front, percent, recommend, sentence};
+use crate::{Choice, Error, Point, Repeats, Sample, Truth, errors, front, percent, recommend, sentence};
 use crate::{amount, change, order, share_of_time};
 
 /// Times of a point.
@@ -39,6 +39,8 @@ pub struct Judged {
     pub marks: (Option<usize>, Option<usize>),
     /// What a run costs: `time`, `steps`, `instructions`.
     pub of: &'static str,
+    /// Phases of the step at which each point ran.
+    pub phases: u64,
 }
 
 /// Points with their samples and times.
@@ -65,7 +67,8 @@ pub fn judge(
         (Some(reference), _) => Truth::Point(reference),
         (None, truth) => truth.map_or(Truth::Value(f64::NAN, 0.0), |t| Truth::Value(t.value, t.half_width)),
     };
-    let errors = errors(&points, truth, study.norm);
+    let repeats = if sweep.phases > 1 { Repeats::Phases } else { Repeats::Seeds };
+    let errors = errors(&points, truth, study.norm, repeats);
     let works: Vec<f64> = points.iter().map(Point::work).collect();
     let relative = errors.iter().flatten().all(|e| e.relative);
     let (wanted, share) = match study.wanted.unwrap_or(Wanted::Share(0.01)) {
@@ -87,6 +90,7 @@ pub fn judge(
         what: (measure.name.clone(), unit),
         marks: (grid.reference, grid.in_use.filter(|k| points[*k].failed.is_none())),
         of: study.work.name(),
+        phases: sweep.phases,
         points,
         errors,
     })
@@ -113,8 +117,10 @@ fn measured(
             Made::Done { work, seconds, steps, prepared } => {
                 let found = measure.of(job, &sweep.tools)?;
                 unit = found.unit;
-                point.samples.push(Sample { value: found.values, work, seed: job.repeat });
-                all[job.setting].push(Cost { seconds, steps, prepared });
+                // Shorter steps are more steps; what counts is the cost of the setting.
+                let share = 1.0 - job.shorten;
+                point.samples.push(Sample { value: found.values, work: share * work, seed: job.repeat });
+                all[job.setting].push(Cost { seconds: share * seconds, steps: share * steps, prepared });
             }
         }
     }
@@ -182,6 +188,9 @@ impl Judged {
         if self.points.first().is_some_and(|p| p.setting.len() == 1) {
             lines.extend(order(&self.points, &self.errors, (&self.what.0, self.of)));
         }
+        lines.extend((self.phases > 1).then(|| {
+            format!("Each error is the worst of {} phases of the step at which contacts begin", self.phases)
+        }));
         lines.extend(self.advice());
         lines
     }
@@ -190,6 +199,9 @@ impl Judged {
     fn known(&self, k: usize) -> String {
         match (&self.errors[k], self.marks.0 == Some(k)) {
             (_, true) => format!(", the reference for {}", self.what.0),
+            (Some(error), _) if error.size == 0.0 && !(error.interval > 0.0) => {
+                format!(", with no error in {}", self.what.0)
+            }
             (Some(error), _) => {
                 format!(", with an error of {} in {}", amount(error, &self.what.1), self.what.0)
             }

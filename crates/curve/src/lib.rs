@@ -17,10 +17,10 @@ pub mod sweep;
 mod table;
 mod words;
 
-pub use error::{Norm, Truth, errors};
+pub use error::{Norm, Repeats, Truth, errors};
 pub use front::{Choice, front, recommend};
 pub use judge::{Cost, Judged, judge};
 pub use point::{Error, Point, Sample};
-pub use study::{CurveError, Study, TrueValue, Wanted, Work};
+pub use study::{CurveError, PHASES, Study, TrueValue, Wanted, Work};
 pub use table::csv;
 pub use words::{amount, change, order, percent, sentence, share_of_time};

@@ -4,6 +4,9 @@ use crate::Norm;
 use std::path::PathBuf;
 use thiserror::Error;
 
+/// Phases of the step at which a scene without random numbers runs.
+pub const PHASES: u64 = 8;
+
 /// A study.
 #[derive(Debug, Clone)]
 pub struct Study {
@@ -29,6 +32,8 @@ pub struct Study {
     pub norm: Norm,
     /// Seeds of each point.
     pub repeat: u64,
+    /// Phases of the step at which each point runs; absent: [`PHASES`] where nothing depends on a seed, else one.
+    pub phases: Option<u64>,
     /// How often everything is run.
     pub rounds: u64,
     /// What a run costs.

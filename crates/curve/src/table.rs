@@ -30,7 +30,7 @@ pub fn csv(judged: &Judged) -> String {
     // Writing to a string does not fail.
     let _ = writeln!(
         out,
-        "{},state,seeds,value [{unit}],value_interval [{unit}],error [{error}],error_interval [{error}],\
+        "{},state,repeats,value [{unit}],value_interval [{unit}],error [{error}],error_interval [{error}],\
          seconds_per_second [s/s],steps_per_second [1/s],work,prepare [s],front,mark,why",
         keys.iter().map(|k| cell(k)).collect::<Vec<_>>().join(",")
     );

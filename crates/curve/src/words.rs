@@ -78,7 +78,7 @@ fn rounded_ratio(ratio: f64) -> f64 {
 pub fn share_of_time(work: f64, before: f64, of: &str) -> String {
     let ratio = work / before;
     if (ratio - 1.0).abs() < SAME {
-        format!("takes as much {of}")
+        format!("takes as {} {of}", if of.ends_with('s') { "many" } else { "much" })
     } else if ratio < 1.0 {
         format!("saves {:.0} % of the {of}", 100.0 * (1.0 - ratio))
     } else if ratio < 2.0 {

@@ -177,6 +177,7 @@ mod tests {
             wanted: None,
             norm: Norm::Rms,
             repeat: 1,
+            phases: Some(1),
             rounds: 1,
             work: Work::Steps,
             folder: "points".into(),

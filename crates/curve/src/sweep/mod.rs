@@ -12,7 +12,7 @@ pub mod work;
 
 pub use grid::{Grid, Setting};
 
-use crate::study::{CurveError, Study};
+use crate::study::{CurveError, PHASES, Study};
 use grid::AS_IT_IS;
 use knob::{is_random, seeds};
 use scene::{Scene, SceneError};
@@ -34,7 +34,12 @@ pub struct Sweep {
     pub files: Vec<PathBuf>,
     /// Whether a scene with random numbers is run with one seed only.
     pub one_seed: bool,
+    /// Phases of the step at which each setting is run.
+    pub phases: u64,
 }
+
+/// How much shorter the shortest step is: contacts that begin 20 steps after the start or later meet every phase.
+const SHORTER: f64 = 0.05;
 
 impl Sweep {
     /// Lays out the runs.
@@ -49,9 +54,10 @@ impl Sweep {
         let grid = Grid::new(study, &blank, own.as_ref())?;
         let tools = std::env::current_exe().map_err(CurveError::io("where this program is"))?;
         let tools = tools.parent().unwrap_or(Path::new(".")).to_owned();
-        let mut sweep = Sweep { grid, jobs: Vec::new(), tools, files, one_seed: false };
+        let mut sweep = Sweep { grid, jobs: Vec::new(), tools, files, one_seed: false, phases: 1 };
+        sweep.phases = sweep.phases(study)?;
         let mut hashes = Hashes::default();
-        for repeat in 0..study.repeat {
+        for repeat in 0..study.repeat.max(sweep.phases) {
             for at in 0..sweep.grid.settings.len() {
                 let job = sweep.job(study, at, repeat, &mut hashes)?;
                 sweep.jobs.push(job);
@@ -66,11 +72,30 @@ impl Sweep {
         Ok(sweep)
     }
 
-    /// The run of one setting with one seed.
+    /// The phases that the study asks for; where it says nothing and no setting depends on a seed, [`PHASES`].
+    fn phases(&mut self, study: &Study) -> Result<u64, CurveError> {
+        if let Some(phases) = study.phases {
+            return Ok(phases);
+        }
+        if study.repeat > 1 || lines(study).any(|line| line.contains("{seed}")) {
+            return Ok(1);
+        }
+        for setting in &self.grid.settings {
+            let scene = fill(&study.scene, setting, 0);
+            if unfilled(&scene).is_some() || is_random(&read(&scene, &study.set, &mut self.files)?) {
+                return Ok(1);
+            }
+        }
+        Ok(PHASES)
+    }
+
+    /// The run of one setting with one seed, or at one phase of the step.
     fn job(&mut self, study: &Study, at: usize, repeat: u64, hashes: &mut Hashes) -> Result<Job, CurveError> {
         let setting = &self.grid.settings[at];
+        let (seed, phase) = if self.phases > 1 { (0, repeat) } else { (repeat, 0) };
+        let shorten = SHORTER * phase as f64 / self.phases as f64;
         let filled = |text: &String| {
-            let line = fill(text, setting, repeat);
+            let line = fill(text, setting, seed);
             match unfilled(&line).map(|blank| (blank, blank.trim_matches(['{', '}']))) {
                 Some((blank, key)) => {
                     Err(CurveError::Usage(format!("{text}: nothing fills {blank}: vary {key}")))
@@ -89,15 +114,27 @@ impl Sweep {
         for (knob, (_, value)) in varied.clone().filter(|(_, (_, value))| value != AS_IT_IS) {
             sets.extend(knob.overrides(&values, value)?);
         }
-        sets.extend(seeds(&values, repeat));
+        sets.extend(seeds(&values, seed));
+        sets.extend((shorten > 0.0).then(|| format!("time.shorten={shorten}")));
         let threads = varied.clone().find_map(|(k, (_, v))| k.threads(v).map(str::to_owned));
         let threads = threads.unwrap_or(study.threads.to_string());
-        let name = name(setting, repeat, study.repeat);
+        let name = name(setting, seed, study.repeat, phase);
         let text =
             checked(&scene, &sets, &mut self.files).map_err(|e| e.at(format!("point {name}")))?.text.toml;
-        let (folder, stamp_later) = (study.folder.join(folder(&name)), String::new());
-        let mut job =
-            Job { setting: at, repeat, folder, stamp: stamp_later, name, scene, inputs, sets, threads, each };
+        let (folder, stamp_now) = (study.folder.join(folder(&name)), String::new());
+        let mut job = Job {
+            setting: at,
+            repeat,
+            shorten,
+            folder,
+            stamp: stamp_now,
+            name,
+            scene,
+            inputs,
+            sets,
+            threads,
+            each,
+        };
         job.stamp = stamp(&job, &text, &self.tools, hashes)?;
         Ok(job)
     }
@@ -146,9 +183,10 @@ fn checked(file: &str, sets: &[String], files: &mut Vec<PathBuf>) -> Result<Scen
     Ok(scene)
 }
 
-fn name(setting: &Setting, repeat: u64, repeats: u64) -> String {
+fn name(setting: &Setting, seed: u64, seeds: u64, phase: u64) -> String {
     let mut parts: Vec<String> = setting.iter().map(|(k, v)| format!("{k}={v}")).collect();
-    parts.extend((repeats > 1 || repeat > 0).then(|| format!("seed={repeat}")));
+    parts.extend((seeds > 1).then(|| format!("seed={seed}")));
+    parts.extend((phase > 0).then(|| format!("phase={phase}")));
     parts.join(",")
 }
 

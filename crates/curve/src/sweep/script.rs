@@ -12,8 +12,10 @@ use std::path::{Path, PathBuf};
 pub struct Job {
     /// Index of its setting.
     pub setting: usize,
-    /// Which seed, from 0.
+    /// Which seed or phase of the step, from 0.
     pub repeat: u64,
+    /// Share by which its step is shorter than that of the setting.
+    pub shorten: f64,
     /// Its folder.
     pub folder: PathBuf,
     /// SHA-256 of scene, inputs, programs and options.

@@ -21,6 +21,7 @@ impl Check<'_> {
             self.within("time.safety", safety, 1e-6, 1.0, "")?;
         }
         self.accuracy(&m.time)?;
+        self.within("time.shorten", m.time.shorten.unwrap_or(0.0), 0.0, 0.5, "")?;
         if let Some(Every::Given(every)) = m.output.every {
             self.positive("output.every", every, "s")?;
         }

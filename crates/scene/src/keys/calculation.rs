@@ -31,6 +31,9 @@ pub struct Time {
     pub safety: Option<f64>,
     /// Largest error of an impact, for which the step is chosen [–].
     pub accuracy: Option<Accuracy>,
+    /// Share by which the step is made shorter than the other keys say [–]: contacts then begin at another phase of it.
+    #[serde(default, deserialize_with = "unit::plain")]
+    pub shorten: Option<f64>,
 }
 
 /// A share: `"1%"`, or 0.01.

@@ -17,6 +17,7 @@ impl PlanBuilder<'_> {
         self.warn(&contacts);
         let bonds = bonds::resolve(&self.check, &keys.bond, &self.materials)?;
         let (safety, step) = accuracy::choose(&self.check, &keys.time, &contacts)?;
+        let left = 1.0 - keys.time.shorten.unwrap_or(0.0);
         // The engine wants a density of every material, also of walls, whose mass plays no part.
         self.materials.iter_mut().filter(|m| m.density == 0.0).for_each(|m| m.density = NO_DENSITY);
         self.entry_materials.sort_unstable();
@@ -25,7 +26,7 @@ impl PlanBuilder<'_> {
             gravity: Vec3::from(keys.gravity),
             drag: self.drag(),
             periodic: self.periodic()?,
-            step: keys.time.dt.0.map_or(Step::Auto(safety), Step::Fixed),
+            step: keys.time.dt.0.map_or(Step::Auto(left * safety), |dt| Step::Fixed(left * dt)),
             precision: match keys.precision {
                 Arithmetic::F64 => setup::Precision::Double,
                 Arithmetic::Mixed => setup::Precision::Mixed,

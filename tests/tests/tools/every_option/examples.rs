@@ -81,7 +81,7 @@ pub const EXAMPLES: &[&str] = &[
     "cost-curve s.toml --vary safety=0.2,0.4 --measure bed-height --set time.until=0.02 --laboratory 0.04 --work steps --dir points4",
     "cost-curve s.toml --vary safety=0.2,0.4 --measure bed-height --set time.until=0.02 --reference safety=0.2 --in-use safety=0.4 --print-commands --dir points5",
     "cost-curve s.toml --vary safety=0.2,0.4 --measure bed-height --set time.until=0.02 --dry-run --dir points6 --work instructions",
-    "cost-curve s.toml --vary k=1,2 --measure bed-height --reference k=1 --in-use k=2 --set time.until=0.02 --each 'wallgen flat.xyz --radius 0.00{k} --material sinter -q' --work steps --dir points7",
+    "cost-curve s.toml --vary k=1,2 --phases 2 --measure bed-height --reference k=1 --in-use k=2 --set time.until=0.02 --each 'wallgen flat.xyz --radius 0.00{k} --material sinter -q' --work steps --dir points7",
     "chute-scan --points 2000 --noise 0.001 --blind 0.1 --tilt-deg 10 --seed 3 --ascii -o chute.ply --report r.json --threads 2 -q",
     "chute-scan --points 2000 --output chute2.ply --quiet",
 ];
