@@ -3,6 +3,7 @@
 
 use grainpipe_tests::findings::{Case, case};
 use grainpipe_tests::tools::{Done, succeed, tool};
+use serde_json::Value;
 use std::fs;
 use std::path::Path;
 use stream::Table;
@@ -305,11 +306,37 @@ fn bounce() -> TempDir {
 fn a_grain_that_comes_back_through_its_inlet() {
     let folder = bounce();
     fs::copy(folder.path().join("down.toml"), folder.path().join("s.toml")).expect("copied");
-    let words =
-        ["inlet 0", "behind the generation plane", "cut the plant farther upstream", "guards.zones = false"];
+    let words = [
+        "inlet 0",
+        "behind the generation plane",
+        "cut the plant farther upstream",
+        "to take such grains out",
+    ];
     stopped(folder.path(), "zones: a grain comes back", &["in.mcap"], &words);
     let off = ["in.mcap", "--set", "guards.zones=false"];
     exact(folder.path(), "zones", &off);
+}
+
+/// Taken out instead: the run ends, tells how many, and its ledger closes.
+#[test]
+fn a_grain_that_comes_back_through_its_inlet_is_removed() {
+    let folder = bounce();
+    let sets = ["--set", "guards.zones=\"remove\"", "--set", "output.energy=true"];
+    let files = ["down.toml", "in.mcap", "-o", "run.mcap", "--report", "r.json"];
+    let done = succeed(folder.path(), "dem-run", &[&files[..], &sets].concat());
+    assert!(
+        done.stderr.contains("inlet.0: 1 grains were taken out (guards.zones = \"remove\")"),
+        "{}",
+        done.stderr
+    );
+    let report: Value = serde_json::from_slice(&fs::read(folder.path().join("r.json")).unwrap()).unwrap();
+    assert_eq!(
+        (&report["returned"]["removed"][0], &report["particles"]),
+        (&Value::from(1), &Value::from(0)),
+        "{report}"
+    );
+    let made = report["integration"]["share"].as_f64().unwrap_or_else(|| panic!("{report}"));
+    assert!(made.abs() < 1e-2, "{report}");
 }
 
 #[test]
@@ -336,7 +363,7 @@ fn limits_that_are_none() {
         ("guards.motion=0", ["guards.motion", "above 0"]),
         ("guards.motion=nan", ["guards.motion", "NaN"]),
         ("guards.motion=-inf", ["guards.motion", "-inf"]),
-        ("guards.zones=3", ["wrong kind of value", "boolean"]),
+        ("guards.zones=3", ["wrong kind of value", "expected true, false or \"remove\""]),
         ("guards.overlaps=0.1", ["overlaps", "did you mean 'overlap'"]),
     ] {
         let done = tool(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap", "--set", set]);

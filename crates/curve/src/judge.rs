@@ -113,7 +113,8 @@ fn measured(
     for job in &sweep.jobs {
         let point = &mut points[job.setting];
         match work::read(job, work, counter)? {
-            Made::Failed(why) => point.failed = Some(why),
+            // Of several phases the first is that of the setting itself.
+            Made::Failed(why) => drop(point.failed.get_or_insert(why)),
             Made::Done { work, seconds, steps, prepared } => {
                 let found = measure.of(job, &sweep.tools)?;
                 unit = found.unit;

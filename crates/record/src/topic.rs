@@ -8,6 +8,8 @@ pub const BODIES: &str = "/bodies";
 pub const BONDS: &str = "/bonds";
 /// A row for each contact.
 pub const CONTACTS: &str = "/contacts";
+/// Contacts that have a history, with the last frame: what a run that starts from its particles takes along.
+pub const HISTORY: &str = "/history";
 /// Wall spheres: once, and again with each frame when they move.
 pub const WALLS: &str = "/walls";
 /// Planes, meshes and motions of walls; JSON, see [`crate::WallRecord`].

@@ -12,16 +12,16 @@ const LARGE: f64 = 0.01;
 pub struct IntegrationError {
     /// In joules.
     pub energy: f64,
-    /// Over the energy exchanged, or over that of motion and springs at the end where that is more [–].
+    /// Over the energy exchanged, or over the most of motion and springs in a frame where that is more [–].
     pub share: f64,
     /// Whether it is the share of the energy exchanged.
     pub of_exchanged: bool,
 }
 
 impl IntegrationError {
-    /// That of a ledger; `None` where no energy was exchanged and nothing moves.
-    pub fn of(energy: &Energy) -> Option<IntegrationError> {
-        let (share, of_exchanged) = energy.error()?;
+    /// That of a ledger; `None` where no energy was exchanged and nothing moved. `peak` is the most that moved or was in springs [J].
+    pub fn of(energy: &Energy, peak: f64) -> Option<IntegrationError> {
+        let (share, of_exchanged) = energy.error(peak)?;
         Some(IntegrationError { energy: energy.integration, share, of_exchanged })
     }
 
@@ -35,7 +35,8 @@ impl IntegrationError {
 impl Display for IntegrationError {
     fn fmt(&self, f: &mut Formatter) -> Result {
         let (made, percent) = (geom::Shown(self.energy), geom::Shown(100.0 * self.share));
-        let of = if self.of_exchanged { "the energy exchanged" } else { "the energy of motion and springs" };
+        let of =
+            if self.of_exchanged { "the energy exchanged" } else { "the most energy of motion and springs" };
         write!(f, "integration error {percent} % of {of} ({made} J)")
     }
 }
@@ -48,13 +49,17 @@ mod tests {
     fn an_error_above_a_hundredth_is_a_warning() {
         let of = |integration| {
             let energy = Energy { normal: 2.0, translation: 1.0, integration, ..Energy::default() };
-            IntegrationError::of(&energy).expect("something was exchanged")
+            IntegrationError::of(&energy, 0.5).expect("something was exchanged")
         };
         let small = of(0.019);
         assert_eq!(small.to_string(), "integration error 0.95 % of the energy exchanged (0.019 J)");
         assert_eq!(small.warning(), None);
         let large = of(-0.021).warning().expect("a warning");
         assert!(large.starts_with("integration error -1.05 %") && large.contains("time.safety"), "{large}");
-        assert_eq!(IntegrationError::of(&Energy::default()), None);
+        assert_eq!(IntegrationError::of(&Energy::default(), 0.0), None);
+        // All that moved has left the scene.
+        let left =
+            IntegrationError::of(&Energy { integration: 0.01, ..Energy::default() }, 2.0).expect("it moved");
+        assert!(left.share == 0.005 && !left.of_exchanged, "{left:?}");
     }
 }

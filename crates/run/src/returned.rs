@@ -9,7 +9,13 @@ pub fn warnings(returned: &Returned) -> Vec<String> {
             &returned.inlets,
             "inlet",
             "went back through the calculation plane: what they meet there is not simulated (the run stops at one that goes back through the \
-             whole zone, unless guards.zones = false); where there are many, cut the plant farther upstream",
+             whole zone, unless guards.zones says otherwise); where there are many, cut the plant farther upstream",
+        ),
+        (
+            &returned.removed,
+            "inlet",
+            "were taken out (guards.zones = \"remove\"): they had gone back through the whole zone, or stood in it where another came in; their \
+             mass is missing downstream, so where there are many, cut the plant farther upstream",
         ),
         (
             &returned.outlets,
@@ -38,7 +44,8 @@ mod tests {
     #[test]
     fn only_planes_that_grains_went_back_through_are_named() {
         assert!(warnings(&Returned::default()).is_empty());
-        let returned = Returned { inlets: vec![0, 3], outlets: vec![0], fallen: vec![2] };
+        let returned =
+            Returned { inlets: vec![0, 3], removed: vec![0, 0], outlets: vec![0], fallen: vec![2] };
         let found = warnings(&returned);
         assert!(found.len() == 2 && found[0].starts_with("inlet.1: 3 grains went back"), "{found:?}");
         assert!(found[1].starts_with("outlet.0: 2 grains were recorded"), "{found:?}");

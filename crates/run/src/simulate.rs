@@ -140,6 +140,8 @@ pub(crate) struct Run<W: Write> {
     pub paths: Vec<PathRow>,
     pub outcome: Outcome,
     pub frame_energy: Option<FrameEnergy>,
+    /// Most energy of motion and springs in a frame so far [J].
+    pub peak: f64,
     /// The state when something was last written: a run whose numbers are lost is resumed from there.
     pub before: Option<Before>,
     /// When something was last written [s].
@@ -251,7 +253,7 @@ impl<W: Write> Run<W> {
     /// What the time step made, by the ledger.
     fn integration(&mut self) -> Option<IntegrationError> {
         let energy = self.written.ledger.then(|| self.sim.energy().ok())??;
-        IntegrationError::of(&energy)
+        IntegrationError::of(&energy, self.peak)
     }
 
     pub(crate) fn now(&self) -> u64 {

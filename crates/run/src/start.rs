@@ -54,6 +54,7 @@ impl<W: Write> Run<W> {
             crossings: Vec::new(),
             paths: Vec::new(),
             frame_energy: None,
+            peak: 0.0,
             before: None,
             saved_at: 0.0,
             checkpoints: 0,

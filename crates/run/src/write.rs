@@ -4,6 +4,7 @@ use crate::error::{Ended, Result};
 use crate::frames::{self, ParticleRows};
 use crate::simulate::{Before, FrameEnergy, Run};
 use record::{FRAME, Watermark, json, topic};
+use scene::input::history;
 use stages::outlet::crossing::CrossingRow;
 use stages::outlet::path::PathRow;
 use stages::outlet::{bond, contact, crossing, path};
@@ -78,6 +79,12 @@ impl<W: Write> Run<W> {
             let contacts = self.sim.record_contacts()?;
             self.writer.points(topic::CONTACTS, now, FRAME, frames::contacts(&contacts, precision))?;
         }
+        if self.sim.steps() == self.schedule.last {
+            let kept = self.sim.contact_histories();
+            if !kept.is_empty() {
+                self.writer.points(topic::HISTORY, now, FRAME, history::to_table(&kept))?;
+            }
+        }
         self.outcome.frames += 1;
         if self.written.output.wall_forces {
             let forces = self.sim.wall_forces()?;
@@ -95,6 +102,7 @@ impl<W: Write> Run<W> {
         }
         let energy = self.sim.energy()?;
         let kinetic = energy.translation + energy.rotation;
+        self.peak = self.peak.max(energy.held());
         self.frame_energy = Some(FrameEnergy { kinetic, balance: ledger.then(|| energy.balance()) });
         if ledger {
             let mut message = serde_json::to_value(energy).unwrap_or_default();

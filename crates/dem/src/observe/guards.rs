@@ -105,7 +105,7 @@ pub fn check_energy(model: &Model, state: &mut State, lists: &NeighbourLists) ->
     let (time, e) = (state.time(), energy(model, state, lists));
     // At the deepest point of an impact and at the top of a flight nothing moves: the largest value so far counts.
     let peak = &mut state.ledger.peak;
-    *peak = peak.max(e.translation + e.rotation + e.elastic.abs());
+    *peak = peak.max(e.held());
     let (made, of) = (e.integration, e.exchanged() + *peak);
     // Sums of positions far from the origin have no more digits. Written so that NaN is caught.
     let rounding = ROUNDING * (of + e.potential.abs());

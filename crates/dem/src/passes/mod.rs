@@ -1,13 +1,14 @@
 //! What happens to particles beside contacts: a pass is a function of Model and of the parts of State and lists that it needs.
 //!
 //! `integrate` moves tiles; `clumps`, `bonds`, `drag`, `servo`, `sleep` and `zones` act only in scenes that ask for them; `ledger` adds up
-//! energy where it is kept. `instant` has velocities of one instant, and gives particles that begin their first acceleration. Uses neighbours and below.
+//! energy where it is kept. `kept` carries contact history from one run to the next. `instant` has velocities of one instant, and gives particles that begin their first acceleration. Uses neighbours and below.
 
 pub mod bonds;
 pub mod clumps;
 pub mod drag;
 pub mod instant;
 pub mod integrate;
+pub mod kept;
 pub mod ledger;
 pub mod servo;
 pub mod sleep;

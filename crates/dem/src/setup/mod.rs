@@ -7,12 +7,14 @@ pub mod clump_shape;
 pub mod clumps;
 pub mod drag;
 
+mod kept;
 mod zone;
 
 pub use crate::effects::{ContactHistory, ContactLaw, Material};
 pub use crate::setup::clump_shape::ClumpShape;
 pub use crate::setup::drag::{Drag, DragLaw};
 pub use crate::simd::number::Precision;
+pub use kept::{KeptContact, KeptPartner};
 pub use zone::{
     Crossing, CrossingBond, Entry, EntryBonds, EntryClump, Guide, PairHistory, PathSample, Sample, Touch,
     Zone, ZoneMotion, ZoneTest,
@@ -38,6 +40,8 @@ pub struct Setup {
     pub contacts: Vec<ContactLaw>,
     /// Particles at t = 0.
     pub particles: Vec<Particle>,
+    /// Histories of their contacts at t = 0, of particles that an earlier run has left; empty: all contacts begin anew.
+    pub kept: Vec<KeptContact>,
     /// Rigid clumps; empty where the scene has none.
     pub clumps: Clumps,
     /// Bonds between particles that are close at t = 0; empty where the scene has none.
@@ -84,6 +88,7 @@ impl Default for Setup {
             materials: Vec::new(),
             contacts: Vec::new(),
             particles: Vec::new(),
+            kept: Vec::new(),
             clumps: Clumps::default(),
             bonds: Vec::new(),
             entry_bonds: None,
@@ -254,6 +259,18 @@ pub struct Sleep {
     pub wake: f64,
 }
 
+/// What becomes of a particle that came in by a cut and has gone back through its whole zone, to where nothing of the plant is simulated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum CameBack {
+    /// It stops the run.
+    #[default]
+    Stops,
+    /// It is taken out and counted; so is one that is behind the calculation plane and in the way of a particle that comes in.
+    IsRemoved,
+    /// It moves on.
+    Stays,
+}
+
 /// When a run is stopped.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Guards {
@@ -263,8 +280,8 @@ pub struct Guards {
     pub motion: f64,
     /// How many inlets, from the first on, are cuts of a plant: grains that go back through them are counted [–].
     pub cuts: u32,
-    /// Whether a grain that goes back through the whole zone of a cut stops the run.
-    pub zones: bool,
+    /// What becomes of a grain that goes back through the whole zone of a cut.
+    pub zones: CameBack,
     /// Largest energy that the finite time step may make, as a share of what was exchanged and the most that moved or was in springs [–]; ∞: not checked. It
     /// needs the ledger.
     pub energy: f64,
@@ -272,6 +289,6 @@ pub struct Guards {
 
 impl Default for Guards {
     fn default() -> Guards {
-        Guards { overlap: 0.25, motion: 0.25, energy: f64::INFINITY, cuts: 0, zones: true }
+        Guards { overlap: 0.25, motion: 0.25, energy: f64::INFINITY, cuts: 0, zones: CameBack::Stops }
     }
 }

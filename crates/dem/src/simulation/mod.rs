@@ -49,7 +49,12 @@ impl Simulation {
         // They are in their columns now.
         model.setup.particles = Vec::new();
         model.setup.clumps.placed = Vec::new();
-        Ok(Simulation { model, state, lists: NeighbourLists::default() })
+        let kept = std::mem::take(&mut model.setup.kept);
+        let mut sim = Simulation { model, state, lists: NeighbourLists::default() };
+        if begun.is_none() && !kept.is_empty() {
+            sim.restore(&kept);
+        }
+        Ok(sim)
     }
 
     /// Sets a time step [s] that nothing has checked: to find by trial where a run turns unstable.

@@ -8,8 +8,8 @@ use crate::observe::snapshot::Snapshot;
 use crate::observe::{guards, record, snapshot};
 use crate::passes::clumps::instant::ClumpState;
 use crate::passes::servo::WallForce;
-use crate::passes::{bonds, servo};
-use crate::setup::Particle;
+use crate::passes::{bonds, kept, servo};
+use crate::setup::{KeptContact, Particle};
 use crate::state::{BondState, Energy, Sleepers};
 use geom::Vec3;
 
@@ -53,6 +53,11 @@ impl Simulation {
     pub fn particle_count(&self) -> usize {
         let hidden = self.state.zones.hidden(self.time());
         (0..self.state.particles.len()).filter(|&k| !hidden(k)).count()
+    }
+
+    /// Histories of all contacts that have one, to start another simulation from its particles ([`crate::setup::Setup::kept`]).
+    pub fn contact_histories(&self) -> Vec<KeptContact> {
+        kept::histories(&self.model, &self.state, &self.lists)
     }
 
     /// Wall spheres of a wall, as they are now: centre, radius [m], in the order they were given.

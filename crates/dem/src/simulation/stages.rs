@@ -61,9 +61,9 @@ impl Simulation {
     /// comes in too fast for the step. Those behind a calculation plane again are counted. At no cost without inlets.
     ///
     /// # Errors
-    /// Such a particle.
+    /// Such a particle, unless the guards have it removed.
     pub fn look_back(&mut self) -> Result<(), Halt> {
-        returned::look_back(&self.model, &mut self.state)
+        returned::look_back(&self.model, &mut self.state, &self.lists)
     }
 
     /// How many particles went back through planes so far.

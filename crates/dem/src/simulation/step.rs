@@ -8,8 +8,10 @@ use crate::forces::sweep;
 use crate::model::{Halt, Model};
 use crate::neighbours::{NeighbourLists, rebuild};
 use crate::observe::guards;
-use crate::passes::{bonds, clumps, drag, instant, ledger, servo, zones};
+use crate::passes::{bonds, clumps, drag, instant, kept, ledger, servo, zones};
+use crate::setup::KeptContact;
 use crate::state::{Forces, ListStatus, State};
+use std::ops::Range;
 
 impl Simulation {
     /// One time step.
@@ -39,7 +41,7 @@ impl Simulation {
         state.bonds.turn(&state.particles, model.dt);
         zones::travel::move_zone_particles(model, state, lists);
         zones::cross::find_crossings(model, state, lists);
-        guards::check_overlap(model, state, lists, &found.deep, true)?;
+        check_overlap(model, state, lists, &found.deep, true)?;
         if moved.too_fast {
             guards::check_motion(model, state)?;
         }
@@ -49,6 +51,13 @@ impl Simulation {
             guards::check_energy(&self.model, &mut self.state, &self.lists)?;
         }
         Ok(())
+    }
+
+    /// Lists neighbours and gives their contacts the histories of an earlier run.
+    pub(super) fn restore(&mut self, kept: &[KeptContact]) {
+        let Simulation { model, state, lists } = self;
+        refresh_lists(model, state, lists);
+        kept::restore(model, state, lists, kept);
     }
 
     /// Brings lists and forces to this instant, as observing anything does.
@@ -83,5 +92,21 @@ fn compute_forces(model: &Model, state: &mut State, lists: &mut NeighbourLists) 
     state.forces = Forces::Known;
     let starting = instant::start(model, state);
     ledger::open(model, state, lists, &starting);
-    guards::check_overlap(model, state, lists, &found.deep, false)
+    check_overlap(model, state, lists, &found.deep, false)
+}
+
+/// Refuses overlaps that are too deep, unless the guards have the particle removed that is in the way of one that comes in.
+fn check_overlap(
+    model: &Model,
+    state: &mut State,
+    lists: &NeighbourLists,
+    segments: &[Range<usize>],
+    moved: bool,
+) -> Result<(), Halt> {
+    while let Err(halt) = guards::check_overlap(model, state, lists, segments, moved) {
+        if !zones::removed::clear_the_way(model, state, lists, &halt) {
+            return Err(halt);
+        }
+    }
+    Ok(())
 }

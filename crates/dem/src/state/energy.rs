@@ -61,12 +61,17 @@ impl Energy {
             - self.integration
     }
 
-    /// [`Energy::integration`] over what was exchanged, or over the energy of motion and springs where that is more [–]; `None` without
-    /// either. And whether the first was taken.
-    pub fn error(&self) -> Option<(f64, bool)> {
-        let (exchanged, held) = (self.exchanged(), self.translation + self.rotation + self.elastic.abs());
+    /// [`Energy::integration`] over what was exchanged, or over the most that moved or was in springs so far (`peak` [J], or now) where that
+    /// is more [–]; `None` without either. And whether the first was taken.
+    pub fn error(&self, peak: f64) -> Option<(f64, bool)> {
+        let (exchanged, held) = (self.exchanged(), peak.max(self.held()));
         let of = exchanged.max(held);
         (of > 0.0 && self.integration.is_finite()).then(|| (self.integration / of, exchanged >= held))
+    }
+
+    /// What moves and is in springs.
+    pub fn held(&self) -> f64 {
+        self.translation + self.rotation + self.elastic.abs()
     }
 
     /// What has changed its form since the start, to compare [`Energy::integration`] with.

@@ -21,6 +21,8 @@ pub(crate) struct Origin {
 pub struct Returned {
     /// For each watched inlet: particles that were behind its calculation plane again.
     pub inlets: Vec<u64>,
+    /// For each watched inlet: particles that were taken out because they had gone back through the whole zone, or were in the way.
+    pub removed: Vec<u64>,
     /// For each outlet: free particles that came upstream through its storage plane.
     pub outlets: Vec<u64>,
     /// For each outlet: particles that were recorded, and fell back through the plane in the zone.
@@ -42,7 +44,12 @@ impl ReturnCounts {
         let watched = (setup.guards.cuts as usize).min(setup.inlets.len());
         let none = |count: usize| vec![0; count];
         let outlets = setup.outlets.len();
-        let returned = Returned { inlets: none(watched), outlets: none(outlets), fallen: none(outlets) };
+        let returned = Returned {
+            inlets: none(watched),
+            removed: none(watched),
+            outlets: none(outlets),
+            fallen: none(outlets),
+        };
         let origins = if watched > 0 { vec![Origin::default(); particles] } else { Vec::new() };
         ReturnCounts { origins, any: false, returned }
     }

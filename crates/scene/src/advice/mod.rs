@@ -41,7 +41,7 @@ pub fn explain_halt(halt: &Halt) -> String {
         }
         Halt::InletOverlap { .. } => {
             "keep its zone free at the start, let slow grains start farther back (stage-replay --ahead), \
-             cut where nothing piles up to the plane, or raise guards.overlap"
+             cut where nothing piles up to the plane, set guards.zones = \"remove\" where the other grain is one that came back, or raise guards.overlap"
         }
         Halt::Motion { .. } => "shorten dt or raise guards.motion",
         Halt::NotANumber { .. } => {
@@ -52,7 +52,8 @@ pub fn explain_halt(halt: &Halt) -> String {
         }
         Halt::NotKept { .. } => "set record_wrenches in the setup",
         Halt::CameBack { .. } => {
-            "cut the plant farther upstream, take a longer zone (length), or set guards.zones = false where grains get there by another way"
+            "cut the plant farther upstream, take a longer zone (length), or set guards.zones = \"remove\" to take such grains out, or false where \
+             grains get there by another way"
         }
         Halt::TooFast { .. } => "shorten dt, or raise guards.motion",
         Halt::Energy { .. } => "shorten dt (time.safety) or raise guards.energy",

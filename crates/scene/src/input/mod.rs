@@ -5,6 +5,7 @@
 
 mod csv;
 mod head;
+pub mod history;
 mod particles;
 mod walls;
 mod zone;

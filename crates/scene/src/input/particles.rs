@@ -2,10 +2,10 @@
 
 use super::csv::csv;
 use crate::error::{Result, SceneError};
-use dem::setup::Particle;
+use dem::setup::{KeptContact, Particle};
 use geom::Shown;
 use record::column::{BODY, DIAMETER, ID, MATERIAL, POSITION, RADIUS, SPIN, VELOCITY};
-use record::{Columns, LogMessage, MaterialRecord, metadata, topic};
+use record::{Columns, LogMessage, MaterialRecord, WallRecord, metadata, topic};
 use std::path::Path;
 use stream::Table;
 use stream::mcap::{Event, Reader};
@@ -23,6 +23,8 @@ pub struct ParticleFile {
     pub hash: String,
     /// Warning about columns that are not used, or about a run that did not reach its end.
     pub warning: Option<String>,
+    /// Histories of the contacts of a run, and the names of its walls.
+    pub kept: (Vec<KeptContact>, Vec<String>),
 }
 
 /// The columns of a file.
@@ -37,6 +39,8 @@ pub struct ParticleTable {
     pub is_run: bool,
     /// Why that run was stopped before its end.
     pub stopped: Option<LogMessage>,
+    /// Its contact histories, and the names of its walls.
+    pub kept: (Vec<KeptContact>, Vec<String>),
 }
 
 impl ParticleTable {
@@ -51,7 +55,14 @@ impl ParticleTable {
             return last_frame(name, &bytes);
         }
         let table = if bytes.starts_with(b"ply") { vertices(&name, &bytes)? } else { csv(&name, &bytes)? };
-        Ok(ParticleTable { name, table, materials: Vec::new(), is_run: false, stopped: None })
+        Ok(ParticleTable {
+            name,
+            table,
+            materials: Vec::new(),
+            is_run: false,
+            stopped: None,
+            kept: Default::default(),
+        })
     }
 
     /// Its columns as numbers.
@@ -88,7 +99,8 @@ impl ParticleTable {
             _ => columns.unused(&known()),
         };
         let hash = record::hash(&self.table);
-        Ok(ParticleFile { particles, has_ids: ids.is_some(), materials: self.materials, hash, warning })
+        let has_ids = ids.is_some();
+        Ok(ParticleFile { particles, has_ids, materials: self.materials, hash, warning, kept: self.kept })
     }
 }
 
@@ -123,12 +135,23 @@ fn vertices(name: &str, bytes: &[u8]) -> Result<Table> {
 
 fn last_frame(name: String, bytes: &[u8]) -> Result<ParticleTable> {
     let (mut frame, mut materials, mut stopped) = (None, Vec::new(), None);
+    let (mut history, mut walls) = (None, Vec::new());
     for event in Reader::new(bytes) {
         match event.map_err(|e| SceneError::content(&name, "a run", e))? {
             Event::Metadata { name: record, map } if record == metadata::MATERIALS => {
                 materials = MaterialRecord::from_map(&name, &map)?;
             }
-            Event::Points { topic, table, .. } if topic == topic::PARTICLES => frame = Some(table),
+            Event::Points { topic, time_ns, table } if topic == topic::PARTICLES => {
+                frame = Some((time_ns, table))
+            }
+            Event::Points { topic, time_ns, table } if topic == topic::HISTORY => {
+                history = Some((time_ns, table))
+            }
+            Event::Bytes { topic, data, .. } if topic == topic::SURFACES => {
+                let read = WallRecord::read_all(&data)
+                    .map_err(|e| SceneError::file(&name, &e, "give a run that dem-run wrote"))?;
+                walls = read.into_iter().map(|wall| wall.name).collect();
+            }
             Event::Bytes { topic, data, .. } if topic == topic::LOG => {
                 stopped = LogMessage::stop(&data).or(stopped);
             }
@@ -136,7 +159,12 @@ fn last_frame(name: String, bytes: &[u8]) -> Result<ParticleTable> {
         }
     }
     let none = || SceneError::file(&name, "has no message on /particles", "give a run that dem-run wrote");
-    Ok(ParticleTable { table: frame.ok_or_else(none)?, name, materials, is_run: true, stopped })
+    let (time, table) = frame.ok_or_else(none)?;
+    let kept = match history {
+        Some((at, rows)) if at == time => super::history::from_table(&name, &rows)?,
+        _ => Vec::new(),
+    };
+    Ok(ParticleTable { table, name, materials, is_run: true, stopped, kept: (kept, walls) })
 }
 
 #[cfg(test)]
@@ -145,7 +173,15 @@ mod tests {
 
     fn file(name: &str, text: &[u8]) -> Result<ParticleFile> {
         let (name, table) = (name.to_owned(), csv(name, text)?);
-        ParticleTable { name, table, materials: Vec::new(), is_run: false, stopped: None }.particles()
+        ParticleTable {
+            name,
+            table,
+            materials: Vec::new(),
+            is_run: false,
+            stopped: None,
+            kept: Default::default(),
+        }
+        .particles()
     }
 
     #[test]

@@ -175,6 +175,17 @@ pub struct Neighbours {
     pub skin: Option<f64>,
 }
 
+/// What becomes of a grain that goes back through all of its zone: `true`, `"remove"` or `false`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BackThroughZone {
+    /// It stops the run.
+    Stops,
+    /// It is taken out and counted.
+    IsRemoved,
+    /// It moves on.
+    Stays,
+}
+
 /// `[guards]`
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -185,8 +196,8 @@ pub struct Guards {
     /// Largest motion in one step, as a share of the radius [–].
     #[serde(default, deserialize_with = "unit::plain")]
     pub motion: Option<f64>,
-    /// Whether a run stops when a grain of an [[inlet]] goes back through all of its zone; absent: it does.
-    pub zones: Option<bool>,
+    /// What becomes of a grain of an [[inlet]] that goes back through all of its zone; absent: it stops the run.
+    pub zones: Option<BackThroughZone>,
     /// Largest energy that the time step may make, as a share of the energy that was exchanged and moves [–]; absent: no limit.
     #[serde(default, deserialize_with = "unit::plain")]
     pub energy: Option<f64>,

@@ -1,6 +1,6 @@
-//! A share that may be written in two ways.
+//! Values that may be written in two ways.
 
-use super::Accuracy;
+use super::{Accuracy, BackThroughZone};
 use serde::de::{Deserialize, Deserializer, Error, Unexpected, Visitor};
 use std::fmt;
 
@@ -30,5 +30,32 @@ impl Visitor<'_> for Share {
     fn visit_str<E: Error>(self, v: &str) -> Result<Accuracy, E> {
         let share = v.trim().strip_suffix('%').and_then(|v| v.trim().parse::<f64>().ok());
         share.map(|s| Accuracy(s / 100.0)).ok_or_else(|| E::invalid_value(Unexpected::Str(v), &self))
+    }
+}
+
+impl<'de> Deserialize<'de> for BackThroughZone {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<BackThroughZone, D::Error> {
+        from.deserialize_any(Back)
+    }
+}
+
+struct Back;
+
+impl Visitor<'_> for Back {
+    type Value = BackThroughZone;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("true, false or \"remove\"")
+    }
+
+    fn visit_bool<E: Error>(self, stops: bool) -> Result<BackThroughZone, E> {
+        Ok(if stops { BackThroughZone::Stops } else { BackThroughZone::Stays })
+    }
+
+    fn visit_str<E: Error>(self, v: &str) -> Result<BackThroughZone, E> {
+        match v {
+            "remove" => Ok(BackThroughZone::IsRemoved),
+            _ => Err(E::invalid_value(Unexpected::Str(v), &self)),
+        }
     }
 }

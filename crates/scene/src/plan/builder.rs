@@ -6,7 +6,7 @@ use crate::error::{Result, SceneError};
 use crate::input::{InletSource, read_mesh};
 use crate::keys::{self, SceneKeys};
 use crate::scene::Scene;
-use dem::setup::{self, EntryBonds, Particle, Zone};
+use dem::setup::{self, EntryBonds, KeptContact, Particle, Zone};
 use geom::Shape;
 use record::{MaterialRecord, Sizes};
 use std::ops::Range;
@@ -46,6 +46,8 @@ pub(super) struct FilesRead {
     pub spinning: Vec<String>,
     /// Particles of runs, by index: they lie as the engine left them.
     pub settled: Vec<Range<usize>>,
+    /// Their contact histories, and the names of the walls of each run.
+    pub kept: Vec<(Vec<KeptContact>, Vec<String>)>,
 }
 
 /// A plan in the making.

@@ -4,6 +4,7 @@ use super::builder::PlanBuilder;
 use crate::error::Result;
 use crate::input::ParticleFile;
 use crate::keys::Particles;
+use dem::setup::{KeptContact, KeptPartner};
 use geom::Vec3;
 
 impl PlanBuilder<'_> {
@@ -53,6 +54,10 @@ impl PlanBuilder<'_> {
                 }
             }
         }
+        // Of other materials a contact would be another one.
+        if entry.material.is_none() && file.has_ids {
+            self.read.kept.push(file.kept);
+        }
         let first = self.next_id();
         for (n, mut p) in file.particles.into_iter().enumerate() {
             p.material = materials[if entry.material.is_some() { 0 } else { p.material as usize }];
@@ -60,5 +65,24 @@ impl PlanBuilder<'_> {
             self.particles.push(p);
         }
         Ok(())
+    }
+
+    /// Histories that contacts have from the runs that particles come from. A wall is the one of the same name.
+    pub(super) fn kept(&self) -> Vec<KeptContact> {
+        let mut all = Vec::new();
+        for (contacts, names) in &self.read.kept {
+            let named = |name: &String| self.walls.iter().position(|w| w.name == *name).map(|w| w as u32);
+            let now: Vec<Option<u32>> = names.iter().map(named).collect();
+            all.extend(contacts.iter().filter_map(|contact| {
+                let partner = match contact.partner {
+                    KeptPartner::Particle(id) => KeptPartner::Particle(id),
+                    KeptPartner::Wall { wall, element } => {
+                        KeptPartner::Wall { wall: (*now.get(wall as usize)?)?, element }
+                    }
+                };
+                Some(KeptContact { partner, ..*contact })
+            }));
+        }
+        all
     }
 }

@@ -3,8 +3,8 @@
 use super::builder::PlanBuilder;
 use super::{NO_DENSITY, Plan, accuracy, bonds, contacts};
 use crate::error::Result;
-use crate::keys::{Arithmetic, DragLaw};
-use dem::setup::{self, Guards, Setup, Step};
+use crate::keys::{Arithmetic, BackThroughZone, DragLaw};
+use dem::setup::{self, CameBack, Guards, Setup, Step};
 use geom::Vec3;
 
 impl PlanBuilder<'_> {
@@ -22,7 +22,9 @@ impl PlanBuilder<'_> {
         self.materials.iter_mut().filter(|m| m.density == 0.0).for_each(|m| m.density = NO_DENSITY);
         self.entry_materials.sort_unstable();
         self.entry_materials.dedup();
+        let kept = self.kept();
         let setup = Setup {
+            kept,
             gravity: Vec3::from(keys.gravity),
             drag: self.drag(),
             periodic: self.periodic()?,
@@ -62,7 +64,11 @@ impl PlanBuilder<'_> {
             motion: guards.motion.unwrap_or(default.motion),
             // [[inlet]]s come before insertions, whose grains may get anywhere.
             cuts: self.keys().inlet.len() as u32,
-            zones: guards.zones != Some(false),
+            zones: match guards.zones {
+                None | Some(BackThroughZone::Stops) => CameBack::Stops,
+                Some(BackThroughZone::IsRemoved) => CameBack::IsRemoved,
+                Some(BackThroughZone::Stays) => CameBack::Stays,
+            },
             energy: guards.energy.unwrap_or(default.energy),
         }
     }

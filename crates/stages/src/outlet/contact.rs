@@ -7,11 +7,12 @@
 //!
 //! In an inlet stream a row is the history that the contact of two particles gets once `id` is free.
 
-use dem::effects::{ContactHistory, Field, Kind};
+use dem::effects::ContactHistory;
 use dem::setup::{Crossing, PairHistory, Touch};
 use geom::Vec3;
 use record::column::{ID, PARTNER, POSITION, TIME, Vector};
 use record::{Columns, RecordError, TableBuilder};
+use scene::input::history::{histories, with_histories};
 use stream::Table;
 
 /// Partner of a contact with a wall.
@@ -42,7 +43,7 @@ pub fn of_crossings(crossings: &[Crossing]) -> Table {
         .u32(PARTNER, rows.iter().map(|r| r.1.partner.unwrap_or(WALL)))
         .vectors(NORMAL_FORCE, &rows, |r| r.1.normal)
         .vectors(TANGENTIAL_FORCE, &rows, |r| r.1.tangential);
-    history(table, &rows, |r| r.1.history)
+    with_histories(table, &rows, |r| r.1.history)
 }
 
 /// The table of an inlet stream.
@@ -52,21 +53,7 @@ pub fn to_table(rows: &[ContactRow]) -> Table {
         .numbers(TIME, rows.iter().map(|r| r.time))
         .u32(ID, rows.iter().map(|r| r.pair.id))
         .u32(PARTNER, rows.iter().map(|r| r.pair.partner));
-    history(table, rows, |r| r.pair.history)
-}
-
-fn history<T>(table: TableBuilder, rows: &[T], of: fn(&T) -> ContactHistory) -> Table {
-    let number = |at: usize| rows.iter().map(move |r| of(r).numbers()[at]);
-    names().iter().zip(0..).fold(table, |table, (name, at)| table.numbers(name, number(at))).done()
-}
-
-/// Columns of the history, as the effects name its fields.
-fn names() -> Vec<String> {
-    let of = |(field, _): (&Field, _)| match field.kind {
-        Kind::Scalar => vec![field.name.to_owned()],
-        Kind::Vector => ["x", "y", "z"].map(|axis| format!("{}{axis}", field.name)).to_vec(),
-    };
-    ContactHistory::fields().into_iter().flat_map(of).collect()
+    with_histories(table, rows, |r| r.pair.history)
 }
 
 /// Contacts between particles that have a history. A table of older versions, without history, has none.
@@ -81,12 +68,10 @@ pub fn from_table(stream: &str, table: &Table) -> Result<Vec<ContactRow>, Record
     let times = columns.numbers(TIME)?;
     let any = f64::from(u32::MAX);
     let (ids, partners) = (columns.needed(ID, any)?, columns.needed(PARTNER, any)?);
-    let numbers = names().iter().map(|name| columns.numbers(name)).collect::<Result<Vec<_>, _>>()?;
-    let row = |k: usize| {
-        let mut history = ContactHistory::default();
-        history.numbers_mut().iter_mut().zip(&numbers).for_each(|(number, column)| *number = column[k]);
-        ContactRow { time: times[k], pair: PairHistory { id: ids[k], partner: partners[k], history } }
+    let row = |(k, history): (usize, ContactHistory)| ContactRow {
+        time: times[k],
+        pair: PairHistory { id: ids[k], partner: partners[k], history },
     };
     let kept = |r: &ContactRow| r.pair.partner != WALL && !r.pair.history.is_zero();
-    Ok((0..times.len()).map(row).filter(kept).collect())
+    Ok(histories(&columns)?.into_iter().enumerate().map(row).filter(kept).collect())
 }

@@ -48,7 +48,7 @@ skin = 0.001
 [guards]
 overlap = 0.3
 motion = 0.2
-zones = true
+zones = "remove"
 energy = 0.9
 steps = 1e6
 frames = 1000
@@ -217,6 +217,8 @@ const LAWS: &str = r#"
 [time]
 until = 0.002
 safety = 0.3
+[guards]
+zones = true
 [drag]
 law = "stokes"
 viscosity = 1.8e-5

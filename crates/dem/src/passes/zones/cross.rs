@@ -106,7 +106,7 @@ fn take_over(model: &Model, state: &mut State, k: usize, crossing: Crossing) {
     let zone = state.zones.outlets[crossing.outlet as usize];
     let after = state.time() - since;
     if model.setup.ledger {
-        add_crossing(model, state, k, &crossing, after);
+        book_leaving(model, state, k, (&crossing.particle, crossing.clump.as_ref()), after);
     }
     let (starts, turn) = starts(&crossing.particle, crossing.clump.as_ref(), &model.setup);
     let (centre, lead) = (crossing.particle.position, zone.lead(crossing.particle.radius));
@@ -127,10 +127,15 @@ fn take_over(model: &Model, state: &mut State, k: usize, crossing: Crossing) {
     state.zones.crossings.push(crossing);
 }
 
-/// What leaves the ledger with a crossing, `after` [s] before the end of the step.
-fn add_crossing(model: &Model, state: &mut State, k: usize, crossing: &Crossing, after: f64) {
-    let start = &crossing.particle;
-    let carried: f64 = match &crossing.clump {
+/// What leaves the ledger with free particle `k`, which was like this when it left, `after` [s] before the end of the step.
+pub fn book_leaving(
+    model: &Model,
+    state: &mut State,
+    k: usize,
+    (start, clump): (&Particle, Option<&EntryClump>),
+    after: f64,
+) {
+    let carried: f64 = match clump {
         None => carried(start, &model.setup).iter().sum(),
         Some(clump) => state.clumps.energy_of(k, start, clump, &model.setup),
     };

@@ -30,7 +30,7 @@ pub fn history_at(model: &Model, state: &State, segment: &Segment, end: SlotEnd)
 }
 
 /// The columns of a kind of contact, in the kernel's order.
-fn columns(model: &Model, segment: &Segment, history: &ContactHistory) -> Vec<f64> {
+pub fn columns(model: &Model, segment: &Segment, history: &ContactHistory) -> Vec<f64> {
     let mut columns = vec![0.0; model.kinds[segment.kind].kernel.columns()];
     for (listed, recorded) in history_columns(model, segment) {
         columns[listed].copy_from_slice(&history.numbers()[recorded]);

@@ -97,7 +97,7 @@ fn position(model: &Model, state: &mut State, k: usize, mut position: Vec3, flow
 }
 
 /// Out of reach of all others until the next listing drops it.
-fn exclude(model: &Model, state: &mut State, lists: &mut NeighbourLists, k: usize) {
+pub fn exclude(model: &Model, state: &mut State, lists: &NeighbourLists, k: usize) {
     if model.setup.ledger {
         let held = held(state, lists, k) + state.bonds.held(k);
         state.ledger.left += held;

@@ -1,0 +1,28 @@
+//! Contacts that an earlier run has left.
+
+use crate::effects::ContactHistory;
+
+/// History of a contact at the end of a run, from which another one starts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct KeptContact {
+    /// Id of a particle.
+    pub id: u32,
+    /// What it touches.
+    pub partner: KeptPartner,
+    /// As `id` sees it.
+    pub history: ContactHistory,
+}
+
+/// What a particle touches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum KeptPartner {
+    /// The particle of this id.
+    Particle(u32),
+    /// An element of a wall: a sphere, or a face, an edge or a corner of a mesh; 0 of a plane.
+    Wall {
+        /// Index of the wall.
+        wall: u32,
+        /// Index of its element.
+        element: u32,
+    },
+}
