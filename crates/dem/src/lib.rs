@@ -46,6 +46,7 @@ pub use model::{
 };
 pub use observe::record::ContactRecord;
 pub use observe::snapshot::Snapshot;
+pub use observe::stiffen::{DeepImpact, deep_impact};
 pub use passes::clumps::instant::ClumpState;
 pub use passes::servo::WallForce;
 pub use setup::Setup;

@@ -5,4 +5,4 @@
 pub mod guards;
 pub mod record;
 pub mod snapshot;
-mod stiffen;
+pub mod stiffen;

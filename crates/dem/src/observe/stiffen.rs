@@ -5,9 +5,13 @@
 //! K'/K = (½ m* v² + U)/U · (δ/δ')^(p+1)                                     brought to rest at δ', without damping
 //! ```
 
-use crate::effects::{Elastic, OverlapLimit};
-use crate::model::limit::{contact_between, stiffest};
+use crate::effects::{ContactLaw, Elastic, Material, OverlapLimit};
+use crate::model::dense_walls::met;
+use crate::model::limit::{contact_between, grains, stiffest};
 use crate::model::{Model, Stiffer};
+use crate::setup::clumps::SizeClass;
+use crate::setup::{Setup, Wall};
+use std::f64::consts::PI;
 
 /// Share of the guard that the approach is to stay within [–].
 const WITHIN: f64 = 0.8;
@@ -26,26 +30,90 @@ pub struct DeepContact {
     pub approach: f64,
 }
 
+/// A contact as a spring at some overlap.
+struct Spring<'a> {
+    law: &'a ContactLaw,
+    materials: [&'a Material; 2],
+    /// p of the module's head [–].
+    power: f64,
+    /// U [J].
+    stored: f64,
+}
+
+impl<'a> Spring<'a> {
+    /// Between two materials, R* and the smaller radius [m], at an overlap over the smaller radius.
+    fn new(
+        setup: &'a Setup,
+        between: (u16, u16),
+        (radius, smaller): (f64, f64),
+        share: f64,
+    ) -> Option<Spring<'a>> {
+        let law = contact_between(setup, between.0, between.1).ok()?;
+        let materials = [between.0, between.1].map(|m| &setup.materials[m as usize]);
+        let elastic = Elastic::of(materials[0], materials[1]);
+        let stiffness = |share: f64| stiffest(law, elastic, OverlapLimit { radius, smaller, share });
+        let (s, half) = (stiffness(share), stiffness(0.5 * share));
+        let (power, overlap) = (1.0 + libm::log2(s / half), share * smaller);
+        let stored = s * overlap * overlap / (power * (power + 1.0));
+        Some(Spring { law, materials, power, stored })
+    }
+
+    /// What is to be so many times stiffer, for an approach [m/s].
+    fn stiffer(&self, times: f64, speed: f64) -> Option<Stiffer> {
+        let [a, b] = self.materials;
+        let softest = if b.young < a.young { b } else { a };
+        let (key, unit, of, value) = match self.law.number("stiffness") {
+            Some(k) => ("stiffness", "N/m", format!("{}–{}", a.name, b.name), k),
+            None => ("young", "Pa", softest.name.clone(), softest.young),
+        };
+        let value = times * value;
+        value.is_finite().then_some(Stiffer { speed, key, of, value, unit })
+    }
+}
+
 /// The modulus or stiffness that would bear it; `None` where the law says nothing of that.
 pub fn stiffer(model: &Model, deep: &DeepContact) -> Option<Stiffer> {
     let [a, b] = deep.radii;
     let (radius, smaller) = if b == 0.0 { (a, a) } else { (a * b / (a + b), a.min(b)) };
-    let law = contact_between(&model.setup, deep.between.0, deep.between.1).ok()?;
-    let materials = [deep.between.0, deep.between.1].map(|m| &model.setup.materials[m as usize]);
-    let elastic = Elastic::of(materials[0], materials[1]);
     let share = deep.overlap / smaller;
-    let stiffness = |share: f64| stiffest(law, elastic, OverlapLimit { radius, smaller, share });
-    let (s, half) = (stiffness(share), stiffness(0.5 * share));
-    let power = 1.0 + libm::log2(s / half);
-    let stored = s * deep.overlap * deep.overlap / (power * (power + 1.0));
+    let spring = Spring::new(&model.setup, deep.between, (radius, smaller), share)?;
     let speed = deep.approach.max(0.0);
-    let energy = stored + 0.5 * speed * speed / deep.inverse_mass;
-    let times = energy / stored * libm::pow(share / (WITHIN * model.setup.guards.overlap), power + 1.0);
-    let softest = if materials[1].young < materials[0].young { materials[1] } else { materials[0] };
-    let (key, unit, of, value) = match law.number("stiffness") {
-        Some(k) => ("stiffness", "N/m", format!("{}–{}", materials[0].name, materials[1].name), k),
-        None => ("young", "Pa", softest.name.clone(), softest.young),
+    let energy = spring.stored + 0.5 * speed * speed / deep.inverse_mass;
+    let closer = libm::pow(share / (WITHIN * model.setup.guards.overlap), spring.power + 1.0);
+    spring.stiffer(energy / spring.stored * closer, speed)
+}
+
+/// A first impact on a wall that the overlap guard would stop.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DeepImpact {
+    /// Radius of the grain [m].
+    pub radius: f64,
+    /// Overlap over the smaller radius [–].
+    pub share: f64,
+    /// What would bear it.
+    pub stiffer: Stiffer,
+}
+
+/// Share of the energy of an approach that a linear spring with a dashpot of restitution e holds where it is deepest: exp(−2 q atan(1/q)),
+/// q = −ln e/π.
+fn left_at_depth(e: f64) -> f64 {
+    let q = -libm::log(e) / PI;
+    // q atan(1/q) → 1 for a contact that does not rebound.
+    let turn = if q.is_finite() && q > 0.0 { q * libm::atan(1.0 / q) } else { f64::from(u8::from(q > 0.0)) };
+    libm::exp(-2.0 * turn)
+}
+
+/// The deepest first impact on a wall at a speed [m/s], of the sizes and materials that a setup has; `None` where the overlap guard bears them all. Dampers
+/// count as that of a linear law.
+pub fn deep_impact(setup: &Setup, wall: &Wall, speed: f64) -> Option<DeepImpact> {
+    let limit = setup.guards.overlap;
+    let impact = |grain: &SizeClass| {
+        let spring = Spring::new(setup, (grain.material, wall.material), met(wall, grain.radius), limit)?;
+        let left = left_at_depth(spring.law.number("restitution").unwrap_or(1.0));
+        let times = left * 0.5 * speed * speed / grain.inverse_mass / spring.stored;
+        let share = limit * libm::pow(times, 1.0 / (spring.power + 1.0));
+        let stiffer = spring.stiffer(times * libm::pow(WITHIN, -spring.power - 1.0), speed)?;
+        (times > 1.0).then_some(DeepImpact { radius: grain.radius, share, stiffer })
     };
-    let value = times * value;
-    value.is_finite().then_some(Stiffer { speed, key, of, value, unit })
+    grains(setup).iter().filter_map(impact).max_by(|a, b| a.share.total_cmp(&b.share))
 }

@@ -27,7 +27,7 @@ const SOFTER: &str =
     "let grains meet more slowly (a lower drop or speed of insertion), shorten dt, or raise guards.overlap";
 
 /// What a contact must be made of to bear what it met.
-fn of_stiffness(stiffer: Option<&Stiffer>) -> String {
+pub(crate) fn of_stiffness(stiffer: Option<&Stiffer>) -> String {
     let Some(Stiffer { speed, key, of, value, unit }) = stiffer else { return String::new() };
     let met = if *speed > 0.0 { format!(" for an approach at {speed:.3e} m/s") } else { String::new() };
     format!(" ({key} of {of} ≥ {value:.2e} {unit}{met})")

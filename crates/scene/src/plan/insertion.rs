@@ -138,6 +138,11 @@ impl PlanBuilder<'_> {
 }
 
 impl Insertion {
+    /// The middle of where its grains become free, and how fast they are there.
+    pub(super) fn leaves(&self) -> (Vec3, Vec3) {
+        (self.section.zone().plane.point, self.velocity)
+    }
+
     /// Refuses a rate that needs more space than the cross-section has.
     fn check_rate(&self, check: &Check, index: usize) -> Result<()> {
         let Diameter { low, high } = self.inserted.diameter;

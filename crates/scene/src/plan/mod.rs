@@ -11,6 +11,7 @@ mod clump_placement;
 mod clump_shapes;
 mod contacts;
 mod fill;
+mod impact;
 mod implausible;
 mod insertion;
 mod insertions;

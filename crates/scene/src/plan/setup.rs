@@ -1,7 +1,7 @@
 //! The engine's setup of a plan whose particles, walls and zones are known.
 
 use super::builder::PlanBuilder;
-use super::{NO_DENSITY, Plan, accuracy, bonds, contacts};
+use super::{NO_DENSITY, Plan, accuracy, bonds, contacts, impact};
 use crate::error::Result;
 use crate::keys::{Arithmetic, BackThroughZone, DragLaw};
 use dem::setup::{self, CameBack, Guards, Setup, Step};
@@ -53,7 +53,8 @@ impl PlanBuilder<'_> {
             inlets: self.inlets,
             entry_materials: self.entry_materials,
         };
-        let PlanBuilder { insertions, streams: inlets, warnings, inputs, .. } = self;
+        let PlanBuilder { insertions, streams: inlets, mut warnings, inputs, .. } = self;
+        warnings.extend(impact::warning(&setup, &insertions));
         Ok(Plan { setup, step, insertions, inlets, warnings, inputs, sizes })
     }
 
