@@ -108,6 +108,12 @@ fn odd_inflow_is_told() {
         done.stderr
     );
     assert!(!fs::read_to_string(folder.path().join("all.txt")).unwrap().contains("inside the zone"));
+    let done = line(folder.path(), "stage-replay up.mcap --intervals generation -o x.mcap");
+    assert!(
+        done.code == 1 && done.stderr.contains("--intervals generation does not work with recorded paths"),
+        "{}",
+        done.stderr
+    );
 
     let folder = plant();
     let done = line(

@@ -43,9 +43,9 @@ pub struct Args {
     /// Rotate the record by this angle about --axis: positions, velocities, spins, and the plane unless --at is given
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = number)]
     turn_deg: Option<f64>,
-    /// Axis of --turn-deg: a point [m] and a direction
-    #[arg(long, value_name = "PX,PY,PZ,AX,AY,AZ", allow_hyphen_values = true, default_value = "0,0,0,0,0,1")]
-    axis: Plane,
+    /// Axis of --turn-deg: a point [m] and a direction (default: 0,0,0,0,0,1)
+    #[arg(long, value_name = "PX,PY,PZ,AX,AY,AZ", allow_hyphen_values = true, requires = "turn_deg")]
+    axis: Option<Plane>,
     /// Shift the record, after the rotation [m]
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = vector)]
     shift: Option<Vec3>,
@@ -102,6 +102,13 @@ impl Args {
             let why = "the copies would overlap: give --copy-shift X,Y,Z or --copy-delay S";
             return Err(usage(format!("--copies {}: {why}", self.copies)));
         }
+        if let (Some(ahead), Keep::Generation) = (self.ahead, self.intervals) {
+            let why =
+                "changes nothing with --intervals generation, where every grain starts when it was recorded";
+            return Err(usage(format!("--ahead {ahead}: {why}: leave one of them out")));
+        }
+        let upright = Plane { point: Vec3::zeros(), normal: Vec3::z() };
+        let axis = self.axis.unwrap_or(upright);
         let turned = self.turn_deg.is_some() || self.shift.is_some();
         let (angle, shift) = (self.turn_deg.unwrap_or(0.0).to_radians(), self.shift.unwrap_or_default());
         Ok(Replay {
@@ -121,7 +128,7 @@ impl Args {
                 Motion::Recorded => ZoneMotion::Recorded,
             }),
             ahead: self.ahead,
-            frame: turned.then(|| Frame::new(&self.axis, angle, shift)),
+            frame: turned.then(|| Frame::new(&axis, angle, shift)),
             copies: Copies {
                 count: self.copies,
                 shift: self.copy_shift.unwrap_or_default(),

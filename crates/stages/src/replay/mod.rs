@@ -86,6 +86,7 @@ impl Replay {
             (self.at.is_some(), "--at"),
             (self.length.is_some(), "--length"),
             (self.ahead.is_some(), "--ahead"),
+            (self.intervals == Intervals::Generation, "--intervals generation"),
             (self.copies.count > 1, "--copies"),
             (self.repeat > 1, "--repeat"),
             (self.first_id.is_some(), "--first-id"),

@@ -63,6 +63,8 @@ const OF_WALLGEN: &[Case] = &[
 const OF_RUNS_STAGES_AND_VIEWS: &[Case] = &[
     misused("stage-replay up.mcap --from nan", &["--from", "nan", "seconds"]),
     misused("stage-replay up.mcap --from 2 --until 1", &["--until 1 s", "--from 2 s"]),
+    misused("stage-replay up.mcap --axis 0,0,0,0,0,1", &["--turn-deg"]),
+    misused("stage-replay up.mcap --ahead 0.1 --intervals generation", &["--ahead 0.1", "changes nothing"]),
     misused("dem-view good.ply --time nan", &["--time", "seconds"]),
     misused("dem-view - -", &["only one of the inputs"]),
     misused("dem-run - -", &["only one of the inputs", "give files"]),
