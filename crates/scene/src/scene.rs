@@ -2,7 +2,7 @@
 
 use crate::check::Check;
 use crate::error::{Result, SceneError};
-use crate::keys::SceneKeys;
+use crate::keys::{Fill, Insert, SceneKeys};
 use crate::text::{Text, parse};
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
@@ -47,7 +47,10 @@ impl Scene {
         let walls = m.wall.iter().flat_map(|w| w.source.iter().chain(&w.mesh)).map(String::as_str);
         let clumps = m.clump.iter().filter_map(|c| c.mesh.as_deref());
         let inlets = m.inlet.iter().filter_map(|i| i.source.as_deref());
-        particles.chain(walls).chain(clumps).chain(inlets).map(|f| self.folder.join(f)).collect()
+        let sizes = m.fill.iter().map(Fill::grains).chain(m.insert.iter().map(Insert::grains));
+        let sizes: Vec<String> = sizes.filter_map(|(_, file)| file).collect();
+        let all = particles.chain(walls).chain(clumps).chain(inlets).chain(sizes.iter().map(String::as_str));
+        all.map(|f| self.folder.join(f)).collect()
     }
 }
 

@@ -1,6 +1,7 @@
 //! Scenes: what is refused and what is warned of, with place, value, unit and cure, and what `--explain` says.
 
 mod doubtful;
+mod mixtures;
 mod refused;
 mod units;
 

@@ -97,7 +97,7 @@ impl Coming {
     fn new(insertions: &[Insertion], streams: usize, end: f64) -> Coming {
         let expected = insertions.iter().map(|insertion| insertion.expected(end));
         Coming {
-            insertions: insertions.iter().map(|insertion| insertion.key.clone()).collect(),
+            insertions: insertions.iter().flat_map(|insertion| insertion.keys().map(str::to_owned)).collect(),
             particles: expected.fold((0.0, 0.0), |sum, more| (sum.0 + more.all, sum.1 + more.mean)),
             streams: (0..streams).map(|k| format!("inlet.{k}")).collect(),
         }

@@ -10,6 +10,19 @@ pub(super) struct Given<'a> {
     pub diameter: Diameter,
     pub clump: &'a Option<String>,
     pub scale: Option<Diameter>,
+    /// Whether there are `sizes`, and materials in all of them.
+    pub sizes: Option<&'a toml::Value>,
+    pub by: bool,
+}
+
+impl Given<'_> {
+    /// Whether every size names its material.
+    fn has_materials(&self) -> bool {
+        let named = |row: &toml::Value| row.as_array().is_some_and(|cells| cells.len() == 3);
+        self.sizes
+            .and_then(toml::Value::as_array)
+            .is_some_and(|rows| !rows.is_empty() && rows.iter().all(named))
+    }
 }
 
 impl Check<'_> {
@@ -17,21 +30,44 @@ impl Check<'_> {
     pub(super) fn particle(&self, entry: &str, given: &Given) -> Result<()> {
         let key = |k: &str| format!("{entry}.{k}");
         let diameter = given.diameter != Diameter::default();
-        let keys = [("material", !given.material.is_empty()), ("diameter", diameter)];
+        let material = !given.material.is_empty();
         if given.clump.is_some() {
+            let keys = [("material", material), ("diameter", diameter), ("sizes", given.sizes.is_some())];
             if let Some((name, _)) = keys.iter().find(|k| k.1) {
                 let cure = "take it out, or use scale";
                 return Err(self.wrong(&key(name), "(given)", "a clump has its own", cure));
             }
             return given.scale.map_or(Ok(()), |range| self.range(&key("scale"), range, ""));
         }
-        if let Some((name, _)) = keys.iter().find(|k| !k.1) {
-            let (value, why) = (format!("(without {name})"), format!("{name} is missing"));
-            return Err(self.wrong(entry, value, &why, "add it, or the name of a clump"));
+        let kinds = [("diameter", diameter), ("sizes", given.sizes.is_some())];
+        if !(diameter || given.sizes.is_some()) {
+            let (value, why) = ("(without diameter)", "diameter is missing");
+            return Err(self.wrong(entry, value, why, "add it, or sizes, or the name of a clump"));
+        }
+        self.one_of(entry, &kinds)?;
+        if material && given.has_materials() {
+            let cure = "take it out, or the materials out of sizes";
+            return Err(self.wrong(&key("material"), "(given)", "each of sizes names another one", cure));
+        }
+        if !material && !given.has_materials() {
+            let (value, why) = ("(without material)", "material is missing");
+            return Err(self.wrong(entry, value, why, "add it, or the name of a clump"));
+        }
+        if given.by && given.sizes.is_none() {
+            let cure = "take it out, or give sizes";
+            return Err(self.wrong(
+                &key("by"),
+                "(given)",
+                "only shares of sizes are by mass or number",
+                cure,
+            ));
         }
         if given.scale.is_some() {
             let cure = "use diameter, or add clump = \"…\"";
             return Err(self.wrong(&key("scale"), "(given)", "only clumps have a scale", cure));
+        }
+        if !diameter {
+            return Ok(());
         }
         self.range(&key("diameter"), given.diameter, "m")?;
         if given.diameter.high > 100.0 {

@@ -8,13 +8,26 @@ use crate::keys::{Fill, Insert, SceneKeys};
 impl Check<'_> {
     /// `[[fill]]` and `[[insert]]`.
     pub(super) fn particles(&self, m: &SceneKeys) -> Result<()> {
+        for (i, p) in m.particles.iter().enumerate().filter(|(_, p)| p.fixed && p.clump.is_some()) {
+            let why =
+                format!("grains of a clump ({}) cannot be fixed", p.clump.as_deref().unwrap_or_default());
+            let cure = "take it out, or give spheres as wall spheres ([[wall]] source)";
+            return Err(self.wrong(&format!("particles.{i}.fixed"), "true", &why, cure));
+        }
         m.fill.iter().enumerate().try_for_each(|(i, f)| self.fill(&format!("fill.{i}"), f))?;
         m.insert.iter().enumerate().try_for_each(|(i, f)| self.insert(&format!("insert.{i}"), f))
     }
 
     fn fill(&self, entry: &str, f: &Fill) -> Result<()> {
         let key = |k: &str| format!("{entry}.{k}");
-        let given = Given { material: &f.material, diameter: f.diameter, clump: &f.clump, scale: f.scale };
+        let given = Given {
+            material: &f.material,
+            diameter: f.diameter,
+            clump: &f.clump,
+            scale: f.scale,
+            sizes: f.sizes.as_ref(),
+            by: f.by.is_some(),
+        };
         self.particle(entry, &given)?;
         self.amount(entry, f.mass, f.count)?;
         self.one_of(entry, &[("mass", f.mass.is_some()), ("count", f.count.is_some())])?;
@@ -35,7 +48,14 @@ impl Check<'_> {
 
     fn insert(&self, entry: &str, f: &Insert) -> Result<()> {
         let key = |k: &str| format!("{entry}.{k}");
-        let given = Given { material: &f.material, diameter: f.diameter, clump: &f.clump, scale: f.scale };
+        let given = Given {
+            material: &f.material,
+            diameter: f.diameter,
+            clump: &f.clump,
+            scale: f.scale,
+            sizes: f.sizes.as_ref(),
+            by: f.by.is_some(),
+        };
         self.particle(entry, &given)?;
         self.positive(&key("rate"), f.rate, "kg/s")?;
         self.positive(&key("rate_count"), f.rate_count, "1/s")?;

@@ -20,6 +20,7 @@ use geom::mesh::TriMesh;
 use head::StreamHead;
 use record::{metadata, topic};
 use std::path::Path;
+use stream::Table;
 use stream::mcap::{Event, McapError, Reader};
 
 /// A stream, as far as it had to be read to know what it is.
@@ -28,6 +29,17 @@ pub enum Input {
     Walls(WallFile),
     /// Recorded particles; read as the run needs them.
     Inlet(Box<InletSource>),
+}
+
+/// A table of text with a line of names, and the name that messages use.
+///
+/// # Errors
+/// A file that cannot be read, or is none.
+pub fn table_of(path: &Path) -> Result<(String, Table)> {
+    let name = path.display().to_string();
+    let bytes = stream::whole::file(path).map_err(|e| SceneError::read(path, e))?;
+    let table = csv::csv(&name, &bytes)?;
+    Ok((name, table))
 }
 
 const GIVE: &str = "give walls (wallgen) or an inlet (stage-replay)";

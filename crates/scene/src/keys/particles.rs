@@ -13,6 +13,17 @@ pub struct Diameter {
     pub high: f64,
 }
 
+/// What shares of sizes are of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ShareOf {
+    /// Of mass, as sieves tell.
+    #[default]
+    Mass,
+    /// Of number.
+    Number,
+}
+
 /// `[[clump]]`: `spheres`, or `mesh` with `vertex_radius`.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -97,6 +108,11 @@ pub struct Fill {
     /// Diameters, uniform in the range [m], unless there is a `clump`.
     #[serde(default, deserialize_with = "unit::metres")]
     pub diameter: Diameter,
+    /// Sizes with shares instead of `diameter`: see [`crate::plan`].
+    pub sizes: Option<toml::Value>,
+    /// What the shares of `sizes` are of.
+    #[serde(default)]
+    pub by: Option<ShareOf>,
     /// Mass [kg]; this or `count`.
     #[serde(default, deserialize_with = "unit::kilograms")]
     pub mass: Option<f64>,
@@ -127,6 +143,9 @@ pub struct Particles {
     pub material: Option<String>,
     /// Name of a `[[clump]]`: a clump for each row.
     pub clump: Option<String>,
+    /// Whether they stay where they are: spheres of a wall.
+    #[serde(default)]
+    pub fixed: bool,
 }
 
 /// `[[insert]]`
@@ -147,6 +166,11 @@ pub struct Insert {
     /// Diameters, uniform in the range [m].
     #[serde(default, deserialize_with = "unit::metres")]
     pub diameter: Diameter,
+    /// Sizes with shares instead of `diameter`: see [`crate::plan`].
+    pub sizes: Option<toml::Value>,
+    /// What the shares of `sizes` are of.
+    #[serde(default)]
+    pub by: Option<ShareOf>,
     /// Velocity [m/s]; particles keep it until they leave the shape.
     #[serde(deserialize_with = "unit::metres_a_second")]
     pub velocity: [f64; 3],
@@ -212,4 +236,26 @@ pub struct Inlet {
     pub plant: Option<String>,
     /// Inlet MCAP; absent: given on the command line.
     pub source: Option<String>,
+}
+
+impl Fill {
+    /// Names of the materials of its spheres, and the file of its sizes.
+    pub fn grains(&self) -> (Vec<String>, Option<String>) {
+        grains(&self.material, &self.sizes)
+    }
+}
+
+impl Insert {
+    /// Names of the materials of its spheres, and the file of its sizes.
+    pub fn grains(&self) -> (Vec<String>, Option<String>) {
+        grains(&self.material, &self.sizes)
+    }
+}
+
+fn grains(material: &str, sizes: &Option<toml::Value>) -> (Vec<String>, Option<String>) {
+    let rows = sizes.as_ref().and_then(toml::Value::as_array).into_iter().flatten();
+    let named = rows.filter_map(|row| Some(row.as_array()?.get(2)?.as_str()?.to_owned()));
+    let own = (!material.is_empty()).then(|| material.to_owned());
+    let file = sizes.as_ref().and_then(|value| value.as_str().or_else(|| value.get("file")?.as_str()));
+    (own.into_iter().chain(named).collect(), file.map(str::to_owned))
 }

@@ -4,14 +4,16 @@
 //! ([`super::lattice`]). Diameters and positions come from random numbers of this fill alone, so that a fill depends on the ones before
 //! it only by the space they left.
 
-use super::builder::{GrainMaterial, PlanBuilder};
+use super::builder::PlanBuilder;
+use super::grading::{Grading, Grain};
 use super::lattice;
 use super::packing::{Packing, bounds};
 use super::random::{diameter, generator};
+use super::sizes::GrainKeys;
 use crate::error::Result;
 use crate::keys::{Diameter, Fill};
 use dem::setup::Particle;
-use geom::{Shape, Vec3, sphere::volume};
+use geom::{Shape, Vec3};
 use rand_pcg::Pcg64Mcg;
 
 /// More than this is a mistake, or needs another program.
@@ -27,34 +29,35 @@ impl PlanBuilder<'_> {
     /// A shape without end, or without room for all; the message says how many fit.
     pub(super) fn fill_with_spheres(&mut self, index: usize, entry: &Fill, shape: &Shape) -> Result<()> {
         let key = |k: &str| format!("fill.{index}.{k}");
-        let GrainMaterial { index: material, density } = self.grain(&key("material"), &entry.material)?;
+        let grading = self.grading(&entry.sized(index))?;
         let Some(corners) = bounds(shape) else {
             let why = "cannot be filled: only box, sphere and cylinder (without '!') can";
             let cure = "use one of these, or [[particles]] from a file";
             return Err(self.check.wrong(&key("shape"), &entry.shape, why, cure));
         };
+        let largest = grading.range().high / 2.0;
         let mut random = generator(entry.seed, 1, index as u64);
-        let mut radii = self.radii(index, entry, density, &mut random)?;
+        let mut grains = self.grains_of(index, entry, grading, &mut random)?;
         let (first_id, taken) = (self.next_id(), self.spheres());
-        let places = if radii.len() > MANY {
-            lattice::places(shape, corners, &radii, &taken, &mut random)
+        let places = if grains.len() > MANY {
+            lattice::places(shape, corners, &radii(&grains), &taken, &mut random)
         } else {
-            radii.sort_by(|a, b| b.total_cmp(a));
-            Packing::new(shape, corners, entry.diameter.high / 2.0, &taken).place_all(&radii, &mut random)
+            grains.sort_by(|a, b| b.diameter.total_cmp(&a.diameter));
+            Packing::new(shape, corners, largest, &taken).place_all(&radii(&grains), &mut random)
         };
         drop(taken);
         let places = places.map_err(|n| {
-            let mass = |radii: &[f64]| radii.iter().map(|r| volume(*r)).sum::<f64>() * density;
-            let (fits, of, count) = (mass(&radii[..n]), mass(&radii), radii.len());
+            let mass = |grains: &[Grain]| grains.iter().map(|g| g.mass).sum::<f64>();
+            let (fits, of, count) = (mass(&grains[..n]), mass(&grains), grains.len());
             let why = format!("only {n} of {count} particles ({fits:.4} of {of:.4} kg) fit without touching");
             self.check.wrong(&key("shape"), &entry.shape, &why, LARGER)
         })?;
         let (velocity, spin) = (Vec3::from(entry.velocity), Vec3::zeros());
-        let spheres = (0u32..).zip(radii).zip(places);
-        self.particles.extend(spheres.map(|((n, radius), position)| Particle {
+        let spheres = (0u32..).zip(grains).zip(places);
+        self.particles.extend(spheres.map(|((n, grain), position)| Particle {
             id: first_id.wrapping_add(n),
-            material,
-            radius,
+            material: grain.material,
+            radius: grain.diameter / 2.0,
             position,
             velocity,
             spin,
@@ -62,21 +65,61 @@ impl PlanBuilder<'_> {
         Ok(())
     }
 
-    /// The radii, in random order.
-    fn radii(&self, index: usize, entry: &Fill, density: f64, random: &mut Pcg64Mcg) -> Result<Vec<f64>> {
+    /// The grains, in random order.
+    fn grains_of(
+        &self,
+        index: usize,
+        entry: &Fill,
+        mut grading: Grading,
+        random: &mut Pcg64Mcg,
+    ) -> Result<Vec<Grain>> {
         let key = |k: &str| format!("fill.{index}.{k}");
-        let smallest = volume(entry.diameter.low / 2.0) * density;
-        let most = entry.count.unwrap_or_else(|| (entry.mass.unwrap_or(0.0) / smallest) as u64);
+        let most = entry.count.unwrap_or_else(|| (entry.mass.unwrap_or(0.0) / grading.mean().0) as u64);
         if most > MOST {
             let (why, cure) = ("makes more than fifty million particles", "ask for fewer or larger ones");
             return Err(self.check.wrong(&key(entry.amount()), format!("{most} particles"), why, cure));
         }
-        let diameters = sizes(entry, entry.diameter, u64::MAX, |d| volume(d / 2.0) * density, random);
-        if let (true, Some(mass)) = (diameters.is_empty(), entry.mass) {
+        let (mut grains, mut mass) = (Vec::new(), 0.0);
+        loop {
+            let grain = grading.next(random);
+            if entry.is_enough(grains.len() as u64, mass + grain.mass / 2.0) {
+                break;
+            }
+            grading.make(&grain);
+            mass += grain.mass;
+            grains.push(grain);
+        }
+        if let (true, Some(mass)) = (grains.is_empty(), entry.mass) {
             let (value, cure) = (format!("{mass} kg"), "give more mass, or count");
             return Err(self.check.wrong(&key("mass"), value, "is less than half a particle", cure));
         }
-        Ok(diameters.into_iter().map(|d| d / 2.0).collect())
+        Ok(grains)
+    }
+}
+
+fn radii(grains: &[Grain]) -> Vec<f64> {
+    grains.iter().map(|g| g.diameter / 2.0).collect()
+}
+
+impl Fill {
+    /// What it says about its grains.
+    pub(super) fn sized(&self, index: usize) -> GrainKeys<'_> {
+        let Fill { material, diameter, sizes, by, .. } = self;
+        GrainKeys {
+            entry: format!("fill.{index}"),
+            material,
+            diameter: *diameter,
+            sizes,
+            by: by.unwrap_or_default(),
+        }
+    }
+
+    /// Whether so many are enough, or so much mass with half of the next.
+    fn is_enough(&self, count: u64, mass: f64) -> bool {
+        match self.count {
+            Some(wanted) => count >= wanted,
+            None => mass > self.mass.unwrap_or(0.0),
+        }
     }
 }
 
@@ -96,11 +139,7 @@ pub(super) fn sizes(
     while sizes.len() as u64 <= most {
         let size = diameter(range, random);
         let more = mass_of(size);
-        let enough = match (entry.count, entry.mass) {
-            (Some(count), _) => sizes.len() as u64 >= count,
-            (None, wanted) => mass + more / 2.0 > wanted.unwrap_or(0.0),
-        };
-        if enough {
+        if entry.is_enough(sizes.len() as u64, mass + more / 2.0) {
             break;
         }
         mass += more;
@@ -113,6 +152,7 @@ pub(super) fn sizes(
 mod tests {
     use super::*;
     use crate::Scene;
+    use geom::sphere::volume;
     use std::path::Path;
 
     fn filled(shape: &str, mass: f64, seed: u64) -> Result<Vec<Particle>> {

@@ -58,8 +58,8 @@ pub(super) fn warning(setup: &Setup, insertions: &[Insertion]) -> Option<String>
 fn starts(setup: &Setup, insertions: &[Insertion], down: &Vec3) -> Vec<Start> {
     let grain = |p: &Particle| Start { position: p.position, velocity: p.velocity };
     let clump = |b: &Body| Start { position: b.position, velocity: b.velocity };
-    let coming = insertions.iter().map(|i| {
-        let (position, velocity) = i.leaves();
+    let coming = insertions.iter().flat_map(|i| &i.feeds).map(|feed| {
+        let (position, velocity) = feed.leaves();
         Start { position, velocity }
     });
     let (particles, placed) = (&setup.particles, &setup.clumps.placed);

@@ -4,71 +4,24 @@
 //! are free behind it. Seen from the moving particles, successive positions are random and no two
 //! touch, because two particles that come Δt apart are v Δt apart along the velocity v.
 
-use super::builder::PlanBuilder;
-use super::random::{diameter, generator, orientation};
-use super::section::Section;
-use super::total::Total;
-use crate::check::Check;
+use super::feed::Feed;
 use crate::error::{Result, SceneError};
-use crate::keys::{Diameter, Insert};
-use dem::setup::{Entry, EntryClump, Particle};
-use geom::{Plane, Shape, Shown, Vec3, sphere::volume};
+use dem::setup::Entry;
+use geom::{Shown, Vec3};
 use rand_pcg::Pcg64Mcg;
 use std::collections::VecDeque;
 
-/// Random positions saturate at a solid fraction of 0.38 in space; near it, tries become many.
-const DENSEST: f64 = 0.3;
+/// Tries for a place: random positions saturate at a solid fraction of 0.38 in space.
 const TRIES: usize = 20_000;
 const CURE: &str = "use a lower rate, a wider shape or a higher velocity";
 
-/// An insertion that gives its particles one after the other, in the order of their times.
+/// Entries of `[[insert]]` that come through one place at one velocity, and give their particles one after the other, in the order of their
+/// times: none touches another, of whichever entry.
 #[derive(Debug, Clone)]
 pub struct Insertion {
-    /// Its name in messages.
-    pub key: String,
-    /// What it comes through.
-    pub(super) section: Section,
-    velocity: Vec3,
-    inserted: Inserted,
-    rate: Rate,
-    until: f64,
-    total: Total,
-    time: f64,
-    count: u32,
-    first_id: u32,
-    inlet: u32,
-    random: Pcg64Mcg,
+    pub(super) feeds: Vec<Feed>,
+    /// Those that the next may touch, as they are seen by one that moves with them.
     recent: VecDeque<(Vec3, f64)>,
-}
-
-#[derive(Debug, Clone, Copy)]
-enum Rate {
-    Mass(f64),
-    Count(f64),
-}
-
-/// What an insertion inserts: spheres, or clumps as the spheres that hold them.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Inserted {
-    /// Diameters of the spheres [m].
-    pub diameter: Diameter,
-    /// Index of the material.
-    pub material: u16,
-    /// Mass over the volume of the sphere [kg/m³].
-    pub density: f64,
-    /// Of clumps: their shape.
-    pub clump: Option<InsertedClump>,
-    /// Ids that each takes.
-    pub ids: u32,
-}
-
-/// The shape of inserted clumps.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct InsertedClump {
-    /// Index of the shape.
-    pub shape: u32,
-    /// Diameter of the sphere that holds it at scale 1 [m].
-    pub size: f64,
 }
 
 /// Particles that are expected to come in.
@@ -80,138 +33,35 @@ pub struct Expected {
     pub mean: f64,
 }
 
-impl PlanBuilder<'_> {
-    /// The insertion of an entry, whose zone is the next of the plan.
-    ///
-    /// # Errors
-    /// A shape that is too thin, has no end, or is too narrow for the rate.
-    pub(super) fn insertion(
-        &self,
-        index: usize,
-        entry: &Insert,
-        shape: Shape,
-        inserted: Inserted,
-        first_id: u32,
-    ) -> Result<Insertion> {
-        let (check, velocity) = (&self.check, Vec3::from(entry.velocity));
-        let key = |k: &str| format!("insert.{index}.{k}");
-        let speed = velocity.norm();
-        if speed == 0.0 {
-            let cure = "give the velocity that particles leave the shape with";
-            return Err(check.wrong(&key("velocity"), "0 m/s", "nothing would come out", cure));
-        }
-        let Some(section) = Section::new(shape, velocity / speed) else {
-            let why = "has no end: only box, sphere and cylinder (without '!') can insert particles";
-            return Err(check.wrong(&key("shape"), &entry.shape, why, "use one of these"));
-        };
-        let (thickness, largest) = (section.size(0), inserted.diameter.high);
-        if thickness <= largest {
-            let (thickness, diameter) = (Shown(thickness), Shown(largest));
-            let why = format!(
-                "is {thickness} m thick along the velocity, and the largest diameter is {diameter} m"
-            );
-            let cure = format!("make it at least {} m thick", Shown(1.2 * largest));
-            return Err(check.wrong(&key("shape"), &entry.shape, &why, &cure));
-        }
-        let insertion = Insertion {
-            key: format!("insert.{index}"),
-            section,
-            velocity,
-            inserted,
-            rate: entry.rate.map_or(Rate::Count(entry.rate_count.unwrap_or(0.0)), Rate::Mass),
-            until: entry.until.unwrap_or(f64::INFINITY),
-            total: Total::new(entry),
-            time: entry.from,
-            count: 0,
-            first_id,
-            inlet: self.inlets.len() as u32,
-            random: generator(entry.seed, 2, index as u64),
-            recent: VecDeque::new(),
-        };
-        if let (Some(mass), None) = (entry.mass, insertion.next_time()) {
-            let (value, cure) = (format!("{mass} kg"), "give more mass, or count");
-            return Err(check.wrong(&key("mass"), value, "is less than half a particle", cure));
-        }
-        insertion.check_rate(check, index)?;
-        Ok(insertion)
-    }
-}
-
 impl Insertion {
-    /// The middle of where its grains become free, and how fast they are there.
-    pub(super) fn leaves(&self) -> (Vec3, Vec3) {
-        (self.section.zone().plane.point, self.velocity)
+    /// One entry alone.
+    pub(super) fn new(feed: Feed) -> Insertion {
+        Insertion { feeds: vec![feed], recent: VecDeque::new() }
     }
 
-    /// Refuses a rate that needs more space than the cross-section has.
-    fn check_rate(&self, check: &Check, index: usize) -> Result<()> {
-        let Diameter { low, high } = self.inserted.diameter;
-        let radius = high / 2.0;
-        let mut random = generator(0, 3, index as u64);
-        let inside = (0..10_000).filter(|_| self.section.candidate(radius, &mut random).is_some()).count()
-            as f64
-            / 1e4;
-        // The section that spheres fill is wider than that of their centres by their radius.
-        let area = inside * self.section.size(1) * self.section.size(2);
-        let mean = volume(low / 2.0) + volume(radius);
-        let (flow, key, written) = match self.rate {
-            Rate::Mass(rate) => (rate / self.inserted.density, "rate", format!("{rate} kg/s")),
-            Rate::Count(rate) => (rate * mean / 2.0, "rate_count", format!("{rate} 1/s")),
-        };
-        let speed = self.velocity.norm();
-        let fraction = flow / (area * speed);
-        if fraction <= DENSEST {
-            return Ok(());
-        }
-        let why = match inside == 0.0 {
-            true => "no particle fits into the cross-section of the shape".to_owned(),
-            false => format!(
-                "would fill {:.0} % of the cross-section ({area:.3e} m² at {} m/s)",
-                100.0 * fraction,
-                Shown(speed)
-            ),
-        };
-        let most = 100.0 * DENSEST;
-        let cure = format!("at most {most:.0} % can be: a lower rate, a wider shape or a higher velocity");
-        Err(check.wrong(&format!("{}.{key}", self.key), written, &why, &cure))
-    }
-
-    /// Lowest distance [m] of the centres that become free, from a plane.
-    pub(super) fn lowest_over(&self, plane: &Plane) -> f64 {
-        let mut random = generator(0, 4, 0);
-        let end = self.section.frame[0] * self.section.ranges[0].1;
-        let radius = self.inserted.diameter.low / 2.0;
-        let places = (0..2_000).filter_map(|_| self.section.candidate(radius, &mut random));
-        places.map(|across| plane.signed_distance(&(across + end))).fold(f64::INFINITY, f64::min)
+    /// Names of its entries in messages.
+    pub fn keys(&self) -> impl Iterator<Item = &str> {
+        self.feeds.iter().map(|feed| feed.key.as_str())
     }
 
     /// Time of the next particle [s]; `None` when the insertion has ended.
     pub fn next_time(&self) -> Option<f64> {
-        let next = || self.mass_of(diameter(self.inserted.diameter, &mut self.random.clone()) / 2.0);
-        (self.time < self.until && self.total.has_room(next)).then_some(self.time)
+        self.first().map(|(time, _)| time)
     }
 
-    /// Mass of a particle of a radius [kg].
-    fn mass_of(&self, radius: f64) -> f64 {
-        volume(radius) * self.inserted.density
+    /// The time of the next particle [s] and the feed that gives it.
+    fn first(&self) -> Option<(f64, usize)> {
+        let times = self.feeds.iter().zip(0..).filter_map(|(feed, k)| Some((feed.next_time()?, k)));
+        times.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
     }
 
     /// Particles that come until a time [s] since t = 0; members of clumps count one by one.
     pub fn expected(&self, end: f64) -> Expected {
-        let Diameter { low, high } = self.inserted.diameter;
-        // The mean of d³ of diameters that are uniform between both.
-        let mean = volume(0.5) * 0.25 * (low + high) * (low * low + high * high);
-        let mass = mean * self.inserted.density;
-        let each = match self.rate {
-            Rate::Mass(rate) => rate / mass,
-            Rate::Count(rate) => rate,
-        };
-        let open = (self.until.min(end) - self.time).max(0.0).min(self.total.expected(mass) / each);
-        let rate = each * f64::from(self.inserted.ids);
-        // The number grows while the insertion is open and stays afterwards.
-        let after = end - self.time - open;
-        let mean = if open > 0.0 { rate * open * (0.5 * open + after) / end } else { 0.0 };
-        Expected { all: rate * open, mean }
+        let each = self.feeds.iter().map(|feed| feed.expected(end));
+        each.fold(Expected { all: 0.0, mean: 0.0 }, |sum, more| Expected {
+            all: sum.all + more.all,
+            mean: sum.mean + more.mean,
+        })
     }
 
     /// The next particle.
@@ -219,47 +69,35 @@ impl Insertion {
     /// # Errors
     /// No space is found.
     pub fn next_entry(&mut self) -> Result<Option<Entry>> {
-        let Some(time) = self.next_time() else { return Ok(None) };
-        let mut random = self.random.clone();
-        let radius = diameter(self.inserted.diameter, &mut random) / 2.0;
-        let found = self.place(radius, time, &mut random);
-        self.random = random;
+        let Some((time, at)) = self.first() else { return Ok(None) };
+        let feed = &self.feeds[at];
+        let mut random = feed.random.clone();
+        let grain = feed.inserted.grading.next(&mut random);
+        let found = self.place(at, grain.diameter / 2.0, time, &mut random);
+        let feed = &mut self.feeds[at];
+        feed.random = random;
         let Some(across) = found else {
-            let (size, time) = (Shown(2.0 * radius), Shown(time));
+            let (size, time) = (Shown(grain.diameter), Shown(time));
             let why = format!("no room for a particle of diameter {size} m at {time} s");
-            return Err(SceneError::file(&self.key, why, CURE));
+            return Err(SceneError::file(&feed.key, why, CURE));
         };
-        let mass = self.mass_of(radius);
-        self.total.add(mass);
-        self.time += match self.rate {
-            Rate::Mass(rate) => mass / rate,
-            Rate::Count(rate) => 1.0 / rate,
-        };
-        let id = self.first_id.wrapping_add(self.count);
-        self.count += self.inserted.ids;
-        let clump = self.inserted.clump.map(|c| EntryClump {
-            shape: c.shape,
-            scale: 2.0 * radius / c.size,
-            orientation: orientation(&mut self.random),
-        });
-        let position = across + self.section.frame[0] * self.section.ranges[0].0;
-        let (velocity, spin) = (self.velocity, Vec3::zeros());
-        let particle = Particle { id, material: self.inserted.material, radius, position, velocity, spin };
-        Ok(Some(Entry { time, inlet: self.inlet, particle, clump, turn: None }))
+        Ok(Some(feed.entry(time, across, &grain)))
     }
 
-    /// A position across the flow where a sphere touches none of those before it.
-    fn place(&mut self, radius: f64, time: f64, random: &mut Pcg64Mcg) -> Option<Vec3> {
-        let axis = self.section.frame[0];
-        let behind = axis * (-self.velocity.norm() * time);
-        let reach = self.velocity.norm() * time;
-        // Those further ahead than the largest diameter touch nothing that comes from now on.
-        let high = self.inserted.diameter.high;
-        while self.recent.front().is_some_and(|(p, _)| p.dot(&axis) + reach > high) {
+    /// A position across the flow where a sphere of a feed touches none of those before it.
+    fn place(&mut self, feed: usize, radius: f64, time: f64, random: &mut Pcg64Mcg) -> Option<Vec3> {
+        let Feed { section, velocity, .. } = &self.feeds[feed];
+        let axis = section.frame[0];
+        let reach = velocity.norm() * time;
+        let behind = axis * (section.ranges[0].0 - reach);
+        // Those further ahead of every start than the largest diameter touch nothing that comes from now on.
+        let start = |f: &Feed| f.section.ranges[0].0 + f.inserted.grading.range().high;
+        let far = self.feeds.iter().map(start).fold(f64::NEG_INFINITY, f64::max);
+        while self.recent.front().is_some_and(|(p, _)| p.dot(&axis) + reach > far) {
             self.recent.pop_front();
         }
         let across = (0..TRIES).find_map(|_| {
-            let across = self.section.candidate(radius, random)?;
+            let across = section.candidate(radius, random)?;
             let moving = across + behind;
             let free = |(p, r): &(Vec3, f64)| (p - moving).norm_squared() >= (r + radius) * (r + radius);
             self.recent.iter().all(free).then_some(across)
@@ -271,8 +109,10 @@ impl Insertion {
 
 #[cfg(test)]
 mod tests {
+    use super::super::builder::PlanBuilder;
     use super::*;
     use crate::Scene;
+    use geom::sphere::volume;
     use std::path::Path;
 
     fn insertion(rate: f64) -> Result<Insertion> {
@@ -289,7 +129,7 @@ mod tests {
         let mut builder = PlanBuilder::new(&scene);
         builder.insertions()?;
         let insertion = builder.insertions.remove(0);
-        let zone = insertion.section.zone();
+        let zone = insertion.feeds[0].section.zone();
         assert!((zone.length - 0.03).abs() < 1e-12 && (zone.plane.point.z - 1.0).abs() < 1e-12);
         Ok(insertion)
     }

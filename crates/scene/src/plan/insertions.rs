@@ -1,7 +1,10 @@
 //! `[[insert]]`: zones with a prescribed velocity, and what they insert.
 
-use super::builder::{GrainMaterial, PlanBuilder};
-use super::insertion::{Inserted, InsertedClump, Insertion};
+use super::builder::PlanBuilder;
+use super::feed::{Feed, Inserted, InsertedClump};
+use super::grading::Grading;
+use super::insertion::Insertion;
+use super::sizes::GrainKeys;
 use crate::error::Result;
 use crate::keys::{Diameter, Insert};
 use dem::setup::{ClumpScales, WallShape};
@@ -17,24 +20,42 @@ impl PlanBuilder<'_> {
         for (i, entry) in self.keys().insert.iter().enumerate() {
             let shape = self.shape(&format!("insert.{i}.shape"), &entry.shape)?;
             let inserted = self.inserted(i, entry)?;
-            let insertion = self.insertion(i, entry, shape, inserted, first_id)?;
-            self.in_front_of_walls(&insertion, &format!("insert.{i}.shape"), &entry.shape)?;
+            let feed = self.feed(i, entry, shape, inserted, first_id)?;
+            self.in_front_of_walls(&feed, &format!("insert.{i}.shape"), &entry.shape)?;
             first_id = first_id.saturating_add(IDS);
-            self.inlets.push(insertion.section.zone());
-            self.insertions.push(insertion);
+            self.inlets.push(feed.section.zone());
+            self.join(i, feed)?;
         }
+        Ok(())
+    }
+
+    /// Puts a feed with those that come through the same place: none of their particles are to touch.
+    fn join(&mut self, i: usize, feed: Feed) -> Result<()> {
+        let meeting = |group: &&mut Insertion| group.feeds.iter().any(|other| other.meets(&feed));
+        let Some(group) = self.insertions.iter_mut().find(meeting) else {
+            self.insertions.push(Insertion::new(feed));
+            return Ok(());
+        };
+        if let Some(other) = group.feeds.iter().find(|other| !other.moves_with(&feed)) {
+            let why =
+                format!("is another one than that of {}, which comes through the same place", other.key);
+            let (key, cure) =
+                (format!("insert.{i}.velocity"), "give both the same velocity, or move one of their shapes");
+            let [x, y, z] = self.scene.keys.insert[i].velocity.map(Shown);
+            return Err(self.check.wrong(&key, format!("[{x}, {y}, {z}] m/s"), &why, cure));
+        }
+        group.feeds.push(feed);
         Ok(())
     }
 
     /// What an entry inserts; its sizes and materials are noted for the setup.
     fn inserted(&mut self, i: usize, entry: &Insert) -> Result<Inserted> {
         let Some(name) = &entry.clump else {
-            let material = self.grain(&format!("insert.{i}.material"), &entry.material)?;
-            let Diameter { low, high } = entry.diameter;
+            let grading = self.grading(&entry.sized(i))?;
+            let Diameter { low, high } = grading.range();
             self.will_enter(Sizes { smallest: low / 2.0, largest: high / 2.0 }, true);
-            self.entry_materials.push(material.index);
-            let GrainMaterial { index: material, density } = material;
-            return Ok(Inserted { diameter: entry.diameter, material, density, clump: None, ids: 1 });
+            self.entry_materials.extend(grading.materials());
+            return Ok(Inserted { grading, clump: None, ids: 1 });
         };
         let index = self.clump(&format!("insert.{i}.clump"), name)?;
         let shape = &self.clumps.shapes[index as usize];
@@ -42,10 +63,9 @@ impl PlanBuilder<'_> {
         let (least, most) = shape.radii();
         let (reach, density) = (shape.reach(), self.materials[shape.material as usize].density);
         let size = 2.0 * reach;
+        let range = Diameter { low: scale.low * size, high: scale.high * size };
         let inserted = Inserted {
-            diameter: Diameter { low: scale.low * size, high: scale.high * size },
-            material: shape.material,
-            density: shape.mass(1.0, density) / volume(reach),
+            grading: Grading::uniform(range, shape.material, shape.mass(1.0, density) / volume(reach)),
             clump: Some(InsertedClump { shape: index, size }),
             ids: shape.spheres.len() as u32,
         };
@@ -55,10 +75,10 @@ impl PlanBuilder<'_> {
     }
 
     /// Refuses an insertion whose particles would become free behind a plane at rest.
-    fn in_front_of_walls(&self, insertion: &Insertion, key: &str, shape: &str) -> Result<()> {
+    fn in_front_of_walls(&self, feed: &Feed, key: &str, shape: &str) -> Result<()> {
         for wall in self.walls.iter().filter(|w| !w.moves()) {
             let WallShape::Plane(plane) = &wall.shape else { continue };
-            let lowest = insertion.lowest_over(plane);
+            let lowest = feed.lowest_over(plane);
             if lowest <= 0.0 {
                 let (behind, name) = (Shown(-lowest), &wall.name);
                 let why =
@@ -68,5 +88,19 @@ impl PlanBuilder<'_> {
             }
         }
         Ok(())
+    }
+}
+
+impl Insert {
+    /// What it says about its grains.
+    pub(super) fn sized(&self, index: usize) -> GrainKeys<'_> {
+        let Insert { material, diameter, sizes, by, .. } = self;
+        GrainKeys {
+            entry: format!("insert.{index}"),
+            material,
+            diameter: *diameter,
+            sizes,
+            by: by.unwrap_or_default(),
+        }
     }
 }

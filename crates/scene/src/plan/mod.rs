@@ -10,7 +10,9 @@ mod builder;
 mod clump_placement;
 mod clump_shapes;
 mod contacts;
+mod feed;
 mod fill;
+mod grading;
 mod impact;
 mod implausible;
 mod insertion;
@@ -22,6 +24,7 @@ mod random;
 mod same_zone;
 mod section;
 mod setup;
+mod sizes;
 mod total;
 mod wall_contacts;
 mod walls;
@@ -88,6 +91,19 @@ impl Scene {
         builder.insertions()?;
         builder.outlets()?;
         builder.finish()
+    }
+
+    /// Largest diameter of each `[[fill]]` and `[[insert]]` without clumps [m].
+    ///
+    /// # Errors
+    /// Sizes that are wrong.
+    pub fn largest_diameters(&self) -> Result<Vec<f64>> {
+        let builder = PlanBuilder::new(self);
+        let fills =
+            self.keys.fill.iter().enumerate().filter(|(_, f)| f.clump.is_none()).map(|(i, f)| f.sized(i));
+        let insertions =
+            self.keys.insert.iter().enumerate().filter(|(_, f)| f.clump.is_none()).map(|(i, f)| f.sized(i));
+        fills.chain(insertions).map(|sized| sized.largest(&builder)).collect()
     }
 
     /// Radius of the sphere that holds each clump at scale 1 [m], in the order of the scene.

@@ -4,7 +4,7 @@ use super::builder::PlanBuilder;
 use crate::error::Result;
 use crate::input::ParticleFile;
 use crate::keys::Particles;
-use dem::setup::{KeptContact, KeptPartner};
+use dem::setup::{KeptContact, KeptPartner, Particle, Wall, WallShape};
 use geom::Vec3;
 
 impl PlanBuilder<'_> {
@@ -30,15 +30,8 @@ impl PlanBuilder<'_> {
         let file = ParticleFile::read(&self.path(&entry.source))?;
         self.inputs.push(("particles".to_owned(), file.hash.clone()));
         self.warnings.extend(file.warning.clone());
-        // Only runs name their materials.
-        if file.materials.is_empty() {
-            self.read.placed += file.particles.len();
-        } else {
-            let first = self.particles.len();
-            self.read.settled.push(first..first + file.particles.len());
-        }
-        if file.particles.iter().any(|p| p.spin != Vec3::zeros()) {
-            self.read.spinning.push(entry.source.clone());
+        if !entry.fixed {
+            self.note(entry, &file);
         }
         let key = format!("particles.{index}.material");
         let mut materials = Vec::new();
@@ -54,6 +47,18 @@ impl PlanBuilder<'_> {
                 }
             }
         }
+        if entry.fixed {
+            let of = |p: &Particle| materials[if entry.material.is_some() { 0 } else { p.material as usize }];
+            let spheres = file.particles.iter().map(|p| (of(p), (p.position, p.radius)));
+            self.fixed(index, entry, spheres.collect());
+            if file.materials.is_empty() && file.particles.iter().any(|p| p.velocity != Vec3::zeros()) {
+                let source = &entry.source;
+                self.warnings.push(format!(
+                    "{source}: the velocities are not used: the grains are fixed; take them out"
+                ));
+            }
+            return Ok(());
+        }
         // Of other materials a contact would be another one.
         if entry.material.is_none() && file.has_ids {
             self.read.kept.push(file.kept);
@@ -65,6 +70,38 @@ impl PlanBuilder<'_> {
             self.particles.push(p);
         }
         Ok(())
+    }
+
+    /// Notes what warnings need to know of a file.
+    fn note(&mut self, entry: &Particles, file: &ParticleFile) {
+        // Only runs name their materials.
+        if file.materials.is_empty() {
+            self.read.placed += file.particles.len();
+        } else {
+            let first = self.particles.len();
+            self.read.settled.push(first..first + file.particles.len());
+        }
+        if file.particles.iter().any(|p| p.spin != Vec3::zeros()) {
+            self.read.spinning.push(entry.source.clone());
+        }
+    }
+
+    /// Grains that stay where they are: a wall of spheres for each material.
+    fn fixed(&mut self, index: usize, entry: &Particles, mut spheres: Vec<(u16, (Vec3, f64))>) {
+        spheres.sort_by_key(|s| s.0);
+        let parts: Vec<&[(u16, (Vec3, f64))]> = spheres.chunk_by(|a, b| a.0 == b.0).collect();
+        for part in &parts {
+            let material = part[0].0;
+            let name = match parts.len() {
+                1 => format!("particles.{index} ({})", entry.source),
+                _ => format!(
+                    "particles.{index} ({}, {})",
+                    entry.source, self.materials[material as usize].name
+                ),
+            };
+            let shape = WallShape::Spheres(part.iter().map(|s| s.1).collect());
+            self.walls.push(Wall::new(name, material, shape));
+        }
     }
 
     /// Histories that contacts have from the runs that particles come from. A wall is the one of the same name.

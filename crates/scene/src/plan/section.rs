@@ -26,6 +26,11 @@ impl Section {
         Some(Section { shape, frame, ranges })
     }
 
+    /// The range that the shape covers along a direction, by its box [m].
+    pub fn along(&self, n: &Vec3) -> (f64, f64) {
+        bounds(&self.shape).map_or((0.0, 0.0), |(low, high)| extent(n, &low, &high))
+    }
+
     fn middle(&self, n: usize) -> f64 {
         (self.ranges[n].0 + self.ranges[n].1) / 2.0
     }

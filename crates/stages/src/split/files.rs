@@ -12,11 +12,18 @@ impl Cutting<'_> {
             ("clump", &["mesh"]),
             ("particles", &["source"]),
             ("inlet", &["source"]),
+            ("fill", &["sizes"]),
+            ("insert", &["sizes"]),
         ] {
             let tables = document.get_mut(table).and_then(Item::as_array_of_tables_mut);
             for entry in tables.into_iter().flat_map(|tables| tables.iter_mut()) {
                 for key in keys {
-                    let Some(item) = entry.get_mut(key) else { continue };
+                    let Some(mut item) = entry.get_mut(key) else { continue };
+                    // Sizes may be a table with the name of a file.
+                    if item.is_table_like() {
+                        let Some(inner) = item.get_mut("file") else { continue };
+                        item = inner;
+                    }
                     let Some(file) = item.as_str() else { continue };
                     *item = value(relative(&self.scene.folder.join(file), &self.cut.folder));
                 }

@@ -37,8 +37,7 @@ pub fn largest_scale(scene: &Scene, entry: &Particles) -> Result<f64> {
 /// Largest diameter of the scene's own particles [m], of clumps that of the sphere which holds them; 0 when all come from an inlet.
 pub(super) fn largest(scene: &Scene) -> Result<f64> {
     let m = &scene.keys;
-    let ranges = m.fill.iter().map(|f| f.diameter).chain(m.insert.iter().map(|f| f.diameter));
-    let mut largest = ranges.map(|d: Diameter| d.high).fold(0.0, f64::max);
+    let mut largest = scene.largest_diameters()?.into_iter().fold(0.0, f64::max);
     for entry in m.particles.iter().filter(|p| p.clump.is_none()) {
         let file = ParticleFile::read(&scene.folder.join(&entry.source))?;
         largest = file.particles.iter().map(|p| 2.0 * p.radius).fold(largest, f64::max);

@@ -212,6 +212,56 @@ velocity = [0, 0, -1]
 rate = 0.1
 "#;
 
+/// Sizes with shares, and grains that stay.
+const SIZES: &str = r#"
+[time]
+until = 0.002
+[[fill]]
+material = "sinter"
+shape = "box:0,0,0,0.1,0.1,0.1"
+sizes = [["8 mm", 0.5], [[0.004, 0.006], 0.5]]
+by = "number"
+count = 20
+[[fill]]
+material = "sinter"
+shape = "box:0.2,0,0,0.3,0.1,0.1"
+sizes = "sieve.csv"
+by = "mass"
+count = 20
+[[fill]]
+material = "sinter"
+shape = "box:0.4,0,0,0.5,0.1,0.1"
+sizes = { law = "log-normal", median = "8 mm", deviation = 0.2, from = "6 mm", to = "12 mm" }
+count = 20
+[[particles]]
+source = "grains.csv"
+material = "sinter"
+fixed = true
+[[particles]]
+source = "a.csv"
+material = "steel"
+fixed = false
+[[insert]]
+shape = "box:0.6,0,0.5,0.7,0.1,0.53"
+sizes = [[0.01, 1, "sinter"], [0.008, 2, "steel"]]
+by = "number"
+velocity = [0, 0, -1]
+rate_count = 2000
+[[insert]]
+material = "sinter"
+shape = "box:0.6,0,0.5,0.7,0.1,0.53"
+sizes = "sieve.csv"
+by = "mass"
+velocity = [0, 0, -1]
+rate = 0.5
+[[insert]]
+material = "sinter"
+shape = "box:0.8,0,0.5,0.9,0.1,0.53"
+sizes = { file = "sieve.csv", units = "m" }
+velocity = [0, 0, -1]
+rate = 0.5
+"#;
+
 /// Every law between two materials, and bonds.
 const LAWS: &str = r#"
 [time]
@@ -310,6 +360,7 @@ pub fn scenes() -> Vec<(String, String)> {
         ("plain".to_owned(), of(PLAIN)),
         ("walls".to_owned(), of(WALLS)),
         ("clumps".to_owned(), of(CLUMPS)),
+        ("sizes".to_owned(), of(SIZES)),
         ("laws".to_owned(), [LAWS, &three()].concat()),
     ];
     for (motion, length, test) in CUTS {
@@ -320,7 +371,8 @@ pub fn scenes() -> Vec<(String, String)> {
 }
 
 /// Files that the scenes read.
-pub const FILES: [(&str, &str); 6] = [
+pub const FILES: [(&str, &str); 7] = [
+    ("sieve.csv", "diameter,passing\n0.006,0\n0.008,30\n0.01,100\n"),
     ("grains.csv", "x,y,z,radius,vz\n0.2,0.2,0.1,0.005,-1\n0.2,0.25,0.12,0.005,-1\n0.25,0.2,0.15,0.004,-1\n"),
     ("clumps.csv", "x,y,z,qw,qx,qy,qz\n0.9,0.9,0.9,1,0,0,0\n"),
     ("a.csv", "x,y,z,radius\n0,0,0,0.005\n0.00999,0,0,0.005\n"),
