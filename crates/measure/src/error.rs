@@ -25,11 +25,6 @@ pub enum MeasureError {
     OneFrame { what: &'static str, frames: u64 },
     #[error("run has no frame {}: its frames are from {} to {} s", wanted, Shown(*first), Shown(*last))]
     NoFrame { wanted: String, first: f64, last: f64 },
-    #[error(
-        "plane lies outside of the grains, which are from {} to {} m from it along its normal: move the plane",
-        Shown(*low), Shown(*high)
-    )]
-    PlaneOutside { low: f64, high: f64 },
     #[error("shape has a volume of {} m³: give a larger shape", Shown(*volume))]
     EmptyShape { volume: f64 },
     #[error(

@@ -10,7 +10,7 @@ use crate::path::PreviousFrame;
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::statistics::Mean;
 use crate::{Frame, MeasureError, Run, RunMessage};
-use geom::{Plane, Shape, Vec3};
+use geom::{Plane, Shape, Shown, Vec3};
 use std::collections::VecDeque;
 
 /// Most spans of a run: each is a row.
@@ -287,9 +287,7 @@ impl Observer for Flow {
             });
         }
         let (low, high) = self.reach;
-        if self.total.count == [0, 0] && (low >= 0.0 || high < 0.0) && self.outlet.is_none() {
-            return Err(MeasureError::PlaneOutside { low, high });
-        }
+        let unreached = self.total.count == [0, 0] && (low >= 0.0 || high < 0.0) && self.outlet.is_none();
         let t = &self.total;
         let flow = Mean::of(&self.flows);
         let summary = Summary::default()
@@ -308,6 +306,12 @@ impl Observer for Flow {
              less, or measure at the outlet's own plane",
             self.unjudged
         );
+        let away = format!(
+            "no grain comes to the plane: they are from {} to {} m from it along its normal",
+            Shown(low),
+            Shown(high)
+        );
+        let summary = if unreached { summary.note(away) } else { summary };
         Ok(if self.unjudged > 0 { summary.note(unjudged) } else { summary })
     }
 

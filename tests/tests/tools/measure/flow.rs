@@ -38,6 +38,20 @@ fn a_uniform_stream_flows_evenly_between_frames_too() {
     assert_eq!(column(&back, "backward").iter().sum::<f64>(), 52.0);
 }
 
+/// What nothing has reached yet lets nothing through: that is an answer, and the notes say how far away the grains are.
+#[test]
+fn a_plane_that_no_grain_has_reached_has_no_flow() {
+    let folder = tempdir().unwrap();
+    uniform_stream(&folder);
+    let done = measure(&folder, &["--flow", "0,0,5,0,0,1"]);
+    assert!(column(&done, "mass_flow").iter().all(|flow| *flow == 0.0));
+    assert!(
+        done.stderr.contains("no grain comes to the plane: they are from -5.258 to -4.608 m"),
+        "{}",
+        done.stderr
+    );
+}
+
 /// A grain that goes from x = 0.95 m through the face at 1 m to 0.05 m passes what lies between, on both sides of the face.
 #[test]
 fn a_periodic_face_is_no_way_back() {

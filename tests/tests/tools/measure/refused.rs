@@ -68,10 +68,6 @@ const OF_NO_FRAME: &[Case] = &[
 
 /// Of a uniform stream.
 const OF_A_STREAM: &[Case] = &[
-    Case {
-        arguments: &["--flow", "0,0,5,0,0,1"],
-        parts: &["plane lies outside of the grains", "from -5.258 to -4.608 m", "move the plane"],
-    },
     Case { arguments: &["--residence", "sphere:9,9,9,1"], parts: &["no grain in the shape"] },
     Case {
         arguments: &["--flow", "0,0,0,0,0,-1", "--span", "1e-9"],
