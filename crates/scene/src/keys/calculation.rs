@@ -31,6 +31,20 @@ pub struct Time {
     pub safety: Option<f64>,
     /// Largest error of an impact, for which the step is chosen [–].
     pub accuracy: Option<Accuracy>,
+    /// Which part of a step the force of a contact stands for.
+    #[serde(default)]
+    pub contacts: Sampling,
+}
+
+/// Which part of a step the force of a contact stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Sampling {
+    /// The part in which both touch.
+    Averaged,
+    /// All of it, where both touch at its instant.
+    #[default]
+    Sampled,
 }
 
 /// A share: `"1%"`, or 0.01.
