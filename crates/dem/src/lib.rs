@@ -49,7 +49,7 @@ pub use observe::snapshot::Snapshot;
 pub use passes::clumps::instant::ClumpState;
 pub use passes::servo::WallForce;
 pub use setup::Setup;
-pub use simulation::{Checkpoint, ContactBytes, EffectCost, Simulation};
+pub use simulation::{Checkpoint, ContactBytes, EffectCost, MatchedDamping, Simulation};
 pub use space::rotation::spun;
 pub use space::sphere::mass;
 pub use state::{BondState, Energy, Returned};

@@ -19,20 +19,23 @@ pub struct Damping {
     pub first: f64,
     /// γ₂ Δt⁴ [s⁴].
     pub second: f64,
+    /// Share of its work that the law dissipates [–]: none with e = 1, where it takes back what the step has made.
+    pub dissipates: f64,
 }
 
 impl Damping {
     /// That of exact integration, for a restitution.
     pub fn exact(restitution: f64) -> Damping {
-        Damping { ratio: damping_ratio(restitution), first: 0.0, second: 0.0 }
+        let ratio = damping_ratio(restitution);
+        Damping { ratio, dissipates: if ratio > 0.0 { 1.0 } else { 0.0 }, ..Damping::NONE }
     }
 
     /// None.
-    pub const NONE: Damping = Damping { ratio: 0.0, first: 0.0, second: 0.0 };
+    pub const NONE: Damping = Damping { ratio: 0.0, first: 0.0, second: 0.0, dissipates: 0.0 };
 
     /// Times a number.
     pub fn scaled(self, by: f64) -> Damping {
-        Damping { ratio: by * self.ratio, first: by * self.first, second: by * self.second }
+        Damping { ratio: by * self.ratio, first: by * self.first, second: by * self.second, ..self }
     }
 
     /// γ of a contact whose S/m* [1/s²] is `pace`.

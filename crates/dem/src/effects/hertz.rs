@@ -76,6 +76,7 @@ impl Effect for Hertz {
         let root = (contact.radius * present).sqrt();
         let spring = R::splat(2.0 / 3.0) * (R::splat(2.0 * self.modulus) * root) * present;
         response.elastic = response.elastic + R::splat(0.4) * spring * present;
-        response.dissipate(DESCRIPTION.slot, damping * contact.approach * dt);
+        response
+            .dissipate(DESCRIPTION.slot, damping * contact.approach * dt * R::splat(self.damping.dissipates));
     }
 }

@@ -98,6 +98,7 @@ impl Effect for Hooke {
         response.stiffness_before = R::splat(1.0);
         response.stiffness_last = k;
         response.elastic = response.elastic + R::splat(0.5) * k * contact.present * contact.present;
-        response.dissipate(DESCRIPTION.slot, damping * contact.approach * dt);
+        response
+            .dissipate(DESCRIPTION.slot, damping * contact.approach * dt * R::splat(self.damping.dissipates));
     }
 }

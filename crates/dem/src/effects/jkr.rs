@@ -170,7 +170,8 @@ impl Effect for Jkr {
         let stored =
             cube * held * (cube * (cube / number(60.0) - number(1.0 / 6.0)) + number(0.25)) - number(0.1);
         response.elastic = response.elastic + unit * stored;
-        response.dissipate(DESCRIPTION.slot, damping * contact.approach * dt);
+        let dissipated = damping * contact.approach * dt * number(self.damping.dissipates);
+        response.dissipate(DESCRIPTION.slot, dissipated);
         response.lost = response.lost + number(CYCLE) * new * unit;
     }
 

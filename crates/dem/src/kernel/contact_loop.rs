@@ -63,11 +63,7 @@ fn lanes<R: Lane, E: Effect, T: Number, const KEEP: bool>(
 ) -> (bool, bool) {
     let at = block * BLOCK + lane;
     let ends = gather::<R, E>(step, batch, at);
-    let mut near = ends.gap;
-    if step.ahead > 0.0 {
-        near = near + ends.closing(step);
-    }
-    if !R::any(near.gt(R::splat(0.0))) && !was_active {
+    if !was_active && !R::any(ends.gap.gt(R::splat(0.0))) && !ends.meet_soon(step) {
         return (false, false);
     }
     let mut found = geometry::<R, E>(step, batch, ends);
@@ -122,11 +118,12 @@ struct Ends<'a, R: Lane> {
 }
 
 impl<R: Lane> Ends<'_, R> {
-    /// 2 d w for a distance d between centres that changes by w within half a step [m²]. Where they come to touch, d − w < r_i + r_j, and so
+    /// Whether any may come to touch within half a step. Where a distance d between centres shrinks by w to less than r_i + r_j,
     /// (r_i + r_j)² − d² + 2 d w > w².
     #[inline(always)]
-    fn closing(&self, step: &StepInputs) -> R {
-        size(R::narrow(self.apart.dot(self.velocities[0]))) * R::splat(2.0 * step.ahead)
+    fn meet_soon(&self, step: &StepInputs) -> bool {
+        let shrinks = size(R::narrow(self.apart.dot(self.velocities[0]))) * R::splat(2.0 * step.ahead);
+        step.ahead > 0.0 && R::any((self.gap + shrinks).gt(R::splat(0.0)))
     }
 }
 

@@ -24,11 +24,17 @@ const LONGEST: usize = 100_000;
 
 /// Damping of a contact law in steps of `dt` [s].
 pub fn damping(law: &ContactLaw, sampling: Sampling, dt: f64) -> Damping {
-    let restitution = law.number("restitution").unwrap_or(f64::NAN);
-    let exact = Damping::exact(restitution);
-    let Some(shape) = Shape::of(law).filter(|_| sampling == Sampling::Averaged) else { return exact };
-    let [first, second] = shape.match_to(restitution);
+    let exact = Damping::exact(law.number("restitution").unwrap_or(f64::NAN));
+    if sampling == Sampling::Sampled {
+        return exact;
+    }
+    let [first, second] = coefficients(law);
     Damping { first: first * dt * dt, second: second * dt.powi(4), ..exact }
+}
+
+/// γ₁ and γ₂ of a contact law [–]; 0 where there is nothing to match.
+pub fn coefficients(law: &ContactLaw) -> [f64; 2] {
+    Shape::of(law).zip(law.number("restitution")).map_or([0.0; 2], |(shape, e)| shape.match_to(e))
 }
 
 /// How a normal law stiffens.
@@ -87,8 +93,8 @@ impl Shape {
             Shape::Linear => pace,
             Shape::Hertz => pace / (1.5 * deepest.sqrt()).sqrt(),
         };
-        let ratio = damping_ratio(restitution);
-        let damping = Damping { ratio, first: first * dt * dt, second: second * dt.powi(4) };
+        let exact = Damping::exact(restitution);
+        let damping = Damping { first: first * dt * dt, second: second * dt.powi(4), ..exact };
         let rebound = |k: usize| {
             let phase = (k as f64 + 0.5) / PHASES as f64;
             match self {

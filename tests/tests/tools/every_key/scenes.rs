@@ -31,6 +31,7 @@ precision = "f64"
 until = 0.002
 dt = "auto"
 safety = 0.4
+contacts = "averaged"
 [output]
 every = 0.001
 checkpoint = 0.001
