@@ -1,7 +1,7 @@
 //! Every normal law there is, with and without cohesion, and every surface a grain can meet: what laws are tried on.
 
 use crate::setups::{HOOKE, Law, empty, grain, plane, sticky};
-use dem::effects::{Cohesion, Contact, Effect, Hertz, Hooke, Jkr, Response};
+use dem::effects::{Cohesion, Contact, Damping, Effect, Hertz, Hooke, Jkr, Response};
 use dem::setup::*;
 use dem::simd::V;
 use dem::{Setup, mass};
@@ -57,6 +57,8 @@ pub fn still(overlap: f64, radius: f64, curvature: f64) -> Contact<f64> {
         touching: true,
         normal: V::new(0.0, 0.0, 1.0),
         overlap,
+        present: overlap,
+        before: overlap,
         radius,
         curvature,
         mass: 0.01,
@@ -95,13 +97,11 @@ impl Normal {
     /// Force and energy without damping.
     pub fn response(&self, contact: &Contact<f64>) -> Response<f64> {
         let cohesion = self.cohesion.map(|energy_density| Cohesion { energy_density });
-        let (modulus, damping_ratio) = (MODULUS, 0.0);
+        let (modulus, damping) = (MODULUS, Damping::NONE);
         match self.law {
-            Law::Hooke { stiffness, .. } => response((Hooke { stiffness, damping_ratio }, cohesion), contact),
-            Law::Hertz => response((Hertz { modulus, damping_ratio }, cohesion), contact),
-            Law::Jkr { work_of_adhesion } => {
-                response(Jkr { modulus, work_of_adhesion, damping_ratio }, contact)
-            }
+            Law::Hooke { stiffness, .. } => response((Hooke { stiffness, damping }, cohesion), contact),
+            Law::Hertz => response((Hertz { modulus, damping }, cohesion), contact),
+            Law::Jkr { work_of_adhesion } => response(Jkr { modulus, work_of_adhesion, damping }, contact),
         }
     }
 

@@ -203,3 +203,28 @@ fn a_width_that_the_machine_lacks_is_refused() {
         assert_eq!(made.is_ok(), Width::available().contains(&width), "{width:?}");
     }
 }
+
+/// Contacts that count the part of a step in which they act: every width in every precision, any number of threads, across a checkpoint.
+#[test]
+fn averaged_contacts() {
+    for law in [HOOKE, Law::Hertz, Law::Jkr { work_of_adhesion: 0.05 }] {
+        let averaged = || Setup { sampling: Sampling::Averaged, ..shaken_trough(law) };
+        let one = bits(simulation(averaged()), 3000);
+        assert!(one != bits(simulation(shaken_trough(law)), 3000), "{law:?}: it changes nothing");
+        let narrow = [Precision::Mixed, Precision::Single].into_iter().filter(|_| LAWS.contains(&law));
+        for precision in narrow.chain([Precision::Double]) {
+            let of = |width| {
+                let setup = Setup { precision, ..averaged() };
+                bits(Simulation::with_width(setup, width).expect("sound"), 2000)
+            };
+            let all: Vec<_> = Width::available().into_iter().map(of).collect();
+            assert!(all.iter().all(|bits| *bits == all[0]), "{law:?}, {precision:?}");
+        }
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build().expect("a pool");
+        assert!(pool.install(|| bits(simulation(averaged()), 3000)) == one, "{law:?}: three threads");
+        let mut first = simulation(averaged());
+        (0..1437).for_each(|_| first.step().expect("within the guards"));
+        let resumed = Simulation::resume(averaged(), first.checkpoint().to_static()).expect("the same setup");
+        assert!(bits(resumed, 1563) == one, "{law:?}: resumed");
+    }
+}

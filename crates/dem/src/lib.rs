@@ -50,7 +50,7 @@ pub use observe::stiffen::{DeepImpact, deep_impact};
 pub use passes::clumps::instant::ClumpState;
 pub use passes::servo::WallForce;
 pub use setup::Setup;
-pub use simulation::{Checkpoint, ContactBytes, EffectCost, Simulation};
+pub use simulation::{Checkpoint, ContactBytes, EffectCost, MatchedDamping, Simulation};
 pub use space::rotation::spun;
 pub use space::sphere::mass;
 pub use state::{BondState, Energy, Returned};

@@ -7,7 +7,7 @@
 //! follows the overlap also into the frame before the contact and the frame after it, where nothing was recorded. Between
 //! frames δ is the cubic with the overlaps and speeds of both (see [`crate::path`]): its zeros are the start and the end,
 //! its highest point is the deepest overlap. Speeds along the normal are those of the last frame before and the first
-//! after the contact, without what gravity adds between that frame and the contact. Frames must be much closer than
+//! after the two act on each other, without what gravity adds between that frame and the contact. Frames must be much closer than
 //! the contact lasts: `[output] every = "step"` writes one at every step. A wall is taken to be at rest.
 
 use crate::observer::{NO_CONTACTS, Observer};
@@ -23,8 +23,12 @@ type Pair = (u64, u64, bool);
 /// A contact that goes on.
 #[derive(Debug, Clone, Copy)]
 struct OpenContact {
-    /// When it began [s], and the speed before [m/s]; `None` when that was not seen.
-    start: Option<(f64, f64)>,
+    /// Speed before [m/s]; `None` when that was not seen.
+    before: Option<f64>,
+    /// When it began [s]; `None` when that was not seen, or has yet to come.
+    start: Option<f64>,
+    /// When it ended [s], where the force outlasts that.
+    end: Option<f64>,
     deepest: f64,
     overlap: f64,
     normal: Vec3,
@@ -138,39 +142,45 @@ impl Impacts {
         Some(Cubic { times: [before.time, after.time], ends, ways })
     }
 
-    /// A pair that touches now.
+    /// A pair that acts on each other now: it may do so shortly before it touches, and after.
     fn touches(&mut self, run: &Run, pair: Pair, contact: &Contact) {
         let old = self.open.get(&pair).copied();
         let cubic = self.cubic(run, pair, contact.overlap, true, &contact.normal);
+        let (overlap, normal) = (contact.overlap, contact.normal);
         let mut open = old.unwrap_or(OpenContact {
+            before: None,
             start: None,
+            end: None,
             deepest: 0.0,
-            overlap: contact.overlap,
-            normal: contact.normal,
+            overlap,
+            normal,
         });
         if let Some(cubic) = cubic {
             let speed = cubic.ways[0] / (cubic.times[1] - cubic.times[0]);
-            open.start =
-                open.start.or((old.is_none() && cubic.ends[0] <= 0.0).then(|| (cubic.zero(), speed)));
+            open.before = open.before.or(old.is_none().then_some(speed));
+            let [before, now] = cubic.ends.map(|overlap| overlap > 0.0);
+            open.start = open.start.or((!before && now).then(|| cubic.zero()));
+            open.end = if before && !now { Some(cubic.zero()) } else { open.end.filter(|_| !now) };
             open.deepest = open.deepest.max(cubic.highest());
         }
-        (open.overlap, open.normal) = (contact.overlap, contact.normal);
-        open.deepest = open.deepest.max(contact.overlap);
+        (open.overlap, open.normal) = (overlap, normal);
+        open.deepest = open.deepest.max(overlap);
         self.open.insert(pair, open);
     }
 
-    /// A pair that touched and does not now: its row, when all of the impact was seen.
+    /// A pair that acted on each other and does not now: its row, when all of the impact was seen.
     fn parted(&mut self, run: &Run, pair: Pair, open: &OpenContact) -> Option<Row> {
         let cubic = self.cubic(run, pair, open.overlap, false, &open.normal);
-        let Some(((start, before), cubic)) = open.start.zip(cubic) else {
-            self.cut += 1;
+        let Some(((start, before), cubic)) = open.start.zip(open.before).zip(cubic) else {
+            // Surfaces that never met had no impact.
+            self.cut += u64::from(open.deepest > 0.0);
             return None;
         };
         if !(self.between.0 <= start && start <= self.between.1) {
             return None;
         }
         let after = -cubic.ways[1] / (cubic.times[1] - cubic.times[0]);
-        let lasted = cubic.zero() - start;
+        let lasted = open.end.unwrap_or_else(|| cubic.zero()) - start;
         let deepest = open.deepest.max(cubic.highest());
         let restitution = after / before;
         for (list, value) in self.rows.iter_mut().zip([lasted, deepest, restitution]) {
@@ -207,7 +217,7 @@ impl Observer for Impacts {
         };
         self.contact_frames += 1;
         let mut now: BTreeMap<Pair, &Contact> = BTreeMap::new();
-        for contact in contacts.rows.iter().filter(|c| c.overlap > 0.0) {
+        for contact in &contacts.rows {
             let pair = match contact.partner {
                 Partner::Grain(j) => (contact.grain, j, false),
                 Partner::Wall(j) => (contact.grain, j, true),

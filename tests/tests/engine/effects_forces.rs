@@ -1,6 +1,6 @@
 //! The parts of contact laws that conserve energy: force = dE/dδ, against their closed forms, and at their limits.
 
-use dem::effects::{Cohesion, Effect, Hooke, Jkr, Response};
+use dem::effects::{Cohesion, Damping, Effect, Hooke, Jkr, Response};
 use dem::simd::V;
 use grainpipe_tests::normals::{MODULUS, NORMALS, WORK, response, still};
 use std::f64::consts::PI;
@@ -48,7 +48,7 @@ fn cohesion_is_energy_density_times_common_volume() {
 }
 
 fn jkr() -> Jkr {
-    Jkr { modulus: MODULUS, work_of_adhesion: WORK, damping_ratio: 0.0 }
+    Jkr { modulus: MODULUS, work_of_adhesion: WORK, damping: Damping::NONE }
 }
 
 /// Overlap and force of the closed form for a radius of contact a: δ = a²/R − √(2π w a/E*), F = 4E*a³/3R − √(8π w E* a³).
@@ -126,7 +126,7 @@ fn jkr_without_adhesion_is_hertz() {
 fn twisting_is_a_spring_under_a_cap() {
     let twisting =
         dem::effects::TwistingResistance { resistance: 0.1, stiffness_ratio: 0.8, compliance: 1.0 };
-    let normal = Hooke { stiffness: 1e4, damping_ratio: 0.0 };
+    let normal = Hooke { stiffness: 1e4, damping: Damping::NONE };
     let twisted = |phi: f64| {
         let contact = still(1e-4, 0.01, 0.0);
         let mut response: Response<f64> = response(normal, &contact);
@@ -151,7 +151,7 @@ fn constant_rolling_has_one_size_and_never_turns_rolling_round() {
         let rolling = dem::effects::ConstantRolling { resistance: 0.1, compliance };
         let mut contact = still(1e-4, 0.01, 0.0);
         contact.spin = V::new(spin, 0.0, 7.0);
-        let mut response = response(Hooke { stiffness: 1e4, damping_ratio: 0.0 }, &contact);
+        let mut response = response(Hooke { stiffness: 1e4, damping: Damping::NONE }, &contact);
         rolling.apply(&contact, 1e-6, &mut (), &mut response);
         assert!(
             (response.dissipated[2] + response.torque.x * spin * 1e-6).abs() < 1e-18,

@@ -7,6 +7,7 @@ mod impacts;
 mod mindlin;
 mod oblique;
 mod orders;
+mod phases;
 mod rest;
 mod rubbing;
 mod squeezed;

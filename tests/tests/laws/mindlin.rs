@@ -8,7 +8,7 @@
 //!
 //! The law here has no partial slip: it is stiffer on the way to sliding, by at most 0.193 μ F_n, at k_t ξ = μ F_n.
 
-use dem::effects::{Contact, Effect, Hertz, History, Response, SlidingFriction};
+use dem::effects::{Contact, Damping, Effect, Hertz, History, Response, SlidingFriction};
 use dem::simd::{BLOCK, V};
 use grainpipe_tests::findings::{Case, case};
 use grainpipe_tests::normals::still;
@@ -43,7 +43,7 @@ struct Dragged {
 
 impl Dragged {
     fn new() -> Dragged {
-        let hertz = Hertz { modulus: MODULUS, damping_ratio: 0.0 };
+        let hertz = Hertz { modulus: MODULUS, damping: Damping::NONE };
         let friction =
             SlidingFriction { friction: MU, stiffness_ratio: RATIO, damping_ratio: 0.0, compliance: 1.0 };
         let nothing = vec![0.0; Rubbing::HISTORY * BLOCK];
@@ -53,8 +53,12 @@ impl Dragged {
     /// One step of slip [m] at an overlap that has grown [m] in it; step so short that nothing is late.
     fn step(&mut self, slip: f64, overlap: f64, growth: f64) -> Response<f64> {
         let dt = 1e-9;
-        let contact =
-            Contact { slip: V::new(slip / dt, 0.0, 0.0), approach: growth / dt, ..still(overlap, 0.01, 0.0) };
+        let contact = Contact {
+            slip: V::new(slip / dt, 0.0, 0.0),
+            approach: growth / dt,
+            before: overlap - growth,
+            ..still(overlap, 0.01, 0.0)
+        };
         let mut response = Response::zero();
         self.law.apply(&contact, dt, &mut self.history, &mut response);
         response
@@ -156,7 +160,8 @@ fn beside_partial_slip() {
 fn another_engines_loading() {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../sample-data/reference/hertz_loading.csv");
     let text = std::fs::read_to_string(file).expect("the sample is there");
-    let law = Hertz { modulus: 1e5, damping_ratio: 2.0 * 0.8f64.sqrt() };
+    let damping = Damping { ratio: 2.0 * 0.8f64.sqrt() * (5.0f64 / 6.0).sqrt(), ..Damping::exact(0.5) };
+    let law = Hertz { modulus: 1e5, damping };
     let (mut worst, mut rows) = (0.0f64, 0);
     for line in text.lines().skip(1) {
         let row: Vec<f64> = line.split(',').map(|x| x.parse().expect("a number")).collect();

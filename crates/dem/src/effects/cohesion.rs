@@ -59,7 +59,8 @@ impl Effect for Cohesion {
 
     #[inline(always)]
     fn apply<R: Lane>(&self, contact: &Contact<R>, _: R, _: &mut (), response: &mut Response<R>) {
-        let (delta, number) = (contact.overlap.max(R::splat(0.0)), R::splat);
+        let number = R::splat;
+        let delta = contact.overlap.max(number(0.0));
         let share = delta * contact.curvature;
         let rest = number(1.0) - share;
         let inner = delta * share;
@@ -67,10 +68,14 @@ impl Effect for Cohesion {
         let square =
             delta * (number(4.0) * contact.radius - number(2.0) * delta + inner) * (number(2.0) - share)
                 / (number(4.0) * rest * rest);
+        response.normal = response.normal - number(self.energy_density * PI) * square;
+        let delta = contact.present.max(number(0.0));
+        let share = delta * contact.curvature;
+        let rest = number(1.0) - share;
+        let inner = delta * share;
         let volume =
             number(PI / 12.0) * delta * delta * (number(12.0) * contact.radius - number(4.0) * delta + inner)
                 / rest;
-        response.normal = response.normal - number(self.energy_density * PI) * square;
         response.elastic = response.elastic - number(self.energy_density) * volume;
     }
 }

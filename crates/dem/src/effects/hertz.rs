@@ -9,8 +9,8 @@
 //! Elliott (2011), EPL 94, doi:10.1209/0295-5075/94/50004.
 
 use super::{
-    Contact, ContactEffect, ContactLaw, Description, Effect, Elastic, Model, NormalLaw, OverlapLimit, Pair,
-    RESTITUTION, Response, Slot,
+    Contact, ContactEffect, ContactLaw, Damping, Description, Effect, Elastic, Model, NormalLaw,
+    OverlapLimit, Pair, RESTITUTION, Response, Slot,
 };
 use crate::simd::Lane;
 use std::f64::consts::PI;
@@ -42,15 +42,15 @@ fn unloaded_overlap(_: &ContactLaw, elastic: Elastic, density: f64, _: [f64; 2])
 pub struct Hertz {
     /// E* [Pa].
     pub modulus: f64,
-    /// γ [–], as for [`super::Hooke`].
-    pub damping_ratio: f64,
+    /// γ √(5/6), γ as for [`super::Hooke`].
+    pub damping: Damping,
 }
 
 impl ContactEffect for Hertz {
     const DESCRIPTIONS: &'static [&'static Description] = &[&DESCRIPTION];
 
     fn new(pair: &Pair) -> Hertz {
-        Hertz { modulus: pair.elastic.modulus, damping_ratio: pair.damping_ratio() }
+        Hertz { modulus: pair.elastic.modulus, damping: pair.damping.scaled((5.0f64 / 6.0).sqrt()) }
     }
 }
 
@@ -62,17 +62,21 @@ impl Effect for Hertz {
         let overlap = contact.overlap.max(R::splat(0.0));
         let s = R::splat(2.0 * self.modulus) * (contact.radius * overlap).sqrt();
         response.impedance = (s * contact.mass).sqrt();
-        let c = R::splat(self.damping_ratio * (5.0f64 / 6.0).sqrt()) * response.impedance;
+        let c = self.damping.of(s * contact.inverse_mass) * response.impedance;
         let elastic = R::splat(2.0 / 3.0) * s * overlap;
         let damping = c * contact.approach;
         response.normal = response.normal + (elastic + damping);
         response.pressing = response.normal;
         response.stiffness = s;
-        // S ∝ √δ; the overlap a step ago follows from the approach.
-        let before = (contact.overlap - contact.approach * dt).max(R::splat(0.0));
+        // S ∝ √δ.
+        let before = contact.before.max(R::splat(0.0));
         response.stiffness_last = R::splat(2.0 * self.modulus) * (contact.radius * before).sqrt();
         response.stiffness_before = (before / overlap.max(R::splat(R::TINY))).sqrt();
-        response.elastic = response.elastic + R::splat(0.4) * elastic * overlap;
-        response.dissipate(DESCRIPTION.slot, damping * contact.approach * dt);
+        let present = contact.present.max(R::splat(0.0));
+        let root = (contact.radius * present).sqrt();
+        let spring = R::splat(2.0 / 3.0) * (R::splat(2.0 * self.modulus) * root) * present;
+        response.elastic = response.elastic + R::splat(0.4) * spring * present;
+        response
+            .dissipate(DESCRIPTION.slot, damping * contact.approach * dt * R::splat(self.damping.dissipates));
     }
 }

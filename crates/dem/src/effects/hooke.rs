@@ -9,8 +9,8 @@
 //! in its last moment.
 
 use super::{
-    Contact, ContactEffect, ContactLaw, Description, Effect, Elastic, Key, Model, NormalLaw, OverlapLimit,
-    Pair, Range, Response, Slot,
+    Contact, ContactEffect, ContactLaw, Damping, Description, Effect, Elastic, Key, Model, NormalLaw,
+    OverlapLimit, Pair, Range, Response, Slot,
 };
 use crate::simd::Lane;
 use std::f64::consts::PI;
@@ -71,15 +71,15 @@ pub fn unloaded_overlap(law: &ContactLaw, _: Elastic, density: f64, [_, largest]
 pub struct Hooke {
     /// k [N/m].
     pub stiffness: f64,
-    /// γ [–].
-    pub damping_ratio: f64,
+    /// γ.
+    pub damping: Damping,
 }
 
 impl ContactEffect for Hooke {
     const DESCRIPTIONS: &'static [&'static Description] = &[&DESCRIPTION];
 
     fn new(pair: &Pair) -> Hooke {
-        Hooke { stiffness: pair.number("stiffness"), damping_ratio: pair.damping_ratio() }
+        Hooke { stiffness: pair.number("stiffness"), damping: pair.damping }
     }
 }
 
@@ -90,14 +90,15 @@ impl Effect for Hooke {
     fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, _: &mut (), response: &mut Response<R>) {
         let k = R::splat(self.stiffness);
         response.impedance = (k * contact.mass).sqrt();
-        let c = R::splat(self.damping_ratio) * response.impedance;
+        let c = self.damping.of(k * contact.inverse_mass) * response.impedance;
         let damping = c * contact.approach;
         response.normal = response.normal + (k * contact.overlap + damping);
         response.pressing = response.normal;
         response.stiffness = k;
         response.stiffness_before = R::splat(1.0);
         response.stiffness_last = k;
-        response.elastic = response.elastic + R::splat(0.5) * k * contact.overlap * contact.overlap;
-        response.dissipate(DESCRIPTION.slot, damping * contact.approach * dt);
+        response.elastic = response.elastic + R::splat(0.5) * k * contact.present * contact.present;
+        response
+            .dissipate(DESCRIPTION.slot, damping * contact.approach * dt * R::splat(self.damping.dissipates));
     }
 }

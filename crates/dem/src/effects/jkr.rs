@@ -23,8 +23,8 @@
 //! while it is pulled comes free there, and the ledger books W again.
 
 use super::{
-    Contact, ContactEffect, ContactLaw, Description, Effect, Elastic, Field, Key, Kind, Model, NormalLaw,
-    OverlapLimit, Pair, RESTITUTION, Range, Response, Slot,
+    Contact, ContactEffect, ContactLaw, Damping, Description, Effect, Elastic, Field, Key, Kind, Model,
+    NormalLaw, OverlapLimit, Pair, RESTITUTION, Range, Response, Slot,
 };
 use crate::simd::Lane;
 use std::f64::consts::PI;
@@ -60,7 +60,7 @@ pub const DESCRIPTION: Description = Description {
 
 fn undamped(law: &ContactLaw, elastic: Elastic) -> Jkr {
     let work_of_adhesion = law.number("work_of_adhesion").unwrap_or(f64::NAN);
-    Jkr { modulus: elastic.modulus, work_of_adhesion, damping_ratio: 0.0 }
+    Jkr { modulus: elastic.modulus, work_of_adhesion, damping: Damping::NONE }
 }
 
 /// 2 E* a.
@@ -93,8 +93,8 @@ pub struct Jkr {
     pub modulus: f64,
     /// w [J/m²].
     pub work_of_adhesion: f64,
-    /// γ [–], as for [`super::Hooke`].
-    pub damping_ratio: f64,
+    /// γ √(5/6), γ as for [`super::Hooke`].
+    pub damping: Damping,
 }
 
 impl Jkr {
@@ -134,7 +134,7 @@ impl ContactEffect for Jkr {
     const DESCRIPTIONS: &'static [&'static Description] = &[&DESCRIPTION];
 
     fn new(pair: &Pair) -> Jkr {
-        Jkr { damping_ratio: pair.damping_ratio(), ..undamped(pair.law, pair.elastic) }
+        Jkr { damping: pair.damping.scaled((5.0f64 / 6.0).sqrt()), ..undamped(pair.law, pair.elastic) }
     }
 }
 
@@ -157,18 +157,21 @@ impl Effect for Jkr {
         let elastic = pull * cube * (cube / number(6.0) - number(1.0));
         let s = number(2.0 * self.modulus) * last * y * y;
         response.impedance = (s * contact.mass).sqrt();
-        let c = number(self.damping_ratio * (5.0f64 / 6.0).sqrt()) * response.impedance;
+        let c = self.damping.of(s * contact.inverse_mass) * response.impedance;
         let damping = c * contact.approach;
         response.normal = response.normal + (elastic + damping);
         response.pressing = response.normal + number(3.0) * pull;
         response.stiffness = s;
-        let before = Self::spread(contact.overlap - contact.approach * dt, r, last);
+        let before = Self::spread(contact.before, r, last);
         response.stiffness_before = before * before / (y * y);
         let unit = number(4.0 * PI * self.work_of_adhesion) * last * last;
+        let held = Self::spread(contact.present, r, last);
+        let cube = held * held * held;
         let stored =
-            cube * y * (cube * (cube / number(60.0) - number(1.0 / 6.0)) + number(0.25)) - number(0.1);
+            cube * held * (cube * (cube / number(60.0) - number(1.0 / 6.0)) + number(0.25)) - number(0.1);
         response.elastic = response.elastic + unit * stored;
-        response.dissipate(DESCRIPTION.slot, damping * contact.approach * dt);
+        let dissipated = damping * contact.approach * dt * number(self.damping.dissipates);
+        response.dissipate(DESCRIPTION.slot, dissipated);
         response.lost = response.lost + number(CYCLE) * new * unit;
     }
 

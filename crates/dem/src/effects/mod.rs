@@ -7,6 +7,7 @@
 mod capped_spring;
 mod cohesion;
 mod constant_rolling;
+mod damping;
 mod describe;
 mod hertz;
 mod history;
@@ -24,6 +25,7 @@ mod weakening;
 
 pub use cohesion::Cohesion;
 pub use constant_rolling::ConstantRolling;
+pub use damping::Damping;
 pub use describe::*;
 pub use hertz::Hertz;
 pub use history::{ContactHistory, History, RECORDED};
@@ -49,8 +51,12 @@ pub struct Contact<R: Lane> {
     pub touching: R::Mask,
     /// n, from j to i [–].
     pub normal: V<R>,
-    /// δ, positive in contact [m].
+    /// δ, positive in contact; the mean of the part of the kick in which both act on each other [m].
     pub overlap: R,
+    /// δ at the instant itself, which is what springs hold [m].
+    pub present: R,
+    /// δ a step ago [m].
+    pub before: R,
     /// R* [m].
     pub radius: R,
     /// 1/(r_i + r_j), 0 at a flat wall [1/m].
@@ -116,6 +122,14 @@ impl<R: Lane> Response<R> {
         }
     }
 
+    /// What acts for this share of a step only.
+    #[inline(always)]
+    pub fn shorten(&mut self, share: R) {
+        self.normal = self.normal * share;
+        self.tangential = self.tangential.scale(share);
+        self.torque = self.torque.scale(share);
+    }
+
     /// Adds what an effect of this slot dissipates in the step [J].
     #[inline(always)]
     pub fn dissipate(&mut self, slot: Slot, energy: R) {
@@ -149,7 +163,7 @@ pub trait Effect: Copy + Send + Sync + 'static {
     /// Whether a contact that was made lasts beyond touching.
     const REACHES: bool = false;
 
-    /// Adds to the response; `dt` [s].
+    /// Adds to the response; `dt` is the time of the step in which both act on each other [s].
     fn apply<R: Lane>(
         &self,
         contact: &Contact<R>,

@@ -1,6 +1,6 @@
 //! What effects are made of: the numbers of a contact law, and what follows from its two materials.
 
-use super::ContactLaw;
+use super::{ContactLaw, Damping};
 use serde::{Deserialize, Serialize};
 
 /// Elastic constants of a pair.
@@ -53,6 +53,8 @@ pub struct Pair<'a> {
     pub elastic: Elastic,
     /// Compliance of the clumps of both materials over that of spheres of their mass.
     pub compliance: Compliance,
+    /// Damping of the normal law.
+    pub damping: Damping,
 }
 
 impl Pair<'_> {
@@ -61,7 +63,7 @@ impl Pair<'_> {
         self.law.number(key).unwrap_or(f64::NAN)
     }
 
-    /// γ of the normal law and of sliding [–].
+    /// γ of sliding [–].
     pub fn damping_ratio(&self) -> f64 {
         damping_ratio(self.number("restitution"))
     }

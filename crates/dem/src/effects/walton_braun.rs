@@ -68,6 +68,7 @@ impl Effect for WaltonBraun {
         *deepest = before.max(contact.overlap);
         let yielded = number(1.0 - self.loading / self.unloading);
         let spring = (contact.overlap - yielded * *deepest).max(number(0.0));
+        let held = (contact.present - yielded * *deepest).max(number(0.0));
         let force = number(self.unloading) * spring;
         response.normal = response.normal + force;
         response.pressing = response.normal;
@@ -75,7 +76,7 @@ impl Effect for WaltonBraun {
         response.stiffness_before = number(1.0);
         response.stiffness_last = response.stiffness;
         response.impedance = (response.stiffness * contact.mass).sqrt();
-        response.elastic = response.elastic + number(0.5) * force * spring;
+        response.elastic = response.elastic + number(0.5) * number(self.unloading) * held * held;
         let plastic = number(0.5 * self.loading) * yielded;
         response.lost = response.lost + plastic * (*deepest * *deepest - before * before);
     }

@@ -221,7 +221,8 @@ fn step_tile_by_tile(model: &Model, state: &mut State, lists: &mut NeighbourList
 /// What all contacts of a step share.
 fn step_inputs<'a>(model: &Model, particles: &'a Particles, layout: Layout) -> StepInputs<'a> {
     let Particles { rows, spins, .. } = particles;
-    StepInputs { dt: model.dt, overlap_limit: model.setup.guards.overlap, rows, spins, layout }
+    let (dt, ahead) = (model.dt, model.ahead());
+    StepInputs { dt, ahead, overlap_limit: model.setup.guards.overlap, rows, spins, layout }
 }
 
 /// Notes where particles are before they move; a fluid asks for that.

@@ -94,7 +94,8 @@ mod tests {
         let elastic = Elastic::of(&material, &material);
         assert!(laws().len() > 70, "{}", laws().len());
         for law in laws() {
-            let pair = Pair { law: &law, elastic, compliance: Compliance { clumps: 1.0, springs: 1.0 } };
+            let compliance = Compliance { clumps: 1.0, springs: 1.0 };
+            let pair = Pair { law: &law, elastic, compliance, damping: Damping::NONE };
             let kernel = compose(&pair, Precision::Double);
             let flips = active(&law).flat_map(|d| d.history);
             let flips = flips.flat_map(|field| vec![field.kind == Kind::Vector; field.kind.columns()]);

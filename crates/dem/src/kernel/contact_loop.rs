@@ -63,8 +63,7 @@ fn lanes<R: Lane, E: Effect, T: Number, const KEEP: bool>(
 ) -> (bool, bool) {
     let at = block * BLOCK + lane;
     let ends = gather::<R, E>(step, batch, at);
-    let mut touching = ends.gap.gt(R::splat(0.0));
-    if !R::any(touching) && !was_active {
+    if !was_active && !R::any(ends.gap.gt(R::splat(0.0))) && !ends.meet_soon(step) {
         return (false, false);
     }
     let mut found = geometry::<R, E>(step, batch, ends);
@@ -74,11 +73,18 @@ fn lanes<R: Lane, E: Effect, T: Number, const KEEP: bool>(
     let mut was_held = R::splat(0.0);
     if E::REACHES {
         was_held = effect.reach(found.contact.radius, &history);
-        touching = R::select(touching, found.reach, found.contact.overlap + was_held).gt(R::splat(0.0));
+        let touches = found.contact.touching;
+        let beyond = R::select(touches, found.reach, found.contact.overlap + was_held);
+        found.contact.touching = beyond.gt(R::splat(0.0));
     }
-    found.contact.touching = touching;
+    let part = if step.ahead > 0.0 { average(step.ahead, &mut found.contact, was_held) } else { None };
+    let touching = found.contact.touching;
     let mut response = Response::zero();
-    effect.apply(&found.contact, R::splat(step.dt), &mut history, &mut response);
+    let dt = R::splat(step.dt);
+    effect.apply(&found.contact, part.map_or(dt, |share| share * dt), &mut history, &mut response);
+    if let Some(share) = part {
+        response.shorten(share);
+    }
     history.keep(touching).store(stored, lane);
     let force = scatter::<R, E, T>(step, batch, buffer, at, &found, &response);
     let mut ended = false;
@@ -87,7 +93,7 @@ fn lanes<R: Lane, E: Effect, T: Number, const KEEP: bool>(
         ended = R::any(released(&row, touching).gt(R::splat(0.0)));
         R::store_rows(row, &mut batch.ledger[at * LEDGER..]);
     }
-    let deep = R::both(touching, found.contact.overlap.gt(found.smaller * R::splat(step.overlap_limit)));
+    let deep = R::both(touching, found.contact.present.gt(found.smaller * R::splat(step.overlap_limit)));
     // A contact that has just ended or broken stays in the ledger for one step.
     let active = R::any(touching) || ended || (E::REACHES && KEEP && R::any(was_held.gt(R::splat(0.0))));
     (active, R::any(deep))
@@ -109,6 +115,16 @@ struct Ends<'a, R: Lane> {
     square: R::Wide,
     /// (r_i + r_j)² less that [m²].
     gap: R,
+}
+
+impl<R: Lane> Ends<'_, R> {
+    /// Whether any may come to touch within half a step. Where a distance d between centres shrinks by w to less than r_i + r_j,
+    /// (r_i + r_j)² − d² + 2 d w > w².
+    #[inline(always)]
+    fn meet_soon(&self, step: &StepInputs) -> bool {
+        let shrinks = size(R::narrow(self.apart.dot(self.velocities[0]))) * R::splat(2.0 * step.ahead);
+        step.ahead > 0.0 && R::any((self.gap + shrinks).gt(R::splat(0.0)))
+    }
 }
 
 /// Reads the rows of both ends.
@@ -179,6 +195,8 @@ fn geometry<R: Lane, E: Effect>(step: &StepInputs, batch: &Batch, ends: Ends<R>)
         touching: ends.gap.gt(zero),
         normal,
         overlap,
+        present: overlap,
+        before: overlap + along * R::splat(step.dt),
         radius: R::select(round, ri * rj * inverse_reach, ri),
         curvature: R::select(round, inverse_reach, zero),
         mass: inverse * both,
@@ -189,6 +207,39 @@ fn geometry<R: Lane, E: Effect>(step: &StepInputs, batch: &Batch, ends: Ends<R>)
         turn,
     };
     Geometry { contact, reach, smaller: R::select(round, ri.min(rj), ri), share, surface, spin_j }
+}
+
+/// The part of a kick in which contacts act, where that is not the whole of it for all of them: δ(t) ≈ δ + δ̇ t for half a step before the instant
+/// and half a step after it. Contacts whose surfaces part at a gap of `held` [m] act up to there.
+///
+/// ```text
+/// w = |δ̇| Δt/2,  z = δ + held        acts where z + w > 0; for the whole kick where z > w
+/// mean of z where it is positive: (z + w)/2, its share of the kick: (z + w)/2w
+/// ```
+#[inline(always)]
+pub fn average<R: Lane>(ahead: f64, c: &mut Contact<R>, held: R) -> Option<R> {
+    let (zero, half) = (R::splat(0.0), R::splat(0.5));
+    let way = size(c.approach) * R::splat(ahead);
+    let now = c.overlap + held;
+    let last = now + way;
+    c.touching = last.gt(zero);
+    let before = c.before + held;
+    c.before = R::select(way.gt(before), (before + way) * half - held, c.before);
+    let begins_or_ends = R::both(c.touching, way.gt(now));
+    if !R::any(begins_or_ends) {
+        return None;
+    }
+    let share = R::select(begins_or_ends, last / (way + way), R::splat(1.0));
+    c.overlap = R::select(begins_or_ends, last * half - held, c.overlap);
+    c.present = R::select(begins_or_ends, now.max(zero) - held, c.present);
+    c.turn = c.turn * share;
+    Some(share)
+}
+
+/// |x|.
+#[inline(always)]
+fn size<R: Lane>(x: R) -> R {
+    x.max(R::splat(0.0) - x)
 }
 
 /// Adds force, moment and torque to both ends, and keeps them where they are wanted; the force [N].
@@ -239,7 +290,7 @@ fn ledger_row<R: Lane, E: Effect>(
     // left is parked far away, and its contacts were booked when it left.
     let two_steps = R::splat(2.0 * step.dt);
     let recent =
-        R::select(touching, R::splat(1.0), found.contact.overlap - found.contact.approach * two_steps)
+        R::select(touching, R::splat(1.0), found.contact.present - found.contact.approach * two_steps)
             .gt(zero);
     // Work of j's surface on i; only walls' is added up.
     let surface = (found.surface.dot(force) + response.torque.dot(found.spin_j)) * R::splat(step.dt);
@@ -265,7 +316,6 @@ fn ledger_row<R: Lane, E: Effect>(
 #[inline(always)]
 fn released<R: Lane>(row: &[R; LEDGER], touching: R::Mask) -> R {
     let zero = R::splat(0.0);
-    let size = |x: R| x.max(zero - x);
     let largest = row[2..=DISSIPATORS].iter().fold(zero, |most, x| most.max(size(*x)));
     R::select(touching, zero, largest)
 }

@@ -5,6 +5,7 @@ mod contact_loop;
 pub(crate) mod sums;
 pub(crate) mod wrenches;
 
+pub(crate) use contact_loop::average;
 pub(crate) use sums::{Pairs, Sums, WrenchSums};
 pub(crate) use wrenches::{Arrival, SlotEnd, WrenchSlices, WrenchSlicesMut};
 
@@ -29,6 +30,8 @@ pub const LOST: usize = 6;
 pub struct StepInputs<'a> {
     /// Δt [s].
     pub dt: f64,
+    /// Half of it where contacts are averaged over a kick, 0 where they are sampled [s].
+    pub ahead: f64,
     /// Largest overlap over the smaller radius [–].
     pub overlap_limit: f64,
     /// Particle rows.

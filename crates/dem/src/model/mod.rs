@@ -12,6 +12,7 @@ pub mod error;
 pub mod halt;
 pub mod in_range;
 pub mod limit;
+pub mod matched;
 pub mod quantity;
 pub mod start;
 pub mod step_cause;
@@ -109,17 +110,23 @@ impl Model {
         let contacts = setup.contacts.iter().map(|c| needed(c).0).collect();
         let setup = Setup { contacts, ..setup };
         let dt = begun.map_or_else(|| time_step(&setup), Ok)?;
-        let kinds = kinds(&setup)?;
+        let kinds = kinds(&setup, dt)?;
         let mean_radius = mean_radius(&setup);
         let reach = largest_reach(&setup);
         let skin = setup.skin.unwrap_or(FIRST_SKIN * mean_radius).max(reach);
         let horizon = if setup.skin.is_some() { 0.0 } else { HORIZON };
-        let walls: Vec<WallBody> = setup.walls.iter().map(|w| WallBody::new(w, reach)).collect();
+        let ahead = setup.sampling.ahead(dt);
+        let walls: Vec<WallBody> = setup.walls.iter().map(|w| WallBody::new(w, reach, ahead)).collect();
         slow_enough(&setup, &walls, dt)?;
         faster_than_sleep(&setup, &walls)?;
         let servo_gains = servo_gains(&setup, dt);
         let rotates = kinds.iter().any(|k| k.kernel.rotates()) || !setup.bonds.is_empty();
         Ok(Model { setup, dt, reach, skin, width, walls, servo_gains, kinds, horizon, mean_radius, rotates })
+    }
+
+    /// How far ahead in time contacts are looked for, half a step or nothing [s].
+    pub fn ahead(&self) -> f64 {
+        self.setup.sampling.ahead(self.dt)
     }
 
     /// How the numbers of contacts are kept.

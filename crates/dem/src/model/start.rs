@@ -1,9 +1,10 @@
 //! What a simulation begins with: its step, its kinds of contact.
 
-use crate::effects::{Elastic, OverlapLimit, Pair, damping_ratio};
+use crate::effects::{ContactLaw, Damping, Elastic, OverlapLimit, Pair, damping_ratio};
 use crate::kernel::compose::compose;
 use crate::model::dense_walls::met;
 use crate::model::limit::{contact_between, critical_step, grains, largest, radii_by_material, stiffest};
+use crate::model::matched;
 use crate::model::{DenseWalls, Kind, RepeatedMotion, SetupError, With};
 use crate::setup::clumps::SizeClass;
 use crate::setup::{Setup, Step, Wall};
@@ -71,7 +72,7 @@ pub fn mean_radius(setup: &Setup) -> f64 {
 }
 
 /// One kind for each pair of materials that particles have, and for each wall and material.
-pub fn kinds(setup: &Setup) -> Result<Vec<Kind>, SetupError> {
+pub fn kinds(setup: &Setup, dt: f64) -> Result<Vec<Kind>, SetupError> {
     let present: Vec<u16> =
         (0u16..).zip(radii_by_material(setup)).filter(|(_, r)| r.is_some()).map(|(m, _)| m).collect();
     let periodic = setup.periodic.iter().any(|p| p.is_some());
@@ -83,20 +84,16 @@ pub fn kinds(setup: &Setup) -> Result<Vec<Kind>, SetupError> {
         let own = grains.iter().filter(|g| g.material == a);
         own.map(|g| crowds.on(w, g.radius)).fold(1.0, f64::max)
     };
+    let matched: Vec<Damping> =
+        setup.contacts.iter().map(|law| matched::damping(law, setup.sampling, dt)).collect();
     let kind = |a: u16, b: u16, with: With| -> Result<Kind, SetupError> {
         let elastic = Elastic::of(&setup.materials[a as usize], &setup.materials[b as usize]);
-        Ok(Kind {
-            kernel: compose(
-                &Pair {
-                    law: contact_between(setup, a, b)?,
-                    elastic,
-                    compliance: setup.compliance(a, b, crowd(a, with)),
-                },
-                setup.precision,
-            ),
-            between: (a, b),
-            with,
-        })
+        let law = contact_between(setup, a, b)?;
+        let (known, damping) = (|c: &&ContactLaw| std::ptr::eq(*c, law), Damping::NONE);
+        let damping =
+            setup.contacts.iter().zip(&matched).find(|(c, _)| known(c)).map_or(damping, |(_, d)| *d);
+        let pair = Pair { law, elastic, compliance: setup.compliance(a, b, crowd(a, with)), damping };
+        Ok(Kind { kernel: compose(&pair, setup.precision), between: (a, b), with })
     };
     for &a in &present {
         for &b in present.iter().filter(|&&b| a <= b) {

@@ -103,7 +103,7 @@ fn space_order(model: &Model, state: &mut State) -> (Search, Vec<u32>) {
         let row = &p.rows[k as usize];
         let speed = row.velocity().norm();
         let way = horizon * (speed + 0.5 * gravity * horizon);
-        let margin = margin(state.listing.skin, way, model.mean_radius);
+        let margin = margin(state.listing.skin, way, model.mean_radius) + model.ahead() * speed;
         p.home[k as usize].0 = [row[0], row[1], row[2], margin];
     }
     let points: Vec<Vec3> = stay.iter().map(|&k| p.position(k as usize)).collect();
@@ -201,7 +201,8 @@ fn list_walls(
 
 /// How far a wall may move until lists are rebuilt [m].
 pub fn wall_margin(model: &Model, state: &State, wall: usize) -> f64 {
-    margin(state.listing.skin, model.horizon * model.dt * model.walls[wall].fastest(), model.mean_radius)
+    let speed = model.walls[wall].fastest();
+    margin(state.listing.skin, model.horizon * model.dt * speed, model.mean_radius) + model.ahead() * speed
 }
 
 /// Pairs across periodic faces: each once, by the half of all shifts whose first part that is not zero is positive.
@@ -246,7 +247,10 @@ fn classes(model: &Model, with: With) -> KindTable {
 pub fn is_due(model: &Model, state: &State) -> bool {
     let since = (state.steps - state.listing.step) as f64 * model.dt;
     // Written so that NaN is caught.
-    let holds = |w: usize| wall_shift(model, state, w, since) <= wall_margin(model, state, w);
+    let holds = |w: usize| {
+        let ahead = model.ahead() * model.walls[w].fastest();
+        wall_shift(model, state, w, since) + ahead <= wall_margin(model, state, w)
+    };
     state.listing.status != ListStatus::Valid || !(0..model.walls.len()).all(holds)
 }
 

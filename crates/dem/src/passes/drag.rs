@@ -43,6 +43,7 @@ pub fn drag_power(model: &Model, state: &State, k: usize) -> f64 {
 pub fn apply(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> bool {
     let Some(drag) = model.setup.drag else { return false };
     let (dt, gravity, zones, clumps) = (model.dt, model.setup.gravity, &state.zones, &state.clumps);
+    let ahead = model.ahead();
     let (p, before) = (&mut state.particles, &lists.before);
     let count = p.len();
     let rows = p.rows[..count].chunks_mut(CHUNK).zip(p.acceleration.chunks_mut(CHUNK));
@@ -64,7 +65,8 @@ pub fn apply(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> bo
                     accelerations[k][axis] += a[axis];
                     away += (row[axis] - home[k][axis]) * (row[axis] - home[k][axis]);
                 }
-                out |= away > home[k][3] * home[k][3];
+                let margin = (home[k][3] - ahead * row.velocity().norm()).max(0.0);
+                out |= away > margin * margin;
                 taken -= drag.slowing(was).dot(&was.velocity()) * dt / was[7];
             }
             (taken, out)

@@ -104,6 +104,8 @@ impl MoveFlags {
 #[derive(Clone, Copy)]
 pub struct MoveInputs {
     pub dt: f64,
+    /// How far ahead in time contacts are looked for [s].
+    pub ahead: f64,
     pub gravity: [f64; 3],
     pub motion_limit: f64,
 }
@@ -164,12 +166,16 @@ fn chunk<T: Number, Q: Four, const SPIN: bool>(columns: ParticleSlices, drive: &
         let moves = (dt * v + square * new) * three;
         let there = Q::read(position) + moves;
         there.write(position);
-        (v + dt * new).write(velocity);
+        let predicted = v + dt * new;
+        predicted.write(velocity);
         new.write(&mut acceleration[k]);
         let limit = drive.motion_limit * radius;
         // Written so that NaN is caught.
         moved.too_fast |= !(length2(moves) <= limit * limit);
-        let margin = home[k][3];
+        let mut margin = home[k][3];
+        if drive.ahead > 0.0 {
+            margin = (margin - drive.ahead * length2(predicted * three).sqrt()).max(0.0);
+        }
         moved.left_margin |= length2(there - Q::read(&home[k])) > margin * margin;
         if SPIN {
             let new = sum.moment * Q::all(inverse_inertia(radius, inverse_mass)) * three;

@@ -64,6 +64,8 @@ pub struct Setup {
     pub step: Step,
     /// Periodic extent (lowest, highest) [m] along x, y, z; `None` along an open axis.
     pub periodic: [Option<(f64, f64)>; 3],
+    /// Which part of a step the force of a contact stands for.
+    pub sampling: Sampling,
     /// In which precision contacts are computed.
     pub precision: Precision,
     /// Neighbours are listed up to this gap [m]; `None` chooses.
@@ -100,6 +102,7 @@ impl Default for Setup {
             entry_materials: Vec::new(),
             step: Step::Auto(0.2),
             periodic: [None; 3],
+            sampling: Sampling::default(),
             precision: Precision::Double,
             skin: None,
             sleep: None,
@@ -117,6 +120,26 @@ pub enum Step {
     Auto(f64),
     /// This step [s]; refused when above the critical one.
     Fixed(f64),
+}
+
+/// Which part of a step the force of a contact stands for: contacts begin and end inside a step (docs/time-step.md).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Sampling {
+    /// The part in which both touch, from half a step before the instant to half a step after it; damping is matched to the step.
+    Averaged,
+    /// The whole step, where both touch at its instant.
+    #[default]
+    Sampled,
+}
+
+impl Sampling {
+    /// How far ahead in time contacts are looked for in steps of `dt` [s].
+    pub fn ahead(self, dt: f64) -> f64 {
+        match self {
+            Sampling::Averaged => 0.5 * dt,
+            Sampling::Sampled => 0.0,
+        }
+    }
 }
 
 /// A sphere.

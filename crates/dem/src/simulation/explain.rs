@@ -1,10 +1,11 @@
 //! What a run computes, and what each part takes.
 
 use super::Simulation;
-use crate::effects::{Description, active};
+use crate::effects::{Description, active, damping_ratio};
 use crate::kernel::LEDGER;
 use crate::model::Model;
-use crate::setup::ContactLaw;
+use crate::model::matched::coefficients;
+use crate::setup::{ContactLaw, Sampling};
 use crate::simd::{Row, Row4};
 use crate::state::RigidClumps;
 use serde::Serialize;
@@ -20,6 +21,17 @@ pub struct EffectCost {
     pub because: String,
     /// Contact history [bytes].
     pub bytes_per_contact: usize,
+}
+
+/// Damping of a contact law that is matched to the step: γ + γ₁ (ω Δt)² + γ₂ (ω Δt)⁴, with ω² = S/m* of each contact.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MatchedDamping {
+    /// The pair of materials.
+    pub between: (String, String),
+    /// Restitution that it is matched to [–].
+    pub restitution: f64,
+    /// γ, γ₁ and γ₂ [–].
+    pub ratios: [f64; 3],
 }
 
 /// What a listed contact takes without the history of its effects [bytes].
@@ -39,13 +51,26 @@ pub struct ContactBytes {
 impl Simulation {
     /// Effects in force, by pair of materials that can meet.
     pub fn explain(&self) -> Vec<EffectCost> {
+        self.contacts_that_meet().into_iter().flat_map(|c| effects_of(&self.model, c)).collect()
+    }
+
+    /// Contact laws of the pairs of materials that can meet.
+    fn contacts_that_meet(&self) -> Vec<&ContactLaw> {
         let mut pairs: Vec<(u16, u16)> = self.model.kinds.iter().map(|k| k.between).collect();
         pairs.sort_unstable();
         pairs.dedup();
         let contacts = &self.model.setup.contacts;
         let meets =
             |c: &&ContactLaw| pairs.contains(&c.between) || pairs.contains(&(c.between.1, c.between.0));
-        contacts.iter().filter(meets).flat_map(|c| effects_of(&self.model, c)).collect()
+        contacts.iter().filter(meets).collect()
+    }
+
+    /// Damping that is matched to the step, by pair of materials that can meet; none where contacts are sampled.
+    pub fn matched_damping(&self) -> Vec<MatchedDamping> {
+        if self.model.setup.sampling == Sampling::Sampled {
+            return Vec::new();
+        }
+        self.contacts_that_meet().into_iter().filter_map(|c| matched_damping(&self.model, c)).collect()
     }
 
     /// State of one particle [bytes], without its share of contacts.
@@ -94,6 +119,14 @@ impl Simulation {
     pub fn rotates(&self) -> bool {
         self.model.rotates
     }
+}
+
+fn matched_damping(model: &Model, law: &ContactLaw) -> Option<MatchedDamping> {
+    let ([first, second], restitution) = (coefficients(law), law.number("restitution")?);
+    let name = |m: u16| model.setup.materials[m as usize].name.clone();
+    let between = (name(law.between.0), name(law.between.1));
+    let ratios = [damping_ratio(restitution), first, second];
+    (first != 0.0 || second != 0.0).then_some(MatchedDamping { between, restitution, ratios })
 }
 
 fn effects_of(model: &Model, law: &ContactLaw) -> Vec<EffectCost> {

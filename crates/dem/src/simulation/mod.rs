@@ -10,7 +10,7 @@ mod stages;
 mod step;
 
 pub use checkpoint::Checkpoint;
-pub use explain::{ContactBytes, EffectCost};
+pub use explain::{ContactBytes, EffectCost, MatchedDamping};
 
 use crate::model::{Model, SetupError};
 use crate::neighbours::NeighbourLists;

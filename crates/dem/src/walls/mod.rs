@@ -26,6 +26,8 @@ pub struct WallBody {
     span: f64,
     /// Largest gap at which a contact that was made still acts [m].
     reach: f64,
+    /// How far ahead in time contacts are looked for [s].
+    ahead: f64,
     /// Lowest and highest corner at t = 0 [m].
     pub bounds: [Vec3; 2],
 }
@@ -48,8 +50,8 @@ enum Surface {
 }
 
 impl WallBody {
-    /// Sorts wall spheres into their own grid and triangles into their tree, once; contacts act up to a gap of `reach` [m].
-    pub fn new(wall: &Wall, reach: f64) -> WallBody {
+    /// Sorts wall spheres into their own grid and triangles into their tree, once; contacts act up to a gap of `reach` [m], and are looked for a time `ahead` [s].
+    pub fn new(wall: &Wall, reach: f64, ahead: f64) -> WallBody {
         let farthest = |points: &mut dyn Iterator<Item = Vec3>| {
             points.map(|p| (p - wall.motion.through).norm()).fold(0.0, f64::max)
         };
@@ -69,7 +71,8 @@ impl WallBody {
                 (Surface::Triangles { boxes: Boxes::new(&boxes), corners }, span)
             }
         };
-        WallBody { motion: wall.motion, servo: wall.servo, bounds: bounds(&surface), surface, span, reach }
+        let (motion, servo, bounds) = (wall.motion, wall.servo, bounds(&surface));
+        WallBody { motion, servo, bounds, surface, span, reach, ahead }
     }
 
     /// Whether it moves at all.
@@ -200,7 +203,12 @@ impl WallBody {
                 let local = |k: usize| pose.home(&(centre - shift(k)));
                 let mut near: Vec<Nearest> =
                     (0..partners.len()).map(|k| Nearest::of(corners[part(k)], local(k))).collect();
-                seams::count(&mut near, row[3], self.reach);
+                let way = if self.ahead > 0.0 {
+                    self.ahead * (row.velocity().norm() + self.fastest())
+                } else {
+                    0.0
+                };
+                seams::count(&mut near, row[3], self.reach + way);
                 slots.take_over(&near, row[3]);
                 for (k, point) in near.iter().enumerate() {
                     // What is no contact of its own is put out of reach.
@@ -262,7 +270,7 @@ mod tests {
         ];
         for shape in shapes {
             let wall = Wall::new("w", 0, shape);
-            let body = WallBody::new(&wall, 0.0);
+            let body = WallBody::new(&wall, 0.0, 0.0);
             for k in [0, 1, 2, 1_000_000] {
                 let [x, y, z] = away(k);
                 let row = Row([x, y, z, 0.01, 0.0, 0.0, 0.0, 1.0]);

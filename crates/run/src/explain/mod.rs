@@ -13,7 +13,7 @@ use crate::schedule::Schedule;
 use crate::simulate::guard;
 pub use calibration::Calibration;
 use dem::setup::{Guards, Setup, Wall, WallShape};
-use dem::{ContactBytes, Simulation, critical_step};
+use dem::{ContactBytes, MatchedDamping, Simulation, critical_step};
 pub use effects::Effect;
 use effects::{EffectToMeasure, effects};
 use scene::advice::explain_step_cause;
@@ -60,6 +60,8 @@ pub struct Fields {
     pub steps: u64,
     /// Effects.
     pub effects: Vec<Effect>,
+    /// Damping that is matched to the step.
+    pub matched_damping: Vec<MatchedDamping>,
     /// Keys of the scene that have no effect, and why.
     pub dropped: Vec<String>,
     /// State of a particle [B].
@@ -130,6 +132,7 @@ pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained> {
         guard(scene, 0, halt)?;
     }
     let Schedule { dt, last, .. } = Schedule::new(scene, sim.dt())?;
+    let matched_damping = sim.matched_damping();
     let (bytes_per_particle, rotation) = (sim.bytes_per_particle(), sim.rotates());
     let (bonds, bytes_per_contact) = (sim.bond_count()[0], sim.bytes_of_contact());
     let bytes_per_bond = (bonds > 0).then(|| sim.bytes_of_bonds() as f64 / bonds as f64);
@@ -151,6 +154,7 @@ pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained> {
         limiting_pair: explain_step_cause(&limit.cause),
         steps: last,
         effects: effects(scene, &setup).into_iter().map(measured_effect).collect(),
+        matched_damping,
         dropped: keys::dropped(scene, &setup),
         bytes_per_particle,
         bytes_per_contact,

@@ -1,7 +1,7 @@
 //! The answer in words.
 
 use super::{Coming, Effect, Fields};
-use dem::ContactBytes;
+use dem::{ContactBytes, MatchedDamping};
 use std::fmt::{Display, Write};
 
 /// Shares below this are not distinguished from 0 [–].
@@ -24,6 +24,9 @@ pub(super) fn text(fields: &Fields) -> String {
             "",
             format!("at guards.overlap = {overlap}; half of that would allow a critical step of {dt:.4e} s"),
         );
+    }
+    for (k, matched) in fields.matched_damping.iter().enumerate() {
+        line(&mut out, if k == 0 { "damping" } else { "" }, damping(matched));
     }
     line(&mut out, "steps", fields.steps);
     let Fields { particles, wall_spheres, .. } = fields;
@@ -50,6 +53,14 @@ pub(super) fn text(fields: &Fields) -> String {
 fn line(out: &mut String, head: &str, words: impl Display) {
     // Writing to a string does not fail.
     let _ = writeln!(out, "{head:<15}{words}");
+}
+
+/// What the damping of a pair is matched to.
+fn damping(matched: &MatchedDamping) -> String {
+    let (MatchedDamping { between: (a, b), restitution, ratios: [gamma, first, second] }, e) =
+        (matched, geom::Shown);
+    let ratio = format!("{gamma:.4} {first:+.4} x² {second:+.4} x⁴ of √(S m*), x = Δt √(S/m*)");
+    format!("matched to the step, so that restitution is {} ({a}–{b}): {ratio}", e(*restitution))
 }
 
 fn coming(out: &mut String, coming: &Coming) {

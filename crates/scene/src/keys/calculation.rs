@@ -34,6 +34,20 @@ pub struct Time {
     /// Share by which the step is made shorter than the other keys say [–]: contacts then begin at another phase of it.
     #[serde(default, deserialize_with = "unit::plain")]
     pub shorten: Option<f64>,
+    /// Which part of a step the force of a contact stands for.
+    #[serde(default)]
+    pub contacts: Sampling,
+}
+
+/// Which part of a step the force of a contact stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Sampling {
+    /// The part in which both touch.
+    Averaged,
+    /// All of it, where both touch at its instant.
+    #[default]
+    Sampled,
 }
 
 /// A share: `"1%"`, or 0.01.

@@ -3,7 +3,7 @@
 use super::builder::PlanBuilder;
 use super::{NO_DENSITY, Plan, accuracy, bonds, contacts, impact};
 use crate::error::Result;
-use crate::keys::{Arithmetic, BackThroughZone, DragLaw};
+use crate::keys::{Arithmetic, BackThroughZone, DragLaw, Sampling};
 use dem::setup::{self, CameBack, Guards, Setup, Step};
 use geom::Vec3;
 
@@ -33,6 +33,10 @@ impl PlanBuilder<'_> {
                 Arithmetic::F64 => setup::Precision::Double,
                 Arithmetic::Mixed => setup::Precision::Mixed,
                 Arithmetic::F32 => setup::Precision::Single,
+            },
+            sampling: match keys.time.contacts {
+                Sampling::Averaged => setup::Sampling::Averaged,
+                Sampling::Sampled => setup::Sampling::Sampled,
             },
             skin: keys.neighbours.skin,
             sleep: keys.sleep.map(|s| setup::Sleep { speed: s.speed, time: s.time, wake: s.wake }),

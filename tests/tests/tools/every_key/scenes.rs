@@ -32,6 +32,7 @@ until = 0.002
 dt = "auto"
 safety = 0.4
 shorten = 0.02
+contacts = "averaged"
 [output]
 every = 0.001
 checkpoint = 0.001

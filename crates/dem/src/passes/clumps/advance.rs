@@ -4,7 +4,6 @@ use crate::model::Model;
 use crate::passes::integrate::MoveFlags;
 use crate::setup::Setup;
 use crate::simd::{Row, Row4};
-use crate::space::sphere::periods;
 use crate::state::clumps::far;
 use crate::state::{ClumpMotion, Particles, RigidClumps, State};
 use crate::threads::share;
@@ -15,7 +14,8 @@ const CHUNK: usize = 512;
 
 impl RigidClumps {
     /// Moves the clumps whose members have been moved as if they were free, and sets the rows of the members.
-    pub fn advance(&mut self, particles: &mut Particles, setup: &Setup, dt: f64) -> MoveFlags {
+    pub fn advance(&mut self, particles: &mut Particles, model: &Model) -> MoveFlags {
+        let (setup, dt) = (&model.setup, model.dt);
         let (members, arms) = (&self.members, &self.arms);
         let seen = &*particles;
         let advance = |chunk: &mut [ClumpMotion]| {
@@ -25,7 +25,7 @@ impl RigidClumps {
             }
         };
         share(self.flights.len() > CHUNK, self.flights.chunks_mut(CHUNK).collect(), advance);
-        self.position(particles, setup, dt)
+        self.position(particles, model)
     }
 
     /// Bodies without a past get the acceleration and the torque of this instant as those of the step before.
@@ -39,10 +39,10 @@ impl RigidClumps {
     }
 
     /// Writes the members' rows.
-    fn position(&self, particles: &mut Particles, setup: &Setup, dt: f64) -> MoveFlags {
+    fn position(&self, particles: &mut Particles, model: &Model) -> MoveFlags {
         let count = self.of.len();
-        let (periods, motion_limit) = (periods(&setup.periodic), setup.guards.motion);
-        let members = Members { clumps: self, periods, motion_limit, dt };
+        let (periods, motion_limit) = (model.period(), model.setup.guards.motion);
+        let members = Members { clumps: self, periods, motion_limit, dt: model.dt, ahead: model.ahead() };
         let Particles { rows, spins, acceleration, home, .. } = particles;
         let rotating = if spins.is_empty() { 0 } else { count };
         // Without rotation there are no spins, and an empty part for each chunk.
@@ -62,6 +62,7 @@ struct Members<'a> {
     periods: Vec3,
     motion_limit: f64,
     dt: f64,
+    ahead: f64,
 }
 
 impl Members<'_> {
@@ -91,7 +92,8 @@ impl Members<'_> {
             accelerations[k] = Row4::of(a);
             let limit = self.motion_limit * row[3];
             moved.too_fast |= !(way.norm_squared() <= limit * limit);
-            moved.left_margin |= (position - home[k].vector()).norm_squared() > home[k][3] * home[k][3];
+            let margin = (home[k][3] - self.ahead * velocity.norm()).max(0.0);
+            moved.left_margin |= (position - home[k].vector()).norm_squared() > margin * margin;
         }
         moved
     }
@@ -105,5 +107,5 @@ pub fn advance(model: &Model, state: &mut State, moved: MoveFlags) -> MoveFlags 
     if model.setup.ledger {
         state.ledger.drag += state.clumps.drag_power(&model.setup) * model.dt;
     }
-    moved.and(state.clumps.advance(&mut state.particles, &model.setup, model.dt))
+    moved.and(state.clumps.advance(&mut state.particles, model))
 }

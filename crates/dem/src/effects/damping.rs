@@ -1,0 +1,46 @@
+//! The damping ratio of a normal law: a number, or matched to the time step.
+//!
+//! ```text
+//! γ(S) = γ + γ₁ (S/m* Δt²) + γ₂ (S/m* Δt²)²
+//! ```
+//!
+//! γ is that of exact integration ([`super::damping_ratio`]); γ₁ and γ₂ are 0, or such that the impact in finite steps has the restitution asked for
+//! ([`crate::model::matched`]).
+
+use super::damping_ratio;
+use crate::simd::Lane;
+
+/// γ of a normal law.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Damping {
+    /// γ [–].
+    pub ratio: f64,
+    /// γ₁ Δt² [s²].
+    pub first: f64,
+    /// γ₂ Δt⁴ [s⁴].
+    pub second: f64,
+    /// Share of its work that the law dissipates [–]: none with e = 1, where it takes back what the step has made.
+    pub dissipates: f64,
+}
+
+impl Damping {
+    /// That of exact integration, for a restitution.
+    pub fn exact(restitution: f64) -> Damping {
+        let ratio = damping_ratio(restitution);
+        Damping { ratio, dissipates: if ratio > 0.0 { 1.0 } else { 0.0 }, ..Damping::NONE }
+    }
+
+    /// None.
+    pub const NONE: Damping = Damping { ratio: 0.0, first: 0.0, second: 0.0, dissipates: 0.0 };
+
+    /// Times a number.
+    pub fn scaled(self, by: f64) -> Damping {
+        Damping { ratio: by * self.ratio, first: by * self.first, second: by * self.second, ..self }
+    }
+
+    /// γ of a contact whose S/m* [1/s²] is `pace`.
+    #[inline(always)]
+    pub fn of<R: Lane>(&self, pace: R) -> R {
+        R::splat(self.ratio) + pace * (R::splat(self.first) + pace * R::splat(self.second))
+    }
+}
