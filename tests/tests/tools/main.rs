@@ -16,6 +16,7 @@ mod limits;
 mod measure;
 mod outputs;
 mod pipelines;
+mod plants;
 mod python;
 mod readme;
 mod real_clouds;
