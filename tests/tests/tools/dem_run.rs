@@ -1,5 +1,6 @@
 //! A run is exact, resumes bit for bit, and what stops it leaves a file that can be read.
 
+mod continued;
 mod stopped;
 
 use grainpipe_tests::scenes::{Head, RUBS, folder};
