@@ -10,6 +10,7 @@ mod dem_run;
 mod docs;
 mod every_key;
 mod every_option;
+mod example_scenes;
 mod help_examples;
 mod layout;
 mod ledger_line;
