@@ -22,7 +22,7 @@ fn given(folder: &Path) {
     rename("tetra.ply", "hopper.ply");
     let scene = fs::read_to_string(folder.join("s.toml")).unwrap();
     let (rest, _) = scene.split_once("plane = ").unwrap();
-    fs::write(folder.join("lined.toml"), format!("{rest}material = \"steel\"\n")).unwrap();
+    fs::write(folder.join("lined.toml"), format!("{rest}material = \"sinter\"\n")).unwrap();
     succeed(folder, "cloud-crop", &["scan.xyz", "-o", "scan.ply"]);
     for stage in ["upstream", "downstream"] {
         let file = if stage == "upstream" { "up.toml" } else { "down.toml" };
