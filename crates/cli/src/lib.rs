@@ -23,6 +23,7 @@
 //! `-q`, `--threads` and `--report` are added to every tool by [`run`]; exit codes are in [`exit`].
 
 mod clash;
+mod describe;
 pub mod exit;
 mod input;
 mod output;

@@ -3,6 +3,7 @@
 use crate::{
     Report, Source, Stopped,
     clash::{self, OUTPUTS},
+    describe,
     exit::{self, code, one_line, reader_closed_the_pipe},
     output::OutputStream,
     signals,
@@ -91,6 +92,10 @@ pub fn run<A: clap::Parser>(name: &'static str, work: impl FnOnce(A) -> anyhow::
             print(panic);
         }
     }));
+    if describe::is_asked() {
+        let written = writeln!(std::io::stdout(), "{}", describe::text(&command::<A>(name)));
+        return ExitCode::from(u8::from(written.is_err()));
+    }
     let matches = parsed(command::<A>(name)).unwrap_or_else(|e| refuse(name, &e));
     let (args, common) = match (A::from_arg_matches(&matches), Common::from_arg_matches(&matches)) {
         (Ok(args), Ok(common)) => (args, common),

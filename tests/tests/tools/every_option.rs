@@ -1,7 +1,7 @@
 //! Every option of every tool, in each of its forms: what `--help` lists stands in an example, and every example runs.
 
 mod examples;
-mod files;
+pub mod files;
 mod shapes;
 
 use examples::{EXAMPLES, FORMS};
@@ -75,9 +75,7 @@ fn used(tool: &str) -> Vec<(String, String)> {
 #[test]
 fn every_option_has_an_example_in_each_of_its_forms() {
     let tools: BTreeSet<&str> = EXAMPLES.iter().filter_map(|line| line.split(' ').next()).collect();
-    let folders = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../tools")).expect("the tools");
-    let all = folders.map(|entry| entry.expect("an entry")).filter(|entry| entry.path().is_dir());
-    let all: BTreeSet<String> = all.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+    let all = files::tools();
     assert_eq!(all, tools.iter().map(|tool| (*tool).to_owned()).collect(), "every tool has examples");
     let mut missing = Vec::new();
     for tool in &tools {

@@ -4,8 +4,13 @@ use cloud::Cloud;
 use sampling::{Amount, Distance, Method, SampleSettings};
 use std::path::PathBuf;
 
+const EXAMPLES: &str = "Examples:\n\
+    \x20 bluenoise-sample filled.ply --spacing 0.012 -o sampled.ply\n\
+    \x20 bluenoise-sample filled.ply --count 200 --method eliminate --plot spectrum.svg -o sampled.ply";
+
 /// Thin a cloud to points at even distances (blue noise).
 #[derive(clap::Parser)]
+#[command(after_help = EXAMPLES)]
 #[command(allow_negative_numbers = true)]
 #[command(group = clap::ArgGroup::new("amount").required(true).args(["spacing", "count", "density"]))]
 pub struct Args {

@@ -6,8 +6,13 @@ use clap::Parser;
 use cli::Report;
 use std::process::ExitCode;
 
+const EXAMPLES: &str = "Examples:\n\
+    \x20 chute-scan --points 20000 -o chute.ply\n\
+    \x20 chute-scan --points 20000 --noise 0.001 | cloud-fill -o chute-filled.ply";
+
 /// Make a synthetic laser scan of a swivel chute, with a blind spot and its mounting end
 #[derive(Parser)]
+#[command(after_help = EXAMPLES)]
 struct Args {
     /// Number of points
     #[arg(long, value_name = "N", default_value_t = 60_000, value_parser = clap::value_parser!(u32).range(1..=50_000_000))]

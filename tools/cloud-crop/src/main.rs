@@ -17,7 +17,11 @@ use stream::ply::{Blocks, Opened};
 const SHAPES: &str = "SHAPE: box:x0,y0,z0,x1,y1,z1 | sphere:x,y,z,r | cylinder:x0,y0,z0,x1,y1,z1,r | \
     cone:x0,y0,z0,x1,y1,z1,r0,r1 | halfspace:px,py,pz,nx,ny,nz (the side n points to) | prism:FILE.json | mesh:FILE; \
     a ! before a SHAPE means its outside. All lengths in metres.\n\n\
-    With --check: exit 0 if there is nothing to remove, 3 if there is a part beyond the outer shape.";
+    With --check: exit 0 if there is nothing to remove, 3 if there is a part beyond the outer shape.\n\n\
+    Examples:\n\
+    \x20 cloud-crop scan.ply --remove halfspace:0,0,-0.1,0,0,-1 -o cropped.ply\n\
+    \x20 cloud-crop scan.ply --outliers 12,3 --largest 0.03 | cloud-fill -o filled.ply\n\
+    \x20 cloud-crop scan.ply --outer box:-1,-1,-1,1,1,1 --check";
 
 /// Keep or remove points of a cloud by shapes, named regions, outliers and connected parts
 #[derive(Parser)]

@@ -14,7 +14,10 @@ const ABOUT: &str = "A hole is a region inside the outline of the surface with a
     changed. Each hole is meshed by ball pivoting, and points are put on the smooth surface that continues its \
     surroundings. Added points have the property filled = 1 and take all other properties from the nearest scanned \
     point. The default of --below is a quarter of the density below which the sparsest 5 % of the surface lie; the \
-    report gives it.";
+    report gives it.\n\n\
+    Examples:\n\
+    \x20 cloud-fill cropped.ply -o filled.ply\n\
+    \x20 cloud-fill cropped.ply --below 5000 --max-hole 0.1 -o filled.ply";
 
 /// Find the holes of a scan and fill them with points
 #[derive(Parser)]

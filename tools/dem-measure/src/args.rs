@@ -10,7 +10,12 @@ const SHAPES: &str = "SHAPE: box:x0,y0,z0,x1,y1,z1 | sphere:x,y,z,r | cylinder:x
     cone:x0,y0,z0,x1,y1,z1,r0,r1 | halfspace:px,py,pz,nx,ny,nz | prism:FILE.json | mesh:FILE | all (where no volume \
     is needed); a ! before a SHAPE means its outside. PLANE: px,py,pz,nx,ny,nz, with n in the direction of flow. \
     All lengths in metres.\n\
-    docs/measure.md defines each measure and its columns.";
+    docs/measure.md defines each measure and its columns.\n\n\
+    Examples:\n\
+    \x20 dem-measure run.mcap --profile --axis z --bins 5\n\
+    \x20 dem-measure run.mcap --flow 0,0,0.02,0,0,-1 --plot flow.svg -o flow.csv\n\
+    \x20 dem-measure run.mcap --porosity box:0,0,0,0.05,0.05,0.02\n\
+    \x20 dem-measure run.mcap --wall-force all --wall floor";
 
 /// Measure a run (MCAP), also while it is still being written; CSV (or JSON) to stdout
 #[derive(Parser, Debug)]

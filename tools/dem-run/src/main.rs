@@ -1,11 +1,14 @@
 //! Runs a scene: particles, contacts and walls through time, written as a run MCAP.
 
+mod continued;
+mod misplaced;
 mod parts;
 mod watch;
 
 use anyhow::Context;
 use clap::Parser;
 use cli::{Output, Report, Source, Stopped};
+use misplaced::MCAP;
 use parts::Saved;
 use record::SIGNAL;
 use run::{Checkpoint, Progress, RunError, Settings, run};
@@ -16,11 +19,15 @@ use std::path::Path;
 use std::process::ExitCode;
 use watch::Watch;
 
-/// What an MCAP file begins with.
-const MCAP: [u8; 5] = *b"\x89MCAP";
+const EXAMPLES: &str = "Examples:\n\
+    \x20 dem-run scene.toml --explain\n\
+    \x20 dem-run scene.toml -o run.mcap\n\
+    \x20 dem-run lined.toml walls.mcap --set contact.0.restitution=0.3 -o lined.mcap\n\
+    \x20 dem-run scene.toml --until 0.08 --resume run.mcap -o rest.mcap";
 
 /// Run a DEM scene and write a run MCAP (walls, frames, crossings, checkpoints)
 #[derive(Parser)]
+#[command(after_help = EXAMPLES)]
 struct Args {
     /// The scene (TOML), - for stdin
     #[arg(value_name = "SCENE.toml")]
@@ -64,6 +71,8 @@ fn in_scene(error: anyhow::Error, scene: String) -> anyhow::Error {
 
 fn dem_run(args: Args) -> anyhow::Result<Report> {
     Source::one_stdin([&args.scene].into_iter().chain(&args.inputs).chain(&args.resume))?;
+    misplaced::scene(&args.scene)?;
+    misplaced::inputs(&args.scene, &args.inputs)?;
     let scene = read_scene(&args)?;
     cli::also_reads(scene.files())?;
     if args.explain {
@@ -202,14 +211,26 @@ fn simulate(args: &Args, scene: &Scene, plan: Plan, resume: Option<Checkpoint>) 
     );
     let report = Report::new(summary).with_all(&outcome);
     match outcome.stopped {
-        Some(reason) if reason == SIGNAL => {
-            let time = geom::Shown(outcome.time);
-            let file =
-                args.output.path().map_or_else(|| "FILE".to_owned(), |path| path.display().to_string());
-            let reason = format!("stopped {reason} at t = {time} s; continue with --resume {file}");
-            Err(Stopped::error(reason, Some(report)))
+        Some(reason) => {
+            Err(Stopped::error(stopped(&args.output, scene, &reason, outcome.time), Some(report)))
         }
-        Some(reason) => Err(Stopped::error(format!("stopped by a guard: {reason}"), Some(report))),
         None => Ok(report),
     }
+}
+
+/// Why a run stopped, and how to continue it.
+fn stopped(output: &Output, scene: &Scene, reason: &str, time: f64) -> String {
+    let file = continued::file(output);
+    if reason != SIGNAL {
+        let wider = continued::wider(scene, reason);
+        let past = file.filter(|_| !wider.is_empty()).map(|file| continued::sentence(&file, &wider));
+        let past = past.map_or(String::new(), |past| format!("; to go past the guard, {past}"));
+        return format!("stopped by a guard: {reason}{past}");
+    }
+    let time = geom::Shown(time);
+    let how = file
+        .map_or("continue with --resume FILE, the file that holds this output".to_owned(), |file| {
+            continued::sentence(&file, &[])
+        });
+    format!("stopped {reason} at t = {time} s; {how}")
 }

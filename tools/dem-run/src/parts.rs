@@ -1,5 +1,6 @@
 //! Runs that did not come to their end: what they leave as `NAME.part`, and how it is found again.
 
+use crate::continued;
 use cli::{NotRenamed, Output, Source};
 use std::path::{Path, PathBuf};
 
@@ -86,8 +87,8 @@ pub fn leaves(error: anyhow::Error, part: Option<&Path>, saved: Saved) -> anyhow
     // A complete output that has no name says so itself.
     let whole = error.chain().any(|cause| cause.is::<NotRenamed>());
     let Some(part) = part.filter(|part| part.is_file() && !whole) else { return error };
-    let (part, time) = (part.display(), geom::Shown(saved.time));
-    let use_of =
-        if saved.resumes { format!("--resume {part} continues it") } else { "dem-view shows it".to_owned() };
+    let time = geom::Shown(saved.time);
+    let use_of = if saved.resumes { continued::sentence(part, &[]) } else { "dem-view shows it".to_owned() };
+    let part = part.display();
     error.context(format!("the run until t = {time} s is kept in {part} ({use_of})"))
 }

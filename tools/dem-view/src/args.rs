@@ -6,8 +6,15 @@ use cli::Source;
 use std::path::PathBuf;
 use view::{Camera, Map, PictureOptions, Span};
 
+const EXAMPLES: &str = "Examples:\n\
+    \x20 dem-view run.mcap -o run.html\n\
+    \x20 dem-view run.mcap --time 0.02 --colour speed --camera front -o run.png\n\
+    \x20 dem-view run.mcap --every 0.01 --size 320x180 -o run.gif\n\
+    \x20 dem-view sampled.ply --pick -o pick.html";
+
 /// Show runs, walls and clouds together: an HTML page (no network needed), a picture, a film, files for ParaView
 #[derive(Parser)]
+#[command(after_help = EXAMPLES)]
 pub struct Args {
     /// Runs and walls (MCAP), clouds (PLY, LAS, E57, PCD, XYZ), meshes (PLY), shown together; - or none: stdin
     #[arg(value_name = "INPUT")]
@@ -17,7 +24,7 @@ pub struct Args {
     #[arg(id = "output", short = 'o', long = "output", value_name = "FILE")]
     pub file: Option<PathBuf>,
     /// Field to colour by: speed, spin, radius, material, id, x, y, z, rgb, or any column [default: speed, else z]
-    #[arg(long, value_name = "FIELD")]
+    #[arg(long, visible_alias = "color", value_name = "FIELD")]
     pub colour: Option<String>,
     /// Ends of the colour scale in SI units [default: the range of 98 % of the values]
     #[arg(long, value_name = "LO,HI", value_parser = formats::range, allow_hyphen_values = true)]

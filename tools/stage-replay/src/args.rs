@@ -7,8 +7,13 @@ use geom::{Plane, Vec3};
 use scene::ZoneMotion;
 use stages::replay::{Copies, Frame, Intervals, Replay};
 
+const EXAMPLES: &str = "Examples:\n\
+    \x20 dem-run up.toml | tee up.mcap | stage-replay | dem-run down.toml - -o down.mcap\n\
+    \x20 stage-replay up.mcap --until 0.04 -o inlet.mcap";
+
 /// Turn the crossings of a run into an inlet MCAP, also while the run is still being written
 #[derive(Parser)]
+#[command(after_help = EXAMPLES)]
 pub struct Args {
     /// The run (MCAP), - for stdin; give all files of a run that was stopped and resumed, in the order of their times
     #[arg(value_name = "RUN.mcap", default_value = "-", hide_default_value = true)]

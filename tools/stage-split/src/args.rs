@@ -7,8 +7,13 @@ use scene::{ZoneMotion, ZoneTest};
 use stages::split::{Cut, Stage};
 use std::path::Path;
 
+const EXAMPLES: &str = "Examples:\n\
+    \x20 stage-split plant.toml --at 0,0,0.02,0,0,-1 --keep upstream -o up.toml\n\
+    \x20 stage-split plant.toml --at 0,0,0.02,0,0,-1 --keep downstream -o down.toml";
+
 /// Cut a scene at a plane and write the scene of one stage
 #[derive(Parser)]
+#[command(after_help = EXAMPLES)]
 pub struct Args {
     /// The scene (TOML), - for stdin
     #[arg(value_name = "SCENE.toml", default_value = "-", hide_default_value = true)]

@@ -8,8 +8,13 @@ use std::path::{Path, PathBuf};
 use wall::drawn::Drawing;
 use wall::{Placement, Radius, Regions, Representative, WallSettings};
 
+const EXAMPLES: &str = "Examples:\n\
+    \x20 wallgen sampled.ply --roughness 0.0015 --radius uniform --material steel -o walls.mcap\n\
+    \x20 wallgen --from-mesh hopper.ply --radius 0.03 --roughness 0.003 --material steel -o hopper.mcap";
+
 /// Turn the points of a surface into wall spheres (MCAP; PLY with -o FILE.ply).
 #[derive(clap::Parser)]
+#[command(after_help = EXAMPLES)]
 #[command(allow_negative_numbers = true)]
 pub struct Args {
     #[command(flatten)]

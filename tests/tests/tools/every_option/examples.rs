@@ -69,7 +69,7 @@ pub const EXAMPLES: &[&str] = &[
     "dem-view run.mcap --to 0.02 --size 96x64 -o v.mp4",
     "dem-view run.mcap --time 0.02 -o v.vtp",
     "dem-view run.mcap --every 0.02 -o v.pvd",
-    "dem-view run.mcap --camera top --size 96x64 -o v2.png",
+    "dem-view run.mcap --camera top --color vz --size 96x64 -o v2.png",
     "dem-view run.mcap --camera -x --size 96x64 -o v3.png",
     "dem-view run.mcap --camera 0.3,0.3,0.3 --size 96x64 -o v4.png",
     "dem-view run.mcap --camera 0.3,0.3,0.3,0,0,0 --size 96x64 --output v5.png",

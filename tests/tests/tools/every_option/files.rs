@@ -1,6 +1,7 @@
 //! Small inputs for the examples: clouds, a mesh, a prism, tables of regions, scenes.
 
 use grainpipe_tests::scenes::folder;
+use std::collections::BTreeSet;
 use tempfile::TempDir;
 
 const TETRAHEDRON: &str = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n\
@@ -88,4 +89,11 @@ pub fn inputs() -> TempDir {
         ("up.toml", [&plant, outlet].concat()),
         ("plant.toml", plant),
     ])
+}
+
+/// The names of all tools.
+pub fn tools() -> BTreeSet<String> {
+    let folders = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../tools")).expect("the tools");
+    let all = folders.map(|entry| entry.expect("an entry")).filter(|entry| entry.path().is_dir());
+    all.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect()
 }
