@@ -9,9 +9,11 @@ use view::{Camera, Map, PictureOptions, Span};
 /// Show runs, walls and clouds together: an HTML page (no network needed), a picture, a film, files for ParaView
 #[derive(Parser)]
 pub struct Args {
-    /// Runs and walls (MCAP), clouds (PLY, LAS, E57, PCD, XYZ), meshes (PLY), shown together; - or none: stdin
+    /// Runs and walls (MCAP), clouds (PLY, LAS, E57, PCD, XYZ), meshes (PLY, STL, OBJ), shown together; - or none: stdin
     #[arg(value_name = "INPUT")]
     pub inputs: Vec<Source>,
+    #[command(flatten)]
+    pub lengths: cli::Lengths,
     /// Write to FILE instead of HTML to stdout; FILE appears when it is complete. Endings: .html, .png, .gif, .mp4 (needs ffmpeg), .vtp
     /// (ParaView, one moment), .pvd (ParaView, a series: NAME.pvd and a folder NAME)
     #[arg(id = "output", short = 'o', long = "output", value_name = "FILE")]
