@@ -8,6 +8,9 @@ use crate::keys::{Fill, Insert, SceneKeys};
 impl Check<'_> {
     /// `[[fill]]` and `[[insert]]`.
     pub(super) fn particles(&self, m: &SceneKeys) -> Result<()> {
+        for (i, p) in m.particles.iter().enumerate() {
+            self.lengths(&format!("particles.{i}"), p.scale, p.units.as_deref())?;
+        }
         m.fill.iter().enumerate().try_for_each(|(i, f)| self.fill(&format!("fill.{i}"), f))?;
         m.insert.iter().enumerate().try_for_each(|(i, f)| self.insert(&format!("insert.{i}"), f))
     }

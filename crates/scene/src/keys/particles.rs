@@ -127,6 +127,18 @@ pub struct Particles {
     pub material: Option<String>,
     /// Name of a `[[clump]]`: a clump for each row.
     pub clump: Option<String>,
+    /// Factor on the lengths in the file: positions, radii and velocities [–]; this or `units`.
+    #[serde(default, deserialize_with = "unit::plain")]
+    pub scale: Option<f64>,
+    /// Unit of the lengths in the file, such as "mm"; absent: metres.
+    pub units: Option<String>,
+}
+
+impl Particles {
+    /// Factor on the lengths in its file [–].
+    pub fn length_factor(&self) -> f64 {
+        super::wall::length_factor(self.scale, self.units.as_deref())
+    }
 }
 
 /// `[[insert]]`

@@ -21,6 +21,7 @@ mod random;
 mod same_zone;
 mod section;
 mod setup;
+mod solids;
 mod total;
 mod wall_contacts;
 mod walls;
@@ -32,6 +33,7 @@ pub use contacts::{dropped, most_specific};
 pub use implausible::SOFT;
 pub use insertion::Insertion;
 pub use packing::bounds;
+pub use solids::wall as solid;
 pub use zones::SCALE_SLACK;
 
 use crate::error::{Result, SceneError};
