@@ -135,12 +135,34 @@ impl Source {
 /// The cloud that a tool reads: flatten it into the tool's arguments.
 #[derive(Debug, Clone, clap::Args)]
 pub struct Input {
-    /// Point cloud (PLY, LAS, LAZ, E57, PCD, XYZ, PTS; detected by content), - for stdin
+    /// Point cloud (PLY, LAS, LAZ, E57, PCD, XYZ, PTS; STL and OBJ: their corners; detected by content), - for stdin
     #[arg(value_name = "CLOUD", default_value = "-", hide_default_value = true)]
     pub cloud: Source,
-    /// Multiply coordinates as they are read: 0.001 for a scan in millimetres
+    /// What a length in it is.
+    #[command(flatten)]
+    pub lengths: Lengths,
+}
+
+/// What a length in a file is: flatten it into the arguments of a tool that reads geometry.
+#[derive(Debug, Clone, clap::Args)]
+pub struct Lengths {
+    /// Multiply coordinates as they are read: 0.001 for millimetres
     #[arg(long, value_name = "FACTOR", value_parser = factor)]
     pub scale: Option<f64>,
+    /// Unit of the coordinates: mm, cm, m, in or ft; instead of --scale
+    #[arg(long, value_name = "UNIT", value_parser = unit, conflicts_with = "scale")]
+    pub units: Option<f64>,
+}
+
+impl Lengths {
+    /// The factor that makes the lengths of a file metres [–], if one was given.
+    pub fn factor(&self) -> Option<f64> {
+        self.scale.or(self.units)
+    }
+}
+
+fn unit(text: &str) -> Result<f64, String> {
+    geom::units::factor(text, "m").map_err(|_| "give mm, cm, m, in or ft".into())
 }
 
 fn factor(text: &str) -> Result<f64, String> {
@@ -194,7 +216,7 @@ impl Input {
 
     /// Scales the cloud, or warns of implausible numbers. In a pipe only the first tool warns.
     fn in_metres(&self, mut cloud: cloud::Cloud) -> cloud::Cloud {
-        match self.scale {
+        match self.lengths.factor() {
             Some(1.0) => {}
             Some(factor) => cloud.scale(factor),
             None if self.cloud == Source::Stdin => {}
@@ -205,7 +227,7 @@ impl Input {
 
     /// Warns of implausible numbers of a cloud, unless the scale is given or another tool has warned.
     pub fn warn_about(&self, warnings: &[cloud::units::UnitWarning]) {
-        if self.scale.is_none() && self.cloud != Source::Stdin {
+        if self.lengths.factor().is_none() && self.cloud != Source::Stdin {
             warnings.iter().for_each(|warning| crate::warn(&format!("{}: {warning}", self.name())));
         }
     }

@@ -39,7 +39,7 @@ mod time;
 
 pub use clash::also_reads;
 pub use exit::{Stopped, Usage, usage};
-pub use input::{Input, Source};
+pub use input::{Input, Lengths, Source};
 pub use output::{CloudOutput, Output, OutputStream};
 pub use part::{Keep, NotRenamed, is_part, is_written, parts_of};
 pub use progress::Progress;

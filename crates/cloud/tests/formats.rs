@@ -268,3 +268,34 @@ fn a_scan_of_terrain_has_the_numbers_that_another_reader_finds() {
         assert!((cloud.points.iter().map(|p| p.z).sum::<f64>() - 171997.38).abs() < 1e-6);
     }
 }
+
+/// STL and OBJ are clouds of their corners, each once, and STEP says what to do.
+#[test]
+fn a_drawing_is_a_cloud_of_its_corners() {
+    let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 3.0]];
+    let faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+    let mut binary = b"a part".to_vec();
+    binary.resize(80, 0);
+    binary.extend(4u32.to_le_bytes());
+    let mut ascii = "solid part\n".to_owned();
+    let mut obj: String = corners.iter().map(|c| format!("v {} {} {}\n", c[0], c[1], c[2])).collect();
+    for face in faces {
+        binary.extend([0u8; 12]);
+        face.iter()
+            .flat_map(|&v: &usize| corners[v])
+            .for_each(|c: f64| binary.extend((c as f32).to_le_bytes()));
+        binary.extend([0u8; 2]);
+        let vertex = |&v: &usize| format!("vertex {} {} {}\n", corners[v][0], corners[v][1], corners[v][2]);
+        let three: String = face.iter().map(vertex).collect();
+        ascii += &format!("facet normal 0 0 0\nouter loop\n{three}endloop\nendfacet\n");
+        obj += &format!("f {} {} {}\n", face[0] + 1, face[1] + 1, face[2] + 1);
+    }
+    ascii += "endsolid part\n";
+    for bytes in [binary, ascii.into_bytes(), obj.into_bytes()] {
+        let mut points = cloud::read(bytes.as_slice()).unwrap().points;
+        points.sort_by(|a, b| a.z.total_cmp(&b.z).then(a.y.total_cmp(&b.y)).then(a.x.total_cmp(&b.x)));
+        assert_eq!(points, corners.map(geom::Vec3::from));
+    }
+    let told = cloud::read(&b"ISO-10303-21;\nHEADER;\n"[..]).unwrap_err().to_string();
+    assert!(told.contains("this is STEP") && told.contains("export STL"), "{told}");
+}

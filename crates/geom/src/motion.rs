@@ -1,16 +1,26 @@
-//! Rigid motion of a wall: a turn about a fixed axis, then a shift and a vibration.
+//! Rigid motion of a wall: a turn about an axis, then a shift and a vibration; several of these, one after the other.
 //!
 //! ```text
-//! x(t) = c + R(Ω τ)(x₀ − c) + v τ + a sin(2π f τ) d      τ = min(max(t, from), until) − from
+//! x(t) = c + R(α(p))(x₀ − c) + v p + a sin(2π f p) + s(p)     v(x) = ẋ, exactly, at every time
+//! α(p) = Ω p + A sin(2π f_s p) + β(p)                          s, β: a table, linear between its rows
+//! p(t): 0 until `from`, then t − from, and constant from `until` on; with a ramp its rate rises from 0 to 1, and falls before the end
 //! ```
+//!
+//! A list of motions is their composition: each acts on what the ones before it have moved, so that the axis of a turn is carried by
+//! the motions that follow. Every motion is the identity until it starts: there are no jumps.
+
+mod path;
+mod pose;
+
+pub use path::{Path, PathError, PathRow};
+pub use pose::{Pose, SurfaceMotion};
 
 use crate::Vec3;
-use nalgebra::{Matrix3, Rotation3, Unit};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 /// Rigid motion as a function of time.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Motion {
     /// v [m/s].
     pub velocity: Vec3,
@@ -18,7 +28,7 @@ pub struct Motion {
     pub turn: Vec3,
     /// c, a point of the axis [m].
     pub through: Vec3,
-    /// a d, amplitude and direction of the vibration [m].
+    /// a, amplitude and direction of the vibration [m].
     pub amplitude: Vec3,
     /// f [Hz].
     pub frequency: f64,
@@ -26,6 +36,16 @@ pub struct Motion {
     pub from: f64,
     /// End of the motion, where the wall stays [s]; ∞: never.
     pub until: f64,
+    /// Time in which the motion starts, and in which it ends [s]; 0: at once.
+    pub ramp: f64,
+    /// A, axis times amplitude of a swing [rad].
+    pub swing: Vec3,
+    /// f_s [Hz].
+    pub swing_frequency: f64,
+    /// s and β over p; absent: none.
+    pub path: Option<Path>,
+    /// Motions that act on what this one has moved; their own lists are empty.
+    pub then: Vec<Motion>,
 }
 
 impl Default for Motion {
@@ -34,139 +54,163 @@ impl Default for Motion {
     }
 }
 
-/// Position, orientation and velocity at one instant.
-#[derive(Debug, Clone, Copy)]
-pub struct Pose {
-    rotation: Matrix3<f64>,
-    through: Vec3,
-    shift: Vec3,
-    velocity: Vec3,
-    /// Ω [rad/s].
-    pub turn: Vec3,
-}
-
 impl Motion {
     /// At rest.
     pub const fn still() -> Motion {
         let zero = Vec3::new(0.0, 0.0, 0.0);
-        let (frequency, from, until) = (0.0, 0.0, f64::INFINITY);
-        Motion { velocity: zero, turn: zero, through: zero, amplitude: zero, frequency, from, until }
+        Motion {
+            velocity: zero,
+            turn: zero,
+            through: zero,
+            amplitude: zero,
+            frequency: 0.0,
+            from: 0.0,
+            until: f64::INFINITY,
+            ramp: 0.0,
+            swing: zero,
+            swing_frequency: 0.0,
+            path: None,
+            then: Vec::new(),
+        }
+    }
+
+    /// The composition of motions, the first acting first; at rest when there is none.
+    pub fn of(list: Vec<Motion>) -> Motion {
+        let mut all = list.into_iter();
+        let Some(first) = all.next() else { return Motion::still() };
+        Motion { then: all.collect(), ..first }
+    }
+
+    /// This motion and those that act after it.
+    pub fn parts(&self) -> impl Iterator<Item = &Motion> {
+        std::iter::once(self).chain(&self.then)
     }
 
     /// Whether anything moves.
     pub fn moves(&self) -> bool {
-        self.velocity != Vec3::zeros() || self.turn != Vec3::zeros() || self.vibrates()
+        self.parts().any(Motion::acts)
+    }
+
+    fn acts(&self) -> bool {
+        self.velocity != Vec3::zeros()
+            || self.turn != Vec3::zeros()
+            || self.vibrates()
+            || self.swings()
+            || self.path.as_ref().is_some_and(Path::moves)
     }
 
     fn vibrates(&self) -> bool {
         self.amplitude != Vec3::zeros() && self.frequency != 0.0
     }
 
-    /// Frequency of the vibration [Hz]; 0: none.
-    pub fn vibration(&self) -> f64 {
-        if self.vibrates() { self.frequency.abs() } else { 0.0 }
+    fn swings(&self) -> bool {
+        self.swing != Vec3::zeros() && self.swing_frequency != 0.0
     }
 
-    /// Whether `time` [s] is between its start and its end.
+    /// Frequency of the fastest vibration or swing [Hz]; 0: none.
+    pub fn vibration(&self) -> f64 {
+        let of = |m: &Motion| {
+            let vibration = if m.vibrates() { m.frequency.abs() } else { 0.0 };
+            vibration.max(if m.swings() { m.swing_frequency.abs() } else { 0.0 })
+        };
+        self.parts().map(of).fold(0.0, f64::max)
+    }
+
+    /// The fastest of its steady turns [rad/s].
+    pub fn fastest_turn(&self) -> f64 {
+        self.parts().map(|m| m.turn.norm()).fold(0.0, f64::max)
+    }
+
+    /// Axes that it turns about, of any length but 0.
+    pub fn axes(&self) -> Vec<Vec3> {
+        let of = |m: &Motion| [m.turn, m.swing, m.path.as_ref().map_or(Vec3::zeros(), Path::axis)];
+        self.parts().flat_map(of).filter(|axis| *axis != Vec3::zeros()).collect()
+    }
+
+    /// Whether `time` [s] is between the start and the end of any of its parts.
     pub fn runs(&self, time: f64) -> bool {
-        (self.from..self.until).contains(&time)
+        self.parts().any(|m| m.acts() && m.runs_alone(time))
+    }
+
+    fn runs_alone(&self, time: f64) -> bool {
+        let last = self.path.as_ref().filter(|_| !self.acts_beside_path()).map_or(f64::INFINITY, Path::last);
+        (self.from..self.until).contains(&time) && self.progress(time).0 < last
+    }
+
+    fn acts_beside_path(&self) -> bool {
+        self.velocity != Vec3::zeros() || self.turn != Vec3::zeros() || self.vibrates() || self.swings()
+    }
+
+    /// p [s], and its rate [–].
+    fn progress(&self, time: f64) -> (f64, f64) {
+        let runs = (self.from..self.until).contains(&time);
+        let u = time.max(self.from).min(self.until) - self.from;
+        let rate = if runs { 1.0 } else { 0.0 };
+        let r = self.ramp;
+        if r == 0.0 {
+            return (u, rate);
+        }
+        let left = self.until - self.from - u;
+        if u < r {
+            (0.5 * u * u / r, rate * u / r)
+        } else if left < r {
+            (self.until - self.from - r - 0.5 * left * left / r, rate * left / r)
+        } else {
+            (u - 0.5 * r, rate)
+        }
     }
 
     /// Pose at `time` [s].
     pub fn pose(&self, time: f64) -> Pose {
-        let runs = self.runs(time);
-        let time = time.max(self.from).min(self.until) - self.from;
-        let angle = self.turn.norm() * time;
-        let rotation = match Unit::try_new(self.turn, 0.0) {
-            Some(axis) => rotation(&axis, angle),
-            None => Matrix3::identity(),
-        };
+        let first = self.pose_alone(time);
+        self.then.iter().fold(first, |pose, outer| pose.then(&outer.pose_alone(time)))
+    }
+
+    fn pose_alone(&self, time: f64) -> Pose {
+        let (time, rate) = self.progress(time);
+        let mut pose = Pose::turned(&self.turn, self.turn.norm() * time, self.through);
+        pose.turn = self.turn * rate;
+        if self.swings() {
+            let omega = 2.0 * PI * self.swing_frequency;
+            let angle = self.swing.norm() * libm::sin(omega * time);
+            let spin = self.swing * (omega * libm::cos(omega * time) * rate);
+            pose = pose.turned_by(&self.swing, angle, spin);
+        }
         let (mut shift, mut velocity) = (self.velocity * time, self.velocity);
         if self.vibrates() {
             let omega = 2.0 * PI * self.frequency;
             shift += self.amplitude * libm::sin(omega * time);
             velocity += self.amplitude * (omega * libm::cos(omega * time));
         }
-        let rate = if runs { 1.0 } else { 0.0 };
-        Pose { rotation, through: self.through, shift, velocity: velocity * rate, turn: self.turn * rate }
+        if let Some(path) = &self.path {
+            let at = path.at(time);
+            pose = pose.turned_by(&path.about, at.angle, path.about * (at.spin * rate));
+            shift += at.shift;
+            velocity += at.velocity;
+        }
+        pose.shifted(shift, velocity * rate)
     }
 
-    /// Upper bound of the speed [m/s] of points no farther than `span` [m] from `through`.
-    pub fn fastest(&self, span: f64) -> f64 {
-        let vibration = 2.0 * PI * self.frequency.abs() * self.amplitude.norm();
-        let turning = if self.turn == Vec3::zeros() { 0.0 } else { self.turn.norm() * span };
-        self.velocity.norm() + vibration + turning
-    }
-}
-
-/// Rodrigues' formula with sine and cosine that are the same on every platform.
-fn rotation(axis: &Unit<Vec3>, angle: f64) -> Matrix3<f64> {
-    let (s, c) = (libm::sin(angle), libm::cos(angle));
-    let k = axis.cross_matrix();
-    Rotation3::from_matrix_unchecked(Matrix3::identity() + k * s + k * k * (1.0 - c)).into_inner()
-}
-
-impl Pose {
-    /// This pose shifted by `by` [m] and faster by `speed` [m/s].
-    pub fn shifted(self, by: Vec3, speed: Vec3) -> Pose {
-        Pose { shift: self.shift + by, velocity: self.velocity + speed, ..self }
-    }
-
-    /// The shift alone, without the turn [m].
-    pub fn shift(&self) -> Vec3 {
-        self.shift
-    }
-
-    /// Position [m] of the point of the wall that was at `home` [m] at t = 0.
-    #[inline]
-    pub fn position(&self, home: &Vec3) -> Vec3 {
-        self.through + self.rotation * (home - self.through) + self.shift
-    }
-
-    /// Position at t = 0 [m] of the point of the wall that is at `place` [m] now.
-    #[inline]
-    pub fn home(&self, place: &Vec3) -> Vec3 {
-        self.through + self.rotation.transpose() * (place - self.shift - self.through)
-    }
-
-    /// Velocity [m/s] of the point of the wall that is at `place` [m] now.
-    #[inline]
-    pub fn velocity(&self, place: &Vec3) -> Vec3 {
-        self.velocity + self.turn.cross(&(place - self.shift - self.through))
-    }
-
-    /// A direction of the wall, turned.
-    #[inline]
-    pub fn direction(&self, home: &Vec3) -> Vec3 {
-        self.rotation * home
+    /// Upper bound of the speed [m/s] of points whose distance from a point of an axis is at most `span` of that point [m].
+    ///
+    /// ∞ where a part carries the wall away from the axis of a later one for ever.
+    pub fn fastest(&self, span: impl Fn(&Vec3) -> f64) -> f64 {
+        let (mut sum, mut carried) = (0.0, 0.0);
+        for m in self.parts() {
+            let path = m.path.as_ref().map_or((0.0, 0.0), Path::fastest);
+            let turning = m.turn.norm()
+                + 2.0 * PI * if m.swings() { m.swing_frequency.abs() * m.swing.norm() } else { 0.0 }
+                + path.1;
+            let reach = if turning == 0.0 { 0.0 } else { span(&m.through) + carried };
+            let vibration = 2.0 * PI * m.frequency.abs() * m.amplitude.norm();
+            sum +=
+                m.velocity.norm() + vibration + path.0 + if turning == 0.0 { 0.0 } else { turning * reach };
+            let far = if m.velocity == Vec3::zeros() { 0.0 } else { m.velocity.norm() * (m.until - m.from) };
+            carried += far + m.amplitude.norm() + m.path.as_ref().map_or(0.0, Path::farthest) + 2.0 * reach;
+        }
+        sum
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn drum() -> Motion {
-        Motion {
-            velocity: Vec3::new(0.0, 0.0, 1.0),
-            turn: Vec3::new(0.0, 0.0, 0.5 * PI),
-            through: Vec3::new(1.0, 0.0, 0.0),
-            amplitude: Vec3::new(0.0, 0.0, 0.25),
-            frequency: 0.25,
-            ..Motion::default()
-        }
-    }
-
-    #[test]
-    fn a_quarter_turn_a_shift_and_the_crest_of_a_vibration() {
-        let place = drum().pose(1.0).position(&Vec3::new(2.0, 0.0, 0.0));
-        assert!((place - Vec3::new(1.0, 1.0, 1.25)).norm() < 1e-12, "{place}");
-    }
-
-    #[test]
-    fn home_is_the_inverse_of_place() {
-        let (pose, home) = (drum().pose(0.37), Vec3::new(0.3, -0.7, 2.0));
-        assert!((pose.home(&pose.position(&home)) - home).norm() < 1e-12);
-        assert!(drum().moves() && !Motion::default().moves());
-    }
-}
+mod tests;

@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! box:x0,y0,z0,x1,y1,z1 | sphere:x,y,z,r | cylinder:x0,y0,z0,x1,y1,z1,r
-//! cone:x0,y0,z0,x1,y1,z1,r0,r1 | halfspace:px,py,pz,nx,ny,nz | prism:FILE.json | mesh:FILE        ! in front: outside
+//! cone:x0,y0,z0,x1,y1,z1,r0,r1 | halfspace:px,py,pz,nx,ny,nz | prism:FILE.json        ! in front: outside
+//! mesh:FILE | mesh:FILE,units=mm | mesh:FILE,scale=0.001
 //! ```
 
 use crate::Vec3;
@@ -10,6 +11,7 @@ use crate::mesh::{Inside, MeshError, TriMesh};
 use crate::numbers::{NumbersError, numbers};
 use crate::plane::{Plane, PlaneError};
 use crate::prism::{Prism, PrismError};
+use crate::{number, units};
 use std::fs::File;
 use std::io::Read;
 use std::str::FromStr;
@@ -52,7 +54,7 @@ pub enum Solid {
 pub enum ShapeError {
     #[error(
         "'{0}' is not a shape: use box:x0,y0,z0,x1,y1,z1, sphere:x,y,z,r, cylinder:x0,y0,z0,x1,y1,z1,r, \
-         cone:x0,y0,z0,x1,y1,z1,r0,r1, halfspace:px,py,pz,nx,ny,nz, prism:FILE.json or mesh:FILE; a ! before a shape means its outside"
+         cone:x0,y0,z0,x1,y1,z1,r0,r1, halfspace:px,py,pz,nx,ny,nz, prism:FILE.json or mesh:FILE (with its unit: mesh:FILE,units=mm); a ! before a shape means its outside"
     )]
     Kind(String),
     #[error("shape '{text}': {source}")]
@@ -67,6 +69,8 @@ pub enum ShapeError {
     Read { text: String, source: std::io::Error },
     #[error("shape '{text}': {source}")]
     Prism { text: String, source: PrismError },
+    #[error("shape '{text}': {why}: write units=mm, cm, m, in or ft, or scale=FACTOR")]
+    Lengths { text: String, why: String },
     #[error("shape '{text}': {why}")]
     Load { text: String, why: String },
     #[error("shape '{text}': {source}")]
@@ -125,6 +129,19 @@ impl ShapeText<'_> {
 
     fn positive(&self, radius: f64) -> Result<f64, ShapeError> {
         if radius > 0.0 { Ok(radius) } else { Err(ShapeError::Radius { text: self.owned(), radius }) }
+    }
+
+    /// The file of a mesh, and the factor that makes its lengths metres.
+    fn file_and_factor(&self) -> Result<(&str, f64), ShapeError> {
+        let wrong = |why: String| ShapeError::Lengths { text: self.owned(), why };
+        let Some((file, option)) = self.rest.rsplit_once(',') else { return Ok((self.rest, 1.0)) };
+        if let Some(unit) = option.strip_prefix("units=") {
+            return units::factor(unit, "m").map(|f| (file, f)).map_err(|e| wrong(e.to_string()));
+        }
+        match option.strip_prefix("scale=") {
+            Some(factor) => number::positive(factor).map(|f| (file, f)).map_err(|e| wrong(e.to_string())),
+            None => Ok((self.rest, 1.0)),
+        }
     }
 
     /// The radii at both ends of a cone: it may end in a point, but not in two.
@@ -212,7 +229,11 @@ fn load_mesh(
     text: &ShapeText<'_>,
     load: &dyn Fn(&str) -> Result<TriMesh, String>,
 ) -> Result<Inside, ShapeError> {
-    let mesh = load(text.rest).map_err(|why| ShapeError::Load { text: text.owned(), why })?;
+    let (file, factor) = text.file_and_factor()?;
+    let mut mesh = load(file).map_err(|why| ShapeError::Load { text: text.owned(), why })?;
+    if factor != 1.0 {
+        mesh.scale(factor);
+    }
     Inside::new(&mesh).map_err(|source| ShapeError::Mesh { text: text.owned(), source })
 }
 
@@ -250,6 +271,14 @@ mod tests {
         let shape = Shape::parse("!mesh:x.ply", &load).unwrap();
         assert!(shape.contains(&Vec3::repeat(2.0)) && !shape.contains(&Vec3::repeat(0.5)));
         assert!("mesh:x.ply".parse::<Shape>().is_err());
+        for (text, size) in [("units=mm", 1e-3), ("units=cm", 1e-2), ("scale=2", 2.0)] {
+            let shape = Shape::parse(&format!("mesh:a,b.stl,{text}"), &load).unwrap();
+            assert!(shape.contains(&Vec3::repeat(0.9 * size)) && !shape.contains(&Vec3::repeat(1.1 * size)));
+        }
+        for text in ["units=kg", "scale=0", "scale=x"] {
+            let message = Shape::parse(&format!("mesh:a.stl,{text}"), &load).unwrap_err().to_string();
+            assert!(message.contains("write units=mm"), "{message}");
+        }
     }
 
     #[test]

@@ -7,7 +7,7 @@
 //! triangles      text, nine numbers a line: three corners [m]; a first line of words is passed over
 //! ```
 //!
-//! Lengths are taken as metres: none of these formats says its unit.
+//! Lengths are taken as metres: none of these formats says its unit. The caller scales.
 
 mod obj;
 mod ply;
@@ -29,6 +29,11 @@ pub enum MeshFileError {
         "no mesh begins with {start}: give PLY, STL, OBJ, or text with nine numbers per line (the corners of a triangle)"
     )]
     Unknown { start: String },
+    #[error(
+        "this is STEP: it holds exact surfaces, not triangles; export STL from the CAD system, or convert it: \
+         FreeCAD (Part workbench, export as STL) or gmsh -2 -format stl PART.step -o PART.stl; such STL is in mm, so give its unit"
+    )]
+    Step,
     #[error("not a mesh")]
     Ply(#[source] PlyError),
     #[error("PLY: element 'vertex' has no property '{0}': a mesh needs x, y and z")]
@@ -53,6 +58,7 @@ pub enum MeshFileError {
 
 /// One format.
 struct Format {
+    name: &'static str,
     /// Whether these are its first bytes.
     matches: fn(&[u8]) -> bool,
     read: fn(&[u8]) -> Result<TriMesh, MeshFileError>,
@@ -60,10 +66,10 @@ struct Format {
 
 /// Every format that a mesh is read from; what has no mark of its own comes last.
 const FORMATS: [Format; 4] = [
-    Format { matches: ply::matches, read: ply::read },
-    Format { matches: stl::matches, read: stl::read },
-    Format { matches: obj::matches, read: obj::read },
-    Format { matches: triangles::matches, read: triangles::read },
+    Format { name: "PLY", matches: ply::matches, read: ply::read },
+    Format { name: "STL", matches: stl::matches, read: stl::read },
+    Format { name: "OBJ", matches: obj::matches, read: obj::read },
+    Format { name: "triangles", matches: triangles::matches, read: triangles::read },
 ];
 
 /// Reads a mesh that is in memory; lengths come as they are in the file [m].
@@ -73,6 +79,9 @@ const FORMATS: [Format; 4] = [
 pub fn from_bytes(bytes: &[u8]) -> Result<TriMesh, MeshFileError> {
     if bytes.is_empty() {
         return Err(MeshFileError::Empty);
+    }
+    if is_step(bytes) {
+        return Err(MeshFileError::Step);
     }
     let Some(format) = FORMATS.iter().find(|f| (f.matches)(bytes)) else {
         let start: String =
@@ -84,6 +93,17 @@ pub fn from_bytes(bytes: &[u8]) -> Result<TriMesh, MeshFileError> {
         return Err(MeshError::Empty.into());
     }
     Ok(mesh)
+}
+
+/// Whether these bytes begin a file of STEP, whose surfaces are not triangles.
+pub fn is_step(bytes: &[u8]) -> bool {
+    bytes.trim_ascii_start().starts_with(b"ISO-10303-21")
+}
+
+/// The name of the format of a mesh, STL or OBJ, that `bytes` begin with. PLY may be a cloud, and text with nine numbers too.
+pub fn is_drawing(bytes: &[u8]) -> Option<&'static str> {
+    let drawings = FORMATS.iter().filter(|f| matches!(f.name, "STL" | "OBJ"));
+    drawings.into_iter().find(|f| (f.matches)(bytes)).map(|f| f.name)
 }
 
 /// Reads the file of a shape `mesh:FILE`, with the whole reason in one line.

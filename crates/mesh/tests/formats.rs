@@ -100,6 +100,8 @@ fn what_is_no_mesh_is_named() {
     let cloud = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n";
     for (bytes, words) in [
         (&b""[..], "input is empty"),
+        (b"ISO-10303-21;\nHEADER;\n", "this is STEP"),
+        (b"\nISO-10303-21;\nHEADER;\n", "export STL"),
         (b"hello world", "'hello world'"),
         (cloud.as_bytes(), "a cloud, not a mesh"),
         (b"v 0 0 0\nv 1 0 0\nf 1 2 9\n", "OBJ"),

@@ -25,7 +25,7 @@ pub use error::{RecordError, positive};
 pub use limits::{BondRange, Sizes};
 pub use material::{MaterialRecord, POISSON, is_poisson};
 pub use messages::{LogMessage, SIGNAL, Watermark};
-pub use surface::{SurfaceShape, WallRecord, home, moved};
+pub use surface::{SurfaceShape, WallRecord, home, moved, to_json as motion_to_json};
 pub use table::TableBuilder;
 
 /// Metadata of one record: text by key.

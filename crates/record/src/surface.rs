@@ -1,7 +1,7 @@
 //! The message of the topic `/surfaces`: planes and meshes at t = 0, and the motion of every wall.
 
 use crate::column::POSITION;
-use geom::motion::Pose;
+use geom::motion::{Path, PathRow, Pose};
 use geom::{Motion, Plane, Vec3, mesh::TriMesh};
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -47,16 +47,7 @@ impl WallRecord {
 
     /// The wall in the message; `material` is the index of its material, `spheres` their number, `servo` what its servo follows.
     pub fn to_json(&self, material: u16, spheres: usize, servo: Option<Value>) -> Value {
-        let m = &self.motion;
-        let mut motion = json!({
-            "velocity": m.velocity, "turn": m.turn, "through": m.through,
-            "amplitude": m.amplitude, "frequency": m.frequency,
-        });
-        if (m.from, m.until) != (0.0, f64::INFINITY) {
-            motion["from"] = m.from.into();
-            // null: never.
-            motion["until"] = m.until.into();
-        }
+        let mut motion = to_json(&self.motion);
         if let Some(servo) = servo {
             motion["servo"] = servo;
         }
@@ -93,8 +84,39 @@ impl SurfaceShape {
     }
 }
 
+/// A motion in messages and pages; what it does not do is left out, and so is `until` where it never ends.
+pub fn to_json(m: &Motion) -> Value {
+    let mut json = json!({
+        "velocity": m.velocity, "turn": m.turn, "through": m.through,
+        "amplitude": m.amplitude, "frequency": m.frequency,
+    });
+    if (m.from, m.until) != (0.0, f64::INFINITY) {
+        json["from"] = m.from.into();
+        // null: never.
+        json["until"] = m.until.into();
+    }
+    if m.ramp != 0.0 {
+        json["ramp"] = m.ramp.into();
+    }
+    if m.swing_frequency != 0.0 {
+        json["swing"] = json!({"amplitude": m.swing, "frequency": m.swing_frequency});
+    }
+    if let Some(path) = &m.path {
+        let row = |r: &PathRow| json!([r.time, r.shift.x, r.shift.y, r.shift.z, r.angle]);
+        let rows: Vec<Value> = path.rows().iter().map(row).collect();
+        json["path"] = json!({"about": path.about, "rows": rows});
+    }
+    if !m.then.is_empty() {
+        json["then"] = m.then.iter().map(to_json).collect();
+    }
+    json
+}
+
 /// The motion of a wall; `None` when a number is missing.
 fn motion(json: &Value) -> Option<Motion> {
+    let swing = &json["swing"];
+    let swings = !swing.is_null();
+    let then = json["then"].as_array().into_iter().flatten().map(motion).collect::<Option<_>>()?;
     Some(Motion {
         velocity: vector(&json["velocity"])?,
         turn: vector(&json["turn"])?,
@@ -103,7 +125,21 @@ fn motion(json: &Value) -> Option<Motion> {
         frequency: json["frequency"].as_f64()?,
         from: json["from"].as_f64().unwrap_or(0.0),
         until: json["until"].as_f64().unwrap_or(f64::INFINITY),
+        ramp: json["ramp"].as_f64().unwrap_or(0.0),
+        swing: if swings { vector(&swing["amplitude"])? } else { Vec3::zeros() },
+        swing_frequency: if swings { swing["frequency"].as_f64()? } else { 0.0 },
+        path: if json["path"].is_null() { None } else { Some(path(&json["path"])?) },
+        then,
     })
+}
+
+fn path(json: &Value) -> Option<Path> {
+    let row = |row: &Value| {
+        let [time, x, y, z, angle] = <[f64; 5]>::deserialize(row).ok()?;
+        Some(PathRow { time, shift: Vec3::new(x, y, z), angle })
+    };
+    let rows = json["rows"].as_array()?.iter().map(row).collect::<Option<_>>()?;
+    Path::new(vector(&json["about"])?, rows).ok()
 }
 
 /// Three finite numbers.
@@ -158,7 +194,11 @@ mod tests {
     #[test]
     fn what_is_written_is_read_again() {
         let surface = Some(SurfaceShape::Plane("0,0,1,0,0,1".parse().unwrap()));
-        let motion = Motion { frequency: 2.0, from: 0.5, until: 1.5, ..Motion::default() };
+        let row = |time, x| PathRow { time, shift: Vec3::new(x, 0.0, 0.0), angle: 0.5 * x };
+        let path = Path::new(Vec3::z(), vec![row(0.0, 0.0), row(1.0, 2.0)]).ok();
+        let swing = Motion { swing: Vec3::y(), swing_frequency: 3.0, ramp: 0.1, ..Motion::default() };
+        let first = Motion { frequency: 2.0, from: 0.5, until: 1.5, ..Motion::default() };
+        let motion = Motion::of(vec![first, swing, Motion { path, ..Motion::default() }]);
         let wall = WallRecord { name: "floor".to_owned(), motion, surface };
         let text = json!([wall.to_json(3, 0, None)]).to_string();
         assert_eq!(WallRecord::read_all(text.as_bytes()), Ok(vec![wall]));

@@ -194,7 +194,7 @@ pub(crate) fn surfaces(walls: &[Wall]) -> Value {
         let servo = w
             .servo
             .map(|s| json!({"direction": s.direction, "force": s.force, "speed_limit": s.speed_limit}));
-        let record = WallRecord { name: w.name.clone(), motion: w.motion, surface };
+        let record = WallRecord { name: w.name.clone(), motion: w.motion.clone(), surface };
         record.to_json(w.material, spheres, servo)
     };
     Value::Array(walls.iter().map(one).collect())

@@ -119,7 +119,7 @@ impl<S: Show> Run<'_, S> {
         let mut heads = Vec::new();
         for WallRecord { name, motion, surface } in WallRecord::read_all(data).map_err(ViewError::Surfaces)? {
             if let Some(shape) = surface {
-                self.show.surface(WallSurface { name: name.clone(), shape, motion });
+                self.show.surface(WallSurface { name: name.clone(), shape, motion: motion.clone() });
             }
             heads.push(WallHead { name, motion });
         }
@@ -145,7 +145,7 @@ impl<S: Show> Run<'_, S> {
         for (wall, WallHead { name, motion }) in walls.iter().enumerate().filter(|(_, w)| w.motion.moves()) {
             let own = rows(&|n| n == wall);
             if !own.is_empty() {
-                let layer = self.layer(Role::Walls, name, *motion);
+                let layer = self.layer(Role::Walls, name, motion.clone());
                 let home = record::home(&table.select(&own), &motion.pose(time));
                 self.show.push(layer, 0.0, home)?;
             }

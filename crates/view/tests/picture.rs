@@ -118,7 +118,7 @@ fn a_mesh_is_drawn_from_its_left_edge_to_its_right_and_lets_grains_be_seen() {
 fn a_mesh_that_moves_is_where_its_motion_takes_it() {
     let grain = table(&[[0.0, 0.0, -1.5, 0.1]], &[1.0]);
     let motion = Motion { velocity: Vec3::new(-2.0, 0.0, 0.0), ..Motion::default() };
-    let [home, later] = [0.0, 2.0].map(|t| seen_with(&[sheet(0.0, motion)], &grain, t, false));
+    let [home, later] = [0.0, 2.0].map(|t| seen_with(&[sheet(0.0, motion.clone())], &grain, t, false));
     let [right, left] = [column(0.2), column(-0.2)];
     assert!(!is_paper(&home, right) && is_paper(&home, left));
     assert!(is_paper(&later, right) && !is_paper(&later, left));

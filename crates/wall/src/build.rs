@@ -77,7 +77,7 @@ pub fn build(
     let wants_stars =
         settings.placement == Placement::Surface || settings.smallest_particle.is_some() || settings.gaps;
     let stars = if wants_stars { stars(&cells, typical) } else { Stars::default() };
-    let region_of = regions.of(&cells.points);
+    let region_of = regions.of(&cells.points, cells.order());
     let spacing = representative(&found.lengths, settings.representative);
     let zeta = roughness(regions, &region_of, cells.order(), settings)?;
     let (radii, zeta_all) = radii(&cells, &found, spacing, zeta.as_deref(), settings)?;

@@ -1,4 +1,4 @@
-//! Roughness, material and velocity by region.
+//! Roughness, material and velocity by region: by position, by a column of the cloud, or by both.
 //!
 //! ```toml
 //! roughness = 0.0005             # [m] where no region says otherwise
@@ -9,6 +9,10 @@
 //! material = "liner"
 //! friction = 0.4
 //! velocity = [0.1, 0, 0]
+//! [[region]]                     # points by a column of the cloud: a class, a colour, an intensity
+//! column = "classification"
+//! values = [6, 6]                # smallest and largest value, or one value
+//! friction = 0.8
 //! ```
 //!
 //! With a section `[wear]` (see [`crate::wear`]) the roughness of points that no region with a roughness of its own holds comes from a
@@ -44,10 +48,28 @@ pub struct Regions {
     pub materials: Vec<MaterialRecord>,
     /// Surfaces; number 0 is outside of all regions.
     pub surfaces: Vec<SurfaceAttributes>,
-    shapes: Vec<Shape>,
+    places: Vec<RegionPlace>,
     wear: Option<Wear>,
     /// Roughness of each point [m] by the table of wear.
     worn: Vec<f64>,
+}
+
+/// Which points a region holds: those that meet all conditions.
+#[derive(Debug)]
+struct RegionPlace {
+    shape: Option<Shape>,
+    column: Option<ColumnRange>,
+    /// Whether the column of each point is in the range; empty before it was looked up.
+    in_range: Vec<bool>,
+}
+
+/// Values of a column of the cloud.
+#[derive(Debug)]
+struct ColumnRange {
+    name: String,
+    values: [f64; 2],
+    /// Number and name of the region, for messages.
+    place: String,
 }
 
 /// Why a file is no table of regions.
@@ -64,6 +86,21 @@ pub enum RegionsError {
     Roughness { place: String, value: f64 },
     #[error(transparent)]
     Attribute(#[from] AttributeError),
+    #[error(
+        "{place}: give shape, or column and values, or all three: without them the region holds no point"
+    )]
+    NoPlace { place: String },
+    #[error("{place}: {given} without {missing}: column and values choose points together")]
+    HalfColumn { place: String, given: &'static str, missing: &'static str },
+    #[error("{place}: values = {values:?}: give the smallest, then the largest value")]
+    Values { place: String, values: [f64; 2] },
+    #[error("{place}: the cloud has no property '{column}': see the file's header")]
+    NoColumn { place: String, column: String },
+    #[error(
+        "{place}: no point has '{column}' from {} to {}; its values are {} to {}: the region would change nothing",
+        values[0], values[1], found[0], found[1]
+    )]
+    NoneInRange { place: String, column: String, values: [f64; 2], found: [f64; 2] },
     #[error("more than 65535 regions")]
     TooMany,
 }
@@ -82,7 +119,9 @@ struct File {
 struct Region {
     #[serde(default)]
     name: String,
-    shape: String,
+    shape: Option<String>,
+    column: Option<String>,
+    values: Option<OneOrTwo>,
     roughness: Option<f64>,
     material: Option<String>,
     young: Option<f64>,
@@ -90,6 +129,69 @@ struct Region {
     friction: Option<f64>,
     restitution: Option<f64>,
     velocity: Option<[f64; 3]>,
+}
+
+/// One value, or the smallest and the largest.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum OneOrTwo {
+    One(f64),
+    Two([f64; 2]),
+}
+
+impl Region {
+    /// Where it is.
+    fn place(&self, number: usize, load: wear::Load<TriMesh>) -> Result<RegionPlace, RegionsError> {
+        let place = format!("region {number} '{}'", self.name);
+        let shape = self.shape.as_ref().map(|text| Shape::parse(text, load)).transpose();
+        let shape = shape.map_err(|source| RegionsError::Shape {
+            number,
+            name: self.name.clone(),
+            source: Box::new(source),
+        })?;
+        let column = match (&self.column, &self.values) {
+            (None, None) if shape.is_none() => return Err(RegionsError::NoPlace { place }),
+            (None, None) => None,
+            (Some(_), None) => {
+                return Err(RegionsError::HalfColumn { place, given: "column", missing: "values" });
+            }
+            (None, Some(_)) => {
+                return Err(RegionsError::HalfColumn { place, given: "values", missing: "column" });
+            }
+            (Some(name), Some(values)) => {
+                let values = match *values {
+                    OneOrTwo::One(value) => [value; 2],
+                    OneOrTwo::Two(values) => values,
+                };
+                if !(values[0] <= values[1]) {
+                    return Err(RegionsError::Values { place, values });
+                }
+                Some(ColumnRange { name: name.clone(), values, place })
+            }
+        };
+        Ok(RegionPlace { shape, column, in_range: Vec::new() })
+    }
+}
+
+impl RegionPlace {
+    /// Looks up which points have a value in the range; `property` gives a column of the cloud.
+    fn look_up(&mut self, property: &dyn Fn(&str) -> Option<Vec<f64>>) -> Result<(), RegionsError> {
+        let Some(ColumnRange { name, values, place }) = &self.column else { return Ok(()) };
+        let (column, place) = (name.clone(), place.clone());
+        let Some(own) = property(name) else { return Err(RegionsError::NoColumn { place, column }) };
+        self.in_range = own.iter().map(|v| (values[0]..=values[1]).contains(v)).collect();
+        if self.in_range.contains(&true) {
+            return Ok(());
+        }
+        let ends = |[low, high]: [f64; 2], v: &f64| [low.min(*v), high.max(*v)];
+        let found = own.iter().fold([f64::INFINITY, f64::NEG_INFINITY], ends);
+        Err(RegionsError::NoneInRange { place, column, values: *values, found })
+    }
+
+    fn holds(&self, p: &Vec3, index: u32) -> bool {
+        self.shape.as_ref().is_none_or(|s| s.contains(p))
+            && (self.column.is_none() || self.in_range.get(index as usize) == Some(&true))
+    }
 }
 
 impl Regions {
@@ -107,7 +209,7 @@ impl Regions {
         check_roughness(roughness, "roughness")?;
         let surface = SurfaceAttributes { name: String::new(), roughness, material: 0, velocity, worn: true };
         let (materials, surfaces) = (vec![material], vec![surface]);
-        Ok(Regions { materials, surfaces, shapes: Vec::new(), wear: None, worn: Vec::new() })
+        Ok(Regions { materials, surfaces, places: Vec::new(), wear: None, worn: Vec::new() })
     }
 
     /// Regions of a TOML text, and what holds outside of them; `load` reads the file of a shape `mesh:FILE`, and `read` the text of
@@ -129,12 +231,7 @@ impl Regions {
             return Err(RegionsError::TooMany);
         }
         for (number, region) in (1..).zip(file.region) {
-            let shape = Shape::parse(&region.shape, load).map_err(|source| RegionsError::Shape {
-                number,
-                name: region.name.clone(),
-                source: Box::new(source),
-            })?;
-            regions.shapes.push(shape);
+            regions.places.push(region.place(number, load)?);
             regions.add(number, region)?;
         }
         Ok(regions)
@@ -184,15 +281,17 @@ impl Regions {
         }
     }
 
-    /// Asks the table of wear, when there is one, for the roughness of each point [m]; `property` gives a column of the cloud.
+    /// Looks up the columns of regions, and asks the table of wear, when there is one, for the roughness of each point [m]; `property`
+    /// gives a column of the cloud.
     ///
     /// # Errors
-    /// No such property; points without a measurement when no roughness holds outside.
+    /// No such property; a range of values that no point has; points without a measurement when no roughness holds outside.
     pub fn measure(
         &mut self,
         points: &[Vec3],
         property: &dyn Fn(&str) -> Option<Vec<f64>>,
     ) -> Result<Option<WearReport>, RegionsError> {
+        self.places.iter_mut().try_for_each(|place| place.look_up(property))?;
         let Some(wear) = &self.wear else { return Ok(None) };
         let (worn, report) = wear.roughness(points, property, self.surfaces[0].roughness)?;
         self.worn = worn;
@@ -217,10 +316,12 @@ impl Regions {
         !self.worn.is_empty() || self.surfaces.iter().any(|s| s.roughness.is_some())
     }
 
-    /// The surface of each point [m]: the first region that holds it, else 0.
-    pub fn of(&self, points: &[Vec3]) -> Vec<u16> {
-        let first = |p: &Vec3| self.shapes.iter().position(|s| s.contains(p)).map_or(0, |at| at as u16 + 1);
-        points.par_iter().map(first).collect()
+    /// The surface of each point [m], whose numbers in the cloud are `index`: the first region that holds it, else 0.
+    pub fn of(&self, points: &[Vec3], index: &[u32]) -> Vec<u16> {
+        let first = |(p, &index): (&Vec3, &u32)| {
+            self.places.iter().position(|s| s.holds(p, index)).map_or(0, |at| at as u16 + 1)
+        };
+        points.par_iter().zip(index).map(first).collect()
     }
 }
 

@@ -270,6 +270,45 @@ fn regions_decide_roughness_material_and_velocity() {
     }
 }
 
+/// A class of the scan, or a range of a colour, decides as a shape does; a range that no point has is refused.
+#[test]
+fn a_column_of_the_cloud_decides_as_a_shape_does() {
+    let text = "roughness = 0.0005\n[[region]]\nname = \"red\"\ncolumn = \"r\"\nvalues = [200, 255]\nfriction = 0.8\n\
+                [[region]]\nname = \"six\"\nshape = \"box:0,0,-1,0.055,1,1\"\ncolumn = \"class\"\nvalues = 6\nroughness = 0.001\n";
+    let none = |_: &str| Err("no files here".to_owned());
+    let points = lattice(12, 0.01);
+    let red = |i: usize| i % 5 == 0;
+    let six = |i: usize| i % 2 == 0;
+    let property = |name: &str| match name {
+        "r" => Some((0..points.len()).map(|i| if red(i) { 220.0 } else { 10.0 }).collect()),
+        "class" => Some((0..points.len()).map(|i| if six(i) { 6.0 } else { 2.0 }).collect()),
+        _ => None,
+    };
+    let parse = |text: &str| Regions::parse(text, steel(), Vec3::zeros(), &none, &|_| Ok(String::new()));
+    let mut regions = parse(text).unwrap();
+    assert!(regions.measure(&points, &property).unwrap().is_none());
+    let (wall, _) = build(&points, &regions, &with(Radius::Solve)).unwrap();
+    for (i, p) in points.iter().enumerate() {
+        let wanted = if red(i) { 1 } else { 2 * u16::from(six(i) && p.x <= 0.055) };
+        assert_eq!(wall.regions[i], wanted, "point {i}");
+    }
+    assert_eq!(regions.materials[1].friction, Some(0.8));
+    for (bad, says) in [
+        ("[[region]]\nname = \"a\"\nfriction = 1", "region 1 'a': give shape, or column and values"),
+        ("[[region]]\ncolumn = \"r\"", "column without values"),
+        ("[[region]]\nvalues = 3", "values without column"),
+        ("[[region]]\ncolumn = \"r\"\nvalues = [3, 2]", "the smallest, then the largest"),
+        ("[[region]]\ncolumn = \"g\"\nvalues = 3", "no property 'g'"),
+        ("[[region]]\ncolumn = \"r\"\nvalues = [20, 30]", "its values are 10 to 220"),
+    ] {
+        let message = match parse(bad) {
+            Err(e) => e.to_string(),
+            Ok(mut regions) => regions.measure(&points, &property).unwrap_err().to_string(),
+        };
+        assert!(message.contains(says), "{bad}: {message}");
+    }
+}
+
 #[test]
 fn hard_clouds() {
     let by = |points: &[Vec3]| build(points, &everywhere(0.001), &with(Radius::Solve));

@@ -1,5 +1,6 @@
 //! The engine, called from Rust: its effects, together and alone, particles, walls and precisions.
 
+mod belts;
 mod clumps;
 mod effects_adhesion;
 mod effects_forces;

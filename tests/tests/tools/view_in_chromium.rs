@@ -138,7 +138,7 @@ fn page_with_surfaces() -> (TempDir, PathBuf) {
     let motion: Motion = serde_json::from_value(motion()).expect("whole");
     let mesh = json!({"mesh": {"vertices": [[-0.1, 0.05, 0.0], [0.2, 0.05, 0.0], [0.05, 0.05, 0.4]], "faces": [[0, 1, 2]]}});
     let plane = json!({"plane": {"point": [0, 0, -0.02], "normal": [0, 0, 1]}});
-    for (name, shape, motion) in [("paddle", mesh, motion), ("floor", plane, Motion::default())] {
+    for (name, shape, motion) in [("paddle", mesh, motion.clone()), ("floor", plane, Motion::default())] {
         let shape = SurfaceShape::read(&shape).expect("whole").expect("a surface");
         page.surface(WallSurface { name: name.into(), shape, motion });
     }

@@ -15,7 +15,7 @@ use std::process::ExitCode;
 use stream::ply::{Blocks, Opened};
 
 const SHAPES: &str = "SHAPE: box:x0,y0,z0,x1,y1,z1 | sphere:x,y,z,r | cylinder:x0,y0,z0,x1,y1,z1,r | \
-    cone:x0,y0,z0,x1,y1,z1,r0,r1 | halfspace:px,py,pz,nx,ny,nz (the side n points to) | prism:FILE.json | mesh:FILE; \
+    cone:x0,y0,z0,x1,y1,z1,r0,r1 | halfspace:px,py,pz,nx,ny,nz (the side n points to) | prism:FILE.json | mesh:FILE | mesh:FILE,units=mm; \
     a ! before a SHAPE means its outside. All lengths in metres.\n\n\
     With --check: exit 0 if there is nothing to remove, 3 if there is a part beyond the outer shape.\n\n\
     Examples:\n\
@@ -98,7 +98,7 @@ fn rows(args: &Args, blocks: Blocks<impl Read>, rules: &Rules) -> anyhow::Result
 impl Args {
     /// Whether rows go out as they came in.
     fn is_plain(&self) -> bool {
-        !self.output.ascii && self.input.scale.is_none_or(|scale| scale == 1.0)
+        !self.output.ascii && self.input.lengths.factor().is_none_or(|factor| factor == 1.0)
     }
 }
 

@@ -16,9 +16,11 @@ const EXAMPLES: &str = "Examples:\n\
 #[derive(Parser)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
-    /// Runs and walls (MCAP), clouds (PLY, LAS, E57, PCD, XYZ), meshes (PLY), shown together; - or none: stdin
+    /// Runs and walls (MCAP), clouds (PLY, LAS, E57, PCD, XYZ), meshes (PLY, STL, OBJ), shown together; - or none: stdin
     #[arg(value_name = "INPUT")]
     pub inputs: Vec<Source>,
+    #[command(flatten)]
+    pub lengths: cli::Lengths,
     /// Write to FILE instead of HTML to stdout; FILE appears when it is complete. Endings: .html, .png, .gif, .mp4 (needs ffmpeg), .vtp
     /// (ParaView, one moment), .pvd (ParaView, a series: NAME.pvd and a folder NAME)
     #[arg(id = "output", short = 'o', long = "output", value_name = "FILE")]

@@ -23,6 +23,7 @@ pub fn short_name(source: &Source) -> String {
 /// Reads every input into `show`; gives what was found, for the report.
 pub fn read_all(args: &Args, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
     let mut found = Vec::new();
+    let mut scaled = false;
     for source in &args.inputs {
         let mut from = source.open()?;
         let mut head = Vec::new();
@@ -40,9 +41,15 @@ pub fn read_all(args: &Args, show: &mut impl Show) -> anyhow::Result<Vec<Value>>
         }
         let layers = match is_mcap {
             true => run(whole, source, show),
-            false => cloud(whole, &name, args.pick, show),
+            false => {
+                scaled = true;
+                cloud(whole, &name, args, show)
+            }
         };
         found.extend(layers.with_context(|| source.to_string())?);
+    }
+    if !scaled && args.lengths.factor().is_some() {
+        return Err(cli::usage("--scale, --units: runs and walls (MCAP) are in metres: leave it out"));
     }
     Ok(found)
 }
@@ -56,7 +63,7 @@ fn run(from: impl Read, source: &Source, show: &mut impl Show) -> anyhow::Result
 }
 
 /// A mesh, or a cloud: its points are grains when they have a radius and an id, and wall spheres when they have a radius only.
-fn cloud(mut from: impl Read, name: &str, pick: bool, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
+fn cloud(mut from: impl Read, name: &str, args: &Args, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
     let mut bytes = Vec::new();
     let cannot = || format!("{name}: cannot read");
     from.by_ref().take(HEAD).read_to_end(&mut bytes).with_context(cannot)?;
@@ -64,10 +71,14 @@ fn cloud(mut from: impl Read, name: &str, pick: bool, show: &mut impl Show) -> a
     if ::cloud::formats::name_of(&bytes).is_some() {
         stream::whole::rest(&mut from, &mut bytes).with_context(cannot)?;
     }
-    if has_faces(&bytes) && !pick {
-        return mesh(&bytes, name, show);
+    let factor = args.lengths.factor().unwrap_or(1.0);
+    if !args.pick && (has_faces(&bytes) || mesh::is_drawing(&bytes).is_some()) {
+        return drawing(&bytes, name, factor, show);
     }
-    let (cloud, dropped) = ::cloud::from_bytes(bytes)?.finite();
+    let (mut cloud, dropped) = ::cloud::from_bytes(bytes)?.finite();
+    if factor != 1.0 {
+        cloud.scale(factor);
+    }
     if dropped > 0 {
         cli::warn(&format!("{name}: {dropped} points without finite coordinates are not shown"));
     }
@@ -99,8 +110,11 @@ fn has_faces(bytes: &[u8]) -> bool {
 }
 
 /// A mesh of triangles, at rest.
-fn mesh(mut bytes: &[u8], name: &str, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
-    let mesh = ::cloud::read_mesh(&mut bytes)?;
+fn drawing(bytes: &[u8], name: &str, factor: f64, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
+    let mut mesh = mesh::from_bytes(bytes)?;
+    if factor != 1.0 {
+        mesh.scale(factor);
+    }
     let faces = mesh.faces.len();
     let (shape, motion) = (SurfaceShape::Mesh(mesh), Motion::default());
     show.surface(WallSurface { name: name.to_owned(), shape, motion });

@@ -39,7 +39,7 @@ pub struct Args {
     /// A point in the flow [m], instead of --facing: for closed equipment, and to choose the side of a drawing
     #[arg(long, value_name = "x,y,z", value_parser = vector, allow_hyphen_values = true, conflicts_with = "facing")]
     flow_at: Option<Vec3>,
-    /// Drawn equipment instead of a cloud (PLY, STL, OBJ [m]): spheres of --radius M inside it that touch its surface
+    /// Drawn equipment instead of a cloud (PLY, STL, OBJ; in m, or see --units): spheres of --radius M inside it that touch its surface
     #[arg(long, value_name = "FILE")]
     pub from_mesh: Option<PathBuf>,
     /// Name of the material
@@ -57,7 +57,7 @@ pub struct Args {
     /// Coefficient of restitution
     #[arg(long, value_name = "X", value_parser = finite)]
     restitution: Option<f64>,
-    /// Velocity of the spheres [m/s]
+    /// Velocity of the surface [m/s], as that of a belt: the spheres stay where they are
     #[arg(long, value_name = "x,y,z", default_value = "0,0,0", value_parser = vector, allow_hyphen_values = true)]
     velocity: Vec3,
     /// Diameter of the smallest particle [m]: checks the wall's gaps and the spheres' sizes

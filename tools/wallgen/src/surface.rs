@@ -27,7 +27,10 @@ pub fn read(args: &Args, regions: &Regions) -> anyhow::Result<WallPoints> {
     let drawing = args.drawing(regions)?;
     let name = path.display().to_string();
     let bytes = stream::whole::file(path).with_context(|| format!("{name}: cannot read"))?;
-    let mesh = mesh::from_bytes(&bytes).with_context(|| name.clone())?;
+    let mut mesh = mesh::from_bytes(&bytes).with_context(|| name.clone())?;
+    if let Some(factor) = args.input.lengths.factor() {
+        mesh.scale(factor);
+    }
     let drawn = place(&mesh, &drawing).with_context(|| name.clone())?;
     warn(&drawn.report, drawing.radius);
     let attributes = Table::with_rows(drawn.centres.len());

@@ -2,6 +2,7 @@
 //!
 //! A format is one file here and one line in [`FORMATS`]. Text without a magic number comes last.
 
+mod drawing;
 mod e57;
 mod e57_claims;
 mod las;
@@ -31,11 +32,12 @@ struct Format {
 }
 
 /// Every format that a cloud is read from.
-const FORMATS: [Format; 5] = [
+const FORMATS: [Format; 6] = [
     Format { name: "PLY", matches: ply::matches, read: ply::read },
     Format { name: "LAS/LAZ", matches: las::matches, read: las::read },
     Format { name: "E57", matches: e57::matches, read: e57::read },
     Format { name: "PCD", matches: pcd::matches, read: pcd::read },
+    Format { name: "STL/OBJ", matches: drawing::matches, read: drawing::read },
     Format { name: "XYZ/PTS", matches: xyz::matches, read: xyz::read },
 ];
 
@@ -47,7 +49,9 @@ pub enum ReadError {
     Io(#[source] std::io::Error),
     #[error("nothing to read: the input is empty; did the previous tool fail?")]
     Empty,
-    #[error("no known cloud format begins with {start}{hint}: give PLY, LAS, LAZ, E57, PCD or XYZ/PTS text")]
+    #[error(
+        "no known cloud format begins with {start}{hint}: give PLY, LAS, LAZ, E57, PCD, STL, OBJ or XYZ/PTS text"
+    )]
     Unknown { start: String, hint: &'static str },
     #[error("not a cloud")]
     Ply(#[source] PlyError),
@@ -126,6 +130,9 @@ pub fn from_bytes(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
     if bytes.is_empty() {
         return Err(ReadError::Empty);
     }
+    if mesh::is_step(&bytes) {
+        return Err(mesh::MeshFileError::Step.into());
+    }
     let Some(format) = FORMATS.iter().find(|f| (f.matches)(&bytes)) else {
         let start: String =
             bytes.iter().take(12).flat_map(|b| std::ascii::escape_default(*b)).map(char::from).collect();
@@ -136,6 +143,9 @@ pub fn from_bytes(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
 
 /// The name of the format that `bytes` begin with.
 pub fn name_of(bytes: &[u8]) -> Option<&'static str> {
+    if mesh::is_step(bytes) {
+        return Some("STEP");
+    }
     FORMATS.iter().find(|f| (f.matches)(bytes)).map(|f| f.name)
 }
 

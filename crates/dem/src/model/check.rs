@@ -6,7 +6,7 @@ use crate::model::limit::largest_reach;
 use crate::model::quantity::material_names;
 use crate::model::{Allowed, BondConflict, Check, SetupError, Subject};
 use crate::setup::{Drag, DragLaw, Particle, Setup, Sleep, Step, WallShape};
-use geom::Vec3;
+use geom::{Motion, Vec3};
 use std::collections::HashSet;
 
 /// Checks every number of a setup that would make a run meaningless.
@@ -142,19 +142,21 @@ fn walls(setup: &Setup) -> Result<(), SetupError> {
                     return Err(SetupError::BehindPlane { id: p.id, depth, wall: w.name.clone() });
                 }
                 // Only one that turns in itself, like a turntable, stays where it is known to be.
-                if w.motion.turn.cross(&plane.normal).norm() > 1e-12 * w.motion.turn.norm() {
+                let tilts = |axis: &Vec3| axis.cross(&plane.normal).norm() > 1e-12 * axis.norm();
+                if w.motion.axes().iter().any(tilts) {
                     return Err(SetupError::RotatingPlane(w.name.clone()));
+                }
+                let across = w.surface.velocity.dot(&plane.normal);
+                if across.abs() > 1e-9 * w.surface.velocity.norm() || tilts(&w.surface.turn) {
+                    return Err(SetupError::BeltLeavesPlane(w.name.clone()));
                 }
             }
             WallShape::Mesh(mesh) => mesh.vertices.iter().try_for_each(|v| check.vector("vertex", v, "m"))?,
         }
-        check.vector("velocity", &w.motion.velocity, "m/s")?;
-        check.vector("rotation", &w.motion.turn, "rad/s")?;
-        check.vector("rotation through", &w.motion.through, "m")?;
-        check.vector("vibration", &w.motion.amplitude, "m")?;
-        check.finite("motion.from", w.motion.from, "s")?;
-        let (from, until) = (w.motion.from, w.motion.until);
-        check.within("motion.until", until, "s", until > from, "times after motion.from")?;
+        w.motion.parts().try_for_each(|part| motion(part, &check))?;
+        check.vector("surface_velocity", &w.surface.velocity, "m/s")?;
+        check.vector("surface_rotation", &w.surface.turn, "rad/s")?;
+        check.vector("surface_rotation through", &w.surface.through, "m")?;
         if let Some(s) = &w.servo {
             let length = s.direction.norm();
             let unit = (length - 1.0).abs() < 1e-9;
@@ -162,9 +164,24 @@ fn walls(setup: &Setup) -> Result<(), SetupError> {
             check.finite("servo.force", s.force, "N")?;
             check.positive("servo.speed_limit", s.speed_limit, "m/s")?;
         }
-        check.finite("frequency", w.motion.frequency, "Hz")?;
     }
     Ok(())
+}
+
+/// One part of the motion of a wall.
+fn motion<F: Fn() -> Subject>(m: &Motion, check: &Check<F>) -> Result<(), SetupError> {
+    check.vector("velocity", &m.velocity, "m/s")?;
+    check.vector("rotation", &m.turn, "rad/s")?;
+    check.vector("rotation through", &m.through, "m")?;
+    check.vector("vibration", &m.amplitude, "m")?;
+    check.finite("frequency", m.frequency, "Hz")?;
+    check.vector("swing", &m.swing, "rad")?;
+    check.finite("swing frequency", m.swing_frequency, "Hz")?;
+    check.finite("motion.from", m.from, "s")?;
+    let (from, until, ramp) = (m.from, m.until, m.ramp);
+    check.within("motion.until", until, "s", until > from, "times after motion.from")?;
+    let fits = ramp >= 0.0 && ramp.is_finite() && 2.0 * ramp <= until - from;
+    check.within("motion.ramp", ramp, "s", fits, "0 to half of the time from motion.from to motion.until")
 }
 
 /// Of spheres, and of the spheres that hold whole clumps [m].

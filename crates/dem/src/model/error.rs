@@ -207,6 +207,11 @@ pub enum SetupError {
     /// A plane that rotates out of itself: the speed of its far points has no bound.
     #[error("wall '{0}': an unbounded plane can turn about its own normal only")]
     RotatingPlane(String),
+    /// The surface of an unbounded plane would leave the plane.
+    #[error(
+        "wall '{0}': the surface of an unbounded plane can only move along the plane and rotate about its own normal"
+    )]
+    BeltLeavesPlane(String),
     /// A saved state of another setup.
     #[error("the saved state does not fit the setup: {0}")]
     OtherState(StateMismatch),

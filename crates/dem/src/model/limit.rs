@@ -142,7 +142,7 @@ pub fn critical_step(setup: &Setup) -> Result<Limit, SetupError> {
 /// The wall whose motion repeats fastest. A plane that turns in itself stays as it is; all else that turns may have an edge.
 fn fastest_motion(setup: &Setup) -> Option<RepeatedMotion> {
     let of = |wall: &Wall| {
-        let turns = if matches!(wall.shape, WallShape::Plane(_)) { 0.0 } else { wall.motion.turn.norm() };
+        let turns = if matches!(wall.shape, WallShape::Plane(_)) { 0.0 } else { wall.motion.fastest_turn() };
         let rate = wall.motion.vibration().max(turns / (2.0 * PI));
         (rate > 0.0).then(|| RepeatedMotion { wall: wall.name.clone(), period: 1.0 / rate })
     };

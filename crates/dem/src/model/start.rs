@@ -53,10 +53,11 @@ const AWAKE: f64 = 2.0;
 pub fn faster_than_sleep(setup: &Setup, walls: &[WallBody]) -> Result<(), SetupError> {
     let Some(sleep) = setup.sleep else { return Ok(()) };
     for (body, wall) in walls.iter().zip(&setup.walls) {
-        let speed = body.fastest_driven();
-        if speed > 0.0 && speed < AWAKE * sleep.speed {
-            let (wall, most) = (wall.name.clone(), speed / AWAKE);
-            return Err(SetupError::WallSlowerThanSleep { wall, speed, sleep: sleep.speed, most });
+        for speed in [body.fastest_driven(), body.belt_speed()] {
+            if speed > 0.0 && speed < AWAKE * sleep.speed {
+                let (wall, most) = (wall.name.clone(), speed / AWAKE);
+                return Err(SetupError::WallSlowerThanSleep { wall, speed, sleep: sleep.speed, most });
+            }
         }
     }
     Ok(())

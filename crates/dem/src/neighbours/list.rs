@@ -122,7 +122,7 @@ impl Slots {
         self.met = vec![Disturber::Particles; self.i.len() / BLOCK];
         for s in &self.segments {
             if let With::Wall(w) = s.with {
-                let met = if walls[w].moves() { Disturber::MovingWall } else { Disturber::StillWall };
+                let met = if walls[w].drives() { Disturber::MovingWall } else { Disturber::StillWall };
                 self.met[s.slots.start / BLOCK..s.slots.end / BLOCK].fill(met);
             }
         }

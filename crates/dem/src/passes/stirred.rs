@@ -16,12 +16,12 @@ pub struct Movers {
 }
 
 impl Movers {
-    /// Those of an instant [s]: particles that are awake and no slower than the speed of sleep, walls in motion or with a servo.
+    /// Those of an instant [s]: particles that are awake and no slower than the speed of sleep, walls in motion, with a surface in motion or with a servo.
     pub fn new(model: &Model, particles: &Particles, sleepers: &Sleepers, time: f64) -> Movers {
         let moves = |k: usize| !sleepers.sleeps(k) && particles.surface_speed(k) >= sleepers.speed;
         Movers {
             particles: (0..particles.len()).map(moves).collect(),
-            walls: model.walls.iter().map(|w| w.moves_at(time)).collect(),
+            walls: model.walls.iter().map(|w| w.drives_at(time)).collect(),
         }
     }
 }

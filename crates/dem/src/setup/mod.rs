@@ -21,6 +21,7 @@ pub use zone::{
 };
 
 pub use geom::Motion;
+pub use geom::motion::SurfaceMotion;
 
 use geom::mesh::TriMesh;
 use geom::{Plane, Vec3};
@@ -233,6 +234,8 @@ pub struct Wall {
     pub shape: WallShape,
     /// Prescribed motion.
     pub motion: Motion,
+    /// How its surface moves on it, as that of a belt.
+    pub surface: SurfaceMotion,
     /// A force that it follows besides.
     pub servo: Option<Servo>,
 }
@@ -240,10 +243,17 @@ pub struct Wall {
 impl Wall {
     /// A wall at rest.
     pub fn new(name: impl Into<String>, material: u16, shape: WallShape) -> Wall {
-        Wall { name: name.into(), material, shape, motion: Motion::still(), servo: None }
+        Wall {
+            name: name.into(),
+            material,
+            shape,
+            motion: Motion::still(),
+            surface: SurfaceMotion::still(),
+            servo: None,
+        }
     }
 
-    /// Whether it moves at all.
+    /// Whether its place changes; that of a belt does not.
     pub fn moves(&self) -> bool {
         self.motion.moves() || self.servo.is_some()
     }

@@ -3,6 +3,9 @@
 //! A wall sphere is its centre and radius; a plane or a triangle is the point of it that is nearest to the particle, with radius
 //! 0. A wall has no mass of its own in a contact (1/m = 0, so m* = m_i). Across a periodic face its images act: the partner
 //! of a contact tells part and image ([`images`]).
+//!
+//! The surface of a belt moves on its wall, which stays where it is: at a contact with the normal n a contact point has the velocity of the wall
+//! plus v_s − (v_s·n) n, with v_s that of the surface there. So a belt drives along itself and never pushes.
 
 pub(crate) mod images;
 pub(crate) mod seams;
@@ -12,7 +15,7 @@ use crate::simd::{Row, Row4};
 use crate::space::sphere::{FAR, is_away};
 use crate::walls::images::Image;
 use crate::walls::seams::{HistorySlots, Nearest};
-use geom::motion::Pose;
+use geom::motion::{Pose, SurfaceMotion};
 use geom::{Boxes, Grid, Motion, Plane, Vec3};
 
 /// A wall, ready to be met.
@@ -23,7 +26,12 @@ pub struct WallBody {
     /// The force that it follows besides.
     pub servo: Option<Servo>,
     surface: Surface,
-    span: f64,
+    /// How its surface moves on it, as that of a belt.
+    belt: Option<SurfaceMotion>,
+    /// Upper bound of the speed of its prescribed motion [m/s].
+    driven: f64,
+    /// The same of its surface on it [m/s].
+    belt_speed: f64,
     /// Largest gap at which a contact that was made still acts [m].
     reach: f64,
     /// How far ahead in time contacts are looked for [s].
@@ -52,27 +60,31 @@ enum Surface {
 impl WallBody {
     /// Sorts wall spheres into their own grid and triangles into their tree, once; contacts act up to a gap of `reach` [m], and are looked for a time `ahead` [s].
     pub fn new(wall: &Wall, reach: f64, ahead: f64) -> WallBody {
-        let farthest = |points: &mut dyn Iterator<Item = Vec3>| {
-            points.map(|p| (p - wall.motion.through).norm()).fold(0.0, f64::max)
-        };
-        let (surface, span) = match &wall.shape {
+        let surface = match &wall.shape {
             WallShape::Spheres(spheres) => {
                 let largest = spheres.iter().map(|s| s.1).fold(0.0, f64::max);
-                let span = farthest(&mut spheres.iter().map(|s| s.0)) + largest;
-                (sorted_spheres(spheres, largest), span)
+                sorted_spheres(spheres, largest)
             }
-            // Only a plane that turns in itself may turn.
-            WallShape::Plane(plane) => (Surface::Plane(*plane), 0.0),
+            WallShape::Plane(plane) => Surface::Plane(*plane),
             WallShape::Mesh(mesh) => {
-                let span = farthest(&mut mesh.vertices.iter().copied());
                 let corners: Vec<[Vec3; 3]> = mesh.triangles().collect();
                 let around = |t: &[Vec3; 3]| [t[0].inf(&t[1]).inf(&t[2]), t[0].sup(&t[1]).sup(&t[2])];
                 let boxes: Vec<[Vec3; 2]> = corners.iter().map(around).collect();
-                (Surface::Triangles { boxes: Boxes::new(&boxes), corners }, span)
+                Surface::Triangles { boxes: Boxes::new(&boxes), corners }
             }
         };
-        let (motion, servo, bounds) = (wall.motion, wall.servo, bounds(&surface));
-        WallBody { motion, servo, bounds, surface, span, reach, ahead }
+        let span = |axis: &Vec3| span(&wall.shape, axis);
+        WallBody {
+            driven: wall.motion.fastest(span),
+            belt: Some(wall.surface).filter(SurfaceMotion::moves),
+            belt_speed: wall.surface.fastest(span(&wall.surface.through)),
+            motion: wall.motion.clone(),
+            servo: wall.servo,
+            bounds: bounds(&surface),
+            surface,
+            reach,
+            ahead,
+        }
     }
 
     /// Whether it moves at all.
@@ -80,14 +92,19 @@ impl WallBody {
         self.motion.moves() || self.servo.is_some()
     }
 
-    /// Whether it is in motion at `time` [s], or follows a force.
-    pub fn moves_at(&self, time: f64) -> bool {
-        self.servo.is_some() || (self.motion.moves() && self.motion.runs(time))
+    /// Whether it, or its surface on it, moves at all: it may then move what rests on it.
+    pub fn drives(&self) -> bool {
+        self.moves() || self.belt.is_some()
+    }
+
+    /// Whether it or its surface is in motion at `time` [s], or follows a force.
+    pub fn drives_at(&self, time: f64) -> bool {
+        self.servo.is_some() || self.belt.is_some() || (self.motion.moves() && self.motion.runs(time))
     }
 
     /// Whether contact points must be found in each step.
     pub fn refreshes(&self) -> bool {
-        self.flat() || self.moves()
+        self.flat() || self.drives()
     }
 
     /// Whether its contact points belong to a flat surface.
@@ -102,7 +119,12 @@ impl WallBody {
 
     /// The same without the servo.
     pub fn fastest_driven(&self) -> f64 {
-        self.motion.fastest(self.span)
+        self.driven
+    }
+
+    /// Upper bound of the speed of its surface on it [m/s]; 0: no belt.
+    pub fn belt_speed(&self) -> f64 {
+        self.belt_speed
     }
 
     /// A point of the wall at t = 0, and where it is to be near [m]: its middle in the middle of the box, a plane where it
@@ -182,12 +204,17 @@ impl WallBody {
         let count = self.parts();
         let part = |k: usize| (partners[k] % count) as usize;
         let shift = |k: usize| Image(partners[k] / count).shift(period);
+        let belt = self.belt.as_ref().map(|belt| pose.surface(belt));
+        let turn = pose.turn + belt.map_or(Vec3::zeros(), |belt| belt.turn);
         let mut put = |k: usize, position: Vec3, radius: f64| {
-            let shift = shift(k);
-            let (v, p) = (pose.velocity(&position), position + shift);
+            let p = position + shift(k);
+            let mut v = pose.velocity(&position);
+            if let Some(belt) = &belt {
+                v += along(belt.velocity(&position), centre - p);
+            }
             rows[k] = Row([p.x, p.y, p.z, radius, v.x, v.y, v.z, 0.0]);
             if let Some(spin) = spins.get_mut(k) {
-                *spin = Row4::of(pose.turn);
+                *spin = Row4::of(turn);
             }
         };
         match &self.surface {
@@ -217,6 +244,21 @@ impl WallBody {
                 }
             }
         }
+    }
+}
+
+/// The part of a velocity that is across a direction of any length, the normal of a contact.
+fn along(velocity: Vec3, normal: Vec3) -> Vec3 {
+    let square = normal.norm_squared();
+    if square > 0.0 { velocity - normal * (velocity.dot(&normal) / square) } else { velocity }
+}
+
+/// Largest distance of a wall's points from a point of an axis [m]; 0 of a plane, which turns in itself.
+fn span(shape: &WallShape, axis: &Vec3) -> f64 {
+    match shape {
+        WallShape::Spheres(s) => s.iter().map(|(c, r)| (c - axis).norm() + r).fold(0.0, f64::max),
+        WallShape::Plane(_) => 0.0,
+        WallShape::Mesh(mesh) => mesh.vertices.iter().map(|v| (v - axis).norm()).fold(0.0, f64::max),
     }
 }
 

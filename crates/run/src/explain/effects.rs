@@ -84,6 +84,7 @@ pub(super) fn effects(scene: &Scene, setup: &Setup) -> Vec<EffectToMeasure> {
     add("inlet", keys::numbered("inlet", written.inlet.len()), None);
     add("insert", keys::numbered("insert", written.insert.len()), None);
     add("wall motion", keys::motions(scene, setup, false), None);
+    add("belt", keys::belts(scene, setup), None);
     add("servo", keys::motions(scene, setup, true), None);
     found
 }

@@ -74,6 +74,24 @@ pub(super) fn motions(scene: &Scene, setup: &Setup, servo: bool) -> String {
     keys.join(", ")
 }
 
+/// Keys of the walls whose surface moves on them.
+pub(super) fn belts(scene: &Scene, setup: &Setup) -> String {
+    let belts = setup.walls.iter().filter(|w| w.surface.moves());
+    let mut keys: Vec<String> = belts
+        .map(|w| match wall(scene, w) {
+            Some((at, entry)) if entry.surface_velocity.is_some() || entry.surface_rotation.is_some() => {
+                let turns = entry.surface_rotation.is_some();
+                let key = if turns { "surface_rotation" } else { "surface_velocity" };
+                let name = entry.name.as_ref().map_or(String::new(), |name| format!(" ({name})"));
+                format!("wall.{at}.{key}{name}")
+            }
+            _ => format!("velocity in the wall file of {}", w.name),
+        })
+        .collect();
+    keys.dedup();
+    keys.join(", ")
+}
+
 /// Keys that call for the energy ledger.
 pub(super) fn ledger(scene: &Scene) -> String {
     let Output { energy, contacts, .. } = scene.keys.output;

@@ -62,6 +62,7 @@ fn statement(error: &SetupError) -> String {
         | SetupError::BehindPlane { .. }
         | SetupError::BondJoinsNothing { .. }
         | SetupError::WallTooFast { .. }
+        | SetupError::BeltLeavesPlane(_)
         | SetupError::RotatingPlane(_) => error.to_string(),
     }
 }
@@ -106,6 +107,9 @@ fn remedy(error: &SetupError) -> Option<String> {
         SetupError::BondJoinsNothing { .. } => "give a larger gap, or leave it out",
         SetupError::ClumpSleep(_) => "leave out [sleep], or use spheres",
         SetupError::WallTooFast { .. } => "shorten dt, or slow the wall",
+        SetupError::BeltLeavesPlane(_) => {
+            "give surface_velocity along the plane, and surface_rotation.about along its normal"
+        }
         SetupError::RotatingPlane(_) => "use a mesh or wall spheres, or rotate.about along the normal",
         SetupError::OtherState(_) => "resume with the scene of the saved run",
     };

@@ -178,6 +178,7 @@ fn setup_error_number(error: &SetupError) -> usize {
         SetupError::BondOfZeroLength { .. } => 24,
         SetupError::BondJoinsNothing { .. } => 25,
         SetupError::OtherState(_) => 26,
+        SetupError::BeltLeavesPlane(_) => 27,
     }
 }
 

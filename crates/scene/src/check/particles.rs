@@ -8,9 +8,10 @@ use crate::keys::{Fill, Insert, SceneKeys};
 impl Check<'_> {
     /// `[[fill]]` and `[[insert]]`.
     pub(super) fn particles(&self, m: &SceneKeys) -> Result<()> {
-        for (i, p) in m.particles.iter().enumerate().filter(|(_, p)| p.fixed && p.clump.is_some()) {
-            let why =
-                format!("grains of a clump ({}) cannot be fixed", p.clump.as_deref().unwrap_or_default());
+        for (i, p) in m.particles.iter().enumerate() {
+            self.lengths(&format!("particles.{i}"), p.scale, p.units.as_deref())?;
+            let Some(clump) = p.clump.as_ref().filter(|_| p.fixed) else { continue };
+            let why = format!("grains of a clump ({clump}) cannot be fixed");
             let cure = "take it out, or give spheres as wall spheres ([[wall]] source)";
             return Err(self.wrong(&format!("particles.{i}.fixed"), "true", &why, cure));
         }

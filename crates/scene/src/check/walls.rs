@@ -2,7 +2,7 @@
 
 use super::Check;
 use crate::error::Result;
-use crate::keys::{Motion, SceneKeys, Servo, Wall};
+use crate::keys::{Motion, Path, Rotate, SceneKeys, Servo, Wall};
 use geom::units;
 
 impl Check<'_> {
@@ -16,6 +16,7 @@ impl Check<'_> {
             ("plane", w.plane.is_some()),
             ("mesh", w.mesh.is_some()),
             ("box", w.cuboid.is_some()),
+            ("solid", w.solid.is_some()),
         ];
         if kinds.iter().any(|k| k.1) {
             self.one_of(entry, &kinds)?;
@@ -34,14 +35,15 @@ impl Check<'_> {
             }
         }
         w.servo.as_ref().map_or(Ok(()), |s| self.servo(entry, w, s))?;
-        w.motion.as_ref().map_or(Ok(()), |motion| self.motion(&format!("{entry}.motion"), motion))
+        self.belt(entry, w)?;
+        w.motion.as_ref().map_or(Ok(()), |list| self.motions(&format!("{entry}.motion"), list))
     }
 
     /// `scale` and `units` of a drawing.
     fn mesh_scale(&self, entry: &str, w: &Wall) -> Result<()> {
         for (key, given) in [("scale", w.scale.is_some()), ("units", w.units.is_some())] {
-            if given && w.mesh.is_none() {
-                let why = "only a mesh has lengths in another unit: everything else is in metres";
+            if given && w.mesh.is_none() && w.source.is_none() {
+                let why = "only the files of mesh and source may have lengths in another unit: everything else is in metres";
                 return Err(self.wrong(
                     &format!("{entry}.{key}"),
                     "(given)",
@@ -50,35 +52,127 @@ impl Check<'_> {
                 ));
             }
         }
-        if w.scale.is_some() && w.units.is_some() {
+        self.lengths(entry, w.scale, w.units.as_deref())
+    }
+
+    /// `scale` and `units` of a file.
+    pub(super) fn lengths(&self, entry: &str, scale: Option<f64>, units: Option<&str>) -> Result<()> {
+        if scale.is_some() && units.is_some() {
             let why = "both say what a length in the file is";
             return Err(self.wrong(&format!("{entry}.scale"), "(given)", why, "give scale or units"));
         }
-        self.positive(&format!("{entry}.scale"), w.scale, "")?;
-        let Some(name) = &w.units else { return Ok(()) };
+        self.positive(&format!("{entry}.scale"), scale, "")?;
+        let Some(name) = units else { return Ok(()) };
         units::factor(name, "m").map(drop).map_err(|e| {
             let cure = "write \"mm\", \"cm\", \"m\", \"in\" or \"ft\"";
             self.wrong(&format!("{entry}.units"), format!("\"{name}\""), &e.to_string(), cure)
         })
     }
 
+    /// The surface of a belt or a turntable.
+    fn belt(&self, entry: &str, w: &Wall) -> Result<()> {
+        let key = |k: &str| format!("{entry}.{k}");
+        if let Some(v) = w.surface_velocity {
+            self.finite(&key("surface_velocity"), &v, "m/s")?;
+        }
+        w.surface_rotation.as_ref().map_or(Ok(()), |r| self.rotate(&key("surface_rotation"), r))?;
+        let still = w.surface_velocity.is_none_or(|v| v == [0.0; 3])
+            && w.surface_rotation.as_ref().is_none_or(|r| r.rpm == 0.0);
+        if still && let Some(name) = w.surface_velocity.map(|_| "surface_velocity") {
+            let cure = "give a velocity, or take it out";
+            return Err(self.wrong(&key(name), "[0, 0, 0] m/s", "moves nothing", cure));
+        }
+        Ok(())
+    }
+
+    fn rotate(&self, key: &str, r: &Rotate) -> Result<()> {
+        self.direction(&format!("{key}.about"), r.about, "such as [0, 0, 1]")?;
+        self.finite(&format!("{key}.through"), &r.through, "m")?;
+        self.finite(&format!("{key}.rpm"), &[r.rpm], "1/min")
+    }
+
+    /// One motion, or a list of them that act one after the other.
+    fn motions(&self, entry: &str, list: &[Motion]) -> Result<()> {
+        if list.is_empty() {
+            let cure =
+                "add a motion, such as { translate = [0.5, 0, 0], from = 2, until = 2.4 }, or take it out";
+            return Err(self.wrong(entry, "[ ]", "names no motion", cure));
+        }
+        for (k, motion) in list.iter().enumerate() {
+            let key = if list.len() == 1 { entry.to_owned() } else { format!("{entry}.{k}") };
+            self.motion(&key, motion)?;
+            let carried = motion.translate.is_some_and(|v| v != [0.0; 3]) && motion.until.is_none();
+            let turns = |m: &&Motion| {
+                m.rotate.is_some() || m.swing.is_some() || m.path.as_ref().is_some_and(|p| p.about.is_some())
+            };
+            if carried && list[k + 1..].iter().any(|m| turns(&m)) {
+                let why = "carries the wall ever farther from the axis of a later rotation, so that its speed has no bound";
+                let cure = "add until, or give the rotation before the translation: it then turns about an axis that is carried along";
+                return Err(self.wrong(&format!("{key}.translate"), "(without until)", why, cure));
+            }
+        }
+        Ok(())
+    }
+
     fn motion(&self, entry: &str, motion: &Motion) -> Result<()> {
         let key = |k: &str| format!("{entry}.{k}");
-        if motion.rotate.is_none() && motion.translate.is_none() && motion.vibrate.is_none() {
-            let cure = "add rotate, translate or vibrate, or take it out";
+        let turns = [
+            ("rotate", motion.rotate.is_some()),
+            ("swing", motion.swing.is_some()),
+            ("path.about", motion.path.as_ref().is_some_and(|p| p.about.is_some())),
+        ];
+        let names: Vec<&str> = turns.iter().filter(|t| t.1).map(|t| t.0).collect();
+        if names.is_empty() && motion.translate.is_none() && motion.vibrate.is_none() && motion.path.is_none()
+        {
+            let cure = "add rotate, swing, translate, vibrate or path, or take it out";
             return Err(self.wrong(entry, "{ }", "names no motion", cure));
+        }
+        if names.len() > 1 {
+            let why = "one motion turns about one axis";
+            let cure = "write a list of motions: motion = [{ rotate = … }, { swing = … }]; each is carried by those after it";
+            return Err(self.wrong(entry, names.join(" and "), why, cure));
         }
         self.finite(&key("from"), &[motion.from], "s")?;
         self.until(&key("until"), motion.until, motion.from)?;
-        if let Some(r) = &motion.rotate {
-            self.direction(&key("rotate.about"), r.about, "such as [0, 0, 1]")?;
-            self.finite(&key("rotate.through"), &r.through, "m")?;
-            self.finite(&key("rotate.rpm"), &[r.rpm], "1/min")?;
+        self.finite(&key("ramp"), &[motion.ramp], "s")?;
+        let longest = 0.5 * (motion.until.unwrap_or(f64::INFINITY) - motion.from);
+        if !(0.0..=longest).contains(&motion.ramp) {
+            let why = "does not fit: the motion takes it to start, and again to end";
+            let cure = "give at most half of the time from `from` to `until`";
+            return Err(self.wrong(&key("ramp"), format!("{} s", motion.ramp), why, cure));
+        }
+        motion.rotate.as_ref().map_or(Ok(()), |r| self.rotate(&key("rotate"), r))?;
+        if let Some(s) = &motion.swing {
+            self.direction(&key("swing.about"), s.about, "such as [0, 1, 0]")?;
+            self.finite(&key("swing.through"), &s.through, "m")?;
+            self.finite(&key("swing.amplitude"), &[s.amplitude], "rad")?;
+            self.positive(&key("swing.frequency"), s.frequency, "Hz")?;
+        }
+        if let Some(p) = &motion.path {
+            self.path_axis(&key("path"), p)?;
         }
         self.finite(&key("translate"), &motion.translate.unwrap_or_default(), "m/s")?;
         if let Some(v) = &motion.vibrate {
             self.finite(&key("vibrate.amplitude"), &v.amplitude, "m")?;
             self.positive(&key("vibrate.frequency"), v.frequency, "Hz")?;
+        }
+        Ok(())
+    }
+
+    /// The axis of the angles of a table.
+    fn path_axis(&self, key: &str, p: &Path) -> Result<()> {
+        if let Some(about) = p.about {
+            self.direction(&format!("{key}.about"), about, "such as [0, 1, 0]")?;
+        }
+        self.finite(&format!("{key}.through"), &p.through.unwrap_or_default(), "m")?;
+        if p.about.is_some() != p.through.is_some() {
+            let why = "about and through give an axis together";
+            return Err(self.wrong(
+                key,
+                "(one of them)",
+                why,
+                "give both, or none if the file has no angles",
+            ));
         }
         Ok(())
     }

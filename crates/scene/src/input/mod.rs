@@ -16,7 +16,9 @@ pub use walls::{WallFile, WallSphere};
 pub use zone::ZoneRecord;
 
 use crate::error::{Result, SceneError};
+use geom::Vec3;
 use geom::mesh::TriMesh;
+use geom::motion::PathRow;
 use head::StreamHead;
 use record::{metadata, topic};
 use std::path::Path;
@@ -119,11 +121,54 @@ fn broken(name: &str, error: McapError) -> SceneError {
     SceneError::content(name, "walls or an inlet", error)
 }
 
-/// Reads a mesh (PLY, STL, OBJ; polygons are cut into triangles).
+/// Reads a motion as a table over time, and its hash; columns `t`, any of `x y z`, and `angle` where there is an axis.
+///
+/// # Errors
+/// A file of another kind, columns that are missing or not used.
+pub fn read_path(path: &Path, has_axis: bool) -> Result<(Vec<PathRow>, String)> {
+    let name = path.display().to_string();
+    let bytes = stream::whole::file(path).map_err(|e| SceneError::read(path, e))?;
+    let table = csv::csv(&name, &bytes)?;
+    let known: &[&str] = if has_axis { &["t", "x", "y", "z", "angle"] } else { &["t", "x", "y", "z"] };
+    if let Some(column) = table.columns().iter().find(|c| !known.contains(&c.name.as_str())) {
+        let why = format!("has the column '{}', which a motion does not use", column.name);
+        let cure = if column.name == "angle" {
+            "give the axis of the angle: path = { source, about, through }"
+        } else {
+            "wanted: t [s], x, y, z [m], and angle [rad] about an axis"
+        };
+        return Err(SceneError::file(&name, why, cure));
+    }
+    let missing = |column: &str| {
+        SceneError::file(
+            &name,
+            format!("has no column '{column}'"),
+            "wanted: t [s], x, y, z [m], angle [rad]",
+        )
+    };
+    let time = table.get("t").ok_or_else(|| missing("t"))?;
+    if has_axis && table.get("angle").is_none() {
+        return Err(missing("angle"));
+    }
+    let value = |column: &str, row: usize| table.get(column).map_or(0.0, |v| v.get(row));
+    let row = |k: usize| PathRow {
+        time: time.get(k),
+        shift: Vec3::new(value("x", k), value("y", k), value("z", k)),
+        angle: value("angle", k),
+    };
+    Ok(((0..table.rows()).map(row).collect(), record::hash(&table)))
+}
+
+/// Reads a mesh (PLY, STL, OBJ; polygons are cut into triangles); `factor` makes its lengths metres.
 ///
 /// # Errors
 /// A file of another kind, faces without vertices.
-pub fn read_mesh(path: &Path) -> Result<TriMesh> {
+pub fn read_mesh(path: &Path, factor: f64) -> Result<TriMesh> {
     let bytes = stream::whole::file(path).map_err(|e| SceneError::read(path, e))?;
-    mesh::from_bytes(&bytes).map_err(|e| SceneError::content(&path.display().to_string(), "a mesh", e))
+    let mut mesh = mesh::from_bytes(&bytes)
+        .map_err(|e| SceneError::content(&path.display().to_string(), "a mesh", e))?;
+    if factor != 1.0 {
+        mesh.scale(factor);
+    }
+    Ok(mesh)
 }

@@ -7,8 +7,8 @@ use geom::Shown;
 use record::column::{BODY, DIAMETER, ID, MATERIAL, POSITION, RADIUS, SPIN, VELOCITY};
 use record::{Columns, LogMessage, MaterialRecord, WallRecord, metadata, topic};
 use std::path::Path;
-use stream::Table;
 use stream::mcap::{Event, Reader};
+use stream::{Table, Values};
 
 /// Particles of a file. Their materials are indices of `materials`, when the file names its own.
 #[derive(Debug, Clone)]
@@ -47,14 +47,26 @@ impl ParticleTable {
     /// Reads a file; its format is detected by content.
     ///
     /// # Errors
-    /// A file of another kind.
-    pub fn read(path: &Path) -> Result<ParticleTable> {
+    /// A file of another kind; a factor for a run, which is in metres.
+    pub fn read(path: &Path, factor: f64) -> Result<ParticleTable> {
         let name = path.display().to_string();
         let bytes = stream::whole::file(path).map_err(|e| SceneError::read(path, e))?;
         if bytes.starts_with(b"\x89MCAP") {
+            if factor != 1.0 {
+                let why = "is a run: its lengths are in metres";
+                return Err(SceneError::file(&name, why, "take scale or units out of its [[particles]]"));
+            }
             return last_frame(name, &bytes);
         }
-        let table = if bytes.starts_with(b"ply") { vertices(&name, &bytes)? } else { csv(&name, &bytes)? };
+        let mut table =
+            if bytes.starts_with(b"ply") { vertices(&name, &bytes)? } else { csv(&name, &bytes)? };
+        if factor != 1.0 {
+            for column in [&POSITION[..], &VELOCITY, &[RADIUS, DIAMETER]].concat() {
+                let Some(values) = table.get(column).map(Values::to_f64) else { continue };
+                let values = Values::F64(values.iter().map(|v| v * factor).collect());
+                table.replace(column, values).map_err(|e| SceneError::content(&name, "particles", e))?;
+            }
+        }
         Ok(ParticleTable {
             name,
             table,
@@ -115,8 +127,8 @@ impl ParticleFile {
     ///
     /// # Errors
     /// A file of another kind, columns that are missing or wrong; a run with clumps.
-    pub fn read(path: &Path) -> Result<ParticleFile> {
-        let table = ParticleTable::read(path)?;
+    pub fn read(path: &Path, factor: f64) -> Result<ParticleFile> {
+        let table = ParticleTable::read(path, factor)?;
         if table.is_run && table.table.get(BODY).is_some() {
             let why = "is a run with clumps, and a frame does not hold their shapes";
             let cure = "continue it with dem-run --resume, or place them with [[body]]";

@@ -6,6 +6,9 @@ use record::column::{MATERIAL, POSITION, VELOCITY};
 use record::{Columns, MaterialRecord};
 use stream::Table;
 
+/// Most velocities of the surface of one stream.
+const MOST_VELOCITIES: usize = 100;
+
 /// The wall spheres of one stream.
 #[derive(Debug, Clone)]
 pub struct WallFile {
@@ -15,8 +18,8 @@ pub struct WallFile {
     pub materials: Vec<MaterialRecord>,
     /// Its spheres.
     pub spheres: Vec<WallSphere>,
-    /// Velocity of all of them [m/s].
-    pub velocity: Vec3,
+    /// Velocities of their surface, which moves on them as that of a belt [m/s].
+    pub velocities: Vec<Vec3>,
     /// SHA-256 of the columns; packing and compression do not change it.
     pub hash: String,
 }
@@ -30,6 +33,8 @@ pub struct WallSphere {
     pub radius: f64,
     /// Index of [`WallFile::materials`].
     pub material: u16,
+    /// Index of [`WallFile::velocities`].
+    pub velocity: u16,
 }
 
 impl WallFile {
@@ -49,15 +54,46 @@ impl WallFile {
         }
         let material = columns.indices(MATERIAL, materials.len() as f64 - 1.0)?;
         let material = |row: usize| material.as_ref().map_or(0, |m| m[row] as u16);
-        let sphere = |i: usize| WallSphere { centre: centres[i], radius: radii[i], material: material(i) };
+        let given = columns.vectors_or_zero(VELOCITY)?;
+        let (velocity, velocities) = different(name, &given)?;
+        let sphere = |i: usize| WallSphere {
+            centre: centres[i],
+            radius: radii[i],
+            material: material(i),
+            velocity: velocity[i],
+        };
         let spheres = (0..centres.len()).map(sphere).collect();
-        let velocities = columns.vectors_or_zero(VELOCITY)?;
-        let velocity = velocities[0];
-        if let Some(row) = velocities.iter().position(|v| *v != velocity) {
-            let why = format!("its spheres have different velocities (rows 0 and {row})");
-            let cure = "not available yet: give the wall a 'motion' in the scene, or one velocity";
+        Ok(WallFile { name: name.to_owned(), materials, hash: record::hash(table), spheres, velocities })
+    }
+
+    /// Multiplies all lengths, those of velocities too.
+    pub fn scale(&mut self, factor: f64) {
+        if factor != 1.0 {
+            self.spheres
+                .iter_mut()
+                .for_each(|s| (s.centre, s.radius) = (s.centre * factor, s.radius * factor));
+            self.velocities.iter_mut().for_each(|v| *v *= factor);
+        }
+    }
+}
+
+/// The different velocities of a wall's surface [m/s], and the number of each sphere's own; each of them is a wall of its own.
+fn different(name: &str, given: &[Vec3]) -> Result<(Vec<u16>, Vec<Vec3>)> {
+    let mut velocities: Vec<Vec3> = Vec::new();
+    let mut of = Vec::with_capacity(given.len());
+    for v in given {
+        let known = of.last().map(|&k: &u16| k as usize).filter(|&k| velocities[k] == *v);
+        let k = known.or_else(|| velocities.iter().position(|known| known == v)).unwrap_or(velocities.len());
+        if k == MOST_VELOCITIES {
+            let why = format!("its spheres have more than {MOST_VELOCITIES} different velocities");
+            let cure =
+                "give each region one velocity, or use surface_velocity and surface_rotation in the scene";
             return Err(SceneError::file(name, why, cure));
         }
-        Ok(WallFile { name: name.to_owned(), materials, hash: record::hash(table), spheres, velocity })
+        if k == velocities.len() {
+            velocities.push(*v);
+        }
+        of.push(k as u16);
     }
+    Ok((of, velocities))
 }

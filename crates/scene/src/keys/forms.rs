@@ -1,8 +1,10 @@
-//! Values that may be written in two ways.
+//! Values that may be written in two ways: a share, a word or a truth value, one table or a list of them.
 
 use super::{Accuracy, BackThroughZone};
-use serde::de::{Deserialize, Deserializer, Error, Unexpected, Visitor};
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Unexpected, Visitor};
 use std::fmt;
+use std::marker::PhantomData;
 
 impl<'de> Deserialize<'de> for Accuracy {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Accuracy, D::Error> {
@@ -57,5 +59,32 @@ impl Visitor<'_> for Back {
             "remove" => Ok(BackThroughZone::IsRemoved),
             _ => Err(E::invalid_value(Unexpected::Str(v), &self)),
         }
+    }
+}
+
+/// Reads a table, or a list of tables.
+pub(super) fn one_or_more<'de, D, T>(from: D) -> Result<Option<Vec<T>>, D::Error>
+where
+    D: Deserializer<'de>,
+    T: Deserialize<'de>,
+{
+    from.deserialize_any(OneOrMore(PhantomData)).map(Some)
+}
+
+struct OneOrMore<T>(PhantomData<T>);
+
+impl<'de, T: Deserialize<'de>> Visitor<'de> for OneOrMore<T> {
+    type Value = Vec<T>;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a table, or a list of tables")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Vec<T>, A::Error> {
+        T::deserialize(MapAccessDeserializer::new(map)).map(|one| vec![one])
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<Vec<T>, A::Error> {
+        Vec::deserialize(SeqAccessDeserializer::new(seq))
     }
 }

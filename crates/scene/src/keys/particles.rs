@@ -146,6 +146,18 @@ pub struct Particles {
     /// Whether they stay where they are: spheres of a wall.
     #[serde(default)]
     pub fixed: bool,
+    /// Factor on the lengths in the file: positions, radii and velocities [–]; this or `units`.
+    #[serde(default, deserialize_with = "unit::plain")]
+    pub scale: Option<f64>,
+    /// Unit of the lengths in the file, such as "mm"; absent: metres.
+    pub units: Option<String>,
+}
+
+impl Particles {
+    /// Factor on the lengths in its file [–].
+    pub fn length_factor(&self) -> f64 {
+        super::wall::length_factor(self.scale, self.units.as_deref())
+    }
 }
 
 /// `[[insert]]`

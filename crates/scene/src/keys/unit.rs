@@ -54,6 +54,7 @@ units! {
     a_second "1/s" "100 1/s";
     metres_a_second "m/s" "50 mm/s";
     metres_a_second_squared "m/s²" "9.81 m/s²";
+    radians "rad" "15 deg";
     radians_a_second "rad/s" "30 rpm";
     turns_a_minute "rpm" "8 rpm";
     hertz "Hz" "50 Hz";
@@ -72,6 +73,7 @@ pub(super) fn of(unit: &'static str) -> KeyUnit {
         "N/m" => "2 kN/m",
         "J/m²" => "50 mJ/m²",
         "J/m³" => "20 kJ/m³",
+        "rad" => "15 deg",
         "Pa" => "5 MPa",
         _ => "40 %",
     };

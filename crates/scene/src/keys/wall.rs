@@ -1,6 +1,6 @@
 //! Walls and how they move.
 
-use super::{geometry, unit};
+use super::{forms, geometry, unit};
 use geom::{Plane, Vec3};
 use serde::Deserialize;
 
@@ -17,10 +17,13 @@ pub struct Wall {
     pub plane: Option<String>,
     /// Triangles: a PLY, STL or OBJ file.
     pub mesh: Option<String>,
-    /// Factor on the lengths in the file of `mesh` [–]; this or `units`.
+    /// Surface of a solid: `box:…`, `cylinder:…`, `cone:…` or `sphere:…`.
+    #[serde(default, deserialize_with = "geometry::shape")]
+    pub solid: Option<String>,
+    /// Factor on the lengths in the file of `mesh` or `source` [–]; this or `units`.
     #[serde(default, deserialize_with = "unit::plain")]
     pub scale: Option<f64>,
-    /// Unit of the lengths in the file of `mesh`, such as "mm"; absent: metres.
+    /// Unit of the lengths in the file of `mesh` or `source`, such as "mm"; absent: metres.
     pub units: Option<String>,
     /// Planes that look inward: lowest, highest corner [m].
     #[serde(default, rename = "box", deserialize_with = "unit::metres")]
@@ -29,8 +32,14 @@ pub struct Wall {
     pub faces: Option<Vec<Face>>,
     /// Material; walls of an MCAP name their own.
     pub material: Option<String>,
-    /// Motion; absent: at rest.
-    pub motion: Option<Motion>,
+    /// Motion, or several that act one after the other; absent: at rest.
+    #[serde(default, deserialize_with = "forms::one_or_more")]
+    pub motion: Option<Vec<Motion>>,
+    /// Velocity of its surface, which moves on it as that of a belt [m/s].
+    #[serde(default, deserialize_with = "unit::metres_a_second")]
+    pub surface_velocity: Option<[f64; 3]>,
+    /// Turn of its surface, which moves on it as that of a turntable.
+    pub surface_rotation: Option<Rotate>,
     /// A force that it follows in addition; absent: none.
     pub servo: Option<Servo>,
 }
@@ -71,12 +80,27 @@ impl Face {
 }
 
 impl Wall {
+    /// Whether it is a surface that the entry itself describes, not wall spheres.
+    pub fn is_surface(&self) -> bool {
+        self.plane.is_some() || self.mesh.is_some() || self.cuboid.is_some() || self.solid.is_some()
+    }
+
+    /// Factor on the lengths in its file [–]; a name that is no unit of length was refused.
+    pub fn length_factor(&self) -> f64 {
+        length_factor(self.scale, self.units.as_deref())
+    }
+
     /// The faces of a box with their planes; none of other walls.
     pub fn sides(&self) -> Vec<(Face, Plane)> {
         let Some(corners) = self.cuboid else { return Vec::new() };
         let faces = self.faces.as_deref().unwrap_or(&Face::ALL);
         faces.iter().map(|face| (*face, face.plane(&corners))).collect()
     }
+}
+
+/// Factor on the lengths in a file [–], of the keys `scale` and `units`.
+pub(super) fn length_factor(scale: Option<f64>, units: Option<&str>) -> f64 {
+    scale.or(units.and_then(|name| geom::units::factor(name, "m").ok())).unwrap_or(1.0)
 }
 
 /// Motion of a wall.
@@ -90,12 +114,51 @@ pub struct Motion {
     pub translate: Option<[f64; 3]>,
     /// Vibration.
     pub vibrate: Option<Vibrate>,
+    /// Swing about an axis.
+    pub swing: Option<Swing>,
+    /// A table over time.
+    pub path: Option<Path>,
     /// When all of it starts [s].
     #[serde(default, deserialize_with = "unit::seconds")]
     pub from: f64,
     /// When it stops, where the wall is then [s]; absent: never.
     #[serde(default, deserialize_with = "unit::seconds")]
     pub until: Option<f64>,
+    /// Time in which it starts, and in which it ends [s].
+    #[serde(default, deserialize_with = "unit::seconds")]
+    pub ramp: f64,
+}
+
+/// A swing about a fixed axis.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Swing {
+    /// Direction of the axis, right-handed.
+    #[serde(deserialize_with = "unit::plain")]
+    pub about: [f64; 3],
+    /// A point of the axis [m].
+    #[serde(deserialize_with = "unit::metres")]
+    pub through: [f64; 3],
+    /// Largest angle to either side [rad].
+    #[serde(deserialize_with = "unit::radians")]
+    pub amplitude: f64,
+    /// Frequency [Hz].
+    #[serde(deserialize_with = "unit::hertz")]
+    pub frequency: f64,
+}
+
+/// A motion as a table over time.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Path {
+    /// CSV with the columns t [s], x y z [m] and angle [rad].
+    pub source: String,
+    /// Axis of the column `angle`, right-handed.
+    #[serde(default, deserialize_with = "unit::plain")]
+    pub about: Option<[f64; 3]>,
+    /// A point of the axis [m].
+    #[serde(default, deserialize_with = "unit::metres")]
+    pub through: Option<[f64; 3]>,
 }
 
 /// A force that a wall follows.

@@ -117,7 +117,7 @@ impl<'a> PlanBuilder<'a> {
     }
 
     pub(super) fn shape(&self, key: &str, text: &str) -> Result<Shape> {
-        let load = |file: &str| read_mesh(&self.path(file)).map_err(|e| e.to_string());
+        let load = |file: &str| read_mesh(&self.path(file), 1.0).map_err(|e| e.to_string());
         Shape::parse(text, &load).map_err(|e| {
             let cure = "write box:x0,y0,z0,x1,y1,z1, sphere:x,y,z,r or cylinder:x0,y0,z0,x1,y1,z1,r";
             self.check.wrong(key, format!("\"{text}\""), &e.to_string(), cure)

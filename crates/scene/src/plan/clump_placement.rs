@@ -6,7 +6,7 @@ use super::packing::{Packing, bounds};
 use super::random::{generator, orientation};
 use crate::error::{Result, SceneError};
 use crate::input::ParticleTable;
-use crate::keys::{Diameter, Fill};
+use crate::keys::{Diameter, Fill, Particles};
 use dem::setup::Body;
 use geom::{Shape, Vec3};
 use nalgebra::{Quaternion, UnitQuaternion};
@@ -45,9 +45,9 @@ impl PlanBuilder<'_> {
     }
 
     /// `[[particles]]` with `clump`: a clump for each row of a file.
-    pub(super) fn clump_file(&mut self, key: &str, source: &str, clump: &str) -> Result<()> {
+    pub(super) fn clump_file(&mut self, key: &str, entry: &Particles, clump: &str) -> Result<()> {
         let shape = self.clump(&format!("{key}.clump"), clump)?;
-        let file = ParticleTable::read(&self.path(source))?;
+        let file = ParticleTable::read(&self.path(&entry.source), entry.length_factor())?;
         let columns = file.columns();
         let positions = columns.vectors(POSITION)?;
         let (velocities, spins) = (columns.vectors_or_zero(VELOCITY)?, columns.vectors_or_zero(SPIN)?);

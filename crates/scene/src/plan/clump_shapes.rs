@@ -52,8 +52,7 @@ impl PlanBuilder<'_> {
     }
 
     fn polyhedron(&self, key: &str, entry: &Clump, file: &str) -> Result<(Vec<Sphere>, Moments)> {
-        let mut mesh = read_mesh(&self.path(file))?.welded();
-        mesh.vertices.iter_mut().for_each(|v| *v *= entry.scale);
+        let mesh = read_mesh(&self.path(file), entry.scale)?.welded();
         let refused = |why: &str, cure: &str| {
             self.check.wrong(&format!("{key}.mesh"), format!("\"{file}\""), why, cure)
         };

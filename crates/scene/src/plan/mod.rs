@@ -25,6 +25,7 @@ mod same_zone;
 mod section;
 mod setup;
 mod sizes;
+mod solids;
 mod total;
 mod wall_contacts;
 mod walls;
@@ -36,6 +37,7 @@ pub use contacts::{dropped, most_specific};
 pub use implausible::SOFT;
 pub use insertion::Insertion;
 pub use packing::bounds;
+pub use solids::wall as solid;
 pub use zones::SCALE_SLACK;
 
 use crate::error::{Result, SceneError};

@@ -11,7 +11,7 @@ impl PlanBuilder<'_> {
     pub(super) fn particles(&mut self) -> Result<()> {
         for (i, entry) in self.keys().particles.iter().enumerate() {
             match &entry.clump {
-                Some(clump) => self.clump_file(&format!("particles.{i}"), &entry.source, clump)?,
+                Some(clump) => self.clump_file(&format!("particles.{i}"), entry, clump)?,
                 None => self.particle_file(i, entry)?,
             }
         }
@@ -27,7 +27,7 @@ impl PlanBuilder<'_> {
     }
 
     fn particle_file(&mut self, index: usize, entry: &Particles) -> Result<()> {
-        let file = ParticleFile::read(&self.path(&entry.source))?;
+        let file = ParticleFile::read(&self.path(&entry.source), entry.length_factor())?;
         self.inputs.push(("particles".to_owned(), file.hash.clone()));
         self.warnings.extend(file.warning.clone());
         if !entry.fixed {

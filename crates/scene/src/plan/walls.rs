@@ -1,12 +1,14 @@
 //! `[[wall]]` to the engine's walls.
 
 use super::builder::{PlanBuilder, WallMaterial};
+use super::solids;
 use crate::check::Check;
 use crate::error::{Result, SceneError};
-use crate::input::{Input, WallFile, read_mesh};
-use crate::keys::{Face, Motion, Servo, Wall};
-use dem::setup::{self, WallShape};
-use geom::{Plane, Vec3, units};
+use crate::input::{Input, WallFile, read_mesh, read_path};
+use crate::keys::{Face, Motion, Rotate, Servo, Wall};
+use dem::setup::{self, SurfaceMotion, WallShape};
+use geom::motion::Path;
+use geom::{Plane, Vec3};
 use std::f64::consts::TAU;
 
 impl PlanBuilder<'_> {
@@ -20,18 +22,23 @@ impl PlanBuilder<'_> {
             let key = format!("wall.{i}");
             let name = entry.name.clone().unwrap_or_else(|| key.clone());
             let file = match &entry.source {
-                Some(source) => self.wall_file(source)?,
-                None if entry.plane.is_some() || entry.mesh.is_some() || entry.cuboid.is_some() => {
+                Some(source) => {
+                    let mut file = self.wall_file(source)?;
+                    file.scale(entry.length_factor());
+                    file
+                }
+                None if entry.is_surface() => {
                     let material = self.wall_material(&key, entry)?;
                     for (name, shape) in self.surfaces(&key, &name, entry)? {
-                        self.walls.push(wall(entry, name, material, shape));
+                        let wall = self.wall(&key, entry, name, material, shape)?;
+                        self.walls.push(wall);
                     }
                     continue;
                 }
                 None => given.next().ok_or_else(|| {
                     let why = "waits for walls of the command line, and none were given";
                     let cure = "give dem-run the walls that wallgen wrote (dem-run SCENE.toml WALLS.mcap), or this entry source, plane, \
-                                mesh or box";
+                                mesh, solid or box";
                     self.check.wrong(&key, "(without source)", why, cure)
                 })?,
             };
@@ -62,32 +69,99 @@ impl PlanBuilder<'_> {
         self.check.material(&format!("{key}.material"), name, &self.materials)
     }
 
-    /// One wall for each material of the file, all with one motion.
+    /// One wall for each material and surface velocity of the file, all with one motion.
     fn wall_spheres(&mut self, key: &str, name: &str, entry: &Wall, file: WallFile) -> Result<()> {
         self.inputs.push(("walls".to_owned(), file.hash.clone()));
-        if entry.servo.is_some() && file.materials.len() > 1 {
-            let why = "its spheres are of several materials, each of which would follow the force by itself";
-            let (servo, cure) = (format!("{name}: servo"), "use a file of one material");
+        let belts = file.velocities.iter().any(|v| *v != Vec3::zeros());
+        if belts && (entry.surface_velocity.is_some() || entry.surface_rotation.is_some()) {
+            let why = "the file has the velocity of its surface already";
+            let (at, cure) =
+                (format!("{key}.surface_velocity"), "take it out, or make the file without velocity");
+            return Err(self.check.wrong(&at, &file.name, why, cure));
+        }
+        if entry.servo.is_some() && (file.materials.len() > 1 || file.velocities.len() > 1) {
+            let why = "its spheres are of several materials or velocities, each of which would follow the force by itself";
+            let (servo, cure) = (format!("{name}: servo"), "use a file of one material and one velocity");
             return Err(self.check.wrong(&servo, &file.name, why, cure));
         }
         for (k, record) in file.materials.iter().enumerate() {
-            let own = file.spheres.iter().filter(|s| s.material as usize == k);
-            let spheres: Vec<(Vec3, f64)> = own.map(|s| (s.centre, s.radius)).collect();
-            if spheres.is_empty() {
-                continue;
+            for (n, velocity) in file.velocities.iter().enumerate() {
+                let own =
+                    file.spheres.iter().filter(|s| s.material as usize == k && s.velocity as usize == n);
+                let spheres: Vec<(Vec3, f64)> = own.map(|s| (s.centre, s.radius)).collect();
+                if spheres.is_empty() {
+                    continue;
+                }
+                let index = match &entry.material {
+                    Some(chosen) => {
+                        self.check.material(&format!("{key}.material"), chosen, &self.materials)?
+                    }
+                    None => self.material_of(&file.name, record)?,
+                };
+                self.wall_materials.push(WallMaterial { index, record: record.clone() });
+                let mut name = name.to_owned();
+                if file.materials.len() > 1 {
+                    name += &format!(" ({})", record.name);
+                }
+                if *velocity != Vec3::zeros() && file.velocities.len() > 1 {
+                    name += &format!(" belt {n}");
+                }
+                let mut wall = self.wall(key, entry, name, index, WallShape::Spheres(spheres))?;
+                wall.surface.velocity += velocity;
+                self.walls.push(wall);
             }
-            let index = match &entry.material {
-                Some(chosen) => self.check.material(&format!("{key}.material"), chosen, &self.materials)?,
-                None => self.material_of(&file.name, record)?,
-            };
-            self.wall_materials.push(WallMaterial { index, record: record.clone() });
-            let single = file.materials.len() == 1;
-            let name = if single { name.to_owned() } else { format!("{name} ({})", record.name) };
-            let mut wall = wall(entry, name, index, WallShape::Spheres(spheres));
-            wall.motion.velocity += file.velocity;
-            self.walls.push(wall);
         }
         Ok(())
+    }
+
+    /// A wall that moves as its entry says.
+    fn wall(
+        &mut self,
+        key: &str,
+        entry: &Wall,
+        name: String,
+        material: u16,
+        shape: WallShape,
+    ) -> Result<setup::Wall> {
+        let motion = self.motion(&format!("{key}.motion"), entry)?;
+        let mut surface = SurfaceMotion::still();
+        surface.velocity = Vec3::from(entry.surface_velocity.unwrap_or_default());
+        if let Some(r) = &entry.surface_rotation {
+            (surface.turn, surface.through) = (turn(r), Vec3::from(r.through));
+        }
+        let servo = entry.servo.as_ref().map(servo);
+        Ok(setup::Wall { motion, surface, servo, ..setup::Wall::new(name, material, shape) })
+    }
+
+    /// The motions of an entry, one after the other.
+    fn motion(&mut self, key: &str, entry: &Wall) -> Result<setup::Motion> {
+        let list = entry.motion.as_deref().unwrap_or_default();
+        let mut parts = Vec::with_capacity(list.len());
+        for part in list {
+            let mut motion = motion(part);
+            if let Some(path) = &part.path {
+                let file = self.path(&path.source);
+                let (rows, hash) = read_path(&file, path.about.is_some())?;
+                self.inputs.push(("motion".to_owned(), hash));
+                let about = path.about.map_or(Vec3::zeros(), Vec3::from);
+                let path_key = format!("{key}.path.source");
+                let table = Path::new(about, rows).map_err(|e| {
+                    let cure = "give t in ascending order, one row for each time; positions are relative to the first row";
+                    self.check.wrong(&path_key, format!("\"{}\"", path.source), &e.to_string(), cure)
+                })?;
+                if !table.moves() {
+                    let why = "all its rows are alike: it moves nothing";
+                    let value = format!("\"{}\"", path.source);
+                    return Err(self.check.wrong(&path_key, value, why, "take it out"));
+                }
+                if let Some(through) = path.through {
+                    motion.through = Vec3::from(through);
+                }
+                motion.path = Some(table);
+            }
+            parts.push(motion);
+        }
+        Ok(setup::Motion::of(parts))
     }
 
     /// Names and shapes of a wall that is a plane, a mesh or a box.
@@ -97,24 +171,19 @@ impl PlanBuilder<'_> {
             return Ok(vec![(name.to_owned(), WallShape::Plane(plane))]);
         }
         if let Some(file) = &entry.mesh {
-            let mut mesh = read_mesh(&self.path(file))?;
-            // Checked before: a name that is no unit of length is refused.
-            let of_unit = entry.units.as_ref().and_then(|name| units::factor(name, "m").ok());
-            if let Some(factor) = entry.scale.or(of_unit) {
-                mesh.scale(factor);
-            }
+            let mesh = read_mesh(&self.path(file), entry.length_factor())?;
             return Ok(vec![(name.to_owned(), WallShape::Mesh(mesh))]);
+        }
+        if let Some(text) = &entry.solid {
+            let key = format!("{key}.solid");
+            let shape = solids::wall(&self.shape(&key, text)?)
+                .map_err(|(why, cure)| self.check.wrong(&key, format!("\"{text}\""), why, cure))?;
+            return Ok(vec![(name.to_owned(), shape)]);
         }
         let face =
             |(face, plane): (Face, Plane)| (format!("{name} {}", face.name()), WallShape::Plane(plane));
         Ok(entry.sides().into_iter().map(face).collect())
     }
-}
-
-/// A wall that moves as its entry says.
-fn wall(entry: &Wall, name: String, material: u16, shape: WallShape) -> setup::Wall {
-    let (motion, servo) = (motion(entry.motion.as_ref()), entry.servo.as_ref().map(servo));
-    setup::Wall { motion, servo, ..setup::Wall::new(name, material, shape) }
 }
 
 /// A plane of a key.
@@ -124,14 +193,23 @@ pub(super) fn plane(check: &Check, key: &str, text: &str) -> Result<Plane> {
     })
 }
 
-fn motion(entry: Option<&Motion>) -> setup::Motion {
+/// Axis times rate [rad/s].
+fn turn(r: &Rotate) -> Vec3 {
+    Vec3::from(r.about).normalize() * (r.rpm / 60.0 * TAU)
+}
+
+/// One motion, without its table over time.
+fn motion(entry: &Motion) -> setup::Motion {
     let mut motion = setup::Motion::still();
-    let Some(entry) = entry else { return motion };
     if let Some(r) = &entry.rotate {
-        motion.turn = Vec3::from(r.about).normalize() * (r.rpm / 60.0 * TAU);
-        motion.through = Vec3::from(r.through);
+        (motion.turn, motion.through) = (turn(r), Vec3::from(r.through));
+    }
+    if let Some(s) = &entry.swing {
+        motion.swing = Vec3::from(s.about).normalize() * s.amplitude;
+        (motion.swing_frequency, motion.through) = (s.frequency, Vec3::from(s.through));
     }
     (motion.from, motion.until) = (entry.from, entry.until.unwrap_or(f64::INFINITY));
+    motion.ramp = entry.ramp;
     motion.velocity = Vec3::from(entry.translate.unwrap_or_default());
     if let Some(v) = &entry.vibrate {
         motion.amplitude = Vec3::from(v.amplitude);

@@ -8,7 +8,8 @@
 use super::cutting::Cutting;
 use super::sides::Range;
 use super::walls::planes;
-use geom::{Plane, Vec3};
+use dem::setup::WallShape;
+use geom::Plane;
 use scene::input::{Input, ParticleFile, ParticleTable, read_mesh};
 use scene::keys::Wall;
 use scene::plan::most_specific;
@@ -59,11 +60,12 @@ impl Cutting<'_> {
         let mut files = entries(all, "particles");
         for (entry, table) in m.particles.iter().zip(&mut files) {
             if entry.clump.is_some() {
-                let file = ParticleTable::read(&self.scene.folder.join(&entry.source))?;
+                let file =
+                    ParticleTable::read(&self.scene.folder.join(&entry.source), entry.length_factor())?;
                 table.insert("source".to_owned(), record::hash(&file.table).into());
                 continue;
             }
-            let file = ParticleFile::read(&self.scene.folder.join(&entry.source))?;
+            let file = ParticleFile::read(&self.scene.folder.join(&entry.source), entry.length_factor())?;
             kept.grains.extend(entry.material.clone());
             kept.grains.extend(file.materials.into_iter().map(|m| m.name));
             table.insert("source".to_owned(), file.hash.into());
@@ -111,7 +113,7 @@ impl Cutting<'_> {
             let Some(bounded) = self.bounded(wall).filter(before) else { continue };
             kept.walls.extend(bounded.materials);
             kept.walls.extend(wall.material.clone());
-            ["name", "mesh", "source"].iter().for_each(|key| drop(table.remove(*key)));
+            ["name", "mesh", "solid", "source"].iter().for_each(|key| drop(table.remove(*key)));
             table.insert("shape".to_owned(), bounded.hash.into());
             walls.push(table);
         }
@@ -143,18 +145,30 @@ impl Cutting<'_> {
     pub fn bounded(&self, wall: &Wall) -> Option<Bounded> {
         if let Some(file) = &wall.mesh {
             let path = self.scene.folder.join(file);
-            let mesh = read_mesh(&path).ok()?;
+            let mesh = read_mesh(&path, wall.length_factor()).ok()?;
             let range = self.of_points(mesh.vertices.iter().map(|v| (*v, 0.0)));
             let hash = stream::sha256(&stream::whole::file(&path).ok()?);
             return Some(Bounded { range, hash, materials: Vec::new() });
         }
+        if let Some(text) = &wall.solid {
+            let points = match scene::plan::solid(&text.parse().ok()?).ok()? {
+                WallShape::Spheres(spheres) => spheres,
+                WallShape::Mesh(mesh) => mesh.vertices.iter().map(|v| (*v, 0.0)).collect(),
+                WallShape::Plane(_) => return None,
+            };
+            let hash = stream::sha256(text.as_bytes());
+            return Some(Bounded { range: self.of_points(points.into_iter()), hash, materials: Vec::new() });
+        }
         let path = self.scene.folder.join(wall.source.as_ref()?);
         match Input::open_file(&path).ok()? {
-            Input::Walls(walls) if walls.velocity == Vec3::zeros() => Some(Bounded {
-                range: self.of_points(walls.spheres.iter().map(|s| (s.centre, s.radius))),
-                hash: walls.hash.clone(),
-                materials: walls.materials.iter().map(|m| m.name.clone()).collect(),
-            }),
+            Input::Walls(mut walls) => {
+                walls.scale(wall.length_factor());
+                Some(Bounded {
+                    range: self.of_points(walls.spheres.iter().map(|s| (s.centre, s.radius))),
+                    hash: walls.hash.clone(),
+                    materials: walls.materials.iter().map(|m| m.name.clone()).collect(),
+                })
+            }
             _ => None,
         }
     }

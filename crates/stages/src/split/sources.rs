@@ -17,9 +17,13 @@ const OWN_IDS: u32 = 2_000_000_000;
 pub fn places(scene: &Scene, entry: &Particles) -> Result<Vec<Vec3>> {
     let path = scene.folder.join(&entry.source);
     if entry.clump.is_none() {
-        return Ok(ParticleFile::read(&path)?.particles.iter().map(|p| p.position).collect());
+        return Ok(ParticleFile::read(&path, entry.length_factor())?
+            .particles
+            .iter()
+            .map(|p| p.position)
+            .collect());
     }
-    Ok(ParticleTable::read(&path)?.columns().vectors(POSITION)?)
+    Ok(ParticleTable::read(&path, entry.length_factor())?.columns().vectors(POSITION)?)
 }
 
 /// Largest scale of the clumps of a file [–].
@@ -27,7 +31,7 @@ pub fn largest_scale(scene: &Scene, entry: &Particles) -> Result<f64> {
     if entry.clump.is_none() {
         return Ok(1.0);
     }
-    let file = ParticleTable::read(&scene.folder.join(&entry.source))?;
+    let file = ParticleTable::read(&scene.folder.join(&entry.source), entry.length_factor())?;
     match file.table.get(SCALE) {
         None => Ok(1.0),
         Some(_) => Ok(file.columns().numbers(SCALE)?.into_iter().fold(0.0, f64::max)),
@@ -39,7 +43,7 @@ pub(super) fn largest(scene: &Scene) -> Result<f64> {
     let m = &scene.keys;
     let mut largest = scene.largest_diameters()?.into_iter().fold(0.0, f64::max);
     for entry in m.particles.iter().filter(|p| p.clump.is_none()) {
-        let file = ParticleFile::read(&scene.folder.join(&entry.source))?;
+        let file = ParticleFile::read(&scene.folder.join(&entry.source), entry.length_factor())?;
         largest = file.particles.iter().map(|p| 2.0 * p.radius).fold(largest, f64::max);
     }
     let reaches = if m.clump.is_empty() { Vec::new() } else { scene.clump_reaches()? };
@@ -64,7 +68,7 @@ fn after_ids(scene: &Scene, entry: &Particles) -> Result<u32> {
     if entry.clump.is_some() {
         return Ok(0);
     }
-    let file = ParticleFile::read(&scene.folder.join(&entry.source))?;
+    let file = ParticleFile::read(&scene.folder.join(&entry.source), entry.length_factor())?;
     let last = file.particles.iter().map(|p| p.id.saturating_add(1)).max().unwrap_or(0);
     Ok(if file.has_ids { last } else { 0 })
 }

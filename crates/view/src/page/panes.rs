@@ -3,7 +3,7 @@
 use super::{Page, PageLayer};
 use crate::{Motion, Role, SurfaceShape, WallSurface, outline::Outline, scale::Range, sheet};
 use geom::Vec3;
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::sync::Arc;
 
 /// Moments at which moving walls are looked at for the camera, at most.
@@ -103,7 +103,7 @@ impl Pane {
         Pane {
             outline,
             name: sheet.surface.name.clone(),
-            motion: sheet.surface.motion,
+            motion: sheet.surface.motion.clone(),
             origin,
             vertices: packed(&mut sheet.vertices.iter().copied()),
             faces: Arc::new(sheet.faces.iter().flatten().flat_map(|n| n.to_le_bytes()).collect()),
@@ -124,13 +124,5 @@ pub(super) fn triple(v: &Vec3) -> [f64; 3] {
 
 /// A motion in the page's header; nothing for what rests.
 pub(super) fn motion(motion: &Motion) -> Value {
-    if !motion.moves() {
-        return Value::Null;
-    }
-    json!({
-        "velocity": triple(&motion.velocity), "turn": triple(&motion.turn), "through": triple(&motion.through),
-        "amplitude": triple(&motion.amplitude), "frequency": motion.frequency,
-        // null: never
-        "from": motion.from, "until": motion.until,
-    })
+    if motion.moves() { record::motion_to_json(motion) } else { Value::Null }
 }

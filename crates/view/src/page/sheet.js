@@ -1,21 +1,58 @@
 // Thin walls: planes and meshes, sent to the graphics card once and moved there.
 
-// The turn (by columns) and shift that take a point relative to `origin` at t = 0 to one relative to `middle` at `time`:
-// x(t) = c + R(W s)(x0 - c) + v s + a sin(2 pi f s) d, s: how long it has moved
-function poseOf(motion, origin, now) {
-  if (!motion) return { turn: [1, 0, 0, 0, 1, 0, 0, 0, 1], shift: origin.map((o, k) => o - middle[k]) };
-  const time = Math.min(Math.max(now, motion.from), motion.until ?? Infinity) - motion.from;
-  const rate = Math.hypot(...motion.turn);
-  const [x, y, z] = rate > 0 ? motion.turn.map((t) => t / rate) : [0, 0, 1];
-  const [s, c] = [Math.sin(rate * time), Math.cos(rate * time)];
+// The progress of a motion at a time, as crates/geom/src/motion.rs has it.
+function progressOf(motion, now) {
+  const [from, until, ramp] = [motion.from ?? 0, motion.until ?? Infinity, motion.ramp ?? 0];
+  const time = Math.min(Math.max(now, from), until) - from;
+  const left = until - from - time;
+  if (ramp === 0) return time;
+  if (time < ramp) return (0.5 * time * time) / ramp;
+  return left < ramp ? until - from - ramp - (0.5 * left * left) / ramp : time - 0.5 * ramp;
+}
+
+// The turn, by columns, about an axis of any length.
+function turnBy(axis, angle) {
+  const length = Math.hypot(...axis);
+  const [x, y, z] = length > 0 ? axis.map((a) => a / length) : [0, 0, 1];
+  const [s, c] = [Math.sin(angle), Math.cos(angle)];
   const d = 1 - c;
-  const turn = [c + x * x * d, y * x * d + z * s, z * x * d - y * s, x * y * d - z * s, c + y * y * d, z * y * d + x * s,
-                x * z * d + y * s, y * z * d - x * s, c + z * z * d];
-  const swing = Math.sin(2 * Math.PI * motion.frequency * time);
-  const arm = origin.map((o, k) => o - motion.through[k]);
-  const shift = [0, 1, 2].map((k) => dot3([turn[k], turn[3 + k], turn[6 + k]], arm) + motion.through[k]
-    + motion.velocity[k] * time + motion.amplitude[k] * swing - middle[k]);
-  return { turn, shift };
+  return [c + x * x * d, y * x * d + z * s, z * x * d - y * s, x * y * d - z * s, c + y * y * d, z * y * d + x * s,
+          x * z * d + y * s, y * z * d - x * s, c + z * z * d];
+}
+
+const turned = (turn, v) => [0, 1, 2].map((k) => dot3([turn[k], turn[3 + k], turn[6 + k]], v));
+const turnedAll = (outer, turn) => [0, 3, 6].flatMap((k) => turned(outer, turn.slice(k, k + 3)));
+
+// Shift and angle of a table over time.
+function rowAt({ rows }, time) {
+  const next = rows.findIndex((row) => row[0] > time);
+  if (next <= 0) return next === 0 ? rows[0] : rows[rows.length - 1];
+  const [before, after] = [rows[next - 1], rows[next]];
+  const share = (time - before[0]) / (after[0] - before[0]);
+  return before.map((value, k) => value + share * (after[k] - value));
+}
+
+// The turn (by columns) and shift that take a point relative to `origin` at t = 0 to one relative to `middle` at `time`: each motion
+// of the list acts on what those before it have moved.
+// x(t) = c + R(x0 - c) + v p + a sin(2 pi f p) + path(p), p: its progress
+function poseOf(motion, origin, now) {
+  let turn = [1, 0, 0, 0, 1, 0, 0, 0, 1];
+  let place = [...origin];
+  for (const part of motion ? [motion, ...(motion.then ?? [])] : []) {
+    const time = progressOf(part, now);
+    let own = turnBy(part.turn, Math.hypot(...part.turn) * time);
+    if (part.swing) {
+      const { amplitude, frequency } = part.swing;
+      own = turnedAll(turnBy(amplitude, Math.hypot(...amplitude) * Math.sin(2 * Math.PI * frequency * time)), own);
+    }
+    const row = part.path ? rowAt(part.path, time) : [0, 0, 0, 0, 0];
+    if (part.path) own = turnedAll(turnBy(part.path.about, row[4]), own);
+    const sway = Math.sin(2 * Math.PI * part.frequency * time);
+    const arm = turned(own, place.map((p, k) => p - part.through[k]));
+    place = arm.map((p, k) => p + part.through[k] + part.velocity[k] * time + part.amplitude[k] * sway + row[k + 1]);
+    turn = turnedAll(own, turn);
+  }
+  return { turn, shift: place.map((p, k) => p - middle[k]) };
 }
 
 // The colour of a mesh, 0 to 1: that of a wall, tinted where there are several to tell apart.

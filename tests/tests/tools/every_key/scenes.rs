@@ -107,6 +107,11 @@ wake = 0.2
 [[particles]]
 source = "grains.csv"
 material = "sinter"
+units = "m"
+[[particles]]
+source = "grains-mm.csv"
+material = "sinter"
+scale = 0.001
 [[insert]]
 material = "sinter"
 shape = "box:0.3,0.3,0.5,0.5,0.5,0.53"
@@ -142,6 +147,22 @@ scale = 0.5
 material = "steel"
 [[wall]]
 source = "walls.mcap"
+units = "m"
+[[wall]]
+mesh = "tetra.ply"
+material = "steel"
+motion = [
+    { swing = { about = [0, 1, 0], through = [0.1, 0, 0], amplitude = "15 deg", frequency = 2 }, ramp = 0.0005 },
+    { path = { source = "path.csv", about = [0, 0, 1], through = [0, 0, 0] }, from = 0.0005 },
+]
+[[wall]]
+solid = "cylinder:0.8,0.2,0.1,0.8,0.2,0.2,0.05"
+material = "steel"
+surface_rotation = { about = [0, 0, 1], through = [0.8, 0.2, 0.1], rpm = 30 }
+[[wall]]
+solid = ["box", 0.6, 0.1, 0.1, 0.65, 0.15, 0.11]
+material = "steel"
+surface_velocity = [0.5, 0, 0]
 [[wall]]
 box = [0, 0, -1, 1, 1, 2]
 faces = ["y-"]
@@ -372,8 +393,10 @@ pub fn scenes() -> Vec<(String, String)> {
 }
 
 /// Files that the scenes read.
-pub const FILES: [(&str, &str); 7] = [
+pub const FILES: [(&str, &str); 9] = [
     ("sieve.csv", "diameter,passing\n0.006,0\n0.008,30\n0.01,100\n"),
+    ("grains-mm.csv", "x,y,z,radius\n400,200,300,5\n"),
+    ("path.csv", "t,x,y,z,angle\n0,1,0,0,0.1\n0.001,1.0001,0,0,0.1001\n0.002,1,0,0,0.1\n"),
     ("grains.csv", "x,y,z,radius,vz\n0.2,0.2,0.1,0.005,-1\n0.2,0.25,0.12,0.005,-1\n0.25,0.2,0.15,0.004,-1\n"),
     ("clumps.csv", "x,y,z,qw,qx,qy,qz\n0.9,0.9,0.9,1,0,0,0\n"),
     ("a.csv", "x,y,z,radius\n0,0,0,0.005\n0.00999,0,0,0.005\n"),

@@ -157,7 +157,7 @@ const WALLS: &[Change] = &[
     wrong(
         "name = \"floor\"",
         "motion = {}",
-        &["s.toml:23:10: wall.0.motion", "add rotate, translate or vibrate"],
+        &["s.toml:23:10: wall.0.motion", "add rotate, swing, translate, vibrate or path"],
     ),
     wrong(
         "name = \"floor\"",

@@ -1,0 +1,19 @@
+//! Drawings as clouds: the corners of the triangles of STL and OBJ, each once.
+
+use super::ReadError;
+use crate::Cloud;
+use stream::Table;
+
+/// Packed files and streams of other kinds, whose first bytes are no head of a drawing.
+const OTHERS: [&[u8]; 4] = [b"\x1f\x8b", b"\x28\xb5\x2f\xfd", b"PK\x03\x04", b"\x89MCAP"];
+
+pub(super) fn matches(bytes: &[u8]) -> bool {
+    !OTHERS.iter().any(|other| bytes.starts_with(other)) && mesh::is_drawing(bytes).is_some()
+}
+
+pub(super) fn read(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
+    let mesh = mesh::from_bytes(&bytes)?.welded();
+    let attributes = Table::with_rows(mesh.vertices.len());
+    let comments = vec![format!("the corners of {} triangles", mesh.faces.len())];
+    Ok(Cloud { points: mesh.vertices, attributes, double: true, comments, ..Cloud::default() })
+}

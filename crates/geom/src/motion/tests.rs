@@ -1,0 +1,100 @@
+use super::*;
+
+fn drum() -> Motion {
+    Motion {
+        velocity: Vec3::new(0.0, 0.0, 1.0),
+        turn: Vec3::new(0.0, 0.0, 0.5 * PI),
+        through: Vec3::new(1.0, 0.0, 0.0),
+        amplitude: Vec3::new(0.0, 0.0, 0.25),
+        frequency: 0.25,
+        ..Motion::default()
+    }
+}
+
+#[test]
+fn a_quarter_turn_a_shift_and_the_crest_of_a_vibration() {
+    let place = drum().pose(1.0).position(&Vec3::new(2.0, 0.0, 0.0));
+    assert!((place - Vec3::new(1.0, 1.0, 1.25)).norm() < 1e-12, "{place}");
+}
+
+#[test]
+fn home_is_the_inverse_of_place() {
+    let (pose, home) = (drum().pose(0.37), Vec3::new(0.3, -0.7, 2.0));
+    assert!((pose.home(&pose.position(&home)) - home).norm() < 1e-12);
+    assert!(drum().moves() && !Motion::default().moves());
+}
+
+/// Every kind of motion, one after the other and at the same time.
+fn all() -> Motion {
+    let row = |time, x, angle| PathRow { time, shift: Vec3::new(x, 0.0, -0.5 * x), angle };
+    let path = Path::new(Vec3::y(), vec![row(0.1, 3.0, 1.0), row(0.5, 3.4, 1.2), row(0.8, 3.1, 0.7)]);
+    let swing = Vec3::new(0.1, 0.2, 0.0);
+    Motion::of(vec![
+        Motion { ramp: 0.2, from: 0.1, until: 1.5, ..drum() },
+        Motion { swing, swing_frequency: 0.7, through: Vec3::y(), from: 0.3, ..Motion::default() },
+        Motion { path: Some(path.unwrap()), through: Vec3::x(), from: 0.05, ..Motion::default() },
+        Motion { velocity: Vec3::new(0.5, 0.0, 0.0), from: 2.0, until: 2.4, ramp: 0.1, ..Motion::default() },
+        Motion { turn: Vec3::new(0.3, 0.0, 1.0), from: 0.4, until: 2.2, ..Motion::default() },
+    ])
+}
+
+#[test]
+fn the_velocity_is_the_derivative_of_the_position() {
+    let (motion, h) = (all(), 1e-6);
+    for home in [Vec3::new(2.0, 0.3, -0.4), Vec3::zeros()] {
+        // Not at the corners of a path, nor where a motion without a ramp starts or ends.
+        for time in [0.02, 0.07, 0.17, 0.2, 0.33, 0.47, 0.61, 0.9, 1.25, 1.45, 1.7, 2.05, 2.35, 2.7] {
+            let at = |t: f64| motion.pose(t).position(&home);
+            let slope = (at(time + h) - at(time - h)) / (2.0 * h);
+            let velocity = motion.pose(time).velocity(&at(time));
+            assert!((slope - velocity).norm() < 1e-7 * (1.0 + slope.norm()), "{time}: {slope} {velocity}");
+        }
+    }
+}
+
+#[test]
+fn positions_do_not_jump_and_speeds_keep_below_the_bound() {
+    let (motion, home, dt) = (all(), Vec3::new(2.0, 0.3, -0.4), 1e-3);
+    let bound = motion.fastest(|axis| (home - axis).norm());
+    assert!(bound.is_finite());
+    for k in 0..3000 {
+        let at = |k: i32| motion.pose(dt * f64::from(k)).position(&home);
+        let step = (at(k + 1) - at(k)).norm();
+        assert!(step <= bound * dt * 1.000_001, "step {k}: {step} m, bound {bound} m/s");
+        let speed = motion.pose(dt * f64::from(k)).velocity(&at(k)).norm();
+        assert!(speed <= bound * 1.000_001, "step {k}: {speed} m/s, bound {bound} m/s");
+    }
+}
+
+#[test]
+fn a_gate_opens_and_closes_to_where_it_was() {
+    let part = |v: f64, from: f64| {
+        let velocity = Vec3::new(v, 0.0, 0.0);
+        Motion { velocity, from, until: from + 0.4, ramp: 0.05, ..Motion::default() }
+    };
+    let gate = Motion::of(vec![part(0.5, 2.0), part(-0.5, 5.0)]);
+    let x = |t: f64| gate.pose(t).position(&Vec3::zeros()).x;
+    assert!(x(1.0) == 0.0 && x(6.0).abs() < 1e-15, "{}", x(6.0));
+    assert!((x(3.0) - 0.5 * 0.35).abs() < 1e-12, "{}", x(3.0));
+    assert!(gate.runs(2.2) && !gate.runs(3.0) && gate.runs(5.1) && !gate.runs(5.4));
+}
+
+#[test]
+fn an_axis_is_carried_by_the_motions_that_follow() {
+    let spin = Motion { turn: Vec3::new(0.0, 0.0, PI), through: Vec3::x(), ..Motion::default() };
+    let orbit = Motion { turn: Vec3::new(0.0, 0.0, 0.5 * PI), ..Motion::default() };
+    let both = Motion::of(vec![spin, orbit]).pose(1.0);
+    assert!((both.position(&Vec3::x()) - Vec3::y()).norm() < 1e-12, "the axis is a quarter turn on");
+    assert!((both.position(&Vec3::new(1.1, 0.0, 0.0)) - Vec3::new(0.0, 0.9, 0.0)).norm() < 1e-12);
+}
+
+#[test]
+fn the_surface_of_a_wall_at_rest_moves_with_the_wall_s_orientation() {
+    let turned = Motion { turn: Vec3::new(0.0, 0.0, 0.5 * PI), until: 1.0, ..Motion::default() };
+    let along = SurfaceMotion { velocity: Vec3::x(), ..SurfaceMotion::still() };
+    let velocity = turned.pose(2.0).surface(&along).velocity(&Vec3::new(5.0, 6.0, 7.0));
+    assert!((velocity - Vec3::y()).norm() < 1e-12, "{velocity}");
+    let table = SurfaceMotion { turn: Vec3::z(), through: Vec3::x(), ..SurfaceMotion::still() };
+    let velocity = Motion::still().pose(0.0).surface(&table).velocity(&Vec3::new(1.0, 2.0, 0.0));
+    assert!((velocity - Vec3::new(-2.0, 0.0, 0.0)).norm() < 1e-12, "{velocity}");
+}
