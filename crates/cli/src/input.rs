@@ -138,6 +138,7 @@ pub struct Input {
     /// Point cloud (PLY, LAS, LAZ, E57, PCD, XYZ, PTS; STL and OBJ: their corners; detected by content), - for stdin
     #[arg(value_name = "CLOUD", default_value = "-", hide_default_value = true)]
     pub cloud: Source,
+    /// What a length in it is.
     #[command(flatten)]
     pub lengths: Lengths,
 }
