@@ -115,7 +115,9 @@ fn argument(of: &Argument) -> Arg {
         arg = arg.short(short);
     }
     if let Some(help) = &of.help {
-        arg = arg.help(kept(help));
+        // Man pages leave out aliases.
+        let aliases: String = of.aliases.iter().map(|alias| format!(" [alias: --{alias}]")).collect();
+        arg = arg.help(kept(&format!("{help}{aliases}")));
     }
     if !of.takes_value {
         return arg.action(ArgAction::SetTrue);
