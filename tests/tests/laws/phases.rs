@@ -93,7 +93,7 @@ fn worst(setup: Setup, e: f64) -> f64 {
     for _ in 0..2000 {
         sim.step().expect("within the guards");
         let parted = |p: &Particle| p.velocity.z > 0.0 && p.position.z > 0.02;
-        if sim.steps() % 50 == 0 && particles(&mut sim)[..COUNT as usize].iter().all(parted) {
+        if sim.steps().is_multiple_of(50) && particles(&mut sim)[..COUNT as usize].iter().all(parted) {
             break;
         }
     }
