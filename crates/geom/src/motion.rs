@@ -21,6 +21,7 @@ use std::f64::consts::PI;
 
 /// Rigid motion as a function of time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Motion {
     /// v [m/s].
     pub velocity: Vec3,

@@ -9,7 +9,8 @@ const HEAD: usize = 84;
 const TRIANGLE: usize = 50;
 
 pub(crate) fn matches(bytes: &[u8]) -> bool {
-    is_ascii(bytes) || promised(bytes).is_some_and(|n| is_whole(bytes, n) || begins_with_a_triangle(bytes))
+    is_ascii(bytes)
+        || promised(bytes).is_some_and(|n| is_whole(bytes, n) || n > 0 && begins_with_a_triangle(bytes))
 }
 
 /// Whether a head with room for text is followed by a triangle: finite corners, and a normal of length 1 or 0.
@@ -19,7 +20,10 @@ fn begins_with_a_triangle(bytes: &[u8]) -> bool {
     let numbers: Vec<f64> = numbers[..12].iter().map(|b| f64::from(f32::from_le_bytes(*b))).collect();
     let normal = numbers[..3].iter().map(|n| n * n).sum::<f64>().sqrt();
     let plain = |n: &f64| *n == 0.0 || (1e-12..1e9).contains(&n.abs());
-    bytes[..HEAD].contains(&0) && numbers.iter().all(plain) && (normal < 1e-6 || (0.9..1.1).contains(&normal))
+    bytes[..HEAD].contains(&0)
+        && numbers.iter().any(|n| *n != 0.0)
+        && numbers.iter().all(plain)
+        && (normal < 1e-6 || (0.9..1.1).contains(&normal))
 }
 
 /// The word, and a facet or the end of the solid soon after it.

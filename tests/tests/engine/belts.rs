@@ -35,7 +35,7 @@ fn a_ball_put_on_a_belt_rolls_off_at_two_sevenths_of_its_speed() {
         for friction in [0.2, 0.5] {
             let name = format!("{} μ = {friction}", wall.name);
             let mut sim = simulation(on(wall.clone(), 0.7, friction));
-            run_until(&mut sim, 0.05);
+            run_until(&mut sim, 0.02);
             let early = particles(&mut sim)[0].velocity.x;
             assert!((early / (friction * 9.81 * sim.time()) - 1.0).abs() < 0.02, "{name}: {early} m/s");
             run_until(&mut sim, 0.4);

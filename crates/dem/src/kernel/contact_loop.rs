@@ -316,7 +316,11 @@ fn ledger_row<R: Lane, E: Effect>(
 #[inline(always)]
 fn released<R: Lane>(row: &[R; LEDGER], touching: R::Mask) -> R {
     let zero = R::splat(0.0);
-    let largest = row[2..=DISSIPATORS].iter().fold(zero, |most, x| most.max(size(*x)));
+    // A closure would not be inlined into wide registers.
+    let mut largest = zero;
+    for x in &row[2..=DISSIPATORS] {
+        largest = largest.max(size(*x));
+    }
     R::select(touching, zero, largest)
 }
 

@@ -169,7 +169,7 @@ mod tests {
         assert!(contact("friction").contains("did you mean 'sliding_friction'?"));
         // Two of its three letters are others: no hint is better than a wrong one.
         let message = refused("[time]\nend = 1");
-        assert!(message.contains("known here: until, dt, safety, accuracy, contacts"), "{message}");
+        assert!(message.contains("known here: until, dt, safety, accuracy, shorten, contacts"), "{message}");
     }
 
     #[test]

@@ -67,7 +67,7 @@ pub fn scenes() -> TempDir {
 
 const SCENES: &[Case] = &[
     failed("dem-run missing.toml", &["missing.toml", "cannot open"]),
-    failed("dem-run good.ply", &["good.ply", "not UTF-8 text", "right file"]),
+    misused("dem-run good.ply", &["good.ply is a cloud or a mesh", "the first file is the scene"]),
     failed("dem-run key.toml", &["key.toml:10:1", "'yung'", "did you mean 'young'?"]),
     failed("dem-run type.toml", &["type.toml:9:11", "expected a number"]),
     failed("dem-run broken.toml", &["broken.toml:2:"]),

@@ -289,6 +289,7 @@ const LAWS: &str = r#"
 [time]
 until = 0.002
 safety = 0.3
+contacts = "sampled"
 [guards]
 zones = true
 [drag]

@@ -88,7 +88,7 @@ fn a_drawing_in_millimetres_is_the_drawing_in_metres() {
         done.stderr
     );
     for (wall, parts) in [
-        ("plane = \"0,0,0,0,0,1\"\nunits = \"mm\"", ["wall.0.units", "only a mesh"]),
+        ("plane = \"0,0,0,0,0,1\"\nunits = \"mm\"", ["wall.0.units", "only the files of mesh and source"]),
         ("mesh = \"m.stl\"\nunits = \"mm\"\nscale = 2", ["wall.0.scale", "scale or units"]),
         ("mesh = \"m.stl\"\nunits = \"kg\"", ["wall.0.units", "\"mm\""]),
         ("mesh = \"m.stl\"\nscale = 0", ["wall.0.scale", "above 0"]),
