@@ -26,6 +26,11 @@ pub struct Inside {
 }
 
 impl Inside {
+    /// Volume of the mesh [m³].
+    pub fn volume(&self) -> f64 {
+        self.mesh.volume().abs()
+    }
+
     /// Sorts the faces of a closed mesh; vertices at equal places count as one.
     ///
     /// # Errors

@@ -277,8 +277,8 @@ fn a_column_of_the_cloud_decides_as_a_shape_does() {
                 [[region]]\nname = \"six\"\nshape = \"box:0,0,-1,0.055,1,1\"\ncolumn = \"class\"\nvalues = 6\nroughness = 0.001\n";
     let none = |_: &str| Err("no files here".to_owned());
     let points = lattice(12, 0.01);
-    let red = |i: usize| i % 5 == 0;
-    let six = |i: usize| i % 2 == 0;
+    let red = |i: usize| i.is_multiple_of(5);
+    let six = |i: usize| i.is_multiple_of(2);
     let property = |name: &str| match name {
         "r" => Some((0..points.len()).map(|i| if red(i) { 220.0 } else { 10.0 }).collect()),
         "class" => Some((0..points.len()).map(|i| if six(i) { 6.0 } else { 2.0 }).collect()),

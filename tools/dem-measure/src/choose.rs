@@ -141,12 +141,10 @@ fn on_walls(args: &Args, given: &GivenShape, between: (f64, f64)) -> WallContact
 
 /// Volume [m³] of what has a file; shapes without one know theirs.
 fn volume(given: &GivenShape) -> anyhow::Result<f64> {
+    if let Solid::Mesh(inside) = &given.shape.solid {
+        return Ok(inside.volume());
+    }
     match given.text.trim_start_matches('!').split_once(':') {
-        Some(("mesh", file)) => {
-            let bytes =
-                stream::whole::file(Path::new(file)).with_context(|| format!("{file}: cannot read"))?;
-            Ok(cloud::read_mesh(&mut bytes.as_slice()).with_context(|| file.to_owned())?.volume().abs())
-        }
         Some(("prism", file)) => {
             let text =
                 stream::whole::text(Path::new(file)).with_context(|| format!("{file}: cannot read"))?;

@@ -94,7 +94,7 @@ const SCENES: &[Case] = &[
 
 const SCENES_WITH_THEIR_WALLS_AND_INLETS: &[Case] = &[
     failed("dem-run walls.toml", &["waits for walls", "wallgen"]),
-    failed("dem-run walls.toml good.ply", &["good.ply", "MCAP", "wallgen"]),
+    misused("dem-run walls.toml good.ply", &["good.ply holds no walls", "wallgen"]),
     failed("dem-run walls.toml walls-cut.mcap", &["walls-cut.mcap", "truncated"]),
     failed("dem-run walls.toml walls-long.mcap", &["walls-long.mcap", "bytes follow the end"]),
     failed("dem-run walls.toml walls-twice.mcap", &["walls-twice.mcap", "bytes follow the end"]),
