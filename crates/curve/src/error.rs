@@ -6,8 +6,8 @@
 //! interval = t s/√n of v − v₀, and the uncertainty of a value from a laboratory, as the root of the squares
 //! ```
 //!
-//! Where runs differ by the phase of the step at which contacts begin and not by a seed, one run of the user has one phase, and nobody knows
-//! which: the worst counts, and what is uncertain is the reference.
+//! Where runs differ by the phase of the step at which contacts begin and not by a seed, one run of the user has one phase, which is
+//! not known: the worst counts, and what is uncertain is the reference.
 //!
 //! ```text
 //! error = max over phases ‖v − mean v₀‖ / ‖mean v₀‖        interval = max over phases ‖v₀ − mean v₀‖ / ‖mean v₀‖

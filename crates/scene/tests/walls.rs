@@ -25,7 +25,7 @@ count = 1
 material = "steel"
 "#;
 
-/// A folder of its own, which goes away with the test.
+/// A separate folder, which goes away with the test.
 struct Folder(PathBuf);
 
 impl Folder {

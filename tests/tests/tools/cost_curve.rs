@@ -132,7 +132,10 @@ fn what_is_recommended_holds_at_every_phase_of_the_step() {
         column(done, "safety")[at].clone()
     };
     let one = recommended(&curve(&folder, &[&ONE[..], &options].concat()));
-    assert!(worst_of_other_heights(&folder, &one) > 0.03, "safety {one} of one phase holds by chance");
+    assert!(
+        worst_of_other_heights(&folder, &one) > 0.03,
+        "safety {one} of one phase holds, and it should not"
+    );
     let done = curve(&folder, &[&IMPACT[..], &options].concat());
     assert_eq!(numbers(&done, "repeats"), [8.0; 9]);
     assert!(done.stderr.contains("72 runs, 9 of them made before"), "{}", done.stderr);

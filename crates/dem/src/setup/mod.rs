@@ -41,7 +41,7 @@ pub struct Setup {
     pub contacts: Vec<ContactLaw>,
     /// Particles at t = 0.
     pub particles: Vec<Particle>,
-    /// Histories of their contacts at t = 0, of particles that an earlier run has left; empty: all contacts begin anew.
+    /// Histories of their contacts at t = 0, of particles that an earlier run has left; empty: all contacts begin without history.
     pub kept: Vec<KeptContact>,
     /// Rigid clumps; empty where the scene has none.
     pub clumps: Clumps,

@@ -77,7 +77,7 @@ impl WallFile {
     }
 }
 
-/// The different velocities of a wall's surface [m/s], and the number of each sphere's own; each of them is a wall of its own.
+/// The different velocities of a wall's surface [m/s], and the number of each sphere's own; each of them is a separate wall.
 fn different(name: &str, given: &[Vec3]) -> Result<(Vec<u16>, Vec<Vec3>)> {
     let mut velocities: Vec<Vec3> = Vec::new();
     let mut of = Vec::with_capacity(given.len());

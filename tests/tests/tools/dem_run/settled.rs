@@ -46,7 +46,7 @@ fn a_settled_bed_stays_at_rest_in_the_next_scene() {
     let kept = run("kept.mcap", &[]);
     let again = run("again.mcap", &["--threads", "1"]);
     assert_eq!(kept, again);
-    // Other materials: contacts begin anew.
+    // Other materials: contacts begin without springs.
     let new = run("new.mcap", &["--set", "particles.0.material=glass"]);
     // A wall of another name is another wall: its springs are lost.
     let renamed = run("renamed.mcap", &["--set", "wall.0.name=other"]);
