@@ -77,3 +77,18 @@ fn gaps_tells_the_largest_sphere_that_passes_without_a_particle() {
     let plain = tool(folder.path(), "wallgen", &words);
     assert!(plain.code == 0 && !plain.stderr.contains("passes"), "not asked for: {}", plain.stderr);
 }
+
+/// PLY is geometry alone: what it would lose is refused.
+#[test]
+fn properties_that_ply_has_no_place_for_are_refused() {
+    let folder = folder(&[("cloud.xyz", cloud())]);
+    for option in ["--friction", "--restitution", "--young", "--poisson"] {
+        let options = ["cloud.xyz", "--radius", "0.006", option, "0.3", "-o", "walls.ply"];
+        let done = tool(folder.path(), "wallgen", &options);
+        assert!(
+            done.code == 2 && done.stderr.contains(&format!("{option}: a PLY file has no place")),
+            "{}",
+            done.stderr
+        );
+    }
+}

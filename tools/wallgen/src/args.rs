@@ -201,6 +201,23 @@ impl Args {
         Ok(())
     }
 
+    /// Refuses properties of the material where the output has no place for them: PLY is geometry alone.
+    pub fn check_used(&self) -> anyhow::Result<()> {
+        let given = [
+            (self.young.is_some(), "--young"),
+            (self.poisson.is_some(), "--poisson"),
+            (self.friction.is_some(), "--friction"),
+            (self.restitution.is_some(), "--restitution"),
+            (self.velocity != Vec3::zeros(), "--velocity"),
+        ];
+        match given.iter().find(|g| g.0).filter(|_| self.output.to.has_extension("ply")) {
+            Some((_, option)) => Err(cli::usage(format!(
+                "{option}: a PLY file has no place for it: leave it out, or write walls MCAP (-o FILE.mcap)"
+            ))),
+            None => Ok(()),
+        }
+    }
+
     /// A roughness that is not a number is a file.
     fn regions_file(&self) -> Option<&Path> {
         self.roughness.as_deref().filter(|text| text.parse::<f64>().is_err()).map(Path::new)

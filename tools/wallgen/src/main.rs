@@ -20,6 +20,7 @@ fn main() -> ExitCode {
 
 fn wallgen(args: Args) -> anyhow::Result<Report> {
     check_ending(&args.output.to)?;
+    args.check_used()?;
     let settings = args.settings()?;
     let mut regions = args.regions()?;
     let WallPoints { cloud, name, hash, drawn } = surface::read(&args, &regions)?;
