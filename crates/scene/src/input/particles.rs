@@ -67,14 +67,13 @@ impl ParticleTable {
                 table.replace(column, values).map_err(|e| SceneError::content(&name, "particles", e))?;
             }
         }
-        Ok(ParticleTable {
-            name,
-            table,
-            materials: Vec::new(),
-            is_run: false,
-            stopped: None,
-            kept: Default::default(),
-        })
+        Ok(ParticleTable::listed(name, table))
+    }
+
+    /// Of a file that is no run.
+    fn listed(name: String, table: Table) -> ParticleTable {
+        let (materials, kept) = Default::default();
+        ParticleTable { name, table, materials, is_run: false, stopped: None, kept }
     }
 
     /// Its columns as numbers.
@@ -185,15 +184,7 @@ mod tests {
 
     fn file(name: &str, text: &[u8]) -> Result<ParticleFile> {
         let (name, table) = (name.to_owned(), csv(name, text)?);
-        ParticleTable {
-            name,
-            table,
-            materials: Vec::new(),
-            is_run: false,
-            stopped: None,
-            kept: Default::default(),
-        }
-        .particles()
+        ParticleTable::listed(name, table).particles()
     }
 
     #[test]
