@@ -3,6 +3,7 @@
 mod examples;
 pub mod files;
 mod shapes;
+mod unused;
 
 use examples::{EXAMPLES, FORMS};
 use files::inputs;

@@ -86,6 +86,13 @@ impl Args {
             (_, _, Some((low, high))) => Amount::Density(low, high),
             _ => return Err(cli::usage("one of --spacing, --count, --density is needed")),
         };
+        if self.no_measures && (self.plot.is_some() || self.common.report.is_none()) {
+            let why = match &self.plot {
+                Some(_) => "--plot draws what is measured",
+                None => "changes nothing without --report: nothing is measured then",
+            };
+            return Err(cli::usage(format!("--no-measures: {why}: leave it out")));
+        }
         let distance = match self.distance {
             Along::Surface => Distance::Surface,
             Along::Space => Distance::Space,
@@ -97,7 +104,11 @@ impl Args {
 
     /// The points to keep as they are, when `--keep-filled` was given and there are any.
     pub fn forced(&self, cloud: &Cloud) -> Option<Vec<bool>> {
-        let filled = cloud.attributes.get("filled").filter(|_| self.keep_filled)?;
+        let filled = cloud.attributes.get("filled");
+        if self.keep_filled && filled.is_none() {
+            cli::warn("--keep-filled keeps nothing: no property 'filled': cloud-fill writes it");
+        }
+        let filled = filled.filter(|_| self.keep_filled)?;
         Some((0..filled.len()).map(|row| filled.get(row) == 1.0).collect())
     }
 

@@ -31,16 +31,17 @@ pub struct Args {
     /// Ends of the colour scale in SI units [default: the range of 98 % of the values]
     #[arg(long, value_name = "LO,HI", value_parser = formats::range, allow_hyphen_values = true)]
     pub range: Option<[f64; 2]>,
-    /// Colour map: viridis or turbo
-    #[arg(long, value_name = "NAME", value_parser = formats::map, default_value = "viridis")]
-    pub map: Map,
+    /// Colour map: viridis or turbo [default: viridis]
+    #[arg(long, value_name = "NAME", value_parser = formats::map)]
+    pub map: Option<Map>,
     /// Time to show [s]. HTML: shown first, paused; PNG, VTP: the nearest frame [default: the last frame with grains]
     #[arg(long, value_name = "S", value_parser = cli::seconds)]
     pub time: Option<f64>,
     /// Position of the camera: iso, top, bottom, front, back, left, right; a side: x, -x, y, -y, z, -z; azimuth/elevation in
     /// degrees, from x towards y and up: 35/20; or x,y,z of the camera [m], and after it those of the point looked at (optional)
-    #[arg(long, value_name = "VIEW", value_parser = formats::camera, default_value = "iso", allow_hyphen_values = true)]
-    pub camera: Camera,
+    /// [default: iso]
+    #[arg(long, value_name = "VIEW", value_parser = formats::camera, allow_hyphen_values = true)]
+    pub camera: Option<Camera>,
     /// First time of a film or series [s]
     #[arg(long, value_name = "S", value_parser = cli::seconds, allow_hyphen_values = true)]
     pub from: Option<f64>,
@@ -50,21 +51,21 @@ pub struct Args {
     /// Simulated time between two pictures of a film or series [s] [default: every frame]
     #[arg(long, value_name = "S", value_parser = cli::span)]
     pub every: Option<f64>,
-    /// Pictures per second of a film
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100), default_value_t = 25)]
-    pub fps: u32,
+    /// Pictures per second of a film [default: 25]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100))]
+    pub fps: Option<u32>,
     /// Size of a picture or film [pixel] [default: 1920x1080, GIF 960x540]
     #[arg(long, value_name = "WxH", value_parser = formats::size)]
     pub size: Option<[u32; 2]>,
-    /// Opacity of walls in front of grains in the picture, 0 to 1
-    #[arg(long, value_name = "SHARE", value_parser = formats::share, default_value_t = 0.2)]
-    pub wall_opacity: f64,
+    /// Opacity of walls in front of grains in the picture, 0 to 1 [default: 0.2]
+    #[arg(long, value_name = "SHARE", value_parser = formats::share)]
+    pub wall_opacity: Option<f64>,
     /// Leave out the nearer half of the walls in the picture
     #[arg(long)]
     pub cut: bool,
-    /// Largest size of the page [MB]: a larger page loses the components of vectors, then frames at even intervals; if it is still too large, it is refused
-    #[arg(long, value_name = "MB", value_parser = formats::megabytes, default_value = "60")]
-    pub max_mb: f64,
+    /// Largest size of the page [MB]: a larger page loses the components of vectors, then frames at even intervals; if it is still too large, it is refused [default: 60]
+    #[arg(long, value_name = "MB", value_parser = formats::megabytes)]
+    pub max_mb: Option<f64>,
     /// Keep the components of vectors in a page that is too large, and leave out more frames
     #[arg(long)]
     pub components: bool,
@@ -77,22 +78,52 @@ pub struct Args {
 }
 
 impl Args {
-    /// Refuses options of another kind of output.
+    /// Refuses options that change nothing in this kind of output.
     pub fn check(&self, format: Format) -> anyhow::Result<()> {
-        let part =
-            [("--from", self.from.is_some()), ("--to", self.to.is_some()), ("--every", self.every.is_some())];
-        if let Some((name, _)) = part.iter().find(|(_, given)| *given && !format.is_series()) {
-            return Err(cli::usage(format!(
-                "{name} is for a film or series (.gif, .mp4, .pvd): use --time for one moment"
-            )));
-        }
-        if self.pick && format != Format::Html {
-            return Err(cli::usage("--pick writes a page: use a name that ends in .html"));
-        }
-        if self.time.is_some() && format.is_series() {
-            return Err(cli::usage("--time is for one moment: give a film or series its --from and --to"));
-        }
-        Ok(())
+        use Format::{Gif, Html, Mp4, Png, Pvd, Vtp};
+        let options: [(&str, bool, &[Format]); 16] = [
+            ("--pick", self.pick, &[Html]),
+            ("--title", self.title.is_some(), &[Html]),
+            ("--max-mb", self.max_mb.is_some(), &[Html]),
+            ("--components", self.components, &[Html]),
+            ("--time", self.time.is_some(), &[Html, Png, Vtp]),
+            ("--from", self.from.is_some(), &[Gif, Mp4, Pvd]),
+            ("--to", self.to.is_some(), &[Gif, Mp4, Pvd]),
+            ("--every", self.every.is_some(), &[Gif, Mp4, Pvd]),
+            ("--fps", self.fps.is_some(), &[Gif, Mp4]),
+            ("--colour", self.colour.is_some(), &[Html, Png, Gif, Mp4]),
+            ("--range", self.range.is_some(), &[Html, Png, Gif, Mp4]),
+            ("--map", self.map.is_some(), &[Html, Png, Gif, Mp4]),
+            ("--camera", self.camera.is_some(), &[Html, Png, Gif, Mp4]),
+            ("--size", self.size.is_some(), &[Png, Gif, Mp4]),
+            ("--wall-opacity", self.wall_opacity.is_some(), &[Png, Gif, Mp4]),
+            ("--cut", self.cut, &[Png, Gif, Mp4]),
+        ];
+        let foreign = options.iter().find(|(_, given, formats)| *given && !formats.contains(&format));
+        let Some((name, _, formats)) = foreign else { return Ok(()) };
+        let endings: Vec<String> = formats.iter().map(|f| format!(".{}", f.ending())).collect();
+        let (wanted, cure) = (endings.join(", "), format.instead_of(name));
+        Err(cli::usage(format!("{name} changes nothing in .{}: it is for {wanted}: {cure}", format.ending())))
+    }
+
+    /// The colour map.
+    pub fn map(&self) -> Map {
+        self.map.unwrap_or(Map::Viridis)
+    }
+
+    /// Where the camera is.
+    pub fn camera(&self) -> Camera {
+        self.camera.unwrap_or_default()
+    }
+
+    /// Pictures per second of a film.
+    pub fn fps(&self) -> u32 {
+        self.fps.unwrap_or(25)
+    }
+
+    /// Largest size of a page [MB].
+    pub fn max_mb(&self) -> f64 {
+        self.max_mb.unwrap_or(60.0)
     }
 
     /// The part of a run that a film or series shows.
@@ -111,12 +142,12 @@ impl Args {
         PictureOptions {
             width,
             height,
-            camera: self.camera,
+            camera: self.camera(),
             colour: self.colour.clone(),
-            map: self.map,
+            map: self.map(),
             range: self.range,
             time: None,
-            wall_opacity: self.wall_opacity,
+            wall_opacity: self.wall_opacity.unwrap_or(0.2),
             cut: self.cut,
         }
     }

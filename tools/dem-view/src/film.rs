@@ -58,9 +58,9 @@ impl Sink {
     fn open(reel: &Reel, args: &Args, output: &Output, format: Format) -> anyhow::Result<(Sink, f64)> {
         if format == Format::Mp4 {
             let path = output.path().context("an MP4 needs a file: give -o NAME.mp4")?;
-            return Ok((Sink::Mp4(Mp4::begin(path, reel.size(), args.fps)?), 1.0 / f64::from(args.fps)));
+            return Ok((Sink::Mp4(Mp4::begin(path, reel.size(), args.fps())?), 1.0 / f64::from(args.fps())));
         }
-        let delay = (100.0 / f64::from(args.fps)).round().max(2.0) as u16;
+        let delay = (100.0 / f64::from(args.fps())).round().max(2.0) as u16;
         let palette = reel.palette()?;
         let gif = Gif::new(output.open()?, reel.size(), palette, delay)?;
         Ok((Sink::Gif(gif), f64::from(delay) / 100.0))

@@ -40,9 +40,18 @@ impl Format {
         })
     }
 
-    /// Whether it shows more than one moment.
-    pub fn is_series(self) -> bool {
-        matches!(self, Format::Gif | Format::Mp4 | Format::Pvd)
+    /// The ending of its files, without the dot.
+    pub fn ending(self) -> &'static str {
+        ENDINGS.iter().find(|(_, format)| *format == self).map_or("", |(ending, _)| *ending)
+    }
+
+    /// What to do about an option that is for other formats.
+    pub fn instead_of(self, option: &str) -> &'static str {
+        match (option, self) {
+            ("--from" | "--to" | "--every", Format::Png | Format::Vtp) => "use --time for one moment",
+            ("--time", _) => "give a film or series its --from and --to",
+            _ => "leave it out, or give -o such an ending",
+        }
     }
 }
 

@@ -17,11 +17,11 @@ pub fn html(args: &Args, output: &Output) -> anyhow::Result<Report> {
     let mut page = Page::new(PageOptions {
         title: args.title.clone().unwrap_or_else(|| names.join(" + ")),
         colour: args.colour.clone(),
-        map: args.map,
+        map: args.map(),
         range: args.range,
-        camera: args.camera,
+        camera: args.camera(),
         time: args.time,
-        most_bytes: (args.max_mb * 1e6) as usize,
+        most_bytes: (args.max_mb() * 1e6) as usize,
         components: args.components,
         pick: if args.pick { names.first().cloned() } else { None },
     });
@@ -56,7 +56,7 @@ pub fn html(args: &Args, output: &Output) -> anyhow::Result<Report> {
 }
 
 fn warn_of_what_is_left_out(args: &Args, kept: &PageContent) {
-    let limit = format!("to keep it below {} MB; --max-mb changes that", args.max_mb);
+    let limit = format!("to keep it below {} MB; --max-mb changes that", args.max_mb());
     if kept.stride > 1 {
         let (of, given, stride) = (kept.kept, kept.given, kept.stride);
         cli::warn(&format!(

@@ -22,7 +22,7 @@ pub const EXAMPLES: &[&str] = &[
     "cloud-fill scan.xyz --units m --below 5000 --fill random --quiet --output d.ply",
     "cloud-fill scan.xyz --below 5000 --fill grid --method volumetric -o e.ply",
     "bluenoise-sample flat.xyz --scale 1 --ascii --spacing 0.02 --method poisson --distance space --plot p.svg --seed 3 -o f.ply --report r.json --threads 2 -q",
-    "bluenoise-sample filled.ply --spacing 0.02 --keep-filled --distance surface --no-measures --output g.ply --quiet",
+    "bluenoise-sample filled.ply --spacing 0.02 --keep-filled --distance surface --no-measures --report r.json --output g.ply --quiet",
     "bluenoise-sample flat.xyz --units m --count 50 --method eliminate -o h.ply",
     "bluenoise-sample flat.xyz --density 500,900 -o i.ply",
     "bluenoise-sample flat.xyz --spacing 0.03 --method relax -o j.ply",
