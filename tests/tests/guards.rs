@@ -287,13 +287,17 @@ fn grains_at_one_place() {
 
 /// A downstream stage: grains fall in at 1 m/s, hit a plate behind the plane, and fly back up.
 fn bounce() -> TempDir {
-    let folder = tempdir().expect("a folder");
+    bounced("1,0,0,0.04,0.01,0,0,-1,0,0,0\n")
+}
+
+/// The same with these grains upstream.
+fn bounced(grains: &str) -> TempDir {
+    let folder = scene(grains, "");
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).expect("written");
     let head = HEAD.replace("source = \"p.csv\"\n", "").replace("[[particles]]\nmaterial = \"glass\"\n", "");
     let head = head.replace("until = 0.02", "until = 0.3").replace("every = 0.002", "every = 0.02");
     let head = head.replace("restitution = 0.9", "restitution = 1");
-    let grains = "[[fill]]\nmaterial = \"glass\"\nshape = \"box:-0.012,-0.012,0.03,0.012,0.012,0.056\"\ndiameter = 0.02\ncount = 1\n\
-                  velocity = [0, 0, -1]\n";
+    let grains = "[[particles]]\nmaterial = \"glass\"\nsource = \"p.csv\"\n";
     write("up.toml", &format!("{head}{grains}[[outlet]]\nplane = \"0,0,0,0,0,-1\"\n"));
     let plate = "[[wall]]\nplane = \"0,0,-0.05,0,0,1\"\nmaterial = \"glass\"\n";
     write("down.toml", &format!("{head}[[inlet]]\nplane = \"0,0,0,0,0,-1\"\n{plate}"));
@@ -333,6 +337,25 @@ fn a_grain_that_comes_back_through_its_inlet_is_removed() {
     assert_eq!(
         (&report["returned"]["removed"][0], &report["particles"]),
         (&Value::from(1), &Value::from(0)),
+        "{report}"
+    );
+    let made = report["integration"]["share"].as_f64().unwrap_or_else(|| panic!("{report}"));
+    assert!(made.abs() < 1e-2, "{report}");
+}
+
+/// The first grain flies back up into the zone just as the second comes in there, a little beside it.
+#[test]
+fn a_grain_in_the_way_of_one_that_comes_in_is_removed() {
+    let folder = bounced("1,0,0,0.03,0.01,0,0,-1,0,0,0\n2,0.001,0,0.15,0.01,0,0,-1,0,0,0\n");
+    let on_top = tool(folder.path(), "dem-run", &["down.toml", "in.mcap", "-o", "stopped.mcap"]);
+    assert!(on_top.code == 3 && on_top.stderr.contains("on top of particle 1"), "{}", on_top.stderr);
+    let sets = ["--set", "guards.zones=\"remove\"", "--set", "output.energy=true", "--until", "0.15"];
+    let files = ["down.toml", "in.mcap", "-o", "run.mcap", "--report", "r.json"];
+    succeed(folder.path(), "dem-run", &[&files[..], &sets].concat());
+    let report: Value = serde_json::from_slice(&fs::read(folder.path().join("r.json")).unwrap()).unwrap();
+    assert_eq!(
+        (&report["returned"]["removed"][0], &report["particles"]),
+        (&Value::from(1), &Value::from(1)),
         "{report}"
     );
     let made = report["integration"]["share"].as_f64().unwrap_or_else(|| panic!("{report}"));

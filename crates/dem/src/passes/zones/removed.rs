@@ -3,6 +3,7 @@
 use crate::model::{Halt, Model, Partner};
 use crate::neighbours::NeighbourLists;
 use crate::passes::zones::cross::{book_leaving, state_back};
+use crate::passes::zones::ledger::held_with;
 use crate::passes::zones::travel::exclude;
 use crate::passes::zones::whole::{rows_with, test_point};
 use crate::setup::CameBack;
@@ -10,7 +11,9 @@ use crate::state::State;
 
 /// Takes out the particle behind a calculation plane that is in the way of one that comes in; whether that is what stopped the step.
 pub fn clear_the_way(model: &Model, state: &mut State, lists: &NeighbourLists, halt: &Halt) -> bool {
-    let Halt::InletOverlap { inlet, partner: Partner::Particle(id), .. } = halt else { return false };
+    let Halt::InletOverlap { id: newcomer, inlet, partner: Partner::Particle(id), .. } = halt else {
+        return false;
+    };
     if model.setup.guards.zones != CameBack::IsRemoved {
         return false;
     }
@@ -26,6 +29,12 @@ pub fn clear_the_way(model: &Model, state: &mut State, lists: &NeighbourLists, h
     let in_the_way =
         behind.is_some_and(|(by, behind)| by == *inlet && behind > -state.zones.inlets[by as usize].length);
     if in_the_way {
+        if model.setup.ledger {
+            // The newcomer brings the springs between the two along, already compressed.
+            let brought = held_with(state, lists, first, *newcomer);
+            state.ledger.entered += brought;
+            state.ledger.passed -= brought;
+        }
         remove(model, state, lists, first, *inlet);
     }
     in_the_way
