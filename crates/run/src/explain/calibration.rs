@@ -3,6 +3,7 @@
 use crate::supply::Supply;
 use dem::Simulation;
 use dem::setup::Setup;
+use rustix::time::{ClockId, clock_gettime};
 use scene::advice::{explain_halt, explain_setup_error};
 use scene::plan::Insertion;
 use serde::Serialize;
@@ -29,6 +30,8 @@ pub struct Calibration {
     pub touching: usize,
     /// Time of a step [s].
     pub seconds_per_step: f64,
+    /// Processor time of a step, of all threads [s]: other work on the machine hardly disturbs it.
+    pub processor_seconds_per_step: f64,
 }
 
 impl Calibration {
@@ -45,7 +48,7 @@ impl Calibration {
         trial.measured()
     }
 
-    /// Time of a step [s] of another setup after as many steps; `None` where it does not get so far in twice the time.
+    /// Processor time of a step [s] of another setup after as many steps; `None` where it does not get so far in twice the time.
     pub(super) fn compared(&self, setup: Setup, insertions: &[Insertion]) -> Option<f64> {
         let mut trial = Trial::new(setup, insertions).ok()?;
         let start = Instant::now();
@@ -55,7 +58,7 @@ impl Calibration {
                 return None;
             }
         }
-        Some(trial.measured().ok()?.seconds_per_step)
+        Some(trial.measured().ok()?.processor_seconds_per_step)
     }
 }
 
@@ -93,15 +96,27 @@ impl Trial {
         let touching = self.sim.record_contacts().map_err(|halt| explain_halt(&halt))?;
         let touching = touching.iter().filter(|c| c.force != geom::Vec3::zeros()).count();
         self.step()?;
-        let (start, mut done) = (Instant::now(), 0);
+        let (start, before, mut done) = (Instant::now(), processor_seconds(), 0);
         loop {
             self.step()?;
             done += 1;
             let passed = start.elapsed().as_secs_f64();
             if (passed > MEASURE && done >= 10) || done == MOST {
-                let seconds_per_step = passed / f64::from(done);
-                return Ok(Calibration { steps, time, particles, touching, seconds_per_step });
+                return Ok(Calibration {
+                    steps,
+                    time,
+                    particles,
+                    touching,
+                    seconds_per_step: passed / f64::from(done),
+                    processor_seconds_per_step: (processor_seconds() - before) / f64::from(done),
+                });
             }
         }
     }
+}
+
+/// Processor time of this process so far [s].
+fn processor_seconds() -> f64 {
+    let now = clock_gettime(ClockId::ProcessCPUTime);
+    now.tv_sec as f64 + 1e-9 * now.tv_nsec as f64
 }

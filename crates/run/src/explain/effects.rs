@@ -38,7 +38,7 @@ impl EffectToMeasure {
         // Where nothing touches, the time of a step does not depend on contacts.
         let whole = whole.filter(|whole| whole.touching > 0 || !self.in_contacts);
         let less = whole.zip(self.without).and_then(|(whole, setup)| whole.compared(setup, insertions));
-        let share = less.zip(whole).map(|(less, whole)| 1.0 - less / whole.seconds_per_step);
+        let share = less.zip(whole).map(|(less, whole)| 1.0 - less / whole.processor_seconds_per_step);
         Effect { share, ..self.effect }
     }
 }
