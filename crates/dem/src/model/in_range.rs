@@ -35,7 +35,10 @@ impl<S: Fn() -> Subject> Check<S> {
     /// Refuses infinity, NaN, and numbers that are larger than a quantity of this unit may be.
     pub fn finite(&self, name: &'static str, value: f64, unit: &'static str) -> Result<(), SetupError> {
         let [_, most] = magnitudes(unit);
-        self.within(name, value, unit, value.abs() <= most, format!("−{most:e} to {most:e}"))
+        if value.abs() <= most {
+            return Ok(());
+        }
+        self.within(name, value, unit, false, format!("−{most:e} to {most:e}"))
     }
 
     /// Refuses a vector with a number that is not finite.
