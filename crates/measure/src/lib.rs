@@ -36,8 +36,8 @@ pub mod wall_force;
 mod wall_record;
 pub mod wear;
 
-pub use error::MeasureError;
 pub use bonds::{Bond, Bonds};
+pub use error::MeasureError;
 pub use frame::{Contact, Contacts, Crossing, Frame, Partner};
 pub use observer::{Observer, OfFrame, PerFrame, Which};
 pub use run::{BondStrength, Ledger, Run, RunMessage, WallSpheres};

@@ -160,13 +160,16 @@ mod tests {
                 ..Frame::default()
             };
             overview.take(&run, &RunMessage::Frame(frame));
-            let wall = |f: f64| ForceOnWall { name: "lid".into(), force: Vec3::new(0.0, f, 0.0), contacts: 1 };
+            let wall =
+                |f: f64| ForceOnWall { name: "lid".into(), force: Vec3::new(0.0, f, 0.0), contacts: 1 };
             let forces = WallForces { time, walls: vec![wall(-3.0 * time)] };
             overview.take(&run, &RunMessage::WallForces(forces));
         }
         // The mass is the same all the time.
         assert_eq!(labels(&overview), ["kinetic energy [J]", "force on walls [N]"]);
-        let Some(Panel::Curves { curves, .. }) = overview.panels().into_iter().next() else { panic!("curves") };
+        let Some(Panel::Curves { curves, .. }) = overview.panels().into_iter().next() else {
+            panic!("curves")
+        };
         assert!(curves[0].points.len() <= POINTS + 1, "{}", curves[0].points.len());
         assert_eq!(curves[0].points.last(), Some(&[1199.0, 1199.0 * 1199.0]));
     }

@@ -8,8 +8,8 @@
 //!    slope is robust against outliers; see [`crate::statistics`] for the source and for the interval of each slope.
 //! 4. The angle is the mean over the sectors, its 95 % interval ± t s/√n with the deviation s between them.
 //!
-//! Grains that fall do not count: those whose downward speed is above √(2 g d), which a free fall over a mean diameter
-//! d gives. So a stream that feeds the heap is no part of it.
+//! Of a part of a run, grains that fall do not count: those whose downward speed is above √(2 g d), which a free fall over
+//! a mean diameter d gives. So a stream that feeds the heap is no part of it.
 //!
 //! The axis goes through the centre of what stands above half height; where no grain is, the surface is the ground.
 //! For ways to measure the angle of repose see the review of Beakawi Al-Hashemi & Baghabra Al-Amoudi (2018), Powder
@@ -44,11 +44,21 @@ pub struct HeapOptions {
     pub bin: Option<f64>,
     /// Height of the ground along `up` [m]; `None`: the lowest grains'.
     pub ground: Option<f64>,
+    /// Whether falling grains are left out.
+    pub without_falling: bool,
 }
 
 impl Default for HeapOptions {
     fn default() -> HeapOptions {
-        HeapOptions { up: None, wall: None, sectors: 8, fractions: [0.2, 0.8], bin: None, ground: None }
+        HeapOptions {
+            up: None,
+            wall: None,
+            sectors: 8,
+            fractions: [0.2, 0.8],
+            bin: None,
+            ground: None,
+            without_falling: false,
+        }
     }
 }
 
@@ -149,7 +159,15 @@ pub fn heap_angle(frame: &Frame, options: &HeapOptions, up: Option<Vec3>) -> Res
         flank(middle, profile, height, options.fractions).map_err(|found| {
             let part = if options.wall.is_some() { "lane" } else { "sector" };
             let (time, fractions) = (frame.time, options.fractions);
-            MeasureError::SmallHeap { time, part: format!("{part} {k}"), found, fractions, height, bin, overhang }
+            MeasureError::SmallHeap {
+                time,
+                part: format!("{part} {k}"),
+                found,
+                fractions,
+                height,
+                bin,
+                overhang,
+            }
         })
     };
     let flanks = profiles.into_iter().enumerate().map(fit).collect::<Result<Vec<_>, _>>()?;

@@ -226,11 +226,6 @@ impl Observer for WallForce {
         if self.source == Some(Source::Walls) {
             return chart;
         }
-        chart.columns(
-            ("time [s]", 0),
-            "sliding work [J]",
-            &[("", 8)],
-            rows,
-        )
+        chart.columns(("time [s]", 0), "sliding work [J]", &[("", 8)], rows)
     }
 }

@@ -55,11 +55,17 @@ mod tests {
     #[test]
     fn a_message_without_walls_or_with_a_broken_force_is_refused() {
         let read = |text: &str| WallForces::new(0.5, text.as_bytes());
-        let good = read(r#"{"time": 0.25, "walls": [{"name": "lid", "force": [0, 1, -2.5], "contacts": 3}]}"#);
+        let good =
+            read(r#"{"time": 0.25, "walls": [{"name": "lid", "force": [0, 1, -2.5], "contacts": 3}]}"#);
         let lid = ForceOnWall { name: "lid".to_owned(), force: Vec3::new(0.0, 1.0, -2.5), contacts: 3 };
         assert_eq!(good, Ok(WallForces { time: 0.25, walls: vec![lid] }));
-        for text in ["", "[]", r#"{"walls": 3}"#, r#"{"walls": [{"force": [0, 1]}]}"#, r#"{"walls": [{"force": [0, 1, null]}]}"#]
-        {
+        for text in [
+            "",
+            "[]",
+            r#"{"walls": 3}"#,
+            r#"{"walls": [{"force": [0, 1]}]}"#,
+            r#"{"walls": [{"force": [0, 1, null]}]}"#,
+        ] {
             assert!(matches!(read(text), Err(MeasureError::Message { .. })), "{text}");
         }
     }

@@ -107,7 +107,7 @@ pub struct Args {
     /// The heap leans on a wall at this side: x- x+ y- y+ z- z+ [repose]
     #[arg(long, value_name = "SIDE", value_parser = side, allow_hyphen_values = true, help_heading = "How")]
     pub side: Option<Vec3>,
-    /// Only inside SHAPE: the grains of the heap [repose], the crossings [flow]; the box of the grid [profile]
+    /// Only inside SHAPE: the grains of the heap, without falling ones [repose], the crossings [flow]; the box of the grid [profile]
     #[arg(long, value_name = "SHAPE", value_parser = shape, help_heading = "How")]
     pub within: Option<GivenShape>,
     /// Rows for spans of S [s] (default: from frame to frame) [flow]
@@ -197,9 +197,17 @@ impl Args {
                 return Err(usage(format!("{option}: is an option of {of}: leave it out with {measure}")));
             }
         }
-        let single =
-            ["--flow", "--energy", "--bonds", "--residence", "--wall-force", "--plane-force", "--wear", "--impact"]
-                .contains(&measure);
+        let single = [
+            "--flow",
+            "--energy",
+            "--bonds",
+            "--residence",
+            "--wall-force",
+            "--plane-force",
+            "--wear",
+            "--impact",
+        ]
+        .contains(&measure);
         if single && (self.time.is_some() || self.last) {
             let option = if self.last { "--last" } else { "--time" };
             return Err(usage(format!(

@@ -119,6 +119,7 @@ fn heap(args: &Args) -> HeapOptions {
         fractions: args.fractions.unwrap_or(default.fractions),
         bin: args.bin,
         ground: args.ground,
+        without_falling: args.within.is_some(),
     }
 }
 

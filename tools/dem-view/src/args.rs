@@ -4,11 +4,13 @@ use crate::formats::{self, Format};
 use clap::Parser;
 use cli::Source;
 use std::path::PathBuf;
-use view::{Camera, Map, PictureOptions, Span};
+use view::{Arrows, Camera, Extras, Map, PictureOptions, Span};
 
 const EXAMPLES: &str = "Examples:\n\
     \x20 dem-view run.mcap -o run.html\n\
     \x20 dem-view run.mcap --time 0.02 --colour speed --camera front -o run.png\n\
+    \x20 dem-view bonded.mcap --bonds --colour broken --range 0,1 -o bonds.png\n\
+    \x20 dem-view run.mcap --vectors velocity -o arrows.png\n\
     \x20 dem-view run.mcap --every 0.01 --size 320x180 -o run.gif\n\
     \x20 dem-view sampled.ply --pick -o pick.html";
 
@@ -25,7 +27,8 @@ pub struct Args {
     /// (ParaView, one moment), .pvd (ParaView, a series: NAME.pvd and a folder NAME)
     #[arg(id = "output", short = 'o', long = "output", value_name = "FILE")]
     pub file: Option<PathBuf>,
-    /// Field to colour by: speed, spin, radius, material, id, x, y, z, rgb, or any column [default: speed, else z]
+    /// Field to colour by: speed, spin, radius, size (classes of diameter), material, broken (share of a grain's bonds that are
+    /// broken), id, x, y, z, rgb, or any column [default: speed, else z]
     #[arg(long, visible_alias = "color", value_name = "FIELD")]
     pub colour: Option<String>,
     /// Ends of the colour scale in SI units [default: the range of 98 % of the values]
@@ -59,6 +62,12 @@ pub struct Args {
     /// Opacity of walls in front of grains in the picture, 0 to 1
     #[arg(long, value_name = "SHARE", value_parser = formats::share, default_value_t = 0.2)]
     pub wall_opacity: f64,
+    /// Draw the bonds of a run, and a disc where one broke; grains at half their size
+    #[arg(long)]
+    pub bonds: bool,
+    /// Draw arrows: velocity of each grain, or force of each recorded contact on its first grain; grains at half their size
+    #[arg(long, value_name = "FIELD", value_parser = formats::arrows)]
+    pub vectors: Option<Arrows>,
     /// Leave out the nearer half of the walls in the picture
     #[arg(long)]
     pub cut: bool,
@@ -89,10 +98,23 @@ impl Args {
         if self.pick && format != Format::Html {
             return Err(cli::usage("--pick writes a page: use a name that ends in .html"));
         }
+        let files = matches!(format, Format::Vtp | Format::Pvd);
+        let drawn = [("--bonds", self.bonds), ("--vectors", self.vectors.is_some())];
+        if let Some((name, _)) = drawn.iter().find(|(_, given)| *given && (files || self.pick)) {
+            let why =
+                if files { "files for ParaView hold grains with their vectors" } else { "a cloud has none" };
+            return Err(cli::usage(format!("{name}: {why}: leave it out")));
+        }
         if self.time.is_some() && format.is_series() {
             return Err(cli::usage("--time is for one moment: give a film or series its --from and --to"));
         }
         Ok(())
+    }
+
+    /// What is shown of a run besides grains and walls.
+    pub fn extras(&self) -> Extras {
+        let broken = self.bonds || self.colour.as_deref() == Some("broken");
+        Extras { bonds: self.bonds, broken, arrows: self.vectors }
     }
 
     /// The part of a run that a film or series shows.

@@ -1,6 +1,6 @@
 //! The HTML page.
 
-use crate::{args::Args, inputs};
+use crate::{args::Args, diagrams::Diagrams, inputs};
 use anyhow::Context;
 use cli::{Output, Report};
 use view::{Page, PageContent, PageOptions};
@@ -25,7 +25,9 @@ pub fn html(args: &Args, output: &Output) -> anyhow::Result<Report> {
         components: args.components,
         pick: if args.pick { names.first().cloned() } else { None },
     });
-    let seen = inputs::read_all(args, &mut page)?;
+    let mut measured = Diagrams::default();
+    let seen = inputs::read_watched(args, &mut page, &mut |run, event| measured.take(run, event))?;
+    page.diagrams(measured.finish());
     page.check()?;
     let mut out = output.open_text()?;
     let bytes = page.write_checked(&mut out).with_context(|| output.name())?;

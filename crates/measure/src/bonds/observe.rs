@@ -75,7 +75,8 @@ impl BondNumbers {
         (self.bonds, self.before) = (all, Some(bonds.time));
         let broken: u64 = by.iter().sum();
         let fragments = Fragments::of(&bonds.rows);
-        let counts = [all, all - broken, broken, by[0], by[1], by[2], since, fragments.count, fragments.largest];
+        let counts =
+            [all, all - broken, broken, by[0], by[1], by[2], since, fragments.count, fragments.largest];
         let mut row = vec![bonds.time];
         row.extend(counts.map(|n| n as f64));
         row.extend(largest);
@@ -129,10 +130,8 @@ impl Observer for BondNumbers {
             .with("largest_fragment", "1", last[9])
             .with("first_break", "s", self.first_break)
             .with("time", "s", last[0]);
-        let unknown = format!(
-            "how {} bonds broke is unknown: the scene names no strength that they reach",
-            last[6]
-        );
+        let unknown =
+            format!("how {} bonds broke is unknown: the scene names no strength that they reach", last[6]);
         let gone = format!("{} bonds left the run with their grains and count no more", self.gone);
         let summary = if last[6] > 0.0 { summary.note(unknown) } else { summary };
         Ok(if self.gone > 0 { summary.note(gone) } else { summary })
@@ -141,8 +140,11 @@ impl Observer for BondNumbers {
     fn chart(&self, rows: &[Row]) -> Chart {
         let broken = [("by tension", 4), ("by shear", 5), ("unknown", 6)];
         let ways = if rows.iter().any(|row| row[6] > 0.0) { &broken[..] } else { &broken[..2] };
-        Chart::new("Bonds")
-            .columns(("time [s]", 0), "broken bonds [1]", ways, rows)
-            .columns(("time [s]", 0), "fragments [1]", &[("", 8)], rows)
+        Chart::new("Bonds").columns(("time [s]", 0), "broken bonds [1]", ways, rows).columns(
+            ("time [s]", 0),
+            "fragments [1]",
+            &[("", 8)],
+            rows,
+        )
     }
 }

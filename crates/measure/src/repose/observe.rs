@@ -25,14 +25,11 @@ impl Repose {
     }
 }
 
-/// The grains that do not fall.
-fn standing(run: &Run, frame: &Frame, up: Option<Vec3>) -> Frame {
+/// The grains that do not fall; `None` where gravity is not known.
+fn standing(run: &Run, frame: &Frame, up: Option<Vec3>) -> Option<Frame> {
     let up = up.or(run.up).unwrap_or(Vec3::z()).normalize();
     let fall = (2.0 * run.gravity * frame.mean_diameter()).sqrt();
-    if !(fall > 0.0) {
-        return frame.clone();
-    }
-    frame.only(|row| frame.velocity[row].dot(&up) >= -fall)
+    (fall > 0.0).then(|| frame.only(|row| frame.velocity[row].dot(&up) >= -fall))
 }
 
 impl OfFrame for Repose {
@@ -52,8 +49,8 @@ impl OfFrame for Repose {
     }
 
     fn measure(&mut self, run: &Run, frame: &Frame) -> Result<Vec<Row>, MeasureError> {
-        let standing = standing(run, frame, self.options.up);
-        let heap = match heap_angle(&standing, &self.options, run.up) {
+        let standing = if self.options.without_falling { standing(run, frame, self.options.up) } else { None };
+        let heap = match heap_angle(standing.as_ref().unwrap_or(frame), &self.options, run.up) {
             Ok(heap) => heap,
             // A heap that still grows may be measured later.
             Err(why @ (MeasureError::SmallHeap { .. } | MeasureError::NoGrains { .. })) => {

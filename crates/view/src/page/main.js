@@ -80,6 +80,7 @@ function start() {
     fitCanvas();
     painter.start();
     sheets.start();
+    rods.start();
   } catch (problem) {
     return fail(`The graphics driver refused this page's drawing program: ${problem.message}`);
   }
@@ -87,6 +88,7 @@ function start() {
   byId("player").hidden = !moving;
   document.body.classList.toggle("still", !moving);
   choices();
+  plots.start();
   if (run.pick) regions.start();
   wire();
   notes();

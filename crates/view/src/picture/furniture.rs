@@ -1,5 +1,7 @@
 //! Annotations of a picture: colour bar, scale bar, time, count and axes.
 
+mod extras;
+
 use super::{
     Image, PictureOptions, font,
     ink::{Anchor, Pen},
@@ -23,7 +25,15 @@ pub fn add(image: &mut Image, painted: &Painted, lens: &Lens, options: &PictureO
     let mut pen = Pen { image, colour: INK };
     match &painted.key {
         Key::Bar { .. } => bar(&mut pen, [w, h], text, &painted.key),
-        Key::Kinds { field, names } => kinds(&mut pen, [w, h], text, field, names),
+        Key::Kinds { field, names } => {
+            let colours: Vec<colour::Rgb> = (0..names.len()).map(colour::kind).collect();
+            kinds(&mut pen, [w, h], text, field, names, &colours);
+        }
+        Key::Classes { classes, map } => {
+            let of = |k| map.at(classes.share(k)).map(|c| (c * 255.0).round() as u8);
+            let colours: Vec<colour::Rgb> = (0..classes.names.len()).map(of).collect();
+            kinds(&mut pen, [w, h], text, crate::field::SIZE, &classes.names, &colours);
+        }
         Key::None => {}
     }
     let margin = 2.2 * text;
@@ -33,18 +43,51 @@ pub fn add(image: &mut Image, painted: &Painted, lens: &Lens, options: &PictureO
         line += 2.2 * text;
     }
     pen.text([margin, line], text, Anchor::Left, &count(painted));
+    extras::add(
+        &mut pen,
+        [margin, line + 2.2 * text],
+        [margin, h - margin - 4.4 * text],
+        text,
+        painted,
+        lens,
+    );
     scale_bar(&mut pen, [margin, h - margin], text, lens, 0.16 * w);
     gnomon(&mut pen, [w - 4.6 * text, h - 4.6 * text], text, lens);
 }
 
+/// The parts of a picture in which text stands, as left, top, right, bottom [pixel]: at the top left, and at the bottom
+/// left. They are the same for all pictures of a film.
+pub fn boxes(painted: &Painted, options: &PictureOptions) -> [[f64; 4]; 2] {
+    let [w, h] = [options.width, options.height].map(f64::from);
+    let text = text_height(options.width, options.height);
+    let margin = 2.2 * text;
+    let wide = |line: &str, height: f64| font::lay_out(line).1 * height / font::CAPITAL;
+    let time = options.time.map_or(0.0, |t| wide(&format!("t = {t:.3} s"), 1.15 * text));
+    let lines = 1.0
+        + if options.time.is_some() { 1.1 } else { 0.0 }
+        + if painted.bonds.is_some() { 2.0 } else { 0.0 };
+    let right = margin + time.max(wide(&words(painted.counts, painted.shrunk), text)) + text;
+    let arrow = if painted.arrows.is_some() { 4.4 * text } else { 0.0 };
+    let scale = [0.0, h - margin - 2.6 * text - arrow, margin + 0.16 * w + 2.0 * text, h];
+    [[0.0, 0.0, right, margin + 2.1 * lines * text], scale]
+}
+
 /// "50 000 grains, 12 000 wall spheres".
 fn count(painted: &Painted) -> String {
-    let of = |role: Role, word: &str| {
-        let count: usize = painted.layers.iter().filter(|l| l.role == role).map(|l| l.spheres.len()).sum();
+    let of = |role| painted.layers.iter().filter(|l| l.role == role).map(|l| l.spheres.len()).sum();
+    words([Role::Grains, Role::Walls, Role::Cloud].map(of), painted.shrunk)
+}
+
+fn words(counts: [usize; 3], shrunk: f64) -> String {
+    let of = |count: usize, word: &str| {
         let word = if count == 1 { word.trim_end_matches('s') } else { word };
         (count > 0).then(|| format!("{} {word}", grouped(count)))
     };
-    let words = [of(Role::Grains, "grains"), of(Role::Walls, "wall spheres"), of(Role::Cloud, "points")];
+    let grains = of(counts[0], "grains").map(|words| match shrunk {
+        1.0 => words,
+        shrunk => format!("{words} at {:.0} % of their size", 100.0 * shrunk),
+    });
+    let words = [grains, of(counts[1], "wall spheres"), of(counts[2], "points")];
     words.into_iter().flatten().collect::<Vec<_>>().join(", ")
 }
 
@@ -101,13 +144,13 @@ fn widest(labels: &[String], height: f64) -> f64 {
 }
 
 /// A patch and a name for each kind.
-fn kinds(pen: &mut Pen, [w, h]: [f64; 2], text: f64, field: &str, names: &[String]) {
+fn kinds(pen: &mut Pen, [w, h]: [f64; 2], text: f64, field: &str, names: &[String], colours: &[colour::Rgb]) {
     let top = 0.3 * h;
     let left = w - (0.085 * w).max(2.8 * text + widest(names, text));
     pen.text([left, top - 1.4 * text], text, Anchor::Left, field);
-    for (n, name) in names.iter().enumerate() {
+    for (n, (name, colour)) in names.iter().zip(colours).enumerate() {
         let y = top + 2.2 * text * n as f64;
-        pen.colour = colour::kind(n);
+        pen.colour = *colour;
         pen.fill([left, y, left + 1.2 * text, y + 1.2 * text]);
         pen.colour = INK;
         pen.text([left + 1.9 * text, y + 1.1 * text], text, Anchor::Left, name);

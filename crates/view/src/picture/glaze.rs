@@ -41,6 +41,8 @@ struct Piece {
     near: f64,
     /// Whether it is part of a face, on which shadows fall.
     face: bool,
+    /// Whether it is of a plane: ground, which does not show through the wall spheres before it.
+    plane: bool,
 }
 
 /// Brightness times share, and share, of what veils a sample.
@@ -75,6 +77,9 @@ impl Glaze {
                     let depth = (1.0 / inverse) as f32;
                     if inverse <= piece.farthest && depth < solid.depth[at] {
                         let before = usize::from(depth < glass.depth[at]);
+                        if piece.plane && before == 0 {
+                            return;
+                        }
                         let tone = piece.shaded(shadow, lens, at, 1.0 / inverse);
                         lay(&mut band[at - rows[0] * width][before], tone);
                     }
@@ -129,7 +134,7 @@ fn pieces(panes: &[Pane], lens: &Lens, options: &PictureOptions) -> Vec<Piece> {
         let rank = pane.side.map_or(1, |side| if faces_away(side) { 2 } else { 0 });
         let farthest = if options.cut && rank > 0 { 1.0 / lens.distance } else { f64::INFINITY };
         for piece in &mut pieces[first..] {
-            (piece.rank, piece.farthest) = (rank, farthest);
+            (piece.rank, piece.farthest, piece.plane) = (rank, farthest, pane.side.is_some());
         }
     }
     pieces.sort_by(|a, b| a.rank.cmp(&b.rank).then(a.near.total_cmp(&b.near)));
@@ -184,6 +189,7 @@ impl Piece {
             farthest: f64::INFINITY,
             rank: 1,
             face: false,
+            plane: false,
             near: corner.iter().map(|c| c[2]).sum::<f64>() / 3.0,
         }
     }

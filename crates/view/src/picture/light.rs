@@ -6,8 +6,9 @@ use super::{
     glaze::Glaze,
     lens::{Lens, SAMPLES},
     paint::{Painted, PaintedLayer},
+    rods::Rod,
     shadow::Shadow,
-    splat::{Depths, NOTHING, splat},
+    splat::{Depths, Met, NOTHING, splat},
 };
 use crate::{Role, spheres::Spheres};
 use geom::Vec3;
@@ -42,8 +43,10 @@ struct Shaded {
     depths: Depths,
     /// What it keeps the lamp's light from.
     shadow: Shadow,
-    /// Colour of each ball, by its number.
+    /// Colour of each sphere and, after these, each rod, by its number.
     colour: Vec<[f32; 3]>,
+    /// How many spheres there are.
+    spheres: usize,
     /// How far around a sample shade is looked for [m].
     reach: f64,
 }
@@ -56,8 +59,8 @@ pub fn render(painted: &Painted, lens: &Lens, options: &PictureOptions) -> Vec<u
         painted.layers.iter().partition(see_through);
     let keep = |place: Vec3| !options.cut || lens.seen(place)[2] >= lens.distance;
     let extent = painted.ball();
-    let solid = Shaded::new(&solid, lens, extent, keep);
-    let glass = Shaded::new(&glass, lens, extent, keep);
+    let solid = Shaded::new(&solid, &painted.rods, lens, extent, keep);
+    let glass = Shaded::new(&glass, &[], lens, extent, keep);
     let glaze = Glaze::new(&painted.panes, lens, [&solid.depths, &glass.depths], &solid.shadow, options);
     let opacity = options.wall_opacity as f32;
     let width = options.width as usize;
@@ -111,7 +114,13 @@ fn through(
 
 impl Shaded {
     /// The surfaces of all `layers` together; walls only where `keep` holds for their place.
-    fn new(layers: &[&PaintedLayer], lens: &Lens, extent: (Vec3, f64), keep: impl Fn(Vec3) -> bool) -> Self {
+    fn new(
+        layers: &[&PaintedLayer],
+        rods: &[Rod],
+        lens: &Lens,
+        extent: (Vec3, f64),
+        keep: impl Fn(Vec3) -> bool,
+    ) -> Self {
         let mut joined = Spheres::default();
         let mut colour = Vec::new();
         for layer in layers {
@@ -126,23 +135,19 @@ impl Shaded {
             }
         }
         let usual = middle_of(joined.radius.clone());
-        let (depths, shadow) = (splat(&joined, lens), Shadow::of(&joined, usual, lens, extent));
-        Shaded { depths, shadow, colour, reach: 4.0 * usual }
+        let (depths, shadow) = (splat(&joined, rods, lens), Shadow::of(&joined, rods, usual, lens, extent));
+        colour.extend(rods.iter().map(|rod| rod.colour));
+        Shaded { depths, shadow, colour, spheres: joined.len(), reach: 4.0 * usual }
     }
 
     /// The lit colour at a sample, or none where there is nothing; `others` cast shadows on it too.
     fn colour(&self, lens: &Lens, at: [usize; 2], others: Option<&Shadow>) -> Option<[f32; 3]> {
         let place = at[1] * lens.size[0] + at[0];
-        let number = self.depths.ball[place];
-        if number == NOTHING {
-            return None;
-        }
-        let ball = &self.depths.balls[number as usize];
         let depth = f64::from(self.depths.depth[place]);
         let point = lens.at(at, depth);
-        let normal: [f32; 3] = std::array::from_fn(|k| ((point[k] - ball.centre[k]) / ball.radius) as f32);
+        let Met { normal, radius, number } = self.depths.met(place, point, self.spheres)?;
         let facing: f32 = (0..3).map(|k| normal[k] * LAMP[k]).sum();
-        let lit = |shadow: &Shadow| shadow.lit(lens, point, normal, ball.radius, at);
+        let lit = |shadow: &Shadow| shadow.lit(lens, point, normal, radius, at);
         let lit = || lit(&self.shadow).min(others.map_or(1.0, lit));
         let lamp = if facing > 0.0 { facing * lit() } else { 0.0 };
         let open = self.openness(lens, at, point, normal);
@@ -150,7 +155,7 @@ impl Shaded {
         let rim = (1.0 + normal[2]).clamp(0.0, 1.0).powi(3);
         let sky = open * (0.6 + 0.4 * normal[1]) * (0.10 + 0.22 * rim);
         let gloss = sky + 0.12 * open * lamp.powi(12);
-        let own = self.colour[ball.number as usize];
+        let own = self.colour[number];
         // Light colours need no gloss to show their shape.
         Some(own.map(|c| (c * bright + (1.0 - 0.8 * c) * gloss).min(1.0)))
     }

@@ -3,16 +3,20 @@
 mod font;
 mod furniture;
 mod glaze;
+mod hull;
 mod ink;
 mod key;
 mod lens;
 mod light;
 mod paint;
+mod rods;
 mod shadow;
+mod shapes;
 mod splat;
 mod survey;
 
 pub use paint::DrawnTable;
+pub(crate) use shapes::{ArrowKey, arrow_key};
 pub use survey::Survey;
 
 use crate::{Camera, Map, ViewError, WallSurface, field};

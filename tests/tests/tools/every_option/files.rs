@@ -93,7 +93,11 @@ pub fn inputs() -> TempDir {
         ("one.csv", "x,y,z,radius\n0.15,0.04,0.004,0.004\n".to_owned()),
         ("s.toml", [HEAD, GRAINS, &floor(0.0)].concat()),
         ("heap.toml", [&HEAD.replace("until = 0.05", "until = 0.004"), HEAP, &floor(0.0)].concat()),
-        ("bonded.toml", [&bonded(), "[[particles]]\nsource = \"heap.csv\"\nmaterial = \"sinter\"\n", &floor(0.0)].concat()),
+        (
+            "bonded.toml",
+            [&bonded(), "[[particles]]\nsource = \"heap.csv\"\nmaterial = \"sinter\"\n", &floor(0.0)]
+                .concat(),
+        ),
         ("up.toml", [&plant, outlet].concat()),
         ("plant.toml", plant),
     ])
