@@ -429,3 +429,46 @@ fn text_is_never_over_grains() {
         assert!(all > 20_000, "{wide} x {high}: they are large all the same: {all}");
     }
 }
+
+/// On dark paper everything can be told from it: text, the darkest grains, a floor and its grid.
+#[test]
+fn on_dark_paper_nothing_is_lost() {
+    let plane = Plane::new(Vec3::new(0.0, 0.0, -0.5), Vec3::z()).expect("a direction");
+    let floor =
+        [WallSurface { name: "floor".into(), shape: SurfaceShape::Plane(plane), motion: Motion::default() }];
+    // The lowest colour of the map, nearly as dark as the paper.
+    let grain = table(&[[0.0, 0.0, 0.0, 0.5]], &[0.0]);
+    let draw = |dark: bool, surfaces: &[WallSurface]| {
+        let part = DrawnTable { role: Role::Grains, name: "test".into(), table: &grain, kinds: vec![] };
+        let options = PictureOptions {
+            width: 600,
+            height: 400,
+            camera: "0,-10,3,0,0,0".parse().expect("a place"),
+            colour: Some("load".into()),
+            range: Some([0.0, 1.0]),
+            time: Some(0.25),
+            dark,
+            ..PictureOptions::default()
+        };
+        picture::draw(&[part], surfaces, &options).expect("drawn")
+    };
+    let image = draw(true, &floor);
+    let light = |x: u32, y: u32| image.pixel(x, y)[..3].iter().map(|c| u32::from(*c)).sum::<u32>() / 3;
+    let paper = light(300, 5);
+    assert!(paper < 30, "{paper}");
+    let all = |columns: std::ops::Range<u32>, rows: std::ops::Range<u32>| {
+        rows.flat_map(move |y| columns.clone().map(move |x| (x, y)))
+    };
+    assert!(all(10..150, 5..40).any(|(x, y)| light(x, y) > 200), "text");
+    let outline = (0..600).filter(|x| light(*x, 196) > paper + 40).count();
+    assert!(outline > 6, "the rim of the grain: {outline} pixels");
+    let middle = column(0.0) as u32;
+    let darkest = (164..228).map(|y| light(middle, y)).min().unwrap_or(0);
+    assert!(darkest > paper + 25, "no part of the grain is as the paper: {darkest}");
+    let bare = draw(true, &[]);
+    assert!(
+        all(100..500, 210..380).filter(|(x, y)| bare.pixel(*x, *y) != image.pixel(*x, *y)).count() > 1000
+    );
+    // On light paper nothing has changed.
+    assert_eq!(draw(false, &floor).pixel(300, 5), [255; 4]);
+}

@@ -71,6 +71,9 @@ pub struct Args {
     /// Leave out the nearer half of the walls in the picture
     #[arg(long)]
     pub cut: bool,
+    /// Light text on dark paper: pictures and films, and a page at first [default of a page: as the system has it]
+    #[arg(long)]
+    pub dark: bool,
     /// Largest size of the page [MB]: a larger page loses the components of vectors, then frames at even intervals; if it is still too large, it is refused
     #[arg(long, value_name = "MB", value_parser = formats::megabytes, default_value = "60")]
     pub max_mb: f64,
@@ -104,6 +107,9 @@ impl Args {
             let why =
                 if files { "files for ParaView hold grains with their vectors" } else { "a cloud has none" };
             return Err(cli::usage(format!("{name}: {why}: leave it out")));
+        }
+        if self.dark && files {
+            return Err(cli::usage("--dark: files for ParaView have no colours: leave it out"));
         }
         if self.time.is_some() && format.is_series() {
             return Err(cli::usage("--time is for one moment: give a film or series its --from and --to"));
@@ -140,6 +146,7 @@ impl Args {
             time: None,
             wall_opacity: self.wall_opacity,
             cut: self.cut,
+            dark: self.dark,
         }
     }
 }

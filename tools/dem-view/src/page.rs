@@ -23,6 +23,7 @@ pub fn html(args: &Args, output: &Output) -> anyhow::Result<Report> {
         time: args.time,
         most_bytes: (args.max_mb * 1e6) as usize,
         components: args.components,
+        dark: args.dark,
         pick: if args.pick { names.first().cloned() } else { None },
     });
     let mut measured = Diagrams::default();

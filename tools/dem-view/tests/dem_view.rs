@@ -262,6 +262,7 @@ fn what_a_run_does_not_hold_cannot_be_drawn() {
         ),
         (&["b.mcap", "--vectors", "spin", "-o", "x.png"], &["give velocity or force"]),
         (&["b.mcap", "--bonds", "-o", "x.vtp"], &["--bonds: files for ParaView", "leave it out"]),
+        (&["b.mcap", "--dark", "-o", "x.vtp"], &["--dark: files for ParaView have no colours"]),
         (&["c.xyz", "--vectors", "velocity", "-o", "x.png"], &["--vectors: no input is a run"]),
         (&["c.xyz", "--colour", "size", "-o", "x.png"], &["no field 'size'"]),
     ] {

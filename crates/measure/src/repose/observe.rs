@@ -49,7 +49,8 @@ impl OfFrame for Repose {
     }
 
     fn measure(&mut self, run: &Run, frame: &Frame) -> Result<Vec<Row>, MeasureError> {
-        let standing = if self.options.without_falling { standing(run, frame, self.options.up) } else { None };
+        let standing =
+            if self.options.without_falling { standing(run, frame, self.options.up) } else { None };
         let heap = match heap_angle(standing.as_ref().unwrap_or(frame), &self.options, run.up) {
             Ok(heap) => heap,
             // A heap that still grows may be measured later.

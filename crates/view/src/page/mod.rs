@@ -46,6 +46,8 @@ pub struct PageOptions {
     pub components: bool,
     /// Whether regions can be drawn on it: the file that `cloud-crop` is to be given.
     pub pick: Option<String>,
+    /// Dark colours first; else those of the system.
+    pub dark: bool,
 }
 
 impl Default for PageOptions {
@@ -60,6 +62,7 @@ impl Default for PageOptions {
             most_bytes: 60_000_000,
             components: false,
             pick: None,
+            dark: false,
         }
     }
 }

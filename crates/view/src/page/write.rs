@@ -141,6 +141,7 @@ impl Page {
             let (slot, rest) =
                 if n == 0 { ("", piece) } else { piece.split_once("}}").unwrap_or(("", piece)) };
             match slot {
+                "theme" if self.options.dark => out.write_all(b" data-theme=\"dark\"")?,
                 "title" => out.write_all(escaped(&self.options.title).as_bytes())?,
                 "regions" if self.options.pick.is_some() => out.write_all(REGION.as_bytes())?,
                 "style" => out.write_all(slim(STYLE).as_bytes())?,

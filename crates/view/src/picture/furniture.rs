@@ -8,10 +8,9 @@ use super::{
     key::Key,
     lens::Lens,
     paint::Painted,
+    theme::Theme,
 };
 use crate::{Role, colour, scale};
-
-const INK: [u8; 3] = [0x22, 0x26, 0x2b];
 
 /// Height of capitals in a picture of so many pixels [pixel].
 pub fn text_height(width: u32, height: u32) -> f64 {
@@ -22,7 +21,8 @@ pub fn text_height(width: u32, height: u32) -> f64 {
 pub fn add(image: &mut Image, painted: &Painted, lens: &Lens, options: &PictureOptions) {
     let text = text_height(image.width, image.height);
     let [w, h] = [f64::from(image.width), f64::from(image.height)];
-    let mut pen = Pen { image, colour: INK };
+    let theme = Theme::of(options.dark);
+    let mut pen = Pen { image, colour: theme.ink, paper: theme.paper_bytes() };
     match &painted.key {
         Key::Bar { .. } => bar(&mut pen, [w, h], text, &painted.key),
         Key::Kinds { field, names } => {
@@ -52,7 +52,7 @@ pub fn add(image: &mut Image, painted: &Painted, lens: &Lens, options: &PictureO
         lens,
     );
     scale_bar(&mut pen, [margin, h - margin], text, lens, 0.16 * w);
-    gnomon(&mut pen, [w - 4.6 * text, h - 4.6 * text], text, lens);
+    gnomon(&mut pen, [w - 4.6 * text, h - 4.6 * text], text, lens, theme.axes);
 }
 
 /// The parts of a picture in which text stands, as left, top, right, bottom [pixel]: at the top left, and at the bottom
@@ -111,6 +111,7 @@ fn number(value: f64, decimals: usize) -> String {
 /// The colour bar at the right, pointed at an end that values lie beyond.
 fn bar(pen: &mut Pen, [w, h]: [f64; 2], text: f64, key: &Key) {
     let Key::Bar { field, unit, range, beyond, map } = key else { return };
+    let ink = pen.colour;
     let (unit, factor) = scale::readable(unit, range.lo.abs().max(range.hi.abs()));
     // In small pictures the axes, too, want their place.
     let (top, bottom) = ((0.22 * h).round(), (0.74 * h).min(h - 10.5 * text).round());
@@ -128,7 +129,7 @@ fn bar(pen: &mut Pen, [w, h]: [f64; 2], text: f64, key: &Key) {
         pen.colour = map.at((bottom - middle) / (bottom - top)).map(|c| (c * 255.0).round() as u8);
         pen.fill([left + inset, y as f64, left + width - inset, y as f64 + 1.0]);
     }
-    pen.colour = INK;
+    pen.colour = ink;
     for (tick, label) in ticks.into_iter().zip(&labels) {
         let y = bottom - (bottom - top) * range.share(tick / factor);
         pen.strokes(&[[[left + width, y], [left + width + 0.4 * text, y]]], (0.09 * text).max(1.0));
@@ -150,9 +151,9 @@ fn kinds(pen: &mut Pen, [w, h]: [f64; 2], text: f64, field: &str, names: &[Strin
     pen.text([left, top - 1.4 * text], text, Anchor::Left, field);
     for (n, (name, colour)) in names.iter().zip(colours).enumerate() {
         let y = top + 2.2 * text * n as f64;
-        pen.colour = *colour;
+        let ink = std::mem::replace(&mut pen.colour, *colour);
         pen.fill([left, y, left + 1.2 * text, y + 1.2 * text]);
-        pen.colour = INK;
+        pen.colour = ink;
         pen.text([left + 1.9 * text, y + 1.1 * text], text, Anchor::Left, name);
     }
 }
@@ -177,20 +178,20 @@ fn scale_bar(pen: &mut Pen, [x, y]: [f64; 2], text: f64, lens: &Lens, longest: f
 }
 
 /// The axes of the world as the eye sees them.
-fn gnomon(pen: &mut Pen, [x, y]: [f64; 2], text: f64, lens: &Lens) {
-    const COLOURS: [[u8; 3]; 3] = [[0xc0, 0x39, 0x2b], [0x2e, 0x8b, 0x57], [0x2c, 0x5f, 0xb3]];
+fn gnomon(pen: &mut Pen, [x, y]: [f64; 2], text: f64, lens: &Lens, colours: [[u8; 3]; 3]) {
+    let ink = pen.colour;
     for k in 0..3 {
         let [right, down, away] = lens.axis(k);
         if away.abs() > 0.98 {
             continue; // it points at the eye
         }
-        pen.colour = COLOURS[k];
+        pen.colour = colours[k];
         let end = |length: f64| [x + length * text * right, y + length * text * down];
         pen.strokes(&[[[x, y], end(2.2)]], (0.16 * text).max(1.2));
         let [lx, ly] = end(3.1);
         pen.text([lx, ly + 0.33 * text], 0.85 * text, Anchor::Middle, ["x", "y", "z"][k]);
     }
-    pen.colour = INK;
+    pen.colour = ink;
 }
 
 #[cfg(test)]
@@ -206,7 +207,7 @@ mod tests {
             let range = scale::Range { lo: -11.8, hi: -10.7 };
             let (field, unit) = ("z".to_owned(), "m");
             let key = Key::Bar { field, unit, range, beyond: [true; 2], map: crate::Map::default() };
-            let mut pen = Pen { image: &mut image, colour: INK };
+            let mut pen = Pen { image: &mut image, colour: [0; 3], paper: [255; 3] };
             bar(&mut pen, size.map(f64::from), text_height(width, height), &key);
             let inked = |x: u32| (0..height).any(|y| image.pixel(x, y) != [255; 4]);
             let last = (0..width).rfind(|&x| inked(x)).unwrap();

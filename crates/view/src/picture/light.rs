@@ -9,13 +9,11 @@ use super::{
     rods::Rod,
     shadow::Shadow,
     splat::{Depths, Met, NOTHING, splat},
+    theme::Theme,
 };
 use crate::{Role, spheres::Spheres};
 use geom::Vec3;
 use rayon::prelude::*;
-
-/// How much a translucent wall hides of the paper, at least [–].
-const PAPER: f32 = 0.55;
 
 /// Direction to the lamp: right, up, forward (unit length).
 pub const LAMP: [f32; 3] = [-0.424, 0.707, -0.566];
@@ -62,7 +60,7 @@ pub fn render(painted: &Painted, lens: &Lens, options: &PictureOptions) -> Vec<u
     let solid = Shaded::new(&solid, &painted.rods, lens, extent, keep);
     let glass = Shaded::new(&glass, &[], lens, extent, keep);
     let glaze = Glaze::new(&painted.panes, lens, [&solid.depths, &glass.depths], &solid.shadow, options);
-    let opacity = options.wall_opacity as f32;
+    let (opacity, theme) = (options.wall_opacity as f32, Theme::of(options.dark));
     let width = options.width as usize;
     let mut rgba = vec![255u8; width * options.height as usize * 4];
     rgba.par_chunks_mut(width * 4).enumerate().for_each(|(y, row)| {
@@ -71,7 +69,7 @@ pub fn render(painted: &Painted, lens: &Lens, options: &PictureOptions) -> Vec<u
             let mut sum = [0f32; 3];
             for sample in samples {
                 let at = [x * SAMPLES + sample % SAMPLES, y * SAMPLES + sample / SAMPLES];
-                let seen = through(&solid, &glass, &glaze, lens, at, opacity);
+                let seen = through([&solid, &glass], &glaze, lens, at, (opacity, theme));
                 sum = std::array::from_fn(|k| sum[k] + seen[k]);
             }
             for k in 0..3 {
@@ -93,20 +91,19 @@ fn whole(solid: &Depths, glass: &Depths, lens: &Lens, [x, y]: [usize; 2]) -> boo
 
 /// The colour of one sample: grains, and walls before or behind them.
 fn through(
-    solid: &Shaded,
-    glass: &Shaded,
+    [solid, glass]: [&Shaded; 2],
     glaze: &Glaze,
     lens: &Lens,
     at: [usize; 2],
-    opacity: f32,
+    (opacity, theme): (f32, Theme),
 ) -> [f32; 3] {
     let place = at[1] * lens.size[0] + at[0];
-    let grain = solid.colour(lens, at, None);
-    let mut seen = glaze.behind(place, grain.unwrap_or([1.0; 3]));
+    let grain = solid.colour(lens, at, None).map(|(colour, edge)| theme.lit(colour, edge));
+    let mut seen = glaze.behind(place, grain.unwrap_or(theme.paper));
     if glass.depths.depth[place] < solid.depths.depth[place]
-        && let Some(wall) = glass.colour(lens, at, Some(&solid.shadow))
+        && let Some((wall, _)) = glass.colour(lens, at, Some(&solid.shadow))
     {
-        let share = if grain.is_some() { opacity } else { PAPER + (1.0 - PAPER) * opacity };
+        let share = if grain.is_some() { opacity } else { theme.wall + (1.0 - theme.wall) * opacity };
         seen = std::array::from_fn(|k| seen[k] + share * (wall[k] - seen[k]));
     }
     glaze.before(place, seen)
@@ -140,8 +137,9 @@ impl Shaded {
         Shaded { depths, shadow, colour, spheres: joined.len(), reach: 4.0 * usual }
     }
 
-    /// The lit colour at a sample, or none where there is nothing; `others` cast shadows on it too.
-    fn colour(&self, lens: &Lens, at: [usize; 2], others: Option<&Shadow>) -> Option<[f32; 3]> {
+    /// The lit colour at a sample, and how near to its outline that is; or none where there is nothing. `others` cast
+    /// shadows on it too.
+    fn colour(&self, lens: &Lens, at: [usize; 2], others: Option<&Shadow>) -> Option<([f32; 3], f32)> {
         let place = at[1] * lens.size[0] + at[0];
         let depth = f64::from(self.depths.depth[place]);
         let point = lens.at(at, depth);
@@ -157,7 +155,8 @@ impl Shaded {
         let gloss = sky + 0.12 * open * lamp.powi(12);
         let own = self.colour[number];
         // Light colours need no gloss to show their shape.
-        Some(own.map(|c| (c * bright + (1.0 - 0.8 * c) * gloss).min(1.0)))
+        let lit = own.map(|c| (c * bright + (1.0 - 0.8 * c) * gloss).min(1.0));
+        Some((lit, (1.0 + normal[2]).clamp(0.0, 1.0)))
     }
 
     /// How much of the sky a sample sees, 0 to 1, judged by what stands around it in the picture.

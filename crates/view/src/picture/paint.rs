@@ -6,6 +6,7 @@ use super::{
     rods::Rod,
     shapes::{self, ArrowKey},
     survey::Survey,
+    theme::Theme,
 };
 use crate::{
     Role, SurfaceShape, ViewError, WallSurface, extras::GRAINS, scale::Range, sheet, spheres::Spheres,
@@ -103,12 +104,12 @@ impl Painted {
             key,
             extent: survey.extent(),
         };
-        parts.iter().for_each(|part| painted.add_rods(part));
+        parts.iter().for_each(|part| painted.add_rods(part, options));
         painted.place(surfaces, survey, options.time.unwrap_or(0.0));
         Ok(painted)
     }
 
-    fn add_rods(&mut self, part: &DrawnTable) {
+    fn add_rods(&mut self, part: &DrawnTable, options: &PictureOptions) {
         match (part.role, &self.arrows) {
             (Role::Bonds, _) => {
                 let (rods, [whole, broken]) = shapes::bonds(part.table);
@@ -116,7 +117,9 @@ impl Painted {
                 self.bonds = Some([before[0] + whole, before[1] + broken]);
                 self.rods.extend(rods);
             }
-            (Role::Arrows(_), Some(key)) => self.rods.extend(shapes::arrows(part.table, key)),
+            (Role::Arrows(_), Some(key)) => {
+                self.rods.extend(shapes::arrows(part.table, key, Theme::of(options.dark).arrow));
+            }
             _ => {}
         }
     }

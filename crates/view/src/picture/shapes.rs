@@ -11,9 +11,6 @@ use stream::{Table, Values};
 pub(super) const WHOLE: [f32; 3] = [0.42, 0.46, 0.52];
 /// Colour of cracks.
 pub(super) const BREAK: [f32; 3] = [0.86, 0.16, 0.12];
-/// Colour of arrows.
-pub(super) const INK: [f32; 3] = [0.13, 0.15, 0.17];
-
 /// Lengths of arrows that are kept of a moment, at most.
 const SAMPLE: usize = 20_000;
 
@@ -93,15 +90,15 @@ pub(crate) fn arrow_key(of: Arrows, most: f64, radius: f64) -> ArrowKey {
 }
 
 /// A shaft and a head for each arrow that is long enough to be seen.
-pub(super) fn arrows(table: &Table, key: &ArrowKey) -> Vec<Rod> {
+pub(super) fn arrows(table: &Table, key: &ArrowKey, colour: [f32; 3]) -> Vec<Rod> {
     let mut rods = Vec::new();
     for (start, vector, _) in rows(table) {
-        rods.extend(arrow(start, vector * key.scale, key.radius).into_iter().flatten());
+        rods.extend(arrow(start, vector * key.scale, key.radius, colour).into_iter().flatten());
     }
     rods
 }
 
-fn arrow(start: Vec3, along: Vec3, radius: f64) -> Option<[Rod; 2]> {
+fn arrow(start: Vec3, along: Vec3, radius: f64, colour: [f32; 3]) -> Option<[Rod; 2]> {
     let length = along.norm();
     let head = (HEAD[1] * radius).min(0.6 * length);
     if length < 0.1 * radius {
@@ -109,7 +106,7 @@ fn arrow(start: Vec3, along: Vec3, radius: f64) -> Option<[Rod; 2]> {
     }
     let (tip, neck) = (start + along, start + along * (1.0 - head / length));
     let thick = head / HEAD[1];
-    let rod = |ends, radii| Rod { ends, radii, disc: false, colour: INK };
+    let rod = |ends, radii| Rod { ends, radii, disc: false, colour };
     Some([rod([start, neck], [0.3 * HEAD[0] * thick; 2]), rod([neck, tip], [HEAD[0] * thick, 0.0])])
 }
 
@@ -121,9 +118,10 @@ mod tests {
     fn an_arrow_is_as_long_as_its_value_and_ends_in_a_point() {
         let key = arrow_key(Arrows::Velocity, 2.4, 0.01);
         assert_eq!((key.example, key.scale), (2.0, ARROW * 0.01 / 2.4));
-        let [shaft, head] = arrow(Vec3::zeros(), Vec3::x() * 2.4 * key.scale, 0.01).expect("long enough");
+        let [shaft, head] =
+            arrow(Vec3::zeros(), Vec3::x() * 2.4 * key.scale, 0.01, [0.0; 3]).expect("long enough");
         assert_eq!(head.ends[1], Vec3::x() * (ARROW * 0.01));
         assert!(head.radii[1] == 0.0 && head.radii[0] > shaft.radii[0] && shaft.ends[1] == head.ends[0]);
-        assert!(arrow(Vec3::zeros(), Vec3::zeros(), 0.01).is_none());
+        assert!(arrow(Vec3::zeros(), Vec3::zeros(), 0.01, [0.0; 3]).is_none());
     }
 }

@@ -68,7 +68,7 @@ pub const EXAMPLES: &[&str] = &[
     "dem-view run.mcap --colour speed --max-mb 20 --components --title run --time 0.02 -o v.html --report r.json --threads 2 -q",
     "dem-view bonded.mcap --bonds --colour broken --size 96x64 -o v6.png",
     "dem-view run.mcap --vectors velocity --colour size --size 96x64 -o v7.png",
-    "dem-view run.mcap --vectors force --colour material --size 96x64 -o v8.png",
+    "dem-view run.mcap --vectors force --colour material --dark --size 96x64 -o v8.png",
     "dem-view flat.xyz --pick --output pick.html --quiet",
     "dem-view run.mcap tetra.ply --units cm --size 96x64 -o v0.png",
     "dem-view run.mcap flat.xyz --scale 0.5 --range 0,1 --map turbo --camera 35/20 --size 96x64 --wall-opacity 0.5 --cut -o v.png",

@@ -1,6 +1,6 @@
 //! What bonds, cracks and arrows mean.
 
-use super::{INK, grouped};
+use super::grouped;
 use crate::picture::{
     ink::{Anchor, Pen},
     lens::Lens,
@@ -14,9 +14,10 @@ pub fn add(pen: &mut Pen, top: [f64; 2], bottom: [f64; 2], text: f64, painted: &
         let rows = [(shapes::WHOLE, whole, "bonds"), (shapes::BREAK, broken, "broken")];
         for (k, (colour, count, word)) in rows.into_iter().enumerate() {
             let y = top[1] + 2.0 * text * k as f64;
+            let ink = pen.colour;
             pen.colour = colour.map(|c| (255.0 * c).round() as u8);
             pen.fill([top[0], y - 0.95 * text, top[0] + 1.1 * text, y + 0.05 * text]);
-            pen.colour = INK;
+            pen.colour = ink;
             pen.text([top[0] + 1.8 * text, y], text, Anchor::Left, &format!("{} {word}", grouped(count)));
         }
     }
