@@ -12,7 +12,7 @@ use record::column::BODY;
 /// Most points of a curve.
 const POINTS: usize = 500;
 
-/// Most curves of a panel: more cannot be told apart.
+/// Most curves of a panel: there are no more colours.
 const CURVES: usize = 8;
 
 /// Reads a run for its curves.

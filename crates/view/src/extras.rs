@@ -6,6 +6,7 @@
 //! the unit of what it shows.
 
 use crate::ViewError;
+use geom::Vec3;
 use record::column::{BROKEN, FIRST, FORCE, ID, POSITION, RADIUS, SECOND, VELOCITY, Vector as Columns};
 use std::collections::HashMap;
 use stream::{Table, Values};
@@ -118,6 +119,19 @@ pub(crate) fn forces(contacts: &Table, radius: f64) -> Result<Table, ViewError> 
     rods(&of(&position), &of(&force), vec![radius; acts.len()])
 }
 
+/// Middle and half of a bond from `a` to `b`; where the recorded middle is another one than theirs, the bond goes through
+/// a periodic face, and it is its part at the nearer of the two.
+fn between(a: [f64; 3], b: [f64; 3], recorded: [f64; 3], slack: f64) -> [[f64; 3]; 2] {
+    let [a, b, recorded] = [a, b, recorded].map(Vec3::from);
+    let half = 0.5 * (b - a);
+    if (a + half - recorded).norm() <= slack {
+        return [(a + half).into(), half.into()];
+    }
+    let near = if (a - recorded).norm() <= (b - recorded).norm() { a } else { b };
+    let half = 0.5 * (recorded - near);
+    [(near + half).into(), half.into()]
+}
+
 /// The bonds between the grains of a frame as rods, and for each grain the share of its bonds that are broken.
 pub(crate) fn bonds(bonds: &Table, grains: &Table) -> Result<(Table, Vec<f64>), ViewError> {
     let here = || missing(record::topic::BONDS);
@@ -140,16 +154,8 @@ pub(crate) fn bonds(bonds: &Table, grains: &Table) -> Result<(Table, Vec<f64>), 
             counts[row][1] += u32::from(is_broken);
         }
         let least = radius[a].min(radius[b]);
-        let mut half: [f64; 3] = std::array::from_fn(|n| 0.5 * (position[b][n] - position[a][n]));
-        let mut middle: [f64; 3] = std::array::from_fn(|n| position[a][n] + half[n]);
-        let far = |p: [f64; 3], q: [f64; 3]| (0..3).map(|n| (p[n] - q[n]).powi(2)).sum::<f64>().sqrt();
-        if far(middle, recorded[k]) > 0.1 * least {
-            // Through a periodic face: the part at the nearer grain.
-            let near = if far(position[a], recorded[k]) <= far(position[b], recorded[k]) { a } else { b };
-            half = std::array::from_fn(|n| 0.5 * (recorded[k][n] - position[near][n]));
-            middle = std::array::from_fn(|n| position[near][n] + half[n]);
-        }
-        let length = 2.0 * half.iter().map(|h| h * h).sum::<f64>().sqrt();
+        let [middle, half] = between(position[a], position[b], recorded[k], 0.1 * least);
+        let length = 2.0 * Vec3::from(half).norm();
         let open = length > radius[a] + radius[b] + OPEN * least;
         middles.push(middle);
         along.push(half);

@@ -235,8 +235,7 @@ fn bonds_cracks_and_arrows_are_in_pages_pictures_and_films() {
         dem_view(folder.path(), &all).success();
         fs::read(folder.path().join("b.png")).expect("there")
     };
-    let [plain, whole, broken] =
-        [&[][..], &["--bonds", "--time", "0"], &["--bonds"]].map(|args| picture(args));
+    let [plain, whole, broken] = [&[][..], &["--bonds", "--time", "0"], &["--bonds"]].map(picture);
     assert!(plain != whole && whole != broken);
     assert!(picture(&["--colour", "broken"]) != picture(&["--colour", "broken", "--time", "0"]));
     assert!(picture(&["--vectors", "velocity"]) != plain && picture(&["--vectors", "force"]) != plain);

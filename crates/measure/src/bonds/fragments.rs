@@ -6,7 +6,7 @@ use std::collections::HashMap;
 /// How many there are, and how large.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Fragments {
-    /// Number of fragments; a grain whose bonds are all broken is one of its own.
+    /// Number of fragments; a grain whose bonds are all broken is one, too.
     pub count: u64,
     /// Grains of the largest one.
     pub largest: u64,

@@ -9,7 +9,7 @@ const VIEWS = { iso: [0.62, -0.94, 0.62], front: [0, -1, 0], right: [1, 0, 0], t
 
 const camera = {
   yaw: 0, pitch: 0, distance: 1, target: [0, 0, 0], flat: false, rests: false,
-  fitted: false,  // whether it stands where everything is seen, and nobody has moved it since
+  fitted: false,  // whether it stands where everything is seen, and has not been moved since
 
   look(direction) {
     this.fitted = false;

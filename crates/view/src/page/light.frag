@@ -42,7 +42,7 @@ float openness(sampler2D depths, sampler2D normals, ivec2 at, float share) {
   return clamp(1.0 - 2.4 * covered / 8.0, 0.15, 1.0);
 }
 
-// On dark paper the rims of dark grains are lit: else they could not be told from the paper.
+// On dark paper grains and their rims are lit: dark grains are nearly as dark as the paper.
 vec3 rim(sampler2D normals, ivec2 at, vec3 colour) {
   float edge = 1.0 + min(0.0, texelFetch(normals, at, 0).z * 2.0 - 1.0);
   return colour + dark * (0.07 + 0.30 * edge * edge) * (1.0 - colour);

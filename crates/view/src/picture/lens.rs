@@ -82,7 +82,7 @@ impl Lens {
         // What would be under the text goes between it, or beside it, whichever leaves it larger.
         let [head, foot] = text;
         let ways = [[0.0, head[3], free[0], foot[1]], [head[2].max(foot[2]), 0.0, free[0], h]];
-        let ways = ways.map(|area| Area::within(area)).map(|area| (area, fit(area)));
+        let ways = ways.map(Area::within).map(|area| (area, fit(area)));
         let [between, beside] = ways;
         let (area, seen) = if beside.1.1 < between.1.1 { beside } else { between };
         lens(area, seen)

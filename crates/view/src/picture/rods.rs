@@ -41,9 +41,9 @@ impl SeenRod {
         let ends = rod.ends.map(|p| Vec3::from(lens.seen(p)));
         let count = if rod.disc { 1 } else { 2 };
         let mut window = [f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY];
-        for k in 0..count {
-            let [x0, x1] = tangents(ends[k].x, ends[k].z, rod.radii[k])?;
-            let [y0, y1] = tangents(ends[k].y, ends[k].z, rod.radii[k])?;
+        for (end, radius) in ends.iter().zip(rod.radii).take(count) {
+            let [x0, x1] = tangents(end.x, end.z, radius)?;
+            let [y0, y1] = tangents(end.y, end.z, radius)?;
             let [cx, cy] = lens.centre;
             let own =
                 [cx + lens.focal * x0, cx + lens.focal * x1, cy - lens.focal * y1, cy - lens.focal * y0];

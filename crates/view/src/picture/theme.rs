@@ -19,7 +19,7 @@ pub(super) struct Theme {
     pub shade: f32,
     /// Largest share of what is behind it that the face of a plane hides [–].
     pub ground: f32,
-    /// Light on dark grains and on rims [–]: else they could not be told from dark paper.
+    /// Light on all of a grain and on its rim [–]: dark grains are nearly as dark as dark paper.
     pub rim: [f32; 2],
 }
 
