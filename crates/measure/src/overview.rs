@@ -15,6 +15,9 @@ const POINTS: usize = 500;
 /// Most curves of a panel: there are no more colours.
 const CURVES: usize = 8;
 
+/// Most terms of the energy ledger that are shown.
+const TERMS: usize = 6;
+
 /// Reads a run for its curves.
 pub struct Overview {
     energy: (Energy, Vec<Row>),
@@ -42,20 +45,19 @@ impl Default for Overview {
 
 impl Overview {
     /// Takes a message of a run; what cannot be measured is left out.
-    pub fn take(&mut self, run: &Run, message: &RunMessage) {
-        match message {
+    pub fn take(&mut self, run: &Run, message: RunMessage) {
+        match &message {
             RunMessage::Frame(frame) => self.frame(frame),
-            RunMessage::WallForces(forces) => self.wall_forces(forces),
-            RunMessage::Crossings(crossings) => self.crossings(crossings),
+            RunMessage::WallForces(forces) => return self.wall_forces(forces),
+            RunMessage::Crossings(crossings) => return self.crossings(crossings),
             RunMessage::Ledger(_) => {
-                let _ = self.energy.0.observe(run, message.clone(), &mut self.energy.1);
+                let _ = self.energy.0.observe(run, message, &mut self.energy.1);
+                return;
             }
             RunMessage::Bonds(_) => {}
             RunMessage::Contacts(_) => return,
         }
-        if matches!(message, RunMessage::Frame(_) | RunMessage::Bonds(_)) {
-            let _ = self.bonds.0.observe(run, message.clone(), &mut self.bonds.1);
-        }
+        let _ = self.bonds.0.observe(run, message, &mut self.bonds.1);
     }
 
     fn frame(&mut self, frame: &Frame) {
@@ -95,10 +97,8 @@ impl Overview {
         };
         let grains = |k: usize| self.grains.iter().map(|row| [row[0], row[k]]).collect::<Vec<_>>();
         match self.energy.0.chart(&self.energy.1).panels.into_iter().next() {
-            Some(Panel::Curves { y, mut curves, .. }) if !self.energy.1.is_empty() => {
-                curves.retain(changes);
-                curves.truncate(CURVES);
-                add(&y, curves.into_iter().map(|c| curve(&c.name, c.points)).collect());
+            Some(Panel::Curves { y, curves, .. }) if !self.energy.1.is_empty() => {
+                add(&y, largest(curves).into_iter().map(|c| curve(&c.name, c.points)).collect());
             }
             _ => add("kinetic energy [J]", vec![curve("", grains(1))]),
         }
@@ -115,6 +115,19 @@ impl Overview {
         }
         panels
     }
+}
+
+/// The few curves that change most, in their order.
+fn largest(curves: Vec<Curve>) -> Vec<Curve> {
+    let change = |c: &Curve| {
+        let values = || c.points.iter().map(|p| p[1]);
+        values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
+    };
+    let mut all: Vec<f64> = curves.iter().map(change).filter(|c| c.is_finite()).collect();
+    all.sort_by(|a, b| b.total_cmp(a));
+    // What is a thousandth of the largest is a line on the axis.
+    let least = all.get(TERMS - 1).copied().unwrap_or(0.0).max(1e-3 * all.first().copied().unwrap_or(0.0));
+    curves.into_iter().filter(|c| change(c) >= least).take(TERMS).collect()
 }
 
 /// Whether it has two values at least.
@@ -144,6 +157,15 @@ mod tests {
     }
 
     #[test]
+    fn of_many_curves_those_that_change_most_stay_in_their_order() {
+        let all = (0..9).map(|k| curve(&k.to_string(), vec![[0.0, 0.0], [1.0, f64::from((k * 5) % 9)]]));
+        let names: Vec<String> = largest(all.collect()).into_iter().map(|c| c.name).collect();
+        assert_eq!(names, ["1", "3", "5", "6", "7", "8"], "of 0 5 1 6 2 7 3 8 4");
+        let tiny = vec![curve("a", vec![[0.0, 0.0], [1.0, 1e4]]), curve("b", vec![[0.0, 0.0], [1.0, 1.0]])];
+        assert_eq!(largest(tiny).len(), 1);
+    }
+
+    #[test]
     fn what_changes_has_a_curve_and_what_does_not_has_none() {
         let (mut overview, run) = (Overview::default(), Run::default());
         assert!(labels(&overview).is_empty());
@@ -159,11 +181,11 @@ mod tests {
                 mass: vec![2.0],
                 ..Frame::default()
             };
-            overview.take(&run, &RunMessage::Frame(frame));
+            overview.take(&run, RunMessage::Frame(frame));
             let wall =
                 |f: f64| ForceOnWall { name: "lid".into(), force: Vec3::new(0.0, f, 0.0), contacts: 1 };
             let forces = WallForces { time, walls: vec![wall(-3.0 * time)] };
-            overview.take(&run, &RunMessage::WallForces(forces));
+            overview.take(&run, RunMessage::WallForces(forces));
         }
         // The mass is the same all the time.
         assert_eq!(labels(&overview), ["kinetic energy [J]", "force on walls [N]"]);

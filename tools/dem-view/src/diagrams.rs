@@ -28,7 +28,7 @@ impl Diagrams {
         }
         let Some((_, run, overview)) = self.runs.last_mut().filter(|_| is_measured(event)) else { return };
         if let Ok(Some(message)) = run.take(event.clone()) {
-            overview.take(run, &message);
+            overview.take(run, message);
         }
     }
 

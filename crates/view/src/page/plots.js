@@ -79,8 +79,10 @@ const plots = {
       values.replaceChildren(...plot.curves.flatMap((curve, n) => {
         const value = this.valueAt(curve.points, time);
         const shown = value === null ? "–" : String(Number(value.toPrecision(4))).replace("-", "−");
-        const name = element("span", `${curve.name} ${shown}`.trim());
-        return [plot.curves.length > 1 ? element("i", "", { background: this.colour(n) }) : "", name, " "];
+        const name = element("span");
+        if (plot.curves.length > 1) name.append(element("i", "", { background: this.colour(n) }));
+        name.append(`${curve.name} ${shown}`.trim());
+        return [name, " "];
       }));
     }
   },
