@@ -54,7 +54,7 @@ pub struct Args {
     /// Porosity in SHAPE
     #[arg(long, group = "measure", value_name = "SHAPE", value_parser = shape)]
     pub porosity: Option<GivenShape>,
-    /// Force on walls, and sliding work, of the contacts in SHAPE over time
+    /// Force on walls, and sliding work, of the contacts in SHAPE over time; all: also of runs that hold forces on whole walls
     #[arg(long, group = "measure", value_name = "SHAPE", value_parser = shape)]
     pub wall_force: Option<GivenShape>,
     /// Force through PLANE, of the contacts between grains on its two sides, over time

@@ -108,6 +108,11 @@ impl Args {
                 if files { "files for ParaView hold grains with their vectors" } else { "a cloud has none" };
             return Err(cli::usage(format!("{name}: {why}: leave it out")));
         }
+        if self.range.is_some() && self.colour.as_deref() == Some("size") {
+            return Err(cli::usage(
+                "--range: size has classes, not a scale: leave it out, or give --colour radius",
+            ));
+        }
         if self.dark && files {
             return Err(cli::usage("--dark: files for ParaView have no colours: leave it out"));
         }

@@ -1,6 +1,6 @@
 //! Diagrams beside the picture of a page: what the runs hold over time.
 
-use measure::{Panel, Run, overview::Overview};
+use measure::{MeasureError, Panel, Run, overview::Overview};
 use record::topic::{BONDS, CROSSINGS, ENERGY, PARTICLES, SURFACES, WALL_FORCES};
 use stream::mcap::Event;
 use view::{Diagram, DiagramCurve};
@@ -9,6 +9,8 @@ use view::{Diagram, DiagramCurve};
 #[derive(Default)]
 pub struct Diagrams {
     runs: Vec<(String, Run, Overview)>,
+    /// Messages that cannot be measured: how many of which run, and why the first.
+    wrong: Vec<(String, u64, MeasureError)>,
 }
 
 /// Whether curves need it: checkpoints, contacts and wall spheres are large.
@@ -21,14 +23,26 @@ fn is_measured(event: &Event) -> bool {
 }
 
 impl Diagrams {
-    /// Takes an event of a run, by its name. A message that cannot be measured has no point: what shows it reports it.
+    /// Takes an event of a run, by its name.
     pub fn take(&mut self, name: &str, event: &Event) {
         if self.runs.last().is_none_or(|(last, ..)| last != name) {
             self.runs.push((name.to_owned(), Run::default(), Overview::default()));
         }
         let Some((_, run, overview)) = self.runs.last_mut().filter(|_| is_measured(event)) else { return };
-        if let Ok(Some(message)) = run.take(event.clone()) {
-            overview.take(run, message);
+        match run.take(event.clone()) {
+            Ok(Some(message)) => overview.take(run, message),
+            Ok(None) => {}
+            Err(why) => match self.wrong.last_mut().filter(|(run, ..)| run == name) {
+                Some((_, count, _)) => *count += 1,
+                None => self.wrong.push((name.to_owned(), 1, why)),
+            },
+        }
+    }
+
+    /// Prints why curves may be missing.
+    pub fn warn(&self) {
+        for (name, count, why) in &self.wrong {
+            cli::warn(&format!("{count} messages of {name} are not in the diagrams: {why}"));
         }
     }
 

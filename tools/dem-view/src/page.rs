@@ -28,6 +28,7 @@ pub fn html(args: &Args, output: &Output) -> anyhow::Result<Report> {
     });
     let mut measured = Diagrams::default();
     let seen = inputs::read_watched(args, &mut page, &mut |run, event| measured.take(run, event))?;
+    measured.warn();
     page.diagrams(measured.finish());
     page.check()?;
     let mut out = output.open_text()?;

@@ -261,6 +261,7 @@ fn what_a_run_does_not_hold_cannot_be_drawn() {
         ),
         (&["b.mcap", "--vectors", "spin", "-o", "x.png"], &["give velocity or force"]),
         (&["b.mcap", "--bonds", "-o", "x.vtp"], &["--bonds: files for ParaView", "leave it out"]),
+        (&["b.mcap", "--colour", "size", "--range", "0,1", "-o", "x.png"], &["--range: size has classes"]),
         (&["b.mcap", "--dark", "-o", "x.vtp"], &["--dark: files for ParaView have no colours"]),
         (&["c.xyz", "--vectors", "velocity", "-o", "x.png"], &["--vectors: no input is a run"]),
         (&["c.xyz", "--colour", "size", "-o", "x.png"], &["no field 'size'"]),
@@ -298,4 +299,14 @@ fn a_page_has_diagrams_of_what_the_run_holds() {
         page.contains("\"label\":\"force on walls [N]\"") && page.contains("[[0.0,0.0],[0.1,1.0],[0.2,2.0]]")
     );
     assert!(page.contains("\"label\":\"kinetic energy [J]\"") && !page.contains("mass of the grains"));
+}
+
+/// A page is written all the same, and a warning says why a curve is missing.
+#[test]
+fn what_cannot_be_measured_for_a_diagram_is_reported() {
+    let folder = folder();
+    let said = said(&dem_view(folder.path(), &["run.mcap", "-o", "run.html"]).success());
+    for part in ["5 messages of run.mcap are not in the diagrams", "the column 'id' is missing"] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
 }

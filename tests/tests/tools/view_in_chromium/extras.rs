@@ -29,8 +29,8 @@ fn rods(count: usize, length: f64, broken: Option<f64>) -> Table {
 }
 
 /// The block at rest, with bonds of which half break at the end, arrows, a floor far below and two diagrams.
-fn page() -> (TempDir, PathBuf) {
-    let mut page = Page::new(PageOptions { time: Some(0.0), ..PageOptions::default() });
+fn page(time: f64) -> (TempDir, PathBuf) {
+    let mut page = Page::new(PageOptions { time: Some(time), ..PageOptions::default() });
     let run = page.layer(Role::Grains, "grains (run.mcap)");
     let bonds = page.layer(Role::Bonds, "bonds (run.mcap)");
     let arrows = page.layer(Role::Arrows(Arrows::Velocity), "velocity (run.mcap)");
@@ -66,7 +66,7 @@ fn sum(browser: &mut Chromium) -> serde_json::Value {
 #[test]
 fn bonds_arrows_and_sizes_are_drawn_and_can_be_hidden() {
     let Some(program) = chromium::find() else { return grainpipe_tests::skip("chromium") };
-    let (_folder, file) = page();
+    let (_folder, file) = page(0.0);
     let mut browser = Chromium::start(&program, &[]);
     browser.open(&file);
     browser.wait_for("window.grainpipe?.ready === true");
@@ -111,7 +111,7 @@ fn bonds_arrows_and_sizes_are_drawn_and_can_be_hidden() {
 #[test]
 fn diagrams_follow_the_frame_and_choose_it() {
     let Some(program) = chromium::find() else { return grainpipe_tests::skip("chromium") };
-    let (_folder, file) = page();
+    let (_folder, file) = page(0.0);
     let mut browser = Chromium::start(&program, &["--window-size=1280,900"]);
     browser.open(&file);
     browser.wait_for("window.grainpipe?.ready === true");
@@ -141,7 +141,7 @@ fn diagrams_follow_the_frame_and_choose_it() {
 #[test]
 fn a_floor_does_not_push_the_grains_into_a_corner() {
     let Some(program) = chromium::find() else { return grainpipe_tests::skip("chromium") };
-    let (_folder, file) = page();
+    let (_folder, file) = page(0.0);
     let mut browser = Chromium::start(&program, &["--window-size=700,500"]);
     browser.open(&file);
     browser.wait_for("window.grainpipe?.ready === true");
@@ -151,4 +151,15 @@ fn a_floor_does_not_push_the_grains_into_a_corner() {
          return (Math.max(...y) - Math.min(...y)) / (innerHeight - top - bottom); })()",
     );
     assert!(ends.as_f64().is_some_and(|share| share > 0.8), "{ends} of the free height");
+}
+
+/// A frame is written at the end of a step, a little late: the one meant by a time is the nearest.
+#[test]
+fn the_frame_nearest_to_the_time_asked_for_is_shown_first() {
+    let Some(program) = chromium::find() else { return grainpipe_tests::skip("chromium") };
+    let (_folder, file) = page(0.0299);
+    let mut browser = Chromium::start(&program, &[]);
+    browser.open(&file);
+    browser.wait_for("window.grainpipe?.ready === true");
+    assert_eq!(browser.value("[grainpipe.frame, grainpipe.playing]"), json!([3, false]));
 }
