@@ -50,10 +50,18 @@ pub enum MeasureError {
     Field { name: String, has: Vec<String> },
     #[error(
         "heap at {} s: {part} has {found} profile bins between {} and {} of its height {} m, and 3 are needed: \
-         give smaller --bin (now {} m), wider --fractions or fewer --sectors",
-        Shown(*time), Shown(fractions[0]), Shown(fractions[1]), Shown(*height), Shown(*bin)
+         {}give smaller --bin (now {} m), wider --fractions or fewer --sectors",
+        Shown(*time), Shown(fractions[0]), Shown(fractions[1]), Shown(*height), above(*overhang), Shown(*bin)
     )]
-    SmallHeap { time: f64, part: String, found: usize, fractions: [f64; 2], height: f64, bin: f64 },
+    SmallHeap {
+        time: f64,
+        part: String,
+        found: usize,
+        fractions: [f64; 2],
+        height: f64,
+        bin: f64,
+        overhang: Option<f64>,
+    },
     #[error("{what} = {}: {cure}", format!("{} {unit}", Shown(*value)).trim_end())]
     Setting { what: &'static str, value: f64, unit: &'static str, cure: &'static str },
     #[error("{what}: {count} cells are more than {most}: give fewer bins, or a larger --cell")]
@@ -65,8 +73,24 @@ pub enum MeasureError {
     Spans { span: f64, length: f64, most: f64 },
     #[error("there is only one kind of grains ({kind}): {cure}")]
     OneKind { kind: String, cure: &'static str },
+    #[error(
+        "run holds forces on whole walls only (/wall_forces), and a part of them is asked for: give --wall-force all, \
+         with --wall NAME for one wall, or set [output] contacts = true and run again"
+    )]
+    WholeWalls,
     #[error("no material or wall '{name}'; there are {}", has.join(", "))]
     Name { name: String, has: Vec<String> },
+}
+
+/// Grains above the heap are the likelier cause.
+fn above(overhang: Option<f64>) -> String {
+    overhang.map_or_else(String::new, |share| {
+        let percent = (100.0 * share).round();
+        format!(
+            "over {percent} % of the area grains stand above a gap of more than 4 diameters: measure the part below them \
+             with --within SHAPE; else "
+        )
+    })
 }
 
 fn corners(low: &[f64; 3], high: &[f64; 3]) -> String {

@@ -57,6 +57,21 @@ impl Frame {
         self.position.is_empty()
     }
 
+    /// The grains (rows) that are wanted.
+    pub fn only(&self, wanted: impl Fn(usize) -> bool) -> Frame {
+        let rows: Vec<u32> = (0..self.len()).filter(|row| wanted(*row)).map(|row| row as u32).collect();
+        Frame {
+            time: self.time,
+            id: chosen(&self.id, &rows),
+            position: chosen(&self.position, &rows),
+            velocity: chosen(&self.velocity, &rows),
+            radius: chosen(&self.radius, &rows),
+            material: chosen(&self.material, &rows),
+            mass: chosen(&self.mass, &rows),
+            table: self.table.select(&rows),
+        }
+    }
+
     /// Masses [kg], when all are known.
     ///
     /// # Errors
@@ -81,6 +96,11 @@ impl Frame {
             .zip(&self.radius)
             .fold(none, |(low, high), (p, r)| (low.inf(&p.add_scalar(-r)), high.sup(&p.add_scalar(*r))))
     }
+}
+
+/// The given rows of a column; none of a column that was left empty.
+fn chosen<T: Copy>(column: &[T], rows: &[u32]) -> Vec<T> {
+    rows.iter().filter_map(|row| column.get(*row as usize).copied()).collect()
 }
 
 /// Mass of a ball [kg]; NaN where the density is unknown.

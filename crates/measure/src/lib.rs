@@ -1,4 +1,4 @@
-//! Measures of runs: heap angle, flow, profiles, segregation, energy, contacts, porosity, wall force, residence,
+//! Measures of runs: heap angle, flow, profiles, segregation, energy, contacts, bonds, porosity, wall force, residence,
 //! impacts, bed height.
 //!
 //! Each measure stands alone: it takes a [`Frame`] (columns at one time) or a table of contacts and gives a typed
@@ -8,6 +8,7 @@
 
 pub mod ball;
 pub mod bed;
+pub mod bonds;
 mod cells;
 pub mod coordination;
 pub mod cylinder;
@@ -18,6 +19,7 @@ pub mod forces;
 mod frame;
 pub mod impact;
 pub mod observer;
+pub mod overview;
 pub mod path;
 pub mod plane_force;
 pub mod porosity;
@@ -31,10 +33,13 @@ mod sheet;
 pub mod statistics;
 mod table;
 pub mod wall_force;
+mod wall_record;
 pub mod wear;
 
+pub use bonds::{Bond, Bonds};
 pub use error::MeasureError;
 pub use frame::{Contact, Contacts, Crossing, Frame, Partner};
 pub use observer::{Observer, OfFrame, PerFrame, Which};
-pub use run::{Ledger, Run, RunMessage, WallSpheres};
+pub use run::{BondStrength, Ledger, Run, RunMessage, WallSpheres};
 pub use sheet::{Chart, Curve, Head, Look, Panel, Row, Summary};
+pub use wall_record::{ForceOnWall, WallForces};

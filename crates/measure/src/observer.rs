@@ -1,6 +1,7 @@
 //! What all measures of a run share: they read it event by event and return rows.
 
 use crate::{Chart, Frame, Head, MeasureError, Row, Run, RunMessage, Summary};
+use geom::{Shape, Vec3};
 
 /// Something measured on a run while it comes.
 pub trait Observer {
@@ -43,6 +44,16 @@ impl Which {
             Which::Between(from, until) => from - SLACK <= time && time <= until + SLACK,
         }
     }
+
+    /// The error of a run that holds none of them: its frames are from a time to a time [s].
+    pub(crate) fn missing(&self, (first, last): (f64, f64)) -> MeasureError {
+        let wanted = match self {
+            Which::Between(from, until) => format!("from {from} to {until} s"),
+            Which::At(at) => format!("at or before {at} s"),
+            Which::Last => "at all".to_owned(),
+        };
+        MeasureError::NoFrame { wanted, first, last }
+    }
 }
 
 /// A hair of slack [s]: times are stored in nanoseconds.
@@ -70,6 +81,7 @@ pub trait OfFrame {
 pub struct PerFrame<M> {
     measure: M,
     which: Which,
+    within: Option<Within>,
     kept: Option<Frame>,
     /// Times of the first and the last frame [s].
     span: Option<(f64, f64)>,
@@ -79,7 +91,46 @@ pub struct PerFrame<M> {
 impl<M: OfFrame> PerFrame<M> {
     /// Measures the frames that are chosen.
     pub fn new(measure: M, which: Which) -> PerFrame<M> {
-        PerFrame { measure, which, kept: None, span: None, measured: 0 }
+        PerFrame { measure, which, within: None, kept: None, span: None, measured: 0 }
+    }
+
+    /// Only the grains whose centres a shape holds; `None`: all.
+    pub fn within(mut self, shape: Option<Shape>) -> PerFrame<M> {
+        self.within = shape.map(Within::new);
+        self
+    }
+}
+
+/// The part of a run that is measured.
+struct Within {
+    shape: Shape,
+    /// Whether a frame had a grain in it.
+    found: bool,
+    /// Corners of the box around the centres of all grains [m].
+    bounds: (Vec3, Vec3),
+}
+
+impl Within {
+    fn new(shape: Shape) -> Within {
+        let none = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
+        Within { shape, found: false, bounds: none }
+    }
+
+    fn of(&mut self, frame: &Frame) -> Frame {
+        let inside = frame.only(|row| self.shape.contains(&frame.position[row]));
+        self.found |= !inside.is_empty();
+        let (low, high) = self.bounds;
+        self.bounds = frame.position.iter().fold((low, high), |(low, high), p| (low.inf(p), high.sup(p)));
+        inside
+    }
+
+    /// An error if grains were there and none of them in the shape.
+    fn check(&self) -> Result<(), MeasureError> {
+        let (low, high) = self.bounds;
+        if self.found || !low.x.is_finite() {
+            return Ok(());
+        }
+        Err(MeasureError::NothingInside { what: "grain", low: low.into(), high: high.into() })
     }
 }
 
@@ -94,6 +145,10 @@ impl<M: OfFrame> Observer for PerFrame<M> {
         if !self.which.holds(frame.time) {
             return Ok(());
         }
+        let frame = match &mut self.within {
+            Some(within) => within.of(&frame),
+            None => frame,
+        };
         if let Which::Between(..) = self.which {
             rows.extend(self.measure.measure(run, &frame)?);
             self.measured += 1;
@@ -105,17 +160,13 @@ impl<M: OfFrame> Observer for PerFrame<M> {
 
     fn end(&mut self, run: &Run, rows: &mut Vec<Row>) -> Result<Summary, MeasureError> {
         let (first, last) = self.span.ok_or(NO_FRAMES)?;
+        self.within.as_ref().map_or(Ok(()), Within::check)?;
         if let Some(frame) = self.kept.take() {
             rows.extend(self.measure.measure(run, &frame)?);
             self.measured += 1;
         }
         if self.measured == 0 {
-            let wanted = match self.which {
-                Which::Between(from, until) => format!("from {from} to {until} s"),
-                Which::At(at) => format!("at or before {at} s"),
-                Which::Last => "at all".to_owned(),
-            };
-            return Err(MeasureError::NoFrame { wanted, first, last });
+            return Err(self.which.missing((first, last)));
         }
         let (more, summary) = self.measure.end()?;
         rows.extend(more);

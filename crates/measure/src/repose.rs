@@ -8,11 +8,15 @@
 //!    slope is robust against outliers; see [`crate::statistics`] for the source and for the interval of each slope.
 //! 4. The angle is the mean over the sectors, its 95 % interval ± t s/√n with the deviation s between them.
 //!
+//! Of a part of a run, grains that fall do not count: those whose downward speed is above √(2 g d), which a free fall over
+//! a mean diameter d gives. So a stream that feeds the heap is no part of it.
+//!
 //! The axis goes through the centre of what stands above half height; where no grain is, the surface is the ground.
 //! For ways to measure the angle of repose see the review of Beakawi Al-Hashemi & Baghabra Al-Amoudi (2018), Powder
 //! Technology 330, DOI 10.1016/j.powtec.2018.02.003; this one is the angle of the flank of a poured heap.
 
 mod observe;
+mod overhang;
 mod profiles;
 mod surface;
 
@@ -40,11 +44,21 @@ pub struct HeapOptions {
     pub bin: Option<f64>,
     /// Height of the ground along `up` [m]; `None`: the lowest grains'.
     pub ground: Option<f64>,
+    /// Whether falling grains are left out.
+    pub without_falling: bool,
 }
 
 impl Default for HeapOptions {
     fn default() -> HeapOptions {
-        HeapOptions { up: None, wall: None, sectors: 8, fractions: [0.2, 0.8], bin: None, ground: None }
+        HeapOptions {
+            up: None,
+            wall: None,
+            sectors: 8,
+            fractions: [0.2, 0.8],
+            bin: None,
+            ground: None,
+            without_falling: false,
+        }
     }
 }
 
@@ -99,6 +113,8 @@ pub struct HeapAngle {
     pub axis: [f64; 2],
     /// Sectors or lanes.
     pub flanks: Vec<Flank>,
+    /// Share of the area over which grains stand above an empty stretch, such as those in a hopper; `None` if small.
+    pub overhang: Option<f64>,
 }
 
 /// The angle of the heap in a frame; `up` is used where the options name none.
@@ -125,6 +141,7 @@ pub fn heap_angle(frame: &Frame, options: &HeapOptions, up: Option<Vec3>) -> Res
         axes.u = -level.normalize();
         axes.v = axes.up.cross(&axes.u);
     }
+    let overhang = overhang::overhang(frame, &axes);
     let surface = HeapSurface::new(frame, &axes, options.ground);
     let bin = options.bin.unwrap_or(frame.mean_diameter());
     if bin < surface.step {
@@ -142,12 +159,20 @@ pub fn heap_angle(frame: &Frame, options: &HeapOptions, up: Option<Vec3>) -> Res
         flank(middle, profile, height, options.fractions).map_err(|found| {
             let part = if options.wall.is_some() { "lane" } else { "sector" };
             let (time, fractions) = (frame.time, options.fractions);
-            MeasureError::SmallHeap { time, part: format!("{part} {k}"), found, fractions, height, bin }
+            MeasureError::SmallHeap {
+                time,
+                part: format!("{part} {k}"),
+                found,
+                fractions,
+                height,
+                bin,
+                overhang,
+            }
         })
     };
     let flanks = profiles.into_iter().enumerate().map(fit).collect::<Result<Vec<_>, _>>()?;
     let angles: Vec<f64> = flanks.iter().map(|f| f.angle).collect();
-    Ok(HeapAngle { time: frame.time, angle: Mean::of(&angles), height, axis, flanks })
+    Ok(HeapAngle { time: frame.time, angle: Mean::of(&angles), height, axis, flanks, overhang })
 }
 
 /// The fitted flank; else the number of bins that were there to fit.

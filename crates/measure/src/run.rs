@@ -1,11 +1,11 @@
 //! A run, event by event: its metadata and its data.
 
 use crate::frame::{Contacts, Crossing, Frame};
-use crate::{MeasureError, table::Columns};
+use crate::{Bonds, MeasureError, WallForces, table::Columns};
 use geom::{Plane, Vec3};
 use record::column::{POSITION, RADIUS, WALL};
 use record::metadata::{MATERIALS, OUTLETS, SCENE};
-use record::topic::{CONTACTS, CROSSINGS, ENERGY, PARTICLES, SURFACES, WALLS};
+use record::topic::{BONDS, CONTACTS, CROSSINGS, ENERGY, PARTICLES, SURFACES, WALL_FORCES, WALLS};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use stream::{Table, mcap::Event};
@@ -32,6 +32,15 @@ pub struct Ledger {
     pub balance: f64,
 }
 
+/// What breaks the bonds between two materials.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BondStrength {
+    /// Names of the materials.
+    pub between: [String; 2],
+    /// In tension and in shear [Pa]; infinite where they are unbreakable.
+    pub strength: [f64; 2],
+}
+
 /// Something to measure.
 #[derive(Debug, Clone)]
 pub enum RunMessage {
@@ -43,6 +52,10 @@ pub enum RunMessage {
     Crossings(Vec<Crossing>),
     /// The energy ledger at one time.
     Ledger(Ledger),
+    /// The force on each wall at one time.
+    WallForces(WallForces),
+    /// All bonds at one time.
+    Bonds(Bonds),
 }
 
 /// What the messages of a run have said about it so far.
@@ -56,8 +69,12 @@ pub struct Run {
     pub outlets: Vec<Plane>,
     /// Direction against gravity [–]; `None` without gravity.
     pub up: Option<Vec3>,
+    /// Acceleration of free fall [m/s²]; 0 where it is not known.
+    pub gravity: f64,
     /// Lowest and highest coordinate [m] of each axis that is periodic.
     pub periodic: [Option<(f64, f64)>; 3],
+    /// Strengths of the bonds that the scene makes.
+    pub bonds: Vec<BondStrength>,
     /// Names of the walls.
     pub walls: Vec<String>,
     /// Its wall spheres.
@@ -82,6 +99,9 @@ impl Run {
             Event::Bytes { topic, time_ns, data } if topic == ENERGY => {
                 Some(RunMessage::Ledger(ledger(seconds(time_ns), &data)?))
             }
+            Event::Bytes { topic, time_ns, data } if topic == WALL_FORCES => {
+                Some(RunMessage::WallForces(WallForces::new(seconds(time_ns), &data)?))
+            }
             Event::Bytes { topic, data, .. } if topic == SURFACES => {
                 self.surfaces(&data);
                 None
@@ -94,6 +114,7 @@ impl Run {
         Ok(match topic {
             PARTICLES => Some(RunMessage::Frame(Frame::new(time, table, &self.densities)?)),
             CONTACTS => Some(RunMessage::Contacts(Contacts::new(time, &table)?)),
+            BONDS => Some(RunMessage::Bonds(Bonds::new(time, &table)?)),
             CROSSINGS => Some(RunMessage::Crossings(Crossing::list(time, &table, &self.densities)?)),
             WALLS => {
                 let columns = Columns { topic: WALLS, time, table: &table };
@@ -130,7 +151,10 @@ impl Run {
 
     fn scene(&mut self, scene: &toml::Table) {
         let gravity = scene.get("gravity").and_then(numbers);
+        self.gravity = gravity.map_or(0.0, |g| g.norm());
         self.up = gravity.filter(|g| g.norm() > 0.0).map(|g| -g.normalize());
+        let bonds = scene.get("bond").and_then(toml::Value::as_array);
+        self.bonds = bonds.into_iter().flatten().filter_map(bond_strength).collect();
         let Some(domain) = scene.get("domain").and_then(toml::Value::as_table) else { return };
         let [low, high] = ["low", "high"].map(|key| domain.get(key).and_then(numbers));
         let (Some(low), Some(high)) = (low, high) else { return };
@@ -175,16 +199,35 @@ fn plane(json: &Value) -> Option<Plane> {
     Plane::new(vector(&json["plane"]["point"])?, vector(&json["plane"]["normal"])?).ok()
 }
 
+/// A `[[bond]]` of a scene.
+fn bond_strength(bond: &toml::Value) -> Option<BondStrength> {
+    let names = bond.get("between")?.as_array()?;
+    let name = |k: usize| names.get(k)?.as_str().map(str::to_owned);
+    let strength = |key| bond.get(key).map_or(Some(f64::INFINITY), |v| number(v, "Pa"));
+    Some(BondStrength {
+        between: [name(0)?, name(1)?],
+        strength: [strength("tensile_strength")?, strength("shear_strength")?],
+    })
+}
+
+/// A number of a scene, plain or as text with a unit.
+fn number(value: &toml::Value, unit: &'static str) -> Option<f64> {
+    match value {
+        toml::Value::String(text) => in_unit(text, unit),
+        v => v.as_float().or_else(|| v.as_integer().map(|i| i as f64)),
+    }
+}
+
+fn in_unit(text: &str, unit: &'static str) -> Option<f64> {
+    text.trim().parse().ok().or_else(|| geom::units::parse(text, unit).ok())
+}
+
 /// The gravity of a scene: three numbers, or texts with units, or one text with commas.
 fn numbers(value: &toml::Value) -> Option<Vec3> {
-    let in_unit = |text: &str| text.trim().parse().ok().or_else(|| geom::units::parse(text, "m/s²").ok());
-    let number = |v: &toml::Value| match v {
-        toml::Value::String(text) => in_unit(text),
-        v => v.as_float().or_else(|| v.as_integer().map(|i| i as f64)),
-    };
+    let unit = "m/s²";
     let list: Vec<f64> = match value {
-        toml::Value::String(text) => text.split(',').filter_map(in_unit).collect(),
-        list => list.as_array()?.iter().filter_map(number).collect(),
+        toml::Value::String(text) => text.split(',').filter_map(|text| in_unit(text, unit)).collect(),
+        list => list.as_array()?.iter().filter_map(|v| number(v, unit)).collect(),
     };
     (list.len() == 3).then(|| Vec3::from_column_slice(&list))
 }

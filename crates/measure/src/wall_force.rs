@@ -5,19 +5,20 @@
 //! ```
 //!
 //! with the force F_i on grain i of each contact with a wall, as the run records it, and the sliding work w since
-//! the frame before, also that of contacts which have ended since.
+//! the frame before, also that of contacts which have ended since. A run without contacts may hold the same sums for
+//! whole walls (`/wall_forces`): these are taken then, without normal forces and sliding work.
 
-use crate::observer::{NO_CONTACTS, Observer};
+use crate::observer::Observer;
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::statistics::Mean;
-use crate::{Contact, Contacts, MeasureError, Partner, Run, RunMessage};
+use crate::{Contact, Contacts, ForceOnWall, MeasureError, Partner, Run, RunMessage, WallForces};
 use geom::{Shape, Vec3};
 
 /// Which contacts are looked at.
 #[derive(Debug, Clone)]
 pub struct WallContactFilter {
-    /// Contact points in this shape.
-    pub shape: Shape,
+    /// Contact points in this shape; `None`: everywhere.
+    pub shape: Option<Shape>,
     /// Only this wall, by name or by index; `None`: all.
     pub wall: Option<String>,
     /// Only frames between these times [s].
@@ -34,12 +35,33 @@ impl WallContactFilter {
         run: &Run,
         contacts: &'c Contacts,
     ) -> Result<impl Iterator<Item = &'c Contact> + 'c, MeasureError> {
-        let wall = self.wall.as_ref().map(|name| index(run, name)).transpose()?;
+        let wall = self.wall.as_ref().map(|name| index(&run.walls, name)).transpose()?;
         let wanted = move |c: &&Contact| match c.partner {
-            Partner::Wall(j) => wall.is_none_or(|wall| wall == j) && self.shape.contains(&c.point),
+            Partner::Wall(j) => wall.is_none_or(|wall| wall == j) && self.holds_point(&c.point),
             Partner::Grain(_) => false,
         };
         Ok(contacts.rows.iter().filter(wanted))
+    }
+
+    /// The forces on the walls that are wanted.
+    ///
+    /// # Errors
+    /// A part of the walls, which these forces do not tell; a wall that the run does not name.
+    fn of_whole<'c>(
+        &self,
+        forces: &'c WallForces,
+    ) -> Result<impl Iterator<Item = &'c ForceOnWall>, MeasureError> {
+        if self.shape.is_some() {
+            return Err(MeasureError::WholeWalls);
+        }
+        let names: Vec<String> = forces.walls.iter().map(|w| w.name.clone()).collect();
+        let wall = self.wall.as_ref().map(|name| index(&names, name)).transpose()?;
+        let wanted = move |k: usize| wall.is_none_or(|wall| wall == k as u64);
+        Ok(forces.walls.iter().enumerate().filter(move |(k, _)| wanted(*k)).map(|(_, w)| w))
+    }
+
+    fn holds_point(&self, point: &Vec3) -> bool {
+        self.shape.as_ref().is_none_or(|shape| shape.contains(point))
     }
 
     /// Whether a time [s] is looked at.
@@ -48,13 +70,28 @@ impl WallContactFilter {
     }
 }
 
-fn index(run: &Run, name: &str) -> Result<u64, MeasureError> {
-    let by_name = run.walls.iter().position(|w| w == name).map(|k| k as u64);
-    let by_number =
-        || name.parse().ok().filter(|k: &u64| run.walls.is_empty() || (*k as usize) < run.walls.len());
-    let missing = || MeasureError::Name { name: name.to_owned(), has: run.walls.clone() };
+fn index(walls: &[String], name: &str) -> Result<u64, MeasureError> {
+    let by_name = walls.iter().position(|w| w == name).map(|k| k as u64);
+    let by_number = || name.parse().ok().filter(|k: &u64| walls.is_empty() || (*k as usize) < walls.len());
+    let missing = || MeasureError::Name { name: name.to_owned(), has: walls.to_vec() };
     by_name.or_else(by_number).ok_or_else(missing)
 }
+
+/// Where the forces come from: what the run holds first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Source {
+    /// Each contact, `/contacts`.
+    Contacts,
+    /// Whole walls, `/wall_forces`.
+    Walls,
+}
+
+/// A run without either.
+const NO_FORCES: MeasureError = MeasureError::Channel {
+    topic: record::topic::CONTACTS,
+    what: "contacts",
+    cure: "set [output] contacts = true, or wall_forces = true for the force on whole walls",
+};
 
 /// Measures the force on walls.
 pub struct WallForce {
@@ -63,7 +100,7 @@ pub struct WallForce {
     sum: Vec3,
     work: f64,
     touched: bool,
-    contact_frames: u64,
+    source: Option<Source>,
     bounds: (Vec3, Vec3),
 }
 
@@ -77,9 +114,45 @@ impl WallForce {
             sum: Vec3::zeros(),
             work: 0.0,
             touched: false,
-            contact_frames: 0,
+            source: None,
             bounds: none,
         }
+    }
+
+    fn of_contacts(&mut self, run: &Run, contacts: &Contacts) -> Result<Row, MeasureError> {
+        for c in contacts.rows.iter().filter(|c| matches!(c.partner, Partner::Wall(_))) {
+            self.bounds = (self.bounds.0.inf(&c.point), self.bounds.1.sup(&c.point));
+        }
+        let (mut count, mut force, mut normal, mut work) = (0u64, Vec3::zeros(), 0.0, 0.0);
+        for c in self.what.of(run, contacts)? {
+            self.touched = true;
+            count += u64::from(c.acts());
+            force -= c.force;
+            normal += c.force.dot(&c.normal);
+            work += c.work;
+        }
+        self.work += work;
+        self.add(force);
+        let (count, size) = (count as f64, force.norm());
+        Ok(vec![contacts.time, count, force.x, force.y, force.z, size, normal, work, self.work])
+    }
+
+    fn of_walls(&mut self, forces: &WallForces) -> Result<Row, MeasureError> {
+        let (mut count, mut force) = (0, Vec3::zeros());
+        for wall in self.what.of_whole(forces)? {
+            count += wall.contacts;
+            force += wall.force;
+        }
+        self.touched |= count > 0;
+        self.add(force);
+        let unknown = f64::NAN;
+        let (count, size) = (count as f64, force.norm());
+        Ok(vec![forces.time, count, force.x, force.y, force.z, size, unknown, unknown, unknown])
+    }
+
+    fn add(&mut self, force: Vec3) {
+        self.sum += force;
+        self.magnitudes.push(force.norm());
     }
 }
 
@@ -99,34 +172,27 @@ impl Observer for WallForce {
     }
 
     fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
-        let RunMessage::Contacts(contacts) = message else { return Ok(()) };
-        self.contact_frames += 1;
-        if !self.what.holds(contacts.time) {
-            return Ok(());
+        match message {
+            // Of one frame, contacts come first.
+            RunMessage::Contacts(contacts) if self.source != Some(Source::Walls) => {
+                self.source = Some(Source::Contacts);
+                if self.what.holds(contacts.time) {
+                    rows.push(self.of_contacts(run, &contacts)?);
+                }
+            }
+            RunMessage::WallForces(forces) if self.source != Some(Source::Contacts) => {
+                self.source = Some(Source::Walls);
+                if self.what.holds(forces.time) {
+                    rows.push(self.of_walls(&forces)?);
+                }
+            }
+            _ => {}
         }
-        for c in contacts.rows.iter().filter(|c| matches!(c.partner, Partner::Wall(_))) {
-            self.bounds = (self.bounds.0.inf(&c.point), self.bounds.1.sup(&c.point));
-        }
-        let (mut count, mut force, mut normal, mut work) = (0u64, Vec3::zeros(), 0.0, 0.0);
-        for c in self.what.of(run, &contacts)? {
-            self.touched = true;
-            count += u64::from(c.acts());
-            force -= c.force;
-            normal += c.force.dot(&c.normal);
-            work += c.work;
-        }
-        self.work += work;
-        self.sum += force;
-        self.magnitudes.push(force.norm());
-        let (count, size) = (count as f64, force.norm());
-        rows.push(vec![contacts.time, count, force.x, force.y, force.z, size, normal, work, self.work]);
         Ok(())
     }
 
     fn end(&mut self, _: &Run, _: &mut Vec<Row>) -> Result<Summary, MeasureError> {
-        if self.contact_frames == 0 {
-            return Err(NO_CONTACTS);
-        }
+        let source = self.source.ok_or(NO_FORCES)?;
         if !self.touched && self.bounds.0.x.is_finite() {
             let (low, high) = self.bounds;
             return Err(MeasureError::NothingInside {
@@ -143,18 +209,23 @@ impl Observer for WallForce {
             .with("mean_fz", "N", mean.z)
             .with("mean_force", "N", sizes.mean)
             .with("deviation", "N", sizes.deviation)
-            .with("largest_force", "N", self.magnitudes.iter().copied().fold(0.0, f64::max))
-            .with("sliding_work", "J", self.work);
+            .with("largest_force", "N", self.magnitudes.iter().copied().fold(0.0, f64::max));
+        let summary = match source {
+            Source::Contacts => summary.with("sliding_work", "J", self.work).note("from recorded contacts"),
+            Source::Walls => summary.note(
+                "from forces on whole walls (/wall_forces): they tell no normal forces and no sliding work; \
+                 [output] contacts = true records these",
+            ),
+        };
         Ok(if self.touched { summary } else { summary.note("no grain touches a wall in these frames") })
     }
 
     fn chart(&self, rows: &[Row]) -> Chart {
         let axes = [("fx", 2), ("fy", 3), ("fz", 4)];
-        Chart::new("Force on walls").columns(("time [s]", 0), "force [N]", &axes, rows).columns(
-            ("time [s]", 0),
-            "sliding work [J]",
-            &[("", 8)],
-            rows,
-        )
+        let chart = Chart::new("Force on walls").columns(("time [s]", 0), "force [N]", &axes, rows);
+        if self.source == Some(Source::Walls) {
+            return chart;
+        }
+        chart.columns(("time [s]", 0), "sliding work [J]", &[("", 8)], rows)
     }
 }

@@ -47,6 +47,14 @@ pub const SECOND: &str = "id_j";
 pub const KIND: &str = "kind";
 /// Sliding work since the frame before [J].
 pub const WORK: &str = "work";
+/// Largest tension σ of a bond [Pa]; of a broken one, that at the break.
+pub const TENSION: &str = "tension";
+/// Shear τ of a bond [Pa]; of a broken one, that at the break.
+pub const SHEAR: &str = "shear";
+/// 1: the bond is broken.
+pub const BROKEN: &str = "broken";
+/// When the bond broke [s].
+pub const BROKEN_AT: &str = "broken_at";
 /// Time of a crossing [s].
 pub const TIME: &str = "time";
 /// Index of the outlet.

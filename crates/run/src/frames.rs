@@ -124,12 +124,12 @@ pub(crate) fn bonds(rows: &[BondState], precision: Precision) -> Table {
         .vectors(FORCE, rows, |b| b.force)
         .vectors(["mx_i", "my_i", "mz_i"], rows, |b| b.moments[0])
         .vectors(["mx_j", "my_j", "mz_j"], rows, |b| b.moments[1])
-        .numbers("tension", rows.iter().map(|b| b.stress[0]))
-        .numbers("shear", rows.iter().map(|b| b.stress[1]))
+        .numbers(column::TENSION, rows.iter().map(|b| b.stress[0]))
+        .numbers(column::SHEAR, rows.iter().map(|b| b.stress[1]))
         .u32(FIRST, rows.iter().map(|b| b.ids[0]))
         .u32(SECOND, rows.iter().map(|b| b.ids[1]))
-        .with("broken", Values::U8(rows.iter().map(|b| u8::from(b.broken.is_some())).collect()))
-        .with("broken_at", Values::F64(rows.iter().map(|b| b.broken.unwrap_or(0.0)).collect()))
+        .with(column::BROKEN, Values::U8(rows.iter().map(|b| u8::from(b.broken.is_some())).collect()))
+        .with(column::BROKEN_AT, Values::F64(rows.iter().map(|b| b.broken.unwrap_or(0.0)).collect()))
         .done()
 }
 

@@ -55,6 +55,28 @@ pub enum ViewError {
         /// What it may take [MB].
         limit: f64,
     },
+    /// A run without what is asked for.
+    #[error("{option}: run holds no {what}: {cure}")]
+    NoSuch {
+        /// The option that asks for it.
+        option: String,
+        /// What is missing.
+        what: &'static str,
+        /// What to do.
+        cure: &'static str,
+    },
+    /// A message without its columns.
+    #[error("{topic}: columns are missing: write the run with dem-run")]
+    Columns {
+        /// The topic.
+        topic: &'static str,
+    },
+    /// Columns that do not make a table.
+    #[error("cannot make a table of what is shown: {why}")]
+    Table {
+        /// What is wrong.
+        why: String,
+    },
     /// A field to colour by that no layer has.
     #[error("colour: no field '{name}' here: choose one of {}", known.join(", "))]
     NoField {

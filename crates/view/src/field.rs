@@ -6,6 +6,9 @@ use stream::{Table, table::Values};
 const VECTORS: [([&str; 3], &str); 3] =
     [(["vx", "vy", "vz"], "speed"), (["wx", "wy", "wz"], "spin"), (["fx", "fy", "fz"], "force")];
 
+/// The field of size classes: diameters [m].
+pub const SIZE: &str = "size";
+
 /// Whether the column is one component of a position or of a vector that is shown by its length.
 fn is_component(table: &Table, name: &str) -> bool {
     ["x", "y", "z"].contains(&name)
@@ -35,6 +38,9 @@ pub fn values(table: &Table, name: &str) -> Option<Vec<f64>> {
     if let Some(column) = table.get(name) {
         return Some(column.to_f64());
     }
+    if name == SIZE {
+        return table.get("radius").map(|r| r.to_f64().into_iter().map(|r| 2.0 * r).collect());
+    }
     let (of, _) = VECTORS.iter().find(|(_, length)| *length == name)?;
     let [a, b, c] = [table.get(of[0])?, table.get(of[1])?, table.get(of[2])?];
     let length = |i| (a.get(i).powi(2) + b.get(i).powi(2) + c.get(i).powi(2)).sqrt();
@@ -49,7 +55,7 @@ pub fn columns(table: &Table, asked: Option<&str>) -> Option<Vec<String>> {
     let name = asked.unwrap_or(&default);
     if let Some(column) = table.columns().iter().find(|c| c.name == name) {
         columns.push(&column.name);
-    } else if name != "rgb" {
+    } else if name != "rgb" && !(name == SIZE && table.get("radius").is_some()) {
         let (of, _) = VECTORS.iter().find(|(_, length)| *length == name)?;
         columns.extend(of.iter().map(|c| table.get(c).map(|_| *c)).collect::<Option<Vec<_>>>()?);
     }
@@ -74,7 +80,7 @@ pub fn canonical(name: &str) -> &str {
 /// Unit of a field [SI], empty for a pure number.
 pub fn unit(name: &str) -> &'static str {
     match name {
-        "x" | "y" | "z" | "radius" | "diameter" | "roughness" | "overlap" => "m",
+        "x" | "y" | "z" | "radius" | "diameter" | SIZE | "roughness" | "overlap" => "m",
         "vx" | "vy" | "vz" | "speed" => "m/s",
         "wx" | "wy" | "wz" | "spin" => "rad/s",
         "fx" | "fy" | "fz" | "force" => "N",

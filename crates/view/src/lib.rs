@@ -7,8 +7,11 @@
 //! files and reads clouds. Uses `record` for the formats of runs; knows no engine.
 
 mod camera;
+mod classes;
 mod colour;
+mod diagram;
 mod error;
+mod extras;
 mod field;
 pub mod film;
 mod moment;
@@ -26,7 +29,9 @@ pub mod vtk;
 
 pub use camera::Camera;
 pub use colour::{Map, Rgb};
+pub use diagram::{Diagram, DiagramCurve};
 pub use error::ViewError;
+pub use extras::{Arrows, Extras};
 pub use geom::Motion;
 pub use moment::Moment;
 pub use page::{Page, PageContent, PageOptions};
@@ -46,15 +51,42 @@ pub enum Role {
     Cloud,
     /// Wall spheres: grey, and translucent where they hide anything else.
     Walls,
+    /// Bonds and cracks, see [`Extras`].
+    Bonds,
+    /// Arrows, see [`Extras`].
+    Arrows(Arrows),
 }
 
 impl Role {
+    /// Whether it is rods, not spheres or points.
+    pub fn is_rods(self) -> bool {
+        matches!(self, Role::Bonds | Role::Arrows(_))
+    }
+
+    /// The number for it in files for ParaView.
+    fn number(self) -> u8 {
+        match self {
+            Role::Grains => 0,
+            Role::Cloud => 1,
+            Role::Walls => 2,
+            Role::Bonds => 4,
+            Role::Arrows(_) => 5,
+        }
+    }
+
+    /// Whether it has a state for each frame.
+    pub(crate) fn moves(self) -> bool {
+        self == Role::Grains || self.is_rods()
+    }
+
     /// The word for it in a page.
     fn word(self) -> &'static str {
         match self {
             Role::Grains => "grains",
             Role::Walls => "walls",
             Role::Cloud => "cloud",
+            Role::Bonds => "bonds",
+            Role::Arrows(_) => "arrows",
         }
     }
 }

@@ -63,13 +63,19 @@ impl Show for Moment {
     }
 
     fn push(&mut self, layer: usize, time: f64, table: Table) -> Result<(), ViewError> {
-        let shown = &mut self.layers[layer].shown;
-        // Without a time asked for, the last frame that is not empty: at the end all grains may have left.
-        if self.until.is_infinite() && table.rows() == 0 && shown.is_some() {
+        let last = self.until.is_infinite();
+        // Rods are those of the grains shown.
+        if last && self.layers[layer].head.role.is_rods() && self.time() != Some(time) {
             return Ok(());
         }
+        let shown = &self.layers[layer].shown;
+        // Without a time asked for, the last frame that is not empty: at the end all grains may have left.
+        if last && table.rows() == 0 && shown.is_some() && !self.layers[layer].head.role.is_rods() {
+            return Ok(());
+        }
+        let shown = &mut self.layers[layer].shown;
         let far = |time: f64| (time - self.until).abs();
-        let nearer = |(before, _): &(f64, Table)| self.until.is_infinite() || far(time) < far(*before);
+        let nearer = |(before, _): &(f64, Table)| last || far(time) < far(*before);
         if shown.as_ref().is_none_or(nearer) {
             *shown = Some((time, table));
         }

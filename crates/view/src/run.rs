@@ -1,10 +1,10 @@
-//! Reads a run, or walls: grains and wall spheres over time, planes and meshes, and how walls move.
+//! Reads a run, or walls: grains and wall spheres over time, planes and meshes, how walls move, and what is shown besides.
 
 use crate::show::{LayerHead, Show};
-use crate::{Motion, Role, ViewError, WallSurface};
-use record::column::WALL;
+use crate::{Arrows, Extras, Motion, Role, ViewError, WallSurface, extras};
+use record::column::{BROKEN, RADIUS, WALL};
 use record::metadata::MATERIALS;
-use record::topic::{PARTICLES, SURFACES, WALLS};
+use record::topic::{BONDS, CONTACTS, PARTICLES, SURFACES, WALLS};
 use record::{Map, MaterialRecord, WallRecord};
 use std::collections::{BTreeMap, HashMap};
 use stream::mcap::{Event, McapError};
@@ -13,11 +13,16 @@ use stream::{Table, Values};
 /// What is known of a run so far.
 struct Run<'a, S> {
     name: &'a str,
+    extras: Extras,
     show: &'a mut S,
     /// Names of the materials.
     kinds: Vec<String>,
     /// The layer of a topic.
     layers: HashMap<&'static str, usize>,
+    /// Grains that wait for the bonds of their time.
+    frame: Option<(f64, Table)>,
+    /// Mean radius of the grains [m].
+    usual: f64,
     /// Wall spheres that came before their motion is known.
     waiting: Option<(f64, Table)>,
     /// All walls, once the run has named them.
@@ -26,26 +31,35 @@ struct Run<'a, S> {
     messages: BTreeMap<&'static str, usize>,
 }
 
+/// The layer of the arrows that are made of frames.
+const VELOCITIES: &str = "velocities";
+
 /// Name and motion of a wall.
 struct WallHead {
     name: String,
     motion: Motion,
 }
 
-/// Shows every `/particles`, `/walls` and `/surfaces` message of a run; gives the number of messages by topic.
+/// Shows every `/particles`, `/walls` and `/surfaces` message of a run, and the `extras`; gives the number of messages
+/// by topic.
 ///
 /// # Errors
-/// A stream that breaks off, holds neither particles nor walls, or has a message that cannot be shown.
+/// A stream that breaks off, holds neither particles nor walls nor what is asked for besides, or has a message that
+/// cannot be shown.
 pub fn show_run(
     events: impl Iterator<Item = Result<Event, McapError>>,
     name: &str,
+    extras: Extras,
     show: &mut impl Show,
 ) -> Result<BTreeMap<&'static str, usize>, ViewError> {
     let mut run = Run {
         name,
+        extras,
         show,
         kinds: Vec::new(),
         layers: HashMap::new(),
+        frame: None,
+        usual: 0.0,
         waiting: None,
         walls: None,
         messages: BTreeMap::new(),
@@ -57,6 +71,10 @@ pub fn show_run(
             Event::Points { topic, time_ns, table } => match topic.as_str() {
                 PARTICLES => run.grains(time_ns as f64 / 1e9, table)?,
                 WALLS => run.wall_spheres(time_ns as f64 / 1e9, table)?,
+                BONDS if extras.needs_bonds() => run.bonds(time_ns as f64 / 1e9, &table)?,
+                CONTACTS if extras.arrows == Some(Arrows::Force) => {
+                    run.contacts(time_ns as f64 / 1e9, &table)?;
+                }
                 _ => others.push(topic),
             },
             Event::Bytes { topic, data, .. } if topic == SURFACES => run.surfaces(&data)?,
@@ -64,10 +82,12 @@ pub fn show_run(
         }
     }
     run.settle()?;
+    run.release(None)?;
     if run.messages.is_empty() {
         others.dedup();
         return Err(ViewError::NoTopic { others });
     }
+    run.has_extras()?;
     Ok(run.messages)
 }
 
@@ -83,7 +103,10 @@ impl<S: Show> Run<'_, S> {
 
     /// Pushes to the one layer of a topic.
     fn push(&mut self, topic: &'static str, role: Role, time: f64, table: Table) -> Result<(), ViewError> {
-        let word = if role == Role::Grains { "grains" } else { "walls" };
+        let word = match role {
+            Role::Arrows(of) => of.word(),
+            role => role.word(),
+        };
         let layer = match self.layers.get(topic) {
             Some(layer) => *layer,
             None => self.layer(role, word, Motion::default()),
@@ -95,7 +118,61 @@ impl<S: Show> Run<'_, S> {
     fn grains(&mut self, time: f64, table: Table) -> Result<(), ViewError> {
         self.settle()?;
         self.count(PARTICLES);
-        self.push(PARTICLES, Role::Grains, time, table)
+        self.release(None)?;
+        if let Some(radius) = table.get(RADIUS).map(Values::to_f64).filter(|r| !r.is_empty()) {
+            self.usual = radius.iter().sum::<f64>() / radius.len() as f64;
+        }
+        self.frame = Some((time, table));
+        if self.extras.needs_bonds() { Ok(()) } else { self.release(None) }
+    }
+
+    /// Shows the grains that wait, with the share of their bonds that are broken, and their arrows.
+    fn release(&mut self, broken: Option<Vec<f64>>) -> Result<(), ViewError> {
+        let Some((time, mut table)) = self.frame.take() else { return Ok(()) };
+        if self.extras.needs_bonds() {
+            let share = broken.unwrap_or_else(|| vec![0.0; table.rows()]);
+            table.replace(BROKEN, Values::F64(share)).map_err(|e| ViewError::Table { why: e.to_string() })?;
+        }
+        let arrows = match self.extras.arrows {
+            Some(Arrows::Velocity) => Some(extras::velocities(&table)?),
+            _ => None,
+        };
+        self.push(PARTICLES, Role::Grains, time, table)?;
+        // After the grains: what shows one moment takes the arrows of the grains that it shows.
+        match arrows {
+            Some(arrows) => self.push(VELOCITIES, Role::Arrows(Arrows::Velocity), time, arrows),
+            None => Ok(()),
+        }
+    }
+
+    fn bonds(&mut self, time: f64, table: &Table) -> Result<(), ViewError> {
+        self.count(BONDS);
+        let Some((_, grains)) = self.frame.as_ref().filter(|(of, _)| *of == time) else { return Ok(()) };
+        let (rods, share) = extras::bonds(table, grains)?;
+        self.release(Some(share))?;
+        if self.extras.bonds { self.push(BONDS, Role::Bonds, time, rods) } else { Ok(()) }
+    }
+
+    fn contacts(&mut self, time: f64, table: &Table) -> Result<(), ViewError> {
+        self.count(CONTACTS);
+        self.release(None)?;
+        self.push(CONTACTS, Role::Arrows(Arrows::Force), time, extras::forces(table, self.usual)?)
+    }
+
+    /// An error if something is asked for that the run does not hold.
+    fn has_extras(&self) -> Result<(), ViewError> {
+        let grains = self.messages.contains_key(PARTICLES);
+        let none = |topic| grains && !self.messages.contains_key(topic);
+        if self.extras.needs_bonds() && none(BONDS) {
+            let option = if self.extras.bonds { "--bonds" } else { "--colour broken" }.to_owned();
+            let cure = "give a run whose scene has a [[bond]] that joins grains, or leave it out";
+            return Err(ViewError::NoSuch { option, what: "bonds", cure });
+        }
+        if self.extras.arrows == Some(Arrows::Force) && none(CONTACTS) {
+            let cure = "set [output] contacts = true and run again, or show --vectors velocity";
+            return Err(ViewError::NoSuch { option: "--vectors force".to_owned(), what: "contacts", cure });
+        }
+        Ok(())
     }
 
     /// A run writes its wall spheres first, then how they move, and again with every frame when they do.

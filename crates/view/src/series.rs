@@ -130,7 +130,7 @@ impl<T> Show for Series<T> {
             return Ok(());
         }
         // Walls and clouds are there from the first moment on, whichever that is.
-        if known.head.role == Role::Grains {
+        if known.head.role.moves() {
             let slack = known.before.map_or(0.0, |before| MISS * (time - before).max(0.0));
             known.before = Some(time);
             let Some(step) = self.span.step(time, slack) else { return Ok(()) };

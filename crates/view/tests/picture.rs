@@ -1,5 +1,8 @@
 //! Pictures of scenes whose every pixel can be worked out by hand.
 
+#[path = "picture/extras.rs"]
+mod extras;
+
 use geom::{Plane, Vec3, mesh::TriMesh};
 use std::time::Instant;
 use stream::{Table, Values};

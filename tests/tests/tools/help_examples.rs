@@ -24,6 +24,8 @@ fn given(folder: &Path) {
     let (rest, _) = scene.split_once("plane = ").unwrap();
     fs::write(folder.join("lined.toml"), format!("{rest}material = \"sinter\"\n")).unwrap();
     succeed(folder, "cloud-crop", &["scan.xyz", "-o", "scan.ply"]);
+    succeed(folder, "dem-run", &["heap.toml", "-o", "heap.mcap"]);
+    succeed(folder, "dem-run", &["bonded.toml", "-o", "bonded.mcap"]);
     for stage in ["upstream", "downstream"] {
         let file = if stage == "upstream" { "up.toml" } else { "down.toml" };
         succeed(

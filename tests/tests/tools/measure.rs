@@ -1,8 +1,11 @@
 //! What dem-measure says of runs whose answers are known.
 
+mod below_a_hopper;
+mod bonds;
 mod flow;
 mod made;
 mod refused;
+mod wall_forces;
 
 use geom::Vec3;
 use grainpipe_tests::tools::{Done, line, program, succeed, tool};

@@ -13,9 +13,11 @@ const SHAPES: &str = "SHAPE: box:x0,y0,z0,x1,y1,z1 | sphere:x,y,z,r | cylinder:x
     docs/measure.md defines each measure and its columns.\n\n\
     Examples:\n\
     \x20 dem-measure run.mcap --profile --axis z --bins 5\n\
+    \x20 dem-measure heap.mcap --repose --side x- --within box:-1,-1,0,1,1,0.5\n\
     \x20 dem-measure run.mcap --flow 0,0,0.02,0,0,-1 --plot flow.svg -o flow.csv\n\
     \x20 dem-measure run.mcap --porosity box:0,0,0,0.05,0.05,0.02\n\
-    \x20 dem-measure run.mcap --wall-force all --wall floor";
+    \x20 dem-measure run.mcap --wall-force all --wall floor\n\
+    \x20 dem-measure bonded.mcap --bonds --plot bonds.svg";
 
 /// Measure a run (MCAP), also while it is still being written; CSV (or JSON) to stdout
 #[derive(Parser, Debug)]
@@ -43,13 +45,16 @@ pub struct Args {
     /// Coordination numbers, with and without rattlers
     #[arg(long, group = "measure")]
     pub contacts: bool,
+    /// Bonds over time: how many are whole, how many broke and how, and the fragments that they leave
+    #[arg(long, group = "measure")]
+    pub bonds: bool,
     /// Distribution of contact forces
     #[arg(long, group = "measure")]
     pub forces: bool,
     /// Porosity in SHAPE
     #[arg(long, group = "measure", value_name = "SHAPE", value_parser = shape)]
     pub porosity: Option<GivenShape>,
-    /// Force on walls, and sliding work, of the contacts in SHAPE over time
+    /// Force on walls, and sliding work, of the contacts in SHAPE over time; all: also of runs that hold forces on whole walls
     #[arg(long, group = "measure", value_name = "SHAPE", value_parser = shape)]
     pub wall_force: Option<GivenShape>,
     /// Force through PLANE, of the contacts between grains on its two sides, over time
@@ -102,7 +107,7 @@ pub struct Args {
     /// The heap leans on a wall at this side: x- x+ y- y+ z- z+ [repose]
     #[arg(long, value_name = "SIDE", value_parser = side, allow_hyphen_values = true, help_heading = "How")]
     pub side: Option<Vec3>,
-    /// Only inside SHAPE [flow]; the box of the grid [profile]
+    /// Only inside SHAPE: the grains of the heap, without falling ones [repose], the crossings [flow]; the box of the grid [profile]
     #[arg(long, value_name = "SHAPE", value_parser = shape, help_heading = "How")]
     pub within: Option<GivenShape>,
     /// Rows for spans of S [s] (default: from frame to frame) [flow]
@@ -174,7 +179,7 @@ impl Args {
             ("--bin", self.bin.is_some(), &["--repose"]),
             ("--ground", self.ground.is_some(), &["--repose", "--bed-height"]),
             ("--side", self.side.is_some(), &["--repose"]),
-            ("--within", self.within.is_some(), &["--flow", "--profile"]),
+            ("--within", self.within.is_some(), &["--repose", "--flow", "--profile"]),
             ("--span", self.span.is_some(), &["--flow"]),
             ("--axis", self.axis.is_some(), &["--profile"]),
             ("--bins", self.bins.is_some(), &["--profile"]),
@@ -192,9 +197,17 @@ impl Args {
                 return Err(usage(format!("{option}: is an option of {of}: leave it out with {measure}")));
             }
         }
-        let single =
-            ["--flow", "--energy", "--residence", "--wall-force", "--plane-force", "--wear", "--impact"]
-                .contains(&measure);
+        let single = [
+            "--flow",
+            "--energy",
+            "--bonds",
+            "--residence",
+            "--wall-force",
+            "--plane-force",
+            "--wear",
+            "--impact",
+        ]
+        .contains(&measure);
         if single && (self.time.is_some() || self.last) {
             let option = if self.last { "--last" } else { "--time" };
             return Err(usage(format!(

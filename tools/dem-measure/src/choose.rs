@@ -5,6 +5,7 @@ use anyhow::{Context, anyhow};
 use cli::usage;
 use geom::{Vec3, shape::Solid};
 use measure::bed::BedHeight;
+use measure::bonds::BondNumbers;
 use measure::coordination::ContactNumbers;
 use measure::energy::Energy;
 use measure::flow::{Flow, FlowOptions};
@@ -30,7 +31,10 @@ pub fn observer(args: &Args) -> anyhow::Result<(&'static str, Box<dyn Observer>)
     let name = name(args);
     args.check(name)?;
     let observer: Box<dyn Observer> = match (args, name) {
-        (_, "--repose") => Box::new(PerFrame::new(Repose::new(heap(args)).context(name)?, single)),
+        (_, "--repose") => {
+            let within = args.within.as_ref().map(|g| g.shape.clone());
+            Box::new(PerFrame::new(Repose::new(heap(args)).context(name)?, single).within(within))
+        }
         (Args { flow: Some(plane), .. }, _) => {
             let within = args.within.as_ref().map(|g| g.shape.clone());
             let options = FlowOptions { plane: *plane, within, span: args.span, between };
@@ -46,6 +50,7 @@ pub fn observer(args: &Args) -> anyhow::Result<(&'static str, Box<dyn Observer>)
             Box::new(PerFrame::new(measure, series))
         }
         (_, "--energy") => Box::new(Energy::new(between)),
+        (_, "--bonds") => Box::new(BondNumbers::new(between)),
         (_, "--forces") => Box::new(Forces::new(single, args.on_walls)),
         (Args { porosity: Some(given), .. }, _) => {
             let region = Region::new(given.shape.clone(), volume(given)?);
@@ -75,6 +80,7 @@ fn name(args: &Args) -> &'static str {
         ("--profile", args.profile),
         ("--segregation", args.segregation),
         ("--energy", args.energy),
+        ("--bonds", args.bonds),
         ("--forces", args.forces),
         ("--porosity", args.porosity.is_some()),
         ("--wall-force", args.wall_force.is_some()),
@@ -113,6 +119,7 @@ fn heap(args: &Args) -> HeapOptions {
         fractions: args.fractions.unwrap_or(default.fractions),
         bin: args.bin,
         ground: args.ground,
+        without_falling: args.within.is_some(),
     }
 }
 
@@ -136,7 +143,8 @@ fn grid(args: &Args) -> anyhow::Result<ProfileOptions> {
 }
 
 fn on_walls(args: &Args, given: &GivenShape, between: (f64, f64)) -> WallContactFilter {
-    WallContactFilter { shape: given.shape.clone(), wall: args.wall.clone(), between }
+    let shape = (given.text != "all").then(|| given.shape.clone());
+    WallContactFilter { shape, wall: args.wall.clone(), between }
 }
 
 /// Volume [m³] of what has a file; shapes without one know theirs.

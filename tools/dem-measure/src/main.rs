@@ -1,5 +1,5 @@
-//! Measures a run: heap angle, flow, profiles, segregation, energy, contacts, porosity, wall force, wear, residence,
-//! impacts, bed height.
+//! Measures a run: heap angle, flow, profiles, segregation, energy, contacts, bonds, porosity, wall force, wear,
+//! residence, impacts, bed height.
 
 mod args;
 mod choose;

@@ -4,11 +4,13 @@ use crate::formats::{self, Format};
 use clap::Parser;
 use cli::Source;
 use std::path::PathBuf;
-use view::{Camera, Map, PictureOptions, Span};
+use view::{Arrows, Camera, Extras, Map, PictureOptions, Span};
 
 const EXAMPLES: &str = "Examples:\n\
     \x20 dem-view run.mcap -o run.html\n\
     \x20 dem-view run.mcap --time 0.02 --colour speed --camera front -o run.png\n\
+    \x20 dem-view bonded.mcap --bonds --colour broken --range 0,1 -o bonds.png\n\
+    \x20 dem-view run.mcap --vectors velocity -o arrows.png\n\
     \x20 dem-view run.mcap --every 0.01 --size 320x180 -o run.gif\n\
     \x20 dem-view sampled.ply --pick -o pick.html";
 
@@ -25,7 +27,8 @@ pub struct Args {
     /// (ParaView, one moment), .pvd (ParaView, a series: NAME.pvd and a folder NAME)
     #[arg(id = "output", short = 'o', long = "output", value_name = "FILE")]
     pub file: Option<PathBuf>,
-    /// Field to colour by: speed, spin, radius, material, id, x, y, z, rgb, or any column [default: speed, else z]
+    /// Field to colour by: speed, spin, radius, size (classes of diameter), material, broken (share of a grain's bonds that are
+    /// broken), id, x, y, z, rgb, or any column [default: speed, else z]
     #[arg(long, visible_alias = "color", value_name = "FIELD")]
     pub colour: Option<String>,
     /// Ends of the colour scale in SI units [default: the range of 98 % of the values]
@@ -60,9 +63,18 @@ pub struct Args {
     /// Opacity of walls in front of grains in the picture, 0 to 1 [default: 0.2]
     #[arg(long, value_name = "SHARE", value_parser = formats::share)]
     pub wall_opacity: Option<f64>,
+    /// Draw the bonds of a run, and a disc where one broke; grains at half their size
+    #[arg(long)]
+    pub bonds: bool,
+    /// Draw arrows: velocity of each grain, or force of each recorded contact on its first grain; grains at half their size
+    #[arg(long, value_name = "FIELD", value_parser = formats::arrows)]
+    pub vectors: Option<Arrows>,
     /// Leave out the nearer half of the walls in the picture
     #[arg(long)]
     pub cut: bool,
+    /// Light text on dark paper: pictures and films, and a page at first [default of a page: as the system has it]
+    #[arg(long)]
+    pub dark: bool,
     /// Largest size of the page [MB]: a larger page loses the components of vectors, then frames at even intervals; if it is still too large, it is refused [default: 60]
     #[arg(long, value_name = "MB", value_parser = formats::megabytes)]
     pub max_mb: Option<f64>,
@@ -81,7 +93,7 @@ impl Args {
     /// Refuses options that change nothing in this kind of output.
     pub fn check(&self, format: Format) -> anyhow::Result<()> {
         use Format::{Gif, Html, Mp4, Png, Pvd, Vtp};
-        let options: [(&str, bool, &[Format]); 16] = [
+        let options: [(&str, bool, &[Format]); 19] = [
             ("--pick", self.pick, &[Html]),
             ("--title", self.title.is_some(), &[Html]),
             ("--max-mb", self.max_mb.is_some(), &[Html]),
@@ -98,12 +110,28 @@ impl Args {
             ("--size", self.size.is_some(), &[Png, Gif, Mp4]),
             ("--wall-opacity", self.wall_opacity.is_some(), &[Png, Gif, Mp4]),
             ("--cut", self.cut, &[Png, Gif, Mp4]),
+            ("--bonds", self.bonds, &[Html, Png, Gif, Mp4]),
+            ("--vectors", self.vectors.is_some(), &[Html, Png, Gif, Mp4]),
+            ("--dark", self.dark, &[Html, Png, Gif, Mp4]),
         ];
         let foreign = options.iter().find(|(_, given, formats)| *given && !formats.contains(&format));
-        let Some((name, _, formats)) = foreign else { return Ok(()) };
+        let Some((name, _, formats)) = foreign else { return self.check_content() };
         let endings: Vec<String> = formats.iter().map(|f| format!(".{}", f.ending())).collect();
         let (wanted, cure) = (endings.join(", "), format.instead_of(name));
         Err(cli::usage(format!("{name} changes nothing in .{}: it is for {wanted}: {cure}", format.ending())))
+    }
+
+    /// Refuses options that change nothing in what is shown.
+    fn check_content(&self) -> anyhow::Result<()> {
+        let of_runs = [("--bonds", self.bonds), ("--vectors", self.vectors.is_some())];
+        if let Some((name, _)) = of_runs.iter().find(|(_, given)| *given && self.pick) {
+            return Err(cli::usage(format!("{name}: a cloud has none: leave it out")));
+        }
+        if self.range.is_some() && self.colour.as_deref() == Some("size") {
+            let cure = "leave it out, or give --colour radius";
+            return Err(cli::usage(format!("--range: size has classes, not a scale: {cure}")));
+        }
+        Ok(())
     }
 
     /// The colour map.
@@ -124,6 +152,12 @@ impl Args {
     /// Largest size of a page [MB].
     pub fn max_mb(&self) -> f64 {
         self.max_mb.unwrap_or(60.0)
+    }
+
+    /// What is shown of a run besides grains and walls.
+    pub fn extras(&self) -> Extras {
+        let broken = self.bonds || self.colour.as_deref() == Some("broken");
+        Extras { bonds: self.bonds, broken, arrows: self.vectors }
     }
 
     /// The part of a run that a film or series shows.
@@ -149,6 +183,7 @@ impl Args {
             time: None,
             wall_opacity: self.wall_opacity.unwrap_or(0.2),
             cut: self.cut,
+            dark: self.dark,
         }
     }
 }

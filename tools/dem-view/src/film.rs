@@ -4,7 +4,7 @@ use crate::{args::Args, formats::Format, inputs};
 use anyhow::Context;
 use cli::{Output, OutputStream, Progress, Report};
 use view::{
-    Image, Series,
+    Image, Role, Series,
     film::{Gif, Mp4, Reel, find_ffmpeg},
     picture,
 };
@@ -15,8 +15,12 @@ pub fn film(args: &Args, output: &Output, format: Format) -> anyhow::Result<Repo
         find_ffmpeg().with_context(|| output.name())?;
     }
     let colour = args.colour.clone();
-    let slim = move |table| picture::needed(table, colour.as_deref());
-    let mut series = Series::new(args.span(), Box::new(move |_, _, _, table| Ok(slim(table))));
+    let slim = move |role: Role, table| match role.is_rods() {
+        true => table,
+        false => picture::needed(table, colour.as_deref()),
+    };
+    let mut series =
+        Series::new(args.span(), Box::new(move |_, layer, _, table| Ok(slim(layer.head.role, table))));
     let seen = inputs::read_all(args, &mut series)?;
     let reel = Reel::new(series, args.picture(format))?;
     let shown = draw_all(&reel, args, output, format)?;

@@ -1,7 +1,7 @@
 //! What the command line's words stand for.
 
 use cli::Output;
-use view::{Camera, Map};
+use view::{Arrows, Camera, Map};
 
 /// What is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -67,6 +67,14 @@ pub fn range(text: &str) -> Result<[f64; 2], String> {
 /// The name of a colour map.
 pub fn map(text: &str) -> Result<Map, String> {
     Map::named(text).ok_or_else(|| "give viridis or turbo".into())
+}
+
+/// What arrows show.
+pub fn arrows(text: &str) -> Result<Arrows, String> {
+    [Arrows::Velocity, Arrows::Force]
+        .into_iter()
+        .find(|a| a.word() == text)
+        .ok_or_else(|| "give velocity or force".into())
 }
 
 /// A view direction.

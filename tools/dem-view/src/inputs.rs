@@ -5,7 +5,10 @@ use anyhow::Context;
 use cli::Source;
 use serde_json::{Value, json};
 use std::io::{Cursor, Read};
-use stream::{Table, Values, mcap::Reader};
+use stream::{
+    Table, Values,
+    mcap::{Event, Reader},
+};
 use view::{LayerHead, Motion, Role, Show, SurfaceShape, WallSurface};
 
 /// The bytes that every MCAP stream begins with.
@@ -22,8 +25,17 @@ pub fn short_name(source: &Source) -> String {
 
 /// Reads every input into `show`; gives what was found, for the report.
 pub fn read_all(args: &Args, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
+    read_watched(args, show, &mut |_, _| ())
+}
+
+/// The same; `watch` also sees each event of a run, with the name of the run.
+pub fn read_watched(
+    args: &Args,
+    show: &mut impl Show,
+    watch: &mut dyn FnMut(&str, &Event),
+) -> anyhow::Result<Vec<Value>> {
     let mut found = Vec::new();
-    let mut scaled = false;
+    let (mut scaled, mut runs) = (false, false);
     for source in &args.inputs {
         let mut from = source.open()?;
         let mut head = Vec::new();
@@ -40,13 +52,23 @@ pub fn read_all(args: &Args, show: &mut impl Show) -> anyhow::Result<Vec<Value>>
             );
         }
         let layers = match is_mcap {
-            true => run(whole, source, show),
+            true => {
+                runs = true;
+                run(whole, source, args, show, watch)
+            }
             false => {
                 scaled = true;
                 cloud(whole, &name, args, show)
             }
         };
         found.extend(layers.with_context(|| source.to_string())?);
+    }
+    if let Some(option) = ["--bonds", "--vectors"]
+        .into_iter()
+        .zip([args.bonds, args.vectors.is_some()])
+        .find(|(_, on)| *on && !runs)
+    {
+        return Err(cli::usage(format!("{}: no input is a run (MCAP): leave it out", option.0)));
     }
     if !scaled && args.lengths.factor().is_some() {
         return Err(cli::usage("--scale, --units: runs and walls (MCAP) are in metres: leave it out"));
@@ -55,10 +77,21 @@ pub fn read_all(args: &Args, show: &mut impl Show) -> anyhow::Result<Vec<Value>>
 }
 
 /// A run, or walls, as far as they were written.
-fn run(from: impl Read, source: &Source, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
-    let events = Reader::new(from).map_while(|event| source.as_far_as_it_goes(event).transpose());
+fn run(
+    from: impl Read,
+    source: &Source,
+    args: &Args,
+    show: &mut impl Show,
+    watch: &mut dyn FnMut(&str, &Event),
+) -> anyhow::Result<Vec<Value>> {
     let name = short_name(source);
-    let messages = view::show_run(events, &name, show)?;
+    let events = Reader::new(from).map_while(|event| source.as_far_as_it_goes(event).transpose());
+    let events = events.inspect(|event| {
+        if let Ok(event) = event {
+            watch(&name, event);
+        }
+    });
+    let messages = view::show_run(events, &name, args.extras(), show)?;
     Ok(messages.iter().map(|(t, n)| json!({ "input": name, "topic": t, "messages": n })).collect())
 }
 

@@ -1,6 +1,6 @@
 //! The HTML page.
 
-use crate::{args::Args, inputs};
+use crate::{args::Args, diagrams::Diagrams, inputs};
 use anyhow::Context;
 use cli::{Output, Report};
 use view::{Page, PageContent, PageOptions};
@@ -23,9 +23,13 @@ pub fn html(args: &Args, output: &Output) -> anyhow::Result<Report> {
         time: args.time,
         most_bytes: (args.max_mb() * 1e6) as usize,
         components: args.components,
+        dark: args.dark,
         pick: if args.pick { names.first().cloned() } else { None },
     });
-    let seen = inputs::read_all(args, &mut page)?;
+    let mut measured = Diagrams::default();
+    let seen = inputs::read_watched(args, &mut page, &mut |run, event| measured.take(run, event))?;
+    measured.warn();
+    page.diagrams(measured.finish());
     page.check()?;
     let mut out = output.open_text()?;
     let bytes = page.write_checked(&mut out).with_context(|| output.name())?;

@@ -187,3 +187,126 @@ fn bad_input_is_named_and_leaves_no_file() {
         }
     }
 }
+
+/// A run of two grains with a bond that breaks, or without; with contacts, or without.
+fn bonded(bonds: bool, contacts: bool) -> Vec<u8> {
+    let mut writer = Writer::new(Vec::new(), &Provenance::default()).expect("begun");
+    for k in 0..3u32 {
+        let time = u64::from(k) * 100_000_000;
+        let mut frame = spheres(0.0, f64::from(k));
+        frame.push("id", Values::U32(vec![3, 4])).expect("fits");
+        writer.points("/particles", time, "world", frame).expect("written");
+        let one = |columns: &[(&str, f64)]| {
+            let mut table = Table::default();
+            for (name, value) in columns {
+                table.push(name, Values::F64(vec![*value])).expect("fits");
+            }
+            table
+        };
+        let place = [("x", 0.05), ("y", 0.05), ("z", 0.0), ("id_i", 3.0), ("id_j", 4.0)];
+        if bonds {
+            let broken = [
+                ("broken", f64::from(u8::from(k == 2))),
+                ("broken_at", 0.15),
+                ("tension", 1.0),
+                ("shear", 0.0),
+            ];
+            writer.points("/bonds", time, "world", one(&[&place[..], &broken].concat())).expect("written");
+        }
+        if contacts {
+            let force = [("fx", 1.0), ("fy", 0.0), ("fz", 2.0)];
+            writer.points("/contacts", time, "world", one(&[&place[..], &force].concat())).expect("written");
+        }
+    }
+    writer.finish().expect("finished")
+}
+
+#[test]
+fn bonds_cracks_and_arrows_are_in_pages_pictures_and_films() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("b.mcap"), bonded(true, true)).expect("written");
+    dem_view(folder.path(), &["b.mcap", "--bonds", "--vectors", "force", "-o", "b.html"]).success();
+    let page = fs::read_to_string(folder.path().join("b.html")).expect("there");
+    for part in ["\"role\":\"bonds\"", "\"role\":\"arrows\"", "\"word\":\"force\"", "\"name\":\"broken\""] {
+        assert!(page.contains(part), "{part}");
+    }
+    let picture = |args: &[&str]| {
+        let all = [&["b.mcap", "-o", "b.png", "--size", "320x200"], args].concat();
+        dem_view(folder.path(), &all).success();
+        fs::read(folder.path().join("b.png")).expect("there")
+    };
+    let [plain, whole, broken] = [&[][..], &["--bonds", "--time", "0"], &["--bonds"]].map(picture);
+    assert!(plain != whole && whole != broken);
+    assert!(picture(&["--colour", "broken"]) != picture(&["--colour", "broken", "--time", "0"]));
+    assert!(picture(&["--vectors", "velocity"]) != plain && picture(&["--vectors", "force"]) != plain);
+    assert!(picture(&["--colour", "size"]) != plain);
+    dem_view(
+        folder.path(),
+        &["b.mcap", "--bonds", "--vectors", "velocity", "--size", "160x90", "-o", "b.gif"],
+    )
+    .success();
+}
+
+#[test]
+fn what_a_run_does_not_hold_cannot_be_drawn() {
+    let folder = folder();
+    fs::write(folder.path().join("b.mcap"), bonded(false, false)).expect("written");
+    fs::write(folder.path().join("c.xyz"), "0 0 0\n1 0 0\n0 1 0\n").expect("written");
+    for (args, parts) in [
+        (&["b.mcap", "--bonds", "-o", "x.png"][..], &["--bonds: run holds no bonds", "[[bond]]"][..]),
+        (&["b.mcap", "--colour", "broken", "-o", "x.html"], &["--colour broken: run holds no bonds"]),
+        (
+            &["b.mcap", "--vectors", "force", "-o", "x.png"],
+            &["--vectors force: run holds no contacts", "[output] contacts"],
+        ),
+        (&["b.mcap", "--vectors", "spin", "-o", "x.png"], &["give velocity or force"]),
+        (&["b.mcap", "--bonds", "-o", "x.vtp"], &["--bonds: files for ParaView", "leave it out"]),
+        (&["b.mcap", "--colour", "size", "--range", "0,1", "-o", "x.png"], &["--range: size has classes"]),
+        (&["b.mcap", "--dark", "-o", "x.vtp"], &["--dark: files for ParaView have no colours"]),
+        (&["c.xyz", "--vectors", "velocity", "-o", "x.png"], &["--vectors: no input is a run"]),
+        (&["c.xyz", "--colour", "size", "-o", "x.png"], &["no field 'size'"]),
+    ] {
+        let said = said(&dem_view(folder.path(), args).failure());
+        for part in parts {
+            assert!(said.contains(part), "{args:?}: {part} in {said}");
+        }
+    }
+}
+
+/// The curves of what the run holds are in the page, with the values of the run.
+#[test]
+fn a_page_has_diagrams_of_what_the_run_holds() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut writer = Writer::new(Vec::new(), &Provenance::default()).expect("begun");
+    let material = "{\"name\":\"coke\", \"density\": 1000}";
+    let materials = [0, 1].map(|k| (k.to_string(), material.to_owned()));
+    writer.metadata("materials", BTreeMap::from(materials)).expect("written");
+    for k in 0..3u32 {
+        let time = u64::from(k) * 100_000_000;
+        let mut frame = spheres(0.0, f64::from(k));
+        frame.push("id", Values::U32(vec![3, 4])).expect("fits");
+        writer.points("/particles", time, "world", frame).expect("written");
+        let force = format!(
+            "{{\"time\": {}, \"walls\": [{{\"name\": \"lid\", \"force\": [0, 0, {k}], \"contacts\": 1}}]}}",
+            0.1 * f64::from(k)
+        );
+        writer.bytes("/wall_forces", "json", time, force.as_bytes()).expect("written");
+    }
+    fs::write(folder.path().join("run.mcap"), writer.finish().expect("finished")).expect("written");
+    dem_view(folder.path(), &["run.mcap", "-o", "run.html"]).success();
+    let page = fs::read_to_string(folder.path().join("run.html")).expect("there");
+    assert!(
+        page.contains("\"label\":\"force on walls [N]\"") && page.contains("[[0.0,0.0],[0.1,1.0],[0.2,2.0]]")
+    );
+    assert!(page.contains("\"label\":\"kinetic energy [J]\"") && !page.contains("mass of the grains"));
+}
+
+/// A page is written all the same, and a warning says why a curve is missing.
+#[test]
+fn what_cannot_be_measured_for_a_diagram_is_reported() {
+    let folder = folder();
+    let said = said(&dem_view(folder.path(), &["run.mcap", "-o", "run.html"]).success());
+    for part in ["5 messages of run.mcap are not in the diagrams", "the column 'id' is missing"] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
+}

@@ -4,6 +4,7 @@ use super::{Flank, HeapAngle, HeapOptions, heap_angle};
 use crate::observer::OfFrame;
 use crate::sheet::{Chart, Curve, Head, Look, Row, Summary};
 use crate::{Frame, MeasureError, Run};
+use geom::Vec3;
 
 /// Measures the heap of chosen frames.
 pub struct Repose {
@@ -24,6 +25,13 @@ impl Repose {
     }
 }
 
+/// The grains that do not fall; `None` where gravity is not known.
+fn standing(run: &Run, frame: &Frame, up: Option<Vec3>) -> Option<Frame> {
+    let up = up.or(run.up).unwrap_or(Vec3::z()).normalize();
+    let fall = (2.0 * run.gravity * frame.mean_diameter()).sqrt();
+    (fall > 0.0).then(|| frame.only(|row| frame.velocity[row].dot(&up) >= -fall))
+}
+
 impl OfFrame for Repose {
     fn heads(&self) -> Vec<Head> {
         let place = if self.options.wall.is_some() { ("across", "m") } else { ("azimuth", "deg") };
@@ -41,7 +49,9 @@ impl OfFrame for Repose {
     }
 
     fn measure(&mut self, run: &Run, frame: &Frame) -> Result<Vec<Row>, MeasureError> {
-        let heap = match heap_angle(frame, &self.options, run.up) {
+        let standing =
+            if self.options.without_falling { standing(run, frame, self.options.up) } else { None };
+        let heap = match heap_angle(standing.as_ref().unwrap_or(frame), &self.options, run.up) {
             Ok(heap) => heap,
             // A heap that still grows may be measured later.
             Err(why @ (MeasureError::SmallHeap { .. } | MeasureError::NoGrains { .. })) => {
@@ -77,6 +87,13 @@ impl OfFrame for Repose {
             .with("parts", "1", a.count as f64)
             .with("height", "m", heap.height)
             .with("time", "s", heap.time);
+        let summary = match heap.overhang.map(|share| (100.0 * share).round()) {
+            None => summary,
+            Some(percent) => summary.note(format!(
+                "over {percent} % of the area grains stand above a gap of more than 4 diameters and count as the \
+                 surface: if they are not of the heap, measure the part below them with --within SHAPE"
+            )),
+        };
         let note = format!("{} frames left out: no heap, or a heap that is too small", self.left_out.0);
         Ok((Vec::new(), if self.left_out.0 > 0 { summary.note(note) } else { summary }))
     }

@@ -112,7 +112,8 @@ mod tests {
     fn film() -> Vec<u8> {
         let pictures = [picture(5), picture(20), picture(20)];
         let mut gif =
-            Gif::new(Vec::new(), [64, 64], Palette::of(&pictures, crate::Map::Viridis), 4).expect("begun");
+            Gif::new(Vec::new(), [64, 64], Palette::of(&pictures, crate::Map::Viridis, [255; 3]), 4)
+                .expect("begun");
         pictures.iter().for_each(|p| gif.add(p).expect("added"));
         gif.finish().expect("ended")
     }

@@ -28,16 +28,16 @@ pub struct Palette {
 }
 
 impl Palette {
-    /// The colours that fit `images`, some pictures of the film: white, steps of the `map` they are coloured by, and
+    /// The colours that fit `images`, some pictures of the film: the paper, steps of the `map` they are coloured by, and
     /// for all else a self-organising map (A. H. Dekker 1994, Network: Computation in Neural Systems 5, 351), learnt
     /// in a fixed order.
-    pub fn of(images: &[Image], map: Map) -> Palette {
+    pub fn of(images: &[Image], map: Map, paper: [u8; 3]) -> Palette {
         let mut seen: BTreeMap<[u8; 3], usize> = BTreeMap::new();
         for pixel in images.iter().flat_map(|image| image.rgba.chunks_exact(4)) {
             *seen.entry([pixel[0], pixel[1], pixel[2]].map(|c| c >> (8 - BITS))).or_default() += 1;
         }
         let step = |n: usize| map.at(n as f64 / (STEPS - 1) as f64).map(|c| (255.0 * c).round() as u8);
-        let mut colours: Vec<[u8; 3]> = [[255; 3]].into_iter().chain((0..STEPS).map(step)).collect();
+        let mut colours: Vec<[u8; 3]> = [paper].into_iter().chain((0..STEPS).map(step)).collect();
         let lesson = |(bin, count): (&[u8; 3], &usize)| {
             let [r, g, b] = bin.map(middle);
             [r, g, b, 255].repeat(1 + PER_DOUBLING * count.ilog2() as usize)
@@ -86,7 +86,7 @@ mod tests {
         for (n, pixel) in image.rgba.chunks_exact_mut(4).enumerate().take(600) {
             pixel[..3].copy_from_slice(&[(n / 4) as u8, 90, 200 - (n / 4) as u8]);
         }
-        let palette = Palette::of(std::slice::from_ref(&image), Map::Viridis);
+        let palette = Palette::of(std::slice::from_ref(&image), Map::Viridis, [255; 3]);
         assert_eq!(palette.colours[palette.index(&[255, 255, 255, 255]) as usize], [255; 3]);
         for pixel in image.rgba.chunks_exact(4) {
             let shown = palette.colours[palette.index(pixel) as usize];

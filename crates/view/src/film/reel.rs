@@ -68,6 +68,6 @@ impl Reel {
         let trials = self.times.len().min(TRIALS);
         let time = |n: usize| self.times[n * (self.times.len() - 1) / (trials - 1).max(1)];
         let images = (0..trials).map(|n| self.draw(time(n))).collect::<Result<Vec<_>, _>>()?;
-        Ok(Palette::of(&images, self.options.map))
+        Ok(Palette::of(&images, self.options.map, picture::paper(self.options.dark)))
     }
 }

@@ -9,8 +9,10 @@ const VIEWS = { iso: [0.62, -0.94, 0.62], front: [0, -1, 0], right: [1, 0, 0], t
 
 const camera = {
   yaw: 0, pitch: 0, distance: 1, target: [0, 0, 0], flat: false, rests: false,
+  fitted: false,  // whether it stands where everything is seen, and has not been moved since
 
   look(direction) {
+    this.fitted = false;
     const [x, y, z] = direction;
     const level = Math.hypot(x, y);
     this.pitch = Math.atan2(z, level);
@@ -29,7 +31,8 @@ const camera = {
   },
 
   // The point to look at and the least distance from which everything that stands out is seen in the part of the
-  // window that nothing covers: |x - tx| <= hx (z + d) for all places.
+  // window that nothing covers: -hl (z + d) <= x - tx <= hr (z + d) for all places, as far as it reaches left and right of
+  // the middle, and the same with y.
   fit(width, height) {
     const everything = [...run.layers, ...run.surfaces];
     const shown = everything.filter((l) => !state.hidden.has(l) && l.outline.length);
@@ -37,36 +40,46 @@ const camera = {
     const seen = (shown.length ? shown : everything).flatMap((l) => l.outline).map((p) => axes.map((a) => dot3(a, minus3(p, middle))));
     const ways = covered(width, height).map((edges) => ({ edges, ...this.within(edges, seen, width, height) }));
     const best = ways.reduce((a, b) => (b.distance < a.distance ? b : a));
-    const [top, right, bottom, left] = best.edges;
     this.target = [0, 1, 2].map((k) => axes.reduce((sum, a, n) => sum + a[k] * best.aim[n], 0));
     this.distance = best.distance;
-    this.shift(0.5 * (left - right), 0.5 * (top - bottom), Math.min(width, height));
+    this.fitted = true;
   },
 
   within([top, right, bottom, left], seen, width, height) {
     const short = Math.min(width, height);
-    const half = [0.94 * halfView * (width - left - right) / short, 0.94 * halfView * (height - top - bottom) / short];
+    // Room before and behind the middle along x and y, less a margin of 3 % of what is free at each end.
+    const room = (size, before, behind) => {
+      const margin = 0.03 * (size - before - behind);
+      return [before, behind].map((edge) => 2 * halfView * (0.5 * size - edge - margin) / short);
+    };
+    const [[lowX, highX], [highY, lowY]] = [room(width, left, right), room(height, top, bottom)];
+    const [high, low] = [[highX, highY], [lowX, lowY]];
     const most = (of) => seen.reduce((m, p) => Math.max(m, of(p)), -Infinity);
-    const lean = this.flat ? [0, 0] : half;
-    const far = [0, 1].map((k) => most((p) => p[k] - lean[k] * p[2]));
-    const low = [0, 1].map((k) => -most((p) => -p[k] - lean[k] * p[2]));
-    const back = Math.max(...[0, 1].map((k) => (far[k] - low[k]) / (2 * half[k])));
+    const lean = this.flat ? 0 : 1;
+    const far = [0, 1].map((k) => most((p) => p[k] - lean * high[k] * p[2]));
+    const near = [0, 1].map((k) => -most((p) => -p[k] - lean * low[k] * p[2]));
+    const back = Math.max(...[0, 1].map((k) => (far[k] - near[k]) / (high[k] + low[k])));
     const depth = 0.5 * (most((p) => p[2]) - most((p) => -p[2]));
-    return { aim: [0.5 * (far[0] + low[0]), 0.5 * (far[1] + low[1]), depth], distance: Math.max(1e-9, back + (this.flat ? 0 : depth)) };
+    // Between both ends of what the eye may be at.
+    const [x, y] = [0, 1].map((k) => 0.5 * (far[k] - high[k] * back + near[k] + low[k] * back));
+    return { aim: [x, y, depth], distance: Math.max(1e-9, back + (this.flat ? 0 : depth)) };
   },
 
   turn(right, up) {
     if (this.rests) return;
+    this.fitted = false;
     this.yaw -= right;
     this.pitch = Math.max(-Math.PI / 2, Math.min(Math.PI / 2, this.pitch + up));
   },
 
   zoom(factor) {
+    this.fitted = false;
     this.distance = Math.max(1e-4 * halfDiagonal, Math.min(60 * halfDiagonal, this.distance * factor));
   },
 
   // Moves what is looked at by so many pixels of a window whose shorter side has `short`.
   shift(right, down, short) {
+    this.fitted = false;
     const [r, u] = this.axes();
     const metres = 2 * halfView * this.distance / short;
     this.target = this.target.map((t, k) => t + metres * (-right * r[k] + down * u[k]));
@@ -94,7 +107,7 @@ function covered(width, height) {
   const lowest = Math.min(...(narrow ? ["legend", "player", "region"] : ["player"]).map((id) => edge(id, "top", height)));
   const right = Math.min(0.3 * width, narrow ? 0 : width - edge("legend", "left", width));
   const bottom = Math.min(0.5 * height, Math.max(12, height - lowest));
-  const left = Math.min(0.5 * width, narrow ? 0 : edge("region", "right", 0));
+  const left = Math.min(0.5 * width, narrow ? 0 : Math.max(edge("region", "right", 0), edge("plots", "right", 0)));
   const below = [Math.min(0.35 * height, edge("head", "bottom", 0) + 6), right, bottom, left];
   const beside = [12, right, bottom, Math.min(0.5 * width, Math.max(left, edge("head", "right", 0) + 12))];
   return [below, beside];

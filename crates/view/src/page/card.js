@@ -44,7 +44,7 @@ function pickedPlace() {
   const pose = poseOf(layer.motion, middle, clock[state.frame]);
   const home = placeAt(frame, row).map((p, k) => p - middle[k]);
   const place = [0, 1, 2].map((k) => dot3([pose.turn[k], pose.turn[3 + k], pose.turn[6 + k]], home) + pose.shift[k] + middle[k]);
-  return { place, radius: valueAt(frame.radius, row) * (layer.pointRadius ? state.dot : 1), row, frame };
+  return { place, radius: valueAt(frame.radius, row) * sizeOf(layer), row, frame };
 }
 
 // Decimals that a value with that error deserves.

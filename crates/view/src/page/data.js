@@ -41,6 +41,7 @@ function placeAt(frame, row) {
 const order = ["grains", "cloud", "walls"];
 const mainRole = order.find((role) => run.layers.some((l) => l.role === role)) || "walls";
 const mainLayers = run.layers.filter((l) => l.role === mainRole);
+const isRods = (l) => l.role === "bonds" || l.role === "arrows";
 const hasColours = (l) => ["red", "green", "blue"].every((c) => l.fields.some((f) => f.name === c));
 
 // Times at which anything changes, in order.
@@ -64,13 +65,20 @@ const halfDiagonal = Math.max(1e-9, Math.hypot(...box.lo.map((lo, k) => 0.5 * (b
 // Colours by a name: what to show, in which range.
 const state = {
   frame: 0, playing: false, speed: 1, field: null, map: run.map, shown: [0, 1], ranges: {},
-  opacity: mainRole === "walls" ? 1 : 0.2, dot: 1, detail: "auto", hidden: new Set(), dirty: true,
+  grains: run.layers.some(isRods) ? run.rods.grains : 1, opacity: mainRole === "walls" ? 1 : 0.2, dot: 1, detail: "auto", hidden: new Set(), dirty: true,
   cutAxis: -1, cutNormal: [0, 0, 1], cutAt: 0.5, cutSide: 1, cutThick: 0, cutGrains: true,
 };
 
 function fieldOf(layer, name) { return layer.fields.findIndex((f) => f.name === name); }
 
+// The size of spheres as drawn, over their own.
+const sizeOf = (layer) => (layer.pointRadius ? state.dot : layer.role === "grains" ? state.grains : 1);
+
 function describe(name) {
+  if (name === "size") {
+    const { lo, hi, names } = run.sizes;
+    return { name, unit: "", factor: 1, all: [lo, hi], shown: [lo, hi], kinds: false, classes: names };
+  }
   const all = mainLayers.map((l) => l.fields.find((f) => f.name === name)).filter(Boolean);
   if (!all.length) return null;
   const joined = (key) => [Math.min(...all.map((f) => f[key][0])), Math.max(...all.map((f) => f[key][1]))];

@@ -14,7 +14,7 @@ const painter = {
     this.solid = new Target();
     this.glass = new Target();
     this.empty = gl.createVertexArray();
-    this.layers = run.layers.map((layer) => new Buffers(layer));
+    this.layers = run.layers.filter((l) => !isRods(l)).map((layer) => new Buffers(layer));
     this.map = texture(256, 1, gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE);
     for (const side of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, side, gl.LINEAR);
     this.mapShown = null;
@@ -23,15 +23,18 @@ const painter = {
   setMap() {
     gl.activeTexture(gl.TEXTURE0);
     gl.bindTexture(gl.TEXTURE_2D, this.map);
-    if (this.mapShown === state.map) return;
+    const classes = state.field === "size";
+    const wanted = `${state.map} ${classes}`;
+    if (this.mapShown === wanted) return;
     const texels = new Uint8Array(1024);
-    for (let i = 0; i < 256; i++) texels.set([...mapAt(state.map, i / 255), 255], 4 * i);
+    const colour = (share) => (classes ? mapAt(state.map, classShare(share)) : mapAt(state.map, share));
+    for (let i = 0; i < 256; i++) texels.set([...colour(i / 255), 255], 4 * i);
     gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, 256, 1, gl.RGBA, gl.UNSIGNED_BYTE, texels);
-    this.mapShown = state.map;
+    this.mapShown = wanted;
   },
 
   total() {
-    const shown = run.layers.filter((l) => !state.hidden.has(l));
+    const shown = run.layers.filter((l) => !isRods(l) && !state.hidden.has(l));
     return shown.reduce((sum, l) => sum + frameAt(l, clock[state.frame]).count, 0);
   },
 
@@ -63,6 +66,7 @@ const painter = {
     this.solid.begin();
     this.widen(size);
     for (const b of all) if (!isGlass(b)) this.spheres(b, view);
+    rods.draw(view, size);
     gl.viewport(0, 0, ...size);
     sheets.drawSolid(view);
     gl.useProgram(this.ball.made);
@@ -116,7 +120,7 @@ const painter = {
     const layer = buffers.layer;
     const frame = frameAt(layer, clock[state.frame]);
     const pose = poseOf(layer.motion, middle, clock[state.frame]);
-    const scale = layer.pointRadius ? state.dot : 1;
+    const scale = sizeOf(layer);
     gl.bindVertexArray(buffers.array);
     gl.uniform3fv(at("boxLo"), frame.lo.map((lo, k) => lo - middle[k]));
     gl.uniform3fv(at("boxSize"), frame.hi.map((hi, k) => hi - frame.lo[k]));
@@ -160,9 +164,11 @@ const painter = {
     // A scan beside grains keeps the colours it came with.
     const own = hasColours(layer) && (main ? state.field === "rgb" : layer.role === "cloud");
     const names = own ? ["red", "green", "blue"] : [state.field];
-    const coloured = own || (main && fieldOf(layer, state.field) >= 0);
+    const sizes = state.field === "size" && !layer.pointRadius;
+    const coloured = own || (main && (sizes || fieldOf(layer, state.field) >= 0));
+    const diameter = frame.radius.map((v, k) => (k === 1 || k === 2 ? 2 * v : v));
     for (let n = 0; n < 3; n++) {
-      const column = coloured && (own || axis < 0) && names[n] ? frame.fields[fieldOf(layer, names[n])] : null;
+      const column = coloured && (own || axis < 0) && names[n] ? (sizes && !own ? diameter : frame.fields[fieldOf(layer, names[n])]) : null;
       buffers.column(2 + n, column ? column[0] : null, 1, column ? column[3] : 1, each);
       gl.uniform2f(at(`valueOf[${n}]`), column ? column[1] : 0, column ? column[2] - column[1] : 0);
     }
@@ -191,6 +197,7 @@ const painter = {
     gl.uniform3fv(at("paper"), paper());
     gl.uniform2fv(at("nearFar"), view.nearFar);
     gl.uniform2f(at("focal"), view.focal, view.focal);
+    gl.uniform1f(at("dark"), paper()[0] < 0.5 ? 1 : 0);
     gl.uniform1f(at("flatView"), camera.flat ? 1 : 0);
     gl.uniform1f(at("opacity"), glass ? state.opacity : 0);
     gl.uniform1i(at("sheets"), sheets.glass().length ? 1 : 0);
@@ -204,7 +211,7 @@ function typicalRadius() {
   const layer = mainLayers[0];
   if (!layer) return 0.01 * halfDiagonal;
   const radius = frameAt(layer, clock[state.frame]).radius;
-  return 0.5 * (radius[1] + radius[2]) * (layer.pointRadius ? state.dot : 1);
+  return 0.5 * (radius[1] + radius[2]) * sizeOf(layer);
 }
 
 // The page's background, 0 to 1.

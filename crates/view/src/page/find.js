@@ -5,7 +5,7 @@ const NEARBY = 7;  // pixels by which a small sphere may be missed
 function findAt(x, y) {
   const ray = rayAt(x, y);
   const veil = (l) => mainRole !== "walls" && l.role === "walls" && state.opacity < 0.999;
-  const shown = run.layers.filter((l) => !state.hidden.has(l) && !(l.role === "walls" && state.opacity === 0));
+  const shown = run.layers.filter((l) => !isRods(l) && !state.hidden.has(l) && !(l.role === "walls" && state.opacity === 0));
   const nearest = (hits) => hits.filter(Boolean).sort((a, b) => a.miss - b.miss || a.depth - b.depth)[0] || null;
   const solid = nearest([...shown.filter((l) => !veil(l)).map((l) => sphereOn(ray, l)), ...sheets.solid().map((p) => faceOn(ray, p))]);
   // A plane is ground: a click on it lets go.
@@ -47,7 +47,7 @@ function sphereOn(ray, layer) {
   const sizes = blob === null ? null : numbersOf(blob, width);
   const size = [0, 1, 2].map((k) => (frame.hi[k] - frame.lo[k]) / 65535);
   const start = [0, 1, 2].map((k) => frame.lo[k] - middle[k] - from[k]);
-  const scale = layer.pointRadius ? state.dot : 1;
+  const scale = sizeOf(layer);
   const step = (high - low) / (256 ** width - 1);
   let best = null;
   for (let i = 0; i < frame.count; i++) {

@@ -18,6 +18,7 @@ const KEYS = [
   [null, null, "]", () => moveSlice(0.01)],
   ["L", "follow what was picked", "l", () => follow(!picked.follows)],
   ["Esc", "let it go", "Escape", () => pick(null)],
+  ["G", "diagrams", "g", () => plots.toggle()],
   ["T", "light or dark", "t", () => toggleTheme()],
   ["S", "save this view as PNG", "s", () => savePicture()],
   ["M", "settings", "m", () => byId("more").click()],
@@ -39,7 +40,7 @@ function listKeys() {
     ["←  →" + (moving ? "" : "  ↑  ↓"), moving ? "frame back, on" : "turn"],
     ...(moving ? [["Shift + arrows", "turn"]] : []),
     ["1 – 7", `view from ${Object.keys(VIEWS).join(", ")}`],
-    ...KEYS.filter(([name, , pressed]) => name && (moving || ![" ", "Home", "l"].includes(pressed))),
+    ...KEYS.filter(([name, , pressed]) => name && (moving || ![" ", "Home", "l"].includes(pressed)) && (pressed !== "g" || run.plots.length)),
     ...(run.pick ? [["P  B", "draw a polygon, a box"]] : []),
   ];
   const fill = (id, list) => byId(id).append(...list.flatMap(([name, what]) => [element("dt", name), element("dd", what)]));

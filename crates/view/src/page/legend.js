@@ -6,6 +6,13 @@ function mapAt(name, share) {
   return anchors[below].map((a, k) => Math.round(a + (place - below) * (anchors[below + 1][k] - a)));
 }
 
+// The place in the map of the class of sizes that a share of the range of diameters is in.
+function classShare(share) {
+  const { lo, hi, edges, names } = run.sizes;
+  const diameter = lo + share * (hi - lo);
+  return edges.filter((edge) => edge <= diameter).length / Math.max(1, names.length - 1);
+}
+
 const css = (colour) => `rgb(${colour.join(",")})`;
 const grouped = (n) => String(n).replace(/\B(?=(\d{3})+$)/g, "\u202f");
 const number = (v, decimals) => { const t = v.toFixed(decimals); return Number(t) === 0 ? t.replace("-", "") : t.replace("-", "−"); };
@@ -26,20 +33,34 @@ function showLegend() {
   const legend = byId("legend");
   legend.replaceChildren();
   const about = describe(state.field);
-  legend.hidden = !about;
-  if (!about) return;
-  legend.append(element("h2", about.unit ? `${about.name} [${about.unit}]` : about.name));
-  if (about.kinds) {
-    const list = element("ul");
+  const bonds = run.layers.some((l) => l.role === "bonds");
+  legend.hidden = !about && !bonds;
+  if (about) legend.append(element("h2", about.unit ? `${about.name} [${about.unit}]` : about.name));
+  if (about?.kinds) {
     const names = mainLayers[0].kinds;
-    for (let k = about.all[0]; k <= about.all[1]; k++) {
-      const item = element("li");
-      item.append(element("i", "", { background: css(run.kinds[k]) }), (about.name === "material" && names[k]) || String(k));
-      list.append(item);
-    }
-    legend.append(list);
-    return;
+    const kinds = run.kinds.slice(0, about.all[1] + 1).map((colour, k) => [colour, (about.name === "material" && names[k]) || String(k)]);
+    legend.append(swatches(kinds.slice(about.all[0])));
+  } else if (about?.classes) {
+    const last = Math.max(1, about.classes.length - 1);
+    legend.append(swatches(about.classes.map((name, k) => [mapAt(state.map, k / last), name])));
+  } else if (about) {
+    showBar(legend, about);
   }
+  if (bonds) legend.append(swatches([[WHOLE, "bond"], [BREAK, "crack"]]));
+}
+
+// A colour and a name in each line.
+function swatches(rows) {
+  const list = element("ul");
+  for (const [colour, name] of rows) {
+    const item = element("li");
+    item.append(element("i", "", { background: css(colour) }), name);
+    list.append(item);
+  }
+  return list;
+}
+
+function showBar(legend, about) {
   const bar = element("div");
   bar.className = "bar";
   const stops = run.maps[state.map].map(css);
@@ -92,7 +113,10 @@ function showCounts() {
   const words = [["grains", "grains"], ["walls", "wall spheres"], ["cloud", "points"]];
   const faces = run.surfaces.filter((s) => !s.normal && !state.hidden.has(s)).reduce((sum, s) => sum + s.faceCount, 0);
   const meshes = faces ? [`${grouped(faces)} faces`] : [];
-  byId("count").textContent = [...words.filter(([role]) => count(role)).map(([role, word]) => `${grouped(count(role))} ${count(role) === 1 ? word.slice(0, -1) : word}`), ...meshes].join(" · ");
+  const bonds = bondCounts();
+  const bonded = bonds ? [`${grouped(bonds.whole)} bonds, ${grouped(bonds.broken)} broken`] : [];
+  const share = state.grains < 1 && count("grains") ? [`grains drawn at ${Math.round(100 * state.grains)} % of their size`] : [];
+  byId("count").textContent = [...words.filter(([role]) => count(role)).map(([role, word]) => `${grouped(count(role))} ${count(role) === 1 ? word.slice(0, -1) : word}`), ...meshes, ...bonded, ...share].join(" · ");
   byId("drawn").textContent = painter.dots ? "drawn as points" : "";
   byId("clock").textContent = clock.length > 1 || clock[0] > 0 ? `t = ${clock[state.frame].toFixed(timeDecimals)} s` : "";
 }

@@ -5,7 +5,7 @@ precision highp sampler2D;
 uniform sampler2D solidColour, solidNormal, solidDepth, glassColour, glassNormal, glassDepth, sheetBehind, sheetBefore;
 uniform vec3 paper;
 uniform vec2 nearFar, focal;   // focal in samples
-uniform float flatView, opacity, reach;
+uniform float flatView, opacity, reach, dark;   // dark: 1 on dark paper
 uniform int samples, sheets;
 out vec4 shownColour;
 
@@ -42,6 +42,12 @@ float openness(sampler2D depths, sampler2D normals, ivec2 at, float share) {
   return clamp(1.0 - 2.4 * covered / 8.0, 0.15, 1.0);
 }
 
+// On dark paper grains and their rims are lit: dark grains are nearly as dark as the paper.
+vec3 rim(sampler2D normals, ivec2 at, vec3 colour) {
+  float edge = 1.0 + min(0.0, texelFetch(normals, at, 0).z * 2.0 - 1.0);
+  return colour + dark * (0.07 + 0.30 * edge * edge) * (1.0 - colour);
+}
+
 vec3 veiled(sampler2D by, ivec2 at, vec3 under) {
   if (sheets == 0) return under;
   vec4 veil = texelFetch(by, at, 0);
@@ -52,11 +58,11 @@ vec3 seen(ivec2 at) {
   float far = texelFetch(solidDepth, at, 0).r;
   float near = opacity > 0.0 ? texelFetch(glassDepth, at, 0).r : 1.0;
   vec3 under = paper;
-  if (far < 1.0) under = texelFetch(solidColour, at, 0).rgb * openness(solidDepth, solidNormal, at, far);
+  if (far < 1.0) under = rim(solidNormal, at, texelFetch(solidColour, at, 0).rgb * openness(solidDepth, solidNormal, at, far));
   under = veiled(sheetBehind, at, under);
   if (near >= far) return veiled(sheetBefore, at, under);
   vec3 wall = texelFetch(glassColour, at, 0).rgb * openness(glassDepth, glassNormal, at, near);
-  return veiled(sheetBefore, at, mix(under, wall, far < 1.0 ? opacity : 0.35 + 0.65 * opacity));
+  return veiled(sheetBefore, at, mix(under, wall, far < 1.0 ? opacity : mix(0.35, 0.6, dark) + mix(0.65, 0.4, dark) * opacity));
 }
 
 void main() {

@@ -80,6 +80,7 @@ function start() {
     fitCanvas();
     painter.start();
     sheets.start();
+    rods.start();
   } catch (problem) {
     return fail(`The graphics driver refused this page's drawing program: ${problem.message}`);
   }
@@ -87,6 +88,7 @@ function start() {
   byId("player").hidden = !moving;
   document.body.classList.toggle("still", !moving);
   choices();
+  plots.start();
   if (run.pick) regions.start();
   wire();
   notes();
@@ -96,8 +98,9 @@ function start() {
   byId("scrub").max = clock.length - 1;
   state.speed = naturalSpeed();
   byId("speed").value = state.speed;
-  const asked = run.time === null ? -1 : clock.findLastIndex((t) => t <= run.time + 1e-12);
-  show(Math.max(0, asked));
+  // The nearest frame: one is written at the end of the step in which its time comes, and so a little late.
+  const off = (n) => Math.abs(clock[n] - run.time);
+  show(run.time === null ? 0 : clock.reduce((best, _, n) => (off(n) < off(best) ? n : best), 0));
   expose();
   canvas.addEventListener("webglcontextlost", () => fail("The graphics card dropped this page: load it again."));
   redraw(1, painter.asDots(moving, 0));

@@ -12,12 +12,17 @@ mod timeline;
 mod write;
 
 use crate::{
-    Camera, Map, Motion, Role, ViewError, WallSurface, field, outline::Outline, scale::Range,
+    Camera, Diagram, Map, Motion, Role, ViewError, WallSurface,
+    classes::Sizes,
+    extras, field,
+    outline::Outline,
+    picture::{self, ArrowKey},
+    scale::Range,
     spheres::Spheres,
 };
 use exact::Exact;
 use pack::Packed;
-use stream::Table;
+use stream::{Table, Values};
 use timeline::Timeline;
 
 /// A page's settings.
@@ -41,6 +46,8 @@ pub struct PageOptions {
     pub components: bool,
     /// Whether regions can be drawn on it: the file that `cloud-crop` is to be given.
     pub pick: Option<String>,
+    /// Dark colours first; else those of the system.
+    pub dark: bool,
 }
 
 impl Default for PageOptions {
@@ -55,6 +62,7 @@ impl Default for PageOptions {
             most_bytes: 60_000_000,
             components: false,
             pick: None,
+            dark: false,
         }
     }
 }
@@ -96,6 +104,8 @@ pub(crate) struct PageLayer {
     pub motion: Motion,
     /// The positions to the last bit, where regions are drawn.
     pub exact: Option<Exact>,
+    /// Of arrows: largest length that is not rare, in the unit of their vectors, and mean radius of the grains [m].
+    pub reach: [f64; 2],
 }
 
 /// A field of a layer.
@@ -117,13 +127,25 @@ pub struct Page {
     stride: usize,
     lengths_only: bool,
     one_point_of: usize,
+    sizes: Sizes,
+    diagrams: Vec<Diagram>,
 }
 
 impl Page {
     /// A page without anything in it.
     pub fn new(options: PageOptions) -> Page {
         let (layers, surfaces) = (Vec::new(), Vec::new());
-        Page { options, layers, surfaces, given: 0, stride: 1, lengths_only: false, one_point_of: 1 }
+        Page {
+            options,
+            layers,
+            surfaces,
+            given: 0,
+            stride: 1,
+            lengths_only: false,
+            one_point_of: 1,
+            sizes: Sizes::default(),
+            diagrams: Vec::new(),
+        }
     }
 
     /// Whether regions can be drawn on it.
@@ -143,6 +165,7 @@ impl Page {
             outline: Outline::default(),
             motion: Motion::default(),
             exact: None,
+            reach: [0.0; 2],
         });
         self.layers.len() - 1
     }
@@ -155,6 +178,11 @@ impl Page {
     /// Lets a layer move as one body; what is pushed is where its spheres are at t = 0.
     pub fn moves(&mut self, layer: usize, motion: Motion) {
         self.layers[layer].motion = motion;
+    }
+
+    /// Adds diagrams beside the picture.
+    pub fn diagrams(&mut self, diagrams: Vec<Diagram>) {
+        self.diagrams.extend(diagrams);
     }
 
     /// Adds a wall that is a plane or a mesh.
@@ -174,12 +202,20 @@ impl Page {
         let spheres = Spheres::of(table, &layer.name)?;
         let moving = layer.role == Role::Grains;
         if layer.frames.is_empty() {
-            layer.fields = new_fields(table, all_fields, spheres.sized, self.options.colour.as_deref());
+            let sized = spheres.sized && !layer.role.is_rods();
+            layer.fields = new_fields(table, all_fields, sized, self.options.colour.as_deref());
             layer.point_radius =
                 if spheres.sized { 0.0 } else { spheres.radius.first().copied().unwrap_or(0.0) };
             layer.exact = self.options.pick.as_ref().map(|_| Exact::of(&spheres.centre));
         }
-        layer.outline.add_spheres(&spheres, layer.role != Role::Walls);
+        if moving && spheres.sized {
+            self.sizes.add(spheres.radius.iter().map(|r| 2.0 * r));
+        }
+        if layer.role.is_rods() {
+            layer.add_reach(table, &spheres.radius);
+        } else {
+            layer.outline.add_spheres(&spheres, layer.role != Role::Walls);
+        }
         let mut columns = Vec::new();
         for field in &mut layer.fields {
             let values = field::values(table, &field.name).unwrap_or_else(|| vec![0.0; table.rows()]);
@@ -220,6 +256,23 @@ impl Page {
 }
 
 impl PageLayer {
+    /// Takes in the lengths of arrows.
+    fn add_reach(&mut self, table: &Table, radius: &[f64]) {
+        let [x, y, z] = extras::ALONG.map(|c| table.get(c).map(Values::to_f64).unwrap_or_default());
+        let length = |k: usize| (x[k] * x[k] + y[k] * y[k] + z[k] * z[k]).sqrt();
+        let most = Range::of_most(&(0..x.len()).map(length).collect::<Vec<f64>>()).hi;
+        let usual = radius.iter().sum::<f64>() / radius.len().max(1) as f64;
+        self.reach = [self.reach[0].max(most), self.reach[1].max(usual)];
+    }
+
+    /// What the lengths of arrows mean.
+    fn arrow_key(&self) -> Option<ArrowKey> {
+        match self.role {
+            Role::Arrows(of) => Some(picture::arrow_key(of, self.reach[0], self.reach[1])),
+            _ => None,
+        }
+    }
+
     /// Name and bound on the error by packing of each field.
     fn field_errors(&self) -> impl Iterator<Item = (String, f64)> {
         self.fields.iter().enumerate().map(|(n, field)| {

@@ -3,7 +3,7 @@ function setField(name) {
   state.field = name;
   const about = describe(name);
   if (about) state.shown = state.ranges[name] || (name === run.colour && run.range) || about.shown;
-  byId("ends").hidden = !about || about.kinds;
+  byId("ends").hidden = !about || about.kinds || Boolean(about.classes);
   if (about) [byId("lo").value, byId("hi").value] = state.shown.map((v) => Number((v * about.factor).toPrecision(4)));
   byId("field").value = name;
   showLegend();
@@ -22,6 +22,7 @@ function choices() {
   const names = [...new Set(mainLayers.flatMap((l) => l.fields.map((f) => f.name)))];
   const last = (name) => Number(/^([vwf]?[xyz]|id)$/.test(name));
   names.sort((a, b) => last(a) - last(b));
+  if (run.sizes) names.splice(Math.max(0, names.indexOf("radius")), 0, "size");
   if (mainLayers.some(hasColours)) names.unshift("rgb");
   names.forEach((name) => byId("field").append(new Option(name)));
   Object.keys(run.maps).forEach((name) => byId("map").append(new Option(name)));
@@ -44,6 +45,8 @@ function choices() {
   byId("glass").hidden = !run.surfaces.length && (mainRole === "walls" || !run.layers.some((l) => l.role === "walls"));
   byId("opacity").value = state.opacity;
   byId("colours").hidden = byId("details").hidden = !run.layers.length;
+  byId("sizes").hidden = !run.layers.some(isRods);
+  byId("shrink").value = state.grains;
   byId("dots").hidden = !run.layers.some((l) => l.pointRadius);
   const preferred = mainLayers.some(hasColours) ? "rgb" : names.includes("speed") ? "speed" : "z";
   byId("map").value = state.map;
@@ -87,6 +90,7 @@ function wire() {
   on("more", "click", () => { const p = byId("panel"); p.hidden = !p.hidden; byId("more").setAttribute("aria-expanded", !p.hidden); });
   on("fit", "click", fitView);
   on("theme", "click", toggleTheme);
+  on("graphs", "click", () => plots.toggle());
   on("save", "click", savePicture);
   on("ask", "click", () => byId("help").showModal());
   on("play", "click", () => play(!state.playing));
@@ -97,6 +101,7 @@ function wire() {
   ["lo", "hi"].forEach((id) => on(id, "change", setEnds));
   on("flat", "change", (e) => { camera.flat = e.target.checked = e.target.checked || camera.rests; changed(); });
   on("opacity", "input", (e) => { state.opacity = Number(e.target.value); changed(); });
+  on("shrink", "input", (e) => { state.grains = Number(e.target.value); changed(); });
   on("dot", "input", (e) => { state.dot = 2 ** Number(e.target.value); changed(); });
   on("detail", "change", (e) => { state.detail = e.target.value; changed(); });
   on("across", "change", (e) => { state.cutAxis = -1; sliceAcross(e.target.value === "" ? -1 : Number(e.target.value)); });
@@ -107,7 +112,7 @@ function wire() {
   on("follow", "click", () => follow(!picked.follows));
   on("close", "click", () => pick(null));
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", changed);
-  addEventListener("resize", changed);
+  addEventListener("resize", () => { if (camera.fitted) fitView(); changed(); });
   addEventListener("keydown", key);
   gestures();
 }

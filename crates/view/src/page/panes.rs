@@ -61,10 +61,14 @@ impl Page {
         let layers = self.layers.iter().map(|l| on_its_way(&l.outline.points(), &l.motion));
         let outlines: Vec<Vec<Vec3>> = layers.collect();
         let mut all: Vec<Vec3> = outlines.concat();
+        let is_mesh = |s: &WallSurface| matches!(s.shape, SurfaceShape::Mesh(_));
+        let nothing_else = all.is_empty() && !self.surfaces.iter().any(is_mesh);
         let mut panes = Vec::new();
         for sheet in sheet::sheets(&self.surfaces, sheet::box_of(&all)) {
             let mut own = Outline::default();
-            if sheet.whole {
+            // A plane goes on for ever: it is looked at only where there is nothing else.
+            let mesh = matches!(sheet.surface.shape, SurfaceShape::Mesh(_));
+            if mesh || (sheet.whole && nothing_else) {
                 own.add(&sheet.vertices);
             }
             let outline = on_its_way(&own.points(), &sheet.surface.motion);

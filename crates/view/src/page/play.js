@@ -74,6 +74,8 @@ function redraw(samples, dots) {
   drawn = [samples, dots];
   state.dirty = false;
   showRuler();
+  showArrow();
+  plots.mark();
   showGnomon();
   showCounts();
   showRing();

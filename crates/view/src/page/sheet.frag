@@ -8,7 +8,7 @@ uniform vec3 plain;
 uniform vec2 nearFar;
 uniform vec4 cut;
 uniform float cutLeast, flatView, width, hides, ink;   // ink: brightness of lines
-uniform int glass;
+uniform int glass, plane;
 layout(location = 0) out vec4 behind;
 layout(location = 1) out vec4 before;
 
@@ -24,6 +24,8 @@ void main() {
   float lamp = max(0.0, dot(normal, vec3(-0.4243, 0.7071, -0.5657)));
   float bright = width > 0.0 ? ink : 0.64 + 0.14 * normal.y + 0.38 * lamp;
   vec4 veil = vec4(plain * bright, 1.0) * hides;
+  // A plane is ground: it does not show through the walls that stand before it.
+  if (plane == 1 && glass == 1 && depth >= texelFetch(glassDepth, at, 0).r) discard;
   bool nearest = glass == 0 || depth < texelFetch(glassDepth, at, 0).r;
   behind = nearest ? vec4(0.0) : veil;
   before = nearest ? veil : vec4(0.0);

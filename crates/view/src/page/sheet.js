@@ -134,8 +134,12 @@ const sheets = {
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     const rank = (part) => this.rank(part.surface, view.eye);
     const order = [...shown].sort((a, b) => rank(a) - rank(b));
-    for (const part of order) this.drawPart(part, 0);
-    for (const part of order) this.drawPart(part, 1.3 * size[0] / innerWidth);
+    // Each rank by itself: the grid of a floor does not lie on the meshes that stand on it.
+    for (const level of [0, 1, 2]) {
+      const same = order.filter((part) => rank(part) === level);
+      for (const part of same) this.drawPart(part, 0);
+      for (const part of same) this.drawPart(part, 1.3 * size[0] / innerWidth);
+    }
     gl.disable(gl.BLEND);
     gl.activeTexture(gl.TEXTURE0);
   },
@@ -160,7 +164,10 @@ const sheets = {
     const { at } = this.program;
     this.place(part, this.program);
     gl.uniform1f(at("width"), width);
-    gl.uniform1f(at("hides"), width ? surface.ink : Math.min(state.opacity, surface.normal ? 0.3 : 1));
+    gl.uniform1i(at("plane"), surface.normal ? 1 : 0);
+    // On dark paper a face of the same share would be as bright as the walls on it.
+    const ground = surface.normal ? (paper()[0] < 0.5 ? 0.1 : 0.3) : 1;
+    gl.uniform1f(at("hides"), width ? surface.ink : Math.min(state.opacity, ground));
     gl.bindVertexArray((width ? lines : faces).array);
     if (width) gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, lines.count);
     else gl.drawElements(gl.TRIANGLES, faces.count, gl.UNSIGNED_INT, 0);

@@ -5,7 +5,7 @@ use super::{
     pack::Column,
     panes::{self, Framed, Pane},
 };
-use crate::{Map, Role, ViewError, colour, field, scale, sheet};
+use crate::{Diagram, Map, Role, ViewError, colour, extras, field, picture::ArrowKey, scale, sheet};
 use base64::{Engine, engine::general_purpose::STANDARD};
 use geom::Vec3;
 use serde_json::{Value, json};
@@ -16,16 +16,18 @@ use std::sync::Arc;
 const TEMPLATE: &str = include_str!("page.html");
 const REGION: &str = include_str!("region.html");
 const STYLE: &str = include_str!("page.css");
-const SCRIPT: [&str; 14] = [
+const SCRIPT: [&str; 16] = [
     include_str!("data.js"),
     include_str!("camera.js"),
     include_str!("card.js"),
     include_str!("gpu.js"),
     include_str!("draw.js"),
     include_str!("sheet.js"),
+    include_str!("rods.js"),
     include_str!("cut.js"),
     include_str!("find.js"),
     include_str!("legend.js"),
+    include_str!("plots.js"),
     include_str!("play.js"),
     include_str!("panel.js"),
     include_str!("keys.js"),
@@ -44,6 +46,10 @@ const SHADERS: [(&str, &str); 8] = [
     ("light-vert", include_str!("light.vert")),
     ("light-frag", include_str!("light.frag")),
 ];
+
+/// Those of bonds, cracks and arrows.
+const ROD_SHADERS: [(&str, &str); 2] =
+    [("rod-vert", include_str!("rod.vert")), ("rod-frag", include_str!("rod.frag"))];
 
 /// Counts what passes.
 struct Counted<W> {
@@ -109,6 +115,7 @@ impl Page {
         let mut known: Vec<String> =
             layers.iter().flat_map(|l| l.fields.iter().map(|f| f.name.clone())).collect();
         known.extend(["x", "y", "z"].map(str::to_owned));
+        known.extend(self.sizes.classes().map(|_| field::SIZE.to_owned()));
         match self.options.colour.as_deref().map(field::canonical) {
             Some(name) if name != "rgb" && !known.iter().any(|k| k == name) => {
                 Err(ViewError::NoField { name: name.to_owned(), known })
@@ -126,18 +133,19 @@ impl Page {
         let framed = self.framed();
         let mut blobs = Blobs::default();
         let mut header = self.header(&framed, &mut blobs);
-        let script = self.script();
-        header["bytes"] = json!(page_size(&blobs, &header, &script));
+        let (script, shaders) = (self.script(), self.shaders());
+        header["bytes"] = json!(page_size(&blobs, &header, &script, &shaders));
         // `<` cannot end the script that the text stands in when it is written as an escape.
         let header = header.to_string().replace('<', "\\u003c");
         for (n, piece) in TEMPLATE.split("{{").enumerate() {
             let (slot, rest) =
                 if n == 0 { ("", piece) } else { piece.split_once("}}").unwrap_or(("", piece)) };
             match slot {
+                "theme" if self.options.dark => out.write_all(b" data-theme=\"dark\"")?,
                 "title" => out.write_all(escaped(&self.options.title).as_bytes())?,
                 "regions" if self.options.pick.is_some() => out.write_all(REGION.as_bytes())?,
-                "style" => out.write_all(STYLE.as_bytes())?,
-                "shaders" => shaders(out)?,
+                "style" => out.write_all(slim(STYLE).as_bytes())?,
+                "shaders" => out.write_all(shaders.as_bytes())?,
                 "header" => out.write_all(header.as_bytes())?,
                 "blobs" => write_blobs(&blobs, out)?,
                 "script" => out.write_all(script.as_bytes())?,
@@ -152,7 +160,15 @@ impl Page {
         let regions: &[&str] = if self.options.pick.is_some() { &REGIONS } else { &[] };
         // The last part starts what the others define.
         let (last, parts) = SCRIPT.split_last().unwrap_or((&"", &[]));
-        [parts, regions, &[*last]].concat().concat()
+        slim(&[parts, regions, &[*last]].concat().concat())
+    }
+
+    fn shaders(&self) -> String {
+        let rods = self.layers.iter().any(|l| l.role.is_rods());
+        let more = if rods { &ROD_SHADERS[..] } else { &[] };
+        let all = SHADERS.iter().chain(more);
+        all.map(|(id, text)| format!("<script type=\"x-shader\" id=\"{id}\">{}</script>\n", slim(text)))
+            .collect()
     }
 
     fn header<'a>(&'a self, framed: &'a Framed, blobs: &mut Blobs<'a>) -> Value {
@@ -174,6 +190,11 @@ impl Page {
                 "eye": camera.eye.map(|e| [e.x, e.y, e.z]),
                 "target": camera.target.map(|t| [t.x, t.y, t.z]),
             },
+            "sizes": self.sizes.classes().map(|c| json!({
+                "names": c.names, "edges": c.edges, "lo": c.range.lo, "hi": c.range.hi,
+            })),
+            "rods": { "bond": extras::BOND, "crack": extras::CRACK, "head": extras::HEAD, "grains": extras::GRAINS },
+            "plots": self.diagrams.iter().map(Diagram::to_json).collect::<Vec<_>>(),
             "given": kept.given, "stride": kept.stride,
             "lengthsOnly": kept.lengths_only, "mostBytes": self.options.most_bytes,
             "pick": self.options.pick, "onePointOf": kept.one_point_of,
@@ -192,10 +213,9 @@ fn is_shown(layer: &PageLayer) -> bool {
 }
 
 /// Bytes of the page, to a few.
-fn page_size(blobs: &Blobs, header: &Value, script: &str) -> usize {
-    let shaders: usize = SHADERS.iter().map(|(id, text)| id.len() + text.len() + 44).sum();
+fn page_size(blobs: &Blobs, header: &Value, script: &str, shaders: &str) -> usize {
     let packed: usize = blobs.list.iter().map(|b| b.len().div_ceil(3) * 4 + 45).sum();
-    TEMPLATE.len() + STYLE.len() + shaders + script.len() + packed + header.to_string().len()
+    TEMPLATE.len() + slim(STYLE).len() + shaders.len() + script.len() + packed + header.to_string().len()
 }
 
 fn pane<'a>(pane: &'a Pane, blobs: &mut Blobs<'a>) -> Value {
@@ -238,9 +258,18 @@ fn layer<'a>(layer: &'a PageLayer, outline: &[Vec3], blobs: &mut Blobs<'a>) -> V
         "pointRadius": layer.point_radius,
         "exact": layer.exact.as_ref().map(|e| json!([blobs.number(&e.bytes), e.width])),
         "motion": panes::motion(&layer.motion),
+        "arrows": layer.arrow_key().map(|key| arrow_json(&key)),
         "fields": fields.chain(axes).collect::<Vec<_>>(),
         "outline": outline.iter().map(panes::triple).collect::<Vec<_>>(),
         "frames": frames,
+    })
+}
+
+fn arrow_json(key: &ArrowKey) -> Value {
+    let (unit, factor) = scale::readable(key.of.unit(), key.example);
+    json!({
+        "word": key.of.word(), "unit": unit, "factor": factor,
+        "example": key.example, "scale": key.scale, "radius": key.radius,
     })
 }
 
@@ -249,11 +278,10 @@ fn named_field(name: &str, whole: bool, all: [f64; 2], shown: [f64; 2]) -> Value
     json!({ "name": name, "whole": whole, "unit": unit, "factor": factor, "all": all, "shown": shown })
 }
 
-fn shaders(out: &mut impl Write) -> io::Result<()> {
-    for (id, text) in SHADERS {
-        writeln!(out, "<script type=\"x-shader\" id=\"{id}\">{text}</script>")?;
-    }
-    Ok(())
+/// A program without indentation and without lines of comments.
+fn slim(text: &str) -> String {
+    let lines = text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with("//"));
+    lines.flat_map(|line| [line, "\n"]).collect()
 }
 
 fn write_blobs(blobs: &Blobs, out: &mut impl Write) -> io::Result<()> {

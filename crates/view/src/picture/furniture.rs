@@ -1,15 +1,16 @@
 //! Annotations of a picture: colour bar, scale bar, time, count and axes.
 
+mod extras;
+
 use super::{
     Image, PictureOptions, font,
     ink::{Anchor, Pen},
     key::Key,
     lens::Lens,
     paint::Painted,
+    theme::Theme,
 };
 use crate::{Role, colour, scale};
-
-const INK: [u8; 3] = [0x22, 0x26, 0x2b];
 
 /// Height of capitals in a picture of so many pixels [pixel].
 pub fn text_height(width: u32, height: u32) -> f64 {
@@ -20,10 +21,19 @@ pub fn text_height(width: u32, height: u32) -> f64 {
 pub fn add(image: &mut Image, painted: &Painted, lens: &Lens, options: &PictureOptions) {
     let text = text_height(image.width, image.height);
     let [w, h] = [f64::from(image.width), f64::from(image.height)];
-    let mut pen = Pen { image, colour: INK };
+    let theme = Theme::of(options.dark);
+    let mut pen = Pen { image, colour: theme.ink, paper: theme.paper_bytes() };
     match &painted.key {
         Key::Bar { .. } => bar(&mut pen, [w, h], text, &painted.key),
-        Key::Kinds { field, names } => kinds(&mut pen, [w, h], text, field, names),
+        Key::Kinds { field, names } => {
+            let colours: Vec<colour::Rgb> = (0..names.len()).map(colour::kind).collect();
+            kinds(&mut pen, [w, h], text, field, names, &colours);
+        }
+        Key::Classes { classes, map } => {
+            let of = |k| map.at(classes.share(k)).map(|c| (c * 255.0).round() as u8);
+            let colours: Vec<colour::Rgb> = (0..classes.names.len()).map(of).collect();
+            kinds(&mut pen, [w, h], text, crate::field::SIZE, &classes.names, &colours);
+        }
         Key::None => {}
     }
     let margin = 2.2 * text;
@@ -33,18 +43,51 @@ pub fn add(image: &mut Image, painted: &Painted, lens: &Lens, options: &PictureO
         line += 2.2 * text;
     }
     pen.text([margin, line], text, Anchor::Left, &count(painted));
+    extras::add(
+        &mut pen,
+        [margin, line + 2.2 * text],
+        [margin, h - margin - 4.4 * text],
+        text,
+        painted,
+        lens,
+    );
     scale_bar(&mut pen, [margin, h - margin], text, lens, 0.16 * w);
-    gnomon(&mut pen, [w - 4.6 * text, h - 4.6 * text], text, lens);
+    gnomon(&mut pen, [w - 4.6 * text, h - 4.6 * text], text, lens, theme.axes);
+}
+
+/// The parts of a picture in which text stands, as left, top, right, bottom [pixel]: at the top left, and at the bottom
+/// left. They are the same for all pictures of a film.
+pub fn boxes(painted: &Painted, options: &PictureOptions) -> [[f64; 4]; 2] {
+    let [w, h] = [options.width, options.height].map(f64::from);
+    let text = text_height(options.width, options.height);
+    let margin = 2.2 * text;
+    let wide = |line: &str, height: f64| font::lay_out(line).1 * height / font::CAPITAL;
+    let time = options.time.map_or(0.0, |t| wide(&format!("t = {t:.3} s"), 1.15 * text));
+    let lines = 1.0
+        + if options.time.is_some() { 1.1 } else { 0.0 }
+        + if painted.bonds.is_some() { 2.0 } else { 0.0 };
+    let right = margin + time.max(wide(&words(painted.counts, painted.shrunk), text)) + text;
+    let arrow = if painted.arrows.is_some() { 4.4 * text } else { 0.0 };
+    let scale = [0.0, h - margin - 2.6 * text - arrow, margin + 0.16 * w + 2.0 * text, h];
+    [[0.0, 0.0, right, margin + 2.1 * lines * text], scale]
 }
 
 /// "50 000 grains, 12 000 wall spheres".
 fn count(painted: &Painted) -> String {
-    let of = |role: Role, word: &str| {
-        let count: usize = painted.layers.iter().filter(|l| l.role == role).map(|l| l.spheres.len()).sum();
+    let of = |role| painted.layers.iter().filter(|l| l.role == role).map(|l| l.spheres.len()).sum();
+    words([Role::Grains, Role::Walls, Role::Cloud].map(of), painted.shrunk)
+}
+
+fn words(counts: [usize; 3], shrunk: f64) -> String {
+    let of = |count: usize, word: &str| {
         let word = if count == 1 { word.trim_end_matches('s') } else { word };
         (count > 0).then(|| format!("{} {word}", grouped(count)))
     };
-    let words = [of(Role::Grains, "grains"), of(Role::Walls, "wall spheres"), of(Role::Cloud, "points")];
+    let grains = of(counts[0], "grains").map(|words| match shrunk {
+        1.0 => words,
+        shrunk => format!("{words} at {:.0} % of their size", 100.0 * shrunk),
+    });
+    let words = [grains, of(counts[1], "wall spheres"), of(counts[2], "points")];
     words.into_iter().flatten().collect::<Vec<_>>().join(", ")
 }
 
@@ -68,6 +111,7 @@ fn number(value: f64, decimals: usize) -> String {
 /// The colour bar at the right, pointed at an end that values lie beyond.
 fn bar(pen: &mut Pen, [w, h]: [f64; 2], text: f64, key: &Key) {
     let Key::Bar { field, unit, range, beyond, map } = key else { return };
+    let ink = pen.colour;
     let (unit, factor) = scale::readable(unit, range.lo.abs().max(range.hi.abs()));
     // In small pictures the axes, too, want their place.
     let (top, bottom) = ((0.22 * h).round(), (0.74 * h).min(h - 10.5 * text).round());
@@ -85,7 +129,7 @@ fn bar(pen: &mut Pen, [w, h]: [f64; 2], text: f64, key: &Key) {
         pen.colour = map.at((bottom - middle) / (bottom - top)).map(|c| (c * 255.0).round() as u8);
         pen.fill([left + inset, y as f64, left + width - inset, y as f64 + 1.0]);
     }
-    pen.colour = INK;
+    pen.colour = ink;
     for (tick, label) in ticks.into_iter().zip(&labels) {
         let y = bottom - (bottom - top) * range.share(tick / factor);
         pen.strokes(&[[[left + width, y], [left + width + 0.4 * text, y]]], (0.09 * text).max(1.0));
@@ -101,15 +145,15 @@ fn widest(labels: &[String], height: f64) -> f64 {
 }
 
 /// A patch and a name for each kind.
-fn kinds(pen: &mut Pen, [w, h]: [f64; 2], text: f64, field: &str, names: &[String]) {
+fn kinds(pen: &mut Pen, [w, h]: [f64; 2], text: f64, field: &str, names: &[String], colours: &[colour::Rgb]) {
     let top = 0.3 * h;
     let left = w - (0.085 * w).max(2.8 * text + widest(names, text));
     pen.text([left, top - 1.4 * text], text, Anchor::Left, field);
-    for (n, name) in names.iter().enumerate() {
+    for (n, (name, colour)) in names.iter().zip(colours).enumerate() {
         let y = top + 2.2 * text * n as f64;
-        pen.colour = colour::kind(n);
+        let ink = std::mem::replace(&mut pen.colour, *colour);
         pen.fill([left, y, left + 1.2 * text, y + 1.2 * text]);
-        pen.colour = INK;
+        pen.colour = ink;
         pen.text([left + 1.9 * text, y + 1.1 * text], text, Anchor::Left, name);
     }
 }
@@ -134,20 +178,20 @@ fn scale_bar(pen: &mut Pen, [x, y]: [f64; 2], text: f64, lens: &Lens, longest: f
 }
 
 /// The axes of the world as the eye sees them.
-fn gnomon(pen: &mut Pen, [x, y]: [f64; 2], text: f64, lens: &Lens) {
-    const COLOURS: [[u8; 3]; 3] = [[0xc0, 0x39, 0x2b], [0x2e, 0x8b, 0x57], [0x2c, 0x5f, 0xb3]];
+fn gnomon(pen: &mut Pen, [x, y]: [f64; 2], text: f64, lens: &Lens, colours: [[u8; 3]; 3]) {
+    let ink = pen.colour;
     for k in 0..3 {
         let [right, down, away] = lens.axis(k);
         if away.abs() > 0.98 {
             continue; // it points at the eye
         }
-        pen.colour = COLOURS[k];
+        pen.colour = colours[k];
         let end = |length: f64| [x + length * text * right, y + length * text * down];
         pen.strokes(&[[[x, y], end(2.2)]], (0.16 * text).max(1.2));
         let [lx, ly] = end(3.1);
         pen.text([lx, ly + 0.33 * text], 0.85 * text, Anchor::Middle, ["x", "y", "z"][k]);
     }
-    pen.colour = INK;
+    pen.colour = ink;
 }
 
 #[cfg(test)]
@@ -163,7 +207,7 @@ mod tests {
             let range = scale::Range { lo: -11.8, hi: -10.7 };
             let (field, unit) = ("z".to_owned(), "m");
             let key = Key::Bar { field, unit, range, beyond: [true; 2], map: crate::Map::default() };
-            let mut pen = Pen { image: &mut image, colour: INK };
+            let mut pen = Pen { image: &mut image, colour: [0; 3], paper: [255; 3] };
             bar(&mut pen, size.map(f64::from), text_height(width, height), &key);
             let inked = |x: u32| (0..height).any(|y| image.pixel(x, y) != [255; 4]);
             let last = (0..width).rfind(|&x| inked(x)).unwrap();

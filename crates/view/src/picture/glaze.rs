@@ -7,6 +7,7 @@ use super::{
     paint::Pane,
     shadow::Shadow,
     splat::Depths,
+    theme::Theme,
 };
 use crate::colour;
 use geom::Vec3;
@@ -20,9 +21,6 @@ const NEAREST: f64 = 1e-3;
 
 /// Width of a line [pixel].
 const LINE: f64 = 1.3;
-
-/// Brightness of a line [–].
-const INK: f32 = 0.5;
 
 /// How much a shadow on a face hides, at least [–].
 const SHADOW: f32 = 0.6;
@@ -41,6 +39,8 @@ struct Piece {
     near: f64,
     /// Whether it is part of a face, on which shadows fall.
     face: bool,
+    /// Whether it is of a plane: ground, which does not show through the wall spheres before it.
+    plane: bool,
 }
 
 /// Brightness times share, and share, of what veils a sample.
@@ -66,7 +66,7 @@ impl Glaze {
         if pieces.is_empty() {
             return Glaze { veils: Vec::new() };
         }
-        let width = lens.size[0];
+        let (width, shade) = (lens.size[0], Theme::of(options.dark).shade);
         let mut veils = vec![[[0.0; 2]; 2]; width * lens.size[1]];
         veils.par_chunks_mut(width * BAND).enumerate().for_each(|(n, band)| {
             let rows = [n * BAND, n * BAND + band.len() / width];
@@ -75,7 +75,10 @@ impl Glaze {
                     let depth = (1.0 / inverse) as f32;
                     if inverse <= piece.farthest && depth < solid.depth[at] {
                         let before = usize::from(depth < glass.depth[at]);
-                        let tone = piece.shaded(shadow, lens, at, 1.0 / inverse);
+                        if piece.plane && before == 0 {
+                            return;
+                        }
+                        let tone = piece.shaded(shadow, lens, at, 1.0 / inverse, shade);
                         lay(&mut band[at - rows[0] * width][before], tone);
                     }
                 });
@@ -106,12 +109,14 @@ fn veiled(under: [f32; 3], [bright, hides]: Veil) -> [f32; 3] {
 
 /// Everything to draw, far ones first.
 fn pieces(panes: &[Pane], lens: &Lens, options: &PictureOptions) -> Vec<Piece> {
-    let mut pieces = Vec::new();
+    let (mut pieces, theme) = (Vec::new(), Theme::of(options.dark));
     for pane in panes {
+        let most = if pane.side.is_some() { theme.ground } else { 1.0 };
         let first = pieces.len();
         for face in &pane.faces {
             let seen = face.map(|p| lens.seen(p));
-            let tone = [brightness(seen), if pane.opaque { 1.0 } else { options.wall_opacity as f32 }];
+            let tone =
+                [brightness(seen), if pane.opaque { 1.0 } else { most.min(options.wall_opacity as f32) }];
             let cut = before_the_eye(&seen, NEAREST * lens.distance);
             let on: Vec<[f64; 3]> = cut.iter().map(|p| projected(*p, lens)).collect();
             pieces.extend(
@@ -121,7 +126,7 @@ fn pieces(panes: &[Pane], lens: &Lens, options: &PictureOptions) -> Vec<Piece> {
         for line in &pane.lines {
             let ends = before_the_eye(&line.map(|p| lens.seen(p)), NEAREST * lens.distance);
             if let [a, b, ..] = ends[..] {
-                pieces.extend(stroke(projected(a, lens), projected(b, lens), pane.ink));
+                pieces.extend(stroke(projected(a, lens), projected(b, lens), [theme.line, pane.ink]));
             }
         }
         // A plane whose grains are on the eye's side hides none of them: a floor stays whole.
@@ -129,7 +134,7 @@ fn pieces(panes: &[Pane], lens: &Lens, options: &PictureOptions) -> Vec<Piece> {
         let rank = pane.side.map_or(1, |side| if faces_away(side) { 2 } else { 0 });
         let farthest = if options.cut && rank > 0 { 1.0 / lens.distance } else { f64::INFINITY };
         for piece in &mut pieces[first..] {
-            (piece.rank, piece.farthest) = (rank, farthest);
+            (piece.rank, piece.farthest, piece.plane) = (rank, farthest, pane.side.is_some());
         }
     }
     pieces.sort_by(|a, b| a.rank.cmp(&b.rank).then(a.near.total_cmp(&b.near)));
@@ -158,13 +163,13 @@ fn projected([x, y, z]: [f64; 3], lens: &Lens) -> [f64; 3] {
 }
 
 /// A line as two triangles.
-fn stroke(a: [f64; 3], b: [f64; 3], hides: f32) -> Vec<Piece> {
+fn stroke(a: [f64; 3], b: [f64; 3], tone: [f32; 2]) -> Vec<Piece> {
     let length = (b[0] - a[0]).hypot(b[1] - a[1]).max(1e-9);
     let half = 0.5 * LINE * SAMPLES as f64 / length;
     let [dx, dy] = [half * (b[1] - a[1]), half * (a[0] - b[0])];
     let aside = |p: [f64; 3], side: f64| [p[0] + side * dx, p[1] + side * dy, p[2]];
     let [p, q, r, s] = [aside(a, 1.0), aside(a, -1.0), aside(b, -1.0), aside(b, 1.0)];
-    [[p, q, r], [p, r, s]].map(|corner| Piece::new(corner, [INK, hides])).into()
+    [[p, q, r], [p, r, s]].map(|corner| Piece::new(corner, tone)).into()
 }
 
 /// The light on the side of a face that is seen.
@@ -184,19 +189,20 @@ impl Piece {
             farthest: f64::INFINITY,
             rank: 1,
             face: false,
+            plane: false,
             near: corner.iter().map(|c| c[2]).sum::<f64>() / 3.0,
         }
     }
 
     /// Its tone at a sample: darker and thicker in a shadow.
-    fn shaded(&self, shadow: &Shadow, lens: &Lens, at: usize, depth: f64) -> [f32; 2] {
+    fn shaded(&self, shadow: &Shadow, lens: &Lens, at: usize, depth: f64, shade: f32) -> [f32; 2] {
         if !self.face {
             return self.tone;
         }
         let sample = [at % lens.size[0], at / lens.size[0]];
         let dark = 1.0 - shadow.lit(lens, lens.at(sample, depth), [0.0; 3], 0.0, sample);
         let [bright, hides] = self.tone;
-        [bright * (1.0 - 0.45 * dark), hides + dark * (SHADOW - hides).max(0.0)]
+        [bright * (1.0 - shade * dark), hides + dark * (SHADOW - hides).max(0.0)]
     }
 
     /// Calls `paint` with the number and 1/z of every sample inside, in the rows given. A sample on the common edge of

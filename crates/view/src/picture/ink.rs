@@ -14,6 +14,8 @@ pub enum Anchor {
 pub struct Pen<'a> {
     pub image: &'a mut Image,
     pub colour: [u8; 3],
+    /// Of the rim around text.
+    pub paper: [u8; 3],
 }
 
 impl Pen<'_> {
@@ -30,7 +32,7 @@ impl Pen<'_> {
         let pieces: Vec<font::Piece> = pieces.into_iter().map(|piece| piece.map(place)).collect();
         let width = (0.135 * height).max(1.1);
         // A rim of paper keeps text readable on grains.
-        let ink = std::mem::replace(&mut self.colour, [255; 3]);
+        let ink = std::mem::replace(&mut self.colour, self.paper);
         self.strokes(&pieces, width + 0.3 * height);
         self.colour = ink;
         self.strokes(&pieces, width);

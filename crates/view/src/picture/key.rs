@@ -1,6 +1,6 @@
 //! The colour key, and the colours of a table by it.
 
-use crate::{Map, colour, field, scale::Range};
+use crate::{Map, classes::Classes, colour, field, scale::Range};
 use stream::{Table, Values};
 
 /// What the colours mean.
@@ -9,6 +9,8 @@ pub(crate) enum Key {
     Bar { field: String, unit: &'static str, range: Range, beyond: [bool; 2], map: Map },
     /// Kinds by number, with their names.
     Kinds { field: String, names: Vec<String> },
+    /// Classes of size.
+    Classes { classes: Classes, map: Map },
     /// The colours of the scan itself.
     None,
 }
@@ -19,6 +21,9 @@ impl Key {
         let found = match self {
             Key::None => scan_colours(table),
             Key::Kinds { field, .. } => field::values(table, field).map(by_kind),
+            Key::Classes { classes, map } => {
+                field::values(table, field::SIZE).map(|v| by_class(v, classes, *map))
+            }
             Key::Bar { field, range, map, .. } => {
                 field::values(table, field).map(|v| by_value(v, *range, *map))
             }
@@ -30,6 +35,11 @@ impl Key {
 fn by_value(values: Vec<f64>, range: Range, map: Map) -> Vec<[f32; 3]> {
     let steps: Vec<[f32; 3]> = (0..=1023).map(|i| map.at(f64::from(i) / 1023.0)).collect();
     values.into_iter().map(|v| steps[(1023.0 * range.share(v)) as usize]).collect()
+}
+
+fn by_class(diameters: Vec<f64>, classes: &Classes, map: Map) -> Vec<[f32; 3]> {
+    let colours: Vec<[f32; 3]> = (0..classes.names.len()).map(|k| map.at(classes.share(k))).collect();
+    diameters.into_iter().map(|d| colours[classes.of(d)]).collect()
 }
 
 fn by_kind(values: Vec<f64>) -> Vec<[f32; 3]> {

@@ -1,6 +1,11 @@
 //! The projection: from metres to samples of the picture.
 
-use super::{PictureOptions, furniture::text_height, paint::Painted};
+use super::{
+    PictureOptions,
+    furniture::{boxes, text_height},
+    hull::meets,
+    paint::Painted,
+};
 use crate::{camera, scale::Range};
 use geom::Vec3;
 
@@ -16,6 +21,24 @@ const BAR_TEXT: f64 = 8.5;
 
 /// Distance of a far lens, in radii of what it sees [–].
 const FAR: f64 = 50.0;
+
+/// A part of the picture: its middle, and half of what may be filled each way [sample].
+#[derive(Clone, Copy)]
+struct Area {
+    centre: [f64; 2],
+    half: [f64; 2],
+}
+
+impl Area {
+    /// Of left, top, right, bottom, with a margin.
+    fn within([left, top, right, bottom]: [f64; 4]) -> Area {
+        let half = |from: f64, to: f64| 0.47 * (to - from).max(1.0);
+        Area {
+            centre: [0.5 * (left + right), 0.5 * (top + bottom)],
+            half: [half(left, right), half(top, bottom)],
+        }
+    }
+}
 
 /// A pinhole eye. Seen coordinates: x right, y up, z forward from the eye [m].
 pub(crate) struct Lens {
@@ -42,12 +65,36 @@ impl Lens {
         let focal = 0.5 * h / HALF_VIEW;
         let bar = BAR_TEXT * text_height(options.width, options.height) * SAMPLES as f64;
         let free = [w - bar.max(BAR_SHARE * w), h];
-        let centre = [0.5 * free[0], 0.49 * h];
-        let (target, distance) = match (options.camera.eye, options.camera.target) {
-            (Some(eye), _) => (target, (eye - target).norm()),
-            (None, _) => fitted(&painted.outline, target, &axes, free.map(|s| 0.46 * s / focal)),
+        let whole = Area { centre: [0.5 * free[0], 0.49 * h], half: free.map(|s| 0.46 * s) };
+        let lens = |area: Area, (target, distance): (Vec3, f64)| {
+            let eye = target + towards_eye * distance;
+            Lens { eye, axes, focal, centre: area.centre, size, distance }
         };
-        Lens { eye: target + towards_eye * distance, axes, focal, centre, size, distance }
+        if let Some(eye) = options.camera.eye {
+            return lens(whole, (target, (eye - target).norm()));
+        }
+        let fit = |area: Area| fitted(&painted.outline, target, &axes, area.half.map(|s| s / focal));
+        let first = lens(whole, fit(whole));
+        let text = boxes(painted, options).map(|side| side.map(|v| v * SAMPLES as f64));
+        if !text.iter().any(|side| first.covers(&painted.outline, *side)) {
+            return first;
+        }
+        // What would be under the text goes between it, or beside it, whichever leaves it larger.
+        let [head, foot] = text;
+        let ways = [[0.0, head[3], free[0], foot[1]], [head[2].max(foot[2]), 0.0, free[0], h]];
+        let ways = ways.map(Area::within).map(|area| (area, fit(area)));
+        let [between, beside] = ways;
+        let (area, seen) = if beside.1.1 < between.1.1 { beside } else { between };
+        lens(area, seen)
+    }
+
+    /// Whether the outline of places, as seen, reaches into a part of the picture: left, top, right, bottom [sample].
+    fn covers(&self, places: &[Vec3], part: [f64; 4]) -> bool {
+        let seen = places.iter().map(|p| self.seen(*p)).filter(|p| p[2] > 0.0);
+        let on = |p: [f64; 3]| {
+            [self.centre[0] + self.focal * p[0] / p[2], self.centre[1] - self.focal * p[1] / p[2]]
+        };
+        meets(seen.map(on).collect(), part)
     }
 
     /// A lens so far off that it sees a ball of `radius` [m] around `middle` nearly without perspective, on

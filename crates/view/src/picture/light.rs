@@ -6,15 +6,14 @@ use super::{
     glaze::Glaze,
     lens::{Lens, SAMPLES},
     paint::{Painted, PaintedLayer},
+    rods::Rod,
     shadow::Shadow,
-    splat::{Depths, NOTHING, splat},
+    splat::{Depths, Met, NOTHING, splat},
+    theme::Theme,
 };
 use crate::{Role, spheres::Spheres};
 use geom::Vec3;
 use rayon::prelude::*;
-
-/// How much a translucent wall hides of the paper, at least [–].
-const PAPER: f32 = 0.55;
 
 /// Direction to the lamp: right, up, forward (unit length).
 pub const LAMP: [f32; 3] = [-0.424, 0.707, -0.566];
@@ -42,8 +41,10 @@ struct Shaded {
     depths: Depths,
     /// What it keeps the lamp's light from.
     shadow: Shadow,
-    /// Colour of each ball, by its number.
+    /// Colour of each sphere and, after these, each rod, by its number.
     colour: Vec<[f32; 3]>,
+    /// How many spheres there are.
+    spheres: usize,
     /// How far around a sample shade is looked for [m].
     reach: f64,
 }
@@ -56,10 +57,10 @@ pub fn render(painted: &Painted, lens: &Lens, options: &PictureOptions) -> Vec<u
         painted.layers.iter().partition(see_through);
     let keep = |place: Vec3| !options.cut || lens.seen(place)[2] >= lens.distance;
     let extent = painted.ball();
-    let solid = Shaded::new(&solid, lens, extent, keep);
-    let glass = Shaded::new(&glass, lens, extent, keep);
+    let solid = Shaded::new(&solid, &painted.rods, lens, extent, keep);
+    let glass = Shaded::new(&glass, &[], lens, extent, keep);
     let glaze = Glaze::new(&painted.panes, lens, [&solid.depths, &glass.depths], &solid.shadow, options);
-    let opacity = options.wall_opacity as f32;
+    let (opacity, theme) = (options.wall_opacity as f32, Theme::of(options.dark));
     let width = options.width as usize;
     let mut rgba = vec![255u8; width * options.height as usize * 4];
     rgba.par_chunks_mut(width * 4).enumerate().for_each(|(y, row)| {
@@ -68,7 +69,7 @@ pub fn render(painted: &Painted, lens: &Lens, options: &PictureOptions) -> Vec<u
             let mut sum = [0f32; 3];
             for sample in samples {
                 let at = [x * SAMPLES + sample % SAMPLES, y * SAMPLES + sample / SAMPLES];
-                let seen = through(&solid, &glass, &glaze, lens, at, opacity);
+                let seen = through([&solid, &glass], &glaze, lens, at, (opacity, theme));
                 sum = std::array::from_fn(|k| sum[k] + seen[k]);
             }
             for k in 0..3 {
@@ -90,20 +91,19 @@ fn whole(solid: &Depths, glass: &Depths, lens: &Lens, [x, y]: [usize; 2]) -> boo
 
 /// The colour of one sample: grains, and walls before or behind them.
 fn through(
-    solid: &Shaded,
-    glass: &Shaded,
+    [solid, glass]: [&Shaded; 2],
     glaze: &Glaze,
     lens: &Lens,
     at: [usize; 2],
-    opacity: f32,
+    (opacity, theme): (f32, Theme),
 ) -> [f32; 3] {
     let place = at[1] * lens.size[0] + at[0];
-    let grain = solid.colour(lens, at, None);
-    let mut seen = glaze.behind(place, grain.unwrap_or([1.0; 3]));
+    let grain = solid.colour(lens, at, None).map(|(colour, edge)| theme.lit(colour, edge));
+    let mut seen = glaze.behind(place, grain.unwrap_or(theme.paper));
     if glass.depths.depth[place] < solid.depths.depth[place]
-        && let Some(wall) = glass.colour(lens, at, Some(&solid.shadow))
+        && let Some((wall, _)) = glass.colour(lens, at, Some(&solid.shadow))
     {
-        let share = if grain.is_some() { opacity } else { PAPER + (1.0 - PAPER) * opacity };
+        let share = if grain.is_some() { opacity } else { theme.wall + (1.0 - theme.wall) * opacity };
         seen = std::array::from_fn(|k| seen[k] + share * (wall[k] - seen[k]));
     }
     glaze.before(place, seen)
@@ -111,7 +111,13 @@ fn through(
 
 impl Shaded {
     /// The surfaces of all `layers` together; walls only where `keep` holds for their place.
-    fn new(layers: &[&PaintedLayer], lens: &Lens, extent: (Vec3, f64), keep: impl Fn(Vec3) -> bool) -> Self {
+    fn new(
+        layers: &[&PaintedLayer],
+        rods: &[Rod],
+        lens: &Lens,
+        extent: (Vec3, f64),
+        keep: impl Fn(Vec3) -> bool,
+    ) -> Self {
         let mut joined = Spheres::default();
         let mut colour = Vec::new();
         for layer in layers {
@@ -126,23 +132,20 @@ impl Shaded {
             }
         }
         let usual = middle_of(joined.radius.clone());
-        let (depths, shadow) = (splat(&joined, lens), Shadow::of(&joined, usual, lens, extent));
-        Shaded { depths, shadow, colour, reach: 4.0 * usual }
+        let (depths, shadow) = (splat(&joined, rods, lens), Shadow::of(&joined, rods, usual, lens, extent));
+        colour.extend(rods.iter().map(|rod| rod.colour));
+        Shaded { depths, shadow, colour, spheres: joined.len(), reach: 4.0 * usual }
     }
 
-    /// The lit colour at a sample, or none where there is nothing; `others` cast shadows on it too.
-    fn colour(&self, lens: &Lens, at: [usize; 2], others: Option<&Shadow>) -> Option<[f32; 3]> {
+    /// The lit colour at a sample, and how near to its outline that is; or none where there is nothing. `others` cast
+    /// shadows on it too.
+    fn colour(&self, lens: &Lens, at: [usize; 2], others: Option<&Shadow>) -> Option<([f32; 3], f32)> {
         let place = at[1] * lens.size[0] + at[0];
-        let number = self.depths.ball[place];
-        if number == NOTHING {
-            return None;
-        }
-        let ball = &self.depths.balls[number as usize];
         let depth = f64::from(self.depths.depth[place]);
         let point = lens.at(at, depth);
-        let normal: [f32; 3] = std::array::from_fn(|k| ((point[k] - ball.centre[k]) / ball.radius) as f32);
+        let Met { normal, radius, number } = self.depths.met(place, point, self.spheres)?;
         let facing: f32 = (0..3).map(|k| normal[k] * LAMP[k]).sum();
-        let lit = |shadow: &Shadow| shadow.lit(lens, point, normal, ball.radius, at);
+        let lit = |shadow: &Shadow| shadow.lit(lens, point, normal, radius, at);
         let lit = || lit(&self.shadow).min(others.map_or(1.0, lit));
         let lamp = if facing > 0.0 { facing * lit() } else { 0.0 };
         let open = self.openness(lens, at, point, normal);
@@ -150,9 +153,10 @@ impl Shaded {
         let rim = (1.0 + normal[2]).clamp(0.0, 1.0).powi(3);
         let sky = open * (0.6 + 0.4 * normal[1]) * (0.10 + 0.22 * rim);
         let gloss = sky + 0.12 * open * lamp.powi(12);
-        let own = self.colour[ball.number as usize];
+        let own = self.colour[number];
         // Light colours need no gloss to show their shape.
-        Some(own.map(|c| (c * bright + (1.0 - 0.8 * c) * gloss).min(1.0)))
+        let lit = own.map(|c| (c * bright + (1.0 - 0.8 * c) * gloss).min(1.0));
+        Some((lit, (1.0 + normal[2]).clamp(0.0, 1.0)))
     }
 
     /// How much of the sky a sample sees, 0 to 1, judged by what stands around it in the picture.

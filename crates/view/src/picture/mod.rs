@@ -3,16 +3,21 @@
 mod font;
 mod furniture;
 mod glaze;
+mod hull;
 mod ink;
 mod key;
 mod lens;
 mod light;
 mod paint;
+mod rods;
 mod shadow;
+mod shapes;
 mod splat;
 mod survey;
+mod theme;
 
 pub use paint::DrawnTable;
+pub(crate) use shapes::{ArrowKey, arrow_key};
 pub use survey::Survey;
 
 use crate::{Camera, Map, ViewError, WallSurface, field};
@@ -40,6 +45,8 @@ pub struct PictureOptions {
     pub wall_opacity: f64,
     /// Leave out the half of the walls that is nearer to the eye than the middle.
     pub cut: bool,
+    /// Light text on dark paper.
+    pub dark: bool,
 }
 
 impl Default for PictureOptions {
@@ -54,6 +61,7 @@ impl Default for PictureOptions {
             time: None,
             wall_opacity: 0.2,
             cut: false,
+            dark: false,
         }
     }
 }
@@ -128,6 +136,11 @@ pub fn draw_surveyed(
     let mut image = Image { width, height, rgba: shown };
     furniture::add(&mut image, &painted, &lens, options);
     Ok(image)
+}
+
+/// The colour of the paper.
+pub(crate) fn paper(dark: bool) -> [u8; 3] {
+    theme::Theme::of(dark).paper_bytes()
 }
 
 /// The columns of a table that a picture coloured by `colour` needs; all of them where that field is not there, so

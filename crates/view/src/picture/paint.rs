@@ -3,9 +3,14 @@
 use super::{
     PictureOptions,
     key::{Key, plain},
+    rods::Rod,
+    shapes::{self, ArrowKey},
     survey::Survey,
+    theme::Theme,
 };
-use crate::{Role, SurfaceShape, ViewError, WallSurface, scale::Range, sheet, spheres::Spheres};
+use crate::{
+    Role, SurfaceShape, ViewError, WallSurface, extras::GRAINS, scale::Range, sheet, spheres::Spheres,
+};
 use geom::Vec3;
 use stream::Table;
 
@@ -47,6 +52,15 @@ pub(crate) struct Pane {
 /// Everything in the picture.
 pub(crate) struct Painted {
     pub layers: Vec<PaintedLayer>,
+    /// Bonds, cracks and arrows.
+    pub rods: Vec<Rod>,
+    /// Whole and broken bonds; none where they are not shown.
+    pub bonds: Option<[usize; 2]>,
+    /// Size of the grains as drawn [–].
+    pub shrunk: f64,
+    pub arrows: Option<ArrowKey>,
+    /// Most grains, wall spheres and points of all moments.
+    pub counts: [usize; 3],
     pub panes: Vec<Pane>,
     /// Places that the camera must see [m].
     pub outline: Vec<Vec3>,
@@ -68,16 +82,46 @@ impl Painted {
         }
         let key = survey.key(options);
         let mut layers = Vec::new();
-        for part in parts.iter().filter(|p| p.table.rows() > 0) {
-            let spheres = Spheres::of(part.table, &part.name)?;
+        let shrunk = if parts.iter().any(|p| p.role.is_rods()) { GRAINS } else { 1.0 };
+        for part in parts.iter().filter(|p| p.table.rows() > 0 && !p.role.is_rods()) {
+            let mut spheres = Spheres::of(part.table, &part.name)?;
+            if part.role == Role::Grains && shrunk != 1.0 {
+                spheres.radius.iter_mut().for_each(|r| *r *= shrunk);
+            }
             let shown = survey.role() == Some(part.role);
             let colour = if shown { key.colours(part.table) } else { plain(spheres.len()) };
             layers.push(PaintedLayer { role: part.role, spheres, colour });
         }
-        let mut painted =
-            Painted { layers, panes: Vec::new(), outline: Vec::new(), key, extent: survey.extent() };
+        let mut painted = Painted {
+            layers,
+            rods: Vec::new(),
+            bonds: None,
+            shrunk,
+            arrows: survey.arrows(),
+            counts: survey.counts(),
+            panes: Vec::new(),
+            outline: Vec::new(),
+            key,
+            extent: survey.extent(),
+        };
+        parts.iter().for_each(|part| painted.add_rods(part, options));
         painted.place(surfaces, survey, options.time.unwrap_or(0.0));
         Ok(painted)
+    }
+
+    fn add_rods(&mut self, part: &DrawnTable, options: &PictureOptions) {
+        match (part.role, &self.arrows) {
+            (Role::Bonds, _) => {
+                let (rods, [whole, broken]) = shapes::bonds(part.table);
+                let before = self.bonds.unwrap_or_default();
+                self.bonds = Some([before[0] + whole, before[1] + broken]);
+                self.rods.extend(rods);
+            }
+            (Role::Arrows(_), Some(key)) => {
+                self.rods.extend(shapes::arrows(part.table, key, Theme::of(options.dark).arrow));
+            }
+            _ => {}
+        }
     }
 
     /// Places the surfaces; a plane is looked at where there is nothing else.

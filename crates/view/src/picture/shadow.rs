@@ -1,7 +1,7 @@
 //! Shadows: what does not see the lamp. The spheres are drawn once more from the lamp, far away, and a place is in the
 //! shadow where that drawing has something nearer (L. Williams 1978, SIGGRAPH 12, 270).
 
-use super::{lens::Lens, light::LAMP, splat::splat};
+use super::{lens::Lens, light::LAMP, rods::Rod, splat::splat};
 use crate::spheres::Spheres;
 use geom::Vec3;
 
@@ -31,12 +31,19 @@ pub struct Shadow {
 impl Shadow {
     /// The shadows that spheres cast, usually of `usual` radius [m], under the lamp of an eye, in the ball around what
     /// is looked at (middle and radius [m]).
-    pub fn of(spheres: &Spheres, usual: f64, eye: &Lens, (middle, radius): (Vec3, f64)) -> Shadow {
+    pub fn of(
+        spheres: &Spheres,
+        rods: &[Rod],
+        usual: f64,
+        eye: &Lens,
+        (middle, radius): (Vec3, f64),
+    ) -> Shadow {
         let [right, up, forward] = LAMP.map(f64::from);
         let towards = (eye.place([right, up, forward]) - eye.eye).normalize();
         let lamp = Lens::far(middle, radius, towards, SIZE);
         let fine = 2.0 * radius / SIZE as f64;
-        let depth = if spheres.len() == 0 { Vec::new() } else { splat(spheres, &lamp).depth };
+        let none = spheres.len() == 0 && rods.is_empty();
+        let depth = if none { Vec::new() } else { splat(spheres, rods, &lamp).depth };
         Shadow { lamp, depth, fine, reach: REACH * usual }
     }
 

@@ -1,10 +1,13 @@
-//! The z-buffer: the nearest sphere at each sample of the picture, and its distance.
+//! The z-buffer: the nearest sphere or rod at each sample of the picture, and its distance.
 //!
 //! The picture is cut into tiles; a tile draws its spheres from near to far, in the order of their numbers where
 //! equally near, and skips those behind all it has drawn. Tiles do not touch each other's samples, so the result
 //! does not depend on the number of threads.
 
-use super::lens::{Lens, tangents};
+use super::{
+    lens::{Lens, tangents},
+    rods::{Rod, SeenRod},
+};
 use crate::spheres::Spheres;
 use rayon::prelude::*;
 
@@ -31,28 +34,64 @@ pub struct Ball {
 pub struct Depths {
     /// Distance along the axis of the eye [m]; infinite where there is nothing.
     pub depth: Vec<f32>,
-    /// The ball there, or [`NOTHING`].
+    /// The ball there, or, beyond all balls, the rod; or [`NOTHING`].
     pub ball: Vec<u32>,
     /// The balls.
     pub balls: Vec<Ball>,
+    /// The rods, each with its number in the list it came from.
+    pub rods: Vec<(SeenRod, u32)>,
 }
 
-/// Draws all spheres.
-pub fn splat(spheres: &Spheres, lens: &Lens) -> Depths {
+/// What is met at a sample.
+pub struct Met {
+    /// Unit normal [–].
+    pub normal: [f32; 3],
+    /// Radius [m].
+    pub radius: f64,
+    /// Number in the list of spheres, or after these, in that of rods.
+    pub number: usize,
+}
+
+impl Depths {
+    /// What is at a sample that sees `point`; `spheres` is how many spheres were given.
+    pub fn met(&self, sample: usize, point: [f64; 3], spheres: usize) -> Option<Met> {
+        let found = self.ball[sample];
+        if found == NOTHING {
+            return None;
+        }
+        let found = found as usize;
+        if let Some(ball) = self.balls.get(found) {
+            let normal = std::array::from_fn(|k| ((point[k] - ball.centre[k]) / ball.radius) as f32);
+            return Some(Met { normal, radius: ball.radius, number: ball.number as usize });
+        }
+        let (rod, number) = self.rods.get(found - self.balls.len())?;
+        let (normal, radius) = (rod.normal(point), rod.radius());
+        Some(Met { normal, radius, number: spheres + *number as usize })
+    }
+}
+
+/// Draws all spheres and rods.
+pub fn splat(spheres: &Spheres, rods: &[Rod], lens: &Lens) -> Depths {
     let ball = |i: usize| seen_ball(spheres, i, lens);
     let mut balls: Vec<Ball> = (0..spheres.len()).into_par_iter().filter_map(ball).collect();
     let near = |b: &Ball| b.centre[2] - b.radius;
     balls.par_sort_unstable_by(|a, b| near(a).total_cmp(&near(b)).then(a.number.cmp(&b.number)));
     let [w, h] = lens.size;
     let across = w.div_ceil(TILE);
-    let lists = by_tile(&balls, [w, h]);
-    let mut depths = Depths { depth: vec![f32::INFINITY; w * h], ball: vec![NOTHING; w * h], balls };
+    let lists = by_tile(balls.iter().map(|b| b.window), [w, h]);
+    let seen = |(number, rod): (usize, &Rod)| Some((SeenRod::new(rod, lens)?, number as u32));
+    let rods: Vec<(SeenRod, u32)> = rods.iter().enumerate().filter_map(seen).collect();
+    let mut depths = Depths { depth: vec![f32::INFINITY; w * h], ball: vec![NOTHING; w * h], balls, rods };
     let bands = depths.depth.par_chunks_mut(TILE * w).zip(depths.ball.par_chunks_mut(TILE * w));
-    let balls = &depths.balls;
+    let rod_lists = by_tile(depths.rods.iter().map(|(rod, _)| rod.window), [w, h]);
+    let (balls, rods) = (&depths.balls, &depths.rods);
     bands.enumerate().for_each(|(row, (depth, ball))| {
         for column in 0..across {
             let mut tile = Tile { depth, ball, width: w, left: column * TILE, top: row * TILE };
             tile.draw(balls, &lists[row * across + column], lens);
+            for &number in &rod_lists[row * across + column] {
+                tile.draw_rod(&rods[number as usize].0, balls.len() as u32 + number, lens);
+            }
         }
     });
     depths
@@ -72,13 +111,12 @@ fn seen_ball(spheres: &Spheres, i: usize, lens: &Lens) -> Option<Ball> {
     inside.then_some(Ball { centre, radius, window, number: i as u32 })
 }
 
-/// The numbers of the balls that reach into each tile, near ones first.
-fn by_tile(balls: &[Ball], size: [usize; 2]) -> Vec<Vec<u32>> {
+/// The numbers of the windows that reach into each tile, in their order.
+fn by_tile(windows: impl Iterator<Item = [f64; 4]>, size: [usize; 2]) -> Vec<Vec<u32>> {
     let [across, down] = size.map(|s| s.div_ceil(TILE));
     let mut lists = vec![Vec::new(); across * down];
     let tile = |sample: f64, count: usize| (sample.max(0.0) as usize / TILE).min(count - 1);
-    for (number, ball) in balls.iter().enumerate() {
-        let [x0, x1, y0, y1] = ball.window;
+    for (number, [x0, x1, y0, y1]) in windows.enumerate() {
         for row in tile(y0, down)..=tile(y1, down) {
             for column in tile(x0, across)..=tile(x1, across) {
                 lists[row * across + column].push(number as u32);
@@ -124,13 +162,33 @@ impl Tile<'_> {
         (y0..y1).flat_map(row).copied().fold(0.0, f32::max)
     }
 
-    fn draw_ball(&mut self, ball: &Ball, number: u32, lens: &Lens) {
+    /// Columns and rows of the tile that a window covers.
+    fn part(&self, [bx0, bx1, by0, by1]: [f64; 4]) -> [usize; 4] {
         let [x0, x1, y0, y1] = self.bounds();
-        let [bx0, bx1, by0, by1] = ball.window;
         let from = |sample: f64, low: usize| (sample.ceil().max(0.0) as usize).max(low);
         let to = |sample: f64, high: usize| ((sample.floor().max(-1.0) + 1.0) as usize).min(high);
         let [left, right] = [from(bx0 - 0.5, x0), to(bx1 - 0.5, x1)];
-        let [top, bottom] = [from(by0 - 0.5, self.top + y0), to(by1 - 0.5, self.top + y1)];
+        [left, right, from(by0 - 0.5, self.top + y0), to(by1 - 0.5, self.top + y1)]
+    }
+
+    fn draw_rod(&mut self, rod: &SeenRod, number: u32, lens: &Lens) {
+        let [left, right, top, bottom] = self.part(rod.window);
+        for y in top..bottom {
+            let dy = (lens.centre[1] - (y as f64 + 0.5)) / lens.focal;
+            let base = (y - self.top) * self.width;
+            for x in left..right {
+                let dx = (x as f64 + 0.5 - lens.centre[0]) / lens.focal;
+                let Some(depth) = rod.depth(dx, dy) else { continue };
+                if (depth as f32) < self.depth[base + x] {
+                    self.depth[base + x] = depth as f32;
+                    self.ball[base + x] = number;
+                }
+            }
+        }
+    }
+
+    fn draw_ball(&mut self, ball: &Ball, number: u32, lens: &Lens) {
+        let [left, right, top, bottom] = self.part(ball.window);
         let [cx, cy, cz] = ball.centre;
         let outside = cx * cx + cy * cy + cz * cz - ball.radius * ball.radius;
         for y in top..bottom {

@@ -4,10 +4,11 @@ use super::{
     PictureOptions,
     key::{Key, scan_colours},
     paint::DrawnTable,
+    shapes::{ArrowKey, ArrowSurvey},
 };
 use crate::{
-    Role, SurfaceShape, ViewError, WallSurface, colour, field, outline::Outline, scale::Range, sheet::box_of,
-    spheres::Spheres,
+    Role, SurfaceShape, ViewError, WallSurface, classes::Sizes, colour, field, outline::Outline,
+    scale::Range, sheet::box_of, spheres::Spheres,
 };
 use geom::Vec3;
 
@@ -19,7 +20,10 @@ const SAMPLE: usize = 20_000;
 pub struct Survey {
     pub(super) outline: Outline,
     colours: Option<Colours>,
+    arrows: ArrowSurvey,
     moments: usize,
+    /// Most grains, wall spheres and points of a moment.
+    counts: [usize; 3],
 }
 
 /// What is coloured, by what.
@@ -32,6 +36,7 @@ struct Colours {
     kinds: Vec<String>,
     values: Vec<f64>,
     all: Range,
+    sizes: Sizes,
 }
 
 impl Survey {
@@ -46,7 +51,12 @@ impl Survey {
         options: &PictureOptions,
     ) -> Result<(), ViewError> {
         self.moments += 1;
-        let parts = || parts.iter().filter(|p| p.table.rows() > 0);
+        for part in parts {
+            if let Role::Arrows(of) = part.role {
+                self.arrows.add(of, part.table);
+            }
+        }
+        let parts = || parts.iter().filter(|p| p.table.rows() > 0 && !p.role.is_rods());
         for part in parts() {
             self.outline.add_spheres(&Spheres::of(part.table, &part.name)?, part.role != Role::Walls);
         }
@@ -56,6 +66,9 @@ impl Survey {
                 self.outline.add(&mesh.vertices.iter().map(|v| pose.position(v)).collect::<Vec<Vec3>>());
             }
         }
+        let count = |role| parts().filter(|p| p.role == role).map(|p| p.table.rows()).sum::<usize>();
+        let now = [Role::Grains, Role::Walls, Role::Cloud].map(count);
+        self.counts = std::array::from_fn(|k| self.counts[k].max(now[k]));
         let Some(first) = parts().min_by_key(|p| p.role) else { return Ok(()) };
         if self.colours.as_ref().is_none_or(|c| first.role < c.role) {
             self.colours = Some(Colours::of(first, options));
@@ -70,6 +83,16 @@ impl Survey {
         self.colours.as_ref().map(|c| c.role)
     }
 
+    /// Most grains, wall spheres and points of a moment.
+    pub(super) fn counts(&self) -> [usize; 3] {
+        self.counts
+    }
+
+    /// What the lengths of arrows mean.
+    pub(super) fn arrows(&self) -> Option<ArrowKey> {
+        self.arrows.key()
+    }
+
     /// The box around everything but planes [m].
     pub(super) fn extent(&self) -> [Range; 3] {
         box_of(&self.outline.points())
@@ -77,10 +100,13 @@ impl Survey {
 
     /// What the colours mean.
     pub(super) fn key(&self, options: &PictureOptions) -> Key {
-        let Some(Colours { field: Some(field), whole, kinds, values, all, .. }) = &self.colours else {
+        let Some(Colours { field: Some(field), whole, kinds, values, all, sizes, .. }) = &self.colours else {
             return Key::None;
         };
         let name = field.clone();
+        if let Some(classes) = sizes.classes() {
+            return Key::Classes { classes, map: options.map };
+        }
         if *whole && all.lo >= 0.0 && all.hi < colour::KIND_COUNT as f64 {
             let names = (0..=all.hi as usize).map(|k| kinds.get(k).cloned().unwrap_or_else(|| k.to_string()));
             return Key::Kinds { field: name, names: names.collect() };
@@ -103,7 +129,7 @@ impl Colours {
         let field = (!own).then(name);
         let whole = field.as_deref().is_some_and(|f| field::is_whole(part.table, f));
         let (kinds, values) = (part.kinds.clone(), Vec::new());
-        Colours { role: part.role, field, whole, kinds, values, all: Range::EMPTY }
+        Colours { role: part.role, field, whole, kinds, values, all: Range::EMPTY, sizes: Sizes::default() }
     }
 
     fn add(&mut self, part: &DrawnTable) -> Result<(), ViewError> {
@@ -112,6 +138,10 @@ impl Colours {
             let known = field::names(part.table, true).into_iter().chain(["x", "y", "z"].map(str::to_owned));
             return Err(ViewError::NoField { name: name.clone(), known: known.collect() });
         };
+        if name == field::SIZE {
+            self.sizes.add(values.into_iter());
+            return Ok(());
+        }
         self.all = self.all.with(Range::of(&values));
         let step = values.len().div_ceil(SAMPLE).max(1);
         self.values.extend(values.into_iter().step_by(step));

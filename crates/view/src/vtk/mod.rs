@@ -6,6 +6,8 @@
 //! | 1 | points of a cloud |
 //! | 2 | wall spheres |
 //! | 3 | corners of planes and meshes |
+//! | 4 | middles of bonds |
+//! | 5 | starts of arrows |
 
 mod collection;
 mod fields;
@@ -76,7 +78,7 @@ pub fn points(role: Role, table: &Table) -> PolyData {
     let points = (0..rows).flat_map(|i| [axes[0][i], axes[1][i], axes[2][i]]).collect();
     let mut fields = fields::of(table);
     fields.retain(|field| field.name != "role");
-    fields.push(roles(role as u8, rows));
+    fields.push(roles(role.number(), rows));
     PolyData { time: None, points, single, fields, alone: rows, faces: Vec::new() }
 }
 

@@ -60,6 +60,13 @@ pub fn plate() -> impl Iterator<Item = (f64, f64)> {
     (0..400).map(|k| (0.01 * f64::from(k % 20), 0.01 * f64::from(k / 20)))
 }
 
+/// The head of a scene whose grains are bonded; the bonds break at once.
+fn bonded() -> String {
+    let bond = "[[bond]]\nbetween = [\"sinter\", \"sinter\"]\ngap = 1e-4\nyoung = 2e6\npoisson = 0.25\n\
+                tensile_strength = 100\nshear_strength = 100\n";
+    [&HEAD.replace("until = 0.05", "until = 0.004"), bond].concat()
+}
+
 fn heap() -> String {
     let at = |i: i32| 0.01 * f64::from(i) + 0.005;
     let column = |i: i32, j: i32| (0..10 - i).map(move |k| format!("{},{},{},0.005\n", at(i), at(j), at(k)));
@@ -86,6 +93,11 @@ pub fn inputs() -> TempDir {
         ("one.csv", "x,y,z,radius\n0.15,0.04,0.004,0.004\n".to_owned()),
         ("s.toml", [HEAD, GRAINS, &floor(0.0)].concat()),
         ("heap.toml", [&HEAD.replace("until = 0.05", "until = 0.004"), HEAP, &floor(0.0)].concat()),
+        (
+            "bonded.toml",
+            [&bonded(), "[[particles]]\nsource = \"heap.csv\"\nmaterial = \"sinter\"\n", &floor(0.0)]
+                .concat(),
+        ),
         ("up.toml", [&plant, outlet].concat()),
         ("plant.toml", plant),
     ])

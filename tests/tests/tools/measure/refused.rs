@@ -18,6 +18,7 @@ const OF_ONE_FRAME: &[Case] = &[
         arguments: &["--energy"],
         parts: &["run.mcap: --energy: run holds no energy ledger", "[output] energy = true"],
     },
+    Case { arguments: &["--bonds"], parts: &["run holds no bonds", "[[bond]]"] },
     Case { arguments: &["--forces"], parts: &["run holds no contacts: set [output] contacts = true"] },
     Case {
         arguments: &["--wall-force", "all"],
@@ -35,6 +36,10 @@ const OF_ONE_FRAME: &[Case] = &[
     Case {
         arguments: &["--profile", "--field", "heat"],
         parts: &["no field 'heat' in /particles", "vx, vy, vz"],
+    },
+    Case {
+        arguments: &["--repose", "--within", "box:5,5,5,6,6,6"],
+        parts: &["no grain in the shape", "move the shape"],
     },
     Case { arguments: &["--repose"], parts: &["heap at 0 s", "profile bins", "smaller --bin"] },
     Case {

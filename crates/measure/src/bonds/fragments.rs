@@ -1,0 +1,64 @@
+//! Fragments: grains that whole bonds join, directly or through others.
+
+use super::Bond;
+use std::collections::HashMap;
+
+/// How many there are, and how large.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Fragments {
+    /// Number of fragments; a grain whose bonds are all broken is one, too.
+    pub count: u64,
+    /// Grains of the largest one.
+    pub largest: u64,
+}
+
+impl Fragments {
+    /// Of the grains that have bonds, whole or broken (disjoint sets with path halving, joined by size).
+    pub fn of(bonds: &[Bond]) -> Fragments {
+        let mut rows: HashMap<u64, usize> = HashMap::new();
+        let mut row = |id: u64| {
+            let next = rows.len();
+            *rows.entry(id).or_insert(next)
+        };
+        let pairs: Vec<[usize; 2]> = bonds.iter().map(|b| b.grains.map(&mut row)).collect();
+        let count = rows.len();
+        let (mut parent, mut size): (Vec<usize>, Vec<u64>) = ((0..count).collect(), vec![1; count]);
+        let mut fragments = count as u64;
+        for (pair, _) in pairs.iter().zip(bonds).filter(|(_, b)| b.broken.is_none()) {
+            let [a, b] = pair.map(|k| root(&mut parent, k));
+            if a != b {
+                let (small, large) = if size[a] < size[b] { (a, b) } else { (b, a) };
+                parent[small] = large;
+                size[large] += size[small];
+                fragments -= 1;
+            }
+        }
+        Fragments { count: fragments, largest: size.into_iter().max().unwrap_or(0) }
+    }
+}
+
+fn root(parent: &mut [usize], mut k: usize) -> usize {
+    while parent[k] != k {
+        parent[k] = parent[parent[k]];
+        k = parent[k];
+    }
+    k
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_chain_that_breaks_leaves_its_pieces() {
+        let chain = |broken: &[u64]| -> Vec<Bond> {
+            let at = |k: u64| broken.contains(&k).then_some(0.5);
+            (0..9).map(|k| Bond { grains: [k, k + 1], stress: [0.0; 2], broken: at(k) }).collect()
+        };
+        let of = |broken: &[u64]| Fragments::of(&chain(broken));
+        assert_eq!(of(&[]), Fragments { count: 1, largest: 10 });
+        assert_eq!(of(&[3]), Fragments { count: 2, largest: 6 });
+        assert_eq!(of(&[3, 4]), Fragments { count: 3, largest: 5 });
+        assert_eq!(Fragments::of(&[]), Fragments::default());
+    }
+}

@@ -1,0 +1,150 @@
+//! The bonds of a run over time.
+
+use super::{Bond, Bonds, Fragments};
+use crate::observer::{Observer, Which};
+use crate::sheet::{Chart, Head, Row, Summary};
+use crate::{BondStrength, Frame, MeasureError, Run, RunMessage};
+use std::collections::HashMap;
+
+/// A run without bonds.
+const NO_BONDS: MeasureError = MeasureError::Channel {
+    topic: record::topic::BONDS,
+    what: "bonds",
+    cure: "give a run whose scene has a [[bond]] that joins grains",
+};
+
+/// Counts bonds.
+pub struct BondNumbers {
+    which: Which,
+    /// Index of the material of each grain, by id.
+    materials: HashMap<u64, u16>,
+    /// Time of the frame before [s].
+    before: Option<f64>,
+    /// Bonds of the frame before, and how many went since with their grains.
+    bonds: u64,
+    gone: u64,
+    /// Times of the first and the last message [s].
+    span: Option<(f64, f64)>,
+    first_break: f64,
+    last: Option<Row>,
+}
+
+impl BondNumbers {
+    /// Of the frames between two times [s].
+    pub fn new((from, until): (f64, f64)) -> BondNumbers {
+        BondNumbers {
+            which: Which::Between(from, until),
+            materials: HashMap::new(),
+            before: None,
+            bonds: 0,
+            gone: 0,
+            span: None,
+            first_break: f64::NAN,
+            last: None,
+        }
+    }
+
+    fn take_materials(&mut self, frame: &Frame) {
+        self.materials.clear();
+        self.materials.extend(frame.id.iter().copied().zip(frame.material.iter().copied()));
+    }
+
+    fn law<'r>(&self, run: &'r Run, bond: &Bond) -> Option<&'r BondStrength> {
+        let name = |id: u64| run.materials.get(usize::from(*self.materials.get(&id)?));
+        let [a, b] = bond.grains.map(name);
+        let (a, b) = (a?, b?);
+        run.bonds.iter().find(|law| {
+            let [first, second] = &law.between;
+            (first, second) == (a, b) || (first, second) == (b, a)
+        })
+    }
+
+    fn row(&mut self, run: &Run, bonds: &Bonds) -> Row {
+        let (mut by, mut since, mut largest) = ([0u64; 3], 0u64, [0.0f64; 2]);
+        for bond in &bonds.rows {
+            let Some(at) = bond.broken else {
+                largest = [0, 1].map(|k| largest[k].max(bond.stress[k]));
+                continue;
+            };
+            by[bond.break_by(self.law(run, bond)) as usize] += 1;
+            since += u64::from(self.before.is_none_or(|before| at > before));
+            self.first_break = self.first_break.min(at);
+        }
+        let all = bonds.rows.len() as u64;
+        self.gone += self.bonds.saturating_sub(all);
+        (self.bonds, self.before) = (all, Some(bonds.time));
+        let broken: u64 = by.iter().sum();
+        let fragments = Fragments::of(&bonds.rows);
+        let counts =
+            [all, all - broken, broken, by[0], by[1], by[2], since, fragments.count, fragments.largest];
+        let mut row = vec![bonds.time];
+        row.extend(counts.map(|n| n as f64));
+        row.extend(largest);
+        row
+    }
+}
+
+impl Observer for BondNumbers {
+    fn heads(&self) -> Vec<Head> {
+        Head::list(&[
+            ("time", "s"),
+            ("bonds", "1"),
+            ("whole", "1"),
+            ("broken", "1"),
+            ("broken_by_tension", "1"),
+            ("broken_by_shear", "1"),
+            ("broken_unknown", "1"),
+            ("broken_since", "1"),
+            ("fragments", "1"),
+            ("largest_fragment", "1"),
+            ("largest_tension", "Pa"),
+            ("largest_shear", "Pa"),
+        ])
+    }
+
+    fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+        match message {
+            RunMessage::Frame(frame) => self.take_materials(&frame),
+            RunMessage::Bonds(bonds) => {
+                self.span = Some((self.span.map_or(bonds.time, |s| s.0), bonds.time));
+                if self.which.holds(bonds.time) {
+                    let row = self.row(run, &bonds);
+                    self.last = Some(row.clone());
+                    rows.push(row);
+                }
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn end(&mut self, _: &Run, _: &mut Vec<Row>) -> Result<Summary, MeasureError> {
+        let span = self.span.ok_or(NO_BONDS)?;
+        let last = self.last.as_ref().ok_or_else(|| self.which.missing(span))?;
+        let summary = Summary::default()
+            .with("bonds", "1", last[1])
+            .with("broken", "1", last[3])
+            .with("broken_by_tension", "1", last[4])
+            .with("broken_by_shear", "1", last[5])
+            .with("fragments", "1", last[8])
+            .with("largest_fragment", "1", last[9])
+            .with("first_break", "s", self.first_break)
+            .with("time", "s", last[0]);
+        let unknown =
+            format!("how {} bonds broke is unknown: the scene names no strength that they reach", last[6]);
+        let gone = format!("{} bonds left the run with their grains and count no more", self.gone);
+        let summary = if last[6] > 0.0 { summary.note(unknown) } else { summary };
+        Ok(if self.gone > 0 { summary.note(gone) } else { summary })
+    }
+
+    fn chart(&self, rows: &[Row]) -> Chart {
+        let broken = [("by tension", 4), ("by shear", 5), ("unknown", 6)];
+        let ways = if rows.iter().any(|row| row[6] > 0.0) { &broken[..] } else { &broken[..2] };
+        Chart::new("Bonds").columns(("time [s]", 0), "broken bonds [1]", ways, rows).columns(
+            ("time [s]", 0),
+            "fragments [1]",
+            &[("", 8)],
+            rows,
+        )
+    }
+}

@@ -1,0 +1,72 @@
+//! The force on each wall at one time, as a run records it (topic `/wall_forces`).
+
+use crate::MeasureError;
+use geom::Vec3;
+use record::topic::WALL_FORCES;
+use serde_json::Value;
+
+/// The force of the grains on one wall.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ForceOnWall {
+    /// Its name.
+    pub name: String,
+    /// The force [N].
+    pub force: Vec3,
+    /// Number of contacts that carry a force.
+    pub contacts: u64,
+}
+
+/// The forces on all walls at one time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WallForces {
+    /// Time [s].
+    pub time: f64,
+    /// By index.
+    pub walls: Vec<ForceOnWall>,
+}
+
+impl WallForces {
+    /// From a message; `time` [s] is used where it names none.
+    ///
+    /// # Errors
+    /// A message that is no JSON, or lacks walls, a name or a finite force.
+    pub fn new(time: f64, data: &[u8]) -> Result<WallForces, MeasureError> {
+        let wrong = |why: String| MeasureError::Message { topic: WALL_FORCES.to_owned(), time, why };
+        let message: Value = serde_json::from_slice(data).map_err(|e| wrong(e.to_string()))?;
+        let rows = message["walls"].as_array().ok_or_else(|| wrong("its 'walls' are missing".to_owned()))?;
+        let row = |(k, w): (usize, &Value)| {
+            let component = |k: usize| w["force"][k].as_f64().filter(|f| f.is_finite());
+            let force = match [0, 1, 2].map(component) {
+                [Some(x), Some(y), Some(z)] => Vec3::new(x, y, z),
+                _ => return Err(wrong(format!("wall {k} has no force of three numbers"))),
+            };
+            let name = w["name"].as_str().map_or_else(|| k.to_string(), str::to_owned);
+            Ok(ForceOnWall { name, force, contacts: w["contacts"].as_u64().unwrap_or(0) })
+        };
+        let walls = rows.iter().enumerate().map(row).collect::<Result<_, _>>()?;
+        Ok(WallForces { time: message["time"].as_f64().unwrap_or(time), walls })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_message_without_walls_or_with_a_broken_force_is_refused() {
+        let read = |text: &str| WallForces::new(0.5, text.as_bytes());
+        let good =
+            read(r#"{"time": 0.25, "walls": [{"name": "lid", "force": [0, 1, -2.5], "contacts": 3}]}"#);
+        let lid = ForceOnWall { name: "lid".to_owned(), force: Vec3::new(0.0, 1.0, -2.5), contacts: 3 };
+        assert_eq!(good, Ok(WallForces { time: 0.25, walls: vec![lid] }));
+        for text in [
+            "",
+            "[]",
+            r#"{"walls": 3}"#,
+            r#"{"walls": [{"force": [0, 1]}]}"#,
+            r#"{"walls": [{"force": [0, 1, null]}]}"#,
+        ] {
+            assert!(matches!(read(text), Err(MeasureError::Message { .. })), "{text}");
+        }
+    }
+}

@@ -1,0 +1,40 @@
+//! What bonds, cracks and arrows mean.
+
+use super::grouped;
+use crate::picture::{
+    ink::{Anchor, Pen},
+    lens::Lens,
+    paint::Painted,
+    shapes::{self, ArrowKey},
+};
+
+/// Adds what there is: bonds from `top` down, the arrow at `bottom`.
+pub fn add(pen: &mut Pen, top: [f64; 2], bottom: [f64; 2], text: f64, painted: &Painted, lens: &Lens) {
+    if let Some([whole, broken]) = painted.bonds {
+        let rows = [(shapes::WHOLE, whole, "bonds"), (shapes::BREAK, broken, "broken")];
+        for (k, (colour, count, word)) in rows.into_iter().enumerate() {
+            let y = top[1] + 2.0 * text * k as f64;
+            let ink = pen.colour;
+            pen.colour = colour.map(|c| (255.0 * c).round() as u8);
+            pen.fill([top[0], y - 0.95 * text, top[0] + 1.1 * text, y + 0.05 * text]);
+            pen.colour = ink;
+            pen.text([top[0] + 1.8 * text, y], text, Anchor::Left, &format!("{} {word}", grouped(count)));
+        }
+    }
+    if let Some(key) = &painted.arrows {
+        arrow(pen, bottom, text, key, lens);
+    }
+}
+
+/// An arrow of a round value, as long as one at the distance of the point looked at.
+fn arrow(pen: &mut Pen, [x, y]: [f64; 2], text: f64, key: &ArrowKey, lens: &Lens) {
+    let length = key.example * key.scale * lens.pixels_per_metre();
+    let head = (0.8 * text).min(0.6 * length);
+    pen.strokes(&[[[x, y], [x + length, y]]], (0.2 * text).max(1.2));
+    let tip = [x + length, y];
+    let back = |side: f64| [x + length - head, y + 0.45 * side * head];
+    pen.strokes(&[[tip, back(1.0)], [tip, back(-1.0)]], (0.2 * text).max(1.2));
+    let (unit, factor) = crate::scale::readable(key.of.unit(), key.example);
+    let label = format!("{} {} {unit}", key.of.word(), geom::Shown(key.example * factor));
+    pen.text([x, y - 0.9 * text], text, Anchor::Left, &label);
+}

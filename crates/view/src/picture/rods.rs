@@ -1,0 +1,176 @@
+//! Rods: cones with round ends, and discs. Bonds, cracks and arrows are made of them.
+//!
+//! A cone is what a sphere sweeps whose centre goes from a to b while its radius goes from r_a to r_b. Of the spheres
+//! c(s) = a + s u, r(s) = r_a + s δ (u = b − a, δ = r_b − r_a) that touch its surface at a place p, q = p − a:
+//!
+//! ```text
+//! |p − c|² = r²  and  (p − c)·u + r δ = 0   ⇒   s = (q·u + r_a δ)/(u² − δ²),   (u² − δ²)(q² − r_a²) = (q·u + r_a δ)²
+//! ```
+//!
+//! The second is quadratic along a ray; where s is not in 0…1, the sphere at that end counts. Without b, a = b, it is a
+//! sphere.
+
+use super::lens::{Lens, tangents};
+use geom::Vec3;
+
+/// A cone with round ends, or a disc, in the world.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Rod {
+    /// Its ends [m]; of a disc the middle, and the middle moved along its normal.
+    pub ends: [Vec3; 2],
+    /// Radius at each end [m].
+    pub radii: [f64; 2],
+    /// Whether it is a disc, of the first radius.
+    pub disc: bool,
+    /// Parts 0 to 1.
+    pub colour: [f32; 3],
+}
+
+/// A rod as seen from the eye.
+pub(super) struct SeenRod {
+    ends: [Vec3; 2],
+    radii: [f64; 2],
+    disc: bool,
+    /// First and last sample in x and y, not yet cut to the picture.
+    pub window: [f64; 4],
+}
+
+impl SeenRod {
+    /// None where nothing of it is in the picture, or the eye is in it.
+    pub fn new(rod: &Rod, lens: &Lens) -> Option<SeenRod> {
+        let ends = rod.ends.map(|p| Vec3::from(lens.seen(p)));
+        let count = if rod.disc { 1 } else { 2 };
+        let mut window = [f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY];
+        for (end, radius) in ends.iter().zip(rod.radii).take(count) {
+            let [x0, x1] = tangents(end.x, end.z, radius)?;
+            let [y0, y1] = tangents(end.y, end.z, radius)?;
+            let [cx, cy] = lens.centre;
+            let own =
+                [cx + lens.focal * x0, cx + lens.focal * x1, cy - lens.focal * y1, cy - lens.focal * y0];
+            window =
+                std::array::from_fn(
+                    |k| {
+                        if k % 2 == 0 { window[k].min(own[k]) } else { window[k].max(own[k]) }
+                    },
+                );
+        }
+        let inside = window[1] >= 0.0
+            && window[3] >= 0.0
+            && window[0] < lens.size[0] as f64
+            && window[2] < lens.size[1] as f64;
+        inside.then_some(SeenRod { ends, radii: rod.radii, disc: rod.disc, window })
+    }
+
+    /// The larger radius [m].
+    pub fn radius(&self) -> f64 {
+        self.radii[0].max(self.radii[1])
+    }
+
+    /// The depth at which the ray through (dx, dy, 1) from the eye meets it.
+    pub fn depth(&self, dx: f64, dy: f64) -> Option<f64> {
+        let ray = Vec3::new(dx, dy, 1.0);
+        let [a, b] = self.ends;
+        if self.disc {
+            let normal = b - a;
+            let t = normal.dot(&a) / normal.dot(&ray);
+            return (t > 0.0 && (ray * t - a).norm_squared() <= self.radii[0] * self.radii[0]).then_some(t);
+        }
+        let (u, delta) = (b - a, self.radii[1] - self.radii[0]);
+        let rest = u.norm_squared() - delta * delta;
+        if rest > 0.0 {
+            let offset = self.radii[0] * delta - u.dot(&a);
+            let (ru, ra) = (ray.dot(&u), ray.dot(&a));
+            let outside = a.norm_squared() - self.radii[0] * self.radii[0];
+            let (p, q, c) = (
+                rest * ray.norm_squared() - ru * ru,
+                -rest * ra - ru * offset,
+                rest * outside - offset * offset,
+            );
+            let root = q * q - p * c;
+            if root < 0.0 {
+                return None;
+            }
+            let t = (-q - root.sqrt()) / p;
+            let s = (t * ru + offset) / rest;
+            if (0.0..=1.0).contains(&s) && t > 0.0 {
+                return Some(t);
+            }
+        }
+        let end = |k: usize| {
+            let (across, along) = (ray.norm_squared(), ray.dot(&self.ends[k]));
+            let outside = self.ends[k].norm_squared() - self.radii[k] * self.radii[k];
+            let inside = along * along - across * outside;
+            (inside >= 0.0).then(|| (along - inside.sqrt()) / across).filter(|t| *t > 0.0)
+        };
+        [end(0), end(1)].into_iter().flatten().reduce(f64::min)
+    }
+
+    /// The unit normal at a place of its surface, towards the eye.
+    pub fn normal(&self, place: [f64; 3]) -> [f32; 3] {
+        let (place, [a, b]) = (Vec3::from(place), self.ends);
+        let u = b - a;
+        let normal = if self.disc {
+            if u.dot(&a) > 0.0 { -u } else { u }
+        } else {
+            let delta = self.radii[1] - self.radii[0];
+            let rest = u.norm_squared() - delta * delta;
+            let s = ((place - a).dot(&u) + self.radii[0] * delta) / rest;
+            let s = if rest > 0.0 { s.clamp(0.0, 1.0) } else { 0.0 };
+            place - (a + u * s)
+        };
+        let normal = normal.try_normalize(0.0).unwrap_or(-Vec3::z());
+        [normal.x as f32, normal.y as f32, normal.z as f32]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rod(ends: [[f64; 3]; 2], radii: [f64; 2], disc: bool) -> SeenRod {
+        SeenRod { ends: ends.map(Vec3::from), radii, disc, window: [0.0; 4] }
+    }
+
+    /// Every place that a ray finds lies on the surface: its distance from the nearest of the swept spheres is 0.
+    #[test]
+    fn rays_meet_the_surface_that_the_spheres_sweep() {
+        for (ends, radii) in [
+            ([[-1.0, 0.2, 10.0], [1.5, -0.4, 9.0]], [0.5, 0.5]),
+            ([[-1.0, 0.2, 10.0], [1.5, -0.4, 9.0]], [0.7, 0.0]),
+            ([[0.0, 0.0, 10.0], [0.0, 0.0, 10.0]], [0.5, 0.5]),
+            ([[0.0, 0.0, 9.0], [0.1, 0.0, 12.0]], [0.2, 0.9]),
+        ] {
+            let rod = rod(ends, radii, false);
+            let mut met = 0;
+            for k in 0..144 {
+                let [dx, dy] = [k % 12, k / 12].map(|n| 0.04 * (f64::from(n) - 5.5));
+                let distance = |p: Vec3| {
+                    let at = |n: i32| f64::from(n) / 200.0;
+                    let [a, b] = rod.ends;
+                    let from = |s: f64| (p - a - (b - a) * s).norm() - radii[0] - s * (radii[1] - radii[0]);
+                    (0..=200).map(|n| from(at(n))).fold(f64::INFINITY, f64::min)
+                };
+                let ray = Vec3::new(dx, dy, 1.0);
+                let first = (0..400).map(|n| 7.0 + 0.015 * f64::from(n)).find(|t| distance(ray * *t) < 0.0);
+                match rod.depth(dx, dy) {
+                    None => assert!(first.is_none(), "{ends:?} {radii:?}: {dx} {dy}: {first:?}"),
+                    Some(t) => {
+                        met += 1;
+                        assert!(distance(ray * t).abs() < 1e-3, "{ends:?}: {dx} {dy}: {}", distance(ray * t));
+                        let n = Vec3::from(rod.normal([t * dx, t * dy, t]).map(f64::from));
+                        assert!((n.norm() - 1.0).abs() < 1e-5 && n.dot(&ray) < 1e-4, "towards the eye");
+                    }
+                }
+            }
+            assert!(met > 3, "{ends:?}");
+        }
+    }
+
+    #[test]
+    fn a_disc_is_met_inside_its_radius_only() {
+        let disc = rod([[0.0, 0.0, 10.0], [0.0, 1.0, 11.0]], [1.0, 1.0], true);
+        assert!((disc.depth(0.0, 0.0).unwrap_or(0.0) - 10.0).abs() < 1e-12);
+        assert!(disc.depth(0.099, 0.0).is_some() && disc.depth(0.101, 0.0).is_none());
+        assert!(disc.normal([0.0, 0.0, 10.0])[2] < 0.0);
+    }
+}
