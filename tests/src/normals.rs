@@ -58,6 +58,7 @@ pub fn still(overlap: f64, radius: f64, curvature: f64) -> Contact<f64> {
         normal: V::new(0.0, 0.0, 1.0),
         overlap,
         present: overlap,
+        partial: 0.0,
         before: overlap,
         radius,
         curvature,

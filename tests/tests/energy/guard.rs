@@ -16,7 +16,7 @@ fn energy_without_work_stops_a_run() {
     let mut setup = poured(&NORMALS[0]);
     let mut plain = NORMALS[0].setup(1.0);
     std::mem::swap(&mut setup.contacts, &mut plain.contacts);
-    setup.step = Step::Auto(1.0);
+    (setup.step, setup.sampling) = (Step::Auto(1.0), Sampling::Sampled);
     let run = |energy: f64| {
         let mut setup = setup.clone();
         setup.guards.energy = energy;

@@ -13,7 +13,7 @@ const ORDER: Case =
 
 /// A grain that spins falls on a floor and bounces.
 fn dropped(normal: &Normal, rubs: bool) -> Setup {
-    let mut setup = poured(normal);
+    let mut setup = Setup { sampling: Sampling::Sampled, ..poured(normal) };
     setup.particles.truncate(1);
     let p = &mut setup.particles[0];
     (p.position, p.velocity) = (Vec3::new(0.0, 0.0, 0.03), Vec3::new(0.1, 0.0, 0.0));

@@ -169,7 +169,7 @@ fn contact_is_made_at_touch_and_broken_at_the_pull_off_distance() {
     for skin in [None, Some(1e-7)] {
         let mut setup = JKR.setup(1.0);
         setup.skin = skin;
-        setup.step = Step::Auto(0.01);
+        setup.step = Step::Auto(0.005);
         let gap = cycle(0.005).1;
         // Within the reach of a contact, but none was made.
         let mut near = grain(1, Vec3::new(0.0, 0.0, 0.01 + 0.25 * gap));
@@ -184,7 +184,7 @@ fn contact_is_made_at_touch_and_broken_at_the_pull_off_distance() {
         setup.particles = vec![near, Particle { position: -near.position, velocity: -near.velocity, ..far }];
         let mut sim = simulation(setup);
         let (mut before, mut last) = (0.02, 0.0);
-        for _ in 0..20_000 {
+        for _ in 0..40_000 {
             sim.step().expect("within the guards");
             let p = particles(&mut sim)[0];
             if p.velocity.z < before {

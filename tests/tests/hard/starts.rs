@@ -23,8 +23,8 @@ fn starts_that_cannot_be_are_stopped_with_ids() {
         for distance in [0.0, 1e-300, 1e-12, 0.01] {
             let mut setup = variant.rough(0.5, 0.5);
             setup.particles = vec![grain(41, Vec3::zeros()), grain(42, Vec3::new(distance, 0.0, 0.0))];
-            let halt = explain_halt(&simulation(setup).step().expect_err("too deep"));
             let on = format!("{}, {distance} m apart", variant.name());
+            let halt = explain_halt(&simulation(setup).step().expect_err(&on));
             DEEP.refused(&on, &halt, &["41", "42", "overlaps", "limit 25.0 %"]);
             assert!(!halt.contains("NaN"), "{halt}");
         }

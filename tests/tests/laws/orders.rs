@@ -89,8 +89,9 @@ fn head_on() {
         (Law::Hertz, "hertz", hertz_time(speed), (2.5, 1.25)),
     ] {
         for e in [1.0, 0.9, 0.5] {
-            let after =
-                |dt, share| rebound(falling(law, e, down, dt, share), 3.0 * time).z / (e * speed) - 1.0;
+            let sampled =
+                |dt, share| Setup { sampling: Sampling::Sampled, ..falling(law, e, down, dt, share) };
+            let after = |dt, share| rebound(sampled(dt, share), 3.0 * time).z / (e * speed) - 1.0;
             let off = |dt: f64| mean(time, dt, after);
             let (case, order) = if e == 1.0 { (&ELASTIC, orders.0) } else { (&DAMPED, orders.1) };
             case.order(&format!("{name}, e = {e}"), &points(time, off), order, 0.1);

@@ -19,7 +19,8 @@ pub struct Damping {
     pub first: f64,
     /// γ₂ Δt⁴ [s⁴].
     pub second: f64,
-    /// Share of its work that the law dissipates [–]: none with e = 1, where it takes back what the step has made.
+    /// 1, or 0 with e = 1: γ then acts only in kicks in which a contact begins or ends, and takes back what the step has made there. Its work is
+    /// no dissipation, and contacts that last keep their energy.
     pub dissipates: f64,
 }
 
@@ -38,9 +39,10 @@ impl Damping {
         Damping { ratio: by * self.ratio, first: by * self.first, second: by * self.second, ..self }
     }
 
-    /// γ of a contact whose S/m* [1/s²] is `pace`.
+    /// γ of a contact whose S/m* [1/s²] is `pace`; `partial` is 1 where it begins or ends in the kick, else 0.
     #[inline(always)]
-    pub fn of<R: Lane>(&self, pace: R) -> R {
-        R::splat(self.ratio) + pace * (R::splat(self.first) + pace * R::splat(self.second))
+    pub fn of<R: Lane>(&self, pace: R, partial: R) -> R {
+        let acts = R::splat(self.dissipates) + R::splat(1.0 - self.dissipates) * partial;
+        (R::splat(self.ratio) + pace * (R::splat(self.first) + pace * R::splat(self.second))) * acts
     }
 }

@@ -62,7 +62,7 @@ impl Effect for Hertz {
         let overlap = contact.overlap.max(R::splat(0.0));
         let s = R::splat(2.0 * self.modulus) * (contact.radius * overlap).sqrt();
         response.impedance = (s * contact.mass).sqrt();
-        let c = self.damping.of(s * contact.inverse_mass) * response.impedance;
+        let c = self.damping.of(s * contact.inverse_mass, contact.partial) * response.impedance;
         let elastic = R::splat(2.0 / 3.0) * s * overlap;
         let damping = c * contact.approach;
         response.normal = response.normal + (elastic + damping);

@@ -90,7 +90,7 @@ impl Effect for Hooke {
     fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, _: &mut (), response: &mut Response<R>) {
         let k = R::splat(self.stiffness);
         response.impedance = (k * contact.mass).sqrt();
-        let c = self.damping.of(k * contact.inverse_mass) * response.impedance;
+        let c = self.damping.of(k * contact.inverse_mass, contact.partial) * response.impedance;
         let damping = c * contact.approach;
         response.normal = response.normal + (k * contact.overlap + damping);
         response.pressing = response.normal;

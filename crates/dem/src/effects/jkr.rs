@@ -157,7 +157,7 @@ impl Effect for Jkr {
         let elastic = pull * cube * (cube / number(6.0) - number(1.0));
         let s = number(2.0 * self.modulus) * last * y * y;
         response.impedance = (s * contact.mass).sqrt();
-        let c = self.damping.of(s * contact.inverse_mass) * response.impedance;
+        let c = self.damping.of(s * contact.inverse_mass, contact.partial) * response.impedance;
         let damping = c * contact.approach;
         response.normal = response.normal + (elastic + damping);
         response.pressing = response.normal + number(3.0) * pull;

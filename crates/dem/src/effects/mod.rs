@@ -55,6 +55,8 @@ pub struct Contact<R: Lane> {
     pub overlap: R,
     /// δ at the instant itself, which is what springs hold [m].
     pub present: R,
+    /// 1 where the two act on each other for a part of the kick only, else 0 [–].
+    pub partial: R,
     /// δ a step ago [m].
     pub before: R,
     /// R* [m].

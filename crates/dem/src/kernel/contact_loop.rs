@@ -196,6 +196,7 @@ fn geometry<R: Lane, E: Effect>(step: &StepInputs, batch: &Batch, ends: Ends<R>)
         normal,
         overlap,
         present: overlap,
+        partial: zero,
         before: overlap + along * R::splat(step.dt),
         radius: R::select(round, ri * rj * inverse_reach, ri),
         curvature: R::select(round, inverse_reach, zero),
@@ -220,9 +221,10 @@ fn geometry<R: Lane, E: Effect>(step: &StepInputs, batch: &Batch, ends: Ends<R>)
 pub fn average<R: Lane>(ahead: f64, c: &mut Contact<R>, held: R) -> Option<R> {
     let (zero, half) = (R::splat(0.0), R::splat(0.5));
     let way = size(c.approach) * R::splat(ahead);
-    let now = c.overlap + held;
+    // Of two equal centres `held` and the approach are NaN; they touch all the same.
+    let now = (c.overlap + held).max(c.overlap);
     let last = now + way;
-    c.touching = last.gt(zero);
+    c.touching = last.max(now).gt(zero);
     let before = c.before + held;
     c.before = R::select(way.gt(before), (before + way) * half - held, c.before);
     let begins_or_ends = R::both(c.touching, way.gt(now));
@@ -232,6 +234,7 @@ pub fn average<R: Lane>(ahead: f64, c: &mut Contact<R>, held: R) -> Option<R> {
     let share = R::select(begins_or_ends, last / (way + way), R::splat(1.0));
     c.overlap = R::select(begins_or_ends, last * half - held, c.overlap);
     c.present = R::select(begins_or_ends, now.max(zero) - held, c.present);
+    c.partial = R::select(begins_or_ends, R::splat(1.0), zero);
     c.turn = c.turn * share;
     Some(share)
 }

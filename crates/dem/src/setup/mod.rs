@@ -127,9 +127,9 @@ pub enum Step {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Sampling {
     /// The part in which both touch, from half a step before the instant to half a step after it; damping is matched to the step.
+    #[default]
     Averaged,
     /// The whole step, where both touch at its instant.
-    #[default]
     Sampled,
 }
 

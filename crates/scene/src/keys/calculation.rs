@@ -44,9 +44,9 @@ pub struct Time {
 #[serde(rename_all = "lowercase")]
 pub enum Sampling {
     /// The part in which both touch.
+    #[default]
     Averaged,
     /// All of it, where both touch at its instant.
-    #[default]
     Sampled,
 }
 

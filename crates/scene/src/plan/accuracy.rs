@@ -79,7 +79,7 @@ fn safety(curve: &[Measured], wanted: f64) -> Option<f64> {
 pub(super) fn choose(check: &Check, time: &Time, contacts: &[ContactLaw]) -> Result<(f64, Option<String>)> {
     let Some(Accuracy(wanted)) = time.accuracy else {
         let given = time.safety.map(|safety| (safety, None));
-        return Ok(given.unwrap_or_else(|| default_safety(contacts)));
+        return Ok(given.unwrap_or_else(|| default_safety(time.contacts, contacts)));
     };
     let mut best: Option<(f64, &str)> = None;
     for law in laws(contacts) {
@@ -109,18 +109,23 @@ pub(super) fn choose(check: &Check, time: &Time, contacts: &[ContactLaw]) -> Res
 
 /// The share of the critical step where a scene says nothing, and why where it is not the usual one.
 ///
-/// Without friction, at the usual share, a contact of a linear law lasts six steps, and its force begins with a jump of one step's length: a gas of
-/// 216 such grains gains 8 % of its energy a second at e = 1; at [`SAFETY_ELASTIC`] less than 0.6 %, of either sign. Friction makes the critical step four times
-/// shorter, and dissipation hides the gain.
-fn default_safety(contacts: &[ContactLaw]) -> (f64, Option<String>) {
+/// Where contacts are sampled, at the usual share and without friction, a contact of a linear law lasts six steps, and its force begins with a jump
+/// of one step's length: a gas of 216 such grains gains 8 % of its energy a second at e = 1; at [`SAFETY_ELASTIC`] less than 0.6 %, of either sign.
+/// Friction makes the critical step four times shorter, and dissipation hides the gain.
+fn default_safety(sampling: Sampling, contacts: &[ContactLaw]) -> (f64, Option<String>) {
+    if sampling == Sampling::Averaged {
+        return (SAFETY, None);
+    }
     let rubs = |law: &ContactLaw| active(law).any(|d| d.slot == Slot::Sliding && !(d.idle)(law));
     let elastic = |law: &&ContactLaw| {
         law.number("stiffness").is_some() && law.number("restitution").is_some_and(|e| e > ELASTIC)
     };
     match contacts.iter().find(elastic).and_then(|law| law.number("restitution")) {
         Some(e) if !contacts.iter().any(rubs) => {
-            let why =
-                format!("a linear law without friction and with restitution {} gains energy", geom::Shown(e));
+            let why = format!(
+                "a sampled linear law without friction and with restitution {} gains energy",
+                geom::Shown(e)
+            );
             (
                 SAFETY_ELASTIC,
                 Some(format!("safety {SAFETY_ELASTIC} instead of {SAFETY}: {why} in longer steps")),
