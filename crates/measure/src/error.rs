@@ -40,6 +40,8 @@ pub enum MeasureError {
         "frames hold at most {most} grains, and {what} needs {wanted}: run longer, or choose other frames"
     )]
     FewGrains { what: &'static str, most: usize, wanted: usize },
+    #[error("no frame has a grain with id {ids}: give ids from {} to {}", known[0], known[1])]
+    NoSuchGrain { ids: String, known: [u64; 2] },
     #[error("frame at {} s holds no grains: choose another time with --time", Shown(*time))]
     NoGrains { time: f64 },
     #[error(

@@ -32,6 +32,7 @@ pub mod segregation;
 mod sheet;
 pub mod statistics;
 mod table;
+pub mod track;
 pub mod wall_force;
 mod wall_record;
 pub mod wear;

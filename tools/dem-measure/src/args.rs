@@ -66,6 +66,9 @@ pub struct Args {
     /// How long grains stay in SHAPE
     #[arg(long, group = "measure", value_name = "SHAPE", value_parser = shape)]
     pub residence: Option<GivenShape>,
+    /// Path and velocity of the grains with these ids
+    #[arg(long, group = "measure", value_name = "ID,ID,…", value_delimiter = ',')]
+    pub track: Option<Vec<u64>>,
     /// Impacts: contact time, deepest overlap, restitution
     #[arg(long, group = "measure")]
     pub impact: bool,

@@ -18,6 +18,7 @@ use measure::region::Region;
 use measure::repose::{HeapOptions, Repose};
 use measure::residence::Residence;
 use measure::segregation::{Kinds, Segregation};
+use measure::track::Track;
 use measure::wall_force::{WallContactFilter, WallForce};
 use measure::wear::Wear;
 use measure::{Observer, PerFrame, Which};
@@ -64,6 +65,9 @@ pub fn observer(args: &Args) -> anyhow::Result<(&'static str, Box<dyn Observer>)
         (Args { wear: Some(given), .. }, _) => {
             Box::new(Wear::new(on_walls(args, given, between), args.cell).context(name)?)
         }
+        (Args { track: Some(ids), .. }, _) => {
+            Box::new(PerFrame::new(Track::new(ids).map_err(|e| usage(format!("--track: {e}")))?, series))
+        }
         (Args { residence: Some(given), .. }, _) => Box::new(Residence::new(given.shape.clone(), between)),
         (_, "--impact") => Box::new(Impacts::new(between)),
         (_, "--bed-height") => Box::new(PerFrame::new(BedHeight::new(args.up, args.ground), single)),
@@ -87,6 +91,7 @@ fn name(args: &Args) -> &'static str {
         ("--plane-force", args.plane_force.is_some()),
         ("--wear", args.wear.is_some()),
         ("--residence", args.residence.is_some()),
+        ("--track", args.track.is_some()),
         ("--impact", args.impact),
         ("--bed-height", args.bed_height),
     ];

@@ -64,6 +64,7 @@ pub const EXAMPLES: &[&str] = &[
     "dem-measure run.mcap --wear all --cell 0.02 --wall 0",
     "dem-measure run.mcap --residence box:-1,-1,0,1,1,0.02",
     "dem-measure run.mcap --impact",
+    "dem-measure run.mcap --track 0,1",
     "dem-measure run.mcap --bed-height",
     "dem-view run.mcap --colour speed --max-mb 20 --components --title run --time 0.02 -o v.html --report r.json --threads 2 -q",
     "dem-view bonded.mcap --bonds --colour broken --size 96x64 -o v6.png",
