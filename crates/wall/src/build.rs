@@ -3,15 +3,17 @@
 use crate::pairs::{FURTHEST, Pairs, REACH, pairs};
 use crate::sheets::Sheets;
 use crate::solve::{Changed, ChangedPair, Changes};
-use crate::star::{SQUARE, Stars, stars};
 use crate::warnings::{self, Built};
 use crate::{
     Placement, Radius, Regions, Representative, WallError, WallSettings, equation, leak, normals, solve,
 };
 use geom::Vec3;
+use geom::star::{Stars, stars};
 use sampling::cells::Cells;
 use serde::Serialize;
 
+/// Largest circle through three points that is distinguished from the outline of the wall, in nearest distances.
+const SQUARE: f64 = 3.0;
 /// A length that is too large by less than this factor is meant to be equal.
 pub(crate) const ROUNDED: f64 = 1.0 + 1e-9;
 
@@ -76,7 +78,7 @@ pub fn build(
     }
     let wants_stars =
         settings.placement == Placement::Surface || settings.smallest_particle.is_some() || settings.gaps;
-    let stars = if wants_stars { stars(&cells, typical) } else { Stars::default() };
+    let stars = if wants_stars { stars(&cells, SQUARE * typical) } else { Stars::default() };
     let region_of = regions.of(&cells.points, cells.order());
     let spacing = representative(&found.lengths, settings.representative);
     let zeta = roughness(regions, &region_of, cells.order(), settings)?;

@@ -13,7 +13,6 @@ pub mod pairs;
 pub mod regions;
 pub mod sheets;
 pub mod solve;
-pub mod star;
 mod table;
 mod warnings;
 pub mod wear;

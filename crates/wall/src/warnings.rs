@@ -2,8 +2,8 @@
 
 use crate::build::{ROUNDED, WallReport, representative};
 use crate::sheets::{self, Sheets};
-use crate::star::Stars;
 use crate::{Representative, WallError, WallSettings, leak};
+use geom::star::Stars;
 use geom::{Shown, Vec3};
 
 /// Wall sphere diameter over smallest particle diameter below which spheres cost more than they give [–].
