@@ -82,7 +82,7 @@ fn gaps_tells_the_largest_sphere_that_passes_without_a_particle() {
 #[test]
 fn properties_that_ply_has_no_place_for_are_refused() {
     let folder = folder(&[("cloud.xyz", cloud())]);
-    for option in ["--friction", "--restitution", "--young", "--poisson"] {
+    for option in ["--material", "--friction", "--restitution", "--young", "--poisson"] {
         let options = ["cloud.xyz", "--radius", "0.006", option, "0.3", "-o", "walls.ply"];
         let done = tool(folder.path(), "wallgen", &options);
         assert!(
@@ -90,5 +90,52 @@ fn properties_that_ply_has_no_place_for_are_refused() {
             "{}",
             done.stderr
         );
+    }
+}
+
+/// The same for a table of regions; their velocity has columns, and stays.
+#[test]
+fn properties_of_regions_that_ply_has_no_place_for_are_refused() {
+    let table = |key: &str| format!("[[region]]\nname = \"worn\"\nshape = \"box:0,0,-1,0.02,1,1\"\n{key}\n");
+    let folder = folder(&[
+        ("cloud.xyz", cloud()),
+        ("f.toml", table("friction = 0.3")),
+        ("v.toml", table("velocity = [0.1, 0, 0]")),
+    ]);
+    let wall = |file: &str| {
+        let options = ["cloud.xyz", "--roughness", file, "--radius", "0.006", "-o", "walls.ply"];
+        tool(folder.path(), "wallgen", &options)
+    };
+    let refused = wall("f.toml");
+    let wanted = "f.toml: material 'wall-worn' has properties, and a PLY file has no place";
+    assert!(refused.code == 2 && refused.stderr.contains(wanted), "{}", refused.stderr);
+    let done = wall("v.toml");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let header = std::fs::read(folder.path().join("walls.ply")).expect("a wall");
+    assert!(String::from_utf8_lossy(&header).contains("property double vx"));
+}
+
+/// An option that would change no sphere is refused, and the cure is one that works.
+#[test]
+fn options_that_change_no_sphere_are_refused() {
+    let folder = folder(&[("cloud.xyz", cloud())]);
+    let wall = |options: &str| {
+        let words = format!("cloud.xyz {options} -o w.mcap");
+        tool(folder.path(), "wallgen", &words.split(' ').collect::<Vec<_>>())
+    };
+    for (options, wanted) in [
+        ("--radius 0.006 --representative mean", "--representative: the radius is given (--radius 0.006)"),
+        ("--radius 0.006 --facing 0,0,1", "--facing: the flow side changes nothing"),
+        ("--radius 0.006 --flow-at 0,0,1 --place centre", "--flow-at: the flow side changes nothing"),
+    ] {
+        let done = wall(options);
+        assert!(done.code == 2 && done.stderr.contains(wanted), "{options}: {}", done.stderr);
+    }
+    for options in [
+        "--roughness 0.001 --radius uniform --representative mean",
+        "--radius 0.006 --flow-at 0,0,1 --place surface",
+    ] {
+        let done = wall(options);
+        assert_eq!(done.code, 0, "{options}: {}", done.stderr);
     }
 }

@@ -27,13 +27,13 @@ pub struct Args {
     /// Radii: solve (pair by pair), uniform, or a length [m]
     #[arg(long, value_name = "solve|uniform|M", default_value = "solve", value_parser = radius)]
     radius: Radius,
-    /// Which average of the neighbour distances to use
-    #[arg(long, value_enum, default_value = "mean")]
-    representative: Middle,
+    /// Which average of the neighbour distances the radii follow from (default: mean)
+    #[arg(long, value_enum)]
+    representative: Option<Middle>,
     /// Which point of a sphere lies on the scanned point: its centre, or its surface on the flow side (default: centre; for a drawing: surface)
     #[arg(long, value_enum)]
     place: Option<Place>,
-    /// Direction to the flow side
+    /// Direction to the flow side, for --place surface
     #[arg(long, value_name = "x,y,z", value_parser = vector, allow_hyphen_values = true)]
     facing: Option<Vec3>,
     /// A point in the flow [m], instead of --facing: for closed equipment, and to choose the side of a drawing
@@ -42,9 +42,9 @@ pub struct Args {
     /// Drawn equipment instead of a cloud (PLY, STL, OBJ; in m, or see --units): spheres of --radius M inside it that touch its surface
     #[arg(long, value_name = "FILE")]
     pub from_mesh: Option<PathBuf>,
-    /// Name of the material
-    #[arg(long, value_name = "NAME", default_value = "wall")]
-    material: String,
+    /// Name of the material (default: wall)
+    #[arg(long, value_name = "NAME")]
+    material: Option<String>,
     /// Young's modulus [Pa]
     #[arg(long, value_name = "PA", value_parser = finite)]
     young: Option<f64>,
@@ -117,8 +117,8 @@ impl Args {
             Some(Place::Centre) | None => Placement::Centre,
         };
         let representative = match self.representative {
-            Middle::Mean => Representative::Mean,
-            Middle::Median => Representative::Median,
+            Some(Middle::Median) => Representative::Median,
+            Some(Middle::Mean) | None => Representative::Mean,
         };
         Ok(WallSettings {
             radius: self.radius,
@@ -159,7 +159,7 @@ impl Args {
     pub fn regions(&self) -> anyhow::Result<Regions> {
         let material = MaterialRecord {
             density: None,
-            name: self.material.clone(),
+            name: self.material.clone().unwrap_or_else(|| "wall".to_owned()),
             young: self.young,
             poisson: self.poisson,
             friction: self.friction,
@@ -179,8 +179,25 @@ impl Args {
             let file = folder.join(name);
             stream::whole::text(&file).map_err(|e| format!("cannot read: {e}"))
         };
-        Regions::parse(&text, material, self.velocity, &mesh::load, &read)
-            .with_context(|| path.display().to_string())
+        let regions = Regions::parse(&text, material, self.velocity, &mesh::load, &read)
+            .with_context(|| path.display().to_string())?;
+        self.check_ply_regions(&regions, path)?;
+        Ok(regions)
+    }
+
+    /// Refuses properties of the materials of regions where the output is PLY.
+    fn check_ply_regions(&self, regions: &Regions, path: &Path) -> anyhow::Result<()> {
+        let has_values =
+            |m: &&MaterialRecord| m.young.or(m.poisson).or(m.friction).or(m.restitution).is_some();
+        match regions.materials.iter().find(has_values).filter(|_| self.output.to.has_extension("ply")) {
+            Some(material) => Err(cli::usage(format!(
+                "{}: material '{}' has properties, and a PLY file has no place for them: leave them out, or write \
+                 walls MCAP (-o FILE.mcap)",
+                path.display(),
+                material.name
+            ))),
+            None => Ok(()),
+        }
     }
 
     /// Role and hash of the table of regions, for provenance.
@@ -201,14 +218,33 @@ impl Args {
         Ok(())
     }
 
-    /// Refuses properties of the material where the output has no place for them: PLY is geometry alone.
+    /// Refuses options that would change nothing.
     pub fn check_used(&self) -> anyhow::Result<()> {
+        self.check_ply()?;
+        if let (Radius::Given(radius), Some(_)) = (self.radius, self.representative) {
+            return Err(cli::usage(format!(
+                "--representative: the radius is given (--radius {radius}), and no average of distances is used: \
+                 leave it out, or use --radius uniform"
+            )));
+        }
+        let flow = self.facing.map(|_| "--facing").or(self.flow_at.map(|_| "--flow-at"));
+        match flow.filter(|_| self.from_mesh.is_none() && !matches!(self.place, Some(Place::Surface))) {
+            Some(option) => Err(cli::usage(format!(
+                "{option}: the flow side changes nothing with the centres on the points: leave it out, or add \
+                 --place surface"
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    /// Refuses properties of the material where the output has no place for them: PLY is geometry alone.
+    fn check_ply(&self) -> anyhow::Result<()> {
         let given = [
+            (self.material.is_some(), "--material"),
             (self.young.is_some(), "--young"),
             (self.poisson.is_some(), "--poisson"),
             (self.friction.is_some(), "--friction"),
             (self.restitution.is_some(), "--restitution"),
-            (self.velocity != Vec3::zeros(), "--velocity"),
         ];
         match given.iter().find(|g| g.0).filter(|_| self.output.to.has_extension("ply")) {
             Some((_, option)) => Err(cli::usage(format!(

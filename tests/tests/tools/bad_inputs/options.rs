@@ -40,7 +40,10 @@ const OF_WALLGEN: &[Case] = &[
     misused("wallgen good.ply", &["--roughness", "--radius M"]),
     misused("wallgen good.ply --roughness 0", &["--roughness 0 m", "positive"]),
     misused("wallgen good.ply --roughness -0.001", &["--roughness -0.001 m", "positive"]),
-    misused("wallgen good.ply --roughness 0.001 --facing 0,0,0", &["--facing 0,0,0", "no direction"]),
+    misused(
+        "wallgen good.ply --roughness 0.001 --place surface --facing 0,0,0",
+        &["--facing 0,0,0", "no direction"],
+    ),
     misused("wallgen good.ply --roughness 0.001 --smallest-particle -1", &["--smallest-particle -1 m"]),
     misused("wallgen good.ply --roughness 0.001 --young 0", &["--young 0 Pa", "positive"]),
     misused("wallgen good.ply --roughness 0.001 --place surface", &["--place surface", "--facing x,y,z"]),
