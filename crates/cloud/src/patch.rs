@@ -7,7 +7,7 @@
 //! The quadratic takes the curvature; the thin plate (least bending; Duchon 1977) takes the rest, smoothed by
 //! λ on the diagonal so that it does not follow the noise of the scan.
 
-use geom::{Quadratic, Vec3};
+use geom::Vec3;
 use nalgebra::{DMatrix, DVector, Matrix3, SymmetricEigen};
 
 /// Axes of a patch: u and v in its plane, n normal to it.
@@ -93,6 +93,7 @@ fn kernel(p: (f64, f64), q: (f64, f64)) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use geom::Quadratic;
 
     fn ring(height: impl Fn(f64, f64) -> f64) -> Vec<Vec3> {
         let turn = |i: i32| f64::from(i) * 0.17;

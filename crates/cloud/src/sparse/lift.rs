@@ -1,0 +1,49 @@
+//! The height of the surface at a void: that of a quadratic through the scanned points around it.
+
+use super::voids::SurfaceVoid;
+use super::{Surface, WIDEST};
+use crate::patch::Frame;
+use geom::{Grid, Quadratic, Vec3};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// How far the points are that the quadratic goes through, in radii of the void.
+pub(super) const REACH: f64 = 3.5;
+/// They are thinned to one in each square of this share of the reach.
+const SQUARE: f64 = 0.125;
+/// What the quadratic may leave, as a share of the reach: a surface that is rougher, or two of them, get no point.
+const ROUGH: f64 = 0.1;
+/// Least distance of an added point from all others, in radii of its void.
+pub(super) const CLOSEST: f64 = 0.8;
+
+/// The position of each void's point on the surface [m]; none where there is no smooth surface.
+pub(super) fn all(surface: &Surface, voids: &[SurfaceVoid]) -> Vec<Option<Vec3>> {
+    let reaches: Vec<f64> = voids.iter().map(|void| reach(surface, void)).collect();
+    let Some(most) = reaches.iter().copied().reduce(f64::max) else { return Vec::new() };
+    let scanned = &surface.points[..surface.scanned];
+    let grid = Grid::new(scanned, 0.5 * most);
+    voids.par_iter().zip(reaches).map(|(void, reach)| one(scanned, &grid, void, reach)).collect()
+}
+
+/// Where the scan is sparser than the void is wide, as far as it takes [m].
+fn reach(surface: &Surface, void: &SurfaceVoid) -> f64 {
+    let widest = void.corners.iter().map(|&c| surface.widest[c as usize]).sum::<f64>() / 3.0;
+    REACH * void.radius.max(widest / WIDEST)
+}
+
+fn one(scanned: &[Vec3], grid: &Grid, void: &SurfaceVoid, reach: f64) -> Option<Vec3> {
+    let frame = Frame::new(void.at, &[void.normal])?;
+    let near = grid.within(scanned, void.at, reach).map(|i| frame.local(&scanned[i as usize]));
+    let fit = Quadratic::fit(&means(near, SQUARE * reach))?;
+    (fit.rms <= ROUGH * reach).then(|| frame.world(&Vec3::new(0.0, 0.0, fit.height(0.0, 0.0))))
+}
+
+/// Mean position of the points of each square.
+fn means(points: impl Iterator<Item = Vec3>, square: f64) -> Vec<Vec3> {
+    let mut sums: BTreeMap<[i64; 2], (Vec3, f64)> = BTreeMap::new();
+    for p in points {
+        let sum = sums.entry([p.x, p.y].map(|c| (c / square).floor() as i64)).or_insert((Vec3::zeros(), 0.0));
+        *sum = (sum.0 + p, sum.1 + 1.0);
+    }
+    sums.into_values().map(|(sum, count)| sum / count).collect()
+}
