@@ -139,3 +139,48 @@ fn options_that_change_no_sphere_are_refused() {
         assert_eq!(done.code, 0, "{options}: {}", done.stderr);
     }
 }
+
+/// z = 0.02 sin 20x on a lattice of 8 mm is one sheet; a second sheet 3 mm under it is told.
+#[test]
+fn a_smooth_wave_is_no_pair_of_sheets() {
+    let wave = |shift: f64| -> String {
+        let at = |k: i32| (0.008 * f64::from(k % 60), 0.008 * f64::from(k / 60));
+        let line =
+            |(x, y): (f64, f64)| format!("{} {y} {}\n", x + shift, 0.02 * (20.0 * x).sin() - 0.75 * shift);
+        (0..3600).map(at).map(line).collect()
+    };
+    let folder = folder(&[("one.xyz", wave(0.0)), ("two.xyz", wave(0.0) + &wave(0.004))]);
+    let told = |cloud: &str| {
+        let words = [cloud, "--roughness", "0.0005", "--radius", "uniform", "-o", "w.mcap"];
+        let done = tool(folder.path(), "wallgen", &words);
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        done.stderr.contains("two sheets of the surface")
+    };
+    assert!(!told("one.xyz") && told("two.xyz"));
+}
+
+/// A sparse cloud is warned of; the cures that the warning and the help name work.
+#[test]
+fn a_cloud_too_sparse_for_its_roughness_is_told_and_the_cures_work() {
+    let points = |k: i32| (0.01 * f64::from(k % 60), 0.01 * f64::from(k / 60));
+    let is_there = |(x, y): &(f64, f64)| {
+        *x < 0.3 || (((100.0 * x).round() as i32) % 4 == 1 && ((100.0 * y).round() as i32) % 4 == 1)
+    };
+    let cloud: String = (0..1800).map(points).filter(is_there).map(|(x, y)| format!("{x} {y} 0\n")).collect();
+    let square = "v 0 0 0\nv 0.59 0 0\nv 0.59 0.29 0\nv 0 0.29 0\nf 1 2 3\nf 1 3 4\n";
+    let folder = folder(&[("cloud.xyz", cloud), ("square.obj", square.to_owned())]);
+    let wall = |inputs: &str| {
+        let words = format!("{inputs} --roughness 0.0005 --radius uniform -o w.mcap");
+        let done = tool(folder.path(), "wallgen", &words.split(' ').collect::<Vec<_>>());
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        done.stderr
+    };
+    assert!(wall("cloud.xyz").contains("times as deep as asked"));
+    let drawn = wall("cloud.xyz --from-mesh square.obj");
+    assert!(drawn.contains("of them on the drawing") && !drawn.contains("as deep as asked"), "{drawn}");
+    let f = folder.path();
+    succeed(f, "cloud-fill", &["cloud.xyz", "--for-spacing", "0.01", "-o", "filled.ply"]);
+    succeed(f, "bluenoise-sample", &["filled.ply", "--spacing", "0.01", "-o", "even.ply"]);
+    let filled = wall("even.ply");
+    assert!(!filled.contains("as deep as asked"), "{filled}");
+}

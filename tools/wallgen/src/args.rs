@@ -10,7 +10,8 @@ use wall::{Placement, Radius, Regions, Representative, WallSettings};
 
 const EXAMPLES: &str = "Examples:\n\
     \x20 wallgen sampled.ply --roughness 0.0015 --radius uniform --material steel -o walls.mcap\n\
-    \x20 wallgen --from-mesh hopper.ply --radius 0.03 --roughness 0.003 --material steel -o hopper.mcap";
+    \x20 wallgen --from-mesh hopper.ply --radius 0.03 --roughness 0.003 --material steel -o hopper.mcap\n\
+    \x20 wallgen sampled.ply --from-mesh chute.stl --roughness 0.0015 --radius uniform -o walls.mcap";
 
 /// Turn the points of a surface into wall spheres (MCAP; PLY with -o FILE.ply).
 #[derive(clap::Parser)]
@@ -39,7 +40,7 @@ pub struct Args {
     /// A point in the flow [m], instead of --facing: for closed equipment, and to choose the side of a drawing
     #[arg(long, value_name = "x,y,z", value_parser = vector, allow_hyphen_values = true, conflicts_with = "facing")]
     flow_at: Option<Vec3>,
-    /// Drawn equipment instead of a cloud (PLY, STL, OBJ; in m, or see --units): spheres of --radius M inside it that touch its surface
+    /// Drawn equipment (PLY, STL, OBJ; in m, or see --units). Alone: spheres of --radius M inside it that touch its surface. With a cloud: its surface stands in where the cloud is sparse
     #[arg(long, value_name = "FILE")]
     pub from_mesh: Option<PathBuf>,
     /// Name of the material (default: wall)
@@ -107,7 +108,7 @@ impl Args {
         let has_flow = self.facing.or(self.flow_at).is_some();
         let placement = match self.place {
             // The spheres of a drawing are where they belong.
-            _ if self.from_mesh.is_some() => Placement::Centre,
+            _ if self.is_drawing() => Placement::Centre,
             Some(Place::Surface) if !has_flow => {
                 return Err(cli::usage(
                     "--place surface: the flow side is needed; add --facing x,y,z, or --flow-at x,y,z",
@@ -129,8 +130,14 @@ impl Args {
             smallest_particle: self.smallest_particle,
             largest_particle: self.largest_particle,
             gaps: self.gaps,
+            of_drawing: self.is_drawing(),
             list_changes: self.changes.is_some(),
         })
+    }
+
+    /// Whether a drawing stands for the whole wall, and no cloud is read.
+    pub fn is_drawing(&self) -> bool {
+        self.from_mesh.is_some() && self.input.cloud.path().is_none()
     }
 
     /// How the spheres of a drawing are placed.
@@ -142,9 +149,6 @@ impl Args {
             return Err(cli::usage(
                 "--facing: does not work with a drawing; give a point in the flow, --flow-at x,y,z",
             ));
-        }
-        if self.input.cloud.path().is_some() {
-            return Err(cli::usage("--from-mesh: a drawing replaces the cloud; leave one of them out"));
         }
         let Some(roughness) = regions.least_roughness() else {
             return Err(cli::usage(
@@ -228,7 +232,7 @@ impl Args {
             )));
         }
         let flow = self.facing.map(|_| "--facing").or(self.flow_at.map(|_| "--flow-at"));
-        match flow.filter(|_| self.from_mesh.is_none() && !matches!(self.place, Some(Place::Surface))) {
+        match flow.filter(|_| !self.is_drawing() && !matches!(self.place, Some(Place::Surface))) {
             Some(option) => Err(cli::usage(format!(
                 "{option}: the flow side changes nothing with the centres on the points: leave it out, or add \
                  --place surface"

@@ -32,6 +32,7 @@ pub const EXAMPLES: &[&str] = &[
     "wallgen flat.xyz --roughness rough.toml --radius uniform --representative median --place surface --flow-at 0.1,0.1,1 --output walls2.mcap --quiet",
     "wallgen flat.xyz --radius 0.006 --place surface --facing 0,0,1 --ascii -o walls.ply",
     "wallgen --from-mesh tetra.ply --units m --radius 0.03 --roughness 0.003 -o drawn.mcap",
+    "wallgen flat.xyz --from-mesh tetra.ply --roughness 0.001 --radius uniform -o both.mcap",
     "dem-run s.toml --set contact.0.restitution=0.3 --until 0.01 --progress -o run.mcap --report r.json --threads 2 -q",
     "dem-run s.toml --set contact.0.restitution=0.3 --until 0.05 --resume run.mcap --output rest.mcap --quiet",
     "dem-run s.toml --check",
