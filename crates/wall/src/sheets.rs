@@ -9,7 +9,7 @@
 //! ```
 //!
 //! and a quadratic through them leaves at least a third of their variance: one bent sheet, whose points on a lattice lie in few heights,
-//! leaves next to nothing. Where it leaves less, the heights over the quadratic are looked at instead: two sheets that are bent.
+//! leaves almost none. Where it leaves less, the heights over the quadratic are looked at instead: two sheets that are bent.
 //!
 //! Even heights leave a quarter, heights of normal noise 0.36 and an edge a quarter, however rough the surface.
 

@@ -6,7 +6,7 @@
 //! column = "intensity"
 //! values = [0, 255]
 //! friction = [0.3, 0.8]    # at the smallest and at the largest value, linear between
-//! steps = 16               # so many regions, each with a material of its own
+//! steps = 16               # so many regions, each with a separate material
 //! ```
 //!
 //! A step has the value in its middle: the largest error is the difference of the two ends over twice the number of steps.

@@ -140,7 +140,7 @@ fn options_that_change_no_sphere_are_refused() {
     }
 }
 
-/// z = 0.02 sin 20x on a lattice of 8 mm is one sheet; a second sheet 3 mm under it is told.
+/// z = 0.02 sin 20x on a lattice of 8 mm is one sheet; a second sheet 3 mm under it prints a warning.
 #[test]
 fn a_smooth_wave_is_no_pair_of_sheets() {
     let wave = |shift: f64| -> String {
@@ -159,7 +159,7 @@ fn a_smooth_wave_is_no_pair_of_sheets() {
     assert!(!told("one.xyz") && told("two.xyz"));
 }
 
-/// A sparse cloud is warned of; the cures that the warning and the help name work.
+/// A sparse cloud prints a warning; the cures that the warning and the help name work.
 #[test]
 fn a_cloud_too_sparse_for_its_roughness_is_told_and_the_cures_work() {
     let points = |k: i32| (0.01 * f64::from(k % 60), 0.01 * f64::from(k / 60));

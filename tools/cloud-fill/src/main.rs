@@ -17,6 +17,7 @@ const ABOUT: &str = "A hole is a region inside the outline of the surface with a
     report gives it.\n\n\
     Examples:\n\
     \x20 cloud-fill cropped.ply -o filled.ply\n\
+    \x20 cloud-fill cropped.ply --for-spacing 0.012 -o filled.ply\n\
     \x20 cloud-fill cropped.ply --below 5000 --max-hole 0.1 -o filled.ply";
 
 /// Find the holes of a scan and fill them with points
