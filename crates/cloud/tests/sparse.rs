@@ -138,3 +138,36 @@ fn what_stays_sparse_is_reported_and_what_does_not_fit_into_memory_is_refused() 
         "{error}"
     );
 }
+
+/// A plate scanned from both sides, 10 mm between neighbours. Three times as thick, each side is filled alone; as thick as that, it is refused and
+/// reported. Around the rim the sides may be joined by a round edge; nothing grows beyond it.
+#[test]
+fn the_sides_of_a_plate_are_filled_alone_or_not_at_all() {
+    let settings = Settings { for_spacing: Some(0.008), max_hole: Some(0.05), ..Settings::default() };
+    for (thickness, most_off) in [(0.03, 0.02), (0.012, 1.0)] {
+        let mut random = Random(11);
+        let place = |k: i32| {
+            let z = if k % 2 == 0 { 0.0 } else { thickness };
+            Vec3::new(0.5 * random.next(), 0.5 * random.next(), z + 0.0003 * random.normal())
+        };
+        let plate: Vec<Vec3> = (0..5000).map(place).collect();
+        let filled = fill(&plate, &settings);
+        let (added, report) = (&filled.cloud.points[plate.len()..], filled.report.sparse.unwrap());
+        println!("{thickness} m thick: {report:?}");
+        assert!(
+            if thickness > 0.02 { added.len() > 7000 } else { added.len() < 50 && report.left > 1000 },
+            "{report:?}"
+        );
+        let off = |p: &Vec3| p.z.abs().min((p.z - thickness).abs());
+        let off = added.iter().filter(|p| off(p) > 0.001).count();
+        assert!(
+            off as f64 <= most_off * added.len() as f64,
+            "{off} of {} are between the sides",
+            added.len()
+        );
+        let beyond = |p: &Vec3| {
+            (p - Vec3::new(0.25, 0.25, 0.5 * thickness)).abs() - Vec3::new(0.25, 0.25, 0.5 * thickness)
+        };
+        assert!(added.iter().all(|p| beyond(p).max() < 0.5 * thickness), "beyond the rim");
+    }
+}

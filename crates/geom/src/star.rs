@@ -13,6 +13,8 @@ use std::ops::Range;
 const FOR_NORMAL: usize = 24;
 /// Points are worked on in parts of this many.
 const PART: usize = 512;
+/// A neighbour so many times as far above or below the plane as it is beside the point is of another sheet, for [`voids`].
+const STEEPEST: f64 = 2.0;
 /// Stars of all points.
 #[derive(Debug, Clone, Default)]
 pub struct Stars {
@@ -57,7 +59,7 @@ pub fn stars(cells: &Cells, largest: f64) -> Stars {
         .map(|part| {
             let (mut stars, mut work) = (Stars::default(), StarScratch::default());
             for slot in part * PART..count.min((part + 1) * PART) {
-                let (_, _, normal) = star(cells, slot as u32, largest, &mut work);
+                let (_, _, normal) = star(cells, slot as u32, largest, f64::INFINITY, &mut work);
                 stars.normals.push(normal);
                 finish(slot as u32, &work.near, &work.cell, largest, &mut stars);
             }
@@ -77,9 +79,10 @@ pub fn stars(cells: &Cells, largest: f64) -> Stars {
     all
 }
 
-/// The voids around one point, of a radius up to `largest` [m], and its unit normal.
+/// The voids around one point, of a radius up to `largest` [m], and its unit normal. Points of another sheet, over or under the point, are
+/// left out.
 pub fn voids(cells: &Cells, slot: u32, largest: f64, work: &mut StarScratch) -> (Vec3, Vec<Void>) {
-    let (u, v, normal) = star(cells, slot, largest, work);
+    let (u, v, normal) = star(cells, slot, largest, STEEPEST, work);
     let StarScratch { near, cell, .. } = work;
     let void = |k: usize| {
         let (a, b) = void_at(cell, k, largest)?;
@@ -103,11 +106,16 @@ pub struct StarScratch {
 }
 
 /// The Voronoi cell of a point, in the memory, and its plane.
-fn star(cells: &Cells, slot: u32, half: f64, work: &mut StarScratch) -> (Vec3, Vec3, Vec3) {
+fn star(cells: &Cells, slot: u32, half: f64, steepest: f64, work: &mut StarScratch) -> (Vec3, Vec3, Vec3) {
     let (mut reach, furthest) = (cells.width, 2.0 * half);
     loop {
         neighbours(cells, slot, reach, work);
         let (u, v, normal) = plane(&work.near);
+        if steepest < f64::INFINITY {
+            let beside =
+                |n: &Neighbour| n.to.dot(&normal).abs() <= steepest * n.to.dot(&u).hypot(n.to.dot(&v));
+            work.near.retain(beside);
+        }
         let extent = voronoi(work, &u, &v, half);
         if 2.0 * extent <= reach || reach >= furthest {
             return (u, v, normal);

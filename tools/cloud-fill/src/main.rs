@@ -122,9 +122,9 @@ fn warn(report: &cloud::fill::Report) {
     if let Some(sparse) = report.sparse.as_ref().filter(|s| s.left > 0) {
         let [x, y, z] = sparse.widest_at.unwrap_or_default();
         cli::warn(&format!(
-            "{} places stay too sparse for a spacing of {} m: the widest is {:.3} m wide, at {x:.3},{y:.3},{z:.3}: they are holes that \
-             stay open, or the points around them lie on no smooth surface; give --below or --max-hole, or a wider spacing",
-            sparse.left, sparse.spacing, sparse.widest_left
+            "{} gaps in {} places stay too wide for a spacing of {} m: the widest is {:.3} m wide, at {x:.3},{y:.3},{z:.3}: they are holes \
+             that stay open, or the points around them lie on no smooth surface; give --below or --max-hole, or a wider spacing",
+            sparse.left, sparse.left_places, sparse.spacing, sparse.widest_left
         ));
     }
     let open = report.holes.iter().filter(|h| h.open).count();

@@ -3,6 +3,7 @@
 use super::voids::SurfaceVoid;
 use super::{Surface, WIDEST};
 use crate::patch::Frame;
+use crate::sheet::widest_gap;
 use geom::{Grid, Quadratic, Vec3};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -11,8 +12,16 @@ use std::collections::BTreeMap;
 pub(super) const REACH: f64 = 3.5;
 /// They are thinned to one in each square of this share of the reach.
 const SQUARE: f64 = 0.125;
-/// What the quadratic may leave, as a share of the reach: a surface that is rougher, or two of them, get no point.
+/// What the quadratic may leave, as a share of the reach: a surface that is rougher gets no point. A third of the distance of neighbours.
 const ROUGH: f64 = 0.1;
+/// Below this share of the reach, what it leaves does not matter.
+const SMOOTH: f64 = 0.01;
+/// Least kurtosis of what it leaves [–]: 1 for two sheets of as many points, 1.8 for even numbers between two limits, 3 for normal noise.
+const TWO_SHEETS: f64 = 1.6;
+/// Points farther above or below the plane than beside the void, times this, are of another sheet or around an edge [–].
+const STEEPEST: f64 = 1.0;
+/// The scanned points around leave no wider gap [degrees]: at the rim it is 180.
+const GAP: f64 = 200.0;
 /// Least distance of an added point from all others, in radii of its void.
 pub(super) const CLOSEST: f64 = 0.8;
 
@@ -34,16 +43,24 @@ fn reach(surface: &Surface, void: &SurfaceVoid) -> f64 {
 fn one(scanned: &[Vec3], grid: &Grid, void: &SurfaceVoid, reach: f64) -> Option<Vec3> {
     let frame = Frame::new(void.at, &[void.normal])?;
     let near = grid.within(scanned, void.at, reach).map(|i| frame.local(&scanned[i as usize]));
-    let fit = Quadratic::fit(&means(near, SQUARE * reach))?;
-    (fit.rms <= ROUGH * reach).then(|| frame.world(&Vec3::new(0.0, 0.0, fit.height(0.0, 0.0))))
+    let near: Vec<Vec3> = near.filter(|p| p.z.abs() <= STEEPEST * p.x.hypot(p.y).max(void.radius)).collect();
+    let (gap, _) = widest_gap(&near, &Vec3::z())?;
+    let fit = Quadratic::fit(&means(&near, SQUARE * reach)).filter(|_| gap <= GAP.to_radians())?;
+    let squares = near.iter().map(|p| p.z - fit.height(p.x, p.y)).map(|off| off * off);
+    let count = near.len() as f64;
+    let (square, fourth) = squares.fold((0.0, 0.0), |sums, s| (sums.0 + s / count, sums.1 + s * s / count));
+    let is_two = square.sqrt() > SMOOTH * reach && fourth < TWO_SHEETS * square * square;
+    let is_smooth = square.sqrt() <= ROUGH * reach && !is_two;
+    let height = fit.height(0.0, 0.0);
+    (is_smooth && height.abs() <= void.radius).then(|| frame.world(&Vec3::new(0.0, 0.0, height)))
 }
 
 /// Mean position of the points of each square.
-fn means(points: impl Iterator<Item = Vec3>, square: f64) -> Vec<Vec3> {
+fn means(points: &[Vec3], square: f64) -> Vec<Vec3> {
     let mut sums: BTreeMap<[i64; 2], (Vec3, f64)> = BTreeMap::new();
     for p in points {
         let sum = sums.entry([p.x, p.y].map(|c| (c / square).floor() as i64)).or_insert((Vec3::zeros(), 0.0));
-        *sum = (sum.0 + p, sum.1 + 1.0);
+        *sum = (sum.0 + *p, sum.1 + 1.0);
     }
     sums.into_values().map(|(sum, count)| sum / count).collect()
 }

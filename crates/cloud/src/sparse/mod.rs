@@ -34,7 +34,7 @@ const WANTED: f64 = 0.6;
 const PACKED: f64 = 1.2;
 /// In one round, voids down to this share of the widest get a point.
 const ROUND: f64 = 0.5;
-/// Most rounds; each takes at least one void, and they end when none is left.
+/// Most rounds: they end when no void is left, after a dozen.
 const MOST_ROUNDS: usize = 200;
 /// A void this many times wider than wanted counts as left sparse.
 const LEFT: f64 = 1.25;
@@ -65,8 +65,10 @@ pub struct SparseReport {
     pub added: usize,
     /// Places where they were added.
     pub places: usize,
-    /// Places that stay sparse.
+    /// Voids that stay too wide.
     pub left: usize,
+    /// Places where they are.
+    pub left_places: usize,
     /// Diameter of the widest void there [m].
     pub widest_left: f64,
     /// Where that is [m].
@@ -110,7 +112,7 @@ pub(crate) fn fill(points: &[Vec3], search: &SparseSearch) -> Result<(Added, Spa
         return Err(FillError::TooManySparse { spacing: search.spacing, points: wanted });
     }
     let (mut surface, sparse) = Surface::around(points, &widest, &sparse);
-    surface.refine(sparse.clone(), search);
+    surface.refine(&sparse, search);
     let scanned = surface.scanned;
     let all = sparse.into_iter().chain(scanned as u32..surface.points.len() as u32).collect();
     surface.report_left(all, search, &mut report);
@@ -158,52 +160,41 @@ impl Surface {
     }
 
     /// Adds points until the voids around the `active` ones, and around what was added, are small enough.
-    fn refine(&mut self, mut active: Vec<u32>, search: &SparseSearch) {
-        let mut failed: HashSet<[u32; 3]> = HashSet::new();
+    fn refine(&mut self, active: &[u32], search: &SparseSearch) {
+        let limits = |widest: f64| (search.wanted(), widest);
+        let mut found = find(self, active, search, &limits);
         for _ in 0..MOST_ROUNDS {
-            let mut found = find(self, &active, search, &|widest: f64| (search.wanted(), widest));
-            found.retain(|void| !failed.contains(&void.corners));
             let Some(most) = found.iter().map(|v| v.radius).reduce(f64::max) else { return };
-            let (now, later): (Vec<_>, Vec<_>) = found.into_iter().partition(|v| v.radius >= ROUND * most);
+            let (now, mut later): (Vec<_>, Vec<_>) =
+                found.into_iter().partition(|v| v.radius >= ROUND * most);
             let lifted = lift::all(self, &now);
             let first = self.points.len() as u32;
-            let waiting = self.take(&now, &lifted, most, &mut failed);
-            let corners = later.iter().chain(waiting).flat_map(|v| v.corners);
-            let next: BTreeSet<u32> = corners.chain(first..self.points.len() as u32).collect();
-            active = next.into_iter().collect();
+            let fresh = self.take(&now, &lifted, most);
+            // A void that a point came to lie in is no longer one; what is left of it is a void of that point.
+            later.retain(|void| !fresh.any(&void.at, void.radius));
+            let added: Vec<u32> = (first..self.points.len() as u32).collect();
+            later.extend(find(self, &added, search, &limits));
+            found = later;
         }
     }
 
-    /// Adds the lifted middles of voids, the widest first; the voids that have to wait, because another one's middle came to lie in
-    /// them. Those whose middle is on no smooth surface, or too near to another point, are `failed`.
-    fn take<'a>(
-        &mut self,
-        voids: &'a [SurfaceVoid],
-        lifted: &[Option<Vec3>],
-        most: f64,
-        failed: &mut HashSet<[u32; 3]>,
-    ) -> Vec<&'a SurfaceVoid> {
-        let before = self.points.clone();
-        let grid = Grid::new(&before, most);
-        let is_free = |at: &Vec3, void: &SurfaceVoid| {
-            grid.within(&before, *at, lift::CLOSEST * void.radius).next().is_none()
-        };
+    /// Adds the lifted middles of voids, the widest first, that are not in the void of one before, nor too near to another point.
+    fn take(&mut self, voids: &[SurfaceVoid], lifted: &[Option<Vec3>], most: f64) -> Fresh {
+        let before = self.points.len();
+        let grid = Grid::new(&self.points, most);
         let mut fresh = Fresh::new(most);
-        let mut waiting = Vec::new();
         let mut order: Vec<usize> = (0..voids.len()).collect();
         order.sort_by(|&a, &b| voids[b].radius.total_cmp(&voids[a].radius).then(a.cmp(&b)));
         for k in order {
-            let void = &voids[k];
-            match lifted[k].filter(|at| is_free(at, void)) {
-                None => drop(failed.insert(void.corners)),
-                Some(at) if fresh.any(&at, void.radius) => waiting.push(void),
-                Some(at) => {
-                    fresh.add(at);
-                    self.push(at, void);
-                }
+            let (void, Some(at)) = (&voids[k], lifted[k]) else { continue };
+            let mut close = grid.within(&self.points[..before], at, lift::CLOSEST * void.radius);
+            if close.next().is_none() && !fresh.any(&at, void.radius) {
+                drop(close);
+                fresh.add(at);
+                self.push(at, void);
             }
         }
-        waiting
+        fresh
     }
 
     /// Adds a point in the middle of a void.
@@ -222,7 +213,7 @@ impl Surface {
         let found = find(self, &around, search, &|widest: f64| (LEFT * search.wanted(), 2.0 * widest));
         let inside: Vec<&SurfaceVoid> = found.iter().filter(|v| v.is_inside).collect();
         let middles: Vec<Vec3> = inside.iter().map(|v| v.at).collect();
-        report.left = count_places(&middles, search.spacing);
+        (report.left, report.left_places) = (inside.len(), count_places(&middles, search.spacing));
         if let Some(void) = inside.iter().max_by(|a, b| a.radius.total_cmp(&b.radius)) {
             (report.widest_left, report.widest_at) = (2.0 * void.radius, Some(void.at.into()));
         }
