@@ -20,6 +20,8 @@ const SMOOTH: f64 = 0.01;
 const TWO_SHEETS: f64 = 1.6;
 /// Points farther above or below the plane than beside the void, times this, are of another sheet or around an edge [–].
 const STEEPEST: f64 = 1.0;
+/// Largest curvature, over one per distance of neighbours [–]: what bends more, such as the rim of a plate from side to side, was not seen.
+const BENT: f64 = 0.5;
 /// The scanned points around leave no wider gap [degrees]: at the rim it is 180.
 const GAP: f64 = 200.0;
 /// Least distance of an added point from all others, in radii of its void.
@@ -50,7 +52,10 @@ fn one(scanned: &[Vec3], grid: &Grid, void: &SurfaceVoid, reach: f64) -> Option<
     let count = near.len() as f64;
     let (square, fourth) = squares.fold((0.0, 0.0), |sums, s| (sums.0 + s / count, sums.1 + s * s / count));
     let is_two = square.sqrt() > SMOOTH * reach && fourth < TWO_SHEETS * square * square;
-    let is_smooth = square.sqrt() <= ROUGH * reach && !is_two;
+    let ([_, _, _, uu, uv, vv], scale) = fit.parts();
+    let curvature = (2.0 * uu.abs()).max(2.0 * vv.abs()).max(uv.abs()) / (scale * scale);
+    let is_bent = curvature * reach / REACH > BENT;
+    let is_smooth = square.sqrt() <= ROUGH * reach && !is_two && !is_bent;
     let height = fit.height(0.0, 0.0);
     (is_smooth && height.abs() <= void.radius).then(|| frame.world(&Vec3::new(0.0, 0.0, height)))
 }
