@@ -11,7 +11,7 @@ use wall::{Placement, Radius, Regions, Representative, WallSettings};
 const EXAMPLES: &str = "Examples:\n\
     \x20 wallgen sampled.ply --roughness 0.0015 --radius uniform --material steel -o walls.mcap\n\
     \x20 wallgen --from-mesh hopper.ply --radius 0.03 --roughness 0.003 --material steel -o hopper.mcap\n\
-    \x20 wallgen sampled.ply --from-mesh hopper.ply --roughness 0.0015 --radius uniform -o walls.mcap";
+    \x20 wallgen sampled.ply --from-mesh hopper.ply --roughness 0.0015 --radius uniform -o both.mcap";
 
 /// Turn the points of a surface into wall spheres (MCAP; PLY with -o FILE.ply).
 #[derive(clap::Parser)]
