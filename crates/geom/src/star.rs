@@ -90,7 +90,7 @@ pub fn voids(cells: &Cells, slot: u32, largest: f64, work: &mut StarScratch) -> 
         corners.sort_unstable();
         let [x, y] = cell[k].at;
         let centre = cells.points[slot as usize] + u * x + v * y;
-        Some(Void { corners, centre, radius: x.hypot(y) })
+        Some(Void { corners, centre, radius: (x * x + y * y).sqrt() })
     };
     (normal, (0..cell.len()).filter_map(void).collect())
 }
@@ -112,9 +112,9 @@ fn star(cells: &Cells, slot: u32, half: f64, steepest: f64, work: &mut StarScrat
         neighbours(cells, slot, reach, work);
         let (u, v, normal) = plane(&work.near);
         if steepest < f64::INFINITY {
-            let beside =
-                |n: &Neighbour| n.to.dot(&normal).abs() <= steepest * n.to.dot(&u).hypot(n.to.dot(&v));
-            work.near.retain(beside);
+            let square = |x: f64| x * x;
+            let beside = |to: &Vec3| square(to.dot(&u)) + square(to.dot(&v));
+            work.near.retain(|n| square(n.to.dot(&normal)) <= steepest * steepest * beside(&n.to));
         }
         let extent = voronoi(work, &u, &v, half);
         if 2.0 * extent <= reach || reach >= furthest {

@@ -29,11 +29,9 @@ pub(super) const CLOSEST: f64 = 0.8;
 
 /// The position of each void's point on the surface [m]; none where there is no smooth surface.
 pub(super) fn all(surface: &Surface, voids: &[SurfaceVoid]) -> Vec<Option<Vec3>> {
-    let reaches: Vec<f64> = voids.iter().map(|void| reach(surface, void)).collect();
-    let Some(most) = reaches.iter().copied().reduce(f64::max) else { return Vec::new() };
     let scanned = &surface.points[..surface.scanned];
-    let grid = Grid::new(scanned, 0.5 * most);
-    voids.par_iter().zip(reaches).map(|(void, reach)| one(scanned, &grid, void, reach)).collect()
+    let lift = |void: &SurfaceVoid| one(scanned, &surface.grid, void, reach(surface, void));
+    voids.par_iter().map(lift).collect()
 }
 
 /// Where the scan is sparser than the void is wide, as far as it takes [m].
@@ -45,7 +43,8 @@ fn reach(surface: &Surface, void: &SurfaceVoid) -> f64 {
 fn one(scanned: &[Vec3], grid: &Grid, void: &SurfaceVoid, reach: f64) -> Option<Vec3> {
     let frame = Frame::new(void.at, &[void.normal])?;
     let near = grid.within(scanned, void.at, reach).map(|i| frame.local(&scanned[i as usize]));
-    let near: Vec<Vec3> = near.filter(|p| p.z.abs() <= STEEPEST * p.x.hypot(p.y).max(void.radius)).collect();
+    let beside = |p: &Vec3| (p.x * p.x + p.y * p.y).max(void.radius * void.radius);
+    let near: Vec<Vec3> = near.filter(|p| p.z * p.z <= STEEPEST * STEEPEST * beside(p)).collect();
     let (gap, _) = widest_gap(&near, &Vec3::z())?;
     let fit = Quadratic::fit(&means(&near, SQUARE * reach)).filter(|_| gap <= GAP.to_radians())?;
     let squares = near.iter().map(|p| p.z - fit.height(p.x, p.y)).map(|off| off * off);

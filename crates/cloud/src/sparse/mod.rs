@@ -36,6 +36,8 @@ const PACKED: f64 = 1.2;
 const ROUND: f64 = 0.5;
 /// Most rounds: they end when no void is left, after a dozen.
 const MOST_ROUNDS: usize = 200;
+/// How far from a sparse point the points are that count, in the widest α.
+const MARGIN: f64 = 2.5;
 /// A void this many times wider than wanted counts as left sparse.
 const LEFT: f64 = 1.25;
 
@@ -88,6 +90,8 @@ struct Surface {
     points: Vec<Vec3>,
     /// How many are of the cloud.
     scanned: usize,
+    /// Of these.
+    grid: Grid,
     /// α of each [m].
     widest: Vec<f64>,
     /// Row of the cloud.
@@ -139,7 +143,7 @@ fn count_places(points: &[Vec3], spacing: f64) -> usize {
 impl Surface {
     /// The points near sparse ones, and the numbers of these among them.
     fn around(points: &[Vec3], widest: &[f64], sparse: &[u32]) -> (Surface, Vec<u32>) {
-        let reach = 2.0 * lift::REACH * sparse.iter().map(|&i| widest[i as usize]).fold(0.0, f64::max);
+        let reach = MARGIN * sparse.iter().map(|&i| widest[i as usize]).fold(0.0, f64::max);
         let cell = |p: &Vec3| [0, 1, 2].map(|a| (p[a] / reach).floor() as i64);
         let mut cells: HashSet<[i64; 3]> = HashSet::new();
         for [x, y, z] in sparse.iter().map(|&i| cell(&points[i as usize])).collect::<BTreeSet<_>>() {
@@ -149,8 +153,13 @@ impl Surface {
         let rows = (0u32..).zip(points).filter(|(_, p)| cells.contains(&cell(p))).map(|(row, _)| row);
         let rows: Vec<u32> = rows.collect();
         let number = |row: &u32| rows.binary_search(row).unwrap_or(0) as u32;
+        let near: Vec<Vec3> = rows.iter().map(|&row| points[row as usize]).collect();
+        let mut wide: Vec<f64> = sparse.iter().map(|&i| widest[i as usize]).collect();
+        let middle = wide.len() / 2;
+        let typical = *wide.select_nth_unstable_by(middle, f64::total_cmp).1;
         let surface = Surface {
-            points: rows.iter().map(|&row| points[row as usize]).collect(),
+            grid: Grid::new(&near, lift::REACH / WIDEST * typical),
+            points: near,
             scanned: rows.len(),
             widest: rows.iter().map(|&row| widest[row as usize]).collect(),
             like: rows.clone(),
@@ -180,16 +189,18 @@ impl Surface {
 
     /// Adds the lifted middles of voids, the widest first, that are not in the void of one before, nor too near to another point.
     fn take(&mut self, voids: &[SurfaceVoid], lifted: &[Option<Vec3>], most: f64) -> Fresh {
-        let before = self.points.len();
-        let grid = Grid::new(&self.points, most);
+        let before: Vec<Vec3> = self.points[self.scanned..].to_vec();
+        let grid = Grid::new(&before, most);
         let mut fresh = Fresh::new(most);
         let mut order: Vec<usize> = (0..voids.len()).collect();
         order.sort_by(|&a, &b| voids[b].radius.total_cmp(&voids[a].radius).then(a.cmp(&b)));
         for k in order {
             let (void, Some(at)) = (&voids[k], lifted[k]) else { continue };
-            let mut close = grid.within(&self.points[..before], at, lift::CLOSEST * void.radius);
-            if close.next().is_none() && !fresh.any(&at, void.radius) {
-                drop(close);
+            let least = lift::CLOSEST * void.radius;
+            let scanned = &self.points[..self.scanned];
+            let is_close = self.grid.within(scanned, at, least).next().is_some()
+                || grid.within(&before, at, least).next().is_some();
+            if !is_close && !fresh.any(&at, void.radius) {
                 fresh.add(at);
                 self.push(at, void);
             }

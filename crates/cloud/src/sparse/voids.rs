@@ -33,6 +33,9 @@ pub(super) fn find(
     search: &SparseSearch,
     limits: &(dyn Fn(f64) -> (f64, f64) + Sync),
 ) -> Vec<SurfaceVoid> {
+    if active.is_empty() {
+        return Vec::new();
+    }
     let cells = Cells::new(&surface.points, search.spacing);
     let order = cells.order();
     let mut slots = vec![0u32; order.len()];
