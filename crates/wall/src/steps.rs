@@ -140,7 +140,7 @@ impl Region {
     fn step(&self, k: u32, steps: u32, range: [f64; 2], outside: &str) -> Region {
         let share = |k: f64| k / f64::from(steps);
         let value = |k: u32| {
-            if k == steps { range[1] } else { range[0] + share(f64::from(k) + 0.5) * (range[1] - range[0]) }
+            if k == steps { range[1] } else { range[0] + share(f64::from(k)) * (range[1] - range[0]) }
         };
         let middle = |property: Option<OneOrTwo>| property.map(|p| p.at(share(f64::from(k) + 0.5)));
         let of_material = self.properties().into_iter().take(4).any(|(_, value)| value.is_some());
