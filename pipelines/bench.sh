@@ -92,7 +92,7 @@ floor() {
         p = 0.004; nx = int((x + 0.02) / p) + 1; ny = int((y + 0.02) / p) + 1
         printf "ply\nformat ascii 1.0\nelement vertex %d\nproperty double x\nproperty double y\nproperty double z\nend_header\n", nx * ny
         for (i = 0; i < nx; i++) for (j = 0; j < ny; j++) print -0.01 + p * i, -0.01 + p * j, -0.0025 }' > floor.ply
-    wallgen -q floor.ply --roughness 0.001 --radius uniform --facing 0,0,1 --material floor --young 5e6 --poisson 0.3 -o floor.mcap
+    wallgen -q floor.ply --roughness 0.001 --radius uniform --material floor --young 5e6 --poisson 0.3 -o floor.mcap
 }
 
 by_effect() {

@@ -3,10 +3,10 @@
 //! A box that holds many cells is projected by these points. A hole found there is examined again with all points, so these may be
 //! 4-byte numbers, relative to the middle of the sheet.
 
-use crate::patch::{Frame, Quadratic};
+use crate::patch::Frame;
 use crate::raster::Raster;
 use crate::sheet::Sheet;
-use geom::Vec3;
+use geom::{Quadratic, Vec3};
 use multiversion::multiversion;
 use rayon::prelude::*;
 

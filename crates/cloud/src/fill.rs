@@ -4,6 +4,7 @@ use crate::cover::{Cover, FallsThrough, Mesher};
 use crate::darts::{Method, PACKING, throw};
 use crate::holes::{Hole, Search, find};
 use crate::points::TooFar;
+use crate::sparse::{self, Added, SparseReport, SparseSearch};
 use crate::{Cloud, density};
 use geom::mesh::TriMesh;
 use geom::{Shape, Vec3};
@@ -17,7 +18,7 @@ const SPARSEST: (f64, f64) = (0.05, 0.25);
 /// Widest hole, as a share of the cloud's diagonal: a blind spot is small, the mouth of a pipe is not.
 const WIDEST: f64 = 1.0 / 5.0;
 /// Most points that are added.
-const MOST: f64 = 5e7;
+pub(crate) const MOST: f64 = 5e7;
 
 /// What to fill and how.
 #[derive(Debug, Clone, Default)]
@@ -26,6 +27,8 @@ pub struct Settings {
     pub spacing: Option<f64>,
     /// Holes are where the density is at most this [1/m²]; from the cloud when not given.
     pub below: Option<f64>,
+    /// The spacing that will be asked for [m]: surface that the scan is too sparse for is filled, too.
+    pub for_spacing: Option<f64>,
     /// Fill only in these shapes, and there whatever the outline.
     pub regions: Vec<Shape>,
     /// Widest hole to fill [m]; a fifth of the cloud's diagonal when not given.
@@ -70,6 +73,8 @@ pub struct Report {
     pub mesher: Mesher,
     /// The holes.
     pub holes: Vec<HoleReport>,
+    /// What was added where the surface is too sparse for a spacing; `None` when none was given.
+    pub sparse: Option<SparseReport>,
     /// Points added.
     pub added: usize,
     /// Points that go out.
@@ -113,6 +118,17 @@ pub enum FillError {
         /// Points wanted.
         points: f64,
     },
+    /// A spacing so small that memory would not hold the points of the sparse surface.
+    #[error(
+        "for a spacing of {spacing} m the surface needs {points:.1e} more points, more than {MOST:.0e}: give a wider spacing; is the \
+         cloud in millimetres?"
+    )]
+    TooManySparse {
+        /// The spacing that will be asked for [m].
+        spacing: f64,
+        /// Points wanted.
+        points: f64,
+    },
 }
 
 /// Fills the holes of a cloud.
@@ -150,9 +166,21 @@ pub fn fill(cloud: Cloud, settings: &Settings) -> Result<Filled, FillError> {
         mesh.vertices.extend(&patch.vertices);
         mesh.faces.extend(patch.faces.iter().map(|face| face.map(|i| i + first)));
     }
-    let cloud = extended(cloud, &patches);
-    report.holes = patches.into_iter().map(|p| p.report).collect();
-    report.added = report.holes.iter().map(|h| h.added).sum();
+    let (points, like): (Vec<_>, Vec<_>) = patches
+        .into_iter()
+        .map(|p| {
+            report.holes.push(p.report);
+            (p.points, p.like)
+        })
+        .unzip();
+    let mut cloud = extended(cloud, Added { points: points.concat(), like: like.concat() });
+    if let (Some(spacing), Some(below)) = (settings.for_spacing, below) {
+        let search = SparseSearch { spacing, scale: 1.0 / below.sqrt(), regions: &settings.regions };
+        let (added, sparse) = sparse::fill(&cloud.points, &search)?;
+        report.sparse = Some(sparse);
+        cloud = extended(cloud, added);
+    }
+    report.added = cloud.points.len() + report.not_finite - points_in;
     report.points_out = cloud.points.len();
     Ok(Filled { cloud, mesh, report })
 }
@@ -216,21 +244,18 @@ fn nearest(p: &Vec3, corners: &[(u32, Vec3)]) -> u32 {
     corners.iter().min_by(|a, b| far(a).total_cmp(&far(b))).map_or(0, |c| c.0)
 }
 
-/// The cloud with the patches' points at its end, and the column `filled`.
-fn extended(cloud: Cloud, patches: &[Patch]) -> Cloud {
+/// The cloud with the added points at its end, and the column `filled`.
+fn extended(mut cloud: Cloud, added: Added) -> Cloud {
     let count = cloud.points.len();
-    let added: Vec<Vec3> = patches.iter().flat_map(|p| p.points.iter().copied()).collect();
     let mut filled = match cloud.attributes.get("filled") {
         Some(before) => (0..count).map(|i| u8::from(before.get(i) != 0.0)).collect(),
         None => vec![0u8; count],
     };
-    filled.resize(count + added.len(), 1);
-    let mut cloud = cloud;
-    if !added.is_empty() {
-        let rows: Vec<u32> =
-            (0..count as u32).chain(patches.iter().flat_map(|p| p.like.iter().copied())).collect();
+    filled.resize(count + added.points.len(), 1);
+    if !added.points.is_empty() {
+        let rows: Vec<u32> = (0..count as u32).chain(added.like).collect();
         cloud.attributes = cloud.attributes.select(&rows);
-        cloud.points.extend(added);
+        cloud.points.extend(added.points);
     }
     // As many rows as points: `replace` has nothing to refuse.
     let replaced = cloud.attributes.replace("filled", Values::U8(filled));

@@ -16,10 +16,10 @@
 use crate::enclosed;
 use crate::few::Few;
 use crate::largest::Parts;
-use crate::patch::{Frame, Quadratic};
+use crate::patch::Frame;
 use crate::raster::Raster;
 use crate::sheet::{End, REACH, Sheet};
-use geom::{Grid, Shape, Vec3};
+use geom::{Grid, Quadratic, Shape, Vec3};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 

@@ -20,6 +20,7 @@ pub mod points;
 mod raster;
 pub mod regions;
 mod sheet;
+pub mod sparse;
 mod surrounded;
 pub mod units;
 mod volume;

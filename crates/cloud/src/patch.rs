@@ -8,7 +8,7 @@
 //! λ on the diagonal so that it does not follow the noise of the scan.
 
 use geom::Vec3;
-use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, SymmetricEigen, Vector6};
+use nalgebra::{DMatrix, DVector, Matrix3, SymmetricEigen};
 
 /// Axes of a patch: u and v in its plane, n normal to it.
 #[derive(Debug, Clone, Copy)]
@@ -40,59 +40,6 @@ impl Frame {
     pub fn world(&self, p: &Vec3) -> Vec3 {
         self.origin + self.u * p.x + self.v * p.y + self.n * p.z
     }
-}
-
-/// w as a quadratic of u and v.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Quadratic {
-    coefficients: Vector6<f64>,
-    scale: f64,
-    /// Root mean square of what it leaves [m].
-    pub rms: f64,
-}
-
-impl Quadratic {
-    /// Least squares through local positions; none for too few, or positions on one line.
-    pub fn fit(positions: &[Vec3]) -> Option<Quadratic> {
-        if positions.len() < 8 {
-            return None;
-        }
-        let scale = positions.iter().map(|p| p.x.abs().max(p.y.abs())).fold(0.0, f64::max);
-        let (mut a, mut b) = (Matrix6::zeros(), Vector6::zeros());
-        for p in positions {
-            let row = terms(p.x / scale, p.y / scale);
-            a += row * row.transpose();
-            b += row * p.z;
-        }
-        // A trace of ridge: positions on a conic leave one term free.
-        a += Matrix6::identity() * (1e-9 * positions.len() as f64);
-        let coefficients = a.cholesky()?.solve(&b);
-        let mut fit = Quadratic { coefficients, scale, rms: 0.0 };
-        let left = positions.iter().map(|p| (p.z - fit.height(p.x, p.y)).powi(2)).sum::<f64>();
-        fit.rms = (left / positions.len() as f64).sqrt();
-        fit.rms.is_finite().then_some(fit)
-    }
-
-    pub fn height(&self, u: f64, v: f64) -> f64 {
-        self.coefficients.dot(&terms(u / self.scale, v / self.scale))
-    }
-
-    /// c₀ to c₅, and the length [m] that u and v are divided by.
-    pub fn parts(&self) -> ([f64; 6], f64) {
-        (self.coefficients.into(), self.scale)
-    }
-
-    /// Area of the surface over an area of the plane [–].
-    pub fn stretch(&self, u: f64, v: f64) -> f64 {
-        let (c, u, v) = (&self.coefficients, u / self.scale, v / self.scale);
-        let along_u = (c[1] + 2.0 * c[3] * u + c[4] * v) / self.scale;
-        let along_v = (c[2] + c[4] * u + 2.0 * c[5] * v) / self.scale;
-        (1.0 + along_u * along_u + along_v * along_v).sqrt()
-    }
-}
-
-fn terms(u: f64, v: f64) -> Vector6<f64> {
-    Vector6::new(1.0, u, v, u * u, u * v, v * v)
 }
 
 /// The sheet of least bending through scattered heights.
@@ -146,6 +93,7 @@ fn kernel(p: (f64, f64), q: (f64, f64)) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use geom::Quadratic;
 
     fn ring(height: impl Fn(f64, f64) -> f64) -> Vec<Vec3> {
         let turn = |i: i32| f64::from(i) * 0.17;
@@ -156,15 +104,6 @@ mod tests {
                 Vec3::new(u, v, height(u, v))
             })
             .collect()
-    }
-
-    #[test]
-    fn a_quadratic_is_found_again() {
-        let truth = |u: f64, v: f64| 1.0 + 0.1 * u - 0.2 * v + 0.3 * u * u - 0.1 * u * v + 0.05 * v * v;
-        let fit = Quadratic::fit(&ring(truth)).unwrap();
-        assert!(fit.rms < 1e-6 && (fit.height(0.1, 0.2) - truth(0.1, 0.2)).abs() < 1e-6);
-        let slope = (1.0f64 + 0.1 * 0.1 + 0.2 * 0.2).sqrt();
-        assert!((fit.stretch(0.0, 0.0) - slope).abs() < 1e-6);
     }
 
     #[test]
@@ -184,7 +123,6 @@ mod tests {
 
     #[test]
     fn too_little_is_no_fit() {
-        assert!(Quadratic::fit(&[Vec3::zeros(); 5]).is_none());
         let nothing = ThinPlate::fit(&[Vec3::x(); 2], 1.0, 1.0);
         assert_eq!(nothing.height(3.0, 4.0), 0.0);
         assert!(Frame::new(Vec3::zeros(), &[Vec3::x(), Vec3::x(), -Vec3::x()]).is_some());

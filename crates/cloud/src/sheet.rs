@@ -124,21 +124,26 @@ impl Sheet {
             return None;
         }
         let normal = normal(&offsets)?;
-        let u = normal.cross(&Vec3::ith(normal.iamin(), 1.0)).normalize();
-        let v = normal.cross(&u);
-        let mut angles: Vec<f64> = offsets.iter().map(|o| libm::atan2(o.dot(&v), o.dot(&u))).collect();
-        angles.sort_by(f64::total_cmp);
-        let (mut gap, mut middle) = (angles[0] + TAU - angles[angles.len() - 1], angles[0]);
-        middle -= gap / 2.0;
-        for pair in angles.windows(2) {
-            if pair[1] - pair[0] > gap {
-                gap = pair[1] - pair[0];
-                middle = pair[0] + gap / 2.0;
-            }
-        }
-        let free = u * libm::cos(middle) + v * libm::sin(middle);
+        let (gap, free) = widest_gap(&offsets, &normal)?;
         (gap >= GAP).then_some(End { index, normal, free })
     }
+}
+
+/// The widest angle around an axis without any of the vectors [rad], and the direction of its middle; none for no vectors.
+pub(crate) fn widest_gap(offsets: &[Vec3], axis: &Vec3) -> Option<(f64, Vec3)> {
+    let u = axis.cross(&Vec3::ith(axis.iamin(), 1.0)).normalize();
+    let v = axis.cross(&u);
+    let mut angles: Vec<f64> = offsets.iter().map(|o| libm::atan2(o.dot(&v), o.dot(&u))).collect();
+    angles.sort_by(f64::total_cmp);
+    let mut gap = angles.first()? + TAU - angles.last()?;
+    let mut middle = angles[0] - gap / 2.0;
+    for pair in angles.windows(2) {
+        if pair[1] - pair[0] > gap {
+            gap = pair[1] - pair[0];
+            middle = pair[0] + gap / 2.0;
+        }
+    }
+    Some((gap, u * libm::cos(middle) + v * libm::sin(middle)))
 }
 
 /// Direction of least spread of vectors around their mean; none when they spread along one line only.

@@ -1,17 +1,20 @@
 //! Builds a wall: neighbours, radii, placement, leak check.
 
+use crate::deep::{self, DeepDents};
 use crate::pairs::{FURTHEST, Pairs, REACH, pairs};
 use crate::sheets::Sheets;
 use crate::solve::{Changed, ChangedPair, Changes};
-use crate::star::{SQUARE, Stars, stars};
 use crate::warnings::{self, Built};
 use crate::{
     Placement, Radius, Regions, Representative, WallError, WallSettings, equation, leak, normals, solve,
 };
 use geom::Vec3;
+use geom::star::{Stars, stars};
 use sampling::cells::Cells;
 use serde::Serialize;
 
+/// Largest circle through three points that is distinguished from the outline of the wall, in nearest distances.
+const SQUARE: f64 = 3.0;
 /// A length that is too large by less than this factor is meant to be equal.
 pub(crate) const ROUNDED: f64 = 1.0 + 1e-9;
 
@@ -44,6 +47,8 @@ pub struct WallReport {
     /// The pairs of which `changes` tells, where they were asked for.
     #[serde(skip)]
     pub changed: Vec<Changed>,
+    /// Where the wall cannot have the roughness that was asked for; `None` when nowhere.
+    pub deep_dents: Option<DeepDents>,
     /// The widest gap; `None` when not asked for or when there is none.
     pub widest_gap: Option<leak::Gap>,
     /// Gaps that the smallest particle passes.
@@ -66,21 +71,16 @@ pub fn build(
     settings: &WallSettings,
 ) -> Result<(Wall, WallReport), WallError> {
     check(points, settings)?;
-    let typical = sampling::nearest::typical(points).ok_or(WallError::OnePlace(points.len()))?;
     // From here to the end points are named by their slot in the order of the cells: neighbours lie side by side in memory.
-    let cells = Cells::new(points, REACH * typical);
-    let found = pairs(&cells, typical);
-    check_apart(points, &cells, &found)?;
-    if found.pairs.is_empty() {
-        return Err(WallError::NoPairs { reach: FURTHEST * typical });
-    }
+    let (cells, found, typical) = neighbours(points)?;
     let wants_stars =
         settings.placement == Placement::Surface || settings.smallest_particle.is_some() || settings.gaps;
-    let stars = if wants_stars { stars(&cells, typical) } else { Stars::default() };
+    let stars = if wants_stars { stars(&cells, SQUARE * typical) } else { Stars::default() };
     let region_of = regions.of(&cells.points, cells.order());
     let spacing = representative(&found.lengths, settings.representative);
     let zeta = roughness(regions, &region_of, cells.order(), settings)?;
     let (radii, zeta_all) = radii(&cells, &found, spacing, zeta.as_deref(), settings)?;
+    let is_asked = zeta.is_some();
     let asked = zeta.unwrap_or_else(|| vec![zeta_all; radii.len()]);
     let changes = solve::changes(&found.pairs, &found.lengths, &asked, &radii);
     let centres = place(&cells.points, &stars, &found.pairs, &radii, settings)?;
@@ -92,6 +92,11 @@ pub fn build(
         radius_range: [range(&radii)[0], radii.iter().sum::<f64>() / radii.len() as f64, range(&radii)[1]],
         changes,
         changed: if settings.list_changes { list(&cells, &found, &asked, &radii) } else { Vec::new() },
+        deep_dents: if is_asked && !settings.of_drawing {
+            deep::find(&cells.points, &found, &asked, &radii)
+        } else {
+            None
+        },
         widest_gap: None,
         leaks: 0,
         gaps_up_to: SQUARE * typical,
@@ -105,6 +110,27 @@ pub fn build(
     )?;
     let (centres, radii) = (by_index(&cells, &centres), by_index(&cells, &radii));
     Ok((Wall { centres, radii, regions: by_index(&cells, &region_of) }, report))
+}
+
+/// The sorted points, their pairs of neighbours, and the typical nearest distance [m].
+fn neighbours(points: &[Vec3]) -> Result<(Cells, Pairs, f64), WallError> {
+    let typical = sampling::nearest::typical(points).ok_or(WallError::OnePlace(points.len()))?;
+    let cells = Cells::new(points, REACH * typical);
+    let found = pairs(&cells, typical);
+    check_apart(points, &cells, &found)?;
+    if found.pairs.is_empty() {
+        return Err(WallError::NoPairs { reach: FURTHEST * typical });
+    }
+    Ok((cells, found, typical))
+}
+
+/// Representative distance of neighbours [m] of points [m].
+///
+/// # Errors
+/// Points that make no wall.
+pub fn spacing(points: &[Vec3], settings: &WallSettings) -> Result<f64, WallError> {
+    check(points, settings)?;
+    Ok(representative(&neighbours(points)?.1.lengths, settings.representative))
 }
 
 /// The pairs whose ζ was changed, by the numbers that their points came in with.

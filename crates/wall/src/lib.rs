@@ -5,6 +5,7 @@
 
 pub mod attributes;
 mod build;
+pub mod deep;
 pub mod drawn;
 pub mod equation;
 pub mod leak;
@@ -13,13 +14,13 @@ pub mod pairs;
 pub mod regions;
 pub mod sheets;
 pub mod solve;
-pub mod star;
+pub mod steps;
 mod table;
 mod warnings;
 pub mod wear;
 mod write;
 
-pub use build::{Wall, WallReport, build};
+pub use build::{Wall, WallReport, build, spacing};
 pub use regions::{Regions, SurfaceAttributes};
 pub use write::write_mcap;
 
@@ -80,6 +81,8 @@ pub struct WallSettings {
     pub largest_particle: Option<f64>,
     /// Whether the widest gap is looked for where no smallest particle is given.
     pub gaps: bool,
+    /// Whether the points are the centres of a drawing's spheres, whose dents the drawing's report gives.
+    pub of_drawing: bool,
     /// Whether the report lists the pairs whose ζ was changed.
     pub list_changes: bool,
 }
@@ -148,6 +151,8 @@ pub enum WallError {
     Attribute(#[from] attributes::AttributeError),
     #[error(transparent)]
     Regions(#[from] regions::RegionsError),
+    #[error(transparent)]
+    Sample(#[from] sampling::SampleError),
     #[error("column: {0}")]
     Table(#[from] stream::table::TableError),
 }

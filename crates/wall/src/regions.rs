@@ -12,13 +12,14 @@
 //! [[region]]                     # points by a column of the cloud: a class, a colour, an intensity
 //! column = "classification"
 //! values = [6, 6]                # smallest and largest value, or one value
-//! friction = 0.8
+//! friction = 0.8                # or its values at the two ends: see [`crate::steps`]
 //! ```
 //!
 //! With a section `[wear]` (see [`crate::wear`]) the roughness of points that no region with a roughness of its own holds comes from a
 //! table of wear and position.
 
 use crate::attributes::{AttributeError, check_material, check_velocity};
+use crate::steps::{OneOrTwo, Region, Stepped};
 use crate::wear::{self, Wear, WearError, WearReport};
 use geom::{Vec3, mesh::TriMesh, shape::Shape};
 use rayon::prelude::*;
@@ -48,6 +49,8 @@ pub struct Regions {
     pub materials: Vec<MaterialRecord>,
     /// Surfaces; number 0 is outside of all regions.
     pub surfaces: Vec<SurfaceAttributes>,
+    /// Properties that change along a column.
+    pub stepped: Vec<Stepped>,
     places: Vec<RegionPlace>,
     wear: Option<Wear>,
     /// Roughness of each point [m] by the table of wear.
@@ -68,6 +71,8 @@ struct RegionPlace {
 struct ColumnRange {
     name: String,
     values: [f64; 2],
+    /// Of all steps together.
+    whole: [f64; 2],
     /// Number and name of the region, for messages.
     place: String,
 }
@@ -101,6 +106,14 @@ pub enum RegionsError {
         values[0], values[1], found[0], found[1]
     )]
     NoneInRange { place: String, column: String, values: [f64; 2], found: [f64; 2] },
+    #[error(
+        "{place}: {property} = [A, B] changes along a column: give column and values = [smallest, largest], or one value"
+    )]
+    AlongNothing { place: String, property: &'static str },
+    #[error("{place}: steps changes nothing: no property has two values, such as friction = [0.3, 0.8]")]
+    StepsOfNothing { place: String },
+    #[error("{place}: steps = {steps}: must be 2 to {most}")]
+    Steps { place: String, steps: u32, most: u32 },
     #[error("more than 65535 regions")]
     TooMany,
 }
@@ -112,31 +125,6 @@ struct File {
     #[serde(default)]
     region: Vec<Region>,
     wear: Option<wear::Section>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Region {
-    #[serde(default)]
-    name: String,
-    shape: Option<String>,
-    column: Option<String>,
-    values: Option<OneOrTwo>,
-    roughness: Option<f64>,
-    material: Option<String>,
-    young: Option<f64>,
-    poisson: Option<f64>,
-    friction: Option<f64>,
-    restitution: Option<f64>,
-    velocity: Option<[f64; 3]>,
-}
-
-/// One value, or the smallest and the largest.
-#[derive(Deserialize)]
-#[serde(untagged)]
-enum OneOrTwo {
-    One(f64),
-    Two([f64; 2]),
 }
 
 impl Region {
@@ -166,7 +154,7 @@ impl Region {
                 if !(values[0] <= values[1]) {
                     return Err(RegionsError::Values { place, values });
                 }
-                Some(ColumnRange { name: name.clone(), values, place })
+                Some(ColumnRange { name: name.clone(), values, whole: self.whole.unwrap_or(values), place })
             }
         };
         Ok(RegionPlace { shape, column, in_range: Vec::new() })
@@ -176,16 +164,17 @@ impl Region {
 impl RegionPlace {
     /// Looks up which points have a value in the range; `property` gives a column of the cloud.
     fn look_up(&mut self, property: &dyn Fn(&str) -> Option<Vec<f64>>) -> Result<(), RegionsError> {
-        let Some(ColumnRange { name, values, place }) = &self.column else { return Ok(()) };
+        let Some(ColumnRange { name, values, whole, place }) = &self.column else { return Ok(()) };
         let (column, place) = (name.clone(), place.clone());
         let Some(own) = property(name) else { return Err(RegionsError::NoColumn { place, column }) };
         self.in_range = own.iter().map(|v| (values[0]..=values[1]).contains(v)).collect();
-        if self.in_range.contains(&true) {
+        let is_in = |v: &f64| (whole[0]..=whole[1]).contains(v);
+        if own.iter().any(is_in) {
             return Ok(());
         }
         let ends = |[low, high]: [f64; 2], v: &f64| [low.min(*v), high.max(*v)];
         let found = own.iter().fold([f64::INFINITY, f64::NEG_INFINITY], ends);
-        Err(RegionsError::NoneInRange { place, column, values: *values, found })
+        Err(RegionsError::NoneInRange { place, column, values: *whole, found })
     }
 
     fn holds(&self, p: &Vec3, index: u32) -> bool {
@@ -209,7 +198,8 @@ impl Regions {
         check_roughness(roughness, "roughness")?;
         let surface = SurfaceAttributes { name: String::new(), roughness, material: 0, velocity, worn: true };
         let (materials, surfaces) = (vec![material], vec![surface]);
-        Ok(Regions { materials, surfaces, places: Vec::new(), wear: None, worn: Vec::new() })
+        let stepped = Vec::new();
+        Ok(Regions { materials, surfaces, stepped, places: Vec::new(), wear: None, worn: Vec::new() })
     }
 
     /// Regions of a TOML text, and what holds outside of them; `load` reads the file of a shape `mesh:FILE`, and `read` the text of
@@ -227,12 +217,16 @@ impl Regions {
         let file: File = toml::from_str(text)?;
         let mut regions = Regions::one(file.roughness, material, velocity)?;
         regions.wear = file.wear.map(|section| Wear::new(section, read, load)).transpose()?;
-        if file.region.len() >= u16::MAX as usize {
-            return Err(RegionsError::TooMany);
-        }
+        let outside = regions.materials[0].name.clone();
         for (number, region) in (1..).zip(file.region) {
-            regions.places.push(region.place(number, load)?);
-            regions.add(number, region)?;
+            let place = format!("region {number} '{}'", region.name);
+            for step in region.steps(&place, &outside, &mut regions.stepped)? {
+                regions.places.push(step.place(number, load)?);
+                regions.add(number, step)?;
+            }
+        }
+        if regions.surfaces.len() > u16::MAX as usize {
+            return Err(RegionsError::TooMany);
         }
         Ok(regions)
     }
@@ -240,11 +234,12 @@ impl Regions {
     fn add(&mut self, number: usize, region: Region) -> Result<(), RegionsError> {
         let place = format!("region {number} '{}'", region.name);
         let outside = self.surfaces[0].clone();
-        check_roughness(region.roughness, &place)?;
+        let own = region.roughness.map(OneOrTwo::first);
+        check_roughness(own, &place)?;
         let velocity = region.velocity.map_or(outside.velocity, Vec3::from);
         check_velocity(&velocity, &place)?;
         let material = self.material(&region, &place)?;
-        let (roughness, worn) = (region.roughness.or(outside.roughness), region.roughness.is_none());
+        let (roughness, worn) = (own.or(outside.roughness), own.is_none());
         self.surfaces.push(SurfaceAttributes { name: region.name, roughness, material, velocity, worn });
         Ok(())
     }
@@ -252,7 +247,10 @@ impl Regions {
     /// The number of the region's material; a new one when its values are new.
     fn material(&mut self, region: &Region, place: &str) -> Result<u16, RegionsError> {
         let outside = &self.materials[0];
-        let own = region.young.or(region.poisson).or(region.friction).or(region.restitution).is_some();
+        let [young, poisson, friction, restitution] =
+            [region.young, region.poisson, region.friction, region.restitution]
+                .map(|v| v.map(OneOrTwo::first));
+        let own = young.or(poisson).or(friction).or(restitution).is_some();
         let named = region.material.clone();
         let name = named.unwrap_or_else(|| match own {
             true if !region.name.is_empty() => format!("{}-{}", outside.name, region.name),
@@ -262,10 +260,10 @@ impl Regions {
         let base = known.unwrap_or(outside);
         let material = MaterialRecord {
             density: None,
-            young: region.young.or(base.young),
-            poisson: region.poisson.or(base.poisson),
-            friction: region.friction.or(base.friction),
-            restitution: region.restitution.or(base.restitution),
+            young: young.or(base.young),
+            poisson: poisson.or(base.poisson),
+            friction: friction.or(base.friction),
+            restitution: restitution.or(base.restitution),
             name,
         };
         check_material(&material, place)?;

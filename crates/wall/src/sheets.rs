@@ -8,9 +8,12 @@
 //! and both lie all around the point, not side by side as on the two sides of a step.
 //! ```
 //!
+//! and a quadratic through them leaves at least a third of their variance: one bent sheet, whose points on a lattice lie in few heights,
+//! leaves almost none. Where it leaves less, the heights over the quadratic are looked at instead: two sheets that are bent.
+//!
 //! Even heights leave a quarter, heights of normal noise 0.36 and an edge a quarter, however rough the surface.
 
-use geom::{Grid, Vec3};
+use geom::{Grid, Quadratic, Vec3};
 use nalgebra::{Matrix3, SymmetricEigen};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -23,6 +26,8 @@ const REACH: f64 = 2.5;
 const FEWEST: (usize, usize) = (12, 4);
 /// Most of the variance that a split in two sheets leaves [–].
 const LEFT: f64 = 0.1;
+/// Least of the variance that a quadratic leaves of two sheets [–].
+const NOT_BENT: f64 = 0.33;
 /// Least distance of two sheets, in spacings.
 const APART: f64 = 0.1;
 /// Largest distance of the middles of the two along the plane, in spacings.
@@ -72,11 +77,20 @@ fn apart(near: &[Vec3], spacing: f64) -> Option<f64> {
     let spread: Matrix3<f64> = near.iter().map(|p| (p - mean) * (p - mean).transpose()).sum();
     let eigen = SymmetricEigen::new(spread);
     let normal: Vec3 = eigen.eigenvectors.column(eigen.eigenvalues.imin()).into();
-    let mut heights: Vec<(f64, Vec3)> = near.iter().map(|p| ((p - mean).dot(&normal), *p)).collect();
+    let heights: Vec<(f64, Vec3)> = near.iter().map(|p| ((p - mean).dot(&normal), *p)).collect();
+    let over = over_quadratic(&heights, &normal)?;
+    let variance = |heights: &[(f64, Vec3)]| heights.iter().map(|h| h.0 * h.0).sum::<f64>();
+    let is_bent = variance(&over) < NOT_BENT * variance(&heights);
+    split(if is_bent { over } else { heights }, &normal, spacing)
+}
+
+/// Distance of the two sheets that heights of mean 0 [m] fall into.
+fn split(mut heights: Vec<(f64, Vec3)>, normal: &Vec3, spacing: f64) -> Option<f64> {
+    let count = heights.len() as f64;
     heights.sort_by(|a, b| a.0.total_cmp(&b.0));
     let whole: f64 = heights.iter().map(|h| h.0 * h.0).sum();
     let (mut below, mut best) = (0.0, (0.0, 0));
-    for k in 1..near.len() {
+    for k in 1..heights.len() {
         below += heights[k - 1].0;
         // Σ h = 0: the upper sheet's sum is minus the lower one's.
         let between = below * below * (1.0 / k as f64 + 1.0 / (count - k as f64));
@@ -85,13 +99,26 @@ fn apart(near: &[Vec3], spacing: f64) -> Option<f64> {
         }
     }
     let (between, k) = best;
-    if k < FEWEST.1 || near.len() - k < FEWEST.1 || whole - between > LEFT * whole {
+    if k < FEWEST.1 || heights.len() - k < FEWEST.1 || whole - between > LEFT * whole {
         return None;
     }
+    let height = |part: &[(f64, Vec3)]| part.iter().map(|h| h.0).sum::<f64>() / part.len() as f64;
     let middle = |part: &[(f64, Vec3)]| part.iter().map(|h| h.1).sum::<Vec3>() / part.len() as f64;
     let off = middle(&heights[k..]) - middle(&heights[..k]);
-    let (apart, beside) = (off.dot(&normal), (off - normal * off.dot(&normal)).norm());
+    let (apart, beside) =
+        (height(&heights[k..]) - height(&heights[..k]), (off - normal * off.dot(normal)).norm());
     (apart > APART * spacing && apart < spacing && beside < BESIDE * spacing).then_some(apart)
+}
+
+/// Heights over the quadratic through positions with heights over their plane, their mean taken off [m].
+fn over_quadratic(heights: &[(f64, Vec3)], normal: &Vec3) -> Option<Vec<(f64, Vec3)>> {
+    let u = normal.cross(&Vec3::ith(normal.iamin(), 1.0)).normalize();
+    let v = normal.cross(&u);
+    let laid: Vec<Vec3> = heights.iter().map(|(h, p)| Vec3::new(p.dot(&u), p.dot(&v), *h)).collect();
+    let fit = Quadratic::fit(&laid)?;
+    let over: Vec<f64> = laid.iter().map(|p| p.z - fit.height(p.x, p.y)).collect();
+    let middle = over.iter().sum::<f64>() / over.len() as f64;
+    Some(over.iter().map(|h| h - middle).zip(heights.iter().map(|h| h.1)).collect())
 }
 
 #[cfg(test)]
@@ -136,5 +163,26 @@ mod tests {
             None
         );
         assert_eq!(closer_than(&sheet(|x, y, _| 0.05 * (x * x - y * y)), 1.0), None, "bent");
+    }
+
+    /// The points of a lattice of a smooth wave lie in few heights, and are one sheet; a second sheet under the same wave is found.
+    #[test]
+    fn a_wave_on_a_lattice_is_one_sheet() {
+        let wave = |x: f64| 0.02 * (20.0 * x).sin();
+        for step in [0.004, 0.008, 0.012] {
+            let at = |i: usize| (step * (i % 100) as f64, step * (i / 100) as f64);
+            let one: Vec<Vec3> = (0..5000).map(at).map(|(x, y)| Vec3::new(x, y, wave(x))).collect();
+            assert_eq!(closer_than(&one, step), None, "{step}");
+            for apart in [0.25, 0.5, 0.8] {
+                let beside =
+                    |(x, y): (f64, f64)| Vec3::new(x + 0.5 * step, y, wave(x + 0.5 * step) + apart * step);
+                let two = [one.clone(), (0..5000).map(at).map(beside).collect()].concat();
+                let told = closer_than(&two, step).unwrap();
+                assert!(
+                    (told.apart / (apart * step) - 1.0).abs() < 0.3 && told.share > 0.3,
+                    "{step} {apart}: {told:?}"
+                );
+            }
+        }
     }
 }

@@ -1,9 +1,10 @@
 //! What a wall that was built leaves to be wished: leaks, sheets too close, sizes that do not fit the particles.
 
 use crate::build::{ROUNDED, WallReport, representative};
+use crate::deep::{DEEP, DeepDents};
 use crate::sheets::{self, Sheets};
-use crate::star::Stars;
 use crate::{Representative, WallError, WallSettings, leak};
+use geom::star::Stars;
 use geom::{Shown, Vec3};
 
 /// Wall sphere diameter over smallest particle diameter below which spheres cost more than they give [–].
@@ -30,6 +31,9 @@ pub(crate) fn judge(
     if let Some(sheets) = sheets::closer_than(built.points, spacing) {
         report.warnings.push(two_sheets(&sheets, spacing));
         report.sheets = Some(sheets);
+    }
+    if let Some(deep) = &report.deep_dents {
+        report.warnings.push(too_deep(deep, spacing));
     }
     if let Some(largest) = settings.largest_particle {
         check_largest(report, largest);
@@ -69,6 +73,20 @@ fn check_sizes(report: &mut WallReport, particle: f64, built: &Built) -> Result<
         ));
     }
     Ok(())
+}
+
+fn too_deep(deep: &DeepDents, spacing: f64) -> String {
+    let [x, y, z] = deep.at.map(|c| format!("{c:.4}"));
+    format!(
+        "over {} % of the wall the dents are more than {DEEP} times as deep as asked: the deepest is {} m instead of {} m, at ({x}, {y}, {z}) m, \
+         where neighbours are {} m apart, and {} m on average: fill sparse places before sampling (cloud-fill --for-spacing M), or use a \
+         larger spacing",
+        Shown((1e3 * deep.share).ceil() / 10.0),
+        Shown(deep.deepest),
+        Shown(deep.asked),
+        Shown(deep.distance),
+        Shown(spacing)
+    )
 }
 
 fn two_sheets(sheets: &Sheets, spacing: f64) -> String {

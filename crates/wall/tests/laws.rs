@@ -155,7 +155,7 @@ fn no_gap_lies_beyond_the_rim_and_the_widest_inside_is_that_of_brute_force() {
     let kept = sampling::sample(&scan, None, &settings).unwrap().kept;
     let points: Vec<Vec3> = kept.iter().map(|&k| scan[k as usize]).collect();
     let cells = Cells::new(&points, wall::pairs::REACH * 0.008);
-    let (stars, points) = (wall::star::stars(&cells, 0.008), &cells.points);
+    let (stars, points) = (geom::star::stars(&cells, 3.0 * 0.008), &cells.points);
     let radii = vec![big; points.len()];
     let (low, high) = points.iter().fold((points[0], points[0]), |(a, b), p| (a.inf(p), b.sup(p)));
     let inside = |at: &[f64; 3]| (0..2).all(|k| at[k] > low[k] && at[k] < high[k]);

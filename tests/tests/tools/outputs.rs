@@ -139,11 +139,7 @@ fn options_that_only_tell_change_no_byte() {
     let points = (0..400).map(|n| format!("{} {} 0\n", 0.01 * f64::from(n % 20), 0.01 * f64::from(n / 20)));
     fs::write(f.join("scan.xyz"), points.collect::<String>()).unwrap();
     let walls = |more: &[&str]| {
-        succeed(
-            f,
-            "wallgen",
-            &[&["scan.xyz", "--roughness", "0.002", "--facing", "0,0,1", "-o", "walls.mcap"], more].concat(),
-        );
+        succeed(f, "wallgen", &[&["scan.xyz", "--roughness", "0.002", "-o", "walls.mcap"], more].concat());
         fs::read(f.join("walls.mcap")).unwrap()
     };
     assert!(walls(&["--changes", "c.csv"]) == walls(&[]), "--changes");

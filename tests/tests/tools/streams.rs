@@ -22,7 +22,7 @@ fn a_file_is_the_same_under_its_name_and_as_stdout() {
     for (command, name) in [
         ("dem-run s.toml", "run.mcap"),
         ("stage-replay run.mcap", "in.mcap"),
-        ("wallgen c.xyz --roughness 0.002 --facing 0,0,1", "walls.mcap"),
+        ("wallgen c.xyz --roughness 0.002", "walls.mcap"),
         ("cloud-crop c.xyz --keep box:0,0,-1,0.1,0.1,1", "c.ply"),
         ("dem-measure run.mcap --contacts", "m.csv"),
     ] {

@@ -82,7 +82,7 @@ fn gaps_tells_the_largest_sphere_that_passes_without_a_particle() {
 #[test]
 fn properties_that_ply_has_no_place_for_are_refused() {
     let folder = folder(&[("cloud.xyz", cloud())]);
-    for option in ["--friction", "--restitution", "--young", "--poisson"] {
+    for option in ["--material", "--friction", "--restitution", "--young", "--poisson"] {
         let options = ["cloud.xyz", "--radius", "0.006", option, "0.3", "-o", "walls.ply"];
         let done = tool(folder.path(), "wallgen", &options);
         assert!(
@@ -91,4 +91,96 @@ fn properties_that_ply_has_no_place_for_are_refused() {
             done.stderr
         );
     }
+}
+
+/// The same for a table of regions; their velocity has columns, and stays.
+#[test]
+fn properties_of_regions_that_ply_has_no_place_for_are_refused() {
+    let table = |key: &str| format!("[[region]]\nname = \"worn\"\nshape = \"box:0,0,-1,0.02,1,1\"\n{key}\n");
+    let folder = folder(&[
+        ("cloud.xyz", cloud()),
+        ("f.toml", table("friction = 0.3")),
+        ("v.toml", table("velocity = [0.1, 0, 0]")),
+    ]);
+    let wall = |file: &str| {
+        let options = ["cloud.xyz", "--roughness", file, "--radius", "0.006", "-o", "walls.ply"];
+        tool(folder.path(), "wallgen", &options)
+    };
+    let refused = wall("f.toml");
+    let wanted = "f.toml: material 'wall-worn' has properties, and a PLY file has no place";
+    assert!(refused.code == 2 && refused.stderr.contains(wanted), "{}", refused.stderr);
+    let done = wall("v.toml");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let header = std::fs::read(folder.path().join("walls.ply")).expect("a wall");
+    assert!(String::from_utf8_lossy(&header).contains("property double vx"));
+}
+
+/// An option that would change no sphere is refused, and the cure is one that works.
+#[test]
+fn options_that_change_no_sphere_are_refused() {
+    let folder = folder(&[("cloud.xyz", cloud())]);
+    let wall = |options: &str| {
+        let words = format!("cloud.xyz {options} -o w.mcap");
+        tool(folder.path(), "wallgen", &words.split(' ').collect::<Vec<_>>())
+    };
+    for (options, wanted) in [
+        ("--radius 0.006 --representative mean", "--representative: the radius is given (--radius 0.006)"),
+        ("--radius 0.006 --facing 0,0,1", "--facing: the flow side changes nothing"),
+        ("--radius 0.006 --flow-at 0,0,1 --place centre", "--flow-at: the flow side changes nothing"),
+    ] {
+        let done = wall(options);
+        assert!(done.code == 2 && done.stderr.contains(wanted), "{options}: {}", done.stderr);
+    }
+    for options in [
+        "--roughness 0.001 --radius uniform --representative mean",
+        "--radius 0.006 --flow-at 0,0,1 --place surface",
+    ] {
+        let done = wall(options);
+        assert_eq!(done.code, 0, "{options}: {}", done.stderr);
+    }
+}
+
+/// z = 0.02 sin 20x on a lattice of 8 mm is one sheet; a second sheet 3 mm under it prints a warning.
+#[test]
+fn a_smooth_wave_is_no_pair_of_sheets() {
+    let wave = |shift: f64| -> String {
+        let at = |k: i32| (0.008 * f64::from(k % 60), 0.008 * f64::from(k / 60));
+        let line =
+            |(x, y): (f64, f64)| format!("{} {y} {}\n", x + shift, 0.02 * (20.0 * x).sin() - 0.75 * shift);
+        (0..3600).map(at).map(line).collect()
+    };
+    let folder = folder(&[("one.xyz", wave(0.0)), ("two.xyz", wave(0.0) + &wave(0.004))]);
+    let told = |cloud: &str| {
+        let words = [cloud, "--roughness", "0.0005", "--radius", "uniform", "-o", "w.mcap"];
+        let done = tool(folder.path(), "wallgen", &words);
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        done.stderr.contains("two sheets of the surface")
+    };
+    assert!(!told("one.xyz") && told("two.xyz"));
+}
+
+/// A sparse cloud prints a warning; the cures that the warning and the help name work.
+#[test]
+fn a_cloud_too_sparse_for_its_roughness_is_told_and_the_cures_work() {
+    let points = |k: i32| (0.01 * f64::from(k % 60), 0.01 * f64::from(k / 60));
+    let is_there = |(x, y): &(f64, f64)| {
+        *x < 0.3 || (((100.0 * x).round() as i32) % 4 == 1 && ((100.0 * y).round() as i32) % 4 == 1)
+    };
+    let cloud: String = (0..1800).map(points).filter(is_there).map(|(x, y)| format!("{x} {y} 0\n")).collect();
+    let square = "v 0 0 0\nv 0.59 0 0\nv 0.59 0.29 0\nv 0 0.29 0\nf 1 2 3\nf 1 3 4\n";
+    let folder = folder(&[("cloud.xyz", cloud), ("square.obj", square.to_owned())]);
+    let wall = |inputs: &str| {
+        let words = format!("{inputs} --roughness 0.0005 --radius uniform -o w.mcap");
+        let done = tool(folder.path(), "wallgen", &words.split(' ').collect::<Vec<_>>());
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        done.stderr
+    };
+    assert!(wall("cloud.xyz").contains("times as deep as asked"));
+    let drawn = wall("cloud.xyz --from-mesh square.obj");
+    assert!(drawn.contains("of them on the drawing") && !drawn.contains("as deep as asked"), "{drawn}");
+    let f = folder.path();
+    succeed(f, "cloud-fill", &["cloud.xyz", "--for-spacing", "0.01", "-o", "filled.ply"]);
+    succeed(f, "bluenoise-sample", &["filled.ply", "--spacing", "0.01", "-o", "even.ply"]);
+    let filled = wall("even.ply");
+    assert!(!filled.contains("as deep as asked"), "{filled}");
 }

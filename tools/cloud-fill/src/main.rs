@@ -17,6 +17,7 @@ const ABOUT: &str = "A hole is a region inside the outline of the surface with a
     report gives it.\n\n\
     Examples:\n\
     \x20 cloud-fill cropped.ply -o filled.ply\n\
+    \x20 cloud-fill cropped.ply --for-spacing 0.012 -o filled.ply\n\
     \x20 cloud-fill cropped.ply --below 5000 --max-hole 0.1 -o filled.ply";
 
 /// Find the holes of a scan and fill them with points
@@ -30,6 +31,9 @@ struct Args {
     /// Smallest distance between added points [m] (default: as dense as the surroundings)
     #[arg(long, value_name = "M", value_parser = positive)]
     spacing: Option<f64>,
+    /// Also fill surface where the scan is too sparse for bluenoise-sample --spacing M [m]
+    #[arg(long, value_name = "M", value_parser = positive)]
+    for_spacing: Option<f64>,
     /// Fill where there are at most DENSITY points per m² (default: from the cloud)
     #[arg(long, value_name = "DENSITY", value_parser = positive)]
     below: Option<f64>,
@@ -65,6 +69,7 @@ fn fill(args: Args) -> anyhow::Result<Report> {
     balls.sort_by(f64::total_cmp);
     let settings = Settings {
         spacing: args.spacing,
+        for_spacing: args.for_spacing,
         below: args.below,
         regions: args.region,
         max_hole: args.max_hole,
@@ -88,8 +93,22 @@ fn fill(args: Args) -> anyhow::Result<Report> {
     }
     args.output.write_cloud(&filled.cloud)?;
     let report = &filled.report;
-    let summary = format!("{} points added in {} holes", report.added, report.holes.len());
+    let summary = summary(report);
     Ok(Report::new(summary).with_all(report))
+}
+
+fn summary(report: &cloud::fill::Report) -> String {
+    let holes = report.holes.len();
+    match &report.sparse {
+        None => format!("{} points added in {holes} holes", report.added),
+        Some(sparse) => format!(
+            "{} points added in {holes} holes, {} in {} places that were too sparse for a spacing of {} m",
+            report.added - sparse.added,
+            sparse.added,
+            sparse.places,
+            sparse.spacing
+        ),
+    }
 }
 
 /// Warnings besides the numbers.
@@ -99,6 +118,14 @@ fn warn(report: &cloud::fill::Report) {
     }
     if report.below.is_none() {
         cli::warn("too few points, or all at one position: their density is unknown, and nothing was filled");
+    }
+    if let Some(sparse) = report.sparse.as_ref().filter(|s| s.left > 0) {
+        let [x, y, z] = sparse.widest_at.unwrap_or_default();
+        cli::warn(&format!(
+            "{} gaps in {} places stay too wide for a spacing of {} m: the widest is {:.3} m wide, at {x:.3},{y:.3},{z:.3}: they are holes \
+             that stay open, or the points around them lie on no smooth surface; give --below or --max-hole, or a wider spacing",
+            sparse.left, sparse.left_places, sparse.spacing, sparse.widest_left
+        ));
     }
     let open = report.holes.iter().filter(|h| h.open).count();
     if let Some(hole) = report.holes.iter().find(|h| h.open) {

@@ -10,7 +10,8 @@ use wall::{Placement, Radius, Regions, Representative, WallSettings};
 
 const EXAMPLES: &str = "Examples:\n\
     \x20 wallgen sampled.ply --roughness 0.0015 --radius uniform --material steel -o walls.mcap\n\
-    \x20 wallgen --from-mesh hopper.ply --radius 0.03 --roughness 0.003 --material steel -o hopper.mcap";
+    \x20 wallgen --from-mesh hopper.ply --radius 0.03 --roughness 0.003 --material steel -o hopper.mcap\n\
+    \x20 wallgen sampled.ply --from-mesh hopper.ply --roughness 0.0015 --radius uniform -o both.mcap";
 
 /// Turn the points of a surface into wall spheres (MCAP; PLY with -o FILE.ply).
 #[derive(clap::Parser)]
@@ -27,24 +28,24 @@ pub struct Args {
     /// Radii: solve (pair by pair), uniform, or a length [m]
     #[arg(long, value_name = "solve|uniform|M", default_value = "solve", value_parser = radius)]
     radius: Radius,
-    /// Which average of the neighbour distances to use
-    #[arg(long, value_enum, default_value = "mean")]
-    representative: Middle,
+    /// Which average of the neighbour distances the radii follow from (default: mean)
+    #[arg(long, value_enum)]
+    representative: Option<Middle>,
     /// Which point of a sphere lies on the scanned point: its centre, or its surface on the flow side (default: centre; for a drawing: surface)
     #[arg(long, value_enum)]
     place: Option<Place>,
-    /// Direction to the flow side
+    /// Direction to the flow side, for --place surface
     #[arg(long, value_name = "x,y,z", value_parser = vector, allow_hyphen_values = true)]
     facing: Option<Vec3>,
     /// A point in the flow [m], instead of --facing: for closed equipment, and to choose the side of a drawing
     #[arg(long, value_name = "x,y,z", value_parser = vector, allow_hyphen_values = true, conflicts_with = "facing")]
     flow_at: Option<Vec3>,
-    /// Drawn equipment instead of a cloud (PLY, STL, OBJ; in m, or see --units): spheres of --radius M inside it that touch its surface
+    /// Drawn equipment (PLY, STL, OBJ; in m, or see --units). Alone: spheres of --radius M inside it that touch its surface. With a cloud: its surface stands in where the cloud is sparse
     #[arg(long, value_name = "FILE")]
     pub from_mesh: Option<PathBuf>,
-    /// Name of the material
-    #[arg(long, value_name = "NAME", default_value = "wall")]
-    material: String,
+    /// Name of the material (default: wall)
+    #[arg(long, value_name = "NAME")]
+    material: Option<String>,
     /// Young's modulus [Pa]
     #[arg(long, value_name = "PA", value_parser = finite)]
     young: Option<f64>,
@@ -107,7 +108,7 @@ impl Args {
         let has_flow = self.facing.or(self.flow_at).is_some();
         let placement = match self.place {
             // The spheres of a drawing are where they belong.
-            _ if self.from_mesh.is_some() => Placement::Centre,
+            _ if self.is_drawing() => Placement::Centre,
             Some(Place::Surface) if !has_flow => {
                 return Err(cli::usage(
                     "--place surface: the flow side is needed; add --facing x,y,z, or --flow-at x,y,z",
@@ -117,8 +118,8 @@ impl Args {
             Some(Place::Centre) | None => Placement::Centre,
         };
         let representative = match self.representative {
-            Middle::Mean => Representative::Mean,
-            Middle::Median => Representative::Median,
+            Some(Middle::Median) => Representative::Median,
+            Some(Middle::Mean) | None => Representative::Mean,
         };
         Ok(WallSettings {
             radius: self.radius,
@@ -129,8 +130,14 @@ impl Args {
             smallest_particle: self.smallest_particle,
             largest_particle: self.largest_particle,
             gaps: self.gaps,
+            of_drawing: self.is_drawing(),
             list_changes: self.changes.is_some(),
         })
+    }
+
+    /// Whether a drawing stands for the whole wall, and no cloud is read.
+    pub fn is_drawing(&self) -> bool {
+        self.from_mesh.is_some() && self.input.cloud.path().is_none()
     }
 
     /// How the spheres of a drawing are placed.
@@ -142,9 +149,6 @@ impl Args {
             return Err(cli::usage(
                 "--facing: does not work with a drawing; give a point in the flow, --flow-at x,y,z",
             ));
-        }
-        if self.input.cloud.path().is_some() {
-            return Err(cli::usage("--from-mesh: a drawing replaces the cloud; leave one of them out"));
         }
         let Some(roughness) = regions.least_roughness() else {
             return Err(cli::usage(
@@ -159,7 +163,7 @@ impl Args {
     pub fn regions(&self) -> anyhow::Result<Regions> {
         let material = MaterialRecord {
             density: None,
-            name: self.material.clone(),
+            name: self.material.clone().unwrap_or_else(|| "wall".to_owned()),
             young: self.young,
             poisson: self.poisson,
             friction: self.friction,
@@ -179,8 +183,25 @@ impl Args {
             let file = folder.join(name);
             stream::whole::text(&file).map_err(|e| format!("cannot read: {e}"))
         };
-        Regions::parse(&text, material, self.velocity, &mesh::load, &read)
-            .with_context(|| path.display().to_string())
+        let regions = Regions::parse(&text, material, self.velocity, &mesh::load, &read)
+            .with_context(|| path.display().to_string())?;
+        self.check_ply_regions(&regions, path)?;
+        Ok(regions)
+    }
+
+    /// Refuses properties of the materials of regions where the output is PLY.
+    fn check_ply_regions(&self, regions: &Regions, path: &Path) -> anyhow::Result<()> {
+        let has_values =
+            |m: &&MaterialRecord| m.young.or(m.poisson).or(m.friction).or(m.restitution).is_some();
+        match regions.materials.iter().find(has_values).filter(|_| self.output.to.has_extension("ply")) {
+            Some(material) => Err(cli::usage(format!(
+                "{}: material '{}' has properties, and a PLY file has no place for them: leave them out, or write \
+                 walls MCAP (-o FILE.mcap)",
+                path.display(),
+                material.name
+            ))),
+            None => Ok(()),
+        }
     }
 
     /// Role and hash of the table of regions, for provenance.
@@ -201,14 +222,33 @@ impl Args {
         Ok(())
     }
 
-    /// Refuses properties of the material where the output has no place for them: PLY is geometry alone.
+    /// Refuses options that would change nothing.
     pub fn check_used(&self) -> anyhow::Result<()> {
+        self.check_ply()?;
+        if let (Radius::Given(radius), Some(_)) = (self.radius, self.representative) {
+            return Err(cli::usage(format!(
+                "--representative: the radius is given (--radius {radius}), and no average of distances is used: \
+                 leave it out, or use --radius uniform"
+            )));
+        }
+        let flow = self.facing.map(|_| "--facing").or(self.flow_at.map(|_| "--flow-at"));
+        match flow.filter(|_| !self.is_drawing() && !matches!(self.place, Some(Place::Surface))) {
+            Some(option) => Err(cli::usage(format!(
+                "{option}: the flow side changes nothing with the centres on the points: leave it out, or add \
+                 --place surface"
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    /// Refuses properties of the material where the output has no place for them: PLY is geometry alone.
+    fn check_ply(&self) -> anyhow::Result<()> {
         let given = [
+            (self.material.is_some(), "--material"),
             (self.young.is_some(), "--young"),
             (self.poisson.is_some(), "--poisson"),
             (self.friction.is_some(), "--friction"),
             (self.restitution.is_some(), "--restitution"),
-            (self.velocity != Vec3::zeros(), "--velocity"),
         ];
         match given.iter().find(|g| g.0).filter(|_| self.output.to.has_extension("ply")) {
             Some((_, option)) => Err(cli::usage(format!(

@@ -23,7 +23,7 @@ fn wallgen(args: Args) -> anyhow::Result<Report> {
     args.check_used()?;
     let settings = args.settings()?;
     let mut regions = args.regions()?;
-    let WallPoints { cloud, name, hash, drawn } = surface::read(&args, &regions)?;
+    let WallPoints { cloud, name, hashes, drawn, added } = surface::read(&args, &regions, &settings)?;
     cloud.check_reach().with_context(|| name.clone())?;
     let property = |name: &str| cloud.attributes.get(name).map(|v| (0..v.len()).map(|i| v.get(i)).collect());
     let wear = regions.measure(&cloud.points, &property).with_context(|| name.clone())?;
@@ -31,7 +31,7 @@ fn wallgen(args: Args) -> anyhow::Result<Report> {
     if args.output.to.has_extension("ply") {
         args.output.write_cloud(&as_cloud(cloud, &wall, &regions)?)?;
     } else {
-        let inputs = std::iter::once(hash).chain(args.regions_hash()?).collect();
+        let inputs = hashes.into_iter().chain(args.regions_hash()?).collect();
         let table = wall.table(&regions)?;
         let out = wall::write_mcap(
             args.output.open_binary("walls MCAP")?,
@@ -46,8 +46,15 @@ fn wallgen(args: Args) -> anyhow::Result<Report> {
         changes::write(path, &report.changed)?;
     }
     report.warnings.iter().for_each(|w| cli::warn(w));
-    let words = summary(&report, &settings, drawn.as_ref()) + &passes(&report, &settings);
-    let all = Report::new(words).with_all(&report).with("materials", &regions.materials);
+    let words = summary(&report, &settings, drawn.as_ref())
+        + &of_drawing(added)
+        + &in_steps(&regions)
+        + &passes(&report, &settings);
+    let all = Report::new(words)
+        .with_all(&report)
+        .with("materials", &regions.materials)
+        .with("stepped", &regions.stepped);
+    let all = if let Some(added) = added { all.with("of_drawing", added) } else { all };
     let all = if let Some(drawn) = &drawn { all.with("drawing", drawn) } else { all };
     Ok(if let Some(wear) = &wear { all.with("wear", wear) } else { all })
 }
@@ -59,6 +66,20 @@ fn as_cloud(mut cloud: cloud::Cloud, wall: &Wall, regions: &Regions) -> anyhow::
     cloud.attributes.replace("radius", Values::F64(wall.radii.clone()))?;
     wall.push_attributes(&mut cloud.attributes, regions)?;
     Ok(cloud)
+}
+
+/// How many spheres stand on the drawing, if there is one beside the cloud.
+fn of_drawing(added: Option<usize>) -> String {
+    added
+        .map_or(String::new(), |added| format!("; {added} of them on the drawing, where the cloud is sparse"))
+}
+
+/// Properties that change along a column of the cloud, and how exactly.
+fn in_steps(regions: &Regions) -> String {
+    let words = |s: &wall::steps::Stepped| {
+        format!("; {} by {} in {} steps, at most {} off", s.property, s.column, s.steps, Shown(s.error))
+    };
+    regions.stepped.iter().map(words).collect()
 }
 
 /// The result of the check of gaps, if requested.

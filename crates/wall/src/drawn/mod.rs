@@ -11,10 +11,13 @@
 //! between them are covered by spheres at distances whose mean is P, spread randomly (darts), so that no direction is preferred.
 //! On which side the structure is, see [`sides`].
 
+mod beside;
 mod cover;
 mod settle;
 mod sides;
 mod stretches;
+
+pub use beside::{Beside, beside};
 
 use crate::{WallError, equation};
 use geom::{Vec3, mesh::TriMesh};

@@ -4,18 +4,17 @@
 //! one bisector after the other, nearest first. Its sides give the neighbours, its corners the voids: a corner is as far from
 //! three points as from no other. Points are named by their slot in the order of the cells.
 
-use geom::{Vec3, least_axis};
+use crate::{Cells, Vec3, least_axis};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
-use sampling::cells::Cells;
 use std::ops::Range;
 
-/// Half width of the first square, and so the largest void that is looked for, in nearest distances.
-pub(crate) const SQUARE: f64 = 3.0;
 /// Points of the normal are at most this many.
 const FOR_NORMAL: usize = 24;
 /// Points are worked on in parts of this many.
 const PART: usize = 512;
+/// A neighbour so many times as far above or below the plane as it is beside the point is of another sheet, for [`voids`].
+const STEEPEST: f64 = 2.0;
 /// Stars of all points.
 #[derive(Debug, Clone, Default)]
 pub struct Stars {
@@ -23,40 +22,51 @@ pub struct Stars {
     pub normals: Vec<Vec3>,
     /// Three points around a void, the first the lowest.
     pub triangles: Vec<[u32; 3]>,
-    /// Edges of the wall's outline, lower index first, ascending: on one of their sides no void is found.
+    /// Edges of the outline of the surface, lower index first, ascending: on one of their sides no void is found.
     pub outline: Vec<(u32, u32)>,
-    /// Largest circle through three points that is distinguished from the outline of the wall [m].
-    pub largest: f64,
+}
+
+/// A circle through three points that holds no other.
+#[derive(Debug, Clone, Copy)]
+pub struct Void {
+    /// Slots of the three points, ascending.
+    pub corners: [u32; 3],
+    /// Middle, on the plane of the point whose star it is of [m].
+    pub centre: Vec3,
+    /// [m]
+    pub radius: f64,
 }
 
 /// A corner of the cell, and the neighbour whose bisector starts there (none: a side of the first square).
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 struct Corner {
     at: [f64; 2],
     next: Option<u32>,
 }
 
 /// A point near by: its slot in the order, and where it is from the point in the middle [m].
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 struct Neighbour {
     index: u32,
     to: Vec3,
 }
 
-/// Stars of points whose nearest distance is typically `typical` [m]; the cells' width is looked over first, more when a star reaches far.
-pub fn stars(cells: &Cells, typical: f64) -> Stars {
+/// Stars of all points, with voids of a radius up to `largest` [m]; the cells' width is looked over first, more when a star reaches far.
+pub fn stars(cells: &Cells, largest: f64) -> Stars {
     let count = cells.len();
     let parts: Vec<Stars> = (0..count.div_ceil(PART))
         .into_par_iter()
         .map(|part| {
             let (mut stars, mut work) = (Stars::default(), StarScratch::default());
             for slot in part * PART..count.min((part + 1) * PART) {
-                star(cells, slot as u32, typical, &mut work, &mut stars);
+                let (_, _, normal) = star(cells, slot as u32, largest, f64::INFINITY, &mut work);
+                stars.normals.push(normal);
+                finish(slot as u32, &work.near, &work.cell, largest, &mut stars);
             }
             stars
         })
         .collect();
-    let mut all = Stars { largest: SQUARE * typical, ..Stars::default() };
+    let mut all = Stars::default();
     all.normals.reserve_exact(count);
     all.triangles.reserve_exact(parts.iter().map(|part| part.triangles.len()).sum());
     for part in parts {
@@ -69,9 +79,25 @@ pub fn stars(cells: &Cells, typical: f64) -> Stars {
     all
 }
 
+/// The voids around one point, of a radius up to `largest` [m], and its unit normal. Points of another sheet, over or under the point, are
+/// left out.
+pub fn voids(cells: &Cells, slot: u32, largest: f64, work: &mut StarScratch) -> (Vec3, Vec<Void>) {
+    let (u, v, normal) = star(cells, slot, largest, STEEPEST, work);
+    let StarScratch { near, cell, .. } = work;
+    let void = |k: usize| {
+        let (a, b) = void_at(cell, k, largest)?;
+        let mut corners = [slot, near[a as usize].index, near[b as usize].index];
+        corners.sort_unstable();
+        let [x, y] = cell[k].at;
+        let centre = cells.points[slot as usize] + u * x + v * y;
+        Some(Void { corners, centre, radius: (x * x + y * y).sqrt() })
+    };
+    (normal, (0..cell.len()).filter_map(void).collect())
+}
+
 /// Memory that is used again for every point.
-#[derive(Default)]
-struct StarScratch {
+#[derive(Debug, Default)]
+pub struct StarScratch {
     /// Squared distance [m²] (its bits are in the order of the numbers), slot.
     found: Vec<(u64, u32)>,
     near: Vec<Neighbour>,
@@ -79,15 +105,20 @@ struct StarScratch {
     kept: Vec<Corner>,
 }
 
-fn star(cells: &Cells, slot: u32, typical: f64, work: &mut StarScratch, part: &mut Stars) {
-    let (mut reach, furthest) = (cells.width, 2.0 * SQUARE * typical);
+/// The Voronoi cell of a point, in the memory, and its plane.
+fn star(cells: &Cells, slot: u32, half: f64, steepest: f64, work: &mut StarScratch) -> (Vec3, Vec3, Vec3) {
+    let (mut reach, furthest) = (cells.width, 2.0 * half);
     loop {
         neighbours(cells, slot, reach, work);
         let (u, v, normal) = plane(&work.near);
-        let extent = voronoi(work, &u, &v, SQUARE * typical);
+        if steepest < f64::INFINITY {
+            let square = |x: f64| x * x;
+            let beside = |to: &Vec3| square(to.dot(&u)) + square(to.dot(&v));
+            work.near.retain(|n| square(n.to.dot(&normal)) <= steepest * steepest * beside(&n.to));
+        }
+        let extent = voronoi(work, &u, &v, half);
         if 2.0 * extent <= reach || reach >= furthest {
-            part.normals.push(normal);
-            return finish(slot, &work.near, &work.cell, SQUARE * typical, part);
+            return (u, v, normal);
         }
         reach = (2.0 * extent).min(furthest);
     }
@@ -194,12 +225,14 @@ fn cut(cell: &[Corner], kept: &mut Vec<Corner>, beyond: impl Fn(&Corner) -> f64,
     }
 }
 
+/// The two neighbours that make a corner of the cell a void: three points make it, and it is not too far.
+fn void_at(cell: &[Corner], k: usize, half: f64) -> Option<(u32, u32)> {
+    let (before, [x, y]) = (cell[(k + cell.len() - 1) % cell.len()].next, cell[k].at);
+    before.zip(cell[k].next).filter(|_| x * x + y * y <= half * half)
+}
+
 fn finish(i: u32, near: &[Neighbour], cell: &[Corner], half: f64, part: &mut Stars) {
-    // A corner is a void when three points make it and it is not too far.
-    let is_void = |k: usize| {
-        let (before, [x, y]) = (cell[(k + cell.len() - 1) % cell.len()].next, cell[k].at);
-        before.zip(cell[k].next).filter(|_| x * x + y * y <= half * half)
-    };
+    let is_void = |k: usize| void_at(cell, k, half);
     let mut last = is_void(cell.len() - 1);
     for k in 0..cell.len() {
         let void = is_void(k);
