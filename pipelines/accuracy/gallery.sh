@@ -89,9 +89,9 @@ for length in 6 12; do
   $cut --keep upstream -o out/up-divided-$length.toml
   $cut --keep downstream -o out/plant-divided-$length.toml
 done
-sweep stages 'out/plant-{stage}.toml' --vary stage=undivided,divided-6,divided-12 --reference stage=undivided --in-use stage=undivided \
+sweep stages 'out/plant-{stage}.toml' --set time.contacts=sampled --vary stage=undivided,divided-6,divided-12 --reference stage=undivided --in-use stage=undivided \
   --measure 'speed of --profile --axis x --bins 1 --within box:0.1,-0.05,0.33,0.15,0.05,0.45 --mean --from 0' --repeat 3 --for 3% --work cpu \
-  --each 'case {stage} in divided-*) dem-run out/up-{stage}.toml --set fill.0.seed={seed} --threads 1 -q | stage-replay -q;; esac'
+  --each 'case {stage} in divided-*) dem-run out/up-{stage}.toml --set time.contacts=sampled --set fill.0.seed={seed} --threads 1 -q | stage-replay -q;; esac'
 
 # The table of impact-error.csv, and the largest measured safety within an error.
 table() {

@@ -192,7 +192,8 @@ fn numbers_that_are_lost() {
     let speed = way / step;
     let folder =
         scene(&format!("1,{},0,0,0.01,{speed},{none}\n2,{way},0,0,0.01,{},{none}\n", -way, -speed), "");
-    let toml = HEAD.replace("dt = 1e-5", &format!("dt = {step:e}"));
+    // Averaged, they push each other apart before they are at one place.
+    let toml = HEAD.replace("dt = 1e-5", &format!("dt = {step:e}\ncontacts = \"sampled\""));
     fs::write(folder.path().join("s.toml"), toml).expect("written");
     let wide = ["--set", "guards.motion=10"];
     let done = stopped(folder.path(), on, &wide, &["t = ", "particle", "shorten dt"]);
@@ -321,9 +322,9 @@ fn a_grain_that_comes_back_through_its_inlet() {
     exact(folder.path(), "zones", &off);
 }
 
-/// The downstream run of that folder in which grains that come back are taken out: it ends, its ledger closes, and so many are taken out
-/// and left. What it prints.
-fn removes(folder: &Path, until: &str, [out, left]: [i32; 2]) -> String {
+/// The downstream run of that folder in which grains that come back are taken out: it ends, and so many are taken out and left. What it
+/// prints, and the share of energy that the step made.
+fn removes(folder: &Path, until: &str, [out, left]: [i32; 2]) -> (String, f64) {
     let sets = ["--set", "guards.zones=\"remove\"", "--set", "output.energy=true", "--until", until];
     let files = ["down.toml", "in.mcap", "-o", "run.mcap", "--report", "r.json"];
     let done = succeed(folder, "dem-run", &[&files[..], &sets].concat());
@@ -334,13 +335,13 @@ fn removes(folder: &Path, until: &str, [out, left]: [i32; 2]) -> String {
         "{report}"
     );
     let made = report["integration"]["share"].as_f64().unwrap_or_else(|| panic!("{report}"));
-    assert!(made.abs() < 1e-2, "{report}");
-    done.stderr
+    (done.stderr, made)
 }
 
 #[test]
 fn a_grain_that_comes_back_through_its_inlet_is_removed() {
-    let told = removes(bounce().path(), "0.3", [1, 0]);
+    let (told, made) = removes(bounce().path(), "0.3", [1, 0]);
+    assert!(made.abs() < 1e-2, "{made}");
     assert!(told.contains("inlet.0: 1 grains were taken out (guards.zones = \"remove\")"), "{told}");
 }
 

@@ -137,7 +137,7 @@ fn thrown(variant: &Variant, at: Target, speed: f64, dt: f64, offset: f64) -> Re
     let Ok(mut sim) = Simulation::new(setup) else { return Ok(true) };
     let reach = if let Target::Spheres(share) = at { -2.0 * share * RADIUS } else { 0.0 };
     // Under many wall spheres at once it loses nearly all of its speed, and takes long to rise.
-    for _ in 0..1000 {
+    for _ in 0..4000 {
         if let Err(halt) = sim.step() {
             let text = halt.to_string();
             return if text.contains("particle 7") { Ok(true) } else { Err(text) };

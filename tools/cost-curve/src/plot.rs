@@ -42,6 +42,11 @@ fn dots(judged: &Judged) -> Vec<Dot> {
 /// The bytes of the picture; the ending of the name chooses the format.
 pub fn draw(file: &Path, judged: &Judged, title: &str) -> anyhow::Result<Vec<u8>> {
     let dots = dots(judged);
+    if dots.is_empty() {
+        let why =
+            "no setting but the reference has an error to draw: the column 'why' says what stopped them";
+        return Err(anyhow!("-o {}: {why}", file.display()));
+    }
     let mut plots = vec![line(&on_front(judged, &dots), GREY, "nothing beats these")];
     let mut groups: Vec<&str> = Vec::new();
     dots.iter().for_each(|d| {

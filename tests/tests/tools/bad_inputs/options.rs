@@ -108,7 +108,7 @@ fn outputs_of_a_format_or_a_folder_that_cannot_be_written() {
         ("cloud-fill good.ply -o a.csv", "-o a.csv: the output is PLY"),
         ("bluenoise-sample good.ply --spacing 0.02 -o a.xyz", "-o a.xyz: the output is PLY"),
         ("wallgen good.ply --roughness 0.002 -o a.las", "-o a.las: the output is MCAP or PLY"),
-        ("dem-view good.ply -o a.png --every 0.1", "--every is for a film"),
+        ("dem-view good.ply -o a.png --every 0.1", "--every changes nothing in .png"),
         ("dem-view good.ply -o a.xyz", ".html"),
         ("dem-view good.ply -o a", ".html"),
     ] {
