@@ -260,9 +260,9 @@ fn what_a_run_does_not_hold_cannot_be_drawn() {
             &["--vectors force: run holds no contacts", "[output] contacts"],
         ),
         (&["b.mcap", "--vectors", "spin", "-o", "x.png"], &["give velocity or force"]),
-        (&["b.mcap", "--bonds", "-o", "x.vtp"], &["--bonds: files for ParaView", "leave it out"]),
+        (&["b.mcap", "--bonds", "-o", "x.vtp"], &["--bonds changes nothing in .vtp", "leave it out"]),
         (&["b.mcap", "--colour", "size", "--range", "0,1", "-o", "x.png"], &["--range: size has classes"]),
-        (&["b.mcap", "--dark", "-o", "x.vtp"], &["--dark: files for ParaView have no colours"]),
+        (&["b.mcap", "--dark", "-o", "x.vtp"], &["--dark changes nothing in .vtp"]),
         (&["c.xyz", "--vectors", "velocity", "-o", "x.png"], &["--vectors: no input is a run"]),
         (&["c.xyz", "--colour", "size", "-o", "x.png"], &["no field 'size'"]),
     ] {
