@@ -70,7 +70,7 @@ impl ParticleTable {
         Ok(ParticleTable::listed(name, table))
     }
 
-    /// Of a file that is no run.
+    /// Of a file other than a run.
     fn listed(name: String, table: Table) -> ParticleTable {
         let (materials, kept) = Default::default();
         ParticleTable { name, table, materials, is_run: false, stopped: None, kept }
