@@ -173,6 +173,8 @@ impl Judged {
         for (k, point) in self.points.iter().enumerate().filter(|(k, _)| *k != base) {
             lines.push(match (&point.failed, &self.errors[k]) {
                 (Some(why), _) => {
+                    // Not the command that continues it: it names folders of this machine.
+                    let why = why.split("; to go past the guard").next().unwrap_or_default();
                     format!("{} cannot be run: {why}", change(&self.points[base], point))
                 }
                 (None, Some(_)) if self.marks.0 == Some(k) => {
