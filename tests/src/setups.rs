@@ -77,16 +77,12 @@ pub const LAWS: [Law; 2] = [HOOKE, Law::Hertz];
 
 /// Elastic bonds between two materials, up to a gap of 2 mm, that never break.
 pub fn bond(between: (u16, u16)) -> Bond {
-    Bond {
-        between,
-        gap: 0.002,
-        radius_ratio: 1.0,
-        young: 1e7,
-        shear_modulus: 4e6,
-        tensile_strength: f64::INFINITY,
-        shear_strength: f64::INFINITY,
-        damping: 0.0,
-    }
+    beam(between, [1e7, 4e6])
+}
+
+/// The same of other moduli E and G [Pa].
+pub fn beam(between: (u16, u16), [young, shear_modulus]: [f64; 2]) -> Bond {
+    Bond::new(between, 0.002, BondKind::Beam { young, shear_modulus })
 }
 
 /// A lattice of so many grains of radius 10 mm along each axis, 1 mm open between them, around a place.

@@ -140,7 +140,7 @@ fn resumed_run_equals_the_uninterrupted_one() {
 fn block(edge: u32) -> Setup {
     let mut setup = shaken_trough(Law::Hertz);
     setup.periodic = [Some((0.0, 0.3)), Some((0.0, 0.3)), None];
-    setup.bonds = vec![Bond { tensile_strength: 2e3, shear_strength: 2e3, damping: 0.2, ..bond((0, 0)) }];
+    setup.bonds = vec![Bond { strength: BondStrength::of(2e3, 2e3), damping: 0.2, ..bond((0, 0)) }];
     let centre = Vec3::new(0.15, 0.15, 0.008 + 0.0105 * f64::from(edge));
     setup.particles = lattice([edge; 3], centre);
     setup.particles.iter_mut().for_each(|p| p.velocity = Vec3::new(0.3, 0.1, -1.0));

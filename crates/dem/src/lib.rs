@@ -40,7 +40,7 @@ pub use model::in_range::magnitudes;
 pub use model::limit::critical_step;
 pub use model::start::time_step;
 pub use model::{
-    Allowed, BondConflict, BondedParticle, CriticalBonds, CriticalDrag, CriticalGrain, CriticalPair,
+    Allowed, BondedParticle, BreakMode, CriticalBonds, CriticalDrag, CriticalGrain, CriticalPair,
     CriticalPartner, Halt, Limit, OutOfRange, Partner, Quantity, RepeatedMotion, SetupError, StateMismatch,
     StepCause, Stiffer, Subject,
 };
@@ -53,4 +53,4 @@ pub use setup::Setup;
 pub use simulation::{Checkpoint, ContactBytes, EffectCost, MatchedDamping, Simulation};
 pub use space::rotation::spun;
 pub use space::sphere::mass;
-pub use state::{BondState, Energy, Returned};
+pub use state::{BondState, Crack, Energy, Returned};

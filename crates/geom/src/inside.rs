@@ -98,8 +98,13 @@ impl Inside {
         })
     }
 
+    /// The lowest and the highest corner [m].
+    pub fn bounds(&self) -> (Vec3, Vec3) {
+        (self.lo, self.hi)
+    }
+
     /// Distance from `p` [m] to the surface [m].
-    pub(crate) fn distance(&self, p: &Vec3) -> f64 {
+    pub fn distance(&self, p: &Vec3) -> f64 {
         self.tree.get_or_init(|| Tree::new(&self.mesh)).distance(&self.mesh, p)
     }
 

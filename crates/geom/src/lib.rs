@@ -13,6 +13,7 @@ mod outside;
 pub mod plane;
 pub mod prism;
 mod quadratic;
+pub mod random;
 pub mod shape;
 mod shown;
 pub mod sphere;

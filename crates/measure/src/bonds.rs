@@ -4,24 +4,25 @@
 //! a bond breaks when σ > σ_t (tension) or τ > τ_s (shear)
 //! ```
 //!
-//! A run records σ and τ of each bond; those of a broken one are the values at the break. Which of them broke it
-//! follows from the strengths σ_t, τ_s in the scene of the run: it is the one with the larger ratio. If neither
-//! reaches its strength, the bond is one of another scene (of an inlet), and the way it broke is unknown.
+//! A run records σ and τ of each bond; those of a broken one are the values at the break. It says which of them broke it; a run of an older
+//! version does not.
 
+mod cracks;
 mod fragments;
+mod grading;
 mod observe;
+pub mod pieces;
 
+pub use cracks::{Crack, CrackList};
 pub use fragments::Fragments;
+pub use grading::{FragmentList, Grading, breakage};
 pub use observe::BondNumbers;
 
+use crate::MeasureError;
 use crate::table::Columns;
-use crate::{BondStrength, MeasureError};
-use record::column::{BROKEN, BROKEN_AT, FIRST, SECOND, SHEAR, TENSION};
+use record::column::{BROKEN, BROKEN_AT, FIRST, MODE, SECOND, SHEAR, TENSION};
 use record::topic::BONDS;
 use stream::Table;
-
-/// Rounding of recorded stresses (single precision).
-const ROUNDING: f64 = 1e-6;
 
 /// One bond.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,6 +33,8 @@ pub struct Bond {
     pub stress: [f64; 2],
     /// When it broke [s]; `None` while it is whole.
     pub broken: Option<f64>,
+    /// What broke it, if it did.
+    pub by: Break,
 }
 
 /// What broke a bond.
@@ -41,22 +44,25 @@ pub enum Break {
     Tension,
     /// Shear.
     Shear,
-    /// Neither reaches a strength that the scene names.
+    /// The run does not say.
     Unknown,
 }
 
-impl Bond {
-    /// What broke it, by the strengths of its materials.
-    pub fn break_by(&self, law: Option<&BondStrength>) -> Break {
-        let Some(law) = law else { return Break::Unknown };
-        let [tension, shear] = [0, 1].map(|k| self.stress[k] / law.strength[k]);
-        match tension.max(shear) {
-            largest if !(largest >= 1.0 - ROUNDING) => Break::Unknown,
-            largest if largest == tension => Break::Tension,
-            _ => Break::Shear,
-        }
+/// What broke a bond, by the number in a column.
+fn break_of(mode: u64) -> Break {
+    match mode {
+        1 => Break::Tension,
+        2 => Break::Shear,
+        _ => Break::Unknown,
     }
 }
+
+/// A run without bonds.
+const NO_BONDS: MeasureError = MeasureError::Channel {
+    topic: BONDS,
+    what: "bonds",
+    cure: "give a run whose scene has a [[bond]] that joins grains",
+};
 
 /// All bonds at one time.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -68,7 +74,7 @@ pub struct Bonds {
 }
 
 impl Bonds {
-    /// Bonds from the table of a message: id_i, id_j, tension, shear, broken, broken_at.
+    /// Bonds from the table of a message: id_i, id_j, tension, shear, broken, broken_at, mode.
     ///
     /// # Errors
     /// Columns that are missing, numbers that are not finite.
@@ -77,32 +83,13 @@ impl Bonds {
         let (i, j) = (columns.whole(FIRST)?, columns.whole(SECOND)?);
         let (tension, shear) = (columns.numbers(TENSION)?, columns.numbers(SHEAR)?);
         let (broken, at) = (columns.whole(BROKEN)?, columns.numbers(BROKEN_AT)?);
+        let mode = columns.or_zero(MODE)?;
         let row = |k: usize| Bond {
             grains: [i[k], j[k]],
             stress: [tension[k], shear[k]],
             broken: (broken[k] != 0).then_some(at[k]),
+            by: break_of(mode[k] as u64),
         };
         Ok(Bonds { time, rows: (0..i.len()).map(row).collect() })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_stress_with_the_larger_share_of_its_strength_broke_a_bond() {
-        let law = |strength| BondStrength { between: ["a".into(), "a".into()], strength };
-        let bond = |stress| Bond { grains: [0, 1], stress, broken: Some(0.1) };
-        let both = law([2.0, 4.0]);
-        assert_eq!(bond([2.1, 3.0]).break_by(Some(&both)), Break::Tension);
-        assert_eq!(bond([-9.0, 4.1]).break_by(Some(&both)), Break::Shear);
-        // Both in one step.
-        assert_eq!(bond([3.0, 4.4]).break_by(Some(&both)), Break::Tension);
-        // As rounded in a file of single precision.
-        assert_eq!(bond([2.0 - 1e-7, 0.0]).break_by(Some(&both)), Break::Tension);
-        assert_eq!(bond([1.9, 3.9]).break_by(Some(&both)), Break::Unknown);
-        assert_eq!(bond([1e9, 4.1]).break_by(Some(&law([f64::INFINITY, 4.0]))), Break::Shear);
-        assert_eq!(bond([1e9, 1e9]).break_by(None), Break::Unknown);
     }
 }

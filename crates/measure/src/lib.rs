@@ -41,6 +41,6 @@ pub use bonds::{Bond, Bonds};
 pub use error::MeasureError;
 pub use frame::{Contact, Contacts, Crossing, Frame, Partner};
 pub use observer::{Observer, OfFrame, PerFrame, Which};
-pub use run::{BondStrength, Ledger, Run, RunMessage, WallSpheres};
+pub use run::{Ledger, Run, RunMessage, WallSpheres};
 pub use sheet::{Chart, Curve, Head, Look, Panel, Row, Summary};
 pub use wall_record::{ForceOnWall, WallForces};

@@ -54,7 +54,7 @@ impl Overview {
                 let _ = self.energy.0.observe(run, message, &mut self.energy.1);
                 return;
             }
-            RunMessage::Bonds(_) => {}
+            RunMessage::Bonds(_) | RunMessage::Cracks(_) => {}
             RunMessage::Contacts(_) => return,
         }
         let _ = self.bonds.0.observe(run, message, &mut self.bonds.1);

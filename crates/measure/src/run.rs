@@ -1,11 +1,12 @@
 //! A run, event by event: its metadata and its data.
 
+use crate::bonds::Crack;
 use crate::frame::{Contacts, Crossing, Frame};
 use crate::{Bonds, MeasureError, WallForces, table::Columns};
 use geom::{Plane, Vec3};
 use record::column::{POSITION, RADIUS, WALL};
 use record::metadata::{MATERIALS, OUTLETS, SCENE};
-use record::topic::{BONDS, CONTACTS, CROSSINGS, ENERGY, PARTICLES, SURFACES, WALL_FORCES, WALLS};
+use record::topic::{BONDS, CONTACTS, CRACKS, CROSSINGS, ENERGY, PARTICLES, SURFACES, WALL_FORCES, WALLS};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use stream::{Table, mcap::Event};
@@ -32,15 +33,6 @@ pub struct Ledger {
     pub balance: f64,
 }
 
-/// What breaks the bonds between two materials.
-#[derive(Debug, Clone, PartialEq)]
-pub struct BondStrength {
-    /// Names of the materials.
-    pub between: [String; 2],
-    /// In tension and in shear [Pa]; infinite where they are unbreakable.
-    pub strength: [f64; 2],
-}
-
 /// Something to measure.
 #[derive(Debug, Clone)]
 pub enum RunMessage {
@@ -56,6 +48,8 @@ pub enum RunMessage {
     WallForces(WallForces),
     /// All bonds at one time.
     Bonds(Bonds),
+    /// Bonds that broke since the message before.
+    Cracks(Vec<Crack>),
 }
 
 /// What the messages of a run have said about it so far.
@@ -73,8 +67,6 @@ pub struct Run {
     pub gravity: f64,
     /// Lowest and highest coordinate [m] of each axis that is periodic.
     pub periodic: [Option<(f64, f64)>; 3],
-    /// Strengths of the bonds that the scene makes.
-    pub bonds: Vec<BondStrength>,
     /// Names of the walls.
     pub walls: Vec<String>,
     /// Its wall spheres.
@@ -114,6 +106,7 @@ impl Run {
         Ok(match topic {
             PARTICLES => Some(RunMessage::Frame(Frame::new(time, table, &self.densities)?)),
             CONTACTS => Some(RunMessage::Contacts(Contacts::new(time, &table)?)),
+            CRACKS => Some(RunMessage::Cracks(Crack::list(time, &table)?)),
             BONDS => Some(RunMessage::Bonds(Bonds::new(time, &table)?)),
             CROSSINGS => Some(RunMessage::Crossings(Crossing::list(time, &table, &self.densities)?)),
             WALLS => {
@@ -153,8 +146,6 @@ impl Run {
         let gravity = scene.get("gravity").and_then(numbers);
         self.gravity = gravity.map_or(0.0, |g| g.norm());
         self.up = gravity.filter(|g| g.norm() > 0.0).map(|g| -g.normalize());
-        let bonds = scene.get("bond").and_then(toml::Value::as_array);
-        self.bonds = bonds.into_iter().flatten().filter_map(bond_strength).collect();
         let Some(domain) = scene.get("domain").and_then(toml::Value::as_table) else { return };
         let [low, high] = ["low", "high"].map(|key| domain.get(key).and_then(numbers));
         let (Some(low), Some(high)) = (low, high) else { return };
@@ -197,17 +188,6 @@ impl Run {
 fn plane(json: &Value) -> Option<Plane> {
     let vector = |v: &Value| Some(Vec3::new(v[0].as_f64()?, v[1].as_f64()?, v[2].as_f64()?));
     Plane::new(vector(&json["plane"]["point"])?, vector(&json["plane"]["normal"])?).ok()
-}
-
-/// A `[[bond]]` of a scene.
-fn bond_strength(bond: &toml::Value) -> Option<BondStrength> {
-    let names = bond.get("between")?.as_array()?;
-    let name = |k: usize| names.get(k)?.as_str().map(str::to_owned);
-    let strength = |key| bond.get(key).map_or(Some(f64::INFINITY), |v| number(v, "Pa"));
-    Some(BondStrength {
-        between: [name(0)?, name(1)?],
-        strength: [strength("tensile_strength")?, strength("shear_strength")?],
-    })
 }
 
 /// A number of a scene, plain or as text with a unit.

@@ -29,6 +29,8 @@ pub const MEMBERS: &str = "members";
 pub const CLUMP: &str = "clump";
 /// Size of a clump over that of its shape [–].
 pub const SCALE: &str = "scale";
+/// Cluster that a particle belongs to; 0: none.
+pub const CLUSTER: &str = "cluster";
 /// Mass [kg].
 pub const MASS: &str = "mass";
 /// Index of a wall.
@@ -55,7 +57,17 @@ pub const SHEAR: &str = "shear";
 pub const BROKEN: &str = "broken";
 /// When the bond broke [s].
 pub const BROKEN_AT: &str = "broken_at";
-/// Time of a crossing [s].
+/// What broke a bond: 1 tension, 2 shear; 0: it is whole.
+pub const MODE: &str = "mode";
+/// σ_c of a bond [Pa].
+pub const TENSILE_STRENGTH: &str = "tensile_strength";
+/// τ_c of a bond at its present pressure [Pa].
+pub const SHEAR_STRENGTH: &str = "shear_strength";
+/// Elastic energy that a bond held when it broke [J].
+pub const ENERGY: &str = "energy";
+/// Clusters of the particles of a bond.
+pub const CLUSTERS: [&str; 2] = ["cluster_i", "cluster_j"];
+/// Time of a crossing, or of a crack [s].
 pub const TIME: &str = "time";
 /// Index of the outlet.
 pub const OUTLET: &str = "outlet";

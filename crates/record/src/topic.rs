@@ -4,8 +4,10 @@
 pub const PARTICLES: &str = "/particles";
 /// A row for each rigid clump, at its centre of mass.
 pub const BODIES: &str = "/bodies";
-/// A row for each bond that there was at the start, half-way between its particles.
+/// A row for each bond that was made, half-way between its particles.
 pub const BONDS: &str = "/bonds";
+/// A row for each bond that broke since the message before, where and when it did.
+pub const CRACKS: &str = "/cracks";
 /// A row for each contact.
 pub const CONTACTS: &str = "/contacts";
 /// Contacts that have a history, with the last frame: what a run that starts from its particles takes along.

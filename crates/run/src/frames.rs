@@ -1,7 +1,7 @@
 //! Tables and messages of a run: particles, clumps, contacts, bonds and walls at one time.
 
-use dem::setup::{ClumpShape, Clumps, Particle, Setup, Wall, WallShape};
-use dem::{BondState, ClumpState, ContactRecord, Simulation, Snapshot, WallForce};
+use dem::setup::{ClumpShape, Clumps, Particle, Setup, Wall, WallShape, cluster_of};
+use dem::{BondState, BreakMode, ClumpState, ContactRecord, Crack, Simulation, Snapshot, WallForce};
 use geom::Vec3;
 use record::column::{self, FIRST, FORCE, ID, MATERIAL, NORMAL, POSITION, RADIUS, SECOND, SPIN, VELOCITY};
 use record::{ClumpRecord, Map, SurfaceShape, TableBuilder, WallRecord};
@@ -24,6 +24,8 @@ pub(crate) struct ParticleRows<'a> {
     pub precision: Precision,
     /// Clumps by id, where the scene has any.
     pub clumps: Option<&'a [ClumpState]>,
+    /// Clusters of particles by id; empty where there is none.
+    pub clusters: &'a [(u32, u32)],
 }
 
 /// Numbers of a particle that are written in the precision asked for, in the order of [`measured`].
@@ -41,7 +43,8 @@ impl Rows for ParticleRows<'_> {
         let kind = kind(self.precision);
         let whole = [(ID, NumberType::U32), (MATERIAL, NumberType::U16)];
         let body = self.clumps.map(|_| (column::BODY, NumberType::U32));
-        measured_columns().map(|name| (name, kind)).chain(whole).chain(body).collect()
+        let cluster = (!self.clusters.is_empty()).then_some((column::CLUSTER, NumberType::U32));
+        measured_columns().map(|name| (name, kind)).chain(whole).chain(body).chain(cluster).collect()
     }
 
     fn count(&self) -> usize {
@@ -59,6 +62,9 @@ impl Rows for ParticleRows<'_> {
         if let Some(clumps) = self.clumps {
             let before = clumps.partition_point(|b| b.id <= p.id);
             row.put(clumps[..before].last().filter(|b| b.has(p.id)).map_or(p.id, |b| b.id));
+        }
+        if !self.clusters.is_empty() {
+            row.put(cluster_of(self.clusters, p.id));
         }
     }
 }
@@ -117,7 +123,7 @@ pub(crate) fn contacts(rows: &[ContactRecord], precision: Precision) -> Table {
         .done()
 }
 
-/// The table of the topic `/bonds`: a row for each bond that there was at the start, half-way between its particles.
+/// The table of the topic `/bonds`: a row for each bond that was made, half-way between its particles.
 pub(crate) fn bonds(rows: &[BondState], precision: Precision) -> Table {
     TableBuilder::of(rows.len(), kind(precision))
         .vectors(POSITION, rows, |b| b.middle)
@@ -128,8 +134,35 @@ pub(crate) fn bonds(rows: &[BondState], precision: Precision) -> Table {
         .numbers(column::SHEAR, rows.iter().map(|b| b.stress[1]))
         .u32(FIRST, rows.iter().map(|b| b.ids[0]))
         .u32(SECOND, rows.iter().map(|b| b.ids[1]))
+        .numbers(column::TENSILE_STRENGTH, rows.iter().map(|b| b.strength[0]))
+        .numbers(column::SHEAR_STRENGTH, rows.iter().map(|b| b.strength[1]))
+        .with(column::MODE, Values::U8(rows.iter().map(|b| b.broken.map_or(0, |_| mode(b.mode))).collect()))
         .with(column::BROKEN, Values::U8(rows.iter().map(|b| u8::from(b.broken.is_some())).collect()))
         .with(column::BROKEN_AT, Values::F64(rows.iter().map(|b| b.broken.unwrap_or(0.0)).collect()))
+        .done()
+}
+
+/// What broke a bond, as columns have it.
+fn mode(mode: BreakMode) -> u8 {
+    match mode {
+        BreakMode::Tension => 1,
+        BreakMode::Shear => 2,
+    }
+}
+
+/// The table of the topic `/cracks`.
+pub(crate) fn cracks(rows: &[Crack], precision: Precision) -> Table {
+    TableBuilder::of(rows.len(), kind(precision))
+        .vectors(POSITION, rows, |c| c.place)
+        .vectors(NORMAL, rows, |c| c.normal)
+        .numbers(RADIUS, rows.iter().map(|c| c.radius))
+        .numbers(column::ENERGY, rows.iter().map(|c| c.energy))
+        .with(column::TIME, Values::F64(rows.iter().map(|c| c.time).collect()))
+        .with(column::MODE, Values::U8(rows.iter().map(|c| mode(c.mode)).collect()))
+        .u32(FIRST, rows.iter().map(|c| c.ids[0]))
+        .u32(SECOND, rows.iter().map(|c| c.ids[1]))
+        .u32(column::CLUSTERS[0], rows.iter().map(|c| c.clusters[0]))
+        .u32(column::CLUSTERS[1], rows.iter().map(|c| c.clusters[1]))
         .done()
 }
 

@@ -44,6 +44,7 @@ impl<W: Write> Run<W> {
             return Ok(());
         }
         self.write_crossings()?;
+        self.write_cracks()?;
         // Before the frame, which computes forces that would then belong to the state.
         if checkpoint {
             self.write_checkpoint()?;
@@ -58,6 +59,7 @@ impl<W: Write> Run<W> {
         // What enters now belongs to this frame.
         self.let_in()?;
         self.sim.ready()?;
+        self.write_cracks()?;
         let (now, precision) = (self.now(), self.written.output.precision);
         if self.written.walls_move
             && self.sim.steps() > 0
@@ -66,7 +68,9 @@ impl<W: Write> Run<W> {
             self.writer.points(topic::WALLS, now, FRAME, table)?;
         }
         let clumps = (!self.written.masses.is_empty()).then(|| self.sim.clumps()).transpose()?;
-        let rows = ParticleRows { all: self.sim.snapshot()?, precision, clumps: clumps.as_deref() };
+        let clusters = self.sim.clusters().to_vec();
+        let (all, clumps_by_id) = (self.sim.snapshot()?, clumps.as_deref());
+        let rows = ParticleRows { all, precision, clumps: clumps_by_id, clusters: &clusters };
         self.writer.rows(topic::PARTICLES, now, FRAME, &rows)?;
         if let Some(clumps) = clumps {
             self.writer.points(topic::BODIES, now, FRAME, frames::clump_rows(&clumps))?;
@@ -131,6 +135,23 @@ impl<W: Write> Run<W> {
         let rows = std::mem::take(&mut self.paths);
         if !rows.is_empty() {
             self.writer.points(topic::PATHS, self.now(), FRAME, path::to_table(&rows))?;
+        }
+        Ok(())
+    }
+
+    /// Writes what broke since the last time, and notes bonds that were due and found no pair. What broke at the instant that a run is resumed from was written
+    /// with the frame of that instant.
+    fn write_cracks(&mut self) -> Result<()> {
+        let told = self.first > 0 && self.schedule.is_frame(self.first);
+        let told = if told { self.first as f64 * self.sim.dt() } else { f64::NEG_INFINITY };
+        let mut cracks = self.sim.take_cracks();
+        cracks.retain(|crack| crack.time > told);
+        if !cracks.is_empty() {
+            let table = frames::cracks(&cracks, self.written.output.precision);
+            self.writer.points(topic::CRACKS, self.now(), FRAME, table)?;
+        }
+        for [a, b] in self.sim.take_idle_bonds() {
+            self.note(&format!("bond {a}–{b}: no two grains were near enough when its bonds were due"))?;
         }
         Ok(())
     }

@@ -73,6 +73,7 @@ pub fn all() -> Vec<Scene> {
     scenes.extend(NORMALS.iter().map(weakening));
     scenes.extend(NORMALS[..2].iter().flat_map(mixed_precision));
     scenes.extend(NORMALS.iter().flat_map(bonds));
+    scenes.extend(NORMALS[..2].iter().flat_map(kinds_of_bonds));
     scenes.push(scene("hertz, bonds across a periodic face", across_a_face(hertz())));
     scenes.push(scene("hertz, no friction", Setup { contacts: NORMALS[1].setup(0.5).contacts, ..hertz() }));
     scenes.extend(asleep(hertz()));
@@ -138,6 +139,28 @@ fn mixed_precision(normal: &Normal) -> [Scene; 2] {
     [plane, scene(&spheres, on(pebbles(), setup))]
 }
 
+/// Bonds of the other kinds, weak enough to break: cement with friction and a Weibull spread, glue that takes the place of contacts, and beams that do.
+fn kinds_of_bonds(normal: &Normal) -> [Scene; 3] {
+    let strength = BondStrength::of(2e3, 2e3);
+    let spread = Spread::Weibull { modulus: 4.0, reference_radius: None };
+    let cement = BondKind::Parallel { springs: BondSprings::Given([5e8, 2e8]), moments: 0.5 };
+    let parallel = Bond {
+        strength: BondStrength { friction: 0.5, spread, ..strength },
+        ..Bond::new((0, 0), 2e-3, cement)
+    };
+    let glue = BondKind::Contact(BondSprings::Modulus { modulus: 2e6, ratio: 2.5 });
+    let contact = Bond { strength, ..Bond::new((0, 0), 2e-3, glue) };
+    let beam = Bond { strength, replaces_contact: true, ..bond((0, 0)) };
+    [("parallel", parallel), ("contact", contact), ("beam instead of contact", beam)].map(|(kind, law)| {
+        let mut setup = bonded(poured(normal), 0.0, f64::INFINITY);
+        setup.bonds = vec![Bond { damping: 0.2, ..law }];
+        // In contact from the start on.
+        let centre = Vec3::new(0.0, 0.0, 0.045);
+        setup.particles.iter_mut().for_each(|p| p.position = centre + (p.position - centre) * 0.95);
+        scene(&format!("{}, {kind} bonds", normal.name), setup)
+    })
+}
+
 fn bonds(normal: &Normal) -> [Scene; 2] {
     let name = normal.name;
     [
@@ -171,7 +194,7 @@ fn clumps(name: &str, shape: &ClumpShape) -> [Scene; 2] {
 
 /// A bonded block that turns and falls on an edge, with bonds of this damping and strength [Pa].
 fn bonded(mut setup: Setup, damping: f64, strength: f64) -> Setup {
-    let strong = Bond { tensile_strength: strength, shear_strength: strength, ..bond((0, 0)) };
+    let strong = Bond { strength: BondStrength::of(strength, strength), ..bond((0, 0)) };
     setup.bonds = vec![Bond { damping, ..strong }];
     setup.particles = lattice([2, 2, 3], Vec3::new(0.0, 0.0, 0.045));
     let turn = nalgebra::UnitQuaternion::from_euler_angles(0.4, 0.5, 0.1);

@@ -204,7 +204,7 @@ fn bonds() {
     let damped = Alone { name: "bonded pair, damped".to_owned(), setup, until: 0.03, step: 5e-4 };
     damped.holds(|e| e.bonds, answer);
     let strength = 1e3;
-    let setup = pair(Bond { tensile_strength: strength, ..bond((0, 0)) });
+    let setup = pair(Bond { strength: BondStrength::of(strength, f64::INFINITY), ..bond((0, 0)) });
     // A force that ends within a step is wrong by half of the step.
     let torn = Alone { name: "bonded pair, torn apart".to_owned(), setup, until: 0.005, step: 1e-4 };
     torn.holds(|e| e.bonds, PI * R * R * 0.021 * strength * strength / 2e7);

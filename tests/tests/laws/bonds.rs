@@ -6,7 +6,7 @@ use dem::setup::*;
 use dem::{Setup, Simulation};
 use geom::Vec3;
 use grainpipe_tests::findings::{Case, case};
-use grainpipe_tests::setups::{HOOKE, bond, contact, empty, grain, particles, run_until};
+use grainpipe_tests::setups::{HOOKE, beam, contact, empty, grain, particles, run_until};
 use std::f64::consts::PI;
 
 const BAR: Case = case("Bonds", "bar of n spheres, force F on each: its end moves by Σ F x/E A");
@@ -31,6 +31,11 @@ const INERTIA: f64 = 0.25 * PI * R * R * R * R;
 
 /// Spheres at these places of a lattice, the first one heavy, in a wind that pushes each with so much force [N]; its rate of drag [1/s].
 fn held(places: &[[i32; 2]], force: Vec3, rate: f64) -> Setup {
+    held_by(|between| Bond { damping: 0.5, ..beam(between, [E, G]) }, places, force, rate)
+}
+
+/// The same with these bonds.
+pub fn held_by(made: impl Fn((u16, u16)) -> Bond, places: &[[i32; 2]], force: Vec3, rate: f64) -> Setup {
     let mut setup = empty(HOOKE, 0.5);
     setup.contacts.push(contact((1, 1), HOOKE, 0.5));
     setup.materials[1].density = 1e20;
@@ -38,8 +43,6 @@ fn held(places: &[[i32; 2]], force: Vec3, rate: f64) -> Setup {
     let velocity = force / (rate * mass);
     let viscosity = rate * mass / (6.0 * PI * R);
     setup.drag = Some(Drag { law: DragLaw::Stokes, viscosity, density: 0.0, velocity, buoyancy: false });
-    let [young, shear_modulus] = [E, G];
-    let made = |between| Bond { young, shear_modulus, damping: 0.5, ..bond(between) };
     setup.bonds = vec![made((0, 0)), made((0, 1))];
     let at = |[x, y]: [i32; 2]| Vec3::new(f64::from(x), f64::from(y), 0.0) * PITCH;
     setup.particles = (0..).zip(places).map(|(id, &p)| grain(id, at(p))).collect();
@@ -51,12 +54,12 @@ fn held(places: &[[i32; 2]], force: Vec3, rate: f64) -> Setup {
     setup
 }
 
-fn row(n: usize) -> Vec<[i32; 2]> {
+pub fn row(n: usize) -> Vec<[i32; 2]> {
     (0..=n as i32).map(|x| [x, 0]).collect()
 }
 
 /// How far the last sphere has moved when all is at rest, looked at every so often [s].
-fn deflection(setup: Setup, time: f64) -> (Vec3, Simulation) {
+pub fn deflection(setup: Setup, time: f64) -> (Vec3, Simulation) {
     let start = setup.particles[setup.particles.len() - 1].position;
     let mut sim = simulation(setup);
     for look in 1..100 {
@@ -73,7 +76,7 @@ fn deflection(setup: Setup, time: f64) -> (Vec3, Simulation) {
 const LENGTHS: [usize; 4] = [1, 2, 5, 10];
 
 /// Rate of drag near twice the lowest frequency of n spheres [1/s].
-fn rate(n: usize) -> f64 {
+pub fn rate(n: usize) -> f64 {
     let mass = dem::mass(R, 2500.0);
     2.0 * 3.52 * (E * INERTIA / (mass / PITCH)).sqrt() / (n as f64 * PITCH).powi(2)
 }
@@ -125,7 +128,7 @@ fn breaks(places: &[[i32; 2]], force: Vec3, strength: [f64; 2]) -> bool {
     // So slow that nothing swings.
     let mut setup = held(places, force, 4e3);
     for bond in &mut setup.bonds {
-        [bond.tensile_strength, bond.shear_strength] = strength;
+        bond.strength = BondStrength::of(strength[0], strength[1]);
         bond.damping = 1.0;
     }
     let mut sim = simulation(setup);

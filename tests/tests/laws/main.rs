@@ -1,6 +1,7 @@
 //! Laws with closed answers: one contact, friction and rolling, many grains; and the orders in which errors fall with the step.
 
 mod adhesion;
+mod bond_kinds;
 mod bonds;
 mod hopper;
 mod impacts;

@@ -5,7 +5,7 @@ use crate::trial::{ALL, Trial};
 use dem::setup::*;
 use dem::{Setup, mass};
 use geom::{Moments, Vec3};
-use grainpipe_tests::setups::{HOOKE, Law, bond, contact, empty, grain, with_friction};
+use grainpipe_tests::setups::{HOOKE, Law, beam, contact, empty, grain, with_friction};
 use nalgebra::UnitQuaternion;
 use std::f64::consts::SQRT_2;
 
@@ -123,20 +123,20 @@ fn bonded() {
         setup.particles.iter_mut().zip(places).for_each(|(p, place)| p.position = place);
         setup
     };
-    let stiff = Bond { young: 1e9, shear_modulus: 4e8, gap: 1e-3, ..bond((0, 0)) };
+    let stiff = Bond { gap: 1e-3, ..beam((0, 0), [1e9, 4e8]) };
     for (name, bond) in [
         ("bonded crystal", stiff.clone()),
         ("bonded crystal, damping 0.5", Bond { damping: 0.5, ..stiff.clone() }),
         ("bonded crystal, damping 2", Bond { damping: 2.0, ..stiff.clone() }),
         ("bonded crystal, thick bonds", Bond { radius_ratio: 2.5, ..stiff.clone() }),
         ("bonded crystal, thin bonds", Bond { radius_ratio: 0.2, ..stiff.clone() }),
-        ("bonded crystal, soft in shear", Bond { shear_modulus: 1e7, ..stiff.clone() }),
+        ("bonded crystal, soft in shear", Bond { gap: 1e-3, ..beam((0, 0), [1e9, 1e7]) }),
     ] {
         let setup = Setup { bonds: vec![bond], ..loose(1.0) };
         Trial { name, setup, ways: ALL }.meant();
     }
     let mut both = with_friction(crystal(HOOKE, 1.0, 1e-2), 1.0);
-    both.bonds = vec![Bond { young: 6e5, shear_modulus: 2.4e5, ..bond((0, 0)) }];
+    both.bonds = vec![beam((0, 0), [6e5, 2.4e5])];
     Trial { name: "bonded crystal, contacts as stiff as bonds", setup: both, ways: ALL }.meant();
 }
 

@@ -34,8 +34,9 @@ fn swinging(motion: ZoneMotion) -> Setup {
 }
 
 fn weak(mut setup: Setup, share: f64) -> Setup {
-    let strength = setup.bonds[0].young * share;
-    (setup.bonds[0].tensile_strength, setup.bonds[0].shear_strength) = (strength, strength);
+    // Of the modulus of these beams.
+    let strength = 1e7 * share;
+    setup.bonds[0].strength = BondStrength::of(strength, strength);
     setup
 }
 

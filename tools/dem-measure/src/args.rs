@@ -17,7 +17,8 @@ const SHAPES: &str = "SHAPE: box:x0,y0,z0,x1,y1,z1 | sphere:x,y,z,r | cylinder:x
     \x20 dem-measure run.mcap --flow 0,0,0.02,0,0,-1 --plot flow.svg -o flow.csv\n\
     \x20 dem-measure run.mcap --porosity box:0,0,0,0.05,0.05,0.02\n\
     \x20 dem-measure run.mcap --wall-force all --wall floor\n\
-    \x20 dem-measure bonded.mcap --bonds --plot bonds.svg";
+    \x20 dem-measure bonded.mcap --bonds --plot bonds.svg\n\
+    \x20 dem-measure crushed.mcap --grading --sieves 0.004,0.008,0.016";
 
 /// Measure a run (MCAP), also while it is still being written; CSV (or JSON) to stdout
 #[derive(Parser, Debug)]
@@ -48,6 +49,15 @@ pub struct Args {
     /// Bonds over time: how many are whole, how many broke and how, and the fragments that they leave
     #[arg(long, group = "measure")]
     pub bonds: bool,
+    /// Each bond that broke: when, where, by what, with what energy
+    #[arg(long, group = "measure")]
+    pub cracks: bool,
+    /// Mass and size of each piece that whole bonds hold together
+    #[arg(long, group = "measure")]
+    pub fragments: bool,
+    /// Share of the mass that passes sieves before and after, by pieces, and Marsal's breakage
+    #[arg(long, group = "measure")]
+    pub grading: bool,
     /// Distribution of contact forces
     #[arg(long, group = "measure")]
     pub forces: bool,
@@ -137,6 +147,9 @@ pub struct Args {
     /// The first kind is grains of this material [segregation]
     #[arg(long, value_name = "MATERIAL", help_heading = "How")]
     pub kind: Option<String>,
+    /// Openings of the sieves [m], the smallest first (default: from the largest piece down by √2) [grading]
+    #[arg(long, value_name = "M,M,…", value_parser = sieves, help_heading = "How")]
+    pub sieves: Option<Sieves>,
     /// Only this wall, by name or index [wall-force, wear]
     #[arg(long, value_name = "WALL", help_heading = "How")]
     pub wall: Option<String>,
@@ -175,7 +188,7 @@ pub enum Bins {
 impl Args {
     /// Refuses options of other measures than the one that is asked for.
     pub fn check(&self, measure: &str) -> anyhow::Result<()> {
-        let options: [(&str, bool, &[&str]); 17] = [
+        let options: [(&str, bool, &[&str]); 18] = [
             ("--up", self.up.is_some(), &["--repose", "--segregation", "--bed-height"]),
             ("--sectors", self.sectors.is_some(), &["--repose"]),
             ("--fractions", self.fractions.is_some(), &["--repose"]),
@@ -192,6 +205,7 @@ impl Args {
             ("--split", self.split.is_some(), &["--segregation"]),
             ("--kind", self.kind.is_some(), &["--segregation"]),
             ("--wall", self.wall.is_some(), &["--wall-force", "--wear"]),
+            ("--sieves", self.sieves.is_some(), &["--grading"]),
             ("--on-walls", self.on_walls, &["--forces"]),
         ];
         for (option, given, of) in options {
@@ -204,6 +218,8 @@ impl Args {
             "--flow",
             "--energy",
             "--bonds",
+            "--cracks",
+            "--grading",
             "--residence",
             "--wall-force",
             "--plane-force",
@@ -250,6 +266,20 @@ fn side(text: &str) -> Result<Vec3, String> {
 
 fn axis(text: &str) -> Result<usize, String> {
     ["x", "y", "z"].iter().position(|name| *name == text).ok_or_else(|| "give x, y or z".into())
+}
+
+/// Openings of sieves [m].
+#[derive(Debug, Clone)]
+pub struct Sieves(pub Vec<f64>);
+
+fn sieves(text: &str) -> Result<Sieves, String> {
+    let list: Option<Vec<f64>> = text.split(',').map(|p| p.trim().parse().ok()).collect();
+    let rises = |all: &Vec<f64>| {
+        all[0] > 0.0 && all.windows(2).all(|w| w[0] < w[1]) && all[all.len() - 1].is_finite()
+    };
+    list.filter(rises)
+        .map(Sieves)
+        .ok_or_else(|| "give openings in metres, the smallest first, such as 0.004,0.008,0.016".into())
 }
 
 fn bins(text: &str) -> Result<Bins, String> {

@@ -5,7 +5,7 @@ use anyhow::{Context, anyhow};
 use cli::usage;
 use geom::{Vec3, shape::Solid};
 use measure::bed::BedHeight;
-use measure::bonds::BondNumbers;
+use measure::bonds::{BondNumbers, CrackList, FragmentList, Grading};
 use measure::coordination::ContactNumbers;
 use measure::energy::Energy;
 use measure::flow::{Flow, FlowOptions};
@@ -52,6 +52,9 @@ pub fn observer(args: &Args) -> anyhow::Result<(&'static str, Box<dyn Observer>)
         }
         (_, "--energy") => Box::new(Energy::new(between)),
         (_, "--bonds") => Box::new(BondNumbers::new(between)),
+        (_, "--cracks") => Box::new(CrackList::new(between)),
+        (_, "--fragments") => Box::new(FragmentList::new(single)),
+        (_, "--grading") => Box::new(Grading::new(series, args.sieves.as_ref().map(|s| s.0.clone()))),
         (_, "--forces") => Box::new(Forces::new(single, args.on_walls)),
         (Args { porosity: Some(given), .. }, _) => {
             let region = Region::new(given.shape.clone(), volume(given)?);
@@ -85,6 +88,9 @@ fn name(args: &Args) -> &'static str {
         ("--segregation", args.segregation),
         ("--energy", args.energy),
         ("--bonds", args.bonds),
+        ("--cracks", args.cracks),
+        ("--fragments", args.fragments),
+        ("--grading", args.grading),
         ("--forces", args.forces),
         ("--porosity", args.porosity.is_some()),
         ("--wall-force", args.wall_force.is_some()),

@@ -10,7 +10,6 @@ use crate::kernel::{StepInputs, Sums, WrenchSlices};
 use crate::model::Model;
 use crate::neighbours::poses::pose_in_box;
 use crate::neighbours::{Computed, NeighbourLists, RestingTile, Slots, TileSlice};
-use crate::passes::bonds::add_bond_forces;
 use crate::passes::integrate::{MoveFlags, ParticleSlices};
 use crate::passes::sleep::advance_awake;
 use crate::passes::stirred::{Movers, Stirred};
@@ -32,7 +31,6 @@ pub struct StepFlags {
 /// Forces of this instant; the wrench of each contact is kept for observers.
 pub fn forces(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> StepFlags {
     let deep = compute(model, state, lists, true);
-    add_bond_forces(model, state);
     let moved = finish(model, state, lists, Second::ARRIVALS);
     StepFlags { deep, moved }
 }
@@ -47,7 +45,6 @@ pub fn forces_and_move(model: &Model, state: &mut State, lists: &mut NeighbourLi
         return step_tile_by_tile(model, state, lists);
     }
     let deep = compute(model, state, lists, false);
-    add_bond_forces(model, state);
     let moved = finish(model, state, lists, Second::BOTH);
     StepFlags { deep, moved }
 }

@@ -4,7 +4,8 @@ use crate::model::contact_check::{contacts, precision};
 use crate::model::in_range::indices;
 use crate::model::limit::largest_reach;
 use crate::model::quantity::material_names;
-use crate::model::{Allowed, BondConflict, Check, SetupError, Subject};
+use crate::model::{Allowed, Check, SetupError, Subject};
+use crate::setup::{Bond, BondKind, BondSprings, BondStrength, Spread};
 use crate::setup::{Drag, DragLaw, Particle, Setup, Sleep, Step, WallShape};
 use geom::{Motion, Vec3};
 use std::collections::HashSet;
@@ -111,20 +112,55 @@ fn bonds(setup: &Setup) -> Result<(), SetupError> {
         let (gap, damping) = (bond.gap, bond.damping);
         check.within("gap", gap, "m", gap >= 0.0 && gap.is_finite(), "gap ≥ 0")?;
         check.positive("radius_ratio", bond.radius_ratio, "[–]")?;
-        check.positive("young", bond.young, "Pa")?;
-        check.positive("shear_modulus", bond.shear_modulus, "Pa")?;
-        let strengths =
-            [("tensile_strength", bond.tensile_strength), ("shear_strength", bond.shear_strength)];
-        for (name, x) in strengths {
-            check.within(name, x, "Pa", x > 0.0, "strengths > 0")?;
-        }
+        bond_springs(bond, &check)?;
+        bond_strength(bond, &check)?;
         check.within("damping", damping, "[–]", (0.0..=2.0).contains(&damping), "0 ≤ damping ≤ 2")?;
     }
-    let conflict = |with| if setup.bonds.is_empty() { Ok(()) } else { Err(SetupError::BondWith(with)) };
-    if !setup.clumps.shapes.is_empty() {
-        conflict(BondConflict::Clumps)?;
+    if setup.sleep.is_some() && !setup.bonds.is_empty() { Err(SetupError::BondsAndSleep) } else { Ok(()) }
+}
+
+fn bond_springs<F: Fn() -> Subject>(bond: &Bond, check: &Check<F>) -> Result<(), SetupError> {
+    let (springs, unit) = match bond.kind {
+        BondKind::Beam { young, shear_modulus } => {
+            check.positive("young", young, "Pa")?;
+            return check.positive("shear_modulus", shear_modulus, "Pa");
+        }
+        BondKind::Parallel { springs, moments } => {
+            check.within("moments", moments, "[–]", (0.0..=1.0).contains(&moments), "0 ≤ moments ≤ 1")?;
+            (springs, "Pa/m")
+        }
+        BondKind::Contact(springs) => (springs, "N/m"),
+    };
+    match springs {
+        BondSprings::Given([normal, shear]) => {
+            check.positive("normal_stiffness", normal, unit)?;
+            check.positive("shear_stiffness", shear, unit)
+        }
+        BondSprings::Modulus { modulus, ratio } => {
+            check.positive("modulus", modulus, "Pa")?;
+            check.positive("stiffness_ratio", ratio, "[–]")
+        }
     }
-    setup.sleep.map_or(Ok(()), |_| conflict(BondConflict::Sleep))
+}
+
+fn bond_strength<F: Fn() -> Subject>(bond: &Bond, check: &Check<F>) -> Result<(), SetupError> {
+    let BondStrength { tension, shear, friction, spread, .. } = bond.strength;
+    for (name, x) in [("tensile_strength", tension), ("shear_strength", shear)] {
+        check.within(name, x, "Pa", x >= 0.0, "strengths ≥ 0")?;
+    }
+    let sloped = friction >= 0.0 && friction.is_finite();
+    check.within("friction_angle", friction, "tan φ", sloped, "0 ≤ tan φ")?;
+    match spread {
+        Spread::None => Ok(()),
+        Spread::Normal { deviation } => {
+            let drawn = (0.0..=1.0).contains(&deviation);
+            check.within("deviation", deviation, "[–]", drawn, "0 ≤ deviation ≤ 1")
+        }
+        Spread::Weibull { modulus, reference_radius } => {
+            check.positive("weibull_modulus", modulus, "[–]")?;
+            reference_radius.map_or(Ok(()), |r| check.positive("reference_radius", r, "m"))
+        }
+    }
 }
 
 fn walls(setup: &Setup) -> Result<(), SetupError> {

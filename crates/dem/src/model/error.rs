@@ -1,9 +1,8 @@
 //! What the engine refuses: each error has its numbers as fields, and says what is wrong; what to do about it is up to the caller.
 
 use crate::model::{OutOfRange, Quantity, StepCause};
-use crate::setup::Precision;
+use crate::setup::{Clusters, Precision};
 use crate::simd::Width;
-use std::fmt::{Display, Formatter};
 use thiserror::Error;
 
 /// Why a setup cannot run.
@@ -133,9 +132,9 @@ pub enum SetupError {
     /// Drag and sleep in one setup.
     #[error("drag does not act on sleeping particles yet")]
     DragAndSleep,
-    /// Bonds in one setup with what they do not follow.
-    #[error("bonds cannot be combined with {0} yet")]
-    BondWith(BondConflict),
+    /// Bonds in one setup with particles that sleep.
+    #[error("bonds cannot be combined with sleep yet")]
+    BondsAndSleep,
     /// A bond without a direction.
     #[error("particles {} and {} have the same centre", ids[0], ids[1])]
     BondOfZeroLength {
@@ -143,12 +142,14 @@ pub enum SetupError {
         ids: [u32; 2],
     },
     /// Bonds of two materials that join no particles.
-    #[error("bond {}–{}: no two particles of these materials are within a gap of {gap:.4e} m at the start", between[0], between[1])]
+    #[error("bond {}–{}: no two particles of these materials{} are within a gap of {gap:.4e} m at the start", between[0], between[1], clusters.said())]
     BondJoinsNothing {
         /// The materials.
         between: [String; 2],
         /// Gap [m].
         gap: f64,
+        /// Which clusters they may be of.
+        clusters: Clusters,
     },
     /// Sleep in a setup with clumps of this shape.
     #[error("clumps (here '{0}') cannot sleep")]
@@ -220,24 +221,6 @@ pub enum SetupError {
 /// Effects with the materials of their contact law: "twisting_resistance (glass–steel)".
 fn effects_between(effects: &[&str], [a, b]: &[String; 2]) -> String {
     format!("{} ({a}–{b})", effects.join(", "))
-}
-
-/// What bonds do not follow yet.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum BondConflict {
-    /// Rigid clumps.
-    Clumps,
-    /// Particles that sleep.
-    Sleep,
-}
-
-impl Display for BondConflict {
-    fn fmt(&self, f: &mut Formatter) -> std::fmt::Result {
-        f.write_str(match self {
-            BondConflict::Clumps => "clumps",
-            BondConflict::Sleep => "sleep",
-        })
-    }
 }
 
 /// How a saved state differs from a setup.

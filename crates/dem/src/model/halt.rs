@@ -1,5 +1,6 @@
 //! Why a run stops: each reason has its numbers as fields, and says what happened; what to do about it is up to the caller.
 
+use crate::model::{BondedParticle, SetupError};
 use geom::Vec3;
 use std::fmt::{Display, Formatter};
 use thiserror::Error;
@@ -145,6 +146,30 @@ pub enum Halt {
         share: f64,
         /// Allowed share [–].
         limit: f64,
+    },
+    /// Bonds that are made during the run are too stiff for its step.
+    #[error(
+        "t = {time:.6e} s: bonds are made that need a time step below {critical:.4e} s (this run has {dt:.4e} s): those of particle {} ({}, \
+         radius {:.4e} m)",
+        particle.id, particle.material, particle.radius
+    )]
+    BondsTooStiff {
+        /// When [s].
+        time: f64,
+        /// Time step [s].
+        dt: f64,
+        /// Critical step with these bonds [s].
+        critical: f64,
+        /// The particle that they join.
+        particle: BondedParticle,
+    },
+    /// Bonds that are made during the run are refused.
+    #[error("t = {time:.6e} s: {error}")]
+    Bonds {
+        /// When [s].
+        time: f64,
+        /// Why.
+        error: Box<SetupError>,
     },
     /// Energy came from nowhere.
     #[error(

@@ -109,12 +109,11 @@ pub fn largest(grains: &[SizeClass]) -> f64 {
     grains.iter().map(|g| g.radius).fold(0.0, f64::max)
 }
 
-/// The critical step of a setup: over every pair of grains that can meet, walls included.
+/// The critical step of contacts alone: over every pair of grains that can meet, walls included.
 ///
 /// # Errors
-/// A pair of materials without a contact law, an index beyond the materials.
-pub fn critical_step(setup: &Setup) -> Result<Limit, SetupError> {
-    indices(setup)?;
+/// A pair of materials without a contact law.
+pub fn critical_of_contacts(setup: &Setup) -> Result<Limit, SetupError> {
     let grains = grains(setup);
     let crowds = DenseWalls::new(setup, largest(&grains));
     let mut limit = Limit { dt: f64::INFINITY, cause: StepCause::default() };
@@ -126,6 +125,16 @@ pub fn critical_step(setup: &Setup) -> Result<Limit, SetupError> {
             tighten(&mut limit, setup, a, Partner::Wall(wall, crowds.on(w, a.radius)))?;
         }
     }
+    Ok(limit)
+}
+
+/// The critical step of a setup.
+///
+/// # Errors
+/// A pair of materials without a contact law, an index beyond the materials, bonds that are refused.
+pub fn critical_step(setup: &Setup) -> Result<Limit, SetupError> {
+    indices(setup)?;
+    let mut limit = critical_of_contacts(setup)?;
     crate::model::bonds::limit::tighten(&mut limit, setup)?;
     if let Some((rate, radius)) = setup.drag.and_then(|d| fastest_drag(&d, setup)) {
         let with = 1.0 / (1.0 / limit.dt + rate);

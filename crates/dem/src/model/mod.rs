@@ -17,10 +17,10 @@ pub mod quantity;
 pub mod start;
 pub mod step_cause;
 
-pub use bonds::beam::{Beam, Ends, Pull};
-pub use bonds::{BondedPair, GONE};
+pub use bonds::springs::{Ends, Pull};
+pub use bonds::{BondedPair, BreakMode, GONE};
 pub use dense_walls::DenseWalls;
-pub use error::{BondConflict, SetupError, StateMismatch};
+pub use error::{SetupError, StateMismatch};
 pub use halt::{Halt, Partner, Stiffer};
 pub use in_range::Check;
 pub use quantity::{Allowed, OutOfRange, Quantity, Subject};
@@ -31,7 +31,7 @@ pub use step_cause::{
 
 use crate::effects::needed;
 use crate::kernel::Kernel;
-use crate::model::limit::largest_reach;
+use crate::model::limit::{critical_of_contacts, largest_reach};
 use crate::model::start::{faster_than_sleep, kinds, mean_radius, servo_gains, slow_enough, time_step};
 use crate::setup::Setup;
 use crate::simd::{Layout, Precision, Width};
@@ -66,6 +66,8 @@ pub struct Model {
     pub mean_radius: f64,
     /// Whether particles turn.
     pub rotates: bool,
+    /// The critical step of contacts alone [s], where bonds are made later.
+    pub contact_step: f64,
 }
 
 /// What the particles of a kind of contact meet.
@@ -121,7 +123,22 @@ impl Model {
         faster_than_sleep(&setup, &walls)?;
         let servo_gains = servo_gains(&setup, dt);
         let rotates = kinds.iter().any(|k| k.kernel.rotates()) || !setup.bonds.is_empty();
-        Ok(Model { setup, dt, reach, skin, width, walls, servo_gains, kinds, horizon, mean_radius, rotates })
+        let later = setup.bonds.iter().any(|law| law.at > 0.0);
+        let contact_step = if later { critical_of_contacts(&setup)?.dt } else { f64::INFINITY };
+        Ok(Model {
+            setup,
+            dt,
+            reach,
+            skin,
+            width,
+            walls,
+            servo_gains,
+            kinds,
+            horizon,
+            mean_radius,
+            rotates,
+            contact_step,
+        })
     }
 
     /// How far ahead in time contacts are looked for, half a step or nothing [s].

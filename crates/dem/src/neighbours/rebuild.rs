@@ -143,6 +143,7 @@ fn list_contacts(model: &Model, state: &mut State, lists: &mut NeighbourLists, s
         let material = |k: u32| state.particles.material[k as usize];
         let mut pairs = pairs(search, &wide, &range);
         state.clumps.drop_own(&mut pairs, |p| *p);
+        state.bonds.drop_replaced(&mut pairs, |p| *p);
         // Those that touch go first: a block of others is passed over as long as none of them comes to touch.
         let (touching, apart): (Vec<_>, Vec<_>) = pairs.into_iter().partition(|p| touch(state, p));
         for (i, j) in touching.into_iter().chain(apart) {
@@ -212,6 +213,7 @@ fn list_images(model: &Model, state: &State, search: &Search) -> Vec<List> {
         search.shifted_pairs(&shift, &mut found);
     }
     state.clumps.drop_own(&mut found, |f| (f.i, f.j));
+    state.bonds.drop_replaced(&mut found, |f| (f.i, f.j));
     found.sort_by_key(|f| (f.i, f.j));
     let class = classes(model, With::Images);
     let mut lists = vec![List::default(); model.kinds.len()];

@@ -4,6 +4,7 @@ use crate::effects::DISSIPATORS;
 use crate::kernel::{LEDGER, LOST};
 use crate::model::Model;
 use crate::neighbours::{NeighbourLists, Slots};
+use crate::passes::bonds::freed_energy;
 use crate::passes::drag::drag_power;
 use crate::passes::instant::driven_now;
 use crate::passes::touching::position_before;
@@ -83,7 +84,7 @@ pub fn close_crossing(model: &Model, state: &mut State, k: usize, taken: f64) {
 pub fn close_step(model: &Model, state: &State, lists: &NeighbourLists, energy: &mut Energy) {
     let mut now = LedgerSums::default();
     now.add(&lists.slots, &state.contacts, &state.zones);
-    now.add_bonds(&state.bonds, model.dt);
+    now.add_bonds(&state.bonds, model.dt, freed_energy(state, lists));
     let sums = state.contacts.sums();
     let free = (0..state.particles.len()).filter(|&k| is_driven(state, k));
     let clumps = state.clumps.driven_now(model, state, &sums).map(|(_, d)| d);
@@ -110,9 +111,10 @@ pub fn add_contacts(model: &Model, state: &mut State, lists: &NeighbourLists) {
     if !model.setup.ledger {
         return;
     }
+    let freed = freed_energy(state, lists);
     let State { ledger, contacts, zones, bonds, .. } = state;
     ledger.add(&lists.slots, contacts, zones);
-    ledger.add_bonds(bonds, model.dt);
+    ledger.add_bonds(bonds, model.dt, freed);
     state.contacts.add_work();
     add_zones(model, state);
 }

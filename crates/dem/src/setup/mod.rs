@@ -3,6 +3,7 @@
 //! [`Setup::default`] is an empty scene with gravity; a contact law is a table of models and numbers under their keys
 //! ([`ContactLaw`]).
 
+pub mod bond;
 pub mod clump_shape;
 pub mod clumps;
 pub mod drag;
@@ -11,6 +12,9 @@ mod kept;
 mod zone;
 
 pub use crate::effects::{ContactHistory, ContactLaw, Material};
+pub use crate::setup::bond::{
+    Bond, BondKind, BondNumbers, BondSprings, BondStrength, Clusters, Spread, cluster_of,
+};
 pub use crate::setup::clump_shape::ClumpShape;
 pub use crate::setup::drag::{Drag, DragLaw};
 pub use crate::simd::number::Precision;
@@ -45,8 +49,10 @@ pub struct Setup {
     pub kept: Vec<KeptContact>,
     /// Rigid clumps; empty where the scene has none.
     pub clumps: Clumps,
-    /// Bonds between particles that are close at t = 0; empty where the scene has none.
+    /// Bonds between particles that are close to each other; empty where the scene has none.
     pub bonds: Vec<Bond>,
+    /// Clusters of particles by id, in their order; those that are not listed have none.
+    pub clusters: Vec<(u32, u32)>,
     /// Bonds that inlets may bring, of which `bonds` is not empty then; `None`: they bring none.
     pub entry_bonds: Option<EntryBonds>,
     /// Walls: they act on particles and are not moved by them.
@@ -94,6 +100,7 @@ impl Default for Setup {
             kept: Vec::new(),
             clumps: Clumps::default(),
             bonds: Vec::new(),
+            clusters: Vec::new(),
             entry_bonds: None,
             walls: Vec::new(),
             outlets: Vec::new(),
@@ -199,28 +206,6 @@ pub struct Body {
     pub velocity: Vec3,
     /// Angular velocity [rad/s].
     pub spin: Vec3,
-}
-
-/// Bonds between the particles of two materials that are close to each other at t = 0: round elastic beams between the centres, as long as these
-/// are apart, with the radius λ min(r_i, r_j). They act beside contacts, until they break.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Bond {
-    /// The two materials, by index, in any order.
-    pub between: (u16, u16),
-    /// Largest gap between two surfaces at t = 0 that is bonded [m].
-    pub gap: f64,
-    /// λ, radius of the beam over the smaller of both [–].
-    pub radius_ratio: f64,
-    /// Young's modulus E of the beam [Pa].
-    pub young: f64,
-    /// Its shear modulus G [Pa].
-    pub shear_modulus: f64,
-    /// σ_c: it breaks at this tension at its rim [Pa]; infinite: never.
-    pub tensile_strength: f64,
-    /// τ_c: it breaks at this shear [Pa]; infinite: never.
-    pub shear_strength: f64,
-    /// γ: dashpots are this share of √(k m*) of the stiffest motion of the two, in proportion to stiffness [–]; 0: none, 2: critical.
-    pub damping: f64,
 }
 
 /// A wall: a shape that moves as one rigid body, as its motion prescribes and by as much as its servo has moved it.

@@ -1,7 +1,7 @@
 //! Planes with regions in which particles move by a prescribed motion, and what passes them.
 
 use crate::effects::ContactHistory;
-use crate::setup::Particle;
+use crate::setup::{BondNumbers, Particle};
 use geom::{Plane, Vec3};
 use nalgebra::UnitQuaternion;
 use serde::{Deserialize, Serialize};
@@ -224,16 +224,8 @@ pub struct CrossingBond {
     pub id: u32,
     /// Id of the other.
     pub partner: u32,
-    /// Direction from `partner` to `id` when they were bonded; how both have turned is counted from then.
-    pub axis: Vec3,
-    /// Length L and radius r at rest [m].
-    pub size: [f64; 2],
-    /// E A/L [N/m], E I/L and G J/L [N·m/rad].
-    pub stiffness: [f64; 3],
-    /// Damping over stiffness [s].
-    pub lag: f64,
-    /// σ_c and τ_c [Pa]; infinite: it never breaks.
-    pub strength: [f64; 2],
+    /// What makes it, of which `id` is the first end.
+    pub bond: BondNumbers,
 }
 
 /// What bonds inlets may bring.

@@ -10,7 +10,7 @@ use crate::passes::clumps::instant::ClumpState;
 use crate::passes::servo::WallForce;
 use crate::passes::{bonds, kept, servo};
 use crate::setup::{KeptContact, Particle};
-use crate::state::{BondState, Energy, Sleepers};
+use crate::state::{BondState, Crack, Energy, Sleepers};
 use geom::Vec3;
 
 impl Simulation {
@@ -127,6 +127,21 @@ impl Simulation {
     pub fn bonds(&mut self) -> Result<Vec<BondState>, Halt> {
         self.ready()?;
         Ok(bonds::bonds(&self.model, &self.state))
+    }
+
+    /// Bonds that broke since the last call, by time.
+    pub fn take_cracks(&mut self) -> Vec<Crack> {
+        bonds::take_cracks(&mut self.state)
+    }
+
+    /// Materials of the bonds that were due and found no pair, since the last call.
+    pub fn take_idle_bonds(&mut self) -> Vec<[String; 2]> {
+        std::mem::take(&mut self.state.bonds.idle)
+    }
+
+    /// Clusters of particles by id, in their order; those that are not listed have none.
+    pub fn clusters(&self) -> &[(u32, u32)] {
+        &self.state.clusters
     }
 
     /// How many bonds there were at the start or have come in, and how many of them have broken.

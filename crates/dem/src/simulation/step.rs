@@ -1,6 +1,6 @@
 //! One time step.
 //!
-//! Forces at time n, the move to n + 1, then everything that acts on what has moved: clumps, servos, the fluid, bonds, zones. Observing
+//! Bonds and forces at time n, the move to n + 1, then everything that acts on what has moved: clumps, servos, the fluid, zones. Observing
 //! a simulation computes forces and moves nothing, so that output changes nothing.
 
 use super::Simulation;
@@ -20,7 +20,7 @@ impl Simulation {
     /// A guard. The state is that of the last whole step; where only this step's forces showed an overlap, of the step itself.
     pub fn step(&mut self) -> Result<(), Halt> {
         let Simulation { model, state, lists } = self;
-        refresh_lists(model, state, lists);
+        refresh_lists(model, state, lists)?;
         // The move needs the acceleration of the step before.
         if !state.starting.is_empty() {
             compute_forces(model, state, lists)?;
@@ -56,7 +56,7 @@ impl Simulation {
     /// Lists neighbours and gives their contacts the histories of an earlier run.
     pub(super) fn restore(&mut self, kept: &[KeptContact]) {
         let Simulation { model, state, lists } = self;
-        refresh_lists(model, state, lists);
+        rebuild::rebuild(model, state, lists);
         kept::restore(model, state, lists, kept);
     }
 
@@ -66,21 +66,24 @@ impl Simulation {
     /// When the state is beyond a guard.
     pub fn ready(&mut self) -> Result<(), Halt> {
         let Simulation { model, state, lists } = self;
-        refresh_lists(model, state, lists);
+        refresh_lists(model, state, lists)?;
         compute_forces(model, state, lists)
     }
 }
 
-/// Inserts what is due, and rebuilds lists that no longer hold.
-fn refresh_lists(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
+/// Inserts and bonds what is due, brings bonds to this instant, and rebuilds lists that no longer hold.
+fn refresh_lists(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> Result<(), Halt> {
     if state.forces == Forces::Known {
-        return;
+        return Ok(());
     }
     zones::enter::insert_due(model, state);
     bonds::zones::insert_due(model, state);
+    bonds::make::make_due(model, state)?;
+    bonds::act(model, state);
     if rebuild::is_due(model, state) {
         rebuild::rebuild(model, state, lists);
     }
+    Ok(())
 }
 
 /// Forces of this instant, where they are not known.

@@ -1,8 +1,8 @@
-//! Bonds: elastic beams between the centres of particles that were close at the start, until they break.
+//! Bonds between the centres of particles, until they break.
 //!
-//! A pass of its own over a list of its own: what bonds do is added to the sums of contacts, particle by particle in the order of the bonds, so that it depends
-//! on no thread. Contacts know nothing of bonds; two that are bonded may touch, and then both act. Bonds are computed in double
-//! precision always. [`beam`] has the law. It needs to know how each end has turned since it was bonded:
+//! A pass of its own over a list of its own ([`crate::passes::bonds`]): what bonds do is added to the sums of contacts, particle by particle in the order of the
+//! bonds, so that it depends on no thread. Bonds are computed in double precision always. [`crate::model::bonds::springs`] has the law. It needs to know how each
+//! end has turned:
 //!
 //! ```text
 //! q ← exp(ω_{n−½} Δt) q,   ω_{n−½} = w*_n − α_{n−1} Δt/2          what [`crate::passes::integrate`] has turned it by
@@ -12,7 +12,7 @@
 //! on the whole. A bond breaks by the stress of an instant, before it acts in it:
 //!
 //! ```text
-//! σ = F_n/A + |M| r/I > σ_c   or   τ = |F_t|/A + |M_t| r/J > τ_c          F_n: tension; M at the worse end; A = π r², I = π r⁴/4, J = 2 I
+//! σ = F_n/A + β |M| r/I > σ_c   or   τ = |F_t|/A + β |M_t| r/J > τ_c − F_n/A tan φ          F_n: tension; A = π r², I = π r⁴/4, J = 2 I
 //! ```
 //!
 //! Potyondy & Cundall (2004), Int. J. Rock Mech. Min. Sci. 41, doi:10.1016/j.ijrmms.2004.09.011, have the strengths and springs by increments; turns of
@@ -21,7 +21,7 @@
 
 use crate::kernel::Sums;
 use crate::model::bonds::find;
-use crate::model::{BondedPair, Ends, Pull, SetupError};
+use crate::model::{BondedPair, BreakMode, Ends, Pull, SetupError};
 use crate::setup::{CrossingBond, Setup};
 use crate::space::sphere::nearest;
 use crate::state::Particles;
@@ -32,7 +32,7 @@ use nalgebra::UnitQuaternion;
 use serde::{Deserialize, Serialize};
 
 /// Bonds, or particles, of one task.
-pub(crate) const CHUNK: usize = 256;
+pub const CHUNK: usize = 256;
 
 /// A bond at one instant, for observers.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,12 +45,37 @@ pub struct BondState {
     pub size: [f64; 2],
     /// When it broke [s]; `None` while it is whole.
     pub broken: Option<f64>,
+    /// What broke it, if it did.
+    pub mode: BreakMode,
     /// Force on the first [N], and moments on both about their centres [N·m].
     pub force: Vec3,
     /// See there.
     pub moments: [Vec3; 2],
     /// Largest tension σ and shear τ [Pa]; of a broken one, those that broke it.
     pub stress: [f64; 2],
+    /// σ_c, and τ_c at the present pressure [Pa].
+    pub strength: [f64; 2],
+}
+
+/// A bond that broke.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Crack {
+    /// When [s].
+    pub time: f64,
+    /// Ids of both particles, the lower first.
+    pub ids: [u32; 2],
+    /// Their clusters; 0: none.
+    pub clusters: [u32; 2],
+    /// Where: half-way between both centres [m].
+    pub place: Vec3,
+    /// Along the bond, from the second to the first [–].
+    pub normal: Vec3,
+    /// Radius of the bond [m].
+    pub radius: f64,
+    /// What broke it.
+    pub mode: BreakMode,
+    /// Elastic energy that it held [J].
+    pub energy: f64,
 }
 
 /// All bonds of a simulation.
@@ -66,6 +91,16 @@ pub struct Bonds {
     pub(crate) turns: Vec<UnitQuaternion<f64>>,
     /// Energy of those that broke at this instant [J].
     pub(crate) lost: f64,
+    /// Step at whose instant they broke.
+    pub(crate) at: Option<u64>,
+    /// Ids of those that broke at this instant and are in contact from now on.
+    pub(crate) freed: Vec<[u32; 2]>,
+    /// Those that broke since they were asked for.
+    pub(crate) cracks: Vec<Crack>,
+    /// Laws whose bonds are not made yet, by index.
+    pub(crate) due: Vec<u32>,
+    /// Materials of laws that have joined nothing when their time came.
+    pub(crate) idle: Vec<[String; 2]>,
     /// Of those that have left: how many, and how many of them were broken.
     pub(crate) left: [usize; 2],
     /// Of two that come in, one of which is not here yet.
@@ -89,6 +124,7 @@ impl Bonds {
             return Ok(bonds);
         }
         bonds.pairs = find::bonded_pairs(setup)?;
+        bonds.due = (0..).zip(&setup.bonds).filter(|(_, law)| law.at > 0.0).map(|(n, _)| n).collect();
         bonds.pulls = vec![Pull::default(); bonds.pairs.len()];
         bonds.turns = vec![UnitQuaternion::identity(); particles.len()];
         bonds.index(&particles.id);
@@ -181,23 +217,20 @@ impl Bonds {
         });
     }
 
-    /// What all bonds do, at a time [s]; those that break do nothing any more. None breaks while both of its particles are in zones (`prescribed`), where nothing acts on them.
-    pub(crate) fn pull(&mut self, particles: &Particles, period: &Vec3, (time, prescribed): (f64, &[bool])) {
-        let (pairs, turns) = (&self.pairs, &self.turns);
-        let pulls = self.pulls.chunks_mut(CHUNK).zip(pairs.chunks(CHUNK));
-        share(pairs.len() >= FEW / 4, pulls.collect(), |(pulls, pairs)| {
-            for (pull, pair) in pulls.iter_mut().zip(pairs).filter(|(_, pair)| pair.is_whole()) {
-                *pull = pair.beam.pull(&pair.ends(particles, turns, period));
-            }
-        });
-        self.lost = 0.0;
-        for (pull, pair) in self.pulls.iter_mut().zip(&mut self.pairs).filter(|(_, pair)| pair.is_whole()) {
-            let travel = pair.ends.iter().all(|&k| prescribed.get(k as usize) == Some(&true));
-            if !travel && pull.stress.iter().zip(pair.strength).any(|(&now, most)| now > most) {
-                pair.broken = time;
-                self.lost += pull.elastic;
-                *pull = Pull { stress: pull.stress, ..Pull::default() };
-            }
+    /// Whether particles in these rows are bonded.
+    pub fn joins(&self, rows: [u32; 2], of: impl Fn(&BondedPair) -> bool) -> bool {
+        let k = rows[0] as usize;
+        self.entries[self.starts[k] as usize..self.starts[k + 1] as usize].iter().any(|&entry| {
+            let pair = &self.pairs[(entry >> 1) as usize];
+            pair.ends[1 - (entry & 1) as usize] == rows[1] && pair.is_whole() && of(pair)
+        })
+    }
+
+    /// Takes the pairs out of a list that are not in contact as long as their bonds hold.
+    pub fn drop_replaced<T>(&self, list: &mut Vec<T>, rows: impl Fn(&T) -> (u32, u32)) {
+        if self.pairs.iter().any(|pair| pair.springs.numbers.replaces_contact) {
+            let replaced = |(i, j)| self.joins([i, j], |pair| pair.springs.numbers.replaces_contact);
+            list.retain(|item| !replaced(rows(item)));
         }
     }
 
@@ -222,7 +255,7 @@ impl BondedPair {
             arm: nearest(particles.position(i) - particles.position(j), period),
             velocity: particles.rows[i].velocity() - particles.rows[j].velocity(),
             spin: [i, j].map(|k| particles.spins[k].vector()),
-            turn: [turns[i], turns[j]],
+            turn: [turns[i] * self.springs.numbers.reference, turns[j]],
         }
     }
 }

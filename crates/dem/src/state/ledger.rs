@@ -82,11 +82,11 @@ impl DrivenBody {
 }
 
 impl LedgerSums {
-    /// Adds what bonds take in a step of `dt` [s].
-    pub fn add_bonds(&mut self, bonds: &Bonds, dt: f64) {
+    /// Adds what bonds take in a step of `dt` [s]; what the contacts hold that take their place, `freed` [J], is not lost.
+    pub fn add_bonds(&mut self, bonds: &Bonds, dt: f64, freed: f64) {
         let [power, lost] = bonds.dissipated();
         self.bonds += power * dt;
-        self.broken += lost;
+        self.broken += lost - freed;
     }
 
     /// What has gone, less what walls brought.

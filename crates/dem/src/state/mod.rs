@@ -16,7 +16,7 @@ pub mod sleepers;
 pub mod zone_particle;
 pub mod zones;
 
-pub use bonds::{BondState, Bonds};
+pub use bonds::{BondState, Bonds, Crack};
 pub use clump::ClumpMotion;
 pub use clumps::{FREE, RigidClumps};
 pub use contacts::{ContactColumns, SavedColumns, WrenchColumns};
@@ -54,6 +54,8 @@ pub struct State {
     pub clumps: RigidClumps,
     /// Bonds.
     pub bonds: Bonds,
+    /// Clusters of particles by id, in their order.
+    pub clusters: Vec<(u32, u32)>,
     /// Particles that sleep, where the setup asks for it.
     pub sleepers: Option<Sleepers>,
     /// Servos, by wall; empty where no wall follows a force.
@@ -128,6 +130,7 @@ impl State {
             zones: Zones::new(setup, &particles),
             clumps,
             bonds,
+            clusters: setup.clusters.clone(),
             sleepers,
             servos: servos(setup),
             ledger: LedgerSums::default(),
@@ -148,6 +151,7 @@ impl State {
             zones: self.zones.clone(),
             clumps: self.clumps.clone(),
             bonds: self.bonds.clone(),
+            clusters: self.clusters.clone(),
             sleepers: self.sleepers.clone(),
             servos: self.servos.clone(),
             ledger: self.ledger,

@@ -48,12 +48,15 @@ fn root(parent: &mut [usize], mut k: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bonds::Break;
 
     #[test]
     fn a_chain_that_breaks_leaves_its_pieces() {
         let chain = |broken: &[u64]| -> Vec<Bond> {
             let at = |k: u64| broken.contains(&k).then_some(0.5);
-            (0..9).map(|k| Bond { grains: [k, k + 1], stress: [0.0; 2], broken: at(k) }).collect()
+            (0..9)
+                .map(|k| Bond { grains: [k, k + 1], stress: [0.0; 2], broken: at(k), by: Break::Tension })
+                .collect()
         };
         let of = |broken: &[u64]| Fragments::of(&chain(broken));
         assert_eq!(of(&[]), Fragments { count: 1, largest: 10 });

@@ -1,23 +1,13 @@
 //! The bonds of a run over time.
 
-use super::{Bond, Bonds, Fragments};
+use super::{Bonds, Fragments, NO_BONDS};
 use crate::observer::{Observer, Which};
 use crate::sheet::{Chart, Head, Row, Summary};
-use crate::{BondStrength, Frame, MeasureError, Run, RunMessage};
-use std::collections::HashMap;
-
-/// A run without bonds.
-const NO_BONDS: MeasureError = MeasureError::Channel {
-    topic: record::topic::BONDS,
-    what: "bonds",
-    cure: "give a run whose scene has a [[bond]] that joins grains",
-};
+use crate::{MeasureError, Run, RunMessage};
 
 /// Counts bonds.
 pub struct BondNumbers {
     which: Which,
-    /// Index of the material of each grain, by id.
-    materials: HashMap<u64, u16>,
     /// Time of the frame before [s].
     before: Option<f64>,
     /// Bonds of the frame before, and how many went since with their grains.
@@ -34,7 +24,6 @@ impl BondNumbers {
     pub fn new((from, until): (f64, f64)) -> BondNumbers {
         BondNumbers {
             which: Which::Between(from, until),
-            materials: HashMap::new(),
             before: None,
             bonds: 0,
             gone: 0,
@@ -44,29 +33,14 @@ impl BondNumbers {
         }
     }
 
-    fn take_materials(&mut self, frame: &Frame) {
-        self.materials.clear();
-        self.materials.extend(frame.id.iter().copied().zip(frame.material.iter().copied()));
-    }
-
-    fn law<'r>(&self, run: &'r Run, bond: &Bond) -> Option<&'r BondStrength> {
-        let name = |id: u64| run.materials.get(usize::from(*self.materials.get(&id)?));
-        let [a, b] = bond.grains.map(name);
-        let (a, b) = (a?, b?);
-        run.bonds.iter().find(|law| {
-            let [first, second] = &law.between;
-            (first, second) == (a, b) || (first, second) == (b, a)
-        })
-    }
-
-    fn row(&mut self, run: &Run, bonds: &Bonds) -> Row {
+    fn row(&mut self, bonds: &Bonds) -> Row {
         let (mut by, mut since, mut largest) = ([0u64; 3], 0u64, [0.0f64; 2]);
         for bond in &bonds.rows {
             let Some(at) = bond.broken else {
                 largest = [0, 1].map(|k| largest[k].max(bond.stress[k]));
                 continue;
             };
-            by[bond.break_by(self.law(run, bond)) as usize] += 1;
+            by[bond.by as usize] += 1;
             since += u64::from(self.before.is_none_or(|before| at > before));
             self.first_break = self.first_break.min(at);
         }
@@ -102,13 +76,12 @@ impl Observer for BondNumbers {
         ])
     }
 
-    fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+    fn observe(&mut self, _: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
         match message {
-            RunMessage::Frame(frame) => self.take_materials(&frame),
             RunMessage::Bonds(bonds) => {
                 self.span = Some((self.span.map_or(bonds.time, |s| s.0), bonds.time));
                 if self.which.holds(bonds.time) {
-                    let row = self.row(run, &bonds);
+                    let row = self.row(&bonds);
                     self.last = Some(row.clone());
                     rows.push(row);
                 }
@@ -130,8 +103,7 @@ impl Observer for BondNumbers {
             .with("largest_fragment", "1", last[9])
             .with("first_break", "s", self.first_break)
             .with("time", "s", last[0]);
-        let unknown =
-            format!("how {} bonds broke is unknown: the scene names no strength that they reach", last[6]);
+        let unknown = format!("how {} bonds broke is unknown: the run does not say it", last[6]);
         let gone = format!("{} bonds left the run with their grains and count no more", self.gone);
         let summary = if last[6] > 0.0 { summary.note(unknown) } else { summary };
         Ok(if self.gone > 0 { summary.note(gone) } else { summary })

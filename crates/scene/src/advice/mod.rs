@@ -56,6 +56,8 @@ pub fn explain_halt(halt: &Halt) -> String {
              grains get there by another way"
         }
         Halt::TooFast { .. } => "shorten dt, or raise guards.motion",
+        Halt::BondsTooStiff { .. } => "shorten dt (time.safety), or use softer or thinner bonds",
+        Halt::Bonds { .. } => "move one of them",
         Halt::Energy { .. } => "shorten dt (time.safety) or raise guards.energy",
     };
     format!("{halt}: {advice}")

@@ -1,7 +1,7 @@
 //! What to change in a scene whose setup the engine refuses.
 
 use crate::error::shown;
-use dem::{Allowed, BondConflict, OutOfRange, Quantity, SetupError, StepCause, Subject};
+use dem::{Allowed, OutOfRange, Quantity, SetupError, StepCause, Subject};
 
 /// How much longer than what it must hold a zone should be [–].
 const MARGIN: f64 = 1.2;
@@ -48,8 +48,7 @@ fn statement(error: &SetupError) -> String {
             format!("precision: \"{}\" has no {} ({a}–{b})", precision.name(), effects.join(", "))
         }
         SetupError::DragAndSleep => "drag: not available yet with [sleep]".to_owned(),
-        SetupError::BondWith(BondConflict::Clumps) => "bond: not available yet with clumps".to_owned(),
-        SetupError::BondWith(BondConflict::Sleep) => "bond: not available yet with [sleep]".to_owned(),
+        SetupError::BondsAndSleep => "bond: not available yet with [sleep]".to_owned(),
         SetupError::BondOfZeroLength { .. } => format!("bond: {error}"),
         SetupError::WallSlowerThanSleep { wall, speed, sleep, .. } => format!(
             "sleep.speed: {sleep:.4e} m/s is above half the speed of wall '{wall}', {speed:.4e} m/s: grains that it carries would fall asleep"
@@ -102,7 +101,7 @@ fn remedy(error: &SetupError) -> Option<String> {
         SetupError::BehindPlane { .. } => "move it to the side that the plane's normal points to",
         SetupError::ClumpOutlet(_) => "use test = \"centre\" in [[outlet]]",
         SetupError::PrecisionWithout { .. } => "leave the key out for double precision, or that effect",
-        SetupError::DragAndSleep | SetupError::BondWith(_) => "leave out one of them",
+        SetupError::DragAndSleep | SetupError::BondsAndSleep => "leave out one of them",
         SetupError::BondOfZeroLength { .. } => "move one of them",
         SetupError::BondJoinsNothing { .. } => "give a larger gap, or leave it out",
         SetupError::ClumpSleep(_) => "leave out [sleep], or use spheres",

@@ -1,7 +1,7 @@
 //! Every error of the engine: its own text states a fact; the scene's adds the key and the remedy.
 
 use super::{explain_halt, explain_setup_error};
-use dem::setup::Precision;
+use dem::setup::{Clusters, Precision};
 use dem::simd::Width;
 use dem::*;
 
@@ -121,10 +121,10 @@ fn errors_of_bonds_sleep_and_resumes() -> Vec<Advice<SetupError>> {
     vec![
         (SetupError::DragAndSleep, &["drag", "[sleep]", "leave out one of them"]),
         (SetupError::ClumpSleep("block".to_owned()), &["sleep", "'block'", "leave out [sleep]"]),
-        (SetupError::BondWith(BondConflict::Sleep), &["bond", "[sleep]", "leave out one of them"]),
+        (SetupError::BondsAndSleep, &["bond", "[sleep]", "leave out one of them"]),
         (SetupError::BondOfZeroLength { ids: [7, 8] }, &["bond: particles 7 and 8", "move one"]),
         (
-            SetupError::BondJoinsNothing { between: pair(), gap: 1e-3 },
+            SetupError::BondJoinsNothing { between: pair(), gap: 1e-3, clusters: Clusters::Same },
             &["bond glass–steel", "1.0000e-3 m", "larger gap"],
         ),
         (
@@ -174,7 +174,7 @@ fn setup_error_number(error: &SetupError) -> usize {
         SetupError::ClumpOutlet(_) => 20,
         SetupError::DragAndSleep => 21,
         SetupError::ClumpSleep(_) => 22,
-        SetupError::BondWith(_) => 23,
+        SetupError::BondsAndSleep => 23,
         SetupError::BondOfZeroLength { .. } => 24,
         SetupError::BondJoinsNothing { .. } => 25,
         SetupError::OtherState(_) => 26,
@@ -207,6 +207,19 @@ fn halts() -> Vec<Advice<Halt>> {
             &["9.0000e0 m/s", "guards.motion"],
         ),
         (Halt::Energy { time, made: 1.0, of: 2.0, limit }, &["50.00 %", "guards.energy"]),
+        (
+            Halt::BondsTooStiff {
+                time,
+                dt: 0.1,
+                critical: 0.01,
+                particle: BondedParticle { id, material: "rock".to_owned(), radius: 0.1 },
+            },
+            &["particle 7 (rock", "1.0000e-2 s", "shorten dt"],
+        ),
+        (
+            Halt::Bonds { time, error: Box::new(SetupError::BondOfZeroLength { ids: [7, 8] }) },
+            &["particles 7 and 8", "move one"],
+        ),
     ]
 }
 
@@ -221,6 +234,8 @@ fn halt_number(halt: &Halt) -> usize {
         Halt::CameBack { .. } => 6,
         Halt::TooFast { .. } => 7,
         Halt::Energy { .. } => 8,
+        Halt::BondsTooStiff { .. } => 9,
+        Halt::Bonds { .. } => 10,
     }
 }
 

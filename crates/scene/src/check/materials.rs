@@ -1,4 +1,4 @@
-//! Checks of `[[material]]` and `[[bond]]`.
+//! Checks of `[[material]]`.
 
 use super::Check;
 use crate::error::Result;
@@ -19,20 +19,6 @@ impl Check<'_> {
             self.positive(&key("density"), material.density, "kg/m³")?;
             self.positive(&key("young"), material.young, "Pa")?;
             self.poisson(&key("poisson"), material.poisson)?;
-        }
-        Ok(())
-    }
-
-    pub(super) fn bonds(&self, m: &SceneKeys) -> Result<()> {
-        for (i, b) in m.bond.iter().enumerate() {
-            let key = |k: &str| format!("bond.{i}.{k}");
-            self.within(&key("gap"), b.gap, 0.0, 100.0, "m")?;
-            self.positive(&key("radius_ratio"), b.radius_ratio, "")?;
-            self.positive(&key("young"), b.young, "Pa")?;
-            self.poisson(&key("poisson"), b.poisson)?;
-            self.positive(&key("tensile_strength"), b.tensile_strength, "Pa")?;
-            self.positive(&key("shear_strength"), b.shear_strength, "Pa")?;
-            self.within(&key("damping"), b.damping.unwrap_or(0.0), 0.0, 2.0, "")?;
         }
         Ok(())
     }

@@ -3,6 +3,7 @@
 //! [`Check`] holds the rules that many keys share (above 0, within a range, one of several keys); each file here checks the tables of one
 //! kind. A refused value names key, value, unit and cure ([`crate::error::ValueError`]). Uses the text for places in it, and the keys.
 
+mod bonds;
 mod calculation;
 mod clumps;
 mod contacts;

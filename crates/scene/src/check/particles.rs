@@ -10,6 +10,10 @@ impl Check<'_> {
     pub(super) fn particles(&self, m: &SceneKeys) -> Result<()> {
         for (i, p) in m.particles.iter().enumerate() {
             self.lengths(&format!("particles.{i}"), p.scale, p.units.as_deref())?;
+            if p.cluster.is_some() && (p.fixed || p.clump.is_some()) {
+                let why = "only spheres that move are bonded";
+                return Err(self.wrong(&format!("particles.{i}.cluster"), "(given)", why, "take it out"));
+            }
             let Some(clump) = p.clump.as_ref().filter(|_| p.fixed) else { continue };
             let why = format!("grains of a clump ({clump}) cannot be fixed");
             let cure = "take it out, or give spheres as wall spheres ([[wall]] source)";
@@ -31,7 +35,19 @@ impl Check<'_> {
         };
         self.particle(entry, &given)?;
         self.amount(entry, f.mass, f.count)?;
-        self.one_of(entry, &[("mass", f.mass.is_some()), ("count", f.count.is_some())])?;
+        let amounts =
+            [("mass", f.mass.is_some()), ("count", f.count.is_some()), ("lattice", f.lattice.is_some())];
+        self.one_of(entry, &amounts)?;
+        if f.clump.is_some() && f.cluster.is_some() {
+            let (why, cure) = ("rigid clumps are not bonded", "take it out, or place spheres");
+            return Err(self.wrong(&key("cluster"), "(given)", why, cure));
+        }
+        if f.lattice.is_some()
+            && (f.clump.is_some() || f.sizes.is_some() || f.diameter.low != f.diameter.high)
+        {
+            let (why, cure) = ("a lattice is made of equal spheres", "give one 'diameter'");
+            return Err(self.wrong(&key("lattice"), "(given)", why, cure));
+        }
         self.finite(&key("velocity"), &f.velocity, "m/s")
     }
 

@@ -4,7 +4,7 @@ use super::csv::csv;
 use crate::error::{Result, SceneError};
 use dem::setup::{KeptContact, Particle};
 use geom::Shown;
-use record::column::{BODY, DIAMETER, ID, MATERIAL, POSITION, RADIUS, SPIN, VELOCITY};
+use record::column::{BODY, CLUSTER, DIAMETER, ID, MATERIAL, POSITION, RADIUS, SPIN, VELOCITY};
 use record::{Columns, LogMessage, MaterialRecord, WallRecord, metadata, topic};
 use std::path::Path;
 use stream::mcap::{Event, Reader};
@@ -17,6 +17,8 @@ pub struct ParticleFile {
     pub particles: Vec<Particle>,
     /// Whether the file has ids.
     pub has_ids: bool,
+    /// Cluster of each; `None` where the file has none.
+    pub clusters: Option<Vec<u32>>,
     /// The materials that the file names.
     pub materials: Vec<MaterialRecord>,
     /// SHA-256 of the columns.
@@ -87,6 +89,7 @@ impl ParticleTable {
         let radii = columns.radii()?;
         let (velocities, spins) = (columns.vectors_or_zero(VELOCITY)?, columns.vectors_or_zero(SPIN)?);
         let ids = columns.indices(ID, f64::from(u32::MAX - 1))?;
+        let clusters = columns.indices(CLUSTER, f64::from(u32::MAX))?;
         let material = match self.materials.len() {
             0 => None,
             count => columns.indices(MATERIAL, count as f64 - 1.0)?,
@@ -111,14 +114,15 @@ impl ParticleTable {
         };
         let hash = record::hash(&self.table);
         let has_ids = ids.is_some();
-        Ok(ParticleFile { particles, has_ids, materials: self.materials, hash, warning, kept: self.kept })
+        let (materials, kept) = (self.materials, self.kept);
+        Ok(ParticleFile { particles, has_ids, clusters, materials, hash, warning, kept })
     }
 }
 
 /// Columns of a CSV or PLY that are read.
 fn known() -> Vec<&'static str> {
     let sizes: &[&str] = &[RADIUS, DIAMETER];
-    [&[ID], &POSITION[..], sizes, &VELOCITY, &SPIN].concat()
+    [&[ID], &POSITION[..], sizes, &VELOCITY, &SPIN, &[CLUSTER]].concat()
 }
 
 impl ParticleFile {
@@ -195,7 +199,8 @@ mod tests {
         let found = file("pl.csv", b"x,y,z,radius,vz,wy,v_z\n0,1,2,0.5,-3,4,5\n").unwrap();
         let (velocity, spin) = (found.particles[0].velocity, found.particles[0].spin);
         assert_eq!((velocity.x, velocity.z, spin.y, spin.z), (0.0, -3.0, 4.0, 0.0));
-        let note = "pl.csv: column 'v_z' is not used; known: id x y z radius diameter vx vy vz wx wy wz";
+        let note =
+            "pl.csv: column 'v_z' is not used; known: id x y z radius diameter vx vy vz wx wy wz cluster";
         assert_eq!(found.warning.as_deref(), Some(note));
         for (text, part) in
             [("1,2,3", "names is missing"), ("x,y\n1", "line 2: 1 numbers"), ("x\na", "'a' is not a number")]

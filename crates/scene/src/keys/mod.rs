@@ -2,6 +2,7 @@
 //!
 //! Serde reads them ([`crate::text`]), [`crate::check`] checks their values, [`crate::plan`] turns them into a setup of the engine.
 
+mod bond;
 mod calculation;
 mod contact;
 mod contact_keys;
@@ -11,6 +12,7 @@ mod particles;
 mod unit;
 mod wall;
 
+pub use bond::*;
 pub use calculation::*;
 pub use contact::*;
 pub use particles::*;

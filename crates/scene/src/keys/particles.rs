@@ -124,6 +124,20 @@ pub struct Fill {
     /// Seed of the random numbers.
     #[serde(default)]
     pub seed: u64,
+    /// Cluster of all its spheres; absent: none.
+    pub cluster: Option<u32>,
+    /// Spheres on a lattice, as many as fit, instead of `count` or `mass` at random.
+    pub lattice: Option<Lattice>,
+}
+
+/// Lattices of equal spheres that touch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Lattice {
+    /// Six neighbours.
+    Cubic,
+    /// Twelve neighbours: layers of hexagons (hexagonal close packing).
+    Hexagonal,
 }
 
 impl Fill {
@@ -151,6 +165,8 @@ pub struct Particles {
     pub scale: Option<f64>,
     /// Unit of the lengths in the file, such as "mm"; absent: metres.
     pub units: Option<String>,
+    /// Cluster of all; absent: that of each row, if the file has them.
+    pub cluster: Option<u32>,
 }
 
 impl Particles {

@@ -56,6 +56,8 @@ pub(super) struct PlanBuilder<'a> {
     pub scene: &'a Scene,
     pub materials: Vec<setup::Material>,
     pub particles: Vec<Particle>,
+    /// Clusters by id.
+    pub clusters: Vec<(u32, u32)>,
     pub clumps: setup::Clumps,
     pub walls: Vec<setup::Wall>,
     pub wall_materials: Vec<WallMaterial>,
@@ -90,6 +92,7 @@ impl<'a> PlanBuilder<'a> {
             scene,
             materials: scene.keys.material.iter().map(material).collect(),
             particles: Vec::new(),
+            clusters: Vec::new(),
             clumps: setup::Clumps::default(),
             walls: Vec::new(),
             wall_materials: Vec::new(),

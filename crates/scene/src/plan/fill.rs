@@ -5,13 +5,14 @@
 //! it only by the space they left.
 
 use super::builder::PlanBuilder;
+use super::crystal;
 use super::grading::{Grading, Grain};
 use super::lattice;
 use super::packing::{Packing, bounds};
 use super::random::{diameter, generator};
 use super::sizes::GrainKeys;
 use crate::error::Result;
-use crate::keys::{Diameter, Fill};
+use crate::keys::{Diameter, Fill, Lattice};
 use dem::setup::Particle;
 use geom::{Shape, Vec3};
 use rand_pcg::Pcg64Mcg;
@@ -31,10 +32,15 @@ impl PlanBuilder<'_> {
         let key = |k: &str| format!("fill.{index}.{k}");
         let grading = self.grading(&entry.sized(index))?;
         let Some(corners) = bounds(shape) else {
-            let why = "cannot be filled: only box, sphere and cylinder (without '!') can";
+            let why =
+                "cannot be filled: only box, sphere, cylinder, cone and a closed mesh (without '!') can";
             let cure = "use one of these, or [[particles]] from a file";
             return Err(self.check.wrong(&key("shape"), &entry.shape, why, cure));
         };
+        if let Some(lattice) = entry.lattice {
+            let material = self.grain(&key("material"), &entry.material)?.index;
+            return self.fill_lattice(index, entry, (shape, corners), (lattice, material));
+        }
         let largest = grading.range().high / 2.0;
         let mut random = generator(entry.seed, 1, index as u64);
         let mut grains = self.grains_of(index, entry, grading, &mut random)?;
@@ -52,17 +58,45 @@ impl PlanBuilder<'_> {
             let why = format!("only {n} of {count} particles ({fits:.4} of {of:.4} kg) fit without touching");
             self.check.wrong(&key("shape"), &entry.shape, &why, LARGER)
         })?;
-        let (velocity, spin) = (Vec3::from(entry.velocity), Vec3::zeros());
-        let spheres = (0u32..).zip(grains).zip(places);
-        self.particles.extend(spheres.map(|((n, grain), position)| Particle {
-            id: first_id.wrapping_add(n),
-            material: grain.material,
-            radius: grain.diameter / 2.0,
-            position,
-            velocity,
-            spin,
-        }));
+        self.place(entry, first_id, grains.iter().map(|g| (g.material, g.diameter)).zip(places));
         Ok(())
+    }
+
+    /// Spheres on all sites of a lattice.
+    fn fill_lattice(
+        &mut self,
+        index: usize,
+        entry: &Fill,
+        (shape, corners): (&Shape, (Vec3, Vec3)),
+        (lattice, material): (Lattice, u16),
+    ) -> Result<()> {
+        let (first_id, taken, diameter) = (self.next_id(), self.spheres(), entry.diameter.high);
+        let places = crystal::places(shape, corners, (lattice, diameter), &taken, MOST);
+        drop(taken);
+        let key = |k: &str| format!("fill.{index}.{k}");
+        let places = places.map_err(|sites| {
+            let (why, cure) =
+                (format!("makes {sites:.3e} sites, more than fifty million"), "give larger spheres");
+            self.check.wrong(&key("diameter"), format!("{diameter} m"), &why, cure)
+        })?;
+        if places.is_empty() {
+            let (why, cure) = ("no sphere fits into it", "make the shape larger, or the spheres smaller");
+            return Err(self.check.wrong(&key("shape"), &entry.shape, why, cure));
+        }
+        self.place(entry, first_id, places.into_iter().map(|place| ((material, diameter), place)));
+        Ok(())
+    }
+
+    /// Adds spheres of a material and a diameter [m] each.
+    fn place(&mut self, entry: &Fill, first_id: u32, spheres: impl Iterator<Item = ((u16, f64), Vec3)>) {
+        let (velocity, spin) = (Vec3::from(entry.velocity), Vec3::zeros());
+        for (n, ((material, diameter), position)) in (0u32..).zip(spheres) {
+            let id = first_id.wrapping_add(n);
+            if let Some(cluster) = entry.cluster.filter(|c| *c > 0) {
+                self.clusters.push((id, cluster));
+            }
+            self.particles.push(Particle { id, material, radius: diameter / 2.0, position, velocity, spin });
+        }
     }
 
     /// The grains, in random order.

@@ -10,6 +10,7 @@ mod builder;
 mod clump_placement;
 mod clump_shapes;
 mod contacts;
+mod crystal;
 mod feed;
 mod fill;
 mod grading;

@@ -25,7 +25,8 @@ pub fn bounds(shape: &Shape) -> Option<(Vec3, Vec3)> {
             let reach = |r: &f64| axis.map(|c| r * (1.0 - c * c).max(0.0).sqrt());
             Some(((a - reach(ra)).inf(&(b - reach(rb))), (a + reach(ra)).sup(&(b + reach(rb)))))
         }
-        Solid::Halfspace(_) | Solid::Prism(_) | Solid::Mesh(_) => None,
+        Solid::Mesh(inside) => Some(inside.bounds()),
+        Solid::Halfspace(_) | Solid::Prism(_) => None,
     }
 }
 
@@ -50,6 +51,7 @@ pub(super) fn holds(shape: &Shape, centre: &Vec3, radius: f64) -> bool {
             let room = ra + slope * along - radius * (1.0 + slope * slope).sqrt();
             (radius..=length - radius).contains(&along) && out <= room
         }
+        (Solid::Mesh(inside), false) => inside.contains(centre) && inside.distance(centre) >= radius,
         _ => shape.contains(centre),
     }
 }

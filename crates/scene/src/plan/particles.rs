@@ -64,9 +64,14 @@ impl PlanBuilder<'_> {
             self.read.kept.push(file.kept);
         }
         let first = self.next_id();
+        let of_row = |n: usize| file.clusters.as_ref().map_or(0, |all| all[n]);
         for (n, mut p) in file.particles.into_iter().enumerate() {
             p.material = materials[if entry.material.is_some() { 0 } else { p.material as usize }];
             p.id = if file.has_ids { p.id } else { first.wrapping_add(n as u32) };
+            let cluster = entry.cluster.unwrap_or_else(|| of_row(n));
+            if cluster > 0 {
+                self.clusters.push((p.id, cluster));
+            }
             self.particles.push(p);
         }
         Ok(())

@@ -1,29 +1,10 @@
-//! Random numbers of a scene: a stream for each thing that is placed, the same on every machine.
+//! Random numbers of a scene.
 
 use crate::keys::Diameter;
+pub(super) use geom::random::{generator, unit};
 use nalgebra::{Quaternion, UnitQuaternion};
-use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use std::f64::consts::TAU;
-
-/// A generator for one entry of a scene: `kind` and `index` keep streams of one seed apart.
-pub(super) fn generator(seed: u64, kind: u64, index: u64) -> Pcg64Mcg {
-    let mut state = seed ^ kind.rotate_left(32) ^ index.rotate_left(48);
-    let mut next = || {
-        // SplitMix64 (Steele, Lea & Flood 2014, doi:10.1145/2660193.2660195).
-        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let a = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let b = (a ^ (a >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        b ^ (b >> 31)
-    };
-    let (low, high) = (u128::from(next()), u128::from(next()));
-    Pcg64Mcg::from_seed((low | high << 64).to_le_bytes())
-}
-
-/// A number in [0, 1), from the highest 53 bits: portable, and free of the details of `rand`.
-pub(super) fn unit(random: &mut Pcg64Mcg) -> f64 {
-    (random.next_u64() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
-}
 
 /// A diameter of the range [m].
 pub(super) fn diameter(range: Diameter, random: &mut Pcg64Mcg) -> f64 {

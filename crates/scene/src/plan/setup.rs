@@ -23,6 +23,7 @@ impl PlanBuilder<'_> {
         self.entry_materials.sort_unstable();
         self.entry_materials.dedup();
         let kept = self.kept();
+        self.clusters.sort_unstable();
         let setup = Setup {
             kept,
             gravity: Vec3::from(keys.gravity),
@@ -51,6 +52,7 @@ impl PlanBuilder<'_> {
             particles: self.particles,
             clumps: self.clumps,
             bonds,
+            clusters: self.clusters,
             entry_bonds: self.entry_bonds,
             walls: self.walls,
             outlets: self.outlets,

@@ -1,59 +1,120 @@
-//! Which particles are bonded at the start.
+//! Which particles are bonded.
 
-use crate::model::bonds::motions::frequency;
+use crate::model::bonds::kinds::{End, numbers};
+use crate::model::bonds::springs::Springs;
 use crate::model::quantity::material_names;
-use crate::model::{Beam, BondedPair, SetupError};
+use crate::model::{BondedPair, SetupError};
+use crate::setup::bond::cluster_of;
 use crate::setup::{Bond, Particle, Setup};
 use crate::space::search::{Search, half_of_shifts, pairs};
 use crate::space::sphere::{nearest, periods};
 use geom::Vec3;
+use nalgebra::UnitQuaternion;
 
-/// All bonds at t = 0, by ids; their ends are positions in the list of particles by id.
-pub fn bonded_pairs(setup: &Setup) -> Result<Vec<BondedPair>, SetupError> {
-    let mut sorted: Vec<&Particle> = setup.particles.iter().collect();
+/// A particle that may be bonded.
+#[derive(Debug, Clone, Copy)]
+pub struct Grain {
+    /// Its row.
+    pub row: u32,
+    /// What a bond is made of.
+    pub end: End,
+    /// Index of its material.
+    pub material: u16,
+    /// Its cluster; 0: none.
+    pub cluster: u32,
+    /// Centre [m].
+    pub position: Vec3,
+}
+
+/// The particles at t = 0, by id.
+pub fn grains(setup: &Setup) -> Vec<Grain> {
+    let mut sorted: Vec<_> = setup.particles.iter().collect();
     sorted.sort_unstable_by_key(|p| p.id);
-    let gap = setup.bonds.iter().map(|b| b.gap).fold(0.0, f64::max);
-    // What lies within rounding of a gap is left to the test of each pair.
-    let reach: Vec<f64> = sorted.iter().map(|p| (p.radius + 0.5 * gap) * (1.0 + 1e-6)).collect();
-    let points: Vec<Vec3> = sorted.iter().map(|p| p.position).collect();
-    let mut used = vec![false; setup.bonds.len()];
-    let (mut pairs, period) = (Vec::new(), periods(&setup.periodic));
-    for [i, j] in near(setup, &points, &reach) {
-        let (a, b) = (sorted[i as usize], sorted[j as usize]);
-        let is_of =
-            |law: &Bond| law.between == (a.material, b.material) || law.between == (b.material, a.material);
-        let Some(n) = setup.bonds.iter().position(is_of) else { continue };
-        let law = &setup.bonds[n];
-        let arm = nearest(a.position - b.position, &period);
-        let length = arm.norm();
-        // Positions have so many digits.
-        let digits = 4.0 * f64::EPSILON * (a.position.amax() + b.position.amax() + length);
-        if length > a.radius + b.radius + law.gap + digits {
-            continue;
+    let grain = |(p, row): (&Particle, u32)| {
+        let mass = crate::space::sphere::mass(p.radius, setup.materials[p.material as usize].density);
+        let end = End { id: p.id, radius: p.radius, mass, turn: UnitQuaternion::identity() };
+        Grain {
+            row,
+            end,
+            material: p.material,
+            cluster: cluster_of(&setup.clusters, p.id),
+            position: p.position,
         }
-        if length <= 0.0 {
-            return Err(SetupError::BondOfZeroLength { ids: [a.id, b.id] });
-        }
-        used[n] = true;
-        let radius = law.radius_ratio * a.radius.min(b.radius);
-        let mut beam = Beam::of_moduli(arm / length, [length, radius], [law.young, law.shear_modulus]);
-        beam.lag = law.damping / frequency(&beam, [a, b], &setup.materials);
-        let strength = [law.tensile_strength, law.shear_strength];
-        pairs.push(BondedPair { ends: [i, j], beam, strength, broken: f64::INFINITY });
-    }
+    };
+    sorted.into_iter().zip(0..).map(grain).collect()
+}
+
+/// All bonds at t = 0; their ends are positions in the list of particles by id.
+///
+/// # Errors
+/// Two centres at one position; a law for which there is no pair.
+pub fn bonded_pairs(setup: &Setup) -> Result<Vec<BondedPair>, SetupError> {
+    let laws: Vec<&Bond> = setup.bonds.iter().filter(|law| law.at <= 0.0).collect();
+    let found = find(setup, &laws, &grains(setup), |_| false)?;
     // Where particles come in, those of a rule may be among them.
-    match used.iter().position(|used| !used).filter(|_| setup.inlets.is_empty()) {
-        Some(n) => {
-            let law = &setup.bonds[n];
-            Err(SetupError::BondJoinsNothing { between: material_names(setup, law.between), gap: law.gap })
-        }
-        None => Ok(pairs),
+    match found.used.iter().position(|used| !used).filter(|_| setup.inlets.is_empty()) {
+        Some(n) => Err(SetupError::BondJoinsNothing {
+            between: material_names(setup, laws[n].between),
+            gap: laws[n].gap,
+            clusters: laws[n].clusters,
+        }),
+        None => Ok(found.pairs),
     }
 }
 
-/// Pairs of positions in the list that may be near enough; each once.
-fn near(setup: &Setup, points: &[Vec3], reach: &[f64]) -> Vec<[u32; 2]> {
-    let search = Search::new(points, reach);
+/// Bonds that laws make.
+pub struct Found {
+    /// By the ids of their ends.
+    pub pairs: Vec<BondedPair>,
+    /// Which laws made any.
+    pub used: Vec<bool>,
+}
+
+/// The bonds that laws make between grains, which are sorted by id; none between two rows that are bonded already. The first law that fits makes it.
+///
+/// # Errors
+/// Two centres at one position.
+pub fn find(
+    setup: &Setup,
+    laws: &[&Bond],
+    grains: &[Grain],
+    is_bonded: impl Fn([u32; 2]) -> bool,
+) -> Result<Found, SetupError> {
+    let gap = laws.iter().map(|b| b.gap).fold(0.0, f64::max);
+    let (mut used, mut pairs, period) = (vec![false; laws.len()], Vec::new(), periods(&setup.periodic));
+    if laws.is_empty() {
+        return Ok(Found { pairs, used });
+    }
+    for [i, j] in near(setup, grains, gap) {
+        let (a, b) = (&grains[i as usize], &grains[j as usize]);
+        let is_of = |law: &&Bond| {
+            (law.between == (a.material, b.material) || law.between == (b.material, a.material))
+                && law.clusters.allow(a.cluster, b.cluster)
+        };
+        let arm = nearest(a.position - b.position, &period);
+        let open = arm.norm() - a.end.radius - b.end.radius;
+        // Positions have so many digits.
+        let digits = 4.0 * f64::EPSILON * (a.position.amax() + b.position.amax() + arm.norm());
+        let Some(n) = laws.iter().position(|law| is_of(law) && open <= law.gap + digits) else { continue };
+        let rows = [a.row, b.row];
+        if is_bonded(rows) {
+            continue;
+        }
+        if arm.norm() <= 0.0 {
+            return Err(SetupError::BondOfZeroLength { ids: [a.end.id, b.end.id] });
+        }
+        used[n] = true;
+        pairs.push(BondedPair::new(rows, Springs::new(numbers(laws[n], [a.end, b.end], &arm))));
+    }
+    Ok(Found { pairs, used })
+}
+
+/// Pairs of positions in the list that may be near enough; each once, in their order.
+fn near(setup: &Setup, grains: &[Grain], gap: f64) -> Vec<[u32; 2]> {
+    // What lies within rounding of a gap is left to the test of each pair.
+    let reach: Vec<f64> = grains.iter().map(|g| (g.end.radius + 0.5 * gap) * (1.0 + 1e-6)).collect();
+    let points: Vec<Vec3> = grains.iter().map(|g| g.position).collect();
+    let search = Search::new(&points, &reach);
     let mut found = pairs(&search, &search.wide_pairs(), &(0..points.len()));
     let mut images = Vec::new();
     half_of_shifts(&setup.periodic).iter().for_each(|shift| search.shifted_pairs(shift, &mut images));

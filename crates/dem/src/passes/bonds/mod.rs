@@ -1,18 +1,82 @@
-//! Bonds: elastic beams between particles, a pass before the move that adds to the sums of wrenches.
+//! Bonds: a pass before the forces of contacts, which adds to the sums of wrenches when these are known.
+//!
+//! ```text
+//! make_due → [insert_due] → act: pulls of this instant, and what they break → lists, if contacts begin → contacts → Bonds::add
+//! ```
 
+pub mod make;
 pub mod zones;
 
+use crate::kernel::LEDGER;
 use crate::model::{BondedPair, GONE, Model, Pull};
+use crate::neighbours::NeighbourLists;
 use crate::space::sphere::nearest;
-use crate::state::{BondState, State};
+use crate::state::bonds::CHUNK;
+use crate::state::{BondState, Bonds, Crack, ListStatus, State};
+use crate::threads::{FEW, share};
 
-/// Brings bonds to this instant.
-pub fn add_bond_forces(model: &Model, state: &mut State) {
+/// Brings bonds to this instant: those that break do nothing any more. None breaks while both of its particles are in zones, where nothing acts on them.
+pub fn act(model: &Model, state: &mut State) {
     if state.bonds.none() {
         return;
     }
     let (period, time) = (model.period(), state.time());
-    state.bonds.pull(&state.particles, &period, (time, &state.zones.prescribed[..]));
+    let State { bonds, particles, zones, clusters, listing, steps, .. } = state;
+    let Bonds { pairs, pulls, turns, .. } = bonds;
+    let chunks = pulls.chunks_mut(CHUNK).zip(pairs.chunks(CHUNK));
+    share(pairs.len() >= FEW / 4, chunks.collect(), |(pulls, pairs): (&mut [Pull], &[BondedPair])| {
+        for (pull, pair) in pulls.iter_mut().zip(pairs).filter(|(_, pair)| pair.is_whole()) {
+            *pull = pair.springs.pull(&pair.ends(particles, turns, &period));
+        }
+    });
+    // Lists may be asked for more than once at one instant.
+    if bonds.at != Some(*steps) {
+        (bonds.at, bonds.lost) = (Some(*steps), 0.0);
+        bonds.freed.clear();
+    }
+    for (pull, pair) in bonds.pulls.iter_mut().zip(&mut bonds.pairs).filter(|(_, pair)| pair.is_whole()) {
+        let travel = pair.ends.iter().all(|&k| zones.prescribed.get(k as usize) == Some(&true));
+        let Some(mode) = pair.breaks(pull.stress).filter(|_| !travel) else { continue };
+        (pair.broken, pair.mode) = (time, mode);
+        let ids = pair.ends.map(|k| particles.id[k as usize]);
+        let [a, b] = pair.ends.map(|k| particles.position(k as usize));
+        let arm = nearest(a - b, &period);
+        bonds.cracks.push(Crack {
+            time,
+            ids,
+            clusters: ids.map(|id| crate::setup::bond::cluster_of(clusters, id)),
+            place: model.wrapped(b + arm * 0.5),
+            normal: arm.normalize(),
+            radius: pair.springs.numbers.size[1],
+            mode,
+            energy: pull.elastic,
+        });
+        bonds.lost += pull.elastic;
+        *pull = Pull { stress: pull.stress, ..Pull::default() };
+        if pair.springs.numbers.replaces_contact {
+            bonds.freed.push(ids);
+            listing.outdate(ListStatus::Outdated);
+        }
+    }
+    bonds.freed.sort_unstable();
+}
+
+/// Elastic energy that the contacts hold which begin at this instant because bonds broke [J].
+pub fn freed_energy(state: &State, lists: &NeighbourLists) -> f64 {
+    let (freed, slots, ids) = (&state.bonds.freed, &lists.slots, &state.particles.id);
+    let mut energy = 0.0;
+    if freed.is_empty() {
+        return energy;
+    }
+    for segment in slots.segments.iter().filter(|s| !s.with.is_wall()) {
+        for slot in segment.contacts() {
+            let [a, b] = [slots.i[slot], slots.partner[slot]].map(|k| ids[k as usize]);
+            if freed.binary_search(&[a.min(b), a.max(b)]).is_ok() {
+                energy += state.contacts.ledger[slot * LEDGER];
+            }
+        }
+    }
+    energy
 }
 
 /// Bonds of this instant, broken ones as well, by ids.
@@ -25,14 +89,23 @@ pub fn bonds(model: &Model, state: &State) -> Vec<BondState> {
     let of = |(pair, pull): (&BondedPair, &Pull)| BondState {
         ids: pair.ends.map(|k| p.id[k as usize]),
         middle: middle(pair.ends),
-        size: [pair.beam.length, pair.beam.radius],
+        size: pair.springs.numbers.size,
         broken: pair.broken.is_finite().then_some(pair.broken),
+        mode: pair.mode,
         force: pull.force.into(),
         moments: pull.moment.map(Into::into),
-        stress: pull.stress,
+        stress: [pull.stress[0], pull.stress[1]],
+        strength: pair.resists(pull.stress[2]),
     };
     let here = state.bonds.pairs.iter().zip(&state.bonds.pulls).filter(|(pair, _)| pair.broken != GONE);
     let mut all: Vec<BondState> = here.map(of).collect();
     all.sort_unstable_by_key(|b| b.ids);
     all
+}
+
+/// Cracks since the last call, by time and ids.
+pub fn take_cracks(state: &mut State) -> Vec<Crack> {
+    let mut cracks = std::mem::take(&mut state.bonds.cracks);
+    cracks.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.ids.cmp(&b.ids)));
+    cracks
 }

@@ -3,7 +3,8 @@
 //! A bond needs to know how both ends have turned since they were bonded, and nothing else: a zone particle turns by its zone's motion, in
 //! closed form. A bond acts on the first particle that is free while the other is still on its way, as contacts do.
 
-use crate::model::{Beam, BondedPair, GONE, Model, Pull};
+use crate::model::bonds::springs::Springs;
+use crate::model::{BondedPair, GONE, Model, Pull};
 use crate::setup::CrossingBond;
 use crate::state::{Bonds, State};
 use nalgebra::UnitQuaternion;
@@ -44,17 +45,10 @@ impl Bonds {
     /// Whole bonds of particle `k`, by the ids of the others.
     pub fn crossing(&self, k: usize, ids: &[u32]) -> Vec<CrossingBond> {
         let bond = |n: usize| {
-            let BondedPair { ends: [i, j], beam, strength, .. } = self.pairs[n];
+            let BondedPair { ends: [i, j], springs: Springs { numbers, .. }, .. } = self.pairs[n];
             let second = j as usize == k;
-            CrossingBond {
-                id: ids[k],
-                partner: ids[if second { i } else { j } as usize],
-                axis: if second { -beam.axis } else { beam.axis },
-                size: [beam.length, beam.radius],
-                stiffness: beam.stiffness,
-                lag: beam.lag,
-                strength,
-            }
+            let bond = if second { numbers.flipped() } else { numbers };
+            CrossingBond { id: ids[k], partner: ids[if second { i } else { j } as usize], bond }
         };
         self.whole(k).map(bond).collect()
     }
@@ -62,10 +56,9 @@ impl Bonds {
 
 impl BondedPair {
     /// Of two particles that come in.
-    fn new(bond: &CrossingBond, rows: [u32; 2]) -> BondedPair {
-        let CrossingBond { id, partner, axis, size, stiffness, lag, strength } = *bond;
-        let (ends, axis) = if id < partner { (rows, axis) } else { ([rows[1], rows[0]], -axis) };
-        BondedPair { ends, beam: Beam::new(axis, size, stiffness, lag), strength, broken: f64::INFINITY }
+    fn entering(&CrossingBond { id, partner, bond }: &CrossingBond, rows: [u32; 2]) -> BondedPair {
+        let (ends, bond) = if id < partner { (rows, bond) } else { ([rows[1], rows[0]], bond.flipped()) };
+        BondedPair::new(ends, Springs::new(bond))
     }
 }
 
@@ -88,9 +81,10 @@ pub fn insert_due(model: &Model, state: &mut State) {
         let ids = [bond.id, bond.partner];
         let ends = ids.map(|id| rows.get(&id).copied());
         if let [Some(a), Some(b)] = ends {
-            let pair = BondedPair::new(&bond, [a, b]);
+            let pair = BondedPair::entering(&bond, [a, b]);
             if known.insert(pair.ends) {
-                energy += pair.beam.pull(&pair.ends(&state.particles, &state.bonds.turns, &period)).elastic;
+                energy +=
+                    pair.springs.pull(&pair.ends(&state.particles, &state.bonds.turns, &period)).elastic;
                 state.bonds.pairs.push(pair);
                 state.bonds.pulls.push(Pull::default());
             }

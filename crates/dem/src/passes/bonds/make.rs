@@ -1,0 +1,73 @@
+//! Bonds that are made during a run.
+
+use crate::model::bonds::find::{Grain, find};
+use crate::model::bonds::kinds::End;
+use crate::model::bonds::limit::{bonded, critical};
+use crate::model::quantity::material_names;
+use crate::model::{BondedPair, Halt, Model, Pull};
+use crate::setup::Bond;
+use crate::setup::bond::cluster_of;
+use crate::state::{ListStatus, State};
+use geom::Vec3;
+
+/// Makes the bonds whose time has come.
+///
+/// # Errors
+/// Two centres at one position; bonds too stiff for the step.
+pub fn make_due(model: &Model, state: &mut State) -> Result<(), Halt> {
+    let time = state.time();
+    let is_due = |&n: &u32| model.setup.bonds[n as usize].at <= time + 0.5 * model.dt;
+    if !state.bonds.due.iter().any(is_due) {
+        return Ok(());
+    }
+    let (now, later) = state.bonds.due.iter().partition(|n| is_due(n));
+    state.bonds.due = later;
+    let now: Vec<u32> = now;
+    let laws: Vec<&Bond> = now.iter().map(|&n| &model.setup.bonds[n as usize]).collect();
+    let grains = grains(model, state);
+    let found = find(&model.setup, &laws, &grains, |rows| state.bonds.joins(rows, |_| true));
+    let found = found.map_err(|error| Halt::Bonds { time, error: Box::new(error) })?;
+    let unused = laws.iter().zip(&found.used).filter(|(_, used)| !**used);
+    state.bonds.idle.extend(unused.map(|(law, _)| material_names(&model.setup, law.between)));
+    state.bonds.pairs.extend(found.pairs);
+    state.bonds.pulls.resize(state.bonds.pairs.len(), Pull::default());
+    state.bonds.index(&state.particles.id);
+    state.listing.outdate(ListStatus::Outdated);
+    check_step(model, state, &grains)
+}
+
+/// Particles that may be bonded now, by id: members of rigid clumps are not.
+fn grains(model: &Model, state: &State) -> Vec<Grain> {
+    let p = &state.particles;
+    let stays = |k: &usize| !state.zones.is_gone(*k) && !state.clumps.is_member(*k);
+    let grain = |k: usize| {
+        let (id, radius) = (p.id[k], p.rows[k][3]);
+        let end = End { id, radius, mass: 1.0 / p.rows[k][7], turn: state.bonds.turns[k] };
+        let cluster = cluster_of(&state.clusters, id);
+        Grain { row: k as u32, end, material: p.material[k], cluster, position: model.wrapped(p.position(k)) }
+    };
+    let mut all: Vec<Grain> = (0..p.len()).filter(stays).map(grain).collect();
+    all.sort_unstable_by_key(|g| g.end.id);
+    all
+}
+
+/// Refuses bonds whose critical step is below that of the run.
+fn check_step(model: &Model, state: &State, grains: &[Grain]) -> Result<(), Halt> {
+    let mut place = vec![u32::MAX; state.particles.len()];
+    (0..).zip(grains).for_each(|(at, grain)| place[grain.row as usize] = at);
+    let here = |pair: &BondedPair| {
+        let ends = pair.ends.map(|k| place[k as usize]);
+        (pair.is_whole() && !ends.contains(&u32::MAX)).then_some(BondedPair { ends, ..*pair })
+    };
+    let pairs: Vec<BondedPair> = state.bonds.pairs.iter().filter_map(here).collect();
+    let axis = |pair: &BondedPair| -> Vec3 {
+        state.bonds.turns[grains[pair.ends[1] as usize].row as usize] * pair.springs.numbers.axis
+    };
+    let Some((alone, worst)) = critical(&pairs, grains, axis) else { return Ok(()) };
+    let critical = 1.0 / (1.0 / alone + 1.0 / model.contact_step);
+    if critical >= model.dt {
+        return Ok(());
+    }
+    let particle = bonded(&model.setup, &grains[worst as usize]);
+    Err(Halt::BondsTooStiff { time: state.time(), dt: model.dt, critical, particle })
+}

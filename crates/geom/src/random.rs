@@ -1,0 +1,23 @@
+//! Random numbers that are the same on every machine: a stream for each thing that is drawn.
+
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+/// A generator for one thing: `kind` and `index` keep streams of one seed apart.
+pub fn generator(seed: u64, kind: u64, index: u64) -> Pcg64Mcg {
+    let mut state = seed ^ kind.rotate_left(32) ^ index.rotate_left(48);
+    let mut next = || {
+        // SplitMix64 (Steele, Lea & Flood 2014, doi:10.1145/2660193.2660195).
+        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let a = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let b = (a ^ (a >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        b ^ (b >> 31)
+    };
+    let (low, high) = (u128::from(next()), u128::from(next()));
+    Pcg64Mcg::from_seed((low | high << 64).to_le_bytes())
+}
+
+/// A number in [0, 1), from the highest 53 bits: portable, and free of the details of `rand`.
+pub fn unit(random: &mut Pcg64Mcg) -> f64 {
+    (random.next_u64() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
+}

@@ -1,0 +1,213 @@
+//! Fragments and grading: what bonds leave of stones.
+//!
+//! ```text
+//! B_g = Σ (ΔW_k > 0)          ΔW_k: share of the mass between two sieves, before less after
+//! ```
+//!
+//! Marsal (1967), J. Soil Mech. Found. Div. ASCE 93(SM2): the sum of what the classes lost; 0 where nothing broke.
+
+use super::pieces::{Piece, pieces};
+use super::{Bonds, NO_BONDS};
+use crate::observer::{Observer, Which};
+use crate::sheet::{Chart, Curve, Head, Look, Row, Summary};
+use crate::{Frame, MeasureError, Run, RunMessage};
+use geom::Vec3;
+
+/// The fragments of the first and of the last frame that count.
+struct Ends {
+    which: Which,
+    frame: Option<Frame>,
+    first: Option<(f64, Vec<Piece>)>,
+    last: Option<(f64, Vec<Piece>)>,
+    span: Option<(f64, f64)>,
+}
+
+impl Ends {
+    fn new(which: Which) -> Ends {
+        Ends { which, frame: None, first: None, last: None, span: None }
+    }
+
+    /// Frames come before the bonds of their time.
+    fn take(&mut self, run: &Run, message: RunMessage) -> Result<(), MeasureError> {
+        match message {
+            RunMessage::Frame(frame) => self.frame = Some(frame),
+            RunMessage::Bonds(bonds) => self.look(run, &bonds)?,
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn look(&mut self, run: &Run, bonds: &Bonds) -> Result<(), MeasureError> {
+        let time = bonds.time;
+        self.span = Some((self.span.map_or(time, |s| s.0), time));
+        let Some(frame) = self.frame.as_ref().filter(|f| f.time == time && self.which.holds(time)) else {
+            return Ok(());
+        };
+        let periods = Vec3::from(run.periodic.map(|axis| axis.map_or(0.0, |(low, high)| high - low)));
+        let now = (time, pieces(frame, bonds, periods)?);
+        if self.first.is_none() {
+            self.first = Some(now.clone());
+        }
+        self.last = Some(now);
+        Ok(())
+    }
+
+    /// The first and the last.
+    fn both(&self) -> Result<[&(f64, Vec<Piece>); 2], MeasureError> {
+        let span = self.span.ok_or(NO_BONDS)?;
+        match (&self.first, &self.last) {
+            (Some(first), Some(last)) => Ok([first, last]),
+            _ => Err(self.which.missing(span)),
+        }
+    }
+}
+
+/// Lists fragments.
+pub struct FragmentList(Ends);
+
+impl FragmentList {
+    /// Of the last of these frames.
+    pub fn new(which: Which) -> FragmentList {
+        FragmentList(Ends::new(which))
+    }
+}
+
+impl Observer for FragmentList {
+    fn heads(&self) -> Vec<Head> {
+        Head::list(&[
+            ("time", "s"),
+            ("id", "1"),
+            ("grains", "1"),
+            ("mass", "kg"),
+            ("diameter", "m"),
+            ("length", "m"),
+            ("intermediate", "m"),
+            ("shortest", "m"),
+            ("x", "m"),
+            ("y", "m"),
+            ("z", "m"),
+        ])
+    }
+
+    fn observe(&mut self, run: &Run, message: RunMessage, _: &mut Vec<Row>) -> Result<(), MeasureError> {
+        self.0.take(run, message)
+    }
+
+    fn end(&mut self, _: &Run, rows: &mut Vec<Row>) -> Result<Summary, MeasureError> {
+        let [_, (time, pieces)] = self.0.both()?;
+        let row = |p: &Piece| {
+            let [long, middle, short] = p.extents;
+            let [x, y, z] = p.centre.into();
+            vec![*time, p.id as f64, p.grains as f64, p.mass, p.diameter(), long, middle, short, x, y, z]
+        };
+        rows.extend(pieces.iter().map(row));
+        let joined = pieces.iter().filter(|p| p.grains > 1);
+        let largest = pieces.iter().map(|p| p.mass).fold(0.0, f64::max);
+        Ok(Summary::default()
+            .with("fragments", "1", pieces.len() as f64)
+            .with("of_several_grains", "1", joined.count() as f64)
+            .with("largest_mass", "kg", largest)
+            .with("mass", "kg", pieces.iter().map(|p| p.mass).sum())
+            .with("time", "s", *time))
+    }
+
+    fn chart(&self, rows: &[Row]) -> Chart {
+        let points = rows.iter().map(|row| [row[4], row[3]]).collect();
+        let curve = Curve { name: String::new(), points, look: Look::Dots };
+        Chart::new("Fragments").curves("diameter [m]", "mass [kg]", vec![curve])
+    }
+}
+
+/// Compares gradings: before and after.
+pub struct Grading {
+    ends: Ends,
+    sieves: Option<Vec<f64>>,
+}
+
+/// Ratio of a sieve to the next smaller one, where none are given.
+const STEP: f64 = std::f64::consts::SQRT_2;
+/// So many at most.
+const SIEVES: usize = 40;
+
+impl Grading {
+    /// Of the first and the last of these frames, on sieves of these openings [m], the smallest first; `None`: from the largest piece down, each smaller
+    /// by √2.
+    pub fn new(which: Which, sieves: Option<Vec<f64>>) -> Grading {
+        Grading { ends: Ends::new(which), sieves }
+    }
+
+    fn openings(&self, both: [&[Piece]; 2]) -> Vec<f64> {
+        if let Some(sieves) = &self.sieves {
+            return sieves.clone();
+        }
+        let sizes = || both.into_iter().flatten().map(|p| p.extents[1]);
+        let (smallest, largest) = (sizes().fold(f64::INFINITY, f64::min), sizes().fold(0.0, f64::max));
+        let sieve = |k: usize| largest * (1.0 + 1e-9) / STEP.powi(k as i32);
+        let mut all: Vec<f64> = (0..SIEVES).map(sieve).take_while(|s| *s * STEP > smallest).collect();
+        all.reverse();
+        all
+    }
+}
+
+/// Share of the mass that passes each sieve by its intermediate extent.
+fn passing(pieces: &[Piece], sieves: &[f64]) -> Vec<f64> {
+    let all: f64 = pieces.iter().map(|p| p.mass).sum();
+    let below = |opening: f64| pieces.iter().filter(|p| p.extents[1] <= opening).map(|p| p.mass).sum::<f64>();
+    sieves.iter().map(|sieve| below(*sieve) / all).collect()
+}
+
+/// Marsal's B_g of two gradings on the same sieves; what stays on the largest is a class, too.
+pub fn breakage(before: &[f64], after: &[f64]) -> f64 {
+    let classes = |passing: &[f64]| -> Vec<f64> {
+        let ends = std::iter::once(0.0).chain(passing.iter().copied());
+        ends.zip(passing.iter().copied().chain([1.0])).map(|(low, high)| high - low).collect()
+    };
+    let lost = classes(before).into_iter().zip(classes(after)).map(|(b, a)| (b - a).max(0.0));
+    lost.sum()
+}
+
+impl Observer for Grading {
+    fn heads(&self) -> Vec<Head> {
+        Head::list(&[("sieve", "m"), ("passing_before", "1"), ("passing_after", "1")])
+    }
+
+    fn observe(&mut self, run: &Run, message: RunMessage, _: &mut Vec<Row>) -> Result<(), MeasureError> {
+        self.ends.take(run, message)
+    }
+
+    fn end(&mut self, _: &Run, rows: &mut Vec<Row>) -> Result<Summary, MeasureError> {
+        let [(start, first), (end, last)] = self.ends.both()?;
+        let sieves = self.openings([first, last]);
+        let (before, after) = (passing(first, &sieves), passing(last, &sieves));
+        rows.extend((0..sieves.len()).map(|k| vec![sieves[k], before[k], after[k]]));
+        let summary = Summary::default()
+            .with("breakage", "1", breakage(&before, &after))
+            .with("fragments_before", "1", first.len() as f64)
+            .with("fragments_after", "1", last.len() as f64)
+            .with("before", "s", *start)
+            .with("after", "s", *end);
+        let same = start == end;
+        Ok(if same {
+            summary.note("one frame: nothing is compared; use --from and --until")
+        } else {
+            summary
+        })
+    }
+
+    fn chart(&self, rows: &[Row]) -> Chart {
+        let both = [("before", 1), ("after", 2)];
+        Chart::new("Grading").columns(("sieve [m]", 0), "passing [1]", &both, rows)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn breakage_is_what_the_classes_lost() {
+        // Half of what was on the largest sieve went to the smallest class.
+        assert!((breakage(&[0.0, 0.4, 0.6], &[0.2, 0.6, 0.8]) - 0.2).abs() < 1e-12);
+        assert_eq!(breakage(&[0.1, 0.5], &[0.1, 0.5]), 0.0);
+    }
+}
