@@ -338,15 +338,61 @@ radius_ratio = 0.8
 tensile_strength = 1e5
 shear_strength = 1e5
 damping = 0.1
+[[bond]]
+between = ["a", "a"]
+kind = "parallel"
+clusters = "any"
+gap = 1e-3
+modulus = "2 MPa"
+stiffness_ratio = 2
+moments = 0.5
+tensile_strength = 1e5
+strength_ratio = 0.5
+friction_angle = "30 deg"
+deviation = 0.1
+seed = 3
+replaces_contact = true
+[[bond]]
+between = ["a", "b"]
+kind = "parallel"
+clusters = "any"
+gap = 1e-3
+normal_stiffness_per_area = 1e8
+shear_stiffness_per_area = "50 MPa/m"
+weibull_modulus = 4
+reference_radius = 4e-3
+tensile_strength = 1e5
+[[bond]]
+between = ["b", "b"]
+kind = "contact"
+clusters = "different"
+gap = 1e-3
+at = 0.001
+normal_stiffness = 1e4
+shear_stiffness = 5e3
+tensile_force = 10
+shear_force = "5 N"
 [[particles]]
 source = "a.csv"
 material = "a"
+cluster = 1
 [[particles]]
 source = "b.csv"
 material = "b"
 [[particles]]
 source = "c.csv"
 material = "c"
+[[fill]]
+material = "b"
+shape = "box:0.2,0,0,0.23,0.03,0.01"
+diameter = 0.01
+lattice = "cubic"
+cluster = 3
+[[fill]]
+material = "b"
+shape = "mesh:tetra.ply"
+diameter = 0.008
+lattice = "hexagonal"
 "#;
 
 fn three() -> String {
@@ -401,7 +447,7 @@ pub const FILES: [(&str, &str); 9] = [
     ("grains.csv", "x,y,z,radius,vz\n0.2,0.2,0.1,0.005,-1\n0.2,0.25,0.12,0.005,-1\n0.25,0.2,0.15,0.004,-1\n"),
     ("clumps.csv", "x,y,z,qw,qx,qy,qz\n0.9,0.9,0.9,1,0,0,0\n"),
     ("a.csv", "x,y,z,radius\n0,0,0,0.005\n0.00999,0,0,0.005\n"),
-    ("b.csv", "x,y,z,radius\n0,0.0099999,0,0.005\n0.00999,0.0199999,0,0.005\n"),
+    ("b.csv", "x,y,z,radius,cluster\n0,0.0099999,0,0.005,1\n0.00999,0.0199999,0,0.005,2\n"),
     ("c.csv", "x,y,z,radius\n0.1,0,0,0.005\n0.1101,0,0,0.005\n0.1,0.0101,0,0.005\n"),
     (
         "tetra.ply",
