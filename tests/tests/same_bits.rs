@@ -147,6 +147,43 @@ fn block(edge: u32) -> Setup {
     setup
 }
 
+/// The same with glue that takes the place of contacts, of strengths that are drawn; half of it is made while it flies.
+fn glued(edge: u32) -> Setup {
+    let mut setup = block(edge);
+    let glue = BondKind::Contact(BondSprings::Given([2e4, 1e4]));
+    let spread = Spread::Weibull { modulus: 3.0, reference_radius: None };
+    let strength = BondStrength { spread, ..BondStrength::of(2e3, 2e3) };
+    let law = Bond { strength, damping: 0.2, ..Bond::new((0, 0), 0.002, glue) };
+    setup.bonds = vec![Bond { clusters: Clusters::Different, ..law.clone() }, Bond { at: 2e-3, ..law }];
+    setup.clusters = setup.particles.iter().map(|p| (p.id, p.id % 2)).collect();
+    setup
+}
+
+#[test]
+fn glue_for_any_number_of_threads_order_and_after_a_checkpoint() {
+    let with = |threads, setup: Setup| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        pool.install(|| bits(simulation(setup), 400))
+    };
+    let one = with(1, glued(14));
+    for threads in [2, 3] {
+        assert!(with(threads, glued(14)) == one, "{threads} threads");
+    }
+    let mut shuffled = glued(14);
+    shuffled.particles.reverse();
+    assert!(with(2, shuffled) == one, "another order");
+    let mut first = simulation(glued(5));
+    let (made, mut steps) = (first.bond_count()[0], 0);
+    while first.bond_count()[1] < 10 {
+        first.step().expect("within the guards");
+        steps += 1;
+        assert!(steps < 20_000, "it does not break");
+    }
+    assert!(first.bond_count()[0] > made, "more was made on the way");
+    let resumed = Simulation::resume(glued(5), first.checkpoint().to_static()).expect("the same setup");
+    assert!(bits(resumed, 300) == bits(first, 300));
+}
+
 #[test]
 fn bonds_for_any_number_of_threads_order_and_after_a_checkpoint() {
     let with = |threads, setup: Setup| {

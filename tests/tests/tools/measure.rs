@@ -2,6 +2,7 @@
 
 mod below_a_hopper;
 mod bonds;
+mod cracks;
 mod flow;
 mod made;
 mod refused;

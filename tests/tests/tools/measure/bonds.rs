@@ -7,22 +7,19 @@ use std::fs;
 use std::path::Path;
 use tempfile::{TempDir, tempdir};
 
-const SCENE: &str = "[[bond]]\nbetween = [\"a\", \"b\"]\ntensile_strength = \"2 MPa\"\nshear_strength = 4e6\n\
-                     [[bond]]\nbetween = [\"a\", \"a\"]\ntensile_strength = 1e6\n";
-
 /// A row of ten grains, of material b at the end; the bonds break one after the other, the last leaves with its grain.
 fn row_that_breaks() -> TempDir {
     let mut grains: Vec<Grain> = at_rest((0..10).map(|k| [0.02 * f64::from(k), 0.0, 0.01]), 0.01);
     grains[9].material = 1;
     let whole = |k: u32| ([k, k + 1], [0.5e6, 0.1e6 * f64::from(k)], None);
     let mut rows: Vec<_> = (0..9).map(whole).collect();
-    let mut made = Made::new(SCENE);
+    let mut made = Made::new("");
     made.frame(0.0, &grains).bonds(0.0, &rows);
-    rows[3] = ([3, 4], [1.0001e6, 9e9], Some(0.05));
+    rows[3] = ([3, 4], [1.0001e6, 9e9], Some((0.05, 1)));
     made.frame(0.1, &grains).bonds(0.1, &rows);
-    rows[8] = ([8, 9], [1.9e6, 4.1e6], Some(0.15));
-    // Below its strength: one of another scene.
-    rows[0] = ([0, 1], [0.2e6, 0.0], Some(0.2));
+    rows[8] = ([8, 9], [1.9e6, 4.1e6], Some((0.15, 2)));
+    // Of a run that does not say.
+    rows[0] = ([0, 1], [0.2e6, 0.0], Some((0.2, 0)));
     made.frame(0.2, &grains).bonds(0.2, &rows);
     grains.pop();
     made.frame(0.3, &grains).bonds(0.3, &rows[..8]);

@@ -118,14 +118,15 @@ impl Made {
     }
 
     /// Bonds: ids, tension and shear [Pa], time of the break.
-    pub fn bonds(&mut self, time: f64, rows: &[([u32; 2], [f64; 2], Option<f64>)]) -> &mut Made {
+    pub fn bonds(&mut self, time: f64, rows: &[([u32; 2], [f64; 2], Option<(f64, u8)>)]) -> &mut Made {
         let columns = vec![
             ("tension", Values::F64(rows.iter().map(|r| r.1[0]).collect())),
             ("shear", Values::F64(rows.iter().map(|r| r.1[1]).collect())),
             ("id_i", Values::U32(rows.iter().map(|r| r.0[0]).collect())),
             ("id_j", Values::U32(rows.iter().map(|r| r.0[1]).collect())),
             ("broken", Values::U8(rows.iter().map(|r| u8::from(r.2.is_some())).collect())),
-            ("broken_at", Values::F64(rows.iter().map(|r| r.2.unwrap_or(0.0)).collect())),
+            ("broken_at", Values::F64(rows.iter().map(|r| r.2.map_or(0.0, |b| b.0)).collect())),
+            ("mode", Values::U8(rows.iter().map(|r| r.2.map_or(0, |b| b.1)).collect())),
         ];
         self.points("/bonds", time, columns);
         self
