@@ -154,7 +154,7 @@ fn glued(edge: u32) -> Setup {
     let spread = Spread::Weibull { modulus: 3.0, reference_radius: None };
     let strength = BondStrength { spread, ..BondStrength::of(2e3, 2e3) };
     let law = Bond { strength, damping: 0.2, ..Bond::new((0, 0), 0.002, glue) };
-    setup.bonds = vec![Bond { clusters: Clusters::Different, ..law.clone() }, Bond { at: 2e-3, ..law }];
+    setup.bonds = vec![Bond { clusters: Clusters::Different, ..law.clone() }, Bond { at: 1e-4, ..law }];
     setup.clusters = setup.particles.iter().map(|p| (p.id, p.id % 2)).collect();
     setup
 }

@@ -18,7 +18,7 @@ const SHAPES: &str = "SHAPE: box:x0,y0,z0,x1,y1,z1 | sphere:x,y,z,r | cylinder:x
     \x20 dem-measure run.mcap --porosity box:0,0,0,0.05,0.05,0.02\n\
     \x20 dem-measure run.mcap --wall-force all --wall floor\n\
     \x20 dem-measure bonded.mcap --bonds --plot bonds.svg\n\
-    \x20 dem-measure crushed.mcap --grading --sieves 0.004,0.008,0.016";
+    \x20 dem-measure bonded.mcap --grading --sieves 0.004,0.008,0.016";
 
 /// Measure a run (MCAP), also while it is still being written; CSV (or JSON) to stdout
 #[derive(Parser, Debug)]

@@ -29,8 +29,8 @@ kind = "contact"
 gap = 1e-6
 normal_stiffness = 1e5
 shear_stiffness = 4e4
-tensile_force = 3
-shear_force = 6
+tensile_force = 1
+shear_force = 0.7
 weibull_modulus = 5
 seed = 2
 [[fill]]
@@ -39,7 +39,7 @@ shape = "sphere:0,0,0.0102,0.01"
 diameter = 0.004
 lattice = "hexagonal"
 cluster = 1
-velocity = [0, 0, -2]
+velocity = [0, 0, -3]
 [[fill]]
 material = "rock"
 shape = "box:0.01,-0.004,0.0002,0.018,0.004,0.0082"

@@ -66,6 +66,118 @@ const PAIRS_OF_CONTACTS_AND_BONDS: &[Change] = &[
     ),
 ];
 
+/// Bonds that cannot be made, behind their materials and their gap.
+const BONDS: &[(&str, &[&str])] = &[
+    (
+        r#"kind = "glue"
+young = 1e8
+poisson = 0.2"#,
+        &["kind", "glue", "contact"],
+    ),
+    (r#"young = 1e8"#, &["bond.0", "poisson is missing"]),
+    (
+        r#"young = 1e8
+poisson = 0.2
+modulus = 1e8"#,
+        &["bond.0.modulus", "kind = \"parallel\" or \"contact\""],
+    ),
+    (
+        r#"kind = "parallel"
+modulus = 1e8"#,
+        &["bond.0", "stiffness_ratio is missing"],
+    ),
+    (
+        r#"kind = "parallel"
+modulus = 1e8
+stiffness_ratio = 2
+shear_stiffness_per_area = 1e8"#,
+        &["bond.0.shear_stiffness_per_area", "say it already"],
+    ),
+    (
+        r#"kind = "contact"
+normal_stiffness = 1e4
+shear_stiffness = 1e4
+stiffness_ratio = 1"#,
+        &["bond.0.stiffness_ratio", "goes with 'modulus'"],
+    ),
+    (
+        r#"kind = "contact"
+modulus = 1e8
+stiffness_ratio = 2
+radius_ratio = 0.5"#,
+        &["bond.0.radius_ratio"],
+    ),
+    (
+        r#"young = 1e8
+poisson = 0.2
+tensile_force = 5"#,
+        &["bond.0.tensile_force", "kind = \"contact\""],
+    ),
+    (
+        r#"kind = "contact"
+modulus = 1e8
+stiffness_ratio = 2
+tensile_force = 5
+shear_strength = 1e5"#,
+        &["bond.0.tensile_force", "not both"],
+    ),
+    (
+        r#"young = 1e8
+poisson = 0.2
+deviation = 0.2"#,
+        &["bond.0.deviation", "have no strength"],
+    ),
+    (
+        r#"young = 1e8
+poisson = 0.2
+tensile_strength = 1e5
+deviation = 0.2
+weibull_modulus = 3"#,
+        &["bond.0.deviation", "weibull_modulus"],
+    ),
+    (
+        r#"young = 1e8
+poisson = 0.2
+tensile_strength = 1e5
+seed = 3"#,
+        &["bond.0.seed", "nothing is drawn"],
+    ),
+    (
+        r#"young = 1e8
+poisson = 0.2
+tensile_strength = 1e5
+reference_radius = 0.01"#,
+        &["bond.0.reference_radius"],
+    ),
+    (
+        r#"young = 1e8
+poisson = 0.2
+tensile_strength = 1e5
+friction_angle = 0.5"#,
+        &["bond.0.friction_angle", "no shear strength"],
+    ),
+    (
+        r#"young = 1e8
+poisson = 0.2
+tensile_strength = 1e5
+shear_strength = 1e5
+strength_ratio = 2"#,
+        &["strength_ratio", "only one"],
+    ),
+    (
+        r#"young = 1e8
+poisson = 0.2
+at = -1"#,
+        &["bond.0.at = -1 s"],
+    ),
+    (
+        r#"young = 1e8
+poisson = 0.2
+clusters = "different""#,
+        &["of two clusters", "within a gap of"],
+    ),
+];
+
 const NORMAL_LAWS: &[Change] = &[
     wrong(
         "restitution = 0.5",
@@ -234,5 +346,19 @@ fn wrong_scenes_say_where_what_and_what_to_do() {
         for part in change.parts {
             assert!(message.contains(part), "{}: wanted '{part}' in: {message}", change.to);
         }
+    }
+}
+
+#[test]
+fn bonds_that_cannot_be_made_are_refused() {
+    let folder = tempdir().expect("a folder");
+    let head = "[[bond]]\nbetween = [\"sinter\", \"sinter\"]\ngap = 1e-3\n";
+    for (keys, parts) in BONDS {
+        fs::write(folder.path().join("s.toml"), format!("{SCENE}\n{head}{keys}\n")).expect("written");
+        let done = tool(folder.path(), "dem-run", &["s.toml", "--check"]);
+        assert!(done.code != 0, "{keys}: {}", done.stdout);
+        parts
+            .iter()
+            .for_each(|part| assert!(done.stderr.contains(part), "{keys}: '{part}': {}", done.stderr));
     }
 }
