@@ -62,6 +62,9 @@ sweep heap-contacts heap.toml --vary safety=0.3,0.8 --vary $WAYS --reference saf
   --measure 'heap-angle --sectors 4' --repeat 8 --for 10% --work cpu
 sweep heap heap.toml --vary stiffness=1,4 --vary safety=0.3,0.8 --measure 'heap-angle --sectors 4' --repeat 8 --for 10% --work cpu
 
+sweep drum drum.toml --vary safety=0.15,0.5,0.8 --vary $WAYS --reference safety=0.15 --reference time.contacts=averaged \
+  --measure 'granular_temperature of --profile --axis y --bins 1 --mean --from 0.6' --repeat 3 --for 10% --work cpu
+
 # A box that fills while grains at rest in it sleep, or do not.
 cp box.toml out/box-never.toml
 for speed in 0.001 0.005 0.02; do

@@ -27,6 +27,8 @@ pub struct Judged {
     pub costs: Vec<Cost>,
     /// Their errors.
     pub errors: Vec<Option<Error>>,
+    /// Whether these are shares of the truth; else they are in the unit of the measure.
+    pub relative: bool,
     /// Which of them nothing beats.
     pub front: Vec<usize>,
     /// What to take, when that was asked for in a unit that the errors have.
@@ -86,6 +88,7 @@ pub fn judge(
         front: front(&works, &errors),
         choice: (share == relative).then(|| recommend(&works, &errors, grid.reference, wanted)),
         costs,
+        relative,
         wanted: (wanted, share),
         what: (measure.name.clone(), unit),
         marks: (grid.reference, grid.in_use.filter(|k| points[*k].failed.is_none())),
@@ -213,10 +216,10 @@ impl Judged {
     }
 
     fn size(&self, size: f64) -> String {
-        match (self.wanted.1, self.errors.iter().flatten().next().is_none_or(|e| e.relative)) {
-            (_, true) => percent(size),
-            _ if self.what.1 == "1" => geom::Shown(size).to_string(),
-            _ => format!("{} {}", geom::Shown(size), self.what.1),
+        match self.relative {
+            true => percent(size),
+            false if self.what.1 == "1" => geom::Shown(size).to_string(),
+            false => format!("{} {}", geom::Shown(size), self.what.1),
         }
     }
 

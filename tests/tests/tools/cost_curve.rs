@@ -1,6 +1,8 @@
 //! cost-curve from outside: a small grid, an interrupted sweep, a changed scene, repeats, what is refused; and the step that an
 //! accuracy asks for.
 
+mod plots;
+
 use grainpipe_tests::scenes::{Head, folder};
 use grainpipe_tests::tools::{Done, program, succeed, tool};
 use serde_json::Value;

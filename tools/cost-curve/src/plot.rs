@@ -88,8 +88,8 @@ fn wanted(judged: &Judged, dots: &[Dot]) -> Option<Plot> {
 }
 
 fn layout(judged: &Judged, plots: &[Plot], title: &str) -> Layout {
-    let unit = if judged.wanted.1 { "%" } else { judged.what.1.as_str() };
-    let share = judged.wanted.1;
+    let share = judged.relative;
+    let unit = if share { "%" } else { judged.what.1.as_str() };
     let tick = move |v: f64| geom::Shown(if share { 100.0 * v } else { v }).to_string();
     let key = judged.points.first().and_then(|p| p.setting.first()).map_or("", |(k, _)| k.as_str());
     Layout::auto_from_plots(plots)

@@ -17,7 +17,7 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 use std::process::ExitCode;
-use watch::Watch;
+use watch::{Filling, Watch};
 
 const EXAMPLES: &str = "Examples:\n\
     \x20 dem-run scene.toml --explain\n\
@@ -88,7 +88,9 @@ fn dem_run(args: Args) -> anyhow::Result<Report> {
     for source in &args.inputs {
         inputs.push(Input::open(&source.to_string(), source.open()?)?);
     }
-    let plan = scene.plan(inputs)?;
+    let filling = Filling::default();
+    let plan = scene.plan_with(inputs, &|placing| filling.hear(placing))?;
+    drop(filling);
     plan.warnings.iter().for_each(|note| cli::warn(note));
     if args.explain || args.check {
         return explain(&args, &scene, plan);

@@ -1,11 +1,33 @@
-//! Progress of a run: a bar on a terminal, or a JSON line with each frame.
+//! Progress of large fills and of a run: a bar on a terminal, or a JSON line with each frame of the run.
 
 use run::Progress;
+use scene::plan::Placing;
 use serde::Serialize;
+use std::cell::RefCell;
 use std::time::Instant;
 
 /// Steps of the bar.
 const BAR: f64 = 1000.0;
+
+/// A fill of fewer grains is done before anyone looks.
+const LARGE: usize = 100_000;
+
+/// Reports the progress of large fills.
+#[derive(Default)]
+pub struct Filling(RefCell<Option<cli::Progress>>);
+
+impl Filling {
+    /// News of a fill.
+    pub fn hear(&self, Placing { fill, placed, of }: Placing) {
+        if of < LARGE {
+            return;
+        }
+        let mut bar = self.0.borrow_mut();
+        let bar = bar.get_or_insert_with(|| cli::Progress::new("fill", BAR as u64));
+        bar.set((BAR * placed as f64 / of as f64) as u64);
+        bar.say(format!("fill.{fill}: {placed} of {of} grains"));
+    }
+}
 
 /// Reports the progress of a run.
 pub struct Watch {

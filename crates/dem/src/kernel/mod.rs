@@ -1,11 +1,12 @@
 //! The contact loop: the only one, for pairs and for walls, for every composition of effects and every width.
 
+mod averaged;
 pub(crate) mod compose;
 mod contact_loop;
 pub(crate) mod sums;
 pub(crate) mod wrenches;
 
-pub(crate) use contact_loop::average;
+pub(crate) use averaged::average;
 pub(crate) use sums::{Pairs, Sums, WrenchSums};
 pub(crate) use wrenches::{Arrival, SlotEnd, WrenchSlices, WrenchSlicesMut};
 

@@ -169,4 +169,33 @@ mod tests {
             }
         }
     }
+
+    /// How the rebound spreads about its mean over the phases, with the damping of exact integration, and the order in which that falls. A
+    /// dashpot that begins as δ^¼ leaves h^(5/4) in every sum over steps, not only in the first kick.
+    #[test]
+    fn the_dashpot_of_hertz_sets_the_order() {
+        let spread = |shape: Shape, e: f64, dt: f64| {
+            let damping = Damping::exact(e);
+            let out = |k: usize| {
+                let (phase, dt) = ((k as f64 + 0.5) / 64.0, dt * (1.0 + 7e-4 * k as f64));
+                match shape {
+                    Shape::Linear => rebound(&Hooke { stiffness: 1.0, damping }, dt, phase),
+                    Shape::Hertz => rebound(
+                        &Hertz { modulus: MODULUS, damping: damping.scaled((5.0f64 / 6.0).sqrt()) },
+                        dt,
+                        phase,
+                    ),
+                }
+            };
+            let mean = (0..64).map(out).sum::<f64>() / 64.0;
+            ((0..64).map(|k| (out(k) - mean).powi(2)).sum::<f64>() / 64.0).sqrt()
+        };
+        for (shape, e, order) in
+            [(Shape::Linear, 0.5, 2.0), (Shape::Hertz, 1.0, 2.5), (Shape::Hertz, 0.5, 1.25)]
+        {
+            let [coarse, fine] = [0.025, 0.006_25].map(|dt| spread(shape, e, dt));
+            let found = (coarse / fine).log2() / 2.0;
+            assert!((found - order).abs() < 0.15, "{shape:?}, e = {e}: {found}, expected {order}");
+        }
+    }
 }

@@ -76,7 +76,7 @@ fn refresh_lists(model: &Model, state: &mut State, lists: &mut NeighbourLists) -
     if state.forces == Forces::Known {
         return Ok(());
     }
-    zones::enter::insert_due(model, state);
+    zones::enter::insert_due(model, state, lists);
     bonds::zones::insert_due(model, state);
     bonds::make::make_due(model, state)?;
     bonds::act(model, state);

@@ -1,5 +1,6 @@
 //! A plan in the making: what the steps of this folder read and add to.
 
+use super::Placing;
 use super::insertion::Insertion;
 use crate::check::Check;
 use crate::error::{Result, SceneError};
@@ -77,6 +78,8 @@ pub(super) struct PlanBuilder<'a> {
     pub warnings: Vec<String>,
     /// Role and SHA-256 of what was read.
     pub inputs: Vec<(String, String)>,
+    /// Hears how far a fill is.
+    pub hear: &'a dyn Fn(Placing),
 }
 
 impl<'a> PlanBuilder<'a> {
@@ -106,6 +109,7 @@ impl<'a> PlanBuilder<'a> {
             streams: Vec::new(),
             read: FilesRead::default(),
             warnings: Vec::new(),
+            hear: &|_| (),
             inputs: vec![("scene".to_owned(), stream::sha256(scene.text.toml.as_bytes()))],
         }
     }

@@ -4,11 +4,12 @@
 //! ([`super::lattice`]). Diameters and positions come from random numbers of this fill alone, so that a fill depends on the ones before
 //! it only by the space they left.
 
+use super::Placing;
 use super::builder::PlanBuilder;
 use super::crystal;
 use super::grading::{Grading, Grain};
 use super::lattice;
-use super::packing::{Packing, bounds};
+use super::packing::{Packing, Radii, bounds};
 use super::random::{diameter, generator};
 use super::sizes::GrainKeys;
 use crate::error::Result;
@@ -45,11 +46,16 @@ impl PlanBuilder<'_> {
         let mut random = generator(entry.seed, 1, index as u64);
         let mut grains = self.grains_of(index, entry, grading, &mut random)?;
         let (first_id, taken) = (self.next_id(), self.spheres());
-        let places = if grains.len() > MANY {
-            lattice::places(shape, corners, &radii(&grains), &taken, &mut random)
-        } else {
+        let many = grains.len() > MANY;
+        if !many {
             grains.sort_by(|a, b| b.diameter.total_cmp(&a.diameter));
-            Packing::new(shape, corners, largest, &taken).place_all(&radii(&grains), &mut random)
+        }
+        let hear = |placed| (self.hear)(Placing { fill: index, placed, of: grains.len() });
+        let radii = Radii { all: &radii(&grains), hear: &hear };
+        let places = if many {
+            lattice::places(shape, corners, &radii, &taken, &mut random)
+        } else {
+            Packing::new(shape, corners, largest, &taken).place_all(&radii, &mut random)
         };
         drop(taken);
         let places = places.map_err(|n| {
@@ -225,6 +231,28 @@ mod tests {
         // A solid fraction of 0.49: random places, one after the other, end at 0.38.
         assert_eq!(builder.particles.len(), 1_200_000);
         assert!(builder.particles.iter().zip(0..).all(|(p, id)| p.id == id));
+    }
+
+    #[test]
+    fn whoever_waits_for_a_fill_hears_how_many_are_placed() {
+        let toml = |count| {
+            format!(
+                "[time]\nuntil = 1\n[[material]]\nname = \"m\"\ndensity = 1000\nyoung = 1e6\npoisson = 0.3\n\
+                 [[contact]]\nbetween = [\"*\", \"*\"]\nrestitution = 0.5\n\
+                 [[fill]]\nmaterial = \"m\"\nshape = \"box:0,0,0,1,1,1\"\ndiameter = 0.009\ncount = {count}"
+            )
+        };
+        // One after the other, and on a lattice.
+        for count in [50_000, 1_100_000] {
+            let heard = std::cell::RefCell::new(Vec::new());
+            let scene = Scene::new("s", toml(count), &[], Path::new("")).unwrap();
+            let plan =
+                scene.plan_with(Vec::new(), &|placing| heard.borrow_mut().push((placing.placed, placing.of)));
+            assert_eq!(plan.unwrap().setup.particles.len(), count);
+            let heard = heard.into_inner();
+            assert!(heard.is_sorted() && heard.iter().all(|h| h.1 == count), "{heard:?}");
+            assert!(heard.len() > 3 && heard.last().unwrap().0 > count * 9 / 10, "{heard:?}");
+        }
     }
 
     #[test]

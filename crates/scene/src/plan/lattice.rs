@@ -9,7 +9,7 @@
 //! in one pass (selection sampling: Knuth, The Art of Computer Programming 2, 3.4.2, algorithm S). Time is linear in the number of spheres;
 //! random places, one after the other ([`super::packing`]), take more tries the fuller the shape is.
 
-use super::packing::{Occupied, holds};
+use super::packing::{Occupied, Radii, holds};
 use super::random::unit;
 use geom::{Shape, Vec3};
 use rand_pcg::Pcg64Mcg;
@@ -36,16 +36,16 @@ struct Lattice<'a> {
 pub(super) fn places(
     shape: &Shape,
     corners: (Vec3, Vec3),
-    radii: &[f64],
+    radii: &Radii,
     taken: &[(Vec3, f64)],
     random: &mut Pcg64Mcg,
 ) -> Result<Vec<Vec3>, usize> {
-    let largest = radii.iter().copied().fold(0.0, f64::max);
+    let (count, largest) = (radii.all.len(), radii.all.iter().copied().fold(0.0, f64::max));
     let occupied = Occupied::with(corners, largest, taken);
     let occupied = (!occupied.is_empty()).then_some(&occupied);
-    let (lattice, mut cells) = fitting(shape, corners, occupied, (radii.len(), largest))?;
+    let (lattice, mut cells) = fitting(shape, corners, occupied, (count, largest))?;
     let mut left = radii.iter();
-    let mut found = Vec::with_capacity(radii.len());
+    let mut found = Vec::with_capacity(count);
     for cell in lattice.cells() {
         let middle = lattice.middle(cell);
         if !lattice.counts(&middle) {
@@ -136,7 +136,13 @@ mod tests {
 
     fn placed(shape: &str, count: usize, taken: &[(Vec3, f64)]) -> Result<Vec<(Vec3, f64)>, usize> {
         let (shape, radii) = (shape.parse::<Shape>().unwrap(), radii(count));
-        let found = places(&shape, bounds(&shape).unwrap(), &radii, taken, &mut generator(0, 1, 0))?;
+        let found = places(
+            &shape,
+            bounds(&shape).unwrap(),
+            &Radii { all: &radii, hear: &|_| () },
+            taken,
+            &mut generator(0, 1, 0),
+        )?;
         assert!(found.iter().zip(&radii).all(|(p, r)| holds(&shape, p, *r)));
         Ok(found.into_iter().zip(radii).collect())
     }

@@ -66,6 +66,17 @@ pub struct Plan {
     pub sizes: Option<Sizes>,
 }
 
+/// How far a `[[fill]]` is.
+#[derive(Debug, Clone, Copy)]
+pub struct Placing {
+    /// Its index in the scene.
+    pub fill: usize,
+    /// Spheres that have a place.
+    pub placed: usize,
+    /// Spheres that it has in all.
+    pub of: usize,
+}
+
 /// Density of materials that no particle is made of [kg/m³].
 pub const NO_DENSITY: f64 = f64::MIN_POSITIVE;
 
@@ -76,7 +87,15 @@ impl Scene {
     /// # Errors
     /// Whatever does not fit together, with key, value and cure.
     pub fn plan(&self, given: Vec<Input>) -> Result<Plan> {
-        let mut builder = PlanBuilder::new(self);
+        self.plan_with(given, &|_| ())
+    }
+
+    /// The same; `hear` is told how far a `[[fill]]` is.
+    ///
+    /// # Errors
+    /// As [`Scene::plan`].
+    pub fn plan_with(&self, given: Vec<Input>, hear: &dyn Fn(Placing)) -> Result<Plan> {
+        let mut builder = PlanBuilder { hear, ..PlanBuilder::new(self) };
         let (mut wall_files, mut streams): (Vec<WallFile>, Vec<InletSource>) = (Vec::new(), Vec::new());
         for input in given {
             match input {

@@ -130,6 +130,30 @@ impl Occupied {
     }
 }
 
+/// Spheres between two reports of how many have been placed.
+const REPORT: usize = 1 << 14;
+
+/// Radii of spheres to be placed [m], and who hears how many have a place.
+pub(super) struct Radii<'a> {
+    pub(super) all: &'a [f64],
+    pub(super) hear: &'a dyn Fn(usize),
+}
+
+impl Radii<'_> {
+    /// Each in turn: those before it have a place.
+    pub(super) fn iter(&self) -> impl ExactSizeIterator<Item = &f64> {
+        self.all
+            .iter()
+            .enumerate()
+            .inspect(|(n, _)| {
+                if n.is_multiple_of(REPORT) {
+                    (self.hear)(*n);
+                }
+            })
+            .map(|(_, radius)| radius)
+    }
+}
+
 /// A shape that is filled with spheres one after the other.
 pub(super) struct Packing<'a> {
     shape: &'a Shape,
@@ -151,7 +175,7 @@ impl<'a> Packing<'a> {
     }
 
     /// A place for each sphere; else how many found one.
-    pub(super) fn place_all(mut self, radii: &[f64], random: &mut Pcg64Mcg) -> Result<Vec<Vec3>, usize> {
+    pub(super) fn place_all(mut self, radii: &Radii, random: &mut Pcg64Mcg) -> Result<Vec<Vec3>, usize> {
         radii.iter().enumerate().map(|(n, &radius)| self.place(radius, random).ok_or(n)).collect()
     }
 

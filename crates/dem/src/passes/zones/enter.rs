@@ -2,6 +2,8 @@
 
 use crate::model::in_range::out_of_range;
 use crate::model::{Allowed, Check, Model, SetupError, Subject};
+use crate::neighbours::NeighbourLists;
+use crate::passes::zones::removed;
 use crate::setup::clumps::members;
 use crate::setup::{Entry, EntryClump, Particle, Setup, WallShape, Zone, ZoneMotion};
 use crate::state::clumps::starts;
@@ -107,16 +109,17 @@ pub fn look_ahead(model: &Model) -> f64 {
     model.dt * LOOK_AHEAD as f64
 }
 
-/// Adds entries that are due, and those due soon, to the particles.
-pub fn insert_due(model: &Model, state: &mut State) {
+/// Adds entries that are due, and those due soon, to the particles; the lists are those of before.
+pub fn insert_due(model: &Model, state: &mut State, lists: &NeighbourLists) {
     let now = state.time();
     if state.zones.pending.front().is_none_or(|e| e.time > now) {
         return;
     }
-    let horizon = now + look_ahead(model);
+    let (horizon, first) = (now + look_ahead(model), state.particles.len());
     while let Some(e) = state.zones.pending.pop_front_if(|e| e.time <= horizon) {
         add(model, state, &e, now);
     }
+    removed::make_room(model, state, lists, first);
     state.listing.outdate(ListStatus::Outdated);
 }
 

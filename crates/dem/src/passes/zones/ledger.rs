@@ -48,28 +48,12 @@ pub fn energy_of_idle(state: &State, lists: &NeighbourLists) -> f64 {
 
 /// Elastic energy [J] of the contacts of particle `k` with those that have not left before it.
 pub fn held(state: &State, lists: &NeighbourLists, k: usize) -> f64 {
-    held_where(state, lists, k, |_| true)
-}
-
-/// Elastic energy of the contacts of particle `k` with the particle of this id [J].
-pub fn held_with(state: &State, lists: &NeighbourLists, k: usize, id: u32) -> f64 {
-    held_where(state, lists, k, |other| other.is_some_and(|row| state.particles.id[row] == id))
-}
-
-/// Elastic energy of the contacts of particle `k` with what counts: a particle of this row, or a wall (`None`) [J].
-fn held_where(
-    state: &State,
-    lists: &NeighbourLists,
-    k: usize,
-    counts: impl Fn(Option<usize>) -> bool,
-) -> f64 {
     let slots = &lists.slots;
     let of = |&end: &SlotEnd| {
         let slot = end.slot();
         let wall = slots.segment_of(slot).with.is_wall();
-        let other = (!wall).then(|| slots.other(end) as usize);
-        let gone = other.is_some_and(|row| state.zones.is_gone(row));
-        if gone || !counts(other) { 0.0 } else { state.contacts.ledger[slot * LEDGER] }
+        let gone = !wall && state.zones.is_gone(slots.other(end) as usize);
+        if gone { 0.0 } else { state.contacts.ledger[slot * LEDGER] }
     };
     slots.of_particle(k).iter().map(of).sum()
 }

@@ -1,43 +1,72 @@
-//! Particles that have gone back through the inlet that they came by, and are taken out of the calculation.
+//! Particles that have gone back through the inlet that they came by, and are taken out of the calculation: once they are through its whole
+//! zone, or where they are in the way of one that comes in.
 
 use crate::model::{Halt, Model, Partner};
 use crate::neighbours::NeighbourLists;
 use crate::passes::zones::cross::{book_leaving, state_back};
-use crate::passes::zones::ledger::held_with;
 use crate::passes::zones::travel::exclude;
 use crate::passes::zones::whole::{rows_with, test_point};
 use crate::setup::CameBack;
-use crate::state::State;
+use crate::state::{Direction, State};
+use geom::Vec3;
 
-/// Takes out the particle behind a calculation plane that is in the way of one that comes in; whether that is what stopped the step.
+/// Takes out the particles that are in the way of those that have just been added, from row `first` on: before any force between the two,
+/// which would drive a newcomer that brought no energy for that. The lists are those of before.
+pub fn make_room(model: &Model, state: &mut State, lists: &NeighbourLists, first: usize) {
+    if model.setup.guards.zones != CameBack::IsRemoved || !state.zones.lost.any {
+        return;
+    }
+    let added = state.zones.zone_particles.iter().filter(|t| t.at as usize >= first);
+    let newcomers: Vec<(usize, u32)> = added
+        .filter_map(
+            |t| if let Direction::In(inlet) = t.direction { Some((t.at as usize, inlet)) } else { None },
+        )
+        .collect();
+    for k in 0..first {
+        for &(newcomer, inlet) in &newcomers {
+            if state.zones.is_free(k) && too_deep(model, state, k, newcomer) {
+                remove_behind(model, state, lists, k, inlet);
+            }
+        }
+    }
+}
+
+/// Whether two particles overlap by more than the guard allows.
+fn too_deep(model: &Model, state: &State, i: usize, j: usize) -> bool {
+    let (a, b, period) = (&state.particles.rows[i], &state.particles.rows[j], model.period());
+    let apart = a.position() - b.position();
+    let nearest = Vec3::from_fn(|axis, _| match period[axis] > 0.0 {
+        true => apart[axis] - period[axis] * (apart[axis] / period[axis]).round(),
+        false => apart[axis],
+    });
+    a[3] + b[3] - nearest.norm() > model.setup.guards.overlap * a[3].min(b[3])
+}
+
+/// Takes out the particle behind a calculation plane that one on its way in has run into; whether that is what stopped the step.
 pub fn clear_the_way(model: &Model, state: &mut State, lists: &NeighbourLists, halt: &Halt) -> bool {
-    let Halt::InletOverlap { id: newcomer, inlet, partner: Partner::Particle(id), .. } = halt else {
+    let Halt::InletOverlap { inlet, partner: Partner::Particle(id), .. } = halt else {
         return false;
     };
     if model.setup.guards.zones != CameBack::IsRemoved {
         return false;
     }
-    let Some(member) =
-        (0..state.particles.len()).find(|&k| state.particles.id[k] == *id && state.zones.is_free(k))
-    else {
-        return false;
-    };
+    let is_free = |&k: &usize| state.particles.id[k] == *id && state.zones.is_free(k);
+    let found = (0..state.particles.len()).find(is_free);
+    found.is_some_and(|k| remove_behind(model, state, lists, k, *inlet))
+}
+
+/// Takes out free particle `k` if it came by that inlet and is behind its calculation plane; whether it was.
+fn remove_behind(model: &Model, state: &mut State, lists: &NeighbourLists, k: usize, inlet: u32) -> bool {
     // Of a clump, what is tested is its centre.
-    let first = rows_with(state, member)[0] as usize;
+    let first = rows_with(state, k)[0] as usize;
     let Some((position, radius)) = test_point(state, first) else { return false };
     let behind = state.zones.came_back(first, &position, radius);
-    let in_the_way =
-        behind.is_some_and(|(by, behind)| by == *inlet && behind > -state.zones.inlets[by as usize].length);
-    if in_the_way {
-        if model.setup.ledger {
-            // The newcomer brings the springs between the two along, already compressed.
-            let brought = held_with(state, lists, first, *newcomer);
-            state.ledger.entered += brought;
-            state.ledger.passed -= brought;
-        }
-        remove(model, state, lists, first, *inlet);
+    let removes =
+        behind.is_some_and(|(by, behind)| by == inlet && behind > -state.zones.inlets[by as usize].length);
+    if removes {
+        remove(model, state, lists, first, inlet);
     }
-    in_the_way
+    removes
 }
 
 /// Takes out free particle `k`, with all members of its clump, and counts it for its inlet.
