@@ -38,6 +38,7 @@ mod walls;
 pub use model::bonds::limit::entries as bonds_of;
 pub use model::in_range::magnitudes;
 pub use model::limit::critical_step;
+pub use model::servo::face_distance;
 pub use model::start::time_step;
 pub use model::{
     Allowed, BondConflict, BondedParticle, CriticalBonds, CriticalDrag, CriticalGrain, CriticalPair,
@@ -48,9 +49,9 @@ pub use observe::record::ContactRecord;
 pub use observe::snapshot::Snapshot;
 pub use observe::stiffen::{DeepImpact, deep_impact};
 pub use passes::clumps::instant::ClumpState;
-pub use passes::servo::WallForce;
+pub use passes::servo::{ServoReport, WallForce};
 pub use setup::Setup;
 pub use simulation::{Checkpoint, ContactBytes, EffectCost, MatchedDamping, Simulation};
 pub use space::rotation::spun;
 pub use space::sphere::mass;
-pub use state::{BondState, Energy, Returned};
+pub use state::{BondState, Energy, Held, Returned};

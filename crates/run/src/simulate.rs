@@ -6,6 +6,7 @@ use crate::frames::WallHead;
 use crate::integration::IntegrationError;
 use crate::progress::Progress;
 use crate::schedule::Schedule;
+use crate::servos::ServoHeld;
 use crate::supply::Supply;
 use dem::setup::Crossing;
 use dem::{Halt, Simulation};
@@ -49,6 +50,8 @@ pub struct Outcome {
     pub inflow: Vec<String>,
     /// Energy that the finite time step created, where the ledger is kept.
     pub integration: Option<IntegrationError>,
+    /// How well servos held what they follow.
+    pub servos: Vec<ServoHeld>,
     /// Contacts listed at the end.
     pub listed_contacts: usize,
     /// How often neighbour lists were rebuilt.
@@ -276,9 +279,13 @@ impl<W: Write> Run<W> {
         }
         self.outcome.returned = self.sim.returned().clone();
         self.outcome.inflow = self.supply.ended(self.sim.time());
+        self.outcome.servos = ServoHeld::all(&self.sim.servos(), &self.written.walls);
+        let servos =
+            self.outcome.servos.iter().map(|servo| servo.warning().unwrap_or_else(|| servo.to_string()));
         let line = self.outcome.integration.map(|error| error.to_string());
+        let lines: Vec<String> = line.into_iter().chain(servos).collect();
         let notes = [crate::warnings(&self.outcome.returned), self.outcome.inflow.clone()].concat();
-        notes.into_iter().chain(line).try_for_each(|note| self.note(&note))?;
+        notes.into_iter().chain(lines).try_for_each(|note| self.note(&note))?;
         reason.map_or(Ok(()), |reason| self.stop(reason))?;
         let Run { sim, supply, mut outcome, writer, first, .. } = self;
         outcome.steps = sim.steps() - first;

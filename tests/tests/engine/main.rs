@@ -10,4 +10,5 @@ mod meshes;
 mod precision;
 mod records;
 mod servo;
+mod servo_shear;
 mod sleep;

@@ -80,7 +80,7 @@ fn no_particle_on_its_way_in_pushes_a_wall() {
 fn a_servo_does_not_feel_who_travels() {
     let of = |outlets: Vec<Zone>| {
         let mut setup = slide();
-        setup.walls[0].servo = Some(Servo { direction: Vec3::z(), force: 0.15, speed_limit: 0.05 });
+        setup.walls[0].servo = Some(Servo::force(Vec3::z(), 0.15, 0.05));
         setup.outlets = outlets;
         setup.particles.push(grain(1, Vec3::new(-0.1, 0.05, 0.01)));
         let mut sim = Simulation::new(setup).expect("sound");

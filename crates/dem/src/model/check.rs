@@ -157,13 +157,7 @@ fn walls(setup: &Setup) -> Result<(), SetupError> {
         check.vector("surface_velocity", &w.surface.velocity, "m/s")?;
         check.vector("surface_rotation", &w.surface.turn, "rad/s")?;
         check.vector("surface_rotation through", &w.surface.through, "m")?;
-        if let Some(s) = &w.servo {
-            let length = s.direction.norm();
-            let unit = (length - 1.0).abs() < 1e-9;
-            check.within("servo.direction", length, "[–]", unit, "directions of length 1")?;
-            check.finite("servo.force", s.force, "N")?;
-            check.positive("servo.speed_limit", s.speed_limit, "m/s")?;
-        }
+        crate::model::servo::check(setup, w, &check)?;
     }
     Ok(())
 }

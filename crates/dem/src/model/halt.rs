@@ -99,6 +99,18 @@ pub enum Halt {
         /// Along the direction of its servo [N].
         push: f64,
     },
+    /// A wall that follows a force has passed all particles.
+    #[error(
+        "t = {time:.6e} s: wall '{wall}', which follows a force, touches nothing, and all particles are behind it: it has moved by {shift:.4e} m"
+    )]
+    WallPastAll {
+        /// When [s].
+        time: f64,
+        /// Which wall.
+        wall: String,
+        /// How far it has moved along the direction of its servo [m].
+        shift: f64,
+    },
     /// Contacts or forces on walls are asked for, and the wrench of each contact is not kept
     /// ([`crate::Setup::record_wrenches`]).
     #[error("t = {time:.6e} s: the wrench of each contact was not recorded")]

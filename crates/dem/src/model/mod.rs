@@ -14,6 +14,7 @@ pub mod in_range;
 pub mod limit;
 pub mod matched;
 pub mod quantity;
+pub mod servo;
 pub mod start;
 pub mod step_cause;
 
@@ -32,7 +33,8 @@ pub use step_cause::{
 use crate::effects::needed;
 use crate::kernel::Kernel;
 use crate::model::limit::largest_reach;
-use crate::model::start::{faster_than_sleep, kinds, mean_radius, servo_gains, slow_enough, time_step};
+use crate::model::servo::{Response, responses};
+use crate::model::start::{faster_than_sleep, kinds, mean_radius, slow_enough, time_step};
 use crate::setup::Setup;
 use crate::simd::{Layout, Precision, Width};
 use crate::space::search::FIRST_SKIN;
@@ -56,8 +58,8 @@ pub struct Model {
     pub width: Width,
     /// Walls as at t = 0.
     pub walls: Vec<WallBody>,
-    /// What the gain of each servo is made of, by wall [N·s/m].
-    pub servo_gains: Vec<f64>,
+    /// How stiffly contacts answer servos, by kind of contact.
+    pub responses: Vec<Response>,
     /// Kinds of contact.
     pub kinds: Vec<Kind>,
     /// Steps that the margins of particles are made for; 0 where the setup gives the skin.
@@ -119,9 +121,9 @@ impl Model {
         let walls: Vec<WallBody> = setup.walls.iter().map(|w| WallBody::new(w, reach, ahead)).collect();
         slow_enough(&setup, &walls, dt)?;
         faster_than_sleep(&setup, &walls)?;
-        let servo_gains = servo_gains(&setup, dt);
+        let responses = responses(&setup, &kinds, dt);
         let rotates = kinds.iter().any(|k| k.kernel.rotates()) || !setup.bonds.is_empty();
-        Ok(Model { setup, dt, reach, skin, width, walls, servo_gains, kinds, horizon, mean_radius, rotates })
+        Ok(Model { setup, dt, reach, skin, width, walls, responses, kinds, horizon, mean_radius, rotates })
     }
 
     /// How far ahead in time contacts are looked for, half a step or nothing [s].

@@ -8,6 +8,7 @@ pub mod clumps;
 pub mod drag;
 
 mod kept;
+mod servo;
 mod zone;
 
 pub use crate::effects::{ContactHistory, ContactLaw, Material};
@@ -15,6 +16,7 @@ pub use crate::setup::clump_shape::ClumpShape;
 pub use crate::setup::drag::{Drag, DragLaw};
 pub use crate::simd::number::Precision;
 pub use kept::{KeptContact, KeptPartner};
+pub use servo::{Length, Servo, Target};
 pub use zone::{
     Crossing, CrossingBond, Entry, EntryBonds, EntryClump, Guide, PairHistory, PathSample, Sample, Touch,
     Zone, ZoneMotion, ZoneTest,
@@ -268,17 +270,6 @@ pub enum WallShape {
     Plane(Plane),
     /// Triangles; both sides act.
     Mesh(TriMesh),
-}
-
-/// A force that a wall follows ([`crate::passes::servo`] says how).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Servo {
-    /// Which way the wall pushes [–].
-    pub direction: Vec3,
-    /// Force of the wall on the particles along `direction` [N].
-    pub force: f64,
-    /// Largest speed [m/s].
-    pub speed_limit: f64,
 }
 
 /// When particles sleep ([`crate::passes::sleep`] says what that does).

@@ -7,7 +7,7 @@ use crate::observe::record::ContactRecord;
 use crate::observe::snapshot::Snapshot;
 use crate::observe::{guards, record, snapshot};
 use crate::passes::clumps::instant::ClumpState;
-use crate::passes::servo::WallForce;
+use crate::passes::servo::{ServoReport, WallForce};
 use crate::passes::{bonds, kept, servo};
 use crate::setup::{KeptContact, Particle};
 use crate::state::{BondState, Energy, Sleepers};
@@ -77,6 +77,11 @@ impl Simulation {
     pub fn wall_forces(&mut self) -> Result<Vec<WallForce>, Halt> {
         self.ready_to_record()?;
         Ok(servo::wall_forces(&self.model, &self.state, &self.lists))
+    }
+
+    /// What each servo follows and how well it has held that, with the index of its wall; pushes are those of the last step.
+    pub fn servos(&self) -> Vec<(usize, ServoReport)> {
+        servo::reports(&self.model, &self.state)
     }
 
     /// All contacts that carry a force, or have done work since the last call, in the order of the lists.

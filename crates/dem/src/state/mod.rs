@@ -12,6 +12,7 @@ pub mod ledger;
 pub mod particles;
 pub mod path;
 pub mod returned;
+pub mod servo;
 pub mod sleepers;
 pub mod zone_particle;
 pub mod zones;
@@ -25,6 +26,7 @@ pub use ledger::{DrivenBody, LedgerSums};
 pub use particles::Particles;
 pub use path::{EARLY, Path, PathEnd};
 pub use returned::{ReturnCounts, Returned};
+pub use servo::{Held, ServoState};
 pub use sleepers::{SleepMap, SleeperSlices, Sleepers};
 pub use zone_particle::{Direction, Kinematics, ZoneParticle};
 pub use zones::{LOOK_AHEAD, Zones};
@@ -168,24 +170,6 @@ impl State {
     /// Whether anything makes torques besides those of tangential forces.
     pub fn torques(&self, model: &Model) -> bool {
         !self.bonds.none() || model.kinds.iter().any(|k| k.kernel.torques())
-    }
-}
-
-/// Where a servo has moved its wall.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct ServoState {
-    /// How far the wall has been shifted since t = 0, along the servo's direction [m].
-    pub shift: f64,
-    /// Its rate [m/s].
-    pub speed: f64,
-    /// Shift when neighbours were listed [m].
-    pub listed: f64,
-}
-
-impl ServoState {
-    /// Whether its numbers are finite.
-    pub fn is_finite(&self) -> bool {
-        self.shift.is_finite() && self.speed.is_finite()
     }
 }
 

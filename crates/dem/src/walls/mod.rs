@@ -79,7 +79,7 @@ impl WallBody {
             belt: Some(wall.surface).filter(SurfaceMotion::moves),
             belt_speed: wall.surface.fastest(span(&wall.surface.through)),
             motion: wall.motion.clone(),
-            servo: wall.servo,
+            servo: wall.servo.clone(),
             bounds: bounds(&surface),
             surface,
             reach,
@@ -114,7 +114,7 @@ impl WallBody {
 
     /// Upper bound of the speed of its surface [m/s].
     pub fn fastest(&self) -> f64 {
-        self.fastest_driven() + self.servo.map_or(0.0, |s| s.speed_limit)
+        self.fastest_driven() + self.servo.as_ref().map_or(0.0, |s| s.speed_limit)
     }
 
     /// The same without the servo.

@@ -8,12 +8,14 @@ mod contact_keys;
 mod forms;
 mod geometry;
 mod particles;
+mod servo;
 mod unit;
 mod wall;
 
 pub use calculation::*;
 pub use contact::*;
 pub use particles::*;
+pub use servo::*;
 pub use wall::*;
 
 use serde::Deserialize;

@@ -1,6 +1,6 @@
 //! Walls and how they move.
 
-use super::{forms, geometry, unit};
+use super::{Servo, forms, geometry, unit};
 use geom::{Plane, Vec3};
 use serde::Deserialize;
 
@@ -159,27 +159,6 @@ pub struct Path {
     /// A point of the axis [m].
     #[serde(default, deserialize_with = "unit::metres")]
     pub through: Option<[f64; 3]>,
-}
-
-/// A force that a wall follows.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Servo {
-    /// Which way the wall pushes.
-    #[serde(deserialize_with = "unit::plain")]
-    pub direction: [f64; 3],
-    /// Force on the particles [N]; this or `stress`.
-    #[serde(default, deserialize_with = "unit::newtons")]
-    pub force: Option<f64>,
-    /// Stress [Pa] on `area`; this or `force`.
-    #[serde(default, deserialize_with = "unit::pascals")]
-    pub stress: Option<f64>,
-    /// Area that `stress` acts on [m²].
-    #[serde(default, deserialize_with = "unit::square_metres")]
-    pub area: Option<f64>,
-    /// Largest speed [m/s].
-    #[serde(deserialize_with = "unit::metres_a_second")]
-    pub speed_limit: f64,
 }
 
 /// A turn about a fixed axis.

@@ -1,6 +1,7 @@
 //! A plan in the making: what the steps of this folder read and add to.
 
 use super::insertion::Insertion;
+use super::servos::ServoArea;
 use crate::check::Check;
 use crate::error::{Result, SceneError};
 use crate::input::{InletSource, read_mesh};
@@ -59,6 +60,8 @@ pub(super) struct PlanBuilder<'a> {
     pub clumps: setup::Clumps,
     pub walls: Vec<setup::Wall>,
     pub wall_materials: Vec<WallMaterial>,
+    /// Areas of servos, until all walls are known.
+    pub servo_areas: Vec<ServoArea>,
     pub outlets: Vec<Zone>,
     pub inlets: Vec<Zone>,
     /// Materials of particles that come in later.
@@ -93,6 +96,7 @@ impl<'a> PlanBuilder<'a> {
             clumps: setup::Clumps::default(),
             walls: Vec::new(),
             wall_materials: Vec::new(),
+            servo_areas: Vec::new(),
             outlets: Vec::new(),
             inlets: Vec::new(),
             entry_materials: Vec::new(),

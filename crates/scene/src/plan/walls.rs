@@ -5,7 +5,7 @@ use super::solids;
 use crate::check::Check;
 use crate::error::{Result, SceneError};
 use crate::input::{Input, WallFile, read_mesh, read_path};
-use crate::keys::{Face, Motion, Rotate, Servo, Wall};
+use crate::keys::{Face, Motion, Rotate, Wall};
 use dem::setup::{self, SurfaceMotion, WallShape};
 use geom::motion::Path;
 use geom::{Plane, Vec3};
@@ -48,7 +48,7 @@ impl PlanBuilder<'_> {
             let name = if n == 0 { "given".to_owned() } else { format!("given.{n}") };
             self.wall_spheres("wall", &name, &Wall::default(), file)?;
         }
-        Ok(())
+        self.servo_areas()
     }
 
     fn wall_file(&self, source: &str) -> Result<WallFile> {
@@ -129,7 +129,7 @@ impl PlanBuilder<'_> {
         if let Some(r) = &entry.surface_rotation {
             (surface.turn, surface.through) = (turn(r), Vec3::from(r.through));
         }
-        let servo = entry.servo.as_ref().map(servo);
+        let servo = entry.servo.as_ref().map(|s| self.servo(&format!("{key}.servo"), s)).transpose()?;
         Ok(setup::Wall { motion, surface, servo, ..setup::Wall::new(name, material, shape) })
     }
 
@@ -216,13 +216,4 @@ fn motion(entry: &Motion) -> setup::Motion {
         motion.frequency = v.frequency;
     }
     motion
-}
-
-fn servo(entry: &Servo) -> setup::Servo {
-    let stress = entry.stress.unwrap_or(0.0) * entry.area.unwrap_or(0.0);
-    setup::Servo {
-        direction: Vec3::from(entry.direction).normalize(),
-        force: entry.force.unwrap_or(stress),
-        speed_limit: entry.speed_limit,
-    }
 }
