@@ -14,7 +14,7 @@
 //! model                  what is fixed: resolved once from a setup, checked, with the step that is stable
 //! state                  what changes: what a checkpoint holds
 //! neighbours             lists, rebuildable from Model and State
-//! passes                 integrate, clumps, bonds, drag, servo, sleep, zones, ledger
+//! passes                 integrate, clumps, bonds, drag, local damping, servos, springs of walls, sleep, zones, ledger
 //! forces                 the sweep over tiles: forces, then the move
 //! observe                records, snapshots, energy, guards
 //! simulation             Simulation { model, state, lists }: new, resume, step, observe, explain

@@ -7,6 +7,7 @@ use crate::integration::IntegrationError;
 use crate::progress::Progress;
 use crate::schedule::Schedule;
 use crate::servos::ServoHeld;
+use crate::settling::Settling;
 use crate::supply::Supply;
 use dem::setup::Crossing;
 use dem::{Halt, Simulation};
@@ -28,6 +29,8 @@ const LOOK_BACK: u64 = 64;
 pub struct Outcome {
     /// Why the run was stopped: the message of a guard, or [`SIGNAL`].
     pub stopped: Option<String>,
+    /// Why the run ended before its last step: the grains have come to rest.
+    pub settled: Option<String>,
     /// Time reached [s].
     pub time: f64,
     /// Time step [s].
@@ -112,6 +115,8 @@ pub(crate) struct Written {
     pub watched: bool,
     /// Whether the energy ledger is kept.
     pub ledger: bool,
+    /// At what the run ends before its last step.
+    pub settling: Settling,
 }
 
 /// A state to go back to: what the sources had given, and the engine.
@@ -170,7 +175,7 @@ pub fn run<W: Write>(
     let reason = loop {
         let step = run.sim.steps();
         run.sample()?;
-        match run.write_due(step) {
+        match run.settle(step).and_then(|()| run.write_due(step)) {
             Err(Ended::Guard(halt)) => break Some(guard(scene, step, halt)?),
             Err(Ended::Failed(error)) => return Err(error),
             Ok(()) => {}

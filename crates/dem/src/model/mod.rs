@@ -13,6 +13,7 @@ pub mod halt;
 pub mod in_range;
 pub mod limit;
 pub mod matched;
+pub mod mount;
 pub mod quantity;
 pub mod servo;
 pub mod start;

@@ -14,7 +14,7 @@ const LEVELS: usize = 13;
 pub struct Response {
     /// Overlap [–] of the first level, as a share of the smaller radius.
     share: f64,
-    /// k Δt + c [N·s/m] up to this share of the overlap, halved with each level; empty: the kind meets no servo.
+    /// k Δt + c [N·s/m] up to this share of the overlap, halved with each level; empty: the kind meets no wall that answers.
     levels: Vec<f64>,
 }
 
@@ -36,7 +36,7 @@ pub fn responses(setup: &Setup, kinds: &[Kind], dt: f64) -> Vec<Response> {
     let of = |kind: &Kind| {
         let With::Wall(w) = kind.with else { return Response::default() };
         let wall = &setup.walls[w];
-        if wall.servo.is_none() {
+        if wall.servo.is_none() && wall.mount.is_none() {
             return Response::default();
         }
         let own = || grains.iter().filter(|g| g.material == kind.between.0);

@@ -117,17 +117,18 @@ fn target(servo: &Servo, area: Option<f64>, time: f64) -> f64 {
 
 /// What a wall does to the particles.
 #[derive(Debug, Clone, Copy, Default)]
-struct Push {
+pub struct Push {
     /// Force on the particles [N].
-    force: Vec3,
-    contacts: u32,
+    pub force: Vec3,
+    /// How many push.
+    pub contacts: u32,
     /// Sum of what `response` gives for each contact.
-    response: f64,
+    pub response: f64,
 }
 
 /// Force of a wall on the particles, how many it pushes, and the sum of a `response` of them (by segment and slot): those in zones feel nothing, and push
 /// no wall.
-fn wall_push(
+pub fn wall_push(
     state: &State,
     lists: &NeighbourLists,
     wall: usize,
@@ -149,7 +150,7 @@ fn wall_push(
 }
 
 /// k Δt + c of the contact of a wall in a slot, at its overlap before the last move [N·s/m].
-fn answer(
+pub fn answer(
     model: &Model,
     state: &State,
     lists: &NeighbourLists,

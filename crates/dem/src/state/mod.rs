@@ -9,6 +9,7 @@ pub mod clumps;
 pub mod contacts;
 pub mod energy;
 pub mod ledger;
+pub mod mount;
 pub mod particles;
 pub mod path;
 pub mod returned;
@@ -23,6 +24,7 @@ pub use clumps::{FREE, RigidClumps};
 pub use contacts::{ContactColumns, SavedColumns, WrenchColumns};
 pub use energy::Energy;
 pub use ledger::{DrivenBody, LedgerSums};
+pub use mount::MountState;
 pub use particles::Particles;
 pub use path::{EARLY, Path, PathEnd};
 pub use returned::{ReturnCounts, Returned};
@@ -60,6 +62,8 @@ pub struct State {
     pub sleepers: Option<Sleepers>,
     /// Servos, by wall; empty where no wall follows a force.
     pub servos: Vec<ServoState>,
+    /// Walls on springs, by wall; empty where there is none.
+    pub mounts: Vec<MountState>,
     /// Sums of the energy ledger.
     pub ledger: LedgerSums,
     /// History and wrenches of contacts.
@@ -132,6 +136,7 @@ impl State {
             bonds,
             sleepers,
             servos: servos(setup),
+            mounts: mounts(setup),
             ledger: LedgerSums::default(),
             contacts: ContactColumns::default(),
             particles,
@@ -152,6 +157,7 @@ impl State {
             bonds: self.bonds.clone(),
             sleepers: self.sleepers.clone(),
             servos: self.servos.clone(),
+            mounts: self.mounts.clone(),
             ledger: self.ledger,
             contacts: ContactColumns::default(),
         }
@@ -162,9 +168,9 @@ impl State {
         self.steps as f64 * self.dt
     }
 
-    /// Whether the wrench of each contact is wanted in each step: by servos, planes of zones, and sleepers.
+    /// Whether the wrench of each contact is wanted in each step: by servos, walls on springs, planes of zones, and sleepers.
     pub fn keeps_wrenches(&self) -> bool {
-        !self.servos.is_empty() || !self.zones.none() || self.sleepers.is_some()
+        !self.servos.is_empty() || !self.mounts.is_empty() || !self.zones.none() || self.sleepers.is_some()
     }
 
     /// Whether anything makes torques besides those of tangential forces.
@@ -177,4 +183,10 @@ impl State {
 fn servos(setup: &Setup) -> Vec<ServoState> {
     let any = setup.walls.iter().any(|w| w.servo.is_some());
     vec![ServoState::default(); if any { setup.walls.len() } else { 0 }]
+}
+
+/// A state for each wall, or none where no wall is on a spring.
+fn mounts(setup: &Setup) -> Vec<MountState> {
+    let any = setup.walls.iter().any(|w| w.mount.is_some());
+    vec![MountState::default(); if any { setup.walls.len() } else { 0 }]
 }

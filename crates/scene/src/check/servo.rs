@@ -1,8 +1,8 @@
-//! Checks of the servo of a wall.
+//! Checks of the servo and of the spring of a wall.
 
 use super::Check;
 use crate::error::Result;
-use crate::keys::{Servo, Side, Wall};
+use crate::keys::{Servo, Side, Spring, Wall};
 
 impl Check<'_> {
     pub(super) fn servo(&self, entry: &str, w: &Wall, s: &Servo) -> Result<()> {
@@ -25,6 +25,25 @@ impl Check<'_> {
             let why = "all faces of the box would follow one direction";
             let cure = "put the face that moves into a separate [[wall]]: faces = [\"z+\"]";
             return Err(self.wrong(&format!("{entry}.servo"), "(with a box)", why, cure));
+        }
+        Ok(())
+    }
+
+    pub(super) fn spring(&self, entry: &str, w: &Wall, s: &Spring) -> Result<()> {
+        let key = |k: &str| format!("{entry}.spring.{k}");
+        self.direction(&key("direction"), s.direction, "such as [0, 0, 1]")?;
+        self.positive(&key("stiffness"), s.stiffness, "N/m")?;
+        self.within(&key("damping"), s.damping, 0.0, 1e12, "N·s/m")?;
+        self.positive(&key("mass"), s.mass, "kg")?;
+        self.positive(&key("speed_limit"), s.speed_limit, "m/s")?;
+        if w.servo.is_some() {
+            let why = "a wall follows its servo or moves on its spring";
+            return Err(self.wrong(&format!("{entry}.spring"), "(with servo)", why, "take one of them out"));
+        }
+        if w.cuboid.is_some() && w.faces.as_ref().is_none_or(|f| f.len() != 1) {
+            let why = "each face of the box would be a wall on its own spring";
+            let cure = "put the face that moves into a separate [[wall]]: faces = [\"z-\"]";
+            return Err(self.wrong(&format!("{entry}.spring"), "(with a box)", why, cure));
         }
         Ok(())
     }

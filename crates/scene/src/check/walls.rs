@@ -35,6 +35,7 @@ impl Check<'_> {
             }
         }
         w.servo.as_ref().map_or(Ok(()), |s| self.servo(entry, w, s))?;
+        w.spring.as_ref().map_or(Ok(()), |s| self.spring(entry, w, s))?;
         self.belt(entry, w)?;
         w.motion.as_ref().map_or(Ok(()), |list| self.motions(&format!("{entry}.motion"), list))
     }

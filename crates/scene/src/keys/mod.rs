@@ -39,6 +39,8 @@ pub struct SceneKeys {
     pub domain: Domain,
     /// The fluid around the particles; absent: none.
     pub drag: Option<Drag>,
+    /// Damping of what is not in balance; absent: none.
+    pub local_damping: Option<LocalDamping>,
     /// Search for neighbours.
     pub neighbours: Neighbours,
     /// When particles at rest are passed over; absent: never.

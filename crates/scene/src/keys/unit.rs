@@ -59,6 +59,8 @@ units! {
     turns_a_minute "rpm" "8 rpm";
     hertz "Hz" "50 Hz";
     newtons "N" "2 kN";
+    newtons_a_metre "N/m" "2 kN/m";
+    joules "J" "1 mJ";
     pascals "Pa" "5 MPa";
     pascal_seconds "Pa·s" "1 cP";
     density "kg/m³" "2.5 g/cm³";

@@ -42,6 +42,8 @@ pub struct Wall {
     pub surface_rotation: Option<Rotate>,
     /// A force that it follows in addition; absent: none.
     pub servo: Option<Servo>,
+    /// A spring that holds it, so that grains move it; absent: none.
+    pub spring: Option<Spring>,
 }
 
 /// A face of a box.
@@ -159,6 +161,27 @@ pub struct Path {
     /// A point of the axis [m].
     #[serde(default, deserialize_with = "unit::metres")]
     pub through: Option<[f64; 3]>,
+}
+
+/// A spring and a dashpot that hold a wall.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Spring {
+    /// Direction in which the wall can move.
+    #[serde(deserialize_with = "unit::plain")]
+    pub direction: [f64; 3],
+    /// Of the spring [N/m].
+    #[serde(deserialize_with = "unit::newtons_a_metre")]
+    pub stiffness: f64,
+    /// Of the dashpot [N·s/m].
+    #[serde(default, deserialize_with = "unit::plain")]
+    pub damping: f64,
+    /// Mass of the wall [kg].
+    #[serde(deserialize_with = "unit::kilograms")]
+    pub mass: f64,
+    /// Largest speed [m/s].
+    #[serde(deserialize_with = "unit::metres_a_second")]
+    pub speed_limit: f64,
 }
 
 /// A turn about a fixed axis.

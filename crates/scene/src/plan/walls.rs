@@ -79,9 +79,11 @@ impl PlanBuilder<'_> {
                 (format!("{key}.surface_velocity"), "take it out, or make the file without velocity");
             return Err(self.check.wrong(&at, &file.name, why, cure));
         }
-        if entry.servo.is_some() && (file.materials.len() > 1 || file.velocities.len() > 1) {
-            let why = "its spheres are of several materials or velocities, each of which would follow the force by itself";
-            let (servo, cure) = (format!("{name}: servo"), "use a file of one material and one velocity");
+        let answers = entry.servo.is_some() || entry.spring.is_some();
+        if answers && (file.materials.len() > 1 || file.velocities.len() > 1) {
+            let why = "its spheres are of several materials or velocities, each of which would follow forces by itself";
+            let (servo, cure) =
+                (format!("{name}: servo or spring"), "use a file of one material and one velocity");
             return Err(self.check.wrong(&servo, &file.name, why, cure));
         }
         for (k, record) in file.materials.iter().enumerate() {
@@ -130,7 +132,14 @@ impl PlanBuilder<'_> {
             (surface.turn, surface.through) = (turn(r), Vec3::from(r.through));
         }
         let servo = entry.servo.as_ref().map(|s| self.servo(&format!("{key}.servo"), s)).transpose()?;
-        Ok(setup::Wall { motion, surface, servo, ..setup::Wall::new(name, material, shape) })
+        let mount = entry.spring.as_ref().map(|s| setup::Mount {
+            direction: Vec3::from(s.direction).normalize(),
+            stiffness: s.stiffness,
+            damping: s.damping,
+            mass: s.mass,
+            speed_limit: s.speed_limit,
+        });
+        Ok(setup::Wall { motion, surface, servo, mount, ..setup::Wall::new(name, material, shape) })
     }
 
     /// The motions of an entry, one after the other.

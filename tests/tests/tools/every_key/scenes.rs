@@ -29,6 +29,8 @@ first_id = 100
 precision = "f64"
 [time]
 until = 0.002
+until_unbalanced = 1e-5
+until_kinetic = 1e-9
 dt = "auto"
 safety = 0.4
 shorten = 0.02
@@ -44,6 +46,8 @@ precision = "f64"
 periodic = ["x", "y"]
 low = [0, 0, 0]
 high = [0.1, 0.1, 0.3]
+[local_damping]
+factor = 0.7
 [neighbours]
 skin = 0.001
 [guards]
@@ -79,6 +83,10 @@ motion = { translate = [0.1, 0, 0], vibrate = { amplitude = [0, 0, 0.0001], freq
 plane = "0,0,0.3,0,0,-1"
 material = "steel"
 servo = { direction = [0, 0, -1], force = 10, speed_limit = 0.1 }
+[[wall]]
+plane = "0,0,-0.01,0,0,1"
+material = "steel"
+spring = { direction = [0, 0, 1], stiffness = 1e4, damping = 2, mass = 0.5, speed_limit = 1 }
 "#;
 
 /// Meshes, boxes, insertion by mass and by number, sleep.

@@ -186,6 +186,16 @@ const WALLS: &[Change] = &[
     ),
     wrong(
         "name = \"floor\"",
+        "spring = { direction = [0,0,1], stiffness = 10, mass = 0, speed_limit = 1 }",
+        &["wall.0.spring.mass = 0 kg", "above 0"],
+    ),
+    wrong(
+        "name = \"floor\"",
+        "spring = { direction = [0,0,1], stiffness = 1e3, mass = 1, speed_limit = 1 }\nservo = { direction = [0,0,1], force = 10, speed_limit = 1 }",
+        &["wall.0.spring", "take one of them out"],
+    ),
+    wrong(
+        "name = \"floor\"",
         "servo = { direction = [0,0,1], force = 10, area = 1, speed_limit = 1 }",
         &["wall.0.servo.area", "a force needs no area"],
     ),
@@ -212,7 +222,7 @@ const WALLS: &[Change] = &[
     wrong(
         "name = \"floor\"",
         "servo = { direction = [0,0,-1], force = 1, speed_limit = 1 }",
-        &["'floor': servo.direction along the plane's normal: -1", "to the side of the grains"],
+        &["'wall.0': servo.direction along the plane's normal: -1", "to the side of the grains"],
     ),
 ];
 
