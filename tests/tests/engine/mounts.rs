@@ -29,8 +29,8 @@ fn shift(sim: &mut Simulation) -> f64 {
 /// s = −A e^(−ζ ω t) sin ω' t.
 #[test]
 fn struck_plate_oscillates_freely() {
-    let (m, plate, stiffness, zeta) = (mass(), 0.05, 200.0, 0.05);
-    let omega = (stiffness / plate as f64).sqrt();
+    let (m, plate, stiffness, zeta): (f64, f64, f64, f64) = (mass(), 0.05, 200.0, 0.05);
+    let omega = (stiffness / plate).sqrt();
     let mut setup = empty(HOOKE, 1.0);
     setup.step = Step::Auto(0.02);
     setup.walls = vec![mounted(stiffness, 2.0 * zeta * omega * plate, plate)];
@@ -51,10 +51,10 @@ fn struck_plate_oscillates_freely() {
         }
         two = [two[1], s];
     }
-    let damped = omega * (1.0 - zeta * zeta as f64).sqrt();
+    let damped = omega * (1.0 - zeta * zeta).sqrt();
     let period = (turns[5].0 - turns[1].0) / 2.0;
     assert!((period / (2.0 * PI / damped) - 1.0).abs() < 1e-4, "{period}: {turns:?}");
-    let (found, wanted) = (turns[5].1 / turns[1].1, (-zeta * omega * 2.0 * period as f64).exp());
+    let (found, wanted) = (turns[5].1 / turns[1].1, (-zeta * omega * 2.0 * period).exp());
     assert!((found / wanted - 1.0).abs() < 1e-3, "{found} instead of {wanted}");
 }
 
