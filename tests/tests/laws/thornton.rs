@@ -78,11 +78,11 @@ fn ratio(sim: &mut Simulation) -> (f64, f64) {
 /// What is left at rest is the overlap of the contacts; the rest is the inertia of the array, which grows with the square of the rate.
 #[test]
 fn array_is_sheared_between_servos_at_three_rates() {
-    for rate in [0.5, 1.0, 2.0] {
+    for rate in [0.25, 0.5, 1.0] {
         let mut sim = simulation(array(rate));
         let mut worst = 1.0;
         for frame in 0..10 {
-            let strain = 0.03 + 0.001 * f64::from(frame);
+            let strain = 0.035 + 0.001 * f64::from(frame);
             run_until(&mut sim, SHEAR + (strain + 0.005) / rate);
             let (found, expected) = ratio(&mut sim);
             worst =
