@@ -37,7 +37,7 @@ fn array(rate: f64) -> Setup {
     let mut setup = with_friction(empty(law, 0.1), MU);
     setup.contacts[1].remove("sliding_friction");
     setup.contacts[0].set("rolling_resistance", 10.0);
-    setup.step = Step::Auto(0.3);
+    setup.step = Step::Auto(0.5);
     let side = 2.0 * R * (1.0 + 1e-6);
     let layer = (4.0 * R * R - 0.5 * side * side).sqrt();
     for z in 0..=INTERFACES {
