@@ -14,7 +14,7 @@
 //! model                  what is fixed: resolved once from a setup, checked, with the step that is stable
 //! state                  what changes: what a checkpoint holds
 //! neighbours             lists, rebuildable from Model and State
-//! passes                 integrate, clumps, bonds, drag, servo, sleep, zones, ledger
+//! passes                 integrate, clumps, bonds, drag, local damping, servos, springs of walls, sleep, zones, ledger
 //! forces                 the sweep over tiles: forces, then the move
 //! observe                records, snapshots, energy, guards
 //! simulation             Simulation { model, state, lists }: new, resume, step, observe, explain
@@ -38,6 +38,7 @@ mod walls;
 pub use model::bonds::limit::entries as bonds_of;
 pub use model::in_range::magnitudes;
 pub use model::limit::critical_step;
+pub use model::servo::face_distance;
 pub use model::start::time_step;
 pub use model::{
     Allowed, BondedParticle, BreakMode, CriticalBonds, CriticalDrag, CriticalGrain, CriticalPair,
@@ -48,9 +49,9 @@ pub use observe::record::ContactRecord;
 pub use observe::snapshot::Snapshot;
 pub use observe::stiffen::{DeepImpact, deep_impact};
 pub use passes::clumps::instant::ClumpState;
-pub use passes::servo::WallForce;
+pub use passes::servo::{ServoReport, WallForce};
 pub use setup::Setup;
 pub use simulation::{Checkpoint, ContactBytes, EffectCost, MatchedDamping, Simulation};
 pub use space::rotation::spun;
 pub use space::sphere::mass;
-pub use state::{BondState, Crack, Energy, Returned};
+pub use state::{BondState, Crack, Energy, Held, Returned};

@@ -29,6 +29,7 @@ pub mod repose;
 pub mod residence;
 pub mod run;
 pub mod segregation;
+pub mod settling;
 mod sheet;
 pub mod statistics;
 mod table;

@@ -2,11 +2,12 @@
 
 use crate::bonds::Crack;
 use crate::frame::{Contacts, Crossing, Frame};
+use crate::settling::Settled;
 use crate::{Bonds, MeasureError, WallForces, table::Columns};
 use geom::{Plane, Vec3};
 use record::column::{POSITION, RADIUS, WALL};
 use record::metadata::{MATERIALS, OUTLETS, SCENE};
-use record::topic::{BONDS, CONTACTS, CRACKS, CROSSINGS, ENERGY, PARTICLES, SURFACES, WALL_FORCES, WALLS};
+use record::topic::{BONDS, CONTACTS, CRACKS, CROSSINGS, ENERGY, PARTICLES, SETTLING, SURFACES, WALL_FORCES, WALLS};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use stream::{Table, mcap::Event};
@@ -46,6 +47,8 @@ pub enum RunMessage {
     Ledger(Ledger),
     /// The force on each wall at one time.
     WallForces(WallForces),
+    /// How far the grains are from rest at one time.
+    Settled(Settled),
     /// All bonds at one time.
     Bonds(Bonds),
     /// Bonds that broke since the message before.
@@ -93,6 +96,9 @@ impl Run {
             }
             Event::Bytes { topic, time_ns, data } if topic == WALL_FORCES => {
                 Some(RunMessage::WallForces(WallForces::new(seconds(time_ns), &data)?))
+            }
+            Event::Bytes { topic, time_ns, data } if topic == SETTLING => {
+                Some(RunMessage::Settled(Settled::new(seconds(time_ns), &data)?))
             }
             Event::Bytes { topic, data, .. } if topic == SURFACES => {
                 self.surfaces(&data);

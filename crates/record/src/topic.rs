@@ -20,6 +20,8 @@ pub const SURFACES: &str = "/surfaces";
 pub const ENERGY: &str = "/energy";
 /// Forces on walls; JSON.
 pub const WALL_FORCES: &str = "/wall_forces";
+/// How far the grains are from rest, as JSON.
+pub const SETTLING: &str = "/settling";
 /// Notes, and why a run was stopped; JSON, see [`crate::LogMessage`].
 pub const LOG: &str = "/log";
 /// Pieces of checkpoints; bincode.

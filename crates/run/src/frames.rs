@@ -1,6 +1,6 @@
 //! Tables and messages of a run: particles, clumps, contacts, bonds and walls at one time.
 
-use dem::setup::{ClumpShape, Clumps, Particle, Setup, Wall, WallShape, cluster_of};
+use dem::setup::{ClumpShape, Clumps, Particle, Setup, Target, Wall, WallShape, cluster_of};
 use dem::{BondState, BreakMode, ClumpState, ContactRecord, Crack, Simulation, Snapshot, WallForce};
 use geom::Vec3;
 use record::column::{self, FIRST, FORCE, ID, MATERIAL, NORMAL, POSITION, RADIUS, SECOND, SPIN, VELOCITY};
@@ -212,8 +212,31 @@ pub(crate) fn heads(setup: &Setup) -> Vec<WallHead> {
 
 /// The message of the topic `/wall_forces`: force on each wall [N], and its shift [m].
 pub(crate) fn wall_forces(time: f64, forces: &[WallForce], walls: &[WallHead]) -> Value {
-    let one = |(f, w): (&WallForce, &WallHead)| json!({"name": w.name, "force": f.force, "shift": f.shift, "contacts": f.contacts});
+    let one = |(f, w): (&WallForce, &WallHead)| {
+        let mut wall = json!({"name": w.name, "force": f.force, "shift": f.shift, "contacts": f.contacts});
+        if let Some(s) = &f.servo {
+            wall["servo"] = json!({"target": s.target, "push": s.push});
+            let mut put = |key: &str, value: Option<f64>| {
+                if let Some(value) = value {
+                    wall["servo"][key] = value.into();
+                }
+            };
+            put("area", s.area);
+            put("reached", s.held.since);
+            put("mean_deviation", s.held.mean());
+            put("worst_deviation", s.held.mean().map(|_| s.held.worst));
+        }
+        wall
+    };
     json!({"time": time, "walls": forces.iter().zip(walls).map(one).collect::<Vec<_>>()})
+}
+
+/// What a servo follows: a number, or rows of time [s] and value.
+fn target(target: &Target) -> Value {
+    match target.rows() {
+        [[_, value]] => json!(value),
+        rows => json!(rows),
+    }
 }
 
 /// The message of the topic `/surfaces`: planes and meshes at t = 0, and the motion of every wall.
@@ -224,9 +247,10 @@ pub(crate) fn surfaces(walls: &[Wall]) -> Value {
             WallShape::Plane(p) => (Some(SurfaceShape::Plane(*p)), 0),
             WallShape::Mesh(m) => (Some(SurfaceShape::Mesh(m.clone())), 0),
         };
-        let servo = w
-            .servo
-            .map(|s| json!({"direction": s.direction, "force": s.force, "speed_limit": s.speed_limit}));
+        let servo = w.servo.as_ref().map(|s| {
+            let what = if s.area.is_some() { "stress" } else { "force" };
+            json!({"direction": s.direction, what: target(&s.target), "speed_limit": s.speed_limit})
+        });
         let record = WallRecord { name: w.name.clone(), motion: w.motion.clone(), surface };
         record.to_json(w.material, spheres, servo)
     };

@@ -49,6 +49,11 @@ impl Schedule {
         Ok(Schedule { dt, last, every, checkpoint: output.checkpoint })
     }
 
+    /// Time of the last step [s].
+    pub fn end(&self) -> f64 {
+        self.last as f64 * self.dt
+    }
+
     /// Whether a frame is written after `step` steps; the last step always is one.
     pub fn is_frame(&self, step: u64) -> bool {
         step == self.last || self.hits(step, self.every)

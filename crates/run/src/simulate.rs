@@ -6,6 +6,8 @@ use crate::frames::WallHead;
 use crate::integration::IntegrationError;
 use crate::progress::Progress;
 use crate::schedule::Schedule;
+use crate::servos::ServoHeld;
+use crate::settling::Settling;
 use crate::supply::Supply;
 use dem::setup::Crossing;
 use dem::{Halt, Simulation};
@@ -27,6 +29,8 @@ const LOOK_BACK: u64 = 64;
 pub struct Outcome {
     /// Why the run was stopped: the message of a guard, or [`SIGNAL`].
     pub stopped: Option<String>,
+    /// Why the run ended before its last step: the grains have come to rest.
+    pub settled: Option<String>,
     /// Time reached [s].
     pub time: f64,
     /// Time step [s].
@@ -49,6 +53,8 @@ pub struct Outcome {
     pub inflow: Vec<String>,
     /// Energy that the finite time step created, where the ledger is kept.
     pub integration: Option<IntegrationError>,
+    /// How well servos held what they follow.
+    pub servos: Vec<ServoHeld>,
     /// Contacts listed at the end.
     pub listed_contacts: usize,
     /// How often neighbour lists were rebuilt.
@@ -109,6 +115,8 @@ pub(crate) struct Written {
     pub watched: bool,
     /// Whether the energy ledger is kept.
     pub ledger: bool,
+    /// At what the run ends before its last step.
+    pub settling: Settling,
 }
 
 /// A state to go back to: what the sources had given, and the engine.
@@ -167,7 +175,7 @@ pub fn run<W: Write>(
     let reason = loop {
         let step = run.sim.steps();
         run.sample()?;
-        match run.write_due(step) {
+        match run.settle(step).and_then(|()| run.write_due(step)) {
             Err(Ended::Guard(halt)) => break Some(guard(scene, step, halt)?),
             Err(Ended::Failed(error)) => return Err(error),
             Ok(()) => {}
@@ -276,9 +284,13 @@ impl<W: Write> Run<W> {
         }
         self.outcome.returned = self.sim.returned().clone();
         self.outcome.inflow = self.supply.ended(self.sim.time());
+        self.outcome.servos = ServoHeld::all(&self.sim.servos(), &self.written.walls);
+        let servos =
+            self.outcome.servos.iter().map(|servo| servo.warning().unwrap_or_else(|| servo.to_string()));
         let line = self.outcome.integration.map(|error| error.to_string());
+        let lines: Vec<String> = line.into_iter().chain(servos).collect();
         let notes = [crate::warnings(&self.outcome.returned), self.outcome.inflow.clone()].concat();
-        notes.into_iter().chain(line).try_for_each(|note| self.note(&note))?;
+        notes.into_iter().chain(lines).try_for_each(|note| self.note(&note))?;
         reason.map_or(Ok(()), |reason| self.stop(reason))?;
         let Run { sim, supply, mut outcome, writer, first, .. } = self;
         outcome.steps = sim.steps() - first;

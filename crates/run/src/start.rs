@@ -3,6 +3,7 @@
 use crate::error::Result;
 use crate::frames;
 use crate::schedule::Schedule;
+use crate::settling::Settling;
 use crate::simulate::{Outcome, Run, Settings, Written};
 use crate::supply::Supply;
 use dem::Simulation;
@@ -27,7 +28,8 @@ impl<W: Write> Run<W> {
         }
         let surfaces = frames::surfaces(&setup.walls);
         let mut written = Written::new(scene, &setup, inputs);
-        setup.record_wrenches = written.output.contacts || written.output.wall_forces;
+        setup.record_wrenches =
+            written.output.contacts || written.output.wall_forces || written.settling.any();
         let head = Head::new(scene, &setup, sizes)?;
         let sim = match settings.resume {
             Some(saved) => Simulation::resume(setup, saved.state)?,
@@ -92,6 +94,7 @@ impl Written {
             sampling: None,
             watched: false,
             ledger: setup.ledger,
+            settling: Settling::of(&scene.keys.time),
         }
     }
 }

@@ -48,6 +48,12 @@ impl Supply {
         self.streams.iter().enumerate().filter_map(warning).collect()
     }
 
+    /// Whether an insertion still brings particles until `end` [s].
+    pub(crate) fn comes(&self, end: f64) -> bool {
+        let due = |insertion: &Insertion| insertion.next_time().is_some_and(|time| time <= end);
+        self.next.iter().any(Option::is_some) || self.insertions.iter().any(due)
+    }
+
     /// Checks what of inlet files comes after the end of the run.
     ///
     /// # Errors

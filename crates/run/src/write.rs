@@ -95,6 +95,7 @@ impl<W: Write> Run<W> {
             let message = frames::wall_forces(self.sim.time(), &forces, &self.written.walls);
             self.writer.bytes(topic::WALL_FORCES, "json", now, json(&message).as_bytes())?;
         }
+        self.write_settling()?;
         self.write_energy()
     }
 

@@ -217,7 +217,7 @@ fn in_fluid(mut setup: Setup) -> Setup {
 fn pressed(mut setup: Setup) -> Setup {
     let lid = Plane { point: Vec3::new(0.0, 0.0, 0.075), normal: -Vec3::z() };
     setup.walls.push(Wall { shape: WallShape::Plane(lid), ..plane(-Vec3::z()) });
-    setup.walls[1].servo = Some(Servo { direction: -Vec3::z(), force: 5.0, speed_limit: 0.4 });
+    setup.walls[1].servo = Some(Servo::force(-Vec3::z(), 5.0, 0.4));
     setup
 }
 

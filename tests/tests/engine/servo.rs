@@ -16,7 +16,7 @@ fn side(axis: usize, high: bool) -> Wall {
 }
 
 fn servo(direction: Vec3, force: f64) -> Servo {
-    Servo { direction, force, speed_limit: 0.05 }
+    Servo::force(direction, force, 0.05)
 }
 
 /// 64 grains of three sizes in a box, its lid pressing with `force` [N].

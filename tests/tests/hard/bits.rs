@@ -185,7 +185,7 @@ fn scenes() -> Vec<(&'static str, Setup)> {
     });
     let mut pressed = base(hertz);
     let lid = Plane { point: Vec3::new(0.0, 0.0, 0.264), normal: -Vec3::z() };
-    let servo = Servo { direction: -Vec3::z(), force: 50.0, speed_limit: 0.2 };
+    let servo = Servo::force(-Vec3::z(), 50.0, 0.2);
 
     pressed.walls.push(Wall { shape: WallShape::Plane(lid), servo: Some(servo), ..plane(Vec3::z()) });
     let mut cut = base(hertz);

@@ -12,6 +12,7 @@ mod phases;
 mod rest;
 mod rubbing;
 mod squeezed;
+mod thornton;
 mod triaxial;
 mod yielding;
 

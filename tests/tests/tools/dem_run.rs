@@ -1,5 +1,6 @@
 //! A run is exact, resumes bit for bit, and what stops it leaves a file that can be read.
 
+mod at_rest;
 mod continued;
 mod foretold;
 mod settled;

@@ -23,7 +23,7 @@ fn named(text: &str) -> Option<String> {
         "Top level" => Some(String::new()),
         "Contacts" => Some("contact".to_owned()),
         "Bonds" => Some("bond".to_owned()),
-        "`motion`" | "`servo`" => Some(format!("wall.{}", text.trim_matches('`'))),
+        "`motion`" | "`servo`" | "`spring`" => Some(format!("wall.{}", text.trim_matches('`'))),
         _ => text.strip_prefix("`[").map(|name| name.trim_matches(['[', ']', '`']).to_owned()),
     }
 }

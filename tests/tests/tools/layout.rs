@@ -44,6 +44,11 @@ name = "press"
 plane = "-0.06,0,0,1,0,0"
 material = "stone"
 servo = { direction = [1, 0, 0], force = 1, speed_limit = 0.1 }
+[[wall]]
+name = "plate"
+plane = "0.06,0,0,-1,0,0"
+material = "stone"
+spring = { direction = [1, 0, 0], stiffness = 100, mass = 1, speed_limit = 1 }
 "#;
 
 /// Grains that adhere fall asleep.
@@ -114,6 +119,7 @@ fn the_layout_of_checkpoints_is_that_of_their_version() {
     for filled in [
         "zone_particles: [ZoneParticle",
         "servos: [ServoState",
+        "mounts: [MountState",
         "history: [\nf64",
         "flights: [ClumpMotion",
         "pairs: [BondedPair",

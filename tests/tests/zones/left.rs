@@ -47,7 +47,7 @@ fn who_has_left_is_beyond_every_plane() {
             let mut setup = with_friction(empty(HOOKE, 0.5), 0.3);
             setup.ledger = true;
             let mut chute = plane(normal);
-            chute.servo = follows.then_some(Servo { direction: normal, force: 0.05, speed_limit: 1e-4 });
+            chute.servo = follows.then_some(Servo::force(normal, 0.05, 1e-4));
             setup.walls = vec![chute];
             let sliding = |id: u32, way: f64| {
                 let velocity = along * 0.7;

@@ -43,6 +43,9 @@ pub struct Args {
     /// The energy ledger and how well it closes
     #[arg(long, group = "measure")]
     pub energy: bool,
+    /// How far the grains are from rest: mean unbalanced force over mean contact force, kinetic energy
+    #[arg(long, group = "measure")]
+    pub settling: bool,
     /// Coordination numbers, with and without rattlers
     #[arg(long, group = "measure")]
     pub contacts: bool,
@@ -217,6 +220,7 @@ impl Args {
         let single = [
             "--flow",
             "--energy",
+            "--settling",
             "--bonds",
             "--cracks",
             "--grading",

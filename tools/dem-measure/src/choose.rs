@@ -18,6 +18,7 @@ use measure::region::Region;
 use measure::repose::{HeapOptions, Repose};
 use measure::residence::Residence;
 use measure::segregation::{Kinds, Segregation};
+use measure::settling::Settling;
 use measure::track::Track;
 use measure::wall_force::{WallContactFilter, WallForce};
 use measure::wear::Wear;
@@ -51,6 +52,7 @@ pub fn observer(args: &Args) -> anyhow::Result<(&'static str, Box<dyn Observer>)
             Box::new(PerFrame::new(measure, series))
         }
         (_, "--energy") => Box::new(Energy::new(between)),
+        (_, "--settling") => Box::new(Settling::new(between)),
         (_, "--bonds") => Box::new(BondNumbers::new(between)),
         (_, "--cracks") => Box::new(CrackList::new(between)),
         (_, "--fragments") => Box::new(FragmentList::new(single)),
@@ -87,6 +89,7 @@ fn name(args: &Args) -> &'static str {
         ("--profile", args.profile),
         ("--segregation", args.segregation),
         ("--energy", args.energy),
+        ("--settling", args.settling),
         ("--bonds", args.bonds),
         ("--cracks", args.cracks),
         ("--fragments", args.fragments),

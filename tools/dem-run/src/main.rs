@@ -205,10 +205,14 @@ fn simulate(args: &Args, scene: &Scene, plan: Plan, resume: Option<Checkpoint>) 
         .iter()
         .chain(&outcome.inflow)
         .chain(&large)
+        .chain(&outcome.servos.iter().filter_map(run::ServoHeld::warning).collect::<Vec<_>>())
         .for_each(|note| cli::warn(note));
+    let held = outcome.servos.iter().filter(|servo| servo.warning().is_none());
+    let held: String = held.map(|servo| format!("; {servo}")).collect();
     let error = error.map_or(String::new(), |error| format!(", {error}"));
+    let settled = outcome.settled.as_ref().map_or(String::new(), |why| format!("; ended at rest: {why}"));
     let summary = format!(
-        "{} steps of {:.3e} s to {:.4} s, {} particles, {} frames{error}",
+        "{} steps of {:.3e} s to {:.4} s, {} particles, {} frames{error}{settled}{held}",
         outcome.steps, outcome.dt, outcome.time, outcome.particles, outcome.frames
     );
     let report = Report::new(summary).with_all(&outcome);

@@ -222,10 +222,13 @@ fn step_inputs<'a>(model: &Model, particles: &'a Particles, layout: Layout) -> S
     StepInputs { dt, ahead, overlap_limit: model.setup.guards.overlap, rows, spins, layout }
 }
 
-/// Notes where particles are before they move; a fluid asks for that.
+/// Notes how particles move before they do; a fluid and local damping ask for that.
 fn keep_rows(model: &Model, state: &State, lists: &mut NeighbourLists) {
-    if model.setup.drag.is_some() {
+    if model.setup.drag.is_some() || model.setup.local_damping.is_some() {
         lists.before.clone_from(&state.particles.rows);
+    }
+    if model.setup.local_damping.is_some() {
+        lists.spins_before.clone_from(&state.particles.spins);
     }
 }
 

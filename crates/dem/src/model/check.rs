@@ -31,7 +31,20 @@ pub fn check(setup: &Setup) -> Result<(), SetupError> {
     if setup.drag.is_some() && setup.sleep.is_some() {
         return Err(SetupError::DragAndSleep);
     }
+    local_damping(setup)?;
     setup.sleep.map_or(Ok(()), |s| sleep(&s, &setup.gravity))
+}
+
+/// Refuses setups in which local damping is not followed.
+fn local_damping(setup: &Setup) -> Result<(), SetupError> {
+    let Some(factor) = setup.local_damping else { return Ok(()) };
+    let within = factor > 0.0 && factor < 1.0;
+    Check(|| Subject::Setup).within("local_damping.factor", factor, "[–]", within, "0 < factor < 1")?;
+    match (setup.sleep, setup.clumps.shapes.first()) {
+        (Some(_), _) => Err(SetupError::LocalDampingWith("particles that sleep")),
+        (_, Some(_)) => Err(SetupError::LocalDampingWith("rigid clumps")),
+        _ => Ok(()),
+    }
 }
 
 fn step(step: &Step) -> Result<(), SetupError> {
@@ -193,13 +206,8 @@ fn walls(setup: &Setup) -> Result<(), SetupError> {
         check.vector("surface_velocity", &w.surface.velocity, "m/s")?;
         check.vector("surface_rotation", &w.surface.turn, "rad/s")?;
         check.vector("surface_rotation through", &w.surface.through, "m")?;
-        if let Some(s) = &w.servo {
-            let length = s.direction.norm();
-            let unit = (length - 1.0).abs() < 1e-9;
-            check.within("servo.direction", length, "[–]", unit, "directions of length 1")?;
-            check.finite("servo.force", s.force, "N")?;
-            check.positive("servo.speed_limit", s.speed_limit, "m/s")?;
-        }
+        crate::model::servo::check(setup, w, &check)?;
+        crate::model::mount::check(setup, w, &check)?;
     }
     Ok(())
 }

@@ -42,6 +42,9 @@ pub enum SetupError {
     /// A quantity is outside its range.
     #[error("{0}")]
     OutOfRange(Box<OutOfRange>),
+    /// Local damping beside something that it does not act on.
+    #[error("local damping is not available yet with {0}")]
+    LocalDampingWith(&'static str),
     /// Two particles of one id.
     #[error("particle id {0} is used twice")]
     DuplicateId(u32),
@@ -246,6 +249,9 @@ pub enum StateMismatch {
     /// Servos.
     #[error("one has walls that follow a force and the other has not")]
     Servos,
+    /// Walls on springs.
+    #[error("one has walls on springs and the other has not")]
+    Mounts,
     /// The number of bonds.
     #[error("another number of bonds")]
     Bonds,

@@ -100,6 +100,46 @@ pub enum Halt {
         /// Along the direction of its servo [N].
         push: f64,
     },
+    /// A wall on a spring is faster than it may be.
+    #[error("t = {time:.6e} s: wall '{wall}' on its spring moves at {speed:.4e} m/s (limit {limit:.4e} m/s)")]
+    WallTooFast {
+        /// When [s].
+        time: f64,
+        /// Which wall.
+        wall: String,
+        /// How fast [m/s].
+        speed: f64,
+        /// Its limit [m/s].
+        limit: f64,
+    },
+    /// A wall on a spring is so light that its contacts make the step unstable.
+    #[error(
+        "t = {time:.6e} s: wall '{wall}' on its spring has a mass of {mass:.4e} kg; with {contacts} contacts the time step needs {least:.4e} kg"
+    )]
+    WallTooLight {
+        /// When [s].
+        time: f64,
+        /// Which wall.
+        wall: String,
+        /// Its mass [kg].
+        mass: f64,
+        /// Contacts that push it.
+        contacts: u32,
+        /// The least mass that is stable [kg].
+        least: f64,
+    },
+    /// A wall that follows a force has passed all particles.
+    #[error(
+        "t = {time:.6e} s: wall '{wall}', which follows a force, touches nothing, and all particles are behind it: it has moved by {shift:.4e} m"
+    )]
+    WallPastAll {
+        /// When [s].
+        time: f64,
+        /// Which wall.
+        wall: String,
+        /// How far it has moved along the direction of its servo [m].
+        shift: f64,
+    },
     /// Contacts or forces on walls are asked for, and the wrench of each contact is not kept
     /// ([`crate::Setup::record_wrenches`]).
     #[error("t = {time:.6e} s: the wrench of each contact was not recorded")]

@@ -136,6 +136,8 @@ pub fn critical_step(setup: &Setup) -> Result<Limit, SetupError> {
     indices(setup)?;
     let mut limit = critical_of_contacts(setup)?;
     crate::model::bonds::limit::tighten(&mut limit, setup)?;
+    // A force that slows a particle counts so many times.
+    limit.dt /= 1.0 + setup.local_damping.unwrap_or(0.0);
     if let Some((rate, radius)) = setup.drag.and_then(|d| fastest_drag(&d, setup)) {
         let with = 1.0 / (1.0 / limit.dt + rate);
         if with < 0.9 * limit.dt {
@@ -152,7 +154,8 @@ pub fn critical_step(setup: &Setup) -> Result<Limit, SetupError> {
 fn fastest_motion(setup: &Setup) -> Option<RepeatedMotion> {
     let of = |wall: &Wall| {
         let turns = if matches!(wall.shape, WallShape::Plane(_)) { 0.0 } else { wall.motion.fastest_turn() };
-        let rate = wall.motion.vibration().max(turns / (2.0 * PI));
+        let spring = wall.mount.map_or(0.0, |m| (m.stiffness / m.mass).sqrt() / (2.0 * PI));
+        let rate = wall.motion.vibration().max(turns / (2.0 * PI)).max(spring);
         (rate > 0.0).then(|| RepeatedMotion { wall: wall.name.clone(), period: 1.0 / rate })
     };
     setup.walls.iter().filter_map(of).min_by(|a, b| a.period.total_cmp(&b.period))

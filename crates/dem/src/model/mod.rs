@@ -13,7 +13,9 @@ pub mod halt;
 pub mod in_range;
 pub mod limit;
 pub mod matched;
+pub mod mount;
 pub mod quantity;
+pub mod servo;
 pub mod start;
 pub mod step_cause;
 
@@ -32,7 +34,8 @@ pub use step_cause::{
 use crate::effects::needed;
 use crate::kernel::Kernel;
 use crate::model::limit::{critical_of_contacts, largest_reach};
-use crate::model::start::{faster_than_sleep, kinds, mean_radius, servo_gains, slow_enough, time_step};
+use crate::model::servo::{Response, responses};
+use crate::model::start::{faster_than_sleep, kinds, mean_radius, slow_enough, time_step};
 use crate::setup::Setup;
 use crate::simd::{Layout, Precision, Width};
 use crate::space::search::FIRST_SKIN;
@@ -56,8 +59,8 @@ pub struct Model {
     pub width: Width,
     /// Walls as at t = 0.
     pub walls: Vec<WallBody>,
-    /// What the gain of each servo is made of, by wall [N·s/m].
-    pub servo_gains: Vec<f64>,
+    /// How stiffly contacts answer servos, by kind of contact.
+    pub responses: Vec<Response>,
     /// Kinds of contact.
     pub kinds: Vec<Kind>,
     /// Steps that the margins of particles are made for; 0 where the setup gives the skin.
@@ -121,7 +124,7 @@ impl Model {
         let walls: Vec<WallBody> = setup.walls.iter().map(|w| WallBody::new(w, reach, ahead)).collect();
         slow_enough(&setup, &walls, dt)?;
         faster_than_sleep(&setup, &walls)?;
-        let servo_gains = servo_gains(&setup, dt);
+        let responses = responses(&setup, &kinds, dt);
         let rotates = kinds.iter().any(|k| k.kernel.rotates()) || !setup.bonds.is_empty();
         let later = setup.bonds.iter().any(|law| law.at > 0.0);
         let contact_step = if later { critical_of_contacts(&setup)?.dt } else { f64::INFINITY };
@@ -132,7 +135,7 @@ impl Model {
             skin,
             width,
             walls,
-            servo_gains,
+            responses,
             kinds,
             horizon,
             mean_radius,

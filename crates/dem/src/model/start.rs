@@ -1,13 +1,11 @@
 //! What a simulation begins with: its step, its kinds of contact.
 
-use crate::effects::{ContactLaw, Damping, Elastic, OverlapLimit, Pair, damping_ratio};
+use crate::effects::{ContactLaw, Damping, Elastic, Pair};
 use crate::kernel::compose::compose;
-use crate::model::dense_walls::met;
-use crate::model::limit::{contact_between, critical_step, grains, largest, radii_by_material, stiffest};
+use crate::model::limit::{contact_between, critical_step, grains, largest, radii_by_material};
 use crate::model::matched;
 use crate::model::{DenseWalls, Kind, RepeatedMotion, SetupError, With};
-use crate::setup::clumps::SizeClass;
-use crate::setup::{Setup, Step, Wall};
+use crate::setup::{Setup, Step};
 use crate::walls::WallBody;
 
 /// By how much a step that is read from a message may be rounded [–].
@@ -108,23 +106,4 @@ pub fn kinds(setup: &Setup, dt: f64) -> Result<Vec<Kind>, SetupError> {
         }
     }
     Ok(list)
-}
-
-/// k Δt + c [N·s/m] of the stiffest contact with each wall that follows a force; of a clump with its whole mass, as contacts have it.
-pub fn servo_gains(setup: &Setup, dt: f64) -> Vec<f64> {
-    let grains = grains(setup);
-    let of = |wall: &Wall, grain: &SizeClass| {
-        let contact = contact_between(setup, grain.material, wall.material).ok()?;
-        let [first, second] = [grain.material, wall.material].map(|m| &setup.materials[m as usize]);
-        let (radius, smaller) = met(wall, grain.radius);
-        let at = OverlapLimit { radius, smaller, share: setup.guards.overlap };
-        let k = stiffest(contact, Elastic::of(first, second), at);
-        let gamma = damping_ratio(contact.number("restitution").unwrap_or(f64::NAN));
-        Some(k * dt + gamma * (k / grain.inverse_mass).sqrt())
-    };
-    let largest = |wall: &Wall| match wall.servo {
-        Some(_) => grains.iter().filter_map(|g| of(wall, g)).fold(f64::MIN_POSITIVE, f64::max),
-        None => 1.0,
-    };
-    setup.walls.iter().map(largest).collect()
 }

@@ -16,7 +16,7 @@ pub use rebuild::LISTED_FEW;
 pub use slices::{Computed, RestingTile, SlotRun, StepColumns, TileSlice};
 pub use slots::{Disturber, Segment, Slots};
 
-use crate::simd::Row;
+use crate::simd::{Row, Row4};
 use crate::walls::images::Periods;
 
 /// Neighbour lists.
@@ -28,6 +28,8 @@ pub struct NeighbourLists {
     pub step: StepColumns,
     /// Whole periods that walls had travelled when neighbours were listed; empty where nothing is periodic.
     pub wall_periods: Vec<Periods>,
-    /// Particles as they were before the move; only where a fluid drags them.
+    /// Particles as they were before the move; only where a fluid or local damping acts on them.
     pub before: Vec<Row>,
+    /// Their spins then; only with local damping.
+    pub spins_before: Vec<Row4>,
 }

@@ -10,28 +10,31 @@ use geom::motion::Pose;
 
 /// Where a wall is at `time` [s], which is now.
 pub fn pose(model: &Model, state: &State, wall: usize, time: f64) -> Pose {
-    let WallBody { motion, servo, .. } = &model.walls[wall];
+    let WallBody { motion, servo, mount, .. } = &model.walls[wall];
     let pose = motion.pose(time);
-    match (servo, state.servos.get(wall)) {
-        (Some(servo), Some(p)) => pose.shifted(servo.direction * p.shift, servo.direction * p.speed),
+    if let (Some(servo), Some(p)) = (servo, state.servos.get(wall)) {
+        return pose.shifted(servo.direction * p.shift, servo.direction * p.speed);
+    }
+    match (mount, state.mounts.get(wall)) {
+        (Some(mount), Some(p)) => pose.shifted(mount.direction * p.shift, mount.direction * p.speed),
         _ => pose,
     }
 }
 
 /// Where a wall was when neighbours were listed.
 pub fn pose_listed(model: &Model, state: &State, wall: usize) -> Pose {
-    let WallBody { motion, servo, .. } = &model.walls[wall];
+    let WallBody { motion, servo, mount, .. } = &model.walls[wall];
     let pose = motion.pose(state.listing.step as f64 * model.dt);
-    match (servo, state.servos.get(wall)) {
-        (Some(servo), Some(p)) => pose.shifted(servo.direction * p.listed, Vec3::zeros()),
-        _ => pose,
-    }
+    let by_servo = servo.as_ref().zip(state.servos.get(wall)).map(|(s, p)| s.direction * p.listed);
+    let by_mount = mount.as_ref().zip(state.mounts.get(wall)).map(|(m, p)| m.direction * p.listed);
+    by_servo.or(by_mount).map_or(pose, |by| pose.shifted(by, Vec3::zeros()))
 }
 
 /// How far a wall may have moved [m] in the time `since` [s] neighbours were listed.
 pub fn wall_shift(model: &Model, state: &State, wall: usize, since: f64) -> f64 {
     let shift = state.servos.get(wall).map_or(0.0, |p| (p.shift - p.listed).abs());
-    model.walls[wall].fastest_driven() * since + shift
+    let vibrated = state.mounts.get(wall).map_or(0.0, |p| (p.shift - p.listed).abs());
+    model.walls[wall].fastest_driven() * since + shift + vibrated
 }
 
 /// Where a wall is now, counted back into the box.

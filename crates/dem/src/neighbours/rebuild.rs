@@ -40,6 +40,7 @@ pub fn rebuild(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
     let wraps = wrap(model, state);
     let wall_periods = std::mem::take(&mut lists.wall_periods);
     state.servos.iter_mut().for_each(|p| p.listed = p.shift);
+    state.mounts.iter_mut().for_each(|p| p.listed = p.shift);
     let (mut slots, mut columns) = (std::mem::take(&mut lists.slots), std::mem::take(&mut state.contacts));
     // Freed before anything is listed: old and new together would be the most memory that a run ever takes.
     lists.step = StepColumns::default();

@@ -6,3 +6,4 @@ pub mod guards;
 pub mod record;
 pub mod snapshot;
 pub mod stiffen;
+pub mod unbalanced;

@@ -5,6 +5,7 @@ use crate::model::Model;
 use crate::neighbours::NeighbourLists;
 use crate::passes::instant::{Instant, instant};
 use crate::passes::ledger::close_step;
+use crate::passes::mount;
 use crate::passes::zones::ledger::energy_of_idle;
 use crate::setup::{Particle, Setup};
 use crate::state::ledger::{carried, heavy};
@@ -96,6 +97,7 @@ pub fn energy(model: &Model, state: &State, lists: &NeighbourLists) -> Energy {
         energy.rotation += 0.5 * clump.spin.dot(&clump.angular_momentum);
         energy.potential -= clump.mass * heavy * setup.gravity.dot(&clump.position);
     }
+    [energy.mount_kinetic, energy.mount_elastic] = mount::energy(model, state, lists);
     if setup.ledger {
         let held = energy_of_idle(state, lists);
         energy.elastic -= held;
@@ -117,6 +119,8 @@ fn ledger_terms(state: &State, setup: &Setup) -> Energy {
         walls: ledger.walls,
         slept: ledger.slept,
         drag: ledger.drag,
+        local_damping: ledger.damped,
+        mount_damping: ledger.mounts,
         entered: ledger.entered,
         left: ledger.left,
         elastic: if setup.ledger { contacts.elastic() + bonds.elastic() } else { 0.0 },

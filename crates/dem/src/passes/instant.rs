@@ -4,6 +4,7 @@ use crate::kernel::WrenchSums;
 use crate::model::Model;
 use crate::passes::drag::body_acceleration;
 use crate::passes::ledger::driven;
+use crate::passes::local_damping;
 use crate::simd::Row4;
 use crate::space::sphere::inverse_inertia;
 use crate::state::{DrivenBody, State};
@@ -30,14 +31,21 @@ pub fn instant(model: &Model, state: &State, k: usize, sums: &WrenchSums) -> Ins
         acceleration: Vec3::zeros(),
         angular_acceleration: Vec3::zeros(),
     };
+    let against = |all: Vec3, velocity: Vec3| match model.setup.local_damping {
+        Some(factor) if free => all + local_damping::against(factor, &all, &velocity),
+        _ => all,
+    };
+    let inverse = inverse_inertia(row[3], row[7]);
+    let driven = against(force * row[7] + body, row.velocity());
+    let turned = if p.rotates() { against(moment * inverse, p.spins[k].vector()) } else { Vec3::zeros() };
     for a in 0..3 {
-        at.acceleration[a] = force[a] * row[7] + body[a];
+        at.acceleration[a] = driven[a];
         if free {
             at.velocity[a] += half * (at.acceleration[a] - p.acceleration[k][a]);
         }
         if p.rotates() {
             at.spin[a] = p.spins[k][a];
-            at.angular_acceleration[a] = moment[a] * inverse_inertia(row[3], row[7]);
+            at.angular_acceleration[a] = turned[a];
             if free {
                 at.spin[a] += half * (at.angular_acceleration[a] - p.angular_acceleration[k][a]);
             }

@@ -9,6 +9,7 @@ use crate::passes::drag::drag_power;
 use crate::passes::instant::driven_now;
 use crate::passes::touching::position_before;
 use crate::passes::zones::ledger::add_zones;
+use crate::passes::{local_damping, mount};
 use crate::setup::Particle;
 use crate::space::sphere::inverse_inertia;
 use crate::state::ledger::{carried, heavy, unwrapped_potential};
@@ -89,18 +90,27 @@ pub fn close_step(model: &Model, state: &State, lists: &NeighbourLists, energy: 
     let free = (0..state.particles.len()).filter(|&k| is_driven(state, k));
     let clumps = state.clumps.driven_now(model, state, &sums).map(|(_, d)| d);
     let driven = free.clone().map(|k| driven_now(model, state, k, &sums)).chain(clumps);
+    let driven = driven.chain(mount::bodies(model, state, lists));
     let (power, share) = driven.fold((0.0, 0.0), |(p, s), d| (p + d.power(), s + d.step_share()));
-    let drag = free.map(|k| drag_power(model, state, k)).sum::<f64>() + state.clumps.drag_power(&model.setup);
+    let drag = free.clone().map(|k| drag_power(model, state, k)).sum::<f64>()
+        + state.clumps.drag_power(&model.setup);
     now.drag = drag * model.dt;
+    now.damped = free.map(|k| local_damping::power(model, state, k, &sums)).sum::<f64>() * model.dt;
+    let [brought, dashpots] = mount::step_sums(model, state, lists);
+    (now.walls, now.mounts) = (now.walls - brought, dashpots);
     let (work, share) = half(model, power, share);
     energy.normal += now.lost;
     energy.bonds += now.broken;
     energy.half_step = 0.5 * now.gone();
     let (ledger, lost) = (&state.ledger, |a: &LedgerSums| a.lost + a.broken);
     let done = ledger.work + work + share + ledger.passed + lost(ledger) + lost(&now);
-    energy.integration =
-        done + ledger.gone() + energy.half_step + state.contacts.elastic() + state.bonds.elastic()
-            - ledger.start;
+    energy.integration = done
+        + ledger.gone()
+        + energy.half_step
+        + state.contacts.elastic()
+        + state.bonds.elastic()
+        + mount::elastic(model, state)
+        - ledger.start;
     if model.setup.periodic.iter().any(Option::is_some) {
         energy.potential = unwrapped_potential(model, state) + ledger.wrapped;
     }

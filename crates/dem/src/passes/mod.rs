@@ -10,6 +10,8 @@ pub mod instant;
 pub mod integrate;
 pub mod kept;
 pub mod ledger;
+pub mod local_damping;
+pub mod mount;
 pub mod servo;
 pub mod sleep;
 pub mod stirred;

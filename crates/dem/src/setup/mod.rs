@@ -9,6 +9,8 @@ pub mod clumps;
 pub mod drag;
 
 mod kept;
+mod mount;
+mod servo;
 mod zone;
 
 pub use crate::effects::{ContactHistory, ContactLaw, Material};
@@ -19,6 +21,8 @@ pub use crate::setup::clump_shape::ClumpShape;
 pub use crate::setup::drag::{Drag, DragLaw};
 pub use crate::simd::number::Precision;
 pub use kept::{KeptContact, KeptPartner};
+pub use mount::Mount;
+pub use servo::{Length, Servo, Target};
 pub use zone::{
     Crossing, CrossingBond, Entry, EntryBonds, EntryClump, Guide, PairHistory, PathSample, Sample, Touch,
     Zone, ZoneMotion, ZoneTest,
@@ -39,6 +43,8 @@ pub struct Setup {
     pub gravity: Vec3,
     /// The fluid around the particles; `None`: none.
     pub drag: Option<Drag>,
+    /// α of local damping [–] ([`crate::passes::local_damping`] says how); `None`: none.
+    pub local_damping: Option<f64>,
     /// Materials, by index.
     pub materials: Vec<Material>,
     /// Laws of contact between pairs of materials; a pair that can meet must have one.
@@ -94,6 +100,7 @@ impl Default for Setup {
         Setup {
             gravity: Vec3::new(0.0, 0.0, -9.81),
             drag: None,
+            local_damping: None,
             materials: Vec::new(),
             contacts: Vec::new(),
             particles: Vec::new(),
@@ -223,6 +230,8 @@ pub struct Wall {
     pub surface: SurfaceMotion,
     /// A force that it follows besides.
     pub servo: Option<Servo>,
+    /// A spring that holds it; not with a servo.
+    pub mount: Option<Mount>,
 }
 
 impl Wall {
@@ -235,12 +244,13 @@ impl Wall {
             motion: Motion::still(),
             surface: SurfaceMotion::still(),
             servo: None,
+            mount: None,
         }
     }
 
     /// Whether its place changes; that of a belt does not.
     pub fn moves(&self) -> bool {
-        self.motion.moves() || self.servo.is_some()
+        self.motion.moves() || self.servo.is_some() || self.mount.is_some()
     }
 }
 
@@ -253,17 +263,6 @@ pub enum WallShape {
     Plane(Plane),
     /// Triangles; both sides act.
     Mesh(TriMesh),
-}
-
-/// A force that a wall follows ([`crate::passes::servo`] says how).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Servo {
-    /// Which way the wall pushes [–].
-    pub direction: Vec3,
-    /// Force of the wall on the particles along `direction` [N].
-    pub force: f64,
-    /// Largest speed [m/s].
-    pub speed_limit: f64,
 }
 
 /// When particles sleep ([`crate::passes::sleep`] says what that does).

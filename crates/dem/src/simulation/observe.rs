@@ -5,9 +5,9 @@ use crate::model::Halt;
 use crate::neighbours::poses::pose;
 use crate::observe::record::ContactRecord;
 use crate::observe::snapshot::Snapshot;
-use crate::observe::{guards, record, snapshot};
+use crate::observe::{guards, record, snapshot, unbalanced};
 use crate::passes::clumps::instant::ClumpState;
-use crate::passes::servo::WallForce;
+use crate::passes::servo::{ServoReport, WallForce};
 use crate::passes::{bonds, kept, servo};
 use crate::setup::{KeptContact, Particle};
 use crate::state::{BondState, Crack, Energy, Sleepers};
@@ -79,6 +79,11 @@ impl Simulation {
         Ok(servo::wall_forces(&self.model, &self.state, &self.lists))
     }
 
+    /// What each servo follows and how well it has held that, with the index of its wall; pushes are those of the last step.
+    pub fn servos(&self) -> Vec<(usize, ServoReport)> {
+        servo::reports(&self.model, &self.state)
+    }
+
     /// All contacts that carry a force, or have done work since the last call, in the order of the lists.
     ///
     /// # Errors
@@ -147,6 +152,16 @@ impl Simulation {
     /// How many bonds there were at the start or have come in, and how many of them have broken.
     pub fn bond_count(&self) -> [usize; 2] {
         self.state.bonds.count()
+    }
+
+    /// Mean unbalanced force over mean contact force [–]: the mean of |F| over all free particles (a clump counts as one), with F the sum of contacts, bonds, weight
+    /// and fluid, over the mean of |f| over all contacts that carry a force and all whole bonds. `None` where no contact carries a force.
+    ///
+    /// # Errors
+    /// When the state is beyond a guard, or wrenches are not kept ([`crate::Setup::record_wrenches`]).
+    pub fn unbalanced(&mut self) -> Result<Option<f64>, Halt> {
+        self.ready_to_record()?;
+        Ok(unbalanced::ratio(&self.model, &self.state, &self.lists))
     }
 
     /// Energy of this instant [J]; elastic and dissipated parts only when the setup asked for the ledger.

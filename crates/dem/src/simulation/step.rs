@@ -8,7 +8,7 @@ use crate::forces::sweep;
 use crate::model::{Halt, Model};
 use crate::neighbours::{NeighbourLists, rebuild};
 use crate::observe::guards;
-use crate::passes::{bonds, clumps, drag, instant, kept, ledger, servo, zones};
+use crate::passes::{bonds, clumps, drag, instant, kept, ledger, local_damping, mount, servo, zones};
 use crate::setup::KeptContact;
 use crate::state::{Forces, ListStatus, State};
 use std::ops::Range;
@@ -31,8 +31,9 @@ impl Simulation {
             state.ledger.slept += sleepers.end_step(lists.slots.tile);
         }
         let moved = clumps::advance::advance(model, state, found.moved);
-        let driven = servo::drive(model, state, lists);
-        if moved.left_margin | drag::apply(model, state, lists) {
+        let driven = servo::drive(model, state, lists).and(mount::drive(model, state, lists));
+        let slowed = drag::apply(model, state, lists) | local_damping::apply(model, state, lists);
+        if moved.left_margin | slowed {
             state.listing.outdate(ListStatus::MarginLeft);
         }
         ledger::add_moves(model, state);

@@ -29,6 +29,14 @@ pub struct Energy {
     pub slept: f64,
     /// Taken by the fluid.
     pub drag: f64,
+    /// Taken by local damping.
+    pub local_damping: f64,
+    /// ½ M s'² of walls on springs.
+    pub mount_kinetic: f64,
+    /// ½ k s² of their springs.
+    pub mount_elastic: f64,
+    /// Dissipated by their dashpots.
+    pub mount_damping: f64,
     /// Brought by particles that became free at a calculation plane, and work of those before it.
     pub entered: f64,
     /// Taken along by particles that passed a storage plane, and work on those behind it.
@@ -54,6 +62,10 @@ impl Energy {
             + self.bonds
             + self.slept
             + self.drag
+            + self.local_damping
+            + self.mount_kinetic
+            + self.mount_elastic
+            + self.mount_damping
             + self.left
             + self.half_step
             - self.walls
@@ -71,12 +83,12 @@ impl Energy {
 
     /// What moves and is in springs.
     pub fn held(&self) -> f64 {
-        self.translation + self.rotation + self.elastic.abs()
+        self.translation + self.rotation + self.elastic.abs() + self.mount_kinetic + self.mount_elastic
     }
 
     /// What has changed its form since the start, to compare [`Energy::integration`] with.
     pub fn exchanged(&self) -> f64 {
         let dissipated = self.normal + self.sliding + self.rolling + self.twisting + self.bonds;
-        dissipated + self.slept + self.drag.abs() + self.walls.abs()
+        dissipated + self.slept + self.drag.abs() + self.local_damping + self.mount_damping + self.walls.abs()
     }
 }

@@ -33,6 +33,10 @@ pub struct LedgerSums {
     pub slept: f64,
     /// Taken by the fluid.
     pub drag: f64,
+    /// Taken by local damping.
+    pub damped: f64,
+    /// Taken by dashpots of walls on springs.
+    pub mounts: f64,
     /// Brought along.
     pub entered: f64,
     /// Taken along.
@@ -91,7 +95,7 @@ impl LedgerSums {
 
     /// What has gone, less what walls brought.
     pub(crate) fn gone(&self) -> f64 {
-        self.dissipated.iter().sum::<f64>() + self.bonds + self.drag - self.walls
+        self.dissipated.iter().sum::<f64>() + self.bonds + self.drag + self.damped + self.mounts - self.walls
     }
 }
 

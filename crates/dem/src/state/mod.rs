@@ -9,9 +9,11 @@ pub mod clumps;
 pub mod contacts;
 pub mod energy;
 pub mod ledger;
+pub mod mount;
 pub mod particles;
 pub mod path;
 pub mod returned;
+pub mod servo;
 pub mod sleepers;
 pub mod zone_particle;
 pub mod zones;
@@ -22,9 +24,11 @@ pub use clumps::{FREE, RigidClumps};
 pub use contacts::{ContactColumns, SavedColumns, WrenchColumns};
 pub use energy::Energy;
 pub use ledger::{DrivenBody, LedgerSums};
+pub use mount::MountState;
 pub use particles::Particles;
 pub use path::{EARLY, Path, PathEnd};
 pub use returned::{ReturnCounts, Returned};
+pub use servo::{Held, ServoState};
 pub use sleepers::{SleepMap, SleeperSlices, Sleepers};
 pub use zone_particle::{Direction, Kinematics, ZoneParticle};
 pub use zones::{LOOK_AHEAD, Zones};
@@ -60,6 +64,8 @@ pub struct State {
     pub sleepers: Option<Sleepers>,
     /// Servos, by wall; empty where no wall follows a force.
     pub servos: Vec<ServoState>,
+    /// Walls on springs, by wall; empty where there is none.
+    pub mounts: Vec<MountState>,
     /// Sums of the energy ledger.
     pub ledger: LedgerSums,
     /// History and wrenches of contacts.
@@ -133,6 +139,7 @@ impl State {
             clusters: setup.clusters.clone(),
             sleepers,
             servos: servos(setup),
+            mounts: mounts(setup),
             ledger: LedgerSums::default(),
             contacts: ContactColumns::default(),
             particles,
@@ -154,6 +161,7 @@ impl State {
             clusters: self.clusters.clone(),
             sleepers: self.sleepers.clone(),
             servos: self.servos.clone(),
+            mounts: self.mounts.clone(),
             ledger: self.ledger,
             contacts: ContactColumns::default(),
         }
@@ -164,9 +172,9 @@ impl State {
         self.steps as f64 * self.dt
     }
 
-    /// Whether the wrench of each contact is wanted in each step: by servos, planes of zones, and sleepers.
+    /// Whether the wrench of each contact is wanted in each step: by servos, walls on springs, planes of zones, and sleepers.
     pub fn keeps_wrenches(&self) -> bool {
-        !self.servos.is_empty() || !self.zones.none() || self.sleepers.is_some()
+        !self.servos.is_empty() || !self.mounts.is_empty() || !self.zones.none() || self.sleepers.is_some()
     }
 
     /// Whether anything makes torques besides those of tangential forces.
@@ -175,26 +183,14 @@ impl State {
     }
 }
 
-/// Where a servo has moved its wall.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct ServoState {
-    /// How far the wall has been shifted since t = 0, along the servo's direction [m].
-    pub shift: f64,
-    /// Its rate [m/s].
-    pub speed: f64,
-    /// Shift when neighbours were listed [m].
-    pub listed: f64,
-}
-
-impl ServoState {
-    /// Whether its numbers are finite.
-    pub fn is_finite(&self) -> bool {
-        self.shift.is_finite() && self.speed.is_finite()
-    }
-}
-
 /// A servo for each wall, or none where no wall follows a force.
 fn servos(setup: &Setup) -> Vec<ServoState> {
     let any = setup.walls.iter().any(|w| w.servo.is_some());
     vec![ServoState::default(); if any { setup.walls.len() } else { 0 }]
+}
+
+/// A state for each wall, or none where no wall is on a spring.
+fn mounts(setup: &Setup) -> Vec<MountState> {
+    let any = setup.walls.iter().any(|w| w.mount.is_some());
+    vec![MountState::default(); if any { setup.walls.len() } else { 0 }]
 }

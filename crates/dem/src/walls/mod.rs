@@ -10,7 +10,7 @@
 pub(crate) mod images;
 pub(crate) mod seams;
 
-use crate::setup::{Servo, Wall, WallShape};
+use crate::setup::{Mount, Servo, Wall, WallShape};
 use crate::simd::{Row, Row4};
 use crate::space::sphere::{FAR, is_away};
 use crate::walls::images::Image;
@@ -25,6 +25,8 @@ pub struct WallBody {
     pub motion: Motion,
     /// The force that it follows besides.
     pub servo: Option<Servo>,
+    /// The spring that holds it.
+    pub mount: Option<Mount>,
     surface: Surface,
     /// How its surface moves on it, as that of a belt.
     belt: Option<SurfaceMotion>,
@@ -79,7 +81,8 @@ impl WallBody {
             belt: Some(wall.surface).filter(SurfaceMotion::moves),
             belt_speed: wall.surface.fastest(span(&wall.surface.through)),
             motion: wall.motion.clone(),
-            servo: wall.servo,
+            servo: wall.servo.clone(),
+            mount: wall.mount,
             bounds: bounds(&surface),
             surface,
             reach,
@@ -89,7 +92,12 @@ impl WallBody {
 
     /// Whether it moves at all.
     pub fn moves(&self) -> bool {
-        self.motion.moves() || self.servo.is_some()
+        self.motion.moves() || self.answers()
+    }
+
+    /// Whether forces of the particles move it.
+    pub fn answers(&self) -> bool {
+        self.servo.is_some() || self.mount.is_some()
     }
 
     /// Whether it, or its surface on it, moves at all: it may then move what rests on it.
@@ -99,7 +107,7 @@ impl WallBody {
 
     /// Whether it or its surface is in motion at `time` [s], or follows a force.
     pub fn drives_at(&self, time: f64) -> bool {
-        self.servo.is_some() || self.belt.is_some() || (self.motion.moves() && self.motion.runs(time))
+        self.answers() || self.belt.is_some() || (self.motion.moves() && self.motion.runs(time))
     }
 
     /// Whether contact points must be found in each step.
@@ -114,10 +122,11 @@ impl WallBody {
 
     /// Upper bound of the speed of its surface [m/s].
     pub fn fastest(&self) -> f64 {
-        self.fastest_driven() + self.servo.map_or(0.0, |s| s.speed_limit)
+        let servo = self.servo.as_ref().map(|s| s.speed_limit);
+        self.fastest_driven() + servo.or(self.mount.map(|m| m.speed_limit)).unwrap_or(0.0)
     }
 
-    /// The same without the servo.
+    /// The same without a servo or a spring.
     pub fn fastest_driven(&self) -> f64 {
         self.driven
     }

@@ -50,6 +50,13 @@ pub fn explain_halt(halt: &Halt) -> String {
         Halt::WallNotANumber { .. } => {
             return format!("{halt}; look at the stiffness of its contacts, or shorten dt");
         }
+        Halt::WallTooFast { .. } => {
+            "raise wall.spring.speed_limit, or use a stiffer spring or a heavier wall"
+        }
+        Halt::WallTooLight { .. } => "raise wall.spring.mass, or use a smaller time.dt or time.safety",
+        Halt::WallPastAll { .. } => {
+            "turn wall.servo.direction round if it points away from the grains, or start the wall where it meets them"
+        }
         Halt::NotKept { .. } => "set record_wrenches in the setup",
         Halt::CameBack { .. } => {
             "cut the plant farther upstream, take a longer zone (length), or set guards.zones = \"remove\" to take such grains out, or false where \

@@ -48,6 +48,7 @@ fn statement(error: &SetupError) -> String {
             format!("precision: \"{}\" has no {} ({a}–{b})", precision.name(), effects.join(", "))
         }
         SetupError::DragAndSleep => "drag: not available yet with [sleep]".to_owned(),
+        SetupError::LocalDampingWith(other) => format!("local_damping: not available yet with {other}"),
         SetupError::BondsAndSleep => "bond: not available yet with [sleep]".to_owned(),
         SetupError::BondOfZeroLength { .. } => format!("bond: {error}"),
         SetupError::WallSlowerThanSleep { wall, speed, sleep, .. } => format!(
@@ -101,7 +102,9 @@ fn remedy(error: &SetupError) -> Option<String> {
         SetupError::BehindPlane { .. } => "move it to the side that the plane's normal points to",
         SetupError::ClumpOutlet(_) => "use test = \"centre\" in [[outlet]]",
         SetupError::PrecisionWithout { .. } => "leave the key out for double precision, or that effect",
-        SetupError::DragAndSleep | SetupError::BondsAndSleep => "leave out one of them",
+        SetupError::DragAndSleep | SetupError::LocalDampingWith(_) | SetupError::BondsAndSleep => {
+            "leave out one of them"
+        }
         SetupError::BondOfZeroLength { .. } => "move one of them",
         SetupError::BondJoinsNothing { .. } => "give a larger gap, or leave it out",
         SetupError::ClumpSleep(_) => "leave out [sleep], or use spheres",

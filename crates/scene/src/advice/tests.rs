@@ -120,6 +120,10 @@ fn errors_of_inlets_and_outlets() -> Vec<Advice<SetupError>> {
 fn errors_of_bonds_sleep_and_resumes() -> Vec<Advice<SetupError>> {
     vec![
         (SetupError::DragAndSleep, &["drag", "[sleep]", "leave out one of them"]),
+        (
+            SetupError::LocalDampingWith("particles that sleep"),
+            &["local_damping", "sleep", "leave out one of them"],
+        ),
         (SetupError::ClumpSleep("block".to_owned()), &["sleep", "'block'", "leave out [sleep]"]),
         (SetupError::BondsAndSleep, &["bond", "[sleep]", "leave out one of them"]),
         (SetupError::BondOfZeroLength { ids: [7, 8] }, &["bond: particles 7 and 8", "move one"]),
@@ -173,12 +177,13 @@ fn setup_error_number(error: &SetupError) -> usize {
         SetupError::ZoneShorterThanBond { .. } => 19,
         SetupError::ClumpOutlet(_) => 20,
         SetupError::DragAndSleep => 21,
-        SetupError::ClumpSleep(_) => 22,
-        SetupError::BondsAndSleep => 23,
-        SetupError::BondOfZeroLength { .. } => 24,
-        SetupError::BondJoinsNothing { .. } => 25,
-        SetupError::OtherState(_) => 26,
-        SetupError::BeltLeavesPlane(_) => 27,
+        SetupError::LocalDampingWith(_) => 22,
+        SetupError::ClumpSleep(_) => 23,
+        SetupError::BondsAndSleep => 24,
+        SetupError::BondOfZeroLength { .. } => 25,
+        SetupError::BondJoinsNothing { .. } => 26,
+        SetupError::OtherState(_) => 27,
+        SetupError::BeltLeavesPlane(_) => 28,
     }
 }
 
@@ -200,6 +205,18 @@ fn halts() -> Vec<Advice<Halt>> {
         (Halt::Motion { time, id, position, motion: 0.1, share, limit }, &["particle 7", "guards.motion"]),
         (Halt::NotANumber { time, id, position }, &["particle 7", "shorten dt"]),
         (Halt::WallNotANumber { time, wall: floor(), push: 8.0 }, &[WALL, "8e0 N", "shorten dt"]),
+        (
+            Halt::WallPastAll { time, wall: floor(), shift: 0.5 },
+            &[WALL, "5.0000e-1 m", "wall.servo.direction"],
+        ),
+        (
+            Halt::WallTooFast { time, wall: floor(), speed: 9.0, limit: 1.0 },
+            &[WALL, "9.0000e0 m/s", "wall.spring.speed_limit"],
+        ),
+        (
+            Halt::WallTooLight { time, wall: floor(), mass: 0.1, contacts: 3, least: 0.2 },
+            &[WALL, "3 contacts", "2.0000e-1 kg", "wall.spring.mass"],
+        ),
         (Halt::NotKept { time }, &["not recorded", "record_wrenches"]),
         (Halt::CameBack { time, id, inlet, position, behind: 0.1 }, &["particle 7", "guards.zones"]),
         (
@@ -230,12 +247,15 @@ fn halt_number(halt: &Halt) -> usize {
         Halt::Motion { .. } => 2,
         Halt::NotANumber { .. } => 3,
         Halt::WallNotANumber { .. } => 4,
-        Halt::NotKept { .. } => 5,
-        Halt::CameBack { .. } => 6,
-        Halt::TooFast { .. } => 7,
-        Halt::Energy { .. } => 8,
-        Halt::BondsTooStiff { .. } => 9,
-        Halt::Bonds { .. } => 10,
+        Halt::WallPastAll { .. } => 5,
+        Halt::WallTooFast { .. } => 6,
+        Halt::WallTooLight { .. } => 7,
+        Halt::NotKept { .. } => 8,
+        Halt::CameBack { .. } => 9,
+        Halt::TooFast { .. } => 10,
+        Halt::Energy { .. } => 11,
+        Halt::BondsTooStiff { .. } => 12,
+        Halt::Bonds { .. } => 13,
     }
 }
 

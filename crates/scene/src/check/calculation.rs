@@ -2,7 +2,7 @@
 
 use super::Check;
 use crate::error::Result;
-use crate::keys::{Drag, DragLaw, Every, SceneKeys, Sleep, Time};
+use crate::keys::{Drag, DragLaw, Every, Insert, SceneKeys, Sleep, Time};
 
 /// Whole numbers up to here are exact.
 const EXACT: f64 = 9e15;
@@ -19,6 +19,12 @@ impl Check<'_> {
         self.positive("time.dt", m.time.dt.0, "s")?;
         if let Some(safety) = m.time.safety {
             self.within("time.safety", safety, 1e-6, 1.0, "")?;
+        }
+        self.positive("time.until_unbalanced", m.time.until_unbalanced, "")?;
+        self.positive("time.until_kinetic", m.time.until_kinetic, "J")?;
+        self.settling(m)?;
+        if let Some(d) = m.local_damping {
+            self.local_damping(m, d.factor)?;
         }
         self.accuracy(&m.time)?;
         self.within("time.shorten", m.time.shorten.unwrap_or(0.0), 0.0, 0.5, "")?;
@@ -54,6 +60,41 @@ impl Check<'_> {
             (Some(safety), _) => refuse("time.accuracy", shown, format!("safety = {safety}")),
             (_, Some(dt)) => refuse("time.accuracy", shown, format!("dt = {dt} s")),
             _ => Ok(()),
+        }
+    }
+
+    /// A run that ends when it has come to rest knows only of its own scene.
+    fn settling(&self, m: &SceneKeys) -> Result<()> {
+        let keys = [("until_unbalanced", m.time.until_unbalanced), ("until_kinetic", m.time.until_kinetic)];
+        let Some((key, value)) =
+            keys.iter().find_map(|(key, value)| value.map(|v| (format!("time.{key}"), v)))
+        else {
+            return Ok(());
+        };
+        if !m.outlet.is_empty() || !m.inlet.is_empty() {
+            let why = "a stage of a cut runs to its until: the other stages count on it";
+            return Err(self.wrong(&key, value, why, "take it out, or settle the scene before it is cut"));
+        }
+        let endless = |i: &Insert| i.until.is_none() && i.mass.is_none() && i.count.is_none();
+        if let Some(at) = m.insert.iter().position(endless) {
+            let why = format!("insert.{at} has no end, so that the grains never come to rest");
+            return Err(self.wrong(&key, value, &why, &format!("add until, mass or count to insert.{at}")));
+        }
+        Ok(())
+    }
+
+    fn local_damping(&self, m: &SceneKeys, factor: f64) -> Result<()> {
+        if !(factor > 0.0 && factor < 1.0) {
+            let why = "is outside 0 to 1, both left out";
+            return Err(self.wrong("local_damping.factor", factor, why, "give 0.7, which is usual, or less"));
+        }
+        let with = [("[sleep]", m.sleep.is_some()), ("clumps", !m.clump.is_empty())];
+        match with.iter().find(|with| with.1) {
+            None => Ok(()),
+            Some((other, _)) => {
+                let why = format!("does not act with {other}");
+                Err(self.wrong("local_damping", "(given)", &why, "leave out one of them"))
+            }
         }
     }
 

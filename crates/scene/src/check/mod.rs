@@ -9,6 +9,7 @@ mod clumps;
 mod contacts;
 mod materials;
 mod particles;
+mod servo;
 mod walls;
 
 use crate::error::{Result, SceneError, ValueError, nearest, shown};

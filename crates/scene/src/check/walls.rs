@@ -1,8 +1,8 @@
-//! Checks of `[[wall]]`, its motion and its servo.
+//! Checks of `[[wall]]` and its motion.
 
 use super::Check;
 use crate::error::Result;
-use crate::keys::{Motion, Path, Rotate, SceneKeys, Servo, Wall};
+use crate::keys::{Motion, Path, Rotate, SceneKeys, Wall};
 use geom::units;
 
 impl Check<'_> {
@@ -35,6 +35,7 @@ impl Check<'_> {
             }
         }
         w.servo.as_ref().map_or(Ok(()), |s| self.servo(entry, w, s))?;
+        w.spring.as_ref().map_or(Ok(()), |s| self.spring(entry, w, s))?;
         self.belt(entry, w)?;
         w.motion.as_ref().map_or(Ok(()), |list| self.motions(&format!("{entry}.motion"), list))
     }
@@ -178,39 +179,11 @@ impl Check<'_> {
     }
 
     /// A vector of any length but 0.
-    fn direction(&self, key: &str, vector: [f64; 3], such: &str) -> Result<()> {
+    pub(super) fn direction(&self, key: &str, vector: [f64; 3], such: &str) -> Result<()> {
         self.finite(key, &vector, "")?;
         match vector == [0.0; 3] {
             true => Err(self.wrong(key, "[0, 0, 0]", "has no direction", such)),
             false => Ok(()),
         }
-    }
-
-    fn servo(&self, entry: &str, w: &Wall, s: &Servo) -> Result<()> {
-        let key = |k: &str| format!("{entry}.servo.{k}");
-        self.direction(&key("direction"), s.direction, "such as [0, 0, -1]")?;
-        let of = [("force", s.force.is_some()), ("stress", s.stress.is_some())];
-        self.one_of(&format!("{entry}.servo"), &of)?;
-        self.finite(&key("force"), &[s.force.unwrap_or(0.0)], "N")?;
-        self.finite(&key("stress"), &[s.stress.unwrap_or(0.0)], "Pa")?;
-        for (k, value, unit) in [("force", s.force, "N"), ("stress", s.stress, "Pa")] {
-            if let Some(value) = value.filter(|value| *value < 0.0) {
-                let why = "pulls, and a wall only pushes";
-                let cure = "give it without the sign, and turn the direction round";
-                return Err(self.wrong(&key(k), format!("{value} {unit}"), why, cure));
-            }
-        }
-        self.positive(&key("area"), s.area, "m²")?;
-        if s.stress.is_some() != s.area.is_some() {
-            let why = "stress and area make a force together";
-            return Err(self.wrong(&key("area"), "(one of them)", why, "give both, or force [N] alone"));
-        }
-        self.positive(&key("speed_limit"), s.speed_limit, "m/s")?;
-        if w.cuboid.is_some() && w.faces.as_ref().is_none_or(|f| f.len() != 1) {
-            let why = "all faces of the box would follow one direction";
-            let cure = "put the face that moves into a separate [[wall]]: faces = [\"z+\"]";
-            return Err(self.wrong(&format!("{entry}.servo"), "(with a box)", why, cure));
-        }
-        Ok(())
     }
 }

@@ -23,6 +23,12 @@ pub struct Time {
     /// End of the run [s]; may come from `--until`.
     #[serde(default, deserialize_with = "unit::seconds")]
     pub until: Option<f64>,
+    /// Mean unbalanced over mean contact force [–] at which the run ends before `until`.
+    #[serde(default, deserialize_with = "unit::plain")]
+    pub until_unbalanced: Option<f64>,
+    /// Kinetic energy [J] at which it does.
+    #[serde(default, deserialize_with = "unit::joules")]
+    pub until_kinetic: Option<f64>,
     /// Step.
     #[serde(default, deserialize_with = "unit::seconds")]
     pub dt: OrAuto,
@@ -48,6 +54,20 @@ pub enum Sampling {
     Averaged,
     /// All of it, where both touch at its instant.
     Sampled,
+}
+
+/// `[local_damping]`
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LocalDamping {
+    /// α [–].
+    #[serde(default = "usual_factor", deserialize_with = "unit::plain")]
+    pub factor: f64,
+}
+
+/// Cundall's α.
+fn usual_factor() -> f64 {
+    0.7
 }
 
 /// A share: `"1%"`, or 0.01.

@@ -9,6 +9,7 @@ mod contact_keys;
 mod forms;
 mod geometry;
 mod particles;
+mod servo;
 mod unit;
 mod wall;
 
@@ -16,6 +17,7 @@ pub use bond::*;
 pub use calculation::*;
 pub use contact::*;
 pub use particles::*;
+pub use servo::*;
 pub use wall::*;
 
 use serde::Deserialize;
@@ -39,6 +41,8 @@ pub struct SceneKeys {
     pub domain: Domain,
     /// The fluid around the particles; absent: none.
     pub drag: Option<Drag>,
+    /// Damping of what is not in balance; absent: none.
+    pub local_damping: Option<LocalDamping>,
     /// Search for neighbours.
     pub neighbours: Neighbours,
     /// When particles at rest are passed over; absent: never.

@@ -61,6 +61,7 @@ units! {
     newtons "N" "2 kN";
     newtons_a_metre "N/m" "2 kN/m";
     pascals_a_metre "Pa/m" "2 GPa/m";
+    joules "J" "1 mJ";
     pascals "Pa" "5 MPa";
     pascal_seconds "Pa·s" "1 cP";
     density "kg/m³" "2.5 g/cm³";

@@ -1,6 +1,6 @@
 //! Walls and how they move.
 
-use super::{forms, geometry, unit};
+use super::{Servo, forms, geometry, unit};
 use geom::{Plane, Vec3};
 use serde::Deserialize;
 
@@ -42,6 +42,8 @@ pub struct Wall {
     pub surface_rotation: Option<Rotate>,
     /// A force that it follows in addition; absent: none.
     pub servo: Option<Servo>,
+    /// A spring that holds it, so that grains move it; absent: none.
+    pub spring: Option<Spring>,
 }
 
 /// A face of a box.
@@ -161,22 +163,22 @@ pub struct Path {
     pub through: Option<[f64; 3]>,
 }
 
-/// A force that a wall follows.
+/// A spring and a dashpot that hold a wall.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Servo {
-    /// Which way the wall pushes.
+pub struct Spring {
+    /// Direction in which the wall can move.
     #[serde(deserialize_with = "unit::plain")]
     pub direction: [f64; 3],
-    /// Force on the particles [N]; this or `stress`.
-    #[serde(default, deserialize_with = "unit::newtons")]
-    pub force: Option<f64>,
-    /// Stress [Pa] on `area`; this or `force`.
-    #[serde(default, deserialize_with = "unit::pascals")]
-    pub stress: Option<f64>,
-    /// Area that `stress` acts on [m²].
-    #[serde(default, deserialize_with = "unit::square_metres")]
-    pub area: Option<f64>,
+    /// Of the spring [N/m].
+    #[serde(deserialize_with = "unit::newtons_a_metre")]
+    pub stiffness: f64,
+    /// Of the dashpot [N·s/m].
+    #[serde(default, deserialize_with = "unit::plain")]
+    pub damping: f64,
+    /// Mass of the wall [kg].
+    #[serde(deserialize_with = "unit::kilograms")]
+    pub mass: f64,
     /// Largest speed [m/s].
     #[serde(deserialize_with = "unit::metres_a_second")]
     pub speed_limit: f64,

@@ -2,6 +2,7 @@
 
 use super::Placing;
 use super::insertion::Insertion;
+use super::servos::ServoArea;
 use crate::check::Check;
 use crate::error::{Result, SceneError};
 use crate::input::{InletSource, read_mesh};
@@ -62,6 +63,8 @@ pub(super) struct PlanBuilder<'a> {
     pub clumps: setup::Clumps,
     pub walls: Vec<setup::Wall>,
     pub wall_materials: Vec<WallMaterial>,
+    /// Areas of servos, until all walls are known.
+    pub servo_areas: Vec<ServoArea>,
     pub outlets: Vec<Zone>,
     pub inlets: Vec<Zone>,
     /// Materials of particles that come in later.
@@ -99,6 +102,7 @@ impl<'a> PlanBuilder<'a> {
             clumps: setup::Clumps::default(),
             walls: Vec::new(),
             wall_materials: Vec::new(),
+            servo_areas: Vec::new(),
             outlets: Vec::new(),
             inlets: Vec::new(),
             entry_materials: Vec::new(),

@@ -37,7 +37,9 @@ pub(super) fn warning(setup: &Setup, insertions: &[Insertion]) -> Option<String>
             .min_by(|a, b| a.0.total_cmp(&b.0));
         let Some((height, wall)) = hit else { continue };
         let along = start.velocity.dot(&down);
-        let speed = (along * along + 2.0 * setup.gravity.norm() * height).sqrt();
+        // Local damping takes its share of the weight of what falls.
+        let pull = setup.gravity.norm() * (1.0 - setup.local_damping.unwrap_or(0.0));
+        let speed = (along * along + 2.0 * pull * height).sqrt();
         let Some(impact) = deep_impact(setup, &wall, speed) else { continue };
         if worst.as_ref().is_none_or(|w| impact.share > w.0) {
             let (share, limit) = (100.0 * impact.share, 100.0 * setup.guards.overlap);

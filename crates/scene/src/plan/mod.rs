@@ -24,6 +24,7 @@ mod particles;
 mod random;
 mod same_zone;
 mod section;
+mod servos;
 mod setup;
 mod sizes;
 mod solids;

@@ -28,6 +28,7 @@ impl PlanBuilder<'_> {
             kept,
             gravity: Vec3::from(keys.gravity),
             drag: self.drag(),
+            local_damping: keys.local_damping.map(|d| d.factor),
             periodic: self.periodic()?,
             step: keys.time.dt.0.map_or(Step::Auto(left * safety), |dt| Step::Fixed(left * dt)),
             precision: match keys.precision {

@@ -5,7 +5,7 @@ use super::solids;
 use crate::check::Check;
 use crate::error::{Result, SceneError};
 use crate::input::{Input, WallFile, read_mesh, read_path};
-use crate::keys::{Face, Motion, Rotate, Servo, Wall};
+use crate::keys::{Face, Motion, Rotate, Wall};
 use dem::setup::{self, SurfaceMotion, WallShape};
 use geom::motion::Path;
 use geom::{Plane, Vec3};
@@ -48,7 +48,7 @@ impl PlanBuilder<'_> {
             let name = if n == 0 { "given".to_owned() } else { format!("given.{n}") };
             self.wall_spheres("wall", &name, &Wall::default(), file)?;
         }
-        Ok(())
+        self.servo_areas()
     }
 
     fn wall_file(&self, source: &str) -> Result<WallFile> {
@@ -79,9 +79,11 @@ impl PlanBuilder<'_> {
                 (format!("{key}.surface_velocity"), "take it out, or make the file without velocity");
             return Err(self.check.wrong(&at, &file.name, why, cure));
         }
-        if entry.servo.is_some() && (file.materials.len() > 1 || file.velocities.len() > 1) {
-            let why = "its spheres are of several materials or velocities, each of which would follow the force by itself";
-            let (servo, cure) = (format!("{name}: servo"), "use a file of one material and one velocity");
+        let answers = entry.servo.is_some() || entry.spring.is_some();
+        if answers && (file.materials.len() > 1 || file.velocities.len() > 1) {
+            let why = "its spheres are of several materials or velocities, each of which would follow forces by itself";
+            let (servo, cure) =
+                (format!("{name}: servo or spring"), "use a file of one material and one velocity");
             return Err(self.check.wrong(&servo, &file.name, why, cure));
         }
         for (k, record) in file.materials.iter().enumerate() {
@@ -129,8 +131,15 @@ impl PlanBuilder<'_> {
         if let Some(r) = &entry.surface_rotation {
             (surface.turn, surface.through) = (turn(r), Vec3::from(r.through));
         }
-        let servo = entry.servo.as_ref().map(servo);
-        Ok(setup::Wall { motion, surface, servo, ..setup::Wall::new(name, material, shape) })
+        let servo = entry.servo.as_ref().map(|s| self.servo(&format!("{key}.servo"), s)).transpose()?;
+        let mount = entry.spring.as_ref().map(|s| setup::Mount {
+            direction: Vec3::from(s.direction).normalize(),
+            stiffness: s.stiffness,
+            damping: s.damping,
+            mass: s.mass,
+            speed_limit: s.speed_limit,
+        });
+        Ok(setup::Wall { motion, surface, servo, mount, ..setup::Wall::new(name, material, shape) })
     }
 
     /// The motions of an entry, one after the other.
@@ -216,13 +225,4 @@ fn motion(entry: &Motion) -> setup::Motion {
         motion.frequency = v.frequency;
     }
     motion
-}
-
-fn servo(entry: &Servo) -> setup::Servo {
-    let stress = entry.stress.unwrap_or(0.0) * entry.area.unwrap_or(0.0);
-    setup::Servo {
-        direction: Vec3::from(entry.direction).normalize(),
-        force: entry.force.unwrap_or(stress),
-        speed_limit: entry.speed_limit,
-    }
 }

@@ -29,6 +29,8 @@ first_id = 100
 precision = "f64"
 [time]
 until = 0.002
+until_unbalanced = 1e-5
+until_kinetic = 1e-9
 dt = "auto"
 safety = 0.4
 shorten = 0.02
@@ -44,6 +46,8 @@ precision = "f64"
 periodic = ["x", "y"]
 low = [0, 0, 0]
 high = [0.1, 0.1, 0.3]
+[local_damping]
+factor = 0.7
 [neighbours]
 skin = 0.001
 [guards]
@@ -79,6 +83,10 @@ motion = { translate = [0.1, 0, 0], vibrate = { amplitude = [0, 0, 0.0001], freq
 plane = "0,0,0.3,0,0,-1"
 material = "steel"
 servo = { direction = [0, 0, -1], force = 10, speed_limit = 0.1 }
+[[wall]]
+plane = "0,0,-0.01,0,0,1"
+material = "steel"
+spring = { direction = [0, 0, 1], stiffness = 1e4, damping = 2, mass = 0.5, speed_limit = 1 }
 "#;
 
 /// Meshes, boxes, insertion by mass and by number, sleep.
@@ -168,6 +176,11 @@ box = [0, 0, -1, 1, 1, 2]
 faces = ["y-"]
 material = "steel"
 servo = { direction = [0, 1, 0], stress = 100, area = 0.5, speed_limit = 0.1 }
+[[wall]]
+box = [0, 0, -1, 1, 1, 2]
+faces = ["x-"]
+material = "steel"
+servo = { direction = [1, 0, 0], path = { source = "load.csv" }, area_between = [["wall.0 y-", "wall.0 y+"], "1 m"], speed_limit = 0.1 }
 "#;
 
 /// Clumps of spheres and of a mesh, placed, filled, inserted and read.
@@ -443,9 +456,10 @@ pub fn scenes() -> Vec<(String, String)> {
 }
 
 /// Files that the scenes read.
-pub const FILES: [(&str, &str); 9] = [
+pub const FILES: [(&str, &str); 10] = [
     ("sieve.csv", "diameter,passing\n0.006,0\n0.008,30\n0.01,100\n"),
     ("grains-mm.csv", "x,y,z,radius\n400,200,300,5\n"),
+    ("load.csv", "t,stress\n0,100\n0.001,150\n"),
     ("path.csv", "t,x,y,z,angle\n0,1,0,0,0.1\n0.001,1.0001,0,0,0.1001\n0.002,1,0,0,0.1\n"),
     ("grains.csv", "x,y,z,radius,vz\n0.2,0.2,0.1,0.005,-1\n0.2,0.25,0.12,0.005,-1\n0.25,0.2,0.15,0.004,-1\n"),
     ("clumps.csv", "x,y,z,qw,qx,qy,qz\n0.9,0.9,0.9,1,0,0,0\n"),

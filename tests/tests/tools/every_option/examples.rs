@@ -56,6 +56,7 @@ pub const EXAMPLES: &[&str] = &[
     "dem-measure run.mcap --segregation --cell 0.03 --split 0.01 --all",
     "dem-measure heap.mcap --segregation --kind coal",
     "dem-measure run.mcap --energy",
+    "dem-measure run.mcap --settling",
     "dem-measure run.mcap --contacts",
     "dem-measure bonded.mcap --bonds --from 0.001 --plot p.svg",
     "dem-measure bonded.mcap --cracks --until 0.003",

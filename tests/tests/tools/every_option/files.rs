@@ -18,6 +18,7 @@ const ROUGHNESS: &str =
 const HEAD: &str = r#"gravity = [0, 0, -9.81]
 [time]
 until = 0.05
+until_unbalanced = 1e-9
 [output]
 every = 0.002
 energy = true
@@ -80,7 +81,7 @@ pub fn inputs() -> TempDir {
     let hole = |&(x, y): &(f64, f64)| (x - 0.1).hypot(y - 0.1) >= 0.03;
     let scan = (0..).zip(plate()).filter(|(_, at)| hole(at));
     let scan: String = scan.map(|(k, (x, y))| format!("{x} {y} {}\n", 0.002 * f64::from(k).sin())).collect();
-    let plant = [HEAD, GRAINS, &floor(-1.0)].concat();
+    let plant = [&HEAD.replace("until_unbalanced = 1e-9\n", ""), GRAINS, &floor(-1.0)].concat();
     let outlet = "[[outlet]]\nplane = \"0,0,0.02,0,0,-1\"\nmotion = \"recorded\"\n";
     folder(&[
         ("flat.xyz", flat),

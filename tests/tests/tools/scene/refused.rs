@@ -296,6 +296,46 @@ const WALLS: &[Change] = &[
         "servo = { direction = [0,0,1], force = 10, stress = 1, area = 1, speed_limit = 1 }",
         &["force and stress", "only one"],
     ),
+    wrong(
+        "name = \"floor\"",
+        "spring = { direction = [0,0,1], stiffness = 10, mass = 0, speed_limit = 1 }",
+        &["wall.0.spring.mass = 0 kg", "above 0"],
+    ),
+    wrong(
+        "name = \"floor\"",
+        "spring = { direction = [0,0,1], stiffness = 1e3, mass = 1, speed_limit = 1 }\nservo = { direction = [0,0,1], force = 10, speed_limit = 1 }",
+        &["wall.0.spring", "take one of them out"],
+    ),
+    wrong(
+        "name = \"floor\"",
+        "servo = { direction = [0,0,1], force = 10, area = 1, speed_limit = 1 }",
+        &["wall.0.servo.area", "a force needs no area"],
+    ),
+    wrong(
+        "name = \"floor\"",
+        "servo = { direction = [0,0,1], stress = 10, area = 1, area_between = [1, 1], speed_limit = 1 }",
+        &["wall.0.servo.area", "take one of them out"],
+    ),
+    wrong(
+        "name = \"floor\"",
+        "servo = { direction = [0,0,1], stress = 10, area_between = [[\"left\", \"floor\"], 1], speed_limit = 1 }\nname = \"floor\"",
+        &["wall.0.servo.area_between = \"left\"", "is no wall of this scene", "\"floor\""],
+    ),
+    wrong(
+        "name = \"floor\"",
+        "servo = { direction = [0,0,1], stress = 10, area_between = [\"floor\", 1], speed_limit = 1 }",
+        &["the names of two walls"],
+    ),
+    wrong(
+        "name = \"floor\"",
+        "servo = { direction = [0,0,1], path = { source = \"no.csv\" }, speed_limit = 1 }",
+        &["no.csv: cannot read the file"],
+    ),
+    wrong(
+        "name = \"floor\"",
+        "servo = { direction = [0,0,-1], force = 1, speed_limit = 1 }",
+        &["'wall.0': servo.direction along the plane's normal: -1", "to the side of the grains"],
+    ),
 ];
 
 const PLANES_AND_FLUIDS: &[Change] = &[
@@ -356,7 +396,7 @@ fn bonds_that_cannot_be_made_are_refused() {
     for (keys, parts) in BONDS {
         fs::write(folder.path().join("s.toml"), format!("{SCENE}\n{head}{keys}\n")).expect("written");
         let done = tool(folder.path(), "dem-run", &["s.toml", "--check"]);
-        assert!(done.code != 0, "{keys}: {}", done.stdout);
+        assert!(done.code != 0, "{keys}: {}", done.stderr);
         parts
             .iter()
             .for_each(|part| assert!(done.stderr.contains(part), "{keys}: '{part}': {}", done.stderr));

@@ -1,0 +1,114 @@
+//! Local damping: a force against the motion of each particle, in proportion to the force that is not in balance, for packings that are to come to rest.
+//!
+//! ```text
+//! F_d = −α |F| sign(v),  M_d = −α |M| sign(ω)       by component; F, M: all that acts on the particle (contacts, bonds, weight, fluid)
+//! v* ← v* + 3/2 a Δt,  x ← x + a Δt²,  a_n ← a_n + a          what an acceleration a adds to the move, as in [`crate::passes::drag`]
+//! ```
+//!
+//! Cundall (1987), in Analytical and Computational Methods in Engineering Rock Mechanics; v and ω are those predicted for the instant. A
+//! particle in balance, or one that moves uniformly, is not damped; a falling one falls with (1 − α) g. So the damping is for specimens that are made, not
+//! for flows. A force that slows counts 1 + α times: the critical step is divided by that ([`crate::model::limit`]).
+
+use crate::kernel::WrenchSums;
+use crate::model::Model;
+use crate::neighbours::NeighbourLists;
+use crate::passes::drag::body_acceleration;
+use crate::simd::{Row, Row4};
+use crate::space::sphere::inverse_inertia;
+use crate::state::State;
+use crate::threads::{FEW, share};
+use geom::Vec3;
+
+/// Particles of one task.
+const CHUNK: usize = 256;
+
+/// The acceleration against a velocity, of all other accelerations together.
+pub fn against(factor: f64, all: &Vec3, velocity: &Vec3) -> Vec3 {
+    let one = |axis: usize| {
+        let v = velocity[axis];
+        let sign = if v == 0.0 { 0.0 } else { v.signum() };
+        -factor * all[axis].abs() * sign
+    };
+    Vec3::from([0, 1, 2].map(one))
+}
+
+/// What local damping takes from particle `k` at this instant [W].
+pub fn power(model: &Model, state: &State, k: usize, sums: &WrenchSums) -> f64 {
+    let Some(factor) = model.setup.local_damping else { return 0.0 };
+    let (p, row) = (&state.particles, &state.particles.rows[k]);
+    let (force, moment) = sums.on(k, row[3]);
+    let velocity = row.velocity();
+    let slowed = against(factor, &(force * row[7] + body_acceleration(model, state, k)), &velocity);
+    let mut taken = -slowed.dot(&velocity) / row[7];
+    if p.rotates() {
+        let (spin, inverse) = (p.spins[k].vector(), inverse_inertia(row[3], row[7]));
+        taken -= against(factor, &(moment * inverse), &spin).dot(&spin) / inverse;
+    }
+    taken
+}
+
+/// One particle in the pass.
+struct Damped<'a> {
+    row: &'a mut Row,
+    acceleration: &'a mut Row4,
+    was: &'a Row,
+    /// Predicted spin, angular acceleration, and the spin before.
+    turning: Option<(&'a mut Row4, &'a mut Row4, &'a Row4)>,
+}
+
+impl Damped<'_> {
+    /// Adds the damping of a step; what it takes [J].
+    fn damp(self, factor: f64, dt: f64) -> f64 {
+        let a = against(factor, &self.acceleration.vector(), &self.was.velocity());
+        for axis in 0..3 {
+            self.row[axis] += dt * dt * a[axis];
+            self.row[4 + axis] += 1.5 * dt * a[axis];
+            self.acceleration[axis] += a[axis];
+        }
+        let mut taken = -a.dot(&self.was.velocity()) * dt / self.was[7];
+        if let Some((spin, turning, was)) = self.turning {
+            let a = against(factor, &turning.vector(), &was.vector());
+            for axis in 0..3 {
+                spin[axis] += 1.5 * dt * a[axis];
+                turning[axis] += a[axis];
+            }
+            taken -= a.dot(&was.vector()) * dt / inverse_inertia(self.was[3], self.was[7]);
+        }
+        taken
+    }
+}
+
+/// After a move and what the fluid adds to it. Returns whether a particle has left its margin.
+pub fn apply(model: &Model, state: &mut State, lists: &NeighbourLists) -> bool {
+    let Some(factor) = model.setup.local_damping else { return false };
+    let (dt, ahead, zones) = (model.dt, model.ahead(), &state.zones);
+    let p = &mut state.particles;
+    let (count, rotates) = (p.len(), p.rotates());
+    let turning = if rotates { count } else { 0 };
+    // Without rotation there are no spins, and an empty part for each chunk.
+    let spins = p.spins[..turning].chunks_mut(CHUNK).chain(std::iter::repeat_with(Default::default));
+    let turns = p.angular_acceleration.chunks_mut(CHUNK).chain(std::iter::repeat_with(Default::default));
+    let rows =
+        p.rows[..count].chunks_mut(CHUNK).zip(p.acceleration.chunks_mut(CHUNK)).zip(p.home.chunks(CHUNK));
+    let tiles: Vec<_> = rows.zip(spins.zip(turns)).enumerate().collect();
+    let done: Vec<(f64, bool)> =
+        share(count >= FEW, tiles, |(tile, (((rows, accelerations), home), (spins, turns)))| {
+            let (mut taken, mut out) = (0.0, false);
+            for k in (0..rows.len()).filter(|k| zones.is_free(tile * CHUNK + k)) {
+                let at = tile * CHUNK + k;
+                let turning = match (spins.get_mut(k), turns.get_mut(k), lists.spins_before.get(at)) {
+                    (Some(spin), Some(turn), Some(was)) => Some((spin, turn, was)),
+                    _ => None,
+                };
+                let (row, acceleration, was) = (&mut rows[k], &mut accelerations[k], &lists.before[at]);
+                taken += Damped { row, acceleration, was, turning }.damp(factor, dt);
+                let margin = (home[k][3] - ahead * rows[k].velocity().norm()).max(0.0);
+                out |= (rows[k].position() - home[k].vector()).norm_squared() > margin * margin;
+            }
+            (taken, out)
+        });
+    if model.setup.ledger {
+        done.iter().for_each(|d| state.ledger.damped += d.0);
+    }
+    done.iter().any(|d| d.1)
+}

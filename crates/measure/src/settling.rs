@@ -1,0 +1,101 @@
+//! How far the grains are from rest, as a run with `until_unbalanced` or `until_kinetic` tells it with each frame (`/settling`).
+//!
+//! ```text
+//! unbalanced = ⟨|Σ F|⟩ of grains / ⟨|F|⟩ of contacts        kinetic = Σ ½ m v² + ½ I ω²
+//! ```
+
+use crate::observer::Observer;
+use crate::sheet::{Chart, Head, Row, Summary};
+use crate::{MeasureError, Run, RunMessage};
+use record::topic::SETTLING;
+use serde_json::Value;
+
+/// How far the grains are from rest at one time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settled {
+    /// Time [s].
+    pub time: f64,
+    /// Mean unbalanced force over mean contact force [–]; NaN where no contact carries a force.
+    pub unbalanced: f64,
+    /// Kinetic energy [J].
+    pub kinetic: f64,
+}
+
+impl Settled {
+    /// From a message; `time` [s] is used where it names none.
+    ///
+    /// # Errors
+    /// A message that is no JSON, or lacks the kinetic energy.
+    pub fn new(time: f64, data: &[u8]) -> Result<Settled, MeasureError> {
+        let wrong = |why: String| MeasureError::Message { topic: SETTLING.to_owned(), time, why };
+        let message: Value = serde_json::from_slice(data).map_err(|e| wrong(e.to_string()))?;
+        let number = |key: &str| message[key].as_f64();
+        let kinetic = number("kinetic").ok_or_else(|| wrong("its 'kinetic' is missing".to_owned()))?;
+        let unbalanced = number("unbalanced").unwrap_or(f64::NAN);
+        Ok(Settled { time: number("time").unwrap_or(time), unbalanced, kinetic })
+    }
+}
+
+/// Reads how far the grains are from rest.
+pub struct Settling {
+    between: (f64, f64),
+    last: Option<Settled>,
+}
+
+impl Settling {
+    /// Nothing read yet; only messages between two times [s].
+    pub fn new(between: (f64, f64)) -> Settling {
+        Settling { between, last: None }
+    }
+}
+
+impl Observer for Settling {
+    fn heads(&self) -> Vec<Head> {
+        Head::list(&[("time", "s"), ("unbalanced", "1"), ("kinetic", "J")])
+    }
+
+    fn observe(&mut self, _: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+        if let RunMessage::Settled(s) = message
+            && self.between.0 <= s.time
+            && s.time <= self.between.1
+        {
+            rows.push(vec![s.time, s.unbalanced, s.kinetic]);
+            self.last = Some(s);
+        }
+        Ok(())
+    }
+
+    fn end(&mut self, _: &Run, _: &mut Vec<Row>) -> Result<Summary, MeasureError> {
+        let Some(last) = self.last else {
+            let cure = "set until_unbalanced or until_kinetic in [time]";
+            return Err(MeasureError::Channel { topic: SETTLING, what: "measure of rest", cure });
+        };
+        Ok(Summary::default()
+            .with("unbalanced", "1", last.unbalanced)
+            .with("kinetic", "J", last.kinetic)
+            .with("time", "s", last.time))
+    }
+
+    fn chart(&self, rows: &[Row]) -> Chart {
+        let ratio = "mean unbalanced over mean contact force";
+        Chart::new("Settling").columns(("time [s]", 0), ratio, &[("", 1)], rows).columns(
+            ("time [s]", 0),
+            "kinetic energy [J]",
+            &[("", 2)],
+            rows,
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_message_without_contacts_has_no_ratio() {
+        let read = |text: &str| Settled::new(0.5, text.as_bytes());
+        let air = read(r#"{"time": 0.25, "unbalanced": null, "kinetic": 2.0}"#).expect("sound");
+        assert!(air.unbalanced.is_nan() && air.kinetic == 2.0 && air.time == 0.25);
+        assert!(read(r#"{"unbalanced": 1.0}"#).is_err() && read("?").is_err());
+    }
+}

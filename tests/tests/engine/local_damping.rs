@@ -1,0 +1,161 @@
+//! Local damping against closed forms, and the mean unbalanced force.
+
+use dem::setup::*;
+use dem::simd::Width;
+use dem::{Setup, Simulation};
+use geom::Vec3;
+use grainpipe_tests::setups::{
+    HOOKE, LAWS, Law, empty, grain, lattice, particles, plane, run_until, with_friction,
+};
+
+const K: f64 = 1e4;
+const ALPHA: f64 = 0.7;
+
+fn weight() -> f64 {
+    dem::mass(0.01, 2500.0) * 9.81
+}
+
+/// A grain on a plane that starts `share` of its overlap at rest above its place at rest.
+fn resting(share: f64, alpha: Option<f64>) -> Setup {
+    let mut setup = empty(HOOKE, 1.0);
+    (setup.gravity, setup.local_damping) = (Vec3::z() * -9.81, alpha);
+    setup.step = Step::Auto(0.02);
+    setup.walls = vec![plane(Vec3::z())];
+    setup.particles = vec![grain(1, Vec3::z() * (0.01 - (1.0 - share) * weight() / K))];
+    setup
+}
+
+/// F_d = −α |F| sign v: a spring is (1 + α) as stiff on the way out, (1 − α) on the way back, so that amplitudes fall by √((1 − α)/(1 + α)).
+#[test]
+fn amplitudes_fall_as_the_stiffness_of_both_ways() {
+    let mut sim = Simulation::new(resting(0.5, Some(ALPHA))).expect("sound");
+    let rest = 0.01 - weight() / K;
+    let (mut turns, mut before) = (vec![0.5 * weight() / K], -1.0f64);
+    while turns.len() < 5 {
+        sim.step().expect("within the guards");
+        let p = particles(&mut sim)[0];
+        if p.velocity.z * before < 0.0 {
+            turns.push((p.position.z - rest).abs());
+        }
+        before = p.velocity.z;
+    }
+    for pair in turns.windows(2) {
+        let (found, wanted) = (pair[1] / pair[0], ((1.0 - ALPHA) / (1.0 + ALPHA)).sqrt());
+        assert!((found / wanted - 1.0).abs() < 2e-2, "{found} instead of {wanted}: {turns:?}");
+    }
+}
+
+/// What moves uniformly is not damped; what falls, falls with (1 − α) g.
+#[test]
+fn uniform_motion_is_not_damped() {
+    let mut setup = with_friction(empty(HOOKE, 0.5), 0.3);
+    setup.local_damping = Some(ALPHA);
+    setup.particles = vec![grain(1, Vec3::zeros())];
+    (setup.particles[0].velocity, setup.particles[0].spin) = (Vec3::new(1.0, -2.0, 0.5), Vec3::z());
+    let mut sim = Simulation::new(setup.clone()).expect("sound");
+    run_until(&mut sim, 0.1);
+    let p = particles(&mut sim)[0];
+    assert_eq!((p.velocity, p.spin), (Vec3::new(1.0, -2.0, 0.5), Vec3::z()));
+    setup.gravity = Vec3::z() * -9.81;
+    setup.particles[0].velocity = Vec3::zeros();
+    let mut sim = Simulation::new(setup).expect("sound");
+    run_until(&mut sim, 0.1);
+    let p = particles(&mut sim)[0];
+    let wanted = -(1.0 - ALPHA) * 9.81 * sim.time();
+    // The first step has no velocity yet.
+    assert!((p.velocity.z / wanted - 1.0).abs() < 1e-2, "{} instead of {wanted}", p.velocity.z);
+}
+
+/// A heap of 60 grains of two sizes that falls on a plane.
+fn heap(law: Law) -> Setup {
+    let mut setup = with_friction(empty(law, 0.5), 0.4);
+    setup.contacts.iter_mut().for_each(|c| c.set("rolling_resistance", 0.1));
+    (setup.gravity, setup.local_damping, setup.ledger) = (Vec3::z() * -9.81, Some(ALPHA), true);
+    setup.step = Step::Auto(0.3);
+    setup.walls = vec![plane(Vec3::z())];
+    setup.particles = lattice([4, 5, 3], Vec3::new(0.0, 0.0, 0.05));
+    for p in &mut setup.particles {
+        p.radius = if p.id % 3 == 0 { 0.0085 } else { 0.01 };
+        p.position.x += 1e-4 * f64::from(p.id % 7);
+    }
+    setup
+}
+
+/// The ledger closes with a term for it.
+#[test]
+fn its_energy_is_in_the_ledger() {
+    for law in LAWS {
+        let mut sim = Simulation::new(heap(law)).expect("sound");
+        let start = sim.energy().expect("sound").balance();
+        for time in [0.05, 0.1, 0.3] {
+            run_until(&mut sim, time);
+            let e = sim.energy().expect("sound");
+            let of = e.exchanged() + e.translation;
+            println!(
+                "{law:?} {time}: {:e}, made {:e}, {e:?}",
+                (e.balance() - start) / of,
+                e.integration / of
+            );
+            assert!(((e.balance() - start) / of).abs() < 1e-10, "{law:?}: {e:?}");
+            assert!(e.integration.abs() / of < 1e-3, "{law:?}: {e:?}");
+            assert!(e.local_damping > 0.1 * of, "{law:?}: {e:?}");
+        }
+    }
+}
+
+fn bits(sim: &mut Simulation, steps: u64) -> Vec<u64> {
+    (0..steps).for_each(|_| sim.step().expect("within the guards"));
+    let all = particles(sim).into_iter().flat_map(|p| [p.position, p.velocity, p.spin]);
+    all.flat_map(|v| [v.x, v.y, v.z]).map(f64::to_bits).collect()
+}
+
+#[test]
+fn same_bits_for_widths_threads_and_resumed_runs() {
+    let setup = || heap(Law::Hertz);
+    let whole = bits(&mut Simulation::new(setup()).expect("sound"), 3000);
+    for width in Width::available() {
+        assert!(
+            bits(&mut Simulation::with_width(setup(), width).expect("sound"), 3000) == whole,
+            "{width:?}"
+        );
+    }
+    for threads in [1, 3] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        let run = || bits(&mut Simulation::new(setup()).expect("sound"), 3000);
+        assert!(pool.install(run) == whole, "{threads}");
+    }
+    for looked in [false, true] {
+        let mut first = Simulation::new(setup()).expect("sound");
+        (0..1700).for_each(|_| first.step().expect("within the guards"));
+        if looked {
+            first.unbalanced().expect("sound");
+        }
+        let mut second = Simulation::resume(setup(), first.checkpoint().to_static()).expect("the same setup");
+        assert!(bits(&mut second, 1300) == whole, "looked at: {looked}");
+    }
+}
+
+/// One grain that overlaps a plane by half of what its weight needs: |k δ − m g|/k δ = 1; at rest 0; in the air there is none.
+#[test]
+fn unbalanced_force_of_one_grain() {
+    let mut half = Simulation::new(resting(0.5, None)).expect("sound");
+    let found = half.unbalanced().expect("sound").expect("a contact");
+    assert!((found - 1.0).abs() < 1e-9, "{found}");
+    let found = Simulation::new(resting(0.0, None)).expect("sound").unbalanced().expect("sound");
+    assert!(found.expect("a contact") < 1e-9, "{found:?}");
+    let found = Simulation::new(resting(1.5, None)).expect("sound").unbalanced().expect("sound");
+    assert_eq!(found, None);
+}
+
+/// A heap comes to a mean unbalanced force of 1e-5 of the mean contact force.
+#[test]
+fn heap_comes_to_rest() {
+    let mut sim = Simulation::new(heap(HOOKE)).expect("sound");
+    let mut found = 1.0;
+    while found > 1e-5 && sim.time() < 5.0 {
+        (0..200).for_each(|_| sim.step().expect("within the guards"));
+        found = sim.unbalanced().expect("sound").unwrap_or(1.0);
+    }
+    println!("{found:e} at {} s", sim.time());
+    assert!(found <= 1e-5, "{found}");
+}
