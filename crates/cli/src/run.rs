@@ -40,9 +40,27 @@ pub struct Common {
 /// `--seed N`, for tools that use random numbers.
 #[derive(Debug, Clone, Copy, Default, clap::Args)]
 pub struct Seed {
-    /// Seed of the random numbers; the same seed gives the same result
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub seed: u64,
+    /// Seed of the random numbers; the same seed gives the same result [default: 0]
+    #[arg(long = "seed", value_name = "N")]
+    given: Option<u64>,
+}
+
+impl Seed {
+    /// The seed.
+    pub fn seed(&self) -> u64 {
+        self.given.unwrap_or(0)
+    }
+
+    /// Refuses a seed where nothing is left to chance.
+    ///
+    /// # Errors
+    /// A seed that was given.
+    pub fn none(&self, by: &str) -> anyhow::Result<()> {
+        match self.given {
+            Some(_) => Err(crate::usage(format!("--seed: {by} leaves nothing to chance: leave it out"))),
+            None => Ok(()),
+        }
+    }
 }
 
 /// What the running tool was started with.

@@ -97,7 +97,10 @@ impl Args {
             Along::Surface => Distance::Surface,
             Along::Space => Distance::Space,
         };
-        let settings = SampleSettings { amount, method, distance, seed: self.seed.seed };
+        if let Choice::Grid = self.method {
+            self.seed.none("--method grid")?;
+        }
+        let settings = SampleSettings { amount, method, distance, seed: self.seed.seed() };
         sampling::check_settings(&settings).map_err(|e| cli::usage(e.to_string()))?;
         Ok(settings)
     }

@@ -39,7 +39,7 @@ fn main() -> ExitCode {
             noise: args.noise,
             blind: args.blind,
             tilt: args.tilt_deg.to_radians(),
-            seed: args.seed.seed,
+            seed: args.seed.seed(),
         };
         let cloud = scan.cloud();
         args.output.write_cloud(&cloud)?;
@@ -50,7 +50,7 @@ fn main() -> ExitCode {
             .with("noise_m", args.noise)
             .with("blind_m", args.blind)
             .with("tilt_deg", args.tilt_deg)
-            .with("seed", args.seed.seed))
+            .with("seed", args.seed.seed()))
     })
 }
 

@@ -65,6 +65,9 @@ fn main() -> ExitCode {
 
 fn fill(args: Args) -> anyhow::Result<Report> {
     check_ending(&args.output.to)?;
+    if args.fill == Method::Grid {
+        args.seed.none("--fill grid")?;
+    }
     let mut balls = args.ball;
     balls.sort_by(f64::total_cmp);
     let settings = Settings {
@@ -76,7 +79,7 @@ fn fill(args: Args) -> anyhow::Result<Report> {
         method: args.fill,
         mesher: args.method,
         balls,
-        seed: args.seed.seed,
+        seed: args.seed.seed(),
     };
     let filled = cloud::fill(args.input.read_cloud()?, &settings).with_context(|| args.input.name())?;
     warn(&filled.report);

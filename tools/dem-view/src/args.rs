@@ -134,6 +134,26 @@ impl Args {
         Ok(())
     }
 
+    /// Options of a picture that change nothing in some scenes (no wall is in front, colours of kinds), each with the picture without it.
+    pub fn doubtful(&self, options: &PictureOptions) -> Vec<(&'static str, PictureOptions)> {
+        let plain = PictureOptions::default();
+        let all = [
+            ("--cut", self.cut, PictureOptions { cut: false, ..options.clone() }),
+            (
+                "--wall-opacity",
+                self.wall_opacity.is_some_and(|given| given != plain.wall_opacity),
+                PictureOptions { wall_opacity: plain.wall_opacity, ..options.clone() },
+            ),
+            (
+                "--map",
+                self.map.is_some_and(|given| given != plain.map),
+                PictureOptions { map: plain.map, ..options.clone() },
+            ),
+            ("--range", self.range.is_some(), PictureOptions { range: None, ..options.clone() }),
+        ];
+        all.into_iter().filter(|(_, given, _)| *given).map(|(name, _, without)| (name, without)).collect()
+    }
+
     /// The colour map.
     pub fn map(&self) -> Map {
         self.map.unwrap_or(Map::Viridis)
@@ -181,7 +201,7 @@ impl Args {
             map: self.map(),
             range: self.range,
             time: None,
-            wall_opacity: self.wall_opacity.unwrap_or(0.2),
+            wall_opacity: self.wall_opacity.unwrap_or(PictureOptions::default().wall_opacity),
             cut: self.cut,
             dark: self.dark,
         }

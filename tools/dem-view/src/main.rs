@@ -42,6 +42,11 @@ fn png(args: &Args, output: &Output) -> anyhow::Result<Report> {
     moment.settle();
     let options = PictureOptions { time: moment.time(), ..args.picture(Format::Png) };
     let image = picture::draw(&moment.parts(), moment.surfaces(), &options)?;
+    for (name, without) in args.doubtful(&options) {
+        if picture::draw(&moment.parts(), moment.surfaces(), &without)? == image {
+            cli::warn(&format!("{name} changes nothing in this picture: leave it out"));
+        }
+    }
     let mut out: OutputStream = output.open()?;
     out.write_all(&image.png()?).with_context(|| output.name())?;
     out.commit()?;

@@ -23,7 +23,7 @@ struct Args {
 
 pub fn main() -> ExitCode {
     cli::run("cloud-test", |args: Args| {
-        let report = Report::new("done").with("seed", args.seed.seed);
+        let report = Report::new("done").with("seed", args.seed.seed());
         match args.action.as_str() {
             "copy" => return copy(&args),
             "arguments" => println!("{:?}", cli::arguments()),

@@ -91,7 +91,7 @@ impl Scene {
         self.plan_with(given, &|_| ())
     }
 
-    /// The same; `hear` is told how far a `[[fill]]` is.
+    /// The same; `hear` gets how far a `[[fill]]` is.
     ///
     /// # Errors
     /// As [`Scene::plan`].

@@ -133,7 +133,7 @@ impl Occupied {
 /// Spheres between two reports of how many have been placed.
 const REPORT: usize = 1 << 14;
 
-/// Radii of spheres to be placed [m], and who hears how many have a place.
+/// Radii of spheres to be placed [m], and what hears how many have a place.
 pub(super) struct Radii<'a> {
     pub(super) all: &'a [f64],
     pub(super) hear: &'a dyn Fn(usize),

@@ -1,11 +1,12 @@
-//! Attacks the tools and writes docs/reliability.md: `attack FILES KILLS SEED [PAGE.md]`.
+//! Attacks the tools and writes docs/reliability.md: `attack FILES KILLS SEED [PAGE.md]`;
+//! `attack silent` only lists silent options and keys.
 
 #[path = "../../../../tests/tests/faults/attack/mod.rs"]
 mod attack;
 #[path = "../../../../tests/tests/faults/samples.rs"]
 mod samples;
 
-use attack::{Findings, files, kills, options, scenes};
+use attack::{Findings, files, kills, options, scenes, silent};
 use std::{env, fs, io};
 
 fn main() -> io::Result<()> {
@@ -13,10 +14,16 @@ fn main() -> io::Result<()> {
     let number = |k: usize, default| arguments.get(k).and_then(|a| a.parse().ok()).unwrap_or(default);
     let (drawn, killed, seed) = (number(0, 15_000), number(1, 100), number(2, 1));
     let mut found = Findings::default();
+    if arguments.first().is_some_and(|a| a == "silent") {
+        silent::options::find(1, &mut found);
+        print!("{}\n{}", found.table(), found.list());
+        return Ok(());
+    }
     found.run(files::cases(seed as u64, drawn));
     found.run(scenes::cases());
     found.run(options::cases());
     kills::run(seed as u64, killed, &mut found);
+    silent::options::find(1, &mut found);
     let page = format!("{HEAD}{} cases, seed {seed}:\n\n{}{TAIL}", found.count(), found.table());
     print!("{page}\n{}", found.list());
     arguments.get(3).map_or(Ok(()), |file| fs::write(file, page))
@@ -41,8 +48,10 @@ const TAIL: &str = "
 | half output | failed, and left output under its final name that looks whole |
 | not finite | succeeded with output that holds NaN or infinity |
 | raw text | the message has control characters, which a terminal would obey |
+| silent | an option was accepted, changed nothing, and nothing said so |
 
 **Files**: one word or line of a text, or one number, record or length of a binary file is changed, with checksums that are right again. So the damage reaches the code behind the
 checksums. **Keys and options**: every key of the tables of [scene.md](scene.md) and every option of `--help`, each with 14 values such as `nan`, `1e308`, an empty text, a device or a terminal's control
-sequence. **Kills**: one program of a pipe gets SIGKILL at a random time. Output under the final name must then be the whole output.
+sequence. **Further options**: every example of every tool (`tests/tests/tools/every_option`), whole and with as few options as it needs, with each further option of that tool that an example has. It counts as
+accepted if the output or what the tool prints changes with one of its values. Left out are options that only steer how a tool runs (threads, names of outputs), a few that name a default, and calls whose output holds times. **Kills**: one program of a pipe gets SIGKILL at a random time. Output under the final name must then be the whole output.
 ";

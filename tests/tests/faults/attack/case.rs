@@ -48,11 +48,13 @@ pub enum Outcome {
     NotFinite,
     /// Its message has control characters.
     RawText,
+    /// What was added changed nothing, and nothing said so.
+    Silent,
 }
 
 impl Outcome {
     /// Every outcome, in the order of the page's columns.
-    pub const ALL: [Outcome; 9] = [
+    pub const ALL: [Outcome; 10] = [
         Outcome::Accepted,
         Outcome::Refused,
         Outcome::Panicked,
@@ -62,6 +64,7 @@ impl Outcome {
         Outcome::LeftOutput,
         Outcome::NotFinite,
         Outcome::RawText,
+        Outcome::Silent,
     ];
 
     /// Whether this must not happen.

@@ -4,11 +4,18 @@
 //! docs/reliability.md; the test runs a short form with another seed. A seed gives the same cases on every machine.
 
 pub mod case;
+#[allow(dead_code)]
+#[path = "../../tools/every_option/files.rs"]
+pub mod example_files;
+#[allow(dead_code)]
+#[path = "../../tools/every_option/examples.rs"]
+pub mod examples;
 pub mod files;
 pub mod kills;
 pub mod mutate;
 pub mod options;
 pub mod scenes;
+pub mod silent;
 pub mod values;
 
 use case::{Case, Outcome, Verdict};
@@ -51,7 +58,7 @@ impl Findings {
 
     /// A Markdown table: a row for each kind of case, a column for each outcome.
     pub fn table(&self) -> String {
-        let titles = "accepted | refused | panic | killed | too long | no message | half output | not finite | raw text";
+        let titles = "accepted | refused | panic | killed | too long | no message | half output | not finite | raw text | silent";
         let mut table =
             format!("| what | cases | {titles} |\n|---|{}\n", "---:|".repeat(Outcome::ALL.len() + 1));
         for (group, totals) in &self.totals {

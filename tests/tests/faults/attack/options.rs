@@ -24,13 +24,15 @@ const CALLS: &[(&str, &str)] = &[
 ];
 
 /// An option, and whether it takes a value.
-struct Flag {
-    name: String,
-    takes_value: bool,
+pub struct Flag {
+    /// `--name`.
+    pub name: String,
+    /// Whether a value follows.
+    pub takes_value: bool,
 }
 
 /// What a tool's help lists, without what ends the tool at once or names an output.
-fn flags(name: &str) -> Vec<Flag> {
+pub fn flags(name: &str) -> Vec<Flag> {
     let help = String::from_utf8_lossy(&tool(Path::new("."), name, &["--help"]).stdout).into_owned();
     let mut found = Vec::new();
     for line in help.lines().map(str::trim_start).filter(|l| l.starts_with('-')) {

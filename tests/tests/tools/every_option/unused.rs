@@ -13,6 +13,14 @@ const REFUSED: &[(&str, &str)] = &[
         "bluenoise-sample flat.xyz --spacing 0.02 --no-measures --plot p.svg --report r.json",
         "--no-measures: --plot",
     ),
+    (
+        "bluenoise-sample flat.xyz --spacing 0.02 --method grid --seed 3",
+        "--seed: --method grid leaves nothing to chance: leave it out",
+    ),
+    (
+        "cloud-fill flat.xyz --fill grid --seed 3",
+        "--seed: --fill grid leaves nothing to chance: leave it out",
+    ),
     ("dem-view flat.xyz -o v.html --fps 10", "--fps changes nothing in .html: it is for .gif, .mp4:"),
     ("dem-view flat.xyz -o v.html --size 96x64", "--size changes nothing in .html"),
     ("dem-view flat.xyz -o v.html --cut", "--cut changes nothing in .html"),
@@ -30,6 +38,20 @@ const REFUSED: &[(&str, &str)] = &[
     ("dem-view flat.xyz -o v.vtp --colour z", "--colour changes nothing in .vtp"),
     ("dem-view flat.xyz -o v.pvd --range 0,1", "--range changes nothing in .pvd"),
 ];
+
+/// What cannot be known before the picture is drawn is a warning.
+#[test]
+fn an_option_that_leaves_a_picture_as_it_is_prints_a_warning() {
+    let folder = inputs();
+    let command = "dem-view flat.xyz --size 96x64 -o v.png --cut --map turbo";
+    let done = line(folder.path(), command);
+    assert!(
+        done.code == 0 && done.stderr.contains("--cut changes nothing in this picture"),
+        "{}",
+        done.stderr
+    );
+    assert!(!done.stderr.contains("--map"), "a cloud is coloured by height: {}", done.stderr);
+}
 
 #[test]
 fn options_that_change_nothing_are_refused() {
