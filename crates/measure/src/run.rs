@@ -7,7 +7,9 @@ use crate::{Bonds, MeasureError, WallForces, table::Columns};
 use geom::{Plane, Vec3};
 use record::column::{POSITION, RADIUS, WALL};
 use record::metadata::{MATERIALS, OUTLETS, SCENE};
-use record::topic::{BONDS, CONTACTS, CRACKS, CROSSINGS, ENERGY, PARTICLES, SETTLING, SURFACES, WALL_FORCES, WALLS};
+use record::topic::{
+    BONDS, CONTACTS, CRACKS, CROSSINGS, ENERGY, PARTICLES, SETTLING, SURFACES, WALL_FORCES, WALLS,
+};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use stream::{Table, mcap::Event};

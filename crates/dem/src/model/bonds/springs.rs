@@ -257,15 +257,17 @@ mod tests {
         assert!(stiff(&pull.force) < 1e-9 && stiff(&pull.moment[0]) < 1e-11, "{pull:?}");
     }
 
-    /// F_t and M at the section, by statics of one half: what acts on i, moved to the section.
+    /// F_t and M at the section, by statics of one half: what acts on i, moved to the section. Angles are small, because stress is that of small ones.
     #[test]
     fn stress_is_that_at_the_section() {
-        let pull = springs(0.0).pull(&bent());
-        let n = bent().arm.normalize();
+        let arm = numbers().axis * 0.020_02 + Vec3::new(1e-5, 2e-5, -1e-5);
+        let ends = Ends { arm, turn: [turn(1e-3, 2e-3, -1.4e-3), turn(-1.8e-3, 8e-4, 2.2e-3)], ..bent() };
+        let pull = springs(0.0).pull(&ends);
+        let n = arm.normalize();
         let force = Vec3::from(pull.force);
         let tension = -force.dot(&n);
         let shear = force + n * tension;
-        let at = Vec3::from(pull.moment[0]) + (n * (0.3 * bent().arm.norm())).cross(&force);
+        let at = Vec3::from(pull.moment[0]) + (n * (0.3 * arm.norm())).cross(&force);
         let (twist, bending) = (at.dot(&n), at - n * at.dot(&n));
         let area = PI * 0.004 * 0.004;
         let rim = 0.7 * 4.0 / (area * 0.004);
@@ -275,8 +277,7 @@ mod tests {
             tension / area,
         ];
         for (found, expected) in pull.stress.iter().zip(expected) {
-            // Arms are those of the bond at rest, and angles sines.
-            assert!((found / expected - 1.0).abs() < 0.02, "{:?} {expected:?}", pull.stress);
+            assert!((found / expected - 1.0).abs() < 5e-3, "{:?} {expected:?}", pull.stress);
         }
     }
 }
