@@ -172,7 +172,7 @@ fn glue_for_any_number_of_threads_order_and_after_a_checkpoint() {
     let mut shuffled = glued(14);
     shuffled.particles.reverse();
     assert!(with(2, shuffled) == one, "another order");
-    let mut first = simulation(glued(5));
+    let mut first = simulation(glued(6));
     let (made, mut steps) = (first.bond_count()[0], 0);
     while first.bond_count()[1] < 10 {
         first.step().expect("within the guards");
@@ -180,7 +180,7 @@ fn glue_for_any_number_of_threads_order_and_after_a_checkpoint() {
         assert!(steps < 20_000, "it does not break");
     }
     assert!(first.bond_count()[0] > made, "more was made on the way");
-    let resumed = Simulation::resume(glued(5), first.checkpoint().to_static()).expect("the same setup");
+    let resumed = Simulation::resume(glued(6), first.checkpoint().to_static()).expect("the same setup");
     assert!(bits(resumed, 300) == bits(first, 300));
 }
 

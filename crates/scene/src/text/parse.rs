@@ -169,7 +169,10 @@ mod tests {
         assert!(contact("friction").contains("did you mean 'sliding_friction'?"));
         // Two of its three letters are others: no hint is better than a wrong one.
         let message = refused("[time]\nend = 1");
-        assert!(message.contains("known here: until, dt, safety, accuracy, shorten, contacts"), "{message}");
+        assert!(
+            message.contains("known here: until, until_unbalanced, until_kinetic, dt, safety"),
+            "{message}"
+        );
     }
 
     #[test]
@@ -188,7 +191,7 @@ mod tests {
             "[time]\nuntil = 1\n[[contact]]\nbetween = [\"*\", \"*\"]\nrestitution = 1\nslidingfriction = 1",
         );
         assert!(message.contains("s.toml:6:1") && message.contains("'sliding_friction'"), "{message}");
-        assert!(refused("[time]\nzzzzzzzzzzzz = 1").contains("known here: until, dt"));
+        assert!(refused("[time]\nzzzzzzzzzzzz = 1").contains("known here: until, until_unbalanced"));
     }
 
     #[test]

@@ -72,7 +72,7 @@ const BONDS: &[(&str, &[&str])] = &[
         r#"kind = "glue"
 young = 1e8
 poisson = 0.2"#,
-        &["kind", "glue", "contact"],
+        &["glue", "contact"],
     ),
     (r#"young = 1e8"#, &["bond.0", "poisson is missing"]),
     (
