@@ -77,16 +77,13 @@ impl Observer for BondNumbers {
     }
 
     fn observe(&mut self, _: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
-        match message {
-            RunMessage::Bonds(bonds) => {
-                self.span = Some((self.span.map_or(bonds.time, |s| s.0), bonds.time));
-                if self.which.holds(bonds.time) {
-                    let row = self.row(&bonds);
-                    self.last = Some(row.clone());
-                    rows.push(row);
-                }
+        if let RunMessage::Bonds(bonds) = message {
+            self.span = Some((self.span.map_or(bonds.time, |s| s.0), bonds.time));
+            if self.which.holds(bonds.time) {
+                let row = self.row(&bonds);
+                self.last = Some(row.clone());
+                rows.push(row);
             }
-            _ => {}
         }
         Ok(())
     }

@@ -100,7 +100,7 @@ fn fragments_and_grading_hold_all_mass() {
     let all: f64 = grains.iter().sum();
     let one = 2600.0 * std::f64::consts::PI / 6.0 * 0.004f64.powi(3);
     assert!((mass.iter().sum::<f64>() / (all * one) - 1.0).abs() < 1e-9);
-    assert!(grains.iter().any(|n| *n == 8.0), "the block stays whole: {grains:?}");
+    assert!(grains.contains(&8.0), "the block stays whole: {grains:?}");
     let grading = measure(&folder, &["--grading", "--sieves", "0.005,0.01,0.03"]);
     let (before, after) = (column(&grading, "passing_before"), column(&grading, "passing_after"));
     assert_eq!([before[0], before[2], after[2]], [0.0, 1.0, 1.0]);

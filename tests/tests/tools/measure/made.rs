@@ -32,6 +32,9 @@ pub type Touch = (u32, u32, bool, [f64; 3], [f64; 3], [f64; 3], f64);
 /// A stream that is being made.
 pub struct Made(pub Writer<Vec<u8>>);
 
+/// Ids, σ and τ [Pa] of a bond; when it broke [s] and what broke it (1 tension, 2 shear).
+pub type BondRow = ([u32; 2], [f64; 2], Option<(f64, u8)>);
+
 impl Made {
     /// Two materials of 2500 and 1000 kg/m³, `a` and `b`; a scene.
     pub fn new(scene: &str) -> Made {
@@ -118,7 +121,7 @@ impl Made {
     }
 
     /// Bonds: ids, tension and shear [Pa], time of the break.
-    pub fn bonds(&mut self, time: f64, rows: &[([u32; 2], [f64; 2], Option<(f64, u8)>)]) -> &mut Made {
+    pub fn bonds(&mut self, time: f64, rows: &[BondRow]) -> &mut Made {
         let columns = vec![
             ("tension", Values::F64(rows.iter().map(|r| r.1[0]).collect())),
             ("shear", Values::F64(rows.iter().map(|r| r.1[1]).collect())),
