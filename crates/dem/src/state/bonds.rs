@@ -228,10 +228,11 @@ impl Bonds {
 
     /// Takes the pairs out of a list that are not in contact as long as their bonds hold.
     pub fn drop_replaced<T>(&self, list: &mut Vec<T>, rows: impl Fn(&T) -> (u32, u32)) {
-        if self.pairs.iter().any(|pair| pair.springs.numbers.replaces_contact) {
-            let replaced = |(i, j)| self.joins([i, j], |pair| pair.springs.numbers.replaces_contact);
-            list.retain(|item| !replaced(rows(item)));
+        if self.none() {
+            return;
         }
+        let replaced = |(i, j)| self.joins([i, j], |pair| pair.springs.numbers.replaces_contact);
+        list.retain(|item| !replaced(rows(item)));
     }
 
     /// Adds what bonds do to some particles.
