@@ -23,6 +23,8 @@ pub fn make_due(model: &Model, state: &mut State) -> Result<(), Halt> {
     let (now, later) = state.bonds.due.iter().partition(|n| is_due(n));
     state.bonds.due = later;
     let now: Vec<u32> = now;
+    // Particles that have just come in have no entries yet.
+    state.bonds.index(&state.particles.id);
     let laws: Vec<&Bond> = now.iter().map(|&n| &model.setup.bonds[n as usize]).collect();
     let grains = grains(model, state);
     let found = find(&model.setup, &laws, &grains, |rows| state.bonds.joins(rows, |_| true));
