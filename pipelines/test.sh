@@ -5,7 +5,8 @@ cd "$(dirname "$0")/.."
 log=$(mktemp) skips=$(mktemp)
 trap 'rm -f "$log" "$skips"' EXIT
 
-cargo build --bins --locked || exit 1
+# Tools and tests in one go: their dependencies are then built once, with the features that both ask for.
+cargo build --workspace --bins --tests --locked || exit 1
 GRAINPIPE_SKIPS=$skips cargo test --workspace --locked --no-fail-fast 2>&1 | tee "$log"
 status=$?
 sort -u "$skips"
