@@ -75,7 +75,7 @@ fn row(time: f64, id: u32) -> CrossingRow {
         velocity: Vec3::new(0.0, 0.0, -1.0),
         spin: zero,
     };
-    CrossingRow { time, outlet: 0, particle, contacts: 0, clump: None, turn: None }
+    CrossingRow { time, outlet: 0, particle, contacts: 0, clump: None, turn: None, cluster: 0 }
 }
 
 /// A run with two crossings until 1 s and one until 2 s, as the parts that were flushed.

@@ -285,7 +285,7 @@ fn passing() -> Scene {
         let position = Vec3::new(0.0, 0.002 * f64::from(k % 3), 0.012 + 0.021 * f64::from(k % 2));
         let velocity = Vec3::new(0.6 + 0.1 * f64::from(k % 2), 0.0, 0.0);
         let particle = Particle { velocity, spin: Vec3::new(0.0, 5.0, 0.0), ..grain(k, position) };
-        Entry { time: 0.045 * f64::from(k / 2), inlet: 0, particle, clump: None, turn: None }
+        Entry { time: 0.045 * f64::from(k / 2), inlet: 0, particle, clump: None, turn: None, cluster: 0 }
     };
     Scene {
         name: "hertz, through two planes".to_owned(),

@@ -229,6 +229,7 @@ fn ledger_closes_with_inlet_and_outlet() {
                 particle: p,
                 clump: None,
                 turn: None,
+                cluster: 0,
             })
             .expect("in time");
         }

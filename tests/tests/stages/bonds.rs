@@ -1,6 +1,6 @@
 //! Bonded lumps through a cut: the stage downstream gets them whole, and breaks them as the undivided plant does.
 
-use super::{last_of, plant_of};
+use super::{last_of, passages, plant_of};
 use grainpipe_tests::scenes::{SINTER, write};
 use grainpipe_tests::tools::{line, succeed, tool};
 use serde_json::Value;
@@ -10,11 +10,18 @@ use tempfile::TempDir;
 
 /// Three lumps of 27 spheres that fall onto a floor at different times, one of them beside the others' axis.
 fn lumps() -> TempDir {
-    let mut rows = "id,x,y,z,radius\n".to_owned();
+    let mut rows = "id,x,y,z,radius,cluster\n".to_owned();
     for (lump, (x, z)) in [(0.0, 0.02), (0.004, 0.07), (0.05, 0.05)].into_iter().enumerate() {
         for k in 0..27 {
             let at = |n: usize| 0.01 * (n % 3) as f64;
-            rows += &format!("{},{},{},{},0.005\n", 27 * lump + k, x + at(k), at(k / 3), z + at(k / 9));
+            rows += &format!(
+                "{},{},{},{},0.005,{}\n",
+                27 * lump + k,
+                x + at(k),
+                at(k / 3),
+                z + at(k / 9),
+                lump + 1
+            );
         }
     }
     let bond = "[[bond]]\nbetween = [\"sinter\", \"sinter\"]\ngap = 1e-6\nyoung = 2e7\npoisson = 0.25\ndamping = 0.2\n\
@@ -60,6 +67,34 @@ fn lumps_break_downstream_as_in_the_undivided_plant() {
         assert_eq!(found[0], all, "{replay}");
         assert!(found[1].abs_diff(broken) <= broken / 20, "{} of {broken} with {replay}", found[1]);
     }
+}
+
+/// A lump is the same cluster downstream, also as a column of the frames there; in a second replay it is another one.
+#[test]
+fn lumps_keep_their_clusters() {
+    let folder = lumps();
+    let path = folder.path();
+    succeed(path, "dem-run", &["up.toml", "-q", "-o", "up.mcap"]);
+    let replayed = |options: &[&str]| {
+        succeed(path, "stage-replay", &[&["up.mcap", "-q", "-o", "in.mcap"], options].concat());
+        passages(&path.join("in.mcap"))
+    };
+    let once = replayed(&[]);
+    assert_eq!(once.len(), 81);
+    assert!(once.iter().all(|row| row.cluster == row.particle.id / 27 + 1));
+    succeed(path, "dem-run", &["down.toml", "in.mcap", "-q", "-o", "down.mcap"]);
+    let frame = last_of(&path.join("down.mcap"), "/particles").expect("a frame");
+    let column = |name: &str| frame.get(name).expect("a column").to_f64();
+    let (ids, clusters) = (column("id"), column("cluster"));
+    assert!(ids.len() > 60, "{} grains", ids.len());
+    assert!(ids.iter().zip(&clusters).all(|(id, cluster)| (id / 27.0).floor() + 1.0 == *cluster));
+    let twice = replayed(&["--repeat", "2", "--period", "2"]);
+    let mut counts = std::collections::BTreeMap::new();
+    twice.iter().for_each(|row| *counts.entry(row.cluster).or_insert(0) += 1);
+    assert_eq!(
+        counts.into_iter().collect::<Vec<_>>(),
+        (1..=6).map(|cluster| (cluster, 27)).collect::<Vec<_>>()
+    );
 }
 
 /// At once, and after a stop: the same bytes.

@@ -42,7 +42,7 @@ fn an_entry_in_free_fall_never_notices_the_calculation_plane() {
     let mut sim = Simulation::new(setup).expect("sound");
     // At its apex, where it does not move along the normal.
     let start = Particle { velocity: Vec3::new(0.3, 0.0, 0.0), ..grain(3, Vec3::new(0.0, 0.0, -0.06)) };
-    sim.enter(Entry { time: 0.010_05, inlet: 0, particle: start, clump: None, turn: None })
+    sim.enter(Entry { time: 0.010_05, inlet: 0, particle: start, clump: None, turn: None, cluster: 0 })
         .expect("it falls");
     for until in [0.05, 0.09, 0.1, 0.11, 0.2] {
         run_until(&mut sim, until);
@@ -52,12 +52,14 @@ fn an_entry_in_free_fall_never_notices_the_calculation_plane() {
         assert!((p.velocity - start.velocity - GRAVITY * t).norm() < 1e-11);
     }
     let up = Particle { velocity: Vec3::new(0.0, 0.0, -1.0), ..grain(4, Vec3::new(0.0, 0.0, -0.06)) };
-    sim.enter(Entry { time: 0.3, inlet: 0, particle: up, clump: None, turn: None }).expect("thrown down");
+    sim.enter(Entry { time: 0.3, inlet: 0, particle: up, clump: None, turn: None, cluster: 0 })
+        .expect("thrown down");
     let mut still = empty(HOOKE, 0.5);
     (still.step, still.inlets) = (Step::Fixed(1e-4), vec![falling(plane, 0.05)]);
     (still.smallest_entry, still.largest_entry, still.entry_materials) = (0.01, 0.01, vec![0]);
     let mut sim = Simulation::new(still).expect("sound");
-    let refused = sim.enter(Entry { time: 0.0, inlet: 0, particle: start, clump: None, turn: None });
+    let refused =
+        sim.enter(Entry { time: 0.0, inlet: 0, particle: start, clump: None, turn: None, cluster: 0 });
     let said = refused.expect_err("without gravity it never arrives").to_string();
     assert!(said.contains("0 m/s is outside what brings it to the calculation plane"), "{said}");
 }

@@ -59,7 +59,7 @@ fn along_paths(setup: &Setup, until: f64) -> (Vec<News>, Simulation) {
                 told.push(News::Is(p.id, Guide::At(sample)));
             } else {
                 known.push(p.id);
-                told.push(News::Enters(Entry { time, inlet: 0, particle: p, clump: None, turn }));
+                told.push(News::Enters(Entry { time, inlet: 0, particle: p, clump: None, turn, cluster: 0 }));
             }
         }
         sim.step().expect("within the guards");
@@ -86,7 +86,14 @@ fn in_flight(setup: &Setup, until: f64, ahead: f64) -> (Vec<News>, Simulation) {
             p.position += a * (0.5 * ahead * ahead) - p.velocity * ahead;
             p.velocity -= a * ahead;
             let turn = c.turn.map(|turn| dem::spun(&(p.spin * -ahead)) * turn);
-            told.push(News::Enters(Entry { time: c.time - ahead, inlet: 0, particle: p, clump: None, turn }));
+            told.push(News::Enters(Entry {
+                time: c.time - ahead,
+                inlet: 0,
+                particle: p,
+                clump: None,
+                turn,
+                cluster: 0,
+            }));
             told.extend(c.bonds.into_iter().map(News::Bonded));
         }
     }

@@ -133,7 +133,8 @@ fn a_clump_comes_in_as_it_was_recorded() {
     let mut down = Simulation::new(setup).expect("sound");
     let particle = Particle { position: c.particle.position - c.particle.velocity * ahead, ..c.particle };
     let clump = c.clump.map(|clump| clump.turned(&(c.particle.spin * -ahead)));
-    down.enter(Entry { time: c.time - ahead, inlet: 0, particle, clump, turn: None }).expect("in time");
+    down.enter(Entry { time: c.time - ahead, inlet: 0, particle, clump, turn: None, cluster: 0 })
+        .expect("in time");
     let mut whole = Simulation::new(Setup { outlets: vec![], ..upstream() }).expect("sound");
     for until in [0.1003, 0.2, 0.5] {
         run_until(&mut down, until);
@@ -167,7 +168,8 @@ fn a_clump_follows_what_it_did_upstream() {
             let turn = clump.map(|c| c.orientation);
             let at = Sample { time, position: p.position, velocity: p.velocity, spin: p.spin, turn };
             if std::mem::take(&mut first) {
-                down.enter(Entry { time, inlet: 0, particle: p, clump, turn: None }).expect("in time");
+                down.enter(Entry { time, inlet: 0, particle: p, clump, turn: None, cluster: 0 })
+                    .expect("in time");
             } else {
                 down.guide(p.id, Guide::At(at)).expect("in order");
             }

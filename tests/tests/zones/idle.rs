@@ -65,7 +65,8 @@ fn no_particle_on_its_way_in_pushes_a_wall() {
     let back = 0.03;
     let mut start = grain(0, Vec3::new(0.05 - back, 0.0, 0.01 - 0.5 * 9.81 * back * back));
     start.velocity = Vec3::new(1.0, 0.0, 9.81 * back);
-    sim.enter(Entry { time: 1e-5, inlet: 0, particle: start, clump: None, turn: None }).expect("announced");
+    sim.enter(Entry { time: 1e-5, inlet: 0, particle: start, clump: None, turn: None, cluster: 0 })
+        .expect("announced");
     while sim.time() < 0.02 {
         sim.step().expect("no guard checks grains of a zone");
         let floor = sim.wall_forces().expect("loads are kept")[0];

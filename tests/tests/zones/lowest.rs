@@ -47,7 +47,7 @@ fn the_foremost_point_passes_the_calculation_plane() {
     (setup.smallest_entry, setup.largest_entry, setup.entry_materials) = (0.01, 0.01, vec![0]);
     let mut sim = Simulation::new(setup).expect("sound");
     let particle = Particle { velocity: Vec3::x(), ..grain(3, Vec3::new(-0.06, 0.0, 0.0)) };
-    sim.enter(Entry { time: 0.0, inlet: 0, particle, clump: None, turn: None }).expect("in time");
+    sim.enter(Entry { time: 0.0, inlet: 0, particle, clump: None, turn: None, cluster: 0 }).expect("in time");
     run_until(&mut sim, 0.15);
     // Free from t = 0.05 on.
     let fall = sim.time() - 0.05;

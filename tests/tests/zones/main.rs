@@ -118,7 +118,8 @@ fn entry_becomes_free_at_the_calculation_plane() {
     let mut sim = Simulation::new(setup.clone()).expect("sound");
     let mut p = grain(3, Vec3::zeros());
     p.velocity.x = 1.0;
-    sim.enter(Entry { time: 0.020_05, inlet: 0, particle: p, clump: None, turn: None }).expect("in time");
+    sim.enter(Entry { time: 0.020_05, inlet: 0, particle: p, clump: None, turn: None, cluster: 0 })
+        .expect("in time");
     while sim.time() < 0.0199 {
         sim.step().expect("free");
     }
@@ -140,11 +141,17 @@ fn entry_becomes_free_at_the_calculation_plane() {
     let p = particles(&mut sim)[0];
     assert!((p.position.z + 0.5 * 9.81 * fall * fall).abs() < 1e-11, "{} after {fall} s", p.position.z);
     assert!((p.velocity.z + 9.81 * fall).abs() < 1e-11);
-    let late =
-        sim.enter(Entry { time: 0.01, inlet: 0, particle: grain(4, Vec3::zeros()), clump: None, turn: None });
+    let late = sim.enter(Entry {
+        time: 0.01,
+        inlet: 0,
+        particle: grain(4, Vec3::zeros()),
+        clump: None,
+        turn: None,
+        cluster: 0,
+    });
     assert!(explain_setup_error(&late.expect_err("too late")).contains("time order"));
     let away = Particle { velocity: Vec3::x(), ..grain(5, Vec3::new(-1e13, 0.0, 0.0)) };
-    let far = sim.enter(Entry { time: 0.13, inlet: 0, particle: away, clump: None, turn: None });
+    let far = sim.enter(Entry { time: 0.13, inlet: 0, particle: away, clump: None, turn: None, cluster: 0 });
     let far = explain_setup_error(&far.expect_err("too far"));
     assert!(far.contains("particle 5") && far.contains("shift the scene to the origin"), "{far}");
 }

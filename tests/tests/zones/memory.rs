@@ -71,7 +71,7 @@ fn downstream(
     let ahead = 0.0005;
     for (time, p) in [(crossing.time, &crossing.particle), (now, other)] {
         let particle = Particle { position: p.position - p.velocity * ahead, ..*p };
-        sim.enter(Entry { time: time - ahead, inlet: 0, particle, clump: None, turn: None })
+        sim.enter(Entry { time: time - ahead, inlet: 0, particle, clump: None, turn: None, cluster: 0 })
             .expect("in order");
     }
     if told {

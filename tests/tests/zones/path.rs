@@ -67,7 +67,7 @@ fn guided(mut setup: Setup, told: &Told) -> Simulation {
     paths.sort_by(|a, b| a.0[0].0.total_cmp(&b.0[0].0));
     for (samples, end) in paths {
         let (time, particle) = samples[0];
-        sim.enter(Entry { time, inlet: 0, particle, clump: None, turn: None }).expect("in order");
+        sim.enter(Entry { time, inlet: 0, particle, clump: None, turn: None, cluster: 0 }).expect("in order");
         for (time, p) in &samples[1..] {
             sim.guide(p.id, Guide::At(sample(*time, p))).expect("in order");
         }
@@ -124,6 +124,7 @@ fn a_grain_that_goes_back_leaves_the_stage_downstream() {
         particle: grain(1, Vec3::new(0.08, 0.0, 0.0)),
         clump: None,
         turn: None,
+        cluster: 0,
     };
     down.enter(again).expect("its id is free again");
 }
@@ -135,7 +136,7 @@ fn a_grain_that_is_seen_again_goes_on() {
     let (samples, end) = &told[&1];
     let (mut whole, mut again) = (downstream(&BTreeMap::new()), downstream(&BTreeMap::new()));
     let enter = |sim: &mut Simulation, (time, particle): (f64, Particle)| {
-        sim.enter(Entry { time, inlet: 0, particle, clump: None, turn: None }).expect("in order");
+        sim.enter(Entry { time, inlet: 0, particle, clump: None, turn: None, cluster: 0 }).expect("in order");
     };
     for (k, &(time, p)) in samples.iter().enumerate() {
         if k == 0 {

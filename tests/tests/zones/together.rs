@@ -33,7 +33,8 @@ fn a_middle_stage_lets_in_and_records() {
         (setup.smallest_entry, setup.largest_entry, setup.entry_materials) = (0.01, 0.01, vec![0]);
         let mut sim = Simulation::new(setup).expect("sound");
         let particle = Particle { velocity: Vec3::x(), ..grain(5, Vec3::new(-0.03, 0.0, 0.0)) };
-        sim.enter(Entry { time: 0.001_03, inlet: 0, particle, clump: None, turn: None }).expect("in time");
+        sim.enter(Entry { time: 0.001_03, inlet: 0, particle, clump: None, turn: None, cluster: 0 })
+            .expect("in time");
         run_until(&mut sim, 0.2);
         let found = sim.take_crossings();
         assert_eq!(found.len(), 1, "gap {gap} m");
@@ -53,7 +54,8 @@ fn a_grain_that_goes_back_through_the_calculation_plane_is_counted() {
     setup.guards.cuts = 1;
     let mut sim = Simulation::new(setup).expect("sound");
     let particle = Particle { velocity: Vec3::x(), ..grain(5, Vec3::new(-0.03, 0.0, 0.0)) };
-    sim.enter(Entry { time: 5e-5, inlet: 0, particle, clump: None, turn: None }).expect("in time");
+    sim.enter(Entry { time: 5e-5, inlet: 0, particle, clump: None, turn: None, cluster: 0 })
+        .expect("in time");
     // Free at 0.0301 s, 50 µm past the plane; back on it 0.20392 s later, 0.03 m behind it soon after.
     let mut stopped = None;
     while stopped.is_none() && sim.time() < 0.3 {
@@ -111,7 +113,8 @@ fn an_entry_on_top_of_a_free_grain_stops_the_run() {
     setup.particles = vec![grain(1, Vec3::new(-0.02, 0.0, 0.0))];
     let mut sim = Simulation::new(setup).expect("sound");
     let particle = Particle { velocity: Vec3::x(), ..grain(5, Vec3::new(-0.03, 0.0, 0.0)) };
-    sim.enter(Entry { time: 0.001, inlet: 0, particle, clump: None, turn: None }).expect("in time");
+    sim.enter(Entry { time: 0.001, inlet: 0, particle, clump: None, turn: None, cluster: 0 })
+        .expect("in time");
     let mut said = None;
     while said.is_none() && sim.time() < 0.01 {
         said = sim.step().err().map(|halt| explain_halt(&halt));

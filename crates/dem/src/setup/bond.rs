@@ -83,6 +83,14 @@ pub fn cluster_of(clusters: &[(u32, u32)], id: u32) -> u32 {
     clusters.binary_search_by_key(&id, |c| c.0).map_or(0, |at| clusters[at].1)
 }
 
+/// Puts a particle into a cluster, in a list by id.
+pub fn join(clusters: &mut Vec<(u32, u32)>, id: u32, cluster: u32) {
+    match clusters.binary_search_by_key(&id, |c| c.0) {
+        Ok(at) => clusters[at].1 = cluster,
+        Err(at) => clusters.insert(at, (id, cluster)),
+    }
+}
+
 /// What a bond resists, and how. L: its length; A = π r², I = π r⁴/4, J = 2 I of its round section.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum BondKind {

@@ -127,6 +127,8 @@ pub struct Entry {
     pub clump: Option<EntryClump>,
     /// Of a sphere that may be bonded: how it has turned by then since that was so; `None`: not at all.
     pub turn: Option<UnitQuaternion<f64>>,
+    /// Its cluster; 0: none.
+    pub cluster: u32,
 }
 
 /// The shape of an entry or a crossing that is a rigid clump.
@@ -193,6 +195,8 @@ pub struct PathSample {
     pub clump: Option<EntryClump>,
     /// How a sphere has turned, where there are bonds.
     pub turn: Option<UnitQuaternion<f64>>,
+    /// Its cluster; 0: none.
+    pub cluster: u32,
     /// Whether it has gone back upstream, out of reach of the plane.
     pub gone: bool,
 }
@@ -211,6 +215,8 @@ pub struct Crossing {
     pub clump: Option<EntryClump>,
     /// How it has turned by then, where there are bonds.
     pub turn: Option<UnitQuaternion<f64>>,
+    /// Its cluster; 0: none.
+    pub cluster: u32,
     /// Its contacts, or those of all members.
     pub touching: Vec<Touch>,
     /// Its bonds that are whole.

@@ -219,6 +219,6 @@ impl Feed {
         let position = across + self.section.frame[0] * self.section.ranges[0].0;
         let (velocity, spin) = (self.velocity, Vec3::zeros());
         let particle = Particle { id, material: grain.material, radius, position, velocity, spin };
-        Entry { time, inlet: self.inlet, particle, clump, turn: None }
+        Entry { time, inlet: self.inlet, particle, clump, turn: None, cluster: 0 }
     }
 }

@@ -192,7 +192,14 @@ impl InletStream {
         particle.material = self.plan.materials[particle.material as usize];
         let shape = |c: EntryClump| EntryClump { shape: self.plan.shapes[c.shape as usize], ..c };
         let clump = row.clump.map(|c| shape(c.0));
-        Entry { time: row.time, inlet: self.plan.inlet, particle, clump, turn: row.turn }
+        Entry {
+            time: row.time,
+            inlet: self.plan.inlet,
+            particle,
+            clump,
+            turn: row.turn,
+            cluster: row.cluster,
+        }
     }
 
     fn take(&mut self, event: Event) -> Result<()> {
@@ -251,7 +258,7 @@ mod tests {
     fn row(time: f64) -> CrossingRow {
         let (position, velocity) = (Vec3::new(0.0, 0.0, 0.01 - time), Vec3::new(0.0, 0.0, -1.0));
         let particle = Particle { id: 1, material: 0, radius: 0.01, position, velocity, spin: Vec3::zeros() };
-        CrossingRow { time, outlet: 0, particle, contacts: 0, clump: None, turn: None }
+        CrossingRow { time, outlet: 0, particle, contacts: 0, clump: None, turn: None, cluster: 0 }
     }
 
     /// Samples and the crossing of one particle along a recorded path.

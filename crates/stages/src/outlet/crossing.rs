@@ -3,13 +3,13 @@
 //! A rigid clump is one row: id of its first member, centre of mass, radius of the sphere that holds it; `clump` is the index of its shape
 //! in the record `clumps`, 65535 for a sphere; `scale`, the quaternion that turns the frame its shape was given in, and its `mass` follow.
 //! Tables in which all are spheres have none of these columns; where spheres may be bonded ([`super::bond`]), the quaternion alone says
-//! how each has turned.
+//! how each has turned. `cluster` is there where some have one.
 
 use dem::setup::{Crossing, EntryClump, Particle};
 use nalgebra::{Quaternion, UnitQuaternion};
 use record::column::{
-    CLUMP, CONTACTS, ID, MASS, MATERIAL, ORIENTATION, ORIENTATION_REAL, OUTLET, POSITION, RADIUS, SCALE,
-    SPIN, TIME, VELOCITY,
+    CLUMP, CLUSTER, CONTACTS, ID, MASS, MATERIAL, ORIENTATION, ORIENTATION_REAL, OUTLET, POSITION, RADIUS,
+    SCALE, SPIN, TIME, VELOCITY,
 };
 use record::{Columns, RecordError, TableBuilder};
 use stream::Table;
@@ -32,6 +32,8 @@ pub struct CrossingRow {
     pub clump: Option<(EntryClump, f64)>,
     /// How a sphere that may be bonded has turned.
     pub turn: Option<UnitQuaternion<f64>>,
+    /// Its cluster; 0: none.
+    pub cluster: u32,
 }
 
 impl CrossingRow {
@@ -44,6 +46,7 @@ impl CrossingRow {
             contacts: c.touching.len() as u16,
             clump: with_mass(c.clump, masses),
             turn: c.turn,
+            cluster: c.cluster,
         }
     }
 
@@ -74,6 +77,10 @@ pub(super) fn columns(rows: &[CrossingRow]) -> TableBuilder {
         .u16(MATERIAL, rows.iter().map(|r| r.particle.material))
         .u16(OUTLET, rows.iter().map(|r| r.outlet))
         .u16(CONTACTS, rows.iter().map(|r| r.contacts));
+    let table = match rows.iter().all(|r| r.cluster == 0) {
+        true => table,
+        false => table.u32(CLUSTER, rows.iter().map(|r| r.cluster)),
+    };
     let turn = |r: &CrossingRow| {
         let q = r.orientation();
         [q.w, q.i, q.j, q.k]
@@ -132,6 +139,7 @@ pub fn from_table(stream: &str, table: &Table, materials: usize) -> Result<Vec<C
     let ids = columns.needed(ID, f64::from(u32::MAX - 1))?;
     let material = columns.needed(MATERIAL, materials as f64 - 1.0)?;
     let outlets = columns.indices(OUTLET, f64::from(u16::MAX))?;
+    let clusters = columns.indices(CLUSTER, f64::from(u32::MAX))?;
     let contacts = columns.indices(CONTACTS, f64::from(u16::MAX))?;
     let row = |i: usize| CrossingRow {
         time: times[i],
@@ -147,6 +155,7 @@ pub fn from_table(stream: &str, table: &Table, materials: usize) -> Result<Vec<C
         contacts: contacts.as_ref().map_or(0, |c| c[i] as u16),
         clump: None,
         turn: None,
+        cluster: clusters.as_ref().map_or(0, |c| c[i]),
     };
     let mut rows: Vec<CrossingRow> = (0..times.len()).map(row).collect();
     add_turns(&columns, &mut rows)?;

@@ -34,6 +34,7 @@ impl PathRow {
             contacts: 0,
             clump: crossing::with_mass(sample.clump, masses),
             turn: sample.turn,
+            cluster: sample.cluster,
         };
         PathRow { row, gone: sample.gone }
     }

@@ -2,7 +2,7 @@
 
 use super::Replay;
 use super::head::Head;
-use super::queue::Generated;
+use super::queue::{Generated, Origin};
 use crate::outlet::crossing::CrossingRow;
 use dem::setup::Zone;
 use geom::{Shown, Vec3};
@@ -15,6 +15,9 @@ const OVERLAP: f64 = 0.01;
 /// Gives new ids where ids are not unique, and checks that copies do not overlap.
 pub struct Merge {
     renumber: Option<u32>,
+    /// Copies of the record in each replay, and in all replays together.
+    copies: u32,
+    times: u32,
     several: bool,
     zone: Zone,
     acceleration: Vec3,
@@ -28,6 +31,8 @@ impl Merge {
         let again = several || what.repeat > 1;
         Merge {
             renumber: what.first_id.or(again.then_some(0)),
+            times: what.copies.count.saturating_mul(what.repeat.max(1)),
+            copies: what.copies.count,
             several,
             zone: head.zone.zone,
             acceleration: head.acceleration(),
@@ -43,6 +48,7 @@ impl Merge {
             self.recent.push_back(one.clone());
         }
         let mut row = one.row;
+        row.cluster = self.cluster(name, &one)?;
         if let Some(next) = &mut self.renumber {
             row.particle.id = *next;
             *next = next.checked_add(members).filter(|id| *id < u32::MAX).ok_or_else(|| {
@@ -51,6 +57,25 @@ impl Merge {
             })?;
         }
         Ok(row)
+    }
+
+    /// The cluster of a row: a stone of one copy is not that of another.
+    fn cluster(&self, name: &str, one: &Generated) -> Result<u32> {
+        if one.row.cluster == 0 {
+            return Ok(0);
+        }
+        let Origin { copy, replay } = one.origin;
+        let number = replay.checked_mul(self.copies).and_then(|before| before.checked_add(copy + 1));
+        let before = (one.row.cluster - 1).checked_mul(self.times);
+        number.zip(before).and_then(|(number, before)| before.checked_add(number)).ok_or_else(|| {
+            let why = format!(
+                "cluster {} in {} copies gets a number above {}",
+                one.row.cluster,
+                self.times,
+                u32::MAX
+            );
+            SceneError::file(name, why, "replay fewer")
+        })
     }
 
     /// Refuses a row that overlaps one of another copy when it is generated.

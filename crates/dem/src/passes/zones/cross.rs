@@ -14,7 +14,7 @@ use crate::passes::touching::touching;
 use crate::passes::zones::ledger::power_of_member;
 use crate::passes::zones::travel::follow_motion;
 use crate::passes::zones::whole::{rows_with, test_point, test_point_before};
-use crate::setup::{Crossing, EntryClump, Particle, Touch};
+use crate::setup::{Crossing, EntryClump, Particle, Touch, cluster_of};
 use crate::state::clumps::starts;
 use crate::state::ledger::carried;
 use crate::state::{Direction, ListStatus, State, ZoneParticle};
@@ -176,7 +176,8 @@ fn crossing(
     let (particle, clump) = state_back(model, state, k, back);
     let turn = turn_back(model, state, k, back);
     let bonds = state.bonds.crossing(k, &state.particles.id);
-    Crossing { time, outlet, particle, clump, turn, touching: touches, bonds }
+    let cluster = cluster_of(&state.clusters, particle.id);
+    Crossing { time, outlet, particle, clump, turn, cluster, touching: touches, bonds }
 }
 
 /// Velocity and acceleration of the tested point of particle `k`.

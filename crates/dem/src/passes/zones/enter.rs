@@ -4,11 +4,13 @@ use crate::model::in_range::out_of_range;
 use crate::model::{Allowed, Check, Model, SetupError, Subject};
 use crate::neighbours::NeighbourLists;
 use crate::passes::zones::removed;
+use crate::setup::bond::join;
 use crate::setup::clumps::members;
 use crate::setup::{Entry, EntryClump, Particle, Setup, WallShape, Zone, ZoneMotion};
 use crate::state::clumps::starts;
 use crate::state::{Direction, Kinematics, LOOK_AHEAD, ListStatus, Path, State, ZoneParticle, Zones};
 use geom::Vec3;
+use std::collections::BTreeSet;
 
 impl Zones {
     /// Queues an entry.
@@ -119,8 +121,17 @@ pub fn insert_due(model: &Model, state: &mut State, lists: &NeighbourLists) {
     while let Some(e) = state.zones.pending.pop_front_if(|e| e.time <= horizon) {
         add(model, state, &e, now);
     }
+    forget_clusters(state);
     removed::make_room(model, state, lists, first);
     state.listing.outdate(ListStatus::Outdated);
+}
+
+/// Forgets the clusters of particles that have left, once these are as many as those that are here: the list does not grow with the stream.
+fn forget_clusters(state: &mut State) {
+    if state.clusters.len() > 2 * state.particles.len() {
+        let here: BTreeSet<u32> = state.particles.id.iter().copied().collect();
+        state.clusters.retain(|(id, _)| here.contains(id));
+    }
 }
 
 fn add(model: &Model, state: &mut State, e: &Entry, now: f64) {
@@ -138,6 +149,10 @@ fn add(model: &Model, state: &mut State, e: &Entry, now: f64) {
             let turned = (now - e.time).max(0.0);
             state.clumps.enter(&present, turned, clump, &model.setup, &mut state.particles);
         }
+    }
+    if e.cluster != 0 {
+        let all = at..state.particles.len() as u32;
+        (0..).zip(all).for_each(|(k, _)| join(&mut state.clusters, e.particle.id.wrapping_add(k), e.cluster));
     }
     let (starts, turn) = starts(&e.particle, e.clump.as_ref(), &model.setup);
     let (centre, lead) = (e.particle.position, lead(&e.particle, e.clump.as_ref(), &zone, &model.setup));

@@ -3,7 +3,7 @@
 use crate::model::Model;
 use crate::passes::zones::cross::state_back;
 use crate::passes::zones::whole::test_point;
-use crate::setup::{PathSample, ZoneMotion};
+use crate::setup::{PathSample, ZoneMotion, cluster_of};
 use crate::state::{EARLY, State};
 use std::collections::BTreeSet;
 
@@ -53,5 +53,6 @@ fn sample_paths_of(model: &Model, state: &mut State, outlet: usize, out: &mut Ve
 /// Where particle `k`, or the clump that it is the first member of, is now.
 fn sample(model: &Model, state: &State, k: usize, outlet: u32, gone: bool) -> PathSample {
     let (particle, clump) = state_back(model, state, k, 0.0);
-    PathSample { outlet, particle, clump, turn: state.bonds.turn_of(k), gone }
+    let cluster = cluster_of(&state.clusters, particle.id);
+    PathSample { outlet, particle, clump, turn: state.bonds.turn_of(k), cluster, gone }
 }
