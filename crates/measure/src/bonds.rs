@@ -20,7 +20,8 @@ pub use observe::BondNumbers;
 
 use crate::MeasureError;
 use crate::table::Columns;
-use record::column::{BROKEN, BROKEN_AT, FIRST, MODE, SECOND, SHEAR, TENSION};
+use geom::Vec3;
+use record::column::{BROKEN, BROKEN_AT, FIRST, FORCE, MODE, SECOND, SHEAR, TENSION};
 use record::topic::BONDS;
 use stream::Table;
 
@@ -29,6 +30,8 @@ use stream::Table;
 pub struct Bond {
     /// Ids of both grains.
     pub grains: [u64; 2],
+    /// Force on the first [N].
+    pub force: Vec3,
     /// Tension σ and shear τ [Pa]; of a broken bond those at the break.
     pub stress: [f64; 2],
     /// When it broke [s]; `None` while it is whole.
@@ -81,11 +84,13 @@ impl Bonds {
     pub fn new(time: f64, table: &Table) -> Result<Bonds, MeasureError> {
         let columns = Columns { topic: BONDS, time, table };
         let (i, j) = (columns.whole(FIRST)?, columns.whole(SECOND)?);
+        let force = columns.vectors(FORCE)?;
         let (tension, shear) = (columns.numbers(TENSION)?, columns.numbers(SHEAR)?);
         let (broken, at) = (columns.whole(BROKEN)?, columns.numbers(BROKEN_AT)?);
         let mode = columns.or_zero(MODE)?;
         let row = |k: usize| Bond {
             grains: [i[k], j[k]],
+            force: force[k],
             stress: [tension[k], shear[k]],
             broken: (broken[k] != 0).then_some(at[k]),
             by: break_of(mode[k] as u64),

@@ -1,5 +1,5 @@
 //! Measures of runs: heap angle, flow, profiles, segregation, energy, contacts, bonds, porosity, wall force, residence,
-//! impacts, bed height.
+//! impacts, bed height, mean stress and strain.
 //!
 //! Each measure stands alone: it takes a [`Frame`] (columns at one time) or a table of contacts and gives a typed
 //! result. An [`Observer`] does the same for a run that comes event by event (see [`Run::take`]), also while it is
@@ -32,6 +32,8 @@ pub mod segregation;
 pub mod settling;
 mod sheet;
 pub mod statistics;
+pub mod strain;
+pub mod stress;
 mod table;
 pub mod track;
 pub mod wall_force;

@@ -182,8 +182,12 @@ mod tests {
                 ..Frame::default()
             };
             overview.take(&run, RunMessage::Frame(frame));
-            let wall =
-                |f: f64| ForceOnWall { name: "lid".into(), force: Vec3::new(0.0, f, 0.0), contacts: 1 };
+            let wall = |f: f64| ForceOnWall {
+                name: "lid".into(),
+                force: Vec3::new(0.0, f, 0.0),
+                contacts: 1,
+                shift: None,
+            };
             let forces = WallForces { time, walls: vec![wall(-3.0 * time)] };
             overview.take(&run, RunMessage::WallForces(forces));
         }

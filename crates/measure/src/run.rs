@@ -191,6 +191,17 @@ impl Run {
         }
         way
     }
+
+    /// A point, moved by periods into the box [m].
+    pub fn wrapped(&self, point: &Vec3) -> Vec3 {
+        let mut point = *point;
+        for (axis, period) in self.periodic.iter().enumerate() {
+            if let Some((low, high)) = period {
+                point[axis] -= (high - low) * ((point[axis] - low) / (high - low)).floor();
+            }
+        }
+        point
+    }
 }
 
 fn plane(json: &Value) -> Option<Plane> {

@@ -102,6 +102,8 @@ pub struct WallForce {
     touched: bool,
     source: Option<Source>,
     bounds: (Vec3, Vec3),
+    /// A row that waits for the place of its wall.
+    waiting: Option<Row>,
 }
 
 impl WallForce {
@@ -116,6 +118,7 @@ impl WallForce {
             touched: false,
             source: None,
             bounds: none,
+            waiting: None,
         }
     }
 
@@ -134,7 +137,9 @@ impl WallForce {
         self.work += work;
         self.add(force);
         let (count, size) = (count as f64, force.norm());
-        Ok(vec![contacts.time, count, force.x, force.y, force.z, size, normal, work, self.work])
+        let unknown = f64::NAN;
+        let sums = [contacts.time, count, force.x, force.y, force.z, size, normal, work, self.work];
+        Ok([&sums[..], &[unknown; 3]].concat())
     }
 
     fn of_walls(&mut self, forces: &WallForces) -> Result<Row, MeasureError> {
@@ -147,7 +152,15 @@ impl WallForce {
         self.add(force);
         let unknown = f64::NAN;
         let (count, size) = (count as f64, force.norm());
-        Ok(vec![forces.time, count, force.x, force.y, force.z, size, unknown, unknown, unknown])
+        let sums = [forces.time, count, force.x, force.y, force.z, size, unknown, unknown, unknown];
+        Ok([&sums[..], &self.shift(forces)?[..]].concat())
+    }
+
+    /// How far the wall has moved [m]; unknown where several are asked for.
+    fn shift(&self, forces: &WallForces) -> Result<[f64; 3], MeasureError> {
+        let mut walls = self.what.of_whole(forces)?;
+        let one = walls.next().filter(|_| walls.next().is_none());
+        Ok(one.and_then(|wall| wall.shift).map_or([f64::NAN; 3], Into::into))
     }
 
     fn add(&mut self, force: Vec3) {
@@ -168,6 +181,9 @@ impl Observer for WallForce {
             ("normal_sum", "N"),
             ("sliding_work", "J"),
             ("sliding_work_sum", "J"),
+            ("shift_x", "m"),
+            ("shift_y", "m"),
+            ("shift_z", "m"),
         ])
     }
 
@@ -176,8 +192,17 @@ impl Observer for WallForce {
             // Of one frame, contacts come first.
             RunMessage::Contacts(contacts) if self.source != Some(Source::Walls) => {
                 self.source = Some(Source::Contacts);
+                rows.extend(self.waiting.take());
                 if self.what.holds(contacts.time) {
-                    rows.push(self.of_contacts(run, &contacts)?);
+                    self.waiting = Some(self.of_contacts(run, &contacts)?);
+                }
+            }
+            RunMessage::WallForces(forces) if self.source == Some(Source::Contacts) => {
+                let same = |row: &Row| row.first() == Some(&forces.time);
+                if let Some(mut row) = self.waiting.take_if(|row| same(row)) {
+                    let sums = row.len() - 3;
+                    row[sums..].copy_from_slice(&self.shift(&forces)?);
+                    rows.push(row);
                 }
             }
             RunMessage::WallForces(forces) if self.source != Some(Source::Contacts) => {
@@ -191,7 +216,8 @@ impl Observer for WallForce {
         Ok(())
     }
 
-    fn end(&mut self, _: &Run, _: &mut Vec<Row>) -> Result<Summary, MeasureError> {
+    fn end(&mut self, _: &Run, rows: &mut Vec<Row>) -> Result<Summary, MeasureError> {
+        rows.extend(self.waiting.take());
         let source = self.source.ok_or(NO_FORCES)?;
         if !self.touched && self.bounds.0.x.is_finite() {
             let (low, high) = self.bounds;

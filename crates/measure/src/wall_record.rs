@@ -14,6 +14,8 @@ pub struct ForceOnWall {
     pub force: Vec3,
     /// Number of contacts that carry a force.
     pub contacts: u64,
+    /// How far it has moved since the start [m]; `None` where the run does not tell.
+    pub shift: Option<Vec3>,
 }
 
 /// The forces on all walls at one time.
@@ -35,17 +37,21 @@ impl WallForces {
         let message: Value = serde_json::from_slice(data).map_err(|e| wrong(e.to_string()))?;
         let rows = message["walls"].as_array().ok_or_else(|| wrong("its 'walls' are missing".to_owned()))?;
         let row = |(k, w): (usize, &Value)| {
-            let component = |k: usize| w["force"][k].as_f64().filter(|f| f.is_finite());
-            let force = match [0, 1, 2].map(component) {
-                [Some(x), Some(y), Some(z)] => Vec3::new(x, y, z),
-                _ => return Err(wrong(format!("wall {k} has no force of three numbers"))),
-            };
+            let force = vector(&w["force"]);
+            let force = force.ok_or_else(|| wrong(format!("wall {k} has no force of three numbers")))?;
             let name = w["name"].as_str().map_or_else(|| k.to_string(), str::to_owned);
-            Ok(ForceOnWall { name, force, contacts: w["contacts"].as_u64().unwrap_or(0) })
+            let contacts = w["contacts"].as_u64().unwrap_or(0);
+            Ok(ForceOnWall { name, force, contacts, shift: vector(&w["shift"]) })
         };
         let walls = rows.iter().enumerate().map(row).collect::<Result<_, _>>()?;
         Ok(WallForces { time: message["time"].as_f64().unwrap_or(time), walls })
     }
+}
+
+/// Three finite numbers.
+fn vector(json: &Value) -> Option<Vec3> {
+    let component = |k: usize| json[k].as_f64().filter(|x| x.is_finite());
+    Some(Vec3::new(component(0)?, component(1)?, component(2)?))
 }
 
 #[cfg(test)]
@@ -57,7 +63,12 @@ mod tests {
         let read = |text: &str| WallForces::new(0.5, text.as_bytes());
         let good =
             read(r#"{"time": 0.25, "walls": [{"name": "lid", "force": [0, 1, -2.5], "contacts": 3}]}"#);
-        let lid = ForceOnWall { name: "lid".to_owned(), force: Vec3::new(0.0, 1.0, -2.5), contacts: 3 };
+        let lid = ForceOnWall {
+            name: "lid".to_owned(),
+            force: Vec3::new(0.0, 1.0, -2.5),
+            contacts: 3,
+            shift: None,
+        };
         assert_eq!(good, Ok(WallForces { time: 0.25, walls: vec![lid] }));
         for text in [
             "",

@@ -6,6 +6,7 @@ mod cracks;
 mod flow;
 mod made;
 mod refused;
+mod specimen;
 mod wall_forces;
 
 use geom::Vec3;

@@ -70,6 +70,12 @@ pub struct Args {
     /// Force on walls, and sliding work, of the contacts in SHAPE over time; all: also of runs that hold forces on whole walls
     #[arg(long, group = "measure", value_name = "SHAPE", value_parser = shape)]
     pub wall_force: Option<GivenShape>,
+    /// Mean stress in SHAPE, of the contacts and bonds in it, over time
+    #[arg(long, group = "measure", value_name = "SHAPE", value_parser = shape)]
+    pub stress: Option<GivenShape>,
+    /// Mean strain of the grains since the first frame
+    #[arg(long, group = "measure")]
+    pub strain: bool,
     /// Force through PLANE, of the contacts between grains on its two sides, over time
     #[arg(long, group = "measure", value_name = "PLANE", allow_hyphen_values = true)]
     pub plane_force: Option<Plane>,
@@ -123,7 +129,7 @@ pub struct Args {
     /// The heap leans on a wall at this side: x- x+ y- y+ z- z+ [repose]
     #[arg(long, value_name = "SIDE", value_parser = side, allow_hyphen_values = true, help_heading = "How")]
     pub side: Option<Vec3>,
-    /// Only inside SHAPE: the grains of the heap, without falling ones [repose], the crossings [flow]; the box of the grid [profile]
+    /// Only inside SHAPE: the grains of the heap, without falling ones [repose], the crossings [flow]; the box of the grid [profile]; the grains of the first frame [strain]
     #[arg(long, value_name = "SHAPE", value_parser = shape, help_heading = "How")]
     pub within: Option<GivenShape>,
     /// Rows for spans of S [s] (default: from frame to frame) [flow]
@@ -198,7 +204,7 @@ impl Args {
             ("--bin", self.bin.is_some(), &["--repose"]),
             ("--ground", self.ground.is_some(), &["--repose", "--bed-height"]),
             ("--side", self.side.is_some(), &["--repose"]),
-            ("--within", self.within.is_some(), &["--repose", "--flow", "--profile"]),
+            ("--within", self.within.is_some(), &["--repose", "--flow", "--profile", "--strain"]),
             ("--span", self.span.is_some(), &["--flow"]),
             ("--axis", self.axis.is_some(), &["--profile"]),
             ("--bins", self.bins.is_some(), &["--profile"]),
@@ -227,6 +233,8 @@ impl Args {
             "--residence",
             "--wall-force",
             "--plane-force",
+            "--stress",
+            "--strain",
             "--wear",
             "--impact",
         ]

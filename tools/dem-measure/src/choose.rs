@@ -19,6 +19,8 @@ use measure::repose::{HeapOptions, Repose};
 use measure::residence::Residence;
 use measure::segregation::{Kinds, Segregation};
 use measure::settling::Settling;
+use measure::strain::Strain;
+use measure::stress::Stress;
 use measure::track::Track;
 use measure::wall_force::{WallContactFilter, WallForce};
 use measure::wear::Wear;
@@ -66,6 +68,14 @@ pub fn observer(args: &Args) -> anyhow::Result<(&'static str, Box<dyn Observer>)
             ))
         }
         (Args { wall_force: Some(given), .. }, _) => Box::new(WallForce::new(on_walls(args, given, between))),
+        (Args { stress: Some(given), .. }, _) => {
+            let region = Region::new(given.shape.clone(), volume(given)?);
+            Box::new(Stress::new(region, between).context(format!("--stress {}", given.text))?)
+        }
+        (_, "--strain") => {
+            let within = args.within.as_ref().map(|g| g.shape.clone());
+            Box::new(PerFrame::new(Strain::new(within), series))
+        }
         (Args { plane_force: Some(plane), .. }, _) => Box::new(PlaneForce::new(*plane, between)),
         (Args { wear: Some(given), .. }, _) => {
             Box::new(Wear::new(on_walls(args, given, between), args.cell).context(name)?)
@@ -97,6 +107,8 @@ fn name(args: &Args) -> &'static str {
         ("--forces", args.forces),
         ("--porosity", args.porosity.is_some()),
         ("--wall-force", args.wall_force.is_some()),
+        ("--stress", args.stress.is_some()),
+        ("--strain", args.strain),
         ("--plane-force", args.plane_force.is_some()),
         ("--wear", args.wear.is_some()),
         ("--residence", args.residence.is_some()),

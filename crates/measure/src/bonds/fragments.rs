@@ -55,7 +55,13 @@ mod tests {
         let chain = |broken: &[u64]| -> Vec<Bond> {
             let at = |k: u64| broken.contains(&k).then_some(0.5);
             (0..9)
-                .map(|k| Bond { grains: [k, k + 1], stress: [0.0; 2], broken: at(k), by: Break::Tension })
+                .map(|k| Bond {
+                    grains: [k, k + 1],
+                    force: geom::Vec3::zeros(),
+                    stress: [0.0; 2],
+                    broken: at(k),
+                    by: Break::Tension,
+                })
                 .collect()
         };
         let of = |broken: &[u64]| Fragments::of(&chain(broken));

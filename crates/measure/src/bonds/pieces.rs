@@ -113,7 +113,13 @@ mod tests {
             mass: vec![2.0; 5],
             ..Frame::default()
         };
-        let bond = |a, b, broken| Bond { grains: [a, b], stress: [0.0; 2], broken, by: Break::Unknown };
+        let bond = |a, b, broken| Bond {
+            grains: [a, b],
+            force: Vec3::zeros(),
+            stress: [0.0; 2],
+            broken,
+            by: Break::Unknown,
+        };
         let rows = vec![bond(1, 2, None), bond(2, 3, None), bond(3, 4, None), bond(4, 9, Some(0.1))];
         let found = pieces(&frame, &Bonds { time: 0.0, rows }, Vec3::new(1.0, 0.0, 0.0)).expect("densities");
         assert_eq!(

@@ -66,6 +66,8 @@ pub const EXAMPLES: &[&str] = &[
     "dem-measure run.mcap --porosity box:0,0,0,0.05,0.05,0.02",
     "dem-measure run.mcap --wall-force all --wall floor",
     "dem-measure run.mcap --plane-force 0,0,0.005,0,0,1",
+    "dem-measure run.mcap --stress box:0,0,0,0.05,0.05,0.02",
+    "dem-measure run.mcap --strain --within box:-1,-1,-1,1,1,1",
     "dem-measure run.mcap --wear all --cell 0.02 --wall 0",
     "dem-measure run.mcap --residence box:-1,-1,0,1,1,0.02",
     "dem-measure run.mcap --impact",

@@ -27,6 +27,8 @@ fn forces_on_whole_walls_serve_where_no_contacts_were_recorded() {
     let floor = measure(&folder, &["--wall-force", "all", "--wall", "floor", "--plot", "p.svg"]);
     assert_eq!((column(&floor, "fx"), column(&floor, "fz")), (vec![0.5, 0.5], vec![-2.0, -4.0]));
     assert_eq!((column(&floor, "time"), column(&floor, "contacts")), (vec![0.0, 0.1], vec![3.0, 3.0]));
+    let lid = measure(&folder, &["--wall-force", "all", "--wall", "lid"]);
+    assert_eq!((column(&floor, "shift_z"), column(&lid, "shift_z")), (vec![0.0; 2], vec![0.1; 2]));
     // What they do not tell is missing, not zero.
     for name in ["normal_sum", "sliding_work", "sliding_work_sum"] {
         assert!(column(&floor, name).iter().all(|v| v.is_nan()), "{name}");

@@ -1,0 +1,165 @@
+//! Mean strain of grains since the first frame that is measured.
+//!
+//! ```text
+//! x − x̄ ≈ F (X − X̄)                 least squares over the grains, by id; X: in the first frame
+//! ε = −½ (H + Hᵀ),  H = F − 1        positive where the grains come closer; for small strains
+//! ε_v = 1 − det F                    rest: root mean square of what F does not explain, Σ |x − x̄ − F (X − X̄)|²
+//! ```
+//!
+//! The fit of Falk & Langer (1998), Phys. Rev. E 57, doi:10.1103/PhysRevE.57.7192, over all grains at once.
+
+use crate::observer::OfFrame;
+use crate::sheet::{Chart, Head, Row, Summary};
+use crate::{Frame, MeasureError, Run};
+use geom::{Shape, Vec3};
+use nalgebra::Matrix3;
+use std::collections::BTreeMap;
+
+/// Fewest grains that a fit of twelve numbers makes sense for.
+const FEWEST: usize = 5;
+
+/// Strain at one time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fit {
+    /// F [–].
+    pub gradient: Matrix3<f64>,
+    /// Root mean square of what it does not explain [m].
+    pub rest: f64,
+    /// Grains that are there in both frames.
+    pub grains: usize,
+}
+
+impl Fit {
+    /// From places before and displacements since [m]; `None` where there are too few, or all lie in a plane.
+    pub fn of(places: &[Vec3], moved: &[Vec3]) -> Option<Fit> {
+        let n = places.len() as f64;
+        let mean = |all: &[Vec3]| all.iter().sum::<Vec3>() / n;
+        let (centre, shift) = (mean(places), mean(moved));
+        let both = || places.iter().zip(moved).map(|(x, u)| (x - centre, u - shift));
+        let spread: Matrix3<f64> = both().map(|(x, _)| x * x.transpose()).sum();
+        let shares: Matrix3<f64> = both().map(|(x, u)| u * x.transpose()).sum();
+        let flat = spread.symmetric_eigenvalues().min() <= 1e-12 * spread.trace();
+        let inverse = spread.try_inverse().filter(|_| places.len() >= FEWEST && !flat)?;
+        let slope = shares * inverse;
+        let rest = (both().map(|(x, u)| (u - slope * x).norm_squared()).sum::<f64>() / n).sqrt();
+        Some(Fit { gradient: Matrix3::identity() + slope, rest, grains: places.len() })
+    }
+
+    /// ε, positive in compression [–].
+    pub fn strain(&self) -> Matrix3<f64> {
+        Matrix3::identity() - (self.gradient + self.gradient.transpose()) * 0.5
+    }
+
+    /// ε_v [–].
+    pub fn volumetric(&self) -> f64 {
+        1.0 - self.gradient.determinant()
+    }
+}
+
+/// Measures the mean strain of grains.
+pub struct Strain {
+    within: Option<Shape>,
+    /// Where each grain was in the first frame [m], by id.
+    start: BTreeMap<u64, Vec3>,
+    last: Option<(f64, Fit)>,
+}
+
+impl Strain {
+    /// Of the grains whose centres a shape holds in the first frame; `None`: of all.
+    pub fn new(within: Option<Shape>) -> Strain {
+        Strain { within, start: BTreeMap::new(), last: None }
+    }
+}
+
+impl OfFrame for Strain {
+    fn heads(&self) -> Vec<Head> {
+        let strains = ["xx", "yy", "zz", "xy", "xz", "yz"].map(|name| (name, "1"));
+        Head::list(
+            &[&[("time", "s")], &strains[..], &[("volumetric", "1"), ("rest", "m"), ("grains", "1")]]
+                .concat(),
+        )
+    }
+
+    fn measure(&mut self, run: &Run, frame: &Frame) -> Result<Vec<Row>, MeasureError> {
+        if self.start.is_empty() {
+            let held = |x: &Vec3| self.within.as_ref().is_none_or(|shape| shape.contains(x));
+            let all = frame.id.iter().copied().zip(frame.position.iter().copied());
+            self.start = all.filter(|(_, x)| held(x)).collect();
+            if self.start.len() < FEWEST {
+                let most = self.start.len();
+                return Err(MeasureError::FewGrains { what: "a mean strain", most, wanted: FEWEST });
+            }
+        }
+        let (mut places, mut moved) = (Vec::new(), Vec::new());
+        for (id, now) in frame.id.iter().zip(&frame.position) {
+            if let Some(place) = self.start.get(id) {
+                places.push(*place);
+                moved.push(run.way(place, now));
+            }
+        }
+        let Some(fit) = Fit::of(&places, &moved) else { return Ok(Vec::new()) };
+        self.last = Some((frame.time, fit));
+        let e = fit.strain();
+        let parts = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|at| e[at]);
+        let rest = [fit.volumetric(), fit.rest, fit.grains as f64];
+        Ok(vec![[&[frame.time], &parts[..], &rest[..]].concat()])
+    }
+
+    fn end(&mut self) -> Result<(Vec<Row>, Summary), MeasureError> {
+        let (time, fit) =
+            self.last.ok_or(MeasureError::FewGrains { what: "a mean strain", most: 0, wanted: FEWEST })?;
+        let e = fit.strain();
+        let summary = Summary::default()
+            .with("xx", "1", e[(0, 0)])
+            .with("yy", "1", e[(1, 1)])
+            .with("zz", "1", e[(2, 2)])
+            .with("volumetric", "1", fit.volumetric())
+            .with("rest", "m", fit.rest)
+            .with("time", "s", time);
+        Ok((Vec::new(), summary))
+    }
+
+    fn chart(&self, rows: &[Row]) -> Chart {
+        let parts = [("xx", 1), ("yy", 2), ("zz", 3), ("volumetric", 7)];
+        Chart::new("Mean strain").columns(
+            ("time [s]", 0),
+            "strain, positive in compression [1]",
+            &parts,
+            rows,
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Grains that are squeezed, sheared and turned a little: found to the last digits, whatever the shift is.
+    #[test]
+    fn an_affine_motion_is_found() {
+        let places: Vec<Vec3> = (0..27)
+            .map(|k| Vec3::new(f64::from(k % 3), f64::from(k / 3 % 3), f64::from(k / 9)) * 0.1)
+            .collect();
+        let slope = Matrix3::new(0.002, 0.004, 0.0, 0.0, 0.003, 0.0, 0.0, 0.0, -0.01);
+        let moved: Vec<Vec3> = places.iter().map(|x| slope * x + Vec3::new(5.0, -2.0, 1.0)).collect();
+        let fit = Fit::of(&places, &moved).expect("enough grains");
+        let e = fit.strain();
+        for (at, wanted) in
+            [((0, 0), -0.002), ((1, 1), -0.003), ((2, 2), 0.01), ((0, 1), -0.002), ((0, 2), 0.0)]
+        {
+            assert!((e[at] - wanted).abs() < 1e-12, "{at:?}: {}", e[at]);
+        }
+        assert!((fit.volumetric() - (1.0 - 1.002 * 1.003 * 0.99)).abs() < 1e-12 && fit.rest < 1e-12);
+        // One that moves by itself is in the rest.
+        let mut own = moved.clone();
+        own[13] += Vec3::new(0.0, 0.0, 0.027);
+        let rest = Fit::of(&places, &own).expect("enough grains").rest;
+        assert!((rest / (0.027 / 27f64.sqrt()) - 1.0).abs() < 0.1, "{rest}");
+    }
+
+    #[test]
+    fn grains_in_a_plane_have_no_strain_across_it() {
+        let places: Vec<Vec3> = (0..9).map(|k| Vec3::new(f64::from(k % 3), f64::from(k / 3), 0.0)).collect();
+        assert!(Fit::of(&places, &places).is_none() && Fit::of(&places[..2], &places[..2]).is_none());
+    }
+}
