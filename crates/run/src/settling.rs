@@ -64,6 +64,7 @@ impl<W: Write> Run<W> {
             || step == 0
             || !step.is_multiple_of(EVERY)
             || self.supply.comes(self.schedule.end())
+            || self.a_servo_is_on_its_way()
         {
             return Ok(());
         }
@@ -80,6 +81,11 @@ impl<W: Write> Run<W> {
             self.note(&format!("the grains have come to rest: {why}"))?;
         }
         Ok(())
+    }
+
+    /// Whether a wall has yet to press on the grains: what it touches first is no packing at rest.
+    fn a_servo_is_on_its_way(&self) -> bool {
+        self.sim.servos().iter().any(|(_, servo)| servo.target > 0.0 && servo.held.since.is_none())
     }
 
     fn settled(&mut self) -> Result<Settled, Ended> {

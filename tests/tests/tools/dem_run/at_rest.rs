@@ -70,6 +70,25 @@ fn a_run_ends_when_its_grains_rest() {
     assert!(again.code == 1 && again.stderr.contains("have come to rest"), "{}", again.stderr);
 }
 
+/// Grains that float at rest are not settled before the lid has come and pressed on them.
+#[test]
+fn no_end_before_a_servo_presses() {
+    let lid = "[[wall]]\nname = \"lid\"\nplane = [0, 0, 0.09, 0, 0, -1]\nmaterial = \"sand\"\n\
+               servo = { direction = [0, 0, -1], force = 0.5, speed_limit = 0.3 }\n";
+    let still = BOX.replace("-9.81", "0").replace("until_unbalanced = 1e-4", "until_unbalanced = 1e-2");
+    let folder = with(&(still + lid));
+    let done = succeed(folder.path(), "dem-run", &["s.toml", "-o", "all.mcap"]);
+    assert!(
+        done.stderr.contains("ended at rest") && !done.stderr.contains("did not reach"),
+        "{}",
+        done.stderr
+    );
+    let servo = &messages(&folder.path().join("all.mcap"), "/wall_forces").pop().expect("it is there")["walls"]
+        [5]["servo"];
+    let (push, target) = (servo["push"].as_f64(), servo["target"].as_f64());
+    assert!(push.zip(target).is_some_and(|(push, target)| (push / target - 1.0).abs() < 0.05), "{servo}");
+}
+
 /// By the kinetic energy, too; not while grains are in the air, nor where a stage or an endless insertion goes on.
 #[test]
 fn other_ends_at_rest() {
