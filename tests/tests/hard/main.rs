@@ -3,6 +3,7 @@
 //! The short forms run with every test; the long ones (10⁷ steps) are ignored and run by `make -C pipelines soak`.
 
 mod bits;
+mod bonds;
 mod coefficients;
 mod columns;
 mod far;
