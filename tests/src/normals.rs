@@ -61,6 +61,7 @@ pub fn still(overlap: f64, radius: f64, curvature: f64) -> Contact<f64> {
         partial: 0.0,
         before: overlap,
         radius,
+        smaller: if curvature > 0.0 { 0.5 / curvature } else { radius },
         curvature,
         mass: 0.01,
         inverse_mass: 100.0,

@@ -3,6 +3,7 @@
 mod adhesion;
 mod bond_kinds;
 mod bonds;
+mod direct;
 mod hopper;
 mod impacts;
 mod mindlin;

@@ -166,9 +166,17 @@ impl Knob {
                             "--vary {name}={value}: stiffness is a factor above 0, such as 0.1"
                         ))
                     })?;
-                let keys = ["material.*.young", "contact.*.stiffness"].map(|key| expand(scene, key)).concat();
+                let keys = [
+                    "material.*.young",
+                    "contact.*.stiffness",
+                    "contact.*.tangential_stiffness",
+                    "contact.*.contact_modulus",
+                    "contact.*.effective_modulus",
+                ]
+                .map(|key| expand(scene, key))
+                .concat();
                 let one = |key: &String| {
-                    let unit = if key.ends_with("young") { "Pa" } else { "N/m" };
+                    let unit = if key.ends_with("stiffness") { "N/m" } else { "Pa" };
                     let text = |v: &Value| v.as_str().and_then(|text| geom::units::parse(text, unit).ok());
                     let now = get(scene, key).and_then(|v| {
                         v.as_float().or(v.as_integer().map(|i| i as f64)).or_else(|| text(v))

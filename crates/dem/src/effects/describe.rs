@@ -51,7 +51,7 @@ impl Slot {
 }
 
 /// The largest number that any key takes: beyond, results overflow.
-const MOST: f64 = 1e18;
+pub(super) const MOST: f64 = 1e18;
 
 /// Numbers that a key takes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -217,6 +217,8 @@ pub struct Description {
     pub slot: Slot,
     /// The model that asks for it; else its required keys do.
     pub model: Option<Model>,
+    /// Whether it is meant, where several effects share a model: by which keys are given.
+    pub picked: fn(&ContactLaw) -> bool,
     /// Numbers that it takes.
     pub keys: &'static [Key],
     /// What a contact keeps for it.
@@ -246,6 +248,7 @@ impl Description {
         doc: "",
         slot: Slot::Normal,
         model: None,
+        picked: |_| true,
         keys: &[],
         history: &[],
         needs: None,
@@ -267,7 +270,8 @@ impl Description {
     pub fn asked_for(&self, law: &ContactLaw) -> bool {
         let model = self.model.is_none_or(|m| law.model(m.key).map_or(m.default, |value| value == m.value));
         let required = |key: &&Key| key.required;
-        model && self.keys.iter().filter(required).all(|key| law.number(key.name).is_some() || self.is_law())
+        let given = |key: &Key| law.number(key.name).is_some() || self.is_law();
+        model && (self.picked)(law) && self.keys.iter().filter(required).all(given)
     }
 
     /// Whether it is chosen by `law` alone; keys that it lacks are then missing.

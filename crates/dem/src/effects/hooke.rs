@@ -9,8 +9,8 @@
 //! in its last moment.
 
 use super::{
-    Contact, ContactEffect, ContactLaw, Damping, Description, Effect, Elastic, Key, Model, NormalLaw,
-    OverlapLimit, Pair, Range, Response, Slot,
+    Contact, ContactLaw, Contradiction, Damping, Description, Effect, Elastic, Key, Model, NormalLaw,
+    OverlapLimit, Pair, Range, Response, Slot, hooke_direct,
 };
 use crate::simd::Lane;
 use std::f64::consts::PI;
@@ -43,13 +43,35 @@ pub const TANGENTIAL_RATIO: Key = Key {
     doc: "k_t/k_n; absent: 4 G*/E* of the materials (Mindlin)",
 };
 
+/// k_t of linear laws, as a number of its own.
+pub const TANGENTIAL_STIFFNESS: Key = Key {
+    name: "tangential_stiffness",
+    unit: "N/m",
+    range: Range::Positive,
+    required: false,
+    example: "8e4",
+    doc: "k_t, instead of `tangential_ratio`",
+};
+
+/// k_t is given once.
+pub fn contradiction(law: &ContactLaw) -> Option<Contradiction> {
+    let both = law.number(TANGENTIAL_RATIO.name).and(law.number(TANGENTIAL_STIFFNESS.name));
+    both.map(|_| Contradiction {
+        key: TANGENTIAL_STIFFNESS.name,
+        why: "is given, and tangential_ratio, too: both say what k_t is".to_owned(),
+        cure: "take one of them out",
+    })
+}
+
 /// What the program knows of it.
 pub const DESCRIPTION: Description = Description {
     name: "hooke",
     doc: "linear spring and dashpot",
     slot: Slot::Normal,
     model: Some(Model { key: "law", value: "hooke", default: false }),
-    keys: &[STIFFNESS, TANGENTIAL_RATIO, RESTITUTION],
+    keys: &[STIFFNESS, TANGENTIAL_RATIO, TANGENTIAL_STIFFNESS, RESTITUTION],
+    picked: |law| !(hooke_direct::DESCRIPTION.picked)(law),
+    contradiction,
     every_precision: true,
     normal: Some(NormalLaw { stiffest, reach: |_, _, _| 0.0, unloaded_overlap }),
     ..Description::PLAIN
@@ -75,10 +97,9 @@ pub struct Hooke {
     pub damping: Damping,
 }
 
-impl ContactEffect for Hooke {
-    const DESCRIPTIONS: &'static [&'static Description] = &[&DESCRIPTION];
-
-    fn new(pair: &Pair) -> Hooke {
+impl Hooke {
+    /// That of a pair whose law asks for it.
+    pub fn new(pair: &Pair) -> Hooke {
         Hooke { stiffness: pair.number("stiffness"), damping: pair.damping }
     }
 }
@@ -91,14 +112,25 @@ impl Effect for Hooke {
         let k = R::splat(self.stiffness);
         response.impedance = (k * contact.mass).sqrt();
         let c = self.damping.of(k * contact.inverse_mass, contact.partial) * response.impedance;
-        let damping = c * contact.approach;
-        response.normal = response.normal + (k * contact.overlap + damping);
-        response.pressing = response.normal;
-        response.stiffness = k;
-        response.stiffness_before = R::splat(1.0);
-        response.stiffness_last = k;
-        response.elastic = response.elastic + R::splat(0.5) * k * contact.present * contact.present;
-        response
-            .dissipate(DESCRIPTION.slot, damping * contact.approach * dt * R::splat(self.damping.dissipates));
+        spring_and_dashpot([k, c], self.damping.dissipates, contact, dt, response);
     }
+}
+
+/// Adds the force of a spring k [N/m] and of a dashpot c [N s/m], whose work is dissipation where `dissipates` is 1, not 0.
+#[inline(always)]
+pub fn spring_and_dashpot<R: Lane>(
+    [k, c]: [R; 2],
+    dissipates: f64,
+    contact: &Contact<R>,
+    dt: R,
+    response: &mut Response<R>,
+) {
+    let damping = c * contact.approach;
+    response.normal = response.normal + (k * contact.overlap + damping);
+    response.pressing = response.normal;
+    response.stiffness = k;
+    response.stiffness_before = R::splat(1.0);
+    response.stiffness_last = k;
+    response.elastic = response.elastic + R::splat(0.5) * k * contact.present * contact.present;
+    response.dissipate(DESCRIPTION.slot, damping * contact.approach * dt * R::splat(dissipates));
 }

@@ -9,9 +9,11 @@ mod cohesion;
 mod constant_rolling;
 mod damping;
 mod describe;
+mod friction;
 mod hertz;
 mod history;
 mod hooke;
+mod hooke_direct;
 mod jkr;
 mod law;
 mod pair;
@@ -27,12 +29,16 @@ pub use cohesion::Cohesion;
 pub use constant_rolling::ConstantRolling;
 pub use damping::Damping;
 pub use describe::*;
+pub use friction::Friction;
 pub use hertz::Hertz;
 pub use history::{ContactHistory, History, RECORDED};
 pub use hooke::{Hooke, RESTITUTION};
+pub use hooke_direct::{Linear, MODULI, NORMAL_DAMPING, by_modulus};
 pub use jkr::Jkr;
 pub use law::ContactLaw;
-pub use pair::{Compliance, Elastic, Material, OverlapLimit, Pair, damping_ratio, tangential_ratio};
+pub use pair::{
+    Compliance, Elastic, Material, OverlapLimit, Pair, damping_ratio, damping_ratios, tangential_ratio,
+};
 pub(crate) use registry::effects;
 pub use registry::{DESCRIPTIONS, Dropped, active, keys, models, needed, without};
 pub use rolling_resistance::RollingResistance;
@@ -40,7 +46,7 @@ pub use sliding_friction::{Coefficient, SlidingFriction};
 pub use table::tables;
 pub use twisting_resistance::TwistingResistance;
 pub use walton_braun::WaltonBraun;
-pub use weakening::{Friction, Weakening};
+pub use weakening::Weakening;
 
 use crate::simd::{Lane, V};
 
@@ -61,6 +67,8 @@ pub struct Contact<R: Lane> {
     pub before: R,
     /// R* [m].
     pub radius: R,
+    /// The smaller radius [m].
+    pub smaller: R,
     /// 1/(r_i + r_j), 0 at a flat wall [1/m].
     pub curvature: R,
     /// m* [kg].

@@ -1,6 +1,7 @@
 //! What effects are made of: the numbers of a contact law, and what follows from its two materials.
 
-use super::{ContactLaw, Damping};
+use super::friction::TANGENTIAL_DAMPING;
+use super::{ContactLaw, Damping, NORMAL_DAMPING, RESTITUTION};
 use serde::{Deserialize, Serialize};
 
 /// Elastic constants of a pair.
@@ -71,7 +72,8 @@ impl Pair<'_> {
 
 /// k_t over the normal law's stiffness [–].
 pub fn tangential_ratio(law: &ContactLaw, elastic: Elastic) -> f64 {
-    law.number("tangential_ratio").unwrap_or(elastic.tangential_ratio)
+    let of_stiffness = || Some(law.number("tangential_stiffness")? / law.number("stiffness")?);
+    law.number("tangential_ratio").or_else(of_stiffness).unwrap_or(elastic.tangential_ratio)
 }
 
 /// Damping ratio of a linear oscillator that rebounds with restitution `e` when it is let go at δ = 0:
@@ -87,6 +89,13 @@ pub fn damping_ratio(restitution: f64) -> f64 {
     }
     let ln = libm::log(restitution);
     -2.0 * ln / (std::f64::consts::PI * std::f64::consts::PI + ln * ln).sqrt()
+}
+
+/// γ of the normal and of the tangential dashpot [–], of a contact whose √(S m*) and √(k_t m*) are given [kg/s]: those of the restitution, or η over them.
+pub fn damping_ratios(law: &ContactLaw, [normal, tangential]: [f64; 2]) -> [f64; 2] {
+    let of_restitution = || damping_ratio(law.number(RESTITUTION.name).unwrap_or(f64::NAN));
+    let along = law.number(NORMAL_DAMPING.name).map_or_else(of_restitution, |eta| eta / normal);
+    [along, law.number(TANGENTIAL_DAMPING.name).map_or(along, |eta| eta / tangential)]
 }
 
 /// Elastic constants and density.

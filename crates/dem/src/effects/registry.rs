@@ -8,10 +8,9 @@ use super::law::ContactLaw;
 macro_rules! effects {
     ($then:ident) => {
         $then! {
-            every precision: hooke::Hooke, hertz::Hertz;
-            double precision: jkr::Jkr, walton_braun::WaltonBraun;
+            normal: hooke_direct::Linear, hertz::Hertz, jkr::Jkr, walton_braun::WaltonBraun;
             cohesion: cohesion::Cohesion;
-            sliding: sliding_friction::SlidingFriction<weakening::Friction>;
+            sliding: sliding_friction::SlidingFriction<friction::Friction>;
             rolling: rolling_resistance::RollingResistance, constant_rolling::ConstantRolling;
             twisting: twisting_resistance::TwistingResistance;
         }
@@ -20,7 +19,7 @@ macro_rules! effects {
 pub(crate) use effects;
 
 macro_rules! lists {
-    ($($slot:ident $(precision)?: $($module:ident :: $effect:ident $(<$of:ident :: $model:ident>)?),*;)*) => {
+    ($($slot:ident : $($module:ident :: $effect:ident $(<$of:ident :: $model:ident>)?),*;)*) => {
         const LISTS: &[&[&Description]] =
             &[$($(<super::$module::$effect $(<super::$of::$model>)? as ContactEffect>::DESCRIPTIONS,)*)*];
     };
@@ -69,6 +68,7 @@ pub fn models() -> Vec<(&'static str, Vec<&'static str>)> {
     let mut found: Vec<(&str, Vec<&str>)> = Vec::new();
     for model in DESCRIPTIONS.iter().filter_map(|d| d.model) {
         match found.iter_mut().find(|(key, _)| *key == model.key) {
+            Some((_, values)) if values.contains(&model.value) => {}
             Some((_, values)) => values.push(model.value),
             None => found.push((model.key, vec![model.value])),
         }

@@ -4,7 +4,7 @@
 //! ξ ← ξ + v_t Δt        the spring turns with the contact and stretches
 //! F_t = −k_t ξ − c_t v_t     sticks while |F_t| ≤ μ F_p
 //! F_t = μ F_p F_t/|F_t|      slides otherwise; ξ is cut back to match
-//! k_t = q S,  c_t = γ √(k_t m*)       S: the normal law's stiffness; q = 4 G*/E* (Mindlin) unless given
+//! k_t = q S,  c_t = γ √(k_t m*)       S: the normal law's stiffness; q = 4 G*/E* (Mindlin) unless given; c_t may be given, too ([`super::friction`])
 //! F_p = F_n,  with JKR F_n + 2 F_po,  with cohesion F_n without its pull
 //! ```
 //!
@@ -15,26 +15,30 @@
 use super::capped_spring::{CappedSpring, turned};
 use super::{
     Contact, ContactEffect, Description, Effect, Field, Friction, Key, Kind, Pair, Range, Response, Slot,
-    tangential_ratio, weakening,
+    friction, tangential_ratio, weakening,
 };
 use crate::simd::{Lane, V};
 
 /// ξ.
 pub const SPRING: Field = Field { name: "sliding", kind: Kind::Vector, unit: "m", doc: "ξ, the spring" };
 
+/// μ.
+pub const COEFFICIENT: Key = Key {
+    name: "sliding_friction",
+    unit: "",
+    range: Range::UpTo(1e3),
+    required: true,
+    example: "0.5",
+    doc: "μ: caps the tangential force at μ × what presses, F_n without the pull of cohesion (\"jkr\": F_n + 2 × the strongest pull)",
+};
+
 /// What the program knows of it.
 pub const DESCRIPTION: Description = Description {
     name: "sliding_friction",
     doc: "tangential spring and dashpot under Coulomb's cap",
     slot: Slot::Sliding,
-    keys: &[Key {
-        name: "sliding_friction",
-        unit: "",
-        range: Range::UpTo(1e3),
-        required: true,
-        example: "0.5",
-        doc: "μ: caps the tangential force at μ × what presses, F_n without the pull of cohesion (\"jkr\": F_n + 2 × the strongest pull)",
-    }],
+    keys: &[COEFFICIENT],
+    picked: |law| !friction::own_dashpot(law),
     history: &[SPRING],
     every_precision: true,
     idle: |law| law.number("sliding_friction") == Some(0.0),
@@ -45,6 +49,11 @@ pub const DESCRIPTION: Description = Description {
 pub trait Coefficient: Copy + Send + Sync + 'static {
     /// μ [–] of a contact.
     fn of<R: Lane>(&self, contact: &Contact<R>) -> R;
+    /// c_t [N s/m], where that of the law is `of_law`.
+    #[inline(always)]
+    fn dashpot<R: Lane>(&self, of_law: R) -> R {
+        of_law
+    }
 }
 
 impl Coefficient for f64 {
@@ -84,9 +93,10 @@ impl ContactEffect for SlidingFriction<f64> {
     }
 }
 
-/// The same at every speed, or weaker with speed.
+/// In full: the same at every speed or weaker with speed, with the law's dashpot or its own.
 impl ContactEffect for SlidingFriction<Friction> {
-    const DESCRIPTIONS: &'static [&'static Description] = &[&DESCRIPTION, &weakening::DESCRIPTION];
+    const DESCRIPTIONS: &'static [&'static Description] =
+        &[&DESCRIPTION, &friction::WITH_DASHPOT, &weakening::DESCRIPTION];
 
     fn new(pair: &Pair) -> SlidingFriction<Friction> {
         SlidingFriction::with(pair, Friction::of(pair))
@@ -101,12 +111,13 @@ impl<C: Coefficient> Effect for SlidingFriction<C> {
     fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, xi: &mut V<R>, response: &mut Response<R>) {
         // A stiffness of 0 at δ = 0 (Hertz) would be divided by; nothing holds there in any case.
         let stiffness = (R::splat(self.stiffness_ratio) * response.stiffness).max(R::splat(R::TINY));
+        let of_law = R::splat(self.damping_ratio * self.stiffness_ratio.sqrt()) * response.impedance;
         let spring = CappedSpring {
             touching: contact.touching,
             stiffness,
             before: response.stiffness_before,
             last: R::splat(self.stiffness_ratio) * response.stiffness_last,
-            damping: R::splat(self.damping_ratio * self.stiffness_ratio.sqrt()) * response.impedance,
+            damping: self.friction.dashpot(of_law),
             // A quarter of the square of the fastest motion of a close packing: all grains turning the same way, 20 k_t/m*,
             // or layers against layers, 4 (S + k_t)/m*, which the spring would feed otherwise.
             // Clumps, which forces turn as well, are faster by what they yield.

@@ -11,7 +11,7 @@
 //! contact at rest moves along that line. The flattened spot is forgotten when the spheres part. It has no dashpot: along the line of
 //! unloading nothing is lost, and small vibrations last; W is lost at once, as δ_max grows.
 
-use super::hooke::{STIFFNESS, TANGENTIAL_RATIO, unloaded_overlap};
+use super::hooke::{STIFFNESS, TANGENTIAL_RATIO, TANGENTIAL_STIFFNESS, contradiction, unloaded_overlap};
 use super::{
     Contact, ContactEffect, ContactLaw, Description, Effect, Field, Key, Kind, Model, NormalLaw, Pair,
     RESTITUTION, Range, Response, Slot,
@@ -24,7 +24,13 @@ pub const DESCRIPTION: Description = Description {
     doc: "linear spring that yields (ores, moist bulk): loads with `stiffness` k, unloads with k/e², so that e is the same at every speed; no dashpot",
     slot: Slot::Normal,
     model: Some(Model { key: "law", value: "walton_braun", default: false }),
-    keys: &[STIFFNESS, TANGENTIAL_RATIO, Key { range: Range::AboveZeroUpTo(1.0), ..RESTITUTION }],
+    keys: &[
+        STIFFNESS,
+        TANGENTIAL_RATIO,
+        TANGENTIAL_STIFFNESS,
+        Key { range: Range::AboveZeroUpTo(1.0), ..RESTITUTION },
+    ],
+    contradiction,
     history: &[Field {
         name: "held",
         kind: Kind::Scalar,

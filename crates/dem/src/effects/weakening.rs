@@ -7,8 +7,9 @@
 //!
 //! Hess & Soom (1990), J. Tribology 112(1), doi:10.1115/1.2920220, without the viscous term.
 
+use super::friction::TANGENTIAL_DAMPING;
 use super::sliding_friction::SPRING;
-use super::{Coefficient, Contact, ContactLaw, Contradiction, Description, Key, Pair, Range, Slot};
+use super::{Coefficient, Contact, ContactLaw, Contradiction, Description, Key, Range, Slot};
 use crate::simd::Lane;
 
 /// What the program knows of it.
@@ -41,6 +42,7 @@ pub const DESCRIPTION: Description = Description {
             example: "0.01",
             doc: "v_c, where friction is half-way",
         },
+        TANGENTIAL_DAMPING,
     ],
     history: &[SPRING],
     idle: |law| {
@@ -76,36 +78,5 @@ impl Coefficient for Weakening {
     fn of<R: Lane>(&self, contact: &Contact<R>) -> R {
         let square = R::splat(1.0 / (self.speed * self.speed)) * contact.slip.dot(contact.slip);
         R::splat(self.sliding) + R::splat(self.at_rest - self.sliding) / (R::splat(1.0) + square)
-    }
-}
-
-/// A coefficient that may be either; which, is a branch for each group of contacts.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Friction {
-    /// μ [–].
-    Constant(f64),
-    /// μ(v).
-    Weakening(Weakening),
-}
-
-impl Friction {
-    /// Of a pair whose law asks for either.
-    pub fn of(pair: &Pair) -> Friction {
-        if let Some(constant) = pair.law.number("sliding_friction") {
-            return Friction::Constant(constant);
-        }
-        let [at_rest, sliding, speed] =
-            ["static", "dynamic", "speed"].map(|key| pair.number(&format!("sliding_friction.{key}")));
-        Friction::Weakening(Weakening { at_rest, sliding, speed })
-    }
-}
-
-impl Coefficient for Friction {
-    #[inline(always)]
-    fn of<R: Lane>(&self, contact: &Contact<R>) -> R {
-        match self {
-            Friction::Constant(mu) => mu.of(contact),
-            Friction::Weakening(mu) => mu.of(contact),
-        }
     }
 }

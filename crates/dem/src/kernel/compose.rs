@@ -1,8 +1,8 @@
 //! The compositions of effects that are compiled.
 //!
 //! Each composition is compiled for every width of lanes, with and without the ledger. So that they stay few, the laws and resistances
-//! that most scenes use are compiled in every precision; all others in double precision only, where cohesion and the weakening of
-//! friction, which keep nothing, are not compositions of their own but a branch for each group of contacts.
+//! that most scenes use are compiled in every precision; all others in double precision only, where cohesion, the weakening of
+//! friction, and moduli or dashpots that are given, which keep nothing, are not compositions of their own but a branch for each group of contacts.
 
 use super::{Kernel, Narrow};
 use crate::effects::*;
@@ -10,16 +10,20 @@ use crate::simd::Precision;
 use std::marker::PhantomData;
 
 macro_rules! compositions {
-    (every precision: $($cm:ident :: $step:ident),*; double precision: $($dm:ident :: $rare:ident),*; cohesion: $am:ident :: $adhesion:ident;
+    (normal: $($nm:ident :: $normal:ident),*; cohesion: $am:ident :: $adhesion:ident;
      sliding: $($sm:ident :: $sliding:ident <$of:ident :: $model:ident>),*; rolling: $($rm:ident :: $rolling:ident),*;
      twisting: $($tm:ident :: $twisting:ident),*;) => {
         /// The effects of a pair, composed.
         pub fn compose(pair: &Pair, precision: Precision) -> Box<dyn Kernel> {
-            let step = active(pair.law).all(|d| d.every_precision);
-            $(if let Some(law) = $step::of(pair) {
-                return if step { in_every_precision(pair, precision, law) } else { adhering(pair, law) };
-            })*
-            $(if let Some(law) = $rare::of(pair) { return adhering(pair, law); })*
+            if active(pair.law).all(|d| d.every_precision) {
+                if let Some(Linear::Plain(hooke)) = Linear::of(pair) {
+                    return in_every_precision(pair, precision, hooke);
+                }
+                if let Some(hertz) = Hertz::of(pair) {
+                    return in_every_precision(pair, precision, hertz);
+                }
+            }
+            $(if let Some(law) = $normal::of(pair) { return adhering(pair, law); })*
             Box::new(())
         }
 

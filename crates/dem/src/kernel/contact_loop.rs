@@ -94,7 +94,8 @@ fn lanes<R: Lane, E: Effect, T: Number, const KEEP: bool>(
         ended = R::any(released(&row, touching).gt(R::splat(0.0)));
         R::store_rows(row, &mut batch.ledger[at * LEDGER..]);
     }
-    let deep = R::both(touching, found.contact.present.gt(found.smaller * R::splat(step.overlap_limit)));
+    let deep =
+        R::both(touching, found.contact.present.gt(found.contact.smaller * R::splat(step.overlap_limit)));
     // A contact that has just ended or broken stays in the ledger for one step.
     let active = R::any(touching) || ended || (E::REACHES && KEEP && R::any(was_held.gt(R::splat(0.0))));
     (active, R::any(deep))
@@ -150,8 +151,6 @@ struct Geometry<R: Lane> {
     contact: Contact<R>,
     /// r_i + r_j [m].
     reach: R,
-    /// The smaller radius [m].
-    smaller: R,
     /// Distance over reach: how the contact point divides the radii [–].
     share: R,
     /// Velocity of j's surface at the contact [m/s].
@@ -200,6 +199,7 @@ fn geometry<R: Lane, E: Effect>(step: &StepInputs, batch: &Batch, ends: Ends<R>)
         partial: zero,
         before: overlap + along * R::splat(step.dt),
         radius: R::select(round, ri * rj * inverse_reach, ri),
+        smaller: R::select(round, ri.min(rj), ri),
         curvature: R::select(round, inverse_reach, zero),
         mass: inverse * both,
         inverse_mass,
@@ -208,7 +208,7 @@ fn geometry<R: Lane, E: Effect>(step: &StepInputs, batch: &Batch, ends: Ends<R>)
         spin,
         turn,
     };
-    Geometry { contact, reach, smaller: R::select(round, ri.min(rj), ri), share, surface, spin_j }
+    Geometry { contact, reach, share, surface, spin_j }
 }
 
 /// Adds force, moment and torque to both ends, and keeps them where they are wanted; the force [N].

@@ -1,6 +1,6 @@
 //! Laws of contact that are refused before a run starts.
 
-use crate::effects::{Contradiction, Description, Elastic, Key as NumberKey, Slot, active};
+use crate::effects::{Contradiction, Description, Elastic, Key as NumberKey, Slot, active, by_modulus};
 use crate::model::in_range::out_of_range;
 use crate::model::limit::{normal, radii_by_material};
 use crate::model::quantity::material_names;
@@ -67,6 +67,9 @@ fn effects(between: &[String; 2], law: &ContactLaw) -> Result<(), SetupError> {
         }
     }
     let used = |key: &str| asked.iter().any(|d| d.keys.iter().any(|k| k.name == key));
+    if used("stiffness") && !by_modulus(law) && law.number("stiffness").is_none() {
+        return refuse("stiffness", "N/m", "laws with a stiffness or a modulus".to_owned());
+    }
     match law.numbers().find(|(key, _)| !used(key)) {
         Some((key, _)) => refuse(key, "", "numbers that this law takes".to_owned()),
         None => Ok(()),

@@ -23,7 +23,7 @@
 //! ([`crate::model::dense_walls`]): where N > 4, all numbers of contacts count N/4 times.
 
 use crate::effects::{
-    ALONG, Elastic, Material, NormalLaw, OverlapLimit, Slot, TURNS, TurningPair, active, damping_ratio,
+    ALONG, Elastic, Material, NormalLaw, OverlapLimit, Slot, TURNS, TurningPair, active, damping_ratios,
     tangential_ratio,
 };
 use crate::model::dense_walls::{met, rounding};
@@ -268,17 +268,18 @@ struct PairBound {
 
 impl PairBound {
     fn step(&self, contact: &ContactLaw) -> f64 {
-        let gamma = damping_ratio(contact.number("restitution").unwrap_or(f64::NAN));
         let (along, across) = (self.stiffness * self.yields.0, self.tangential * self.yields.1);
         let impedance = (self.stiffness * self.mass).sqrt();
         let (pull, turn) = (impedance * self.yields.0, impedance * self.yields.1);
-        let rub = (self.tangential * self.mass).sqrt() * self.yields.1;
+        let tangential = (self.tangential * self.mass).sqrt();
+        let rub = tangential * self.yields.1;
+        let [gamma, rubs] = damping_ratios(contact, [impedance, tangential]);
         let (straight, sideways) = (ALONG * self.dense, ACROSS * self.dense);
         if !active(contact).any(|d| d.slot == Slot::Sliding) {
             return root(straight * along, straight * gamma * pull);
         }
         let moves =
-            root(straight * along + 2.0 * sideways * across, gamma * (straight * pull + sideways * rub));
+            root(straight * along + 2.0 * sideways * across, straight * gamma * pull + sideways * rubs * rub);
         let slide = sideways * TURNS;
         let pair = TurningPair {
             dense: self.dense,
@@ -293,8 +294,8 @@ impl PairBound {
             (a, b) = (a + more.stiffness, b + more.damping);
         }
         let w = self.uneven;
-        let slides = root(slide * across + w * a, slide * gamma * rub + w * b);
-        let turns = root(w * slide * across + a, w * slide * gamma * rub + b);
+        let slides = root(slide * across + w * a, slide * rubs * rub + w * b);
+        let turns = root(w * slide * across + a, w * slide * rubs * rub + b);
         moves.min(slides).min(turns).min((slide * across).sqrt().recip())
     }
 }

@@ -1,6 +1,6 @@
 //! What is fixed of servos: how stiffly each contact answers a wall, and the walls that bound an area.
 
-use crate::effects::{Elastic, OverlapLimit, damping_ratio};
+use crate::effects::{Elastic, OverlapLimit, damping_ratios};
 use crate::model::dense_walls::met;
 use crate::model::limit::{contact_between, grains, stiffest};
 use crate::model::{Check, Kind, SetupError, With};
@@ -62,8 +62,9 @@ fn response(
     let [first, second] = [material, wall.material].map(|m| &setup.materials[m as usize]);
     let (radius, smaller) = met(wall, radius);
     let k = stiffest(contact, Elastic::of(first, second), OverlapLimit { radius, smaller, share });
-    let gamma = damping_ratio(contact.number("restitution").unwrap_or(f64::NAN));
-    Some(k * dt + gamma * (k / inverse_mass).sqrt())
+    let impedance = (k / inverse_mass).sqrt();
+    let [gamma, _] = damping_ratios(contact, [impedance; 2]);
+    Some(k * dt + gamma * impedance)
 }
 
 /// Refuses servos without meaning: numbers, a plane that would pull, an area that no planes bound.

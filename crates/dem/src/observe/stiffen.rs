@@ -5,13 +5,12 @@
 //! K'/K = (½ m* v² + U)/U · (δ/δ')^(p+1)                                     brought to rest at δ', without damping
 //! ```
 
-use crate::effects::{ContactLaw, Elastic, Material, OverlapLimit};
+use crate::effects::{ContactLaw, Elastic, MODULI, Material, OverlapLimit, damping_ratios};
 use crate::model::dense_walls::met;
 use crate::model::limit::{contact_between, grains, stiffest};
 use crate::model::{Model, Stiffer};
 use crate::setup::clumps::SizeClass;
 use crate::setup::{Setup, Wall};
-use std::f64::consts::PI;
 
 /// Share of the guard that the approach is to stay within [–].
 const WITHIN: f64 = 0.8;
@@ -36,6 +35,8 @@ struct Spring<'a> {
     materials: [&'a Material; 2],
     /// p of the module's head [–].
     power: f64,
+    /// S [N/m].
+    stiffness: f64,
     /// U [J].
     stored: f64,
 }
@@ -55,15 +56,24 @@ impl<'a> Spring<'a> {
         let (s, half) = (stiffness(share), stiffness(0.5 * share));
         let (power, overlap) = (1.0 + libm::log2(s / half), share * smaller);
         let stored = s * overlap * overlap / (power * (power + 1.0));
-        Some(Spring { law, materials, power, stored })
+        Some(Spring { law, materials, power, stiffness: s, stored })
+    }
+
+    /// γ, for an inverse mass [1/kg].
+    fn damping_ratio(&self, inverse_mass: f64) -> f64 {
+        let impedance = (self.stiffness / inverse_mass).sqrt();
+        let [along, _] = damping_ratios(self.law, [impedance; 2]);
+        along
     }
 
     /// What is to be so many times stiffer, for an approach [m/s].
     fn stiffer(&self, times: f64, speed: f64) -> Option<Stiffer> {
         let [a, b] = self.materials;
         let softest = if b.young < a.young { b } else { a };
-        let (key, unit, of, value) = match self.law.number("stiffness") {
-            Some(k) => ("stiffness", "N/m", format!("{}–{}", a.name, b.name), k),
+        let own = [("stiffness", "N/m"), (MODULI[0], "Pa"), (MODULI[1], "Pa")];
+        let own = own.iter().find_map(|(key, unit)| Some((*key, *unit, self.law.number(key)?)));
+        let (key, unit, of, value) = match own {
+            Some((key, unit, k)) => (key, unit, format!("{}–{}", a.name, b.name), k),
             None => ("young", "Pa", softest.name.clone(), softest.young),
         };
         let value = times * value;
@@ -94,10 +104,11 @@ pub struct DeepImpact {
     pub stiffer: Stiffer,
 }
 
-/// Share of the energy of an approach that a linear spring with a dashpot of restitution e holds where it is deepest: exp(−2 q atan(1/q)),
-/// q = −ln e/π.
-fn left_at_depth(e: f64) -> f64 {
-    let q = -libm::log(e) / PI;
+/// Share of the energy of an approach that a linear spring with a dashpot of ratio γ holds where it is deepest: exp(−2 q atan(1/q)), q = h/√(1 − h²),
+/// h = γ/2, so that q = −ln e/π.
+fn left_at_depth(gamma: f64) -> f64 {
+    let half = (0.5 * gamma).min(1.0);
+    let q = half / (1.0 - half * half).sqrt();
     // q atan(1/q) → 1 for a contact that does not rebound.
     let turn = if q.is_finite() && q > 0.0 { q * libm::atan(1.0 / q) } else { f64::from(u8::from(q > 0.0)) };
     libm::exp(-2.0 * turn)
@@ -109,7 +120,7 @@ pub fn deep_impact(setup: &Setup, wall: &Wall, speed: f64) -> Option<DeepImpact>
     let limit = setup.guards.overlap;
     let impact = |grain: &SizeClass| {
         let spring = Spring::new(setup, (grain.material, wall.material), met(wall, grain.radius), limit)?;
-        let left = left_at_depth(spring.law.number("restitution").unwrap_or(1.0));
+        let left = left_at_depth(spring.damping_ratio(grain.inverse_mass));
         let times = left * 0.5 * speed * speed / grain.inverse_mass / spring.stored;
         let share = limit * libm::pow(times, 1.0 / (spring.power + 1.0));
         let stiffer = spring.stiffer(times * libm::pow(WITHIN, -spring.power - 1.0), speed)?;

@@ -3,7 +3,7 @@
 use super::Check;
 use crate::error::Result;
 use crate::keys::{Contact, SceneKeys};
-use dem::effects::{DESCRIPTIONS, Description, Key, Slot, active};
+use dem::effects::{DESCRIPTIONS, Description, Key, MODULI, Slot, active};
 
 impl Check<'_> {
     pub(super) fn contacts(&self, m: &SceneKeys) -> Result<()> {
@@ -35,9 +35,16 @@ impl Entry<'_> {
         self.check.positive(&format!("{}.characteristic_velocity", self.at), speed, "m/s")?;
         let linear = |d: &Description| d.keys.iter().any(|key| key.name == "stiffness");
         if active(law).any(linear) {
-            let stiffness = ("stiffness", law.number("stiffness").is_some());
-            let given = [stiffness, ("characteristic_velocity", speed.is_some())];
-            return self.check.one_of(&self.at, &given);
+            let given = |key| (key, law.number(key).is_some());
+            let stiffness = [given("stiffness"), ("characteristic_velocity", speed.is_some())];
+            let moduli = MODULI.map(given);
+            // Of the laws, one alone takes a modulus.
+            let all = if law.model("law") == Some("hooke") {
+                [stiffness, moduli].concat()
+            } else {
+                stiffness.to_vec()
+            };
+            return self.check.one_of(&self.at, &all);
         }
         if speed.is_none() {
             return Ok(());

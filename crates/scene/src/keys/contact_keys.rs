@@ -2,7 +2,7 @@
 
 use super::Contact;
 use super::unit::{self, Seed};
-use dem::effects::{RESTITUTION, keys, models};
+use dem::effects::{NORMAL_DAMPING, RESTITUTION, keys, models};
 use dem::setup::ContactLaw;
 use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, Unexpected, Visitor};
 use serde::{Deserialize, de};
@@ -71,7 +71,7 @@ impl<'de> Visitor<'de> for ContactVisitor {
             }
         }
         let between = between.ok_or_else(|| Error::missing_field(BETWEEN))?;
-        if law.number(RESTITUTION.name).is_none() {
+        if [RESTITUTION, NORMAL_DAMPING].iter().all(|key| law.number(key.name).is_none()) {
             return Err(Error::missing_field(RESTITUTION.name));
         }
         Ok(Contact { between, law, characteristic_velocity })

@@ -14,7 +14,7 @@
 use crate::check::Check;
 use crate::error::Result;
 use crate::keys::{Accuracy, ELASTIC, SAFETY, SAFETY_ELASTIC, Sampling, Time};
-use dem::effects::{Slot, active};
+use dem::effects::{Slot, active, by_modulus};
 use dem::setup::ContactLaw;
 use std::collections::BTreeSet;
 
@@ -118,7 +118,8 @@ fn default_safety(sampling: Sampling, contacts: &[ContactLaw]) -> (f64, Option<S
     }
     let rubs = |law: &ContactLaw| active(law).any(|d| d.slot == Slot::Sliding && !(d.idle)(law));
     let elastic = |law: &&ContactLaw| {
-        law.number("stiffness").is_some() && law.number("restitution").is_some_and(|e| e > ELASTIC)
+        (by_modulus(law) || law.number("stiffness").is_some())
+            && law.number("restitution").is_some_and(|e| e > ELASTIC)
     };
     match contacts.iter().find(elastic).and_then(|law| law.number("restitution")) {
         Some(e) if !contacts.iter().any(rubs) => {

@@ -3,7 +3,7 @@
 use crate::check::Check;
 use crate::error::Result;
 use crate::keys::Contact;
-use dem::effects::{Elastic, active, needed};
+use dem::effects::{Elastic, active, by_modulus, needed};
 use dem::setup::{self, ContactLaw};
 use geom::sphere::volume;
 use std::cmp::Reverse;
@@ -30,7 +30,7 @@ pub(super) fn resolve(
             let mut law = entry.law.clone();
             law.between = (a as u16, b as u16);
             let linear = active(&law).any(|d| d.keys.iter().any(|key| key.name == STIFFNESS));
-            if linear && law.number(STIFFNESS).is_none() {
+            if linear && !by_modulus(&law) && law.number(STIFFNESS).is_none() {
                 law.set(STIFFNESS, stiffness(entry, &materials[a], &materials[b], largest));
             }
             found.push(needed(&law).0);

@@ -328,6 +328,7 @@ restitution = 0.5
 between = ["b", "b"]
 law = "walton_braun"
 stiffness = 1e4
+tangential_stiffness = 5e3
 restitution = 0.5
 sliding_friction = { static = 0.5, dynamic = 0.3, speed = 0.1 }
 rolling_resistance = 0.1
@@ -341,6 +342,18 @@ restitution = 0.5
 between = ["*", "*"]
 law = "hooke"
 characteristic_velocity = 1
+restitution = 0.5
+[[contact]]
+between = ["c", "c"]
+law = "hooke"
+contact_modulus = 1e6
+normal_damping = 0.5
+sliding_friction = 0.5
+tangential_damping = 0.3
+[[contact]]
+between = ["b", "c"]
+law = "hooke"
+effective_modulus = 1e6
 restitution = 0.5
 [[bond]]
 between = ["c", "c"]

@@ -188,8 +188,29 @@ const NORMAL_LAWS: &[Change] = &[
     wrong(
         "restitution = 0.5",
         "restitution = 0.5\nlaw = \"hooke\"",
-        &["stiffness or characteristic_velocity is missing"],
+        &["stiffness or characteristic_velocity or contact_modulus or effective_modulus is missing"],
     ),
+    wrong(
+        "restitution = 0.5",
+        "restitution = 0.5\nlaw = \"hooke\"\nstiffness = 1e5\nnormal_damping = 1",
+        &["contact.0.normal_damping", "both say what the dashpot is"],
+    ),
+    wrong(
+        "restitution = 0.5",
+        "restitution = 0.5\nlaw = \"hooke\"\nstiffness = 1e5\ncontact_modulus = 1e6",
+        &["stiffness and contact_modulus", "only one of them"],
+    ),
+    wrong(
+        "restitution = 0.5",
+        "restitution = 0.5\nlaw = \"hooke\"\ncontact_modulus = 1e6\ntangential_stiffness = 1e5",
+        &["contact.0.tangential_stiffness", "give tangential_ratio"],
+    ),
+    wrong(
+        "restitution = 0.5",
+        "restitution = 0.5\ncontact_modulus = 1e6",
+        &["contact.0.contact_modulus", "law = \"hooke\""],
+    ),
+    wrong("restitution = 0.5", "normal_damping = 1", &["contact.0.normal_damping", "law = \"hooke\""]),
     wrong("restitution = 0.5", "restitution = 0.5\nstiffness = 1e5", &["contact.0.stiffness", "hertz"]),
     wrong("restitution = 0.5", "restitution = 0.5\nlaw = \"jkr\"", &["work_of_adhesion", "J/m²"]),
     wrong(
