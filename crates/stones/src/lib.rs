@@ -31,9 +31,9 @@ mod tangent;
 mod triangles;
 
 pub use clump::{Clump, ClumpError, ClumpSettings, Fit, Method};
-// pub use grading::{Class, GradingError};
-// pub use library::{Library, LibraryStone};
-// pub use pack::{PackError, PackSettings, Packing, Soil, pack};
-// pub use placed::PlacedStone;
+pub use grading::{Class, GradingError};
+pub use library::{Library, LibraryStone};
+pub use pack::{PackError, PackSettings, Packing, Soil, pack};
+pub use placed::PlacedStone;
 pub use shape::ShapeMeasures;
 pub use stone::{Stone, StoneError};

@@ -6,7 +6,7 @@ use rand_pcg::Pcg64Mcg;
 use std::f64::consts::TAU;
 
 /// The orientation that three numbers from 0 to 1 stand for; even numbers give orientations that are uniform on SO(3): Shoemake (1992), Graphics
-/// Gems III, doi:10.1016/B978-0-08-050755-2.50036-1.
+/// Gems III.
 pub(crate) fn orientation([u, v, w]: [f64; 3]) -> UnitQuaternion<f64> {
     let (a, b) = ((1.0 - u).sqrt(), u.sqrt());
     let (s, t) = (TAU * v, TAU * w);

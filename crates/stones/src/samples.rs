@@ -148,17 +148,17 @@ mod tests {
 
     #[test]
     fn cells_count_volumes_and_a_cover_is_the_union() {
-        let stone = block(0.1, 0.1, 0.05);
+        let stone = block(0.1, 0.1, 0.1);
         let mut samples = Samples::new(&stone);
         let cell = samples.cell.powi(3);
-        assert!((samples.inside.len() as f64 * cell / 5e-4 - 1.0).abs() < 1e-9);
-        let ball = (Vec3::new(0.05, 0.05, 0.025), 0.025);
+        assert!((samples.inside.len() as f64 * cell / 1e-3 - 1.0).abs() < 1e-9);
+        let ball = (Vec3::repeat(0.05), 0.025);
         let volume = geom::sphere::volume(0.025);
         assert!((f64::from(samples.gain(ball)) * cell / volume - 1.0).abs() < 0.01);
         samples.cover(ball);
         samples.cover(ball);
         assert_eq!(samples.gain(ball), 0);
-        assert!((1.0 - samples.uncovered() - volume / 5e-4).abs() < 0.002);
+        assert!((1.0 - samples.uncovered() - volume / 1e-3).abs() < 0.002);
     }
 
     #[test]
