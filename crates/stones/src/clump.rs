@@ -147,12 +147,10 @@ mod tests {
     #[test]
     fn one_sphere_is_a_ball() {
         let stone = Stone::new(&ball(0.05, 3), false).unwrap();
-        for method in [Method::Distance, Method::Tangent] {
-            let clump = Clump::of(&stone, &settings(method, 1)).unwrap();
-            let (centre, radius) = clump.spheres[0];
-            assert!(centre.norm() < 1e-3 && (radius - 0.05).abs() < 1e-3, "{method:?}: {centre} {radius}");
-            assert!(clump.fit.volume < 0.05 && clump.fit.mean_distance < 0.01 && clump.fit.inertia < 0.08);
-        }
+        let clump = Clump::of(&stone, &settings(Method::Distance, 1)).unwrap();
+        let (centre, radius) = clump.spheres[0];
+        assert!(centre.norm() < 1e-3 && (radius - 0.05).abs() < 1e-3, "{centre} {radius}");
+        assert!(clump.fit.volume < 0.05 && clump.fit.mean_distance < 0.01 && clump.fit.inertia < 0.08);
     }
 
     /// No sphere leaves the stone, none overlaps another more than allowed, and more spheres fit better.
