@@ -12,7 +12,7 @@ use stones::{Clump, ClumpSettings, Method, ShapeMeasures, Stone};
 const EXAMPLES: &str = "The output is a [[clump]] of a scene (TOML) with the mass, centre and inertia of the mesh; with -o NAME.csv or NAME.ply the spheres \
     alone.\n\nExamples:\n\
     \x20 stone-clump stone.ply --spheres 30 -o clump.toml\n\
-    \x20 stone-clump stone.stl --units mm --error 2% --method tangent -o clump.toml\n\
+    \x20 stone-clump stone.stl --units mm --error 10% -o clump.toml\n\
     \x20 stone-clump stone.ply --measures";
 
 /// Find spheres inside a closed mesh that stand for it as a rigid clump, and measure its shape
@@ -102,6 +102,7 @@ fn stone_clump(args: Args) -> anyhow::Result<Report> {
         .with("spheres", clump.spheres.len())
         .with("settings", settings)
         .with("volume", stone.moments.volume)
+        .with("volume_error", clump.fit.volume)
         .with("errors", clump.fit))
 }
 
