@@ -21,6 +21,7 @@ mod pipelines;
 mod plants;
 mod python;
 mod readme;
+mod rock_fill;
 mod real_clouds;
 mod scans;
 mod scene;
