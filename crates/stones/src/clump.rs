@@ -91,7 +91,8 @@ impl Clump {
         let least = settings.least_radius.unwrap_or(LEAST_RADIUS * stone.diameter());
         let (mut samples, points) = (Samples::new(stone), surface(stone, SURFACE_POINTS));
         let most = settings.spheres.unwrap_or(MOST_SPHERES).min(MOST_SPHERES);
-        let enough = |count: usize, uncovered: f64| count >= most || settings.error.is_some_and(|e| uncovered <= e);
+        let enough =
+            |count: usize, uncovered: f64| count >= most || settings.error.is_some_and(|e| uncovered <= e);
         let spheres = match settings.method {
             Method::Distance => distance::spheres(stone, settings, &mut samples, least, enough),
             Method::Tangent => tangent::spheres(stone, settings, &points, &mut samples, least, enough),
@@ -99,7 +100,8 @@ impl Clump {
         if spheres.is_empty() {
             return Err(ClumpError::NoSphere(least));
         }
-        let gap = |p: &Vec3| spheres.iter().map(|(c, r)| (p - c).norm() - r).fold(f64::INFINITY, f64::min).max(0.0);
+        let gap =
+            |p: &Vec3| spheres.iter().map(|(c, r)| (p - c).norm() - r).fold(f64::INFINITY, f64::min).max(0.0);
         let gaps: Vec<f64> = points.iter().map(|p| gap(&p.place) / stone.diameter()).collect();
         let fit = Fit {
             volume: samples.uncovered(),
@@ -163,7 +165,9 @@ mod tests {
                 let clump = Clump::of(&stone, &settings(method, count)).unwrap();
                 assert!(clump.spheres.len() <= count);
                 for (k, s) in clump.spheres.iter().enumerate() {
-                    assert!(stone.inside.contains(&s.0) && s.1 <= stone.inside.distance(&s.0) * (1.0 + 1e-12));
+                    assert!(
+                        stone.inside.contains(&s.0) && s.1 <= stone.inside.distance(&s.0) * (1.0 + 1e-12)
+                    );
                     let others = &clump.spheres[..k];
                     assert!(method == Method::Tangent || others.iter().all(|o| overlap(s, o) <= 0.9));
                 }

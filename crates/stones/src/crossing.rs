@@ -46,7 +46,8 @@ fn faces_cross(mesh: &TriMesh, first: usize, second: usize) -> bool {
         [] => meet(&a, &b),
         [(i, j)] => {
             // The edges opposite to the shared corner.
-            segment_meets(&a[(i + 1) % 3], &a[(i + 2) % 3], &b) || segment_meets(&b[(j + 1) % 3], &b[(j + 2) % 3], &a)
+            segment_meets(&a[(i + 1) % 3], &a[(i + 2) % 3], &b)
+                || segment_meets(&b[(j + 1) % 3], &b[(j + 2) % 3], &a)
         }
         [(i, j), (k, l)] => folded(&a[i], &a[k], &a[3 - i - k], &b[3 - j - l]),
         _ => true,

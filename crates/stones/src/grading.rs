@@ -29,7 +29,9 @@ pub struct Class {
 pub enum GradingError {
     #[error("line {line}: '{text}': {why}")]
     Line { line: usize, text: String, why: &'static str },
-    #[error("the first line is '{0}': write from,to,share (sieve sizes in m) or class,share (classes N of rock_N_H)")]
+    #[error(
+        "the first line is '{0}': write from,to,share (sieve sizes in m) or class,share (classes N of rock_N_H)"
+    )]
     Head(String),
     #[error("there is no class: give a line for each")]
     Empty,
@@ -49,7 +51,8 @@ pub fn whole(library: &Library) -> Vec<Class> {
 /// # Errors
 /// Another first line, numbers that are missing, not finite or of the wrong sign; shares that do not add up to 1 or 100; a class without stones.
 pub fn read(text: &str, library: &Library) -> Result<Vec<Class>, GradingError> {
-    let mut lines = (1..).zip(text.lines()).filter(|(_, l)| !l.trim().is_empty() && !l.trim_start().starts_with('#'));
+    let mut lines =
+        (1..).zip(text.lines()).filter(|(_, l)| !l.trim().is_empty() && !l.trim_start().starts_with('#'));
     let (_, head) = lines.next().ok_or(GradingError::Empty)?;
     let names: Vec<&str> = head.split(',').map(str::trim).collect();
     let by_sieve = match names[..] {
@@ -110,7 +113,8 @@ mod tests {
 
     fn library() -> Library {
         let stone = |name: &str, side: f64| (name.to_owned(), cuboid(Vec3::zeros(), Vec3::repeat(side)));
-        Library::new(vec![stone("rock_2_1", 0.02), stone("rock_1_1", 0.01), stone("rock_2_2", 0.03)], false).unwrap()
+        Library::new(vec![stone("rock_2_1", 0.02), stone("rock_1_1", 0.01), stone("rock_2_2", 0.03)], false)
+            .unwrap()
     }
 
     #[test]

@@ -75,8 +75,9 @@ mod tests {
     #[test]
     fn hulls_of_known_bodies() {
         // A lattice of points in a box: most lie in the planes of its sides and on its edges.
-        let points: Vec<Vec3> =
-            (0..125).map(|k| Vec3::new(f64::from(k % 5), f64::from(k / 5 % 5) * 0.1, f64::from(k / 25) * 3.0)).collect();
+        let points: Vec<Vec3> = (0..125)
+            .map(|k| Vec3::new(f64::from(k % 5), f64::from(k / 5 % 5) * 0.1, f64::from(k / 25) * 3.0))
+            .collect();
         let found = hull(&points).unwrap();
         assert_eq!(found.open_edges(), 0);
         assert!((found.volume() - 4.0 * 0.4 * 12.0).abs() < 1e-12, "{}", found.volume());

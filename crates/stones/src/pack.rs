@@ -183,7 +183,8 @@ impl Packer<'_> {
     /// Refuses a class of which not even the smallest stone fits into the box.
     fn fits(&self, class: &Class) -> Result<(), PackError> {
         let room = (self.settings.bounds[1] - self.settings.bounds[0]).min();
-        let scale = |k: usize| class.sieves.map_or(1.0, |(low, _)| low / self.library.stones[k].shape.sieve_size);
+        let scale =
+            |k: usize| class.sieves.map_or(1.0, |(low, _)| low / self.library.stones[k].shape.sieve_size);
         let width = |k: usize| self.library.stones[k].shape.sides[2] * scale(k);
         let smallest = class.stones.iter().map(|&k| (width(k), k)).min_by(|a, b| a.0.total_cmp(&b.0));
         match smallest {
@@ -243,10 +244,12 @@ impl Packer<'_> {
         let scale = (volume / of.stone.moments.volume).cbrt();
         let orientation = random_orientation(&mut self.random);
         let draw = [unit(&mut self.random), unit(&mut self.random), unit(&mut self.random)];
-        let (lo, hi) = of.arms().map(|arm| orientation * (arm * scale)).fold(
-            (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY)),
-            |(lo, hi), p| (lo.inf(&p), hi.sup(&p)),
-        );
+        let (lo, hi) = of
+            .arms()
+            .map(|arm| orientation * (arm * scale))
+            .fold((Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY)), |(lo, hi), p| {
+                (lo.inf(&p), hi.sup(&p))
+            });
         // Places of the centre at which the stone is in the box.
         let (first, last) = (self.settings.bounds[0] - lo, self.settings.bounds[1] - hi);
         if (0..3).any(|k| first[k] > last[k]) {
@@ -326,10 +329,19 @@ impl Packer<'_> {
 /// Why a content was not reached: the most frequent cause.
 fn missed(tries: u64, undone: &Undone) -> String {
     let causes = [
-        (undone.overlaps, "overlapped an earlier stone: the box is full for stones of this size; lower the content, or give smaller stones"),
-        (undone.too_heavy, "were too heavy for what is missing: one stone is more than the tolerance; raise --tolerance, enlarge the box, or give smaller stones"),
+        (
+            undone.overlaps,
+            "overlapped an earlier stone: the box is full for stones of this size; lower the content, or give smaller stones",
+        ),
+        (
+            undone.too_heavy,
+            "were too heavy for what is missing: one stone is more than the tolerance; raise --tolerance, enlarge the box, or give smaller stones",
+        ),
         (undone.too_large, "were larger than the box when turned: enlarge the box, or give smaller stones"),
-        (undone.few_grains, "held too few grains: give smaller grains, larger stones, or a lower --least-grains"),
+        (
+            undone.few_grains,
+            "held too few grains: give smaller grains, larger stones, or a lower --least-grains",
+        ),
         (undone.shared_grains, "held a grain of an earlier stone: give smaller grains"),
     ];
     let most = causes.iter().max_by_key(|c| c.0).filter(|c| c.0 > 0);

@@ -43,7 +43,16 @@ impl PlacedStone {
     ) -> PlacedStone {
         let vertices: Vec<Vec3> = of.arms().map(|arm| centre + orientation * (arm * scale)).collect();
         let (lo, hi) = geom::grid::bounds(&vertices);
-        PlacedStone { stone: index, class, scale, orientation, centre, grains: Vec::new(), vertices, bounds: [lo, hi] }
+        PlacedStone {
+            stone: index,
+            class,
+            scale,
+            orientation,
+            centre,
+            grains: Vec::new(),
+            vertices,
+            bounds: [lo, hi],
+        }
     }
 
     /// Volume [m³].
@@ -87,7 +96,8 @@ impl PlacedStone {
     fn surface_meets(&self, of: &LibraryStone, other: &PlacedStone, other_of: &LibraryStone) -> bool {
         let [lo, hi] = other.bounds;
         // Room for the rounding of positions in the other frame.
-        let rounding = 1e-9 * (other_of.reach + (other.centre.amax() + self.centre.amax()) * 1e-3 / other.scale);
+        let rounding =
+            1e-9 * (other_of.reach + (other.centre.amax() + self.centre.amax()) * 1e-3 / other.scale);
         for face in 0..of.stone.mesh.faces.len() as u32 {
             let triangle = self.triangle(of, face);
             let [a, b] = around(triangle);
@@ -96,9 +106,13 @@ impl PlacedStone {
             }
             let (centre, radius) = ball_around(&triangle);
             let mut met = false;
-            other_of.stone.faces_near(other.local(other_of, &centre), radius / other.scale + rounding, |near| {
-                met = met || meet(&triangle, &other.triangle(other_of, near));
-            });
+            other_of.stone.faces_near(
+                other.local(other_of, &centre),
+                radius / other.scale + rounding,
+                |near| {
+                    met = met || meet(&triangle, &other.triangle(other_of, near));
+                },
+            );
             if met {
                 return true;
             }
@@ -120,7 +134,13 @@ mod tests {
         Library::new(vec![("cube".to_owned(), cube), ("round".to_owned(), ball(0.05, 2))], false).unwrap()
     }
 
-    fn place(library: &Library, stone: usize, scale: f64, turn: UnitQuaternion<f64>, at: Vec3) -> PlacedStone {
+    fn place(
+        library: &Library,
+        stone: usize,
+        scale: f64,
+        turn: UnitQuaternion<f64>,
+        at: Vec3,
+    ) -> PlacedStone {
         PlacedStone::new((stone, &library.stones[stone]), 0, scale, turn, at)
     }
 
@@ -128,7 +148,9 @@ mod tests {
     fn boxes_touch_overlap_enclose_and_miss() {
         let library = library();
         let cube = &library.stones[0];
-        let at = |x: f64, scale: f64| place(&library, 0, scale, UnitQuaternion::identity(), Vec3::new(x, 0.0, 0.0));
+        let at = |x: f64, scale: f64| {
+            place(&library, 0, scale, UnitQuaternion::identity(), Vec3::new(x, 0.0, 0.0))
+        };
         let overlaps = |a: &PlacedStone, b: &PlacedStone| {
             let found = a.overlaps(cube, b, cube);
             assert_eq!(found, b.overlaps(cube, a, cube));
@@ -166,7 +188,10 @@ mod tests {
             let within = |e: &[Vec3]| e.windows(2).map(|w| w[0].cross(&w[1])).collect::<Vec<_>>();
             let between = ea.iter().flat_map(|x| eb.iter().map(move |y| x.cross(y)));
             let axes = within(&ea).into_iter().chain(within(&eb)).chain(between);
-            let widest = axes.filter_map(|d| d.try_normalize(1e-12)).map(|d| gap(&d).max(gap(&-d))).fold(f64::NEG_INFINITY, f64::max);
+            let widest = axes
+                .filter_map(|d| d.try_normalize(1e-12))
+                .map(|d| gap(&d).max(gap(&-d)))
+                .fold(f64::NEG_INFINITY, f64::max);
             let found = a.overlaps(&library.stones[a.stone], &b, &library.stones[b.stone]);
             match widest {
                 w if w.abs() < 1e-12 => unsure += 1,

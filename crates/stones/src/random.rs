@@ -43,7 +43,10 @@ mod tests {
         }
         // Four deviations of the mean of n.
         assert!(mean.amax() < 4.0 * (1.0 / 3.0 / f64::from(n)).sqrt(), "{mean}");
-        assert!((square - Vec3::repeat(1.0 / 3.0)).amax() < 4.0 * (4.0 / 45.0 / f64::from(n)).sqrt(), "{square}");
+        assert!(
+            (square - Vec3::repeat(1.0 / 3.0)).amax() < 4.0 * (4.0 / 45.0 / f64::from(n)).sqrt(),
+            "{square}"
+        );
         assert!((fourth - 0.2).abs() < 4.0 * (16.0 / 225.0 / f64::from(n)).sqrt(), "{fourth}");
     }
 }

@@ -108,7 +108,8 @@ impl Samples {
     /// Inertia of density 1 [m⁵] of all cells, and of the covered ones, each about its own centre.
     pub(crate) fn inertia(&self) -> [Matrix3<f64>; 2] {
         [true, false].map(|all| {
-            let cells = || self.inside.iter().filter(|&&k| all || !self.open[k as usize]).map(|&k| self.place(k));
+            let cells =
+                || self.inside.iter().filter(|&&k| all || !self.open[k as usize]).map(|&k| self.place(k));
             let count = cells().count().max(1) as f64;
             let centre = cells().sum::<Vec3>() / count;
             let second: Matrix3<f64> = cells().map(|p| (p - centre) * (p - centre).transpose()).sum();

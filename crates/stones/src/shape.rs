@@ -4,7 +4,7 @@
 //! sieve size    side of the smallest square hole that the stone passes without turning on its way:
 //!               D = min over u ⟂ v of max(w(u), w(v)),  w(u) width of the stone along the unit vector u
 //! L ≥ I ≥ S     sides of the smallest box around the stone, by volume
-//! elongation    I/L,  flatness S/I                 Zingg (1935), doi:10.3929/ethz-a-000103455
+//! elongation    I/L,  flatness S/I                 Zingg (1935), Schweiz. Mineral. Petrogr. Mitt. 15
 //! convexity     V/V_hull
 //! sphericity    π^⅓ (6 V)^⅔ / A                    Wadell (1932), doi:10.1086/623964
 //! ```
@@ -123,7 +123,8 @@ fn minimum(axes: &Matrix3<f64>, of: impl Fn(&Matrix3<f64>) -> f64) -> (f64, Matr
     let orders = [[0, 1, 2], [1, 2, 0], [2, 0, 1]];
     let ordered = orders.map(|o| Matrix3::from_rows(&o.map(|k| axes.row(k).into_owned())));
     let spread = (0..STARTS).map(|k| orientation(even(k)).to_rotation_matrix().into_inner());
-    let mut starts: Vec<(f64, Matrix3<f64>)> = ordered.into_iter().chain(spread).map(|m| (of(&m), m)).collect();
+    let mut starts: Vec<(f64, Matrix3<f64>)> =
+        ordered.into_iter().chain(spread).map(|m| (of(&m), m)).collect();
     starts.sort_by(|a, b| a.0.total_cmp(&b.0));
     let refined = starts.into_iter().take(REFINED).map(|start| refine(start, &of));
     refined.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((of(axes), *axes))
@@ -138,7 +139,8 @@ fn refine(
     while step > 1e-7 {
         let directions = TURNS.iter().flat_map(|t| [Vec3::from(*t), -Vec3::from(*t)]);
         let tried = directions.map(|d| {
-            let turned = UnitQuaternion::from_scaled_axis(d.normalize() * step).to_rotation_matrix() * Rotation3::from_matrix_unchecked(turn);
+            let turned = UnitQuaternion::from_scaled_axis(d.normalize() * step).to_rotation_matrix()
+                * Rotation3::from_matrix_unchecked(turn);
             (of(turned.matrix()), turned.into_inner())
         });
         match tried.min_by(|a, b| a.0.total_cmp(&b.0)) {
@@ -200,7 +202,8 @@ mod tests {
         let corner = |x: f64, y: f64, z: f64| Vec3::new(x, y, z) * 0.01;
         let outline = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)];
         let vertices = [0.0, 1.0].iter().flat_map(|z| outline.map(|(x, y)| corner(x, y, *z))).collect();
-        let mut faces = vec![[0, 2, 1], [0, 3, 2], [0, 4, 3], [0, 5, 4], [6, 7, 8], [6, 8, 9], [6, 9, 10], [6, 10, 11]];
+        let mut faces =
+            vec![[0, 2, 1], [0, 3, 2], [0, 4, 3], [0, 5, 4], [6, 7, 8], [6, 8, 9], [6, 9, 10], [6, 10, 11]];
         for k in 0..6u32 {
             let j = (k + 1) % 6;
             faces.extend([[k, j, 6 + j], [k, 6 + j, 6 + k]]);

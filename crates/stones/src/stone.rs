@@ -120,7 +120,16 @@ pub(crate) mod tests {
     pub(crate) fn ball(radius: f64, levels: u32) -> TriMesh {
         let mut mesh = TriMesh {
             vertices: [Vec3::x(), Vec3::y(), Vec3::z()].iter().flat_map(|a| [*a, -a]).collect(),
-            faces: vec![[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]],
+            faces: vec![
+                [0, 2, 4],
+                [2, 1, 4],
+                [1, 3, 4],
+                [3, 0, 4],
+                [2, 0, 5],
+                [1, 2, 5],
+                [3, 1, 5],
+                [0, 3, 5],
+            ],
         };
         for _ in 0..levels {
             let mut vertices = Vec::new();
@@ -175,7 +184,8 @@ pub(crate) mod tests {
     fn the_closest_point_is_that_of_a_look_at_every_face() {
         let stone = Stone::new(&ball(0.1, 2), false).unwrap();
         for k in 0..50 {
-            let p = Vec3::new(f64::from(k % 5), f64::from(k % 7), f64::from(k % 3)) * 0.04 - Vec3::repeat(0.05);
+            let p =
+                Vec3::new(f64::from(k % 5), f64::from(k % 7), f64::from(k % 3)) * 0.04 - Vec3::repeat(0.05);
             let (found, face) = stone.closest(&p);
             let (wanted, _) = stone.mesh.closest(p).unwrap();
             assert!(((found - p).norm() - (wanted - p).norm()).abs() < 1e-15);

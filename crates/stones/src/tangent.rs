@@ -4,7 +4,7 @@
 //! smallest allowed radius, it is taken, and all surface points within a distance d of it are done. The next point is a random one of those that are
 //! left. Small d: many spheres. If a number of spheres is wanted, d is found by bisection.
 //!
-//! Deviation: the largest radius is found by shrinking a ball to the nearest point of the surface, r = |q − p|²/(2 n·(q − p)), until nothing of the
+//! Deviations: the points are spread over the faces, not the vertices of the mesh. The largest radius is found by shrinking a ball to the nearest point of the surface, r = |q − p|²/(2 n·(q − p)), until nothing of the
 //! surface is inside (Ma, Bae & Choi 2012, doi:10.1007/s00371-011-0594-7), not by growing it in steps. It is cut to the distance of its centre to the
 //! surface, so a sphere never leaves the stone.
 
@@ -53,7 +53,10 @@ pub(crate) fn spheres(
                 let taken = chosen(d, MOST_SPHERES);
                 let mut trial = samples.clone();
                 taken.iter().for_each(|s| trial.cover(*s));
-                if enough(taken.len(), trial.uncovered()) || taken.len() == MOST_SPHERES || d < 1e-5 * diameter {
+                if enough(taken.len(), trial.uncovered())
+                    || taken.len() == MOST_SPHERES
+                    || d < 1e-5 * diameter
+                {
                     break taken;
                 }
                 d *= 0.8;

@@ -106,7 +106,8 @@ mod tests {
     fn a_touch_and_a_gap_differ_by_the_last_bit() {
         for shift in [0.0, 1e3, 0.1] {
             let flat = [v(shift, shift, 0.5), v(shift + 1.0, shift, 0.5), v(shift, shift + 1.0, 0.5)];
-            let tip = |z: f64| [v(shift + 0.25, shift + 0.25, z), v(shift, shift, 9.0), v(shift + 1.0, shift, 9.0)];
+            let tip =
+                |z: f64| [v(shift + 0.25, shift + 0.25, z), v(shift, shift, 9.0), v(shift + 1.0, shift, 9.0)];
             assert!(meet(&flat, &tip(0.5)) && meet(&tip(0.5), &flat));
             assert!(!meet(&flat, &tip(0.5f64.next_up())) && !meet(&tip(0.5f64.next_up()), &flat));
         }
@@ -128,7 +129,8 @@ mod tests {
         };
         let (mut met, mut apart) = (0, 0);
         for _ in 0..300 {
-            let mut triangle = || [v(next(), next(), next()), v(next(), next(), next()), v(next(), next(), next())];
+            let mut triangle =
+                || [v(next(), next(), next()), v(next(), next(), next()), v(next(), next(), next())];
             let (a, b) = (triangle(), triangle());
             let n = 60;
             let least = (0..=n)
@@ -158,6 +160,9 @@ mod tests {
         assert!(meet(&a, &moved(1.0, 0.0, 1.0)), "a common corner");
         assert!(!meet(&a, &moved(1.0f64.next_up(), 0.0, 1.0)));
         assert!(folded(&a[0], &a[1], &a[2], &v(0.5, 0.2, 1.0)));
-        assert!(!folded(&a[0], &a[1], &a[2], &v(0.5, -0.2, 1.0)) && !folded(&a[0], &a[1], &a[2], &v(0.5, 0.2, 1.1)));
+        assert!(
+            !folded(&a[0], &a[1], &a[2], &v(0.5, -0.2, 1.0))
+                && !folded(&a[0], &a[1], &a[2], &v(0.5, 0.2, 1.1))
+        );
     }
 }

@@ -16,7 +16,7 @@ fn json(folder: &Path, name: &str) -> Value {
     serde_json::from_slice(&fs::read(folder.join(name)).unwrap()).unwrap()
 }
 
-/// The files of the pipeline, and a small soil: 1200 grains on a lattice.
+/// The files of the pipeline, and a small soil: 6000 grains on a lattice.
 fn chain() -> TempDir {
     let at = |k: usize| 0.005 * k as f64 + 0.0025;
     let row = |k: usize| format!("{},{},{},0.0025\n", at(k % 20), at(k / 20 % 20), at(k / 400));
@@ -30,7 +30,8 @@ fn chain() -> TempDir {
 
 /// The options of the pipeline.
 fn pack<'a>(library: &'a str, more: &[&'a str]) -> Vec<&'a str> {
-    let options = ["soil.csv", library, "--content", "0.25", "--stone-density", "2650", "--soil-density", "2650"];
+    let options =
+        ["soil.csv", library, "--content", "0.25", "--stone-density", "2650", "--soil-density", "2650"];
     [&options[..], &["--grading", "grading.csv", "--seed", "1", "-q"], more].concat()
 }
 
@@ -41,7 +42,18 @@ fn soil_becomes_a_specimen_of_bonded_stones_and_runs() {
     let library = library.to_str().unwrap();
     let mut all = Vec::new();
     for threads in ["1", "2"] {
-        let outputs = ["--threads", threads, "--report", "r.json", "--places", "p.csv", "--surfaces", "s.ply", "-o", "specimen.ply"];
+        let outputs = [
+            "--threads",
+            threads,
+            "--report",
+            "r.json",
+            "--places",
+            "p.csv",
+            "--surfaces",
+            "s.ply",
+            "-o",
+            "specimen.ply",
+        ];
         succeed(path, "stone-pack", &pack(library, &outputs));
         all.push(["p.csv", "s.ply", "specimen.ply"].map(|name| fs::read(path.join(name)).unwrap()));
     }
@@ -54,7 +66,11 @@ fn soil_becomes_a_specimen_of_bonded_stones_and_runs() {
         assert!((found / wanted - 1.0).abs() < 0.02, "{class}");
     }
     let density = format!("material.1.density={}", report["grain_density"]);
-    succeed(path, "dem-run", &["rock-fill.toml", "--set", &density, "--set", "time.until=0.001", "-q", "-o", "run.mcap"]);
+    succeed(
+        path,
+        "dem-run",
+        &["rock-fill.toml", "--set", &density, "--set", "time.until=0.001", "-q", "-o", "run.mcap"],
+    );
     // Bonds are within stones, and hold.
     let bytes = fs::read(path.join("run.mcap")).unwrap();
     let mut bonds = 0;
@@ -99,17 +115,26 @@ fn a_clump_has_the_mass_of_its_mesh() {
 fn wrong_moments_and_materials_are_refused_with_a_cure() {
     let folder = chain();
     let path = folder.path();
-    let head = "[time]\nuntil = 0.001\n[[material]]\nname = \"rock\"\ndensity = 2000\nyoung = 1e6\npoisson = 0.25\n";
+    let head =
+        "[time]\nuntil = 0.001\n[[material]]\nname = \"rock\"\ndensity = 2000\nyoung = 1e6\npoisson = 0.25\n";
     let refused = |text: &str, part: &str| {
         fs::write(path.join("s.toml"), [head, text].concat()).unwrap();
         let done = tool(path, "dem-run", &["s.toml", "--check"]);
         assert!(done.code != 0 && done.stderr.contains(part), "{text}: {}", done.stderr);
     };
     let clump = |moments: &str| {
-        format!("[[clump]]\nname = \"a\"\nmaterial = \"rock\"\nspheres = [[0, 0, 0, 1]]\nmoments = {{ {moments} }}\n")
+        format!(
+            "[[clump]]\nname = \"a\"\nmaterial = \"rock\"\nspheres = [[0, 0, 0, 1]]\nmoments = {{ {moments} }}\n"
+        )
     };
-    refused(&clump("volume = 1, centre = [0, 0, 0], inertia = [1, 1, 3, 0, 0, 0]"), "no body has these moments");
-    refused(&clump("volume = -1, centre = [0, 0, 0], inertia = [1, 1, 1, 0, 0, 0]"), "clump.0.moments.volume");
+    refused(
+        &clump("volume = 1, centre = [0, 0, 0], inertia = [1, 1, 3, 0, 0, 0]"),
+        "no body has these moments",
+    );
+    refused(
+        &clump("volume = -1, centre = [0, 0, 0], inertia = [1, 1, 1, 0, 0, 0]"),
+        "clump.0.moments.volume",
+    );
     let sum = clump("volume = 1, centre = [0, 0, 0], inertia = [1, 1, 1, 0, 0, 0]") + "mass = \"sum\"\n";
     refused(&sum, "leave one of them out");
     let soil = |keys: &str| format!("[[particles]]\nsource = \"soil.csv\"\n{keys}\n");

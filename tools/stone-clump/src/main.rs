@@ -111,10 +111,14 @@ impl Args {
     fn check_used(&self) -> anyhow::Result<()> {
         let tangent = self.method == Choice::Tangent;
         if !tangent && self.distance.is_some() {
-            return Err(cli::usage("--distance: changes nothing with --method distance: it is for --method tangent"));
+            return Err(cli::usage(
+                "--distance: changes nothing with --method distance: it is for --method tangent",
+            ));
         }
         if tangent && self.overlap.is_some() {
-            return Err(cli::usage("--overlap: changes nothing with --method tangent: it is for --method distance"));
+            return Err(cli::usage(
+                "--overlap: changes nothing with --method tangent: it is for --method distance",
+            ));
         }
         if self.distance.is_some() && self.error.is_some() {
             return Err(cli::usage("--distance: --error chooses it: leave one of them out"));

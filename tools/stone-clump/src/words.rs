@@ -39,7 +39,11 @@ pub fn ply(clump: &Clump) -> anyhow::Result<Vec<u8>> {
     table.push("radius", Values::F64(clump.spheres.iter().map(|s| s.1).collect()))?;
     let vertex = Element { name: "vertex".to_owned(), table, lists: Vec::new() };
     let mut bytes = Vec::new();
-    stream::ply::write(&mut bytes, &Ply { elements: vec![vertex], ..Ply::default() }, Encoding::BinaryLittleEndian)?;
+    stream::ply::write(
+        &mut bytes,
+        &Ply { elements: vec![vertex], ..Ply::default() },
+        Encoding::BinaryLittleEndian,
+    )?;
     Ok(bytes)
 }
 

@@ -6,7 +6,13 @@ use std::path::Path;
 use stones::{Library, Packing};
 
 /// Writes the entries, to be added to a scene.
-pub fn write(path: &Path, material: &str, grains: &Grains, library: &Library, packing: &Packing) -> anyhow::Result<()> {
+pub fn write(
+    path: &Path,
+    material: &str,
+    grains: &Grains,
+    library: &Library,
+    packing: &Packing,
+) -> anyhow::Result<()> {
     let mut text = String::new();
     let name = material.replace('\\', "\\\\").replace('"', "\\\"");
     for (k, p) in packing.placed.iter().enumerate() {
@@ -23,11 +29,19 @@ pub fn write(path: &Path, material: &str, grains: &Grains, library: &Library, pa
             volume = p.volume(of)
         );
         for &grain in &p.grains {
-            let (at, r) = (grains.particles[grain as usize].position - p.centre, grains.radii[grain as usize]);
+            let (at, r) =
+                (grains.particles[grain as usize].position - p.centre, grains.radii[grain as usize]);
             let _ = writeln!(text, "  [{}, {}, {}, {r}],", at.x, at.y, at.z);
         }
         let c = p.centre;
-        let _ = writeln!(text, "]\n[[body]]\nclump = \"stone {}\"\nposition = [{}, {}, {}]\n", k + 1, c.x, c.y, c.z);
+        let _ = writeln!(
+            text,
+            "]\n[[body]]\nclump = \"stone {}\"\nposition = [{}, {}, {}]\n",
+            k + 1,
+            c.x,
+            c.y,
+            c.z
+        );
     }
     crate::outputs::file(path, text.as_bytes())
 }

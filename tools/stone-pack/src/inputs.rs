@@ -60,7 +60,9 @@ pub fn grains(args: &Args) -> anyhow::Result<Grains> {
         (_, given) => {
             let of = |m: &record::MaterialRecord| Some((m.name.clone(), given.or(m.density)?));
             let all: Option<Vec<_>> = file.materials.iter().map(of).collect();
-            all.ok_or_else(|| cli::usage(format!("{name}: a material has no density: add --soil-density [kg/m³]")))?
+            all.ok_or_else(|| {
+                cli::usage(format!("{name}: a material has no density: add --soil-density [kg/m³]"))
+            })?
         }
     };
     let radii = file.particles.iter().map(|p| p.radius).collect();
@@ -70,7 +72,8 @@ pub fn grains(args: &Args) -> anyhow::Result<Grains> {
 /// Reads and checks the meshes of the library.
 pub fn library(args: &Args) -> anyhow::Result<Library> {
     let folder = &args.library;
-    let entries = std::fs::read_dir(folder).with_context(|| format!("{}: cannot read the folder", folder.display()))?;
+    let entries =
+        std::fs::read_dir(folder).with_context(|| format!("{}: cannot read the folder", folder.display()))?;
     let paths: Result<Vec<PathBuf>, _> = entries.map(|entry| entry.map(|e| e.path())).collect();
     let mesh = |path: &PathBuf| {
         let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());

@@ -24,12 +24,18 @@ fn stone_pack(args: Args) -> anyhow::Result<Report> {
     let soil = grains.soil();
     let settings = args.settings(&grains)?;
     let progress = cli::Progress::new("stones", 1000);
-    let packing = stones::pack(&library, &classes, &soil, &settings, |done| progress.set((1000.0 * done) as u64))
-        .with_context(|| args.soil.display().to_string())?;
+    let packing =
+        stones::pack(&library, &classes, &soil, &settings, |done| progress.set((1000.0 * done) as u64))
+            .with_context(|| args.soil.display().to_string())?;
     drop(progress);
     for missed in packing.classes.iter().filter(|c| c.missed.is_some()) {
         let words = missed.missed.as_deref().unwrap_or_default();
-        cli::warn(&format!("class {}: content {} instead of {}: {words}", missed.class, Shown(missed.content), Shown(missed.content_wanted)));
+        cli::warn(&format!(
+            "class {}: content {} instead of {}: {words}",
+            missed.class,
+            Shown(missed.content),
+            Shown(missed.content_wanted)
+        ));
     }
     outputs::write(&args, &grains, &library, &packing)?;
     let grain_density = grain_density(&grains, &packing);
@@ -37,7 +43,8 @@ fn stone_pack(args: Args) -> anyhow::Result<Report> {
         bodies::write(path, &args.material, &grains, &library, &packing)?;
     }
     let summary = summary(&packing, &settings, grain_density);
-    let names: Vec<String> = grains.materials.iter().map(|m| m.0.clone()).chain([args.material.clone()]).collect();
+    let names: Vec<String> =
+        grains.materials.iter().map(|m| m.0.clone()).chain([args.material.clone()]).collect();
     Ok(Report::new(summary)
         .with("stones", packing.placed.len())
         .with("content_wanted", settings.content)
@@ -61,8 +68,9 @@ fn grain_density(grains: &inputs::Grains, packing: &Packing) -> Option<f64> {
 
 fn summary(packing: &Packing, settings: &stones::PackSettings, grain_density: Option<f64>) -> String {
     let tries: u64 = packing.classes.iter().map(|c| c.tries).sum();
-    let density = grain_density
-        .map_or(String::new(), |d| format!("; their grains weigh as much with a density of {} kg/m³", Shown(d)));
+    let density = grain_density.map_or(String::new(), |d| {
+        format!("; their grains weigh as much with a density of {} kg/m³", Shown(d))
+    });
     format!(
         "{} stones, content {} of {} requested, {tries} tries{density}",
         packing.placed.len(),

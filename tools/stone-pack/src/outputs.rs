@@ -16,7 +16,8 @@ pub fn write(args: &Args, grains: &Grains, library: &Library, packing: &Packing)
     let name = args.output.name();
     let ply = Ply { elements: vec![specimen(args, grains, packing)?], ..Ply::default() };
     let mut out = args.output.open()?;
-    ply::write(&mut out, &ply, Encoding::BinaryLittleEndian).with_context(|| format!("{name}: cannot write"))?;
+    ply::write(&mut out, &ply, Encoding::BinaryLittleEndian)
+        .with_context(|| format!("{name}: cannot write"))?;
     out.commit()?;
     if let Some(path) = &args.places {
         file(path, places(library, packing).as_bytes())?;
@@ -50,7 +51,8 @@ fn specimen(args: &Args, grains: &Grains, packing: &Packing) -> anyhow::Result<E
         table.push(name, numbers(&|k| grains.particles[k].position[axis]))?;
     }
     table.push("radius", numbers(&|k| grains.radii[k]))?;
-    let moves = |v: fn(&dem::setup::Particle) -> geom::Vec3| grains.particles.iter().any(|p| v(p).norm() > 0.0);
+    let moves =
+        |v: fn(&dem::setup::Particle) -> geom::Vec3| grains.particles.iter().any(|p| v(p).norm() > 0.0);
     if moves(|p| p.velocity) {
         for (axis, name) in ["vx", "vy", "vz"].into_iter().enumerate() {
             table.push(name, numbers(&|k| grains.particles[k].velocity[axis]))?;
@@ -66,7 +68,8 @@ fn specimen(args: &Args, grains: &Grains, packing: &Packing) -> anyhow::Result<E
         0 => 0,
         cluster => packing.classes[packing.placed[cluster as usize - 1].class].class,
     };
-    let material = |k: usize| if packing.clusters[k] > 0 { stones } else { u32::from(grains.particles[k].material) };
+    let material =
+        |k: usize| if packing.clusters[k] > 0 { stones } else { u32::from(grains.particles[k].material) };
     table.push("cluster", whole(&|k| packing.clusters[k]))?;
     table.push("class", whole(&class))?;
     table.push("material", whole(&material))?;
@@ -75,9 +78,9 @@ fn specimen(args: &Args, grains: &Grains, packing: &Packing) -> anyhow::Result<E
 
 /// One line for each stone.
 fn places(library: &Library, packing: &Packing) -> String {
-    let mut text =
-        "cluster,stone,class,x,y,z,qw,qx,qy,qz,scale,sieve_size,volume,mass,grains\n".to_owned();
-    let density = packing.stone_mass / packing.placed.iter().map(|p| p.volume(&library.stones[p.stone])).sum::<f64>();
+    let mut text = "cluster,stone,class,x,y,z,qw,qx,qy,qz,scale,sieve_size,volume,mass,grains\n".to_owned();
+    let density =
+        packing.stone_mass / packing.placed.iter().map(|p| p.volume(&library.stones[p.stone])).sum::<f64>();
     for (k, p) in packing.placed.iter().enumerate() {
         let of = &library.stones[p.stone];
         let (c, q, volume) = (p.centre, p.orientation, p.volume(of));
@@ -86,8 +89,18 @@ fn places(library: &Library, packing: &Packing) -> String {
         let _ = writeln!(
             text,
             "{},\"{name}\",{class},{},{},{},{},{},{},{},{},{},{volume},{},{}",
-            k + 1, c.x, c.y, c.z, q.w, q.i, q.j, q.k, p.scale,
-            of.shape.sieve_size * p.scale, volume * density, p.grains.len()
+            k + 1,
+            c.x,
+            c.y,
+            c.z,
+            q.w,
+            q.i,
+            q.j,
+            q.k,
+            p.scale,
+            of.shape.sieve_size * p.scale,
+            volume * density,
+            p.grains.len()
         );
     }
     text

@@ -146,7 +146,11 @@ impl ParticleFile {
         let mut table = ParticleTable::read(path, factor)?;
         if !materials.is_empty() {
             if table.is_run || table.table.get(MATERIAL).is_none() {
-                let why = if table.is_run { "is a run, which names its materials" } else { "has no column 'material'" };
+                let why = if table.is_run {
+                    "is a run, which names its materials"
+                } else {
+                    "has no column 'material'"
+                };
                 return Err(SceneError::file(&table.name, why, "give 'material' instead of 'materials'"));
             }
             let named = |name: &String| MaterialRecord { name: name.clone(), ..MaterialRecord::default() };

@@ -49,7 +49,8 @@ fn content_and_shares_are_reached_and_no_grain_is_in_two_stones() {
     // Each grain inside a stone is of its cluster, and of none otherwise.
     for (grain, p) in soil.centres.iter().enumerate() {
         let holds = |(_, s): &(usize, &PlacedStone)| s.contains(&library.stones[s.stone], p);
-        let inside: Vec<u32> = found.placed.iter().enumerate().filter(holds).map(|(k, _)| k as u32 + 1).collect();
+        let inside: Vec<u32> =
+            found.placed.iter().enumerate().filter(holds).map(|(k, _)| k as u32 + 1).collect();
         assert_eq!(inside, [found.clusters[grain]].into_iter().filter(|c| *c > 0).collect::<Vec<_>>());
     }
     // All in the box, none over another.
@@ -66,7 +67,9 @@ fn content_and_shares_are_reached_and_no_grain_is_in_two_stones() {
 
 #[test]
 fn the_same_seed_gives_the_same_stones_and_another_seed_others() {
-    let places = |seed| packed(&PackSettings { seed, ..settings() }).placed.iter().map(|p| p.centre).collect::<Vec<_>>();
+    let places = |seed| {
+        packed(&PackSettings { seed, ..settings() }).placed.iter().map(|p| p.centre).collect::<Vec<_>>()
+    };
     let first = places(1);
     assert_eq!(first, places(1));
     assert_ne!(first, places(2));
@@ -86,7 +89,11 @@ fn a_content_that_cannot_be_reached_is_reported_with_its_cause() {
     assert!(found.classes[0].missed.as_ref().is_some_and(|w| w.contains("too heavy")), "{:?}", found.classes);
     let grains = PackSettings { least_grains: 500, tries: 300, ..settings() };
     let found = pack(&library, &classes, &soil(), &grains, |_| {}).unwrap();
-    assert!(found.classes[0].missed.as_ref().is_some_and(|w| w.contains("too few grains")), "{:?}", found.classes);
+    assert!(
+        found.classes[0].missed.as_ref().is_some_and(|w| w.contains("too few grains")),
+        "{:?}",
+        found.classes
+    );
     let small = PackSettings { bounds: [Vec3::zeros(), Vec3::repeat(0.02)], ..settings() };
     let refused = pack(&library, &classes, &soil(), &small, |_| {}).unwrap_err().to_string();
     assert!(refused.contains("no stone fits into the box"), "{refused}");
