@@ -82,5 +82,7 @@ pub fn folder<T: AsRef<[u8]>>(files: &[(&str, T)]) -> TempDir {
 /// # Panics
 /// When it cannot be written.
 pub fn write(folder: &Path, name: &str, content: impl AsRef<[u8]>) {
-    std::fs::write(folder.join(name), content).expect("a file can be written");
+    let path = folder.join(name);
+    path.parent().map(std::fs::create_dir_all).transpose().expect("a folder can be made");
+    std::fs::write(path, content).expect("a file can be written");
 }

@@ -12,13 +12,16 @@ use std::{
 };
 
 /// Options that name a file to write, in any tool: id and flag. None of them changes the result.
-pub(crate) const OUTPUTS: [(&str, &str); 6] = [
+pub(crate) const OUTPUTS: [(&str, &str); 9] = [
     ("output", "-o"),
     ("report", "--report"),
     ("plot", "--plot"),
     ("changes", "--changes"),
     ("mesh", "--mesh"),
     ("words", "--words"),
+    ("places", "--places"),
+    ("surfaces", "--surfaces"),
+    ("rigid", "--rigid"),
 ];
 
 /// A file that the running tool will write.

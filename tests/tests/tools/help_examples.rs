@@ -20,11 +20,15 @@ fn given(folder: &Path) {
     let rename = |from: &str, to: &str| fs::copy(folder.join(from), folder.join(to)).unwrap();
     rename("s.toml", "scene.toml");
     rename("tetra.ply", "hopper.ply");
+    rename("library/rock_1_1.ply", "stone.ply");
+    rename("tetra.ply", "stone.stl");
+    fs::rename(folder.join("library"), folder.join("stones")).unwrap();
     let scene = fs::read_to_string(folder.join("s.toml")).unwrap();
     let (rest, _) = scene.split_once("plane = ").unwrap();
     fs::write(folder.join("lined.toml"), format!("{rest}material = \"sinter\"\n")).unwrap();
     succeed(folder, "cloud-crop", &["scan.xyz", "-o", "scan.ply"]);
     succeed(folder, "dem-run", &["heap.toml", "-o", "heap.mcap"]);
+    rename("heap.mcap", "soil.mcap");
     succeed(folder, "dem-run", &["bonded.toml", "-o", "bonded.mcap"]);
     for stage in ["upstream", "downstream"] {
         let file = if stage == "upstream" { "up.toml" } else { "down.toml" };

@@ -22,6 +22,7 @@ mod plants;
 mod python;
 mod readme;
 mod real_clouds;
+mod rock_fill;
 mod scans;
 mod scene;
 mod sinter_box;

@@ -2,7 +2,7 @@
 
 use super::Check;
 use crate::error::Result;
-use crate::keys::{Clump, Diameter, SceneKeys};
+use crate::keys::{Clump, ClumpMass, ClumpMoments, Diameter, SceneKeys};
 
 /// Keys of an entry that makes spheres or clumps.
 pub(super) struct Given<'a> {
@@ -97,6 +97,24 @@ impl Check<'_> {
         Ok(())
     }
 
+    /// A body: its principal moments obey J₁ + J₂ > J₃.
+    fn moments(&self, key: &str, c: &Clump, m: &ClumpMoments) -> Result<()> {
+        if c.spheres.is_none() || c.mass != ClumpMass::default() {
+            let why = "gives the mass, which mesh and mass = \"sum\" give, too";
+            return Err(self.wrong(key, "(given)", why, "leave one of them out"));
+        }
+        self.positive(&format!("{key}.volume"), m.volume, "m³")?;
+        self.finite(&format!("{key}.centre"), &m.centre, "m")?;
+        self.finite(&format!("{key}.inertia"), &m.inertia, "m⁵")?;
+        let values = m.tensor().symmetric_eigenvalues();
+        if !(values.min() > 0.0 && values.sum() > 2.0 * values.max()) {
+            let value = format!("{:?} m⁵", m.inertia);
+            let cure = "give xx, yy, zz, xy, xz, yz about the centre of mass, for density 1, as stone-clump writes them";
+            return Err(self.wrong(&format!("{key}.inertia"), value, "no body has these moments", cure));
+        }
+        Ok(())
+    }
+
     fn clump(&self, entry: &str, c: &Clump) -> Result<()> {
         let key = |k: &str| format!("{entry}.{k}");
         let kinds = [("spheres", c.spheres.is_some()), ("mesh", c.mesh.is_some())];
@@ -111,6 +129,9 @@ impl Check<'_> {
         if c.spheres.is_some() && spheres.is_empty() {
             let cure = "give [[x, y, z, radius], …]";
             return Err(self.wrong(&key("spheres"), "[]", "has no sphere", cure));
+        }
+        if let Some(moments) = &c.moments {
+            self.moments(&key("moments"), c, moments)?;
         }
         for (k, sphere) in spheres.iter().enumerate() {
             self.finite(&key(&format!("spheres.{k}")), &sphere[..3], "m")?;

@@ -14,6 +14,10 @@ impl Check<'_> {
                 let why = "only spheres that move are bonded";
                 return Err(self.wrong(&format!("particles.{i}.cluster"), "(given)", why, "take it out"));
             }
+            if p.materials.is_some() && (p.material.is_some() || p.clump.is_some()) {
+                let (why, cure) = ("one material for all is given, too", "leave one of them out");
+                return Err(self.wrong(&format!("particles.{i}.materials"), "(given)", why, cure));
+            }
             let Some(clump) = p.clump.as_ref().filter(|_| p.fixed) else { continue };
             let why = format!("grains of a clump ({clump}) cannot be fixed");
             let cure = "take it out, or give spheres as wall spheres ([[wall]] source)";

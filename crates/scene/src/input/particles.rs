@@ -110,7 +110,8 @@ impl ParticleTable {
                 let (name, time, text) = (&self.name, Shown(stop.time), &stop.text);
                 format!("{name}: the run was stopped at t = {time} s ({text}); its last frame is used all the same")
             }),
-            _ => columns.unused(&known()),
+            _ if self.materials.is_empty() => columns.unused(&known()),
+            _ => columns.unused(&[&known()[..], &[MATERIAL, CLASS]].concat()),
         };
         let hash = record::hash(&self.table);
         let has_ids = ids.is_some();
@@ -118,6 +119,9 @@ impl ParticleTable {
         Ok(ParticleFile { particles, has_ids, clusters, materials, hash, warning, kept })
     }
 }
+
+/// Size class of stones, which stone-pack writes for other tools; not used here.
+const CLASS: &str = "class";
 
 /// Columns of a CSV or PLY that are read.
 fn known() -> Vec<&'static str> {
@@ -131,7 +135,27 @@ impl ParticleFile {
     /// # Errors
     /// A file of another kind, columns that are missing or wrong; a run with clumps.
     pub fn read(path: &Path, factor: f64) -> Result<ParticleFile> {
-        let table = ParticleTable::read(path, factor)?;
+        ParticleFile::read_with(path, factor, &[])
+    }
+
+    /// The same; `materials` are those that the numbers in the column `material` of a CSV or PLY stand for.
+    ///
+    /// # Errors
+    /// As [`ParticleFile::read`]; no such column, or a run, which names its own.
+    pub fn read_with(path: &Path, factor: f64, materials: &[String]) -> Result<ParticleFile> {
+        let mut table = ParticleTable::read(path, factor)?;
+        if !materials.is_empty() {
+            if table.is_run || table.table.get(MATERIAL).is_none() {
+                let why = if table.is_run {
+                    "is a run, which names its materials"
+                } else {
+                    "has no column 'material'"
+                };
+                return Err(SceneError::file(&table.name, why, "give 'material' instead of 'materials'"));
+            }
+            let named = |name: &String| MaterialRecord { name: name.clone(), ..MaterialRecord::default() };
+            table.materials = materials.iter().map(named).collect();
+        }
         if table.is_run && table.table.get(BODY).is_some() {
             let why = "is a run with clumps, and a frame does not hold their shapes";
             let cure = "continue it with dem-run --resume, or place them with [[body]]";

@@ -43,9 +43,34 @@ pub struct Clump {
     /// Radius of the spheres on the vertices of `mesh`, before `scale` [m].
     #[serde(default, deserialize_with = "unit::metres")]
     pub vertex_radius: Option<f64>,
+    /// With `spheres`: volume, centre and inertia of the true body, in the frame of the spheres and before `scale`.
+    pub moments: Option<ClumpMoments>,
     /// Lengths are multiplied by this [–].
     #[serde(default = "one", deserialize_with = "unit::plain")]
     pub scale: f64,
+}
+
+/// `[[clump]] moments`: a body of density 1.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ClumpMoments {
+    /// Volume [m³].
+    #[serde(deserialize_with = "unit::plain")]
+    pub volume: f64,
+    /// Centre of mass [m].
+    #[serde(deserialize_with = "unit::metres")]
+    pub centre: [f64; 3],
+    /// Terms xx, yy, zz, xy, xz, yz of the inertia tensor of density 1 about the centre of mass [m⁵].
+    #[serde(deserialize_with = "unit::plain")]
+    pub inertia: [f64; 6],
+}
+
+impl ClumpMoments {
+    /// The inertia tensor of density 1 [m⁵].
+    pub fn tensor(&self) -> nalgebra::Matrix3<f64> {
+        let [xx, yy, zz, xy, xz, yz] = self.inertia;
+        nalgebra::Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+    }
 }
 
 fn one() -> f64 {
@@ -167,6 +192,8 @@ pub struct Particles {
     pub units: Option<String>,
     /// Cluster of all; absent: that of each row, if the file has them.
     pub cluster: Option<u32>,
+    /// Materials by the number in the column `material` of a CSV or PLY, from 0.
+    pub materials: Option<Vec<String>>,
 }
 
 impl Particles {

@@ -1,6 +1,6 @@
 //! `[[clump]]`: shapes of rigid clumps from spheres or from a closed mesh.
 //!
-//! Multisphere: mass, centre and inertia of the union of the spheres, or of their sum (`mass = "sum"`: overlaps count twice).
+//! Multisphere: mass, centre and inertia of the union of the spheres, of their sum (`mass = "sum"`: overlaps count twice), or as given (`moments`).
 //! Polyhedron: those of the inside of the mesh, exactly; a sphere of `vertex_radius` sits centred on every vertex that a face uses, so that
 //! the mesh is the hull of the centres and contacts lie `vertex_radius` outside of it (JP6939487B2, particles as polyhedra).
 
@@ -40,6 +40,11 @@ impl PlanBuilder<'_> {
         self.few(&format!("{key}.spheres"), given.len(), "spheres")?;
         let sphere = |s: &[f64; 4]| (Vec3::new(s[0], s[1], s[2]) * entry.scale, s[3] * entry.scale);
         let spheres: Vec<Sphere> = given.iter().map(sphere).collect();
+        if let Some(m) = &entry.moments {
+            let s = entry.scale;
+            let (volume, centre) = (m.volume * s.powi(3), Vec3::from(m.centre) * s);
+            return Ok((spheres, Moments { volume, centre, inertia: m.tensor() * s.powi(5) }));
+        }
         if let ClumpMass::Sum = entry.mass {
             let moments = Moments::of_sum(&spheres);
             return Ok((spheres, moments));

@@ -27,7 +27,8 @@ impl PlanBuilder<'_> {
     }
 
     fn particle_file(&mut self, index: usize, entry: &Particles) -> Result<()> {
-        let file = ParticleFile::read(&self.path(&entry.source), entry.length_factor())?;
+        let named = entry.materials.as_deref().unwrap_or_default();
+        let file = ParticleFile::read_with(&self.path(&entry.source), entry.length_factor(), named)?;
         self.inputs.push(("particles".to_owned(), file.hash.clone()));
         self.warnings.extend(file.warning.clone());
         if !entry.fixed {
@@ -37,6 +38,11 @@ impl PlanBuilder<'_> {
         let mut materials = Vec::new();
         match &entry.material {
             Some(name) => materials.push(self.grain(&key, name)?.index),
+            None if !named.is_empty() => {
+                for name in named {
+                    materials.push(self.grain(&format!("particles.{index}.materials"), name)?.index);
+                }
+            }
             None if file.materials.is_empty() => {
                 let why = "is missing, and the file names none";
                 return Err(self.check.wrong(&key, "(nothing)", why, "add material = \"…\""));
@@ -51,7 +57,7 @@ impl PlanBuilder<'_> {
             let of = |p: &Particle| materials[if entry.material.is_some() { 0 } else { p.material as usize }];
             let spheres = file.particles.iter().map(|p| (of(p), (p.position, p.radius)));
             self.fixed(index, entry, spheres.collect());
-            if file.materials.is_empty() && file.particles.iter().any(|p| p.velocity != Vec3::zeros()) {
+            if !is_run(entry, &file) && file.particles.iter().any(|p| p.velocity != Vec3::zeros()) {
                 let source = &entry.source;
                 self.warnings.push(format!(
                     "{source}: the velocities are not used: the grains are fixed; take them out"
@@ -79,8 +85,7 @@ impl PlanBuilder<'_> {
 
     /// Notes what warnings need to know of a file.
     fn note(&mut self, entry: &Particles, file: &ParticleFile) {
-        // Only runs name their materials.
-        if file.materials.is_empty() {
+        if !is_run(entry, file) {
             self.read.placed += file.particles.len();
         } else {
             let first = self.particles.len();
@@ -127,4 +132,9 @@ impl PlanBuilder<'_> {
         }
         all
     }
+}
+
+/// Whether a file is a run: only runs name their materials.
+fn is_run(entry: &Particles, file: &ParticleFile) -> bool {
+    entry.materials.is_none() && !file.materials.is_empty()
 }

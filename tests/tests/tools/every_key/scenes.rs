@@ -203,6 +203,14 @@ spheres = [[0, 0, 0, 0.005], [0.006, 0, 0, 0.005]]
 mass = "union"
 scale = 1.2
 [[clump]]
+name = "given"
+material = "sinter"
+spheres = [[0, 0, 0, 0.005], [0.006, 0, 0, 0.005]]
+moments = { volume = 1e-6, centre = [0.003, 0, 0], inertia = [2e-11, 3e-11, 3e-11, 0, 0, 0] }
+[[body]]
+clump = "given"
+position = [0.7, 0.5, 0.5]
+[[clump]]
 name = "twin"
 material = "sinter"
 spheres = [[0, 0, 0, 0.005], [0.006, 0, 0, 0.005]]
@@ -230,6 +238,9 @@ clump = "twin"
 scale = 0.9
 shape = "box:0.3,0,0,0.5,0.2,0.2"
 count = 5
+[[particles]]
+source = "kinds.csv"
+materials = ["sinter", "steel"]
 [[particles]]
 source = "clumps.csv"
 clump = "pair"
@@ -469,12 +480,13 @@ pub fn scenes() -> Vec<(String, String)> {
 }
 
 /// Files that the scenes read.
-pub const FILES: [(&str, &str); 10] = [
+pub const FILES: [(&str, &str); 11] = [
     ("sieve.csv", "diameter,passing\n0.006,0\n0.008,30\n0.01,100\n"),
     ("grains-mm.csv", "x,y,z,radius\n400,200,300,5\n"),
     ("load.csv", "t,stress\n0,100\n0.001,150\n"),
     ("path.csv", "t,x,y,z,angle\n0,1,0,0,0.1\n0.001,1.0001,0,0,0.1001\n0.002,1,0,0,0.1\n"),
     ("grains.csv", "x,y,z,radius,vz\n0.2,0.2,0.1,0.005,-1\n0.2,0.25,0.12,0.005,-1\n0.25,0.2,0.15,0.004,-1\n"),
+    ("kinds.csv", "x,y,z,radius,material,class\n0.9,0.1,0.9,0.005,1,2\n0.9,0.2,0.9,0.005,0,0\n"),
     ("clumps.csv", "x,y,z,qw,qx,qy,qz\n0.9,0.9,0.9,1,0,0,0\n"),
     ("a.csv", "x,y,z,radius\n0,0,0,0.005\n0.00999,0,0,0.005\n"),
     ("b.csv", "x,y,z,radius,cluster\n0,0.0099999,0,0.005,1\n0.00999,0.0199999,0,0.005,2\n"),

@@ -97,6 +97,13 @@ pub const EXAMPLES: &[&str] = &[
     "cost-curve s.toml --vary safety=0.2,0.4 --measure bed-height --set time.until=0.02 --reference safety=0.2 --in-use safety=0.4 --print-commands --dir points5",
     "cost-curve s.toml --vary safety=0.2,0.4 --measure bed-height --set time.until=0.02 --dry-run --dir points6 --work instructions",
     "cost-curve s.toml --vary k=1,2 --phases 2 --measure bed-height --reference k=1 --in-use k=2 --set time.until=0.02 --each 'wallgen flat.xyz --radius 0.00{k} --material sinter -q' --work steps --dir points7",
+    "stone-clump library/rock_1_1.ply --scale 1 --spheres 5 --method distance --min-radius 0.001 --overlap 0.8 --name block --material rock -o clump.toml --report r.json --threads 2 -q",
+    "stone-clump library/rock_1_1.ply --units m --error 20% --output clump.csv --quiet",
+    "stone-clump library/rock_1_1.ply --spheres 5 --method tangent --distance 0.004 --seed 3 -o clump.ply",
+    "stone-clump library/rock_1_1.ply --measures",
+    "stone-pack grains.csv library --content 0.2 --stone-density 2600 --soil-density 2600 --tolerance 0.1 --tries 500 --least-grains 2 --within box:0,0,0,0.1,0.1,0.1 --scale 1 --material stone --bonded --places places.csv --surfaces stones.ply --seed 3 -o specimen.ply --report r.json --threads 2 -q",
+    "stone-pack grains.csv library --content 20% --stone-density 2600 --soil-density 2600 --grading grading.csv --units m --rigid stones.toml --output soil.ply --quiet",
+    "stone-pack run.mcap library --content 0.1 --stone-density 2600 --tries 5 -o of-run.ply",
     "chute-scan --points 2000 --noise 0.001 --blind 0.1 --tilt-deg 10 --seed 3 --ascii -o chute.ply --report r.json --threads 2 -q",
     "chute-scan --points 2000 --output chute2.ply --quiet",
 ];

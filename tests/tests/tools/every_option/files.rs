@@ -75,6 +75,13 @@ fn heap() -> String {
     ["x,y,z,radius\n".to_owned()].into_iter().chain(rows).collect()
 }
 
+/// Grains of 10 mm that fill a cube of 0.1 m.
+fn lattice() -> String {
+    let at = |k: usize| 0.01 * k as f64 + 0.005;
+    let row = |k: usize| format!("{},{},{},0.005\n", at(k % 10), at(k / 10 % 10), at(k / 100));
+    ["x,y,z,radius\n".to_owned()].into_iter().chain((0..1000).map(row)).collect()
+}
+
 /// A folder with all of them.
 pub fn inputs() -> TempDir {
     let flat: String = plate().map(|(x, y)| format!("{x} {y} 0\n")).collect();
@@ -92,6 +99,9 @@ pub fn inputs() -> TempDir {
         ("rough.toml", ROUGHNESS.to_owned()),
         ("heap.csv", heap()),
         ("one.csv", "x,y,z,radius\n0.15,0.04,0.004,0.004\n".to_owned()),
+        ("grains.csv", lattice()),
+        ("library/rock_1_1.ply", TETRAHEDRON.replace("0.3", "0.06")),
+        ("grading.csv", "from,to,share\n0.02,0.03,1\n".to_owned()),
         ("s.toml", [HEAD, GRAINS, &floor(0.0)].concat()),
         ("heap.toml", [&HEAD.replace("until = 0.05", "until = 0.004"), HEAP, &floor(0.0)].concat()),
         (

@@ -1,0 +1,39 @@
+//! Stones of real shape: what is measured of a closed mesh, spheres that stand for it, and how stones are placed in a soil.
+//!
+//! ```text
+//! stone       a closed mesh that was checked: volume, centre, inertia, inside, nearest points
+//! triangles   whether triangles meet: exact
+//! crossing    whether meshes overlap: exact; whether a mesh crosses itself
+//! hull        the convex hull: exact
+//! shape       sieve size, elongation, flatness, convexity, sphericity
+//! samples     points inside a stone and on its surface
+//! clump       spheres inside a stone: by inner distance, or tangent to the surface; how well they fit
+//! library     a folder of stones: names, classes, sieve sizes
+//! grading     classes of size with their shares
+//! content     the stop rule
+//! pack        random stones, one by one, without overlap
+//! ```
+
+pub mod clump;
+pub mod content;
+mod crossing;
+mod distance;
+pub mod grading;
+mod hull;
+pub mod library;
+pub mod pack;
+mod placed;
+mod random;
+mod samples;
+pub mod shape;
+pub mod stone;
+mod tangent;
+mod triangles;
+
+pub use clump::{Clump, ClumpError, ClumpSettings, Fit, Method};
+pub use grading::{Class, GradingError};
+pub use library::{Library, LibraryStone};
+pub use pack::{PackError, PackSettings, Packing, Soil, pack};
+pub use placed::PlacedStone;
+pub use shape::ShapeMeasures;
+pub use stone::{Stone, StoneError};

@@ -1,0 +1,68 @@
+//! What became of the classes.
+
+use serde::Serialize;
+
+/// Tries of a class that placed no stone, by cause.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct Undone {
+    /// The stone would have made the content too large.
+    pub too_heavy: u64,
+    /// Its turned box was larger than the box.
+    pub too_large: u64,
+    /// It overlapped an earlier stone.
+    pub overlaps: u64,
+    /// A grain inside belonged to an earlier stone.
+    pub shared_grains: u64,
+    /// It held fewer grains than asked for.
+    pub few_grains: u64,
+}
+
+/// What became of a class.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ClassReport {
+    /// Its number.
+    pub class: u32,
+    /// Number of stones.
+    pub stones: usize,
+    /// Content wanted of this class [–].
+    pub content_wanted: f64,
+    /// Content reached, of the final mass [–].
+    pub content: f64,
+    /// (content − wanted)/wanted.
+    pub excess: f64,
+    /// Share of the mass of all stones, wanted and reached [–].
+    pub share_wanted: f64,
+    /// See above.
+    pub share: f64,
+    /// Tries, those that placed a stone included.
+    pub tries: u64,
+    /// The others.
+    pub undone: Undone,
+    /// Why the content is not reached; absent if it is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub missed: Option<String>,
+}
+
+/// Why a content was not reached: the most frequent cause.
+pub(super) fn missed(tries: u64, undone: &Undone) -> String {
+    let causes = [
+        (
+            undone.overlaps,
+            "overlapped an earlier stone: the box is full for stones of this size; lower the content, or give smaller stones",
+        ),
+        (
+            undone.too_heavy,
+            "were too heavy for what is missing: one stone is more than the tolerance; raise --tolerance, enlarge the box, or give smaller stones",
+        ),
+        (undone.too_large, "were larger than the box when turned: enlarge the box, or give smaller stones"),
+        (
+            undone.few_grains,
+            "held too few grains: give smaller grains, larger stones, or a lower --least-grains",
+        ),
+        (undone.shared_grains, "held a grain of an earlier stone: give smaller grains"),
+    ];
+    let most = causes.iter().max_by_key(|c| c.0).filter(|c| c.0 > 0);
+    most.map_or(format!("{tries} tries were not enough: raise --tries"), |(count, words)| {
+        format!("{count} of {tries} tries {words}")
+    })
+}

@@ -1,0 +1,52 @@
+//! Random orientations, and numbers that fill a square evenly.
+
+use geom::random::unit;
+use nalgebra::{Quaternion, UnitQuaternion};
+use rand_pcg::Pcg64Mcg;
+use std::f64::consts::TAU;
+
+/// The orientation that three numbers from 0 to 1 stand for; even numbers give orientations that are uniform on SO(3): Shoemake (1992), Graphics
+/// Gems III.
+pub(crate) fn orientation([u, v, w]: [f64; 3]) -> UnitQuaternion<f64> {
+    let (a, b) = ((1.0 - u).sqrt(), u.sqrt());
+    let (s, t) = (TAU * v, TAU * w);
+    UnitQuaternion::from_quaternion(Quaternion::new(b * t.cos(), a * s.sin(), a * s.cos(), b * t.sin()))
+}
+
+/// A random orientation.
+pub(crate) fn random_orientation(random: &mut Pcg64Mcg) -> UnitQuaternion<f64> {
+    orientation([unit(random), unit(random), unit(random)])
+}
+
+/// The k-th of a sequence that fills a cube evenly: Kronecker's sequence of the powers of 1/g, g⁴ = g + 1 (the R3 sequence).
+pub(crate) fn even(k: usize) -> [f64; 3] {
+    const G: f64 = 1.220_744_084_605_759_5;
+    [1, 2, 3].map(|power| (0.5 + (k as f64 + 1.0) / f64::powi(G, power)).fract())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use geom::Vec3;
+
+    /// Of a uniform rotation, the mean of R is 0 and that of R₁₁² is 1/3, R₁₁⁴ is 1/5; a random axis with a uniform angle has 0.47 and 0.38.
+    #[test]
+    fn orientations_are_uniform() {
+        let mut random = geom::random::generator(1, 2, 3);
+        let n = 20_000;
+        let (mut mean, mut square, mut fourth) = (Vec3::zeros(), Vec3::zeros(), 0.0);
+        for _ in 0..n {
+            let x = random_orientation(&mut random) * Vec3::x();
+            mean += x / f64::from(n);
+            square += x.component_mul(&x) / f64::from(n);
+            fourth += x.x.powi(4) / f64::from(n);
+        }
+        // Four deviations of the mean of n.
+        assert!(mean.amax() < 4.0 * (1.0 / 3.0 / f64::from(n)).sqrt(), "{mean}");
+        assert!(
+            (square - Vec3::repeat(1.0 / 3.0)).amax() < 4.0 * (4.0 / 45.0 / f64::from(n)).sqrt(),
+            "{square}"
+        );
+        assert!((fourth - 0.2).abs() < 4.0 * (16.0 / 225.0 / f64::from(n)).sqrt(), "{fourth}");
+    }
+}
