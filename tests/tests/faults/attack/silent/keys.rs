@@ -4,6 +4,7 @@ use super::super::example_scenes;
 use super::call::Call;
 use super::{Findings, Shop, Trial, run};
 use grainpipe_tests::tools::line;
+use rayon::prelude::*;
 use record::metadata;
 use std::collections::{BTreeMap, BTreeSet};
 use toml::{Table, Value};
@@ -88,8 +89,8 @@ fn leaves(way: &[Step], value: &Value, found: &mut Vec<Leaf>) {
     }
 }
 
-/// Other values of the kind of one.
-fn others(value: &Value) -> Vec<Value> {
+/// Other values of the kind of one. Only limits get far smaller ones, which stop a run; elsewhere these would make it long.
+fn others(name: &str, value: &Value) -> Vec<Value> {
     let scaled = |factor: f64| -> Option<Value> {
         match value {
             Value::Float(x) => Some(Value::Float(x * factor)),
@@ -104,7 +105,8 @@ fn others(value: &Value) -> Vec<Value> {
     };
     match value {
         Value::Boolean(is) => vec![Value::Boolean(!is)],
-        _ => [0.5, 2.0, 1e-3, 1e3].into_iter().filter_map(scaled).collect(),
+        _ if name.starts_with("guards") => [0.5, 1e-3].into_iter().filter_map(scaled).collect(),
+        _ => [0.5, 2.0].into_iter().filter_map(scaled).collect(),
     }
 }
 
@@ -127,13 +129,17 @@ pub fn find(one_in: usize, found: &mut Findings) {
     let mut values: BTreeMap<String, Vec<Value>> = BTreeMap::new();
     for (_, _, leaf) in &all {
         let known = values.entry(leaf.name()).or_default();
-        let more = [vec![leaf.value.clone()], others(&leaf.value)].concat();
+        let more = [vec![leaf.value.clone()], others(&leaf.name(), &leaf.value)].concat();
         more.into_iter().for_each(|v| if !known.contains(&v) { known.push(v) });
     }
     let free = |leaf: &Leaf| FREE.iter().any(|f| f.0 == leaf.name());
     let chosen = all.iter().filter(|(_, _, leaf)| !free(leaf)).step_by(one_in);
-    let trials = chosen.map(|(scene, table, leaf)| trial(&shop, scene, table, leaf, &values[&leaf.name()]));
-    run(&shop, trials.collect(), found);
+    let chosen: Vec<_> = chosen.collect();
+    let trials: Vec<Trial> = chosen
+        .into_par_iter()
+        .map(|(scene, table, leaf)| trial(&shop, scene, table, leaf, &values[&leaf.name()]))
+        .collect();
+    run(&shop, trials, found);
 }
 
 /// A folder with what the scenes read.
