@@ -168,8 +168,9 @@ fn trial(shop: &Shop, scene: &str, table: &Table, leaf: &Leaf, values: &[Value])
         Call { tool: "dem-run".to_owned(), reads: vec![name], options }
     };
     let without = file(0, &leaf.put(table, None));
-    let base = if shop.answer(&without).code == 0 { without } else { file(1, table) };
-    let own = std::iter::once(&leaf.value);
+    let needed = shop.answer(&without).code != 0;
+    let base = if needed { file(1, table) } else { without };
+    let own = std::iter::once(&leaf.value).filter(|_| !needed);
     let others = values.iter().filter(|v| **v != leaf.value);
     let more = own.chain(others).take(MOST).enumerate();
     Trial {
