@@ -89,4 +89,9 @@ impl Checkpoint {
         };
         Ok(stream::state::decode(&data)?)
     }
+
+    /// When a run resumes from it [s].
+    pub fn time(&self) -> f64 {
+        self.state.time()
+    }
 }

@@ -8,6 +8,7 @@ use crate::progress::Progress;
 use crate::schedule::Schedule;
 use crate::servos::ServoHeld;
 use crate::settling::Settling;
+use crate::start::not_yet_over;
 use crate::supply::Supply;
 use dem::setup::Crossing;
 use dem::{Halt, Simulation};
@@ -84,15 +85,16 @@ pub struct Settings<W> {
 /// Refuses what would only be refused after the output was opened.
 ///
 /// # Errors
-/// What the engine refuses, an end that is missing.
+/// What the engine refuses, an end that is missing, a checkpoint of another scene or of one that is over.
 pub fn ready(scene: &Scene, plan: &Plan, resume: Option<&Checkpoint>) -> Result<()> {
-    let dt = match resume {
-        // It was checked when the run began; a guard that has changed since does not matter.
-        Some(checkpoint) => checkpoint.state.dt(),
-        None => dem::time_step(&plan.setup)?,
+    let Some(saved) = resume else {
+        Schedule::new(scene, dem::time_step(&plan.setup)?)?;
+        return Ok(());
     };
-    Schedule::new(scene, dt)?;
-    Ok(())
+    saved.fits(&scene.text.toml, &plan.inputs)?;
+    // Its step was checked when the run began; a guard that has changed since does not matter.
+    let schedule = Schedule::new(scene, saved.state.dt())?;
+    Ok(not_yet_over(saved.state.steps(), &schedule)?)
 }
 
 /// What of a scene and its setup decides what is written.
@@ -107,8 +109,10 @@ pub(crate) struct Written {
     pub outlets: bool,
     /// Masses of clumps at scale 1 [kg]; empty where the scene has no clump.
     pub masses: Vec<f64>,
-    /// As the scene asks for it, with the forces that servos need.
+    /// As the scene asks for it.
     pub output: Output,
+    /// Whether forces on walls are written: as the scene asks for it, and where a wall has a servo.
+    pub wall_forces: bool,
     /// Steps between samples of paths, where any are recorded.
     pub sampling: Option<u64>,
     /// Whether the energy of each frame is computed for progress reports.

@@ -11,7 +11,6 @@ use dem::setup::{Setup, WallShape, Zone, ZoneMotion};
 use geom::Shown;
 use record::{BondRange, Map, MaterialRecord, Sizes, json, metadata};
 use scene::input::ZoneRecord;
-use scene::keys::Output;
 use scene::plan::NO_DENSITY;
 use scene::{Plan, Scene, SceneError};
 use stages::outlet::path;
@@ -29,14 +28,14 @@ impl<W: Write> Run<W> {
         let surfaces = frames::surfaces(&setup.walls);
         let mut written = Written::new(scene, &setup, inputs);
         setup.record_wrenches =
-            written.output.contacts || written.output.wall_forces || written.settling.any();
+            written.output.contacts || written.wall_forces || written.settling.any();
         let head = Head::new(scene, &setup, sizes)?;
         let sim = match settings.resume {
             Some(saved) => Simulation::resume(setup, saved.state)?,
             None => Simulation::new(setup)?,
         };
         let schedule = Schedule::new(scene, sim.dt())?;
-        not_yet_over(&sim, &schedule)?;
+        not_yet_over(sim.steps(), &schedule)?;
         written.sampling = sampling(scene, sim.dt())?;
         written.watched = settings.watched;
         let mut writer = Writer::compressed(out, &settings.provenance, settings.how)?;
@@ -80,7 +79,6 @@ fn in_file(scene: &Scene, text: &str) -> String {
 impl Written {
     fn new(scene: &Scene, setup: &Setup, inputs: Vec<(String, String)>) -> Written {
         let servo = setup.walls.iter().any(|w| w.servo.is_some());
-        let output = scene.keys.output.clone();
         let density = |m: u16| setup.materials[m as usize].density;
         let spheres_move = |w: &dem::setup::Wall| matches!(w.shape, WallShape::Spheres(_)) && w.moves();
         Written {
@@ -90,7 +88,8 @@ impl Written {
             walls_move: setup.walls.iter().any(spheres_move),
             outlets: !setup.outlets.is_empty(),
             masses: setup.clumps.shapes.iter().map(|s| s.mass(1.0, density(s.material))).collect(),
-            output: Output { wall_forces: output.wall_forces || servo, ..output },
+            output: scene.keys.output.clone(),
+            wall_forces: scene.keys.output.wall_forces == Some(true) || servo,
             sampling: None,
             watched: false,
             ledger: setup.ledger,
@@ -175,11 +174,12 @@ fn material(m: &dem::setup::Material) -> MaterialRecord {
 }
 
 /// Refuses to resume a run that has reached its end.
-fn not_yet_over(sim: &Simulation, schedule: &Schedule) -> Result<(), SceneError> {
-    if sim.steps() < schedule.last {
+pub(crate) fn not_yet_over(steps: u64, schedule: &Schedule) -> Result<(), SceneError> {
+    if steps < schedule.last {
         return Ok(());
     }
-    let (reached, end) = (Shown(sim.time()), Shown(schedule.last as f64 * schedule.dt));
+    let (reached, end) =
+        (Shown(steps as f64 * schedule.dt), Shown(schedule.last as f64 * schedule.dt));
     let why = format!("the saved run has reached {reached} s, the scene ends at {end} s");
     Err(SceneError::file("--resume", why, "give a later --until"))
 }

@@ -90,7 +90,7 @@ impl<W: Write> Run<W> {
             }
         }
         self.outcome.frames += 1;
-        if self.written.output.wall_forces {
+        if self.written.wall_forces {
             let forces = self.sim.wall_forces()?;
             let message = frames::wall_forces(self.sim.time(), &forces, &self.written.walls);
             self.writer.bytes(topic::WALL_FORCES, "json", now, json(&message).as_bytes())?;

@@ -4,8 +4,8 @@
 mod scenes;
 
 use grainpipe_tests::scenes::folder;
-use grainpipe_tests::tools::{line, succeed};
-use scenes::{CUTS, FILES, scenes};
+use grainpipe_tests::tools::line;
+use scenes::{FILES, FLAT, before, scenes};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use toml::{Table, Value};
@@ -161,13 +161,10 @@ fn every_scene_runs() {
     for (name, text) in scenes() {
         std::fs::write(path.join(format!("{name}.toml")), text).expect("written");
     }
-    std::fs::write(path.join("flat.xyz"), "0.3 0.3 0.1\n0.31 0.3 0.1\n0.3 0.31 0.1\n0.31 0.31 0.1\n")
-        .expect("written");
-    let wall = "flat.xyz --radius 0.005 --material steel -q -o walls.mcap";
-    succeed(path, "wallgen", &wall.split(' ').collect::<Vec<_>>());
-    for (motion, ..) in CUTS {
-        succeed(path, "dem-run", &[&format!("up-{motion}.toml"), "-q", "-o", "up.mcap"]);
-        succeed(path, "stage-replay", &["up.mcap", "-q", "-o", &format!("{motion}.mcap")]);
+    std::fs::write(path.join("flat.xyz"), FLAT).expect("written");
+    for command in before() {
+        let done = line(path, &command);
+        assert_eq!(done.code, 0, "{command}: {}", done.stderr);
     }
     let wrong = |(name, _): &(String, String)| {
         let done = line(path, &format!("dem-run {name}.toml > /dev/null"));

@@ -75,8 +75,8 @@ fn dem_run(args: Args) -> anyhow::Result<Report> {
     misplaced::inputs(&args.scene, &args.inputs)?;
     let scene = read_scene(&args)?;
     cli::also_reads(scene.files())?;
-    if args.explain {
-        no_run(&args.output)?;
+    if args.explain || args.check {
+        without_run(&args)?;
     }
     let resumed = args.resume.as_ref().map(parts::resumed).transpose()?;
     let resume = match &resumed {
@@ -88,16 +88,36 @@ fn dem_run(args: Args) -> anyhow::Result<Report> {
     for source in &args.inputs {
         inputs.push(Input::open(&source.to_string(), source.open()?)?);
     }
-    let filling = Filling::default();
+    let filling = Filling::new();
     let plan = scene.plan_with(inputs, &|placing| filling.hear(placing))?;
     drop(filling);
     plan.warnings.iter().for_each(|note| cli::warn(note));
     if args.explain || args.check {
-        return explain(&args, &scene, plan);
+        return explain(&args, &scene, plan, resume.as_ref());
     }
     run::ready(&scene, &plan, resume.as_ref())?;
     parts::say(&args.output, resumed.as_ref());
     simulate(&args, &scene, plan, resume)
+}
+
+/// Refuses options that change nothing where nothing runs, and a run as the output.
+fn without_run(args: &Args) -> anyhow::Result<()> {
+    if args.progress {
+        let option = if args.explain { "--explain" } else { "--check" };
+        return Err(cli::usage(format!("--progress: {option} runs nothing: leave it out")));
+    }
+    if args.explain && args.check {
+        return Err(cli::usage("--check: --explain checks the scene as well: leave it out"));
+    }
+    if args.explain {
+        return no_run(&args.output);
+    }
+    match args.output.path() {
+        Some(path) => {
+            Err(cli::usage(format!("-o {}: --check writes nothing: leave it out", path.display())))
+        }
+        None => Ok(()),
+    }
 }
 
 /// Refuses to write the text of `--explain` over a run or under the name of a run.
@@ -166,7 +186,16 @@ fn read_scene(args: &Args) -> anyhow::Result<Scene> {
     })
 }
 
-fn explain(args: &Args, scene: &Scene, plan: Plan) -> anyhow::Result<Report> {
+fn explain(
+    args: &Args,
+    scene: &Scene,
+    plan: Plan,
+    resume: Option<&Checkpoint>,
+) -> anyhow::Result<Report> {
+    if resume.is_some() {
+        run::ready(scene, &plan, resume)?;
+    }
+    let from = resume.map(Checkpoint::time);
     let explained = run::explain::explain(scene, plan, args.explain)?;
     if args.explain {
         let mut out = args.output.open_text()?;
@@ -176,7 +205,9 @@ fn explain(args: &Args, scene: &Scene, plan: Plan) -> anyhow::Result<Report> {
         }
         out.commit()?;
     }
-    Ok(Report::new(format!("the scene can run: {}", explained.summary)).with_all(&explained.fields))
+    let resumes = from.map_or(String::new(), |time| format!("; it resumes at {} s", geom::Shown(time)));
+    let report = Report::new(format!("the scene can run: {}{resumes}", explained.summary));
+    Ok(report.with("resumes_at_s", from).with_all(&explained.fields))
 }
 
 fn simulate(args: &Args, scene: &Scene, plan: Plan, resume: Option<Checkpoint>) -> anyhow::Result<Report> {

@@ -1,10 +1,11 @@
-//! Progress of large fills and of a run: a bar on a terminal, or a JSON line with each frame of the run.
+//! Progress of large fills and of a run: a bar on a terminal, lines elsewhere for fills that last, or a JSON line with each frame of the run.
 
 use run::Progress;
 use scene::plan::Placing;
 use serde::Serialize;
 use std::cell::RefCell;
-use std::time::Instant;
+use std::io::{IsTerminal, stderr};
+use std::time::{Duration, Instant};
 
 /// Steps of the bar.
 const BAR: f64 = 1000.0;
@@ -12,21 +13,56 @@ const BAR: f64 = 1000.0;
 /// A fill of fewer grains is done before anyone looks.
 const LARGE: usize = 100_000;
 
+/// Time between lines where stderr is no terminal.
+const BETWEEN_LINES: Duration = Duration::from_secs(10);
+
 /// Reports the progress of large fills.
-#[derive(Default)]
-pub struct Filling(RefCell<Option<cli::Progress>>);
+pub struct Filling(RefCell<Shown>);
+
+/// How it is shown.
+enum Shown {
+    /// A bar, once there is news.
+    Bar(Option<cli::Progress>),
+    /// A line now and then; when the last was due.
+    Lines(Instant),
+}
 
 impl Filling {
+    /// On a terminal or elsewhere.
+    pub fn new() -> Filling {
+        Filling(RefCell::new(match stderr().is_terminal() {
+            true => Shown::Bar(None),
+            false => Shown::Lines(Instant::now()),
+        }))
+    }
+
     /// News of a fill.
     pub fn hear(&self, Placing { fill, placed, of }: Placing) {
         if of < LARGE {
             return;
         }
-        let mut bar = self.0.borrow_mut();
-        let bar = bar.get_or_insert_with(|| cli::Progress::new("fill", BAR as u64));
-        bar.set((BAR * placed as f64 / of as f64) as u64);
-        bar.say(format!("fill.{fill}: {placed} of {of} grains"));
+        let words = format!("fill.{fill}: {placed} of {of} grains");
+        match &mut *self.0.borrow_mut() {
+            Shown::Bar(bar) => {
+                let bar = bar.get_or_insert_with(|| cli::Progress::new("fill", BAR as u64));
+                bar.set((BAR * placed as f64 / of as f64) as u64);
+                bar.say(words);
+            }
+            Shown::Lines(last) => {
+                let line = due(last, Instant::now(), words).filter(|_| !cli::quiet());
+                line.iter().for_each(|line| cli::say(&format!("dem-run: {line}")));
+            }
+        }
     }
+}
+
+/// The words as a line, if the last one was long ago.
+fn due(last: &mut Instant, now: Instant, words: String) -> Option<String> {
+    let passed = now.saturating_duration_since(*last) >= BETWEEN_LINES;
+    passed.then(|| {
+        *last = now;
+        words
+    })
 }
 
 /// Reports the progress of a run.
@@ -86,5 +122,20 @@ impl Watch {
         if let Ok(line) = serde_json::to_string(&line) {
             cli::say(&line);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_come_every_ten_seconds() {
+        let start = Instant::now();
+        let mut last = start;
+        let seconds: Vec<u64> = (0..35)
+            .filter(|&s| due(&mut last, start + Duration::from_secs(s), String::new()).is_some())
+            .collect();
+        assert_eq!(seconds, [10, 20, 30]);
     }
 }

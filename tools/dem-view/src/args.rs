@@ -6,6 +6,9 @@ use cli::Source;
 use std::path::PathBuf;
 use view::{Arrows, Camera, Extras, Map, PictureOptions, Span};
 
+/// What is smaller in a picture is hardly seen [pixel].
+const SMALL: u32 = 24;
+
 const EXAMPLES: &str = "Examples:\n\
     \x20 dem-view run.mcap -o run.html\n\
     \x20 dem-view run.mcap --time 0.02 --colour speed --camera front -o run.png\n\
@@ -127,11 +130,16 @@ impl Args {
         if let Some((name, _)) = of_runs.iter().find(|(_, given)| *given && self.pick) {
             return Err(cli::usage(format!("{name}: a cloud has none: leave it out")));
         }
-        if self.range.is_some() && self.colour.as_deref() == Some("size") {
-            let cure = "leave it out, or give --colour radius";
-            return Err(cli::usage(format!("--range: size has classes, not a scale: {cure}")));
+        let unscaled = match self.colour.as_deref() {
+            Some("size") => "size has classes, not a scale: leave it out, or give --colour radius",
+            Some("material") => "material has kinds, not a scale: leave it out, or give another --colour",
+            Some("rgb") => "rgb are colours, not a scale: leave it out, or give another --colour",
+            _ => return Ok(()),
+        };
+        match self.range {
+            Some(_) => Err(cli::usage(format!("--range: {unscaled}"))),
+            None => Ok(()),
         }
-        Ok(())
     }
 
     /// Options of a picture that change nothing in some scenes (no wall is in front, colours of kinds), each with the picture without it.
@@ -152,6 +160,18 @@ impl Args {
             ("--range", self.range.is_some(), PictureOptions { range: None, ..options.clone() }),
         ];
         all.into_iter().filter(|(_, given, _)| *given).map(|(name, _, without)| (name, without)).collect()
+    }
+
+    /// Warns of a picture in which hardly more than text can be seen; `subject`: longer side of what is shown [pixel].
+    pub fn warn_of_size(&self, subject: u32, [width, height]: [u32; 2]) {
+        if subject >= SMALL {
+            return;
+        }
+        let nearer = if self.camera.is_some() { ", or a nearer --camera" } else { "" };
+        cli::warn(&format!(
+            "what is shown is only {subject} pixels large in a picture of {width} x {height}, beside its text: give a \
+             larger --size, such as 320x180{nearer}"
+        ));
     }
 
     /// The colour map.

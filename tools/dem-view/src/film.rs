@@ -44,11 +44,27 @@ pub fn film(args: &Args, output: &Output, format: Format) -> anyhow::Result<Repo
 fn draw_all(reel: &Reel, args: &Args, output: &Output, format: Format) -> anyhow::Result<f64> {
     let progress = Progress::new("drawing", reel.times().len() as u64);
     let (mut sink, shown) = Sink::open(reel, args, output, format)?;
+    // Options without effect so far: most act in the first picture, and are looked at once.
+    let mut doubtful = args.doubtful(&args.picture(format));
+    let mut largest = 0;
     for &time in reel.times() {
-        sink.add(&reel.draw(time)?).with_context(|| output.name())?;
+        let image = reel.draw(time)?;
+        largest = largest.max(image.subject);
+        let mut idle = Vec::new();
+        for (name, without) in doubtful {
+            if reel.draw_with(time, &without)? == image {
+                idle.push((name, without));
+            }
+        }
+        doubtful = idle;
+        sink.add(&image).with_context(|| output.name())?;
         progress.add(1);
     }
     sink.finish().with_context(|| output.name())?;
+    for (name, _) in doubtful {
+        cli::warn(&format!("{name} changes nothing in this film: leave it out"));
+    }
+    args.warn_of_size(largest, reel.size());
     Ok(shown)
 }
 

@@ -47,6 +47,7 @@ fn png(args: &Args, output: &Output) -> anyhow::Result<Report> {
             cli::warn(&format!("{name} changes nothing in this picture: leave it out"));
         }
     }
+    args.warn_of_size(image.subject, [image.width, image.height]);
     let mut out: OutputStream = output.open()?;
     out.write_all(&image.png()?).with_context(|| output.name())?;
     out.commit()?;

@@ -35,6 +35,25 @@ fn within_finds_what_brute_force_finds_in_dense_and_sparse_grids() {
     }
 }
 
+/// Cells as for small grains, and a search as far as a large one reaches: rows longer than those that are searched cell by cell, and more rows than
+/// points, of which one run of all is made.
+#[test]
+fn a_search_over_many_cells_costs_no_more_than_all_points() {
+    let points = scatter(600, [400.0, 400.0, 0.02]);
+    let grid = Grid::new(&points, 0.01);
+    assert!(grid.dims()[0] > 10_000);
+    for radius in [0.2, 1.0, 30.0, 1e3] {
+        for &centre in points.iter().step_by(37) {
+            let mut found: Vec<u32> = grid.within(&points, centre, radius).collect();
+            found.sort();
+            let near = |i: &u32| (points[*i as usize] - centre).norm() <= radius;
+            assert_eq!(found, (0..600).filter(near).collect::<Vec<u32>>(), "{radius}");
+        }
+    }
+    assert_eq!(grid.runs_near(points[0], 30.0).collect::<Vec<_>>(), [0..600]);
+    assert!(grid.runs_near(points[0], 0.2).count() <= 600);
+}
+
 #[test]
 fn order_is_a_permutation_sorted_by_cell_then_index() {
     for spread in [[1.0; 3], [90.0; 3]] {

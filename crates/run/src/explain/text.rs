@@ -7,6 +7,9 @@ use std::fmt::{Display, Write};
 /// Shares below this are not distinguished from 0 [–].
 const UNSURE: f64 = 0.02;
 
+/// What the step does not show.
+const STIFFNESS: &str = "softer grains allow a longer step and change results; by how much: cost-curve SCENE.toml --vary stiffness=1,4,10 --measure …";
+
 /// All lines.
 pub(super) fn text(fields: &Fields) -> String {
     let mut out = String::new();
@@ -25,6 +28,7 @@ pub(super) fn text(fields: &Fields) -> String {
             format!("at guards.overlap = {overlap}; half of that would allow a critical step of {dt:.4e} s"),
         );
     }
+    line(&mut out, "stiffness", STIFFNESS);
     for (k, matched) in fields.matched_damping.iter().enumerate() {
         line(&mut out, if k == 0 { "damping" } else { "" }, damping(matched));
     }

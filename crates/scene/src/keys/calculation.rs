@@ -88,9 +88,9 @@ pub struct Output {
     /// Time between checkpoints [s]; absent: one at the end.
     #[serde(default, deserialize_with = "unit::seconds")]
     pub checkpoint: Option<f64>,
-    /// Whether the force on each wall is written with each frame; forces on walls with a servo always are.
+    /// Whether the force on each wall is written with each frame; absent: only if a wall has a servo, whose force is always written.
     #[serde(default)]
-    pub wall_forces: bool,
+    pub wall_forces: Option<bool>,
     /// Whether the energy ledger is kept and written.
     #[serde(default)]
     pub energy: bool,

@@ -23,6 +23,7 @@ impl PlanBuilder<'_> {
     pub(super) fn warn(&mut self, contacts: &[ContactLaw]) {
         self.implausible();
         self.lost_spins(contacts);
+        self.forces_of_servos();
         let most = self.keys().guards.overlap.unwrap_or(dem::setup::Guards::default().overlap);
         // Deeper overlaps are refused.
         let deep = self.deepest().filter(|deep| deep.share > DEEP && deep.share <= most);
@@ -33,6 +34,18 @@ impl PlanBuilder<'_> {
                 100.0 * share
             )
         }));
+    }
+
+    /// The force of a servo is always written.
+    fn forces_of_servos(&mut self) {
+        let servo = self.walls.iter().find(|wall| wall.servo.is_some());
+        let Some(wall) = servo.filter(|_| self.keys().output.wall_forces == Some(false)) else { return };
+        let why = format!(
+            "changes nothing: wall '{}' has a servo, and with one the forces on all walls are written",
+            wall.name
+        );
+        let warning = self.check.wrong("output.wall_forces", "false", &why, "take it out").to_string();
+        self.warnings.push(warning);
     }
 
     /// Spins that nothing turns are not kept.

@@ -55,9 +55,18 @@ impl Reel {
     /// # Errors
     /// As [`picture::draw`].
     pub fn draw(&self, time: f64) -> Result<Image, ViewError> {
+        self.draw_with(time, &self.options)
+    }
+
+    /// The same with other options, of the same colours' field and camera.
+    ///
+    /// # Errors
+    /// As [`picture::draw`].
+    pub fn draw_with(&self, time: f64, options: &PictureOptions) -> Result<Image, ViewError> {
         let tables = self.series.tables(time);
         let parts = self.series.parts(&tables);
-        picture::draw_surveyed(&parts, &self.series.surfaces, &self.survey, &self.at(time))
+        let options = PictureOptions { time: Some(time), ..options.clone() };
+        picture::draw_surveyed(&parts, &self.series.surfaces, &self.survey, &options)
     }
 
     /// The colours of a GIF: those of a few pictures over its whole length.

@@ -203,7 +203,8 @@ mod tests {
     fn the_labels_of_the_bar_stay_in_the_picture() {
         for size in [[340, 210], [640, 720], [1920, 1080]] {
             let [width, height] = size;
-            let mut image = Image { width, height, rgba: vec![255; 4 * (width * height) as usize] };
+            let rgba = vec![255; 4 * (width * height) as usize];
+            let mut image = Image { width, height, rgba, subject: 0 };
             let range = scale::Range { lo: -11.8, hi: -10.7 };
             let (field, unit) = ("z".to_owned(), "m");
             let key = Key::Bar { field, unit, range, beyond: [true; 2], map: crate::Map::default() };

@@ -88,6 +88,20 @@ impl Lens {
         lens(area, seen)
     }
 
+    /// Longer side of the box around places, as seen and inside the picture [pixel].
+    pub fn longer_side(&self, places: &[Vec3]) -> u32 {
+        let seen = places.iter().map(|p| self.seen(*p)).filter(|p| p[2] > 0.0);
+        let on = |p: [f64; 3]| [0, 1].map(|k| (p[k] / p[2] * self.focal, self.size[k] as f64));
+        let mut sides = [Range::EMPTY; 2];
+        for point in seen.map(on) {
+            for (side, (at, size)) in sides.iter_mut().zip(point) {
+                *side = side.with(Range::of(&[at.clamp(-size, size)]));
+            }
+        }
+        let longer = sides.map(|side| (side.hi - side.lo).max(0.0)).into_iter().fold(0.0, f64::max);
+        (longer / SAMPLES as f64).ceil() as u32
+    }
+
     /// Whether the outline of places, as seen, reaches into a part of the picture: left, top, right, bottom [sample].
     fn covers(&self, places: &[Vec3], part: [f64; 4]) -> bool {
         let seen = places.iter().map(|p| self.seen(*p)).filter(|p| p[2] > 0.0);

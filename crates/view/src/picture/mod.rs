@@ -75,6 +75,8 @@ pub struct Image {
     pub height: u32,
     /// Four bytes a pixel.
     pub rgba: Vec<u8>,
+    /// Longer side of what is shown, without text and planes [pixel].
+    pub subject: u32,
 }
 
 impl Image {
@@ -133,7 +135,7 @@ pub fn draw_surveyed(
     let painted = Painted::new(parts, surfaces, survey, options)?;
     let lens = lens::Lens::new(&painted, options);
     let shown = light::render(&painted, &lens, options);
-    let mut image = Image { width, height, rgba: shown };
+    let mut image = Image { width, height, rgba: shown, subject: lens.longer_side(&painted.outline) };
     furniture::add(&mut image, &painted, &lens, options);
     Ok(image)
 }

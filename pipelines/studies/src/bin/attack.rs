@@ -1,5 +1,5 @@
 //! Attacks the tools and writes docs/reliability.md: `attack FILES KILLS SEED [PAGE.md]`;
-//! `attack silent` only lists silent options and keys.
+//! `attack silent [options|keys] [ONE_IN]` only lists silent options and keys.
 
 #[path = "../../../../tests/tests/faults/attack/mod.rs"]
 mod attack;
@@ -15,7 +15,7 @@ fn main() -> io::Result<()> {
     let (drawn, killed, seed) = (number(0, 15_000), number(1, 100), number(2, 1));
     let mut found = Findings::default();
     if arguments.first().is_some_and(|a| a == "silent") {
-        silent::options::find(1, &mut found);
+        silent::find(arguments.get(1).map(String::as_str), number(2, 1), &mut found);
         print!("{}\n{}", found.table(), found.list());
         return Ok(());
     }
@@ -23,7 +23,7 @@ fn main() -> io::Result<()> {
     found.run(scenes::cases());
     found.run(options::cases());
     kills::run(seed as u64, killed, &mut found);
-    silent::options::find(1, &mut found);
+    silent::find(None, 1, &mut found);
     let page = format!("{HEAD}{} cases, seed {seed}:\n\n{}{TAIL}", found.count(), found.table());
     print!("{page}\n{}", found.list());
     arguments.get(3).map_or(Ok(()), |file| fs::write(file, page))

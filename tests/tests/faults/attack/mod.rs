@@ -10,6 +10,9 @@ pub mod example_files;
 #[allow(dead_code)]
 #[path = "../../tools/every_option/examples.rs"]
 pub mod examples;
+#[allow(dead_code)]
+#[path = "../../tools/every_key/scenes.rs"]
+pub mod example_scenes;
 pub mod files;
 pub mod kills;
 pub mod mutate;

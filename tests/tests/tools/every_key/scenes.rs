@@ -479,6 +479,19 @@ pub fn scenes() -> Vec<(String, String)> {
     all
 }
 
+/// A cloud of which a wall is made.
+pub const FLAT: &str = "0.3 0.3 0.1\n0.31 0.3 0.1\n0.3 0.31 0.1\n0.31 0.31 0.1\n";
+
+/// Command lines that make the other files that the scenes read.
+pub fn before() -> Vec<String> {
+    let mut all = vec!["wallgen flat.xyz --radius 0.005 --material steel -q -o walls.mcap".to_owned()];
+    for (motion, ..) in CUTS {
+        all.push(format!("dem-run up-{motion}.toml -q -o up.mcap"));
+        all.push(format!("stage-replay up.mcap -q -o {motion}.mcap"));
+    }
+    all
+}
+
 /// Files that the scenes read.
 pub const FILES: [(&str, &str); 11] = [
     ("sieve.csv", "diameter,passing\n0.006,0\n0.008,30\n0.01,100\n"),

@@ -36,6 +36,11 @@ const REFUSED: &[(&str, &str)] = &[
     ("dem-view flat.xyz -o v.vtp --camera top", "--camera changes nothing in .vtp"),
     ("dem-view flat.xyz -o v.vtp --map turbo", "--map changes nothing in .vtp"),
     ("dem-view flat.xyz -o v.vtp --colour z", "--colour changes nothing in .vtp"),
+    ("dem-view flat.xyz -o v.html --colour rgb --range 0,1", "--range: rgb are colours, not a scale"),
+    ("dem-view flat.xyz -o v.png --colour material --range 0,1", "--range: material has kinds, not a scale"),
+    ("dem-run s.toml --check -o s.mcap", "-o s.mcap: --check writes nothing: leave it out"),
+    ("dem-run s.toml --check --progress", "--progress: --check runs nothing: leave it out"),
+    ("dem-run s.toml --explain --check", "--check: --explain checks the scene as well: leave it out"),
     ("dem-view flat.xyz -o v.pvd --range 0,1", "--range changes nothing in .pvd"),
 ];
 
@@ -43,7 +48,7 @@ const REFUSED: &[(&str, &str)] = &[
 #[test]
 fn an_option_that_leaves_a_picture_as_it_is_prints_a_warning() {
     let folder = inputs();
-    let command = "dem-view flat.xyz --size 96x64 -o v.png --cut --map turbo";
+    let command = "dem-view flat.xyz --size 240x180 -o v.png --cut --map turbo";
     let done = line(folder.path(), command);
     assert!(
         done.code == 0 && done.stderr.contains("--cut changes nothing in this picture"),
@@ -51,6 +56,41 @@ fn an_option_that_leaves_a_picture_as_it_is_prints_a_warning() {
         done.stderr
     );
     assert!(!done.stderr.contains("--map"), "a cloud is coloured by height: {}", done.stderr);
+}
+
+/// The same with films, once no picture has changed.
+#[test]
+fn an_option_that_leaves_a_film_as_it_is_prints_a_warning() {
+    let folder = inputs();
+    grainpipe_tests::tools::succeed(folder.path(), "dem-run", &["s.toml", "--until", "0.006", "-o", "run.mcap"]);
+    let command = "dem-view run.mcap --size 240x180 -o v.gif --cut --map turbo";
+    let done = line(folder.path(), command);
+    let warned = done.stderr.contains("--cut changes nothing in this film");
+    assert!(done.code == 0 && warned, "{}", done.stderr);
+    assert!(!done.stderr.contains("--map"), "grains are coloured by speed: {}", done.stderr);
+}
+
+#[test]
+fn a_picture_of_hardly_more_than_text_prints_a_warning() {
+    let folder = inputs();
+    for (size, small) in [("96x64", true), ("320x180", false)] {
+        let done = line(folder.path(), &format!("dem-view flat.xyz --size {size} -o v.png"));
+        let warned = done.stderr.contains("pixels large in a picture of 96 x 64, beside its text: give a larger --size");
+        assert!(done.code == 0 && warned == small, "{size}: {}", done.stderr);
+    }
+}
+
+#[test]
+fn a_check_of_a_resumed_run_reads_its_checkpoint() {
+    let folder = inputs();
+    let run = |words: &str| line(folder.path(), &format!("dem-run s.toml {words}"));
+    assert_eq!(run("--until 0.002 -o run.mcap").code, 0);
+    let fits = run("--until 0.004 --resume run.mcap --check");
+    assert!(fits.code == 0 && fits.stderr.contains("; it resumes at 2"), "{}", fits.stderr);
+    let over = run("--until 0.001 --resume run.mcap --check");
+    assert!(over.code == 1 && over.stderr.contains("give a later --until"), "{}", over.stderr);
+    let other = run("--set contact.0.restitution=0.3 --until 0.004 --resume run.mcap --check");
+    assert!(other.code == 1 && other.stderr.contains("the saved run differs"), "{}", other.stderr);
 }
 
 #[test]

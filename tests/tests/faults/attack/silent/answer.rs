@@ -36,7 +36,8 @@ impl Shop {
     /// Runs a call in a separate folder.
     pub fn answer(&self, call: &Call) -> Answer {
         let folder = tempfile::tempdir().expect("a folder");
-        for name in &self.inputs {
+        let inputs: BTreeSet<&String> = self.inputs.iter().chain(&call.reads).collect();
+        for name in inputs.into_iter().filter(|name| self.folder.path().join(name).exists()) {
             std::os::unix::fs::symlink(self.folder.path().join(name), folder.path().join(name))
                 .expect("a link");
         }

@@ -6,6 +6,7 @@
 mod answer;
 mod call;
 
+pub mod keys;
 pub mod options;
 
 use super::Findings;
@@ -21,6 +22,16 @@ struct Trial {
     added: String,
     base: Call,
     more: Vec<Call>,
+}
+
+/// A part of the cases: `options` or `keys`; both without a name.
+pub fn find(part: Option<&str>, one_in: usize, found: &mut Findings) {
+    if part != Some("keys") {
+        options::find(one_in, found);
+    }
+    if part != Some("options") {
+        keys::find(one_in, found);
+    }
 }
 
 /// Runs calls that work and what is added to them. A call that does nothing, or whose output holds times, cannot show anything and is left out.

