@@ -2,7 +2,8 @@
 
 use crate::cover::{Cover, FallsThrough, Mesher};
 use crate::darts::{Method, PACKING, throw};
-use crate::holes::{Hole, Search, find};
+use crate::holes::{Hole, Search, Threshold, find};
+use crate::local_spacing::LocalSpacing;
 use crate::points::TooFar;
 use crate::sparse::{self, Added, SparseReport, SparseSearch};
 use crate::{Cloud, density};
@@ -146,12 +147,13 @@ pub fn fill(cloud: Cloud, settings: &Settings) -> Result<Filled, FillError> {
         Report { points_in, not_finite, below, max_hole, method: settings.method, ..Report::default() };
     report.mesher = settings.mesher;
     report.below_is_automatic = settings.below.is_none();
-    let holes = match below {
-        Some(below) if cloud.points.len() >= density::FEWEST => {
-            find(&cloud.points, &Search { below, widest: max_hole, regions: &settings.regions })
-        }
-        _ => Vec::new(),
+    let field = if settings.below.is_none() { LocalSpacing::new(&cloud.points) } else { None };
+    let threshold = match settings.below {
+        Some(below) if cloud.points.len() >= density::FEWEST => Some(Threshold::Below(below)),
+        _ => field.as_ref().map(Threshold::Local),
     };
+    let search = |threshold| Search { threshold, widest: max_hole, regions: &settings.regions };
+    let holes = threshold.map_or(Vec::new(), |threshold| find(&cloud.points, &search(threshold)));
     let area: f64 = holes.iter().map(Hole::area).sum();
     if let Some(spacing) = settings.spacing
         && area / (spacing * spacing) > MOST

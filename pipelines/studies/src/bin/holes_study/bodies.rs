@@ -105,9 +105,7 @@ impl Body {
         let (s, t) = (random.next(), random.next());
         match self {
             Body::Plane => (Vec3::new(300.0 * s, 300.0 * t, 0.0), 1.0),
-            Body::Cylinder => {
-                (Vec3::new(50.0 * (TAU * s).cos(), 50.0 * (TAU * s).sin(), 286.5 * t), 1.0)
-            }
+            Body::Cylinder => (Vec3::new(50.0 * (TAU * s).cos(), 50.0 * (TAU * s).sin(), 286.5 * t), 1.0),
             Body::Edge => {
                 let along = 300.0 * s - 150.0;
                 (Vec3::new(along.max(0.0), 300.0 * t, (-along).max(0.0)), 1.0)

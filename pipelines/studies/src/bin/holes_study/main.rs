@@ -37,7 +37,9 @@ fn main() -> ExitCode {
 }
 
 fn study(folder: &Path, held_out: bool, only: &str) -> Result<(), String> {
-    println!("| body | found of 3–6 | 6–8 | 8–12 | 12–25 | 25–60 | ≥ 8 | false per 10⁵ points | own | RMS | s |");
+    println!(
+        "| body | found of 3–6 | 6–8 | 8–12 | 12–25 | 25–60 | ≥ 8 | false per 10⁵ points | own | RMS | s |"
+    );
     println!("|---|---|---|---|---|---|---|---|---|---|---|");
     let mut all = Vec::new();
     for (name, body) in BODIES.into_iter().filter(|(name, _)| name.contains(only)) {
@@ -55,7 +57,8 @@ fn of(body: Body, folder: &Path, held_out: bool) -> Result<(Vec<Outcome>, usize)
     for set in (0..2 * SETS.0).filter(|set| (set % 3 == 2) == held_out) {
         let points = body.points(set + 1, folder)?;
         if matches!(body, Body::Scan(_)) && own.is_empty() {
-            own = cuts::fill(points.clone())?.report.holes.iter().map(|h| (h.centre.into(), h.width)).collect();
+            own =
+                cuts::fill(points.clone())?.report.holes.iter().map(|h| (h.centre.into(), h.width)).collect();
         }
         let (points, cuts) = cuts::cut(&points, SETS.1, set);
         outcomes.push(cuts::outcome(body, points, &cuts, &own)?);

@@ -1,0 +1,175 @@
+//! The surroundings of a loop, laid flat, and the holes in them.
+
+use crate::enclosed;
+use crate::few::Few;
+use crate::holes::{CELLS, GROW, Hole, Search, Threshold};
+use crate::levels::{EXAMINED, Level};
+use crate::patch::Frame;
+use crate::raster::Raster;
+use crate::sheet::{End, REACH, Sheet};
+use geom::{Quadratic, Shape, Vec3};
+
+/// Half the window, in cells of the patch.
+const WINDOW: usize = 2;
+/// Fewest open cells of a hole: less is chance.
+const FEWEST_CELLS: usize = 6;
+/// Fewest ends of a loop.
+const FEWEST_ENDS: usize = 4;
+/// Points this far off the surface of a patch, as a share of its radius, still cover it: a stone that rises out of
+/// its shadow is no hole in the ground. A wall scanned from both sides must be thicker, or cropped to one side.
+const COVERS: f64 = 0.5;
+/// Most cells of one patch.
+const MOST_CELLS: f64 = 16e6;
+/// Of the spacings at the ends of a loop, sorted, the share that the scale is taken from: the sparser side must not look open.
+const SPARSER: f64 = 0.75;
+
+/// The surroundings of a loop of ends.
+pub(crate) struct Patch<'a> {
+    ends: Vec<End>,
+    pub frame: Frame,
+    /// Around the frame's origin [m].
+    pub radius: f64,
+    /// Twice the width of a cell [m].
+    scale: f64,
+    /// Open where the density is at most this [1/m²].
+    below: f64,
+    shape: Option<&'a Shape>,
+}
+
+impl<'a> Patch<'a> {
+    pub fn new(
+        level: &Level,
+        ends: Vec<End>,
+        shape: Option<&'a Shape>,
+        search: &Search,
+    ) -> Option<Patch<'a>> {
+        if ends.len() < FEWEST_ENDS {
+            return None;
+        }
+        let sheet = &level.sheet;
+        let positions = ends.iter().map(|e| sheet.positions[e.index as usize]);
+        let centre = positions.clone().sum::<Vec3>() / ends.len() as f64;
+        let normals: Vec<Vec3> = ends.iter().map(|e| e.normal).collect();
+        let frame = Frame::new(centre, &normals)?;
+        let (scale, below) = match search.threshold {
+            Threshold::Below(below) => (sheet.cell, below),
+            Threshold::Local(field) => {
+                let mut spacings: Vec<f64> = positions.clone().map(|p| field.at(&p)).collect();
+                spacings.sort_by(f64::total_cmp);
+                let examined = EXAMINED * spacings[(SPARSER * (spacings.len() - 1) as f64) as usize];
+                (examined * level.wider, (examined * examined).recip())
+            }
+        };
+        let radius = positions.map(|p| (p - centre).norm()).fold(0.0, f64::max) + 5.0 * scale;
+        ((2.0 * radius * CELLS / scale).powi(2) < MOST_CELLS).then_some(Patch {
+            ends,
+            frame,
+            radius,
+            scale,
+            below,
+            shape,
+        })
+    }
+
+    /// The holes, from all points of the level around.
+    pub fn holes(&self, level: &Level, rows: impl Iterator<Item = u32>, search: &Search) -> Vec<Hole> {
+        let Some(surface) = self.surface(&level.sheet) else { return Vec::new() };
+        let tolerance = self.tolerance(&surface);
+        let off = |p: &Vec3| (p.z - surface.height(p.x, p.y)).abs();
+        let raster = Raster::new(self.radius, self.scale / CELLS);
+        let local = rows.map(|r| (level.row(r), self.frame.local(&level.points[r as usize])));
+        let near = |p: &Vec3| raster.at(p.x, p.y).is_some() && off(p) <= tolerance.max(COVERS * self.radius);
+        let mut around: Vec<(u32, Vec3)> = local.filter(|(_, p)| near(p)).collect();
+        let mut counts = vec![0u32; raster.len()];
+        around.iter().filter_map(|(_, p)| raster.at(p.x, p.y)).for_each(|cell| counts[cell] += 1);
+        let open = self.open(&raster, &counts, &surface);
+        around.retain(|(_, p)| off(p) <= tolerance);
+        let fewest = if self.shape.is_some() { 1 } else { FEWEST_CELLS };
+        let parts = match self.shape {
+            None => enclosed::holes(&raster, open),
+            Some(_) => raster.parts(open).into_iter().map(sorted).collect(),
+        };
+        let parts = parts.into_iter().filter(|part| part.len() >= fewest);
+        parts.filter_map(|part| self.hole(part, &raster, &surface, &around, search)).collect()
+    }
+
+    /// The same with a few points of each cell; the holes are returned without their surroundings.
+    pub fn holes_of(&self, few: &Few, level: &Level, search: &Search) -> Vec<Hole> {
+        let Some(surface) = self.surface(&level.sheet) else { return Vec::new() };
+        let covers = self.tolerance(&surface).max(COVERS * self.radius);
+        let raster = Raster::new(self.radius, self.scale / CELLS);
+        let counts = few.counts(&level.sheet, (&self.frame, self.radius * 1.5), &raster, &surface, covers);
+        let parts = enclosed::holes(&raster, self.open(&raster, &counts, &surface));
+        let parts = parts.into_iter().filter(|part| part.len() >= FEWEST_CELLS);
+        parts.filter_map(|part| self.hole(part, &raster, &surface, &[], search)).collect()
+    }
+
+    /// How far off the surface a point still belongs to it [m].
+    fn tolerance(&self, surface: &Quadratic) -> f64 {
+        (3.0 * surface.rms).max(1.5 * self.scale)
+    }
+
+    /// The quadratic through the positions around the ends.
+    fn surface(&self, sheet: &Sheet) -> Option<Quadratic> {
+        let reach = REACH * sheet.cell;
+        let near =
+            |e: &End| sheet.cells.grid.within(&sheet.positions, sheet.positions[e.index as usize], reach);
+        let mut near: Vec<u32> = self.ends.iter().flat_map(near).collect();
+        near.sort_unstable();
+        near.dedup();
+        let positions: Vec<Vec3> =
+            near.iter().map(|&i| self.frame.local(&sheet.positions[i as usize])).collect();
+        Quadratic::fit(&positions)
+    }
+
+    /// The open cells; in a shape, those that may be filled.
+    fn open(&self, raster: &Raster, counts: &[u32], surface: &Quadratic) -> Vec<bool> {
+        let window = (2 * WINDOW + 1) as f64 * raster.cell;
+        let most = self.below * window * window;
+        let mut open: Vec<bool> =
+            raster.windows(counts, WINDOW).into_iter().map(|count| f64::from(count) <= most).collect();
+        if let Some(shape) = self.shape {
+            for (cell, open) in open.iter_mut().enumerate().filter(|(_, open)| **open) {
+                let (u, v) = raster.middle(cell);
+                *open = shape.contains(&self.frame.world(&Vec3::new(u, v, surface.height(u, v))));
+            }
+        }
+        open
+    }
+
+    fn hole(
+        &self,
+        open: Vec<usize>,
+        raster: &Raster,
+        surface: &Quadratic,
+        around: &[(u32, Vec3)],
+        search: &Search,
+    ) -> Option<Hole> {
+        let positions: Vec<Vec3> = open
+            .iter()
+            .map(|&cell| {
+                let (u, v) = raster.middle(cell);
+                Vec3::new(u, v, surface.height(u, v))
+            })
+            .collect();
+        let (lo, hi) = geom::grid::bounds(&positions);
+        let width = (hi - lo).max() + (1.0 + GROW) * raster.cell;
+        let reach = 0.5 * (hi - lo).norm() + 5.0 * CELLS * raster.cell;
+        let middle = (lo + hi) / 2.0;
+        let near = |p: &&(u32, Vec3)| (p.1 - middle).xy().norm() <= reach;
+        (self.shape.is_some() || width <= search.widest).then(|| Hole {
+            frame: self.frame,
+            surface: *surface,
+            raster: *raster,
+            centre: self.frame.world(&(positions.iter().sum::<Vec3>() / positions.len() as f64)),
+            width,
+            around: around.iter().filter(near).copied().collect(),
+            open,
+        })
+    }
+}
+
+fn sorted(mut cells: Vec<usize>) -> Vec<usize> {
+    cells.sort_unstable();
+    cells
+}
