@@ -20,6 +20,12 @@ const FEWEST_ENDS: usize = 4;
 const COVERS: f64 = 0.5;
 /// Most cells of one patch.
 const MOST_CELLS: f64 = 16e6;
+/// The ring around the open cells of a hole that must be as dense as the scale demands, in cells: its windows hold nothing of the hole.
+const RIM: [f64; 2] = [4.5, 7.5];
+/// There a window is thin whose points are fewer than this many times what an open one may have: 45 % of what is there on average.
+const THIN: f64 = 1.8;
+/// Share of the ring that may be thin [–]; half of it must hold points of the surface.
+const MOST_THIN: f64 = 0.25;
 /// Of the spacings at the ends of a loop, sorted, the share that the scale is taken from: the sparser side must not look open.
 const SPARSER: f64 = 0.75;
 
@@ -82,14 +88,21 @@ impl<'a> Patch<'a> {
         let mut around: Vec<(u32, Vec3)> = local.filter(|(_, p)| near(p)).collect();
         let mut counts = vec![0u32; raster.len()];
         around.iter().filter_map(|(_, p)| raster.at(p.x, p.y)).for_each(|cell| counts[cell] += 1);
-        let open = self.open(&raster, &counts, &surface);
+        let windows = raster.windows(&counts, WINDOW);
+        let open = self.open(&raster, &windows, &surface);
         around.retain(|(_, p)| off(p) <= tolerance);
-        let fewest = if self.shape.is_some() { 1 } else { FEWEST_CELLS };
+        let is_local = matches!(search.threshold, Threshold::Local(_));
+        let fewest = if self.shape.is_some() { 1 } else { FEWEST_CELLS + 4 * usize::from(is_local) };
         let parts = match self.shape {
             None => enclosed::holes(&raster, open),
             Some(_) => raster.parts(open).into_iter().map(sorted).collect(),
         };
-        let parts = parts.into_iter().filter(|part| part.len() >= fewest);
+        let mut counts = vec![0u32; raster.len()];
+        around.iter().filter_map(|(_, p)| raster.at(p.x, p.y)).for_each(|cell| counts[cell] += 1);
+        let windows = raster.windows(&counts, WINDOW);
+        let is_edged =
+            |part: &Vec<usize>| self.shape.is_some() || !is_local || self.is_edged(part, &raster, &windows);
+        let parts = parts.into_iter().filter(|part| part.len() >= fewest && is_edged(part));
         parts.filter_map(|part| self.hole(part, &raster, &surface, &around, search)).collect()
     }
 
@@ -99,7 +112,7 @@ impl<'a> Patch<'a> {
         let covers = self.tolerance(&surface).max(COVERS * self.radius);
         let raster = Raster::new(self.radius, self.scale / CELLS);
         let counts = few.counts(&level.sheet, (&self.frame, self.radius * 1.5), &raster, &surface, covers);
-        let parts = enclosed::holes(&raster, self.open(&raster, &counts, &surface));
+        let parts = enclosed::holes(&raster, self.open(&raster, &raster.windows(&counts, WINDOW), &surface));
         let parts = parts.into_iter().filter(|part| part.len() >= FEWEST_CELLS);
         parts.filter_map(|part| self.hole(part, &raster, &surface, &[], search)).collect()
     }
@@ -123,11 +136,9 @@ impl<'a> Patch<'a> {
     }
 
     /// The open cells; in a shape, those that may be filled.
-    fn open(&self, raster: &Raster, counts: &[u32], surface: &Quadratic) -> Vec<bool> {
-        let window = (2 * WINDOW + 1) as f64 * raster.cell;
-        let most = self.below * window * window;
-        let mut open: Vec<bool> =
-            raster.windows(counts, WINDOW).into_iter().map(|count| f64::from(count) <= most).collect();
+    fn open(&self, raster: &Raster, windows: &[u32], surface: &Quadratic) -> Vec<bool> {
+        let most = self.most(raster);
+        let mut open: Vec<bool> = windows.iter().map(|&count| f64::from(count) <= most).collect();
         if let Some(shape) = self.shape {
             for (cell, open) in open.iter_mut().enumerate().filter(|(_, open)| **open) {
                 let (u, v) = raster.middle(cell);
@@ -135,6 +146,24 @@ impl<'a> Patch<'a> {
             }
         }
         open
+    }
+
+    /// Most points of an open window.
+    fn most(&self, raster: &Raster) -> f64 {
+        self.below * ((2 * WINDOW + 1) as f64 * raster.cell).powi(2)
+    }
+
+    /// Whether the surface around is as dense as the scale demands: one that is sparser has holes by chance.
+    fn is_edged(&self, part: &[usize], raster: &Raster, windows: &[u32]) -> bool {
+        let [inner, outer] = RIM.map(|radius| raster.grown(part, radius));
+        let most = self.most(raster);
+        let (mut ring, mut filled, mut thin) = (0u32, 0u32, 0u32);
+        for cell in (0..raster.len()).filter(|&cell| outer[cell] && !inner[cell]) {
+            ring += 1;
+            filled += u32::from(windows[cell] > 0);
+            thin += u32::from(windows[cell] > 0 && f64::from(windows[cell]) < THIN * most);
+        }
+        2 * filled > ring && f64::from(thin) <= MOST_THIN * f64::from(filled)
     }
 
     fn hole(

@@ -154,6 +154,12 @@ pub fn outcome(body: Body, points: Vec<Vec3>, cuts: &[Cut], own: &[(Vec3, f64)])
         let known = |(p, width): &(Vec3, f64)| (centre(h) - p).norm() < 0.75 * (width + h.width);
         !cuts.iter().any(of_cut) && !own.iter().any(known)
     };
+    for h in holes.iter().filter(is_false) {
+        eprintln!(
+            "FALSE {:?} width {:.2} cells {} added {} spacing {:.2}",
+            h.centre, h.width, h.faces, h.added, h.spacing
+        );
+    }
     Ok(Outcome {
         points: count,
         scores: cuts.par_iter().map(of).collect(),
