@@ -2,6 +2,7 @@
 
 use crate::cover::{Cover, FallsThrough, Mesher};
 use crate::darts::{Method, PACKING, throw};
+use crate::findable::{Found, RegionReport, ScaleReport};
 use crate::holes::{Hole, Search, Threshold, find};
 use crate::local_spacing::LocalSpacing;
 use crate::points::TooFar;
@@ -26,7 +27,7 @@ pub(crate) const MOST: f64 = 5e7;
 pub struct Settings {
     /// Least distance of added points [m]; as dense as the surroundings when not given.
     pub spacing: Option<f64>,
-    /// Holes are where the density is at most this [1/m²]; from the cloud when not given.
+    /// Holes are where the density is at most this [1/m²]; a quarter of the density around when not given.
     pub below: Option<f64>,
     /// The spacing that will be asked for [m]: surface that the scan is too sparse for is filled, too.
     pub for_spacing: Option<f64>,
@@ -62,9 +63,10 @@ pub struct Report {
     pub points_in: usize,
     /// Points without finite coordinates, dropped.
     pub not_finite: usize,
-    /// Density at or below which a position is part of a hole [1/m²].
+    /// Density at or below which a position is part of a hole [1/m²]; chosen from the cloud, that of the sparsest 20th: elsewhere it is a
+    /// quarter of the density around.
     pub below: Option<f64>,
-    /// Whether that was chosen from the cloud.
+    /// Whether it was chosen from the cloud.
     pub below_is_automatic: bool,
     /// Widest hole that is filled [m].
     pub max_hole: f64,
@@ -72,6 +74,10 @@ pub struct Report {
     pub method: Method,
     /// How holes were meshed.
     pub mesher: Mesher,
+    /// The scales of the search, finest first, and the smallest hole that each finds.
+    pub scales: Vec<ScaleReport>,
+    /// The regions that were given.
+    pub regions: Vec<RegionReport>,
     /// The holes.
     pub holes: Vec<HoleReport>,
     /// What was added where the surface is too sparse for a spacing; `None` when none was given.
@@ -153,7 +159,9 @@ pub fn fill(cloud: Cloud, settings: &Settings) -> Result<Filled, FillError> {
         _ => field.as_ref().map(Threshold::Local),
     };
     let search = |threshold| Search { threshold, widest: max_hole, regions: &settings.regions };
-    let holes = threshold.map_or(Vec::new(), |threshold| find(&cloud.points, &search(threshold)));
+    let found = threshold.map_or(Found::default(), |threshold| find(&cloud.points, &search(threshold)));
+    (report.scales, report.regions) = (found.scales, found.regions);
+    let holes = found.holes;
     let area: f64 = holes.iter().map(Hole::area).sum();
     if let Some(spacing) = settings.spacing
         && area / (spacing * spacing) > MOST

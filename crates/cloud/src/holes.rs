@@ -1,20 +1,21 @@
 //! Holes: blind spots of the scanner inside the outline of the surface.
 //!
 //! ```text
-//! threshold D [1/m²]   given, or a quarter of the density that only the sparsest 20th of the surface is below
-//! scale     c = 1/√D   a disc of c² has one point where the density is D; wider where the noise is
-//! 1. the surface ends where the cells of width c around a position leave a gap of 100° and more (`sheet`)
+//! scale     c = 2 s, s = 1/√density around (`local_spacing`): a disc of c² has four points; wider where the noise is.
+//!           With a threshold D [1/m²] for the whole cloud, c = 1/√D
+//! 1. the surface ends where the cells of a level (`levels`) around a position leave a gap of 100° and more (`sheet`)
 //! 2. ends are linked to loops when they are near and look the same way: across a hole or a narrow strip they do not;
-//!    what is linked wider than a hole may be is looked at in overlapping boxes, each of which a hole fits in
+//!    what is linked wider than a hole may be is looked at in overlapping boxes, each of which a hole fits in (`loops`)
 //! 3. each loop's surroundings are laid flat: plane, and the quadratic over it (`patch`)
-//! 4. there, cells whose window of (2.5 c)² holds at most 6.25 c² D points are open; open cells that are not
-//!    joined to the outside, but by a strait, are a hole (`enclosed`)
+//! 4. there, cells whose window of (2.5 c)² holds at most a quarter of what the density demands are open; open cells that are not
+//!    joined to the outside, but by a strait, are a hole (`enclosed`) if the surface around is dense enough for its scale (`examined`)
 //! ```
 //!
-//! Step 4 decides, so that the rim of the surface and false ends of step 1 do not count as holes.
+//! Step 4 decides, so that the rim of the surface and false ends of step 1 do not count as holes. A hole found at two scales counts once.
 
 use crate::examined::Patch;
 use crate::few::Few;
+use crate::findable::{Found, RegionReport, ScaleReport};
 use crate::levels::{Level, scales};
 use crate::local_spacing::LocalSpacing;
 use crate::loops::{ends_of, loops};
@@ -63,14 +64,26 @@ pub(crate) struct Hole {
 }
 
 /// The holes of a cloud of finite points.
-pub(crate) fn find(points: &[Vec3], search: &Search) -> Vec<Hole> {
+pub(crate) fn find(points: &[Vec3], search: &Search) -> Found {
+    let mut found = Found::default();
+    let mut ends = vec![Vec::new(); search.regions.len()];
+    let mut look = |level: Level| {
+        found.scales.push(ScaleReport::of(&level, search));
+        for (shape, ends) in search.regions.iter().zip(&mut ends) {
+            ends.extend(ends_of(&level, shape).iter().map(|end| level.sheet.positions[end.index as usize]));
+        }
+        found.holes.extend(of_level(&level, search));
+    };
     match search.threshold {
-        Threshold::Below(below) => of_level(&Level::whole(points, below.sqrt().recip()), search),
+        Threshold::Below(below) => look(Level::whole(points, below.sqrt().recip())),
         Threshold::Local(field) => {
-            let of_scale = |&cell: &f64| of_level(&Level::suited(points, field, cell), search);
-            once(scales(field).values().flat_map(of_scale).collect(), Vec::new())
+            scales(field).values().for_each(|&cell| look(Level::suited(points, field, cell)));
+            found.holes = once(found.holes, Vec::new());
         }
     }
+    let of = |(shape, ends): (&Shape, Vec<Vec3>)| RegionReport::of(shape, points, &ends, &found, search);
+    found.regions = search.regions.iter().zip(ends).map(of).collect();
+    found
 }
 
 /// The holes of one scale.
@@ -135,6 +148,14 @@ impl Hole {
         let reach = 0.5 * self.width + REACH * sheet.cell;
         let near = |end: &&End| (sheet.positions[end.index as usize] - self.centre).norm() <= reach;
         ends.iter().filter(near).copied().collect()
+    }
+
+    /// Whether some of it is in a shape.
+    pub fn is_in(&self, shape: &Shape) -> bool {
+        self.open.iter().any(|&cell| {
+            let (u, v) = self.raster.middle(cell);
+            shape.contains(&self.frame.world(&Vec3::new(u, v, self.surface.height(u, v))))
+        })
     }
 
     /// Area of the open cells, laid flat [m²].

@@ -16,7 +16,7 @@ use std::borrow::Cow;
 use std::collections::{BTreeMap, HashSet};
 
 /// Cells of a level, in spacings: of its middle.
-const CELL: f64 = 1.8;
+pub(crate) const CELL: f64 = 1.8;
 /// From level to level, as a power of two.
 const STEP: f64 = 0.5;
 /// Ends are judged so many levels beside their own.

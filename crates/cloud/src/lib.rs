@@ -9,6 +9,7 @@ mod enclosed;
 mod examined;
 mod few;
 pub mod fill;
+pub mod findable;
 pub mod formats;
 mod holes;
 pub mod largest;

@@ -13,8 +13,8 @@ use std::process::ExitCode;
 const ABOUT: &str = "A hole is a region inside the outline of the surface with a density of at most --below. The rim is not \
     changed. Each hole is meshed by ball pivoting, and points are put on the smooth surface that continues its \
     surroundings. Added points have the property filled = 1 and take all other properties from the nearest scanned \
-    point. The default of --below is a quarter of the density below which the sparsest 5 % of the surface lie; the \
-    report gives it.\n\n\
+    point. Without --below, a hole has at most a quarter of the \
+    density around it: holes about 8 local spacings wide and wider are found; the report gives the smallest.\n\n\
     Examples:\n\
     \x20 cloud-fill cropped.ply -o filled.ply\n\
     \x20 cloud-fill cropped.ply --for-spacing 0.012 -o filled.ply\n\
@@ -34,7 +34,7 @@ struct Args {
     /// Also fill surface where the scan is too sparse for bluenoise-sample --spacing M [m]
     #[arg(long, value_name = "M", value_parser = positive)]
     for_spacing: Option<f64>,
-    /// Fill where there are at most DENSITY points per m² (default: from the cloud)
+    /// Fill where there are at most DENSITY points per m² (default: a quarter of the density around)
     #[arg(long, value_name = "DENSITY", value_parser = positive)]
     below: Option<f64>,
     /// Fill only inside SHAPE, also where it crosses the rim (repeat for more)
@@ -83,12 +83,6 @@ fn fill(args: Args) -> anyhow::Result<Report> {
     };
     let filled = cloud::fill(args.input.read_cloud()?, &settings).with_context(|| args.input.name())?;
     warn(&filled.report);
-    if !settings.regions.is_empty() && filled.report.holes.is_empty() {
-        cli::warn(
-            "the surface has no edge in or near the regions: nothing was filled; check the coordinates of \
-             the regions",
-        );
-    }
     if let Some(path) = &args.mesh {
         let mut out = cli::OutputStream::file(path)?;
         cloud::write_mesh(&mut out, &filled.mesh, stream::ply::Encoding::default())?;
@@ -102,7 +96,13 @@ fn fill(args: Args) -> anyhow::Result<Report> {
 
 fn summary(report: &cloud::fill::Report) -> String {
     let holes = report.holes.len();
+    let smallest = report.scales.iter().map(|s| s.smallest_hole);
     match &report.sparse {
+        None if holes == 0 && !report.scales.is_empty() => format!(
+            "0 points added in 0 holes: holes would be found from {:.3} m wide where the scan is densest, from {:.3} m where it is sparsest",
+            smallest.clone().fold(f64::INFINITY, f64::min),
+            smallest.fold(0.0, f64::max)
+        ),
         None => format!("{} points added in {holes} holes", report.added),
         Some(sparse) => format!(
             "{} points added in {holes} holes, {} in {} places that were too sparse for a spacing of {} m",
@@ -121,6 +121,16 @@ fn warn(report: &cloud::fill::Report) {
     }
     if report.below.is_none() {
         cli::warn("too few points, or all at one position: their density is unknown, and nothing was filled");
+    }
+    for (number, region) in (1..).zip(&report.regions).filter(|(_, region)| region.holes == 0) {
+        cli::warn(&match (region.spacing, region.smallest_hole) {
+            (Some(spacing), Some(smallest)) => format!(
+                "region {number}: no hole was found in its {} points; the spacing there is {spacing:.4} m, so a hole must be at least {smallest:.3} m \
+                 wide: give --below DENSITY for a smaller one",
+                region.points
+            ),
+            _ => format!("region {number}: no surface is in or beside it: check its coordinates"),
+        });
     }
     if let Some(sparse) = report.sparse.as_ref().filter(|s| s.left > 0) {
         let [x, y, z] = sparse.widest_at.unwrap_or_default();
