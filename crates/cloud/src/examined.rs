@@ -18,6 +18,8 @@ const FEWEST_ENDS: usize = 4;
 /// Points this far off the surface of a patch, as a share of its radius, still cover it: a stone that rises out of
 /// its shadow is no hole in the ground. A wall scanned from both sides must be thicker, or cropped to one side.
 const COVERS: f64 = 0.5;
+/// Scale that the surface is fitted at, in spacings.
+const FITTED: f64 = 2.5;
 /// Most cells of one patch.
 const MOST_CELLS: f64 = 16e6;
 /// The ring around the open cells of a hole that must be as dense as the scale demands, in cells: its windows hold nothing of the hole.
@@ -37,6 +39,8 @@ pub(crate) struct Patch<'a> {
     pub radius: f64,
     /// Twice the width of a cell [m].
     scale: f64,
+    /// What the surface is fitted at [m].
+    fit: f64,
     /// Open where the density is at most this [1/m²].
     below: f64,
     shape: Option<&'a Shape>,
@@ -57,13 +61,14 @@ impl<'a> Patch<'a> {
         let centre = positions.clone().sum::<Vec3>() / ends.len() as f64;
         let normals: Vec<Vec3> = ends.iter().map(|e| e.normal).collect();
         let frame = Frame::new(centre, &normals)?;
-        let (scale, below) = match search.threshold {
-            Threshold::Below(below) => (sheet.cell, below),
+        let (scale, fit, below) = match search.threshold {
+            Threshold::Below(below) => (sheet.cell, sheet.cell, below),
             Threshold::Local(field) => {
                 let mut spacings: Vec<f64> = positions.clone().map(|p| field.at(&p)).collect();
                 spacings.sort_by(f64::total_cmp);
-                let examined = EXAMINED * spacings[(SPARSER * (spacings.len() - 1) as f64) as usize];
-                (examined * level.wider, (examined * examined).recip())
+                let spacing = spacings[(SPARSER * (spacings.len() - 1) as f64) as usize];
+                let below = (EXAMINED * spacing).powi(-2);
+                (EXAMINED * spacing * level.wider, FITTED * spacing * level.wider, below)
             }
         };
         let radius = positions.map(|p| (p - centre).norm()).fold(0.0, f64::max) + 5.0 * scale;
@@ -72,6 +77,7 @@ impl<'a> Patch<'a> {
             frame,
             radius,
             scale,
+            fit,
             below,
             shape,
         })
@@ -119,12 +125,12 @@ impl<'a> Patch<'a> {
 
     /// How far off the surface a point still belongs to it [m].
     fn tolerance(&self, surface: &Quadratic) -> f64 {
-        (3.0 * surface.rms).max(1.5 * self.scale)
+        (3.0 * surface.rms).max(1.5 * self.fit)
     }
 
     /// The quadratic through the positions around the ends.
     fn surface(&self, sheet: &Sheet) -> Option<Quadratic> {
-        let reach = REACH * sheet.cell;
+        let reach = REACH * self.fit;
         let near =
             |e: &End| sheet.cells.grid.within(&sheet.positions, sheet.positions[e.index as usize], reach);
         let mut near: Vec<u32> = self.ends.iter().flat_map(near).collect();
@@ -192,6 +198,7 @@ impl<'a> Patch<'a> {
             raster: *raster,
             centre: self.frame.world(&(positions.iter().sum::<Vec3>() / positions.len() as f64)),
             width,
+            fit: self.fit,
             around: around.iter().filter(near).copied().collect(),
             open,
         })

@@ -6,6 +6,7 @@ use crate::findable::{Found, RegionReport, ScaleReport};
 use crate::holes::{Hole, Search, Threshold, find};
 use crate::local_spacing::LocalSpacing;
 use crate::points::TooFar;
+use crate::seen::{Seen, SightReport};
 use crate::sparse::{self, Added, SparseReport, SparseSearch};
 use crate::{Cloud, density};
 use geom::mesh::TriMesh;
@@ -33,6 +34,8 @@ pub struct Settings {
     pub for_spacing: Option<f64>,
     /// Fill only in these shapes, and there whatever the outline.
     pub regions: Vec<Shape>,
+    /// Where scanners stood [m], beside the viewpoints that the cloud states.
+    pub seen_from: Vec<Vec3>,
     /// Widest hole to fill [m]; a fifth of the cloud's diagonal when not given.
     pub max_hole: Option<f64>,
     /// How points are spread.
@@ -74,6 +77,8 @@ pub struct Report {
     pub method: Method,
     /// How holes were meshed.
     pub mesher: Mesher,
+    /// Viewpoints that points were checked from.
+    pub viewpoints: usize,
     /// The scales of the search, finest first, and the smallest hole that each finds.
     pub scales: Vec<ScaleReport>,
     /// The regions that were given.
@@ -105,6 +110,8 @@ pub struct HoleReport {
     pub faces: usize,
     /// Points added.
     pub added: usize,
+    /// How the points of the fill look from the viewpoints; none without any.
+    pub sight: Option<SightReport>,
     /// Whether the largest ball fell through, so that some of it stays open.
     pub open: bool,
 }
@@ -168,8 +175,11 @@ pub fn fill(cloud: Cloud, settings: &Settings) -> Result<Filled, FillError> {
     {
         return Err(FillError::TooMany { spacing, points: area / (spacing * spacing) });
     }
-    let patches: Vec<Patch> =
-        holes.par_iter().enumerate().map(|(i, hole)| Patch::new(hole, settings, i as u64)).collect();
+    let eyes: Vec<Vec3> = settings.seen_from.iter().copied().chain(cloud.viewpoints()).collect();
+    report.viewpoints = eyes.len();
+    let seen = (!eyes.is_empty() && !holes.is_empty()).then(|| Seen::new(&cloud.points, &eyes));
+    let patch = |(i, hole)| Patch::new(hole, settings, seen.as_ref(), i as u64);
+    let patches: Vec<Patch> = holes.par_iter().enumerate().map(patch).collect();
     let mut mesh = TriMesh::default();
     for patch in &patches {
         let first = mesh.vertices.len() as u32;
@@ -207,7 +217,7 @@ struct Patch {
 }
 
 impl Patch {
-    fn new(hole: &Hole, settings: &Settings, number: u64) -> Patch {
+    fn new(hole: &Hole, settings: &Settings, seen: Option<&Seen>, number: u64) -> Patch {
         let mut report = HoleReport {
             centre: hole.centre.into(),
             width: hole.width,
@@ -216,9 +226,11 @@ impl Patch {
             ball: 0.0,
             faces: 0,
             added: 0,
+            sight: None,
             open: true,
         };
-        let Ok(cover) = Cover::new(hole, settings.mesher, &settings.balls).map_err(|FallsThrough| ()) else {
+        let Ok(mut cover) = Cover::new(hole, settings.mesher, &settings.balls).map_err(|FallsThrough| ())
+        else {
             return Patch { points: vec![], like: vec![], vertices: vec![], faces: vec![], report };
         };
         // Dense enough to be as dense as the surroundings: a grid fills its plane, a Poisson disk less of it.
@@ -229,7 +241,9 @@ impl Patch {
         if !settings.regions.is_empty() {
             local.retain(|p| settings.regions.iter().any(|shape| shape.contains(&hole.frame.world(p))));
         }
+        let sight = seen.map(|seen| seen.drop_free(hole, &mut cover, &mut local));
         report = HoleReport {
+            sight,
             density: cover.density,
             spacing,
             ball: cover.ball,

@@ -61,6 +61,8 @@ pub(crate) struct Hole {
     pub centre: Vec3,
     /// Greatest width [m].
     pub width: f64,
+    /// Scale at which its surface is fitted [m].
+    pub fit: f64,
 }
 
 /// The holes of a cloud of finite points.

@@ -24,6 +24,7 @@ pub mod pivot;
 pub mod points;
 mod raster;
 pub mod regions;
+pub mod seen;
 mod sheet;
 pub mod sparse;
 mod surrounded;

@@ -5,8 +5,8 @@ use clap::Parser;
 use cli::Report;
 use cloud::fill::Settings;
 use cloud::{Mesher, Method};
-use geom::Shape;
-use geom::number::positive;
+use geom::number::{finite, positive};
+use geom::{Shape, Vec3};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -18,6 +18,7 @@ const ABOUT: &str = "A hole is a region inside the outline of the surface with a
     Examples:\n\
     \x20 cloud-fill cropped.ply -o filled.ply\n\
     \x20 cloud-fill cropped.ply --for-spacing 0.012 -o filled.ply\n\
+    \x20 cloud-fill cropped.ply --seen-from 0,0,1.8 --seen-from 4,2,1.8 -o filled.ply\n\
     \x20 cloud-fill cropped.ply --below 5000 --max-hole 0.1 -o filled.ply";
 
 /// Find the holes of a scan and fill them with points
@@ -40,6 +41,9 @@ struct Args {
     /// Fill only inside SHAPE, also where it crosses the rim (repeat for more)
     #[arg(long, value_name = "SHAPE", value_parser = cloud::shape)]
     region: Vec<Shape>,
+    /// Where a scanner stood [m] (repeat for more): space that it looked through stays open
+    #[arg(long, value_name = "x,y,z", value_parser = viewpoint, allow_hyphen_values = true)]
+    seen_from: Vec<Vec3>,
     /// Widest hole to fill [m] (default: a fifth of the cloud's diagonal)
     #[arg(long, value_name = "M", value_parser = positive)]
     max_hole: Option<f64>,
@@ -75,6 +79,7 @@ fn fill(args: Args) -> anyhow::Result<Report> {
         for_spacing: args.for_spacing,
         below: args.below,
         regions: args.region,
+        seen_from: args.seen_from,
         max_hole: args.max_hole,
         method: args.fill,
         mesher: args.method,
@@ -140,6 +145,18 @@ fn warn(report: &cloud::fill::Report) {
             sparse.left, sparse.left_places, sparse.spacing, sparse.widest_left
         ));
     }
+    let free = |h: &&cloud::fill::HoleReport| h.sight.is_some_and(|sight| sight.free > 0);
+    let left: Vec<_> = report.holes.iter().filter(free).collect();
+    if let Some(hole) = left.first() {
+        let [x, y, z] = hole.centre;
+        cli::warn(&format!(
+            "{} points of {} holes would lie in space that a scanner looked through: they were left out; the first hole is at {x:.3},{y:.3},{z:.3}, \
+             {:.3} m wide; the report lists the holes",
+            left.iter().filter_map(|h| h.sight).map(|sight| sight.free).sum::<usize>(),
+            left.len(),
+            hole.width
+        ));
+    }
     let open = report.holes.iter().filter(|h| h.open).count();
     if let Some(hole) = report.holes.iter().find(|h| h.open) {
         let [x, y, z] = hole.centre;
@@ -148,6 +165,15 @@ fn warn(report: &cloud::fill::Report) {
              up to {:.3} m fall through, or too few points surround it; the report lists the holes",
             hole.width, hole.ball
         ));
+    }
+}
+
+fn viewpoint(text: &str) -> Result<Vec3, String> {
+    let wrong = || format!("'{text}' is not x,y,z: give three numbers in m");
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|t| finite(t.trim())).collect();
+    match numbers.map_err(|_| wrong())?[..] {
+        [x, y, z] => Ok(Vec3::new(x, y, z)),
+        _ => Err(wrong()),
     }
 }
 

@@ -26,6 +26,7 @@ pub struct Cut {
 }
 
 /// How one hole was filled.
+#[derive(Clone)]
 pub struct Score {
     /// Diameter in local spacings.
     pub size: f64,
@@ -35,6 +36,7 @@ pub struct Score {
 }
 
 /// How one cloud was filled.
+#[derive(Clone)]
 pub struct Outcome {
     pub points: usize,
     pub scores: Vec<Score>,
@@ -154,12 +156,6 @@ pub fn outcome(body: Body, points: Vec<Vec3>, cuts: &[Cut], own: &[(Vec3, f64)])
         let known = |(p, width): &(Vec3, f64)| (centre(h) - p).norm() < 0.75 * (width + h.width);
         !cuts.iter().any(of_cut) && !own.iter().any(known)
     };
-    for h in holes.iter().filter(is_false) {
-        eprintln!(
-            "FALSE {:?} width {:.2} cells {} added {} spacing {:.2}",
-            h.centre, h.width, h.faces, h.added, h.spacing
-        );
-    }
     Ok(Outcome {
         points: count,
         scores: cuts.par_iter().map(of).collect(),
