@@ -1,6 +1,6 @@
 //! The mesh over a hole, and the smooth height that its points get.
 
-use crate::holes::{CELLS, GROW, Hole};
+use crate::holes::{GROW, Hole};
 use crate::patch::ThinPlate;
 use crate::pivot::pivot;
 use crate::raster::Raster;
@@ -14,8 +14,8 @@ use std::str::FromStr;
 const MOST_POSITIONS: usize = 250;
 /// Smoothing of the plate [–]: follows the surface over about two scales, not the noise.
 const SMOOTHING: f64 = 3.0;
-/// Width of the surroundings that are used, in cells.
-const RING: f64 = 3.0 * CELLS;
+/// Width of the surroundings that are used, in scales of the fit.
+const RING: f64 = 3.0;
 /// Share of the open cells that a mesh must cover.
 const CLOSED: f64 = 0.95;
 
@@ -69,7 +69,7 @@ impl Cover {
     pub fn new(hole: &Hole, mesher: Mesher, balls: &[f64]) -> Result<Cover, FallsThrough> {
         let raster = &hole.raster;
         let mask = raster.grown(&hole.open, GROW);
-        let ring = raster.grown(&hole.open, GROW + RING);
+        let ring = raster.grown(&hole.open, GROW + RING * hole.fit / raster.cell);
         let in_ring = |(_, p): &&(u32, Vec3)| raster.at(p.x, p.y).is_some_and(|cell| ring[cell]);
         let around: Vec<(u32, Vec3)> = hole.around.iter().filter(in_ring).copied().collect();
         let density = density(hole, &mask, &ring, &around).ok_or(FallsThrough)?;
@@ -138,7 +138,7 @@ impl Cover {
 
 /// Balls from the scale of the search to one that no hole of this width lets through.
 fn own_balls(hole: &Hole) -> Vec<f64> {
-    let scale = hole.raster.cell * CELLS;
+    let scale = hole.fit;
     let mut balls = vec![0.75 * scale];
     while balls[balls.len() - 1] < 2.0 * hole.width {
         balls.push(balls[balls.len() - 1] * 2.0);
@@ -210,7 +210,7 @@ impl Heights {
     fn new(hole: &Hole, mask: &[bool], around: &[(u32, Vec3)]) -> Heights {
         let raster = hole.raster;
         let (lo, side) = Heights::window(&raster, mask);
-        let mut scale = raster.cell * CELLS;
+        let mut scale = hole.fit;
         let mut positions = means(hole, around, scale);
         while positions.len() > MOST_POSITIONS {
             scale *= 1.3;

@@ -55,7 +55,7 @@ pub fn sparse(points: &[Vec3], share: f64) -> Option<f64> {
 }
 
 /// About `count` of the points, one at random out of every run, so that the rows of a scanner leave no pattern.
-fn spread(points: &[Vec3], count: usize) -> Vec<[f64; 3]> {
+pub(crate) fn spread(points: &[Vec3], count: usize) -> Vec<[f64; 3]> {
     let step = (points.len() / count).max(1);
     let pick = |(run, points): (usize, &[Vec3])| {
         let mixed = (run as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);

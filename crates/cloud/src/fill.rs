@@ -2,8 +2,11 @@
 
 use crate::cover::{Cover, FallsThrough, Mesher};
 use crate::darts::{Method, PACKING, throw};
-use crate::holes::{Hole, Search, find};
+use crate::findable::{Found, RegionReport, ScaleReport};
+use crate::holes::{Hole, Search, Threshold, find};
+use crate::local_spacing::LocalSpacing;
 use crate::points::TooFar;
+use crate::seen::{Seen, SightReport};
 use crate::sparse::{self, Added, SparseReport, SparseSearch};
 use crate::{Cloud, density};
 use geom::mesh::TriMesh;
@@ -25,12 +28,14 @@ pub(crate) const MOST: f64 = 5e7;
 pub struct Settings {
     /// Least distance of added points [m]; as dense as the surroundings when not given.
     pub spacing: Option<f64>,
-    /// Holes are where the density is at most this [1/m²]; from the cloud when not given.
+    /// Holes are where the density is at most this [1/m²]; a quarter of the density around when not given.
     pub below: Option<f64>,
     /// The spacing that will be asked for [m]: surface that the scan is too sparse for is filled, too.
     pub for_spacing: Option<f64>,
     /// Fill only in these shapes, and there whatever the outline.
     pub regions: Vec<Shape>,
+    /// Where scanners stood [m], beside the viewpoints that the cloud states.
+    pub seen_from: Vec<Vec3>,
     /// Widest hole to fill [m]; a fifth of the cloud's diagonal when not given.
     pub max_hole: Option<f64>,
     /// How points are spread.
@@ -61,9 +66,10 @@ pub struct Report {
     pub points_in: usize,
     /// Points without finite coordinates, dropped.
     pub not_finite: usize,
-    /// Density at or below which a position is part of a hole [1/m²].
+    /// Density at or below which a position is part of a hole [1/m²]; chosen from the cloud, that of the sparsest 20th: elsewhere it is a
+    /// quarter of the density around.
     pub below: Option<f64>,
-    /// Whether that was chosen from the cloud.
+    /// Whether it was chosen from the cloud.
     pub below_is_automatic: bool,
     /// Widest hole that is filled [m].
     pub max_hole: f64,
@@ -71,6 +77,12 @@ pub struct Report {
     pub method: Method,
     /// How holes were meshed.
     pub mesher: Mesher,
+    /// Viewpoints that points were checked from.
+    pub viewpoints: usize,
+    /// The scales of the search, finest first, and the smallest hole that each finds.
+    pub scales: Vec<ScaleReport>,
+    /// The regions that were given.
+    pub regions: Vec<RegionReport>,
     /// The holes.
     pub holes: Vec<HoleReport>,
     /// What was added where the surface is too sparse for a spacing; `None` when none was given.
@@ -98,6 +110,8 @@ pub struct HoleReport {
     pub faces: usize,
     /// Points added.
     pub added: usize,
+    /// How the points of the fill look from the viewpoints; none without any.
+    pub sight: Option<SightReport>,
     /// Whether the largest ball fell through, so that some of it stays open.
     pub open: bool,
 }
@@ -146,20 +160,26 @@ pub fn fill(cloud: Cloud, settings: &Settings) -> Result<Filled, FillError> {
         Report { points_in, not_finite, below, max_hole, method: settings.method, ..Report::default() };
     report.mesher = settings.mesher;
     report.below_is_automatic = settings.below.is_none();
-    let holes = match below {
-        Some(below) if cloud.points.len() >= density::FEWEST => {
-            find(&cloud.points, &Search { below, widest: max_hole, regions: &settings.regions })
-        }
-        _ => Vec::new(),
+    let field = if settings.below.is_none() { LocalSpacing::new(&cloud.points) } else { None };
+    let threshold = match settings.below {
+        Some(below) if cloud.points.len() >= density::FEWEST => Some(Threshold::Below(below)),
+        _ => field.as_ref().map(Threshold::Local),
     };
+    let search = |threshold| Search { threshold, widest: max_hole, regions: &settings.regions };
+    let found = threshold.map_or(Found::default(), |threshold| find(&cloud.points, &search(threshold)));
+    (report.scales, report.regions) = (found.scales, found.regions);
+    let holes = found.holes;
     let area: f64 = holes.iter().map(Hole::area).sum();
     if let Some(spacing) = settings.spacing
         && area / (spacing * spacing) > MOST
     {
         return Err(FillError::TooMany { spacing, points: area / (spacing * spacing) });
     }
-    let patches: Vec<Patch> =
-        holes.par_iter().enumerate().map(|(i, hole)| Patch::new(hole, settings, i as u64)).collect();
+    let eyes: Vec<Vec3> = settings.seen_from.iter().copied().chain(cloud.viewpoints()).collect();
+    report.viewpoints = eyes.len();
+    let seen = (!eyes.is_empty() && !holes.is_empty()).then(|| Seen::new(&cloud.points, &eyes));
+    let patch = |(i, hole)| Patch::new(hole, settings, seen.as_ref(), i as u64);
+    let patches: Vec<Patch> = holes.par_iter().enumerate().map(patch).collect();
     let mut mesh = TriMesh::default();
     for patch in &patches {
         let first = mesh.vertices.len() as u32;
@@ -197,7 +217,7 @@ struct Patch {
 }
 
 impl Patch {
-    fn new(hole: &Hole, settings: &Settings, number: u64) -> Patch {
+    fn new(hole: &Hole, settings: &Settings, seen: Option<&Seen>, number: u64) -> Patch {
         let mut report = HoleReport {
             centre: hole.centre.into(),
             width: hole.width,
@@ -206,9 +226,11 @@ impl Patch {
             ball: 0.0,
             faces: 0,
             added: 0,
+            sight: None,
             open: true,
         };
-        let Ok(cover) = Cover::new(hole, settings.mesher, &settings.balls).map_err(|FallsThrough| ()) else {
+        let Ok(mut cover) = Cover::new(hole, settings.mesher, &settings.balls).map_err(|FallsThrough| ())
+        else {
             return Patch { points: vec![], like: vec![], vertices: vec![], faces: vec![], report };
         };
         // Dense enough to be as dense as the surroundings: a grid fills its plane, a Poisson disk less of it.
@@ -219,7 +241,9 @@ impl Patch {
         if !settings.regions.is_empty() {
             local.retain(|p| settings.regions.iter().any(|shape| shape.contains(&hole.frame.world(p))));
         }
+        let sight = seen.map(|seen| seen.drop_free(hole, &mut cover, &mut local));
         report = HoleReport {
+            sight,
             density: cover.density,
             spacing,
             ball: cover.ball,

@@ -22,6 +22,21 @@ pub struct Cloud {
 /// Farther from the origin than any plant is [m]; a scanner's mark for "no echo", such as 3.4e38, is beyond it.
 const FARTHEST: f64 = 1e9;
 
+/// First word of a comment that says where a scanner stood.
+const VIEWPOINT: &str = "viewpoint";
+
+/// The position [m] in a comment that says where a scanner stood.
+fn viewpoint(line: &str) -> Option<Vec3> {
+    let mut words = line.split_whitespace();
+    let is_one = words.next() == Some(VIEWPOINT);
+    let numbers: Option<Vec<f64>> =
+        words.map(|word| word.parse().ok().filter(|c: &f64| c.is_finite())).collect();
+    match numbers?[..] {
+        [x, y, z] if is_one => Some(Vec3::new(x, y, z)),
+        _ => None,
+    }
+}
+
 /// A point that no scan has.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error(
@@ -55,7 +70,20 @@ impl Cloud {
     pub fn scale(&mut self, factor: f64) {
         self.points.iter_mut().for_each(|p| *p *= factor);
         self.double = true;
+        let viewpoints: Vec<Vec3> = self.viewpoints().collect();
+        self.comments.retain(|line| viewpoint(line).is_none());
+        viewpoints.iter().for_each(|eye| self.add_viewpoint(&(eye * factor)));
         self.comments.push(format!("coordinates were multiplied by {factor}"));
+    }
+
+    /// Where the scanners stood [m], as comments say that tools pass on.
+    pub fn viewpoints(&self) -> impl Iterator<Item = Vec3> + '_ {
+        self.comments.iter().filter_map(|line| viewpoint(line))
+    }
+
+    /// Adds a comment that says where a scanner stood [m].
+    pub fn add_viewpoint(&mut self, eye: &Vec3) {
+        self.comments.push(format!("{VIEWPOINT} {} {} {}", eye.x, eye.y, eye.z));
     }
 
     /// The given points with their properties, in that order.

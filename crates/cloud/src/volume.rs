@@ -10,7 +10,7 @@
 //! is aligned with the hole's surroundings, and the sheet of the zero surface nearest to their quadratic is taken, so overhangs are
 //! closed flat. The surface bends as little as a membrane may, so where it is curved it lies lower than the thin plate of the first way.
 
-use crate::holes::{CELLS, Hole};
+use crate::holes::Hole;
 use crate::sheet;
 use geom::{Grid, Vec3};
 
@@ -41,7 +41,7 @@ pub(crate) fn heights(
     first: (usize, usize),
     side: (usize, usize),
 ) -> Vec<f64> {
-    let scale = hole.raster.cell * CELLS;
+    let scale = hole.fit;
     // Flattened by the quadratic: the field starts as the distance from it.
     let points: Vec<Vec3> =
         around.iter().map(|(_, p)| Vec3::new(p.x, p.y, p.z - hole.surface.height(p.x, p.y))).collect();

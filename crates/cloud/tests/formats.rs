@@ -152,6 +152,17 @@ fn e57_with_two_scans_and_points_without_an_echo() {
 }
 
 #[test]
+fn pcd_states_its_viewpoint() {
+    let text = "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\n\
+                VIEWPOINT 1.5 -2 0.25 1 0 0 0\nPOINTS 1\nDATA ascii\n1 2 3\n";
+    let cloud = read(text);
+    assert_eq!(cloud.viewpoints().collect::<Vec<_>>(), [Vec3::new(1.5, -2.0, 0.25)]);
+    let mut ply = Vec::new();
+    cloud::write_ply(&mut ply, &cloud, Default::default()).unwrap();
+    assert_eq!(read(ply).viewpoints().collect::<Vec<_>>(), [Vec3::new(1.5, -2.0, 0.25)], "PLY passes it on");
+}
+
+#[test]
 fn pcd_as_text_and_binary() {
     let header = |data: &str| {
         format!(
@@ -172,6 +183,7 @@ fn pcd_as_text_and_binary() {
         assert!(cloud.points[1].y.is_nan() && !cloud.double);
         assert_eq!((column(&cloud, "red")[0], column(&cloud, "green")[0]), (255.0, 0.0));
         assert_eq!(cloud.attributes.get("label"), Some(&Values::U16(vec![7, 8])));
+        assert_eq!(cloud.viewpoints().count(), 0, "zero is no viewpoint");
         assert!(refused(&bytes[..bytes.len() - 6]).starts_with("PCD"));
     }
     assert!(refused(text.replace(" x y z ", " a y z ")).contains("no fields x, y, z"));

@@ -5,19 +5,20 @@ use clap::Parser;
 use cli::Report;
 use cloud::fill::Settings;
 use cloud::{Mesher, Method};
-use geom::Shape;
-use geom::number::positive;
+use geom::number::{finite, positive};
+use geom::{Shape, Vec3};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 const ABOUT: &str = "A hole is a region inside the outline of the surface with a density of at most --below. The rim is not \
     changed. Each hole is meshed by ball pivoting, and points are put on the smooth surface that continues its \
     surroundings. Added points have the property filled = 1 and take all other properties from the nearest scanned \
-    point. The default of --below is a quarter of the density below which the sparsest 5 % of the surface lie; the \
-    report gives it.\n\n\
+    point. Without --below, a hole has at most a quarter of the \
+    density around it: holes about 8 local spacings wide and wider are found; the report gives the smallest.\n\n\
     Examples:\n\
     \x20 cloud-fill cropped.ply -o filled.ply\n\
     \x20 cloud-fill cropped.ply --for-spacing 0.012 -o filled.ply\n\
+    \x20 cloud-fill cropped.ply --seen-from 0,0,1.8 --seen-from 4,2,1.8 -o filled.ply\n\
     \x20 cloud-fill cropped.ply --below 5000 --max-hole 0.1 -o filled.ply";
 
 /// Find the holes of a scan and fill them with points
@@ -34,12 +35,15 @@ struct Args {
     /// Also fill surface where the scan is too sparse for bluenoise-sample --spacing M [m]
     #[arg(long, value_name = "M", value_parser = positive)]
     for_spacing: Option<f64>,
-    /// Fill where there are at most DENSITY points per m² (default: from the cloud)
+    /// Fill where there are at most DENSITY points per m² (default: a quarter of the density around)
     #[arg(long, value_name = "DENSITY", value_parser = positive)]
     below: Option<f64>,
     /// Fill only inside SHAPE, also where it crosses the rim (repeat for more)
     #[arg(long, value_name = "SHAPE", value_parser = cloud::shape)]
     region: Vec<Shape>,
+    /// Where a scanner stood [m] (repeat for more): space that it looked through stays open
+    #[arg(long, value_name = "x,y,z", value_parser = viewpoint, allow_hyphen_values = true)]
+    seen_from: Vec<Vec3>,
     /// Widest hole to fill [m] (default: a fifth of the cloud's diagonal)
     #[arg(long, value_name = "M", value_parser = positive)]
     max_hole: Option<f64>,
@@ -75,6 +79,7 @@ fn fill(args: Args) -> anyhow::Result<Report> {
         for_spacing: args.for_spacing,
         below: args.below,
         regions: args.region,
+        seen_from: args.seen_from,
         max_hole: args.max_hole,
         method: args.fill,
         mesher: args.method,
@@ -83,12 +88,6 @@ fn fill(args: Args) -> anyhow::Result<Report> {
     };
     let filled = cloud::fill(args.input.read_cloud()?, &settings).with_context(|| args.input.name())?;
     warn(&filled.report);
-    if !settings.regions.is_empty() && filled.report.holes.is_empty() {
-        cli::warn(
-            "the surface has no edge in or near the regions: nothing was filled; check the coordinates of \
-             the regions",
-        );
-    }
     if let Some(path) = &args.mesh {
         let mut out = cli::OutputStream::file(path)?;
         cloud::write_mesh(&mut out, &filled.mesh, stream::ply::Encoding::default())?;
@@ -102,7 +101,13 @@ fn fill(args: Args) -> anyhow::Result<Report> {
 
 fn summary(report: &cloud::fill::Report) -> String {
     let holes = report.holes.len();
+    let smallest = report.scales.iter().map(|s| s.smallest_hole);
     match &report.sparse {
+        None if holes == 0 && !report.scales.is_empty() => format!(
+            "0 points added in 0 holes: holes would be found from {:.3} m wide where the scan is densest, from {:.3} m where it is sparsest",
+            smallest.clone().fold(f64::INFINITY, f64::min),
+            smallest.fold(0.0, f64::max)
+        ),
         None => format!("{} points added in {holes} holes", report.added),
         Some(sparse) => format!(
             "{} points added in {holes} holes, {} in {} places that were too sparse for a spacing of {} m",
@@ -122,12 +127,34 @@ fn warn(report: &cloud::fill::Report) {
     if report.below.is_none() {
         cli::warn("too few points, or all at one position: their density is unknown, and nothing was filled");
     }
+    for (number, region) in (1..).zip(&report.regions).filter(|(_, region)| region.holes == 0) {
+        cli::warn(&match (region.spacing, region.smallest_hole) {
+            (Some(spacing), Some(smallest)) => format!(
+                "region {number}: no hole was found in its {} points; the spacing there is {spacing:.4} m, so a hole must be at least {smallest:.3} m \
+                 wide: give --below DENSITY for a smaller one",
+                region.points
+            ),
+            _ => format!("region {number}: no surface is in or beside it: check its coordinates"),
+        });
+    }
     if let Some(sparse) = report.sparse.as_ref().filter(|s| s.left > 0) {
         let [x, y, z] = sparse.widest_at.unwrap_or_default();
         cli::warn(&format!(
             "{} gaps in {} places stay too wide for a spacing of {} m: the widest is {:.3} m wide, at {x:.3},{y:.3},{z:.3}: they are holes \
              that stay open, or the points around them lie on no smooth surface; give --below or --max-hole, or a wider spacing",
             sparse.left, sparse.left_places, sparse.spacing, sparse.widest_left
+        ));
+    }
+    let free = |h: &&cloud::fill::HoleReport| h.sight.is_some_and(|sight| sight.free > 0);
+    let left: Vec<_> = report.holes.iter().filter(free).collect();
+    if let Some(hole) = left.first() {
+        let [x, y, z] = hole.centre;
+        cli::warn(&format!(
+            "{} points of {} holes would lie in space that a scanner looked through: they were left out; the first hole is at {x:.3},{y:.3},{z:.3}, \
+             {:.3} m wide; the report lists the holes",
+            left.iter().filter_map(|h| h.sight).map(|sight| sight.free).sum::<usize>(),
+            left.len(),
+            hole.width
         ));
     }
     let open = report.holes.iter().filter(|h| h.open).count();
@@ -138,6 +165,15 @@ fn warn(report: &cloud::fill::Report) {
              up to {:.3} m fall through, or too few points surround it; the report lists the holes",
             hole.width, hole.ball
         ));
+    }
+}
+
+fn viewpoint(text: &str) -> Result<Vec3, String> {
+    let wrong = || format!("'{text}' is not x,y,z: give three numbers in m");
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|t| finite(t.trim())).collect();
+    match numbers.map_err(|_| wrong())?[..] {
+        [x, y, z] => Ok(Vec3::new(x, y, z)),
+        _ => Err(wrong()),
     }
 }
 

@@ -91,7 +91,15 @@ impl Columns {
         if scans.len() > 1 {
             push("scan", Values::U16(self.scan))?;
         }
-        Ok(Cloud { points: self.points, attributes, double: true, ..Cloud::default() })
+        let mut cloud = Cloud { points: self.points, attributes, double: true, ..Cloud::default() };
+        // A scanner stands at the origin of its scan; a pose that moves nothing is stated for merged scans as well.
+        for t in scans.iter().filter_map(|scan| scan.transform.as_ref()).map(|pose| &pose.translation) {
+            let eye = Vec3::new(t.x, t.y, t.z);
+            if eye.norm() > 0.0 {
+                cloud.add_viewpoint(&eye);
+            }
+        }
+        Ok(cloud)
     }
 }
 

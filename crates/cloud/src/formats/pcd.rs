@@ -60,6 +60,8 @@ fn decode(bytes: &[u8]) -> Result<Cloud, ReadError> {
         let names: Vec<&str> = fields.iter().map(|f| f.name.as_str()).collect();
         return Err(broken(format!("no fields x, y, z; there are: {}", names.join(" ")), None));
     };
+    let viewpoint = &reader.meta().viewpoint;
+    let eye = Some(Vec3::new(viewpoint.tx, viewpoint.ty, viewpoint.tz));
     let promised = reader.meta().num_points;
     let values = fields.iter().map(|f| f.count).fold(0, u64::saturating_add);
     if values > bytes.len() as u64 {
@@ -95,7 +97,12 @@ fn decode(bytes: &[u8]) -> Result<Cloud, ReadError> {
     }
     let double = [x, y, z].iter().any(|&a| fields[a].kind != ValueKind::F32);
     let position_column = [x, y, z].into_iter().min().unwrap_or(0).min(attributes.columns().len());
-    Ok(Cloud { points, attributes, double, position_column, comments: Vec::new() })
+    let mut cloud = Cloud { points, attributes, double, position_column, comments: Vec::new() };
+    // Zero is what writers state that know of no viewpoint.
+    if let Some(eye) = eye.filter(|eye| eye.iter().all(|c| c.is_finite()) && eye.norm() > 0.0) {
+        cloud.add_viewpoint(&eye);
+    }
+    Ok(cloud)
 }
 
 /// A field with several values becomes `name_0`, `name_1`…; packed `rgb` becomes red, green, blue.

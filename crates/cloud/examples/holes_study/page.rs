@@ -1,0 +1,111 @@
+//! The table and the picture of `docs/filling.md`.
+
+use crate::bodies::Body;
+use crate::cuts::{Outcome, Score};
+use kuva::prelude::*;
+use std::path::Path;
+
+/// Sizes of holes in local spacings, by column of the table.
+const COLUMNS: [f64; 6] = [3.0, 6.0, 8.0, 12.0, 25.0, 61.0];
+/// The same of the picture.
+const SIZES: [f64; 9] = [3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 12.0, 25.0, 61.0];
+/// Where the table is in the page.
+const PART: [&str; 2] = ["<!-- holes-study begins -->", "<!-- holes-study ends -->"];
+
+/// A row of the table.
+pub struct Row {
+    pub name: String,
+    pub body: Option<Body>,
+    pub outcomes: Vec<Outcome>,
+    /// Holes that a scan has of its own.
+    pub own: usize,
+}
+
+impl Row {
+    fn scores(&self) -> impl Iterator<Item = &Score> {
+        self.outcomes.iter().flat_map(|o| &o.scores)
+    }
+
+    /// Found and cut holes of sizes from `low` to `high`.
+    fn found(&self, low: f64, high: f64) -> (usize, usize) {
+        let of = || self.scores().filter(|s| s.size >= low && s.size < high);
+        (of().filter(|s| s.found).count(), of().count())
+    }
+
+    fn line(&self) -> String {
+        let columns = COLUMNS.windows(2).map(|c| self.found(c[0], c[1]));
+        let columns: Vec<String> = columns.map(|(found, all)| format!("{found} of {all}")).collect();
+        let (found, all) = self.found(8.0, f64::INFINITY);
+        let points: usize = self.outcomes.iter().map(|o| o.points).sum();
+        let false_finds: usize = self.outcomes.iter().map(|o| o.false_finds).sum();
+        let seconds: f64 = self.outcomes.iter().map(|o| o.seconds).sum();
+        let sum = |a: (f64, usize), s: &Score| (a.0 + s.squares.0, a.1 + s.squares.1);
+        let (squares, added) = self.scores().filter(|s| s.found).fold((0.0, 0), sum);
+        format!(
+            "| {} | {} | {:.1} % | {:.2} | {} | {:.2} | {:.1} |\n",
+            self.name,
+            columns.join(" | "),
+            100.0 * found as f64 / all.max(1) as f64,
+            1e5 * false_finds as f64 / points.max(1) as f64,
+            if matches!(self.body, Some(Body::Scan(_))) { self.own.to_string() } else { "–".to_owned() },
+            (squares / added.max(1) as f64).sqrt(),
+            1e6 * seconds / points.max(1) as f64,
+        )
+    }
+}
+
+/// The outcomes of all rows.
+pub fn sum(name: &str, rows: &[Row]) -> Row {
+    let outcomes = rows.iter().flat_map(|row| row.outcomes.clone()).collect();
+    Row { name: name.to_owned(), body: None, outcomes, own: 0 }
+}
+
+pub fn table<'a>(rows: impl IntoIterator<Item = &'a Row>) -> String {
+    let head = "| cut out of | found: 3–6 spacings wide | 6–8 | 8–12 | 12–25 | 25–60 | 8 and more | false per 10⁵ points | own holes | RMS [spacings] | \
+                time [µs/point] |\n";
+    let lines: String = rows.into_iter().map(Row::line).collect();
+    format!("{head}|{}\n{lines}", "---|".repeat(11))
+}
+
+/// Puts the table into its part of the page, and the picture beside it.
+///
+/// # Errors
+/// A file that cannot be read or written, or has no such part.
+pub fn write(page: &Path, rows: &[Row], sums: &[Row]) -> Result<(), String> {
+    let name = |why: &dyn std::fmt::Display| format!("{}: {why}", page.display());
+    let text = std::fs::read_to_string(page).map_err(|why| name(&why))?;
+    let cut = text.split_once(PART[0]).and_then(|(before, rest)| Some((before, rest.split_once(PART[1])?.1)));
+    let (before, after) =
+        cut.ok_or_else(|| name(&format!("the lines {} and {} are missing", PART[0], PART[1])))?;
+    let text = format!("{before}{}\n{}{}{after}", PART[0], table(rows.iter().chain(sums)), PART[1]);
+    std::fs::write(page, text).map_err(|why| name(&why))?;
+    let svg = page.with_file_name("filling-holes.svg");
+    let (plots, layout) = picture(rows);
+    let picture = plot::diagram(&svg, plots, layout).map_err(|why| why.to_string())?;
+    std::fs::write(&svg, picture).map_err(|why| format!("{}: {why}", svg.display()))
+}
+
+/// Share of the holes that were found over their size, by kind of body.
+fn picture(rows: &[Row]) -> (Vec<Plot>, Layout) {
+    let is_uneven = |body: Option<Body>| matches!(body, Some(Body::Gradient | Body::Steps));
+    let is_scan = |body: Option<Body>| matches!(body, Some(Body::Scan(_)));
+    let kinds: [(&str, &str, &dyn Fn(Option<Body>) -> bool); 3] = [
+        ("even density", "steelblue", &|body| body.is_some() && !is_uneven(body) && !is_scan(body)),
+        ("density that varies", "darkorange", &is_uneven),
+        ("scans", "seagreen", &is_scan),
+    ];
+    let line = |(legend, colour, of): (&str, &str, &dyn Fn(Option<Body>) -> bool)| {
+        let share = |sizes: &[f64]| {
+            let counts = rows.iter().filter(|row| of(row.body)).map(|row| row.found(sizes[0], sizes[1]));
+            let (found, all) = counts.fold((0, 0), |a, b| (a.0 + b.0, a.1 + b.1));
+            (all > 0).then(|| ((sizes[0] * sizes[1]).sqrt(), 100.0 * found as f64 / all as f64))
+        };
+        let data: Vec<(f64, f64)> = SIZES.windows(2).filter_map(share).collect();
+        Plot::from(LinePlot::new().with_data(data).with_color(colour).with_legend(legend))
+    };
+    let plots: Vec<Plot> = kinds.into_iter().map(line).collect();
+    let layout = Layout::auto_from_plots(&plots)
+        .with_x_label("width of the hole [local spacings]")
+        .with_y_label("found [%]");
+    (plots, layout)
+}
