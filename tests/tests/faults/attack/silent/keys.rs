@@ -174,7 +174,7 @@ fn trial(shop: &Shop, scene: &str, table: &Table, leaf: &Leaf, values: &[Value])
     let others = values.iter().filter(|v| **v != leaf.value);
     let more = own.chain(others).take(MOST).enumerate();
     Trial {
-        group: "keys that change nothing",
+        group: "further keys",
         added: format!("{scene}: {}", leaf.path()),
         base,
         more: more.map(|(n, value)| file(n + 2, &leaf.put(table, Some(value)))).collect(),
