@@ -39,6 +39,11 @@ const REFUSED: &[(&str, &str)] = &[
     ("dem-view flat.xyz -o v.html --colour rgb --range 0,1", "--range: rgb are colours, not a scale"),
     ("dem-view flat.xyz -o v.png --colour material --range 0,1", "--range: material has kinds, not a scale"),
     ("dem-run s.toml --check -o s.mcap", "-o s.mcap: --check writes nothing: leave it out"),
+    (
+        "dem-measure run.mcap --fragments --all",
+        "--all: --fragments lists the pieces of one frame: choose it with --time or --until",
+    ),
+    ("dem-measure run.mcap --fragments --from 0", "--from: --fragments lists the pieces of one frame"),
     ("dem-run s.toml --check --progress", "--progress: --check runs nothing: leave it out"),
     ("dem-run s.toml --explain --check", "--check: --explain checks the scene as well: leave it out"),
     ("dem-view flat.xyz -o v.pvd --range 0,1", "--range changes nothing in .pvd"),
