@@ -27,8 +27,7 @@ impl<W: Write> Run<W> {
         }
         let surfaces = frames::surfaces(&setup.walls);
         let mut written = Written::new(scene, &setup, inputs);
-        setup.record_wrenches =
-            written.output.contacts || written.wall_forces || written.settling.any();
+        setup.record_wrenches = written.output.contacts || written.wall_forces || written.settling.any();
         let head = Head::new(scene, &setup, sizes)?;
         let sim = match settings.resume {
             Some(saved) => Simulation::resume(setup, saved.state)?,
@@ -178,8 +177,7 @@ pub(crate) fn not_yet_over(steps: u64, schedule: &Schedule) -> Result<(), SceneE
     if steps < schedule.last {
         return Ok(());
     }
-    let (reached, end) =
-        (Shown(steps as f64 * schedule.dt), Shown(schedule.last as f64 * schedule.dt));
+    let (reached, end) = (Shown(steps as f64 * schedule.dt), Shown(schedule.last as f64 * schedule.dt));
     let why = format!("the saved run has reached {reached} s, the scene ends at {end} s");
     Err(SceneError::file("--resume", why, "give a later --until"))
 }

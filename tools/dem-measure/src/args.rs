@@ -223,6 +223,12 @@ impl Args {
                 return Err(usage(format!("{option}: is an option of {of}: leave it out with {measure}")));
             }
         }
+        if measure == "--fragments" && (self.all || self.from.is_some()) {
+            let option = if self.all { "--all" } else { "--from" };
+            return Err(usage(format!(
+                "{option}: --fragments lists the pieces of one frame: choose it with --time or --until"
+            )));
+        }
         let single = [
             "--flow",
             "--energy",

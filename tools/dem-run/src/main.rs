@@ -113,9 +113,7 @@ fn without_run(args: &Args) -> anyhow::Result<()> {
         return no_run(&args.output);
     }
     match args.output.path() {
-        Some(path) => {
-            Err(cli::usage(format!("-o {}: --check writes nothing: leave it out", path.display())))
-        }
+        Some(path) => Err(cli::usage(format!("-o {}: --check writes nothing: leave it out", path.display()))),
         None => Ok(()),
     }
 }
@@ -186,12 +184,7 @@ fn read_scene(args: &Args) -> anyhow::Result<Scene> {
     })
 }
 
-fn explain(
-    args: &Args,
-    scene: &Scene,
-    plan: Plan,
-    resume: Option<&Checkpoint>,
-) -> anyhow::Result<Report> {
+fn explain(args: &Args, scene: &Scene, plan: Plan, resume: Option<&Checkpoint>) -> anyhow::Result<Report> {
     if resume.is_some() {
         run::ready(scene, &plan, resume)?;
     }

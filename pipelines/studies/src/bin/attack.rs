@@ -1,5 +1,5 @@
 //! Attacks the tools and writes docs/reliability.md: `attack FILES KILLS SEED [PAGE.md]`;
-//! `attack silent [options|keys] [ONE_IN]` only lists silent options and keys.
+//! `attack silent [options|keys] [ONE_IN] [--OPTION…]` only lists silent options and keys, or those named.
 
 #[path = "../../../../tests/tests/faults/attack/mod.rs"]
 mod attack;
@@ -15,7 +15,8 @@ fn main() -> io::Result<()> {
     let (drawn, killed, seed) = (number(0, 15_000), number(1, 100), number(2, 1));
     let mut found = Findings::default();
     if arguments.first().is_some_and(|a| a == "silent") {
-        silent::find(arguments.get(1).map(String::as_str), number(2, 1), &mut found);
+        let only: Vec<&str> = arguments.iter().skip(3).map(String::as_str).collect();
+        silent::find(arguments.get(1).map(String::as_str), number(2, 1), &only, &mut found);
         print!("{}\n{}", found.table(), found.list());
         return Ok(());
     }
@@ -23,7 +24,7 @@ fn main() -> io::Result<()> {
     found.run(scenes::cases());
     found.run(options::cases());
     kills::run(seed as u64, killed, &mut found);
-    silent::find(None, 1, &mut found);
+    silent::find(None, 1, &[], &mut found);
     let page = format!("{HEAD}{} cases, seed {seed}:\n\n{}{TAIL}", found.count(), found.table());
     print!("{page}\n{}", found.list());
     arguments.get(3).map_or(Ok(()), |file| fs::write(file, page))
@@ -53,5 +54,7 @@ const TAIL: &str = "
 **Files**: one word or line of a text, or one number, record or length of a binary file is changed, with checksums that are right again. So the damage reaches the code behind the
 checksums. **Keys and options**: every key of the tables of [scene.md](scene.md) and every option of `--help`, each with 14 values such as `nan`, `1e308`, an empty text, a device or a terminal's control
 sequence. **Further options**: every example of every tool (`tests/tests/tools/every_option`), whole and with as few options as it needs, with each further option of that tool that an example has. It counts as
-accepted if the output or what the tool prints changes with one of its values. Left out are options that only steer how a tool runs (threads, names of outputs), a few that name a default, and calls whose output holds times. **Kills**: one program of a pipe gets SIGKILL at a random time. Output under the final name must then be the whole output.
+accepted if the output or what the tool prints changes with one of its values. Left out are options that only steer how a tool runs (threads, names of outputs), those listed with a reason in
+`tests/tests/faults/attack/silent/options.rs`, and calls whose output holds times. **Further keys**: every key of every scene of the test of keys (`tests/tests/tools/every_key`), left out where the scene runs
+without it, and with the values that it has in other scenes, half and twice its numbers. What a run repeats of its scene is not compared. **Kills**: one program of a pipe gets SIGKILL at a random time. Output under the final name must then be the whole output.
 ";

@@ -101,7 +101,9 @@ fn main() {
         block("plate of 3 × 3", [3, 3, 1]),
     ];
     let cases = [(1.0, None), (0.3, None), (1.0, Some(1.0)), (0.3, Some(1.0))];
-    println!("| clump | members | e = 1 | e = 0.3 | friction, e = 1 | friction, e = 0.3 |\n|---|---|---|---|---|---|");
+    println!(
+        "| clump | members | e = 1 | e = 0.3 | friction, e = 1 | friction, e = 0.3 |\n|---|---|---|---|---|---|"
+    );
     shapes.iter().for_each(|shape| println!("{}", row(shape, &cases)));
 }
 

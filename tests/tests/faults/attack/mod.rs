@@ -8,11 +8,11 @@ pub mod case;
 #[path = "../../tools/every_option/files.rs"]
 pub mod example_files;
 #[allow(dead_code)]
-#[path = "../../tools/every_option/examples.rs"]
-pub mod examples;
-#[allow(dead_code)]
 #[path = "../../tools/every_key/scenes.rs"]
 pub mod example_scenes;
+#[allow(dead_code)]
+#[path = "../../tools/every_option/examples.rs"]
+pub mod examples;
 pub mod files;
 pub mod kills;
 pub mod mutate;

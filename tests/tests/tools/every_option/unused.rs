@@ -39,6 +39,11 @@ const REFUSED: &[(&str, &str)] = &[
     ("dem-view flat.xyz -o v.html --colour rgb --range 0,1", "--range: rgb are colours, not a scale"),
     ("dem-view flat.xyz -o v.png --colour material --range 0,1", "--range: material has kinds, not a scale"),
     ("dem-run s.toml --check -o s.mcap", "-o s.mcap: --check writes nothing: leave it out"),
+    (
+        "dem-measure run.mcap --fragments --all",
+        "--all: --fragments lists the pieces of one frame: choose it with --time or --until",
+    ),
+    ("dem-measure run.mcap --fragments --from 0", "--from: --fragments lists the pieces of one frame"),
     ("dem-run s.toml --check --progress", "--progress: --check runs nothing: leave it out"),
     ("dem-run s.toml --explain --check", "--check: --explain checks the scene as well: leave it out"),
     ("dem-view flat.xyz -o v.pvd --range 0,1", "--range changes nothing in .pvd"),
@@ -62,7 +67,11 @@ fn an_option_that_leaves_a_picture_as_it_is_prints_a_warning() {
 #[test]
 fn an_option_that_leaves_a_film_as_it_is_prints_a_warning() {
     let folder = inputs();
-    grainpipe_tests::tools::succeed(folder.path(), "dem-run", &["s.toml", "--until", "0.006", "-o", "run.mcap"]);
+    grainpipe_tests::tools::succeed(
+        folder.path(),
+        "dem-run",
+        &["s.toml", "--until", "0.006", "-o", "run.mcap"],
+    );
     let command = "dem-view run.mcap --size 240x180 -o v.gif --cut --map turbo";
     let done = line(folder.path(), command);
     let warned = done.stderr.contains("--cut changes nothing in this film");
@@ -75,7 +84,9 @@ fn a_picture_of_hardly_more_than_text_prints_a_warning() {
     let folder = inputs();
     for (size, small) in [("96x64", true), ("320x180", false)] {
         let done = line(folder.path(), &format!("dem-view flat.xyz --size {size} -o v.png"));
-        let warned = done.stderr.contains("pixels large in a picture of 96 x 64, beside its text: give a larger --size");
+        let warned = done
+            .stderr
+            .contains("pixels large in a picture of 96 x 64, beside its text: give a larger --size");
         assert!(done.code == 0 && warned == small, "{size}: {}", done.stderr);
     }
 }
@@ -86,7 +97,7 @@ fn a_check_of_a_resumed_run_reads_its_checkpoint() {
     let run = |words: &str| line(folder.path(), &format!("dem-run s.toml {words}"));
     assert_eq!(run("--until 0.002 -o run.mcap").code, 0);
     let fits = run("--until 0.004 --resume run.mcap --check");
-    assert!(fits.code == 0 && fits.stderr.contains("; it resumes at 2"), "{}", fits.stderr);
+    assert!(fits.code == 0 && fits.stderr.contains("; it resumes at 0.0019"), "{}", fits.stderr);
     let over = run("--until 0.001 --resume run.mcap --check");
     assert!(over.code == 1 && over.stderr.contains("give a later --until"), "{}", over.stderr);
     let other = run("--set contact.0.restitution=0.3 --until 0.004 --resume run.mcap --check");

@@ -85,6 +85,10 @@ fn forces_that_a_servo_writes_cannot_be_left_out() {
     let lid = "[[wall]]\nname = \"lid\"\nplane = \"0,0,1,0,0,-1\"\nmaterial = \"sinter\"\nservo = { direction = [0, 0, -1], force = 1, \
                speed_limit = 0.1 }\n";
     let scene = |written| format!("{}{lid}[output]\nwall_forces = {written}\n", with_particles_of_a_file());
-    warns(&scene("false"), ONE, &["output.wall_forces", "changes nothing: wall 'lid' has a servo", "take it out"]);
+    warns(
+        &scene("false"),
+        ONE,
+        &["output.wall_forces", "changes nothing: wall 'lid' has a servo", "take it out"],
+    );
     is_fine(&scene("true"), ONE);
 }

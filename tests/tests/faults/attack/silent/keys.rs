@@ -79,9 +79,9 @@ fn set(at: &mut Value, way: &[Step], value: Option<&Value>) {
 fn leaves(way: &[Step], value: &Value, found: &mut Vec<Leaf>) {
     let further = |step: Step| [way, &[step]].concat();
     match value {
-        Value::Table(table) => table
-            .iter()
-            .for_each(|(name, inner)| leaves(&further(Step::Key(name.clone())), inner, found)),
+        Value::Table(table) => {
+            table.iter().for_each(|(name, inner)| leaves(&further(Step::Key(name.clone())), inner, found))
+        }
         Value::Array(list) if !list.is_empty() && list.iter().all(Value::is_table) => {
             list.iter().enumerate().for_each(|(n, inner)| leaves(&further(Step::Entry(n)), inner, found));
         }
@@ -130,7 +130,11 @@ pub fn find(one_in: usize, found: &mut Findings) {
     for (_, _, leaf) in &all {
         let known = values.entry(leaf.name()).or_default();
         let more = [vec![leaf.value.clone()], others(&leaf.name(), &leaf.value)].concat();
-        more.into_iter().for_each(|v| if !known.contains(&v) { known.push(v) });
+        more.into_iter().for_each(|v| {
+            if !known.contains(&v) {
+                known.push(v)
+            }
+        });
     }
     let free = |leaf: &Leaf| FREE.iter().any(|f| f.0 == leaf.name());
     let chosen = all.iter().filter(|(_, _, leaf)| !free(leaf)).step_by(one_in);
@@ -163,7 +167,8 @@ fn shop() -> Shop {
 fn trial(shop: &Shop, scene: &str, table: &Table, leaf: &Leaf, values: &[Value]) -> Trial {
     let file = |n: usize, table: &Table| {
         let name = format!("{scene}-{}-{n}.toml", leaf.path());
-        std::fs::write(shop.folder.path().join(&name), toml::to_string(table).expect("TOML")).expect("written");
+        std::fs::write(shop.folder.path().join(&name), toml::to_string(table).expect("TOML"))
+            .expect("written");
         let options = vec![("-o".to_owned(), Some("made.mcap".to_owned()))];
         Call { tool: "dem-run".to_owned(), reads: vec![name], options }
     };
@@ -174,7 +179,7 @@ fn trial(shop: &Shop, scene: &str, table: &Table, leaf: &Leaf, values: &[Value])
     let others = values.iter().filter(|v| **v != leaf.value);
     let more = own.chain(others).take(MOST).enumerate();
     Trial {
-        group: "keys that change nothing",
+        group: "further keys",
         added: format!("{scene}: {}", leaf.path()),
         base,
         more: more.map(|(n, value)| file(n + 2, &leaf.put(table, Some(value)))).collect(),

@@ -24,10 +24,10 @@ struct Trial {
     more: Vec<Call>,
 }
 
-/// A part of the cases: `options` or `keys`; both without a name.
-pub fn find(part: Option<&str>, one_in: usize, found: &mut Findings) {
+/// A part of the cases: `options` or `keys`; both without a name. `only`: these options, also where they may change nothing.
+pub fn find(part: Option<&str>, one_in: usize, only: &[&str], found: &mut Findings) {
     if part != Some("keys") {
-        options::find(one_in, found);
+        options::find(one_in, only, found);
     }
     if part != Some("options") {
         keys::find(one_in, found);
