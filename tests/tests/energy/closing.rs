@@ -15,7 +15,7 @@ const MADE: Case =
 fn the_ledger_closes_and_the_step_makes_little() {
     for scene in all() {
         let bonded = !scene.setup.bonds.is_empty();
-        let exact = scene.setup.clumps.placed.is_empty() && scene.setup.sleep.is_none();
+        let exact = scene.setup.clumps.shapes.is_empty() && scene.setup.sleep.is_none();
         let limit = if exact { 1e-10 } else { 1e-6 };
         let mut sim = Simulation::new(scene.setup).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
         scene.entries.into_iter().for_each(|e| sim.enter(e).expect("in time"));
