@@ -22,8 +22,7 @@ const FURTHER: usize = 29;
 #[test]
 fn no_further_option_or_key_is_silent() {
     let mut found = Findings::default();
-    silent::options::find(FURTHER, &[], &mut found);
-    silent::keys::find(FURTHER, &mut found);
+    silent::find(None, FURTHER, &[], &mut found);
     assert!(found.count() > 50, "only {} cases", found.count());
     assert!(found.bad.is_empty(), "{}\n{}", found.table(), found.list());
 }
