@@ -97,7 +97,7 @@ fn a_clump_has_the_mass_of_its_mesh() {
     succeed(path, "stone-clump", &[block, "--spheres", "4", "--report", "r.json", "-q", "-o", "clump.toml"]);
     let volume = json(path, "r.json")["volume"].as_f64().unwrap();
     let scene = "[time]\nuntil = 0.001\ndt = 1e-5\n[[material]]\nname = \"rock\"\ndensity = 2000\nyoung = 1e6\npoisson = 0.25\n\
-                 [[body]]\nclump = \"stone\"\nposition = [0, 0, 0]\nscale = 2\n";
+                 [[contact]]\nbetween = [\"*\", \"*\"]\nrestitution = 0.5\n[[body]]\nclump = \"stone\"\nposition = [0, 0, 0]\nscale = 2\n";
     let clump = fs::read_to_string(path.join("clump.toml")).unwrap();
     fs::write(path.join("s.toml"), scene.to_owned() + &clump).unwrap();
     succeed(path, "dem-run", &["s.toml", "-q", "-o", "run.mcap"]);

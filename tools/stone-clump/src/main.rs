@@ -34,7 +34,7 @@ struct Args {
     #[arg(long, value_name = "SHARE", value_parser = share)]
     error: Option<f64>,
     /// Print the measures of shape as JSON instead: volume, area, sieve size, sides of the smallest box, elongation, flatness, convexity, sphericity (docs/rock-fill.md)
-    #[arg(long, conflicts_with_all = ["method", "min_radius", "overlap", "distance", "name", "material", "seed"])]
+    #[arg(long, conflicts_with_all = ["method", "min_radius", "overlap", "distance", "name", "material", "given"])]
     measures: bool,
     /// How spheres are found
     #[arg(long, value_enum, default_value = "distance")]
