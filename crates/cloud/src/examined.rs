@@ -159,7 +159,7 @@ impl<'a> Patch<'a> {
         self.below * ((2 * WINDOW + 1) as f64 * raster.cell).powi(2)
     }
 
-    /// Whether the surface around is as dense as the scale demands: one that is sparser has holes by chance.
+    /// Whether the surface around is as dense as the scale demands: one that is sparser has random holes.
     fn is_edged(&self, part: &[usize], raster: &Raster, windows: &[u32]) -> bool {
         let [inner, outer] = RIM.map(|radius| raster.grown(part, radius));
         let most = self.most(raster);

@@ -7,8 +7,8 @@
 //! unseen       neither: no point was measured in the cell, or it lies beside one
 //! ```
 //!
-//! A space that is free from any viewpoint is free. A cell holds its nearest point alone, so a cloud of several scans needs no column that
-//! says who measured what: nothing of the cloud lies in front of the nearest. It takes 24 n² bytes for each viewpoint, n ≤ 2048: at most
+//! A space that is free from any viewpoint is free. A cell holds its nearest point alone, so a cloud of several scans needs no column of
+//! scans: nothing of the cloud lies in front of the nearest. It takes 24 n² bytes for each viewpoint, n ≤ 2048: at most
 //! 100 MB. This is the line-of-sight test of space carving (Curless & Levoy 1996, doi:10.1145/237170.237269), by direction in place of voxels.
 
 use crate::cover::Cover;

@@ -92,8 +92,8 @@ fn the_samples_go_through() {
         zeta: 0.005,
         max_hole: 0.6,
         points: 25748,
-        added: (1_200, 1_800),
-        spheres: (7_000, 7_800),
+        added: (4_500, 6_000),
+        spheres: (7_600, 8_400),
         cover: (0.04, 0.0),
     };
     goes_through(&boulders);
@@ -114,9 +114,9 @@ fn whole_scans_go_through() {
         spheres,
         cover: (2.0 * spacing, 0.0),
     };
-    goes_through(&chain("Otira_1cm_grains.ply", 0.03, 100_769, (7_000, 10_000), (27_000, 32_000)));
-    goes_through(&chain("stonepile2_depthcam_120k.ply", 0.01, 120_000, (1_500, 2_100), (11_000, 12_500)));
-    goes_through(&chain("autzen_trim.laz", 8.0, 110_000, (450, 700), (6_500, 7_500)));
+    goes_through(&chain("Otira_1cm_grains.ply", 0.03, 100_769, (19_000, 26_000), (29_500, 34_500)));
+    goes_through(&chain("stonepile2_depthcam_120k.ply", 0.01, 120_000, (2_600, 3_300), (11_000, 12_500)));
+    goes_through(&chain("autzen_trim.laz", 8.0, 110_000, (5_000, 6_500), (6_800, 7_800)));
 }
 
 #[test]

@@ -17,7 +17,7 @@ pub struct Row {
     pub name: String,
     pub body: Option<Body>,
     pub outcomes: Vec<Outcome>,
-    /// Holes that a scan has of its own.
+    /// Holes that a scan has before the cuts.
     pub own: usize,
 }
 
@@ -85,16 +85,19 @@ pub fn write(page: &Path, rows: &[Row], sums: &[Row]) -> Result<(), String> {
     std::fs::write(&svg, picture).map_err(|why| format!("{}: {why}", svg.display()))
 }
 
+/// Name and colour of a line of the picture, and the bodies that it shows.
+type Kind<'a> = (&'a str, &'a str, &'a dyn Fn(Option<Body>) -> bool);
+
 /// Share of the holes that were found over their size, by kind of body.
 fn picture(rows: &[Row]) -> (Vec<Plot>, Layout) {
     let is_uneven = |body: Option<Body>| matches!(body, Some(Body::Gradient | Body::Steps));
     let is_scan = |body: Option<Body>| matches!(body, Some(Body::Scan(_)));
-    let kinds: [(&str, &str, &dyn Fn(Option<Body>) -> bool); 3] = [
+    let kinds: [Kind; 3] = [
         ("even density", "steelblue", &|body| body.is_some() && !is_uneven(body) && !is_scan(body)),
         ("density that varies", "darkorange", &is_uneven),
         ("scans", "seagreen", &is_scan),
     ];
-    let line = |(legend, colour, of): (&str, &str, &dyn Fn(Option<Body>) -> bool)| {
+    let line = |(legend, colour, of): Kind| {
         let share = |sizes: &[f64]| {
             let counts = rows.iter().filter(|row| of(row.body)).map(|row| row.found(sizes[0], sizes[1]));
             let (found, all) = counts.fold((0, 0), |a, b| (a.0 + b.0, a.1 + b.1));
