@@ -30,7 +30,7 @@ use stream::Table;
 pub struct Bond {
     /// Ids of both grains.
     pub grains: [u64; 2],
-    /// Force on the first [N].
+    /// Force on the first [N]; NaN where the run does not tell.
     pub force: Vec3,
     /// Tension σ and shear τ [Pa]; of a broken bond those at the break.
     pub stress: [f64; 2],
@@ -77,14 +77,17 @@ pub struct Bonds {
 }
 
 impl Bonds {
-    /// Bonds from the table of a message: id_i, id_j, tension, shear, broken, broken_at, mode.
+    /// Bonds from the table of a message: id_i, id_j, tension, shear, broken, broken_at, mode, and fx, fy, fz where it has them.
     ///
     /// # Errors
     /// Columns that are missing, numbers that are not finite.
     pub fn new(time: f64, table: &Table) -> Result<Bonds, MeasureError> {
         let columns = Columns { topic: BONDS, time, table };
         let (i, j) = (columns.whole(FIRST)?, columns.whole(SECOND)?);
-        let force = columns.vectors(FORCE)?;
+        let force = match table.get(FORCE[0]) {
+            Some(_) => columns.vectors(FORCE)?,
+            None => vec![Vec3::repeat(f64::NAN); i.len()],
+        };
         let (tension, shear) = (columns.numbers(TENSION)?, columns.numbers(SHEAR)?);
         let (broken, at) = (columns.whole(BROKEN)?, columns.numbers(BROKEN_AT)?);
         let mode = columns.or_zero(MODE)?;

@@ -11,7 +11,13 @@ use std::process::Command;
 /// Grains along an edge of the lattice.
 const EDGE: usize = 6;
 /// What reads and resolves contact laws, once before any step.
-const SET_UP: [&str; 3] = ["effects/registry.rs", "effects/law.rs", "effects/describe.rs"];
+const SET_UP: [&str; 5] = [
+    "effects/registry.rs",
+    "effects/law.rs",
+    "effects/describe.rs",
+    "effects/friction.rs",
+    "effects/hooke_direct.rs",
+];
 /// The spring that sliding friction and rolling resistance share. Most of an effect is inlined down to `simd/`; this remains.
 const SPRING: &str = "effects/capped_spring.rs";
 

@@ -3,6 +3,7 @@
 use grainpipe_tests::scenes::folder;
 use grainpipe_tests::tools::{succeed, tool};
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use stream::mcap::{Event, Reader};
@@ -73,14 +74,16 @@ fn soil_becomes_a_specimen_of_bonded_stones_and_runs() {
     );
     // Bonds are within stones, and hold.
     let bytes = fs::read(path.join("run.mcap")).unwrap();
-    let mut bonds = 0;
+    let (mut bonds, mut cluster) = (0, BTreeMap::new());
     for event in Reader::new(&bytes[..]) {
-        if let Event::Points { topic, table, .. } = event.unwrap()
-            && topic == "/bonds"
-        {
-            let of = |name: &str| table.get(name).unwrap().to_f64();
-            let (i, j) = (of("cluster_i"), of("cluster_j"));
-            assert!(i.iter().zip(&j).all(|(i, j)| i == j && *i > 0.0));
+        let Event::Points { topic, table, .. } = event.unwrap() else { continue };
+        let of = |name: &str| table.get(name).unwrap().to_f64();
+        if topic == "/particles" {
+            cluster = of("id").into_iter().map(|id| id as u32).zip(of("cluster")).collect();
+        } else if topic == "/bonds" {
+            let both = of("id_i").into_iter().zip(of("id_j"));
+            let own = |(i, j): (f64, f64)| [i, j].map(|id| cluster.get(&(id as u32)).copied().unwrap_or(0.0));
+            assert!(both.map(own).all(|[i, j]| i == j && i > 0.0));
             bonds = table.rows();
         }
     }

@@ -8,7 +8,7 @@ use stones::PackSettings;
 const EXAMPLES: &str = "The output has the columns of the soil, and cluster (0: soil; else the number of the stone), class and material (that of the soil; the last one is that of \
     the stones). A scene reads it with [[particles]] source = \"specimen.ply\", materials = [\"soil\", \"rock\"].\n\nExamples:\n\
     \x20 stone-pack soil.mcap stones --content 0.3 --stone-density 2650 -o specimen.ply\n\
-    \x20 stone-pack soil.mcap stones --content 0.3 --stone-density 2650 --grading grading.csv --places places.csv --surfaces stones.ply -o specimen.ply";
+    \x20 stone-pack soil.mcap stones --content 0.3 --stone-density 2650 --grading grading.csv -o s.ply";
 
 /// Place stones of real shape, without overlap, in settled soil
 #[derive(clap::Parser)]

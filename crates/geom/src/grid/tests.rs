@@ -50,7 +50,8 @@ fn a_search_over_many_cells_costs_no_more_than_all_points() {
             assert_eq!(found, (0..600).filter(near).collect::<Vec<u32>>(), "{radius}");
         }
     }
-    assert_eq!(grid.runs_near(points[0], 30.0).collect::<Vec<_>>(), [0..600]);
+    let all = std::iter::once(0..600);
+    assert!(grid.runs_near(points[0], 30.0).eq(all));
     assert!(grid.runs_near(points[0], 0.2).count() <= 600);
 }
 

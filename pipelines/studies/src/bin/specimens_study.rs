@@ -52,7 +52,7 @@ fn columns(folder: &str, file: &str, names: &[&str]) -> Result<Vec<Vec<f64>>, Bo
     let head: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
     let place = |name: &&str| {
         let is = |h: &&str| h.split([' ', '[']).next() == Some(*name);
-        head.iter().position(|h| is(&h)).ok_or_else(|| format!("{folder}/{file}: no column {name}"))
+        head.iter().position(is).ok_or_else(|| format!("{folder}/{file}: no column {name}"))
     };
     let places = names.iter().map(place).collect::<Result<Vec<_>, _>>()?;
     let row = |line: &str| -> Vec<f64> {
@@ -70,9 +70,10 @@ fn specimen(folder: &str) -> Result<Specimen, Box<dyn Error>> {
     let force = columns(folder, "force.csv", &["time", "fz", "shift_z"])?;
     let whole: Vec<(f64, f64, f64)> =
         force.iter().map(|row| (row[0], -row[2] / height, row[1] / area)).collect();
-    let (peak, strength) = whole.iter().enumerate().fold((0, 0.0), |(at, most), (k, row)| {
-        if row.2 > most { (k, row.2) } else { (at, most) }
-    });
+    let (peak, strength) = whole
+        .iter()
+        .enumerate()
+        .fold((0, 0.0), |(at, most), (k, row)| if row.2 > most { (k, row.2) } else { (at, most) });
     let half = whole.iter().position(|row| row.2 >= 0.5 * strength).ok_or("no force on the plate")?;
     let strains = columns(folder, "strain.csv", &["time", "xx", "yy", "zz"])?;
     let then = strains
@@ -81,7 +82,8 @@ fn specimen(folder: &str) -> Result<Specimen, Box<dyn Error>> {
         .ok_or("no strains")?;
     let cracks = columns(folder, "cracks.csv", &["time", "mode"])?;
     let before = |time: f64| cracks.iter().filter(|row| row[0] <= time).count() as f64;
-    let end = whole.iter().skip(peak).position(|row| row.2 < 0.25 * strength).map_or(whole.len(), |k| peak + k);
+    let end =
+        whole.iter().skip(peak).position(|row| row.2 < 0.25 * strength).map_or(whole.len(), |k| peak + k);
     Ok(Specimen {
         curve: whole[..end].iter().map(|row| (row.1, row.2)).collect(),
         modulus: whole[half].2 / whole[half].1,
@@ -100,7 +102,10 @@ fn specimen(folder: &str) -> Result<Specimen, Box<dyn Error>> {
 
 /// Student's t of 95 % for n − 1 degrees of freedom.
 fn student(n: usize) -> f64 {
-    [f64::INFINITY, 12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262].get(n - 1).copied().unwrap_or(2.0)
+    [f64::INFINITY, 12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262]
+        .get(n - 1)
+        .copied()
+        .unwrap_or(2.0)
 }
 
 impl Kind {
@@ -148,6 +153,7 @@ fn draw(file: &Path, kinds: &[Kind]) -> Result<Vec<u8>, String> {
             plots.push(Plot::Line(if k == 0 { line.with_legend(kind.name.clone()) } else { line }));
         }
     }
-    let layout = Layout::auto_from_plots(&plots).with_x_label("axial strain [%]").with_y_label("axial stress [kPa]");
+    let layout =
+        Layout::auto_from_plots(&plots).with_x_label("axial strain [%]").with_y_label("axial stress [kPa]");
     plot::diagram(file, plots, layout).map_err(|e| e.to_string())
 }
