@@ -21,4 +21,4 @@ done
 wait
 specimens_study "$docs/specimens-curves.svg" "k_n/k_s = 2.5=${uneven#,}" "k_n/k_s = 1=${even#,}" > "$out/table.md"
 "$here/../stages/section.sh" "$page" table < "$out/table.md"
-dem-view "$out/1/run.mcap" --time 0.009 --bonds --colour broken --range 0,1 --camera front --size 720x720 -o "$docs/specimens-broken.png"
+dem-view "$out/1/run.mcap" --time 0.0087 --bonds --colour broken --camera front --size 720x720 -o "$docs/specimens-broken.png"

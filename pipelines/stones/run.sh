@@ -15,4 +15,4 @@ stones_study "$docs/stones-weibull.svg" "$out"/strengths-0.005.csv "$out"/streng
 cp "$here/crush.toml" "$out/"
 measured=$(awk -v seed=3 -v diameter=0.007 -v grain=0.001 -v missing=0.15 -f "$here/stone.awk" 2>&1 > "$out/stone.csv")
 dem-run "$out/crush.toml" --set "wall.1.plane=0,0,${measured% *},0,0,-1" -q -o "$out/crushed.mcap"
-dem-view "$out/crushed.mcap" --bonds --colour broken --range 0,1 --camera front --size 960x540 -o "$docs/stones-crushed.png"
+dem-view "$out/crushed.mcap" --bonds --colour broken --camera front --size 960x540 -o "$docs/stones-crushed.png"

@@ -1,4 +1,4 @@
-//! Sliding friction in full: a coefficient that is constant or weakens with speed, and a dashpot of the normal law or of its own.
+//! Sliding friction in full: a coefficient that is constant or weakens with speed, and the dashpot of the normal law or a given one.
 //!
 //! ```text
 //! c_t = γ √(k_t m*)      with `restitution`
@@ -23,7 +23,7 @@ pub const TANGENTIAL_DAMPING: Key = Key {
     doc: "η_t of the tangential dashpot; absent: γ √(k_t m*) of the restitution, or η_n √(k_t/k_n)",
 };
 
-/// What the program knows of constant friction with a dashpot of its own.
+/// What the program knows of constant friction whose dashpot is given.
 pub const WITH_DASHPOT: Description = Description {
     name: "sliding friction with a dashpot",
     doc: "sliding friction whose dashpot is given directly",

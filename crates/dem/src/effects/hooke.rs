@@ -43,7 +43,7 @@ pub const TANGENTIAL_RATIO: Key = Key {
     doc: "k_t/k_n; absent: 4 G*/E* of the materials (Mindlin)",
 };
 
-/// k_t of linear laws, as a number of its own.
+/// k_t of linear laws, as a number.
 pub const TANGENTIAL_STIFFNESS: Key = Key {
     name: "tangential_stiffness",
     unit: "N/m",

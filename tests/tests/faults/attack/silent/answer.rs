@@ -38,8 +38,12 @@ impl Shop {
         let folder = tempfile::tempdir().expect("a folder");
         let inputs: BTreeSet<&String> = self.inputs.iter().chain(&call.reads).collect();
         for name in inputs.into_iter().filter(|name| self.folder.path().join(name).exists()) {
-            std::os::unix::fs::symlink(self.folder.path().join(name), folder.path().join(name))
-                .expect("a link");
+            let here = folder.path().join(name);
+            // A file of a folder that is linked as a whole is there.
+            if !here.exists() {
+                here.parent().map(fs::create_dir_all).transpose().expect("a folder");
+                std::os::unix::fs::symlink(self.folder.path().join(name), here).expect("a link");
+            }
         }
         let words = call.words();
         let words: Vec<&str> = words.iter().map(String::as_str).chain(["--threads", "1"]).collect();
