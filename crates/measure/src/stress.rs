@@ -29,7 +29,8 @@ pub struct Stress {
     contacts: Option<Contacts>,
     bonds: Option<Bonds>,
     last: Option<(f64, Matrix3<f64>)>,
-    found: bool,
+    /// Times of the first and the last message of contacts [s].
+    span: Option<(f64, f64)>,
 }
 
 impl Stress {
@@ -40,7 +41,7 @@ impl Stress {
     pub fn new(region: Region, (from, until): (f64, f64)) -> Result<Stress, MeasureError> {
         region.room()?;
         let which = Which::Between(from, until);
-        Ok(Stress { region, which, frame: None, contacts: None, bonds: None, last: None, found: false })
+        Ok(Stress { region, which, frame: None, contacts: None, bonds: None, last: None, span: None })
     }
 
     /// What has come of another time than this one is complete.
@@ -119,7 +120,7 @@ impl Observer for Stress {
         let wanted = self.which.holds(time);
         match message {
             RunMessage::Contacts(contacts) => {
-                self.found = true;
+                self.span = Some((self.span.map_or(time, |span| span.0), time));
                 self.contacts = Some(contacts).filter(|_| wanted);
             }
             RunMessage::Frame(frame) => self.frame = Some(frame).filter(|_| wanted),
@@ -131,11 +132,8 @@ impl Observer for Stress {
 
     fn end(&mut self, run: &Run, rows: &mut Vec<Row>) -> Result<Summary, MeasureError> {
         self.settle(run, None, rows);
-        if !self.found {
-            return Err(NO_CONTACTS);
-        }
-        let missing = || self.which.missing((f64::NEG_INFINITY, f64::INFINITY));
-        let (time, stress) = self.last.ok_or_else(missing)?;
+        let span = self.span.ok_or(NO_CONTACTS)?;
+        let (time, stress) = self.last.ok_or_else(|| self.which.missing(span))?;
         let [pressure, deviator] = invariants(&stress);
         Ok(Summary::default()
             .with("xx", "Pa", stress[(0, 0)])

@@ -151,8 +151,8 @@ fn add(model: &Model, state: &mut State, e: &Entry, now: f64) {
         }
     }
     if e.cluster != 0 {
-        let all = at..state.particles.len() as u32;
-        (0..).zip(all).for_each(|(k, _)| join(&mut state.clusters, e.particle.id.wrapping_add(k), e.cluster));
+        let members = state.particles.len() as u32 - at;
+        (0..members).for_each(|k| join(&mut state.clusters, e.particle.id.wrapping_add(k), e.cluster));
     }
     let (starts, turn) = starts(&e.particle, e.clump.as_ref(), &model.setup);
     let (centre, lead) = (e.particle.position, lead(&e.particle, e.clump.as_ref(), &zone, &model.setup));
