@@ -1,7 +1,9 @@
 //! Random numbers that are the same on every machine: a stream for each thing that is drawn.
 
+use nalgebra::{Quaternion, UnitQuaternion};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
+use std::f64::consts::TAU;
 
 /// A generator for one thing: `kind` and `index` keep streams of one seed apart.
 pub fn generator(seed: u64, kind: u64, index: u64) -> Pcg64Mcg {
@@ -20,4 +22,17 @@ pub fn generator(seed: u64, kind: u64, index: u64) -> Pcg64Mcg {
 /// A number in [0, 1), from the highest 53 bits: portable, and free of the details of `rand`.
 pub fn unit(random: &mut Pcg64Mcg) -> f64 {
     (random.next_u64() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
+}
+
+/// The orientation that three numbers from 0 to 1 stand for; even numbers give orientations that are uniform on SO(3): Shoemake (1992), Graphics
+/// Gems III.
+pub fn orientation([share, a, b]: [f64; 3]) -> UnitQuaternion<f64> {
+    let (p, q, a, b) = ((1.0 - share).sqrt(), share.sqrt(), TAU * a, TAU * b);
+    let (i, j) = (p * libm::sin(a), p * libm::cos(a));
+    UnitQuaternion::new_normalize(Quaternion::new(q * libm::cos(b), i, j, q * libm::sin(b)))
+}
+
+/// A random orientation.
+pub fn random_orientation(random: &mut Pcg64Mcg) -> UnitQuaternion<f64> {
+    orientation([unit(random), unit(random), unit(random)])
 }

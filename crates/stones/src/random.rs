@@ -1,22 +1,6 @@
 //! Random orientations, and numbers that fill a square evenly.
 
-use geom::random::unit;
-use nalgebra::{Quaternion, UnitQuaternion};
-use rand_pcg::Pcg64Mcg;
-use std::f64::consts::TAU;
-
-/// The orientation that three numbers from 0 to 1 stand for; even numbers give orientations that are uniform on SO(3): Shoemake (1992), Graphics
-/// Gems III.
-pub(crate) fn orientation([u, v, w]: [f64; 3]) -> UnitQuaternion<f64> {
-    let (a, b) = ((1.0 - u).sqrt(), u.sqrt());
-    let (s, t) = (TAU * v, TAU * w);
-    UnitQuaternion::from_quaternion(Quaternion::new(b * t.cos(), a * s.sin(), a * s.cos(), b * t.sin()))
-}
-
-/// A random orientation.
-pub(crate) fn random_orientation(random: &mut Pcg64Mcg) -> UnitQuaternion<f64> {
-    orientation([unit(random), unit(random), unit(random)])
-}
+pub(crate) use geom::random::{orientation, random_orientation};
 
 /// The k-th of a sequence that fills a cube evenly: Kronecker's sequence of the powers of 1/g, g⁴ = g + 1 (the R3 sequence).
 pub(crate) fn even(k: usize) -> [f64; 3] {

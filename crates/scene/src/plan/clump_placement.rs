@@ -3,7 +3,7 @@
 use super::builder::PlanBuilder;
 use super::fill::{LARGER, sizes};
 use super::packing::{Packing, bounds};
-use super::random::{generator, orientation};
+use super::random::{generator, random_orientation};
 use crate::error::{Result, SceneError};
 use crate::input::ParticleTable;
 use crate::keys::{Diameter, Fill, Particles};
@@ -124,7 +124,7 @@ impl PlanBuilder<'_> {
                 let why = format!("only {n} of {count} clumps fit without their bounding spheres touching");
                 return Err(self.check.wrong(&key("shape"), &entry.shape, &why, LARGER));
             };
-            let (orientation, velocity) = (orientation(&mut random), Vec3::from(entry.velocity));
+            let (orientation, velocity) = (random_orientation(&mut random), Vec3::from(entry.velocity));
             let spin = Vec3::zeros();
             self.clumps.placed.push(Body { id, shape: kind, scale, position, orientation, velocity, spin });
             id = id.wrapping_add(members);

@@ -3,7 +3,7 @@
 use super::builder::PlanBuilder;
 use super::grading::{Grading, Grain};
 use super::insertion::Expected;
-use super::random::{generator, orientation};
+use super::random::{generator, random_orientation};
 use super::section::Section;
 use super::total::Total;
 use crate::check::Check;
@@ -214,7 +214,7 @@ impl Feed {
         let clump = self.inserted.clump.map(|c| EntryClump {
             shape: c.shape,
             scale: 2.0 * radius / c.size,
-            orientation: orientation(&mut self.random),
+            orientation: random_orientation(&mut self.random),
         });
         let position = across + self.section.frame[0] * self.section.ranges[0].0;
         let (velocity, spin) = (self.velocity, Vec3::zeros());
