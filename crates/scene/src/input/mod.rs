@@ -11,7 +11,7 @@ mod walls;
 mod zone;
 
 pub use head::{InletSource, Source};
-pub use particles::{ParticleFile, ParticleTable};
+pub use particles::{ParticleFile, ParticleTable, RunClumps};
 pub use walls::{WallFile, WallSphere};
 pub use zone::ZoneRecord;
 

@@ -5,7 +5,7 @@ use crate::error::{Result, SceneError};
 use dem::setup::{KeptContact, Particle};
 use geom::Shown;
 use record::column::{BODY, CLUSTER, DIAMETER, ID, MATERIAL, POSITION, RADIUS, SPIN, VELOCITY};
-use record::{Columns, LogMessage, MaterialRecord, WallRecord, metadata, topic};
+use record::{ClumpRecord, Columns, LogMessage, MaterialRecord, WallRecord, metadata, topic};
 use std::path::Path;
 use stream::mcap::{Event, Reader};
 use stream::{Table, Values};
@@ -27,6 +27,17 @@ pub struct ParticleFile {
     pub warning: Option<String>,
     /// Histories of the contacts of a run, and the names of its walls.
     pub kept: (Vec<KeptContact>, Vec<String>),
+    /// Rigid clumps of a run; their spheres are not among the particles.
+    pub clumps: Option<RunClumps>,
+}
+
+/// Rigid clumps of the last frame of a run.
+#[derive(Debug, Clone, Default)]
+pub struct RunClumps {
+    /// Their shapes, by index.
+    pub shapes: Vec<ClumpRecord>,
+    /// A row for each clump: the topic `/bodies`.
+    pub rows: Table,
 }
 
 /// The columns of a file.
@@ -43,6 +54,8 @@ pub struct ParticleTable {
     pub stopped: Option<LogMessage>,
     /// Its contact histories, and the names of its walls.
     pub kept: (Vec<KeptContact>, Vec<String>),
+    /// The rigid clumps of that run.
+    pub clumps: Option<RunClumps>,
 }
 
 impl ParticleTable {
@@ -75,7 +88,7 @@ impl ParticleTable {
     /// Of a file other than a run.
     fn listed(name: String, table: Table) -> ParticleTable {
         let (materials, kept) = Default::default();
-        ParticleTable { name, table, materials, is_run: false, stopped: None, kept }
+        ParticleTable { name, table, materials, is_run: false, stopped: None, kept, clumps: None }
     }
 
     /// Its columns as numbers.
@@ -102,7 +115,11 @@ impl ParticleTable {
             velocity: velocities[i],
             spin: spins[i],
         };
-        let particles = (0..positions.len()).map(particle).collect();
+        let members = self.members(&columns)?;
+        let free = (0..positions.len()).filter(|&i| !members.as_ref().is_some_and(|m| m[i]));
+        let (free, clusters): (Vec<usize>, _) =
+            (free.clone().collect(), clusters.map(|all| free.map(|i| all[i]).collect()));
+        let particles = free.into_iter().map(particle).collect();
         let warning = match self.table.rows() {
             0 => Some(format!("{}: holds no particle: it has names of columns and no row", self.name)),
             // A run has columns that are not read here.
@@ -115,8 +132,17 @@ impl ParticleTable {
         };
         let hash = record::hash(&self.table);
         let has_ids = ids.is_some();
-        let (materials, kept) = (self.materials, self.kept);
-        Ok(ParticleFile { particles, has_ids, clusters, materials, hash, warning, kept })
+        let (materials, kept, clumps) = (self.materials, self.kept, self.clumps);
+        Ok(ParticleFile { particles, has_ids, clusters, materials, hash, warning, kept, clumps })
+    }
+
+    /// Whether each row is a sphere of a clump; `None` without clumps.
+    fn members(&self, columns: &Columns) -> Result<Option<Vec<bool>>> {
+        let Some(clumps) = &self.clumps else { return Ok(None) };
+        let any = f64::from(u32::MAX);
+        let (all, of) = (Columns { name: &self.name, table: &clumps.rows }, columns.needed(BODY, any)?);
+        let known: std::collections::BTreeSet<u32> = all.needed(ID, any)?.into_iter().collect();
+        Ok(Some(of.iter().map(|body| known.contains(body)).collect()))
     }
 }
 
@@ -130,15 +156,20 @@ fn known() -> Vec<&'static str> {
 }
 
 impl ParticleFile {
-    /// Reads particles.
+    /// Reads spheres.
     ///
     /// # Errors
     /// A file of another kind, columns that are missing or wrong; a run with clumps.
     pub fn read(path: &Path, factor: f64) -> Result<ParticleFile> {
-        ParticleFile::read_with(path, factor, &[])
+        let file = ParticleFile::read_with(path, factor, &[])?;
+        if file.clumps.is_some() {
+            let why = "is a run with clumps: only dem-run places these";
+            return Err(SceneError::file(&path.display().to_string(), why, "give a run of spheres"));
+        }
+        Ok(file)
     }
 
-    /// The same; `materials` are those that the numbers in the column `material` of a CSV or PLY stand for.
+    /// Reads spheres and, of a run, clumps; `materials` are those that the numbers in the column `material` of a CSV or PLY stand for.
     ///
     /// # Errors
     /// As [`ParticleFile::read`]; no such column, or a run, which names its own.
@@ -156,11 +187,6 @@ impl ParticleFile {
             let named = |name: &String| MaterialRecord { name: name.clone(), ..MaterialRecord::default() };
             table.materials = materials.iter().map(named).collect();
         }
-        if table.is_run && table.table.get(BODY).is_some() {
-            let why = "is a run with clumps, and a frame does not hold their shapes";
-            let cure = "continue it with dem-run --resume, or place them with [[body]]";
-            return Err(SceneError::file(&table.name, why, cure));
-        }
         table.particles()
     }
 }
@@ -175,6 +201,7 @@ fn vertices(name: &str, bytes: &[u8]) -> Result<Table> {
 fn last_frame(name: String, bytes: &[u8]) -> Result<ParticleTable> {
     let (mut frame, mut materials, mut stopped) = (None, Vec::new(), None);
     let (mut history, mut walls) = (None, Vec::new());
+    let (mut shapes, mut bodies) = (Vec::new(), None);
     for event in Reader::new(bytes) {
         match event.map_err(|e| SceneError::content(&name, "a run", e))? {
             Event::Metadata { name: record, map } if record == metadata::MATERIALS => {
@@ -182,6 +209,12 @@ fn last_frame(name: String, bytes: &[u8]) -> Result<ParticleTable> {
             }
             Event::Points { topic, time_ns, table } if topic == topic::PARTICLES => {
                 frame = Some((time_ns, table))
+            }
+            Event::Metadata { name: record, map } if record == metadata::CLUMPS => {
+                shapes = ClumpRecord::from_map(&name, &map)?;
+            }
+            Event::Points { topic, time_ns, table } if topic == topic::BODIES => {
+                bodies = Some((time_ns, table))
             }
             Event::Points { topic, time_ns, table } if topic == topic::HISTORY => {
                 history = Some((time_ns, table))
@@ -203,7 +236,15 @@ fn last_frame(name: String, bytes: &[u8]) -> Result<ParticleTable> {
         Some((at, rows)) if at == time => super::history::from_table(&name, &rows)?,
         _ => Vec::new(),
     };
-    Ok(ParticleTable { table, name, materials, is_run: true, stopped, kept: (kept, walls) })
+    let clumps = match bodies {
+        Some((at, rows)) if at == time => Some(RunClumps { shapes, rows }),
+        _ if table.get(BODY).is_some() => {
+            let why = "has clumps, and no message on /bodies with its last frame";
+            return Err(SceneError::file(&name, why, "give a run that dem-run wrote"));
+        }
+        _ => None,
+    };
+    Ok(ParticleTable { table, name, materials, is_run: true, stopped, kept: (kept, walls), clumps })
 }
 
 #[cfg(test)]

@@ -48,6 +48,8 @@ pub(super) struct FilesRead {
     pub spinning: Vec<String>,
     /// Particles of runs, by index: they lie as the engine left them.
     pub settled: Vec<Range<usize>>,
+    /// Clumps of runs, by index in [`setup::Clumps::placed`].
+    pub settled_clumps: Vec<Range<usize>>,
     /// Their contact histories, and the names of the walls of each run.
     pub kept: Vec<(Vec<KeptContact>, Vec<String>)>,
 }

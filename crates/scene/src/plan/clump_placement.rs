@@ -5,12 +5,13 @@ use super::fill::{LARGER, sizes};
 use super::packing::{Packing, bounds};
 use super::random::{generator, random_orientation};
 use crate::error::{Result, SceneError};
-use crate::input::ParticleTable;
+use crate::input::{ParticleTable, RunClumps};
 use crate::keys::{Diameter, Fill, Particles};
 use dem::setup::Body;
 use geom::{Shape, Vec3};
 use nalgebra::{Quaternion, UnitQuaternion};
-use record::column::{ID, ORIENTATION, ORIENTATION_REAL, POSITION, SCALE, SPIN, VELOCITY};
+use record::Columns;
+use record::column::{CLUMP, ID, ORIENTATION, ORIENTATION_REAL, POSITION, SCALE, SPIN, VELOCITY};
 
 /// More than this is a mistake.
 const MOST: u64 = 10_000_000;
@@ -49,36 +50,61 @@ impl PlanBuilder<'_> {
         let shape = self.clump(&format!("{key}.clump"), clump)?;
         let file = ParticleTable::read(&self.path(&entry.source), entry.length_factor())?;
         let columns = file.columns();
+        self.inputs.push(("particles".to_owned(), record::hash(&file.table)));
+        self.warnings.extend(columns.unused(&known()));
+        if file.table.rows() == 0 {
+            let name = &file.name;
+            self.warnings.push(format!("{name}: holds no clump: it has names of columns and no row"));
+        }
+        self.rows_of_clumps(&columns, |_| shape)
+    }
+
+    /// The clumps of a run, as its last frame has them. Each has the shape of that name.
+    pub(super) fn clumps_of_run(&mut self, entry: &Particles, clumps: &RunClumps) -> Result<()> {
+        let columns = Columns { name: &entry.source, table: &clumps.rows };
+        let kind = columns.needed(CLUMP, clumps.shapes.len() as f64 - 1.0)?;
+        let mut shapes = vec![u32::MAX; clumps.shapes.len()];
+        for &k in &kind {
+            if shapes[k as usize] == u32::MAX {
+                let cure = "take the [[clump]] over from the scene of that run";
+                shapes[k as usize] = self.same_clump(&entry.source, &clumps.shapes[k as usize], cure)?;
+            }
+        }
+        let first = self.clumps.placed.len();
+        self.rows_of_clumps(&columns, |row| shapes[kind[row] as usize])?;
+        self.read.settled_clumps.push(first..self.clumps.placed.len());
+        Ok(())
+    }
+
+    /// Clumps by rows of position, orientation, scale, velocity, angular velocity and id.
+    fn rows_of_clumps(&mut self, columns: &Columns, shape: impl Fn(usize) -> u32) -> Result<()> {
+        let name = columns.name;
         let positions = columns.vectors(POSITION)?;
         let (velocities, spins) = (columns.vectors_or_zero(VELOCITY)?, columns.vectors_or_zero(SPIN)?);
         let vector = columns.vectors_or_zero(ORIENTATION)?;
-        let or_one = |column: &str| match file.table.get(column) {
+        let or_one = |column: &str| match columns.table.get(column) {
             Some(_) => columns.numbers(column),
             None => Ok(vec![1.0; positions.len()]),
         };
         let (real, scales) = (or_one(ORIENTATION_REAL)?, or_one(SCALE)?);
         let ids = columns.indices(ID, f64::from(u32::MAX - 1))?;
-        self.inputs.push(("particles".to_owned(), record::hash(&file.table)));
-        self.warnings.extend(columns.unused(&known()));
-        if positions.is_empty() {
-            let name = &file.name;
-            self.warnings.push(format!("{name}: holds no clump: it has names of columns and no row"));
-        }
-        let (first, members) = (self.next_id(), self.clumps.shapes[shape as usize].spheres.len() as u32);
+        let mut next = self.next_id();
         for k in 0..positions.len() {
             let q = vector[k];
             let Some(orientation) = turn([real[k], q.x, q.y, q.z]) else {
                 let why = format!("row {k}: the quaternion (qw, qx, qy, qz) has no length");
-                return Err(SceneError::file(&file.name, why, "write 1, 0, 0, 0 for no turn"));
+                return Err(SceneError::file(name, why, "write 1, 0, 0, 0 for no turn"));
             };
             let scale = scales[k];
             if !(scale > 0.0 && scale.is_finite()) {
                 let why = format!("row {k}: scale = {scale} is not a factor above 0");
-                return Err(SceneError::file(&file.name, why, "write 1 for the size of the [[clump]]"));
+                return Err(SceneError::file(name, why, "write 1 for the size of the [[clump]]"));
             }
+            let id = ids.as_ref().map_or(next, |ids| ids[k]);
+            next = next.wrapping_add(self.clumps.shapes[shape(k) as usize].spheres.len() as u32);
             self.clumps.placed.push(Body {
-                id: ids.as_ref().map_or(first.wrapping_add(k as u32 * members), |ids| ids[k]),
-                shape,
+                id,
+                shape: shape(k),
                 scale,
                 position: positions[k],
                 orientation,

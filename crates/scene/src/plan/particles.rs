@@ -53,6 +53,11 @@ impl PlanBuilder<'_> {
                 }
             }
         }
+        if entry.fixed && file.clumps.is_some() {
+            let (key, value) = (format!("particles.{index}.fixed"), "true");
+            let why = "and the file is a run with clumps, which cannot be fixed";
+            return Err(self.check.wrong(&key, value, why, "give a file of spheres"));
+        }
         if entry.fixed {
             let of = |p: &Particle| materials[if entry.material.is_some() { 0 } else { p.material as usize }];
             let spheres = file.particles.iter().map(|p| (of(p), (p.position, p.radius)));
@@ -64,6 +69,14 @@ impl PlanBuilder<'_> {
                 ));
             }
             return Ok(());
+        }
+        if let Some(clumps) = &file.clumps {
+            if entry.material.is_some() {
+                let why =
+                    "is given, and the file is a run with clumps, which have the material of their [[clump]]";
+                return Err(self.check.wrong(&key, "(a run with clumps)", why, "take it out"));
+            }
+            self.clumps_of_run(entry, clumps)?;
         }
         // Of other materials a contact would be another one.
         if entry.material.is_none() && file.has_ids {

@@ -64,8 +64,8 @@ impl PlanBuilder<'_> {
     /// The deepest overlap of what files and `[[body]]` place, over the smaller radius: of pairs, and with planes. Members of one clump
     /// are not compared with each other, nor are particles of runs.
     fn deepest(&self) -> Option<DeepOverlap> {
-        let clumps = self.clumps.placed.len();
-        let by_hand = self.read.placed > 0 || clumps > 0;
+        let of_runs: usize = self.read.settled_clumps.iter().map(|range| range.len()).sum();
+        let by_hand = self.read.placed > 0 || self.clumps.placed.len() > of_runs;
         let spheres = if by_hand { self.spheres() } else { Vec::new() };
         let places: Vec<Vec3> = spheres.iter().map(|s| s.0).collect();
         let (low, high) = grid::bounds(&places);
@@ -84,8 +84,10 @@ impl PlanBuilder<'_> {
         let mut owners: Vec<(u32, u32)> = (1..).zip(&self.particles).map(|(n, p)| (p.id, n)).collect();
         let settled = self.read.settled.iter().flat_map(|range| range.clone());
         settled.for_each(|n| owners[n].1 = 0);
-        for (owner, b) in (owners.len() as u32 + 1..).zip(&self.clumps.placed) {
+        for (n, b) in self.clumps.placed.iter().enumerate() {
             let members = self.clumps.shapes[b.shape as usize].spheres.len() as u32;
+            let settled = self.read.settled_clumps.iter().any(|range| range.contains(&n));
+            let owner = if settled { 0 } else { (self.particles.len() + n) as u32 + 1 };
             owners.extend((0..members).map(|k| (b.id.wrapping_add(k), owner)));
         }
         owners

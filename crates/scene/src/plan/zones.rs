@@ -98,16 +98,25 @@ impl PlanBuilder<'_> {
                 found.push(u32::MAX);
                 continue;
             };
-            let shape = self.clump(stream, &record.name)?;
-            if !self.clumps.shapes.get(shape as usize).is_some_and(|s| is_same(record, s)) {
-                let why = format!("its clump '{}' has other spheres than the scene's", record.name);
-                return Err(SceneError::file(stream, why, "cut both stages from one plant with stage-split"));
-            }
+            let shape = self.same_clump(stream, record, "cut both stages from one plant with stage-split")?;
             let (least, most) = (low * (1.0 - SCALE_SLACK), high * (1.0 + SCALE_SLACK));
             self.clumps.entries.push(ClumpScales { shape, least, most });
             found.push(shape);
         }
         Ok(found)
+    }
+
+    /// Index of the scene's shape of that name.
+    ///
+    /// # Errors
+    /// There is none, or it has other spheres; `cure` says what to do.
+    pub(super) fn same_clump(&self, file: &str, record: &ClumpRecord, cure: &'static str) -> Result<u32> {
+        let shape = self.clump(file, &record.name)?;
+        if self.clumps.shapes.get(shape as usize).is_some_and(|s| is_same(record, s)) {
+            return Ok(shape);
+        }
+        let why = format!("its clump '{}' has other spheres than the scene's", record.name);
+        Err(SceneError::file(file, why, cure))
     }
 
     /// Refuses a stream whose particles would have another mass here.

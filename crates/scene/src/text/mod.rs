@@ -6,8 +6,10 @@
 mod missing;
 mod overrides;
 mod parse;
+mod rebase;
 
 pub(crate) use parse::parse;
+pub use rebase::rebase;
 
 use crate::error::{Place, Result, SceneError};
 use overrides::put;

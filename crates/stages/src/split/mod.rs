@@ -5,7 +5,6 @@
 //! the flow through the cut depends on ([`mark`]), so that a record of another plant is refused. [`cutting`] holds the scene and the cut.
 
 mod cutting;
-mod files;
 mod mark;
 mod sides;
 mod sources;
@@ -94,7 +93,7 @@ fn stage(scene: &Scene, cut: &Cut) -> Result<(String, Vec<String>)> {
     }
     cutting.clear_of_walls()?;
     cutting.walls(&mut text);
-    cutting.rebase(&mut text.document);
+    scene::text::rebase(&mut text.document, &scene.folder, &cut.folder);
     cutting.add_zone(&mut text.document)?;
     Ok(text.done())
 }

@@ -1,0 +1,90 @@
+//! Files that a scene names, as seen from another folder.
+
+use std::path::{Path, PathBuf};
+use toml_edit::{DocumentMut, Item, value};
+
+/// Keys that name a file, by list of tables.
+const KEYS: [(&str, &[&str]); 6] = [
+    ("wall", &["source", "mesh"]),
+    ("clump", &["mesh"]),
+    ("particles", &["source"]),
+    ("inlet", &["source"]),
+    ("fill", &["sizes", "shape"]),
+    ("insert", &["sizes"]),
+];
+
+/// Shapes that are files.
+const SHAPES: [&str; 2] = ["mesh:", "prism:"];
+
+/// Makes the files that a scene in the folder `from` names right for a scene in the folder `to`.
+pub fn rebase(document: &mut DocumentMut, from: &Path, to: &Path) {
+    for (table, keys) in KEYS {
+        let tables = document.get_mut(table).and_then(Item::as_array_of_tables_mut);
+        for entry in tables.into_iter().flat_map(|tables| tables.iter_mut()) {
+            for key in keys {
+                let Some(mut item) = entry.get_mut(key) else { continue };
+                // Sizes may be a table with the name of a file.
+                if item.is_table_like() {
+                    let Some(inner) = item.get_mut("file") else { continue };
+                    item = inner;
+                }
+                let Some(text) = item.as_str() else { continue };
+                let kind = SHAPES.into_iter().find(|kind| text.starts_with(kind)).unwrap_or_default();
+                if *key == "shape" && kind.is_empty() {
+                    continue;
+                }
+                *item = value(format!("{kind}{}", relative(&from.join(&text[kind.len()..]), to)));
+            }
+        }
+    }
+}
+
+/// A file as seen from a folder; as it is when the way is not known.
+fn relative(file: &Path, folder: &Path) -> String {
+    // An empty path is the folder that the tool was started in.
+    let here = |p: &Path| match p.as_os_str().is_empty() {
+        true => std::env::current_dir(),
+        false => std::path::absolute(p),
+    };
+    let (Ok(to), Ok(from)) = (here(file), here(folder)) else { return file.display().to_string() };
+    let (to, from) = (clean(&to), clean(&from));
+    let common = to.iter().zip(&from).take_while(|(a, b)| a == b).count();
+    let mut way = PathBuf::new();
+    from[common..].iter().for_each(|_| way.push(".."));
+    to[common..].iter().for_each(|part| way.push(part));
+    way.display().to_string()
+}
+
+/// The parts of an absolute path, without `.` and `..`.
+fn clean(path: &Path) -> Vec<std::ffi::OsString> {
+    let mut parts = Vec::new();
+    for part in path.components() {
+        match part {
+            std::path::Component::ParentDir => drop(parts.pop()),
+            std::path::Component::Normal(name) => parts.push(name.to_owned()),
+            _ => {}
+        }
+    }
+    parts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_of_all_kinds_are_seen_from_the_new_folder() {
+        let text = "[[fill]]\nshape = \"mesh:a.ply,units=mm\"\nsizes = { file = \"s.csv\" }\n[[fill]]\nshape = \"box:0,0,0,1,1,1\"\n[[clump]]\nmesh = \"b.ply\"\n";
+        let mut document: DocumentMut = text.parse().unwrap();
+        rebase(&mut document, Path::new("/lab"), Path::new("/lab/run"));
+        let now = text.replace("a.ply", "../a.ply").replace("s.csv", "../s.csv").replace("b.ply", "../b.ply");
+        assert_eq!(document.to_string(), now);
+    }
+
+    #[test]
+    fn files_are_seen_from_the_new_folder() {
+        assert_eq!(relative(Path::new("/a/b/../c/w.mcap"), Path::new("/a/out")), "../c/w.mcap");
+        assert_eq!(relative(Path::new("w.mcap"), Path::new("")), "w.mcap");
+        assert_eq!(relative(Path::new("w.mcap"), Path::new("out")), "../w.mcap");
+    }
+}
