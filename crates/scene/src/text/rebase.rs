@@ -14,7 +14,7 @@ const KEYS: [(&str, &[&str]); 6] = [
 ];
 
 /// Shapes that are files.
-const SHAPES: [&str; 2] = ["mesh:", "prism:"];
+const SHAPES: [&str; 2] = ["mesh", "prism"];
 
 /// Makes the files that a scene in the folder `from` names right for a scene in the folder `to`.
 pub fn rebase(document: &mut DocumentMut, from: &Path, to: &Path) {
@@ -22,21 +22,32 @@ pub fn rebase(document: &mut DocumentMut, from: &Path, to: &Path) {
         let tables = document.get_mut(table).and_then(Item::as_array_of_tables_mut);
         for entry in tables.into_iter().flat_map(|tables| tables.iter_mut()) {
             for key in keys {
-                let Some(mut item) = entry.get_mut(key) else { continue };
-                // Sizes may be a table with the name of a file.
-                if item.is_table_like() {
-                    let Some(inner) = item.get_mut("file") else { continue };
-                    item = inner;
-                }
-                let Some(text) = item.as_str() else { continue };
-                let kind = SHAPES.into_iter().find(|kind| text.starts_with(kind)).unwrap_or_default();
-                if *key == "shape" && kind.is_empty() {
+                let Some((item, start)) = entry.get_mut(key).and_then(|item| file_of(item, key)) else {
                     continue;
-                }
-                *item = value(format!("{kind}{}", relative(&from.join(&text[kind.len()..]), to)));
+                };
+                let text = item.as_str().unwrap_or_default();
+                *item = value(format!("{}{}", &text[..start], relative(&from.join(&text[start..]), to)));
             }
         }
     }
+}
+
+/// The text that names a file, and where in it the name begins: a text itself, `file` in a table of sizes, a shape as `mesh:FILE` or
+/// `{ mesh = FILE }`.
+fn file_of<'a>(item: &'a mut Item, key: &str) -> Option<(&'a mut Item, usize)> {
+    if item.is_table_like() {
+        let inner =
+            ["file"].into_iter().chain(SHAPES).find(|name| item.get(name).is_some_and(Item::is_str))?;
+        return item.get_mut(inner).map(|inner| (inner, 0));
+    }
+    let text = item.as_str()?;
+    let shape = || {
+        text.split_once(':')
+            .map(|(name, _)| name)
+            .filter(|name| SHAPES.contains(&name.trim_start_matches('!')))
+    };
+    let start = if key == "shape" { shape()?.len() + 1 } else { 0 };
+    Some((item, start))
 }
 
 /// A file as seen from a folder; as it is when the way is not known.
@@ -74,10 +85,14 @@ mod tests {
 
     #[test]
     fn files_of_all_kinds_are_seen_from_the_new_folder() {
-        let text = "[[fill]]\nshape = \"mesh:a.ply,units=mm\"\nsizes = { file = \"s.csv\" }\n[[fill]]\nshape = \"box:0,0,0,1,1,1\"\n[[clump]]\nmesh = \"b.ply\"\n";
+        let text = "[[fill]]\nshape = \"mesh:a.ply,units=mm\"\nsizes = { file = \"s.csv\" }\n[[fill]]\nshape = { mesh = \"c.ply\" }\n[[fill]]\nshape = \"box:0,0,0,1,1,1\"\n[[clump]]\nmesh = \"b.ply\"\n";
         let mut document: DocumentMut = text.parse().unwrap();
         rebase(&mut document, Path::new("/lab"), Path::new("/lab/run"));
-        let now = text.replace("a.ply", "../a.ply").replace("s.csv", "../s.csv").replace("b.ply", "../b.ply");
+        let now = text
+            .replace("a.ply", "../a.ply")
+            .replace("s.csv", "../s.csv")
+            .replace("b.ply", "../b.ply")
+            .replace("c.ply", "../c.ply");
         assert_eq!(document.to_string(), now);
     }
 
