@@ -191,3 +191,105 @@ fn wrong_clumps_say_where_what_and_what_to_do() {
     let open = tool(folder.path(), "dem-run", &["s.toml", "--check"]);
     assert!(open.stderr.contains("clump.0.mesh") && open.stderr.contains("not closed"), "{}", open.stderr);
 }
+
+/// Pairs and spheres that have come to rest in a box.
+const HEAP: &str = r#"gravity = [0, 0, -9.81]
+[time]
+until = 0.5
+dt = 5e-6
+[output]
+every = 0.5
+[[material]]
+name = "stone"
+density = 2500
+young = 5e6
+poisson = 0.25
+[[contact]]
+between = ["*", "*"]
+restitution = 0.3
+sliding_friction = 0.5
+[[clump]]
+name = "pair"
+material = "stone"
+spheres = [[0, 0, 0, 0.004], [0.005, 0, 0, 0.003]]
+[[fill]]
+clump = "pair"
+scale = [0.8, 1.2]
+shape = "box:0,0,0,0.04,0.04,0.1"
+count = 24
+[[fill]]
+material = "stone"
+shape = "box:0,0,0,0.04,0.04,0.1"
+diameter = 0.006
+count = 12
+[[wall]]
+name = "box"
+box = [0, 0, 0, 0.04, 0.04, 0.2]
+material = "stone"
+"#;
+
+/// The same with the grains of heap.mcap instead of fills.
+fn from_run(more: &str) -> String {
+    let (before, rest) = HEAP.split_once("[[fill]]").expect("fills");
+    let (_, walls) = rest.split_once("[[wall]]").expect("a wall");
+    let scene = format!("{before}[[particles]]\nsource = \"heap.mcap\"\n{more}[[wall]]{walls}");
+    scene.replace("until = 0.5", "until = 0.1").replace("every = 0.5", "every = 0.1")
+}
+
+/// A scene that takes the clumps of a run begins with the run's last frame and goes on as the run itself would have: springs of friction are kept.
+#[test]
+fn clumps_of_a_run_go_on_as_they_lie() {
+    let folder = folder(HEAP);
+    let file = |name: &str| folder.path().join(name);
+    succeed(folder.path(), "dem-run", &["s.toml", "-q", "-o", "heap.mcap"]);
+    fs::write(file("next.toml"), from_run("")).expect("can be written");
+    let done = succeed(folder.path(), "dem-run", &["next.toml", "-o", "next.mcap"]);
+    assert!(!done.stderr.contains("warning"), "{}", done.stderr);
+    for topic in ["/particles", "/bodies"] {
+        let (left, taken) = (read(&file("heap.mcap"), topic, "").0, read(&file("next.mcap"), topic, "").0);
+        let (left, taken) = (left.last().expect("a frame"), taken.first().expect("a frame"));
+        assert_eq!(left.rows(), taken.rows(), "{topic}");
+        for name in ["id", "x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz"] {
+            assert!(apart(left, taken, name) < 1e-14, "{topic} {name}");
+        }
+    }
+    succeed(
+        folder.path(),
+        "dem-run",
+        &["s.toml", "--until", "0.6", "--resume", "heap.mcap", "-q", "-o", "on.mcap"],
+    );
+    let (on, next) = (read(&file("on.mcap"), "/bodies", "").0, read(&file("next.mcap"), "/bodies", "").0);
+    let (on, next) = (on.last().expect("a frame"), next.last().expect("a frame"));
+    let most = ["x", "y", "z"].map(|name| apart(on, next, name)).into_iter().fold(0.0, f64::max);
+    assert!(most < 1e-9, "{most} m apart");
+}
+
+/// Largest difference in a column.
+fn apart(a: &Table, b: &Table, name: &str) -> f64 {
+    column(a, name).iter().zip(column(b, name)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn clumps_of_a_run_are_refused_where_they_would_be_others() {
+    let folder = folder(&HEAP.replace("until = 0.5", "until = 0.01"));
+    succeed(folder.path(), "dem-run", &["s.toml", "-q", "-o", "heap.mcap"]);
+    let refused = |scene: &str, parts: &[&str]| {
+        fs::write(folder.path().join("next.toml"), scene).expect("can be written");
+        let done = tool(folder.path(), "dem-run", &["next.toml", "--check"]);
+        assert_eq!(done.code, 1, "{}", done.stderr);
+        for part in parts {
+            assert!(done.stderr.contains(part), "wanted '{part}' in: {}", done.stderr);
+        }
+    };
+    refused(&from_run("material = \"stone\"\n"), &["particles.0.material", "take it out"]);
+    refused(&from_run("fixed = true\n"), &["particles.0.fixed", "cannot be fixed"]);
+    refused(
+        &from_run("").replace("0.005, 0, 0, 0.003", "0.004, 0, 0, 0.003"),
+        &["'pair' has other spheres", "[[clump]]"],
+    );
+    refused(&from_run("").replace("name = \"pair\"", "name = \"twin\""), &["heap.mcap", "pair"]);
+    let split = ["next.toml", "--at", "0,0,0.05,0,0,-1", "--keep", "upstream"];
+    fs::write(folder.path().join("next.toml"), from_run("")).expect("can be written");
+    let done = tool(folder.path(), "stage-split", &split);
+    assert!(done.code == 1 && done.stderr.contains("only dem-run places these"), "{}", done.stderr);
+}
