@@ -6,6 +6,7 @@ use dem::setup::{KeptContact, Particle};
 use geom::Shown;
 use record::column::{BODY, CLUSTER, DIAMETER, ID, MATERIAL, POSITION, RADIUS, SPIN, VELOCITY};
 use record::{ClumpRecord, Columns, LogMessage, MaterialRecord, WallRecord, metadata, topic};
+use std::collections::BTreeSet;
 use std::path::Path;
 use stream::mcap::{Event, Reader};
 use stream::{Table, Values};
@@ -115,10 +116,8 @@ impl ParticleTable {
             velocity: velocities[i],
             spin: spins[i],
         };
-        let members = self.members(&columns)?;
-        let free = (0..positions.len()).filter(|&i| !members.as_ref().is_some_and(|m| m[i]));
-        let (free, clusters): (Vec<usize>, _) =
-            (free.clone().collect(), clusters.map(|all| free.map(|i| all[i]).collect()));
+        let free = self.free(&columns)?;
+        let clusters = clusters.map(|all| free.iter().map(|&i| all[i]).collect());
         let particles = free.into_iter().map(particle).collect();
         let warning = match self.table.rows() {
             0 => Some(format!("{}: holds no particle: it has names of columns and no row", self.name)),
@@ -136,13 +135,14 @@ impl ParticleTable {
         Ok(ParticleFile { particles, has_ids, clusters, materials, hash, warning, kept, clumps })
     }
 
-    /// Whether each row is a sphere of a clump; `None` without clumps.
-    fn members(&self, columns: &Columns) -> Result<Option<Vec<bool>>> {
-        let Some(clumps) = &self.clumps else { return Ok(None) };
+    /// Rows that are no sphere of a clump.
+    fn free(&self, columns: &Columns) -> Result<Vec<usize>> {
+        let rows = 0..self.table.rows();
+        let Some(clumps) = &self.clumps else { return Ok(rows.collect()) };
         let any = f64::from(u32::MAX);
-        let (all, of) = (Columns { name: &self.name, table: &clumps.rows }, columns.needed(BODY, any)?);
-        let known: std::collections::BTreeSet<u32> = all.needed(ID, any)?.into_iter().collect();
-        Ok(Some(of.iter().map(|body| known.contains(body)).collect()))
+        let bodies = Columns { name: &self.name, table: &clumps.rows }.needed(ID, any)?;
+        let (bodies, of) = (BTreeSet::from_iter(bodies), columns.needed(BODY, any)?);
+        Ok(rows.filter(|&row| !bodies.contains(&of[row])).collect())
     }
 }
 

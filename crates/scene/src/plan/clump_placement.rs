@@ -100,11 +100,12 @@ impl PlanBuilder<'_> {
                 let why = format!("row {k}: scale = {scale} is not a factor above 0");
                 return Err(SceneError::file(name, why, "write 1 for the size of the [[clump]]"));
             }
+            let shape = shape(k);
             let id = ids.as_ref().map_or(next, |ids| ids[k]);
-            next = next.wrapping_add(self.clumps.shapes[shape(k) as usize].spheres.len() as u32);
+            next = next.wrapping_add(self.clumps.shapes[shape as usize].spheres.len() as u32);
             self.clumps.placed.push(Body {
                 id,
-                shape: shape(k),
+                shape,
                 scale,
                 position: positions[k],
                 orientation,

@@ -5,12 +5,13 @@
 //! the mesh is the hull of the centres and contacts lie `vertex_radius` outside of it (JP6939487B2, particles as polyhedra).
 
 use super::builder::PlanBuilder;
-use crate::error::Result;
+use crate::error::{Result, SceneError};
 use crate::input::read_mesh;
 use crate::keys::{Clump, ClumpMass};
 use dem::setup::ClumpShape;
 use geom::moments::BodyError;
 use geom::{Moments, Vec3};
+use record::ClumpRecord;
 
 /// Most members of a clump: more make every neighbour list long; a mesh with so many vertices is not meant as a clump.
 const MOST: usize = 2000;
@@ -33,6 +34,19 @@ impl PlanBuilder<'_> {
             self.clumps.shapes.push(shape);
         }
         Ok(())
+    }
+
+    /// Index of the scene's shape of that name.
+    ///
+    /// # Errors
+    /// There is none, or it has other spheres; `cure` says what to do.
+    pub(super) fn same_clump(&self, file: &str, record: &ClumpRecord, cure: &'static str) -> Result<u32> {
+        let shape = self.clump(file, &record.name)?;
+        if self.clumps.shapes.get(shape as usize).is_some_and(|s| is_same(record, s)) {
+            return Ok(shape);
+        }
+        let why = format!("its clump '{}' has other spheres than the scene's", record.name);
+        Err(SceneError::file(file, why, cure))
     }
 
     fn multisphere(&self, key: &str, entry: &Clump) -> Result<(Vec<Sphere>, Moments)> {
@@ -85,4 +99,16 @@ impl PlanBuilder<'_> {
         let cure = "thin it: a few dozen carry the shape (stone-clean --faces 100)";
         Err(self.check.wrong(key, format!("{count} {what}"), &why, cure))
     }
+}
+
+/// Whether a recorded shape is one of the scene, except for rounding.
+fn is_same(record: &ClumpRecord, shape: &ClumpShape) -> bool {
+    let size = shape.reach();
+    let near = |a: &[f64; 4], (c, r): &(Vec3, f64)| {
+        let at = shape.centre + shape.frame * c;
+        (Vec3::new(a[0], a[1], a[2]) - at).norm() < 1e-9 * size && (a[3] - r).abs() < 1e-9 * size
+    };
+    record.spheres.len() == shape.spheres.len()
+        && (record.volume - shape.volume).abs() < 1e-9 * shape.volume
+        && record.spheres.iter().zip(&shape.spheres).all(|(a, b)| near(a, b))
 }

@@ -53,12 +53,12 @@ impl PlanBuilder<'_> {
                 }
             }
         }
-        if entry.fixed && file.clumps.is_some() {
-            let (key, value) = (format!("particles.{index}.fixed"), "true");
-            let why = "and the file is a run with clumps, which cannot be fixed";
-            return Err(self.check.wrong(&key, value, why, "give a file of spheres"));
-        }
         if entry.fixed {
+            if file.clumps.is_some() {
+                let (key, value) = (format!("particles.{index}.fixed"), "true");
+                let why = "and the file is a run with clumps, which cannot be fixed";
+                return Err(self.check.wrong(&key, value, why, "give a file of spheres"));
+            }
             let of = |p: &Particle| materials[if entry.material.is_some() { 0 } else { p.material as usize }];
             let spheres = file.particles.iter().map(|p| (of(p), (p.position, p.radius)));
             self.fixed(index, entry, spheres.collect());

@@ -5,8 +5,8 @@ use super::walls;
 use crate::error::{Result, SceneError};
 use crate::input::{InletSource, Input, ZoneRecord};
 use crate::keys::Inlet;
-use dem::setup::{ClumpScales, ClumpShape, EntryBonds, Zone};
-use geom::{Shown, Vec3};
+use dem::setup::{ClumpScales, EntryBonds, Zone};
+use geom::Shown;
 use record::{ClumpRecord, MaterialRecord};
 
 /// Scales are written as text: the last digit may differ [–].
@@ -106,19 +106,6 @@ impl PlanBuilder<'_> {
         Ok(found)
     }
 
-    /// Index of the scene's shape of that name.
-    ///
-    /// # Errors
-    /// There is none, or it has other spheres; `cure` says what to do.
-    pub(super) fn same_clump(&self, file: &str, record: &ClumpRecord, cure: &'static str) -> Result<u32> {
-        let shape = self.clump(file, &record.name)?;
-        if self.clumps.shapes.get(shape as usize).is_some_and(|s| is_same(record, s)) {
-            return Ok(shape);
-        }
-        let why = format!("its clump '{}' has other spheres than the scene's", record.name);
-        Err(SceneError::file(file, why, cure))
-    }
-
     /// Refuses a stream whose particles would have another mass here.
     fn same_density(&self, stream: &str, info: &MaterialRecord, material: u16) -> Result<()> {
         let here = self.materials[material as usize].density;
@@ -151,16 +138,4 @@ impl PlanBuilder<'_> {
         }
         Ok(())
     }
-}
-
-/// Whether a recorded shape is one of the scene, except for rounding.
-fn is_same(record: &ClumpRecord, shape: &ClumpShape) -> bool {
-    let size = shape.reach();
-    let near = |a: &[f64; 4], (c, r): &(Vec3, f64)| {
-        let at = shape.centre + shape.frame * c;
-        (Vec3::new(a[0], a[1], a[2]) - at).norm() < 1e-9 * size && (a[3] - r).abs() < 1e-9 * size
-    };
-    record.spheres.len() == shape.spheres.len()
-        && (record.volume - shape.volume).abs() < 1e-9 * shape.volume
-        && record.spheres.iter().zip(&shape.spheres).all(|(a, b)| near(a, b))
 }
