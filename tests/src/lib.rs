@@ -4,6 +4,7 @@
 extern crate self as grainpipe_tests;
 
 pub mod findings;
+pub mod lab;
 pub mod layout;
 pub mod normals;
 pub mod page;

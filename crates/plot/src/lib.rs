@@ -1,5 +1,9 @@
 //! Plots as files: the ending of a name chooses SVG or PNG.
 
+mod chart;
+
+pub use chart::chart;
+
 use kuva::backend::{raster::RasterBackend, svg::SvgBackend};
 use kuva::prelude::{Layout, Plot};
 use kuva::render::render::{Scene, render_multiple};

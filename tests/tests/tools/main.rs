@@ -12,6 +12,7 @@ mod every_key;
 mod every_option;
 mod example_scenes;
 mod help_examples;
+mod lab_test;
 mod layout;
 mod ledger_line;
 mod limits;

@@ -3,10 +3,9 @@
 
 mod args;
 mod choose;
-mod plot;
 mod sheet;
 
-use anyhow::Context;
+use anyhow::{Context, anyhow};
 use args::Args;
 use cli::{Progress, Report};
 use measure::{Row, Run, Summary};
@@ -22,7 +21,7 @@ fn main() -> ExitCode {
 fn measure_run(args: Args) -> anyhow::Result<Report> {
     let (what, mut observer) = choose::observer(&args)?;
     if let Some(file) = &args.plot {
-        ::plot::check_name(file).map_err(|e| cli::usage(format!("--plot {e}")))?;
+        plot::check_name(file).map_err(|e| cli::usage(format!("--plot {e}")))?;
     }
     let place = || format!("{}: {what}", args.run);
     let source = args.run.open()?;
@@ -47,7 +46,7 @@ fn measure_run(args: Args) -> anyhow::Result<Report> {
     kept.append(&mut rows);
     if let Some(file) = &args.plot {
         let mut out = cli::OutputStream::file(file)?;
-        out.write_all(&plot::draw(file, &observer.chart(&kept))?)?;
+        out.write_all(&plot::chart(file, &observer.chart(&kept)).map_err(|e| anyhow!("--plot {e}"))?)?;
         out.commit()?;
     }
     Ok(report(what, count, &summary))

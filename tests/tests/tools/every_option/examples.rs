@@ -104,6 +104,10 @@ pub const EXAMPLES: &[&str] = &[
     "stone-pack grains.csv library --content 0.2 --stone-density 2600 --soil-density 2600 --tolerance 0.1 --tries 500 --least-grains 2 --within box:0,0,0,0.1,0.1,0.1 --scale 1 --material stone --bonded --places places.csv --surfaces stones.ply --seed 3 -o specimen.ply --report r.json --threads 2 -q",
     "stone-pack grains.csv library --content 20% --stone-density 2600 --soil-density 2600 --grading grading.csv --units m --rigid stones.toml --output soil.ply --quiet",
     "stone-pack run.mcap library --content 0.1 --stone-density 2600 --tries 5 --within box:0,0,0,0.1,0.1,0.1 -o of-run.ply",
+    "lab-test crush stone.toml --set bond.0.damping=0.1 --strain 3% --speed 0.1 --seeds 2 --seed 3 --rows 30 --dir specimens --plot crush.svg --page crush.html --words crush.md -o crush.csv --report r.json --threads 2 -q",
+    "lab-test direct-shear soil.toml --stress 1kPa,2kPa --size 0.06 --inertial 0.01 --friction 0 --rest 1e-3 --print-preparation",
+    "lab-test triaxial soil.toml --grains 500 --print-scene --output scene.toml --quiet",
+    "lab-test crush stone.toml --plot crush.png",
     "chute-scan --points 2000 --noise 0.001 --blind 0.1 --tilt-deg 10 --seed 3 --ascii -o chute.ply --report r.json --threads 2 -q",
     "chute-scan --points 2000 --output chute2.ply --quiet",
 ];

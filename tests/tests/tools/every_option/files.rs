@@ -1,5 +1,6 @@
 //! Small inputs for the examples: clouds, a mesh, a prism, tables of regions, scenes.
 
+use grainpipe_tests::lab::{ROCK, SAND, cube};
 use grainpipe_tests::scenes::folder;
 use std::collections::BTreeSet;
 use tempfile::TempDir;
@@ -109,6 +110,9 @@ pub fn inputs() -> TempDir {
             [&bonded(), "[[particles]]\nsource = \"heap.csv\"\nmaterial = \"sinter\"\n", &floor(0.0)]
                 .concat(),
         ),
+        ("soil.toml", SAND.to_owned()),
+        ("stone.toml", ROCK.to_owned()),
+        ("stone.csv", cube()),
         ("up.toml", [&plant, outlet].concat()),
         ("plant.toml", plant),
     ])

@@ -1,7 +1,6 @@
-//! Draws a chart as SVG or PNG.
+//! Draws charts of measures: panels one above the other.
 
-use ::plot::COLOURS;
-use anyhow::anyhow;
+use crate::{COLOURS, PlotError, bytes};
 use kuva::prelude::*;
 use measure::{Chart, Curve, Look, Panel};
 use std::path::Path;
@@ -13,7 +12,10 @@ const BLACK: &str = "#000000";
 const PANEL: (f64, f64) = (820.0, 420.0);
 
 /// The bytes of the picture; the ending of the name chooses the format.
-pub fn draw(file: &Path, chart: &Chart) -> anyhow::Result<Vec<u8>> {
+///
+/// # Errors
+/// As for [`bytes`].
+pub fn chart(file: &Path, chart: &Chart) -> Result<Vec<u8>, PlotError> {
     let (mut plots, mut layouts) = (Vec::new(), Vec::new());
     for (k, panel) in chart.panels.iter().enumerate() {
         let (own, layout, name) = drawn(panel);
@@ -27,7 +29,7 @@ pub fn draw(file: &Path, chart: &Chart) -> anyhow::Result<Vec<u8>> {
     let count = plots.len().max(1);
     let figure = Figure::new(count, 1).with_plots(plots).with_layouts(layouts);
     let scene = figure.with_cell_size(PANEL.0, PANEL.1).with_keep_panel_legends().render();
-    ::plot::bytes(file, &scene).map_err(|e| anyhow!("--plot {e}"))
+    bytes(file, &scene)
 }
 
 /// What to draw, and what the colours of a map mean.

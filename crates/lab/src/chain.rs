@@ -1,0 +1,157 @@
+//! The programs of one specimen, run one after the other in its folder, as a shell script would.
+//!
+//! The folder holds every scene, run and table, and `commands.sh` with the lines that made them. A file that is there is not made again:
+//! programs write whole files only, and `stamp` tells whether they belong to the same sample, options and programs.
+
+use crate::error::{LabError, Result};
+use crate::series::Series;
+use rustix::process::{Pid, Signal, kill_process};
+use serde_json::Value;
+use std::fs::File;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::Duration;
+
+/// Where a program writes its messages.
+const WORDS: &str = "words";
+/// Exit code of a run that a guard has stopped.
+pub(crate) const GUARD: i32 = 3;
+
+/// How programs are run.
+#[derive(Debug, Clone)]
+pub struct Programs {
+    /// Folder of the programs.
+    pub folder: PathBuf,
+    /// Threads of each of them.
+    pub threads: usize,
+    /// Whether a signal asks to stop.
+    pub stop: fn() -> bool,
+}
+
+/// The folder of one specimen.
+pub(crate) struct Chain<'a> {
+    pub folder: PathBuf,
+    pub specimen: String,
+    pub programs: &'a Programs,
+}
+
+impl Chain<'_> {
+    /// Makes the folder; what another sample, other options or other programs have left there is removed.
+    pub(crate) fn begin(&self, stamp: &str) -> Result<()> {
+        let kept = std::fs::read_to_string(self.file("stamp")).is_ok_and(|old| old == stamp);
+        if !kept && self.folder.join("stamp").exists() {
+            std::fs::remove_dir_all(&self.folder).map_err(LabError::file(&self.folder, "cannot empty it"))?;
+        }
+        std::fs::create_dir_all(&self.folder)
+            .map_err(LabError::file(&self.folder, "cannot make this folder: choose another --dir"))?;
+        if !kept {
+            self.write(
+                "commands.sh",
+                "#!/bin/sh\n# The runs and tables of this specimen, in this folder.\nset -eu\n",
+            )?;
+            self.write("stamp", stamp)?;
+        }
+        Ok(())
+    }
+
+    pub(crate) fn file(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+
+    pub(crate) fn write(&self, name: &str, text: &str) -> Result<()> {
+        let file = self.file(name);
+        std::fs::write(&file, text).map_err(LabError::file(&file, "cannot write it"))
+    }
+
+    /// Runs a scene, where its run is not there; its report.
+    pub(crate) fn dem_run(&self, name: &str) -> Result<Value> {
+        let (scene, run, report) = (format!("{name}.toml"), format!("{name}.mcap"), format!("{name}.json"));
+        if !self.file(&run).exists() || !self.file(&report).exists() {
+            let threads = self.programs.threads.to_string();
+            self.start("dem-run", &[&scene, "--threads", &threads, "-q", "--report", &report, "-o", &run])?;
+        }
+        let file = self.file(&report);
+        let text = std::fs::read_to_string(&file).map_err(LabError::file(&file, "cannot read it"))?;
+        serde_json::from_str(&text)
+            .map_err(|e| LabError::Content { file, what: format!("is not a report: {e}") })
+    }
+
+    /// Measures a run.
+    pub(crate) fn measure(&self, run: &str, table: &str, options: &[&str]) -> Result<Series> {
+        if !self.file(table).exists() {
+            let run = format!("{run}.mcap");
+            let words: Vec<&str> =
+                [run.as_str()].iter().chain(options).chain(&["-q", "-o", table]).copied().collect();
+            self.start("dem-measure", &words)?;
+        }
+        Series::read(&self.file(table))
+    }
+
+    /// Runs a program in the folder and waits for it.
+    pub(crate) fn start(&self, program: &str, words: &[&str]) -> Result<()> {
+        let line: Vec<&str> = [program].into_iter().chain(words.iter().copied()).collect();
+        let script = self.file("commands.sh");
+        let mut log =
+            File::options().append(true).open(&script).map_err(LabError::file(&script, "cannot write it"))?;
+        writeln!(log, "{}", line.join(" ")).map_err(LabError::file(&script, "cannot write it"))?;
+        let said = self.file(WORDS);
+        let stderr = File::create(&said).map_err(LabError::file(&said, "cannot write it"))?;
+        let mut command = Command::new(self.programs.folder.join(program));
+        command
+            .args(words)
+            .current_dir(&self.folder)
+            .stdin(Stdio::null())
+            .stdout(Stdio::null())
+            .stderr(stderr);
+        let child =
+            command.spawn().map_err(|source| LabError::Start { program: program.to_owned(), source })?;
+        let code = self.wait(child).map_err(LabError::file(&self.folder, "cannot wait for a program"))?;
+        match code {
+            0 => Ok(()),
+            _ if (self.programs.stop)() => Err(LabError::Signal { done: 0, all: 1, again: String::new() }),
+            code => {
+                let said = std::fs::read_to_string(&said).unwrap_or_default();
+                let words =
+                    said.lines().rev().find(|line| !line.trim().is_empty()).unwrap_or("it gave no reason");
+                let words = words.strip_prefix(&format!("{program}: ")).unwrap_or(words).to_owned();
+                Err(LabError::Program {
+                    specimen: self.specimen.clone(),
+                    program: program.to_owned(),
+                    code,
+                    words,
+                })
+            }
+        }
+    }
+
+    /// The exit code of a program; a signal to us is passed on to it.
+    fn wait(&self, mut child: Child) -> std::io::Result<i32> {
+        let mut told = false;
+        loop {
+            if let Some(status) = child.try_wait()? {
+                return Ok(status.code().unwrap_or(128));
+            }
+            if (self.programs.stop)() && !told {
+                // It may have ended at this instant.
+                let _ = kill_process(Pid::from_child(&child), Signal::TERM);
+                told = true;
+            }
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    }
+}
+
+/// SHA-256 of what the files of a specimen are made from.
+pub(crate) fn stamp(text: &str, files: &[PathBuf], programs: &Path) -> Result<String> {
+    let mut all = text.to_owned();
+    let named = files
+        .iter()
+        .cloned()
+        .chain(["lab-test", "dem-run", "dem-measure"].map(|program| programs.join(program)));
+    for file in named {
+        let bytes = std::fs::read(&file).map_err(LabError::file(&file, "cannot read it"))?;
+        all.push_str(&stream::sha256(&bytes));
+    }
+    Ok(stream::sha256(all.as_bytes()))
+}

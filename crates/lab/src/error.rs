@@ -1,0 +1,46 @@
+//! What a laboratory test refuses, and what can go wrong while it runs.
+
+use scene::{SceneError, SceneSetupError};
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// The result of most functions here.
+pub type Result<T> = std::result::Result<T, LabError>;
+
+/// Why a laboratory test failed.
+#[derive(Debug, Error)]
+#[allow(missing_docs)]
+pub enum LabError {
+    /// The command line asks for something that cannot be.
+    #[error("{0}")]
+    Usage(String),
+    /// The sample has a key that the test itself sets, or lacks one.
+    #[error("{file}: {what}: {cure}")]
+    Sample { file: String, what: String, cure: String },
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    #[error(transparent)]
+    Setup(#[from] SceneSetupError),
+    #[error("{}: {what}", .file.display())]
+    File { file: PathBuf, what: &'static str, source: std::io::Error },
+    /// A file that a program has written, but not as expected.
+    #[error("{}: {what}", .file.display())]
+    Content { file: PathBuf, what: String },
+    #[error("{program}: cannot be started: install it beside lab-test")]
+    Start { program: String, source: std::io::Error },
+    /// A program that failed, with its last line.
+    #[error("{specimen}: {program} failed with exit code {code}: {words}")]
+    Program { specimen: String, program: String, code: i32, words: String },
+    #[error("stopped by a signal: {done} of {all} specimens are finished{again}")]
+    Signal { done: usize, all: usize, again: String },
+}
+
+impl LabError {
+    pub(crate) fn file(
+        file: impl Into<PathBuf>,
+        what: &'static str,
+    ) -> impl FnOnce(std::io::Error) -> LabError {
+        let file = file.into();
+        move |source| LabError::File { file, what, source }
+    }
+}

@@ -1,0 +1,394 @@
+//! A test on all its specimens: their scenes, their runs, their curves.
+
+use crate::chain::{Chain, GUARD, Programs, stamp};
+use crate::compose::{Composition, number};
+use crate::error::{LabError, Result};
+use crate::recipes::{Context, Loading, Part, Prepared, Recipe, Stresses, Value};
+use crate::request::{Request, Specimen};
+use crate::sample::Sample;
+use crate::series::Curve;
+use crate::summary::{self, Summary};
+use crate::walls;
+use geom::Vec3;
+use serde_json::Value as Json;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering::SeqCst};
+use toml_edit::value;
+
+/// Largest speed of a prepared specimen over √(p/ρ) [–].
+const STILL: f64 = 2e-3;
+
+/// A test, ready to run.
+pub struct Lab {
+    recipe: &'static dyn Recipe,
+    sample: Sample,
+    request: Request,
+    specimen: Specimen,
+    loadings: Vec<Loading>,
+}
+
+/// What became of one specimen.
+#[derive(Debug, Clone)]
+pub enum Outcome {
+    /// Its curve and what that comes to.
+    Tested {
+        /// The curve.
+        curve: Curve,
+        /// Values of the curve.
+        values: Vec<Value>,
+        /// What the user should know.
+        warnings: Vec<String>,
+    },
+    /// A guard has stopped one of its runs: which, and why.
+    Stopped(String),
+}
+
+/// All specimens, in the order of stresses, then seeds.
+#[derive(Debug, Clone)]
+pub struct Specimens {
+    /// Each with what became of it.
+    pub list: Vec<(Loading, Outcome)>,
+}
+
+/// Which scene is printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Which {
+    /// That of the preparation.
+    Preparation,
+    /// That of the test, with the specimen as high as it is expected to become.
+    Test,
+}
+
+impl Lab {
+    /// Checks sample and request, and lays out the specimens.
+    ///
+    /// # Errors
+    /// A sample that the test cannot take, an option that it does not use, a specimen of too few grains.
+    pub fn new(recipe: &'static dyn Recipe, sample: Sample, request: Request, seeds: &[u64]) -> Result<Lab> {
+        let mut request = request;
+        recipe.check(&sample, &request)?;
+        let (kind, usual) = recipe.stresses();
+        if request.stress.is_empty() {
+            request.stress = usual.to_vec();
+        } else if kind == Stresses::None {
+            return Err(LabError::Usage(format!(
+                "--stress has no effect on {}: leave it out",
+                recipe.name()
+            )));
+        } else if kind == Stresses::Preparation && request.stress.len() > 1 {
+            return Err(LabError::Usage(format!(
+                "--stress: {} is prepared under one stress: give one",
+                recipe.name()
+            )));
+        }
+        let (proportions, share) = recipe.proportions();
+        let specimen = Specimen::of(&sample, &request, proportions, share)?;
+        let paths: Vec<Vec<f64>> = match kind {
+            Stresses::Each => request.stress.iter().map(|stress| vec![*stress]).collect(),
+            _ => vec![request.stress.clone()],
+        };
+        let loading = |path: &Vec<f64>, seed: u64| Loading {
+            stress: path.first().copied().unwrap_or(0.0),
+            path: path.clone(),
+            seed,
+        };
+        let loadings =
+            paths.iter().flat_map(|path| seeds.iter().map(move |seed| loading(path, *seed))).collect();
+        Ok(Lab { recipe, sample, request, specimen, loadings })
+    }
+
+    /// The test.
+    pub fn recipe(&self) -> &'static dyn Recipe {
+        self.recipe
+    }
+
+    /// Stress and seed of all specimens.
+    pub fn loadings(&self) -> &[Loading] {
+        &self.loadings
+    }
+
+    /// The sample.
+    pub fn sample(&self) -> &Sample {
+        &self.sample
+    }
+
+    /// The space of each specimen.
+    pub fn specimen(&self) -> &Specimen {
+        &self.specimen
+    }
+
+    fn context<'a>(&'a self, loading: &'a Loading) -> Context<'a> {
+        Context { sample: &self.sample, request: &self.request, loading, specimen: &self.specimen }
+    }
+
+    /// A scene of the first specimen, with files as the sample names them; `None` where the test has no preparation.
+    ///
+    /// # Errors
+    /// A specimen that cannot be prepared.
+    pub fn scene(&self, which: Which) -> Result<Option<String>> {
+        let of = self.context(&self.loadings[0]);
+        let prepared = self.recipe.preparation(&of)?;
+        if which == Which::Preparation {
+            return Ok(prepared.map(|part| self.compose_preparation(&of, &part, self.sample.compose())));
+        }
+        let mut expected = Prepared::default();
+        for wall in self.recipe.placed().iter().filter(|wall| **wall == "lid") {
+            let fall = self.specimen.height - (self.specimen.high.z - self.specimen.low.z);
+            expected.shifts.insert((*wall).to_owned(), Vec3::z() * fall);
+        }
+        let part = self.recipe.test(&of, &expected)?;
+        Ok(Some(self.compose_test(&of, &part, prepared.is_some(), self.sample.compose())))
+    }
+
+    fn compose_preparation(&self, of: &Context, part: &Part, mut scene: Composition) -> String {
+        if let Some(mass) = self.specimen.mass {
+            scene.set("fill.0", "shape", self.space());
+            scene.set("fill.0", "mass", mass);
+            scene.set("fill.0", "seed", of.loading.seed as i64);
+        }
+        if let Some(friction) = self.request.friction.or(self.recipe.friction()) {
+            scene.entries("contact").for_each(|contact| walls::set_friction(contact, friction));
+        }
+        self.finish(of, part, scene)
+    }
+
+    /// The space that is filled, as a shape.
+    fn space(&self) -> String {
+        let (low, high) = (self.specimen.low, self.specimen.high);
+        if self.recipe.proportions().1 == 1.0 {
+            let [a, b, c] = [low.x, low.y, low.z].map(number);
+            let [x, y, z] = [high.x, high.y, high.z].map(number);
+            return format!("box:{a},{b},{c},{x},{y},{z}");
+        }
+        let [x, y] = [0.5 * (low.x + high.x), 0.5 * (low.y + high.y)].map(number);
+        let [c, z, radius] = [low.z, high.z, 0.5 * (high.x - low.x)].map(number);
+        format!("cylinder:{x},{y},{c},{x},{y},{z},{radius}")
+    }
+
+    fn compose_test(&self, of: &Context, part: &Part, prepared: bool, mut scene: Composition) -> String {
+        if let Some(grains) = &part.grains {
+            for particles in scene.entries("particles") {
+                ["units", "scale"].iter().for_each(|key| drop(particles.remove(key)));
+                particles.insert("source", value(grains));
+            }
+        } else if prepared {
+            scene.remove("fill");
+            scene.remove("particles");
+            scene.add("[[particles]]\nsource = \"prepare.mcap\"\n");
+        }
+        self.finish(of, part, scene)
+    }
+
+    /// What both scenes have.
+    fn finish(&self, of: &Context, part: &Part, mut scene: Composition) -> String {
+        scene.set("time", "until", part.until);
+        if part.to_rest {
+            scene.set("time", "until_unbalanced", self.request.rest.unwrap_or(self.recipe.rest()));
+        }
+        if !part.bonds {
+            scene.remove("bond");
+        }
+        let drawn = ["deviation", "weibull_modulus"];
+        for bond in scene.entries("bond").filter(|bond| drawn.iter().any(|key| bond.contains_key(key))) {
+            let own = bond.get("seed").and_then(toml_edit::Item::as_integer).unwrap_or(0);
+            bond.insert("seed", value(own.wrapping_add(of.loading.seed as i64)));
+        }
+        walls::add_materials(&mut scene);
+        scene.add(&part.text);
+        scene.text()
+    }
+
+    /// A warning where the specimen still moves when it is prepared: root mean square speed against √(p/ρ), which is how inertial numbers count.
+    fn moves(&self, loading: &Loading, chain: &Chain) -> Result<Option<String>> {
+        let kinetic = chain.measure("prepare", "settling.csv", &["--settling"])?.column("kinetic")?;
+        let grains = &self.sample.grains;
+        let mass = self.specimen.mass(grains);
+        let speed = (2.0 * kinetic.last().copied().unwrap_or(0.0) / mass).sqrt();
+        let over = speed / (loading.stress / grains.density).sqrt();
+        let words =
+            || format!("the grains still move at {speed:.2e} m/s when the test begins: use a smaller --rest");
+        Ok((loading.stress > 0.0 && over > STILL).then(words))
+    }
+
+    /// A warning where bonds broke in the preparation: the test bonds the grains again.
+    fn broke(&self, part: &Part, chain: &Chain) -> Result<Option<String>> {
+        if !part.bonds || !self.sample.has("bond") {
+            return Ok(None);
+        }
+        let cracks = chain.measure("prepare", "prepared-cracks.csv", &["--cracks"])?.column("time")?.len();
+        let words = || {
+            format!(
+                "{cracks} bonds broke in the preparation, and are whole again in the test: use a smaller --stress, or stronger bonds"
+            )
+        };
+        Ok((cracks > 0).then(words))
+    }
+
+    /// Name of a specimen, and of its folder.
+    pub fn name(&self, loading: &Loading) -> String {
+        match self.recipe.stresses().0 {
+            Stresses::Each => {
+                format!("stress={},seed={}", number(loading.stress).trim_end_matches(".0"), loading.seed)
+            }
+            _ => format!("seed={}", loading.seed),
+        }
+    }
+
+    /// Runs all specimens, so many at a time; `begins` is called with the name of each, `ends` after it.
+    ///
+    /// # Errors
+    /// A program that fails, a folder that cannot be written to, a signal. A run that a guard stops is no error: see [`Outcome`].
+    pub fn run(
+        &self,
+        folder: &Path,
+        programs: &Programs,
+        at_once: usize,
+        begins: &(dyn Fn(&str) + Sync),
+        ends: &(dyn Fn() + Sync),
+    ) -> Result<Specimens> {
+        let made_from = stamp(
+            &format!("{}\n{:?}", self.recipe.name(), self.request),
+            &self.sample.files,
+            &programs.folder,
+        )?;
+        let made_from = made_from + &self.sample.compose().text();
+        let (next, done) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
+        let one = || {
+            loop {
+                let at = next.fetch_add(1, SeqCst);
+                let failed = || {
+                    done.lock().is_ok_and(|done: std::sync::MutexGuard<Vec<(usize, Result<Outcome>)>>| {
+                        done.iter().any(|(_, r)| r.is_err())
+                    })
+                };
+                let Some(loading) = self.loadings.get(at).filter(|_| !(programs.stop)() && !failed()) else {
+                    return;
+                };
+                let name = self.name(loading);
+                begins(&name);
+                let chain = Chain { folder: folder.join(&name), specimen: name, programs };
+                let outcome = self.one(loading, &chain, &made_from);
+                ends();
+                if let Ok(mut done) = done.lock() {
+                    done.push((at, outcome));
+                }
+            }
+        };
+        std::thread::scope(|threads| (0..at_once.max(1)).for_each(|_| drop(threads.spawn(one))));
+        let mut done = done.into_inner().unwrap_or_default();
+        done.sort_by_key(|(at, _)| *at);
+        if (programs.stop)() {
+            let (done, all) = (done.iter().filter(|(_, r)| r.is_ok()).count(), self.loadings.len());
+            return Err(LabError::Signal { done, all, again: String::new() });
+        }
+        let list = done.into_iter().map(|(at, outcome)| Ok((self.loadings[at].clone(), outcome?)));
+        Ok(Specimens { list: list.collect::<Result<_>>()? })
+    }
+
+    /// One specimen from its preparation to its curve.
+    fn one(&self, loading: &Loading, chain: &Chain, made_from: &str) -> Result<Outcome> {
+        chain.begin(&stream::sha256(format!("{made_from}{loading:?}").as_bytes()))?;
+        match self.tested(loading, chain) {
+            Err(LabError::Program { code: GUARD, program, words, .. }) => {
+                Ok(Outcome::Stopped(format!("{program}: {words}")))
+            }
+            other => other,
+        }
+    }
+
+    fn tested(&self, loading: &Loading, chain: &Chain) -> Result<Outcome> {
+        let of = self.context(loading);
+        let (mut warnings, mut prepared) = (Vec::new(), Prepared::default());
+        let preparation = self.recipe.preparation(&of)?;
+        if let Some(part) = &preparation {
+            let scene = self.compose_preparation(&of, part, self.sample.compose_in(&chain.folder));
+            let report = self.simulate("prepare", &scene, part, chain)?;
+            warnings.extend(not_at_rest(&report));
+            warnings.extend(self.moves(loading, chain)?);
+            warnings.extend(self.broke(part, chain)?);
+            for wall in self.recipe.placed() {
+                let table = chain.measure(
+                    "prepare",
+                    &format!("prepared-{wall}.csv"),
+                    &["--wall-force", "all", "--wall", wall],
+                )?;
+                let last = |column: &str| -> Result<f64> {
+                    Ok(table.column(column)?.last().copied().unwrap_or(0.0))
+                };
+                let shift = Vec3::new(last("shift_x")?, last("shift_y")?, last("shift_z")?);
+                prepared.shifts.insert((*wall).to_owned(), shift);
+            }
+        }
+        let part = self.recipe.test(&of, &prepared)?;
+        let scene =
+            self.compose_test(&of, &part, preparation.is_some(), self.sample.compose_in(&chain.folder));
+        let report = self.simulate("test", &scene, &part, chain)?;
+        warnings.extend(not_held(&report));
+        let tables = chain.tables(&self.recipe.tables(&of, &prepared))?;
+        let curve = self.recipe.curve(&of, &prepared, &tables)?;
+        let values = self.recipe.values(&of, &curve);
+        Ok(Outcome::Tested { curve, values, warnings })
+    }
+
+    fn simulate(&self, name: &str, scene: &str, part: &Part, chain: &Chain) -> Result<Json> {
+        chain.write(&format!("{name}.toml"), scene)?;
+        part.files.iter().try_for_each(|(file, text)| chain.write(file, text))?;
+        chain.dem_run(name)
+    }
+
+    /// What all curves come to.
+    pub fn summary(&self, specimens: &Specimens) -> Summary {
+        let values = |stress: f64| -> Vec<Vec<Value>> {
+            let of = specimens.list.iter().filter(|(loading, _)| loading.stress == stress);
+            of.map(|(_, outcome)| match outcome {
+                Outcome::Tested { values, .. } => values.clone(),
+                Outcome::Stopped(_) => Vec::new(),
+            })
+            .collect()
+        };
+        let mut stresses: Vec<f64> = self.loadings.iter().map(|loading| loading.stress).collect();
+        stresses.dedup();
+        let shown = |stress: f64| (self.recipe.stresses().0 == Stresses::Each).then_some(stress);
+        let levels: Vec<_> =
+            stresses.iter().map(|stress| summary::level(shown(*stress), &values(*stress))).collect();
+        let envelope = self.recipe.envelope().map_or(Vec::new(), |kind| summary::envelope(kind, &levels));
+        let strengths =
+            levels.iter().flat_map(|level| &level.figures).find(|figure| figure.name == "strength");
+        let weibull = strengths.filter(|_| self.recipe.name() == "crush").map_or(Vec::new(), |figure| {
+            summary::weibull(&figure.values.iter().flatten().copied().collect::<Vec<f64>>())
+        });
+        Summary { levels, envelope, weibull }
+    }
+}
+
+/// A warning where the preparation has ended before the grains rest.
+fn not_at_rest(report: &Json) -> Option<String> {
+    let time = report["time"].as_f64().unwrap_or(f64::NAN);
+    let rests = report["settled"].is_string();
+    (!rests).then(|| format!("the grains were not at rest when the preparation ended at {time:.3} s: raise --rest, or change the sample (damping, friction)"))
+}
+
+/// Warnings of servos that did not hold their stress.
+fn not_held(report: &Json) -> Vec<String> {
+    let servos = report["servos"].as_array().map_or(&[][..], Vec::as_slice);
+    let off = |servo: &Json| {
+        let mean = servo["mean_deviation"].as_f64().filter(|mean| *mean > 0.01)?;
+        let wall = servo["wall"].as_str().unwrap_or_default();
+        Some(format!(
+            "the stress on wall '{wall}' was off by {:.1} % in the mean: test more slowly (--inertial, --speed)",
+            100.0 * mean
+        ))
+    };
+    servos.iter().filter_map(off).collect()
+}
+
+/// The folder of programs: that of this one.
+///
+/// # Errors
+/// A system that does not tell.
+pub fn beside_this_program() -> Result<PathBuf> {
+    let file = std::env::current_exe()
+        .map_err(LabError::file("lab-test", "cannot find out where this program is"))?;
+    Ok(file.parent().unwrap_or(Path::new(".")).to_owned())
+}

@@ -1,0 +1,31 @@
+//! Standard laboratory tests on a sample of grains: the scenes that they need, the runs, and the curves that come of them.
+//!
+//! ```text
+//! sample.toml → Sample ─┬─ Recipe::preparation → prepare.toml → dem-run → prepare.mcap ─┐
+//!             Request ──┘                                                              ▼
+//!                          Recipe::test → test.toml → dem-run → test.mcap → dem-measure → tables → Recipe::curve → Curve → figures
+//! ```
+//!
+//! [`sample`] is what a specimen is made of, [`request`] what the user asks for; a file of [`recipes`] is one test. [`chain`] runs the programs of
+//! one specimen in its folder, [`lab`] all specimens, and [`summary`] judges their curves. The tests compose dem-run and dem-measure from
+//! outside, so that each step can be swapped or repeated by hand.
+
+mod chain;
+mod compose;
+mod error;
+pub mod lab;
+pub mod recipes;
+pub mod request;
+pub mod sample;
+pub mod series;
+pub mod summary;
+mod walls;
+
+pub use chain::Programs;
+pub use error::{LabError, Result};
+pub use lab::{Lab, Outcome, Specimens};
+pub use recipes::{Recipe, Stresses};
+pub use request::Request;
+pub use sample::Sample;
+pub use series::{Column, Curve};
+pub use summary::{Figure, Level, Summary};

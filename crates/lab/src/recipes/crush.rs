@@ -1,0 +1,126 @@
+//! Crushing of a single stone of bonded grains between two plates, in a random orientation for each seed.
+//!
+//! ```text
+//! strength = F_max/d²     d: distance of the plates when they touch the stone     Jaeger (1967), doi:10.1016/0148-9062(67)90001-4
+//! ```
+//! The sample is one cluster in `[[particles]]`; strengths of its bonds are drawn from the seed.
+
+use super::*;
+use crate::series::peak;
+use crate::walls::PLATE;
+use geom::random::{generator, random_orientation};
+
+pub struct Crush;
+
+/// Kind of the random numbers that orient a stone.
+const ORIENTATION: u64 = 0x6c61;
+/// Way of the plate over the distance of the plates at the end [–].
+const END: f64 = 0.05;
+
+/// The grains of the stone as they lie: in the orientation of the seed, on the plane z = 0.
+fn lying(of: &Context) -> Vec<(Vec3, f64)> {
+    let spheres = of.sample.grains.packed.as_ref().map_or(&[][..], |packed| &packed.spheres);
+    let turn = random_orientation(&mut generator(of.loading.seed, ORIENTATION, 0));
+    let turned: Vec<(Vec3, f64)> = spheres.iter().map(|(centre, radius)| (turn * centre, *radius)).collect();
+    let low = turned.iter().map(|(c, r)| c.z - r).fold(f64::INFINITY, f64::min);
+    turned.into_iter().map(|(c, r)| (c - Vec3::z() * low, r)).collect()
+}
+
+fn height(of: &Context) -> f64 {
+    lying(of).iter().map(|(c, r)| c.z + r).fold(0.0, f64::max)
+}
+
+impl Recipe for Crush {
+    fn name(&self) -> &'static str {
+        "crush"
+    }
+
+    fn stresses(&self) -> (Stresses, &'static [f64]) {
+        (Stresses::None, &[])
+    }
+
+    fn proportions(&self) -> ([f64; 3], f64) {
+        ([1.0, 1.0, 1.0], 1.0)
+    }
+
+    fn check(&self, sample: &Sample, request: &Request) -> Result<()> {
+        let why = "no stress acts on the stone (use --speed)";
+        unused(request.inertial.is_some(), "--inertial", "crush", why)?;
+        unused(request.friction.is_some(), "--friction", "crush", "the stone is not prepared")?;
+        unused(request.rest.is_some(), "--rest", "crush", "the stone is not prepared")?;
+        let wrong = |what: &str, cure: &str| LabError::Sample {
+            file: sample.name.clone(),
+            what: what.into(),
+            cure: cure.into(),
+        };
+        if !sample.has("bond") {
+            return Err(wrong("has no [[bond]]", "a stone that breaks needs one"));
+        }
+        match &sample.grains.packed {
+            Some(packed) if packed.one_body => Ok(()),
+            Some(_) => Err(wrong(
+                "its [[particles]] are not one cluster",
+                "give the grains of one stone, with cluster = 1",
+            )),
+            None => Err(wrong(
+                "has a [[fill]]",
+                "give the grains of one stone as [[particles]], with cluster = 1",
+            )),
+        }
+    }
+
+    fn preparation(&self, _: &Context) -> Result<Option<Part>> {
+        Ok(None)
+    }
+
+    fn test(&self, of: &Context, _: &Prepared) -> Result<Part> {
+        let (height, speed) = (height(of), of.request.speed_of_plate(&of.sample.grains));
+        let until = of.request.strain.unwrap_or(END) * height / speed;
+        let text = output(until, of.request.rows)
+            + &wall("lower", &plane(Vec3::zeros(), [0, 0, 1]), PLATE, "")
+            + &wall(
+                "upper",
+                &plane(Vec3::z() * height, [0, 0, -1]),
+                PLATE,
+                &translate(Vec3::z() * -speed, 0.0),
+            );
+        let row = |(c, r): &(Vec3, f64)| [c.x, c.y, c.z, *r].map(number).join(",") + "\n";
+        let rows: String = lying(of).iter().map(row).collect();
+        let files = vec![("stone.csv".into(), format!("x,y,z,radius\n{rows}"))];
+        Ok(Part { until, text, files, bonds: true, grains: Some("stone.csv".into()), ..Part::default() })
+    }
+
+    fn tables(&self, of: &Context, _: &Prepared) -> Vec<(&'static str, Vec<String>)> {
+        [("upper", force_on("upper"))].into_iter().chain(common(of.sample)).collect()
+    }
+
+    fn curve(&self, of: &Context, _: &Prepared, tables: &Tables) -> Result<Curve> {
+        let height = height(of);
+        let times = tables.column("upper", "time")?;
+        let shift = tables.column("upper", "shift_z")?;
+        let force = tables.column("upper", "fz")?;
+        let curve = Curve::default()
+            .with("time", "s", times.clone())
+            .with("displacement", "m", shift.iter().map(|shift| -shift).collect())
+            .with("force", "N", force.clone())
+            .with("stress", "Pa", force.iter().map(|f| f / (height * height)).collect());
+        tables.finish(curve, &times)
+    }
+
+    fn values(&self, of: &Context, curve: &Curve) -> Vec<Value> {
+        let force = curve.column("force");
+        let Some(top) = peak(force) else { return Vec::new() };
+        let value = |name, unit, value| Value { name, unit, value };
+        vec![
+            value("strength", "Pa", curve.column("stress")[top]),
+            value("force", "N", force[top]),
+            value("height", "m", height(of)),
+            value("displacement_at_strength", "m", curve.column("displacement")[top]),
+            value("cracks_at_strength", "", curve.column("cracks")[top]),
+        ]
+    }
+
+    fn axes(&self) -> (&'static str, &'static [&'static str]) {
+        ("displacement", &["force", "cracks"])
+    }
+}

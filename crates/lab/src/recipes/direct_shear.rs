@@ -1,0 +1,219 @@
+//! Direct shear: a box of two halves under a constant normal stress; the upper half moves over the lower one.
+//!
+//! ```text
+//!       │  lid ↓ σ   │          τ = F_x/A     σ' = (F_z − W)/A     of what the grains press on the lower half and the floor
+//!   ────┤  upper → v │          W: weight of the grains below the shear plane
+//!       │────────────├────      φ = atan(τ/σ')     tan ψ = dh/ds at the peak
+//!       │  lower     │
+//!       └────────────┘
+//! ```
+//! Plates at the height of the shear plane carry the grains of the half that overhangs, and close the other one. A is the area at the
+//! start (ASTM D3080). The sides are smooth, floor and lid rough.
+
+use super::*;
+use crate::series::{at, peak, reaches, slope};
+use crate::walls::{PLATE, SIDE};
+
+pub struct DirectShear;
+
+/// Displacement over the length of the box at the end [–].
+const END: f64 = 0.12;
+/// Share of the test in which the upper half gets up to speed [–].
+const RAMP: f64 = 0.02;
+
+/// Names of the four sides with normals and corner (0: low, 1: high).
+const SIDES: [(&str, [i8; 3]); 4] =
+    [("left", [1, 0, 0]), ("right", [-1, 0, 0]), ("front", [0, 1, 0]), ("back", [0, -1, 0])];
+
+/// Four planes around a specimen; `of` adds to each.
+pub(super) fn sides(of: &Context, add: impl Fn(&str, [i8; 3]) -> String) -> String {
+    let point =
+        |normal: [i8; 3]| if normal.iter().any(|n| *n < 0) { of.specimen.high } else { of.specimen.low };
+    SIDES
+        .iter()
+        .map(|(name, normal)| {
+            wall(name, &plane(corner(point(*normal), of), *normal), SIDE, &add(name, *normal))
+        })
+        .collect()
+}
+
+/// A corner at the height of the floor.
+fn corner(at: Vec3, of: &Context) -> Vec3 {
+    Vec3::new(at.x, at.y, of.specimen.low.z)
+}
+
+/// A floor, and a lid that presses with a stress [Pa].
+pub(super) fn floor_and_lid(of: &Context, stress: f64) -> String {
+    let space = of.specimen;
+    let area = space.sides()[0] * space.sides()[1];
+    let limit = of.request.speed_limit(&of.sample.grains, stress, space.height);
+    let press = servo(
+        [0, 0, -1],
+        &format!("stress = {}", number(stress)),
+        &format!("area = {}", number(area)),
+        limit,
+    );
+    wall("floor", &plane(space.low, [0, 0, 1]), PLATE, "")
+        + &wall("lid", &plane(space.high, [0, 0, -1]), PLATE, &press)
+}
+
+/// Time in which a specimen is pressed together and comes to rest, at most [s].
+pub(super) fn settling(of: &Context, stress: f64) -> f64 {
+    let (space, grains) = (of.specimen, &of.sample.grains);
+    let way = space.high.z - space.low.z;
+    let fall = if grains.gravity > 0.0 { (2.0 * way / (0.3 * grains.gravity)).sqrt() } else { 0.0 };
+    20.0 * way / of.request.speed_limit(grains, stress, space.height) + 5.0 * fall
+}
+
+/// A preparation in a box whose lid presses with the stress.
+pub(super) fn press(of: &Context) -> Part {
+    let stress = of.loading.stress;
+    let until = settling(of, stress);
+    let text = output(until, 20)
+        + damping(of.sample)
+        + &floor_and_lid(of, stress)
+        + &sides(of, |_, _| String::new());
+    Part { until, to_rest: true, text, bonds: of.sample.is_packed(), ..Part::default() }
+}
+
+/// Shift of a wall along z [m].
+fn rise(prepared: &Prepared, wall: &str) -> f64 {
+    prepared.shifts.get(wall).map_or(0.0, |shift| shift.z)
+}
+
+/// Height of a specimen under its lid [m].
+pub(super) fn height(of: &Context, prepared: &Prepared) -> f64 {
+    of.specimen.high.z - of.specimen.low.z + rise(prepared, "lid")
+}
+
+impl DirectShear {
+    fn way(&self, of: &Context) -> f64 {
+        of.request.strain.unwrap_or(END) * of.specimen.sides()[0]
+    }
+
+    /// Lower and upper half as triangles; `middle` is the height of the shear plane, `top` that of the upper edge.
+    fn halves(&self, of: &Context, middle: f64, top: f64) -> [String; 2] {
+        let (a, b) = (of.specimen.low, of.specimen.high);
+        let reach = self.way(of) + 2.0 * of.sample.grains.largest;
+        let around = |low: f64, high: f64| {
+            let side = |x0: f64, y0: f64, x1: f64, y1: f64| {
+                rectangle([x0, y0, low], [x1, y1, low], [x1, y1, high], [x0, y0, high])
+            };
+            side(a.x, a.y, b.x, a.y)
+                + &side(b.x, a.y, b.x, b.y)
+                + &side(b.x, b.y, a.x, b.y)
+                + &side(a.x, b.y, a.x, a.y)
+        };
+        let plate = |x0: f64, x1: f64| {
+            rectangle([x0, a.y, middle], [x1, a.y, middle], [x1, b.y, middle], [x0, b.y, middle])
+        };
+        [around(a.z, middle) + &plate(b.x, b.x + reach), around(middle, top) + &plate(a.x - reach, a.x)]
+    }
+}
+
+impl Recipe for DirectShear {
+    fn name(&self) -> &'static str {
+        "direct-shear"
+    }
+
+    fn stresses(&self) -> (Stresses, &'static [f64]) {
+        (Stresses::Each, &[2.5e4, 5e4, 1e5])
+    }
+
+    fn proportions(&self) -> ([f64; 3], f64) {
+        ([2.0, 2.0, 1.0], 1.0)
+    }
+
+    fn check(&self, _: &Sample, _: &Request) -> Result<()> {
+        Ok(())
+    }
+
+    fn preparation(&self, of: &Context) -> Result<Option<Part>> {
+        Ok(Some(press(of)))
+    }
+
+    fn placed(&self) -> &'static [&'static str] {
+        &["lid"]
+    }
+
+    fn test(&self, of: &Context, prepared: &Prepared) -> Result<Part> {
+        let (space, stress) = (of.specimen, of.loading.stress);
+        let height = height(of, prepared);
+        let speed = of.request.speed_over(&of.sample.grains, stress, height);
+        let time = self.way(of) / speed;
+        let (ramp, lid) = (RAMP * time, Vec3::new(space.low.x, space.low.y, space.low.z + height));
+        let move_ = translate(Vec3::x() * speed, ramp);
+        let area = space.sides()[0] * space.sides()[1];
+        let limit = of.request.speed_limit(&of.sample.grains, stress, height).max(speed);
+        let press = servo(
+            [0, 0, -1],
+            &format!("stress = {}", number(stress)),
+            &format!("area = {}", number(area)),
+            limit,
+        );
+        let until = time + 0.5 * ramp;
+        let text = output(until, of.request.rows)
+            + &wall("floor", &plane(space.low, [0, 0, 1]), PLATE, "")
+            + &wall("lid", &plane(lid, [0, 0, -1]), PLATE, &(press + &move_))
+            + &wall("lower", "mesh = \"lower.txt\"", SIDE, "")
+            + &wall("upper", "mesh = \"upper.txt\"", SIDE, &move_);
+        let [lower, upper] = self.halves(of, space.low.z + 0.5 * height, space.low.z + 1.3 * height);
+        let files = vec![("lower.txt".to_owned(), lower), ("upper.txt".to_owned(), upper)];
+        Ok(Part { until, text, files, bonds: true, ..Part::default() })
+    }
+
+    fn tables(&self, of: &Context, _: &Prepared) -> Vec<(&'static str, Vec<String>)> {
+        let walls = ["floor", "lid", "lower", "upper"].map(|name| (name, force_on(name)));
+        walls.into_iter().chain(common(of.sample)).collect()
+    }
+
+    fn curve(&self, of: &Context, _: &Prepared, tables: &Tables) -> Result<Curve> {
+        let area = of.specimen.sides()[0] * of.specimen.sides()[1];
+        let grains = &of.sample.grains;
+        let weight = 0.5 * of.specimen.mass(grains) * grains.gravity;
+        let times = tables.column("upper", "time")?;
+        let below = |column: &str| tables.sum(&["floor", "lower"], column);
+        let normal = below("fz")?.iter().map(|f| (-f - weight) / area).collect();
+        let lid = tables.column("lid", "fz")?.iter().map(|f| f / area).collect();
+        let curve = Curve::default()
+            .with("time", "s", times.clone())
+            .with("displacement", "m", tables.column("upper", "shift_x")?)
+            .with("shear_stress", "Pa", below("fx")?.iter().map(|f| f / area).collect())
+            .with("normal_stress", "Pa", normal)
+            .with("lid_stress", "Pa", lid)
+            .with("rise", "m", tables.column("lid", "shift_z")?);
+        tables.finish(curve, &times)
+    }
+
+    fn values(&self, _: &Context, curve: &Curve) -> Vec<Value> {
+        let (way, rise) = (curve.column("displacement"), smoothed(curve.column("rise")));
+        let (shear, normal) =
+            (smoothed(curve.column("shear_stress")), smoothed(curve.column("normal_stress")));
+        let ratio: Vec<f64> = shear.iter().zip(&normal).map(|(t, n)| t / n).collect();
+        let Some(top) = peak(&shear) else { return Vec::new() };
+        let half = shear.len() / 20;
+        let (from, to) = (top.saturating_sub(half), (top + half + 1).min(shear.len()));
+        let stiffness =
+            reaches(&shear, 0.5 * shear[top]).map_or(f64::NAN, |half| 0.5 * shear[top] / at(way, half));
+        let value = |name, unit, value| Value { name, unit, value };
+        vec![
+            value("peak_shear_stress", "Pa", shear[top]),
+            value("peak_normal_stress", "Pa", normal[top]),
+            value("peak_angle", "deg", ratio[top].atan().to_degrees()),
+            value("peak_displacement", "m", way[top]),
+            value("residual_shear_stress", "Pa", residual(&shear)),
+            value("residual_normal_stress", "Pa", residual(&normal)),
+            value("residual_angle", "deg", residual(&ratio).atan().to_degrees()),
+            value("dilation_angle", "deg", slope(&way[from..to], &rise[from..to]).atan().to_degrees()),
+            value("stiffness", "Pa/m", stiffness),
+        ]
+    }
+
+    fn axes(&self) -> (&'static str, &'static [&'static str]) {
+        ("displacement", &["shear_stress", "rise"])
+    }
+
+    fn envelope(&self) -> Option<Envelope> {
+        Some(Envelope::Plane)
+    }
+}

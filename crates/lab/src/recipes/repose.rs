@@ -1,0 +1,129 @@
+//! Angle of repose: a cylinder of grains on a rough plate is lifted, and the grains run out to a heap.
+//!
+//! The cylinder is a tube without bottom. It is lifted slowly against the speed at which grains fall over its radius, and the heap is measured in eight
+//! sectors (docs/measure.md, heap angle) when the grains have come to rest.
+
+use super::*;
+use crate::walls::{PLATE, SIDE};
+use std::f64::consts::PI;
+
+pub struct Repose;
+
+/// Speed of lifting over √(g r) [–].
+const LIFT: f64 = 0.1;
+/// Facets of the tube.
+const FACETS: usize = 64;
+/// Time for the heap to come to rest, over √(h/g) [–].
+const REST: f64 = 10.0;
+
+fn radius(of: &Context) -> f64 {
+    0.5 * of.specimen.sides()[0]
+}
+
+/// The tube as triangles.
+fn tube(of: &Context) -> String {
+    let (low, high, r) = (of.specimen.low, of.specimen.high, radius(of));
+    let point = |k: usize, z: f64| {
+        let turn = 2.0 * PI * k as f64 / FACETS as f64;
+        [low.x + r + r * turn.cos(), low.y + r + r * turn.sin(), z]
+    };
+    (0..FACETS)
+        .map(|k| rectangle(point(k, low.z), point(k + 1, low.z), point(k + 1, high.z), point(k, high.z)))
+        .collect()
+}
+
+impl Recipe for Repose {
+    fn name(&self) -> &'static str {
+        "repose"
+    }
+
+    fn stresses(&self) -> (Stresses, &'static [f64]) {
+        (Stresses::None, &[])
+    }
+
+    fn proportions(&self) -> ([f64; 3], f64) {
+        ([1.0, 1.0, 1.5], PI / 4.0)
+    }
+
+    fn rest(&self) -> f64 {
+        // The grains will move again.
+        1e-2
+    }
+
+    fn check(&self, sample: &Sample, request: &Request) -> Result<()> {
+        unused(
+            request.inertial.is_some(),
+            "--inertial",
+            "repose",
+            "grains fall at their own speed (use --speed for lifting)",
+        )?;
+        unused(request.strain.is_some(), "--strain", "repose", "the heap ends the test")?;
+        let wrong = |what: &str, cure: &str| LabError::Sample {
+            file: sample.name.clone(),
+            what: what.into(),
+            cure: cure.into(),
+        };
+        if sample.is_packed() {
+            return Err(wrong("has [[particles]]", "repose pours its own grains: give a [[fill]]"));
+        }
+        if sample.grains.gravity == 0.0 {
+            return Err(wrong("has no gravity", "a heap needs gravity = [0, 0, -9.81]"));
+        }
+        Ok(())
+    }
+
+    fn preparation(&self, of: &Context) -> Result<Option<Part>> {
+        let until = REST * (of.specimen.high.z / of.sample.grains.gravity).sqrt();
+        let text = output(until, 20)
+            + damping(of.sample)
+            + &wall("floor", &plane(of.specimen.low, [0, 0, 1]), PLATE, "")
+            + &wall("tube", "mesh = \"tube.txt\"", SIDE, "");
+        Ok(Some(Part {
+            until,
+            to_rest: true,
+            text,
+            files: vec![("tube.txt".into(), tube(of))],
+            ..Part::default()
+        }))
+    }
+
+    fn test(&self, of: &Context, _: &Prepared) -> Result<Part> {
+        let gravity = of.sample.grains.gravity;
+        let speed = of.request.speed.unwrap_or(LIFT * (gravity * radius(of)).sqrt());
+        // At the height of the column the tube has left the heap.
+        let lifted = of.specimen.height / speed;
+        let until = lifted + REST * (of.specimen.height / gravity).sqrt();
+        let lift =
+            format!("motion = {{ translate = [0, 0, {}], until = {} }}\n", number(speed), number(lifted));
+        let text = output(until, of.request.rows)
+            + &wall("floor", &plane(of.specimen.low, [0, 0, 1]), PLATE, "")
+            + &wall("tube", "mesh = \"tube.txt\"", SIDE, &lift);
+        Ok(Part { until, text, files: vec![("tube.txt".into(), tube(of))], bonds: true, ..Part::default() })
+    }
+
+    fn tables(&self, _: &Context, _: &Prepared) -> Vec<(&'static str, Vec<String>)> {
+        vec![("repose", ["--repose", "--last"].map(str::to_owned).to_vec())]
+    }
+
+    fn curve(&self, _: &Context, _: &Prepared, tables: &Tables) -> Result<Curve> {
+        let angles = tables.column("repose", "angle")?;
+        Ok(Curve::default()
+            .with("sector", "", (0..angles.len()).map(|k| k as f64).collect())
+            .with("angle", "deg", angles)
+            .with("angle_low", "deg", tables.column("repose", "angle_low")?)
+            .with("angle_high", "deg", tables.column("repose", "angle_high")?))
+    }
+
+    fn values(&self, _: &Context, curve: &Curve) -> Vec<Value> {
+        let angles: Vec<f64> = curve.column("angle").iter().copied().filter(|a| !a.is_nan()).collect();
+        let mean = measure::statistics::Mean::of(&angles);
+        vec![
+            Value { name: "angle", unit: "deg", value: mean.mean },
+            Value { name: "interval_over_sectors", unit: "deg", value: mean.interval },
+        ]
+    }
+
+    fn axes(&self) -> (&'static str, &'static [&'static str]) {
+        ("sector", &["angle"])
+    }
+}

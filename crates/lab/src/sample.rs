@@ -1,0 +1,275 @@
+//! A sample: what a specimen is made of. It is a scene without walls, times and outputs, which the test adds.
+//!
+//! Its grains are either one `[[fill]]` without shape and amount, which the test chooses, or `[[particles]]` that are packed already.
+
+use crate::compose::Composition;
+use crate::error::{LabError, Result};
+use dem::setup::Setup;
+use geom::{Vec3, sphere};
+use scene::{Scene, SceneSetupError, Text};
+use std::path::{Path, PathBuf};
+use toml_edit::{DocumentMut, Item, Table};
+
+/// Sections that the test writes, or that no specimen has.
+const SECTIONS: [&str; 8] = ["wall", "output", "domain", "inlet", "outlet", "insert", "body", "sleep"];
+/// Keys of `[time]` that the test sets.
+const TIMES: [&str; 3] = ["until", "until_unbalanced", "until_kinetic"];
+/// Keys of `[[fill]]` that the test sets.
+const AMOUNTS: [&str; 5] = ["shape", "mass", "count", "lattice", "seed"];
+/// Grains of a trial filling, from which sizes and time step are known.
+const TRIAL: usize = 500;
+
+/// A sample.
+#[derive(Debug, Clone)]
+pub struct Sample {
+    /// Its file, for messages.
+    pub name: String,
+    /// Files that it names are relative to this folder.
+    pub folder: PathBuf,
+    /// What its grains are.
+    pub grains: Grains,
+    /// Files that it names.
+    pub files: Vec<PathBuf>,
+    document: DocumentMut,
+}
+
+/// What is known of the grains of a sample.
+#[derive(Debug, Clone)]
+pub struct Grains {
+    /// Mean diameter of spheres, or of the spheres around clumps [m].
+    pub diameter: f64,
+    /// Largest of these [m].
+    pub largest: f64,
+    /// Mean volume of the solid of a grain [m³].
+    pub volume: f64,
+    /// Mean density [kg/m³].
+    pub density: f64,
+    /// Volume of the spheres around grains over that of their solid [–].
+    pub around: f64,
+    /// Time step without bonds [s].
+    pub step: f64,
+    /// Length of the acceleration of free fall [m/s²].
+    pub gravity: f64,
+    /// Whether there are rigid clumps.
+    pub clumps: bool,
+    /// Lowest and highest corner of grains that are packed already [m], and each of them.
+    pub packed: Option<Packed>,
+}
+
+/// Grains that are packed already.
+#[derive(Debug, Clone)]
+pub struct Packed {
+    /// Lowest corner [m].
+    pub low: Vec3,
+    /// Highest corner [m].
+    pub high: Vec3,
+    /// Centre [m] and radius [m] of each sphere.
+    pub spheres: Vec<(Vec3, f64)>,
+    /// Volume of the solid, overlaps counted twice [m³].
+    pub solid: f64,
+    /// Whether all grains are of one cluster.
+    pub one_body: bool,
+}
+
+impl Sample {
+    /// Reads a sample; `set` changes keys of it (`KEY=VALUE`).
+    ///
+    /// # Errors
+    /// Keys that the test sets, no grains, whatever a scene refuses.
+    pub fn new(name: &str, toml: String, set: &[String], folder: &Path) -> Result<Sample> {
+        let mut text = Text::new(name, toml);
+        text.set(set)?;
+        let document = text.document()?;
+        let refuse = |what: String, cure: &str| LabError::Sample {
+            file: name.to_owned(),
+            what,
+            cure: cure.to_owned(),
+        };
+        check(&document, &refuse)?;
+        let mut sample = Sample {
+            name: name.to_owned(),
+            folder: folder.to_owned(),
+            grains: Grains::none(),
+            files: Vec::new(),
+            document,
+        };
+        let trial = sample.trial()?;
+        sample.files = trial.files();
+        sample.grains = Grains::of(&trial, sample.is_packed())?;
+        Ok(sample)
+    }
+
+    /// Whether its grains are packed already.
+    pub(crate) fn is_packed(&self) -> bool {
+        self.document.contains_key("particles")
+    }
+
+    /// Whether it has a section.
+    pub(crate) fn has(&self, section: &str) -> bool {
+        self.document.contains_key(section)
+    }
+
+    /// The scene to which a recipe adds.
+    pub(crate) fn compose(&self) -> Composition {
+        Composition::new(self.document.clone())
+    }
+
+    /// The same with files as seen from another folder.
+    pub(crate) fn compose_in(&self, folder: &Path) -> Composition {
+        let mut document = self.document.clone();
+        scene::text::rebase(&mut document, &self.folder, folder);
+        Composition::new(document)
+    }
+
+    /// A scene of the sample alone: its packed grains, or a few in a large box.
+    fn trial(&self) -> Result<Scene> {
+        let mut trial = self.compose();
+        trial.set("time", "until", 1.0);
+        if !self.is_packed() {
+            trial.remove("bond");
+            trial.set("fill.0", "shape", "box:0,0,0,1,1,1");
+            trial.set("fill.0", "count", 1);
+            let largest = match trial_scene(self, &trial)? {
+                scene if scene.keys.fill.first().is_some_and(|fill| fill.clump.is_some()) => {
+                    2.0 * largest(&scene.clump_reaches()?) * scale(&scene)
+                }
+                scene => largest(&scene.largest_diameters()?),
+            };
+            // One in ten parts of the volume are grains.
+            let side = (TRIAL as f64 * 5.0).cbrt() * largest;
+            trial.set("fill.0", "shape", format!("box:0,0,0,{side},{side},{side}"));
+            trial.set("fill.0", "count", TRIAL as i64);
+        }
+        trial_scene(self, &trial)
+    }
+}
+
+fn trial_scene(sample: &Sample, trial: &Composition) -> Result<Scene> {
+    Ok(Scene::new(&sample.name, trial.text(), &[], &sample.folder)?)
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().copied().fold(0.0, f64::max)
+}
+
+/// Largest scale of the clumps of the `[[fill]]`.
+fn scale(scene: &Scene) -> f64 {
+    scene.keys.fill.first().and_then(|fill| fill.scale.as_ref()).map_or(1.0, |scale| scale.high)
+}
+
+/// Refuses what the test adds itself.
+fn check(document: &DocumentMut, refuse: &dyn Fn(String, &str) -> LabError) -> Result<()> {
+    if let Some(section) = SECTIONS.into_iter().find(|s| document.contains_key(s)) {
+        let what = format!("[{section}] is not part of a sample");
+        return Err(refuse(
+            what,
+            "take it out: lab-test adds walls, times and outputs (--print-scene shows them)",
+        ));
+    }
+    let keys = |table: Option<&Table>, names: &[&'static str]| {
+        names.iter().copied().find(|name| table.is_some_and(|table| table.contains_key(name)))
+    };
+    if let Some(key) = keys(document.get("time").and_then(Item::as_table), &TIMES) {
+        return Err(refuse(
+            format!("time.{key} is not part of a sample"),
+            "take it out: lab-test chooses how long its runs take",
+        ));
+    }
+    let fills = document.get("fill").and_then(Item::as_array_of_tables);
+    let packed = document.contains_key("particles");
+    match (fills.map_or(0, |f| f.len()), packed) {
+        (1, false) | (0, true) => {}
+        (0, false) => {
+            return Err(refuse(
+                "has no grains".into(),
+                "give one [[fill]] without shape and amount, or [[particles]]",
+            ));
+        }
+        (_, true) => return Err(refuse("has [[fill]] and [[particles]]".into(), "give one of them")),
+        (n, false) => {
+            return Err(refuse(format!("has {n} [[fill]]"), "give one; its sizes may name materials"));
+        }
+    }
+    if let Some(key) = keys(fills.and_then(|f| f.get(0)), &AMOUNTS) {
+        let cure = "take it out: --grains or --size choose the amount, --seed the seed";
+        return Err(refuse(format!("fill.0.{key} is not part of a sample"), cure));
+    }
+    Ok(())
+}
+
+impl Grains {
+    fn none() -> Grains {
+        Grains {
+            diameter: 0.0,
+            largest: 0.0,
+            volume: 0.0,
+            density: 0.0,
+            around: 1.0,
+            step: 0.0,
+            gravity: 0.0,
+            clumps: false,
+            packed: None,
+        }
+    }
+
+    /// The grains of a scene.
+    fn of(scene: &Scene, packed: bool) -> Result<Grains> {
+        let plan = scene.plan(Vec::new())?;
+        let setup = plan.setup;
+        let mut grains = Grains {
+            gravity: setup.gravity.norm(),
+            clumps: !setup.clumps.placed.is_empty(),
+            ..Grains::none()
+        };
+        let bodies = bodies(&setup);
+        let n = bodies.len() as f64;
+        let (solid, mass, around) = bodies
+            .iter()
+            .fold((0.0, 0.0, 0.0), |s, b| (s.0 + b.volume, s.1 + b.mass, s.2 + sphere::volume(b.reach)));
+        grains.diameter = bodies.iter().map(|b| 2.0 * b.reach).sum::<f64>() / n;
+        grains.largest = bodies.iter().map(|b| 2.0 * b.reach).fold(0.0, f64::max);
+        (grains.volume, grains.density, grains.around) = (solid / n, mass / solid, around / solid);
+        grains.packed = packed.then(|| Packed::of(&setup, solid));
+        grains.step = dem::time_step(&setup).map_err(SceneSetupError::from)?;
+        Ok(grains)
+    }
+}
+
+/// A sphere or a clump.
+struct GrainBody {
+    reach: f64,
+    volume: f64,
+    mass: f64,
+}
+
+fn bodies(setup: &Setup) -> Vec<GrainBody> {
+    let density = |material: u16| setup.materials[material as usize].density;
+    let spheres = setup.particles.iter().map(|p| {
+        let volume = sphere::volume(p.radius);
+        GrainBody { reach: p.radius, volume, mass: volume * density(p.material) }
+    });
+    let clumps = setup.clumps.placed.iter().map(|body| {
+        let shape = &setup.clumps.shapes[body.shape as usize];
+        let volume = shape.volume * body.scale.powi(3);
+        GrainBody { reach: shape.reach() * body.scale, volume, mass: volume * density(shape.material) }
+    });
+    spheres.chain(clumps).collect()
+}
+
+impl Packed {
+    fn of(setup: &Setup, solid: f64) -> Packed {
+        let mut spheres: Vec<(Vec3, f64)> = setup.particles.iter().map(|p| (p.position, p.radius)).collect();
+        for body in &setup.clumps.placed {
+            let shape = &setup.clumps.shapes[body.shape as usize];
+            spheres.extend(shape.spheres_at(body.position, &body.orientation, body.scale));
+        }
+        let corner = |sign: f64| {
+            let along =
+                |k: usize| spheres.iter().map(|(c, r)| sign * c[k] + r).fold(f64::NEG_INFINITY, f64::max);
+            Vec3::new(along(0), along(1), along(2)) * sign
+        };
+        let clusters: std::collections::BTreeSet<u32> = setup.clusters.iter().map(|c| c.1).collect();
+        let one_body = clusters.len() == 1 && setup.clusters.len() == setup.particles.len();
+        Packed { low: corner(-1.0), high: corner(1.0), spheres, solid, one_body }
+    }
+}

@@ -1,0 +1,242 @@
+//! lab-test: small specimens of soft grains, prepared and tested in seconds.
+
+use grainpipe_tests::lab::{ROCK, SAND, cube};
+use grainpipe_tests::scenes::folder;
+use grainpipe_tests::tools::{succeed, tool};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use tempfile::TempDir;
+
+fn lab() -> TempDir {
+    folder(&[("sand.toml", SAND.to_owned()), ("rock.toml", ROCK.to_owned()), ("stone.csv", cube())])
+}
+
+fn json(folder: &Path, name: &str) -> Value {
+    serde_json::from_slice(&fs::read(folder.join(name)).unwrap()).unwrap()
+}
+
+/// Columns by name of a CSV file, without units.
+fn columns(folder: &Path, name: &str) -> BTreeMap<String, Vec<f64>> {
+    let text = fs::read_to_string(folder.join(name)).unwrap();
+    let names: Vec<&str> =
+        text.lines().next().unwrap().split(',').map(|n| n.split(" [").next().unwrap()).collect();
+    let mut columns: BTreeMap<String, Vec<f64>> = BTreeMap::new();
+    for line in text.lines().skip(1) {
+        for (name, cell) in names.iter().zip(line.split(',')) {
+            columns.entry((*name).to_owned()).or_default().push(cell.parse().unwrap_or(f64::NAN));
+        }
+    }
+    columns
+}
+
+fn figure(report: &Value, level: usize, name: &str) -> f64 {
+    let figures = report["levels"][level]["figures"].as_array().unwrap();
+    let found = figures.iter().find(|f| f["name"] == name).unwrap_or_else(|| panic!("no {name}"));
+    found["mean"].as_f64().unwrap_or_else(|| panic!("{name} has no mean"))
+}
+
+const SHEAR: &[&str] = &[
+    "direct-shear",
+    "sand.toml",
+    "--grains",
+    "200",
+    "--stress",
+    "1000",
+    "--rows",
+    "40",
+    "--strain",
+    "6%",
+    "--dir",
+    "d",
+];
+
+/// The stress that the lid gives acts on the shear plane, and what the upper half takes the lower one bears.
+#[test]
+fn a_shear_box_is_in_equilibrium_and_continues_where_it_was() {
+    let lab = lab();
+    let path = lab.path();
+    let run = |threads: &str, out: &str, seeds: &str| {
+        let more = ["--seeds", seeds, "--threads", threads, "--report", "r.json", "-q", "-o", out];
+        succeed(path, "lab-test", &[SHEAR, &more].concat());
+    };
+    run("2", "a.csv", "2");
+    let curve = columns(path, "a.csv");
+    let mean = |name: &str| curve[name].iter().sum::<f64>() / curve[name].len() as f64;
+    // The plane carries the lid and the weight of the upper half.
+    let report = json(path, "r.json");
+    let weight = 0.5 * report["mass"].as_f64().unwrap() * 9.81;
+    let area = report["size"][0].as_f64().unwrap() * report["size"][1].as_f64().unwrap();
+    let stress = 1000.0 + weight / area;
+    assert!((mean("normal_stress") / stress - 1.0).abs() < 0.02, "{} {stress}", mean("normal_stress"));
+    assert!(curve["lid_stress"].iter().all(|s| (s / 1000.0 - 1.0).abs() < 0.02));
+    // The halves: forces on the upper one and the lid against those on the lower one and the floor.
+    let specimen = path.join("d/stress=1000,seed=0");
+    let force = |wall: &str| columns(&specimen, &format!("{wall}.csv"))["fx"].clone();
+    let [floor, lower, lid, upper] = ["floor", "lower", "lid", "upper"].map(force);
+    let largest = lower.iter().copied().fold(0.0, f64::max);
+    for row in 20..floor.len() {
+        let off = floor[row] + lower[row] + lid[row] + upper[row];
+        assert!(off.abs() < 0.1 * largest, "row {row}: {off} N of {largest} N");
+    }
+    let angle = figure(&report, 0, "residual_angle");
+    assert!((15.0..40.0).contains(&angle), "{angle}");
+    assert!(report["levels"][0]["figures"][0]["interval"].as_f64().unwrap() > 0.0);
+    // What is finished is used again; what is missing is made again, with the same bytes.
+    let run_file = specimen.join("test.mcap");
+    let before = fs::metadata(&run_file).unwrap().modified().unwrap();
+    fs::remove_file(path.join("d/stress=1000,seed=1/test.mcap")).unwrap();
+    fs::remove_file(path.join("d/stress=1000,seed=1/upper.csv")).unwrap();
+    run("1", "b.csv", "2");
+    assert_eq!(fs::metadata(&run_file).unwrap().modified().unwrap(), before);
+    assert!(fs::read(path.join("a.csv")).unwrap() == fs::read(path.join("b.csv")).unwrap());
+    // Another sample is another specimen.
+    fs::write(path.join("sand.toml"), SAND.replace("rolling_resistance = 0.1\n", "")).unwrap();
+    run("2", "c.csv", "1");
+    let other = columns(path, "c.csv")["shear_stress"].clone();
+    assert!(other[..] != curve["shear_stress"][..other.len()]);
+}
+
+/// The sides hold their stress while the lid comes down; a specimen under a stress path follows it.
+#[test]
+fn boxes_hold_and_follow_their_stresses() {
+    let lab = lab();
+    let path = lab.path();
+    let common = ["sand.toml", "--grains", "250", "--rows", "40", "-q", "--report", "r.json", "-o", "c.csv"];
+    succeed(path, "lab-test", &[&["triaxial", "--stress", "1 kPa", "--strain", "5%"], &common[..]].concat());
+    let curve = columns(path, "c.csv");
+    assert!(
+        curve["lateral_stress"].iter().skip(2).all(|s| (s / 1000.0 - 1.0).abs() < 0.02),
+        "{:?}",
+        curve["lateral_stress"]
+    );
+    assert!((curve["axial_strain"].last().unwrap() - 0.05).abs() < 1e-3);
+    assert!(curve["deviator_stress"][0].abs() < 50.0 && *curve["deviator_stress"].last().unwrap() > 200.0);
+    succeed(path, "lab-test", &[&["oedometer", "--stress", "500,1000,500"], &common[..]].concat());
+    let (curve, report) = (columns(path, "c.csv"), json(path, "r.json"));
+    let most = curve["stress"].iter().copied().fold(0.0, f64::max);
+    assert!((most / 1000.0 - 1.0).abs() < 0.03, "{most}");
+    let ratio = figure(&report, 0, "unloading_modulus") / figure(&report, 0, "constrained_modulus");
+    assert!(ratio > 1.0, "unloading is stiffer: {ratio}");
+    assert!((0.2..0.8).contains(&figure(&report, 0, "K0")));
+}
+
+/// Four columns of five grains are as stiff as their contacts: the force on the plates is 4 k δ/6 for six contacts in a row.
+#[test]
+fn columns_of_grains_are_springs_in_a_row() {
+    let lab = lab();
+    let path = lab.path();
+    let at = |k: usize| 0.001 * k as f64;
+    let row = |k: usize| format!("{},{},{},0.0005\n", at(k % 2), at(k / 2 % 2), at(k / 4));
+    let rows: String = (0..20).map(row).collect();
+    fs::write(path.join("stone.csv"), format!("x,y,z,radius\n{rows}")).unwrap();
+    // Of the bonds only threads are left.
+    let weak = ["bond.0.tensile_strength=1e12", "bond.0.shear_strength=1e12", "bond.0.modulus=1"];
+    let weak = weak.into_iter().flat_map(|set| ["--set", set]);
+    let words =
+        ["uniaxial", "rock.toml", "--strain", "0.01", "--speed", "0.001", "-q", "-o", "c.csv", "--dir", "d"];
+    succeed(path, "lab-test", &words.into_iter().chain(weak).collect::<Vec<_>>());
+    let upper = columns(&path.join("d/seed=0"), "upper.csv");
+    let stiffness = upper["fz"].last().unwrap() / -upper["shift_z"].last().unwrap();
+    assert!((stiffness / (4.0 * 1e5 / 6.0) - 1.0).abs() < 0.01, "{stiffness}");
+    // The outline: a square of 1 mm with round corners of 0.5 mm.
+    let curve = columns(path, "c.csv");
+    let area = upper["fz"].last().unwrap() / curve["stress"].last().unwrap();
+    let exact = 1e-6 * (1.0 + 2.0 + std::f64::consts::PI / 4.0);
+    assert!((area / exact - 1.0).abs() < 1e-3, "{area}");
+}
+
+#[test]
+fn a_stone_is_crushed_in_another_orientation_for_each_seed() {
+    let lab = lab();
+    let path = lab.path();
+    let words =
+        ["crush", "rock.toml", "--seeds", "5", "-q", "--report", "r.json", "-o", "c.csv", "--words", "w.md"];
+    succeed(path, "lab-test", &words);
+    let report = json(path, "r.json");
+    let strengths: Vec<f64> = report["levels"][0]["figures"][0]["values"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|v| v.as_f64().unwrap())
+        .collect();
+    assert_eq!(strengths.len(), 5);
+    assert!(strengths.windows(2).all(|pair| pair[0] != pair[1]), "{strengths:?}");
+    assert!(report["weibull"][0]["mean"].as_f64().unwrap() > 1.0);
+    assert!(fs::read_to_string(path.join("w.md")).unwrap().contains("| weibull modulus of all |"));
+    assert!(*columns(path, "c.csv")["cracks"].last().unwrap() > 0.0);
+}
+
+#[test]
+fn printed_scenes_can_run() {
+    let lab = lab();
+    let path = lab.path();
+    succeed(
+        path,
+        "lab-test",
+        &[
+            "direct-shear",
+            "sand.toml",
+            "--grains",
+            "200",
+            "--stress",
+            "1000",
+            "--print-preparation",
+            "-o",
+            "p.toml",
+            "-q",
+        ],
+    );
+    succeed(path, "dem-run", &["p.toml", "--check", "-q"]);
+    succeed(
+        path,
+        "lab-test",
+        &["direct-shear", "sand.toml", "--stress", "1000", "--print-scene", "-o", "t.toml", "-q"],
+    );
+    let scene = fs::read_to_string(path.join("t.toml")).unwrap();
+    assert!(scene.contains("source = \"prepare.mcap\"") && scene.contains("name = \"upper\""), "{scene}");
+}
+
+#[test]
+fn what_a_test_cannot_use_is_refused() {
+    let lab = lab();
+    let path = lab.path();
+    fs::write(
+        path.join("wall.toml"),
+        format!("{SAND}[[wall]]\nplane = \"0,0,0,0,0,1\"\nmaterial = \"sand\"\n"),
+    )
+    .unwrap();
+    fs::write(path.join("count.toml"), format!("{SAND}count = 5\n")).unwrap();
+    fs::write(path.join("two.csv"), "x,y,z,radius\n0,0,0,0.0005\n").unwrap();
+    for (words, said) in [
+        (&["direct-shear", "wall.toml"][..], "[wall] is not part of a sample"),
+        (&["direct-shear", "count.toml"], "fill.0.count is not part of a sample"),
+        (&["uniaxial", "sand.toml"], "has no [[bond]]"),
+        (&["crush", "sand.toml"], "has no [[bond]]"),
+        (&["repose", "rock.toml"], "has [[particles]]"),
+        (&["repose", "sand.toml", "--stress", "1"], "--stress has no effect on repose"),
+        (&["oedometer", "sand.toml", "--stress", "1"], "at least two stresses"),
+        (&["oedometer", "sand.toml", "--strain", "0.1"], "--strain has no effect"),
+        (&["direct-shear", "sand.toml", "--grains", "60"], "give a larger --size or more --grains"),
+        (&["direct-shear", "sand.toml", "--stress", "5 mm"], "Pa"),
+        (&["direct-shear", "rock.toml", "--grains", "60"], "--grains has no effect"),
+        (&["crush", "rock.toml", "--set", "particles.0.cluster=0"], "not one cluster"),
+        (&["direct-shear", "sand.toml", "--set", "material.0.yung=1"], "yung"),
+        (&["direct-shear", "missing.toml"], "missing.toml"),
+        (&["triaxial", "sand.toml", "--print-scene", "--plot", "a.svg"], "--plot has no effect"),
+    ] {
+        let done = tool(path, "lab-test", &[words, &["-o", "x.csv"]].concat());
+        assert!(done.code != 0 && done.stderr.contains(said), "{words:?}: {}", done.stderr);
+        assert!(!path.join("x.csv").exists());
+    }
+    // A guard that stops a specimen: exit code 3, and no curve of it.
+    let soft = [SHEAR, &["--set", "material.0.young=2e4", "-q", "-o", "x.csv"]].concat();
+    let done = tool(path, "lab-test", &soft);
+    let stderr = done.stderr;
+    assert_eq!(done.code, 3, "{stderr}");
+    assert!(
+        stderr.contains("a guard has stopped 1 of 1 specimens") && stderr.contains("overlaps"),
+        "{stderr}"
+    );
+}

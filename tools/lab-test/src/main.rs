@@ -1,0 +1,104 @@
+//! Runs a standard laboratory test on a sample of grains.
+
+mod args;
+mod outputs;
+mod words;
+
+use anyhow::Context;
+use args::Args;
+use cli::{Progress, Report, Stopped};
+use lab::lab::{Which, beside_this_program};
+use lab::{Lab, LabError, Outcome, Programs, Sample, Specimens};
+use std::path::Path;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    cli::run("lab-test", lab_test)
+}
+
+fn lab_test(args: Args) -> anyhow::Result<Report> {
+    args.check()?;
+    let lab = lay_out(&args)?;
+    if args.print_scene || args.print_preparation {
+        return print_scene(&args, &lab);
+    }
+    let kept = args.dir.as_ref().map(std::path::absolute).transpose()?;
+    let own = tempfile::tempdir().context("cannot make a folder for the runs: give one with --dir")?;
+    let folder = kept.as_deref().unwrap_or(own.path());
+    let specimens = run(&lab, folder, args.dir.is_some())?;
+    specimens.list.iter().for_each(|(loading, outcome)| outputs::warn(&lab.name(loading), outcome));
+    let summary = lab.summary(&specimens);
+    outputs::write(&args, &lab, &specimens, &summary, folder)?;
+    let report = outputs::report(&lab, &specimens, &summary);
+    let stopped: Vec<String> = specimens
+        .list
+        .iter()
+        .filter_map(|(loading, outcome)| match outcome {
+            Outcome::Stopped(why) => Some(format!("{}: {why}", lab.name(loading))),
+            Outcome::Tested { .. } => None,
+        })
+        .collect();
+    match stopped.first() {
+        None => Ok(report),
+        Some(first) => {
+            let (n, all) = (stopped.len(), specimens.list.len());
+            Err(Stopped::error(
+                format!("a guard has stopped {n} of {all} specimens, which the results leave out: {first}"),
+                Some(report),
+            ))
+        }
+    }
+}
+
+fn lay_out(args: &Args) -> anyhow::Result<Lab> {
+    let toml = args.sample.read_text()?;
+    let name = args.sample.to_string();
+    let folder = args.sample.path().and_then(Path::parent).unwrap_or(Path::new("")).to_owned();
+    let sample = Sample::new(&name, toml, &args.set, &folder).map_err(refused)?;
+    cli::also_reads(sample.files.clone())?;
+    let lab = Lab::new(args.test()?, sample, args.request(), &args.seeds()).map_err(refused)?;
+    if args.seeds == 1 && !args.print_scene && !args.print_preparation {
+        cli::warn("one specimen for each stress gives no intervals: --seeds 3 gives them");
+    }
+    Ok(lab)
+}
+
+/// The error of a test as one of the tool.
+fn refused(error: LabError) -> anyhow::Error {
+    match error {
+        LabError::Usage(text) => cli::usage(text),
+        other => other.into(),
+    }
+}
+
+fn print_scene(args: &Args, lab: &Lab) -> anyhow::Result<Report> {
+    let (which, name) = match args.print_scene {
+        true => (Which::Test, "test"),
+        false => (Which::Preparation, "preparation"),
+    };
+    let Some(scene) = lab.scene(which).map_err(refused)? else {
+        let test = lab.recipe().name();
+        return Err(cli::usage(format!(
+            "--print-preparation: {test} takes these grains as they are: leave it out"
+        )));
+    };
+    outputs::text(&args.output, &scene)?;
+    Ok(Report::new(format!("the scene of the {name}; nothing was run")))
+}
+
+fn run(lab: &Lab, folder: &Path, kept: bool) -> anyhow::Result<Specimens> {
+    let threads = rayon::current_num_threads();
+    let at_once = threads.min(lab.loadings().len());
+    let programs =
+        Programs { folder: beside_this_program()?, threads: threads / at_once, stop: cli::stop_requested };
+    cli::stop_in_order();
+    let progress = Progress::new("specimens", lab.loadings().len() as u64);
+    let begins = |name: &str| progress.say(name.to_owned());
+    lab.run(folder, &programs, at_once, &begins, &|| progress.add(1)).map_err(|error| match error {
+        LabError::Signal { done, all, .. } => {
+            let again = if kept { ": the same command continues" } else { ": with --dir they would be kept" };
+            LabError::Signal { done, all, again: again.to_owned() }.into()
+        }
+        other => refused(other),
+    })
+}
