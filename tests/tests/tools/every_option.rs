@@ -2,6 +2,7 @@
 
 mod examples;
 pub mod files;
+mod photographs;
 mod shapes;
 mod unused;
 

@@ -104,6 +104,8 @@ pub const EXAMPLES: &[&str] = &[
     "stone-pack grains.csv library --content 0.2 --stone-density 2600 --soil-density 2600 --tolerance 0.1 --tries 500 --least-grains 2 --within box:0,0,0,0.1,0.1,0.1 --scale 1 --material stone --bonded --places places.csv --surfaces stones.ply --seed 3 -o specimen.ply --report r.json --threads 2 -q",
     "stone-pack grains.csv library --content 20% --stone-density 2600 --soil-density 2600 --grading grading.csv --units m --rigid stones.toml --output soil.ply --quiet",
     "stone-pack run.mcap library --content 0.1 --stone-density 2600 --tries 5 --within box:0,0,0,0.1,0.1,0.1 -o of-run.ply",
+    "stone-mask photographs --given drawn --sheet sheet.png --object bright --level 90 --open 1 --close 2 -o masks --report r.json --threads 2 -q",
+    "stone-mask photographs/01.png photographs/02.png --object dark --output masks2 --quiet",
     "chute-scan --points 2000 --noise 0.001 --blind 0.1 --tilt-deg 10 --seed 3 --ascii -o chute.ply --report r.json --threads 2 -q",
     "chute-scan --points 2000 --output chute2.ply --quiet",
 ];

@@ -1,5 +1,6 @@
 //! Small inputs for the examples: clouds, a mesh, a prism, tables of regions, scenes.
 
+use super::photographs;
 use grainpipe_tests::scenes::folder;
 use std::collections::BTreeSet;
 use tempfile::TempDir;
@@ -90,7 +91,7 @@ pub fn inputs() -> TempDir {
     let scan: String = scan.map(|(k, (x, y))| format!("{x} {y} {}\n", 0.002 * f64::from(k).sin())).collect();
     let plant = [&HEAD.replace("until_unbalanced = 1e-9\n", ""), GRAINS, &floor(-1.0)].concat();
     let outlet = "[[outlet]]\nplane = \"0,0,0.02,0,0,-1\"\nmotion = \"recorded\"\n";
-    folder(&[
+    let made = folder(&[
         ("flat.xyz", flat),
         ("scan.xyz", scan),
         ("tetra.ply", TETRAHEDRON.to_owned()),
@@ -111,7 +112,9 @@ pub fn inputs() -> TempDir {
         ),
         ("up.toml", [&plant, outlet].concat()),
         ("plant.toml", plant),
-    ])
+    ]);
+    photographs::write(made.path());
+    made
 }
 
 /// The names of all tools.
