@@ -2,7 +2,6 @@
 
 mod examples;
 pub mod files;
-mod photographs;
 mod shapes;
 mod unused;
 

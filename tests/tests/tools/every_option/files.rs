@@ -1,9 +1,12 @@
 //! Small inputs for the examples: clouds, a mesh, a prism, tables of regions, scenes.
 
-use super::photographs;
 use grainpipe_tests::scenes::folder;
 use std::collections::BTreeSet;
 use tempfile::TempDir;
+
+// This file is read by two tests.
+#[path = "photographs.rs"]
+mod photographs;
 
 const TETRAHEDRON: &str = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n\
                            property float z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n\
