@@ -23,7 +23,12 @@ pub struct Field {
     frame: [f64; 2],
     /// Whether the stone may go on beyond the frame.
     cut: bool,
+    /// Some places on the edge [px].
+    edge: Vec<[f64; 2]>,
 }
+
+/// Places on the edge that are kept, at most.
+const EDGE: usize = 64;
 
 impl Field {
     /// The field of a mask, with at most about `most` samples along the longest side of the stone; `None` when the mask is empty.
@@ -51,6 +56,7 @@ impl Field {
             values,
             frame: [mask.width as f64, mask.height as f64],
             cut: mask.on_frame() > 0,
+            edge: some(&edge, |[x, y]| [left as f64 + half + x * k as f64, top as f64 + half + y * k as f64]),
         })
     }
 
@@ -74,10 +80,39 @@ impl Field {
         value - self.step * (u - a).hypot(v - b)
     }
 
+    /// Some places on the edge, spread over it [px].
+    pub fn edge(&self) -> &[[f64; 2]] {
+        &self.edge
+    }
+
+    /// Width and height of the photograph [px].
+    pub fn frame(&self) -> [f64; 2] {
+        self.frame
+    }
+
+    /// Middle of the box of the stone [px].
+    pub fn middle(&self) -> [f64; 2] {
+        let [a, _, _, b] = self.corners();
+        [0, 1].map(|k| (a[k] + b[k]) / 2.0)
+    }
+
+    /// Corners of the box of the samples, a little beyond the stone [px].
+    pub fn corners(&self) -> [[f64; 2]; 4] {
+        let [x, y] = self.origin;
+        let (u, v) = (x + self.step * (self.width - 1) as f64, y + self.step * (self.height - 1) as f64);
+        [[x, y], [u, y], [x, v], [u, v]]
+    }
+
     /// Bytes in memory.
     pub fn bytes(&self) -> usize {
         4 * self.values.len()
     }
+}
+
+/// Middles of some segments.
+fn some(edge: &[Segment], place: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<[f64; 2]> {
+    let count = EDGE.min(edge.len());
+    (0..count).map(|n| place(edge[n * edge.len() / count].middle().map(f64::from))).collect()
 }
 
 /// Mean coverage of k × k pixels; pixels beyond the frame are as the nearest on it.

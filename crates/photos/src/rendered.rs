@@ -3,7 +3,7 @@
 //! The speckle is a function of the place on the stone, so that it is the same on all photographs.
 
 mod noise;
-mod raster;
+pub(crate) mod raster;
 
 use crate::camera::Camera;
 use crate::mask::Mask;
@@ -57,7 +57,7 @@ impl Studio {
     /// A photograph and its true mask.
     pub fn photograph(&self, mesh: &TriMesh, camera: &Camera) -> (Photograph, Mask) {
         let (w, h) = (self.width, self.height);
-        let hits = raster::hits(mesh, camera, w * SAMPLES, h * SAMPLES, SAMPLES);
+        let faces = raster::faces(mesh, camera, w * SAMPLES, h * SAMPLES, SAMPLES);
         let (mut light, mut coverage) = (vec![0f32; w * h], vec![0u8; w * h]);
         let each = (SAMPLES * SAMPLES) as f64;
         for k in 0..w * h {
@@ -65,12 +65,15 @@ impl Studio {
             let (mut sum, mut covered) = (0.0, 0.0);
             for s in 0..SAMPLES * SAMPLES {
                 let at = (k / w * SAMPLES + s / SAMPLES) * w * SAMPLES + k % w * SAMPLES + s % SAMPLES;
-                match &hits[at] {
-                    Some(hit) => {
-                        sum += self.lit(hit, camera);
+                match faces[at] {
+                    raster::NONE => sum += behind,
+                    face => {
+                        let within = |s: usize| (s as f64 + 0.5) / SAMPLES as f64 - 0.5;
+                        let (x, y) =
+                            ((k % w) as f64 + within(s % SAMPLES), (k / w) as f64 + within(s / SAMPLES));
+                        sum += self.lit(mesh.triangle(face as usize), camera, [x, y]);
                         covered += 1.0;
                     }
-                    None => sum += behind,
                 }
             }
             light[k] = (sum / each) as f32;
@@ -90,12 +93,28 @@ impl Studio {
         slope * (1.0 - self.shadow * (1.0 - far).max(0.0))
     }
 
-    /// Light of the stone at a place: paint or speckle, lit from the camera's upper left, softly.
-    fn lit(&self, hit: &raster::Hit, camera: &Camera) -> f64 {
-        let paint = if noise::speckle(&(hit.place / self.speckle)) { self.paint[1] } else { self.paint[0] };
+    /// Light of a face at a pixel: paint or speckle, lit from the camera's upper left, softly.
+    fn lit(&self, [a, b, c]: [Vec3; 3], camera: &Camera, pixel: [f64; 2]) -> f64 {
+        let normal = (b - a).cross(&(c - a)).normalize();
+        let (eye, ray) = (camera.eye(), camera.ray(pixel));
+        let place = eye + ray * (normal.dot(&(a - eye)) / normal.dot(&ray));
+        let paint = if noise::speckle(&(place / self.speckle)) { self.paint[1] } else { self.paint[0] };
         let lamp = camera.rotation.transpose() * Vec3::new(-0.5, -0.6, -0.62);
-        paint * (0.45 + 0.55 * hit.normal.dot(&lamp).max(0.0))
+        paint * (0.45 + 0.55 * normal.dot(&lamp).max(0.0))
     }
+}
+
+/// The true mask alone.
+pub fn silhouette(mesh: &TriMesh, camera: &Camera, width: usize, height: usize) -> Mask {
+    let faces = raster::faces(mesh, camera, width * SAMPLES, height * SAMPLES, SAMPLES);
+    let mut covered = vec![0u32; width * height];
+    for (k, _) in faces.iter().enumerate().filter(|f| *f.1 != raster::NONE) {
+        let (x, y) = (k % (width * SAMPLES), k / (width * SAMPLES));
+        covered[y / SAMPLES * width + x / SAMPLES] += 1;
+    }
+    let each = (SAMPLES * SAMPLES) as f64;
+    let coverage = covered.iter().map(|c| (255.0 * f64::from(*c) / each).round() as u8).collect();
+    Mask::given(width, height, coverage)
 }
 
 /// A photograph as JPEG of this quality (1–100).

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 const EXAMPLES: &str = "A mask is a grey PNG with the name of its photograph: white is stone; grey on the edge is the share of the pixel that is stone.\n\n\
     Examples:\n\
     \x20 stone-mask photographs -o masks --sheet sheet.png\n\
-    \x20 stone-mask photographs/1.jpg photographs/2.jpg --object dark --level 100 -o masks";
+    \x20 stone-mask photographs/01.png photographs/02.png --object bright --level 100 -o masks";
 
 /// Find the masks of photographs: which pixels are stone
 #[derive(Parser)]

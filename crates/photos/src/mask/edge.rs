@@ -66,9 +66,9 @@ fn near(
 ) -> Option<Near> {
     let (w, h) = (region.width, region.height);
     let (x, y) = (pixel % w, pixel / w);
-    let r = (2.0 * reach + 2.0) as usize;
+    let r = (1.4 * reach + 2.0) as usize;
     // Light beyond the blurred part of the edge, on both sides.
-    let beyond = (0.6 * reach).powi(2) as u32;
+    let beyond = (0.8 * reach).powi(2) as u32;
     let (mut sum, mut count) = ([0.0; 2], [0.0; 2]);
     for v in y.saturating_sub(r)..(y + r + 1).min(h) {
         for u in x.saturating_sub(r)..(x + r + 1).min(w) {

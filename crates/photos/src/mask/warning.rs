@@ -13,7 +13,7 @@ const BLURRED: (f64, f64) = (0.015, 7.0);
 /// A width beyond this multiple of the usual one is blurred.
 const WIDER: f64 = 2.0;
 /// An area beyond this multiple of the median is not the stone alone.
-const LARGER: f64 = 2.0;
+const LARGER: f64 = 3.0;
 
 /// Something doubtful about a mask.
 #[derive(Debug, Clone, PartialEq, Error)]

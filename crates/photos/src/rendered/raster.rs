@@ -1,16 +1,11 @@
 //! What each sample of a photograph sees: the nearest triangle.
 
 use crate::camera::Camera;
-use geom::Vec3;
 use geom::mesh::TriMesh;
 use rayon::prelude::*;
 
-/// A place of the mesh.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Hit {
-    pub place: Vec3,
-    pub normal: Vec3,
-}
+/// No face.
+pub(crate) const NONE: u32 = u32::MAX;
 
 /// Corners of a triangle on the picture of samples, its face, and 1/depth of the corners.
 struct Drawn {
@@ -19,8 +14,8 @@ struct Drawn {
     face: usize,
 }
 
-/// Of w × h samples, `samples` a pixel along each side: what is seen.
-pub(super) fn hits(mesh: &TriMesh, camera: &Camera, w: usize, h: usize, samples: usize) -> Vec<Option<Hit>> {
+/// Of w × h samples, `samples` a pixel along each side: the face that is seen, or [`NONE`].
+pub(crate) fn faces(mesh: &TriMesh, camera: &Camera, w: usize, h: usize, samples: usize) -> Vec<u32> {
     let n = samples as f64;
     let projected: Vec<([f64; 2], f64)> = mesh
         .vertices
@@ -37,24 +32,18 @@ pub(super) fn hits(mesh: &TriMesh, camera: &Camera, w: usize, h: usize, samples:
     };
     let all: Vec<Drawn> = (0..mesh.faces.len()).filter_map(drawn).collect();
     let band = h.div_ceil(16).max(1);
-    let mut out = vec![None; w * h];
+    let mut out = vec![NONE; w * h];
     out.par_chunks_mut(w * band).enumerate().for_each(|(k, rows)| {
         let mut depth = vec![0.0; rows.len()];
         let (first, last) = (k * band, k * band + rows.len() / w);
         for triangle in &all {
-            draw(mesh, triangle, [w, first, last], &mut depth, rows);
+            draw(triangle, [w, first, last], &mut depth, rows);
         }
     });
     out
 }
 
-fn draw(
-    mesh: &TriMesh,
-    t: &Drawn,
-    [w, first, last]: [usize; 3],
-    depth: &mut [f64],
-    rows: &mut [Option<Hit>],
-) {
+fn draw(t: &Drawn, [w, first, last]: [usize; 3], depth: &mut [f64], rows: &mut [u32]) {
     let [a, b, c] = t.at;
     let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     if area == 0.0 {
@@ -67,8 +56,6 @@ fn draw(
         (lo as usize, if hi < lo { 0 } else { hi as usize + 1 })
     };
     let ((x0, x1), (y0, y1)) = (range(0, 0, w), range(1, first, last));
-    let corners = mesh.triangle(t.face);
-    let normal = (corners[1] - corners[0]).cross(&(corners[2] - corners[0])).normalize();
     for y in y0..y1 {
         for x in x0..x1 {
             let p = [x as f64, y as f64];
@@ -83,8 +70,7 @@ fn draw(
             let at = (y - first) * w + x;
             if inverse > depth[at] {
                 depth[at] = inverse;
-                let place = (0..3).map(|k| corners[k] * (weights[k] * t.inverse[k] / inverse)).sum();
-                rows[at] = Some(Hit { place, normal });
+                rows[at] = t.face as u32;
             }
         }
     }

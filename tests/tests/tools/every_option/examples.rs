@@ -106,6 +106,9 @@ pub const EXAMPLES: &[&str] = &[
     "stone-pack run.mcap library --content 0.1 --stone-density 2600 --tries 5 --within box:0,0,0,0.1,0.1,0.1 -o of-run.ply",
     "stone-mask photographs --given drawn --sheet sheet.png --object bright --level 90 --open 1 --close 2 -o masks --report r.json --threads 2 -q",
     "stone-mask photographs/01.png photographs/02.png --object dark --output masks2 --quiet",
+    "stone-hull photographs --masks masks --turntable turntable.toml --cells 20 --length 0.06 -o hull.ply --report r.json --threads 2 -q",
+    "stone-hull photographs --masks masks --poses poses.txt --poses-size 64x48 --output hull2.ply --cells 16 --quiet",
+    "stone-hull photographs --masks masks --poses matrices --cells 16 -o hull3.ply",
     "chute-scan --points 2000 --noise 0.001 --blind 0.1 --tilt-deg 10 --seed 3 --ascii -o chute.ply --report r.json --threads 2 -q",
     "chute-scan --points 2000 --output chute2.ply --quiet",
 ];
