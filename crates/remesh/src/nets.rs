@@ -2,7 +2,7 @@
 //!
 //! A vertex in each cell with nodes inside and outside, at the mean of the places where the surface cuts the cell's edges; a quadrilateral
 //! around each edge that is cut, as two triangles: Gibson (1998), doi:10.1007/BFb0056277. Samples are made well-composed first, so the surface
-//! is closed and a manifold. A surface that would cross itself is moved towards the middles of its cells there.
+//! is closed and a manifold. In rare cells it crosses itself; towards the middles of the cells it does not ([`towards_middles`]).
 
 use crate::composed::compose;
 use crate::samples::Samples;
@@ -11,9 +11,13 @@ use geom::mesh::TriMesh;
 
 /// The surface of samples, closed, faces outwards; none when nothing is inside. The nodes of the border count as outside.
 pub fn surface(mut samples: Samples) -> Option<TriMesh> {
+    // No vertex in a node: vertices of several cells would lie at one place.
+    let least = 1e-3 * samples.step as f32;
     for index in 0..samples.values.len() {
-        if samples.on_border(samples.node(index)) {
-            samples.values[index] = samples.values[index].min(-1e-3 * samples.step as f32);
+        let border = samples.on_border(samples.node(index));
+        let value = &mut samples.values[index];
+        if border || value.abs() < least {
+            *value = if border || *value <= 0.0 { value.min(-least) } else { least };
         }
     }
     compose(&mut samples);
@@ -31,6 +35,20 @@ pub fn surface(mut samples: Samples) -> Option<TriMesh> {
         }
     }
     (!mesh.faces.is_empty()).then_some(mesh)
+}
+
+/// Moves vertices of the surface half way to the middles of their cells: there the faces are those of cubes, which do not cross.
+pub fn towards_middles(
+    mesh: &mut TriMesh,
+    origin: &Vec3,
+    step: f64,
+    vertices: impl IntoIterator<Item = u32>,
+) {
+    for v in vertices {
+        let at = &mut mesh.vertices[v as usize];
+        let middle = ((*at - origin) / step).map(|c| c.floor() + 0.5) * step + origin;
+        *at = (*at + middle) / 2.0;
+    }
 }
 
 /// The vertex of a cell (by its first node).

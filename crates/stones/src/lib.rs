@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! stone       a closed mesh that was checked: volume, centre, inertia, inside, nearest points
+//! clean       any triangles or points → a stone
 //! triangles   whether triangles meet: exact
 //! crossing    whether meshes overlap: exact; whether a mesh crosses itself
 //! hull        the convex hull: exact
@@ -14,6 +15,7 @@
 //! pack        random stones, one by one, without overlap
 //! ```
 
+pub mod clean;
 pub mod clump;
 pub mod content;
 mod crossing;
@@ -30,6 +32,7 @@ pub mod stone;
 mod tangent;
 mod triangles;
 
+pub use clean::{Changes, CleanError, CleanSettings, clean_cloud, clean_mesh};
 pub use clump::{Clump, ClumpError, ClumpSettings, Fit, Method};
 pub use grading::{Class, GradingError};
 pub use library::{Library, LibraryStone};

@@ -109,6 +109,8 @@ pub const EXAMPLES: &[&str] = &[
     "stone-hull photographs --masks masks --turntable turntable.toml --cells 20 --length 0.06 -o hull.ply --report r.json --threads 2 -q",
     "stone-hull photographs --masks masks --poses poses.txt --poses-size 64x48 --output hull2.ply --cells 16 --quiet",
     "stone-hull photographs --masks masks --poses matrices --cells 16 -o hull3.ply",
+    "stone-clean library/rock_1_1.ply --scale 2 --faces 200 --cells 20 -o clean.ply --report r.json --threads 2 -q",
+    "stone-clean tetra.ply --units mm --output clean2.ply --quiet",
     "chute-scan --points 2000 --noise 0.001 --blind 0.1 --tilt-deg 10 --seed 3 --ascii -o chute.ply --report r.json --threads 2 -q",
     "chute-scan --points 2000 --output chute2.ply --quiet",
 ];
