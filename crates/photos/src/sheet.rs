@@ -5,8 +5,10 @@ use crate::photograph::{Photograph, PhotographError, encode, png};
 
 /// Width of one photograph on the sheet [px].
 const WIDTH: usize = 320;
-/// Photographs of a row.
+/// Photographs of a row, at least.
 const ROW: usize = 6;
+/// Width of a sheet of smaller ones [px].
+const SHEET: usize = 1960;
 /// Between them [px].
 const GAP: usize = 6;
 
@@ -62,6 +64,12 @@ impl Thumbnail {
         }
         Thumbnail { width, height, pixels }
     }
+
+    /// A photograph as it is.
+    pub fn plain(photograph: &Photograph) -> Thumbnail {
+        let pixels = photograph.light.iter().map(|l| [encode(*l); 3]).collect();
+        Thumbnail { width: photograph.width, height: photograph.height, pixels }
+    }
 }
 
 /// The sheet as PNG: in reading order, numbered from 1; doubtful ones (`warned`) with an orange number.
@@ -69,11 +77,11 @@ impl Thumbnail {
 /// # Errors
 /// A sheet that is too large for PNG.
 pub fn sheet(thumbnails: &[Thumbnail], warned: &[bool]) -> Result<Vec<u8>, PhotographError> {
-    let columns = ROW.min(thumbnails.len()).max(1);
     let cell = [
         thumbnails.iter().map(|t| t.width).max().unwrap_or(1) + GAP,
         thumbnails.iter().map(|t| t.height).max().unwrap_or(1) + GAP,
     ];
+    let columns = ROW.max(SHEET / cell[0]).min(thumbnails.len()).max(1);
     let (width, height) =
         (columns * cell[0] + GAP, thumbnails.len().div_ceil(columns).max(1) * cell[1] + GAP);
     let mut out = vec![[60u8; 3]; width * height];

@@ -187,7 +187,7 @@ impl Collapsing {
                 self.around[a as usize].push(face);
             }
         }
-        // Everything around is measured anew.
+        // Everything around is measured again.
         self.versions[a as usize] += 1;
         self.versions[b as usize] += 1;
     }

@@ -28,7 +28,7 @@ const CELLS: [f64; 2] = [16.0, 400.0];
 pub struct CleanSettings {
     /// Faces of the result, at most; none: as many as come.
     pub faces: Option<usize>,
-    /// Cells along the longest side when the surface is made anew; none: 200, and for a cloud its spacing.
+    /// Cells along the longest side when the surface is rebuilt; none: 200, and for a cloud its spacing.
     pub cells: Option<usize>,
 }
 
@@ -45,11 +45,11 @@ pub struct Changes {
     pub islands: usize,
     /// Share of the area that they had [–].
     pub islands_area: f64,
-    /// Why the surface was made anew; none when it was kept.
-    pub remade: Option<String>,
-    /// Cells along the longest side, when it was made anew.
+    /// Why the surface was rebuilt; none when it was kept.
+    pub rebuilt: Option<String>,
+    /// Cells along the longest side, when it was rebuilt.
     pub cells: Option<usize>,
-    /// Share of the area of the surface made anew that is not on the surface that came: closed holes [–].
+    /// Share of the area of the surface rebuilt that is not on the surface that came: closed holes [–].
     pub closed_area: Option<f64>,
     /// Volume before faces were thinned out [m³].
     pub volume_before: f64,
@@ -104,8 +104,8 @@ pub fn clean_mesh(mesh: &TriMesh, settings: &CleanSettings) -> Result<(Stone, Ch
     };
     if let Some(reason) = reason.or_else(|| settings.cells.map(|_| "cells were given".to_owned())) {
         let cells = settings.cells.unwrap_or(200);
-        (changes.remade, changes.cells) = (Some(reason), Some(cells));
-        let made = remade(soup::sample(&mesh, cells), &mut changes)?;
+        (changes.rebuilt, changes.cells) = (Some(reason), Some(cells));
+        let made = rebuilt(soup::sample(&mesh, cells), &mut changes)?;
         changes.closed_area = Some(added(&made, &mesh, cells));
         mesh = made;
     } else {
@@ -131,8 +131,8 @@ pub fn clean_cloud(
         .cells
         .unwrap_or_else(|| ((hi - lo).max() / spacing).clamp(CELLS[0], CELLS[1]).round() as usize);
     let reason = format!("{} points came", points.len());
-    let mut changes = Changes { remade: Some(reason), cells: Some(cells), ..Changes::default() };
-    let mesh = remade(soup::sample(&squares, cells), &mut changes)?;
+    let mut changes = Changes { rebuilt: Some(reason), cells: Some(cells), ..Changes::default() };
+    let mesh = rebuilt(soup::sample(&squares, cells), &mut changes)?;
     thinned(mesh, settings, changes)
 }
 
@@ -186,7 +186,7 @@ fn largest(mesh: TriMesh, changes: &mut Changes) -> TriMesh {
 }
 
 /// The surface of samples, one piece, without crossings.
-fn remade(samples: Samples, changes: &mut Changes) -> Result<TriMesh, CleanError> {
+fn rebuilt(samples: Samples, changes: &mut Changes) -> Result<TriMesh, CleanError> {
     let mesh = closed(samples).ok_or(CleanError::Nothing)?;
     let mesh = largest(mesh, changes);
     if mesh.volume() < SHEET * mesh.area().powf(1.5) { Err(CleanError::Nothing) } else { Ok(mesh) }

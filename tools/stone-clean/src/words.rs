@@ -55,8 +55,8 @@ pub fn summary(changes: &Changes) -> String {
             percent(changes.islands_area)
         ));
     }
-    match (&changes.remade, changes.cells) {
-        (Some(why), Some(cells)) => said.push(format!("surface made anew with {cells} cells because {why}")),
+    match (&changes.rebuilt, changes.cells) {
+        (Some(why), Some(cells)) => said.push(format!("surface rebuilt with {cells} cells because {why}")),
         _ => said.push("the surface was closed and is kept".to_owned()),
     }
     let change = changes.volume / changes.volume_before - 1.0;

@@ -22,7 +22,7 @@ fn a_closed_mesh_stays_and_loses_islands_and_inward_faces() {
     let (found, changes) = clean_mesh(&mesh, &PLAIN).unwrap();
     close(found.moments.volume, stone.volume(), 1e-12);
     assert_eq!(
-        (changes.islands, changes.remade.clone(), changes.faces),
+        (changes.islands, changes.rebuilt.clone(), changes.faces),
         (1, None, stone.faces.len()),
         "{changes:?}"
     );
@@ -42,7 +42,7 @@ fn holes_close_and_volume_stays() {
     assert!(changes.open_edges > 0 && changes.faces <= 1000 && changes.faces > 990, "{changes:?}");
     let closed = changes.closed_area.unwrap();
     assert!((0.01..0.04).contains(&closed), "{closed}");
-    assert!(changes.remade.unwrap().contains("do not join two faces"));
+    assert!(changes.rebuilt.unwrap().contains("do not join two faces"));
 }
 
 #[test]

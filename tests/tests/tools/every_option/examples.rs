@@ -111,6 +111,8 @@ pub const EXAMPLES: &[&str] = &[
     "stone-hull photographs --masks masks --poses matrices --cells 16 -o hull3.ply",
     "stone-clean library/rock_1_1.ply --scale 2 --faces 200 --cells 20 -o clean.ply --report r.json --threads 2 -q",
     "stone-clean tetra.ply --units mm --output clean2.ply --quiet",
+    "stone-library pebble.ply --scale 1 --variants 2 --sieves 0.01,0.1 --seed 3 -o rocks --report r.json --threads 2 -q",
+    "stone-library pebble.ply library/rock_1_1.ply --units m --output rocks2 --quiet",
     "chute-scan --points 2000 --noise 0.001 --blind 0.1 --tilt-deg 10 --seed 3 --ascii -o chute.ply --report r.json --threads 2 -q",
     "chute-scan --points 2000 --output chute2.ply --quiet",
 ];

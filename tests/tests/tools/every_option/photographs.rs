@@ -16,7 +16,7 @@ const TABLE: &str = "[camera]\nfocal_px = 120\ndistance = 0.3\n\
                      [[ring]]\nphotographs = \"0*.png\"\ntilt_deg = 25\nstep_deg = 60\n\
                      [[ring]]\nphotographs = \"1*.png\"\ntilt_deg = 25\nstep_deg = 60\nturned_over = true\n";
 
-/// `photographs/01.png` to `06.png` and, of the block turned over, `11.png` to `16.png`; `drawn/01.png`, `turntable.toml`, `poses.txt`, `matrices/01.txt`.
+/// `photographs/01.png` to `06.png` and, of the block turned over, `11.png` to `16.png`; `drawn/01.png`, `turntable.toml`, `poses.txt`, `matrices/01.txt`; `pebble.ply`.
 pub fn write(folder: &Path) {
     let block = cuboid(Vec3::new(-0.02, -0.03, -0.015), Vec3::new(0.02, 0.03, 0.015));
     let over = |v: &Vec3| Vec3::new(0.9 * v.x + 0.19f64.sqrt() * v.y, 0.19f64.sqrt() * v.x - 0.9 * v.y, -v.z);
@@ -49,6 +49,7 @@ pub fn write(folder: &Path) {
         }
     }
     fs::write(folder.join("poses.txt"), poses).expect("written");
+    fs::write(folder.join("pebble.ply"), pebble()).expect("written");
 }
 
 /// A line of a table of poses: the matrix K (R | t).
@@ -63,4 +64,33 @@ fn row(name: &str, camera: &Camera) -> String {
     let second = (0..4).map(|k| fy * y[k] + camera.centre[1] * z[k]);
     let all: Vec<String> = first.chain(second).chain(z).map(|v| v.to_string()).collect();
     format!("{name} {}\n", all.join(" "))
+}
+
+/// An ellipsoid of 128 faces.
+fn pebble() -> String {
+    let sides: Vec<[Vec3; 3]> = (0..8)
+        .map(|k| {
+            let [x, y, z] = [0, 1, 2].map(|a| if k >> a & 1 == 0 { 1.0 } else { -1.0 });
+            let (a, b, c) = (Vec3::new(x, 0.0, 0.0), Vec3::new(0.0, y, 0.0), Vec3::new(0.0, 0.0, z));
+            if x * y * z > 0.0 { [a, b, c] } else { [a, c, b] }
+        })
+        .collect();
+    let halved = |faces: Vec<[Vec3; 3]>| -> Vec<[Vec3; 3]> {
+        let four = |[a, b, c]: [Vec3; 3]| {
+            let [d, e, f] = [(a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0].map(|p| p.normalize());
+            [[a, d, f], [d, b, e], [f, e, c], [d, e, f]]
+        };
+        faces.into_iter().flat_map(four).collect()
+    };
+    let faces = halved(halved(sides));
+    let corner = |p: &Vec3| format!("{} {} {}\n", 0.03 * p.x, 0.025 * p.y, 0.02 * p.z);
+    let vertices: String = faces.iter().flatten().map(corner).collect();
+    let lists: String =
+        (0..faces.len()).map(|k| format!("3 {} {} {}\n", 3 * k, 3 * k + 1, 3 * k + 2)).collect();
+    let head = "property float x\nproperty float y\nproperty float z";
+    format!(
+        "ply\nformat ascii 1.0\nelement vertex {}\n{head}\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n{vertices}{lists}",
+        3 * faces.len(),
+        faces.len()
+    )
 }
