@@ -14,6 +14,8 @@ mod ply;
 mod stl;
 mod triangles;
 
+pub use ply::write_ply;
+
 use geom::mesh::{MeshError, TriMesh};
 use std::path::Path;
 use stream::ply::PlyError;

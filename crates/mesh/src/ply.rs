@@ -2,7 +2,9 @@
 
 use crate::MeshFileError;
 use geom::{Vec3, mesh::TriMesh};
-use stream::ply::{self, ListColumn, Ply};
+use std::io::Write;
+use stream::ply::{self, Element, Encoding, ListColumn, NumberType, Ply, PlyError};
+use stream::{Table, Values};
 
 pub(crate) fn matches(bytes: &[u8]) -> bool {
     bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r")
@@ -42,4 +44,34 @@ fn vertices(ply: &Ply) -> Result<Vec<Vec3>, MeshFileError> {
     let column = |name| vertex.table.get(name).ok_or(MeshFileError::NoPosition(name));
     let (x, y, z) = (column("x")?, column("y")?, column("z")?);
     Ok((0..vertex.table.rows()).map(|i| Vec3::new(x.get(i), y.get(i), z.get(i))).collect())
+}
+
+/// Writes a mesh as PLY, with double coordinates.
+///
+/// # Errors
+/// A write that fails.
+pub fn write_ply(
+    to: &mut impl Write,
+    mesh: &TriMesh,
+    comments: &[String],
+    encoding: Encoding,
+) -> Result<(), PlyError> {
+    let mut table = Table::with_rows(mesh.vertices.len());
+    for (a, name) in ["x", "y", "z"].into_iter().enumerate() {
+        let values = Values::F64(mesh.vertices.iter().map(|p| p[a]).collect());
+        let element = "vertex".to_owned();
+        table.push(name, values).map_err(|source| PlyError::Table { element, source })?;
+    }
+    let indices = ListColumn {
+        name: "vertex_indices".into(),
+        position: 0,
+        count_kind: NumberType::U8,
+        ends: (1..=mesh.faces.len()).map(|f| 3 * f).collect(),
+        values: Values::I32(mesh.faces.iter().flatten().map(|&v| v as i32).collect()),
+    };
+    let vertex = Element { name: "vertex".into(), table, lists: Vec::new() };
+    let face =
+        Element { name: "face".into(), table: Table::with_rows(mesh.faces.len()), lists: vec![indices] };
+    let ply = Ply { elements: vec![vertex, face], comments: comments.to_vec(), ..Ply::default() };
+    ply::write(to, &ply, encoding)
 }

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! stone       a closed mesh that was checked: volume, centre, inertia, inside, nearest points
+//! clean       any triangles or points → a stone
 //! triangles   whether triangles meet: exact
 //! crossing    whether meshes overlap: exact; whether a mesh crosses itself
 //! hull        the convex hull: exact
@@ -9,16 +10,20 @@
 //! samples     points inside a stone and on its surface
 //! clump       spheres inside a stone: by inner distance, or tangent to the surface; how well they fit
 //! library     a folder of stones: names, classes, sieve sizes
+//! harmonics   the surface as a sum of spherical harmonics
+//! variants    stones between measured ones
 //! grading     classes of size with their shares
 //! content     the stop rule
 //! pack        random stones, one by one, without overlap
 //! ```
 
+pub mod clean;
 pub mod clump;
 pub mod content;
 mod crossing;
 mod distance;
 pub mod grading;
+pub mod harmonics;
 mod hull;
 pub mod library;
 pub mod pack;
@@ -29,11 +34,15 @@ pub mod shape;
 pub mod stone;
 mod tangent;
 mod triangles;
+pub mod variants;
 
+pub use clean::{Changes, CleanError, CleanSettings, clean_cloud, clean_mesh};
 pub use clump::{Clump, ClumpError, ClumpSettings, Fit, Method};
 pub use grading::{Class, GradingError};
+pub use harmonics::Harmonics;
 pub use library::{Library, LibraryStone};
 pub use pack::{PackError, PackSettings, Packing, Soil, pack};
 pub use placed::PlacedStone;
 pub use shape::ShapeMeasures;
 pub use stone::{Stone, StoneError};
+pub use variants::{Measured, Variant, variants};

@@ -62,4 +62,4 @@ fn every_example_in_a_help_runs() {
 }
 
 /// Tools whose examples write what those of others read.
-const ORDER: [&str; 5] = ["cloud-crop", "cloud-fill", "bluenoise-sample", "wallgen", "dem-run"];
+const ORDER: [&str; 6] = ["cloud-crop", "cloud-fill", "bluenoise-sample", "wallgen", "dem-run", "stone-mask"];

@@ -5,9 +5,7 @@ use crate::Cloud;
 use geom::Vec3;
 use geom::mesh::TriMesh;
 use std::io::{Read, Write};
-use stream::ply::{
-    self, Blocks, Element, Encoding, ListColumn, NumberType, Opened, Ply, PlyError, number_at,
-};
+use stream::ply::{self, Blocks, Element, Encoding, NumberType, Opened, Ply, PlyError, number_at};
 use stream::{Fill, Table, Values};
 
 pub(super) fn matches(bytes: &[u8]) -> bool {
@@ -193,24 +191,7 @@ impl Fill for Axis<'_> {
 /// # Errors
 /// A stream that takes no more.
 pub fn write_mesh(to: &mut impl Write, mesh: &TriMesh, encoding: Encoding) -> Result<(), PlyError> {
-    let mut table = Table::with_rows(mesh.vertices.len());
-    for (a, name) in ["x", "y", "z"].into_iter().enumerate() {
-        let values = Values::F64(mesh.vertices.iter().map(|p| p[a]).collect());
-        let element = "vertex".to_owned();
-        table.push(name, values).map_err(|source| PlyError::Table { element, source })?;
-    }
-    let indices = ListColumn {
-        name: "vertex_indices".into(),
-        position: 0,
-        count_kind: NumberType::U8,
-        ends: (1..=mesh.faces.len()).map(|f| 3 * f).collect(),
-        values: Values::I32(mesh.faces.iter().flatten().map(|&v| v as i32).collect()),
-    };
-    let vertex = Element { name: "vertex".into(), table, lists: Vec::new() };
-    let face =
-        Element { name: "face".into(), table: Table::with_rows(mesh.faces.len()), lists: vec![indices] };
-    let ply = Ply { elements: vec![vertex, face], ..Ply::default() };
-    ply::write(to, &ply, encoding)
+    mesh::write_ply(to, mesh, &[], encoding)
 }
 
 /// Reads a mesh: PLY, STL, OBJ or a list of triangles, detected by content.

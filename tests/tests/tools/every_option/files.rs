@@ -5,6 +5,10 @@ use grainpipe_tests::scenes::folder;
 use std::collections::BTreeSet;
 use tempfile::TempDir;
 
+// This file is read by two tests.
+#[path = "photographs.rs"]
+mod photographs;
+
 const TETRAHEDRON: &str = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n\
                            property float z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n\
                            0 0 0\n0.3 0 0\n0 0.3 0\n0 0 0.3\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
@@ -91,7 +95,7 @@ pub fn inputs() -> TempDir {
     let scan: String = scan.map(|(k, (x, y))| format!("{x} {y} {}\n", 0.002 * f64::from(k).sin())).collect();
     let plant = [&HEAD.replace("until_unbalanced = 1e-9\n", ""), GRAINS, &floor(-1.0)].concat();
     let outlet = "[[outlet]]\nplane = \"0,0,0.02,0,0,-1\"\nmotion = \"recorded\"\n";
-    folder(&[
+    let made = folder(&[
         ("flat.xyz", flat),
         ("scan.xyz", scan),
         ("tetra.ply", TETRAHEDRON.to_owned()),
@@ -115,7 +119,9 @@ pub fn inputs() -> TempDir {
         ("stone.csv", cube()),
         ("up.toml", [&plant, outlet].concat()),
         ("plant.toml", plant),
-    ])
+    ]);
+    photographs::write(made.path());
+    made
 }
 
 /// The names of all tools.

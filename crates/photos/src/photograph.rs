@@ -1,0 +1,163 @@
+//! Photographs: JPEG and PNG, detected by content, as linear light.
+//!
+//! ```text
+//! s ≤ 0.04045:  l = s/12.92,   else  l = ((s + 0.055)/1.055)^2.4        IEC 61966-2-1 (sRGB)
+//! light = 0.2126 R + 0.7152 G + 0.0722 B
+//! ```
+//!
+//! A pixel on an edge mixes the two sides in linear light, not in the stored values: an edge found in stored values is off by up to 0.3 pixels.
+
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
+use std::io::Cursor;
+use thiserror::Error;
+
+/// Most pixels of a side.
+const LONGEST: u32 = 30_000;
+/// Most bytes of a picture in memory.
+const BYTES: u64 = 1 << 30;
+
+/// A photograph in linear light.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Photograph {
+    /// Pixels of a row.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// Linear light of each pixel, row by row, from 0 to 1 [–].
+    pub light: Vec<f32>,
+}
+
+/// Why bytes are no photograph.
+#[derive(Debug, Error)]
+#[allow(missing_docs)]
+pub enum PhotographError {
+    #[error("neither JPEG nor PNG (it begins with {start}): convert the photograph")]
+    Unknown { start: String },
+    #[error("cannot read the {format}: {reason}; copy or export it again")]
+    Broken { format: &'static str, reason: String },
+    #[error("has no pixels: {width} × {height}")]
+    Empty { width: usize, height: usize },
+    #[error("cannot write PNG: {0}")]
+    Png(String),
+}
+
+impl Photograph {
+    /// Reads JPEG or PNG; a turned photograph (EXIF orientation) is turned upright.
+    ///
+    /// # Errors
+    /// Other content, or a truncated file.
+    pub fn read(bytes: &[u8]) -> Result<Photograph, PhotographError> {
+        let picture = decode(bytes)?;
+        let (width, height) = (picture.width() as usize, picture.height() as usize);
+        if width == 0 || height == 0 {
+            return Err(PhotographError::Empty { width, height });
+        }
+        let table = decoded();
+        let light = if picture.color().has_color() {
+            let of = |p: &image::Rgb<u8>| {
+                let [r, g, b] = p.0.map(|v| table[usize::from(v)]);
+                0.2126 * r + 0.7152 * g + 0.0722 * b
+            };
+            picture.into_rgb8().pixels().map(of).collect()
+        } else {
+            picture.into_luma8().as_raw().iter().map(|v| table[usize::from(*v)]).collect()
+        };
+        Ok(Photograph { width, height, light })
+    }
+
+    /// The stored values that stand for this light, 0 to 255.
+    pub fn encoded(&self) -> Vec<u8> {
+        self.light.iter().map(|l| encode(*l)).collect()
+    }
+}
+
+/// Reads the stored values of a grey picture, such as a mask: width, height, values row by row.
+///
+/// # Errors
+/// As [`Photograph::read`].
+pub fn read_values(bytes: &[u8]) -> Result<(usize, usize, Vec<u8>), PhotographError> {
+    let picture = decode(bytes)?;
+    let (width, height) = (picture.width() as usize, picture.height() as usize);
+    Ok((width, height, picture.into_luma8().into_raw()))
+}
+
+/// The sRGB value of a linear light.
+pub fn encode(light: f32) -> u8 {
+    let l = f64::from(light).clamp(0.0, 1.0);
+    let s = if l <= 0.003_130_8 { 12.92 * l } else { 1.055 * libm::pow(l, 1.0 / 2.4) - 0.055 };
+    (255.0 * s).round() as u8
+}
+
+/// The linear light of each sRGB value.
+fn decoded() -> [f32; 256] {
+    std::array::from_fn(|v| {
+        let s = v as f64 / 255.0;
+        (if s <= 0.040_45 { s / 12.92 } else { libm::pow((s + 0.055) / 1.055, 2.4) }) as f32
+    })
+}
+
+/// Writes PNG: 1 channel (grey) or 3 (RGB).
+///
+/// # Errors
+/// Sizes that do not agree.
+pub fn png(width: usize, height: usize, values: &[u8]) -> Result<Vec<u8>, PhotographError> {
+    let colour =
+        if values.len() == 3 * width * height { image::ColorType::Rgb8 } else { image::ColorType::L8 };
+    let mut out = Vec::new();
+    image::write_buffer_with_format(
+        &mut Cursor::new(&mut out),
+        values,
+        width as u32,
+        height as u32,
+        colour,
+        ImageFormat::Png,
+    )
+    .map_err(|e| PhotographError::Png(e.to_string()))?;
+    Ok(out)
+}
+
+fn decode(bytes: &[u8]) -> Result<DynamicImage, PhotographError> {
+    let format = match image::guess_format(bytes) {
+        Ok(format @ (ImageFormat::Jpeg | ImageFormat::Png)) => format,
+        _ => {
+            let start: String =
+                bytes.iter().take(12).flat_map(|b| std::ascii::escape_default(*b)).map(char::from).collect();
+            return Err(PhotographError::Unknown { start: format!("'{start}'") });
+        }
+    };
+    let name = if format == ImageFormat::Jpeg { "JPEG" } else { "PNG" };
+    let broken = |e: image::ImageError| PhotographError::Broken { format: name, reason: e.to_string() };
+    let mut limits = Limits::default();
+    (limits.max_image_width, limits.max_image_height) = (Some(LONGEST), Some(LONGEST));
+    limits.max_alloc = Some(BYTES);
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+    reader.limits(limits);
+    let mut decoder = reader.into_decoder().map_err(broken)?;
+    let orientation = decoder.orientation().map_err(broken)?;
+    let mut picture = DynamicImage::from_decoder(decoder).map_err(broken)?;
+    picture.apply_orientation(orientation);
+    Ok(picture)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stored_values_come_back_through_linear_light() {
+        let values: Vec<u8> = (0..=255).collect();
+        let photograph = Photograph::read(&png(16, 16, &values).unwrap()).unwrap();
+        assert_eq!(photograph.encoded(), values);
+        // Half of the light is stored as 188.
+        assert!((photograph.light[188] - 0.5).abs() < 0.003, "{}", photograph.light[188]);
+    }
+
+    #[test]
+    fn what_is_no_photograph_is_refused_with_its_start() {
+        let words = Photograph::read(b"solid x").unwrap_err().to_string();
+        assert!(words.contains("'solid x'") && words.contains("convert"), "{words}");
+        let whole = png(4, 4, &[7; 16]).unwrap();
+        let words = Photograph::read(&whole[..40]).unwrap_err().to_string();
+        assert!(words.contains("cannot read the PNG"), "{words}");
+    }
+}

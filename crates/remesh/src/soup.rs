@@ -1,0 +1,173 @@
+//! Any triangles → signed distances whose surface is closed.
+//!
+//! Inside is where the triangles wind around a place by more than one half. Near triangles the value is the distance to them; across holes it
+//! follows the winding number, which is smooth there, so that the surface goes on.
+
+use crate::samples::Samples;
+use crate::winding::Winding;
+use geom::Vec3;
+use geom::mesh::{TriMesh, closest_point};
+use rayon::prelude::*;
+use std::collections::HashMap;
+
+/// Distances are exact within this many steps.
+const BAND: f64 = 2.0;
+/// Nodes of a block along each side.
+const BLOCK: usize = 6;
+/// Where the winding numbers of a block are this far from one half, all of it is on one side.
+const CLEAR: f64 = 0.2;
+
+/// What was found about the triangles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Orientation {
+    /// Pieces that hang together across edges of two faces.
+    pub pieces: usize,
+    /// Faces that were turned to the other side.
+    pub turned: usize,
+}
+
+/// Turns faces so that neighbours look to the same side, and each piece encloses a volume above 0.
+pub fn orient(mesh: &mut TriMesh) -> Orientation {
+    let mut beside: HashMap<(u32, u32), Vec<u32>> = HashMap::new();
+    for (face, f) in (0u32..).zip(&mesh.faces) {
+        for (a, b) in edges(f) {
+            beside.entry((a.min(b), a.max(b))).or_default().push(face);
+        }
+    }
+    let mut found = Orientation::default();
+    let (mut seen, mut turned) = (vec![false; mesh.faces.len()], vec![false; mesh.faces.len()]);
+    for start in 0..mesh.faces.len() {
+        if seen[start] {
+            continue;
+        }
+        found.pieces += 1;
+        seen[start] = true;
+        let mut piece = vec![start];
+        let mut next = 0;
+        while next < piece.len() {
+            let face = piece[next];
+            next += 1;
+            for (a, b) in edges(&mesh.faces[face]) {
+                let [f, g] = beside[&(a.min(b), a.max(b))][..] else { continue };
+                let other = if f as usize == face { g } else { f } as usize;
+                if !seen[other] {
+                    seen[other] = true;
+                    // Neighbours run along their edge in opposite directions.
+                    if edges(&mesh.faces[other]).contains(&(a, b)) {
+                        mesh.faces[other].swap(1, 2);
+                        turned[other] = true;
+                    }
+                    piece.push(other);
+                }
+            }
+        }
+        outwards(mesh, &piece, &mut turned);
+    }
+    found.turned = turned.iter().filter(|t| **t).count();
+    found
+}
+
+fn edges(&[a, b, c]: &[u32; 3]) -> [(u32, u32); 3] {
+    [(a, b), (b, c), (c, a)]
+}
+
+/// Turns a whole piece if its volume, about its middle, is below 0.
+fn outwards(mesh: &mut TriMesh, piece: &[usize], turned: &mut [bool]) {
+    let corners = || piece.iter().map(|f| mesh.triangle(*f));
+    let middle: Vec3 = corners().map(|t| t[0] + t[1] + t[2]).sum::<Vec3>() / (3.0 * piece.len() as f64);
+    let volume: f64 = corners().map(|[a, b, c]| (a - middle).dot(&(b - middle).cross(&(c - middle)))).sum();
+    if volume < 0.0 {
+        for f in piece {
+            mesh.faces[*f].swap(1, 2);
+            turned[*f] = !turned[*f];
+        }
+    }
+}
+
+/// Samples whose inside is that of the triangles, with `cells` cells along the longest side.
+pub fn sample(mesh: &TriMesh, cells: usize) -> Samples {
+    let (lo, hi) = geom::grid::bounds(&mesh.vertices);
+    let mut samples = Samples::over(&lo, &hi, cells, 3, f32::INFINITY);
+    distances(mesh, &mut samples);
+    let winding = Winding::new(mesh);
+    let (size, step, origin) = (samples.size, samples.step, samples.origin);
+    let layer = size[0] * size[1] * BLOCK;
+    samples.values.par_chunks_mut(layer).enumerate().for_each(|(k, values)| {
+        let depth = values.len() / (size[0] * size[1]);
+        for (j, i) in
+            (0..size[1]).step_by(BLOCK).flat_map(|j| (0..size[0]).step_by(BLOCK).map(move |i| (j, i)))
+        {
+            let count = [BLOCK.min(size[0] - i), BLOCK.min(size[1] - j), depth];
+            let place = |at: [usize; 3]| {
+                origin + Vec3::new((i + at[0]) as f64, (j + at[1]) as f64, (k * BLOCK + at[2]) as f64) * step
+            };
+            let nodes = || {
+                (0..count.iter().product())
+                    .map(|c: usize| [c % count[0], c / count[0] % count[1], c / count[0] / count[1]])
+            };
+            let index = |at: [usize; 3]| (at[2] * size[1] + j + at[1]) * size[0] + i + at[0];
+            let far = nodes().all(|at| values[index(at)].is_infinite());
+            let corners = || {
+                (0..8).map(|c: usize| {
+                    winding.at(&place([0, 1, 2].map(|a| if c >> a & 1 == 1 { count[a] - 1 } else { 0 })))
+                })
+            };
+            let side = if far { clear(corners()) } else { None };
+            for at in nodes() {
+                let w = side.unwrap_or_else(|| winding.at(&place(at)) - 0.5);
+                let distance = f64::from(values[index(at)]);
+                let value = if distance.is_finite() {
+                    distance.copysign(w)
+                } else {
+                    (4.0 * w * step).clamp(-BAND * step, BAND * step)
+                };
+                values[index(at)] = value as f32;
+            }
+        }
+    });
+    samples
+}
+
+/// The side of a block of which these are the winding numbers of the corners, if it is clear.
+fn clear(corners: impl Iterator<Item = f64>) -> Option<f64> {
+    let (lo, hi) = corners.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), w| (lo.min(w), hi.max(w)));
+    if lo > 0.5 + CLEAR {
+        Some(0.5)
+    } else if hi < 0.5 - CLEAR {
+        Some(-0.5)
+    } else {
+        None
+    }
+}
+
+/// Distances of the nodes near triangles.
+fn distances(mesh: &TriMesh, samples: &mut Samples) {
+    let (size, step, origin) = (samples.size, samples.step, samples.origin);
+    let reach = BAND * step;
+    let triangles: Vec<[Vec3; 3]> = mesh.triangles().collect();
+    let range = |t: &[Vec3; 3], axis: usize| {
+        let (lo, hi) = (
+            t.iter().map(|p| p[axis]).fold(f64::INFINITY, f64::min),
+            t.iter().map(|p| p[axis]).fold(f64::NEG_INFINITY, f64::max),
+        );
+        let node = |v: f64| ((v - origin[axis]) / step).clamp(0.0, size[axis] as f64 - 1.0);
+        (node(lo - reach).ceil() as usize, node(hi + reach).floor() as usize)
+    };
+    let slab = 8;
+    samples.values.par_chunks_mut(size[0] * size[1] * slab).enumerate().for_each(|(k, values)| {
+        let (first, last) = (k * slab, k * slab + values.len() / (size[0] * size[1]));
+        for t in &triangles {
+            let ((x0, x1), (y0, y1), (z0, z1)) = (range(t, 0), range(t, 1), range(t, 2));
+            for z in z0.max(first)..(z1 + 1).min(last) {
+                for (y, x) in (y0..=y1).flat_map(|y| (x0..=x1).map(move |x| (y, x))) {
+                    let p = origin + Vec3::new(x as f64, y as f64, z as f64) * step;
+                    let found = (closest_point(*t, p) - p).norm();
+                    let value = &mut values[((z - first) * size[1] + y) * size[0] + x];
+                    if found <= reach && (found as f32) < *value {
+                        *value = found as f32;
+                    }
+                }
+            }
+        }
+    });
+}

@@ -1,0 +1,79 @@
+use super::*;
+use crate::stone::tests::ball;
+use geom::mesh::cuboid;
+
+const PLAIN: CleanSettings = CleanSettings { faces: None, cells: None };
+
+fn joined(a: &TriMesh, b: &TriMesh) -> TriMesh {
+    let first = a.vertices.len() as u32;
+    let faces = a.faces.iter().copied().chain(b.faces.iter().map(|f| f.map(|v| v + first))).collect();
+    TriMesh { vertices: [&a.vertices[..], &b.vertices].concat(), faces }
+}
+
+fn close(found: f64, wanted: f64, tolerance: f64) {
+    assert!((found / wanted - 1.0).abs() < tolerance, "{found}, not {wanted}");
+}
+
+#[test]
+fn a_closed_mesh_stays_and_loses_islands_and_inward_faces() {
+    let stone = ball(0.05, 4);
+    let mut mesh = joined(&stone, &cuboid(Vec3::repeat(0.2), Vec3::repeat(0.201)));
+    mesh.faces.iter_mut().step_by(3).for_each(|f| f.swap(1, 2));
+    let (found, changes) = clean_mesh(&mesh, &PLAIN).unwrap();
+    close(found.moments.volume, stone.volume(), 1e-12);
+    assert_eq!(
+        (changes.islands, changes.rebuilt.clone(), changes.faces),
+        (1, None, stone.faces.len()),
+        "{changes:?}"
+    );
+    assert!(changes.turned > 600 && changes.islands_area < 0.01, "{changes:?}");
+}
+
+#[test]
+fn holes_close_and_volume_stays() {
+    let mut stone = ball(0.05, 4);
+    let volume = stone.volume();
+    // A hole of 3 % of the area, and a face doubled.
+    stone.faces.retain(|f| f.iter().any(|v| stone.vertices[*v as usize].z < 0.047));
+    stone.faces.push(stone.faces[7]);
+    let (found, changes) = clean_mesh(&stone, &CleanSettings { faces: Some(1000), cells: Some(60) }).unwrap();
+    close(found.moments.volume, volume, 0.015);
+    close(changes.volume, changes.volume_before, 0.001);
+    assert!(changes.open_edges > 0 && changes.faces <= 1000 && changes.faces > 990, "{changes:?}");
+    let closed = changes.closed_area.unwrap();
+    assert!((0.01..0.04).contains(&closed), "{closed}");
+    assert!(changes.rebuilt.unwrap().contains("do not join two faces"));
+}
+
+#[test]
+fn bodies_that_cross_become_one() {
+    let mesh =
+        joined(&cuboid(Vec3::zeros(), Vec3::repeat(0.1)), &cuboid(Vec3::repeat(0.05), Vec3::repeat(0.15)));
+    let (found, changes) = clean_mesh(&mesh, &CleanSettings { cells: Some(45), ..PLAIN }).unwrap();
+    close(found.moments.volume, 2.0 * 0.001 - 0.05f64.powi(3), 0.01);
+    assert_eq!(changes.islands, 0);
+}
+
+#[test]
+fn a_cloud_with_and_without_normals_becomes_a_stone() {
+    let stone = ball(0.05, 4);
+    let mut points = stone.vertices.clone();
+    points.iter_mut().for_each(|p| p.z *= 0.6);
+    let normals: Vec<Vec3> = points.iter().map(|p| Vec3::new(p.x, p.y, p.z / 0.36)).collect();
+    for given in [None, Some(&normals[..])] {
+        let (found, changes) = clean_cloud(&points, given, &PLAIN).unwrap();
+        close(found.moments.volume, 0.6 * 4.0 / 3.0 * std::f64::consts::PI * 0.05f64.powi(3), 0.02);
+        assert!(changes.faces > 500, "{changes:?}");
+    }
+    assert_eq!(clean_cloud(&points[..50], None, &PLAIN).err(), Some(CleanError::Points(50)));
+}
+
+#[test]
+fn what_encloses_nothing_is_refused() {
+    let sheet = TriMesh { vertices: vec![Vec3::zeros(), Vec3::x(), Vec3::y()], faces: vec![[0, 1, 2]] };
+    assert_eq!(
+        clean_mesh(&sheet, &CleanSettings { cells: Some(40), ..PLAIN }).err(),
+        Some(CleanError::Nothing)
+    );
+    assert!(clean_mesh(&TriMesh::default(), &PLAIN).is_err());
+}

@@ -1,0 +1,39 @@
+//! A mesh or a cloud, whichever the bytes are.
+
+use anyhow::Context;
+use geom::Vec3;
+use geom::mesh::TriMesh;
+use mesh::MeshFileError;
+
+pub enum Read {
+    Mesh(TriMesh),
+    Cloud { points: Vec<Vec3>, normals: Option<Vec<Vec3>> },
+}
+
+/// Reads a mesh; bytes that are none are read as a cloud.
+pub fn read(bytes: &[u8], factor: Option<f64>) -> anyhow::Result<Read> {
+    let factor = factor.unwrap_or(1.0);
+    match mesh::from_bytes(bytes) {
+        Ok(mut mesh) => {
+            mesh.scale(factor);
+            return Ok(Read::Mesh(mesh));
+        }
+        Err(MeshFileError::NoFaces | MeshFileError::Unknown { .. } | MeshFileError::Ply(_)) => {}
+        Err(error) => return Err(error.into()),
+    }
+    let cloud = cloud::from_bytes(bytes.to_vec()).context("neither a mesh nor a cloud")?;
+    let (mut cloud, _) = cloud.finite();
+    cloud.check_reach()?;
+    cloud.scale(factor);
+    let column = |name| cloud.attributes.get(name);
+    let normals = match (column("nx"), column("ny"), column("nz")) {
+        (Some(x), Some(y), Some(z)) => {
+            let all: Vec<Vec3> =
+                (0..cloud.points.len()).map(|k| Vec3::new(x.get(k), y.get(k), z.get(k))).collect();
+            // Normals of no length are none.
+            all.iter().all(|n| n.norm() > 0.5 && n.norm() < 2.0).then_some(all)
+        }
+        _ => None,
+    };
+    Ok(Read::Cloud { points: cloud.points, normals })
+}

@@ -1,0 +1,70 @@
+//! What was changed, in words.
+
+use geom::Shown;
+use stones::{Changes, CleanSettings};
+
+/// Holes of more than this share of the area are a warning.
+const HOLES: f64 = 0.05;
+/// Volume may change by this share.
+const VOLUME: f64 = 0.005;
+
+fn percent(share: f64) -> Shown {
+    Shown((10_000.0 * share).round() / 100.0)
+}
+
+/// Doubtful results.
+pub fn warn(input: &cli::Source, changes: &Changes, settings: &CleanSettings) {
+    if let Some(share) = changes.closed_area.filter(|s| *s > HOLES) {
+        cli::warn(&format!(
+            "{input}: {} % of the surface is not in the input: holes were closed there; scan the missing sides if that is too much",
+            percent(share)
+        ));
+    }
+    let Some(faces) = settings.faces else { return };
+    let change = changes.volume / changes.volume_before - 1.0;
+    if change.abs() > VOLUME {
+        cli::warn(&format!(
+            "{input}: --faces {faces} changes the volume by {} %: give more faces",
+            percent(change)
+        ));
+    }
+    if changes.faces > faces {
+        cli::warn(&format!(
+            "{input}: --faces {faces}: fewer than {} would make the mesh cross itself or flip faces",
+            changes.faces
+        ));
+    }
+    if changes.faces < faces - 1 {
+        cli::warn(&format!(
+            "{input}: --faces {faces}: the mesh has only {}, and none are added",
+            changes.faces
+        ));
+    }
+}
+
+/// One line.
+pub fn summary(changes: &Changes) -> String {
+    let mut said = Vec::new();
+    if changes.turned > 0 {
+        said.push(format!("{} faces turned", changes.turned));
+    }
+    if changes.islands > 0 {
+        said.push(format!(
+            "{} pieces removed ({} % of the area)",
+            changes.islands,
+            percent(changes.islands_area)
+        ));
+    }
+    match (&changes.rebuilt, changes.cells) {
+        (Some(why), Some(cells)) => said.push(format!("surface rebuilt with {cells} cells because {why}")),
+        _ => said.push("the surface was closed and is kept".to_owned()),
+    }
+    let change = changes.volume / changes.volume_before - 1.0;
+    said.push(format!(
+        "{} faces, {} m³ (thinning changed it by {} %)",
+        changes.faces,
+        Shown(changes.volume),
+        percent(change)
+    ));
+    said.join("; ")
+}

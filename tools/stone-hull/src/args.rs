@@ -1,0 +1,52 @@
+//! The command line.
+
+use clap::Parser;
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "The hull holds the stone and does not enter its hollows: its volume is an upper bound.\n\nExamples:\n\
+    \x20 stone-hull photographs --masks masks --turntable turntable.toml -o stone.ply\n\
+    \x20 stone-hull photographs --masks masks --poses poses.txt --length 0.12 -o stone.ply";
+
+/// Carve the visual hull of a stone from the masks of its photographs
+#[derive(Parser)]
+#[command(after_help = EXAMPLES)]
+#[command(group = clap::ArgGroup::new("from").required(true).args(["turntable", "poses"]))]
+pub struct Args {
+    /// Folder of the photographs
+    #[arg(value_name = "PHOTO-DIR")]
+    pub photographs: PathBuf,
+    /// Folder of their masks, NAME.png (stone-mask)
+    #[arg(long, value_name = "DIR")]
+    pub masks: PathBuf,
+    /// Turntable: camera, and turns with their tilts and steps (TOML, docs/photographs.md)
+    #[arg(long, value_name = "FILE.toml")]
+    pub turntable: Option<PathBuf>,
+    /// Poses: a table of a name and twelve numbers (3 × 4 matrix, row by row) a line, a folder with one matrix for each photograph, or COLMAP's folder with cameras.txt and images.txt
+    #[arg(long, value_name = "FILE|DIR")]
+    pub poses: Option<PathBuf>,
+    /// Size of the photographs that the matrices of --poses are for [px] [default: that of the masks]
+    #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size, requires = "poses")]
+    pub poses_size: Option<[usize; 2]>,
+    /// Longest side of the stone's smallest box, which gives the scale [m]
+    #[arg(long, value_name = "M", value_parser = geom::number::positive)]
+    pub length: Option<f64>,
+    /// Cells along the longest side of the hull
+    #[arg(long, value_name = "N", default_value = "200", value_parser = cells)]
+    pub cells: usize,
+    #[command(flatten)]
+    pub output: cli::Output,
+}
+
+fn size(text: &str) -> Result<[usize; 2], String> {
+    let wrong = || "give WIDTHxHEIGHT in pixels, such as 4000x3000".to_owned();
+    let (w, h) = text.split_once('x').ok_or_else(wrong)?;
+    let number = |t: &str| t.parse().ok().filter(|n| (1..=100_000).contains(n)).ok_or_else(wrong);
+    Ok([number(w)?, number(h)?])
+}
+
+fn cells(text: &str) -> Result<usize, String> {
+    text.parse()
+        .ok()
+        .filter(|n| (8..=600).contains(n))
+        .ok_or_else(|| "give a number from 8 to 600".to_owned())
+}

@@ -1,0 +1,43 @@
+//! Carves the visual hull of a stone from the masks of its photographs.
+
+mod args;
+mod poses;
+mod views;
+mod words;
+
+use anyhow::Context;
+use args::Args;
+use cli::Report;
+use std::process::ExitCode;
+use stones::{ShapeMeasures, Stone};
+use stream::ply::Encoding;
+
+fn main() -> ExitCode {
+    cli::run("stone-hull", stone_hull)
+}
+
+fn stone_hull(args: Args) -> anyhow::Result<Report> {
+    let names = views::names(&args.photographs)?;
+    let found = views::read(&args, &names)?;
+    let (mut mesh, samples) = photos::hull(&found.views, args.cells).context("the silhouettes")?;
+    let agreement = words::check(&found, &mesh);
+    let closed = Stone::new(&mesh, true).context("the hull")?;
+    let length = ShapeMeasures::of(&closed).sides[0];
+    let factor = args.length.map_or(1.0, |wanted| wanted / length);
+    mesh.scale(factor);
+    let mut out = args.output.open()?;
+    let says = ["visual hull: an upper bound of the stone".to_owned()];
+    mesh::write_ply(&mut out, &mesh, &says, Encoding::BinaryLittleEndian)?;
+    out.commit()?;
+    words::scale(&args, length);
+    Ok(Report::new(words::summary(&mesh, &agreement, &found))
+        .with("photographs", &found.names)
+        .with("upper_bound", true)
+        .with("volume", mesh.volume())
+        .with("length", length * factor)
+        .with("faces", mesh.faces.len())
+        .with("cells", args.cells)
+        .with("step", samples.step * factor)
+        .with("turned_over", found.aligned)
+        .with("agreement", agreement.iter().map(|a| a.union).collect::<Vec<_>>()))
+}

@@ -1,0 +1,212 @@
+//! Photographs, masks and cameras become views.
+
+use crate::args::Args;
+use crate::poses;
+use anyhow::Context;
+use photos::{Alignment, Camera, Field, Mask, Turntable, View, align, photograph};
+use rayon::prelude::*;
+use std::path::{Path, PathBuf};
+
+/// Samples of a distance field along the longest side of the stone, at most.
+const SAMPLES: usize = 900;
+/// Masks in memory at a time, at most.
+const AT_ONCE: usize = 8;
+/// Endings of photographs.
+const ENDINGS: [&str; 3] = ["jpg", "jpeg", "png"];
+/// Hulls of two places that overlap by less than this are doubtful.
+const OVERLAP: f64 = 0.85;
+
+/// All views in one frame.
+pub struct Found {
+    pub names: Vec<String>,
+    pub views: Vec<View>,
+    /// How the second place of the stone was found: overlap, and residual [m].
+    pub aligned: Option<[f64; 2]>,
+}
+
+/// Names of the photographs of a folder, sorted.
+pub fn names(folder: &Path) -> anyhow::Result<Vec<String>> {
+    let failed = || format!("{}: cannot read the folder", folder.display());
+    let mut names = Vec::new();
+    for entry in std::fs::read_dir(folder).with_context(failed)? {
+        let path: PathBuf = entry.with_context(failed)?.path();
+        if path.extension().is_some_and(|e| ENDINGS.iter().any(|known| e.eq_ignore_ascii_case(known))) {
+            names.extend(path.file_name().map(|n| n.to_string_lossy().into_owned()));
+        }
+    }
+    names.sort();
+    if names.is_empty() {
+        anyhow::bail!("{}: has no photograph (.jpg, .jpeg, .png)", folder.display());
+    }
+    Ok(names)
+}
+
+/// A mask as a distance field, and the size of its photograph.
+type Silhouette = (Field, [usize; 2]);
+
+/// Reads masks and cameras; a stone that was turned over is laid back.
+pub fn read(args: &Args, names: &[String]) -> anyhow::Result<Found> {
+    match (&args.turntable, &args.poses) {
+        (Some(file), _) => on_turntable(args, names, file),
+        (None, Some(path)) => posed(args, names, path),
+        (None, None) => Err(cli::usage("give --turntable or --poses")),
+    }
+}
+
+fn on_turntable(args: &Args, names: &[String], file: &Path) -> anyhow::Result<Found> {
+    let text =
+        std::fs::read_to_string(file).with_context(|| format!("{}: cannot read it", file.display()))?;
+    let table = Turntable::parse(&text).with_context(|| file.display().to_string())?;
+    let places = table.places(names).with_context(|| file.display().to_string())?;
+    let used: Vec<String> = places.iter().map(|p| names[p.photograph].clone()).collect();
+    if used.len() < names.len() {
+        let other = names.iter().find(|n| !used.contains(n)).map_or("", String::as_str);
+        cli::warn(&format!("{} photographs are in no [[ring]], such as {other}", names.len() - used.len()));
+    }
+    let (mut first, mut second, mut order) = ((Vec::new(), Vec::new()), Vec::new(), Vec::new());
+    for ((place, name), silhouette) in places.iter().zip(&used).zip(silhouettes(args, &used)?) {
+        let Some((field, [w, h])) = silhouette else { continue };
+        let view = View { camera: table.camera(place, w, h), field: field.into() };
+        if table.ring[place.ring].turned_over {
+            second.push(view);
+            order.push(name.clone());
+        } else {
+            first.0.push(view);
+            first.1.push(name.clone());
+        }
+    }
+    let (mut views, mut kept) = first;
+    if views.is_empty() {
+        anyhow::bail!(
+            "{}: every [[ring]] is turned_over: leave it out where the stone lay as at first",
+            file.display()
+        );
+    }
+    if second.is_empty() {
+        cli::warn(
+            "the stone lay on one side only, which no photograph sees: turn it over and photograph it again for a smaller hull (turned_over = true)",
+        );
+        return Ok(Found { names: kept, views, aligned: None });
+    }
+    let found = align(&views, &second).context("the stone turned over")?;
+    doubt(&found);
+    views.extend(found.place.views(&second));
+    kept.extend(order);
+    Ok(Found { names: kept, views, aligned: Some([found.overlap, found.residual]) })
+}
+
+/// Warns of two places that do not fit.
+fn doubt(found: &Alignment) {
+    let percent = |x: f64| geom::Shown((1000.0 * x).round() / 10.0);
+    if found.overlap < OVERLAP {
+        cli::warn(&format!(
+            "the hulls of both places of the stone overlap by {} % only: check turned_over, and that it is the same stone",
+            percent(found.overlap)
+        ));
+    }
+    if found.other < 1.5 * found.residual {
+        cli::warn(
+            "the stone fits in two orientations almost equally well: check the result, or photograph it on a third side",
+        );
+    }
+}
+
+fn posed(args: &Args, names: &[String], path: &Path) -> anyhow::Result<Found> {
+    let all = poses::read(path).with_context(|| path.display().to_string())?;
+    let stem = |n: &str| Path::new(n).file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let pose = |name: &String| all.iter().find(|p| p.name == *name || stem(&p.name) == stem(name));
+    let used: Vec<String> = names.iter().filter(|n| pose(n).is_some()).cloned().collect();
+    if used.is_empty() {
+        anyhow::bail!(
+            "{}: has poses of {} …, but the photographs are called {} …",
+            path.display(),
+            all[0].name,
+            names[0]
+        );
+    }
+    if used.len() < names.len() {
+        let other = names.iter().find(|n| pose(n).is_none()).map_or("", String::as_str);
+        cli::warn(&format!("{} photographs have no pose, such as {other}", names.len() - used.len()));
+    }
+    let (mut views, mut kept) = (Vec::new(), Vec::new());
+    for (name, silhouette) in used.iter().zip(silhouettes(args, &used)?) {
+        let (Some((field, size)), Some(pose)) = (silhouette, pose(name)) else { continue };
+        let camera = resized(&pose.camera, pose.size.or(args.poses_size).unwrap_or(size), size)
+            .with_context(|| name.clone())?;
+        views.push(View { camera, field: field.into() });
+        kept.push(name.clone());
+    }
+    if args.poses_size.is_some() && all.iter().all(|p| p.size.is_some()) {
+        return Err(cli::usage("--poses-size: cameras.txt says the sizes: leave it out"));
+    }
+    Ok(Found { names: kept, views, aligned: None })
+}
+
+/// The camera for a mask of another size than it was made for.
+fn resized(camera: &Camera, from: [usize; 2], to: [usize; 2]) -> anyhow::Result<Camera> {
+    let factor = to[0] as f64 / from[0] as f64;
+    if (to[1] as f64 - factor * from[1] as f64).abs() > 1.0 {
+        anyhow::bail!(
+            "its pose is for {} × {} pixels, its mask has {} × {}: give masks of the same shape (not cropped or turned)",
+            from[0],
+            from[1],
+            to[0],
+            to[1]
+        );
+    }
+    Ok(camera.resized(factor))
+}
+
+/// The masks of some photographs; none where a mask is missing or empty, which a warning says.
+fn silhouettes(args: &Args, names: &[String]) -> anyhow::Result<Vec<Option<Silhouette>>> {
+    let progress = cli::Progress::new("masks", names.len() as u64);
+    let mut all = Vec::with_capacity(names.len());
+    for some in names.chunks(AT_ONCE) {
+        let read: Vec<anyhow::Result<Option<Silhouette>>> = some
+            .par_iter()
+            .map(|name| {
+                let silhouette = silhouette(args, name);
+                progress.add(1);
+                silhouette
+            })
+            .collect();
+        for silhouette in read {
+            all.push(silhouette?);
+        }
+    }
+    if all.iter().all(Option::is_none) {
+        anyhow::bail!(
+            "{}: has no mask of any photograph, such as {}: make them with stone-mask",
+            args.masks.display(),
+            mask_path(args, &names[0]).display()
+        );
+    }
+    Ok(all)
+}
+
+fn mask_path(args: &Args, name: &str) -> PathBuf {
+    args.masks.join(Path::new(name).file_stem().unwrap_or_default()).with_extension("png")
+}
+
+fn silhouette(args: &Args, name: &str) -> anyhow::Result<Option<Silhouette>> {
+    let path = mask_path(args, name);
+    if !path.is_file() {
+        cli::warn(&format!("{name}: has no mask {}: it is left out", path.display()));
+        return Ok(None);
+    }
+    let failed = || path.display().to_string();
+    let bytes = std::fs::read(&path).with_context(failed)?;
+    let (width, height, values) = photograph::read_values(&bytes).with_context(failed)?;
+    let mask = Mask::given(width, height, values);
+    let on_frame = mask.on_frame();
+    if on_frame > 0 {
+        cli::warn(&format!(
+            "{name}: the frame cuts the stone at {on_frame} pixels: what is beyond stays uncarved"
+        ));
+    }
+    let field = Field::new(&mask, SAMPLES);
+    if field.is_none() {
+        cli::warn(&format!("{name}: its mask is empty: it is left out"));
+    }
+    Ok(field.map(|field| (field, [width, height])))
+}

@@ -1,0 +1,63 @@
+//! What is said about a hull.
+
+use crate::args::Args;
+use crate::views::Found;
+use geom::Shown;
+use geom::mesh::TriMesh;
+use photos::hull::Agreement;
+use rayon::prelude::*;
+
+/// A mask that the hull covers less is doubtful.
+const MISSED: f64 = 0.03;
+/// Photographs that are named.
+const NAMED: usize = 8;
+
+/// Compares the hull with every mask; names the photographs that do not fit.
+pub fn check(found: &Found, mesh: &TriMesh) -> Vec<Agreement> {
+    let all: Vec<Agreement> = found.views.par_iter().map(|v| v.agreement(mesh)).collect();
+    let mut worst: Vec<usize> = (0..all.len()).filter(|k| all[*k].missed > MISSED).collect();
+    worst.sort_by(|a, b| all[*b].missed.total_cmp(&all[*a].missed));
+    for k in worst.iter().take(NAMED) {
+        cli::warn(&format!(
+            "{}: the other silhouettes exclude {} % of its mask: check its place in the order, its pose, and its mask",
+            found.names[*k],
+            percent(all[*k].missed)
+        ));
+    }
+    if worst.len() > NAMED {
+        cli::warn(&format!(
+            "{} more photographs do not fit: check the turntable or the poses",
+            worst.len() - NAMED
+        ));
+    }
+    all
+}
+
+fn percent(share: f64) -> Shown {
+    Shown((1000.0 * share).round() / 10.0)
+}
+
+/// Warns when nothing gives the scale.
+pub fn scale(args: &Args, length: f64) {
+    if args.poses.is_some() && args.length.is_none() {
+        cli::warn(&format!(
+            "lengths are in the unit of the poses (the stone is {} long): give --length with the length of the stone if they are not metres",
+            Shown(length)
+        ));
+    }
+}
+
+/// One line on the hull.
+pub fn summary(mesh: &TriMesh, agreement: &[Agreement], found: &Found) -> String {
+    let mean = agreement.iter().map(|a| a.union).sum::<f64>() / agreement.len() as f64;
+    let turned = found.aligned.map_or(String::new(), |[overlap, _]| {
+        format!("; both places of the stone overlap by {} %", percent(overlap))
+    });
+    format!(
+        "hull of {} photographs: {} m³ (upper bound), {} faces; it covers the masks by {} % on average (intersection over union){turned}",
+        found.views.len(),
+        Shown(mesh.volume()),
+        mesh.faces.len(),
+        percent(mean)
+    )
+}
