@@ -12,7 +12,7 @@ use std::{
 };
 
 /// Options that name a file to write, in any tool: id and flag. None of them changes the result.
-pub(crate) const OUTPUTS: [(&str, &str); 9] = [
+pub(crate) const OUTPUTS: [(&str, &str); 12] = [
     ("output", "-o"),
     ("report", "--report"),
     ("plot", "--plot"),
@@ -22,6 +22,9 @@ pub(crate) const OUTPUTS: [(&str, &str); 9] = [
     ("places", "--places"),
     ("surfaces", "--surfaces"),
     ("rigid", "--rigid"),
+    ("jobs_file", "--jobs-file"),
+    ("samples", "--samples"),
+    ("page", "--page"),
 ];
 
 /// A file that the running tool will write.

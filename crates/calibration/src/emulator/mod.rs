@@ -1,0 +1,158 @@
+//! The emulator: from parameters to curves, learnt from trials.
+//!
+//! Curves are made white by the covariance of the data, C = L Lᵀ, so that a deviation of the data is 1, and written in their principal
+//! components; each component is a Gaussian process of the parameters (Higdon, Gattiker, Williams & Rightley 2008,
+//! doi:10.1198/016214507000000888).
+//!
+//! ```text
+//! w = L⁻¹ y − w̄ = Σ_k a_k(z) φ_k        log p(data | z) = −½ Σ_k [(t_k − a_k)²/(s² + v_k) + ln(s² + v_k)]
+//! ```
+//!
+//! t: components of the data; v: variance of the emulator and of a specimen; s² ≥ 1: how much the data deviate more than they say.
+
+mod gp;
+mod rprop;
+
+pub(crate) use gp::{Gp, Logs, Prediction};
+
+use nalgebra::{Cholesky, DMatrix, DVector};
+use rayon::prelude::*;
+
+/// Most components of a curve.
+const MOST: usize = 10;
+/// Deviation of a component over all trials, in deviations of the data, below which it tells nothing.
+const LEAST: f64 = 0.05;
+/// Most trials that an emulator learns from.
+pub(crate) const MOST_TRIALS: usize = 400;
+
+/// What an emulator learns from.
+pub(crate) struct Lessons<'a> {
+    /// Coordinates of the trials, a row each.
+    pub inputs: DMatrix<f64>,
+    /// Curves, a row each.
+    pub outputs: DMatrix<f64>,
+    /// Data.
+    pub data: DVector<f64>,
+    /// Covariance of the data.
+    pub covariance: DMatrix<f64>,
+    /// Runs that each curve is the mean of.
+    pub seeds: f64,
+    /// Lengths of an earlier fit.
+    pub before: &'a [Logs],
+}
+
+/// The emulator of one part.
+#[derive(Clone)]
+pub(crate) struct Emulator {
+    /// A process for each component.
+    pub components: Vec<Gp>,
+    /// Components of the data.
+    pub target: Vec<f64>,
+    /// Variance of a specimen in each component.
+    pub noise: Vec<f64>,
+    /// Square of the data beside all components.
+    pub beside: f64,
+    /// Points of the data.
+    pub points: usize,
+    factor: DMatrix<f64>,
+    mean: DVector<f64>,
+    basis: DMatrix<f64>,
+}
+
+impl Emulator {
+    /// Learns; `None` if the numbers do not allow it.
+    pub fn learn(lessons: &Lessons) -> Option<Emulator> {
+        let factor = Cholesky::new(lessons.covariance.clone())?.unpack();
+        let white = factor.solve_lower_triangular(&lessons.outputs.transpose())?;
+        let mean = white.column_mean();
+        let mut off = white;
+        off.column_iter_mut().for_each(|mut c| c -= &mean);
+        let n = off.ncols() as f64;
+        let basis = principal(&off, n)?;
+        let target_white = factor.solve_lower_triangular(&lessons.data)? - &mean;
+        let target = basis.tr_mul(&target_white);
+        let beside = (target_white.norm_squared() - target.norm_squared()).max(0.0);
+        let scores = basis.tr_mul(&off);
+        let same = lessons.before.len() == scores.nrows();
+        let fit = |k: usize| {
+            let start = if same { lessons.before.get(k) } else { None };
+            Gp::fit(&lessons.inputs, &scores.row(k).transpose(), start)
+        };
+        let components: Vec<Gp> = (0..scores.nrows()).into_par_iter().map(fit).collect::<Option<_>>()?;
+        let noise = components.iter().map(|gp| gp.noise * lessons.seeds).collect();
+        let points = lessons.data.len();
+        Some(Emulator {
+            components,
+            target: target.iter().copied().collect(),
+            noise,
+            beside,
+            points,
+            factor,
+            mean,
+            basis,
+        })
+    }
+
+    /// Logarithm of the likelihood, up to a constant.
+    pub fn log_likelihood(&self, z: &[f64], inflation: f64) -> f64 {
+        let term = |(k, gp): (usize, &Gp)| {
+            let p = gp.predict(z);
+            let variance = inflation + p.variance + self.noise[k];
+            let off = self.target[k] - p.mean;
+            -0.5 * (off * off / variance + libm::log(variance))
+        };
+        self.components.iter().enumerate().map(term).sum::<f64>()
+    }
+
+    /// Square of the misfit at a point, over the deviations of data and emulator.
+    pub fn misfit(&self, z: &[f64]) -> f64 {
+        let term = |(k, gp): (usize, &Gp)| {
+            let p = gp.predict(z);
+            (self.target[k] - p.mean).powi(2) / (1.0 + p.variance + self.noise[k])
+        };
+        self.beside + self.components.iter().enumerate().map(term).sum::<f64>()
+    }
+
+    /// The mean curve at a point.
+    #[expect(dead_code, reason = "drawn by the page")]
+    pub fn curve(&self, z: &[f64]) -> Vec<f64> {
+        let scores =
+            DVector::from_iterator(self.components.len(), self.components.iter().map(|gp| gp.mean(z)));
+        let white = &self.mean + &self.basis * scores;
+        (&self.factor * white).iter().copied().collect()
+    }
+
+    /// Lengths, to begin the next fit with.
+    pub fn logs(&self) -> Vec<Logs> {
+        self.components.iter().map(|gp| gp.logs.clone()).collect()
+    }
+}
+
+/// Principal directions of the columns, those that tell something.
+fn principal(off: &DMatrix<f64>, n: f64) -> Option<DMatrix<f64>> {
+    let square = (off * off.transpose()) / n;
+    let eigen = square.symmetric_eigen();
+    let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
+    order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
+    let largest = eigen.eigenvalues[*order.first()?];
+    let tells = |k: &&usize| eigen.eigenvalues[**k] > (LEAST * LEAST).max(1e-12 * largest);
+    let mut kept: Vec<usize> = order.iter().filter(tells).take(MOST).copied().collect();
+    if kept.is_empty() {
+        kept.push(order[0]);
+    }
+    let mut basis = eigen.eigenvectors.select_columns(&kept);
+    // The sign of a direction is free: the largest entry is positive, so that fits follow on from each other.
+    for mut column in basis.column_iter_mut() {
+        let largest = column.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(1.0);
+        if largest < 0.0 {
+            column.neg_mut();
+        }
+    }
+    Some(basis)
+}
+
+/// Square of the white distance of a curve from the data.
+pub(crate) fn distance(covariance: &DMatrix<f64>, off: &DVector<f64>) -> f64 {
+    let white = Cholesky::new(covariance.clone()).and_then(|c| c.l_dirty().solve_lower_triangular(off));
+    white.map_or(f64::INFINITY, |w| w.norm_squared())
+}

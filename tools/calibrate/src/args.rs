@@ -1,0 +1,63 @@
+//! The command line.
+
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+const EXAMPLES: &str = "A recipe names parameters with bounds and tests with commands; the output is a table (CSV) of the parameters with intervals.\n\n\
+    Examples:\n\
+    \x20 calibrate soil.toml --data shear-100.csv --data shear-200.csv --jobs 2 --page soil.html -o soil.csv\n\
+    \x20 calibrate soil.toml --jobs-file jobs.txt && parallel -j 64 < jobs.txt";
+
+/// Find the parameters of a model from measured curves, with intervals
+#[derive(clap::Parser)]
+#[command(after_help = EXAMPLES)]
+pub struct Args {
+    /// Parameters, tests, data and settings (TOML)
+    #[arg(value_name = "RECIPE.toml")]
+    pub recipe: Option<PathBuf>,
+    /// Data of a test (CSV), instead of those of the recipe; without TEST=: of the next test without data; several of one test: specimens
+    #[arg(long, value_name = "[TEST=]FILE")]
+    pub data: Vec<String>,
+    /// Folder of the trials; the same command continues there [default: RECIPE.trials]
+    #[arg(long, value_name = "DIR")]
+    dir: Option<PathBuf>,
+    /// Runs at the same time [default: all cores]
+    #[arg(long, value_name = "N")]
+    jobs: Option<NonZeroUsize>,
+    /// Write the open runs of the next batch, a command each line, and end
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["jobs", "words", "samples"])]
+    pub jobs_file: Option<PathBuf>,
+    /// Do one run that --jobs-file has listed
+    #[arg(long, value_name = "JOB", conflicts_with_all = ["recipe", "data", "dir", "jobs", "jobs_file", "words", "samples", "seed"])]
+    pub run: Option<PathBuf>,
+    /// Write the findings as text (Markdown)
+    #[arg(long, value_name = "FILE")]
+    pub words: Option<PathBuf>,
+    /// Write samples of the posterior (CSV)
+    #[arg(long, value_name = "FILE")]
+    pub samples: Option<PathBuf>,
+    #[command(flatten)]
+    pub output: cli::Output,
+    /// Seed of the proposals, and the first of the runs [default: that of the recipe]
+    #[arg(long = "seed", value_name = "N")]
+    pub seed: Option<u64>,
+}
+
+impl Args {
+    /// The recipe's file.
+    pub fn recipe(&self) -> anyhow::Result<&Path> {
+        self.recipe.as_deref().ok_or_else(|| cli::usage("name a recipe: calibrate RECIPE.toml"))
+    }
+
+    /// Folder of the trials.
+    pub fn dir(&self, recipe: &Path) -> PathBuf {
+        let beside = || PathBuf::from(recipe.file_stem().unwrap_or_default()).with_extension("trials");
+        self.dir.clone().unwrap_or_else(beside)
+    }
+
+    /// Runs at the same time.
+    pub fn jobs(&self) -> usize {
+        let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+        self.jobs.map_or(cores, NonZeroUsize::get)
+    }
+}
