@@ -33,6 +33,8 @@ pub struct Target {
     pub correlation: f64,
     /// What the model cannot reproduce, in the unit of y.
     pub discrepancy: f64,
+    /// Specimens that the points are the mean of.
+    pub specimens: usize,
     /// How the deviation is known, for people.
     pub origin: String,
 }
@@ -160,6 +162,7 @@ mod tests {
             x_unit: String::new(),
             correlation: 0.0,
             discrepancy: 0.0,
+            specimens: 1,
             origin: String::new(),
         };
         assert_eq!(t.covariance(&[0, 1]), DMatrix::from_row_slice(2, 2, &[4.0, 0.0, 0.0, 4.0]));

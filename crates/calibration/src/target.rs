@@ -54,7 +54,14 @@ pub(crate) fn value(asked: &Asked, values: &[f64]) -> Result<Target, String> {
     }
     let points = vec![Point { x: 0.0, y, deviation }];
     let discrepancy = if asked.discrepancy.1 { asked.discrepancy.0 * y.abs() } else { asked.discrepancy.0 };
-    Ok(Target { points, x_unit: String::new(), correlation: 0.0, discrepancy, origin })
+    Ok(Target {
+        points,
+        x_unit: String::new(),
+        correlation: 0.0,
+        discrepancy,
+        specimens: values.len(),
+        origin,
+    })
 }
 
 /// The target of one curve or of several specimens; of numbers, where there is no x.
@@ -235,6 +242,7 @@ fn single(asked: &Asked, one: &Measured, file: &Path) -> Result<Target> {
         x_unit: asked.units.x.clone().unwrap_or_default(),
         correlation: 0.0,
         discrepancy: 0.0,
+        specimens: 1,
         origin,
     })
 }
@@ -267,6 +275,7 @@ fn specimens(asked: &Asked, all: &[Measured]) -> Result<Target> {
         x_unit: asked.units.x.clone().unwrap_or_default(),
         correlation: SPECIMENS_ALIKE,
         discrepancy: 0.0,
+        specimens: all.len(),
         origin,
     })
 }

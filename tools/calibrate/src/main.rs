@@ -40,6 +40,9 @@ fn calibrate(args: Args) -> anyhow::Result<Report> {
         Standing::Done { tried, steps } => {
             let judged = judge(&recipe, &tried, &steps);
             watch.end();
+            if list {
+                outputs::no_jobs(&args)?;
+            }
             outputs::publish(&args, &recipe, &judged, &steps)
         }
     }

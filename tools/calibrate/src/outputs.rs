@@ -46,6 +46,11 @@ pub fn jobs(args: &Args, jobs: &[PathBuf]) -> anyhow::Result<Report> {
     Ok(Report::new(summary).with("open", jobs.len()))
 }
 
+/// Writes that no job is open.
+pub fn no_jobs(args: &Args) -> anyhow::Result<()> {
+    write(&Output { file: args.jobs_file.clone() }, b"")
+}
+
 /// Reports one run.
 pub fn ended(job: &Path, ended: Option<Ended>) -> anyhow::Result<Report> {
     let exit = ended.as_ref().map_or(0, |e| e.exit);

@@ -18,7 +18,7 @@ use super::rprop;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// Points that the lengths are fitted to, at most.
-const MOST_FITTED: usize = 160;
+const MOST_FITTED: usize = 120;
 const SQRT5: f64 = 2.236_067_977_499_79;
 /// Ranges of ln ℓ and ln g.
 const LENGTHS: [f64; 2] = [-2.5, 4.0];
@@ -162,7 +162,7 @@ impl Gp {
         let fresh: Logs = [vec![0.0; d], vec![-7.0]].concat();
         let noisy: Logs = [vec![0.7; d], vec![-1.5]].concat();
         let starts = match start {
-            Some(start) if start.len() == d + 1 => vec![(start.clone(), 20), (noisy, 20)],
+            Some(start) if start.len() == d + 1 => vec![(start.clone(), 20)],
             _ => vec![(fresh, 45), (noisy, 45)],
         };
         let of = |logs: &[f64]| loss(&some, &some_y, &h, logs);
@@ -205,6 +205,29 @@ impl Gp {
     /// Mean and variance at a point.
     pub fn predict(&self, z: &[f64]) -> Prediction {
         self.project(z).0
+    }
+
+    /// For each point: square of its distance from what the others say, over the variance of that (eqs. 5.10–5.12, with the trend).
+    pub fn left_out(&self) -> Option<Vec<f64>> {
+        let along = self.chol.l_dirty().tr_solve_lower_triangular(&self.white)?;
+        let q = self.chol.inverse() - &along * self.trend.solve(&along.transpose());
+        let square = |i: usize| self.alpha[i] * self.alpha[i] / (q[(i, i)].max(1e-300) * self.scale);
+        Some((0..self.alpha.len()).map(square).collect())
+    }
+
+    /// Standard deviation of the mean over the points.
+    pub fn deviation(&self) -> f64 {
+        let n = self.inputs.nrows() as f64;
+        let means: Vec<f64> =
+            (0..self.inputs.nrows()).map(|i| self.mean(&row(&self.inputs, i).collect::<Vec<_>>())).collect();
+        let mean = means.iter().sum::<f64>() / n;
+        (means.iter().map(|m| (m - mean) * (m - mean)).sum::<f64>() / n).sqrt()
+    }
+
+    /// Multiplies variance and noise.
+    pub fn rescale(&mut self, factor: f64) {
+        self.scale *= factor;
+        self.noise *= factor;
     }
 
     /// The mean at a point.

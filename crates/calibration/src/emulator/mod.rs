@@ -22,6 +22,12 @@ use rayon::prelude::*;
 const MOST: usize = 10;
 /// Deviation of a component over all trials, in deviations of the data, below which it tells nothing.
 const LEAST: f64 = 0.05;
+/// Deviation of a process over the trials, in deviations of data and specimens, below which it only scatters.
+const FLAT: f64 = 0.1;
+/// Trials near the data, at least.
+const NEAR: usize = 25;
+/// Least factor on the variances.
+const LEAST_FACTOR: f64 = 1e-3;
 /// Most trials that an emulator learns from.
 pub(crate) const MOST_TRIALS: usize = 400;
 
@@ -35,8 +41,9 @@ pub(crate) struct Lessons<'a> {
     pub data: DVector<f64>,
     /// Covariance of the data.
     pub covariance: DMatrix<f64>,
-    /// Runs that each curve is the mean of.
+    /// Runs that each curve is the mean of, and specimens that the data are the mean of.
     pub seeds: f64,
+    pub specimens: f64,
     /// Lengths of an earlier fit.
     pub before: &'a [Logs],
 }
@@ -50,6 +57,8 @@ pub(crate) struct Emulator {
     pub target: Vec<f64>,
     /// Variance of a specimen in each component.
     pub noise: Vec<f64>,
+    /// Whether a component changes with the parameters.
+    pub tells: Vec<bool>,
     /// Square of the data beside all components.
     pub beside: f64,
     /// Points of the data.
@@ -78,13 +87,24 @@ impl Emulator {
             let start = if same { lessons.before.get(k) } else { None };
             Gp::fit(&lessons.inputs, &scores.row(k).transpose(), start)
         };
-        let components: Vec<Gp> = (0..scores.nrows()).into_par_iter().map(fit).collect::<Option<_>>()?;
-        let noise = components.iter().map(|gp| gp.noise * lessons.seeds).collect();
+        let mut components: Vec<Gp> = (0..scores.nrows()).into_par_iter().map(fit).collect::<Option<_>>()?;
+        let near = nearest(&scores, &target, lessons.inputs.ncols());
+        for gp in &mut components {
+            let squares = gp.left_out()?;
+            gp.rescale((near.iter().map(|&i| squares[i]).sum::<f64>() / near.len() as f64).max(LEAST_FACTOR));
+        }
+        let noise = components.iter().map(|gp| gp.noise * lessons.seeds / lessons.specimens).collect();
+        let tells = components
+            .iter()
+            .zip(&noise)
+            .map(|(gp, n): (&Gp, &f64)| gp.deviation() > FLAT * (1.0 + n).sqrt())
+            .collect();
         let points = lessons.data.len();
         Some(Emulator {
             components,
             target: target.iter().copied().collect(),
             noise,
+            tells,
             beside,
             points,
             factor,
@@ -101,7 +121,7 @@ impl Emulator {
             let off = self.target[k] - p.mean;
             -0.5 * (off * off / variance + libm::log(variance))
         };
-        self.components.iter().enumerate().map(term).sum::<f64>()
+        self.components.iter().enumerate().filter(|c| self.tells[c.0]).map(term).sum::<f64>()
     }
 
     /// Square of the misfit at a point, over the deviations of data and emulator.
@@ -126,6 +146,16 @@ impl Emulator {
     pub fn logs(&self) -> Vec<Logs> {
         self.components.iter().map(|gp| gp.logs.clone()).collect()
     }
+}
+
+/// The trials whose curves are nearest to the data. Specimens scatter more where curves are large: the variances of emulator and specimens are
+/// those that predict these trials, each left out, rightly.
+fn nearest(scores: &DMatrix<f64>, target: &DVector<f64>, d: usize) -> Vec<usize> {
+    let far = |i: &usize| (scores.column(*i) - target).norm_squared();
+    let mut order: Vec<usize> = (0..scores.ncols()).collect();
+    order.sort_by(|a, b| far(a).total_cmp(&far(b)));
+    order.truncate(NEAR.max(5 * d));
+    order
 }
 
 /// Principal directions of the columns, those that tell something.

@@ -19,7 +19,7 @@ pub(crate) struct Fitted<'a> {
     pub step: &'a Step,
     /// An emulator for each part of the step.
     pub emulators: Vec<Emulator>,
-    /// Parts that have too few trials to learn from.
+    /// Where trials come to their end.
     pub feasible: Feasible,
     /// Coordinates of the trials that it learnt from, least misfit first.
     pub known: Vec<Vec<f64>>,
@@ -77,6 +77,7 @@ impl<'a> Fitted<'a> {
                 data: DVector::from_iterator(of.len(), of.iter().map(|&k| target.points[k].y)),
                 covariance: target.covariance(&of),
                 seeds,
+                specimens: target.specimens as f64,
                 before: before.get(k).map_or(&[], Vec::as_slice),
             })
         };

@@ -14,6 +14,11 @@ use rayon::prelude::*;
 
 /// Stream of the chains.
 const CHAINS: u64 = 0x6d_63;
+/// Stream of the resampling.
+const RESAMPLED: u64 = 0x73_6d_63;
+/// Powers on the way, and moves at each.
+const MOST_POWERS: usize = 60;
+const MOVES: usize = 6;
 /// Points of the cube that are looked at for starts.
 const STARTS: u64 = 600;
 
@@ -54,24 +59,18 @@ pub(crate) fn draw(density: &Density, d: usize, known: &[Vec<f64>], seed: u64, l
     let sequence = Halton::new(d, seed ^ CHAINS);
     let even = (0..STARTS).map(|k| sequence.point(k)).collect::<Vec<_>>();
     let all: Vec<&Vec<f64>> = even.iter().chain(known).collect();
-    let mut starts: Vec<Sample> =
-        all.par_iter().map(|z| Sample { log: density(z), z: (*z).clone() }).collect();
-    starts.sort_by(|a, b| b.log.total_cmp(&a.log));
+    let starts: Vec<Sample> = all.par_iter().map(|z| Sample { log: density(z), z: (*z).clone() }).collect();
+    let mut random = generator(seed, RESAMPLED, 0);
+    let mut power = 0.0;
+    let starts = resampled(&starts, &mut power, count, &mut random);
     let chain =
         |(k, at): (usize, Sample)| Chain { at, random: generator(seed, CHAINS, k as u64), kept: Vec::new() };
-    let mut chains: Vec<Chain> = starts.into_iter().take(count).enumerate().map(chain).collect();
-    let half = chains.len() / 2;
+    let mut chains: Vec<Chain> = starts.into_iter().enumerate().map(chain).collect();
+    anneal(&mut chains, density, power, &mut random);
     for generation in 0..length.burn + length.keep {
-        let keep = generation >= length.burn && generation % length.thin == 0;
-        let (left, right) = chains.split_at_mut(half);
-        advance(left, right, density, generation);
-        advance(right, left, density, generation);
-        if keep {
+        step(&mut chains, density, generation, 1.0);
+        if generation >= length.burn && generation % length.thin == 0 {
             chains.iter_mut().for_each(|c| c.kept.push(c.at.clone()));
-        }
-        // Chains that were left behind in an unlikely place start again from a likely one.
-        if generation < length.burn && generation % 50 == 49 {
-            restart(&mut chains);
         }
     }
     let ratio = ratio(&chains, d);
@@ -84,7 +83,62 @@ pub(crate) fn draw(density: &Density, d: usize, known: &[Vec<f64>], seed: u64, l
     Samples { list, best, ratio }
 }
 
-fn advance(moving: &mut [Chain], others: &[Chain], density: &Density, generation: usize) {
+/// From an even density to the one that is wanted, by powers of it, so that chains do not begin in unlikely places: sequential Monte Carlo
+/// (Del Moral, Doucet & Jasra 2006, doi:10.1111/j.1467-9868.2006.00553.x).
+fn anneal(chains: &mut [Chain], density: &Density, mut power: f64, random: &mut Pcg64Mcg) {
+    for _ in 0..MOST_POWERS {
+        for generation in 0..MOVES {
+            step(chains, density, generation, power);
+        }
+        if power >= 1.0 {
+            break;
+        }
+        let at: Vec<Sample> = chains.iter().map(|c| c.at.clone()).collect();
+        let new = resampled(&at, &mut power, chains.len(), random);
+        chains.iter_mut().zip(new).for_each(|(c, at)| c.at = at);
+    }
+}
+
+/// Raises the power until half as many samples as are wanted count, and draws samples by their weights.
+fn resampled(from: &[Sample], power: &mut f64, count: usize, random: &mut Pcg64Mcg) -> Vec<Sample> {
+    let top = from.iter().map(|s| s.log).fold(f64::NEG_INFINITY, f64::max);
+    let weights = |more: f64| -> Vec<f64> { from.iter().map(|s| libm::exp(more * (s.log - top))).collect() };
+    let effective = |w: &[f64]| w.iter().sum::<f64>().powi(2) / w.iter().map(|w| w * w).sum::<f64>();
+    let enough = 0.5 * count as f64;
+    let (mut low, mut high) = (0.0, 1.0 - *power);
+    if effective(&weights(high)) < enough {
+        for _ in 0..50 {
+            let middle = 0.5 * (low + high);
+            if effective(&weights(middle)) < enough { high = middle } else { low = middle }
+        }
+        high = low;
+    }
+    *power = (*power + high).min(1.0);
+    let weights = weights(high);
+    let each = weights.iter().sum::<f64>() / count as f64;
+    let (mut mark, mut sum, mut drawn) = (unit(random) * each, 0.0, Vec::new());
+    for (sample, weight) in from.iter().zip(&weights) {
+        sum += weight;
+        while mark < sum && drawn.len() < count {
+            drawn.push(sample.clone());
+            mark += each;
+        }
+    }
+    while drawn.len() < count {
+        drawn.push(from[from.len() - 1].clone());
+    }
+    drawn
+}
+
+/// A generation: one half moves by differences of the other, then the other.
+fn step(chains: &mut [Chain], density: &Density, generation: usize, power: f64) {
+    let half = chains.len() / 2;
+    let (left, right) = chains.split_at_mut(half);
+    advance(left, right, density, (generation, power));
+    advance(right, left, density, (generation, power));
+}
+
+fn advance(moving: &mut [Chain], others: &[Chain], density: &Density, (generation, power): (usize, f64)) {
     let d = others[0].at.z.len();
     let gamma = if generation % 10 == 9 { 1.0 } else { 2.38 / (2.0 * d as f64).sqrt() };
     moving.par_iter_mut().for_each(|chain| {
@@ -98,7 +152,7 @@ fn advance(moving: &mut [Chain], others: &[Chain], density: &Density, generation
             })
             .collect();
         let log = density(&z);
-        if libm::log(unit(&mut chain.random).max(1e-300)) < log - chain.at.log {
+        if libm::log(unit(&mut chain.random).max(1e-300)) < power * (log - chain.at.log) {
             chain.at = Sample { z, log };
         }
     });
@@ -108,17 +162,6 @@ fn advance(moving: &mut [Chain], others: &[Chain], density: &Density, generation
 fn reflected(z: f64) -> f64 {
     let folded = z.rem_euclid(2.0);
     if folded > 1.0 { 2.0 - folded } else { folded }
-}
-
-fn restart(chains: &mut [Chain]) {
-    let mut logs: Vec<f64> = chains.iter().map(|c| c.at.log).collect();
-    logs.sort_by(f64::total_cmp);
-    let (low, middle) = (logs[logs.len() / 4], logs[logs.len() / 2]);
-    let limit = low - 3.0 * (middle - low).max(3.0);
-    let good: Vec<Sample> = chains.iter().filter(|c| c.at.log >= middle).map(|c| c.at.clone()).collect();
-    for chain in chains.iter_mut().filter(|c| c.at.log < limit) {
-        chain.at = good[(unit(&mut chain.random) * good.len() as f64) as usize].clone();
-    }
 }
 
 /// The largest R̂ of a coordinate.

@@ -73,6 +73,7 @@ mod tests {
             data: DVector::from_element(1, 3.0),
             covariance: one,
             seeds: 1.0,
+            specimens: 1.0,
             before: &[],
         })
         .unwrap();

@@ -42,9 +42,19 @@ impl Text<'_> {
                 let known: Vec<&str> = known.split('`').skip(1).step_by(2).collect();
                 format!("unknown key '{key}'{}", hint(&key, known.iter().copied()))
             }
+            None if message.starts_with("duplicate key") && self.line(span.as_ref()).starts_with('[') => {
+                SEVERAL.to_owned()
+            }
             None => plain(message),
         };
         CalibrateError::Recipe { place: self.place(span.map(|s| s.start)), message }
+    }
+
+    /// The line of a span.
+    fn line(&self, span: Option<&Range<usize>>) -> &str {
+        let start = span.map_or(0, |s| s.start);
+        let begin = self.toml.get(..start).and_then(|t| t.rfind('\n')).map_or(0, |k| k + 1);
+        self.toml.get(begin..).and_then(|t| t.lines().next()).unwrap_or_default()
     }
 
     /// A number in `unit`; text is converted. `unit` is the text of the recipe, "" for none.
@@ -85,6 +95,8 @@ impl Text<'_> {
     }
 }
 
+const SEVERAL: &str = "this table is one of a list: write it with two brackets, such as [[parameter]]";
+
 /// The parser's message in plain words.
 fn plain(message: &str) -> String {
     let shown: String = message.chars().take(400).collect();
@@ -100,7 +112,7 @@ fn plain(message: &str) -> String {
         return format!("'{key}' is missing: add it, such as {example}");
     }
     if text.contains("map, expected a sequence") {
-        return "this table is one of a list: write it with two brackets, such as [[parameter]]".to_owned();
+        return SEVERAL.to_owned();
     }
     text.replace("unknown variant", "unknown word").replace("i64", "a whole number").replace(
         "data did not match any variant of untagged enum PartKeys",

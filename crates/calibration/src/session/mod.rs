@@ -179,8 +179,10 @@ impl<'a> Session<'a> {
     ) -> Result<Fitted<'a>> {
         Fitted::learn(self.recipe, step, tried, held, logs).ok_or_else(|| {
             let of = |s: Status| tried.iter().filter(|t| t.status == s).count();
+            let first = tried.iter().find_map(|t| t.why.as_deref());
+            let first = first.map_or(String::new(), |why| format!("; the first: {why}"));
             CalibrateError::Failed(format!(
-                "step '{}': too few trials came to their end to learn from ({} done, {} stopped by a guard, {} failed): narrow the bounds, or give more in first",
+                "step '{}': too few trials came to their end to learn from ({} done, {} stopped by a guard, {} failed{first}): narrow the bounds, or give more in first",
                 step.name,
                 of(Status::Done),
                 of(Status::Stopped),
@@ -212,6 +214,7 @@ impl<'a> Session<'a> {
 /// How long something takes, for people.
 pub fn duration(seconds: f64) -> String {
     match seconds {
+        s if s < 1.0 => format!("{} ms", (s * 1e3).round()),
         s if s < 120.0 => format!("{} s", geom::Shown((s * 10.0).round() / 10.0)),
         s if s < 7200.0 => format!("{} min", (s / 60.0).round()),
         s if s < 172_800.0 => format!("{} h", (s / 360.0).round() / 10.0),
