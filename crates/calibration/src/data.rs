@@ -7,7 +7,8 @@
 //! s: deviation of a point, from the scatter of specimens, from the curve's own scatter, or given; d: discrepancy, what the model cannot
 //! reproduce (Kennedy & O'Hagan 2001, doi:10.1111/1467-9868.00294, with a fixed size instead of a fitted one).
 //!
-//! Own scatter: differences of each point from the line between its neighbours (Gasser, Sroka & Jennen-Steinmetz 1986, doi:10.1093/biomet/73.3.625).
+//! Own scatter: differences of points from the parabola through three neighbours, so that the curve's own bend does not count (after Gasser,
+//! Sroka & Jennen-Steinmetz 1986, doi:10.1093/biomet/73.3.625, who take the line through two).
 
 use nalgebra::DMatrix;
 
@@ -71,19 +72,24 @@ impl Target {
     }
 }
 
-/// The deviation of a curve around a smooth one; `None` for fewer than five points.
+/// The deviation of a curve around a smooth one; `None` for fewer than six points.
 pub fn own_scatter(curve: &[(f64, f64)]) -> Option<f64> {
-    if curve.len() < 5 {
+    if curve.len() < 6 {
         return None;
     }
+    // Lagrange's weights of three neighbours at the place of the second point.
     let square = |w: &[(f64, f64)]| {
-        let span = w[2].0 - w[0].0;
-        let (a, b) = ((w[2].0 - w[1].0) / span, (w[1].0 - w[0].0) / span);
-        let off = w[1].1 - a * w[0].1 - b * w[2].1;
-        off * off / (1.0 + a * a + b * b)
+        let others = [w[0], w[2], w[3]];
+        let weight = |k: usize| {
+            let rest = (0..3).filter(|j| *j != k);
+            rest.map(|j| (w[1].0 - others[j].0) / (others[k].0 - others[j].0)).product::<f64>()
+        };
+        let weights = [0, 1, 2].map(weight);
+        let off = w[1].1 - (0..3).map(|k| weights[k] * others[k].1).sum::<f64>();
+        off * off / (1.0 + weights.iter().map(|w| w * w).sum::<f64>())
     };
-    let sum: f64 = curve.windows(3).map(square).sum();
-    Some((sum / (curve.len() - 2) as f64).sqrt())
+    let sum: f64 = curve.windows(4).map(square).sum();
+    Some((sum / (curve.len() - 3) as f64).sqrt())
 }
 
 /// At most `most` points: means of bins of equal width; with each the number of its points.

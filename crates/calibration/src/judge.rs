@@ -6,7 +6,7 @@ use crate::session::{StepEnd, Tried};
 use serde::Serialize;
 
 /// Posterior width over prior width above which the data tell nothing of a parameter.
-const TOLD: f64 = 0.9;
+const TOLD: f64 = 0.85;
 /// Rank correlation from which two parameters cannot be told apart, if an interval of them is this wide, over that of the prior.
 const TRADED: f64 = 0.8;
 const WIDE: f64 = 0.15;

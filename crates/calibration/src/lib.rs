@@ -6,6 +6,8 @@ mod error;
 mod fit;
 mod judge;
 pub mod materials;
+mod page;
+mod picture;
 pub mod recipe;
 pub mod session;
 mod sheet;
@@ -16,6 +18,8 @@ pub mod words;
 pub use data::{Point, Target};
 pub use error::{CalibrateError, Place};
 pub use judge::{Finding, Judged, Pair, PartSensitivity, StepFit, judge};
+pub use page::html;
+pub use picture::draw;
 pub use recipe::Recipe;
 
 /// Samples of the posterior of a step: CSV.

@@ -25,14 +25,20 @@ pub struct Args {
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
     /// Write the open runs of the next batch, a command each line, and end
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["jobs", "words", "samples"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["jobs", "words", "samples", "plot", "page"])]
     pub jobs_file: Option<PathBuf>,
     /// Do one run that --jobs-file has listed
-    #[arg(long, value_name = "JOB", conflicts_with_all = ["recipe", "data", "dir", "jobs", "jobs_file", "words", "samples", "seed"])]
+    #[arg(long, value_name = "JOB", conflicts_with_all = ["recipe", "data", "dir", "jobs", "jobs_file", "words", "samples", "plot", "page", "seed"])]
     pub run: Option<PathBuf>,
     /// Write the findings as text (Markdown)
     #[arg(long, value_name = "FILE")]
     pub words: Option<PathBuf>,
+    /// Draw fits, pairs, sensitivities and convergence (SVG or PNG)
+    #[arg(long, value_name = "FILE")]
+    pub plot: Option<PathBuf>,
+    /// Write a page with the picture, the findings and the tests (HTML)
+    #[arg(long, value_name = "FILE")]
+    pub page: Option<PathBuf>,
     /// Write samples of the posterior (CSV)
     #[arg(long, value_name = "FILE")]
     pub samples: Option<PathBuf>,
@@ -47,6 +53,14 @@ impl Args {
     /// The recipe's file.
     pub fn recipe(&self) -> anyhow::Result<&Path> {
         self.recipe.as_deref().ok_or_else(|| cli::usage("name a recipe: calibrate RECIPE.toml"))
+    }
+
+    /// Refuses names of another format.
+    pub fn check_names(&self) -> anyhow::Result<()> {
+        if let Some(file) = &self.plot {
+            plot::check_name(file).map_err(|e| cli::usage(format!("--plot {e}")))?;
+        }
+        Ok(())
     }
 
     /// Folder of the trials.

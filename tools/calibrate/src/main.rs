@@ -21,6 +21,7 @@ fn calibrate(args: Args) -> anyhow::Result<Report> {
         return outputs::ended(job, ended);
     }
     let path = args.recipe()?;
+    args.check_names()?;
     let mut recipe = recipe::read(path, &args.data).map_err(refused)?;
     recipe.settings.seed = args.seed.unwrap_or(recipe.settings.seed);
     recipe.warnings.iter().for_each(|w| cli::warn(w));
@@ -43,7 +44,7 @@ fn calibrate(args: Args) -> anyhow::Result<Report> {
             if list {
                 outputs::no_jobs(&args)?;
             }
-            outputs::publish(&args, &recipe, &judged, &steps)
+            outputs::publish(&args, &recipe, &judged, (&steps, &tried))
         }
     }
 }

@@ -2,21 +2,33 @@
 
 use crate::args::Args;
 use anyhow::Context;
-use calibration::session::StepEnd;
+use calibration::session::{StepEnd, Tried};
 use calibration::trial::run::{Ended, quoted};
-use calibration::{Judged, Recipe, samples, words};
+use calibration::{Judged, Recipe, draw, html, samples, words};
 use cli::{Output, Report};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Writes what was found.
-pub fn publish(args: &Args, recipe: &Recipe, judged: &Judged, steps: &[StepEnd]) -> anyhow::Result<Report> {
+pub fn publish(
+    args: &Args,
+    recipe: &Recipe,
+    judged: &Judged,
+    (steps, tried): (&[StepEnd], &[Tried]),
+) -> anyhow::Result<Report> {
     write(&args.output, words::csv(judged).as_bytes())?;
     if let Some(file) = &args.words {
         write(&to(file), words::markdown(judged).as_bytes())?;
     }
     if let (Some(file), Some(last)) = (&args.samples, steps.last()) {
         write(&to(file), samples(recipe, last).as_bytes())?;
+    }
+    if let Some(file) = &args.plot {
+        write(&to(file), &draw(file, recipe, judged, steps, tried)?)?;
+    }
+    if let Some(file) = &args.page {
+        let picture = draw(Path::new("page.svg"), recipe, judged, steps, tried)?;
+        write(&to(file), html(recipe, judged, &String::from_utf8_lossy(&picture)).as_bytes())?;
     }
     words::warnings(judged).iter().for_each(|w| cli::warn(w));
     if !cli::quiet() {

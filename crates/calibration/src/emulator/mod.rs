@@ -134,7 +134,6 @@ impl Emulator {
     }
 
     /// The mean curve at a point.
-    #[expect(dead_code, reason = "drawn by the page")]
     pub fn curve(&self, z: &[f64]) -> Vec<f64> {
         let scores =
             DVector::from_iterator(self.components.len(), self.components.iter().map(|gp| gp.mean(z)));

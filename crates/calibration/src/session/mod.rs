@@ -74,7 +74,7 @@ pub enum Standing<'a> {
 }
 
 /// Length of the chains of the final posterior.
-const LONG: Length = Length { burn: 400, keep: 1600, thin: 8 };
+const LONG: Length = Length { burn: 300, keep: 2400, thin: 8 };
 /// Stream of the seeds of chains.
 const SEEDS: u64 = 0x9e37_79b9;
 
