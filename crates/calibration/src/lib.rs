@@ -4,6 +4,7 @@ mod data;
 mod emulator;
 mod error;
 mod fit;
+pub mod guess;
 mod judge;
 pub mod materials;
 mod page;

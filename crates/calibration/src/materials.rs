@@ -56,6 +56,7 @@ struct MaterialKeys {
 struct RangeKeys {
     range: [f64; 2],
     source: String,
+    note: Option<String>,
 }
 
 /// All materials of the table.
@@ -68,7 +69,8 @@ pub fn all() -> Result<Vec<Material>, String> {
         let words: Option<Vec<&str>> =
             r.source.split(", ").map(|s| keys.source.get(s).map(String::as_str)).collect();
         let source = words.ok_or_else(|| format!("materials.toml: no source '{}'", r.source))?.join("; ");
-        Ok::<Range, String>(Range { ends: r.range, source })
+        let note = r.note.map_or(String::new(), |note| format!(" ({note})"));
+        Ok::<Range, String>(Range { ends: r.range, source: source + &note })
     };
     let material = |m: MaterialKeys| {
         let ranges =
@@ -117,5 +119,37 @@ pub(crate) fn prior(word: &str, parameter: &str) -> Result<Range, String> {
                 "prior = \"{word}\": the table has no '{key}' of {name}{hint}; write material:{name}:KEY"
             ))
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_range_of_the_table_has_a_source_and_a_width() {
+        let all = all().unwrap();
+        assert!(all.len() >= 6);
+        for m in &all {
+            for (key, range) in &m.ranges {
+                assert!(
+                    range.ends[0] > 0.0 && range.ends[0] < range.ends[1] && range.source.len() > 10,
+                    "{} {key}",
+                    m.name
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn priors_are_found_by_name_and_key() {
+        assert_eq!(prior("material:quartz sand:sliding_friction", "mu").unwrap().ends, [0.12, 0.52]);
+        assert_eq!(prior("material:sand", "sliding_friction").unwrap().ends, [0.12, 0.52]);
+        assert!(
+            prior("material:sand", "slidingfriction")
+                .unwrap_err()
+                .contains("did you mean 'sliding_friction'?")
+        );
+        assert!(prior("uniformm", "mu").unwrap_err().contains("give \"uniform\""));
     }
 }

@@ -30,6 +30,21 @@ pub struct Args {
     /// Do one run that --jobs-file has listed
     #[arg(long, value_name = "JOB", conflicts_with_all = ["recipe", "data", "dir", "jobs", "jobs_file", "words", "samples", "plot", "page", "seed"])]
     pub run: Option<PathBuf>,
+    /// Print starting values for a scene from four answers; those that are not given are asked for on a terminal
+    #[arg(long, conflicts_with_all = ["recipe", "data", "dir", "jobs", "jobs_file", "run", "words", "samples", "plot", "page", "seed"])]
+    pub guess: bool,
+    /// What is it: a name of the table of materials, such as sand
+    #[arg(long, value_name = "NAME", requires = "guess")]
+    pub material: Option<String>,
+    /// Diameter of its grains, such as "5 mm"
+    #[arg(long, value_name = "LENGTH", requires = "guess")]
+    pub size: Option<String>,
+    /// How wet it is
+    #[arg(long, value_name = "dry|damp|wet", requires = "guess")]
+    pub moisture: Option<String>,
+    /// Angle of repose of its heaps [degrees]
+    #[arg(long, value_name = "DEG", requires = "guess")]
+    pub repose_deg: Option<String>,
     /// Write the findings as text (Markdown)
     #[arg(long, value_name = "FILE")]
     pub words: Option<PathBuf>,

@@ -1,6 +1,7 @@
 //! Finds the parameters of a model from measured curves, with intervals that say what the data cannot tell.
 
 mod args;
+mod guess;
 mod outputs;
 mod watch;
 
@@ -16,6 +17,9 @@ fn main() -> ExitCode {
 
 fn calibrate(args: Args) -> anyhow::Result<Report> {
     cli::stop_in_order();
+    if args.guess {
+        return guess::guess(&args);
+    }
     if let Some(job) = &args.run {
         let ended = trial::pool::one(job, cli::stop_requested).map_err(refused)?;
         return outputs::ended(job, ended);
