@@ -184,8 +184,8 @@ impl Gp {
         DVector::from_fn(self.beta.len(), |j, _| if j == 0 { 1.0 } else { z[j - 1] })
     }
 
-    /// R⁻½ k and the part of the trend, from which mean, variance and covariances follow.
-    pub fn project(&self, z: &[f64]) -> (Prediction, DVector<f64>) {
+    /// Mean and variance, R⁻½ k, and the part of the trend.
+    fn parts(&self, z: &[f64]) -> (Prediction, DVector<f64>, DVector<f64>) {
         let n = self.inputs.nrows();
         let mut k = DVector::from_fn(n, |i, _| {
             matern(distance(row(&self.inputs, i), z.iter().copied(), &self.lengths))
@@ -196,23 +196,29 @@ impl Gp {
         let mut u = h - self.white.tr_mul(&k);
         self.trend.l_dirty().solve_lower_triangular_mut(&mut u);
         let variance = self.scale * (1.0 - k.norm_squared() + u.norm_squared()).max(0.0);
-        let p = u.len();
+        (Prediction { mean, variance }, k, u)
+    }
+
+    /// Mean and variance, and a vector from which covariances follow.
+    pub fn project(&self, z: &[f64]) -> (Prediction, DVector<f64>) {
+        let (prediction, k, u) = self.parts(z);
+        let (n, p) = (k.len(), u.len());
         let mut both = k.resize_vertically(n + p, 0.0);
         both.rows_mut(n, p).copy_from(&u);
-        (Prediction { mean, variance }, both)
+        (prediction, both)
     }
 
     /// Mean and variance at a point.
     pub fn predict(&self, z: &[f64]) -> Prediction {
-        self.project(z).0
+        self.parts(z).0
     }
 
-    /// For each point: square of its distance from what the others say, over the variance of that (eqs. 5.10–5.12, with the trend).
+    /// For each point: its distance from what the others say, over the deviation of that (eqs. 5.10–5.12, with the trend).
     pub fn left_out(&self) -> Option<Vec<f64>> {
         let along = self.chol.l_dirty().tr_solve_lower_triangular(&self.white)?;
         let q = self.chol.inverse() - &along * self.trend.solve(&along.transpose());
-        let square = |i: usize| self.alpha[i] * self.alpha[i] / (q[(i, i)].max(1e-300) * self.scale);
-        Some((0..self.alpha.len()).map(square).collect())
+        let off = |i: usize| self.alpha[i] / (q[(i, i)].max(1e-300) * self.scale).sqrt();
+        Some((0..self.alpha.len()).map(off).collect())
     }
 
     /// Standard deviation of the mean over the points.

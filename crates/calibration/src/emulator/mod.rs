@@ -5,10 +5,11 @@
 //! doi:10.1198/016214507000000888).
 //!
 //! ```text
-//! w = L⁻¹ y − w̄ = Σ_k a_k(z) φ_k        log p(data | z) = −½ Σ_k [(t_k − a_k)²/(s² + v_k) + ln(s² + v_k)]
+//! w = L⁻¹ y − w̄ = Σ_k a_k(z) φ_k        log p(data | z) = −½ [(t − a)ᵀ S⁻¹ (t − a) + ln det S],   S = s² I + V(z) + N
 //! ```
 //!
-//! t: components of the data; v: variance of the emulator and of a specimen; s² ≥ 1: how much the data deviate more than they say.
+//! t: components of the data; V: variances of the emulator; N: covariance of specimens, which deviate in all components at once, from the trials
+//! nearest to the data, each left out; s² ≥ 1: how much the data deviate more than they say.
 
 mod gp;
 mod rprop;
@@ -26,6 +27,8 @@ const LEAST: f64 = 0.05;
 const FLAT: f64 = 0.1;
 /// Trials near the data, at least.
 const NEAR: usize = 25;
+/// Share by which the correlations of specimens are lowered: those of few trials are never exact.
+const SHRINK: f64 = 0.05;
 /// Least factor on the variances.
 const LEAST_FACTOR: f64 = 1e-3;
 /// Most trials that an emulator learns from.
@@ -57,8 +60,10 @@ pub(crate) struct Emulator {
     pub target: Vec<f64>,
     /// Variance of a specimen in each component.
     pub noise: Vec<f64>,
-    /// Whether a component changes with the parameters.
-    pub tells: Vec<bool>,
+    /// Components that change with the parameters.
+    pub told: Vec<usize>,
+    /// Covariance of specimens in the components.
+    specimens: DMatrix<f64>,
     /// Square of the data beside all components.
     pub beside: f64,
     /// Points of the data.
@@ -89,22 +94,29 @@ impl Emulator {
         };
         let mut components: Vec<Gp> = (0..scores.nrows()).into_par_iter().map(fit).collect::<Option<_>>()?;
         let near = nearest(&scores, &target, lessons.inputs.ncols());
-        for gp in &mut components {
-            let squares = gp.left_out()?;
-            gp.rescale((near.iter().map(|&i| squares[i]).sum::<f64>() / near.len() as f64).max(LEAST_FACTOR));
+        let mut off = DMatrix::zeros(near.len(), components.len());
+        for (k, gp) in components.iter_mut().enumerate() {
+            let all = gp.left_out()?;
+            let mean = near.iter().map(|&i| all[i] * all[i]).sum::<f64>() / near.len() as f64;
+            gp.rescale(mean.max(LEAST_FACTOR));
+            off.column_mut(k).iter_mut().zip(&near).for_each(|(o, &i)| *o = all[i] / mean.max(1e-300).sqrt());
         }
-        let noise = components.iter().map(|gp| gp.noise * lessons.seeds / lessons.specimens).collect();
-        let tells = components
-            .iter()
-            .zip(&noise)
-            .map(|(gp, n): (&Gp, &f64)| gp.deviation() > FLAT * (1.0 + n).sqrt())
-            .collect();
+        let noise: Vec<f64> =
+            components.iter().map(|gp| gp.noise * lessons.seeds / lessons.specimens).collect();
+        let alike = off.tr_mul(&off) / near.len() as f64;
+        let specimens = DMatrix::from_fn(noise.len(), noise.len(), |k, l| {
+            let share = if k == l { 1.0 } else { (1.0 - SHRINK) * alike[(k, l)] };
+            share * (noise[k] * noise[l]).sqrt()
+        });
+        let changes = |k: &usize| components[*k].deviation() > FLAT * (1.0 + noise[*k]).sqrt();
+        let told: Vec<usize> = (0..components.len()).filter(changes).collect();
         let points = lessons.data.len();
         Some(Emulator {
             components,
             target: target.iter().copied().collect(),
             noise,
-            tells,
+            told,
+            specimens,
             beside,
             points,
             factor,
@@ -115,22 +127,30 @@ impl Emulator {
 
     /// Logarithm of the likelihood, up to a constant.
     pub fn log_likelihood(&self, z: &[f64], inflation: f64) -> f64 {
-        let term = |(k, gp): (usize, &Gp)| {
-            let p = gp.predict(z);
-            let variance = inflation + p.variance + self.noise[k];
-            let off = self.target[k] - p.mean;
-            -0.5 * (off * off / variance + libm::log(variance))
-        };
-        self.components.iter().enumerate().filter(|c| self.tells[c.0]).map(term).sum::<f64>()
+        match self.square(z, inflation, &self.told) {
+            Some((square, log_det)) => -0.5 * (square + log_det),
+            None => f64::NEG_INFINITY,
+        }
     }
 
     /// Square of the misfit at a point, over the deviations of data and emulator.
     pub fn misfit(&self, z: &[f64]) -> f64 {
-        let term = |(k, gp): (usize, &Gp)| {
-            let p = gp.predict(z);
-            (self.target[k] - p.mean).powi(2) / (1.0 + p.variance + self.noise[k])
-        };
-        self.beside + self.components.iter().enumerate().map(term).sum::<f64>()
+        let all: Vec<usize> = (0..self.components.len()).collect();
+        self.beside + self.square(z, 1.0, &all).map_or(f64::INFINITY, |s| s.0)
+    }
+
+    /// (t − a)ᵀ S⁻¹ (t − a) and ln det S of some components, S = s² I + V(z) + N.
+    fn square(&self, z: &[f64], inflation: f64, of: &[usize]) -> Option<(f64, f64)> {
+        let predictions: Vec<Prediction> = of.iter().map(|&k| self.components[k].predict(z)).collect();
+        let s = DMatrix::from_fn(of.len(), of.len(), |i, j| {
+            let own = if i == j { inflation + predictions[i].variance } else { 0.0 };
+            own + self.specimens[(of[i], of[j])]
+        });
+        let mut off = DVector::from_fn(of.len(), |i, _| self.target[of[i]] - predictions[i].mean);
+        let chol = Cholesky::new(s)?;
+        chol.l_dirty().solve_lower_triangular_mut(&mut off);
+        let log_det = chol.l_dirty().diagonal().iter().map(|v| 2.0 * libm::log(*v)).sum();
+        Some((off.norm_squared(), log_det))
     }
 
     /// The mean curve at a point.

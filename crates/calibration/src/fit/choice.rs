@@ -8,7 +8,7 @@
 use super::Fitted;
 use super::halton::Halton;
 use super::sample::{Length, Samples};
-use crate::emulator::{Emulator, Gp, Prediction};
+use crate::emulator::{Gp, Prediction};
 use geom::random::{generator, unit};
 use nalgebra::DVector;
 
@@ -44,7 +44,7 @@ pub(crate) fn even(d: usize, seed: u64, from: usize, count: usize) -> Vec<Vec<f6
 }
 
 /// Length of the chains that candidates are taken from.
-pub(crate) const SHORT: Length = Length { burn: 120, keep: 150, thin: 10 };
+pub(crate) const SHORT: Length = Length { burn: 60, keep: 120, thin: 10 };
 
 /// Chooses a batch; `number` of trials were made so far; `seeds` of the even points and of the draws.
 pub(crate) fn choose(
@@ -54,12 +54,10 @@ pub(crate) fn choose(
     number: usize,
     count: usize,
 ) -> Choice {
-    let telling =
-        |e: &'_ Emulator| -> Vec<usize> { (0..e.components.len()).filter(|&k| e.tells[k]).collect() };
     let processes: Vec<(&Gp, f64, f64)> = fitted
         .emulators
         .iter()
-        .flat_map(|e| telling(e).into_iter().map(|k| (&e.components[k], e.noise[k], e.target[k])))
+        .flat_map(|e| e.told.iter().map(|&k| (&e.components[k], e.noise[k], e.target[k])))
         .collect();
     let every = samples.list.len().div_ceil(CANDIDATES).max(1);
     let candidate = |z: &Vec<f64>| {

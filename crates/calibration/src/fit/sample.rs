@@ -18,7 +18,7 @@ const CHAINS: u64 = 0x6d_63;
 const RESAMPLED: u64 = 0x73_6d_63;
 /// Powers on the way, and moves at each.
 const MOST_POWERS: usize = 60;
-const MOVES: usize = 6;
+const MOVES: usize = 4;
 /// Points of the cube that are looked at for starts.
 const STARTS: u64 = 600;
 
