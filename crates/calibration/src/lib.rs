@@ -18,6 +18,7 @@ pub mod words;
 
 pub use data::{Point, Target};
 pub use error::{CalibrateError, Place};
+pub use fit::next::{Next, next_tests};
 pub use judge::{Finding, Judged, Pair, PartSensitivity, StepFit, judge};
 pub use page::html;
 pub use picture::draw;

@@ -1,5 +1,6 @@
 //! Findings in plain words, as a table, and as CSV.
 
+use crate::fit::next::Next;
 use crate::judge::{Finding, Judged, Pair};
 use crate::recipe::shown;
 use crate::session::duration;
@@ -111,4 +112,42 @@ pub fn markdown(judged: &Judged) -> String {
     let list: String =
         judged.pairs.iter().map(traded).chain(warnings(judged)).map(|l| format!("- {l}\n")).collect();
     if list.is_empty() { text } else { format!("{text}\n{list}") }
+}
+
+/// Tests by what they would tell: CSV.
+pub fn design_csv(next: &[Next]) -> String {
+    let Some(first) = next.first() else { return "test,again,gain\n".to_owned() };
+    let mut text = format!("test,again,gain,{}\n", first.parameters.join(","));
+    for n in next {
+        let ratios: Vec<String> = n.ratios.iter().map(|r| format!("{r:.3}")).collect();
+        let _ = writeln!(
+            text,
+            "{},{},{:.3},{}",
+            crate::session::cell(&n.test),
+            n.again,
+            n.gain,
+            ratios.join(",")
+        );
+    }
+    text
+}
+
+/// The most telling test in a sentence.
+pub fn design_sentence(next: &[Next]) -> Option<String> {
+    let n = next.first()?;
+    let what = if n.again {
+        format!("one more specimen of test '{}'", n.test)
+    } else {
+        format!("test '{}'", n.test)
+    };
+    let most = n.parameters.iter().zip(&n.ratios).min_by(|a, b| a.1.total_cmp(b.1))?;
+    if n.gain < 0.02 {
+        return Some(
+            "no test of the recipe would tell much more: every interval would stay as it is".to_owned(),
+        );
+    }
+    Some(format!(
+        "the most telling next test: {what}: the interval of {} would become {:.2} times as wide",
+        most.0, most.1
+    ))
 }

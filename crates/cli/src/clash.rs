@@ -12,7 +12,7 @@ use std::{
 };
 
 /// Options that name a file to write, in any tool: id and flag. None of them changes the result.
-pub(crate) const OUTPUTS: [(&str, &str); 12] = [
+pub(crate) const OUTPUTS: [(&str, &str); 13] = [
     ("output", "-o"),
     ("report", "--report"),
     ("plot", "--plot"),
@@ -25,6 +25,7 @@ pub(crate) const OUTPUTS: [(&str, &str); 12] = [
     ("jobs_file", "--jobs-file"),
     ("samples", "--samples"),
     ("page", "--page"),
+    ("design", "--design"),
 ];
 
 /// A file that the running tool will write.

@@ -28,10 +28,10 @@ pub struct Args {
     #[arg(long, value_name = "FILE", conflicts_with_all = ["jobs", "words", "samples", "plot", "page"])]
     pub jobs_file: Option<PathBuf>,
     /// Do one run that --jobs-file has listed
-    #[arg(long, value_name = "JOB", conflicts_with_all = ["recipe", "data", "dir", "jobs", "jobs_file", "words", "samples", "plot", "page", "seed"])]
+    #[arg(long, value_name = "JOB", conflicts_with_all = ["recipe", "data", "dir", "jobs", "jobs_file", "words", "samples", "plot", "page", "design", "seed"])]
     pub run: Option<PathBuf>,
     /// Print starting values for a scene from four answers; those that are not given are asked for on a terminal
-    #[arg(long, conflicts_with_all = ["recipe", "data", "dir", "jobs", "jobs_file", "run", "words", "samples", "plot", "page", "seed"])]
+    #[arg(long, conflicts_with_all = ["recipe", "data", "dir", "jobs", "jobs_file", "run", "words", "samples", "plot", "page", "design", "seed"])]
     pub guess: bool,
     /// What is it: a name of the table of materials, such as sand
     #[arg(long, value_name = "NAME", requires = "guess")]
@@ -54,6 +54,9 @@ pub struct Args {
     /// Write a page with the picture, the findings and the tests (HTML)
     #[arg(long, value_name = "FILE")]
     pub page: Option<PathBuf>,
+    /// Write what each test would tell next, the most telling first (CSV); tests without data are simulated, too
+    #[arg(long, value_name = "FILE")]
+    pub design: Option<PathBuf>,
     /// Write samples of the posterior (CSV)
     #[arg(long, value_name = "FILE")]
     pub samples: Option<PathBuf>,

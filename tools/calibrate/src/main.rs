@@ -30,7 +30,7 @@ fn calibrate(args: Args) -> anyhow::Result<Report> {
     recipe.settings.seed = args.seed.unwrap_or(recipe.settings.seed);
     recipe.warnings.iter().for_each(|w| cli::warn(w));
     let (dir, watch) = (args.dir(path), watch::Terminal::new());
-    let (list, candidates) = (args.jobs_file.is_some(), false);
+    let (list, candidates) = (args.jobs_file.is_some(), args.design.is_some());
     let session = Session {
         recipe: &recipe,
         dir,

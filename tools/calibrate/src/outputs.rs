@@ -4,7 +4,7 @@ use crate::args::Args;
 use anyhow::Context;
 use calibration::session::{StepEnd, Tried};
 use calibration::trial::run::{Ended, quoted};
-use calibration::{Judged, Recipe, draw, html, samples, words};
+use calibration::{Judged, Recipe, draw, html, next_tests, samples, words};
 use cli::{Output, Report};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -23,6 +23,14 @@ pub fn publish(
     if let (Some(file), Some(last)) = (&args.samples, steps.last()) {
         write(&to(file), samples(recipe, last).as_bytes())?;
     }
+    let next = match (&args.design, steps.last()) {
+        (Some(file), Some(last)) => {
+            let next = next_tests(recipe, last, tried);
+            write(&to(file), words::design_csv(&next).as_bytes())?;
+            next
+        }
+        _ => Vec::new(),
+    };
     if let Some(file) = &args.plot {
         write(&to(file), &draw(file, recipe, judged, steps, tried)?)?;
     }
@@ -32,12 +40,12 @@ pub fn publish(
     }
     words::warnings(judged).iter().for_each(|w| cli::warn(w));
     if !cli::quiet() {
-        words::sentences(judged).iter().for_each(|line| cli::say(line));
+        words::sentences(judged).iter().chain(&words::design_sentence(&next)).for_each(|line| cli::say(line));
     }
     let told = judged.findings.iter().filter(|f| f.told).count();
     let trials: usize = judged.trials.iter().sum();
     let summary = format!("{told} of {} parameters found, {trials} trials", judged.findings.len());
-    Ok(Report::new(summary).with("seed", recipe.settings.seed).with_all(judged))
+    Ok(Report::new(summary).with("seed", recipe.settings.seed).with_all(judged).with("next", next))
 }
 
 /// Writes the open jobs.

@@ -153,6 +153,18 @@ impl Emulator {
         Some((off.norm_squared(), log_det))
     }
 
+    /// The components that tell something, at a point.
+    pub fn scores(&self, z: &[f64]) -> DVector<f64> {
+        DVector::from_iterator(self.told.len(), self.told.iter().map(|&k| self.components[k].mean(z)))
+    }
+
+    /// Covariance of data and specimens in those components.
+    pub fn scatter(&self, inflation: f64) -> DMatrix<f64> {
+        let n = self.told.len();
+        DMatrix::identity(n, n) * inflation
+            + DMatrix::from_fn(n, n, |i, j| self.specimens[(self.told[i], self.told[j])])
+    }
+
     /// The mean curve at a point.
     pub fn curve(&self, z: &[f64]) -> Vec<f64> {
         let scores =

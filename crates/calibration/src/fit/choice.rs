@@ -124,7 +124,7 @@ fn improvement(fitted: &Fitted, processes: &[(&Gp, f64, f64)], c: &Candidate, se
 }
 
 /// A normal number: Box & Muller (1958), doi:10.1214/aoms/1177706645.
-fn normal(random: &mut rand_pcg::Pcg64Mcg) -> f64 {
+pub(crate) fn normal(random: &mut rand_pcg::Pcg64Mcg) -> f64 {
     let (a, b) = (1.0 - unit(random), unit(random));
     (-2.0 * libm::log(a)).sqrt() * libm::cos(std::f64::consts::TAU * b)
 }

@@ -3,6 +3,7 @@
 pub(crate) mod choice;
 mod feasible;
 pub(crate) mod halton;
+pub mod next;
 pub(crate) mod sample;
 pub(crate) mod sensitivity;
 
