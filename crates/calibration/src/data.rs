@@ -28,6 +28,8 @@ pub struct Point {
 pub struct Target {
     /// Points by growing x; one of a number.
     pub points: Vec<Point>,
+    /// For each point the places that it is the mean of: a simulated curve is averaged over the same ones, since a bend would shift the mean.
+    pub places: Vec<Vec<f64>>,
     /// Unit of x, as text; "" for none.
     pub x_unit: String,
     /// Distance over which deviations are alike, as a share of the length.
@@ -92,19 +94,24 @@ pub fn own_scatter(curve: &[(f64, f64)]) -> Option<f64> {
     Some((sum / (curve.len() - 3) as f64).sqrt())
 }
 
-/// At most `most` points: means of bins of equal width; with each the number of its points.
-pub fn binned(curve: &[(f64, f64)], most: usize) -> Vec<(f64, f64, usize)> {
+/// At most `most` groups of points: bins of equal width.
+pub fn binned(curve: &[(f64, f64)], most: usize) -> Vec<Vec<(f64, f64)>> {
     if curve.len() <= most {
-        return curve.iter().map(|&(x, y)| (x, y, 1)).collect();
+        return curve.iter().map(|&p| vec![p]).collect();
     }
     let (first, last) = (curve[0].0, curve[curve.len() - 1].0);
     let bin = |x: f64| (((x - first) / (last - first) * most as f64) as usize).min(most - 1);
-    let mut sums = vec![(0.0, 0.0, 0usize); most];
-    for &(x, y) in curve {
-        let sum = &mut sums[bin(x)];
-        *sum = (sum.0 + x, sum.1 + y, sum.2 + 1);
-    }
-    sums.iter().filter(|s| s.2 > 0).map(|&(x, y, n)| (x / n as f64, y / n as f64, n)).collect()
+    let mut bins = vec![Vec::new(); most];
+    curve.iter().for_each(|&p| bins[bin(p.0)].push(p));
+    bins.retain(|bin| !bin.is_empty());
+    bins
+}
+
+/// The mean of points.
+pub fn mean(points: &[(f64, f64)]) -> (f64, f64) {
+    let n = points.len() as f64;
+    let sum = points.iter().fold((0.0, 0.0), |sum, p| (sum.0 + p.0, sum.1 + p.1));
+    (sum.0 / n, sum.1 / n)
 }
 
 /// The value of a curve at x; `None` outside of it (beyond a thousandth of its length).
@@ -146,7 +153,7 @@ mod tests {
         let found = own_scatter(&curve).unwrap();
         assert!((found - 0.1).abs() < 0.01, "{found}");
         let bins = binned(&curve, 20);
-        assert_eq!((bins.len(), bins.iter().map(|b| b.2).sum::<usize>()), (20, 400));
+        assert_eq!((bins.len(), bins.iter().map(Vec::len).sum::<usize>()), (20, 400));
     }
 
     #[test]
@@ -165,6 +172,7 @@ mod tests {
         let point = |x: f64| Point { x, y: 1.0, deviation: 2.0 };
         let mut t = Target {
             points: vec![point(0.0), point(1.0)],
+            places: Vec::new(),
             x_unit: String::new(),
             correlation: 0.0,
             discrepancy: 0.0,

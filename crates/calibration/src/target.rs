@@ -1,6 +1,6 @@
 //! Targets from files: units, specimens, deviations.
 
-use crate::data::{Point, Target, at, binned, own_scatter};
+use crate::data::{Point, Target, at, binned, mean, own_scatter};
 use crate::error::{CalibrateError, Place, Result};
 use crate::recipe::shown;
 use crate::sheet::Sheet;
@@ -56,6 +56,7 @@ pub(crate) fn value(asked: &Asked, values: &[f64]) -> Result<Target, String> {
     let discrepancy = if asked.discrepancy.1 { asked.discrepancy.0 * y.abs() } else { asked.discrepancy.0 };
     Ok(Target {
         points,
+        places: vec![vec![0.0]],
         x_unit: String::new(),
         correlation: 0.0,
         discrepancy,
@@ -205,27 +206,23 @@ fn gap(name: &str, curve: &[(f64, f64)]) -> Option<String> {
 
 fn single(asked: &Asked, one: &Measured, file: &Path) -> Result<Target> {
     let bins = binned(&one.curve, asked.points);
-    let point = |deviation: f64| {
-        move |&(x, y, n): &(f64, f64, usize)| Point { x, y, deviation: deviation / (n as f64).sqrt() }
+    let points = |of: &dyn Fn(f64, usize) -> f64| -> Vec<Point> {
+        let point = |bin: &Vec<(f64, f64)>| {
+            let (x, y) = mean(bin);
+            Point { x, y, deviation: of(x, bin.len()) }
+        };
+        bins.iter().map(point).collect()
     };
-    let (points, origin): (Vec<Point>, String) = match (&one.deviation, asked.deviation) {
+    let (points, origin): (Vec<Point>, &str) = match (&one.deviation, asked.deviation) {
         (Some(list), None) => {
             // Of a bin: that of its nearest row, not less, since deviations of a table are those of its curve.
-            let near = |x: f64| {
-                one.curve
-                    .iter()
-                    .zip(list)
-                    .min_by(|a, b| (a.0.0 - x).abs().total_cmp(&(b.0.0 - x).abs()))
-                    .map_or(0.0, |p| *p.1)
-            };
-            (
-                bins.iter().map(|&(x, y, _)| Point { x, y, deviation: near(x) }).collect(),
-                "column deviation".to_owned(),
-            )
+            let far = |p: &&((f64, f64), f64), x: f64| (p.0.0 - x).abs();
+            let all: Vec<((f64, f64), f64)> = one.curve.iter().copied().zip(list.iter().copied()).collect();
+            let near =
+                |x: f64| all.iter().min_by(|a, b| far(a, x).total_cmp(&far(b, x))).map_or(0.0, |p| p.1);
+            (points(&|x, _| near(x)), "column deviation")
         }
-        (_, Some(_)) => {
-            (bins.iter().map(|&(x, y, _)| Point { x, y, deviation: 0.0 }).collect(), String::new())
-        }
+        (_, Some(_)) => (points(&|_, _| 0.0), ""),
         (None, None) => {
             let scatter = own_scatter(&one.curve).ok_or_else(|| {
                 CalibrateError::Usage(format!(
@@ -234,16 +231,17 @@ fn single(asked: &Asked, one: &Measured, file: &Path) -> Result<Target> {
                     one.curve.len()
                 ))
             })?;
-            (bins.iter().map(point(scatter)).collect(), "the curve's own scatter".to_owned())
+            (points(&|_, n| scatter / (n as f64).sqrt()), "the curve's own scatter")
         }
     };
     Ok(Target {
         points,
+        places: bins.iter().map(|bin| bin.iter().map(|p| p.0).collect()).collect(),
         x_unit: asked.units.x.clone().unwrap_or_default(),
         correlation: 0.0,
         discrepancy: 0.0,
         specimens: 1,
-        origin,
+        origin: origin.to_owned(),
     })
 }
 
@@ -252,7 +250,7 @@ fn specimens(asked: &Asked, all: &[Measured]) -> Result<Target> {
     let n = all.len() as f64;
     let inside = |x: f64| all.iter().all(|m| at(&m.curve, x).is_some());
     let grid: Vec<f64> =
-        binned(&all[0].curve, asked.points).iter().map(|b| b.0).filter(|x| inside(*x)).collect();
+        binned(&all[0].curve, asked.points).iter().map(|b| mean(b).0).filter(|x| inside(*x)).collect();
     if grid.len() < 2 {
         return Err(CalibrateError::Usage(
             "the curves of the specimens have no common x: are their units the same?".to_owned(),
@@ -271,6 +269,7 @@ fn specimens(asked: &Asked, all: &[Measured]) -> Result<Target> {
     }
     let origin = format!("scatter of {} specimens", all.len());
     Ok(Target {
+        places: points.iter().map(|p| vec![p.x]).collect(),
         points,
         x_unit: asked.units.x.clone().unwrap_or_default(),
         correlation: SPECIMENS_ALIKE,

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "A recipe names parameters with bounds and tests with commands; the output is a table (CSV) of the parameters with intervals.\n\n\
     Examples:\n\
-    \x20 calibrate soil.toml --data shear-100.csv --data shear-200.csv --jobs 2 --page soil.html -o soil.csv\n\
-    \x20 calibrate soil.toml --jobs-file jobs.txt && parallel -j 64 < jobs.txt";
+    \x20 calibrate recipe.toml --data shear.csv --jobs 2 --page fit.html -o found.csv\n\
+    \x20 calibrate recipe.toml --data shear.csv --jobs-file jobs.txt --dir shared\n\
+    \x20 calibrate --guess --material sand --size 2mm --moisture dry --repose-deg 33 -o sand.toml";
 
 /// Find the parameters of a model from measured curves, with intervals
 #[derive(clap::Parser)]

@@ -82,9 +82,10 @@ fn unmeasured(recipe: &Recipe, end: &StepEnd, tried: &[Tried], test: usize) -> O
     }
     let grid: Vec<f64> =
         (0..count).map(|k| first + (last - first) * k as f64 / (count - 1).max(1) as f64).collect();
+    let places: Vec<Vec<f64>> = grid.iter().map(|x| vec![*x]).collect();
     let row = |t: &Tried| {
         let all: Vec<Vec<f64>> =
-            t.curves[test].iter().filter_map(|c| on_grid(c, &grid, of.x.is_none()).ok()).collect();
+            t.curves[test].iter().filter_map(|c| on_grid(c, &places, of.x.is_none()).ok()).collect();
         (0..count).map(|k| all.iter().map(|c| c[k]).sum::<f64>() / all.len() as f64).collect::<Vec<f64>>()
     };
     let rows: Vec<Vec<f64>> = with.iter().map(|t| row(t)).collect();

@@ -49,7 +49,7 @@ pub(crate) fn sensitivity(emulator: &Emulator, d: usize, seed: u64) -> Sensitivi
             of_b += apart(&b[k], &mixed);
         }
         alone.push((1.0 - of_b / n / whole).clamp(0.0, 1.0));
-        total.push((of_a / n / whole).max(0.0));
+        total.push((of_a / n / whole).clamp(0.0, 1.0));
     }
     Sensitivity { alone, total }
 }

@@ -229,9 +229,8 @@ impl Session<'_> {
             if tried.curves[test].is_empty() || tried.outputs[test].is_some() {
                 continue;
             }
-            let grid: Vec<f64> = target.points.iter().map(|p| p.x).collect();
             let values: Result<Vec<Vec<f64>>, String> =
-                tried.curves[test].iter().map(|c| on_grid(c, &grid, of.x.is_none())).collect();
+                tried.curves[test].iter().map(|c| on_grid(c, &target.places, of.x.is_none())).collect();
             match values {
                 Ok(values) => tried.outputs[test] = Some(mean(&values)),
                 Err(why) => note(tried, Status::Failed, format!("test '{}': {why}", of.name)),

@@ -86,19 +86,28 @@ fn picked(pick: Pick, values: &[f64]) -> f64 {
     }
 }
 
-/// The values of a curve at the points of a grid.
+/// The values of a curve on a grid: at each point the mean over its places.
 ///
 /// # Errors
 /// A curve that ends before the grid does.
-pub fn on_grid(curve: &[(f64, f64)], grid: &[f64], is_number: bool) -> Result<Vec<f64>, String> {
+pub fn on_grid(curve: &[(f64, f64)], grid: &[Vec<f64>], is_number: bool) -> Result<Vec<f64>, String> {
     if is_number {
         return Ok(curve.iter().map(|p| p.1).take(1).collect());
     }
     let value = |x: &f64| {
         at(curve, *x).ok_or_else(|| {
             let ends = [curve.first(), curve.last()].map(|p| shown(p.map_or(0.0, |p| p.0)));
-            format!("its curve reaches from x = {} to {}, the data have x = {}: simulate farther, or set from and until", ends[0], ends[1], shown(*x))
+            format!(
+                "its curve reaches from x = {} to {}, the data have x = {}: simulate farther, set from and until, or check the units",
+                ends[0],
+                ends[1],
+                shown(*x)
+            )
         })
     };
-    grid.iter().map(value).collect()
+    let mean = |places: &Vec<f64>| {
+        let sum = places.iter().map(value).sum::<Result<f64, String>>()?;
+        Ok(sum / places.len() as f64)
+    };
+    grid.iter().map(mean).collect()
 }
