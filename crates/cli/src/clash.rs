@@ -12,7 +12,7 @@ use std::{
 };
 
 /// Options that name a file to write, in any tool: id and flag. None of them changes the result.
-pub(crate) const OUTPUTS: [(&str, &str); 10] = [
+pub(crate) const OUTPUTS: [(&str, &str); 14] = [
     ("output", "-o"),
     ("report", "--report"),
     ("plot", "--plot"),
@@ -23,6 +23,10 @@ pub(crate) const OUTPUTS: [(&str, &str); 10] = [
     ("surfaces", "--surfaces"),
     ("rigid", "--rigid"),
     ("sheet", "--sheet"),
+    ("jobs_file", "--jobs-file"),
+    ("samples", "--samples"),
+    ("page", "--page"),
+    ("design", "--design"),
 ];
 
 /// A file that the running tool will write.

@@ -95,6 +95,17 @@ pub fn factor(name: &str, unit: &'static str) -> Result<f64, UnitError> {
     parse(&format!("1 {name}"), unit)
 }
 
+/// How many of the SI unit of its dimension a named unit is: "mm" is 0.001. `None`: unknown.
+pub fn in_si(name: &str) -> Option<f64> {
+    Unit::parse(name).ok().map(|unit| unit.times("1", 1.0))
+}
+
+/// How many of `to` a unit is: `ratio("kPa", "MPa")` is 0.001. `None`: one of them is unknown, or they have other dimensions.
+pub fn ratio(from: &str, to: &str) -> Option<f64> {
+    let (from, to) = (Unit::parse(from).ok()?, Unit::parse(to).ok()?);
+    (from.dimension == to.dimension).then(|| from.per(to).times("1", 1.0))
+}
+
 /// The number at the front of a text, and what follows it.
 fn split(text: &str) -> (&str, &str) {
     let bytes = text.as_bytes();
@@ -246,6 +257,8 @@ mod tests {
         assert!((parse("60 rpm", "rad/s").expect("a spin") - std::f64::consts::TAU).abs() < 1e-15);
         assert!((parse("1 psi", "Pa").expect("a stress") - 6_894.757_293_168).abs() < 1e-8);
         assert_eq!(factor("mm", "m"), Ok(0.001));
+        assert_eq!((in_si("kPa"), in_si("parsec")), (Some(1000.0), None));
+        assert_eq!((ratio("kPa", "MPa"), ratio("kPa", "m")), (Some(0.001), None));
     }
 
     #[test]

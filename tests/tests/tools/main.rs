@@ -1,6 +1,7 @@
 //! The tools, as a user calls them, and the pages and files that go with them.
 
 mod bad_inputs;
+mod calibrate;
 mod chain;
 mod clump_scenes;
 mod contact_numbers;

@@ -87,6 +87,21 @@ fn lattice() -> String {
     ["x,y,z,radius\n".to_owned()].into_iter().chain((0..1000).map(row)).collect()
 }
 
+/// A line whose slope is to be found, and its measured points.
+const RECIPE: &str = r#"[settings]
+trials = 12
+[[parameter]]
+name = "slope"
+bounds = [1, 3]
+[[test]]
+name = "shear"
+command = """awk 'BEGIN { print "u,tau"; for (k = 0; k < 9; k++) print k "," {slope} * k }'"""
+x = "u"
+y = "tau"
+deviation = 0.1
+"#;
+const MEASURED: &str = "u,tau\n0,0\n1,2.1\n2,3.9\n3,6.1\n4,8\n5,9.9\n6,12.1\n";
+
 /// A folder with all of them.
 pub fn inputs() -> TempDir {
     let flat: String = plate().map(|(x, y)| format!("{x} {y} 0\n")).collect();
@@ -117,6 +132,8 @@ pub fn inputs() -> TempDir {
         ("soil.toml", SAND.to_owned()),
         ("stone.toml", ROCK.to_owned()),
         ("stone.csv", cube()),
+        ("recipe.toml", RECIPE.to_owned()),
+        ("shear.csv", MEASURED.to_owned()),
         ("up.toml", [&plant, outlet].concat()),
         ("plant.toml", plant),
     ]);

@@ -1,0 +1,219 @@
+//! The emulator: from parameters to curves, learnt from trials.
+//!
+//! Curves are made white by the covariance of the data, C = L Lᵀ, so that a deviation of the data is 1, and written in their principal
+//! components; each component is a Gaussian process of the parameters (Higdon, Gattiker, Williams & Rightley 2008,
+//! doi:10.1198/016214507000000888).
+//!
+//! ```text
+//! w = L⁻¹ y − w̄ = Σ_k a_k(z) φ_k        log p(data | z) = −½ [(t − a)ᵀ S⁻¹ (t − a) + ln det S],   S = s² I + V(z) + N
+//! ```
+//!
+//! t: components of the data; V: variances of the emulator; N: covariance of specimens, which deviate in all components at once, from the trials
+//! nearest to the data, each left out; s² ≥ 1: how much the data deviate more than they say.
+
+mod gp;
+mod rprop;
+
+pub(crate) use gp::{Gp, Logs, Prediction};
+
+use nalgebra::{Cholesky, DMatrix, DVector};
+use rayon::prelude::*;
+
+/// Most components of a curve.
+const MOST: usize = 10;
+/// Deviation of a component over all trials, in deviations of the data, below which it tells nothing.
+const LEAST: f64 = 0.05;
+/// Deviation of a process over the trials, in deviations of data and specimens, below which it only scatters.
+const FLAT: f64 = 0.1;
+/// Trials near the data, at least.
+const NEAR: usize = 25;
+/// Share by which the correlations of specimens are lowered: those of few trials are never exact.
+const SHRINK: f64 = 0.05;
+/// Least factor on the variances.
+const LEAST_FACTOR: f64 = 1e-3;
+/// Most trials that an emulator learns from.
+pub(crate) const MOST_TRIALS: usize = 400;
+
+/// What an emulator learns from.
+pub(crate) struct Lessons<'a> {
+    /// Coordinates of the trials, a row each.
+    pub inputs: DMatrix<f64>,
+    /// Curves, a row each.
+    pub outputs: DMatrix<f64>,
+    /// Data.
+    pub data: DVector<f64>,
+    /// Covariance of the data.
+    pub covariance: DMatrix<f64>,
+    /// Runs that each curve is the mean of, and specimens that the data are the mean of.
+    pub seeds: f64,
+    pub specimens: f64,
+    /// Lengths of an earlier fit.
+    pub before: &'a [Logs],
+}
+
+/// The emulator of one part.
+#[derive(Clone)]
+pub(crate) struct Emulator {
+    /// A process for each component.
+    pub components: Vec<Gp>,
+    /// Components of the data.
+    pub target: Vec<f64>,
+    /// Variance of a specimen in each component.
+    pub noise: Vec<f64>,
+    /// Components that change with the parameters.
+    pub told: Vec<usize>,
+    /// Covariance of specimens in the components.
+    specimens: DMatrix<f64>,
+    /// Square of the data beside all components.
+    pub beside: f64,
+    /// Points of the data.
+    pub points: usize,
+    factor: DMatrix<f64>,
+    mean: DVector<f64>,
+    basis: DMatrix<f64>,
+}
+
+impl Emulator {
+    /// Learns; `None` if the numbers do not allow it.
+    pub fn learn(lessons: &Lessons) -> Option<Emulator> {
+        let factor = Cholesky::new(lessons.covariance.clone())?.unpack();
+        let white = factor.solve_lower_triangular(&lessons.outputs.transpose())?;
+        let mean = white.column_mean();
+        let mut off = white;
+        off.column_iter_mut().for_each(|mut c| c -= &mean);
+        let n = off.ncols() as f64;
+        let basis = principal(&off, n)?;
+        let target_white = factor.solve_lower_triangular(&lessons.data)? - &mean;
+        let target = basis.tr_mul(&target_white);
+        let beside = (target_white.norm_squared() - target.norm_squared()).max(0.0);
+        let scores = basis.tr_mul(&off);
+        let same = lessons.before.len() == scores.nrows();
+        let fit = |k: usize| {
+            let start = if same { lessons.before.get(k) } else { None };
+            Gp::fit(&lessons.inputs, &scores.row(k).transpose(), start)
+        };
+        let mut components: Vec<Gp> = (0..scores.nrows()).into_par_iter().map(fit).collect::<Option<_>>()?;
+        let near = nearest(&scores, &target, lessons.inputs.ncols());
+        let mut off = DMatrix::zeros(near.len(), components.len());
+        for (k, gp) in components.iter_mut().enumerate() {
+            let all = gp.left_out()?;
+            let mean = near.iter().map(|&i| all[i] * all[i]).sum::<f64>() / near.len() as f64;
+            gp.rescale(mean.max(LEAST_FACTOR));
+            off.column_mut(k).iter_mut().zip(&near).for_each(|(o, &i)| *o = all[i] / mean.max(1e-300).sqrt());
+        }
+        let noise: Vec<f64> =
+            components.iter().map(|gp| gp.noise * lessons.seeds / lessons.specimens).collect();
+        let alike = off.tr_mul(&off) / near.len() as f64;
+        let specimens = DMatrix::from_fn(noise.len(), noise.len(), |k, l| {
+            let share = if k == l { 1.0 } else { (1.0 - SHRINK) * alike[(k, l)] };
+            share * (noise[k] * noise[l]).sqrt()
+        });
+        let changes = |k: &usize| components[*k].deviation() > FLAT * (1.0 + noise[*k]).sqrt();
+        let told: Vec<usize> = (0..components.len()).filter(changes).collect();
+        let points = lessons.data.len();
+        Some(Emulator {
+            components,
+            target: target.iter().copied().collect(),
+            noise,
+            told,
+            specimens,
+            beside,
+            points,
+            factor,
+            mean,
+            basis,
+        })
+    }
+
+    /// Logarithm of the likelihood, up to a constant.
+    pub fn log_likelihood(&self, z: &[f64], inflation: f64) -> f64 {
+        match self.square(z, inflation, &self.told) {
+            Some((square, log_det)) => -0.5 * (square + log_det),
+            None => f64::NEG_INFINITY,
+        }
+    }
+
+    /// Square of the misfit at a point, over the deviations of data and emulator.
+    pub fn misfit(&self, z: &[f64]) -> f64 {
+        let all: Vec<usize> = (0..self.components.len()).collect();
+        self.beside + self.square(z, 1.0, &all).map_or(f64::INFINITY, |s| s.0)
+    }
+
+    /// (t − a)ᵀ S⁻¹ (t − a) and ln det S of some components, S = s² I + V(z) + N.
+    fn square(&self, z: &[f64], inflation: f64, of: &[usize]) -> Option<(f64, f64)> {
+        let predictions: Vec<Prediction> = of.iter().map(|&k| self.components[k].predict(z)).collect();
+        let s = DMatrix::from_fn(of.len(), of.len(), |i, j| {
+            let own = if i == j { inflation + predictions[i].variance } else { 0.0 };
+            own + self.specimens[(of[i], of[j])]
+        });
+        let mut off = DVector::from_fn(of.len(), |i, _| self.target[of[i]] - predictions[i].mean);
+        let chol = Cholesky::new(s)?;
+        chol.l_dirty().solve_lower_triangular_mut(&mut off);
+        let log_det = chol.l_dirty().diagonal().iter().map(|v| 2.0 * libm::log(*v)).sum();
+        Some((off.norm_squared(), log_det))
+    }
+
+    /// The components that tell something, at a point.
+    pub fn scores(&self, z: &[f64]) -> DVector<f64> {
+        DVector::from_iterator(self.told.len(), self.told.iter().map(|&k| self.components[k].mean(z)))
+    }
+
+    /// Covariance of data and specimens in those components.
+    pub fn scatter(&self, inflation: f64) -> DMatrix<f64> {
+        let n = self.told.len();
+        DMatrix::identity(n, n) * inflation
+            + DMatrix::from_fn(n, n, |i, j| self.specimens[(self.told[i], self.told[j])])
+    }
+
+    /// The mean curve at a point.
+    pub fn curve(&self, z: &[f64]) -> Vec<f64> {
+        let scores =
+            DVector::from_iterator(self.components.len(), self.components.iter().map(|gp| gp.mean(z)));
+        let white = &self.mean + &self.basis * scores;
+        (&self.factor * white).iter().copied().collect()
+    }
+
+    /// Lengths, to begin the next fit with.
+    pub fn logs(&self) -> Vec<Logs> {
+        self.components.iter().map(|gp| gp.logs.clone()).collect()
+    }
+}
+
+/// The trials whose curves are nearest to the data. Specimens scatter more where curves are large: the variances of emulator and specimens are
+/// those that predict these trials, each left out, rightly.
+fn nearest(scores: &DMatrix<f64>, target: &DVector<f64>, d: usize) -> Vec<usize> {
+    let far = |i: &usize| (scores.column(*i) - target).norm_squared();
+    let mut order: Vec<usize> = (0..scores.ncols()).collect();
+    order.sort_by(|a, b| far(a).total_cmp(&far(b)));
+    order.truncate(NEAR.max(5 * d));
+    order
+}
+
+/// Principal directions of the columns, those that tell something.
+fn principal(off: &DMatrix<f64>, n: f64) -> Option<DMatrix<f64>> {
+    let square = (off * off.transpose()) / n;
+    let eigen = square.symmetric_eigen();
+    let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
+    order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
+    let largest = eigen.eigenvalues[*order.first()?];
+    let tells = |k: &&usize| eigen.eigenvalues[**k] > (LEAST * LEAST).max(1e-12 * largest);
+    let mut kept: Vec<usize> = order.iter().filter(tells).take(MOST).copied().collect();
+    if kept.is_empty() {
+        kept.push(order[0]);
+    }
+    let mut basis = eigen.eigenvectors.select_columns(&kept);
+    // The sign of a direction is free: the largest entry is positive, so that fits follow on from each other.
+    for mut column in basis.column_iter_mut() {
+        let largest = column.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(1.0);
+        if largest < 0.0 {
+            column.neg_mut();
+        }
+    }
+    Some(basis)
+}
+
+/// Square of the white distance of a curve from the data.
+pub(crate) fn distance(covariance: &DMatrix<f64>, off: &DVector<f64>) -> f64 {
+    let white = Cholesky::new(covariance.clone()).and_then(|c| c.l_dirty().solve_lower_triangular(off));
+    white.map_or(f64::INFINITY, |w| w.norm_squared())
+}

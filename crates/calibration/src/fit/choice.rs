@@ -1,0 +1,146 @@
+//! The next trials.
+//!
+//! One trial where the misfit may improve most (expected improvement: Jones, Schonlau & Welch 1998, doi:10.1023/A:1008306431147, of the sum of
+//! squares, by drawing the components), the others where the emulator is least certain among samples of the posterior, one after the other,
+//! each with what the earlier ones of the batch will tell (as in Sürer, Plumlee & Wild 2024, doi:10.1080/00401706.2023.2246157). Each eighth
+//! trial is the next of the even points, whatever the posterior says.
+
+use super::Fitted;
+use super::halton::Halton;
+use super::sample::{Length, Samples};
+use crate::emulator::{Gp, Prediction};
+use geom::random::{generator, unit};
+use nalgebra::DVector;
+
+/// Stream of the draws.
+const DRAWS: u64 = 0x65_69;
+/// Candidates of a batch.
+const CANDIDATES: usize = 400;
+/// Draws of the components for the expected improvement.
+const DRAWN: usize = 64;
+/// The emulator is certain when its variance is below this share of that of data and specimens, in each component, on average over the posterior:
+/// intervals are then at most a twentieth wider than with a perfect one.
+const CERTAIN: f64 = 0.1;
+
+/// A batch that is proposed.
+pub(crate) struct Choice {
+    /// Coordinates of the fitted parameters.
+    pub points: Vec<Vec<f64>>,
+    /// Whether the emulator is certain enough.
+    pub certain: bool,
+}
+
+/// A candidate with what each process says of it.
+struct Candidate {
+    z: Vec<f64>,
+    predictions: Vec<Prediction>,
+    projections: Vec<DVector<f64>>,
+}
+
+/// The even points of a step, from the `from`-th on.
+pub(crate) fn even(d: usize, seed: u64, from: usize, count: usize) -> Vec<Vec<f64>> {
+    let sequence = Halton::new(d, seed);
+    (from..from + count).map(|k| sequence.point(k as u64)).collect()
+}
+
+/// Length of the chains that candidates are taken from.
+pub(crate) const SHORT: Length = Length { burn: 60, keep: 120, thin: 10 };
+
+/// Chooses a batch; `number` of trials were made so far; `seeds` of the even points and of the draws.
+pub(crate) fn choose(
+    fitted: &Fitted,
+    samples: &Samples,
+    seeds: (u64, u64),
+    number: usize,
+    count: usize,
+) -> Choice {
+    let processes: Vec<(&Gp, f64, f64)> = fitted
+        .emulators
+        .iter()
+        .flat_map(|e| e.told.iter().map(|&k| (&e.components[k], e.noise[k], e.target[k])))
+        .collect();
+    let every = samples.list.len().div_ceil(CANDIDATES).max(1);
+    let candidate = |z: &Vec<f64>| {
+        let (predictions, projections) = processes.iter().map(|p| p.0.project(z)).unzip();
+        Candidate { z: z.clone(), predictions, projections }
+    };
+    let mut candidates: Vec<Candidate> =
+        samples.list.iter().step_by(every).map(|s| candidate(&s.z)).collect();
+    let share = |k: usize| {
+        let own = candidates.iter().map(|c| c.predictions[k].variance / (fitted.inflation + processes[k].1));
+        own.sum::<f64>() / candidates.len().max(1) as f64
+    };
+    let certain = (0..processes.len()).map(share).fold(0.0, f64::max) < CERTAIN;
+    let mut points = Vec::new();
+    for k in 0..count {
+        if (number + k) % 8 == 7 {
+            let d = fitted.step.fit.len();
+            points.push(Halton::new(d, seeds.0).point((fitted.step.first + (number + k) / 8) as u64));
+            continue;
+        }
+        let free: Vec<usize> = (0..candidates.len()).filter(|&c| apart(&candidates[c].z, &points)).collect();
+        let score = |c: usize| {
+            if k == 0 {
+                improvement(fitted, &processes, &candidates[c], seeds.1)
+            } else {
+                uncertainty(fitted, &processes, &candidates[c])
+            }
+        };
+        let best =
+            free.into_iter().map(|c| (score(c), c)).max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
+        let Some((_, chosen)) = best else { break };
+        points.push(candidates[chosen].z.clone());
+        believe(&processes, &mut candidates, chosen);
+    }
+    Choice { points, certain }
+}
+
+/// Whether a point is not one of those that were chosen.
+fn apart(z: &[f64], points: &[Vec<f64>]) -> bool {
+    points.iter().all(|p| p.iter().zip(z).any(|(a, b)| (a - b).abs() > 1e-4))
+}
+
+/// What a trial there would tell: Σ ln(1 + v/(s² + noise)).
+fn uncertainty(fitted: &Fitted, processes: &[(&Gp, f64, f64)], c: &Candidate) -> f64 {
+    let pairs = c.predictions.iter().zip(processes);
+    pairs.map(|(p, (_, noise, _))| libm::log1p(p.variance / (fitted.inflation + noise))).sum()
+}
+
+/// Expected improvement of the sum of squares on the best trial.
+fn improvement(fitted: &Fitted, processes: &[(&Gp, f64, f64)], c: &Candidate, seed: u64) -> f64 {
+    let square = |z: &[f64]| -> f64 { processes.iter().map(|(g, _, t)| (t - g.mean(z)).powi(2)).sum() };
+    let best = fitted.known.first().map_or(f64::INFINITY, |z| square(z));
+    let mut random = generator(seed, DRAWS, 0);
+    let mut gain = 0.0;
+    for _ in 0..DRAWN {
+        let drawn = |(p, (_, _, t)): (&Prediction, &(&Gp, f64, f64))| {
+            let y = p.mean + p.variance.sqrt() * normal(&mut random);
+            (t - y) * (t - y)
+        };
+        let sum: f64 = c.predictions.iter().zip(processes).map(drawn).sum();
+        gain += (best - sum).max(0.0);
+    }
+    gain / DRAWN as f64
+}
+
+/// A normal number: Box & Muller (1958), doi:10.1214/aoms/1177706645.
+pub(crate) fn normal(random: &mut rand_pcg::Pcg64Mcg) -> f64 {
+    let (a, b) = (1.0 - unit(random), unit(random));
+    (-2.0 * libm::log(a)).sqrt() * libm::cos(std::f64::consts::TAU * b)
+}
+
+/// Lowers the variances by what a trial at the chosen candidate will tell.
+fn believe(processes: &[(&Gp, f64, f64)], candidates: &mut [Candidate], chosen: usize) {
+    let (z, projections) = (candidates[chosen].z.clone(), candidates[chosen].projections.clone());
+    for (k, (gp, ..)) in processes.iter().enumerate() {
+        let own = candidates[chosen].predictions[k].variance + gp.noise;
+        if !(own > 0.0) {
+            continue;
+        }
+        for c in candidates.iter_mut() {
+            let with = gp.covariance((&c.z, &c.projections[k]), (&z, &projections[k]));
+            let p = &mut c.predictions[k];
+            p.variance = (p.variance - with * with / own).max(0.0);
+        }
+    }
+}

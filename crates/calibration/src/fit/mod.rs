@@ -1,0 +1,133 @@
+//! What the trials tell: emulators of the curves, the posterior, and the next trials.
+
+pub(crate) mod choice;
+mod feasible;
+pub(crate) mod halton;
+pub mod next;
+pub(crate) mod sample;
+pub(crate) mod sensitivity;
+
+use crate::emulator::{Emulator, Lessons, Logs, MOST_TRIALS, distance};
+use crate::recipe::{Part, Recipe, Step};
+use crate::session::{Status, Tried};
+use feasible::Feasible;
+use nalgebra::{DMatrix, DVector};
+use sample::{Length, Samples, draw};
+
+/// What a step has learnt.
+pub(crate) struct Fitted<'a> {
+    pub recipe: &'a Recipe,
+    pub step: &'a Step,
+    /// An emulator for each part of the step.
+    pub emulators: Vec<Emulator>,
+    /// Where trials come to their end.
+    pub feasible: Feasible,
+    /// Coordinates of the trials that it learnt from, least misfit first.
+    pub known: Vec<Vec<f64>>,
+    /// How much more the data deviate than they say, as a variance ≥ 1.
+    pub inflation: f64,
+}
+
+/// The square of the misfit of a trial over the parts of a step: `None` where an output is missing.
+pub(crate) fn misfit(recipe: &Recipe, parts: &[Part], tried: &Tried) -> Option<f64> {
+    parts.iter().map(|part| part_misfit(recipe, part, tried)).sum()
+}
+
+/// The square of the misfit of a trial over one part.
+pub(crate) fn part_misfit(recipe: &Recipe, part: &Part, tried: &Tried) -> Option<f64> {
+    let target = recipe.tests[part.test].target.as_ref()?;
+    let output = tried.outputs[part.test].as_ref()?;
+    let of = target.part(part.from, part.until);
+    let off = DVector::from_iterator(of.len(), of.iter().map(|&k| output[k] - target.points[k].y));
+    Some(distance(&target.covariance(&of), &off))
+}
+
+/// Whether a trial differs from the held parameters only in those of the step.
+fn belongs(step: &Step, held: &[f64], z: &[f64]) -> bool {
+    (0..z.len()).all(|k| step.fit.contains(&k) || (z[k] - held[k]).abs() < 1e-9)
+}
+
+impl<'a> Fitted<'a> {
+    /// Learns from the trials of a step; `before` are the lengths of the fit before.
+    pub fn learn(
+        recipe: &'a Recipe,
+        step: &'a Step,
+        tried: &[Tried],
+        held: &[f64],
+        before: &[Vec<Logs>],
+    ) -> Option<Fitted<'a>> {
+        let own = |z: &[f64]| -> Vec<f64> { step.fit.iter().map(|&k| z[k]).collect() };
+        let mine: Vec<&Tried> = tried.iter().filter(|t| belongs(step, held, &t.trial.z)).collect();
+        let emulator = |(k, part): (usize, &Part)| {
+            let target = recipe.tests[part.test].target.as_ref()?;
+            let of = target.part(part.from, part.until);
+            let mut with: Vec<(f64, &Tried)> =
+                mine.iter().filter_map(|t| Some((part_misfit(recipe, part, t)?, *t))).collect();
+            with.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.trial.number.cmp(&b.1.trial.number)));
+            with.truncate(MOST_TRIALS);
+            with.sort_by_key(|w| w.1.trial.number);
+            if with.len() < step.fit.len() + 2 {
+                return None;
+            }
+            let inputs = DMatrix::from_fn(with.len(), step.fit.len(), |i, j| with[i].1.trial.z[step.fit[j]]);
+            let output = |i: usize, j: usize| with[i].1.outputs[part.test].as_ref().map_or(0.0, |o| o[of[j]]);
+            let seeds = if recipe.tests[part.test].is_random() { recipe.settings.seeds as f64 } else { 1.0 };
+            Emulator::learn(&Lessons {
+                inputs,
+                outputs: DMatrix::from_fn(with.len(), of.len(), output),
+                data: DVector::from_iterator(of.len(), of.iter().map(|&k| target.points[k].y)),
+                covariance: target.covariance(&of),
+                seeds,
+                specimens: target.specimens as f64,
+                before: before.get(k).map_or(&[], Vec::as_slice),
+            })
+        };
+        let emulators: Vec<Emulator> = step.to.iter().enumerate().map(emulator).collect::<Option<_>>()?;
+        let ends =
+            mine.iter().filter(|t| matches!(t.status, Status::Done | Status::Abandoned | Status::Stopped));
+        let feasible = Feasible::new(ends.map(|t| (own(&t.trial.z), t.status != Status::Stopped)).collect());
+        let mut known: Vec<(f64, Vec<f64>)> =
+            mine.iter().filter_map(|t| Some((misfit(recipe, &step.to, t)?, own(&t.trial.z)))).collect();
+        known.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let known = known.into_iter().map(|k| k.1).collect();
+        Some(Fitted { recipe, step, emulators, feasible, known, inflation: 1.0 })
+    }
+
+    /// Logarithm of the posterior's density, up to a constant.
+    pub fn log_density(&self, z: &[f64]) -> f64 {
+        let prior: f64 =
+            self.step.fit.iter().zip(z).map(|(&k, z)| self.recipe.parameters[k].log_prior(*z)).sum();
+        let likelihood: f64 = self.emulators.iter().map(|e| e.log_likelihood(z, self.inflation)).sum();
+        prior + likelihood + self.feasible.log_chance(z)
+    }
+
+    /// Samples of the posterior.
+    pub fn samples(&self, seed: u64, length: Length) -> Samples {
+        let known = &self.known[..self.known.len().min(60)];
+        draw(&|z: &[f64]| self.log_density(z), self.step.fit.len(), known, seed, length)
+    }
+
+    /// Square of the misfit at a point, and the degrees of freedom that it should have.
+    pub fn misfit(&self, z: &[f64]) -> (f64, f64) {
+        let points: usize = self.emulators.iter().map(|e| e.points).sum();
+        let free = (points as f64 - self.step.fit.len() as f64).max(1.0);
+        (self.emulators.iter().map(|e| e.misfit(z)).sum(), free)
+    }
+
+    /// Widens the data's deviations if no point fits within them: by the ratio of Birge (1932), doi:10.1103/PhysRev.40.207.
+    pub fn inflate(&mut self, best: &[f64]) {
+        let (square, free) = self.misfit(best);
+        if square > free + 3.0 * (2.0 * free).sqrt() {
+            self.inflation = square / free;
+        }
+    }
+
+    /// Lengths, to begin the next fit with, with the digits that a file keeps.
+    pub fn logs(&self) -> Vec<Vec<Logs>> {
+        let rounded = |v: &f64| (v * 1e4).round() / 1e4;
+        self.emulators
+            .iter()
+            .map(|e| e.logs().iter().map(|l| l.iter().map(rounded).collect()).collect())
+            .collect()
+    }
+}

@@ -1,0 +1,117 @@
+//! A recipe: what is to be found, with which tests, compared with which data, in which steps.
+//!
+//! [`read`] checks everything that can be checked before a trial runs; each error names its place.
+
+mod blanks;
+mod check;
+mod keys;
+mod parameter;
+mod steps;
+mod tests_of;
+mod text;
+
+pub use blanks::{filled, shown};
+pub use keys::Pick;
+pub use parameter::{Parameter, Prior};
+pub use steps::{Part, Step};
+
+use crate::data::Target;
+use crate::error::{CalibrateError, Result};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use text::Text;
+
+/// A checked recipe.
+#[derive(Debug, Clone)]
+pub struct Recipe {
+    /// The file, as it was named.
+    pub name: String,
+    /// Its folder, which the blank `{here}` stands for.
+    pub here: PathBuf,
+    /// What is to be found.
+    pub parameters: Vec<Parameter>,
+    /// What is simulated.
+    pub tests: Vec<Test>,
+    /// What is fitted to what, in order.
+    pub steps: Vec<Step>,
+    /// Numbers for all.
+    pub settings: Settings,
+    /// What is odd, but no error.
+    pub warnings: Vec<String>,
+}
+
+/// Numbers for all trials.
+#[derive(Debug, Clone)]
+pub struct Settings {
+    /// Runs of each trial with different seeds.
+    pub seeds: u64,
+    /// Seed of the proposals, and the first of the runs.
+    pub seed: u64,
+    /// Content of the intervals.
+    pub interval: f64,
+    /// Largest share of failed trials.
+    pub failures: f64,
+    /// Longest time of a run [s].
+    pub timeout: Option<f64>,
+    /// A trial is abandoned when its log likelihood is this much below the best.
+    pub abandon: f64,
+}
+
+/// A command that prints a curve or a number.
+#[derive(Debug, Clone)]
+pub struct Test {
+    /// Its name.
+    pub name: String,
+    /// The shell line, with blanks.
+    pub command: String,
+    /// The file that is read, relative to the folder of the run; absent: stdout.
+    pub read: Option<String>,
+    /// Column of x; absent: the result is a number.
+    pub x: Option<String>,
+    /// Column of y.
+    pub y: Option<String>,
+    /// Only rows with these values.
+    pub rows: BTreeMap<String, f64>,
+    /// Which row is the number.
+    pub pick: Pick,
+    /// Data; absent: a test that `--design` may propose.
+    pub target: Option<Target>,
+    /// Deviation of a measurement that is not there yet, as share or in the unit of y.
+    pub deviation: Option<f64>,
+    /// Whether [`Test::deviation`] is a share.
+    pub share: bool,
+    /// Unit of y, for messages.
+    pub unit: String,
+}
+
+impl Test {
+    /// Whether the seed changes it.
+    pub fn is_random(&self) -> bool {
+        self.command.contains("{seed}")
+    }
+}
+
+/// Data for a test without, or instead of, those of the recipe: `NAME=FILE`, or `FILE` for the only test or the next one without data.
+pub type GivenData = Vec<String>;
+
+/// Reads and checks a recipe; `data` are given on the command line.
+///
+/// # Errors
+/// What is wrong, and where.
+pub fn read(path: &Path, data: &GivenData) -> Result<Recipe> {
+    let name = path.display().to_string();
+    let toml = std::fs::read_to_string(path).map_err(crate::error::file(path, "cannot read the recipe"))?;
+    let text = Text { name: &name, toml: &toml };
+    let keys = text.parse()?;
+    if keys.parameter.is_empty() || keys.test.is_empty() {
+        let message = "a recipe has at least one [[parameter]] and one [[test]]".to_owned();
+        return Err(CalibrateError::Recipe { place: text.place(None), message });
+    }
+    let here = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let here = here.canonicalize().map_err(crate::error::file(here, "cannot find the folder"))?;
+    let settings = check::settings(&text, &keys.settings)?;
+    let parameters = check::parameters(&text, &keys.parameter)?;
+    let (tests, warnings) = tests_of::tests(&text, &keys.test, &parameters, &settings, (&here, data))?;
+    let steps = steps::steps(&text, &keys, &parameters, &tests)?;
+    Ok(Recipe { name, here, parameters, tests, steps, settings, warnings })
+}

@@ -1,0 +1,165 @@
+//! Steps: parameters that are fitted to parts of the curves, while the others are held.
+
+use super::check::whole;
+use super::keys::{PartKeys, RecipeKeys, StepKeys};
+use super::text::Text;
+use super::{Parameter, Test};
+use crate::error::{CalibrateError, Result, hint};
+use std::ops::Range;
+use toml::Spanned;
+
+/// A part of a test's curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    /// Index of the test.
+    pub test: usize,
+    /// Where the part begins.
+    pub from: f64,
+    /// Where it ends.
+    pub until: f64,
+}
+
+/// A step.
+#[derive(Debug, Clone)]
+pub struct Step {
+    /// Its name.
+    pub name: String,
+    /// Indices of the parameters that are fitted.
+    pub fit: Vec<usize>,
+    /// What they are fitted to.
+    pub to: Vec<Part>,
+    /// Trials that it may take.
+    pub trials: usize,
+    /// Trials that fill the space, before the others.
+    pub first: usize,
+    /// Trials that are proposed at once.
+    pub batch: usize,
+}
+
+/// Most trials of a step.
+const MOST: u64 = 100_000;
+
+pub(super) fn steps(
+    text: &Text,
+    keys: &RecipeKeys,
+    parameters: &[Parameter],
+    tests: &[Test],
+) -> Result<Vec<Step>> {
+    let measured = |test: usize| tests[test].target.is_some();
+    let all_tests: Vec<Part> = (0..tests.len()).filter(|k| measured(*k)).map(whole_curve).collect();
+    if all_tests.is_empty() {
+        let message = "no test has data: give data or value in the recipe, or --data FILE".to_owned();
+        return Err(CalibrateError::Recipe { place: text.place(None), message });
+    }
+    if keys.step.is_empty() {
+        let fit = (0..parameters.len()).collect();
+        return Ok(vec![numbers(text, keys, None, "all".to_owned(), (fit, all_tests))?]);
+    }
+    let step = |entry: &Spanned<StepKeys>| {
+        let key = entry.get_ref();
+        let fit = fit(text, key, parameters)?;
+        let to = match &key.to {
+            None => all_tests.clone(),
+            Some(parts) if parts.get_ref().is_empty() => {
+                return Err(text.refuse(&parts.span(), "to = []: name a test"));
+            }
+            Some(parts) => {
+                parts.get_ref().iter().map(|p| part(text, &parts.span(), p, tests)).collect::<Result<_>>()?
+            }
+        };
+        numbers(text, keys, Some(key), key.name.clone(), (fit, to))
+    };
+    keys.step.iter().map(step).collect()
+}
+
+fn whole_curve(test: usize) -> Part {
+    Part { test, from: f64::NEG_INFINITY, until: f64::INFINITY }
+}
+
+fn numbers(
+    text: &Text,
+    keys: &RecipeKeys,
+    own: Option<&StepKeys>,
+    name: String,
+    of: (Vec<usize>, Vec<Part>),
+) -> Result<Step> {
+    let settings = &keys.settings;
+    let key = |own: Option<&Option<Spanned<i64>>>, all: &Option<Spanned<i64>>| {
+        own.and_then(Option::as_ref).or(all.as_ref()).map(|s| Spanned::new(s.span(), *s.get_ref()))
+    };
+    let n = of.0.len() as u64;
+    let trials = whole(text, "trials", &key(own.map(|o| &o.trials), &settings.trials), 30 * n, [3, MOST])?;
+    let default = (10 * n).min(trials);
+    let first = whole(text, "first", &key(own.map(|o| &o.first), &settings.first), default, [3, MOST])?;
+    let batch = whole(text, "batch", &key(own.map(|o| &o.batch), &settings.batch), 8, [1, 1000])?;
+    if first > trials || first < n + 2 {
+        let given = own
+            .and_then(|o| o.first.as_ref().or(o.trials.as_ref()))
+            .or(settings.first.as_ref().or(settings.trials.as_ref()));
+        let span = given.map_or(0..0, Spanned::span);
+        let message = format!(
+            "step '{name}' has {n} parameters, trials = {trials} and first = {first}: give first from {} to trials, and trials of {} or more",
+            n + 2,
+            10 * n
+        );
+        return Err(text.refuse(&span, message));
+    }
+    Ok(Step {
+        name,
+        fit: of.0,
+        to: of.1,
+        trials: trials as usize,
+        first: first as usize,
+        batch: batch as usize,
+    })
+}
+
+fn fit(text: &Text, key: &StepKeys, parameters: &[Parameter]) -> Result<Vec<usize>> {
+    let names = key.fit.get_ref().list();
+    if names == ["all"] {
+        return Ok((0..parameters.len()).collect());
+    }
+    let span = key.fit.span();
+    let find = |name: &String| {
+        let known = parameters.iter().map(|p| p.name.as_str());
+        known
+            .clone()
+            .position(|k| k == name)
+            .ok_or_else(|| text.refuse(&span, format!("fit: no parameter '{name}'{}", hint(name, known))))
+    };
+    let mut found: Vec<usize> = names.iter().map(find).collect::<Result<_>>()?;
+    found.sort_unstable();
+    found.dedup();
+    if found.is_empty() || found.len() != names.len() {
+        return Err(text.refuse(&span, "fit: name each parameter once, or write fit = \"all\""));
+    }
+    Ok(found)
+}
+
+fn part(text: &Text, span: &Range<usize>, key: &PartKeys, tests: &[Test]) -> Result<Part> {
+    let (name, from, until) = match key {
+        PartKeys::Test(name) => (name, None, None),
+        PartKeys::Part(part) => (&part.test, part.from.as_ref(), part.until.as_ref()),
+    };
+    let known = tests.iter().map(|t| t.name.as_str());
+    let Some(test) = known.clone().position(|k| k == name) else {
+        return Err(text.refuse(span, format!("to: no test '{name}'{}", hint(name, known))));
+    };
+    let Some(target) = &tests[test].target else {
+        return Err(text.refuse(span, format!("to: test '{name}' has no data")));
+    };
+    let end = |number: Option<&super::keys::Number>, key: &str, default: f64| {
+        number.map_or(Ok(default), |n| text.number(n, &target.x_unit, span, key))
+    };
+    let (from, until) = (end(from, "from", f64::NEG_INFINITY)?, end(until, "until", f64::INFINITY)?);
+    if target.points.iter().filter(|p| p.x >= from && p.x <= until).count() == 0 {
+        let ends =
+            [target.points.first(), target.points.last()].map(|p| p.map_or(0.0, |p| p.x)).map(super::shown);
+        let message = format!(
+            "to: no point of test '{name}' lies from {from} to {until}: its data reach from {} to {}",
+            ends[0], ends[1]
+        );
+        return Err(text.refuse(span, message));
+    }
+    Ok(Part { test, from, until })
+}

@@ -1,0 +1,286 @@
+//! A batch: its runs, their results, and what they cost.
+
+use super::proposal::Proposal;
+use super::{Session, Status, Tried, duration, seconds, table};
+use crate::error::{CalibrateError, Result};
+use crate::fit::{misfit, part_misfit};
+use crate::recipe::Step;
+use crate::trial::output::{Outcome, on_grid, outcome};
+use crate::trial::pool::Pool;
+use crate::trial::run::{Ended, Hashes, is_done};
+use crate::trial::{self, Run, Trial};
+use std::path::PathBuf;
+use std::sync::Mutex;
+use std::sync::atomic::AtomicBool;
+
+/// Runs that are measured before the rate is told.
+const MEASURED: usize = 4;
+/// Failures without any success that end a calibration at once.
+const HOPELESS: usize = 3;
+/// Trials that are all this many times as large as the data have other units.
+const OTHER_UNITS: f64 = 100.0;
+
+/// What goes on between batches.
+pub(super) struct Work {
+    hashes: Hashes,
+    /// Jobs to be run by others.
+    pub open: Vec<PathBuf>,
+    since: u64,
+    total: usize,
+    /// Runs that are done, and of this process: number, failures and time [s].
+    count: Mutex<Count>,
+}
+
+#[derive(Default)]
+struct Count {
+    done: usize,
+    own: usize,
+    failed: usize,
+    seconds: f64,
+    told: bool,
+}
+
+impl Work {
+    pub fn new(session: &Session, since: u64) -> Work {
+        let trials: usize = session.recipe.steps.iter().map(|s| s.trials).sum();
+        let each: usize = session.tests().map(|t| session.runs_of(t)).sum();
+        Work {
+            hashes: Hashes::default(),
+            open: Vec::new(),
+            since,
+            total: trials * each,
+            count: Mutex::default(),
+        }
+    }
+
+    /// Refuses units that cannot be those of the data.
+    pub fn check_sizes(&self, session: &Session, step: &Step, tried: &[Tried]) -> Result<()> {
+        for part in &step.to {
+            let test = &session.recipe.tests[part.test];
+            let Some(target) = &test.target else { continue };
+            let sizes: Vec<f64> = tried
+                .iter()
+                .filter_map(|t| t.outputs[part.test].as_ref())
+                .map(|o| o.iter().fold(0.0, |a: f64, v| a.max(v.abs())))
+                .collect();
+            let ratio = |s: &f64| s / target.size();
+            let small = sizes.iter().map(ratio).fold(f64::INFINITY, f64::min);
+            let large = sizes.iter().map(ratio).fold(0.0, f64::max);
+            if sizes.is_empty() || large > 1.0 / OTHER_UNITS && small < OTHER_UNITS {
+                continue;
+            }
+            let message = format!(
+                "its trials are {} to {} times as large as the data: are the units the same? Name them: y_unit is that of the command, 'column [kPa]' that of the data",
+                geom::Shown(small),
+                geom::Shown(large)
+            );
+            return Err(CalibrateError::Test { test: test.name.clone(), message });
+        }
+        Ok(())
+    }
+}
+
+impl Session<'_> {
+    /// Tests that are simulated.
+    pub(super) fn tests(&self) -> impl Iterator<Item = usize> {
+        (0..self.recipe.tests.len()).filter(|&t| self.candidates || self.recipe.tests[t].target.is_some())
+    }
+
+    pub(super) fn runs_of(&self, test: usize) -> usize {
+        if self.recipe.tests[test].is_random() { self.recipe.settings.seeds as usize } else { 1 }
+    }
+
+    /// Makes the trials of a proposal; false: jobs are open.
+    pub(super) fn try_all(
+        &self,
+        proposal: &Proposal,
+        of: (usize, usize),
+        known: (&mut Vec<Tried>, &[f64]),
+        work: &mut Work,
+    ) -> Result<bool> {
+        let (tried, held) = known;
+        let step = &self.recipe.steps[of.0];
+        let number = tried.len();
+        let trial = |(k, point): (usize, &Vec<f64>)| {
+            let mut z = held.to_vec();
+            step.fit.iter().zip(point).for_each(|(&p, v)| z[p] = *v);
+            Trial { number: number + k + 1, step: of.0, batch: of.1, z }
+        };
+        let empty = |trial: Trial| Tried {
+            trial,
+            outputs: vec![None; self.recipe.tests.len()],
+            curves: vec![Vec::new(); self.recipe.tests.len()],
+            status: Status::Done,
+            why: None,
+            seconds: 0.0,
+            misfit: None,
+        };
+        let mut new: Vec<Tried> = proposal.points.iter().enumerate().map(trial).map(empty).collect();
+        let best =
+            tried.iter().filter_map(|t| misfit(self.recipe, &step.to, t)).fold(f64::INFINITY, f64::min);
+        // After the first batch, tests run one after the other, so that hopeless trials are seen early.
+        let all: Vec<usize> = self.tests().collect();
+        let phases: Vec<Vec<usize>> = if of.1 == 0 || self.recipe.settings.abandon == 0.0 {
+            vec![all]
+        } else {
+            all.into_iter().map(|t| vec![t]).collect()
+        };
+        for tests in phases {
+            let runs = self.prepare(&new, &tests, work)?;
+            if self.list {
+                let open: Vec<PathBuf> = runs
+                    .iter()
+                    .flatten()
+                    .filter(|r| !is_done(&r.file, &r.job, u64::MAX))
+                    .map(|r| r.file.clone())
+                    .collect();
+                if !open.is_empty() {
+                    work.open = open;
+                    return Ok(false);
+                }
+            } else {
+                self.work_off(&runs.concat(), work, &step.name)?;
+            }
+            for (tried, runs) in new.iter_mut().zip(&runs) {
+                self.collect(tried, runs);
+                self.abandon(step, tried, best, &tests);
+            }
+        }
+        for t in &mut new {
+            t.misfit = misfit(self.recipe, &step.to, t);
+        }
+        tried.append(&mut new);
+        trial::replace(&self.dir.join("trials.csv"), table(self.recipe, tried).as_bytes())?;
+        self.refuse_failures(tried)?;
+        Ok(true)
+    }
+
+    /// Writes the jobs of the trials that are still hopeful: for each trial its runs.
+    fn prepare(&self, new: &[Tried], tests: &[usize], work: &mut Work) -> Result<Vec<Vec<Run>>> {
+        let mut all = Vec::new();
+        for t in new {
+            let mut runs = Vec::new();
+            if t.status == Status::Done {
+                for &test in tests {
+                    runs.extend(trial::runs(self.recipe, &self.dir, &t.trial, test, &mut work.hashes));
+                }
+                let open = |r: &Run| !is_done(&r.file, &r.job, work.since);
+                if runs.iter().any(open) {
+                    trial::write(self.recipe, &self.dir, &t.trial, &runs)?;
+                }
+            }
+            all.push(runs);
+        }
+        Ok(all)
+    }
+
+    fn work_off(&self, runs: &[Run], work: &Work, step: &str) -> Result<()> {
+        let open: Vec<Run> = runs.iter().filter(|r| !is_done(&r.file, &r.job, work.since)).cloned().collect();
+        let lock = || work.count.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        lock().done += runs.len() - open.len();
+        self.watch.progress(lock().done, work.total, step);
+        let give_up = AtomicBool::new(false);
+        let ended = |_: &Run, ended: &Ended| {
+            let mut count = lock();
+            count.done += 1;
+            count.own += 1;
+            count.seconds += ended.seconds;
+            count.failed += usize::from(!ended.is_final());
+            self.watch.progress(count.done, work.total, step);
+            if count.failed == count.own && count.own >= HOPELESS && count.done == count.own {
+                give_up.store(true, std::sync::atomic::Ordering::SeqCst);
+            }
+            if !count.told && count.own >= MEASURED.max(2 * self.jobs) {
+                count.told = true;
+                self.watch.tell(&rate(&count, work.total, self.jobs));
+            }
+        };
+        Pool { jobs: self.jobs, stop: self.stop, since: work.since, ended: &ended, give_up: &give_up }
+            .run(&open)?;
+        if give_up.load(std::sync::atomic::Ordering::SeqCst) {
+            let failed = runs.iter().find_map(|r| match outcome(r, &self.recipe.tests[r.test]) {
+                Outcome::Failed(why) if why != "it has no result" => Some((r, why)),
+                _ => None,
+            });
+            if let Some((run, why)) = failed {
+                let folder = trial::run::folder(&run.file);
+                let message = format!(
+                    "the first {HOPELESS} runs have all failed, this one: {why}: try its command.sh in this folder"
+                );
+                return Err(CalibrateError::Folder { folder, message });
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads what the runs of a trial printed.
+    fn collect(&self, tried: &mut Tried, runs: &[Run]) {
+        for run in runs {
+            tried.seconds += seconds(trial::run::ended(&run.file, &run.job));
+            match outcome(run, &self.recipe.tests[run.test]) {
+                Outcome::Done(curve) => tried.curves[run.test].push(curve),
+                Outcome::Stopped(why) => note(tried, Status::Stopped, why),
+                Outcome::Failed(why) => note(tried, Status::Failed, why),
+            }
+        }
+        for test in 0..self.recipe.tests.len() {
+            let of = &self.recipe.tests[test];
+            let Some(target) = &of.target else { continue };
+            if tried.curves[test].is_empty() || tried.outputs[test].is_some() {
+                continue;
+            }
+            let values: Result<Vec<Vec<f64>>, String> =
+                tried.curves[test].iter().map(|c| on_grid(c, &target.places, of.x.is_none())).collect();
+            match values {
+                Ok(values) => tried.outputs[test] = Some(mean(&values)),
+                Err(why) => note(tried, Status::Failed, format!("test '{}': {why}", of.name)),
+            }
+        }
+    }
+
+    /// A trial whose first tests are hopeless is spared the others.
+    fn abandon(&self, step: &Step, tried: &mut Tried, best: f64, tests: &[usize]) {
+        if tried.status != Status::Done || self.tests().last() == tests.last().copied() {
+            return;
+        }
+        let known: f64 = step.to.iter().filter_map(|part| part_misfit(self.recipe, part, tried)).sum();
+        if 0.5 * (known - best) > self.recipe.settings.abandon {
+            note(tried, Status::Abandoned, "its first tests are far from the data".to_owned());
+        }
+    }
+
+    fn refuse_failures(&self, tried: &[Tried]) -> Result<()> {
+        let failed: Vec<&Tried> = tried.iter().filter(|t| t.status == Status::Failed).collect();
+        let (n, all) = (failed.len(), tried.len());
+        if n as f64 <= self.recipe.settings.failures * all as f64 {
+            return Ok(());
+        }
+        let first = failed[0];
+        let message = format!(
+            "{n} of {all} trials have failed (settings.failures allows {} %), this one: {}: the same command tries them again",
+            geom::Shown(100.0 * self.recipe.settings.failures),
+            first.why.as_deref().unwrap_or("")
+        );
+        Err(CalibrateError::Folder { folder: trial::folder(&self.dir, first.trial.number), message })
+    }
+}
+
+fn note(tried: &mut Tried, status: Status, why: String) {
+    tried.status = status;
+    tried.why.get_or_insert(why);
+}
+
+fn mean(values: &[Vec<f64>]) -> Vec<f64> {
+    let n = values.len() as f64;
+    (0..values[0].len()).map(|k| values.iter().map(|v| v[k]).sum::<f64>() / n).collect()
+}
+
+fn rate(count: &Count, total: usize, jobs: usize) -> String {
+    let each = count.seconds / count.own as f64;
+    let left = total.saturating_sub(count.done);
+    let time = duration(left as f64 * each / jobs as f64);
+    format!(
+        "measured: {} a run, {jobs} at the same time; at most {left} runs are left: {time}",
+        duration(each)
+    )
+}

@@ -1,0 +1,113 @@
+//! What a run printed, as a curve on the points of the data, or as a number.
+
+use super::Run;
+use super::run::{self, STOPPED};
+use crate::data::{at, growing};
+use crate::error::{CalibrateError, Result};
+use crate::recipe::{Pick, Test, shown};
+use crate::sheet::{Sheet, of_report};
+use std::fs;
+
+/// What came out of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Outcome {
+    /// A curve (x, y), or one point.
+    Done(Vec<(f64, f64)>),
+    /// A guard stopped it: the parameters cannot be simulated so.
+    Stopped(String),
+    /// It failed, or printed something else.
+    Failed(String),
+}
+
+/// The outcome of a run that has ended.
+pub fn outcome(run: &Run, test: &Test) -> Outcome {
+    let Some(ended) = run::ended(&run.file, &run.job) else {
+        return Outcome::Failed("it has no result".to_owned());
+    };
+    let reason = || {
+        let words = fs::read_to_string(run::folder(&run.file).join("stderr")).unwrap_or_default();
+        let line = words.lines().rev().find(|l| !l.trim().is_empty()).unwrap_or("it gave no reason");
+        line.chars().take(300).collect::<String>()
+    };
+    match ended.exit {
+        _ if ended.timed_out => {
+            Outcome::Failed(format!("took longer than {} s", run.job.timeout.unwrap_or(0.0)))
+        }
+        0 => match curve(run, test) {
+            Ok(curve) => Outcome::Done(curve),
+            Err(e) => Outcome::Failed(e.to_string()),
+        },
+        STOPPED => Outcome::Stopped(reason()),
+        code @ 128.. => Outcome::Failed(format!("ended by signal {}: {}", code - 128, reason())),
+        code => Outcome::Failed(format!("exit code {code}: {}", reason())),
+    }
+}
+
+/// The curve that a run printed.
+fn curve(run: &Run, test: &Test) -> Result<Vec<(f64, f64)>> {
+    let path = run::folder(&run.file).join(run.job.read.as_deref().unwrap_or("stdout"));
+    let text =
+        fs::read_to_string(&path).map_err(crate::error::file(&path, "cannot read what the command wrote"))?;
+    let name = path.display().to_string();
+    let fail = |message: String| CalibrateError::Test { test: test.name.clone(), message };
+    let Some(y) = &test.y else {
+        let last = text.split_whitespace().last().unwrap_or_default();
+        let number = last.parse::<f64>().ok().filter(|v| v.is_finite());
+        return number
+            .map(|v| vec![(0.0, v)])
+            .ok_or_else(|| fail(format!("the last word of its output is not a number: '{last:.40}'")));
+    };
+    if text.trim_start().starts_with('{') && test.x.is_none() {
+        return Ok(vec![(0.0, of_report(&name, &text, y)?)]);
+    }
+    let sheet = Sheet::parse(&name, &text)?;
+    let columns: Vec<usize> =
+        test.x.iter().chain([y]).map(|c| Ok(sheet.column(c)?.0)).collect::<Result<_>>()?;
+    let rows = sheet.numbers(&columns, &test.rows)?;
+    if test.x.is_some() {
+        let curve = growing(rows.iter().map(|(_, row)| (row[0], row[1])));
+        return if curve.len() >= 2 {
+            Ok(curve)
+        } else {
+            Err(fail("its curve has fewer than two points".to_owned()))
+        };
+    }
+    let values: Vec<f64> = rows.iter().map(|(_, row)| row[0]).collect();
+    Ok(vec![(0.0, picked(test.pick, &values))])
+}
+
+fn picked(pick: Pick, values: &[f64]) -> f64 {
+    match pick {
+        Pick::First => values.first().copied().unwrap_or(f64::NAN),
+        Pick::Last => values.last().copied().unwrap_or(f64::NAN),
+        Pick::Max => values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+        Pick::Min => values.iter().copied().fold(f64::INFINITY, f64::min),
+        Pick::Mean => values.iter().sum::<f64>() / values.len() as f64,
+    }
+}
+
+/// The values of a curve on a grid: at each point the mean over its places.
+///
+/// # Errors
+/// A curve that ends before the grid does.
+pub fn on_grid(curve: &[(f64, f64)], grid: &[Vec<f64>], is_number: bool) -> Result<Vec<f64>, String> {
+    if is_number {
+        return Ok(curve.iter().map(|p| p.1).take(1).collect());
+    }
+    let value = |x: &f64| {
+        at(curve, *x).ok_or_else(|| {
+            let ends = [curve.first(), curve.last()].map(|p| shown(p.map_or(0.0, |p| p.0)));
+            format!(
+                "its curve reaches from x = {} to {}, the data have x = {}: simulate farther, set from and until, or check the units",
+                ends[0],
+                ends[1],
+                shown(*x)
+            )
+        })
+    };
+    let mean = |places: &Vec<f64>| {
+        let sum = places.iter().map(value).sum::<Result<f64, String>>()?;
+        Ok(sum / places.len() as f64)
+    };
+    grid.iter().map(mean).collect()
+}

@@ -1,0 +1,229 @@
+//! One run: its command in its own folder.
+
+use super::lock::Lock;
+use crate::error::{CalibrateError, Result, file};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::os::unix::process::{CommandExt, ExitStatusExt};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+
+/// How often a run that failed is tried, by one command after another.
+const TRIES: u32 = 3;
+/// Exit code of a run that a guard stopped.
+pub const STOPPED: i32 = 3;
+
+/// What a run does.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Job {
+    /// Name of the test.
+    pub test: String,
+    /// The shell line.
+    pub command: String,
+    /// SHA-256 of the line and of the files that it names.
+    pub stamp: String,
+    /// The file that is read; absent: stdout.
+    pub read: Option<String>,
+    /// Longest time [s].
+    pub timeout: Option<f64>,
+}
+
+/// How a run ended, and its provenance.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Ended {
+    /// That of its job.
+    pub stamp: String,
+    /// The shell line.
+    pub command: String,
+    /// Exit code; 128 and more: killed by a signal.
+    pub exit: i32,
+    /// Whether it took longer than it may.
+    pub timed_out: bool,
+    /// Wall time [s].
+    pub seconds: f64,
+    /// Machine and process that ran it.
+    pub by: String,
+    /// Start [s since 1970].
+    pub started: u64,
+    /// Version of this program.
+    pub version: String,
+    /// Which try it was.
+    pub attempt: u32,
+}
+
+impl Ended {
+    /// Whether it would end so again: done, or stopped by a guard.
+    pub fn is_final(&self) -> bool {
+        !self.timed_out && (self.exit == 0 || self.exit == STOPPED)
+    }
+}
+
+/// Machine and process, as part of names.
+pub fn here() -> String {
+    format!("{}-{}", host(), std::process::id())
+}
+
+/// The name of this machine.
+pub(super) fn host() -> String {
+    let name = fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();
+    let name: String = name.trim().chars().filter(|c| c.is_ascii_alphanumeric() || *c == '.').collect();
+    if name.is_empty() { "host".to_owned() } else { name }
+}
+
+/// The folder of a run.
+pub fn folder(job_file: &Path) -> PathBuf {
+    job_file.with_extension("")
+}
+
+/// How a run ended, if it is the run of this job.
+pub fn ended(job_file: &Path, job: &Job) -> Option<Ended> {
+    let text = fs::read_to_string(folder(job_file).join("result.json")).ok()?;
+    let ended: Ended = serde_json::from_str(&text).ok()?;
+    (ended.stamp == job.stamp).then_some(ended)
+}
+
+/// Whether nothing is left to do; `since`: failures after this time [s since 1970] count.
+pub fn is_done(job_file: &Path, job: &Job, since: u64) -> bool {
+    ended(job_file, job).is_some_and(|e| e.is_final() || e.started >= since || e.attempt >= TRIES)
+}
+
+/// Now [s since 1970].
+pub fn now() -> u64 {
+    SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |d| d.as_secs())
+}
+
+/// Runs a job whose lock is held. `None`: a signal asked to stop.
+///
+/// # Errors
+/// A folder that cannot be written to, bash that cannot be started.
+pub fn execute(job_file: &Path, job: &Job, lock: &mut Lock, stop: fn() -> bool) -> Result<Option<Ended>> {
+    let attempt = 1 + ended(job_file, job).map_or(0, |e| e.attempt);
+    let place = folder(job_file);
+    let part = PathBuf::from(format!("{}.part-{}", place.display(), here()));
+    let _ = fs::remove_dir_all(&part);
+    fs::create_dir_all(&part).map_err(file(&part, "cannot create the folder"))?;
+    let (started, clock) = (now(), Instant::now());
+    let mut child = start(&part, job)?;
+    // A process that outlives this one is found by it.
+    let _ = fs::write(part.join("process"), child.id().to_string());
+    let (exit, timed_out) = match wait(&mut child, job.timeout, lock, stop) {
+        Some(end) => end,
+        None => {
+            let _ = fs::remove_dir_all(&part);
+            return Ok(None);
+        }
+    };
+    let _ = fs::remove_file(part.join("process"));
+    let seconds = clock.elapsed().as_secs_f64();
+    let ended = Ended {
+        stamp: job.stamp.clone(),
+        command: job.command.clone(),
+        exit,
+        timed_out,
+        seconds,
+        by: here(),
+        started,
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        attempt,
+    };
+    let text = serde_json::to_string_pretty(&ended).map_err(|e| CalibrateError::Failed(e.to_string()))?;
+    let result = part.join("result.json");
+    fs::write(&result, text + "\n").map_err(file(&result, "cannot write (is the disk full?)"))?;
+    let _ = fs::remove_dir_all(&place);
+    if fs::rename(&part, &place).is_err() {
+        // Another machine was faster.
+        let _ = fs::remove_dir_all(&part);
+    }
+    Ok(Some(ended))
+}
+
+fn start(part: &Path, job: &Job) -> Result<Child> {
+    let tools = std::env::current_exe().ok().and_then(|e| e.parent().map(Path::to_owned)).unwrap_or_default();
+    let script = part.join("command.sh");
+    let text = format!(
+        "#!/usr/bin/env bash\nset -o pipefail\nPATH={}:\"$PATH\"\n{}\n",
+        quoted(&tools.display().to_string()),
+        job.command
+    );
+    fs::write(&script, text).map_err(file(&script, "cannot write (is the disk full?)"))?;
+    let create = |name: &str| {
+        let path = part.join(name);
+        File::create(&path).map_err(file(&path, "cannot write (is the disk full?)"))
+    };
+    Command::new("bash")
+        .arg("command.sh")
+        .current_dir(part)
+        .stdin(Stdio::null())
+        .stdout(create("stdout")?)
+        .stderr(create("stderr")?)
+        .process_group(0)
+        .spawn()
+        .map_err(file(Path::new("bash"), "cannot be started: install it"))
+}
+
+/// Exit code, and whether it took too long; `None` after a signal.
+fn wait(child: &mut Child, timeout: Option<f64>, lock: &mut Lock, stop: fn() -> bool) -> Option<(i32, bool)> {
+    let (clock, mut pause) = (Instant::now(), 1u64);
+    loop {
+        if let Ok(Some(status)) = child.try_wait() {
+            return Some((status.code().unwrap_or_else(|| 128 + status.signal().unwrap_or(0)), false));
+        }
+        let late = timeout.is_some_and(|t| clock.elapsed().as_secs_f64() > t);
+        if late || stop() {
+            kill_group(child.id());
+            let _ = child.wait();
+            return late.then_some((124, true));
+        }
+        lock.beat();
+        std::thread::sleep(Duration::from_millis(pause));
+        pause = (2 * pause).min(50);
+    }
+}
+
+/// Ends a command and all that it started.
+pub(super) fn kill_group(id: u32) {
+    if let Some(pid) = i32::try_from(id).ok().and_then(rustix::process::Pid::from_raw) {
+        let _ = rustix::process::kill_process_group(pid, rustix::process::Signal::KILL);
+    }
+}
+
+/// A word that a shell takes as it is.
+pub fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "_-./=,:+@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
+}
+
+/// Hashes of the files that commands name: a run of another scene or program is another run.
+#[derive(Default)]
+pub struct Hashes(BTreeMap<PathBuf, Option<String>>);
+
+impl Hashes {
+    fn of(&mut self, path: &Path) -> Option<&str> {
+        let read = || fs::metadata(path).ok().filter(fs::Metadata::is_file).and_then(|_| fs::read(path).ok());
+        let entry =
+            self.0.entry(path.to_owned()).or_insert_with(|| read().map(|bytes| stream::sha256(&bytes)));
+        entry.as_deref()
+    }
+
+    /// The stamp of a command; `movable` is the same without the place of the recipe.
+    pub fn stamp(&mut self, movable: &str, command: &str, read: Option<&str>) -> String {
+        let mut all = format!("{movable}\n{}\n", read.unwrap_or(""));
+        let tools =
+            std::env::current_exe().ok().and_then(|e| e.parent().map(Path::to_owned)).unwrap_or_default();
+        for word in
+            command.split(|c: char| c.is_whitespace() || "'\"=;|&<>()".contains(c)).filter(|w| !w.is_empty())
+        {
+            let found = if word.contains('/') { Path::new(word).to_owned() } else { tools.join(word) };
+            // Relative files belong to the folder of the run, which is new.
+            let hash = if found.is_absolute() { self.of(&found).map(str::to_owned) } else { None };
+            all.extend(hash.map(|h| h + "\n"));
+        }
+        stream::sha256(all.as_bytes())
+    }
+}

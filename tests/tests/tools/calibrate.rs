@@ -1,0 +1,109 @@
+//! calibrate: killed at any instant, listed as jobs, or shared by two processes, it comes to the same end.
+
+use crate::every_option::files::inputs;
+use grainpipe_tests::tools::{line, program, succeed, tool};
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+/// A recipe of two parameters whose runs take a while.
+fn slow(folder: &Path) {
+    let text = fs::read_to_string(folder.join("recipe.toml")).unwrap();
+    let text = text
+        .replace("trials = 12", "trials = 14\nfirst = 10\nbatch = 2")
+        .replace("awk 'BEGIN", "sleep 0.03; awk 'BEGIN");
+    fs::write(folder.join("slow.toml"), text).unwrap();
+}
+
+fn read(folder: &Path, name: &str) -> String {
+    fs::read_to_string(folder.join(name)).unwrap()
+}
+
+#[test]
+fn a_killed_calibration_goes_on_to_the_same_end() {
+    let folder = inputs();
+    let path = folder.path();
+    slow(path);
+    let options =
+        |dir: &str, out: &str| format!("slow.toml --data shear.csv --jobs 1 -q --dir {dir} -o {out}");
+    let words = |text: String| text.split(' ').map(str::to_owned).collect::<Vec<_>>();
+    let whole = words(options("a", "a.csv"));
+    succeed(path, "calibrate", &whole.iter().map(String::as_str).collect::<Vec<_>>());
+    for wait in [40, 90, 170, 60, 110, 20] {
+        let mut command = Command::new(program("calibrate"));
+        command.current_dir(path).args(words(options("b", "b.csv"))).stderr(Stdio::null());
+        let mut child = command.spawn().unwrap();
+        std::thread::sleep(Duration::from_millis(wait));
+        child.kill().unwrap();
+        child.wait().unwrap();
+    }
+    assert!(!path.join("b.csv").exists(), "it was killed before its end");
+    let again = words(options("b", "b.csv"));
+    succeed(path, "calibrate", &again.iter().map(String::as_str).collect::<Vec<_>>());
+    assert_eq!(read(path, "a.csv"), read(path, "b.csv"));
+    let left = Command::new("find")
+        .args(["b", "-name", "*.part-*", "-o", "-name", "*.lock"])
+        .current_dir(path)
+        .output()
+        .unwrap();
+    assert_eq!(String::from_utf8_lossy(&left.stdout), "", "nothing is left over");
+}
+
+#[test]
+fn jobs_that_others_run_give_the_same_end() {
+    let folder = inputs();
+    let path = folder.path();
+    succeed(path, "calibrate", &["recipe.toml", "--data", "shear.csv", "-q", "--dir", "a", "-o", "a.csv"]);
+    let mut rounds = 0;
+    loop {
+        let options = [
+            "recipe.toml",
+            "--data",
+            "shear.csv",
+            "-q",
+            "--dir",
+            "b",
+            "--jobs-file",
+            "jobs.txt",
+            "-o",
+            "b.csv",
+        ];
+        succeed(path, "calibrate", &options);
+        let jobs = read(path, "jobs.txt");
+        if jobs.is_empty() {
+            break;
+        }
+        assert!(!path.join("b.csv").exists());
+        jobs.lines().for_each(|job| assert_eq!(line(path, job).code, 0, "{job}"));
+        rounds += 1;
+        assert!(rounds < 9, "it comes to an end");
+    }
+    assert_eq!((read(path, "a.csv"), rounds), (read(path, "b.csv"), 2));
+}
+
+#[test]
+fn errors_end_with_the_right_code() {
+    let folder = inputs();
+    let path = folder.path();
+    let no_data = tool(path, "calibrate", &["recipe.toml"]);
+    assert!(no_data.code == 1 && no_data.stderr.contains("recipe.toml:"), "{}", no_data.stderr);
+    for (options, message) in [
+        (&["recipe.toml", "--data", "other=shear.csv"][..], "no test 'other'"),
+        (&["--data", "shear.csv"], "name a recipe"),
+        (&["recipe.toml", "--data", "shear.csv", "--plot", "fit.pdf"], "must end in .svg or .png"),
+        (
+            &["--guess", "--material", "sandd", "--size", "1mm", "--moisture", "dry", "--repose-deg", "30"],
+            "did you mean 'sand'?",
+        ),
+        (&["--guess", "--material", "sand"], "Give --size"),
+    ] {
+        let done = tool(path, "calibrate", options);
+        assert!(
+            done.code == 2 && done.stderr.contains(message),
+            "{options:?}: {} {}",
+            done.code,
+            done.stderr
+        );
+    }
+}
