@@ -5,7 +5,7 @@ use crate::compose::{Composition, number};
 use crate::error::{LabError, Result};
 use crate::recipes::{Context, Loading, Part, Prepared, Recipe, Stresses, Value};
 use crate::request::{Request, Specimen};
-use crate::sample::Sample;
+use crate::sample::{Sample, is_drawn};
 use crate::series::Curve;
 use crate::summary::{self, Summary};
 use crate::walls;
@@ -82,6 +82,13 @@ impl Lab {
                 recipe.name()
             )));
         }
+        if seeds.len() > 1 && !recipe.is_random(&sample) {
+            let (name, file) = (recipe.name(), &sample.name);
+            return Err(LabError::Usage(format!(
+                "--seeds {}: {name} of {file} leaves nothing to chance, because its grains are packed and its bonds all as strong: leave it out",
+                seeds.len()
+            )));
+        }
         let (proportions, share) = recipe.proportions();
         let specimen = Specimen::of(&sample, &request, proportions, share)?;
         let paths: Vec<Vec<f64>> = match kind {
@@ -101,6 +108,11 @@ impl Lab {
     /// The test.
     pub fn recipe(&self) -> &'static dyn Recipe {
         self.recipe
+    }
+
+    /// Whether another seed gives another specimen.
+    pub fn is_random(&self) -> bool {
+        self.recipe.is_random(&self.sample)
     }
 
     /// Stress and seed of all specimens.
@@ -175,6 +187,7 @@ impl Lab {
         } else if prepared {
             scene.remove("fill");
             scene.remove("particles");
+            scene.remove("body");
             scene.add("[[particles]]\nsource = \"prepare.mcap\"\n");
         }
         self.finish(of, part, scene)
@@ -189,8 +202,7 @@ impl Lab {
         if !part.bonds {
             scene.remove("bond");
         }
-        let drawn = ["deviation", "weibull_modulus"];
-        for bond in scene.entries("bond").filter(|bond| drawn.iter().any(|key| bond.contains_key(key))) {
+        for bond in scene.entries("bond").filter(|bond| is_drawn(bond)) {
             let own = bond.get("seed").and_then(toml_edit::Item::as_integer).unwrap_or(0);
             bond.insert("seed", value(own.wrapping_add(of.loading.seed as i64)));
         }

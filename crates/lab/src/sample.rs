@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use toml_edit::{DocumentMut, Item, Table};
 
 /// Sections that the test writes, or that no specimen has.
-const SECTIONS: [&str; 8] = ["wall", "output", "domain", "inlet", "outlet", "insert", "body", "sleep"];
+const SECTIONS: [&str; 7] = ["wall", "output", "domain", "inlet", "outlet", "insert", "sleep"];
 /// Keys of `[time]` that the test sets.
 const TIMES: [&str; 3] = ["until", "until_unbalanced", "until_kinetic"];
 /// Keys of `[[fill]]` that the test sets.
@@ -101,12 +101,18 @@ impl Sample {
 
     /// Whether its grains are packed already.
     pub(crate) fn is_packed(&self) -> bool {
-        self.document.contains_key("particles")
+        is_packed(&self.document)
     }
 
     /// Whether it has a section.
     pub(crate) fn has(&self, section: &str) -> bool {
         self.document.contains_key(section)
+    }
+
+    /// Whether a seed changes a specimen of it: its filling, or the strengths of its bonds.
+    pub(crate) fn is_random(&self) -> bool {
+        let bonds = self.document.get("bond").and_then(Item::as_array_of_tables);
+        !self.is_packed() || bonds.is_some_and(|bonds| bonds.iter().any(is_drawn))
     }
 
     /// The scene to which a recipe adds.
@@ -157,6 +163,16 @@ fn scale(scene: &Scene) -> f64 {
     scene.keys.fill.first().and_then(|fill| fill.scale.as_ref()).map_or(1.0, |scale| scale.high)
 }
 
+/// Whether the strengths of a `[[bond]]` are drawn.
+pub(crate) fn is_drawn(bond: &Table) -> bool {
+    ["deviation", "weibull_modulus"].iter().any(|key| bond.contains_key(key))
+}
+
+/// Whether grains are placed by the sample itself.
+fn is_packed(document: &DocumentMut) -> bool {
+    ["particles", "body"].iter().any(|section| document.contains_key(section))
+}
+
 /// Refuses what the test adds itself.
 fn check(document: &DocumentMut, refuse: &dyn Fn(String, &str) -> LabError) -> Result<()> {
     if let Some(section) = SECTIONS.into_iter().find(|s| document.contains_key(s)) {
@@ -176,7 +192,7 @@ fn check(document: &DocumentMut, refuse: &dyn Fn(String, &str) -> LabError) -> R
         ));
     }
     let fills = document.get("fill").and_then(Item::as_array_of_tables);
-    let packed = document.contains_key("particles");
+    let packed = is_packed(document);
     match (fills.map_or(0, |f| f.len()), packed) {
         (1, false) | (0, true) => {}
         (0, false) => {
@@ -185,7 +201,9 @@ fn check(document: &DocumentMut, refuse: &dyn Fn(String, &str) -> LabError) -> R
                 "give one [[fill]] without shape and amount, or [[particles]]",
             ));
         }
-        (_, true) => return Err(refuse("has [[fill]] and [[particles]]".into(), "give one of them")),
+        (_, true) => {
+            return Err(refuse("has [[fill]] and [[particles]] or [[body]]".into(), "give one of them"));
+        }
         (n, false) => {
             return Err(refuse(format!("has {n} [[fill]]"), "give one; its sizes may name materials"));
         }

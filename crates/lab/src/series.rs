@@ -17,7 +17,7 @@ pub struct Column {
 /// The curve of one specimen: columns of the same length.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Curve {
-    /// The columns; the first is time [s], or what stands in its place.
+    /// The columns; the first is time [s], or the number of the row.
     pub columns: Vec<Column>,
 }
 

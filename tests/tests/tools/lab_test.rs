@@ -223,6 +223,7 @@ fn what_a_test_cannot_use_is_refused() {
         (&["direct-shear", "rock.toml", "--grains", "60"], "--grains has no effect"),
         (&["crush", "rock.toml", "--set", "particles.0.cluster=0"], "not one cluster"),
         (&["direct-shear", "sand.toml", "--set", "material.0.yung=1"], "yung"),
+        (&["uniaxial", "rock.toml", "--seeds", "2"], "leaves nothing to chance"),
         (&["direct-shear", "missing.toml"], "missing.toml"),
         (&["triaxial", "sand.toml", "--print-scene", "--plot", "a.svg"], "--plot has no effect"),
     ] {

@@ -87,7 +87,7 @@ fn csv(lab: &Lab, specimens: &Specimens) -> String {
     text
 }
 
-/// Nine digits; nothing for what is no number.
+/// Nine digits; empty for NaN.
 fn cell(value: f64) -> String {
     if value.is_nan() {
         String::new()

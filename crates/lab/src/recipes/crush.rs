@@ -43,6 +43,11 @@ impl Recipe for Crush {
         ([1.0, 1.0, 1.0], 1.0)
     }
 
+    fn is_random(&self, _: &Sample) -> bool {
+        // The orientation.
+        true
+    }
+
     fn check(&self, sample: &Sample, request: &Request) -> Result<()> {
         let why = "no stress acts on the stone (use --speed)";
         unused(request.inertial.is_some(), "--inertial", "crush", why)?;

@@ -123,6 +123,11 @@ pub trait Recipe: Sync {
         1e-4
     }
 
+    /// Whether a seed changes a specimen.
+    fn is_random(&self, sample: &Sample) -> bool {
+        sample.is_random()
+    }
+
     /// Refuses samples and options that do not fit.
     ///
     /// # Errors
