@@ -90,6 +90,11 @@ impl Field {
         self.frame
     }
 
+    /// Samples along x and y, place of the first one [px], and the distance between them [px].
+    pub fn grid(&self) -> ([usize; 2], [f64; 2], f64) {
+        ([self.width, self.height], self.origin, self.step)
+    }
+
     /// Middle of the box of the stone [px].
     pub fn middle(&self) -> [f64; 2] {
         let [a, _, _, b] = self.corners();

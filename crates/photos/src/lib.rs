@@ -13,6 +13,7 @@
 //! hull        what no silhouette excludes
 //! coherence   whether silhouettes agree, and how poses are refined until they do
 //! turned      a stone that was turned over
+//! refine      from the hull inwards, by correlation of photographs
 //! rendered    photographs of a mesh, for tests and trials
 //! sheet       many photographs with their outlines on one picture
 //! ```
@@ -28,6 +29,7 @@ pub mod mask;
 pub mod photograph;
 pub mod poses;
 pub mod raster;
+pub mod refine;
 pub mod rendered;
 pub mod sheet;
 pub mod threshold;

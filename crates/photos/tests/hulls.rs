@@ -2,7 +2,12 @@
 
 mod support;
 
-use photos::hull;
+use geom::Vec3;
+use geom::mesh::TriMesh;
+use photos::refine::{Crop, Shot, refine};
+use photos::rendered::Studio;
+use photos::{Field, View, hull};
+use remesh::{Samples, surface};
 use stones::Stone;
 use support::{ring, stone, views};
 
@@ -11,18 +16,13 @@ use support::{ring, stone, views};
 fn the_hull_of_two_rings_is_a_little_larger_than_the_stone() {
     let mesh = stone();
     let cameras = [ring(18, 0.0), ring(18, 35.0)].concat();
-    let start = std::time::Instant::now();
     let views = views(&mesh, &cameras);
-    println!("rendered {:?}", start.elapsed());
     let (found, _) = hull(&views, 60).unwrap();
-    println!("carved {:?}", start.elapsed());
     let checked = Stone::new(&found, false).unwrap();
     let times = checked.moments.volume / mesh.volume();
-    println!("{times}");
     assert!((1.0..1.125).contains(&times), "{times}");
     let outside = |v: &geom::Vec3| if checked.inside.contains(v) { 0.0 } else { checked.inside.distance(v) };
     let most = mesh.vertices.iter().map(outside).fold(0.0, f64::max);
-    println!("{most}");
     assert!(most < 0.0025, "a vertex of the stone is {most} m outside");
 }
 
@@ -37,15 +37,50 @@ fn a_stone_that_was_turned_over_is_laid_back() {
     let vertices = mesh.vertices.iter().map(|v| turn * v + shift).collect();
     let turned = geom::mesh::TriMesh { vertices, ..mesh.clone() };
     let second = views(&turned, &cameras);
-    let start = std::time::Instant::now();
     let found = photos::align(&first, &second).unwrap();
-    println!("aligned {:?} {found:?}", start.elapsed());
     let angle = (found.place.turn * turn).angle().to_degrees();
     let off = found.place.turn * shift + found.place.shift;
-    println!("{angle}° {} m", off.norm());
     let one = hull(&first, 60).unwrap().0.volume() / mesh.volume();
     let both = hull(&[first, found.place.views(&second)].concat(), 60).unwrap().0.volume() / mesh.volume();
-    println!("{one} {both}");
     assert!(angle < 0.5 && off.norm() < 0.0005, "{angle}° {off}");
     assert!(both < one - 0.01 && both > 0.99, "{one} {both}");
+}
+
+/// An ellipsoid with a bowl in its side.
+fn hollow() -> TriMesh {
+    let mut samples = Samples::over(&Vec3::repeat(-0.09), &Vec3::repeat(0.09), 60, 2, 0.0);
+    for index in 0..samples.values.len() {
+        let p = samples.place(samples.node(index));
+        let body = 0.06 * (1.0 - Vec3::new(p.x / 0.07, p.y / 0.065, p.z / 0.055).norm());
+        let bowl = (p - Vec3::new(0.09, 0.0, 0.01)).norm() - 0.045;
+        samples.values[index] = body.min(bowl) as f32;
+    }
+    surface(samples).unwrap()
+}
+
+#[test]
+fn a_hollow_comes_out_by_correlation() {
+    let mesh = hollow();
+    let studio = Studio { noise: 0.003, ..Studio::new(320, 240, 0.004) };
+    let cameras = [ring(12, 0.0), ring(12, 35.0)].concat();
+    let shot = |camera: &photos::Camera| {
+        let (photograph, mask) = studio.photograph(&mesh, camera);
+        let field = Field::new(&mask, 1000).unwrap();
+        let crop = Crop::new(&photograph, &field);
+        Shot { view: View { camera: *camera, field: field.into() }, crop }
+    };
+    let shots: Vec<Shot> = cameras.iter().map(shot).collect();
+    let views: Vec<View> = shots.iter().map(|s| s.view.clone()).collect();
+    let (hull, _) = hull(&views, 36).unwrap();
+    let (found, refinement) = refine(&hull, &shots, 36, |_| ());
+    assert!(refinement.agreed > 0.7, "{refinement:?}");
+    let error = |m: &TriMesh| m.volume() / mesh.volume() - 1.0;
+    // Depth of the bowl on its axis.
+    let depth = |m: &TriMesh| {
+        let near = |v: &&Vec3| v.x > 0.0 && (v.y.powi(2) + (v.z - 0.01).powi(2)).sqrt() < 0.006;
+        m.vertices.iter().filter(near).map(|v| v.x).fold(0.0, f64::max)
+    };
+    assert!(error(&found).abs() < 0.025, "{}", error(&found));
+    assert!(depth(&hull) > depth(&mesh) + 0.01, "the hull fills the bowl");
+    assert!((depth(&found) - depth(&mesh)).abs() < 0.002);
 }

@@ -3,8 +3,8 @@
 use clap::Parser;
 use std::path::PathBuf;
 
-const EXAMPLES: &str = "The hull holds the stone and does not enter its hollows: its volume is an upper bound.\n\nExamples:\n\
-    \x20 stone-hull photographs --masks masks --turntable turntable.toml -o stone.ply\n\
+const EXAMPLES: &str = "The hull holds the stone and does not enter its hollows: its volume is an upper bound, unless --refine finds them.\n\nExamples:\n\
+    \x20 stone-hull photographs --masks masks --turntable turntable.toml --refine -o stone.ply\n\
     \x20 stone-hull photographs --masks masks --poses poses.txt --length 0.12 -o stone.ply";
 
 /// Carve the visual hull of a stone from the masks of its photographs
@@ -33,6 +33,9 @@ pub struct Args {
     /// Cells along the longest side of the hull
     #[arg(long, value_name = "N", default_value = "200", value_parser = cells)]
     pub cells: usize,
+    /// Move the surface inwards to where the photographs agree: hollows that no silhouette shows; needs speckle
+    #[arg(long)]
+    pub refine: bool,
     #[command(flatten)]
     pub output: cli::Output,
 }

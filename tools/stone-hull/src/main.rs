@@ -2,6 +2,7 @@
 
 mod args;
 mod poses;
+mod refined;
 mod views;
 mod words;
 
@@ -21,18 +22,26 @@ fn stone_hull(args: Args) -> anyhow::Result<Report> {
     let found = views::read(&args, &names)?;
     let (mut mesh, samples) = photos::hull(&found.views, args.cells).context("the silhouettes")?;
     let agreement = words::check(&found, &mesh);
+    let refinement = if args.refine {
+        let (finer, refinement) = refined::refined(&args, &found, &mesh)?;
+        mesh = finer;
+        Some(refinement)
+    } else {
+        None
+    };
     let closed = Stone::new(&mesh, true).context("the hull")?;
     let length = ShapeMeasures::of(&closed).sides[0];
     let factor = args.length.map_or(1.0, |wanted| wanted / length);
     mesh.scale(factor);
     let mut out = args.output.open()?;
-    let says = ["visual hull: an upper bound of the stone".to_owned()];
+    let says = [words::comment(args.refine)];
     mesh::write_ply(&mut out, &mesh, &says, Encoding::BinaryLittleEndian)?;
     out.commit()?;
     words::scale(&args, length);
-    Ok(Report::new(words::summary(&mesh, &agreement, &found))
+    Ok(Report::new(words::summary(&mesh, &agreement, &found, refinement.as_ref()))
         .with("photographs", &found.names)
-        .with("upper_bound", true)
+        .with("upper_bound", !args.refine)
+        .with("refinement", refinement)
         .with("volume", mesh.volume())
         .with("length", length * factor)
         .with("faces", mesh.faces.len())

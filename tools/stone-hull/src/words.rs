@@ -5,6 +5,7 @@ use crate::views::Found;
 use geom::Shown;
 use geom::mesh::TriMesh;
 use photos::hull::Agreement;
+use photos::refine::Refinement;
 use rayon::prelude::*;
 
 /// A mask that the hull covers less is doubtful.
@@ -47,14 +48,33 @@ pub fn scale(args: &Args, length: f64) {
     }
 }
 
+/// The comment of the file.
+pub fn comment(refined: bool) -> String {
+    let words = if refined {
+        "visual hull, refined by correlation"
+    } else {
+        "visual hull: an upper bound of the stone"
+    };
+    words.to_owned()
+}
+
 /// One line on the hull.
-pub fn summary(mesh: &TriMesh, agreement: &[Agreement], found: &Found) -> String {
+pub fn summary(
+    mesh: &TriMesh,
+    agreement: &[Agreement],
+    found: &Found,
+    refinement: Option<&Refinement>,
+) -> String {
     let mean = agreement.iter().map(|a| a.union).sum::<f64>() / agreement.len() as f64;
     let turned = found.aligned.map_or(String::new(), |[overlap, _]| {
         format!("; both places of the stone overlap by {} %", percent(overlap))
     });
+    let kind = match refinement {
+        None => "upper bound".to_owned(),
+        Some(r) => format!("refined: photographs agree on {} % of the surface", percent(r.agreed)),
+    };
     format!(
-        "hull of {} photographs: {} m³ (upper bound), {} faces; it covers the masks by {} % on average (intersection over union){turned}",
+        "hull of {} photographs: {} m³ ({kind}), {} faces; it covers the masks by {} % on average (intersection over union){turned}",
         found.views.len(),
         Shown(mesh.volume()),
         mesh.faces.len(),

@@ -7,10 +7,8 @@ use photos::{Camera, Field, View};
 
 /// The scanned quarry stone of the samples, about its middle, with a diagonal of 0.2 m.
 pub fn stone() -> TriMesh {
-    let path = std::env::var("STONE").unwrap_or_else(|_| {
-        concat!(env!("CARGO_MANIFEST_DIR"), "/../../sample-data/stones/quarry.ply").into()
-    });
-    let mut mesh = mesh::load(&path).unwrap();
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../sample-data/stones/quarry.ply");
+    let mut mesh = mesh::load(path).unwrap();
     let (lo, hi) = geom::grid::bounds(&mesh.vertices);
     mesh.vertices.iter_mut().for_each(|v| *v -= (lo + hi) / 2.0);
     mesh.scale(DIAGONAL / (hi - lo).norm());
