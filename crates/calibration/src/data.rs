@@ -8,7 +8,7 @@
 //! reproduce (Kennedy & O'Hagan 2001, doi:10.1111/1467-9868.00294, with a fixed size instead of a fitted one).
 //!
 //! Own scatter: differences of points from the parabola through three neighbours, so that the curve's own bend does not count (after Gasser,
-//! Sroka & Jennen-Steinmetz 1986, doi:10.1093/biomet/73.3.625, who take the line through two).
+//! Sroka & Jennen-Steinmetz 1986, doi:10.1093/biomet/73.3.625: there the line through two).
 
 use nalgebra::DMatrix;
 

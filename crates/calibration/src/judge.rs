@@ -6,8 +6,8 @@ use crate::session::{StepEnd, Tried};
 use serde::Serialize;
 
 /// Posterior width over prior width above which the data tell nothing of a parameter.
-const TOLD: f64 = 0.85;
-/// Rank correlation from which two parameters cannot be told apart, if an interval of them is this wide, over that of the prior.
+const DETERMINED: f64 = 0.85;
+/// Rank correlation from which the data do not separate two parameters, if an interval of them is this wide, over that of the prior.
 const TRADED: f64 = 0.8;
 const WIDE: f64 = 0.15;
 /// Ratio R̂ of chains from which their samples are not trusted.
@@ -33,14 +33,14 @@ pub struct Finding {
     /// Width of the interval over that of the prior, on the parameter's scale.
     pub width: f64,
     /// Whether the data tell something of it.
-    pub told: bool,
+    pub determined: bool,
     /// Largest total sensitivity of a part to it.
     pub influence: f64,
     /// The step that found it.
     pub step: String,
 }
 
-/// Two parameters that the data cannot tell apart.
+/// Two parameters that the data do not separate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Pair {
     /// Names.
@@ -92,7 +92,7 @@ pub struct Judged {
     pub interval: f64,
     /// Each parameter.
     pub findings: Vec<Finding>,
-    /// Pairs that cannot be told apart.
+    /// Pairs that the data do not separate.
     pub pairs: Vec<Pair>,
     /// Sensitivities.
     pub sensitivities: Vec<PartSensitivity>,
@@ -161,7 +161,7 @@ fn finding(recipe: &Recipe, end: &StepEnd, of: (usize, usize), sensitivities: &[
         best: p.value(end.samples.best.z[at]),
         prior: prior.map(|z| p.value(z)),
         width,
-        told: width < TOLD,
+        determined: width < DETERMINED,
         influence: sensitivities
             .iter()
             .filter(|s| s.step == end.fitted.step.name)

@@ -10,12 +10,13 @@ use std::fmt::Write as _;
 /// The table of parameters: CSV.
 pub fn csv(judged: &Judged) -> String {
     let mut text =
-        "parameter,unit,value,low,high,best,prior_low,prior_high,width_over_prior,influence,told,step\n"
+        "parameter,unit,value,low,high,best,prior_low,prior_high,width_over_prior,influence,determined,step\n"
             .to_owned();
     for f in &judged.findings {
         let cells = [f.value, f.low, f.high, f.best, f.prior[0], f.prior[1]].map(shown).join(",");
         let (name, unit, step) = (&f.parameter, &f.unit, crate::session::cell(&f.step));
-        let _ = writeln!(text, "{name},{unit},{cells},{:.4},{:.4},{},{step}", f.width, f.influence, f.told);
+        let _ =
+            writeln!(text, "{name},{unit},{cells},{:.4},{:.4},{},{step}", f.width, f.influence, f.determined);
     }
     text
 }
@@ -28,11 +29,11 @@ fn amount(value: f64, unit: &str) -> String {
 fn sentence(f: &Finding, interval: f64) -> String {
     let content = Shown(100.0 * interval);
     let range = format!("{} to {}", amount(f.low, &f.unit), amount(f.high, &f.unit));
-    if f.told {
+    if f.determined {
         return format!("{}: {} ({content} %: {range})", f.parameter, amount(f.value, &f.unit));
     }
     format!(
-        "{}: the data do not tell it: {content} % from {range}, as before the tests; total sensitivity {:.3}",
+        "{}: the data do not determine it: {content} % from {range}, as before the tests; total sensitivity {:.3}",
         f.parameter, f.influence
     )
 }
@@ -41,7 +42,7 @@ fn traded(pair: &Pair) -> String {
     let [a, b] = &pair.parameters;
     let [one, other] = pair.ends.map(|e| e.map(|v| amount(v, "")));
     format!(
-        "{a} and {b} cannot be told apart (rank correlation {:.2}): {a} = {} with {b} = {} fits as well as {a} = {} with {b} = {}",
+        "the data do not separate {a} and {b} (rank correlation {:.2}): {a} = {} with {b} = {} fits as well as {a} = {} with {b} = {}",
         pair.correlation, one[0], one[1], other[0], other[1]
     )
 }
@@ -82,7 +83,7 @@ pub fn warnings(judged: &Judged) -> Vec<String> {
     for s in judged.unmixed() {
         lines.push(format!("step '{}': the chains have not mixed (ratio {:.2}): the posterior may have several peaks: look at the samples", s.step, s.chains));
     }
-    for f in judged.findings.iter().filter(|f| f.told) {
+    for f in judged.findings.iter().filter(|f| f.determined) {
         let near = |a: f64, b: f64| (a - b).abs() <= 0.02 * (f.prior[1] - f.prior[0]).abs();
         if near(f.low, f.prior[0]) || near(f.high, f.prior[1]) {
             lines.push(format!("{}: its interval reaches the end of its prior: the data may want values beyond: widen its bounds", f.parameter));
@@ -99,7 +100,7 @@ pub fn markdown(judged: &Judged) -> String {
     );
     for f in &judged.findings {
         let range = |a: f64, b: f64| format!("{} to {}", amount(a, ""), amount(b, &f.unit));
-        let value = if f.told { amount(f.value, &f.unit) } else { "not told".to_owned() };
+        let value = if f.determined { amount(f.value, &f.unit) } else { "not determined".to_owned() };
         let _ = writeln!(
             text,
             "| {} | {value} | {} | {} | {:.2} |",

@@ -80,11 +80,11 @@ fn known_parameters_are_found_and_one_without_influence_is_named() {
     let data = laboratory(folder.path());
     let (judged, _) = found(folder.path(), &curve_recipe("trials = 64\nfirst = 40"), &[&data]).unwrap();
     for (f, truth) in judged.findings.iter().zip([42.0, 1.7, 3.0]) {
-        assert!((f.value / truth - 1.0).abs() < 0.05 && f.told, "{f:?}");
+        assert!((f.value / truth - 1.0).abs() < 0.05 && f.determined, "{f:?}");
         assert!(f.width < 0.2 && f.low < f.value && f.value < f.high, "{f:?}");
     }
     let nothing = &judged.findings[3];
-    assert!(!nothing.told && nothing.width > 0.85 && nothing.influence < 0.01, "{nothing:?}");
+    assert!(!nothing.determined && nothing.width > 0.85 && nothing.influence < 0.01, "{nothing:?}");
     assert!(
         judged.trials[1] > 0 && judged.trials[2] == 0,
         "stopped trials count, and none failed: {:?}",
@@ -93,7 +93,7 @@ fn known_parameters_are_found_and_one_without_influence_is_named() {
     assert!(
         calibration::words::sentences(&judged)
             .iter()
-            .any(|l| l.starts_with("nothing: the data do not tell it"))
+            .any(|l| l.starts_with("nothing: the data do not determine it"))
     );
     // The log has each trial, and each run its provenance.
     let log = fs::read_to_string(folder.path().join("trials/trials.csv")).unwrap();

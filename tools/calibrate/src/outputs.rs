@@ -42,9 +42,9 @@ pub fn publish(
     if !cli::quiet() {
         words::sentences(judged).iter().chain(&words::design_sentence(&next)).for_each(|line| cli::say(line));
     }
-    let told = judged.findings.iter().filter(|f| f.told).count();
+    let found = judged.findings.iter().filter(|f| f.determined).count();
     let trials: usize = judged.trials.iter().sum();
-    let summary = format!("{told} of {} parameters found, {trials} trials", judged.findings.len());
+    let summary = format!("{found} of {} parameters found, {trials} trials", judged.findings.len());
     Ok(Report::new(summary).with("seed", recipe.settings.seed).with_all(judged).with("next", next))
 }
 

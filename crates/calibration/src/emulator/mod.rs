@@ -26,7 +26,7 @@ const LEAST: f64 = 0.05;
 /// Deviation of a process over the trials, in deviations of data and specimens, below which it only scatters.
 const FLAT: f64 = 0.1;
 /// Trials near the data, at least.
-const NEAR: usize = 25;
+const NEAR: usize = 60;
 /// Share by which the correlations of specimens are lowered: those of few trials are never exact.
 const SHRINK: f64 = 0.05;
 /// Least factor on the variances.
@@ -61,7 +61,7 @@ pub(crate) struct Emulator {
     /// Variance of a specimen in each component.
     pub noise: Vec<f64>,
     /// Components that change with the parameters.
-    pub told: Vec<usize>,
+    pub active: Vec<usize>,
     /// Covariance of specimens in the components.
     specimens: DMatrix<f64>,
     /// Square of the data beside all components.
@@ -104,18 +104,19 @@ impl Emulator {
         let noise: Vec<f64> =
             components.iter().map(|gp| gp.noise * lessons.seeds / lessons.specimens).collect();
         let alike = off.tr_mul(&off) / near.len() as f64;
+        let wider = hartlap(near.len(), components.len());
         let specimens = DMatrix::from_fn(noise.len(), noise.len(), |k, l| {
             let share = if k == l { 1.0 } else { (1.0 - SHRINK) * alike[(k, l)] };
-            share * (noise[k] * noise[l]).sqrt()
+            wider * share * (noise[k] * noise[l]).sqrt()
         });
         let changes = |k: &usize| components[*k].deviation() > FLAT * (1.0 + noise[*k]).sqrt();
-        let told: Vec<usize> = (0..components.len()).filter(changes).collect();
+        let active: Vec<usize> = (0..components.len()).filter(changes).collect();
         let points = lessons.data.len();
         Some(Emulator {
             components,
             target: target.iter().copied().collect(),
             noise,
-            told,
+            active,
             specimens,
             beside,
             points,
@@ -127,7 +128,7 @@ impl Emulator {
 
     /// Logarithm of the likelihood, up to a constant.
     pub fn log_likelihood(&self, z: &[f64], inflation: f64) -> f64 {
-        match self.square(z, inflation, &self.told) {
+        match self.square(z, inflation, &self.active) {
             Some((square, log_det)) => -0.5 * (square + log_det),
             None => f64::NEG_INFINITY,
         }
@@ -155,14 +156,14 @@ impl Emulator {
 
     /// The components that tell something, at a point.
     pub fn scores(&self, z: &[f64]) -> DVector<f64> {
-        DVector::from_iterator(self.told.len(), self.told.iter().map(|&k| self.components[k].mean(z)))
+        DVector::from_iterator(self.active.len(), self.active.iter().map(|&k| self.components[k].mean(z)))
     }
 
     /// Covariance of data and specimens in those components.
     pub fn scatter(&self, inflation: f64) -> DMatrix<f64> {
-        let n = self.told.len();
+        let n = self.active.len();
         DMatrix::identity(n, n) * inflation
-            + DMatrix::from_fn(n, n, |i, j| self.specimens[(self.told[i], self.told[j])])
+            + DMatrix::from_fn(n, n, |i, j| self.specimens[(self.active[i], self.active[j])])
     }
 
     /// The mean curve at a point.
@@ -179,13 +180,20 @@ impl Emulator {
     }
 }
 
+/// The inverse of a covariance of few samples is too large on average: the covariance is widened by this factor. Hartlap, Simon & Schneider
+/// (2007), doi:10.1051/0004-6361:20066170.
+fn hartlap(samples: usize, components: usize) -> f64 {
+    let (n, p) = (samples as f64, components as f64);
+    (n - 1.0) / (n - p - 2.0).max(0.25 * n)
+}
+
 /// The trials whose curves are nearest to the data. Specimens scatter more where curves are large: the variances of emulator and specimens are
 /// those that predict these trials, each left out, rightly.
 fn nearest(scores: &DMatrix<f64>, target: &DVector<f64>, d: usize) -> Vec<usize> {
     let far = |i: &usize| (scores.column(*i) - target).norm_squared();
     let mut order: Vec<usize> = (0..scores.ncols()).collect();
     order.sort_by(|a, b| far(a).total_cmp(&far(b)));
-    order.truncate(NEAR.max(5 * d));
+    order.truncate(NEAR.max(5 * d).min((order.len() / 2).max(20)));
     order
 }
 

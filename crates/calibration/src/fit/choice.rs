@@ -57,7 +57,7 @@ pub(crate) fn choose(
     let processes: Vec<(&Gp, f64, f64)> = fitted
         .emulators
         .iter()
-        .flat_map(|e| e.told.iter().map(|&k| (&e.components[k], e.noise[k], e.target[k])))
+        .flat_map(|e| e.active.iter().map(|&k| (&e.components[k], e.noise[k], e.target[k])))
         .collect();
     let every = samples.list.len().div_ceil(CANDIDATES).max(1);
     let candidate = |z: &Vec<f64>| {

@@ -13,7 +13,7 @@ use std::path::PathBuf;
 use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
 
-/// Runs that are measured before the rate is told.
+/// Runs that are measured before the rate is printed.
 const MEASURED: usize = 4;
 /// Failures without any success that end a calibration at once.
 const HOPELESS: usize = 3;

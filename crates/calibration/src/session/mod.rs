@@ -18,7 +18,7 @@ use crate::trial::{run, run::Ended};
 use proposal::Proposal;
 use std::path::PathBuf;
 
-/// Who watches.
+/// An observer.
 pub trait Watch: Sync {
     /// A sentence.
     fn tell(&self, words: &str);
@@ -38,7 +38,7 @@ pub struct Session<'a> {
     pub jobs: usize,
     /// Whether a signal asked to stop.
     pub stop: fn() -> bool,
-    /// Who watches.
+    /// The observer.
     pub watch: &'a dyn Watch,
     /// Whether jobs are listed instead of run.
     pub list: bool,

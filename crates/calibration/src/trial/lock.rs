@@ -41,7 +41,7 @@ impl Lock {
                     if !is_stale(&path) {
                         return Ok(None);
                     }
-                    // Whoever renames it first has it; a fresh one that was caught goes back.
+                    // The first process that renames it has it; a fresh one that was caught goes back.
                     let old = path.with_extension(format!("lock.stale-{}", super::run::here()));
                     if fs::rename(&path, &old).is_ok() && !is_stale(&old) {
                         let _ = fs::hard_link(&old, &path);

@@ -4,7 +4,7 @@
 //! DIR/trials/0007/trial.json            the parameters
 //! DIR/trials/0007/shear-14.job          the command of a run: test "shear", seed 14
 //! DIR/trials/0007/shear-14/             its folder: command.sh, stdout, stderr, result.json, and what the command writes
-//! DIR/trials/0007/shear-14.lock         who runs it now
+//! DIR/trials/0007/shear-14.lock         the process that runs it now
 //! ```
 //!
 //! A run works in a folder `shear-14.part-HOST-PID`, which is renamed when the run has ended: what is there is whole.

@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# Studies of calibrate, for docs/calibration.md: run.sh FOLDER PAGE.md
+# REPEATS=30 sets how often the intervals are tested, JOBS=2 how many runs go on at once. What is there is used again.
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+mkdir -p "$1"
+out=$(cd "$1" && pwd) page=$2 docs=$(dirname "$2") repeats=${REPEATS:-30} jobs=${JOBS:-2}
+truth="stiffness=65 strength=28 spread=0.45 friction=0.62 envelope=0.7"
+
+# specimens FOLDER FIRST COUNT: curves of specimens FIRST, FIRST + 1 … at each load, and in `data` the options that name them.
+specimens() {
+  mkdir -p "$1"
+  data=()
+  for load in 50 100 200; do for k in $(seq "$2" $(($2 + $3 - 1))); do
+    # shellcheck disable=SC2086
+    awk -v load=$load $(printf -- '-v %s ' $truth) -v seed="$k" -f "$here/shear-model.awk" > "$1/$load-$k.csv"
+    data+=(--data "$load kPa=$1/$load-$k.csv")
+  done; done
+}
+
+specimens "$out/synthetic" 900001 3
+calibrate "$here/synthetic.toml" "${data[@]}" --jobs "$jobs" --dir "$out/synthetic/trials" -q \
+  --plot "$docs/calibration-synthetic.png" -o "$out/synthetic/found.csv"
+awk -F, -v truth="$truth" '
+  BEGIN { n = split(truth, pairs, " "); for (k = 1; k <= n; k++) { split(pairs[k], p, "="); value[p[1]] = p[2] }
+    print "| parameter | truth | found | error | 90 % interval |\n|---|---|---|---|---|" }
+  NR > 1 { printf "| %s | %s | %.4g | %+.1f %% | %.4g to %.4g |\n", $1, value[$1], $3, 100 * ($3 / value[$1] - 1), $4, $5 }' \
+  "$out/synthetic/found.csv" > "$out/synthetic.md"
+"$here/../stages/section.sh" "$page" synthetic < "$out/synthetic.md"
+
+for k in $(seq "$repeats"); do
+  folder=$out/repeat-$k
+  [ -e "$folder/found.csv" ] && continue
+  specimens "$folder" $((100001 + 100 * k)) 1
+  calibrate "$here/synthetic.toml" "${data[@]}" --seed $((1000 * k)) --jobs "$jobs" --dir "$folder/trials" -q -o "$folder/found.csv"
+  rm -rf "$folder/trials"
+done
+for k in $(seq "$repeats"); do tail -n +2 "$out/repeat-$k/found.csv"; done | awk -F, -v truth="$truth" '
+  BEGIN { n = split(truth, pairs, " "); for (k = 1; k <= n; k++) { split(pairs[k], p, "="); value[p[1]] = p[2]; name[k] = p[1] } }
+  { v = value[$1]; all[$1]++; holds[$1] += $4 <= v && v <= $5; off = $3 / v - 1; squares[$1] += off * off; width[$1] += ($5 - $4) / 2 / v }
+  END { print "| parameter | repeats | interval holds the truth | error (root mean square) | half width of the interval |\n|---|---|---|---|---|"
+    for (k = 1; k <= n; k++) { p = name[k]; m = all[p]; h += holds[p]; a += m
+      printf "| %s | %d | %d | %.1f %% | %.1f %% |\n", p, m, holds[p], 100 * sqrt(squares[p] / m), 100 * width[p] / m }
+    printf "| all | %d | %d (%.0f %%) | | |\n", a, h, 100 * h / a }' > "$out/intervals.md"
+"$here/../stages/section.sh" "$page" intervals < "$out/intervals.md"
+
+[ -e "$out/lab/rates.csv" ] || "$here/truth.sh" "$out/lab" 0.5 0.15 1001 1002 1003 1004
+calibrate "$here/free-flowing.toml" --data "heap=$out/lab/angles.csv" --data "discharge=$out/lab/rates.csv" --jobs "$jobs" --dir "$out/grains" -q \
+  --plot "$docs/calibration-grains.png" --words "$out/grains.md" -o "$out/grains.csv"
+"$here/../stages/section.sh" "$page" grains < "$out/grains.md"
