@@ -47,7 +47,10 @@ const REFUSED: &[(&str, &str)] = &[
     ("dem-run s.toml --check --progress", "--progress: --check runs nothing: leave it out"),
     ("dem-run s.toml --explain --check", "--check: --explain checks the scene as well: leave it out"),
     ("dem-view flat.xyz -o v.pvd --range 0,1", "--range changes nothing in .pvd"),
-    ("stone-library pebble.ply -o rocks --seed 3", "--seed: a library without --variants leaves nothing to chance"),
+    (
+        "stone-library pebble.ply -o rocks --seed 3",
+        "--seed: a library without --variants leaves nothing to chance",
+    ),
 ];
 
 /// What cannot be known before the picture is drawn is a warning.
