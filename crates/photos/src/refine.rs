@@ -39,6 +39,8 @@ const SMOOTH: f64 = 0.05;
 const PASSES: usize = 60;
 /// Correlations that count.
 const LEAST: f64 = 0.5;
+/// A correlation must be better than that of the surface by this for it to move.
+const MARGIN: f64 = 0.05;
 /// Rounds; each sees the surface of the one before.
 const ROUNDS: usize = 3;
 
@@ -125,6 +127,11 @@ fn best(place: &Vec3, normal: &Vec3, shots: &[&Shot], delta: f64) -> Option<(f64
     let score = |k: i32| patch::correlation(&(place - normal * (f64::from(k) * delta)), normal, &chosen);
     let all: Vec<f64> = (-OUTWARDS..=INWARDS).map(|k| score(k).unwrap_or(-1.0)).collect();
     let top = (0..all.len()).max_by(|a, b| all[*a].total_cmp(&all[*b]))?;
+    // Where the surface is right by a small margin it stays: most of a hull is right.
+    let here = all[OUTWARDS as usize];
+    if here > LEAST && here > all[top] - MARGIN {
+        return Some((0.0, here));
+    }
     if all[top] <= LEAST || top == 0 || top + 1 == all.len() {
         return None;
     }

@@ -17,10 +17,8 @@ use quadric::Quadric;
 use std::cmp::Ordering;
 use std::collections::{BTreeSet, BinaryHeap};
 
-/// Least cosine between a face before and after.
-const TURN: f64 = 0.3;
-/// Least height of a face over its longest edge.
-const THIN: f64 = 0.02;
+/// Least cosine between a face before and after, and least height of a face over its longest edge: at first, and then where no edge is left.
+const STRICT: [[f64; 2]; 3] = [[0.9, 0.2], [0.7, 0.1], [0.3, 0.02]];
 
 /// An edge that may collapse.
 struct Collapse {
@@ -62,11 +60,13 @@ struct Collapsing {
 /// A closed manifold mesh with `faces` faces, or as few as keep it one. The volume stays.
 pub fn decimate(mesh: &TriMesh, faces: usize) -> TriMesh {
     let mut work = Collapsing::new(mesh);
-    // An edge that could not collapse may do so when its neighbours have changed.
-    let mut before = usize::MAX;
-    while work.left > faces.max(4) && work.left < before {
-        before = work.left;
-        work.run(faces.max(4));
+    for strict in STRICT {
+        // An edge that could not collapse may do so when its neighbours have changed.
+        let mut before = usize::MAX;
+        while work.left > faces.max(4) && work.left < before {
+            before = work.left;
+            work.run(faces.max(4), strict);
+        }
     }
     work.mesh()
 }
@@ -88,7 +88,7 @@ impl Collapsing {
     }
 
     /// Collapses edges, the cheapest first, down to `faces` faces.
-    fn run(&mut self, faces: usize) {
+    fn run(&mut self, faces: usize, strict: [f64; 2]) {
         let mut heap: BinaryHeap<Collapse> = BinaryHeap::new();
         for &[a, b, c] in self.faces.iter().flatten() {
             let edges = [(a, b), (b, c), (c, a)];
@@ -104,7 +104,7 @@ impl Collapsing {
             let fresh = self.collapse(a, b);
             if fresh.cost > next.cost && heap.peek().is_some_and(|other| other.cost < fresh.cost) {
                 heap.push(fresh);
-            } else if self.may(&fresh) {
+            } else if self.may(&fresh, strict) {
                 self.apply(&fresh);
                 heap.extend(self.neighbours(a).into_iter().map(|v| self.collapse(a.min(v), a.max(v))));
             }
@@ -149,7 +149,7 @@ impl Collapsing {
     }
 
     /// Whether the surface stays a manifold and no face turns over or becomes a needle.
-    fn may(&self, collapse: &Collapse) -> bool {
+    fn may(&self, collapse: &Collapse, [turn, thin]: [f64; 2]) -> bool {
         let [a, b] = collapse.ends;
         let (of_a, of_b) = (self.neighbours(a), self.neighbours(b));
         if of_a.intersection(&of_b).count() != 2 || (of_a.len() == 3 && of_b.len() == 3) {
@@ -165,7 +165,7 @@ impl Collapsing {
                 [0, 1, 2].map(|k| if corners[k] == a || corners[k] == b { collapse.place } else { old[k] });
             let ((before, wide_before), (after, wide)) = (shape(old), shape(new));
             // What was a needle has no side to turn over from, and may become a wider one.
-            wide > THIN.min(wide_before) && (wide_before < THIN || before.dot(&after) > TURN)
+            wide > thin.min(wide_before) && (wide_before < 0.02 || before.dot(&after) > turn)
         })
     }
 

@@ -9,7 +9,8 @@ const HOLES: f64 = 0.05;
 const VOLUME: f64 = 0.005;
 
 fn percent(share: f64) -> Shown {
-    Shown((10_000.0 * share).round() / 100.0)
+    // Not minus zero.
+    Shown((10_000.0 * share).round() / 100.0 + 0.0)
 }
 
 /// Doubtful results.
