@@ -18,7 +18,7 @@ specimens() {
   done; done
 }
 
-specimens "$out/synthetic" 900001 3
+specimens "$out/synthetic" 200001 3
 calibrate "$here/synthetic.toml" "${data[@]}" --jobs "$jobs" --dir "$out/synthetic/trials" -q \
   --plot "$docs/calibration-synthetic.png" -o "$out/synthetic/found.csv"
 awk -F, -v truth="$truth" '
