@@ -18,11 +18,11 @@ specimens() {
   done; done
 }
 
-specimens "$out/synthetic" 900001 3
+specimens "$out/synthetic" 200001 3
 calibrate "$here/synthetic.toml" "${data[@]}" --jobs "$jobs" --dir "$out/synthetic/trials" -q \
   --plot "$docs/calibration-synthetic.png" -o "$out/synthetic/found.csv"
 awk -F, -v truth="$truth" '
-  BEGIN { n = split(truth, pairs, " "); for (k = 1; k <= n; k++) { split(pairs[k], p, "="); value[p[1]] = p[2] }
+  BEGIN { n = split(truth, pairs, " "); for (k = 1; k <= n; k++) { split(pairs[k], pair, "="); value[pair[1]] = pair[2] }
     print "| parameter | truth | found | error | 90 % interval |\n|---|---|---|---|---|" }
   NR > 1 { printf "| %s | %s | %.4g | %+.1f %% | %.4g to %.4g |\n", $1, value[$1], $3, 100 * ($3 / value[$1] - 1), $4, $5 }' \
   "$out/synthetic/found.csv" > "$out/synthetic.md"
@@ -31,16 +31,18 @@ awk -F, -v truth="$truth" '
 for k in $(seq "$repeats"); do
   folder=$out/repeat-$k
   [ -e "$folder/found.csv" ] && continue
-  specimens "$folder" $((100001 + 100 * k)) 1
-  calibrate "$here/synthetic.toml" "${data[@]}" --seed $((1000 * k)) --jobs "$jobs" --dir "$folder/trials" -q -o "$folder/found.csv"
+  mkdir -p "$folder"
+  # shellcheck disable=SC2086
+  awk -v load=100 $(printf -- '-v %s ' $truth) -v seed=$((100001 + 100 * k)) -f "$here/shear-model.awk" > "$folder/lab.csv"
+  calibrate "$here/intervals.toml" --data "$folder/lab.csv" --seed $((1000 * k)) --jobs "$jobs" --dir "$folder/trials" -q -o "$folder/found.csv"
   rm -rf "$folder/trials"
 done
 for k in $(seq "$repeats"); do tail -n +2 "$out/repeat-$k/found.csv"; done | awk -F, -v truth="$truth" '
-  BEGIN { n = split(truth, pairs, " "); for (k = 1; k <= n; k++) { split(pairs[k], p, "="); value[p[1]] = p[2]; name[k] = p[1] } }
+  BEGIN { n = split(truth, pairs, " "); for (k = 1; k <= n; k++) { split(pairs[k], pair, "="); value[pair[1]] = pair[2]; name[k] = pair[1] } }
   { v = value[$1]; all[$1]++; holds[$1] += $4 <= v && v <= $5; off = $3 / v - 1; squares[$1] += off * off; width[$1] += ($5 - $4) / 2 / v }
   END { print "| parameter | repeats | interval holds the truth | error (root mean square) | half width of the interval |\n|---|---|---|---|---|"
     for (k = 1; k <= n; k++) { p = name[k]; m = all[p]; h += holds[p]; a += m
-      printf "| %s | %d | %d | %.1f %% | %.1f %% |\n", p, m, holds[p], 100 * sqrt(squares[p] / m), 100 * width[p] / m }
+      if (m) printf "| %s | %d | %d | %.1f %% | %.1f %% |\n", p, m, holds[p], 100 * sqrt(squares[p] / m), 100 * width[p] / m }
     printf "| all | %d | %d (%.0f %%) | | |\n", a, h, 100 * h / a }' > "$out/intervals.md"
 "$here/../stages/section.sh" "$page" intervals < "$out/intervals.md"
 

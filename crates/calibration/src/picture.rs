@@ -63,7 +63,8 @@ fn fit(recipe: &Recipe, end: &StepEnd, of: (usize, &Part)) -> Panel {
     let (test, emulator) = (&recipe.tests[of.1.test], &end.fitted.emulators[of.0]);
     let Some(target) = &test.target else { return labelled(Vec::new(), &test.name, "", "") };
     let points: Vec<_> = target.part(of.1.from, of.1.until).into_iter().map(|k| target.points[k]).collect();
-    let data: Vec<(f64, f64)> = points.iter().map(|p| (p.x, p.y)).collect();
+    let data: Vec<(f64, f64)> =
+        points.iter().map(|p| (if test.x.is_some() { p.x } else { 1.0 }, p.y)).collect();
     let bars: Vec<f64> = points
         .iter()
         .map(|p| (p.deviation * p.deviation + target.discrepancy * target.discrepancy).sqrt())
@@ -101,14 +102,21 @@ fn fit(recipe: &Recipe, end: &StepEnd, of: (usize, &Part)) -> Panel {
         let middle = at(0, 0.5);
         let ends = (middle - at(0, tail), at(0, 1.0 - tail) - middle);
         let dot = ScatterPlot::new()
-            .with_data(vec![(0.2, middle)])
+            .with_data(vec![(2.0, middle)])
             .with_y_err_asymmetric(vec![ends])
             .with_color(COLOURS[0])
             .with_size(3.0);
         plots.push(Plot::from(dot.with_legend("fit")));
     }
     let (x_label, y_label) = (test.x.as_deref().unwrap_or(""), test.y.as_deref().unwrap_or("value"));
-    labelled(plots, &test.name, &unit(x_label, &target.x_unit), &unit(y_label, &test.unit))
+    let (plots, layout) =
+        labelled(plots, &test.name, &unit(x_label, &target.x_unit), &unit(y_label, &test.unit));
+    if test.x.is_some() {
+        return (plots, layout);
+    }
+    // A number has no x: data and fit stand side by side.
+    let layout = layout.with_x_axis_min(0.0).with_x_axis_max(3.0);
+    (plots, layout.with_x_tick_format(TickFormat::Custom(Arc::new(|_| String::new()))))
 }
 
 /// Samples of the pairs that are most correlated.

@@ -92,6 +92,14 @@ pub(crate) fn curve(asked: &Asked, files: &[PathBuf], warnings: &mut Vec<String>
         )));
     }
     let given = asked.deviation.map(|d| if asked.share { d * size } else { d });
+    let small = target.points.iter().filter(|p| p.deviation < LEAST * size).count();
+    if given.is_none() && 2 * small > target.points.len() {
+        let (name, share) = (files[0].display(), 100.0 * LEAST);
+        warnings.push(format!(
+            "{name}: its scatter ({}) is next to none: {share} % of the largest value is taken as deviation: give deviation",
+            target.origin
+        ));
+    }
     for p in &mut target.points {
         p.deviation = given.unwrap_or(p.deviation.max(LEAST * size));
     }

@@ -81,7 +81,7 @@ fn known_parameters_are_found_and_one_without_influence_is_named() {
     let (judged, _) = found(folder.path(), &curve_recipe("trials = 64\nfirst = 40"), &[&data]).unwrap();
     for (f, truth) in judged.findings.iter().zip([42.0, 1.7, 3.0]) {
         assert!((f.value / truth - 1.0).abs() < 0.05 && f.determined, "{f:?}");
-        assert!(f.width < 0.2 && f.low < f.value && f.value < f.high, "{f:?}");
+        assert!(f.width < 0.2 && f.low < truth && truth < f.high, "{f:?}");
     }
     let nothing = &judged.findings[3];
     assert!(!nothing.determined && nothing.width > 0.85 && nothing.influence < 0.01, "{nothing:?}");
@@ -166,4 +166,15 @@ fn other_units_and_failing_commands_are_errors_with_a_cure() {
     assert!(message.contains("its curve reaches from x = 0 to 2, the data have x = "), "{message}");
     let message = why(&toml.replace("b > 8", "b > 0"), &[&data]);
     assert!(message.contains("stopped by a guard") && message.contains("overlap"), "{message}");
+}
+
+#[test]
+fn what_a_guard_stops_is_outside_of_the_posterior() {
+    let folder = TempDir::new().unwrap();
+    let toml = "[settings]\ntrials = 24\nfirst = 16\n[[parameter]]\nname = \"b\"\nbounds = [0, 10]\n\
+        [[test]]\nname = \"t\"\ncommand = \"awk 'BEGIN { if ({b} > 5) exit 3; print {b} }'\"\nvalue = 5\ndeviation = 2\n";
+    let (judged, _) = found(folder.path(), toml, &[]).unwrap();
+    // Without the guard, half of the posterior would lie above 5, and its interval would reach to 8.
+    let f = &judged.findings[0];
+    assert!(f.high < 6.5 && f.value < 4.7 && judged.trials[1] > 0, "{f:?} {:?}", judged.trials);
 }

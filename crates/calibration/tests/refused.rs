@@ -120,6 +120,12 @@ fn data_are_refused_with_line_and_cure() {
     let gap = "u,tau\n0,0\n1,1\n2,2\n3,3\n4,4\n5,5\n50,6\n51,7\n";
     let warnings = read(RECIPE, gap, &[]).unwrap().warnings;
     assert!(warnings[0].contains("no points from x = 5 to 50: nothing is compared there"), "{warnings:?}");
+    let straight = "u,tau\n0,0\n1,1\n2,2\n3,3\n4,4\n5,5\n";
+    let warnings = read(RECIPE, straight, &[]).unwrap().warnings;
+    assert!(
+        warnings[0].contains("is next to none: 0.1 % of the largest value is taken as deviation"),
+        "{warnings:?}"
+    );
     let found = read(RECIPE, DATA, &["shaer=lab.csv"]).expect_err("no such test");
     assert!(found.contains("--data shaer=lab.csv: no test 'shaer'; did you mean 'shear'?"), "{found}");
 }

@@ -86,6 +86,7 @@ impl<'a> Session<'a> {
     pub fn run(&self) -> Result<Standing<'a>> {
         std::fs::create_dir_all(self.dir.join("batches"))
             .map_err(crate::error::file(&self.dir, "cannot create the folder"))?;
+        [self.dir.clone(), self.dir.join("batches")].iter().for_each(|f| crate::trial::lock::clear_files(f));
         let recipe: &'a Recipe = self.recipe;
         let mut work = batch::Work::new(self, run::now());
         let (mut tried, mut ends): (Vec<Tried>, Vec<StepEnd>) = (Vec::new(), Vec::new());

@@ -109,3 +109,16 @@ fn clear_left_over(job_file: &Path) {
         let _ = fs::remove_dir_all(entry.path());
     }
 }
+
+/// Removes files that killed processes of this machine have begun to write.
+pub(crate) fn clear_files(folder: &Path) {
+    let mark = format!(".part-{}-", host());
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let process = name.rsplit_once(&mark).map(|(_, process)| process.to_owned());
+        let gone = process.is_some_and(|p| !Path::new("/proc").join(p).exists());
+        if gone && entry.path().is_file() {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}

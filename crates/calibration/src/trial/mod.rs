@@ -90,6 +90,7 @@ fn slug(name: &str) -> String {
 pub fn write(recipe: &Recipe, dir: &Path, trial: &Trial, runs: &[Run]) -> Result<()> {
     let folder = folder(dir, trial.number);
     std::fs::create_dir_all(&folder).map_err(file(&folder, "cannot create the folder"))?;
+    lock::clear_files(&folder);
     let values: serde_json::Map<String, serde_json::Value> =
         recipe.parameters.iter().zip(&trial.z).map(|(p, z)| (p.name.clone(), p.value(*z).into())).collect();
     let about = serde_json::json!({ "trial": trial.number, "step": recipe.steps[trial.step].name, "batch": trial.batch, "parameters": values });
