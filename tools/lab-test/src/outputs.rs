@@ -159,7 +159,7 @@ pub fn report(lab: &Lab, specimens: &Specimens, summary: &Summary) -> Report {
         })
         .collect();
     let [x, y] = lab.specimen().sides();
-    Report::new(format!("{test}: {tested} of {all} specimens tested"))
+    let report = Report::new(format!("{test}: {tested} of {all} specimens tested"))
         .with("test", test)
         .with("specimens", all)
         .with("stopped", stopped)
@@ -167,5 +167,8 @@ pub fn report(lab: &Lab, specimens: &Specimens, summary: &Summary) -> Report {
         .with("mass", lab.specimen().mass)
         .with("stresses", lab.loadings().iter().map(|l| l.stress).collect::<Vec<_>>())
         .with("seeds", lab.loadings().iter().map(|l| l.seed).collect::<Vec<_>>())
-        .with_all(summary)
+        .with_all(summary);
+    // Of one stress the means stand by themselves, too, where other programs find them.
+    let [level] = &summary.levels[..] else { return report };
+    level.figures.iter().fold(report, |report, figure| report.with(&figure.name, figure.mean))
 }

@@ -201,7 +201,7 @@ impl Recipe for Uniaxial {
         vec![
             value("strength", "Pa", stress[top]),
             value("strain_at_strength", "", strain[top]),
-            value("E", "Pa", 0.5 * stress[top] / of_half("strain")),
+            value("young", "Pa", 0.5 * stress[top] / of_half("strain")),
             value("poisson", "", -of_half("middle_lateral_strain") / of_half("middle_axial_strain")),
             value("cracks_at_strength", "", cracks),
             value("residual_stress", "Pa", residual(stress)),
