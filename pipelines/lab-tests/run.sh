@@ -12,7 +12,7 @@ run() { # NAME TEST SAMPLE [OPTION…]
     "$here/../stages/section.sh" "$page" "$name" < "$out/$name.md"
 }
 run direct-shear direct-shear "$here/sand.toml" --grains "$grains"
-run triaxial triaxial "$here/sand.toml" --grains "$grains"
+run triaxial triaxial "$here/sand.toml" --grains "$grains" --stress 25000,100000
 run oedometer oedometer "$here/sand.toml" --grains "$grains"
 run uniaxial uniaxial "$here/rock.toml" --grains "$grains"
 run repose repose "$here/sand.toml" --grains "$grains" --set material.0.young=2e6

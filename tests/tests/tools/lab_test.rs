@@ -198,6 +198,33 @@ fn printed_scenes_can_run() {
     assert!(scene.contains("source = \"prepare.mcap\"") && scene.contains("name = \"upper\""), "{scene}");
 }
 
+/// Rigid stones lie among packed grains in the preparation; the test has them from its run.
+#[test]
+fn rigid_stones_are_prepared_with_the_grains_around_them() {
+    let lab = lab();
+    let path = lab.path();
+    let at = |k: usize| 0.0025 + 0.005 * k as f64;
+    let row = |k: usize| format!("{},{},{},0.0025\n", at(k % 6), at(k / 6 % 6), at(k / 36));
+    let rows: String = (0..144).map(row).collect();
+    fs::write(path.join("grains.csv"), format!("x,y,z,radius\n{rows}")).unwrap();
+    let (head, _) = SAND.split_once("[[fill]]").unwrap();
+    let stone = "[[clump]]\nname = \"stone\"\nmaterial = \"sand\"\nspheres = [[0, 0, 0, 0.003], [0.003, 0, 0, 0.003]]\n\
+        [[body]]\nclump = \"stone\"\nposition = [0.012, 0.012, 0.024]\n\
+        [[particles]]\nsource = \"grains.csv\"\nmaterial = \"sand\"\n";
+    fs::write(path.join("rigid.toml"), format!("{head}{stone}")).unwrap();
+    let print = |option: &str, file: &str| {
+        succeed(path, "lab-test", &["triaxial", "rigid.toml", "--stress", "1000", option, "-q", "-o", file]);
+        fs::read_to_string(path.join(file)).unwrap()
+    };
+    assert!(print("--print-preparation", "p.toml").contains("[[body]]"));
+    succeed(path, "dem-run", &["p.toml", "--check", "-q"]);
+    let test = print("--print-scene", "t.toml");
+    assert!(
+        !test.contains("[[body]]") && test.contains("[[clump]]") && test.contains("prepare.mcap"),
+        "{test}"
+    );
+}
+
 #[test]
 fn what_a_test_cannot_use_is_refused() {
     let lab = lab();

@@ -57,6 +57,9 @@ fn lay_out(args: &Args) -> anyhow::Result<Lab> {
     let sample = Sample::new(&name, toml, &args.set, &folder).map_err(refused)?;
     cli::also_reads(sample.files.clone())?;
     let lab = Lab::new(args.test()?, sample, args.request(), &args.seeds()).map_err(refused)?;
+    if !lab.is_random() {
+        args.seed.none(&format!("{} with these grains", lab.recipe().name()))?;
+    }
     if args.seeds == 1 && lab.is_random() && !args.print_scene && !args.print_preparation {
         cli::warn("one specimen for each stress gives no intervals: --seeds 3 gives them");
     }

@@ -49,9 +49,9 @@ pub struct Args {
     /// Factor on the lengths of the meshes: 0.001 for millimetres
     #[command(flatten)]
     pub lengths: cli::Lengths,
-    /// Name of the stones' material, for the report and for --rigid
-    #[arg(long, value_name = "NAME", default_value = "rock")]
-    pub material: String,
+    /// Name of the stones' material, for the report and for --rigid [default: rock]
+    #[arg(long, value_name = "NAME")]
+    material: Option<String>,
     /// Stones are clusters of grains that bonds hold together, and can break (default)
     #[arg(long, conflicts_with = "rigid")]
     bonded: bool,
@@ -66,6 +66,8 @@ pub struct Args {
     pub surfaces: Option<PathBuf>,
     #[command(flatten)]
     pub seed: cli::Seed,
+    #[command(flatten)]
+    common: cli::Common,
 }
 
 fn share(text: &str) -> Result<f64, String> {
@@ -78,8 +80,18 @@ fn share(text: &str) -> Result<f64, String> {
 }
 
 impl Args {
-    /// Refuses a name of another format.
+    /// Name of the stones' material.
+    pub fn material(&self) -> &str {
+        self.material.as_deref().unwrap_or("rock")
+    }
+
+    /// Refuses a name of another format, and an option that would change nothing.
     pub fn check_used(&self) -> anyhow::Result<()> {
+        if self.material.is_some() && self.bodies.is_none() && self.common.report.is_none() {
+            return Err(cli::usage(
+                "--material: changes nothing without --rigid or --report: the PLY has numbers of materials: leave it out",
+            ));
+        }
         let ending = self.output.path().and_then(std::path::Path::extension);
         if ending.is_none() || self.output.has_extension("ply") {
             return Ok(());

@@ -40,11 +40,11 @@ fn stone_pack(args: Args) -> anyhow::Result<Report> {
     outputs::write(&args, &grains, &library, &packing)?;
     let grain_density = grain_density(&grains, &packing);
     if let Some(path) = &args.bodies {
-        bodies::write(path, &args.material, &grains, &library, &packing)?;
+        bodies::write(path, args.material(), &grains, &library, &packing)?;
     }
     let summary = summary(&packing, &settings, grain_density);
     let names: Vec<String> =
-        grains.materials.iter().map(|m| m.0.clone()).chain([args.material.clone()]).collect();
+        grains.materials.iter().map(|m| m.0.clone()).chain([args.material().to_owned()]).collect();
     Ok(Report::new(summary)
         .with("stones", packing.placed.len())
         .with("content_wanted", settings.content)

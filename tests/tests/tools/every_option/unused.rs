@@ -44,6 +44,14 @@ const REFUSED: &[(&str, &str)] = &[
         "--all: --fragments lists the pieces of one frame: choose it with --time or --until",
     ),
     ("dem-measure run.mcap --fragments --from 0", "--from: --fragments lists the pieces of one frame"),
+    (
+        "stone-pack grains.csv library --content 0.2 --stone-density 2600 --soil-density 2600 --material stone -o s.ply",
+        "--material: changes nothing without --rigid or --report",
+    ),
+    (
+        "lab-test uniaxial stone.toml --seed 3",
+        "--seed: uniaxial with these grains leaves nothing to chance: leave it out",
+    ),
     ("dem-run s.toml --check --progress", "--progress: --check runs nothing: leave it out"),
     ("dem-run s.toml --explain --check", "--check: --explain checks the scene as well: leave it out"),
     ("dem-view flat.xyz -o v.pvd --range 0,1", "--range changes nothing in .pvd"),
