@@ -15,8 +15,8 @@ use std::time::Duration;
 
 /// Where a program writes its messages.
 const WORDS: &str = "words";
-/// Exit code of a run that a guard has stopped.
-pub(crate) const GUARD: i32 = 3;
+/// Exit code of a run that a guard or a signal has stopped: its report says why.
+const GUARD: i32 = 3;
 
 /// How programs are run.
 #[derive(Debug, Clone)]
@@ -65,13 +65,25 @@ impl Chain<'_> {
     }
 
     /// Runs a scene, where its run is not there; its report.
+    ///
+    /// A run that a guard has stopped is whole as a file: its report tells, also when it is used again.
     pub(crate) fn dem_run(&self, name: &str) -> Result<Value> {
         let (scene, run, report) = (format!("{name}.toml"), format!("{name}.mcap"), format!("{name}.json"));
-        if !self.file(&run).exists() || !self.file(&report).exists() {
+        let finished = |report: Value| report["stopped"].as_str() != Some(record::SIGNAL);
+        if !self.file(&run).exists() || !self.report(&report).is_ok_and(finished) {
             let threads = self.programs.threads.to_string();
             self.start("dem-run", &[&scene, "--threads", &threads, "-q", "--report", &report, "-o", &run])?;
         }
-        let file = self.file(&report);
+        let report = self.report(&report)?;
+        match report["stopped"].as_str() {
+            Some(record::SIGNAL) => Err(LabError::Interrupted),
+            Some(why) => Err(LabError::Stopped { run: name.to_owned(), why: why.to_owned() }),
+            None => Ok(report),
+        }
+    }
+
+    fn report(&self, name: &str) -> Result<Value> {
+        let file = self.file(name);
         let text = std::fs::read_to_string(&file).map_err(LabError::file(&file, "cannot read it"))?;
         serde_json::from_str(&text)
             .map_err(|e| LabError::Content { file, what: format!("is not a report: {e}") })
@@ -108,8 +120,7 @@ impl Chain<'_> {
             command.spawn().map_err(|source| LabError::Start { program: program.to_owned(), source })?;
         let code = self.wait(child).map_err(LabError::file(&self.folder, "cannot wait for a program"))?;
         match code {
-            0 => Ok(()),
-            _ if (self.programs.stop)() => Err(LabError::Signal { done: 0, all: 1, again: String::new() }),
+            0 | GUARD => Ok(()),
             code => {
                 let said = std::fs::read_to_string(&said).unwrap_or_default();
                 let words =

@@ -31,8 +31,13 @@ pub enum LabError {
     /// A program that failed, with its last line.
     #[error("{specimen}: {program} failed with exit code {code}: {words}")]
     Program { specimen: String, program: String, code: i32, words: String },
-    #[error("stopped by a signal: {done} of {all} specimens are finished{again}")]
-    Signal { done: usize, all: usize, again: String },
+    /// A guard has stopped the run of a specimen.
+    #[error("{run}: stopped by a guard: {why}")]
+    Stopped { run: String, why: String },
+    #[error("a signal has stopped a program")]
+    Interrupted,
+    #[error("stopped by a signal: {done} of {all} specimens are finished")]
+    Signal { done: usize, all: usize },
 }
 
 impl LabError {

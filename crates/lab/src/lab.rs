@@ -1,6 +1,6 @@
 //! A test on all its specimens: their scenes, their runs, their curves.
 
-use crate::chain::{Chain, GUARD, Programs, stamp};
+use crate::chain::{Chain, Programs, stamp};
 use crate::compose::{Composition, number};
 use crate::error::{LabError, Result};
 use crate::recipes::{Context, Loading, Part, Prepared, Recipe, Stresses, Value};
@@ -292,7 +292,7 @@ impl Lab {
         done.sort_by_key(|(at, _)| *at);
         if (programs.stop)() {
             let (done, all) = (done.iter().filter(|(_, r)| r.is_ok()).count(), self.loadings.len());
-            return Err(LabError::Signal { done, all, again: String::new() });
+            return Err(LabError::Signal { done, all });
         }
         let list = done.into_iter().map(|(at, outcome)| Ok((self.loadings[at].clone(), outcome?)));
         Ok(Specimens { list: list.collect::<Result<_>>()? })
@@ -302,9 +302,7 @@ impl Lab {
     fn one(&self, loading: &Loading, chain: &Chain, made_from: &str) -> Result<Outcome> {
         chain.begin(&stream::sha256(format!("{made_from}{loading:?}").as_bytes()))?;
         match self.tested(loading, chain) {
-            Err(LabError::Program { code: GUARD, program, words, .. }) => {
-                Ok(Outcome::Stopped(format!("{program}: {words}")))
-            }
+            Err(stopped @ LabError::Stopped { .. }) => Ok(Outcome::Stopped(stopped.to_string())),
             other => other,
         }
     }

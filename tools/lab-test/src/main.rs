@@ -98,9 +98,9 @@ fn run(lab: &Lab, folder: &Path, kept: bool) -> anyhow::Result<Specimens> {
     let progress = Progress::new("specimens", lab.loadings().len() as u64);
     let begins = |name: &str| progress.say(name.to_owned());
     lab.run(folder, &programs, at_once, &begins, &|| progress.add(1)).map_err(|error| match error {
-        LabError::Signal { done, all, .. } => {
-            let again = if kept { ": the same command continues" } else { ": with --dir they would be kept" };
-            LabError::Signal { done, all, again: again.to_owned() }.into()
+        signal @ LabError::Signal { .. } => {
+            let again = if kept { "the same command continues" } else { "with --dir they would be kept" };
+            anyhow::anyhow!("{signal}: {again}")
         }
         other => refused(other),
     })
