@@ -1,31 +1,27 @@
 //! A test on all its specimens: their scenes, their runs, their curves.
 
 use crate::chain::{Chain, Programs, stamp};
-use crate::compose::{Composition, number};
+use crate::compose::number;
 use crate::error::{LabError, Result};
 use crate::recipes::{Context, Loading, Part, Prepared, Recipe, Stresses, Value};
 use crate::request::{Request, Specimen};
-use crate::sample::{Sample, is_drawn};
+use crate::sample::Sample;
 use crate::series::Curve;
 use crate::summary::{self, Summary};
-use crate::walls;
+use crate::warnings::{not_at_rest, not_held};
 use geom::Vec3;
 use serde_json::Value as Json;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering::SeqCst};
-use toml_edit::value;
-
-/// Largest speed of a prepared specimen over √(p/ρ) [–].
-const STILL: f64 = 2e-3;
 
 /// A test, ready to run.
 pub struct Lab {
-    recipe: &'static dyn Recipe,
-    sample: Sample,
-    request: Request,
-    specimen: Specimen,
-    loadings: Vec<Loading>,
+    pub(crate) recipe: &'static dyn Recipe,
+    pub(crate) sample: Sample,
+    pub(crate) request: Request,
+    pub(crate) specimen: Specimen,
+    pub(crate) loadings: Vec<Loading>,
 }
 
 /// What became of one specimen.
@@ -49,15 +45,6 @@ pub enum Outcome {
 pub struct Specimens {
     /// Each with what became of it.
     pub list: Vec<(Loading, Outcome)>,
-}
-
-/// Which scene is printed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Which {
-    /// That of the preparation.
-    Preparation,
-    /// That of the test, with the specimen as high as it is expected to become.
-    Test,
 }
 
 impl Lab {
@@ -130,111 +117,8 @@ impl Lab {
         &self.specimen
     }
 
-    fn context<'a>(&'a self, loading: &'a Loading) -> Context<'a> {
+    pub(crate) fn context<'a>(&'a self, loading: &'a Loading) -> Context<'a> {
         Context { sample: &self.sample, request: &self.request, loading, specimen: &self.specimen }
-    }
-
-    /// A scene of the first specimen, with files as the sample names them; `None` where the test has no preparation.
-    ///
-    /// # Errors
-    /// A specimen that cannot be prepared.
-    pub fn scene(&self, which: Which) -> Result<Option<String>> {
-        let of = self.context(&self.loadings[0]);
-        let prepared = self.recipe.preparation(&of)?;
-        if which == Which::Preparation {
-            return Ok(prepared.map(|part| self.compose_preparation(&of, &part, self.sample.compose())));
-        }
-        let mut expected = Prepared::default();
-        for wall in self.recipe.placed().iter().filter(|wall| **wall == "lid") {
-            let fall = self.specimen.height - (self.specimen.high.z - self.specimen.low.z);
-            expected.shifts.insert((*wall).to_owned(), Vec3::z() * fall);
-        }
-        let part = self.recipe.test(&of, &expected)?;
-        Ok(Some(self.compose_test(&of, &part, prepared.is_some(), self.sample.compose())))
-    }
-
-    fn compose_preparation(&self, of: &Context, part: &Part, mut scene: Composition) -> String {
-        if let Some(mass) = self.specimen.mass {
-            scene.set("fill.0", "shape", self.space());
-            scene.set("fill.0", "mass", mass);
-            scene.set("fill.0", "seed", of.loading.seed as i64);
-        }
-        if let Some(friction) = self.request.friction.or(self.recipe.friction()) {
-            scene.entries("contact").for_each(|contact| walls::set_friction(contact, friction));
-        }
-        self.finish(of, part, scene)
-    }
-
-    /// The space that is filled, as a shape.
-    fn space(&self) -> String {
-        let (low, high) = (self.specimen.low, self.specimen.high);
-        if self.recipe.proportions().1 == 1.0 {
-            let [a, b, c] = [low.x, low.y, low.z].map(number);
-            let [x, y, z] = [high.x, high.y, high.z].map(number);
-            return format!("box:{a},{b},{c},{x},{y},{z}");
-        }
-        let [x, y] = [0.5 * (low.x + high.x), 0.5 * (low.y + high.y)].map(number);
-        let [c, z, radius] = [low.z, high.z, 0.5 * (high.x - low.x)].map(number);
-        format!("cylinder:{x},{y},{c},{x},{y},{z},{radius}")
-    }
-
-    fn compose_test(&self, of: &Context, part: &Part, prepared: bool, mut scene: Composition) -> String {
-        if let Some(grains) = &part.grains {
-            for particles in scene.entries("particles") {
-                ["units", "scale"].iter().for_each(|key| drop(particles.remove(key)));
-                particles.insert("source", value(grains));
-            }
-        } else if prepared {
-            scene.remove("fill");
-            scene.remove("particles");
-            scene.remove("body");
-            scene.add("[[particles]]\nsource = \"prepare.mcap\"\n");
-        }
-        self.finish(of, part, scene)
-    }
-
-    /// What both scenes have.
-    fn finish(&self, of: &Context, part: &Part, mut scene: Composition) -> String {
-        scene.set("time", "until", part.until);
-        if part.to_rest {
-            scene.set("time", "until_unbalanced", self.request.rest.unwrap_or(self.recipe.rest()));
-        }
-        if !part.bonds {
-            scene.remove("bond");
-        }
-        for bond in scene.entries("bond").filter(|bond| is_drawn(bond)) {
-            let own = bond.get("seed").and_then(toml_edit::Item::as_integer).unwrap_or(0);
-            bond.insert("seed", value(own.wrapping_add(of.loading.seed as i64)));
-        }
-        walls::add_materials(&mut scene);
-        scene.add(&part.text);
-        scene.text()
-    }
-
-    /// A warning where the specimen still moves when it is prepared: root mean square speed against √(p/ρ), which is how inertial numbers count.
-    fn moves(&self, loading: &Loading, chain: &Chain) -> Result<Option<String>> {
-        let kinetic = chain.measure("prepare", "settling.csv", &["--settling"])?.column("kinetic")?;
-        let grains = &self.sample.grains;
-        let mass = self.specimen.mass(grains);
-        let speed = (2.0 * kinetic.last().copied().unwrap_or(0.0) / mass).sqrt();
-        let over = speed / (loading.stress / grains.density).sqrt();
-        let words =
-            || format!("the grains still move at {speed:.2e} m/s when the test begins: use a smaller --rest");
-        Ok((loading.stress > 0.0 && over > STILL).then(words))
-    }
-
-    /// A warning where bonds broke in the preparation: the test bonds the grains again.
-    fn broke(&self, part: &Part, chain: &Chain) -> Result<Option<String>> {
-        if !part.bonds || !self.sample.has("bond") {
-            return Ok(None);
-        }
-        let cracks = chain.measure("prepare", "prepared-cracks.csv", &["--cracks"])?.column("time")?.len();
-        let words = || {
-            format!(
-                "{cracks} bonds broke in the preparation, and are whole again in the test: use a smaller --stress, or stronger bonds"
-            )
-        };
-        Ok((cracks > 0).then(words))
     }
 
     /// Name of a specimen, and of its folder.
@@ -370,27 +254,6 @@ impl Lab {
         });
         Summary { levels, envelope, weibull }
     }
-}
-
-/// A warning where the preparation has ended before the grains rest.
-fn not_at_rest(report: &Json) -> Option<String> {
-    let time = report["time"].as_f64().unwrap_or(f64::NAN);
-    let rests = report["settled"].is_string();
-    (!rests).then(|| format!("the grains were not at rest when the preparation ended at {time:.3} s: raise --rest, or change the sample (damping, friction)"))
-}
-
-/// Warnings of servos that did not hold their stress.
-fn not_held(report: &Json) -> Vec<String> {
-    let servos = report["servos"].as_array().map_or(&[][..], Vec::as_slice);
-    let off = |servo: &Json| {
-        let mean = servo["mean_deviation"].as_f64().filter(|mean| *mean > 0.01)?;
-        let wall = servo["wall"].as_str().unwrap_or_default();
-        Some(format!(
-            "the stress on wall '{wall}' was off by {:.1} % in the mean: test more slowly (--inertial, --speed)",
-            100.0 * mean
-        ))
-    };
-    servos.iter().filter_map(off).collect()
 }
 
 /// The folder of programs: that of this one.
