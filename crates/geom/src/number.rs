@@ -22,6 +22,9 @@ pub enum NumberError {
     /// A negative one.
     #[error("give a number of 0 or more")]
     Negative,
+    /// No share of a whole.
+    #[error("give a share above 0 and below 1, such as 0.3 or 30%")]
+    NoShare,
 }
 
 /// A finite number, at most [`LARGEST`].
@@ -43,6 +46,18 @@ pub fn finite(text: &str) -> Result<f64, NumberError> {
 /// Another text or number.
 pub fn positive(text: &str) -> Result<f64, NumberError> {
     finite(text).and_then(|value| if value > 0.0 { Ok(value) } else { Err(NumberError::NotPositive) })
+}
+
+/// A share above 0 and below 1, as 0.3 or 30%.
+///
+/// # Errors
+/// Another text or number.
+pub fn share(text: &str) -> Result<f64, NumberError> {
+    let value = match text.strip_suffix('%') {
+        Some(percent) => positive(percent).map(|p| p / 100.0),
+        None => positive(text),
+    };
+    value.ok().filter(|v| *v < 1.0).ok_or(NumberError::NoShare)
 }
 
 /// A finite number that is not negative.

@@ -102,7 +102,8 @@ impl Chain<'_> {
 
     /// Runs a program in the folder and waits for it.
     pub(crate) fn start(&self, program: &str, words: &[&str]) -> Result<()> {
-        let line: Vec<&str> = [program].into_iter().chain(words.iter().copied()).collect();
+        let line: Vec<String> =
+            [program].into_iter().chain(words.iter().copied()).map(stream::quoted).collect();
         let script = self.file("commands.sh");
         let mut log =
             File::options().append(true).open(&script).map_err(LabError::file(&script, "cannot write it"))?;

@@ -250,7 +250,7 @@ impl Lab {
         let strengths =
             levels.iter().flat_map(|level| &level.figures).find(|figure| figure.name == "strength");
         let weibull = strengths.filter(|_| self.recipe.name() == "crush").map_or(Vec::new(), |figure| {
-            summary::weibull(&figure.values.iter().flatten().copied().collect::<Vec<f64>>())
+            summary::weibull_figures(&figure.values.iter().flatten().copied().collect::<Vec<f64>>())
         });
         Summary { levels, envelope, weibull }
     }

@@ -118,23 +118,19 @@ pub(crate) fn envelope(kind: Envelope, levels: &[Level]) -> Vec<Figure> {
 /// Fewest strengths that a Weibull line is drawn through.
 const FEWEST: usize = 5;
 
-/// Weibull's modulus m and scale σ₀ of strengths, by maximum likelihood:
+/// Weibull's modulus m [–] and scale σ₀ of strengths above 0, by maximum likelihood:
 ///
 /// ```text
 /// P(σ) = 1 − exp(−(σ/σ₀)^m)      1/m = Σ σᵐ ln σ/Σ σᵐ − mean ln σ      σ₀ᵐ = mean σᵐ
 /// ```
-/// Interval of m: that of its asymptotic variance 6 m²/(π² n) (Thoman, Bain & Antle 1969, doi:10.1080/00401706.1969.10490706).
-pub(crate) fn weibull(strengths: &[f64]) -> Vec<Figure> {
-    let logs: Vec<f64> = strengths.iter().filter(|s| s.is_finite() && **s > 0.0).map(|s| s.ln()).collect();
-    let n = logs.len();
-    if n < FEWEST {
-        return Vec::new();
-    }
-    let mean = logs.iter().sum::<f64>() / n as f64;
+pub fn weibull(strengths: &[f64]) -> (f64, f64) {
+    let n = strengths.len() as f64;
+    let mean = strengths.iter().map(|s| s.ln()).sum::<f64>() / n;
+    let logs: Vec<f64> = strengths.iter().map(|s| s.ln() - mean).collect();
     let excess = |m: f64| {
         let (over, sum) = logs.iter().fold((0.0, 0.0), |s, l| {
-            let weight = (m * (l - mean)).exp();
-            (s.0 + weight * (l - mean), s.1 + weight)
+            let weight = (m * l).exp();
+            (s.0 + weight * l, s.1 + weight)
         });
         over / sum - 1.0 / m
     };
@@ -144,8 +140,18 @@ pub(crate) fn weibull(strengths: &[f64]) -> Vec<Figure> {
         *(if excess(middle) < 0.0 { &mut low } else { &mut high }) = middle;
     }
     let m = (low * high).sqrt();
-    let power = logs.iter().map(|l| (m * (l - mean)).exp()).sum::<f64>() / n as f64;
-    let scale = (mean + power.ln() / m).exp();
+    let power = logs.iter().map(|l| (m * l).exp()).sum::<f64>() / n;
+    (m, (mean + power.ln() / m).exp())
+}
+
+/// Both as figures. Interval of m: that of its asymptotic variance 6 m²/(π² n) (Thoman, Bain & Antle 1969,
+/// doi:10.1080/00401706.1969.10490706).
+pub(crate) fn weibull_figures(strengths: &[f64]) -> Vec<Figure> {
+    let strengths: Vec<f64> = strengths.iter().copied().filter(|s| s.is_finite() && *s > 0.0).collect();
+    if strengths.len() < FEWEST {
+        return Vec::new();
+    }
+    let (m, scale) = weibull(&strengths);
     let of = |name: &str, unit: &str, value: f64, interval: Option<f64>| Figure {
         name: name.to_owned(),
         unit: unit.to_owned(),
@@ -153,7 +159,7 @@ pub(crate) fn weibull(strengths: &[f64]) -> Vec<Figure> {
         interval,
         values: Vec::new(),
     };
-    let half = 1.96 * m * (6.0 / n as f64).sqrt() / std::f64::consts::PI;
+    let half = 1.96 * m * (6.0 / strengths.len() as f64).sqrt() / std::f64::consts::PI;
     vec![of("weibull_modulus", "", m, number(half)), of("weibull_scale", "Pa", scale, None)]
 }
 
@@ -195,11 +201,11 @@ mod tests {
     fn the_weibull_line_of_exact_quantiles() {
         let strengths: Vec<f64> =
             (0..400).map(|k| 2e6 * (-(1.0 - (k as f64 + 0.5) / 400.0).ln()).powf(1.0 / 4.0)).collect();
-        let found = weibull(&strengths);
+        let found = weibull_figures(&strengths);
         assert!(
             (found[0].mean.unwrap() - 4.0).abs() < 0.05 && (found[1].mean.unwrap() / 2e6 - 1.0).abs() < 2e-3,
             "{found:?}"
         );
-        assert!(weibull(&strengths[..4]).is_empty());
+        assert!(weibull_figures(&strengths[..4]).is_empty());
     }
 }

@@ -4,12 +4,14 @@ pub mod mcap;
 pub mod number_type;
 pub mod ply;
 mod rows;
+mod shell;
 pub mod state;
 pub mod table;
 pub mod whole;
 
 pub use number_type::NumberType;
 pub use rows::{Fill, Line, Rows};
+pub use shell::quoted;
 pub use table::{Column, MOST_COLUMNS, Table, Values};
 
 use sha2::{Digest, Sha256};

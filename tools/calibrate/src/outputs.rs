@@ -3,11 +3,12 @@
 use crate::args::Args;
 use anyhow::Context;
 use calibration::session::{StepEnd, Tried};
-use calibration::trial::run::{Ended, quoted};
+use calibration::trial::run::Ended;
 use calibration::{Judged, Recipe, draw, html, next_tests, samples, words};
 use cli::{Output, Report};
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use stream::quoted;
 
 /// Writes what was found.
 pub fn publish(

@@ -1,9 +1,10 @@
 //! The report, the sentences as Markdown, and the lines of `--print-commands`.
 
 use cli::Report;
-use curve::sweep::script::{Job, quoted};
+use curve::sweep::script::Job;
 use curve::{Choice, Judged};
 use std::collections::BTreeMap;
+use stream::quoted;
 
 /// A line to run each of the runs.
 pub fn commands(open: &[&Job]) -> String {

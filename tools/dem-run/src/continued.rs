@@ -3,6 +3,7 @@
 use cli::Output;
 use scene::Scene;
 use std::path::{Path, PathBuf};
+use stream::quoted;
 
 /// The call of this program again, from its checkpoint in `file`: the same options, a new output.
 pub fn command(file: &Path, more: &[String]) -> String {
@@ -93,15 +94,6 @@ fn next(file: &Path) -> PathBuf {
     let named = |k: u32| file.with_file_name(format!("{stem}.{k}.{ending}"));
     let free = |path: &PathBuf| !path.exists() && cli::parts_of(path).is_empty();
     (2..1000).map(named).find(free).unwrap_or_else(|| named(1000))
-}
-
-/// A word as a shell reads it back.
-fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_alphanumeric() || "-_./=:,+%@".contains(c);
-    if !word.is_empty() && word.chars().all(plain) {
-        return word.to_owned();
-    }
-    format!("'{}'", word.replace('\'', "'\\''"))
 }
 
 #[cfg(test)]

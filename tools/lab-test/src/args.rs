@@ -40,7 +40,7 @@ pub struct Args {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(50..=10_000_000))]
     pub grains: Option<u64>,
     /// End of the test: strain, or displacement over length, such as 0.15 or 15%
-    #[arg(long, value_name = "SHARE", value_parser = strain)]
+    #[arg(long, value_name = "SHARE", value_parser = geom::number::share)]
     pub strain: Option<f64>,
     /// Inertial number that sets the speed of the test [default: 0.001]
     #[arg(long, value_name = "I", value_parser = geom::number::positive, conflicts_with = "speed")]
@@ -52,7 +52,7 @@ pub struct Args {
     #[arg(long, value_name = "MU", value_parser = geom::number::not_negative)]
     pub friction: Option<f64>,
     /// Mean unbalanced over mean contact force at which a specimen counts as at rest [default: 0.0001; repose: 0.01]
-    #[arg(long, value_name = "SHARE", value_parser = strain)]
+    #[arg(long, value_name = "SHARE", value_parser = geom::number::share)]
     pub rest: Option<f64>,
     /// Rows of each curve
     #[arg(long, value_name = "N", default_value_t = lab::recipes::ROWS, value_parser = clap::value_parser!(u64).range(20..=100_000))]
@@ -115,15 +115,6 @@ fn in_unit(text: &str, unit: &'static str, such: &str) -> Result<f64, String> {
         Err(_) => geom::units::parse(text, unit).map_err(|e| format!("{e}; {such}"))?,
     };
     if value > 0.0 && value.is_finite() { Ok(value) } else { Err(such.to_owned()) }
-}
-
-fn strain(text: &str) -> Result<f64, String> {
-    let wrong = || "give a share above 0 and below 1, such as 0.15 or 15%".to_owned();
-    let value = match text.strip_suffix('%') {
-        Some(percent) => geom::number::positive(percent).map(|p| p / 100.0),
-        None => geom::number::positive(text),
-    };
-    value.ok().filter(|v| *v < 1.0).ok_or_else(wrong)
 }
 
 impl Args {

@@ -23,7 +23,7 @@ pub struct Args {
     #[command(flatten)]
     pub output: cli::Output,
     /// Mass of the stones over the total mass: 0.3, or 30%
-    #[arg(long, value_name = "SHARE", value_parser = share)]
+    #[arg(long, value_name = "SHARE", value_parser = geom::number::share)]
     content: f64,
     /// Density of the stones [kg/m³]
     #[arg(long, value_name = "KG/M3", value_parser = geom::number::positive)]
@@ -35,7 +35,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     pub grading: Option<PathBuf>,
     /// Allowed excess of the content and of each class, over it
-    #[arg(long, value_name = "SHARE", value_parser = share, default_value = "0.01")]
+    #[arg(long, value_name = "SHARE", value_parser = geom::number::share, default_value = "0.01")]
     tolerance: f64,
     /// Most tries for each class
     #[arg(long, value_name = "N", default_value = "10000", value_parser = clap::value_parser!(u64).range(1..=10_000))]
@@ -68,15 +68,6 @@ pub struct Args {
     pub seed: cli::Seed,
     #[command(flatten)]
     common: cli::Common,
-}
-
-fn share(text: &str) -> Result<f64, String> {
-    let wrong = || "give a share above 0 and below 1, such as 0.3 or 30%".to_owned();
-    let value = match text.strip_suffix('%') {
-        Some(percent) => geom::number::positive(percent).map(|p| p / 100.0),
-        None => geom::number::positive(text),
-    };
-    value.ok().filter(|v| *v < 1.0).ok_or_else(wrong)
 }
 
 impl Args {

@@ -61,7 +61,7 @@ pub fn runs(recipe: &Recipe, dir: &Path, trial: &Trial, test: usize, hashes: &mu
             recipe.parameters.iter().map(|p| p.name.as_str()).zip(values.iter().cloned()).collect();
         blanks.push(("seed", seed.to_string()));
         let movable = filled(&of.command, &blanks);
-        let command = filled(&movable, &[("here", run::quoted(&recipe.here.display().to_string()))]);
+        let command = filled(&movable, &[("here", stream::quoted(&recipe.here.display().to_string()))]);
         let name = if of.is_random() { format!("{}-{seed}", slug(&of.name)) } else { slug(&of.name) };
         let stamp = hashes.stamp(&movable, &command, of.read.as_deref());
         let job = Job {

@@ -144,7 +144,7 @@ fn start(part: &Path, job: &Job) -> Result<Child> {
     let script = part.join("command.sh");
     let text = format!(
         "#!/usr/bin/env bash\nset -o pipefail\nPATH={}:\"$PATH\"\n{}\n",
-        quoted(&tools.display().to_string()),
+        stream::quoted(&tools.display().to_string()),
         job.command
     );
     fs::write(&script, text).map_err(file(&script, "cannot write (is the disk full?)"))?;
@@ -186,16 +186,6 @@ fn wait(child: &mut Child, timeout: Option<f64>, lock: &mut Lock, stop: fn() -> 
 pub(super) fn kill_group(id: u32) {
     if let Some(pid) = i32::try_from(id).ok().and_then(rustix::process::Pid::from_raw) {
         let _ = rustix::process::kill_process_group(pid, rustix::process::Signal::KILL);
-    }
-}
-
-/// A word that a shell takes as it is.
-pub fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "_-./=,:+@%".contains(c);
-    if !word.is_empty() && word.chars().all(plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', "'\\''"))
     }
 }
 

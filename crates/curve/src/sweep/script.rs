@@ -6,6 +6,7 @@
 use super::grid::Setting;
 use crate::study::Work;
 use std::path::{Path, PathBuf};
+use stream::quoted;
 
 /// One run.
 #[derive(Debug, Clone)]
@@ -49,16 +50,6 @@ pub fn unfilled(text: &str) -> Option<&str> {
     // ${…} and { …; } belong to the shell.
     let own = word(&text[start + 1..end]) && !text[..start].ends_with('$');
     if own { Some(&text[start..=end]) } else { unfilled(&text[end..]) }
-}
-
-/// A word that a shell takes as it is.
-pub fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "_-./=,:+@%".contains(c);
-    if !word.is_empty() && word.chars().all(plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', "'\\''"))
-    }
 }
 
 impl Job {

@@ -5,6 +5,7 @@
 //! ```
 
 use kuva::prelude::*;
+use lab::summary::weibull;
 use plot::COLOURS;
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -53,25 +54,6 @@ fn size(diameter: f64, rows: &[[f64; 2]]) -> Size {
         m,
         scale,
     }
-}
-
-/// m and σ₀: Σ σ^m ln σ/Σ σ^m − 1/m = mean of ln σ, by bisection.
-fn weibull(strengths: &[f64]) -> (f64, f64) {
-    let count = strengths.len() as f64;
-    let unit = strengths.iter().sum::<f64>() / count;
-    let all: Vec<f64> = strengths.iter().map(|s| s / unit).collect();
-    let mean_log = all.iter().map(|x| x.ln()).sum::<f64>() / count;
-    let too_large = |m: f64| {
-        let (a, b) = all.iter().fold((0.0, 0.0), |(a, b), x| (a + x.powf(m) * x.ln(), b + x.powf(m)));
-        a / b - 1.0 / m > mean_log
-    };
-    let (mut low, mut high) = (0.05, 200.0);
-    for _ in 0..80 {
-        let m = 0.5 * (low + high);
-        if too_large(m) { high = m } else { low = m }
-    }
-    let power = all.iter().map(|x| x.powf(low)).sum::<f64>() / count;
-    (low, unit * power.powf(1.0 / low))
 }
 
 impl Size {
