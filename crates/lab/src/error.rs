@@ -34,6 +34,8 @@ pub enum LabError {
     /// A guard has stopped the run of a specimen.
     #[error("{run}: stopped by a guard: {why}")]
     Stopped { run: String, why: String },
+    #[error("cannot start threads")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
     #[error("a signal has stopped a program")]
     Interrupted,
     #[error("stopped by a signal: {done} of {all} specimens are finished")]

@@ -10,9 +10,9 @@ use crate::series::Curve;
 use crate::summary::{self, Summary};
 use crate::warnings::{not_at_rest, not_held};
 use geom::Vec3;
+use rayon::prelude::*;
 use serde_json::Value as Json;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering::SeqCst};
 
 /// A test, ready to run.
@@ -149,37 +149,27 @@ impl Lab {
             &programs.folder,
         )?;
         let made_from = made_from + &self.sample.compose().text();
-        let (next, done) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
-        let one = || {
-            loop {
-                let at = next.fetch_add(1, SeqCst);
-                let failed = || {
-                    done.lock().is_ok_and(|done: std::sync::MutexGuard<Vec<(usize, Result<Outcome>)>>| {
-                        done.iter().any(|(_, r)| r.is_err())
-                    })
-                };
-                let Some(loading) = self.loadings.get(at).filter(|_| !(programs.stop)() && !failed()) else {
-                    return;
-                };
-                let name = self.name(loading);
-                begins(&name);
-                let chain = Chain { folder: folder.join(&name), specimen: name, programs };
-                let outcome = self.one(loading, &chain, &made_from);
-                ends();
-                if let Ok(mut done) = done.lock() {
-                    done.push((at, outcome));
-                }
+        let finished = AtomicUsize::new(0);
+        let one = |loading: &Loading| {
+            if (programs.stop)() {
+                return Err(LabError::Interrupted);
             }
+            let name = self.name(loading);
+            begins(&name);
+            let chain = Chain { folder: folder.join(&name), specimen: name, programs };
+            let outcome = self.one(loading, &chain, &made_from);
+            ends();
+            finished.fetch_add(usize::from(outcome.is_ok()), SeqCst);
+            Ok((loading.clone(), outcome?))
         };
-        std::thread::scope(|threads| (0..at_once.max(1)).for_each(|_| drop(threads.spawn(one))));
-        let mut done = done.into_inner().unwrap_or_default();
-        done.sort_by_key(|(at, _)| *at);
+        // Each thread waits for the programs of one specimen.
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(at_once).build()?;
+        let list: Result<Vec<_>> =
+            pool.install(|| self.loadings.par_iter().with_max_len(1).map(one).collect());
         if (programs.stop)() {
-            let (done, all) = (done.iter().filter(|(_, r)| r.is_ok()).count(), self.loadings.len());
-            return Err(LabError::Signal { done, all });
+            return Err(LabError::Signal { done: finished.into_inner(), all: self.loadings.len() });
         }
-        let list = done.into_iter().map(|(at, outcome)| Ok((self.loadings[at].clone(), outcome?)));
-        Ok(Specimens { list: list.collect::<Result<_>>()? })
+        Ok(Specimens { list: list? })
     }
 
     /// One specimen from its preparation to its curve.

@@ -10,6 +10,7 @@
 //! Plates at the height of the shear plane carry the grains of the half that overhangs, and close the other one. A is the area at the
 //! start (ASTM D3080). The sides are smooth, floor and lid rough.
 
+use super::boxes::{height, press};
 use super::*;
 use crate::series::{at, peak, reaches, slope};
 use crate::walls::{PLATE, SIDE};
@@ -20,71 +21,6 @@ pub struct DirectShear;
 const END: f64 = 0.12;
 /// Share of the test in which the upper half gets up to speed [–].
 const RAMP: f64 = 0.02;
-
-/// Names of the four sides with normals and corner (0: low, 1: high).
-const SIDES: [(&str, [i8; 3]); 4] =
-    [("left", [1, 0, 0]), ("right", [-1, 0, 0]), ("front", [0, 1, 0]), ("back", [0, -1, 0])];
-
-/// Four planes around a specimen; `of` adds to each.
-pub(super) fn sides(of: &Context, add: impl Fn(&str, [i8; 3]) -> String) -> String {
-    let point =
-        |normal: [i8; 3]| if normal.iter().any(|n| *n < 0) { of.specimen.high } else { of.specimen.low };
-    SIDES
-        .iter()
-        .map(|(name, normal)| {
-            wall(name, &plane(corner(point(*normal), of), *normal), SIDE, &add(name, *normal))
-        })
-        .collect()
-}
-
-/// A corner at the height of the floor.
-fn corner(at: Vec3, of: &Context) -> Vec3 {
-    Vec3::new(at.x, at.y, of.specimen.low.z)
-}
-
-/// A floor, and a lid that presses with a stress [Pa].
-pub(super) fn floor_and_lid(of: &Context, stress: f64) -> String {
-    let space = of.specimen;
-    let area = space.sides()[0] * space.sides()[1];
-    let limit = of.request.speed_limit(&of.sample.grains, stress, space.height);
-    let press = servo(
-        [0, 0, -1],
-        &format!("stress = {}", number(stress)),
-        &format!("area = {}", number(area)),
-        limit,
-    );
-    wall("floor", &plane(space.low, [0, 0, 1]), PLATE, "")
-        + &wall("lid", &plane(space.high, [0, 0, -1]), PLATE, &press)
-}
-
-/// Time in which a specimen is pressed together and comes to rest, at most [s].
-pub(super) fn settling(of: &Context, stress: f64) -> f64 {
-    let (space, grains) = (of.specimen, &of.sample.grains);
-    let way = space.high.z - space.low.z;
-    let fall = if grains.gravity > 0.0 { (2.0 * way / (0.3 * grains.gravity)).sqrt() } else { 0.0 };
-    20.0 * way / of.request.speed_limit(grains, stress, space.height) + 5.0 * fall
-}
-
-/// A preparation in a box whose lid presses with the stress.
-pub(super) fn press(of: &Context) -> Part {
-    let stress = of.loading.stress;
-    let until = settling(of, stress);
-    let text = output(until, 20)
-        + damping(of.sample)
-        + &floor_and_lid(of, stress)
-        + &sides(of, |_, _| String::new());
-    Part { until, to_rest: true, text, bonds: of.sample.is_packed(), ..Part::default() }
-}
-
-/// Shift of a wall along z [m].
-fn rise(prepared: &Prepared, wall: &str) -> f64 {
-    prepared.shifts.get(wall).map_or(0.0, |shift| shift.z)
-}
-
-/// Height of a specimen under its lid [m].
-pub(super) fn height(of: &Context, prepared: &Prepared) -> f64 {
-    of.specimen.high.z - of.specimen.low.z + rise(prepared, "lid")
-}
 
 impl DirectShear {
     fn way(&self, of: &Context) -> f64 {
@@ -145,12 +81,7 @@ impl Recipe for DirectShear {
         let move_ = translate(Vec3::x() * speed, ramp);
         let area = space.sides()[0] * space.sides()[1];
         let limit = of.request.speed_limit(&of.sample.grains, stress, height).max(speed);
-        let press = servo(
-            [0, 0, -1],
-            &format!("stress = {}", number(stress)),
-            &format!("area = {}", number(area)),
-            limit,
-        );
+        let press = pressing(stress, area, limit);
         let until = time + 0.5 * ramp;
         let text = output(until, of.request.rows)
             + &wall("floor", &plane(space.low, [0, 0, 1]), PLATE, "")

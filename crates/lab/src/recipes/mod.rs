@@ -2,6 +2,7 @@
 //!
 //! A test says which scenes it needs and how their tables become a curve; [`crate::lab`] runs them.
 
+mod boxes;
 mod crush;
 mod direct_shear;
 mod oedometer;
@@ -213,6 +214,12 @@ fn output(until: f64, rows: u64) -> String {
 fn servo(direction: [i8; 3], stress: &str, area: &str, limit: f64) -> String {
     let [x, y, z] = direction;
     format!("servo = {{ direction = [{x}, {y}, {z}], {stress}, {area}, speed_limit = {} }}\n", number(limit))
+}
+
+/// The servo of a lid that presses down with a stress [Pa] on an area [m²].
+fn pressing(stress: f64, area: f64, limit: f64) -> String {
+    let [stress, area] = [stress, area].map(number);
+    servo([0, 0, -1], &format!("stress = {stress}"), &format!("area = {area}"), limit)
 }
 
 /// A motion at a constant velocity that begins smoothly.

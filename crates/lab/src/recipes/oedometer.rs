@@ -5,7 +5,7 @@
 //! ```
 //! V_s is the volume of the solid. The sides are smooth; strains refer to the specimen under the first stress.
 
-use super::direct_shear::{height, press, sides};
+use super::boxes::{height, press, sides};
 use super::*;
 use crate::walls::PLATE;
 
@@ -75,7 +75,7 @@ impl Recipe for Oedometer {
         let text = output(until, of.request.rows)
             + &wall("floor", &plane(space.low, [0, 0, 1]), PLATE, "")
             + &wall("lid", &plane(lid, [0, 0, -1]), PLATE, &press)
-            + &sides(of, |_, _| String::new());
+            + &sides(of);
         let rows: String = times
             .iter()
             .zip(&of.loading.path)

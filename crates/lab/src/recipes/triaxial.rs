@@ -7,7 +7,7 @@
 //! Stresses are forces over the areas as they are; strains refer to the specimen under σ₃ on all sides. All walls are smooth, so that the specimen
 //! stays a box.
 
-use super::direct_shear::settling;
+use super::boxes::settling;
 use super::*;
 use crate::series::{at, peak, reaches, slope};
 use crate::walls::SIDE;

@@ -6,7 +6,7 @@
 //! A filled specimen is a cylinder: grains without friction are pressed together in a round vessel, and bonded when the vessel is gone. A packed one is
 //! taken as it is; A is then the area of its outline from above.
 
-use super::direct_shear::settling;
+use super::boxes::{height, settling};
 use super::*;
 use crate::series::{at, peak, reaches};
 use crate::walls::{PLATE, SIDE};
@@ -18,11 +18,6 @@ pub struct Uniaxial;
 const END: f64 = 0.02;
 /// Share of the test in which the plate gets up to speed [–].
 const RAMP: f64 = 0.1;
-
-/// Height of the specimen under the upper plate [m].
-fn height(of: &Context, prepared: &Prepared) -> f64 {
-    of.specimen.high.z - of.specimen.low.z + prepared.shifts.get("lid").map_or(0.0, |shift| shift.z)
-}
 
 /// Area of the specimen across its axis [m²].
 fn area(of: &Context) -> f64 {
@@ -123,12 +118,7 @@ impl Recipe for Uniaxial {
         let [x, y, low, high, radius] =
             [middle.x, middle.y, space.low.z - 0.01, space.high.z + 0.01, 0.5 * space.sides()[0]].map(number);
         let limit = of.request.speed_limit(&of.sample.grains, stress, space.height);
-        let press = servo(
-            [0, 0, -1],
-            &format!("stress = {}", number(stress)),
-            &format!("area = {}", number(area(of))),
-            limit,
-        );
+        let press = pressing(stress, area(of), limit);
         let text = output(until, 20)
             + damping(of.sample)
             + &wall(
