@@ -221,6 +221,15 @@ impl Lab {
         chain.dem_run(name)
     }
 
+    /// The specimens that a guard has stopped, and why.
+    pub fn stopped(&self, specimens: &Specimens) -> Vec<String> {
+        let why = |(loading, outcome): &(Loading, Outcome)| match outcome {
+            Outcome::Stopped(why) => Some(format!("{}: {why}", self.name(loading))),
+            Outcome::Tested { .. } => None,
+        };
+        specimens.list.iter().filter_map(why).collect()
+    }
+
     /// What all curves come to.
     pub fn summary(&self, specimens: &Specimens) -> Summary {
         let values = |stress: f64| -> Vec<Vec<Value>> {

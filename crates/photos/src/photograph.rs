@@ -9,12 +9,29 @@
 
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 use std::io::Cursor;
+use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// Most pixels of a side.
 const LONGEST: u32 = 30_000;
 /// Most bytes of a picture in memory.
 const BYTES: u64 = 1 << 30;
+
+/// Endings of photographs in a folder.
+const ENDINGS: [&str; 3] = ["jpg", "jpeg", "png"];
+
+/// The photographs of a folder, by their endings (.jpg, .jpeg, .png), in the order of their names.
+///
+/// # Errors
+/// A folder that cannot be read.
+pub fn in_folder(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
+    let paths = std::fs::read_dir(folder)?.map(|entry| Ok(entry?.path()));
+    let mut found = paths.collect::<std::io::Result<Vec<PathBuf>>>()?;
+    let known = |e: &std::ffi::OsStr| ENDINGS.iter().any(|known| e.eq_ignore_ascii_case(known));
+    found.retain(|path| path.extension().is_some_and(known) && path.is_file());
+    found.sort();
+    Ok(found)
+}
 
 /// A photograph in linear light.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,6 +1,7 @@
 //! Signed distances on the nodes of a grid.
 
 use geom::Vec3;
+use rayon::prelude::*;
 
 /// Values on a grid of nodes, above 0 inside.
 #[derive(Debug, Clone, PartialEq)]
@@ -71,5 +72,54 @@ impl Samples {
     /// Whether a node lies on the outside of the grid.
     pub fn on_border(&self, node: [usize; 3]) -> bool {
         (0..3).any(|a| node[a] == 0 || node[a] + 1 == self.size[a])
+    }
+
+    /// Works on all nodes, in blocks of `side` nodes along each side; each layer of blocks along z by one thread.
+    pub fn in_blocks(&mut self, side: usize, work: impl Fn(&mut Block) + Sync) {
+        let ([x, y, _], step, origin) = (self.size, self.step, self.origin);
+        self.values.par_chunks_mut(x * y * side).enumerate().for_each(|(k, values)| {
+            let depth = values.len() / (x * y);
+            for (j, i) in (0..y).step_by(side).flat_map(|j| (0..x).step_by(side).map(move |i| (j, i))) {
+                let (first, count) = ([i, j, k * side], [side.min(x - i), side.min(y - j), depth]);
+                work(&mut Block { count, first, row: [x, y], step, origin, values });
+            }
+        });
+    }
+}
+
+/// Some neighbouring nodes of a grid. A node of it is counted from its first one.
+pub struct Block<'a> {
+    /// Nodes along x, y and z.
+    pub count: [usize; 3],
+    first: [usize; 3],
+    /// Nodes of the grid along x and y.
+    row: [usize; 2],
+    step: f64,
+    origin: Vec3,
+    /// The values of its layer.
+    values: &'a mut [f32],
+}
+
+impl Block<'_> {
+    /// All nodes, x fastest.
+    pub fn nodes(&self) -> impl Iterator<Item = [usize; 3]> + use<> {
+        let [x, y, z] = self.count;
+        (0..x * y * z).map(move |c| [c % x, c / x % y, c / x / y])
+    }
+
+    /// Place of a node [m].
+    pub fn place(&self, at: [usize; 3]) -> Vec3 {
+        self.between(at.map(|n| n as f64))
+    }
+
+    /// The place so many steps along x, y and z from its first node [m].
+    pub fn between(&self, at: [f64; 3]) -> Vec3 {
+        self.origin + Vec3::from([0, 1, 2].map(|a| self.first[a] as f64 + at[a])) * self.step
+    }
+
+    /// The value of a node.
+    pub fn value(&mut self, at: [usize; 3]) -> &mut f32 {
+        let [x, y] = self.row;
+        &mut self.values[(at[2] * y + self.first[1] + at[1]) * x + self.first[0] + at[0]]
     }
 }

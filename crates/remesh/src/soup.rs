@@ -90,39 +90,20 @@ pub fn sample(mesh: &TriMesh, cells: usize) -> Samples {
     let mut samples = Samples::over(&lo, &hi, cells, 3, f32::INFINITY);
     distances(mesh, &mut samples);
     let winding = Winding::new(mesh);
-    let (size, step, origin) = (samples.size, samples.step, samples.origin);
-    let layer = size[0] * size[1] * BLOCK;
-    samples.values.par_chunks_mut(layer).enumerate().for_each(|(k, values)| {
-        let depth = values.len() / (size[0] * size[1]);
-        for (j, i) in
-            (0..size[1]).step_by(BLOCK).flat_map(|j| (0..size[0]).step_by(BLOCK).map(move |i| (j, i)))
-        {
-            let count = [BLOCK.min(size[0] - i), BLOCK.min(size[1] - j), depth];
-            let place = |at: [usize; 3]| {
-                origin + Vec3::new((i + at[0]) as f64, (j + at[1]) as f64, (k * BLOCK + at[2]) as f64) * step
-            };
-            let nodes = || {
-                (0..count.iter().product())
-                    .map(|c: usize| [c % count[0], c / count[0] % count[1], c / count[0] / count[1]])
-            };
-            let index = |at: [usize; 3]| (at[2] * size[1] + j + at[1]) * size[0] + i + at[0];
-            let far = nodes().all(|at| values[index(at)].is_infinite());
-            let corners = || {
-                (0..8).map(|c: usize| {
-                    winding.at(&place([0, 1, 2].map(|a| if c >> a & 1 == 1 { count[a] - 1 } else { 0 })))
-                })
-            };
-            let side = if far { clear(corners()) } else { None };
-            for at in nodes() {
-                let w = side.unwrap_or_else(|| winding.at(&place(at)) - 0.5);
-                let distance = f64::from(values[index(at)]);
-                let value = if distance.is_finite() {
-                    distance.copysign(w)
-                } else {
-                    (4.0 * w * step).clamp(-BAND * step, BAND * step)
-                };
-                values[index(at)] = value as f32;
-            }
+    let step = samples.step;
+    samples.in_blocks(BLOCK, |block| {
+        let far = block.nodes().all(|at| block.value(at).is_infinite());
+        let last = block.count.map(|n| n - 1);
+        let corner = |c: usize| [0, 1, 2].map(|a| if c >> a & 1 == 1 { last[a] } else { 0 });
+        let side = if far { clear((0..8).map(|c| winding.at(&block.place(corner(c))))) } else { None };
+        for at in block.nodes() {
+            let w = side.unwrap_or_else(|| winding.at(&block.place(at)) - 0.5);
+            let distance = f64::from(*block.value(at));
+            *block.value(at) = if distance.is_finite() {
+                distance.copysign(w)
+            } else {
+                (4.0 * w * step).clamp(-BAND * step, BAND * step)
+            } as f32;
         }
     });
     samples

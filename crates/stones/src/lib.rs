@@ -31,6 +31,7 @@ mod placed;
 mod random;
 mod samples;
 pub mod shape;
+mod sphere;
 pub mod stone;
 mod tangent;
 mod triangles;

@@ -7,10 +7,10 @@
 use crate::harmonics::Harmonics;
 use crate::random::even;
 use crate::shape::ShapeMeasures;
+use crate::sphere::sphere;
 use crate::stone::Stone;
-use geom::Vec3;
 use geom::mesh::TriMesh;
-use geom::random::{generator, unit};
+use geom::random::{generator, orientation, unit};
 use rayon::prelude::*;
 use serde::Serialize;
 use thiserror::Error;
@@ -110,7 +110,7 @@ pub fn variants(
     seed: u64,
     done: impl Fn() + Sync,
 ) -> Result<Vec<Variant>, VariantError> {
-    let (ranges, sphere) = (Ranges::of(measured), sphere());
+    let (ranges, sphere) = (Ranges::of(measured), sphere(&orientation(even(0)), LEVELS));
     let one = |number: usize| {
         let found = (0..TRIES)
             .find_map(|attempt| tried(measured, &ranges, &sphere, seed, number as u64 * TRIES + attempt));
@@ -154,29 +154,11 @@ fn tried(
     Some(Variant { stone, shape, between, share })
 }
 
-/// A sphere of triangles about as large as each other, in a general orientation.
-fn sphere() -> TriMesh {
-    let turn = geom::random::orientation(even(0));
-    let mut mesh = TriMesh {
-        vertices: [Vec3::x(), Vec3::y(), Vec3::z()].iter().flat_map(|a| [turn * a, turn * -a]).collect(),
-        faces: vec![[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]],
-    };
-    for _ in 0..LEVELS {
-        let mut vertices = Vec::new();
-        for [a, b, c] in mesh.triangles() {
-            let [d, e, f] = [(a, b), (b, c), (c, a)].map(|(p, q)| ((p + q) / 2.0).normalize());
-            vertices.extend([a, d, f, d, b, e, f, e, c, d, e, f]);
-        }
-        let faces = (0..vertices.len() as u32 / 3).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
-        mesh = TriMesh { vertices, faces }.welded();
-    }
-    mesh
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::stone::tests::ball;
+    use geom::Vec3;
 
     fn measured(x: f64, y: f64, z: f64) -> Measured {
         let mut mesh = ball(1.0, 3);

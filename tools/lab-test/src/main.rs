@@ -9,7 +9,7 @@ use args::Args;
 use cli::{Progress, Report, Stopped};
 use lab::lab::beside_this_program;
 use lab::scenes::Which;
-use lab::{Lab, LabError, Outcome, Programs, Sample, Specimens};
+use lab::{Lab, LabError, Programs, Sample, Specimens};
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -31,14 +31,7 @@ fn lab_test(args: Args) -> anyhow::Result<Report> {
     let summary = lab.summary(&specimens);
     outputs::write(&args, &lab, &specimens, &summary, folder)?;
     let report = outputs::report(&lab, &specimens, &summary);
-    let stopped: Vec<String> = specimens
-        .list
-        .iter()
-        .filter_map(|(loading, outcome)| match outcome {
-            Outcome::Stopped(why) => Some(format!("{}: {why}", lab.name(loading))),
-            Outcome::Tested { .. } => None,
-        })
-        .collect();
+    let stopped = lab.stopped(&specimens);
     match stopped.first() {
         None => Ok(report),
         Some(first) => {

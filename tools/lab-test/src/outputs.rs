@@ -150,19 +150,11 @@ fn write_page(page: &Path, lab: &Lab, specimens: &Specimens, folder: &Path) -> a
 pub fn report(lab: &Lab, specimens: &Specimens, summary: &Summary) -> Report {
     let tested = curves(specimens).count();
     let (all, test) = (specimens.list.len(), lab.recipe().name());
-    let stopped: Vec<String> = specimens
-        .list
-        .iter()
-        .filter_map(|(loading, outcome)| match outcome {
-            Outcome::Stopped(why) => Some(format!("{}: {why}", lab.name(loading))),
-            Outcome::Tested { .. } => None,
-        })
-        .collect();
     let [x, y] = lab.specimen().sides();
     let report = Report::new(format!("{test}: {tested} of {all} specimens tested"))
         .with("test", test)
         .with("specimens", all)
-        .with("stopped", stopped)
+        .with("stopped", lab.stopped(specimens))
         .with("size", [x, y, lab.specimen().height])
         .with("mass", lab.specimen().mass)
         .with("stresses", lab.loadings().iter().map(|l| l.stress).collect::<Vec<_>>())

@@ -11,8 +11,6 @@ use std::path::{Path, PathBuf};
 const SAMPLES: usize = 900;
 /// Masks in memory at a time, at most.
 const AT_ONCE: usize = 8;
-/// Endings of photographs.
-const ENDINGS: [&str; 3] = ["jpg", "jpeg", "png"];
 /// Hulls of two places that overlap by less than this are doubtful.
 const OVERLAP: f64 = 0.85;
 
@@ -26,19 +24,13 @@ pub struct Found {
 
 /// Names of the photographs of a folder, sorted.
 pub fn names(folder: &Path) -> anyhow::Result<Vec<String>> {
-    let failed = || format!("{}: cannot read the folder", folder.display());
-    let mut names = Vec::new();
-    for entry in std::fs::read_dir(folder).with_context(failed)? {
-        let path: PathBuf = entry.with_context(failed)?.path();
-        if path.extension().is_some_and(|e| ENDINGS.iter().any(|known| e.eq_ignore_ascii_case(known))) {
-            names.extend(path.file_name().map(|n| n.to_string_lossy().into_owned()));
-        }
+    let found = photograph::in_folder(folder)
+        .with_context(|| format!("{}: cannot read the folder", folder.display()))?;
+    let name = |path: PathBuf| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    match found.len() {
+        0 => anyhow::bail!("{}: has no photograph (.jpg, .jpeg, .png)", folder.display()),
+        _ => Ok(found.into_iter().map(name).collect()),
     }
-    names.sort();
-    if names.is_empty() {
-        anyhow::bail!("{}: has no photograph (.jpg, .jpeg, .png)", folder.display());
-    }
-    Ok(names)
 }
 
 /// A mask as a distance field, and the size of its photograph.
@@ -113,6 +105,9 @@ fn doubt(found: &Alignment) {
 
 fn posed(args: &Args, names: &[String], path: &Path) -> anyhow::Result<Found> {
     let all = poses::read(path).with_context(|| path.display().to_string())?;
+    if args.poses_size.is_some() && all.iter().all(|p| p.size.is_some()) {
+        return Err(cli::usage("--poses-size: cameras.txt says the sizes: leave it out"));
+    }
     let stem = |n: &str| Path::new(n).file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let pose = |name: &String| all.iter().find(|p| p.name == *name || stem(&p.name) == stem(name));
     let used: Vec<String> = names.iter().filter(|n| pose(n).is_some()).cloned().collect();
@@ -135,9 +130,6 @@ fn posed(args: &Args, names: &[String], path: &Path) -> anyhow::Result<Found> {
             .with_context(|| name.clone())?;
         views.push(View { camera, field: field.into() });
         kept.push(name.clone());
-    }
-    if args.poses_size.is_some() && all.iter().all(|p| p.size.is_some()) {
-        return Err(cli::usage("--poses-size: cameras.txt says the sizes: leave it out"));
     }
     Ok(Found { names: kept, views, aligned: None })
 }

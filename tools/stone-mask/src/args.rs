@@ -55,9 +55,6 @@ fn pixels(text: &str) -> Result<f64, String> {
     if value <= 1000.0 { Ok(value) } else { Err("give at most 1000".to_owned()) }
 }
 
-/// Endings of photographs in a folder.
-const ENDINGS: [&str; 3] = ["jpg", "jpeg", "png"];
-
 impl Args {
     /// Refuses folders that would mix inputs and outputs.
     pub fn check_used(&self) -> anyhow::Result<()> {
@@ -109,16 +106,8 @@ impl Args {
 }
 
 fn in_folder(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
-    let failed = || format!("{}: cannot read the folder", folder.display());
-    let entries = std::fs::read_dir(folder).with_context(failed)?;
-    let mut found: Vec<PathBuf> =
-        entries.map(|e| e.map(|e| e.path())).collect::<Result<_, _>>().with_context(failed)?;
-    let is = |p: &PathBuf| {
-        p.extension().is_some_and(|e| ENDINGS.iter().any(|known| e.eq_ignore_ascii_case(known)))
-            && p.is_file()
-    };
-    found.retain(is);
-    found.sort();
+    let found = photos::photograph::in_folder(folder)
+        .with_context(|| format!("{}: cannot read the folder", folder.display()))?;
     match found.len() {
         0 => anyhow::bail!("{}: has no photograph (.jpg, .jpeg, .png)", folder.display()),
         _ => Ok(found),
