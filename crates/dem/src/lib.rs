@@ -48,6 +48,7 @@ pub use model::{
 pub use observe::record::ContactRecord;
 pub use observe::snapshot::Snapshot;
 pub use observe::stiffen::{DeepImpact, deep_impact};
+pub use passes::cell::CellReport;
 pub use passes::clumps::instant::ClumpState;
 pub use passes::servo::{ServoReport, WallForce};
 pub use setup::Setup;

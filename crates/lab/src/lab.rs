@@ -77,7 +77,7 @@ impl Lab {
             )));
         }
         let (proportions, share) = recipe.proportions();
-        let specimen = Specimen::of(&sample, &request, proportions, share)?;
+        let specimen = Specimen::of(&sample, &request, (proportions, share), recipe.is_pressed_all_round())?;
         let paths: Vec<Vec<f64>> = match kind {
             Stresses::Each => request.stress.iter().map(|stress| vec![*stress]).collect(),
             _ => vec![request.stress.clone()],

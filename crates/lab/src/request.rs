@@ -65,12 +65,12 @@ impl Specimen {
             .unwrap_or_else(|| grains.packed.as_ref().map_or(0.0, |packed| packed.solid * grains.density))
     }
 
-    /// The space of a sample: as asked, or as many grains as asked in the given proportions (x, y, z).
+    /// The space of a sample: as asked, or as many grains as asked in the given proportions (x, y, z) with a share of the box that they fill.
     pub(crate) fn of(
         sample: &Sample,
         request: &Request,
-        proportions: [f64; 3],
-        share: f64,
+        (proportions, share): ([f64; 3], f64),
+        all_round: bool,
     ) -> Result<Specimen> {
         let grains = &sample.grains;
         if let Some(packed) = &grains.packed {
@@ -101,8 +101,12 @@ impl Specimen {
             )));
         }
         let mass = rounded(x * y * z * share * DENSE * grains.density);
-        let filled = rounded(z * DENSE * grains.around / LOOSE);
-        Ok(Specimen { low: Vec3::zeros(), high: Vec3::new(x, y, filled), height: z, mass: Some(mass) })
+        let loose = DENSE * grains.around / LOOSE;
+        let high = match all_round {
+            true => Vec3::new(x, y, z).map(|length| rounded(length * loose.cbrt())),
+            false => Vec3::new(x, y, rounded(z * loose)),
+        };
+        Ok(Specimen { low: Vec3::zeros(), high, height: z, mass: Some(mass) })
     }
 }
 

@@ -12,6 +12,7 @@ pub mod bonds;
 mod cells;
 pub mod coordination;
 pub mod cylinder;
+pub mod domain;
 pub mod energy;
 mod error;
 pub mod flow;

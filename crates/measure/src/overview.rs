@@ -55,7 +55,7 @@ impl Overview {
                 return;
             }
             RunMessage::Bonds(_) | RunMessage::Cracks(_) => {}
-            RunMessage::Contacts(_) | RunMessage::Settled(_) => return,
+            RunMessage::Contacts(_) | RunMessage::Settled(_) | RunMessage::Domain(_) => return,
         }
         let _ = self.bonds.0.observe(run, message, &mut self.bonds.1);
     }

@@ -5,10 +5,11 @@ use crate::frame::{Contacts, Crossing, Frame};
 use crate::settling::Settled;
 use crate::{Bonds, MeasureError, WallForces, table::Columns};
 use geom::{Plane, Vec3};
+use record::DomainRecord;
 use record::column::{POSITION, RADIUS, WALL};
 use record::metadata::{MATERIALS, OUTLETS, SCENE};
 use record::topic::{
-    BONDS, CONTACTS, CRACKS, CROSSINGS, ENERGY, PARTICLES, SETTLING, SURFACES, WALL_FORCES, WALLS,
+    BONDS, CONTACTS, CRACKS, CROSSINGS, DOMAIN, ENERGY, PARTICLES, SETTLING, SURFACES, WALL_FORCES, WALLS,
 };
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -51,6 +52,8 @@ pub enum RunMessage {
     WallForces(WallForces),
     /// How far the grains are from rest at one time.
     Settled(Settled),
+    /// The periodic domain, where it changes.
+    Domain(DomainRecord),
     /// All bonds at one time.
     Bonds(Bonds),
     /// Bonds that broke since the message before.
@@ -101,6 +104,13 @@ impl Run {
             }
             Event::Bytes { topic, time_ns, data } if topic == SETTLING => {
                 Some(RunMessage::Settled(Settled::new(seconds(time_ns), &data)?))
+            }
+            Event::Bytes { topic, time_ns, data } if topic == DOMAIN => {
+                let time = seconds(time_ns);
+                let wrong = |why: String| MeasureError::Message { topic: DOMAIN.to_owned(), time, why };
+                let record = DomainRecord::read(&data).map_err(wrong)?;
+                self.periodic = record.range();
+                Some(RunMessage::Domain(record))
             }
             Event::Bytes { topic, data, .. } if topic == SURFACES => {
                 self.surfaces(&data);

@@ -92,7 +92,7 @@ impl Stress {
 }
 
 /// p and q [Pa].
-fn invariants(stress: &Matrix3<f64>) -> [f64; 2] {
+pub fn invariants(stress: &Matrix3<f64>) -> [f64; 2] {
     let pressure = stress.trace() / 3.0;
     let rest = stress - Matrix3::identity() * pressure;
     [pressure, (1.5 * rest.norm_squared()).sqrt()]

@@ -10,6 +10,7 @@
 mod clump;
 pub mod column;
 mod columns;
+mod domain;
 mod error;
 mod limits;
 mod material;
@@ -21,6 +22,7 @@ pub mod topic;
 
 pub use clump::ClumpRecord;
 pub use columns::{Columns, hash};
+pub use domain::DomainRecord;
 pub use error::{RecordError, positive};
 pub use limits::{BondRange, Sizes};
 pub use material::{MaterialRecord, POISSON, is_poisson};

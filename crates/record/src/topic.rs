@@ -20,6 +20,8 @@ pub const SURFACES: &str = "/surfaces";
 pub const ENERGY: &str = "/energy";
 /// Forces on walls; JSON.
 pub const WALL_FORCES: &str = "/wall_forces";
+/// The periodic domain where it changes; JSON, see [`crate::DomainRecord`].
+pub const DOMAIN: &str = "/domain";
 /// How far the grains are from rest, as JSON.
 pub const SETTLING: &str = "/settling";
 /// Notes, and why a run was stopped; JSON, see [`crate::LogMessage`].

@@ -1,10 +1,12 @@
 //! Tables and messages of a run: particles, clumps, contacts, bonds and walls at one time.
 
 use dem::setup::{ClumpShape, Clumps, Particle, Setup, Target, Wall, WallShape, cluster_of};
-use dem::{BondState, BreakMode, ClumpState, ContactRecord, Crack, Simulation, Snapshot, WallForce};
+use dem::{
+    BondState, BreakMode, CellReport, ClumpState, ContactRecord, Crack, Simulation, Snapshot, WallForce,
+};
 use geom::Vec3;
 use record::column::{self, FIRST, FORCE, ID, MATERIAL, NORMAL, POSITION, RADIUS, SECOND, SPIN, VELOCITY};
-use record::{ClumpRecord, Map, SurfaceShape, TableBuilder, WallRecord};
+use record::{ClumpRecord, DomainRecord, Map, SurfaceShape, TableBuilder, WallRecord};
 use scene::keys::Precision;
 use serde_json::{Value, json};
 use stream::{Line, NumberType, Rows, Table, Values};
@@ -229,6 +231,22 @@ pub(crate) fn wall_forces(time: f64, forces: &[WallForce], walls: &[WallHead]) -
         wall
     };
     json!({"time": time, "walls": forces.iter().zip(walls).map(one).collect::<Vec<_>>()})
+}
+
+/// The message of the topic `/domain`: the periodic domain, with what strains it.
+pub(crate) fn domain(time: f64, range: &[Option<(f64, f64)>; 3], cell: Option<&CellReport>) -> DomainRecord {
+    let of = |v: &geom::Vec3| [v.x, v.y, v.z];
+    let range = cell.map_or(range, |cell| &cell.range);
+    let rows = |cell: &CellReport| [0, 1, 2].map(|a| [0, 1, 2].map(|b| cell.stress[(a, b)]));
+    DomainRecord {
+        time,
+        low: range.map(|r| r.map(|r| r.0)),
+        high: range.map(|r| r.map(|r| r.1)),
+        strain: cell.map_or([0.0; 3], |cell| of(&cell.strain)),
+        rate: cell.map_or([0.0; 3], |cell| of(&cell.rate)),
+        stress: cell.map(rows),
+        target: cell.map_or([None; 3], |cell| cell.target),
+    }
 }
 
 /// What a servo follows: a number, or rows of time [s] and value.

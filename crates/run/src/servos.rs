@@ -1,21 +1,25 @@
 //! How well servos held what they follow, at the end of a run.
 
 use crate::frames::WallHead;
-use dem::ServoReport;
+use dem::{Held, Simulation};
 use serde::Serialize;
 use std::fmt::{Display, Formatter, Result};
 
+/// What the names of axes begin with.
+const AXIS: &str = "domain.strain.";
 /// Mean deviation above which a warning is given [–].
 const LARGE: f64 = 0.01;
 /// Share of steps at the speed limit above which a warning names it [–].
 const LIMITED: f64 = 0.01;
 
-/// How well one servo held its target.
+/// How well one servo held its target, or one axis of the domain its stress.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ServoHeld {
-    /// Name of its wall.
+    /// Name of its wall; `domain.strain.x` of an axis.
     pub wall: String,
-    /// Force that is wanted at the end [N].
+    /// Unit of what it follows: N or Pa.
+    pub unit: &'static str,
+    /// Force or stress that is wanted at the end.
     pub target: f64,
     /// When it first reached its target to 1 % [s]; `None`: never.
     pub reached: Option<f64>,
@@ -30,26 +34,45 @@ pub struct ServoHeld {
 }
 
 impl ServoHeld {
-    /// Those of all walls that have a servo.
-    pub(crate) fn all(servos: &[(usize, ServoReport)], walls: &[WallHead]) -> Vec<ServoHeld> {
-        let of = |(wall, servo): &(usize, ServoReport)| {
-            let held = &servo.held;
-            ServoHeld {
-                wall: walls[*wall].name.clone(),
-                target: servo.target,
-                reached: held.since,
-                mean_deviation: held.mean(),
-                worst_deviation: held.mean().map(|_| held.worst),
-                limited: held.limited as f64 / held.steps.max(1) as f64,
-                touched: held.touched,
-            }
-        };
-        servos.iter().map(of).collect()
+    /// Those of all walls that have a servo, and of axes that follow a stress.
+    pub(crate) fn all(sim: &Simulation, walls: &[WallHead]) -> Vec<ServoHeld> {
+        let of_walls = sim
+            .servos()
+            .into_iter()
+            .map(|(wall, servo)| ServoHeld::new(walls[wall].name.clone(), "N", servo.target, &servo.held));
+        let axes = ["x", "y", "z"].into_iter().zip(sim.followed_stresses());
+        let of_axes = axes.filter_map(|(axis, followed)| {
+            let (target, held) = followed?;
+            Some(ServoHeld::new(format!("{AXIS}{axis}"), "Pa", target, &held))
+        });
+        of_walls.chain(of_axes).collect()
+    }
+
+    fn new(wall: String, unit: &'static str, target: f64, held: &Held) -> ServoHeld {
+        ServoHeld {
+            wall,
+            unit,
+            target,
+            reached: held.since,
+            mean_deviation: held.mean(),
+            worst_deviation: held.mean().map(|_| held.worst),
+            limited: held.limited as f64 / held.steps.max(1) as f64,
+            touched: held.touched,
+        }
+    }
+
+    /// Whether it is an axis of the domain.
+    fn is_axis(&self) -> bool {
+        self.wall.starts_with(AXIS)
     }
 
     /// The line as a warning, where the servo did not hold its target.
     pub fn warning(&self) -> Option<String> {
         let cure = match self.mean_deviation {
+            None if self.is_axis() && self.target > 0.0 => "run longer, or raise its rate_limit",
+            Some(mean) if self.is_axis() && mean > LARGE => {
+                "strain the other axes more slowly, raise its rate_limit, or use a smaller time.safety or dt"
+            }
             _ if !self.touched && self.target > 0.0 => "start the wall nearer to the grains, or run longer",
             None if self.target > 0.0 => "run longer, or raise wall.servo.speed_limit",
             Some(mean) if mean > LARGE && self.limited > LIMITED => {
@@ -66,16 +89,20 @@ impl ServoHeld {
 
 impl Display for ServoHeld {
     fn fmt(&self, f: &mut Formatter) -> Result {
-        write!(f, "servo of wall '{}': ", self.wall)?;
+        match self.is_axis() {
+            true => write!(f, "{}: ", self.wall)?,
+            false => write!(f, "servo of wall '{}': ", self.wall)?,
+        }
+        let what = if self.is_axis() { "stress" } else { "force" };
         let Some((since, mean)) = self.reached.zip(self.mean_deviation) else {
             return match (self.touched, self.target > 0.0) {
                 (false, _) => write!(f, "touched no grain"),
-                (true, true) => write!(f, "did not reach {} N", geom::Shown(self.target)),
-                (true, false) => write!(f, "no force to hold"),
+                (true, true) => write!(f, "did not reach {} {}", geom::Shown(self.target), self.unit),
+                (true, false) => write!(f, "no {what} to hold"),
             };
         };
         let (worst, percent) = (self.worst_deviation.unwrap_or(0.0), |x: f64| geom::Shown(100.0 * x));
-        write!(f, "force off by {} % in the mean, {} % at worst", percent(mean), percent(worst))?;
+        write!(f, "{what} off by {} % in the mean, {} % at worst", percent(mean), percent(worst))?;
         write!(f, " since it was reached at {} s", geom::Shown(since))?;
         if self.limited > LIMITED {
             write!(f, ", {} % of the steps at the speed limit", percent(self.limited))?;
@@ -91,6 +118,7 @@ mod tests {
     fn held(mean: f64, limited: f64) -> ServoHeld {
         ServoHeld {
             wall: "lid".to_owned(),
+            unit: "N",
             target: 10.0,
             reached: Some(0.5),
             mean_deviation: Some(mean),

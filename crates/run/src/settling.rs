@@ -83,9 +83,11 @@ impl<W: Write> Run<W> {
         Ok(())
     }
 
-    /// Whether a wall has yet to press on the grains: what it touches first is no packing at rest.
+    /// Whether a wall or the domain has yet to press on the grains: what it touches first is no packing at rest.
     fn a_servo_is_on_its_way(&self) -> bool {
-        self.sim.servos().iter().any(|(_, servo)| servo.target > 0.0 && servo.held.since.is_none())
+        let walls = self.sim.servos().into_iter().map(|(_, servo)| (servo.target, servo.held));
+        let axes = self.sim.followed_stresses().into_iter().flatten();
+        walls.chain(axes).any(|(target, held)| target > 0.0 && held.since.is_none())
     }
 
     fn settled(&mut self) -> Result<Settled, Ended> {

@@ -113,6 +113,8 @@ pub(crate) struct Written {
     pub output: Output,
     /// Whether forces on walls are written: as the scene asks for it, and where a wall has a servo.
     pub wall_forces: bool,
+    /// The periodic domain at the start, where a run cannot be read by its scene alone.
+    pub domain: Option<[Option<(f64, f64)>; 3]>,
     /// Steps between samples of paths, where any are recorded.
     pub sampling: Option<u64>,
     /// Whether the energy of each frame is computed for progress reports.
@@ -288,7 +290,7 @@ impl<W: Write> Run<W> {
         }
         self.outcome.returned = self.sim.returned().clone();
         self.outcome.inflow = self.supply.ended(self.sim.time());
-        self.outcome.servos = ServoHeld::all(&self.sim.servos(), &self.written.walls);
+        self.outcome.servos = ServoHeld::all(&self.sim, &self.written.walls);
         let servos =
             self.outcome.servos.iter().map(|servo| servo.warning().unwrap_or_else(|| servo.to_string()));
         let line = self.outcome.integration.map(|error| error.to_string());

@@ -77,7 +77,7 @@ fn in_file(scene: &Scene, text: &str) -> String {
 
 impl Written {
     fn new(scene: &Scene, setup: &Setup, inputs: Vec<(String, String)>) -> Written {
-        let servo = setup.walls.iter().any(|w| w.servo.is_some());
+        let (servo, domain) = (setup.walls.iter().any(|w| w.servo.is_some()), &scene.keys.domain);
         let density = |m: u16| setup.materials[m as usize].density;
         let spheres_move = |w: &dem::setup::Wall| matches!(w.shape, WallShape::Spheres(_)) && w.moves();
         Written {
@@ -88,6 +88,7 @@ impl Written {
             outlets: !setup.outlets.is_empty(),
             masses: setup.clumps.shapes.iter().map(|s| s.mass(1.0, density(s.material))).collect(),
             output: scene.keys.output.clone(),
+            domain: (!domain.strain.is_empty() || domain.source.is_some()).then_some(setup.periodic),
             wall_forces: scene.keys.output.wall_forces == Some(true) || servo,
             sampling: None,
             watched: false,

@@ -67,6 +67,11 @@ impl<W: Write> Run<W> {
         {
             self.writer.points(topic::WALLS, now, FRAME, table)?;
         }
+        // Before the particles, which lie in it.
+        if let Some(range) = &self.written.domain {
+            let message = frames::domain(self.sim.time(), range, self.sim.cell()?.as_ref());
+            self.writer.bytes(topic::DOMAIN, "json", now, json(&message).as_bytes())?;
+        }
         let clumps = (!self.written.masses.is_empty()).then(|| self.sim.clumps()).transpose()?;
         let clusters = self.sim.clusters().to_vec();
         let (all, clumps_by_id) = (self.sim.snapshot()?, clumps.as_deref());

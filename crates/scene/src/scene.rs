@@ -53,7 +53,15 @@ impl Scene {
         let paths = motions.filter_map(|motion| motion.path.as_ref()).map(|path| path.source.as_str());
         let loads = m.wall.iter().filter_map(|w| Some(w.servo.as_ref()?.path.as_ref()?.source.as_str()));
         let walls = walls.chain(paths).chain(loads);
-        let all = particles.chain(walls).chain(clumps).chain(inlets).chain(sizes.iter().map(String::as_str));
+        let strains =
+            m.domain.strain.axes().into_iter().filter_map(|(_, s)| Some(s?.path.as_ref()?.source.as_str()));
+        let domain = strains.chain(m.domain.source.as_deref());
+        let all = particles
+            .chain(domain)
+            .chain(walls)
+            .chain(clumps)
+            .chain(inlets)
+            .chain(sizes.iter().map(String::as_str));
         all.map(|f| self.folder.join(f)).collect()
     }
 }

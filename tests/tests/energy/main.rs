@@ -6,4 +6,5 @@ mod guard;
 mod order;
 mod scenes;
 mod sticking;
+mod strained;
 mod terms;

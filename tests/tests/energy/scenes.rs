@@ -76,6 +76,7 @@ pub fn all() -> Vec<Scene> {
     scenes.extend(NORMALS[..2].iter().flat_map(kinds_of_bonds));
     scenes.push(scene("hertz, bonds across a periodic face", across_a_face(hertz())));
     scenes.push(scene("hertz, no friction", Setup { contacts: NORMALS[1].setup(0.5).contacts, ..hertz() }));
+    scenes.extend(crate::strained::all());
     scenes.extend(asleep(hertz()));
     scenes.push(scene("hertz, sinking in a fluid", in_fluid(hertz())));
     scenes.push(scene("hertz, pressed by a servo", pressed(hertz())));
@@ -239,7 +240,7 @@ fn waves() -> TriMesh {
 }
 
 /// Two spheres, 12 mm apart.
-fn dumbbell() -> ClumpShape {
+pub fn dumbbell() -> ClumpShape {
     let at = |x: f64| (Vec3::new(x, 0.0, 0.0), 0.01);
     shape(&[at(-0.006), at(0.006)])
 }
@@ -255,7 +256,7 @@ fn shape(spheres: &[(Vec3, f64)]) -> ClumpShape {
 }
 
 /// A clump instead of each grain.
-fn tumbling(mut setup: Setup, shape: ClumpShape) -> Setup {
+pub fn tumbling(mut setup: Setup, shape: ClumpShape) -> Setup {
     let orientation = nalgebra::UnitQuaternion::from_euler_angles(0.3, -0.8, 0.5);
     let body = |(k, p): (u32, &Particle)| Body {
         id: 10 * k,

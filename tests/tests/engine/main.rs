@@ -14,3 +14,4 @@ mod records;
 mod servo;
 mod servo_shear;
 mod sleep;
+mod strained_cell;

@@ -23,6 +23,14 @@ const RATIO: Case = case(
 );
 const HELD: Case =
     case("Many grains", "FCC array between servos, sheared at a rate: force on the sides, in each frame");
+const CELL_RATIO: Case = case(
+    "Many grains",
+    "FCC array in a periodic cell, sheared at a rate: σ_z/σ_x over 2 (1 + μ t)/(t (t − μ))",
+);
+const CELL_HELD: Case = case(
+    "Many grains",
+    "FCC array in a periodic cell, sheared at a rate: stress along the other axes, in each frame",
+);
 const R: f64 = 0.01;
 const N: u32 = 4;
 const INTERFACES: u32 = 6;
@@ -73,6 +81,43 @@ fn ratio(sim: &mut Simulation) -> (f64, f64) {
     let t = (1.0 - cos * cos).sqrt() / cos;
     let expected = 2f64.sqrt() * f64::from(N - 1) / f64::from(INTERFACES) * 2.0 * (1.0 + MU * t) / (t - MU);
     (walls[5].force.z / walls[1].force.x, expected)
+}
+
+/// The same array without walls: 3 unit cells of height c and width a along each axis of a periodic cell, compressed along z, with a stress along x and y.
+/// Contacts between layers alone bear it. F_z acts on a², F_x on a c, and a/c = t: σ_z/σ_x = 2 (1 + μ t)/(t (t − μ)).
+fn cell(rate: f64) -> Setup {
+    let mut setup = array(rate);
+    setup.walls.clear();
+    let edge = 2.0 * R * 2f64.sqrt() * (1.0 + 1e-6);
+    let corner =
+        |k: u32| [[0.0, 0.0, 0.0], [0.5, 0.5, 0.0], [0.5, 0.0, 0.5], [0.0, 0.5, 0.5]][k as usize % 4];
+    let at = |k: u32, a: usize| f64::from([k / 4 % 3, k / 12 % 3, k / 36][a]) + corner(k)[a];
+    let place = |k: u32| Vec3::new(at(k, 0), at(k, 1), at(k, 2)) * edge;
+    setup.particles = (0..108).map(|k| grain(k, place(k))).collect();
+    setup.periodic = [Some((0.0, 3.0 * edge)); 3];
+    let side = || Some(Strain::Stress { target: Target::constant(2e4), rate_limit: 2.0 });
+    let pushed = Target::new(vec![[0.0, 0.0], [SHEAR, 0.0], [SHEAR + 1.0, rate]]).expect("rows");
+    setup.strain = [side(), side(), Some(Strain::Path(pushed))];
+    setup
+}
+
+#[test]
+fn array_in_a_periodic_cell_is_sheared_at_three_rates() {
+    for rate in [0.25, 0.5, 1.0] {
+        let mut sim = simulation(cell(rate));
+        for frame in 0..10 {
+            run_until(&mut sim, SHEAR + (0.03 + 0.001 * f64::from(frame)) / rate);
+            let cell = sim.cell().expect("sound").expect("it is strained");
+            let lengths = cell.range.map(|r| r.map_or(0.0, |(lo, hi)| hi - lo));
+            let t = lengths[0] / lengths[2];
+            let expected = 2.0 * (1.0 + MU * t) / (t * (t - MU));
+            let stress = cell.stress.diagonal();
+            CELL_RATIO.equals(&format!("{rate} /s"), stress.z / stress.x / expected, "–", 1.0, 3e-4);
+            for axis in 0..2 {
+                CELL_HELD.equals(&format!("{rate} /s"), stress[axis], "Pa", 2e4, 2e-3);
+            }
+        }
+    }
 }
 
 /// What is left at rest is the overlap of the contacts; the rest is the inertia of the array, which grows with the square of the rate.

@@ -23,6 +23,7 @@ fn named(text: &str) -> Option<String> {
         "Top level" => Some(String::new()),
         "Contacts" => Some("contact".to_owned()),
         "Bonds" => Some("bond".to_owned()),
+        "`strain.x`" => Some("domain.strain.x".to_owned()),
         "`motion`" | "`servo`" | "`spring`" => Some(format!("wall.{}", text.trim_matches('`'))),
         _ => text.strip_prefix("`[").map(|name| name.trim_matches(['[', ']', '`']).to_owned()),
     }
@@ -121,7 +122,8 @@ fn every_key_stands_in_a_scene_in_each_form() {
 fn known(table: &str) -> BTreeSet<String> {
     let line = match table.rsplit_once('.') {
         Some((outer, inner)) => {
-            format!("[[{outer}]]\nmaterial = \"m\"\n{inner} = {{ zzzzzzzzzzzzzzzz = 1 }}")
+            let material = if outer == "wall" { "material = \"m\"\n" } else { "" };
+            format!("[[{outer}]]\n{material}{inner} = {{ zzzzzzzzzzzzzzzz = 1 }}")
         }
         None if table.is_empty() => "zzzzzzzzzzzzzzzz = 1".to_owned(),
         None => format!("[[{table}]]\nzzzzzzzzzzzzzzzz = 1"),

@@ -46,6 +46,9 @@ pub struct Args {
     /// How far the grains are from rest: mean unbalanced force over mean contact force, kinetic energy
     #[arg(long, group = "measure")]
     pub settling: bool,
+    /// Strain of the periodic domain, and the mean stress in it, where the scene has [domain.strain]
+    #[arg(long, group = "measure")]
+    pub domain: bool,
     /// Coordination numbers, with and without rattlers
     #[arg(long, group = "measure")]
     pub contacts: bool,
@@ -233,6 +236,7 @@ impl Args {
             "--flow",
             "--energy",
             "--settling",
+            "--domain",
             "--bonds",
             "--cracks",
             "--grading",

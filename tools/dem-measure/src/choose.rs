@@ -7,6 +7,7 @@ use geom::{Vec3, shape::Solid};
 use measure::bed::BedHeight;
 use measure::bonds::{BondNumbers, CrackList, FragmentList, Grading};
 use measure::coordination::ContactNumbers;
+use measure::domain::Domain;
 use measure::energy::Energy;
 use measure::flow::{Flow, FlowOptions};
 use measure::forces::Forces;
@@ -55,6 +56,7 @@ pub fn observer(args: &Args) -> anyhow::Result<(&'static str, Box<dyn Observer>)
         }
         (_, "--energy") => Box::new(Energy::new(between)),
         (_, "--settling") => Box::new(Settling::new(between)),
+        (_, "--domain") => Box::new(Domain::new(between)),
         (_, "--bonds") => Box::new(BondNumbers::new(between)),
         (_, "--cracks") => Box::new(CrackList::new(between)),
         (_, "--fragments") => Box::new(FragmentList::new(single)),
@@ -100,6 +102,7 @@ fn name(args: &Args) -> &'static str {
         ("--segregation", args.segregation),
         ("--energy", args.energy),
         ("--settling", args.settling),
+        ("--domain", args.domain),
         ("--bonds", args.bonds),
         ("--cracks", args.cracks),
         ("--fragments", args.fragments),

@@ -91,6 +91,8 @@ pub enum Test {
     Uniaxial,
     /// A box whose sides hold a stress while the lid comes down
     Triaxial,
+    /// A periodic domain without walls that holds a stress along x and y while it is compressed along z
+    TriaxialPeriodic,
     /// A box with fixed sides, whose lid follows a path of stresses
     Oedometer,
     /// A cylinder of grains that is lifted off

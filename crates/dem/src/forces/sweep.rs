@@ -152,7 +152,7 @@ fn for_each_tile(
     lists: &mut NeighbourLists,
     each: impl Fn(&mut TileSlice, Option<&mut RestingTile>, &TileInputs, &mut Sums) -> bool + Sync,
 ) -> Vec<Range<usize>> {
-    let poses = poses(model, state, lists);
+    let (poses, cell) = (poses(model, state, lists), state.cell(model));
     let State { particles, sleepers, contacts, .. } = state;
     let (layout, many) = (contacts.layout, particles.len() >= FEW);
     let Computed { slots, mut slice, mut sums, resting_tiles } = lists.with(contacts);
@@ -160,7 +160,8 @@ fn for_each_tile(
         lists: slots,
         model,
         poses: &poses,
-        period: model.period(),
+        cell,
+        lengths: cell.lengths(),
         step: step_inputs(model, particles, layout),
         sleepers: sleepers.as_ref().map(Sleepers::map),
     };
@@ -192,7 +193,8 @@ fn step_tile_by_tile(model: &Model, state: &mut State, lists: &mut NeighbourList
     let keeps = state.keeps_wrenches();
     state.contacts.keep_wrenches(keeps, lists.slots.i.len());
     keep_rows(model, state, lists);
-    let (poses, period) = (poses(model, state, lists), model.period());
+    let (poses, cell) = (poses(model, state, lists), state.cell(model));
+    let lengths = cell.lengths();
     let State { particles, bonds, contacts, .. } = state;
     let layout = contacts.layout;
     let Computed { slots: shared, mut slice, mut sums, .. } = lists.with(contacts);
@@ -200,7 +202,7 @@ fn step_tile_by_tile(model: &Model, state: &mut State, lists: &mut NeighbourList
     let second = SecondHalf { model, bonds, lists: shared, does: Second::BOTH, stirred: None };
     let forces = |segments: Range<usize>, particles: &Particles, slice: &mut TileSlice, sums: &mut Sums| {
         let step = step_inputs(model, particles, layout);
-        let inputs = TileInputs { lists: shared, model, poses: &poses, period, step, sleepers: None };
+        let inputs = TileInputs { lists: shared, model, poses: &poses, cell, lengths, step, sleepers: None };
         forces_of_tile(slice, segments.clone(), &inputs, sums).then_some(segments)
     };
     found.deep.extend(forces(0..shared.tiles[0], particles, &mut slice, &mut Sums::default()));

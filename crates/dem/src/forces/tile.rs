@@ -5,6 +5,7 @@ use crate::kernel::{Batch, LEDGER, Pairs, StepInputs, Sums};
 use crate::model::{Model, With};
 use crate::neighbours::{Segment, Slots, TileSlice};
 use crate::simd::BLOCK;
+use crate::space::cell::Cell;
 use crate::state::SleepMap;
 use crate::walls::seams::HistorySlots;
 use geom::Vec3;
@@ -19,8 +20,10 @@ pub struct TileInputs<'a> {
     pub model: &'a Model,
     /// Where walls are now.
     pub poses: &'a [Pose],
-    /// Length of the box along periodic axes, 0 along others [m].
-    pub period: Vec3,
+    /// The periodic cell now.
+    pub cell: Cell,
+    /// Its lengths [m]; 0 along open axes.
+    pub lengths: Vec3,
     /// What all contacts share.
     pub step: StepInputs<'a>,
     /// Which particles sleep, where the scene asks for it.
@@ -116,11 +119,18 @@ impl TileSlice<'_> {
     /// Copies rows and spins of particles to their images, shifted.
     fn shift_images(&mut self, s: &Segment, inputs: &TileInputs) {
         let (first, slots) = (s.rows - self.from.row, s.contacts());
-        let Slots { partner, shift, .. } = inputs.lists;
-        for (k, (&j, shift)) in partner[slots.clone()].iter().zip(&shift[slots]).enumerate() {
+        let (Slots { partner, image, .. }, cell) = (inputs.lists, &inputs.cell);
+        for (k, (&j, image)) in partner[slots.clone()].iter().zip(&image[slots]).enumerate() {
             let mut row = inputs.step.rows[j as usize];
+            let shift = cell.shift(image);
             for a in 0..3 {
                 row[a] += shift[a];
+            }
+            if cell.moves() {
+                let drift = cell.drift(image);
+                for a in 0..3 {
+                    row[4 + a] += drift[a];
+                }
             }
             self.rows[first + k] = row;
             if let Some(spin) = self.spins.get_mut(first + k) {
@@ -139,7 +149,7 @@ impl TileSlice<'_> {
         let active = (s.slots.start - self.from.slot) / BLOCK;
         let active = &mut self.active[active..active + s.slots.len() / BLOCK];
         let mut slots = HistorySlots { history, active, layout, first: 0, columns };
-        let pose = (&inputs.poses[wall], &inputs.period);
+        let pose = (&inputs.poses[wall], &inputs.lengths);
         let mut from = 0;
         while from < s.len {
             let to = from + i[from..].iter().take_while(|&&k| k == i[from]).count();

@@ -6,7 +6,7 @@ use crate::model::limit::largest_reach;
 use crate::model::quantity::material_names;
 use crate::model::{Allowed, Check, SetupError, Subject};
 use crate::setup::{Bond, BondKind, BondSprings, BondStrength, Spread};
-use crate::setup::{Drag, DragLaw, Particle, Setup, Sleep, Step, WallShape};
+use crate::setup::{Drag, DragLaw, Particle, Setup, Sleep, Step, Strain, WallShape};
 use geom::{Motion, Vec3};
 use std::collections::HashSet;
 
@@ -22,6 +22,7 @@ pub fn check(setup: &Setup) -> Result<(), SetupError> {
     walls(setup)?;
     zones(setup)?;
     periodic(setup)?;
+    strain(setup)?;
     step(&setup.step)?;
     guards(setup)?;
     let skin = setup.skin.unwrap_or(1.0);
@@ -250,11 +251,52 @@ fn zones(setup: &Setup) -> Result<(), SetupError> {
     Ok(())
 }
 
-fn periodic(setup: &Setup) -> Result<(), SetupError> {
+/// Refuses a strained cell with what does not take part in its flow.
+fn strain(setup: &Setup) -> Result<(), SetupError> {
+    if setup.strain.iter().all(Option::is_none) {
+        return Ok(());
+    }
+    let has = [
+        (!setup.walls.is_empty(), "walls"),
+        (!(setup.inlets.is_empty() && setup.outlets.is_empty()), "inlets and outlets"),
+        (setup.gravity.norm() > 0.0, "gravity"),
+        (setup.drag.is_some(), "fluid"),
+        (setup.sleep.is_some(), "particles that sleep"),
+    ];
+    if let Some((_, what)) = has.iter().find(|(has, _)| *has) {
+        return Err(SetupError::StrainedWith(what));
+    }
+    let check = Check(|| Subject::Setup);
+    for (a, axis) in ['x', 'y', 'z'].into_iter().enumerate() {
+        let Some(strain) = &setup.strain[a] else { continue };
+        if setup.periodic[a].is_none() {
+            return Err(SetupError::StrainedOpen { axis });
+        }
+        match strain {
+            Strain::Rate(rate) => check.finite("strain.rate", *rate, "1/s")?,
+            Strain::Path(path) => path.rows().iter().try_for_each(|r| check.finite("strain", r[1], "[–]"))?,
+            Strain::Stress { target, rate_limit } => {
+                target.rows().iter().try_for_each(|r| check.finite("strain.stress", r[1], "Pa"))?;
+                check.positive("strain.rate_limit", *rate_limit, "1/s")?;
+                let open = setup.periodic.iter().position(Option::is_none);
+                if let Some(open) = open {
+                    return Err(SetupError::StrainedOpen { axis: ['x', 'y', 'z'][open] });
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Least length of a periodic axis [m].
+pub fn least_period(setup: &Setup) -> f64 {
     // Both ends of a bond are nearest images of each other.
     let bonded = setup.bonds.iter().map(|b| b.gap).fold(0.0, f64::max);
-    let diameter = 2.0 * largest_radius(setup);
-    let least = 2.5 * diameter + 2.0 * bonded;
+    5.0 * largest_radius(setup) + 2.0 * bonded
+}
+
+fn periodic(setup: &Setup) -> Result<(), SetupError> {
+    let (least, diameter) = (least_period(setup), 2.0 * largest_radius(setup));
     for ((axis, name), range) in [('x', "x"), ('y', "y"), ('z', "z")].into_iter().zip(&setup.periodic) {
         let Some((lo, hi)) = *range else { continue };
         for (end, position) in [("low", lo), ("high", hi)] {

@@ -96,6 +96,15 @@ pub enum SetupError {
         /// The largest skin [m].
         most: f64,
     },
+    /// Something that a strained cell cannot have.
+    #[error("a domain that is strained has no {0}")]
+    StrainedWith(&'static str),
+    /// An open axis that is to be strained.
+    #[error("{axis} is to be strained and is not periodic")]
+    StrainedOpen {
+        /// x, y or z.
+        axis: char,
+    },
     /// Lanes that this machine does not have.
     #[error("this machine cannot compute with {0:?}")]
     NoWidth(Width),
@@ -249,6 +258,9 @@ pub enum StateMismatch {
     /// Servos.
     #[error("one has walls that follow a force and the other has not")]
     Servos,
+    /// A strained cell.
+    #[error("one has a domain that is strained and the other has not")]
+    Strain,
     /// Walls on springs.
     #[error("one has walls on springs and the other has not")]
     Mounts,

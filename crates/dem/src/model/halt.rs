@@ -87,6 +87,20 @@ pub enum Halt {
         /// Where it was last [m].
         position: Vec3,
     },
+    /// A strained cell in which a particle would meet itself.
+    #[error(
+        "t = {time:.6e} s: the domain is {length:.4e} m long along {axis}: particles need at least {least:.4e} m"
+    )]
+    CellTooSmall {
+        /// When [s].
+        time: f64,
+        /// x, y or z.
+        axis: char,
+        /// Its length [m].
+        length: f64,
+        /// Least length [m].
+        least: f64,
+    },
     /// The position of a wall that follows a force is not a number any more.
     #[error(
         "t = {time:.6e} s: wall '{wall}', which follows a force, has a position that is not finite (NaN): the force of the particles on it was \

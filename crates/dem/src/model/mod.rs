@@ -38,9 +38,9 @@ use crate::model::servo::{Response, responses};
 use crate::model::start::{faster_than_sleep, kinds, mean_radius, slow_enough, time_step};
 use crate::setup::Setup;
 use crate::simd::{Layout, Precision, Width};
+use crate::space::cell::Cell;
 use crate::space::search::FIRST_SKIN;
 use crate::walls::WallBody;
-use geom::Vec3;
 
 /// Steps that margins are made for; chosen on the bench pile.
 const HORIZON: f64 = 100.0;
@@ -154,18 +154,8 @@ impl Model {
         Layout { rotates: self.rotates, single: self.setup.precision == Precision::Single }
     }
 
-    /// Length of the box along periodic axes [m], 0 along others.
-    pub fn period(&self) -> Vec3 {
-        crate::space::sphere::periods(&self.setup.periodic)
-    }
-
-    /// A position, brought back into the periodic box.
-    pub fn wrapped(&self, mut p: Vec3) -> Vec3 {
-        for a in 0..3 {
-            if let Some((lo, hi)) = self.setup.periodic[a] {
-                p[a] -= (hi - lo) * ((p[a] - lo) / (hi - lo)).floor();
-            }
-        }
-        p
+    /// The periodic cell as it is at t = 0, and stays where it is not strained.
+    pub fn cell(&self) -> Cell {
+        Cell::at_rest(self.setup.periodic)
     }
 }

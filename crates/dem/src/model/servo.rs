@@ -4,6 +4,7 @@ use crate::effects::{Elastic, OverlapLimit, damping_ratios};
 use crate::model::dense_walls::met;
 use crate::model::limit::{contact_between, grains, stiffest};
 use crate::model::{Check, Kind, SetupError, With};
+use crate::setup::clumps::SizeClass;
 use crate::setup::{Length, Setup, Wall, WallShape};
 
 /// Levels of overlap, each half of the one before.
@@ -30,20 +31,27 @@ impl Response {
     }
 }
 
-/// The response of each kind of contact that meets a servo; of a clump with its whole mass, as contacts have it.
+/// The response of each kind of contact that meets a servo, or lies in a cell that follows a stress; of a clump with its whole mass, as contacts have it.
 pub fn responses(setup: &Setup, kinds: &[Kind], dt: f64) -> Vec<Response> {
     let grains = grains(setup);
+    let follows_stress = setup.strain.iter().flatten().any(|s| s.stress(0.0).is_some());
     let of = |kind: &Kind| {
-        let With::Wall(w) = kind.with else { return Response::default() };
-        let wall = &setup.walls[w];
-        if wall.servo.is_none() && wall.mount.is_none() {
+        let wall = match kind.with {
+            With::Wall(w) => Some(&setup.walls[w]),
+            With::Particles | With::Images => None,
+        };
+        let answers = wall.map_or(follows_stress, |w| w.servo.is_some() || w.mount.is_some());
+        if !answers {
             return Response::default();
         }
         let own = || grains.iter().filter(|g| g.material == kind.between.0);
+        // Of two grains at most that of each on a plane: R* and m* are smaller.
+        let (other, met) =
+            (wall.map_or(kind.between.1, |w| w.material), |r: f64| wall.map_or((r, r), |w| met(w, r)));
         let at = |level: usize| {
             let share = setup.guards.overlap * 0.5f64.powi(level as i32);
             own()
-                .filter_map(|g| response(setup, wall, (g.material, g.radius, g.inverse_mass), (share, dt)))
+                .filter_map(|g| response(setup, (g, other), met(g.radius), (share, dt)))
                 .fold(f64::MIN_POSITIVE, f64::max)
         };
         Response { share: setup.guards.overlap, levels: (0..LEVELS).map(at).collect() }
@@ -51,16 +59,16 @@ pub fn responses(setup: &Setup, kinds: &[Kind], dt: f64) -> Vec<Response> {
     kinds.iter().map(of).collect()
 }
 
-/// k Δt + c of a grain (material, radius, 1/m) on a wall at an overlap.
+/// k Δt + c of a grain on another material at an overlap; R* and the smaller radius [m] are given.
 fn response(
     setup: &Setup,
-    wall: &Wall,
-    (material, radius, inverse_mass): (u16, f64, f64),
+    (grain, other): (&SizeClass, u16),
+    (radius, smaller): (f64, f64),
     (share, dt): (f64, f64),
 ) -> Option<f64> {
-    let contact = contact_between(setup, material, wall.material).ok()?;
-    let [first, second] = [material, wall.material].map(|m| &setup.materials[m as usize]);
-    let (radius, smaller) = met(wall, radius);
+    let (material, inverse_mass) = (grain.material, grain.inverse_mass);
+    let contact = contact_between(setup, material, other).ok()?;
+    let [first, second] = [material, other].map(|m| &setup.materials[m as usize]);
     let k = stiffest(contact, Elastic::of(first, second), OverlapLimit { radius, smaller, share });
     let impedance = (k / inverse_mass).sqrt();
     let [gamma, _] = damping_ratios(contact, [impedance; 2]);

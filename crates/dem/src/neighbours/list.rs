@@ -4,9 +4,9 @@ use crate::kernel::{Arrival, SlotEnd};
 use crate::model::{Kind, With};
 use crate::neighbours::{Disturber, RestingTile, Segment, Slots};
 use crate::simd::{BLOCK, Layout};
+use crate::space::cell::ImageOf;
 use crate::space::search::tile;
 use crate::walls::WallBody;
-use geom::Vec3;
 use std::ops::Range;
 
 /// Contacts of one kind to be listed, by first particle.
@@ -16,8 +16,8 @@ pub struct List {
     pub i: Vec<u32>,
     /// Other particle, or part of the wall.
     pub partner: Vec<u32>,
-    /// Shift of the other particle's image [m]; empty for all but images.
-    pub shift: Vec<Vec3>,
+    /// Which image of the other particle; empty for all but images.
+    pub image: Vec<ImageOf>,
 }
 
 impl List {
@@ -77,12 +77,12 @@ impl Slots {
         let first = self.i.len();
         self.i.extend(&list.i);
         self.partner.extend(&list.partner);
-        self.shift.extend(&list.shift);
+        self.image.extend(&list.image);
         let slots = first..first + list.i.len().next_multiple_of(BLOCK);
         self.i.resize(slots.end, self.particles as u32);
         self.partner.resize(slots.end, self.particles as u32 + 1);
-        if !list.shift.is_empty() {
-            self.shift.resize(slots.end, Vec3::zeros());
+        if !list.image.is_empty() {
+            self.image.resize(slots.end, [0; 3]);
         }
         slots
     }

@@ -13,7 +13,7 @@ pub fn pose(model: &Model, state: &State, wall: usize, time: f64) -> Pose {
     let WallBody { motion, servo, mount, .. } = &model.walls[wall];
     let pose = motion.pose(time);
     if let (Some(servo), Some(p)) = (servo, state.servos.get(wall)) {
-        return pose.shifted(servo.direction * p.shift, servo.direction * p.speed);
+        return pose.shifted(servo.direction * p.shift, servo.direction * p.governor.speed);
     }
     match (mount, state.mounts.get(wall)) {
         (Some(mount), Some(p)) => pose.shifted(mount.direction * p.shift, mount.direction * p.speed),
@@ -45,7 +45,7 @@ pub fn pose_in_box(model: &Model, state: &State, lists: &NeighbourLists, wall: u
 /// A pose of a wall, counted back into the box.
 pub fn shift_into_box(model: &Model, lists: &NeighbourLists, wall: usize, pose: Pose) -> Pose {
     let Some(back) = lists.wall_periods.get(wall).filter(|n| **n != [0; 3]) else { return pose };
-    let period = model.period();
+    let period = model.cell().lengths();
     let by = Vec3::from([0, 1, 2].map(|a| -f64::from(back[a]) * period[a]));
     pose.shifted(by, Vec3::zeros())
 }
@@ -53,7 +53,7 @@ pub fn shift_into_box(model: &Model, lists: &NeighbourLists, wall: usize, pose: 
 /// Whole periods that the middle of each wall was away from the box when neighbours were listed; none where nothing is
 /// periodic.
 pub fn periods_travelled(model: &Model, state: &State) -> Vec<Periods> {
-    let period = model.period();
+    let period = model.cell().lengths();
     if period == Vec3::zeros() {
         return Vec::new();
     }
@@ -70,7 +70,7 @@ pub fn periods_travelled(model: &Model, state: &State) -> Vec<Periods> {
 /// Where the images of a wall may be met.
 pub fn around(model: &Model, wall: usize, pose: &Pose) -> WallImages {
     let [lo, hi] = model.walls[wall].bounds;
-    let period = model.period();
+    let period = model.cell().lengths();
     if !lo.iter().all(|x| x.is_finite()) {
         return WallImages { period, lo, hi };
     }

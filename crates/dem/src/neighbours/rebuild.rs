@@ -6,7 +6,7 @@ use crate::neighbours::poses::{around, periods_travelled, pose_listed, shift_int
 use crate::neighbours::{List, NeighbourLists, OldContacts, Slots, StepColumns};
 use crate::setup::Zone;
 use crate::simd::{Aligned, Row4};
-use crate::space::search::{ImagePair, Pair, Search, half_of_shifts, margin, next_skin, pairs, tile};
+use crate::space::search::{ImagePair, Pair, Search, margin, next_skin, pairs, tile};
 use crate::state::ledger::wrap_in_ledger;
 use crate::state::{ContactColumns, ListStatus, State, WrenchColumns};
 use crate::threads::share;
@@ -63,6 +63,9 @@ pub fn rebuild(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
     state.starting.retain(|&k| k != u32::MAX);
     state.starting.sort_unstable();
     state.listing.step = state.steps;
+    if let Some(cell) = &mut state.strained {
+        cell.list(margin(state.listing.skin, model.horizon * model.dt * cell.fastest(), model.mean_radius));
+    }
     list_contacts(model, state, lists, &search);
     let old = OldContacts { slots, columns, order, wraps, wall_periods };
     carry_over(model, state, lists, &old);
@@ -79,14 +82,20 @@ fn wrap(model: &Model, state: &mut State) -> Vec<Periods> {
         return Vec::new();
     }
     let before: Vec<Vec3> = (0..state.particles.len()).map(|k| state.particles.position(k)).collect();
+    let cell = state.cell(model);
     wrap_in_ledger(model, state, |state| {
+        let mut work = 0.0;
         for k in (0..state.particles.len()).filter(|&k| !state.clumps.is_member(k)) {
-            let p = model.wrapped(state.particles.position(k));
-            state.particles.rows[k][..3].copy_from_slice(p.as_slice());
+            let was = state.particles.position(k);
+            state.particles.rows[k][..3].copy_from_slice(cell.wrapped(was).as_slice());
+            if cell.moves() {
+                work += state.particles.kick(k, &-cell.away(&was).component_mul(&cell.speed), model.dt);
+            }
         }
-        state.clumps.wrap(&mut state.particles, &model.setup.periodic);
+        work += state.clumps.wrap(&mut state.particles, &cell, model.dt);
+        state.ledger.move_by_walls(work);
     });
-    let period = model.period();
+    let period = cell.lengths();
     let whole = |by: f64, period: f64| if period > 0.0 { (by / period).round() as i32 } else { 0 };
     let moved = |(k, was): (usize, Vec3)| {
         let by = state.particles.position(k) - was;
@@ -210,8 +219,9 @@ pub fn wall_margin(model: &Model, state: &State, wall: usize) -> f64 {
 /// Pairs across periodic faces: each once, by the half of all shifts whose first part that is not zero is positive.
 fn list_images(model: &Model, state: &State, search: &Search) -> Vec<List> {
     let mut found = Vec::new();
-    for shift in half_of_shifts(&model.setup.periodic) {
-        search.shifted_pairs(&shift, &mut found);
+    let (cell, room) = state.cell_as_listed(model);
+    for image in cell.half_of_images() {
+        search.image_pairs(image, &cell.shift(&image), room, &mut found);
     }
     state.clumps.drop_own(&mut found, |f| (f.i, f.j));
     state.bonds.drop_replaced(&mut found, |f| (f.i, f.j));
@@ -219,10 +229,10 @@ fn list_images(model: &Model, state: &State, search: &Search) -> Vec<List> {
     let class = classes(model, With::Images);
     let mut lists = vec![List::default(); model.kinds.len()];
     let material = |k: u32| state.particles.material[k as usize];
-    for ImagePair { i, j, shift } in found {
+    for ImagePair { i, j, image } in found {
         let list = &mut lists[class.of(material(i), material(j))];
         list.push(i, j);
-        list.shift.push(shift);
+        list.image.push(image);
     }
     lists
 }
@@ -254,7 +264,8 @@ pub fn is_due(model: &Model, state: &State) -> bool {
         let ahead = model.ahead() * model.walls[w].fastest();
         wall_shift(model, state, w, since) + ahead <= wall_margin(model, state, w)
     };
-    state.listing.status != ListStatus::Valid || !(0..model.walls.len()).all(holds)
+    let strained = state.strained.as_ref().is_some_and(|cell| cell.has_left_room());
+    state.listing.status != ListStatus::Valid || strained || !(0..model.walls.len()).all(holds)
 }
 
 /// Notes which particles may pass a storage plane, or come back through it, before the next rebuild: only their margins reach it. Members of clumps

@@ -8,8 +8,8 @@
 use crate::kernel::{Arrival, SlotEnd};
 use crate::model::With;
 use crate::simd::BLOCK;
+use crate::space::cell::ImageOf;
 use crate::state::ContactColumns;
-use geom::Vec3;
 use std::ops::Range;
 
 /// What may disturb a sleeper.
@@ -74,7 +74,7 @@ pub struct Slots {
     /// Words of history of all segments.
     pub history: usize,
     /// Shift of an image [m], by slot.
-    pub shift: Vec<Vec3>,
+    pub image: Vec<ImageOf>,
     /// Wrenches that arrive at each tile, in the order of the slots that they come from.
     pub arrivals: Vec<Arrival>,
     /// First arrival of each tile, and one more.

@@ -5,7 +5,7 @@ use crate::neighbours::{NeighbourLists, Segment};
 use crate::observe::snapshot::energy;
 use crate::observe::stiffen::{DeepContact, stiffer};
 use crate::passes::touching::position_before;
-use crate::state::{ServoState, State};
+use crate::state::{CellState, ServoState, State};
 use std::ops::Range;
 
 /// The deepest overlap in those segments, zone particles and those that have left among themselves left out; `Ok` when only those are too deep. Where particles
@@ -141,4 +141,5 @@ pub fn is_finite(state: &State) -> bool {
     rows && fours.iter().all(|column| column.iter().all(|q| q[..3].iter().all(|x| x.is_finite())))
         && state.contacts.layout.are_finite(&state.contacts.history)
         && state.servos.iter().all(ServoState::is_finite)
+        && state.strained.as_ref().is_none_or(CellState::is_finite)
 }

@@ -72,7 +72,7 @@ fn record(
         With::Wall(w) => (w as u32, true),
         _ => (p.id[lists.slots.partner[slot] as usize], false),
     };
-    let point = model.wrapped(centre - normal * (mine * distance / reach));
+    let point = state.cell(model).wrapped(centre - normal * (mine * distance / reach));
     let (force, overlap) = (Vec3::zeros(), reach - distance);
     ContactRecord { point, normal, force, overlap, i: p.id[i], j, wall, work: 0.0 }
 }

@@ -8,6 +8,7 @@ use crate::passes::ledger::close_step;
 use crate::passes::mount;
 use crate::passes::zones::ledger::energy_of_idle;
 use crate::setup::{Particle, Setup};
+use crate::space::cell::Cell;
 use crate::state::ledger::{carried, heavy};
 use crate::state::{Energy, State};
 use geom::Vec3;
@@ -21,6 +22,7 @@ pub struct Snapshot<'a> {
     /// Velocity and spin of those that are members of clumps.
     members: Vec<Option<(Vec3, Vec3)>>,
     order: Vec<u32>,
+    cell: Cell,
 }
 
 impl<'a> Snapshot<'a> {
@@ -33,7 +35,7 @@ impl<'a> Snapshot<'a> {
         order.extend((0..p.len() as u32).filter(|&k| !hidden(k as usize)));
         drop(hidden);
         order.sort_unstable_by_key(|&k| p.id[k as usize]);
-        Snapshot { model, state, sums, members, order }
+        Snapshot { model, state, sums, members, order, cell: state.cell(model) }
     }
 
     /// How many there are.
@@ -51,6 +53,16 @@ impl<'a> Snapshot<'a> {
     /// # Panics
     /// Where there are not so many.
     pub fn particle(&self, n: usize) -> Particle {
+        let mut p = self.as_listed(n);
+        if self.cell.moves() {
+            p.velocity -= self.cell.away(&p.position).component_mul(&self.cell.speed);
+        }
+        p.position = self.cell.wrapped(p.position);
+        p
+    }
+
+    /// The same, where it is between two listings, which may be beyond a periodic face.
+    fn as_listed(&self, n: usize) -> Particle {
         let (k, p) = (self.order[n] as usize, &self.state.particles);
         let Instant { velocity, spin, .. } = instant(self.model, self.state, k, &self.sums);
         let (velocity, spin) = self.members.get(k).copied().flatten().unwrap_or((velocity, spin));
@@ -58,7 +70,7 @@ impl<'a> Snapshot<'a> {
             id: p.id[k],
             material: p.material[k],
             radius: p.rows[k][3],
-            position: self.model.wrapped(p.position(k)),
+            position: p.position(k),
             velocity,
             spin,
         }
@@ -73,7 +85,9 @@ pub fn particles(model: &Model, state: &State) -> Vec<Particle> {
 
 /// Energy of this instant [J]; elastic and dissipated parts only when the setup asked for the ledger.
 pub fn energy(model: &Model, state: &State, lists: &NeighbourLists) -> Energy {
-    let (mut particles, mut clumps) = (particles(model, state), state.clumps.states(model, state));
+    let snapshot = Snapshot::new(model, state);
+    let mut particles: Vec<Particle> = (0..snapshot.len()).map(|n| snapshot.as_listed(n)).collect();
+    let mut clumps = state.clumps.states_as_listed(model, state);
     if !state.zones.none() {
         let all = 0..state.particles.len();
         let travelling: BTreeSet<u32> =

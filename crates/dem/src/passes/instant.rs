@@ -36,7 +36,8 @@ pub fn instant(model: &Model, state: &State, k: usize, sums: &WrenchSums) -> Ins
         _ => all,
     };
     let inverse = inverse_inertia(row[3], row[7]);
-    let driven = against(force * row[7] + body, row.velocity());
+    let flow = state.cell(model).flow(&row.position());
+    let driven = against(force * row[7] + body, row.velocity() - flow);
     let turned = if p.rotates() { against(moment * inverse, p.spins[k].vector()) } else { Vec3::zeros() };
     for a in 0..3 {
         at.acceleration[a] = driven[a];

@@ -9,7 +9,7 @@ use crate::passes::drag::drag_power;
 use crate::passes::instant::driven_now;
 use crate::passes::touching::position_before;
 use crate::passes::zones::ledger::add_zones;
-use crate::passes::{local_damping, mount};
+use crate::passes::{cell, local_damping, mount};
 use crate::setup::Particle;
 use crate::space::sphere::inverse_inertia;
 use crate::state::ledger::{carried, heavy, unwrapped_potential};
@@ -97,7 +97,7 @@ pub fn close_step(model: &Model, state: &State, lists: &NeighbourLists, energy: 
     now.drag = drag * model.dt;
     now.damped = free.map(|k| local_damping::power(model, state, k, &sums)).sum::<f64>() * model.dt;
     let [brought, dashpots] = mount::step_sums(model, state, lists);
-    (now.walls, now.mounts) = (now.walls - brought, dashpots);
+    (now.walls, now.mounts) = (now.walls - brought + cell::step_work(model, state, lists), dashpots);
     let (work, share) = half(model, power, share);
     energy.normal += now.lost;
     energy.bonds += now.broken;
@@ -126,6 +126,7 @@ pub fn add_contacts(model: &Model, state: &mut State, lists: &NeighbourLists) {
     ledger.add(&lists.slots, contacts, zones);
     ledger.add_bonds(bonds, model.dt, freed);
     state.contacts.add_work();
+    state.ledger.walls += cell::step_work(model, state, lists);
     add_zones(model, state);
 }
 

@@ -5,7 +5,7 @@
 //! v* ← v* + 3/2 a Δt,  x ← x + a Δt²,  a_n ← a_n + a          what an acceleration a adds to the move, as in [`crate::passes::drag`]
 //! ```
 //!
-//! Cundall (1987), in Analytical and Computational Methods in Engineering Rock Mechanics; v and ω are those predicted for the instant. A
+//! Cundall (1987), in Analytical and Computational Methods in Engineering Rock Mechanics; v and ω are those predicted for the instant, v less that of the flow where the periodic cell is strained. A
 //! particle in balance, or one that moves uniformly, is not damped; a falling one falls with (1 − α) g. So the damping is for specimens that are made, not
 //! for flows. A force that slows counts 1 + α times: the critical step is divided by that ([`crate::model::limit`]).
 
@@ -14,6 +14,7 @@ use crate::model::Model;
 use crate::neighbours::NeighbourLists;
 use crate::passes::drag::body_acceleration;
 use crate::simd::{Row, Row4};
+use crate::space::cell::Cell;
 use crate::space::sphere::inverse_inertia;
 use crate::state::State;
 use crate::threads::{FEW, share};
@@ -37,8 +38,8 @@ pub fn power(model: &Model, state: &State, k: usize, sums: &WrenchSums) -> f64 {
     let Some(factor) = model.setup.local_damping else { return 0.0 };
     let (p, row) = (&state.particles, &state.particles.rows[k]);
     let (force, moment) = sums.on(k, row[3]);
-    let velocity = row.velocity();
-    let slowed = against(factor, &(force * row[7] + body_acceleration(model, state, k)), &velocity);
+    let (velocity, flow) = (row.velocity(), state.cell(model).flow(&row.position()));
+    let slowed = against(factor, &(force * row[7] + body_acceleration(model, state, k)), &(velocity - flow));
     let mut taken = -slowed.dot(&velocity) / row[7];
     if p.rotates() {
         let (spin, inverse) = (p.spins[k].vector(), inverse_inertia(row[3], row[7]));
@@ -58,8 +59,9 @@ struct Damped<'a> {
 
 impl Damped<'_> {
     /// Adds the damping of a step; what it takes [J].
-    fn damp(self, factor: f64, dt: f64) -> f64 {
-        let a = against(factor, &self.acceleration.vector(), &self.was.velocity());
+    fn damp(self, factor: f64, cell: &Cell, dt: f64) -> f64 {
+        let against_flow = self.was.velocity() - cell.flow(&self.was.position());
+        let a = against(factor, &self.acceleration.vector(), &against_flow);
         for axis in 0..3 {
             self.row[axis] += dt * dt * a[axis];
             self.row[4 + axis] += 1.5 * dt * a[axis];
@@ -81,7 +83,7 @@ impl Damped<'_> {
 /// After a move and what the fluid adds to it. Returns whether a particle has left its margin.
 pub fn apply(model: &Model, state: &mut State, lists: &NeighbourLists) -> bool {
     let Some(factor) = model.setup.local_damping else { return false };
-    let (dt, ahead, zones) = (model.dt, model.ahead(), &state.zones);
+    let (dt, ahead, zones, cell) = (model.dt, model.ahead(), &state.zones, state.cell(model));
     let p = &mut state.particles;
     let (count, rotates) = (p.len(), p.rotates());
     let turning = if rotates { count } else { 0 };
@@ -101,7 +103,7 @@ pub fn apply(model: &Model, state: &mut State, lists: &NeighbourLists) -> bool {
                     _ => None,
                 };
                 let (row, acceleration, was) = (&mut rows[k], &mut accelerations[k], &lists.before[at]);
-                taken += Damped { row, acceleration, was, turning }.damp(factor, dt);
+                taken += Damped { row, acceleration, was, turning }.damp(factor, &cell, dt);
                 let margin = (home[k][3] - ahead * rows[k].velocity().norm()).max(0.0);
                 out |= (rows[k].position() - home[k].vector()).norm_squared() > margin * margin;
             }

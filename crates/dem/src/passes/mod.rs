@@ -4,6 +4,7 @@
 //! energy where it is kept. `kept` carries contact history from one run to the next. `instant` has velocities of one instant, and gives particles that begin their first acceleration. Uses neighbours and below.
 
 pub mod bonds;
+pub mod cell;
 pub mod clumps;
 pub mod drag;
 pub mod instant;

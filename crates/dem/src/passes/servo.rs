@@ -28,7 +28,7 @@ use crate::neighbours::NeighbourLists;
 use crate::neighbours::poses::pose;
 use crate::passes::touching::position_before;
 use crate::setup::{Length, Servo, WallShape};
-use crate::state::{Held, ServoState, State};
+use crate::state::{Governor, Held, State};
 use geom::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -187,9 +187,11 @@ pub fn drive(model: &Model, state: &mut State, lists: &NeighbourLists) -> Result
     for (w, push, target) in pushes {
         let Some(servo) = &model.walls[w].servo else { continue };
         let along = push.force.dot(&servo.direction);
-        advance(&mut state.servos[w], servo, &push, (target, target - along), model.dt);
-        let limited = state.servos[w].speed.abs() >= servo.speed_limit;
-        state.servos[w].held.add(time, along, target, limited);
+        let s = &mut state.servos[w];
+        s.governor.follow(servo.speed_limit, (push.contacts, push.response), (target, target - along));
+        s.shift += s.governor.speed * model.dt;
+        s.held.touched |= push.contacts > 0;
+        s.held.add(time, along, target, s.governor.speed.abs() >= servo.speed_limit);
         let name = || model.setup.walls[w].name.clone();
         if !state.servos[w].is_finite() {
             halt = halt.or(Some(Halt::WallNotANumber { time: time + model.dt, wall: name(), push: along }));
@@ -204,24 +206,23 @@ pub fn drive(model: &Model, state: &mut State, lists: &NeighbourLists) -> Result
     halt.map_or(Ok(()), Err)
 }
 
-/// The next speed and shift of a servo whose `target` [N] is missed by a `lack` [N].
-fn advance(state: &mut ServoState, servo: &Servo, push: &Push, (target, lack): (f64, f64), dt: f64) {
-    let limit = servo.speed_limit;
-    if push.contacts == 0 {
-        (state.drift, state.landed) = (0.0, false);
-        state.speed = if target == 0.0 { 0.0 } else { limit };
-    } else {
-        state.landed |= lack <= LANDED * target;
-        let (gain, mass) = (SHARE / push.response, if state.landed { MASS } else { LANDING });
-        let drift = (state.drift + lack / (mass * push.response)).clamp(-limit, limit);
-        // Beyond the speed limit nothing is stored.
-        if (gain * lack + drift).abs() <= limit || drift.abs() < state.drift.abs() {
-            state.drift = drift;
+impl Governor {
+    /// The next rate, up to `limit`, where a `target` is missed by a `lack` and `contacts` answer with a sum S.
+    pub fn follow(&mut self, limit: f64, (contacts, response): (u32, f64), (target, lack): (f64, f64)) {
+        if contacts == 0 {
+            (self.drift, self.landed) = (0.0, false);
+            self.speed = if target == 0.0 { 0.0 } else { limit };
+            return;
         }
-        state.speed = (gain * lack + state.drift).clamp(-limit, limit);
-        state.held.touched = true;
+        self.landed |= lack <= LANDED * target;
+        let (gain, mass) = (SHARE / response, if self.landed { MASS } else { LANDING });
+        let drift = (self.drift + lack / (mass * response)).clamp(-limit, limit);
+        // Beyond the limit nothing is stored.
+        if (gain * lack + drift).abs() <= limit || drift.abs() < self.drift.abs() {
+            self.drift = drift;
+        }
+        self.speed = (gain * lack + self.drift).clamp(-limit, limit);
     }
-    state.shift += state.speed * dt;
 }
 
 /// Whether all particles are behind a wall that touches none: it moves away from them, and meets nothing any more. Planes have no end, and periodic axes
@@ -231,7 +232,7 @@ fn is_past_all(model: &Model, state: &State, wall: usize) -> bool {
     let Some(servo) = &body.servo else { return false };
     let returns = (0..3).any(|a| setup.periodic[a].is_some() && servo.direction[a] != 0.0);
     let [lo, hi] = body.bounds;
-    if returns || state.servos[wall].speed <= 0.0 || !lo.iter().chain(&hi).all(|x| x.is_finite()) {
+    if returns || state.servos[wall].governor.speed <= 0.0 || !lo.iter().chain(&hi).all(|x| x.is_finite()) {
         return false;
     }
     let pose = pose(model, state, wall, state.time());

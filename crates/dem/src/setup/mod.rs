@@ -11,6 +11,7 @@ pub mod drag;
 mod kept;
 mod mount;
 mod servo;
+mod strain;
 mod zone;
 
 pub use crate::effects::{ContactHistory, ContactLaw, Material};
@@ -23,6 +24,7 @@ pub use crate::simd::number::Precision;
 pub use kept::{KeptContact, KeptPartner};
 pub use mount::Mount;
 pub use servo::{Length, Servo, Target};
+pub use strain::Strain;
 pub use zone::{
     Crossing, CrossingBond, Entry, EntryBonds, EntryClump, Guide, PairHistory, PathSample, Sample, Touch,
     Zone, ZoneMotion, ZoneTest,
@@ -77,6 +79,8 @@ pub struct Setup {
     pub step: Step,
     /// Periodic extent (lowest, highest) [m] along x, y, z; `None` along an open axis.
     pub periodic: [Option<(f64, f64)>; 3],
+    /// What periodic axes follow; an axis without it keeps its length.
+    pub strain: [Option<Strain>; 3],
     /// Which part of a step the force of a contact stands for.
     pub sampling: Sampling,
     /// In which precision contacts are computed.
@@ -117,6 +121,7 @@ impl Default for Setup {
             entry_materials: Vec::new(),
             step: Step::Auto(0.2),
             periodic: [None; 3],
+            strain: [const { None }; 3],
             sampling: Sampling::default(),
             precision: Precision::Double,
             skin: None,

@@ -48,7 +48,7 @@ impl Checkpoint<'_> {
 
     /// Refuses a checkpoint of another setup.
     fn fits(&self, begun: &State, setup: &Setup) -> Result<(), SetupError> {
-        let State { dt, sleepers, particles, bonds, servos, mounts, .. } = &*self.state;
+        let State { dt, sleepers, particles, bonds, servos, strained, mounts, .. } = &*self.state;
         let asked = if let Step::Fixed(asked) = setup.step { asked } else { *dt };
         let differs = |differs: bool, what| if differs { other(what) } else { Ok(()) };
         differs(asked != *dt, StateMismatch::Step { asked, saved: *dt })?;
@@ -57,6 +57,7 @@ impl Checkpoint<'_> {
         let bonded = begun.bonds.none() != bonds.none() || begun.bonds.count()[0] > bonds.count()[0];
         differs(bonded, StateMismatch::Bonds)?;
         differs(begun.servos.len() != servos.len(), StateMismatch::Servos)?;
+        differs(begun.strained.is_some() != strained.is_some(), StateMismatch::Strain)?;
         differs(begun.mounts.len() != mounts.len(), StateMismatch::Mounts)
     }
 }

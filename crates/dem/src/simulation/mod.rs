@@ -14,6 +14,7 @@ pub use explain::{ContactBytes, EffectCost, MatchedDamping};
 
 use crate::model::{Model, SetupError};
 use crate::neighbours::NeighbourLists;
+use crate::passes::cell;
 use crate::setup::Setup;
 use crate::simd::Width;
 use crate::state::State;
@@ -45,7 +46,8 @@ impl Simulation {
     /// The same with the step `begun` [s] of a run that is resumed.
     fn build(setup: Setup, width: Width, begun: Option<f64>) -> Result<Simulation, SetupError> {
         let mut model = Model::new(setup, width, begun)?;
-        let state = State::new(&model)?;
+        let mut state = State::new(&model)?;
+        cell::start(&mut state);
         // They are in their columns now.
         model.setup.particles = Vec::new();
         model.setup.clumps.placed = Vec::new();

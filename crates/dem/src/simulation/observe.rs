@@ -6,11 +6,12 @@ use crate::neighbours::poses::pose;
 use crate::observe::record::ContactRecord;
 use crate::observe::snapshot::Snapshot;
 use crate::observe::{guards, record, snapshot, unbalanced};
+use crate::passes::cell::CellReport;
 use crate::passes::clumps::instant::ClumpState;
 use crate::passes::servo::{ServoReport, WallForce};
-use crate::passes::{bonds, kept, servo};
+use crate::passes::{bonds, cell, kept, servo};
 use crate::setup::{KeptContact, Particle};
-use crate::state::{BondState, Crack, Energy, Sleepers};
+use crate::state::{BondState, Crack, Energy, Held, Sleepers};
 use geom::Vec3;
 
 impl Simulation {
@@ -82,6 +83,20 @@ impl Simulation {
     /// What each servo follows and how well it has held that, with the index of its wall; pushes are those of the last step.
     pub fn servos(&self) -> Vec<(usize, ServoReport)> {
         servo::reports(&self.model, &self.state)
+    }
+
+    /// What a strained cell is and does; `None` where no axis of it is strained.
+    ///
+    /// # Errors
+    /// When the state is beyond a guard.
+    pub fn cell(&mut self) -> Result<Option<CellReport>, Halt> {
+        self.ready()?;
+        Ok(cell::report(&self.model, &self.state, &self.lists))
+    }
+
+    /// Stress that each axis of a strained cell follows [Pa], and how well it has held that.
+    pub fn followed_stresses(&self) -> [Option<(f64, Held)>; 3] {
+        cell::followed(&self.model, &self.state)
     }
 
     /// All contacts that carry a force, or have done work since the last call, in the order of the lists.

@@ -8,7 +8,7 @@ use crate::forces::sweep;
 use crate::model::{Halt, Model};
 use crate::neighbours::{NeighbourLists, rebuild};
 use crate::observe::guards;
-use crate::passes::{bonds, clumps, drag, instant, kept, ledger, local_damping, mount, servo, zones};
+use crate::passes::{bonds, cell, clumps, drag, instant, kept, ledger, local_damping, mount, servo, zones};
 use crate::setup::KeptContact;
 use crate::state::{Forces, ListStatus, State};
 use std::ops::Range;
@@ -37,6 +37,7 @@ impl Simulation {
             state.listing.outdate(ListStatus::MarginLeft);
         }
         ledger::add_moves(model, state);
+        let strained = cell::drive(model, state, lists);
         state.steps += 1;
         state.forces = Forces::Due;
         state.bonds.turn(&state.particles, model.dt);
@@ -47,6 +48,7 @@ impl Simulation {
             guards::check_motion(model, state)?;
         }
         driven?;
+        strained?;
         if guards::checks_energy(model, state) {
             self.ready()?;
             guards::check_energy(&self.model, &mut self.state, &self.lists)?;

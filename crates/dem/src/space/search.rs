@@ -8,6 +8,7 @@
 //! margins alone. Particles are sorted by blocks of about a tile, so that few partners are of another tile, and in these along the shortest
 //! side of their box first.
 
+use crate::space::cell::ImageOf;
 use geom::grid::bounds;
 use geom::{Grid, Vec3};
 use std::ops::Range;
@@ -127,19 +128,20 @@ impl Search {
         found
     }
 
-    /// Pairs whose second is a particle shifted by `shift` [m], by first.
-    pub fn shifted_pairs(&self, shift: &Vec3, found: &mut Vec<ImagePair>) {
+    /// Pairs whose second is an image of a particle, shifted by `shift` [m], by first; `room` [m] is how much nearer images may come besides.
+    pub fn image_pairs(&self, image: ImageOf, shift: &Vec3, room: f64, found: &mut Vec<ImagePair>) {
         let along = Vec3::from(self.axes.map(|a| shift[a]));
         let (lo, hi) = bounds(&self.positions);
         for (i, p) in self.positions.iter().enumerate() {
-            let (position, far) = (p - along, self.reach[i] + self.largest);
+            let mine = self.reach[i] + room;
+            let (position, far) = (p - along, mine + self.largest);
             if (0..3).any(|a| position[a] < lo[a] - far || position[a] > hi[a] + far) {
                 continue;
             }
             for j in self.grid.runs_near(position, far).flatten() {
-                let close = self.reach[i] + self.reach[j];
+                let close = mine + self.reach[j];
                 if (self.positions[j] - position).norm_squared() < close * close {
-                    found.push(ImagePair { i: i as u32, j: j as u32, shift: *shift });
+                    found.push(ImagePair { i: i as u32, j: j as u32, image });
                 }
             }
         }
@@ -153,8 +155,8 @@ pub struct ImagePair {
     pub i: u32,
     /// The other particle.
     pub j: u32,
-    /// Shift of its image [m].
-    pub shift: Vec3,
+    /// Which of its images.
+    pub image: ImageOf,
 }
 
 /// The reach [m] that no more than a few particles surpass.
@@ -178,23 +180,6 @@ pub(crate) fn pairs(search: &Search, wide: &[Pair], range: &Range<usize>) -> Vec
         found.sort_unstable();
     }
     found
-}
-
-pub(crate) fn half_of_shifts(periodic: &[Option<(f64, f64)>; 3]) -> Vec<Vec3> {
-    let period = periodic.map(|p| p.map(|(lo, hi)| hi - lo));
-    let choices = period.map(|p| if p.is_some() { vec![-1.0, 0.0, 1.0] } else { vec![0.0] });
-    let mut shifts = Vec::new();
-    for &x in &choices[0] {
-        for &y in &choices[1] {
-            for &z in &choices[2] {
-                if [x, y, z].into_iter().find(|&s| s != 0.0) == Some(1.0) {
-                    let of = |a: usize, s: f64| s * period[a].unwrap_or(0.0);
-                    shifts.push(Vec3::new(of(0, x), of(1, y), of(2, z)));
-                }
-            }
-        }
-    }
-    shifts
 }
 
 /// Number of particles of a tile. Wrenches between two tiles are kept until the other tile is summed: the larger the tiles, the fewer are kept. But a tile

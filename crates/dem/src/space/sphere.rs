@@ -1,7 +1,6 @@
 //! Spheres, and where rows wait that nothing may touch.
 
 use crate::simd::Row;
-use geom::Vec3;
 use geom::sphere::{INVERSE_INERTIA, volume};
 
 /// Two rows that nothing ever touches: what the unused slots of a block point to.
@@ -32,17 +31,4 @@ pub fn mass(radius: f64, density: f64) -> f64 {
 #[inline(always)]
 pub fn inverse_inertia(radius: f64, inverse_mass: f64) -> f64 {
     INVERSE_INERTIA * inverse_mass / (radius * radius)
-}
-
-/// Periods along x, y, z [m]; 0 along an open axis.
-pub(crate) fn periods(periodic: &[Option<(f64, f64)>; 3]) -> Vec3 {
-    Vec3::from(periodic.map(|p| p.map_or(0.0, |(lo, hi)| hi - lo)))
-}
-
-/// From one centre to another, by the nearest image; a period of 0 is none.
-pub(crate) fn nearest(arm: Vec3, period: &Vec3) -> Vec3 {
-    let back = |axis: usize| {
-        if period[axis] > 0.0 { period[axis] * (arm[axis] / period[axis]).round() } else { 0.0 }
-    };
-    arm - Vec3::new(back(0), back(1), back(2))
 }

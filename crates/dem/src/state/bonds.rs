@@ -23,7 +23,7 @@ use crate::kernel::Sums;
 use crate::model::bonds::find;
 use crate::model::{BondedPair, BreakMode, Ends, Pull, SetupError};
 use crate::setup::{CrossingBond, Setup};
-use crate::space::sphere::nearest;
+use crate::space::cell::Cell;
 use crate::state::Particles;
 use crate::state::particles::select;
 use crate::threads::{FEW, share};
@@ -250,11 +250,16 @@ impl Bonds {
 
 impl BondedPair {
     /// Of both particles now.
-    pub(crate) fn ends(&self, particles: &Particles, turns: &[UnitQuaternion<f64>], period: &Vec3) -> Ends {
+    pub(crate) fn ends(&self, particles: &Particles, turns: &[UnitQuaternion<f64>], cell: &Cell) -> Ends {
         let [i, j] = self.ends.map(|k| k as usize);
+        let apart = particles.position(i) - particles.position(j);
+        let mut velocity = particles.rows[i].velocity() - particles.rows[j].velocity();
+        if cell.moves() {
+            velocity -= cell.speed.component_mul(&cell.between(&apart));
+        }
         Ends {
-            arm: nearest(particles.position(i) - particles.position(j), period),
-            velocity: particles.rows[i].velocity() - particles.rows[j].velocity(),
+            arm: cell.nearest(apart),
+            velocity,
             spin: [i, j].map(|k| particles.spins[k].vector()),
             turn: [turns[i] * self.springs.numbers.reference, turns[j]],
         }

@@ -138,6 +138,13 @@ impl ClumpMotion {
         self.spin = rotation::spin(&turn, &self.momentum, &self.inverse_inertia);
     }
 
+    /// Makes it faster at once [m/s], between the move and the forces of a step of `dt` [s]; the energy that it gets [J].
+    pub fn kick(&mut self, by: &Vec3, dt: f64) -> f64 {
+        let half_way = self.velocity - self.acceleration * (0.5 * dt);
+        self.velocity += by;
+        (half_way + by * 0.5).dot(by) * self.mass
+    }
+
     /// Place and velocity of a member, and its last way.
     pub fn point(&self, out: &Row4) -> (Vec3, Vec3, Vec3) {
         let r = quaternion(&self.turn) * out.vector();

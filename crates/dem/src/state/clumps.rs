@@ -16,8 +16,8 @@
 
 use crate::setup::{Body, EntryClump, Particle, Setup};
 use crate::simd::Row4;
+use crate::space::cell::Cell;
 use crate::space::rotation;
-use crate::space::sphere::periods;
 use crate::state::clump::quaternion;
 use crate::state::particles::select;
 use crate::state::{ClumpMotion, Particles};
@@ -192,24 +192,30 @@ impl RigidClumps {
             .sum()
     }
 
-    /// Brings clumps, and each of their members, back into the periodic box.
-    pub fn wrap(&mut self, particles: &mut Particles, periodic: &[Option<(f64, f64)>; 3]) {
-        let periods = periods(periodic);
-        let away =
-            |p: &Vec3, a: usize| periodic[a].map_or(0.0, |(lo, hi)| -((p[a] - lo) / (hi - lo)).floor());
-        let there = |p: Vec3| [0, 1, 2].map(|a| away(&p, a));
+    /// Brings clumps, and each of their members, back into the periodic cell; what energy of motion they get by that [J], in steps of `dt` [s].
+    pub fn wrap(&mut self, particles: &mut Particles, cell: &Cell, dt: f64) -> f64 {
+        let mut work = 0.0;
         for f in &mut self.flights {
-            let shift = Vec3::from(there(f.position)).component_mul(&periods);
+            let there = -cell.away(&f.position);
+            let shift = there.component_mul(&cell.lengths());
             f.position += shift;
             f.place_before += shift;
+            if cell.moves() {
+                work += f.kick(&there.component_mul(&cell.speed), dt);
+            }
             for &m in &self.members[f.range()] {
                 let m = m as usize;
-                let position = f.position + quaternion(&f.turn) * self.arms[m].vector();
-                self.images[m] = there(position).map(|n| n as i8);
-                let position = position + far(&self.images[m], &periods);
+                let (position, velocity, _) = f.point(&self.arms[m]);
+                self.images[m] = (-cell.away(&position)).map(|n| n as i8).into();
+                let position = position + cell.shift(&self.images[m]);
                 particles.rows[m][..3].copy_from_slice(position.as_slice());
+                if cell.moves() {
+                    let velocity = velocity + cell.drift(&self.images[m]);
+                    particles.rows[m][4..7].copy_from_slice(velocity.as_slice());
+                }
             }
         }
+        work
     }
 
     /// Memory of one clump, and of each of its members beyond a particle's [bytes].
@@ -226,10 +232,6 @@ impl RigidClumps {
             + size_of_val(arms)
             + size_of_val(&self.images[..])
     }
-}
-
-pub(crate) fn far(image: &[i8; 3], periods: &Vec3) -> Vec3 {
-    Vec3::from(image.map(f64::from)).component_mul(periods)
 }
 
 /// The start of each sphere that is in this state as a whole: the sphere itself, or the members of a clump, with the velocity of its centre;

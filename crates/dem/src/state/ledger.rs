@@ -93,6 +93,14 @@ impl LedgerSums {
         self.broken += lost - freed;
     }
 
+    /// Books a work [J] on particles, from outside and without contacts.
+    pub fn move_by_walls(&mut self, work: f64) {
+        if self.opened {
+            self.walls += work;
+            self.work += work;
+        }
+    }
+
     /// What has gone, less what walls brought.
     pub(crate) fn gone(&self) -> f64 {
         self.dissipated.iter().sum::<f64>() + self.bonds + self.drag + self.damped + self.mounts - self.walls

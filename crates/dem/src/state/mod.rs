@@ -4,6 +4,7 @@
 //! ([`contacts::SavedColumns`]). Uses model, setup and kernel.
 
 pub mod bonds;
+pub mod cell;
 pub mod clump;
 pub mod clumps;
 pub mod contacts;
@@ -19,6 +20,7 @@ pub mod zone_particle;
 pub mod zones;
 
 pub use bonds::{BondState, Bonds, Crack};
+pub use cell::CellState;
 pub use clump::ClumpMotion;
 pub use clumps::{FREE, RigidClumps};
 pub use contacts::{ContactColumns, SavedColumns, WrenchColumns};
@@ -28,7 +30,7 @@ pub use mount::MountState;
 pub use particles::Particles;
 pub use path::{EARLY, Path, PathEnd};
 pub use returned::{ReturnCounts, Returned};
-pub use servo::{Held, ServoState};
+pub use servo::{Governor, Held, ServoState};
 pub use sleepers::{SleepMap, SleeperSlices, Sleepers};
 pub use zone_particle::{Direction, Kinematics, ZoneParticle};
 pub use zones::{LOOK_AHEAD, Zones};
@@ -62,6 +64,8 @@ pub struct State {
     pub clusters: Vec<(u32, u32)>,
     /// Particles that sleep, where the setup asks for it.
     pub sleepers: Option<Sleepers>,
+    /// The periodic cell, where it is strained.
+    pub strained: Option<CellState>,
     /// Servos, by wall; empty where no wall follows a force.
     pub servos: Vec<ServoState>,
     /// Walls on springs, by wall; empty where there is none.
@@ -138,6 +142,7 @@ impl State {
             bonds,
             clusters: setup.clusters.clone(),
             sleepers,
+            strained: CellState::new(setup, model.dt),
             servos: servos(setup),
             mounts: mounts(setup),
             ledger: LedgerSums::default(),
@@ -160,6 +165,7 @@ impl State {
             bonds: self.bonds.clone(),
             clusters: self.clusters.clone(),
             sleepers: self.sleepers.clone(),
+            strained: self.strained.clone(),
             servos: self.servos.clone(),
             mounts: self.mounts.clone(),
             ledger: self.ledger,
@@ -172,9 +178,10 @@ impl State {
         self.steps as f64 * self.dt
     }
 
-    /// Whether the wrench of each contact is wanted in each step: by servos, walls on springs, planes of zones, and sleepers.
+    /// Whether the wrench of each contact is wanted in each step: by servos, walls on springs, a strained cell, planes of zones, and sleepers.
     pub fn keeps_wrenches(&self) -> bool {
-        !self.servos.is_empty() || !self.mounts.is_empty() || !self.zones.none() || self.sleepers.is_some()
+        let moved = !self.servos.is_empty() || !self.mounts.is_empty() || self.strained.is_some();
+        moved || !self.zones.none() || self.sleepers.is_some()
     }
 
     /// Whether anything makes torques besides those of tangential forces.

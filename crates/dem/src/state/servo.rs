@@ -13,11 +13,7 @@ pub struct ServoState {
     /// How far the wall has been shifted since t = 0, along the servo's direction [m].
     pub shift: f64,
     /// Its rate [m/s].
-    pub speed: f64,
-    /// The part of the rate that is the integral of the lack of force [m/s].
-    pub drift: f64,
-    /// Whether the force has nearly been reached since the wall touched nothing.
-    pub landed: bool,
+    pub governor: Governor,
     /// Shift when neighbours were listed [m].
     pub listed: f64,
     /// How well it held its target.
@@ -27,8 +23,19 @@ pub struct ServoState {
 impl ServoState {
     /// Whether its numbers are finite.
     pub fn is_finite(&self) -> bool {
-        self.shift.is_finite() && self.speed.is_finite() && self.drift.is_finite()
+        self.shift.is_finite() && self.governor.speed.is_finite() && self.governor.drift.is_finite()
     }
+}
+
+/// The rate of something that follows a force or a stress ([`crate::passes::servo`] says how).
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Governor {
+    /// The rate.
+    pub speed: f64,
+    /// The part of it that is the integral of the lack of force.
+    pub drift: f64,
+    /// Whether the force has nearly been reached since nothing was touched.
+    pub landed: bool,
 }
 
 /// How well a servo held its target since it first reached it, and stayed there to a hundredth for some steps: sums over steps.

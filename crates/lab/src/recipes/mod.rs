@@ -8,6 +8,7 @@ mod direct_shear;
 mod oedometer;
 mod repose;
 mod triaxial;
+mod triaxial_periodic;
 mod uniaxial;
 
 use crate::chain::Chain;
@@ -20,10 +21,11 @@ use geom::Vec3;
 use std::collections::BTreeMap;
 
 /// All tests.
-pub const ALL: [&dyn Recipe; 6] = [
+pub const ALL: [&dyn Recipe; 7] = [
     &direct_shear::DirectShear,
     &uniaxial::Uniaxial,
     &triaxial::Triaxial,
+    &triaxial_periodic::TriaxialPeriodic,
     &oedometer::Oedometer,
     &repose::Repose,
     &crush::Crush,
@@ -113,6 +115,11 @@ pub trait Recipe: Sync {
 
     /// Lengths of the specimen over each other, and the share of the box that it fills.
     fn proportions(&self) -> ([f64; 3], f64);
+
+    /// Whether the preparation presses the loose grains together from all sides, not from above.
+    fn is_pressed_all_round(&self) -> bool {
+        false
+    }
 
     /// Sliding friction during the preparation where the user gives none [–]; `None`: that of the sample.
     fn friction(&self) -> Option<f64> {

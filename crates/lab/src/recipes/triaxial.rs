@@ -15,7 +15,7 @@ use crate::walls::SIDE;
 pub struct Triaxial;
 
 /// Axial strain at the end [–].
-const END: f64 = 0.15;
+pub(super) const END: f64 = 0.15;
 /// Share of the test in which the lid gets up to speed [–].
 const RAMP: f64 = 0.05;
 
@@ -137,30 +137,7 @@ impl Recipe for Triaxial {
     }
 
     fn values(&self, _: &Context, curve: &Curve) -> Vec<Value> {
-        let strain = curve.column("axial_strain");
-        let [deviator, axial, lateral, volumetric, sideways] =
-            ["deviator_stress", "axial_stress", "lateral_stress", "volumetric_strain", "lateral_strain"]
-                .map(|name| smoothed(curve.column(name)));
-        let Some(top) = peak(&deviator) else { return Vec::new() };
-        let half = deviator.len() / 20;
-        let (from, to) = (top.saturating_sub(half), (top + half + 1).min(deviator.len()));
-        let dilation = slope(&strain[from..to], &volumetric[from..to]);
-        let middle = reaches(&deviator, 0.5 * deviator[top]);
-        let of_half = |values: &[f64]| middle.map_or(f64::NAN, |half| at(values, half));
-        let angle = |a: f64, l: f64| ((a - l) / (a + l)).asin().to_degrees();
-        let value = |name, unit, value| Value { name, unit, value };
-        vec![
-            value("peak_deviator_stress", "Pa", deviator[top]),
-            value("peak_lateral_stress", "Pa", lateral[top]),
-            value("peak_axial_strain", "", strain[top]),
-            value("peak_angle", "deg", angle(axial[top], lateral[top])),
-            value("residual_deviator_stress", "Pa", residual(&deviator)),
-            value("residual_lateral_stress", "Pa", residual(&lateral)),
-            value("residual_angle", "deg", angle(residual(&axial), residual(&lateral))),
-            value("dilation_angle", "deg", (-dilation / (2.0 - dilation)).asin().to_degrees()),
-            value("E50", "Pa", 0.5 * deviator[top] / of_half(strain)),
-            value("poisson", "", -of_half(&sideways) / of_half(strain)),
-        ]
+        compressed(curve)
     }
 
     fn axes(&self) -> (&'static str, &'static [&'static str]) {
@@ -170,4 +147,32 @@ impl Recipe for Triaxial {
     fn envelope(&self) -> Option<Envelope> {
         Some(Envelope::Circles)
     }
+}
+
+/// What a curve of triaxial compression comes to.
+pub(super) fn compressed(curve: &Curve) -> Vec<Value> {
+    let strain = curve.column("axial_strain");
+    let [deviator, axial, lateral, volumetric, sideways] =
+        ["deviator_stress", "axial_stress", "lateral_stress", "volumetric_strain", "lateral_strain"]
+            .map(|name| smoothed(curve.column(name)));
+    let Some(top) = peak(&deviator) else { return Vec::new() };
+    let half = deviator.len() / 20;
+    let (from, to) = (top.saturating_sub(half), (top + half + 1).min(deviator.len()));
+    let dilation = slope(&strain[from..to], &volumetric[from..to]);
+    let middle = reaches(&deviator, 0.5 * deviator[top]);
+    let of_half = |values: &[f64]| middle.map_or(f64::NAN, |half| at(values, half));
+    let angle = |a: f64, l: f64| ((a - l) / (a + l)).asin().to_degrees();
+    let value = |name, unit, value| Value { name, unit, value };
+    vec![
+        value("peak_deviator_stress", "Pa", deviator[top]),
+        value("peak_lateral_stress", "Pa", lateral[top]),
+        value("peak_axial_strain", "", strain[top]),
+        value("peak_angle", "deg", angle(axial[top], lateral[top])),
+        value("residual_deviator_stress", "Pa", residual(&deviator)),
+        value("residual_lateral_stress", "Pa", residual(&lateral)),
+        value("residual_angle", "deg", angle(residual(&axial), residual(&lateral))),
+        value("dilation_angle", "deg", (-dilation / (2.0 - dilation)).asin().to_degrees()),
+        value("E50", "Pa", 0.5 * deviator[top] / of_half(strain)),
+        value("poisson", "", -of_half(&sideways) / of_half(strain)),
+    ]
 }

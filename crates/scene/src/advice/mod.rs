@@ -57,6 +57,7 @@ pub fn explain_halt(halt: &Halt) -> String {
         Halt::WallPastAll { .. } => {
             "turn wall.servo.direction round if it points away from the grains, or start the wall where it meets them"
         }
+        Halt::CellTooSmall { .. } => "end the run before, or take a larger domain with more grains",
         Halt::NotKept { .. } => "set record_wrenches in the setup",
         Halt::CameBack { .. } => {
             "cut the plant farther upstream, take a longer zone (length), or set guards.zones = \"remove\" to take such grains out, or false where \

@@ -34,6 +34,10 @@ fn statement(error: &SetupError) -> String {
             format!("{}{}", key(quantity), text.strip_prefix(&engine).unwrap_or(&text))
         }
         SetupError::PeriodTooSmall { .. } => format!("domain: {error}"),
+        SetupError::StrainedWith(what) => format!("domain.strain: a domain that is strained has no {what}"),
+        SetupError::StrainedOpen { axis } => format!(
+            "domain.strain: {axis} is not periodic, and a stress needs a domain that is periodic along all axes"
+        ),
         SetupError::PeriodBelowSkin { axis, period, skin, .. } => format!(
             "neighbours.skin: {skin:.4e} m and the largest diameter are more than the period of {period:.4e} m along {axis}"
         ),
@@ -86,6 +90,8 @@ fn remedy(error: &SetupError) -> Option<String> {
         SetupError::WallSlowerThanSleep { most, .. } => {
             return Some(format!("use at most {most:.4e} m/s, or leave out [sleep]"));
         }
+        SetupError::StrainedWith(_) => "leave out one of them",
+        SetupError::StrainedOpen { .. } => "set domain.periodic = [\"x\", \"y\", \"z\"]",
         SetupError::StepTooLarge { .. } => "use dt = \"auto\", a smaller dt, or softer materials",
         SetupError::StepAbovePeriod { .. } => "use dt = \"auto\", a smaller dt, or a slower motion",
         SetupError::NoStep => "give dt in seconds",

@@ -83,6 +83,11 @@ fn errors_of_positions_and_periods() -> Vec<Advice<SetupError>> {
             &["particle 7: position", "1.0000e9 m", "shift the scene"],
         ),
         (SetupError::RotatingPlane(floor()), &[WALL, "rotate.about"]),
+        (SetupError::StrainedWith("walls"), &["domain.strain", "no walls", "leave out one of them"]),
+        (
+            SetupError::StrainedOpen { axis: 'y' },
+            &["domain.strain: y is not periodic", "set domain.periodic"],
+        ),
         (
             SetupError::PeriodTooSmall { axis: 'x', period: 0.01, least: 0.02 },
             &["domain", "along x", "2.0000e-2 m"],
@@ -184,6 +189,8 @@ fn setup_error_number(error: &SetupError) -> usize {
         SetupError::BondJoinsNothing { .. } => 26,
         SetupError::OtherState(_) => 27,
         SetupError::BeltLeavesPlane(_) => 28,
+        SetupError::StrainedWith(_) => 29,
+        SetupError::StrainedOpen { .. } => 30,
     }
 }
 
@@ -237,6 +244,10 @@ fn halts() -> Vec<Advice<Halt>> {
             Halt::Bonds { time, error: Box::new(SetupError::BondOfZeroLength { ids: [7, 8] }) },
             &["particles 7 and 8", "move one"],
         ),
+        (
+            Halt::CellTooSmall { time, axis: 'x', length: 0.04, least: 0.05 },
+            &["4.0000e-2 m long along x", "5.0000e-2 m", "larger domain"],
+        ),
     ]
 }
 
@@ -256,6 +267,7 @@ fn halt_number(halt: &Halt) -> usize {
         Halt::Energy { .. } => 11,
         Halt::BondsTooStiff { .. } => 12,
         Halt::Bonds { .. } => 13,
+        Halt::CellTooSmall { .. } => 14,
     }
 }
 

@@ -11,9 +11,7 @@ impl Check<'_> {
     /// `[time]`, `[output]`, `[guards]` and the other single tables.
     pub(super) fn calculation(&self, m: &SceneKeys) -> Result<()> {
         self.finite("gravity", &m.gravity, "m/s²")?;
-        for (key, corner) in [("domain.low", m.domain.low), ("domain.high", m.domain.high)] {
-            self.finite(key, &corner.unwrap_or_default(), "m")?;
-        }
+        self.domain(m)?;
         self.positive("time.until", m.time.until, "s")?;
         self.within("time.until", m.time.until.unwrap_or(0.0), 0.0, record::LATEST, "s")?;
         self.positive("time.dt", m.time.dt.0, "s")?;

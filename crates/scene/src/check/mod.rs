@@ -7,6 +7,7 @@ mod bonds;
 mod calculation;
 mod clumps;
 mod contacts;
+mod domain;
 mod materials;
 mod particles;
 mod servo;

@@ -6,11 +6,13 @@
 mod csv;
 mod head;
 pub mod history;
+mod load;
 mod particles;
 mod walls;
 mod zone;
 
 pub use head::{InletSource, Source};
+pub use load::{LOAD_COLUMNS, STRAIN_COLUMNS, read_domain, read_load};
 pub use particles::{ParticleFile, ParticleTable, RunClumps};
 pub use walls::{WallFile, WallSphere};
 pub use zone::ZoneRecord;
@@ -157,36 +159,6 @@ pub fn read_path(path: &Path, has_axis: bool) -> Result<(Vec<PathRow>, String)> 
         angle: value("angle", k),
     };
     Ok(((0..table.rows()).map(row).collect(), record::hash(&table)))
-}
-
-/// Reads a force or a stress over time (time [s], value), whether it is a stress, and the hash; columns `t`, and `force` or `stress`.
-///
-/// # Errors
-/// A file of another kind, columns that are missing or not used, values below 0.
-pub fn read_load(path: &Path) -> Result<(Vec<[f64; 2]>, bool, String)> {
-    let name = path.display().to_string();
-    let bytes = stream::whole::file(path).map_err(|e| SceneError::read(path, e))?;
-    let table = csv::csv(&name, &bytes)?;
-    let wanted = "wanted: t [s], and force [N] or stress [Pa]";
-    let wrong = |why: String| SceneError::file(&name, why, wanted);
-    if let Some(column) =
-        table.columns().iter().find(|c| !["t", "force", "stress"].contains(&c.name.as_str()))
-    {
-        return Err(wrong(format!("has the column '{}', which a servo does not use", column.name)));
-    }
-    let time = table.get("t").ok_or_else(|| wrong("has no column 't'".to_owned()))?;
-    let (value, of_stress) = match (table.get("force"), table.get("stress")) {
-        (Some(force), None) => (force, false),
-        (None, Some(stress)) => (stress, true),
-        (Some(_), Some(_)) => return Err(wrong("has force and stress".to_owned())),
-        (None, None) => return Err(wrong("has no column 'force' or 'stress'".to_owned())),
-    };
-    let rows: Vec<[f64; 2]> = (0..table.rows()).map(|k| [time.get(k), value.get(k)]).collect();
-    if let Some((k, [_, x])) = rows.iter().enumerate().find(|(_, row)| row[1] < 0.0) {
-        let why = format!("row {}: {x} pulls, and a wall only pushes", k + 1);
-        return Err(SceneError::file(&name, why, "give values of 0 or more"));
-    }
-    Ok((rows, of_stress, record::hash(&table)))
 }
 
 /// Reads a mesh (PLY, STL, OBJ; polygons are cut into triangles); `factor` makes its lengths metres.

@@ -145,31 +145,6 @@ fn sleep_wake() -> f64 {
     0.1
 }
 
-/// `[domain]`
-#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Domain {
-    /// Periodic axes.
-    #[serde(default)]
-    pub periodic: Vec<Axis>,
-    /// Lowest corner [m].
-    #[serde(default, deserialize_with = "unit::metres")]
-    pub low: Option<[f64; 3]>,
-    /// Highest corner [m].
-    #[serde(default, deserialize_with = "unit::metres")]
-    pub high: Option<[f64; 3]>,
-}
-
-/// An axis of space.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-#[allow(missing_docs)]
-pub enum Axis {
-    X,
-    Y,
-    Z,
-}
-
 /// `[drag]`
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -11,6 +11,7 @@ mod clump_placement;
 mod clump_shapes;
 mod contacts;
 mod crystal;
+mod domain;
 mod feed;
 mod fill;
 mod grading;

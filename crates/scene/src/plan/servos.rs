@@ -2,7 +2,7 @@
 
 use super::builder::PlanBuilder;
 use crate::error::{Result, nearest};
-use crate::input::read_load;
+use crate::input::{LOAD_COLUMNS, read_load};
 use crate::keys::{Servo, Side};
 use dem::setup::{self, Length, Target};
 use geom::Vec3;
@@ -22,7 +22,8 @@ impl PlanBuilder<'_> {
         let target = match &entry.path {
             Some(path) => {
                 let file = self.path(&path.source);
-                let (rows, of_stress, hash) = read_load(&file)?;
+                let (rows, column, hash) = read_load(&file, &LOAD_COLUMNS)?;
+                let of_stress = column == 1;
                 self.inputs.push(("load".to_owned(), hash));
                 let (at, value) = (format!("{key}.path.source"), format!("\"{}\"", path.source));
                 if of_stress != (entry.area.is_some() || entry.area_between.is_some()) {
@@ -39,10 +40,7 @@ impl PlanBuilder<'_> {
                 }
                 let factor = entry.area.unwrap_or(1.0);
                 let rows = rows.into_iter().map(|[t, x]| [t, x * factor]).collect();
-                Target::new(rows).ok_or_else(|| {
-                    let why = "has no rows, times that do not increase, or a value that is not finite";
-                    self.check.wrong(&at, value, why, "give t in ascending order, one row for each time")
-                })?
+                self.target(&at, &value, rows)?
             }
             None => {
                 let stress = entry.stress.map(|stress| stress * entry.area.unwrap_or(1.0));

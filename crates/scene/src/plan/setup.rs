@@ -23,13 +23,15 @@ impl PlanBuilder<'_> {
         self.entry_materials.sort_unstable();
         self.entry_materials.dedup();
         let kept = self.kept();
+        let (periodic, strain) = (self.periodic()?, self.strain()?);
         self.clusters.sort_unstable();
         let setup = Setup {
             kept,
             gravity: Vec3::from(keys.gravity),
             drag: self.drag(),
             local_damping: keys.local_damping.map(|d| d.factor),
-            periodic: self.periodic()?,
+            periodic,
+            strain,
             step: keys.time.dt.0.map_or(Step::Auto(left * safety), |dt| Step::Fixed(left * dt)),
             precision: match keys.precision {
                 Arithmetic::F64 => setup::Precision::Double,
@@ -93,31 +95,5 @@ impl PlanBuilder<'_> {
             velocity: Vec3::from(entry.velocity),
             buoyancy: entry.buoyancy,
         })
-    }
-
-    /// Lowest and highest coordinate [m] of each axis that is periodic.
-    pub(super) fn periodic(&self) -> Result<[Option<(f64, f64)>; 3]> {
-        let domain = &self.keys().domain;
-        let mut periodic = [None; 3];
-        for axis in &domain.periodic {
-            let a = *axis as usize;
-            let (Some(low), Some(high)) = (domain.low, domain.high) else {
-                let why = "needs the corners of the domain";
-                let cure = "add low and high, in metres";
-                return Err(self.check.wrong("domain.periodic", format!("{axis:?}"), why, cure));
-            };
-            if low[a].is_nan() || high[a].is_nan() || low[a] >= high[a] {
-                let value = format!("{} m", high[a]);
-                let cure = "swap them, or widen the domain";
-                return Err(self.check.wrong("domain.high", value, "is not above low", cure));
-            }
-            periodic[a] = Some((low[a], high[a]));
-        }
-        if domain.periodic.is_empty() && (domain.low.is_some() || domain.high.is_some()) {
-            let why = "no axis is periodic, and a domain does not hold particles back";
-            let cure = "add periodic = [\"x\"], or a [[wall]] with box";
-            return Err(self.check.wrong("domain", "(low, high)", why, cure));
-        }
-        Ok(periodic)
     }
 }

@@ -440,6 +440,14 @@ fn three() -> String {
     ["a", "b", "c"].map(one).concat()
 }
 
+/// A domain, strained along x as `x` says.
+fn strained(domain: &str, x: &str) -> String {
+    format!(
+        "[time]\nuntil = 0.002\n[domain]\nperiodic = [\"x\", \"y\", \"z\"]\n{domain}[domain.strain]\nx = {{ {x} }}\n\
+         {MATERIALS}{CONTACT}[[particles]]\nsource = \"grains.csv\"\nmaterial = \"sinter\"\n"
+    )
+}
+
 /// A stage upstream, by the motion in its zone, the length of the zone and the test.
 fn upstream(motion: &str, length: &str, test: &str) -> String {
     let samples = if motion == "recorded" { "samples = 1e-4\n" } else { "" };
@@ -472,6 +480,10 @@ pub fn scenes() -> Vec<(String, String)> {
         ("sizes".to_owned(), of(SIZES)),
         ("laws".to_owned(), [LAWS, &three()].concat()),
     ];
+    let corners = "low = [0.1, 0.1, 0]\nhigh = [0.6, 0.6, 0.6]\n";
+    all.push(("strained".to_owned(), strained(corners, "stress = 1000, rate_limit = \"1 1/s\"")));
+    all.push(("strained-path".to_owned(), strained(corners, "path = { source = \"strain.csv\" }")));
+    all.push(("strained-on".to_owned(), strained("source = \"strained.mcap\"\n", "rate = 0.5")));
     for (motion, length, test) in CUTS {
         all.push((format!("up-{motion}"), upstream(motion, length, test)));
         all.push((format!("down-{motion}"), downstream(motion, length, test)));
@@ -485,6 +497,7 @@ pub const FLAT: &str = "0.3 0.3 0.1\n0.31 0.3 0.1\n0.3 0.31 0.1\n0.31 0.31 0.1\n
 /// Command lines that make the other files that the scenes read.
 pub fn before() -> Vec<String> {
     let mut all = vec!["wallgen flat.xyz --radius 0.005 --material steel -q -o walls.mcap".to_owned()];
+    all.push("dem-run strained.toml -q -o strained.mcap".to_owned());
     for (motion, ..) in CUTS {
         all.push(format!("dem-run up-{motion}.toml -q -o up.mcap"));
         all.push(format!("stage-replay up.mcap -q -o {motion}.mcap"));
@@ -493,7 +506,8 @@ pub fn before() -> Vec<String> {
 }
 
 /// Files that the scenes read.
-pub const FILES: [(&str, &str); 11] = [
+pub const FILES: [(&str, &str); 12] = [
+    ("strain.csv", "t,strain\n0,0\n0.001,0.002\n"),
     ("sieve.csv", "diameter,passing\n0.006,0\n0.008,30\n0.01,100\n"),
     ("grains-mm.csv", "x,y,z,radius\n400,200,300,5\n"),
     ("load.csv", "t,stress\n0,100\n0.001,150\n"),

@@ -73,6 +73,14 @@ fn bonded() -> String {
     [&HEAD.replace("until = 0.05", "until = 0.004"), bond].concat()
 }
 
+/// The lattice in a domain that is strained.
+fn strained() -> String {
+    let head = HEAD.replace("until = 0.05", "until = 0.004").replace("gravity = [0, 0, -9.81]\n", "");
+    let domain = "[domain]\nperiodic = [\"x\", \"y\", \"z\"]\nlow = [0, 0, 0]\nhigh = [0.1, 0.1, 0.1]\n\
+                  strain = { z = { rate = 0.5 } }\n";
+    [&head, domain, GRAINS].concat()
+}
+
 fn heap() -> String {
     let at = |i: i32| 0.01 * f64::from(i) + 0.005;
     let column = |i: i32, j: i32| (0..10 - i).map(move |k| format!("{},{},{},0.005\n", at(i), at(j), at(k)));
@@ -129,6 +137,7 @@ pub fn inputs() -> TempDir {
             [&bonded(), "[[particles]]\nsource = \"heap.csv\"\nmaterial = \"sinter\"\n", &floor(0.0)]
                 .concat(),
         ),
+        ("cell.toml", strained()),
         ("soil.toml", SAND.to_owned()),
         ("stone.toml", ROCK.to_owned()),
         ("stone.csv", cube()),

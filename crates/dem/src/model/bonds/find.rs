@@ -6,8 +6,8 @@ use crate::model::quantity::material_names;
 use crate::model::{BondedPair, SetupError};
 use crate::setup::bond::cluster_of;
 use crate::setup::{Bond, Particle, Setup};
-use crate::space::search::{Search, half_of_shifts, pairs};
-use crate::space::sphere::{nearest, periods};
+use crate::space::cell::Cell;
+use crate::space::search::{Search, pairs};
 use geom::Vec3;
 use nalgebra::UnitQuaternion;
 
@@ -50,7 +50,7 @@ pub fn grains(setup: &Setup) -> Vec<Grain> {
 /// Two centres at one position; a law for which there is no pair.
 pub fn bonded_pairs(setup: &Setup) -> Result<Vec<BondedPair>, SetupError> {
     let laws: Vec<&Bond> = setup.bonds.iter().filter(|law| law.at <= 0.0).collect();
-    let found = find(setup, &laws, &grains(setup), |_| false)?;
+    let found = find(&Cell::at_rest(setup.periodic), &laws, &grains(setup), |_| false)?;
     // Where particles come in, those of a rule may be among them.
     match found.used.iter().position(|used| !used).filter(|_| setup.inlets.is_empty()) {
         Some(n) => Err(SetupError::BondJoinsNothing {
@@ -75,23 +75,23 @@ pub struct Found {
 /// # Errors
 /// Two centres at one position.
 pub fn find(
-    setup: &Setup,
+    cell: &Cell,
     laws: &[&Bond],
     grains: &[Grain],
     is_bonded: impl Fn([u32; 2]) -> bool,
 ) -> Result<Found, SetupError> {
     let gap = laws.iter().map(|b| b.gap).fold(0.0, f64::max);
-    let (mut used, mut pairs, period) = (vec![false; laws.len()], Vec::new(), periods(&setup.periodic));
+    let (mut used, mut pairs) = (vec![false; laws.len()], Vec::new());
     if laws.is_empty() {
         return Ok(Found { pairs, used });
     }
-    for [i, j] in near(setup, grains, gap) {
+    for [i, j] in near(cell, grains, gap) {
         let (a, b) = (&grains[i as usize], &grains[j as usize]);
         let is_of = |law: &&Bond| {
             (law.between == (a.material, b.material) || law.between == (b.material, a.material))
                 && law.clusters.allow(a.cluster, b.cluster)
         };
-        let arm = nearest(a.position - b.position, &period);
+        let arm = cell.nearest(a.position - b.position);
         let open = arm.norm() - a.end.radius - b.end.radius;
         // Positions have so many digits.
         let digits = 4.0 * f64::EPSILON * (a.position.amax() + b.position.amax() + arm.norm());
@@ -110,14 +110,16 @@ pub fn find(
 }
 
 /// Pairs of positions in the list that may be near enough; each once, in their order.
-fn near(setup: &Setup, grains: &[Grain], gap: f64) -> Vec<[u32; 2]> {
+fn near(cell: &Cell, grains: &[Grain], gap: f64) -> Vec<[u32; 2]> {
     // What lies within rounding of a gap is left to the test of each pair.
     let reach: Vec<f64> = grains.iter().map(|g| (g.end.radius + 0.5 * gap) * (1.0 + 1e-6)).collect();
     let points: Vec<Vec3> = grains.iter().map(|g| g.position).collect();
     let search = Search::new(&points, &reach);
     let mut found = pairs(&search, &search.wide_pairs(), &(0..points.len()));
     let mut images = Vec::new();
-    half_of_shifts(&setup.periodic).iter().for_each(|shift| search.shifted_pairs(shift, &mut images));
+    for image in cell.half_of_images() {
+        search.image_pairs(image, &cell.shift(&image), 0.0, &mut images);
+    }
     found.extend(images.into_iter().map(|image| (image.i, image.j)));
     let row = |k: u32| search.order()[k as usize];
     let both = |(i, j)| [row(i).min(row(j)), row(i).max(row(j))];

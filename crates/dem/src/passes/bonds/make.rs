@@ -27,7 +27,7 @@ pub fn make_due(model: &Model, state: &mut State) -> Result<(), Halt> {
     state.bonds.index(&state.particles.id);
     let laws: Vec<&Bond> = now.iter().map(|&n| &model.setup.bonds[n as usize]).collect();
     let grains = grains(model, state);
-    let found = find(&model.setup, &laws, &grains, |rows| state.bonds.joins(rows, |_| true));
+    let found = find(&state.cell(model), &laws, &grains, |rows| state.bonds.joins(rows, |_| true));
     let found = found.map_err(|error| Halt::Bonds { time, error: Box::new(error) })?;
     let unused = laws.iter().zip(&found.used).filter(|(_, used)| !**used);
     state.bonds.idle.extend(unused.map(|(law, _)| material_names(&model.setup, law.between)));
@@ -41,12 +41,13 @@ pub fn make_due(model: &Model, state: &mut State) -> Result<(), Halt> {
 /// Particles that may be bonded now, by id: members of rigid clumps are not.
 fn grains(model: &Model, state: &State) -> Vec<Grain> {
     let p = &state.particles;
+    let cell = state.cell(model);
     let stays = |k: &usize| !state.zones.is_gone(*k) && !state.clumps.is_member(*k);
     let grain = |k: usize| {
         let (id, radius) = (p.id[k], p.rows[k][3]);
         let end = End { id, radius, mass: 1.0 / p.rows[k][7], turn: state.bonds.turns[k] };
         let cluster = cluster_of(&state.clusters, id);
-        Grain { row: k as u32, end, material: p.material[k], cluster, position: model.wrapped(p.position(k)) }
+        Grain { row: k as u32, end, material: p.material[k], cluster, position: cell.wrapped(p.position(k)) }
     };
     let mut all: Vec<Grain> = (0..p.len()).filter(stays).map(grain).collect();
     all.sort_unstable_by_key(|g| g.end.id);

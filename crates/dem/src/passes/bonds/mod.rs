@@ -10,7 +10,6 @@ pub mod zones;
 use crate::kernel::LEDGER;
 use crate::model::{BondedPair, GONE, Model, Pull};
 use crate::neighbours::NeighbourLists;
-use crate::space::sphere::nearest;
 use crate::state::bonds::CHUNK;
 use crate::state::{BondState, Bonds, Crack, ListStatus, State};
 use crate::threads::{FEW, share};
@@ -20,13 +19,13 @@ pub fn act(model: &Model, state: &mut State) {
     if state.bonds.none() {
         return;
     }
-    let (period, time) = (model.period(), state.time());
+    let (cell, time) = (state.cell(model), state.time());
     let State { bonds, particles, zones, clusters, listing, steps, .. } = state;
     let Bonds { pairs, pulls, turns, .. } = bonds;
     let chunks = pulls.chunks_mut(CHUNK).zip(pairs.chunks(CHUNK));
     share(pairs.len() >= FEW / 4, chunks.collect(), |(pulls, pairs): (&mut [Pull], &[BondedPair])| {
         for (pull, pair) in pulls.iter_mut().zip(pairs).filter(|(_, pair)| pair.is_whole()) {
-            *pull = pair.springs.pull(&pair.ends(particles, turns, &period));
+            *pull = pair.springs.pull(&pair.ends(particles, turns, &cell));
         }
     });
     // Lists may be asked for more than once at one instant.
@@ -40,12 +39,12 @@ pub fn act(model: &Model, state: &mut State) {
         (pair.broken, pair.mode) = (time, mode);
         let ids = pair.ends.map(|k| particles.id[k as usize]);
         let [a, b] = pair.ends.map(|k| particles.position(k as usize));
-        let arm = nearest(a - b, &period);
+        let arm = cell.nearest(a - b);
         bonds.cracks.push(Crack {
             time,
             ids,
             clusters: ids.map(|id| crate::setup::bond::cluster_of(clusters, id)),
-            place: model.wrapped(b + arm * 0.5),
+            place: cell.wrapped(b + arm * 0.5),
             normal: arm.normalize(),
             radius: pair.springs.numbers.size[1],
             mode,
@@ -81,10 +80,10 @@ pub fn freed_energy(state: &State, lists: &NeighbourLists) -> f64 {
 
 /// Bonds of this instant, broken ones as well, by ids.
 pub fn bonds(model: &Model, state: &State) -> Vec<BondState> {
-    let (p, period) = (&state.particles, model.period());
+    let (p, cell) = (&state.particles, state.cell(model));
     let middle = |[i, j]: [u32; 2]| {
         let from = p.position(j as usize);
-        model.wrapped(from + nearest(p.position(i as usize) - from, &period) * 0.5)
+        cell.wrapped(from + cell.nearest(p.position(i as usize) - from) * 0.5)
     };
     let of = |(pair, pull): (&BondedPair, &Pull)| BondState {
         ids: pair.ends.map(|k| p.id[k as usize]),

@@ -73,7 +73,7 @@ pub fn insert_due(model: &Model, state: &mut State) {
         .zip(&state.particles.id)
         .filter(|&(k, id)| wanted.contains(id) && !state.zones.is_gone(k as usize));
     let rows: BTreeMap<u32, u32> = here.map(|(k, &id)| (id, k)).collect();
-    let period = model.period();
+    let cell = state.cell(model);
     let mut known: BTreeSet<[u32; 2]> = state.bonds.pairs.iter().map(|pair| pair.ends).collect();
     let mut energy = 0.0;
     let is_pending = |id: u32| state.zones.pending.iter().any(|e| e.particle.id == id);
@@ -83,8 +83,7 @@ pub fn insert_due(model: &Model, state: &mut State) {
         if let [Some(a), Some(b)] = ends {
             let pair = BondedPair::entering(&bond, [a, b]);
             if known.insert(pair.ends) {
-                energy +=
-                    pair.springs.pull(&pair.ends(&state.particles, &state.bonds.turns, &period)).elastic;
+                energy += pair.springs.pull(&pair.ends(&state.particles, &state.bonds.turns, &cell)).elastic;
                 state.bonds.pairs.push(pair);
                 state.bonds.pulls.push(Pull::default());
             }

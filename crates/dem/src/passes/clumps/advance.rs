@@ -4,17 +4,16 @@ use crate::model::Model;
 use crate::passes::integrate::MoveFlags;
 use crate::setup::Setup;
 use crate::simd::{Row, Row4};
-use crate::state::clumps::far;
+use crate::space::cell::Cell;
 use crate::state::{ClumpMotion, Particles, RigidClumps, State};
 use crate::threads::share;
-use geom::Vec3;
 
 /// Bodies, or rows, of one task; fewer are not worth another thread.
 const CHUNK: usize = 512;
 
 impl RigidClumps {
     /// Moves the clumps whose members have been moved as if they were free, and sets the rows of the members.
-    pub fn advance(&mut self, particles: &mut Particles, model: &Model) -> MoveFlags {
+    pub fn advance(&mut self, particles: &mut Particles, cell: Cell, model: &Model) -> MoveFlags {
         let (setup, dt) = (&model.setup, model.dt);
         let (members, arms) = (&self.members, &self.arms);
         let seen = &*particles;
@@ -25,7 +24,7 @@ impl RigidClumps {
             }
         };
         share(self.flights.len() > CHUNK, self.flights.chunks_mut(CHUNK).collect(), advance);
-        self.position(particles, model)
+        self.position(particles, cell, model)
     }
 
     /// Bodies without a past get the acceleration and the torque of this instant as those of the step before.
@@ -39,10 +38,9 @@ impl RigidClumps {
     }
 
     /// Writes the members' rows.
-    fn position(&self, particles: &mut Particles, model: &Model) -> MoveFlags {
-        let count = self.of.len();
-        let (periods, motion_limit) = (model.period(), model.setup.guards.motion);
-        let members = Members { clumps: self, periods, motion_limit, dt: model.dt, ahead: model.ahead() };
+    fn position(&self, particles: &mut Particles, cell: Cell, model: &Model) -> MoveFlags {
+        let (count, motion_limit) = (self.of.len(), model.setup.guards.motion);
+        let members = Members { clumps: self, cell, motion_limit, dt: model.dt, ahead: model.ahead() };
         let Particles { rows, spins, acceleration, home, .. } = particles;
         let rotating = if spins.is_empty() { 0 } else { count };
         // Without rotation there are no spins, and an empty part for each chunk.
@@ -59,7 +57,7 @@ impl RigidClumps {
 /// What the rows of members are made of.
 struct Members<'a> {
     clumps: &'a RigidClumps,
-    periods: Vec3,
+    cell: Cell,
     motion_limit: f64,
     dt: f64,
     ahead: f64,
@@ -80,8 +78,13 @@ impl Members<'_> {
         for (k, row) in rows.iter_mut().enumerate() {
             let at = first + k;
             let Some(f) = flights.get(of[at] as usize).filter(|f| !f.is_prescribed) else { continue };
-            let (position, velocity, way) = f.point(&arms[at]);
-            let position = position + far(&images[at], &self.periods);
+            let (position, mut velocity, mut way) = f.point(&arms[at]);
+            if self.cell.moves() {
+                let drift = self.cell.drift(&images[at]);
+                velocity += drift;
+                way += drift * self.dt;
+            }
+            let position = position + self.cell.shift(&images[at]);
             row[..3].copy_from_slice(position.as_slice());
             row[4..7].copy_from_slice(velocity.as_slice());
             if let Some(spin) = spins.get_mut(k) {
@@ -107,5 +110,6 @@ pub fn advance(model: &Model, state: &mut State, moved: MoveFlags) -> MoveFlags 
     if model.setup.ledger {
         state.ledger.drag += state.clumps.drag_power(&model.setup) * model.dt;
     }
-    moved.and(state.clumps.advance(&mut state.particles, model))
+    let cell = state.cell(model);
+    moved.and(state.clumps.advance(&mut state.particles, cell, model))
 }

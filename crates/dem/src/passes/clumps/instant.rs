@@ -54,6 +54,18 @@ struct Instant {
 impl RigidClumps {
     /// The clumps in the calculation with velocities of this instant, by id.
     pub fn states(&self, model: &Model, state: &State) -> Vec<ClumpState> {
+        let (mut states, cell) = (self.states_as_listed(model, state), state.cell(model));
+        for s in &mut states {
+            if cell.moves() {
+                s.velocity -= cell.away(&s.position).component_mul(&cell.speed);
+            }
+            s.position = cell.wrapped(s.position);
+        }
+        states
+    }
+
+    /// The same, where they are between two listings, which may be beyond a periodic face.
+    pub fn states_as_listed(&self, model: &Model, state: &State) -> Vec<ClumpState> {
         let (sums, hidden) = (state.contacts.sums(), state.zones.hidden(state.time()));
         let of = |f: &ClumpMotion| {
             let Instant { velocity, spin, momentum, .. } = self.instant(f, model, state, &sums);
@@ -64,7 +76,7 @@ impl RigidClumps {
                 members: f.count,
                 scale: f.scale,
                 mass: f.mass,
-                position: model.wrapped(f.position),
+                position: f.position,
                 orientation: quaternion(&f.turn) * shape.frame.inverse(),
                 velocity,
                 spin,
@@ -138,12 +150,14 @@ impl RigidClumps {
         if self.flights.is_empty() {
             return Vec::new();
         }
-        let mut out = vec![None; state.particles.len()];
+        let (cell, mut out) = (state.cell(model), vec![None; state.particles.len()]);
         for f in &self.flights {
             let Instant { velocity, spin, .. } = self.instant(f, model, state, sums);
             for &m in &self.members[f.range()] {
                 let r = quaternion(&f.turn) * self.arms[m as usize].vector();
-                out[m as usize] = Some((velocity + spin.cross(&r), spin));
+                let velocity = velocity + spin.cross(&r);
+                let drift = cell.drift(&self.images[m as usize]);
+                out[m as usize] = Some((if cell.moves() { velocity + drift } else { velocity }, spin));
             }
         }
         out

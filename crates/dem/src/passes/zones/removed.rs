@@ -8,7 +8,6 @@ use crate::passes::zones::travel::exclude;
 use crate::passes::zones::whole::{rows_with, test_point};
 use crate::setup::CameBack;
 use crate::state::{Direction, State};
-use geom::Vec3;
 
 /// Takes out the particles that are in the way of those that have just been added, from row `first` on: before any force between the two,
 /// which would drive a newcomer that brought no energy for that. The lists are those of before.
@@ -33,13 +32,9 @@ pub fn make_room(model: &Model, state: &mut State, lists: &NeighbourLists, first
 
 /// Whether two particles overlap by more than the guard allows.
 fn too_deep(model: &Model, state: &State, i: usize, j: usize) -> bool {
-    let (a, b, period) = (&state.particles.rows[i], &state.particles.rows[j], model.period());
-    let apart = a.position() - b.position();
-    let nearest = Vec3::from_fn(|axis, _| match period[axis] > 0.0 {
-        true => apart[axis] - period[axis] * (apart[axis] / period[axis]).round(),
-        false => apart[axis],
-    });
-    a[3] + b[3] - nearest.norm() > model.setup.guards.overlap * a[3].min(b[3])
+    let (a, b) = (&state.particles.rows[i], &state.particles.rows[j]);
+    let apart = model.cell().nearest(a.position() - b.position());
+    a[3] + b[3] - apart.norm() > model.setup.guards.overlap * a[3].min(b[3])
 }
 
 /// Takes out the particle behind a calculation plane that one on its way in has run into; whether that is what stopped the step.

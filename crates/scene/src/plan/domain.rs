@@ -1,0 +1,106 @@
+//! The domain of a plan: which axes are periodic, how long they are and what they follow.
+
+use super::builder::PlanBuilder;
+use crate::error::Result;
+use crate::input::{STRAIN_COLUMNS, read_domain, read_load};
+use crate::keys::Strain;
+use dem::setup::{self, Target};
+
+impl PlanBuilder<'_> {
+    /// Lowest and highest coordinate [m] of each axis that is periodic.
+    pub(super) fn periodic(&mut self) -> Result<[Option<(f64, f64)>; 3]> {
+        let domain = self.keys().domain.clone();
+        let mut periodic = [None; 3];
+        let read = domain.source.as_ref().map(|source| read_domain(&self.path(source))).transpose()?;
+        if let Some(range) = &read {
+            self.inputs.push(("domain".to_owned(), format!("{range:?}")));
+        }
+        for axis in &domain.periodic {
+            let a = *axis as usize;
+            if let (Some(range), Some(source)) = (&read, &domain.source) {
+                periodic[a] = range[a];
+                if range[a].is_none() {
+                    let why = format!("has a domain that is not periodic along {axis:?}");
+                    let cure = "take the axis out of domain.periodic, or give low and high instead";
+                    return Err(self.check.wrong("domain.source", format!("\"{source}\""), &why, cure));
+                }
+                continue;
+            }
+            let (Some(low), Some(high)) = (domain.low, domain.high) else {
+                let why = "needs the corners of the domain";
+                let cure = "add low and high, in metres";
+                return Err(self.check.wrong("domain.periodic", format!("{axis:?}"), why, cure));
+            };
+            if low[a].is_nan() || high[a].is_nan() || low[a] >= high[a] {
+                let value = format!("{} m", high[a]);
+                let cure = "swap them, or widen the domain";
+                return Err(self.check.wrong("domain.high", value, "is not above low", cure));
+            }
+            periodic[a] = Some((low[a], high[a]));
+        }
+        let given = if domain.source.is_some() { "(source)" } else { "(low, high)" };
+        let corners = domain.low.is_some() || domain.high.is_some() || domain.source.is_some();
+        if domain.periodic.is_empty() && corners {
+            let why = "no axis is periodic, and a domain does not hold particles back";
+            let cure = "add periodic = [\"x\"], or a [[wall]] with box";
+            return Err(self.check.wrong("domain", given, why, cure));
+        }
+        Ok(periodic)
+    }
+
+    /// What each axis follows.
+    pub(super) fn strain(&mut self) -> Result<[Option<setup::Strain>; 3]> {
+        let strains = self.keys().domain.strain.clone();
+        let mut all = [const { None }; 3];
+        for (a, (axis, strain)) in strains.axes().into_iter().enumerate() {
+            if let Some(strain) = strain {
+                all[a] = Some(self.strain_of(&format!("domain.strain.{axis}"), strain)?);
+            }
+        }
+        Ok(all)
+    }
+
+    fn strain_of(&mut self, entry: &str, strain: &Strain) -> Result<setup::Strain> {
+        if let Some(rate) = strain.rate {
+            return Ok(setup::Strain::Rate(rate));
+        }
+        let (target, of_stress) = match &strain.path {
+            None => (Target::constant(strain.stress.unwrap_or(0.0)), true),
+            Some(path) => {
+                let (at, value) = (format!("{entry}.path.source"), format!("\"{}\"", path.source));
+                let (rows, column, hash) = read_load(&self.path(&path.source), &STRAIN_COLUMNS)?;
+                self.inputs.push(("strain".to_owned(), hash));
+                (self.target(&at, &value, rows)?, column == 1)
+            }
+        };
+        match (of_stress, strain.rate_limit) {
+            (true, Some(rate_limit)) => Ok(setup::Strain::Stress { target, rate_limit }),
+            (true, None) => self.check.rate_limit_is_missing(entry),
+            (false, None) => self.path_from_zero(entry, strain, target),
+            (false, Some(_)) => {
+                let why = "limits the rate with which a stress is followed, and the file gives strains";
+                Err(self.check.wrong(&format!("{entry}.rate_limit"), "(with strains)", why, "take it out"))
+            }
+        }
+    }
+
+    /// Strain counts from the corners that the scene gives.
+    fn path_from_zero(&self, entry: &str, strain: &Strain, target: Target) -> Result<setup::Strain> {
+        let first = target.at(0.0);
+        if first == 0.0 {
+            return Ok(setup::Strain::Path(target));
+        }
+        let source = strain.path.as_ref().map_or("", |path| path.source.as_str());
+        let why = format!("has a strain of {} at t = 0, and strain counts from there", geom::Shown(first));
+        let cure = "begin with a strain of 0";
+        Err(self.check.wrong(&format!("{entry}.path.source"), format!("\"{source}\""), &why, cure))
+    }
+
+    /// A table over time.
+    pub(super) fn target(&self, at: &str, value: &str, rows: Vec<[f64; 2]>) -> Result<Target> {
+        Target::new(rows).ok_or_else(|| {
+            let why = "has no rows, times that do not increase, or a value that is not finite";
+            self.check.wrong(at, value, why, "give t in ascending order, one row for each time")
+        })
+    }
+}
