@@ -95,6 +95,46 @@ floor() {
     wallgen -q floor.ply --roughness 0.001 --radius uniform --material floor --young 5e6 --poisson 0.3 -o floor.mcap
 }
 
+# A cube of grains, each bonded to its six neighbours: what a step of a bond costs, and what memory alone would allow.
+bonds() {
+    cat > cube.toml << 'END'
+[time]
+dt = 1e-5
+[[material]]
+name = "rock"
+density = 2650
+young = 1e5
+poisson = 0.25
+[[contact]]
+between = ["rock", "rock"]
+law = "hooke"
+stiffness = 100
+restitution = 0.5
+[[fill]]
+material = "rock"
+shape = "box:0,0,0,0.14,0.14,0.14"
+diameter = 0.002
+lattice = "cubic"
+[[bond]]
+between = ["rock", "rock"]
+kind = "parallel"
+replaces_contact = true
+gap = 1e-6
+modulus = 1e5
+stiffness_ratio = 2.5
+tensile_strength = 1e9
+shear_strength = 1e9
+damping = 0.05
+END
+    local threads count bytes rates=() grains=343000
+    dem-run cube.toml --until 1 --check -q --report check.json
+    count=$(field check.json bonds) bytes=$(field check.json bytes_per_bond)
+    for threads in 1 2; do rates+=("$(work=0 speed cube.toml "$threads" "$grains")"); done
+    awk -v n="$count" -v g="$grains" -v a="${rates[0]}" -v b="${rates[1]}" -v bytes="$bytes" '$1 == "bandwidth" { limit = $2 } END {
+        printf "%d parallel bonds instead of contacts, in a cube of %d grains: %.1f and %.1f million bond-steps per second on one and two threads, bending, shear, torsion, dashpots and stresses of both ends included. ", n, g, a * n / g, b * n / g
+        printf "A bond-step reads %.0f bytes and writes 112 of them, so memory alone would allow %.0f on one thread: arithmetic sets the speed.\n", bytes, 1e3 * limit / (bytes + 112) }' limits-1 | tee bonds
+}
+
 by_effect() {
     local grains x y kind touching listed rolling=(--set contact.0.rolling_resistance=0.1) twisting=(--set contact.0.twisting_resistance=0.1)
     read -r grains x y kind touching listed < <("$examples/tiles" "$sample" 50000 pile.ply)
@@ -179,8 +219,9 @@ head='| scene | grains | touching | listed | 1 thread | 2 threads | memory | pea
 echo "$head"
 [ "$effects" = no ] || by_effect
 by_size
+[ "$effects" = no ] || bonds
 echo
-caption | tee words
+{ caption; [ "$effects" = no ] || { echo; cat bonds; }; } | tee words
 echo
 seconds=$(chain)
 echo "Scan of 277 647 points to wall spheres, one pipe: $seconds s (median of 3)." | tee chain

@@ -13,6 +13,7 @@ run() { # NAME TEST SAMPLE [OPTION…]
 }
 run direct-shear direct-shear "$here/sand.toml" --grains "$grains"
 run triaxial triaxial "$here/sand.toml" --grains "$grains" --stress 25000,100000
+run triaxial-periodic triaxial-periodic "$here/sand.toml" --set "gravity=[0,0,0]" --grains "$grains" --stress 25000,100000
 run oedometer oedometer "$here/sand.toml" --grains "$grains"
 run uniaxial uniaxial "$here/rock.toml" --grains "$grains"
 run repose repose "$here/sand.toml" --grains "$grains" --set material.0.young=2e6

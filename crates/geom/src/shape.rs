@@ -99,6 +99,21 @@ impl Shape {
     }
 }
 
+/// The file that a shape names, as text; `None` where it names none.
+pub fn file_of(text: &str) -> Option<&str> {
+    let (kind, rest) = text.strip_prefix('!').unwrap_or(text).split_once(':')?;
+    match kind {
+        "prism" => Some(rest),
+        "mesh" => match rest.rsplit_once(',') {
+            Some((file, option)) if option.starts_with("units=") || option.starts_with("scale=") => {
+                Some(file)
+            }
+            _ => Some(rest),
+        },
+        _ => None,
+    }
+}
+
 impl FromStr for Shape {
     type Err = ShapeError;
 
@@ -271,6 +286,8 @@ mod tests {
         let shape = Shape::parse("!mesh:x.ply", &load).unwrap();
         assert!(shape.contains(&Vec3::repeat(2.0)) && !shape.contains(&Vec3::repeat(0.5)));
         assert!("mesh:x.ply".parse::<Shape>().is_err());
+        let files = ["!mesh:x.ply", "mesh:a,b.stl,units=mm", "prism:p.json", "box:0,0,0,1,1,1"].map(file_of);
+        assert_eq!(files, [Some("x.ply"), Some("a,b.stl"), Some("p.json"), None]);
         for (text, size) in [("units=mm", 1e-3), ("units=cm", 1e-2), ("scale=2", 2.0)] {
             let shape = Shape::parse(&format!("mesh:a,b.stl,{text}"), &load).unwrap();
             assert!(shape.contains(&Vec3::repeat(0.9 * size)) && !shape.contains(&Vec3::repeat(1.1 * size)));

@@ -73,9 +73,8 @@ impl<W: Write> Run<W> {
             self.writer.bytes(topic::DOMAIN, "json", now, json(&message).as_bytes())?;
         }
         let clumps = (!self.written.masses.is_empty()).then(|| self.sim.clumps()).transpose()?;
-        let clusters = self.sim.clusters().to_vec();
         let (all, clumps_by_id) = (self.sim.snapshot()?, clumps.as_deref());
-        let rows = ParticleRows { all, precision, clumps: clumps_by_id, clusters: &clusters };
+        let rows = ParticleRows { all, precision, clumps: clumps_by_id };
         self.writer.rows(topic::PARTICLES, now, FRAME, &rows)?;
         if let Some(clumps) = clumps {
             self.writer.points(topic::BODIES, now, FRAME, frames::clump_rows(&clumps))?;

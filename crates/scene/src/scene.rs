@@ -53,10 +53,13 @@ impl Scene {
         let paths = motions.filter_map(|motion| motion.path.as_ref()).map(|path| path.source.as_str());
         let loads = m.wall.iter().filter_map(|w| Some(w.servo.as_ref()?.path.as_ref()?.source.as_str()));
         let walls = walls.chain(paths).chain(loads);
+        let shapes = m.fill.iter().map(|f| &f.shape).chain(m.insert.iter().map(|i| &i.shape));
+        let shapes = shapes.filter_map(|shape| geom::shape::file_of(shape));
         let strains =
             m.domain.strain.axes().into_iter().filter_map(|(_, s)| Some(s?.path.as_ref()?.source.as_str()));
         let domain = strains.chain(m.domain.source.as_deref());
         let all = particles
+            .chain(shapes)
             .chain(domain)
             .chain(walls)
             .chain(clumps)

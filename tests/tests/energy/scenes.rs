@@ -246,7 +246,7 @@ pub fn dumbbell() -> ClumpShape {
 }
 
 /// Three spheres, no two moments of inertia alike.
-fn boomerang() -> ClumpShape {
+pub fn boomerang() -> ClumpShape {
     let at = |x: f64, y: f64, r: f64| (Vec3::new(x, y, 0.0), r);
     shape(&[at(0.0, 0.0, 0.01), at(0.012, 0.0, 0.009), at(0.0, 0.01, 0.007)])
 }

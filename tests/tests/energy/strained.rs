@@ -43,7 +43,10 @@ pub fn all() -> Vec<Scene> {
     damped.local_damping = Some(0.7);
     let mut clumps = cell(Law::Hertz);
     clumps.particles.iter_mut().for_each(|p| p.velocity *= 3.0);
+    let mut damped_clumps = clumps.clone();
+    damped_clumps.local_damping = Some(0.7);
     vec![
+        scene("clumps, local damping", crate::scenes::tumbling(damped_clumps, crate::scenes::boomerang())),
         scene("hooke", cell(HOOKE)),
         scene("hertz", cell(Law::Hertz)),
         scene("local damping", damped),

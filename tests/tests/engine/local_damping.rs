@@ -66,6 +66,25 @@ fn uniform_motion_is_not_damped() {
     assert!((p.velocity.z / wanted - 1.0).abs() < 1e-2, "{} instead of {wanted}", p.velocity.z);
 }
 
+/// A clump is damped as one body: it falls with (1 − α) g, and turns uniformly without a moment.
+#[test]
+fn a_clump_is_damped_as_a_whole() {
+    let mut setup = empty(HOOKE, 0.5);
+    (setup.gravity, setup.local_damping) = (Vec3::z() * -9.81, Some(ALPHA));
+    let spheres = [(Vec3::x() * -0.008, 0.01), (Vec3::x() * 0.012, 0.006)];
+    let shape = ClumpShape::new("pear", 0, &spheres, &geom::Moments::of_sum(&spheres));
+    let (orientation, spin) = (nalgebra::UnitQuaternion::identity(), Vec3::x() * 3.0);
+    let (position, velocity) = (Vec3::z(), Vec3::zeros());
+    let placed = vec![Body { id: 1, shape: 0, scale: 1.0, position, orientation, velocity, spin }];
+    setup.clumps = Clumps { shapes: vec![shape], placed, entries: vec![] };
+    let mut sim = Simulation::new(setup).expect("sound");
+    run_until(&mut sim, 0.1);
+    let clump = sim.clumps().expect("sound")[0];
+    let wanted = -(1.0 - ALPHA) * 9.81 * sim.time();
+    assert!((clump.velocity.z / wanted - 1.0).abs() < 1e-2, "{} instead of {wanted}", clump.velocity.z);
+    assert!((clump.spin - spin).norm() < 1e-12, "{:?}", clump.spin);
+}
+
 /// A heap of 60 grains of two sizes that falls on a plane.
 fn heap(law: Law) -> Setup {
     let mut setup = with_friction(empty(law, 0.5), 0.4);

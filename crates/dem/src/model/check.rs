@@ -41,10 +41,9 @@ fn local_damping(setup: &Setup) -> Result<(), SetupError> {
     let Some(factor) = setup.local_damping else { return Ok(()) };
     let within = factor > 0.0 && factor < 1.0;
     Check(|| Subject::Setup).within("local_damping.factor", factor, "[–]", within, "0 < factor < 1")?;
-    match (setup.sleep, setup.clumps.shapes.first()) {
-        (Some(_), _) => Err(SetupError::LocalDampingWith("particles that sleep")),
-        (_, Some(_)) => Err(SetupError::LocalDampingWith("rigid clumps")),
-        _ => Ok(()),
+    match setup.sleep {
+        Some(_) => Err(SetupError::LocalDampingWith("particles that sleep")),
+        None => Ok(()),
     }
 }
 

@@ -38,6 +38,11 @@ impl<'a> Snapshot<'a> {
         Snapshot { model, state, sums, members, order, cell: state.cell(model) }
     }
 
+    /// Clusters of particles by id, in their order; those that are not listed have none.
+    pub fn clusters(&self) -> &'a [(u32, u32)] {
+        &self.state.clusters
+    }
+
     /// How many there are.
     pub fn len(&self) -> usize {
         self.order.len()

@@ -72,6 +72,7 @@ pub fn start(model: &Model, state: &mut State) -> Vec<u32> {
             state.particles.angular_acceleration[k] = Row4::of(angular_acceleration);
         }
     }
-    state.clumps.prime(&state.particles, &model.setup);
+    let cell = state.cell(model);
+    state.clumps.prime(&state.particles, &model.setup, &cell);
     starting
 }

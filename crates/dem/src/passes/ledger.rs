@@ -95,7 +95,8 @@ pub fn close_step(model: &Model, state: &State, lists: &NeighbourLists, energy: 
     let drag = free.clone().map(|k| drag_power(model, state, k)).sum::<f64>()
         + state.clumps.drag_power(&model.setup);
     now.drag = drag * model.dt;
-    now.damped = free.map(|k| local_damping::power(model, state, k, &sums)).sum::<f64>() * model.dt;
+    let damped = free.map(|k| local_damping::power(model, state, k, &sums)).sum::<f64>();
+    now.damped = (damped + state.clumps.damped_power(model, state, &sums)) * model.dt;
     let [brought, dashpots] = mount::step_sums(model, state, lists);
     (now.walls, now.mounts) = (now.walls - brought + cell::step_work(model, state, lists), dashpots);
     let (work, share) = half(model, power, share);

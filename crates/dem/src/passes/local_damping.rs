@@ -80,10 +80,11 @@ impl Damped<'_> {
     }
 }
 
-/// After a move and what the fluid adds to it. Returns whether a particle has left its margin.
+/// After a move and what the fluid adds to it, of spheres; clumps are damped when they move ([`crate::passes::clumps`]). Returns whether a particle has left its margin.
 pub fn apply(model: &Model, state: &mut State, lists: &NeighbourLists) -> bool {
     let Some(factor) = model.setup.local_damping else { return false };
-    let (dt, ahead, zones, cell) = (model.dt, model.ahead(), &state.zones, state.cell(model));
+    let (dt, ahead, cell) = (model.dt, model.ahead(), state.cell(model));
+    let (zones, clumps) = (&state.zones, &state.clumps);
     let p = &mut state.particles;
     let (count, rotates) = (p.len(), p.rotates());
     let turning = if rotates { count } else { 0 };
@@ -96,7 +97,8 @@ pub fn apply(model: &Model, state: &mut State, lists: &NeighbourLists) -> bool {
     let done: Vec<(f64, bool)> =
         share(count >= FEW, tiles, |(tile, (((rows, accelerations), home), (spins, turns)))| {
             let (mut taken, mut out) = (0.0, false);
-            for k in (0..rows.len()).filter(|k| zones.is_free(tile * CHUNK + k)) {
+            let mine = |k: &usize| zones.is_free(tile * CHUNK + k) && !clumps.is_member(tile * CHUNK + k);
+            for k in (0..rows.len()).filter(mine) {
                 let at = tile * CHUNK + k;
                 let turning = match (spins.get_mut(k), turns.get_mut(k), lists.spins_before.get(at)) {
                     (Some(spin), Some(turn), Some(was)) => Some((spin, turn, was)),

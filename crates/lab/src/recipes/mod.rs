@@ -247,7 +247,7 @@ fn rectangle(a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3]) -> String {
 /// Local damping for the preparation: it stops the specimen as a whole, too, which hardly has unbalanced forces. Clumps and samples with damping of
 /// their own get none.
 fn damping(sample: &Sample) -> &'static str {
-    if sample.grains.clumps || sample.has("local_damping") { "" } else { "[local_damping]\nfactor = 0.7\n\n" }
+    if sample.has("local_damping") { "" } else { "[local_damping]\nfactor = 0.7\n\n" }
 }
 
 /// Forces on one wall, and how far it has moved.

@@ -80,6 +80,9 @@ pub(super) fn effects(scene: &Scene, setup: &Setup) -> Vec<EffectToMeasure> {
     let axes: Vec<String> =
         written.domain.periodic.iter().map(|a| format!("\"{a:?}\"").to_lowercase()).collect();
     add("periodic domain", named(!axes.is_empty(), format!("domain.periodic = [{}]", axes.join(", "))), None);
+    let strained = written.domain.strain.axes().into_iter().filter(|(_, strain)| strain.is_some());
+    let strained: Vec<String> = strained.map(|(axis, _)| format!("domain.strain.{axis}")).collect();
+    add("strained domain", strained.join(", "), None);
     add("outlet", keys::numbered("outlet", setup.outlets.len()), None);
     add("inlet", keys::numbered("inlet", written.inlet.len()), None);
     add("insert", keys::numbered("insert", written.insert.len()), None);

@@ -86,12 +86,11 @@ impl Check<'_> {
             let why = "is outside 0 to 1, both left out";
             return Err(self.wrong("local_damping.factor", factor, why, "give 0.7, which is usual, or less"));
         }
-        let with = [("[sleep]", m.sleep.is_some()), ("clumps", !m.clump.is_empty())];
-        match with.iter().find(|with| with.1) {
+        match m.sleep {
             None => Ok(()),
-            Some((other, _)) => {
-                let why = format!("does not act with {other}");
-                Err(self.wrong("local_damping", "(given)", &why, "leave out one of them"))
+            Some(_) => {
+                let why = "does not act with [sleep]";
+                Err(self.wrong("local_damping", "(given)", why, "leave out one of them"))
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Files that a scene names, as seen from another folder.
 
 use std::path::{Path, PathBuf};
-use toml_edit::{DocumentMut, Item, value};
+use toml_edit::{DocumentMut, Item, TableLike, Value, value};
 
 /// Keys that name a file, by list of tables.
 const KEYS: [(&str, &[&str]); 6] = [
@@ -28,6 +28,31 @@ pub fn rebase(document: &mut DocumentMut, from: &Path, to: &Path) {
                 let text = item.as_str().unwrap_or_default();
                 *item = value(format!("{}{}", &text[..start], relative(&from.join(&text[start..]), to)));
             }
+        }
+    }
+    if let Some(source) = document.get_mut("domain").and_then(|domain| domain.get_mut("source")) {
+        *source = value(relative(&from.join(source.as_str().unwrap_or_default()), to));
+    }
+    paths(document.as_item_mut(), from, to);
+}
+
+/// Moves `path.source` wherever it stands: in motions, servos and strains.
+fn paths(item: &mut Item, from: &Path, to: &Path) {
+    if let Some(tables) = item.as_array_of_tables_mut() {
+        tables.iter_mut().for_each(|table| in_table(table, from, to));
+    } else if let Some(list) = item.as_array_mut() {
+        let inline = list.iter_mut().filter_map(Value::as_inline_table_mut);
+        inline.for_each(|table| in_table(table, from, to));
+    } else if let Some(table) = item.as_table_like_mut() {
+        in_table(table, from, to);
+    }
+}
+
+fn in_table(table: &mut dyn TableLike, from: &Path, to: &Path) {
+    for (key, item) in table.iter_mut() {
+        match item.get_mut("source").filter(|source| key == "path" && source.is_str()) {
+            Some(source) => *source = value(relative(&from.join(source.as_str().unwrap_or_default()), to)),
+            None => paths(item, from, to),
         }
     }
 }
@@ -93,6 +118,18 @@ mod tests {
             .replace("s.csv", "../s.csv")
             .replace("b.ply", "../b.ply")
             .replace("c.ply", "../c.ply");
+        assert_eq!(document.to_string(), now);
+    }
+
+    #[test]
+    fn paths_over_time_are_seen_from_the_new_folder() {
+        let text = "[domain]\nsource = \"d.mcap\"\n[domain.strain]\nx = { path = { source = \"s.csv\" } }\n[[wall]]\nservo = { path = { source = \"l.csv\" } }\n\
+                    [[wall]]\nmotion = [{ path = { source = \"a.csv\" } }, { translate = [0, 0, 1] }]\n[wall.servo.path]\nsource = \"b.csv\"\n";
+        let mut document: DocumentMut = text.parse().unwrap();
+        rebase(&mut document, Path::new("/lab"), Path::new("/lab/run"));
+        let now = ["d.mcap", "s.csv", "l.csv", "a.csv", "b.csv"]
+            .iter()
+            .fold(text.to_owned(), |text, file| text.replace(file, &format!("../{file}")));
         assert_eq!(document.to_string(), now);
     }
 

@@ -87,6 +87,25 @@ impl Cutting<'_> {
         Ok(())
     }
 
+    /// Refuses what only the whole plant can follow.
+    pub fn check_whole(&self) -> Result<()> {
+        let keys = &self.scene.keys;
+        let rests = [
+            ("until_unbalanced", keys.time.until_unbalanced.is_some()),
+            ("until_kinetic", keys.time.until_kinetic.is_some()),
+        ];
+        if let Some((key, _)) = rests.iter().find(|(_, given)| *given) {
+            let why =
+                format!("time.{key} ends the plant when all its grains rest, and a stage sees only its own");
+            return Err(self.wrong(why, "take it out, and end the stages by until"));
+        }
+        if !keys.domain.strain.is_empty() {
+            let why = "domain.strain: a domain that is strained has no inlets and outlets";
+            return Err(self.wrong(why, "take it out, or simulate the plant undivided"));
+        }
+        Ok(())
+    }
+
     pub fn check_length(&self) -> Result<()> {
         let Some(length) = self.cut.length else { return Ok(()) };
         if length.is_finite() && length > self.largest {

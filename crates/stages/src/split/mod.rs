@@ -84,6 +84,7 @@ fn stage(scene: &Scene, cut: &Cut) -> Result<(String, Vec<String>)> {
     let cutting = Cutting { scene, cut, largest: largest(scene)? };
     cutting.check_length()?;
     cutting.check_periodic()?;
+    cutting.check_whole()?;
     let mut text = StageText::new(scene.text.document()?);
     cutting.sources(&mut text)?;
     cutting.zones(&mut text)?;
@@ -176,6 +177,22 @@ material = "m"
         let (_, gone) = split(&scene, &at_plane(Stage::Upstream, "0,0,0,0,0,-1", &folder)).unwrap();
         std::fs::remove_dir_all(&folder).unwrap();
         assert_eq!(gone, ["fill.1", "wall 'chute'", "wall.2", "wall 'lip'"]);
+    }
+
+    #[test]
+    fn what_only_the_whole_plant_can_follow_is_refused() {
+        for (set, why) in [
+            ("time.until_unbalanced=1e-3", "ends the plant when all its grains rest"),
+            (
+                "domain={ periodic = [\"x\"], low = [0,0,0], high = [9,9,9], strain = { x = { rate = 1 } } }",
+                "strained",
+            ),
+        ] {
+            let scene = Scene::new("p.toml", PLANT.to_owned(), &[set.to_owned()], Path::new("")).unwrap();
+            let cut = at_plane(Stage::Upstream, "0,0,0,0,0,-1", Path::new(""));
+            let message = split(&scene, &cut).unwrap_err().to_string();
+            assert!(message.contains(why), "{message}");
+        }
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! The pass after each move.
 
 use crate::model::Model;
+use crate::passes::clumps::instant::damped;
 use crate::passes::integrate::MoveFlags;
 use crate::setup::Setup;
 use crate::simd::{Row, Row4};
@@ -12,27 +13,32 @@ use crate::threads::share;
 const CHUNK: usize = 512;
 
 impl RigidClumps {
-    /// Moves the clumps whose members have been moved as if they were free, and sets the rows of the members.
-    pub fn advance(&mut self, particles: &mut Particles, cell: Cell, model: &Model) -> MoveFlags {
+    /// Moves the clumps whose members have been moved as if they were free, and sets the rows of the members. And what local damping takes [W].
+    pub fn advance(&mut self, particles: &mut Particles, cell: Cell, model: &Model) -> (MoveFlags, f64) {
         let (setup, dt) = (&model.setup, model.dt);
         let (members, arms) = (&self.members, &self.arms);
         let seen = &*particles;
         let advance = |chunk: &mut [ClumpMotion]| {
+            let mut taken = 0.0;
             for f in chunk.iter_mut().filter(|f| !f.is_prescribed) {
                 let (a, torque) = f.gathered(members, arms, seen, &setup.gravity);
-                f.advance(a + f.fluid(setup), torque, dt);
+                let damped = damped(f, (a + f.fluid(setup), torque), setup, &cell);
+                taken += damped.power;
+                f.advance(damped.acceleration, damped.torque, dt);
             }
+            taken
         };
-        share(self.flights.len() > CHUNK, self.flights.chunks_mut(CHUNK).collect(), advance);
-        self.position(particles, cell, model)
+        let taken = share(self.flights.len() > CHUNK, self.flights.chunks_mut(CHUNK).collect(), advance);
+        (self.position(particles, cell, model), taken.into_iter().sum())
     }
 
     /// Bodies without a past get the acceleration and the torque of this instant as those of the step before.
-    pub fn prime(&mut self, particles: &Particles, setup: &Setup) {
+    pub fn prime(&mut self, particles: &Particles, setup: &Setup, cell: &Cell) {
         let (members, arms) = (&self.members, &self.arms);
         for f in self.flights.iter_mut().filter(|f| f.starting && !f.is_prescribed) {
             let (a, torque) = f.gathered(members, arms, particles, &setup.gravity);
-            (f.acceleration, f.torque) = (a + f.fluid(setup), torque);
+            let damped = damped(f, (a + f.fluid(setup), torque), setup, cell);
+            (f.acceleration, f.torque) = (damped.acceleration, damped.torque);
             f.starting = false;
         }
     }
@@ -111,5 +117,9 @@ pub fn advance(model: &Model, state: &mut State, moved: MoveFlags) -> MoveFlags 
         state.ledger.drag += state.clumps.drag_power(&model.setup) * model.dt;
     }
     let cell = state.cell(model);
-    moved.and(state.clumps.advance(&mut state.particles, cell, model))
+    let (members, taken) = state.clumps.advance(&mut state.particles, cell, model);
+    if model.setup.ledger {
+        state.ledger.damped += taken * model.dt;
+    }
+    moved.and(members)
 }

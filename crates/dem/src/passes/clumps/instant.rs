@@ -2,7 +2,9 @@
 
 use crate::kernel::WrenchSums;
 use crate::model::Model;
+use crate::passes::local_damping::against;
 use crate::setup::Setup;
+use crate::space::cell::Cell;
 use crate::space::rotation;
 use crate::state::clump::quaternion;
 use crate::state::{ClumpMotion, DrivenBody, RigidClumps, State};
@@ -49,6 +51,25 @@ struct Instant {
     momentum: Vec3,
     force: Vec3,
     torque: Vec3,
+    /// What local damping takes [W].
+    damped: f64,
+}
+
+/// What moves a clump, local damping included.
+pub struct Damped {
+    pub acceleration: Vec3,
+    pub torque: Vec3,
+    /// What the damping takes [W].
+    pub power: f64,
+}
+
+/// The acceleration and the torque of a clump, with local damping where the setup asks for it: against the velocity of its centre and its spin.
+pub fn damped(f: &ClumpMotion, (a, torque): (Vec3, Vec3), setup: &Setup, cell: &Cell) -> Damped {
+    let Some(factor) = setup.local_damping else { return Damped { acceleration: a, torque, power: 0.0 } };
+    let slowed = against(factor, &a, &(f.velocity - cell.flow(&f.position)));
+    let turned = against(factor, &torque, &f.spin);
+    let power = -slowed.dot(&f.velocity) * f.mass - turned.dot(&f.spin);
+    Damped { acceleration: a + slowed, torque: torque + turned, power }
 }
 
 impl RigidClumps {
@@ -92,7 +113,7 @@ impl RigidClumps {
     fn instant(&self, f: &ClumpMotion, model: &Model, state: &State, sums: &WrenchSums) -> Instant {
         let (mut velocity, mut momentum) = (f.velocity, f.momentum);
         let turn = quaternion(&f.turn);
-        let (mut force, mut torque) = (Vec3::zeros(), Vec3::zeros());
+        let (mut force, mut torque, mut taken) = (Vec3::zeros(), Vec3::zeros(), 0.0);
         if !f.is_prescribed {
             for &m in &self.members[f.range()] {
                 let radius = state.particles.rows[m as usize][3];
@@ -101,11 +122,14 @@ impl RigidClumps {
                 torque += (turn * self.arms[m as usize].vector()).cross(&push) + moment;
             }
             let a = force / f.mass + model.setup.gravity + f.fluid(&model.setup);
-            velocity += (a - f.acceleration) * (0.5 * model.dt);
+            let slowed = damped(f, (a, torque), &model.setup, &state.cell(model));
+            (force, torque, taken) =
+                (force + (slowed.acceleration - a) * f.mass, slowed.torque, slowed.power);
+            velocity += (slowed.acceleration - f.acceleration) * (0.5 * model.dt);
             momentum += (torque - f.torque) * (0.5 * model.dt);
         }
         let spin = rotation::spin(&turn, &momentum, &f.inverse_inertia);
-        Instant { velocity, spin, momentum, force, torque }
+        Instant { velocity, spin, momentum, force, torque, damped: taken }
     }
 
     /// What drives each clump that is free, at this instant, and the row of its first member.
@@ -132,6 +156,12 @@ impl RigidClumps {
             let velocity = f.velocity - f.acceleration * dt;
             DrivenBody { moment: f.torque, velocity, spin, ..f.driven(force, setup) }
         })
+    }
+
+    /// What local damping takes from those that are free, at this instant [W].
+    pub fn damped_power(&self, model: &Model, state: &State, sums: &WrenchSums) -> f64 {
+        let free = self.flights.iter().filter(|f| model.setup.local_damping.is_some() && !f.is_prescribed);
+        free.map(|f| self.instant(f, model, state, sums).damped).sum()
     }
 
     /// What a fluid takes from those that are free, at the velocities predicted for them [W].
