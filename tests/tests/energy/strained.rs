@@ -16,7 +16,7 @@ fn cell(law: Law) -> Setup {
     setup.ledger = true;
     setup.periodic = [Some((-0.02, SIDE - 0.02)), Some((0.0, SIDE)), Some((0.3, 0.3 + SIDE))];
     let path = Target::new(vec![[0.0, 0.0], [0.05, 0.04], [0.4, 0.01]]).expect("rows");
-    let stress = Strain::Stress { target: Target::constant(2e3), rate_limit: 2.0 };
+    let stress = Strain::Stress { target: Target::constant(2e3), rate_limit: 1.5 };
     setup.strain = [Some(stress), Some(Strain::Path(path)), Some(Strain::Rate(0.3))];
     setup.particles = (0..64u32)
         .map(|k| {

@@ -93,6 +93,36 @@ fn stress_is_held_at_three_rates_of_strain() {
     }
 }
 
+/// Clumps of two spheres instead of the grains.
+fn clumps(mut setup: Setup) -> Setup {
+    let spheres = [(Vec3::x() * -0.006, 0.01), (Vec3::x() * 0.006, 0.01)];
+    let shape = ClumpShape::new("pair", 0, &spheres, &geom::Moments::of_sum(&spheres));
+    let body = |(k, p): (u32, &Particle)| {
+        let orientation = nalgebra::UnitQuaternion::from_euler_angles(f64::from(k), 2.0 * f64::from(k), 0.5);
+        let (position, velocity, spin) = (p.position, p.velocity, p.spin);
+        Body { id: 10 * k, shape: 0, scale: 0.7, position, orientation, velocity, spin }
+    };
+    let placed = (0..).zip(&setup.particles).map(body).collect();
+    setup.clumps = Clumps { shapes: vec![shape], placed, entries: vec![] };
+    setup.particles.clear();
+    setup
+}
+
+/// The stiffness counts branches between bodies: with those of spheres alone the stress would be followed too fast.
+#[test]
+fn stress_on_clumps_is_held() {
+    let mut sim = Simulation::new(clumps(triaxial(Law::Hertz, (CONFINEMENT, 0.5, 0.6)))).expect("sound");
+    run_until(&mut sim, 0.62);
+    for frame in 1..=20 {
+        run_until(&mut sim, 0.62 + 0.006 * f64::from(frame));
+        let stress = report(&mut sim).stress;
+        for a in 0..2 {
+            let off = stress[(a, a)] / CONFINEMENT - 1.0;
+            assert!(off.abs() < 0.01, "frame {frame}: off by {off}");
+        }
+    }
+}
+
 fn bits(mut sim: Simulation, steps: u64) -> Vec<u64> {
     (0..steps).for_each(|_| sim.step().expect("within the guards"));
     let cell = report(&mut sim);

@@ -12,7 +12,7 @@
 //! branch joins bodies, so moments do not count. The stress is that of contacts and bonds, without what motion carries.
 //!
 //! **Stress.** ε' follows the lack of stress as a wall follows that of force ([`crate::passes::servo`]), with S = Σ (k Δt + c) b²/V over all contacts and
-//! bonds: what an affine strain meets at most. S is summed anew every [`EVERY`] steps, at the overlaps that the largest rate would make until then.
+//! bonds: what an affine strain meets at most. S is summed again every [`EVERY`] steps, at the overlaps that the largest rate would make until then.
 //!
 //! **Energy.** Contacts and bonds across faces do the work h'·A, and the changes of v bring energy of motion; both are booked as work of walls.
 
@@ -90,7 +90,7 @@ fn stress(model: &Model, state: &State, lists: &NeighbourLists) -> Matrix3<f64> 
     if volume > 0.0 { (moments - across) / volume } else { Matrix3::zeros() }
 }
 
-/// Σ f n of contacts and bonds across faces, n along each row's axis: what one length more of the cell, along the diagonal, would do work against [N].
+/// A = Σ f ⊗ n of contacts and bonds across faces [N]: force on the first, image of the second.
 fn contacts_across(state: &State, lists: &NeighbourLists, cell: &Cell) -> Matrix3<f64> {
     let mut sum = Matrix3::zeros();
     for segment in lists.slots.segments.iter().filter(|s| s.with == With::Images) {
@@ -107,7 +107,7 @@ fn contacts_across(state: &State, lists: &NeighbourLists, cell: &Cell) -> Matrix
     sum
 }
 
-/// Σ f n that the members of rigid clumps feel beyond a face of the cell, where their centre is not.
+/// Σ f ⊗ n of members that lie n lengths of the cell from the place that their clump gives them [N].
 fn members_beyond(state: &State) -> Matrix3<f64> {
     let sums = state.contacts.sums();
     let mut sum = Matrix3::zeros();
@@ -139,10 +139,13 @@ fn response(model: &Model, state: &State, lists: &NeighbourLists, rates: &Vec3) 
             if overlap <= 0.0 {
                 continue;
             }
-            let ahead = apart.abs().component_mul(rates).norm() * model.dt * EVERY as f64;
+            // Between bodies, as the stress has it.
+            let arms = state.clumps.arm(lists.slots.partner[slot] as usize) - state.clumps.arm(k);
+            let branch = apart + arms;
+            let ahead = branch.abs().component_mul(rates).norm() * model.dt * EVERY as f64;
             let stiffness = model.responses[segment.kind].at((overlap + ahead) / mine.min(radius));
             count += 1;
-            sum += apart.component_mul(&apart) * stiffness;
+            sum += branch.component_mul(&branch) * stiffness;
         }
     }
     for pair in state.bonds.pairs.iter().filter(|pair| pair.is_whole()) {

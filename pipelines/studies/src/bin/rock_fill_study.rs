@@ -152,7 +152,9 @@ fn difference(one: &Case, other: &Case, (what, of): (&str, &dyn Fn(&Specimen) ->
             mean.abs(),
             if mean > 0.0 { "above" } else { "below" }
         ),
-        false => format!("The {what} of {a} and {b} cannot be told apart: {mean:.1} ± {interval:.1}°."),
+        false => {
+            format!("The {what} of {a} and {b} do not differ beyond chance: {mean:.1} ± {interval:.1}°.")
+        }
     })
 }
 
