@@ -8,9 +8,9 @@
 //! and rolling friction, not a point. A liquid bridge holds up to 2πRγ (Willett et al. 2000, doi:10.1021/la000657y).
 
 use crate::error::{CalibrateError, Result};
-use crate::materials::{Material, Range, find};
 use crate::recipe::shown;
 use geom::Shown;
+use scene::materials::{Material, Range, find};
 use std::fmt::Write as _;
 
 /// How wet the material is.

@@ -3,6 +3,7 @@
 use crate::check::Check;
 use crate::error::{Result, SceneError};
 use crate::keys::{Fill, Insert, SceneKeys};
+use crate::materials::{Taken, missing};
 use crate::text::{Text, parse};
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
@@ -33,6 +34,31 @@ impl Scene {
         let keys = parse(&text).map_err(|error| blame(error, name, &toml, overrides))?;
         Check { text: &text }.keys(&keys)?;
         Ok(Scene { text, keys, folder: folder.to_owned() })
+    }
+
+    /// The same, with numbers that its materials leave out from the table of materials; which these are.
+    ///
+    /// # Errors
+    /// As for [`Scene::new`], and a material that the table does not have.
+    pub fn with_materials(
+        name: &str,
+        toml: String,
+        overrides: &[String],
+        folder: &Path,
+    ) -> Result<(Scene, Vec<Taken>)> {
+        let mut text = Text::new(name, toml.clone());
+        text.set(overrides)?;
+        let taken = missing(&text)?;
+        if taken.is_empty() {
+            return Ok((Scene::new(name, toml, overrides, folder)?, taken));
+        }
+        let more = taken.iter().map(|t| format!("{}={:?}", t.key, t.value));
+        let all: Vec<String> = overrides.iter().cloned().chain(more).collect();
+        let mut text = Text::new(name, toml);
+        text.set(&all)?;
+        let keys = parse(&text)?;
+        Check { text: &text }.keys(&keys)?;
+        Ok((Scene { text, keys, folder: folder.to_owned() }, taken))
     }
 
     /// The error for a key's value that only a run can judge.

@@ -41,6 +41,9 @@ struct Args {
     /// End of the run [s], instead of time.until
     #[arg(long, value_name = "S")]
     until: Option<f64>,
+    /// Take densities, moduli and Poisson's ratios that a [[material]] leaves out from the table of materials, by its name (docs/scene.md)
+    #[arg(long)]
+    materials: bool,
     /// Print the active effects, the keys that switch them on, their cost, and the pair that limits the time step
     #[arg(long)]
     explain: bool,
@@ -177,11 +180,24 @@ fn read_scene(args: &Args) -> anyhow::Result<Scene> {
     let mut overrides = args.set.clone();
     overrides.extend(args.until.map(|s| format!("time.until={s:?}")));
     let folder = args.scene.path().and_then(Path::parent).unwrap_or(Path::new(""));
-    let scene = Scene::new(&args.scene.to_string(), args.scene.read_text()?, &overrides, folder);
-    scene.map_err(|error| match error {
+    let (name, text) = (args.scene.to_string(), args.scene.read_text()?);
+    let wrong = |error: SceneError| match error {
         SceneError::Override { .. } => cli::usage(error.to_string()),
         other => other.into(),
-    })
+    };
+    if !args.materials {
+        return Scene::new(&name, text, &overrides, folder).map_err(wrong);
+    }
+    let (scene, taken) = Scene::with_materials(&name, text, &overrides, folder).map_err(wrong)?;
+    if taken.is_empty() {
+        return Err(cli::usage(
+            "--materials has no effect: no [[material]] leaves out a number: leave it out",
+        ));
+    }
+    if !cli::quiet() {
+        taken.iter().for_each(|number| cli::say(&format!("dem-run: {number}")));
+    }
+    Ok(scene)
 }
 
 fn explain(args: &Args, scene: &Scene, plan: Plan, resume: Option<&Checkpoint>) -> anyhow::Result<Report> {

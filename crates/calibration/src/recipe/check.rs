@@ -5,7 +5,8 @@ use super::parameter::{Parameter, Prior};
 use super::text::Text;
 use super::{Settings, blanks};
 use crate::error::Result;
-use crate::materials;
+use crate::prior;
+use scene::materials::Range;
 use toml::Spanned;
 
 /// Blanks that are not parameters.
@@ -98,7 +99,7 @@ fn parameter(text: &Text, keys: &Spanned<ParameterKeys>) -> Result<Parameter> {
     let material = match &keys.prior {
         Some(prior) => match prior.get_ref() {
             PriorKeys::Named(word) if word != "uniform" => {
-                Some(materials::prior(word, &name).map_err(|why| text.refuse(&prior.span(), why))?)
+                Some(prior::of_table(word, &name).map_err(|why| text.refuse(&prior.span(), why))?)
             }
             _ => None,
         },
@@ -152,12 +153,7 @@ fn bounds(text: &Text, bounds: &Spanned<Vec<Number>>, unit: &str) -> Result<[f64
     Ok([low, high])
 }
 
-fn prior(
-    text: &Text,
-    keys: &ParameterKeys,
-    p: &Parameter,
-    material: Option<&materials::Range>,
-) -> Result<Prior> {
+fn prior(text: &Text, keys: &ParameterKeys, p: &Parameter, material: Option<&Range>) -> Result<Prior> {
     if let Some(range) = material {
         let ends = range.ends.map(|v| p.coordinate(if p.log { v.max(p.low * 1e-3) } else { v }));
         let mean = 0.5 * (ends[0] + ends[1]);

@@ -37,6 +37,7 @@ pub const EXAMPLES: &[&str] = &[
     "dem-run s.toml --set contact.0.restitution=0.3 --until 0.05 --resume run.mcap --output rest.mcap --quiet",
     "dem-run s.toml --check",
     "dem-run s.toml --explain",
+    "dem-run named.toml --materials --check",
     "dem-run s.toml -o run.mcap",
     "dem-run up.toml -o up.mcap",
     "dem-run heap.toml -o heap.mcap",

@@ -73,6 +73,18 @@ fn bonded() -> String {
     [&HEAD.replace("until = 0.05", "until = 0.004"), bond].concat()
 }
 
+/// Grains whose material has numbers in the table of materials, but for its modulus.
+fn named() -> String {
+    let head = HEAD.replace("name = \"coal\"\ndensity = 1400\n", "name = \"coal\"\n");
+    [
+        &head
+            .replace("name = \"coal\"", "name = \"limestone\"")
+            .replace("poisson = 0.25\n[[contact]]", "[[contact]]"),
+        GRAINS,
+    ]
+    .concat()
+}
+
 /// The lattice in a domain that is strained.
 fn strained() -> String {
     let head = HEAD.replace("until = 0.05", "until = 0.004").replace("gravity = [0, 0, -9.81]\n", "");
@@ -138,6 +150,7 @@ pub fn inputs() -> TempDir {
                 .concat(),
         ),
         ("cell.toml", strained()),
+        ("named.toml", named()),
         ("soil.toml", SAND.to_owned()),
         ("stone.toml", ROCK.to_owned()),
         ("stone.csv", cube()),
