@@ -1,0 +1,174 @@
+//! The deck: the input script of a run, readable, and its data file.
+
+use crate::batch;
+use crate::data;
+use crate::error::{LammpsError, Result};
+use crate::law::coefficients;
+use crate::refusal::{self, Refusal};
+use crate::types::{Types, law};
+use crate::version::Version;
+use crate::wall;
+use dem::setup::Setup;
+use run::Schedule;
+use scene::Scene;
+use std::fmt::Write as _;
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::Path;
+
+/// Names of the files of a deck.
+pub const INPUT: &str = "run.in";
+const DATA: &str = "particles.data";
+/// The file that frames go to, unless a variable says otherwise.
+pub const FRAMES: &str = "frames.dump";
+const BATCH: &str = "batch.sh";
+
+/// Columns of a dump.
+pub const COLUMNS: &str = "id x y z vx vy vz omegax omegay omegaz";
+
+/// A run for LAMMPS.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Deck {
+    /// The input script.
+    pub input: String,
+    /// The batch script.
+    pub batch: String,
+    types: Types,
+}
+
+impl Deck {
+    /// The deck of a scene that runs by a schedule.
+    ///
+    /// # Errors
+    /// Everything in the scene that LAMMPS cannot do.
+    pub fn of(
+        scene: &Scene,
+        setup: &Setup,
+        schedule: &Schedule,
+        version: Version,
+        ranks: usize,
+    ) -> Result<Deck> {
+        let mut refused = refusal::scene(&scene.keys, setup);
+        refused.extend(refusal::walls(setup));
+        if data::highest_number(setup) > data::MOST_ATOMS {
+            let why = format!(
+                "ids go up to {}, and LAMMPS numbers atoms up to {}",
+                data::highest_number(setup),
+                data::MOST_ATOMS
+            );
+            refused.push(Refusal::new("particles", why, "give smaller ids (first_id)"));
+        }
+        if setup.particles.is_empty() {
+            refused.push(Refusal::new("particles", "there is none", "add a [[fill]]"));
+        }
+        let types = Types::of(setup).unwrap_or_else(|refusal| {
+            refused.push(refusal);
+            Types(Vec::new())
+        });
+        let pairs = pairs(setup, &types, version).unwrap_or_else(|more| {
+            refused.extend(more);
+            String::new()
+        });
+        let walls = wall::commands(setup, &types, version).unwrap_or_else(|more| {
+            refused.extend(more);
+            String::new()
+        });
+        refused.dedup();
+        if !refused.is_empty() {
+            return Err(LammpsError::Cannot(refused));
+        }
+        let input =
+            [head(scene, setup, schedule), pairs, groups(&types), motion(setup), walls, tail(schedule)]
+                .concat();
+        Ok(Deck { input, batch: batch::slurm(&scene.text.name, ranks), types })
+    }
+
+    /// Writes the deck into a folder, which is made where it is missing.
+    ///
+    /// # Errors
+    /// A folder that cannot be written to.
+    pub fn write(&self, setup: &Setup, folder: &Path) -> Result<()> {
+        let write = || {
+            std::fs::create_dir_all(folder)?;
+            std::fs::write(folder.join(INPUT), &self.input)?;
+            std::fs::write(folder.join(BATCH), &self.batch)?;
+            let mut data = BufWriter::with_capacity(1 << 20, File::create(folder.join(DATA))?);
+            data::write(setup, &self.types, &mut data)?;
+            data.flush()
+        };
+        write().map_err(|error| LammpsError::Deck { folder: folder.display().to_string(), error })
+    }
+}
+
+fn head(scene: &Scene, setup: &Setup, schedule: &Schedule) -> String {
+    let edge = |periodic: &Option<(f64, f64)>| if periodic.is_some() { "p" } else { "m" };
+    let [x, y, z] = [0, 1, 2].map(|axis| edge(&setup.periodic[axis]));
+    let name = Path::new(&scene.text.name).file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let smallest = setup.particles.iter().map(|p| p.radius).fold(f64::INFINITY, f64::min);
+    let skin = setup.skin.unwrap_or(0.4 * smallest);
+    format!(
+        "# {name}, written by dem-lammps: SI units; forces are sampled at instants.\n\
+         units si\natom_style sphere\nboundary {x} {y} {z}\nnewton off\ncomm_modify vel yes\n\
+         read_data {DATA}\nneighbor {skin:?} bin\nneigh_modify delay 0 every 1 check yes\ntimestep {:?}\n\
+         variable t equal step*dt\n\n# contacts: overlap, dashpot, friction\npair_style granular\n",
+        schedule.dt
+    )
+}
+
+/// Coefficients of each pair of types that can meet.
+fn pairs(setup: &Setup, types: &Types, version: Version) -> Result<String, Vec<Refusal>> {
+    let (mut lines, mut refused) = (Vec::new(), Vec::new());
+    let all: Vec<_> = (1..).zip(&types.0).collect();
+    for (i, a) in &all {
+        for (j, b) in all.iter().filter(|(j, _)| j >= i) {
+            let grains = [a, b].iter().any(|t| t.kind == crate::types::Kind::Grain);
+            let Some(law) = law(setup, a.material, b.material).filter(|_| grains) else { continue };
+            let elastic = wall::elastic(setup, a.material, b.material);
+            let names = [a, b].map(|t| &setup.materials[t.material as usize].name[..]);
+            match coefficients(law, elastic, Types::meeting(setup, [a, b]), version) {
+                Ok(words) => lines.push((format!("{i} {j}"), words, names.join("–"))),
+                Err(refusal) => refused.push(refusal),
+            }
+        }
+    }
+    if !refused.is_empty() {
+        return Err(refused);
+    }
+    let none = "hooke 1 0 damping velocity tangential linear_nohistory 0 0".to_owned();
+    let first = lines.first().map_or(none, |line| line.1.clone());
+    let mut text = format!("pair_coeff * * {first} # also pairs that never meet\n");
+    for (pair, words, names) in lines {
+        let _ = writeln!(text, "pair_coeff {pair} {words} # {names}");
+    }
+    Ok(text)
+}
+
+fn groups(types: &Types) -> String {
+    let numbers: Vec<String> = types.grains().map(|(n, _)| n.to_string()).collect();
+    let mut text = format!("\ngroup grains type {}\n", numbers.join(" "));
+    numbers.iter().for_each(|n| text += &format!("group type{n} type {n}\n"));
+    text
+}
+
+fn motion(setup: &Setup) -> String {
+    let (g, size) = (setup.gravity, setup.gravity.norm());
+    let gravity = match size > 0.0 {
+        true => format!("fix gravity grains gravity {size:?} vector {:?} {:?} {:?}\n", g.x, g.y, g.z),
+        false => String::new(),
+    };
+    format!("fix move grains nve/sphere\n{gravity}")
+}
+
+/// Output and the run: frame k is at the step nearest to k × `every`, the last step is one.
+fn tail(schedule: &Schedule) -> String {
+    let Schedule { dt, last, every, .. } = schedule;
+    let report = (last / 200).max(1);
+    format!(
+        "\n# frames\nvariable frames index {FRAMES}\n\
+         variable due equal \"round((round(step*{dt:?}/{every:?})+1)*{every:?}/{dt:?})\"\n\
+         variable next equal \"(v_due<{last} || step>={last})*v_due+(v_due>={last} && step<{last})*{last}\"\n\
+         dump frames grains custom 1 ${{frames}} {COLUMNS}\n\
+         dump_modify frames every v_next first yes flush yes format float %.17g\n\
+         thermo {report}\nthermo_style custom step ke\nthermo_modify lost error flush yes\nrun {last}\n"
+    )
+}

@@ -1,0 +1,192 @@
+//! LAMMPS as a process: how it is started, stopped, and what it said last.
+
+use crate::deck::INPUT;
+use crate::error::{LammpsError, Result};
+use crate::version::Version;
+use std::collections::VecDeque;
+use std::io::{BufRead, BufReader, PipeReader, PipeWriter, Read};
+use std::os::fd::AsRawFd;
+use std::path::Path;
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+/// Lines of output that are kept.
+const KEPT: usize = 12;
+/// How long LAMMPS has to end after it was asked to.
+const PATIENCE: Duration = Duration::from_secs(5);
+/// Time between looks at the process.
+const LOOK: Duration = Duration::from_millis(20);
+
+/// Which LAMMPS, and how.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Engine {
+    /// The program and its options, such as `lmp -sf omp`.
+    pub lmp: Vec<String>,
+    /// MPI ranks; 1 without MPI's launcher.
+    pub ranks: usize,
+    /// MPI's launcher and its options.
+    pub mpirun: Vec<String>,
+}
+
+impl Engine {
+    fn program(&self) -> &str {
+        self.lmp.first().map_or("lmp", String::as_str)
+    }
+
+    /// The version of the program.
+    ///
+    /// # Errors
+    /// A program that is missing or is not LAMMPS.
+    pub fn version(&self) -> Result<Version> {
+        let program = self.program().to_owned();
+        let asked = Command::new(&program).arg("-h").stdin(Stdio::null()).output();
+        let output = asked.map_err(|error| LammpsError::Start { program: program.clone(), error })?;
+        let text = String::from_utf8_lossy(&output.stdout);
+        Version::of_help(&text).ok_or(LammpsError::NotLammps { program })
+    }
+
+    fn command(&self) -> Command {
+        let mut words = self.lmp.clone();
+        if self.ranks > 1 {
+            let ranks = ["-np".to_owned(), self.ranks.to_string()];
+            words = self.mpirun.iter().cloned().chain(ranks).chain(words).collect();
+        }
+        let mut words = words.into_iter();
+        let mut command = Command::new(words.next().unwrap_or_default());
+        command.args(words);
+        command
+    }
+}
+
+/// LAMMPS at work.
+pub struct Running {
+    watcher: JoinHandle<std::io::Result<ExitStatus>>,
+    said: Arc<Mutex<VecDeque<String>>>,
+    listeners: Vec<JoinHandle<()>>,
+}
+
+impl Running {
+    /// Starts the deck in a folder; its frames come from the pipe. `stop` is asked now and then whether it is to end.
+    ///
+    /// # Errors
+    /// A program that cannot be started.
+    pub fn start(engine: &Engine, folder: &Path, stop: fn() -> bool) -> Result<(Running, PipeReader)> {
+        let program = if engine.ranks > 1 { &engine.mpirun } else { &engine.lmp };
+        let program = program.first().cloned().unwrap_or_default();
+        let failed = |error| LammpsError::Start { program: program.clone(), error };
+        let (reader, writer) = std::io::pipe().map_err(failed)?;
+        // LAMMPS opens the pipe by this name; no rank needs to inherit it.
+        let frames = format!("/proc/{}/fd/{}", std::process::id(), writer.as_raw_fd());
+        let mut command = engine.command();
+        command.args(["-in", INPUT, "-log", "log.lammps", "-var", "frames", &frames]);
+        command.current_dir(folder).stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().map_err(failed)?;
+        let said = Arc::new(Mutex::new(VecDeque::new()));
+        let mut listeners = Vec::new();
+        if let Some(out) = child.stdout.take() {
+            listeners.push(listen(out, said.clone()));
+        }
+        if let Some(err) = child.stderr.take() {
+            listeners.push(listen(err, said.clone()));
+        }
+        let watcher = std::thread::spawn(move || watch(child, writer, stop));
+        Ok((Running { watcher, said, listeners }, reader))
+    }
+
+    /// Waits for its end: how it ended, and its last words.
+    pub fn end(self) -> (Option<ExitStatus>, String) {
+        let status = self.watcher.join().ok().and_then(Result::ok);
+        self.listeners.into_iter().for_each(|listener| drop(listener.join()));
+        let said = self.said.lock().unwrap_or_else(PoisonError::into_inner);
+        (status, last_words(said.iter().map(String::as_str)))
+    }
+}
+
+/// Waits for the end of the process, and then closes the pipe, so that its reader sees the end.
+fn watch(mut child: Child, writer: PipeWriter, stop: fn() -> bool) -> std::io::Result<ExitStatus> {
+    let mut asked: Option<Instant> = None;
+    let status = loop {
+        if let Some(status) = child.try_wait()? {
+            break status;
+        }
+        match asked {
+            None if stop() => {
+                asked = Some(Instant::now());
+                terminate(&child);
+            }
+            Some(since) if since.elapsed() > PATIENCE => child.kill()?,
+            _ => {}
+        }
+        std::thread::sleep(LOOK);
+    };
+    drop(writer);
+    Ok(status)
+}
+
+/// Asks a process to end: a launcher ends its ranks then.
+fn terminate(child: &Child) {
+    if let Some(id) = rustix::process::Pid::from_raw(child.id() as i32) {
+        let _ = rustix::process::kill_process(id, rustix::process::Signal::TERM);
+    }
+}
+
+/// Keeps the last lines of a stream.
+fn listen(stream: impl Read + Send + 'static, said: Arc<Mutex<VecDeque<String>>>) -> JoinHandle<()> {
+    std::thread::spawn(move || {
+        for line in BufReader::new(stream).split(b'\n').map_while(Result::ok) {
+            let line = String::from_utf8_lossy(&line).trim().to_owned();
+            if line.is_empty() {
+                continue;
+            }
+            let mut said = said.lock().unwrap_or_else(PoisonError::into_inner);
+            // An error is the last word, whatever a launcher says after it.
+            if said.len() == KEPT && !said.front().is_some_and(|l| is_error(l)) {
+                said.pop_front();
+            }
+            if said.len() < 2 * KEPT {
+                said.push_back(line);
+            }
+        }
+    })
+}
+
+fn is_error(line: &str) -> bool {
+    line.starts_with("ERROR")
+}
+
+/// The error and the command that it came from; else the last lines.
+fn last_words<'a>(lines: impl Iterator<Item = &'a str>) -> String {
+    let lines: Vec<&str> = lines.collect();
+    let error = lines.iter().position(|line| is_error(line));
+    match error {
+        Some(first) => {
+            let command = lines[first..].iter().find(|line| line.starts_with("Last command"));
+            std::iter::once(lines[first]).chain(command.copied()).collect::<Vec<_>>().join("; ")
+        }
+        None if lines.is_empty() => "it said nothing".to_owned(),
+        None => lines[lines.len().saturating_sub(3)..].join("; "),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_words_are_the_error_and_its_command() {
+        let lines = [
+            "Step KinEng",
+            "ERROR: Lost atoms: original 3 current 2 (src/thermo.cpp:438)",
+            "Last command: run 100",
+            "MPI_ABORT was invoked",
+        ];
+        assert_eq!(
+            last_words(lines.into_iter()),
+            "ERROR: Lost atoms: original 3 current 2 (src/thermo.cpp:438); Last command: run 100"
+        );
+        assert_eq!(last_words(["a", "b", "c", "d"].into_iter()), "b; c; d");
+        assert_eq!(last_words(std::iter::empty()), "it said nothing");
+    }
+}

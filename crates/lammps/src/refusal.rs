@@ -1,0 +1,145 @@
+//! What of a scene LAMMPS cannot do, by name, with the nearest that it can.
+
+use dem::setup::{Precision, Setup, WallShape};
+use scene::keys::SceneKeys;
+use std::fmt;
+
+/// Something that LAMMPS cannot do.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Refusal {
+    /// Key or name in the scene.
+    pub what: String,
+    /// Why.
+    pub why: String,
+    /// The nearest that LAMMPS can do, as an instruction.
+    pub nearest: String,
+}
+
+impl Refusal {
+    /// A refusal.
+    pub fn new(what: impl Into<String>, why: impl Into<String>, nearest: impl Into<String>) -> Refusal {
+        Refusal { what: what.into(), why: why.into(), nearest: nearest.into() }
+    }
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{}: {}: {}", self.what, self.why, self.nearest)
+    }
+}
+
+/// Parts of a scene apart from laws and walls; laws and walls say themselves what they cannot.
+pub fn scene(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
+    let clumps = !setup.clumps.shapes.is_empty();
+    let cases = [
+        (
+            clumps,
+            "clump",
+            "rigid clumps are not written for LAMMPS yet",
+            "use spheres with rolling_resistance",
+        ),
+        (!keys.bond.is_empty(), "bond", "bonds are not written for LAMMPS", "use law = \"jkr\", or dem-run"),
+        (
+            !keys.insert.is_empty(),
+            "insert",
+            "grains that come in during the run are not written for LAMMPS",
+            "place them with [[fill]], or run the insertion with dem-run and read its run with [[particles]]",
+        ),
+        (
+            !keys.inlet.is_empty(),
+            "inlet",
+            "LAMMPS has no zone with prescribed motion",
+            "run the stage upstream on LAMMPS and this one with dem-run",
+        ),
+        (
+            !keys.outlet.is_empty(),
+            "outlet",
+            "LAMMPS has no zone with prescribed motion",
+            "leave it out, and take the crossings from the frames: stage-replay --at PLANE",
+        ),
+        (keys.drag.is_some(), "drag", "drag is not written for LAMMPS", "leave it out, or use dem-run"),
+        (
+            keys.sleep.is_some(),
+            "sleep",
+            "particles of LAMMPS do not sleep",
+            "leave it out: sleep only saves time",
+        ),
+        (
+            keys.local_damping.is_some(),
+            "local_damping",
+            "local damping is not written for LAMMPS",
+            "leave it out, or lower restitution",
+        ),
+        (
+            keys.time.until_unbalanced.is_some(),
+            "time.until_unbalanced",
+            "a LAMMPS run ends at time.until",
+            "leave it out and give time.until",
+        ),
+        (
+            keys.time.until_kinetic.is_some(),
+            "time.until_kinetic",
+            "a LAMMPS run ends at time.until",
+            "leave it out and give time.until",
+        ),
+        (
+            keys.output.energy,
+            "output.energy",
+            "LAMMPS keeps no energy ledger",
+            "leave it out; dem-measure --profile has velocities of frames",
+        ),
+        (
+            keys.output.contacts,
+            "output.contacts",
+            "contacts are not read back from LAMMPS",
+            "leave it out, or run the last instant with dem-run",
+        ),
+        (
+            keys.output.wall_forces == Some(true),
+            "output.wall_forces",
+            "fix wall/gran gives no force on the wall",
+            "leave it out, or use dem-run",
+        ),
+        (keys.guards.energy.is_some(), "guards.energy", "LAMMPS keeps no energy ledger", "leave it out"),
+        (
+            setup.precision != Precision::Double,
+            "precision",
+            "LAMMPS computes in double precision",
+            "leave it out",
+        ),
+        (
+            !setup.kept.is_empty()
+                && setup.contacts.iter().any(|law| law.number("sliding_friction").is_some()),
+            "particles",
+            "the contact history of a run cannot be given to LAMMPS",
+            "name the material of the particles: contacts then begin without history",
+        ),
+    ];
+    let all = cases.into_iter().filter(|case| case.0);
+    all.map(|(_, what, why, nearest)| Refusal::new(what, why, nearest)).collect()
+}
+
+/// Walls that LAMMPS does not have.
+pub fn walls(setup: &Setup) -> Vec<Refusal> {
+    let mut all = Vec::new();
+    for wall in &setup.walls {
+        let what = format!("wall '{}'", wall.name);
+        let mut refuse = |why: &str, nearest: &str| all.push(Refusal::new(&what, why, nearest));
+        if matches!(wall.shape, WallShape::Mesh(_)) {
+            refuse(
+                "LAMMPS has no walls of triangles",
+                "make wall spheres of the drawing (wallgen --from-mesh), or use planes or box",
+            );
+        }
+        if wall.surface.moves() {
+            refuse("LAMMPS has no belts", "move the wall (motion), or use dem-run");
+        }
+        if wall.servo.is_some() {
+            refuse("LAMMPS has no walls that follow a force", "give the wall a motion, or use dem-run");
+        }
+        if wall.mount.is_some() {
+            refuse("LAMMPS has no walls on springs", "leave spring out, or use dem-run");
+        }
+    }
+    all
+}
