@@ -64,7 +64,7 @@ pub fn bounds(setup: &Setup) -> [Vec3; 2] {
 ///
 /// # Errors
 /// A write that fails.
-pub fn write(setup: &Setup, types: &Types, out: &mut impl Write) -> io::Result<()> {
+pub fn write(setup: &Setup, types: &Types, free: &[(u32, f64)], out: &mut impl Write) -> io::Result<()> {
     let [low, high] = bounds(setup);
     writeln!(out, "Grains and wall spheres of a scene, written by dem-lammps\n")?;
     writeln!(out, "{} atoms\n{} atom types\n", setup.particles.len() + walls(setup), types.0.len().max(1))?;
@@ -90,6 +90,14 @@ pub fn write(setup: &Setup, types: &Types, out: &mut impl Write) -> io::Result<(
     each(setup, types, |a| {
         let (v, w) = (a.velocity, a.spin);
         writeln!(out, "{} {:?} {:?} {:?} {:?} {:?} {:?}", a.number, v.x, v.y, v.z, w.x, w.y, w.z)
+    })?;
+    if free.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "\nFree # number, time from which a grain moves freely [s]\n")?;
+    each(setup, types, |a| {
+        let of = free.binary_search_by_key(&a.number, |(id, _)| number_of(*id));
+        writeln!(out, "{} {:?}", a.number, of.map_or(0.0, |index| free[index].1))
     })
 }
 

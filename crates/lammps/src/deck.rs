@@ -1,12 +1,12 @@
 //! The deck: the input script of a run, readable, and its data file.
 
+use crate::arrivals::Arrival;
 use crate::batch;
 use crate::data;
 use crate::error::{LammpsError, Result};
-use crate::law::coefficients;
+use crate::law::{Target, coefficients};
 use crate::refusal::{self, Refusal};
 use crate::types::{Types, law};
-use crate::version::Version;
 use crate::wall;
 use dem::setup::Setup;
 use run::Schedule;
@@ -26,6 +26,23 @@ const BATCH: &str = "batch.sh";
 /// Columns of a dump.
 pub const COLUMNS: &str = "id x y z vx vy vz omegax omegay omegaz";
 
+/// What a deck is made from.
+#[derive(Clone, Copy)]
+pub struct Source<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Its setup, with all grains that come in.
+    pub setup: &'a Setup,
+    /// Those that come in.
+    pub arrivals: &'a [Arrival],
+    /// Which steps are frames.
+    pub schedule: &'a Schedule,
+    /// Version, and whether the nearest is taken.
+    pub target: Target,
+    /// MPI ranks.
+    pub ranks: usize,
+}
+
 /// A run for LAMMPS.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Deck {
@@ -33,54 +50,54 @@ pub struct Deck {
     pub input: String,
     /// The batch script.
     pub batch: String,
+    /// What was replaced by the nearest that LAMMPS can do.
+    pub bent: Vec<Refusal>,
     types: Types,
+    /// Times at which grains that come in are free [s], by their ids.
+    free: Vec<(u32, f64)>,
 }
 
 impl Deck {
-    /// The deck of a scene that runs by a schedule.
+    /// The deck of a source.
     ///
     /// # Errors
     /// Everything in the scene that LAMMPS cannot do.
-    pub fn of(
-        scene: &Scene,
-        setup: &Setup,
-        schedule: &Schedule,
-        version: Version,
-        ranks: usize,
-    ) -> Result<Deck> {
-        let mut refused = refusal::scene(&scene.keys, setup);
+    pub fn of(from: Source) -> Result<Deck> {
+        let Source { scene, setup, arrivals, target, .. } = from;
+        let (mut refused, mut bent) = (refusal::scene(&scene.keys, setup), Vec::new());
+        if target.nearest { &mut bent } else { &mut refused }.extend(refusal::leavable(&scene.keys, setup));
         refused.extend(refusal::walls(setup));
-        if data::highest_number(setup) > data::MOST_ATOMS {
-            let why = format!(
-                "ids go up to {}, and LAMMPS numbers atoms up to {}",
-                data::highest_number(setup),
-                data::MOST_ATOMS
-            );
-            refused.push(Refusal::new("particles", why, "give smaller ids (first_id)"));
-        }
-        if setup.particles.is_empty() {
-            refused.push(Refusal::new("particles", "there is none", "add a [[fill]]"));
-        }
+        refused.extend(particles(setup));
         let types = Types::of(setup).unwrap_or_else(|refusal| {
-            refused.push(refusal);
-            Types(Vec::new())
+            if target.nearest { &mut bent } else { &mut refused }.push(refusal);
+            Types::of_means(setup)
         });
-        let pairs = pairs(setup, &types, version).unwrap_or_else(|more| {
-            refused.extend(more);
-            String::new()
-        });
-        let walls = wall::commands(setup, &types, version).unwrap_or_else(|more| {
-            refused.extend(more);
-            String::new()
-        });
-        refused.dedup();
+        let mut keep = |made: Result<String, Vec<Refusal>>| {
+            made.unwrap_or_else(|more| {
+                refused.extend(more);
+                String::new()
+            })
+        };
+        let pairs = keep(pairs(setup, &types, target, &mut bent));
+        let walls = keep(wall::commands(setup, &types, target, &mut bent));
+        for list in [&mut refused, &mut bent] {
+            let mut seen = Vec::new();
+            list.retain(|one| {
+                !seen.contains(one) && {
+                    seen.push(one.clone());
+                    true
+                }
+            });
+        }
         if !refused.is_empty() {
             return Err(LammpsError::Cannot(refused));
         }
+        // After all other forces.
+        let free = if arrivals.is_empty() { "" } else { "\nfix steady waiting setforce 0 0 0\n" }.to_owned();
         let input =
-            [head(scene, setup, schedule), pairs, groups(&types), motion(setup), walls, tail(schedule)]
-                .concat();
-        Ok(Deck { input, batch: batch::slurm(&scene.text.name, ranks), types })
+            [head(&from), pairs, groups(&types), motion(&from), walls, free, tail(from.schedule)].concat();
+        let free = arrivals.iter().map(|a| (a.id, a.free)).collect();
+        Ok(Deck { input, batch: batch::slurm(&scene.text.name, from.ranks), bent, types, free })
     }
 
     /// Writes the deck into a folder, which is made where it is missing.
@@ -93,30 +110,49 @@ impl Deck {
             std::fs::write(folder.join(INPUT), &self.input)?;
             std::fs::write(folder.join(BATCH), &self.batch)?;
             let mut data = BufWriter::with_capacity(1 << 20, File::create(folder.join(DATA))?);
-            data::write(setup, &self.types, &mut data)?;
+            data::write(setup, &self.types, &self.free, &mut data)?;
             data.flush()
         };
         write().map_err(|error| LammpsError::Deck { folder: folder.display().to_string(), error })
     }
 }
 
-fn head(scene: &Scene, setup: &Setup, schedule: &Schedule) -> String {
+/// Particles that LAMMPS cannot number, or none.
+fn particles(setup: &Setup) -> Option<Refusal> {
+    let highest = data::highest_number(setup);
+    if setup.particles.is_empty() {
+        return Some(Refusal::new("particles", "there is none", "add a [[fill]]"));
+    }
+    let why = format!("ids go up to {highest}, and LAMMPS numbers atoms up to {}", data::MOST_ATOMS);
+    (highest > data::MOST_ATOMS).then(|| Refusal::new("particles", why, "give smaller ids (first_id)"))
+}
+
+fn head(Source { scene, setup, schedule, arrivals, .. }: &Source) -> String {
     let edge = |periodic: &Option<(f64, f64)>| if periodic.is_some() { "p" } else { "m" };
     let [x, y, z] = [0, 1, 2].map(|axis| edge(&setup.periodic[axis]));
     let name = Path::new(&scene.text.name).file_name().unwrap_or_default().to_string_lossy().into_owned();
     let smallest = setup.particles.iter().map(|p| p.radius).fold(f64::INFINITY, f64::min);
+    let read = match arrivals.is_empty() {
+        true => format!("read_data {DATA}"),
+        false => format!("fix free all property/atom d_free\nread_data {DATA} fix free NULL Free"),
+    };
     let skin = setup.skin.unwrap_or(0.4 * smallest);
     format!(
         "# {name}, written by dem-lammps: SI units; forces are sampled at instants.\n\
          units si\natom_style sphere\nboundary {x} {y} {z}\nnewton off\ncomm_modify vel yes\n\
-         read_data {DATA}\nneighbor {skin:?} bin\nneigh_modify delay 0 every 1 check yes\ntimestep {:?}\n\
+         {read}\nneighbor {skin:?} bin\nneigh_modify delay 0 every 1 check yes\ntimestep {:?}\n\
          variable t equal step*dt\n\n# contacts: overlap, dashpot, friction\npair_style granular\n",
         schedule.dt
     )
 }
 
 /// Coefficients of each pair of types that can meet.
-fn pairs(setup: &Setup, types: &Types, version: Version) -> Result<String, Vec<Refusal>> {
+fn pairs(
+    setup: &Setup,
+    types: &Types,
+    target: Target,
+    bent: &mut Vec<Refusal>,
+) -> Result<String, Vec<Refusal>> {
     let (mut lines, mut refused) = (Vec::new(), Vec::new());
     let all: Vec<_> = (1..).zip(&types.0).collect();
     for (i, a) in &all {
@@ -125,7 +161,7 @@ fn pairs(setup: &Setup, types: &Types, version: Version) -> Result<String, Vec<R
             let Some(law) = law(setup, a.material, b.material).filter(|_| grains) else { continue };
             let elastic = wall::elastic(setup, a.material, b.material);
             let names = [a, b].map(|t| &setup.materials[t.material as usize].name[..]);
-            match coefficients(law, elastic, Types::meeting(setup, [a, b]), version) {
+            match coefficients(law, elastic, Types::meeting(setup, [a, b]), target, bent) {
                 Ok(words) => lines.push((format!("{i} {j}"), words, names.join("–"))),
                 Err(refusal) => refused.push(refusal),
             }
@@ -150,13 +186,23 @@ fn groups(types: &Types) -> String {
     text
 }
 
-fn motion(setup: &Setup) -> String {
+fn motion(Source { setup, arrivals, .. }: &Source) -> String {
     let (g, size) = (setup.gravity, setup.gravity.norm());
     let gravity = match size > 0.0 {
         true => format!("fix gravity grains gravity {size:?} vector {:?} {:?} {:?}\n", g.x, g.y, g.z),
         false => String::new(),
     };
-    format!("fix move grains nve/sphere\n{gravity}")
+    if arrivals.is_empty() {
+        return format!("fix move grains nve/sphere\n{gravity}");
+    }
+    format!(
+        "\n# grains that come in keep their velocity and touch nothing until they are free\n\
+         compute free grains property/atom d_free\n\
+         variable waits atom \"step*dt<c_free\"\nvariable moves atom \"step*dt>=c_free\"\n\
+         group waiting dynamic grains var waits every 1\ngroup free dynamic grains var moves every 1\n\
+         neigh_modify exclude group waiting all\n\
+         fix come waiting nve\nfix move free nve/sphere\n{gravity}"
+    )
 }
 
 /// Output and the run: frame k is at the step nearest to k × `every`, the last step is one.

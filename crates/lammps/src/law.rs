@@ -39,7 +39,16 @@ struct Normal {
     linear: bool,
 }
 
-/// Coefficients of a law; `meeting` is known where the two types have one size each.
+/// What coefficients are written for.
+#[derive(Debug, Clone, Copy)]
+pub struct Target {
+    /// Version of LAMMPS.
+    pub version: Version,
+    /// Whether the nearest is taken where LAMMPS lacks something.
+    pub nearest: bool,
+}
+
+/// Coefficients of a law; `meeting` is known where the two types have one size each. What the nearest stands for goes to `bent`.
 ///
 /// # Errors
 /// What LAMMPS cannot do.
@@ -47,15 +56,38 @@ pub fn coefficients(
     law: &ContactLaw,
     elastic: Elastic,
     meeting: Option<Meeting>,
-    version: Version,
+    target: Target,
+    bent: &mut Vec<Refusal>,
 ) -> Result<String, Refusal> {
     unknown(law)?;
-    let normal = normal(law, elastic, meeting, version)?;
+    let mut normal = normal(law, elastic, meeting, target.version)?;
     let mut words = normal.words.clone();
     words += &sliding(law, elastic, meeting, &normal)?;
-    words += &rolling(law, meeting, &normal)?;
-    words += &twisting(law, elastic, meeting, &normal)?;
+    let turns = ["rolling_resistance", "twisting_resistance"];
+    for key in turns.into_iter().filter(|key| !normal.linear && law.number(key).is_some_and(|mu| mu > 0.0)) {
+        let refusal = Refusal::new(
+            key,
+            "this spring of LAMMPS does not stiffen with the overlap",
+            "use law = \"hooke\", or leave it out; --nearest makes it as stiff as at the overlap of an impact at 1 m/s",
+        );
+        if !target.nearest {
+            return Err(refusal);
+        }
+        bent.push(refusal);
+    }
+    if !normal.linear {
+        normal.stiffness = at_impact(elastic, meeting.unwrap_or(Meeting::UNKNOWN));
+    }
+    words += &rolling(law, meeting, &normal);
+    words += &twisting(law, elastic, meeting, &normal);
     Ok(words)
+}
+
+/// S = 2 E* √(R* δ) [N/m] at the largest overlap of an elastic impact at 1 m/s, δ = (15 m* v²/(16 √R* E*))^(2/5).
+fn at_impact(elastic: Elastic, meeting: Meeting) -> f64 {
+    let Meeting { radius, mass, .. } = meeting;
+    let overlap = (15.0 * mass / (16.0 * radius.sqrt() * elastic.modulus)).powf(0.4);
+    2.0 * elastic.modulus * (radius * overlap).sqrt()
 }
 
 /// Refuses what has no counterpart.
@@ -186,39 +218,20 @@ fn sliding(
     Ok(format!(" tangential {model} {:?} {share:?} {mu:?}", q * normal.stiffness))
 }
 
-/// Refuses a spring of rotation whose normal law is not linear.
-fn linear(normal: &Normal, key: &str, spring: &str) -> Result<(), Refusal> {
-    match normal.linear {
-        true => Ok(()),
-        false => Err(Refusal::new(
-            key,
-            format!("the {spring} spring of LAMMPS does not stiffen with the overlap"),
-            "use law = \"hooke\", or leave it out",
-        )),
-    }
-}
-
 /// Share of critical damping of the springs of rotation [–].
 const ETA: f64 = 0.3;
 
-fn rolling(law: &ContactLaw, meeting: Option<Meeting>, normal: &Normal) -> Result<String, Refusal> {
-    let Some(mu) = law.number("rolling_resistance").filter(|mu| *mu > 0.0) else { return Ok(String::new()) };
-    linear(normal, "rolling_resistance", "rolling")?;
+fn rolling(law: &ContactLaw, meeting: Option<Meeting>, normal: &Normal) -> String {
+    let Some(mu) = law.number("rolling_resistance").filter(|mu| *mu > 0.0) else { return String::new() };
     let mass = meeting.unwrap_or(Meeting::UNKNOWN).mass;
     let damping = 2.0 * ETA * (2.25f64 * 1.4).sqrt() * mu * (normal.stiffness * mass).sqrt();
-    Ok(format!(" rolling sds {:?} {damping:?} {mu:?}", 2.25 * normal.stiffness * mu * mu))
+    format!(" rolling sds {:?} {damping:?} {mu:?}", 2.25 * normal.stiffness * mu * mu)
 }
 
-fn twisting(
-    law: &ContactLaw,
-    elastic: Elastic,
-    meeting: Option<Meeting>,
-    normal: &Normal,
-) -> Result<String, Refusal> {
-    let Some(mu) = law.number("twisting_resistance").filter(|mu| *mu > 0.0) else { return Ok(String::new()) };
-    linear(normal, "twisting_resistance", "twisting")?;
+fn twisting(law: &ContactLaw, elastic: Elastic, meeting: Option<Meeting>, normal: &Normal) -> String {
+    let Some(mu) = law.number("twisting_resistance").filter(|mu| *mu > 0.0) else { return String::new() };
     let Meeting { radius, mass, .. } = meeting.unwrap_or(Meeting::UNKNOWN);
     let stiffness = tangential_ratio(law, elastic) * normal.stiffness * radius * radius;
     let damping = 2.0 * ETA * (stiffness * 0.4 * mass * radius * radius).sqrt();
-    Ok(format!(" twisting sds {stiffness:?} {damping:?} {:?}", mu * radius))
+    format!(" twisting sds {stiffness:?} {damping:?} {:?}", mu * radius)
 }

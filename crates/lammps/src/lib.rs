@@ -11,6 +11,7 @@
 //! Sources: the documentation of LAMMPS (`pair_style granular`, `fix wall/gran`, `fix wall/gran/region`, `fix move`, `dump custom`) and its
 //! source of 29 Sep 2021 and 22 Jul 2025, against which the conversions are tested. Uses `dem` for the setup's types, `run` for the file.
 
+mod arrivals;
 mod batch;
 mod damping;
 mod data;
@@ -29,7 +30,8 @@ mod wall;
 
 pub use deck::Deck;
 pub use error::LammpsError;
+pub use law::Target;
 pub use process::Engine;
 pub use refusal::Refusal;
-pub use simulate::{Origin, Outcome, Settings, prepare, run, sampled};
+pub use simulate::{Origin, Outcome, Prepared, Settings, prepare, run, sampled};
 pub use version::Version;

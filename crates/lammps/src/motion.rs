@@ -8,8 +8,8 @@
 //! The velocity of a region is the difference of two of its positions over a step; that of atoms is given exactly.
 
 use crate::refusal::Refusal;
-use dem::setup::Motion;
-use geom::Vec3;
+use dem::setup::{Motion, Wall};
+use geom::{Plane, Vec3};
 
 /// What LAMMPS can do of a motion.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,6 +33,27 @@ pub enum Movement {
 }
 
 impl Movement {
+    /// That of a plane: a belt moves along itself, which leaves an unbounded plane where it is.
+    ///
+    /// # Errors
+    /// As [`Movement::of`]; a surface that turns.
+    pub fn of_plane(wall: &Wall, plane: &Plane) -> Result<Movement, Refusal> {
+        if !wall.surface.moves() {
+            return Movement::of(&wall.name, &wall.motion);
+        }
+        let refuse =
+            |why: &str, nearest: &str| Err(Refusal::new(format!("wall '{}'", wall.name), why, nearest));
+        if wall.surface.turn != Vec3::zeros() {
+            return refuse("LAMMPS has no turntables", "use wall spheres with motion rotate, or dem-run");
+        }
+        if wall.motion.moves() {
+            return refuse("a belt that moves besides is not written for LAMMPS", "leave its motion out");
+        }
+        let across = wall.surface.velocity.dot(&plane.normal);
+        let velocity = wall.surface.velocity - plane.normal * across;
+        Ok(shift(&[&Motion { velocity, ..Motion::default() }]))
+    }
+
     /// That of a motion; `name` is the wall's.
     ///
     /// # Errors

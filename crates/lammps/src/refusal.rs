@@ -28,79 +28,60 @@ impl fmt::Display for Refusal {
     }
 }
 
-/// Parts of a scene apart from laws and walls; laws and walls say themselves what they cannot.
+/// A condition, what it makes impossible, why, and the nearest.
+type Case = (bool, &'static str, &'static str, &'static str);
+
+fn all_of(cases: impl IntoIterator<Item = Case>) -> Vec<Refusal> {
+    let held = cases.into_iter().filter(|case| case.0);
+    held.map(|(_, what, why, nearest)| Refusal::new(what, why, nearest)).collect()
+}
+
+/// Parts of a scene apart from laws and walls without which it would be another one; laws and walls say themselves what they cannot.
 pub fn scene(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
-    let clumps = !setup.clumps.shapes.is_empty();
-    let cases = [
+    let ends = "a LAMMPS run ends at time.until";
+    let zone = "LAMMPS has no zone of a cut";
+    all_of([
         (
-            clumps,
+            !setup.clumps.shapes.is_empty(),
             "clump",
-            "rigid clumps are not written for LAMMPS yet",
+            "rigid clumps are not written for LAMMPS",
             "use spheres with rolling_resistance",
         ),
         (!keys.bond.is_empty(), "bond", "bonds are not written for LAMMPS", "use law = \"jkr\", or dem-run"),
-        (
-            !keys.insert.is_empty(),
-            "insert",
-            "grains that come in during the run are not written for LAMMPS",
-            "place them with [[fill]], or run the insertion with dem-run and read its run with [[particles]]",
-        ),
-        (
-            !keys.inlet.is_empty(),
-            "inlet",
-            "LAMMPS has no zone with prescribed motion",
-            "run the stage upstream on LAMMPS and this one with dem-run",
-        ),
+        (!keys.inlet.is_empty(), "inlet", zone, "run the stage upstream on LAMMPS and this one with dem-run"),
         (
             !keys.outlet.is_empty(),
             "outlet",
-            "LAMMPS has no zone with prescribed motion",
+            zone,
             "leave it out, and take the crossings from the frames: stage-replay --at PLANE",
         ),
         (keys.drag.is_some(), "drag", "drag is not written for LAMMPS", "leave it out, or use dem-run"),
-        (
-            keys.sleep.is_some(),
-            "sleep",
-            "particles of LAMMPS do not sleep",
-            "leave it out: sleep only saves time",
-        ),
         (
             keys.local_damping.is_some(),
             "local_damping",
             "local damping is not written for LAMMPS",
             "leave it out, or lower restitution",
         ),
-        (
-            keys.time.until_unbalanced.is_some(),
-            "time.until_unbalanced",
-            "a LAMMPS run ends at time.until",
-            "leave it out and give time.until",
-        ),
-        (
-            keys.time.until_kinetic.is_some(),
-            "time.until_kinetic",
-            "a LAMMPS run ends at time.until",
-            "leave it out and give time.until",
-        ),
-        (
-            keys.output.energy,
-            "output.energy",
-            "LAMMPS keeps no energy ledger",
-            "leave it out; dem-measure --profile has velocities of frames",
-        ),
-        (
-            keys.output.contacts,
-            "output.contacts",
-            "contacts are not read back from LAMMPS",
-            "leave it out, or run the last instant with dem-run",
-        ),
+        (keys.time.until_unbalanced.is_some(), "time.until_unbalanced", ends, "leave it out"),
+        (keys.time.until_kinetic.is_some(), "time.until_kinetic", ends, "leave it out"),
+    ])
+}
+
+/// Keys that LAMMPS has nothing for, and whose absence leaves the motion of the grains nearly as it is.
+pub fn leavable(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
+    let friction = setup.contacts.iter().any(|law| law.number("sliding_friction").is_some());
+    let ledger = "LAMMPS keeps no energy ledger";
+    all_of([
+        (keys.sleep.is_some(), "sleep", "particles of LAMMPS do not sleep", "leave it out"),
+        (keys.output.energy, "output.energy", ledger, "leave it out"),
+        (keys.guards.energy.is_some(), "guards.energy", ledger, "leave it out"),
+        (keys.output.contacts, "output.contacts", "contacts are not read back from LAMMPS", "leave it out"),
         (
             keys.output.wall_forces == Some(true),
             "output.wall_forces",
-            "fix wall/gran gives no force on the wall",
-            "leave it out, or use dem-run",
+            "fix wall/gran gives no force on a wall",
+            "leave it out",
         ),
-        (keys.guards.energy.is_some(), "guards.energy", "LAMMPS keeps no energy ledger", "leave it out"),
         (
             setup.precision != Precision::Double,
             "precision",
@@ -108,15 +89,12 @@ pub fn scene(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
             "leave it out",
         ),
         (
-            !setup.kept.is_empty()
-                && setup.contacts.iter().any(|law| law.number("sliding_friction").is_some()),
+            !setup.kept.is_empty() && friction,
             "particles",
             "the contact history of a run cannot be given to LAMMPS",
-            "name the material of the particles: contacts then begin without history",
+            "contacts begin without history (name the material of the particles)",
         ),
-    ];
-    let all = cases.into_iter().filter(|case| case.0);
-    all.map(|(_, what, why, nearest)| Refusal::new(what, why, nearest)).collect()
+    ])
 }
 
 /// Walls that LAMMPS does not have.
@@ -131,8 +109,8 @@ pub fn walls(setup: &Setup) -> Vec<Refusal> {
                 "make wall spheres of the drawing (wallgen --from-mesh), or use planes or box",
             );
         }
-        if wall.surface.moves() {
-            refuse("LAMMPS has no belts", "move the wall (motion), or use dem-run");
+        if wall.surface.moves() && !matches!(wall.shape, WallShape::Plane(_)) {
+            refuse("LAMMPS has no belts of spheres", "use a plane, or dem-run");
         }
         if wall.servo.is_some() {
             refuse("LAMMPS has no walls that follow a force", "give the wall a motion, or use dem-run");

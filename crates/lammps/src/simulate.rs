@@ -1,12 +1,14 @@
 //! A run on LAMMPS, written as it comes.
 
+use crate::arrivals::{self, Arrival};
 use crate::data::number_of;
-use crate::deck::Deck;
+use crate::deck::{Deck, Source};
 use crate::dump::{Ended, Frame, Frames};
 use crate::error::{LammpsError, Result};
+use crate::law::Target;
 use crate::process::{Engine, Running};
-use crate::version::Version;
-use dem::setup::Particle;
+use crate::refusal::Refusal;
+use dem::setup::{Particle, Setup};
 use geom::{Shown, Vec3};
 use run::{Progress, RunError, RunFile, Schedule};
 use scene::keys::Sampling;
@@ -60,15 +62,44 @@ pub fn sampled(scene: &mut Scene) {
     scene.keys.time.contacts = Sampling::Sampled;
 }
 
-/// The deck of a scene, and the schedule of its run.
+/// A scene that is ready for LAMMPS.
+pub struct Prepared {
+    /// The deck.
+    pub deck: Deck,
+    /// Which steps are frames.
+    pub schedule: Schedule,
+    setup: Setup,
+    arrivals: Vec<Arrival>,
+}
+
+impl Prepared {
+    /// What the nearest that LAMMPS can do was taken for.
+    pub fn warnings(&self) -> Vec<String> {
+        let one = |bent: &Refusal| format!("{}: {}: the nearest is taken", bent.what, bent.why);
+        self.deck.bent.iter().map(one).collect()
+    }
+
+    /// Writes the deck into a folder.
+    ///
+    /// # Errors
+    /// A folder that cannot be written to.
+    pub fn write(&self, folder: &Path) -> Result<()> {
+        self.deck.write(&self.setup, folder)
+    }
+}
+
+/// Makes a scene ready.
 ///
 /// # Errors
 /// What LAMMPS cannot do, what the engine refuses.
-pub fn prepare(scene: &Scene, plan: &Plan, version: Version, ranks: usize) -> Result<(Deck, Schedule)> {
+pub fn prepare(scene: &Scene, plan: &Plan, target: Target, ranks: usize) -> Result<Prepared> {
     run::ready(scene, plan, None)?;
     let dt = dem::time_step(&plan.setup).map_err(RunError::from)?;
     let schedule = Schedule::new(scene, dt)?;
-    Ok((Deck::of(scene, &plan.setup, &schedule, version, ranks)?, schedule))
+    let mut setup = plan.setup.clone();
+    let arrivals = arrivals::add(&mut setup, &plan.insertions, schedule.end())?;
+    let source = Source { scene, setup: &setup, arrivals: &arrivals, schedule: &schedule, target, ranks };
+    Ok(Prepared { deck: Deck::of(source)?, setup, arrivals, schedule })
 }
 
 /// Runs a deck on LAMMPS, or reads its dump, and writes the run.
@@ -78,16 +109,19 @@ pub fn prepare(scene: &Scene, plan: &Plan, version: Version, ranks: usize) -> Re
 pub fn run<W: Write>(
     scene: &Scene,
     plan: &Plan,
-    (deck, schedule): (&Deck, &Schedule),
+    prepared: &Prepared,
     origin: Origin,
     out: W,
     settings: Settings<W>,
     report: &mut dyn FnMut(&Progress),
 ) -> Result<(Outcome, W)> {
+    let Prepared { schedule, setup, arrivals, .. } = prepared;
     let mut file = RunFile::begin(scene, plan, schedule, out, &settings.provenance, settings.how)?;
     file.note(0.0, "computed by LAMMPS; forces are sampled at instants, and the file has no checkpoint")?;
-    let mut job = Job { setup: plan.setup.particles.clone(), schedule, last: None, report };
-    job.setup.sort_by_key(|p| p.id);
+    prepared.warnings().iter().try_for_each(|warning| file.note(0.0, warning))?;
+    let mut job =
+        Job { particles: setup.particles.clone(), there: Vec::new(), arrivals, schedule, last: None, report };
+    job.particles.sort_by_key(|p| p.id);
     let reason = match origin {
         Origin::Dump(input) => {
             let ended = job.read(&mut file, Frames::new(input))?;
@@ -99,7 +133,7 @@ pub fn run<W: Write>(
                 folder: std::env::temp_dir().display().to_string(),
                 error,
             })?;
-            deck.write(&plan.setup, folder.path())?;
+            prepared.write(folder.path())?;
             job.live(&mut file, engine, folder.path(), settings.stop)?
         }
     };
@@ -114,7 +148,7 @@ pub fn run<W: Write>(
         dt: schedule.dt,
         steps: step,
         frames: file.frames,
-        particles: plan.setup.particles.len(),
+        particles: job.there.len(),
         lammps: None,
     };
     Ok((outcome, file.finish()?))
@@ -122,8 +156,12 @@ pub fn run<W: Write>(
 
 /// Frames on their way to the file.
 struct Job<'a> {
-    /// Particles by id, as they were last.
-    setup: Vec<Particle>,
+    /// All particles by id, as they were last.
+    particles: Vec<Particle>,
+    /// Those that are in the frame.
+    there: Vec<Particle>,
+    /// Those that come in, by id.
+    arrivals: &'a [Arrival],
     schedule: &'a Schedule,
     /// Step of the last frame.
     last: Option<u64>,
@@ -173,9 +211,21 @@ impl Job<'_> {
             };
             self.take(&frame)?;
             self.last = Some(frame.step);
-            file.frame(frame.step as f64 * self.schedule.dt, &self.setup)?;
+            let time = frame.step as f64 * self.schedule.dt;
+            self.enter(time);
+            file.frame(time, &self.there)?;
             self.tell(file.frames, frame.step);
         }
+    }
+
+    /// Leaves those out of the frame that have not come in yet.
+    fn enter(&mut self, time: f64) {
+        let later = |p: &Particle| {
+            let found = self.arrivals.binary_search_by_key(&p.id, |a| a.id);
+            found.is_ok_and(|index| self.arrivals[index].enters > time)
+        };
+        self.there.clear();
+        self.there.extend(self.particles.iter().filter(|p| !later(p)));
     }
 
     /// Refuses a dump that is not whole.
@@ -191,14 +241,14 @@ impl Job<'_> {
     }
 
     fn take(&mut self, frame: &Frame) -> Result<()> {
-        if frame.atoms.len() != self.setup.len() {
-            let (found, all) = (frame.atoms.len(), self.setup.len());
+        if frame.atoms.len() != self.particles.len() {
+            let (found, all) = (frame.atoms.len(), self.particles.len());
             return Err(
                 self.wrong(format!("step {}: {found} atoms, and the scene has {all} particles", frame.step))
             );
         }
         for (number, values) in &frame.atoms {
-            let found = self.setup.binary_search_by_key(number, |p| number_of(p.id));
+            let found = self.particles.binary_search_by_key(number, |p| number_of(p.id));
             let Ok(index) = found else {
                 return Err(
                     self.wrong(format!("step {}: atom {number} is no particle of the scene", frame.step))
@@ -212,7 +262,7 @@ impl Job<'_> {
                 )));
             }
             let [x, y, z, vx, vy, vz, wx, wy, wz] = *values;
-            let p = &mut self.setup[index];
+            let p = &mut self.particles[index];
             (p.position, p.velocity, p.spin) =
                 (Vec3::new(x, y, z), Vec3::new(vx, vy, vz), Vec3::new(wx, wy, wz));
         }
@@ -228,7 +278,7 @@ impl Job<'_> {
             step,
             steps: last,
             share: step as f64 / last as f64,
-            particles: self.setup.len(),
+            particles: self.there.len(),
             asleep: 0,
             kinetic: None,
             balance: None,

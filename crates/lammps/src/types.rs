@@ -26,6 +26,15 @@ pub struct AtomType {
     pub material: u16,
     /// Radius of all of them [m], where a law depends on it.
     pub radius: Option<f64>,
+    /// Mean radius [m], where a law depends on it and there are more sizes than types.
+    pub mean: Option<f64>,
+}
+
+impl AtomType {
+    /// The radius that laws are written for [m].
+    fn size(&self) -> Option<f64> {
+        self.radius.or(self.mean)
+    }
 }
 
 /// All types; LAMMPS numbers them from 1.
@@ -38,10 +47,31 @@ impl Types {
     /// # Errors
     /// More sizes than types, where a law depends on sizes.
     pub fn of(setup: &Setup) -> Result<Types, Refusal> {
+        Types::made(setup, true)
+    }
+
+    /// One type for each material, with its mean size where a law depends on it.
+    pub fn of_means(setup: &Setup) -> Types {
+        let mut types = Types::made(setup, false).unwrap_or(Types(Vec::new()));
+        for t in &mut types.0 {
+            let of_grains = || setup.particles.iter().filter(|p| p.material == t.material).map(|p| p.radius);
+            let radii: Vec<f64> = match (t.kind, &setup.walls[..]) {
+                (Kind::Wall(index), walls) => match &walls[index].shape {
+                    WallShape::Spheres(spheres) => spheres.iter().map(|s| s.1).collect(),
+                    _ => Vec::new(),
+                },
+                (Kind::Grain, _) => of_grains().collect(),
+            };
+            t.mean = Some(radii.iter().sum::<f64>() / radii.len().max(1) as f64);
+        }
+        types
+    }
+
+    fn made(setup: &Setup, by_size: bool) -> Result<Types, Refusal> {
         let mut types = Types(Vec::new());
         let sized = |material: u16| {
             let law = |law: &&ContactLaw| law.between.0 == material || law.between.1 == material;
-            setup.contacts.iter().filter(law).any(depends_on_size)
+            by_size && setup.contacts.iter().filter(law).any(depends_on_size)
         };
         let sized: Vec<bool> = (0..setup.materials.len()).map(|m| sized(m as u16)).collect();
         for p in &setup.particles {
@@ -58,7 +88,7 @@ impl Types {
     }
 
     fn add(&mut self, setup: &Setup, kind: Kind, material: u16, radius: Option<f64>) -> Result<(), Refusal> {
-        let new = AtomType { kind, material, radius };
+        let new = AtomType { kind, material, radius, mean: None };
         // Most atoms are of the type of the one before.
         if self.0.last() == Some(&new) || self.0.contains(&new) {
             return Ok(());
@@ -91,19 +121,19 @@ impl Types {
 
     /// Sizes of two atoms that meet, where their types have one size each.
     pub fn meeting(setup: &Setup, [a, b]: [&AtomType; 2]) -> Option<Meeting> {
-        let (r, s) = (a.radius?, b.radius?);
+        let (r, s) = (a.size()?, b.size()?);
         Some(Meeting::of([r, s], [mass(setup, a), mass(setup, b)]))
     }
 
     /// A grain of a type at a flat wall.
     pub fn at_plane(setup: &Setup, grain: &AtomType) -> Option<Meeting> {
-        grain.radius.map(|radius| Meeting::flat(radius, mass(setup, grain)))
+        grain.size().map(|radius| Meeting::flat(radius, mass(setup, grain)))
     }
 }
 
 /// Mass of an atom [kg]; that of a wall counts as infinite.
 fn mass(setup: &Setup, t: &AtomType) -> f64 {
-    match (t.kind, t.radius) {
+    match (t.kind, t.size()) {
         (Kind::Grain, Some(radius)) => dem::mass(radius, setup.materials[t.material as usize].density),
         _ => f64::INFINITY,
     }

@@ -1,10 +1,9 @@
 //! Walls as commands: a plane is a region with a `fix wall/gran/region` for each type of grains; wall spheres are atoms, frozen or moved.
 
-use crate::law::coefficients;
+use crate::law::{Target, coefficients};
 use crate::motion::Movement;
 use crate::refusal::Refusal;
 use crate::types::{Kind, Types, law};
-use crate::version::Version;
 use dem::effects::Elastic;
 use dem::setup::{Setup, Wall, WallShape};
 use geom::{Plane, Vec3};
@@ -19,11 +18,16 @@ fn three(v: &Vec3) -> String {
 ///
 /// # Errors
 /// What LAMMPS cannot do, all of it.
-pub fn commands(setup: &Setup, types: &Types, version: Version) -> Result<String, Vec<Refusal>> {
+pub fn commands(
+    setup: &Setup,
+    types: &Types,
+    target: Target,
+    bent: &mut Vec<Refusal>,
+) -> Result<String, Vec<Refusal>> {
     let (mut text, mut refused, mut still) = (String::new(), Vec::new(), Vec::new());
     for (index, wall) in setup.walls.iter().enumerate() {
         let one = match &wall.shape {
-            WallShape::Plane(p) => plane(setup, types, version, (index, wall), p),
+            WallShape::Plane(p) => plane(setup, types, target, (index, wall, p), bent),
             WallShape::Spheres(_) => spheres(types, (index, wall), &mut still),
             // Refused with all other walls of its kind.
             WallShape::Mesh(_) => Ok(String::new()),
@@ -65,28 +69,38 @@ fn variables(name: &str, formulas: &[String; 3]) -> String {
 fn plane(
     setup: &Setup,
     types: &Types,
-    version: Version,
-    (index, wall): (usize, &Wall),
-    plane: &Plane,
+    target: Target,
+    (index, wall, plane): (usize, &Wall, &Plane),
+    bent: &mut Vec<Refusal>,
 ) -> Result<String, Refusal> {
     let mut text = format!("\n# wall '{}': a plane; grains are on the side of its normal\n", wall.name);
     let region =
         format!("region wall{index} plane {} {} units box", three(&plane.point), three(&plane.normal));
-    match Movement::of(&wall.name, &wall.motion)? {
+    match Movement::of_plane(wall, plane)? {
         Movement::Still => text += &format!("{region}\n"),
         Movement::Shift { by, .. } => {
             text += &variables(&format!("wall{index}"), &by);
             text += &format!("{region} move v_wall{index}x v_wall{index}y v_wall{index}z\n");
         }
-        Movement::Turn { rate, through } => {
-            text += &format!("variable wall{index} equal {:?}*v_t\n", rate.norm());
-            text += &format!("{region} rotate v_wall{index} {} {}\n", three(&through), three(&rate));
+        Movement::Turn { .. } => {
+            return Err(Refusal::new(
+                format!("wall '{}'.motion", wall.name),
+                "a region that turns drives grains at another speed than its own",
+                "use wall spheres, which turn exactly",
+            ));
         }
     }
     for (number, grain) in types.grains() {
         let Some(law) = law(setup, grain.material, wall.material) else { continue };
+        if law.model("law") == Some("jkr") && law.number("work_of_adhesion") != Some(0.0) {
+            return Err(Refusal::new(
+                format!("law = \"jkr\" at wall '{}'", wall.name),
+                "a region lets go of grains where they touch, not where they part",
+                "use wall spheres, or law = \"hertz\" at this wall",
+            ));
+        }
         let elastic = elastic(setup, grain.material, wall.material);
-        let words = coefficients(law, elastic, Types::at_plane(setup, grain), version)?;
+        let words = coefficients(law, elastic, Types::at_plane(setup, grain), target, bent)?;
         let _ = writeln!(
             text,
             "fix wall{index}_{number} type{number} wall/gran/region granular {words} region wall{index}"

@@ -27,6 +27,9 @@ pub struct Args {
     /// End of the run [s], instead of time.until
     #[arg(long, value_name = "S")]
     pub until: Option<f64>,
+    /// Where LAMMPS lacks something, use the nearest that it has, with a warning
+    #[arg(long)]
+    pub nearest: bool,
     /// Check the scene and its inputs without running LAMMPS
     #[arg(long)]
     pub check: bool,

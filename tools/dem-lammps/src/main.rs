@@ -6,8 +6,8 @@ mod kept;
 use anyhow::Context;
 use args::Args;
 use cli::{Report, Stopped};
-use lammps::{Deck, Engine, LammpsError, Origin, Settings, Version};
-use run::{Progress, RunError, Schedule};
+use lammps::{Engine, LammpsError, Origin, Prepared, Settings, Target, Version};
+use run::{Progress, RunError};
 use scene::{Input, Plan, Scene, SceneError};
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -32,23 +32,25 @@ fn dem_lammps(args: Args) -> anyhow::Result<Report> {
     let plan = scene.plan(inputs)?;
     plan.warnings.iter().for_each(|note| cli::warn(note));
     let engine = engine(&args);
-    let version = version(&args, &engine)?;
-    let prepared = lammps::prepare(&scene, &plan, version, engine.ranks);
-    let (deck, schedule) = prepared.with_context(|| args.scene.to_string())?;
+    let target = Target { version: version(&args, &engine)?, nearest: args.nearest };
+    let prepared = lammps::prepare(&scene, &plan, target, engine.ranks);
+    let prepared = prepared.with_context(|| args.scene.to_string())?;
+    prepared.warnings().iter().for_each(|note| cli::warn(note));
     if args.check {
+        let schedule = &prepared.schedule;
         return Ok(Report::new(format!(
             "LAMMPS can run the scene: {} steps of {:.3e} s",
             schedule.last, schedule.dt
         )));
     }
     if let Some(folder) = &args.write_deck {
-        deck.write(&plan.setup, folder)?;
+        prepared.write(folder)?;
         let folder = folder.display();
         return Ok(Report::new(format!(
             "{folder}: run.in, particles.data and batch.sh; run it there with lmp -in run.in"
         )));
     }
-    simulate(&args, &scene, &plan, (&deck, &schedule), &engine)
+    simulate(&args, &scene, &plan, &prepared, &engine)
 }
 
 fn read_scene(args: &Args) -> anyhow::Result<Scene> {
@@ -93,7 +95,7 @@ fn simulate(
     args: &Args,
     scene: &Scene,
     plan: &Plan,
-    deck: (&Deck, &Schedule),
+    prepared: &Prepared,
     engine: &Engine,
 ) -> anyhow::Result<Report> {
     let out = args.output.open_long()?;
@@ -121,7 +123,8 @@ fn simulate(
             cli::say(&line);
         }
     };
-    let done = lammps::run(scene, plan, deck, origin, out, settings, &mut hear).map_err(|e| written(e, args));
+    let done =
+        lammps::run(scene, plan, prepared, origin, out, settings, &mut hear).map_err(|e| written(e, args));
     let done = done.and_then(|(outcome, out)| out.commit().map(|()| outcome));
     drop(bar);
     let outcome = done.map_err(|e| kept::leaves(e, part.as_deref().filter(|_| keep.kept()), saved))?;
