@@ -30,8 +30,10 @@ pub struct Frames<R> {
 pub enum Ended {
     /// The dump is over between two frames.
     Over,
-    /// It ends or goes wrong inside a frame.
-    Broken(String),
+    /// It ends inside a frame.
+    Torn,
+    /// It is wrong.
+    Wrong(String),
 }
 
 impl<R: BufRead> Frames<R> {
@@ -49,15 +51,15 @@ impl<R: BufRead> Frames<R> {
 
     fn needed(&mut self) -> Result<&str, Ended> {
         match self.line() {
-            Err(error) => Err(Ended::Broken(error.to_string())),
-            Ok(None) => Err(Ended::Broken("it ends inside a frame".to_owned())),
+            Err(error) => Err(Ended::Wrong(error.to_string())),
+            Ok(None) => Err(Ended::Torn),
             Ok(Some(_)) => Ok(self.line.trim_end()),
         }
     }
 
     fn number(&mut self, what: &str) -> Result<u64, Ended> {
         let line = self.needed()?;
-        line.trim().parse().map_err(|_| Ended::Broken(format!("{what}: not a whole number: '{line}'")))
+        line.trim().parse().map_err(|_| Ended::Wrong(format!("{what}: not a whole number: '{line}'")))
     }
 
     /// The next frame.
@@ -69,14 +71,10 @@ impl<R: BufRead> Frames<R> {
         let mut begun = false;
         loop {
             let whole =
-                self.line().map(|line| line.is_some()).map_err(|error| Ended::Broken(error.to_string()))?;
+                self.line().map(|line| line.is_some()).map_err(|error| Ended::Wrong(error.to_string()))?;
             if !whole {
                 let between = !begun && self.line.is_empty();
-                return Err(if between {
-                    Ended::Over
-                } else {
-                    Ended::Broken("it ends inside a frame".to_owned())
-                });
+                return Err(if between { Ended::Over } else { Ended::Torn });
             }
             let line = self.line.trim_end();
             begun = true;
@@ -90,11 +88,11 @@ impl<R: BufRead> Frames<R> {
                 }
             } else if let Some(columns) = line.strip_prefix("ITEM: ATOMS ") {
                 if columns != COLUMNS {
-                    return Err(Ended::Broken(format!("its columns are '{columns}', not '{COLUMNS}'")));
+                    return Err(Ended::Wrong(format!("its columns are '{columns}', not '{COLUMNS}'")));
                 }
                 return self.atoms(step, count);
             } else {
-                return Err(Ended::Broken(format!("unexpected line '{line}'")));
+                return Err(Ended::Wrong(format!("unexpected line '{line}'")));
             }
         }
     }
@@ -104,7 +102,7 @@ impl<R: BufRead> Frames<R> {
         for _ in 0..count {
             let line = self.needed()?;
             let atom =
-                row(line).ok_or_else(|| Ended::Broken(format!("step {step}: not an atom: '{line}'")))?;
+                row(line).ok_or_else(|| Ended::Wrong(format!("step {step}: not an atom: '{line}'")))?;
             atoms.push(atom);
         }
         Ok(Frame { step, atoms })
@@ -145,7 +143,7 @@ mod tests {
     fn a_dump_that_ends_anywhere_inside_a_frame_is_broken() {
         for end in 1..ONE.len() {
             let mut frames = Frames::new(&ONE.as_bytes()[..end]);
-            assert!(matches!(frames.next_frame(), Err(Ended::Broken(_))), "{end}");
+            assert!(matches!(frames.next_frame(), Err(Ended::Torn)), "{end}");
         }
     }
 }

@@ -3,11 +3,14 @@
 use crate::deck::INPUT;
 use crate::error::{LammpsError, Result};
 use crate::version::Version;
+use rustix::process::{Pid, Signal};
 use std::collections::VecDeque;
 use std::io::{BufRead, BufReader, PipeReader, PipeWriter, Read};
 use std::os::fd::AsRawFd;
+use std::os::unix::process::CommandExt;
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::atomic::{AtomicBool, Ordering::SeqCst};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
@@ -16,6 +19,8 @@ use std::time::{Duration, Instant};
 const KEPT: usize = 12;
 /// How long LAMMPS has to end after it was asked to.
 const PATIENCE: Duration = Duration::from_secs(5);
+/// How long its streams are read after its end.
+const LISTENED: Duration = Duration::from_secs(1);
 /// Time between looks at the process.
 const LOOK: Duration = Duration::from_millis(20);
 
@@ -65,6 +70,7 @@ pub struct Running {
     watcher: JoinHandle<std::io::Result<ExitStatus>>,
     said: Arc<Mutex<VecDeque<String>>>,
     listeners: Vec<JoinHandle<()>>,
+    abandoned: Arc<AtomicBool>,
 }
 
 impl Running {
@@ -81,6 +87,8 @@ impl Running {
         let frames = format!("/proc/{}/fd/{}", std::process::id(), writer.as_raw_fd());
         let mut command = engine.command();
         command.args(["-in", INPUT, "-log", "log.lammps", "-var", "frames", &frames]);
+        // A group of its own: all of it is ended, and an interrupt of the terminal comes to this program first.
+        command.process_group(0);
         command.current_dir(folder).stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().map_err(failed)?;
         let said = Arc::new(Mutex::new(VecDeque::new()));
@@ -91,21 +99,35 @@ impl Running {
         if let Some(err) = child.stderr.take() {
             listeners.push(listen(err, said.clone()));
         }
-        let watcher = std::thread::spawn(move || watch(child, writer, stop));
-        Ok((Running { watcher, said, listeners }, reader))
+        let abandoned = Arc::new(AtomicBool::new(false));
+        let ends = {
+            let abandoned = abandoned.clone();
+            move || stop() || abandoned.load(SeqCst)
+        };
+        let watcher = std::thread::spawn(move || watch(child, writer, ends));
+        Ok((Running { watcher, said, listeners, abandoned }, reader))
+    }
+
+    /// Ends it: nobody reads its frames any more.
+    pub fn abandon(&self) {
+        self.abandoned.store(true, SeqCst);
     }
 
     /// Waits for its end: how it ended, and its last words.
     pub fn end(self) -> (Option<ExitStatus>, String) {
         let status = self.watcher.join().ok().and_then(Result::ok);
-        self.listeners.into_iter().for_each(|listener| drop(listener.join()));
+        // Processes that it has left behind may hold its streams open.
+        let since = Instant::now();
+        while self.listeners.iter().any(|l| !l.is_finished()) && since.elapsed() < LISTENED {
+            std::thread::sleep(LOOK);
+        }
         let said = self.said.lock().unwrap_or_else(PoisonError::into_inner);
         (status, last_words(said.iter().map(String::as_str)))
     }
 }
 
 /// Waits for the end of the process, and then closes the pipe, so that its reader sees the end.
-fn watch(mut child: Child, writer: PipeWriter, stop: fn() -> bool) -> std::io::Result<ExitStatus> {
+fn watch(mut child: Child, writer: PipeWriter, stop: impl Fn() -> bool) -> std::io::Result<ExitStatus> {
     let mut asked: Option<Instant> = None;
     let status = loop {
         if let Some(status) = child.try_wait()? {
@@ -114,9 +136,9 @@ fn watch(mut child: Child, writer: PipeWriter, stop: fn() -> bool) -> std::io::R
         match asked {
             None if stop() => {
                 asked = Some(Instant::now());
-                terminate(&child);
+                signal_all(&child, Signal::TERM);
             }
-            Some(since) if since.elapsed() > PATIENCE => child.kill()?,
+            Some(since) if since.elapsed() > PATIENCE => signal_all(&child, Signal::KILL),
             _ => {}
         }
         std::thread::sleep(LOOK);
@@ -125,10 +147,10 @@ fn watch(mut child: Child, writer: PipeWriter, stop: fn() -> bool) -> std::io::R
     Ok(status)
 }
 
-/// Asks a process to end: a launcher ends its ranks then.
-fn terminate(child: &Child) {
-    if let Some(id) = rustix::process::Pid::from_raw(child.id() as i32) {
-        let _ = rustix::process::kill_process(id, rustix::process::Signal::TERM);
+/// Sends a signal to a process and to those that it has started: a launcher ends its ranks then.
+fn signal_all(child: &Child, signal: Signal) {
+    if let Some(id) = Pid::from_raw(child.id() as i32) {
+        let _ = rustix::process::kill_process_group(id, signal);
     }
 }
 

@@ -154,6 +154,9 @@ pub fn run<W: Write>(
     Ok((outcome, file.finish()?))
 }
 
+/// What is wrong with a dump that was cut off.
+const TORN: &str = "it ends inside a frame";
+
 /// Frames on their way to the file.
 struct Job<'a> {
     /// All particles by id, as they were last.
@@ -186,8 +189,11 @@ impl Job<'_> {
         stop: fn() -> bool,
     ) -> Result<Option<String>> {
         let (running, pipe) = Running::start(engine, folder, stop)?;
-        // Its end closes the pipe: LAMMPS ends where the file cannot be written.
         let read = self.read(file, Frames::new(BufReader::with_capacity(1 << 18, pipe)));
+        let whole = matches!(read, Ok(Ended::Over));
+        if !whole {
+            running.abandon();
+        }
         let (status, words) = running.end();
         let ended = read?;
         if self.last == Some(self.schedule.last) {
@@ -197,7 +203,8 @@ impl Job<'_> {
             return Ok(Some(record::SIGNAL.to_owned()));
         }
         match (status, ended) {
-            (Some(status), Ended::Broken(what)) if status.success() => Err(self.wrong(what)),
+            (_, Ended::Wrong(what)) => Err(self.wrong(what)),
+            (Some(status), Ended::Torn) if status.success() => Err(self.wrong(TORN)),
             (status, _) => Err(LammpsError::Died { how: how(status), time: self.time(), words }),
         }
     }
@@ -231,7 +238,8 @@ impl Job<'_> {
     /// Refuses a dump that is not whole.
     fn whole(&self, ended: Ended) -> Result<()> {
         match ended {
-            Ended::Broken(what) => Err(self.wrong(what)),
+            Ended::Wrong(what) => Err(self.wrong(what)),
+            Ended::Torn => Err(self.wrong(TORN)),
             Ended::Over if self.last == Some(self.schedule.last) => Ok(()),
             Ended::Over => {
                 let end = Shown(self.schedule.end());
