@@ -9,7 +9,7 @@ pub fn slurm(scene: &str, ranks: usize) -> String {
     format!(
         "#!/bin/bash\n#SBATCH --job-name={name}\n#SBATCH --ntasks={ranks}\n#SBATCH --output=slurm-%j.out\n\
          # Set the time limit and the partition of your cluster:  sbatch --time=12:00:00 --partition=NAME batch.sh\n\
-         cd \"${{SLURM_SUBMIT_DIR:-.}}\"\nsrun \"${{LMP:-lmp}}\" -in run.in\n\
+         cd \"${{SLURM_SUBMIT_DIR:-.}}\"\nsrun ${{LMP:-lmp}} -in run.in\n\
          # Then, where Grainpipe is:  dem-lammps SCENE.toml --read-dump frames.dump -o run.mcap\n"
     )
 }

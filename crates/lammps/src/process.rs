@@ -108,7 +108,7 @@ impl Running {
         Ok((Running { watcher, said, listeners, abandoned }, reader))
     }
 
-    /// Ends it: nobody reads its frames any more.
+    /// Ends it: its frames are no longer read.
     pub fn abandon(&self) {
         self.abandoned.store(true, SeqCst);
     }

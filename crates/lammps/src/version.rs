@@ -19,7 +19,7 @@ const MONTHS: [&str; 12] =
 impl Version {
     /// That of Debian 12, which decks are written for where no program is asked.
     pub const DEBIAN: Version = Version { year: 2021, month: 9, day: 29 };
-    /// Where the granular models were written anew.
+    /// The first with the granular models of today.
     const NEW_MODELS: Version = Version { year: 2022, month: 12, day: 1 };
 
     /// The version in the text of `lmp -h`: "… Massively Parallel Simulator - 29 Sep 2021 - Update 2".

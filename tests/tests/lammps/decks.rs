@@ -1,6 +1,7 @@
 //! Decks: what is written, that it runs by itself, and what is refused by name.
 
-use crate::{frames, lmp, refusal};
+use crate::{lmp, refusal};
+use grainpipe_tests::engines::frames;
 use grainpipe_tests::scenes::folder;
 use grainpipe_tests::tools::{succeed, tool};
 use std::fs;

@@ -9,7 +9,7 @@ use std::process::{Command, Stdio};
 use std::time::Duration;
 use tempfile::TempDir;
 
-/// A script in the place of LAMMPS: it answers `-h`, finds the dump, and writes the first frame; `$frames` is the dump, `$atoms` rows of 40 atoms at rest.
+/// A script that plays LAMMPS: it answers `-h`, finds the dump, and writes the first frame; `$frames` is the dump, `$atoms` rows of 40 atoms at rest.
 fn actor(folder: &Path, then: &str) -> String {
     let script = format!(
         "#!/bin/bash\n\
@@ -130,5 +130,5 @@ fn a_signal_ends_the_run_in_order() {
     let id = child.id().to_string();
     assert!(Command::new("kill").args(["-TERM", &id]).status().unwrap().success());
     assert_eq!(child.wait().unwrap().code(), Some(3));
-    assert_eq!(crate::frames(&folder.path().join("run.mcap")).len(), 1);
+    assert_eq!(grainpipe_tests::engines::frames(&folder.path().join("run.mcap")).len(), 1);
 }

@@ -1,6 +1,7 @@
 //! Many grains on both engines: the same until collisions make small differences large, and alike in the mean after that.
 
-use crate::{both, column, lmp};
+use crate::lmp;
+use grainpipe_tests::engines::{both, column};
 use grainpipe_tests::scenes::folder;
 use stream::Table;
 
