@@ -5,6 +5,7 @@ use crate::batch;
 use crate::data;
 use crate::error::{LammpsError, Result};
 use crate::law::{Target, coefficients};
+use crate::outlet;
 use crate::refusal::{self, Refusal};
 use crate::types::{Types, law};
 use crate::wall;
@@ -21,6 +22,8 @@ pub const INPUT: &str = "run.in";
 const DATA: &str = "particles.data";
 /// The file that frames go to, unless a variable says otherwise.
 pub const FRAMES: &str = "frames.dump";
+/// The file that samples near outlets go to, unless a variable says otherwise.
+pub const ZONE: &str = "zone.dump";
 const BATCH: &str = "batch.sh";
 
 /// Columns of a dump.
@@ -67,6 +70,7 @@ impl Deck {
         let (mut refused, mut bent) = (refusal::scene(&scene.keys, setup), Vec::new());
         if target.nearest { &mut bent } else { &mut refused }.extend(refusal::leavable(&scene.keys, setup));
         refused.extend(refusal::walls(setup));
+        refused.extend(outlet::refused(setup));
         refused.extend(particles(setup));
         let types = Types::of(setup).unwrap_or_else(|refusal| {
             if target.nearest { &mut bent } else { &mut refused }.push(refusal);
@@ -94,8 +98,17 @@ impl Deck {
         }
         // After all other forces.
         let free = if arrivals.is_empty() { "" } else { "\nfix steady waiting setforce 0 0 0\n" }.to_owned();
-        let input =
-            [head(&from), pairs, groups(&types), motion(&from), walls, free, tail(from.schedule)].concat();
+        let input = [
+            head(&from),
+            pairs,
+            groups(&types),
+            motion(&from),
+            walls,
+            free,
+            outlet::commands(setup),
+            tail(from.schedule),
+        ]
+        .concat();
         let free = arrivals.iter().map(|a| (a.id, a.free)).collect();
         Ok(Deck { input, batch: batch::slurm(&scene.text.name, from.ranks), bent, types, free })
     }

@@ -6,7 +6,7 @@
 //!
 //! [`refusal`] lists what LAMMPS cannot do; [`law`] turns contact laws into coefficients of `pair_style granular` and `fix wall/gran`;
 //! [`deck`] is the text of a run, [`data`] its atoms; [`process`] starts LAMMPS and keeps its last words; [`dump`] reads frames while it
-//! runs; [`simulate`] writes them as [`run::RunFile`]. Modules use those before them in this list.
+//! runs and [`outlet`] finds crossings in samples; [`job`] writes them as [`run::RunFile`]. Modules use those before them in this list.
 //!
 //! Sources: the documentation of LAMMPS (`pair_style granular`, `fix wall/gran`, `fix wall/gran/region`, `fix move`, `dump custom`) and its
 //! source of 29 Sep 2021 and 22 Jul 2025, against which the conversions are tested. Uses `dem` for the setup's types, `run` for the file.
@@ -19,8 +19,10 @@ mod deck;
 mod dump;
 mod error;
 mod grain;
+mod job;
 mod law;
 mod motion;
+mod outlet;
 mod process;
 mod refusal;
 mod simulate;

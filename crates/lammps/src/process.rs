@@ -74,19 +74,21 @@ pub struct Running {
 }
 
 impl Running {
-    /// Starts the deck in a folder; its frames come from the pipe. `stop` is asked now and then whether it is to end.
+    /// Starts the deck in a folder; its frames and its samples near outlets come from the pipes. `stop` is asked now and then whether it is to end.
     ///
     /// # Errors
     /// A program that cannot be started.
-    pub fn start(engine: &Engine, folder: &Path, stop: fn() -> bool) -> Result<(Running, PipeReader)> {
+    pub fn start(engine: &Engine, folder: &Path, stop: fn() -> bool) -> Result<(Running, [PipeReader; 2])> {
         let program = if engine.ranks > 1 { &engine.mpirun } else { &engine.lmp };
         let program = program.first().cloned().unwrap_or_default();
         let failed = |error| LammpsError::Start { program: program.clone(), error };
-        let (reader, writer) = std::io::pipe().map_err(failed)?;
-        // LAMMPS opens the pipe by this name; no rank needs to inherit it.
-        let frames = format!("/proc/{}/fd/{}", std::process::id(), writer.as_raw_fd());
+        let (frames, to_frames) = std::io::pipe().map_err(failed)?;
+        let (zone, to_zone) = std::io::pipe().map_err(failed)?;
+        // LAMMPS opens the pipes by these names; no rank needs to inherit them.
+        let name = |pipe: &PipeWriter| format!("/proc/{}/fd/{}", std::process::id(), pipe.as_raw_fd());
         let mut command = engine.command();
-        command.args(["-in", INPUT, "-log", "log.lammps", "-var", "frames", &frames]);
+        command.args(["-in", INPUT, "-log", "log.lammps", "-var", "zone", &name(&to_zone)]);
+        command.args(["-var", "frames", &name(&to_frames)]);
         // A group of its own: all of it is ended, and an interrupt of the terminal comes to this program first.
         command.process_group(0);
         command.current_dir(folder).stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -104,8 +106,8 @@ impl Running {
             let abandoned = abandoned.clone();
             move || stop() || abandoned.load(SeqCst)
         };
-        let watcher = std::thread::spawn(move || watch(child, writer, ends));
-        Ok((Running { watcher, said, listeners, abandoned }, reader))
+        let watcher = std::thread::spawn(move || watch(child, [to_frames, to_zone], ends));
+        Ok((Running { watcher, said, listeners, abandoned }, [frames, zone]))
     }
 
     /// Ends it: its frames are no longer read.
@@ -126,8 +128,8 @@ impl Running {
     }
 }
 
-/// Waits for the end of the process, and then closes the pipe, so that its reader sees the end.
-fn watch(mut child: Child, writer: PipeWriter, stop: impl Fn() -> bool) -> std::io::Result<ExitStatus> {
+/// Waits for the end of the process, and then closes the pipes, so that their readers see the end.
+fn watch(mut child: Child, pipes: [PipeWriter; 2], stop: impl Fn() -> bool) -> std::io::Result<ExitStatus> {
     let mut asked: Option<Instant> = None;
     let status = loop {
         if let Some(status) = child.try_wait()? {
@@ -143,7 +145,7 @@ fn watch(mut child: Child, writer: PipeWriter, stop: impl Fn() -> bool) -> std::
         }
         std::thread::sleep(LOOK);
     };
-    drop(writer);
+    drop(pipes);
     Ok(status)
 }
 

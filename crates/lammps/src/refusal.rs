@@ -39,7 +39,6 @@ fn all_of(cases: impl IntoIterator<Item = Case>) -> Vec<Refusal> {
 /// Parts of a scene apart from laws and walls without which it would be another one; laws and walls say themselves what they cannot.
 pub fn scene(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
     let ends = "a LAMMPS run ends at time.until";
-    let zone = "LAMMPS has no zone of a cut";
     all_of([
         (
             !setup.clumps.shapes.is_empty(),
@@ -48,12 +47,11 @@ pub fn scene(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
             "use spheres with rolling_resistance",
         ),
         (!keys.bond.is_empty(), "bond", "bonds are not written for LAMMPS", "use law = \"jkr\", or dem-run"),
-        (!keys.inlet.is_empty(), "inlet", zone, "run the stage upstream on LAMMPS and this one with dem-run"),
         (
-            !keys.outlet.is_empty(),
-            "outlet",
-            zone,
-            "leave it out, and take the crossings from the frames: stage-replay --at PLANE",
+            !keys.inlet.is_empty(),
+            "inlet",
+            "LAMMPS has no inlet of a cut",
+            "run the stage upstream on LAMMPS and this one with dem-run",
         ),
         (keys.drag.is_some(), "drag", "drag is not written for LAMMPS", "leave it out, or use dem-run"),
         (

@@ -4,11 +4,12 @@ use crate::error::Result;
 use crate::frames::{self, ParticleRows, WallHead};
 use crate::schedule::Schedule;
 use crate::start::{Head, in_file};
-use dem::setup::{Particle, Wall, WallShape};
+use dem::setup::{Crossing, Particle, Wall, WallShape};
 use geom::Vec3;
-use record::{FRAME, LogMessage, json, nanoseconds, topic};
+use record::{FRAME, LogMessage, Watermark, json, nanoseconds, topic};
 use scene::keys::Precision;
 use scene::{Plan, Scene};
+use stages::outlet::crossing::{self, CrossingRow};
 use std::io::Write;
 use stream::mcap::{Provenance, StreamOptions, Writer};
 
@@ -91,6 +92,21 @@ impl<W: Write> RunFile<W> {
         let rows = ParticleRows { all: particles, precision, clumps: None, clusters };
         self.writer.rows(topic::PARTICLES, nanoseconds(time), FRAME, &rows)?;
         self.frames += 1;
+        Ok(self.writer.flush_chunk()?)
+    }
+
+    /// Writes crossings of storage planes, and that no more come before a time [s].
+    ///
+    /// # Errors
+    /// A write that fails.
+    pub fn crossings(&mut self, until: f64, crossings: &[Crossing]) -> Result<()> {
+        let now = nanoseconds(until);
+        if !crossings.is_empty() {
+            let rows: Vec<CrossingRow> = crossings.iter().map(|c| CrossingRow::new(c, &[])).collect();
+            self.writer.points(topic::CROSSINGS, now, FRAME, crossing::to_table(&rows))?;
+        }
+        let watermark = Watermark { until };
+        self.writer.bytes(topic::WATERMARK, "json", now, &watermark.to_json())?;
         Ok(self.writer.flush_chunk()?)
     }
 

@@ -5,10 +5,12 @@ mod kept;
 
 use anyhow::Context;
 use args::Args;
-use cli::{Report, Stopped};
+use cli::{Report, Source, Stopped};
 use lammps::{Engine, LammpsError, Origin, Prepared, Settings, Target, Version};
 use run::{Progress, RunError};
 use scene::{Input, Plan, Scene, SceneError};
+use std::fs::File;
+use std::io::BufReader;
 use std::num::NonZeroUsize;
 use std::path::Path;
 use std::process::ExitCode;
@@ -91,6 +93,22 @@ fn written(error: LammpsError, args: &Args) -> anyhow::Error {
     }
 }
 
+/// A dump, and that of the samples near outlets, which lies beside it.
+fn dump<'a>(source: &Source, plan: &Plan) -> anyhow::Result<Origin<'a>> {
+    let frames = Box::new(BufReader::new(source.open()?));
+    if plan.setup.outlets.is_empty() {
+        return Ok(Origin::Dump(frames, None));
+    }
+    let Some(path) = source.path() else {
+        return Err(cli::usage(
+            "--read-dump -: the scene has outlets: name the file, beside which zone.dump lies",
+        ));
+    };
+    let path = path.with_file_name("zone.dump");
+    let zone = File::open(&path).with_context(|| format!("{}: cannot open it", path.display()))?;
+    Ok(Origin::Dump(frames, Some(Box::new(BufReader::new(zone)))))
+}
+
 fn simulate(
     args: &Args,
     scene: &Scene,
@@ -105,7 +123,7 @@ fn simulate(
     let settings =
         Settings { provenance: cli::provenance(plan.inputs.clone()), how, stop: cli::stop_requested };
     let origin = match &args.read_dump {
-        Some(source) => Origin::Dump(Box::new(std::io::BufReader::new(source.open()?))),
+        Some(source) => dump(source, plan)?,
         None => Origin::Engine(engine),
     };
     let bar = (!args.progress).then(|| cli::Progress::new("run", BAR as u64));
