@@ -20,6 +20,8 @@ poisson = 0.25
 between = [\"*\", \"*\"]
 ";
 const HOOKE: &str = "law = \"hooke\"\nstiffness = 4e3\nrestitution = 0.5\nsliding_friction = 0.5\n";
+const ROLLS: &str =
+    "law = \"hooke\"\nstiffness = 4e3\nrestitution = 0.3\nsliding_friction = 0.7\nrolling_resistance = 0.3\n";
 const HERTZ: &str = "law = \"hertz\"\nrestitution = 0.5\nsliding_friction = 0.5\n";
 const PILE: &str = "[domain]
 periodic = [\"x\", \"y\"]
@@ -37,11 +39,11 @@ material = \"glass\"
 ";
 const HEAP: &str = "[[insert]]
 material = \"glass\"
-shape = \"cylinder:0,0,0.06,0,0,0.07,0.02\"
+shape = \"cylinder:0,0,0.07,0,0,0.08,0.018\"
 sizes = [[\"5 mm\", 0.4], [\"6 mm\", 0.6]]
 velocity = [0, 0, -0.3]
-rate_count = 700
-until = 1
+rate_count = 400
+until = 1.2
 seed = SEED
 [[wall]]
 plane = \"0,0,0,0,0,1\"
@@ -102,7 +104,7 @@ const CASES: [Case; 5] = [
         until: 0.4,
         number: forces,
     },
-    Case { name: "heap of poured grains: angle [°]", law: HOOKE, more: HEAP, until: 1.4, number: angle },
+    Case { name: "heap of poured grains: angle [°]", law: ROLLS, more: HEAP, until: 1.6, number: angle },
     Case {
         name: "hopper with a hole of 32 mm: discharge [1/s]",
         law: HOOKE,
@@ -155,13 +157,15 @@ fn discharge(_: &Path, _: &str, frames: &[Table]) -> f64 {
 }
 
 fn angle(folder: &Path, run: &str, _: &[Table]) -> f64 {
-    let done = succeed(folder, "dem-measure", &[run, "--repose", "--last", "-q"]);
+    let done = succeed(folder, "dem-measure", &[run, "--repose", "--last", "--sectors", "4", "-q"]);
     let text = String::from_utf8_lossy(&done.stdout).into_owned();
     let mut lines = text.lines();
-    let head: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
-    let row: Vec<&str> = lines.next_back().unwrap_or_default().split(',').collect();
-    let at = head.iter().position(|name| name.contains("angle")).expect("an angle");
-    row[at].parse().expect("a number")
+    let head = lines.next().unwrap_or_default().split(',');
+    let at = head.into_iter().position(|name| name == "angle [deg]").expect("an angle");
+    let angles: Vec<f64> = lines
+        .map(|line| line.split(',').nth(at).and_then(|cell| cell.parse().ok()).expect("a number"))
+        .collect();
+    mean(&angles)
 }
 
 /// Overlaps of all pairs, across the periodic sides of 40 mm: of Hooke's law they are forces.
