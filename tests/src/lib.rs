@@ -3,6 +3,7 @@
 // Modules of set-ups name this crate as tests do.
 extern crate self as grainpipe_tests;
 
+pub mod engines;
 pub mod findings;
 pub mod lab;
 pub mod layout;

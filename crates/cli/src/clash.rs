@@ -12,7 +12,7 @@ use std::{
 };
 
 /// Options that name a file to write, in any tool: id and flag. None of them changes the result.
-pub(crate) const OUTPUTS: [(&str, &str); 14] = [
+pub(crate) const OUTPUTS: [(&str, &str); 15] = [
     ("output", "-o"),
     ("report", "--report"),
     ("plot", "--plot"),
@@ -27,6 +27,7 @@ pub(crate) const OUTPUTS: [(&str, &str); 14] = [
     ("samples", "--samples"),
     ("page", "--page"),
     ("design", "--design"),
+    ("write_deck", "--write-deck"),
 ];
 
 /// A file that the running tool will write.

@@ -18,10 +18,36 @@ fn kind(precision: Precision) -> NumberType {
     }
 }
 
+/// Particles in the order of their rows.
+pub(crate) trait Particles: Sync {
+    /// How many.
+    fn count(&self) -> usize;
+    /// One of them.
+    fn at(&self, n: usize) -> Particle;
+}
+
+impl Particles for Snapshot<'_> {
+    fn count(&self) -> usize {
+        self.len()
+    }
+    fn at(&self, n: usize) -> Particle {
+        self.particle(n)
+    }
+}
+
+impl Particles for &[Particle] {
+    fn count(&self) -> usize {
+        self.len()
+    }
+    fn at(&self, n: usize) -> Particle {
+        self[n]
+    }
+}
+
 /// The rows of the topic `/particles`; with clumps in the scene, the body of each row, too (its own id for a free sphere).
-pub(crate) struct ParticleRows<'a> {
+pub(crate) struct ParticleRows<'a, P> {
     /// The particles.
-    pub all: Snapshot<'a>,
+    pub all: P,
     /// Of positions and velocities.
     pub precision: Precision,
     /// Clumps by id, where the scene has any.
@@ -38,7 +64,7 @@ fn measured(p: &Particle) -> [f64; 10] {
     [x.x, x.y, x.z, *radius, v.x, v.y, v.z, w.x, w.y, w.z]
 }
 
-impl Rows for ParticleRows<'_> {
+impl<P: Particles> Rows for ParticleRows<'_, P> {
     fn fields(&self) -> Vec<(&str, NumberType)> {
         let kind = kind(self.precision);
         let whole = [(ID, NumberType::U32), (MATERIAL, NumberType::U16)];
@@ -48,11 +74,11 @@ impl Rows for ParticleRows<'_> {
     }
 
     fn count(&self) -> usize {
-        self.all.len()
+        self.all.count()
     }
 
     fn put(&self, n: usize, row: &mut Line) {
-        let p = self.all.particle(n);
+        let p = self.all.at(n);
         match self.precision {
             Precision::F64 => measured(&p).into_iter().for_each(|x| row.put(x)),
             Precision::F32 => measured(&p).into_iter().for_each(|x| row.put(x as f32)),
@@ -176,10 +202,15 @@ struct SphereNow {
 
 /// The table of the topic `/walls`: all wall spheres as they are now; `None` when there is none.
 pub(crate) fn wall_spheres(sim: &Simulation, walls: &[WallHead]) -> Option<Table> {
+    wall_table(walls, |index| sim.wall_spheres(index))
+}
+
+/// The same, of centres [m] and radii [m] that `spheres` gives for the wall of an index.
+pub(crate) fn wall_table(walls: &[WallHead], spheres: impl Fn(usize) -> Vec<(Vec3, f64)>) -> Option<Table> {
     let of = |(index, wall): (usize, &WallHead)| {
         let (material, wall) = (wall.material, index as u16);
         let sphere = move |(centre, radius)| SphereNow { centre, radius, material, wall };
-        sim.wall_spheres(index).into_iter().map(sphere)
+        spheres(index).into_iter().map(sphere)
     };
     let rows: Vec<SphereNow> = walls.iter().enumerate().filter(|(_, w)| w.spheres).flat_map(of).collect();
     if rows.is_empty() {

@@ -6,11 +6,12 @@
 //!
 //! [`simulate`] is the loop; [`start`], [`write`] and [`stop`] are its beginning, its output and its early end. [`supply`] merges what comes
 //! in, [`schedule`] knows which steps are written, [`frames`] makes the tables, [`checkpoint`] saves and resumes. [`explain`] runs a part of a
-//! scene to measure it. Uses `scene` for the plan, `stages` for inlets and crossings, `record` for formats, `dem` for the engine.
+//! scene to measure it. [`RunFile`] writes the same file for a run that another engine computes. Uses `scene` for the plan, `stages` for inlets and crossings, `record` for formats, `dem` for the engine.
 
 mod checkpoint;
 mod error;
 pub mod explain;
+mod file;
 mod frames;
 mod integration;
 mod progress;
@@ -27,9 +28,11 @@ mod write;
 
 pub use checkpoint::Checkpoint;
 pub use error::RunError;
+pub use file::RunFile;
 pub use integration::IntegrationError;
 pub use progress::Progress;
 pub use returned::warnings;
+pub use schedule::Schedule;
 pub use servos::ServoHeld;
 pub use settling::Settled;
 pub use simulate::{Outcome, Settings, ready, run};

@@ -13,7 +13,8 @@ pub struct Schedule {
     pub dt: f64,
     /// Last step.
     pub last: u64,
-    every: f64,
+    /// Time between frames [s].
+    pub every: f64,
     checkpoint: Option<f64>,
 }
 

@@ -38,7 +38,7 @@ impl<W: Write> Run<W> {
         written.sampling = sampling(scene, sim.dt())?;
         written.watched = settings.watched;
         let mut writer = Writer::compressed(out, &settings.provenance, settings.how)?;
-        for (name, record) in head.records(&sim, &schedule, written.sampling) {
+        for (name, record) in head.records([sim.dt(), sim.time()], &schedule, written.sampling) {
             writer.metadata(name, record)?;
         }
         let first = sim.steps();
@@ -66,7 +66,7 @@ impl<W: Write> Run<W> {
 }
 
 /// A warning as the output has it: without the name and the folder that the scene happened to be given by.
-fn in_file(scene: &Scene, text: &str) -> String {
+pub(crate) fn in_file(scene: &Scene, text: &str) -> String {
     let of_scene = text.strip_prefix(&scene.text.name).filter(|rest| rest.starts_with([':', ' ']));
     let folder = scene.folder.join("").display().to_string();
     match of_scene {
@@ -99,7 +99,7 @@ impl Written {
 }
 
 /// What of a scene and its setup is in the metadata records of a run; a record that is not there is empty.
-struct Head {
+pub(crate) struct Head {
     scene: Map,
     materials: Map,
     sizes: Map,
@@ -109,7 +109,7 @@ struct Head {
 }
 
 impl Head {
-    fn new(scene: &Scene, setup: &Setup, sizes: Option<Sizes>) -> Result<Head> {
+    pub(crate) fn new(scene: &Scene, setup: &Setup, sizes: Option<Sizes>) -> Result<Head> {
         let materials: Vec<MaterialRecord> = setup.materials.iter().map(material).collect();
         let clumps = frames::clumps(&setup.clumps);
         let only_clumps =
@@ -137,15 +137,15 @@ impl Head {
         })
     }
 
-    /// All records that are there, in the order of the file, with what is known once the engine is there.
-    fn records(
+    /// All records that are there, in the order of the file, of a run from `start` [s] in steps of `dt` [s].
+    pub(crate) fn records(
         self,
-        sim: &Simulation,
+        [dt, start]: [f64; 2],
         schedule: &Schedule,
         sampling: Option<u64>,
     ) -> impl Iterator<Item = (&'static str, Map)> {
-        let times = [("dt", sim.dt()), ("start", sim.time()), ("end", schedule.last as f64 * schedule.dt)];
-        let every = sampling.map(|steps| steps as f64 * sim.dt());
+        let times = [("dt", dt), ("start", start), ("end", schedule.last as f64 * schedule.dt)];
+        let every = sampling.map(|steps| steps as f64 * dt);
         let outlet = |(mut zone, i): (ZoneRecord, usize)| {
             zone.samples = every.filter(|_| zone.zone.motion == ZoneMotion::Recorded);
             (i.to_string(), json(&zone))

@@ -108,7 +108,9 @@ fn every_example_runs() {
         (done.code != 0 || done.stderr.contains("panicked"))
             .then(|| format!("{line_}: {}: {}", done.code, done.stderr))
     };
-    let wrong: Vec<String> = EXAMPLES.iter().filter_map(wrong).collect();
+    let lammps = files::lammps();
+    let runs = |line: &&&str| lammps || !line.starts_with("dem-lammps");
+    let wrong: Vec<String> = EXAMPLES.iter().filter(runs).filter_map(wrong).collect();
     assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), EXAMPLES.len(), wrong.join("\n"));
 }
 

@@ -122,6 +122,46 @@ deviation = 0.1
 "#;
 const MEASURED: &str = "u,tau\n0,0\n1,2.1\n2,3.9\n3,6.1\n4,8\n5,9.9\n6,12.1\n";
 
+/// Two grains that meet, in two steps.
+const SPHERES: &str = r#"[time]
+until = 2e-5
+dt = 1e-5
+[output]
+every = 1e-5
+[[material]]
+name = "glass"
+density = 2500
+young = 1e6
+poisson = 0.25
+[[contact]]
+between = ["glass", "glass"]
+law = "hooke"
+stiffness = 1e3
+restitution = 0.6
+[[particles]]
+source = "two.csv"
+material = "glass"
+"#;
+
+/// What LAMMPS would write of them.
+fn dump() -> String {
+    let frame = |step: u32| {
+        format!(
+            "ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS mm mm mm\n0 1\n0 1\n0 1\n\
+             ITEM: ATOMS id x y z vx vy vz omegax omegay omegaz\n1 0 0 0 0 0 0 0 0 0\n2 0.01 0 0 -1 0 0 0 0 0\n"
+        )
+    };
+    (0..3).map(frame).collect()
+}
+
+/// Whether LAMMPS and an MPI launcher are here; where they are not, this is counted as a skipped test.
+pub fn lammps() -> bool {
+    let found = |program: &str| std::process::Command::new(program).arg("-h").output().is_ok();
+    let missing = ["lmp", "mpirun.openmpi"].into_iter().find(|program| !found(program));
+    missing.iter().for_each(|program| grainpipe_tests::skip(program));
+    missing.is_none()
+}
+
 /// A folder with all of them.
 pub fn inputs() -> TempDir {
     let flat: String = plate().map(|(x, y)| format!("{x} {y} 0\n")).collect();
@@ -137,6 +177,9 @@ pub fn inputs() -> TempDir {
         ("prism.json", PRISM.to_owned()),
         ("regions.toml", REGIONS.to_owned()),
         ("rough.toml", ROUGHNESS.to_owned()),
+        ("spheres.toml", SPHERES.to_owned()),
+        ("two.csv", "x,y,z,radius,vx\n0,0,0,0.005,0\n0.01,0,0,0.005,-1\n".to_owned()),
+        ("frames.dump", dump()),
         ("heap.csv", heap()),
         ("one.csv", "x,y,z,radius\n0.15,0.04,0.004,0.004\n".to_owned()),
         ("grains.csv", lattice()),

@@ -53,6 +53,8 @@ const REFUSED: &[(&str, &str)] = &[
         "--seed: uniaxial with these grains leaves nothing to chance: leave it out",
     ),
     ("dem-run s.toml --materials", "--materials has no effect: no [[material]] leaves out a number"),
+    ("dem-lammps spheres.toml --check --progress", "--progress: --check runs nothing: leave it out"),
+    ("dem-lammps spheres.toml --mpirun mpirun", "--mpirun: one rank needs no launcher"),
     ("dem-run s.toml --check --progress", "--progress: --check runs nothing: leave it out"),
     ("dem-run s.toml --explain --check", "--check: --explain checks the scene as well: leave it out"),
     ("dem-view flat.xyz -o v.pvd --range 0,1", "--range changes nothing in .pvd"),

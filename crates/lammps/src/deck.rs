@@ -1,0 +1,233 @@
+//! The deck: the input script of a run, readable, and its data file.
+
+use crate::arrivals::Arrival;
+use crate::batch;
+use crate::data;
+use crate::error::{LammpsError, Result};
+use crate::law::{Target, coefficients};
+use crate::outlet;
+use crate::refusal::{self, Refusal};
+use crate::types::{Types, law};
+use crate::wall;
+use dem::setup::Setup;
+use run::Schedule;
+use scene::Scene;
+use std::fmt::Write as _;
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::Path;
+
+/// Names of the files of a deck.
+pub const INPUT: &str = "run.in";
+const DATA: &str = "particles.data";
+/// The file that frames go to, unless a variable says otherwise.
+pub const FRAMES: &str = "frames.dump";
+/// The file that samples near outlets go to, unless a variable says otherwise.
+pub const ZONE: &str = "zone.dump";
+const BATCH: &str = "batch.sh";
+
+/// Columns of a dump.
+pub const COLUMNS: &str = "id x y z vx vy vz omegax omegay omegaz";
+
+/// What a deck is made from.
+#[derive(Clone, Copy)]
+pub struct Source<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Its setup, with all grains that come in.
+    pub setup: &'a Setup,
+    /// Those that come in.
+    pub arrivals: &'a [Arrival],
+    /// Which steps are frames.
+    pub schedule: &'a Schedule,
+    /// Version, and whether the nearest is taken.
+    pub target: Target,
+    /// MPI ranks.
+    pub ranks: usize,
+}
+
+/// A run for LAMMPS.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Deck {
+    /// The input script.
+    pub input: String,
+    /// The batch script.
+    pub batch: String,
+    /// What was replaced by the nearest that LAMMPS can do.
+    pub bent: Vec<Refusal>,
+    types: Types,
+    /// Times at which grains that come in are free [s], by their ids.
+    free: Vec<(u32, f64)>,
+}
+
+impl Deck {
+    /// The deck of a source.
+    ///
+    /// # Errors
+    /// Everything in the scene that LAMMPS cannot do.
+    pub fn of(from: Source) -> Result<Deck> {
+        let Source { scene, setup, arrivals, target, .. } = from;
+        let (mut refused, mut bent) = (refusal::scene(&scene.keys, setup), Vec::new());
+        if target.nearest { &mut bent } else { &mut refused }.extend(refusal::leavable(&scene.keys, setup));
+        refused.extend(refusal::walls(setup));
+        refused.extend(outlet::refused(setup));
+        refused.extend(particles(setup));
+        let types = Types::of(setup).unwrap_or_else(|refusal| {
+            if target.nearest { &mut bent } else { &mut refused }.push(refusal);
+            Types::of_means(setup)
+        });
+        let mut keep = |made: Result<String, Vec<Refusal>>| {
+            made.unwrap_or_else(|more| {
+                refused.extend(more);
+                String::new()
+            })
+        };
+        let pairs = keep(pairs(setup, &types, target, &mut bent));
+        let walls = keep(wall::commands(setup, &types, target, &mut bent));
+        for list in [&mut refused, &mut bent] {
+            let mut seen = Vec::new();
+            list.retain(|one| {
+                !seen.contains(one) && {
+                    seen.push(one.clone());
+                    true
+                }
+            });
+        }
+        if !refused.is_empty() {
+            return Err(LammpsError::Cannot(refused));
+        }
+        // After all other forces.
+        let free = if arrivals.is_empty() { "" } else { "\nfix steady waiting setforce 0 0 0\n" }.to_owned();
+        let input = [
+            head(&from),
+            pairs,
+            groups(&types),
+            motion(&from),
+            walls,
+            free,
+            outlet::commands(setup),
+            tail(from.schedule),
+        ]
+        .concat();
+        let free = arrivals.iter().map(|a| (a.id, a.free)).collect();
+        Ok(Deck { input, batch: batch::slurm(&scene.text.name, from.ranks), bent, types, free })
+    }
+
+    /// Writes the deck into a folder, which is made where it is missing.
+    ///
+    /// # Errors
+    /// A folder that cannot be written to.
+    pub fn write(&self, setup: &Setup, folder: &Path) -> Result<()> {
+        let write = || {
+            std::fs::create_dir_all(folder)?;
+            std::fs::write(folder.join(INPUT), &self.input)?;
+            std::fs::write(folder.join(BATCH), &self.batch)?;
+            let mut data = BufWriter::with_capacity(1 << 20, File::create(folder.join(DATA))?);
+            data::write(setup, &self.types, &self.free, &mut data)?;
+            data.flush()
+        };
+        write().map_err(|error| LammpsError::Deck { folder: folder.display().to_string(), error })
+    }
+}
+
+/// Particles that LAMMPS cannot number, or none.
+fn particles(setup: &Setup) -> Option<Refusal> {
+    let highest = data::highest_number(setup);
+    if setup.particles.is_empty() {
+        return Some(Refusal::new("particles", "there is none", "add a [[fill]]"));
+    }
+    let why = format!("ids go up to {highest}, and LAMMPS numbers atoms up to {}", data::MOST_ATOMS);
+    (highest > data::MOST_ATOMS).then(|| Refusal::new("particles", why, "give smaller ids (first_id)"))
+}
+
+fn head(Source { scene, setup, schedule, arrivals, .. }: &Source) -> String {
+    let edge = |periodic: &Option<(f64, f64)>| if periodic.is_some() { "p" } else { "m" };
+    let [x, y, z] = [0, 1, 2].map(|axis| edge(&setup.periodic[axis]));
+    let name = Path::new(&scene.text.name).file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let smallest = setup.particles.iter().map(|p| p.radius).fold(f64::INFINITY, f64::min);
+    let read = match arrivals.is_empty() {
+        true => format!("read_data {DATA}"),
+        false => format!("fix free all property/atom d_free\nread_data {DATA} fix free NULL Free"),
+    };
+    let skin = setup.skin.unwrap_or(0.4 * smallest);
+    format!(
+        "# {name}, written by dem-lammps: SI units; forces are sampled at instants.\n\
+         units si\natom_style sphere\nboundary {x} {y} {z}\nnewton off\ncomm_modify vel yes\n\
+         {read}\nneighbor {skin:?} bin\nneigh_modify delay 0 every 1 check yes\ntimestep {:?}\n\
+         variable t equal step*dt\n\n# contacts: overlap, dashpot, friction\npair_style granular\n",
+        schedule.dt
+    )
+}
+
+/// Coefficients of each pair of types that can meet.
+fn pairs(
+    setup: &Setup,
+    types: &Types,
+    target: Target,
+    bent: &mut Vec<Refusal>,
+) -> Result<String, Vec<Refusal>> {
+    let (mut lines, mut refused) = (Vec::new(), Vec::new());
+    let all: Vec<_> = (1..).zip(&types.0).collect();
+    for (i, a) in &all {
+        for (j, b) in all.iter().filter(|(j, _)| j >= i) {
+            let grains = [a, b].iter().any(|t| t.kind == crate::types::Kind::Grain);
+            let Some(law) = law(setup, a.material, b.material).filter(|_| grains) else { continue };
+            let elastic = wall::elastic(setup, a.material, b.material);
+            let names = [a, b].map(|t| &setup.materials[t.material as usize].name[..]);
+            match coefficients(law, elastic, Types::meeting(setup, [a, b]), target, bent) {
+                Ok(words) => lines.push((format!("{i} {j}"), words, names.join("–"))),
+                Err(refusal) => refused.push(refusal),
+            }
+        }
+    }
+    if !refused.is_empty() {
+        return Err(refused);
+    }
+    let none = "hooke 1 0 damping velocity tangential linear_nohistory 0 0".to_owned();
+    let first = lines.first().map_or(none, |line| line.1.clone());
+    let mut text = format!("pair_coeff * * {first} # also pairs that never meet\n");
+    for (pair, words, names) in lines {
+        let _ = writeln!(text, "pair_coeff {pair} {words} # {names}");
+    }
+    Ok(text)
+}
+
+fn groups(types: &Types) -> String {
+    let numbers: Vec<String> = types.grains().map(|(n, _)| n.to_string()).collect();
+    let mut text = format!("\ngroup grains type {}\n", numbers.join(" "));
+    numbers.iter().for_each(|n| text += &format!("group type{n} type {n}\n"));
+    text
+}
+
+fn motion(Source { setup, arrivals, .. }: &Source) -> String {
+    let (g, size) = (setup.gravity, setup.gravity.norm());
+    let gravity = match size > 0.0 {
+        true => format!("fix gravity grains gravity {size:?} vector {:?} {:?} {:?}\n", g.x, g.y, g.z),
+        false => String::new(),
+    };
+    if arrivals.is_empty() {
+        return format!("fix move grains nve/sphere\n{gravity}");
+    }
+    format!(
+        "\n# grains that come in keep their velocity and touch nothing until they are free\n\
+         compute free grains property/atom d_free\n\
+         variable waits atom \"step*dt<c_free\"\nvariable moves atom \"step*dt>=c_free\"\n\
+         group waiting dynamic grains var waits every 1\ngroup free dynamic grains var moves every 1\n\
+         neigh_modify exclude group waiting all\n\
+         fix come waiting nve\nfix move free nve/sphere\n{gravity}"
+    )
+}
+
+/// Output and the run: frame k is at the step nearest to k × `every`, the last step is one.
+fn tail(schedule: &Schedule) -> String {
+    let Schedule { dt, last, every, .. } = schedule;
+    let report = (last / 200).max(1);
+    format!(
+        "\n# frames\nvariable frames index {FRAMES}\n\
+         variable due equal \"round((round(step*{dt:?}/{every:?})+1)*{every:?}/{dt:?})\"\n\
+         variable next equal \"(v_due<{last} || step>={last})*v_due+(v_due>={last} && step<{last})*{last}\"\n\
+         dump frames grains custom 1 ${{frames}} {COLUMNS}\n\
+         dump_modify frames every v_next first yes flush yes format float %.17g\n\
+         thermo {report}\nthermo_style custom step ke\nthermo_modify lost error flush yes\nrun {last}\n"
+    )
+}

@@ -1,0 +1,265 @@
+//! Frames, and crossings between them, on their way from LAMMPS to the run file.
+
+use crate::arrivals::Arrival;
+use crate::data::number_of;
+use crate::dump::{Ended, Frame, Frames};
+use crate::error::{LammpsError, Result};
+use crate::outlet::{Found, Search};
+use crate::process::{Engine, Running};
+use dem::setup::{Particle, Setup};
+use geom::{Shown, Vec3};
+use run::{Progress, RunFile, Schedule};
+use std::collections::HashSet;
+use std::io::{BufRead, BufReader, Write};
+use std::os::unix::process::ExitStatusExt;
+use std::path::Path;
+use std::process::ExitStatus;
+use std::sync::{Mutex, PoisonError};
+
+/// What is wrong with a dump that was cut off.
+const TORN: &str = "it ends inside a frame";
+
+/// Frames on their way to the file.
+pub struct Job<'a> {
+    setup: &'a Setup,
+    /// All particles by id, as they were last.
+    particles: Vec<Particle>,
+    /// Those that are in the frame.
+    pub there: Vec<Particle>,
+    /// Those that come in, by id.
+    arrivals: &'a [Arrival],
+    schedule: &'a Schedule,
+    /// Step of the last frame.
+    pub last: Option<u64>,
+    /// How many crossed a storage plane.
+    pub crossings: u64,
+    report: &'a mut dyn FnMut(&Progress),
+}
+
+impl<'a> Job<'a> {
+    /// A job at its start.
+    pub fn new(
+        setup: &'a Setup,
+        arrivals: &'a [Arrival],
+        schedule: &'a Schedule,
+        report: &'a mut dyn FnMut(&Progress),
+    ) -> Job<'a> {
+        let mut particles = setup.particles.clone();
+        particles.sort_by_key(|p| p.id);
+        Job { setup, particles, there: Vec::new(), arrivals, schedule, last: None, crossings: 0, report }
+    }
+}
+
+impl Job<'_> {
+    fn time(&self) -> Shown {
+        Shown(self.last.unwrap_or(0) as f64 * self.schedule.dt)
+    }
+
+    fn wrong(&self, what: impl Into<String>) -> LammpsError {
+        LammpsError::Dump { time: self.time(), what: what.into() }
+    }
+
+    /// Runs LAMMPS; why it was stopped early.
+    ///
+    /// # Errors
+    /// LAMMPS that fails, output that cannot be written.
+    pub fn live<W: Write>(
+        &mut self,
+        file: &mut RunFile<W>,
+        engine: &Engine,
+        folder: &Path,
+        stop: fn() -> bool,
+    ) -> Result<Option<String>> {
+        let (running, [frames, zone]) = Running::start(engine, folder, stop)?;
+        let zone = (!self.setup.outlets.is_empty()).then(|| BufReader::with_capacity(1 << 18, zone));
+        let read = self.read_then(file, BufReader::with_capacity(1 << 18, frames), zone, |read| {
+            if !matches!(read, Ok(Ended::Over)) {
+                running.abandon();
+            }
+        });
+        let (status, words) = running.end();
+        let ended = read?;
+        if self.last == Some(self.schedule.last) {
+            return Ok(None);
+        }
+        if stop() {
+            return Ok(Some(record::SIGNAL.to_owned()));
+        }
+        match (status, ended) {
+            (_, Ended::Wrong(what)) => Err(self.wrong(what)),
+            (Some(status), Ended::Torn) if status.success() => Err(self.wrong(TORN)),
+            (status, _) => Err(LammpsError::Died { how: how(status), time: self.time(), words }),
+        }
+    }
+
+    /// Writes all frames, and the crossings in the samples near outlets.
+    ///
+    /// # Errors
+    /// Frames of another scene, output that cannot be written.
+    pub fn read<W: Write>(
+        &mut self,
+        file: &mut RunFile<W>,
+        frames: impl BufRead,
+        zone: Option<impl BufRead + Send>,
+    ) -> Result<Ended> {
+        self.read_then(file, frames, zone, |_| ())
+    }
+
+    /// The same; `then` is called when the frames are over, and must see to it that the samples are.
+    fn read_then<W: Write>(
+        &mut self,
+        file: &mut RunFile<W>,
+        frames: impl BufRead,
+        zone: Option<impl BufRead + Send>,
+        then: impl FnOnce(&Result<Ended>),
+    ) -> Result<Ended> {
+        let found = Mutex::new(Found::default());
+        let search = Search::new(self.setup, self.schedule.dt);
+        std::thread::scope(|scope| {
+            let outlets = zone.is_some();
+            let add = |more: Found| {
+                let mut all = found.lock().unwrap_or_else(PoisonError::into_inner);
+                all.crossings.extend(more.crossings);
+                all.until = all.until.max(more.until);
+                all.wrong = more.wrong;
+            };
+            let searching = zone.map(|zone| scope.spawn(move || search.read(zone, add)));
+            let found = outlets.then_some(&found);
+            let read = self.frames(file, Frames::new(frames), found);
+            then(&read);
+            if let Some(searching) = searching {
+                let _ = searching.join();
+            }
+            let ended = read?;
+            found.map_or(Ok(()), |found| self.cross(file, found))?;
+            Ok(ended)
+        })
+    }
+
+    /// Writes all frames, each after the crossings before it.
+    fn frames<W: Write>(
+        &mut self,
+        file: &mut RunFile<W>,
+        mut frames: Frames<impl BufRead>,
+        found: Option<&Mutex<Found>>,
+    ) -> Result<Ended> {
+        loop {
+            let frame = match frames.next_frame() {
+                Ok(frame) => frame,
+                Err(ended) => return Ok(ended),
+            };
+            self.take(&frame)?;
+            self.last = Some(frame.step);
+            let time = frame.step as f64 * self.schedule.dt;
+            self.enter(time);
+            found.map_or(Ok(()), |found| self.cross(file, found))?;
+            file.frame(time, &self.there)?;
+            self.tell(file.frames, frame.step);
+        }
+    }
+
+    /// Writes the crossings that were found.
+    fn cross<W: Write>(&mut self, file: &mut RunFile<W>, found: &Mutex<Found>) -> Result<()> {
+        let mut found = found.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(what) = &found.wrong {
+            return Err(self.wrong(format!("samples near outlets: {what}")));
+        }
+        let crossings = std::mem::take(&mut found.crossings);
+        let until = found.until;
+        drop(found);
+        self.crossings += crossings.len() as u64;
+        Ok(file.crossings(until, &crossings)?)
+    }
+
+    /// Refuses a dump that is not whole.
+    ///
+    /// # Errors
+    /// How it ended.
+    pub fn whole(&self, ended: Ended) -> Result<()> {
+        match ended {
+            Ended::Wrong(what) => Err(self.wrong(what)),
+            Ended::Torn => Err(self.wrong(TORN)),
+            Ended::Over if self.last == Some(self.schedule.last) => Ok(()),
+            Ended::Over => {
+                let end = Shown(self.schedule.end());
+                Err(self.wrong(format!("it ends there, and the scene ends at {end} s: it is of another scene, or of a run that broke off")))
+            }
+        }
+    }
+
+    /// Leaves those out of the frame that have not come in yet.
+    fn enter(&mut self, time: f64) {
+        let later = |p: &Particle| {
+            let found = self.arrivals.binary_search_by_key(&p.id, |a| a.id);
+            found.is_ok_and(|index| self.arrivals[index].enters > time)
+        };
+        self.there.clear();
+        self.there.extend(self.particles.iter().filter(|p| !later(p)));
+    }
+
+    fn take(&mut self, frame: &Frame) -> Result<()> {
+        if !self.setup.outlets.is_empty() {
+            // Those behind an outlet are taken out.
+            let numbers: HashSet<u64> = frame.atoms.iter().map(|atom| atom.0).collect();
+            self.particles.retain(|p| numbers.contains(&number_of(p.id)));
+        }
+        if frame.atoms.len() != self.particles.len() {
+            let (found, all) = (frame.atoms.len(), self.particles.len());
+            return Err(
+                self.wrong(format!("step {}: {found} atoms, and the scene has {all} particles", frame.step))
+            );
+        }
+        for (number, values) in &frame.atoms {
+            let found = self.particles.binary_search_by_key(number, |p| number_of(p.id));
+            let Ok(index) = found else {
+                return Err(
+                    self.wrong(format!("step {}: atom {number} is no particle of the scene", frame.step))
+                );
+            };
+            if let Some(bad) = values.iter().find(|value| !value.is_finite()) {
+                let id = number - 1;
+                return Err(self.wrong(format!(
+                    "step {}: particle {id} has the value {bad}: use a shorter time.dt",
+                    frame.step
+                )));
+            }
+            let [x, y, z, vx, vy, vz, wx, wy, wz] = *values;
+            let p = &mut self.particles[index];
+            (p.position, p.velocity, p.spin) =
+                (Vec3::new(x, y, z), Vec3::new(vx, vy, vz), Vec3::new(wx, wy, wz));
+        }
+        Ok(())
+    }
+
+    fn tell(&mut self, frames: u64, step: u64) {
+        let Schedule { dt, last, .. } = *self.schedule;
+        let time = step as f64 * dt;
+        (self.report)(&Progress {
+            time,
+            until: self.schedule.end(),
+            step,
+            steps: last,
+            share: step as f64 / last as f64,
+            particles: self.there.len(),
+            asleep: 0,
+            kinetic: None,
+            balance: None,
+            frames,
+            checkpoints: 0,
+            saved: time,
+        });
+    }
+}
+
+/// How a process ended.
+fn how(status: Option<ExitStatus>) -> String {
+    match status {
+        None => "was lost".to_owned(),
+        Some(status) => match (status.code(), status.signal()) {
+            (Some(0), _) => "ended before its last frame".to_owned(),
+            (Some(code), _) => format!("failed (exit code {code})"),
+            (None, Some(signal)) => format!("was killed (signal {signal})"),
+            (None, None) => "failed".to_owned(),
+        },
+    }
+}

@@ -1,0 +1,39 @@
+//! A scene on LAMMPS: laws, walls and particles as a deck, LAMMPS as a process, its dumps as a run file.
+//!
+//! ```text
+//! Plan → refuse → types → law, wall, motion → deck, data → process ⇄ dump → run file
+//! ```
+//!
+//! [`refusal`] lists what LAMMPS cannot do; [`law`] turns contact laws into coefficients of `pair_style granular` and `fix wall/gran`;
+//! [`deck`] is the text of a run, [`data`] its atoms; [`process`] starts LAMMPS and keeps its last words; [`dump`] reads frames while it
+//! runs and [`outlet`] finds crossings in samples; [`job`] writes them as [`run::RunFile`]. Modules use those before them in this list.
+//!
+//! Sources: the documentation of LAMMPS (`pair_style granular`, `fix wall/gran`, `fix wall/gran/region`, `fix move`, `dump custom`) and its
+//! source of 29 Sep 2021 and 22 Jul 2025, against which the conversions are tested. Uses `dem` for the setup's types, `run` for the file.
+
+mod arrivals;
+mod batch;
+mod damping;
+mod data;
+mod deck;
+mod dump;
+mod error;
+mod grain;
+mod job;
+mod law;
+mod motion;
+mod outlet;
+mod process;
+mod refusal;
+mod simulate;
+mod types;
+mod version;
+mod wall;
+
+pub use deck::Deck;
+pub use error::LammpsError;
+pub use law::Target;
+pub use process::Engine;
+pub use refusal::Refusal;
+pub use simulate::{Origin, Outcome, Prepared, Settings, prepare, run, sampled};
+pub use version::Version;

@@ -1,0 +1,127 @@
+//! What of a scene LAMMPS cannot do, by name, with the nearest that it can.
+
+use dem::setup::{Precision, Setup, WallShape};
+use scene::keys::SceneKeys;
+use std::fmt;
+
+/// Something that LAMMPS cannot do.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Refusal {
+    /// Key or name in the scene.
+    pub what: String,
+    /// Why.
+    pub why: String,
+    /// The nearest that LAMMPS can do, as an instruction.
+    pub nearest: String,
+}
+
+impl Refusal {
+    /// A refusal.
+    pub fn new(what: impl Into<String>, why: impl Into<String>, nearest: impl Into<String>) -> Refusal {
+        Refusal { what: what.into(), why: why.into(), nearest: nearest.into() }
+    }
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{}: {}: {}", self.what, self.why, self.nearest)
+    }
+}
+
+/// A condition, what it makes impossible, why, and the nearest.
+type Case = (bool, &'static str, &'static str, &'static str);
+
+fn all_of(cases: impl IntoIterator<Item = Case>) -> Vec<Refusal> {
+    let held = cases.into_iter().filter(|case| case.0);
+    held.map(|(_, what, why, nearest)| Refusal::new(what, why, nearest)).collect()
+}
+
+/// Parts of a scene apart from laws and walls without which it would be another one; laws and walls say themselves what they cannot.
+pub fn scene(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
+    let ends = "a LAMMPS run ends at time.until";
+    all_of([
+        (
+            !setup.clumps.shapes.is_empty(),
+            "clump",
+            "rigid clumps are not written for LAMMPS",
+            "use spheres with rolling_resistance",
+        ),
+        (!keys.bond.is_empty(), "bond", "bonds are not written for LAMMPS", "use law = \"jkr\", or dem-run"),
+        (
+            !keys.inlet.is_empty(),
+            "inlet",
+            "LAMMPS has no inlet of a cut",
+            "run the stage upstream on LAMMPS and this one with dem-run",
+        ),
+        (
+            !keys.domain.strain.is_empty(),
+            "domain.strain",
+            "a domain that is strained is not written for LAMMPS",
+            "use dem-run, or walls with a motion",
+        ),
+        (keys.drag.is_some(), "drag", "drag is not written for LAMMPS", "leave it out, or use dem-run"),
+        (
+            keys.local_damping.is_some(),
+            "local_damping",
+            "local damping is not written for LAMMPS",
+            "leave it out, or lower restitution",
+        ),
+        (keys.time.until_unbalanced.is_some(), "time.until_unbalanced", ends, "leave it out"),
+        (keys.time.until_kinetic.is_some(), "time.until_kinetic", ends, "leave it out"),
+    ])
+}
+
+/// Keys that LAMMPS has nothing for, and whose absence leaves the motion of the grains nearly as it is.
+pub fn leavable(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
+    let friction = setup.contacts.iter().any(|law| law.number("sliding_friction").is_some());
+    let ledger = "LAMMPS keeps no energy ledger";
+    all_of([
+        (keys.sleep.is_some(), "sleep", "particles of LAMMPS do not sleep", "leave it out"),
+        (keys.output.energy, "output.energy", ledger, "leave it out"),
+        (keys.guards.energy.is_some(), "guards.energy", ledger, "leave it out"),
+        (keys.output.contacts, "output.contacts", "contacts are not read back from LAMMPS", "leave it out"),
+        (
+            keys.output.wall_forces == Some(true),
+            "output.wall_forces",
+            "fix wall/gran gives no force on a wall",
+            "leave it out",
+        ),
+        (
+            setup.precision != Precision::Double,
+            "precision",
+            "LAMMPS computes in double precision",
+            "leave it out",
+        ),
+        (
+            !setup.kept.is_empty() && friction,
+            "particles",
+            "the contact history of a run cannot be given to LAMMPS",
+            "contacts begin without history (name the material of the particles)",
+        ),
+    ])
+}
+
+/// Walls that LAMMPS does not have.
+pub fn walls(setup: &Setup) -> Vec<Refusal> {
+    let mut all = Vec::new();
+    for wall in &setup.walls {
+        let what = format!("wall '{}'", wall.name);
+        let mut refuse = |why: &str, nearest: &str| all.push(Refusal::new(&what, why, nearest));
+        if matches!(wall.shape, WallShape::Mesh(_)) {
+            refuse(
+                "LAMMPS has no walls of triangles",
+                "make wall spheres of the drawing (wallgen --from-mesh), or use planes or box",
+            );
+        }
+        if wall.surface.moves() && !matches!(wall.shape, WallShape::Plane(_)) {
+            refuse("LAMMPS has no belts of spheres", "use a plane, or dem-run");
+        }
+        if wall.servo.is_some() {
+            refuse("LAMMPS has no walls that follow a force", "give the wall a motion, or use dem-run");
+        }
+        if wall.mount.is_some() {
+            refuse("LAMMPS has no walls on springs", "leave spring out, or use dem-run");
+        }
+    }
+    all
+}

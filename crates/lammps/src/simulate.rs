@@ -1,0 +1,149 @@
+//! A run on LAMMPS, written as it comes.
+
+use crate::arrivals::{self, Arrival};
+use crate::deck::{Deck, Source};
+use crate::error::{LammpsError, Result};
+use crate::job::Job;
+use crate::law::Target;
+use crate::process::Engine;
+use crate::refusal::Refusal;
+use dem::setup::Setup;
+use run::{Progress, RunError, RunFile, Schedule};
+use scene::keys::Sampling;
+use scene::{Plan, Scene};
+use serde::Serialize;
+use std::io::{BufRead, Write};
+use std::path::Path;
+use stream::mcap::{Provenance, StreamOptions};
+
+/// How a run is written and when it is stopped.
+pub struct Settings<W> {
+    /// What made the run.
+    pub provenance: Provenance,
+    /// How its file is written.
+    pub how: StreamOptions<W>,
+    /// Whether the run is to end.
+    pub stop: fn() -> bool,
+}
+
+/// Where frames come from.
+pub enum Origin<'a> {
+    /// LAMMPS, which is started.
+    Engine(&'a Engine),
+    /// A dump that it wrote before, and that of the samples near outlets, where the scene has any.
+    Dump(Box<dyn BufRead + 'a>, Option<Box<dyn BufRead + Send + 'a>>),
+}
+
+/// What was done.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Outcome {
+    /// Why it was stopped before its end.
+    pub stopped: Option<String>,
+    /// Time reached [s].
+    pub time: f64,
+    /// Time step [s].
+    pub dt: f64,
+    /// Steps.
+    pub steps: u64,
+    /// Frames written.
+    pub frames: u64,
+    /// Particles.
+    pub particles: usize,
+    /// Particles that crossed a storage plane.
+    pub crossings: u64,
+}
+
+/// Makes a scene sample forces at instants, as LAMMPS does: the time step is chosen for that.
+pub fn sampled(scene: &mut Scene) {
+    scene.keys.time.contacts = Sampling::Sampled;
+}
+
+/// A scene that is ready for LAMMPS.
+pub struct Prepared {
+    /// The deck.
+    pub deck: Deck,
+    /// Which steps are frames.
+    pub schedule: Schedule,
+    setup: Setup,
+    arrivals: Vec<Arrival>,
+}
+
+impl Prepared {
+    /// What the nearest that LAMMPS can do was taken for.
+    pub fn warnings(&self) -> Vec<String> {
+        let one = |bent: &Refusal| format!("{}: {}: the nearest is taken", bent.what, bent.why);
+        self.deck.bent.iter().map(one).collect()
+    }
+
+    /// Writes the deck into a folder.
+    ///
+    /// # Errors
+    /// A folder that cannot be written to.
+    pub fn write(&self, folder: &Path) -> Result<()> {
+        self.deck.write(&self.setup, folder)
+    }
+}
+
+/// Makes a scene ready.
+///
+/// # Errors
+/// What LAMMPS cannot do, what the engine refuses.
+pub fn prepare(scene: &Scene, plan: &Plan, target: Target, ranks: usize) -> Result<Prepared> {
+    run::ready(scene, plan, None)?;
+    let dt = dem::time_step(&plan.setup).map_err(RunError::from)?;
+    let schedule = Schedule::new(scene, dt)?;
+    let mut setup = plan.setup.clone();
+    let arrivals = arrivals::add(&mut setup, &plan.insertions, schedule.end())?;
+    let source = Source { scene, setup: &setup, arrivals: &arrivals, schedule: &schedule, target, ranks };
+    Ok(Prepared { deck: Deck::of(source)?, setup, arrivals, schedule })
+}
+
+/// Runs a deck on LAMMPS, or reads its dump, and writes the run.
+///
+/// # Errors
+/// LAMMPS that fails, a dump that breaks off, output that cannot be written.
+pub fn run<W: Write>(
+    scene: &Scene,
+    plan: &Plan,
+    prepared: &Prepared,
+    origin: Origin,
+    out: W,
+    settings: Settings<W>,
+    report: &mut dyn FnMut(&Progress),
+) -> Result<(Outcome, W)> {
+    let Prepared { schedule, setup, arrivals, .. } = prepared;
+    let mut file = RunFile::begin(scene, plan, schedule, out, &settings.provenance, settings.how)?;
+    file.note(0.0, "computed by LAMMPS; forces are sampled at instants, and the file has no checkpoint")?;
+    prepared.warnings().iter().try_for_each(|warning| file.note(0.0, warning))?;
+    let mut job = Job::new(setup, arrivals, schedule, report);
+    let reason = match origin {
+        Origin::Dump(input, zone) => {
+            let ended = job.read(&mut file, input, zone)?;
+            job.whole(ended)?;
+            None
+        }
+        Origin::Engine(engine) => {
+            let folder = tempfile::tempdir().map_err(|error| LammpsError::Deck {
+                folder: std::env::temp_dir().display().to_string(),
+                error,
+            })?;
+            prepared.write(folder.path())?;
+            job.live(&mut file, engine, folder.path(), settings.stop)?
+        }
+    };
+    let step = job.last.unwrap_or(0);
+    let time = step as f64 * schedule.dt;
+    if let Some(reason) = &reason {
+        file.stopped(time, reason)?;
+    }
+    let outcome = Outcome {
+        stopped: reason,
+        time,
+        dt: schedule.dt,
+        steps: step,
+        frames: file.frames,
+        particles: job.there.len(),
+        crossings: job.crossings,
+    };
+    Ok((outcome, file.finish()?))
+}

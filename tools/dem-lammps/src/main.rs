@@ -1,0 +1,161 @@
+//! Runs a scene on LAMMPS: the same scene, the same run MCAP.
+
+mod args;
+mod kept;
+
+use anyhow::Context;
+use args::Args;
+use cli::{Report, Source, Stopped};
+use lammps::{Engine, LammpsError, Origin, Prepared, Settings, Target, Version};
+use run::{Progress, RunError};
+use scene::{Input, Plan, Scene, SceneError};
+use std::fs::File;
+use std::io::BufReader;
+use std::num::NonZeroUsize;
+use std::path::Path;
+use std::process::ExitCode;
+
+/// Steps of the bar.
+const BAR: f64 = 1000.0;
+
+fn main() -> ExitCode {
+    cli::run("dem-lammps", dem_lammps)
+}
+
+fn dem_lammps(args: Args) -> anyhow::Result<Report> {
+    args.check()?;
+    let mut scene = read_scene(&args)?;
+    cli::also_reads(scene.files())?;
+    lammps::sampled(&mut scene);
+    let mut inputs = Vec::new();
+    for source in &args.inputs {
+        inputs.push(Input::open(&source.to_string(), source.open()?)?);
+    }
+    let plan = scene.plan(inputs)?;
+    plan.warnings.iter().for_each(|note| cli::warn(note));
+    let engine = engine(&args);
+    let target = Target { version: version(&args, &engine)?, nearest: args.nearest };
+    let prepared = lammps::prepare(&scene, &plan, target, engine.ranks);
+    let prepared = prepared.with_context(|| args.scene.to_string())?;
+    prepared.warnings().iter().for_each(|note| cli::warn(note));
+    if args.check {
+        let schedule = &prepared.schedule;
+        return Ok(Report::new(format!(
+            "LAMMPS can run the scene: {} steps of {:.3e} s",
+            schedule.last, schedule.dt
+        )));
+    }
+    if let Some(folder) = &args.write_deck {
+        prepared.write(folder)?;
+        let folder = folder.display();
+        return Ok(Report::new(format!(
+            "{folder}: run.in, particles.data and batch.sh; run it there with lmp -in run.in"
+        )));
+    }
+    simulate(&args, &scene, &plan, &prepared, &engine)
+}
+
+fn read_scene(args: &Args) -> anyhow::Result<Scene> {
+    let mut overrides = args.set.clone();
+    overrides.extend(args.until.map(|s| format!("time.until={s:?}")));
+    let folder = args.scene.path().and_then(Path::parent).unwrap_or(Path::new(""));
+    let scene = Scene::new(&args.scene.to_string(), args.scene.read_text()?, &overrides, folder);
+    scene.map_err(|error| match error {
+        SceneError::Override { .. } => cli::usage(error.to_string()),
+        other => other.into(),
+    })
+}
+
+fn engine(args: &Args) -> Engine {
+    let words = |given: &Option<String>, usual: &str| -> Vec<String> {
+        given.as_deref().unwrap_or(usual).split_whitespace().map(str::to_owned).collect()
+    };
+    Engine {
+        lmp: words(&args.lmp, "lmp"),
+        ranks: args.ranks.map_or(1, NonZeroUsize::get),
+        mpirun: words(&args.mpirun, "mpirun"),
+    }
+}
+
+/// The version of the program; that of Debian where a deck is written or read and no program is named.
+fn version(args: &Args, engine: &Engine) -> anyhow::Result<Version> {
+    let needs = args.write_deck.is_none() && args.read_dump.is_none() && !args.check;
+    if needs || args.lmp.is_some() { Ok(engine.version()?) } else { Ok(Version::DEBIAN) }
+}
+
+/// Adds the name of the output to a write error.
+fn written(error: LammpsError, args: &Args) -> anyhow::Error {
+    match error {
+        LammpsError::Run(RunError::Mcap(e)) => {
+            anyhow::Error::new(e).context(format!("{}: cannot write", args.output.name()))
+        }
+        other => other.into(),
+    }
+}
+
+/// A dump, and that of the samples near outlets, which lies beside it.
+fn dump<'a>(source: &Source, plan: &Plan) -> anyhow::Result<Origin<'a>> {
+    let frames = Box::new(BufReader::new(source.open()?));
+    if plan.setup.outlets.is_empty() {
+        return Ok(Origin::Dump(frames, None));
+    }
+    let Some(path) = source.path() else {
+        return Err(cli::usage(
+            "--read-dump -: the scene has outlets: name the file, beside which zone.dump lies",
+        ));
+    };
+    let path = path.with_file_name("zone.dump");
+    let zone = File::open(&path).with_context(|| format!("{}: cannot open it", path.display()))?;
+    Ok(Origin::Dump(frames, Some(Box::new(BufReader::new(zone)))))
+}
+
+fn simulate(
+    args: &Args,
+    scene: &Scene,
+    plan: &Plan,
+    prepared: &Prepared,
+    engine: &Engine,
+) -> anyhow::Result<Report> {
+    let out = args.output.open_long()?;
+    let (keep, part) = (out.keeper(), kept::as_named(&args.output, out.part()));
+    let how = out.how();
+    cli::stop_in_order();
+    let settings =
+        Settings { provenance: cli::provenance(plan.inputs.clone()), how, stop: cli::stop_requested };
+    let origin = match &args.read_dump {
+        Some(source) => dump(source, plan)?,
+        None => Origin::Engine(engine),
+    };
+    let bar = (!args.progress).then(|| cli::Progress::new("run", BAR as u64));
+    let mut saved = 0.0;
+    let mut hear = |progress: &Progress| {
+        keep.keep();
+        saved = progress.saved;
+        if let Some(bar) = &bar {
+            bar.set((BAR * progress.share) as u64);
+            bar.say(format!(
+                "t = {:.4} of {:.4} s, {} particles",
+                progress.time, progress.until, progress.particles
+            ));
+        } else if let Ok(line) = serde_json::to_string(progress) {
+            cli::say(&line);
+        }
+    };
+    let done =
+        lammps::run(scene, plan, prepared, origin, out, settings, &mut hear).map_err(|e| written(e, args));
+    let done = done.and_then(|(outcome, out)| out.commit().map(|()| outcome));
+    drop(bar);
+    let outcome = done.map_err(|e| kept::leaves(e, part.as_deref().filter(|_| keep.kept()), saved))?;
+    let summary = format!(
+        "{} steps of {:.3e} s to {:.4} s on LAMMPS, {} particles, {} frames",
+        outcome.steps, outcome.dt, outcome.time, outcome.particles, outcome.frames
+    );
+    let report = Report::new(summary).with_all(&outcome);
+    match &outcome.stopped {
+        Some(reason) => {
+            let time = geom::Shown(outcome.time);
+            Err(Stopped::error(format!("stopped {reason} at t = {time} s"), Some(report)))
+        }
+        None => Ok(report),
+    }
+}
