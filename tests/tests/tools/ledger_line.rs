@@ -58,6 +58,24 @@ fn an_elastic_gas_keeps_its_energy_in_the_step_that_is_chosen() {
     assert!(!plain.stderr.contains("integration"), "{}", plain.stderr);
 }
 
+/// A run that keeps the ledger stops where the step makes more than a twentieth of what is exchanged; one without it knows nothing of that.
+#[test]
+fn the_ledger_stops_a_run_whose_step_makes_energy() {
+    let folder = gas();
+    let run = |sets: &[&str]| {
+        let sets = sets.iter().flat_map(|set| ["--set", *set]);
+        let args: Vec<&str> = ["s.toml", "-o", "-"].into_iter().chain(sets).collect();
+        tool(folder.path(), "dem-run", &args)
+    };
+    let coarse = ["time.safety=0.95", "time.contacts=sampled"];
+    let stopped = run(&coarse);
+    assert!(stopped.code == 3 && stopped.stderr.contains("guards.energy"), "{}", stopped.stderr);
+    for more in ["guards.energy=100", "output.energy=false", "time.contacts=averaged"] {
+        let done = run(&[&coarse[..], &[more]].concat());
+        assert!(done.code == 0, "{more}: {}", done.stderr);
+    }
+}
+
 /// The overlap guard makes the critical step of Hertz contacts: `--explain` says so.
 #[test]
 fn explain_says_what_the_overlap_guard_costs() {
