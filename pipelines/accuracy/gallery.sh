@@ -89,7 +89,7 @@ sweep halfpipe halfpipe.toml --vary roughness=0.00002,0.0001,0.0004 --vary spaci
 sed 's/mass = 0.15 .*/mass = 0.08/; s/young = 2e7/young = 1e7/; s/until = 1.0 /until = 0.7 /; s/every = 0.02 /every = 0.005 /;
   s|\.\./\.\./sample-data|../../../sample-data|' ../scenes/plant.toml > out/plant-undivided.toml
 for length in 6 12; do
-  cut="stage-split out/plant-undivided.toml --at 0,0,0.6,0,0,-1 --length 0.0$(printf %02d $length) -q"
+  cut="stage-split out/plant-undivided.toml --at 0,0,0.6,0,0,-1 --length 0.0$(printf %02d $length) --motion recorded -q"
   $cut --keep upstream -o out/up-divided-$length.toml
   $cut --keep downstream -o out/plant-divided-$length.toml
 done

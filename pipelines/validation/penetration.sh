@@ -11,11 +11,12 @@ IMPACTS='0.03 7800
 0.3 7800
 0.1 2500'
 
-# impact SEED HEIGHT DENSITY: "HEIGHT DENSITY DEPTH DROP" in metres; the drop is from the release to the deepest point.
+# impact SEED HEIGHT DENSITY: "HEIGHT DENSITY DEPTH DROP" in metres; the drop is from the release to the deepest point. The ball starts 8 mm above the
+# median of the surface, with the speed that it has there.
 impact() {
   local name=penetration-$1-$2-$3 top
   top=$(dem-measure "$OUT/penetration-bed-$1.mcap" --bed-height -q | tail -1 | cut -d, -f2)
-  awk -v top="$top" -v r=$RADIUS -v h="$2" 'BEGIN { print "id,x,y,z,radius,vx,vy,vz"; printf "100000,0.04,0.04,%.9g,%g,0,0,%.9g\n", top + r + 0.003, r, -sqrt(2 * 9.81 * h) }' \
+  awk -v top="$top" -v r=$RADIUS -v h="$2" 'BEGIN { print "id,x,y,z,radius,vx,vy,vz"; printf "100000,0.04,0.04,%.9g,%g,0,0,%.9g\n", top + r + 0.008, r, -sqrt(2 * 9.81 * (h - 0.008)) }' \
     > "$OUT/$name.csv"
   scene "$name" penetration --set particles.0.source="\"$OUT/penetration-bed-$1.mcap\"" --set particles.1.source="\"$OUT/$name.csv\"" --set material.1.density="$3"
   dem-measure "$OUT/$name.mcap" --track 100000 -q | awk -F, -v top="$top" -v r=$RADIUS -v h="$2" -v rho="$3" '
@@ -23,7 +24,7 @@ impact() {
 }
 for seed in $SEEDS; do
   scene penetration-bed-$seed penetration-bed --set insert.0.seed=$seed
-  while read -r height density; do echo "$seed $(impact $seed "$height" "$density")"; done <<< "$IMPACTS"
+  while read -r height density; do line=$(impact $seed "$height" "$density"); echo "$seed $line"; done <<< "$IMPACTS"
 done > "$OUT/penetration.values"
 
 echo "| height of fall [mm] | density of the ball [kg/m³] | depth [mm] |"

@@ -58,7 +58,7 @@ fn an_elastic_gas_keeps_its_energy_in_the_step_that_is_chosen() {
     assert!(!plain.stderr.contains("integration"), "{}", plain.stderr);
 }
 
-/// A run that keeps the ledger stops where the step makes more than a twentieth of what is exchanged; one without it knows nothing of that.
+/// A run that keeps the ledger stops where the step makes too much energy; one without it knows nothing of that. 5 % where contacts are sampled.
 #[test]
 fn the_ledger_stops_a_run_whose_step_makes_energy() {
     let folder = gas();

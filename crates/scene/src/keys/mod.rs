@@ -81,7 +81,7 @@ impl SceneKeys {
 
     /// Share of the energy exchanged that the time step may make [–]; none without the ledger.
     pub fn energy_limit(&self) -> Option<f64> {
-        self.guards.energy.or(self.keeps_ledger().then_some(MOST_ENERGY))
+        self.guards.energy.or(self.keeps_ledger().then_some(self.time.contacts.most_energy()))
     }
 }
 
