@@ -41,7 +41,7 @@ fn an_elastic_gas_keeps_its_energy_in_the_step_that_is_chosen() {
     assert!(share(&done.stderr).abs() < 1.0, "{}", done.stderr);
     assert!(!done.stderr.contains("warning"), "{}", done.stderr);
     let sampled = ["--set", "time.contacts=sampled"];
-    let coarse = ["s.toml", "-o", "coarse.mcap", "--set", "time.safety=0.5"];
+    let coarse = ["s.toml", "-o", "coarse.mcap", "--set", "time.safety=0.5", "--set", "guards.energy=1"];
     let coarse = succeed(folder.path(), "dem-run", &[&coarse[..], &sampled].concat());
     assert!(share(&coarse.stderr) > 1.0, "{}", coarse.stderr);
     assert!(

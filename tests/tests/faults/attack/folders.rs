@@ -20,7 +20,7 @@ y = "tau"
 deviation = 0.1
 "#;
 const LINE: &str =
-    "echo u,tau; for k in 0 1 2 3 4 5 6; do echo $k $1 | awk '{print $1 \",\" $1 * $2}'; done\n";
+    "awk -v slope=\"$1\" 'BEGIN { print \"u,tau\"; for (k = 0; k < 7; k++) print k \",\" slope * k }'\n";
 
 /// A call of each tool that succeeds, to which options are added.
 pub const CALLS: &[(&str, &str)] = &[
