@@ -38,7 +38,7 @@ pub fn wider(scene: &Scene, reason: &str) -> Vec<String> {
         rest if rest.starts_with("overlap") => twice("overlap", guards.overlap.unwrap_or(standard.overlap)),
         rest if rest.starts_with("motion") => twice("motion", guards.motion.unwrap_or(standard.motion)),
         rest if rest.starts_with("zones") => "guards.zones=false".to_owned(),
-        rest if rest.starts_with("energy") => match guards.energy {
+        rest if rest.starts_with("energy") => match scene.keys.energy_limit() {
             Some(limit) => twice("energy", limit),
             None => return Vec::new(),
         },

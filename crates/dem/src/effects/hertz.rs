@@ -62,7 +62,8 @@ impl Effect for Hertz {
         let overlap = contact.overlap.max(R::splat(0.0));
         let s = R::splat(2.0 * self.modulus) * (contact.radius * overlap).sqrt();
         response.impedance = (s * contact.mass).sqrt();
-        let c = self.damping.of(s * contact.inverse_mass, contact.partial) * response.impedance;
+        let pace = s * contact.inverse_mass;
+        let c = self.damping.of(pace, contact.partial) * response.impedance;
         let elastic = R::splat(2.0 / 3.0) * s * overlap;
         let damping = c * contact.approach;
         response.normal = response.normal + (elastic + damping);
@@ -76,7 +77,6 @@ impl Effect for Hertz {
         let root = (contact.radius * present).sqrt();
         let spring = R::splat(2.0 / 3.0) * (R::splat(2.0 * self.modulus) * root) * present;
         response.elastic = response.elastic + R::splat(0.4) * spring * present;
-        response
-            .dissipate(DESCRIPTION.slot, damping * contact.approach * dt * R::splat(self.damping.dissipates));
+        response.dissipate(DESCRIPTION.slot, damping * contact.approach * dt * self.damping.dissipates(pace));
     }
 }

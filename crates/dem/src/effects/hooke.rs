@@ -111,16 +111,17 @@ impl Effect for Hooke {
     fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, _: &mut (), response: &mut Response<R>) {
         let k = R::splat(self.stiffness);
         response.impedance = (k * contact.mass).sqrt();
-        let c = self.damping.of(k * contact.inverse_mass, contact.partial) * response.impedance;
-        spring_and_dashpot([k, c], self.damping.dissipates, contact, dt, response);
+        let pace = k * contact.inverse_mass;
+        let c = self.damping.of(pace, contact.partial) * response.impedance;
+        spring_and_dashpot([k, c], self.damping.dissipates(pace), contact, dt, response);
     }
 }
 
-/// Adds the force of a spring k [N/m] and of a dashpot c [N s/m], whose work is dissipation where `dissipates` is 1, not 0.
+/// Adds the force of a spring k [N/m] and of a dashpot c [N s/m]; `dissipates` is the share of c v² Δt that is booked.
 #[inline(always)]
 pub fn spring_and_dashpot<R: Lane>(
     [k, c]: [R; 2],
-    dissipates: f64,
+    dissipates: R,
     contact: &Contact<R>,
     dt: R,
     response: &mut Response<R>,
@@ -132,5 +133,5 @@ pub fn spring_and_dashpot<R: Lane>(
     response.stiffness_before = R::splat(1.0);
     response.stiffness_last = k;
     response.elastic = response.elastic + R::splat(0.5) * k * contact.present * contact.present;
-    response.dissipate(DESCRIPTION.slot, damping * contact.approach * dt * R::splat(dissipates));
+    response.dissipate(DESCRIPTION.slot, damping * contact.approach * dt * dissipates);
 }

@@ -160,9 +160,10 @@ impl Effect for HookeDirect {
         let thick = smaller * R::select(round, smaller * contact.curvature, R::splat(1.0));
         let k = R::splat(constant) + R::splat(2.0 * by_length) * length + R::splat(PI * effective) * thick;
         response.impedance = (k * contact.mass).sqrt();
-        let of_ratio = self.damping.of(k * contact.inverse_mass, contact.partial) * response.impedance;
+        let pace = k * contact.inverse_mass;
+        let of_ratio = self.damping.of(pace, contact.partial) * response.impedance;
         let c = of_ratio + R::splat(self.dashpot);
-        hooke::spring_and_dashpot([k, c], self.damping.dissipates, contact, dt, response);
+        hooke::spring_and_dashpot([k, c], self.damping.dissipates(pace), contact, dt, response);
     }
 }
 

@@ -157,7 +157,8 @@ impl Effect for Jkr {
         let elastic = pull * cube * (cube / number(6.0) - number(1.0));
         let s = number(2.0 * self.modulus) * last * y * y;
         response.impedance = (s * contact.mass).sqrt();
-        let c = self.damping.of(s * contact.inverse_mass, contact.partial) * response.impedance;
+        let pace = s * contact.inverse_mass;
+        let c = self.damping.of(pace, contact.partial) * response.impedance;
         let damping = c * contact.approach;
         response.normal = response.normal + (elastic + damping);
         response.pressing = response.normal + number(3.0) * pull;
@@ -170,7 +171,7 @@ impl Effect for Jkr {
         let stored =
             cube * held * (cube * (cube / number(60.0) - number(1.0 / 6.0)) + number(0.25)) - number(0.1);
         response.elastic = response.elastic + unit * stored;
-        let dissipated = damping * contact.approach * dt * number(self.damping.dissipates);
+        let dissipated = damping * contact.approach * dt * self.damping.dissipates(pace);
         response.dissipate(DESCRIPTION.slot, dissipated);
         response.lost = response.lost + number(CYCLE) * new * unit;
     }

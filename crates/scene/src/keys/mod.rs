@@ -75,6 +75,18 @@ pub struct SceneKeys {
     pub inlet: Vec<Inlet>,
 }
 
+impl SceneKeys {
+    /// Whether the run keeps the energy ledger. Contacts are written with the work of sliding, which the ledger knows.
+    pub fn keeps_ledger(&self) -> bool {
+        self.output.energy || self.output.contacts || self.guards.energy.is_some()
+    }
+
+    /// Share of the energy exchanged that the time step may make [–]; none without the ledger.
+    pub fn energy_limit(&self) -> Option<f64> {
+        self.guards.energy.or(self.keeps_ledger().then_some(self.time.contacts.most_energy()))
+    }
+}
+
 /// Default share of the critical step [–].
 pub const SAFETY: f64 = 0.5;
 

@@ -44,8 +44,7 @@ impl PlanBuilder<'_> {
             },
             skin: keys.neighbours.skin,
             sleep: keys.sleep.map(|s| setup::Sleep { speed: s.speed, time: s.time, wake: s.wake }),
-            // Contacts are written with the work of sliding, which the ledger knows.
-            ledger: keys.output.energy || keys.output.contacts || keys.guards.energy.is_some(),
+            ledger: keys.keeps_ledger(),
             record_wrenches: true,
             guards: self.guards(),
             largest_entry: self.sphere_sizes.map_or(0.0, |s| s.largest),
@@ -79,7 +78,7 @@ impl PlanBuilder<'_> {
                 Some(BackThroughZone::IsRemoved) => CameBack::IsRemoved,
                 Some(BackThroughZone::Stays) => CameBack::Stays,
             },
-            energy: guards.energy.unwrap_or(default.energy),
+            energy: self.keys().energy_limit().unwrap_or(default.energy),
         }
     }
 

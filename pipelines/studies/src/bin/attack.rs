@@ -20,13 +20,25 @@ fn main() -> io::Result<()> {
         print!("{}\n{}", found.table(), found.list());
         return Ok(());
     }
-    found.run(files::cases(seed as u64, drawn));
-    found.run(scenes::cases());
-    found.run(options::cases());
-    kills::run(seed as u64, killed, &mut found);
-    silent::find(None, 1, &[], &mut found);
+    // What was found so far is printed after each part: the whole takes up to an hour.
+    let parts: [(&str, &dyn Fn(&mut Findings)); 5] = [
+        ("files", &|found| found.run(files::cases(seed as u64, drawn))),
+        ("keys", &|found| found.run(scenes::cases())),
+        ("options", &|found| found.run(options::cases())),
+        ("kills", &|found| kills::run(seed as u64, killed, found)),
+        ("silent", &|found| silent::find(None, 1, &[], found)),
+    ];
+    for (name, part) in parts {
+        part(&mut found);
+        eprintln!(
+            "attack: {name}: {} cases so far, {} bad\n{}",
+            found.count(),
+            found.bad.len(),
+            found.list()
+        );
+    }
     let page = format!("{HEAD}{} cases, seed {seed}:\n\n{}{TAIL}", found.count(), found.table());
-    print!("{page}\n{}", found.list());
+    print!("{page}");
     arguments.get(3).map_or(Ok(()), |file| fs::write(file, page))
 }
 

@@ -13,6 +13,9 @@ const MEMORY: u32 = 1_500_000;
 /// Time that a tool may take.
 const TIME: Duration = Duration::from_secs(20);
 
+/// Names that calls give their output.
+const OUTPUTS: [&str; 5] = ["out.ply", "out.mcap", "out.png", "out.csv", "out.toml"];
+
 /// A call of a tool.
 pub struct Case {
     /// Kind of case, as the page lists it.
@@ -98,7 +101,9 @@ impl Case {
         let folder = tempfile::tempdir().expect("a folder");
         let at = |name: &str| folder.path().join(name);
         for (name, bytes) in &self.files {
-            fs::write(at(name), bytes).expect("written");
+            let to = at(name);
+            fs::create_dir_all(to.parent().expect("a folder")).expect("made");
+            fs::write(to, bytes).expect("written");
         }
         let create = |name: &str| File::create(at(name)).expect("created");
         let mut command = Command::new("bash");
@@ -146,7 +151,7 @@ fn judge(status: Option<ExitStatus>, stderr: &str, folder: &Path) -> Outcome {
     {
         return Outcome::RawText;
     }
-    let output = ["out.ply", "out.mcap", "out.png"].iter().map(|name| folder.join(name)).find(|f| f.exists());
+    let output = OUTPUTS.iter().map(|name| folder.join(name)).find(|f| f.exists());
     match status.code() {
         Some(0) => match output.and_then(|f| fs::read(f).ok()) {
             Some(bytes) if bytes.starts_with(b"ply") && !finite(&bytes) => Outcome::NotFinite,

@@ -1,6 +1,7 @@
 //! Damaged files of every format, given to every tool that reads them.
 
 use super::case::Case;
+use super::folders;
 use super::mutate::mutate;
 use crate::samples::{self, Sample};
 use rand::{RngExt, SeedableRng};
@@ -48,7 +49,7 @@ const ROUGH: &[&str] = &["wallgen ascii.ply --roughness FILE -o out.ply"];
 const PRISM: &[&str] = &["cloud-crop ascii.ply --keep prism:FILE -o out.ply"];
 
 /// Samples of each format, and the calls that read them.
-fn formats() -> Vec<(&'static str, Vec<Sample>, &'static [&'static str])> {
+fn formats(examples: &[(String, Vec<u8>)]) -> Vec<(&'static str, Vec<Sample>, &'static [&'static str])> {
     let (mut clouds, meshes): (Vec<_>, Vec<_>) =
         samples::ply().into_iter().partition(|s| !s.0.contains("mesh"));
     let (mcap, texts) = (samples::mcap(), samples::texts());
@@ -62,7 +63,14 @@ fn formats() -> Vec<(&'static str, Vec<Sample>, &'static [&'static str])> {
         b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n".to_vec(),
     ));
     meshes.push(("mesh.stl", stl()));
+    let further = |names: &[&'static str]| folders::samples(examples, names);
     vec![
+        ("stones", [meshes.clone(), further(&["pebble.ply"])].concat(), folders::MESH),
+        ("libraries of stones", further(&["library/rock_1_1.ply", "grains.csv"]), folders::LIBRARY),
+        ("photographs", further(&["photographs/01.png", "masks/02.png"]), folders::PHOTOGRAPHS),
+        ("tables of stones", further(&["turntable.toml", "poses.txt", "grading.csv"]), folders::TABLES),
+        ("recipes and curves", further(&["recipe.toml", "shear.csv"]), folders::RECIPES),
+        ("laboratory samples", further(&["stone.toml", "stone.csv", "soil.toml"]), folders::LABORATORY),
         ("PLY clouds", samples::ply().into_iter().filter(|s| !s.0.contains("mesh")).collect(), CLOUD),
         ("LAS and LAZ", samples::las(), CLOUD),
         ("E57", samples::e57(), CLOUD),
@@ -122,17 +130,21 @@ pub fn others() -> Vec<(String, Vec<u8>)> {
 
 /// `count` cases, shared out among formats.
 pub fn cases(seed: u64, count: usize) -> Vec<Case> {
-    let (formats, others) = (formats(), others());
+    let (examples, others) = (folders::files(), others());
+    let formats = formats(&examples);
     let one = |k: usize| {
         let mut rng = Pcg64Mcg::seed_from_u64(seed ^ (k as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15));
         let (group, samples, calls) = &formats[k % formats.len()];
         let (name, bytes) = &samples[rng.random_range(0..samples.len())];
         let (damaged, change) = mutate(name, bytes, &mut rng);
         let call = calls[rng.random_range(0..calls.len())];
-        let file = format!("x-{name}");
+        // A call that does not name the file reads it under its name.
+        let file =
+            if call.contains("FILE") { format!("x-{}", name.replace('/', "-")) } else { (*name).to_owned() };
         let (tool, words) = call.split_once(' ').expect("a tool and its arguments");
         let args = words.split(' ').map(|word| word.replace("FILE", &file)).collect();
-        let mut files = others.clone();
+        let mut files = folders::of(&examples, tool);
+        files = if files.is_empty() { others.clone() } else { files };
         files.push((file, damaged));
         Case { group, tool, args, files, change }
     };

@@ -14,6 +14,7 @@ pub mod example_scenes;
 #[path = "../../tools/every_option/examples.rs"]
 pub mod examples;
 pub mod files;
+pub mod folders;
 pub mod kills;
 pub mod mutate;
 pub mod options;

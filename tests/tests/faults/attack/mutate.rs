@@ -17,6 +17,7 @@ pub fn mutate(name: &str, bytes: &[u8], rng: &mut Pcg64Mcg) -> (Vec<u8>, String)
     match name.rsplit('.').next() {
         Some("mcap") => zero_crcs(&mut new),
         Some("e57") => seal_pages(&mut new),
+        Some("png") => seal_chunks(&mut new),
         _ => {}
     }
     (new, format!("{name}: {change}"))
@@ -178,11 +179,31 @@ fn zero_crcs(bytes: &mut [u8]) {
 /// Makes the CRC of each page of an E57 right: CRC-32C of 1020 bytes, big-endian.
 fn seal_pages(bytes: &mut [u8]) {
     for page in bytes.chunks_exact_mut(1024) {
-        let mut crc = u32::MAX;
-        for byte in &page[..1020] {
-            crc ^= u32::from(*byte);
-            (0..8).for_each(|_| crc = (crc >> 1) ^ (0x82f6_3b78 * (crc & 1)));
-        }
-        page[1020..].copy_from_slice(&(!crc).to_be_bytes());
+        let sum = crc(&page[..1020], 0x82f6_3b78);
+        page[1020..].copy_from_slice(&sum.to_be_bytes());
     }
+}
+
+/// Makes the CRC of each chunk of a PNG right: CRC-32 of its type and data, big-endian.
+fn seal_chunks(bytes: &mut [u8]) {
+    let mut at = 8;
+    while let Some(head) = bytes.get(at..at + 4) {
+        let length = u32::from_be_bytes(head.try_into().expect("4 bytes")) as usize;
+        let end = at + 8 + length;
+        if bytes.len() < end + 4 {
+            return;
+        }
+        let sum = crc(&bytes[at + 4..end], 0xedb8_8320);
+        bytes[end..end + 4].copy_from_slice(&sum.to_be_bytes());
+        at = end + 4;
+    }
+}
+
+fn crc(bytes: &[u8], polynomial: u32) -> u32 {
+    let mut crc = u32::MAX;
+    for byte in bytes {
+        crc ^= u32::from(*byte);
+        (0..8).for_each(|_| crc = (crc >> 1) ^ (polynomial * (crc & 1)));
+    }
+    !crc
 }

@@ -1,7 +1,7 @@
 //! Every option of every tool, read from its `--help`, with each of fourteen values.
 
 use super::case::Case;
-use super::{files, values};
+use super::{files, folders, values};
 use crate::samples;
 use grainpipe_tests::tools::tool;
 use std::path::Path;
@@ -52,8 +52,11 @@ pub fn cases() -> Vec<Case> {
     let mut shared = files::others();
     shared
         .push(("run.mcap".into(), samples::mcap().into_iter().find(|s| s.0 == "run.mcap").expect("a run").1));
+    let examples = folders::files();
     let mut cases = Vec::new();
-    for (tool, call) in CALLS {
+    for (tool, call) in CALLS.iter().chain(folders::CALLS) {
+        let files =
+            if CALLS.iter().any(|c| c.0 == *tool) { shared.clone() } else { folders::of(&examples, tool) };
         for Flag { name, takes_value } in flags(tool) {
             let values = if takes_value { values::OPTION.map(Some).to_vec() } else { vec![None] };
             for value in values {
@@ -63,8 +66,13 @@ pub fn cases() -> Vec<Case> {
                     args.drain(at..(at + 2).min(args.len()));
                 }
                 args.push(value.map_or(name.clone(), |v| format!("{name}={v}")));
-                let files = shared.clone();
-                cases.push(Case { group: "options", tool, args, files, change: String::new() });
+                cases.push(Case {
+                    group: "options",
+                    tool,
+                    args,
+                    files: files.clone(),
+                    change: String::new(),
+                });
             }
         }
     }
