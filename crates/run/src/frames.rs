@@ -52,6 +52,8 @@ pub(crate) struct ParticleRows<'a, P> {
     pub precision: Precision,
     /// Clumps by id, where the scene has any.
     pub clumps: Option<&'a [ClumpState]>,
+    /// Clusters of particles by id; empty where there is none.
+    pub clusters: &'a [(u32, u32)],
 }
 
 /// Numbers of a particle that are written in the precision asked for, in the order of [`measured`].
@@ -69,7 +71,7 @@ impl<P: Particles> Rows for ParticleRows<'_, P> {
         let kind = kind(self.precision);
         let whole = [(ID, NumberType::U32), (MATERIAL, NumberType::U16)];
         let body = self.clumps.map(|_| (column::BODY, NumberType::U32));
-        let cluster = (!self.all.clusters().is_empty()).then_some((column::CLUSTER, NumberType::U32));
+        let cluster = (!self.clusters.is_empty()).then_some((column::CLUSTER, NumberType::U32));
         measured_columns().map(|name| (name, kind)).chain(whole).chain(body).chain(cluster).collect()
     }
 
@@ -89,8 +91,8 @@ impl<P: Particles> Rows for ParticleRows<'_, P> {
             let before = clumps.partition_point(|b| b.id <= p.id);
             row.put(clumps[..before].last().filter(|b| b.has(p.id)).map_or(p.id, |b| b.id));
         }
-        if !self.all.clusters().is_empty() {
-            row.put(cluster_of(self.all.clusters(), p.id));
+        if !self.clusters.is_empty() {
+            row.put(cluster_of(self.clusters, p.id));
         }
     }
 }

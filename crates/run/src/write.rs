@@ -74,7 +74,8 @@ impl<W: Write> Run<W> {
         }
         let clumps = (!self.written.masses.is_empty()).then(|| self.sim.clumps()).transpose()?;
         let (all, clumps_by_id) = (self.sim.snapshot()?, clumps.as_deref());
-        let rows = ParticleRows { all, precision, clumps: clumps_by_id };
+        let clusters = all.clusters();
+        let rows = ParticleRows { all, precision, clumps: clumps_by_id, clusters };
         self.writer.rows(topic::PARTICLES, now, FRAME, &rows)?;
         if let Some(clumps) = clumps {
             self.writer.points(topic::BODIES, now, FRAME, frames::clump_rows(&clumps))?;
