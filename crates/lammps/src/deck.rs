@@ -199,7 +199,7 @@ fn groups(types: &Types) -> String {
     text
 }
 
-fn motion(Source { setup, arrivals, .. }: &Source) -> String {
+fn motion(Source { setup, arrivals, target, .. }: &Source) -> String {
     let (g, size) = (setup.gravity, setup.gravity.norm());
     let gravity = match size > 0.0 {
         true => format!("fix gravity grains gravity {size:?} vector {:?} {:?} {:?}\n", g.x, g.y, g.z),
@@ -208,13 +208,16 @@ fn motion(Source { setup, arrivals, .. }: &Source) -> String {
     if arrivals.is_empty() {
         return format!("fix move grains nve/sphere\n{gravity}");
     }
+    let (feels, exclude) = match target.version.excludes_dynamic_groups() {
+        true => ("touch nothing", "neigh_modify exclude group waiting all\n"),
+        false => ("feel nothing", ""),
+    };
     format!(
-        "\n# grains that come in keep their velocity and touch nothing until they are free\n\
+        "\n# grains that come in keep their velocity and {feels} until they are free\n\
          compute free grains property/atom d_free\n\
          variable waits atom \"step*dt<c_free\"\nvariable moves atom \"step*dt>=c_free\"\n\
          group waiting dynamic grains var waits every 1\ngroup free dynamic grains var moves every 1\n\
-         neigh_modify exclude group waiting all\n\
-         fix come waiting nve\nfix move free nve/sphere\n{gravity}"
+         {exclude}fix come waiting nve\nfix move free nve/sphere\n{gravity}"
     )
 }
 

@@ -6,10 +6,10 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "Examples:\n\
-    \x20 dem-lammps spheres.toml -o run.mcap\n\
+    \x20 dem-lammps spheres.toml -o lammps.mcap\n\
     \x20 dem-lammps spheres.toml --write-deck deck\n\
     \x20 (cd deck && lmp -in run.in)\n\
-    \x20 dem-lammps spheres.toml --read-dump deck/frames.dump -o run.mcap";
+    \x20 dem-lammps spheres.toml --read-dump deck/frames.dump -o lammps.mcap";
 
 /// Run a DEM scene on LAMMPS and write a run MCAP, as dem-run does
 #[derive(Parser)]
