@@ -9,8 +9,8 @@ mod samples;
 use attack::{Findings, files, kills, options, scenes, silent};
 use std::{env, fs, io};
 
-/// A part of the attack.
-type Part<'a> = &'a dyn Fn(&mut Findings);
+/// A part of the attack, and its name.
+type Part<'a> = (&'static str, &'a dyn Fn(&mut Findings));
 
 fn main() -> io::Result<()> {
     let arguments: Vec<String> = env::args().skip(1).collect();
@@ -24,7 +24,7 @@ fn main() -> io::Result<()> {
         return Ok(());
     }
     // What was found so far is printed after each part: the whole takes up to an hour.
-    let parts: [(&str, Part); 5] = [
+    let parts: [Part; 5] = [
         ("files", &|found| found.run(files::cases(seed as u64, drawn))),
         ("keys", &|found| found.run(scenes::cases())),
         ("options", &|found| found.run(options::cases())),

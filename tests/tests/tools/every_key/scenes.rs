@@ -481,7 +481,7 @@ pub fn scenes() -> Vec<(String, String)> {
         ("laws".to_owned(), [LAWS, &three()].concat()),
     ];
     let corners = "low = [0.1, 0.1, 0]\nhigh = [0.6, 0.6, 0.6]\n";
-    all.push(("strained".to_owned(), strained(corners, "stress = 1000, rate_limit = \"1 1/s\"")));
+    all.push(("strained".to_owned(), strained(corners, "stress = 1000, rate_limit = 1")));
     all.push(("strained-path".to_owned(), strained(corners, "path = { source = \"strain.csv\" }")));
     all.push(("strained-on".to_owned(), strained("source = \"strained.mcap\"\n", "rate = 0.5")));
     for (motion, length, test) in CUTS {
