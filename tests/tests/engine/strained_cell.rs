@@ -93,17 +93,19 @@ fn stress_is_held_at_three_rates_of_strain() {
     }
 }
 
-/// Clumps of two spheres instead of the grains.
+/// 216 clumps of two spheres instead of the grains.
 fn clumps(mut setup: Setup) -> Setup {
     let spheres = [(Vec3::x() * -0.006, 0.01), (Vec3::x() * 0.006, 0.01)];
     let shape = ClumpShape::new("pair", 0, &spheres, &geom::Moments::of_sum(&spheres));
-    let body = |(k, p): (u32, &Particle)| {
+    let body = |k: u32| {
+        let at = |n: u32| (f64::from(n % 6) + 0.5) * SIDE / 6.0;
         let orientation = nalgebra::UnitQuaternion::from_euler_angles(f64::from(k), 2.0 * f64::from(k), 0.5);
-        let (position, velocity, spin) = (p.position, p.velocity, p.spin);
-        Body { id: 10 * k, shape: 0, scale: 0.7, position, orientation, velocity, spin }
+        let (velocity, spin) =
+            (Vec3::new(f64::from(k % 5) - 2.0, f64::from(k % 7) - 3.0, 0.0) * 0.01, Vec3::zeros());
+        let position = Vec3::new(at(k), at(k / 6), at(k / 36));
+        Body { id: 10 * k, shape: 0, scale: 0.5, position, orientation, velocity, spin }
     };
-    let placed = (0..).zip(&setup.particles).map(body).collect();
-    setup.clumps = Clumps { shapes: vec![shape], placed, entries: vec![] };
+    setup.clumps = Clumps { shapes: vec![shape], placed: (0..216).map(body).collect(), entries: vec![] };
     setup.particles.clear();
     setup
 }

@@ -48,12 +48,12 @@ struct Args {
     /// With --method tangent: surface this near to a sphere needs no further one [m] [default: what the number or the error needs]
     #[arg(long, value_name = "M", value_parser = geom::number::not_negative)]
     distance: Option<f64>,
-    /// Name of the clump
-    #[arg(long, value_name = "NAME", default_value = "stone")]
-    name: String,
-    /// Material of the clump
-    #[arg(long, value_name = "NAME", default_value = "rock")]
-    material: String,
+    /// Name of the clump [default: stone]
+    #[arg(long, value_name = "NAME")]
+    name: Option<String>,
+    /// Material of the clump [default: rock]
+    #[arg(long, value_name = "NAME")]
+    material: Option<String>,
     #[command(flatten)]
     seed: cli::Seed,
 }
@@ -96,7 +96,15 @@ fn stone_clump(args: Args) -> anyhow::Result<Report> {
     } else if args.output.has_extension("ply") {
         args.write(&words::ply(&clump)?)?;
     } else {
-        args.write(words::toml(&args.name, &args.material, &clump, &stone.moments).as_bytes())?;
+        args.write(
+            words::toml(
+                args.name.as_deref().unwrap_or("stone"),
+                args.material.as_deref().unwrap_or("rock"),
+                &clump,
+                &stone.moments,
+            )
+            .as_bytes(),
+        )?;
     }
     Ok(Report::new(words::summary(&clump))
         .with("spheres", clump.spheres.len())
@@ -125,6 +133,14 @@ impl Args {
         }
         if !tangent && !self.measures {
             self.seed.none("--method distance")?;
+        }
+        let spheres = self.output.has_extension("csv") || self.output.has_extension("ply");
+        let names = [("--name", self.name.is_some()), ("--material", self.material.is_some())];
+        if let Some((option, _)) = names.into_iter().find(|(_, given)| *given && spheres) {
+            let name = self.output.name();
+            return Err(cli::usage(format!(
+                "{option}: -o {name} has the spheres alone: leave it out, or write a .toml"
+            )));
         }
         let other = self.output.path().and_then(std::path::Path::extension);
         let known = ["toml", "csv", "ply"].iter().any(|e| self.output.has_extension(e));

@@ -52,6 +52,7 @@ const REFUSED: &[(&str, &str)] = &[
         "lab-test uniaxial stone.toml --seed 3",
         "--seed: uniaxial with these grains leaves nothing to chance: leave it out",
     ),
+    ("stone-clump tetra.ply --spheres 3 --name x -o c.csv", "--name: -o c.csv has the spheres alone"),
     ("dem-run s.toml --materials", "--materials has no effect: no [[material]] leaves out a number"),
     ("dem-lammps spheres.toml --check --progress", "--progress: --check runs nothing: leave it out"),
     ("dem-lammps spheres.toml --mpirun mpirun", "--mpirun: one rank needs no launcher"),
