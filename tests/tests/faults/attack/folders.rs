@@ -14,13 +14,11 @@ name = "slope"
 bounds = [1, 3]
 [[test]]
 name = "shear"
-command = "sh line.sh {slope}"
+command = """awk 'BEGIN { print "u,tau"; print "0,0"; print 3 "," 3 * {slope}; print 6 "," 6 * {slope} }'"""
 x = "u"
 y = "tau"
 deviation = 0.1
 "#;
-const LINE: &str =
-    "awk -v slope=\"$1\" 'BEGIN { print \"u,tau\"; for (k = 0; k < 7; k++) print k \",\" slope * k }'\n";
 
 /// A call of each tool that succeeds, to which options are added.
 pub const CALLS: &[(&str, &str)] = &[
@@ -86,7 +84,6 @@ pub fn files() -> Vec<(String, Vec<u8>)> {
     gather(folder.path(), "", &mut found);
     found.retain(|f| f.0 != "recipe.toml");
     found.push(("recipe.toml".into(), RECIPE.into()));
-    found.push(("line.sh".into(), LINE.into()));
     found.sort();
     found
 }
@@ -104,7 +101,7 @@ fn gather(folder: &Path, within: &str, found: &mut Vec<(String, Vec<u8>)>) {
 /// Those of the files that a call of a tool may read.
 pub fn of(files: &[(String, Vec<u8>)], tool: &str) -> Vec<(String, Vec<u8>)> {
     let read: &[&str] = match tool {
-        "calibrate" => &["recipe.toml", "line.sh", "shear.csv"],
+        "calibrate" => &["recipe.toml", "shear.csv"],
         "cost-curve" => &["s.toml"],
         "lab-test" => &["stone.toml", "stone.csv", "soil.toml"],
         "stone-hull" | "stone-mask" => &["photographs/", "masks/", "turntable.toml", "poses.txt"],
