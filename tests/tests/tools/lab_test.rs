@@ -253,6 +253,11 @@ fn what_a_test_cannot_use_is_refused() {
         (&["uniaxial", "rock.toml", "--seeds", "2"], "leaves nothing to chance"),
         (&["direct-shear", "missing.toml"], "missing.toml"),
         (&["triaxial", "sand.toml", "--print-scene", "--plot", "a.svg"], "--plot has no effect"),
+        (&["triaxial", "sand.toml", "--print-scene", "--rest", "1e-3"], "--rest has no effect on the scene"),
+        (
+            &["triaxial", "sand.toml", "--print-preparation", "--seeds", "2"],
+            "--seeds has no effect on the scene",
+        ),
     ] {
         let done = tool(path, "lab-test", &[words, &["-o", "x.csv"]].concat());
         assert!(done.code != 0 && done.stderr.contains(said), "{words:?}: {}", done.stderr);

@@ -11,7 +11,7 @@ const NOTES: &str = "SAMPLE.toml is a scene without walls, times and outputs: ma
     docs/lab-tests.md explains each test, its equations and columns.\n\n\
     Examples:\n\
     \x20 lab-test crush stone.toml --seeds 5 -o curves.csv --plot curves.svg --report crush.json\n\
-    \x20 lab-test direct-shear soil.toml --stress '50 kPa,100 kPa' --seeds 3 --print-scene\n\
+    \x20 lab-test direct-shear soil.toml --stress '50 kPa' --print-scene\n\
     \x20 lab-test triaxial soil.toml --grains 1500 --print-preparation -o prepare.toml";
 
 /// Run a standard laboratory test on a sample of grains: curves as CSV, a plot, a page, and what the curves come to
@@ -168,9 +168,29 @@ impl Args {
             ("--words", self.words.is_some()),
             ("--dir", self.dir.is_some()),
         ];
-        match nothing.into_iter().find(|(_, given)| *given) {
+        if let Some((option, _)) = nothing.into_iter().find(|(_, given)| *given) {
+            return Err(usage(format!(
+                "{option} has no effect with {printed}, which runs nothing: leave it out"
+            )));
+        }
+        let (seeds, rows) = (self.seeds > 1, self.rows != lab::recipes::ROWS);
+        let other = match self.print_preparation {
+            true => vec![
+                ("--strain", self.strain.is_some()),
+                ("--inertial", self.inertial.is_some()),
+                ("--speed", self.speed.is_some()),
+                ("--rows", rows),
+                ("--seeds", seeds),
+            ],
+            false => vec![
+                ("--friction", self.friction.is_some()),
+                ("--rest", self.rest.is_some()),
+                ("--seeds", seeds),
+            ],
+        };
+        match other.into_iter().find(|(_, given)| *given) {
             Some((option, _)) => {
-                Err(usage(format!("{option} has no effect with {printed}, which runs nothing: leave it out")))
+                Err(usage(format!("{option} has no effect on the scene of {printed}: leave it out")))
             }
             None => Ok(()),
         }
