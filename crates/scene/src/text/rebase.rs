@@ -30,7 +30,9 @@ pub fn rebase(document: &mut DocumentMut, from: &Path, to: &Path) {
             }
         }
     }
-    if let Some(source) = document.get_mut("domain").and_then(|domain| domain.get_mut("source")) {
+    // Through tables: an item that is asked for a key that it lacks makes one.
+    let domain = document.get_mut("domain").and_then(Item::as_table_like_mut);
+    if let Some(source) = domain.and_then(|domain| domain.get_mut("source")) {
         *source = value(relative(&from.join(source.as_str().unwrap_or_default()), to));
     }
     paths(document.as_item_mut(), from, to);
@@ -50,7 +52,8 @@ fn paths(item: &mut Item, from: &Path, to: &Path) {
 
 fn in_table(table: &mut dyn TableLike, from: &Path, to: &Path) {
     for (key, item) in table.iter_mut() {
-        match item.get_mut("source").filter(|source| key == "path" && source.is_str()) {
+        let source = item.as_table_like_mut().and_then(|table| table.get_mut("source"));
+        match source.filter(|source| key == "path" && source.is_str()) {
             Some(source) => *source = value(relative(&from.join(source.as_str().unwrap_or_default()), to)),
             None => paths(item, from, to),
         }
@@ -123,6 +126,9 @@ mod tests {
 
     #[test]
     fn paths_over_time_are_seen_from_the_new_folder() {
+        let mut other: DocumentMut = "[domain]\nperiodic = [\"x\"]\n[[wall]]\nmotion = {}\n".parse().unwrap();
+        rebase(&mut other, Path::new("/lab"), Path::new("/lab/run"));
+        assert_eq!(other.to_string(), "[domain]\nperiodic = [\"x\"]\n[[wall]]\nmotion = {}\n");
         let text = "[domain]\nsource = \"d.mcap\"\n[domain.strain]\nx = { path = { source = \"s.csv\" } }\n[[wall]]\nservo = { path = { source = \"l.csv\" } }\n\
                     [[wall]]\nmotion = [{ path = { source = \"a.csv\" } }, { translate = [0, 0, 1] }]\n[wall.servo.path]\nsource = \"b.csv\"\n";
         let mut document: DocumentMut = text.parse().unwrap();
