@@ -83,11 +83,6 @@ fn errors_of_positions_and_periods() -> Vec<Advice<SetupError>> {
             &["particle 7: position", "1.0000e9 m", "shift the scene"],
         ),
         (SetupError::RotatingPlane(floor()), &[WALL, "rotate.about"]),
-        (SetupError::StrainedWith("walls"), &["domain.strain", "no walls", "leave out one of them"]),
-        (
-            SetupError::StrainedOpen { axis: 'y' },
-            &["domain.strain: y is not periodic", "set domain.periodic"],
-        ),
         (
             SetupError::PeriodTooSmall { axis: 'x', period: 0.01, least: 0.02 },
             &["domain", "along x", "2.0000e-2 m"],
@@ -140,6 +135,11 @@ fn errors_of_bonds_sleep_and_resumes() -> Vec<Advice<SetupError>> {
             SetupError::OtherState(StateMismatch::Step { asked: 0.5, saved: 0.25 }),
             &["resume", "0.5 s, saved 0.25 s", "scene of the saved run"],
         ),
+        (SetupError::StrainedWith("walls"), &["domain.strain", "no walls", "leave out one of them"]),
+        (
+            SetupError::StrainedOpen { axis: 'y' },
+            &["domain.strain: y is not periodic", "set domain.periodic"],
+        ),
     ]
 }
 
@@ -188,9 +188,9 @@ fn setup_error_number(error: &SetupError) -> usize {
         SetupError::BondOfZeroLength { .. } => 25,
         SetupError::BondJoinsNothing { .. } => 26,
         SetupError::OtherState(_) => 27,
-        SetupError::BeltLeavesPlane(_) => 28,
-        SetupError::StrainedWith(_) => 29,
-        SetupError::StrainedOpen { .. } => 30,
+        SetupError::BeltLeavesPlane(_) => 30,
+        SetupError::StrainedWith(_) => 28,
+        SetupError::StrainedOpen { .. } => 29,
     }
 }
 
