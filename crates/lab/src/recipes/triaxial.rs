@@ -120,19 +120,10 @@ impl Recipe for Triaxial {
         let area = |axis: usize, i: usize| sides[(axis + 1) % 3][i] * sides[(axis + 2) % 3][i];
         let stress =
             |axis: usize| rows.clone().map(|i| forces[axis][i] / area(axis, i)).collect::<Vec<f64>>();
-        let axial = stress(2);
-        let lateral: Vec<f64> = stress(0).iter().zip(stress(1)).map(|(x, y)| 0.5 * (x + y)).collect();
         let volume = start.x * start.y * start.z;
         let volumetric =
             rows.clone().map(|i| 1.0 - sides[0][i] * sides[1][i] * sides[2][i] / volume).collect();
-        let curve = Curve::default()
-            .with("time", "s", times.clone())
-            .with("axial_strain", "", strain(2))
-            .with("volumetric_strain", "", volumetric)
-            .with("lateral_strain", "", strain(0).iter().zip(strain(1)).map(|(x, y)| 0.5 * (x + y)).collect())
-            .with("deviator_stress", "Pa", axial.iter().zip(&lateral).map(|(a, l)| a - l).collect())
-            .with("axial_stress", "Pa", axial)
-            .with("lateral_stress", "Pa", lateral);
+        let curve = drawn(&times, [0, 1, 2].map(strain), volumetric, [0, 1, 2].map(stress));
         tables.finish(curve, &times)
     }
 
@@ -147,6 +138,25 @@ impl Recipe for Triaxial {
     fn envelope(&self) -> Option<Envelope> {
         Some(Envelope::Circles)
     }
+}
+
+/// The curve of triaxial compression over time [s], from strains along x, y and z, that of the volume, and stresses [Pa]; z is the axis.
+pub(super) fn drawn(
+    times: &[f64],
+    [x, y, axial]: [Vec<f64>; 3],
+    volumetric: Vec<f64>,
+    [sx, sy, stress]: [Vec<f64>; 3],
+) -> Curve {
+    let mean = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| 0.5 * (a + b)).collect::<Vec<f64>>();
+    let lateral = mean(&sx, &sy);
+    Curve::default()
+        .with("time", "s", times.to_vec())
+        .with("axial_strain", "", axial)
+        .with("volumetric_strain", "", volumetric)
+        .with("lateral_strain", "", mean(&x, &y))
+        .with("deviator_stress", "Pa", stress.iter().zip(&lateral).map(|(a, l)| a - l).collect())
+        .with("axial_stress", "Pa", stress)
+        .with("lateral_stress", "Pa", lateral)
 }
 
 /// What a curve of triaxial compression comes to.

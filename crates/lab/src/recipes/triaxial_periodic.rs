@@ -2,7 +2,7 @@
 //!
 //! Stress is the mean over all contacts and bonds, so no wall disturbs the packing. The equations are those of [`super::triaxial`].
 
-use super::triaxial::{END, compressed};
+use super::triaxial::{END, Triaxial, compressed, drawn};
 use super::*;
 
 pub struct TriaxialPeriodic;
@@ -98,18 +98,10 @@ impl Recipe for TriaxialPeriodic {
         let column = |name: &str| tables.column("domain", name);
         // From logarithmic strains to shares of the length, and of the volume, at the start.
         let share = |values: Vec<f64>| values.into_iter().map(|e| -(-e).exp_m1()).collect::<Vec<f64>>();
-        let mean = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| 0.5 * (x + y)).collect::<Vec<f64>>();
-        let (times, axial) = (column("time")?, column("zz")?);
-        let lateral = mean(&column("xx")?, &column("yy")?);
-        let sideways = mean(&share(column("strain_x")?), &share(column("strain_y")?));
-        let curve = Curve::default()
-            .with("time", "s", times.clone())
-            .with("axial_strain", "", share(column("strain_z")?))
-            .with("volumetric_strain", "", share(column("volumetric_strain")?))
-            .with("lateral_strain", "", sideways)
-            .with("deviator_stress", "Pa", axial.iter().zip(&lateral).map(|(a, l)| a - l).collect())
-            .with("axial_stress", "Pa", axial)
-            .with("lateral_stress", "Pa", lateral);
+        let times = column("time")?;
+        let strains = [column("strain_x")?, column("strain_y")?, column("strain_z")?].map(share);
+        let stresses = [column("xx")?, column("yy")?, column("zz")?];
+        let curve = drawn(&times, strains, share(column("volumetric_strain")?), stresses);
         tables.finish(curve, &times)
     }
 
@@ -118,7 +110,7 @@ impl Recipe for TriaxialPeriodic {
     }
 
     fn axes(&self) -> (&'static str, &'static [&'static str]) {
-        ("axial_strain", &["deviator_stress", "volumetric_strain"])
+        Triaxial.axes()
     }
 
     fn envelope(&self) -> Option<Envelope> {
