@@ -74,7 +74,7 @@ fn volume(cell: &Cell) -> f64 {
 /// Mean stress of contacts and bonds, compression positive [Pa].
 fn stress(model: &Model, state: &State, lists: &NeighbourLists) -> Matrix3<f64> {
     let (cell, sums, p) = (state.cell(model), state.contacts.sums(), &state.particles);
-    let middle = Vec3::from(cell.range.map(|r| r.map_or(0.0, |(lo, hi)| 0.5 * (lo + hi))));
+    let middle = cell.centre();
     let chunk = |from: &usize| {
         let particles = *from..(from + CHUNK).min(p.len());
         particles.fold(Matrix3::zeros(), |sum: Matrix3<f64>, k| {
@@ -163,9 +163,8 @@ fn response(model: &Model, state: &State, lists: &NeighbourLists, rates: &Vec3) 
 /// # Errors
 /// A cell that has become too small for its particles, or whose lengths are lost.
 pub fn drive(model: &Model, state: &mut State, lists: &NeighbourLists) -> Result<(), Halt> {
-    let Some(mut strained) = state.strained.take() else { return Ok(()) };
+    let Some(mut strained) = state.strained.clone() else { return Ok(()) };
     let before = strained.cell();
-    state.strained = Some(strained.clone());
     let next = next_strain(model, state, lists, &mut strained);
     strained.advance(next);
     let (time, now) = (state.time() + model.dt, strained.cell());

@@ -42,13 +42,13 @@ impl Cell {
     }
 
     /// A position, brought back into the cell.
-    pub fn wrapped(&self, mut p: Vec3) -> Vec3 {
-        for a in 0..3 {
-            if let Some((lo, hi)) = self.range[a] {
-                p[a] -= (hi - lo) * ((p[a] - lo) / (hi - lo)).floor();
-            }
-        }
-        p
+    pub fn wrapped(&self, p: Vec3) -> Vec3 {
+        p - self.lengths().component_mul(&self.away(&p))
+    }
+
+    /// Its centre [m]; 0 along an open axis.
+    pub fn centre(&self) -> Vec3 {
+        Vec3::from(self.range.map(|p| p.map_or(0.0, |(lo, hi)| 0.5 * (lo + hi))))
     }
 
     /// From the centre of one particle to that of another: how many lengths their nearest images are nearer.

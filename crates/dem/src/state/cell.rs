@@ -50,15 +50,15 @@ impl CellState {
         if setup.strain.iter().all(Option::is_none) {
             return None;
         }
-        let lengths = Cell::at_rest(setup.periodic).lengths();
-        let middle = setup.periodic.map(|p| p.map_or(0.0, |(lo, hi)| 0.5 * (lo + hi)));
+        let cell = Cell::at_rest(setup.periodic);
+        let lengths = cell.lengths();
         let follows = |axis: &Option<crate::setup::Strain>| axis.as_ref().and_then(|s| s.stress(0.0));
         let mut new = CellState {
             strain: Vec3::zeros(),
             next: Vec3::zeros(),
             lengths: [lengths; 3],
             least: least_period(setup),
-            centre: Vec3::from(middle),
+            centre: cell.centre(),
             dt,
             followers: setup.strain.each_ref().map(|axis| follows(axis).map(|_| Follower::default())),
             listed: lengths,
