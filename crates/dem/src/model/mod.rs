@@ -19,8 +19,9 @@ pub mod servo;
 pub mod start;
 pub mod step_cause;
 
-pub use bonds::springs::{Ends, Pull};
-pub use bonds::{BondedPair, BreakMode, GONE};
+pub use bonds::law::Pull;
+pub use bonds::springs::Springs;
+pub use bonds::{BondedPair, BreakMode, GONE, NewBond};
 pub use dense_walls::DenseWalls;
 pub use error::{SetupError, StateMismatch};
 pub use halt::{Halt, Partner, Stiffer};

@@ -16,6 +16,7 @@
 //!
 //! **Energy.** Contacts and bonds across faces do the work h'·A, and the changes of v bring energy of motion; both are booked as work of walls.
 
+use crate::model::bonds::springs::numbers;
 use crate::model::{Halt, Model, With};
 use crate::neighbours::NeighbourLists;
 use crate::space::cell::Cell;
@@ -148,9 +149,10 @@ fn response(model: &Model, state: &State, lists: &NeighbourLists, rates: &Vec3) 
             sum += branch.component_mul(&branch) * stiffness;
         }
     }
-    for pair in state.bonds.pairs.iter().filter(|pair| pair.is_whole()) {
+    let bonds = state.bonds.pairs.iter().zip(&state.bonds.springs);
+    for (pair, springs) in bonds.filter(|(pair, _)| pair.is_whole()) {
         let [i, j] = pair.ends.map(|k| p.position(k as usize));
-        let (apart, bond) = (cell.nearest(i - j), &pair.springs.numbers);
+        let (apart, bond) = (cell.nearest(i - j), numbers(springs));
         let [along, shear, ..] = bond.stiffness;
         count += 1;
         sum += apart.component_mul(&apart) * (along.max(shear) * (model.dt + bond.lag));

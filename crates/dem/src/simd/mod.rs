@@ -12,6 +12,7 @@
 pub(crate) mod aligned;
 pub(crate) mod number;
 pub(crate) mod scalar;
+pub(crate) mod turn;
 pub(crate) mod two;
 #[cfg(target_arch = "x86_64")]
 pub(crate) mod x86;
@@ -21,6 +22,7 @@ pub(crate) mod x86_single;
 pub(crate) use aligned::Aligned;
 pub(crate) use number::{FORCE, FORCE_AND_MOMENT, Layout, Number, Precision, TORQUE};
 pub(crate) use scalar::Each;
+pub(crate) use turn::Turn;
 
 use geom::Vec3;
 use serde::{Deserialize, Serialize};

@@ -40,7 +40,7 @@ impl Simulation {
         let strained = cell::drive(model, state, lists);
         state.steps += 1;
         state.forces = Forces::Due;
-        state.bonds.turn(&state.particles, model.dt);
+        state.bonds.advance(&state.particles, model.dt);
         zones::travel::move_zone_particles(model, state, lists);
         zones::cross::find_crossings(model, state, lists);
         check_overlap(model, state, lists, &found.deep, true)?;

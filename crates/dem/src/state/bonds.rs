@@ -21,14 +21,16 @@
 
 use crate::kernel::Sums;
 use crate::model::bonds::find;
-use crate::model::{BondedPair, BreakMode, Ends, Pull, SetupError};
+use crate::model::bonds::springs::{packed, replaces_contact};
+use crate::model::{BondedPair, BreakMode, NewBond, Pull, SetupError, Springs};
 use crate::setup::{CrossingBond, Setup};
-use crate::space::cell::Cell;
+use crate::simd::Row4;
+use crate::space::rotation::spun;
 use crate::state::Particles;
 use crate::state::particles::select;
 use crate::threads::{FEW, share};
 use geom::Vec3;
-use nalgebra::UnitQuaternion;
+use nalgebra::{Quaternion, UnitQuaternion};
 use serde::{Deserialize, Serialize};
 
 /// Bonds, or particles, of one task.
@@ -85,10 +87,12 @@ pub struct Bonds {
     pub(crate) on: bool,
     /// By rows.
     pub(crate) pairs: Vec<BondedPair>,
+    /// The numbers of each.
+    pub(crate) springs: Vec<Springs>,
     /// What each does at this instant.
     pub(crate) pulls: Vec<Pull>,
-    /// How each particle has turned, by row; empty where there are none.
-    pub(crate) turns: Vec<UnitQuaternion<f64>>,
+    /// How each particle has turned, by row, as quaternions i, j, k, w; empty where there are none.
+    pub(crate) turns: Vec<Row4>,
     /// Energy of those that broke at this instant [J].
     pub(crate) lost: f64,
     /// Step at whose instant they broke.
@@ -123,10 +127,9 @@ impl Bonds {
         if bonds.none() {
             return Ok(bonds);
         }
-        bonds.pairs = find::bonded_pairs(setup)?;
+        find::bonded_pairs(setup)?.into_iter().for_each(|bond| bonds.put(bond));
         bonds.due = (0..).zip(&setup.bonds).filter(|(_, law)| law.at > 0.0).map(|(n, _)| n).collect();
-        bonds.pulls = vec![Pull::default(); bonds.pairs.len()];
-        bonds.turns = vec![UnitQuaternion::identity(); particles.len()];
+        bonds.turns = vec![row_of(&UnitQuaternion::identity()); particles.len()];
         bonds.index(&particles.id);
         Ok(bonds)
     }
@@ -134,6 +137,18 @@ impl Bonds {
     /// Whether there is none, and never will be.
     pub fn none(&self) -> bool {
         !self.on
+    }
+
+    /// Puts one behind the others; [`Bonds::index`] then has to be called.
+    pub fn put(&mut self, bond: NewBond) {
+        self.pairs.push(BondedPair::new(bond.ends));
+        self.springs.push(packed(&bond.numbers));
+        self.pulls.push(Pull::default());
+    }
+
+    /// How particle `k` has turned.
+    pub fn turn(&self, k: usize) -> UnitQuaternion<f64> {
+        turn_of(&self.turns[k])
     }
 
     /// How many there were, of those that have left as well, and how many of them broke.
@@ -146,6 +161,7 @@ impl Bonds {
     pub fn bytes(&self) -> usize {
         use std::mem::size_of_val;
         size_of_val(&self.pairs[..])
+            + size_of_val(&self.springs[..])
             + size_of_val(&self.pulls[..])
             + size_of_val(&self.turns[..])
             + size_of_val(&self.starts[..])
@@ -170,13 +186,16 @@ impl Bonds {
         }
         let count = self.count();
         self.pairs.iter_mut().for_each(|pair| pair.ends = pair.ends.map(|k| new[k as usize]));
-        let (pairs, pulls) = (std::mem::take(&mut self.pairs), std::mem::take(&mut self.pulls));
-        let mut kept: Vec<(BondedPair, Pull)> = pairs.into_iter().zip(pulls).collect();
-        kept.retain(|(pair, _)| !pair.ends.contains(&u32::MAX));
-        kept.sort_unstable_by_key(|(pair, _)| {
-            (pair.ends[0].min(pair.ends[1]), pair.ends[0].max(pair.ends[1]))
+        let pairs = &self.pairs;
+        let stays = |&n: &u32| !pairs[n as usize].ends.contains(&u32::MAX);
+        let mut kept: Vec<u32> = (0..pairs.len() as u32).filter(stays).collect();
+        kept.sort_unstable_by_key(|&n| {
+            let [i, j] = pairs[n as usize].ends;
+            (i.min(j), i.max(j))
         });
-        (self.pairs, self.pulls) = kept.into_iter().unzip();
+        select(&mut self.pairs, &kept, 0);
+        select(&mut self.springs, &kept, 0);
+        select(&mut self.pulls, &kept, 0);
         let here = self.count();
         self.left = [0, 1].map(|n| self.left[n] + count[n] - here[n]);
         select(&mut self.turns, order, 0);
@@ -205,24 +224,24 @@ impl Bonds {
     }
 
     /// Turns all particles by what they have turned in the step of `dt` [s] that has just been made.
-    pub fn turn(&mut self, particles: &Particles, dt: f64) {
+    pub fn advance(&mut self, particles: &Particles, dt: f64) {
         let many = self.turns.len() >= FEW;
         let rows = particles.spins.chunks(CHUNK).zip(particles.angular_acceleration.chunks(CHUNK));
         share(many, self.turns.chunks_mut(CHUNK).zip(rows).collect(), |(turns, (spins, turning))| {
             for ((turn, w), a) in turns.iter_mut().zip(spins).zip(turning) {
                 let by = [0, 1, 2].map(|axis| (w[axis] - 0.5 * dt * a[axis]) * dt);
-                let q = crate::space::rotation::spun(&Vec3::from(by)).into_inner() * turn.quaternion();
-                *turn = UnitQuaternion::new_unchecked(q / q.norm());
+                let q = spun(&Vec3::from(by)).into_inner() * turn_of(turn).into_inner();
+                *turn = row_of(&UnitQuaternion::new_unchecked(q / q.norm()));
             }
         });
     }
 
-    /// Whether particles in these rows are bonded.
-    pub fn joins(&self, rows: [u32; 2], of: impl Fn(&BondedPair) -> bool) -> bool {
+    /// Whether particles in these rows are bonded, by springs of which something holds.
+    pub fn joins(&self, rows: [u32; 2], of: impl Fn(&Springs) -> bool) -> bool {
         let k = rows[0] as usize;
         self.entries[self.starts[k] as usize..self.starts[k + 1] as usize].iter().any(|&entry| {
-            let pair = &self.pairs[(entry >> 1) as usize];
-            pair.ends[1 - (entry & 1) as usize] == rows[1] && pair.is_whole() && of(pair)
+            let (pair, springs) = (&self.pairs[(entry >> 1) as usize], &self.springs[(entry >> 1) as usize]);
+            pair.ends[1 - (entry & 1) as usize] == rows[1] && pair.is_whole() && of(springs)
         })
     }
 
@@ -231,7 +250,7 @@ impl Bonds {
         if self.none() {
             return;
         }
-        let replaced = |(i, j)| self.joins([i, j], |pair| pair.springs.numbers.replaces_contact);
+        let replaced = |(i, j)| self.joins([i, j], replaces_contact);
         list.retain(|item| !replaced(rows(item)));
     }
 
@@ -248,20 +267,12 @@ impl Bonds {
     }
 }
 
-impl BondedPair {
-    /// Of both particles now.
-    pub(crate) fn ends(&self, particles: &Particles, turns: &[UnitQuaternion<f64>], cell: &Cell) -> Ends {
-        let [i, j] = self.ends.map(|k| k as usize);
-        let apart = particles.position(i) - particles.position(j);
-        let mut velocity = particles.rows[i].velocity() - particles.rows[j].velocity();
-        if cell.moves() {
-            velocity -= cell.speed.component_mul(&cell.between(&apart));
-        }
-        Ends {
-            arm: cell.nearest(apart),
-            velocity,
-            spin: [i, j].map(|k| particles.spins[k].vector()),
-            turn: [turns[i] * self.springs.numbers.reference, turns[j]],
-        }
-    }
+/// A rotation, as it is kept.
+pub fn row_of(turn: &UnitQuaternion<f64>) -> Row4 {
+    Row4(turn.coords.into())
+}
+
+/// The rotation again.
+fn turn_of(&Row4([i, j, k, w]): &Row4) -> UnitQuaternion<f64> {
+    UnitQuaternion::new_unchecked(Quaternion::new(w, i, j, k))
 }

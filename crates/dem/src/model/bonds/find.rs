@@ -1,9 +1,9 @@
 //! Which particles are bonded.
 
+use crate::model::SetupError;
+use crate::model::bonds::NewBond;
 use crate::model::bonds::kinds::{End, numbers};
-use crate::model::bonds::springs::Springs;
 use crate::model::quantity::material_names;
-use crate::model::{BondedPair, SetupError};
 use crate::setup::bond::cluster_of;
 use crate::setup::{Bond, Particle, Setup};
 use crate::space::cell::Cell;
@@ -48,7 +48,7 @@ pub fn grains(setup: &Setup) -> Vec<Grain> {
 ///
 /// # Errors
 /// Two centres at one position; a law for which there is no pair.
-pub fn bonded_pairs(setup: &Setup) -> Result<Vec<BondedPair>, SetupError> {
+pub fn bonded_pairs(setup: &Setup) -> Result<Vec<NewBond>, SetupError> {
     let laws: Vec<&Bond> = setup.bonds.iter().filter(|law| law.at <= 0.0).collect();
     let found = find(&Cell::at_rest(setup.periodic), &laws, &grains(setup), |_| false)?;
     // Where particles come in, those of a rule may be among them.
@@ -65,7 +65,7 @@ pub fn bonded_pairs(setup: &Setup) -> Result<Vec<BondedPair>, SetupError> {
 /// Bonds that laws make.
 pub struct Found {
     /// By the ids of their ends.
-    pub pairs: Vec<BondedPair>,
+    pub pairs: Vec<NewBond>,
     /// Which laws made any.
     pub used: Vec<bool>,
 }
@@ -104,7 +104,7 @@ pub fn find(
             return Err(SetupError::BondOfZeroLength { ids: [a.end.id, b.end.id] });
         }
         used[n] = true;
-        pairs.push(BondedPair::new(rows, Springs::new(numbers(laws[n], [a.end, b.end], &arm))));
+        pairs.push(NewBond { ends: rows, numbers: numbers(laws[n], [a.end, b.end], &arm) });
     }
     Ok(Found { pairs, used })
 }

@@ -6,12 +6,12 @@
 //! λ (Δt²/4 + t Δt) = 1,  t: dashpots over springs;   1/Δt ≥ 1/Δt_contacts + 1/Δt_bonds
 //! ```
 
+use crate::model::bonds::NewBond;
 use crate::model::bonds::find::{Grain, bonded_pairs, grains};
 use crate::model::bonds::kinds::{End, numbers};
 use crate::model::bonds::motions::{inverse, motions};
-use crate::model::bonds::springs::Springs;
 use crate::model::step_cause::root;
-use crate::model::{BondedPair, BondedParticle, CriticalBonds, Limit, SetupError};
+use crate::model::{BondedParticle, CriticalBonds, Limit, SetupError};
 use crate::setup::{Bond, EntryBonds, Setup};
 use crate::space::sphere::mass;
 use geom::Vec3;
@@ -19,11 +19,7 @@ use nalgebra::{Matrix6, UnitQuaternion, Vector6};
 
 /// The critical step of bonds [s], and the position in the list of the grain that bounds it; `None` without bonds. The ends of bonds are
 /// positions in the list; `at` is the direction of each bond now.
-pub fn critical(
-    pairs: &[BondedPair],
-    grains: &[Grain],
-    at: impl Fn(&BondedPair) -> Vec3,
-) -> Option<(f64, u32)> {
+pub fn critical(pairs: &[NewBond], grains: &[Grain], at: impl Fn(&NewBond) -> Vec3) -> Option<(f64, u32)> {
     // A block of 36 numbers for each end of a bond, and none for the grains beside them.
     let mut bonded: Vec<u32> = pairs.iter().flat_map(|t| t.ends).collect();
     bonded.sort_unstable();
@@ -36,7 +32,7 @@ pub fn critical(
     }
     let largest = |block: &Matrix6<f64>| block.symmetric_eigenvalues().max();
     let (square, worst) = blocks.iter().map(largest).zip(bonded).max_by(|a, b| a.0.total_cmp(&b.0))?;
-    let lag = pairs.iter().map(|t| t.springs.numbers.lag).fold(0.0, f64::max);
+    let lag = pairs.iter().map(|t| t.numbers.lag).fold(0.0, f64::max);
     Some((root(square, square * lag), worst))
 }
 
@@ -46,7 +42,7 @@ fn own(setup: &Setup) -> Result<Option<(f64, BondedParticle)>, SetupError> {
         return Ok(None);
     }
     let (pairs, grains) = (bonded_pairs(setup)?, grains(setup));
-    let found = critical(&pairs, &grains, |pair| pair.springs.numbers.axis);
+    let found = critical(&pairs, &grains, |pair| pair.numbers.axis);
     Ok(found.map(|(step, worst)| (step, bonded(setup, &grains[worst as usize]))))
 }
 
@@ -81,12 +77,12 @@ fn crowded(setup: &Setup, law: &Bond, radius: f64) -> f64 {
     let around = signs.iter().flat_map(|[a, b]| [[*a, *b, 0.0], [0.0, *a, *b], [*a, 0.0, *b]]);
     let places = std::iter::once(Vec3::zeros()).chain(around.map(|p| Vec3::from(p) * edge));
     let grains: Vec<Grain> = (0..).zip(places).map(|(k, place)| grain(k, place)).collect();
-    let bond = |other: &Grain| {
-        let made = numbers(law, [grains[0].end, other.end], &-other.position);
-        BondedPair::new([0, other.row], Springs::new(made))
+    let bond = |other: &Grain| NewBond {
+        ends: [0, other.row],
+        numbers: numbers(law, [grains[0].end, other.end], &-other.position),
     };
-    let pairs: Vec<BondedPair> = grains[1..].iter().map(bond).collect();
-    critical(&pairs, &grains, |pair| pair.springs.numbers.axis).map_or(f64::INFINITY, |(step, _)| step)
+    let pairs: Vec<NewBond> = grains[1..].iter().map(bond).collect();
+    critical(&pairs, &grains, |pair| pair.numbers.axis).map_or(f64::INFINITY, |(step, _)| step)
 }
 
 /// What a stage downstream has to know of the bonds of a setup.
@@ -119,10 +115,10 @@ pub fn tighten(limit: &mut Limit, setup: &Setup) -> Result<(), SetupError> {
 /// Adds a bond to the blocks of its ends, in these rows.
 fn add(
     blocks: &mut [Matrix6<f64>],
-    (pair, n, rows): (&BondedPair, &Vec3, [usize; 2]),
+    (pair, n, rows): (&NewBond, &Vec3, [usize; 2]),
     inverse: [Vector6<f64>; 2],
 ) {
-    for motion in motions(&pair.springs.numbers, n) {
+    for motion in motions(&pair.numbers, n) {
         let scaled = [0, 1].map(|e| motion.ends[e].component_mul(&inverse[e].map(f64::sqrt)));
         let sum: f64 = scaled.iter().map(|g| g.norm_squared()).sum();
         for e in 0..2 {

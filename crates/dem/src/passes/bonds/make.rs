@@ -3,8 +3,9 @@
 use crate::model::bonds::find::{Grain, find};
 use crate::model::bonds::kinds::End;
 use crate::model::bonds::limit::{bonded, critical};
+use crate::model::bonds::springs::numbers;
 use crate::model::quantity::material_names;
-use crate::model::{BondedPair, Halt, Model, Pull};
+use crate::model::{BondedPair, Halt, Model, NewBond, Springs};
 use crate::setup::Bond;
 use crate::setup::bond::cluster_of;
 use crate::state::{ListStatus, State};
@@ -31,8 +32,7 @@ pub fn make_due(model: &Model, state: &mut State) -> Result<(), Halt> {
     let found = found.map_err(|error| Halt::Bonds { time, error: Box::new(error) })?;
     let unused = laws.iter().zip(&found.used).filter(|(_, used)| !**used);
     state.bonds.idle.extend(unused.map(|(law, _)| material_names(&model.setup, law.between)));
-    state.bonds.pairs.extend(found.pairs);
-    state.bonds.pulls.resize(state.bonds.pairs.len(), Pull::default());
+    found.pairs.into_iter().for_each(|bond| state.bonds.put(bond));
     state.bonds.index(&state.particles.id);
     state.listing.outdate(ListStatus::Outdated);
     check_step(model, state, &grains)
@@ -45,7 +45,7 @@ fn grains(model: &Model, state: &State) -> Vec<Grain> {
     let stays = |k: &usize| !state.zones.is_gone(*k) && !state.clumps.is_member(*k);
     let grain = |k: usize| {
         let (id, radius) = (p.id[k], p.rows[k][3]);
-        let end = End { id, radius, mass: 1.0 / p.rows[k][7], turn: state.bonds.turns[k] };
+        let end = End { id, radius, mass: 1.0 / p.rows[k][7], turn: state.bonds.turn(k) };
         let cluster = cluster_of(&state.clusters, id);
         Grain { row: k as u32, end, material: p.material[k], cluster, position: cell.wrapped(p.position(k)) }
     };
@@ -58,13 +58,14 @@ fn grains(model: &Model, state: &State) -> Vec<Grain> {
 fn check_step(model: &Model, state: &State, grains: &[Grain]) -> Result<(), Halt> {
     let mut place = vec![u32::MAX; state.particles.len()];
     (0..).zip(grains).for_each(|(at, grain)| place[grain.row as usize] = at);
-    let here = |pair: &BondedPair| {
+    let here = |(pair, springs): (&BondedPair, &Springs)| {
         let ends = pair.ends.map(|k| place[k as usize]);
-        (pair.is_whole() && !ends.contains(&u32::MAX)).then_some(BondedPair { ends, ..*pair })
+        let stays = pair.is_whole() && !ends.contains(&u32::MAX);
+        stays.then(|| NewBond { ends, numbers: numbers(springs) })
     };
-    let pairs: Vec<BondedPair> = state.bonds.pairs.iter().filter_map(here).collect();
-    let axis = |pair: &BondedPair| -> Vec3 {
-        state.bonds.turns[grains[pair.ends[1] as usize].row as usize] * pair.springs.numbers.axis
+    let pairs: Vec<NewBond> = state.bonds.pairs.iter().zip(&state.bonds.springs).filter_map(here).collect();
+    let axis = |bond: &NewBond| -> Vec3 {
+        state.bonds.turn(grains[bond.ends[1] as usize].row as usize) * bond.numbers.axis
     };
     let Some((alone, worst)) = critical(&pairs, grains, axis) else { return Ok(()) };
     let critical = 1.0 / (1.0 / alone + 1.0 / model.contact_step);

@@ -4,12 +4,15 @@
 //! make_due → [insert_due] → act: pulls of this instant, and what they break → lists, if contacts begin → contacts → Bonds::add
 //! ```
 
+mod lanes;
 pub mod make;
 pub mod zones;
 
 use crate::kernel::LEDGER;
-use crate::model::{BondedPair, GONE, Model, Pull};
+use crate::model::bonds::springs::{breaks, numbers, replaces_contact, resists};
+use crate::model::{BondedPair, GONE, Model, Pull, Springs};
 use crate::neighbours::NeighbourLists;
+use crate::passes::bonds::lanes::Instant;
 use crate::state::bonds::CHUNK;
 use crate::state::{BondState, Bonds, Crack, ListStatus, State};
 use crate::threads::{FEW, share};
@@ -21,21 +24,22 @@ pub fn act(model: &Model, state: &mut State) {
     }
     let (cell, time) = (state.cell(model), state.time());
     let State { bonds, particles, zones, clusters, listing, steps, .. } = state;
-    let Bonds { pairs, pulls, turns, .. } = bonds;
-    let chunks = pulls.chunks_mut(CHUNK).zip(pairs.chunks(CHUNK));
-    share(pairs.len() >= FEW / 4, chunks.collect(), |(pulls, pairs): (&mut [Pull], &[BondedPair])| {
-        for (pull, pair) in pulls.iter_mut().zip(pairs).filter(|(_, pair)| pair.is_whole()) {
-            *pull = pair.springs.pull(&pair.ends(particles, turns, &cell));
-        }
+    let Bonds { pairs, springs, pulls, turns, .. } = bonds;
+    let at = Instant::of(particles, turns, &cell);
+    let chunks = pairs.chunks(CHUNK).zip(springs.chunks(CHUNK)).zip(pulls.chunks_mut(CHUNK));
+    let breaking = share(pairs.len() >= FEW / 4, chunks.collect(), |(chunk, pulls)| {
+        lanes::all(model.width, &at, chunk, pulls)
     });
     // Lists may be asked for more than once at one instant.
     if bonds.at != Some(*steps) {
         (bonds.at, bonds.lost) = (Some(*steps), 0.0);
         bonds.freed.clear();
     }
-    for (pull, pair) in bonds.pulls.iter_mut().zip(&mut bonds.pairs).filter(|(_, pair)| pair.is_whole()) {
+    for n in (0..bonds.pairs.len()).filter(|n| breaking[n / CHUNK]) {
+        let (pair, springs, pull) = (&mut bonds.pairs[n], &bonds.springs[n], &mut bonds.pulls[n]);
         let travel = pair.ends.iter().all(|&k| zones.prescribed.get(k as usize) == Some(&true));
-        let Some(mode) = pair.breaks(pull.stress).filter(|_| !travel) else { continue };
+        let broken = breaks(springs, pull.stress).filter(|_| pair.is_whole() && !travel);
+        let Some(mode) = broken else { continue };
         (pair.broken, pair.mode) = (time, mode);
         let ids = pair.ends.map(|k| particles.id[k as usize]);
         let [a, b] = pair.ends.map(|k| particles.position(k as usize));
@@ -46,13 +50,13 @@ pub fn act(model: &Model, state: &mut State) {
             clusters: ids.map(|id| crate::setup::bond::cluster_of(clusters, id)),
             place: cell.wrapped(b + arm * 0.5),
             normal: arm.normalize(),
-            radius: pair.springs.numbers.size[1],
+            radius: numbers(springs).size[1],
             mode,
             energy: pull.elastic,
         });
         bonds.lost += pull.elastic;
         *pull = Pull { stress: pull.stress, ..Pull::default() };
-        if pair.springs.numbers.replaces_contact {
+        if replaces_contact(springs) {
             bonds.freed.push(ids);
             listing.outdate(ListStatus::Outdated);
         }
@@ -85,18 +89,19 @@ pub fn bonds(model: &Model, state: &State) -> Vec<BondState> {
         let from = p.position(j as usize);
         cell.wrapped(from + cell.nearest(p.position(i as usize) - from) * 0.5)
     };
-    let of = |(pair, pull): (&BondedPair, &Pull)| BondState {
+    let of = |((pair, pull), springs): ((&BondedPair, &Pull), &Springs)| BondState {
         ids: pair.ends.map(|k| p.id[k as usize]),
         middle: middle(pair.ends),
-        size: pair.springs.numbers.size,
+        size: numbers(springs).size,
         broken: pair.broken.is_finite().then_some(pair.broken),
         mode: pair.mode,
         force: pull.force.into(),
         moments: pull.moment.map(Into::into),
         stress: [pull.stress[0], pull.stress[1]],
-        strength: pair.resists(pull.stress[2]),
+        strength: resists(springs, pull.stress[2]),
     };
-    let here = state.bonds.pairs.iter().zip(&state.bonds.pulls).filter(|(pair, _)| pair.broken != GONE);
+    let Bonds { pairs, pulls, springs, .. } = &state.bonds;
+    let here = pairs.iter().zip(pulls).zip(springs).filter(|((pair, _), _)| pair.broken != GONE);
     let mut all: Vec<BondState> = here.map(of).collect();
     all.sort_unstable_by_key(|b| b.ids);
     all

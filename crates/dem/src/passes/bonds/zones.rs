@@ -3,9 +3,11 @@
 //! A bond needs to know how both ends have turned since they were bonded, and nothing else: a zone particle turns by its zone's motion, in
 //! closed form. A bond acts on the first particle that is free while the other is still on its way, as contacts do.
 
-use crate::model::bonds::springs::Springs;
-use crate::model::{BondedPair, GONE, Model, Pull};
+use super::lanes::{Instant, one};
+use crate::model::bonds::springs::{numbers, packed};
+use crate::model::{BondedPair, GONE, Model, NewBond, Pull};
 use crate::setup::CrossingBond;
+use crate::state::bonds::row_of;
 use crate::state::{Bonds, State};
 use nalgebra::UnitQuaternion;
 use std::collections::{BTreeMap, BTreeSet};
@@ -14,13 +16,13 @@ impl Bonds {
     /// Adds a particle at the end of the columns, turned like this.
     pub fn push(&mut self, turn: UnitQuaternion<f64>) {
         if self.on {
-            self.turns.push(turn);
+            self.turns.push(row_of(&turn));
         }
     }
 
     /// How particle `k` has turned; `None` where there are no bonds.
     pub fn turn_of(&self, k: usize) -> Option<UnitQuaternion<f64>> {
-        self.on.then(|| self.turns[k])
+        self.on.then(|| self.turn(k))
     }
 
     /// Numbers of the whole bonds of particle `k`.
@@ -45,20 +47,20 @@ impl Bonds {
     /// Whole bonds of particle `k`, by the ids of the others.
     pub fn crossing(&self, k: usize, ids: &[u32]) -> Vec<CrossingBond> {
         let bond = |n: usize| {
-            let BondedPair { ends: [i, j], springs: Springs { numbers, .. }, .. } = self.pairs[n];
+            let (BondedPair { ends: [i, j], .. }, own) = (self.pairs[n], numbers(&self.springs[n]));
             let second = j as usize == k;
-            let bond = if second { numbers.flipped() } else { numbers };
+            let bond = if second { own.flipped() } else { own };
             CrossingBond { id: ids[k], partner: ids[if second { i } else { j } as usize], bond }
         };
         self.whole(k).map(bond).collect()
     }
 }
 
-impl BondedPair {
-    /// Of two particles that come in.
-    fn entering(&CrossingBond { id, partner, bond }: &CrossingBond, rows: [u32; 2]) -> BondedPair {
-        let (ends, bond) = if id < partner { (rows, bond) } else { ([rows[1], rows[0]], bond.flipped()) };
-        BondedPair::new(ends, Springs::new(bond))
+/// A bond of two particles that come in, in these rows.
+fn entering(&CrossingBond { id, partner, bond }: &CrossingBond, rows: [u32; 2]) -> NewBond {
+    match id < partner {
+        true => NewBond { ends: rows, numbers: bond },
+        false => NewBond { ends: [rows[1], rows[0]], numbers: bond.flipped() },
     }
 }
 
@@ -81,11 +83,11 @@ pub fn insert_due(model: &Model, state: &mut State) {
         let ids = [bond.id, bond.partner];
         let ends = ids.map(|id| rows.get(&id).copied());
         if let [Some(a), Some(b)] = ends {
-            let pair = BondedPair::entering(&bond, [a, b]);
-            if known.insert(pair.ends) {
-                energy += pair.springs.pull(&pair.ends(&state.particles, &state.bonds.turns, &cell)).elastic;
-                state.bonds.pairs.push(pair);
-                state.bonds.pulls.push(Pull::default());
+            let bond = entering(&bond, [a, b]);
+            if known.insert(bond.ends) {
+                let at = Instant::of(&state.particles, &state.bonds.turns, &cell);
+                energy += one(&at, bond.ends, &packed(&bond.numbers)).elastic;
+                state.bonds.put(bond);
             }
         } else if ids.iter().zip(ends).all(|(&id, row)| row.is_some() || is_pending(id)) {
             state.bonds.waiting.push(bond);

@@ -9,6 +9,7 @@ use crate::passes::zones::whole::test_point;
 use crate::setup::Particle;
 use crate::simd::Row4;
 use crate::space::sphere::away;
+use crate::state::bonds::row_of;
 use crate::state::clump::quaternion;
 use crate::state::ledger::carried;
 use crate::state::{Direction, Kinematics, ListStatus, PathEnd, State, ZoneParticle};
@@ -64,7 +65,7 @@ pub fn follow_motion(model: &Model, state: &mut State, t: &ZoneParticle, time: f
     let (centre, own) = (t.centre + flow.shift, t.own(flow, time, &state.zones));
     position(model, state, t.at as usize, t.start.position + own.shift, &own);
     if !state.bonds.none() {
-        state.bonds.turns[t.at as usize] = t.has_turned(time, &flow, &state.zones);
+        state.bonds.turns[t.at as usize] = row_of(&t.has_turned(time, &flow, &state.zones));
     }
     if let Some(turn) = &t.turn {
         let turned = t.turned_since(time, &flow, &state.zones) * quaternion(turn);
