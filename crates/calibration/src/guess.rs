@@ -88,7 +88,7 @@ pub fn start(answers: &Answers) -> Result<String> {
 
 /// `key = value  # range, source`.
 fn line(material: &Material, key: &str, other: f64) -> String {
-    let Some(Range { ends: [low, high], source }) = material.ranges.get(key) else {
+    let Some(Range { ends: [low, high], source, .. }) = material.ranges.get(key) else {
         return format!(
             "{key} = {}  # no source in the table: measure it, or see whether it matters\n",
             shown(other)

@@ -19,13 +19,15 @@ pub struct Range {
     pub ends: [f64; 2],
     /// Author, year, DOI.
     pub source: String,
+    /// What no value of the key can pass: 1 of a restitution, 0.5 of Poisson's ratio.
+    pub most: f64,
 }
 
 impl Range {
-    /// Bounds around it: half as wide again on both sides, not below a fifth of the lowest.
+    /// Bounds around it: half as wide again on both sides, not below a fifth of the lowest, and not above what is possible.
     pub fn wide(&self) -> [f64; 2] {
         let more = 0.5 * (self.ends[1] - self.ends[0]);
-        [(self.ends[0] - more).max(0.2 * self.ends[0]), self.ends[1] + more]
+        [(self.ends[0] - more).max(0.2 * self.ends[0]), (self.ends[1] + more).min(self.most)]
     }
 }
 
@@ -70,18 +72,23 @@ struct RangeKeys {
 /// A table that is damaged.
 pub fn all() -> std::result::Result<Vec<Material>, String> {
     let keys: TableKeys = toml::from_str(TABLE).map_err(|e| format!("materials.toml: {e}"))?;
-    let range = |r: RangeKeys| {
+    let range = |key: &str, r: RangeKeys| {
         let words: Option<Vec<&str>> =
             r.source.split(", ").map(|s| keys.source.get(s).map(String::as_str)).collect();
         let source = words.ok_or_else(|| format!("materials.toml: no source '{}'", r.source))?.join("; ");
         let note = r.note.map_or(String::new(), |note| format!(" ({note})"));
-        Ok::<Range, String>(Range { ends: r.range, source: source + &note })
+        let most = match key {
+            "restitution" => 1.0,
+            "poisson" => 0.5,
+            _ => f64::INFINITY,
+        };
+        Ok::<Range, String>(Range { ends: r.range, source: source + &note, most })
     };
     let material = |m: MaterialKeys| {
         let ranges = m
             .ranges
             .into_iter()
-            .map(|(key, r)| Ok((key, range(r)?)))
+            .map(|(key, r)| range(&key, r).map(|range| (key, range)))
             .collect::<std::result::Result<_, String>>()?;
         Ok(Material { name: m.name, also: m.also, ranges })
     };
@@ -185,6 +192,14 @@ mod tests {
     }
 
     #[test]
+    fn bounds_around_a_range_stay_within_what_is_possible() {
+        let restitution = find("steel").unwrap().ranges["restitution"].clone();
+        assert_eq!(restitution.wide()[1], 1.0);
+        let range = Range { ends: [2.0, 3.0], source: String::new(), most: f64::INFINITY };
+        assert_eq!(range.wide(), [1.5, 3.5]);
+    }
+
+    #[test]
     fn numbers_that_are_left_out_come_from_the_table() {
         let text = "[[material]]\nname = \"quartz sand\"\npoisson = 0.2\n[[material]]\nname = \"steel\"\ndensity = 7800\nyoung = 2e9\npoisson = 0.3\n";
         let taken = missing(&Text::new("s", text.to_owned())).unwrap();
@@ -192,7 +207,7 @@ mod tests {
         assert_eq!(keys, ["material.0.density", "material.0.young"]);
         assert_eq!(taken[0].value, 2650.0);
         assert!(taken[0].to_string().contains("Rock Physics Handbook"), "{}", taken[0]);
-        for (name, why) in [("sandd", "did you mean 'sand'?"), ("gravel", "no young of 'gravel'")] {
+        for (name, why) in [("sandd", "did you mean 'sand'?"), ("maize", "of 'maize'")] {
             let error = missing(&Text::new("s", format!("[[material]]\nname = \"{name}\"\n"))).unwrap_err();
             assert!(error.to_string().contains(why), "{error}");
         }
