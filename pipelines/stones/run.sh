@@ -1,15 +1,12 @@
 #!/bin/sh
-# Crushes stones of three sizes, a process for each, and writes the tables, the plot and the picture of docs/stones.md: run.sh OUT PAGE.md [STONES]
+# Crushes stones of three sizes and writes the tables, the plot and the picture of docs/stones.md: run.sh OUT PAGE.md [STONES]
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 out=$1; page=$2; stones=${3:-${STONES:-200}}
 docs=$(dirname "$page")
 mkdir -p "$out"
-for diameter in 0.005 0.007 0.010; do
-    "$here/stones.sh" "$out/strengths-$diameter.csv" "$stones" "$diameter" &
-done
-wait
-stones_study "$docs/stones-weibull.svg" "$out"/strengths-0.005.csv "$out"/strengths-0.007.csv "$out"/strengths-0.010.csv > "$out/tables.md"
+"$here/stones.sh" "$out/strengths.csv" "$stones" 0.005 0.007 0.010
+stones_study "$docs/stones-weibull.svg" "$out/strengths.csv" > "$out/tables.md"
 "$here/../stages/section.sh" "$page" strengths < "$out/tables.md"
 # The picture.
 cp "$here/crush.toml" "$out/"

@@ -1,27 +1,13 @@
 #!/bin/sh
-# Crushes stones between plates: for each diameter so many, each with other flaws and another orientation.
+# Crushes stones between plates: for each diameter so many, each with other flaws and another orientation, as many at once as there are cores.
 #   stones.sh OUT.csv [STONES] [DIAMETER…]        columns diameter [m], seed, grains, force [N], strength [Pa], cracks
-# Strength is the largest force on the upper plate up to a strain of 4 %, over the square of the diameter (Jaeger 1967, doi:10.1016/0148-9062(67)90001-4).
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 out=$1; stones=${2:-200}
 [ $# -ge 2 ] && shift
 shift
 [ $# -gt 0 ] || set -- 0.005 0.007 0.010
-work=$(mktemp -d); trap 'rm -rf "$work"' EXIT
-cp "$here/crush.toml" "$work/"
 echo diameter,seed,grains,force,strength,cracks > "$out"
 for diameter; do
-    seed=1
-    while [ "$seed" -le "$stones" ]; do
-        measured=$(awk -v seed="$seed" -v diameter="$diameter" -v grain=0.001 -v missing=0.15 -f "$here/stone.awk" 2>&1 > "$work/stone.csv")
-        height=${measured% *}; grains=${measured#* }
-        until=$(awk -v d="$diameter" 'BEGIN { print 0.04 * d / 0.1 }')
-        dem-run "$work/crush.toml" --set "wall.1.plane=0,0,$height,0,0,-1" --set "time.until=$until" --threads 1 -q -o "$work/run.mcap"
-        force=$(dem-measure "$work/run.mcap" --wall-force all --wall upper 2> "$work/words" | awk -F, 'NR > 1 && $6 > most { most = $6 } END { print most }')
-        cracks=$(dem-measure "$work/run.mcap" --cracks 2> "$work/words" | awk 'END { print NR - 1 }')
-        awk -v d="$diameter" -v s="$seed" -v n="$grains" -v f="$force" -v c="$cracks" 'BEGIN { printf "%s,%d,%d,%.6g,%.6g,%d\n", d, s, n, f, f / d / d, c }' >> "$out"
-        rm -f "$work/run.mcap"
-        seed=$((seed + 1))
-    done
+    seq "$stones" | xargs -P "$(getconf _NPROCESSORS_ONLN)" -n 1 "$here/stone.sh" "$diameter" | sort -t, -k 2n >> "$out"
 done

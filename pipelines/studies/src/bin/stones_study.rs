@@ -1,4 +1,4 @@
-//! The strengths of crushed stones as Weibull lines, and how they fall with size: `stones_study PLOT.svg STRENGTHS.csv…` prints tables for docs/bonds.md.
+//! The strengths of crushed stones as Weibull lines, and how they fall with size: `stones_study PLOT.svg STRENGTHS.csv…` prints tables for docs/stones.md.
 //!
 //! ```text
 //! P(σ) = 1 − exp(−(σ/σ₀)^m)        m, σ₀ by maximum likelihood; intervals of m and σ₀: 95 %, by their asymptotic deviations 0.780 m/√n and 1.053 σ₀/(m √n)
@@ -105,12 +105,27 @@ fn print(sizes: &[Size]) {
             100.0 * s.straight()
         );
     }
-    if let ([first, .., last], true) = (sizes, sizes.len() > 1) {
-        let ratio = (last.diameter / first.diameter).ln();
-        let (power, of) = ((last.mean().0 / first.mean().0).ln() / ratio, |s: &Size| s.mean().1 / s.mean().0);
-        let interval = (of(first).powi(2) + of(last).powi(2)).sqrt() / ratio;
-        println!("\nMean strength goes with the diameter to the power {power:.2} ± {interval:.2}.");
+    if let Some((power, interval)) = power(sizes) {
+        println!(
+            "\nMean strength goes with the diameter to the power {power:.2} ± {interval:.2} (a line through the logarithms of all means, weighted by their intervals)."
+        );
     }
+}
+
+/// The power p of mean strength ∝ diameter^p, and its 95 % interval: least squares of the logarithms, weighted by their variances; `None` for one size.
+fn power(sizes: &[Size]) -> Option<(f64, f64)> {
+    let points: Vec<[f64; 3]> = sizes
+        .iter()
+        .map(|s| {
+            let (mean, interval) = s.mean();
+            [s.diameter.ln(), mean.ln(), (1.96 * mean / interval).powi(2)]
+        })
+        .collect();
+    let sum = |of: &dyn Fn(&[f64; 3]) -> f64| points.iter().map(|p| p[2] * of(p)).sum::<f64>();
+    let all = sum(&|_| 1.0);
+    let (x, y) = (sum(&|p| p[0]) / all, sum(&|p| p[1]) / all);
+    let spread = sum(&|p| (p[0] - x).powi(2));
+    (spread > 0.0).then(|| (sum(&|p| (p[0] - x) * (p[1] - y)) / spread, 1.96 / spread.sqrt()))
 }
 
 fn draw(file: &Path, sizes: &[Size]) -> Result<Vec<u8>, String> {
