@@ -19,13 +19,13 @@ scan() { # FILE SPACING VIEW...
   shift 2
   ends=$(awk -v s="$spacing" 'BEGIN { print 20 * s, s / 6, 2 * s }')
   read -r hole zeta particle <<<"$ends"
-  cloud-fill "$data/clouds/$file" --max-hole "$hole" 2>"$out/$name.fill" |
+  cloud-fill "$data/clouds/$file" --max-hole "$hole" --bridge 2>"$out/$name.fill" |
     bluenoise-sample --spacing "$spacing" 2>"$out/$name.sample" |
     wallgen --roughness "$zeta" --radius uniform --smallest-particle "$particle" -o "$out/$name.mcap" 2>"$out/$name.wall"
   show "$name" "$@"
   {
     echo
-    echo "**$file** (\`cloud-fill --max-hole $hole | bluenoise-sample --spacing $spacing | wallgen --roughness $zeta --radius uniform\`):"
+    echo "**$file** (\`cloud-fill --max-hole $hole --bridge | bluenoise-sample --spacing $spacing | wallgen --roughness $zeta --radius uniform\`):"
     echo "$(words cloud-fill "$out/$name.fill"); $(words bluenoise-sample "$out/$name.sample"); $(words wallgen "$out/$name.wall")."
     grep -h 'warning: the wall leaks' "$out/$name.wall" | sed 's/^wallgen: warning: \(.*\)$/For particles of twice the spacing: \1./' || true
     echo

@@ -8,7 +8,7 @@ use crate::local_spacing::LocalSpacing;
 use crate::points::TooFar;
 use crate::seen::{Seen, SightReport};
 use crate::sparse::{self, Added, SparseReport, SparseSearch};
-use crate::{Cloud, density};
+use crate::{Cloud, density, step};
 use geom::mesh::TriMesh;
 use geom::{Shape, Vec3};
 use rayon::prelude::*;
@@ -36,6 +36,8 @@ pub struct Settings {
     pub regions: Vec<Shape>,
     /// Where scanners stood [m], beside the viewpoints that the cloud states.
     pub seen_from: Vec<Vec3>,
+    /// Whether holes between two surfaces are filled, too, where no viewpoint is known.
+    pub bridge: bool,
     /// Widest hole to fill [m]; a fifth of the cloud's diagonal when not given.
     pub max_hole: Option<f64>,
     /// How points are spread.
@@ -110,6 +112,10 @@ pub struct HoleReport {
     pub faces: usize,
     /// Points added.
     pub added: usize,
+    /// Distance of the surfaces on two sides of it over its width [–], where no viewpoint is known: 0 of a smooth surface or an edge.
+    pub step: Option<f64>,
+    /// Whether that is so much that they are two surfaces.
+    pub between: bool,
     /// How the points of the fill look from the viewpoints; none without any.
     pub sight: Option<SightReport>,
     /// Whether the largest ball fell through, so that some of it stays open.
@@ -226,9 +232,15 @@ impl Patch {
             ball: 0.0,
             faces: 0,
             added: 0,
+            step: seen.is_none().then(|| step::step(hole)),
+            between: false,
             sight: None,
             open: true,
         };
+        report.between = report.step.is_some_and(|step| step > step::MOST);
+        if report.between && !settings.bridge {
+            return Patch { points: vec![], like: vec![], vertices: vec![], faces: vec![], report };
+        }
         let Ok(mut cover) = Cover::new(hole, settings.mesher, &settings.balls).map_err(|FallsThrough| ())
         else {
             return Patch { points: vec![], like: vec![], vertices: vec![], faces: vec![], report };

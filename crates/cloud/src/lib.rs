@@ -27,6 +27,7 @@ pub mod regions;
 pub mod seen;
 mod sheet;
 pub mod sparse;
+mod step;
 mod surrounded;
 pub mod units;
 mod volume;

@@ -29,17 +29,22 @@ impl Piece {
     }
 }
 
-/// What is scanned: pieces, or the lower half of a pipe of radius 0.5 m along x.
+/// What is scanned: pieces, the lower half of a pipe of radius 0.5 m along x, or half a ball on the ground.
 enum Body {
     Pieces(Vec<Piece>),
     HalfPipe,
+    Boulder,
 }
+
+/// Radius of the boulder [m].
+const BOULDER: f64 = 0.2;
 
 impl Body {
     fn area(&self) -> f64 {
         match self {
             Body::Pieces(all) => all.iter().map(Piece::area).sum(),
             Body::HalfPipe => std::f64::consts::PI * 0.5 * 2.0,
+            Body::Boulder => 4.0 + std::f64::consts::PI * BOULDER * BOULDER,
         }
     }
 
@@ -51,6 +56,18 @@ impl Body {
                 let (sin, cos) = (std::f64::consts::PI * (1.0 + t)).sin_cos();
                 Vec3::new(2.0 * s - 1.0, 0.5 * cos, 0.5 * sin)
             }
+            Body::Boulder => loop {
+                // Archimedes: even in height is even on a ball; half of the places are on the boulder's disc of ground.
+                if random.next() * self.area() < 2.0 * std::f64::consts::PI * BOULDER * BOULDER {
+                    let (z, turn) = (BOULDER * s, std::f64::consts::TAU * t);
+                    let r = (BOULDER * BOULDER - z * z).sqrt();
+                    return Vec3::new(r * turn.cos(), r * turn.sin(), z);
+                }
+                let p = Vec3::new(2.0 * random.next() - 1.0, 2.0 * random.next() - 1.0, 0.0);
+                if p.norm() > BOULDER {
+                    return p;
+                }
+            },
             Body::Pieces(all) => {
                 let mut left = random.next() * self.area();
                 let of = all.iter().find(|piece| {
@@ -67,6 +84,7 @@ impl Body {
         match self {
             Body::HalfPipe if p.z <= 0.0 => (p.y.hypot(p.z) - 0.5).abs(),
             Body::HalfPipe => (p.y.abs() - 0.5).hypot(p.z),
+            Body::Boulder => (p.norm() - BOULDER).abs().min(p.z.abs()),
             Body::Pieces(all) => all.iter().map(|piece| piece.off(p)).fold(f64::INFINITY, f64::min),
         }
     }
@@ -74,6 +92,10 @@ impl Body {
 
 /// Scans the body with noise but for what is `open`, and fills it.
 fn filled(body: &Body, open: impl Fn(&Vec3) -> bool) -> (usize, Filled) {
+    filled_with(body, open, false)
+}
+
+fn filled_with(body: &Body, open: impl Fn(&Vec3) -> bool, bridge: bool) -> (usize, Filled) {
     let mut random = Random(7);
     let count = (body.area() / (SPACING * SPACING)) as usize;
     let mut points = Vec::new();
@@ -85,7 +107,7 @@ fn filled(body: &Body, open: impl Fn(&Vec3) -> bool) -> (usize, Filled) {
     }
     let scanned = points.len();
     let cloud = Cloud { attributes: Table::with_rows(scanned), points, ..Cloud::default() };
-    (scanned, cloud::fill(cloud, &Settings { max_hole: Some(0.6), ..Settings::default() }).unwrap())
+    (scanned, cloud::fill(cloud, &Settings { max_hole: Some(0.6), bridge, ..Settings::default() }).unwrap())
 }
 
 /// The hole is closed, within its bounds, and what was added lies on the body: root mean square of its distance over the noise.
@@ -103,6 +125,7 @@ fn closes(name: &str, body: &Body, middle: Vec3, radius: f64, open: impl Fn(&Vec
     let mut random = Random(5);
     let places = (0..40_000).map(|_| body.place(&mut random)).filter(|p| open(p));
     let bare = places.filter(|place| !filled.cloud.points.iter().any(|p| (p - place).norm() < 3.5 * SPACING));
+    assert!(filled.report.holes.iter().all(|h| !h.between), "{name}: {:?}", filled.report.holes);
     assert_eq!(bare.count(), 0, "{name}: places of the hole have nothing near; {:?}", filled.report.holes);
     let squares: f64 = added.iter().map(|p| body.off(p).powi(2)).sum();
     let off = (squares / added.len() as f64).sqrt() / NOISE;
@@ -168,4 +191,22 @@ fn open_chute() {
         "nothing is added to a whole chute: {:?}",
         filled.report.holes
     );
+}
+
+/// A boulder on the ground, scanned from one side, and its shadow: the far side of the boulder and the ground behind it are two surfaces. Nothing is
+/// added between them unless asked for.
+#[test]
+fn shadow_of_a_boulder() {
+    let body = Body::Boulder;
+    let shadow = |p: &Vec3| p.x > 0.0 && p.x < 0.35 && p.y.abs() < BOULDER;
+    for bridge in [false, true] {
+        let (scanned, filled) = filled_with(&body, shadow, bridge);
+        let (added, holes) = (filled.cloud.points.len() - scanned, &filled.report.holes);
+        assert!(holes.len() == 1 && holes[0].between && holes[0].step > Some(0.5), "{holes:?}");
+        assert_eq!(
+            (added > 100, added == 0, holes[0].open),
+            (bridge, !bridge, !bridge),
+            "{added}: {holes:?}"
+        );
+    }
 }

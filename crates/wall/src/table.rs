@@ -19,20 +19,23 @@ impl Wall {
         Ok(table)
     }
 
-    /// Adds material, roughness, region and velocity, or replaces columns of that name.
+    /// Adds material, roughness, region and velocity, or replaces columns of that name. Whole numbers have 32 bits: some readers of PLY skip `ushort`.
     ///
     /// # Errors
     /// A table with another number of rows.
     pub fn push_attributes(&self, table: &mut Table, regions: &Regions) -> Result<(), WallError> {
         let surface = |r: &u16| &regions.surfaces[*r as usize];
         let column = |f: &dyn Fn(&u16) -> f64| Values::F64(self.regions.iter().map(f).collect());
-        table.replace("material", Values::U16(self.regions.iter().map(|r| surface(r).material).collect()))?;
+        table.replace(
+            "material",
+            Values::U32(self.regions.iter().map(|r| surface(r).material.into()).collect()),
+        )?;
         if regions.is_rough() {
             let of = |(i, &r): (usize, &u16)| regions.roughness(i, r).unwrap_or(f64::NAN);
             table.replace("roughness", Values::F64(self.regions.iter().enumerate().map(of).collect()))?;
         }
         if regions.surfaces.len() > 1 {
-            table.replace("region", Values::U16(self.regions.clone()))?;
+            table.replace("region", Values::U32(self.regions.iter().map(|&r| r.into()).collect()))?;
         }
         if regions.surfaces.iter().any(|s| s.velocity.norm_squared() > 0.0) {
             for (axis, name) in ["vx", "vy", "vz"].iter().enumerate() {

@@ -149,6 +149,41 @@ fn clumps_from_body_file_fill_and_faucet() {
     assert!(text.contains("clump.0 'cube' of 8, clump.1 'pair' of 2") && text.contains("B a body"), "{text}");
 }
 
+/// A scan of 3740 faces: spheres on a tenth of its vertices, the mass and the inertia of all of it.
+#[test]
+fn a_scanned_stone_becomes_a_clump_of_few_spheres_and_keeps_its_moments() {
+    let stone = Path::new(env!("CARGO_MANIFEST_DIR")).join("../sample-data/stones/quarry.ply");
+    let scene = |faces: &str| {
+        format!(
+            "[time]\nuntil = 1e-4\n[output]\nevery = 1e-4\n[[material]]\nname = \"stone\"\ndensity = 2500\nyoung = 5e7\npoisson = 0.25\n\
+             [[contact]]\nbetween = [\"*\", \"*\"]\nrestitution = 0.3\n[[clump]]\nname = \"stone\"\nmaterial = \"stone\"\nmesh = \"{}\"\n\
+             vertex_radius = 0.001\n{faces}\n[[body]]\nclump = \"stone\"\nposition = [0, 0, 1]\n",
+            stone.display()
+        )
+    };
+    let record = |faces: &str| {
+        let folder = folder(&scene(faces));
+        succeed(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap"]);
+        let text = read(&folder.path().join("run.mcap"), "/bodies", "clumps").1["0"].clone();
+        serde_json::from_str::<serde_json::Value>(&text).expect("a record")
+    };
+    let (whole, few) = (record(""), record("faces = 100"));
+    assert_eq!(few["spheres"].as_array().expect("a list").len(), 52);
+    assert!(whole["spheres"].as_array().expect("a list").len() > 1800);
+    for key in ["volume", "centre", "inertia"] {
+        assert_eq!(whole[key], few[key], "{key}");
+    }
+    for (faces, why) in [("faces = 3", "so few"), ("faces = 9000", "the mesh has 3740 faces")] {
+        let folder = folder(&scene(faces));
+        let refused = tool(folder.path(), "dem-run", &["s.toml", "--check"]);
+        assert!(
+            refused.code == 2 && refused.stderr.contains("clump.0.faces") && refused.stderr.contains(why),
+            "{}",
+            refused.stderr
+        );
+    }
+}
+
 #[test]
 fn wrong_clumps_say_where_what_and_what_to_do() {
     let cases: &[(&str, &str, &[&str])] = &[

@@ -44,6 +44,9 @@ struct Args {
     /// Where a scanner stood [m] (repeat for more): space that it looked through stays open
     #[arg(long, value_name = "x,y,z", value_parser = viewpoint, allow_hyphen_values = true)]
     seen_from: Vec<Vec3>,
+    /// Also fill holes between two surfaces, as between an edge and the floor behind it
+    #[arg(long, conflicts_with = "seen_from")]
+    bridge: bool,
     /// Widest hole to fill [m] (default: a fifth of the cloud's diagonal)
     #[arg(long, value_name = "M", value_parser = positive)]
     max_hole: Option<f64>,
@@ -80,13 +83,21 @@ fn fill(args: Args) -> anyhow::Result<Report> {
         below: args.below,
         regions: args.region,
         seen_from: args.seen_from,
+        bridge: args.bridge,
         max_hole: args.max_hole,
         method: args.fill,
         mesher: args.method,
         balls,
         seed: args.seed.seed(),
     };
-    let filled = cloud::fill(args.input.read_cloud()?, &settings).with_context(|| args.input.name())?;
+    let cloud = args.input.read_cloud()?;
+    if args.bridge && cloud.viewpoints().next().is_some() {
+        let name = args.input.name();
+        return Err(cli::usage(format!(
+            "--bridge changes nothing: {name} says where the scanner stood, and what it did not see is filled: leave --bridge out"
+        )));
+    }
+    let filled = cloud::fill(cloud, &settings).with_context(|| args.input.name())?;
     warn(&filled.report);
     if let Some(path) = &args.mesh {
         let mut out = cli::OutputStream::file(path)?;
@@ -157,8 +168,10 @@ fn warn(report: &cloud::fill::Report) {
             hole.width
         ));
     }
-    let open = report.holes.iter().filter(|h| h.open).count();
-    if let Some(hole) = report.holes.iter().find(|h| h.open) {
+    between(report);
+    let is_open = |h: &&cloud::fill::HoleReport| h.open && !h.between;
+    let open = report.holes.iter().filter(is_open).count();
+    if let Some(hole) = report.holes.iter().find(is_open) {
         let [x, y, z] = hole.centre;
         cli::warn(&format!(
             "{open} holes are not completely closed, the first at {x:.3},{y:.3},{z:.3}, {:.3} m wide: balls \
@@ -166,6 +179,25 @@ fn warn(report: &cloud::fill::Report) {
             hole.width, hole.ball
         ));
     }
+}
+
+/// Says which holes lie between two surfaces.
+fn between(report: &cloud::fill::Report) {
+    let holes: Vec<_> = report.holes.iter().filter(|h| h.between).collect();
+    let Some(widest) = holes.iter().max_by(|a, b| a.width.total_cmp(&b.width)) else { return };
+    let ([x, y, z], step) = (widest.centre, widest.step.unwrap_or_default());
+    let (what, cure) = if holes.iter().any(|h| h.added > 0) {
+        ("were filled all the same", "check them in a picture, or give --seen-from")
+    } else {
+        ("stay open", "give --seen-from x,y,z, where the scanner stood, or --bridge to fill them")
+    };
+    cli::warn(&format!(
+        "{} holes lie between two surfaces, as between an edge and the floor behind it, and {what}: the widest, at {x:.3},{y:.3},{z:.3}, is {:.3} m wide \
+         with a step of {:.3} m; the report lists them; {cure}",
+        holes.len(),
+        widest.width,
+        step * widest.width
+    ));
 }
 
 fn viewpoint(text: &str) -> Result<Vec3, String> {

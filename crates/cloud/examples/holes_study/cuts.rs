@@ -48,7 +48,7 @@ pub struct Outcome {
 /// Fills a cloud without cuts; scans have holes of their own.
 pub fn fill(points: Vec<Vec3>) -> Result<Filled, String> {
     let cloud = Cloud { attributes: Table::with_rows(points.len()), points, ..Cloud::default() };
-    cloud::fill(cloud, &Settings::default()).map_err(|why| why.to_string())
+    cloud::fill(cloud, &Settings { bridge: true, ..Settings::default() }).map_err(|why| why.to_string())
 }
 
 /// Distance of the `NEIGHBOURS`th neighbour as a spacing.

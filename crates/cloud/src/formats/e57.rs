@@ -89,7 +89,7 @@ impl Columns {
             push("column", Values::I32(self.column))?;
         }
         if scans.len() > 1 {
-            push("scan", Values::U16(self.scan))?;
+            push("scan", Values::U32(self.scan.iter().map(|&scan| scan.into()).collect()))?;
         }
         let mut cloud = Cloud { points: self.points, attributes, double: true, ..Cloud::default() };
         // A scanner stands at the origin of its scan; a pose that moves nothing is stated for merged scans as well.

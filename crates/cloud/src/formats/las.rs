@@ -185,13 +185,13 @@ impl PointRange<'_> {
 /// The attributes that this point format has.
 fn columns_of(chunk: &PointData) -> Vec<(&'static str, Values)> {
     let mut columns = vec![
-        ("intensity", Values::U16(chunk.intensity().collect())),
+        ("intensity", wide(chunk.intensity())),
         ("return_number", Values::U8(chunk.return_number().collect())),
         ("number_of_returns", Values::U8(chunk.number_of_returns().collect())),
         ("classification", Values::U8(chunk.classification().collect())),
         ("scan_angle", Values::F32(chunk.scan_angle_degrees().collect())),
         ("user_data", Values::U8(chunk.user_data().collect())),
-        ("point_source_id", Values::U16(chunk.point_source_id().collect())),
+        ("point_source_id", wide(chunk.point_source_id())),
     ];
     if let Some(time) = chunk.gps_time() {
         columns.push(("gps_time", Values::F64(time.collect())));
@@ -203,9 +203,14 @@ fn columns_of(chunk: &PointData) -> Vec<(&'static str, Values)> {
         columns.push(("blue", Values::U16(rgb.iter().map(|c| c.2).collect())));
     }
     if let Some(nir) = chunk.nir() {
-        columns.push(("nir", Values::U16(nir.collect())));
+        columns.push(("nir", wide(nir)));
     }
     columns
+}
+
+/// Numbers of 16 bits as 32: some readers of PLY skip `ushort`.
+fn wide(numbers: impl Iterator<Item = u16>) -> Values {
+    Values::U32(numbers.map(u32::from).collect())
 }
 
 /// Adds the rows of one chunk; every chunk of a file has the same columns.
@@ -218,6 +223,7 @@ fn append(all: &mut Vec<(&'static str, Values)>, chunk: Vec<(&'static str, Value
         match (column, rows) {
             (Values::U8(a), Values::U8(b)) => a.extend(b),
             (Values::U16(a), Values::U16(b)) => a.extend(b),
+            (Values::U32(a), Values::U32(b)) => a.extend(b),
             (Values::F32(a), Values::F32(b)) => a.extend(b),
             (Values::F64(a), Values::F64(b)) => a.extend(b),
             _ => {}

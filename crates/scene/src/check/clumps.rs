@@ -125,6 +125,15 @@ impl Check<'_> {
             let why = "vertex_radius goes with mesh, and mesh with vertex_radius";
             return Err(self.wrong(entry, "(one of them)", why, "give both, or spheres"));
         }
+        if let Some(faces) = c.faces.filter(|faces| c.mesh.is_none() || *faces < 4) {
+            let (why, cure) = match c.mesh {
+                None => ("thins a mesh, and there is none", "take it out, or give mesh"),
+                Some(_) => {
+                    ("no closed surface has so few", "give at least 4; 100 carry the shape of a stone")
+                }
+            };
+            return Err(self.wrong(&key("faces"), faces.to_string(), why, cure));
+        }
         let spheres = c.spheres.as_deref().unwrap_or_default();
         if c.spheres.is_some() && spheres.is_empty() {
             let cure = "give [[x, y, z, radius], …]";

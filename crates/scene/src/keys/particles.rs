@@ -43,6 +43,8 @@ pub struct Clump {
     /// Radius of the spheres on the vertices of `mesh`, before `scale` [m].
     #[serde(default, deserialize_with = "unit::metres")]
     pub vertex_radius: Option<f64>,
+    /// With `mesh`: its vertices are thinned to those of a mesh of so many faces.
+    pub faces: Option<u32>,
     /// With `spheres`: volume, centre and inertia of the true body, in the frame of the spheres and before `scale`.
     pub moments: Option<ClumpMoments>,
     /// Lengths are multiplied by this [–].

@@ -2,7 +2,8 @@
 //!
 //! Multisphere: mass, centre and inertia of the union of the spheres, of their sum (`mass = "sum"`: overlaps count twice), or as given (`moments`).
 //! Polyhedron: those of the inside of the mesh, exactly; a sphere of `vertex_radius` sits centred on every vertex that a face uses, so that
-//! the mesh is the hull of the centres and contacts lie `vertex_radius` outside of it (JP6939487B2, particles as polyhedra).
+//! the mesh is the hull of the centres and contacts lie `vertex_radius` outside of it (JP6939487B2, particles as polyhedra). With `faces` the
+//! spheres sit on a thinned mesh; volume, centre and inertia stay those of the whole one.
 
 use super::builder::PlanBuilder;
 use crate::error::{Result, SceneError};
@@ -82,6 +83,26 @@ impl PlanBuilder<'_> {
             };
             refused(&e.to_string(), cure)
         })?;
+        let mesh = match entry.faces.map(|faces| faces as usize) {
+            None => mesh,
+            Some(faces) if faces >= mesh.faces.len() => {
+                let (why, cure) =
+                    (format!("the mesh has {} faces", mesh.faces.len()), "give fewer, or take it out");
+                return Err(self.check.wrong(&format!("{key}.faces"), faces.to_string(), &why, cure));
+            }
+            Some(faces) => {
+                let thinned = remesh::decimate(&mesh, faces);
+                if thinned.faces.len() > faces {
+                    let why = format!(
+                        "no more than {} of them can be taken away",
+                        mesh.faces.len() - thinned.faces.len()
+                    );
+                    let cure = "repair the mesh with stone-clean, or give more faces";
+                    return Err(self.check.wrong(&format!("{key}.faces"), faces.to_string(), &why, cure));
+                }
+                thinned
+            }
+        };
         let mut used = vec![false; mesh.vertices.len()];
         mesh.faces.iter().flatten().for_each(|&v| used[v as usize] = true);
         let vertices = mesh.vertices.iter().zip(used).filter(|(_, used)| *used);
@@ -96,7 +117,11 @@ impl PlanBuilder<'_> {
             return Ok(());
         }
         let why = format!("makes more than {MOST} spheres that move as one");
-        let cure = "thin it: a few dozen carry the shape (stone-clean --faces 100)";
+        let cure = if what == "vertices" {
+            "thin it: faces = 100 carries the shape"
+        } else {
+            "take fewer: a few dozen carry the shape (stone-clump)"
+        };
         Err(self.check.wrong(key, format!("{count} {what}"), &why, cure))
     }
 }

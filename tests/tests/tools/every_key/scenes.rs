@@ -218,8 +218,9 @@ mass = "sum"
 [[clump]]
 name = "block"
 material = "sinter"
-mesh = "tetra.ply"
+mesh = "octa.ply"
 vertex_radius = 0.05
+faces = 6
 scale = 0.1
 [[body]]
 clump = "block"
@@ -506,7 +507,7 @@ pub fn before() -> Vec<String> {
 }
 
 /// Files that the scenes read.
-pub const FILES: [(&str, &str); 12] = [
+pub const FILES: [(&str, &str); 13] = [
     ("strain.csv", "t,strain\n0,0\n0.001,0.002\n"),
     ("sieve.csv", "diameter,passing\n0.006,0\n0.008,30\n0.01,100\n"),
     ("grains-mm.csv", "x,y,z,radius\n400,200,300,5\n"),
@@ -518,6 +519,12 @@ pub const FILES: [(&str, &str); 12] = [
     ("a.csv", "x,y,z,radius\n0,0,0,0.005\n0.00999,0,0,0.005\n"),
     ("b.csv", "x,y,z,radius,cluster\n0,0.0099999,0,0.005,1\n0.00999,0.0199999,0,0.005,2\n"),
     ("c.csv", "x,y,z,radius\n0.1,0,0,0.005\n0.1101,0,0,0.005\n0.1,0.0101,0,0.005\n"),
+    (
+        "octa.ply",
+        "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n\
+         element face 8\nproperty list uchar int vertex_indices\nend_header\n0.1 0 0\n-0.1 0 0\n0 0.1 0\n0 -0.1 0\n0 0 0.1\n0 0 -0.1\n\
+         3 0 2 4\n3 2 1 4\n3 1 3 4\n3 3 0 4\n3 2 0 5\n3 1 2 5\n3 3 1 5\n3 0 3 5\n",
+    ),
     (
         "tetra.ply",
         "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\

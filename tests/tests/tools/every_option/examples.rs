@@ -20,7 +20,7 @@ pub const EXAMPLES: &[&str] = &[
     "cloud-crop scan.xyz --units m --outliers 12,3 --largest 0.03 -o c.ply",
     "cloud-fill scan.xyz --scale 1 --ascii --spacing 0.008 --for-spacing 0.02 --below 5000 --region box:-1,-1,-1,1,1,1 --max-hole 0.1 --fill blue-noise --method ball-pivoting --ball 0.01,0.02 --mesh hole.ply --seed 3 -o filled.ply --report r.json --threads 2 -q",
     "cloud-fill scan.xyz --units m --below 5000 --fill random --seen-from 0,0,1 --quiet --output d.ply",
-    "cloud-fill scan.xyz --below 5000 --fill grid --method volumetric -o e.ply",
+    "cloud-fill scan.xyz --below 5000 --bridge --fill grid --method volumetric -o e.ply",
     "bluenoise-sample flat.xyz --scale 1 --ascii --spacing 0.02 --method poisson --distance space --plot p.svg --seed 3 -o f.ply --report r.json --threads 2 -q",
     "bluenoise-sample filled.ply --spacing 0.02 --keep-filled --distance surface --no-measures --report r.json --output g.ply --quiet",
     "bluenoise-sample flat.xyz --units m --count 50 --method eliminate -o h.ply",
