@@ -16,6 +16,9 @@ const SECTIONS: [&str; 7] = ["wall", "output", "domain", "inlet", "outlet", "ins
 const TIMES: [&str; 3] = ["until", "until_unbalanced", "until_kinetic"];
 /// Keys of `[[fill]]` that the test sets.
 const AMOUNTS: [&str; 5] = ["shape", "mass", "count", "lattice", "seed"];
+/// Largest gap between packed grains along an axis, in diameters of the largest: what is farther away belongs to no specimen, and walls would take long to
+/// reach it.
+const APART: f64 = 10.0;
 /// Grains of a trial filling, from which sizes and time step are known.
 const TRIAL: usize = 500;
 
@@ -96,7 +99,14 @@ impl Sample {
         let trial = sample.trial()?;
         sample.files = trial.files();
         sample.grains = Grains::of(&trial, sample.is_packed())?;
-        Ok(sample)
+        let limit = APART * sample.grains.largest;
+        match sample.grains.packed.as_ref().and_then(|packed| packed.gap_above(limit)) {
+            None => Ok(sample),
+            Some((axis, low, high)) => Err(refuse(
+                format!("no grain lies between {axis} = {low:.4} m and {high:.4} m"),
+                "take the grains beyond out, or move them to the others: a specimen is one body of grains",
+            )),
+        }
     }
 
     /// Whether its grains are packed already.
@@ -289,5 +299,40 @@ impl Packed {
         let clusters: std::collections::BTreeSet<u32> = setup.clusters.iter().map(|c| c.1).collect();
         let one_body = clusters.len() == 1 && setup.clusters.len() == setup.particles.len();
         Packed { low: corner(-1.0), high: corner(1.0), spheres, solid, one_body }
+    }
+
+    /// The first gap along x, y or z that is wider than a limit [m]: its axis, and where it begins and ends [m].
+    fn gap_above(&self, limit: f64) -> Option<(char, f64, f64)> {
+        ['x', 'y', 'z'].into_iter().enumerate().find_map(|(k, axis)| {
+            let mut along: Vec<[f64; 2]> = self.spheres.iter().map(|(c, r)| [c[k] - r, c[k] + r]).collect();
+            along.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            let mut end = along.first()?[1];
+            along.into_iter().find_map(|[low, high]| {
+                let gap = (low - end > limit).then_some((axis, end, low));
+                end = end.max(high);
+                gap
+            })
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_grain_far_from_the_others_leaves_a_gap() {
+        let at = |x: f64| (Vec3::new(x, 0.0, 0.0), 0.005);
+        let packed = |spheres: Vec<(Vec3, f64)>| Packed {
+            low: Vec3::zeros(),
+            high: Vec3::zeros(),
+            spheres,
+            solid: 0.0,
+            one_body: false,
+        };
+        let near = packed(vec![at(0.1), at(0.0), at(0.05)]);
+        assert_eq!(near.gap_above(0.05), None);
+        let (axis, low, high) = packed(vec![at(1.0), at(0.01), at(0.0)]).gap_above(0.05).unwrap();
+        assert!(axis == 'x' && (low - 0.015).abs() < 1e-12 && (high - 0.995).abs() < 1e-12);
     }
 }

@@ -23,12 +23,16 @@ const SHEET: f64 = 1e-3;
 /// Finest and coarsest cells of a cloud, as cells along the longest side.
 const CELLS: [f64; 2] = [16.0, 400.0];
 
+/// Cells of a mesh along the longest side, at least and at most, and how many lie along an edge of usual length in between: finer ones show nothing more.
+const CELLS_OF_MESH: [f64; 2] = [60.0, 200.0];
+const CELLS_AN_EDGE: f64 = 8.0;
+
 /// How a stone is cleaned.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct CleanSettings {
     /// Faces of the result, at most; none: as many as come.
     pub faces: Option<usize>,
-    /// Cells along the longest side when the surface is rebuilt; none: 200, and for a cloud its spacing.
+    /// Cells along the longest side when the surface is rebuilt; none: 200 or as many as the edges of a coarse mesh need, and for a cloud its spacing.
     pub cells: Option<usize>,
 }
 
@@ -103,7 +107,7 @@ pub fn clean_mesh(mesh: &TriMesh, settings: &CleanSettings) -> Result<(Stone, Ch
         Err(error) => Some(error.to_string()),
     };
     if let Some(reason) = reason.or_else(|| settings.cells.map(|_| "cells were given".to_owned())) {
-        let cells = settings.cells.unwrap_or(200);
+        let cells = settings.cells.unwrap_or_else(|| cells_of(&mesh));
         (changes.rebuilt, changes.cells) = (Some(reason), Some(cells));
         let made = rebuilt(soup::sample(&mesh, cells), &mut changes)?;
         changes.closed_area = Some(added(&made, &mesh, cells));
@@ -112,6 +116,23 @@ pub fn clean_mesh(mesh: &TriMesh, settings: &CleanSettings) -> Result<(Stone, Ch
         mesh = largest(mesh, &mut changes);
     }
     thinned(mesh, settings, changes)
+}
+
+/// Cells along the longest side that show the edges of a mesh.
+fn cells_of(mesh: &TriMesh) -> usize {
+    let (lo, hi) = geom::grid::bounds(&mesh.vertices);
+    let corner = |face: &[u32; 3], k: usize| mesh.vertices[face[k % 3] as usize];
+    let edges =
+        mesh.faces.iter().flat_map(|face| [0, 1, 2].map(|k| (corner(face, k) - corner(face, k + 1)).norm()));
+    let mut edges: Vec<f64> = edges.collect();
+    edges.sort_by(f64::total_cmp);
+    let usual = edges.get(edges.len() / 2).copied().unwrap_or(0.0);
+    let wanted = CELLS_AN_EDGE * (hi - lo).max() / usual;
+    if wanted.is_finite() {
+        wanted.clamp(CELLS_OF_MESH[0], CELLS_OF_MESH[1]).round() as usize
+    } else {
+        CELLS_OF_MESH[1] as usize
+    }
 }
 
 /// Cleans a cloud, with its normals if it has some.

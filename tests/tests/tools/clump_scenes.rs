@@ -177,7 +177,7 @@ fn a_scanned_stone_becomes_a_clump_of_few_spheres_and_keeps_its_moments() {
         let folder = folder(&scene(faces));
         let refused = tool(folder.path(), "dem-run", &["s.toml", "--check"]);
         assert!(
-            refused.code == 2 && refused.stderr.contains("clump.0.faces") && refused.stderr.contains(why),
+            refused.code == 1 && refused.stderr.contains("clump.0.faces") && refused.stderr.contains(why),
             "{}",
             refused.stderr
         );

@@ -50,7 +50,8 @@ fn goes_through(chain: &Chain) {
     assert_eq!(scan.points.len(), chain.points, "{name}");
     let scanned = scan.points.clone();
     let filled =
-        cloud::fill(scan, &Settings { max_hole: Some(chain.max_hole), ..Settings::default() }).unwrap();
+        cloud::fill(scan, &Settings { max_hole: Some(chain.max_hole), bridge: true, ..Settings::default() })
+            .unwrap();
     let (low, high) = chain.added;
     assert!((low..=high).contains(&filled.report.added), "{name}: {} added", filled.report.added);
     let (amount, distance) = (Amount::Spacing(chain.spacing), sampling::Distance::default());

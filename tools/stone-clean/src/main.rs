@@ -26,7 +26,7 @@ struct Args {
     /// Faces of the result, at most [default: as many as come]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(4..=2_000_000))]
     faces: Option<u32>,
-    /// Rebuild the surface with this number of cells along the longest side [default: only if needed, with 200; for a cloud by its spacing]
+    /// Rebuild the surface with this number of cells along the longest side [default: only if needed, with 200, or 60 and more where the mesh is coarse; for a cloud by its spacing]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(16..=500))]
     cells: Option<u32>,
     #[command(flatten)]

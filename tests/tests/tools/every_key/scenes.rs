@@ -221,7 +221,7 @@ material = "sinter"
 mesh = "octa.ply"
 vertex_radius = 0.05
 faces = 6
-scale = 0.1
+scale = 0.06
 [[body]]
 clump = "block"
 position = [0.5, 0.5, 0.5]
