@@ -82,8 +82,12 @@ fn specimen(folder: &Path, level: &Value) -> Result<Specimen, Failure> {
 }
 
 impl Case {
+    /// Stresses of all packings: a guard may have stopped a specimen of one of them.
     fn stresses(&self) -> Vec<f64> {
-        self.packings.first().map_or(Vec::new(), |packing| packing.iter().map(|s| s.stress).collect())
+        let mut all: Vec<f64> = self.packings.iter().flatten().map(|s| s.stress).collect();
+        all.sort_by(f64::total_cmp);
+        all.dedup();
+        all
     }
 
     /// Values of all packings under a stress.
@@ -119,7 +123,7 @@ fn table(cases: &[Case]) {
                 "| {} | {} kPa | {} | {}° | {}° | {}° | {} | {} |",
                 case.name,
                 stress / 1e3,
-                case.packings.len(),
+                case.values(stress, |s| s.peak).iter().filter(|v| v.is_finite()).count(),
                 of(&|s| s.peak, 1),
                 of(&|s| s.residual, 1),
                 of(&|s| s.dilation, 1),
@@ -140,7 +144,7 @@ fn difference(one: &Case, other: &Case, (what, of): (&str, &dyn Fn(&Specimen) ->
     // Of each packing its mean over the stresses: these are independent.
     let by_stress: Vec<Vec<f64>> = stresses.iter().map(pairs).collect();
     let count = by_stress.first()?.len();
-    let of_packing = |k: usize| by_stress.iter().map(|d| d[k]).sum::<f64>() / by_stress.len() as f64;
+    let of_packing = |k: usize| mean(&by_stress.iter().map(|d| d[k]).collect::<Vec<f64>>()).mean;
     let Mean { mean, interval, .. } = mean(&(0..count).map(of_packing).collect::<Vec<f64>>());
     let (a, b) = (&one.name, &other.name);
     if !interval.is_finite() {
