@@ -49,7 +49,7 @@ fn a_sound_recipe_is_read_with_its_units() {
     assert_eq!((target.points.len(), target.origin.as_str()), (6, "the curve's own scatter"));
     let sand = RECIPE.replace("bounds = [0.1, 0.9]", "prior = \"material:sand:sliding_friction\"");
     let r = read(&sand, DATA, &[]).unwrap();
-    assert!(r.parameters[0].source.as_ref().unwrap().contains("doi:10.1016/j.sandf.2013.08.012"));
+    assert!(r.parameters[0].source.as_ref().unwrap().contains("doi:10.1016/j.powtec.2017.01.015"));
     assert!(r.parameters[0].low < 0.12 && r.parameters[0].high > 0.52);
 }
 

@@ -46,12 +46,12 @@ impl Scan {
                 if random.share() < MOUNTING { mounting(&mut random) } else { self.chute(&mut random) };
             let ray = p - Vec3::new(-SCANNER, 0.0, 0.0);
             let facing = (ray.dot(&normal) / ray.norm()).abs();
-            intensity.push((4000.0 * facing / ray.norm_squared()).clamp(1.0, 65535.0) as u32);
+            intensity.push((4000.0 * facing / ray.norm_squared()).clamp(1.0, 65535.0) as u16);
             let noisy = p + Vec3::new(random.normal(), random.normal(), random.normal()) * self.noise;
             points.push(self.tilted(noisy));
         }
         let mut attributes = Table::with_rows(points.len());
-        let pushed = attributes.push("intensity", Values::U32(intensity));
+        let pushed = attributes.push("intensity", Values::U16(intensity));
         debug_assert!(pushed.is_ok());
         let comments = vec![
             "synthetic scan of a swivel chute, made by chute-scan".to_owned(),

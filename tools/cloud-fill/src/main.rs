@@ -99,6 +99,9 @@ fn fill(args: Args) -> anyhow::Result<Report> {
     }
     let filled = cloud::fill(cloud, &settings).with_context(|| args.input.name())?;
     warn(&filled.report);
+    if args.bridge && !filled.report.holes.iter().any(|h| h.between) {
+        cli::warn("--bridge changes nothing: no hole lies between two surfaces");
+    }
     if let Some(path) = &args.mesh {
         let mut out = cli::OutputStream::file(path)?;
         cloud::write_mesh(&mut out, &filled.mesh, stream::ply::Encoding::default())?;

@@ -34,9 +34,12 @@ fn dem_lammps(args: Args) -> anyhow::Result<Report> {
     let plan = scene.plan(inputs)?;
     plan.warnings.iter().for_each(|note| cli::warn(note));
     let engine = engine(&args);
-    let target = Target { version: version(&args, &engine)?, nearest: args.nearest };
-    let prepared = lammps::prepare(&scene, &plan, target, engine.ranks);
-    let prepared = prepared.with_context(|| args.scene.to_string())?;
+    let version = version(&args, &engine)?;
+    let prepare = |nearest: bool| lammps::prepare(&scene, &plan, Target { version, nearest }, engine.ranks);
+    let prepared = prepare(args.nearest).with_context(|| args.scene.to_string())?;
+    if args.nearest && prepare(false).is_ok() {
+        cli::warn("--nearest changes nothing: LAMMPS has all that the scene asks for");
+    }
     prepared.warnings().iter().for_each(|note| cli::warn(note));
     if args.check {
         let schedule = &prepared.schedule;
