@@ -223,6 +223,11 @@ struct Patch {
 }
 
 impl Patch {
+    /// Nothing is added to a hole.
+    fn left_open(report: HoleReport) -> Patch {
+        Patch { points: vec![], like: vec![], vertices: vec![], faces: vec![], report }
+    }
+
     fn new(hole: &Hole, settings: &Settings, seen: Option<&Seen>, number: u64) -> Patch {
         let mut report = HoleReport {
             centre: hole.centre.into(),
@@ -239,11 +244,11 @@ impl Patch {
         };
         report.between = report.step.is_some_and(|step| step > step::MOST);
         if report.between && !settings.bridge {
-            return Patch { points: vec![], like: vec![], vertices: vec![], faces: vec![], report };
+            return Patch::left_open(report);
         }
         let Ok(mut cover) = Cover::new(hole, settings.mesher, &settings.balls).map_err(|FallsThrough| ())
         else {
-            return Patch { points: vec![], like: vec![], vertices: vec![], faces: vec![], report };
+            return Patch::left_open(report);
         };
         // Dense enough to be as dense as the surroundings: a grid fills its plane, a Poisson disk less of it.
         let packing = if settings.method == Method::Grid { 1.0 } else { PACKING };

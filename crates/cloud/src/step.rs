@@ -1,7 +1,8 @@
 //! Steps: holes whose two sides are different surfaces, such as an edge and the floor behind it.
 //!
 //! ```text
-//! step = |h_a − h_b|/w      h: heights in the middle of the hole of the planes through the surface on two opposite sides, w: distance of these sides
+//! step = |h_a − h_b| cos θ/w      h: heights in the middle of the hole of the planes through the surface on two opposite sides, θ: their slope,
+//!                                 w: distance of these sides
 //! ```
 //!
 //! Planes on both sides of a hole in a curved surface meet in its middle up to terms of third order: a dome, a saddle and an edge of any angle
@@ -22,6 +23,8 @@ const SECTORS: usize = 8;
 const FEWEST: usize = 8;
 /// Least cosine between two planes that are compared: others meet in an edge.
 const ALIKE: f64 = std::f64::consts::FRAC_1_SQRT_2;
+/// Least distance of two sides, in cells: no hole is narrower, and points that are nearer lie in its bends.
+const NARROW: f64 = 4.0;
 /// A step is larger than this many times what the points scatter around their planes.
 const SURE: f64 = 3.0;
 
@@ -49,14 +52,14 @@ pub(crate) fn step(hole: &Hole) -> f64 {
     let sides = sectors.map(|points| side(points, depth));
     let (first, second) = sides.split_at(SECTORS / 2);
     let steps = first.iter().zip(second).filter_map(|(a, b)| Some((a.as_ref()?, b.as_ref()?)));
-    steps.map(|(a, b)| between(a, b)).fold(0.0, f64::max)
+    steps.map(|(a, b)| between(a, b, NARROW * hole.raster.cell)).fold(0.0, f64::max)
 }
 
-/// The step between two sides.
-fn between(a: &Side, b: &Side) -> f64 {
-    let (height, width) = ((a.height - b.height).abs(), a.near + b.near);
-    let sure = height > SURE * a.rms.max(b.rms);
-    if a.normal.dot(&b.normal) > ALIKE && sure && width > 0.0 { height / width } else { 0.0 }
+/// The step between two sides, which are at least `narrow` [m] apart.
+fn between(a: &Side, b: &Side, narrow: f64) -> f64 {
+    let (apart, width) = ((a.height - b.height).abs() * (a.normal + b.normal).normalize().z, a.near + b.near);
+    let sure = apart > SURE * a.rms.max(b.rms);
+    if a.normal.dot(&b.normal) > ALIKE && sure && width > narrow { apart / width } else { 0.0 }
 }
 
 /// The plane of least squares through those of some points that are nearest to the hole, up to a depth [m]; x and y count from the middle of the hole.

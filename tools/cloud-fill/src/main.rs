@@ -195,11 +195,11 @@ fn between(report: &cloud::fill::Report) {
         ("stay open", "give --seen-from x,y,z, where the scanner stood, or --bridge to fill them")
     };
     cli::warn(&format!(
-        "{} holes lie between two surfaces, as between an edge and the floor behind it, and {what}: the widest, at {x:.3},{y:.3},{z:.3}, is {:.3} m wide \
-         with a step of {:.3} m; the report lists them; {cure}",
+        "{} holes lie between two surfaces, as between an edge and the floor behind it, and {what}: the widest, at {x:.3},{y:.3},{z:.3}, is {:.3} m wide, \
+         with a step of {:.0} % of the distance across; the report lists them; {cure}",
         holes.len(),
         widest.width,
-        step * widest.width
+        100.0 * step
     ));
 }
 
