@@ -10,6 +10,7 @@ use crate::error::{Result, SceneError};
 use crate::input::read_mesh;
 use crate::keys::{Clump, ClumpMass};
 use dem::setup::ClumpShape;
+use geom::mesh::TriMesh;
 use geom::moments::BodyError;
 use geom::{Moments, Vec3};
 use record::ClumpRecord;
@@ -52,7 +53,8 @@ impl PlanBuilder<'_> {
 
     fn multisphere(&self, key: &str, entry: &Clump) -> Result<(Vec<Sphere>, Moments)> {
         let given = entry.spheres.as_deref().unwrap_or_default();
-        self.few(&format!("{key}.spheres"), given.len(), "spheres")?;
+        let cure = "take fewer: a few dozen carry the shape (stone-clump)";
+        self.few(&format!("{key}.spheres"), (given.len(), "spheres"), cure)?;
         let sphere = |s: &[f64; 4]| (Vec3::new(s[0], s[1], s[2]) * entry.scale, s[3] * entry.scale);
         let spheres: Vec<Sphere> = given.iter().map(sphere).collect();
         if let Some(m) = &entry.moments {
@@ -83,45 +85,40 @@ impl PlanBuilder<'_> {
             };
             refused(&e.to_string(), cure)
         })?;
-        let mesh = match entry.faces.map(|faces| faces as usize) {
+        let mesh = match entry.faces {
+            Some(faces) => self.thinned(&format!("{key}.faces"), &mesh, faces as usize)?,
             None => mesh,
-            Some(faces) if faces >= mesh.faces.len() => {
-                let (why, cure) =
-                    (format!("the mesh has {} faces", mesh.faces.len()), "give fewer, or take it out");
-                return Err(self.check.wrong(&format!("{key}.faces"), faces.to_string(), &why, cure));
-            }
-            Some(faces) => {
-                let thinned = remesh::decimate(&mesh, faces);
-                if thinned.faces.len() > faces {
-                    let why = format!(
-                        "no more than {} of them can be taken away",
-                        mesh.faces.len() - thinned.faces.len()
-                    );
-                    let cure = "repair the mesh with stone-clean, or give more faces";
-                    return Err(self.check.wrong(&format!("{key}.faces"), faces.to_string(), &why, cure));
-                }
-                thinned
-            }
         };
         let mut used = vec![false; mesh.vertices.len()];
         mesh.faces.iter().flatten().for_each(|&v| used[v as usize] = true);
         let vertices = mesh.vertices.iter().zip(used).filter(|(_, used)| *used);
         let radius = entry.vertex_radius.unwrap_or_default() * entry.scale;
         let spheres: Vec<Sphere> = vertices.map(|(v, _)| (*v, radius)).collect();
-        self.few(&format!("{key}.mesh"), spheres.len(), "vertices")?;
+        let cure = "thin it: faces = 100 carries the shape";
+        self.few(&format!("{key}.mesh"), (spheres.len(), "vertices"), cure)?;
         Ok((spheres, moments))
     }
 
-    fn few(&self, key: &str, count: usize, what: &str) -> Result<()> {
+    /// A mesh of so many faces.
+    fn thinned(&self, key: &str, mesh: &TriMesh, faces: usize) -> Result<TriMesh> {
+        let wrong = |why: String, cure: &str| Err(self.check.wrong(key, faces.to_string(), &why, cure));
+        let all = mesh.faces.len();
+        if faces >= all {
+            return wrong(format!("the mesh has {all} faces"), "give fewer, or take it out");
+        }
+        let thinned = remesh::decimate(mesh, faces);
+        if thinned.faces.len() > faces {
+            let why = format!("no more than {} of them can be taken away", all - thinned.faces.len());
+            return wrong(why, "repair the mesh with stone-clean, or give more faces");
+        }
+        Ok(thinned)
+    }
+
+    fn few(&self, key: &str, (count, what): (usize, &str), cure: &str) -> Result<()> {
         if count <= MOST {
             return Ok(());
         }
         let why = format!("makes more than {MOST} spheres that move as one");
-        let cure = if what == "vertices" {
-            "thin it: faces = 100 carries the shape"
-        } else {
-            "take fewer: a few dozen carry the shape (stone-clump)"
-        };
         Err(self.check.wrong(key, format!("{count} {what}"), &why, cure))
     }
 }

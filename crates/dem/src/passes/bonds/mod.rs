@@ -35,7 +35,9 @@ pub fn act(model: &Model, state: &mut State) {
         (bonds.at, bonds.lost) = (Some(*steps), 0.0);
         bonds.freed.clear();
     }
-    for n in (0..bonds.pairs.len()).filter(|n| breaking[n / CHUNK]) {
+    let count = bonds.pairs.len();
+    let chunks = (0..count).step_by(CHUNK).zip(breaking).filter(|(_, breaks)| *breaks);
+    for n in chunks.flat_map(|(first, _)| first..count.min(first + CHUNK)) {
         let (pair, springs, pull) = (&mut bonds.pairs[n], &bonds.springs[n], &mut bonds.pulls[n]);
         let travel = pair.ends.iter().all(|&k| zones.prescribed.get(k as usize) == Some(&true));
         let broken = breaks(springs, pull.stress).filter(|_| pair.is_whole() && !travel);
