@@ -182,7 +182,8 @@ fn draw(file: &Path, cases: &[Case]) -> Result<Vec<u8>, String> {
     let mut plots = Vec::new();
     for (case, colour) in cases.iter().zip(COLOURS.into_iter().cycle()) {
         let point = |stress: f64| (stress / 1e3, mean(&case.values(stress, |s| s.peak)).mean);
-        let points: Vec<(f64, f64)> = case.stresses().into_iter().map(point).collect();
+        let points = case.stresses().into_iter().map(point).filter(|(_, angle)| angle.is_finite());
+        let points: Vec<(f64, f64)> = points.collect();
         plots.push(Plot::Line(
             LinePlot::new().with_data(points).with_color(colour).with_legend(case.name.clone()),
         ));
