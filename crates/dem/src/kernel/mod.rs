@@ -11,15 +11,9 @@ pub(crate) use sums::{Pairs, Sums, WrenchSums};
 pub(crate) use wrenches::{Arrival, SlotEnd, WrenchSlices, WrenchSlicesMut};
 
 use crate::effects::{Effect, History};
+use crate::simd::compiled::{self, Eights, Job, Lanes, Singles};
 use crate::simd::{Lane, Layout, Number, Row, Row4, Width};
 use std::marker::PhantomData;
-
-#[cfg(target_arch = "x86_64")]
-use crate::simd::{
-    two::Two,
-    x86::{X4, X8},
-    x86_single::{Y4, Y8},
-};
 
 /// Numbers of one contact in the energy ledger: elastic, dissipated (normal, sliding, rolling, twisting), wall work, lost at once.
 pub const LEDGER: usize = 8;
@@ -95,10 +89,7 @@ impl<E: Effect> Kernel for E {
         E::TORQUES
     }
     fn run(&self, width: Width, step: StepInputs, batch: Batch) -> bool {
-        match batch.ledger.is_empty() {
-            true => dispatch::<E, false>(self, width, step, batch),
-            false => dispatch::<E, true>(self, width, step, batch),
-        }
+        run::<Eights, E, f64>(self, width, step, batch)
     }
 }
 
@@ -120,67 +111,31 @@ impl<E: Effect, T: Number> Kernel for Narrow<E, T> {
         self.0.torques()
     }
     fn run(&self, width: Width, step: StepInputs, batch: Batch) -> bool {
-        match batch.ledger.is_empty() {
-            true => dispatch_narrow::<E, T, false>(&self.0, width, step, batch),
-            false => dispatch_narrow::<E, T, true>(&self.0, width, step, batch),
-        }
+        run::<Singles, E, T>(&self.0, width, step, batch)
     }
 }
 
-fn dispatch_narrow<E: Effect, T: Number, const KEEP: bool>(
-    e: &E,
-    width: Width,
-    step: StepInputs,
-    batch: Batch,
-) -> bool {
-    match width {
-        #[cfg(target_arch = "x86_64")]
-        Width::Avx512 => simd::avx512::<Y8, E, T, KEEP>(e, step, batch),
-        #[cfg(target_arch = "x86_64")]
-        Width::Avx2 => simd::avx2::<Y4, E, T, KEEP>(e, step, batch),
-        _ => contact_loop::blocks::<f32, E, T, KEEP>(e, step, batch),
+/// The contact loop over a batch.
+struct Blocks<'a, E, T, const KEEP: bool> {
+    effect: &'a E,
+    step: StepInputs<'a>,
+    batch: Batch<'a>,
+    number: PhantomData<T>,
+}
+
+impl<E: Effect, T: Number, const KEEP: bool> Job for Blocks<'_, E, T, KEEP> {
+    type Output = bool;
+    #[inline(always)]
+    fn run<R: Lane>(self) -> bool {
+        contact_loop::blocks::<R, E, T, KEEP>(self.effect, self.step, self.batch)
     }
 }
 
-fn dispatch<E: Effect, const KEEP: bool>(effect: &E, width: Width, step: StepInputs, batch: Batch) -> bool {
-    match width {
-        #[cfg(target_arch = "x86_64")]
-        Width::Avx512 => simd::avx512::<X8, E, f64, KEEP>(effect, step, batch),
-        #[cfg(target_arch = "x86_64")]
-        Width::Avx2 => simd::avx2::<Two<X4>, E, f64, KEEP>(effect, step, batch),
-        _ => contact_loop::blocks::<f64, E, f64, KEEP>(effect, step, batch),
+/// Runs the contact loop with the lanes `L`, and with the ledger where it is kept.
+fn run<L: Lanes, E: Effect, T: Number>(effect: &E, width: Width, step: StepInputs, batch: Batch) -> bool {
+    let number = PhantomData::<T>;
+    match batch.ledger.is_empty() {
+        true => compiled::run::<L, _>(width, Blocks::<E, T, false> { effect, step, batch, number }),
+        false => compiled::run::<L, _>(width, Blocks::<E, T, true> { effect, step, batch, number }),
     }
-}
-
-#[cfg(target_arch = "x86_64")]
-mod simd {
-    //! The loop, compiled for wider registers.
-    #![expect(
-        unsafe_code,
-        reason = "one loop is compiled for several widths and called after asking the processor"
-    )]
-    use super::*;
-
-    macro_rules! compiled {
-        ($name:ident, $features:literal) => {
-            pub fn $name<R: Lane, E: Effect, T: Number, const KEEP: bool>(
-                e: &E,
-                step: StepInputs,
-                batch: Batch,
-            ) -> bool {
-                #[target_feature(enable = $features)]
-                fn inner<R: Lane, E: Effect, T: Number, const KEEP: bool>(
-                    e: &E,
-                    step: StepInputs,
-                    batch: Batch,
-                ) -> bool {
-                    contact_loop::blocks::<R, E, T, KEEP>(e, step, batch)
-                }
-                // SAFETY: a width is only made where the processor has its features.
-                unsafe { inner::<R, E, T, KEEP>(e, step, batch) }
-            }
-        };
-    }
-    compiled!(avx512, "avx512f,avx512dq,avx2");
-    compiled!(avx2, "avx2");
 }

@@ -10,6 +10,7 @@
 //! marked. A function that is not inlined calls another for each operation and takes several times as long.
 
 pub(crate) mod aligned;
+pub(crate) mod compiled;
 pub(crate) mod number;
 pub(crate) mod scalar;
 pub(crate) mod turn;
@@ -23,6 +24,7 @@ pub(crate) use aligned::Aligned;
 pub(crate) use number::{FORCE, FORCE_AND_MOMENT, Layout, Number, Precision, TORQUE};
 pub(crate) use scalar::Each;
 pub(crate) use turn::Turn;
+pub(crate) use two::Two;
 
 use geom::Vec3;
 use serde::{Deserialize, Serialize};

@@ -3,7 +3,8 @@
 use crate::model::BondedPair;
 use crate::model::bonds::law::{Ends, Pull, Pulls, pulls};
 use crate::model::bonds::springs::{SpringLanes, Springs};
-use crate::simd::{BLOCK, Indices, Lane, Row, Row4, Turn, V, Width};
+use crate::simd::compiled::Job;
+use crate::simd::{BLOCK, Indices, Lane, Row, Row4, Turn, V};
 use crate::space::cell::Cell;
 use crate::state::Particles;
 
@@ -32,48 +33,29 @@ impl<'a> Instant<'a> {
     }
 }
 
-/// What some bonds do, of those that are whole; whether any of them breaks.
-pub fn all(width: Width, at: &Instant, bonds: (&[BondedPair], &[Springs]), kept: &mut [Pull]) -> bool {
-    match width {
-        #[cfg(target_arch = "x86_64")]
-        Width::Avx512 => simd::avx512(at, bonds, kept),
-        #[cfg(target_arch = "x86_64")]
-        Width::Avx2 => simd::avx2(at, bonds, kept),
-        _ => groups::<f64>(at, bonds, kept),
+/// Some bonds, with what each of them does.
+pub struct BondChunk<'a> {
+    pub at: &'a Instant<'a>,
+    pub pairs: &'a [BondedPair],
+    pub springs: &'a [Springs],
+    pub pulls: &'a mut [Pull],
+}
+
+/// What those do that are whole; whether any of them breaks.
+impl Job for BondChunk<'_> {
+    type Output = bool;
+    #[inline(always)]
+    fn run<R: Lane>(self) -> bool {
+        groups::<R>(self.at, (self.pairs, self.springs), self.pulls)
     }
 }
 
 /// What one bond does.
 pub fn one(at: &Instant, ends: [u32; 2], springs: &Springs) -> Pull {
-    let mut kept = Pull::default();
-    groups::<f64>(at, (&[BondedPair::new(ends)], &[*springs]), std::slice::from_mut(&mut kept));
-    kept
-}
-
-#[cfg(target_arch = "x86_64")]
-mod simd {
-    //! The loop, compiled for wider registers.
-    #![expect(
-        unsafe_code,
-        reason = "one loop is compiled for several widths and called after asking the processor"
-    )]
-    use super::*;
-    use crate::simd::x86::{X4, X8};
-
-    macro_rules! compiled {
-        ($name:ident, $lane:ty, $features:literal) => {
-            pub fn $name(at: &Instant, bonds: (&[BondedPair], &[Springs]), kept: &mut [Pull]) -> bool {
-                #[target_feature(enable = $features)]
-                fn inner(at: &Instant, bonds: (&[BondedPair], &[Springs]), kept: &mut [Pull]) -> bool {
-                    groups::<$lane>(at, bonds, kept)
-                }
-                // SAFETY: a width is only made where the processor has its features.
-                unsafe { inner(at, bonds, kept) }
-            }
-        };
-    }
-    compiled!(avx512, X8, "avx512f,avx512dq,avx2");
-    compiled!(avx2, X4, "avx2");
+    let mut pull = Pull::default();
+    let pulls = std::slice::from_mut(&mut pull);
+    BondChunk { at, pairs: &[BondedPair::new(ends)], springs: &[*springs], pulls }.run::<f64>();
+    pull
 }
 
 /// Groups of `WIDTH` bonds, then those that are left over.

@@ -12,7 +12,8 @@ use crate::kernel::LEDGER;
 use crate::model::bonds::springs::{breaks, numbers, replaces_contact, resists};
 use crate::model::{BondedPair, GONE, Model, Pull, Springs};
 use crate::neighbours::NeighbourLists;
-use crate::passes::bonds::lanes::Instant;
+use crate::passes::bonds::lanes::{BondChunk, Instant};
+use crate::simd::compiled::{self, Registers};
 use crate::state::bonds::CHUNK;
 use crate::state::{BondState, Bonds, Crack, ListStatus, State};
 use crate::threads::{FEW, share};
@@ -27,8 +28,9 @@ pub fn act(model: &Model, state: &mut State) {
     let Bonds { pairs, springs, pulls, turns, .. } = bonds;
     let at = Instant::of(particles, turns, &cell);
     let chunks = pairs.chunks(CHUNK).zip(springs.chunks(CHUNK)).zip(pulls.chunks_mut(CHUNK));
-    let breaking = share(pairs.len() >= FEW / 4, chunks.collect(), |(chunk, pulls)| {
-        lanes::all(model.width, &at, chunk, pulls)
+    let breaking = share(pairs.len() >= FEW / 4, chunks.collect(), |((pairs, springs), pulls)| {
+        let chunk = BondChunk { at: &at, pairs, springs, pulls };
+        compiled::run::<Registers, _>(model.width, chunk)
     });
     // Lists may be asked for more than once at one instant.
     if bonds.at != Some(*steps) {
