@@ -5,8 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Layers of the engine, lowest first: a folder uses those before it.
-const LAYERS: [&str; 14] = [
+const LAYERS: [&str; 16] = [
     "threads",
+    "float",
     "simd",
     "space",
     "effects",
@@ -19,6 +20,7 @@ const LAYERS: [&str; 14] = [
     "passes",
     "forces",
     "observe",
+    "device",
     "simulation",
 ];
 

@@ -11,7 +11,7 @@ use serde_json::json as object;
 use std::io::Write;
 
 /// Steps between two checks: a check takes less than a step.
-const EVERY: u64 = 200;
+pub(crate) const EVERY: u64 = 200;
 /// Largest mean unbalanced force over mean contact force of grains that lie [–]: grains at rest in the air have just begun to fall.
 const LIE: f64 = 0.1;
 

@@ -7,9 +7,10 @@ use crate::integration::IntegrationError;
 use crate::progress::Progress;
 use crate::schedule::Schedule;
 use crate::servos::ServoHeld;
-use crate::settling::Settling;
+use crate::settling::{self, Settling};
 use crate::start::not_yet_over;
 use crate::supply::Supply;
+use dem::device::Device;
 use dem::setup::Crossing;
 use dem::{Halt, Simulation};
 use record::{LogMessage, SIGNAL, json, nanoseconds, topic};
@@ -24,6 +25,10 @@ use stream::mcap::{Provenance, StreamOptions, Writer};
 
 /// Steps between searches for particles that zones have lost: in so few, no particle gets past the length of a zone.
 const LOOK_BACK: u64 = 64;
+/// Steps between reports of progress, or more where a device makes many at once.
+const REPORTED: u64 = 256;
+/// Steps that a device makes at once, at most.
+const AT_ONCE: u64 = 1 << 16;
 
 /// What was done.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
@@ -66,6 +71,9 @@ pub struct Outcome {
     pub asleep: usize,
     /// Effects in force: name, pair, key.
     pub effects: Vec<String>,
+    /// What made the steps, where this processor did not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub device: Option<String>,
 }
 
 /// How a run is written.
@@ -80,6 +88,8 @@ pub struct Settings<W> {
     pub watched: bool,
     /// Called between steps: whether the run is to end here, with a checkpoint.
     pub stop: fn() -> bool,
+    /// What makes the steps; `None`: this processor.
+    pub device: Option<Box<dyn Device>>,
 }
 
 /// Refuses what would only be refused after the output was opened.
@@ -178,6 +188,7 @@ pub fn run<W: Write>(
 ) -> Result<(Outcome, W)> {
     let stop = settings.stop;
     let mut run = Run::start(scene, plan, out, settings)?;
+    let mut reported = u64::MAX;
     let reason = loop {
         let step = run.sim.steps();
         run.sample()?;
@@ -189,8 +200,9 @@ pub fn run<W: Write>(
         let last = step >= run.schedule.last;
         // With each frame and checkpoint: what the caller knows to be written decides what it keeps.
         let wrote = run.schedule.is_frame(step) || run.schedule.is_checkpoint(step);
-        if last || step % 256 == 0 || wrote {
+        if last || step / REPORTED != reported || wrote {
             report(&run.progress());
+            reported = step / REPORTED;
         }
         if last {
             break None;
@@ -224,10 +236,26 @@ pub(crate) fn guard(scene: &Scene, step: u64, halt: Halt) -> Result<String, Scen
 
 impl<W: Write> Run<W> {
     fn step(&mut self, step: u64) -> Result<(), Halt> {
-        let outcome = self.sim.step();
+        let outcome = match self.outcome.device {
+            None => self.sim.step(),
+            Some(_) => self.sim.advance(self.next_due(step)),
+        };
         self.crossings.append(&mut self.sim.take_crossings());
         outcome?;
         if step.is_multiple_of(LOOK_BACK) { self.sim.look_back() } else { Ok(()) }
+    }
+
+    /// The next step in which anything but a step is to be done.
+    fn next_due(&self, step: u64) -> u64 {
+        let most = self.schedule.last.min(step + AT_ONCE);
+        let settling = self.written.settling.any();
+        let due = |k: &u64| {
+            let schedule = &self.schedule;
+            schedule.is_frame(*k)
+                || schedule.is_checkpoint(*k)
+                || settling && k.is_multiple_of(settling::EVERY)
+        };
+        (step + 1..most).find(due).unwrap_or(most)
     }
 
     /// Lets in everything that the next step must know.

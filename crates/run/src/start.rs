@@ -29,10 +29,13 @@ impl<W: Write> Run<W> {
         let mut written = Written::new(scene, &setup, inputs);
         setup.record_wrenches = written.output.contacts || written.wall_forces || written.settling.any();
         let head = Head::new(scene, &setup, sizes)?;
-        let sim = match settings.resume {
+        let mut sim = match settings.resume {
             Some(saved) => Simulation::resume(setup, saved.state)?,
             None => Simulation::new(setup)?,
         };
+        if let Some(device) = settings.device {
+            sim.use_device(device).map_err(|refused| not_computed(&refused))?;
+        }
         let schedule = Schedule::new(scene, sim.dt())?;
         not_yet_over(sim.steps(), &schedule)?;
         written.sampling = sampling(scene, sim.dt())?;
@@ -43,7 +46,7 @@ impl<W: Write> Run<W> {
         }
         let first = sim.steps();
         let mut run = Run {
-            outcome: Outcome { dt: sim.dt(), chosen_by: step, ..Outcome::default() },
+            outcome: Outcome { dt: sim.dt(), chosen_by: step, device: sim.device(), ..Outcome::default() },
             sampled: Some(first).filter(|step| *step > 0),
             sim,
             supply,
@@ -63,6 +66,12 @@ impl<W: Write> Run<W> {
         run.write_walls(&surfaces, &warnings)?;
         Ok(run)
     }
+}
+
+/// What a device does not compute.
+fn not_computed(refused: &[String]) -> SceneError {
+    let why = format!("it does not compute {} (docs/gpu.md says what it does)", refused.join(", "));
+    SceneError::file("--device", why, "leave the option out, or these out of the scene")
 }
 
 /// A warning as the output has it: without the name and the folder that the scene happened to be given by.

@@ -1,6 +1,7 @@
 //! Runs a scene: particles, contacts and walls through time, written as a run MCAP.
 
 mod continued;
+mod device;
 mod misplaced;
 mod parts;
 mod watch;
@@ -8,6 +9,7 @@ mod watch;
 use anyhow::Context;
 use clap::Parser;
 use cli::{Output, Report, Source, Stopped};
+use device::Accelerator;
 use misplaced::MCAP;
 use parts::Saved;
 use record::SIGNAL;
@@ -53,6 +55,9 @@ struct Args {
     /// Resume a run from its last checkpoint
     #[arg(long, value_name = "RUN.mcap")]
     resume: Option<Source>,
+    /// Have the steps made by a GPU: cuda, or cuda:1 for the second one; with the same bits (docs/gpu.md)
+    #[arg(long, value_name = "DEVICE")]
+    device: Option<Accelerator>,
     /// Write one JSON line to stderr with each frame: time, rate, particles, energy, time left
     #[arg(long)]
     progress: bool,
@@ -105,9 +110,11 @@ fn dem_run(args: Args) -> anyhow::Result<Report> {
 
 /// Refuses options that change nothing where nothing runs, and a run as the output.
 fn without_run(args: &Args) -> anyhow::Result<()> {
-    if args.progress {
-        let option = if args.explain { "--explain" } else { "--check" };
-        return Err(cli::usage(format!("--progress: {option} runs nothing: leave it out")));
+    let option = if args.explain { "--explain" } else { "--check" };
+    for (given, name) in [(args.progress, "--progress"), (args.device.is_some(), "--device")] {
+        if given {
+            return Err(cli::usage(format!("{name}: {option} runs nothing: leave it out")));
+        }
     }
     if args.explain && args.check {
         return Err(cli::usage("--check: --explain checks the scene as well: leave it out"));
@@ -220,11 +227,13 @@ fn explain(args: &Args, scene: &Scene, plan: Plan, resume: Option<&Checkpoint>) 
 }
 
 fn simulate(args: &Args, scene: &Scene, plan: Plan, resume: Option<Checkpoint>) -> anyhow::Result<Report> {
+    let device = args.device.map(Accelerator::open).transpose()?;
     let out = args.output.open_long()?;
     let (keep, part) = (out.keeper(), parts::as_named(&args.output, out.part()));
     let first = u64::from(resume.is_none());
     let (provenance, how) = (cli::provenance(plan.inputs.clone()), out.how());
-    let settings = Settings { provenance, how, resume, watched: args.progress, stop: cli::stop_requested };
+    let watched = args.progress;
+    let settings = Settings { provenance, how, resume, watched, stop: cli::stop_requested, device };
     cli::stop_in_order();
     let (mut watch, mut saved) = (Watch::new(args.progress), Saved::default());
     // What is in the file before the first step can be had again at no cost.
@@ -251,8 +260,9 @@ fn simulate(args: &Args, scene: &Scene, plan: Plan, resume: Option<Checkpoint>) 
     let held: String = held.map(|servo| format!("; {servo}")).collect();
     let error = error.map_or(String::new(), |error| format!(", {error}"));
     let settled = outcome.settled.as_ref().map_or(String::new(), |why| format!("; ended at rest: {why}"));
+    let by = outcome.device.as_ref().map_or(String::new(), |name| format!(" on {name}"));
     let summary = format!(
-        "{} steps of {:.3e} s to {:.4} s, {} particles, {} frames{error}{settled}{held}",
+        "{} steps of {:.3e} s to {:.4} s{by}, {} particles, {} frames{error}{settled}{held}",
         outcome.steps, outcome.dt, outcome.time, outcome.particles, outcome.frames
     );
     let report = Report::new(summary).with_all(&outcome);

@@ -4,7 +4,7 @@
 //! a single effect.
 
 use super::{ContactLaw, Elastic, OverlapLimit};
-use std::fmt::{Display, Formatter};
+use alloc::string::String;
 
 /// What an effect does in a contact. A contact has at most one effect of each slot, and slots act in this order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -75,16 +75,6 @@ impl Range {
     }
 }
 
-impl Display for Range {
-    fn fmt(&self, f: &mut Formatter) -> std::fmt::Result {
-        match self {
-            Range::Positive => write!(f, "above 0, up to {MOST:e}"),
-            Range::UpTo(most) => write!(f, "0 to {}", geom::Shown(*most)),
-            Range::AboveZeroUpTo(most) => write!(f, "above 0, up to {most}"),
-        }
-    }
-}
-
 /// A number that a contact law takes, under its key in scenes. A key with a dot stands in a table: `sliding_friction.speed`
 /// is `speed` in `sliding_friction = { … }`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -101,14 +91,6 @@ pub struct Key {
     pub example: &'static str,
     /// What it means.
     pub doc: &'static str,
-}
-
-impl Key {
-    /// The key with its value and unit in a law that has it.
-    pub fn shown(&self, law: &ContactLaw) -> Option<String> {
-        let value = geom::Shown(law.number(self.name)?);
-        Some(format!("{} = {value} {}", self.name, self.unit).trim_end().to_owned())
-    }
 }
 
 /// A key of contact laws that names a model, and the value that asks for this effect.
@@ -168,8 +150,6 @@ pub struct NormalLaw {
 
 /// Σ n nᵀ of the twelve contacts of a close packing [–].
 pub const ALONG: f64 = 4.0;
-/// m r²/I of a sphere [–].
-pub const TURNS: f64 = 2.5;
 
 /// What a spring and dashpot against relative turning add to A_r and B_r of docs/time-step.md.
 #[derive(Debug, Clone, Copy)]
@@ -275,15 +255,7 @@ impl Description {
     }
 
     /// Whether it is chosen by `law` alone; keys that it lacks are then missing.
-    fn is_law(&self) -> bool {
+    pub fn is_law(&self) -> bool {
         self.slot == Slot::Normal
-    }
-
-    /// The keys by which a law asks for it, with their values.
-    pub fn because(&self, law: &ContactLaw) -> String {
-        let model = self.model.map(|m| format!("{} = \"{}\"", m.key, m.value));
-        let numbers = self.keys.iter().filter_map(|key| key.shown(law));
-        let (first, last) = if self.is_law() { (model, None) } else { (None, model) };
-        first.into_iter().chain(numbers).chain(last).collect::<Vec<_>>().join(", ")
     }
 }

@@ -12,6 +12,7 @@ use super::sliding_friction::{self, COEFFICIENT};
 use super::weakening::Weakening;
 use super::{Coefficient, Contact, ContactLaw, Description, Key, Pair, Range, tangential_ratio};
 use crate::simd::Lane;
+use alloc::format;
 
 /// η_t.
 pub const TANGENTIAL_DAMPING: Key = Key {

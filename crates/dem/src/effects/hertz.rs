@@ -34,7 +34,8 @@ fn stiffest(_: &ContactLaw, elastic: Elastic, at: OverlapLimit) -> f64 {
 
 /// (9π²/4) (C/E*)².
 fn unloaded_overlap(_: &ContactLaw, elastic: Elastic, density: f64, _: [f64; 2]) -> f64 {
-    2.25 * (PI * density / elastic.modulus).powi(2)
+    let ratio = PI * density / elastic.modulus;
+    2.25 * (ratio * ratio)
 }
 
 /// Hertz's law with a dashpot.

@@ -13,6 +13,7 @@ use super::{
     OverlapLimit, Pair, Range, Response, Slot, hooke_direct,
 };
 use crate::simd::Lane;
+use alloc::borrow::ToOwned as _;
 use std::f64::consts::PI;
 
 /// e of every normal law.

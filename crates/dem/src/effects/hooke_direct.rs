@@ -19,6 +19,7 @@ use super::{
     NormalLaw, OverlapLimit, Pair, RESTITUTION, Range, Response,
 };
 use crate::simd::Lane;
+use alloc::borrow::ToOwned as _;
 use std::f64::consts::PI;
 
 const CONTACT_MODULUS: Key = Key {

@@ -66,7 +66,8 @@ fn undamped(law: &ContactLaw, elastic: Elastic) -> Jkr {
 /// 2 E* a.
 fn stiffest(law: &ContactLaw, elastic: Elastic, at: OverlapLimit) -> f64 {
     let last = undamped(law, elastic).last_radius(at.radius);
-    2.0 * elastic.modulus * last * Jkr::spread(at.overlap(), at.radius, last).powi(2)
+    let spread = Jkr::spread(at.overlap(), at.radius, last);
+    2.0 * elastic.modulus * last * (spread * spread)
 }
 
 /// δ_c.

@@ -1,6 +1,6 @@
 //! Laws of contact, as a setup asks for them.
 
-use std::collections::BTreeMap;
+use alloc::collections::BTreeMap;
 
 /// What holds between two materials: models and numbers under their keys in scenes. Which there are, with units and ranges,
 /// [`crate::effects::DESCRIPTIONS`] says. An effect that no key asks for takes no memory and no time.

@@ -7,6 +7,8 @@
 mod capped_spring;
 mod cohesion;
 mod constant_rolling;
+#[cfg(not(target_arch = "nvptx64"))]
+mod contact_history;
 mod damping;
 mod describe;
 mod friction;
@@ -20,18 +22,23 @@ mod pair;
 mod registry;
 mod rolling_resistance;
 mod sliding_friction;
+#[cfg(not(target_arch = "nvptx64"))]
 mod table;
+#[cfg(not(target_arch = "nvptx64"))]
+mod told;
 mod twisting_resistance;
 mod walton_braun;
 mod weakening;
 
 pub use cohesion::Cohesion;
 pub use constant_rolling::ConstantRolling;
+#[cfg(not(target_arch = "nvptx64"))]
+pub use contact_history::{ContactHistory, RECORDED};
 pub use damping::Damping;
 pub use describe::*;
 pub use friction::Friction;
 pub use hertz::Hertz;
-pub use history::{ContactHistory, History, RECORDED};
+pub use history::History;
 pub use hooke::{Hooke, RESTITUTION};
 pub use hooke_direct::{Linear, MODULI, NORMAL_DAMPING, by_modulus};
 pub use jkr::Jkr;
@@ -40,10 +47,13 @@ pub use pair::{
     Compliance, Elastic, Material, OverlapLimit, Pair, damping_ratio, damping_ratios, tangential_ratio,
 };
 pub(crate) use registry::effects;
-pub use registry::{DESCRIPTIONS, Dropped, active, keys, models, needed, without};
+pub use registry::{DESCRIPTIONS, active, keys, models, without};
 pub use rolling_resistance::RollingResistance;
 pub use sliding_friction::{Coefficient, SlidingFriction};
+#[cfg(not(target_arch = "nvptx64"))]
 pub use table::tables;
+#[cfg(not(target_arch = "nvptx64"))]
+pub use told::{Dropped, needed};
 pub use twisting_resistance::TwistingResistance;
 pub use walton_braun::WaltonBraun;
 pub use weakening::Weakening;

@@ -2,6 +2,9 @@
 
 use super::friction::TANGENTIAL_DAMPING;
 use super::{ContactLaw, Damping, NORMAL_DAMPING, RESTITUTION};
+#[cfg(target_arch = "nvptx64")]
+use crate::float::Float as _;
+use alloc::string::String;
 use serde::{Deserialize, Serialize};
 
 /// Elastic constants of a pair.

@@ -3,6 +3,8 @@
 use super::ContactEffect;
 use super::describe::{Description, Key, Slot};
 use super::law::ContactLaw;
+use alloc::vec;
+use alloc::vec::Vec;
 
 /// The list of effects, a line for each slot, in the order in which they act: given to the macro that is named.
 macro_rules! effects {
@@ -88,40 +90,7 @@ pub fn without(law: &ContactLaw, effect: &Description) -> Option<ContactLaw> {
 }
 
 /// Takes an effect out of a law: the keys that no other effect of the law has.
-fn remove(law: &mut ContactLaw, effect: &Description) {
+pub(super) fn remove(law: &mut ContactLaw, effect: &Description) {
     effect.keys.iter().for_each(|key| law.remove(key.name));
     effect.model.into_iter().for_each(|model| law.remove(model.key));
-}
-
-/// What is dropped of a law because it does nothing.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Dropped {
-    /// Its numbers, under their keys.
-    pub numbers: String,
-    /// The model that is computed instead; `None`: nothing is.
-    pub instead: Option<&'static str>,
-}
-
-/// A law without effects that do nothing, and what is dropped with them.
-pub fn needed(law: &ContactLaw) -> (ContactLaw, Vec<Dropped>) {
-    let (mut less, mut dropped) = (law.clone(), Vec::new());
-    let idle: Vec<&Description> = active(law).filter(|d| (d.idle)(law)).collect();
-    // Last first: an effect stays as long as another that stays needs it, though it does nothing by itself.
-    for effect in idle.into_iter().rev() {
-        if active(&less).any(|d| d.needs == Some(effect.slot)) {
-            continue;
-        }
-        remove(&mut less, effect);
-        if let (Some(model), Some(other)) = (effect.model, effect.instead) {
-            less.choose(model.key, other);
-            let kept =
-                active(&less).flat_map(|d| d.keys).filter_map(|key| Some((key.name, law.number(key.name)?)));
-            kept.collect::<Vec<_>>().into_iter().for_each(|(key, value)| less.set(key, value));
-        }
-        let gone = effect.keys.iter().filter(|key| less.number(key.name).is_none());
-        let numbers = gone.filter_map(|key| key.shown(law)).collect::<Vec<_>>().join(", ");
-        dropped.push(Dropped { numbers, instead: effect.instead });
-    }
-    dropped.reverse();
-    (less, dropped)
 }

@@ -13,9 +13,10 @@
 use super::capped_spring::CappedSpring;
 use super::{
     ALONG, Contact, ContactEffect, ContactLaw, Description, Effect, Field, Key, Kind, Pair, Range, Response,
-    Slot, TURNS, Turning, TurningPair, tangential_ratio,
+    Slot, Turning, TurningPair, tangential_ratio,
 };
 use crate::simd::Lane;
+use crate::space::sphere::TURNS;
 
 /// What the program knows of it.
 pub const DESCRIPTION: Description = Description {

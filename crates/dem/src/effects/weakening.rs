@@ -11,6 +11,7 @@ use super::friction::TANGENTIAL_DAMPING;
 use super::sliding_friction::SPRING;
 use super::{Coefficient, Contact, ContactLaw, Contradiction, Description, Key, Range, Slot};
 use crate::simd::Lane;
+use alloc::format;
 
 /// What the program knows of it.
 pub const DESCRIPTION: Description = Description {

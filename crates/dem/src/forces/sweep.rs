@@ -6,11 +6,11 @@
 //! tile that reads its particles comes before it, and what it computes is in the cache when it moves.
 
 use crate::forces::tile::TileInputs;
-use crate::kernel::{StepInputs, Sums, WrenchSlices};
+use crate::kernel::{MoveFlags, StepInputs, Sums, WrenchSlices};
 use crate::model::Model;
 use crate::neighbours::poses::pose_in_box;
 use crate::neighbours::{Computed, NeighbourLists, RestingTile, Slots, TileSlice};
-use crate::passes::integrate::{MoveFlags, ParticleSlices};
+use crate::passes::integrate::ParticleSlices;
 use crate::passes::sleep::advance_awake;
 use crate::passes::stirred::{Movers, Stirred};
 use crate::simd::Layout;

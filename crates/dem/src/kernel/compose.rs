@@ -4,6 +4,7 @@
 //! that most scenes use are compiled in every precision; all others in double precision only, where cohesion, the weakening of
 //! friction, and moduli or dashpots that are given, which keep nothing, are not compositions of their own but a branch for each group of contacts.
 
+use super::ported::{Portable, Ported};
 use super::{Kernel, Narrow};
 use crate::effects::*;
 use crate::simd::Precision;
@@ -46,7 +47,12 @@ macro_rules! compositions {
 }
 effects!(compositions);
 
-fn in_every_precision<N: Effect>(pair: &Pair, precision: Precision, law: N) -> Box<dyn Kernel> {
+fn in_every_precision<N>(pair: &Pair, precision: Precision, law: N) -> Box<dyn Kernel>
+where
+    N: Ported,
+    (N, SlidingFriction): Ported,
+    (N, (SlidingFriction, RollingResistance)): Ported,
+{
     let (sliding, rolling) = (SlidingFriction::<f64>::of(pair), RollingResistance::of(pair));
     match (sliding, rolling) {
         (None, _) => precise(precision, law),
@@ -55,9 +61,9 @@ fn in_every_precision<N: Effect>(pair: &Pair, precision: Precision, law: N) -> B
     }
 }
 
-fn precise<E: Effect>(precision: Precision, effects: E) -> Box<dyn Kernel> {
+fn precise<E: Ported>(precision: Precision, effects: E) -> Box<dyn Kernel> {
     match precision {
-        Precision::Double => Box::new(effects),
+        Precision::Double => Box::new(Portable(effects)),
         Precision::Mixed => Box::new(Narrow(effects, PhantomData::<f64>)),
         Precision::Single => Box::new(Narrow(effects, PhantomData::<f32>)),
     }

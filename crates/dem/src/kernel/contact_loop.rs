@@ -19,10 +19,7 @@ pub fn blocks<R: Lane, E: Effect, T: Number, const KEEP: bool>(
     mut batch: Batch,
 ) -> bool {
     let mut too_deep = false;
-    let mut buffer: WrenchBuffer<T> = WrenchBuffer {
-        forces: [T::default(); BLOCK * FORCE_AND_MOMENT],
-        torques: [T::default(); BLOCK * TORQUE],
-    };
+    let mut buffer = WrenchBuffer::<T>::new();
     for block in 0..batch.active.len() {
         // Rows of partners come from far: they are prefetched while other blocks are computed.
         let soon = (block + AHEAD) * BLOCK;
@@ -64,9 +61,23 @@ fn lanes<R: Lane, E: Effect, T: Number, const KEEP: bool>(
 ) -> (bool, bool) {
     let at = block * BLOCK + lane;
     let ends = gather::<R, E>(step, batch, at);
-    if !was_active && !R::any(ends.gap.gt(R::splat(0.0))) && !ends.meet_soon(step) {
+    if !was_active && !ends.may_act(step) {
         return (false, false);
     }
+    act::<R, E, T, KEEP>(effect, step, batch, buffer, (block, lane), ends)
+}
+
+/// What `WIDTH` contacts from `lane` of a block on do, some of which may act: as [`lanes`].
+#[inline(always)]
+pub fn act<R: Lane, E: Effect, T: Number, const KEEP: bool>(
+    effect: &E,
+    step: &StepInputs,
+    batch: &mut Batch,
+    buffer: &mut WrenchBuffer<T>,
+    (block, lane): (usize, usize),
+    ends: Ends<R>,
+) -> (bool, bool) {
+    let at = block * BLOCK + lane;
     let mut found = geometry::<R, E>(step, batch, ends);
     let words = E::HISTORY.div_ceil(T::IN_A_WORD) * BLOCK;
     let stored = T::of_mut(&mut batch.history[block * words..(block + 1) * words]);
@@ -102,7 +113,7 @@ fn lanes<R: Lane, E: Effect, T: Number, const KEEP: bool>(
 }
 
 /// What is read of both ends: differences in double precision, rounded to the lane's.
-struct Ends<'a, R: Lane> {
+pub struct Ends<'a, R: Lane> {
     i: Indices<'a>,
     j: Indices<'a>,
     /// x_i − x_j [m].
@@ -120,6 +131,12 @@ struct Ends<'a, R: Lane> {
 }
 
 impl<R: Lane> Ends<'_, R> {
+    /// Whether any touches, or may come to touch within half a step.
+    #[inline(always)]
+    pub fn may_act(&self, step: &StepInputs) -> bool {
+        R::any(self.gap.gt(R::splat(0.0))) || self.meet_soon(step)
+    }
+
     /// Whether any may come to touch within half a step. Where a distance d between centres shrinks by w to less than r_i + r_j,
     /// (r_i + r_j)² − d² + 2 d w > w².
     #[inline(always)]
@@ -131,7 +148,7 @@ impl<R: Lane> Ends<'_, R> {
 
 /// Reads the rows of both ends.
 #[inline(always)]
-fn gather<'a, R: Lane, E: Effect>(step: &StepInputs, batch: &Batch<'a>, at: usize) -> Ends<'a, R> {
+pub fn gather<'a, R: Lane, E: Effect>(step: &StepInputs, batch: &Batch<'a>, at: usize) -> Ends<'a, R> {
     let (i, j) = (&batch.i[at..at + R::WIDTH], &batch.j[at..at + R::WIDTH]);
     let rows =
         |table: (&[Row], &[Row4])| if E::ROTATES { table.0.len().min(table.1.len()) } else { table.0.len() };
@@ -295,12 +312,21 @@ fn released<R: Lane>(row: &[R; LEDGER], touching: R::Mask) -> R {
 
 /// Wrenches of some contacts, as they have just been computed.
 #[repr(align(64))]
-struct WrenchBuffer<T> {
+pub struct WrenchBuffer<T> {
     forces: [T; BLOCK * FORCE_AND_MOMENT],
     torques: [T; BLOCK * TORQUE],
 }
 
 impl<T: Number> WrenchBuffer<T> {
+    /// Of none.
+    #[inline(always)]
+    pub fn new() -> WrenchBuffer<T> {
+        WrenchBuffer {
+            forces: [T::default(); BLOCK * FORCE_AND_MOMENT],
+            torques: [T::default(); BLOCK * TORQUE],
+        }
+    }
+
     /// Adds the wrenches (of `N` numbers) of `width` contacts from slot `at` on to their particles, and copies them where they are kept.
     #[inline(always)]
     fn scatter<const N: usize>(&self, batch: &mut Batch, at: usize, width: usize, torques: bool) {

@@ -1,12 +1,19 @@
 //! The contact loop: the only one, for pairs and for walls, for every composition of effects and every width.
 
+use alloc::vec::Vec;
 mod averaged;
+#[cfg(not(target_arch = "nvptx64"))]
 pub(crate) mod compose;
-mod contact_loop;
+pub(crate) mod contact_loop;
+pub(crate) mod motion;
+pub mod ported;
 pub(crate) mod sums;
+pub mod thread;
 pub(crate) mod wrenches;
 
 pub(crate) use averaged::average;
+pub(crate) use motion::{MoveFlags, MoveInputs, Mover};
+pub(crate) use ported::Ported;
 pub(crate) use sums::{Pairs, Sums, WrenchSums};
 pub(crate) use wrenches::{Arrival, SlotEnd, WrenchSlices, WrenchSlicesMut};
 
@@ -73,6 +80,10 @@ pub trait Kernel: Send + Sync {
     fn torques(&self) -> bool;
     /// Computes the wrenches of some blocks; true when an overlap passes the limit.
     fn run(&self, width: Width, step: StepInputs, batch: Batch) -> bool;
+    /// Name and numbers of a composition that is compiled for devices as well.
+    fn ported(&self) -> Option<(&'static str, Vec<f64>)> {
+        None
+    }
 }
 
 impl<E: Effect> Kernel for E {

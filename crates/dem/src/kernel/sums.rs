@@ -8,6 +8,7 @@
 use crate::kernel::{Arrival, WrenchSlices, WrenchSlicesMut};
 use crate::simd::number::{numbers_of_force, with_layout};
 use crate::simd::{Each, FORCE, Four, Layout, Number, TORQUE, fetch};
+#[cfg(not(target_arch = "nvptx64"))]
 use geom::Vec3;
 
 /// Arrivals between the one whose wrench is prefetched and the one that is added; chosen on the bench pile.
@@ -15,7 +16,7 @@ const AHEAD: usize = 24;
 
 /// Adds a row of `N` numbers to a sum; to none that does not exist.
 #[inline(always)]
-fn add<T: Number, const N: usize>(sums: &mut [T], at: usize, row: &[T]) {
+pub fn add<T: Number, const N: usize>(sums: &mut [T], at: usize, row: &[T]) {
     let (Some(sum), Some(row)) = (sums.as_chunks_mut::<N>().0.get_mut(at), row.first_chunk::<N>()) else {
         return;
     };
@@ -26,7 +27,7 @@ fn add<T: Number, const N: usize>(sums: &mut [T], at: usize, row: &[T]) {
 
 /// Adds what a contact does to its second particle: the opposite force or torque, the same moment of radius −1.
 #[inline(always)]
-fn add_opposite<T: Number, const N: usize>(sums: &mut [T], at: usize, row: &[T]) {
+pub fn add_opposite<T: Number, const N: usize>(sums: &mut [T], at: usize, row: &[T]) {
     let (Some(sum), Some(row)) = (sums.as_chunks_mut::<N>().0.get_mut(at), row.first_chunk::<N>()) else {
         return;
     };
@@ -194,6 +195,7 @@ impl WrenchSums<'_> {
     }
 
     /// Force [N] and moment [N·m] on particle number `k` of `radius` [m].
+    #[cfg(not(target_arch = "nvptx64"))]
     pub fn on(&self, k: usize, radius: f64) -> (Vec3, Vec3) {
         let at = k - self.first;
         let sum = with_layout!(self.layout, T, ROTATES => self.sum::<T, Each, ROTATES>(at, radius));

@@ -77,6 +77,7 @@ pub fn split_off<'a, T>(column: &mut &'a mut [T], n: usize) -> &'a mut [T] {
 
 /// One end of a contact: a slot, and which of its two particles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(transparent)]
 pub struct SlotEnd(u32);
 
 impl SlotEnd {

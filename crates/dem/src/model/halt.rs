@@ -87,6 +87,14 @@ pub enum Halt {
         /// Where it was last [m].
         position: Vec3,
     },
+    /// The device that makes the steps has failed; the state is that of `time`.
+    #[error("t = {time:.6e} s: {what}")]
+    Device {
+        /// When [s].
+        time: f64,
+        /// What it says.
+        what: String,
+    },
     /// A strained cell in which a particle would meet itself.
     #[error(
         "t = {time:.6e} s: the domain is {length:.4e} m long along {axis}: particles need at least {least:.4e} m"

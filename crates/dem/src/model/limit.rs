@@ -23,7 +23,7 @@
 //! ([`crate::model::dense_walls`]): where N > 4, all numbers of contacts count N/4 times.
 
 use crate::effects::{
-    ALONG, Elastic, Material, NormalLaw, OverlapLimit, Slot, TURNS, TurningPair, active, damping_ratios,
+    ALONG, Elastic, Material, NormalLaw, OverlapLimit, Slot, TurningPair, active, damping_ratios,
     tangential_ratio,
 };
 use crate::model::dense_walls::{met, rounding};
@@ -35,7 +35,7 @@ use crate::model::{
 };
 use crate::setup::clumps::{SizeClass, widen};
 use crate::setup::{ContactLaw, Drag, Setup, Step, Wall, WallShape};
-use crate::space::sphere::mass;
+use crate::space::sphere::{TURNS, mass};
 use geom::Vec3;
 use std::f64::consts::PI;
 

@@ -1,19 +1,9 @@
-//! Moves each particle by the sum of its forces: velocity Verlet with predicted velocities.
-//!
-//! ```text
-//! v_n     = v*_n + (a_n − a_{n−1}) Δt/2          a_n from forces at (x_n, v*_n)
-//! x_{n+1} = x_n + v_n Δt + a_n Δt²/2
-//! v*_{n+1} = v_n + a_n Δt                        predicted, so that forces see one instant
-//! ```
-//!
-//! Velocity Verlet: Swope et al. (1982), J. Chem. Phys. 76; positions and velocities of one instant in the force:
-//! Vyas, Ottino, Lueptow & Umbanhowar (2024), arXiv:2410.14798. Rotation in the same way, I = 2/5 m r².
+//! Moves all particles of a slice of the columns ([`crate::kernel::motion`] has the formula).
 
-use crate::kernel::Sums;
 use crate::kernel::wrenches::split_off;
+use crate::kernel::{MoveFlags, MoveInputs, Mover, Sums};
 use crate::simd::number::with_layout;
 use crate::simd::{Each, Four, Number, Row, Row4, Width};
-use crate::space::sphere::inverse_inertia;
 use crate::state::{Particles, SleeperSlices};
 use std::ops::Range;
 
@@ -84,32 +74,6 @@ impl<'a> ParticleSlices<'a> {
     }
 }
 
-/// What one move found.
-#[derive(Clone, Copy, Default)]
-pub struct MoveFlags {
-    /// Whether a particle has left its margin.
-    pub left_margin: bool,
-    /// Whether a particle moved more than its limit, or is not a number.
-    pub too_fast: bool,
-}
-
-impl MoveFlags {
-    /// Either.
-    pub fn and(self, o: MoveFlags) -> MoveFlags {
-        MoveFlags { left_margin: self.left_margin | o.left_margin, too_fast: self.too_fast | o.too_fast }
-    }
-}
-
-/// Step [s], acceleration of free fall [m/s²], largest motion in one step over the radius [–].
-#[derive(Clone, Copy)]
-pub struct MoveInputs {
-    pub dt: f64,
-    /// How far ahead in time contacts are looked for [s].
-    pub ahead: f64,
-    pub gravity: [f64; 3],
-    pub motion_limit: f64,
-}
-
 /// Moves particles by one step, computing with lanes of `width`; all widths give the same bits.
 pub fn advance(width: Width, columns: ParticleSlices, drive: &MoveInputs) -> MoveFlags {
     with_layout!(columns.sums.layout, T, ROTATES => dispatch::<T, ROTATES>(width, columns, drive))
@@ -150,47 +114,15 @@ mod simd {
 #[inline(always)]
 fn chunk<T: Number, Q: Four, const SPIN: bool>(columns: ParticleSlices, drive: &MoveInputs) -> MoveFlags {
     let ParticleSlices { rows, spins, acceleration, angular_acceleration, home, sums, .. } = columns;
-    let sums = sums.as_ref();
-    let [gx, gy, gz] = drive.gravity;
-    let gravity = Q::read(&[gx, gy, gz, 0.0]);
-    // Rows hold radius and 1/m in the fourth place, which must not move.
-    let three = Q::read(&[1.0, 1.0, 1.0, 0.0]);
-    let (dt, half, square) = (Q::all(drive.dt), Q::all(0.5 * drive.dt), Q::all(0.5 * drive.dt * drive.dt));
+    let (sums, mover) = (sums.as_ref(), Mover::<Q>::new(drive));
     let mut moved = MoveFlags::default();
     for k in 0..rows.len() {
-        let ([position, velocity], []) = rows[k].as_chunks_mut::<4>() else { continue };
-        let (radius, inverse_mass) = (position[3], velocity[3]);
-        let sum = sums.sum::<T, Q, SPIN>(k, radius);
-        let new = (sum.force * Q::all(inverse_mass) + gravity) * three;
-        let v = Q::read(velocity) + half * (new - Q::read(&acceleration[k]));
-        let moves = (dt * v + square * new) * three;
-        let there = Q::read(position) + moves;
-        there.write(position);
-        let predicted = v + dt * new;
-        predicted.write(velocity);
-        new.write(&mut acceleration[k]);
-        let limit = drive.motion_limit * radius;
-        // Written so that NaN is caught.
-        moved.too_fast |= !(length2(moves) <= limit * limit);
-        let mut margin = home[k][3];
-        if drive.ahead > 0.0 {
-            margin = (margin - drive.ahead * length2(predicted * three).sqrt()).max(0.0);
-        }
-        moved.left_margin |= length2(there - Q::read(&home[k])) > margin * margin;
+        let row = &mut rows[k];
+        let sum = sums.sum::<T, Q, SPIN>(k, row[3]);
+        moved = moved.and(mover.advance(row, &mut acceleration[k], &home[k], &sum));
         if SPIN {
-            let new = sum.moment * Q::all(inverse_inertia(radius, inverse_mass)) * three;
-            let w = Q::read(&spins[k]) + half * (new - Q::read(&angular_acceleration[k]));
-            (w + dt * new).write(&mut spins[k]);
-            new.write(&mut angular_acceleration[k]);
+            mover.turn(row, &mut spins[k], &mut angular_acceleration[k], &sum);
         }
     }
     moved
-}
-
-/// x² + y² + z².
-#[inline(always)]
-fn length2<Q: Four>(v: Q) -> f64 {
-    let mut row = [0.0; 4];
-    (v * v).write(&mut row);
-    row[0] + row[1] + row[2]
 }

@@ -9,9 +9,10 @@
 //!
 //! Sleeping changes results: by what a bed would still have crept, and by disturbances too weak to wake it.
 
+use crate::kernel::{MoveFlags, MoveInputs};
 use crate::model::Model;
 use crate::neighbours::RestingTile;
-use crate::passes::integrate::{MoveFlags, MoveInputs, ParticleSlices, advance};
+use crate::passes::integrate::{ParticleSlices, advance};
 use crate::passes::stirred::Stirred;
 use crate::simd::Row;
 use crate::space::sphere::inverse_inertia;

@@ -1,5 +1,7 @@
 //! Numbers in whole cache lines.
 
+use alloc::vec;
+use alloc::vec::Vec;
 use std::ops::{Deref, DerefMut};
 
 /// Numbers of a cache line.

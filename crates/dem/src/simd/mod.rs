@@ -9,12 +9,16 @@
 //! Every function on lanes is marked `#[inline(always)]`, so that it is compiled for the wide registers of the loop that calls it; closures cannot be
 //! marked. A function that is not inlined calls another for each operation and takes several times as long.
 
+use alloc::vec;
+use alloc::vec::Vec;
 pub(crate) mod aligned;
 pub(crate) mod compiled;
 pub(crate) mod number;
 pub(crate) mod scalar;
 pub(crate) mod turn;
 pub(crate) mod two;
+#[cfg(not(target_arch = "nvptx64"))]
+mod vectors;
 #[cfg(target_arch = "x86_64")]
 pub(crate) mod x86;
 #[cfg(target_arch = "x86_64")]
@@ -26,7 +30,6 @@ pub(crate) use scalar::Each;
 pub(crate) use turn::Turn;
 pub(crate) use two::Two;
 
-use geom::Vec3;
 use serde::{Deserialize, Serialize};
 use std::ops::{Add, Deref, DerefMut, Div, Mul, Neg, Sub};
 
@@ -63,34 +66,6 @@ macro_rules! behaves_as {
 
 behaves_as!(Row, [f64; 8]);
 behaves_as!(Row4, [f64; 4]);
-
-impl Row {
-    /// Centre [m].
-    #[inline(always)]
-    pub fn position(&self) -> Vec3 {
-        Vec3::new(self[0], self[1], self[2])
-    }
-
-    /// Velocity [m/s].
-    #[inline(always)]
-    pub fn velocity(&self) -> Vec3 {
-        Vec3::new(self[4], self[5], self[6])
-    }
-}
-
-impl Row4 {
-    /// A vector, and 0.
-    #[inline(always)]
-    pub fn of(v: Vec3) -> Row4 {
-        Row4([v.x, v.y, v.z, 0.0])
-    }
-
-    /// The vector.
-    #[inline(always)]
-    pub fn vector(&self) -> Vec3 {
-        Vec3::new(self[0], self[1], self[2])
-    }
-}
 
 /// Asks for an entry of a table that will soon be read, whether or not there is one; it changes nothing.
 #[inline(always)]

@@ -138,12 +138,6 @@ impl Layout {
         if self.single { f32::of_mut(words)[at] = x as f32 } else { words[at] = x }
     }
 
-    /// The first three numbers of the force in `slot`.
-    pub fn force_at(self, forces: &[f64], slot: usize) -> geom::Vec3 {
-        let first = slot * numbers_of_force(self.rotates);
-        geom::Vec3::new(self.get(forces, first), self.get(forces, first + 1), self.get(forces, first + 2))
-    }
-
     /// Whether all numbers are finite.
     pub fn are_finite(self, words: &[f64]) -> bool {
         if self.single {

@@ -3,6 +3,17 @@
 use crate::simd::{Four, Indices, Lane, Row, Row4};
 use std::ops::{Add, Mul, Sub};
 
+/// √x. On a GPU `core` has no method of that name, and a lane's would call itself.
+macro_rules! root {
+    ($number:ident, $x:expr) => {{
+        #[cfg(target_arch = "nvptx64")]
+        let root = <$number as crate::float::Float>::sqrt($x);
+        #[cfg(not(target_arch = "nvptx64"))]
+        let root = $number::sqrt($x);
+        root
+    }};
+}
+
 /// What is the same in both precisions.
 macro_rules! one_at_a_time {
     ($number:ident) => {
@@ -24,7 +35,7 @@ macro_rules! one_at_a_time {
         }
         #[inline(always)]
         fn sqrt(self) -> $number {
-            $number::sqrt(self)
+            root!($number, self)
         }
         #[inline(always)]
         fn min(self, other: $number) -> $number {

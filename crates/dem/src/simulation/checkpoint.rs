@@ -89,7 +89,7 @@ impl Simulation {
         saved.fits(&sim.state, &sim.model.setup)?;
         let Checkpoint { state, contacts: saved } = saved;
         sim.state = state.into_owned();
-        let Simulation { model, state, lists } = &mut sim;
+        let Simulation { model, state, lists, .. } = &mut sim;
         state.bonds.index(&state.particles.id);
         if state.listing.rebuilds > 0 {
             rebuild::restore_lists(model, state, lists);

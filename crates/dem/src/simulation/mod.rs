@@ -3,6 +3,7 @@
 //! `step` is the time step, `checkpoint` saves and resumes. `observe`, `explain` and `stages` are what users call besides. Nothing else sees all three
 //! parts at once as one.
 
+mod advance;
 mod checkpoint;
 mod explain;
 mod observe;
@@ -12,6 +13,7 @@ mod step;
 pub use checkpoint::Checkpoint;
 pub use explain::{ContactBytes, EffectCost, MatchedDamping};
 
+use crate::device::Stepper;
 use crate::model::{Model, SetupError};
 use crate::neighbours::NeighbourLists;
 use crate::passes::cell;
@@ -24,6 +26,8 @@ pub struct Simulation {
     pub(crate) model: Model,
     pub(crate) state: State,
     pub(crate) lists: NeighbourLists,
+    /// What makes the steps, where this processor does not.
+    pub(crate) device: Option<Stepper>,
 }
 
 impl Simulation {
@@ -52,7 +56,7 @@ impl Simulation {
         model.setup.particles = Vec::new();
         model.setup.clumps.placed = Vec::new();
         let kept = std::mem::take(&mut model.setup.kept);
-        let mut sim = Simulation { model, state, lists: NeighbourLists::default() };
+        let mut sim = Simulation { model, state, lists: NeighbourLists::default(), device: None };
         if begun.is_none() && !kept.is_empty() {
             sim.restore(&kept);
         }

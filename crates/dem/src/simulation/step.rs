@@ -19,7 +19,7 @@ impl Simulation {
     /// # Errors
     /// A guard. The state is that of the last whole step; where only this step's forces showed an overlap, of the step itself.
     pub fn step(&mut self) -> Result<(), Halt> {
-        let Simulation { model, state, lists } = self;
+        let Simulation { model, state, lists, .. } = self;
         refresh_lists(model, state, lists)?;
         // The move needs the acceleration of the step before.
         if !state.starting.is_empty() {
@@ -58,7 +58,7 @@ impl Simulation {
 
     /// Lists neighbours and gives their contacts the histories of an earlier run.
     pub(super) fn restore(&mut self, kept: &[KeptContact]) {
-        let Simulation { model, state, lists } = self;
+        let Simulation { model, state, lists, .. } = self;
         rebuild::rebuild(model, state, lists);
         kept::restore(model, state, lists, kept);
     }
@@ -68,14 +68,18 @@ impl Simulation {
     /// # Errors
     /// When the state is beyond a guard.
     pub fn ready(&mut self) -> Result<(), Halt> {
-        let Simulation { model, state, lists } = self;
+        let Simulation { model, state, lists, .. } = self;
         refresh_lists(model, state, lists)?;
         compute_forces(model, state, lists)
     }
 }
 
 /// Inserts and bonds what is due, brings bonds to this instant, and rebuilds lists that no longer hold.
-fn refresh_lists(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> Result<(), Halt> {
+pub(super) fn refresh_lists(
+    model: &Model,
+    state: &mut State,
+    lists: &mut NeighbourLists,
+) -> Result<(), Halt> {
     if state.forces == Forces::Known {
         return Ok(());
     }
@@ -102,7 +106,7 @@ fn compute_forces(model: &Model, state: &mut State, lists: &mut NeighbourLists) 
 }
 
 /// Refuses overlaps that are too deep, unless the guards have the particle removed that is in the way of one that comes in.
-fn check_overlap(
+pub(super) fn check_overlap(
     model: &Model,
     state: &mut State,
     lists: &NeighbourLists,

@@ -1,7 +1,6 @@
 //! Spheres, and where rows wait that nothing may touch.
 
 use crate::simd::Row;
-use geom::sphere::{INVERSE_INERTIA, volume};
 
 /// Two rows that nothing ever touches: what the unused slots of a block point to.
 pub const FAR: [Row; 2] = [
@@ -22,13 +21,19 @@ pub fn is_away(row: &Row) -> bool {
     row[0] <= -AWAY
 }
 
+/// m r²/I of a sphere [–].
+pub const TURNS: f64 = 2.5;
+#[cfg(not(target_arch = "nvptx64"))]
+const _: () = assert!(TURNS == geom::sphere::INVERSE_INERTIA);
+
 /// Mass of a sphere [kg] of `radius` [m] and `density` [kg/m³].
+#[cfg(not(target_arch = "nvptx64"))]
 pub fn mass(radius: f64, density: f64) -> f64 {
-    volume(radius) * density
+    geom::sphere::volume(radius) * density
 }
 
 /// Reciprocal of the moment of inertia of a sphere [1/(kg·m²)] of `radius` [m] and 1/m [1/kg].
 #[inline(always)]
 pub fn inverse_inertia(radius: f64, inverse_mass: f64) -> f64 {
-    INVERSE_INERTIA * inverse_mass / (radius * radius)
+    TURNS * inverse_mass / (radius * radius)
 }

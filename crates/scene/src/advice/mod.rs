@@ -57,6 +57,7 @@ pub fn explain_halt(halt: &Halt) -> String {
         Halt::WallPastAll { .. } => {
             "turn wall.servo.direction round if it points away from the grains, or start the wall where it meets them"
         }
+        Halt::Device { .. } => "run without --device, or with fewer grains",
         Halt::CellTooSmall { .. } => "end the run before, or take a larger domain with more grains",
         Halt::NotKept { .. } => "set record_wrenches in the setup",
         Halt::CameBack { .. } => {

@@ -248,6 +248,7 @@ fn halts() -> Vec<Advice<Halt>> {
             Halt::CellTooSmall { time, axis: 'x', length: 0.04, least: 0.05 },
             &["4.0000e-2 m long along x", "5.0000e-2 m", "larger domain"],
         ),
+        (Halt::Device { time, what: "GPU 0: out of memory".to_owned() }, &["GPU 0", "without --device"]),
     ]
 }
 
@@ -268,6 +269,7 @@ fn halt_number(halt: &Halt) -> usize {
         Halt::BondsTooStiff { .. } => 12,
         Halt::Bonds { .. } => 13,
         Halt::CellTooSmall { .. } => 14,
+        Halt::Device { .. } => 15,
     }
 }
 

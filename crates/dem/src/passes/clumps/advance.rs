@@ -1,8 +1,8 @@
 //! The pass after each move.
 
+use crate::kernel::MoveFlags;
 use crate::model::Model;
 use crate::passes::clumps::instant::damped;
-use crate::passes::integrate::MoveFlags;
 use crate::setup::Setup;
 use crate::simd::{Row, Row4};
 use crate::space::cell::Cell;

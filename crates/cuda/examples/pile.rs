@@ -1,0 +1,117 @@
+//! The bench pile on a GPU and on this processor: how fast, and whether any bit differs.
+//!
+//! `pile SCENE.toml COPIES,… STEPS [--gpu-only]` puts so many copies of the pile side by side, makes the steps on both, and prints a row of a table
+//! for each number of copies.
+
+use dem::setup::Setup;
+use dem::{Halt, Simulation};
+use geom::Vec3;
+use scene::Scene;
+use std::error::Error;
+use std::path::Path;
+use std::time::Instant;
+
+/// Steps before a timing begins: first lists, and the first sending.
+const WARM: u64 = 20;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    let (words, options): (Vec<_>, Vec<_>) = args.iter().partition(|word| !word.starts_with("--"));
+    let [file, copies, steps] = words.as_slice() else {
+        return Err("usage: pile SCENE.toml COPIES,… STEPS [--gpu-only]".into());
+    };
+    let (both, steps): (bool, u64) = (options.is_empty(), steps.parse()?);
+    let one = setup(Path::new(file))?;
+    println!(
+        "| grains | steps | lists | GPU [M/s] | CPU [M/s] | ratio | stepping | sending | fetching | bits |"
+    );
+    println!("|---|---|---|---|---|---|---|---|---|---|");
+    for copies in copies.split(',') {
+        row(&one, copies.parse()?, steps, both)?;
+    }
+    println!("\n{} threads", rayon::current_num_threads());
+    Ok(())
+}
+
+fn setup(file: &Path) -> Result<Setup, Box<dyn Error>> {
+    let folder = file.parent().unwrap_or(Path::new(""));
+    let text = std::fs::read_to_string(file)?;
+    let scene = Scene::new(&file.display().to_string(), text, &[], folder)?;
+    let mut setup = scene.plan(Vec::new())?.setup;
+    setup.record_wrenches = false;
+    Ok(setup)
+}
+
+/// So many copies side by side, as square as whole copies allow.
+fn side_by_side(one: &Setup, copies: u32) -> Setup {
+    let across = (1..=copies).filter(|n| copies.is_multiple_of(*n) && n * n <= copies).max().unwrap_or(1);
+    let along = copies / across;
+    let mut all = one.clone();
+    let side = |axis: usize| one.periodic[axis].map_or(0.0, |(lo, hi)| hi - lo);
+    for (axis, count) in [along, across].into_iter().enumerate() {
+        all.periodic[axis] = one.periodic[axis].map(|(lo, _)| (lo, lo + f64::from(count) * side(axis)));
+    }
+    all.particles = Vec::with_capacity(one.particles.len() * copies as usize);
+    let next = one.particles.iter().map(|p| p.id).max().unwrap_or(0) + 1;
+    for copy in 0..copies {
+        let shift = Vec3::new(f64::from(copy % along) * side(0), f64::from(copy / along) * side(1), 0.0);
+        let moved = one.particles.iter().map(|p| {
+            let mut p = *p;
+            (p.id, p.position) = (p.id + copy * next, p.position + shift);
+            p
+        });
+        all.particles.extend(moved);
+    }
+    all
+}
+
+/// Seconds of so many steps after the first ones.
+fn time(sim: &mut Simulation, steps: u64) -> Result<f64, Halt> {
+    let to = |sim: &mut Simulation, last: u64| -> Result<(), Halt> {
+        while sim.steps() < last {
+            sim.advance(last)?;
+        }
+        Ok(())
+    };
+    to(sim, WARM)?;
+    let start = Instant::now();
+    to(sim, WARM + steps)?;
+    Ok(start.elapsed().as_secs_f64())
+}
+
+/// A number that any bit of any particle changes (FNV-1a).
+fn mark(sim: &mut Simulation) -> Result<u64, Halt> {
+    let of = |hash: u64, x: &f64| (hash ^ x.to_bits()).wrapping_mul(0x0100_0000_01b3);
+    let all = sim.particles()?;
+    let numbers =
+        |p: &dem::setup::Particle| [p.position, p.velocity, p.spin].map(|v| [v.x, v.y, v.z]).concat();
+    Ok(all.iter().flat_map(numbers).fold(0xcbf2_9ce4_8422_2325, |hash, x| of(hash, &x)))
+}
+
+fn row(one: &Setup, copies: u32, steps: u64, both: bool) -> Result<(), Box<dyn Error>> {
+    let setup = side_by_side(one, copies);
+    let grains = setup.particles.len();
+    let speed = |seconds: f64| grains as f64 * steps as f64 / seconds / 1e6;
+    let mut gpu = Simulation::new(setup.clone())?;
+    gpu.use_device(Box::new(cuda::Gpu::new(0)?)).map_err(|refused| refused.join(", "))?;
+    let seconds = time(&mut gpu, steps)?;
+    let (there, lists) = (speed(seconds), gpu.rebuilds());
+    let times = gpu.device_times().unwrap_or_default();
+    let share = |part: f64| format!("{:.0} %", 100.0 * part / seconds);
+    let [stepping, sending, fetching] = [times.stepping, times.sending, times.fetching].map(share);
+    let pure = speed(times.stepping);
+    let found = mark(&mut gpu)?;
+    drop(gpu);
+    let (here, ratio, bits) = if both {
+        let mut cpu = Simulation::new(setup)?;
+        let here = speed(time(&mut cpu, steps)?);
+        let same = mark(&mut cpu)? == found;
+        (format!("{here:.1}"), format!("{:.2}", there / here), if same { "the same" } else { "DIFFERENT" })
+    } else {
+        ("–".to_owned(), "–".to_owned(), "–")
+    };
+    println!(
+        "| {grains} | {steps} | {lists} | {there:.1} | {here} | {ratio} | {stepping} ({pure:.0} M/s) | {sending} | {fetching} | {bits} |"
+    );
+    Ok(())
+}

@@ -1,0 +1,55 @@
+//! Entry points of the threads of a GPU: the engine's own functions, compiled for it.
+
+#![no_std]
+#![feature(abi_ptx, stdarch_nvptx)]
+
+use core::arch::nvptx::{_block_dim_x, _block_idx_x, _thread_idx_x};
+use dem::thread::{DeviceTables, contact, particle};
+
+/// Number of this thread.
+#[inline(always)]
+fn thread() -> usize {
+    // SAFETY: registers that every thread has.
+    let [block, size, within] = unsafe { [_block_idx_x(), _block_dim_x(), _thread_idx_x()] };
+    block as usize * size as usize + within as usize
+}
+
+macro_rules! entries {
+    ($($name:ident: $effects:ty;)*) => {
+        entries!(@ 0; $($name: $effects;)*);
+    };
+    (@ $number:expr; $name:ident: $effects:ty; $($rest:tt)*) => {
+        /// The contacts of one composition.
+        ///
+        /// # Safety
+        /// As [`contact`] says; the processor that launches it sees to it.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "ptx-kernel" fn $name(tables: DeviceTables, step: u32) {
+            // SAFETY: by contract.
+            unsafe { contact::<$effects>(&tables, $number, step, thread()) }
+        }
+        entries!(@ $number + 1; $($rest)*);
+    };
+    (@ $number:expr;) => {};
+}
+dem::ported!(entries);
+
+/// Sums and moves, without rotation.
+///
+/// # Safety
+/// As [`particle`] says.
+#[unsafe(no_mangle)]
+pub unsafe extern "ptx-kernel" fn centres(tables: DeviceTables, step: u32) {
+    // SAFETY: by contract.
+    unsafe { particle::<false>(&tables, step, thread()) }
+}
+
+/// Sums and moves, with rotation.
+///
+/// # Safety
+/// As [`particle`] says.
+#[unsafe(no_mangle)]
+pub unsafe extern "ptx-kernel" fn spheres(tables: DeviceTables, step: u32) {
+    // SAFETY: by contract.
+    unsafe { particle::<true>(&tables, step, thread()) }
+}

@@ -1,0 +1,98 @@
+//! A device that is this processor: one thread after the other, in an order that is not theirs. Tests compare its bits.
+#![expect(unsafe_code, reason = "it calls what a device runs, with tables that lie in its own memory")]
+
+use crate::device::{Device, DeviceError};
+use crate::kernel::ported::NAMES;
+use crate::kernel::thread::{Address, DeviceTables, contact, particle};
+use std::collections::BTreeMap;
+
+/// A device in the memory of this process.
+#[derive(Debug, Default)]
+pub struct Local {
+    memory: BTreeMap<u64, Vec<Line>>,
+    launched: u64,
+}
+
+/// Tables begin at whole cache lines.
+#[derive(Debug, Clone, Copy)]
+#[repr(C, align(64))]
+struct Line([u8; 64]);
+
+impl Local {
+    /// The table that begins there.
+    fn bytes(&mut self, at: Address, len: usize) -> Result<&mut [u8], DeviceError> {
+        let failed =
+            || DeviceError::Failed { device: "this processor".to_owned(), what: "no such memory".to_owned() };
+        let lines = self.memory.get_mut(&at.0).filter(|lines| len <= lines.len() * 64).ok_or_else(failed)?;
+        // SAFETY: lines are bytes, and `len` of them lie within these.
+        Ok(unsafe { std::slice::from_raw_parts_mut(lines.as_mut_ptr().cast(), len) })
+    }
+}
+
+macro_rules! functions {
+    ($($name:ident: $effects:ty;)*) => {
+        /// The thread of a function by its number, in [`crate::device::functions`].
+        ///
+        /// # Safety
+        /// As [`contact`] and [`particle`] say.
+        unsafe fn thread(function: usize, tables: &DeviceTables, step: u32, thread: usize) {
+            let name = NAMES.get(function).copied();
+            // SAFETY: by contract.
+            unsafe {
+                match name {
+                    $(Some(stringify!($name)) => contact::<$effects>(tables, function as u32, step, thread),)*
+                    _ if function == NAMES.len() => particle::<false>(tables, step, thread),
+                    _ => particle::<true>(tables, step, thread),
+                }
+            }
+        }
+    };
+}
+crate::ported!(functions);
+
+impl Device for Local {
+    fn name(&self) -> String {
+        "this processor, one thread after the other".to_owned()
+    }
+
+    fn allocate(&mut self, bytes: usize) -> Result<Address, DeviceError> {
+        let lines = vec![Line([0; 64]); bytes.div_ceil(64).max(1)];
+        let at = Address(lines.as_ptr() as u64);
+        self.memory.insert(at.0, lines);
+        Ok(at)
+    }
+
+    fn release(&mut self, at: Address) -> Result<(), DeviceError> {
+        self.memory.remove(&at.0);
+        Ok(())
+    }
+
+    fn write(&mut self, to: Address, bytes: &[u8]) -> Result<(), DeviceError> {
+        self.bytes(to, bytes.len())?.copy_from_slice(bytes);
+        Ok(())
+    }
+
+    fn read(&mut self, from: Address, bytes: &mut [u8]) -> Result<(), DeviceError> {
+        bytes.copy_from_slice(self.bytes(from, bytes.len())?);
+        Ok(())
+    }
+
+    fn launch(
+        &mut self,
+        function: usize,
+        threads: usize,
+        tables: &DeviceTables,
+        step: u32,
+    ) -> Result<(), DeviceError> {
+        // Every other launch backwards, and always with strides that are prime to the number of threads.
+        self.launched += 1;
+        let stride = [7919, 104_729, 15_485_863][(self.launched % 3) as usize];
+        let stride = if threads.is_multiple_of(stride) { 1 } else { stride };
+        for k in 0..threads {
+            let k = (k * stride + self.launched as usize) % threads;
+            // SAFETY: the tables are those of a stepper, in memory that it has allocated here; threads run one after the other.
+            unsafe { thread(function, tables, step, k) }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,84 @@
+//! Steps on a device, a GPU for instance, over the same State: forces and the move there, everything else here.
+//!
+//! ```text
+//! rebuild lists here → send → steps there, until a particle leaves its margin → fetch → rebuild …
+//! ```
+//!
+//! The device runs the engine's own functions ([`crate::kernel::thread`]), so its bits are those of a processor. What it cannot compute is refused
+//! before anything starts ([`refused`]). Observing, and the step after it, are done here.
+
+mod local;
+mod refused;
+mod stepper;
+mod tables;
+#[cfg(test)]
+mod tests;
+
+pub use local::Local;
+pub use stepper::{DeviceTimes, Stepper};
+
+use crate::kernel::ported::NAMES;
+use crate::kernel::thread::{Address, DeviceTables};
+
+/// Functions that a device must have, by number: the compositions, then the moves without and with rotation.
+pub fn functions() -> Vec<&'static str> {
+    NAMES.iter().copied().chain(["centres", "spheres"]).collect()
+}
+
+/// Something that runs the threads of a step.
+pub trait Device: Send {
+    /// What it is, for people.
+    fn name(&self) -> String;
+    /// Takes memory: so many bytes, all 0.
+    ///
+    /// # Errors
+    /// There is no more.
+    fn allocate(&mut self, bytes: usize) -> Result<Address, DeviceError>;
+    /// Gives memory back.
+    ///
+    /// # Errors
+    /// The device has failed.
+    fn release(&mut self, at: Address) -> Result<(), DeviceError>;
+    /// Copies to the device.
+    ///
+    /// # Errors
+    /// The device has failed.
+    fn write(&mut self, to: Address, bytes: &[u8]) -> Result<(), DeviceError>;
+    /// Copies from the device, after everything that was launched.
+    ///
+    /// # Errors
+    /// The device has failed, now or since the last call.
+    fn read(&mut self, from: Address, bytes: &mut [u8]) -> Result<(), DeviceError>;
+    /// Runs so many threads of a function of [`functions`], after everything that was launched.
+    ///
+    /// # Errors
+    /// The device has failed.
+    fn launch(
+        &mut self,
+        function: usize,
+        threads: usize,
+        tables: &DeviceTables,
+        step: u32,
+    ) -> Result<(), DeviceError>;
+}
+
+/// Why a device failed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum DeviceError {
+    /// Its memory is full.
+    #[error("{device}: {bytes} bytes more do not fit into its memory")]
+    Memory {
+        /// Its name.
+        device: String,
+        /// What was asked for.
+        bytes: usize,
+    },
+    /// What its driver says.
+    #[error("{device}: {what}")]
+    Failed {
+        /// Its name.
+        device: String,
+        /// What went wrong.
+        what: String,
+    },
+}

@@ -1,0 +1,283 @@
+//! Steps on a device: what it is sent, how often it is asked, and what is fetched.
+
+use crate::device::refused::refused;
+use crate::device::tables::Table;
+use crate::device::{Device, DeviceError};
+use crate::kernel::MoveInputs;
+use crate::kernel::ported::NAMES;
+use crate::kernel::thread::{
+    DeviceBlock, DeviceFlags, DeviceKind, DeviceTables, IMAGES, PARTICLES, PLANE, SPHERES,
+};
+use crate::model::{Model, With};
+use crate::neighbours::{NeighbourLists, Segment, Slots};
+use crate::setup::WallShape;
+use crate::simd::{BLOCK, FORCE_AND_MOMENT, Row, TORQUE};
+use crate::state::State;
+use crate::walls::images::Image;
+use geom::Vec3;
+use std::time::Instant;
+
+/// Steps that are launched before the device is asked what they found: an answer takes as long as some steps of a small scene.
+const LAUNCHED: u32 = 32;
+
+/// A device, with tables for one simulation.
+pub struct Stepper {
+    device: Box<dyn Device>,
+    tables: DeviceTables,
+    columns: Columns,
+    /// Number of the rebuild whose lists the device has.
+    listed: Option<u64>,
+    /// Step whose state the device has: that of the host.
+    held: Option<u64>,
+    /// Which compositions there are contacts of.
+    compositions: Vec<usize>,
+    /// Where the time went so far.
+    pub times: DeviceTimes,
+}
+
+/// Where the time of a device went [s].
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct DeviceTimes {
+    /// Lists and state were sent.
+    pub sending: f64,
+    /// Steps were made.
+    pub stepping: f64,
+    /// The state was fetched.
+    pub fetching: f64,
+}
+
+/// Everything that the device holds.
+#[derive(Default)]
+struct Columns {
+    rows: Table,
+    spins: Table,
+    acceleration: Table,
+    angular_acceleration: Table,
+    home: Table,
+    i: Table,
+    partner: Table,
+    history: Table,
+    acts: Table,
+    forces: Table,
+    moments: Table,
+    points: Table,
+    blocks: Table,
+    kinds: Table,
+    numbers: Table,
+    tiles: Table,
+    starts: Table,
+    entries: Table,
+    flags: Table,
+}
+
+/// What some steps found.
+#[derive(Debug, Clone, Copy)]
+pub struct Found {
+    /// Steps done.
+    pub steps: u64,
+    /// Of the last of them.
+    pub flags: DeviceFlags,
+}
+
+impl Stepper {
+    /// A device for a simulation, or what of it the device does not compute.
+    pub fn new(device: Box<dyn Device>, model: &Model, state: &State) -> Result<Stepper, Vec<String>> {
+        let refused = refused(model, state);
+        if !refused.is_empty() {
+            return Err(refused);
+        }
+        Ok(Stepper {
+            device,
+            tables: DeviceTables::default(),
+            columns: Columns::default(),
+            listed: None,
+            held: None,
+            compositions: Vec::new(),
+            times: DeviceTimes::default(),
+        })
+    }
+
+    /// What the device is.
+    pub fn name(&self) -> String {
+        self.device.name()
+    }
+
+    /// Sends what the device does not have: lists that were rebuilt, and the state of this instant.
+    pub fn send(
+        &mut self,
+        model: &Model,
+        state: &State,
+        lists: &mut NeighbourLists,
+    ) -> Result<(), DeviceError> {
+        let start = Instant::now();
+        if self.listed != Some(state.listing.rebuilds) {
+            self.send_lists(model, state, lists)?;
+            (self.listed, self.held) = (Some(state.listing.rebuilds), None);
+        }
+        if self.held != Some(state.steps) {
+            self.send_state(state)?;
+            self.held = Some(state.steps);
+        }
+        self.times.sending += start.elapsed().as_secs_f64();
+        Ok(())
+    }
+
+    fn send_lists(
+        &mut self,
+        model: &Model,
+        state: &State,
+        lists: &mut NeighbourLists,
+    ) -> Result<(), DeviceError> {
+        if lists.slots.starts.is_empty() {
+            lists.slots.index();
+        }
+        let Stepper { device, tables: t, columns: c, .. } = self;
+        let (slots, device) = (&lists.slots, device.as_mut());
+        let (count, torques) = (slots.i.len(), state.torques(model));
+        t.drive = MoveInputs {
+            dt: model.dt,
+            ahead: model.ahead(),
+            gravity: model.setup.gravity.into(),
+            motion_limit: model.setup.guards.motion,
+        };
+        t.overlap_limit = model.setup.guards.overlap;
+        (t.particles, t.slots, t.tile) = (slots.particles as u32, count as u32, slots.tile as u32);
+        (t.rotates, t.torques) = (u32::from(model.rotates), u32::from(torques));
+        let (kinds, numbers) = kinds(model);
+        t.kinds = c.kinds.write(device, &kinds)?;
+        t.numbers = c.numbers.write(device, &numbers)?;
+        t.i = c.i.write(device, &slots.i)?;
+        t.partner = c.partner.write(device, &slots.partner)?;
+        t.starts = c.starts.write(device, &slots.starts)?;
+        t.entries = c.entries.write(device, &slots.entries)?;
+        t.tiles = c.tiles.write(device, &first_slots(slots))?;
+        t.home = c.home.write(device, &state.particles.home)?;
+        t.blocks = c.blocks.write(device, &blocks(slots))?;
+        t.points = c.points.write(device, &points(model, state, lists))?;
+        let force = model.layout().force();
+        t.forces = c.forces.room::<f64>(device, count * force.min(FORCE_AND_MOMENT))?;
+        t.moments = c.moments.room::<f64>(device, if torques { count * TORQUE } else { 0 })?;
+        let mut found: Vec<usize> =
+            slots.segments.iter().map(|s| kinds[s.kind].composition as usize).collect();
+        found.sort_unstable();
+        found.dedup();
+        self.compositions = found;
+        Ok(())
+    }
+
+    fn send_state(&mut self, state: &State) -> Result<(), DeviceError> {
+        let Stepper { device, tables: t, columns: c, .. } = self;
+        let (p, device) = (&state.particles, device.as_mut());
+        t.rows = c.rows.write(device, &p.rows)?;
+        t.spins = c.spins.write(device, &p.spins)?;
+        t.acceleration = c.acceleration.write(device, &p.acceleration)?;
+        t.angular_acceleration = c.angular_acceleration.write(device, &p.angular_acceleration)?;
+        t.history = c.history.write(device, &state.contacts.history)?;
+        // All may have a history that has to be cleared.
+        t.acts = c.acts.write(device, &vec![1_u8; t.slots as usize])?;
+        Ok(())
+    }
+
+    /// Makes so many steps, or fewer where lists have to be rebuilt or a guard has to be asked. The state must have been sent; it has to be fetched.
+    pub fn run(&mut self, most: u64, mut goes_on: impl FnMut() -> bool) -> Result<Found, DeviceError> {
+        let (functions, moves) = (self.compositions.clone(), NAMES.len() + self.tables.rotates as usize);
+        let (mut done, start) = (0, Instant::now());
+        loop {
+            let Stepper { device, tables: t, columns: c, .. } = self;
+            let device = device.as_mut();
+            t.flags = c.flags.write(device, &[DeviceFlags::default()])?;
+            let steps = LAUNCHED.min(u32::try_from(most - done).unwrap_or(u32::MAX));
+            for step in 0..steps {
+                for &function in &functions {
+                    device.launch(function, t.slots as usize, t, step)?;
+                }
+                device.launch(moves, t.particles as usize, t, step)?;
+            }
+            let mut flags = [DeviceFlags::default()];
+            c.flags.read(device, &mut flags)?;
+            let [flags] = flags;
+            done += u64::from(if flags.stopped > 0 { flags.stopped } else { steps });
+            if flags.stopped > 0 || done >= most || !goes_on() {
+                self.times.stepping += start.elapsed().as_secs_f64();
+                return Ok(Found { steps: done, flags });
+            }
+        }
+    }
+
+    /// Brings the state back, `steps` after the one that was sent.
+    pub fn fetch(&mut self, state: &mut State, steps: u64) -> Result<(), DeviceError> {
+        let start = Instant::now();
+        let Stepper { device, columns: c, .. } = self;
+        let (p, device) = (&mut state.particles, device.as_mut());
+        c.rows.read(device, &mut p.rows)?;
+        c.spins.read(device, &mut p.spins)?;
+        c.acceleration.read(device, &mut p.acceleration)?;
+        c.angular_acceleration.read(device, &mut p.angular_acceleration)?;
+        c.history.read(device, &mut state.contacts.history)?;
+        self.held = Some(steps);
+        self.times.fetching += start.elapsed().as_secs_f64();
+        Ok(())
+    }
+}
+
+/// Kinds of contact, and the numbers of their effects.
+fn kinds(model: &Model) -> (Vec<DeviceKind>, Vec<f64>) {
+    let (mut kinds, mut all) = (Vec::new(), Vec::new());
+    for kind in &model.kinds {
+        let (name, numbers) = kind.kernel.ported().unwrap_or_default();
+        let composition = NAMES.iter().position(|n| *n == name).unwrap_or(NAMES.len()) as u32;
+        let (with, plane) = match kind.with {
+            With::Particles => (PARTICLES, <[[f64; 3]; 2]>::default()),
+            With::Images => (IMAGES, <[[f64; 3]; 2]>::default()),
+            With::Wall(w) => match &model.setup.walls[w].shape {
+                WallShape::Plane(plane) => (PLANE, [plane.point.into(), plane.normal.into()]),
+                _ => (SPHERES, <[[f64; 3]; 2]>::default()),
+            },
+        };
+        kinds.push(DeviceKind { composition, with, numbers: all.len() as u32, pad: 0, plane });
+        all.extend(numbers);
+    }
+    (kinds, all)
+}
+
+/// First slot of each tile.
+fn first_slots(slots: &Slots) -> Vec<u32> {
+    let first =
+        |&segment: &usize| slots.segments.get(segment).map_or(slots.i.len(), |s| s.slots.start) as u32;
+    slots.tiles.iter().map(first).collect()
+}
+
+/// What each block of slots is.
+fn blocks(slots: &Slots) -> Vec<DeviceBlock> {
+    let mut blocks = Vec::with_capacity(slots.i.len() / BLOCK);
+    for (n, s) in slots.segments.iter().enumerate() {
+        let end = slots.segments.get(n + 1).map_or(slots.history, |next| next.history);
+        let (count, words) = (s.slots.len() / BLOCK, end - s.history);
+        let block = |k: usize| DeviceBlock {
+            kind: s.kind as u32,
+            history: (s.history + k * words / count) as u32,
+            point: (s.rows + k * BLOCK) as u32,
+        };
+        blocks.extend((0..count).map(block));
+    }
+    blocks
+}
+
+/// Contact points of wall spheres, and shifts of images and of planes.
+fn points(model: &Model, state: &State, lists: &NeighbourLists) -> Vec<Row> {
+    let mut points = lists.step.rows.clone();
+    let (cell, period) = (state.cell(model), model.cell().lengths());
+    let mut shift = |s: &Segment, slot: usize, by: Vec3| {
+        points[s.rows + s.rank(slot)] = Row([by.x, by.y, by.z, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    };
+    for s in &lists.slots.segments {
+        match s.with {
+            With::Images => s.contacts().for_each(|k| shift(s, k, cell.shift(&lists.slots.image[k]))),
+            With::Wall(w) if matches!(model.setup.walls[w].shape, WallShape::Plane(_)) => {
+                s.contacts().for_each(|k| shift(s, k, Image(lists.slots.partner[k]).shift(&period)));
+            }
+            _ => {}
+        }
+    }
+    points
+}

@@ -1,0 +1,201 @@
+//! A device gives the bits of a processor, and refuses what it does not compute.
+
+use super::*;
+use crate::effects::{ContactLaw, Material};
+use crate::setup::*;
+use crate::{Halt, Setup, Simulation};
+use geom::{Plane, Vec3};
+
+/// Which effects grains have.
+#[derive(Debug, Clone, Copy)]
+struct Effects {
+    law: &'static str,
+    friction: Option<f64>,
+    rolling: Option<f64>,
+}
+
+fn law(between: (u16, u16), e: Effects) -> ContactLaw {
+    let mut law = ContactLaw::new(between, e.law).with("restitution", 0.4);
+    law.set("stiffness", (e.law == "hooke").then_some(2e4));
+    law.set("sliding_friction", e.friction);
+    law.set("rolling_resistance", e.rolling);
+    law
+}
+
+fn every_composition() -> Vec<Effects> {
+    let resists = [(None, None), (Some(0.4), None), (Some(0.4), Some(0.1))];
+    ["hooke", "hertz"]
+        .into_iter()
+        .flat_map(|law| resists.map(|(friction, rolling)| Effects { law, friction, rolling }))
+        .collect()
+}
+
+/// Grains of two materials and three sizes that fall on a bumpy floor of wall spheres between two planes; periodic along y.
+fn trough(effects: Effects) -> Setup {
+    let material =
+        |name: &str, density| Material { name: name.to_owned(), density, young: 5e6, poisson: 0.3 };
+    let wall = |name: &str, shape| Wall::new(name, 0, shape);
+    let plane = |x: f64, normal: f64| {
+        WallShape::Plane(Plane::new(Vec3::new(x, 0.0, 0.0), Vec3::new(normal, 0.0, 0.1)).expect("a plane"))
+    };
+    let bump =
+        |k: usize| (Vec3::new(0.005 + 0.01 * (k % 20) as f64, 0.005 + 0.01 * (k / 20) as f64, 0.0), 0.008);
+    let grain = |k: u32| Particle {
+        id: 1000 - k,
+        material: (k % 2) as u16,
+        radius: [0.006, 0.008, 0.0095][k as usize % 3],
+        position: Vec3::new(
+            0.02 + 0.02 * (k % 8) as f64,
+            0.01 + 0.02 * (k / 8 % 10) as f64,
+            0.03 + 0.021 * (k / 80) as f64,
+        ),
+        velocity: Vec3::new(0.1 * (k % 7) as f64 - 0.3, 0.05 * (k % 5) as f64 - 0.1, -0.5),
+        spin: Vec3::zeros(),
+    };
+    // The second material has no friction: kinds of contact differ in their compositions.
+    let smooth = Effects { friction: None, rolling: None, ..effects };
+    Setup {
+        materials: vec![material("a", 2500.0), material("b", 1500.0)],
+        contacts: vec![law((0, 0), effects), law((0, 1), smooth), law((1, 1), effects)],
+        particles: (0..500).map(grain).collect(),
+        walls: vec![
+            wall("floor", WallShape::Spheres((0..400).map(bump).collect())),
+            wall("left", plane(0.0, 1.0)),
+            wall("right", plane(0.2, -1.0)),
+        ],
+        periodic: [None, Some((0.0, 0.2)), None],
+        guards: Guards { overlap: 0.5, ..Guards::default() },
+        ..Setup::default()
+    }
+}
+
+/// Every bit of every particle.
+fn bits(sim: &mut Simulation) -> Vec<u64> {
+    let of = |p: &Particle| [p.position, p.velocity, p.spin].map(|v| [v.x, v.y, v.z]).concat();
+    let all = sim.particles().expect("within the guards");
+    all.iter().flat_map(of).map(f64::to_bits).collect()
+}
+
+fn here(setup: Setup, steps: u64) -> Simulation {
+    let mut sim = Simulation::new(setup).expect("sound");
+    (0..steps).for_each(|_| sim.step().expect("within the guards"));
+    sim
+}
+
+fn there(setup: Setup, device: impl Device + 'static) -> Simulation {
+    let mut sim = Simulation::new(setup).expect("sound");
+    sim.use_device(Box::new(device)).expect("nothing that it does not compute");
+    sim
+}
+
+fn advance(sim: &mut Simulation, last: u64) -> Result<(), Halt> {
+    while sim.steps() < last {
+        sim.advance(last)?;
+    }
+    Ok(())
+}
+
+#[test]
+fn the_same_bits_with_every_composition() {
+    for effects in every_composition() {
+        for sampling in [Sampling::Averaged, Sampling::Sampled] {
+            let setup = || Setup { sampling, ..trough(effects) };
+            let mut device = there(setup(), Local::default());
+            advance(&mut device, 1200).expect("within the guards");
+            let mut host = here(setup(), 1200);
+            assert!(bits(&mut device) == bits(&mut host), "{effects:?}, {sampling:?}");
+            assert!(device.rebuilds() == host.rebuilds() && host.rebuilds() > 5, "{}", host.rebuilds());
+        }
+    }
+}
+
+/// Observing makes a step here; a checkpoint goes on here as well as there.
+#[test]
+fn the_same_bits_where_it_is_watched_and_resumed() {
+    let effects = every_composition()[5];
+    let mut device = there(trough(effects), Local::default());
+    for last in [1, 7, 150, 151, 400] {
+        advance(&mut device, last).expect("within the guards");
+        bits(&mut device);
+    }
+    let saved = device.checkpoint().to_static();
+    let mut resumed = Simulation::resume(trough(effects), saved).expect("of this setup");
+    resumed.use_device(Box::new(Local::default())).expect("as before");
+    advance(&mut resumed, 900).expect("within the guards");
+    assert!(bits(&mut resumed) == bits(&mut here(trough(effects), 900)));
+}
+
+#[test]
+fn a_guard_stops_it_in_the_same_step_for_the_same_reason() {
+    let mut setup = trough(every_composition()[1]);
+    setup.guards.overlap = 0.005;
+    setup.particles.iter_mut().for_each(|p| p.velocity.z = -2.0);
+    let mut sim = Simulation::new(setup.clone()).expect("sound");
+    let halt = (0..1200).find_map(|_| sim.step().err()).expect("too deep");
+    let mut device = there(setup, Local::default());
+    assert_eq!(advance(&mut device, 1200), Err(halt));
+    assert_eq!(device.steps(), sim.steps());
+}
+
+#[test]
+fn what_it_does_not_compute_is_named() {
+    let mut setup = trough(every_composition()[5]);
+    setup.ledger = true;
+    setup.sleep = None;
+    setup.walls[0].motion.velocity = Vec3::z() * 0.1;
+    setup.contacts[1].set("twisting_resistance", 0.1);
+    setup.contacts[1].set("sliding_friction", 0.1);
+    let mut sim = Simulation::new(setup).expect("sound");
+    let refused = sim.use_device(Box::new(Local::default())).expect_err("it does not compute that");
+    let expected = ["the energy ledger", "the motion of wall 'floor'", "the contact law of a and b"];
+    assert!(expected.iter().all(|e| refused.iter().any(|r| r == e)), "{refused:?}");
+}
+
+/// A device that fails at one of its calls.
+struct Failing(Local, usize);
+
+impl Failing {
+    fn call(&mut self) -> Result<&mut Local, DeviceError> {
+        self.1 = self.1.checked_sub(1).ok_or_else(|| DeviceError::Failed {
+            device: "GPU".to_owned(),
+            what: "fell off the bus".to_owned(),
+        })?;
+        Ok(&mut self.0)
+    }
+}
+
+impl Device for Failing {
+    fn name(&self) -> String {
+        "GPU".to_owned()
+    }
+    fn allocate(&mut self, bytes: usize) -> Result<Address, DeviceError> {
+        self.call()?.allocate(bytes)
+    }
+    fn release(&mut self, at: Address) -> Result<(), DeviceError> {
+        self.call()?.release(at)
+    }
+    fn write(&mut self, to: Address, bytes: &[u8]) -> Result<(), DeviceError> {
+        self.call()?.write(to, bytes)
+    }
+    fn read(&mut self, from: Address, bytes: &mut [u8]) -> Result<(), DeviceError> {
+        self.call()?.read(from, bytes)
+    }
+    fn launch(
+        &mut self,
+        function: usize,
+        threads: usize,
+        tables: &DeviceTables,
+        step: u32,
+    ) -> Result<(), DeviceError> {
+        self.call()?.launch(function, threads, tables, step)
+    }
+}
+
+#[test]
+fn a_device_that_fails_stops_the_run() {
+    for calls in [0, 1, 20, 60, 500] {
+        let mut sim = there(trough(every_composition()[2]), Failing(Local::default(), calls));
+        let halt = advance(&mut sim, 1200).expect_err("it failed");
+        assert!(halt.to_string().ends_with("GPU: fell off the bus"), "{halt}");
+    }
+}

@@ -1,0 +1,359 @@
+//! What one thread of a device does: a contact, or a particle.
+//!
+//! ```text
+//! contact   reads both ends, computes the wrench, keeps it in its slot
+//! particle  adds the wrenches of its contacts in the order in which the processor adds them, and moves
+//! ```
+//!
+//! Both call what the processor calls, so that both give the same bits, in whatever order threads run. A step is one
+//! launch of contacts for each composition of effects, and one of particles. Tables lie in the memory of the device.
+#![expect(unsafe_code, reason = "threads share tables, of which each writes its own rows only")]
+
+use crate::kernel::contact_loop::{WrenchBuffer, act, gather};
+use crate::kernel::sums::{Sum, WrenchSums, add, add_opposite};
+use crate::kernel::{
+    Batch, MoveInputs, Mover, Ported, SlotEnd, StepInputs, Sums, WrenchSlices, WrenchSlicesMut,
+};
+use crate::simd::{BLOCK, Each, FORCE_AND_MOMENT, Layout, Row, Row4, TORQUE};
+use core::slice;
+
+/// Numbers of history that a composition keeps at most.
+const COLUMNS: usize = 8;
+
+/// Where a table begins, in the memory of the device.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[repr(transparent)]
+pub struct Address(pub u64);
+
+impl Address {
+    /// Row `k` of a table.
+    #[inline(always)]
+    fn at<T>(self, k: usize) -> *mut T {
+        (self.0 as *mut T).wrapping_add(k)
+    }
+}
+
+/// A kind of contact, as a device knows it.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(C)]
+pub struct DeviceKind {
+    /// Which of the compositions ([`crate::kernel::ported::NAMES`]).
+    pub composition: u32,
+    /// What its particles meet.
+    pub with: u32,
+    /// First of the numbers of its effects.
+    pub numbers: u32,
+    /// Not used.
+    pub pad: u32,
+    /// Point and normal of a plane at rest.
+    pub plane: [[f64; 3]; 2],
+}
+
+/// What the particles of a kind meet: each other.
+pub const PARTICLES: u32 = 0;
+/// Each other across a periodic face.
+pub const IMAGES: u32 = 1;
+/// Wall spheres at rest.
+pub const SPHERES: u32 = 2;
+/// A plane at rest.
+pub const PLANE: u32 = 3;
+
+/// A block of slots.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(C)]
+pub struct DeviceBlock {
+    /// Its kind of contact.
+    pub kind: u32,
+    /// First word of its history.
+    pub history: u32,
+    /// First of its contact points: rows of wall spheres, shifts of images.
+    pub point: u32,
+}
+
+/// What a step found, beside what it moved.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[repr(C)]
+pub struct DeviceFlags {
+    /// 1 + the step after which lists must be rebuilt or a guard asked; 0: none yet. Later steps do nothing.
+    pub stopped: u32,
+    /// Whether a particle has left its margin.
+    pub left_margin: u32,
+    /// Whether one moved too far.
+    pub too_fast: u32,
+    /// Whether an overlap passes its limit.
+    pub deep: u32,
+}
+
+/// Tables of a step, and what all threads share.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(C)]
+pub struct DeviceTables {
+    /// Of the move.
+    pub drive: MoveInputs,
+    /// Largest overlap over the smaller radius [–].
+    pub overlap_limit: f64,
+    /// Number of particles.
+    pub particles: u32,
+    /// Number of slots.
+    pub slots: u32,
+    /// 1 where particles turn.
+    pub rotates: u32,
+    /// 1 where any effect makes torques.
+    pub torques: u32,
+    /// [`Row`] of each particle, and two more that nothing touches.
+    pub rows: Address,
+    /// [`Row4`] of each, and two more; none without rotation.
+    pub spins: Address,
+    /// [`Row4`] of each.
+    pub acceleration: Address,
+    /// [`Row4`] of each; none without rotation.
+    pub angular_acceleration: Address,
+    /// [`Row4`] of each: where it was listed, and its margin.
+    pub home: Address,
+    /// First particle of each contact, a number of four bytes.
+    pub i: Address,
+    /// Second particle, or image and part of a wall.
+    pub partner: Address,
+    /// History, by block and column.
+    pub history: Address,
+    /// Whether the contact in a slot acts, a byte.
+    pub acts: Address,
+    /// Force of each contact, and the moment of its tangential part where particles turn.
+    pub forces: Address,
+    /// Torque of each contact besides; none where no effect makes any.
+    pub moments: Address,
+    /// [`Row`] of each contact point on wall spheres; shift of an image or of a plane in its first numbers.
+    pub points: Address,
+    /// [`DeviceBlock`] of each block of slots.
+    pub blocks: Address,
+    /// [`DeviceKind`] of each kind of contact.
+    pub kinds: Address,
+    /// Numbers of their effects.
+    pub numbers: Address,
+    /// Particles of a tile.
+    pub tile: u32,
+    /// Not used.
+    pub pad: u32,
+    /// First slot of each tile.
+    pub tiles: Address,
+    /// First contact of each particle, and one more.
+    pub starts: Address,
+    /// Contacts of particles ([`SlotEnd`]) in the order of their slots.
+    pub entries: Address,
+    /// [`DeviceFlags`].
+    pub flags: Address,
+}
+
+impl DeviceTables {
+    /// Rows of a table.
+    ///
+    /// # Safety
+    /// There are so many, and nobody writes to them meanwhile.
+    #[inline(always)]
+    unsafe fn table<T>(&self, from: Address, rows: u32) -> &[T] {
+        // SAFETY: by contract.
+        unsafe { slice::from_raw_parts(from.at(0), rows as usize) }
+    }
+
+    /// Whether an earlier step has ended the launch.
+    ///
+    /// # Safety
+    /// Tables are in place.
+    #[inline(always)]
+    unsafe fn is_over(&self, step: u32) -> bool {
+        // SAFETY: by contract. Threads of this step may write 1 + step meanwhile, which is no earlier one.
+        let stopped = unsafe { self.flags.at::<u32>(0).read_volatile() };
+        stopped != 0 && stopped <= step
+    }
+
+    /// Sets a flag of [`DeviceFlags`] by its place. All threads write the same number.
+    ///
+    /// # Safety
+    /// Tables are in place.
+    #[inline(always)]
+    unsafe fn flag(&self, place: usize, value: u32) {
+        // SAFETY: by contract.
+        unsafe { self.flags.at::<u32>(place).write_volatile(value) }
+    }
+
+    #[inline(always)]
+    fn layout(&self) -> Layout {
+        Layout { rotates: self.rotates != 0, single: false }
+    }
+}
+
+/// The contact in a slot, if its effects are `E`, number `composition` of the compositions; in step `step` of a launch.
+///
+/// # Safety
+/// Tables are in place and hold what they say; no other thread has this slot, and none moves particles meanwhile.
+#[inline(always)]
+pub unsafe fn contact<E: Ported>(t: &DeviceTables, composition: u32, step: u32, slot: usize) {
+    // SAFETY: by contract; this thread alone writes to the rows of its slot.
+    unsafe {
+        if slot >= t.slots as usize || t.is_over(step) {
+            return;
+        }
+        let block: DeviceBlock = *t.blocks.at(slot / BLOCK);
+        let kind: &DeviceKind = &*t.kinds.at(block.kind as usize);
+        let i: u32 = *t.i.at(slot);
+        if kind.composition != composition || i >= t.particles {
+            return;
+        }
+        let lane = slot % BLOCK;
+        let layout = t.layout();
+        let rows: &[Row] = t.table(t.rows, t.particles + 2);
+        let spins: &[Row4] = t.table(t.spins, if layout.rotates { t.particles + 2 } else { 0 });
+        let (row, spin) =
+            partner(t, kind, &rows[i as usize], *t.partner.at(slot), block.point as usize + lane);
+        let MoveInputs { dt, ahead, .. } = t.drive;
+        let inputs = StepInputs { dt, ahead, overlap_limit: t.overlap_limit, rows, spins, layout };
+        let (mut history, mut active) = ([0.0; COLUMNS * BLOCK], [false]);
+        let (mut forces, mut torques) = ([0.0; FORCE_AND_MOMENT], [0.0; TORQUE]);
+        let torques_of = if E::TORQUES { &mut torques[..] } else { &mut [] };
+        let mut batch = Batch {
+            partners: (slice::from_ref(&row), slice::from_ref(&spin)),
+            i: slice::from_ref(&i),
+            j: &[0],
+            history: &mut [],
+            active: &mut active,
+            sums: Sums::default(),
+            both: false,
+            kept: WrenchSlicesMut::default(),
+            each: WrenchSlicesMut { forces: &mut forces, torques: torques_of },
+            ledger: &mut [],
+        };
+        let acted = &mut *t.acts.at::<u8>(slot);
+        let ends = gather::<f64, E>(&inputs, &batch, 0);
+        if *acted == 0 && !ends.may_act(&inputs) {
+            return;
+        }
+        let words = t.history.at::<f64>(block.history as usize + lane);
+        for c in 0..E::HISTORY {
+            history[c * BLOCK] = *words.wrapping_add(c * BLOCK);
+        }
+        batch.history = &mut history[..E::HISTORY * BLOCK];
+        let mut numbers: &[f64] = t.table(t.numbers, kind.numbers + E::COUNT as u32);
+        numbers = &numbers[kind.numbers as usize..];
+        let effect = E::take(&mut numbers);
+        let mut buffer = WrenchBuffer::<f64>::new();
+        let (acts, deep) = act::<f64, E, f64, false>(&effect, &inputs, &mut batch, &mut buffer, (0, 0), ends);
+        for c in 0..E::HISTORY {
+            *words.wrapping_add(c * BLOCK) = history[c * BLOCK];
+        }
+        *acted = u8::from(acts);
+        if acts {
+            if layout.rotates {
+                *t.forces.at(slot) = Row(forces);
+            } else {
+                let [x, y, z, pad, ..] = forces;
+                *t.forces.at(slot) = Row4([x, y, z, pad]);
+            }
+            if t.torques != 0 {
+                *t.moments.at(slot) = Row4(torques);
+            }
+        }
+        if deep {
+            t.flag(3, 1);
+            t.flag(0, step + 1);
+        }
+    }
+}
+
+/// Row and spin of the partner of a particle in `row`; `number`: of its contact point, where it is no particle.
+///
+/// # Safety
+/// Tables are in place.
+#[inline(always)]
+unsafe fn partner(t: &DeviceTables, kind: &DeviceKind, row: &Row, other: u32, number: usize) -> (Row, Row4) {
+    // SAFETY: by contract.
+    unsafe {
+        if kind.with == SPHERES {
+            return (*t.points.at(number), Row4::default());
+        }
+        if kind.with == PLANE {
+            return (on_plane(kind.plane, row, &*t.points.at(number)), Row4::default());
+        }
+        let mut row: Row = *t.rows.at(other as usize);
+        if kind.with == IMAGES {
+            let shift: &Row = &*t.points.at(number);
+            for a in 0..3 {
+                row[a] += shift[a];
+            }
+        }
+        (row, if t.rotates != 0 { *t.spins.at(other as usize) } else { Row4::default() })
+    }
+}
+
+/// The point of a plane at rest, shifted, that is nearest to the particle in `row`, as a row.
+#[inline(always)]
+fn on_plane([through, normal]: [[f64; 3]; 2], row: &Row, shift: &Row) -> Row {
+    let [x, y, z] = [0, 1, 2].map(|a| row[a] - shift[a]);
+    let [nx, ny, nz] = normal;
+    let distance = (x - through[0]) * nx + (y - through[1]) * ny + (z - through[2]) * nz;
+    let [x, y, z] = [x - nx * distance, y - ny * distance, z - nz * distance];
+    Row([x + shift[0], y + shift[1], z + shift[2], 0.0, 0.0, 0.0, 0.0, 0.0])
+}
+
+/// Sums the wrenches on a particle, and moves it; in step `step` of a launch.
+///
+/// # Safety
+/// Tables are in place and hold what they say; no other thread has this particle, and none computes contacts meanwhile.
+#[inline(always)]
+pub unsafe fn particle<const ROTATES: bool>(t: &DeviceTables, step: u32, k: usize) {
+    // SAFETY: by contract; this thread alone writes to the rows of its particle.
+    unsafe {
+        if k >= t.particles as usize || t.is_over(step) {
+            return;
+        }
+        let (from, to): (u32, u32) = (*t.starts.at(k), *t.starts.at(k + 1));
+        let (mut forces, mut torques) = ([0.0; FORCE_AND_MOMENT], [0.0; TORQUE]);
+        // Those of its own tile first, then those that arrive from elsewhere, as in `Sums`.
+        let own: u32 = *t.tiles.at(k / t.tile as usize);
+        let mut arrivals = 0;
+        while from + arrivals < to
+            && (*t.entries.at::<SlotEnd>((from + arrivals) as usize)).slot() < own as usize
+        {
+            arrivals += 1;
+        }
+        for entry in (from + arrivals..to).chain(from..from + arrivals) {
+            let end: SlotEnd = *t.entries.at(entry as usize);
+            let slot = end.slot();
+            if *t.acts.at::<u8>(slot) == 0 {
+                continue;
+            }
+            // Copied whole: a device reads rows in wide words.
+            if ROTATES {
+                let row: Row = *t.forces.at(slot);
+                accumulate(&mut forces, &row, end);
+            } else {
+                let row: Row4 = *t.forces.at(slot);
+                accumulate(&mut forces, &row, end);
+            }
+            if t.torques != 0 {
+                let row: Row4 = *t.moments.at(slot);
+                accumulate(&mut torques, &row, end);
+            }
+        }
+        let row: &mut Row = &mut *t.rows.at(k);
+        let sums = WrenchSlices { forces: &forces, torques: if t.torques != 0 { &torques } else { &[] } };
+        let sums = WrenchSums { first: 0, layout: t.layout(), sums };
+        let sum: Sum<Each> = sums.sum::<f64, Each, ROTATES>(0, row[3]);
+        let mover = Mover::<Each>::new(&t.drive);
+        let found = mover.advance(row, &mut *t.acceleration.at(k), &*t.home.at(k), &sum);
+        if ROTATES {
+            mover.turn(row, &mut *t.spins.at(k), &mut *t.angular_acceleration.at(k), &sum);
+        }
+        for (place, found) in [(1, found.left_margin), (2, found.too_fast)] {
+            if found {
+                t.flag(place, 1);
+                t.flag(0, step + 1);
+            }
+        }
+    }
+}
+
+/// Adds a row of `N` numbers, as the first or the second particle of its contact takes it.
+#[inline(always)]
+fn accumulate<const N: usize>(sum: &mut [f64], row: &[f64; N], end: SlotEnd) {
+    if end.is_second() { add_opposite::<f64, N>(sum, 0, row) } else { add::<f64, N>(sum, 0, row) }
+}
