@@ -1,8 +1,9 @@
 //! The bench pile on a GPU and on this processor: how fast, and whether any bit differs.
 //!
-//! `pile SCENE.toml COPIES,… STEPS [--gpu-only]` puts so many copies of the pile side by side, makes the steps on both, and prints a row of a table
+//! `pile SCENE.toml COPIES,… STEPS [--gpu|--cpu]` puts so many copies of the pile side by side, makes the steps on both, and prints a row of a table
 //! for each number of copies.
 
+use dem::device::DeviceTimes;
 use dem::setup::Setup;
 use dem::{Halt, Simulation};
 use geom::Vec3;
@@ -18,16 +19,18 @@ fn main() -> Result<(), Box<dyn Error>> {
     let args: Vec<String> = std::env::args().skip(1).collect();
     let (words, options): (Vec<_>, Vec<_>) = args.iter().partition(|word| !word.starts_with("--"));
     let [file, copies, steps] = words.as_slice() else {
-        return Err("usage: pile SCENE.toml COPIES,… STEPS [--gpu-only]".into());
+        return Err("usage: pile SCENE.toml COPIES,… STEPS [--gpu|--cpu]".into());
     };
-    let (both, steps): (bool, u64) = (options.is_empty(), steps.parse()?);
+    let steps: u64 = steps.parse()?;
+    let wants = |one: &str| options.is_empty() || options.iter().any(|option| *option == one);
+    let (gpu, cpu) = (wants("--gpu"), wants("--cpu"));
     let one = setup(Path::new(file))?;
     println!(
         "| grains | steps | lists | GPU [M/s] | CPU [M/s] | ratio | stepping | sending | fetching | bits |"
     );
     println!("|---|---|---|---|---|---|---|---|---|---|");
     for copies in copies.split(',') {
-        row(&one, copies.parse()?, steps, both)?;
+        row(&one, copies.parse()?, steps, [gpu, cpu])?;
     }
     println!("\n{} threads", rayon::current_num_threads());
     Ok(())
@@ -88,30 +91,34 @@ fn mark(sim: &mut Simulation) -> Result<u64, Halt> {
     Ok(all.iter().flat_map(numbers).fold(0xcbf2_9ce4_8422_2325, |hash, x| of(hash, &x)))
 }
 
-fn row(one: &Setup, copies: u32, steps: u64, both: bool) -> Result<(), Box<dyn Error>> {
+fn row(one: &Setup, copies: u32, steps: u64, [gpu, cpu]: [bool; 2]) -> Result<(), Box<dyn Error>> {
     let setup = side_by_side(one, copies);
     let grains = setup.particles.len();
     let speed = |seconds: f64| grains as f64 * steps as f64 / seconds / 1e6;
-    let mut gpu = Simulation::new(setup.clone())?;
-    gpu.use_device(Box::new(cuda::Gpu::new(0)?)).map_err(|refused| refused.join(", "))?;
-    let seconds = time(&mut gpu, steps)?;
-    let (there, lists) = (speed(seconds), gpu.rebuilds());
-    let times = gpu.device_times().unwrap_or_default();
-    let share = |part: f64| format!("{:.0} %", 100.0 * part / seconds);
-    let [stepping, sending, fetching] = [times.stepping, times.sending, times.fetching].map(share);
-    let pure = speed(times.stepping);
-    let found = mark(&mut gpu)?;
-    drop(gpu);
-    let (here, ratio, bits) = if both {
-        let mut cpu = Simulation::new(setup)?;
-        let here = speed(time(&mut cpu, steps)?);
-        let same = mark(&mut cpu)? == found;
-        (format!("{here:.1}"), format!("{:.2}", there / here), if same { "the same" } else { "DIFFERENT" })
-    } else {
-        ("–".to_owned(), "–".to_owned(), "–")
-    };
-    println!(
-        "| {grains} | {steps} | {lists} | {there:.1} | {here} | {ratio} | {stepping} ({pure:.0} M/s) | {sending} | {fetching} | {bits} |"
-    );
+    let (mut there, mut here) = (None, None);
+    let (mut lists, mut parts) = (0, vec!["–".to_owned(); 3]);
+    if gpu {
+        let mut sim = Simulation::new(setup.clone())?;
+        sim.use_device(Box::new(cuda::Gpu::new(0)?)).map_err(|refused| refused.join(", "))?;
+        let seconds = time(&mut sim, steps)?;
+        let DeviceTimes { stepping, sending, fetching } = sim.device_times().unwrap_or_default();
+        let share = |part: f64| format!("{:.0} %", 100.0 * part / seconds);
+        parts = [stepping, sending, fetching].map(share).to_vec();
+        parts[0] += &format!(" ({:.0} M/s)", speed(stepping));
+        lists = sim.rebuilds();
+        there = Some((speed(seconds), mark(&mut sim)?));
+    }
+    if cpu {
+        let mut sim = Simulation::new(setup)?;
+        let seconds = time(&mut sim, steps)?;
+        lists = sim.rebuilds();
+        here = Some((speed(seconds), mark(&mut sim)?));
+    }
+    let number = |of: Option<(f64, u64)>| of.map_or("–".to_owned(), |(speed, _)| format!("{speed:.1}"));
+    let both = there.zip(here);
+    let ratio = both.map_or("–".to_owned(), |(a, b)| format!("{:.2}", a.0 / b.0));
+    let bits = both.map_or("–", |(a, b)| if a.1 == b.1 { "the same" } else { "DIFFERENT" });
+    let (there, here, parts) = (number(there), number(here), parts.join(" | "));
+    println!("| {grains} | {steps} | {lists} | {there} | {here} | {ratio} | {parts} | {bits} |");
     Ok(())
 }

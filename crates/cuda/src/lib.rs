@@ -4,10 +4,13 @@
 //! arithmetic rounds as IEEE 754 says, and no multiply-add is fused, so its bits are those of a processor.
 #![expect(unsafe_code, reason = "the driver is a C library")]
 
+mod staged;
+
 use cudarc::driver::result::{self, DriverError};
 use cudarc::driver::sys::{self, CUcontext, CUdevice, CUfunction, CUmodule};
 use dem::device::{Device, DeviceError, functions};
 use dem::thread::{Address, DeviceTables};
+use staged::Staged;
 use std::ffi::{CString, c_void};
 use std::ptr::null_mut;
 
@@ -37,6 +40,7 @@ pub struct Gpu {
     context: CUcontext,
     module: CUmodule,
     functions: Vec<CUfunction>,
+    staged: Option<Staged>,
     name: String,
 }
 
@@ -69,7 +73,7 @@ impl Gpu {
         let name = result::device::get_name(device).map_err(failed)?;
         // SAFETY: the device is there; its context is released when this is dropped.
         let context = unsafe { result::primary_ctx::retain(device) }.map_err(failed)?;
-        let mut gpu = Gpu { device, context, module: null_mut(), functions: Vec::new(), name };
+        let mut gpu = Gpu { device, context, module: null_mut(), functions: Vec::new(), staged: None, name };
         gpu.load().map_err(failed)?;
         Ok(gpu)
     }
@@ -77,6 +81,7 @@ impl Gpu {
     /// Compiles the program for this GPU.
     fn load(&mut self) -> Result<(), DriverError> {
         self.current()?;
+        self.staged = Some(Staged::new()?);
         let text = CString::new(PTX).unwrap_or_default();
         // SAFETY: the text ends with a zero.
         self.module = unsafe { result::module::load_data(text.as_ptr().cast()) }?;
@@ -103,6 +108,7 @@ impl Drop for Gpu {
     fn drop(&mut self) {
         // What fails here has failed before.
         let _ = self.current();
+        self.staged = None;
         // SAFETY: both were made by `new`, and nothing uses them any more.
         unsafe {
             if !self.module.is_null() {
@@ -139,13 +145,15 @@ impl Device for Gpu {
     fn write(&mut self, to: Address, bytes: &[u8]) -> Result<(), DeviceError> {
         self.current().map_err(|e| self.failed(e))?;
         // SAFETY: the caller has allocated as much.
-        unsafe { result::memcpy_htod_sync(to.0, bytes) }.map_err(|e| self.failed(e))
+        let copied = self.staged.as_mut().map_or(Ok(()), |staged| unsafe { staged.write(to.0, bytes) });
+        copied.map_err(|e| self.failed(e))
     }
 
     fn read(&mut self, from: Address, bytes: &mut [u8]) -> Result<(), DeviceError> {
         self.current().map_err(|e| self.failed(e))?;
         // SAFETY: the caller has allocated as much.
-        unsafe { result::memcpy_dtoh_sync(bytes, from.0) }.map_err(|e| self.failed(e))
+        let copied = self.staged.as_mut().map_or(Ok(()), |staged| unsafe { staged.read(from.0, bytes) });
+        copied.map_err(|e| self.failed(e))
     }
 
     fn launch(
@@ -170,3 +178,6 @@ impl Device for Gpu {
         .map_err(|e| self.failed(e))
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -23,6 +23,7 @@
 
 // A GPU runs `kernel/thread.rs`, and knows what that uses: laws, lanes and the contact loop.
 #![cfg_attr(target_arch = "nvptx64", no_std, feature(core_intrinsics), expect(internal_features))]
+#![cfg_attr(target_arch = "nvptx64", allow(dead_code, unused_imports, unused_mut))]
 
 extern crate alloc;
 #[cfg(target_arch = "nvptx64")]

@@ -17,3 +17,22 @@ pub(crate) fn share<T: Send, R: Send>(
         items.into_iter().map(run).collect()
     }
 }
+
+/// Numbers of a column below which one thread is faster than several.
+const SHORT: usize = 8192;
+
+/// `of` of 0, 1, 2 … up to `count`, in this order.
+pub(crate) fn each<R: Send>(count: usize, of: impl Fn(usize) -> R + Sync + Send) -> Vec<R> {
+    if count < SHORT {
+        return (0..count).map(of).collect();
+    }
+    (0..count).into_par_iter().with_min_len(SHORT / 4).map(of).collect()
+}
+
+/// Changes all entries of a column, each by itself.
+pub(crate) fn change<T: Send>(column: &mut [T], by: impl Fn(usize, &mut T) + Sync + Send) {
+    if column.len() < SHORT {
+        return column.iter_mut().enumerate().for_each(|(k, entry)| by(k, entry));
+    }
+    column.par_iter_mut().with_min_len(SHORT / 4).enumerate().for_each(|(k, entry)| by(k, entry));
+}

@@ -55,7 +55,7 @@ struct Args {
     /// Resume a run from its last checkpoint
     #[arg(long, value_name = "RUN.mcap")]
     resume: Option<Source>,
-    /// Have the steps made by a GPU: cuda, or cuda:1 for the second one; with the same bits (docs/gpu.md)
+    /// Have the steps made by a GPU, with the same bits: cuda, or cuda:1 for the second one; local has its program run here (docs/gpu.md)
     #[arg(long, value_name = "DEVICE")]
     device: Option<Accelerator>,
     /// Write one JSON line to stderr with each frame: time, rate, particles, energy, time left

@@ -2,10 +2,11 @@
 
 use crate::kernel::{Arrival, SlotEnd};
 use crate::model::{Kind, With};
-use crate::neighbours::{Disturber, RestingTile, Segment, Slots};
+use crate::neighbours::{Disturber, LISTED_FEW, RestingTile, Segment, Slots};
 use crate::simd::{BLOCK, Layout};
 use crate::space::cell::ImageOf;
 use crate::space::search::tile;
+use crate::threads::share;
 use crate::walls::WallBody;
 use std::ops::Range;
 
@@ -149,23 +150,48 @@ impl Slots {
 
     /// For each particle, its contacts in the order of their slots; only where contacts are looked up by particle.
     pub fn index(&mut self) {
-        let mut starts = vec![0; self.particles + 1];
-        self.for_each_end(|_, particle| starts[particle as usize + 1] += 1);
-        (0..self.particles).for_each(|k| starts[k + 1] += starts[k]);
-        let mut next = starts.clone();
-        let mut entries = vec![SlotEnd::default(); starts[self.particles] as usize];
-        self.for_each_end(|end, particle| {
-            let at = &mut next[particle as usize];
-            entries[*at as usize] = end;
-            *at += 1;
-        });
+        let tiles = (0..self.tiles.len().saturating_sub(1)).collect();
+        let found = share(self.particles >= LISTED_FEW, tiles, |tile| self.ends_of_tile(tile));
+        let (mut starts, mut entries) = (Vec::with_capacity(self.particles + 1), Vec::new());
+        entries.reserve(found.iter().map(|(_, ends)| ends.len()).sum());
+        for (own, ends) in found {
+            let before = entries.len() as u32;
+            starts.extend(own.iter().map(|start| before + start));
+            entries.extend(ends);
+        }
+        starts.push(entries.len() as u32);
         (self.starts, self.entries) = (starts, entries);
     }
 
-    /// Calls `each` with both ends of each contact that are particles, in the order of the slots.
-    fn for_each_end(&self, mut each: impl FnMut(SlotEnd, u32)) {
-        for s in &self.segments {
-            let both = !s.with.is_wall();
+    /// First entry of each particle of a tile, and their contacts in the order of the slots.
+    fn ends_of_tile(&self, tile: usize) -> (Vec<u32>, Vec<SlotEnd>) {
+        let first = tile * self.tile;
+        let count = self.tile.min(self.particles - first);
+        let mut starts = vec![0; count + 1];
+        self.for_each_end_of_tile(tile, |_, particle| starts[particle as usize - first + 1] += 1);
+        (0..count).for_each(|k| starts[k + 1] += starts[k]);
+        let mut ends = vec![SlotEnd::default(); starts[count] as usize];
+        let mut next = starts.clone();
+        self.for_each_end_of_tile(tile, |end, particle| {
+            let at = &mut next[particle as usize - first];
+            ends[*at as usize] = end;
+            *at += 1;
+        });
+        starts.truncate(count);
+        (starts, ends)
+    }
+
+    /// Calls `each` with both ends of each contact that are particles of a tile, in the order of the slots: those that arrive from elsewhere, which
+    /// have slots before its own, then its own.
+    fn for_each_end_of_tile(&self, tile: usize, mut each: impl FnMut(SlotEnd, u32)) {
+        for &Arrival { from, particle } in self.arriving(tile) {
+            let kept = from.slot();
+            // Of segments that keep nothing, the next one has the same first row.
+            let s = &self.segments[self.segments.partition_point(|s| s.kept <= kept) - 1];
+            each(SlotEnd::new(s.slots.start + kept - s.kept, from.is_second()), particle);
+        }
+        for s in &self.segments[self.tiles[tile]..self.tiles[tile + 1]] {
+            let both = s.with == With::Particles && !s.later;
             for slot in s.contacts() {
                 each(SlotEnd::new(slot, false), self.i[slot]);
                 if both {

@@ -9,7 +9,7 @@ use crate::simd::{Aligned, Row4};
 use crate::space::search::{ImagePair, Pair, Search, margin, next_skin, pairs, tile};
 use crate::state::ledger::wrap_in_ledger;
 use crate::state::{ContactColumns, ListStatus, State, WrenchColumns};
-use crate::threads::share;
+use crate::threads::{change, each, share};
 use crate::walls::images::Periods;
 use geom::Vec3;
 use std::collections::BTreeSet;
@@ -81,15 +81,21 @@ fn wrap(model: &Model, state: &mut State) -> Vec<Periods> {
     if model.setup.periodic.iter().all(|p| p.is_none()) {
         return Vec::new();
     }
-    let before: Vec<Vec3> = (0..state.particles.len()).map(|k| state.particles.position(k)).collect();
+    let count = state.particles.len();
+    let before = each(count, |k| state.particles.position(k));
     let cell = state.cell(model);
     wrap_in_ledger(model, state, |state| {
         let mut work = 0.0;
-        for k in (0..state.particles.len()).filter(|&k| !state.clumps.is_member(k)) {
-            let was = state.particles.position(k);
-            state.particles.rows[k][..3].copy_from_slice(cell.wrapped(was).as_slice());
-            if cell.moves() {
-                work += state.particles.kick(k, &-cell.away(&was).component_mul(&cell.speed), model.dt);
+        let State { particles, clumps, .. } = &mut *state;
+        change(&mut particles.rows[..count], |k, row| {
+            if !clumps.is_member(k) {
+                row[..3].copy_from_slice(cell.wrapped(before[k]).as_slice());
+            }
+        });
+        if cell.moves() {
+            for k in (0..count).filter(|&k| !clumps.is_member(k)) {
+                let by = -cell.away(&before[k]).component_mul(&cell.speed);
+                work += particles.kick(k, &by, model.dt);
             }
         }
         work += state.clumps.wrap(&mut state.particles, &cell, model.dt);
@@ -97,29 +103,32 @@ fn wrap(model: &Model, state: &mut State) -> Vec<Periods> {
     });
     let period = cell.lengths();
     let whole = |by: f64, period: f64| if period > 0.0 { (by / period).round() as i32 } else { 0 };
-    let moved = |(k, was): (usize, Vec3)| {
-        let by = state.particles.position(k) - was;
+    each(count, |k| {
+        let by = state.particles.position(k) - before[k];
         [0, 1, 2].map(|a| whole(by[a], period[a]))
-    };
-    before.into_iter().enumerate().map(moved).collect()
+    })
 }
 
 /// Notes the position and the margin of each particle that stays, and sorts them.
 fn space_order(model: &Model, state: &mut State) -> (Search, Vec<u32>) {
     let (horizon, gravity) = (model.horizon * model.dt, model.setup.gravity.norm());
-    let p = &mut state.particles;
-    let stay: Vec<u32> = (0..p.len() as u32).filter(|&k| !state.zones.is_gone(k as usize)).collect();
-    for &k in &stay {
-        let row = &p.rows[k as usize];
+    let State { particles: p, zones, listing, .. } = state;
+    let skin = listing.skin;
+    let (rows, ahead) = (&p.rows, model.ahead());
+    change(&mut p.home, |k, home| {
+        if zones.is_gone(k) {
+            return;
+        }
+        let row = &rows[k];
         let speed = row.velocity().norm();
         let way = horizon * (speed + 0.5 * gravity * horizon);
-        let margin = margin(state.listing.skin, way, model.mean_radius) + model.ahead() * speed;
-        p.home[k as usize].0 = [row[0], row[1], row[2], margin];
-    }
-    let points: Vec<Vec3> = stay.iter().map(|&k| p.position(k as usize)).collect();
-    let reach: Vec<f64> = stay.iter().map(|&k| p.reach(k as usize)).collect();
+        *home = Row4([row[0], row[1], row[2], margin(skin, way, model.mean_radius) + ahead * speed]);
+    });
+    let stay: Vec<u32> = (0..p.len() as u32).filter(|&k| !zones.is_gone(k as usize)).collect();
+    let points = each(stay.len(), |n| p.position(stay[n] as usize));
+    let reach = each(stay.len(), |n| p.reach(stay[n] as usize));
     let search = Search::new(&points, &reach);
-    let order = search.order().iter().map(|&k| stay[k as usize]).collect();
+    let order = each(stay.len(), |n| stay[search.order()[n] as usize]);
     (search, order)
 }
 

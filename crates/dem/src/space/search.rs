@@ -9,6 +9,7 @@
 //! side of their box first.
 
 use crate::space::cell::ImageOf;
+use crate::threads::{each, share};
 use geom::grid::bounds;
 use geom::{Grid, Vec3};
 use std::ops::Range;
@@ -36,6 +37,9 @@ pub fn next_skin(skin: f64, held: u64, grain: f64) -> f64 {
     };
     (skin * factor).clamp(SKINS[0] * grain, SKINS[1] * grain)
 }
+
+/// Particles of which one thread seeks images.
+const PART: usize = 4096;
 
 /// A pair of particles, i < j.
 pub type Pair = (u32, u32);
@@ -67,11 +71,11 @@ impl Search {
         axes.sort_by(|&a, &b| (hi[a] - lo[a]).total_cmp(&(hi[b] - lo[b])).then(a.cmp(&b)));
         let along = |p: &Vec3| Vec3::new(p[axes[0]], p[axes[1]], p[axes[2]]);
         let cell = (2.0 * common_reach(reach)).max(f64::MIN_POSITIVE);
-        let points: Vec<Vec3> = points.iter().map(along).collect();
+        let points = each(points.len(), |k| along(&points[k]));
         let grid = Grid::in_blocks(&points, cell, tile(points.len()));
         let order = grid.order();
-        let positions = order.iter().map(|&k| points[k as usize]).collect();
-        let reach: Vec<f64> = order.iter().map(|&k| reach[k as usize]).collect();
+        let positions = each(order.len(), |k| points[order[k] as usize]);
+        let reach = each(order.len(), |k| reach[order[k] as usize]);
         let is_wide = |r: f64| 2.0 * r > grid.cell();
         let wide = (0u32..).zip(&reach).filter(|&(_, &r)| is_wide(r)).map(|(k, _)| k).collect();
         let common = reach.iter().map(|&r| if is_wide(r) { f64::NEG_INFINITY } else { r }).collect();
@@ -132,19 +136,25 @@ impl Search {
     pub fn image_pairs(&self, image: ImageOf, shift: &Vec3, room: f64, found: &mut Vec<ImagePair>) {
         let along = Vec3::from(self.axes.map(|a| shift[a]));
         let (lo, hi) = bounds(&self.positions);
-        for (i, p) in self.positions.iter().enumerate() {
-            let mine = self.reach[i] + room;
-            let (position, far) = (p - along, mine + self.largest);
-            if (0..3).any(|a| position[a] < lo[a] - far || position[a] > hi[a] + far) {
-                continue;
-            }
-            for j in self.grid.runs_near(position, far).flatten() {
-                let close = mine + self.reach[j];
-                if (self.positions[j] - position).norm_squared() < close * close {
-                    found.push(ImagePair { i: i as u32, j: j as u32, image });
+        let count = self.positions.len();
+        let parts = share(count >= PART, (0..count.div_ceil(PART)).collect(), |part: usize| {
+            let mut found = Vec::new();
+            for i in part * PART..count.min((part + 1) * PART) {
+                let mine = self.reach[i] + room;
+                let (position, far) = (self.positions[i] - along, mine + self.largest);
+                if (0..3).any(|a| position[a] < lo[a] - far || position[a] > hi[a] + far) {
+                    continue;
+                }
+                for j in self.grid.runs_near(position, far).flatten() {
+                    let close = mine + self.reach[j];
+                    if (self.positions[j] - position).norm_squared() < close * close {
+                        found.push(ImagePair { i: i as u32, j: j as u32, image });
+                    }
                 }
             }
-        }
+            found
+        });
+        found.extend(parts.into_iter().flatten());
     }
 }
 

@@ -4,6 +4,7 @@ use crate::effects::Material;
 use crate::setup::Particle;
 use crate::simd::{Row, Row4};
 use crate::space::sphere::{FAR, mass};
+use crate::threads::each;
 use geom::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -38,9 +39,11 @@ pub fn kick_row(row: &mut Row, acceleration: &Row4, by: &Vec3, dt: f64) -> f64 {
 }
 
 /// Takes the rows named by `order`; the last ones, so many as the `tail` is long, stay behind them.
-pub fn select<T: Copy>(column: &mut Vec<T>, order: &[u32], tail: usize) {
+pub fn select<T: Copy + Send + Sync>(column: &mut Vec<T>, order: &[u32], tail: usize) {
     let end = column.len() - tail;
-    *column = order.iter().map(|&k| column[k as usize]).chain(column[end..].iter().copied()).collect();
+    let mut chosen = each(order.len(), |k| column[order[k] as usize]);
+    chosen.extend_from_slice(&column[end..]);
+    *column = chosen;
 }
 
 impl Particles {

@@ -10,6 +10,7 @@ pub const FORMS: &[(&str, &str, usize)] = &[
     ("cost-curve", "--laboratory", 1),
     ("dem-measure", "--axis", 2),
     ("dem-measure", "--wall", 1),
+    ("dem-run", "--device", 2),
 ];
 
 /// Command lines; each ends with code 0.
@@ -39,6 +40,7 @@ pub const EXAMPLES: &[&str] = &[
     "dem-run s.toml --explain",
     "dem-run named.toml --materials --check",
     "dem-run s.toml -o run.mcap",
+    "dem-run spheres.toml --until 0.00002 --device local -o local.mcap",
     "dem-run up.toml -o up.mcap",
     "dem-lammps spheres.toml --set contact.0.restitution=0.3 --until 0.00002 --progress --lmp lmp -o lammps.mcap --report r.json --threads 2 -q",
     "dem-lammps spheres.toml --ranks 2 --mpirun 'mpirun.openmpi --allow-run-as-root --oversubscribe' --output lammps2.mcap --quiet",

@@ -54,6 +54,7 @@ const REFUSED: &[(&str, &str)] = &[
     ),
     ("stone-clump tetra.ply --spheres 3 --name x -o c.csv", "--name: -o c.csv has the spheres alone"),
     ("dem-run s.toml --materials", "--materials has no effect: no [[material]] leaves out a number"),
+    ("dem-run s.toml --check --device local", "--device: --check runs nothing: leave it out"),
     ("dem-lammps spheres.toml --check --progress", "--progress: --check runs nothing: leave it out"),
     ("dem-lammps spheres.toml --mpirun mpirun", "--mpirun: one rank needs no launcher"),
     ("dem-run s.toml --check --progress", "--progress: --check runs nothing: leave it out"),
