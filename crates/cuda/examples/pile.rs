@@ -1,9 +1,8 @@
 //! The bench pile on a GPU and on this processor: how fast, and whether any bit differs.
 //!
-//! `pile SCENE.toml COPIES,… STEPS [--gpu|--cpu]` puts so many copies of the pile side by side, makes the steps on both, and prints a row of a table
-//! for each number of copies.
+//! `pile SCENE.toml COPIES,… STEPS [ROUNDS] [--gpu|--cpu]` puts so many copies of the pile side by side, makes the steps on both in turn, and prints a row
+//! of a table for each number of copies: medians of the rounds, 1 unless given.
 
-use dem::device::DeviceTimes;
 use dem::setup::Setup;
 use dem::{Halt, Simulation};
 use geom::Vec3;
@@ -17,23 +16,35 @@ const WARM: u64 = 20;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let args: Vec<String> = std::env::args().skip(1).collect();
-    let (words, options): (Vec<_>, Vec<_>) = args.iter().partition(|word| !word.starts_with("--"));
-    let [file, copies, steps] = words.as_slice() else {
-        return Err("usage: pile SCENE.toml COPIES,… STEPS [--gpu|--cpu]".into());
+    let (words, options): (Vec<&str>, Vec<&str>) =
+        args.iter().map(String::as_str).partition(|w| !w.starts_with("--"));
+    let (file, copies, steps, rounds) = match words[..] {
+        [file, copies, steps] => (file, copies, steps, "1"),
+        [file, copies, steps, rounds] => (file, copies, steps, rounds),
+        _ => return Err("usage: pile SCENE.toml COPIES,… STEPS [ROUNDS] [--gpu|--cpu]".into()),
     };
-    let steps: u64 = steps.parse()?;
-    let wants = |one: &str| options.is_empty() || options.iter().any(|option| *option == one);
-    let (gpu, cpu) = (wants("--gpu"), wants("--cpu"));
+    let wants = |one: &str| options.is_empty() || options.contains(&one);
+    let asked =
+        Asked { steps: steps.parse()?, rounds: rounds.parse()?, gpu: wants("--gpu"), cpu: wants("--cpu") };
     let one = setup(Path::new(file))?;
     println!(
-        "| grains | steps | lists | GPU [M/s] | CPU [M/s] | ratio | stepping | sending | fetching | bits |"
+        "| grains | steps | lists | GPU [M/s] | {} threads [M/s] | ratio | steps alone [M/s] | sending | fetching | bits |",
+        rayon::current_num_threads()
     );
     println!("|---|---|---|---|---|---|---|---|---|---|");
     for copies in copies.split(',') {
-        row(&one, copies.parse()?, steps, [gpu, cpu])?;
+        println!("{}", row(&one, copies.parse()?, asked)?);
     }
-    println!("\n{} threads", rayon::current_num_threads());
     Ok(())
+}
+
+/// What is to be measured.
+#[derive(Debug, Clone, Copy)]
+struct Asked {
+    steps: u64,
+    rounds: usize,
+    gpu: bool,
+    cpu: bool,
 }
 
 fn setup(file: &Path) -> Result<Setup, Box<dyn Error>> {
@@ -91,34 +102,53 @@ fn mark(sim: &mut Simulation) -> Result<u64, Halt> {
     Ok(all.iter().flat_map(numbers).fold(0xcbf2_9ce4_8422_2325, |hash, x| of(hash, &x)))
 }
 
-fn row(one: &Setup, copies: u32, steps: u64, [gpu, cpu]: [bool; 2]) -> Result<(), Box<dyn Error>> {
+/// The median; NaN of nothing.
+fn median(of: &[f64]) -> f64 {
+    let mut sorted = of.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let middle = |k: usize| sorted.get(k).copied().unwrap_or(f64::NAN);
+    0.5 * (middle(sorted.len().saturating_sub(1) / 2) + middle(sorted.len() / 2))
+}
+
+fn row(one: &Setup, copies: u32, asked: Asked) -> Result<String, Box<dyn Error>> {
     let setup = side_by_side(one, copies);
-    let grains = setup.particles.len();
+    let (grains, steps) = (setup.particles.len(), asked.steps);
     let speed = |seconds: f64| grains as f64 * steps as f64 / seconds / 1e6;
-    let (mut there, mut here) = (None, None);
-    let (mut lists, mut parts) = (0, vec!["–".to_owned(); 3]);
-    if gpu {
-        let mut sim = Simulation::new(setup.clone())?;
-        sim.use_device(Box::new(cuda::Gpu::new(0)?)).map_err(|refused| refused.join(", "))?;
-        let seconds = time(&mut sim, steps)?;
-        let DeviceTimes { stepping, sending, fetching } = sim.device_times().unwrap_or_default();
-        let share = |part: f64| format!("{:.0} %", 100.0 * part / seconds);
-        parts = [stepping, sending, fetching].map(share).to_vec();
-        parts[0] += &format!(" ({:.0} M/s)", speed(stepping));
-        lists = sim.rebuilds();
-        there = Some((speed(seconds), mark(&mut sim)?));
+    let (mut there, mut here, mut ratios) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut alone, mut sending, mut fetching) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut marks, mut lists) = (Vec::new(), 0);
+    for _ in 0..asked.rounds {
+        if asked.gpu {
+            let mut sim = Simulation::new(setup.clone())?;
+            sim.use_device(Box::new(cuda::Gpu::new(0)?)).map_err(|refused| refused.join(", "))?;
+            let seconds = time(&mut sim, steps)?;
+            let spent = sim.device_times().unwrap_or_default();
+            there.push(speed(seconds));
+            alone.push(speed(spent.stepping));
+            sending.push(100.0 * spent.sending / seconds);
+            fetching.push(100.0 * spent.fetching / seconds);
+            (lists, _) = (sim.rebuilds(), marks.push(mark(&mut sim)?));
+        }
+        if asked.cpu {
+            let mut sim = Simulation::new(setup.clone())?;
+            here.push(speed(time(&mut sim, steps)?));
+            (lists, _) = (sim.rebuilds(), marks.push(mark(&mut sim)?));
+        }
+        ratios.extend(there.last().zip(here.last()).map(|(a, b)| a / b));
     }
-    if cpu {
-        let mut sim = Simulation::new(setup)?;
-        let seconds = time(&mut sim, steps)?;
-        lists = sim.rebuilds();
-        here = Some((speed(seconds), mark(&mut sim)?));
-    }
-    let number = |of: Option<(f64, u64)>| of.map_or("–".to_owned(), |(speed, _)| format!("{speed:.1}"));
-    let both = there.zip(here);
-    let ratio = both.map_or("–".to_owned(), |(a, b)| format!("{:.2}", a.0 / b.0));
-    let bits = both.map_or("–", |(a, b)| if a.1 == b.1 { "the same" } else { "DIFFERENT" });
-    let (there, here, parts) = (number(there), number(here), parts.join(" | "));
-    println!("| {grains} | {steps} | {lists} | {there} | {here} | {ratio} | {parts} | {bits} |");
-    Ok(())
+    let shown = |of: &[f64], unit: &str, digits: usize| match median(of) {
+        x if x.is_nan() => "–".to_owned(),
+        x => format!("{x:.digits$}{unit}"),
+    };
+    let same = marks.windows(2).all(|two| two[0] == two[1]);
+    Ok(format!(
+        "| {grains} | {steps} | {lists} | {} | {} | {} | {} | {} | {} | {} |",
+        shown(&there, "", 0),
+        shown(&here, "", 1),
+        shown(&ratios, "", 2),
+        shown(&alone, "", 0),
+        shown(&sending, " %", 0),
+        shown(&fetching, " %", 0),
+        if same { "the same" } else { "DIFFERENT" }
+    ))
 }
