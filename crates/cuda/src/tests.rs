@@ -10,15 +10,19 @@ use std::path::{Path, PathBuf};
 const HEAD: &str = "// SHA-256 of the sources: ";
 
 /// Files of the engine that no GPU runs anything of.
-const NOT_THERE: [&str; 9] =
-    ["told", "table", "contact_history", "registry", "compose", "vectors", "aligned", "x86", "x86_single"];
+const NOT_THERE: [&str; 8] =
+    ["told", "table", "contact_history", "registry", "compose", "aligned", "x86", "x86_single"];
 
 /// The sources that the program is made of, in order.
 fn sources() -> Vec<PathBuf> {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let engine = here.join("../dem/src");
-    let mut files =
-        vec![here.join("kernels/src/lib.rs"), engine.join("float.rs"), engine.join("space/sphere.rs")];
+    let mut files = vec![
+        here.join("kernels/src/lib.rs"),
+        engine.join("float.rs"),
+        engine.join("space/sphere.rs"),
+        here.join("../geom/src/motion/pose.rs"),
+    ];
     for folder in ["effects", "kernel", "simd"] {
         for entry in fs::read_dir(engine.join(folder)).expect("a folder") {
             let path = entry.expect("an entry").path();

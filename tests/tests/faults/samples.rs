@@ -192,6 +192,7 @@ pub fn run(how: Compression, scene: &str) -> Vec<u8> {
         resume: None,
         watched: false,
         stop: || false,
+        device: None,
     };
     run::run(&scene, plan, Vec::new(), settings, &mut |_| ()).expect("it runs").1
 }

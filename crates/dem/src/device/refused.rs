@@ -23,7 +23,7 @@ pub fn refused(model: &Model, state: &State) -> Vec<String> {
     refuse(setup.ledger, "the energy ledger");
     refuse(setup.precision != Precision::Double, "single precision");
     for (body, wall) in model.walls.iter().zip(&setup.walls) {
-        refuse(body.drives(), &format!("the motion of wall '{}'", wall.name));
+        refuse(body.answers(), &format!("wall '{}', which follows a force or stands on a spring", wall.name));
         refuse(matches!(wall.shape, WallShape::Mesh(_)), &format!("the triangles of wall '{}'", wall.name));
     }
     let name = |m: u16| &setup.materials[m as usize].name;

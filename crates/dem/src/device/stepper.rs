@@ -6,10 +6,11 @@ use crate::device::{Device, DeviceError};
 use crate::kernel::MoveInputs;
 use crate::kernel::ported::NAMES;
 use crate::kernel::thread::{
-    DeviceBlock, DeviceFlags, DeviceKind, DeviceTables, IMAGES, PARTICLES, PLANE, SPHERES,
+    DeviceBlock, DeviceFlags, DeviceKind, DeviceTables, IMAGES, MOVED_SPHERES, PARTICLES, PLANE, SPHERES,
 };
+use crate::kernel::wall_point::WallPose;
 use crate::model::{Model, With};
-use crate::neighbours::{NeighbourLists, Segment, Slots};
+use crate::neighbours::{NeighbourLists, Slots};
 use crate::setup::WallShape;
 use crate::simd::{BLOCK, FORCE_AND_MOMENT, Row, TORQUE};
 use crate::state::State;
@@ -61,6 +62,7 @@ struct Columns {
     forces: Table,
     moments: Table,
     points: Table,
+    poses: Table,
     blocks: Table,
     kinds: Table,
     numbers: Table,
@@ -142,6 +144,7 @@ impl Stepper {
         };
         t.overlap_limit = model.setup.guards.overlap;
         (t.particles, t.slots, t.tile) = (slots.particles as u32, count as u32, slots.tile as u32);
+        t.walls = model.walls.len() as u32;
         (t.rotates, t.torques) = (u32::from(model.rotates), u32::from(torques));
         let (kinds, numbers) = kinds(model);
         t.kinds = c.kinds.write(device, &kinds)?;
@@ -178,8 +181,13 @@ impl Stepper {
         Ok(())
     }
 
-    /// Makes so many steps, or fewer where lists have to be rebuilt or a guard has to be asked. The state must have been sent; it has to be fetched.
-    pub fn run(&mut self, most: u64, mut goes_on: impl FnMut() -> bool) -> Result<Found, DeviceError> {
+    /// Makes so many steps with walls in their `poses` in each of them, or fewer where lists have to be rebuilt or a guard has to be asked. The state must have been sent; it has to be fetched.
+    pub fn run(
+        &mut self,
+        most: u64,
+        poses: impl Fn(u64) -> Vec<WallPose>,
+        mut goes_on: impl FnMut() -> bool,
+    ) -> Result<Found, DeviceError> {
         let (functions, moves) = (self.compositions.clone(), NAMES.len() + self.tables.rotates as usize);
         let (mut done, start) = (0, Instant::now());
         loop {
@@ -187,6 +195,8 @@ impl Stepper {
             let device = device.as_mut();
             t.flags = c.flags.write(device, &[DeviceFlags::default()])?;
             let steps = LAUNCHED.min(u32::try_from(most - done).unwrap_or(u32::MAX));
+            let all: Vec<WallPose> = (0..u64::from(steps)).flat_map(|step| poses(done + step)).collect();
+            t.poses = c.poses.write(device, &all)?;
             for step in 0..steps {
                 for &function in &functions {
                     device.launch(function, t.slots as usize, t, step)?;
@@ -226,15 +236,20 @@ fn kinds(model: &Model) -> (Vec<DeviceKind>, Vec<f64>) {
     for kind in &model.kinds {
         let (name, numbers) = kind.kernel.ported().unwrap_or_default();
         let composition = NAMES.iter().position(|n| *n == name).unwrap_or(NAMES.len()) as u32;
-        let (with, plane) = match kind.with {
-            With::Particles => (PARTICLES, <[[f64; 3]; 2]>::default()),
-            With::Images => (IMAGES, <[[f64; 3]; 2]>::default()),
-            With::Wall(w) => match &model.setup.walls[w].shape {
-                WallShape::Plane(plane) => (PLANE, [plane.point.into(), plane.normal.into()]),
-                _ => (SPHERES, <[[f64; 3]; 2]>::default()),
-            },
-        };
-        kinds.push(DeviceKind { composition, with, numbers: all.len() as u32, pad: 0, plane });
+        let mut new =
+            DeviceKind { composition, with: PARTICLES, numbers: all.len() as u32, ..DeviceKind::default() };
+        match kind.with {
+            With::Particles => {}
+            With::Images => new.with = IMAGES,
+            With::Wall(w) => {
+                new.wall = w as u32;
+                new.with = if model.walls[w].drives() { MOVED_SPHERES } else { SPHERES };
+                if let WallShape::Plane(plane) = &model.setup.walls[w].shape {
+                    (new.with, new.plane) = (PLANE, [plane.point.into(), plane.normal.into()]);
+                }
+            }
+        }
+        kinds.push(new);
         all.extend(numbers);
     }
     (kinds, all)
@@ -263,21 +278,33 @@ fn blocks(slots: &Slots) -> Vec<DeviceBlock> {
     blocks
 }
 
-/// Contact points of wall spheres, and shifts of images and of planes.
+/// A row for each contact that is not between two particles: see [`DeviceTables::points`].
 fn points(model: &Model, state: &State, lists: &NeighbourLists) -> Vec<Row> {
     let mut points = lists.step.rows.clone();
     let (cell, period) = (state.cell(model), model.cell().lengths());
-    let mut shift = |s: &Segment, slot: usize, by: Vec3| {
-        points[s.rows + s.rank(slot)] = Row([by.x, by.y, by.z, 0.0, 0.0, 0.0, 0.0, 0.0]);
-    };
-    for s in &lists.slots.segments {
-        match s.with {
-            With::Images => s.contacts().for_each(|k| shift(s, k, cell.shift(&lists.slots.image[k]))),
-            With::Wall(w) if matches!(model.setup.walls[w].shape, WallShape::Plane(_)) => {
-                s.contacts().for_each(|k| shift(s, k, Image(lists.slots.partner[k]).shift(&period)));
-            }
-            _ => {}
+    for s in lists.slots.segments.iter().filter(|s| s.with != With::Particles) {
+        for slot in s.contacts() {
+            let point = &mut points[s.rows + s.rank(slot)];
+            let partner = lists.slots.partner[slot];
+            *point = match s.with {
+                With::Images => at_rest((Vec3::zeros(), 0.0), cell.shift(&lists.slots.image[slot])),
+                With::Wall(w) => {
+                    let (wall, parts) = (&model.walls[w], model.walls[w].parts());
+                    let home = wall.sphere(partner % parts);
+                    // Their contact points stay where they are.
+                    if home.is_some() && !wall.drives() {
+                        continue;
+                    }
+                    at_rest(home.unwrap_or_default(), Image(partner / parts).shift(&period))
+                }
+                With::Particles => continue,
+            };
         }
     }
     points
+}
+
+/// Centre and radius of a part as at t = 0, and a shift.
+fn at_rest((centre, radius): (Vec3, f64), shift: Vec3) -> Row {
+    Row([centre.x, centre.y, centre.z, radius, shift.x, shift.y, shift.z, 0.0])
 }

@@ -4,6 +4,7 @@
 use crate::device::{Device, DeviceError};
 use crate::kernel::SlotEnd;
 use crate::kernel::thread::{Address, DeviceBlock, DeviceFlags, DeviceKind};
+use crate::kernel::wall_point::WallPose;
 use crate::simd::{Row, Row4};
 
 /// Rows that may be copied as bytes: they have no gaps, and every pattern of bits is one.
@@ -18,7 +19,7 @@ macro_rules! plain {
         unsafe impl Plain for $row {}
     )* };
 }
-plain!(u8, u32, f64, Row, Row4, SlotEnd, DeviceBlock, DeviceKind, DeviceFlags);
+plain!(u8, u32, f64, Row, Row4, SlotEnd, DeviceBlock, DeviceKind, DeviceFlags, WallPose);
 
 /// A table, as long as it was at most.
 #[derive(Debug, Default)]

@@ -1,4 +1,4 @@
-//! Effects as people are told of them: keys with their values, and what of a law is dropped because it does nothing.
+//! Effects in reports and messages: keys with their values, and what of a law is dropped because it does nothing.
 
 use super::describe::{Description, Key, MOST, Range};
 use super::law::ContactLaw;

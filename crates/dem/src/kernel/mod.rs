@@ -9,6 +9,7 @@ pub(crate) mod motion;
 pub mod ported;
 pub(crate) mod sums;
 pub mod thread;
+pub(crate) mod wall_point;
 pub(crate) mod wrenches;
 
 pub(crate) use averaged::average;

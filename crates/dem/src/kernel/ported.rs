@@ -1,4 +1,4 @@
-//! The compositions that are compiled for devices as well, and how a device is told of one: as numbers in a fixed order.
+//! The compositions that are compiled for devices as well, and how a device gets one: as numbers in a fixed order.
 
 use super::{Batch, Kernel, StepInputs, run};
 use crate::effects::{Damping, Effect, Hertz, Hooke, RollingResistance, SlidingFriction};
@@ -64,7 +64,7 @@ impl<E: Ported> Kernel for Portable<E> {
     }
 }
 
-/// What is told as numbers in a fixed order.
+/// What a device gets as numbers in a fixed order.
 pub trait Numbers: Copy {
     /// How many.
     const COUNT: usize;

@@ -8,7 +8,6 @@
 use crate::kernel::{Arrival, WrenchSlices, WrenchSlicesMut};
 use crate::simd::number::{numbers_of_force, with_layout};
 use crate::simd::{Each, FORCE, Four, Layout, Number, TORQUE, fetch};
-#[cfg(not(target_arch = "nvptx64"))]
 use geom::Vec3;
 
 /// Arrivals between the one whose wrench is prefetched and the one that is added; chosen on the bench pile.
@@ -195,7 +194,6 @@ impl WrenchSums<'_> {
     }
 
     /// Force [N] and moment [N·m] on particle number `k` of `radius` [m].
-    #[cfg(not(target_arch = "nvptx64"))]
     pub fn on(&self, k: usize, radius: f64) -> (Vec3, Vec3) {
         let at = k - self.first;
         let sum = with_layout!(self.layout, T, ROTATES => self.sum::<T, Each, ROTATES>(at, radius));

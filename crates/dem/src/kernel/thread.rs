@@ -11,11 +11,13 @@
 
 use crate::kernel::contact_loop::{WrenchBuffer, act, gather};
 use crate::kernel::sums::{Sum, WrenchSums, add, add_opposite};
+use crate::kernel::wall_point::WallPose;
 use crate::kernel::{
     Batch, MoveInputs, Mover, Ported, SlotEnd, StepInputs, Sums, WrenchSlices, WrenchSlicesMut,
 };
 use crate::simd::{BLOCK, Each, FORCE_AND_MOMENT, Layout, Row, Row4, TORQUE};
 use core::slice;
+use geom::Vec3;
 
 /// Numbers of history that a composition keeps at most.
 const COLUMNS: usize = 8;
@@ -43,9 +45,9 @@ pub struct DeviceKind {
     pub with: u32,
     /// First of the numbers of its effects.
     pub numbers: u32,
-    /// Not used.
-    pub pad: u32,
-    /// Point and normal of a plane at rest.
+    /// Which wall they meet.
+    pub wall: u32,
+    /// Point and normal of a plane, as at t = 0.
     pub plane: [[f64; 3]; 2],
 }
 
@@ -55,8 +57,10 @@ pub const PARTICLES: u32 = 0;
 pub const IMAGES: u32 = 1;
 /// Wall spheres at rest.
 pub const SPHERES: u32 = 2;
-/// A plane at rest.
-pub const PLANE: u32 = 3;
+/// Wall spheres that move, or whose surface does.
+pub const MOVED_SPHERES: u32 = 3;
+/// A plane.
+pub const PLANE: u32 = 4;
 
 /// A block of slots.
 #[derive(Debug, Clone, Copy, Default)]
@@ -66,7 +70,7 @@ pub struct DeviceBlock {
     pub kind: u32,
     /// First word of its history.
     pub history: u32,
-    /// First of its contact points: rows of wall spheres, shifts of images.
+    /// First of its points ([`DeviceTables::points`]).
     pub point: u32,
 }
 
@@ -122,8 +126,11 @@ pub struct DeviceTables {
     pub forces: Address,
     /// Torque of each contact besides; none where no effect makes any.
     pub moments: Address,
-    /// [`Row`] of each contact point on wall spheres; shift of an image or of a plane in its first numbers.
+    /// [`Row`] of each contact that is not between two particles: of its contact point on wall spheres at rest; else centre and radius of the wall sphere as
+    /// at t = 0, and the shift of the image.
     pub points: Address,
+    /// [`WallPose`] of each wall, in each step of the launch.
+    pub poses: Address,
     /// [`DeviceBlock`] of each block of slots.
     pub blocks: Address,
     /// [`DeviceKind`] of each kind of contact.
@@ -132,8 +139,8 @@ pub struct DeviceTables {
     pub numbers: Address,
     /// Particles of a tile.
     pub tile: u32,
-    /// Not used.
-    pub pad: u32,
+    /// Number of walls.
+    pub walls: u32,
     /// First slot of each tile.
     pub tiles: Address,
     /// First contact of each particle, and one more.
@@ -148,7 +155,7 @@ impl DeviceTables {
     /// Rows of a table.
     ///
     /// # Safety
-    /// There are so many, and nobody writes to them meanwhile.
+    /// There are so many, and no thread writes to them meanwhile.
     #[inline(always)]
     unsafe fn table<T>(&self, from: Address, rows: u32) -> &[T] {
         // SAFETY: by contract.
@@ -204,7 +211,7 @@ pub unsafe fn contact<E: Ported>(t: &DeviceTables, composition: u32, step: u32, 
         let rows: &[Row] = t.table(t.rows, t.particles + 2);
         let spins: &[Row4] = t.table(t.spins, if layout.rotates { t.particles + 2 } else { 0 });
         let (row, spin) =
-            partner(t, kind, &rows[i as usize], *t.partner.at(slot), block.point as usize + lane);
+            partner(t, step, kind, &rows[i as usize], *t.partner.at(slot), block.point as usize + lane);
         let MoveInputs { dt, ahead, .. } = t.drive;
         let inputs = StepInputs { dt, ahead, overlap_limit: t.overlap_limit, rows, spins, layout };
         let (mut history, mut active) = ([0.0; COLUMNS * BLOCK], [false]);
@@ -259,39 +266,45 @@ pub unsafe fn contact<E: Ported>(t: &DeviceTables, composition: u32, step: u32, 
     }
 }
 
-/// Row and spin of the partner of a particle in `row`; `number`: of its contact point, where it is no particle.
+/// Row and spin of the partner of a particle in `row`; `number`: of its point, where it is no particle.
 ///
 /// # Safety
 /// Tables are in place.
 #[inline(always)]
-unsafe fn partner(t: &DeviceTables, kind: &DeviceKind, row: &Row, other: u32, number: usize) -> (Row, Row4) {
+unsafe fn partner(
+    t: &DeviceTables,
+    step: u32,
+    kind: &DeviceKind,
+    row: &Row,
+    other: u32,
+    number: usize,
+) -> (Row, Row4) {
     // SAFETY: by contract.
     unsafe {
         if kind.with == SPHERES {
             return (*t.points.at(number), Row4::default());
         }
-        if kind.with == PLANE {
-            return (on_plane(kind.plane, row, &*t.points.at(number)), Row4::default());
+        if kind.with == PLANE || kind.with == MOVED_SPHERES {
+            let wall: &WallPose = &*t.poses.at((step * t.walls + kind.wall) as usize);
+            let [x, y, z, radius, by_x, by_y, by_z, _] = **t.points.at::<Row>(number);
+            let (home, shift) = (Vec3::new(x, y, z), Vec3::new(by_x, by_y, by_z));
+            let centre = row.position();
+            let position = if kind.with == PLANE {
+                wall.on_plane(kind.plane.map(Vec3::from), centre - shift)
+            } else {
+                wall.pose.position(&home)
+            };
+            return wall.row(position, radius, shift, centre);
         }
         let mut row: Row = *t.rows.at(other as usize);
         if kind.with == IMAGES {
             let shift: &Row = &*t.points.at(number);
             for a in 0..3 {
-                row[a] += shift[a];
+                row[a] += shift[4 + a];
             }
         }
         (row, if t.rotates != 0 { *t.spins.at(other as usize) } else { Row4::default() })
     }
-}
-
-/// The point of a plane at rest, shifted, that is nearest to the particle in `row`, as a row.
-#[inline(always)]
-fn on_plane([through, normal]: [[f64; 3]; 2], row: &Row, shift: &Row) -> Row {
-    let [x, y, z] = [0, 1, 2].map(|a| row[a] - shift[a]);
-    let [nx, ny, nz] = normal;
-    let distance = (x - through[0]) * nx + (y - through[1]) * ny + (z - through[2]) * nz;
-    let [x, y, z] = [x - nx * distance, y - ny * distance, z - nz * distance];
-    Row([x + shift[0], y + shift[1], z + shift[2], 0.0, 0.0, 0.0, 0.0, 0.0])
 }
 
 /// Sums the wrenches on a particle, and moves it; in step `step` of a launch.

@@ -267,14 +267,27 @@ fn classes(model: &Model, with: With) -> KindTable {
 
 /// Whether lists must be rebuilt: they are outdated, or a particle or a wall may have left its margin.
 pub fn is_due(model: &Model, state: &State) -> bool {
-    let since = (state.steps - state.listing.step) as f64 * model.dt;
+    let strained = state.strained.as_ref().is_some_and(|cell| cell.has_left_room());
+    state.listing.status != ListStatus::Valid || strained || !walls_stay(model, state, state.steps)
+}
+
+/// Whether no wall has left its margin at `step`, as far as its motion is prescribed.
+fn walls_stay(model: &Model, state: &State, step: u64) -> bool {
+    let since = (step - state.listing.step) as f64 * model.dt;
     // Written so that NaN is caught.
     let holds = |w: usize| {
         let ahead = model.ahead() * model.walls[w].fastest();
         wall_shift(model, state, w, since) + ahead <= wall_margin(model, state, w)
     };
-    let strained = state.strained.as_ref().is_some_and(|cell| cell.has_left_room());
-    state.listing.status != ListStatus::Valid || strained || !(0..model.walls.len()).all(holds)
+    (0..model.walls.len()).all(holds)
+}
+
+/// Steps from now on, `most` at most, in which no wall leaves its margin.
+pub fn steps_of_walls(model: &Model, state: &State, most: u64) -> u64 {
+    if model.walls.iter().all(|wall| wall.fastest() == 0.0) {
+        return most;
+    }
+    (1..most).find(|n| !walls_stay(model, state, state.steps + n)).unwrap_or(most)
 }
 
 /// Notes which particles may pass a storage plane, or come back through it, before the next rebuild: only their margins reach it. Members of clumps

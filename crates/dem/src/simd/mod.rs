@@ -17,7 +17,6 @@ pub(crate) mod number;
 pub(crate) mod scalar;
 pub(crate) mod turn;
 pub(crate) mod two;
-#[cfg(not(target_arch = "nvptx64"))]
 mod vectors;
 #[cfg(target_arch = "x86_64")]
 pub(crate) mod x86;

@@ -4,6 +4,8 @@ use super::Simulation;
 use crate::device::{Device, DeviceError, DeviceTimes, Stepper};
 use crate::forces::sweep;
 use crate::model::Halt;
+use crate::neighbours::poses::pose_in_box;
+use crate::neighbours::rebuild;
 use crate::observe::guards;
 use crate::simulation::step::{check_overlap, refresh_lists};
 use crate::state::{Forces, ListStatus};
@@ -67,8 +69,13 @@ impl Simulation {
             sweep::find_contact_points(model, state, lists);
         }
         stepper.send(model, state, lists).map_err(failed)?;
-        let most = last.saturating_sub(state.steps).max(1);
-        let found = stepper.run(most, || start.elapsed() < PATIENCE).map_err(failed)?;
+        let most = rebuild::steps_of_walls(model, state, last.saturating_sub(state.steps).max(1));
+        let poses = |step: u64| {
+            let time = (state.steps + step) as f64 * state.dt;
+            let pose = |w: usize| model.walls[w].pose(&pose_in_box(model, state, lists, w, time));
+            (0..model.walls.len()).map(pose).collect()
+        };
+        let found = stepper.run(most, poses, || start.elapsed() < PATIENCE).map_err(failed)?;
         let steps = state.steps + found.steps;
         stepper.fetch(state, steps).map_err(failed)?;
         (state.steps, state.forces, lists.slots.new) = (steps, Forces::Due, false);

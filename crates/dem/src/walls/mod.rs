@@ -10,6 +10,7 @@
 pub(crate) mod images;
 pub(crate) mod seams;
 
+use crate::kernel::wall_point::WallPose;
 use crate::setup::{Mount, Servo, Wall, WallShape};
 use crate::simd::{Row, Row4};
 use crate::space::sphere::{FAR, is_away};
@@ -195,6 +196,17 @@ impl WallBody {
         }
     }
 
+    /// The wall in a pose, with what its surface does on it.
+    pub fn pose(&self, pose: &Pose) -> WallPose {
+        WallPose::new(*pose, self.belt.as_ref().map(|belt| pose.surface(belt)))
+    }
+
+    /// Centre [m] and radius [m] of wall sphere `part`, as at t = 0; `None` of other walls.
+    pub fn sphere(&self, part: u32) -> Option<(Vec3, f64)> {
+        let Surface::Spheres { centres, radii, .. } = &self.surface else { return None };
+        centres.get(part as usize).copied().zip(radii.get(part as usize).copied())
+    }
+
     /// Contact points of one particle, whose position and radius are `row`: `partners` are all that it may touch.
     pub fn contact_points(
         &self,
@@ -213,17 +225,12 @@ impl WallBody {
         let count = self.parts();
         let part = |k: usize| (partners[k] % count) as usize;
         let shift = |k: usize| Image(partners[k] / count).shift(period);
-        let belt = self.belt.as_ref().map(|belt| pose.surface(belt));
-        let turn = pose.turn + belt.map_or(Vec3::zeros(), |belt| belt.turn);
+        let wall = self.pose(pose);
         let mut put = |k: usize, position: Vec3, radius: f64| {
-            let p = position + shift(k);
-            let mut v = pose.velocity(&position);
-            if let Some(belt) = &belt {
-                v += along(belt.velocity(&position), centre - p);
-            }
-            rows[k] = Row([p.x, p.y, p.z, radius, v.x, v.y, v.z, 0.0]);
-            if let Some(spin) = spins.get_mut(k) {
-                *spin = Row4::of(turn);
+            let (row, spin) = wall.row(position, radius, shift(k), centre);
+            rows[k] = row;
+            if let Some(own) = spins.get_mut(k) {
+                *own = spin;
             }
         };
         match &self.surface {
@@ -232,7 +239,7 @@ impl WallBody {
             }
             Surface::Plane(plane) => {
                 for k in 0..partners.len() {
-                    put(k, pose.position(&plane.project(&pose.home(&(centre - shift(k))))), 0.0);
+                    put(k, wall.on_plane([plane.point, plane.normal], centre - shift(k)), 0.0);
                 }
             }
             Surface::Triangles { corners, .. } => {
@@ -254,12 +261,6 @@ impl WallBody {
             }
         }
     }
-}
-
-/// The part of a velocity that is across a direction of any length, the normal of a contact.
-fn along(velocity: Vec3, normal: Vec3) -> Vec3 {
-    let square = normal.norm_squared();
-    if square > 0.0 { velocity - normal * (velocity.dot(&normal) / square) } else { velocity }
 }
 
 /// Largest distance of a wall's points from a point of an axis [m]; 0 of a plane, which turns in itself.

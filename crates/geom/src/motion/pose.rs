@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// Position, orientation and velocity at one instant.
 #[derive(Debug, Clone, Copy)]
+#[repr(C)]
 pub struct Pose {
     rotation: Matrix3<f64>,
     through: Vec3,
